@@ -1,0 +1,49 @@
+# make demo   set up, build the scene graph of a generated plant skid, say what was found
+# make test   set up, run every test
+# make check  style, types, structure, generated documents
+# make bench  the benchmarks, with what a user would pick instead in the same run
+# make docs   write the generated documents anew
+
+PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11 python; do \
+	$$p -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p && break; done)
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip install --disable-pip-version-check --quiet --constraint constraints.txt
+
+.PHONY: demo test check bench docs clean
+
+demo: $(VENV)/.with-all
+	$(BIN)/cadgraph demo --output demo
+
+test: $(VENV)/.with-dev
+	$(BIN)/python -m pytest
+
+check: $(VENV)/.with-dev
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/python -m pytest -q tests/test_architecture.py
+	$(BIN)/python tools/write_docs.py --check
+
+bench: $(VENV)/.with-dev
+	@for f in benchmarks/[!_]*.py; do echo "== $$f"; $(BIN)/python $$f || exit 1; done
+
+docs: $(VENV)/.with-dev
+	$(BIN)/python tools/write_docs.py
+
+clean:
+	rm -rf $(VENV) demo .pytest_cache .mypy_cache .ruff_cache .hypothesis
+
+$(VENV)/bin/python:
+	@test -n "$(PYTHON)" || { echo "cadgraph needs Python 3.11 or newer; name it with: make PYTHON=/path/to/python3"; exit 1; }
+	$(PYTHON) -m venv $(VENV)
+
+$(VENV)/.with-all: pyproject.toml constraints.txt | $(VENV)/bin/python
+	@echo "installing into $(VENV) (once, a minute or two)"
+	$(PIP) --editable '.[all]'
+	@touch $@
+
+$(VENV)/.with-dev: pyproject.toml constraints.txt | $(VENV)/bin/python
+	@echo "installing into $(VENV) (once, a minute or two)"
+	$(PIP) --editable '.[all,dev]'
+	@touch $@ $(VENV)/.with-all

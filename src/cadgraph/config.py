@@ -1,0 +1,224 @@
+"""All settings, with their meaning and source: one frozen class for each stage.
+
+Settings come from the defaults here, then a TOML file, then flags. ``cadgraph config`` prints those in force.
+"""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+__all__ = [
+    "ClusterConfig",
+    "Config",
+    "GroundConfig",
+    "GroupConfig",
+    "LabelConfig",
+    "LoadConfig",
+    "PreprocessConfig",
+    "ReportConfig",
+    "Section",
+    "describe",
+    "read_config",
+    "to_toml",
+]
+
+_PAPER = "paper, section III-B"
+
+
+def _setting(default: Any, meaning: str, source: str = "ours", **limits: Any) -> Any:
+    return Field(default, description=meaning, json_schema_extra={"source": source}, **limits)
+
+
+class Section(BaseModel):
+    """A frozen group of settings; an unknown name is an error."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+class LoadConfig(Section):
+    """How a file is read."""
+
+    purposes: tuple[Literal["default", "render", "proxy", "guide"], ...] = _setting(
+        ("default", "render"), "USD purposes that count as geometry", "UsdGeomImageable"
+    )
+    invisible: bool = _setting(False, "also load what the file hides")
+    split_subsets: bool = _setting(False, "split a USD mesh into one mesh for each material subset")
+    time: float | None = _setting(None, "USD time code to read; none: the default time, else the first sample")
+    isolate: bool = _setting(True, "read USD in a process of its own, so that a damaged file can't crash the caller")
+    timeout: float = _setting(600.0, "give up on reading a file after this long [s]", gt=0)
+    max_gap: float = _setting(
+        0.0005, "greatest gap between a curved STEP surface and its triangles [m]", "ours: bolts stay round", gt=0
+    )
+    max_angle: float = _setting(0.35, "greatest angle between neighbouring STEP triangles on a curve [rad]", gt=0)
+    sides: int = _setting(32, "sides of a round USD primitive (Cylinder, Sphere...) when turned into triangles", ge=6)
+
+
+class PreprocessConfig(Section):
+    """How surfaces become points; for method = 'paper' only."""
+
+    voxel: float = _setting(0.01, "edge of a voxel, to whose centre vertices move [m]", _PAPER, gt=0)
+    spacing: float = _setting(0.01, "distance of the points along the sides of each face [m]", _PAPER, gt=0)
+
+
+class GroundConfig(Section):
+    """What counts as the ground, which no cluster holds."""
+
+    find: Literal["auto", "named", "none"] = _setting("auto", "find it, take the meshes named below, or assume none")
+    meshes: tuple[str, ...] = _setting((), "source paths of the ground (for find = 'named')")
+    min_size: float = _setting(2.0, "auto: least extent in both horizontal directions [m]", gt=0)
+    max_thickness_ratio: float = _setting(0.05, "auto: greatest height over the lesser horizontal extent", gt=0)
+    min_cover: float = _setting(0.95, "auto: least share of everything else's footprint that it covers", gt=0, le=1)
+    min_margin: float = _setting(1.1, "auto: least footprint over everything else's footprint", gt=0)
+    max_buried: float = _setting(
+        0.0, "auto: greatest share of all other meshes that may lie wholly below it", ge=0, le=1
+    )
+
+
+class GroupConfig(Section):
+    """Which small meshes join a larger one."""
+
+    max_volume: float = _setting(1e-6, "a mesh below this volume is small [m3]", _PAPER + " (1 cm3)", ge=0)
+    volume: Literal["obb", "aabb", "mesh"] = _setting(
+        "obb", "which volume decides: oriented box, axis-aligned box, or enclosed (box where open)"
+    )
+    proximity: float = _setting(
+        0.01,
+        "a small mesh joins the nearest larger one within this distance [m]",
+        "ours; the paper gives no figure",
+        ge=0,
+    )
+
+
+class ClusterConfig(Section):
+    """What touches, and what is one structure."""
+
+    eps: float = _setting(0.01, "parts at most this far apart are adjacent [m]", _PAPER + " (DBSCAN eps)", ge=0)
+    min_samples: int = _setting(1, "DBSCAN's least number of neighbours, itself included", _PAPER, ge=1)
+
+
+class LabelConfig(Section):
+    """How parts get their labels."""
+
+    labeler: Literal["geometry", "none"] = _setting("geometry", "embedded labeler: rules on geometry, or none")
+    min_confidence: float = _setting(0.5, "a label below this confidence is dropped", ge=0, le=1)
+    overrule: bool = _setting(True, "labels from outside replace those of the labeler; off: they only fill gaps")
+
+
+class ReportConfig(Section):
+    """The pictures and the page."""
+
+    width: int = _setting(1280, "width of a picture [px]", ge=64, le=8192)
+    height: int = _setting(800, "height of a picture [px]", ge=64, le=8192)
+    samples: int = _setting(3, "anti-aliasing: rays along each side of a pixel", ge=1, le=8)
+    max_systems: int = _setting(12, "at most so many pipe systems get a picture, the largest first", ge=0)
+
+
+class Config(Section):
+    """All settings."""
+
+    method: Literal["exact", "paper"] = _setting(
+        "exact", "what touches: by the exact distance of surfaces, or by points on a voxel grid as the paper does"
+    )
+    load: LoadConfig = LoadConfig()
+    preprocess: PreprocessConfig = PreprocessConfig()
+    ground: GroundConfig = GroundConfig()
+    group: GroupConfig = GroupConfig()
+    cluster: ClusterConfig = ClusterConfig()
+    label: LabelConfig = LabelConfig()
+    report: ReportConfig = ReportConfig()
+
+    def replace(self, changes: Mapping[str, Any]) -> Config:
+        """This configuration with some settings changed.
+
+        Args:
+            changes: dotted names and values, ``{"cluster.eps": 0.02}``.
+
+        Raises:
+            ValueError: a name is unknown or a value out of its limits.
+        """
+        tree = self.model_dump()
+        for name, value in changes.items():
+            at: Any = tree
+            *sections, last = name.split(".")
+            for section in sections:
+                at = at.get(section) if isinstance(at, dict) else None
+                if not isinstance(at, dict):
+                    raise ValueError(f"no setting is called {name!r}; 'cadgraph config' lists them all")
+            at[last] = value
+        return _validated(tree, "settings")
+
+
+def read_config(path: str | Path, base: Config | None = None) -> Config:
+    """Reads a TOML file over a base.
+
+    Raises:
+        ValueError: the file can't be read, is no TOML, or holds an unknown or impossible setting.
+    """
+    try:
+        tree = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ValueError(
+            f"{path}: can't be read ({error.strerror}); give a TOML file as 'cadgraph config' prints it"
+        ) from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ValueError(f"{path}: not TOML ({error})") from error
+    whole = (base or Config()).model_dump()
+    for name, value in tree.items():
+        if isinstance(value, dict) and isinstance(whole.get(name), dict):
+            whole[name].update(value)
+        else:
+            whole[name] = value
+    return _validated(whole, str(path))
+
+
+def describe(config: Config) -> Iterator[tuple[str, Any, str, str]]:
+    """Every setting as (dotted name, value, meaning, source), in order."""
+    for name, field in Config.model_fields.items():
+        value = getattr(config, name)
+        if not isinstance(value, Section):
+            yield name, value, field.description or "", _source_of(field)
+            continue
+        for inner, inner_field in type(value).model_fields.items():
+            yield f"{name}.{inner}", getattr(value, inner), inner_field.description or "", _source_of(inner_field)
+
+
+def _source_of(field: Any) -> str:
+    extra = field.json_schema_extra
+    return str(extra["source"]) if isinstance(extra, dict) else ""
+
+
+def _validated(tree: Mapping[str, Any], where: str) -> Config:
+    try:
+        return Config.model_validate(tree)
+    except ValidationError as error:
+        first = error.errors()[0]
+        name = ".".join(str(step) for step in first["loc"])
+        if first["type"] == "extra_forbidden":
+            raise ValueError(f"{where}: no setting is called {name!r}; 'cadgraph config' lists them all") from None
+        raise ValueError(f"{where}: {name} = {first['input']!r}: {first['msg']}") from None
+
+
+def to_toml(config: Config) -> str:
+    """All settings as a TOML file that ``read_config`` takes, each with its meaning and source as a comment."""
+    lines: list[str] = []
+    section = ""
+    for name, value, meaning, source in describe(config):
+        *above, last = name.split(".")
+        if above and above[0] != section:
+            section = above[0]
+            lines += ["", f"[{section}]"]
+        lines.append(f"# {meaning} ({source})")
+        lines.append(f"{last} = {_toml(value)}" if value is not None else f"# {last} =")
+    return "\n".join(lines) + "\n"
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(_toml(item) for item in value) + "]"
+    return json.dumps(value, ensure_ascii=False)  # TOML writes text, numbers and booleans as JSON does

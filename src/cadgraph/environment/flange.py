@@ -1,0 +1,148 @@
+"""Flanges and the joints that they make with gaskets and bolts."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+
+from cadgraph.environment.fastener import PROUD, bolt
+from cadgraph.environment.frame import at, spun
+from cadgraph.environment.hand import Hand
+from cadgraph.environment.plant import Assembly, Component, gather
+from cadgraph.environment.polygon import circle
+from cadgraph.environment.solid import Shell, Solid, about_x, loft, planar, reverse, revolve, weld
+from cadgraph.environment.standard import FLANGES, HEX_NUTS, PIPES, RAISED_FACE
+from cadgraph.scene import Floats
+
+__all__ = [
+    "GASKET",
+    "bolts",
+    "face_shell",
+    "flange",
+    "flange_length",
+    "gasket",
+    "nut_circle",
+    "nut_room",
+    "plate_thickness",
+]
+
+GASKET = 0.002  # m, flat ring gasket after ASME B16.21 (1.5 to 3 mm)
+
+
+def plate_thickness(dn: int) -> float:
+    """From the raised face to the back of the flange [m]."""
+    return FLANGES[dn].thickness + RAISED_FACE
+
+
+def nut_room(dn: int) -> float:
+    """How far behind a flange its nuts and stud ends need to be kept free [m]."""
+    return HEX_NUTS[FLANGES[dn].bolt][1] + PROUD + 0.005
+
+
+def nut_circle(dn: int) -> float:
+    """Radius of the circle inside all nuts of a joint, with a little air [m]."""
+    size = FLANGES[dn]
+    return float(size.circle / 2 - HEX_NUTS[size.bolt][0] / np.sqrt(3) - 0.002)
+
+
+def flange_length(dn: int, hand: Hand) -> float:
+    """From the raised face to where the pipe begins [m]."""
+    if hand.flange == "ring":
+        return plate_thickness(dn)
+    size = FLANGES[dn]
+    return RAISED_FACE + (size.neck if hand.flange == "neck" else size.slip)
+
+
+@cache
+def face_shell(dn: int, sides: int, back: float, bore: float, drilled: bool = True) -> Shell:
+    """The surface of a flange about z from its bore to its back: face at 0, body towards +z.
+
+    Args:
+        dn: nominal size.
+        sides: of a ring.
+        back: radius of the ring left open at the back face [m].
+        bore: radius of the ring left open at the raised face; 0 closes it [m].
+        drilled: whether it has its bolt holes.
+    """
+    size = FLANGES[dn]
+    raised, outer = size.raised / 2, size.outer / 2
+    low, high = RAISED_FACE, RAISED_FACE + size.thickness
+    holes: list[Floats] = []
+    if drilled:
+        steps = max(8, sides // 4)
+        for k in range(size.n_bolts):
+            angle = (2 * k + 1) * np.pi / size.n_bolts
+            center = (size.circle / 2 * np.cos(angle), size.circle / 2 * np.sin(angle))
+            holes.append(circle(size.hole / 2, steps, center))
+    rim = circle(outer, sides)
+    shells = [
+        revolve([(bore, 0.0), (raised, 0.0), (raised, low)], sides),
+        planar(rim, (circle(raised, sides), *holes), low, up=False),
+        revolve([(outer, low), (outer, high)], sides),
+        planar(rim, (circle(back, sides), *holes), high),
+    ]
+    for hole in holes:
+        shells.append(reverse(loft([np.column_stack([hole, np.full(len(hole), z)]) for z in (low, high)])))
+    return weld(shells)
+
+
+@cache
+def _flange_solid(dn: int, hand: Hand) -> Solid:
+    size, pipe = FLANGES[dn], PIPES[dn]
+    sides = hand.round(size.outer / 2)
+    length = flange_length(dn, hand)
+    bore = pipe.bore if hand.hollow else 0.0
+    if hand.flange == "ring":
+        profile = [(bore, 0.0), (size.outer / 2, 0.0), (size.outer / 2, length), (bore, length)]
+        return about_x(weld([revolve(profile, sides, closed=hand.hollow)]))
+    back = size.hub / 2
+    head = face_shell(dn, sides, back, bore, hand.holes)
+    if hand.flange == "neck":
+        land = plate_thickness(dn) + 0.82 * (length - plate_thickness(dn))
+        outside = [(back, plate_thickness(dn)), (pipe.radius, land), (pipe.radius, length)]
+    else:
+        outside = [(back, plate_thickness(dn)), (back, length)]
+    inside = [(bore, length), (bore, 0.0)] if hand.hollow else [(0.0, length)]
+    return about_x(weld([head, revolve([*outside, *inside], sides)]))
+
+
+def flange(dn: int, hand: Hand, blind: bool = False) -> Assembly:
+    """A flange along x: its raised face at 0 looking to -x, its pipe end towards +x."""
+    color = hand.color("flange")
+    if blind:
+        return Assembly((Component(_blind_solid(dn, hand), "Pipe assembly", "blind flange", color),))
+    return Assembly((Component(_flange_solid(dn, hand), "Pipe assembly", "flange", color),))
+
+
+@cache
+def _blind_solid(dn: int, hand: Hand) -> Solid:
+    size = FLANGES[dn]
+    sides = hand.round(size.outer / 2)
+    back = size.hub / 2
+    head = face_shell(dn, sides, back, 0.0, hand.holes)
+    return about_x(weld([head, revolve([(back, plate_thickness(dn)), (0.0, plate_thickness(dn))], sides)]))
+
+
+@cache
+def _gasket_solid(dn: int, hand: Hand) -> Solid:
+    size, pipe = FLANGES[dn], PIPES[dn]
+    # A hair inside the inner bolt circle of B16.21, so that it does not half touch the facets of the bolts.
+    outer = (size.circle - size.bolt) / 2 - 0.0006
+    profile = [(pipe.radius, 0.0), (outer, 0.0), (outer, GASKET), (pipe.radius, GASKET)]
+    return about_x(weld([revolve(profile, hand.round(outer), closed=True)]))
+
+
+def gasket(dn: int, hand: Hand) -> Assembly:
+    """A flat ring gasket from 0 to ``GASKET`` along x, nearly out to the bolts (B16.21); none if the hand has none."""
+    if not hand.gaskets:
+        return Assembly()
+    return Assembly((Component(_gasket_solid(dn, hand), "Pipe assembly", "gasket", hand.color("gasket")),))
+
+
+def bolts(dn: int, grip: float, hand: Hand) -> Assembly:
+    """The bolts of a joint along x, their nuts' faces at 0 and ``grip`` [m], straddling the vertical."""
+    size = FLANGES[dn]
+    one = bolt(size.bolt, grip, hand)
+    turns = [(2 * k + 1) * np.pi / size.n_bolts for k in range(size.n_bolts)]
+    return gather(one.placed(spun("x", turn) @ at(0, size.circle / 2, 0)) for turn in turns)

@@ -1,0 +1,120 @@
+"""Modelling hands: consistent styles in which somebody models a plant."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+
+__all__ = ["HANDS", "Hand"]
+
+RGB = tuple[float, float, float]
+
+_REALISTIC: dict[str, RGB] = {
+    "pipe": (0.36, 0.40, 0.44),
+    "flange": (0.42, 0.45, 0.48),
+    "gasket": (0.05, 0.05, 0.06),
+    "fastener": (0.50, 0.47, 0.36),
+    "valve": (0.03, 0.14, 0.42),
+    "trim": (0.45, 0.46, 0.48),
+    "handle": (0.50, 0.02, 0.02),
+    "gauge": (0.55, 0.56, 0.58),
+    "dial": (0.88, 0.88, 0.86),
+    "needle": (0.02, 0.02, 0.02),
+    "steel": (0.24, 0.26, 0.28),
+    "clamp": (0.60, 0.61, 0.62),
+    "rubber": (0.03, 0.03, 0.03),
+    "tank": (0.62, 0.64, 0.66),
+    "motor": (0.05, 0.22, 0.36),
+    "pump": (0.03, 0.18, 0.38),
+    "safety": (0.65, 0.45, 0.02),
+    "fence": (0.75, 0.76, 0.77),
+    "gate": (0.03, 0.32, 0.08),
+    "concrete": (0.55, 0.54, 0.51),
+    "electrical": (0.50, 0.51, 0.47),
+    "ground": (0.68, 0.68, 0.67),
+}
+
+
+@dataclass(frozen=True)
+class Hand:
+    """How somebody models: what is left out, what is one mesh, how round things are.
+
+    Args:
+        name: short, for the truth.
+        sag: greatest deviation of a polygon from its circle [m].
+        sides: least and greatest number of sides of a round section.
+        hollow: whether pipes have inner walls.
+        flange: ``neck`` (hub, raised face), ``slip`` (short hub) or ``ring`` (a plain disc).
+        holes: whether flanges are drilled.
+        fasteners: ``none``, ``bolt`` (a bolt with its nuts is one mesh) or ``pieces``.
+        gaskets: whether there are any.
+        valve: pieces of a valve: ``one``, ``few`` (body, handle) or ``pieces``.
+        gauge: likewise.
+        spool: ``segments`` (pipes and elbows) or ``bent`` (one mesh from flange to flange).
+        gap: least and greatest gap left between what should touch [m].
+        palette: colour by kind of material.
+    """
+
+    name: str
+    sag: float = 0.00025
+    sides: tuple[int, int] = (16, 48)
+    hollow: bool = True
+    flange: Literal["neck", "slip", "ring"] = "neck"
+    holes: bool = True
+    fasteners: Literal["none", "bolt", "pieces"] = "bolt"
+    gaskets: bool = True
+    valve: Literal["one", "few", "pieces"] = "pieces"
+    gauge: Literal["one", "few", "pieces"] = "pieces"
+    spool: Literal["segments", "bent"] = "segments"
+    gap: tuple[float, float] = (0.0, 0.0)
+    palette: Mapping[str, RGB] = field(default_factory=lambda: _REALISTIC, compare=False)
+
+    def round(self, radius: float) -> int:
+        """Sides of a circle of this radius [m]: a multiple of 4."""
+        angle = 2 * np.arccos(max(-0.5, 1 - self.sag / max(radius, self.sag)))
+        least, most = self.sides
+        return int(np.clip(np.ceil(2 * np.pi / angle / 4) * 4, least, most))
+
+    def bend(self, radius: float, turn: float = np.pi / 2) -> int:
+        """Pieces of a bend of this radius [m] and turn [rad]."""
+        return max(2, round(self.round(radius) * turn / (2 * np.pi)))
+
+    def color(self, kind: str) -> RGB:
+        """The colour of a kind of material."""
+        return self.palette[kind]
+
+
+# The published styles; a plant names the hands it was made by, and a benchmark can hold any of them out.
+HANDS: dict[str, Hand] = {
+    hand.name: hand
+    for hand in (
+        Hand("plant-design"),
+        Hand(
+            "bim",
+            sides=(12, 12),
+            hollow=False,
+            flange="ring",
+            holes=False,
+            fasteners="none",
+            gaskets=False,
+            valve="one",
+            gauge="one",
+            gap=(0.0, 0.003),
+        ),
+        Hand("mechanical", sag=0.00008, sides=(24, 72), fasteners="pieces"),
+        Hand(
+            "game",
+            sag=0.002,
+            sides=(6, 16),
+            hollow=False,
+            flange="slip",
+            holes=False,
+            valve="few",
+            gauge="few",
+            spool="bent",
+        ),
+    )
+}

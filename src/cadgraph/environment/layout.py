@@ -1,0 +1,512 @@
+"""Runs of pipe: devices placed by arc length on a centreline, pipes and bends in between, and the truth in order.
+
+Positions along a run are chainages: lengths [m] along the sharp-cornered route, from its first point.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from cadgraph.environment.flange import GASKET, bolts, flange, flange_length, gasket, plate_thickness
+from cadgraph.environment.frame import arc, at, looking, spun
+from cadgraph.environment.hand import Hand
+from cadgraph.environment.piping import bend_tangent, elbow, outlet, pipe, spool
+from cadgraph.environment.plant import Assembly, Connection, Device, Point, gather
+from cadgraph.environment.standard import ELBOW_LONG_RADIUS, PIPES
+from cadgraph.scene import Floats
+
+__all__ = ["Inline", "Laid", "Piece", "Route", "Run", "Tap", "lay"]
+
+_SHORTEST = 0.002  # m; a shorter piece of pipe is a mistake in the layout
+OUTLET_HEIGHT = 0.024
+
+
+@dataclass(frozen=True, eq=False)
+class Route:
+    """A centreline with sharp corners.
+
+    Args:
+        points: ``(n, 3)`` [m], at least two, no leg of length 0.
+    """
+
+    points: Floats
+
+    @property
+    def starts(self) -> Floats:
+        """``(n,)`` chainage of each point [m]."""
+        legs = np.linalg.norm(np.diff(self.points, axis=0), axis=1)
+        return np.concatenate([[0.0], np.cumsum(legs)])
+
+    @property
+    def directions(self) -> Floats:
+        """``(n - 1, 3)`` unit direction of each leg."""
+        legs = np.diff(self.points, axis=0)
+        unit: Floats = legs / np.linalg.norm(legs, axis=1, keepdims=True)
+        return unit
+
+    @property
+    def length(self) -> float:
+        """Of the whole route [m]."""
+        return float(self.starts[-1])
+
+    def leg(self, s: float) -> int:
+        """The leg at a chainage."""
+        return int(np.clip(np.searchsorted(self.starts, s, side="right") - 1, 0, len(self.points) - 2))
+
+    def point(self, s: float) -> Floats:
+        """The point ``(3,)`` at a chainage [m]."""
+        leg = self.leg(s)
+        result: Floats = self.points[leg] + (s - self.starts[leg]) * self.directions[leg]
+        return result
+
+    def frame(self, s: float, roll: float = 0.0) -> Floats:
+        """The pose at a chainage: x along the run, z as upright as it can be, then rolled about x [rad]."""
+        pose = looking(self.point(s), self.directions[self.leg(s)])
+        return pose @ spun("x", roll) if roll else pose
+
+
+@dataclass(frozen=True)
+class Inline:
+    """Something flanged or welded into a run.
+
+    Args:
+        s: chainage of its middle [m].
+        build: makes the device for a hand; None for a plain joint of two flanges.
+        unit: id of the device, "" for a joint.
+        roll: of its stem about the run [rad]; 0 is upright.
+        reverse: whether it is built against the run (check valves).
+        welded: whether it is butt-welded (tees, reducers) instead of flanged.
+        junction: id of the junction that it makes (tees), or "".
+        dn: nominal size of the run behind it (reducers); 0 as before.
+    """
+
+    s: float
+    build: Callable[[Hand], Device] | None = None
+    unit: str = ""
+    roll: float = 0.0
+    reverse: bool = False
+    welded: bool = False
+    junction: str = ""
+    dn: int = 0
+
+
+@dataclass(frozen=True)
+class Tap:
+    """An instrument on a branch outlet.
+
+    Args:
+        s: chainage [m], on a straight piece of pipe.
+        build: makes the instrument for a hand, standing on z = 0.
+        unit: its id.
+        roll: of the outlet about the run [rad]; 0 is upright.
+    """
+
+    s: float
+    build: Callable[[Hand], Assembly]
+    unit: str
+    roll: float = 0.0
+
+
+@dataclass(frozen=True)
+class Run:
+    """One line.
+
+    Args:
+        tag: unique in the plant.
+        dn: nominal size.
+        route: its centreline.
+        inline: flanged devices and joints.
+        taps: instruments.
+        bent: whether corners are bent pipe (one mesh from flange to flange) rather than elbows.
+        bend: bend radius of bent pipe, in outside diameters.
+        ends: how it begins and ends: ``open`` (a pipe), ``flange``, ``blind``, or ``joint`` (a flange bolted with its
+            gasket to a face at that point: a nozzle).
+        nodes: ids of the units or junctions that it begins and ends at; "" for a terminal.
+        flow: ``forward`` or ``backward`` along the route where physics fixes it, else ``unknown``.
+        reason: what fixes it.
+    """
+
+    tag: str
+    dn: int
+    route: Route
+    inline: tuple[Inline, ...] = ()
+    taps: tuple[Tap, ...] = ()
+    bent: bool = False
+    bend: float = 2.5
+    ends: tuple[str, str] = ("open", "open")
+    nodes: tuple[str, str] = ("", "")
+    flow: str = "unknown"
+    reason: str = ""
+
+    def dn_at(self, s: float) -> int:
+        """The nominal size at a chainage."""
+        dn = self.dn
+        for item in sorted(self.inline, key=lambda item: item.s):
+            if item.dn and item.s <= s:
+                dn = item.dn
+        return dn
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Where on the run a component of pipe lies.
+
+    Args:
+        low: chainage of its beginning [m].
+        high: of its end.
+        component: index in the assembly.
+    """
+
+    low: float
+    high: float
+    component: int
+
+
+@dataclass(frozen=True)
+class Laid:
+    """A finished run.
+
+    Args:
+        run: as asked for.
+        assembly: its components and truth.
+        pieces: the straight and bent pipes, in order.
+        first: indices of the components that touch what lies before the run.
+        last: of those that touch what lies behind it.
+        devices: index of the first component of each inline device, by unit or junction id.
+    """
+
+    run: Run
+    assembly: Assembly
+    pieces: tuple[Piece, ...]
+    first: tuple[int, ...]
+    last: tuple[int, ...]
+    devices: Mapping[str, int]
+
+    def at(self, s: float) -> int:
+        """The index of the pipe at this chainage.
+
+        Raises:
+            ValueError: no pipe lies there.
+        """
+        for piece in self.pieces:
+            if piece.low < s < piece.high:
+                return piece.component
+        raise ValueError(f"run {self.run.tag}: no pipe at chainage {s:.3f} m, but {self.pieces}")
+
+
+@dataclass
+class _Work:
+    """The run as it grows, from its start to its end."""
+
+    run: Run
+    hand: Hand
+    parts: list[Assembly] = field(default_factory=list)
+    joints: list[tuple[int, int]] = field(default_factory=list)
+    pieces: list[Piece] = field(default_factory=list)
+    count: int = 0
+    tail: int = -1
+    cursor: float = 0.0
+    dn: int = 0
+    devices: dict[str, int] = field(default_factory=dict)
+
+    def add(self, assembly: Assembly) -> int:
+        """Appends an assembly and returns the index of its first component."""
+        first = self.count
+        self.parts.append(assembly)
+        self.count += len(assembly.components)
+        return first
+
+    def follow(self, assembly: Assembly, inlet: int = 0, outlet: int = 0) -> None:
+        """Appends what touches the tail of the run and becomes its tail."""
+        if not assembly.components:
+            return
+        first = self.add(assembly)
+        if self.tail >= 0:
+            self.joints.append((self.tail, first + inlet))
+        self.tail = first + outlet
+
+
+def lay(run: Run, hand: Hand) -> Laid:
+    """Builds a run: fills it with pipe between its devices and records what follows what.
+
+    Raises:
+        ValueError: devices overlap each other or a bend.
+    """
+    work = _Work(run, hand, dn=run.dn)
+    end = run.route.length
+    first = _begin(work)
+    for item in sorted(run.inline, key=lambda item: item.s):
+        _fill(work, item.s - _half(item, work))
+        if item.welded and item.build is not None:
+            _weld_in(work, item)
+        else:
+            _block(work, item)
+        work.dn = item.dn or work.dn
+    tail = {"open": 0.0, "joint": flange_length(work.dn, hand) + _pad(hand)}.get(
+        run.ends[1], flange_length(work.dn, hand)
+    )
+    _fill(work, end - tail)
+    last = _finish(work)
+    laid = Laid(run, Assembly(), tuple(work.pieces), first or (0,), last or (work.tail,), work.devices)
+    for tap in run.taps:
+        _tap(work, laid, tap)
+    assembly = gather([*work.parts, _truth(run)], work.joints).marked(line=run.tag)
+    return replace(laid, assembly=assembly)
+
+
+def _pad(hand: Hand) -> float:
+    return GASKET if hand.gaskets else 0.0
+
+
+def _half(item: Inline, work: _Work) -> float:
+    """Half the length of a device with its counter-flanges [m]."""
+    neck, pad = flange_length(work.dn, work.hand), _pad(work.hand)
+    if item.build is None:
+        return neck + pad / 2
+    length = item.build(work.hand).length
+    return length / 2 if item.welded else length / 2 + pad + neck
+
+
+def _block(work: _Work, item: Inline) -> None:
+    """A counter-flange, gasket and bolts on each side of a device, or a joint of two flanges."""
+    run, hand = work.run, work.hand
+    neck, pad = flange_length(work.dn, hand), _pad(hand)
+    frame = run.route.frame(work.cursor)
+    back = spun("z", np.pi)
+    work.follow(flange(work.dn, hand).placed(frame @ at(neck) @ back))
+    first = work.tail
+    face = neck
+    sealed = _joint(work, frame, face)
+    face += pad
+    if item.build is not None:
+        device = item.build(hand)
+        pose = frame @ spun("x", item.roll) @ at(face)
+        inlet, outlet_ = device.inlet, device.outlet
+        if item.reverse:
+            pose, inlet, outlet_ = pose @ at(device.length) @ back, outlet_, inlet
+        work.devices[item.unit] = work.count
+        work.follow(device.assembly.placed(pose), inlet, outlet_)
+        _join_bolts(work, sealed, first, work.tail - outlet_ + inlet)
+        first = work.tail
+        face += device.length
+        sealed = _joint(work, frame, face)
+        face += pad
+    work.follow(flange(work.dn, hand).placed(frame @ at(face)))
+    _join_bolts(work, sealed, first, work.tail)
+    work.cursor += face + neck
+
+
+def _joint(work: _Work, frame: Floats, face: float) -> range:
+    """Gasket and bolts at a face; returns the indices of the bolts' components."""
+    hand = work.hand
+    plate = plate_thickness(work.dn)
+    work.follow(gasket(work.dn, hand).placed(frame @ at(face)))
+    studs = bolts(work.dn, 2 * plate + _pad(hand), hand).placed(frame @ at(face - plate))
+    first = work.add(studs)
+    return range(first, work.count)
+
+
+def _join_bolts(work: _Work, studs: range, first: int, second: int) -> None:
+    """Records that the nuts sit on the two flanges."""
+    if work.hand.fasteners == "bolt":
+        work.joints += [(flange_, stud) for stud in studs for flange_ in (first, second)]
+    elif work.hand.fasteners == "pieces":
+        for i in range(studs.start, studs.stop, 3):
+            work.joints += [(first, i + 1), (second, i + 2)]
+
+
+def _begin(work: _Work) -> tuple[int, ...]:
+    """What stands at the start of the run; returns what touches the outside, if it is more than the first pipe."""
+    run, hand = work.run, work.hand
+    kind = run.ends[0]
+    if kind == "open":
+        return ()
+    frame, back = run.route.frame(0.0), spun("z", np.pi)
+    pad = _pad(hand)
+    work.cursor = flange_length(work.dn, hand)
+    if kind == "joint":
+        sealed = _joint(work, frame, 0.0)
+        work.follow(flange(work.dn, hand).placed(frame @ at(pad)))
+        work.cursor += pad
+        outside = _outer_bolts(work, sealed, work.tail, first=True)
+        return (0 if pad else work.tail, *outside)
+    if kind == "blind":
+        work.follow(flange(work.dn, hand, blind=True).placed(frame @ at(-pad) @ back))
+        lid = work.tail
+        sealed = _joint(work, frame, -pad)
+        work.follow(flange(work.dn, hand).placed(frame))
+        _join_bolts(work, sealed, lid, work.tail)
+        return ()
+    work.follow(flange(work.dn, hand).placed(frame))
+    return ()
+
+
+def _finish(work: _Work) -> tuple[int, ...]:
+    """What stands at the end of the run; returns what touches the outside, if it is more than the last pipe."""
+    run, hand = work.run, work.hand
+    kind = run.ends[1]
+    if kind == "open":
+        return ()
+    frame = run.route.frame(run.route.length)
+    back = spun("z", np.pi)
+    pad = _pad(hand)
+    face = -pad if kind == "joint" else 0.0
+    work.follow(flange(work.dn, hand).placed(frame @ at(face) @ back))
+    body = work.tail
+    if kind == "flange":
+        return ()
+    sealed = _joint(work, frame, face)
+    if kind == "blind":
+        work.follow(flange(work.dn, hand, blind=True).placed(frame @ at(face + pad)))
+        _join_bolts(work, sealed, body, work.tail)
+        return ()
+    outside = _outer_bolts(work, sealed, body, first=False)
+    return (work.tail if pad else body, *outside)
+
+
+def _outer_bolts(work: _Work, studs: range, inner: int, first: bool) -> tuple[int, ...]:
+    """Joins the bolts to the flange of the run; returns those components that touch the flange beyond."""
+    if work.hand.fasteners == "bolt":
+        work.joints += [(inner, stud) for stud in studs]
+        return tuple(studs)
+    outside = []
+    if work.hand.fasteners == "pieces":
+        for i in range(studs.start, studs.stop, 3):
+            far, near = (i + 1, i + 2) if first else (i + 2, i + 1)
+            work.joints.append((inner, near))
+            outside.append(far)
+    return tuple(outside)
+
+
+def _weld_in(work: _Work, item: Inline) -> None:
+    """A butt-welded fitting."""
+    if item.build is None:
+        return
+    device = item.build(work.hand)
+    pose = work.run.route.frame(work.cursor) @ spun("x", item.roll)
+    inlet, outlet_ = device.inlet, device.outlet
+    if item.reverse:
+        pose, inlet, outlet_ = pose @ at(device.length) @ spun("z", np.pi), outlet_, inlet
+    first = work.count
+    work.follow(device.assembly.placed(pose), inlet, outlet_)
+    work.devices[item.unit or item.junction] = first
+    work.cursor += device.length
+
+
+def _fill(work: _Work, stop: float) -> None:
+    """Pipe from the cursor to a chainage, round the corners on the way."""
+    run = work.run
+    begin = work.cursor
+    if stop - begin < -1e-9:
+        raise ValueError(
+            f"run {run.tag}: devices overlap at chainage {stop:.3f} m, where the run has come to {begin:.3f} m"
+        )
+    if stop - begin < _SHORTEST:
+        return
+    starts = run.route.starts
+    corners = [i for i in range(1, len(run.route.points) - 1) if begin < starts[i] < stop]
+    if corners and run.bent:
+        _bent(work, begin, stop, corners)
+    else:
+        _segments(work, begin, stop, corners)
+    work.cursor = stop
+
+
+def _tangent(run: Run, corner: int) -> float:
+    dn = run.dn_at(run.route.starts[corner])
+    radius = run.bend * PIPES[dn].outer if run.bent else ELBOW_LONG_RADIUS[dn]
+    directions = run.route.directions
+    return bend_tangent(radius, directions[corner - 1], directions[corner])
+
+
+def _bent(work: _Work, begin: float, stop: float, corners: list[int]) -> None:
+    """One bent pipe through some corners."""
+    run, route = work.run, work.run.route
+    path = [route.point(begin)[None]]
+    reached = begin
+    for corner in corners:
+        tangent, s = _tangent(run, corner), route.starts[corner]
+        if s - tangent < reached - 1e-9 or s + tangent > stop + 1e-9:
+            raise ValueError(f"run {run.tag}: no room for the bend at chainage {s:.3f} m")
+        reached = s + tangent
+        directions = route.directions
+        turn = float(np.arccos(np.clip(directions[corner - 1] @ directions[corner], -1, 1)))
+        radius = tangent / np.tan(turn / 2)
+        p = route.points[corner]
+        steps = work.hand.bend(radius + PIPES[work.dn].radius, turn)
+        path.append(arc(p - tangent * directions[corner - 1], p, p + tangent * directions[corner], steps))
+    path.append(route.point(stop)[None])
+    points = np.concatenate(path)
+    distinct = np.concatenate([[True], np.linalg.norm(np.diff(points, axis=0), axis=1) > 1e-9])
+    points = points[distinct]
+    origin = points[0]
+    work.follow(spool(work.dn, points - origin, work.hand).placed(at(*origin)))
+    work.pieces.append(Piece(begin, stop, work.tail))
+
+
+def _segments(work: _Work, begin: float, stop: float, corners: list[int]) -> None:
+    """Straight pipes and elbows."""
+    run, route = work.run, work.run.route
+    for corner in [*corners, -1]:
+        s = route.starts[corner] if corner > 0 else stop
+        tangent = _tangent(run, corner) if corner > 0 else 0.0
+        length = s - tangent - begin
+        if length < -1e-9:
+            raise ValueError(f"run {run.tag}: no room for the elbow at chainage {s:.3f} m")
+        if length >= _SHORTEST:
+            work.follow(pipe(work.dn, length, work.hand).placed(route.frame(begin)))
+            work.pieces.append(Piece(begin, s - tangent, work.tail))
+        if corner > 0:
+            before, after = route.directions[corner - 1], route.directions[corner]
+            turn = float(np.arccos(np.clip(before @ after, -1, 1)))
+            pose = looking(route.points[corner] - tangent * before, before, np.cross(before, after))
+            work.follow(elbow(work.dn, turn, work.hand).placed(pose))
+            begin = s + tangent
+
+
+def _tap(work: _Work, laid: Laid, tap: Tap) -> None:
+    """A branch outlet with an instrument on it."""
+    run = work.run
+    frame, dn = run.route.frame(tap.s, tap.roll), run.dn_at(tap.s)
+    foot = work.add(outlet(dn, work.hand, height=OUTLET_HEIGHT).placed(frame))
+    work.joints.append((laid.at(tap.s), foot))
+    top = frame @ at(0, 0, PIPES[dn].radius + OUTLET_HEIGHT)
+    work.joints.append((foot, work.add(tap.build(work.hand).placed(top))))
+
+
+def _truth(run: Run) -> Assembly:
+    """Terminals, junctions and the connections between consecutive nodes of the run."""
+    nodes = [(item.s, item.unit or item.junction) for item in run.inline if item.unit or item.junction]
+    nodes += [(tap.s, tap.unit) for tap in run.taps]
+    points = [_point(item.junction, "junction", run.route.point(item.s)) for item in run.inline if item.junction]
+    for s, node, name in ((0.0, run.nodes[0], "start"), (run.route.length, run.nodes[1], "end")):
+        if not node:
+            node = f"{run.tag}/{name}"
+            points.append(_point(node, "terminal", run.route.points[0 if name == "start" else -1]))
+        nodes.append((s, node))
+    nodes.sort()
+    connections = tuple(
+        Connection(a, b, run.tag, _along(run, low, high), run.dn_at(low) / 1000, run.flow, run.reason)
+        for (low, a), (high, b) in zip(nodes[:-1], nodes[1:], strict=True)
+    )
+    return Assembly(points=tuple(points), connections=connections)
+
+
+def _point(name: str, kind: str, place: Floats) -> Point:
+    x, y, z = (float(value) for value in place)
+    return Point(name, kind, (x, y, z))
+
+
+def _along(run: Run, low: float, high: float) -> float:
+    """Length of the real centreline between two chainages: bends cut the corners [m]."""
+    length = high - low
+    directions = run.route.directions
+    for corner in range(1, len(run.route.points) - 1):
+        s, tangent = run.route.starts[corner], _tangent(run, corner)
+        if low < s < high:
+            turn = float(np.arccos(np.clip(directions[corner - 1] @ directions[corner], -1, 1)))
+            length -= 2 * tangent - tangent / np.tan(turn / 2) * turn
+    return float(length)

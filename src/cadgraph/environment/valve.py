@@ -1,0 +1,171 @@
+"""Flanged valves along x: inlet face at 0, stem towards +z."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+
+import numpy as np
+
+from cadgraph.environment.body import Piece, assemble, bore_of, flipped
+from cadgraph.environment.flange import face_shell, nut_circle, nut_room, plate_thickness
+from cadgraph.environment.frame import IDENTITY, at
+from cadgraph.environment.hand import Hand
+from cadgraph.environment.operator import handwheel, lever_solid, yoke_solid
+from cadgraph.environment.plant import Device
+from cadgraph.environment.polygon import circle
+from cadgraph.environment.solid import (
+    Branch,
+    Solid,
+    about_x,
+    branched,
+    extrude,
+    revolve,
+    stack,
+    weld,
+)
+from cadgraph.environment.standard import FACE_TO_FACE, FLANGES, PIPES
+
+__all__ = ["VALVES", "ball_valve", "globe_valve", "valve_length"]
+
+
+def valve_length(kind: str, dn: int) -> float:
+    """Face to face [m] of a ``ball``, ``gate``, ``globe``, ``check`` or ``butterfly`` valve (ASME B16.10)."""
+    return FACE_TO_FACE[kind][dn]
+
+
+# --- ball valves ---
+
+
+@cache
+def _ball_solids(dn: int, hand: Hand) -> tuple[Solid, Solid, Solid, Solid, float]:
+    """Body, end piece, stem with gland, lever (about its foot); and the height of the lever's underside."""
+    size, radius, length = FLANGES[dn], PIPES[dn].radius, valve_length("ball", dn)
+    thick, bore = plate_thickness(dn), bore_of(dn, hand)
+    sides = hand.round(size.outer / 2)
+    neck, barrel = 0.5 * size.hub * 0.98, min(1.55 * radius + 0.006, 0.44 * size.outer)
+    split, rim, web = 0.62 * length, min(barrel + 0.011, 0.485 * size.outer), 0.08 * length
+    center = 0.40 * length
+    boss = min(0.36 * radius + 0.006, 0.16 * length)
+    top = barrel + 0.35 * radius + 0.006
+    room = thick + nut_room(dn)
+    outside = [(neck, thick), (neck, room - 0.004), (barrel, room), (barrel, split - web)]
+    middle, _ = branched(outside, sides, [Branch(center, np.pi / 2, boss, ((boss, top), (0.0, top)))])
+    ring = [(barrel, split - web), (rim, split - web), (rim, split), (bore, split)]
+    body = [face_shell(dn, sides, neck, bore, hand.holes), middle, revolve(ring, sides)]
+    room = length - room
+    end_neck = [(bore, split), (rim, split), (rim, split + web), (neck, min(split + 2.0 * web, room))]
+    end_neck += [(neck, length - thick)]
+    end = [flipped(face_shell(dn, sides, neck, bore, hand.holes), length), revolve(end_neck, sides)]
+    if bore:
+        body.append(revolve([(bore, split), (bore, 0.0)], sides))
+        end.append(revolve([(bore, length), (bore, split)], sides))
+    shank = 0.45 * boss
+    lift = 0.3 * radius + 0.010
+    stem = stack(
+        [
+            (top, top + 0.3 * lift, circle(0.82 * boss, 6)),
+            (top + 0.3 * lift, top + lift, circle(shank, 12)),
+        ]
+    )
+    lever = lever_solid(0.10 + 2.6 * radius, 0.010 + 0.30 * radius, 0.006)
+    return about_x(weld(body)), about_x(weld(end)), stem, lever, top + lift
+
+
+def ball_valve(unit: str, dn: int, hand: Hand, turn: float = 0.0) -> Device:
+    """A two-piece flanged ball valve with a lever; ``turn`` of the lever about the stem, 0 open [rad]."""
+    body, end, stem, lever, height = _ball_solids(dn, hand)
+    stand = at(0.40 * valve_length("ball", dn))
+    pose = stand @ at(0, 0, height)
+    turned = np.eye(4)
+    turned[:2, :2] = [[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]
+    pieces: list[Piece] = [
+        (body, IDENTITY, "valve body", "valve"),
+        (stem, stand, "valve stem", "trim"),
+        (lever, pose @ turned, "lever", "handle"),
+        (end, IDENTITY, "valve body", "valve"),
+    ]
+    return assemble(pieces, "ball valve", unit, hand, ((0, 1), (1, 2), (0, 3)), 3, valve_length("ball", dn))
+
+
+# --- globe valves ---
+
+
+@cache
+def _globe_solids(dn: int, hand: Hand, spokes: int) -> tuple[tuple[Solid, ...], tuple[float, float]]:
+    """Body, bonnet, gland, yoke, stem and handwheel about the stem's axis; heights of yoke and wheel."""
+    size, radius, length = FLANGES[dn], PIPES[dn].radius, valve_length("globe", dn)
+    thick, bore = plate_thickness(dn), bore_of(dn, hand)
+    sides = hand.round(size.outer / 2)
+    neck, bulge = 0.5 * size.hub * 0.97, 1.5 * radius + 0.008
+    half = length / 2 - thick
+    # Small sizes swell only behind the nuts.
+    reach = 0.86 * half if bulge < nut_circle(dn) else length / 2 - thick - nut_room(dn)
+    swell = [(neck, thick), (neck, length / 2 - 1.05 * reach)]
+    for share in np.linspace(-0.85, 0.85, 11):
+        swell.append((neck + (bulge - neck) * (1 - share**2) ** 0.5, length / 2 + share * reach))
+    swell += [(neck, length / 2 + 1.05 * reach), (neck, length - thick)]
+    throat = 0.80 * bulge
+    collar = throat + min(0.016, max(0.006, length / 2 - thick - nut_room(dn) - throat))
+    seat = bulge + 0.28 * radius + 0.010
+    plate = 0.010 + 0.06 * radius
+    rise = ((throat, seat - plate), (collar, seat - plate), (collar, seat), (0.0, seat))
+    middle, _ = branched(swell, sides, [Branch(length / 2, np.pi / 2, throat, rise)])
+    head = face_shell(dn, sides, neck, bore, hand.holes)
+    body = [head, flipped(head, length), middle]
+    if bore:
+        body.append(revolve([(bore, length), (bore, 0.0)], sides))
+    stem_radius = 0.005 + 0.10 * radius
+    box_radius, box_top = 2.1 * stem_radius, seat + plate + 0.55 * radius + 0.016
+    shape = [(0, seat), (collar, seat), (collar, seat + plate), (0.62 * collar, seat + plate)]
+    shape += [(box_radius, seat + plate + 0.3 * radius), (box_radius, box_top), (stem_radius, box_top), (0, box_top)]
+    bonnet = weld([revolve(shape, hand.round(collar))])
+    round_sides = max(12, min(hand.round(stem_radius), 16))
+    gland_top = box_top + 0.010
+    gland_plate = stem_radius * 3.3
+    gland = extrude(circle(gland_plate, 6), box_top, gland_top, (circle(stem_radius, round_sides),))
+    yoke_top = gland_top + 0.035 + 0.55 * radius
+    bush, crown = 1.9 * stem_radius, 0.016 + 0.05 * radius
+    yoke = yoke_solid(0.80 * collar, seat + plate, yoke_top, crown, bush, stem_radius, round_sides)
+    wheel_low = yoke_top + 0.012
+    wheel_thick = 0.014 + 0.08 * radius
+    stem = extrude(circle(stem_radius, round_sides), box_top, wheel_low + wheel_thick + 0.008)
+    wheel_radius = min(0.050 + 1.45 * radius, 0.30)
+    wheel = handwheel(
+        wheel_radius,
+        0.006 + 0.05 * radius,
+        spokes,
+        2.2 * stem_radius,
+        wheel_thick,
+        stem_radius,
+        hand.round(wheel_radius),
+    )
+    return (about_x(weld(body)), bonnet, gland, yoke, stem, wheel), (yoke_top, wheel_low)
+
+
+def globe_valve(unit: str, dn: int, hand: Hand, spokes: int = 5, turn: float = 0.0) -> Device:
+    """A flanged globe valve with bolted bonnet, outside yoke and handwheel; ``turn`` of the wheel [rad]."""
+    (body, bonnet, gland, yoke, stem, wheel), (_, wheel_low) = _globe_solids(dn, hand, spokes)
+    stand = at(valve_length("globe", dn) / 2)
+    turned = np.eye(4)
+    turned[:2, :2] = [[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]
+    pieces: list[Piece] = [
+        (body, IDENTITY, "valve body", "valve"),
+        (bonnet, stand, "valve bonnet", "valve"),
+        (gland, stand, "gland", "trim"),
+        (yoke, stand, "yoke", "valve"),
+        (stem, stand, "valve stem", "trim"),
+        (wheel, stand @ at(0, 0, wheel_low) @ turned, "handwheel", "handle"),
+    ]
+    return assemble(
+        pieces,
+        "globe valve",
+        unit,
+        hand,
+        ((0, 1), (1, 2), (1, 3), (1, 4), (2, 4), (3, 4), (4, 5)),
+        0,
+        valve_length("globe", dn),
+    )
+
+
+VALVES: dict[str, Callable[..., Device]] = {"ball": ball_valve, "globe": globe_valve}

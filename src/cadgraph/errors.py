@@ -1,0 +1,51 @@
+"""Every error that cadgraph raises on purpose.
+
+::
+
+    CadGraphError
+    ├── LoadError      a source file can't be turned into a scene
+    ├── LabelError     labels given from outside, or a labeler's answers, can't be used
+    ├── FormatError    a graph on disk is not what ``graph.json`` promises
+    ├── OutputError    a result can't be written
+    └── MissingExtra   a command needs an optional dependency that isn't installed
+
+Bad arguments raise ``ValueError``. What is merely skipped, repaired or guessed is no error: it is listed in the
+graph's ``diagnostics``.
+"""
+
+from __future__ import annotations
+
+__all__ = ["CadGraphError", "FormatError", "LabelError", "LoadError", "MissingExtra", "OutputError"]
+
+
+class CadGraphError(Exception):
+    """The base of all errors below; its text is one line that names the file, the mesh and the remedy."""
+
+
+class LoadError(CadGraphError):
+    """A source file can't be turned into a scene."""
+
+
+class LabelError(CadGraphError):
+    """Labels from outside, or the answers of a labeler, can't be used."""
+
+
+class FormatError(CadGraphError):
+    """A graph on disk does not follow the format."""
+
+
+class OutputError(CadGraphError):
+    """A result can't be written."""
+
+
+class MissingExtra(CadGraphError):
+    """An optional dependency is missing.
+
+    Args:
+        purpose: what needs it, as a person would say it (``"reading STEP files"``).
+        extra: the extra to install, as in ``cadgraph[cad]``.
+    """
+
+    def __init__(self, purpose: str, extra: str) -> None:
+        self.extra = extra
+        super().__init__(f"{purpose} needs an extra: pip install 'cadgraph[{extra}]'")

@@ -1,0 +1,7 @@
+"""Writes a finished graph in the formats of other tools; :mod:`cadgraph.export.usd` lays it over the source as USD."""
+
+from __future__ import annotations
+
+from cadgraph.export.registry import export_graph, formats
+
+__all__ = ["export_graph", "formats"]

@@ -1,0 +1,140 @@
+"""The graph as CSV tables: one file for parts, units, relations, clusters, contacts and meshes each."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from cadgraph.atomic import write_atomically
+from cadgraph.graph import SceneGraph
+from cadgraph.records import Adjacent, Box, Cluster, Connected, Part, Related, Unit
+
+__all__ = ["write_tables"]
+
+# A spreadsheet runs a cell that starts so as a formula, in a file from anybody (OWASP, "CSV Injection").
+_FORMULA = re.compile(r"\s*[=+\-@\uff1d\uff0b\uff0d\uff20]")
+_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff]")
+_PLACE = ("x_m", "y_m", "z_m", "size_x_m", "size_y_m", "size_z_m")
+
+Row = Sequence[Any]
+
+
+def write_tables(graph: SceneGraph, folder: str | Path) -> list[Path]:
+    """Writes ``parts.csv``, ``units.csv``, ``relations.csv``, ``clusters.csv``, ``contacts.csv`` and ``meshes.csv``.
+
+    UTF-8 with a byte order mark, by which Excel knows it. Units are in the column names. Text that a spreadsheet would
+    run as a formula gets an apostrophe in front.
+
+    Args:
+        graph: what to write.
+        folder: where to; made if missing.
+
+    Returns:
+        The files.
+
+    Raises:
+        OutputError: a file can't be written.
+    """
+    tables = {
+        "parts": _parts(graph),
+        "units": _units(graph),
+        "relations": _relations(graph),
+        "clusters": _clusters(graph),
+        "contacts": _contacts(graph),
+        "meshes": _meshes(graph),
+    }
+    return [_write(Path(folder) / f"{name}.csv", rows) for name, rows in tables.items()]
+
+
+def _parts(graph: SceneGraph) -> Iterator[Row]:
+    yield (
+        "part", "group", "name", "confidence", "label_source", "unit", "cluster", *_PLACE, "area_m2", "volume_m3",
+        "n_meshes", "n_triangles", "shape", "ground", "largest_mesh",
+    )  # fmt: skip
+    for part in graph.of_layer(Part):
+        label, unit, cluster = part.label, graph.unit_of(part), graph.cluster_of(part)
+        says = (label.group, label.name, label.confidence, label.source) if label else (None, None, None, None)
+        yield (
+            part.id, *says, unit.tag if unit else None, cluster.id if cluster else None,
+            *part.centroid, *_extents(part.aabb), part.area, part.volume,
+            len(part.meshes), part.n_triangles, part.shape, "yes" if part.ground else "no", part.meshes[0],
+        )  # fmt: skip
+
+
+def _units(graph: SceneGraph) -> Iterator[Row]:
+    yield "tag", "type", "kind", "n_parts", "cluster", *_PLACE, "related_to", "parts"
+    others: dict[str, list[str]] = {}
+    for edge in graph.of_kind(Related):
+        others.setdefault(edge.source, []).append(edge.target)
+        others.setdefault(edge.target, []).append(edge.source)
+    for unit in graph.of_layer(Unit):
+        cluster = graph.cluster_of(unit.parts[0]) if unit.parts else None
+        yield (
+            unit.tag, unit.unit_type, unit.kind, len(unit.parts), cluster.id if cluster else None,
+            *unit.centroid, *_extents(unit.aabb),
+            " ".join(dict.fromkeys(_name(graph, other) for other in others.get(unit.id, ()))), " ".join(unit.parts),
+        )  # fmt: skip
+
+
+def _relations(graph: SceneGraph) -> Iterator[Row]:
+    yield "from", "to", "kind", "direction", "length_m", "diameter_m", "reason", "via_parts"
+    for edge in graph.of_kind(Connected):
+        yield (
+            _name(graph, edge.source), _name(graph, edge.target), edge.kind, edge.direction,
+            edge.length, edge.diameter, edge.reason, " ".join(edge.via),
+        )  # fmt: skip
+    for related in graph.of_kind(Related):
+        yield _name(graph, related.source), _name(graph, related.target), related.kind, None, None, None, None, None
+
+
+def _clusters(graph: SceneGraph) -> Iterator[Row]:
+    yield "cluster", "kind", "n_parts", "n_units", *_PLACE
+    units: dict[str, set[str]] = {}
+    for unit in graph.of_layer(Unit):
+        for part in unit.parts:
+            cluster = graph.cluster_of(part)
+            if cluster:
+                units.setdefault(cluster.id, set()).add(unit.id)
+    for cluster in graph.of_layer(Cluster):
+        n_units = len(units.get(cluster.id, ()))
+        yield cluster.id, cluster.kind, cluster.n_parts, n_units, *cluster.centroid, *_extents(cluster.aabb)
+
+
+def _contacts(graph: SceneGraph) -> Iterator[Row]:
+    yield "part", "other_part", "distance_m", "x_m", "y_m", "z_m"
+    for edge in graph.of_kind(Adjacent):
+        yield edge.source, edge.target, edge.distance, *edge.point
+
+
+def _meshes(graph: SceneGraph) -> Iterator[Row]:
+    yield "mesh", "part"
+    for part in graph.of_layer(Part):
+        for mesh in part.meshes:
+            yield mesh, part.id
+
+
+def _name(graph: SceneGraph, node: str) -> str:
+    found = graph.nodes[node]
+    return found.tag if isinstance(found, Unit) else found.id
+
+
+def _extents(aabb: Box) -> tuple[float, ...]:
+    return tuple(high - low for low, high in zip(*aabb, strict=True))
+
+
+def _write(path: Path, rows: Iterable[Row]) -> Path:
+    text = io.StringIO(newline="")
+    csv.writer(text).writerows([_cell(value) for value in row] for row in rows)
+    write_atomically(path, text.getvalue().encode("utf-8-sig"))
+    return path
+
+
+def _cell(value: Any) -> Any:
+    if not isinstance(value, str):
+        return value
+    cleaned = _CONTROL.sub("", value)
+    return f"'{cleaned}" if _FORMULA.match(cleaned) else cleaned

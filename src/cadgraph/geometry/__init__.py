@@ -1,0 +1,1 @@
+"""Pure kernels on flat arrays; they know nothing of graphs."""

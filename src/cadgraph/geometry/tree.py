@@ -1,0 +1,512 @@
+"""Box trees over the faces of all meshes, in flat arrays.
+
+The faces of a mesh are sorted along a Morton curve; every four neighbours make a leaf, and the leaves an implicit
+binary tree in heap order: the children of node ``k`` are ``2 k + 1`` and ``2 k + 2``, the last half are leaves. A box
+is a centre and half extents in float32, relative to the centre of the mesh and rounded so that it never loses
+anything: 12 bytes a triangle for the boxes, 12 for the sorted faces.
+
+Long things that lie askew would fill none of their upright boxes, so such a mesh gets boxes along its own axes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from cadgraph.geometry.parallel import compiled, for_ranges
+from cadgraph.scene import Faces, Floats, Ints, Scene
+
+__all__ = ["LEAF", "Forest", "build_forest", "first_face", "radix_sort", "spread_bits"]
+
+LEAF = 4
+"""Faces in a leaf."""
+
+_ASKEW = 0.25
+# A mesh gets boxes along its own axes if that shrinks the surface of its box at least to this share.
+
+_SAMPLES = 256  # vertices looked at to find a mesh's own axes
+
+_FEW = 40  # below this many keys insertion beats counting
+
+Nodes = npt.NDArray[np.float32]
+Bools = npt.NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Forest:
+    """A box tree for each mesh.
+
+    Args:
+        vertices: ``(n_vertices, 3)`` as in the scene [m].
+        vertex_offsets: ``(n + 1,)`` as in the scene.
+        faces: ``(n_faces, 3)`` int32 local to the mesh, in the order of the leaves; after the valid faces of a mesh
+            unused rows may follow.
+        face_offsets: ``(n + 1,)`` as in the scene.
+        counts: ``(n,)`` valid faces: finite corners that exist.
+        nodes: ``(n_nodes, 6)`` float32: centre and half extents in the mesh's own axes about its centre [m].
+        node_offsets: ``(n + 1,)``; the root of mesh ``i`` is ``nodes[node_offsets[i]]``.
+        centers: ``(n, 3)`` origin of the boxes [m].
+        axes: ``(n, 3, 3)`` their unit axes as rows.
+        upright: ``(n,)`` whether these are the world's axes.
+        boxes: ``(n, 2, 3)`` exact least and greatest corner [m]; NaN for a mesh without valid faces.
+    """
+
+    vertices: Floats
+    vertex_offsets: Ints
+    faces: Faces
+    face_offsets: Ints
+    counts: Ints
+    nodes: Nodes
+    node_offsets: Ints
+    centers: Floats
+    axes: Floats
+    upright: Bools
+    boxes: Floats
+
+    @property
+    def n_trees(self) -> int:
+        """How many trees there are, empty ones included."""
+        return len(self.counts)
+
+
+def build_forest(scene: Scene, workers: int | None = None) -> Forest:
+    """Builds the trees of all meshes.
+
+    Faces with a corner that is not finite or does not exist are left out. Faces without area stay, as the segment
+    or point that they are.
+
+    Args:
+        scene: all meshes.
+        workers: threads; all processors by default. The outcome does not depend on it.
+
+    Raises:
+        ValueError: ``workers`` is below 1.
+    """
+    n = scene.n_meshes
+    n_faces = np.diff(scene.face_offsets)
+    leaves = -(-n_faces // LEAF)
+    node_offsets = np.zeros(n + 1, np.int64)
+    np.cumsum(np.maximum(2 * leaves - 1, 0), out=node_offsets[1:])
+    forest = Forest(
+        vertices=np.ascontiguousarray(scene.vertices, np.float64),
+        vertex_offsets=np.ascontiguousarray(scene.vertex_offsets, np.int64),
+        faces=np.empty((len(scene.faces), 3), np.int32),
+        face_offsets=np.ascontiguousarray(scene.face_offsets, np.int64),
+        counts=np.zeros(n, np.int64),
+        nodes=np.empty((int(node_offsets[-1]), 6), np.float32),
+        node_offsets=node_offsets,
+        centers=np.zeros((n, 3)),
+        axes=np.tile(np.eye(3), (n, 1, 1)),
+        upright=np.ones(n, np.bool_),
+        boxes=np.full((n, 2, 3), np.nan),
+    )
+    faces = np.ascontiguousarray(scene.faces, np.int32)
+
+    def build(first: int, last: int) -> None:
+        _build_trees(
+            first,
+            last,
+            forest.vertices,
+            forest.vertex_offsets,
+            faces,
+            forest.face_offsets,
+            forest.faces,
+            forest.counts,
+            forest.nodes,
+            forest.node_offsets,
+            forest.centers,
+            forest.axes,
+            forest.upright,
+            forest.boxes,
+        )
+
+    for_ranges(build, n_faces, workers)
+    return forest
+
+
+@compiled
+def first_face(node: int, n_leaves: int) -> int:
+    """The position of a leaf's first face among those of its tree."""
+    deepest = 1
+    while deepest < 2 * n_leaves:
+        deepest *= 2
+    # leaves fill the deepest level from the left, the rest stand one level higher to its right
+    start = deepest // 2 - 1
+    if node >= start:
+        return LEAF * (node - start)
+    return LEAF * (node - (n_leaves - 1) + (2 * n_leaves - 1 - start))
+
+
+@compiled
+def radix_sort(
+    keys: npt.NDArray[np.uint64], spare: npt.NDArray[np.uint64], n: int, low: int, high: int, digit: int
+) -> bool:
+    """Sorts the first ``n`` keys, stable, by their bits ``low`` to ``high``; True: the outcome is in ``spare``.
+
+    The keys must be below ``2**high``, and equal in the bits under ``low`` or sorted by them.
+    """
+    if n <= _FEW:
+        for i in range(1, n):
+            key = keys[i]
+            j = i - 1
+            while j >= 0 and keys[j] > key:
+                keys[j + 1] = keys[j]
+                j -= 1
+            keys[j + 1] = key
+        return False
+    size = 1 << digit
+    mask = np.uint64(size - 1)
+    counts = np.empty(size, np.int64)
+    source, target, flipped = keys, spare, False
+    for shift in range(low, high, digit):
+        amount = np.uint64(shift)
+        counts[:] = 0
+        for i in range(n):
+            counts[np.int64((source[i] >> amount) & mask)] += 1
+        if counts[np.int64((source[0] >> amount) & mask)] == n:
+            continue
+        total = 0
+        for k in range(size):
+            here = counts[k]
+            counts[k] = total
+            total += here
+        for i in range(n):
+            k = np.int64((source[i] >> amount) & mask)
+            target[counts[k]] = source[i]
+            counts[k] += 1
+        source, target, flipped = target, source, not flipped
+    return flipped
+
+
+@compiled
+def spread_bits(x: int) -> int:
+    """The ten low bits of ``x`` with two zeros after each."""
+    x = (x | (x << 16)) & 0x030000FF
+    x = (x | (x << 8)) & 0x0300F00F
+    x = (x | (x << 4)) & 0x030C30C3
+    return (x | (x << 2)) & 0x09249249
+
+
+@compiled
+def _build_trees(
+    first: int,
+    last: int,
+    vertices: Floats,
+    vertex_offsets: Ints,
+    faces: Faces,
+    face_offsets: Ints,
+    sorted_faces: Faces,
+    counts: Ints,
+    nodes: Nodes,
+    node_offsets: Ints,
+    centers: Floats,
+    axes: Floats,
+    upright: Bools,
+    boxes: Floats,
+) -> None:
+    largest = 0
+    for mesh in range(first, last):
+        largest = max(largest, face_offsets[mesh + 1] - face_offsets[mesh])
+    keys, spare = np.empty(largest, np.uint64), np.empty(largest, np.uint64)
+    for mesh in range(first, last):
+        v0, v1 = vertex_offsets[mesh], vertex_offsets[mesh + 1]
+        f0, f1 = face_offsets[mesh], face_offsets[mesh + 1]
+        n = _collect(vertices, v0, v1, faces, f0, f1, keys, boxes[mesh])
+        counts[mesh] = n
+        if n == 0:
+            continue
+        for k in range(3):
+            centers[mesh, k] = 0.5 * (boxes[mesh, 0, k] + boxes[mesh, 1, k])
+        upright[mesh] = not _own_axes(vertices, v0, faces, f0, keys, n, boxes[mesh], centers[mesh], axes[mesh])
+        _sort_faces(
+            vertices, v0, faces, f0, keys, spare, n, boxes[mesh], centers[mesh], axes[mesh], upright[mesh], sorted_faces
+        )
+        _fill_nodes(
+            vertices, v0, sorted_faces, f0, n, centers[mesh], axes[mesh], upright[mesh], nodes, node_offsets[mesh]
+        )
+
+
+@compiled
+def _collect(
+    vertices: Floats,
+    v0: int,
+    v1: int,
+    faces: Faces,
+    f0: int,
+    f1: int,
+    keys: npt.NDArray[np.uint64],
+    box: Floats,
+) -> int:
+    """Writes the indices of the valid faces and their box; returns how many there are."""
+    n = 0
+    n_vertices = v1 - v0
+    x0 = y0 = z0 = np.inf
+    x1 = y1 = z1 = -np.inf
+    for f in range(f0, f1):
+        a, b, c = faces[f, 0], faces[f, 1], faces[f, 2]
+        if min(a, b, c) < 0 or max(a, b, c) >= n_vertices:
+            continue
+        ax, ay, az = vertices[v0 + a, 0], vertices[v0 + a, 1], vertices[v0 + a, 2]
+        bx, by, bz = vertices[v0 + b, 0], vertices[v0 + b, 1], vertices[v0 + b, 2]
+        cx, cy, cz = vertices[v0 + c, 0], vertices[v0 + c, 1], vertices[v0 + c, 2]
+        total = abs(ax) + abs(ay) + abs(az) + abs(bx) + abs(by) + abs(bz) + abs(cx) + abs(cy) + abs(cz)
+        if not total < np.inf:
+            continue
+        x0, y0, z0 = min(x0, ax, bx, cx), min(y0, ay, by, cy), min(z0, az, bz, cz)
+        x1, y1, z1 = max(x1, ax, bx, cx), max(y1, ay, by, cy), max(z1, az, bz, cz)
+        keys[n] = np.uint64(f - f0)
+        n += 1
+    if n > 0:
+        box[0, 0], box[0, 1], box[0, 2] = x0, y0, z0
+        box[1, 0], box[1, 1], box[1, 2] = x1, y1, z1
+    return n
+
+
+@compiled
+def _own_axes(
+    vertices: Floats,
+    v0: int,
+    faces: Faces,
+    f0: int,
+    keys: npt.NDArray[np.uint64],
+    n: int,
+    box: Floats,
+    center: Floats,
+    axes: Floats,
+) -> bool:
+    """Finds axes that suit a mesh much better than the world's, if there are any; the identity stays otherwise."""
+    h0, h1, h2 = box[1, 0] - box[0, 0], box[1, 1] - box[0, 1], box[1, 2] - box[0, 2]
+    if not h0 * h1 + h1 * h2 + h2 * h0 > 0.0:
+        return False
+    spread = np.zeros((3, 3))
+    step = max(1, n // _SAMPLES)
+    _covariance(vertices, v0, faces, f0, keys, n, step, center, spread)
+    found = np.empty((3, 3))
+    if not _principal_axes(spread, found):
+        return False
+    # a look at the sample first; all faces only where it promises something
+    for stride in (step, 1):
+        low, high = np.full(3, np.inf), np.full(3, -np.inf)
+        for i in range(0, n, stride):
+            f = f0 + np.int64(keys[i])
+            for corner in range(3):
+                v = v0 + faces[f, corner]
+                x, y, z = vertices[v, 0] - center[0], vertices[v, 1] - center[1], vertices[v, 2] - center[2]
+                for k in range(3):
+                    at = found[k, 0] * x + found[k, 1] * y + found[k, 2] * z
+                    low[k] = min(low[k], at)
+                    high[k] = max(high[k], at)
+        g0, g1, g2 = high[0] - low[0], high[1] - low[1], high[2] - low[2]
+        if g0 * g1 + g1 * g2 + g2 * g0 > _ASKEW * (h0 * h1 + h1 * h2 + h2 * h0):
+            return False
+        if step == 1:
+            break
+    axes[:] = found
+    return True
+
+
+@compiled
+def _covariance(
+    vertices: Floats,
+    v0: int,
+    faces: Faces,
+    f0: int,
+    keys: npt.NDArray[np.uint64],
+    n: int,
+    step: int,
+    center: Floats,
+    spread: Floats,
+) -> None:
+    """The covariance of sampled corners, scaled so that its trace is 1."""
+    sx = sy = sz = xx = xy = xz = yy = yz = zz = 0.0
+    count = 0
+    for i in range(0, n, step):
+        f = f0 + np.int64(keys[i])
+        for corner in range(3):
+            v = v0 + faces[f, corner]
+            x, y, z = vertices[v, 0] - center[0], vertices[v, 1] - center[1], vertices[v, 2] - center[2]
+            sx, sy, sz = sx + x, sy + y, sz + z
+            xx, xy, xz, yy, yz, zz = xx + x * x, xy + x * y, xz + x * z, yy + y * y, yz + y * z, zz + z * z
+            count += 1
+    xx, yy, zz = xx - sx * sx / count, yy - sy * sy / count, zz - sz * sz / count
+    xy, xz, yz = xy - sx * sy / count, xz - sx * sz / count, yz - sy * sz / count
+    trace = xx + yy + zz
+    if trace <= 0.0:
+        return
+    spread[0, 0], spread[1, 1], spread[2, 2] = xx / trace, yy / trace, zz / trace
+    spread[0, 1] = spread[1, 0] = xy / trace
+    spread[0, 2] = spread[2, 0] = xz / trace
+    spread[1, 2] = spread[2, 1] = yz / trace
+
+
+@compiled
+def _principal_axes(spread: Floats, axes: Floats) -> bool:
+    """The axis of greatest spread, and the two of most and least spread across it, as rows; False if there is none."""
+    power = spread.copy()
+    square = np.empty((3, 3))
+    for _ in range(5):  # the 32nd power leaves the greatest alone
+        trace = 0.0
+        for i in range(3):
+            for j in range(3):
+                square[i, j] = power[i, 0] * power[0, j] + power[i, 1] * power[1, j] + power[i, 2] * power[2, j]
+            trace += square[i, i]
+        if not trace > 0.0:
+            return False
+        for i in range(3):
+            for j in range(3):
+                power[i, j] = square[i, j] / trace
+    k = 0
+    for i in range(1, 3):
+        if power[i, i] > power[k, k]:
+            k = i
+    ux, uy, uz = power[0, k], power[1, k], power[2, k]
+    length = np.sqrt(ux * ux + uy * uy + uz * uz)
+    if not length > 0.0:
+        return False
+    ux, uy, uz = ux / length, uy / length, uz / length
+    # any direction across, then turned to the greatest spread
+    if abs(ux) <= abs(uy) and abs(ux) <= abs(uz):
+        vx, vy, vz = 0.0, -uz, uy
+    elif abs(uy) <= abs(uz):
+        vx, vy, vz = uz, 0.0, -ux
+    else:
+        vx, vy, vz = -uy, ux, 0.0
+    length = np.sqrt(vx * vx + vy * vy + vz * vz)
+    vx, vy, vz = vx / length, vy / length, vz / length
+    wx, wy, wz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+    v, w = (vx, vy, vz), (wx, wy, wz)
+    vv = vw = ww = 0.0
+    for i in range(3):
+        for j in range(3):
+            vv += v[i] * spread[i, j] * v[j]
+            vw += v[i] * spread[i, j] * w[j]
+            ww += w[i] * spread[i, j] * w[j]
+    angle = 0.5 * np.arctan2(2 * vw, vv - ww)
+    c, s = np.cos(angle), np.sin(angle)
+    axes[0, 0], axes[0, 1], axes[0, 2] = ux, uy, uz
+    for i in range(3):
+        axes[1, i] = c * v[i] + s * w[i]
+        axes[2, i] = c * w[i] - s * v[i]
+    return True
+
+
+@compiled
+def _sort_faces(
+    vertices: Floats,
+    v0: int,
+    faces: Faces,
+    f0: int,
+    keys: npt.NDArray[np.uint64],
+    spare: npt.NDArray[np.uint64],
+    n: int,
+    box: Floats,
+    center: Floats,
+    axes: Floats,
+    is_upright: bool,
+    sorted_faces: Faces,
+) -> None:
+    """Writes the faces along a Morton curve through their centroids."""
+    if n > LEAF:
+        half = 0.0
+        if is_upright:
+            for k in range(3):
+                half = max(half, box[1, k] - center[k])
+        else:
+            for k in range(3):
+                half += (box[1, k] - center[k]) ** 2
+            half = np.sqrt(half)
+        bits = 9 if n < 4096 else 10
+        cells = 1 << bits
+        scale = cells / (4.0 * half) if half > 0.0 else 0.0
+        x2, y2, z2 = 2.0 * center[0], 2.0 * center[1], 2.0 * center[2]
+        for i in range(n):
+            f = f0 + np.int64(keys[i])
+            a, b, c = v0 + faces[f, 0], v0 + faces[f, 1], v0 + faces[f, 2]
+            # the middle of the box: the same for the two halves of a rectangle, which so stay neighbours
+            x, p, q = vertices[a, 0], vertices[b, 0], vertices[c, 0]
+            x = min(x, p, q) + max(x, p, q) - x2
+            y, p, q = vertices[a, 1], vertices[b, 1], vertices[c, 1]
+            y = min(y, p, q) + max(y, p, q) - y2
+            z, p, q = vertices[a, 2], vertices[b, 2], vertices[c, 2]
+            z = min(z, p, q) + max(z, p, q) - z2
+            if not is_upright:
+                x, y, z = (
+                    axes[0, 0] * x + axes[0, 1] * y + axes[0, 2] * z,
+                    axes[1, 0] * x + axes[1, 1] * y + axes[1, 2] * z,
+                    axes[2, 0] * x + axes[2, 1] * y + axes[2, 2] * z,
+                )
+            i0 = min(max(int(x * scale + 0.5 * cells), 0), cells - 1)
+            i1 = min(max(int(y * scale + 0.5 * cells), 0), cells - 1)
+            i2 = min(max(int(z * scale + 0.5 * cells), 0), cells - 1)
+            code = spread_bits(i0) << 2 | spread_bits(i1) << 1 | spread_bits(i2)
+            keys[i] = np.uint64(code) << np.uint64(32) | keys[i]
+        if radix_sort(keys, spare, n, 32, 32 + 3 * bits, bits):
+            keys = spare
+    for i in range(n):
+        f = f0 + np.int64(keys[i] & np.uint64(0xFFFFFFFF))
+        for k in range(3):
+            sorted_faces[f0 + i, k] = faces[f, k]
+
+
+@compiled
+def _put_box(
+    nodes: Nodes, at: int, x0: float, x1: float, y0: float, y1: float, z0: float, z1: float
+) -> None:
+    """Stores a box as centre and half extents, rounded outwards."""
+    for k in range(3):
+        low = x0 if k == 0 else (y0 if k == 1 else z0)
+        high = x1 if k == 0 else (y1 if k == 1 else z1)
+        middle = np.float32(0.5 * (low + high))
+        nodes[at, k] = middle
+        # float32 rounds by up to 6e-8 of the value
+        half = max(high - middle, middle - low)
+        nodes[at, 3 + k] = np.float32(half * (1.0 + 2.5e-7) + 1e-37)
+
+
+@compiled
+def _fill_nodes(
+    vertices: Floats,
+    v0: int,
+    faces: Faces,
+    f0: int,
+    n: int,
+    center: Floats,
+    axes: Floats,
+    is_upright: bool,
+    nodes: Nodes,
+    base: int,
+) -> None:
+    """Boxes of the leaves from their faces, then of the rest from their children."""
+    n_leaves = (n + LEAF - 1) // LEAF
+    cx, cy, cz = center[0], center[1], center[2]
+    for leaf in range(n_leaves - 1, 2 * n_leaves - 1):
+        start = first_face(leaf, n_leaves)
+        x0 = y0 = z0 = np.inf
+        x1 = y1 = z1 = -np.inf
+        for f in range(f0 + start, f0 + min(start + LEAF, n)):
+            for corner in range(3):
+                v = v0 + faces[f, corner]
+                x, y, z = vertices[v, 0] - cx, vertices[v, 1] - cy, vertices[v, 2] - cz
+                if not is_upright:
+                    x, y, z = (
+                        axes[0, 0] * x + axes[0, 1] * y + axes[0, 2] * z,
+                        axes[1, 0] * x + axes[1, 1] * y + axes[1, 2] * z,
+                        axes[2, 0] * x + axes[2, 1] * y + axes[2, 2] * z,
+                    )
+                x0, y0, z0 = min(x0, x), min(y0, y), min(z0, z)
+                x1, y1, z1 = max(x1, x), max(y1, y), max(z1, z)
+        _put_box(nodes, base + leaf, x0, x1, y0, y1, z0, z1)
+    for node in range(n_leaves - 2, -1, -1):
+        a, b = base + 2 * node + 1, base + 2 * node + 2
+        _put_box(
+            nodes,
+            base + node,
+            min(np.float64(nodes[a, 0]) - nodes[a, 3], np.float64(nodes[b, 0]) - nodes[b, 3]),
+            max(np.float64(nodes[a, 0]) + nodes[a, 3], np.float64(nodes[b, 0]) + nodes[b, 3]),
+            min(np.float64(nodes[a, 1]) - nodes[a, 4], np.float64(nodes[b, 1]) - nodes[b, 4]),
+            max(np.float64(nodes[a, 1]) + nodes[a, 4], np.float64(nodes[b, 1]) + nodes[b, 4]),
+            min(np.float64(nodes[a, 2]) - nodes[a, 5], np.float64(nodes[b, 2]) - nodes[b, 5]),
+            max(np.float64(nodes[a, 2]) + nodes[a, 5], np.float64(nodes[b, 2]) + nodes[b, 5]),
+        )

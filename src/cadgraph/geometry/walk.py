@@ -1,0 +1,468 @@
+"""Two box trees walked together: the kernels behind exact contacts.
+
+A pair of meshes is walked from the two roots, nearer children first, with the least distance found so far as the
+limit. Coordinates of triangles are taken relative to the centre of the first mesh, so that they keep their digits
+wherever the scene lies.
+
+Boxes of long diagonal slivers are nearly empty, and trees of them let everything through. So a leaf that is larger
+than the node it meets is taken apart: each of its triangles walks the other tree on its own, by a separating-axis
+test of triangle against box (Akenine-Moeller 2001, with the limit as margin).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from cadgraph.geometry.parallel import compiled
+from cadgraph.geometry.tree import LEAF, first_face
+from cadgraph.geometry.triangle import ROW, distance2, lay_normal, prepare
+from cadgraph.scene import Faces, Floats, Ints
+
+__all__ = ["Placed", "closest", "relate_frames"]
+
+_OVERSIZED = 2.0  # a leaf this much larger than the node it meets is taken apart
+
+_COARSE = 0.3
+# So is any leaf this large compared to its whole tree, if the tree has at least _COARSE_LEAVES of them: the faces are
+# then long slivers that no box tells apart.
+
+_COARSE_LEAVES = 12
+
+_DEPTH = 160  # of the stacks: two trees of at most 2**40 leaves, one waiting node a level
+
+
+class Placed(NamedTuple):
+    """Box trees and where each mesh puts one of them.
+
+    Args:
+        tree: ``(n,)`` the tree of each mesh.
+        moved: whether meshes have a rotation and translation of their own.
+        rotations: ``(n, 3, 3)`` world from tree, where moved.
+        centers: ``(n, 3)`` the tree's centre in the world [m].
+        axes: ``(n, 3, 3)`` the tree's box axes in the world, as rows.
+        upright: ``(n,)`` whether these are the world's axes.
+        vertices: as in ``Forest``, like all below.
+        vertex_offsets: ditto.
+        faces: ditto.
+        face_offsets: ditto.
+        counts: ditto.
+        nodes: ditto.
+        node_offsets: ditto.
+        tree_centers: ``(n_trees, 3)`` ``Forest.centers``.
+    """
+
+    tree: Ints
+    moved: bool
+    rotations: Floats
+    centers: Floats
+    axes: Floats
+    upright: npt.NDArray[np.bool_]
+    vertices: Floats
+    vertex_offsets: Ints
+    faces: Faces
+    face_offsets: Ints
+    counts: Ints
+    nodes: npt.NDArray[np.float32]
+    node_offsets: Ints
+    tree_centers: Floats
+
+
+@compiled
+def relate_frames(meshes: Placed, a: int, b: int, frame: Floats) -> bool:
+    """Writes the pose of mesh ``b``'s boxes in the axes of ``a``'s; says whether both are upright.
+
+    Args:
+        meshes: all meshes.
+        a: mesh.
+        b: mesh.
+        frame: ``(7, 3)`` takes the rotation (3 rows), its absolute values (3 rows) and the shift.
+    """
+    for k in range(3):
+        frame[6, k] = 0.0
+        for m in range(3):
+            frame[6, k] += meshes.axes[a, k, m] * (meshes.centers[b, m] - meshes.centers[a, m])
+            dot = 0.0
+            for n in range(3):
+                dot += meshes.axes[a, k, n] * meshes.axes[b, m, n]
+            frame[k, m] = dot
+            frame[3 + k, m] = abs(dot)
+    return meshes.upright[a] and meshes.upright[b]
+
+
+@compiled
+def _gap2(nodes: npt.NDArray[np.float32], a: int, b: int, frame: Floats, upright: bool) -> float:
+    """A lower bound of the squared distance of two nodes; exact for upright boxes."""
+    if upright:
+        x = abs(frame[6, 0] + nodes[b, 0] - nodes[a, 0]) - nodes[a, 3] - nodes[b, 3]
+        y = abs(frame[6, 1] + nodes[b, 1] - nodes[a, 1]) - nodes[a, 4] - nodes[b, 4]
+        z = abs(frame[6, 2] + nodes[b, 2] - nodes[a, 2]) - nodes[a, 5] - nodes[b, 5]
+        x, y, z = max(x, 0.0), max(y, 0.0), max(z, 0.0)
+        return x * x + y * y + z * z
+    of_a, of_b = 0.0, 0.0
+    bx, by, bz = np.float64(nodes[b, 0]), np.float64(nodes[b, 1]), np.float64(nodes[b, 2])
+    dx = frame[6, 0] + frame[0, 0] * bx + frame[0, 1] * by + frame[0, 2] * bz - nodes[a, 0]
+    dy = frame[6, 1] + frame[1, 0] * bx + frame[1, 1] * by + frame[1, 2] * bz - nodes[a, 1]
+    dz = frame[6, 2] + frame[2, 0] * bx + frame[2, 1] * by + frame[2, 2] * bz - nodes[a, 2]
+    d = (dx, dy, dz)
+    for k in range(3):
+        reach = nodes[a, 3 + k] + (
+            frame[3 + k, 0] * nodes[b, 3] + frame[3 + k, 1] * nodes[b, 4] + frame[3 + k, 2] * nodes[b, 5]
+        )
+        gap = max(abs(d[k]) - reach, 0.0)
+        of_a += gap * gap
+        reach = nodes[b, 3 + k] + (
+            frame[3, k] * nodes[a, 3] + frame[4, k] * nodes[a, 4] + frame[5, k] * nodes[a, 5]
+        )
+        gap = max(abs(frame[0, k] * dx + frame[1, k] * dy + frame[2, k] * dz) - reach, 0.0)
+        of_b += gap * gap
+    if of_a > 0.0 or of_b > 0.0:
+        return max(of_a, of_b)
+    # a side of each: what tells two long bars apart that pass each other
+    of_sides = 0.0
+    for i in range(3):
+        i1, i2 = (i + 1) % 3, (i + 2) % 3
+        for j in range(3):
+            sine2 = 1.0 - frame[i, j] * frame[i, j]
+            if sine2 < 1e-6:
+                continue
+            j1, j2 = (j + 1) % 3, (j + 2) % 3
+            gap = abs(d[i2] * frame[i1, j] - d[i1] * frame[i2, j]) - (
+                nodes[a, 3 + i1] * frame[3 + i2, j]
+                + nodes[a, 3 + i2] * frame[3 + i1, j]
+                + nodes[b, 3 + j1] * frame[3 + i, j2]
+                + nodes[b, 3 + j2] * frame[3 + i, j1]
+            )
+            if gap > 0.0:
+                of_sides = max(of_sides, gap * gap / sine2)
+    return of_sides
+
+
+@compiled
+def _load(meshes: Placed, mesh: int, node: int, origin: Floats, rows: Floats) -> int:
+    """Prepares the triangles of a leaf relative to an origin; returns how many there are."""
+    tree = meshes.tree[mesh]
+    n = meshes.counts[tree]
+    start = first_face(node, (n + LEAF - 1) // LEAF)
+    count = min(LEAF, n - start)
+    f0, v0 = meshes.face_offsets[tree] + start, meshes.vertex_offsets[tree]
+    for i in range(count):
+        for corner in range(3):
+            v = v0 + meshes.faces[f0 + i, corner]
+            if meshes.moved:
+                x = meshes.vertices[v, 0] - meshes.tree_centers[tree, 0]
+                y = meshes.vertices[v, 1] - meshes.tree_centers[tree, 1]
+                z = meshes.vertices[v, 2] - meshes.tree_centers[tree, 2]
+                for k in range(3):
+                    rows[i, 3 * corner + k] = (
+                        meshes.rotations[mesh, k, 0] * x
+                        + meshes.rotations[mesh, k, 1] * y
+                        + meshes.rotations[mesh, k, 2] * z
+                        + (meshes.centers[mesh, k] - origin[k])
+                    )
+            else:
+                for k in range(3):
+                    rows[i, 3 * corner + k] = meshes.vertices[v, k] - origin[k]
+        prepare(rows, i)
+    return count
+
+
+@compiled
+def _rows_gap2(p: Floats, i: int, q: Floats, j: int) -> float:
+    """Squared distance of the boxes of two rows."""
+    x = max(p[i, 13] - q[j, 16], q[j, 13] - p[i, 16], 0.0)
+    y = max(p[i, 14] - q[j, 17], q[j, 14] - p[i, 17], 0.0)
+    z = max(p[i, 15] - q[j, 18], q[j, 15] - p[i, 18], 0.0)
+    return x * x + y * y + z * z
+
+
+@compiled
+def _apart(p: Floats, n_p: int, q: Floats, n_q: int, best: float) -> bool:
+    """Whether the normal of the first triangle of ``p`` shows two leaves to be ``best`` (squared) or more apart."""
+    n2 = lay_normal(p, 0)
+    x, y, z = p[0, 9], p[0, 10], p[0, 11]
+    p_low = q_low = np.inf
+    p_high = q_high = -np.inf
+    for i in range(n_p):
+        for k in range(0, 9, 3):
+            at = x * p[i, k] + y * p[i, k + 1] + z * p[i, k + 2]
+            p_low, p_high = min(p_low, at), max(p_high, at)
+    for i in range(n_q):
+        for k in range(0, 9, 3):
+            at = x * q[i, k] + y * q[i, k + 1] + z * q[i, k + 2]
+            q_low, q_high = min(q_low, at), max(q_high, at)
+    gap = max(q_low - p_high, p_low - q_high)
+    return gap > 0.0 and gap * gap >= best * n2 and n2 > 0.0
+
+
+@compiled
+def _leaves(p: Floats, n_p: int, q: Floats, n_q: int, best: float, stop: float, found: Floats, spare: Floats) -> float:
+    """The least squared distance below ``best`` between the triangles of two leaves."""
+    if _apart(p, n_p, q, n_q, best) or _apart(q, n_q, p, n_p, best):
+        return best
+    for i in range(n_p):
+        for j in range(n_q):
+            if _rows_gap2(p, i, q, j) >= best:
+                continue
+            d2 = distance2(p, i, q, j, best, spare)
+            if d2 < best:
+                best = d2
+                for k in range(6):
+                    found[k] = spare[k]
+                if best <= stop:
+                    return best
+    return best
+
+
+@compiled
+def _lay_axes(p: Floats, i: int, meshes: Placed, mesh: int, origin: Floats, axes: Floats) -> None:
+    """For a triangle in the box axes of a mesh: the axes that can separate it from a box, with its extent on each.
+
+    Args:
+        p: rows.
+        i: row.
+        meshes: all meshes.
+        mesh: whose boxes.
+        origin: what the rows are relative to.
+        axes: ``(11, 6)`` takes direction (3), least and greatest position (2), length (1) of the normal and of the
+            nine products of a side and a box axis; the last row the triangle's own box.
+    """
+    ax, ay, az = _turned(p, i, 0, meshes, mesh, origin)
+    bx, by, bz = _turned(p, i, 3, meshes, mesh, origin)
+    cx, cy, cz = _turned(p, i, 6, meshes, mesh, origin)
+    lay_normal(p, i)
+    x, y, z = p[i, 9], p[i, 10], p[i, 11]
+    for k in range(3):
+        axes[0, k] = meshes.axes[mesh, k, 0] * x + meshes.axes[mesh, k, 1] * y + meshes.axes[mesh, k, 2] * z
+    n = 1
+    for side in range(3):
+        if side == 0:
+            x, y, z = bx - ax, by - ay, bz - az
+        elif side == 1:
+            x, y, z = cx - bx, cy - by, cz - bz
+        else:
+            x, y, z = ax - cx, ay - cy, az - cz
+        axes[n, 0], axes[n, 1], axes[n, 2] = 0.0, z, -y
+        axes[n + 1, 0], axes[n + 1, 1], axes[n + 1, 2] = -z, 0.0, x
+        axes[n + 2, 0], axes[n + 2, 1], axes[n + 2, 2] = y, -x, 0.0
+        n += 3
+    for n in range(10):
+        x, y, z = axes[n, 0], axes[n, 1], axes[n, 2]
+        a = x * ax + y * ay + z * az
+        b = x * bx + y * by + z * bz
+        c = x * cx + y * cy + z * cz
+        axes[n, 3], axes[n, 4] = min(a, b, c), max(a, b, c)
+        axes[n, 5] = np.sqrt(x * x + y * y + z * z)
+    axes[10, 0], axes[10, 1], axes[10, 2] = min(ax, bx, cx), min(ay, by, cy), min(az, bz, cz)
+    axes[10, 3], axes[10, 4], axes[10, 5] = max(ax, bx, cx), max(ay, by, cy), max(az, bz, cz)
+
+
+@compiled
+def _turned(
+    p: Floats, i: int, corner: int, meshes: Placed, mesh: int, origin: Floats
+) -> tuple[float, float, float]:
+    """A corner of a row in the box axes of a mesh."""
+    x = p[i, corner] - (meshes.centers[mesh, 0] - origin[0])
+    y = p[i, corner + 1] - (meshes.centers[mesh, 1] - origin[1])
+    z = p[i, corner + 2] - (meshes.centers[mesh, 2] - origin[2])
+    if meshes.upright[mesh]:
+        return x, y, z
+    axes = meshes.axes
+    return (
+        axes[mesh, 0, 0] * x + axes[mesh, 0, 1] * y + axes[mesh, 0, 2] * z,
+        axes[mesh, 1, 0] * x + axes[mesh, 1, 1] * y + axes[mesh, 1, 2] * z,
+        axes[mesh, 2, 0] * x + axes[mesh, 2, 1] * y + axes[mesh, 2, 2] * z,
+    )
+
+
+@compiled
+def _separated(axes: Floats, nodes: npt.NDArray[np.float32], node: int, limit: float) -> bool:
+    """Whether an axis shows that a triangle is further than ``limit`` from a box."""
+    cx, cy, cz = np.float64(nodes[node, 0]), np.float64(nodes[node, 1]), np.float64(nodes[node, 2])
+    hx, hy, hz = np.float64(nodes[node, 3]), np.float64(nodes[node, 4]), np.float64(nodes[node, 5])
+    x = max(axes[10, 0] - cx - hx, cx - hx - axes[10, 3], 0.0)
+    y = max(axes[10, 1] - cy - hy, cy - hy - axes[10, 4], 0.0)
+    z = max(axes[10, 2] - cz - hz, cz - hz - axes[10, 5], 0.0)
+    if x * x + y * y + z * z > limit * limit:
+        return True
+    for n in range(10):
+        x, y, z = axes[n, 0], axes[n, 1], axes[n, 2]
+        at = x * cx + y * cy + z * cz
+        reach = abs(x) * hx + abs(y) * hy + abs(z) * hz + limit * axes[n, 5]
+        # rounding of the projections, far above what it can be
+        reach += 1e-12 * (abs(at) + abs(axes[n, 3]) + abs(axes[n, 4]))
+        if axes[n, 3] - at > reach or at - axes[n, 4] > reach:
+            return True
+    return False
+
+
+@compiled
+def _descend(
+    meshes: Placed,
+    p: Floats,
+    i: int,
+    mesh: int,
+    root: int,
+    origin: Floats,
+    swapped: bool,
+    best: float,
+    stop: float,
+    found: Floats,
+    work: Floats,
+    rows: Floats,
+    stack: Ints,
+) -> float:
+    """The least squared distance below ``best`` between one triangle and the part of a tree below ``root``.
+
+    Where ``swapped``, the tree is that of the first mesh.
+    """
+    tree = meshes.tree[mesh]
+    base, n_leaves = meshes.node_offsets[tree], (meshes.counts[tree] + LEAF - 1) // LEAF
+    axes, spare = work[:11], work[11]
+    _lay_axes(p, i, meshes, mesh, origin, axes)
+    limit = np.sqrt(best)
+    stack[0] = root
+    top = 1
+    while top > 0:
+        top -= 1
+        node = stack[top]
+        if _separated(axes, meshes.nodes, base + node, limit):
+            continue
+        if node < n_leaves - 1:
+            stack[top], stack[top + 1] = 2 * node + 2, 2 * node + 1
+            top += 2
+            continue
+        count = _load(meshes, mesh, node, origin, rows)
+        for j in range(count):
+            if _rows_gap2(p, i, rows, j) >= best:
+                continue
+            d2 = distance2(rows, j, p, i, best, spare) if swapped else distance2(p, i, rows, j, best, spare)
+            if d2 < best:
+                best = d2
+                limit = np.sqrt(best)
+                for k in range(6):
+                    found[k] = spare[k]
+                if best <= stop:
+                    return best
+    return best
+
+
+@compiled
+def _extent(nodes: npt.NDArray[np.float32], node: int) -> float:
+    return max(nodes[node, 3], nodes[node, 4], nodes[node, 5])
+
+
+@compiled
+def _walk(
+    meshes: Placed,
+    a: int,
+    b: int,
+    best: float,
+    stop: float,
+    found: Floats,
+    frame: Floats,
+    work: Floats,
+    rows: Floats,
+    stack: Ints,
+    bounds: Floats,
+) -> float:
+    """The least squared distance below ``best`` of two meshes; ends early at or below ``stop``."""
+    tree_a, tree_b = meshes.tree[a], meshes.tree[b]
+    base_a, leaves_a = meshes.node_offsets[tree_a], (meshes.counts[tree_a] + LEAF - 1) // LEAF
+    base_b, leaves_b = meshes.node_offsets[tree_b], (meshes.counts[tree_b] + LEAF - 1) // LEAF
+    nodes, origin = meshes.nodes, meshes.centers[a]
+    upright = relate_frames(meshes, a, b, frame)
+    p, q, single = rows[:LEAF], rows[LEAF : 2 * LEAF], rows[2 * LEAF :]
+    spare = work[11]
+    own = stack[2 * _DEPTH :]
+    coarse_a = _COARSE * _extent(nodes, base_a) if leaves_a >= _COARSE_LEAVES else np.inf
+    coarse_b = _COARSE * _extent(nodes, base_b) if leaves_b >= _COARSE_LEAVES else np.inf
+    loaded_a = loaded_b = -1
+    count_a = count_b = 0
+    stack[0], stack[1], bounds[0] = 0, 0, _gap2(nodes, base_a, base_b, frame, upright)
+    top = 1
+    while top > 0:
+        top -= 1
+        if bounds[top] >= best:
+            continue
+        at_a, at_b = stack[2 * top], stack[2 * top + 1]
+        leaf_a, leaf_b = at_a >= leaves_a - 1, at_b >= leaves_b - 1
+        size_a, size_b = _extent(nodes, base_a + at_a), _extent(nodes, base_b + at_b)
+        split_a = leaf_a and size_a > min(_OVERSIZED * size_b, coarse_a)
+        split_b = leaf_b and not split_a and size_b > min(_OVERSIZED * size_a, coarse_b)
+        if leaf_a and (leaf_b or split_a) and loaded_a != at_a:
+            count_a = _load(meshes, a, at_a, origin, p)
+            loaded_a = at_a
+        if leaf_b and (leaf_a or split_b) and loaded_b != at_b:
+            count_b = _load(meshes, b, at_b, origin, q)
+            loaded_b = at_b
+        if split_a:
+            for i in range(count_a):
+                best = _descend(meshes, p, i, b, at_b, origin, False, best, stop, found, work, single, own)
+                if best <= stop:
+                    return best
+        elif split_b:
+            for i in range(count_b):
+                best = _descend(meshes, q, i, a, at_a, origin, True, best, stop, found, work, single, own)
+                if best <= stop:
+                    return best
+        elif leaf_a and leaf_b:
+            best = _leaves(p, count_a, q, count_b, best, stop, found, spare)
+            if best <= stop:
+                return best
+        else:
+            if leaf_b or (not leaf_a and size_a >= size_b):
+                a0, a1, b0, b1 = 2 * at_a + 1, 2 * at_a + 2, at_b, at_b
+            else:
+                a0, a1, b0, b1 = at_a, at_a, 2 * at_b + 1, 2 * at_b + 2
+            gap0 = _gap2(nodes, base_a + a0, base_b + b0, frame, upright)
+            gap1 = _gap2(nodes, base_a + a1, base_b + b1, frame, upright)
+            if gap1 < gap0:
+                a0, a1, b0, b1, gap0, gap1 = a1, a0, b1, b0, gap1, gap0
+            if gap1 < best:
+                stack[2 * top], stack[2 * top + 1], bounds[top] = a1, b1, gap1
+                top += 1
+            if gap0 < best:
+                stack[2 * top], stack[2 * top + 1], bounds[top] = a0, b0, gap0
+                top += 1
+    return best
+
+
+@compiled
+def closest(
+    meshes: Placed, pairs: Ints, first: int, last: int, limit: float, stop: float
+) -> tuple[Ints, Floats, Floats]:
+    """The closest points of pairs of meshes.
+
+    Args:
+        meshes: all meshes.
+        pairs: ``(n, 2)``.
+        first: row of ``pairs`` to begin with.
+        last: row to end before.
+        limit: greatest distance [m].
+        stop: a distance at which a pair needs no closer look [m].
+
+    Returns:
+        For each pair within the limit its row, distance [m] and closest points ``(2, 3)`` [m].
+    """
+    n = last - first
+    row, distance, points = np.empty(n, np.int64), np.empty(n), np.empty((n, 2, 3))
+    found, frame, work = np.empty(6), np.empty((7, 3)), np.empty((12, 6))
+    rows, stack, bounds = np.empty((3 * LEAF, ROW)), np.empty(3 * _DEPTH, np.int64), np.empty(_DEPTH)
+    # the walk looks for less than this, and the limit itself counts
+    limit2 = limit * limit * (1.0 + 1e-15) + 1e-300
+    n_found = 0
+    for i in range(first, last):
+        a, b = pairs[i, 0], pairs[i, 1]
+        if meshes.counts[meshes.tree[a]] == 0 or meshes.counts[meshes.tree[b]] == 0:
+            continue
+        best = _walk(meshes, a, b, limit2, stop * stop, found, frame, work, rows, stack, bounds)
+        if best < limit2:
+            row[n_found] = i
+            distance[n_found] = np.sqrt(best)
+            for k in range(6):
+                points[n_found, k // 3, k % 3] = found[k] + meshes.centers[a, k % 3]
+            n_found += 1
+    return row[:n_found].copy(), distance[:n_found].copy(), points[:n_found].copy()

@@ -1,0 +1,127 @@
+"""Files to scenes: one module for each format, found through the table in ``_FORMATS``.
+
+A new format is one module with ``read(path, config) -> Scene`` and one line in that table.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import importlib
+import importlib.util
+import os
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from cadgraph.errors import LoadError, MissingExtra
+from cadgraph.load.signature import find_damage, name_content
+
+if TYPE_CHECKING:
+    from cadgraph.config import LoadConfig
+    from cadgraph.scene import Scene
+
+__all__ = ["Format", "formats", "load"]
+
+
+@dataclass(frozen=True)
+class Format:
+    """A format that can be read.
+
+    Args:
+        name: short name, as recorded in ``Source.format``.
+        title: what people call it.
+        suffixes: of its files, lower case with the dot.
+        module: holds ``read(path, config) -> Scene``.
+        library: the third-party package that it needs.
+        extra: the optional dependency of cadgraph that brings this package; none: always installed.
+    """
+
+    name: str
+    title: str
+    suffixes: tuple[str, ...]
+    module: str
+    library: str
+    extra: str | None = None
+
+
+_FORMATS = (
+    Format("usd", "OpenUSD", (".usd", ".usda", ".usdc", ".usdz"), "cadgraph.load.usd", "pxr"),
+    Format("step", "STEP", (".step", ".stp"), "cadgraph.load.step", "cascadio", "cad"),
+    Format("iges", "IGES", (".iges", ".igs"), "cadgraph.load.step", "cascadio", "cad"),
+)
+
+
+def formats() -> tuple[Format, ...]:
+    """All formats that can be read."""
+    return _FORMATS
+
+
+def load(path: str | os.PathLike[str], config: LoadConfig | None = None) -> Scene:
+    """Reads a CAD file.
+
+    Args:
+        path: of the file; its suffix says which format it has.
+        config: how to read it; the defaults if not given.
+
+    Returns:
+        All its meshes in metres, Z up, right-handed, sorted by path (``mesh_2`` before ``mesh_10``), at least one.
+
+    Raises:
+        LoadError: the file is missing, damaged, of no known format, or holds no mesh; the text is one line.
+        MissingExtra: the format needs a package that isn't installed.
+    """
+    from cadgraph.config import LoadConfig
+
+    config = config or LoadConfig()
+    file = Path(path)
+    given = os.fspath(path)
+    _check_file(file, given)
+    form = _format_of(file, given)
+    if importlib.util.find_spec(form.library) is None:
+        if form.extra is None:
+            raise LoadError(f"{given}: reading {form.title} needs the package that brings {form.library!r}; reinstall")
+        raise MissingExtra(f"reading {form.title} files", form.extra)
+    damage = find_damage(file, form.name)
+    if damage:
+        raise LoadError(f"{given}: {damage}")
+    with file.open("rb") as opened:
+        digest = hashlib.file_digest(opened, "sha256").hexdigest()
+    if config.isolate:
+        from cadgraph.load.isolation import read_isolated
+
+        scene = read_isolated(form.module, file, given, config)
+    else:
+        scene = importlib.import_module(form.module).read(file, config)
+    return replace(scene, source=replace(scene.source, path=given, sha256=digest, format=form.name))
+
+
+def _check_file(file: Path, given: str) -> None:
+    try:
+        if file.is_dir():
+            raise LoadError(f"{given}: a folder; give one of the files in it ({_known_suffixes()})")
+        size = file.stat().st_size
+        with file.open("rb"):
+            pass
+    except FileNotFoundError:
+        raise LoadError(f"{given}: no such file; check the path") from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise LoadError(f"{given}: can't be opened ({reason})") from None
+    if size == 0:
+        raise LoadError(f"{given}: the file is empty; export it again")
+
+
+def _format_of(file: Path, given: str) -> Format:
+    suffix = file.suffix.lower()
+    for form in _FORMATS:
+        if suffix in form.suffixes:
+            return form
+    content = name_content(file)
+    for form in _FORMATS:
+        if form.name == content:
+            raise LoadError(f"{given}: looks like {form.title}; rename it to end in {form.suffixes[0]}")
+    raise LoadError(f"{given}: can't read files ending in {suffix or 'nothing'!r}; known are {_known_suffixes()}")
+
+
+def _known_suffixes() -> str:
+    return ", ".join(suffix for form in _FORMATS for suffix in form.suffixes)

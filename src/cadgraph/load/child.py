@@ -1,0 +1,48 @@
+"""The reading process: ``python -m cadgraph.load.child FOLDER`` reads what ``FOLDER/request.json`` asks for.
+
+It leaves the scene in the folder, or ``error.json`` with one line. Only ``isolation.py`` starts it.
+"""
+
+from __future__ import annotations
+
+import importlib
+import json
+import sys
+from contextlib import suppress
+from pathlib import Path
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, cast
+
+from cadgraph.errors import LoadError
+from cadgraph.load.exchange import write_scene
+
+if TYPE_CHECKING:
+    from cadgraph.config import LoadConfig
+
+__all__ = ["main"]
+
+
+def main(folder: Path) -> None:
+    """Serves the request in a folder."""
+    _leave_no_core()
+    request = json.loads((folder / "request.json").read_text(encoding="utf-8"))
+    # The caller has checked these settings; importing pydantic only to check them again would cost a fifth of a start.
+    config = cast("LoadConfig", SimpleNamespace(**request["config"]))
+    try:
+        scene = importlib.import_module(request["module"]).read(Path(request["path"]), config)
+    except LoadError as error:
+        (folder / "error.json").write_text(json.dumps(str(error)), encoding="utf-8")
+        return
+    write_scene(scene, folder)
+
+
+def _leave_no_core() -> None:
+    # A crash on a damaged file is expected here and must not leave gigabytes in the user's folder.
+    with suppress(ImportError, OSError, ValueError):
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

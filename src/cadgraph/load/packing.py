@@ -1,0 +1,183 @@
+"""Placed pieces of geometry to a scene, and notes about them to diagnostics."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+
+from cadgraph.scene import Diagnostic, Faces, Floats, Scene, Source
+
+__all__ = ["Notes", "Piece", "natural_key", "pack", "unique_name"]
+
+_FAR = 10_000.0  # [m] beyond this a scene gets an origin of its own; ours: float32 renders still resolve 1 mm
+_ORIGIN_STEP = 100.0  # [m] origins are whole multiples, so that they are exact and stable under small edits
+_EXAMPLES = 20  # so many paths stand for the rest in a note on meshes that were loaded
+
+
+@dataclass(frozen=True)
+class Piece:
+    """One mesh, not yet placed.
+
+    Args:
+        path: in the source.
+        points: ``(n, 3)`` in the units of the source.
+        faces: ``(m, 3)`` int32 triangles, counter-clockwise seen from outside; all corners finite and in range.
+        matrix: ``(4, 4)`` for row vectors: ``[x y z 1] @ matrix`` is in world coordinates of the source.
+        color: ``(3,)`` linear RGB, or None.
+        anchor: path that carries opinions on it; none: ``path``.
+    """
+
+    path: str
+    points: npt.NDArray[np.floating]
+    faces: Faces
+    matrix: Floats
+    color: npt.NDArray[np.floating] | None = None
+    anchor: str | None = None
+
+
+@dataclass
+class Notes:
+    """Diagnostics in the making: the same thing said of many meshes becomes one."""
+
+    _paths: dict[tuple[str, str], list[str]] = field(default_factory=dict)
+
+    def add(self, code: str, message: str, path: str | None = None) -> None:
+        """Notes one thing, maybe about one mesh."""
+        paths = self._paths.setdefault((code, message), [])
+        if path is not None:
+            paths.append(path)
+
+    def count(self, code: str) -> int:
+        """How many paths are noted under a code."""
+        return sum(max(1, len(paths)) for (known, _), paths in self._paths.items() if known == code)
+
+    def paths(self, code: str) -> set[str]:
+        """All paths noted under a code."""
+        return {path for (known, _), paths in self._paths.items() if known == code for path in paths}
+
+    def messages(self, code: str) -> list[str]:
+        """All messages under a code, in order."""
+        return sorted(message for known, message in self._paths if known == code)
+
+    def diagnostics(self, abridged: Iterable[str] = ()) -> tuple[Diagnostic, ...]:
+        """All notes, sorted; of those with an ``abridged`` code only the first twenty paths."""
+        short = set(abridged)
+        notes = []
+        for (code, message), paths in sorted(self._paths.items()):
+            ordered = sorted(set(paths), key=natural_key)
+            if code in short and len(ordered) > _EXAMPLES:
+                message, ordered = f"{message} ({len(ordered)} in all)", ordered[:_EXAMPLES]
+            notes.append(Diagnostic(code, message, tuple(ordered)))
+        return tuple(notes)
+
+
+def natural_key(path: str) -> tuple[tuple[str | int, ...], str]:
+    """A key that sorts ``mesh_2`` before ``mesh_10``; parents come before their children."""
+    steps = re.split(r"(\d+)", path.replace("/", "\x00"))
+    return tuple(int(step) if i % 2 else step for i, step in enumerate(steps)), path
+
+
+def unique_name(name: str, taken: set[str]) -> str:
+    """The name, or the first of ``name_1``, ``name_2``... that isn't taken; it is taken afterwards."""
+    candidate, i = name, 0
+    while candidate in taken:
+        i += 1
+        candidate = f"{name}_{i}"
+    taken.add(candidate)
+    return candidate
+
+
+def pack(
+    pieces: Sequence[Piece], source: Source, world_from_source: Floats, notes: Notes, abridged: Iterable[str] = ()
+) -> Scene:
+    """Places all pieces, in metres and Z up, and joins them into one scene.
+
+    Mirrored pieces get their triangles turned, so that these still face outward. A piece without area is left out
+    (``degenerate-mesh``), and so is one with a placement that isn't finite (``invalid-transform``).
+
+    Args:
+        pieces: in any order.
+        source: for the scene.
+        world_from_source: ``(4, 4)`` for row vectors, from the source's world to metres and Z up.
+        notes: gets what was left out.
+        abridged: codes of notes whose paths are cut short.
+
+    Returns:
+        The scene, sorted by path.
+    """
+    ordered = sorted(pieces, key=lambda piece: natural_key(piece.path))
+    matrices = [piece.matrix @ world_from_source for piece in ordered]
+    origin = _origin(ordered, matrices)
+    vertices, faces, colors = [], [], []
+    paths, anchors = [], []
+    taken: set[str] = set()
+    for piece, matrix in zip(ordered, matrices, strict=True):
+        placed = _placed(piece, matrix, origin)
+        if isinstance(placed, str):
+            notes.add(placed, _LEFT_OUT[placed], piece.path)
+            continue
+        vertices.append(placed)
+        mirrored = np.linalg.det(matrix[:3, :3]) < 0
+        faces.append(piece.faces[:, ::-1] if mirrored else piece.faces)
+        colors.append(np.full(3, np.nan) if piece.color is None else np.clip(piece.color, 0, 1))
+        path = unique_name(piece.path, taken)
+        paths.append(path)
+        anchors.append(piece.anchor or path)
+    return Scene(
+        vertices=np.concatenate(vertices) if vertices else np.zeros((0, 3)),
+        faces=np.concatenate(faces).astype(np.int32, copy=False) if faces else np.zeros((0, 3), np.int32),
+        vertex_offsets=np.cumsum([0, *map(len, vertices)], dtype=np.int64),
+        face_offsets=np.cumsum([0, *map(len, faces)], dtype=np.int64),
+        paths=tuple(paths),
+        colors=np.array(colors, np.float32).reshape(len(paths), 3),
+        source=source,
+        origin=origin,
+        anchors=tuple(anchors) if anchors != paths else (),
+        diagnostics=notes.diagnostics(abridged),
+    )
+
+
+_LEFT_OUT = {
+    "degenerate-mesh": "left out: all its faces have zero area",
+    "invalid-transform": "left out: its placement is not finite",
+}
+
+
+def _placed(piece: Piece, matrix: Floats, origin: Floats) -> Floats | str:
+    with np.errstate(over="ignore", invalid="ignore"):
+        placed: Floats = piece.points.astype(np.float64, copy=False) @ matrix[:3, :3] + (matrix[3, :3] - origin)
+        # A sum is finite only where every term is: one pass instead of a mask.
+        if not (np.isfinite(matrix).all() and np.isfinite(placed.sum())):
+            return "invalid-transform"
+        # The first face nearly always settles it, without a look at all the others.
+        if _has_area(placed, piece.faces[:1]) or _has_area(placed, piece.faces):
+            return placed
+    return "degenerate-mesh"
+
+
+def _has_area(points: Floats, faces: Faces) -> bool:
+    a, b, c = points[faces[:, 0]], points[faces[:, 1]], points[faces[:, 2]]
+    (ux, uy, uz), (vx, vy, vz) = (b - a).T, (c - a).T
+    return bool(((uy * vz != uz * vy) | (uz * vx != ux * vz) | (ux * vy != uy * vx)).any())
+
+
+def _origin(pieces: Sequence[Piece], matrices: Sequence[Floats]) -> Floats:
+    """A whole multiple of 100 m amid the pieces where these lie far out, else zero."""
+    if not pieces:
+        return np.zeros(3)
+    with np.errstate(over="ignore", invalid="ignore"):
+        first = np.array(
+            [p.points[p.faces[0, 0]] @ m[:3, :3] + m[3, :3] for p, m in zip(pieces, matrices, strict=True)]
+        )
+    first = first[np.isfinite(first).all(axis=1)]
+    if not len(first):
+        return np.zeros(3)
+    # The median: one stray mesh must not drag the origin away from all others.
+    middle = np.median(first, axis=0)
+    if np.linalg.norm(middle) <= _FAR:
+        return np.zeros(3)
+    return np.round(middle / _ORIGIN_STEP) * _ORIGIN_STEP + 0.0

@@ -1,0 +1,314 @@
+"""OpenUSD to a scene.
+
+What this reader notes in ``Scene.diagnostics``; meshes with a code of the first row are not in the scene:
+
+- left out: ``hidden``, ``other-purpose``, ``unsupported-geometry``, ``empty-mesh`` (no points or no usable face),
+  ``degenerate-mesh`` (no area), ``invalid-transform``, ``unreadable``;
+- not found: ``missing-reference``, ``missing-payload``, ``missing-layer``, ``missing-prototype``;
+- repaired: ``invalid-units``, ``invalid-up-axis``, ``invalid-points``, ``invalid-indices``, ``invalid-face-counts``,
+  ``invalid-instancer``, ``twisted-faces``, ``overlapping-subsets``;
+- assumed: ``missing-units``, ``missing-up-axis``, ``control-cage``;
+- anything else that the USD library says: ``usd-warning``.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+from pxr import Tf, Usd, UsdGeom, UsdUtils
+
+from cadgraph.errors import LoadError
+from cadgraph.load.packing import Notes, Piece, pack
+from cadgraph.load.usd_color import Materials, mean_display_color
+from cadgraph.load.usd_mesh import CutMesh, RawMesh, cut_meshes
+from cadgraph.load.usd_walk import Placement, Walk
+from cadgraph.scene import Floats, Ints, Scene, Source
+
+if TYPE_CHECKING:
+    from cadgraph.config import LoadConfig
+
+__all__ = ["read"]
+
+Color = npt.NDArray[np.float64]
+
+# Cyclic swaps, for row vectors: what pointed along the up axis points along Z, and no handedness changes.
+_Z_UP_FROM = {
+    "X": np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]], float),
+    "Y": np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]], float),
+    "Z": np.eye(3),
+}
+# Of notes on meshes that were loaded all the same, some examples are enough.
+_ABRIDGED = (
+    "control-cage",
+    "invalid-points",
+    "invalid-indices",
+    "invalid-face-counts",
+    "twisted-faces",
+    "missing-payload",
+    "missing-reference",
+)
+_MAX_WARNINGS = 20  # different messages of the USD library that are kept
+
+
+def read(path: Path, config: LoadConfig) -> Scene:
+    """Reads a USD file with all that it refers to.
+
+    Args:
+        path: of the root layer or package.
+        config: how to read it.
+
+    Returns:
+        The scene; ``source`` has no path and no hash yet.
+
+    Raises:
+        LoadError: the USD library can't open it, or it holds no mesh to load.
+    """
+    notes = Notes()
+    # While a delegate listens, the library prints nothing.
+    delegate = UsdUtils.CoalescingDiagnosticDelegate()
+    try:
+        try:
+            stage = Usd.Stage.Open(str(path), Usd.Stage.LoadAll)
+        except Tf.ErrorException as error:
+            raise LoadError(f"{path}: not readable as USD ({_reason(error, path)})") from None
+        scene = _scene(stage, config, notes, lambda: _take_warnings(delegate, path, notes))
+    finally:
+        delegate.TakeUncoalescedDiagnostics()
+    if not scene.n_meshes:
+        raise LoadError(f"{path}: opens, but holds no mesh to load{_what_was_found(notes)}")
+    return scene
+
+
+def _scene(stage: Any, config: LoadConfig, notes: Notes, take_warnings: Any) -> Scene:
+    source, world_from_source = _units(stage, notes)
+    walk = Walk(stage, config.purposes, config.invisible, config.time, config.sides, notes)
+    placements = []
+    for placement in walk.placements():
+        if placement.skipped:
+            notes.add(*placement.skipped, placement.path)
+        else:
+            placements.append(placement)
+    keys = list(walk.geometries)
+    meshes = dict(
+        zip(keys, zip(walk.geometries.values(), cut_meshes(list(walk.geometries.values())), strict=True), strict=True)
+    )
+    for key in keys:
+        _note_overlaps(key, meshes[key][0], notes)
+    materials = Materials(stage) if walk.has_bindings else None
+    pieces = list(_pieces(placements, meshes, materials, config.split_subsets, notes))
+    take_warnings()
+    return pack(pieces, source, world_from_source, notes, _ABRIDGED)
+
+
+def _units(stage: Any, notes: Notes) -> tuple[Source, Floats]:
+    """The source as far as it is known here, and the matrix to metres and Z up."""
+    meters = UsdGeom.GetStageMetersPerUnit(stage)
+    if not UsdGeom.StageHasAuthoredMetersPerUnit(stage):
+        notes.add("missing-units", "the file names no metersPerUnit; USD then means centimetres (0.01)")
+    elif not (np.isfinite(meters) and meters > 0):
+        notes.add("invalid-units", f"metersPerUnit = {meters:g} is impossible; taken as centimetres (0.01)")
+        meters = 0.01
+    axis = str(UsdGeom.GetStageUpAxis(stage))
+    if axis not in _Z_UP_FROM:
+        notes.add("invalid-up-axis", f"upAxis = {axis!r} is impossible; taken as USD's default 'Y'")
+        axis = "Y"
+    elif not stage.HasAuthoredMetadata("upAxis"):
+        notes.add("missing-up-axis", f"the file names no upAxis; taken as USD's default {axis!r}")
+    matrix = np.eye(4)
+    matrix[:3, :3] = _Z_UP_FROM[axis] * meters
+    return Source(meters_per_unit=float(meters), up_axis=axis, format="usd"), matrix
+
+
+def _pieces(
+    placements: Sequence[Placement],
+    meshes: dict[str, tuple[RawMesh, CutMesh]],
+    materials: Materials | None,
+    split: bool,
+    notes: Notes,
+) -> Iterator[Piece]:
+    bound = _bound_colors(placements, meshes, materials)
+    shared: dict[tuple[str, str | None], tuple[Floats, npt.NDArray[np.int32]]] = {}
+    for placement in placements:
+        raw, cut = meshes[str(placement.geometry)]
+        for code, message in cut.faults:
+            notes.add(code, message, placement.path)
+        if not len(cut.corners):
+            notes.add("empty-mesh", "left out: it has no usable face", placement.path)
+            continue
+        if raw.subdivided:
+            notes.add("control-cage", "subdivision surfaces are loaded as their control cage", placement.path)
+        of_triangle = _subset_of_triangle(raw, cut)
+        own = bound.get(_key(placement, None))
+        of_subset = [bound.get(_key(placement, name)) for name, _ in raw.subsets]
+        parts: list[tuple[str | None, Ints]] = [(None, np.arange(len(cut.corners)))]
+        if split and raw.subsets:
+            parts = [(None, np.flatnonzero(of_triangle < 0))]
+            parts += [(name, np.flatnonzero(of_triangle == i)) for i, (name, _) in enumerate(raw.subsets)]
+        for i, (name, triangles) in enumerate(parts):
+            if not len(triangles):
+                continue
+            if name is not None and of_subset[i - 1] is not None:
+                color = of_subset[i - 1]
+            else:
+                color = own if own is not None else _display_color(placement, raw, cut, triangles)
+                if not split and raw.subsets:
+                    color = _mixed(color, of_subset, of_triangle, cut)
+            key = (str(placement.geometry), name)
+            if key not in shared:
+                shared[key] = _compact(cut.points, cut.corners[triangles])
+            points, faces = shared[key]
+            path = placement.path if name is None else f"{placement.path}/{name}"
+            yield Piece(path, points, faces, placement.matrix, color, placement.anchor)
+
+
+def _key(placement: Placement, subset: str | None) -> tuple[str, str | None]:
+    return str(placement.prim.GetPath()), subset
+
+
+def _bound_colors(
+    placements: Sequence[Placement], meshes: dict[str, tuple[RawMesh, CutMesh]], materials: Materials | None
+) -> dict[tuple[str, str | None], Color | None]:
+    """The material colour of each mesh and of each of its subsets."""
+    if materials is None:
+        return {}
+    prims: dict[tuple[str, str | None], tuple[Any, str | None]] = {}
+    for placement in placements:
+        if _key(placement, None) in prims:
+            continue
+        prims[_key(placement, None)] = placement.prim, placement.binding
+        for name, _ in meshes[str(placement.geometry)][0].subsets:
+            child = placement.prim.GetChild(name)
+            direct = child.GetRelationship("material:binding")
+            targets = direct.GetForwardedTargets() if direct else []
+            prims[_key(placement, name)] = child, str(targets[0]) if targets else placement.binding
+    colors = materials.bound_colors([p for p, _ in prims.values()], [b for _, b in prims.values()])
+    return dict(zip(prims, colors, strict=True))
+
+
+def _subset_of_triangle(raw: RawMesh, cut: CutMesh) -> Ints:
+    """The first subset that claims each triangle, or -1."""
+    of_polygon = np.full(len(raw.counts), -1, np.int64)
+    for i in reversed(range(len(raw.subsets))):
+        polygons = raw.subsets[i][1]
+        of_polygon[polygons[(polygons >= 0) & (polygons < len(of_polygon))]] = i
+    owners: Ints = of_polygon[cut.polygon]
+    return owners
+
+
+def _note_overlaps(path: str, raw: RawMesh, notes: Notes) -> None:
+    claimed = np.concatenate([np.unique(polygons) for _, polygons in raw.subsets]) if raw.subsets else []
+    if len(np.unique(claimed)) < len(claimed):
+        notes.add("overlapping-subsets", "faces in several material subsets go to the first of them", path)
+
+
+def _display_color(placement: Placement, raw: RawMesh, cut: CutMesh, triangles: Ints) -> Color | None:
+    if not isinstance(placement.color, tuple):
+        return placement.color
+    if len(raw.counts) and raw.counts.min() < 0:
+        return None
+    values, interpolation = placement.color
+    areas = _areas(cut)[triangles]
+    return mean_display_color(values, interpolation, raw.counts, cut.corners[triangles], cut.polygon[triangles], areas)
+
+
+def _mixed(own: Color | None, of_subset: Sequence[Color | None], of_triangle: Ints, cut: CutMesh) -> Color | None:
+    """The area-weighted mean over the subsets of a mesh that isn't split."""
+    areas = _areas(cut)
+    weight, total = 0.0, np.zeros(3)
+    for i, color in enumerate([own, *of_subset], start=-1):
+        color = own if color is None else color
+        share = float(areas[of_triangle == i].sum())
+        if color is not None and share > 0:
+            weight += share
+            total += share * color
+    return total / weight if weight > 0 else own
+
+
+def _areas(cut: CutMesh) -> Floats:
+    a, b, c = (cut.points[cut.corners[:, i]] for i in range(3))
+    areas: Floats = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    return areas
+
+
+def _compact(points: Floats, corners: Ints) -> tuple[Floats, npt.NDArray[np.int32]]:
+    """Only the points that are used, in their order."""
+    used = np.zeros(len(points), bool)
+    used[corners] = True
+    if used.all():
+        return points, corners.astype(np.int32)
+    return points[used], (np.cumsum(used) - 1)[corners].astype(np.int32)
+
+
+_MISSING_LAYER = re.compile(r"Could not load sublayer @(?P<asset>[^@]*)@")
+_MISSING_ASSET = re.compile(r"In <(?P<path>[^>]*)>: Could not open asset @(?P<asset>[^@]*)@ for (?P<arc>\w+)")
+_MISSING_TARGET = re.compile(
+    r"In <(?P<path>[^>]*)>: Unresolved (?P<arc>\w+) prim path @(?P<asset>[^@]*)@<(?P<prim>[^>]*)>"
+)
+
+
+def _take_warnings(delegate: Any, path: Path, notes: Notes) -> None:
+    """Turns what the USD library said so far into notes, without what differs from run to run."""
+    folder = path.absolute().parent
+    others: list[str] = []
+    for said in delegate.TakeUncoalescedDiagnostics():
+        text = re.sub(r"@([^@]*)@", lambda asset: f"@{_relative(asset[1], folder)}@", " ".join(said.commentary.split()))
+        missing = _MISSING_ASSET.search(text) or _MISSING_TARGET.search(text)
+        layer = _MISSING_LAYER.search(text)
+        if missing:
+            code = "missing-payload" if missing["arc"] == "payload" else "missing-reference"
+            target = missing["asset"] + (f"<{missing['prim']}>" if "prim" in missing.groupdict() else "")
+            notes.add(code, f"can't find {target!r}; copy it beside the file", missing["path"])
+        elif layer:
+            notes.add("missing-layer", f"can't find sublayer {layer['asset']!r}; copy it beside the file")
+        else:
+            others.append(
+                re.sub(r"\s*\((?:instantiating|recomposing|getting)[^()]*\)|0x[0-9a-f]+|anon:[0-9a-fx]+:", "", text)[
+                    :300
+                ]
+            )
+    for text in sorted(set(others))[:_MAX_WARNINGS]:
+        notes.add("usd-warning", text)
+
+
+def _relative(asset: str, folder: Path) -> str:
+    """The way to a file from the folder of the scene: absolute paths differ from machine to machine."""
+    if not os.path.isabs(asset):
+        return asset
+    try:
+        return Path(os.path.relpath(asset, folder)).as_posix()
+    except ValueError:  # another drive
+        return asset
+
+
+def _reason(error: Exception, path: Path) -> str:
+    """What the USD library objects to, from its report of several lines."""
+    quoted = re.findall(r" : '(.*?)'(?=\s*(?:Error in|$))", " ".join(str(error).split()))
+    text = quoted[0] if quoted else " ".join(str(error).split())
+    text = text.replace(str(path.absolute().parent) + os.sep, "").replace(str(path), path.name)
+    text = "".join(c if c.isprintable() else "?" for c in text)
+    return re.sub(r"0x[0-9a-f]+", "", text)[:300]
+
+
+_FINDINGS = {
+    "hidden": "{} hidden (set load.invisible = true)",
+    "other-purpose": "{} of another purpose (add it to load.purposes)",
+    "unsupported-geometry": "{} curves, patches or points (convert them to meshes)",
+    "empty-mesh": "{} without a usable face",
+    "degenerate-mesh": "{} without area",
+    "invalid-transform": "{} with an impossible placement",
+    "unreadable": "{} unreadable",
+    "missing-prototype": "{} missing prototypes",
+}
+
+
+def _what_was_found(notes: Notes) -> str:
+    found = [text.format(notes.count(code)) for code, text in _FINDINGS.items() if notes.count(code)]
+    for code in ("missing-layer", "missing-reference", "missing-payload"):
+        found += notes.messages(code)[:2]
+    return ": " + "; ".join(found) if found else "; export it again with its geometry"

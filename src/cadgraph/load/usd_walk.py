@@ -1,0 +1,380 @@
+"""The walk over a USD stage: which meshes there are, where they stand, what they inherit."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from pxr import Tf, Usd, UsdGeom, UsdShade
+
+from cadgraph.load.packing import Notes
+from cadgraph.load.usd_color import usable_color
+from cadgraph.load.usd_mesh import RawMesh
+from cadgraph.load.usd_shapes import SHAPES
+from cadgraph.scene import Floats, Ints
+
+__all__ = ["Placement", "Walk"]
+
+Color = npt.NDArray[np.float64]
+Varying = tuple[Floats, str]
+
+_VISIBLE_SCENE = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
+# Prototypes of a point instancer are often kept under an over or a class, where no prim counts as defined.
+_PROTOTYPE = Usd.TraverseInstanceProxies(Usd.PrimIsActive & Usd.PrimIsLoaded & Usd.PrimHasDefiningSpecifier)
+_IDENTITY: Floats = np.eye(4)
+
+
+@dataclass(frozen=True)
+class Placement:
+    """One mesh in one place.
+
+    Args:
+        path: in the scene; within the prototype of a point instancer: below that prototype.
+        prim: the mesh.
+        geometry: key into ``Walk.geometries``; None where the mesh is not to be loaded.
+        matrix: ``(4, 4)`` for row vectors, to the world (or to the parent of the prototype).
+        color: ``displayColor``: one colour, or values with their interpolation.
+        binding: path of the material that plain bindings name.
+        anchor: path that carries opinions; None: ``path``.
+        skipped: code and reason where it is not to be loaded.
+    """
+
+    path: str
+    prim: Any
+    geometry: str | None
+    matrix: Floats
+    color: Color | Varying | None
+    binding: str | None
+    anchor: str | None
+    skipped: tuple[str, str] | None = None
+
+
+@dataclass(frozen=True)
+class _Place:
+    """What a prim has from those above it."""
+
+    matrix: Floats = field(default_factory=lambda: _IDENTITY)
+    visible: bool = True
+    purpose: str = "default"
+    color: Color | Varying | None = None
+    binding: str | None = None
+    anchor: str | None = None
+
+
+class Walk:
+    """Goes over a stage once and gathers all its meshes.
+
+    Args:
+        stage: the open stage.
+        purposes: what counts as geometry.
+        invisible: whether what is hidden is loaded too.
+        time: time code, or None for the default time, else the first sample.
+        sides: of round shapes.
+        notes: gets what was skipped or repaired.
+
+    ``geometries`` holds each mesh of the file once, however often it is placed; ``has_bindings`` says whether any
+    prim binds a material.
+    """
+
+    def __init__(
+        self, stage: Any, purposes: Sequence[str], invisible: bool, time: float | None, sides: int, notes: Notes
+    ) -> None:
+        self._stage = stage
+        self._purposes = frozenset(purposes)
+        self._invisible = invisible
+        self._time = None if time is None else Usd.TimeCode(time)
+        self._sides = sides
+        self._notes = notes
+        self._kinds: dict[str, str] = {}
+        self._open_instancers: list[str] = []
+        self.geometries: dict[str, RawMesh] = {}
+        self.has_bindings = False
+
+    def placements(self) -> list[Placement]:
+        """All meshes of the stage."""
+        return self._below(self._stage.GetPseudoRoot(), _Place(), _VISIBLE_SCENE, 0)
+
+    def _below(self, root: Any, place: _Place, predicate: Any, cut: int) -> list[Placement]:
+        """All meshes at or below a prim; ``cut`` characters are taken off the front of their paths."""
+        found: list[Placement] = []
+        stack = [(root, place)]
+        while stack:
+            prim, above = stack.pop()
+            path = str(prim.GetPath())[cut:]
+            try:
+                here = above if prim.IsPseudoRoot() else self._enter(prim, above, path)
+                kind = self._kind(prim)
+                if kind == "instancer":
+                    found.extend(self._instances(prim, here, path))
+                    continue
+                if kind:
+                    found.append(self._placement(prim, kind, here, path))
+            except Tf.ErrorException as error:
+                self._notes.add("unreadable", f"left out with all below: {_first_line(error)}", str(prim.GetPath()))
+                continue
+            # Of the primvars only constant ones are inherited.
+            below = replace(here, color=above.color) if isinstance(here.color, tuple) else here
+            stack.extend((child, below) for child in prim.GetFilteredChildren(predicate))
+        return found
+
+    def _kind(self, prim: Any) -> str:
+        name = prim.GetTypeName()
+        if name not in self._kinds:
+            self._kinds[name] = _kind_of(prim, name)
+        return self._kinds[name]
+
+    def _enter(self, prim: Any, place: _Place, path: str) -> _Place:
+        changes: dict[str, Any] = {}
+        for name in prim.GetAuthoredPropertyNames():
+            if name == "xformOpOrder" and prim.IsA(UsdGeom.Xformable):
+                local, resets = self._local(UsdGeom.Xformable(prim))
+                changes["matrix"] = local if resets else local @ place.matrix
+            elif name == "visibility":
+                changes["visible"] = place.visible and self._value(prim, name) != "invisible"
+            elif name == "purpose":
+                changes["purpose"] = self._value(prim, name) or place.purpose
+            elif name == "primvars:displayColor":
+                color = self._display_color(prim)
+                changes["color"] = place.color if color is None else color
+            elif name.startswith("material:binding"):
+                self.has_bindings = True
+                if name == "material:binding" or name == "material:binding:full":
+                    targets = prim.GetRelationship(name).GetForwardedTargets()
+                    changes["binding"] = str(targets[0]) if targets else place.binding
+        if place.anchor is None and prim.IsInstance():
+            changes["anchor"] = path
+        return replace(place, **changes) if changes else place
+
+    def _value(self, prim: Any, name: str) -> Any:
+        return self._read(prim.GetAttribute(name))
+
+    def _read(self, attribute: Any) -> Any:
+        """The value at the time asked for, else the default, else the first sample."""
+        if not attribute:
+            return None
+        if self._time is not None:
+            return attribute.Get(self._time)
+        value = attribute.Get()
+        if attribute.GetNumTimeSamples() and (value is None or not _has_default(attribute)):
+            value = attribute.Get(Usd.TimeCode.EarliestTime())
+        return value
+
+    def _local(self, xformable: Any) -> tuple[Floats, bool]:
+        resets = xformable.GetResetXformStack()
+        if self._time is not None:
+            return np.array(xformable.GetLocalTransformation(self._time)), resets
+        ops = xformable.GetOrderedXformOps()
+        if not any(op.GetNumTimeSamples() for op in ops):
+            return np.array(xformable.GetLocalTransformation(Usd.TimeCode.Default())), resets
+        local = np.eye(4)
+        for op in ops:
+            sampled = op.GetNumTimeSamples() and not _has_default(op.GetAttr())
+            time = Usd.TimeCode.EarliestTime() if sampled else Usd.TimeCode.Default()
+            local = np.array(op.GetOpTransform(time)) @ local
+        return local, resets
+
+    def _display_color(self, prim: Any) -> Color | Varying | None:
+        attribute = prim.GetAttribute("primvars:displayColor")
+        values = _rows(self._read(attribute))
+        if values is None or not len(values):
+            return None
+        indices = prim.GetAttribute("primvars:displayColor:indices")
+        if indices and indices.HasAuthoredValue():
+            order = _ints(self._read(indices))
+            values = values[order[(order >= 0) & (order < len(values))]]
+        interpolation = attribute.GetMetadata("interpolation") or "constant"
+        if len(values) == 1:
+            return usable_color(values[0])
+        if interpolation == "constant":
+            return usable_color(values.mean(axis=0)) if len(values) else None
+        return values.astype(np.float64), str(interpolation)
+
+    def _placement(self, prim: Any, kind: str, place: _Place, path: str) -> Placement:
+        skipped = self._reason_to_skip(kind, place, prim)
+        key = None
+        if skipped is None:
+            key = str((prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim).GetPath())
+            if key not in self.geometries:
+                self.geometries[key] = self._mesh(prim) if kind == "mesh" else self._shape(prim, kind)
+        return Placement(path, prim, key, place.matrix, place.color, place.binding, place.anchor, skipped)
+
+    def _reason_to_skip(self, kind: str, place: _Place, prim: Any) -> tuple[str, str] | None:
+        if kind == "unsupported":
+            return "unsupported-geometry", f"left out: {prim.GetTypeName()} is no mesh; convert it in the source"
+        if place.purpose not in self._purposes:
+            return "other-purpose", f"left out: purpose {place.purpose!r}; add it to load.purposes to load it"
+        if not place.visible and not self._invisible:
+            return "hidden", "left out: hidden in the file; set load.invisible = true to load it"
+        return None
+
+    def _mesh(self, prim: Any) -> RawMesh:
+        points = _rows(self._value(prim, "points"))
+        return RawMesh(
+            points=np.zeros((0, 3)) if points is None else points,
+            counts=_ints(self._value(prim, "faceVertexCounts")),
+            indices=_ints(self._value(prim, "faceVertexIndices")),
+            left_handed=self._value(prim, "orientation") == "leftHanded",
+            holes=_ints(self._value(prim, "holeIndices")),
+            subdivided=self._value(prim, "subdivisionScheme") != "none",
+            subsets=tuple(
+                (child.GetName(), _ints(self._value(child, "indices")))
+                for child in prim.GetFilteredChildren(_PROTOTYPE)
+                if child.GetTypeName() == "GeomSubset" and self._is_material_subset(child)
+            ),
+        )
+
+    def _is_material_subset(self, prim: Any) -> bool:
+        family = self._value(prim, "familyName")
+        return self._value(prim, "elementType") == "face" and (
+            family == UsdShade.Tokens.materialBind or (not family and prim.HasRelationship("material:binding"))
+        )
+
+    def _shape(self, prim: Any, kind: str) -> RawMesh:
+        names, make = SHAPES[kind]
+        sizes = {name: self._value(prim, name) for name in names}
+        numbers = [value for value in sizes.values() if not isinstance(value, str)]
+        if not all(value is not None and np.isfinite(value) and value >= 0 for value in numbers):
+            return RawMesh(np.zeros((0, 3)), np.zeros(0, np.int64), np.zeros(0, np.int64))
+        points, faces = make(sizes, self._sides)
+        return RawMesh(
+            points=points,
+            counts=np.full(len(faces), 3, np.int64),
+            indices=faces.reshape(-1).astype(np.int64),
+            left_handed=self._value(prim, "orientation") == "leftHanded",
+        )
+
+    def _instances(self, prim: Any, place: _Place, path: str) -> list[Placement]:
+        """The meshes of all items of a point instancer: ``path[item]``, with what follows in the prototype."""
+        own = str(prim.GetPath())
+        if own in self._open_instancers:
+            self._notes.add("invalid-instancer", "left out: a point instancer that holds itself", path)
+            return []
+        self._open_instancers.append(own)
+        try:
+            return self._items(prim, place, path)
+        finally:
+            self._open_instancers.pop()
+
+    def _items(self, prim: Any, place: _Place, path: str) -> list[Placement]:
+        instancer = UsdGeom.PointInstancer(prim)
+        prototype_of_item = _ints(self._read(instancer.GetProtoIndicesAttr()))
+        matrices = self._item_matrices(instancer, len(prototype_of_item))
+        if len(matrices) < len(prototype_of_item):
+            message = "items without a position, or with a wrong number of orientations or scales, were repaired"
+            self._notes.add("invalid-instancer", message, path)
+        own = None if isinstance(place.color, tuple) else place.color
+        inherited = replace(place, matrix=_IDENTITY, color=own, anchor=place.anchor or path)
+        prototypes = [
+            self._prototype(target, inherited) for target in instancer.GetPrototypesRel().GetForwardedTargets()
+        ]
+        if len(prototype_of_item) and not (0 <= prototype_of_item.min() <= prototype_of_item.max() < len(prototypes)):
+            self._notes.add("invalid-instancer", "items that name a prototype which doesn't exist were dropped", path)
+        hidden = self._hidden_items(instancer, len(prototype_of_item))
+        item_colors = None
+        if isinstance(place.color, tuple) and len(place.color[0]) == len(prototype_of_item):
+            item_colors = place.color[0]
+        found = []
+        for item, matrix in enumerate(matrices):
+            which = int(prototype_of_item[item])
+            if not 0 <= which < len(prototypes):
+                continue
+            color = own if item_colors is None else item_colors[item]
+            skipped = ("hidden", "left out: hidden in the file; set load.invisible = true to load it")
+            for part in prototypes[which]:
+                found.append(
+                    replace(
+                        part,
+                        path=f"{path}[{item}]{part.path if len(prototypes[which]) > 1 else ''}",
+                        matrix=part.matrix @ matrix @ place.matrix,
+                        color=part.color if part.color is not None else color,
+                        geometry=None if item in hidden else part.geometry,
+                        skipped=skipped if item in hidden else part.skipped,
+                    )
+                )
+        return found
+
+    def _prototype(self, target: Any, place: _Place) -> list[Placement]:
+        prim = self._stage.GetPrimAtPath(target)
+        if not prim:
+            self._notes.add("missing-prototype", "a point instancer names a prototype that doesn't exist", str(target))
+            return []
+        return self._below(prim, place, _PROTOTYPE, len(str(target)))
+
+    def _hidden_items(self, instancer: Any, n: int) -> set[int]:
+        """Items that are deactivated, and those that the file hides unless they are asked for."""
+        inactive = instancer.GetPrim().GetMetadata("inactiveIds")
+        off = set(inactive.GetAddedOrExplicitItems()) if inactive else set()
+        if not self._invisible:
+            off |= set(_ints(self._read(instancer.GetInvisibleIdsAttr())).tolist())
+        known = _ints(self._read(instancer.GetIdsAttr()))
+        numbers = known.tolist() if len(known) == n else range(n)
+        return {i for i, number in enumerate(numbers) if number in off}
+
+    def _item_matrices(self, instancer: Any, n: int) -> Floats:
+        """``(m, 4, 4)`` for row vectors, m the number of items that have a position, at most n."""
+        positions = _rows(self._read(instancer.GetPositionsAttr()))
+        positions = np.zeros((0, 3)) if positions is None else positions[:n].astype(np.float64)
+        matrices = np.tile(_IDENTITY, (len(positions), 1, 1))
+        orientations = self._read(instancer.GetOrientationsfAttr()) or self._read(instancer.GetOrientationsAttr())
+        turns = np.asarray(orientations if orientations else np.zeros((0, 4)), np.float64).reshape(-1, 4)
+        if len(turns) >= len(positions):
+            matrices[:, :3, :3] = _rotations(turns[: len(positions)])
+        scales = _rows(self._read(instancer.GetScalesAttr()))
+        if scales is not None and len(scales) >= len(positions):
+            matrices[:, :3, :3] = scales[: len(positions), :, None].astype(np.float64) * matrices[:, :3, :3]
+        matrices[:, 3, :3] = positions
+        return matrices
+
+
+def _kind_of(prim: Any, name: str) -> str:
+    if prim.IsA(UsdGeom.Mesh):
+        return "mesh"
+    if name in SHAPES:
+        return str(name)
+    if prim.IsA(UsdGeom.PointInstancer):
+        return "instancer"
+    return "unsupported" if prim.IsA(UsdGeom.Gprim) else ""
+
+
+def _has_default(attribute: Any) -> bool:
+    return bool(attribute.GetResolveInfo(Usd.TimeCode.Default()).GetSource() == Usd.ResolveInfoSourceDefault)
+
+
+def _rows(value: Any) -> npt.NDArray[np.floating] | None:
+    """An array of 3-vectors, or None where the value is none."""
+    if value is None:
+        return None
+    rows = np.asarray(value)
+    if rows.ndim != 2 or rows.shape[1] != 3 or rows.dtype.kind not in "fiu":
+        return None
+    return rows if rows.dtype.kind == "f" else rows.astype(np.float64)
+
+
+def _ints(value: Any) -> Ints:
+    """An array of integers; empty where the value is none."""
+    if value is None:
+        return np.zeros(0, np.int64)
+    numbers = np.asarray(value)
+    return numbers.astype(np.int64) if numbers.ndim == 1 and numbers.dtype.kind in "iu" else np.zeros(0, np.int64)
+
+
+def _rotations(quaternions: Floats) -> Floats:
+    """``(n, 3, 3)`` rotations for row vectors of quaternions x, y, z, w; of length zero: none."""
+    length = np.linalg.norm(quaternions, axis=1, keepdims=True)
+    unit = np.where(length > 0, quaternions / np.where(length > 0, length, 1), [0, 0, 0, 1])
+    x, y, z, w = unit.T
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)],
+        [2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)],
+        [2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.array(rows).transpose(2, 0, 1)
+
+
+def _first_line(error: Exception) -> str:
+    text = " ".join(str(error).split())
+    quoted = text.split(": '", 1)
+    return (quoted[1] if len(quoted) == 2 else text)[:200].rstrip("'")

@@ -1,0 +1,131 @@
+"""The typed values that flow from stage to stage."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from cadgraph.scene import Floats, Ints, Scene
+
+__all__ = ["Contacts", "Label", "Parts", "Properties", "UnitParts"]
+
+Bools = npt.NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Properties:
+    """Geometric properties of all meshes of a scene (or of all parts), one row each.
+
+    Args:
+        area: ``(n,)`` surface area [m2].
+        volume: ``(n,)`` enclosed volume [m3], taken about the area centroid, positive where faces look outward;
+            meaningful where ``closed``.
+        closed: ``(n,)`` whether every edge has a partner in the opposite sense, equal positions being one vertex.
+        centroid: ``(n, 3)`` area centroid [m], relative to the scene's origin, like all positions here.
+        aabb: ``(n, 2, 3)`` least and greatest corner [m].
+        obb_center: ``(n, 3)`` centre of the oriented box [m].
+        obb_axes: ``(n, 3, 3)`` its unit axes as rows, right-handed, longest extent first.
+        obb_extents: ``(n, 3)`` its full side lengths [m], descending.
+        inertia: ``(n, 3, 3)`` inertia tensor of the surface about its centroid, for 1 kg/m2 [m4].
+        n_triangles: ``(n,)``.
+        n_degenerate: ``(n,)`` triangles without area, or that refer to a vertex that isn't there.
+        n_nonfinite: ``(n,)`` vertices with a NaN or infinite coordinate.
+    """
+
+    area: Floats
+    volume: Floats
+    closed: Bools
+    centroid: Floats
+    aabb: Floats
+    obb_center: Floats
+    obb_axes: Floats
+    obb_extents: Floats
+    inertia: Floats
+    n_triangles: Ints
+    n_degenerate: Ints
+    n_nonfinite: Ints
+
+    @property
+    def obb_volume(self) -> Floats:
+        """``(n,)`` volume of the oriented box [m3]."""
+        volume: Floats = np.prod(self.obb_extents, axis=1)
+        return volume
+
+
+@dataclass(frozen=True)
+class Parts:
+    """The parts of a scene: groups of meshes that act as one item.
+
+    Args:
+        scene: the merged scene, one mesh for each part.
+        meshes: for each part its source mesh indices, the largest first.
+        part_of_mesh: ``(n_meshes,)`` part of each source mesh.
+        properties: of each part.
+        shape: ``(n_parts,)`` equal for parts of the same shape in any pose.
+        ground: ``(n_parts,)`` whether a part is the ground.
+    """
+
+    scene: Scene
+    meshes: tuple[tuple[int, ...], ...]
+    part_of_mesh: Ints
+    properties: Properties
+    shape: Ints
+    ground: Bools
+
+    @property
+    def n_parts(self) -> int:
+        """How many parts there are."""
+        return len(self.meshes)
+
+
+@dataclass(frozen=True)
+class Contacts:
+    """All pairs that are within the contact distance of each other.
+
+    Args:
+        pairs: ``(n_pairs, 2)`` indices, first < second, in ascending order, each pair once.
+        distance: ``(n_pairs,)`` between the surfaces [m]; 0 where they touch or overlap.
+        points: ``(n_pairs, 2, 3)`` the closest points found, on the first and on the second [m].
+    """
+
+    pairs: Ints
+    distance: Floats
+    points: Floats
+
+
+@dataclass(frozen=True)
+class Label:
+    """What a part is.
+
+    Args:
+        group: a group of the vocabulary.
+        name: a name in that group, or None where only the group is known.
+        confidence: 0..1.
+        source: who says so: ``geometry``, ``lvlm``, ``catalog``, ``repeat``, ``context``, ``author`` or ``human``.
+        evidence: what that source needs to be traced, plain JSON values.
+    """
+
+    group: str
+    name: str | None
+    confidence: float
+    source: str
+    evidence: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class UnitParts:
+    """One functional unit: connected parts of one functional group.
+
+    Args:
+        unit_type: as the vocabulary calls it (``"valve"``).
+        tag: ``V-001``, ``G-001``...
+        parts: part indices, ascending.
+    """
+
+    unit_type: str
+    tag: str
+    parts: tuple[int, ...]

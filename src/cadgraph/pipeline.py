@@ -1,0 +1,96 @@
+"""The method, from scene to graph."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from cadgraph.config import Config
+from cadgraph.geometry.properties import measure
+from cadgraph.graph import SceneGraph
+from cadgraph.labels import GivenLabel
+from cadgraph.progress import Progress, quiet
+from cadgraph.scene import Scene
+from cadgraph.stages.adjacency import find_near_meshes, join_contacts
+from cadgraph.stages.assemble import Results, assemble_graph
+from cadgraph.stages.cluster import cluster_parts
+from cadgraph.stages.ground import find_ground
+from cadgraph.stages.group import group_meshes
+from cadgraph.stages.label import Labeler, apply_given, label_parts, labeler_of
+from cadgraph.stages.parts import make_parts
+from cadgraph.stages.preprocess import prepare_scene
+from cadgraph.stages.relate import find_units, pipe_systems, relate_units
+from cadgraph.vocabulary import Vocabulary, default_vocabulary
+
+__all__ = ["STAGES", "build"]
+
+STAGES = ("measure", "contacts", "group", "cluster", "label", "relate", "assemble")
+"""The names that ``build`` gives to its progress, in order."""
+
+
+def build(
+    scene: Scene,
+    config: Config | None = None,
+    *,
+    labels: Sequence[GivenLabel] = (),
+    vocabulary: Vocabulary | None = None,
+    labeler: Labeler | None = None,
+    progress: Progress = quiet,
+) -> SceneGraph:
+    """Turns a scene into a scene graph (paper, section III).
+
+    Args:
+        scene: what ``load`` returned; it is not changed, and the order of its meshes does not matter.
+        config: all settings; the defaults if None.
+        labels: labels of source meshes from outside.
+        vocabulary: the built-in tree if None.
+        labeler: another labeler than the one that is set.
+        progress: told how far it is.
+
+    Returns:
+        The graph; the same scene and settings give the same graph to the byte.
+
+    Raises:
+        LabelError: a label names a mesh that is not in the scene.
+        ValueError: a setting names a mesh that is not in the scene, or the scene's arrays don't fit together.
+    """
+    config = config or Config()
+    vocabulary = vocabulary or default_vocabulary()
+    scene, told_scene = prepare_scene(scene)
+
+    progress("measure", 0)
+    properties = measure(scene)
+    ground, told_ground = find_ground(scene, properties, config.ground)
+
+    progress("contacts", 0)
+    near = find_near_meshes(scene, max(config.cluster.eps, config.group.proximity), config, progress)
+
+    progress("group", 0)
+    parts = make_parts(scene, properties, group_meshes(properties, ground, near, config.group), ground)
+    contacts = join_contacts(near, parts.part_of_mesh, config.cluster.eps)
+
+    progress("cluster", 0)
+    cluster = cluster_parts(parts.n_parts, contacts, parts.ground, config.cluster.min_samples)
+
+    progress("label", 0)
+    guessed = label_parts(labeler or labeler_of(config.label), parts, contacts, vocabulary, config.label)
+    named, told_labels = apply_given(guessed, labels, scene, parts, config.label)
+
+    progress("relate", 0)
+    units = find_units(named, contacts, cluster, vocabulary)
+    related = relate_units(units, named, contacts, cluster, vocabulary)
+
+    progress("assemble", 0)
+    results = Results(
+        scene=scene,
+        parts=parts,
+        contacts=contacts,
+        cluster=cluster,
+        pipe_systems=pipe_systems(named, cluster, vocabulary),
+        labels=named,
+        units=units,
+        related=related,
+        diagnostics=(*scene.diagnostics, *told_scene, *told_ground, *told_labels),
+    )
+    graph = assemble_graph(results, vocabulary, config.model_dump(mode="json"))
+    progress("assemble", 1)
+    return graph

@@ -1,0 +1,239 @@
+"""The records that ``graph.json`` is made of: node and edge types, and the document itself (format version 1).
+
+Lengths are metres, areas m2, volumes m3, angles radians; coordinates are world, right-handed, Z up.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
+
+__all__ = [
+    "Adjacent",
+    "AnyEdge",
+    "AnyNode",
+    "Box",
+    "Cluster",
+    "Connected",
+    "Contains",
+    "Edge",
+    "Finding",
+    "GraphDocument",
+    "Junction",
+    "Node",
+    "OrientedBox",
+    "Part",
+    "PartLabel",
+    "Point",
+    "Related",
+    "Site",
+    "SourceRecord",
+    "System",
+    "Terminal",
+    "Unit",
+    "document_schema",
+    "points",
+]
+
+Point = tuple[float, float, float]
+Box = tuple[Point, Point]
+
+
+class _Record(BaseModel):
+    """A frozen record that keeps keys it doesn't know."""
+
+    model_config = ConfigDict(frozen=True, extra="allow", allow_inf_nan=False)
+
+
+class SourceRecord(_Record):
+    """Where the scene came from."""
+
+    path: str = Field("", description="as the user gave it")
+    sha256: str = ""
+    meters_per_unit: float = Field(1.0, description="length of one authored unit [m]")
+    up_axis: str = "Z"
+    n_meshes: int = 0
+    n_triangles: int = 0
+
+
+class Finding(_Record):
+    """One entry of ``diagnostics``: something skipped, repaired, guessed or left open."""
+
+    code: str = Field(description="stable kebab-case word")
+    message: str
+    meshes: tuple[str, ...] = ()
+
+
+class OrientedBox(_Record):
+    """A box in any pose."""
+
+    center: Point
+    axes: tuple[Point, Point, Point] = Field(description="unit axes as rows, right-handed")
+    extents: Point = Field(description="full side lengths along the axes [m]")
+
+
+class PartLabel(_Record):
+    """What a part is, how sure that is, and who says so."""
+
+    group: str
+    name: str | None = None
+    confidence: float = Field(ge=0, le=1)
+    source: str = Field(description="geometry, lvlm, catalog, repeat, context, author or human")
+    evidence: dict[str, Any] = Field(default_factory=dict, description="what the source needs to be traced")
+
+
+class Site(_Record):
+    """The root; exactly one."""
+
+    id: str
+    layer: Literal["site"] = "site"
+
+
+class Cluster(_Record):
+    """One connected structure."""
+
+    id: str
+    layer: Literal["cluster"] = "cluster"
+    kind: str | None = Field(
+        None, description="'pipe system' where it holds a connector part, else its commonest group"
+    )
+    n_parts: int
+    centroid: Point
+    aabb: Box
+
+
+class Part(_Record):
+    """What the paper calls a mesh after grouping: one or more source meshes that act as one item."""
+
+    id: str
+    layer: Literal["part"] = "part"
+    meshes: tuple[str, ...] = Field(description="source paths, the largest first", min_length=1)
+    label: PartLabel | None = None
+    centroid: Point
+    aabb: Box
+    obb: OrientedBox
+    area: float = Field(description="[m2]")
+    volume: float | None = Field(description="[m3]; null where the surface is not closed")
+    n_triangles: int
+    shape: str = Field(description="shared by parts of the same shape in any pose")
+    ground: bool = False
+
+
+class Unit(_Record):
+    """A functional unit: connected parts that work as one valve, gauge, pump, tank..."""
+
+    id: str
+    layer: Literal["unit"] = "unit"
+    unit_type: str
+    tag: str
+    kind: str | None = None
+    parts: tuple[str, ...]
+    centroid: Point
+    aabb: Box
+
+
+class Junction(_Record):
+    """A point where three or more branches of connectors meet."""
+
+    id: str
+    layer: Literal["junction"] = "junction"
+    point: Point
+    parts: tuple[str, ...]
+
+
+class Terminal(_Record):
+    """An open end of a run."""
+
+    id: str
+    layer: Literal["terminal"] = "terminal"
+    point: Point
+    parts: tuple[str, ...]
+
+
+class System(_Record):
+    """One connected functional network."""
+
+    id: str
+    layer: Literal["system"] = "system"
+    units: tuple[str, ...]
+    length: float | None = Field(None, description="[m]")
+
+
+class Contains(_Record):
+    """Site to cluster, cluster to part, system to unit, unit to part."""
+
+    source: str
+    target: str
+    kind: Literal["contains"] = "contains"
+
+
+class Adjacent(_Record):
+    """Two parts that touch or nearly do; stored once, source < target."""
+
+    source: str
+    target: str
+    kind: Literal["adjacent"] = "adjacent"
+    distance: float = Field(description="between the surfaces [m], 0 where they touch or overlap")
+    point: Point = Field(description="of contact or of closest approach")
+
+
+class Connected(_Record):
+    """Two units, junctions or terminals, consecutive along connector parts."""
+
+    source: str
+    target: str
+    kind: Literal["connected"] = "connected"
+    via: tuple[str, ...] = Field((), description="part ids in order")
+    length: float | None = Field(None, description="along the centreline [m]")
+    diameter: float | None = Field(None, description="nominal bore estimate [m]")
+    direction: Literal["forward", "backward", "unknown"] = "unknown"
+    reason: str | None = None
+
+
+class Related(_Record):
+    """Two units that Algorithm 1 of the paper relates."""
+
+    source: str
+    target: str
+    kind: Literal["related"] = "related"
+
+
+Node = Site | Cluster | Part | Unit | Junction | Terminal | System
+Edge = Contains | Adjacent | Connected | Related
+_NodeField = Annotated[Node, Field(discriminator="layer")]
+_EdgeField = Annotated[Edge, Field(discriminator="kind")]
+AnyNode = TypeVar("AnyNode", Site, Cluster, Part, Unit, Junction, Terminal, System)
+AnyEdge = TypeVar("AnyEdge", Contains, Adjacent, Connected, Related)
+
+
+class GraphDocument(_Record):
+    """``graph.json`` as it stands on disk."""
+
+    format: Literal["cadgraph"] = "cadgraph"
+    version: Literal[1] = 1
+    directed: Literal[True] = True
+    multigraph: Literal[True] = True
+    graph: dict[str, Any] = Field(default_factory=dict)
+    source: SourceRecord = Field(default_factory=lambda: SourceRecord.model_validate({}))
+    vocabulary: dict[str, Any] = Field(default_factory=dict)
+    config: dict[str, Any] = Field(default_factory=dict)
+    nodes: tuple[_NodeField, ...]
+    edges: tuple[_EdgeField, ...]
+    diagnostics: tuple[Finding, ...] = ()
+
+
+def document_schema() -> dict[str, Any]:
+    """The JSON schema of ``graph.json``."""
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        **TypeAdapter(GraphDocument).json_schema(mode="serialization"),
+    }
+
+
+def points(rows: npt.ArrayLike) -> tuple[Point, ...]:
+    """Rows of three numbers as points, rounded to a nanometre so that no rounding noise reaches the file."""
+    values = np.round(np.asarray(rows, np.float64).reshape(-1, 3), 9) + 0.0
+    return tuple((x, y, z) for x, y, z in values.tolist())

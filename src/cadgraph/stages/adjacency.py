@@ -1,0 +1,45 @@
+"""What touches what: by the exact distance of surfaces, or as the paper decides it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from cadgraph.config import Config
+from cadgraph.geometry.contact import find_contacts
+from cadgraph.geometry.points import find_point_contacts, sample_surface
+from cadgraph.parts import Contacts
+from cadgraph.progress import Progress, quiet
+from cadgraph.scene import Ints, Scene
+
+__all__ = ["find_near_meshes", "join_contacts"]
+
+
+def find_near_meshes(scene: Scene, limit: float, config: Config, progress: Progress = quiet) -> Contacts:
+    """All pairs of meshes at most ``limit`` apart [m], decided by the method that is set."""
+    if config.method == "exact":
+        return find_contacts(scene, limit)
+    surface = sample_surface(scene, config.preprocess.voxel, config.preprocess.spacing)
+    return find_point_contacts(surface, limit, progress)
+
+
+def join_contacts(near: Contacts, part_of_mesh: Ints, eps: float) -> Contacts:
+    """The contacts between parts, from those between meshes.
+
+    Args:
+        near: pairs of meshes.
+        part_of_mesh: ``(n_meshes,)``.
+        eps: greatest distance that counts [m].
+
+    Returns:
+        For each pair of parts with meshes within ``eps`` the closest of these.
+    """
+    parts = part_of_mesh[near.pairs]
+    keep = (near.distance <= eps + 1e-9) & (parts[:, 0] != parts[:, 1])
+    parts, distance, points = parts[keep], near.distance[keep], near.points[keep]
+    swapped = parts[:, 0] > parts[:, 1]
+    parts = np.sort(parts, axis=1)
+    points = np.where(swapped[:, None, None], points[:, ::-1], points)
+    order = np.lexsort((np.arange(len(parts)), distance, parts[:, 1], parts[:, 0]))
+    first = np.unique(parts[order], axis=0, return_index=True)[1] if len(order) else order
+    chosen = order[first]
+    return Contacts(parts[chosen], distance[chosen], points[chosen])

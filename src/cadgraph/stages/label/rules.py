@@ -1,0 +1,528 @@
+"""The built-in labeler: rules on geometry that name what they are sure of and leave the rest alone.
+
+First each part's shape allows some forms (``Forms``); then contacts decide, rule by rule in the order of ``_RULES``:
+fasteners and piping first, then what is left between pipe ends is a valve, and what ends on a stem is a gauge. No
+source name, colour or direction of gravity counts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from cadgraph.parts import Contacts, Label, Parts
+from cadgraph.scene import Floats
+from cadgraph.stages.label.features import Disc, Facts, find_facts, same_line
+from cadgraph.vocabulary import Vocabulary
+
+__all__ = ["GeometryLabeler"]
+
+PIPE, VALVE, GAUGE = "Pipe assembly", "Valve assembly", "Gauge assembly"
+FASTENER, STRUCTURE = "Connection assembly", "Structural element"
+
+# Absolute sizes [m]
+MIN_PIPE = 0.0125  # outside diameter of DN8 is 13.7 mm (ASME B36.10M); thinner tubes are tubing, rods, rims
+MAX_ROD = 0.020  # a solid rod thinner than DN15 (21.3 mm) may be a stem
+FLANGE = (0.06, 1.6)  # diameter: DN10 to DN1200 (EN 1092-1)
+MAX_GASKET = 0.0065  # thickness: flat gaskets 1.5 to 3 mm (ASME B16.21), spiral wound 4.5 to 6.4 mm (B16.20)
+CASE = (0.036, 0.275)  # diameter of a gauge with bezel: EN 837-1 sizes 40 to 250
+WHEEL = (0.045, 1.2)  # diameter of a handwheel
+LEVER = (0.05, 0.8)  # length of a lever
+BOLT = (0.5, 0.06)  # greatest length and width over corners of a bolt: M36 heavy hex has 70 mm, M30 58 mm
+MIN_BEAM = 0.25  # shorter bars are as likely brackets or levers
+MAX_GAP = 0.012  # parts further apart along a common axis do not join: adjacency (1 cm) and rounding
+
+# Ratios
+FLANGE_RIM = (0.03, 0.36)  # thickness over diameter: EN 1092-1 0.05 (DN600 PN6) to 0.31 (DN15 PN100), with play
+FLANGE_PIPE = (1.2, 4.7)  # flange over pipe: ASME B16.5 4.2 (DN15 class 150), 1.5 (DN300)
+CASE_DEPTH = (0.12, 0.95)  # depth over diameter, as makers build gauges: 0.25 to 0.8
+STEM_CASE = 0.5  # greatest width of a stem over the case that it carries: 22 mm flats under 63 mm
+COAXIAL = 0.2  # greatest offset of two axes that are one, over the lesser radius
+
+
+@dataclass(frozen=True)
+class _Forms:
+    """What the shape of a part alone would allow it to be."""
+
+    tube: bool
+    bend: bool
+    flange: bool
+    gasket: bool
+    wheel: bool
+    lever: bool
+    pin: bool
+    nut: bool
+    case: bool
+    bar: bool
+    plate: bool
+
+
+def _forms(f: Facts) -> _Forms:
+    diameter, long, mid, thin = 2 * f.radius, *(float(x) for x in f.section)
+    tube_width = 2 * f.ports[0].outer if f.tube else 0.0
+    full = np.nonzero(f.outer > 0.93 * f.radius)[0]
+    rim = (full[-1] - full[0] + 1) / len(f.outer) * f.length if len(full) else 0.0
+    # The plate of a flange is at one end; its raised face, a slice or two, may stand before it.
+    at_end = len(full) > 0 and len(full) == full[-1] - full[0] + 1 and min(full[0], len(f.outer) - 1 - full[-1]) <= 2
+    holed = any(0.3 * p.outer < p.inner < p.outer for p in f.ports)
+    ring = f.round and f.length < min(MAX_GASKET, 0.08 * diameter) and holed
+    return _Forms(
+        tube=f.tube > 0 and not f.bent and tube_width > MIN_PIPE and f.length > 0.25 * diameter,
+        bend=f.bent and tube_width > MIN_PIPE,
+        flange=f.round and FLANGE[0] < diameter < FLANGE[1] and at_end and not ring and f.length < 0.9 * diameter
+        and FLANGE_RIM[0] * diameter < rim < FLANGE_RIM[1] * diameter,
+        gasket=ring and diameter > 0.02,
+        wheel=f.sides >= 8 and 3 <= f.spokes <= 8 and f.rim > 0.45 and WHEEL[0] < diameter < WHEEL[1]
+        and f.length < 0.6 * diameter,
+        lever=LEVER[0] < long < LEVER[1] and long > 3 * mid and thin < 0.3 * long and not f.round,
+        pin=f.round and 1.2 * diameter < f.length < BOLT[0] and diameter < BOLT[1],
+        nut=f.round and f.sides == 6 and holed and 0.25 * diameter < f.length < 1.1 * diameter < 1.1 * BOLT[1],
+        case=f.round and CASE[0] < diameter < CASE[1] and CASE_DEPTH[0] * diameter < f.length < CASE_DEPTH[1] * diameter,
+        bar=long > MIN_BEAM and long > 4 * mid and not f.round and not f.tube,
+        plate=thin < 0.08 * mid and mid > 0.1 and f.fill > 0.7,
+    )  # fmt: skip
+
+
+class _Context:
+    """All parts with their facts, forms, neighbours, and the labels that rules have given so far."""
+
+    def __init__(self, parts: Parts, contacts: Contacts) -> None:
+        self.parts = parts
+        self.facts = find_facts(parts)
+        self.forms = [_forms(f) for f in self.facts]
+        self.labels: list[Label | None] = [None] * parts.n_parts
+        self.near: list[list[int]] = [[] for _ in self.facts]
+        self.spot: dict[tuple[int, int], Floats] = {}
+        for (a, b), points in zip(contacts.pairs.tolist(), contacts.points, strict=True):
+            if not parts.ground[a] and not parts.ground[b]:
+                self.near[a].append(b)
+                self.near[b].append(a)
+                self.spot[a, b], self.spot[b, a] = points
+
+    def say(self, part: int, group: str, name: str | None, confidence: float, why: str) -> None:
+        """Labels a part unless a rule before was at least as sure."""
+        before = self.labels[part]
+        if before is None or before.confidence < confidence:
+            self.labels[part] = Label(group, name, confidence, "geometry", {"why": why})
+
+    def is_a(self, part: int, group: str, *names: str) -> bool:
+        """Whether a part has a label of this group (with one of these names)."""
+        label = self.labels[part]
+        return label is not None and label.group == group and (not names or label.name in names)
+
+    def free(self, part: int) -> bool:
+        """Whether no rule has labelled a part."""
+        return self.labels[part] is None
+
+    def mates(self, part: int, port: Disc) -> Iterator[int]:
+        """The neighbours that continue a part beyond one of its ports, on the same axis."""
+        for other in self.near[part]:
+            g = self.facts[other]
+            lines = [(p.center, p.normal, p.outer) for p in g.ports]
+            lines += [(g.center, g.axis, g.radius)] if g.round and not g.ports else []
+            for center, axis, radius in lines:
+                offset = COAXIAL * min(port.outer, radius) + 0.001
+                if same_line(port.center, port.normal, center, axis, offset):
+                    ahead = (self.parts.properties.obb_center[other] - port.center) @ port.normal
+                    beyond = min((abs((p.center - port.center) @ port.normal) for p in g.ports), default=0.0)
+                    if ahead > 0 and beyond < MAX_GAP:
+                        yield other
+                        break
+
+    def run(self, part: int) -> Iterator[tuple[Disc, Disc]]:
+        """Pairs of ports of a part that look away from each other on one axis."""
+        ports = self.facts[part].ports
+        for i, first in enumerate(ports):
+            for second in ports[i + 1 :]:
+                offset = COAXIAL * min(first.outer, second.outer) + 0.001
+                apart = (second.center - first.center) @ second.normal
+                if apart > 0 and first.normal @ second.normal < 0 and same_line(
+                    first.center, first.normal, second.center, second.normal, offset
+                ):  # fmt: skip
+                    yield first, second
+
+
+def _mm(length: float) -> str:
+    return f"{1000 * length:.0f} mm"
+
+
+def _fasteners(c: _Context) -> None:
+    """Three or more of one shape, parallel, on a circle about a port: bolts, studs, nuts."""
+    for part, f in enumerate(c.facts):
+        small = [j for j in c.near[part] if c.forms[j].pin or c.forms[j].nut]
+        for shape in sorted({int(c.parts.shape[j]) for j in small}):
+            same = [j for j in small if c.parts.shape[j] == shape]
+            for port in f.ports if len(same) >= 3 else ():
+                radii = [_offset(c.facts[j].center, port) for j in same if _parallel(c.facts[j].axis, port.normal)]
+                middle = float(np.median(radii)) if len(radii) >= 3 else 0.0
+                if middle > 1.2 * c.facts[same[0]].radius and np.ptp(radii) < 0.1 * middle:
+                    g = c.facts[same[0]]
+                    plain = g.outer.min() > 0.9 * g.outer.max()
+                    name = "nut" if c.forms[same[0]].nut else "stud" if plain else "bolt"
+                    why = f"{len(same)} alike on a circle of {_mm(2 * middle)}, {_mm(g.length)} long"
+                    for j in same:
+                        c.say(j, FASTENER, name, 0.93, why)
+                    break
+    for part, forms in enumerate(c.forms):
+        f = c.facts[part]
+        if c.free(part) and forms.nut and f.radius < 0.03:
+            c.say(part, FASTENER, "nut", 0.75, f"hexagon with a hole, {_mm(2 * f.radius)} over corners")
+
+
+def _offset(point: Floats, port: Disc) -> float:
+    apart = point - port.center
+    return float(np.linalg.norm(apart - (apart @ port.normal) * port.normal))
+
+
+def _parallel(a: Floats, b: Floats) -> bool:
+    return bool(abs(a @ b) > 0.99)
+
+
+def _stems(c: _Context) -> None:
+    """What a wheel or a lever may sit on is set aside before pipes are named: a rod in the wheel's axis."""
+    for wheel, forms in enumerate(c.forms):
+        if not forms.wheel:
+            continue
+        f = c.facts[wheel]
+        for rod in c.near[wheel]:
+            g = c.facts[rod]
+            on_axis = same_line(f.center, f.axis, g.center, g.axis, 0.1 * f.radius)
+            if on_axis and g.round and g.radius < 0.35 * f.radius and g.length > g.radius:
+                why = f"wheel with {f.spokes} spokes, {_mm(2 * f.radius)}, on a rod of {_mm(2 * g.radius)}"
+                c.say(wheel, VALVE, "handwheel", 0.8, why)
+                c.say(rod, VALVE, "valve stem", 0.7, f"rod in the axis of a wheel of {_mm(2 * f.radius)}")
+
+
+def _continues(c: _Context, part: int, port: Disc) -> str:
+    """What goes on beyond a port of a pipe or bend, in words; empty if nothing of piping does."""
+    for other in c.mates(part, port):
+        g, forms = c.facts[other], c.forms[other]
+        if c.is_a(other, VALVE):
+            continue
+        if forms.tube or forms.bend:
+            if 0.5 < g.ports[0].outer / port.outer < 2.0:
+                return "bend" if forms.bend else "pipe"
+        elif forms.flange and FLANGE_PIPE[0] < g.radius / port.outer < FLANGE_PIPE[1]:
+            return "flange"
+        elif any(1.0 < p.outer / port.outer < FLANGE_PIPE[1] for p, _ in c.run(other)):
+            return "device"
+    return ""
+
+
+def _pipes(c: _Context) -> None:
+    """Tubes that go on at an end; bends that do; long hollow tubes even alone."""
+    for part, forms in enumerate(c.forms):
+        f = c.facts[part]
+        if not (forms.tube or forms.bend) or not c.free(part):
+            continue
+        ends = [word for word in (_continues(c, part, port) for port in f.ports) if word]
+        width = 2 * f.ports[0].outer
+        hollow = f.ports[0].inner > 0
+        kind = f"{'hollow' if hollow else 'solid'} {'bend' if forms.bend else 'tube'}, {_mm(width)} across"
+        why = f"{kind}, {_mm(f.tube)} long, " + (f"goes on in {' and '.join(ends)}" if ends else "alone")
+        if not hollow and width < MAX_ROD and "bend" not in ends:
+            continue
+        straight = f.tube > 4 * width or (not forms.bend)
+        name = "pipe" if straight else "elbow"
+        if ends:
+            c.say(part, PIPE, name, (0.85, 0.95)[len(ends) - 1], why)
+        elif hollow and f.tube > 3 * width:
+            c.say(part, PIPE, name, 0.6 if forms.tube else 0.7, why)
+
+
+def _flanges(c: _Context) -> None:
+    """Discs and hubbed rings on a narrower pipe, or bolted; rings between two of them are gaskets."""
+    for part, forms in enumerate(c.forms):
+        f = c.facts[part]
+        if not forms.flange or not c.free(part):
+            continue
+        pipes = [
+            j for port in f.ports for j in c.mates(part, port)
+            if c.is_a(j, PIPE) and c.facts[j].ports and c.facts[j].tube
+            and FLANGE_PIPE[0] < f.radius / c.facts[j].ports[0].outer < FLANGE_PIPE[1]
+        ]  # fmt: skip
+        bolted = sum(c.is_a(j, FASTENER) for j in c.near[part]) >= 3
+        faces = [j for port in f.ports for j in c.mates(part, port) if c.forms[j].flange or c.forms[j].gasket]
+        solid = all(port.inner == 0 for port in f.ports)
+        kind = f"disc of {_mm(2 * f.radius)}"
+        if pipes:
+            why = f"{kind} on a pipe of {_mm(2 * c.facts[pipes[0]].ports[0].outer)}" + (", bolted" if bolted else "")
+            c.say(part, PIPE, "flange", 0.95 if bolted or faces else 0.85, why)
+        elif bolted and faces and solid:
+            c.say(part, PIPE, "blind flange", 0.7, f"{kind}, closed, bolted to a flange")
+    for part, forms in enumerate(c.forms):
+        f = c.facts[part]
+        if forms.gasket and len(f.ports) == 2:
+            sides = [
+                [j for j in c.mates(part, port) if c.is_a(j, PIPE) or c.facts[j].radius > 0.8 * f.radius]
+                for port in f.ports
+            ]
+            if all(sides) and any(c.is_a(j, PIPE) for side in sides for j in side):
+                c.say(part, PIPE, "gasket", 0.9, f"ring {_mm(f.length)} thick between two faces, {_mm(2 * f.radius)}")
+
+
+def _fittings(c: _Context) -> None:
+    """Reducers, tees and crosses: what joins pipes by its ports."""
+    for part, f in enumerate(c.facts):
+        if not c.free(part) or len(f.ports) < 2:
+            continue
+        joined = [port for port in f.ports if any(_is_piping(c, j) for j in c.mates(part, port))]
+        width = max(port.outer for port in f.ports)
+        if len(joined) in (3, 4) and len(f.ports) == len(joined) and f.section[0] < 8 * width:
+            name = "tee" if len(joined) == 3 else "cross"
+            c.say(part, PIPE, name, 0.8, f"joins {len(joined)} pipe ends")
+        elif len(joined) == 2 == len(f.ports) and f.round and not f.tube:
+            slope = np.diff(f.outer) * (1 if f.outer[-1] > f.outer[0] else -1)
+            if slope.min() > -0.01 * f.radius and f.outer.min() < 0.93 * f.radius and f.length > 0.8 * f.radius:
+                c.say(part, PIPE, "reducer", 0.75, f"narrows from {_mm(2 * f.radius)} to {_mm(2 * f.outer.min())}")
+
+
+def _is_piping(c: _Context, part: int) -> bool:
+    return c.is_a(part, PIPE) and not c.is_a(part, PIPE, "branch outlet")
+
+
+def _valves(c: _Context) -> None:
+    """What lies between two pipe ends and carries something on its side."""
+    for part, f in enumerate(c.facts):
+        if not c.free(part):
+            continue
+        for first, second in c.run(part):
+            ends = [[j for j in c.mates(part, port) if j != part] for port in (first, second)]
+            piped = sum(any(_is_piping(c, j) for j in end) for end in ends)
+            if not all(ends) or not piped:
+                continue
+            axis, width = first.normal, max(first.outer, second.outer)
+            top = [j for j in c.near[part] if _on_side(c, j, first, width)]
+            handle = _find_handle(c, part, top)
+            box_off = _offset(c.parts.properties.obb_center[part], first) / width
+            length = float((second.center - first.center) @ second.normal)
+            kind = f"body of {_mm(length)} between two ends of {_mm(2 * width)}"
+            if handle:
+                for j, name in handle.items():
+                    c.say(j, VALVE, name, 0.85, f"{name or 'trim'} on a {kind}")
+                c.say(part, VALVE, "valve body", 0.95, f"{kind}, with a handle")
+            elif piped == 2 and box_off > 0.25 and length < 12 * width:
+                name = "valve body" if top else "valve"
+                c.say(part, VALVE, name, 0.75, f"{kind}, with something on one side")
+            elif piped == 2 and not f.round and not f.tube and length < 8 * width:
+                c.say(part, VALVE, None, 0.55, f"{kind}, not round")
+            else:
+                continue
+            for end in ends:
+                for j in end:
+                    if c.free(j) and c.facts[j].round and abs(c.facts[j].axis @ axis) > 0.99:
+                        c.say(j, VALVE, "valve body", 0.8, f"end piece of a {kind}")
+            break
+
+
+def _on_side(c: _Context, part: int, port: Disc, width: float) -> bool:
+    """Whether a free part stands on the side of a run rather than on its axis."""
+    if not (c.free(part) or c.is_a(part, VALVE)):
+        return False
+    return _offset(c.parts.properties.obb_center[part], port) > 0.5 * width
+
+
+def _find_handle(c: _Context, body: int, top: Sequence[int]) -> dict[int, str | None]:
+    """The free parts from a body's side up to its handle, each with its name; empty if there is no handle."""
+    size = float(c.facts[body].section[0])
+    reached: dict[int, str | None] = {}
+    queue = list(top)
+    while queue and len(reached) < 12:
+        part = queue.pop(0)
+        f, forms = c.facts[part], c.forms[part]
+        if part in reached or part == body or not (c.free(part) or c.is_a(part, VALVE)) or f.section[0] > 3 * size:
+            continue
+        ends_here = len([j for j in c.near[part] if not c.is_a(j, FASTENER)]) <= 2
+        label = c.labels[part]
+        if forms.wheel:
+            reached[part] = "handwheel"
+        elif forms.lever and ends_here:
+            reached[part] = "lever"
+        else:
+            reached[part] = label.name if label is not None else _trim_name(c, part, body)
+            queue += sorted(c.near[part])
+    return reached if {"handwheel", "lever"} & set(reached.values()) else {}
+
+
+def _trim_name(c: _Context, part: int, body: int) -> str | None:
+    f = c.facts[part]
+    if f.round and f.radius < 0.25 * c.facts[body].section[1] and f.length > 0.5 * f.radius:
+        return "valve stem"
+    if f.round and part in c.near[body]:
+        return "valve bonnet"
+    return None
+
+
+def _gauges(c: _Context) -> None:
+    """A short cylinder on a thin stem that stands on piping; or both as one mesh."""
+    for part, forms in enumerate(c.forms):
+        f = c.facts[part]
+        if not c.free(part):
+            continue
+        if forms.case:
+            for stem in c.near[part]:
+                foot = _gauge_foot(c, part, stem)
+                if foot is None:
+                    continue
+                kind = f"case of {_mm(2 * f.radius)}, {_mm(f.length)} deep, on a stem of {_mm(c.facts[stem].section[0])}"
+                c.say(part, GAUGE, "gauge case", 0.92, kind)
+                c.say(stem, GAUGE, "gauge stem", 0.88, f"stem under a {kind}")
+                c.say(foot, PIPE, "branch outlet", 0.8, f"between a pipe and the stem of a {kind}")
+                for j in c.near[part]:
+                    g = c.facts[j]
+                    inside = same_line(f.center, f.axis, g.center, g.axis, 0.2 * f.radius) and g.radius < f.radius
+                    if c.free(j) and inside:
+                        c.say(j, GAUGE, "gauge face", 0.85, f"disc in a {kind}")
+                break
+        elif f.discs and _is_whole_gauge(c, part):
+            c.say(part, GAUGE, "gauge", 0.8, f"dial of {_mm(2 * f.discs[0].outer)} on a stem, in one mesh")
+
+
+def _gauge_foot(c: _Context, case: int, stem: int) -> int | None:
+    """What the stem of a gauge stands on: an outlet or piping; None if this is no stem of a gauge."""
+    f, g = c.facts[case], c.facts[stem]
+    way = c.parts.properties.obb_axes[stem][0]
+    slender = g.section[0] > 1.5 * g.section[1] and g.section[1] < STEM_CASE * 2 * f.radius
+    apart = c.parts.properties.obb_center[stem] - c.parts.properties.obb_center[case]
+    aims = np.linalg.norm(apart - (apart @ way) * way) < 0.35 * f.radius + 0.5 * f.length * abs(f.axis @ way)
+    if not slender or not aims or not c.free(stem):
+        return None
+    for foot in c.near[stem]:
+        if foot == case or foot in c.near[case]:
+            continue
+        if _is_piping(c, foot):
+            return foot
+        small = c.free(foot) and c.facts[foot].section[0] < 2 * f.radius
+        if small and any(_is_piping(c, j) for j in c.near[foot]):
+            return foot
+    return None
+
+
+def _is_whole_gauge(c: _Context, part: int) -> bool:
+    """A dial whose axis has the stem far out on one side only, touching piping there and nothing else."""
+    f = c.facts[part]
+    dial = max(f.discs, key=lambda d: d.outer)
+    if not CASE[0] < 2 * dial.outer < CASE[1] or not 0 < len(c.near[part]) <= 2:
+        return False
+    corners = c.parts.scene.mesh(part)[0] - dial.center
+    across = corners - np.outer(corners @ dial.normal, dial.normal)
+    reach = np.linalg.norm(across, axis=1)
+    far = across[np.argmax(reach)] / reach.max()
+    depth = float(np.ptp(corners @ dial.normal))
+    one_sided = -float((across @ far).min()) < 1.3 * dial.outer
+    side = across - np.outer(across @ far, far)
+    thin_foot = np.linalg.norm(side[across @ far > 0.8 * reach.max()], axis=1).max() < STEM_CASE * dial.outer
+    touches = all(
+        (c.spot[part, j] - dial.center) @ far > 1.05 * dial.outer for j in c.near[part]
+    ) and any(_is_piping(c, j) or _foot_on_pipe(c, j, part) for j in c.near[part])  # fmt: skip
+    return bool(
+        reach.max() > 1.35 * dial.outer and one_sided and thin_foot and depth < 2.2 * dial.outer and touches
+    )
+
+
+def _foot_on_pipe(c: _Context, foot: int, above: int) -> bool:
+    if not c.free(foot) or c.facts[foot].section[0] > c.facts[above].section[0]:
+        return False
+    if any(_is_piping(c, j) for j in c.near[foot]):
+        c.say(foot, PIPE, "branch outlet", 0.75, "stub between a pipe and a gauge")
+        return True
+    return False
+
+
+def _supports(c: _Context) -> None:
+    """Rods and bands around a pipe; what carries them."""
+    held = []
+    for part, f in enumerate(c.facts):
+        if not c.free(part):
+            continue
+        for pipe in c.near[part]:
+            if c.is_a(pipe, PIPE, "pipe", "elbow") and _wraps(c, part, pipe):
+                name = "u-bolt" if f.fill < 0.25 and not f.round else "clamp"
+                c.say(part, FASTENER, name, 0.75, f"goes around a pipe of {_mm(2 * c.facts[pipe].ports[0].outer)}")
+                held.append(part)
+                break
+    for part in held:
+        for j in c.near[part]:
+            if c.free(j) and c.facts[j].section[0] < 2.5 * c.facts[part].section[0]:
+                c.say(j, FASTENER, "bracket", 0.6, "carries what goes around a pipe")
+
+
+def _wraps(c: _Context, part: int, pipe: int) -> bool:
+    """Whether a part has corners on more than half of the way around a pipe, close to its skin."""
+    spot = c.spot[part, pipe]
+    corners = c.parts.scene.mesh(part)[0]
+    for port in c.facts[pipe].ports:
+        r = port.outer
+        if _offset(spot, port) > r + 0.02 or max(c.facts[part].section) > 10 * r:
+            continue
+        apart = corners - port.center
+        across = apart - np.outer(apart @ port.normal, port.normal)
+        radii = np.linalg.norm(across, axis=1)
+        close = across[(radii > 0.9 * r) & (radii < 1.35 * r + 0.005)]
+        if len(close) < 6:
+            continue
+        u = np.cross(port.normal, np.eye(3)[np.argmin(np.abs(port.normal))])
+        angles = np.sort(np.arctan2(close @ np.cross(port.normal, u), close @ u))
+        if np.diff(np.append(angles, angles[0] + 2 * np.pi)).max() < np.radians(200):
+            return True
+    return False
+
+
+def _structure(c: _Context) -> None:
+    """Long bars and plates that touch each other."""
+    for part, forms in enumerate(c.forms):
+        if not c.free(part) or not (forms.bar or forms.plate):
+            continue
+        long = _mm(float(c.facts[part].section[0]))
+        if any(c.forms[j].bar or (forms.bar and c.forms[j].plate) for j in c.near[part]):
+            name = "plate" if forms.plate else None
+            c.say(part, STRUCTURE, name, 0.6, f"{'plate' if forms.plate else 'bar'} of {long} in a frame")
+
+
+def _leftovers(c: _Context) -> None:
+    """What touches only parts of one device, or is enclosed by it, belongs to it; a wheel without a valve does not."""
+    for group in (VALVE, GAUGE):
+        for _ in range(2):
+            for part, near in enumerate(c.near):
+                around = [j for j in near if not c.is_a(j, FASTENER)]
+                if c.free(part) and around and all(c.is_a(j, group) for j in around):
+                    c.say(part, group, None, 0.65, f"touches only parts of a {group.split()[0].lower()}")
+    for part in range(len(c.facts)):
+        if c.is_a(part, VALVE, "handwheel", "valve stem") and not _on_valve(c, part):
+            c.labels[part] = None
+
+
+def _on_valve(c: _Context, part: int) -> bool:
+    """Whether parts labelled as valve lead from here to a body."""
+    seen, queue = {part}, [part]
+    while queue:
+        here = queue.pop()
+        if c.is_a(here, VALVE, "valve body", "valve", "valve bonnet"):
+            return True
+        queue += [j for j in c.near[here] if j not in seen and c.is_a(j, VALVE)]
+        seen.update(queue)
+    return False
+
+
+_RULES: tuple[Callable[[_Context], None], ...] = (
+    _fasteners, _stems, _pipes, _flanges, _fittings, _valves, _gauges, _supports, _structure, _leftovers,
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class GeometryLabeler:
+    """Labels by rules on geometry; most parts of an unknown kind stay without a label."""
+
+    rules: tuple[Callable[[_Context], None], ...] = field(default=_RULES)
+
+    def label(self, parts: Parts, contacts: Contacts, vocabulary: Vocabulary) -> Sequence[Label | None]:
+        """Labels parts; see ``Labeler.label``. Labels that the vocabulary lacks are left out."""
+        context = _Context(parts, contacts)
+        for rule in self.rules:
+            rule(context)
+        return [
+            label if label is not None and vocabulary.holds(label.group, label.name) else None
+            for label in context.labels
+        ]

@@ -1,0 +1,44 @@
+"""From meshes to parts: the items that later stages speak of."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from cadgraph.geometry.properties import measure
+from cadgraph.geometry.shape import find_shapes
+from cadgraph.parts import Bools, Parts, Properties
+from cadgraph.scene import Ints, Scene
+
+__all__ = ["make_parts"]
+
+
+def make_parts(scene: Scene, properties: Properties, head_of_mesh: Ints, ground: Bools) -> Parts:
+    """Merges meshes into parts and measures them.
+
+    Args:
+        scene: the source meshes.
+        properties: of each mesh.
+        head_of_mesh: ``(n_meshes,)`` the mesh that heads each mesh's part.
+        ground: ``(n_meshes,)`` bool.
+
+    Returns:
+        The parts in the order of their heads.
+    """
+    heads, part_of_mesh = np.unique(head_of_mesh, return_inverse=True)
+    part_of_mesh = part_of_mesh.reshape(-1).astype(np.int64)
+    merged = scene.merge(part_of_mesh, heads)
+    measured = measure(merged)
+    # The head is the largest by the volume that grouping went by; the rest follow by their boxes.
+    joined = heads[part_of_mesh] != np.arange(scene.n_meshes)
+    rest = np.lexsort((np.arange(scene.n_meshes), -properties.obb_volume, joined))
+    meshes: list[list[int]] = [[] for _ in heads]
+    for mesh in rest.tolist():
+        meshes[part_of_mesh[mesh]].append(mesh)
+    return Parts(
+        scene=merged,
+        meshes=tuple(tuple(m) for m in meshes),
+        part_of_mesh=part_of_mesh,
+        properties=measured,
+        shape=find_shapes(merged, measured).shape,
+        ground=ground[heads],
+    )

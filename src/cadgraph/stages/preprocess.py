@@ -1,0 +1,61 @@
+"""Making a scene fit for the stages that follow."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from cadgraph.parts import Bools
+from cadgraph.scene import Diagnostic, Scene, mesh_of_face, mesh_of_vertex
+
+__all__ = ["prepare_scene"]
+
+
+def prepare_scene(scene: Scene) -> tuple[Scene, tuple[Diagnostic, ...]]:
+    """Puts meshes in the order of their paths and takes out what has no place in space.
+
+    Args:
+        scene: of any origin, a loader's or a caller's own arrays.
+
+    Returns:
+        A scene of finite vertices in which every mesh has at least one, and what was taken out.
+
+    Raises:
+        ValueError: a face refers to a vertex that its mesh doesn't have.
+    """
+    scene = scene.in_path_order()
+    n_vertices = np.diff(scene.vertex_offsets)[mesh_of_face(scene)]
+    bad = ((scene.faces < 0) | (scene.faces >= n_vertices[:, None])).any(axis=1)
+    if bad.any():
+        path = scene.paths[int(mesh_of_face(scene)[bad][0])]
+        raise ValueError(f"{path}: a face refers to a vertex that the mesh doesn't have")
+    told: list[Diagnostic] = []
+    finite = np.asarray(np.isfinite(scene.vertices).all(axis=1))
+    if not finite.all():
+        broken = np.unique(mesh_of_vertex(scene)[~finite])
+        message = "vertices that are not finite, and the faces that use them, were left out"
+        told.append(Diagnostic("non-finite-vertices", message, tuple(scene.paths[i] for i in broken)))
+        scene = _keep_vertices(scene, finite)
+    empty = np.diff(scene.vertex_offsets) == 0
+    if empty.any():
+        paths = tuple(scene.paths[i] for i in np.flatnonzero(empty))
+        told.append(Diagnostic("empty-mesh", "meshes without a finite vertex were left out", paths))
+        scene = scene.select(np.flatnonzero(~empty))
+    return scene, tuple(told)
+
+
+def _keep_vertices(scene: Scene, keep: Bools) -> Scene:
+    """The scene without some vertices and the faces that use them."""
+    kept = np.concatenate([[0], np.cumsum(keep)])
+    corners = scene.global_faces()
+    whole = keep[corners].all(axis=1)
+    offsets = kept[scene.vertex_offsets]
+    first = offsets[mesh_of_face(scene)][whole]
+    return dataclasses.replace(
+        scene,
+        vertices=scene.vertices[keep],
+        faces=(kept[corners[whole]] - first[:, None]).astype(np.int32),
+        vertex_offsets=offsets,
+        face_offsets=np.concatenate([[0], np.cumsum(whole)])[scene.face_offsets],
+    )

@@ -1,0 +1,123 @@
+"""Functional units and their relations (paper, section III-B, step 6 and Algorithm 1)."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+
+from cadgraph.parts import Contacts, Label, UnitParts
+from cadgraph.scene import Ints, natural_key
+from cadgraph.vocabulary import Vocabulary
+
+__all__ = ["find_units", "pipe_systems", "relate_units"]
+
+_LETTER = {"valve": "V", "gauge": "G", "pump": "P", "tank": "T", "equipment": "E"}
+
+
+def find_units(
+    labels: Sequence[Label | None], contacts: Contacts, cluster: Ints, vocabulary: Vocabulary
+) -> tuple[UnitParts, ...]:
+    """The functional units: connected sets of parts with the same functional group.
+
+    Args:
+        labels: of each part.
+        contacts: pairs of parts.
+        cluster: ``(n_parts,)``; -1 takes no part.
+        vocabulary: says which groups form units.
+
+    Returns:
+        The units by tag (``G-001``, ``V-001``...); tags are numbered by type in the order of their lowest part.
+    """
+    unit_of_group = vocabulary.unit_of_group
+    groups = [label.group if label is not None and label.group in unit_of_group else None for label in labels]
+    root = list(range(len(labels)))
+
+    def find(part: int) -> int:
+        while root[part] != part:
+            root[part] = root[root[part]]
+            part = root[part]
+        return part
+
+    for a, b in contacts.pairs.tolist():
+        if groups[a] is not None and groups[a] == groups[b] and cluster[a] == cluster[b] >= 0:
+            low, high = sorted((find(a), find(b)))
+            root[high] = low
+    members: dict[int, list[int]] = {}
+    for part, group in enumerate(groups):
+        if group is not None:
+            members.setdefault(find(part), []).append(part)
+    counts: Counter[str] = Counter()
+    units = []
+    for first, parts in sorted(members.items()):
+        unit_type = unit_of_group[str(groups[first])]
+        counts[unit_type] += 1
+        letter = _LETTER.get(unit_type, unit_type[:3].upper())
+        units.append(UnitParts(unit_type, f"{letter}-{counts[unit_type]:03d}", tuple(parts)))
+    return tuple(sorted(units, key=lambda unit: natural_key(unit.tag)))
+
+
+def pipe_systems(labels: Sequence[Label | None], cluster: Ints, vocabulary: Vocabulary) -> frozenset[int]:
+    """The clusters that hold a connector part; only there are relations looked for."""
+    connectors = vocabulary.connector_groups
+    return frozenset(
+        int(cluster[part])
+        for part, label in enumerate(labels)
+        if label is not None and label.group in connectors and cluster[part] >= 0
+    )
+
+
+def relate_units(
+    units: Sequence[UnitParts],
+    labels: Sequence[Label | None],
+    contacts: Contacts,
+    cluster: Ints,
+    vocabulary: Vocabulary,
+) -> tuple[tuple[int, int], ...]:
+    """Algorithm 1 of the paper, with the order of units fixed by their order here.
+
+    Units grow round by round over connector parts that no unit holds yet; units whose territories touch are
+    related. In each round only the parts that a unit won in the round before can have unclaimed neighbours left,
+    so only these are looked at; the answer is that of the paper's full scan.
+
+    Args:
+        units: in the order in which they grow.
+        labels: of each part.
+        contacts: pairs of parts.
+        cluster: ``(n_parts,)``.
+        vocabulary: says which groups are connectors.
+
+    Returns:
+        Pairs of unit indices, first < second, ascending.
+    """
+    systems = pipe_systems(labels, cluster, vocabulary)
+    connectors = vocabulary.connector_groups
+    connector = [label is not None and label.group in connectors for label in labels]
+    inside = [(a, b) for a, b in contacts.pairs.tolist() if cluster[a] == cluster[b] and int(cluster[a]) in systems]
+    neighbors: dict[int, list[int]] = {}
+    for a, b in inside:
+        neighbors.setdefault(a, []).append(b)
+        neighbors.setdefault(b, []).append(a)
+    owner = {part: i for i, unit in enumerate(units) for part in unit.parts}
+    fronts = [list(unit.parts) for unit in units]
+    while any(fronts):
+        for i, front in enumerate(fronts):
+            won = _unclaimed(front, neighbors, connector, owner)
+            owner.update(dict.fromkeys(won, i))
+            fronts[i] = won
+    related = {
+        (min(owner[a], owner[b]), max(owner[a], owner[b]))
+        for a, b in inside
+        if a in owner and b in owner and owner[a] != owner[b]
+    }
+    return tuple(sorted(related))
+
+
+def _unclaimed(
+    front: Sequence[int], neighbors: Mapping[int, Sequence[int]], connector: Sequence[bool], owner: Mapping[int, int]
+) -> list[int]:
+    """The connector parts next to a front that no unit holds, each once."""
+    return list(
+        dict.fromkeys(
+            there for here in front for there in neighbors.get(here, ()) if connector[there] and there not in owner
+        )
+    )

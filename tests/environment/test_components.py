@@ -1,0 +1,104 @@
+import numpy as np
+import pytest
+
+from cadgraph.environment import HANDS
+from cadgraph.environment.fastener import bolt, pipe_support
+from cadgraph.environment.flange import flange, flange_length, gasket
+from cadgraph.environment.gauge import pressure_gauge
+from cadgraph.environment.piping import elbow, outlet, pipe
+from cadgraph.environment.plant import gather
+from cadgraph.environment.standard import ELBOW_LONG_RADIUS, FLANGES, PIPES, SIZES
+from cadgraph.environment.structure import caster, deck, post
+from cadgraph.environment.valve import VALVES, valve_length
+from cadgraph.vocabulary import default_vocabulary
+from environment.solids import is_closed, least_edge, shell_volumes
+
+SOME = (15, 25, 50, 80, 150, 300)
+
+
+def builds(dn, hand):
+    valves = [build("V-1", dn, hand).assembly for build in VALVES.values()]
+    return gather(
+        [
+            *valves,
+            flange(dn, hand),
+            flange(dn, hand, blind=True),
+            gasket(dn, hand),
+            bolt(FLANGES[dn].bolt, 0.05, hand),
+            pipe(dn, 1.0, hand),
+            elbow(dn, np.pi / 2, hand),
+            elbow(dn, np.pi / 4, hand),
+            outlet(dn, hand),
+            pipe_support(dn, hand),
+            pressure_gauge("G-1", hand),
+            pressure_gauge("G-2", hand, size=100),
+            caster(hand),
+            deck(2.0, 0.8, hand),
+            post(1.0, hand),
+        ]
+    )
+
+
+@pytest.mark.parametrize("hand", HANDS.values(), ids=HANDS)
+@pytest.mark.parametrize("dn", SOME)
+def test_every_component_is_a_closed_solid_that_looks_outward(hand, dn):
+    for component in builds(dn, hand).components:
+        assert is_closed(component.solid), component.name
+        assert (shell_volumes(component.solid) > 0).all(), component.name
+        assert least_edge(component.solid) > 1e-7, component.name
+
+
+@pytest.mark.parametrize("hand", HANDS.values(), ids=HANDS)
+def test_every_label_is_in_the_vocabulary(hand):
+    vocabulary = default_vocabulary()
+    for component in builds(50, hand).components:
+        assert vocabulary.holds(component.group, component.name), (component.group, component.name)
+
+
+def test_components_refer_to_units_that_exist():
+    whole = builds(50, HANDS["plant-design"])
+    assert {c.unit for c in whole.components} - {""} == {unit.id for unit in whole.units}
+
+
+@pytest.mark.parametrize("dn", SIZES)
+def test_flange_has_the_size_of_the_standard(dn):
+    hand = HANDS["plant-design"]
+    vertices = flange(dn, hand).components[0].vertices
+    size = FLANGES[dn]
+    np.testing.assert_allclose(np.ptp(vertices, axis=0), [flange_length(dn, hand), size.outer, size.outer], rtol=1e-9)
+    holes = np.hypot(vertices[:, 1], vertices[:, 2])
+    drilled = (holes > size.raised / 2 + 1e-6) & (holes < size.outer / 2 - 1e-6) & (vertices[:, 0] < 0.003)
+    angles = np.arctan2(vertices[drilled, 2], vertices[drilled, 1])
+    assert len(np.unique(np.floor(angles * size.n_bolts / (2 * np.pi)))) == size.n_bolts
+
+
+def test_flanges_of_one_size_bolt_together_where_their_holes_are():
+    for size in FLANGES.values():
+        assert size.bolt < size.hole < size.bolt + 0.0042
+        assert size.circle / 2 + size.hole / 2 < size.outer / 2
+        assert size.circle / 2 - size.hole / 2 > size.raised / 2
+
+
+@pytest.mark.parametrize("dn", SIZES)
+def test_elbow_ends_where_the_standard_says(dn):
+    vertices = elbow(dn, np.pi / 2, HANDS["plant-design"]).components[0].vertices
+    reach = ELBOW_LONG_RADIUS[dn]
+    assert vertices[:, 1].max() == pytest.approx(reach)
+    at_end = vertices[np.isclose(vertices[:, 1], reach)]
+    assert (at_end[:, 0].max() + at_end[:, 0].min()) / 2 == pytest.approx(reach)
+    assert np.ptp(at_end[:, 0]) == pytest.approx(PIPES[dn].outer)
+
+
+@pytest.mark.parametrize("kind", VALVES)
+@pytest.mark.parametrize("dn", SOME)
+def test_valve_is_as_long_as_the_standard_says(kind, dn):
+    device = VALVES[kind]("V-1", dn, HANDS["plant-design"])
+    body = np.concatenate([c.vertices for c in device.assembly.components if c.name == "valve body"])
+    assert device.length == valve_length(kind, dn)
+    assert body[:, 0].min() == pytest.approx(0.0)
+    assert body[:, 0].max() == pytest.approx(device.length)
+
+
+def test_repeats_share_one_solid():
+    hand = HANDS["plant-design"]
+    assert bolt(0.0159, 0.05, hand).components[0].solid is bolt(0.0159, 0.05, hand).components[0].solid

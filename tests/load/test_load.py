@@ -1,0 +1,80 @@
+from __future__ import annotations
+
+import hashlib
+import subprocess
+import sys
+
+import pytest
+
+from cadgraph.config import LoadConfig
+from cadgraph.errors import LoadError, MissingExtra
+from cadgraph.load import formats, load
+
+CUBE = b'#usda 1.0\n(\n metersPerUnit = 1\n upAxis = "Z"\n)\ndef Cube "c" {}\n'
+
+
+def test_formats_name_suffixes_and_extras():
+    known = {form.name: form for form in formats()}
+    assert ".usdz" in known["usd"].suffixes
+    assert known["usd"].extra is None
+    assert known["step"].extra == "cad"
+
+
+def test_suffixes_belong_to_one_format_each():
+    suffixes = [suffix for form in formats() for suffix in form.suffixes]
+    assert len(suffixes) == len(set(suffixes))
+
+
+@pytest.mark.parametrize("isolate", [True, False])
+def test_source_is_recorded(tmp_path, isolate):
+    path = tmp_path / "a.USDA"
+    path.write_bytes(CUBE)
+    source = load(path, LoadConfig(isolate=isolate)).source
+    assert source.path == str(path)
+    assert source.sha256 == hashlib.sha256(CUBE).hexdigest()
+    assert (source.format, source.meters_per_unit, source.up_axis) == ("usd", 1.0, "Z")
+
+
+def test_missing_file(tmp_path):
+    with pytest.raises(LoadError, match=r"gone\.usd: no such file"):
+        load(tmp_path / "gone.usd")
+
+
+def test_folder(tmp_path):
+    with pytest.raises(LoadError, match="a folder; give one of the files"):
+        load(tmp_path)
+
+
+def test_empty_file(tmp_path):
+    (tmp_path / "a.usd").touch()
+    with pytest.raises(LoadError, match="empty"):
+        load(tmp_path / "a.usd")
+
+
+def test_null_byte_in_the_path():
+    with pytest.raises(LoadError):
+        load("a\0.usd")
+
+
+def test_unknown_suffix_lists_what_can_be_read(tmp_path):
+    (tmp_path / "a.xyz").write_text("x")
+    with pytest.raises(LoadError, match=r"'\.xyz'.*\.usda.*\.step"):
+        load(tmp_path / "a.xyz")
+
+
+def test_known_content_under_another_suffix_says_so(tmp_path):
+    (tmp_path / "a.txt").write_bytes(CUBE)
+    with pytest.raises(LoadError, match=r"looks like OpenUSD; rename it to end in \.usd"):
+        load(tmp_path / "a.txt")
+
+
+def test_missing_extra_is_named(tmp_path, monkeypatch):
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    (tmp_path / "a.step").write_text("ISO-10303-21;")
+    with pytest.raises(MissingExtra, match=r"STEP.*cadgraph\[cad\]"):
+        load(tmp_path / "a.step")
+
+
+def test_importing_the_registry_loads_no_library():
+    code = "import sys, cadgraph.load; sys.exit(any(m in sys.modules for m in ('pxr', 'cascadio', 'trimesh', 'scipy')))"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

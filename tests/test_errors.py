@@ -1,0 +1,23 @@
+import inspect
+
+import pytest
+
+from cadgraph import errors
+from cadgraph.errors import CadGraphError, MissingExtra
+
+
+@pytest.mark.parametrize("name", errors.__all__)
+def test_every_error_is_a_cadgraph_error(name):
+    assert issubclass(getattr(errors, name), CadGraphError)
+
+
+def test_the_tree_in_the_docstring_is_the_tree():
+    defined = {name for name, _ in inspect.getmembers(errors, inspect.isclass)}
+    assert defined == set(errors.__all__)
+    assert all(name in (errors.__doc__ or "") for name in defined)
+
+
+def test_a_missing_extra_says_how_to_install_it():
+    error = MissingExtra("reading STEP files", "cad")
+    assert str(error) == "reading STEP files needs an extra: pip install 'cadgraph[cad]'"
+    assert error.extra == "cad"
