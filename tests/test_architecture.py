@@ -33,14 +33,17 @@ MAY_IMPORT = {
     "pipeline": VALUES | {"geometry", "stages"},
     "export": VALUES | {"render"},
     "report": VALUES | {"render", "summary"},
-    "environment": VALUES | {"geometry"},
+    # Not among the values: no stage may ever see the truth.
+    "truth": {"atomic", "errors", "vocabulary"},
+    "environment": VALUES | {"geometry", "truth"},
+    "evaluate": VALUES | {"load", "truth"},
     "run": VALUES | {"environment", "export", "load", "pipeline", "render", "report", "summary"},
-    "cli": VALUES | {"environment", "export", "load", "pipeline", "render", "report", "run", "summary"},
+    "cli": VALUES | {"environment", "evaluate", "export", "load", "pipeline", "render", "report", "run", "summary"},
     "__main__": {"cli"},
     "__init__": VALUES | {"load", "pipeline", "run"},
 }
 
-MAY_USE_USD = {"load", "export", "environment"}
+MAY_USE_USD = {"load", "export", "environment", "evaluate"}
 HEAVY = {"PIL", "cascadio", "embreex", "jinja2", "networkx", "numba", "pxr", "scipy", "trimesh"}
 VAGUE = {"manager", "managers", "helper", "helpers", "util", "utils", "common", "misc"}
 

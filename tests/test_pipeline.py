@@ -207,3 +207,34 @@ def test_the_origin_only_moves_coordinates():
     )
     assert structure(far) == structure(near)
     assert far.parts()[0].centroid[0] == pytest.approx(near.parts()[0].centroid[0] + 2.4e7, abs=1e-6)
+
+
+@pytest.mark.parametrize("method", METHODS)
+@settings(max_examples=8, deadline=None)
+@given(unit=st.sampled_from([1.0, 0.01, 0.001, 0.0254, 0.3048, 12.5]), up=st.sampled_from("XYZ"))
+def test_authored_units_and_up_axis_do_not_matter(tmp_path_factory, method, unit, up):
+    from pxr import Gf, Sdf, Usd, UsdGeom, Vt
+
+    # Z up to the axis that the file has up; off the borders of voxels, which float32 coordinates would blur.
+    turn = {"X": [[0, 0, 1], [1, 0, 0], [0, 1, 0]], "Y": [[0, 1, 0], [0, 0, 1], [1, 0, 0]], "Z": np.eye(3)}[up]
+    off = (0.0031, 0.0023, 0.0017)
+    path = str(tmp_path_factory.mktemp("units") / "scene.usda")
+    layer = Sdf.Layer.CreateNew(path)
+    stage = Usd.Stage.Open(layer)
+    UsdGeom.SetStageMetersPerUnit(stage, unit)
+    if up == "X":
+        stage.SetMetadata("upAxis", "X")
+    else:
+        UsdGeom.SetStageUpAxis(stage, up)
+    for name, (vertices, faces) in zip(PATHS, line(off), strict=True):
+        mesh = UsdGeom.Mesh.Define(stage, name)
+        mesh.CreatePointsAttr(Vt.Vec3fArray([Gf.Vec3f(*p) for p in (vertices @ np.transpose(turn) / unit).tolist()]))
+        mesh.CreateFaceVertexCountsAttr([3] * len(faces))
+        mesh.CreateFaceVertexIndicesAttr(faces.reshape(-1).tolist())
+    stage.Save()
+    scene = cadgraph.load(path, cadgraph.Config().load.model_copy(update={"isolate": False}))
+    config = cadgraph.Config().replace({"method": method, "label.labeler": "none"})
+    found, expected = structure(cadgraph.build(scene, config, labels=LABELS)), structure(built(line(off), method))
+    for key in ("distances", "sizes"):  # float32 in the file
+        assert np.allclose(found.pop(key), expected.pop(key), atol=2e-5)
+    assert found == expected

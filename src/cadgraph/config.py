@@ -99,6 +99,11 @@ class ClusterConfig(Section):
     """What touches, and what is one structure."""
 
     eps: float = _setting(0.01, "parts at most this far apart are adjacent [m]", _PAPER + " (DBSCAN eps)", ge=0)
+    bridge_gap: float = _setting(
+        0.002, "a single contact over at least this gap is a weak bridge between two structures [m]", ge=0
+    )
+    bridge_parts: int = _setting(5, "least number of parts on both sides of a weak bridge", ge=1)
+    cut_bridges: bool = _setting(False, "take weak bridges for no contact; off: only list them in diagnostics")
     min_samples: int = _setting(1, "DBSCAN's least number of neighbours, itself included", _PAPER, ge=1)
 
 

@@ -12,6 +12,7 @@ from cadgraph.progress import Progress, quiet
 from cadgraph.scene import Scene
 from cadgraph.stages.adjacency import find_near_meshes, join_contacts
 from cadgraph.stages.assemble import Results, assemble_graph
+from cadgraph.stages.bridge import cut_bridges, find_weak_bridges, tell_bridges
 from cadgraph.stages.cluster import cluster_parts
 from cadgraph.stages.ground import find_ground
 from cadgraph.stages.group import group_meshes
@@ -69,6 +70,9 @@ def build(
     contacts = join_contacts(near, parts.part_of_mesh, config.cluster.eps)
 
     progress("cluster", 0)
+    bridges = find_weak_bridges(parts.n_parts, contacts, parts.ground, config.cluster)
+    told_bridges = tell_bridges(bridges, contacts, parts, config.cluster.cut_bridges)
+    contacts = cut_bridges(contacts, bridges) if config.cluster.cut_bridges else contacts
     cluster = cluster_parts(parts.n_parts, contacts, parts.ground, config.cluster.min_samples)
 
     progress("label", 0)
@@ -89,7 +93,7 @@ def build(
         labels=named,
         units=units,
         related=related,
-        diagnostics=(*scene.diagnostics, *told_scene, *told_ground, *told_labels),
+        diagnostics=(*scene.diagnostics, *told_scene, *told_ground, *told_bridges, *told_labels),
     )
     graph = assemble_graph(results, vocabulary, config.model_dump(mode="json"))
     progress("assemble", 1)

@@ -89,7 +89,7 @@ def test_crate_cut_but_named_usd_is_an_error(tmp_path, crate):
 def test_flipped_bytes_never_take_the_caller_down(tmp_path, crate):
     rng = np.random.default_rng(1)
     paths = []
-    for i in range(24):
+    for i in range(16):
         damaged = np.frombuffer(crate, np.uint8).copy()
         # The tail holds the tables that a reader follows: damage there does most.
         first = 0 if i % 2 else len(crate) * 3 // 4
@@ -111,6 +111,7 @@ def test_flipped_bytes_never_take_the_caller_down(tmp_path, crate):
         ("syntax.usda", b'#usda 1.0\ndef Mesh "a" {{{\n'),
         ("binary.usda", b"#usda 1.0\n" + bytes(range(256))),
         ("escape.usda", b"#usda 1.0\n\x1b[31mred\x1b[0m\n"),
+        ("latin.usda", b'#usda 1.0\ndef Cube "Stra\xdfe" {}\n'),
         ("header.usda", b"#usda 1.0\n"),
         ("future.usda", b"#usda 99.0\n"),
     ],
@@ -164,6 +165,17 @@ def test_files_beside_the_user_are_not_imported(tmp_path, crate, monkeypatch):
     (tmp_path / "a.usdc").write_bytes(crate)
     monkeypatch.chdir(tmp_path)
     assert load("a.usdc").source.path == "a.usdc"
+
+
+def test_damage_is_one_line_without_isolation_too(tmp_path):
+    for name, content in {
+        "latin.usda": b'#usda 1.0\ndef Cube "Stra\xdfe" {}\n',
+        "words.usda": b"#usda 1.0\nwords\n",
+    }.items():
+        (tmp_path / name).write_bytes(content)
+        with pytest.raises(LoadError, match="not readable as USD") as caught:
+            load(tmp_path / name, LoadConfig(isolate=False))
+        assert "\n" not in str(caught.value)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs signals")

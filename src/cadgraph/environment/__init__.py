@@ -2,7 +2,23 @@
 
 from cadgraph.environment.hand import HANDS, Hand
 from cadgraph.environment.plant import Component, Plant
+from cadgraph.environment.preset import PRESETS, make
+from cadgraph.environment.riser import make_riser
 from cadgraph.environment.skid import make_skid
+from cadgraph.environment.tank import make_tank
 from cadgraph.environment.usd import UsdStyle, truth_path, write_usd
 
-__all__ = ["HANDS", "Component", "Hand", "Plant", "UsdStyle", "make_skid", "truth_path", "write_usd"]
+__all__ = [
+    "HANDS",
+    "PRESETS",
+    "Component",
+    "Hand",
+    "Plant",
+    "UsdStyle",
+    "make",
+    "make_riser",
+    "make_skid",
+    "make_tank",
+    "truth_path",
+    "write_usd",
+]

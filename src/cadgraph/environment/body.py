@@ -24,6 +24,7 @@ def flipped(shell: Shell, length: float) -> Shell:
 
 
 def bore_of(dn: int, hand: Hand) -> float:
+    """The radius of a body's bore [m]; 0 where the hand models solid."""
     return PIPES[dn].bore if hand.hollow else 0.0
 
 

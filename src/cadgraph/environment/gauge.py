@@ -6,14 +6,14 @@ from functools import cache
 
 import numpy as np
 
-from cadgraph.environment.frame import IDENTITY, at, spun
+from cadgraph.environment.frame import IDENTITY, arc, at, spun
 from cadgraph.environment.hand import Hand
-from cadgraph.environment.plant import Assembly, Component, Unit
+from cadgraph.environment.plant import Assembly, Component, Unit, gather
 from cadgraph.environment.polygon import circle
-from cadgraph.environment.solid import Solid, extrude, merge, moved, revolve, stack, weld
+from cadgraph.environment.solid import Solid, extrude, merge, moved, revolve, stack, tube, weld
 from cadgraph.environment.standard import GAUGES
 
-__all__ = ["pressure_gauge"]
+__all__ = ["pressure_gauge", "side_gauge"]
 
 _NIPPLE = 0.00685  # m, radius of a DN8 pipe (ASME B36.10M)
 _BITE = 0.0003  # m; the square of the stem runs this deep into the round case
@@ -116,3 +116,42 @@ def pressure_gauge(
     components = tuple(Component(s, "Gauge assembly", name, hand.color(c), pose, unit) for s, pose, name, c in parts)
     contacts = tuple((i, i + 1) for i in range(len(components) - 1))
     return Assembly(components, contacts, (Unit(unit, "gauge", "pressure gauge"),)).placed(spun("z", turn))
+
+
+@cache
+def _siphon_solid(out: float, rise: float, hand: Hand) -> Solid:
+    bend = 0.024
+    corner = np.array([0.0, 0.0, out])
+    path = np.vstack(
+        [
+            [[0.0, 0.0, 0.0]],
+            arc((0.0, 0.0, out - bend), corner, (bend, 0.0, out), 6),
+            [[rise, 0.0, out]],
+        ]
+    )
+    return tube(path, _NIPPLE, 0.0, max(12, min(hand.round(_NIPPLE), 20)))
+
+
+def side_gauge(
+    unit: str, hand: Hand, size: int = 63, out: float = 0.09, rise: float = 0.05, turn: float = 0.0, needle: float = 2.2
+) -> Assembly:
+    """A pressure gauge beside a vertical pipe: from z = 0 out along z, then up along x.
+
+    Args:
+        unit: id of the unit.
+        hand: that models it.
+        size: nominal size of the case.
+        out: how far it stands off [m].
+        rise: from that axis to the foot of the gauge's stem [m].
+        turn: of the dial about its stem [rad]; 0 looks to -y.
+        needle: angle of the needle [rad].
+    """
+    stand = at(rise, 0.0, out) @ spun("y", np.pi / 2)
+    gauge = pressure_gauge(unit, hand, size, 0.045, turn, needle).placed(stand)
+    solid = _siphon_solid(round(out, 6), round(rise, 6), hand)
+    if hand.gauge == "one":
+        whole = merge([solid, moved(gauge.components[0].solid, gauge.components[0].pose)])
+        one = Component(whole, "Gauge assembly", "gauge", hand.color("gauge"), unit=unit)
+        return Assembly((one,), (), gauge.units)
+    pipe = Component(solid, "Gauge assembly", "siphon", hand.color("trim"), unit=unit)
+    return gather([Assembly((pipe,)), gauge], [(0, 1)])

@@ -279,16 +279,15 @@ def _block(work: _Work, item: Inline) -> None:
     work.follow(flange(work.dn, hand).placed(frame @ at(neck) @ back))
     first = work.tail
     face = neck
+    device = item.build(hand) if item.build is not None else Device(Assembly(), 0.0)
+    if device.wafer:
+        _wafer(work, item, device, frame @ at(face), first)
+        work.cursor += 2 * (neck + pad) + device.length
+        return
     sealed = _joint(work, frame, face)
     face += pad
     if item.build is not None:
-        device = item.build(hand)
-        pose = frame @ spun("x", item.roll) @ at(face)
-        inlet, outlet_ = device.inlet, device.outlet
-        if item.reverse:
-            pose, inlet, outlet_ = pose @ at(device.length) @ back, outlet_, inlet
-        work.devices[item.unit] = work.count
-        work.follow(device.assembly.placed(pose), inlet, outlet_)
+        inlet, outlet_ = _set(work, item, device, frame @ at(face))
         _join_bolts(work, sealed, first, work.tail - outlet_ + inlet)
         first = work.tail
         face += device.length
@@ -297,6 +296,30 @@ def _block(work: _Work, item: Inline) -> None:
     work.follow(flange(work.dn, hand).placed(frame @ at(face)))
     _join_bolts(work, sealed, first, work.tail)
     work.cursor += face + neck
+
+
+def _set(work: _Work, item: Inline, device: Device, pose: Floats) -> tuple[int, int]:
+    """Puts a device in the run; returns its inlet and outlet as they follow along the run."""
+    pose = pose @ spun("x", item.roll)
+    inlet, outlet_ = device.inlet, device.outlet
+    if item.reverse:
+        pose, inlet, outlet_ = pose @ at(device.length) @ spun("z", np.pi), outlet_, inlet
+    work.devices[item.unit or item.junction] = work.count
+    work.follow(device.assembly.placed(pose), inlet, outlet_)
+    return inlet, outlet_
+
+
+def _wafer(work: _Work, item: Inline, device: Device, frame: Floats, first: int) -> None:
+    """A device without flanges between gaskets, held by long bolts; the second counter-flange."""
+    hand, pad, plate = work.hand, _pad(work.hand), plate_thickness(work.dn)
+    work.follow(gasket(work.dn, hand).placed(frame))
+    _set(work, item, device, frame @ at(pad))
+    far = 2 * pad + device.length
+    work.follow(gasket(work.dn, hand).placed(frame @ at(far - pad)))
+    start = work.add(bolts(work.dn, 2 * plate + far, hand).placed(frame @ at(-plate)))
+    studs = range(start, work.count)
+    work.follow(flange(work.dn, hand).placed(frame @ at(far)))
+    _join_bolts(work, studs, first, work.tail)
 
 
 def _joint(work: _Work, frame: Floats, face: float) -> range:
@@ -386,13 +409,7 @@ def _weld_in(work: _Work, item: Inline) -> None:
     if item.build is None:
         return
     device = item.build(work.hand)
-    pose = work.run.route.frame(work.cursor) @ spun("x", item.roll)
-    inlet, outlet_ = device.inlet, device.outlet
-    if item.reverse:
-        pose, inlet, outlet_ = pose @ at(device.length) @ spun("z", np.pi), outlet_, inlet
-    first = work.count
-    work.follow(device.assembly.placed(pose), inlet, outlet_)
-    work.devices[item.unit or item.junction] = first
+    _set(work, item, device, work.run.route.frame(work.cursor))
     work.cursor += device.length
 
 

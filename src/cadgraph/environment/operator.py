@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
 
+from cadgraph.environment.body import Piece
+from cadgraph.environment.frame import at, spun
+from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle
 from cadgraph.environment.solid import Solid, extrude, loft, merge, revolve, sweep, weld
+from cadgraph.scene import Floats
 
-__all__ = ["handwheel", "lever_solid", "yoke_solid"]
+__all__ = ["Topworks", "handwheel", "lever_solid", "topworks", "yoke_solid"]
 
 
 @cache
@@ -66,3 +71,83 @@ def yoke_solid(spread: float, foot: float, top: float, crown: float, bush: float
         )
         solids.append(sweep(path, section, up=(1.0, 0.0, 0.0)))
     return merge(solids)
+
+
+@dataclass(frozen=True)
+class Topworks:
+    """What stands on the flange of a valve body, about the stem's axis.
+
+    Args:
+        bonnet: with its packing box.
+        gland: the hexagon that holds the packing.
+        yoke: arms and bush.
+        stem: through bush and wheel.
+        wheel: about its hub's underside.
+        wheel_low: height of that underside [m].
+    """
+
+    bonnet: Solid
+    gland: Solid
+    yoke: Solid
+    stem: Solid
+    wheel: Solid
+    wheel_low: float
+
+    contacts = ((0, 1), (1, 2), (1, 3), (1, 4), (2, 4), (3, 4), (4, 5))  # with the body as the first piece
+
+    def pieces(self, stand: Floats, turn: float) -> list[Piece]:
+        """Bonnet, gland, yoke, stem and wheel, the wheel turned [rad]."""
+        return [
+            (self.bonnet, stand, "valve bonnet", "valve"),
+            (self.gland, stand, "gland", "trim"),
+            (self.yoke, stand, "yoke", "valve"),
+            (self.stem, stand, "valve stem", "trim"),
+            (self.wheel, stand @ at(0, 0, self.wheel_low) @ spun("z", turn), "handwheel", "handle"),
+        ]
+
+
+def topworks(
+    seat: float,
+    collar: float,
+    plate: float,
+    radius: float,
+    hand: Hand,
+    spokes: int,
+    wheel: float,
+    rise: float = 0.008,
+    tall: float = 1.0,
+) -> Topworks:
+    """A bolted bonnet with outside screw and yoke.
+
+    Args:
+        seat: height of the body's flange [m].
+        collar: its radius [m].
+        plate: thickness of the bonnet's flange [m].
+        radius: of the pipe, which everything is scaled by [m].
+        hand: that models it.
+        spokes: of the handwheel.
+        wheel: its radius [m].
+        rise: how far the stem stands out of the wheel [m].
+        tall: stretches the yoke.
+    """
+    stem_radius = 0.005 + 0.10 * radius
+    box_radius, box_top = 2.1 * stem_radius, seat + plate + 0.55 * radius + 0.016
+    shape = [(0, seat), (collar, seat), (collar, seat + plate), (0.62 * collar, seat + plate)]
+    shape += [(box_radius, seat + plate + 0.3 * radius), (box_radius, box_top), (stem_radius, box_top), (0, box_top)]
+    bonnet = weld([revolve(shape, hand.round(collar))])
+    sides = max(12, min(hand.round(stem_radius), 16))
+    gland_top = box_top + 0.010
+    bush, crown = 1.9 * stem_radius, 0.016 + 0.05 * radius
+    between = 0.80 * collar - 2 * (0.22 * bush + 0.002) - 0.001
+    gland = extrude(
+        circle(min(stem_radius * 2.5, between / np.cos(np.pi / 6)), 6),
+        box_top,
+        gland_top,
+        (circle(stem_radius, sides),),
+    )
+    yoke_top = gland_top + (0.035 + 0.55 * radius) * tall
+    yoke = yoke_solid(0.80 * collar, seat + plate, yoke_top, crown, bush, stem_radius, sides)
+    low, thick = yoke_top + 0.012, 0.014 + 0.08 * radius
+    stem = extrude(circle(stem_radius, sides), box_top, low + thick + rise)
+    disc = handwheel(wheel, 0.006 + 0.03 * wheel, spokes, 2.2 * stem_radius, thick, stem_radius, hand.round(wheel))
+    return Topworks(bonnet, gland, yoke, stem, disc, low)

@@ -153,12 +153,14 @@ class Device:
         length: face to face [m].
         inlet: index of the component with the inlet face.
         outlet: index of the component with the outlet face.
+        wafer: whether it has no flanges and is held by bolts that reach from one counter-flange to the other.
     """
 
     assembly: Assembly
     length: float
     inlet: int = 0
     outlet: int = 0
+    wafer: bool = False
 
 
 def gather(assemblies: Iterable[Assembly], joints: Sequence[tuple[int, int]] = ()) -> Assembly:

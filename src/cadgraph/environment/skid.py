@@ -15,15 +15,15 @@ from cadgraph.environment.hand import HANDS, Hand
 from cadgraph.environment.layout import Inline, Laid, Route, Run, Tap, lay
 from cadgraph.environment.plant import Assembly, Device, Plant, gather
 from cadgraph.environment.standard import PIPES
-from cadgraph.environment.structure import CASTER_HEIGHT, CHANNEL_WIDTH, DECK_INSET, caster, deck, post
+from cadgraph.environment.structure import CASTER_HEIGHT, CHANNEL_WIDTH, DECK_HEIGHT, DECK_INSET, caster, deck, post
 from cadgraph.environment.valve import VALVES, valve_length
 
 __all__ = ["make_skid"]
 
 _LENGTH, _WIDTH = 2.10, 0.86  # m, of the plate
 _POST_X, _POST_Y, _POST = 0.68, 0.25, 0.05  # m, where the posts stand, and their side
-_DECK = 0.086  # m, plate and channels
-_TOP = CASTER_HEIGHT + _DECK  # m, the plate's top over the ground
+
+_TOP = CASTER_HEIGHT + DECK_HEIGHT  # m, the plate's top over the ground
 _LEVELS = (0.30, 0.70, 1.10)  # m, of the lines over the plate
 _REACH = 1.00  # m, from the middle to the axis of the bends at the right
 _LEFT = -1.16  # m, where the lines end or turn at the left

@@ -13,6 +13,7 @@ __all__ = [
     "PIPES",
     "RAISED_FACE",
     "REDUCER_LENGTH",
+    "SECTIONS",
     "SIZES",
     "TEE_CENTER_TO_END",
     "Flange",
@@ -206,4 +207,15 @@ GAUGES: dict[int, Gauge] = {
     63: Gauge(0.063, 0.032, 0.068, 0.014, 0.0132, 0.054),
     100: Gauge(0.100, 0.049, 0.107, 0.022, 0.0210, 0.087),
     160: Gauge(0.160, 0.050, 0.167, 0.022, 0.0210, 0.118),
+}
+
+# EN 10365 wide-flange sections: height, flange width, web, flange thickness [m].
+SECTIONS: dict[str, tuple[float, float, float, float]] = {
+    "HEA 100": (0.096, 0.100, 0.005, 0.008),
+    "HEA 120": (0.114, 0.120, 0.005, 0.008),
+    "HEA 160": (0.152, 0.160, 0.006, 0.009),
+    "HEA 200": (0.190, 0.200, 0.0065, 0.010),
+    "IPE 100": (0.100, 0.055, 0.0041, 0.0057),
+    "IPE 160": (0.160, 0.082, 0.0050, 0.0074),
+    "IPE 200": (0.200, 0.100, 0.0056, 0.0085),
 }

@@ -6,18 +6,20 @@ from functools import cache
 
 import numpy as np
 
-from cadgraph.environment.frame import at, spun
+from cadgraph.environment.frame import at, looking, spun
 from cadgraph.environment.hand import Hand
-from cadgraph.environment.plant import Assembly, Component
-from cadgraph.environment.polygon import circle, rounded_rectangle, section_channel
+from cadgraph.environment.plant import Assembly, Component, gather
+from cadgraph.environment.polygon import circle, rounded_rectangle, section_channel, section_i
 from cadgraph.environment.solid import Solid, extrude, merge, moved, revolve, weld
+from cadgraph.environment.standard import SECTIONS
 from cadgraph.scene import Floats
 
-__all__ = ["CASTER_HEIGHT", "CHANNEL_WIDTH", "DECK_INSET", "caster", "deck", "post"]
+__all__ = ["CASTER_HEIGHT", "CHANNEL_WIDTH", "DECK_HEIGHT", "DECK_INSET", "beam", "caster", "column", "deck", "post"]
 
 CASTER_HEIGHT = 0.135  # m, of a swivel caster with a 100 mm wheel (EN 12532)
 CHANNEL_WIDTH = 0.042  # m, flange width of the frame's channels
 DECK_INSET = 0.045  # m
+DECK_HEIGHT = 0.086  # m, plate and channels
 _WHEEL = 0.05
 _TREAD = 0.032
 
@@ -113,7 +115,7 @@ def deck(length: float, width: float, hand: Hand, thick: float = 0.006, height: 
             )
         )
         contacts.append((0, len(components) - 1))
-    for x in (-0.30 * length, 0.0, 0.30 * length):
+    for x in (-0.26 * length, 0.0, 0.26 * length):
         pose = _beam_pose(np.array([1.0, 0.0, 0.0]), (x, 0.0, level))
         components.append(Component(cross_beam, group, "skid frame", color, pose))
         contacts += [(0, len(components) - 1), (1, len(components) - 1), (2, len(components) - 1)]
@@ -127,21 +129,64 @@ def _post_solid(height: float, side: float, wall: float) -> Solid:
     return extrude(outer, 0.0, height, (inner,))
 
 
-def post(height: float, hand: Hand, side: float = 0.05, wall: float = 0.003) -> Assembly:
-    """A square hollow post (EN 10219-2) on a base plate at z = 0, with a plastic cap: base plate, post."""
+def post(height: float, hand: Hand, side: float = 0.05, wall: float = 0.003, capped: bool = False) -> Assembly:
+    """A square hollow post (EN 10219-2) on a base plate at z = 0, its top at ``height``: base plate, post, head plate.
+
+    Args:
+        height: of the whole [m].
+        hand: that models it.
+        side: of the section [m].
+        wall: of the section [m].
+        capped: whether a head plate closes it, to carry something.
+    """
     group, color = "Structural element", hand.color("steel")
     thick = 0.008
-    holes = tuple(circle(0.0065, 12, (x, y)) for x in (-0.045, 0.045) for y in (-0.045, 0.045))
-    base = _base_solid(0.12, thick, holes)
-    hollow = _post_solid(round(height - thick, 6), side, wall)
-    return Assembly(
-        (
-            Component(base, group, "base plate", color),
-            Component(hollow, group, "post", color, at(0, 0, thick)),
-        ),
-        ((0, 1),),
-    )
+    lid = thick if capped else 0.0
+    components = [
+        Component(_base_solid(round(side + 0.07, 6), thick, 0.0065), group, "base plate", color),
+        Component(_post_solid(round(height - thick - lid, 6), side, wall), group, "post", color, at(0, 0, thick)),
+    ]
+    if capped:
+        head = _base_solid(round(side + 0.03, 6), thick, 0.0)
+        components.append(Component(head, group, "plate", color, at(0, 0, height - thick)))
+    return Assembly(tuple(components), tuple((i, i + 1) for i in range(len(components) - 1)))
 
 
-def _base_solid(width: float, thick: float, holes: tuple[Floats, ...]) -> Solid:
+@cache
+def _base_solid(width: float, thick: float, hole: float) -> Solid:
+    reach = width / 2 - 0.015
+    holes = tuple(circle(hole, 12, (x, y)) for x in (-reach, reach) for y in (-reach, reach)) if hole else ()
     return extrude(rounded_rectangle(width, width, 0.01, 3), 0.0, thick, holes)
+
+
+@cache
+def _section_solid(height: float, width: float, web: float, flange: float, length: float) -> Solid:
+    return extrude(section_i(height, width, web, flange), 0.0, length)
+
+
+def beam(start: Floats, end: Floats, hand: Hand, size: str = "HEA 100", name: str = "beam") -> Assembly:
+    """A rolled H or I section between two points of its axis, its web upright.
+
+    Args:
+        start: ``(3,)`` [m].
+        end: likewise.
+        hand: that models it.
+        size: a key of ``SECTIONS``.
+        name: ``beam``, ``column`` or ``brace``.
+    """
+    start, end = np.asarray(start, float), np.asarray(end, float)
+    frame = looking(start, end - start)
+    # The section lies in x (flange width) and y (height) and runs along z.
+    pose = np.eye(4)
+    pose[:3, 0], pose[:3, 1], pose[:3, 2], pose[:3, 3] = frame[:3, 1], frame[:3, 2], frame[:3, 0], start
+    solid = _section_solid(*SECTIONS[size], round(float(np.linalg.norm(end - start)), 9))
+    return Assembly((Component(solid, "Structural element", name, hand.color("steel"), pose),))
+
+
+def column(height: float, hand: Hand, size: str = "HEA 120") -> Assembly:
+    """A column on a base plate at z = 0, its top at ``height``: base plate, column."""
+    thick = 0.015
+    width = round(max(SECTIONS[size][:2]) + 0.10, 6)
+    base = Component(_base_solid(width, thick, 0.009), "Structural element", "base plate", hand.color("steel"))
+    shaft = beam(np.array([0, 0, thick]), np.array([0, 0, height]), hand, size, "column")
+    return gather([Assembly((base,)), shaft], [(0, 1)])

@@ -8,10 +8,12 @@ from functools import cache
 import numpy as np
 
 from cadgraph.environment.body import Piece, assemble, bore_of, flipped
+from cadgraph.environment.butterfly import butterfly_valve
 from cadgraph.environment.flange import face_shell, nut_circle, nut_room, plate_thickness
-from cadgraph.environment.frame import IDENTITY, at
+from cadgraph.environment.frame import IDENTITY, at, spun
+from cadgraph.environment.gate import check_valve, gate_valve
 from cadgraph.environment.hand import Hand
-from cadgraph.environment.operator import handwheel, lever_solid, yoke_solid
+from cadgraph.environment.operator import Topworks, lever_solid, topworks
 from cadgraph.environment.plant import Device
 from cadgraph.environment.polygon import circle
 from cadgraph.environment.solid import (
@@ -19,7 +21,6 @@ from cadgraph.environment.solid import (
     Solid,
     about_x,
     branched,
-    extrude,
     revolve,
     stack,
     weld,
@@ -77,12 +78,10 @@ def ball_valve(unit: str, dn: int, hand: Hand, turn: float = 0.0) -> Device:
     body, end, stem, lever, height = _ball_solids(dn, hand)
     stand = at(0.40 * valve_length("ball", dn))
     pose = stand @ at(0, 0, height)
-    turned = np.eye(4)
-    turned[:2, :2] = [[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]
     pieces: list[Piece] = [
         (body, IDENTITY, "valve body", "valve"),
         (stem, stand, "valve stem", "trim"),
-        (lever, pose @ turned, "lever", "handle"),
+        (lever, pose @ spun("z", turn), "lever", "handle"),
         (end, IDENTITY, "valve body", "valve"),
     ]
     return assemble(pieces, "ball valve", unit, hand, ((0, 1), (1, 2), (0, 3)), 3, valve_length("ball", dn))
@@ -92,8 +91,8 @@ def ball_valve(unit: str, dn: int, hand: Hand, turn: float = 0.0) -> Device:
 
 
 @cache
-def _globe_solids(dn: int, hand: Hand, spokes: int) -> tuple[tuple[Solid, ...], tuple[float, float]]:
-    """Body, bonnet, gland, yoke, stem and handwheel about the stem's axis; heights of yoke and wheel."""
+def _globe_solids(dn: int, hand: Hand, spokes: int) -> tuple[Solid, Topworks]:
+    """Body, and what stands on it."""
     size, radius, length = FLANGES[dn], PIPES[dn].radius, valve_length("globe", dn)
     thick, bore = plate_thickness(dn), bore_of(dn, hand)
     sides = hand.round(size.outer / 2)
@@ -115,57 +114,22 @@ def _globe_solids(dn: int, hand: Hand, spokes: int) -> tuple[tuple[Solid, ...], 
     body = [head, flipped(head, length), middle]
     if bore:
         body.append(revolve([(bore, length), (bore, 0.0)], sides))
-    stem_radius = 0.005 + 0.10 * radius
-    box_radius, box_top = 2.1 * stem_radius, seat + plate + 0.55 * radius + 0.016
-    shape = [(0, seat), (collar, seat), (collar, seat + plate), (0.62 * collar, seat + plate)]
-    shape += [(box_radius, seat + plate + 0.3 * radius), (box_radius, box_top), (stem_radius, box_top), (0, box_top)]
-    bonnet = weld([revolve(shape, hand.round(collar))])
-    round_sides = max(12, min(hand.round(stem_radius), 16))
-    gland_top = box_top + 0.010
-    gland_plate = stem_radius * 3.3
-    gland = extrude(circle(gland_plate, 6), box_top, gland_top, (circle(stem_radius, round_sides),))
-    yoke_top = gland_top + 0.035 + 0.55 * radius
-    bush, crown = 1.9 * stem_radius, 0.016 + 0.05 * radius
-    yoke = yoke_solid(0.80 * collar, seat + plate, yoke_top, crown, bush, stem_radius, round_sides)
-    wheel_low = yoke_top + 0.012
-    wheel_thick = 0.014 + 0.08 * radius
-    stem = extrude(circle(stem_radius, round_sides), box_top, wheel_low + wheel_thick + 0.008)
-    wheel_radius = min(0.050 + 1.45 * radius, 0.30)
-    wheel = handwheel(
-        wheel_radius,
-        0.006 + 0.05 * radius,
-        spokes,
-        2.2 * stem_radius,
-        wheel_thick,
-        stem_radius,
-        hand.round(wheel_radius),
-    )
-    return (about_x(weld(body)), bonnet, gland, yoke, stem, wheel), (yoke_top, wheel_low)
+    top = topworks(seat, collar, plate, radius, hand, spokes, min(0.050 + 1.45 * radius, 0.30))
+    return about_x(weld(body)), top
 
 
 def globe_valve(unit: str, dn: int, hand: Hand, spokes: int = 5, turn: float = 0.0) -> Device:
     """A flanged globe valve with bolted bonnet, outside yoke and handwheel; ``turn`` of the wheel [rad]."""
-    (body, bonnet, gland, yoke, stem, wheel), (_, wheel_low) = _globe_solids(dn, hand, spokes)
-    stand = at(valve_length("globe", dn) / 2)
-    turned = np.eye(4)
-    turned[:2, :2] = [[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]
-    pieces: list[Piece] = [
-        (body, IDENTITY, "valve body", "valve"),
-        (bonnet, stand, "valve bonnet", "valve"),
-        (gland, stand, "gland", "trim"),
-        (yoke, stand, "yoke", "valve"),
-        (stem, stand, "valve stem", "trim"),
-        (wheel, stand @ at(0, 0, wheel_low) @ turned, "handwheel", "handle"),
-    ]
-    return assemble(
-        pieces,
-        "globe valve",
-        unit,
-        hand,
-        ((0, 1), (1, 2), (1, 3), (1, 4), (2, 4), (3, 4), (4, 5)),
-        0,
-        valve_length("globe", dn),
-    )
+    body, top = _globe_solids(dn, hand, spokes)
+    length = valve_length("globe", dn)
+    pieces: list[Piece] = [(body, IDENTITY, "valve body", "valve"), *top.pieces(at(length / 2), turn)]
+    return assemble(pieces, "globe valve", unit, hand, Topworks.contacts, 0, length)
 
 
-VALVES: dict[str, Callable[..., Device]] = {"ball": ball_valve, "globe": globe_valve}
+VALVES: dict[str, Callable[..., Device]] = {
+    "ball": ball_valve,
+    "butterfly": butterfly_valve,
+    "check": check_valve,
+    "gate": gate_valve,
+    "globe": globe_valve,
+}

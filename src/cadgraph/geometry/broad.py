@@ -8,7 +8,6 @@ pair is found once: a scene of a million small boxes and a few as large as itsel
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from cadgraph.geometry.gather import gather
 from cadgraph.geometry.parallel import compiled

@@ -195,8 +195,8 @@ def find_rings(
         u: ``(3,)`` first axis in the plane.
         w: ``(3,)`` second axis in the plane.
         expected: radius that the innermost ring should have [m], or 0.
-        rings: ``(MAX_RINGS, 3)`` output: centre in the plane and radius of the circle through the corners [m],
-            innermost first.
+        rings: ``(MAX_RINGS, 4)`` output: centre in the plane and radius of the circle through the corners [m], and
+            which way the wall looks, 1 outward, -1 inward; innermost first.
         moments: ``(3, 3)`` output: covariance of the normals of the innermost ring, turned outward.
         ring_of: ``(m,)`` output: the ring of each segment, or -1.
 
@@ -225,7 +225,7 @@ def find_rings(
             off = np.hypot(circle[0] - rings[0, 0], circle[1] - rings[0, 1])
             if off > _CONCENTRIC * rings[0, 2]:
                 break
-        rings[level] = circle
+        rings[level, :3] = circle
         n_rings += 1
     ring_of[:n] = -1
     if n_rings > 0:
@@ -270,6 +270,7 @@ def _measure_rings(
             rings[level, 0] = sums[level, 1] / sums[level, 0]
             rings[level, 1] = sums[level, 2] / sums[level, 0]
             rings[level, 2] = 0.0
+        rings[level, 3] = 0.0
     moments[:] = 0.0
     mean = np.zeros(3)
     total = 0.0
@@ -280,16 +281,17 @@ def _measure_rings(
         for end in range(0, 4, 2):
             away = np.hypot(segments[s, end] - rings[level, 0], segments[s, end + 1] - rings[level, 1])
             rings[level, 2] = max(rings[level, 2], away)
-        if level > 0:
-            continue
         length = np.hypot(segments[s, 2] - segments[s, 0], segments[s, 3] - segments[s, 1])
-        x = 0.5 * (segments[s, 0] + segments[s, 2]) - rings[0, 0]
-        y = 0.5 * (segments[s, 1] + segments[s, 3]) - rings[0, 1]
+        x = 0.5 * (segments[s, 0] + segments[s, 2]) - rings[level, 0]
+        y = 0.5 * (segments[s, 1] + segments[s, 3]) - rings[level, 1]
         normal = normals[owners[s]]
         outward = 0.0
         for c in range(3):
             outward += normal[c] * (x * u[c] + y * w[c])
         sense = 1.0 if outward >= 0.0 else -1.0
+        rings[level, 3] += sense * length / sums[level, 0]
+        if level > 0:
+            continue
         total += length
         for r in range(3):
             mean[r] += length * sense * normal[r]

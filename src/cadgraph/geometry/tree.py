@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from cadgraph.geometry.borrow import borrow
 from cadgraph.geometry.parallel import compiled, for_ranges
 from cadgraph.scene import Faces, Floats, Ints, Scene
 
@@ -211,21 +212,45 @@ def _build_trees(
         largest = max(largest, face_offsets[mesh + 1] - face_offsets[mesh])
     keys, spare = np.empty(largest, np.uint64), np.empty(largest, np.uint64)
     for mesh in range(first, last):
-        v0, v1 = vertex_offsets[mesh], vertex_offsets[mesh + 1]
-        f0, f1 = face_offsets[mesh], face_offsets[mesh + 1]
-        n = _collect(vertices, v0, v1, faces, f0, f1, keys, boxes[mesh])
-        counts[mesh] = n
-        if n == 0:
-            continue
-        for k in range(3):
-            centers[mesh, k] = 0.5 * (boxes[mesh, 0, k] + boxes[mesh, 1, k])
-        upright[mesh] = not _own_axes(vertices, v0, faces, f0, keys, n, boxes[mesh], centers[mesh], axes[mesh])
-        _sort_faces(
-            vertices, v0, faces, f0, keys, spare, n, boxes[mesh], centers[mesh], axes[mesh], upright[mesh], sorted_faces
-        )
-        _fill_nodes(
-            vertices, v0, sorted_faces, f0, n, centers[mesh], axes[mesh], upright[mesh], nodes, node_offsets[mesh]
-        )
+        _build_tree(
+            mesh, vertices, vertex_offsets, faces, face_offsets, sorted_faces, counts, nodes, node_offsets, centers,
+            axes, upright, boxes, keys, spare,
+        )  # fmt: skip
+
+
+@compiled
+def _build_tree(
+    mesh: int,
+    vertices: Floats,
+    vertex_offsets: Ints,
+    faces: Faces,
+    face_offsets: Ints,
+    sorted_faces: Faces,
+    counts: Ints,
+    nodes: Nodes,
+    node_offsets: Ints,
+    centers: Floats,
+    axes: Floats,
+    upright: Bools,
+    boxes: Floats,
+    keys: npt.NDArray[np.uint64],
+    spare: npt.NDArray[np.uint64],
+) -> None:
+    vertices, faces, sorted_faces, nodes = borrow(vertices), borrow(faces), borrow(sorted_faces), borrow(nodes)
+    keys, spare = borrow(keys), borrow(spare)
+    v0, v1 = vertex_offsets[mesh], vertex_offsets[mesh + 1]
+    f0, f1 = face_offsets[mesh], face_offsets[mesh + 1]
+    box, center, own = borrow(boxes)[mesh], borrow(centers)[mesh], borrow(axes)[mesh]
+    n = _collect(vertices, v0, v1, faces, f0, f1, keys, box)
+    counts[mesh] = n
+    if n == 0:
+        return
+    for k in range(3):
+        center[k] = 0.5 * (box[0, k] + box[1, k])
+    is_upright = not _own_axes(vertices, v0, faces, f0, keys, n, box, center, own)
+    upright[mesh] = is_upright
+    _sort_faces(vertices, v0, faces, f0, keys, spare, n, box, center, own, is_upright, sorted_faces)
+    _fill_nodes(vertices, v0, sorted_faces, f0, n, center, own, is_upright, nodes, node_offsets[mesh])
 
 
 @compiled
@@ -451,9 +476,7 @@ def _sort_faces(
 
 
 @compiled
-def _put_box(
-    nodes: Nodes, at: int, x0: float, x1: float, y0: float, y1: float, z0: float, z1: float
-) -> None:
+def _put_box(nodes: Nodes, at: int, x0: float, x1: float, y0: float, y1: float, z0: float, z1: float) -> None:
     """Stores a box as centre and half extents, rounded outwards."""
     for k in range(3):
         low = x0 if k == 0 else (y0 if k == 1 else z0)

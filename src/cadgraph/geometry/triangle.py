@@ -304,7 +304,5 @@ def triangle_distances(first: Floats, second: Floats) -> tuple[Floats, Floats]:
     if first.shape != second.shape or first.shape[1:] != (3, 3):
         raise ValueError(f"need two arrays of shape (n, 3, 3), got {first.shape} and {second.shape}")
     distance, points = np.empty(len(first)), np.empty((len(first), 2, 3))
-    _distances(
-        np.ascontiguousarray(first, np.float64), np.ascontiguousarray(second, np.float64), distance, points
-    )
+    _distances(np.ascontiguousarray(first, np.float64), np.ascontiguousarray(second, np.float64), distance, points)
     return distance, points

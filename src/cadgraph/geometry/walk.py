@@ -16,14 +16,15 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from cadgraph.geometry.borrow import borrow
 from cadgraph.geometry.parallel import compiled
 from cadgraph.geometry.tree import LEAF, first_face
 from cadgraph.geometry.triangle import ROW, distance2, lay_normal, prepare
 from cadgraph.scene import Faces, Floats, Ints
 
-__all__ = ["Placed", "closest", "relate_frames"]
+__all__ = ["Placed", "closest"]
 
-_OVERSIZED = 2.0  # a leaf this much larger than the node it meets is taken apart
+_OVERSIZED = 8.0  # a leaf this much larger than the node it meets is taken apart
 
 _COARSE = 0.3
 # So is any leaf this large compared to its whole tree, if the tree has at least _COARSE_LEAVES of them: the faces are
@@ -32,6 +33,9 @@ _COARSE = 0.3
 _COARSE_LEAVES = 12
 
 _DEPTH = 160  # of the stacks: two trees of at most 2**40 leaves, one waiting node a level
+
+
+Nodes = npt.NDArray[np.float32]
 
 
 class Placed(NamedTuple):
@@ -65,35 +69,56 @@ class Placed(NamedTuple):
     faces: Faces
     face_offsets: Ints
     counts: Ints
-    nodes: npt.NDArray[np.float32]
+    nodes: Nodes
     node_offsets: Ints
     tree_centers: Floats
 
 
+# Kernels pass a mesh on as two small arrays. In numbers: rotation (3 rows), what to take off the vertices before it,
+# what to add after (the centre of the boxes), box axes (3 rows). In whole numbers: first vertex, first face, faces,
+# first node, leaves, moved, upright.
+_SIDE = (8, 3)
+_V0, _F0, _COUNT, _NODE, _LEAVES, _MOVED, _UPRIGHT = range(7)
+
+
 @compiled
-def relate_frames(meshes: Placed, a: int, b: int, frame: Floats) -> bool:
-    """Writes the pose of mesh ``b``'s boxes in the axes of ``a``'s; says whether both are upright.
+def _lay_side(meshes: Placed, mesh: int, origin: Floats, side: Floats, whole: Ints) -> None:
+    """Writes what the kernels need of a mesh, relative to an origin."""
+    tree = meshes.tree[mesh]
+    for k in range(3):
+        # not moved: vertices relative to the origin directly
+        side[3, k] = meshes.tree_centers[tree, k] if meshes.moved else origin[k]
+        side[4, k] = meshes.centers[mesh, k] - origin[k]
+        for m in range(3):
+            if meshes.moved:
+                side[k, m] = meshes.rotations[mesh, k, m]
+            side[5 + k, m] = meshes.axes[mesh, k, m]
+    whole[_V0], whole[_F0] = meshes.vertex_offsets[tree], meshes.face_offsets[tree]
+    whole[_COUNT], whole[_NODE] = meshes.counts[tree], meshes.node_offsets[tree]
+    whole[_LEAVES] = (meshes.counts[tree] + LEAF - 1) // LEAF
+    whole[_MOVED], whole[_UPRIGHT] = meshes.moved, meshes.upright[mesh]
+
+
+@compiled
+def _relate(a: Floats, b: Floats, frame: Floats) -> None:
+    """Writes the pose of the boxes of ``b`` in the axes of those of ``a``.
 
     Args:
-        meshes: all meshes.
-        a: mesh.
-        b: mesh.
+        a: side.
+        b: side.
         frame: ``(7, 3)`` takes the rotation (3 rows), its absolute values (3 rows) and the shift.
     """
     for k in range(3):
         frame[6, k] = 0.0
         for m in range(3):
-            frame[6, k] += meshes.axes[a, k, m] * (meshes.centers[b, m] - meshes.centers[a, m])
-            dot = 0.0
-            for n in range(3):
-                dot += meshes.axes[a, k, n] * meshes.axes[b, m, n]
+            frame[6, k] += a[5 + k, m] * (b[4, m] - a[4, m])
+            dot = a[5 + k, 0] * b[5 + m, 0] + a[5 + k, 1] * b[5 + m, 1] + a[5 + k, 2] * b[5 + m, 2]
             frame[k, m] = dot
             frame[3 + k, m] = abs(dot)
-    return meshes.upright[a] and meshes.upright[b]
 
 
 @compiled
-def _gap2(nodes: npt.NDArray[np.float32], a: int, b: int, frame: Floats, upright: bool) -> float:
+def _gap2(nodes: Nodes, a: int, b: int, frame: Floats, upright: bool) -> float:
     """A lower bound of the squared distance of two nodes; exact for upright boxes."""
     if upright:
         x = abs(frame[6, 0] + nodes[b, 0] - nodes[a, 0]) - nodes[a, 3] - nodes[b, 3]
@@ -113,9 +138,7 @@ def _gap2(nodes: npt.NDArray[np.float32], a: int, b: int, frame: Floats, upright
         )
         gap = max(abs(d[k]) - reach, 0.0)
         of_a += gap * gap
-        reach = nodes[b, 3 + k] + (
-            frame[3, k] * nodes[a, 3] + frame[4, k] * nodes[a, 4] + frame[5, k] * nodes[a, 5]
-        )
+        reach = nodes[b, 3 + k] + (frame[3, k] * nodes[a, 3] + frame[4, k] * nodes[a, 4] + frame[5, k] * nodes[a, 5])
         gap = max(abs(frame[0, k] * dx + frame[1, k] * dy + frame[2, k] * dz) - reach, 0.0)
         of_b += gap * gap
     if of_a > 0.0 or of_b > 0.0:
@@ -141,30 +164,22 @@ def _gap2(nodes: npt.NDArray[np.float32], a: int, b: int, frame: Floats, upright
 
 
 @compiled
-def _load(meshes: Placed, mesh: int, node: int, origin: Floats, rows: Floats) -> int:
-    """Prepares the triangles of a leaf relative to an origin; returns how many there are."""
-    tree = meshes.tree[mesh]
-    n = meshes.counts[tree]
-    start = first_face(node, (n + LEAF - 1) // LEAF)
-    count = min(LEAF, n - start)
-    f0, v0 = meshes.face_offsets[tree] + start, meshes.vertex_offsets[tree]
+def _load(vertices: Floats, faces: Faces, side: Floats, whole: Ints, node: int, rows: Floats) -> int:
+    """Prepares the triangles of a leaf; returns how many there are."""
+    start = first_face(node, whole[_LEAVES])
+    count = min(LEAF, whole[_COUNT] - start)
+    f0, v0 = whole[_F0] + start, whole[_V0]
     for i in range(count):
         for corner in range(3):
-            v = v0 + meshes.faces[f0 + i, corner]
-            if meshes.moved:
-                x = meshes.vertices[v, 0] - meshes.tree_centers[tree, 0]
-                y = meshes.vertices[v, 1] - meshes.tree_centers[tree, 1]
-                z = meshes.vertices[v, 2] - meshes.tree_centers[tree, 2]
-                for k in range(3):
-                    rows[i, 3 * corner + k] = (
-                        meshes.rotations[mesh, k, 0] * x
-                        + meshes.rotations[mesh, k, 1] * y
-                        + meshes.rotations[mesh, k, 2] * z
-                        + (meshes.centers[mesh, k] - origin[k])
-                    )
-            else:
-                for k in range(3):
-                    rows[i, 3 * corner + k] = meshes.vertices[v, k] - origin[k]
+            v = v0 + faces[f0 + i, corner]
+            x, y, z = vertices[v, 0] - side[3, 0], vertices[v, 1] - side[3, 1], vertices[v, 2] - side[3, 2]
+            if whole[_MOVED]:
+                x, y, z = (
+                    side[0, 0] * x + side[0, 1] * y + side[0, 2] * z + side[4, 0],
+                    side[1, 0] * x + side[1, 1] * y + side[1, 2] * z + side[4, 1],
+                    side[2, 0] * x + side[2, 1] * y + side[2, 2] * z + side[4, 2],
+                )
+            rows[i, 3 * corner], rows[i, 3 * corner + 1], rows[i, 3 * corner + 2] = x, y, z
         prepare(rows, i)
     return count
 
@@ -217,25 +232,24 @@ def _leaves(p: Floats, n_p: int, q: Floats, n_q: int, best: float, stop: float, 
 
 
 @compiled
-def _lay_axes(p: Floats, i: int, meshes: Placed, mesh: int, origin: Floats, axes: Floats) -> None:
+def _lay_axes(p: Floats, i: int, side: Floats, whole: Ints, axes: Floats) -> None:
     """For a triangle in the box axes of a mesh: the axes that can separate it from a box, with its extent on each.
 
     Args:
         p: rows.
         i: row.
-        meshes: all meshes.
-        mesh: whose boxes.
-        origin: what the rows are relative to.
+        side: the mesh.
+        whole: the mesh.
         axes: ``(11, 6)`` takes direction (3), least and greatest position (2), length (1) of the normal and of the
             nine products of a side and a box axis; the last row the triangle's own box.
     """
-    ax, ay, az = _turned(p, i, 0, meshes, mesh, origin)
-    bx, by, bz = _turned(p, i, 3, meshes, mesh, origin)
-    cx, cy, cz = _turned(p, i, 6, meshes, mesh, origin)
+    ax, ay, az = _turned(p, i, 0, side, whole)
+    bx, by, bz = _turned(p, i, 3, side, whole)
+    cx, cy, cz = _turned(p, i, 6, side, whole)
     lay_normal(p, i)
     x, y, z = p[i, 9], p[i, 10], p[i, 11]
     for k in range(3):
-        axes[0, k] = meshes.axes[mesh, k, 0] * x + meshes.axes[mesh, k, 1] * y + meshes.axes[mesh, k, 2] * z
+        axes[0, k] = side[5 + k, 0] * x + side[5 + k, 1] * y + side[5 + k, 2] * z
     n = 1
     for side in range(3):
         if side == 0:
@@ -260,25 +274,20 @@ def _lay_axes(p: Floats, i: int, meshes: Placed, mesh: int, origin: Floats, axes
 
 
 @compiled
-def _turned(
-    p: Floats, i: int, corner: int, meshes: Placed, mesh: int, origin: Floats
-) -> tuple[float, float, float]:
+def _turned(p: Floats, i: int, corner: int, side: Floats, whole: Ints) -> tuple[float, float, float]:
     """A corner of a row in the box axes of a mesh."""
-    x = p[i, corner] - (meshes.centers[mesh, 0] - origin[0])
-    y = p[i, corner + 1] - (meshes.centers[mesh, 1] - origin[1])
-    z = p[i, corner + 2] - (meshes.centers[mesh, 2] - origin[2])
-    if meshes.upright[mesh]:
+    x, y, z = p[i, corner] - side[4, 0], p[i, corner + 1] - side[4, 1], p[i, corner + 2] - side[4, 2]
+    if whole[_UPRIGHT]:
         return x, y, z
-    axes = meshes.axes
     return (
-        axes[mesh, 0, 0] * x + axes[mesh, 0, 1] * y + axes[mesh, 0, 2] * z,
-        axes[mesh, 1, 0] * x + axes[mesh, 1, 1] * y + axes[mesh, 1, 2] * z,
-        axes[mesh, 2, 0] * x + axes[mesh, 2, 1] * y + axes[mesh, 2, 2] * z,
+        side[5, 0] * x + side[5, 1] * y + side[5, 2] * z,
+        side[6, 0] * x + side[6, 1] * y + side[6, 2] * z,
+        side[7, 0] * x + side[7, 1] * y + side[7, 2] * z,
     )
 
 
 @compiled
-def _separated(axes: Floats, nodes: npt.NDArray[np.float32], node: int, limit: float) -> bool:
+def _separated(axes: Floats, nodes: Nodes, node: int, limit: float) -> bool:
     """Whether an axis shows that a triangle is further than ``limit`` from a box."""
     cx, cy, cz = np.float64(nodes[node, 0]), np.float64(nodes[node, 1]), np.float64(nodes[node, 2])
     hx, hy, hz = np.float64(nodes[node, 3]), np.float64(nodes[node, 4]), np.float64(nodes[node, 5])
@@ -300,17 +309,20 @@ def _separated(axes: Floats, nodes: npt.NDArray[np.float32], node: int, limit: f
 
 @compiled
 def _descend(
-    meshes: Placed,
+    nodes: Nodes,
+    vertices: Floats,
+    faces: Faces,
+    side: Floats,
+    whole: Ints,
+    root: int,
     p: Floats,
     i: int,
-    mesh: int,
-    root: int,
-    origin: Floats,
     swapped: bool,
     best: float,
     stop: float,
     found: Floats,
-    work: Floats,
+    spare: Floats,
+    axes: Floats,
     rows: Floats,
     stack: Ints,
 ) -> float:
@@ -318,23 +330,20 @@ def _descend(
 
     Where ``swapped``, the tree is that of the first mesh.
     """
-    tree = meshes.tree[mesh]
-    base, n_leaves = meshes.node_offsets[tree], (meshes.counts[tree] + LEAF - 1) // LEAF
-    axes, spare = work[:11], work[11]
-    _lay_axes(p, i, meshes, mesh, origin, axes)
+    _lay_axes(p, i, side, whole, axes)
     limit = np.sqrt(best)
     stack[0] = root
     top = 1
     while top > 0:
         top -= 1
         node = stack[top]
-        if _separated(axes, meshes.nodes, base + node, limit):
+        if _separated(axes, nodes, whole[_NODE] + node, limit):
             continue
-        if node < n_leaves - 1:
+        if node < whole[_LEAVES] - 1:
             stack[top], stack[top + 1] = 2 * node + 2, 2 * node + 1
             top += 2
             continue
-        count = _load(meshes, mesh, node, origin, rows)
+        count = _load(vertices, faces, side, whole, node, rows)
         for j in range(count):
             if _rows_gap2(p, i, rows, j) >= best:
                 continue
@@ -350,33 +359,41 @@ def _descend(
 
 
 @compiled
-def _extent(nodes: npt.NDArray[np.float32], node: int) -> float:
+def _extent(nodes: Nodes, node: int) -> float:
     return max(nodes[node, 3], nodes[node, 4], nodes[node, 5])
 
 
 @compiled
 def _walk(
-    meshes: Placed,
-    a: int,
-    b: int,
+    nodes: Nodes,
+    vertices: Floats,
+    faces: Faces,
+    side_a: Floats,
+    whole_a: Ints,
+    side_b: Floats,
+    whole_b: Ints,
     best: float,
     stop: float,
     found: Floats,
+    spare: Floats,
     frame: Floats,
-    work: Floats,
-    rows: Floats,
+    axes: Floats,
+    p: Floats,
+    q: Floats,
+    single: Floats,
     stack: Ints,
+    own: Ints,
     bounds: Floats,
 ) -> float:
     """The least squared distance below ``best`` of two meshes; ends early at or below ``stop``."""
-    tree_a, tree_b = meshes.tree[a], meshes.tree[b]
-    base_a, leaves_a = meshes.node_offsets[tree_a], (meshes.counts[tree_a] + LEAF - 1) // LEAF
-    base_b, leaves_b = meshes.node_offsets[tree_b], (meshes.counts[tree_b] + LEAF - 1) // LEAF
-    nodes, origin = meshes.nodes, meshes.centers[a]
-    upright = relate_frames(meshes, a, b, frame)
-    p, q, single = rows[:LEAF], rows[LEAF : 2 * LEAF], rows[2 * LEAF :]
-    spare = work[11]
-    own = stack[2 * _DEPTH :]
+    nodes, vertices, faces = borrow(nodes), borrow(vertices), borrow(faces)
+    side_a, whole_a, side_b, whole_b = borrow(side_a), borrow(whole_a), borrow(side_b), borrow(whole_b)
+    found, spare, frame, axes = borrow(found), borrow(spare), borrow(frame), borrow(axes)
+    p, q, single = borrow(p), borrow(q), borrow(single)
+    stack, own, bounds = borrow(stack), borrow(own), borrow(bounds)
+    base_a, base_b, leaves_a, leaves_b = whole_a[_NODE], whole_b[_NODE], whole_a[_LEAVES], whole_b[_LEAVES]
+    upright = whole_a[_UPRIGHT] != 0 and whole_b[_UPRIGHT] != 0
+    _relate(side_a, side_b, frame)
     coarse_a = _COARSE * _extent(nodes, base_a) if leaves_a >= _COARSE_LEAVES else np.inf
     coarse_b = _COARSE * _extent(nodes, base_b) if leaves_b >= _COARSE_LEAVES else np.inf
     loaded_a = loaded_b = -1
@@ -393,19 +410,25 @@ def _walk(
         split_a = leaf_a and size_a > min(_OVERSIZED * size_b, coarse_a)
         split_b = leaf_b and not split_a and size_b > min(_OVERSIZED * size_a, coarse_b)
         if leaf_a and (leaf_b or split_a) and loaded_a != at_a:
-            count_a = _load(meshes, a, at_a, origin, p)
+            count_a = _load(vertices, faces, side_a, whole_a, at_a, p)
             loaded_a = at_a
         if leaf_b and (leaf_a or split_b) and loaded_b != at_b:
-            count_b = _load(meshes, b, at_b, origin, q)
+            count_b = _load(vertices, faces, side_b, whole_b, at_b, q)
             loaded_b = at_b
         if split_a:
             for i in range(count_a):
-                best = _descend(meshes, p, i, b, at_b, origin, False, best, stop, found, work, single, own)
+                best = _descend(
+                    nodes, vertices, faces, side_b, whole_b, at_b,
+                    p, i, False, best, stop, found, spare, axes, single, own,
+                )  # fmt: skip
                 if best <= stop:
                     return best
         elif split_b:
             for i in range(count_b):
-                best = _descend(meshes, q, i, a, at_a, origin, True, best, stop, found, work, single, own)
+                best = _descend(
+                    nodes, vertices, faces, side_a, whole_a, at_a,
+                    q, i, True, best, stop, found, spare, axes, single, own,
+                )  # fmt: skip
                 if best <= stop:
                     return best
         elif leaf_a and leaf_b:
@@ -449,20 +472,30 @@ def closest(
     """
     n = last - first
     row, distance, points = np.empty(n, np.int64), np.empty(n), np.empty((n, 2, 3))
-    found, frame, work = np.empty(6), np.empty((7, 3)), np.empty((12, 6))
-    rows, stack, bounds = np.empty((3 * LEAF, ROW)), np.empty(3 * _DEPTH, np.int64), np.empty(_DEPTH)
+    found, spare, frame, axes, origin = np.empty(6), np.empty(6), np.empty((7, 3)), np.empty((11, 6)), np.empty(3)
+    p, q, single = np.empty((LEAF, ROW)), np.empty((LEAF, ROW)), np.empty((LEAF, ROW))
+    stack, own, bounds = np.empty(2 * _DEPTH, np.int64), np.empty(_DEPTH, np.int64), np.empty(_DEPTH)
+    side_a, side_b, whole_a, whole_b = np.zeros(_SIDE), np.zeros(_SIDE), np.empty(7, np.int64), np.empty(7, np.int64)
+    nodes, vertices, faces = meshes.nodes, meshes.vertices, meshes.faces
     # the walk looks for less than this, and the limit itself counts
     limit2 = limit * limit * (1.0 + 1e-15) + 1e-300
     n_found = 0
     for i in range(first, last):
         a, b = pairs[i, 0], pairs[i, 1]
-        if meshes.counts[meshes.tree[a]] == 0 or meshes.counts[meshes.tree[b]] == 0:
+        for k in range(3):
+            origin[k] = meshes.centers[a, k]
+        _lay_side(meshes, a, origin, side_a, whole_a)
+        _lay_side(meshes, b, origin, side_b, whole_b)
+        if whole_a[_COUNT] == 0 or whole_b[_COUNT] == 0:
             continue
-        best = _walk(meshes, a, b, limit2, stop * stop, found, frame, work, rows, stack, bounds)
+        best = _walk(
+            nodes, vertices, faces, side_a, whole_a, side_b, whole_b, limit2, stop * stop,
+            found, spare, frame, axes, p, q, single, stack, own, bounds,
+        )  # fmt: skip
         if best < limit2:
             row[n_found] = i
             distance[n_found] = np.sqrt(best)
             for k in range(6):
-                points[n_found, k // 3, k % 3] = found[k] + meshes.centers[a, k % 3]
+                points[n_found, k // 3, k % 3] = found[k] + origin[k % 3]
             n_found += 1
     return row[:n_found].copy(), distance[:n_found].copy(), points[:n_found].copy()

@@ -59,6 +59,9 @@ def formats() -> tuple[Format, ...]:
 def load(path: str | os.PathLike[str], config: LoadConfig | None = None) -> Scene:
     """Reads a CAD file.
 
+    With ``config.isolate`` the CAD library runs in a process of its own: no crash, no endless reading and no message
+    of it reaches the caller. Without, it runs here, which is quicker by the half second of a start.
+
     Args:
         path: of the file; its suffix says which format it has.
         config: how to read it; the defaults if not given.

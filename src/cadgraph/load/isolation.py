@@ -53,7 +53,7 @@ def read_isolated(module: str, file: Path, given: str, config: LoadConfig) -> Sc
             raise LoadError(f"{given}: {_reason(code, folder / 'stderr.txt')}")
         try:
             return read_scene(folder)
-        except (OSError, ValueError, KeyError, TypeError) as error:
+        except (OSError, EOFError, ValueError, KeyError, TypeError) as error:
             raise LoadError(f"{given}: the reading process left no whole result ({error})") from error
 
 

@@ -180,4 +180,6 @@ def _origin(pieces: Sequence[Piece], matrices: Sequence[Floats]) -> Floats:
     middle = np.median(first, axis=0)
     if np.linalg.norm(middle) <= _FAR:
         return np.zeros(3)
-    return np.round(middle / _ORIGIN_STEP) * _ORIGIN_STEP + 0.0
+    # + 0.0: minus zero becomes zero.
+    origin: Floats = np.round(middle / _ORIGIN_STEP) * _ORIGIN_STEP + 0.0
+    return origin

@@ -43,7 +43,7 @@ def triangulate(points: Floats, counts: Ints, starts: Ints, indices: Ints, polyg
     Args:
         points: ``(n_points, 3)``, finite.
         counts: ``(n,)`` corners of each polygon, at least 3.
-        starts: ``(n,)`` where each begins in ``indices``.
+        starts: ``(n,)`` where each begins in ``indices``; they don't overlap.
         indices: point indices, in range.
         polygons: ``(n,)`` ascending numbers that the result uses for the polygons.
 
@@ -53,7 +53,10 @@ def triangulate(points: Floats, counts: Ints, starts: Ints, indices: Ints, polyg
     corners, owners, twisted = [], [], []
     for n in np.unique(counts):
         of_size = np.flatnonzero(counts == n)
-        rings = indices[starts[of_size, None] + np.arange(n)]
+        if len(of_size) * n == len(indices):
+            rings = indices.reshape(-1, n)
+        else:
+            rings = indices[starts[of_size, None] + np.arange(n)]
         if n == 3:
             corners.append(rings)
             owners.append(of_size)

@@ -32,7 +32,11 @@ __all__ = ["read"]
 
 _MAX_DEPTH = 200  # of an assembly tree; ours, far beyond any real one
 _ABRIDGED = ("several-bodies",)
-_UNITS = {b".KILO.": 1000.0, b"$": 1.0, b".DECI.": 0.1, b".CENTI.": 0.01, b".MILLI.": 0.001, b".MICRO.": 1e-6}
+_STEP_UNITS = {b".KILO.": 1000.0, b"$": 1.0, b".DECI.": 0.1, b".CENTI.": 0.01, b".MILLI.": 0.001, b".MICRO.": 1e-6}
+_IGES_UNITS = {
+    b"IN": 0.0254, b"INCH": 0.0254, b"MM": 0.001, b"FT": 0.3048, b"M": 1.0, b"KM": 1000.0, b"CM": 0.01, b"MIL": 2.54e-5,
+    b"UM": 1e-6,
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -57,7 +61,7 @@ def read(path: Path, config: LoadConfig) -> Scene:
     """
     data = path.read_bytes()
     form = "iges" if path.suffix.lower() in (".igs", ".iges") else "step"
-    # The library works in millimetres whatever the file's unit, and its tolerance too; what it returns is in metres.
+    # The library works in millimetres whatever the file's unit, and so does its tolerance.
     glb = cascadio.load(
         data, file_type=form, tol_linear=config.max_gap * 1000, tol_angular=config.max_angle, tol_relative=False
     )
@@ -69,7 +73,7 @@ def read(path: Path, config: LoadConfig) -> Scene:
         raise LoadError(f"{path}: the CAD library returned no usable triangles ({error})") from error
     notes = Notes()
     bodies: dict[int, list[_Body]] = {}
-    pieces = []
+    pieces: list[Piece] = []
     for at, matrix, node in _occurrences(nodes, roots, meshes):
         number = node.mesh
         if number is None:
@@ -77,7 +81,10 @@ def read(path: Path, config: LoadConfig) -> Scene:
         if number not in bodies:
             bodies[number] = _bodies(meshes[number])
         pieces.extend(_pieces(at, matrix, bodies[number], notes))
-    scene = pack(pieces, Source(meters_per_unit=_unit(data), up_axis="Z", format=form), np.eye(4), notes, _ABRIDGED)
+    # Of IGES the library (cascadio 0.1) leaves the lengths in millimetres.
+    to_metres = np.diag([0.001, 0.001, 0.001, 1]) if form == "iges" else np.eye(4)
+    unit = _iges_unit(data) if form == "iges" else _step_unit(data)
+    scene = pack(pieces, Source(meters_per_unit=unit, up_axis="Z", format=form), to_metres, notes, _ABRIDGED)
     if not scene.n_meshes:
         raise LoadError(f"{path}: opens, but holds no solid and no surface; export it with its geometry")
     return scene
@@ -113,7 +120,8 @@ def _name(node: GlbNode, meshes: list[GlbMesh]) -> str:
 def _bodies(mesh: GlbMesh) -> list[_Body]:
     points, faces = weld(mesh.points, mesh.faces)
     a, b, c = faces.T
-    whole = (a != b) & (b != c) & (c != a) & np.isfinite(points).all(axis=1)[faces].all(axis=1)
+    finite = np.asarray(np.isfinite(points).all(axis=1))
+    whole = (a != b) & (b != c) & (c != a) & finite[faces].all(axis=1)
     faces, colors = faces[whole], mesh.colors[whole]
     bodies = []
     for triangles in split_bodies(points, faces) if len(faces) else []:
@@ -146,9 +154,16 @@ def _pieces(path: str, matrix: Floats, bodies: list[_Body], notes: Notes) -> Ite
         yield Piece(own, body.points, body.faces, matrix, body.color)
 
 
-def _unit(data: bytes) -> float:
+def _step_unit(data: bytes) -> float:
     """Length of one authored unit [m], as far as the text tells; STEP's usual millimetre otherwise (ISO 10303-41)."""
     if re.search(rb"CONVERSION_BASED_UNIT\s*\(\s*'INCH'", data, re.IGNORECASE):
         return 0.0254
     found = re.search(rb"SI_UNIT\s*\(\s*([^,]*?)\s*,\s*\.METRE\.\s*\)", data)
-    return _UNITS.get(found[1], 0.001) if found else 0.001
+    return _STEP_UNITS.get(found[1], 0.001) if found else 0.001
+
+
+def _iges_unit(data: bytes) -> float:
+    """Length of one authored unit [m], from the global section (IGES 5.3, 2.2.4.3.15); a millimetre if unclear."""
+    lines = [line[:72] for line in data.splitlines() if line[72:73] == b"G"]
+    found = re.search(rb",\s*\d{1,2}\s*,\s*\d+H\s*(IN|INCH|MM|FT|M|KM|CM|MIL|UM)\s*,", b"".join(lines), re.IGNORECASE)
+    return _IGES_UNITS.get(found[1].upper(), 0.001) if found else 0.001

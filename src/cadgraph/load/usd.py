@@ -16,6 +16,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -27,7 +28,7 @@ from cadgraph.errors import LoadError
 from cadgraph.load.packing import Notes, Piece, pack
 from cadgraph.load.usd_color import Materials, mean_display_color
 from cadgraph.load.usd_mesh import CutMesh, RawMesh, cut_meshes
-from cadgraph.load.usd_walk import Placement, Walk
+from cadgraph.load.usd_walk import Placement, Walk, message_of
 from cadgraph.scene import Floats, Ints, Scene, Source
 
 if TYPE_CHECKING:
@@ -98,8 +99,6 @@ def _scene(stage: Any, config: LoadConfig, notes: Notes, take_warnings: Any) -> 
     meshes = dict(
         zip(keys, zip(walk.geometries.values(), cut_meshes(list(walk.geometries.values())), strict=True), strict=True)
     )
-    for key in keys:
-        _note_overlaps(key, meshes[key][0], notes)
     materials = Materials(stage) if walk.has_bindings else None
     pieces = list(_pieces(placements, meshes, materials, config.split_subsets, notes))
     take_warnings()
@@ -143,6 +142,8 @@ def _pieces(
             continue
         if raw.subdivided:
             notes.add("control-cage", "subdivision surfaces are loaded as their control cage", placement.path)
+        if raw.subsets and _overlap(raw):
+            notes.add("overlapping-subsets", "faces in several material subsets go to the first one", placement.path)
         of_triangle = _subset_of_triangle(raw, cut)
         own = bound.get(_key(placement, None))
         of_subset = [bound.get(_key(placement, name)) for name, _ in raw.subsets]
@@ -201,10 +202,9 @@ def _subset_of_triangle(raw: RawMesh, cut: CutMesh) -> Ints:
     return owners
 
 
-def _note_overlaps(path: str, raw: RawMesh, notes: Notes) -> None:
-    claimed = np.concatenate([np.unique(polygons) for _, polygons in raw.subsets]) if raw.subsets else []
-    if len(np.unique(claimed)) < len(claimed):
-        notes.add("overlapping-subsets", "faces in several material subsets go to the first of them", path)
+def _overlap(raw: RawMesh) -> bool:
+    claimed: list[int] = [face for _, polygons in raw.subsets for face in np.unique(polygons).tolist()]
+    return len(set(claimed)) < len(claimed)
 
 
 def _display_color(placement: Placement, raw: RawMesh, cut: CutMesh, triangles: Ints) -> Color | None:
@@ -251,27 +251,29 @@ _MISSING_TARGET = re.compile(
     r"In <(?P<path>[^>]*)>: Unresolved (?P<arc>\w+) prim path @(?P<asset>[^@]*)@<(?P<prim>[^>]*)>"
 )
 
+# Addresses, and what the library numbers anew in each run.
+_PASSING = re.compile(
+    r"\s*\((?:instantiating|recomposing|getting)[^()]*\)|0x[0-9a-f]+|anon:[0-9a-fx]+:|(?<=/__Prototype)_\d+"
+)
+
 
 def _take_warnings(delegate: Any, path: Path, notes: Notes) -> None:
     """Turns what the USD library said so far into notes, without what differs from run to run."""
     folder = path.absolute().parent
     others: list[str] = []
     for said in delegate.TakeUncoalescedDiagnostics():
-        text = re.sub(r"@([^@]*)@", lambda asset: f"@{_relative(asset[1], folder)}@", " ".join(said.commentary.split()))
+        said_text = message_of(partial(getattr, said, "commentary"))
+        text = re.sub(r"@([^@]*)@", lambda asset: f"@{_relative(asset[1], folder)}@", said_text)
         missing = _MISSING_ASSET.search(text) or _MISSING_TARGET.search(text)
         layer = _MISSING_LAYER.search(text)
         if missing:
             code = "missing-payload" if missing["arc"] == "payload" else "missing-reference"
             target = missing["asset"] + (f"<{missing['prim']}>" if "prim" in missing.groupdict() else "")
-            notes.add(code, f"can't find {target!r}; copy it beside the file", missing["path"])
+            notes.add(code, f"can't find {target!r}; put it there", missing["path"])
         elif layer:
-            notes.add("missing-layer", f"can't find sublayer {layer['asset']!r}; copy it beside the file")
+            notes.add("missing-layer", f"can't find sublayer {layer['asset']!r}; put it there")
         else:
-            others.append(
-                re.sub(r"\s*\((?:instantiating|recomposing|getting)[^()]*\)|0x[0-9a-f]+|anon:[0-9a-fx]+:", "", text)[
-                    :300
-                ]
-            )
+            others.append(_PASSING.sub("", text)[:300])
     for text in sorted(set(others))[:_MAX_WARNINGS]:
         notes.add("usd-warning", text)
 
@@ -288,11 +290,12 @@ def _relative(asset: str, folder: Path) -> str:
 
 def _reason(error: Exception, path: Path) -> str:
     """What the USD library objects to, from its report of several lines."""
-    quoted = re.findall(r" : '(.*?)'(?=\s*(?:Error in|$))", " ".join(str(error).split()))
-    text = quoted[0] if quoted else " ".join(str(error).split())
+    report = message_of(lambda: str(error))
+    quoted = re.findall(r" : '(.*?)'(?=\s*(?:Error in|$))", report)
+    text = quoted[0] if quoted else report
     text = text.replace(str(path.absolute().parent) + os.sep, "").replace(str(path), path.name)
     text = "".join(c if c.isprintable() else "?" for c in text)
-    return re.sub(r"0x[0-9a-f]+", "", text)[:300]
+    return re.sub(r"0x[0-9a-f]+|pxrInternal_\w*?pxrReserved__(::)?", "", text)[:300]
 
 
 _FINDINGS = {

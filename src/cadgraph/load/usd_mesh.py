@@ -135,7 +135,7 @@ def _wrong_polygons(
         beyond = (local < 0) | (local >= limits)
         indices[beyond] = 0
         yield _touched(beyond, counts), "invalid-indices", "faces that use points which don't exist were dropped"
-    finite = np.isfinite(points).all(axis=1)
+    finite = np.asarray(np.isfinite(points).all(axis=1))
     if not finite.all() and len(indices):
         spoiled = ~beyond
         spoiled[spoiled] = ~finite[indices[spoiled]]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -16,7 +16,7 @@ from cadgraph.load.usd_mesh import RawMesh
 from cadgraph.load.usd_shapes import SHAPES
 from cadgraph.scene import Floats, Ints
 
-__all__ = ["Placement", "Walk"]
+__all__ = ["Placement", "Walk", "message_of"]
 
 Color = npt.NDArray[np.float64]
 Varying = tuple[Floats, str]
@@ -112,7 +112,7 @@ class Walk:
                     continue
                 if kind:
                     found.append(self._placement(prim, kind, here, path))
-            except Tf.ErrorException as error:
+            except (Tf.ErrorException, UnicodeDecodeError) as error:
                 self._notes.add("unreadable", f"left out with all below: {_first_line(error)}", str(prim.GetPath()))
                 continue
             # Of the primvars only constant ones are inherited.
@@ -374,7 +374,15 @@ def _rotations(quaternions: Floats) -> Floats:
     return np.array(rows).transpose(2, 0, 1)
 
 
+def message_of(say: Callable[[], str]) -> str:
+    """What the USD library says, on one line; its text may quote bytes of the file that are not UTF-8."""
+    try:
+        return " ".join(say().split())
+    except UnicodeDecodeError:
+        return "it holds text that is not UTF-8 where the reader stumbled; save it as UTF-8"
+
+
 def _first_line(error: Exception) -> str:
-    text = " ".join(str(error).split())
+    text = message_of(lambda: str(error))
     quoted = text.split(": '", 1)
     return (quoted[1] if len(quoted) == 2 else text)[:200].rstrip("'")

@@ -112,7 +112,7 @@ def annotate(
         if np.isfinite(places[i]).all():
             _draw_ball(draw, places[i] * zoom, marks[i].color, marks[i].radius * scale * zoom)
     # Downscaling needs colours weighted by their cover, or white would creep into the edges.
-    shrunk = layer.convert("RGBa").resize((width, height), Image.Resampling.BOX).convert("RGBA")
+    shrunk = layer.convert("RGBa").reduce(zoom).convert("RGBA")
     result = Image.alpha_composite(image.convert("RGBA"), shrunk)
     taken = _draw_legend(result, legend, scale) if legend else None
     if tags:
@@ -192,7 +192,7 @@ def _draw_tags(
         draw.rounded_rectangle(
             (left, top, left + 4.5 * scale * zoom, bottom), 2 * scale * zoom, (*_rgb(tags[i].color), 255)
         )
-    shrunk = layer.convert("RGBa").resize(image.size, Image.Resampling.BOX).convert("RGBA")
+    shrunk = layer.convert("RGBa").reduce(zoom).convert("RGBA")
     result = Image.alpha_composite(image, shrunk)
     write = ImageDraw.Draw(result)
     for i in placed:

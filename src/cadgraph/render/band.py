@@ -17,6 +17,7 @@ from cadgraph.render.color import Colors
 from cadgraph.render.crease import CornerNormals
 from cadgraph.render.light import Lamps, shade, sky_seen, smooth, sun_seen
 from cadgraph.render.outline import is_edge, line_strength
+from cadgraph.render.vector import dot
 from cadgraph.scene import Ints
 
 __all__ = ["HALO", "Band", "Setting", "draw_band"]
@@ -29,7 +30,8 @@ HALO = 6
 """Rows above and below a band that it also looks at, so that neither light nor lines show where bands meet."""
 
 _ROUNDS = 3  # of following edges into pixels whose own ray missed them
-_HATCH_PERIOD = 9.0  # [px]
+_HATCH_PERIOD = 10.0  # [px]
+_FLOOR_SPREAD = 0.5  # how far the floor reaches beyond what stands on it, as share of the diagonal
 
 
 @dataclass(frozen=True)
@@ -42,13 +44,14 @@ class Setting:
         face_offsets: of the scene.
         camera: where from.
         lights: the lamps.
-        albedo: ``(n_meshes, 3)`` linear.
-        hatched: ``(n_meshes,)``.
+        albedo: ``(n_paints, n_meshes, 3)`` linear, for as many pictures that differ in colours only.
+        hatched: ``(n_paints, n_meshes)``.
         samples: rays along each side of a pixel at edges.
         sky_rays: rays to the sky from each pixel; 0: no ambient occlusion and no shadows.
         lines: strength of the feature lines, 0..1.
         floor: height of the floor that takes the shadows [m], about the caster's centre; None: no floor.
         reach: of ambient occlusion [m].
+        ghost: whether these meshes are only hinted at.
     """
 
     caster: Caster
@@ -63,6 +66,7 @@ class Setting:
     lines: float
     floor: float | None
     reach: float
+    ghost: bool = False
 
 
 @dataclass(frozen=True)
@@ -70,7 +74,7 @@ class Band:
     """Rows of a picture, before the background.
 
     Args:
-        color: ``(height, width, 3)`` linear, already multiplied by ``cover``.
+        color: ``(n_paints, height, width, 3)`` linear, already multiplied by ``cover``.
         cover: ``(height, width)`` share of the pixel that surfaces and lines take.
         floor: ``(height, width)`` light on the floor, 1 where there is no shadow.
         depth: ``(height, width)`` distance of the nearest surface along the ray [m].
@@ -106,8 +110,8 @@ def draw_band(setting: Setting, top: int, bottom: int) -> Band:
     pixel = _pixel_sizes(camera, met.distance)
     light, floor_light = _light(setting, met, columns, rows, pixel, shape)
     hit = np.flatnonzero(met.mesh >= 0)
-    color = np.zeros((height * width, 3), np.float32)
-    color[hit] = _shade(setting, met, hit, light[hit], columns[hit] + 0.5, rows[hit] + 0.5)
+    color = np.zeros((len(setting.albedo), height * width, 3), np.float32)
+    color[:, hit] = _shade(setting, met, hit, light[hit], columns[hit] + 0.5, rows[hit] + 0.5)
     cover = (met.mesh >= 0).astype(np.float32)
     depth = met.distance.copy()
     fine = is_edge(
@@ -117,7 +121,7 @@ def draw_band(setting: Setting, top: int, bottom: int) -> Band:
         _refine(setting, met, np.flatnonzero(fine), (columns, rows), light, shape, (color, cover, depth))
     keep = slice(top - first, bottom - first)
     return Band(
-        color.reshape(*shape, 3)[keep], cover.reshape(shape)[keep], floor_light[keep], depth.reshape(shape)[keep]
+        color.reshape(-1, *shape, 3)[:, keep], cover.reshape(shape)[keep], floor_light[keep], depth.reshape(shape)[keep]
     )
 
 
@@ -130,10 +134,10 @@ def _cast(setting: Setting, columns: npt.ArrayLike, rows: npt.ArrayLike) -> _Met
     hit = np.flatnonzero(hits.face >= 0)
     normal = np.zeros((len(mesh), 3), np.float32)
     flat = hits.normal
-    flat *= np.where(np.einsum("ij,ij->i", flat, towards) > 0, np.float32(-1), np.float32(1))[:, None]
+    flat *= np.where(dot(flat, towards) > 0, np.float32(-1), np.float32(1))[:, None]
     n = setting.normals.at(hits.face[hit], mesh[hit], hits.u[hit], hits.v[hit])
-    n *= np.where(np.einsum("ij,ij->i", n, flat[hit]) < 0, np.float32(-1), np.float32(1))[:, None]
-    length = np.sqrt(np.einsum("ij,ij->i", n, n))
+    n *= np.where(dot(n, flat[hit]) < 0, np.float32(-1), np.float32(1))[:, None]
+    length = np.sqrt(dot(n, n))
     normal[hit] = np.where((length > 1e-6)[:, None], n / np.maximum(length, 1e-6)[:, None], flat[hit])
     distance = hits.distance
     point = start + towards * np.where(hits.face >= 0, distance, 0)[:, None]
@@ -161,23 +165,32 @@ def _light(
     normals = met.normal.copy()
     normals[on_floor] = (0, 0, 1)
     flat = np.where(on_floor[:, None], normals, met.flat)
-    at = np.flatnonzero(known)
+    # Nothing hides the sky from floor that is further away than ambient occlusion reaches.
+    open_sky = on_floor & (1 - fade > setting.reach / (_FLOOR_SPREAD * setting.caster.diagonal))
+    at = np.flatnonzero(known & ~open_sky)
     lift = setting.caster.diagonal * 2e-5 + pixel[at] * 0.05
     start = points[at] + flat[at] * lift[:, None]
     reach = setting.reach
     values[at, 0] = sky_seen(setting.caster, start, flat[at], columns[at], rows[at], reach, setting.sky_rays)
-    lit = at[(flat[at] @ setting.lights.key) > 0]
+    lit = np.flatnonzero(known & (flat @ setting.lights.key > 0))
     start = points[lit] + flat[lit] * (setting.caster.diagonal * 2e-4)
-    values[at, 1] = 0
+    values[known, 1] = 0
     values[lit, 1] = sun_seen(
         setting.caster, start, setting.lights.key, columns[lit], rows[lit], setting.caster.diagonal * 2
     )
     size = pixel.copy()
     size[on_floor] = setting.caster.diagonal * 1e-3
-    soft = smooth(
-        values.reshape(*shape, 2), points.reshape(*shape, 3), normals.reshape(*shape, 3), known.reshape(shape),
-        size.reshape(shape),
-    ).reshape(-1, 2)  # fmt: skip
+    soft = (
+        smooth(
+            np.ascontiguousarray(values.T).reshape(2, *shape),
+            np.ascontiguousarray(points.T).reshape(3, *shape),
+            np.ascontiguousarray(normals.T).reshape(3, *shape),
+            known.reshape(shape),
+            size.reshape(shape),
+        )
+        .reshape(2, -1)
+        .T
+    )
     values = np.where(known[:, None], soft, 1).astype(np.float32)
     floor = np.ones(n, np.float32)
     shadow = 1 - (1 - 0.6 * (1 - values[:, 0])) * (1 - 0.3 * (1 - values[:, 1]))
@@ -197,7 +210,7 @@ def _floor_points(setting: Setting, met: _Met) -> tuple[Bools, Singles, Singles]
     on_floor &= step > 0
     point = met.point - met.view * step[:, None]
     half = ((setting.caster.high - setting.caster.low)[:2] / 2).astype(np.float32)
-    spread = 0.5 * float(setting.caster.diagonal)
+    spread = _FLOOR_SPREAD * setting.caster.diagonal
     beyond = np.sqrt((np.maximum(np.abs(point[:, :2]) - half, 0) ** 2).sum(axis=1)) / spread
     on_floor &= beyond < 1
     fade = np.clip(1 - beyond, 0, 1).astype(np.float32)
@@ -207,14 +220,20 @@ def _floor_points(setting: Setting, met: _Met) -> tuple[Bools, Singles, Singles]
 def _shade(
     setting: Setting, met: _Met, at: Ints, light: Singles, columns: npt.ArrayLike, rows: npt.ArrayLike
 ) -> Singles:
+    """Colours ``(n_paints, n, 3)`` of the samples ``at``."""
+    diffuse, gloss = shade(met.normal[at], met.view[at], light[:, 0], light[:, 1], setting.lights)
     mesh = met.mesh[at]
-    albedo = setting.albedo[mesh]
-    striped = setting.hatched[mesh]
-    if striped.any():
-        phase = ((np.asarray(columns) + np.asarray(rows)) / _HATCH_PERIOD) % 1.0
-        stripe = np.clip((np.abs(phase - 0.5) - 0.32) * _HATCH_PERIOD, 0, 1)
-        albedo = albedo * (1 - np.where(striped, 0.42 * stripe, 0))[:, None].astype(np.float32)
-    return shade(albedo, met.normal[at], met.view[at], light[:, 0], light[:, 1], setting.lights)
+    colors = np.empty((len(setting.albedo), len(at), 3), np.float32)
+    for color, albedo, hatched in zip(colors, setting.albedo, setting.hatched, strict=True):
+        lit = diffuse
+        striped = hatched[mesh]
+        if striped.any():
+            phase = ((np.asarray(columns) + np.asarray(rows)) / _HATCH_PERIOD) % 1.0
+            stripe = np.clip((np.abs(phase - 0.5) - 0.32) * _HATCH_PERIOD, 0, 1)
+            lit = diffuse * (1 - np.where(striped, 0.3 * stripe, 0)).astype(np.float32)
+        np.multiply(albedo[mesh], lit[:, None], out=color)
+        color += gloss[:, None]
+    return colors
 
 
 def _refine(
@@ -254,13 +273,12 @@ def _refine(
     hit = np.flatnonzero(grid.mesh >= 0)
     near = _nearby_light(base, grid.mesh[hit], grid.normal[hit], parent[hit], light, shape)
     columns, rows = _grid_places(pixels[0][order], pixels[1][order], n)
-    colors = np.zeros((known * n * n, 3), np.float32)
-    colors[hit] = _shade(setting, grid, hit, near, columns[hit], rows[hit])
     drawn = strength.reshape(-1)
-    colors *= (1 - drawn)[:, None]
+    colors = np.zeros((len(setting.albedo), known * n * n, 3), np.float32)
+    colors[:, hit] = _shade(setting, grid, hit, near, columns[hit], rows[hit]) * (1 - drawn[hit])[:, None]
     cover = np.where(grid.mesh >= 0, 1, drawn).astype(np.float32)
     color_out, cover_out, depth_out = result
-    color_out[order] = colors.reshape(known, n * n, 3).mean(axis=1)
+    color_out[:, order] = colors.reshape(-1, known, n * n, 3).mean(axis=2)
     cover_out[order] = cover.reshape(known, n * n).mean(axis=1)
     depth_out[order] = grid.distance.reshape(known, n * n).min(axis=1)
 
@@ -308,7 +326,7 @@ def _nearby_light(
     for down in (0, -1, 1):
         for across in (0, -1, 1):
             neighbor = np.clip(row + down, 0, height - 1) * width + np.clip(column + across, 0, width - 1)
-            match = np.einsum("ij,ij->i", base.normal[neighbor], normal)
+            match = dot(base.normal[neighbor], normal)
             match[base.mesh[neighbor] != mesh] = -1.5
             better = match > best + 0.02
             best[better] = match[better]

@@ -19,6 +19,7 @@ FIELD_OF_VIEW = math.radians(26.0)
 """Vertical opening of the perspective cameras: about an 80 mm lens, which keeps parallel pipes nearly parallel."""
 
 _LEAST_SIZE = 1e-6
+_MOST_STEPS = 30
 
 
 @dataclass(frozen=True)
@@ -146,8 +147,26 @@ def frame(
     to_right, to_left = (x - across * z).max(), (-x - across * z).max()
     to_top, to_bottom = (y - along * z).max(), (-y - along * z).max()
     back = min(-(to_right + to_left) / (2 * across), -(to_top + to_bottom) / (2 * along), z.min() - least)
-    eye = center + right * (to_right - to_left) / 2 + up * (to_top - to_bottom) / 2 + forward * back
+    depth = z - back
+    eye = center + right * _middle(x, depth) + up * _middle(y, depth) + forward * back
     return Camera(eye, right, up, forward, width, height, tangent, projection)
+
+
+def _middle(sideways: Floats, depth: Floats) -> float:
+    """Where the eye has to be for points to reach as far to one side of the picture as to the other.
+
+    The opening at which both sides just touch is the root of a convex, falling, piecewise linear function, which
+    Newton's method reaches exactly from below.
+    """
+    opening, place = 0.0, 0.0
+    for _ in range(_MOST_STEPS):
+        first, second = int(np.argmax(sideways - opening * depth)), int(np.argmax(-sideways - opening * depth))
+        place = float(sideways[first] - opening * depth[first])
+        excess = place - float(sideways[second] + opening * depth[second])
+        if excess <= 1e-9 * abs(place):
+            break
+        opening += excess / float(depth[first] + depth[second])
+    return place
 
 
 def _axes(direction: Floats) -> tuple[Floats, Floats, Floats]:

@@ -9,6 +9,7 @@ import numpy.typing as npt
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 
+from cadgraph.render.vector import normalized
 from cadgraph.scene import Floats, Ints, Scene, mesh_of_face
 
 __all__ = ["Caster", "Hits"]
@@ -58,7 +59,7 @@ class Caster:
         wanted[chosen] = True
         indices = scene.global_faces() if all_chosen else scene.global_faces()[wanted[owner]]
         self._face_of_primitive: Ints | None = None if all_chosen else np.flatnonzero(wanted[owner])
-        finite: npt.NDArray[np.bool_] = np.isfinite(scene.vertices).all(axis=1)
+        finite = np.asarray(np.isfinite(scene.vertices).all(axis=1))
         if not finite.all():
             sound = finite[indices].all(axis=1)
             indices = indices[sound]
@@ -101,9 +102,7 @@ class Caster:
         face = primitive
         if self._face_of_primitive is not None:
             face = np.where(missed, -1, self._face_of_primitive[primitive]).astype(np.int32)
-        normal = found["Ng"]
-        length = np.sqrt(np.einsum("ij,ij->i", normal, normal))
-        normal /= np.where(length > 0, length, 1)[:, None]
+        normal, _ = normalized(found["Ng"])
         return Hits(face, found["u"], found["v"], np.where(missed, np.float32(np.inf), found["tfar"]), normal)
 
     def blocked(self, origins: Singles, directions: Singles, lengths: Singles) -> npt.NDArray[np.bool_]:

@@ -8,6 +8,7 @@ import threading
 import numpy as np
 import numpy.typing as npt
 
+from cadgraph.render.vector import dot
 from cadgraph.scene import Scene
 
 __all__ = ["CREASE_ANGLE", "CornerNormals", "corner_normals"]
@@ -57,12 +58,12 @@ def corner_normals(
         if not len(first):
             break
         second = first + step
-        cosine = np.einsum("ij,ij->i", normals[first], normals[second])
+        cosine = dot(normals[first], normals[second])
         smooth = np.abs(cosine) > limit
         first, second, sign = first[smooth], second[smooth], np.sign(cosine[smooth])
         total[first] += normals[second] * (sign * weights[second])[:, None]
         total[second] += normals[first] * (sign * weights[first])[:, None]
-    length = np.sqrt(np.einsum("ij,ij->i", total, total))
+    length = np.sqrt(dot(total, total))
     sound = length > 1e-12
     total = np.where(sound[:, None], total / np.where(sound, length, 1)[:, None], normals)
     result = np.empty_like(total)
@@ -74,11 +75,11 @@ def _face_normals(corners: Singles) -> tuple[Singles, Singles]:
     """Unit normals ``(m, 3)`` and area-times-angle weights ``(m, 3)`` of triangles ``(m, 3, 3)``."""
     sides = np.roll(corners, -1, axis=1) - corners
     normal = np.cross(sides[:, 0], sides[:, 1])
-    twice_area = np.sqrt(np.einsum("ij,ij->i", normal, normal))
+    twice_area = np.sqrt(dot(normal, normal))
     unit = normal / np.where(twice_area > 0, twice_area, 1)[:, None]
-    length = np.sqrt(np.einsum("ijk,ijk->ij", sides, sides))
+    length = np.sqrt(dot(sides, sides))
     back = np.roll(sides, 1, axis=1)
-    cosine = -np.einsum("ijk,ijk->ij", sides, back) / np.maximum(length * np.roll(length, 1, axis=1), 1e-30)
+    cosine = -dot(sides, back) / np.maximum(length * np.roll(length, 1, axis=1), 1e-30)
     angle = np.arccos(np.clip(cosine, -1, 1))
     # Scaled to about one, so that float32 sums neither vanish nor overflow for the size of a bolt or of a site.
     mean_area = max(float(twice_area.mean()), 1e-30)
@@ -126,7 +127,8 @@ class CornerNormals:
                 self._work_out(np.flatnonzero(shown & ~self._ready))
         corners = self._normals[faces]
         w = (1 - u - v)[:, None]
-        return corners[:, 0] * w + corners[:, 1] * u[:, None] + corners[:, 2] * v[:, None]
+        normals: Singles = corners[:, 0] * w + corners[:, 1] * u[:, None] + corners[:, 2] * v[:, None]
+        return normals
 
     def _work_out(self, meshes: npt.NDArray[np.int64]) -> None:
         counts = np.diff(self._scene.face_offsets)[meshes]

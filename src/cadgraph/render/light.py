@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from cadgraph.render.caster import Caster
+from cadgraph.render.vector import dot, normalized
 from cadgraph.scene import Floats
 
 __all__ = ["Lamps", "lamps", "shade", "sky_seen", "smooth", "sun_seen"]
@@ -94,52 +95,61 @@ def smooth(values: Singles, points: Singles, normals: Singles, known: npt.NDArra
     """Averages over a block of pixels, but not across edges.
 
     Args:
-        values: ``(height, width, n)``.
-        points: ``(height, width, 3)``.
-        normals: ``(height, width, 3)`` unit.
+        values: ``(n, height, width)``.
+        points: ``(3, height, width)``.
+        normals: ``(3, height, width)`` unit.
         known: ``(height, width)`` where there is a value.
         size: ``(height, width)`` of a pixel there [m].
 
     Returns:
-        ``(height, width, n)``; zero where nothing is known.
+        ``(n, height, width)``; zero where nothing is known.
     """
     height, width = known.shape
     total = np.zeros_like(values)
     weight = np.zeros((height, width), np.float32)
+    limit = 3 * size
     for down in range(-(PATTERN // 2), PATTERN - PATTERN // 2):
         for across in range(-(PATTERN // 2), PATTERN - PATTERN // 2):
             here = slice(max(0, -down), height - max(0, down)), slice(max(0, -across), width - max(0, across))
             there = slice(max(0, down), height + min(0, down)), slice(max(0, across), width + min(0, across))
-            aligned = np.einsum("ijk,ijk->ij", normals[here], normals[there]) > 0.85
-            away = np.abs(np.einsum("ijk,ijk->ij", points[there] - points[here], normals[here]))
-            counts = aligned & (away < 3 * size[here]) & known[here] & known[there]
-            total[here] += values[there] * counts[..., None]
+            nx, ny, nz = (axis[here] for axis in normals)
+            mx, my, mz = (axis[there] for axis in normals)
+            px, py, pz = (axis[there] - axis[here] for axis in points)
+            counts = nx * mx + ny * my + nz * mz > 0.85
+            counts &= np.abs(px * nx + py * ny + pz * nz) < limit[here]
+            counts &= known[here] & known[there]
+            for summed, value in zip(total, values, strict=True):
+                summed[here] += value[there] * counts
             weight[here] += counts
-    mean: Singles = total / np.maximum(weight, 1)[..., None]
-    return mean
+    np.maximum(weight, 1, out=weight)
+    for summed in total:
+        summed /= weight
+    return total
 
 
-def shade(albedo: Singles, normals: Singles, views: Singles, sky: Singles, sun: Singles, lights: Lamps) -> Singles:
-    """The colour of lit surfaces, linear.
+def shade(normals: Singles, views: Singles, sky: Singles, sun: Singles, lights: Lamps) -> tuple[Singles, Singles]:
+    """How surfaces are lit: the colour seen is ``albedo * diffuse + gloss``.
 
     Args:
-        albedo: ``(n, 3)`` linear.
         normals: ``(n, 3)`` unit, on the viewer's side.
         views: ``(n, 3)`` unit, from the surface to the eye.
         sky: ``(n,)`` share of the sky that is seen.
         sun: ``(n,)`` share of the key lamp that is seen.
         lights: the lamps.
+
+    Returns:
+        ``diffuse`` and ``gloss``, both ``(n,)`` linear.
     """
     key = np.maximum(normals @ lights.key, 0) * (0.35 + 0.65 * sun)
     fill = np.maximum(normals @ lights.fill * 0.7 + 0.3, 0)
-    above = 0.5 + 0.5 * normals[:, 2]
-    facing = np.einsum("ij,ij->i", normals, views)
-    ambient = (0.34 + 0.26 * above) * (0.25 + 0.75 * sky)
-    diffuse = ambient + 0.5 * key + 0.13 * fill * (0.5 + 0.5 * sky) + 0.06 * facing
-    halfway = lights.key + views
-    halfway /= np.sqrt(np.einsum("ij,ij->i", halfway, halfway))[:, None]
-    gloss = np.maximum(np.einsum("ij,ij->i", normals, halfway), 0) ** 32
-    return (albedo * diffuse[:, None] + (0.09 * gloss * sun)[:, None]).astype(np.float32)
+    ambient = (0.47 + 0.13 * normals[:, 2]) * (0.25 + 0.75 * sky)
+    diffuse = ambient + 0.5 * key + 0.13 * fill * (0.5 + 0.5 * sky) + 0.06 * dot(normals, views)
+    halfway, _ = normalized(lights.key + views)
+    # The 32nd power, by squaring.
+    gloss = np.maximum(dot(normals, halfway), 0)
+    for _ in range(5):
+        gloss = gloss * gloss
+    return diffuse.astype(np.float32), (0.09 * gloss * sun).astype(np.float32)
 
 
 def _hemisphere(rays: int) -> tuple[Singles, Singles]:

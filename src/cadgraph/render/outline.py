@@ -7,6 +7,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
+from cadgraph.render.vector import dot
 from cadgraph.scene import Ints
 
 __all__ = ["is_edge", "line_strength"]
@@ -36,11 +37,11 @@ def is_edge(mesh: Indices, normal: Singles, point: Singles, pixel: Singles) -> B
         ((slice(None), slice(None, -1)), (slice(None), slice(1, None))),
         ((slice(None, -1), slice(None)), (slice(1, None), slice(None))),
     ):
-        turned = np.einsum("ijk,ijk->ij", normal[a], normal[b]) < 0.9
+        turned = dot(normal[a], normal[b]) < 0.9
         away = point[b] - point[a]
-        step = np.minimum(
-            np.abs(np.einsum("ijk,ijk->ij", away, normal[a])), np.abs(np.einsum("ijk,ijk->ij", away, normal[b]))
-        ) > 2 * np.maximum(pixel[a], pixel[b])
+        step = np.minimum(np.abs(dot(away, normal[a])), np.abs(dot(away, normal[b]))) > 2 * np.maximum(
+            pixel[a], pixel[b]
+        )
         both = (mesh[a] >= 0) & (mesh[b] >= 0)
         differs = (mesh[a] != mesh[b]) | (both & (turned | step))
         edge[a] |= differs
@@ -111,13 +112,14 @@ def _line(a: _Surface, b: _Surface, size: Singles) -> Singles:
     hit_a, hit_b = a[0] >= 0, b[0] >= 0
     both = hit_a & hit_b
     away = b[2] - a[2]
-    across_a = np.abs(np.einsum("...k,...k->...", away, a[1]))
-    across_b = np.abs(np.einsum("...k,...k->...", away, b[1]))
+    across_a = np.abs(dot(away, a[1]))
+    across_b = np.abs(dot(away, b[1]))
     step = np.minimum(across_a, across_b) > 2.5 * size
-    turned = np.einsum("...k,...k->...", a[1], b[1]) < _SHARP
+    turned = dot(a[1], b[1]) < _SHARP
     seam = np.where(a[0] != b[0], np.float32(_SEAM), np.where(turned, np.float32(_CREASE), np.float32(0)))
     strength = np.where(step, np.float32(_OUTLINE), seam)
-    return np.where(both, strength, np.where(hit_a != hit_b, np.float32(_OUTLINE), np.float32(0)))
+    line: Singles = np.where(both, strength, np.where(hit_a != hit_b, np.float32(_OUTLINE), np.float32(0)))
+    return line
 
 
 def _cut(surface: _Surface, where: tuple[slice | Ints | int, ...]) -> _Surface:
@@ -137,12 +139,14 @@ def _neighbor_side(
 ) -> _Surface:
     """The samples of neighbours that face a pixel; of neighbours without samples their one ray, repeated."""
     has = slot[neighbor] >= 0
-    result = []
-    for of_grid, of_base in zip(grid, base, strict=True):
-        values = np.repeat(of_base[neighbor][:, None], n, axis=1)
-        values[has] = of_grid[slot[neighbor[has]]][side]
-        result.append(values)
-    return result[0], result[1], result[2]
+    place = slot[neighbor[has]]
+    mesh, normal, point = (np.repeat(one_ray[neighbor][:, None], n, axis=1) for one_ray in base)
+    mesh[has], normal[has], point[has] = grid[0][place][side], grid[1][place][side], grid[2][place][side]
+    return (
+        mesh.astype(np.int32, copy=False),
+        normal.astype(np.float32, copy=False),
+        point.astype(np.float32, copy=False),
+    )
 
 
 def _thinning(slot: Ints, shape: tuple[int, int]) -> Singles:
@@ -150,7 +154,8 @@ def _thinning(slot: Ints, shape: tuple[int, int]) -> Singles:
     at_edge = (slot >= 0).reshape(shape).astype(np.float32)
     share = _box_mean(_box_mean(at_edge, 0), 1)
     factor = 1 - 0.8 * np.clip((share - _CALM) / (_CROWDED - _CALM), 0, 1)
-    return factor.reshape(-1).astype(np.float32)
+    factors: Singles = factor.reshape(-1).astype(np.float32)
+    return factors
 
 
 def _box_mean(values: Singles, axis: int) -> Singles:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import threading
 from collections import OrderedDict
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 
@@ -137,58 +137,65 @@ class Renderer:
         Raises:
             ValueError: nothing is left to draw.
         """
+        return self.pictures(camera, [paint or Paint(source_colors(self.scene))], look)[0]
+
+    def pictures(self, camera: Camera, paints: Sequence[Paint], look: Look | None = None) -> list[Image.Image]:
+        """Draws pictures that differ in colours only, in little more time than one.
+
+        Args:
+            camera: where from, and how large.
+            paints: one for each picture; what is ghosted or hidden in the first is so in all.
+            look: how.
+
+        Returns:
+            RGB images in the order of the paints.
+
+        Raises:
+            ValueError: nothing is left to draw, or the paints don't agree on what is drawn.
+        """
         look = look or Look()
-        paint = paint or Paint(source_colors(self.scene))
-        none = np.zeros(self.scene.n_meshes, bool)
-        hidden = none if paint.hidden is None else paint.hidden
-        ghosted = none if paint.ghosted is None else paint.ghosted & ~hidden
-        solid = ~hidden & ~ghosted
-        layers: list[Setting] = []
-        ghosts: list[bool] = []
-        if self._has_faces(solid):
-            layers.append(self._setting(camera, paint, look, solid, ghost=False))
-            ghosts.append(False)
-        if self._has_faces(ghosted):
-            layers.append(self._setting(camera, paint, look, ghosted, ghost=True))
-            ghosts.append(True)
+        hidden, ghosted = _left_out(self.scene.n_meshes, paints)
+        layers = [
+            self._setting(camera, paints, look, meshes, ghost=ghost)
+            for meshes, ghost in ((~hidden & ~ghosted, False), (ghosted, True))
+            if np.diff(self.scene.face_offsets)[meshes].any()
+        ]
         if not layers:
             raise ValueError("no picture: every mesh with triangles is hidden")
-        image = np.empty((camera.height, camera.width, 3), np.uint8)
+        images = np.empty((len(paints), camera.height, camera.width, 3), np.uint8)
 
         def draw(rows: tuple[int, int]) -> None:
-            bands = [draw_band(layer, *rows) for layer in layers]
-            image[rows[0] : rows[1]] = _composed(bands, ghosts, rows, camera.height, look)
+            bands = [(draw_band(layer, *rows), layer.ghost) for layer in layers]
+            images[:, rows[0] : rows[1]] = _composed(bands, rows, camera.height, look)
 
         with ThreadPoolExecutor(self.threads) as pool:
             for _ in pool.map(draw, _bands(camera, look.samples)):
                 pass
-        return Image.fromarray(image, "RGB")
+        return [Image.fromarray(image) for image in images]
 
-    def _has_faces(self, meshes: Bools) -> bool:
-        return bool(np.diff(self.scene.face_offsets)[meshes].any())
-
-    def _setting(self, camera: Camera, paint: Paint, look: Look, meshes: Bools, *, ghost: bool) -> Setting:
+    def _setting(self, camera: Camera, paints: Sequence[Paint], look: Look, meshes: Bools, *, ghost: bool) -> Setting:
         caster = self.caster(np.flatnonzero(meshes))
-        hatched = np.zeros(self.scene.n_meshes, bool) if paint.hatched is None else paint.hatched
-        colors = paint.colors.astype(np.float32)
+        none = np.zeros(self.scene.n_meshes, bool)
+        hatched = np.array([none if paint.hatched is None or ghost else paint.hatched for paint in paints])
+        colors = np.array([paint.colors for paint in paints], np.float32)
         if ghost:
             # Half way to grey, then most of the way to white: still a hint of what it is.
-            grey = colors.mean(axis=1, keepdims=True)
-            colors = 0.72 + 0.2 * (colors + grey) / 2
-            hatched = np.zeros_like(hatched)
+            grey = colors.mean(axis=2, keepdims=True)
+            colors = (0.72 + 0.2 * (colors + grey) / 2).astype(np.float32)
         return Setting(
             caster=caster,
             normals=self._normals,
             face_offsets=self.scene.face_offsets,
             camera=camera,
             lights=lamps(camera.right, camera.up, camera.forward),
-            albedo=colors.astype(np.float32),
+            albedo=colors,
             hatched=hatched,
             samples=look.samples,
             sky_rays=0 if ghost else look.sky_rays,
             lines=look.lines,
             floor=float(caster.low[2] - caster.center[2]) if look.floor and not ghost else None,
             reach=look.reach * caster.diagonal,
+            ghost=ghost,
         )
 
 
@@ -199,23 +206,37 @@ def _bands(camera: Camera, samples: int) -> Iterator[tuple[int, int]]:
         yield top, min(top + height, camera.height)
 
 
-def _composed(
-    bands: list[Band], ghosts: list[bool], rows: tuple[int, int], height: int, look: Look
-) -> npt.NDArray[np.uint8]:
-    """The layers over the background, as sRGB."""
+def _left_out(n_meshes: int, paints: Sequence[Paint]) -> tuple[Bools, Bools]:
+    """Which meshes are hidden and which are ghosted, the same for all paints."""
+    none = np.zeros(n_meshes, bool)
+    masks = []
+    for paint in paints:
+        if len(paint.colors) != n_meshes:
+            raise ValueError(f"a scene of {n_meshes} meshes needs as many colours, got {len(paint.colors)}")
+        hidden = none if paint.hidden is None else np.asarray(paint.hidden, bool)
+        ghosted = none if paint.ghosted is None else np.asarray(paint.ghosted, bool) & ~hidden
+        masks.append((hidden, ghosted))
+    if not masks:
+        raise ValueError("no picture: give at least one paint")
+    if any((mask[0] != masks[0][0]).any() or (mask[1] != masks[0][1]).any() for mask in masks):
+        raise ValueError("pictures drawn together must hide and ghost the same meshes; draw them one by one")
+    return masks[0]
+
+
+def _composed(bands: list[tuple[Band, bool]], rows: tuple[int, int], height: int, look: Look) -> npt.NDArray[np.uint8]:
+    """The layers, each with whether it is ghosted, over the background: sRGB ``(n_paints, n_rows, width, 3)``."""
     share = ((np.arange(*rows) + 0.5) / height)[:, None, None]
     # Blended as the eye sees it, not as light adds up.
     background = to_linear(to_srgb(from_hex(look.top)) * (1 - share) + to_srgb(from_hex(look.bottom)) * share)
-    color = np.broadcast_to(background, (*bands[0].cover.shape, 3)).astype(np.float32)
-    depth = np.full(bands[0].cover.shape, np.inf, np.float32)
-    behind = np.zeros(depth.shape, np.float32)
-    for band, ghost in zip(bands, ghosts, strict=True):
+    color = np.broadcast_to(background, bands[0][0].color.shape).astype(np.float32)
+    depth = np.full(bands[0][0].cover.shape, np.inf, np.float32)
+    solid = np.zeros(depth.shape, np.float32)
+    for band, ghost in bands:
         if not ghost:
             color = color * (band.floor * (1 - band.cover))[..., None] + band.color
-            depth, behind = band.depth, band.cover
+            depth, solid = band.depth, band.cover
             continue
-        share_taken = np.where(band.depth < depth, look.ghost * (1 - behind) + look.ghost_over * behind, 0)
-        share_taken = np.where(np.isfinite(depth) & (band.depth >= depth), look.ghost * (1 - behind), share_taken)
-        taken = share_taken[..., None]
-        color = color * (1 - taken * band.cover[..., None]) + band.color * taken
+        over = np.where(band.depth < depth, look.ghost_over, 0) * solid
+        taken = (look.ghost * (1 - solid) + over).astype(np.float32)
+        color = color * (1 - taken * band.cover)[..., None] + band.color * taken[..., None]
     return (to_srgb(color) * 255 + 0.5).astype(np.uint8)

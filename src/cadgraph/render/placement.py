@@ -98,13 +98,15 @@ def _costs(
 
 
 def _nearest_on_box(boxes: Floats, point: Floats) -> Floats:
-    return np.clip(point, boxes[:, :2], boxes[:, 2:])
+    nearest: Floats = np.clip(point, boxes[:, :2], boxes[:, 2:])
+    return nearest
 
 
 def _overlap(boxes: Floats, other: Floats, gap: float) -> npt.NDArray[np.bool_]:
     apart = (boxes[:, 0] >= other[2] + gap) | (boxes[:, 2] <= other[0] - gap)
     apart |= (boxes[:, 1] >= other[3] + gap) | (boxes[:, 3] <= other[1] - gap)
-    return ~apart
+    overlap: npt.NDArray[np.bool_] = ~apart
+    return overlap
 
 
 def _cross(segments: Floats, other: Floats) -> npt.NDArray[np.bool_]:

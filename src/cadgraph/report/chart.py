@@ -72,13 +72,22 @@ def _row(bar: Bar, top: float, scale: float, total: int) -> Markup:
         )
     ]
     left = float(_LABEL)
+    unnamed = []
     for i, (name, count) in enumerate(bar.segments):
         width = count * scale
         pieces.append(_segment(bar, name, count, (left, top, width), i))
+        if not _fits(name, width):
+            unnamed.append(name)
         left += width
+    share = f"{100 * bar.count / total:.1f} %"
+    room = _WIDTH - left - 24 - _LETTER * len(f"{bar.count:,} {share}")
     pieces.append(
-        Markup('<text class="count" x="{x}" y="{y}">{n} <tspan class="share">{p} %</tspan></text>').format(
-            x=round(left + 8, 2), y=round(middle + 4, 1), n=bar.count, p=f"{100 * bar.count / total:.1f}"
+        Markup('<text class="count" x="{x}" y="{y}">{n} <tspan class="share">{share}{names}</tspan></text>').format(
+            x=round(left + 8, 2),
+            y=round(middle + 4, 1),
+            n=f"{bar.count:,}",
+            share=share,
+            names=_listed(unnamed, room),
         )
     )
     return Markup("").join(pieces)
@@ -86,7 +95,7 @@ def _row(bar: Bar, top: float, scale: float, total: int) -> Markup:
 
 def _segment(bar: Bar, name: str, count: int, place: tuple[float, float, float], number: int) -> Markup:
     left, top, width = place
-    label = _shortened(name, width - 8)
+    label = name if _fits(name, width) else ""
     text = Markup('<text class="{kind}" x="{x}" y="{y}">{text}</text>').format(
         kind="dark" if bar.hatched else "light", x=round(left + 5, 2), y=round(top + _ROW / 2, 1), text=label
     )
@@ -106,6 +115,22 @@ def _segment(bar: Bar, name: str, count: int, place: tuple[float, float, float],
         tint=tint,
         text=text if label else "",
     )
+
+
+def _fits(name: str, width: float) -> bool:
+    return len(name) * _LETTER + 8 <= width
+
+
+def _listed(names: Sequence[str], room: float) -> str:
+    """As many of the names as there is room for, after a dash."""
+    text = ""
+    for i, name in enumerate(names):
+        longer = f"{text}, {name}" if text else f"  –  {name}"
+        rest = ", …" if i + 1 < len(names) else ""
+        if (len(longer) + len(rest)) * _LETTER > room:
+            return f"{text}, …" if text else ""
+        text = longer
+    return text
 
 
 def _shortened(text: str, width: float) -> str:

@@ -89,9 +89,20 @@ def draw_pictures(scene: Scene, graph: SceneGraph, config: ReportConfig) -> list
     )  # fmt: skip
     shown = _shown_meshes(ready)
     camera = _camera(ready, shown, three_quarter_view(ready.renderer, shown, aspect=config.width / config.height))
-    pictures = [_by_group(ready, camera), _as_it_is(ready, camera), _by_cluster(ready, camera)]
+    groups, hatched, legend = _group_paint(ready)
+    clusters = _cluster_paint(ready)
+    paints = [Paint(groups, hatched), Paint(source_colors(scene)), Paint(clusters)]
+    images = ready.renderer.pictures(camera, paints, ready.look)
+    pictures = [
+        _by_group(ready, camera, images[0], legend),
+        _as_it_is(ready, camera, images[1]),
+        _by_cluster(ready, camera, images[2], bool((clusters == from_hex(BACKDROP)).all(axis=1).any())),
+    ]
     systems = largest_first(graph.clusters("pipe system"))[: config.max_systems]
-    pictures += [picture for cluster in systems if (picture := _system(ready, cluster, camera)) is not None]
+    for number, cluster in enumerate(systems, 1):
+        picture = _system(ready, cluster, f"Pipe system {number}: {cluster.id}", camera)
+        if picture is not None:
+            pictures.append(picture)
     return pictures
 
 
@@ -111,9 +122,7 @@ def functional_edges(graph: SceneGraph) -> list[Edge]:
     return [edge for edge in graph.document.edges if isinstance(edge, Related | Connected)]
 
 
-def _by_group(ready: _Ready, camera: Camera) -> Picture:
-    paint, hatched, legend = _group_paint(ready)
-    image = ready.renderer.picture(camera, Paint(paint, hatched), ready.look)
+def _by_group(ready: _Ready, camera: Camera, image: Image.Image, legend: tuple[LegendEntry, ...]) -> Picture:
     units, edges = ready.graph.units(), functional_edges(ready.graph)
     image = _related(ready, image, camera, units, edges)
     told = "Every part in the colour of its group. "
@@ -129,8 +138,7 @@ def _by_group(ready: _Ready, camera: Camera) -> Picture:
     )  # fmt: skip
 
 
-def _as_it_is(ready: _Ready, camera: Camera) -> Picture:
-    image = ready.renderer.picture(camera, Paint(source_colors(ready.scene)), ready.look)
+def _as_it_is(ready: _Ready, camera: Camera, image: Image.Image) -> Picture:
     given = np.isfinite(ready.scene.colors).all(axis=1)
     told = "in the colours of the source" + ("" if given.all() else ", light grey where it has none")
     if not given.any():
@@ -140,22 +148,25 @@ def _as_it_is(ready: _Ready, camera: Camera) -> Picture:
     )
 
 
-def _by_cluster(ready: _Ready, camera: Camera) -> Picture:
-    colors = cluster_colors(ready.graph)
+def _cluster_paint(ready: _Ready) -> npt.NDArray[np.float32]:
+    linear = {cluster: from_hex(color) for cluster, color in cluster_colors(ready.graph).items()}
     paint = np.tile(from_hex(BACKDROP), (ready.scene.n_meshes, 1))
-    linear = {cluster: from_hex(color) for cluster, color in colors.items()}
     for mesh, part in enumerate(ready.part_of_mesh):
         cluster = ready.graph.cluster_of(part) if part is not None else None
         if cluster is not None:
             paint[mesh] = linear[cluster.id]
-    image = ready.renderer.picture(camera, Paint(paint), ready.look)
+    return paint
+
+
+def _by_cluster(ready: _Ready, camera: Camera, image: Image.Image, others: bool) -> Picture:
+    colors = cluster_colors(ready.graph)
     clusters = largest_first(ready.graph.clusters())
     legend = [
         LegendEntry(colors[c.id], f"{c.id}: {c.kind or 'unlabelled'}, {_counted(c.n_parts, 'part')}")
         for c in clusters[:_LEGEND_CLUSTERS]
     ]
     more = len(clusters) - len(legend)
-    if (paint == from_hex(BACKDROP)).all(axis=1).any():
+    if others:
         legend.append(LegendEntry(BACKDROP, "ground, and parts outside all clusters"))
     told = f"Every connected structure in a colour of its own, {len(clusters)} in all"
     told += f"; the legend names the {_LEGEND_CLUSTERS} largest." if more > 0 else "."
@@ -165,7 +176,7 @@ def _by_cluster(ready: _Ready, camera: Camera) -> Picture:
     )  # fmt: skip
 
 
-def _system(ready: _Ready, cluster: Cluster, overview: Camera) -> Picture | None:
+def _system(ready: _Ready, cluster: Cluster, title: str, overview: Camera) -> Picture | None:
     graph, renderer = ready.graph, ready.renderer
     members = {part.id for part in graph.parts(cluster=cluster.id)}
     inside = np.array([part is not None and part.id in members for part in ready.part_of_mesh])
@@ -189,7 +200,7 @@ def _system(ready: _Ready, cluster: Cluster, overview: Camera) -> Picture | None
     contents = ", ".join([_counted(cluster.n_parts, "part"), *counts, _counted(len(edges), "relation")])
     size = " × ".join(f"{high - low:.2f}" for low, high in zip(*cluster.aabb, strict=True))
     return Picture(
-        f"system-{cluster.id}", cluster.id, f"{contents}; {size} m.",
+        f"system-{cluster.id}", title, f"{contents}; {size} m.",
         f"Pipe system {cluster.id} coloured by group, all else faint: {contents}.", image, legend, camera,
     )  # fmt: skip
 

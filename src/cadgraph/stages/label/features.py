@@ -364,7 +364,7 @@ def _wheel(shape: _Shape, center: Floats, axis: Floats, radius: float) -> tuple[
     across = apart - (apart @ axis)[:, None] * axis
     share = np.linalg.norm(across, axis=1) / radius
     rim = float(shape.areas[share > 0.72].sum() / max(shape.areas.sum(), _THIN**2))
-    between = (share > 0.25) & (share < 0.70)
+    between = (share > 0.36) & (share < 0.68)
     if not between.any():
         return rim, 0
     u = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])

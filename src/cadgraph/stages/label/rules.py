@@ -31,6 +31,7 @@ CASE = (0.036, 0.275)  # diameter of a gauge with bezel: EN 837-1 sizes 40 to 25
 WHEEL = (0.045, 1.2)  # diameter of a handwheel
 LEVER = (0.05, 0.8)  # length of a lever
 BOLT = (0.5, 0.06)  # greatest length and width over corners of a bolt: M36 heavy hex has 70 mm, M30 58 mm
+MAX_WASHER = 0.075  # diameter of a washer: M39 (ISO 7089) has 72 mm
 MIN_BEAM = 0.25  # shorter bars are as likely brackets or levers
 MAX_GAP = 0.012  # parts further apart along a common axis do not join: adjacency (1 cm) and rounding
 
@@ -39,6 +40,7 @@ FLANGE_RIM = (0.03, 0.36)  # thickness over diameter: EN 1092-1 0.05 (DN600 PN6)
 FLANGE_PIPE = (1.2, 4.7)  # flange over pipe: ASME B16.5 4.2 (DN15 class 150), 1.5 (DN300)
 CASE_DEPTH = (0.12, 0.95)  # depth over diameter, as makers build gauges: 0.25 to 0.8
 STEM_CASE = 0.5  # greatest width of a stem over the case that it carries: 22 mm flats under 63 mm
+MAX_OPENING = 200.0  # degrees that what holds a pipe may leave open: a U-bolt leaves 180
 COAXIAL = 0.2  # greatest offset of two axes that are one, over the lesser radius
 
 
@@ -78,7 +80,7 @@ def _forms(f: Facts) -> _Forms:
         and f.length < 0.6 * diameter,
         lever=LEVER[0] < long < LEVER[1] and long > 3 * mid and thin < 0.3 * long and not f.round,
         pin=f.round and 1.2 * diameter < f.length < BOLT[0] and diameter < BOLT[1],
-        nut=f.round and f.sides == 6 and holed and 0.25 * diameter < f.length < 1.1 * diameter < 1.1 * BOLT[1],
+        nut=f.turned > 0.7 and f.sides == 6 and holed and 0.25 * diameter < f.length < 1.1 * diameter < 1.1 * BOLT[1],
         case=f.round and CASE[0] < diameter < CASE[1] and CASE_DEPTH[0] * diameter < f.length < CASE_DEPTH[1] * diameter,
         bar=long > MIN_BEAM and long > 4 * mid and not f.round and not f.tube,
         plate=thin < 0.08 * mid and mid > 0.1 and f.fill > 0.7,
@@ -165,10 +167,6 @@ def _fasteners(c: _Context) -> None:
                     for j in same:
                         c.say(j, FASTENER, name, 0.93, why)
                     break
-    for part, forms in enumerate(c.forms):
-        f = c.facts[part]
-        if c.free(part) and forms.nut and f.radius < 0.03:
-            c.say(part, FASTENER, "nut", 0.75, f"hexagon with a hole, {_mm(2 * f.radius)} over corners")
 
 
 def _offset(point: Floats, port: Disc) -> float:
@@ -206,7 +204,11 @@ def _continues(c: _Context, part: int, port: Disc) -> str:
                 return "bend" if forms.bend else "pipe"
         elif forms.flange and FLANGE_PIPE[0] < g.radius / port.outer < FLANGE_PIPE[1]:
             return "flange"
-        elif any(1.0 < p.outer / port.outer < FLANGE_PIPE[1] for p, _ in c.run(other)):
+        elif any(
+            0.8 < p.outer / port.outer < FLANGE_PIPE[1]
+            and same_line(port.center, port.normal, p.center, p.normal, 0.005)
+            for p, _ in c.run(other)
+        ):
             return "device"
     return ""
 
@@ -226,6 +228,8 @@ def _pipes(c: _Context) -> None:
             continue
         straight = f.tube > 4 * width or (not forms.bend)
         name = "pipe" if straight else "elbow"
+        if set(ends) == {"device"} and f.tube < (1.0 if hollow else 3.0) * width:
+            continue
         if ends:
             c.say(part, PIPE, name, (0.85, 0.95)[len(ends) - 1], why)
         elif hollow and f.tube > 3 * width:
@@ -255,10 +259,7 @@ def _flanges(c: _Context) -> None:
     for part, forms in enumerate(c.forms):
         f = c.facts[part]
         if forms.gasket and len(f.ports) == 2:
-            sides = [
-                [j for j in c.mates(part, port) if c.is_a(j, PIPE) or c.facts[j].radius > 0.8 * f.radius]
-                for port in f.ports
-            ]
+            sides = [list(c.mates(part, port)) for port in f.ports]
             if all(sides) and any(c.is_a(j, PIPE) for side in sides for j in side):
                 c.say(part, PIPE, "gasket", 0.9, f"ring {_mm(f.length)} thick between two faces, {_mm(2 * f.radius)}")
 
@@ -284,37 +285,59 @@ def _is_piping(c: _Context, part: int) -> bool:
 
 
 def _valves(c: _Context) -> None:
-    """What lies between two pipe ends and carries something on its side."""
-    for part, f in enumerate(c.facts):
-        if not c.free(part):
-            continue
-        for first, second in c.run(part):
-            ends = [[j for j in c.mates(part, port) if j != part] for port in (first, second)]
+    """What lies between two pipe ends and carries something on its side; or a handle, where nothing else is near."""
+    for part in range(len(c.facts)):
+        for first, second in c.run(part) if c.free(part) else ():
+            ends = [list(c.mates(part, port)) for port in (first, second)]
             piped = sum(any(_is_piping(c, j) for j in end) for end in ends)
-            if not all(ends) or not piped:
-                continue
-            axis, width = first.normal, max(first.outer, second.outer)
-            top = [j for j in c.near[part] if _on_side(c, j, first, width)]
-            handle = _find_handle(c, part, top)
-            box_off = _offset(c.parts.properties.obb_center[part], first) / width
-            length = float((second.center - first.center) @ second.normal)
-            kind = f"body of {_mm(length)} between two ends of {_mm(2 * width)}"
-            if handle:
-                for j, name in handle.items():
-                    c.say(j, VALVE, name, 0.85, f"{name or 'trim'} on a {kind}")
-                c.say(part, VALVE, "valve body", 0.95, f"{kind}, with a handle")
-            elif piped == 2 and box_off > 0.25 and length < 12 * width:
-                name = "valve body" if top else "valve"
-                c.say(part, VALVE, name, 0.75, f"{kind}, with something on one side")
-            elif piped == 2 and not f.round and not f.tube and length < 8 * width:
-                c.say(part, VALVE, None, 0.55, f"{kind}, not round")
-            else:
-                continue
-            for end in ends:
-                for j in end:
-                    if c.free(j) and c.facts[j].round and abs(c.facts[j].axis @ axis) > 0.99:
-                        c.say(j, VALVE, "valve body", 0.8, f"end piece of a {kind}")
-            break
+            lone = not any(ends) and _is_lone_valve(c, part, first, second)
+            if (all(ends) and piped and _is_valve(c, part, first, second, piped == 2)) or lone:
+                for j in (j for end in ends for j in end):
+                    if c.free(j) and c.forms[j].flange and _parallel(c.facts[j].axis, first.normal):
+                        c.say(j, VALVE, "valve body", 0.8, "flanged end piece of a valve body")
+                break
+
+
+def _is_valve(c: _Context, part: int, first: Disc, second: Disc, between_pipes: bool) -> bool:
+    """Labels a body between two ends, and its handle, if what it carries tells a valve."""
+    f, width = c.facts[part], max(first.outer, second.outer)
+    top = [j for j in c.near[part] if _on_side(c, j, first, width)]
+    handle = _find_handle(c, part, top)
+    off = _offset(c.parts.properties.obb_center[part], first) / width
+    length = float((second.center - first.center) @ second.normal)
+    kind = f"body of {_mm(length)} between two ends of {_mm(2 * width)}"
+    for j, name in handle.items():
+        c.say(j, VALVE, name, 0.85, f"{name or 'trim'} on a {kind}")
+    if handle:
+        c.say(part, VALVE, "valve body", 0.95, f"{kind}, with a handle")
+    elif between_pipes and any(_stands(c, j, first.normal) for j in top) and length < 12 * width:
+        c.say(part, VALVE, "valve body", 0.75, f"{kind}, with a stem on one side")
+    elif between_pipes and off > 0.1 and length < 12 * width:
+        c.say(part, VALVE, "valve", 0.75, f"{kind}, with something on one side")
+    elif between_pipes and not f.tube and length < 8 * width and (not f.round or _swells(f)):
+        c.say(part, VALVE, None, 0.55, f"{kind}, wider in its middle than a pipe")
+    return not c.free(part)
+
+
+def _is_lone_valve(c: _Context, part: int, first: Disc, second: Disc) -> bool:
+    """Labels a device without piping: a through bore, and a handle beside it that is longer than the ends are wide."""
+    f, width = c.facts[part], max(first.outer, second.outer)
+    through = min(first.inner, second.inner) > 0.3 * width and abs(first.outer - second.outer) < 0.1 * width
+    branches = [p for p in f.ports if not _parallel(p.normal, first.normal) and p.outer > 0.5 * width]
+    if not through or branches or f.section[0] > 1.5 or f.round:
+        return False
+    handle = _find_handle(c, part, [j for j in c.near[part] if c.free(j)])
+    kind = f"bore of {_mm(2 * min(first.inner, second.inner))} with a handle beside it"
+    for j, name in handle.items():
+        c.say(j, VALVE, name, 0.7, f"{name or 'trim'} on a {kind}")
+    corners = c.parts.scene.mesh(part)[0] - first.center
+    reach = np.linalg.norm(corners - np.outer(corners @ first.normal, first.normal), axis=1).max(initial=0.0)
+    off = _offset(c.parts.properties.obb_center[part], first)
+    if handle:
+        c.say(part, VALVE, "valve body", 0.7, kind)
+    elif not c.near[part] and reach > 2.0 * width and off > 0.4 * width:
+        c.say(part, VALVE, "valve", 0.6, f"{kind}, {_mm(float(reach))} off")
+    return not c.free(part)
 
 
 def _on_side(c: _Context, part: int, port: Disc, width: float) -> bool:
@@ -322,6 +345,20 @@ def _on_side(c: _Context, part: int, port: Disc, width: float) -> bool:
     if not (c.free(part) or c.is_a(part, VALVE)):
         return False
     return _offset(c.parts.properties.obb_center[part], port) > 0.5 * width
+
+
+def _stands(c: _Context, part: int, axis: Floats) -> bool:
+    """Whether a part is round about an axis across a run, as stems and bonnets are."""
+    f = c.facts[part]
+    return f.round and bool(abs(f.axis @ axis) < 0.1)
+
+
+def _swells(f: Facts) -> bool:
+    """Whether a profile is wide at both ends, narrower inside of these, and wide again in the middle."""
+    n = len(f.outer)
+    middle = f.outer[n // 3 : n - n // 3].max()
+    necks = max(f.outer[: n // 3].min(), f.outer[n - n // 3 :].min())
+    return bool(middle > 1.15 * necks and min(f.outer[:3].max(), f.outer[-3:].max()) > 1.15 * necks)
 
 
 def _find_handle(c: _Context, body: int, top: Sequence[int]) -> dict[int, str | None]:
@@ -334,16 +371,23 @@ def _find_handle(c: _Context, body: int, top: Sequence[int]) -> dict[int, str | 
         f, forms = c.facts[part], c.forms[part]
         if part in reached or part == body or not (c.free(part) or c.is_a(part, VALVE)) or f.section[0] > 3 * size:
             continue
-        ends_here = len([j for j in c.near[part] if not c.is_a(j, FASTENER)]) <= 2
+        around = [j for j in c.near[part] if not c.is_a(j, FASTENER) and not c.is_a(j, PIPE)]
         label = c.labels[part]
-        if forms.wheel:
+        if forms.wheel or (len(around) == 1 and _is_plain_wheel(c, part, around[0])):
             reached[part] = "handwheel"
-        elif forms.lever and ends_here:
+        elif forms.lever and len(around) <= 2:
             reached[part] = "lever"
         else:
             reached[part] = label.name if label is not None else _trim_name(c, part, body)
             queue += sorted(c.near[part])
     return reached if {"handwheel", "lever"} & set(reached.values()) else {}
+
+
+def _is_plain_wheel(c: _Context, part: int, rod: int) -> bool:
+    """Whether a flat round part sits on a much thinner rod."""
+    f, g = c.facts[part], c.facts[rod]
+    flat = f.sides >= 8 and f.turned > 0.85 and f.length < 0.9 * f.radius and WHEEL[0] < 2 * f.radius < WHEEL[1]
+    return flat and g.radius < 0.35 * f.radius and same_line(f.center, f.axis, g.center, g.axis, 0.1 * f.radius)
 
 
 def _trim_name(c: _Context, part: int, body: int) -> str | None:
@@ -366,7 +410,9 @@ def _gauges(c: _Context) -> None:
                 foot = _gauge_foot(c, part, stem)
                 if foot is None:
                     continue
-                kind = f"case of {_mm(2 * f.radius)}, {_mm(f.length)} deep, on a stem of {_mm(c.facts[stem].section[0])}"
+                kind = (
+                    f"case of {_mm(2 * f.radius)}, {_mm(f.length)} deep, on a stem of {_mm(c.facts[stem].section[0])}"
+                )
                 c.say(part, GAUGE, "gauge case", 0.92, kind)
                 c.say(stem, GAUGE, "gauge stem", 0.88, f"stem under a {kind}")
                 c.say(foot, PIPE, "branch outlet", 0.8, f"between a pipe and the stem of a {kind}")
@@ -377,7 +423,11 @@ def _gauges(c: _Context) -> None:
                         c.say(j, GAUGE, "gauge face", 0.85, f"disc in a {kind}")
                 break
         elif f.discs and _is_whole_gauge(c, part):
-            c.say(part, GAUGE, "gauge", 0.8, f"dial of {_mm(2 * f.discs[0].outer)} on a stem, in one mesh")
+            feet = [j for j in c.near[part] if _foot_on_pipe(c, j, float(f.section[0]))]
+            for j in feet:
+                c.say(j, PIPE, "branch outlet", 0.75, "stub between a pipe and a gauge")
+            if feet:
+                c.say(part, GAUGE, "gauge", 0.8, f"dial of {_mm(2 * f.discs[0].outer)} on a stem, in one mesh")
 
 
 def _gauge_foot(c: _Context, case: int, stem: int) -> int | None:
@@ -392,10 +442,7 @@ def _gauge_foot(c: _Context, case: int, stem: int) -> int | None:
     for foot in c.near[stem]:
         if foot == case or foot in c.near[case]:
             continue
-        if _is_piping(c, foot):
-            return foot
-        small = c.free(foot) and c.facts[foot].section[0] < 2 * f.radius
-        if small and any(_is_piping(c, j) for j in c.near[foot]):
+        if _foot_on_pipe(c, foot, 2 * f.radius):
             return foot
     return None
 
@@ -404,31 +451,25 @@ def _is_whole_gauge(c: _Context, part: int) -> bool:
     """A dial whose axis has the stem far out on one side only, touching piping there and nothing else."""
     f = c.facts[part]
     dial = max(f.discs, key=lambda d: d.outer)
-    if not CASE[0] < 2 * dial.outer < CASE[1] or not 0 < len(c.near[part]) <= 2:
+    if not CASE[0] < 2 * dial.outer < CASE[1] or not 0 < len(c.near[part]) <= 3:
         return False
     corners = c.parts.scene.mesh(part)[0] - dial.center
     across = corners - np.outer(corners @ dial.normal, dial.normal)
     reach = np.linalg.norm(across, axis=1)
-    far = across[np.argmax(reach)] / reach.max()
+    far = across[reach > 0.95 * reach.max()].mean(axis=0)
+    far = far / max(float(np.linalg.norm(far)), 1e-9)
     depth = float(np.ptp(corners @ dial.normal))
     one_sided = -float((across @ far).min()) < 1.3 * dial.outer
     side = across - np.outer(across @ far, far)
-    thin_foot = np.linalg.norm(side[across @ far > 0.8 * reach.max()], axis=1).max() < STEM_CASE * dial.outer
-    touches = all(
-        (c.spot[part, j] - dial.center) @ far > 1.05 * dial.outer for j in c.near[part]
-    ) and any(_is_piping(c, j) or _foot_on_pipe(c, j, part) for j in c.near[part])  # fmt: skip
-    return bool(
-        reach.max() > 1.35 * dial.outer and one_sided and thin_foot and depth < 2.2 * dial.outer and touches
-    )
+    thin_foot = np.linalg.norm(side[across @ far > 0.8 * reach.max()], axis=1).max(initial=0.0) < STEM_CASE * dial.outer
+    touches = any((c.spot[part, j] - dial.center) @ far > 1.05 * dial.outer for j in c.near[part])
+    return bool(reach.max() > 1.35 * dial.outer and one_sided and thin_foot and depth < 2.2 * dial.outer and touches)
 
 
-def _foot_on_pipe(c: _Context, foot: int, above: int) -> bool:
-    if not c.free(foot) or c.facts[foot].section[0] > c.facts[above].section[0]:
-        return False
-    if any(_is_piping(c, j) for j in c.near[foot]):
-        c.say(foot, PIPE, "branch outlet", 0.75, "stub between a pipe and a gauge")
-        return True
-    return False
+def _foot_on_pipe(c: _Context, foot: int, size: float) -> bool:
+    """Whether a part is piping, or a free stub no larger than ``size`` [m] that stands on piping."""
+    stub = c.free(foot) and float(c.facts[foot].section[0]) < size
+    return _is_piping(c, foot) or (stub and any(_is_piping(c, j) for j in c.near[foot]))
 
 
 def _supports(c: _Context) -> None:
@@ -438,19 +479,22 @@ def _supports(c: _Context) -> None:
         if not c.free(part):
             continue
         for pipe in c.near[part]:
-            if c.is_a(pipe, PIPE, "pipe", "elbow") and _wraps(c, part, pipe):
-                name = "u-bolt" if f.fill < 0.25 and not f.round else "clamp"
+            ahead = [j for port in c.facts[pipe].ports for j in c.mates(pipe, port)]
+            opening = _opening(c, part, pipe) if c.is_a(pipe, PIPE, "pipe", "elbow") and part not in ahead else 360.0
+            if opening < MAX_OPENING:
+                name = "u-bolt" if opening > 60.0 else "clamp"
                 c.say(part, FASTENER, name, 0.75, f"goes around a pipe of {_mm(2 * c.facts[pipe].ports[0].outer)}")
                 held.append(part)
                 break
     for part in held:
         for j in c.near[part]:
-            if c.free(j) and c.facts[j].section[0] < 2.5 * c.facts[part].section[0]:
+            long, mid, thin = c.facts[j].section
+            if c.free(j) and long < 2.0 * c.facts[part].section[0] and thin < 0.55 * mid:
                 c.say(j, FASTENER, "bracket", 0.6, "carries what goes around a pipe")
 
 
-def _wraps(c: _Context, part: int, pipe: int) -> bool:
-    """Whether a part has corners on more than half of the way around a pipe, close to its skin."""
+def _opening(c: _Context, part: int, pipe: int) -> float:
+    """The widest angle around a pipe without a corner of a part close to its skin [degrees]."""
     spot = c.spot[part, pipe]
     corners = c.parts.scene.mesh(part)[0]
     for port in c.facts[pipe].ports:
@@ -461,13 +505,11 @@ def _wraps(c: _Context, part: int, pipe: int) -> bool:
         across = apart - np.outer(apart @ port.normal, port.normal)
         radii = np.linalg.norm(across, axis=1)
         close = across[(radii > 0.9 * r) & (radii < 1.35 * r + 0.005)]
-        if len(close) < 6:
-            continue
-        u = np.cross(port.normal, np.eye(3)[np.argmin(np.abs(port.normal))])
-        angles = np.sort(np.arctan2(close @ np.cross(port.normal, u), close @ u))
-        if np.diff(np.append(angles, angles[0] + 2 * np.pi)).max() < np.radians(200):
-            return True
-    return False
+        if len(close) >= 6:
+            u = np.cross(port.normal, np.eye(3)[np.argmin(np.abs(port.normal))])
+            angles = np.sort(np.arctan2(close @ np.cross(port.normal, u), close @ u))
+            return float(np.degrees(np.diff(np.append(angles, angles[0] + 2 * np.pi)).max()))
+    return 360.0
 
 
 def _structure(c: _Context) -> None:
@@ -489,9 +531,30 @@ def _leftovers(c: _Context) -> None:
                 around = [j for j in near if not c.is_a(j, FASTENER)]
                 if c.free(part) and around and all(c.is_a(j, group) for j in around):
                     c.say(part, group, None, 0.65, f"touches only parts of a {group.split()[0].lower()}")
-    for part in range(len(c.facts)):
+    for part, f in enumerate(c.facts):
+        forms, width = c.forms[part], 2 * f.radius
         if c.is_a(part, VALVE, "handwheel", "valve stem") and not _on_valve(c, part):
             c.labels[part] = None
+        if not c.free(part):
+            continue
+        holes = [p.inner / f.radius for p in f.ports]
+        if forms.nut and width < BOLT[1]:
+            c.say(part, FASTENER, "nut", 0.75, f"hexagon with a hole, {_mm(width)} over corners")
+        elif f.round and len(holes) == 2 and min(holes) > 0.35 and max(holes) < 0.75 and width < MAX_WASHER:
+            if f.length < 0.2 * width:
+                c.say(part, FASTENER, "washer", 0.6, f"flat ring of {_mm(width)}, {_mm(f.length)} thick")
+        elif forms.pin and _has_head(f):
+            c.say(part, FASTENER, "screw", 0.6, f"shank of {_mm(f.length)} with a head of {_mm(width)}")
+
+
+def _has_head(f: Facts) -> bool:
+    """Whether a shank of one radius carries a wider head at one end, of the proportions of a screw."""
+    outer = f.outer if f.outer[0] > f.outer[-1] else f.outer[::-1]
+    shank = float(np.median(outer))
+    head = int((outer > 1.3 * shank).sum())
+    level = np.ptp(outer[head + 1 :]) < 0.25 * shank if head else False  # threads may be modelled
+    thick = head * f.length / len(outer)
+    return bool(level and outer[:head].min() > 1.3 * shank and f.radius < 2.4 * shank and thick < 1.6 * 2 * shank)
 
 
 def _on_valve(c: _Context, part: int) -> bool:

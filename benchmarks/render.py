@@ -1,0 +1,158 @@
+"""Pictures per second: ``python benchmarks/render.py [--scale N] [--size WIDTHxHEIGHT]``.
+
+Draws a generated plant of pipes, flanges, bolts and tanks, from a few hundred meshes up to millions of triangles, and
+prints a table in Markdown with a description of the machine.
+"""
+
+from __future__ import annotations
+
+import argparse
+import gc
+import os
+import platform
+import resource
+import statistics
+import sys
+import time
+from collections.abc import Callable
+
+import numpy as np
+import numpy.typing as npt
+
+from cadgraph.render.annotation import Mark, Segment, Tag, annotate
+from cadgraph.render.camera import frame
+from cadgraph.render.color import distinct_colors
+from cadgraph.render.picture import Look, Paint, Renderer
+from cadgraph.render.views import three_quarter_view
+from cadgraph.scene import Scene
+
+Mesh = tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]
+
+
+def turned(profile: list[tuple[float, float]], sides: int) -> Mesh:
+    """A surface of revolution about Z through (radius, height) points."""
+    angle = np.arange(sides) * 2 * np.pi / sides
+    rings = [np.stack([r * np.cos(angle), r * np.sin(angle), np.full(sides, h)], axis=1) for r, h in profile]
+    i = np.arange(sides)
+    j = (i + 1) % sides
+    faces = []
+    for ring in range(len(profile) - 1):
+        low, high = ring * sides, (ring + 1) * sides
+        faces += [np.stack([low + i, low + j, high + j], axis=1), np.stack([low + i, high + j, high + i], axis=1)]
+    return np.concatenate(rings), np.concatenate(faces)
+
+
+def plant(lines: int, sides: int) -> Scene:
+    """Parallel pipe lines on a rack, each with flanges and bolts, and a tank for every few lines."""
+    meshes: list[Mesh] = []
+    along = np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]])
+
+    def add(mesh: Mesh, at: tuple[float, float, float], rotation: npt.NDArray[np.float64] | None = None) -> None:
+        vertices, faces = mesh
+        meshes.append((vertices @ (np.eye(3) if rotation is None else rotation.T) + np.array(at), faces))
+
+    pipe = turned([(0, -1), (0.05, -1), (0.05, 1), (0, 1)], sides)
+    flange = turned([(0.05, -0.01), (0.1, -0.01), (0.1, 0.01), (0.05, 0.01)], sides)
+    bolt = turned([(0, -0.04), (0.008, -0.04), (0.008, 0.04), (0, 0.04)], 6)
+    tank = turned([(0.8 * float(np.sin(t)), -1.2 * float(np.cos(t))) for t in np.linspace(0, np.pi, sides)], 2 * sides)
+    across = max(1, int(np.sqrt(lines)))
+    for line in range(lines):
+        y, z = 0.4 * (line % across), 0.5 + 0.4 * (line // across)
+        for piece in range(4):
+            x = 2.05 * piece
+            add(pipe, (x, y, z), along)
+            for side in (-0.012, 0.012):
+                add(flange, (x + 1.025 + side, y, z), along)
+            for k in range(8):
+                a = k * np.pi / 4
+                add(bolt, (x + 1.025, y + 0.08 * float(np.cos(a)), z + 0.08 * float(np.sin(a))), along)
+        if line % 8 == 0:
+            add(tank, (-2.5, 0.4 * across * (line / lines), 1.2 + (line % 3)))
+    return Scene.from_meshes(meshes)
+
+
+def timed(act: Callable[[], object], repeats: int) -> float:
+    """Median wall time [s]."""
+    taken = []
+    for _ in range(repeats):
+        start = time.perf_counter()
+        act()
+        taken.append(time.perf_counter() - start)
+    return statistics.median(taken)
+
+
+def peak_memory() -> float:
+    """Of this process so far [GB]."""
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return peak * (1 if sys.platform == "darwin" else 1024) / 1e9
+
+
+def measure(lines: int, sides: int, size: tuple[int, int], repeats: int) -> str:
+    scene = plant(lines, sides)
+    start = time.perf_counter()
+    renderer = Renderer(scene)
+    renderer.caster()
+    built = time.perf_counter() - start
+    start = time.perf_counter()
+    direction = three_quarter_view(renderer)
+    chosen = time.perf_counter() - start
+    camera = frame(renderer.points(), direction, size)
+    paint = Paint(distinct_colors(scene.n_meshes))
+    start = time.perf_counter()
+    image = renderer.picture(camera, paint)
+    first = time.perf_counter() - start
+    three = timed(lambda: renderer.pictures(camera, [paint] * 3), repeats)
+    full = timed(lambda: renderer.picture(camera, paint), repeats)
+    plain = timed(lambda: renderer.picture(camera, paint, Look(sky_rays=0, floor=False)), repeats)
+    square = frame(renderer.points(), direction, (512, 512))
+    small = timed(lambda: renderer.picture(square, paint, Look(sky_rays=0, floor=False, samples=2)), repeats)
+    spots = [(float(x), float(x) / 3, 1.0) for x in range(8)]
+    notes = timed(
+        lambda: annotate(
+            image,
+            camera,
+            segments=[Segment(a, b) for a, b in zip(spots[:-1], spots[1:], strict=True)],
+            marks=[Mark(spot) for spot in spots],
+            tags=[Tag(spot, f"V-{i:03d}") for i, spot in enumerate(spots)],
+        ),
+        repeats,
+    )
+    cells = [f"{scene.n_meshes:,}", f"{scene.n_triangles:,}"]
+    cells += [f"{seconds:.2f}" for seconds in (built, chosen, first, full, three, plain, notes, small)]
+    return "| " + " | ".join([*cells, f"{peak_memory():.2f}"]) + " |"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--size", default="1280x800", help="of the large pictures, WIDTHxHEIGHT")
+    parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument("--huge", action="store_true", help="also a scene of about 7 million triangles")
+    options = parser.parse_args()
+    width, height = (int(side) for side in options.size.split("x"))
+    print(
+        f"{platform.platform()}, {os.cpu_count()} processors, Python {platform.python_version()}, numpy {np.__version__}"
+    )
+    print(
+        f"\nSeconds (wall, median of {options.repeats}); {width}x{height}, 3x3 samples at edges, 4 sky rays a pixel.\n"
+    )
+    titles = [
+        "meshes",
+        "triangles",
+        "tree",
+        "view",
+        "first",
+        "picture",
+        "3 colourings",
+        "no light",
+        "notes",
+        "512x512 plain",
+    ]
+    print("| " + " | ".join([*titles, "peak GB"]) + " |")
+    print("|" + "---:|" * (len(titles) + 1))
+    for lines, sides in ((8, 24), (64, 24), (180, 48), *(((180, 820),) if options.huge else ())):
+        print(measure(lines, sides, (width, height), options.repeats), flush=True)
+        gc.collect()
+
+
+if __name__ == "__main__":
+    main()

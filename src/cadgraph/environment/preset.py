@@ -1,0 +1,39 @@
+"""The plants that can be asked for by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from cadgraph.environment.hand import HANDS, Hand
+from cadgraph.environment.plant import Plant
+from cadgraph.environment.pumps import make_pumps
+from cadgraph.environment.riser import make_riser
+from cadgraph.environment.skid import make_skid
+from cadgraph.environment.tank import make_tank
+
+__all__ = ["PRESETS", "make"]
+
+PRESETS: dict[str, Callable[[int, Hand | None], Plant]] = {
+    "pumps": make_pumps,
+    "riser": make_riser,
+    "skid": make_skid,
+    "tank": make_tank,
+}
+
+
+def make(preset: str, seed: int = 0, hand: str | None = None) -> Plant:
+    """Builds a plant.
+
+    Args:
+        preset: a key of ``PRESETS``.
+        seed: of everything that varies.
+        hand: a key of ``HANDS``; the preset's own choice by default.
+
+    Raises:
+        ValueError: an unknown preset or hand.
+    """
+    if preset not in PRESETS:
+        raise ValueError(f"unknown preset {preset!r}; there are {', '.join(PRESETS)}")
+    if hand is not None and hand not in HANDS:
+        raise ValueError(f"unknown hand {hand!r}; there are {', '.join(HANDS)}")
+    return PRESETS[preset](seed, HANDS[hand] if hand is not None else None)

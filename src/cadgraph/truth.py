@@ -1,0 +1,275 @@
+"""What is known for certain about a scene: the content of ``<name>.truth.json`` (format version 1, ``docs/truth.md``).
+
+Lengths are metres, coordinates world, right-handed, Z up, whatever the scene's file uses. A section that is absent (or
+null) was not annotated and is not evaluated; an empty one says that there is nothing of its kind.
+"""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any, Literal, Self
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+from cadgraph.atomic import write_atomically
+from cadgraph.errors import FormatError
+from cadgraph.vocabulary import Vocabulary
+
+__all__ = ["Truth", "TruthCluster", "TruthConnection", "TruthMesh", "TruthPoint", "TruthUnit", "check_truth"]
+
+FORMAT = "cadgraph-truth"
+VERSION = 1
+_ROWS = ("meshes", "units", "points", "connections", "clusters", "contacts")
+_SHOWN = 3  # examples in a message
+
+
+class _Record(BaseModel):
+    """A frozen record that keeps keys it doesn't know."""
+
+    model_config = ConfigDict(frozen=True, extra="allow", allow_inf_nan=False, populate_by_name=True)
+
+
+class TruthMesh(_Record):
+    """What one mesh of the scene is."""
+
+    mesh: str = Field(description="its source path")
+    group: str | None = Field(default=None, description="of the vocabulary; null: not annotated")
+    name: str | None = Field(default=None, description="in that group; null: not annotated")
+    line: str | None = Field(default=None, description="tag of the pipe run that it belongs to")
+    hidden: bool = Field(default=False, description="lies wholly inside other geometry, so that nobody sees it")
+    duplicate_of: str | None = Field(default=None, description="path of the mesh that it repeats at the same place")
+
+
+class TruthUnit(_Record):
+    """A functional unit."""
+
+    id: str = Field(description="unique among units and points")
+    type: str = Field(description="as the vocabulary calls it (valve, gauge, pump, tank...)")
+    kind: str | None = Field(default=None, description="ball valve, pressure gauge...")
+    tag: str | None = Field(default=None, description="as people call it; the id where null")
+    meshes: tuple[str, ...] = Field(description="all meshes that belong to it", min_length=1)
+
+
+class TruthPoint(_Record):
+    """A node of the functional graph that is no unit."""
+
+    id: str = Field(description="unique among units and points")
+    kind: Literal["terminal", "junction"] = Field(
+        description="terminal: the open end of a run; junction: three or more branches meet"
+    )
+    point: tuple[float, float, float] | None = Field(default=None, description="where it is [m]")
+
+
+class TruthConnection(_Record):
+    """Two nodes that follow each other along a run, with no unit between them."""
+
+    source: str = Field(alias="from", description="id of a unit or point")
+    target: str = Field(alias="to", description="likewise")
+    line: str | None = Field(default=None, description="tag of the run")
+    length: float | None = Field(default=None, ge=0, description="along the centreline [m]")
+    diameter: float | None = Field(default=None, ge=0, description="nominal bore [m]")
+    direction: Literal["forward", "backward", "unknown"] = Field(
+        default="unknown", description="of the flow; forward: source to target"
+    )
+    reason: str | None = Field(default=None, description="what fixes the direction")
+
+
+class TruthCluster(_Record):
+    """One connected structure: meshes that hang together. In the file, a bare list of paths will do."""
+
+    id: str | None = Field(default=None, description="what people call it (S1)")
+    meshes: tuple[str, ...]
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_list(cls, value: Any) -> Any:
+        return {"meshes": value} if isinstance(value, list | tuple) else value
+
+
+class Truth(_Record):
+    """Everything that is known for certain about a scene.
+
+    Raises:
+        ValidationError: (a ``ValueError``) a value is of the wrong type, an id or path is used twice, or one names
+            what isn't there. :meth:`from_json` and :meth:`load` raise ``FormatError`` instead.
+    """
+
+    format: Literal["cadgraph-truth"] = "cadgraph-truth"
+    version: Literal[1] = 1
+    preset: str = Field(default="", description="name of the generated plant; empty for one from elsewhere")
+    seed: int | None = Field(default=None, description="that the plant was made from")
+    hands: tuple[str, ...] = Field(default=(), description="modelling styles in it")
+    meshes: tuple[TruthMesh, ...] = ()
+    units: tuple[TruthUnit, ...] | None = None
+    points: tuple[TruthPoint, ...] = ()
+    connections: tuple[TruthConnection, ...] | None = None
+    clusters: tuple[TruthCluster, ...] | None = None
+    contacts: tuple[tuple[str, str], ...] | None = Field(default=None, description="pairs of meshes that touch")
+    meters_per_unit: float | None = Field(
+        default=None, gt=0, description="length of one authored unit of the scene [m]"
+    )
+    up_axis: str | None = Field(default=None, description="as authored in the scene")
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        paths = [row.mesh for row in self.meshes]
+        _refuse_repeats(paths, "meshes", "mesh")
+        known = set(paths)
+        _refuse_strangers((m.duplicate_of for m in self.meshes if m.duplicate_of), known, "meshes", "duplicate_of")
+        units, clusters = self.units or (), self.clusters or ()
+        nodes = [unit.id for unit in units] + [point.id for point in self.points]
+        _refuse_repeats(nodes, "units and points", "id")
+        _refuse_strangers((mesh for unit in units for mesh in unit.meshes), known, "units", "mesh")
+        _refuse_repeats((mesh for unit in units for mesh in unit.meshes), "units", "mesh")
+        _refuse_strangers((mesh for cluster in clusters for mesh in cluster.meshes), known, "clusters", "mesh")
+        _refuse_repeats((mesh for cluster in clusters for mesh in cluster.meshes), "clusters", "mesh")
+        _refuse_repeats((cluster.id for cluster in clusters if cluster.id), "clusters", "id")
+        ends = (end for c in self.connections or () for end in (c.source, c.target))
+        _refuse_strangers(ends, set(nodes), "connections", "unit or point")
+        _refuse_strangers((mesh for pair in self.contacts or () for mesh in pair), known, "contacts", "mesh")
+        return self
+
+    def to_json(self) -> dict[str, Any]:
+        """The content of the file as plain values; what a mesh row doesn't say is left out."""
+        data = self.model_dump(mode="json", by_alias=True)
+        unsaid = {"line": None, "hidden": False, "duplicate_of": None}
+        for row in data["meshes"]:
+            for key, value in unsaid.items():
+                if row[key] == value:
+                    del row[key]
+        return data
+
+    @classmethod
+    def from_json(cls, data: Any, where: str = "truth") -> Truth:
+        """Reads the content of a truth file.
+
+        Args:
+            data: plain values.
+            where: the file's name, for messages.
+
+        Raises:
+            FormatError: it does not follow the format; the text names the key.
+        """
+        if not isinstance(data, Mapping) or data.get("format") != FORMAT:
+            raise FormatError(f"{where}: not a truth file (key 'format' must be {FORMAT!r})")
+        if data.get("version") != VERSION:
+            raise FormatError(
+                f"{where}: truth version {data.get('version')!r}, but this cadgraph reads version {VERSION}; update it"
+            )
+        try:
+            return cls.model_validate(data)
+        except ValidationError as error:
+            first = error.errors()[0]
+            place = ".".join(str(step) for step in first["loc"])
+            message = first["msg"].removeprefix("Value error, ")
+            raise FormatError(f"{where}: {place + ': ' if place else ''}{message}") from None
+
+    def save(self, path: str | Path) -> Path:
+        """Writes a truth file, whole or not at all; the same truth gives the same bytes.
+
+        Returns:
+            The file.
+
+        Raises:
+            OutputError: it can't be written.
+        """
+        target = Path(path)
+        lines = []
+        for key, value in self.to_json().items():
+            if key in _ROWS and value:
+                rows = ",\n".join("  " + _dumps(row) for row in value)
+                lines.append(f" {_dumps(key)}: [\n{rows}\n ]")
+            else:
+                lines.append(f" {_dumps(key)}: {_dumps(value)}")
+        # A lone surrogate has no UTF-8, but its backslash form is what JSON calls it.
+        write_atomically(target, ("{\n" + ",\n".join(lines) + "\n}\n").encode("utf-8", "backslashreplace"))
+        return target
+
+    @classmethod
+    def load(cls, path: str | Path) -> Truth:
+        """Reads a truth file.
+
+        Raises:
+            FormatError: it is missing, no JSON, or does not follow the format.
+        """
+        target = Path(path)
+        try:
+            text = target.read_text(encoding="utf-8-sig")
+        except OSError as error:
+            raise FormatError(f"{target}: can't be read ({error.strerror}); give a .truth.json file") from error
+        except UnicodeDecodeError as error:
+            raise FormatError(f"{target}: not UTF-8 text; give a .truth.json file") from error
+        try:
+            data = json.loads(text, parse_constant=_refuse_constant)
+        except (ValueError, RecursionError) as error:
+            raise FormatError(f"{target}: not JSON ({error})") from error
+        return cls.from_json(data, str(target))
+
+
+def check_truth(truth: Truth, vocabulary: Vocabulary, paths: Iterable[str] | None = None) -> tuple[str, ...]:
+    """Looks for what a truth file may say but most likely doesn't mean.
+
+    Args:
+        truth: what to check.
+        vocabulary: that its groups, names and unit types should be in.
+        paths: of all meshes of the scene, as ``cadgraph.load(scene).paths`` gives them; not compared if None.
+
+    Returns:
+        One line for each kind of finding, with how often it occurs and examples; empty if there are none.
+    """
+    found: dict[str, list[str]] = {}
+    for row in truth.meshes:
+        if row.group is None:
+            found.setdefault("meshes without a group (not evaluated)", []).append(row.mesh)
+        elif not vocabulary.holds(row.group):
+            found.setdefault("groups that are not in the vocabulary", []).append(row.group)
+        elif not vocabulary.holds(row.group, row.name):
+            found.setdefault("names that are not in their group", []).append(f"{row.group} / {row.name}")
+    types = set(vocabulary.unit_of_group.values())
+    group_of = {row.mesh: row.group for row in truth.meshes}
+    unit_of_group = vocabulary.unit_of_group
+    for unit in truth.units or ():
+        if unit.type not in types:
+            found.setdefault("unit types that are not in the vocabulary", []).append(unit.type)
+        elif all(unit_of_group.get(group_of[mesh] or "") != unit.type for mesh in unit.meshes):
+            found.setdefault("units of which no mesh has a group of their type", []).append(unit.id)
+    if truth.clusters is not None:
+        clustered = {mesh for cluster in truth.clusters for mesh in cluster.meshes}
+        loose = [row.mesh for row in truth.meshes if row.mesh not in clustered]
+        found["meshes in no cluster (right for the ground only)"] = loose
+    joined = {end for c in truth.connections or () for end in (c.source, c.target)}
+    found["points that no connection names"] = [point.id for point in truth.points if point.id not in joined]
+    if paths is not None:
+        there = set(paths)
+        listed = [row.mesh for row in truth.meshes]
+        found["meshes that the scene doesn't have"] = [mesh for mesh in listed if mesh not in there]
+        found["meshes of the scene that are not listed"] = sorted(there - set(listed))
+    return tuple(_told(what, cases) for what, cases in found.items() if cases)
+
+
+def _told(what: str, cases: Iterable[str]) -> str:
+    several = list(cases)
+    return f"{len(several)} {what}: {', '.join(list(dict.fromkeys(several))[:_SHOWN])}"
+
+
+def _refuse_repeats(names: Iterable[str], section: str, what: str) -> None:
+    repeated = [name for name, count in Counter(names).items() if count > 1]
+    if repeated:
+        raise ValueError(f"{section}: {what} {repeated[0]!r} is listed twice ({len(repeated)} such); keep one")
+
+
+def _refuse_strangers(names: Iterable[str], known: set[str], section: str, what: str) -> None:
+    strangers = [name for name in names if name not in known]
+    if strangers:
+        raise ValueError(f"{section}: {what} {strangers[0]!r} is not in this truth ({len(strangers)} such); list it")
+
+
+def _refuse_constant(text: str) -> float:
+    raise ValueError(f"{text} is no JSON number")
+
+
+def _dumps(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False, allow_nan=False)

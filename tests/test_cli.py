@@ -1,0 +1,192 @@
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import cadgraph
+import shapes
+from cadgraph.cli import main
+from cadgraph.scene import Scene
+
+USDA = """#usda 1.0
+(
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Mesh "box"
+{
+    int[] faceVertexCounts = [4, 4, 4, 4, 4, 4]
+    int[] faceVertexIndices = [0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5]
+    point3f[] points = [(0,0,0), (1,0,0), (0,1,0), (1,1,0), (0,0,1), (1,0,1), (0,1,1), (1,1,1)]
+}
+"""
+
+
+@pytest.fixture
+def scene_file(tmp_path):
+    path = tmp_path / "scene.usda"
+    path.write_text(USDA)
+    return path
+
+
+def run(capsys, *arguments):
+    """The exit code, standard output and standard error of one command."""
+    code = 0
+    try:
+        main([str(a) for a in arguments])
+    except SystemExit as end:
+        code = end.code or 0
+    out, err = capsys.readouterr()
+    return code, out, err
+
+
+def refused(capsys, *arguments):
+    """The one line of an error that ends with code 2."""
+    code, _, err = run(capsys, *arguments)
+    assert code == 2
+    lines = [line for line in err.splitlines() if line.startswith("error:")]
+    assert len(lines) == 1
+    assert "Traceback" not in err
+    return lines[0]
+
+
+def test_build_writes_everything_and_says_what_to_open(capsys, scene_file, tmp_path):
+    code, out, _ = run(capsys, "build", scene_file, "-o", tmp_path / "out", "--set", "report.samples=1")
+    assert code == 0
+    for name in ("graph.json", "semantics.usda", "report.html", "picture.png", "timings.json"):
+        assert (tmp_path / "out" / name).stat().st_size > 0
+        assert name in out or name == "timings.json"
+    assert not [p for p in (tmp_path / "out").iterdir() if p.name.startswith(".")]
+    assert cadgraph.SceneGraph.load(tmp_path / "out").source.n_meshes == 1
+
+
+def test_show_prints_a_summary_or_json(capsys, scene_file, tmp_path):
+    run(capsys, "build", scene_file, "-o", tmp_path / "out", "--no-report")
+    assert "1 meshes" in run(capsys, "show", tmp_path / "out")[1]
+    assert json.loads(run(capsys, "show", tmp_path / "out", "--json")[1])["n_parts"] == 1
+
+
+@pytest.mark.parametrize("to", ["graphml", "csv", "networkx-json"])
+def test_export_names_what_it_wrote(capsys, scene_file, tmp_path, to):
+    run(capsys, "build", scene_file, "-o", tmp_path / "out", "--no-report")
+    code, out, _ = run(capsys, "export", tmp_path / "out", "--to", to, "-o", tmp_path / "exported")
+    assert code == 0
+    for line in out.splitlines():
+        assert Path(line.removeprefix("wrote ")).stat().st_size > 0
+
+
+def test_the_printed_settings_can_be_read_back(capsys, tmp_path):
+    text = run(capsys, "config", "--set", "cluster.eps=0.02", "--set", "ground.meshes=['/a', '/b']")[1]
+    (tmp_path / "settings.toml").write_text(text)
+    assert run(capsys, "config", "--config", tmp_path / "settings.toml")[1] == text
+    assert cadgraph.read_config(tmp_path / "settings.toml").cluster.eps == 0.02
+
+
+def test_flags_win_over_the_file_and_the_file_over_the_defaults(capsys, scene_file, tmp_path):
+    (tmp_path / "settings.toml").write_text('method = "paper"\n[cluster]\neps = 0.05\n')
+    arguments = ("build", scene_file, "-o", tmp_path / "out", "--no-report", "--config", tmp_path / "settings.toml")
+    run(capsys, *arguments, "--set", "cluster.eps=0.03")
+    config = cadgraph.SceneGraph.load(tmp_path / "out").document.config
+    assert config["method"] == "paper"
+    assert config["cluster"]["eps"] == 0.03
+
+
+def test_a_missing_file(capsys, tmp_path):
+    assert "nothing.usd" in refused(capsys, "build", tmp_path / "nothing.usd", "-o", tmp_path / "out")
+
+
+def test_an_empty_file(capsys, tmp_path):
+    (tmp_path / "empty.usd").touch()
+    assert "empty.usd" in refused(capsys, "build", tmp_path / "empty.usd", "-o", tmp_path / "out")
+
+
+def test_a_text_file_named_usd(capsys, tmp_path):
+    (tmp_path / "text.usd").write_text("this is no scene\n")
+    assert "text.usd" in refused(capsys, "build", tmp_path / "text.usd", "-o", tmp_path / "out")
+
+
+def test_a_stage_without_meshes(capsys, tmp_path):
+    (tmp_path / "bare.usda").write_text('#usda 1.0\ndef Xform "a" {}\n')
+    assert "bare.usda" in refused(capsys, "build", tmp_path / "bare.usda", "-o", tmp_path / "out")
+
+
+def test_an_output_folder_that_cannot_be_written(capsys, scene_file, tmp_path):
+    (tmp_path / "file").touch()
+    message = refused(capsys, "build", scene_file, "-o", tmp_path / "file" / "out")
+    assert "choose another output folder" in message
+
+
+def test_a_label_file_with_an_unknown_path(capsys, scene_file, tmp_path):
+    (tmp_path / "labels.json").write_text(json.dumps([{"mesh": "/nowhere", "group": "Tank", "name": "tank"}]))
+    message = refused(capsys, "build", scene_file, "-o", tmp_path / "out", "--labels", tmp_path / "labels.json")
+    assert "/nowhere" in message
+    assert not (tmp_path / "out" / "graph.json").exists()
+
+
+@pytest.mark.parametrize(
+    ("extra", "word"),
+    [
+        (["--set", "cluster.eps"], "NAME=VALUE"),
+        (["--set", "cluster.epsilon=1"], "cluster.epsilon"),
+        (["--set", "cluster.eps=-1"], "cluster.eps"),
+        (["--set", "nonsense.eps=1"], "nonsense.eps"),
+        (["--method", "guess"], "method"),
+        (["--ground", "/nowhere"], "/nowhere"),
+        (["--config", "nothing.toml"], "nothing.toml"),
+        (["--labels", "nothing.json"], "nothing.json"),
+        (["--vocabulary", "nothing.yaml"], "nothing.yaml"),
+    ],
+)
+def test_bad_flags_are_named(capsys, scene_file, tmp_path, extra, word):
+    assert word in refused(capsys, "build", scene_file, "-o", tmp_path / "out", "--no-report", *extra)
+
+
+def test_an_unknown_export_format_lists_the_known_ones(capsys, scene_file, tmp_path):
+    run(capsys, "build", scene_file, "-o", tmp_path / "out", "--no-report")
+    assert "graphml" in refused(capsys, "export", tmp_path / "out", "--to", "dwg")
+
+
+@pytest.mark.parametrize("content", ["", "{", "[]", '{"format": "cadgraph", "version": 99}'])
+def test_a_graph_that_is_none_is_named(capsys, tmp_path, content):
+    (tmp_path / "graph.json").write_text(content)
+    assert "graph.json" in refused(capsys, "show", tmp_path)
+
+
+def test_labels_come_from_a_file_and_say_so(capsys, scene_file, tmp_path):
+    (tmp_path / "labels.csv").write_text("mesh,group,name\n/box,Tank,shell\n")
+    run(capsys, "build", scene_file, "-o", tmp_path / "out", "--no-report", "--labels", tmp_path / "labels.csv")
+    label = cadgraph.SceneGraph.load(tmp_path / "out").parts()[0].label
+    assert (label.group, label.name, label.source, label.confidence) == ("Tank", "shell", "author", 1.0)
+
+
+def test_another_vocabulary_is_used_and_kept(capsys, scene_file, tmp_path):
+    (tmp_path / "own.yaml").write_text("groups:\n  Vessel:\n    unit: vessel\n    names: [drum]\n")
+    (tmp_path / "labels.json").write_text(json.dumps([{"mesh": "/box", "group": "Vessel", "name": "drum"}]))
+    flags = ("--labels", tmp_path / "labels.json", "--vocabulary", tmp_path / "own.yaml", "--no-report")
+    run(capsys, "build", scene_file, "-o", tmp_path / "out", *flags)
+    graph = cadgraph.SceneGraph.load(tmp_path / "out")
+    assert [u.unit_type for u in graph.units()] == ["vessel"]
+    assert graph.document.vocabulary == {"Vessel": {"names": ["drum"], "unit": "vessel"}}
+
+
+def test_the_version_and_the_help_are_there(capsys):
+    assert run(capsys, "--version")[1].strip() == f"cadgraph {cadgraph.__version__}"
+    code, out, _ = run(capsys, "--help")
+    assert code == 0
+    for command in ("build", "demo", "show", "export", "config"):
+        assert command in out
+
+
+def test_it_runs_as_a_module():
+    done = subprocess.run([sys.executable, "-m", "cadgraph", "--version"], capture_output=True, text=True, check=True)
+    assert done.stdout.startswith("cadgraph ")
+
+
+def test_a_crash_between_files_leaves_none_half_written(monkeypatch, tmp_path):
+    graph = cadgraph.build(Scene.from_meshes([shapes.box()]), cadgraph.Config().replace({"label.labeler": "none"}))
+    monkeypatch.setattr(Path, "replace", lambda *_: (_ for _ in ()).throw(OSError(28, "No space left on device")))
+    with pytest.raises(cadgraph.OutputError, match="No space left"):
+        graph.save(tmp_path)
+    assert list(tmp_path.iterdir()) == []
