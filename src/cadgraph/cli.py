@@ -9,7 +9,7 @@ import tomllib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import typer
 from rich.console import Console
@@ -21,7 +21,7 @@ from cadgraph.atomic import ensure_writable
 from cadgraph.config import Config, read_config, to_toml
 from cadgraph.errors import CadGraphError
 
-__all__ = ["app", "main"]
+__all__ = ["app", "main", "plants"]
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -33,6 +33,8 @@ app = typer.Typer(
     "structure it belongs to, and how valves, gauges, pumps and tanks hang together along the pipes.",
     epilog="Start with **cadgraph demo**, then **cadgraph build SCENE -o FOLDER**.",
 )
+plants = typer.Typer(no_args_is_help=True, help="Generated test plants with their ground truth.")
+app.add_typer(plants, name="environment")
 _out = Console(highlight=False, soft_wrap=True)
 _err = Console(stderr=True, highlight=False, soft_wrap=True)
 
@@ -158,6 +160,64 @@ def config_(
 ) -> None:
     """Print the settings in force, with their meaning and source, as TOML."""
     print(to_toml(_settings(config, settings or [], None)), end="")  # noqa: T201
+
+
+@app.command()
+def evaluate(
+    graph: GraphArgument,
+    truth: Annotated[Path, typer.Argument(metavar="TRUTH", help="What is known for certain: a truth file (JSON).")],
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", metavar="FOLDER", help="Also write Markdown, JSON and figures.")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the figures as JSON.")] = False,
+) -> None:
+    """Say how well a graph agrees with the truth: labels, units, relations, structures, contacts, confidence."""
+    from cadgraph.evaluate import evaluate_files, to_json, to_markdown
+
+    evaluation = evaluate_files(graph, truth, output)
+    print(json.dumps(to_json(evaluation), indent=1) if as_json else to_markdown(evaluation))  # noqa: T201
+
+
+@plants.command("make")
+def make_plant(
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The scene, e.g. field.usdc.")],
+    preset: Annotated[str, typer.Option(help="skid, riser, tank, pumps, rack or field.")] = "skid",
+    seed: Annotated[int, typer.Option(min=0, help="Of everything that varies.")] = 0,
+    hand: Annotated[
+        str | None, typer.Option(help="In whose style it is modelled; the preset's own by default.")
+    ] = None,
+    spoilt: Annotated[
+        float,
+        typer.Option(min=0, max=1, help="Share of meshes with each modelling sin: there twice, hidden, inside out..."),
+    ] = 0.0,
+    unit: Annotated[float, typer.Option(help="Metres in one authored unit.")] = 0.001,
+    up: Annotated[str, typer.Option(help="Authored up axis, Y or Z.")] = "Z",
+    instances: Annotated[bool, typer.Option("--instances", help="Repeated shapes as native instances.")] = False,
+) -> None:
+    """Generate a plant as USD with meaningless names, and its ground truth beside it."""
+    from cadgraph.environment import Sins, UsdStyle, make, write_usd
+
+    if up not in ("Y", "Z"):
+        raise ValueError(f"--up {up}: give Y or Z")
+    plant = make(preset, seed, hand, Sins(*[spoilt] * 5) if spoilt else None)
+    axis: Literal["Y", "Z"] = "Y" if up == "Y" else "Z"
+    truth = write_usd(plant, output, UsdStyle(meters_per_unit=unit, up_axis=axis, instances=instances))
+    _out.print(f"wrote {escape(str(output))} and {escape(str(truth))}")
+
+
+@plants.command("truth-from-usd")
+def truth_of(
+    scene: Annotated[Path, typer.Argument(metavar="SCENE", help="A USD file that carries labels.")],
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The truth file (JSON).")],
+    vocabulary: Annotated[Path | None, typer.Option("--vocabulary", metavar="FILE", help="Another label tree.")] = None,
+) -> None:
+    """Read the labels of a USD file into a truth file."""
+    from cadgraph.evaluate import truth_from_usd
+    from cadgraph.vocabulary import read_vocabulary
+
+    truth = truth_from_usd(scene, read_vocabulary(vocabulary) if vocabulary else None)
+    truth.save(output)
+    _out.print(f"wrote {escape(str(output))}: {len(truth.meshes or ()):,} labelled meshes")
 
 
 def _settings(file: Path | None, changes: Sequence[str], method: str | None) -> Config:

@@ -39,8 +39,6 @@ class TruthMesh(_Record):
     group: str | None = Field(default=None, description="of the vocabulary; null: not annotated")
     name: str | None = Field(default=None, description="in that group; null: not annotated")
     line: str | None = Field(default=None, description="tag of the pipe run that it belongs to")
-    hidden: bool = Field(default=False, description="lies wholly inside other geometry, so that nobody sees it")
-    duplicate_of: str | None = Field(default=None, description="path of the mesh that it repeats at the same place")
 
 
 class TruthUnit(_Record):
@@ -107,7 +105,15 @@ class Truth(_Record):
     points: tuple[TruthPoint, ...] = ()
     connections: tuple[TruthConnection, ...] | None = None
     clusters: tuple[TruthCluster, ...] | None = None
+    looseness: float | None = Field(default=None, ge=0, description="greatest gap between parts that touch [m]")
     contacts: tuple[tuple[str, str], ...] | None = Field(default=None, description="pairs of meshes that touch")
+    duplicates: tuple[tuple[str, str], ...] = Field(
+        default=(), description="pairs of meshes, the second an exact copy of the first at the same place"
+    )
+    hidden: tuple[str, ...] = Field(default=(), description="meshes that can't be seen from anywhere")
+    flaws: dict[str, tuple[str, ...]] = Field(
+        default_factory=dict, description="what is wrong with a mesh, by its path: flipped, soup, degenerate"
+    )
     meters_per_unit: float | None = Field(
         default=None, gt=0, description="length of one authored unit of the scene [m]"
     )
@@ -118,7 +124,6 @@ class Truth(_Record):
         paths = [row.mesh for row in self.meshes]
         _refuse_repeats(paths, "meshes", "mesh")
         known = set(paths)
-        _refuse_strangers((m.duplicate_of for m in self.meshes if m.duplicate_of), known, "meshes", "duplicate_of")
         units, clusters = self.units or (), self.clusters or ()
         nodes = [unit.id for unit in units] + [point.id for point in self.points]
         _refuse_repeats(nodes, "units and points", "id")
@@ -130,16 +135,16 @@ class Truth(_Record):
         ends = (end for c in self.connections or () for end in (c.source, c.target))
         _refuse_strangers(ends, set(nodes), "connections", "unit or point")
         _refuse_strangers((mesh for pair in self.contacts or () for mesh in pair), known, "contacts", "mesh")
+        _refuse_strangers((mesh for pair in self.duplicates for mesh in pair), known, "duplicates", "mesh")
+        _refuse_strangers((*self.hidden, *self.flaws), known, "hidden and flaws", "mesh")
         return self
 
     def to_json(self) -> dict[str, Any]:
-        """The content of the file as plain values; what a mesh row doesn't say is left out."""
+        """The content of the file as plain values; a mesh without line has no such key."""
         data = self.model_dump(mode="json", by_alias=True)
-        unsaid = {"line": None, "hidden": False, "duplicate_of": None}
         for row in data["meshes"]:
-            for key, value in unsaid.items():
-                if row[key] == value:
-                    del row[key]
+            if row["line"] is None:
+                del row["line"]
         return data
 
     @classmethod

@@ -2,14 +2,19 @@ import numpy as np
 import pytest
 
 from cadgraph.environment import HANDS
+from cadgraph.environment.access import platform, railing, stairs
+from cadgraph.environment.electrical import cabinet, cable_tray, lamp, sign
+from cadgraph.environment.enclosure import fence, pillar
 from cadgraph.environment.fastener import bolt, pipe_support
 from cadgraph.environment.flange import flange, flange_length, gasket
 from cadgraph.environment.gauge import pressure_gauge
-from cadgraph.environment.piping import elbow, outlet, pipe
+from cadgraph.environment.piping import cap, elbow, outlet, pipe, reducer, tee
 from cadgraph.environment.plant import gather
-from cadgraph.environment.standard import ELBOW_LONG_RADIUS, FLANGES, PIPES, SIZES
+from cadgraph.environment.pump import pump
+from cadgraph.environment.standard import ELBOW_LONG_RADIUS, FACE_TO_FACE, FLANGES, PIPES, SIZES
 from cadgraph.environment.structure import caster, deck, post
 from cadgraph.environment.valve import VALVES, valve_length
+from cadgraph.environment.vessel import Nozzle, tank
 from cadgraph.vocabulary import default_vocabulary
 from environment.solids import is_closed, least_edge, shell_volumes
 
@@ -17,7 +22,7 @@ SOME = (15, 25, 50, 80, 150, 300)
 
 
 def builds(dn, hand):
-    valves = [build("V-1", dn, hand).assembly for build in VALVES.values()]
+    valves = [build("V-1", dn, hand).assembly for kind, build in VALVES.items() if dn in FACE_TO_FACE[kind]]
     return gather(
         [
             *valves,
@@ -35,6 +40,33 @@ def builds(dn, hand):
             caster(hand),
             deck(2.0, 0.8, hand),
             post(1.0, hand),
+            cap(dn, hand),
+            tee(dn, dn, hand).assembly,
+            tee(dn, 15, hand).assembly,
+        ]
+    )
+
+
+def yard(hand):
+    nozzles = [
+        Nozzle(50, "top", (0.2, 0.1)),
+        Nozzle(25, "side", (0.3, 0.5)),
+        Nozzle(300, "side", (2.0, 0.6), manway=True),
+    ]
+    return gather(
+        [
+            tank("T-1", hand, 0.7, 1.5, 0.3, nozzles).assembly,
+            *(pump("P-1", a, b, hand).assembly for a, b in ((50, 32), (80, 50), (150, 100))),
+            platform(3.0, 1.6, 2.2, hand, 0.3),
+            stairs(2.2, hand),
+            railing((0.0, 0.0, 0.0), (2.0, 0.0, 1.5), hand),
+            fence(2.4, hand),
+            fence(2.4, hand, gate=True),
+            pillar(hand),
+            cabinet(hand),
+            cable_tray(3.0, hand, pieces=2),
+            lamp(hand),
+            sign(hand),
         ]
     )
 
@@ -49,9 +81,26 @@ def test_every_component_is_a_closed_solid_that_looks_outward(hand, dn):
 
 
 @pytest.mark.parametrize("hand", HANDS.values(), ids=HANDS)
+def test_everything_else_in_a_yard_is_closed_too(hand):
+    for component in yard(hand).components:
+        assert is_closed(component.solid), component.name
+        assert (shell_volumes(component.solid) > 0).all(), component.name
+
+
+@pytest.mark.parametrize(("dn", "other"), [(100, 50), (50, 100), (80, 65)])
+def test_reducer_leads_from_one_bore_to_the_other(dn, other):
+    device = reducer(dn, other, HANDS["plant-design"])
+    vertices = device.assembly.components[0].vertices
+    for x, size in ((0.0, dn), (device.length, other)):
+        rim = vertices[np.isclose(vertices[:, 0], x)]
+        assert np.ptp(rim[:, 1]) == pytest.approx(PIPES[size].outer)
+    assert is_closed(device.assembly.components[0].solid)
+
+
+@pytest.mark.parametrize("hand", HANDS.values(), ids=HANDS)
 def test_every_label_is_in_the_vocabulary(hand):
     vocabulary = default_vocabulary()
-    for component in builds(50, hand).components:
+    for component in (*builds(50, hand).components, *yard(hand).components):
         assert vocabulary.holds(component.group, component.name), (component.group, component.name)
 
 
@@ -92,8 +141,11 @@ def test_elbow_ends_where_the_standard_says(dn):
 @pytest.mark.parametrize("kind", VALVES)
 @pytest.mark.parametrize("dn", SOME)
 def test_valve_is_as_long_as_the_standard_says(kind, dn):
+    if dn not in FACE_TO_FACE[kind]:
+        pytest.skip("the standard has no such size")
     device = VALVES[kind]("V-1", dn, HANDS["plant-design"])
     body = np.concatenate([c.vertices for c in device.assembly.components if c.name == "valve body"])
+    body = body[np.hypot(body[:, 1], body[:, 2]) < FLANGES[dn].raised / 2 + 1e-6]
     assert device.length == valve_length(kind, dn)
     assert body[:, 0].min() == pytest.approx(0.0)
     assert body[:, 0].max() == pytest.approx(device.length)

@@ -190,3 +190,12 @@ def test_drawing_meshes_without_faces_is_harmless():
     renderer = Renderer(scene)
     paint = Paint(painted("#808080", "#808080").colors, ghosted=np.array([False, True]))
     assert renderer.picture(frame(renderer.points([0]), (1, -1, 1), (32, 32)), paint).size == (32, 32)
+
+
+def test_facets_of_a_coarse_cylinder_do_not_show_where_it_turns_from_the_lamp():
+    scene = scene_of(shapes.cylinder(sides=16))
+    renderer = Renderer(scene)
+    camera = frame(renderer.points(), (0, -1, 0.001), (200, 200), projection="orthographic")
+    paint = painted("#909090")
+    image = pixels(renderer.picture(camera, paint, Look(lines=0, floor=False)))[100, 30:170].sum(axis=1)
+    assert np.abs(np.diff(image)).max() < 25

@@ -1,6 +1,7 @@
 """Generated test plants with their ground truth."""
 
 from cadgraph.environment.hand import HANDS, Hand
+from cadgraph.environment.imperfection import Sins, spoil
 from cadgraph.environment.plant import Component, Plant
 from cadgraph.environment.preset import PRESETS, make
 from cadgraph.environment.riser import make_riser
@@ -14,11 +15,13 @@ __all__ = [
     "Component",
     "Hand",
     "Plant",
+    "Sins",
     "UsdStyle",
     "make",
     "make_riser",
     "make_skid",
     "make_tank",
+    "spoil",
     "truth_path",
     "write_usd",
 ]

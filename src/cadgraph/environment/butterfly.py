@@ -35,7 +35,10 @@ def _solids(dn: int, hand: Hand) -> tuple[Solid, Solid, Solid, float]:
     reach = pipe.bore + 0.0002
     edge, middle = 0.0025, 0.004 + 0.05 * pipe.bore
     profile = [(0, -middle), (0.5 * reach, -middle), (reach, -edge), (reach, edge), (0.5 * reach, middle), (0, middle)]
-    disc = moved(weld([revolve(profile, sides)]), at(length / 2) @ spun("x", -np.pi / 2))
+    disc = weld([revolve(profile, sides)])
+    # Open, its plane along the flow; where pipes are modelled solid it would run into them and stands shut.
+    turned = spun("x", -np.pi / 2) if hand.hollow else spun("y", np.pi / 2)
+    disc = moved(disc, at(length / 2) @ turned)
     shaft = 0.42 * neck
     stem = stack([(top, top + 0.010, circle(shaft * 1.6, 6)), (top + 0.010, top + 0.030, circle(shaft, 12))])
     return body, disc, stem, top + 0.030

@@ -11,50 +11,69 @@ from cadgraph.environment.hand import Hand
 from cadgraph.environment.plant import Assembly, Component
 from cadgraph.environment.polygon import circle
 from cadgraph.environment.solid import Solid, about_x, box, extrude, merge, moved, stack, sweep
-from cadgraph.environment.standard import HEX_NUTS, PIPES
+from cadgraph.environment.standard import HEX_NUTS, PIPES, WASHERS
 
-__all__ = ["PROUD", "SUPPORT_REACH", "bolt", "pipe_support"]
+__all__ = ["PROUD", "SUPPORT_REACH", "bolt", "clamping", "pipe_support"]
 
 PROUD = 0.003  # m; a stud stands this far out of its nut: about two threads
 
 
 @cache
 def _bolt_solids(diameter: float, grip: float, sides: int, whole: bool) -> tuple[Solid, ...]:
-    """Along x, clamping what lies between 0 and ``grip``."""
+    """Along x, clamping what lies between 0 and ``grip``; one solid, or stud, nut, washer."""
     across, thick = HEX_NUTS[diameter]
     shank = circle(diameter / 2, sides)
     hexagon = circle(across / np.sqrt(3), 6)
-    low, high = -thick - PROUD, grip + thick + PROUD
     if whole:
+        low, high = -thick - PROUD, grip + thick + PROUD
         levels = [(low, -thick, shank), (-thick, 0.0, hexagon), (0.0, grip, shank), (grip, grip + thick, hexagon)]
         return (about_x(stack([*levels, (grip + thick, high, shank)])),)
-    stud = extrude(shank, low, high)
-    nuts = [extrude(hexagon, z, z + thick, (shank,)) for z in (-thick, grip)]
-    return tuple(about_x(solid) for solid in (stud, *nuts))
+    outer, flat = WASHERS[diameter]
+    end = flat + thick + PROUD
+    stud = extrude(shank, -end, grip + end)
+    nut = extrude(hexagon, 0.0, thick, (shank,))
+    washer = extrude(circle(outer / 2, max(16, sides)), 0.0, flat, (circle(diameter / 2 + 0.0008, sides),))
+    return tuple(about_x(solid) for solid in (stud, nut, washer))
 
 
 def bolt(diameter: float, grip: float, hand: Hand) -> Assembly:
-    """A stud bolt with two heavy hex nuts along x, its nuts' faces at 0 and ``grip`` [m].
+    """A stud bolt with two heavy hex nuts along x; it clamps what lies between 0 and ``grip`` [m].
 
     Returns:
-        One component, or stud and two nuts where the hand models every piece; none where it models no fasteners.
+        One component; or stud, two nuts, two washers where the hand models every piece (see ``clamping``); none where
+        it models no fasteners.
     """
     if hand.fasteners == "none":
         return Assembly()
     sides = min(hand.round(diameter / 2), 12)
-    color = hand.color("fastener")
-    if hand.fasteners == "bolt":
+    color, group = hand.color("fastener"), "Connection assembly"
+    if hand.fasteners != "pieces":
         (solid,) = _bolt_solids(diameter, round(grip, 6), sides, True)
-        return Assembly((Component(solid, "Connection assembly", "bolt", color),))
-    stud, first, second = _bolt_solids(diameter, round(grip, 6), sides, False)
+        return Assembly((Component(solid, group, "bolt", color),))
+    stud, nut, washer = _bolt_solids(diameter, round(grip, 6), sides, False)
+    flat, thick = WASHERS[diameter][1], HEX_NUTS[diameter][1]
     return Assembly(
         (
-            Component(stud, "Connection assembly", "stud", color),
-            Component(first, "Connection assembly", "nut", color),
-            Component(second, "Connection assembly", "nut", color),
+            Component(stud, group, "stud", color),
+            Component(nut, group, "nut", color, at(-flat - thick)),
+            Component(nut, group, "nut", color, at(grip + flat)),
+            Component(washer, group, "washer", color, at(-flat)),
+            Component(washer, group, "washer", color, at(grip)),
         ),
-        ((0, 1), (0, 2)),
+        ((0, 1), (0, 2), (1, 3), (2, 4)),
     )
+
+
+def clamping(studs: range, hand: Hand) -> list[tuple[int, int]]:
+    """Which components of some bolts press on the near and on the far flange, for each bolt.
+
+    Args:
+        studs: indices of the components that ``bolt`` made, one bolt after the other.
+        hand: that modelled them.
+    """
+    if hand.fasteners == "pieces":
+        return [(i + 3, i + 4) for i in range(studs.start, studs.stop, 5)]
+    return [(i, i) for i in studs]
 
 
 SUPPORT_REACH = 0.026  # m; from what carries the bracket to the skin of the pipe

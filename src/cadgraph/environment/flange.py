@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -11,8 +12,8 @@ from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.plant import Assembly, Component, gather
 from cadgraph.environment.polygon import circle
-from cadgraph.environment.solid import Shell, Solid, about_x, loft, planar, reverse, revolve, weld
-from cadgraph.environment.standard import FLANGES, HEX_NUTS, PIPES, RAISED_FACE
+from cadgraph.environment.solid import Shell, Solid, about_x, loft, merge, moved, planar, reverse, revolve, weld
+from cadgraph.environment.standard import FLANGES, HEX_NUTS, PIPES, RAISED_FACE, WASHERS
 from cadgraph.scene import Floats
 
 __all__ = [
@@ -37,13 +38,13 @@ def plate_thickness(dn: int) -> float:
 
 def nut_room(dn: int) -> float:
     """How far behind a flange its nuts and stud ends need to be kept free [m]."""
-    return HEX_NUTS[FLANGES[dn].bolt][1] + PROUD + 0.005
+    return HEX_NUTS[FLANGES[dn].bolt][1] + WASHERS[FLANGES[dn].bolt][1] + PROUD + 0.003
 
 
 def nut_circle(dn: int) -> float:
     """Radius of the circle inside all nuts of a joint, with a little air [m]."""
     size = FLANGES[dn]
-    return float(size.circle / 2 - HEX_NUTS[size.bolt][0] / np.sqrt(3) - 0.002)
+    return float(size.circle / 2 - max(HEX_NUTS[size.bolt][0] / np.sqrt(3), WASHERS[size.bolt][0] / 2) - 0.002)
 
 
 def flange_length(dn: int, hand: Hand) -> float:
@@ -145,4 +146,16 @@ def bolts(dn: int, grip: float, hand: Hand) -> Assembly:
     size = FLANGES[dn]
     one = bolt(size.bolt, grip, hand)
     turns = [(2 * k + 1) * np.pi / size.n_bolts for k in range(size.n_bolts)]
-    return gather(one.placed(spun("x", turn) @ at(0, size.circle / 2, 0)) for turn in turns)
+    poses = [spun("x", turn) @ at(0, size.circle / 2, 0) for turn in turns]
+    if hand.fasteners == "set":
+        return Assembly((replace(one.components[0], solid=_bolt_set(dn, round(grip, 6), hand)),))
+    return gather(one.placed(pose) for pose in poses)
+
+
+@cache
+def _bolt_set(dn: int, grip: float, hand: Hand) -> Solid:
+    """All bolts of a joint as one mesh."""
+    size = FLANGES[dn]
+    one = bolt(size.bolt, grip, hand).components[0].solid
+    turns = [(2 * k + 1) * np.pi / size.n_bolts for k in range(size.n_bolts)]
+    return merge([moved(one, spun("x", turn) @ at(0, size.circle / 2, 0)) for turn in turns])

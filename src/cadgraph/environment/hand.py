@@ -49,12 +49,14 @@ class Hand:
         hollow: whether pipes have inner walls.
         flange: ``neck`` (hub, raised face), ``slip`` (short hub) or ``ring`` (a plain disc).
         holes: whether flanges are drilled.
-        fasteners: ``none``, ``bolt`` (a bolt with its nuts is one mesh) or ``pieces``.
+        fasteners: ``none``, ``set`` (the bolts of a joint are one mesh), ``bolt`` (a bolt with its nuts is one mesh) or
+            ``pieces`` (stud, nuts, washers).
         gaskets: whether there are any.
         valve: pieces of a valve: ``one``, ``few`` (body, handle) or ``pieces``.
         gauge: likewise.
         spool: ``segments`` (pipes and elbows) or ``bent`` (one mesh from flange to flange).
-        gap: least and greatest gap left between what should touch [m].
+        gap: least and greatest gap left between what should touch, negative for overlaps [m].
+        wobble: greatest unevenness of surfaces [m].
         palette: colour by kind of material.
     """
 
@@ -64,13 +66,19 @@ class Hand:
     hollow: bool = True
     flange: Literal["neck", "slip", "ring"] = "neck"
     holes: bool = True
-    fasteners: Literal["none", "bolt", "pieces"] = "bolt"
+    fasteners: Literal["none", "set", "bolt", "pieces"] = "bolt"
     gaskets: bool = True
     valve: Literal["one", "few", "pieces"] = "pieces"
     gauge: Literal["one", "few", "pieces"] = "pieces"
     spool: Literal["segments", "bent"] = "segments"
     gap: tuple[float, float] = (0.0, 0.0)
+    wobble: float = 0.0
     palette: Mapping[str, RGB] = field(default_factory=lambda: _REALISTIC, compare=False)
+
+    @property
+    def looseness(self) -> float:
+        """The greatest gap between two parts that should touch [m]."""
+        return max(0.0, self.gap[1]) + 2 * self.wobble
 
     def round(self, radius: float) -> int:
         """Sides of a circle of this radius [m]: a multiple of 4."""
@@ -86,6 +94,17 @@ class Hand:
         """The colour of a kind of material."""
         return self.palette[kind]
 
+
+# What other hands colour by: everything alike, or by system.
+_GRAY: dict[str, RGB] = dict.fromkeys(_REALISTIC, (0.5, 0.5, 0.5))
+_SYSTEMS: dict[str, RGB] = {
+    **dict.fromkeys(("pipe", "flange", "gasket", "fastener"), (0.1, 0.42, 0.2)),
+    **dict.fromkeys(("valve", "trim", "handle"), (0.62, 0.2, 0.05)),
+    **dict.fromkeys(("gauge", "dial", "needle"), (0.7, 0.62, 0.1)),
+    **dict.fromkeys(("steel", "clamp", "rubber", "safety", "fence", "gate"), (0.35, 0.37, 0.42)),
+    **dict.fromkeys(("tank", "motor", "pump"), (0.3, 0.42, 0.55)),
+    **dict.fromkeys(("concrete", "electrical", "ground"), (0.6, 0.58, 0.54)),
+}
 
 # The published styles; a plant names the hands it was made by, and a benchmark can hold any of them out.
 HANDS: dict[str, Hand] = {
@@ -103,18 +122,45 @@ HANDS: dict[str, Hand] = {
             valve="one",
             gauge="one",
             gap=(0.0, 0.003),
+            palette=_SYSTEMS,
         ),
         Hand("mechanical", sag=0.00008, sides=(24, 72), fasteners="pieces"),
         Hand(
             "game",
             sag=0.002,
-            sides=(6, 16),
+            sides=(8, 16),
             hollow=False,
             flange="slip",
             holes=False,
+            fasteners="set",
             valve="few",
             gauge="few",
             spool="bent",
+        ),
+        Hand(
+            "scan",
+            sag=0.001,
+            sides=(12, 20),
+            hollow=False,
+            flange="slip",
+            holes=False,
+            fasteners="none",
+            gaskets=False,
+            valve="few",
+            gauge="few",
+            gap=(-0.002, 0.002),
+            wobble=0.001,
+            palette=_GRAY,
+        ),
+        Hand(
+            "vendor",
+            sag=0.0001,
+            sides=(20, 64),
+            flange="slip",
+            fasteners="set",
+            valve="few",
+            spool="bent",
+            palette=_GRAY,
         ),
     )
 }

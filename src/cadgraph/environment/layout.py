@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from cadgraph.environment.fastener import clamping
 from cadgraph.environment.flange import GASKET, bolts, flange, flange_length, gasket, plate_thickness
 from cadgraph.environment.frame import arc, at, looking, spun
 from cadgraph.environment.hand import Hand
@@ -333,12 +334,9 @@ def _joint(work: _Work, frame: Floats, face: float) -> range:
 
 
 def _join_bolts(work: _Work, studs: range, first: int, second: int) -> None:
-    """Records that the nuts sit on the two flanges."""
-    if work.hand.fasteners == "bolt":
-        work.joints += [(flange_, stud) for stud in studs for flange_ in (first, second)]
-    elif work.hand.fasteners == "pieces":
-        for i in range(studs.start, studs.stop, 3):
-            work.joints += [(first, i + 1), (second, i + 2)]
+    """Records that the nuts press on the two flanges."""
+    for near, far in clamping(studs, work.hand):
+        work.joints += [(first, near), (second, far)]
 
 
 def _begin(work: _Work) -> tuple[int, ...]:
@@ -391,16 +389,11 @@ def _finish(work: _Work) -> tuple[int, ...]:
 
 
 def _outer_bolts(work: _Work, studs: range, inner: int, first: bool) -> tuple[int, ...]:
-    """Joins the bolts to the flange of the run; returns those components that touch the flange beyond."""
-    if work.hand.fasteners == "bolt":
-        work.joints += [(inner, stud) for stud in studs]
-        return tuple(studs)
+    """Joins the bolts to the flange of the run; returns those components that press on the flange beyond."""
     outside = []
-    if work.hand.fasteners == "pieces":
-        for i in range(studs.start, studs.stop, 3):
-            far, near = (i + 1, i + 2) if first else (i + 2, i + 1)
-            work.joints.append((inner, near))
-            outside.append(far)
+    for near, far in clamping(studs, work.hand):
+        work.joints.append((inner, far if first else near))
+        outside.append(near if first else far)
     return tuple(outside)
 
 
@@ -425,7 +418,7 @@ def _fill(work: _Work, stop: float) -> None:
         return
     starts = run.route.starts
     corners = [i for i in range(1, len(run.route.points) - 1) if begin < starts[i] < stop]
-    if corners and run.bent:
+    if corners and (run.bent or work.hand.spool == "bent"):
         _bent(work, begin, stop, corners)
     else:
         _segments(work, begin, stop, corners)

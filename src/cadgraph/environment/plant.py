@@ -30,7 +30,8 @@ class Component:
         pose: ``(4, 4)`` outer from local coordinates, rigid or mirrored.
         unit: id of the functional unit that it belongs to, or "".
         line: tag of the pipe run that it belongs to, or "".
-        cluster: name of the connected structure that it belongs to, or "".
+        cluster: name of the connected structure that it belongs to, or "" (the ground).
+        flaws: what was spoilt about its mesh (``flipped``, ``soup``, ``degenerate``).
     """
 
     solid: Solid
@@ -41,6 +42,7 @@ class Component:
     unit: str = ""
     line: str = ""
     cluster: str = ""
+    flaws: tuple[str, ...] = ()
 
     @property
     def vertices(self) -> Floats:
@@ -137,6 +139,24 @@ class Assembly:
             points=tuple(replace(p, point=_moved(pose, p.point)) for p in self.points),
         )
 
+    def prefixed(self, prefix: str) -> Assembly:
+        """The assembly with ``prefix-`` before every id, line and cluster, so that several stand side by side."""
+
+        def named(name: str) -> str:
+            return f"{prefix}-{name}" if name else ""
+
+        return replace(
+            self,
+            components=tuple(
+                replace(c, unit=named(c.unit), line=named(c.line), cluster=named(c.cluster)) for c in self.components
+            ),
+            units=tuple(replace(u, id=named(u.id)) for u in self.units),
+            points=tuple(replace(p, id=named(p.id)) for p in self.points),
+            connections=tuple(
+                replace(c, source=named(c.source), target=named(c.target), line=named(c.line)) for c in self.connections
+            ),
+        )
+
     def marked(self, unit: str | None = None, line: str | None = None, cluster: str | None = None) -> Assembly:
         """The assembly with its components' unit, line or cluster set."""
         given = {"unit": unit, "line": line, "cluster": cluster}
@@ -194,11 +214,17 @@ class Plant(Assembly):
         name: of the preset.
         seed: that it was made from.
         hands: names of the modelling styles in it.
+        looseness: greatest gap that was left between parts that touch by design [m].
+        duplicates: pairs of components, the second an exact copy of the first.
+        hidden: components that can't be seen from anywhere.
     """
 
     name: str = ""
     seed: int = 0
     hands: tuple[str, ...] = ()
+    looseness: float = 0.0
+    duplicates: tuple[tuple[int, int], ...] = ()
+    hidden: tuple[int, ...] = ()
 
     @property
     def n_meshes(self) -> int:
@@ -227,7 +253,8 @@ class Plant(Assembly):
         for path, component in zip(names, self.components, strict=True):
             if component.unit:
                 of_unit[component.unit].append(path)
-            of_cluster.setdefault(component.cluster, []).append(path)
+            if component.cluster:
+                of_cluster.setdefault(component.cluster, []).append(path)
         return {
             "format": "cadgraph-truth",
             "version": 1,
@@ -255,5 +282,9 @@ class Plant(Assembly):
                 for c in self.connections
             ],
             "clusters": list(of_cluster.values()),
+            "looseness": self.looseness,
             "contacts": [[names[a], names[b]] for a, b in self.contacts],
+            "duplicates": [[names[a], names[b]] for a, b in self.duplicates],
+            "hidden": [names[i] for i in self.hidden],
+            "flaws": {path: list(c.flaws) for path, c in zip(names, self.components, strict=True) if c.flaws},
         }

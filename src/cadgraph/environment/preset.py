@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from cadgraph.environment.field import make_field
 from cadgraph.environment.hand import HANDS, Hand
+from cadgraph.environment.imperfection import Sins, spoil
 from cadgraph.environment.plant import Plant
 from cadgraph.environment.pumps import make_pumps
+from cadgraph.environment.rack import make_rack
 from cadgraph.environment.riser import make_riser
 from cadgraph.environment.skid import make_skid
 from cadgraph.environment.tank import make_tank
@@ -14,20 +17,23 @@ from cadgraph.environment.tank import make_tank
 __all__ = ["PRESETS", "make"]
 
 PRESETS: dict[str, Callable[[int, Hand | None], Plant]] = {
+    "field": make_field,
     "pumps": make_pumps,
+    "rack": make_rack,
     "riser": make_riser,
     "skid": make_skid,
     "tank": make_tank,
 }
 
 
-def make(preset: str, seed: int = 0, hand: str | None = None) -> Plant:
+def make(preset: str, seed: int = 0, hand: str | None = None, sins: Sins | None = None) -> Plant:
     """Builds a plant.
 
     Args:
         preset: a key of ``PRESETS``.
         seed: of everything that varies.
         hand: a key of ``HANDS``; the preset's own choice by default.
+        sins: what is spoilt; nothing by default.
 
     Raises:
         ValueError: an unknown preset or hand.
@@ -36,4 +42,5 @@ def make(preset: str, seed: int = 0, hand: str | None = None) -> Plant:
         raise ValueError(f"unknown preset {preset!r}; there are {', '.join(PRESETS)}")
     if hand is not None and hand not in HANDS:
         raise ValueError(f"unknown hand {hand!r}; there are {', '.join(HANDS)}")
-    return PRESETS[preset](seed, HANDS[hand] if hand is not None else None)
+    plant = PRESETS[preset](seed, HANDS[hand] if hand is not None else None)
+    return spoil(plant, sins, seed) if sins is not None else plant

@@ -40,7 +40,7 @@ def make_pumps(seed: int = 0, hand: Hand | None = None, n_pumps: int = 0) -> Pla
     ys = [(k - (count - 1) / 2) * _PITCH for k in range(count)]
     pumps = [pump(f"P-{k + 1}", pump_in, pump_out, style) for k in range(count)]
     axis = float(pumps[0].suction[2, 3])
-    suction = _header(site, style, rng, "S", suction_dn, pump_in, ys, (_SUCTION_X, axis), -np.pi / 2, count)
+    suction = _header(site, style, rng, "S", suction_dn, pump_in, ys, (_SUCTION_X, axis), np.pi / 2, count)
     discharge = _header(site, style, rng, "D", discharge_dn, pump_out, ys, (0.0, _DISCHARGE_Z), np.pi, count)
     for k, (y, one) in enumerate(zip(ys, pumps, strict=True)):
         base = site.add(one.assembly.placed(at(0, y, 0)))
@@ -48,7 +48,7 @@ def make_pumps(seed: int = 0, hand: Hand | None = None, n_pumps: int = 0) -> Pla
         _suction(site, style, rng, suction, number, base, y, (float(one.suction[0, 3]), axis), (suction_dn, pump_in))
         face = (float(one.discharge[0, 3]), float(one.discharge[2, 3]))
         _discharge(site, style, rng, discharge, number, base, y, face, (discharge_dn, pump_out))
-    return site.plant("pumps", seed, [style.name])
+    return site.plant("pumps", seed, style)
 
 
 def _header(

@@ -43,7 +43,7 @@ def make_riser(seed: int = 0, hand: Hand | None = None) -> Plant:
     dn = int(rng.choice([50, 65, 80], p=[0.3, 0.4, 0.3]))
     for number, x in enumerate(_ROWS):
         site.lay(_loop(number, x, dn, style, rng), style, [plate], [plate])
-    return site.plant("riser", seed, [style.name])
+    return site.plant("riser", seed, style)
 
 
 def _loop(number: int, x: float, dn: int, hand: Hand, rng: np.random.Generator) -> Run:

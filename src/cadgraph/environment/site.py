@@ -10,6 +10,7 @@ import numpy as np
 from cadgraph.environment.fastener import pipe_support
 from cadgraph.environment.frame import spun
 from cadgraph.environment.hand import Hand
+from cadgraph.environment.imperfection import loosen
 from cadgraph.environment.layout import Laid, Run, lay
 from cadgraph.environment.plant import Assembly, Plant, gather
 
@@ -100,9 +101,17 @@ class Site:
         self.join(placed.at(s), first + 1)
         return first
 
-    def plant(self, name: str, seed: int, hands: Sequence[str]) -> Plant:
-        """The finished plant."""
-        whole = gather(self._parts, self._joints)
+    def plant(self, name: str, seed: int, hand: Hand) -> Plant:
+        """The finished plant, with the gaps and unevenness of its hand."""
+        whole = loosen(gather(self._parts, self._joints), hand, seed)
         return Plant(
-            whole.components, whole.contacts, whole.units, whole.points, whole.connections, name, seed, tuple(hands)
+            whole.components,
+            whole.contacts,
+            whole.units,
+            whole.points,
+            whole.connections,
+            name,
+            seed,
+            (hand.name,),
+            hand.looseness,
         )

@@ -7,13 +7,14 @@ from functools import partial
 
 import numpy as np
 
-from cadgraph.environment.fastener import SUPPORT_REACH, pipe_support
+from cadgraph.environment.fastener import SUPPORT_REACH
 from cadgraph.environment.flange import GASKET, flange_length
-from cadgraph.environment.frame import at, spun
+from cadgraph.environment.frame import at
 from cadgraph.environment.gauge import pressure_gauge
 from cadgraph.environment.hand import HANDS, Hand
-from cadgraph.environment.layout import Inline, Laid, Route, Run, Tap, lay
-from cadgraph.environment.plant import Assembly, Device, Plant, gather
+from cadgraph.environment.layout import Inline, Route, Run, Tap
+from cadgraph.environment.plant import Assembly, Device, Plant
+from cadgraph.environment.site import Placed, Site
 from cadgraph.environment.standard import PIPES
 from cadgraph.environment.structure import CASTER_HEIGHT, CHANNEL_WIDTH, DECK_HEIGHT, DECK_INSET, caster, deck, post
 from cadgraph.environment.valve import VALVES, valve_length
@@ -41,44 +42,26 @@ def make_skid(seed: int = 0, hand: Hand | None = None) -> Plant:
     """
     style = hand or HANDS["plant-design"]
     rng = np.random.default_rng([seed, 1])
-    frame, posts = _frame(style, rng)
-    runs = [_run(level, style, rng) for level in range(len(_LEVELS))]
-    laid = [lay(run, style) for run in runs]
-    parts = [frame, *(line.assembly for line in laid)]
-    starts = np.cumsum([0] + [len(part.components) for part in parts])
-    joints = []
-    for line, start in zip(laid, starts[1:], strict=False):
-        for support, near, post_index in _supports(line, style, posts):
-            first = sum(len(part.components) for part in parts)
-            parts.append(support)
-            joints += [(first, near + int(start)), (first + 1, near + int(start)), (first, post_index)]
-    whole = gather(parts, joints).marked(cluster="skid")
-    return Plant(
-        whole.components, whole.contacts, whole.units, whole.points, whole.connections, "skid", seed, (style.name,)
-    )
+    site = Site("skid")
+    posts = _frame(site, style, rng)
+    for level in range(len(_LEVELS)):
+        placed = site.lay(_run(level, style, rng), style)
+        _hang(site, placed, style, posts)
+    return site.plant("skid", seed, style)
 
 
-def _frame(hand: Hand, rng: np.random.Generator) -> tuple[Assembly, dict[tuple[int, int], int]]:
-    """Deck, casters and posts; and the component index of the post at each corner (signs of x and y)."""
-    parts = [deck(_LENGTH, _WIDTH, hand).placed(at(0, 0, _TOP))]
-    joints = []
-    count = len(parts[0].components)
+def _frame(site: Site, hand: Hand, rng: np.random.Generator) -> dict[tuple[int, int], int]:
+    """Deck, casters and posts; returns the index of the post at each corner (signs of x and y)."""
+    plate = site.add(deck(_LENGTH, _WIDTH, hand).placed(at(0, 0, _TOP)))
     rail = _WIDTH / 2 - DECK_INSET - CHANNEL_WIDTH / 2
-    for sx in (-1, 1):
-        for sy in (-1, 1):
-            one = caster(hand, float(rng.uniform(0, 2 * np.pi))).placed(at(sx * 0.85, sy * rail, CASTER_HEIGHT))
-            parts.append(one)
-            joints.append((1 if sy < 0 else 2, count))
-            count += len(one.components)
     posts = {}
     for sx in (-1, 1):
         for sy in (-1, 1):
-            one = post(_LEVELS[-1] + 0.10, hand, _POST).placed(at(sx * _POST_X, sy * _POST_Y, _TOP))
-            parts.append(one)
-            joints.append((0, count))
-            posts[(sx, sy)] = count + 1
-            count += len(one.components)
-    return gather(parts, joints), posts
+            one = caster(hand, float(rng.uniform(0, 2 * np.pi))).placed(at(sx * 0.85, sy * rail, CASTER_HEIGHT))
+            site.add(one, plate + (1 if sy < 0 else 2))
+            upright = post(_LEVELS[-1] + 0.10, hand, _POST).placed(at(sx * _POST_X, sy * _POST_Y, _TOP))
+            posts[(sx, sy)] = site.add(upright, plate) + 1
+    return posts
 
 
 def _row(dn: int) -> float:
@@ -164,10 +147,9 @@ def _gauge(hand: Hand, unit: str, size: int, turn: float, needle: float) -> Asse
     return pressure_gauge(unit, hand, size, turn=turn, needle=needle)
 
 
-def _supports(line: Laid, hand: Hand, posts: dict[tuple[int, int], int]) -> list[tuple[Assembly, int, int]]:
-    """A U-bolt on a bracket where a row passes a post; the index of its pipe in the line, and of the post."""
-    route, dn = line.run.route, line.run.dn
-    supports = []
+def _hang(site: Site, placed: Placed, hand: Hand, posts: dict[tuple[int, int], int]) -> None:
+    """Holds a line by a U-bolt on a bracket where a row passes a post."""
+    route, dn = placed.laid.run.route, placed.laid.run.dn
     for leg in range(len(route.points) - 1):
         p, direction = route.points[leg], route.directions[leg]
         if abs(direction[0]) < 0.999 or abs(abs(p[1]) - _row(dn)) > 1e-6:
@@ -175,8 +157,7 @@ def _supports(line: Laid, hand: Hand, posts: dict[tuple[int, int], int]) -> list
         side = 1 if p[1] > 0 else -1
         for sx in (-1, 1):
             s = float(route.starts[leg] + (sx * _POST_X - p[0]) * direction[0])
-            if not route.starts[leg] < s < route.starts[leg + 1]:
-                continue
-            pose = at(*route.point(s)) @ (spun("z", np.pi) if side > 0 else np.eye(4))
-            supports.append((pipe_support(dn, hand).placed(pose), line.at(s), posts[(sx, side)]))
-    return supports
+            if route.starts[leg] < s < route.starts[leg + 1]:
+                # The post stands towards the middle plane: to the run's left where it goes to +x in front.
+                left = -side * direction[0] > 0
+                site.support(placed, s, posts[(sx, side)], hand, np.pi / 2 if left else -np.pi / 2)

@@ -23,6 +23,7 @@ __all__ = [
     "box",
     "branched",
     "extrude",
+    "lattice",
     "loft",
     "merge",
     "moved",
@@ -169,6 +170,46 @@ def box(size: npt.ArrayLike, center: npt.ArrayLike = (0.0, 0.0, 0.0)) -> Solid:
     x, y, z = np.asarray(size, float) / 2
     solid = extrude(np.array([[x, -y], [x, y], [-x, y], [-x, -y]]), -z, z)
     return _shell(solid.vertices + np.asarray(center, float), solid.faces)
+
+
+def lattice(xs: Floats, ys: Floats, filled: npt.NDArray[np.bool_], low: float, high: float) -> Solid:
+    """A flat solid over the filled cells of a grid, as gratings are.
+
+    Args:
+        xs: ``(n + 1,)`` ascending grid lines [m].
+        ys: ``(m + 1,)`` likewise.
+        filled: ``(n, m)`` which cells are solid; cells that meet in a corner only would not make a clean solid.
+        low: underside [m].
+        high: top [m].
+    """
+    n, m = filled.shape
+    plane = (n + 1) * (m + 1)
+
+    def corner(i: npt.NDArray[np.int64], j: npt.NDArray[np.int64], top: int) -> npt.NDArray[np.int64]:
+        index: npt.NDArray[np.int64] = i * (m + 1) + j + top * plane
+        return index
+
+    def quads(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayLike) -> list[npt.NDArray[np.int64]]:
+        return [np.column_stack([a, b, c]), np.column_stack([a, c, d])]
+
+    i, j = np.nonzero(filled)
+    faces = quads(corner(i, j, 1), corner(i + 1, j, 1), corner(i + 1, j + 1, 1), corner(i, j + 1, 1))
+    faces += quads(corner(i, j, 0), corner(i, j + 1, 0), corner(i + 1, j + 1, 0), corner(i + 1, j, 0))
+    wide = np.pad(filled, 1)
+    for (di, dj), (pi, pj), (qi, qj) in (
+        ((-1, 0), (0, 1), (0, 0)),
+        ((1, 0), (1, 0), (1, 1)),
+        ((0, -1), (0, 0), (1, 0)),
+        ((0, 1), (1, 1), (0, 1)),
+    ):
+        i, j = np.nonzero(filled & ~wide[1 + di : n + 1 + di, 1 + dj : m + 1 + dj])
+        a, b = (i + pi, j + pj), (i + qi, j + qj)
+        faces += quads(corner(*a, 0), corner(*b, 0), corner(*b, 1), corner(*a, 1))
+    x, y = np.meshgrid(xs, ys, indexing="ij")
+    flat = np.column_stack([x.ravel(), y.ravel()])
+    points = np.vstack([np.column_stack([flat, np.full(plane, z)]) for z in (low, high)])
+    used, compact = np.unique(np.concatenate(faces), return_inverse=True)
+    return _shell(points[used], compact.reshape(-1, 3))
 
 
 def stack(levels: Sequence[tuple[float, float, Floats]]) -> Solid:

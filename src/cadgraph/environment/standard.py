@@ -16,6 +16,7 @@ __all__ = [
     "SECTIONS",
     "SIZES",
     "TEE_CENTER_TO_END",
+    "WASHERS",
     "Flange",
     "Gauge",
     "Pipe",
@@ -122,6 +123,14 @@ HEX_NUTS: dict[float, tuple[float, float]] = {
     0.0159: (0.0270, 0.0155),
     0.0191: (0.0318, 0.0187),
     0.0222: (0.0365, 0.0218),
+}
+
+# ASTM F436 / ASME B18.21.1 hardened washers: bolt diameter -> outside diameter, thickness [m].
+WASHERS: dict[float, tuple[float, float]] = {
+    0.0127: (0.0270, 0.0030),
+    0.0159: (0.0333, 0.0034),
+    0.0191: (0.0373, 0.0034),
+    0.0222: (0.0445, 0.0039),
 }
 
 # ASME B16.9, long-radius elbow, centre to end: 1.5 x NPS (1.5 in at least).

@@ -55,7 +55,7 @@ def make_tank(seed: int = 0, hand: Hand | None = None) -> Plant:
     _portal(site, style, overhead, second)
     for number, side in enumerate((-1, 1)):
         _drain(site, style, vessel, first, number, side, radius, rng)
-    return site.plant("tank", seed, [style.name])
+    return site.plant("tank", seed, style)
 
 
 def _ends(vessel: Tank, first: int, nozzle: int) -> tuple[Floats, list[int]]:
@@ -179,7 +179,7 @@ def _drain(
     unit, gauge = f"V-{3 + number}", f"G-{4 + number}"
     inline = [
         Inline(0.38, partial(_valve, kind="ball", unit=unit, dn=dn), unit),
-        Inline(float(s[2]) + 1.6 + float(rng.uniform(0, 0.4))),
+        Inline(float(s[2]) + float(rng.uniform(0.42, 0.50)) * float(s[3] - s[2])),
     ]
     taps = [Tap(float(s[2]) + 0.9, partial(_gauge, unit=gauge), gauge)]
     run = Run(

@@ -8,6 +8,7 @@ from functools import cache
 
 import numpy as np
 
+from cadgraph.environment.fastener import clamping
 from cadgraph.environment.flange import GASKET, bolts, flange, flange_length, gasket, plate_thickness
 from cadgraph.environment.frame import at, looking, spun
 from cadgraph.environment.hand import Hand
@@ -194,9 +195,6 @@ def _nozzle(
         studs = bolts(dn, 2 * plate + pad, hand).placed(face @ at(-plate))
         first = 3 + n_pads
         parts.append(studs)
-        if hand.fasteners == "bolt":
-            joints += [(k, first + i) for i in range(len(studs.components)) for k in (1, 2 + n_pads)]
-        elif hand.fasteners == "pieces":
-            for i in range(0, len(studs.components), 3):
-                joints += [(1, first + i + 1), (2 + n_pads, first + i + 2)]
+        for near, far in clamping(range(first, first + len(studs.components)), hand):
+            joints += [(1, near), (2 + n_pads, far)]
     return gather(parts, joints), face

@@ -59,6 +59,7 @@ def _reliability(calibrations: Sequence[Calibration]) -> str:
     pieces: list[str] = []
     for number, calibration in enumerate(calibrations):
         x, y = left + number * (side + gap), top
+        dots: list[str] = []
         ece = "no labels" if calibration.ece is None else f"ECE {calibration.ece:.3f}"
         pieces.append(_text(x, y - 16, f"Confidence of {calibration.task}s: {ece}", size=14, weight=600))
         for step in range(6):
@@ -73,8 +74,9 @@ def _reliability(calibrations: Sequence[Calibration]) -> str:
             title = f"{b.n} parts, mean confidence {b.confidence:.3f}, accuracy {b.accuracy:.3f}"
             pieces.append(_box(x + b.low * side + 1, y + side - height, width - 2, height, "#9ec2ee", title))
             place = (x + b.confidence * side, y + side - height)
-            pieces.append(f'<circle cx="{place[0]:.1f}" cy="{place[1]:.1f}" r="4" fill="{_BARS[0][1]}"/>')
+            dots.append(f'<circle cx="{place[0]:.1f}" cy="{place[1]:.1f}" r="4" fill="{_BARS[0][1]}"/>')
             pieces.append(_text(x + (b.low + b.high) / 2 * side, y + side - 6, str(b.n), "middle", _INK, 11))
+        pieces += dots
         pieces.append(
             f'<line x1="{x}" y1="{y + side}" x2="{x + side}" y2="{y}" stroke="{_INK}" stroke-dasharray="4 4"/>'
         )

@@ -124,10 +124,13 @@ class Pairing:
     @cached_property
     def lost(self) -> tuple[str, ...]:
         """True meshes that no part holds, apart from duplicates and hidden ones, which it is right to drop."""
+        # Of two copies either may have gone, but not both.
+        idle = set(self.truth.hidden)
+        for pair in self.truth.duplicates:
+            if any(mesh in self.part_of_mesh for mesh in pair):
+                idle.update(pair)
         return tuple(
-            row.mesh
-            for row in self.truth.meshes
-            if row.mesh not in self.part_of_mesh and not row.hidden and row.duplicate_of is None
+            row.mesh for row in self.truth.meshes if row.mesh not in self.part_of_mesh and row.mesh not in idle
         )
 
 

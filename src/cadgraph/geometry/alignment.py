@@ -440,3 +440,25 @@ def _alike(look: Floats, reach: Floats, tolerance: float, strict: bool) -> Ints:
         found[m] = k
         m += 1
     return found[:m]
+
+
+@compiled
+def fits_in_place(spots_a: Floats, normals_a: Floats, spots_b: Floats, normals_b: Floats, tolerance: float) -> bool:
+    """Whether two sets of welded vertices, both relative to one point, coincide without any motion.
+
+    Args:
+        spots_a: ``(n, 3)`` [m].
+        normals_a: ``(n, 3)`` as from ``weld``.
+        spots_b: ``(n, 3)`` [m].
+        normals_b: ``(n, 3)``.
+        tolerance: greatest distance of a vertex from its counterpart [m].
+    """
+    n = len(spots_a)
+    if n != len(spots_b) or n == 0:
+        return False
+    low, step, dims = np.empty(3), np.empty(3), np.empty(3, np.int64)
+    starts, members = _grid(spots_b, low, step, dims)
+    return _fits(
+        np.eye(3), spots_a, normals_a, spots_b, normals_b, tolerance,
+        low, step, dims, starts, members, np.empty(n, np.bool_), np.zeros(1, np.int64),
+    )  # fmt: skip

@@ -26,11 +26,15 @@ __all__ = ["Placed", "closest"]
 
 _OVERSIZED = 8.0  # a leaf this much larger than the node it meets is taken apart
 
-_COARSE = 0.3
+_COARSE = 0.5
 # So is any leaf this large compared to its whole tree, if the tree has at least _COARSE_LEAVES of them: the faces are
 # then long slivers that no box tells apart.
 
 _COARSE_LEAVES = 12
+
+_TIE = 1e-10
+# Once a pair of points is found, others must be closer by this [m] to be of interest: faces that run parallel would
+# otherwise be searched for the last bit.
 
 _DEPTH = 160  # of the stacks: two trees of at most 2**40 leaves, one waiting node a level
 
@@ -164,6 +168,20 @@ def _gap2(nodes: Nodes, a: int, b: int, frame: Floats, upright: bool) -> float:
 
 
 @compiled
+def _middle2(nodes: Nodes, a: int, b: int, frame: Floats, upright: bool) -> float:
+    """Squared distance of the centres of two nodes."""
+    bx, by, bz = np.float64(nodes[b, 0]), np.float64(nodes[b, 1]), np.float64(nodes[b, 2])
+    if not upright:
+        bx, by, bz = (
+            frame[0, 0] * bx + frame[0, 1] * by + frame[0, 2] * bz,
+            frame[1, 0] * bx + frame[1, 1] * by + frame[1, 2] * bz,
+            frame[2, 0] * bx + frame[2, 1] * by + frame[2, 2] * bz,
+        )
+    x, y, z = frame[6, 0] + bx - nodes[a, 0], frame[6, 1] + by - nodes[a, 1], frame[6, 2] + bz - nodes[a, 2]
+    return x * x + y * y + z * z
+
+
+@compiled
 def _load(vertices: Floats, faces: Faces, side: Floats, whole: Ints, node: int, rows: Floats) -> int:
     """Prepares the triangles of a leaf; returns how many there are."""
     start = first_face(node, whole[_LEAVES])
@@ -213,22 +231,32 @@ def _apart(p: Floats, n_p: int, q: Floats, n_q: int, best: float) -> bool:
 
 
 @compiled
-def _leaves(p: Floats, n_p: int, q: Floats, n_q: int, best: float, stop: float, found: Floats, spare: Floats) -> float:
-    """The least squared distance below ``best`` between the triangles of two leaves."""
-    if _apart(p, n_p, q, n_q, best) or _apart(q, n_q, p, n_p, best):
-        return best
+def _keep(d2: float, stop: float, found: Floats, spare: Floats) -> float:
+    """Notes a closer pair of points; returns the bound for the next, or 0 where this one is close enough."""
+    for k in range(6):
+        found[k] = spare[k]
+    found[6] = d2
+    if d2 <= stop:
+        return 0.0
+    less = np.sqrt(d2) - _TIE
+    return less * less if less > 0.0 else 0.0
+
+
+@compiled
+def _leaves(p: Floats, n_p: int, q: Floats, n_q: int, bound: float, stop: float, found: Floats, spare: Floats) -> float:
+    """Looks for triangles of two leaves below a squared distance; returns the new bound."""
+    if _apart(p, n_p, q, n_q, bound) or _apart(q, n_q, p, n_p, bound):
+        return bound
     for i in range(n_p):
         for j in range(n_q):
-            if _rows_gap2(p, i, q, j) >= best:
+            if _rows_gap2(p, i, q, j) >= bound:
                 continue
-            d2 = distance2(p, i, q, j, best, spare)
-            if d2 < best:
-                best = d2
-                for k in range(6):
-                    found[k] = spare[k]
-                if best <= stop:
-                    return best
-    return best
+            d2 = distance2(p, i, q, j, bound, spare)
+            if d2 < bound:
+                bound = _keep(d2, stop, found, spare)
+                if bound <= 0.0:
+                    return bound
+    return bound
 
 
 @compiled
@@ -318,7 +346,7 @@ def _descend(
     p: Floats,
     i: int,
     swapped: bool,
-    best: float,
+    bound: float,
     stop: float,
     found: Floats,
     spare: Floats,
@@ -326,12 +354,12 @@ def _descend(
     rows: Floats,
     stack: Ints,
 ) -> float:
-    """The least squared distance below ``best`` between one triangle and the part of a tree below ``root``.
+    """Looks for a triangle of a subtree below a squared distance from one triangle; returns the new bound.
 
     Where ``swapped``, the tree is that of the first mesh.
     """
     _lay_axes(p, i, side, whole, axes)
-    limit = np.sqrt(best)
+    limit = np.sqrt(bound)
     stack[0] = root
     top = 1
     while top > 0:
@@ -345,17 +373,15 @@ def _descend(
             continue
         count = _load(vertices, faces, side, whole, node, rows)
         for j in range(count):
-            if _rows_gap2(p, i, rows, j) >= best:
+            if _rows_gap2(p, i, rows, j) >= bound:
                 continue
-            d2 = distance2(rows, j, p, i, best, spare) if swapped else distance2(p, i, rows, j, best, spare)
-            if d2 < best:
-                best = d2
-                limit = np.sqrt(best)
-                for k in range(6):
-                    found[k] = spare[k]
-                if best <= stop:
-                    return best
-    return best
+            d2 = distance2(rows, j, p, i, bound, spare) if swapped else distance2(p, i, rows, j, bound, spare)
+            if d2 < bound:
+                bound = _keep(d2, stop, found, spare)
+                if bound <= 0.0:
+                    return bound
+                limit = np.sqrt(bound)
+    return bound
 
 
 @compiled
@@ -372,7 +398,7 @@ def _walk(
     whole_a: Ints,
     side_b: Floats,
     whole_b: Ints,
-    best: float,
+    bound: float,
     stop: float,
     found: Floats,
     spare: Floats,
@@ -385,7 +411,7 @@ def _walk(
     own: Ints,
     bounds: Floats,
 ) -> float:
-    """The least squared distance below ``best`` of two meshes; ends early at or below ``stop``."""
+    """Looks for the closest points of two meshes below a squared distance; returns the last bound."""
     nodes, vertices, faces = borrow(nodes), borrow(vertices), borrow(faces)
     side_a, whole_a, side_b, whole_b = borrow(side_a), borrow(whole_a), borrow(side_b), borrow(whole_b)
     found, spare, frame, axes = borrow(found), borrow(spare), borrow(frame), borrow(axes)
@@ -402,7 +428,7 @@ def _walk(
     top = 1
     while top > 0:
         top -= 1
-        if bounds[top] >= best:
+        if bounds[top] >= bound:
             continue
         at_a, at_b = stack[2 * top], stack[2 * top + 1]
         leaf_a, leaf_b = at_a >= leaves_a - 1, at_b >= leaves_b - 1
@@ -417,24 +443,24 @@ def _walk(
             loaded_b = at_b
         if split_a:
             for i in range(count_a):
-                best = _descend(
+                bound = _descend(
                     nodes, vertices, faces, side_b, whole_b, at_b,
-                    p, i, False, best, stop, found, spare, axes, single, own,
+                    p, i, False, bound, stop, found, spare, axes, single, own,
                 )  # fmt: skip
-                if best <= stop:
-                    return best
+                if bound <= 0.0:
+                    return bound
         elif split_b:
             for i in range(count_b):
-                best = _descend(
+                bound = _descend(
                     nodes, vertices, faces, side_a, whole_a, at_a,
-                    q, i, True, best, stop, found, spare, axes, single, own,
+                    q, i, True, bound, stop, found, spare, axes, single, own,
                 )  # fmt: skip
-                if best <= stop:
-                    return best
+                if bound <= 0.0:
+                    return bound
         elif leaf_a and leaf_b:
-            best = _leaves(p, count_a, q, count_b, best, stop, found, spare)
-            if best <= stop:
-                return best
+            bound = _leaves(p, count_a, q, count_b, bound, stop, found, spare)
+            if bound <= 0.0:
+                return bound
         else:
             if leaf_b or (not leaf_a and size_a >= size_b):
                 a0, a1, b0, b1 = 2 * at_a + 1, 2 * at_a + 2, at_b, at_b
@@ -442,15 +468,20 @@ def _walk(
                 a0, a1, b0, b1 = at_a, at_a, 2 * at_b + 1, 2 * at_b + 2
             gap0 = _gap2(nodes, base_a + a0, base_b + b0, frame, upright)
             gap1 = _gap2(nodes, base_a + a1, base_b + b1, frame, upright)
-            if gap1 < gap0:
+            nearer = gap1 < gap0
+            if gap1 == gap0:
+                # both overlap: where the middles are closer, surfaces are found to meet sooner
+                middle0 = _middle2(nodes, base_a + a0, base_b + b0, frame, upright)
+                nearer = _middle2(nodes, base_a + a1, base_b + b1, frame, upright) < middle0
+            if nearer:
                 a0, a1, b0, b1, gap0, gap1 = a1, a0, b1, b0, gap1, gap0
-            if gap1 < best:
+            if gap1 < bound:
                 stack[2 * top], stack[2 * top + 1], bounds[top] = a1, b1, gap1
                 top += 1
-            if gap0 < best:
+            if gap0 < bound:
                 stack[2 * top], stack[2 * top + 1], bounds[top] = a0, b0, gap0
                 top += 1
-    return best
+    return bound
 
 
 @compiled
@@ -472,7 +503,7 @@ def closest(
     """
     n = last - first
     row, distance, points = np.empty(n, np.int64), np.empty(n), np.empty((n, 2, 3))
-    found, spare, frame, axes, origin = np.empty(6), np.empty(6), np.empty((7, 3)), np.empty((11, 6)), np.empty(3)
+    found, spare, frame, axes, origin = np.empty(7), np.empty(6), np.empty((7, 3)), np.empty((11, 6)), np.empty(3)
     p, q, single = np.empty((LEAF, ROW)), np.empty((LEAF, ROW)), np.empty((LEAF, ROW))
     stack, own, bounds = np.empty(2 * _DEPTH, np.int64), np.empty(_DEPTH, np.int64), np.empty(_DEPTH)
     side_a, side_b, whole_a, whole_b = np.zeros(_SIDE), np.zeros(_SIDE), np.empty(7, np.int64), np.empty(7, np.int64)
@@ -488,13 +519,14 @@ def closest(
         _lay_side(meshes, b, origin, side_b, whole_b)
         if whole_a[_COUNT] == 0 or whole_b[_COUNT] == 0:
             continue
-        best = _walk(
+        found[6] = np.inf
+        _walk(
             nodes, vertices, faces, side_a, whole_a, side_b, whole_b, limit2, stop * stop,
             found, spare, frame, axes, p, q, single, stack, own, bounds,
         )  # fmt: skip
-        if best < limit2:
+        if found[6] < limit2:
             row[n_found] = i
-            distance[n_found] = np.sqrt(best)
+            distance[n_found] = np.sqrt(found[6])
             for k in range(6):
                 points[n_found, k // 3, k % 3] = found[k] + origin[k % 3]
             n_found += 1

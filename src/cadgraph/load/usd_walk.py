@@ -20,11 +20,13 @@ __all__ = ["Placement", "Walk", "message_of"]
 
 Color = npt.NDArray[np.float64]
 Varying = tuple[Floats, str]
+Bindings = tuple[Any, ...]
 
 _VISIBLE_SCENE = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
 # Prototypes of a point instancer are often kept under an over or a class, where no prim counts as defined.
 _PROTOTYPE = Usd.TraverseInstanceProxies(Usd.PrimIsActive & Usd.PrimIsLoaded & Usd.PrimHasDefiningSpecifier)
 _IDENTITY: Floats = np.eye(4)
+_NO_INTS: Ints = np.zeros(0, np.int64)
 
 
 @dataclass(frozen=True)
@@ -34,20 +36,22 @@ class Placement:
     Args:
         path: in the scene; within the prototype of a point instancer: below that prototype.
         prim: the mesh.
+        own_path: of the prim.
         geometry: key into ``Walk.geometries``; None where the mesh is not to be loaded.
         matrix: ``(4, 4)`` for row vectors, to the world (or to the parent of the prototype).
         color: ``displayColor``: one colour, or values with their interpolation.
-        binding: path of the material that plain bindings name.
+        binding: the prims that bind a material plainly, the mesh or the nearest above it first.
         anchor: path that carries opinions; None: ``path``.
         skipped: code and reason where it is not to be loaded.
     """
 
     path: str
     prim: Any
+    own_path: str
     geometry: str | None
     matrix: Floats
     color: Color | Varying | None
-    binding: str | None
+    binding: Bindings
     anchor: str | None
     skipped: tuple[str, str] | None = None
 
@@ -60,7 +64,7 @@ class _Place:
     visible: bool = True
     purpose: str = "default"
     color: Color | Varying | None = None
-    binding: str | None = None
+    binding: Bindings = ()
     anchor: str | None = None
 
 
@@ -88,7 +92,10 @@ class Walk:
         self._time = None if time is None else Usd.TimeCode(time)
         self._sides = sides
         self._notes = notes
+        # Asking each attribute for its samples costs as much as reading it; most files have none at all.
+        self._sampled = any(layer.ListAllTimeSamples() for layer in stage.GetUsedLayers(True))
         self._kinds: dict[str, str] = {}
+        self._fallbacks: dict[tuple[str, str], Any] = {}
         self._open_instancers: list[str] = []
         self.geometries: dict[str, RawMesh] = {}
         self.has_bindings = False
@@ -103,21 +110,29 @@ class Walk:
         stack = [(root, place)]
         while stack:
             prim, above = stack.pop()
-            path = str(prim.GetPath())[cut:]
+            own_path = str(prim.GetPath())
+            path = own_path[cut:]
             try:
-                here = above if prim.IsPseudoRoot() else self._enter(prim, above, path)
+                names = frozenset(prim.GetAuthoredPropertyNames())
+                here = self._enter(prim, names, above, path)
                 kind = self._kind(prim)
                 if kind == "instancer":
                     found.extend(self._instances(prim, here, path))
                     continue
+                children = prim.GetFilteredChildren(predicate)
                 if kind:
-                    found.append(self._placement(prim, kind, here, path))
+                    skipped = self._reason_to_skip(kind, here, prim)
+                    key = None if skipped else self._geometry(prim, kind, names, children, own_path)
+                    found.append(
+                        Placement(path, prim, own_path, key, here.matrix, here.color, here.binding, here.anchor, skipped)
+                    )
             except (Tf.ErrorException, UnicodeDecodeError) as error:
-                self._notes.add("unreadable", f"left out with all below: {_first_line(error)}", str(prim.GetPath()))
+                self._notes.add("unreadable", f"left out with all below: {_first_line(error)}", own_path)
                 continue
-            # Of the primvars only constant ones are inherited.
-            below = replace(here, color=above.color) if isinstance(here.color, tuple) else here
-            stack.extend((child, below) for child in prim.GetFilteredChildren(predicate))
+            if children:
+                # Of the primvars only constant ones are inherited.
+                below = replace(here, color=above.color) if isinstance(here.color, tuple) else here
+                stack.extend((child, below) for child in children)
         return found
 
     def _kind(self, prim: Any) -> str:
@@ -126,27 +141,28 @@ class Walk:
             self._kinds[name] = _kind_of(prim, name)
         return self._kinds[name]
 
-    def _enter(self, prim: Any, place: _Place, path: str) -> _Place:
-        changes: dict[str, Any] = {}
-        for name in prim.GetAuthoredPropertyNames():
-            if name == "xformOpOrder" and prim.IsA(UsdGeom.Xformable):
-                local, resets = self._local(UsdGeom.Xformable(prim))
-                changes["matrix"] = local if resets else local @ place.matrix
-            elif name == "visibility":
-                changes["visible"] = place.visible and self._value(prim, name) != "invisible"
-            elif name == "purpose":
-                changes["purpose"] = self._value(prim, name) or place.purpose
-            elif name == "primvars:displayColor":
-                color = self._display_color(prim)
-                changes["color"] = place.color if color is None else color
-            elif name.startswith("material:binding"):
-                self.has_bindings = True
-                if name == "material:binding" or name == "material:binding:full":
-                    targets = prim.GetRelationship(name).GetForwardedTargets()
-                    changes["binding"] = str(targets[0]) if targets else place.binding
-        if place.anchor is None and prim.IsInstance():
-            changes["anchor"] = path
-        return replace(place, **changes) if changes else place
+    def _enter(self, prim: Any, names: frozenset[str], place: _Place, path: str) -> _Place:
+        """What a prim with these authored properties hands down."""
+        matrix, visible, purpose = place.matrix, place.visible, place.purpose
+        color, binding, anchor = place.color, place.binding, place.anchor
+        if "xformOpOrder" in names and prim.IsA(UsdGeom.Xformable):
+            local, resets = self._local(UsdGeom.Xformable(prim))
+            matrix = local if resets else local @ matrix
+        if "visibility" in names:
+            visible = visible and self._value(prim, "visibility") != "invisible"
+        if "purpose" in names:
+            purpose = self._value(prim, "purpose") or purpose
+        if "primvars:displayColor" in names:
+            own = self._display_color(prim)
+            color = color if own is None else own
+        if "material:binding" in names or "material:binding:full" in names:
+            binding = (prim, *binding)
+            self.has_bindings = True
+        elif not self.has_bindings:
+            self.has_bindings = any(name.startswith("material:binding") for name in names)
+        if anchor is None and prim.IsInstance():
+            anchor = path
+        return _Place(matrix, visible, purpose, color, binding, anchor)
 
     def _value(self, prim: Any, name: str) -> Any:
         return self._read(prim.GetAttribute(name))
@@ -158,7 +174,7 @@ class Walk:
         if self._time is not None:
             return attribute.Get(self._time)
         value = attribute.Get()
-        if attribute.GetNumTimeSamples() and (value is None or not _has_default(attribute)):
+        if self._sampled and attribute.GetNumTimeSamples() and (value is None or not _has_default(attribute)):
             value = attribute.Get(Usd.TimeCode.EarliestTime())
         return value
 
@@ -166,7 +182,7 @@ class Walk:
         resets = xformable.GetResetXformStack()
         if self._time is not None:
             return np.array(xformable.GetLocalTransformation(self._time)), resets
-        ops = xformable.GetOrderedXformOps()
+        ops = xformable.GetOrderedXformOps() if self._sampled else ()
         if not any(op.GetNumTimeSamples() for op in ops):
             return np.array(xformable.GetLocalTransformation(Usd.TimeCode.Default())), resets
         local = np.eye(4)
@@ -192,14 +208,12 @@ class Walk:
             return usable_color(values.mean(axis=0)) if len(values) else None
         return values.astype(np.float64), str(interpolation)
 
-    def _placement(self, prim: Any, kind: str, place: _Place, path: str) -> Placement:
-        skipped = self._reason_to_skip(kind, place, prim)
-        key = None
-        if skipped is None:
-            key = str((prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim).GetPath())
-            if key not in self.geometries:
-                self.geometries[key] = self._mesh(prim) if kind == "mesh" else self._shape(prim, kind)
-        return Placement(path, prim, key, place.matrix, place.color, place.binding, place.anchor, skipped)
+    def _geometry(self, prim: Any, kind: str, names: frozenset[str], children: Any, own_path: str) -> str:
+        """The key of a shape, which is read if it is new."""
+        key = str(prim.GetPrimInPrototype().GetPath()) if prim.IsInstanceProxy() else own_path
+        if key not in self.geometries:
+            self.geometries[key] = self._mesh(prim, names, children) if kind == "mesh" else self._shape(prim, kind)
+        return key
 
     def _reason_to_skip(self, kind: str, place: _Place, prim: Any) -> tuple[str, str] | None:
         if kind == "unsupported":
@@ -210,21 +224,30 @@ class Walk:
             return "hidden", "left out: hidden in the file; set load.invisible = true to load it"
         return None
 
-    def _mesh(self, prim: Any) -> RawMesh:
+    def _mesh(self, prim: Any, names: frozenset[str], children: Any) -> RawMesh:
         points = _rows(self._value(prim, "points"))
         return RawMesh(
             points=np.zeros((0, 3)) if points is None else points,
             counts=_ints(self._value(prim, "faceVertexCounts")),
             indices=_ints(self._value(prim, "faceVertexIndices")),
-            left_handed=self._value(prim, "orientation") == "leftHanded",
-            holes=_ints(self._value(prim, "holeIndices")),
-            subdivided=self._value(prim, "subdivisionScheme") != "none",
+            left_handed=self._choice(prim, "orientation", names) == "leftHanded",
+            holes=_ints(self._choice(prim, "holeIndices", names)),
+            subdivided=self._choice(prim, "subdivisionScheme", names) != "none",
             subsets=tuple(
                 (child.GetName(), _ints(self._value(child, "indices")))
-                for child in prim.GetFilteredChildren(_PROTOTYPE)
+                for child in children
                 if child.GetTypeName() == "GeomSubset" and self._is_material_subset(child)
             ),
         )
+
+    def _choice(self, prim: Any, name: str, names: frozenset[str]) -> Any:
+        """The value of an attribute that files seldom author; else what its type falls back to, looked up once."""
+        if name in names:
+            return self._value(prim, name)
+        key = (prim.GetTypeName(), name)
+        if key not in self._fallbacks:
+            self._fallbacks[key] = self._value(prim, name)
+        return self._fallbacks[key]
 
     def _is_material_subset(self, prim: Any) -> bool:
         family = self._value(prim, "familyName")
@@ -354,11 +377,13 @@ def _rows(value: Any) -> npt.NDArray[np.floating] | None:
 
 
 def _ints(value: Any) -> Ints:
-    """An array of integers; empty where the value is none."""
+    """An array of signed integers, of 32 bits where the file has them so; empty where the value is none."""
     if value is None:
-        return np.zeros(0, np.int64)
+        return _NO_INTS
     numbers = np.asarray(value)
-    return numbers.astype(np.int64) if numbers.ndim == 1 and numbers.dtype.kind in "iu" else np.zeros(0, np.int64)
+    if numbers.ndim != 1 or numbers.dtype.kind not in "iu":
+        return _NO_INTS
+    return numbers if numbers.dtype in (np.int32, np.int64) else numbers.astype(np.int64)
 
 
 def _rotations(quaternions: Floats) -> Floats:

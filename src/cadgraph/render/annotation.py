@@ -82,6 +82,7 @@ def annotate(
     marks: Sequence[Mark] = (),
     tags: Sequence[Tag] = (),
     legend: Sequence[LegendEntry] = (),
+    size: float = 1.0,
 ) -> Image.Image:
     """Draws over a picture, in the order lines, balls, legend, tags; what lies behind the camera is left out.
 
@@ -94,12 +95,13 @@ def annotate(
         marks: balls at points.
         tags: labels beside points.
         legend: in the lower left corner.
+        size: of letters, lines and balls; more than 1 for a picture that will be shown small.
 
     Returns:
         A new RGB image of the same size.
     """
     width, height = image.size
-    scale = max(0.5, height / _DRAWN_FOR)
+    scale = max(0.5, height / _DRAWN_FOR) * size
     zoom = 3 if width * height * 9 <= _MOST_PIXELS else 2 if width * height * 4 <= _MOST_PIXELS else 1
     layer = Image.new("RGBA", (width * zoom, height * zoom), (255, 255, 255, 0))
     draw = ImageDraw.Draw(layer)

@@ -15,7 +15,7 @@ from cadgraph.render.camera import Camera
 from cadgraph.render.caster import Caster
 from cadgraph.render.color import Colors
 from cadgraph.render.crease import CornerNormals
-from cadgraph.render.light import Lamps, shade, sky_seen, smooth, sun_seen
+from cadgraph.render.light import SOFTNESS, Lamps, shade, sky_seen, smooth, sun_seen
 from cadgraph.render.outline import is_edge, line_strength
 from cadgraph.render.vector import dot
 from cadgraph.scene import Ints
@@ -172,9 +172,12 @@ def _light(
     start = points[at] + flat[at] * lift[:, None]
     reach = setting.reach
     values[at, 0] = sky_seen(setting.caster, start, flat[at], columns[at], rows[at], reach, setting.sky_rays)
-    lit = np.flatnonzero(known & (flat @ setting.lights.key > 0))
+    faces_lamp = flat @ setting.lights.key > SOFTNESS
+    lit = np.flatnonzero(known & faces_lamp)
     start = points[lit] + flat[lit] * (setting.caster.diagonal * 2e-4)
-    values[known, 1] = 0
+    # A flat face that turns from (a part of) the lamp while the curve it stands for is lit is not in shadow: its
+    # outline would show.
+    values[known, 1] = (normals[known] @ setting.lights.key > 0) & ~faces_lamp[known]
     values[lit, 1] = sun_seen(
         setting.caster, start, setting.lights.key, columns[lit], rows[lit], setting.caster.diagonal * 2
     )

@@ -11,7 +11,7 @@ from cadgraph.render.caster import Caster
 from cadgraph.render.vector import dot, normalized
 from cadgraph.scene import Floats
 
-__all__ = ["Lamps", "lamps", "shade", "sky_seen", "smooth", "sun_seen"]
+__all__ = ["SOFTNESS", "Lamps", "lamps", "shade", "sky_seen", "smooth", "sun_seen"]
 
 Singles = npt.NDArray[np.float32]
 Numbers = npt.NDArray[np.int64]
@@ -20,7 +20,9 @@ PATTERN = 4
 """Neighbouring pixels send different rays, repeating every so many pixels; smoothing over such a block then averages
 all of them. The result is the same on every run, without noise."""
 
-_SOFTNESS = 0.05  # radius of the lamp over its distance: penumbrae as on an overcast day with some sun
+SOFTNESS = 0.05
+"""Radius of the key lamp over its distance: penumbrae as on a hazy day."""
+
 _SUN_RAYS = 2
 _ORDER = np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]])  # ordered dither: neighbours differ
 
@@ -80,7 +82,7 @@ def sun_seen(caster: Caster, points: Singles, key: Singles, columns: Numbers, ro
         return np.zeros(0, np.float32)
     tangent, bitangent = _tangents(key[None])
     cells = PATTERN * PATTERN
-    disc = _disc(cells * _SUN_RAYS) * _SOFTNESS
+    disc = _disc(cells * _SUN_RAYS) * SOFTNESS
     targets = key + disc[:, :1] * tangent + disc[:, 1:] * bitangent
     targets = (targets / np.linalg.norm(targets, axis=1, keepdims=True)).astype(np.float32)
     cell = _ORDER[rows % PATTERN, columns % PATTERN]

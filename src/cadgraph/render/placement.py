@@ -81,7 +81,7 @@ def _costs(
     tried: Floats, anchor: Floats, unit: float, spots: Floats, lines: Floats, boxes: list[Floats], leaders: list[Floats]
 ) -> Floats:
     near = _nearest_on_box(tried, anchor)
-    cost = np.linalg.norm(near - anchor, axis=1) / unit
+    cost: Floats = np.linalg.norm(near - anchor, axis=1) / unit
     for spot in spots:
         cost += _POINT_COST * _overlap(tried, np.concatenate([spot, spot]), 0.4 * unit)
     for line in lines:

@@ -17,9 +17,11 @@ __all__ = ["three_quarter_view"]
 ELEVATION = math.radians(27.0)
 """High enough to see on top of pipes and decks, low enough to see between them."""
 
-_TURNS = np.radians([-55, -35, 35, 55, 125, 145, 215, 235])  # from the normal of the longer side: never square on
+_TURNS = np.radians([-35, 35, -55, 55, 145, 215, 125, 235])  # from the normal of the longer side: never square on
+_LENGTHWISE = 0.75  # looking more along the longer side than at it foreshortens it: the score counts so much less
 _FRONT_BONUS = 1.06  # a view from -Y wins unless another shows clearly more
 _REPEAT_MALUS = 0.1  # a side that was shown already is shown again only if the others show nothing
+_TRIAL_POINTS = 200_000
 _TRIAL_HEIGHT = 128  # [px] of the trial pictures
 
 
@@ -49,6 +51,8 @@ def three_quarter_view(
         ``(3,)`` unit vector towards the camera.
     """
     points = renderer.points(meshes)
+    # Trial pictures need no exact frame.
+    points = points[:: max(1, len(points) // _TRIAL_POINTS)]
     wanted = np.zeros(renderer.scene.n_meshes, bool)
     wanted[slice(None) if meshes is None else np.asarray(meshes, np.int64)] = True
     caster = renderer.caster(meshes if alone else None)
@@ -58,6 +62,8 @@ def three_quarter_view(
     for turn in _TURNS:
         direction = direction_from_angles(start + turn, elevation)
         score = _shown(caster, frame(points, direction, size, margin=0.0), renderer.scene.face_offsets, wanted)
+        if abs(math.cos(turn)) < math.sqrt(0.5):
+            score *= _LENGTHWISE
         if direction[1] < 0:
             score *= _FRONT_BONUS
         if unlike is not None and np.dot(direction[:2], np.asarray(unlike, np.float64)[:2]) > 0:
@@ -79,8 +85,7 @@ def _shown(caster: Caster, camera: Camera, face_offsets: Ints, wanted: npt.NDArr
 
 def _long_side_normal(points: Floats) -> float:
     """Azimuth [rad] of the normal of the longer side of the smallest rectangle round the ground plan; in front (-Y)."""
-    flat = points[:: max(1, len(points) // 200_000), :2]
-    flat = flat - flat.mean(axis=0)
+    flat = points[:, :2] - points[:, :2].mean(axis=0)
     angles = np.radians(np.arange(90))
     best, chosen = math.inf, -math.pi / 2
     for angle in angles:

@@ -155,4 +155,4 @@ def _asset(name: str) -> str:
 
 
 def _plural(count: int, noun: str) -> str:
-    return f"{count:,} {noun}" if count == 1 else f"{count:,} {_PLURALS.get(noun, noun + 's')}"
+    return f"{count:,}\N{NO-BREAK SPACE}" + (noun if count == 1 else _PLURALS.get(noun, noun + "s"))

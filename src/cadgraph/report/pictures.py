@@ -28,6 +28,7 @@ _MOST_TAGS = 48  # more tags in one picture hide what they speak of
 _LEGEND_CLUSTERS = 10
 _MARGIN = 0.07
 _NEARLY_ALL = 0.7
+_SIDE_BY_SIDE = 1.6  # letters of pictures that the page shows at about half their size
 
 
 @dataclass(frozen=True)
@@ -99,8 +100,10 @@ def draw_pictures(scene: Scene, graph: SceneGraph, config: ReportConfig) -> list
         _by_cluster(ready, camera, images[2], bool((clusters == from_hex(BACKDROP)).all(axis=1).any())),
     ]
     systems = largest_first(graph.clusters("pipe system"))[: config.max_systems]
+    # The page shows a single system over its whole width, several side by side.
+    size = 1.0 if len(systems) == 1 else _SIDE_BY_SIDE
     for number, cluster in enumerate(systems, 1):
-        picture = _system(ready, cluster, f"Pipe system {number}: {cluster.id}", camera)
+        picture = _system(ready, cluster, f"Pipe system {number}: {cluster.id}", camera, size)
         if picture is not None:
             pictures.append(picture)
     return pictures
@@ -176,7 +179,7 @@ def _by_cluster(ready: _Ready, camera: Camera, image: Image.Image, others: bool)
     )  # fmt: skip
 
 
-def _system(ready: _Ready, cluster: Cluster, title: str, overview: Camera) -> Picture | None:
+def _system(ready: _Ready, cluster: Cluster, title: str, overview: Camera, size: float) -> Picture | None:
     graph, renderer = ready.graph, ready.renderer
     members = {part.id for part in graph.parts(cluster=cluster.id)}
     inside = np.array([part is not None and part.id in members for part in ready.part_of_mesh])
@@ -194,13 +197,13 @@ def _system(ready: _Ready, cluster: Cluster, title: str, overview: Camera) -> Pi
     aspect = ready.config.width / ready.config.height
     camera = _camera(ready, meshes, three_quarter_view(renderer, meshes, alone=True, aspect=aspect, unlike=unlike))
     image = renderer.picture(camera, Paint(paint, hatched, ghosted=~inside), _grounded(ready, meshes))
-    image = _related(ready, image, camera, units, edges)
+    image = _related(ready, image, camera, units, edges, size)
     types = [unit.unit_type for unit in units]
     counts = [_counted(types.count(name), name) for name in dict.fromkeys(types)]
     contents = ", ".join([_counted(cluster.n_parts, "part"), *counts, _counted(len(edges), "relation")])
-    size = " × ".join(f"{high - low:.2f}" for low, high in zip(*cluster.aabb, strict=True))
+    extent = " × ".join(f"{high - low:.2f}" for low, high in zip(*cluster.aabb, strict=True))
     return Picture(
-        f"system-{cluster.id}", title, f"{contents}; {size} m.",
+        f"system-{cluster.id}", title, f"{contents}; {extent} m.",
         f"Pipe system {cluster.id} coloured by group, all else faint: {contents}.", image, legend, camera,
     )  # fmt: skip
 
@@ -237,7 +240,7 @@ def _group_paint(
 
 
 def _related(
-    ready: _Ready, image: Image.Image, camera: Camera, units: Sequence[Unit], edges: Sequence[Edge]
+    ready: _Ready, image: Image.Image, camera: Camera, units: Sequence[Unit], edges: Sequence[Edge], size: float = 1.0
 ) -> Image.Image:
     """Draws units and relations over a picture."""
     crowded = len(units) > _MOST_TAGS
@@ -249,7 +252,7 @@ def _related(
     tags = [
         Tag(_local(ready, unit.centroid), unit.tag, ready.unit_colors.get(unit.unit_type, "#5b6470")) for unit in units
     ]
-    return annotate(image, camera, segments=segments, marks=marks, tags=() if crowded else tags)
+    return annotate(image, camera, segments=segments, marks=marks, tags=() if crowded else tags, size=size)
 
 
 def _place(ready: _Ready, name: str) -> Point:

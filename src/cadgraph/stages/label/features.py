@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -12,14 +12,16 @@ from scipy.sparse.csgraph import connected_components
 from cadgraph.parts import Parts
 from cadgraph.scene import Floats, Ints, mesh_of_face
 
-__all__ = ["Disc", "Facts", "find_facts", "same_line"]
+__all__ = ["Disc", "Facts", "angles_about", "find_facts", "same_line"]
 
 N_SLICES = 24  # of a profile: the plate of a flange (a third of its length or more) still gets several
 _WELD = 1e-6  # corners closer than this are one [m]
-_FLAT = np.cos(np.radians(1.0))  # faces this parallel share a plane; a 128-sided pipe turns by 2.8 degrees a side
-_RIM = 0.97  # corners at this share of the greatest radius lie on the rim: float32 and rounded corners move them less
 _MAX_STEP = np.radians(75.0)  # widest angle between corners of something round: six sides (60 degrees) are the coarsest
 _MIN_AREA = 1e-4  # smaller patches are no end faces (share of the part's area): those of a 12 m pipe DN50 have 2e-4
+# How exact round faces must be: faces this parallel share a plane (a 128-sided pipe turns by 2.8 degrees a side, a
+# 20-sided one by 18), corners at this share of the greatest radius lie on the rim, none bulges by more than this
+# share. Parts without a round face get the second chance: scans and rough remeshing move corners by a millimetre.
+_LEVELS = ((np.cos(np.radians(1.0)), 0.97, 0.02), (np.cos(np.radians(12.0)), 0.90, 0.08))
 _MAX_PATCHES = 64  # only so many patches of a part are looked at, those of most faces first: round ones have many
 _TURNED = 0.36  # greatest tangential share of a normal on a surface of revolution; 6 sides: sin(60 degrees) / 3 = 0.29
 _SKEW = np.cos(np.radians(4.0))  # axes this parallel can be one line
@@ -115,6 +117,17 @@ def same_line(point: Floats, axis: Floats, other_point: Floats, other_axis: Floa
     return bool(np.linalg.norm(apart - axis * (apart @ axis)) <= offset)
 
 
+def angles_about(axis: Floats, points: Floats) -> Floats:
+    """The angles of points ``(n, 3)`` around an axis through the origin, ascending [rad]."""
+    x, y, z = axis.tolist()
+    # Any direction across the axis will do, taken from the least component so that it is far from the axis.
+    u = np.array([(0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0)][int(np.argmin(np.abs(axis)))])
+    u = u / np.linalg.norm(u)
+    w = np.array([y * u[2] - z * u[1], z * u[0] - x * u[2], x * u[1] - y * u[0]])
+    angles: Floats = np.sort(np.arctan2(points @ w, points @ u))
+    return angles
+
+
 def find_facts(parts: Parts) -> list[Facts]:
     """Measures the shape of every part, each in its own frame."""
     scene, properties = parts.scene, parts.properties
@@ -123,12 +136,14 @@ def find_facts(parts: Parts) -> list[Facts]:
     double = np.linalg.norm(cross, axis=1)
     normals = cross / np.maximum(double, _THIN**2)[:, None]
     owner = mesh_of_face(scene)
-    patch, rims = _flat_patches(triangles, normals, owner)
+    patches, rims = _flat_patches(triangles, normals, owner)
     facts = []
     for part in range(parts.n_parts):
         faces = slice(int(scene.face_offsets[part]), int(scene.face_offsets[part + 1]))
         inward = -1.0 if properties.closed[part] and properties.volume[part] < 0 else 1.0
-        shape = _Shape(triangles[faces], normals[faces] * inward, double[faces] / 2, patch[faces], rims.get(part, []))
+        shape = _Shape(
+            triangles[faces], normals[faces] * inward, double[faces] / 2, patches[:, faces], rims.get(part, [])
+        )
         volume = abs(float(properties.volume[part])) if properties.closed[part] else 0.0
         facts.append(_measure(shape, properties.obb_center[part], properties.obb_axes[part],
                               properties.obb_extents[part], volume))  # fmt: skip
@@ -137,12 +152,12 @@ def find_facts(parts: Parts) -> list[Facts]:
 
 @dataclass(frozen=True)
 class _Shape:
-    """The faces of one part: corners, normals, areas, the flat patch of each; and its open rims as edges."""
+    """The faces of one part: corners, normals, areas, the flat patch of each by level; and its open rims as edges."""
 
     triangles: Floats
     normals: Floats
     areas: Floats
-    patch: Ints
+    patches: Ints
     rims: list[Floats]
 
 
@@ -150,11 +165,11 @@ def _flat_patches(triangles: Floats, normals: Floats, owner: Ints) -> tuple[Ints
     """Joins faces that share an edge and a plane, and edges without a partner into rims.
 
     Returns:
-        The patch ``(n_faces,)`` of each face; and for each part its rims, each ``(n, 2, 3)`` edges.
+        The patch ``(n_levels, n_faces)`` of each face; and for each part its rims, each ``(n, 2, 3)`` edges.
     """
     n = len(triangles)
     if n == 0:
-        return np.zeros(0, np.int64), {}
+        return np.zeros((len(_LEVELS), 0), np.int64), {}
     grid = np.round(triangles.reshape(-1, 3) / _WELD).astype(np.int64).view(np.uint64)
     key = np.repeat(owner, 3).astype(np.uint64)
     for column in grid.T:  # a number for each place; two places share one with a chance of 1e-8 in a million
@@ -166,9 +181,12 @@ def _flat_patches(triangles: Floats, normals: Floats, owner: Ints) -> tuple[Ints
     order = np.argsort(edge, kind="stable")
     same = edge[order][1:] == edge[order][:-1]
     a, b = order[:-1][same] // 3, order[1:][same] // 3
-    flat = np.abs(np.einsum("ij,ij->i", normals[a], normals[b])) > _FLAT
-    links = coo_array((np.ones(int(flat.sum()), np.int8), (a[flat], b[flat])), shape=(n, n))
-    patch = connected_components(links, directed=False)[1].astype(np.int64)
+    cosine = np.abs(np.einsum("ij,ij->i", normals[a], normals[b]))
+    patches = np.empty((len(_LEVELS), n), np.int64)
+    for level, (least, _, _) in enumerate(_LEVELS):
+        flat = cosine > least
+        links = coo_array((np.ones(int(flat.sum()), np.int8), (a[flat], b[flat])), shape=(n, n))
+        patches[level] = connected_components(links, directed=False)[1]
     alone = np.ones(len(order), np.bool_)
     alone[1:] &= ~same
     alone[:-1] &= ~same
@@ -180,33 +198,35 @@ def _flat_patches(triangles: Floats, normals: Floats, owner: Ints) -> tuple[Ints
         loops = coo_array((np.ones(len(free), np.int8), (inverse[:, 0], inverse[:, 1])), shape=(len(points),) * 2)
         loop = connected_components(loops, directed=False)[1].astype(np.int64)[inverse[:, 0]]
         tail, head = free // 3, free % 3
-        for edges in _by_value(loop):
-            if len(edges) >= 5:
-                f, k = tail[edges], head[edges]
-                lines = np.stack([triangles[f, k], triangles[f, (k + 1) % 3]], axis=1)
-                rims.setdefault(int(owner[f[0]]), []).append(lines)
-    return patch, rims
+        for edges in _by_value(loop, 5):
+            f, k = tail[edges], head[edges]
+            lines = np.stack([triangles[f, k], triangles[f, (k + 1) % 3]], axis=1)
+            rims.setdefault(int(owner[f[0]]), []).append(lines)
+    return patches, rims
 
 
-def _by_value(values: Ints) -> Iterator[Ints]:
-    """The positions of each distinct value, ascending."""
+def _by_value(values: Ints, least: int) -> list[Ints]:
+    """The positions of each distinct value that occurs at least so often, ascending."""
     order = np.argsort(values, kind="stable")
-    return iter(np.split(order, np.nonzero(np.diff(values[order]))[0] + 1)) if len(values) else iter(())
+    starts = np.concatenate([[0], np.nonzero(np.diff(values[order]))[0] + 1, [len(values)]])
+    return [order[i:j] for i, j in zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True) if j - i >= least]
 
 
-def _find_discs(shape: _Shape, middle: Floats) -> list[Disc]:
+def _find_discs(shape: _Shape, middle: Floats, level: int) -> list[Disc]:
     """The round flat faces and round rims of a part, widest first."""
     whole = float(shape.areas.sum())
     found = []
-    groups = [g for g in _by_value(shape.patch) if len(g) >= 3 and shape.areas[g].sum() >= _MIN_AREA * whole]
-    groups.sort(key=len, reverse=True)
-    for faces in groups[:_MAX_PATCHES]:
+    groups = sorted(_by_value(shape.patches[level], 3), key=len, reverse=True)
+    large = (faces for faces in groups if shape.areas[faces].sum() >= _MIN_AREA * whole)
+    for faces in islice(large, _MAX_PATCHES):
         areas = shape.areas[faces]
         center = (areas[:, None] * shape.triangles[faces].mean(axis=1)).sum(axis=0) / areas.sum()
         largest = shape.normals[faces[np.argmax(areas)]]
         senses = np.sign(shape.normals[faces] @ largest)
         normal = (areas * senses) @ shape.normals[faces]
-        disc = _disc(shape.triangles[faces].reshape(-1, 3), center, normal / np.linalg.norm(normal), float(areas.sum()))
+        disc = _disc(
+            shape.triangles[faces].reshape(-1, 3), center, normal / np.linalg.norm(normal), float(areas.sum()), level
+        )
         if disc is not None:
             found.append(disc)
     for lines in shape.rims[:_MAX_PATCHES]:
@@ -214,21 +234,23 @@ def _find_discs(shape: _Shape, middle: Floats) -> list[Disc]:
         center = (size[:, None] * lines.mean(axis=1)).sum(axis=0) / size.sum()
         normal = np.linalg.svd(lines.reshape(-1, 3) - center, full_matrices=False)[2][2]
         normal = normal * (1.0 if normal @ (center - middle) >= 0 else -1.0)
-        disc = _disc(lines.reshape(-1, 3), center, normal, 0.0)
+        disc = _disc(lines.reshape(-1, 3), center, normal, 0.0, level)
         if disc is not None:
             found.append(disc)
     return sorted(found, key=lambda disc: -disc.outer)
 
 
-def _disc(points: Floats, center: Floats, normal: Floats, area: float) -> Disc | None:
+def _disc(points: Floats, center: Floats, normal: Floats, area: float, level: int) -> Disc | None:
     """A disc if the outermost points lie evenly on a circle about the centre."""
+    _, least, bulge = _LEVELS[level]
     apart = points - center
     height = apart @ normal
     radii = np.linalg.norm(apart - height[:, None] * normal, axis=1)
     outer = float(radii.max())
-    if outer < 1e-3 or np.abs(height).max() > 0.02 * outer + 1e-5:
+    if outer < 1e-3 or np.abs(height).max() > bulge * outer + 1e-5:
         return None
-    sides, full = _corners(apart[radii >= _RIM * outer], normal)
+    rim = radii >= least * outer
+    sides, full = _corners(apart[rim], normal) if rim.sum() >= 5 else (0, 0.0)
     if not sides:
         return None
     solid = area >= 0.97 * full * outer**2
@@ -238,8 +260,7 @@ def _disc(points: Floats, center: Floats, normal: Floats, area: float) -> Disc |
 
 def _corners(points: Floats, normal: Floats) -> tuple[int, float]:
     """How many corners go around, 0 where a gap is too wide; and the area of that polygon at radius 1."""
-    u = np.cross(normal, np.eye(3)[np.argmin(np.abs(normal))])
-    angles = np.sort(np.arctan2(points @ np.cross(normal, u), points @ u))
+    angles = angles_about(normal, points)
     steps = np.diff(np.append(angles, angles[0] + 2 * np.pi))
     steps = steps[steps > 0.01]  # corners of several faces, and of both ends
     if not len(steps) or steps.max() > _MAX_STEP:
@@ -275,10 +296,12 @@ def _find_ports(discs: list[Disc]) -> tuple[list[Disc], list[list[Disc]]]:
 
 
 def _measure(shape: _Shape, middle: Floats, box_axes: Floats, extents: Floats, volume: float) -> Facts:
-    discs = _find_discs(shape, middle)
+    discs = _find_discs(shape, middle, 0)
+    level = 0 if discs else 1
+    discs = discs or _find_discs(shape, middle, 1)
     ports, lines = _find_ports(discs)
     tries = [(line[0].center, line[0].normal) for line in lines[:3]] or [(middle, axis) for axis in box_axes]
-    measured = [_about(shape, center, axis) for center, axis in tries]
+    measured = [_about(shape, center, axis, level) for center, axis in tries]
     best = int(np.argmax([turned + (sides >= 5) - 0.02 * k for k, (turned, sides, _, _) in enumerate(measured)]))
     center, axis = tries[best]
     turned, sides, radius, along = measured[best]
@@ -294,7 +317,7 @@ def _measure(shape: _Shape, middle: Floats, box_axes: Floats, extents: Floats, v
     )  # fmt: skip
 
 
-def _about(shape: _Shape, center: Floats, axis: Floats) -> tuple[float, int, float, Floats]:
+def _about(shape: _Shape, center: Floats, axis: Floats, level: int) -> tuple[float, int, float, Floats]:
     """Share of turned area, corners around, greatest radius, and coordinates along the axis ``(n, 3)``."""
     if not len(shape.triangles):
         return 0.0, 0, 0.0, np.zeros(0)
@@ -306,7 +329,7 @@ def _about(shape: _Shape, center: Floats, axis: Floats) -> tuple[float, int, flo
     around = np.cross(axis, spoke / np.maximum(np.linalg.norm(spoke, axis=1), _THIN)[:, None])
     turned = np.abs(np.einsum("ij,ij->i", shape.normals, around)) < _TURNED
     radius = float(radii.max())
-    sides = _corners(across[radii >= _RIM * radius], axis)[0]
+    sides = _corners(across[radii >= _LEVELS[level][1] * radius], axis)[0]
     return float(shape.areas[turned].sum() / max(shape.areas.sum(), _THIN**2)), sides, radius, along
 
 
@@ -367,7 +390,6 @@ def _wheel(shape: _Shape, center: Floats, axis: Floats, radius: float) -> tuple[
     between = (share > 0.36) & (share < 0.68)
     if not between.any():
         return rim, 0
-    u = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
-    angles = np.sort(np.arctan2(across[between] @ np.cross(axis, u), across[between] @ u))
+    angles = angles_about(axis, across[between])
     gaps = np.diff(np.append(angles, angles[0] + 2 * np.pi)) > np.radians(25.0)
     return rim, int(gaps.sum())

@@ -14,7 +14,7 @@ import numpy as np
 
 from cadgraph.parts import Contacts, Label, Parts
 from cadgraph.scene import Floats
-from cadgraph.stages.label.features import Disc, Facts, find_facts, same_line
+from cadgraph.stages.label.features import Disc, Facts, angles_about, find_facts, same_line
 from cadgraph.vocabulary import Vocabulary
 
 __all__ = ["GeometryLabeler"]
@@ -33,12 +33,13 @@ LEVER = (0.05, 0.8)  # length of a lever
 BOLT = (0.5, 0.06)  # greatest length and width over corners of a bolt: M36 heavy hex has 70 mm, M30 58 mm
 MAX_WASHER = 0.075  # diameter of a washer: M39 (ISO 7089) has 72 mm
 MIN_BEAM = 0.25  # shorter bars are as likely brackets or levers
+MAX_BASE = 0.6  # a larger plate under a post is a deck
 MAX_GAP = 0.012  # parts further apart along a common axis do not join: adjacency (1 cm) and rounding
 
 # Ratios
 FLANGE_RIM = (0.03, 0.36)  # thickness over diameter: EN 1092-1 0.05 (DN600 PN6) to 0.31 (DN15 PN100), with play
 FLANGE_PIPE = (1.2, 4.7)  # flange over pipe: ASME B16.5 4.2 (DN15 class 150), 1.5 (DN300)
-CASE_DEPTH = (0.12, 0.95)  # depth over diameter, as makers build gauges: 0.25 to 0.8
+CASE_DEPTH = (0.18, 0.95)  # depth over diameter, as makers build gauges: 0.25 to 0.8
 STEM_CASE = 0.5  # greatest width of a stem over the case that it carries: 22 mm flats under 63 mm
 MAX_OPENING = 200.0  # degrees that what holds a pipe may leave open: a U-bolt leaves 180
 COAXIAL = 0.2  # greatest offset of two axes that are one, over the lesser radius
@@ -56,6 +57,7 @@ class _Forms:
     lever: bool
     pin: bool
     nut: bool
+    washer: bool
     case: bool
     bar: bool
     plate: bool
@@ -69,6 +71,7 @@ def _forms(f: Facts) -> _Forms:
     # The plate of a flange is at one end; its raised face, a slice or two, may stand before it.
     at_end = len(full) > 0 and len(full) == full[-1] - full[0] + 1 and min(full[0], len(f.outer) - 1 - full[-1]) <= 2
     holed = any(0.3 * p.outer < p.inner < p.outer for p in f.ports)
+    holes = [p.inner / f.radius for p in f.ports]
     ring = f.round and f.length < min(MAX_GASKET, 0.08 * diameter) and holed
     return _Forms(
         tube=f.tube > 0 and not f.bent and tube_width > MIN_PIPE and f.length > 0.25 * diameter,
@@ -80,8 +83,10 @@ def _forms(f: Facts) -> _Forms:
         and f.length < 0.6 * diameter,
         lever=LEVER[0] < long < LEVER[1] and long > 3 * mid and thin < 0.3 * long and not f.round,
         pin=f.round and 1.2 * diameter < f.length < BOLT[0] and diameter < BOLT[1],
-        nut=f.turned > 0.7 and f.sides == 6 and holed and 0.25 * diameter < f.length < 1.1 * diameter < 1.1 * BOLT[1],
-        case=f.round and CASE[0] < diameter < CASE[1] and CASE_DEPTH[0] * diameter < f.length < CASE_DEPTH[1] * diameter,
+        nut=f.turned > 0.7 and f.sides == 6 and holed and 0.25 * diameter < f.length < 1.1 * diameter < BOLT[1],
+        washer=f.round and len(holes) == 2 and min(holes) > 0.35 and max(holes) < 0.75 and diameter < MAX_WASHER
+        and f.length < 0.2 * diameter,
+        case=f.round and CASE[0] < diameter < CASE[1] and CASE_DEPTH[0] < f.length / diameter < CASE_DEPTH[1],
         bar=long > MIN_BEAM and long > 4 * mid and not f.round and not f.tube,
         plate=thin < 0.08 * mid and mid > 0.1 and f.fill > 0.7,
     )  # fmt: skip
@@ -153,7 +158,7 @@ def _mm(length: float) -> str:
 def _fasteners(c: _Context) -> None:
     """Three or more of one shape, parallel, on a circle about a port: bolts, studs, nuts."""
     for part, f in enumerate(c.facts):
-        small = [j for j in c.near[part] if c.forms[j].pin or c.forms[j].nut]
+        small = [j for j in c.near[part] if c.forms[j].pin or c.forms[j].nut or c.forms[j].washer]
         for shape in sorted({int(c.parts.shape[j]) for j in small}):
             same = [j for j in small if c.parts.shape[j] == shape]
             for port in f.ports if len(same) >= 3 else ():
@@ -162,7 +167,8 @@ def _fasteners(c: _Context) -> None:
                 if middle > 1.2 * c.facts[same[0]].radius and np.ptp(radii) < 0.1 * middle:
                     g = c.facts[same[0]]
                     plain = g.outer.min() > 0.9 * g.outer.max()
-                    name = "nut" if c.forms[same[0]].nut else "stud" if plain else "bolt"
+                    kinds = c.forms[same[0]]
+                    name = "nut" if kinds.nut else "washer" if kinds.washer else "stud" if plain else "bolt"
                     why = f"{len(same)} alike on a circle of {_mm(2 * middle)}, {_mm(g.length)} long"
                     for j in same:
                         c.say(j, FASTENER, name, 0.93, why)
@@ -228,6 +234,8 @@ def _pipes(c: _Context) -> None:
             continue
         straight = f.tube > 4 * width or (not forms.bend)
         name = "pipe" if straight else "elbow"
+        if f.tube < width and len(ends) < 2:
+            continue  # rings, bosses, glands
         if set(ends) == {"device"} and f.tube < (1.0 if hollow else 3.0) * width:
             continue
         if ends:
@@ -293,7 +301,8 @@ def _valves(c: _Context) -> None:
             lone = not any(ends) and _is_lone_valve(c, part, first, second)
             if (all(ends) and piped and _is_valve(c, part, first, second, piped == 2)) or lone:
                 for j in (j for end in ends for j in end):
-                    if c.free(j) and c.forms[j].flange and _parallel(c.facts[j].axis, first.normal):
+                    beyond = [k for k in c.near[j] if k != part and not c.is_a(k, FASTENER)]
+                    if c.free(j) and c.forms[j].flange and all(c.is_a(k, PIPE, "flange", "gasket") for k in beyond):
                         c.say(j, VALVE, "valve body", 0.8, "flanged end piece of a valve body")
                 break
 
@@ -392,7 +401,7 @@ def _is_plain_wheel(c: _Context, part: int, rod: int) -> bool:
 
 def _trim_name(c: _Context, part: int, body: int) -> str | None:
     f = c.facts[part]
-    if f.round and f.radius < 0.25 * c.facts[body].section[1] and f.length > 0.5 * f.radius:
+    if f.round and f.radius < 0.25 * c.facts[body].section[1] and f.length > f.radius:
         return "valve stem"
     if f.round and part in c.near[body]:
         return "valve bonnet"
@@ -434,7 +443,10 @@ def _gauge_foot(c: _Context, case: int, stem: int) -> int | None:
     """What the stem of a gauge stands on: an outlet or piping; None if this is no stem of a gauge."""
     f, g = c.facts[case], c.facts[stem]
     way = c.parts.properties.obb_axes[stem][0]
-    slender = g.section[0] > 1.5 * g.section[1] and g.section[1] < STEM_CASE * 2 * f.radius
+    # On the axis of the case (back entry) a stem must be thinner and short, or a flange on its pipe would do.
+    back = abs(f.axis @ way) > 0.9
+    slender = g.section[0] > 1.5 * g.section[1] and g.section[1] < (0.6 if back else 1.0) * STEM_CASE * 2 * f.radius
+    slender = slender and g.section[0] < (1.5 if back else 4.0) * 2 * f.radius
     apart = c.parts.properties.obb_center[stem] - c.parts.properties.obb_center[case]
     aims = np.linalg.norm(apart - (apart @ way) * way) < 0.35 * f.radius + 0.5 * f.length * abs(f.axis @ way)
     if not slender or not aims or not c.free(stem):
@@ -475,7 +487,7 @@ def _foot_on_pipe(c: _Context, foot: int, size: float) -> bool:
 def _supports(c: _Context) -> None:
     """Rods and bands around a pipe; what carries them."""
     held = []
-    for part, f in enumerate(c.facts):
+    for part in range(len(c.facts)):
         if not c.free(part):
             continue
         for pipe in c.near[part]:
@@ -506,8 +518,7 @@ def _opening(c: _Context, part: int, pipe: int) -> float:
         radii = np.linalg.norm(across, axis=1)
         close = across[(radii > 0.9 * r) & (radii < 1.35 * r + 0.005)]
         if len(close) >= 6:
-            u = np.cross(port.normal, np.eye(3)[np.argmin(np.abs(port.normal))])
-            angles = np.sort(np.arctan2(close @ np.cross(port.normal, u), close @ u))
+            angles = angles_about(port.normal, close)
             return float(np.degrees(np.diff(np.append(angles, angles[0] + 2 * np.pi)).max()))
     return 360.0
 
@@ -517,10 +528,13 @@ def _structure(c: _Context) -> None:
     for part, forms in enumerate(c.forms):
         if not c.free(part) or not (forms.bar or forms.plate):
             continue
-        long = _mm(float(c.facts[part].section[0]))
-        if any(c.forms[j].bar or (forms.bar and c.forms[j].plate) for j in c.near[part]):
-            name = "plate" if forms.plate else None
-            c.say(part, STRUCTURE, name, 0.6, f"{'plate' if forms.plate else 'bar'} of {long} in a frame")
+        size, across = c.facts[part].section[0], c.parts.properties.obb_axes[part][2]
+        beside = [j for j in c.near[part] if c.forms[j].bar or (forms.bar and c.forms[j].plate)]
+        if not beside:
+            continue
+        stands = any(_parallel(c.parts.properties.obb_axes[j][0], across) for j in beside)
+        name = ("base plate" if stands and size < MAX_BASE else "plate") if forms.plate else None
+        c.say(part, STRUCTURE, name, 0.6, f"{'plate' if forms.plate else 'bar'} of {_mm(float(size))} in a frame")
 
 
 def _leftovers(c: _Context) -> None:
@@ -537,12 +551,10 @@ def _leftovers(c: _Context) -> None:
             c.labels[part] = None
         if not c.free(part):
             continue
-        holes = [p.inner / f.radius for p in f.ports]
         if forms.nut and width < BOLT[1]:
             c.say(part, FASTENER, "nut", 0.75, f"hexagon with a hole, {_mm(width)} over corners")
-        elif f.round and len(holes) == 2 and min(holes) > 0.35 and max(holes) < 0.75 and width < MAX_WASHER:
-            if f.length < 0.2 * width:
-                c.say(part, FASTENER, "washer", 0.6, f"flat ring of {_mm(width)}, {_mm(f.length)} thick")
+        elif forms.washer:
+            c.say(part, FASTENER, "washer", 0.6, f"flat ring of {_mm(width)}, {_mm(f.length)} thick")
         elif forms.pin and _has_head(f):
             c.say(part, FASTENER, "screw", 0.6, f"shank of {_mm(f.length)} with a head of {_mm(width)}")
 
