@@ -102,16 +102,16 @@ def station() -> list[Mesh]:
     """Sixteen meshes along z: pipe with jacket, flange, gasket, flange, eight bolts, valve body, elbow, grating."""
     flange = tube(0.08, 0.05, 0.02, 48, 1)
     parts = [
-        tube(0.05, 0.045, 2.0, 64, 8),
-        moved(tube(0.0665, 0.0615, 1.0, 64, 8), shift=(0, 0, 0.5)),
+        tube(0.05, 0.045, 2.0, 64, 2),
+        moved(tube(0.0665, 0.0615, 1.0, 64, 2), shift=(0, 0, 0.5)),
         moved(flange, shift=(0, 0, 2.0)),
         moved(tube(0.065, 0.05, 0.003, 48), shift=(0, 0, 2.02)),
         moved(flange, shift=(0, 0, 2.023)),
     ]
     for k in range(8):
         angle = (k + 0.5) * np.pi / 4
-        parts.append(moved(bolt(14), shift=(0.072 * np.cos(angle), 0.072 * np.sin(angle), 2.0431)))
-    parts.append(moved(sphere(0.07, 40, 30), shift=(0, 0, 2.11)))
+        parts.append(moved(bolt(20), shift=(0.072 * np.cos(angle), 0.072 * np.sin(angle), 2.0431)))
+    parts.append(moved(sphere(0.07, 48, 36), shift=(0, 0, 2.11)))
     parts.append(moved(elbow(0.15, 0.05, 24, 48), shift=(0, 0, 2.18)))
     parts.append(moved(join(*(moved(box(1.0, 0.005, 0.03), shift=(0, 0.03 * i, 0)) for i in range(40))), shift=(0.6, -0.6, 1.0)))
     return parts

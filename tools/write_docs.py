@@ -50,9 +50,7 @@ def commands() -> str:
     runner = CliRunner(env={"COLUMNS": "100", "TERMINAL_WIDTH": "100", "NO_COLOR": "1", "TERM": "dumb"})
     names = [str(command.name or command.callback.__name__) for command in app.registered_commands if command.callback]
     blocks = ["# Commands", ""]
-    nested = [
-        [str(inner.name)] for group in app.registered_groups for inner in group.typer_instance.registered_commands
-    ]
+    nested = [[str(inner.name)] for inner in plants.registered_commands]
     for words in ([], *([name] for name in names), *(["environment", *inner] for inner in nested)):
         text = runner.invoke(app, [*words, "--help"], prog_name="cadgraph").output
         body = "\n".join(line.rstrip() for line in text.strip().splitlines())

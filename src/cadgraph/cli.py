@@ -199,7 +199,8 @@ def make_plant(
 
     if up not in ("Y", "Z"):
         raise ValueError(f"--up {up}: give Y or Z")
-    plant = make(preset, seed, hand, Sins(*[spoilt] * 5) if spoilt else None)
+    sins = Sins(duplicates=spoilt, hidden=spoilt, flipped=spoilt, soup=spoilt, degenerate=spoilt)
+    plant = make(preset, seed, hand, sins if spoilt else None)
     axis: Literal["Y", "Z"] = "Y" if up == "Y" else "Z"
     truth = write_usd(plant, output, UsdStyle(meters_per_unit=unit, up_axis=axis, instances=instances))
     _out.print(f"wrote {escape(str(output))} and {escape(str(truth))}")

@@ -8,6 +8,9 @@ from cadgraph.environment.enclosure import fence, pillar
 from cadgraph.environment.fastener import bolt, pipe_support
 from cadgraph.environment.flange import flange, flange_length, gasket
 from cadgraph.environment.gauge import pressure_gauge
+from cadgraph.environment.instrument import valve_at
+from cadgraph.environment.layout import Route, Run, lay
+from cadgraph.environment.make import Make
 from cadgraph.environment.piping import cap, elbow, outlet, pipe, reducer, tee
 from cadgraph.environment.plant import gather
 from cadgraph.environment.pump import pump
@@ -16,7 +19,7 @@ from cadgraph.environment.structure import caster, deck, post
 from cadgraph.environment.valve import VALVES, valve_length
 from cadgraph.environment.vessel import Nozzle, tank
 from cadgraph.vocabulary import default_vocabulary
-from environment.solids import is_closed, least_edge, shell_volumes
+from environment.solids import is_closed, least_edge, shell_volumes, touching
 
 SOME = (15, 25, 50, 80, 150, 300)
 
@@ -78,6 +81,29 @@ def test_every_component_is_a_closed_solid_that_looks_outward(hand, dn):
         assert is_closed(component.solid), component.name
         assert (shell_volumes(component.solid) > 0).all(), component.name
         assert least_edge(component.solid) > 1e-7, component.name
+
+
+MAKES = [
+    Make("plate", 3, "straight", "barrel", "barrel", True),
+    Make("solid", 5, "straight", "barrel", "barrel", False),
+    Make("plate", 6, "cranked", "two-piece", "barrel"),
+]
+
+
+@pytest.mark.parametrize("make", MAKES)
+@pytest.mark.parametrize("dn", SOME)
+def test_valves_of_every_make_touch_their_joints_and_nothing_else(make, dn):
+    pytest.importorskip("fcl")
+    hand = HANDS["mechanical"]
+    kinds = [kind for kind in VALVES if dn in FACE_TO_FACE[kind]]
+    step = max(1.2, 0.012 * dn)
+    items = tuple(valve_at((i + 1) * step, kind, f"V-{i}", dn, make=make) for i, kind in enumerate(kinds))
+    route = Route(np.array([(0.0, 0.0, 0.0), ((len(kinds) + 1) * step, 0.0, 0.0)]))
+    laid = lay(Run("L", dn, route, items, ends=("blind", "flange")), hand)
+    assert {tuple(sorted(pair)) for pair in laid.assembly.contacts} == set(touching(laid.assembly))
+    for component in laid.assembly.components:
+        assert is_closed(component.solid), component.name
+        assert (shell_volumes(component.solid) > 0).all(), component.name
 
 
 @pytest.mark.parametrize("hand", HANDS.values(), ids=HANDS)

@@ -52,7 +52,7 @@ def _neck_room(dn: int, length: float) -> float:
 
 
 @cache
-def _gate_solids(dn: int, hand: Hand, spokes: int) -> tuple[Solid, Topworks]:
+def _gate_solids(dn: int, hand: Hand, spokes: int, style: str) -> tuple[Solid, Topworks]:
     radius, length = PIPES[dn].radius, FACE_TO_FACE["gate"][dn]
     bulge = 1.32 * radius + 0.007
     throat = min(0.86 * bulge, 0.62 * _neck_room(dn, length) + 0.006)
@@ -62,12 +62,12 @@ def _gate_solids(dn: int, hand: Hand, spokes: int) -> tuple[Solid, Topworks]:
     seat = max(bulge + 0.8 * radius, 0.5 * FLANGES[dn].outer + plate + 0.002)
     body = _cast_body(dn, length, bulge, throat, collar, seat, plate, hand)
     wheel = min(0.055 + 1.35 * radius, 0.32)
-    return body, topworks(seat, collar, plate, radius, hand, spokes, wheel, 0.012 + 1.6 * radius, 1.25)
+    return body, topworks(seat, collar, plate, radius, hand, spokes, wheel, 0.012 + 1.6 * radius, 1.25, style)
 
 
-def gate_valve(unit: str, dn: int, hand: Hand, spokes: int = 5, turn: float = 0.0) -> Device:
+def gate_valve(unit: str, dn: int, hand: Hand, spokes: int = 5, turn: float = 0.0, wheel: str = "round") -> Device:
     """A flanged wedge gate valve with outside screw and yoke and a rising stem (ASME B16.34 pattern), open."""
-    body, top = _gate_solids(dn, hand, spokes)
+    body, top = _gate_solids(dn, hand, spokes, wheel)
     length = FACE_TO_FACE["gate"][dn]
     pieces: list[Piece] = [(body, IDENTITY, "valve body", "valve"), *top.pieces(at(length / 2), turn)]
     return assemble(pieces, "gate valve", unit, hand, Topworks.contacts, 0, length)

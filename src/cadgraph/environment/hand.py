@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-__all__ = ["HANDS", "Hand"]
+__all__ = ["HANDS", "RGB", "Hand"]
 
 RGB = tuple[float, float, float]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
 
@@ -11,6 +11,7 @@ import numpy as np
 from cadgraph.environment.gauge import pressure_gauge, side_gauge
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.layout import Inline, Tap
+from cadgraph.environment.make import Make
 from cadgraph.environment.piping import reducer, tee
 from cadgraph.environment.plant import Assembly, Device
 from cadgraph.environment.valve import VALVES
@@ -21,9 +22,28 @@ _REVERSED = np.diag([-1.0, -1.0, 1.0, 1.0])
 
 
 def valve_at(
-    s: float, kind: str, unit: str, dn: int, roll: float = 0.0, reverse: bool = False, **options: Any
+    s: float,
+    kind: str,
+    unit: str,
+    dn: int,
+    roll: float = 0.0,
+    reverse: bool = False,
+    make: Make | None = None,
+    turn: float = 0.0,
 ) -> Inline:
-    """A valve of a kind of ``VALVES`` with its middle at a chainage [m]; further options go to its builder."""
+    """A valve of a kind of ``VALVES`` with its middle at a chainage [m].
+
+    Args:
+        s: chainage.
+        kind: of valve.
+        unit: its id.
+        dn: nominal size.
+        roll: of its stem about the run [rad]; 0 is upright.
+        reverse: whether it is built against the run.
+        make: what its manufacturer builds.
+        turn: of its wheel or lever [rad].
+    """
+    options = (make or Make()).options(kind, turn)
     build: Callable[[Hand], Device] = partial(_valve, kind=kind, unit=unit, dn=dn, options=options)
     return Inline(s, build, unit, roll, reverse)
 
@@ -61,7 +81,7 @@ def side_gauge_tap(
     return Tap(s, build, unit, roll)
 
 
-def _valve(hand: Hand, kind: str, unit: str, dn: int, options: dict[str, Any]) -> Device:
+def _valve(hand: Hand, kind: str, unit: str, dn: int, options: Mapping[str, Any]) -> Device:
     return VALVES[kind](unit, dn, hand, **options)
 
 

@@ -14,7 +14,7 @@ from cadgraph.environment.polygon import circle
 from cadgraph.environment.solid import Solid, extrude, loft, merge, revolve, sweep, weld
 from cadgraph.scene import Floats
 
-__all__ = ["Topworks", "handwheel", "lever_solid", "topworks", "yoke_solid"]
+__all__ = ["Topworks", "handwheel", "lever_solid", "plate_wheel", "solid_wheel", "topworks", "yoke_solid"]
 
 
 @cache
@@ -34,9 +34,52 @@ def handwheel(radius: float, rim: float, spokes: int, hub: float, thick: float, 
     return merge(solids)
 
 
-def lever_solid(length: float, half: float, thick: float) -> Solid:
-    """A flat lever along x with a round eye about the origin, a step up and a round tip; its underside at 0."""
-    rise = 0.16 * length
+@cache
+def plate_wheel(radius: float, spokes: int, hub: float, thick: float, bore: float, sides: int) -> Solid:
+    """A pressed wheel about z: a flat disc with windows between its spokes, its hub from 0 to ``thick`` [m]."""
+    rim, boss = 0.84 * radius, 1.5 * hub
+    windows = []
+    for k in range(spokes):
+        low, high = 2 * np.pi * k / spokes, 2 * np.pi * (k + 1) / spokes
+        outer, inner = np.arcsin(0.07 * radius / rim), np.arcsin(min(0.9, 0.07 * radius / boss))
+        far = np.linspace(low + outer, high - outer, 9)
+        near = np.linspace(high - inner, low + inner, 5)
+        arc_far = rim * np.column_stack([np.cos(far), np.sin(far)])
+        arc_near = boss * np.column_stack([np.cos(near), np.sin(near)])
+        windows.append(np.concatenate([arc_far, arc_near]))
+    sheet = 0.006
+    low, high = 0.5 * thick - sheet / 2, 0.5 * thick + sheet / 2
+    ring = circle(hub, 24)
+    disc = extrude(circle(radius, sides), low, high, (ring, *windows))
+    sleeve = extrude(ring, 0.0, thick, (circle(bore, 16),))
+    return merge([disc, sleeve])
+
+
+@cache
+def solid_wheel(radius: float, hub: float, thick: float, bore: float, sides: int) -> Solid:
+    """A dished disc with a rolled edge about z, its hub from 0 to ``thick`` [m]."""
+    sheet, lift = 0.005, 0.10 * radius
+    top = [(bore, thick), (hub, thick), (1.25 * hub, 0.5 * thick + sheet), (0.55 * radius, 0.5 * thick + sheet)]
+    top += [(0.86 * radius, lift + thick), (0.95 * radius, lift + thick + sheet), (radius, lift + thick)]
+    low = [
+        (radius, lift + thick - 2 * sheet),
+        (0.95 * radius, lift + thick - 2.4 * sheet),
+        (0.88 * radius, lift + thick - sheet),
+    ]
+    low += [(0.55 * radius, 0.5 * thick), (1.2 * hub, 0.5 * thick), (hub, 0.0), (bore, 0.0)]
+    return weld([revolve([*low[::-1], *top[::-1]], sides, closed=True)])
+
+
+def lever_solid(length: float, half: float, thick: float, straight: bool = False) -> Solid:
+    """A flat lever along x with a round eye about the origin and a round tip; its underside at 0.
+
+    Args:
+        length: from the eye's middle [m].
+        half: half its width [m].
+        thick: of the bar [m].
+        straight: whether it stays level instead of stepping up.
+    """
+    rise = 0.0 if straight else 0.16 * length
     stations = [(-half * np.cos(a), half * max(np.sin(a), 0.15), 0.0) for a in np.linspace(0, np.pi / 2, 5)]
     stations += [
         (0.12 * length, half * 0.9, 0.0),
@@ -116,6 +159,7 @@ def topworks(
     wheel: float,
     rise: float = 0.008,
     tall: float = 1.0,
+    style: str = "round",
 ) -> Topworks:
     """A bolted bonnet with outside screw and yoke.
 
@@ -129,6 +173,7 @@ def topworks(
         wheel: its radius [m].
         rise: how far the stem stands out of the wheel [m].
         tall: stretches the yoke.
+        style: of the wheel: ``round``, ``plate`` or ``solid``.
     """
     stem_radius = 0.005 + 0.10 * radius
     box_radius, box_top = 2.1 * stem_radius, seat + plate + 0.55 * radius + 0.016
@@ -149,5 +194,11 @@ def topworks(
     yoke = yoke_solid(0.80 * collar, seat + plate, yoke_top, crown, bush, stem_radius, sides)
     low, thick = yoke_top + 0.012, 0.014 + 0.08 * radius
     stem = extrude(circle(stem_radius, sides), box_top, low + thick + rise)
-    disc = handwheel(wheel, 0.006 + 0.03 * wheel, spokes, 2.2 * stem_radius, thick, stem_radius, hand.round(wheel))
+    hub, rim_sides = 2.2 * stem_radius, hand.round(wheel)
+    if style == "plate":
+        disc = plate_wheel(wheel, spokes, hub, thick, stem_radius, rim_sides)
+    elif style == "solid":
+        disc = solid_wheel(wheel, hub, thick, stem_radius, rim_sides)
+    else:
+        disc = handwheel(wheel, 0.006 + 0.03 * wheel, spokes, hub, thick, stem_radius, rim_sides)
     return Topworks(bonnet, gland, yoke, stem, disc, low)

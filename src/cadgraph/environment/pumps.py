@@ -9,6 +9,7 @@ from cadgraph.environment.frame import at
 from cadgraph.environment.hand import HANDS, Hand
 from cadgraph.environment.instrument import gauge_tap, side_gauge_tap, tee_at, valve_at
 from cadgraph.environment.layout import Inline, Route, Run
+from cadgraph.environment.make import Make, draw_make, painted
 from cadgraph.environment.plant import Plant
 from cadgraph.environment.pump import pump
 from cadgraph.environment.site import Placed, Site
@@ -32,6 +33,7 @@ def make_pumps(seed: int = 0, hand: Hand | None = None, n_pumps: int = 0) -> Pla
     """
     style = hand or HANDS["plant-design"]
     rng = np.random.default_rng([seed, 4])
+    style, make = painted(style, rng, seed), draw_make(rng) if seed else Make()
     site = Site("pumps")
     count = n_pumps or int(rng.integers(2, 5))
     suction_dn, pump_in, pump_out, discharge_dn = ((100, 80, 50, 80), (150, 100, 65, 100), (80, 50, 32, 65))[
@@ -40,14 +42,16 @@ def make_pumps(seed: int = 0, hand: Hand | None = None, n_pumps: int = 0) -> Pla
     ys = [(k - (count - 1) / 2) * _PITCH for k in range(count)]
     pumps = [pump(f"P-{k + 1}", pump_in, pump_out, style) for k in range(count)]
     axis = float(pumps[0].suction[2, 3])
-    suction = _header(site, style, rng, "S", suction_dn, pump_in, ys, (_SUCTION_X, axis), np.pi / 2, count)
-    discharge = _header(site, style, rng, "D", discharge_dn, pump_out, ys, (0.0, _DISCHARGE_Z), np.pi, count)
+    suction = _header(site, style, rng, make, "S", suction_dn, pump_in, ys, (_SUCTION_X, axis), np.pi / 2, count)
+    discharge = _header(site, style, rng, make, "D", discharge_dn, pump_out, ys, (0.0, _DISCHARGE_Z), np.pi, count)
     for k, (y, one) in enumerate(zip(ys, pumps, strict=True)):
         base = site.add(one.assembly.placed(at(0, y, 0)))
         number = 10 * (k + 1)
-        _suction(site, style, rng, suction, number, base, y, (float(one.suction[0, 3]), axis), (suction_dn, pump_in))
+        _suction(
+            site, style, rng, make, suction, number, base, y, (float(one.suction[0, 3]), axis), (suction_dn, pump_in)
+        )
         face = (float(one.discharge[0, 3]), float(one.discharge[2, 3]))
-        _discharge(site, style, rng, discharge, number, base, y, face, (discharge_dn, pump_out))
+        _discharge(site, style, rng, make, discharge, number, base, y, face, (discharge_dn, pump_out))
     return site.plant("pumps", seed, style)
 
 
@@ -55,6 +59,7 @@ def _header(
     site: Site,
     hand: Hand,
     rng: np.random.Generator,
+    make: Make,
     tag: str,
     dn: int,
     branch: int,
@@ -71,7 +76,7 @@ def _header(
     tees = [tee_at(y - low, f"J-{tag}{k + 1}", dn, branch, roll) for k, y in enumerate(ys)]
     kind = "butterfly" if rng.random() < 0.6 else "gate"
     unit = f"V-{tag}"
-    valve = valve_at(high - low - 0.50, kind, unit, dn)
+    valve = valve_at(high - low - 0.50, kind, unit, dn, make=make)
     tap = gauge_tap(high - low - 0.86, f"G-{tag}", rng, 100, np.pi / 2)
     flow, reason = ("backward", "feeds the pumps") if tag == "S" else ("forward", "leaves the pumps")
     run = Run(tag, dn, route, (*tees, valve), (tap,), ends=("blind", "flange"), flow=flow, reason=reason)
@@ -89,6 +94,7 @@ def _suction(
     site: Site,
     hand: Hand,
     rng: np.random.Generator,
+    make: Make,
     header: Placed,
     number: int,
     base: int,
@@ -108,7 +114,7 @@ def _suction(
         f"S{number // 10}",
         sizes[1],
         route,
-        (valve_at(middle, kind, unit, sizes[1]),),
+        (valve_at(middle, kind, unit, sizes[1], make=make),),
         (gauge_tap(0.80 * route.length, gauge, rng),),
         ends=("open", "joint"),
         nodes=(node, f"P-{number // 10}"),
@@ -122,6 +128,7 @@ def _discharge(
     site: Site,
     hand: Hand,
     rng: np.random.Generator,
+    make: Make,
     header: Placed,
     number: int,
     base: int,
@@ -139,8 +146,8 @@ def _discharge(
     kind = str(rng.choice(["gate", "globe"]))
     space = route.length
     inline: tuple[Inline, ...] = (
-        valve_at(0.40 * space, "check", check, dn, np.pi / 2),
-        valve_at(0.77 * space, kind, block, dn, np.pi / 2),
+        valve_at(0.40 * space, "check", check, dn, np.pi / 2, make=make),
+        valve_at(0.77 * space, kind, block, dn, np.pi / 2, make=make),
     )
     run = Run(
         f"D{number // 10}",

@@ -10,6 +10,7 @@ from cadgraph.environment.frame import at
 from cadgraph.environment.hand import HANDS, Hand
 from cadgraph.environment.instrument import gauge_tap, side_gauge_tap, tee_at, valve_at
 from cadgraph.environment.layout import Inline, Route, Run
+from cadgraph.environment.make import Make, draw_make, painted
 from cadgraph.environment.plant import Plant
 from cadgraph.environment.site import Placed, Site
 from cadgraph.environment.standard import PIPES, SECTIONS, TEE_CENTER_TO_END
@@ -34,6 +35,7 @@ def make_rack(seed: int = 0, hand: Hand | None = None, n_bays: int = 0) -> Plant
     """
     style = hand or HANDS["plant-design"]
     rng = np.random.default_rng([seed, 5])
+    style, make = painted(style, rng, seed), draw_make(rng) if seed else Make()
     site = Site("rack")
     bays = n_bays or int(rng.integers(3, 6))
     beams = [_frame(site, style, k * _BAY) for k in range(bays + 1)]
@@ -45,7 +47,7 @@ def make_rack(seed: int = 0, hand: Hand | None = None, n_bays: int = 0) -> Plant
     sizes = [int(rng.choice(choice)) for choice in ((50, 80), (100, 150), (80, 100), (65, 80), (40, 50))]
     for k, (y, level, dn) in enumerate(zip(ys, levels, sizes, strict=True)):
         drops = {0: -1, 3: 1}.get(k, 0)
-        _line(site, style, rng, k + 1, dn, y, level, drops, bays, [frame[:2][level] for frame in beams])
+        _line(site, style, rng, make, k + 1, dn, y, level, drops, bays, [frame[:2][level] for frame in beams])
     tray = site.add(cable_tray(bays * _BAY, style, pieces=bays).placed(at(0, -0.55, _UPPER)))
     for k in range(bays):
         site.join(tray + k, beams[k][1])
@@ -85,6 +87,7 @@ def _line(
     site: Site,
     hand: Hand,
     rng: np.random.Generator,
+    make: Make,
     number: int,
     dn: int,
     y: float,
@@ -114,24 +117,27 @@ def _line(
         if rng.random() < 0.5 and level == 1:
             unit = f"V-{number}{bay + 1}"
             kind = str(rng.choice(["gate", "globe", "ball", "butterfly"]))
-            inline.append(valve_at(middle - 0.75, kind, unit, dn))
+            inline.append(valve_at(middle - 0.75, kind, unit, dn, make=make))
             taps.append(gauge_tap(middle + 0.70, f"G-{number}{bay + 1}", rng, 100))
     if number in (2, 3):
         drop = float(route.starts[1])
-        inline.append(valve_at(drop + 1.15, "gate" if number == 2 else "globe", f"V-{number}9", dn, np.pi / 2))
+        inline.append(
+            valve_at(drop + 1.15, "gate" if number == 2 else "globe", f"V-{number}9", dn, np.pi / 2, make=make)
+        )
         taps.append(side_gauge_tap(drop + 0.62, f"G-{number}9", rng, down=True))
     ends = ("flange", "flange") if number != 5 else ("blind", "flange")
     placed = site.lay(Run(tag, dn, route, tuple(inline), tuple(taps), ends=ends), hand)
     for k, carrier in enumerate(beams):
         site.support(placed, k * _BAY - low, carrier, hand)
     for bay, middle in branches:
-        _branch(site, hand, rng, placed, number, bay, middle, side)
+        _branch(site, hand, rng, make, placed, number, bay, middle, side)
 
 
 def _branch(
     site: Site,
     hand: Hand,
     rng: np.random.Generator,
+    make: Make,
     trunk: Placed,
     number: int,
     bay: int,
@@ -148,7 +154,7 @@ def _branch(
     node, unit, gauge = f"J-{number}{bay + 1}", f"V-{number}{bay + 1}", f"G-{number}{bay + 1}"
     kind = str(rng.choice(["ball", "ball", "globe", "gate"]))
     roll = float(rng.choice([0.0, np.pi]))
-    inline = (valve_at(top - 1.25, kind, unit, dn, roll),)
+    inline = (valve_at(top - 1.25, kind, unit, dn, roll, make=make),)
     taps = (side_gauge_tap(top - 1.75, gauge, rng, down=True, roll=roll + np.pi / 2),)
     branch = Run(f"L{number}B{bay + 1}", dn, route, inline, taps, ends=("open", "flange"), nodes=(node, ""))
     site.lay(branch, hand, [trunk.device(node)])

@@ -10,6 +10,7 @@ from cadgraph.environment.frame import at
 from cadgraph.environment.gauge import side_gauge
 from cadgraph.environment.hand import HANDS, Hand
 from cadgraph.environment.layout import Inline, Route, Run, Tap
+from cadgraph.environment.make import Make, draw_make, painted
 from cadgraph.environment.plant import Assembly, Device, Plant
 from cadgraph.environment.site import Site
 from cadgraph.environment.structure import CASTER_HEIGHT, CHANNEL_WIDTH, DECK_HEIGHT, DECK_INSET, caster, deck
@@ -33,6 +34,7 @@ def make_riser(seed: int = 0, hand: Hand | None = None) -> Plant:
     """
     style = hand or HANDS["plant-design"]
     rng = np.random.default_rng([seed, 2])
+    style, make = painted(style, rng, seed), draw_make(rng) if seed else Make()
     site = Site("riser")
     plate = site.add(deck(_LENGTH, _WIDTH, style).placed(at(0, 0, _TOP)))
     rail = _WIDTH / 2 - DECK_INSET - CHANNEL_WIDTH / 2
@@ -42,11 +44,11 @@ def make_riser(seed: int = 0, hand: Hand | None = None) -> Plant:
             site.add(one, plate + (1 if sy < 0 else 2))
     dn = int(rng.choice([50, 65, 80], p=[0.3, 0.4, 0.3]))
     for number, x in enumerate(_ROWS):
-        site.lay(_loop(number, x, dn, style, rng), style, [plate], [plate])
+        site.lay(_loop(number, x, dn, make, rng), style, [plate], [plate])
     return site.plant("riser", seed, style)
 
 
-def _loop(number: int, x: float, dn: int, hand: Hand, rng: np.random.Generator) -> Run:
+def _loop(number: int, x: float, dn: int, make: Make, rng: np.random.Generator) -> Run:
     """Up at the front, over, and down at the back: a ball valve on one leg, a globe valve on the other."""
     top = _TOP + _CROWN + float(rng.uniform(-0.05, 0.05))
     points = [(x, -_HALF, _TOP), (x, -_HALF, top), (x, _HALF, top), (x, _HALF, _TOP)]
@@ -62,7 +64,7 @@ def _loop(number: int, x: float, dn: int, hand: Hand, rng: np.random.Generator) 
         unit = f"V-{tag + leg + 1}"
         # Stems look outward: towards -y on the front legs, where the run goes up, +y on the back ones.
         outward = np.pi / 2
-        valve = partial(_valve, kind=kind, unit=unit, dn=dn)
+        valve = partial(_valve, kind=kind, unit=unit, dn=dn, make=make)
         s = height if leg == 0 else length - height
         inline.append(Inline(s, valve, unit, outward))
         inline.append(Inline(joint if leg == 0 else length - joint))
@@ -73,8 +75,8 @@ def _loop(number: int, x: float, dn: int, hand: Hand, rng: np.random.Generator) 
     return Run(f"R{number + 1}", dn, route, tuple(inline), tuple(taps), bent=True, bend=1.5)
 
 
-def _valve(hand: Hand, kind: str, unit: str, dn: int) -> Device:
-    return VALVES[kind](unit, dn, hand)
+def _valve(hand: Hand, kind: str, unit: str, dn: int, make: Make) -> Device:
+    return VALVES[kind](unit, dn, hand, **make.options(kind))
 
 
 def _gauge(hand: Hand, unit: str, down: bool, needle: float) -> Assembly:

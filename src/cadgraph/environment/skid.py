@@ -12,12 +12,14 @@ from cadgraph.environment.flange import GASKET, flange_length
 from cadgraph.environment.frame import at
 from cadgraph.environment.gauge import pressure_gauge
 from cadgraph.environment.hand import HANDS, Hand
+from cadgraph.environment.instrument import valve_at
 from cadgraph.environment.layout import Inline, Route, Run, Tap
+from cadgraph.environment.make import Make, draw_make, painted
 from cadgraph.environment.plant import Assembly, Device, Plant
 from cadgraph.environment.site import Placed, Site
 from cadgraph.environment.standard import PIPES
 from cadgraph.environment.structure import CASTER_HEIGHT, CHANNEL_WIDTH, DECK_HEIGHT, DECK_INSET, caster, deck, post
-from cadgraph.environment.valve import VALVES, valve_length
+from cadgraph.environment.valve import valve_length
 
 __all__ = ["make_skid"]
 
@@ -42,10 +44,11 @@ def make_skid(seed: int = 0, hand: Hand | None = None) -> Plant:
     """
     style = hand or HANDS["plant-design"]
     rng = np.random.default_rng([seed, 1])
+    style, make = painted(style, rng, seed), draw_make(rng) if seed else Make()
     site = Site("skid")
     posts = _frame(site, style, rng)
     for level in range(len(_LEVELS)):
-        placed = site.lay(_run(level, style, rng), style)
+        placed = site.lay(_run(level, style, make, rng), style)
         _hang(site, placed, style, posts)
     return site.plant("skid", seed, style)
 
@@ -85,9 +88,9 @@ def _route(level: int, dn: int) -> Route:
     return Route(np.array(points))
 
 
-def _run(level: int, hand: Hand, rng: np.random.Generator) -> Run:
+def _run(level: int, hand: Hand, make: Make, rng: np.random.Generator) -> Run:
     """A line with two valves and two gauges in each of its two rows."""
-    dn = (50, 40, 50)[level] if rng.random() < 0.7 else int(rng.choice([40, 50]))
+    dn = (50, 40, 50)[level] if rng.random() < 0.7 else int(rng.choice([40, 50, 65]))
     route = _route(level, dn)
     tag = f"L{level + 1}"
     first_x = [
@@ -100,18 +103,20 @@ def _run(level: int, hand: Hand, rng: np.random.Generator) -> Run:
     inline: list[Inline] = []
     taps: list[Tap] = []
     for row, (origin, sign) in enumerate(((front, 1.0), (back, -1.0))):
-        items, instruments = _row_items(dn, hand, rng, 100 * (level + 1) + 10 * row)
+        items, instruments = _row_items(dn, hand, make, rng, 100 * (level + 1) + 10 * row)
         inline += [Inline(origin + sign * (x - _LEFT), build, unit) for x, build, unit in items]
         taps += [Tap(origin + sign * (x - _LEFT), build, unit) for x, build, unit in instruments]
     ends = (("open", "flange"), ("flange", "flange"), ("flange", "open"))[level]
-    return Run(tag, dn, route, tuple(inline), tuple(taps), bent=level != 1, ends=ends)
+    return Run(tag, dn, route, tuple(inline), tuple(taps), bent=level != 1, bend=2.0 if dn > 50 else 2.5, ends=ends)
 
 
 _Item = tuple[float, "Callable[[Hand], Device] | None", str]
 _Instrument = tuple[float, Callable[[Hand], Assembly], str]
 
 
-def _row_items(dn: int, hand: Hand, rng: np.random.Generator, number: int) -> tuple[list[_Item], list[_Instrument]]:
+def _row_items(
+    dn: int, hand: Hand, make: Make, rng: np.random.Generator, number: int
+) -> tuple[list[_Item], list[_Instrument]]:
     """The devices of one row by their place along x [m]: joint, two valves in either order; gauge at each end."""
     neck = flange_length(dn, hand) + GASKET
     kinds = ["ball", "globe"] if rng.random() < 0.5 else ["globe", "ball"]
@@ -125,7 +130,8 @@ def _row_items(dn: int, hand: Hand, rng: np.random.Generator, number: int) -> tu
     items: list[_Item] = [(joint, None, "")]
     for x, kind, tag in zip((first, second), kinds, (number + 1, number + 2), strict=True):
         unit = f"V-{tag}"
-        items.append((float(x), _valve(kind, unit, dn, rng), unit))
+        turn = float(rng.choice([0.0, np.pi])) if kind == "ball" else float(rng.uniform(0, 2 * np.pi))
+        items.append((float(x), valve_at(0.0, kind, unit, dn, make=make, turn=turn).build, unit))
     instruments: list[_Instrument] = []
     for x, tag in ((-0.82, number + 1), (0.775, number + 2)):
         unit = f"G-{tag}"
@@ -135,12 +141,6 @@ def _row_items(dn: int, hand: Hand, rng: np.random.Generator, number: int) -> tu
         )
         instruments.append((x + float(rng.uniform(-0.02, 0.01)), build, unit))
     return items, instruments
-
-
-def _valve(kind: str, unit: str, dn: int, rng: np.random.Generator) -> Callable[[Hand], Device]:
-    turn = float(rng.choice([0.0, np.pi])) if kind == "ball" else float(rng.uniform(0, 2 * np.pi))
-    options = {"turn": turn} if kind == "ball" else {"turn": turn, "spokes": int(rng.integers(3, 6))}
-    return lambda hand: VALVES[kind](unit, dn, hand, **options)
 
 
 def _gauge(hand: Hand, unit: str, size: int, turn: float, needle: float) -> Assembly:

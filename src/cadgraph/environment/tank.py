@@ -11,6 +11,7 @@ from cadgraph.environment.frame import at
 from cadgraph.environment.gauge import pressure_gauge, side_gauge
 from cadgraph.environment.hand import HANDS, Hand
 from cadgraph.environment.layout import Inline, Route, Run, Tap
+from cadgraph.environment.make import Make, draw_make, painted
 from cadgraph.environment.piping import tee
 from cadgraph.environment.plant import Assembly, Device, Plant
 from cadgraph.environment.site import Placed, Site
@@ -34,6 +35,7 @@ def make_tank(seed: int = 0, hand: Hand | None = None) -> Plant:
     """
     style = hand or HANDS["plant-design"]
     rng = np.random.default_rng([seed, 3])
+    style, make = painted(style, rng, seed), draw_make(rng) if seed else Make()
     site = Site("tank")
     main = int(rng.choice([100, 150, 150]))
     vent = int(rng.choice([40, 50, 50]))
@@ -50,11 +52,11 @@ def make_tank(seed: int = 0, hand: Hand | None = None) -> Plant:
     vessel = tank("T-1", style, radius, height, 0.35, nozzles)
     first = site.add(vessel.assembly)
     level = vessel.top + float(rng.uniform(1.5, 1.8))
-    overhead = _overhead(site, style, vessel, first, main, level, rng)
-    second = _vents(site, style, vessel, first, vent, level - 0.42, rng)
+    overhead = _overhead(site, style, vessel, first, main, level, make, rng)
+    second = _vents(site, style, vessel, first, vent, level - 0.42, make, rng)
     _portal(site, style, overhead, second)
     for number, side in enumerate((-1, 1)):
-        _drain(site, style, vessel, first, number, side, radius, rng)
+        _drain(site, style, vessel, first, number, side, radius, make, rng)
     return site.plant("tank", seed, style)
 
 
@@ -64,7 +66,7 @@ def _ends(vessel: Tank, first: int, nozzle: int) -> tuple[Floats, list[int]]:
 
 
 def _overhead(
-    site: Site, hand: Hand, vessel: Tank, first: int, dn: int, level: float, rng: np.random.Generator
+    site: Site, hand: Hand, vessel: Tank, first: int, dn: int, level: float, make: Make, rng: np.random.Generator
 ) -> Placed:
     """From the top nozzle up, over to the portal, and round into a gate valve with a lid behind it."""
     start, touching = _ends(vessel, first, 0)
@@ -76,7 +78,7 @@ def _overhead(
         Inline(float(s[1]) - 0.55),
         Inline(float(s[1]) + 0.62),
         Inline(float(s[2]) - 0.75),
-        Inline(float(s[2]) + 1.05, partial(_valve, kind="gate", unit="V-1", dn=dn), "V-1", np.pi / 2),
+        Inline(float(s[2]) + 1.05, partial(_valve, kind="gate", unit="V-1", dn=dn, make=make), "V-1", np.pi / 2),
     ]
     taps = [
         Tap(0.45 + float(rng.uniform(0, 0.1)), partial(_side, unit="G-1"), "G-1", np.pi / 2),
@@ -96,7 +98,9 @@ def _overhead(
     return site.lay(run, hand, touching)
 
 
-def _vents(site: Site, hand: Hand, vessel: Tank, first: int, dn: int, level: float, rng: np.random.Generator) -> Placed:
+def _vents(
+    site: Site, hand: Hand, vessel: Tank, first: int, dn: int, level: float, make: Make, rng: np.random.Generator
+) -> Placed:
     """Two lines from the top that meet in a tee and go to the portal."""
     start, touching = _ends(vessel, first, 1)
     other, touching_other = _ends(vessel, first, 2)
@@ -105,7 +109,7 @@ def _vents(site: Site, hand: Hand, vessel: Tank, first: int, dn: int, level: flo
     s = route.starts
     meet = float(s[1] + other[0] - start[0])
     inline = [
-        Inline(0.5 * float(s[1]) - 0.02, partial(_valve, kind="ball", unit="V-2", dn=dn), "V-2", np.pi),
+        Inline(0.5 * float(s[1]) - 0.02, partial(_valve, kind="ball", unit="V-2", dn=dn, make=make), "V-2", np.pi),
         Inline(meet, partial(_tee, dn=dn), roll=np.pi, welded=True, junction="J-1"),
         Inline(meet + 0.85),
     ]
@@ -159,6 +163,7 @@ def _drain(
     number: int,
     side: int,
     radius: float,
+    make: Make,
     rng: np.random.Generator,
 ) -> None:
     """A small line from the bottom of the shell, round the tank and along the ground on short posts."""
@@ -178,7 +183,7 @@ def _drain(
     s = route.starts
     unit, gauge = f"V-{3 + number}", f"G-{4 + number}"
     inline = [
-        Inline(0.38, partial(_valve, kind="ball", unit=unit, dn=dn), unit),
+        Inline(0.38, partial(_valve, kind="ball", unit=unit, dn=dn, make=make), unit),
         Inline(float(s[2]) + float(rng.uniform(0.42, 0.50)) * float(s[3] - s[2])),
     ]
     taps = [Tap(float(s[2]) + 0.9, partial(_gauge, unit=gauge), gauge)]
@@ -202,8 +207,8 @@ def _drain(
         site.support(placed, at_s, base + 2, hand)
 
 
-def _valve(hand: Hand, kind: str, unit: str, dn: int) -> Device:
-    return VALVES[kind](unit, dn, hand)
+def _valve(hand: Hand, kind: str, unit: str, dn: int, make: Make) -> Device:
+    return VALVES[kind](unit, dn, hand, **make.options(kind))
 
 
 def _tee(hand: Hand, dn: int) -> Device:

@@ -39,13 +39,15 @@ def valve_length(kind: str, dn: int) -> float:
 
 
 @cache
-def _ball_solids(dn: int, hand: Hand) -> tuple[Solid, Solid, Solid, Solid, float]:
+def _ball_solids(dn: int, hand: Hand, build: str, straight: bool) -> tuple[Solid, Solid, Solid, Solid, float]:
     """Body, end piece, stem with gland, lever (about its foot); and the height of the lever's underside."""
     size, radius, length = FLANGES[dn], PIPES[dn].radius, valve_length("ball", dn)
     thick, bore = plate_thickness(dn), bore_of(dn, hand)
     sides = hand.round(size.outer / 2)
     neck, barrel = 0.5 * size.hub * 0.98, min(1.55 * radius + 0.006, 0.44 * size.outer)
     split, rim, web = 0.62 * length, min(barrel + 0.011, 0.485 * size.outer), 0.08 * length
+    if build == "barrel":
+        rim, web = barrel * 0.93, 0.03 * length
     center = 0.40 * length
     boss = min(0.36 * radius + 0.006, 0.16 * length)
     top = barrel + 0.35 * radius + 0.006
@@ -69,19 +71,30 @@ def _ball_solids(dn: int, hand: Hand) -> tuple[Solid, Solid, Solid, Solid, float
             (top + 0.3 * lift, top + lift, circle(shank, 12)),
         ]
     )
-    lever = lever_solid(0.10 + 2.6 * radius, 0.010 + 0.30 * radius, 0.006)
+    lever = lever_solid(0.10 + 2.6 * radius, 0.010 + 0.30 * radius, 0.006, straight)
     return about_x(weld(body)), about_x(weld(end)), stem, lever, top + lift
 
 
-def ball_valve(unit: str, dn: int, hand: Hand, turn: float = 0.0) -> Device:
-    """A two-piece flanged ball valve with a lever; ``turn`` of the lever about the stem, 0 open [rad]."""
-    body, end, stem, lever, height = _ball_solids(dn, hand)
+def ball_valve(
+    unit: str, dn: int, hand: Hand, turn: float = 0.0, lever: str = "cranked", build: str = "two-piece"
+) -> Device:
+    """A flanged ball valve with a lever.
+
+    Args:
+        unit: its id.
+        dn: nominal size.
+        hand: that models it.
+        turn: of the lever about the stem [rad]; 0 is open.
+        lever: its style, see ``Make``.
+        build: of the body, see ``Make``.
+    """
+    body, end, stem, arm, height = _ball_solids(dn, hand, build, lever == "straight")
     stand = at(0.40 * valve_length("ball", dn))
     pose = stand @ at(0, 0, height)
     pieces: list[Piece] = [
         (body, IDENTITY, "valve body", "valve"),
         (stem, stand, "valve stem", "trim"),
-        (lever, pose @ spun("z", turn), "lever", "handle"),
+        (arm, pose @ spun("z", turn), "lever", "handle"),
         (end, IDENTITY, "valve body", "valve"),
     ]
     return assemble(pieces, "ball valve", unit, hand, ((0, 1), (1, 2), (0, 3)), 3, valve_length("ball", dn))
@@ -91,7 +104,7 @@ def ball_valve(unit: str, dn: int, hand: Hand, turn: float = 0.0) -> Device:
 
 
 @cache
-def _globe_solids(dn: int, hand: Hand, spokes: int) -> tuple[Solid, Topworks]:
+def _globe_solids(dn: int, hand: Hand, spokes: int, style: str, build: str) -> tuple[Solid, Topworks]:
     """Body, and what stands on it."""
     size, radius, length = FLANGES[dn], PIPES[dn].radius, valve_length("globe", dn)
     thick, bore = plate_thickness(dn), bore_of(dn, hand)
@@ -102,7 +115,8 @@ def _globe_solids(dn: int, hand: Hand, spokes: int) -> tuple[Solid, Topworks]:
     reach = 0.86 * half if bulge < nut_circle(dn) else length / 2 - thick - nut_room(dn)
     swell = [(neck, thick), (neck, length / 2 - 1.05 * reach)]
     for share in np.linspace(-0.85, 0.85, 11):
-        swell.append((neck + (bulge - neck) * (1 - share**2) ** 0.5, length / 2 + share * reach))
+        full = (1 - share**2) ** 0.5 if build == "sphere" else min(1.0, 4.0 * (1 - abs(share)))
+        swell.append((neck + (bulge - neck) * full, length / 2 + share * reach))
     swell += [(neck, length / 2 + 1.05 * reach), (neck, length - thick)]
     throat = 0.80 * bulge
     collar = throat + min(0.016, max(0.006, length / 2 - thick - nut_room(dn) - throat))
@@ -114,13 +128,31 @@ def _globe_solids(dn: int, hand: Hand, spokes: int) -> tuple[Solid, Topworks]:
     body = [head, flipped(head, length), middle]
     if bore:
         body.append(revolve([(bore, length), (bore, 0.0)], sides))
-    top = topworks(seat, collar, plate, radius, hand, spokes, min(0.050 + 1.45 * radius, 0.30))
+    top = topworks(seat, collar, plate, radius, hand, spokes, min(0.050 + 1.45 * radius, 0.30), style=style)
     return about_x(weld(body)), top
 
 
-def globe_valve(unit: str, dn: int, hand: Hand, spokes: int = 5, turn: float = 0.0) -> Device:
-    """A flanged globe valve with bolted bonnet, outside yoke and handwheel; ``turn`` of the wheel [rad]."""
-    body, top = _globe_solids(dn, hand, spokes)
+def globe_valve(
+    unit: str,
+    dn: int,
+    hand: Hand,
+    spokes: int = 5,
+    turn: float = 0.0,
+    wheel: str = "round",
+    build: str = "sphere",
+) -> Device:
+    """A flanged globe valve with bolted bonnet, outside yoke and handwheel.
+
+    Args:
+        unit: its id.
+        dn: nominal size.
+        hand: that models it.
+        spokes: of the wheel.
+        turn: of the wheel [rad].
+        wheel: its style, see ``Make``.
+        build: of the body, see ``Make``.
+    """
+    body, top = _globe_solids(dn, hand, spokes, wheel, build)
     length = valve_length("globe", dn)
     pieces: list[Piece] = [(body, IDENTITY, "valve body", "valve"), *top.pieces(at(length / 2), turn)]
     return assemble(pieces, "globe valve", unit, hand, Topworks.contacts, 0, length)

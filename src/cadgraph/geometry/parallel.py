@@ -13,12 +13,14 @@ from typing import Any, TypeVar
 
 import numba
 import numpy as np
+from numpy.typing import NDArray
 
 from cadgraph.scene import Ints
 
-__all__ = ["compiled", "for_ranges", "inlined"]
+__all__ = ["compiled", "for_ranges", "inlined", "readable"]
 
 _F = TypeVar("_F", bound=Callable[..., Any])
+_T = TypeVar("_T", bound=np.generic)
 
 # More ranges than threads, so that a thread that drew light ones takes another.
 _RANGES_PER_WORKER = 8
@@ -52,6 +54,17 @@ def _compile(function: _F, inline: str) -> _F:
         index._source_stamp = _stamp(function.__module__)
     compiled_function: _F = kernel
     return compiled_function
+
+
+def readable(values: NDArray[Any], dtype: type[_T]) -> NDArray[_T]:
+    """A contiguous array of a type that can't be written to, of the same values: a view where possible.
+
+    To the compiler an array that can be written to is another type than one that can't, and a kernel is compiled for
+    each that it meets; so inputs go to kernels as arrays of one kind.
+    """
+    array = np.ascontiguousarray(values, dtype).view()
+    array.setflags(write=False)
+    return array
 
 
 @cache

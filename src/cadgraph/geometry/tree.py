@@ -24,7 +24,7 @@ __all__ = ["LEAF", "Forest", "build_forest", "first_face", "radix_sort", "spread
 LEAF = 4
 """Faces in a leaf."""
 
-_ASKEW = 0.25
+_ASKEW = 0.6
 # A mesh gets boxes along its own axes if that shrinks the surface of its box at least to this share.
 
 _SAMPLES = 256  # vertices looked at to find a mesh's own axes

@@ -29,7 +29,7 @@ from cadgraph.load.packing import Notes, Piece, pack
 from cadgraph.load.usd_color import Materials, mean_display_color
 from cadgraph.load.usd_mesh import CutMesh, RawMesh, cut_meshes
 from cadgraph.load.usd_walk import Placement, Walk, message_of
-from cadgraph.scene import Floats, Ints, Scene, Source
+from cadgraph.scene import Faces, Floats, Ints, Scene, Source
 
 if TYPE_CHECKING:
     from cadgraph.config import LoadConfig
@@ -132,7 +132,7 @@ def _pieces(
     notes: Notes,
 ) -> Iterator[Piece]:
     bound = _bound_colors(placements, meshes, materials)
-    shared: dict[tuple[str, str | None], tuple[Floats, npt.NDArray[np.int32]]] = {}
+    shared: dict[tuple[str, str | None], tuple[npt.NDArray[np.floating], Faces]] = {}
     for placement in placements:
         raw, cut = meshes[str(placement.geometry)]
         for code, message in cut.faults:
@@ -144,32 +144,37 @@ def _pieces(
             notes.add("control-cage", "subdivision surfaces are loaded as their control cage", placement.path)
         if raw.subsets and _overlap(raw):
             notes.add("overlapping-subsets", "faces in several material subsets go to the first one", placement.path)
-        of_triangle = _subset_of_triangle(raw, cut)
-        own = bound.get(_key(placement, None))
-        of_subset = [bound.get(_key(placement, name)) for name, _ in raw.subsets]
-        parts: list[tuple[str | None, Ints]] = [(None, np.arange(len(cut.corners)))]
-        if split and raw.subsets:
-            parts = [(None, np.flatnonzero(of_triangle < 0))]
-            parts += [(name, np.flatnonzero(of_triangle == i)) for i, (name, _) in enumerate(raw.subsets)]
-        for i, (name, triangles) in enumerate(parts):
-            if not len(triangles):
-                continue
-            if name is not None and of_subset[i - 1] is not None:
-                color = of_subset[i - 1]
-            else:
-                color = own if own is not None else _display_color(placement, raw, cut, triangles)
-                if not split and raw.subsets:
-                    color = _mixed(color, of_subset, of_triangle, cut)
+        for name, triangles, color in _parts(placement, raw, cut, bound, split):
             key = (str(placement.geometry), name)
             if key not in shared:
-                shared[key] = _compact(cut.points, cut.corners[triangles])
+                shared[key] = _compact(cut, triangles)
             points, faces = shared[key]
             path = placement.path if name is None else f"{placement.path}/{name}"
             yield Piece(path, points, faces, placement.matrix, color, placement.anchor)
 
 
-def _key(placement: Placement, subset: str | None) -> tuple[str, str | None]:
-    return str(placement.prim.GetPath()), subset
+def _parts(
+    placement: Placement, raw: RawMesh, cut: CutMesh, bound: dict[tuple[str, str | None], Color | None], split: bool
+) -> Iterator[tuple[str | None, Ints | None, Color | None]]:
+    """The subset (None: no subset), the triangles (None: all) and the colour of each mesh that a placement becomes."""
+    own = bound.get((placement.own_path, None))
+    if not raw.subsets:
+        yield None, None, own if own is not None else _display_color(placement, raw, cut, None)
+        return
+    of_triangle = _subset_of_triangle(raw, cut)
+    of_subset = [bound.get((placement.own_path, name)) for name, _ in raw.subsets]
+    if not split:
+        color = own if own is not None else _display_color(placement, raw, cut, None)
+        yield None, None, _mixed(color, of_subset, of_triangle, cut)
+        return
+    for i, name in enumerate([None, *(name for name, _ in raw.subsets)], start=-1):
+        triangles = np.flatnonzero(of_triangle == i)
+        if not len(triangles):
+            continue
+        color = own if i < 0 else of_subset[i]
+        if color is None:
+            color = own if own is not None else _display_color(placement, raw, cut, triangles)
+        yield name, triangles, color
 
 
 def _bound_colors(
@@ -178,16 +183,15 @@ def _bound_colors(
     """The material colour of each mesh and of each of its subsets."""
     if materials is None:
         return {}
-    prims: dict[tuple[str, str | None], tuple[Any, str | None]] = {}
+    prims: dict[tuple[str, str | None], tuple[Any, Sequence[Any]]] = {}
     for placement in placements:
-        if _key(placement, None) in prims:
+        own = placement.own_path
+        if (own, None) in prims:
             continue
-        prims[_key(placement, None)] = placement.prim, placement.binding
+        prims[own, None] = placement.prim, placement.binding
         for name, _ in meshes[str(placement.geometry)][0].subsets:
             child = placement.prim.GetChild(name)
-            direct = child.GetRelationship("material:binding")
-            targets = direct.GetForwardedTargets() if direct else []
-            prims[_key(placement, name)] = child, str(targets[0]) if targets else placement.binding
+            prims[own, name] = child, (child, *placement.binding)
     colors = materials.bound_colors([p for p, _ in prims.values()], [b for _, b in prims.values()])
     return dict(zip(prims, colors, strict=True))
 
@@ -207,14 +211,15 @@ def _overlap(raw: RawMesh) -> bool:
     return len(set(claimed)) < len(claimed)
 
 
-def _display_color(placement: Placement, raw: RawMesh, cut: CutMesh, triangles: Ints) -> Color | None:
+def _display_color(placement: Placement, raw: RawMesh, cut: CutMesh, triangles: Ints | None) -> Color | None:
     if not isinstance(placement.color, tuple):
         return placement.color
     if len(raw.counts) and raw.counts.min() < 0:
         return None
     values, interpolation = placement.color
-    areas = _areas(cut)[triangles]
-    return mean_display_color(values, interpolation, raw.counts, cut.corners[triangles], cut.polygon[triangles], areas)
+    which = slice(None) if triangles is None else triangles
+    areas = _areas(cut)[which]
+    return mean_display_color(values, interpolation, raw.counts, cut.corners[which], cut.polygon[which], areas)
 
 
 def _mixed(own: Color | None, of_subset: Sequence[Color | None], of_triangle: Ints, cut: CutMesh) -> Color | None:
@@ -231,18 +236,19 @@ def _mixed(own: Color | None, of_subset: Sequence[Color | None], of_triangle: In
 
 
 def _areas(cut: CutMesh) -> Floats:
-    a, b, c = (cut.points[cut.corners[:, i]] for i in range(3))
+    a, b, c = (cut.points[cut.corners[:, i]].astype(np.float64) for i in range(3))
     areas: Floats = np.linalg.norm(np.cross(b - a, c - a), axis=1)
     return areas
 
 
-def _compact(points: Floats, corners: Ints) -> tuple[Floats, npt.NDArray[np.int32]]:
-    """Only the points that are used, in their order."""
-    used = np.zeros(len(points), bool)
+def _compact(cut: CutMesh, triangles: Ints | None) -> tuple[npt.NDArray[np.floating], Faces]:
+    """These triangles (None: all) with only the points that they use, in their order."""
+    if triangles is None and cut.dense:
+        return cut.points, cut.corners.astype(np.int32, copy=False)
+    corners = cut.corners if triangles is None else cut.corners[triangles]
+    used = np.zeros(len(cut.points), bool)
     used[corners] = True
-    if used.all():
-        return points, corners.astype(np.int32)
-    return points[used], (np.cumsum(used) - 1)[corners].astype(np.int32)
+    return cut.points[used], (np.cumsum(used, dtype=np.int32) - 1)[corners]
 
 
 _MISSING_LAYER = re.compile(r"Could not load sublayer @(?P<asset>[^@]*)@")

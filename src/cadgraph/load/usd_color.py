@@ -38,18 +38,18 @@ class Materials:
         self._stage = stage
         self._colors: dict[str, Color | None] = {}
 
-    def bound_colors(self, prims: Sequence[Any], inherited: Sequence[str | None]) -> list[Color | None]:
+    def bound_colors(self, prims: Sequence[Any], binding: Sequence[Sequence[Any]]) -> list[Color | None]:
         """The base colour bound to each prim, or None.
 
         Args:
             prims: meshes and subsets.
-            inherited: for each the path of the material that plain bindings on it or above it name. It counts where
-                USD itself finds no binding: older exporters don't apply ``MaterialBindingAPI``.
+            binding: for each the prims that bind a material plainly, itself or the nearest above it first. They
+                count where USD itself finds no binding: older exporters don't apply ``MaterialBindingAPI``.
         """
         if not prims:
             return []
         bound, _ = UsdShade.MaterialBindingAPI.ComputeBoundMaterials(list(prims), UsdShade.Tokens.full)
-        paths = [str(m.GetPath()) if m else plain for m, plain in zip(bound, inherited, strict=True)]
+        paths = [str(m.GetPath()) if m else _plain_target(plain) for m, plain in zip(bound, binding, strict=True)]
         return [self._color(path) if path else None for path in paths]
 
     def _color(self, path: str) -> Color | None:
@@ -58,6 +58,16 @@ class Materials:
             material = UsdShade.Material(prim) if prim else None
             self._colors[path] = _base_color(material) if material else None
         return self._colors[path]
+
+
+def _plain_target(binding: Sequence[Any]) -> str | None:
+    for prim in binding:
+        for name in ("material:binding:full", "material:binding"):
+            relationship = prim.GetRelationship(name)
+            targets = relationship.GetForwardedTargets() if relationship else []
+            if targets:
+                return str(targets[0])
+    return None
 
 
 def _base_color(material: Any) -> Color | None:

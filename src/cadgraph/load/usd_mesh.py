@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from cadgraph.load.polygons import triangulate
-from cadgraph.scene import Floats, Ints
+from cadgraph.load.polygons import Indices, triangulate
+from cadgraph.scene import Ints
 
 __all__ = ["CutMesh", "RawMesh", "cut_meshes"]
 
-_BATCH_CORNERS = 4_000_000  # polygon corners cut at once: bounds the memory for temporary arrays to about 1 GB
+_BATCH_CORNERS = 500_000  # polygon corners and points cut at once: temporary arrays stay in the processor's cache
 
 _NO_INTS: Ints = np.zeros(0, np.int64)
 
@@ -24,7 +25,7 @@ class RawMesh:
 
     Args:
         points: ``(n, 3)``.
-        counts: corners of each polygon.
+        counts: corners of each polygon, like all these integers of 32 or 64 bits.
         indices: the point of each corner.
         left_handed: polygons run clockwise seen from outside.
         holes: polygons that are holes.
@@ -33,12 +34,12 @@ class RawMesh:
     """
 
     points: npt.NDArray[np.floating]
-    counts: Ints
-    indices: Ints
+    counts: Indices
+    indices: Indices
     left_handed: bool = False
-    holes: Ints = field(default_factory=lambda: _NO_INTS)
+    holes: Indices = field(default_factory=lambda: _NO_INTS)
     subdivided: bool = False
-    subsets: tuple[tuple[str, Ints], ...] = ()
+    subsets: tuple[tuple[str, Indices], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -46,24 +47,63 @@ class CutMesh:
     """A mesh as triangles.
 
     Args:
-        points: ``(n, 3)`` float64, as in the file.
+        points: ``(n, 3)``, as in the file.
         corners: ``(m, 3)`` point indices, counter-clockwise seen from outside, in range, their points finite.
         polygon: ``(m,)`` the polygon that each triangle comes from.
         faults: code and message of each thing that was repaired.
+        dense: every point is surely used.
     """
 
-    points: Floats
-    corners: Ints
-    polygon: Ints
-    faults: tuple[tuple[str, str], ...]
+    points: npt.NDArray[np.floating]
+    corners: Indices
+    polygon: Indices
+    faults: tuple[tuple[str, str], ...] = ()
+    dense: bool = False
 
 
 def cut_meshes(meshes: Sequence[RawMesh]) -> list[CutMesh]:
     """Cuts meshes into triangles and drops the polygons that can't be used."""
     cut: list[CutMesh] = []
     for batch in _batches(meshes):
-        cut.extend(_cut_batch(batch))
+        plain = _plain_triangles(batch)
+        others = iter(_cut_batch([mesh for i, mesh in enumerate(batch) if i not in plain]))
+        cut.extend(plain[i] if i in plain else next(others) for i in range(len(batch)))
     return cut
+
+
+def _plain_triangles(meshes: Sequence[RawMesh]) -> dict[int, CutMesh]:
+    """Those meshes, by number, that are sound triangles as they stand: most of what CAD converters write."""
+    which = [
+        i
+        for i, mesh in enumerate(meshes)
+        if 0 < len(mesh.indices) == 3 * len(mesh.counts) and len(mesh.points) and not len(mesh.holes)
+    ]
+    if not which:
+        return {}
+    n_points = np.array([len(meshes[i].points) for i in which], np.int64)
+    n_faces = np.array([len(meshes[i].counts) for i in which], np.int64)
+    first_point, first_face = _starts(n_points), _starts(n_faces)
+    corners = np.concatenate([meshes[i].indices for i in which])
+    a, b, c = corners.reshape(-1, 3).T
+    other = (np.concatenate([meshes[i].counts for i in which]) != 3) | (a == b) | (b == c) | (c == a)
+    with np.errstate(over="ignore", invalid="ignore"):
+        # A sum is finite only where every term is.
+        sums = np.add.reduceat(np.concatenate([meshes[i].points for i in which]).reshape(-1), 3 * first_point)
+    sound = ~np.logical_or.reduceat(other, first_face) & np.isfinite(sums)
+    sound &= np.minimum.reduceat(corners, 3 * first_face) >= 0
+    sound &= np.maximum.reduceat(corners, 3 * first_face) < n_points
+    indices = corners + np.repeat(first_point, 3 * n_faces)
+    used = np.zeros(int(n_points.sum()), bool)
+    used[indices if sound.all() else indices[np.repeat(sound, 3 * n_faces)]] = True
+    dense = np.logical_and.reduceat(used, first_point)
+    polygon = np.arange(int(n_faces.max()))
+    plain = {}
+    for k in np.flatnonzero(sound):
+        mesh = meshes[which[k]]
+        triangles = mesh.indices.reshape(-1, 3)
+        turned = triangles[:, ::-1] if mesh.left_handed else triangles
+        plain[which[k]] = CutMesh(mesh.points, turned, polygon[: len(triangles)], dense=bool(dense[k]))
+    return plain
 
 
 def _batches(meshes: Sequence[RawMesh]) -> Iterator[Sequence[RawMesh]]:
@@ -78,18 +118,20 @@ def _batches(meshes: Sequence[RawMesh]) -> Iterator[Sequence[RawMesh]]:
 
 
 def _cut_batch(meshes: Sequence[RawMesh]) -> list[CutMesh]:
+    if not meshes:
+        return []
     faults: list[dict[str, str]] = [{} for _ in meshes]
-    counts = [_fitting_counts(mesh, fault) for mesh, fault in zip(meshes, faults, strict=True)]
+    counts = _fitting_counts(meshes, faults)
     n_polygons = np.array([len(c) for c in counts], np.int64)
     n_points = np.array([len(mesh.points) for mesh in meshes], np.int64)
     first_polygon, first_point = _starts(n_polygons), _starts(n_points)
-    all_counts = np.concatenate([*counts, _NO_INTS])
-    all_points = np.concatenate([np.zeros((0, 3)), *(mesh.points for mesh in meshes)])
-    corners = [mesh.indices[: int(c.sum())] for mesh, c in zip(meshes, counts, strict=True)]
-    local = np.concatenate([*corners, _NO_INTS])
-    indices = local + np.repeat(first_point, [len(c) for c in corners])
+    all_counts = np.concatenate(counts)
+    all_points = np.concatenate([mesh.points for mesh in meshes])
+    n_corners = _over_each(np.add, all_counts.astype(np.int64), n_polygons, 0)
+    corners = np.concatenate([mesh.indices[:n] for mesh, n in zip(meshes, n_corners.tolist(), strict=True)])
+    indices = corners + np.repeat(first_point, n_corners)
     usable = np.ones(len(all_counts), bool)
-    for wrong, code, what in _wrong_polygons(all_counts, all_points, corners, indices, n_points):
+    for wrong, code, what in _wrong_polygons(all_counts, all_points, corners, n_corners, indices, n_points):
         usable &= ~wrong
         for i in np.unique(np.searchsorted(first_polygon, np.flatnonzero(wrong), side="right") - 1):
             faults[i][code] = what
@@ -102,23 +144,35 @@ def _cut_batch(meshes: Sequence[RawMesh]) -> list[CutMesh]:
     for i in np.unique(np.searchsorted(first_polygon, cut.twisted, side="right") - 1):
         faults[i]["twisted-faces"] = "some faces cross themselves; their triangles are a guess"
     last = np.searchsorted(cut.polygon, np.append(first_polygon, len(all_counts)))
+    n_triangles = np.diff(last)
+    used = np.zeros(len(all_points), bool)
+    used[cut.corners] = True
+    dense = _over_each(np.logical_and, used, n_points, True)
+    # Of 32 bits where the file has them so: these arrays are the largest of all.
+    corner_of_mesh = np.subtract(
+        cut.corners, np.repeat(first_point, n_triangles)[:, None], dtype=corners.dtype, casting="unsafe"
+    )
+    polygon_of_mesh = np.subtract(
+        cut.polygon, np.repeat(first_polygon, n_triangles), dtype=corners.dtype, casting="unsafe"
+    )
     result = []
     for i, mesh in enumerate(meshes):
         own = slice(last[i], last[i + 1])
-        triangles = cut.corners[own] - first_point[i]
+        triangles = corner_of_mesh[own]
         result.append(
             CutMesh(
-                points=all_points[first_point[i] : first_point[i] + n_points[i]],
+                points=mesh.points,
                 corners=triangles[:, ::-1] if mesh.left_handed else triangles,
-                polygon=cut.polygon[own] - first_polygon[i],
+                polygon=polygon_of_mesh[own],
                 faults=tuple(sorted(faults[i].items())),
+                dense=bool(dense[i]),
             )
         )
     return result
 
 
 def _wrong_polygons(
-    counts: Ints, points: Floats, corners: Sequence[Ints], indices: Ints, n_points: Ints
+    counts: Indices, points: npt.NDArray[np.floating], corners: Indices, n_corners: Ints, indices: Ints, n_points: Ints
 ) -> Iterator[tuple[npt.NDArray[np.bool_], str, str]]:
     """Masks over all polygons of a batch, with the code and message of what is wrong with those in it.
 
@@ -127,12 +181,11 @@ def _wrong_polygons(
     short = counts < 3
     if short.any():
         yield short, "invalid-face-counts", "faces with fewer than three corners were dropped"
-    outside = [bool(len(c)) and (c.min() < 0 or c.max() >= n) for c, n in zip(corners, n_points, strict=True)]
+    low = _over_each(np.minimum, corners, n_corners, 0)
+    high = _over_each(np.maximum, corners, n_corners, -1)
     beyond = np.zeros(len(indices), bool)
-    if any(outside):
-        limits = np.repeat(n_points, [len(c) for c in corners])
-        local = np.concatenate(corners)
-        beyond = (local < 0) | (local >= limits)
+    if (low < 0).any() or (high >= n_points).any():
+        beyond = (corners < 0) | (corners >= np.repeat(n_points, n_corners))
         indices[beyond] = 0
         yield _touched(beyond, counts), "invalid-indices", "faces that use points which don't exist were dropped"
     finite = np.asarray(np.isfinite(points).all(axis=1))
@@ -142,22 +195,34 @@ def _wrong_polygons(
         yield _touched(spoiled, counts), "invalid-points", "faces that use NaN or infinite points were dropped"
 
 
-def _fitting_counts(mesh: RawMesh, faults: dict[str, str]) -> Ints:
-    """The counts of the leading polygons that the indices suffice for."""
-    counts = mesh.counts
-    negative = np.flatnonzero(counts < 0)
-    if len(negative):
-        counts = counts[: negative[0]]
-    ends = np.cumsum(counts)
-    fitting = counts[: np.searchsorted(ends, len(mesh.indices), side="right")]
-    if len(fitting) < len(mesh.counts) or fitting.sum() < len(mesh.indices):
-        faults["invalid-face-counts"] = (
+def _fitting_counts(meshes: Sequence[RawMesh], faults: Sequence[dict[str, str]]) -> list[Indices]:
+    """For each mesh the counts of the leading polygons that its indices suffice for."""
+    fitting = [mesh.counts for mesh in meshes]
+    n_counts = np.array([len(counts) for counts in fitting], np.int64)
+    n_indices = np.array([len(mesh.indices) for mesh in meshes], np.int64)
+    counts = np.concatenate(fitting).astype(np.int64)
+    agree = _over_each(np.add, counts, n_counts, 0) == n_indices
+    agree &= _over_each(np.minimum, counts, n_counts, 0) >= 0
+    for i in np.flatnonzero(~agree):
+        negative = np.flatnonzero(fitting[i] < 0)
+        leading = fitting[i][: negative[0]] if len(negative) else fitting[i]
+        fitting[i] = leading[: np.searchsorted(np.cumsum(leading), n_indices[i], side="right")]
+        faults[i]["invalid-face-counts"] = (
             "face counts and indices don't agree; faces past the last whole one were dropped"
         )
     return fitting
 
 
-def _touched(bad_corner: npt.NDArray[np.bool_], counts: Ints) -> npt.NDArray[np.bool_]:
+def _over_each(ufunc: np.ufunc, values: npt.NDArray[Any], lengths: Ints, empty: int) -> npt.NDArray[Any]:
+    """A ufunc over each of the consecutive runs of these lengths; ``empty`` for a run without values."""
+    found = np.full(len(lengths), empty, values.dtype)
+    some = lengths > 0
+    if some.any():
+        found[some] = ufunc.reduceat(values, _starts(lengths)[some])
+    return found
+
+
+def _touched(bad_corner: npt.NDArray[np.bool_], counts: Indices) -> npt.NDArray[np.bool_]:
     touched = np.zeros(len(counts), bool)
     touched[np.repeat(np.arange(len(counts)), counts)[bad_corner]] = True
     return touched

@@ -92,8 +92,7 @@ class Walk:
         self._time = None if time is None else Usd.TimeCode(time)
         self._sides = sides
         self._notes = notes
-        # Asking each attribute for its samples costs as much as reading it; most files have none at all.
-        self._sampled = any(layer.ListAllTimeSamples() for layer in stage.GetUsedLayers(True))
+        self._sampled = _is_sampled(stage)
         self._kinds: dict[str, str] = {}
         self._fallbacks: dict[tuple[str, str], Any] = {}
         self._open_instancers: list[str] = []
@@ -350,6 +349,15 @@ class Walk:
             matrices[:, :3, :3] = scales[: len(positions), :, None].astype(np.float64) * matrices[:, :3, :3]
         matrices[:, 3, :3] = positions
         return matrices
+
+
+def _is_sampled(stage: Any) -> bool:
+    """Whether anything on a stage may vary over time; to ask each attribute costs as much as to read it."""
+    if any(layer.ListAllTimeSamples() for layer in stage.GetUsedLayers()):
+        return True
+    # The layers of value clips are opened only when something is read from them.
+    everywhere = [stage.TraverseAll(), *map(Usd.PrimRange.AllPrims, stage.GetPrototypes())]
+    return any(prim.HasAuthoredMetadata("clips") for prims in everywhere for prim in prims)
 
 
 def _kind_of(prim: Any, name: str) -> str:

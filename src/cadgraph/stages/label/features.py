@@ -16,12 +16,15 @@ __all__ = ["Disc", "Facts", "angles_about", "find_facts", "same_line"]
 
 N_SLICES = 24  # of a profile: the plate of a flange (a third of its length or more) still gets several
 _WELD = 1e-6  # corners closer than this are one [m]
-_MAX_STEP = np.radians(75.0)  # widest angle between corners of something round: six sides (60 degrees) are the coarsest
 _MIN_AREA = 1e-4  # smaller patches are no end faces (share of the part's area): those of a 12 m pipe DN50 have 2e-4
 # How exact round faces must be: faces this parallel share a plane (a 128-sided pipe turns by 2.8 degrees a side, a
 # 20-sided one by 18), corners at this share of the greatest radius lie on the rim, none bulges by more than this
-# share. Parts without a round face get the second chance: scans and rough remeshing move corners by a millimetre.
-_LEVELS = ((np.cos(np.radians(1.0)), 0.97, 0.02), (np.cos(np.radians(12.0)), 0.90, 0.08))
+# share, and rim corners are at most so far apart (6 sides: 60 degrees). Parts without a round face get the second
+# chance: scans and rough remeshing move corners by a millimetre; six sides could be a square there.
+_LEVELS = (
+    (np.cos(np.radians(1.0)), 0.97, 0.02, np.radians(75.0)),
+    (np.cos(np.radians(12.0)), 0.93, 0.08, np.radians(50.0)),
+)
 _MAX_PATCHES = 64  # only so many patches of a part are looked at, those of most faces first: round ones have many
 _TURNED = 0.36  # greatest tangential share of a normal on a surface of revolution; 6 sides: sin(60 degrees) / 3 = 0.29
 _SKEW = np.cos(np.radians(4.0))  # axes this parallel can be one line
@@ -183,7 +186,7 @@ def _flat_patches(triangles: Floats, normals: Floats, owner: Ints) -> tuple[Ints
     a, b = order[:-1][same] // 3, order[1:][same] // 3
     cosine = np.abs(np.einsum("ij,ij->i", normals[a], normals[b]))
     patches = np.empty((len(_LEVELS), n), np.int64)
-    for level, (least, _, _) in enumerate(_LEVELS):
+    for level, (least, _, _, _) in enumerate(_LEVELS):
         flat = cosine > least
         links = coo_array((np.ones(int(flat.sum()), np.int8), (a[flat], b[flat])), shape=(n, n))
         patches[level] = connected_components(links, directed=False)[1]
@@ -242,7 +245,7 @@ def _find_discs(shape: _Shape, middle: Floats, level: int) -> list[Disc]:
 
 def _disc(points: Floats, center: Floats, normal: Floats, area: float, level: int) -> Disc | None:
     """A disc if the outermost points lie evenly on a circle about the centre."""
-    _, least, bulge = _LEVELS[level]
+    _, least, bulge, _ = _LEVELS[level]
     apart = points - center
     height = apart @ normal
     radii = np.linalg.norm(apart - height[:, None] * normal, axis=1)
@@ -250,7 +253,7 @@ def _disc(points: Floats, center: Floats, normal: Floats, area: float, level: in
     if outer < 1e-3 or np.abs(height).max() > bulge * outer + 1e-5:
         return None
     rim = radii >= least * outer
-    sides, full = _corners(apart[rim], normal) if rim.sum() >= 5 else (0, 0.0)
+    sides, full = _corners(apart[rim], normal, level) if rim.sum() >= 5 else (0, 0.0)
     if not sides:
         return None
     solid = area >= 0.97 * full * outer**2
@@ -258,12 +261,12 @@ def _disc(points: Floats, center: Floats, normal: Floats, area: float, level: in
     return Disc(center, normal, outer, inner, sides, area)
 
 
-def _corners(points: Floats, normal: Floats) -> tuple[int, float]:
+def _corners(points: Floats, normal: Floats, level: int) -> tuple[int, float]:
     """How many corners go around, 0 where a gap is too wide; and the area of that polygon at radius 1."""
     angles = angles_about(normal, points)
     steps = np.diff(np.append(angles, angles[0] + 2 * np.pi))
     steps = steps[steps > 0.01]  # corners of several faces, and of both ends
-    if not len(steps) or steps.max() > _MAX_STEP:
+    if not len(steps) or steps.max() > _LEVELS[level][3]:
         return 0, 0.0
     return len(steps), float(np.sin(steps).sum() / 2)
 
@@ -329,7 +332,7 @@ def _about(shape: _Shape, center: Floats, axis: Floats, level: int) -> tuple[flo
     around = np.cross(axis, spoke / np.maximum(np.linalg.norm(spoke, axis=1), _THIN)[:, None])
     turned = np.abs(np.einsum("ij,ij->i", shape.normals, around)) < _TURNED
     radius = float(radii.max())
-    sides = _corners(across[radii >= _LEVELS[level][1] * radius], axis)[0]
+    sides = _corners(across[radii >= _LEVELS[level][1] * radius], axis, level)[0]
     return float(shape.areas[turned].sum() / max(shape.areas.sum(), _THIN**2)), sides, radius, along
 
 
