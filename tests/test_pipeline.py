@@ -176,7 +176,7 @@ def test_meshes_without_a_finite_vertex_are_named_in_diagnostics(method):
     assert graph.parts()[0].volume == pytest.approx(1.0)
     found = {f.code: set(f.meshes) for f in graph.diagnostics}
     assert found["empty-mesh"] == {"/nothing", "/infinite"}
-    assert found["non-finite-vertices"] == {"/infinite", "/box"}
+    assert found["nonfinite-vertices"] == {"/infinite", "/box"}
 
 
 def test_a_face_that_refers_to_no_vertex_is_an_error():

@@ -18,6 +18,7 @@ __all__ = [
     "Config",
     "GroundConfig",
     "GroupConfig",
+    "InspectConfig",
     "LabelConfig",
     "LoadConfig",
     "PreprocessConfig",
@@ -64,6 +65,16 @@ class PreprocessConfig(Section):
 
     voxel: float = _setting(0.01, "edge of a voxel, to whose centre vertices move [m]", _PAPER, gt=0)
     spacing: float = _setting(0.01, "distance of the points along the sides of each face [m]", _PAPER, gt=0)
+
+
+class InspectConfig(Section):
+    """Which odd meshes are looked for; all are kept unless excluded."""
+
+    duplicates: bool = _setting(True, "look for meshes that lie in the place of another one")
+    hidden: bool = _setting(True, "look for meshes that can't be seen from anywhere outside")
+    exclude: tuple[Literal["duplicate", "hidden"], ...] = _setting(
+        (), "leave exact duplicates and never visible meshes out of the graph", "ours; the paper excluded nine by hand"
+    )
 
 
 class GroundConfig(Section):
@@ -132,6 +143,7 @@ class Config(Section):
     )
     load: LoadConfig = LoadConfig()
     preprocess: PreprocessConfig = PreprocessConfig()
+    inspect: InspectConfig = InspectConfig()
     ground: GroundConfig = GroundConfig()
     group: GroupConfig = GroupConfig()
     cluster: ClusterConfig = ClusterConfig()

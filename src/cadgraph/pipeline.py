@@ -16,6 +16,7 @@ from cadgraph.stages.bridge import cut_bridges, find_weak_bridges, tell_bridges
 from cadgraph.stages.cluster import cluster_parts
 from cadgraph.stages.ground import find_ground
 from cadgraph.stages.group import group_meshes
+from cadgraph.stages.inspect import inspect_meshes
 from cadgraph.stages.label import Labeler, apply_given, label_parts, labeler_of
 from cadgraph.stages.parts import make_parts
 from cadgraph.stages.preprocess import prepare_scene
@@ -59,7 +60,7 @@ def build(
     scene, told_scene = prepare_scene(scene)
 
     progress("measure", 0)
-    properties = measure(scene)
+    scene, properties, told_meshes = inspect_meshes(scene, measure(scene), config.inspect)
     ground, told_ground = find_ground(scene, properties, config.ground)
 
     progress("contacts", 0)
@@ -93,7 +94,7 @@ def build(
         labels=named,
         units=units,
         related=related,
-        diagnostics=(*scene.diagnostics, *told_scene, *told_ground, *told_bridges, *told_labels),
+        diagnostics=(*scene.diagnostics, *told_scene, *told_meshes, *told_ground, *told_bridges, *told_labels),
     )
     graph = assemble_graph(results, vocabulary, config.model_dump(mode="json"))
     progress("assemble", 1)

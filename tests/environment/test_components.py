@@ -8,7 +8,7 @@ from cadgraph.environment.enclosure import fence, pillar
 from cadgraph.environment.fastener import bolt, pipe_support
 from cadgraph.environment.flange import flange, flange_length, gasket
 from cadgraph.environment.gauge import pressure_gauge
-from cadgraph.environment.instrument import valve_at
+from cadgraph.environment.instrument import meter_at, strainer_at, valve_at
 from cadgraph.environment.layout import Route, Run, lay
 from cadgraph.environment.make import Make
 from cadgraph.environment.piping import cap, elbow, outlet, pipe, reducer, tee
@@ -92,14 +92,17 @@ MAKES = [
 
 @pytest.mark.parametrize("make", MAKES)
 @pytest.mark.parametrize("dn", SOME)
-def test_valves_of_every_make_touch_their_joints_and_nothing_else(make, dn):
+def test_devices_of_every_make_touch_their_joints_and_nothing_else(make, dn):
     pytest.importorskip("fcl")
     hand = HANDS["mechanical"]
     kinds = [kind for kind in VALVES if dn in FACE_TO_FACE[kind]]
     step = max(1.2, 0.012 * dn)
-    items = tuple(valve_at((i + 1) * step, kind, f"V-{i}", dn, make=make) for i, kind in enumerate(kinds))
-    route = Route(np.array([(0.0, 0.0, 0.0), ((len(kinds) + 1) * step, 0.0, 0.0)]))
-    laid = lay(Run("L", dn, route, items, ends=("blind", "flange")), hand)
+    items = [valve_at((i + 1) * step, kind, f"V-{i}", dn, make=make) for i, kind in enumerate(kinds)]
+    end = (len(kinds) + 1) * step
+    items += [valve_at(end, "ball", "V-9", dn, actuated=True), meter_at(end + step, "F-1", dn)]
+    items.append(strainer_at(end + 2 * step, dn))
+    route = Route(np.array([(0.0, 0.0, 0.0), (end + 3 * step, 0.0, 0.0)]))
+    laid = lay(Run("L", dn, route, tuple(items), ends=("blind", "flange")), hand)
     assert {tuple(sorted(pair)) for pair in laid.assembly.contacts} == set(touching(laid.assembly))
     for component in laid.assembly.components:
         assert is_closed(component.solid), component.name

@@ -284,3 +284,13 @@ def test_rigid_motion_and_face_order_change_no_invariant(name, seed, shift, orde
     np.testing.assert_allclose(found.obb_extents[1], found.obb_extents[0], rtol=1e-6, atol=1e-10)
     np.testing.assert_allclose(found.centroid[1], turn @ found.centroid[0] + shift, atol=1e-9)
     np.testing.assert_allclose(found.inertia[1], turn @ found.inertia[0] @ turn.T, atol=1e-9)
+
+
+@pytest.mark.parametrize("size", [(1, 2, 3), (3, 2, 1), (2, 1, 3), (2, 3, 1), (1, 3, 2), (3, 1, 2)])
+def test_without_boxes_the_oriented_box_is_the_upright_one(size):
+    turn = Rotation.random(random_state=1).as_matrix()
+    found = measured(shapes.moved(shapes.box(size), turn, (1, 2, 3)), boxes=False)
+    np.testing.assert_allclose(found.obb_extents[0], np.sort(np.ptp(found.aabb[0], axis=0))[::-1])
+    np.testing.assert_allclose(found.obb_center[0], found.aabb[0].mean(axis=0))
+    assert np.linalg.det(found.obb_axes[0]) == pytest.approx(1.0)
+    np.testing.assert_allclose(np.abs(found.obb_axes[0].T @ found.obb_extents[0]), np.ptp(found.aabb[0], axis=0))

@@ -13,6 +13,9 @@ from cadgraph.scene import Floats
 
 __all__ = ["Piece", "assemble", "bore_of", "flipped"]
 
+# What stays a mesh of its own where a valve is modelled as body and operator; an indicator sits on its actuator.
+_OPERATORS = ("handwheel", "lever", "actuator", "position indicator")
+
 Piece = tuple[Solid, Floats, str, str]  # solid, pose, name, colour
 
 
@@ -43,10 +46,13 @@ def assemble(
         pieces, contacts = [(whole, IDENTITY, "valve", "valve")], ()
         outlet = 0
     elif hand.valve == "few":
-        bodies = [p for p in pieces if p[2] not in ("handwheel", "lever")]
-        rest = [p for p in pieces if p[2] in ("handwheel", "lever")]
+        bodies = [p for p in pieces if p[2] not in _OPERATORS]
+        rest = [p for p in pieces if p[2] in _OPERATORS]
         whole = merge([moved(solid, pose) for solid, pose, _, _ in bodies])
-        pieces, contacts = [(whole, IDENTITY, "valve body", "valve"), *rest], ((0, 1),) if rest else ()
+        pieces, contacts = (
+            [(whole, IDENTITY, "valve body", "valve"), *rest],
+            tuple((min(k, 1), k + 1) for k in range(len(rest))),
+        )
         outlet = 0
     assembly = Assembly(
         tuple(Component(s, "Valve assembly", name, hand.color(c), pose, unit) for s, pose, name, c in pieces),

@@ -53,7 +53,7 @@ def make_field(seed: int = 0, hand: Hand | None = None) -> Plant:
     parts: list[Assembly] = []
     used: list[Hand] = []
     for k, (build, name, (x, y), turns) in enumerate(_PLACES):
-        style = hand or HANDS[("plant-design", "mechanical")[int(rng.random() < 0.55)]]
+        style = hand or HANDS[("plant-design", "mechanical")[int(rng.random() < 0.75)]]
         used.append(style)
         one = build(1000 * seed + k, style).prefixed(name)
         pose = at(x + float(rng.uniform(-0.1, 0.1)), y + float(rng.uniform(-0.1, 0.1)), 0) @ spun(

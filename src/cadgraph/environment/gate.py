@@ -15,7 +15,7 @@ from cadgraph.environment.plant import Device
 from cadgraph.environment.solid import Branch, Solid, about_x, branched, revolve, weld
 from cadgraph.environment.standard import FACE_TO_FACE, FLANGES, PIPES
 
-__all__ = ["check_valve", "gate_valve"]
+__all__ = ["check_valve", "cover_solids", "gate_valve"]
 
 
 def _swollen(dn: int, length: float, bulge: float, flat: float) -> list[tuple[float, float]]:
@@ -74,8 +74,9 @@ def gate_valve(unit: str, dn: int, hand: Hand, spokes: int = 5, turn: float = 0.
 
 
 @cache
-def _check_solids(dn: int, hand: Hand) -> tuple[Solid, Solid]:
-    radius, length = PIPES[dn].radius, FACE_TO_FACE["check"][dn]
+def cover_solids(dn: int, length: float, hand: Hand) -> tuple[Solid, Solid]:
+    """A flanged body along x with a bolted cover, and the cover about its own axis (swing checks, strainers)."""
+    radius = PIPES[dn].radius
     bulge = 1.36 * radius + 0.007
     throat = min(0.88 * bulge, 0.7 * _neck_room(dn, length) + 0.004)
     collar = throat + 0.008 + 0.14 * radius
@@ -90,8 +91,8 @@ def _check_solids(dn: int, hand: Hand) -> tuple[Solid, Solid]:
 
 def check_valve(unit: str, dn: int, hand: Hand) -> Device:
     """A flanged swing check valve with a bolted cover; it lets flow pass along +x only."""
-    body, cover = _check_solids(dn, hand)
     length = FACE_TO_FACE["check"][dn]
+    body, cover = cover_solids(dn, length, hand)
     pieces: list[Piece] = [
         (body, IDENTITY, "valve body", "valve"),
         (cover, at(length / 2), "valve bonnet", "valve"),

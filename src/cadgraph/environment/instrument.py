@@ -12,11 +12,12 @@ from cadgraph.environment.gauge import pressure_gauge, side_gauge
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.layout import Inline, Tap
 from cadgraph.environment.make import Make
+from cadgraph.environment.meter import flow_meter, strainer
 from cadgraph.environment.piping import reducer, tee
 from cadgraph.environment.plant import Assembly, Device
 from cadgraph.environment.valve import VALVES
 
-__all__ = ["gauge_tap", "reducer_at", "side_gauge_tap", "tee_at", "valve_at"]
+__all__ = ["gauge_tap", "meter_at", "reducer_at", "side_gauge_tap", "strainer_at", "tee_at", "valve_at"]
 
 _REVERSED = np.diag([-1.0, -1.0, 1.0, 1.0])
 
@@ -30,6 +31,7 @@ def valve_at(
     reverse: bool = False,
     make: Make | None = None,
     turn: float = 0.0,
+    actuated: bool = False,
 ) -> Inline:
     """A valve of a kind of ``VALVES`` with its middle at a chainage [m].
 
@@ -42,10 +44,23 @@ def valve_at(
         reverse: whether it is built against the run.
         make: what its manufacturer builds.
         turn: of its wheel or lever [rad].
+        actuated: whether a ball valve has an actuator in place of its lever.
     """
-    options = (make or Make()).options(kind, turn)
+    options = dict((make or Make()).options(kind, turn))
+    if actuated and kind == "ball":
+        options["lever"] = "actuator"
     build: Callable[[Hand], Device] = partial(_valve, kind=kind, unit=unit, dn=dn, options=options)
     return Inline(s, build, unit, roll, reverse)
+
+
+def meter_at(s: float, unit: str, dn: int) -> Inline:
+    """A flow meter with its middle at a chainage [m]."""
+    return Inline(s, partial(_meter, unit=unit, dn=dn), unit)
+
+
+def strainer_at(s: float, dn: int, roll: float = np.pi) -> Inline:
+    """A basket strainer with its middle at a chainage [m], its cover downward by default; no unit of its own."""
+    return Inline(s, partial(_strainer, dn=dn), roll=roll)
 
 
 def tee_at(s: float, junction: str, dn: int, branch: int, roll: float = 0.0) -> Inline:
@@ -83,6 +98,14 @@ def side_gauge_tap(
 
 def _valve(hand: Hand, kind: str, unit: str, dn: int, options: Mapping[str, Any]) -> Device:
     return VALVES[kind](unit, dn, hand, **options)
+
+
+def _meter(hand: Hand, unit: str, dn: int) -> Device:
+    return flow_meter(unit, dn, hand)
+
+
+def _strainer(hand: Hand, dn: int) -> Device:
+    return strainer(dn, hand)
 
 
 def _tee(hand: Hand, dn: int, branch: int) -> Device:

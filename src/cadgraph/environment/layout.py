@@ -305,7 +305,8 @@ def _set(work: _Work, item: Inline, device: Device, pose: Floats) -> tuple[int, 
     inlet, outlet_ = device.inlet, device.outlet
     if item.reverse:
         pose, inlet, outlet_ = pose @ at(device.length) @ spun("z", np.pi), outlet_, inlet
-    work.devices[item.unit or item.junction] = work.count
+    if item.unit or item.junction:
+        work.devices[item.unit or item.junction] = work.count
     work.follow(device.assembly.placed(pose), inlet, outlet_)
     return inlet, outlet_
 

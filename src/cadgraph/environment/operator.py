@@ -10,11 +10,20 @@ import numpy as np
 from cadgraph.environment.body import Piece
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
-from cadgraph.environment.polygon import circle
-from cadgraph.environment.solid import Solid, extrude, loft, merge, revolve, sweep, weld
+from cadgraph.environment.polygon import circle, rounded_rectangle
+from cadgraph.environment.solid import Solid, about_x, extrude, loft, merge, moved, revolve, stack, sweep, weld
 from cadgraph.scene import Floats
 
-__all__ = ["Topworks", "handwheel", "lever_solid", "plate_wheel", "solid_wheel", "topworks", "yoke_solid"]
+__all__ = [
+    "Topworks",
+    "actuator_solids",
+    "handwheel",
+    "lever_solid",
+    "plate_wheel",
+    "solid_wheel",
+    "topworks",
+    "yoke_solid",
+]
 
 
 @cache
@@ -202,3 +211,18 @@ def topworks(
     else:
         disc = handwheel(wheel, 0.006 + 0.03 * wheel, spokes, hub, thick, stem_radius, rim_sides)
     return Topworks(bonnet, gland, yoke, stem, disc, low)
+
+
+@cache
+def actuator_solids(radius: float) -> tuple[Solid, Solid]:
+    """A rack-and-pinion actuator (ISO 5211 mounting) sized by the pipe's radius: body along x on z = 0, indicator."""
+    half, reach = 0.028 + 0.45 * radius, 0.085 + 1.5 * radius
+    body = extrude(rounded_rectangle(1.7 * half, 2 * half, 0.35 * half, 4), -reach, reach)
+    caps = [
+        extrude(rounded_rectangle(1.6 * half, 1.9 * half, 0.4 * half, 4), a, b)
+        for a, b in ((-reach - 0.018, -reach), (reach, reach + 0.018))
+    ]
+    # The section's x becomes z: the block lies along x with its underside at the foot.
+    block = moved(about_x(merge([body, *caps])), at(0, 0, half))
+    knob = stack([(0.0, 0.008, circle(0.016, 16)), (0.008, 0.022, circle(0.011, 16))])
+    return block, moved(knob, at(0, 0, 2 * half))

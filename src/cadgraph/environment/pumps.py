@@ -7,7 +7,7 @@ import numpy as np
 from cadgraph.environment.fastener import SUPPORT_REACH
 from cadgraph.environment.frame import at
 from cadgraph.environment.hand import HANDS, Hand
-from cadgraph.environment.instrument import gauge_tap, side_gauge_tap, tee_at, valve_at
+from cadgraph.environment.instrument import gauge_tap, side_gauge_tap, strainer_at, tee_at, valve_at
 from cadgraph.environment.layout import Inline, Route, Run
 from cadgraph.environment.make import Make, draw_make, painted
 from cadgraph.environment.plant import Plant
@@ -109,13 +109,17 @@ def _suction(
     node = f"J-S{number // 10}"
     unit, gauge = f"V-{number + 1}", f"G-{number + 1}"
     kind = "gate" if rng.random() < 0.6 else "ball"
-    middle = 0.40 * route.length
+    strained = bool(rng.random() < 0.5)
+    middle = (0.21 if strained else 0.40) * route.length
+    inline = [valve_at(middle, kind, unit, sizes[1], make=make)]
+    if strained:
+        inline.append(strainer_at(0.585 * route.length, sizes[1]))
     run = Run(
         f"S{number // 10}",
         sizes[1],
         route,
-        (valve_at(middle, kind, unit, sizes[1], make=make),),
-        (gauge_tap(0.80 * route.length, gauge, rng),),
+        tuple(inline),
+        (gauge_tap((0.85 if strained else 0.80) * route.length, gauge, rng),),
         ends=("open", "joint"),
         nodes=(node, f"P-{number // 10}"),
         flow="forward",
@@ -146,8 +150,8 @@ def _discharge(
     kind = str(rng.choice(["gate", "globe"]))
     space = route.length
     inline: tuple[Inline, ...] = (
-        valve_at(0.40 * space, "check", check, dn, np.pi / 2, make=make),
-        valve_at(0.77 * space, kind, block, dn, np.pi / 2, make=make),
+        valve_at(0.40 * space, "check", check, dn, make=make),
+        valve_at(0.77 * space, kind, block, dn, make=make),
     )
     run = Run(
         f"D{number // 10}",

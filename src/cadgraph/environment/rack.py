@@ -8,7 +8,7 @@ from cadgraph.environment.electrical import cable_tray
 from cadgraph.environment.fastener import SUPPORT_REACH
 from cadgraph.environment.frame import at
 from cadgraph.environment.hand import HANDS, Hand
-from cadgraph.environment.instrument import gauge_tap, side_gauge_tap, tee_at, valve_at
+from cadgraph.environment.instrument import gauge_tap, meter_at, side_gauge_tap, tee_at, valve_at
 from cadgraph.environment.layout import Inline, Route, Run
 from cadgraph.environment.make import Make, draw_make, painted
 from cadgraph.environment.plant import Plant
@@ -112,7 +112,9 @@ def _line(
         if side and rng.random() < 0.75:
             inline.append(tee_at(middle, f"J-{number}{bay + 1}", dn, min(dn, 50), np.pi))
             branches.append((bay, middle))
-        elif rng.random() < 0.6:
+        elif rng.random() < 0.25:
+            inline.append(meter_at(middle, f"F-{number}{bay + 1}", dn))
+        elif rng.random() < 0.5:
             inline.append(Inline(middle))
         if rng.random() < 0.5 and level == 1:
             unit = f"V-{number}{bay + 1}"
@@ -154,7 +156,8 @@ def _branch(
     node, unit, gauge = f"J-{number}{bay + 1}", f"V-{number}{bay + 1}", f"G-{number}{bay + 1}"
     kind = str(rng.choice(["ball", "ball", "globe", "gate"]))
     roll = float(rng.choice([0.0, np.pi]))
-    inline = (valve_at(top - 1.25, kind, unit, dn, roll, make=make),)
+    actuated = bool(rng.random() < 0.4)
+    inline = (valve_at(top - 1.25, kind, unit, dn, roll, make=make, actuated=actuated),)
     taps = (side_gauge_tap(top - 1.75, gauge, rng, down=True, roll=roll + np.pi / 2),)
     branch = Run(f"L{number}B{bay + 1}", dn, route, inline, taps, ends=("open", "flange"), nodes=(node, ""))
     site.lay(branch, hand, [trunk.device(node)])

@@ -13,7 +13,7 @@ from cadgraph.environment.flange import face_shell, nut_circle, nut_room, plate_
 from cadgraph.environment.frame import IDENTITY, at, spun
 from cadgraph.environment.gate import check_valve, gate_valve
 from cadgraph.environment.hand import Hand
-from cadgraph.environment.operator import Topworks, lever_solid, topworks
+from cadgraph.environment.operator import Topworks, actuator_solids, lever_solid, topworks
 from cadgraph.environment.plant import Device
 from cadgraph.environment.polygon import circle
 from cadgraph.environment.solid import (
@@ -85,19 +85,24 @@ def ball_valve(
         dn: nominal size.
         hand: that models it.
         turn: of the lever about the stem [rad]; 0 is open.
-        lever: its style, see ``Make``.
+        lever: its style, see ``Make``; or ``actuator``.
         build: of the body, see ``Make``.
     """
     body, end, stem, arm, height = _ball_solids(dn, hand, build, lever == "straight")
     stand = at(0.40 * valve_length("ball", dn))
     pose = stand @ at(0, 0, height)
-    pieces: list[Piece] = [
-        (body, IDENTITY, "valve body", "valve"),
-        (stem, stand, "valve stem", "trim"),
-        (arm, pose @ spun("z", turn), "lever", "handle"),
-        (end, IDENTITY, "valve body", "valve"),
-    ]
-    return assemble(pieces, "ball valve", unit, hand, ((0, 1), (1, 2), (0, 3)), 3, valve_length("ball", dn))
+    pieces: list[Piece] = [(body, IDENTITY, "valve body", "valve"), (stem, stand, "valve stem", "trim")]
+    contacts = [(0, 1), (1, 2)]
+    if lever == "actuator":
+        block, knob = actuator_solids(PIPES[dn].radius)
+        pieces += [(block, pose, "actuator", "trim"), (knob, pose, "position indicator", "handle")]
+        contacts.append((2, 3))
+    else:
+        pieces.append((arm, pose @ spun("z", turn), "lever", "handle"))
+    outlet = len(pieces)
+    pieces.append((end, IDENTITY, "valve body", "valve"))
+    contacts.append((0, outlet))
+    return assemble(pieces, "ball valve", unit, hand, tuple(contacts), outlet, valve_length("ball", dn))
 
 
 # --- globe valves ---

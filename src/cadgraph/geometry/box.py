@@ -13,7 +13,7 @@ from math import inf, sqrt
 import numpy as np
 
 from cadgraph.geometry.order import sort_rows
-from cadgraph.geometry.parallel import compiled, inlined
+from cadgraph.geometry.parallel import compiled
 from cadgraph.parts import Bools
 from cadgraph.scene import Faces, Floats, Ints
 
@@ -118,7 +118,7 @@ def fit_boxes(
     best, box, bounds = np.empty((3, 3)), np.empty((3, 3)), np.empty((2, 3))
     for i in range(first, last):
         v0 = v_offsets[i]
-        n = 0
+        n = np.int64(0)
         ox = oy = oz = size = 0.0
         for v in range(v0, v_offsets[i + 1]):
             if not used[v]:
@@ -140,7 +140,7 @@ def fit_boxes(
         n_bins = _bin_normals(vertices, used, faces, v0, v_offsets[i + 1] - v0, f_offsets[i], f_offsets[i + 1], bins, moments)
         n_candidates = _propose_axes(bins, n_bins, moments, covariance[i], local, n, principal, values, candidates)
         best_cost = inf
-        tried = 0
+        tried = np.int64(0)
         for _ in range(_N_ROUNDS):
             before = best_cost
             while tried < n_candidates:
@@ -176,7 +176,7 @@ def _add_axis(candidates: Floats, n: int, rows: Floats, row: int) -> int:
     return n + 1
 
 
-@inlined
+@compiled
 def _propose_axes(
     bins: Floats,
     n_bins: int,
@@ -189,7 +189,7 @@ def _propose_axes(
     candidates: Floats,
 ) -> int:
     """Directions worth trying, the most exact first; returns how many."""
-    n = 0
+    n = np.int64(0)
     for _ in range(min(n_bins, _N_NORMALS)):
         most = 0
         for b in range(1, n_bins):
@@ -218,7 +218,7 @@ def _propose_axes(
     return n
 
 
-@inlined
+@compiled
 def _bin_normals(
     vertices: Floats,
     used: Bools,
@@ -291,7 +291,7 @@ def _bin_normals(
     return n_bins
 
 
-@inlined
+@compiled
 def _box_along(
     local: Floats,
     n: int,
@@ -325,7 +325,7 @@ def _box_along(
         h = px * x + py * y + pz * z
         low, high = min(low, h), max(high, h)
     n_flat = _outside_octagon(flat, n, ends) if n > 16 else n
-    sort_rows(flat, 0, n_flat, spare)
+    sort_rows(flat, np.int64(0), n_flat, spare)
     n_hull = _hull(flat, n_flat, spare, hull)
     c, s, cost = _least_rectangle(hull, n_hull, size)
     box[0, 0], box[0, 1], box[0, 2] = x, y, z
@@ -334,7 +334,7 @@ def _box_along(
     return cost * (high - low + _FLAT * size)
 
 
-@inlined
+@compiled
 def _outside_octagon(flat: Floats, n: int, ends: Floats) -> int:
     """Keeps the points that can be on the hull, those not inside the octagon of eight extreme points; how many."""
     for e in range(8):
@@ -359,10 +359,10 @@ def _outside_octagon(flat: Floats, n: int, ends: Floats) -> int:
     return m
 
 
-@inlined
+@compiled
 def _hull(flat: Floats, n: int, upper: Floats, hull: Floats) -> int:
     """The corners of the convex hull of points sorted by abscissa, counter-clockwise; returns how many."""
-    n_low = n_up = 0
+    n_low = n_up = np.int64(0)
     k = 0
     while k < n:
         # Of the points at one abscissa only the lowest and the highest count; makes the order of ties irrelevant too.
@@ -391,7 +391,7 @@ def _add_corner(chain: Floats, n: int, x: float, y: float, sign: float) -> int:
     return n + 1
 
 
-@inlined
+@compiled
 def _least_rectangle(hull: Floats, n: int, size: float) -> tuple[float, float, float]:
     """Direction (cosine, sine) and cost of the least rectangle around a convex polygon.
 
@@ -399,7 +399,7 @@ def _least_rectangle(hull: Floats, n: int, size: float) -> tuple[float, float, f
     """
     best_c, best_s, best = 1.0, 0.0, inf
     pad = _FLAT * size
-    right = top = left = -1
+    right = top = left = np.int64(-1)
     for k in range(n):
         after = k + 1 if k + 1 < n else 0
         ex, ey = hull[after, 0] - hull[k, 0], hull[after, 1] - hull[k, 1]
@@ -444,7 +444,7 @@ def _advance(hull: Floats, n: int, at: int, x: float, y: float) -> int:
     return at
 
 
-@inlined
+@compiled
 def _write_box(
     local: Floats,
     n: int,

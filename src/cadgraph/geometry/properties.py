@@ -8,7 +8,7 @@ import numpy as np
 
 from cadgraph.geometry.box import fit_boxes
 from cadgraph.geometry.key import NO_KEY, Keys, key_position, mix
-from cadgraph.geometry.parallel import compiled, for_ranges, inlined, readable
+from cadgraph.geometry.parallel import compiled, for_ranges, readable
 from cadgraph.parts import Bools, Properties
 from cadgraph.scene import Faces, Floats, Ints, Scene
 
@@ -18,7 +18,8 @@ __all__ = ["DEGENERATE_RATIO", "measure"]
 # genuine sliver of 16 m x 1 um still has 6e-8.
 DEGENERATE_RATIO = 1e-8
 
-def measure(scene: Scene, workers: int | None = None) -> Properties:
+
+def measure(scene: Scene, workers: int | None = None, boxes: bool = True) -> Properties:
     """Measures all meshes.
 
     Faces that refer to a vertex that isn't there or isn't finite are left out and counted. A mesh without area has
@@ -28,6 +29,7 @@ def measure(scene: Scene, workers: int | None = None) -> Properties:
     Args:
         scene: of any size, maybe empty.
         workers: threads; all processors by default. The outcome does not depend on it.
+        boxes: whether to fit oriented boxes, which takes most of the time; without, they are the axis-aligned ones.
 
     Returns:
         One row for each mesh.
@@ -113,7 +115,7 @@ def _sum_meshes(
         _bound(vertices, keys, v0, v1, i, used, sums[i, 0] == 0.0, centroid, aabb)
 
 
-@inlined
+@compiled
 def _key_vertices(vertices: Floats, bits: Keys, v0: int, v1: int, i: int, keys: Keys, counts: Ints) -> int:
     """Gives equal positions equal keys, 0 where not finite; returns the first finite vertex or -1."""
     anchor = -1
@@ -140,7 +142,7 @@ def _edge_key(a: np.uint64, b: np.uint64) -> np.uint64:
     return NO_KEY - mix(mix(b) ^ a)
 
 
-@inlined
+@compiled
 def _sum_faces(
     vertices: Floats,
     keys: Keys,
@@ -225,7 +227,20 @@ def _sum_faces(
     return area > 0.0 and edges == NO_KEY
 
 
-@inlined
+@compiled
+def _upright_box(aabb: Floats, center: Floats, axes: Floats, extents: Floats) -> None:
+    """An axis-aligned box as an oriented one: longest extent first."""
+    order = np.argsort(np.array([aabb[0, 0] - aabb[1, 0], aabb[0, 1] - aabb[1, 1], aabb[0, 2] - aabb[1, 2]]))
+    axes[:] = 0.0
+    for r in range(3):
+        center[r] = 0.5 * (aabb[0, r] + aabb[1, r])
+        extents[r] = aabb[1, order[r]] - aabb[0, order[r]]
+        axes[r, order[r]] = 1.0
+    if (order[1] - order[0]) % 3 == 2:
+        axes[2, order[2]] = -1.0
+
+
+@compiled
 def _bound(
     vertices: Floats,
     keys: Keys,

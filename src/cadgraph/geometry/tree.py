@@ -19,7 +19,7 @@ from cadgraph.geometry.borrow import borrow
 from cadgraph.geometry.parallel import compiled, for_ranges
 from cadgraph.scene import Faces, Floats, Ints, Scene
 
-__all__ = ["LEAF", "Forest", "build_forest", "first_face", "radix_sort", "spread_bits"]
+__all__ = ["LEAF", "Forest", "build_forest", "first_face", "first_leaf", "radix_sort", "spread_bits"]
 
 LEAF = 4
 """Faces in a leaf."""
@@ -128,16 +128,19 @@ def build_forest(scene: Scene, workers: int | None = None) -> Forest:
 
 
 @compiled
-def first_face(node: int, n_leaves: int) -> int:
-    """The position of a leaf's first face among those of its tree."""
+def first_leaf(n_leaves: int) -> int:
+    """The node of the leaf with the first faces: leaves fill the deepest level, then what is left of the one above."""
     deepest = 1
     while deepest < 2 * n_leaves:
         deepest *= 2
-    # leaves fill the deepest level from the left, the rest stand one level higher to its right
-    start = deepest // 2 - 1
-    if node >= start:
-        return LEAF * (node - start)
-    return LEAF * (node - (n_leaves - 1) + (2 * n_leaves - 1 - start))
+    return deepest // 2 - 1
+
+
+@compiled
+def first_face(node: int, n_leaves: int) -> int:
+    """The position of a leaf's first face among those of its tree."""
+    rank = node - first_leaf(n_leaves)
+    return LEAF * (rank if rank >= 0 else rank + n_leaves)
 
 
 @compiled

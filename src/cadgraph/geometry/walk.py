@@ -18,11 +18,27 @@ import numpy.typing as npt
 
 from cadgraph.geometry.borrow import borrow
 from cadgraph.geometry.parallel import compiled
-from cadgraph.geometry.tree import LEAF, first_face
+from cadgraph.geometry.tree import LEAF, first_leaf
 from cadgraph.geometry.triangle import ROW, distance2, lay_normal, prepare
 from cadgraph.scene import Faces, Floats, Ints
 
-__all__ = ["Placed", "closest"]
+__all__ = [
+    "COUNT",
+    "DEPTH",
+    "LEAVES",
+    "NODE",
+    "SIDE",
+    "UPRIGHT",
+    "Nodes",
+    "Placed",
+    "closest",
+    "lay_side",
+    "load_leaf",
+    "node_extent",
+    "node_gap2",
+    "relate",
+    "rows_gap2",
+]
 
 _OVERSIZED = 8.0  # a leaf this much larger than the node it meets is taken apart
 
@@ -36,7 +52,7 @@ _TIE = 1e-10
 # Once a pair of points is found, others must be closer by this [m] to be of interest: faces that run parallel would
 # otherwise be searched for the last bit.
 
-_DEPTH = 160  # of the stacks: two trees of at most 2**40 leaves, one waiting node a level
+DEPTH = 160  # of the stacks: two trees of at most 2**40 leaves, one waiting node a level
 
 
 Nodes = npt.NDArray[np.float32]
@@ -80,13 +96,13 @@ class Placed(NamedTuple):
 
 # Kernels pass a mesh on as two small arrays. In numbers: rotation (3 rows), what to take off the vertices before it,
 # what to add after (the centre of the boxes), box axes (3 rows). In whole numbers: first vertex, first face, faces,
-# first node, leaves, moved, upright.
-_SIDE = (8, 3)
-_V0, _F0, _COUNT, _NODE, _LEAVES, _MOVED, _UPRIGHT = range(7)
+# first node, leaves, moved, upright, first node of the deepest level.
+SIDE = (8, 3)
+_V0, _F0, COUNT, NODE, LEAVES, _MOVED, UPRIGHT, _DEEPEST = range(8)
 
 
 @compiled
-def _lay_side(meshes: Placed, mesh: int, origin: Floats, side: Floats, whole: Ints) -> None:
+def lay_side(meshes: Placed, mesh: int, origin: Floats, side: Floats, whole: Ints) -> None:
     """Writes what the kernels need of a mesh, relative to an origin."""
     tree = meshes.tree[mesh]
     for k in range(3):
@@ -98,13 +114,15 @@ def _lay_side(meshes: Placed, mesh: int, origin: Floats, side: Floats, whole: In
                 side[k, m] = meshes.rotations[mesh, k, m]
             side[5 + k, m] = meshes.axes[mesh, k, m]
     whole[_V0], whole[_F0] = meshes.vertex_offsets[tree], meshes.face_offsets[tree]
-    whole[_COUNT], whole[_NODE] = meshes.counts[tree], meshes.node_offsets[tree]
-    whole[_LEAVES] = (meshes.counts[tree] + LEAF - 1) // LEAF
-    whole[_MOVED], whole[_UPRIGHT] = meshes.moved, meshes.upright[mesh]
+    whole[COUNT], whole[NODE] = meshes.counts[tree], meshes.node_offsets[tree]
+    whole[LEAVES] = (meshes.counts[tree] + LEAF - 1) // LEAF
+    whole[_MOVED], whole[UPRIGHT] = meshes.moved, meshes.upright[mesh]
+    # the first node whose leaf holds face 0; leaves before it come last (see first_face)
+    whole[_DEEPEST] = first_leaf(whole[LEAVES])
 
 
 @compiled
-def _relate(a: Floats, b: Floats, frame: Floats) -> None:
+def relate(a: Floats, b: Floats, frame: Floats) -> None:
     """Writes the pose of the boxes of ``b`` in the axes of those of ``a``.
 
     Args:
@@ -122,7 +140,7 @@ def _relate(a: Floats, b: Floats, frame: Floats) -> None:
 
 
 @compiled
-def _gap2(nodes: Nodes, a: int, b: int, frame: Floats, upright: bool) -> float:
+def node_gap2(nodes: Nodes, a: int, b: int, frame: Floats, upright: bool) -> float:
     """A lower bound of the squared distance of two nodes; exact for upright boxes."""
     if upright:
         x = abs(frame[6, 0] + nodes[b, 0] - nodes[a, 0]) - nodes[a, 3] - nodes[b, 3]
@@ -182,10 +200,12 @@ def _middle2(nodes: Nodes, a: int, b: int, frame: Floats, upright: bool) -> floa
 
 
 @compiled
-def _load(vertices: Floats, faces: Faces, side: Floats, whole: Ints, node: int, rows: Floats) -> int:
+def load_leaf(vertices: Floats, faces: Faces, side: Floats, whole: Ints, node: int, rows: Floats) -> int:
     """Prepares the triangles of a leaf; returns how many there are."""
-    start = first_face(node, whole[_LEAVES])
-    count = min(LEAF, whole[_COUNT] - start)
+    start = LEAF * (node - whole[_DEEPEST])
+    if start < 0:
+        start += LEAF * whole[LEAVES]
+    count = min(LEAF, whole[COUNT] - start)
     f0, v0 = whole[_F0] + start, whole[_V0]
     for i in range(count):
         for corner in range(3):
@@ -203,7 +223,7 @@ def _load(vertices: Floats, faces: Faces, side: Floats, whole: Ints, node: int, 
 
 
 @compiled
-def _rows_gap2(p: Floats, i: int, q: Floats, j: int) -> float:
+def rows_gap2(p: Floats, i: int, q: Floats, j: int) -> float:
     """Squared distance of the boxes of two rows."""
     x = max(p[i, 13] - q[j, 16], q[j, 13] - p[i, 16], 0.0)
     y = max(p[i, 14] - q[j, 17], q[j, 14] - p[i, 17], 0.0)
@@ -249,7 +269,7 @@ def _leaves(p: Floats, n_p: int, q: Floats, n_q: int, bound: float, stop: float,
         return bound
     for i in range(n_p):
         for j in range(n_q):
-            if _rows_gap2(p, i, q, j) >= bound:
+            if rows_gap2(p, i, q, j) >= bound:
                 continue
             d2 = distance2(p, i, q, j, bound, spare)
             if d2 < bound:
@@ -260,7 +280,7 @@ def _leaves(p: Floats, n_p: int, q: Floats, n_q: int, bound: float, stop: float,
 
 
 @compiled
-def _lay_axes(p: Floats, i: int, side: Floats, whole: Ints, axes: Floats) -> None:
+def _lay_axes(p: Floats, i: int, side: Floats, whole: Ints, all_axes: Floats) -> None:
     """For a triangle in the box axes of a mesh: the axes that can separate it from a box, with its extent on each.
 
     Args:
@@ -268,9 +288,10 @@ def _lay_axes(p: Floats, i: int, side: Floats, whole: Ints, axes: Floats) -> Non
         i: row.
         side: the mesh.
         whole: the mesh.
-        axes: ``(11, 6)`` takes direction (3), least and greatest position (2), length (1) of the normal and of the
-            nine products of a side and a box axis; the last row the triangle's own box.
+        all_axes: ``(n, 11, 6)`` takes in its row ``i`` direction (3), least and greatest position (2) and length (1)
+            of the normal and of the nine products of a side and a box axis; the last row is the triangle's own box.
     """
+    axes = all_axes[i]
     ax, ay, az = _turned(p, i, 0, side, whole)
     bx, by, bz = _turned(p, i, 3, side, whole)
     cx, cy, cz = _turned(p, i, 6, side, whole)
@@ -305,7 +326,7 @@ def _lay_axes(p: Floats, i: int, side: Floats, whole: Ints, axes: Floats) -> Non
 def _turned(p: Floats, i: int, corner: int, side: Floats, whole: Ints) -> tuple[float, float, float]:
     """A corner of a row in the box axes of a mesh."""
     x, y, z = p[i, corner] - side[4, 0], p[i, corner + 1] - side[4, 1], p[i, corner + 2] - side[4, 2]
-    if whole[_UPRIGHT]:
+    if whole[UPRIGHT]:
         return x, y, z
     return (
         side[5, 0] * x + side[5, 1] * y + side[5, 2] * z,
@@ -336,6 +357,20 @@ def _separated(axes: Floats, nodes: Nodes, node: int, limit: float) -> bool:
 
 
 @compiled
+def _in_reach(p: Floats, n_p: int, nodes: Nodes, node: int, frame: Floats, bound: float) -> bool:
+    """Whether the box of any triangle comes within a squared distance of an upright node of the other mesh."""
+    cx, cy, cz = frame[6, 0] + nodes[node, 0], frame[6, 1] + nodes[node, 1], frame[6, 2] + nodes[node, 2]
+    hx, hy, hz = np.float64(nodes[node, 3]), np.float64(nodes[node, 4]), np.float64(nodes[node, 5])
+    for i in range(n_p):
+        x = max(p[i, 13] - cx - hx, cx - hx - p[i, 16], 0.0)
+        y = max(p[i, 14] - cy - hy, cy - hy - p[i, 17], 0.0)
+        z = max(p[i, 15] - cz - hz, cz - hz - p[i, 18], 0.0)
+        if x * x + y * y + z * z < bound:
+            return True
+    return False
+
+
+@compiled
 def _descend(
     nodes: Nodes,
     vertices: Floats,
@@ -350,7 +385,7 @@ def _descend(
     stop: float,
     found: Floats,
     spare: Floats,
-    axes: Floats,
+    all_axes: Floats,
     rows: Floats,
     stack: Ints,
 ) -> float:
@@ -358,22 +393,22 @@ def _descend(
 
     Where ``swapped``, the tree is that of the first mesh.
     """
-    _lay_axes(p, i, side, whole, axes)
+    axes = all_axes[i]
     limit = np.sqrt(bound)
     stack[0] = root
     top = 1
     while top > 0:
         top -= 1
         node = stack[top]
-        if _separated(axes, nodes, whole[_NODE] + node, limit):
+        if _separated(axes, nodes, whole[NODE] + node, limit):
             continue
-        if node < whole[_LEAVES] - 1:
+        if node < whole[LEAVES] - 1:
             stack[top], stack[top + 1] = 2 * node + 2, 2 * node + 1
             top += 2
             continue
-        count = _load(vertices, faces, side, whole, node, rows)
+        count = load_leaf(vertices, faces, side, whole, node, rows)
         for j in range(count):
-            if _rows_gap2(p, i, rows, j) >= bound:
+            if rows_gap2(p, i, rows, j) >= bound:
                 continue
             d2 = distance2(rows, j, p, i, bound, spare) if swapped else distance2(p, i, rows, j, bound, spare)
             if d2 < bound:
@@ -385,7 +420,8 @@ def _descend(
 
 
 @compiled
-def _extent(nodes: Nodes, node: int) -> float:
+def node_extent(nodes: Nodes, node: int) -> float:
+    """The greatest half extent of a node [m]."""
     return max(nodes[node, 3], nodes[node, 4], nodes[node, 5])
 
 
@@ -403,7 +439,8 @@ def _walk(
     found: Floats,
     spare: Floats,
     frame: Floats,
-    axes: Floats,
+    axes_p: Floats,
+    axes_q: Floats,
     p: Floats,
     q: Floats,
     single: Floats,
@@ -414,17 +451,18 @@ def _walk(
     """Looks for the closest points of two meshes below a squared distance; returns the last bound."""
     nodes, vertices, faces = borrow(nodes), borrow(vertices), borrow(faces)
     side_a, whole_a, side_b, whole_b = borrow(side_a), borrow(whole_a), borrow(side_b), borrow(whole_b)
-    found, spare, frame, axes = borrow(found), borrow(spare), borrow(frame), borrow(axes)
+    found, spare, frame, axes_p = borrow(found), borrow(spare), borrow(frame), borrow(axes_p)
+    axes_q = borrow(axes_q)
     p, q, single = borrow(p), borrow(q), borrow(single)
     stack, own, bounds = borrow(stack), borrow(own), borrow(bounds)
-    base_a, base_b, leaves_a, leaves_b = whole_a[_NODE], whole_b[_NODE], whole_a[_LEAVES], whole_b[_LEAVES]
-    upright = whole_a[_UPRIGHT] != 0 and whole_b[_UPRIGHT] != 0
-    _relate(side_a, side_b, frame)
-    coarse_a = _COARSE * _extent(nodes, base_a) if leaves_a >= _COARSE_LEAVES else np.inf
-    coarse_b = _COARSE * _extent(nodes, base_b) if leaves_b >= _COARSE_LEAVES else np.inf
-    loaded_a = loaded_b = -1
+    base_a, base_b, leaves_a, leaves_b = whole_a[NODE], whole_b[NODE], whole_a[LEAVES], whole_b[LEAVES]
+    upright = whole_a[UPRIGHT] != 0 and whole_b[UPRIGHT] != 0
+    relate(side_a, side_b, frame)
+    coarse_a = _COARSE * node_extent(nodes, base_a) if leaves_a >= _COARSE_LEAVES else np.inf
+    coarse_b = _COARSE * node_extent(nodes, base_b) if leaves_b >= _COARSE_LEAVES else np.inf
+    loaded_a = loaded_b = laid_a = laid_b = -1
     count_a = count_b = 0
-    stack[0], stack[1], bounds[0] = 0, 0, _gap2(nodes, base_a, base_b, frame, upright)
+    stack[0], stack[1], bounds[0] = 0, 0, node_gap2(nodes, base_a, base_b, frame, upright)
     top = 1
     while top > 0:
         top -= 1
@@ -432,31 +470,39 @@ def _walk(
             continue
         at_a, at_b = stack[2 * top], stack[2 * top + 1]
         leaf_a, leaf_b = at_a >= leaves_a - 1, at_b >= leaves_b - 1
-        size_a, size_b = _extent(nodes, base_a + at_a), _extent(nodes, base_b + at_b)
+        size_a, size_b = node_extent(nodes, base_a + at_a), node_extent(nodes, base_b + at_b)
         split_a = leaf_a and size_a > min(_OVERSIZED * size_b, coarse_a)
         split_b = leaf_b and not split_a and size_b > min(_OVERSIZED * size_a, coarse_b)
         if leaf_a and (leaf_b or split_a) and loaded_a != at_a:
-            count_a = _load(vertices, faces, side_a, whole_a, at_a, p)
+            count_a = load_leaf(vertices, faces, side_a, whole_a, at_a, p)
             loaded_a = at_a
+        if upright and leaf_a and leaf_b and not _in_reach(p, count_a, nodes, base_b + at_b, frame, bound):
+            continue
         if leaf_b and (leaf_a or split_b) and loaded_b != at_b:
-            count_b = _load(vertices, faces, side_b, whole_b, at_b, q)
+            count_b = load_leaf(vertices, faces, side_b, whole_b, at_b, q)
             loaded_b = at_b
         if split_a:
             for i in range(count_a):
+                if laid_a != at_a:
+                    _lay_axes(p, i, side_b, whole_b, axes_p)
                 bound = _descend(
                     nodes, vertices, faces, side_b, whole_b, at_b,
-                    p, i, False, bound, stop, found, spare, axes, single, own,
+                    p, i, False, bound, stop, found, spare, axes_p, single, own,
                 )  # fmt: skip
                 if bound <= 0.0:
                     return bound
+            laid_a = at_a
         elif split_b:
             for i in range(count_b):
+                if laid_b != at_b:
+                    _lay_axes(q, i, side_a, whole_a, axes_q)
                 bound = _descend(
                     nodes, vertices, faces, side_a, whole_a, at_a,
-                    q, i, True, bound, stop, found, spare, axes, single, own,
+                    q, i, True, bound, stop, found, spare, axes_q, single, own,
                 )  # fmt: skip
                 if bound <= 0.0:
                     return bound
+            laid_b = at_b
         elif leaf_a and leaf_b:
             bound = _leaves(p, count_a, q, count_b, bound, stop, found, spare)
             if bound <= 0.0:
@@ -466,8 +512,8 @@ def _walk(
                 a0, a1, b0, b1 = 2 * at_a + 1, 2 * at_a + 2, at_b, at_b
             else:
                 a0, a1, b0, b1 = at_a, at_a, 2 * at_b + 1, 2 * at_b + 2
-            gap0 = _gap2(nodes, base_a + a0, base_b + b0, frame, upright)
-            gap1 = _gap2(nodes, base_a + a1, base_b + b1, frame, upright)
+            gap0 = node_gap2(nodes, base_a + a0, base_b + b0, frame, upright)
+            gap1 = node_gap2(nodes, base_a + a1, base_b + b1, frame, upright)
             nearer = gap1 < gap0
             if gap1 == gap0:
                 # both overlap: where the middles are closer, surfaces are found to meet sooner
@@ -503,10 +549,16 @@ def closest(
     """
     n = last - first
     row, distance, points = np.empty(n, np.int64), np.empty(n), np.empty((n, 2, 3))
-    found, spare, frame, axes, origin = np.empty(7), np.empty(6), np.empty((7, 3)), np.empty((11, 6)), np.empty(3)
+    found, spare, frame, axes, origin = (
+        np.empty(7),
+        np.empty(6),
+        np.empty((7, 3)),
+        np.empty((2, LEAF, 11, 6)),
+        np.empty(3),
+    )
     p, q, single = np.empty((LEAF, ROW)), np.empty((LEAF, ROW)), np.empty((LEAF, ROW))
-    stack, own, bounds = np.empty(2 * _DEPTH, np.int64), np.empty(_DEPTH, np.int64), np.empty(_DEPTH)
-    side_a, side_b, whole_a, whole_b = np.zeros(_SIDE), np.zeros(_SIDE), np.empty(7, np.int64), np.empty(7, np.int64)
+    stack, own, bounds = np.empty(2 * DEPTH, np.int64), np.empty(DEPTH, np.int64), np.empty(DEPTH)
+    side_a, side_b, whole_a, whole_b = np.zeros(SIDE), np.zeros(SIDE), np.empty(8, np.int64), np.empty(8, np.int64)
     nodes, vertices, faces = meshes.nodes, meshes.vertices, meshes.faces
     # the walk looks for less than this, and the limit itself counts
     limit2 = limit * limit * (1.0 + 1e-15) + 1e-300
@@ -515,14 +567,14 @@ def closest(
         a, b = pairs[i, 0], pairs[i, 1]
         for k in range(3):
             origin[k] = meshes.centers[a, k]
-        _lay_side(meshes, a, origin, side_a, whole_a)
-        _lay_side(meshes, b, origin, side_b, whole_b)
-        if whole_a[_COUNT] == 0 or whole_b[_COUNT] == 0:
+        lay_side(meshes, a, origin, side_a, whole_a)
+        lay_side(meshes, b, origin, side_b, whole_b)
+        if whole_a[COUNT] == 0 or whole_b[COUNT] == 0:
             continue
         found[6] = np.inf
         _walk(
             nodes, vertices, faces, side_a, whole_a, side_b, whole_b, limit2, stop * stop,
-            found, spare, frame, axes, p, q, single, stack, own, bounds,
+            found, spare, frame, axes[0], axes[1], p, q, single, stack, own, bounds,
         )  # fmt: skip
         if found[6] < limit2:
             row[n_found] = i

@@ -87,15 +87,25 @@ def load(path: str | os.PathLike[str], config: LoadConfig | None = None) -> Scen
     damage = find_damage(file, form.name)
     if damage:
         raise LoadError(f"{given}: {damage}")
-    with file.open("rb") as opened:
-        digest = hashlib.file_digest(opened, "sha256").hexdigest()
     if config.isolate:
+        from concurrent.futures import ThreadPoolExecutor
+
         from cadgraph.load.isolation import read_isolated
 
-        scene = read_isolated(form.module, file, given, config)
+        # The hash is made here while the other process reads.
+        with ThreadPoolExecutor(1) as threads:
+            hashing = threads.submit(_digest, file)
+            scene = read_isolated(form.module, file, given, config)
+            digest = hashing.result()
     else:
         scene = importlib.import_module(form.module).read(file, config)
+        digest = _digest(file)
     return replace(scene, source=replace(scene.source, path=given, sha256=digest, format=form.name))
+
+
+def _digest(file: Path) -> str:
+    with file.open("rb") as opened:
+        return hashlib.file_digest(opened, "sha256").hexdigest()
 
 
 def _check_file(file: Path, given: str) -> None:

@@ -9,12 +9,13 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
-from cadgraph.scene import Diagnostic, Faces, Floats, Scene, Source
+from cadgraph.scene import Diagnostic, Faces, Floats, Ints, Scene, Source
 
 __all__ = ["Notes", "Piece", "natural_key", "pack", "unique_name"]
 
 _FAR = 10_000.0  # [m] beyond this a scene gets an origin of its own; ours: float32 renders still resolve 1 mm
 _ORIGIN_STEP = 100.0  # [m] origins are whole multiples, so that they are exact and stable under small edits
+_DIGITS = re.compile(r"(\d+)")
 _EXAMPLES = 20  # so many paths stand for the rest in a note on meshes that were loaded
 
 
@@ -77,7 +78,7 @@ class Notes:
 
 def natural_key(path: str) -> tuple[tuple[str | int, ...], str]:
     """A key that sorts ``mesh_2`` before ``mesh_10``; parents come before their children."""
-    steps = re.split(r"(\d+)", path.replace("/", "\x00"))
+    steps = _DIGITS.split(path.replace("/", "\x00"))
     return tuple(int(step) if i % 2 else step for i, step in enumerate(steps)), path
 
 
@@ -110,69 +111,78 @@ def pack(
         The scene, sorted by path.
     """
     ordered = sorted(pieces, key=lambda piece: natural_key(piece.path))
-    matrices = [piece.matrix @ world_from_source for piece in ordered]
-    origin = _origin(ordered, matrices)
-    vertices, faces, colors = [], [], []
-    paths, anchors = [], []
+    with np.errstate(over="ignore", invalid="ignore"):
+        matrices = np.array([piece.matrix for piece in ordered]).reshape(-1, 4, 4) @ world_from_source
+        origin = _origin(ordered, matrices)
+        kept, vertices = _placed(ordered, matrices, origin, notes)
+        mirrored = np.linalg.det(matrices[kept, :3, :3]) < 0
+    ordered = [ordered[i] for i in kept]
+    faces = [p.faces[:, ::-1] if turned else p.faces for p, turned in zip(ordered, mirrored.tolist(), strict=True)]
     taken: set[str] = set()
-    for piece, matrix in zip(ordered, matrices, strict=True):
-        placed = _placed(piece, matrix, origin)
-        if isinstance(placed, str):
-            notes.add(placed, _LEFT_OUT[placed], piece.path)
-            continue
-        vertices.append(placed)
-        mirrored = np.linalg.det(matrix[:3, :3]) < 0
-        faces.append(piece.faces[:, ::-1] if mirrored else piece.faces)
-        colors.append(np.full(3, np.nan) if piece.color is None else np.clip(piece.color, 0, 1))
-        path = unique_name(piece.path, taken)
-        paths.append(path)
-        anchors.append(piece.anchor or path)
+    paths = tuple(unique_name(piece.path, taken) for piece in ordered)
+    anchors = tuple(piece.anchor or path for piece, path in zip(ordered, paths, strict=True))
+    colors = [_NO_COLOR if piece.color is None else piece.color for piece in ordered]
     return Scene(
-        vertices=np.concatenate(vertices) if vertices else np.zeros((0, 3)),
-        faces=np.concatenate(faces).astype(np.int32, copy=False) if faces else np.zeros((0, 3), np.int32),
-        vertex_offsets=np.cumsum([0, *map(len, vertices)], dtype=np.int64),
+        vertices=vertices,
+        faces=np.concatenate(faces, dtype=np.int32) if faces else np.zeros((0, 3), np.int32),
+        vertex_offsets=np.cumsum([0, *(len(piece.points) for piece in ordered)], dtype=np.int64),
         face_offsets=np.cumsum([0, *map(len, faces)], dtype=np.int64),
-        paths=tuple(paths),
-        colors=np.array(colors, np.float32).reshape(len(paths), 3),
+        paths=paths,
+        colors=np.clip(np.array(colors, np.float64).reshape(-1, 3), 0, 1).astype(np.float32),
         source=source,
         origin=origin,
-        anchors=tuple(anchors) if anchors != paths else (),
+        anchors=anchors if anchors != paths else (),
         diagnostics=notes.diagnostics(abridged),
     )
 
 
-_LEFT_OUT = {
-    "degenerate-mesh": "left out: all its faces have zero area",
-    "invalid-transform": "left out: its placement is not finite",
-}
+_NO_COLOR = np.full(3, np.nan)
 
 
-def _placed(piece: Piece, matrix: Floats, origin: Floats) -> Floats | str:
-    with np.errstate(over="ignore", invalid="ignore"):
-        placed: Floats = piece.points.astype(np.float64, copy=False) @ matrix[:3, :3] + (matrix[3, :3] - origin)
-        # A sum is finite only where every term is: one pass instead of a mask.
-        if not (np.isfinite(matrix).all() and np.isfinite(placed.sum())):
-            return "invalid-transform"
-        # The first face nearly always settles it, without a look at all the others.
-        if _has_area(placed, piece.faces[:1]) or _has_area(placed, piece.faces):
-            return placed
-    return "degenerate-mesh"
+def _placed(pieces: Sequence[Piece], matrices: Floats, origin: Floats, notes: Notes) -> tuple[list[int], Floats]:
+    """The numbers of the pieces that can be placed, and the vertices of these in world coordinates."""
+    ends = np.cumsum([0, *(len(piece.points) for piece in pieces)])
+    vertices = np.empty((int(ends[-1]), 3))
+    slots = [vertices[first:end] for first, end in zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True)]
+    turns, shifts = matrices[:, :3, :3], matrices[:, 3, :3] - origin
+    for piece, turn, shift, slot in zip(pieces, turns, shifts, slots, strict=True):
+        np.matmul(piece.points.astype(np.float64, copy=False), turn, out=slot)
+        slot += shift
+    finite = np.isfinite(matrices).all(axis=(1, 2))
+    # A sum is finite only where every term is: one pass instead of a mask.
+    if not np.isfinite(vertices.sum()):
+        finite &= np.array([np.isfinite(slot.sum()) for slot in slots], bool)
+    # The first face nearly always settles it, without a look at all the others.
+    corners = ends[:-1, None] + np.array([piece.faces[0] for piece in pieces], np.int64).reshape(-1, 3)
+    solid = _have_area(vertices, corners)
+    kept, where = [], []
+    for i, (piece, slot) in enumerate(zip(pieces, slots, strict=True)):
+        if not finite[i]:
+            notes.add("invalid-transform", "left out: its placement is not finite", piece.path)
+        elif not (solid[i] or _have_area(slot, piece.faces).any()):
+            notes.add("degenerate-mesh", "left out: all its faces have zero area", piece.path)
+        else:
+            kept.append(i)
+            where.append(slot)
+    if len(kept) < len(pieces):
+        vertices = np.concatenate(where) if where else np.zeros((0, 3))
+    return kept, vertices
 
 
-def _has_area(points: Floats, faces: Faces) -> bool:
+def _have_area(points: Floats, faces: Faces | Ints) -> npt.NDArray[np.bool_]:
+    """Whether each face has any area at all."""
     a, b, c = points[faces[:, 0]], points[faces[:, 1]], points[faces[:, 2]]
     (ux, uy, uz), (vx, vy, vz) = (b - a).T, (c - a).T
-    return bool(((uy * vz != uz * vy) | (uz * vx != ux * vz) | (ux * vy != uy * vx)).any())
+    area: npt.NDArray[np.bool_] = (uy * vz != uz * vy) | (uz * vx != ux * vz) | (ux * vy != uy * vx)
+    return area
 
 
-def _origin(pieces: Sequence[Piece], matrices: Sequence[Floats]) -> Floats:
+def _origin(pieces: Sequence[Piece], matrices: Floats) -> Floats:
     """A whole multiple of 100 m amid the pieces where these lie far out, else zero."""
     if not pieces:
         return np.zeros(3)
-    with np.errstate(over="ignore", invalid="ignore"):
-        first = np.array(
-            [p.points[p.faces[0, 0]] @ m[:3, :3] + m[3, :3] for p, m in zip(pieces, matrices, strict=True)]
-        )
+    corners = np.array([piece.points[piece.faces[0, 0]] for piece in pieces], np.float64)
+    first = np.einsum("ij,ijk->ik", corners, matrices[:, :3, :3]) + matrices[:, 3, :3]
     first = first[np.isfinite(first).all(axis=1)]
     if not len(first):
         return np.zeros(3)

@@ -29,12 +29,12 @@ class Triangles:
     """Triangles cut from polygons.
 
     Args:
-        corners: ``(n, 3)`` int64 point indices, wound like their polygons.
+        corners: ``(n, 3)`` point indices, wound like their polygons.
         polygon: ``(n,)`` the polygon each comes from, ascending.
         twisted: polygons that cross themselves; their triangles are a best effort.
     """
 
-    corners: Ints
+    corners: Indices
     polygon: Ints
     twisted: Ints
 
@@ -86,7 +86,7 @@ def triangulate(points: Points, counts: Indices, starts: Ints, indices: Ints, po
     if len(owners) > 1:
         order = np.argsort(owner, kind="stable")
         triangle, owner = triangle[order], owner[order]
-    a, b, c = triangle.T
+    a, b, c = np.ascontiguousarray(triangle.T)
     whole = (a != b) & (b != c) & (c != a)
     if not whole.all():
         triangle, owner = triangle[whole], owner[whole]
@@ -95,7 +95,7 @@ def triangulate(points: Points, counts: Indices, starts: Ints, indices: Ints, po
 
 def _quad_fans(points: Points, rings: Ints) -> tuple[Ints, Ints]:
     """``(m, 2, 3)`` triangles along the diagonal that lies inside, and the quads where neither does."""
-    triangles = rings[:, [0, 1, 2, 0, 2, 3]]
+    triangles = np.take(rings, [0, 1, 2, 0, 2, 3], axis=1)
     left = []
     for start in range(0, len(rings), _CHUNK):
         chunk = slice(start, start + _CHUNK)

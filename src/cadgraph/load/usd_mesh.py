@@ -92,7 +92,7 @@ def _plain_triangles(meshes: Sequence[RawMesh]) -> dict[int, CutMesh]:
     sound = ~np.logical_or.reduceat(other, first_face) & np.isfinite(sums)
     sound &= np.minimum.reduceat(corners, 3 * first_face) >= 0
     sound &= np.maximum.reduceat(corners, 3 * first_face) < n_points
-    indices = corners + np.repeat(first_point, 3 * n_faces)
+    indices = corners + np.repeat(first_point.astype(corners.dtype), 3 * n_faces)
     used = np.zeros(int(n_points.sum()), bool)
     used[indices if sound.all() else indices[np.repeat(sound, 3 * n_faces)]] = True
     dense = np.logical_and.reduceat(used, first_point)
@@ -129,7 +129,7 @@ def _cut_batch(meshes: Sequence[RawMesh]) -> list[CutMesh]:
     all_points = np.concatenate([mesh.points for mesh in meshes])
     n_corners = _over_each(np.add, all_counts.astype(np.int64), n_polygons, 0)
     corners = np.concatenate([mesh.indices[:n] for mesh, n in zip(meshes, n_corners.tolist(), strict=True)])
-    indices = corners + np.repeat(first_point, n_corners)
+    indices = corners + np.repeat(first_point.astype(corners.dtype), n_corners)
     usable = np.ones(len(all_counts), bool)
     for wrong, code, what in _wrong_polygons(all_counts, all_points, corners, n_corners, indices, n_points):
         usable &= ~wrong
@@ -149,12 +149,8 @@ def _cut_batch(meshes: Sequence[RawMesh]) -> list[CutMesh]:
     used[cut.corners] = True
     dense = _over_each(np.logical_and, used, n_points, True)
     # Of 32 bits where the file has them so: these arrays are the largest of all.
-    corner_of_mesh = np.subtract(
-        cut.corners, np.repeat(first_point, n_triangles)[:, None], dtype=corners.dtype, casting="unsafe"
-    )
-    polygon_of_mesh = np.subtract(
-        cut.polygon, np.repeat(first_polygon, n_triangles), dtype=corners.dtype, casting="unsafe"
-    )
+    corner_of_mesh = cut.corners - np.repeat(first_point.astype(corners.dtype), n_triangles)[:, None]
+    polygon_of_mesh = (cut.polygon - np.repeat(first_polygon, n_triangles)).astype(corners.dtype)
     result = []
     for i, mesh in enumerate(meshes):
         own = slice(last[i], last[i + 1])

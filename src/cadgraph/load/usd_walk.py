@@ -93,6 +93,7 @@ class Walk:
         self._sides = sides
         self._notes = notes
         self._sampled = _is_sampled(stage)
+        self._transforms = UsdGeom.XformCache(self._time or Usd.TimeCode.Default())
         self._kinds: dict[str, str] = {}
         self._fallbacks: dict[tuple[str, str], Any] = {}
         self._open_instancers: list[str] = []
@@ -145,7 +146,7 @@ class Walk:
         matrix, visible, purpose = place.matrix, place.visible, place.purpose
         color, binding, anchor = place.color, place.binding, place.anchor
         if "xformOpOrder" in names and prim.IsA(UsdGeom.Xformable):
-            local, resets = self._local(UsdGeom.Xformable(prim))
+            local, resets = self._local(prim)
             matrix = local if resets else local @ matrix
         if "visibility" in names:
             visible = visible and self._value(prim, "visibility") != "invisible"
@@ -177,19 +178,18 @@ class Walk:
             value = attribute.Get(Usd.TimeCode.EarliestTime())
         return value
 
-    def _local(self, xformable: Any) -> tuple[Floats, bool]:
-        resets = xformable.GetResetXformStack()
-        if self._time is not None:
-            return np.array(xformable.GetLocalTransformation(self._time)), resets
-        ops = xformable.GetOrderedXformOps() if self._sampled else ()
+    def _local(self, prim: Any) -> tuple[Floats, bool]:
+        """The matrix to the parent, and whether it leads straight to the world instead."""
+        ops = UsdGeom.Xformable(prim).GetOrderedXformOps() if self._sampled and self._time is None else ()
         if not any(op.GetNumTimeSamples() for op in ops):
-            return np.array(xformable.GetLocalTransformation(Usd.TimeCode.Default())), resets
+            matrix, resets = self._transforms.GetLocalTransformation(prim)
+            return np.array(matrix), resets
         local = np.eye(4)
         for op in ops:
             sampled = op.GetNumTimeSamples() and not _has_default(op.GetAttr())
             time = Usd.TimeCode.EarliestTime() if sampled else Usd.TimeCode.Default()
             local = np.array(op.GetOpTransform(time)) @ local
-        return local, resets
+        return local, UsdGeom.Xformable(prim).GetResetXformStack()
 
     def _display_color(self, prim: Any) -> Color | Varying | None:
         attribute = prim.GetAttribute("primvars:displayColor")

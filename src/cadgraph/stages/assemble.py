@@ -186,11 +186,9 @@ def _adjacency(results: Results, part_ids: Sequence[str]) -> list[Adjacent]:
 def _findings(results: Results) -> list[Finding]:
     parts, paths = results.parts, results.scene.paths
     found = list(results.diagnostics)
-    open_parts = [i for i in range(parts.n_parts) if not parts.properties.closed[i]]
     noise = [i for i in range(parts.n_parts) if results.cluster[i] < 0 and not parts.ground[i]]
     unlabelled = [i for i, label in enumerate(results.labels) if label is None and not parts.ground[i]]
     for code, message, members in (
-        ("open-surface", "parts whose surface is not closed, so that they have no volume", open_parts),
         ("noise", "parts with too few neighbours to belong to a cluster", noise),
         ("unlabelled", "parts that no labeler is sure enough about", unlabelled),
     ):

@@ -35,7 +35,7 @@ def prepare_scene(scene: Scene) -> tuple[Scene, tuple[Diagnostic, ...]]:
     if not finite.all():
         broken = np.unique(mesh_of_vertex(scene)[~finite])
         message = "vertices that are not finite, and the faces that use them, were left out"
-        told.append(Diagnostic("non-finite-vertices", message, tuple(scene.paths[i] for i in broken)))
+        told.append(Diagnostic("nonfinite-vertices", message, tuple(scene.paths[i] for i in broken)))
         scene = _keep_vertices(scene, finite)
     empty = np.diff(scene.vertex_offsets) == 0
     if empty.any():

@@ -279,6 +279,9 @@ def _fittings(c: _Context) -> None:
             continue
         joined = [port for port in f.ports if any(_is_piping(c, j) for j in c.mates(part, port))]
         width = max(port.outer for port in f.ports)
+        if f.tube and len(joined) == 2 and all(any(_same_pipe(c, j, p) for j in c.mates(part, p)) for p in f.ports):
+            c.say(part, PIPE, "pipe", 0.9, f"short piece between pipes of {_mm(2 * width)}")
+            continue
         if len(joined) in (3, 4) and len(f.ports) == len(joined) and f.section[0] < 8 * width:
             name = "tee" if len(joined) == 3 else "cross"
             c.say(part, PIPE, name, 0.8, f"joins {len(joined)} pipe ends")
@@ -292,10 +295,16 @@ def _is_piping(c: _Context, part: int) -> bool:
     return c.is_a(part, PIPE) and not c.is_a(part, PIPE, "branch outlet")
 
 
+def _same_pipe(c: _Context, part: int, port: Disc) -> bool:
+    """Whether a part is a pipe or elbow as wide as a port."""
+    g = c.facts[part]
+    return c.is_a(part, PIPE, "pipe", "elbow") and abs(g.ports[0].outer - port.outer) < 0.05 * port.outer
+
+
 def _valves(c: _Context) -> None:
     """What lies between two pipe ends and carries something on its side; or a handle, where nothing else is near."""
     for part in range(len(c.facts)):
-        for first, second in c.run(part) if c.free(part) else ():
+        for first, second in c.run(part) if c.free(part) and not c.facts[part].tube else ():
             ends = [list(c.mates(part, port)) for port in (first, second)]
             piped = sum(any(_is_piping(c, j) for j in end) for end in ends)
             lone = not any(ends) and _is_lone_valve(c, part, first, second)
@@ -380,6 +389,8 @@ def _find_handle(c: _Context, body: int, top: Sequence[int]) -> dict[int, str | 
         f, forms = c.facts[part], c.forms[part]
         if part in reached or part == body or not (c.free(part) or c.is_a(part, VALVE)) or f.section[0] > 3 * size:
             continue
+        if forms.bend or (forms.tube and f.ports[0].inner > 0 and f.tube > 4 * f.ports[0].outer):
+            continue  # a pipe that no rule has named
         around = [j for j in c.near[part] if not c.is_a(j, FASTENER) and not c.is_a(j, PIPE)]
         label = c.labels[part]
         if forms.wheel or (len(around) == 1 and _is_plain_wheel(c, part, around[0])):
@@ -511,6 +522,8 @@ def _opening(c: _Context, part: int, pipe: int) -> float:
     corners = c.parts.scene.mesh(part)[0]
     for port in c.facts[pipe].ports:
         r = port.outer
+        if any(0.8 * r < p.outer < 1.25 * r and not _parallel(p.normal, port.normal) for p in c.facts[part].ports):
+            continue  # an elbow that starts here
         if _offset(spot, port) > r + 0.02 or max(c.facts[part].section) > 10 * r:
             continue
         apart = corners - port.center
@@ -521,6 +534,22 @@ def _opening(c: _Context, part: int, pipe: int) -> float:
             angles = angles_about(port.normal, close)
             return float(np.degrees(np.diff(np.append(angles, angles[0] + 2 * np.pi)).max()))
     return 360.0
+
+
+def _bolt_sets(c: _Context) -> None:
+    """All bolts of a joint as one mesh: it lies around the axis of a flange, within its rim, clear of its bore."""
+    for part, f in enumerate(c.facts):
+        flanges = [j for j in c.near[part] if c.is_a(j, PIPE, "flange", "blind flange", "gasket")]
+        if not c.free(part) or not flanges or f.fill > 0.3 or f.tube:
+            continue
+        rim = max((c.facts[j] for j in flanges), key=lambda g: g.radius)
+        apart = c.parts.scene.mesh(part)[0] - rim.center
+        across = apart - np.outer(apart @ rim.axis, rim.axis)
+        radii = np.linalg.norm(across, axis=1)
+        if radii.min() > 0.45 * rim.radius and radii.max() < 1.02 * rim.radius and float(f.section[0]) > rim.radius:
+            gaps = np.degrees(np.diff(angles_about(rim.axis, across)))
+            if (gaps > 15.0).sum() >= 3:
+                c.say(part, FASTENER, "bolt", 0.75, f"pieces around the axis of a flange of {_mm(2 * rim.radius)}")
 
 
 def _structure(c: _Context) -> None:
@@ -582,7 +611,7 @@ def _on_valve(c: _Context, part: int) -> bool:
 
 
 _RULES: tuple[Callable[[_Context], None], ...] = (
-    _fasteners, _stems, _pipes, _flanges, _fittings, _valves, _gauges, _supports, _structure, _leftovers,
+    _fasteners, _stems, _pipes, _flanges, _fittings, _valves, _gauges, _bolt_sets, _supports, _structure, _leftovers,
 )  # fmt: skip
 
 
