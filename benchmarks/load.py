@@ -1,9 +1,9 @@
 """CPU seconds to load large generated USD stages: ``python benchmarks/load.py [--scale N] [--repeats N]``.
 
 Each stage is read here, in a process of its own (the default of ``cadgraph.load``), and by the straightforward script
-that one would write instead: ``Usd.PrimRange``, ``UsdGeom.XformCache``, a fan for each polygon in numpy, arrays for each
-mesh. That script yields geometry only: no colours, no purposes, no checks, and no shapes other than meshes. Prints a table
-in Markdown with a description of the machine.
+that one would write instead: ``Usd.PrimRange``, ``UsdGeom.XformCache``, a fan for each polygon in numpy, arrays for
+each mesh. That script yields geometry only: no colours, no purposes, no visibility, no checks of the file, no shapes
+but meshes. Prints a table in Markdown with a description of the machine.
 """
 
 from __future__ import annotations

@@ -30,7 +30,8 @@ def changed(scene: Scene, posed: bool, scrambled: bool) -> Scene:
             vertices = (vertices - vertices.mean(axis=0)) @ turns[i].T + random.uniform(-20, 20, 3)
         if scrambled:
             order = random.permutation(len(vertices))
-            vertices, faces = vertices[order], np.argsort(order)[faces][random.permutation(len(faces))]
+            vertices = vertices[order]
+            faces = np.argsort(order).astype(np.int32)[faces][random.permutation(len(faces))]
             if i % 5 == 0:
                 vertices, faces = vertices * [1, 1, -1], faces[:, ::-1]
         meshes.append((vertices, faces))
@@ -50,8 +51,10 @@ def main() -> None:
     print(f"{machine()}\n\n{plain.n_meshes:,} meshes, {plain.n_triangles:,} triangles; seconds, medians of 3, warm.\n")
     rows: list[list[object]] = []
     for name, posed, scrambled in (
-        ("as exported", False, False), ("random poses", True, False), ("any vertex order, a fifth mirrored", True, True),
-    ):  # fmt: skip
+        ("as exported", False, False),
+        ("random poses", True, False),
+        ("any vertex order, a fifth mirrored", True, True),
+    ):
         scene = changed(plain, posed, scrambled) if posed or scrambled else plain
         properties = measure(scene)
         shapes = find_shapes(scene, properties)

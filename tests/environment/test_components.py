@@ -9,11 +9,12 @@ from cadgraph.environment.fastener import bolt, pipe_support
 from cadgraph.environment.flange import flange, flange_length, gasket
 from cadgraph.environment.gauge import pressure_gauge
 from cadgraph.environment.instrument import meter_at, strainer_at, valve_at
-from cadgraph.environment.layout import Route, Run, lay
+from cadgraph.environment.layout import Run, lay
 from cadgraph.environment.make import Make
 from cadgraph.environment.piping import cap, elbow, outlet, pipe, reducer, tee
 from cadgraph.environment.plant import gather
 from cadgraph.environment.pump import pump
+from cadgraph.environment.route import Route
 from cadgraph.environment.standard import ELBOW_LONG_RADIUS, FACE_TO_FACE, FLANGES, PIPES, SIZES
 from cadgraph.environment.structure import caster, deck, post
 from cadgraph.environment.valve import VALVES, valve_length
@@ -91,7 +92,7 @@ MAKES = [
 
 
 @pytest.mark.parametrize("make", MAKES)
-@pytest.mark.parametrize("dn", SOME)
+@pytest.mark.parametrize("dn", [15, 50, 200])
 def test_devices_of_every_make_touch_their_joints_and_nothing_else(make, dn):
     pytest.importorskip("fcl")
     hand = HANDS["mechanical"]
@@ -114,6 +115,19 @@ def test_everything_else_in_a_yard_is_closed_too(hand):
     for component in yard(hand).components:
         assert is_closed(component.solid), component.name
         assert (shell_volumes(component.solid) > 0).all(), component.name
+
+
+@pytest.mark.parametrize("height", [1.5, 1.8, 2.1, 3.0, 3.7])
+def test_every_tread_lies_between_its_stringers(height):
+    pytest.importorskip("fcl")
+    steps = stairs(height, HANDS["plant-design"])
+    assert set(steps.contacts) == set(touching(steps))
+
+
+def test_platform_stands_on_its_columns_and_carries_its_railing():
+    pytest.importorskip("fcl")
+    floor = platform(3.0, 1.6, 2.4, HANDS["plant-design"], 0.3)
+    assert {tuple(sorted(pair)) for pair in floor.contacts} == set(touching(floor))
 
 
 @pytest.mark.parametrize(("dn", "other"), [(100, 50), (50, 100), (80, 65)])

@@ -3,7 +3,8 @@ import pytest
 
 from cadgraph.environment import HANDS
 from cadgraph.environment.instrument import gauge_tap, reducer_at, tee_at, valve_at
-from cadgraph.environment.layout import Inline, Route, Run, lay
+from cadgraph.environment.layout import Inline, Run, lay
+from cadgraph.environment.route import Route
 from cadgraph.environment.standard import ELBOW_LONG_RADIUS
 
 HAND = HANDS["plant-design"]

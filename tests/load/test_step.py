@@ -109,6 +109,13 @@ def test_isolated_reading_agrees(tmp_path):
     assert isolated.source == direct.source
 
 
+def test_isolated_reading_goes_without_trimesh(tmp_path, monkeypatch):
+    (tmp_path / "trimesh").mkdir()
+    (tmp_path / "trimesh/__init__.py").write_text("raise SystemExit('trimesh was imported')\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    assert load(one_box().write(tmp_path / "a.step")).n_meshes == 1
+
+
 def test_damaged_files_are_one_line_errors(tmp_path):
     path = one_box().write(tmp_path / "a.step")
     text = path.read_bytes()
@@ -149,7 +156,7 @@ def test_iges_surface_in_metres(tmp_path, unit, meters):
     lines += [f"{piece:<64}{1:8d}P{i:7d}" for i, piece in enumerate(pieces["P"], 1)]
     lines.append(f"S{1:7d}G{len(pieces['G']):7d}D{2:7d}P{len(pieces['P']):7d}{'':40}T{1:7d}")
     (tmp_path / "a.igs").write_text("\n".join(lines) + "\n")
-    scene = load(tmp_path / "a.igs")
+    scene = load(tmp_path / "a.igs", IN_PROCESS)
     np.testing.assert_allclose(np.ptp(scene.vertices, axis=0), [10 * meters, 20 * meters, 0], rtol=1e-6)
     assert (scene.source.format, scene.source.meters_per_unit) == ("iges", meters)
 

@@ -354,6 +354,22 @@ def test_time_is_as_asked_else_default_else_first_sample(stage):
     assert [center(saved(stage, time=9.0), i)[0] for i in range(2)] == [2, 8]
 
 
+def test_samples_of_a_value_clip_count(tmp_path, stage):
+    clip = Usd.Stage.CreateNew(str(tmp_path / "clip.usda"))
+    UsdGeom.Xformable(clip.DefinePrim("/m", "Mesh")).AddTranslateOp().Set((3, 0, 0), 0)
+    clip.Save()
+    manifest = Usd.Stage.CreateNew(str(tmp_path / "manifest.usda"))
+    UsdGeom.Xformable(manifest.DefinePrim("/m", "Mesh")).AddTranslateOp()
+    manifest.Save()
+    add_mesh(stage, "/group/m").AddTranslateOp()
+    clips = Usd.ClipsAPI(stage.GetPrimAtPath("/group/m"))
+    clips.SetClipAssetPaths([Sdf.AssetPath("./clip.usda")])
+    clips.SetClipPrimPath("/m")
+    clips.SetClipActive([(0, 0)])
+    clips.SetClipManifestAssetPath(Sdf.AssetPath("./manifest.usda"))
+    assert center(saved(stage))[0] == 3
+
+
 # --- composition
 
 

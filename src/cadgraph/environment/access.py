@@ -164,28 +164,32 @@ def platform(length: float, width: float, height: float, hand: Hand, gap_at: flo
             joints.append((index - 1, index))
         index += 1
     first_panel = index - count
-    inset = 0.05
-    stretches = [((x - inset, -y + inset), (x - inset, y - inset)), ((-x + inset, y - inset), (-x + inset, -y + inset))]
-    stretches.append(((x - inset - 0.06, y - inset), (-x + inset + 0.06, y - inset)))
-    low_side = [(-x + inset + 0.06, x - inset - 0.06)]
-    if gap_at is not None:
-        low_side = [(low_side[0][0], gap_at - 0.45), (gap_at + 0.45, low_side[0][1])]
-    stretches += [((a, -y + inset), (b, -y + inset)) for a, b in low_side if b - a > 0.3]
-    for a, b in stretches:
-        rail = railing(np.array([*a, height]), np.array([*b, height]), hand)
+    for rail in _guard(x, y, height, hand, gap_at):
         parts.append(rail)
-        for k, post in enumerate(rail.components):
-            if post.name == "post":
-                px = float(post.pose[0, 3])
-                for j in range(count):
-                    if -x + j * step - _RAIL <= px <= -x + (j + 1) * step + _RAIL:
-                        joints.append((first_panel + j, index + k))
+        for k, piece in enumerate(rail.components):
+            if piece.name == "post":
+                place = float(piece.pose[0, 3]) + x
+                joints += [
+                    (first_panel + j, index + k)
+                    for j in range(count)
+                    if j * step - _RAIL <= place <= (j + 1) * step + _RAIL
+                ]
         index += len(rail.components)
     return gather(parts, joints)
 
 
+def _guard(x: float, y: float, height: float, hand: Hand, gap_at: float | None) -> list[Assembly]:
+    """Railings along the edges of a floor that reaches to +-x and +-y, with an opening in the side y < 0."""
+    inset = 0.05
+    far, side, near = x - inset, y - inset, x - inset - 0.06
+    stretches = [((far, -side), (far, side)), ((-far, side), (-far, -side)), ((near, side), (-near, side))]
+    front = [(-near, near)] if gap_at is None else [(-near, gap_at - 0.45), (gap_at + 0.45, near)]
+    stretches += [((a, -side), (b, -side)) for a, b in front if b - a > 0.3]
+    return [railing(np.array([*a, height]), np.array([*b, height]), hand) for a, b in stretches]
+
+
 def stairs(height: float, hand: Hand, width: float = 0.80) -> Assembly:
-    """Stairs that climb along +x from z = 0 to ``height`` at x = 0, 38 degrees steep, railing on both sides.
+    """Stairs that climb along +x from z = 0 to ``height`` at x = 0, 38 degrees steep.
 
     Returns:
         The two stringers first; their upper ends stand in the plane x = 0.
@@ -212,7 +216,8 @@ def stairs(height: float, hand: Hand, width: float = 0.80) -> Assembly:
     joints = []
     index = 2
     for k in range(1, count):
-        x = -going * (count - k) + 0.03 - 0.12
+        # The nosing stands 2 cm out of the stringers' upper edge.
+        x = -reach + (reach - 0.12) * k / count + 0.10
         tread = grating(0.24, width, hand, 0.03, "stair tread").placed(at(x, 0, k * rise))
         parts.append(tread)
         joints += [(0, index), (1, index)]

@@ -30,7 +30,7 @@ _PLACES: tuple[tuple[_Make, str, tuple[float, float], int], ...] = (
     (make_pumps, "B", (-8.2, 0.0), 0),
     (make_pumps, "C", (-3.4, 0.0), 0),
     (make_tank, "D", (9.0, 2.6), 0),
-    (make_tank, "E", (9.0, -4.6), 0),
+    (make_tank, "E", (9.0, -5.0), 0),
     (make_skid, "F", (-7.8, -6.2), 0),
     (make_skid, "G", (-3.6, -6.2), 0),
     (make_skid, "H", (0.4, -6.2), 0),
@@ -110,7 +110,7 @@ def _platform(hand: Hand) -> Assembly:
             g_low, g_high = _span(floor.components[i].vertices)
             if high >= g_low - 1e-9 and low <= g_high + 1e-9:
                 joints.append((i, n + stringer))
-    return gather([floor, up], joints).placed(at(4.6, -0.4, 0)).marked(cluster="platform")
+    return gather([floor, up], joints).placed(at(4.2, 0.0, 0)).marked(cluster="platform")
 
 
 def _span(vertices: Floats) -> tuple[float, float]:

@@ -16,57 +16,14 @@ from cadgraph.environment.frame import arc, at, looking, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.piping import bend_tangent, elbow, outlet, pipe, spool
 from cadgraph.environment.plant import Assembly, Connection, Device, Point, gather
+from cadgraph.environment.route import Route
 from cadgraph.environment.standard import ELBOW_LONG_RADIUS, PIPES
 from cadgraph.scene import Floats
 
-__all__ = ["Inline", "Laid", "Piece", "Route", "Run", "Tap", "lay"]
+__all__ = ["Inline", "Laid", "Piece", "Run", "Tap", "lay"]
 
 _SHORTEST = 0.002  # m; a shorter piece of pipe is a mistake in the layout
 OUTLET_HEIGHT = 0.024
-
-
-@dataclass(frozen=True, eq=False)
-class Route:
-    """A centreline with sharp corners.
-
-    Args:
-        points: ``(n, 3)`` [m], at least two, no leg of length 0.
-    """
-
-    points: Floats
-
-    @property
-    def starts(self) -> Floats:
-        """``(n,)`` chainage of each point [m]."""
-        legs = np.linalg.norm(np.diff(self.points, axis=0), axis=1)
-        return np.concatenate([[0.0], np.cumsum(legs)])
-
-    @property
-    def directions(self) -> Floats:
-        """``(n - 1, 3)`` unit direction of each leg."""
-        legs = np.diff(self.points, axis=0)
-        unit: Floats = legs / np.linalg.norm(legs, axis=1, keepdims=True)
-        return unit
-
-    @property
-    def length(self) -> float:
-        """Of the whole route [m]."""
-        return float(self.starts[-1])
-
-    def leg(self, s: float) -> int:
-        """The leg at a chainage."""
-        return int(np.clip(np.searchsorted(self.starts, s, side="right") - 1, 0, len(self.points) - 2))
-
-    def point(self, s: float) -> Floats:
-        """The point ``(3,)`` at a chainage [m]."""
-        leg = self.leg(s)
-        result: Floats = self.points[leg] + (s - self.starts[leg]) * self.directions[leg]
-        return result
-
-    def frame(self, s: float, roll: float = 0.0) -> Floats:
-        """The pose at a chainage: x along the run, z as upright as it can be, then rolled about x [rad]."""
-        pose = looking(self.point(s), self.directions[self.leg(s)])
-        return pose @ spun("x", roll) if roll else pose
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,10 @@ from cadgraph.environment.fastener import SUPPORT_REACH
 from cadgraph.environment.frame import at
 from cadgraph.environment.hand import HANDS, Hand
 from cadgraph.environment.instrument import gauge_tap, meter_at, side_gauge_tap, tee_at, valve_at
-from cadgraph.environment.layout import Inline, Route, Run
+from cadgraph.environment.layout import Inline, Run
 from cadgraph.environment.make import Make, draw_make, painted
 from cadgraph.environment.plant import Plant
+from cadgraph.environment.route import Route
 from cadgraph.environment.site import Placed, Site
 from cadgraph.environment.standard import PIPES, SECTIONS, TEE_CENTER_TO_END
 from cadgraph.environment.structure import beam, column

@@ -9,9 +9,10 @@ import numpy as np
 from cadgraph.environment.frame import at
 from cadgraph.environment.gauge import side_gauge
 from cadgraph.environment.hand import HANDS, Hand
-from cadgraph.environment.layout import Inline, Route, Run, Tap
+from cadgraph.environment.layout import Inline, Run, Tap
 from cadgraph.environment.make import Make, draw_make, painted
 from cadgraph.environment.plant import Assembly, Device, Plant
+from cadgraph.environment.route import Route
 from cadgraph.environment.site import Site
 from cadgraph.environment.structure import CASTER_HEIGHT, CHANNEL_WIDTH, DECK_HEIGHT, DECK_INSET, caster, deck
 from cadgraph.environment.valve import VALVES

@@ -13,9 +13,10 @@ from cadgraph.environment.frame import at
 from cadgraph.environment.gauge import pressure_gauge
 from cadgraph.environment.hand import HANDS, Hand
 from cadgraph.environment.instrument import valve_at
-from cadgraph.environment.layout import Inline, Route, Run, Tap
+from cadgraph.environment.layout import Inline, Run, Tap
 from cadgraph.environment.make import Make, draw_make, painted
 from cadgraph.environment.plant import Assembly, Device, Plant
+from cadgraph.environment.route import Route
 from cadgraph.environment.site import Placed, Site
 from cadgraph.environment.standard import PIPES
 from cadgraph.environment.structure import CASTER_HEIGHT, CHANNEL_WIDTH, DECK_HEIGHT, DECK_INSET, caster, deck, post

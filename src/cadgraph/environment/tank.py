@@ -10,10 +10,11 @@ from cadgraph.environment.fastener import SUPPORT_REACH
 from cadgraph.environment.frame import at
 from cadgraph.environment.gauge import pressure_gauge, side_gauge
 from cadgraph.environment.hand import HANDS, Hand
-from cadgraph.environment.layout import Inline, Route, Run, Tap
+from cadgraph.environment.layout import Inline, Run, Tap
 from cadgraph.environment.make import Make, draw_make, painted
 from cadgraph.environment.piping import tee
 from cadgraph.environment.plant import Assembly, Device, Plant
+from cadgraph.environment.route import Route
 from cadgraph.environment.site import Placed, Site
 from cadgraph.environment.standard import PIPES, SECTIONS, TEE_CENTER_TO_END
 from cadgraph.environment.structure import beam, column, post

@@ -120,23 +120,10 @@ def tank(
             (Unit(unit, "tank", "tank"),),
         )
     ]
-    joints, count = [], 3
-    leg, foot = _leg_solids(round(low + 0.25, 6), 0.08)
     sag = radius * (1 - np.cos(np.pi / sides))
-    for k in range(n_legs):
-        angle = 2 * np.pi * (k + 0.5) / n_legs
-        pose = spun("z", angle) @ at(radius + 0.04 - sag - 0.0005)
-        parts.append(
-            Assembly(
-                (
-                    Component(leg, group, "tank leg", hand.color("steel"), pose),
-                    Component(foot, "Structural element", "base plate", hand.color("steel"), pose),
-                ),
-                ((0, 1),),
-            )
-        )
-        joints += [(0, count), (2, count)]
-        count += 2
+    parts.append(_legs(round(low + 0.25, 6), radius - sag, n_legs, hand))
+    joints = [(part, 3 + 2 * k) for k in range(n_legs) for part in (0, 2)]
+    count = 3 + 2 * n_legs
     faces, flanges = [], []
     for nozzle in nozzles:
         part, face = _nozzle(nozzle, hand, radius, low, height, sag)
@@ -151,6 +138,18 @@ def tank(
     )
     whole = Assembly(named, whole.contacts, whole.units)
     return Tank(whole, tuple(faces), tuple(flanges), low + height + _STRAIGHT + radius / 2)
+
+
+def _legs(height: float, radius: float, count: int, hand: Hand) -> Assembly:
+    """Legs round a shell of this radius, each with its base plate behind it."""
+    leg, foot = _leg_solids(height, 0.08)
+    color = hand.color("steel")
+    components = []
+    for k in range(count):
+        pose = spun("z", 2 * np.pi * (k + 0.5) / count) @ at(radius + 0.04 - 0.0005)
+        components.append(Component(leg, "Tank", "tank leg", color, pose))
+        components.append(Component(foot, "Structural element", "base plate", color, pose))
+    return Assembly(tuple(components), tuple((2 * k, 2 * k + 1) for k in range(count)))
 
 
 def _nozzle(

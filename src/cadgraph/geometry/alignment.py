@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from math import atan2, ceil, floor, nan, sqrt
+
 import numpy as np
 
+from cadgraph.geometry.key import Keys, key_position
+from cadgraph.geometry.order import sort_rows
 from cadgraph.geometry.parallel import compiled
-from cadgraph.parts import Bools
 from cadgraph.scene import Faces, Floats, Ints
 
-__all__ = ["align_by_order", "align_sets", "pick_anchors", "weld"]
+__all__ = ["align_by_order", "align_sets", "count_cells", "pick_anchors", "weld"]
 
 # How far the summed unit normals at a vertex, each weighted by its corner's angle [rad], may differ. Rounding moves
 # them little where edges are long against it (see below); another surface through the same vertices moves them much.
@@ -21,63 +24,74 @@ _MAX_CHECKS = 2_000_000
 
 
 @compiled
-def pick_anchors(points: Floats, anchors: Ints) -> None:
-    """Three vertices far apart: the farthest from the first, the farthest from that, the farthest from their line."""
-    start = 0
-    for turn in range(2):
-        best = -1.0
-        for k in range(len(points)):
-            d = 0.0
-            for c in range(3):
-                d += (points[k, c] - points[start, c]) ** 2
+def pick_anchors(vertices: Floats, v0: int, v1: int, row: int, anchors: Ints) -> None:
+    """Three vertices far apart: the farthest from the first, the farthest from that, the farthest from their line.
+
+    Args:
+        vertices: ``(n_vertices, 3)`` [m].
+        v0: the first vertex of the mesh.
+        v1: the end of its vertices.
+        row: where to put the outcome.
+        anchors: ``(n, 3)`` output: vertices, counted from ``v0``.
+    """
+    px, py, pz = vertices[v0, 0], vertices[v0, 1], vertices[v0, 2]
+    ex = ey = ez = 0.0
+    for turn in range(3):
+        best, found = -1.0, v0
+        for v in range(v0, v1):
+            x, y, z = vertices[v, 0] - px, vertices[v, 1] - py, vertices[v, 2] - pz
+            if turn == 2:
+                x, y, z = ey * z - ez * y, ez * x - ex * z, ex * y - ey * x
+            d = x * x + y * y + z * z
             if d > best:
-                best = d
-                anchors[turn] = k
-        start = anchors[turn]
-    p, q = points[anchors[0]], points[anchors[1]]
-    e = q - p
-    best = -1.0
-    for k in range(len(points)):
-        w = points[k] - p
-        x, y, z = e[1] * w[2] - e[2] * w[1], e[2] * w[0] - e[0] * w[2], e[0] * w[1] - e[1] * w[0]
-        d = x * x + y * y + z * z
-        if d > best:
-            best = d
-            anchors[2] = k
-
-
-@compiled
-def _frame(e: Floats, w: Floats, frame: Floats) -> bool:
-    """Orthonormal rows from two vectors; returns whether they span a plane (else the rows are some completion)."""
-    length = np.sqrt(e[0] ** 2 + e[1] ** 2 + e[2] ** 2)
-    if length == 0.0:
-        frame[:] = np.eye(3)
-        return False
-    for c in range(3):
-        frame[0, c] = e[c] / length
-    along = w[0] * frame[0, 0] + w[1] * frame[0, 1] + w[2] * frame[0, 2]
-    x, y, z = w[0] - along * frame[0, 0], w[1] - along * frame[0, 1], w[2] - along * frame[0, 2]
-    span = np.sqrt(x * x + y * y + z * z)
-    spans = bool(span > 1e-9 * length)
-    if not spans:
-        k = np.argmin(np.abs(frame[0]))
-        x, y, z = -frame[0, k] * frame[0, 0], -frame[0, k] * frame[0, 1], -frame[0, k] * frame[0, 2]
-        if k == 0:
-            x += 1.0
-        elif k == 1:
-            y += 1.0
+                best, found = d, v
+        anchors[row, turn] = found - v0
+        x, y, z = vertices[found, 0], vertices[found, 1], vertices[found, 2]
+        if turn == 0:
+            px, py, pz = x, y, z
         else:
-            z += 1.0
-        span = np.sqrt(x * x + y * y + z * z)
-    frame[1, 0], frame[1, 1], frame[1, 2] = x / span, y / span, z / span
-    frame[2, 0] = frame[0, 1] * frame[1, 2] - frame[0, 2] * frame[1, 1]
-    frame[2, 1] = frame[0, 2] * frame[1, 0] - frame[0, 0] * frame[1, 2]
-    frame[2, 2] = frame[0, 0] * frame[1, 1] - frame[0, 1] * frame[1, 0]
-    return spans
+            ex, ey, ez = x - px, y - py, z - pz
 
 
 @compiled
-def _turn_between(source: Floats, target: Floats, sense: float, turn: Floats) -> None:
+def _frame(ex: float, ey: float, ez: float, wx: float, wy: float, wz: float, frame: Floats) -> None:
+    """Orthonormal rows from two vectors; some completion of the first where they span no plane."""
+    length = sqrt(ex * ex + ey * ey + ez * ez)
+    if length == 0.0:
+        for r in range(3):
+            for c in range(3):
+                frame[r, c] = 1.0 if r == c else 0.0
+        return
+    ex, ey, ez = ex / length, ey / length, ez / length
+    along = wx * ex + wy * ey + wz * ez
+    x, y, z = wx - along * ex, wy - along * ey, wz - along * ez
+    span = sqrt(x * x + y * y + z * z)
+    if not span > 1e-9 * length:
+        # From the axis that it is farthest from.
+        if abs(ex) <= abs(ey) and abs(ex) <= abs(ez):
+            x, y, z = 1.0 - ex * ex, -ex * ey, -ex * ez
+        elif abs(ey) <= abs(ez):
+            x, y, z = -ey * ex, 1.0 - ey * ey, -ey * ez
+        else:
+            x, y, z = -ez * ex, -ez * ey, 1.0 - ez * ez
+        span = sqrt(x * x + y * y + z * z)
+    x, y, z = x / span, y / span, z / span
+    frame[0, 0], frame[0, 1], frame[0, 2] = ex, ey, ez
+    frame[1, 0], frame[1, 1], frame[1, 2] = x, y, z
+    frame[2, 0], frame[2, 1], frame[2, 2] = ey * z - ez * y, ez * x - ex * z, ex * y - ey * x
+
+
+@compiled
+def _frame_at(points: Floats, a: int, b: int, c: int, frame: Floats) -> None:
+    """The frame of three points: first row from the first to the second, then towards the third."""
+    x, y, z = points[a, 0], points[a, 1], points[a, 2]
+    _frame(
+        points[b, 0] - x, points[b, 1] - y, points[b, 2] - z, points[c, 0] - x, points[c, 1] - y, points[c, 2] - z, frame
+    )
+
+
+@compiled
+def _turn_between(source: Floats, target: Floats, sense: int, turn: Floats) -> None:
     """The orthogonal matrix that takes the rows of one frame to those of another; ``sense`` -1 mirrors."""
     for r in range(3):
         for c in range(3):
@@ -85,13 +99,11 @@ def _turn_between(source: Floats, target: Floats, sense: float, turn: Floats) ->
 
 
 @compiled
-def _same_faces(a: Faces, b: Faces) -> bool:
-    """Whether two lists hold the same triangles in the same order, whatever their first corner and sense."""
-    if len(a) != len(b):
-        return False
-    for f in range(len(a)):
-        i, j, k = a[f, 0], a[f, 1], a[f, 2]
-        p, q, r = b[f, 0], b[f, 1], b[f, 2]
+def _same_faces(faces: Faces, a: int, b: int, n: int) -> bool:
+    """Whether the ``n`` triangles from ``a`` and from ``b`` on are the same, whatever their first corner and sense."""
+    for f in range(n):
+        i, j, k = faces[a + f, 0], faces[a + f, 1], faces[a + f, 2]
+        p, q, r = faces[b + f, 0], faces[b + f, 1], faces[b + f, 2]
         same = i == p and ((j == q and k == r) or (j == r and k == q))
         same = same or (i == q and ((j == p and k == r) or (j == r and k == p)))
         same = same or (i == r and ((j == p and k == q) or (j == q and k == p)))
@@ -102,42 +114,51 @@ def _same_faces(a: Faces, b: Faces) -> bool:
 
 @compiled
 def align_by_order(
-    a: Floats, faces_a: Faces, anchors: Ints, b: Floats, faces_b: Faces, tolerance: float, turn: Floats, shift: Floats
-) -> int:
-    """Finds the motion that takes each vertex of ``a`` to the one of the same number in ``b``.
+    vertices: Floats, a: int, b: int, n: int, faces: Faces, faces_a: int, faces_b: int, n_faces: int,
+    anchors: Ints, row: int, tolerance: float, frame_a: Floats, frame_b: Floats, turn: Floats, shift: Floats,
+) -> int:  # fmt: skip
+    """Finds the motion that takes each vertex of one mesh to the one of the same number in another.
 
     Args:
-        a: ``(n, 3)`` [m].
-        faces_a: ``(m, 3)``.
-        anchors: ``(3,)`` vertices of ``a`` that fix the motion.
-        b: ``(n, 3)`` [m].
-        faces_b: ``(m, 3)``.
+        vertices: ``(n_vertices, 3)`` [m].
+        a: where the vertices of the one start.
+        b: where the vertices of the other start.
+        n: how many vertices each has.
+        faces: ``(n_faces, 3)`` vertices, counted from the mesh's first.
+        faces_a: where the faces of the one start.
+        faces_b: where the faces of the other start.
+        n_faces: how many faces each has.
+        anchors: ``(n, 3)`` vertices of ``a`` that fix the motion.
+        row: which row of ``anchors``.
         tolerance: greatest distance of a vertex from its counterpart [m].
+        frame_a: ``(3, 3)`` workspace.
+        frame_b: ``(3, 3)`` workspace.
         turn: ``(3, 3)`` output: b = turn a + shift.
         shift: ``(3,)`` output [m].
 
     Returns:
         1 for a rigid motion, -1 for a motion with a mirror, 0 for none.
     """
-    if len(a) != len(b) or not _same_faces(faces_a, faces_b):
+    if not _same_faces(faces, faces_a, faces_b, n_faces):
         return 0
-    frame_a, frame_b = np.empty((3, 3)), np.empty((3, 3))
-    _frame(a[anchors[1]] - a[anchors[0]], a[anchors[2]] - a[anchors[0]], frame_a)
-    _frame(b[anchors[1]] - b[anchors[0]], b[anchors[2]] - b[anchors[0]], frame_b)
-    limit = tolerance * tolerance
-    for sense in (1, -1):
-        _turn_between(frame_a, frame_b, float(sense), turn)
+    p, q, r = anchors[row, 0], anchors[row, 1], anchors[row, 2]
+    _frame_at(vertices, a + p, a + q, a + r, frame_a)
+    _frame_at(vertices, b + p, b + q, b + r, frame_b)
+    for mirrored in range(2):
+        sense = 1 - 2 * mirrored
+        _turn_between(frame_a, frame_b, sense, turn)
         for r in range(3):
-            shift[r] = b[anchors[0], r]
+            shift[r] = vertices[b + p, r]
             for c in range(3):
-                shift[r] -= turn[r, c] * a[anchors[0], c]
+                shift[r] -= turn[r, c] * vertices[a + p, c]
         fits = True
-        for k in range(len(a)):
+        for k in range(n):
             d = 0.0
+            x, y, z = vertices[a + k, 0], vertices[a + k, 1], vertices[a + k, 2]
             for r in range(3):
-                x = turn[r, 0] * a[k, 0] + turn[r, 1] * a[k, 1] + turn[r, 2] * a[k, 2] + shift[r] - b[k, r]
-                d += x * x
-            if not d <= limit:
+                gap = turn[r, 0] * x + turn[r, 1] * y + turn[r, 2] * z + shift[r] - vertices[b + k, r]
+                d += gap * gap
+            if not d <= tolerance * tolerance:
                 fits = False
                 break
         if fits:
@@ -147,136 +168,164 @@ def align_by_order(
 
 @compiled
 def weld(
-    points: Floats, faces: Faces, centroid: Floats, tolerance: float, spots: Floats, normals: Floats, reach: Floats
-) -> int:
+    vertices: Floats, bits: Keys, v0: int, n: int, faces: Faces, f0: int, f1: int,
+    x0: float, y0: float, z0: float, tolerance: float, spot_of: Ints, table: Ints,
+    spots: Floats, normals: Floats, reach: Floats,
+) -> int:  # fmt: skip
     """Merges equal positions that faces use, and describes each by what any motion leaves as it is.
 
     Args:
-        points: ``(n, 3)`` [m].
-        faces: ``(m, 3)``.
-        centroid: ``(3,)`` [m].
+        vertices: ``(n_vertices, 3)`` [m].
+        bits: the same numbers as unsigned integers.
+        v0: the first vertex of the mesh.
+        n: how many vertices it has.
+        faces: ``(n_faces, 3)`` vertices, counted from the mesh's first.
+        f0: the first face of the mesh.
+        f1: the end of its faces.
+        x0: the centroid [m].
+        y0: see ``x0``.
+        z0: see ``x0``.
         tolerance: rounding of the positions [m].
-        spots: ``(n, 3)`` output: distinct positions relative to the centroid [m].
-        normals: ``(n, 3)`` output: their unit normals summed with the corner angles as weights, NaN where a face is
-            too small to tell.
-        reach: ``(n, 2)`` output: distance from the centroid [m] and area of the faces around [m2].
+        spot_of: ``(m,)`` workspace, at least ``n`` long.
+        table: ``(m,)`` workspace, at least ``max(16, 4 n)`` long.
+        spots: ``(n_vertices, 3)`` output from row ``v0`` on: distinct positions relative to the centroid [m].
+        normals: ``(n_vertices, 3)`` output: their unit normals summed with the corner angles as weights, NaN where a
+            face is too small to tell.
+        reach: ``(n_vertices, 2)`` output: distance from the centroid [m] and area of the faces around [m2].
 
     Returns:
         How many distinct positions there are.
     """
-    n = len(points)
-    used = np.zeros(n, np.bool_)
-    for f in range(len(faces)):
+    for k in range(n):
+        spot_of[k] = -1
+    for f in range(f0, f1):
         # A corner that isn't there takes its face out, as in the properties.
-        if faces[f].min() >= 0 and faces[f].max() < n:
+        if _is_whole(faces, f, n):
             for c in range(3):
-                used[faces[f, c]] = True
-    spot_of = np.full(n, -1, np.int64)
+                spot_of[faces[f, c]] = 0
     capacity = 16
     while capacity < 2 * n:
         capacity *= 2
-    table = np.full(capacity, -1, np.int64)
-    n_spots = 0
+    for slot in range(capacity):
+        table[slot] = -1
+    end = v0
     for k in range(n):
-        if not used[k]:
+        if spot_of[k] < 0:
             continue
-        x, y, z = points[k, 0], points[k, 1], points[k, 2]
-        slot = hash((x + 0.0, y + 0.0, z + 0.0)) & (capacity - 1)
-        while table[slot] >= 0:
+        v = v0 + k
+        x, y, z = vertices[v, 0], vertices[v, 1], vertices[v, 2]
+        slot = np.int64(key_position(bits[v, 0], bits[v, 1], bits[v, 2]) & np.uint64(capacity - 1))
+        while True:
             other = table[slot]
-            if points[other, 0] == x and points[other, 1] == y and points[other, 2] == z:
+            if other < 0:
+                table[slot] = v
+                spot_of[k] = end
+                x, y, z = x - x0, y - y0, z - z0
+                spots[end, 0], spots[end, 1], spots[end, 2] = x, y, z
+                reach[end, 0], reach[end, 1] = sqrt(x * x + y * y + z * z), 0.0
+                for c in range(3):
+                    normals[end, c] = 0.0
+                end += 1
+                break
+            if vertices[other, 0] == x and vertices[other, 1] == y and vertices[other, 2] == z:
+                spot_of[k] = spot_of[other - v0]
                 break
             slot = (slot + 1) & (capacity - 1)
-        if table[slot] < 0:
-            table[slot] = k
-            spot_of[k] = n_spots
-            for c in range(3):
-                spots[n_spots, c] = points[k, c] - centroid[c]
-                normals[n_spots, c] = 0.0
-            reach[n_spots, 0] = np.sqrt(spots[n_spots, 0] ** 2 + spots[n_spots, 1] ** 2 + spots[n_spots, 2] ** 2)
-            reach[n_spots, 1] = 0.0
-            n_spots += 1
-        else:
-            spot_of[k] = spot_of[table[slot]]
-    for f in range(len(faces)):
-        if faces[f].min() >= 0 and faces[f].max() < n:
-            _add_corners(points, faces[f], spot_of, tolerance, normals, reach)
-    return n_spots
+    for f in range(f0, f1):
+        if _is_whole(faces, f, n):
+            _add_corners(vertices, v0, faces, f, spot_of, tolerance, normals, reach)
+    return end - v0
 
 
 @compiled
-def _add_corners(points: Floats, face: Faces, spot_of: Ints, tolerance: float, normals: Floats, reach: Floats) -> None:
-    normal = np.empty(3)
-    u = points[face[1]] - points[face[0]]
-    w = points[face[2]] - points[face[0]]
-    normal[0], normal[1], normal[2] = u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]
-    double = np.sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2)
-    v = w - u
-    lengths = np.array([(v * v).sum(), (w * w).sum(), (u * u).sum()])
-    longest = np.sqrt(lengths.max())
+def _is_whole(faces: Faces, f: int, n: int) -> bool:
+    """Whether all corners of a face are among ``n`` vertices."""
+    for c in range(3):
+        if faces[f, c] < 0 or faces[f, c] >= n:
+            return False
+    return True
+
+
+@compiled
+def _add_corners(
+    vertices: Floats, v0: int, faces: Faces, f: int, spot_of: Ints, tolerance: float, normals: Floats, reach: Floats
+) -> None:
+    """Adds a face to the normals and areas of its corners."""
+    i, j, k = v0 + faces[f, 0], v0 + faces[f, 1], v0 + faces[f, 2]
+    x, y, z = vertices[i, 0], vertices[i, 1], vertices[i, 2]
+    ux, uy, uz = vertices[j, 0] - x, vertices[j, 1] - y, vertices[j, 2] - z
+    wx, wy, wz = vertices[k, 0] - x, vertices[k, 1] - y, vertices[k, 2] - z
+    nx, ny, nz = uy * wz - uz * wy, uz * wx - ux * wz, ux * wy - uy * wx
+    double = sqrt(nx * nx + ny * ny + nz * nz)
+    vx, vy, vz = wx - ux, wy - uy, wz - uz
+    # Squared sides, each opposite to its corner.
+    a, b, c = vx * vx + vy * vy + vz * vz, wx * wx + wy * wy + wz * wz, ux * ux + uy * uy + uz * uz
+    longest = sqrt(max(a, b, c))
     if longest == 0.0:
         return
     vague = double <= _MIN_HEIGHT * tolerance * longest
-    for c in range(3):
-        spot = spot_of[face[c]]
+    for corner in range(3):
+        spot = spot_of[faces[f, corner]]
         reach[spot, 1] += 0.5 * double
         if vague:
-            normals[spot, :] = np.nan
-            continue
-        a, b = lengths[(c + 1) % 3], lengths[(c + 2) % 3]
-        angle = np.arctan2(double, 0.5 * (a + b - lengths[c]))
-        for k in range(3):
-            normals[spot, k] += angle * normal[k] / double
+            normals[spot, 0] = nan
+        else:
+            angle = atan2(double, 0.5 * (b + c - a))
+            normals[spot, 0] += angle * nx / double
+            normals[spot, 1] += angle * ny / double
+            normals[spot, 2] += angle * nz / double
+        a, b, c = b, c, a
 
 
 @compiled
-def _classes(reach: Floats, tolerance: float, strict: bool) -> Ints:
+def _classes(reach: Floats, a: int, n: int, tolerance: float, strict: bool, rows: Floats, spare: Floats, size: Ints) -> None:
     """How many vertices look like each one: same distance from the centroid and, if strict, same area around."""
-    n = len(reach)
-    order = np.argsort(reach[:, 0])
-    size = np.empty(n, np.int64)
-    start = 0
-    for k in range(1, n + 1):
-        if k < n and reach[order[k], 0] - reach[order[k - 1], 0] <= tolerance:
-            continue
-        block = order[start:k]
+    for k in range(n):
+        rows[k, 0], rows[k, 1] = reach[a + k, 0], k
+    sort_rows(rows, np.int64(0), n, spare)
+    start = np.int64(0)
+    while start < n:
+        end = start + 1
+        while end < n and rows[end, 0] - rows[end - 1, 0] <= tolerance:
+            end += 1
         if strict:
-            block = block[np.argsort(reach[block, 1])]
-        first = 0
-        for i in range(1, len(block) + 1):
-            if i < len(block) and (
-                not strict
-                or reach[block[i], 1] - reach[block[i - 1], 1] <= _area_tolerance(reach[block[i], 1], tolerance)
-            ):
+            for k in range(start, end):
+                rows[k, 0] = reach[a + int(rows[k, 1]), 1]
+            sort_rows(rows, start, end, spare)
+        first = start
+        for k in range(start + 1, end + 1):
+            if k < end and (not strict or rows[k, 0] - rows[k - 1, 0] <= _area_tolerance(rows[k, 0], tolerance)):
                 continue
-            for j in range(first, i):
-                size[block[j]] = i - first
-            first = i
-        start = k
-    return size
+            for j in range(first, k):
+                size[int(rows[j, 1])] = k - first
+            first = k
+        start = end
 
 
 @compiled
 def _area_tolerance(area: float, tolerance: float) -> float:
     """How much rounding may change the area around a vertex [m2]."""
-    return float(1e-3 * area + 8.0 * tolerance * np.sqrt(area) + 1e-12)
+    return 1e-3 * area + 8.0 * tolerance * sqrt(area) + 1e-12
 
 
 @compiled
-def _pick_pair(spots: Floats, reach: Floats, size: Ints) -> tuple[int, int]:
-    """Two vertices of rare looks that fix a motion about the centroid; the second is -1 if all lie on one line."""
-    farthest = reach[:, 0].max()
+def _pick_pair(spots: Floats, reach: Floats, a: int, n: int, size: Ints) -> tuple[int, int]:
+    """Two vertices of rare looks that fix a motion about the centroid; both the same if all lie on one line."""
+    farthest = 0.0
+    for k in range(n):
+        farthest = max(farthest, reach[a + k, 0])
     first = -1
-    for k in range(len(spots)):
-        if reach[k, 0] > 0.3 * farthest and (first < 0 or size[k] < size[first]):
+    for k in range(n):
+        if reach[a + k, 0] > 0.3 * farthest and (first < 0 or size[k] < size[first]):
             first = k
-    second, widest = -1, -1
+    first = max(first, 0)
+    second, widest = -1, first
     widest_sine = 1e-6
-    p = spots[first]
-    for k in range(len(spots)):
-        q = spots[k]
-        x, y, z = p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]
-        sine = np.sqrt(x * x + y * y + z * z) / (reach[first, 0] * farthest)
+    px, py, pz = spots[a + first, 0], spots[a + first, 1], spots[a + first, 2]
+    for k in range(n):
+        qx, qy, qz = spots[a + k, 0], spots[a + k, 1], spots[a + k, 2]
+        x, y, z = py * qz - pz * qy, pz * qx - px * qz, px * qy - py * qx
+        sine = sqrt(x * x + y * y + z * z) / (reach[a + first, 0] * farthest)
         if sine > widest_sine:
             widest, widest_sine = k, sine
         if sine > 0.3 and (second < 0 or size[k] < size[second]):
@@ -285,94 +334,120 @@ def _pick_pair(spots: Floats, reach: Floats, size: Ints) -> tuple[int, int]:
 
 
 @compiled
-def _grid(spots: Floats, low: Floats, step: Floats, dims: Ints) -> tuple[Ints, Ints]:
-    """Sorts points into the cells of a regular grid: starts of each cell, and the points by cell."""
-    n = len(spots)
-    wanted = min(64, int(np.ceil(n ** (1.0 / 3.0))))
+def _cells_along(n: int) -> int:
+    """How many cells along each axis there are for ``n`` points."""
+    return int(min(64.0, ceil(n ** (1.0 / 3.0))))
+
+
+@compiled
+def count_cells(n: int) -> int:
+    """The most cells that ``n`` points are sorted into."""
+    return _cells_along(n) ** 3
+
+
+@compiled
+def _cell(x: float, axis: int, grid: Floats) -> int:
+    """Which of the cells along an axis a coordinate is in, or nearest to; the far edge belongs to the last one."""
+    at, last = floor((x - grid[axis, 0]) / grid[axis, 1]), grid[axis, 2] - 1.0
+    if at > last:
+        at = last
+    return int(at) if at > 0.0 else 0
+
+
+@compiled
+def _sort_cells(spots: Floats, b: int, n: int, grid: Floats, starts: Ints, members: Ints, cells: Ints) -> None:
+    """Sorts points into the cells of a regular grid: starts of each cell, and the points by cell.
+
+    Rows of ``grid`` are, for each axis: where it starts, the size of a cell, how many there are.
+    """
+    wanted = _cells_along(n)
+    n_cells = 1
     for c in range(3):
-        low[c] = spots[:, c].min()
-        span = spots[:, c].max() - low[c]
-        dims[c] = wanted if span > 0.0 else 1
-        step[c] = span / dims[c] if span > 0.0 else 1.0
-    cell = np.empty(n, np.int64)
-    starts = np.zeros(dims[0] * dims[1] * dims[2] + 1, np.int64)
+        low = high = spots[b, c]
+        for k in range(b, b + n):
+            low, high = min(low, spots[k, c]), max(high, spots[k, c])
+        grid[c, 0], grid[c, 1], grid[c, 2] = low, 1.0, 1.0
+        if high > low:
+            grid[c, 1], grid[c, 2] = (high - low) / wanted, wanted
+        n_cells *= int(grid[c, 2])
+    for k in range(n_cells + 1):
+        starts[k] = 0
     for k in range(n):
         at = 0
         for c in range(3):
-            i = min(dims[c] - 1, max(0, int((spots[k, c] - low[c]) / step[c])))
-            at = at * dims[c] + i
-        cell[k] = at
-        starts[at + 1] += 1
-    for k in range(1, len(starts)):
+            at = at * int(grid[c, 2]) + _cell(spots[b + k, c], np.int64(c), grid)
+        cells[k] = at
+        starts[at] += 1
+    for k in range(1, n_cells + 1):
         starts[k] += starts[k - 1]
-    fill = starts[:-1].copy()
-    members = np.empty(n, np.int64)
-    for k in range(n):
-        members[fill[cell[k]]] = k
-        fill[cell[k]] += 1
-    return starts, members
+    # Filled from the back, each start moves down to where its cell begins.
+    for step in range(1, n + 1):
+        k = n - step
+        starts[cells[k]] -= 1
+        members[starts[cells[k]]] = k
 
 
 @compiled
 def _nearest(
-    point: Floats, spots: Floats, low: Floats, step: Floats, dims: Ints, starts: Ints, members: Ints, limit: float
+    x: float, y: float, z: float, spots: Floats, b: int, grid: Floats, starts: Ints, members: Ints, limit: float
 ) -> int:
     """The nearest point within ``limit``, or -1."""
-    first, last = np.empty(3, np.int64), np.empty(3, np.int64)
-    for c in range(3):
-        first[c] = max(0, int(np.floor((point[c] - limit - low[c]) / step[c])))
-        last[c] = min(dims[c] - 1, int(np.floor((point[c] + limit - low[c]) / step[c])))
-        # The far edge of the grid belongs to its last cell.
-        first[c] = min(first[c], dims[c] - 1)
     found, best = -1, limit * limit
-    for i in range(first[0], last[0] + 1):
-        for j in range(first[1], last[1] + 1):
-            for k in range(first[2], last[2] + 1):
-                at = (i * dims[1] + j) * dims[2] + k
-                for s in range(starts[at], starts[at + 1]):
-                    m = members[s]
-                    x, y, z = spots[m, 0] - point[0], spots[m, 1] - point[1], spots[m, 2] - point[2]
-                    d = x * x + y * y + z * z
-                    if d <= best:
-                        found, best = m, d
+    n_y, n_z = int(grid[1, 2]), int(grid[2, 2])
+    x_axis, y_axis, z_axis = np.int64(0), np.int64(1), np.int64(2)
+    y_low, y_high = _cell(y - limit, y_axis, grid), _cell(y + limit, y_axis, grid)
+    z_low, z_high = _cell(z - limit, z_axis, grid), _cell(z + limit, z_axis, grid)
+    for i in range(_cell(x - limit, x_axis, grid), _cell(x + limit, x_axis, grid) + 1):
+        for j in range(y_low, y_high + 1):
+            at = (i * n_y + j) * n_z
+            # Cells along the last axis follow each other.
+            for s in range(starts[at + z_low], starts[at + z_high + 1]):
+                m = members[s]
+                u, v, w = spots[b + m, 0] - x, spots[b + m, 1] - y, spots[b + m, 2] - z
+                d = u * u + v * v + w * w
+                if d <= best:
+                    found, best = m, d
     return found
 
 
 @compiled
-def _fits(
-    turn: Floats, spots_a: Floats, normals_a: Floats, spots_b: Floats, normals_b: Floats, tolerance: float,
-    low: Floats, step: Floats, dims: Ints, starts: Ints, members: Ints, taken: Bools, checks: Ints,
-) -> bool:  # fmt: skip
-    """Whether each vertex of a, turned, is one of b's with a like normal, and none of b's is left over."""
-    n = len(spots_a)
-    taken[:] = False
-    n_taken = 0
-    point, normal = np.empty(3), np.empty(3)
+def _n_fitting(
+    turn: Floats, spots: Floats, normals: Floats, a: int, b: int, n: int, tolerance: float,
+    grid: Floats, starts: Ints, members: Ints, taken: Ints,
+) -> int:  # fmt: skip
+    """How many vertices of a, turned, are each one of b's with a like normal; ``n`` only if none of b's is left over."""
     for k in range(n):
-        checks[0] += 1
-        for r in range(3):
-            point[r] = turn[r, 0] * spots_a[k, 0] + turn[r, 1] * spots_a[k, 1] + turn[r, 2] * spots_a[k, 2]
-            normal[r] = turn[r, 0] * normals_a[k, 0] + turn[r, 1] * normals_a[k, 1] + turn[r, 2] * normals_a[k, 2]
-        m = _nearest(point, spots_b, low, step, dims, starts, members, tolerance)
+        taken[k] = 0
+    n_taken = 0
+    for k in range(a, a + n):
+        x, y, z = spots[k, 0], spots[k, 1], spots[k, 2]
+        m = _nearest(
+            turn[0, 0] * x + turn[0, 1] * y + turn[0, 2] * z,
+            turn[1, 0] * x + turn[1, 1] * y + turn[1, 2] * z,
+            turn[2, 0] * x + turn[2, 1] * y + turn[2, 2] * z,
+            spots, b, grid, starts, members, tolerance,
+        )  # fmt: skip
         if m < 0:
-            return False
+            return k - a
+        x, y, z = normals[k, 0], normals[k, 1], normals[k, 2]
         along = against = 0.0
         for r in range(3):
-            along += (normal[r] - normals_b[m, r]) ** 2
-            against += (normal[r] + normals_b[m, r]) ** 2
+            h = turn[r, 0] * x + turn[r, 1] * y + turn[r, 2] * z
+            other = normals[b + m, r]
+            along += (h - other) * (h - other)
+            against += (h + other) * (h + other)
         # The sense of faces is no part of the shape: CAD has it wrong too often. NaN passes.
-        if min(along, against) > _NORMAL_TOLERANCE**2:
-            return False
-        if not taken[m]:
-            taken[m] = True
-            n_taken += 1
-    return n_taken == n
+        if along > _NORMAL_TOLERANCE**2 and against > _NORMAL_TOLERANCE**2:
+            return k - a
+        n_taken += 1 - taken[m]
+        taken[m] = 1
+    return n if n_taken == n else n - 1
 
 
 @compiled
 def align_sets(
-    spots_a: Floats, normals_a: Floats, reach_a: Floats, spots_b: Floats, normals_b: Floats, reach_b: Floats,
-    tolerance: float, sense: int, strict: bool, turn: Floats,
+    spots: Floats, normals: Floats, reach: Floats, a: int, b: int, n: int, tolerance: float, sense: int, strict: bool,
+    rows: Floats, spare: Floats, work: Ints, starts: Ints, frame_a: Floats, frame_b: Floats, grid: Floats, turn: Floats,
 ) -> bool:  # fmt: skip
     """Finds the turn about the centroids that takes one set of welded vertices to another, in any order.
 
@@ -380,85 +455,71 @@ def align_sets(
     that follows is verified on all vertices. Parts of any symmetry are found, since any of their poses will do.
 
     Args:
-        spots_a: ``(n, 3)`` and so on: what ``weld`` gives for each side.
-        normals_a: see ``spots_a``.
-        reach_a: see ``spots_a``.
-        spots_b: see ``spots_a``.
-        normals_b: see ``spots_a``.
-        reach_b: see ``spots_a``.
+        spots: ``(n_vertices, 3)`` and so on: what ``weld`` gives.
+        normals: see ``spots``.
+        reach: see ``spots``.
+        a: where the one set starts.
+        b: where the other one starts.
+        n: how many each has, at least 1.
         tolerance: greatest distance of a vertex from its counterpart [m].
         sense: 1 for a rigid motion, -1 for one with a mirror.
         strict: whether the faces around a vertex must have the same area too, which the diagonal of a flat
             quadrangle can change; without it, symmetric parts take longer.
+        rows: ``(m, 2)`` workspace, ``m`` at least ``n``.
+        spare: ``(m, 2)`` workspace.
+        work: ``(4, m)`` workspace.
+        starts: ``(k,)`` workspace, at least ``count_cells(n) + 1`` long.
+        frame_a: ``(3, 3)`` workspace.
+        frame_b: ``(3, 3)`` workspace.
+        grid: ``(3, 3)`` workspace.
         turn: ``(3, 3)`` output.
 
     Returns:
         Whether there is one.
     """
-    n = len(spots_a)
-    if n != len(spots_b) or n == 0:
-        return False
-    first, second = _pick_pair(spots_a, reach_a, _classes(reach_a, tolerance, strict))
-    low, step, dims = np.empty(3), np.empty(3), np.empty(3, np.int64)
-    starts, members = _grid(spots_b, low, step, dims)
-    taken = np.empty(n, np.bool_)
-    checks = np.zeros(1, np.int64)
-    frame_a, frame_b = np.empty((3, 3)), np.empty((3, 3))
-    p, q = spots_a[first], spots_a[second] if second >= 0 else spots_a[first]
-    _frame(p, q, frame_a)
-    apart = np.sqrt(((p - q) ** 2).sum())
-    likes_p = _alike(reach_a[first], reach_b, tolerance, strict)
-    likes_q = _alike(reach_a[second] if second >= 0 else reach_a[first], reach_b, tolerance, strict)
-    for i in likes_p:
-        for j in likes_q:
-            checks[0] += 1
-            if checks[0] > _MAX_CHECKS + 2000 * n:
+    likes_p, likes_q, members, taken = work[0], work[1], work[2], work[3]
+    _classes(reach, a, n, tolerance, strict, rows, spare, taken)
+    first, second = _pick_pair(spots, reach, a, n, taken)
+    _sort_cells(spots, b, n, grid, starts, members, taken)
+    p, q = a + first, a + second
+    x, y, z = spots[p, 0], spots[p, 1], spots[p, 2]
+    u, v, w = spots[q, 0], spots[q, 1], spots[q, 2]
+    _frame(x, y, z, u, v, w, frame_a)
+    apart = sqrt((x - u) * (x - u) + (y - v) * (y - v) + (z - w) * (z - w))
+    n_p = _alike(reach, p, b, n, tolerance, strict, likes_p)
+    n_q = _alike(reach, q, b, n, tolerance, strict, likes_q)
+    checks = 0
+    for at_p in range(n_p):
+        i = b + likes_p[at_p]
+        x, y, z = spots[i, 0], spots[i, 1], spots[i, 2]
+        for at_q in range(n_q):
+            checks += 1
+            if checks > _MAX_CHECKS + 2000 * n:
                 return False
-            d = np.sqrt(((spots_b[i] - spots_b[j]) ** 2).sum())
+            j = b + likes_q[at_q]
+            u, v, w = spots[j, 0], spots[j, 1], spots[j, 2]
+            d = sqrt((x - u) * (x - u) + (y - v) * (y - v) + (z - w) * (z - w))
             if abs(d - apart) > 2.0 * tolerance:
                 continue
-            _frame(spots_b[i], spots_b[j], frame_b)
-            _turn_between(frame_a, frame_b, float(sense), turn)
-            if _fits(
-                turn, spots_a, normals_a, spots_b, normals_b, tolerance,
-                low, step, dims, starts, members, taken, checks,
-            ):  # fmt: skip
+            _frame(x, y, z, u, v, w, frame_b)
+            _turn_between(frame_a, frame_b, sense, turn)
+            n_fitting = _n_fitting(turn, spots, normals, a, b, n, tolerance, grid, starts, members, taken)
+            if n_fitting == n:
                 return True
+            checks += n_fitting + 1
     return False
 
 
 @compiled
-def _alike(look: Floats, reach: Floats, tolerance: float, strict: bool) -> Ints:
-    """The vertices that look like a given one."""
-    found = np.empty(len(reach), np.int64)
+def _alike(reach: Floats, look: int, b: int, n: int, tolerance: float, strict: bool, found: Ints) -> int:
+    """Lists the vertices from ``b`` on that look like a given one; returns how many there are."""
+    far, area = reach[look, 0], reach[look, 1]
     m = 0
-    for k in range(len(reach)):
-        if abs(reach[k, 0] - look[0]) > tolerance:
+    for k in range(n):
+        if abs(reach[b + k, 0] - far) > tolerance:
             continue
-        if strict and abs(reach[k, 1] - look[1]) > _area_tolerance(look[1], tolerance):
+        if strict and abs(reach[b + k, 1] - area) > _area_tolerance(area, tolerance):
             continue
         found[m] = k
         m += 1
-    return found[:m]
-
-
-@compiled
-def fits_in_place(spots_a: Floats, normals_a: Floats, spots_b: Floats, normals_b: Floats, tolerance: float) -> bool:
-    """Whether two sets of welded vertices, both relative to one point, coincide without any motion.
-
-    Args:
-        spots_a: ``(n, 3)`` [m].
-        normals_a: ``(n, 3)`` as from ``weld``.
-        spots_b: ``(n, 3)`` [m].
-        normals_b: ``(n, 3)``.
-        tolerance: greatest distance of a vertex from its counterpart [m].
-    """
-    n = len(spots_a)
-    if n != len(spots_b) or n == 0:
-        return False
-    low, step, dims = np.empty(3), np.empty(3), np.empty(3, np.int64)
-    starts, members = _grid(spots_b, low, step, dims)
-    return _fits(
-        np.eye(3), spots_a, normals_a, spots_b, normals_b, tolerance,
-        low, step, dims, starts, members, np.empty(n, np.bool_), np.zeros(1, np.int64),
-    )  # fmt: skip
+    return m

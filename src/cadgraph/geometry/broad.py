@@ -69,7 +69,9 @@ def _sort_boxes(boxes: Floats) -> tuple[Ints, Ints]:
 @compiled
 def _morton_order(boxes: Floats, group: Ints) -> Ints:
     n = len(boxes)
-    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    low, high = np.empty(3), np.empty(3)
+    for k in range(3):
+        low[k], high[k] = np.inf, -np.inf
     for i in range(n):
         for k in range(3):
             at = boxes[i, 0, k] + boxes[i, 1, k]
@@ -164,7 +166,8 @@ def _search(
                         continue
                     if n_found == len(found):
                         grown = np.empty(2 * n_found, np.int64)
-                        grown[:n_found] = found
+                        for k in range(n_found):
+                            grown[k] = found[k]
                         found = grown
                     a, b = min(index[i], index[j]), max(index[i], index[j])
                     found[n_found] = a * n_meshes + b

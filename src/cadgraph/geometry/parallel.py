@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from cadgraph.scene import Ints
 
-__all__ = ["compiled", "for_ranges", "inlined", "readable"]
+__all__ = ["compiled", "for_ranges", "readable"]
 
 _F = TypeVar("_F", bound=Callable[..., Any])
 _T = TypeVar("_T", bound=np.generic)
@@ -30,24 +30,14 @@ def compiled(function: _F) -> _F:
     """Compiles a kernel to machine code that runs outside the interpreter lock, cached on disk.
 
     Divisions follow IEEE 754 (no exception on zero); fast-math stays off, so that results are the same everywhere.
-    The first run on a machine waits for the compiler, and a kernel is compiled anew inside each kernel that calls it:
-    keep to loops over scalars (array expressions, slices, sorting and ``np.linalg`` pull in thousands of lines) and
-    to few levels of calls.
+
+    The first run on a machine waits for the compiler, about 1 ms for each operation and access and 50 ms for each
+    function. Keep to loops over scalars: array expressions, slices, sorting and ``np.linalg`` pull in thousands of
+    lines. An integer that starts as a constant and goes to another kernel should start as ``np.int64(0)``, since that
+    kernel is compiled for the constant as well otherwise.
     """
-    return _compile(function, "never")
-
-
-def inlined(function: _F) -> _F:
-    """Makes a function part of the kernel that calls it, for parts that are called from one place only.
-
-    They are compiled once with that kernel rather than by themselves and then again inside each caller.
-    """
-    return _compile(function, "always")
-
-
-def _compile(function: _F, inline: str) -> _F:
     # Nobody calls kernels from C, and each such entry would have to be compiled too.
-    kernel: Any = numba.njit(cache=True, nogil=True, error_model="numpy", inline=inline, no_cfunc_wrapper=True)(function)
+    kernel: Any = numba.njit(cache=True, nogil=True, error_model="numpy", no_cfunc_wrapper=True)(function)
     # numba throws a cached kernel away when its own file changes, but not when that of a kernel that it calls does.
     index: Any = getattr(getattr(kernel, "_cache", None), "_cache_file", None)
     if index is not None and hasattr(index, "_source_stamp"):

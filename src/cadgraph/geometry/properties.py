@@ -55,12 +55,15 @@ def measure(scene: Scene, workers: int | None = None, boxes: bool = True) -> Pro
             vertices, bits, faces, v_offsets, f_offsets, first, last,
             used, sums, closed, centroid, aabb, covariance, counts,
         )  # fmt: skip
-        fit_boxes(
-            vertices, used, faces, v_offsets, f_offsets, covariance, first, last, obb_center, obb_axes, obb_extents
-        )
+        if boxes:
+            fit_boxes(
+                vertices, used, faces, v_offsets, f_offsets, covariance, first, last, obb_center, obb_axes, obb_extents
+            )
 
     n_vertices, n_faces = np.diff(v_offsets), np.diff(f_offsets)
     for_ranges(kernel, n_vertices + n_faces, workers)
+    if not boxes:
+        obb_center, obb_axes, obb_extents = _upright_boxes(aabb)
     # From second moments to the inertia tensor: the trace on the diagonal, less the moments.
     inertia = 0.0 - covariance
     diagonal = np.arange(3)
@@ -79,6 +82,15 @@ def measure(scene: Scene, workers: int | None = None, boxes: bool = True) -> Pro
         n_degenerate=counts[:, 0].copy(),
         n_nonfinite=counts[:, 1].copy(),
     )
+
+
+def _upright_boxes(aabb: Floats) -> tuple[Floats, Floats, Floats]:
+    """Axis-aligned boxes as oriented ones: centres, axes, extents."""
+    sides = np.nan_to_num(aabb[:, 1] - aabb[:, 0])
+    order = np.argsort(-sides, axis=1, kind="stable")
+    axes = np.eye(3)[order]
+    axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])
+    return 0.5 * (aabb[:, 0] + aabb[:, 1]), axes, np.take_along_axis(sides, order, axis=1)
 
 
 @compiled

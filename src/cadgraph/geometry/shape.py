@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cadgraph.geometry.alignment import align_by_order, align_sets, pick_anchors, weld
-from cadgraph.geometry.parallel import compiled, for_ranges
+from cadgraph.geometry.alignment import align_by_order, align_sets, count_cells, pick_anchors, weld
+from cadgraph.geometry.key import Keys
+from cadgraph.geometry.parallel import compiled, for_ranges, readable
 from cadgraph.parts import Bools, Properties
 from cadgraph.scene import Faces, Floats, Ints, Scene
 
@@ -153,10 +154,11 @@ class _Kernels:
     """Compares pairs of meshes of one scene; welds each mesh at most once."""
 
     def __init__(self, scene: Scene, properties: Properties, tolerance: Floats, workers: int | None) -> None:
-        self.vertices = np.ascontiguousarray(scene.vertices, np.float64)
-        self.faces = np.ascontiguousarray(scene.faces, np.int32)
-        self.v_offsets, self.f_offsets = scene.vertex_offsets, scene.face_offsets
-        self.centroid, self.tolerance, self.workers = properties.centroid, tolerance, workers
+        self.vertices, self.faces = readable(scene.vertices, np.float64), readable(scene.faces, np.int32)
+        self.bits = self.vertices.view(np.uint64)
+        self.v_offsets, self.f_offsets = readable(scene.vertex_offsets, np.int64), readable(scene.face_offsets, np.int64)
+        self.centroid, self.tolerance = readable(properties.centroid, np.float64), readable(tolerance, np.float64)
+        self.workers = workers
         self.n_spots = np.full(scene.n_meshes, -1, np.int64)
         self.spots = np.empty((0, 3))
         self.normals = np.empty((0, 3))
@@ -205,7 +207,7 @@ class _Kernels:
 
         def weld_range(low: int, high: int) -> None:
             _weld_range(
-                self.vertices, self.faces, self.v_offsets, self.f_offsets, self.centroid, self.tolerance,
+                self.vertices, self.bits, self.faces, self.v_offsets, self.f_offsets, self.centroid, self.tolerance,
                 meshes, low, high, self.spots, self.normals, self.reach, self.n_spots,
             )  # fmt: skip
 
@@ -216,7 +218,7 @@ class _Kernels:
 def _anchor_range(vertices: Floats, v_offsets: Ints, heads: Ints, low: int, high: int, anchors: Ints) -> None:
     for k in range(low, high):
         i = heads[k]
-        pick_anchors(vertices[v_offsets[i] : v_offsets[i + 1]], anchors[k])
+        pick_anchors(vertices, v_offsets[i], v_offsets[i + 1], k, anchors)
 
 
 @compiled
@@ -224,31 +226,34 @@ def _order_range(
     vertices: Floats, faces: Faces, v_offsets: Ints, f_offsets: Ints, tolerance: Floats,
     pairs: Ints, head_of_pair: Ints, anchors: Ints, low: int, high: int, sense: Ints, turn: Floats, shift: Floats,
 ) -> None:  # fmt: skip
+    frame_a, frame_b = np.empty((3, 3)), np.empty((3, 3))
     for k in range(low, high):
-        i, j = pairs[k]
-        sense[k] = align_by_order(
-            vertices[v_offsets[i] : v_offsets[i + 1]],
-            faces[f_offsets[i] : f_offsets[i + 1]],
-            anchors[head_of_pair[k]],
-            vertices[v_offsets[j] : v_offsets[j + 1]],
-            faces[f_offsets[j] : f_offsets[j + 1]],
-            max(tolerance[i], tolerance[j]),
-            turn[k],
-            shift[k],
-        )
+        i, j = pairs[k, 0], pairs[k, 1]
+        a, b, fa, fb = v_offsets[i], v_offsets[j], f_offsets[i], f_offsets[j]
+        n, m = v_offsets[i + 1] - a, f_offsets[i + 1] - fa
+        sense[k] = 0
+        if n == v_offsets[j + 1] - b and m == f_offsets[j + 1] - fb:
+            sense[k] = align_by_order(
+                vertices, a, b, n, faces, fa, fb, m, anchors, head_of_pair[k], max(tolerance[i], tolerance[j]),
+                frame_a, frame_b, turn[k], shift[k],
+            )  # fmt: skip
 
 
 @compiled
 def _weld_range(
-    vertices: Floats, faces: Faces, v_offsets: Ints, f_offsets: Ints, centroid: Floats, tolerance: Floats,
+    vertices: Floats, bits: Keys, faces: Faces, v_offsets: Ints, f_offsets: Ints, centroid: Floats, tolerance: Floats,
     meshes: Ints, low: int, high: int, spots: Floats, normals: Floats, reach: Floats, n_spots: Ints,
 ) -> None:  # fmt: skip
+    n_most = 4
+    for k in range(low, high):
+        n_most = max(n_most, v_offsets[meshes[k] + 1] - v_offsets[meshes[k]])
+    spot_of, table = np.empty(n_most, np.int64), np.empty(4 * n_most, np.int64)
     for k in range(low, high):
         i = meshes[k]
-        v0, v1 = v_offsets[i], v_offsets[i + 1]
+        v0 = v_offsets[i]
         n_spots[i] = weld(
-            vertices[v0:v1], faces[f_offsets[i] : f_offsets[i + 1]], centroid[i], tolerance[i],
-            spots[v0:v1], normals[v0:v1], reach[v0:v1],
+            vertices, bits, v0, v_offsets[i + 1] - v0, faces, f_offsets[i], f_offsets[i + 1],
+            centroid[i, 0], centroid[i, 1], centroid[i, 2], tolerance[i], spot_of, table, spots, normals, reach,
         )  # fmt: skip
 
 
@@ -257,26 +262,37 @@ def _set_range(
     spots: Floats, normals: Floats, reach: Floats, v_offsets: Ints, n_spots: Ints, tolerance: Floats,
     centroid: Floats, pairs: Ints, left: Ints, low: int, high: int, sense: Ints, turn: Floats, shift: Floats,
 ) -> None:  # fmt: skip
+    n_most = 1
+    for at in range(low, high):
+        n_most = max(n_most, n_spots[pairs[left[at], 0]])
+    rows, spare, work = np.empty((n_most, 2)), np.empty((n_most, 2)), np.empty((4, n_most), np.int64)
+    starts = np.empty(count_cells(n_most) + 1, np.int64)
+    frame_a, frame_b, grid = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3))
     for at in range(low, high):
         k = left[at]
-        i, j = pairs[k]
-        a, b = v_offsets[i], v_offsets[j]
-        spots_a, spots_b = spots[a : a + n_spots[i]], spots[b : b + n_spots[j]]
-        normals_a, normals_b = normals[a : a + n_spots[i]], normals[b : b + n_spots[j]]
-        reach_a, reach_b = reach[a : a + n_spots[i]], reach[b : b + n_spots[j]]
-        limit = max(tolerance[i], tolerance[j])
-        found = 1 if align_sets(
-            spots_a, normals_a, reach_a, spots_b, normals_b, reach_b, limit, 1, True, turn[k]
-        ) else 0  # fmt: skip
-        if found == 0:
-            mirrored = sense[k] == -1 or align_sets(
-                spots_a, normals_a, reach_a, spots_b, normals_b, reach_b, limit, -1, True, turn[k]
-            )
-            # The mirror image of a part that is its own mirror image is that part, whatever its diagonals.
-            if mirrored:
-                found = 1 if align_sets(
-                    spots_a, normals_a, reach_a, spots_b, normals_b, reach_b, limit, 1, False, turn[k]
-                ) else -1  # fmt: skip
+        i, j = pairs[k, 0], pairs[k, 1]
+        n = n_spots[i]
+        # First as it is, then its mirror image. The mirror image of a part that is its own mirror image is that part,
+        # whatever its diagonals: so then as it is again, less strictly.
+        found, is_mirror = np.int64(0), sense[k] == -1
+        for attempt in range(3):
+            if n == 0 or n != n_spots[j]:
+                found = -1 if is_mirror else 0
+                break
+            if attempt == 1 and is_mirror:
+                continue
+            if align_sets(
+                spots, normals, reach, v_offsets[i], v_offsets[j], n, max(tolerance[i], tolerance[j]),
+                -1 if attempt == 1 else 1, attempt < 2,
+                rows, spare, work, starts, frame_a, frame_b, grid, turn[k],
+            ):  # fmt: skip
+                is_mirror = attempt == 1
+                if not is_mirror:
+                    found = np.int64(1)
+                    break
+            elif attempt > 0:
+                found = np.int64(-1 if is_mirror else 0)
+                break
         sense[k] = found
         for r in range(3):
             shift[k, r] = centroid[j, r]

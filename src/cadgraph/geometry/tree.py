@@ -166,7 +166,8 @@ def radix_sort(
     source, target, flipped = keys, spare, False
     for shift in range(low, high, digit):
         amount = np.uint64(shift)
-        counts[:] = 0
+        for k in range(size):
+            counts[k] = 0
         for i in range(n):
             counts[np.int64((source[i] >> amount) & mask)] += 1
         if counts[np.int64((source[0] >> amount) & mask)] == n:
@@ -311,12 +312,13 @@ def _own_axes(
     spread = np.zeros((3, 3))
     step = max(1, n // _SAMPLES)
     _covariance(vertices, v0, faces, f0, keys, n, step, center, spread)
-    found = np.empty((3, 3))
+    found, low, high = np.empty((3, 3)), np.empty(3), np.empty(3)
     if not _principal_axes(spread, found):
         return False
     # a look at the sample first; all faces only where it promises something
     for stride in (step, 1):
-        low, high = np.full(3, np.inf), np.full(3, -np.inf)
+        for k in range(3):
+            low[k], high[k] = np.inf, -np.inf
         for i in range(0, n, stride):
             f = f0 + np.int64(keys[i])
             for corner in range(3):
@@ -331,7 +333,9 @@ def _own_axes(
             return False
         if step == 1:
             break
-    axes[:] = found
+    for k in range(3):
+        for m in range(3):
+            axes[k, m] = found[k, m]
     return True
 
 
@@ -372,8 +376,10 @@ def _covariance(
 @compiled
 def _principal_axes(spread: Floats, axes: Floats) -> bool:
     """The axis of greatest spread, and the two of most and least spread across it, as rows; False if there is none."""
-    power = spread.copy()
-    square = np.empty((3, 3))
+    power, square = np.empty((3, 3)), np.empty((3, 3))
+    for i in range(3):
+        for j in range(3):
+            power[i, j] = spread[i, j]
     for _ in range(5):  # the 32nd power leaves the greatest alone
         trace = 0.0
         for i in range(3):

@@ -148,7 +148,7 @@ def _placed(pieces: Sequence[Piece], matrices: Floats, origin: Floats, notes: No
     for piece, turn, shift, slot in zip(pieces, turns, shifts, slots, strict=True):
         np.matmul(piece.points.astype(np.float64, copy=False), turn, out=slot)
         slot += shift
-    finite = np.isfinite(matrices).all(axis=(1, 2))
+    finite = np.asarray(np.isfinite(matrices).all(axis=(1, 2)))
     # A sum is finite only where every term is: one pass instead of a mask.
     if not np.isfinite(vertices.sum()):
         finite &= np.array([np.isfinite(slot.sum()) for slot in slots], bool)

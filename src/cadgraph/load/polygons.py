@@ -18,7 +18,7 @@ _MANY_CORNERS = 16  # polygons up to this size try every corner as the apex of a
 
 _CHUNK = 16_384  # quads looked at together: their corners, of 1.6 MB, stay in the processor's cache
 
-Indices = npt.NDArray[np.int32] | npt.NDArray[np.int64]
+Indices = npt.NDArray[np.integer]  # of 32 or 64 bits
 Points = npt.NDArray[np.floating]
 Rows = tuple[Floats, Floats, Floats]
 Ring = list[tuple[float, float]]
@@ -123,7 +123,8 @@ def _bent_quads(x: Floats, y: Floats, z: Floats) -> tuple[Ints, npt.NDArray[np.b
     first = np.minimum(one, whole - one)
     bent = np.flatnonzero(first < -_FLAT * whole)
     x, y, z, whole, first = x[:, bent], y[:, bent], z[:, bent], whole[bent], first[bent]
-    other, normal = tuple(c[bent] for c in other), tuple(c[bent] for c in normal)
+    other = other[0][bent], other[1][bent], other[2][bent]
+    normal = normal[0][bent], normal[1][bent], normal[2][bent]
     one = _dot(_cross3((x[2] - x[1], y[2] - y[1], z[2] - z[1]), other), normal)
     second = np.minimum(one, whole - one)
     return bent, second > first, np.maximum(first, second) < -_FLAT * whole

@@ -9,7 +9,8 @@ import numpy as np
 import numpy.typing as npt
 from pxr import Sdf, Usd, UsdShade
 
-from cadgraph.scene import Floats, Ints
+from cadgraph.load.polygons import Indices
+from cadgraph.scene import Floats
 
 __all__ = ["Materials", "mean_display_color", "usable_color"]
 
@@ -113,7 +114,7 @@ def usable_color(value: Any) -> Color | None:
 
 
 def mean_display_color(
-    values: Floats, interpolation: str, counts: Ints, corners: Ints, polygon: Ints, areas: Floats
+    values: Floats, interpolation: str, counts: Indices, corners: Indices, polygon: Indices, areas: Floats
 ) -> Color | None:
     """The area-weighted mean of a ``displayColor`` that varies over a mesh.
 

@@ -199,7 +199,7 @@ def _fitting_counts(meshes: Sequence[RawMesh], faults: Sequence[dict[str, str]])
     counts = np.concatenate(fitting).astype(np.int64)
     agree = _over_each(np.add, counts, n_counts, 0) == n_indices
     agree &= _over_each(np.minimum, counts, n_counts, 0) >= 0
-    for i in np.flatnonzero(~agree):
+    for i in np.flatnonzero(~agree).tolist():
         negative = np.flatnonzero(fitting[i] < 0)
         leading = fitting[i][: negative[0]] if len(negative) else fitting[i]
         fitting[i] = leading[: np.searchsorted(np.cumsum(leading), n_indices[i], side="right")]
@@ -224,6 +224,6 @@ def _touched(bad_corner: npt.NDArray[np.bool_], counts: Indices) -> npt.NDArray[
     return touched
 
 
-def _starts(lengths: Ints) -> Ints:
+def _starts(lengths: Indices) -> Ints:
     starts: Ints = np.cumsum(lengths) - lengths
     return starts

@@ -124,7 +124,9 @@ class Walk:
                     skipped = self._reason_to_skip(kind, here, prim)
                     key = None if skipped else self._geometry(prim, kind, names, children, own_path)
                     found.append(
-                        Placement(path, prim, own_path, key, here.matrix, here.color, here.binding, here.anchor, skipped)
+                        Placement(
+                            path, prim, own_path, key, here.matrix, here.color, here.binding, here.anchor, skipped
+                        )
                     )
             except (Tf.ErrorException, UnicodeDecodeError) as error:
                 self._notes.add("unreadable", f"left out with all below: {_first_line(error)}", own_path)

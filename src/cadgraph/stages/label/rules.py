@@ -389,7 +389,7 @@ def _find_handle(c: _Context, body: int, top: Sequence[int]) -> dict[int, str | 
         f, forms = c.facts[part], c.forms[part]
         if part in reached or part == body or not (c.free(part) or c.is_a(part, VALVE)) or f.section[0] > 3 * size:
             continue
-        if forms.bend or (forms.tube and f.ports[0].inner > 0 and f.tube > 4 * f.ports[0].outer):
+        if (forms.bend or forms.tube) and f.ports[0].inner > 0 and f.tube > 4 * f.ports[0].outer:
             continue  # a pipe that no rule has named
         around = [j for j in c.near[part] if not c.is_a(j, FASTENER) and not c.is_a(j, PIPE)]
         label = c.labels[part]
