@@ -113,7 +113,9 @@ def station() -> list[Mesh]:
         parts.append(moved(bolt(20), shift=(0.072 * np.cos(angle), 0.072 * np.sin(angle), 2.0431)))
     parts.append(moved(sphere(0.07, 48, 36), shift=(0, 0, 2.11)))
     parts.append(moved(elbow(0.15, 0.05, 24, 48), shift=(0, 0, 2.18)))
-    parts.append(moved(join(*(moved(box(1.0, 0.005, 0.03), shift=(0, 0.03 * i, 0)) for i in range(40))), shift=(0.6, -0.6, 1.0)))
+    parts.append(
+        moved(join(*(moved(box(1.0, 0.005, 0.03), shift=(0, 0.03 * i, 0)) for i in range(40))), shift=(0.6, -0.6, 1.0))
+    )
     return parts
 
 

@@ -38,7 +38,9 @@ MAY_IMPORT = {
     "environment": VALUES | {"geometry", "truth"},
     "evaluate": VALUES | {"load", "truth"},
     "run": VALUES | {"environment", "export", "load", "pipeline", "render", "report", "summary"},
-    "cli": VALUES | {"environment", "evaluate", "export", "load", "pipeline", "render", "report", "run", "summary"},
+    "reproduce": VALUES | {"environment", "evaluate", "load", "pipeline", "render", "report", "summary", "truth"},
+    "cli": VALUES
+    | {"environment", "evaluate", "export", "load", "pipeline", "render", "report", "reproduce", "run", "summary"},
     "__main__": {"cli"},
     "__init__": VALUES | {"load", "pipeline", "run"},
 }

@@ -178,6 +178,21 @@ def evaluate(
     print(json.dumps(to_json(evaluation), indent=1) if as_json else to_markdown(evaluation))  # noqa: T201
 
 
+@app.command()
+def reproduce(
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="FOLDER", help="Where page and pictures go.")],
+    preset: Annotated[str, typer.Option(help="The generated plant to run on.")] = "field",
+    seed: Annotated[int, typer.Option(min=0, help="Of the plant.")] = 0,
+    quick: Annotated[bool, typer.Option("--quick", help="One small plant and small pictures.")] = False,
+) -> None:
+    """Run the paper's experiments in its mode and in ours, and put the figures side by side."""
+    from cadgraph.reproduce import reproduce as run_experiments
+
+    with _bars() as progress:
+        page = run_experiments(output, preset=preset, seed=seed, quick=quick, progress=progress)
+    _out.print(f"wrote {escape(str(page))}")
+
+
 @plants.command("make")
 def make_plant(
     output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The scene, e.g. field.usdc.")],

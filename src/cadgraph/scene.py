@@ -13,6 +13,8 @@ __all__ = ["Diagnostic", "Floats", "Ints", "Scene", "Source", "mesh_of_face", "m
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
+_DIGITS = re.compile(r"([0-9]+)")
+
 Faces = npt.NDArray[np.int32]
 
 
@@ -207,10 +209,10 @@ class Scene:
         )
 
 
-def natural_key(path: str) -> tuple[tuple[int, int | str], ...]:
-    """A sort key that takes runs of digits as numbers; equal only for equal paths."""
-    pieces = re.split(r"(\d+)", path)
-    return (*((0, int(p)) if p.isdecimal() else (1, p) for p in pieces), (1, path))
+def natural_key(path: str) -> tuple[tuple[str | int, ...], str]:
+    """A key that sorts ``mesh_2`` before ``mesh_10``, and parents before their children."""
+    steps = _DIGITS.split(path.replace("/", "\x00"))
+    return tuple(int(step) if i % 2 else step for i, step in enumerate(steps)), path
 
 
 def mesh_of_vertex(scene: Scene) -> Ints:

@@ -141,7 +141,7 @@ def test_truth_names_every_mesh_once(skid, tmp_path):
     assert (truth["format"], truth["version"]) == ("cadgraph-truth", 1)
     paths = [row["mesh"] for row in truth["meshes"]]
     assert len(set(paths)) == len(paths) == skid.n_meshes
-    assert sorted(path for cluster in truth["clusters"] for path in cluster) == sorted(paths)
+    assert sorted(path for cluster in truth["clusters"] for path in cluster["meshes"]) == sorted(paths)
     assert all(set(unit["meshes"]) <= set(paths) and unit["meshes"] for unit in truth["units"])
 
 

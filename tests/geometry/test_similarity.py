@@ -100,3 +100,17 @@ def test_deviation_of_points_on_the_surface_is_zero():
 def test_degenerate_triangles_do_no_harm():
     corners = np.array([[0.0, 0, 0, 1, 0, 0, 2, 0, 0], [0, 0, 0, 0, 0, 0, 0, 0, 0]])
     assert deviation(np.array([[1.5, 3.0, 4.0]]), corners) == pytest.approx(5.0)
+
+
+def test_each_shape_is_named_once_with_the_earliest_it_looks_like():
+    vertices, faces = flange()
+    found = near((vertices, faces), flange(sides=48), (3 * vertices, faces), shapes.box((1, 2, 3)), flange(sides=64))
+    assert found.pairs.tolist() == [[0, 1], [0, 2], [0, 4]]
+
+
+def test_many_sizes_of_one_part_are_told_as_such():
+    vertices, faces = tubes.elbow(0.2, 0.05, np.pi / 2, 12, 16)
+    found = near(*((s * vertices, faces) for s in np.linspace(1, 3, 60)))
+    assert found.pairs[:, 0].tolist() == [0] * 59
+    np.testing.assert_allclose(found.scale, np.linspace(1, 3, 60)[1:])
+    np.testing.assert_array_equal(found.similarity, 1.0)

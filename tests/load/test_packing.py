@@ -2,8 +2,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph.load.packing import Notes, Piece, natural_key, pack, unique_name
-from cadgraph.scene import Source
+from cadgraph.load.packing import Notes, Piece, pack, unique_name
+from cadgraph.scene import Source, natural_key
 from shapes import box
 
 

@@ -281,7 +281,7 @@ class Plant(Assembly):
                 }
                 for c in self.connections
             ],
-            "clusters": list(of_cluster.values()),
+            "clusters": [{"id": name, "meshes": meshes} for name, meshes in of_cluster.items()],
             "looseness": self.looseness,
             "contacts": [[names[a], names[b]] for a, b in self.contacts],
             "duplicates": [[names[a], names[b]] for a, b in self.duplicates],

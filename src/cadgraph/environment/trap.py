@@ -27,16 +27,16 @@ VOXEL = 0.01  # m, paper, section III-B, step 1
 
 _DN, _SIDES = 200, 8
 _TWIST = 1.5 * np.pi / _SIDES  # of the leg's corners against the elbow's: three quarters of a step
-_ROOT_GAP = 0.002  # m, open root of a butt weld (ASME B16.25 leaves 2 to 3 mm)
+_ROOT_GAP = 0.002  # m, open root of a butt weld, usually 2 to 3 mm
 
 
 def make_bent_pipe(shift: float = 0.0) -> Plant:
     """A bent DN200 pipe of 8 sides, coarse as simulators like it, on two plain supports.
 
-    Its five segments (leg, elbow, cross run, elbow, side run) follow each other with the 2 mm gap of a butt weld, so it is one structure. The joint at the
-    top of the leg lies on a border between voxels: the two ends move into voxels 1 cm apart, and since their corners
-    don't face each other, neither do any two points. Snapped, the ends are more than 1 cm apart, and the paper's
-    method splits the pipe there.
+    Its five segments (leg, elbow, cross run, elbow, side run) follow each other with the 2 mm gap of a butt weld, so
+    it is one structure. The joint at the top of the leg lies on a border between voxels: the two ends move into
+    voxels 1 cm apart, and since their corners don't face each other, neither do any two points. Snapped, the ends are
+    more than 1 cm apart, and the paper's method splits the pipe there.
 
     Args:
         shift: moves everything up [m]; half a voxel brings both ends into one voxel, and the split goes away.
@@ -110,7 +110,8 @@ def make_platform_and_tanks(gap: float = 0.016) -> Plant:
         The plant with its truth: two clusters, ``tanks`` and ``platform``, if the gap is more than 1 cm.
     """
     hand = HANDS["plant-design"]
-    height, length, width = 1.50, 3.60, 1.20
+    # The shell ends between the lower and the upper edge of the floor's frame, so only one edge comes near it.
+    height, length, width = 2.05, 3.60, 1.20
     # The border runs through y = 0: the shell begins above it, the platform ends below it. In x the tank's corner
     # next to the platform and the points along the platform's edge lie in the middle of their voxels.
     y = gap / 2 + _RADII[0]

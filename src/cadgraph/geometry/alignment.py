@@ -2,28 +2,33 @@
 
 from __future__ import annotations
 
-from math import atan2, ceil, floor, nan, sqrt
+from math import ceil, floor, sqrt
 
 import numpy as np
 
-from cadgraph.geometry.key import Keys, key_position
 from cadgraph.geometry.order import sort_rows
-from cadgraph.geometry.parallel import compiled
+from cadgraph.geometry.parallel import ZERO, compiled, inner
+from cadgraph.geometry.weld import weld
 from cadgraph.scene import Faces, Floats, Ints
 
-__all__ = ["align_by_order", "align_sets", "count_cells", "pick_anchors", "weld"]
+__all__ = [
+    "align_by_order",
+    "align_sets",
+    "count_cells",
+    "fits_in_place",
+    "pick_anchors",
+    "weld",
+]
 
 # How far the summed unit normals at a vertex, each weighted by its corner's angle [rad], may differ. Rounding moves
 # them little where edges are long against it (see below); another surface through the same vertices moves them much.
 _NORMAL_TOLERANCE = 0.3
-# Faces lower than so many times the tolerance say nothing about normals.
-_MIN_HEIGHT = 30.0
 # Candidate checks before a pair counts as different, beside 2,000 for each vertex: only point clouds in which
 # everything looks alike get there.
 _MAX_CHECKS = 2_000_000
 
 
-@compiled
+@inner
 def pick_anchors(vertices: Floats, v0: int, v1: int, row: int, anchors: Ints) -> None:
     """Three vertices far apart: the farthest from the first, the farthest from that, the farthest from their line.
 
@@ -53,7 +58,7 @@ def pick_anchors(vertices: Floats, v0: int, v1: int, row: int, anchors: Ints) ->
             ex, ey, ez = x - px, y - py, z - pz
 
 
-@compiled
+@inner
 def _frame(ex: float, ey: float, ez: float, wx: float, wy: float, wz: float, frame: Floats) -> None:
     """Orthonormal rows from two vectors; some completion of the first where they span no plane."""
     length = sqrt(ex * ex + ey * ey + ez * ez)
@@ -81,16 +86,22 @@ def _frame(ex: float, ey: float, ez: float, wx: float, wy: float, wz: float, fra
     frame[2, 0], frame[2, 1], frame[2, 2] = ey * z - ez * y, ez * x - ex * z, ex * y - ey * x
 
 
-@compiled
+@inner
 def _frame_at(points: Floats, a: int, b: int, c: int, frame: Floats) -> None:
     """The frame of three points: first row from the first to the second, then towards the third."""
     x, y, z = points[a, 0], points[a, 1], points[a, 2]
     _frame(
-        points[b, 0] - x, points[b, 1] - y, points[b, 2] - z, points[c, 0] - x, points[c, 1] - y, points[c, 2] - z, frame
+        points[b, 0] - x,
+        points[b, 1] - y,
+        points[b, 2] - z,
+        points[c, 0] - x,
+        points[c, 1] - y,
+        points[c, 2] - z,
+        frame,
     )
 
 
-@compiled
+@inner
 def _turn_between(source: Floats, target: Floats, sense: int, turn: Floats) -> None:
     """The orthogonal matrix that takes the rows of one frame to those of another; ``sense`` -1 mirrors."""
     for r in range(3):
@@ -98,7 +109,7 @@ def _turn_between(source: Floats, target: Floats, sense: int, turn: Floats) -> N
             turn[r, c] = target[0, r] * source[0, c] + target[1, r] * source[1, c] + sense * target[2, r] * source[2, c]
 
 
-@compiled
+@inner
 def _same_faces(faces: Faces, a: int, b: int, n: int) -> bool:
     """Whether the ``n`` triangles from ``a`` and from ``b`` on are the same, whatever their first corner and sense."""
     for f in range(n):
@@ -112,7 +123,7 @@ def _same_faces(faces: Faces, a: int, b: int, n: int) -> bool:
     return True
 
 
-@compiled
+@inner
 def align_by_order(
     vertices: Floats, a: int, b: int, n: int, faces: Faces, faces_a: int, faces_b: int, n_faces: int,
     anchors: Ints, row: int, tolerance: float, frame_a: Floats, frame_b: Floats, turn: Floats, shift: Floats,
@@ -166,124 +177,15 @@ def align_by_order(
     return 0
 
 
-@compiled
-def weld(
-    vertices: Floats, bits: Keys, v0: int, n: int, faces: Faces, f0: int, f1: int,
-    x0: float, y0: float, z0: float, tolerance: float, spot_of: Ints, table: Ints,
-    spots: Floats, normals: Floats, reach: Floats,
-) -> int:  # fmt: skip
-    """Merges equal positions that faces use, and describes each by what any motion leaves as it is.
-
-    Args:
-        vertices: ``(n_vertices, 3)`` [m].
-        bits: the same numbers as unsigned integers.
-        v0: the first vertex of the mesh.
-        n: how many vertices it has.
-        faces: ``(n_faces, 3)`` vertices, counted from the mesh's first.
-        f0: the first face of the mesh.
-        f1: the end of its faces.
-        x0: the centroid [m].
-        y0: see ``x0``.
-        z0: see ``x0``.
-        tolerance: rounding of the positions [m].
-        spot_of: ``(m,)`` workspace, at least ``n`` long.
-        table: ``(m,)`` workspace, at least ``max(16, 4 n)`` long.
-        spots: ``(n_vertices, 3)`` output from row ``v0`` on: distinct positions relative to the centroid [m].
-        normals: ``(n_vertices, 3)`` output: their unit normals summed with the corner angles as weights, NaN where a
-            face is too small to tell.
-        reach: ``(n_vertices, 2)`` output: distance from the centroid [m] and area of the faces around [m2].
-
-    Returns:
-        How many distinct positions there are.
-    """
-    for k in range(n):
-        spot_of[k] = -1
-    for f in range(f0, f1):
-        # A corner that isn't there takes its face out, as in the properties.
-        if _is_whole(faces, f, n):
-            for c in range(3):
-                spot_of[faces[f, c]] = 0
-    capacity = 16
-    while capacity < 2 * n:
-        capacity *= 2
-    for slot in range(capacity):
-        table[slot] = -1
-    end = v0
-    for k in range(n):
-        if spot_of[k] < 0:
-            continue
-        v = v0 + k
-        x, y, z = vertices[v, 0], vertices[v, 1], vertices[v, 2]
-        slot = np.int64(key_position(bits[v, 0], bits[v, 1], bits[v, 2]) & np.uint64(capacity - 1))
-        while True:
-            other = table[slot]
-            if other < 0:
-                table[slot] = v
-                spot_of[k] = end
-                x, y, z = x - x0, y - y0, z - z0
-                spots[end, 0], spots[end, 1], spots[end, 2] = x, y, z
-                reach[end, 0], reach[end, 1] = sqrt(x * x + y * y + z * z), 0.0
-                for c in range(3):
-                    normals[end, c] = 0.0
-                end += 1
-                break
-            if vertices[other, 0] == x and vertices[other, 1] == y and vertices[other, 2] == z:
-                spot_of[k] = spot_of[other - v0]
-                break
-            slot = (slot + 1) & (capacity - 1)
-    for f in range(f0, f1):
-        if _is_whole(faces, f, n):
-            _add_corners(vertices, v0, faces, f, spot_of, tolerance, normals, reach)
-    return end - v0
-
-
-@compiled
-def _is_whole(faces: Faces, f: int, n: int) -> bool:
-    """Whether all corners of a face are among ``n`` vertices."""
-    for c in range(3):
-        if faces[f, c] < 0 or faces[f, c] >= n:
-            return False
-    return True
-
-
-@compiled
-def _add_corners(
-    vertices: Floats, v0: int, faces: Faces, f: int, spot_of: Ints, tolerance: float, normals: Floats, reach: Floats
+@inner
+def _classes(
+    reach: Floats, a: int, n: int, tolerance: float, strict: bool, rows: Floats, spare: Floats, size: Ints
 ) -> None:
-    """Adds a face to the normals and areas of its corners."""
-    i, j, k = v0 + faces[f, 0], v0 + faces[f, 1], v0 + faces[f, 2]
-    x, y, z = vertices[i, 0], vertices[i, 1], vertices[i, 2]
-    ux, uy, uz = vertices[j, 0] - x, vertices[j, 1] - y, vertices[j, 2] - z
-    wx, wy, wz = vertices[k, 0] - x, vertices[k, 1] - y, vertices[k, 2] - z
-    nx, ny, nz = uy * wz - uz * wy, uz * wx - ux * wz, ux * wy - uy * wx
-    double = sqrt(nx * nx + ny * ny + nz * nz)
-    vx, vy, vz = wx - ux, wy - uy, wz - uz
-    # Squared sides, each opposite to its corner.
-    a, b, c = vx * vx + vy * vy + vz * vz, wx * wx + wy * wy + wz * wz, ux * ux + uy * uy + uz * uz
-    longest = sqrt(max(a, b, c))
-    if longest == 0.0:
-        return
-    vague = double <= _MIN_HEIGHT * tolerance * longest
-    for corner in range(3):
-        spot = spot_of[faces[f, corner]]
-        reach[spot, 1] += 0.5 * double
-        if vague:
-            normals[spot, 0] = nan
-        else:
-            angle = atan2(double, 0.5 * (b + c - a))
-            normals[spot, 0] += angle * nx / double
-            normals[spot, 1] += angle * ny / double
-            normals[spot, 2] += angle * nz / double
-        a, b, c = b, c, a
-
-
-@compiled
-def _classes(reach: Floats, a: int, n: int, tolerance: float, strict: bool, rows: Floats, spare: Floats, size: Ints) -> None:
     """How many vertices look like each one: same distance from the centroid and, if strict, same area around."""
     for k in range(n):
         rows[k, 0], rows[k, 1] = reach[a + k, 0], k
-    sort_rows(rows, np.int64(0), n, spare)
-    start = np.int64(0)
+    sort_rows(rows, ZERO, n, spare)
+    start = ZERO
     while start < n:
         end = start + 1
         while end < n and rows[end, 0] - rows[end - 1, 0] <= tolerance:
@@ -302,13 +204,13 @@ def _classes(reach: Floats, a: int, n: int, tolerance: float, strict: bool, rows
         start = end
 
 
-@compiled
+@inner
 def _area_tolerance(area: float, tolerance: float) -> float:
     """How much rounding may change the area around a vertex [m2]."""
     return 1e-3 * area + 8.0 * tolerance * sqrt(area) + 1e-12
 
 
-@compiled
+@inner
 def _pick_pair(spots: Floats, reach: Floats, a: int, n: int, size: Ints) -> tuple[int, int]:
     """Two vertices of rare looks that fix a motion about the centroid; both the same if all lie on one line."""
     farthest = 0.0
@@ -333,19 +235,19 @@ def _pick_pair(spots: Floats, reach: Floats, a: int, n: int, size: Ints) -> tupl
     return first, second if second >= 0 else widest
 
 
-@compiled
+@inner
 def _cells_along(n: int) -> int:
     """How many cells along each axis there are for ``n`` points."""
     return int(min(64.0, ceil(n ** (1.0 / 3.0))))
 
 
-@compiled
+@inner
 def count_cells(n: int) -> int:
     """The most cells that ``n`` points are sorted into."""
     return _cells_along(n) ** 3
 
 
-@compiled
+@inner
 def _cell(x: float, axis: int, grid: Floats) -> int:
     """Which of the cells along an axis a coordinate is in, or nearest to; the far edge belongs to the last one."""
     at, last = floor((x - grid[axis, 0]) / grid[axis, 1]), grid[axis, 2] - 1.0
@@ -354,7 +256,7 @@ def _cell(x: float, axis: int, grid: Floats) -> int:
     return int(at) if at > 0.0 else 0
 
 
-@compiled
+@inner
 def _sort_cells(spots: Floats, b: int, n: int, grid: Floats, starts: Ints, members: Ints, cells: Ints) -> None:
     """Sorts points into the cells of a regular grid: starts of each cell, and the points by cell.
 
@@ -375,7 +277,7 @@ def _sort_cells(spots: Floats, b: int, n: int, grid: Floats, starts: Ints, membe
     for k in range(n):
         at = 0
         for c in range(3):
-            at = at * int(grid[c, 2]) + _cell(spots[b + k, c], np.int64(c), grid)
+            at = at * int(grid[c, 2]) + _cell(spots[b + k, c], ZERO + c, grid)
         cells[k] = at
         starts[at] += 1
     for k in range(1, n_cells + 1):
@@ -387,14 +289,14 @@ def _sort_cells(spots: Floats, b: int, n: int, grid: Floats, starts: Ints, membe
         members[starts[cells[k]]] = k
 
 
-@compiled
+@inner
 def _nearest(
     x: float, y: float, z: float, spots: Floats, b: int, grid: Floats, starts: Ints, members: Ints, limit: float
 ) -> int:
     """The nearest point within ``limit``, or -1."""
     found, best = -1, limit * limit
     n_y, n_z = int(grid[1, 2]), int(grid[2, 2])
-    x_axis, y_axis, z_axis = np.int64(0), np.int64(1), np.int64(2)
+    x_axis, y_axis, z_axis = ZERO, ZERO + 1, ZERO + 2
     y_low, y_high = _cell(y - limit, y_axis, grid), _cell(y + limit, y_axis, grid)
     z_low, z_high = _cell(z - limit, z_axis, grid), _cell(z + limit, z_axis, grid)
     for i in range(_cell(x - limit, x_axis, grid), _cell(x + limit, x_axis, grid) + 1):
@@ -410,12 +312,12 @@ def _nearest(
     return found
 
 
-@compiled
+@inner
 def _n_fitting(
     turn: Floats, spots: Floats, normals: Floats, a: int, b: int, n: int, tolerance: float,
     grid: Floats, starts: Ints, members: Ints, taken: Ints,
 ) -> int:  # fmt: skip
-    """How many vertices of a, turned, are each one of b's with a like normal; ``n`` only if none of b's is left over."""
+    """How many vertices of a, turned, are one of b's with a like normal; ``n`` only if none of b's is left over."""
     for k in range(n):
         taken[k] = 0
     n_taken = 0
@@ -444,7 +346,7 @@ def _n_fitting(
     return n if n_taken == n else n - 1
 
 
-@compiled
+@inner
 def align_sets(
     spots: Floats, normals: Floats, reach: Floats, a: int, b: int, n: int, tolerance: float, sense: int, strict: bool,
     rows: Floats, spare: Floats, work: Ints, starts: Ints, frame_a: Floats, frame_b: Floats, grid: Floats, turn: Floats,
@@ -455,7 +357,7 @@ def align_sets(
     that follows is verified on all vertices. Parts of any symmetry are found, since any of their poses will do.
 
     Args:
-        spots: ``(n_vertices, 3)`` and so on: what ``weld`` gives.
+        spots: ``(n_vertices, 3)`` and so on: what ``weld_range`` gives.
         normals: see ``spots``.
         reach: see ``spots``.
         a: where the one set starts.
@@ -510,7 +412,7 @@ def align_sets(
     return False
 
 
-@compiled
+@inner
 def _alike(reach: Floats, look: int, b: int, n: int, tolerance: float, strict: bool, found: Ints) -> int:
     """Lists the vertices from ``b`` on that look like a given one; returns how many there are."""
     far, area = reach[look, 0], reach[look, 1]
@@ -523,3 +425,41 @@ def _alike(reach: Floats, look: int, b: int, n: int, tolerance: float, strict: b
         found[m] = k
         m += 1
     return m
+
+
+def fits_in_place(spots_a: Floats, normals_a: Floats, spots_b: Floats, normals_b: Floats, tolerance: float) -> bool:
+    """Whether two sets of welded vertices, both relative to one point, coincide without any motion.
+
+    Args:
+        spots_a: ``(n, 3)`` [m].
+        normals_a: ``(n, 3)`` as from ``weld``.
+        spots_b: ``(n, 3)`` [m].
+        normals_b: ``(n, 3)``.
+        tolerance: greatest distance of a vertex from its counterpart [m].
+    """
+    n = len(spots_a)
+    if n != len(spots_b) or n == 0:
+        return False
+    work = np.empty((2, n), np.int64)
+    return bool(
+        _fits_in_place(
+            np.concatenate([spots_a, spots_b]),
+            np.concatenate([normals_a, normals_b]),
+            n,
+            tolerance,
+            np.empty((3, 3)),
+            np.empty(64**3 + 1, np.int64),
+            work[0],
+            work[1],
+            np.eye(3),
+        )
+    )
+
+
+@compiled
+def _fits_in_place(
+    spots: Floats, normals: Floats, n: int, tolerance: float,
+    grid: Floats, starts: Ints, members: Ints, work: Ints, turn: Floats,
+) -> bool:  # fmt: skip
+    _sort_cells(spots, n, n, grid, starts, members, work)
+    return bool(_n_fitting(turn, spots, normals, ZERO, n, n, tolerance, grid, starts, members, work) == n)

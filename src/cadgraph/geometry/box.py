@@ -13,11 +13,11 @@ from math import inf, sqrt
 import numpy as np
 
 from cadgraph.geometry.order import sort_rows
-from cadgraph.geometry.parallel import compiled
+from cadgraph.geometry.parallel import ZERO, compiled, inner
 from cadgraph.parts import Bools
 from cadgraph.scene import Faces, Floats, Ints
 
-__all__ = ["fit_boxes", "principal_axes"]
+__all__ = ["fit_boxes", "order_boxes", "principal_axes"]
 
 _N_BINS = 12
 _N_NORMALS = 4
@@ -33,11 +33,16 @@ _SAME_AXIS = 1e-14
 _FLAT = 1e-6
 # Extents this close, as share of the size, count as equal when ordered.
 _EQUAL = 1e-7
+# Components of unit vectors this close count as equal.
+_EQUAL_COMPONENT = 1e-6
 
 
 @compiled
 def principal_axes(matrix: Floats, axes: Floats, values: Floats) -> None:
-    """Eigenvectors of a symmetric 3 x 3 matrix by Jacobi rotations, as rows of ``axes``, eigenvalues descending."""
+    """Eigenvectors of a symmetric 3 x 3 matrix by Jacobi rotations, as rows of ``axes``, eigenvalues descending.
+
+    ``axes`` may be the matrix itself.
+    """
     a = np.empty((3, 3))
     for r in range(3):
         for k in range(3):
@@ -88,11 +93,12 @@ def fit_boxes(
     covariance: Floats,
     first: int,
     last: int,
-    center: Floats,
-    axes: Floats,
-    extents: Floats,
+    origin: Floats,
+    sizes: Floats,
+    rows: Floats,
+    bounds: Floats,
 ) -> None:
-    """Writes the oriented boxes of a range of meshes; nothing for one without a used vertex.
+    """Finds the oriented boxes of a range of meshes, as ``order_boxes`` wants them; nothing where no vertex is used.
 
     Args:
         vertices: ``(n_vertices, 3)`` of all meshes [m].
@@ -104,21 +110,22 @@ def fit_boxes(
         covariance: ``(n, 3, 3)`` second moments of each surface about its centroid [m4], zero if unknown.
         first: the first mesh.
         last: the end of the range.
-        center: ``(n, 3)`` output [m].
-        axes: ``(n, 3, 3)`` output: rows, right-handed, longest extent first. The greatest component of the first and
-            of the second is positive.
-        extents: ``(n, 3)`` output: full side lengths [m], descending.
+        origin: ``(n, 3)`` output: the first used vertex [m].
+        sizes: ``(n,)`` output: how far the used vertices are from it at most [m]; if 0, there are no axes.
+        rows: ``(n, 3, 3)`` output: axes as rows, in any order and sense.
+        bounds: ``(n, 2, 3)`` output: lowest and highest extent along each of them, from the origin [m].
     """
     n_most = 0
     for i in range(first, last):
         n_most = max(n_most, v_offsets[i + 1] - v_offsets[i])
-    local, flat, spare, hull = np.empty((n_most, 3)), np.empty((n_most, 2)), np.empty((n_most, 2)), np.empty((2 * n_most, 2))
+    local, flat, spare = np.empty((n_most, 3)), np.empty((n_most, 2)), np.empty((n_most, 2))
+    hull = np.empty((2 * n_most, 2))
     candidates, bins, ends = np.empty((_N_CANDIDATES, 3)), np.empty((_N_BINS, 5)), np.empty((8, 3))
-    moments, principal, values = np.empty((3, 3)), np.empty((3, 3)), np.empty(3)
-    best, box, bounds = np.empty((3, 3)), np.empty((3, 3)), np.empty((2, 3))
+    moments, values = np.empty((3, 3)), np.empty(3)
+    best, box = np.empty((3, 3)), np.empty((3, 3))
     for i in range(first, last):
         v0 = v_offsets[i]
-        n = np.int64(0)
+        n = ZERO
         ox = oy = oz = size = 0.0
         for v in range(v0, v_offsets[i + 1]):
             if not used[v]:
@@ -133,14 +140,16 @@ def fit_boxes(
             size = max(size, x * x + y * y + z * z)
         if n == 0:
             continue
-        center[i, 0], center[i, 1], center[i, 2] = ox, oy, oz
-        size = sqrt(size)
+        origin[i, 0], origin[i, 1], origin[i, 2] = ox, oy, oz
+        sizes[i] = size = sqrt(size)
         if size == 0.0:
             continue
-        n_bins = _bin_normals(vertices, used, faces, v0, v_offsets[i + 1] - v0, f_offsets[i], f_offsets[i + 1], bins, moments)
-        n_candidates = _propose_axes(bins, n_bins, moments, covariance[i], local, n, principal, values, candidates)
+        n_bins = _bin_normals(
+            vertices, used, faces, v0, v_offsets[i + 1] - v0, f_offsets[i], f_offsets[i + 1], bins, moments
+        )
+        n_candidates = _propose_axes(bins, n_bins, moments, covariance, i, local, n, values, candidates)
         best_cost = inf
-        tried = np.int64(0)
+        tried = ZERO
         for _ in range(_N_ROUNDS):
             before = best_cost
             while tried < n_candidates:
@@ -156,10 +165,10 @@ def fit_boxes(
                 break
             for r in range(1, 3):
                 n_candidates = _add_axis(candidates, n_candidates, best, r)
-        _write_box(local, n, best, size, bounds, i, center, axes, extents)
+        _span(local, n, best, i, rows, bounds)
 
 
-@compiled
+@inner
 def _add_axis(candidates: Floats, n: int, rows: Floats, row: int) -> int:
     """Appends a row as a unit axis unless it's there already; returns how many there are now."""
     x, y, z = rows[row, 0], rows[row, 1], rows[row, 2]
@@ -176,20 +185,20 @@ def _add_axis(candidates: Floats, n: int, rows: Floats, row: int) -> int:
     return n + 1
 
 
-@compiled
+@inner
 def _propose_axes(
     bins: Floats,
     n_bins: int,
     moments: Floats,
     covariance: Floats,
+    i: int,
     local: Floats,
     n_points: int,
-    principal: Floats,
     values: Floats,
     candidates: Floats,
 ) -> int:
     """Directions worth trying, the most exact first; returns how many."""
-    n = np.int64(0)
+    n = ZERO
     for _ in range(min(n_bins, _N_NORMALS)):
         most = 0
         for b in range(1, n_bins):
@@ -210,15 +219,15 @@ def _propose_axes(
         if source == 1:
             for r in range(3):
                 for c in range(3):
-                    moments[r, c] = covariance[r, c]
-        principal_axes(moments, principal, values)
+                    moments[r, c] = covariance[i, r, c]
+        principal_axes(moments, moments, values)
         for r in range(3):
             # Of the normals the direction that fewest have comes first: the axis of anything round.
-            n = _add_axis(candidates, n, principal, 2 - r if source == 0 else r)
-    return n
+            n = _add_axis(candidates, n, moments, 2 - r if source == 0 else r)
+    return int(n)
 
 
-@compiled
+@inner
 def _bin_normals(
     vertices: Floats,
     used: Bools,
@@ -291,7 +300,7 @@ def _bin_normals(
     return n_bins
 
 
-@compiled
+@inner
 def _box_along(
     local: Floats,
     n: int,
@@ -325,7 +334,7 @@ def _box_along(
         h = px * x + py * y + pz * z
         low, high = min(low, h), max(high, h)
     n_flat = _outside_octagon(flat, n, ends) if n > 16 else n
-    sort_rows(flat, np.int64(0), n_flat, spare)
+    sort_rows(flat, ZERO, n_flat, spare)
     n_hull = _hull(flat, n_flat, spare, hull)
     c, s, cost = _least_rectangle(hull, n_hull, size)
     box[0, 0], box[0, 1], box[0, 2] = x, y, z
@@ -334,7 +343,7 @@ def _box_along(
     return cost * (high - low + _FLAT * size)
 
 
-@compiled
+@inner
 def _outside_octagon(flat: Floats, n: int, ends: Floats) -> int:
     """Keeps the points that can be on the hull, those not inside the octagon of eight extreme points; how many."""
     for e in range(8):
@@ -359,10 +368,10 @@ def _outside_octagon(flat: Floats, n: int, ends: Floats) -> int:
     return m
 
 
-@compiled
+@inner
 def _hull(flat: Floats, n: int, upper: Floats, hull: Floats) -> int:
     """The corners of the convex hull of points sorted by abscissa, counter-clockwise; returns how many."""
-    n_low = n_up = np.int64(0)
+    n_low = n_up = ZERO
     k = 0
     while k < n:
         # Of the points at one abscissa only the lowest and the highest count; makes the order of ties irrelevant too.
@@ -376,10 +385,10 @@ def _hull(flat: Floats, n: int, upper: Floats, hull: Floats) -> int:
         n_up = _add_corner(upper, n_up, x, high, -1.0)
     for k in range(n_up):
         hull[n_low + k, 0], hull[n_low + k, 1] = upper[n_up - 1 - k, 0], upper[n_up - 1 - k, 1]
-    return n_low + n_up
+    return int(n_low + n_up)
 
 
-@compiled
+@inner
 def _add_corner(chain: Floats, n: int, x: float, y: float, sign: float) -> int:
     """Adds a point to a convex chain, less the corners that it makes concave; returns the new length."""
     while n >= 2:
@@ -391,7 +400,7 @@ def _add_corner(chain: Floats, n: int, x: float, y: float, sign: float) -> int:
     return n + 1
 
 
-@compiled
+@inner
 def _least_rectangle(hull: Floats, n: int, size: float) -> tuple[float, float, float]:
     """Direction (cosine, sine) and cost of the least rectangle around a convex polygon.
 
@@ -399,7 +408,7 @@ def _least_rectangle(hull: Floats, n: int, size: float) -> tuple[float, float, f
     """
     best_c, best_s, best = 1.0, 0.0, inf
     pad = _FLAT * size
-    right = top = left = np.int64(-1)
+    right = top = left = ZERO - 1
     for k in range(n):
         after = k + 1 if k + 1 < n else 0
         ex, ey = hull[after, 0] - hull[k, 0], hull[after, 1] - hull[k, 1]
@@ -431,7 +440,7 @@ def _least_rectangle(hull: Floats, n: int, size: float) -> tuple[float, float, f
     return best_c, best_s, best
 
 
-@compiled
+@inner
 def _advance(hull: Floats, n: int, at: int, x: float, y: float) -> int:
     """The next corner from ``at`` on that is farthest along (x, y)."""
     reach = hull[at, 0] * x + hull[at, 1] * y
@@ -444,57 +453,57 @@ def _advance(hull: Floats, n: int, at: int, x: float, y: float) -> int:
     return at
 
 
-@compiled
-def _write_box(
-    local: Floats,
-    n: int,
-    best: Floats,
-    size: float,
-    bounds: Floats,
-    i: int,
-    center: Floats,
-    axes: Floats,
-    extents: Floats,
-) -> None:
-    """Puts the axes in order, gives them a definite sense, and measures the extents along them."""
+@inner
+def _span(local: Floats, n: int, best: Floats, i: int, rows: Floats, bounds: Floats) -> None:
+    """Writes the axes of a box and the extent of the points along each."""
     for r in range(3):
         x, y, z = best[r, 0], best[r, 1], best[r, 2]
+        rows[i, r, 0], rows[i, r, 1], rows[i, r, 2] = x, y, z
         low, high = inf, -inf
         for k in range(n):
             h = local[k, 0] * x + local[k, 1] * y + local[k, 2] * z
             low, high = min(low, h), max(high, h)
-        bounds[0, r], bounds[1, r] = low, high
-    for step in range(4):
-        a = step & 1
-        b = a + 1
-        difference = (bounds[1, b] - bounds[0, b]) - (bounds[1, a] - bounds[0, a])
-        swap = difference > _EQUAL * size
-        if abs(difference) <= _EQUAL * size:
-            # Equal sides: the one nearer to x comes first, then to y.
-            for k in range(2):
-                nearer = abs(best[b, k]) - abs(best[a, k])
-                if abs(nearer) > 1e-6:
-                    swap = nearer > 0.0
-                    break
-        if swap:
-            for k in range(3):
-                best[a, k], best[b, k] = best[b, k], best[a, k]
-            for k in range(2):
-                bounds[k, a], bounds[k, b] = bounds[k, b], bounds[k, a]
+        bounds[i, 0, r], bounds[i, 1, r] = low, high
+
+
+def order_boxes(origin: Floats, sizes: Floats, rows: Floats, bounds: Floats) -> tuple[Floats, Floats, Floats]:
+    """Puts the axes of boxes in order and gives them a definite sense.
+
+    Args:
+        origin: ``(n, 3)`` what ``fit_boxes`` gives [m].
+        sizes: ``(n,)`` see ``origin``.
+        rows: ``(n, 3, 3)`` see ``origin``.
+        bounds: ``(n, 2, 3)`` see ``origin``.
+
+    Returns:
+        The centers ``(n, 3)`` [m]; the axes ``(n, 3, 3)`` as rows, right-handed, longest extent first, the greatest
+        component of the first and of the second positive; and the extents ``(n, 3)``, full side lengths [m],
+        descending.
+    """
+    n = len(sizes)
+    order, every = np.tile(np.arange(3), (n, 1)), np.arange(n)
+    spans = bounds[:, 1] - bounds[:, 0]
+    for first in (0, 1, 0, 1):
+        a, b = order[:, first], order[:, first + 1]
+        difference = spans[every, b] - spans[every, a]
+        # Equal sides: the one nearer to x comes first, then to y.
+        nearer = np.abs(rows[every, b, :2]) - np.abs(rows[every, a, :2])
+        tells = np.abs(nearer) > _EQUAL_COMPONENT
+        is_nearer = np.where(tells[:, 0], nearer[:, 0], np.where(tells[:, 1], nearer[:, 1], 0.0)) > 0.0
+        swap = np.where(np.abs(difference) <= _EQUAL * sizes, is_nearer, difference > 0.0)
+        order[swap, first : first + 2] = order[swap, first : first + 2][:, ::-1]
+    rows = np.take_along_axis(rows, order[:, :, None], axis=1)
+    bounds = np.take_along_axis(bounds, order[:, None, :], axis=2)
+    center = origin.copy()
     for r in range(3):
-        extents[i, r] = bounds[1, r] - bounds[0, r]
-        # Rounding must not leave a longer side behind a shorter one.
-        if r > 0 and extents[i, r] > extents[i, r - 1]:
-            extents[i, r] = extents[i, r - 1]
-        middle = 0.5 * (bounds[1, r] + bounds[0, r])
-        lead = 0
-        for k in range(3):
-            center[i, k] += middle * best[r, k]
-            if abs(best[r, k]) > abs(best[r, lead]) + 1e-6:
-                lead = k
-        sense = -1.0 if best[r, lead] < 0.0 else 1.0
-        for k in range(3):
-            axes[i, r, k] = sense * best[r, k] + 0.0
-    for k in range(3):
-        u, w = (k + 1) % 3, (k + 2) % 3
-        axes[i, 2, k] = axes[i, 0, u] * axes[i, 1, w] - axes[i, 0, w] * axes[i, 1, u]
+        center += (0.5 * (bounds[:, 1, r] + bounds[:, 0, r]))[:, None] * rows[:, r]
+    axes = np.empty((n, 3, 3))
+    for r in range(2):
+        length, lead = np.abs(rows[:, r]), np.zeros(n, np.int64)
+        for k in (1, 2):
+            lead[length[:, k] > length[every, lead] + _EQUAL_COMPONENT] = k
+        # Adding 0 makes -0 to 0.
+        axes[:, r] = np.where(rows[every, r, lead] < 0.0, -1.0, 1.0)[:, None] * rows[:, r] + 0.0
+    axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])
+    # Rounding must not leave a longer side behind a shorter one.
+    return center, axes, np.minimum.accumulate(bounds[:, 1] - bounds[:, 0], axis=1)

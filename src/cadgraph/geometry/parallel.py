@@ -17,10 +17,13 @@ from numpy.typing import NDArray
 
 from cadgraph.scene import Ints
 
-__all__ = ["compiled", "for_ranges", "readable"]
+__all__ = ["ZERO", "compiled", "for_ranges", "inner", "readable"]
 
 _F = TypeVar("_F", bound=Callable[..., Any])
 _T = TypeVar("_T", bound=np.generic)
+
+# Where an integer that kernels hand to each other starts: for a plain 0 they would be compiled once more.
+ZERO: Any = np.int64(0)
 
 # More ranges than threads, so that a thread that drew light ones takes another.
 _RANGES_PER_WORKER = 8
@@ -31,13 +34,32 @@ def compiled(function: _F) -> _F:
 
     Divisions follow IEEE 754 (no exception on zero); fast-math stays off, so that results are the same everywhere.
 
-    The first run on a machine waits for the compiler, about 1 ms for each operation and access and 50 ms for each
-    function. Keep to loops over scalars: array expressions, slices, sorting and ``np.linalg`` pull in thousands of
-    lines. An integer that starts as a constant and goes to another kernel should start as ``np.int64(0)``, since that
-    kernel is compiled for the constant as well otherwise.
+    The first run on a machine waits for the compiler: about 1 ms for each operation, 2 ms for each access to an array
+    of two dimensions, 6 ms for each loop or new array. Keep to loops over scalars: array expressions, slices, sorting
+    and ``np.linalg`` pull in thousands of lines. An integer that starts as a constant and goes to another kernel
+    should start as ``ZERO``.
     """
+    return _compile(function, from_python=True)
+
+
+def inner(function: _F) -> _F:
+    """As ``compiled``, for what only other kernels call: there is no way in from Python, which is slow to compile."""
+    kernel: Any = _compile(function, from_python=False)
+
+    def refuse(*_: object) -> None:
+        raise TypeError(f"{function.__name__} can only be called by a compiled kernel")
+
+    # A call from Python must find nothing to call, or it would jump to address 0.
+    kernel._insert = lambda *_, **__: None
+    kernel._compile_for_args = refuse
+    inner_function: _F = kernel
+    return inner_function
+
+
+def _compile(function: _F, from_python: bool) -> _F:
     # Nobody calls kernels from C, and each such entry would have to be compiled too.
-    kernel: Any = numba.njit(cache=True, nogil=True, error_model="numpy", no_cfunc_wrapper=True)(function)
+    options = {"no_cfunc_wrapper": True, "no_cpython_wrapper": not from_python}
+    kernel: Any = numba.njit(cache=True, nogil=True, error_model="numpy", **options)(function)
     # numba throws a cached kernel away when its own file changes, but not when that of a kernel that it calls does.
     index: Any = getattr(getattr(kernel, "_cache", None), "_cache_file", None)
     if index is not None and hasattr(index, "_source_stamp"):

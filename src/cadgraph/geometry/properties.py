@@ -6,9 +6,9 @@ from math import inf, sqrt
 
 import numpy as np
 
-from cadgraph.geometry.box import fit_boxes
+from cadgraph.geometry.box import fit_boxes, order_boxes
 from cadgraph.geometry.key import NO_KEY, Keys, key_position, mix
-from cadgraph.geometry.parallel import compiled, for_ranges, readable
+from cadgraph.geometry.parallel import compiled, for_ranges, inner, readable
 from cadgraph.parts import Bools, Properties
 from cadgraph.scene import Faces, Floats, Ints, Scene
 
@@ -43,9 +43,8 @@ def measure(scene: Scene, workers: int | None = None, boxes: bool = True) -> Pro
     centroid = np.full((n, 3), np.nan)
     aabb = np.full((n, 2, 3), np.nan)
     counts = np.zeros((n, 2), np.int64)
-    obb_center = np.full((n, 3), np.nan)
-    obb_axes = np.tile(np.eye(3), (n, 1, 1))
-    obb_extents = np.zeros((n, 3))
+    origin, size = np.full((n, 3), np.nan), np.zeros(n)
+    rows, bounds = np.tile(np.eye(3), (n, 1, 1)), np.zeros((n, 2, 3))
 
     covariance = np.zeros((n, 3, 3))
     used = np.zeros(len(vertices), np.bool_)
@@ -56,14 +55,14 @@ def measure(scene: Scene, workers: int | None = None, boxes: bool = True) -> Pro
             used, sums, closed, centroid, aabb, covariance, counts,
         )  # fmt: skip
         if boxes:
-            fit_boxes(
-                vertices, used, faces, v_offsets, f_offsets, covariance, first, last, obb_center, obb_axes, obb_extents
-            )
+            fit_boxes(vertices, used, faces, v_offsets, f_offsets, covariance, first, last, origin, size, rows, bounds)
 
     n_vertices, n_faces = np.diff(v_offsets), np.diff(f_offsets)
     for_ranges(kernel, n_vertices + n_faces, workers)
     if not boxes:
         obb_center, obb_axes, obb_extents = _upright_boxes(aabb)
+    else:
+        obb_center, obb_axes, obb_extents = order_boxes(origin, size, rows, bounds)
     # From second moments to the inertia tensor: the trace on the diagonal, less the moments.
     inertia = 0.0 - covariance
     diagonal = np.arange(3)
@@ -127,7 +126,7 @@ def _sum_meshes(
         _bound(vertices, keys, v0, v1, i, used, sums[i, 0] == 0.0, centroid, aabb)
 
 
-@compiled
+@inner
 def _key_vertices(vertices: Floats, bits: Keys, v0: int, v1: int, i: int, keys: Keys, counts: Ints) -> int:
     """Gives equal positions equal keys, 0 where not finite; returns the first finite vertex or -1."""
     anchor = -1
@@ -144,7 +143,7 @@ def _key_vertices(vertices: Floats, bits: Keys, v0: int, v1: int, i: int, keys: 
     return anchor
 
 
-@compiled
+@inner
 def _edge_key(a: np.uint64, b: np.uint64) -> np.uint64:
     """A number for a directed edge; that of the opposite direction is its negative."""
     if a == b:
@@ -154,7 +153,7 @@ def _edge_key(a: np.uint64, b: np.uint64) -> np.uint64:
     return NO_KEY - mix(mix(b) ^ a)
 
 
-@compiled
+@inner
 def _sum_faces(
     vertices: Floats,
     keys: Keys,
@@ -239,20 +238,7 @@ def _sum_faces(
     return area > 0.0 and edges == NO_KEY
 
 
-@compiled
-def _upright_box(aabb: Floats, center: Floats, axes: Floats, extents: Floats) -> None:
-    """An axis-aligned box as an oriented one: longest extent first."""
-    order = np.argsort(np.array([aabb[0, 0] - aabb[1, 0], aabb[0, 1] - aabb[1, 1], aabb[0, 2] - aabb[1, 2]]))
-    axes[:] = 0.0
-    for r in range(3):
-        center[r] = 0.5 * (aabb[0, r] + aabb[1, r])
-        extents[r] = aabb[1, order[r]] - aabb[0, order[r]]
-        axes[r, order[r]] = 1.0
-    if (order[1] - order[0]) % 3 == 2:
-        axes[2, order[2]] = -1.0
-
-
-@compiled
+@inner
 def _bound(
     vertices: Floats,
     keys: Keys,

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cadgraph.geometry.alignment import align_by_order, align_sets, count_cells, pick_anchors, weld
-from cadgraph.geometry.key import Keys
+from cadgraph.geometry.alignment import align_by_order, align_sets, count_cells, pick_anchors
 from cadgraph.geometry.parallel import compiled, for_ranges, readable
+from cadgraph.geometry.weld import weld_range
 from cadgraph.parts import Bools, Properties
 from cadgraph.scene import Faces, Floats, Ints, Scene
 
@@ -156,7 +156,10 @@ class _Kernels:
     def __init__(self, scene: Scene, properties: Properties, tolerance: Floats, workers: int | None) -> None:
         self.vertices, self.faces = readable(scene.vertices, np.float64), readable(scene.faces, np.int32)
         self.bits = self.vertices.view(np.uint64)
-        self.v_offsets, self.f_offsets = readable(scene.vertex_offsets, np.int64), readable(scene.face_offsets, np.int64)
+        self.v_offsets, self.f_offsets = (
+            readable(scene.vertex_offsets, np.int64),
+            readable(scene.face_offsets, np.int64),
+        )
         self.centroid, self.tolerance = readable(properties.centroid, np.float64), readable(tolerance, np.float64)
         self.workers = workers
         self.n_spots = np.full(scene.n_meshes, -1, np.int64)
@@ -205,13 +208,13 @@ class _Kernels:
             self.spots, self.normals = np.empty_like(self.vertices), np.empty_like(self.vertices)
             self.reach = np.empty((len(self.vertices), 2))
 
-        def weld_range(low: int, high: int) -> None:
-            _weld_range(
+        def weld_these(low: int, high: int) -> None:
+            weld_range(
                 self.vertices, self.bits, self.faces, self.v_offsets, self.f_offsets, self.centroid, self.tolerance,
                 meshes, low, high, self.spots, self.normals, self.reach, self.n_spots,
             )  # fmt: skip
 
-        for_ranges(weld_range, np.diff(self.f_offsets)[meshes], self.workers)
+        for_ranges(weld_these, np.diff(self.f_offsets)[meshes], self.workers)
 
 
 @compiled
@@ -240,24 +243,6 @@ def _order_range(
 
 
 @compiled
-def _weld_range(
-    vertices: Floats, bits: Keys, faces: Faces, v_offsets: Ints, f_offsets: Ints, centroid: Floats, tolerance: Floats,
-    meshes: Ints, low: int, high: int, spots: Floats, normals: Floats, reach: Floats, n_spots: Ints,
-) -> None:  # fmt: skip
-    n_most = 4
-    for k in range(low, high):
-        n_most = max(n_most, v_offsets[meshes[k] + 1] - v_offsets[meshes[k]])
-    spot_of, table = np.empty(n_most, np.int64), np.empty(4 * n_most, np.int64)
-    for k in range(low, high):
-        i = meshes[k]
-        v0 = v_offsets[i]
-        n_spots[i] = weld(
-            vertices, bits, v0, v_offsets[i + 1] - v0, faces, f_offsets[i], f_offsets[i + 1],
-            centroid[i, 0], centroid[i, 1], centroid[i, 2], tolerance[i], spot_of, table, spots, normals, reach,
-        )  # fmt: skip
-
-
-@compiled
 def _set_range(
     spots: Floats, normals: Floats, reach: Floats, v_offsets: Ints, n_spots: Ints, tolerance: Floats,
     centroid: Floats, pairs: Ints, left: Ints, low: int, high: int, sense: Ints, turn: Floats, shift: Floats,
@@ -274,7 +259,7 @@ def _set_range(
         n = n_spots[i]
         # First as it is, then its mirror image. The mirror image of a part that is its own mirror image is that part,
         # whatever its diagonals: so then as it is again, less strictly.
-        found, is_mirror = np.int64(0), sense[k] == -1
+        found, is_mirror = 0, sense[k] == -1
         for attempt in range(3):
             if n == 0 or n != n_spots[j]:
                 found = -1 if is_mirror else 0
@@ -288,10 +273,10 @@ def _set_range(
             ):  # fmt: skip
                 is_mirror = attempt == 1
                 if not is_mirror:
-                    found = np.int64(1)
+                    found = 1
                     break
             elif attempt > 0:
-                found = np.int64(-1 if is_mirror else 0)
+                found = -1 if is_mirror else 0
                 break
         sense[k] = found
         for r in range(3):

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial import cKDTree
 
 from cadgraph.geometry.parallel import compiled, for_ranges
-from cadgraph.geometry.shape import Shapes
+from cadgraph.geometry.properties import measure
+from cadgraph.geometry.shape import Shapes, find_shapes
 from cadgraph.parts import Bools, Properties
-from cadgraph.scene import Floats, Ints, Scene
+from cadgraph.scene import Floats, Ints, Scene, mesh_of_vertex
 
 __all__ = ["NearShapes", "corners_of", "deviation", "find_near_shapes", "sample_surface"]
 
@@ -27,10 +28,14 @@ _BOX_SLACK = 0.08
 
 @dataclass(frozen=True)
 class NearShapes:
-    """Pairs of distinct shapes that look alike: tessellated otherwise, scaled or mirrored.
+    """Distinct shapes that look alike: tessellated otherwise, scaled or mirrored.
+
+    Alikeness has no end (each of many may be a little unlike the next), so every shape is named with the earliest one
+    that it looks like, if that is not named with another itself.
 
     Args:
-        pairs: ``(n, 2)`` shape ids, first < second, ascending.
+        pairs: ``(n, 2)`` shape ids: the earlier one, and one that looks like it; each shape is second at most once.
+            Ascending.
         similarity: ``(n,)`` 0..1: 1 less the root mean square deviation over 0.05 of the middle extent.
         scale: ``(n,)`` size of the second over that of the first, by area.
         mirrored: ``(n,)`` whether only the mirror image of the second looks like the first.
@@ -52,8 +57,8 @@ def find_near_shapes(
 ) -> NearShapes:
     """Finds distinct shapes that look alike.
 
-    The first meshes of the shapes are scaled to equal area and laid on each other in all the ways in which their
-    oriented boxes agree; the best one counts.
+    The first meshes of the shapes are scaled to equal area. Those that then have the same shape are found as such; the
+    rest are laid on each other in all the ways in which their oriented boxes agree, and the best one counts.
 
     Args:
         scene: any.
@@ -66,37 +71,82 @@ def find_near_shapes(
     Returns:
         The pairs.
     """
-    pairs = _candidates(properties, shapes, scaled)
-    similarity, flipped = np.zeros(len(pairs)), np.zeros(len(pairs), np.bool_)
-    heads = shapes.first
-    weights = np.diff(scene.face_offsets)[heads][pairs].sum(axis=1)
-
-    def compare(low: int, high: int) -> None:
-        for k in range(low, high):
-            similarity[k], flipped[k] = _compare(scene, properties, int(heads[pairs[k, 0]]), int(heads[pairs[k, 1]]))
-
-    for_ranges(compare, weights, workers)
-    keep = similarity >= min_similarity
-    pairs = pairs[keep]
-    size = np.sqrt(properties.area[heads])
-    return NearShapes(pairs, similarity[keep], size[pairs[:, 1]] / size[pairs[:, 0]], flipped[keep])
-
-
-def _candidates(properties: Properties, shapes: Shapes, scaled: bool) -> Ints:
-    """Pairs of shapes whose extents over the root of the area, and whose area unless scaled, are about the same."""
     heads = shapes.first
     usable = np.flatnonzero((properties.area[heads] > 0) & np.isfinite(properties.centroid[heads]).all(axis=1))
-    area = properties.area[heads[usable]]
-    moments = np.linalg.eigvalsh(properties.inertia[heads[usable]])
-    looks = [np.log(np.maximum(moments, 1e-12 * area[:, None] ** 2) / area[:, None] ** 2) / 2]
-    if not scaled:
-        looks.append(np.log(area)[:, None] / 2)
-    if len(usable) < 2:
-        return np.zeros((0, 2), np.int64)
-    found = cKDTree(np.hstack(looks)).query_pairs(_LOOSE, p=np.inf, output_type="ndarray")
-    pairs = np.sort(usable[found].reshape(-1, 2), axis=1)
-    ordered: Ints = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))].astype(np.int64)
-    return ordered
+    like = np.full(len(heads), -1, np.int64)
+    similarity, mirrored = np.ones(len(heads)), np.zeros(len(heads), np.bool_)
+    if scaled and len(usable) > 1:
+        small = _unit_scene(scene, properties, heads[usable])
+        equal = find_shapes(small, measure(small, workers), workers)
+        same = equal.first[equal.shape]
+        image = equal.mirror_of[equal.shape]
+        same = np.where(image >= 0, equal.first[image], same)
+        repeats = same != np.arange(len(usable))
+        like[usable[repeats]] = usable[same[repeats]]
+        mirrored[usable[repeats]] = image[repeats] >= 0
+        usable = usable[~repeats]
+    else:
+        image = shapes.mirror_of[usable]
+        like[usable[image >= 0]], mirrored[usable[image >= 0]] = image[image >= 0], True
+        usable = usable[image < 0]
+    if len(usable) > 1:
+        _pair_up(scene, properties, heads, usable, scaled, min_similarity, workers, like, similarity, mirrored)
+    seconds = np.flatnonzero(like >= 0)
+    pairs = np.column_stack([like[seconds], seconds])
+    order = np.lexsort((pairs[:, 1], pairs[:, 0]))
+    pairs, seconds = pairs[order], seconds[order]
+    size = np.sqrt(properties.area[heads])
+    return NearShapes(pairs, similarity[seconds], size[pairs[:, 1]] / size[pairs[:, 0]], mirrored[seconds])
+
+
+def _unit_scene(scene: Scene, properties: Properties, meshes: Ints) -> Scene:
+    """These meshes alone, about the origin and of unit area."""
+    part = scene.select(meshes)
+    owner = mesh_of_vertex(part)
+    size = np.sqrt(properties.area[meshes])
+    vertices = (part.vertices - properties.centroid[meshes][owner]) / size[owner, None]
+    return replace(part, vertices=vertices)
+
+
+def _pair_up(
+    scene: Scene,
+    properties: Properties,
+    heads: Ints,
+    usable: Ints,
+    scaled: bool,
+    min_similarity: float,
+    workers: int | None,
+    like: Ints,
+    similarity: Floats,
+    mirrored: Bools,
+) -> None:
+    """Goes through shapes in order and names each later one that looks like it and is not named yet."""
+    looks = _looks(properties, heads[usable], scaled)
+    tree = cKDTree(looks)
+    weights = np.diff(scene.face_offsets)[heads]
+    for k, a in enumerate(usable):
+        if like[a] >= 0:
+            continue
+        near = usable[[j for j in sorted(tree.query_ball_point(looks[k], _LOOSE, p=np.inf)) if j > k]]
+        others = near[like[near] < 0].astype(np.int64)
+        alike, flipped = np.zeros(len(others)), np.zeros(len(others), np.bool_)
+
+        def compare(low: int, high: int) -> None:
+            for at in range(low, high):
+                alike[at], flipped[at] = _compare(scene, properties, int(heads[a]), int(heads[others[at]]))  # noqa: B023
+
+        for_ranges(compare, weights[others], workers)
+        named = alike >= min_similarity
+        like[others[named]] = a
+        similarity[others[named]], mirrored[others[named]] = alike[named], flipped[named]
+
+
+def _looks(properties: Properties, meshes: Ints, scaled: bool) -> Floats:
+    """Logarithms of lengths that no motion changes, over the root of the area; with that root too unless scaled."""
+    area = properties.area[meshes]
+    moments = np.linalg.eigvalsh(properties.inertia[meshes])
+    looks = np.log(np.maximum(moments, 1e-12 * area[:, None] ** 2) / area[:, None] ** 2) / 2
+    return looks if scaled else np.column_stack([looks, np.log(area) / 2])
 
 
 def _compare(scene: Scene, properties: Properties, a: int, b: int) -> tuple[float, bool]:

@@ -22,8 +22,8 @@ __all__ = ["ROW", "TOLERANCE", "distance2", "lay_normal", "prepare", "triangle_d
 TOLERANCE = 1e-9
 """Distances up to this are 0, and a gap this much over a limit still counts, to absorb rounding [m]."""
 
-ROW = 19
-"""Length of a row: three corners (9), normal (3), its squared length or -1 while unknown (1), box (6)."""
+ROW = 20
+"""Length of a row: three corners (9), normal (3), its squared length or -1 while unknown (1), box (6), one free."""
 
 _FLAT = 1e-10
 # A triangle of less height than this [m] is covered by its sides within half of it, far below TOLERANCE.
@@ -144,15 +144,29 @@ def _clamp(x: float) -> float:
 
 
 @compiled
+def _side_gap2(p: Floats, i: int, a: int, b: int, q: Floats, j: int) -> float:
+    """Squared distance of the box of the side from corner ``a`` to ``b`` of row ``i`` from the box of row ``j``."""
+    x = max(min(p[i, a], p[i, b]) - q[j, 16], q[j, 13] - max(p[i, a], p[i, b]), 0.0)
+    y = max(min(p[i, a + 1], p[i, b + 1]) - q[j, 17], q[j, 14] - max(p[i, a + 1], p[i, b + 1]), 0.0)
+    z = max(min(p[i, a + 2], p[i, b + 2]) - q[j, 18], q[j, 15] - max(p[i, a + 2], p[i, b + 2]), 0.0)
+    return x * x + y * y + z * z
+
+
+@compiled
 def _sides(p: Floats, i: int, q: Floats, j: int, best: float, out: Floats) -> float:
     """The least squared distance below ``best`` between the sides of two triangles."""
+    gap0, gap1, gap2 = _side_gap2(q, j, 0, 3, p, i), _side_gap2(q, j, 3, 6, p, i), _side_gap2(q, j, 6, 0, p, i)
     for k in range(3):
         a, b, c = 3 * k, 3 * ((k + 1) % 3), 3 * ((k + 2) % 3)
+        if _side_gap2(p, i, a, b, q, j) >= best:
+            continue
         ax, ay, az = p[i, a], p[i, a + 1], p[i, a + 2]
         ux, uy, uz = p[i, b] - ax, p[i, b + 1] - ay, p[i, b + 2] - az
         uu = ux * ux + uy * uy + uz * uz
         for m in range(3):
             d, e, f = 3 * m, 3 * ((m + 1) % 3), 3 * ((m + 2) % 3)
+            if (gap0 if m == 0 else (gap1 if m == 1 else gap2)) >= best:
+                continue
             dx, dy, dz = q[j, d], q[j, d + 1], q[j, d + 2]
             vx, vy, vz = q[j, e] - dx, q[j, e + 1] - dy, q[j, e + 2] - dz
             rx, ry, rz = dx - ax, dy - ay, dz - az

@@ -258,19 +258,72 @@ def _keep(d2: float, stop: float, found: Floats, spare: Floats) -> float:
     found[6] = d2
     if d2 <= stop:
         return 0.0
-    less = np.sqrt(d2) - _TIE
+    size = np.sqrt(d2)
+    for k in range(3):
+        found[7 + k] = (spare[3 + k] - spare[k]) / size
+    less = size - _TIE
     return less * less if less > 0.0 else 0.0
+
+
+@compiled
+def _behind(p: Floats, n_p: int, q: Floats, n_q: int, bound: float, found: Floats) -> bool:
+    """Whether two leaves lie ``bound`` (squared) or more apart along the line of the closest points so far.
+
+    Parts that bulge towards each other are told apart by this at once. Leaves the furthest point of each row of ``p``,
+    and the nearest of each row of ``q``, along that line in the free column.
+    """
+    x, y, z = found[7], found[8], found[9]
+    high, low = -np.inf, np.inf
+    for i in range(n_p):
+        a = x * p[i, 0] + y * p[i, 1] + z * p[i, 2]
+        b = x * p[i, 3] + y * p[i, 4] + z * p[i, 5]
+        c = x * p[i, 6] + y * p[i, 7] + z * p[i, 8]
+        p[i, 19] = max(a, b, c)
+        high = max(high, p[i, 19])
+    for i in range(n_q):
+        a = x * q[i, 0] + y * q[i, 1] + z * q[i, 2]
+        b = x * q[i, 3] + y * q[i, 4] + z * q[i, 5]
+        c = x * q[i, 6] + y * q[i, 7] + z * q[i, 8]
+        q[i, 19] = min(a, b, c)
+        low = min(low, q[i, 19])
+    return low > high and (low - high) * (low - high) >= bound
+
+
+@compiled
+def _lay_line(found: Floats, a: Floats, b: Floats, line: Floats) -> None:
+    """Writes the direction of the closest points so far in the box axes of both meshes, and its absolute values."""
+    for k in range(3):
+        line[0, k] = a[5 + k, 0] * found[7] + a[5 + k, 1] * found[8] + a[5 + k, 2] * found[9]
+        line[1, k] = b[5 + k, 0] * found[7] + b[5 + k, 1] * found[8] + b[5 + k, 2] * found[9]
+        line[2, k], line[3, k] = abs(line[0, k]), abs(line[1, k])
+
+
+@compiled
+def _node_behind(nodes: Nodes, a: int, b: int, frame: Floats, line: Floats, bound: float) -> bool:
+    """Whether two nodes lie ``bound`` (squared) or more apart along the line of the closest points so far."""
+    gap = 0.0
+    for k in range(3):
+        gap += line[0, k] * (frame[6, k] - nodes[a, k]) - line[2, k] * nodes[a, 3 + k]
+        gap += line[1, k] * nodes[b, k] - line[3, k] * nodes[b, 3 + k]
+    return gap > 0.0 and gap * gap >= bound
 
 
 @compiled
 def _leaves(p: Floats, n_p: int, q: Floats, n_q: int, bound: float, stop: float, found: Floats, spare: Floats) -> float:
     """Looks for triangles of two leaves below a squared distance; returns the new bound."""
+    known = found[6] < np.inf
+    if known and _behind(p, n_p, q, n_q, bound, found):
+        return bound
     if _apart(p, n_p, q, n_q, bound) or _apart(q, n_q, p, n_p, bound):
         return bound
     for i in range(n_p):
         for j in range(n_q):
             if rows_gap2(p, i, q, j) >= bound:
                 continue
+            if known:
+                gap = q[j, 19] - p[i, 19]
+                if gap > 0.0 and gap * gap >= bound:
+                    continue
             d2 = distance2(p, i, q, j, bound, spare)
             if d2 < bound:
                 bound = _keep(d2, stop, found, spare)
@@ -447,6 +500,7 @@ def _walk(
     stack: Ints,
     own: Ints,
     bounds: Floats,
+    line: Floats,
 ) -> float:
     """Looks for the closest points of two meshes below a squared distance; returns the last bound."""
     nodes, vertices, faces = borrow(nodes), borrow(vertices), borrow(faces)
@@ -455,12 +509,14 @@ def _walk(
     axes_q = borrow(axes_q)
     p, q, single = borrow(p), borrow(q), borrow(single)
     stack, own, bounds = borrow(stack), borrow(own), borrow(bounds)
+    line = borrow(line)
     base_a, base_b, leaves_a, leaves_b = whole_a[NODE], whole_b[NODE], whole_a[LEAVES], whole_b[LEAVES]
     upright = whole_a[UPRIGHT] != 0 and whole_b[UPRIGHT] != 0
     relate(side_a, side_b, frame)
     coarse_a = _COARSE * node_extent(nodes, base_a) if leaves_a >= _COARSE_LEAVES else np.inf
     coarse_b = _COARSE * node_extent(nodes, base_b) if leaves_b >= _COARSE_LEAVES else np.inf
     loaded_a = loaded_b = laid_a = laid_b = -1
+    laid = np.inf
     count_a = count_b = 0
     stack[0], stack[1], bounds[0] = 0, 0, node_gap2(nodes, base_a, base_b, frame, upright)
     top = 1
@@ -469,6 +525,12 @@ def _walk(
         if bounds[top] >= bound:
             continue
         at_a, at_b = stack[2 * top], stack[2 * top + 1]
+        if found[6] < np.inf:
+            if found[6] != laid:
+                laid = found[6]
+                _lay_line(found, side_a, side_b, line)
+            if _node_behind(nodes, base_a + at_a, base_b + at_b, frame, line, bound):
+                continue
         leaf_a, leaf_b = at_a >= leaves_a - 1, at_b >= leaves_b - 1
         size_a, size_b = node_extent(nodes, base_a + at_a), node_extent(nodes, base_b + at_b)
         split_a = leaf_a and size_a > min(_OVERSIZED * size_b, coarse_a)
@@ -487,7 +549,7 @@ def _walk(
                     _lay_axes(p, i, side_b, whole_b, axes_p)
                 bound = _descend(
                     nodes, vertices, faces, side_b, whole_b, at_b,
-                    p, i, False, bound, stop, found, spare, axes_p, single, own,
+                    p, i, split_b, bound, stop, found, spare, axes_p, single, own,
                 )  # fmt: skip
                 if bound <= 0.0:
                     return bound
@@ -498,7 +560,7 @@ def _walk(
                     _lay_axes(q, i, side_a, whole_a, axes_q)
                 bound = _descend(
                     nodes, vertices, faces, side_a, whole_a, at_a,
-                    q, i, True, bound, stop, found, spare, axes_q, single, own,
+                    q, i, split_b, bound, stop, found, spare, axes_q, single, own,
                 )  # fmt: skip
                 if bound <= 0.0:
                     return bound
@@ -550,12 +612,13 @@ def closest(
     n = last - first
     row, distance, points = np.empty(n, np.int64), np.empty(n), np.empty((n, 2, 3))
     found, spare, frame, axes, origin = (
-        np.empty(7),
+        np.empty(10),
         np.empty(6),
         np.empty((7, 3)),
         np.empty((2, LEAF, 11, 6)),
         np.empty(3),
     )
+    line = np.empty((4, 3))
     p, q, single = np.empty((LEAF, ROW)), np.empty((LEAF, ROW)), np.empty((LEAF, ROW))
     stack, own, bounds = np.empty(2 * DEPTH, np.int64), np.empty(DEPTH, np.int64), np.empty(DEPTH)
     side_a, side_b, whole_a, whole_b = np.zeros(SIDE), np.zeros(SIDE), np.empty(8, np.int64), np.empty(8, np.int64)
@@ -574,7 +637,7 @@ def closest(
         found[6] = np.inf
         _walk(
             nodes, vertices, faces, side_a, whole_a, side_b, whole_b, limit2, stop * stop,
-            found, spare, frame, axes[0], axes[1], p, q, single, stack, own, bounds,
+            found, spare, frame, axes[0], axes[1], p, q, single, stack, own, bounds, line,
         )  # fmt: skip
         if found[6] < limit2:
             row[n_found] = i

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
 
-from cadgraph.scene import Diagnostic, Faces, Floats, Ints, Scene, Source
+from cadgraph.scene import Diagnostic, Faces, Floats, Ints, Scene, Source, natural_key
 
-__all__ = ["Notes", "Piece", "natural_key", "pack", "unique_name"]
+__all__ = ["Notes", "Piece", "pack", "unique_name"]
 
 _FAR = 10_000.0  # [m] beyond this a scene gets an origin of its own; ours: float32 renders still resolve 1 mm
 _ORIGIN_STEP = 100.0  # [m] origins are whole multiples, so that they are exact and stable under small edits
-_DIGITS = re.compile(r"(\d+)")
 _EXAMPLES = 20  # so many paths stand for the rest in a note on meshes that were loaded
 
 
@@ -74,12 +72,6 @@ class Notes:
                 message, ordered = f"{message} ({len(ordered)} in all)", ordered[:_EXAMPLES]
             notes.append(Diagnostic(code, message, tuple(ordered)))
         return tuple(notes)
-
-
-def natural_key(path: str) -> tuple[tuple[str | int, ...], str]:
-    """A key that sorts ``mesh_2`` before ``mesh_10``; parents come before their children."""
-    steps = _DIGITS.split(path.replace("/", "\x00"))
-    return tuple(int(step) if i % 2 else step for i, step in enumerate(steps)), path
 
 
 def unique_name(name: str, taken: set[str]) -> str:

@@ -79,14 +79,8 @@ class Trial:
 
 
 def subject_of(plant: Plant) -> Subject:
-    """Makes a plant ready: its scene, and its truth with the names of its clusters."""
-    truth = plant.truth()
-    members: dict[str, list[str]] = {}
-    for path, component in zip(plant.paths(), plant.components, strict=True):
-        if component.cluster:
-            members.setdefault(component.cluster, []).append(path)
-    truth["clusters"] = [{"id": name, "meshes": meshes} for name, meshes in members.items()]
-    return Subject(plant, plant.scene(), Truth.from_json(truth, plant.name))
+    """Makes a plant ready: its scene and its truth."""
+    return Subject(plant, plant.scene(), Truth.from_json(plant.truth(), plant.name))
 
 
 def try_out(subject: Subject, method: str, labeling: Labeling) -> Trial:

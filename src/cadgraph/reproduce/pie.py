@@ -1,4 +1,4 @@
-"""How many parts carry which label, as the paper's figure 5: a pie of names, tinted by group."""
+"""How many parts carry which label, as the paper draws it: a pie of names, tinted by group."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from cadgraph.report.colors import UNLABELLED, group_colors
 __all__ = ["Slice", "distribution", "draw_pies"]
 
 _LEAST = 25 / 2068
-"""Rarer labels are drawn together (paper, figure 5: less than 25 of 2,068 parts)."""
+"""Rarer labels are drawn together (paper, caption of the pie: less than 25 of 2,068 parts)."""
 
 _WHOLE_GROUPS = ("Valve assembly", "Gauge assembly")
 _OTHERS = "others"
-_SIZE = (760, 520)  # px of one pie with its labels
+_SIZE = (860, 520)  # px of one pie with its labels
 _RADIUS, _ZOOM, _LETTERS = 150, 3, 15
 _INK, _FAINT = "#1f2933", "#8b95a1"
 _TINTS = (0.0, 0.28, 0.14, 0.42, 0.07, 0.35, 0.21, 0.49)
@@ -48,7 +48,12 @@ def distribution(graph: SceneGraph) -> tuple[Slice, ...]:
     """
     colors = group_colors(graph)
     counts = Counter(
-        (part.label.group, part.label.group if part.label.group in _WHOLE_GROUPS else part.label.name or "no name")
+        (
+            part.label.group,
+            part.label.group
+            if part.label.group in _WHOLE_GROUPS
+            else part.label.name or f"{part.label.group}, unnamed",
+        )
         for part in graph.parts()
         if part.label is not None
     )
@@ -62,7 +67,7 @@ def distribution(graph: SceneGraph) -> tuple[Slice, ...]:
             Slice(name.lower(), n, _lighter(color, _TINTS[i % len(_TINTS)])) for i, (name, n) in enumerate(frequent)
         ]
     bare = total - sum(counts.values())
-    slices += [Slice(_OTHERS, rare, "#c8ccd2")] if rare else []
+    slices += [Slice(_OTHERS, rare, "#b3bac3")] if rare else []
     slices += [Slice("unlabelled", bare, UNLABELLED)] if bare else []
     return tuple(slices)
 

@@ -1,20 +1,22 @@
 """The built-in labeler: rules on geometry that name what they are sure of and leave the rest alone.
 
-First each part's shape allows some forms (``Forms``); then contacts decide, rule by rule in the order of ``_RULES``:
+First each part's shape allows some forms (``forms``); then contacts decide, rule by rule in the order of ``_RULES``:
 fasteners and piping first, then what is left between pipe ends is a valve, and what ends on a stem is a gauge. No
 source name, colour or direction of gravity counts.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from cadgraph.parts import Contacts, Label, Parts
 from cadgraph.scene import Floats
-from cadgraph.stages.label.features import Disc, Facts, angles_about, find_facts, same_line
+from cadgraph.stages.label.context import Context, offset, parallel
+from cadgraph.stages.label.features import Disc, Facts, angles_about, same_line
+from cadgraph.stages.label.forms import BOLT, CASE, WHEEL
 from cadgraph.vocabulary import Vocabulary
 
 __all__ = ["GeometryLabeler"]
@@ -22,147 +24,27 @@ __all__ = ["GeometryLabeler"]
 PIPE, VALVE, GAUGE = "Pipe assembly", "Valve assembly", "Gauge assembly"
 FASTENER, STRUCTURE = "Connection assembly", "Structural element"
 
-# Absolute sizes [m]
-MIN_PIPE = 0.0125  # outside diameter of DN8 is 13.7 mm (ASME B36.10M); thinner tubes are tubing, rods, rims
+# Sizes [m], and ratios
 MAX_ROD = 0.020  # a solid rod thinner than DN15 (21.3 mm) may be a stem
-FLANGE = (0.06, 1.6)  # diameter: DN10 to DN1200 (EN 1092-1)
-MAX_GASKET = 0.0065  # thickness: flat gaskets 1.5 to 3 mm (ASME B16.21), spiral wound 4.5 to 6.4 mm (B16.20)
-CASE = (0.036, 0.275)  # diameter of a gauge with bezel: EN 837-1 sizes 40 to 250
-WHEEL = (0.045, 1.2)  # diameter of a handwheel
-LEVER = (0.05, 0.8)  # length of a lever
-BOLT = (0.5, 0.06)  # greatest length and width over corners of a bolt: M36 heavy hex has 70 mm, M30 58 mm
-MAX_WASHER = 0.075  # diameter of a washer: M39 (ISO 7089) has 72 mm
-MIN_BEAM = 0.25  # shorter bars are as likely brackets or levers
+MAX_PIPE = 0.62  # wider (DN600 has 610 mm) and short is as likely the shell of a vessel
 MAX_BASE = 0.6  # a larger plate under a post is a deck
-MAX_GAP = 0.012  # parts further apart along a common axis do not join: adjacency (1 cm) and rounding
-
-# Ratios
-FLANGE_RIM = (0.03, 0.36)  # thickness over diameter: EN 1092-1 0.05 (DN600 PN6) to 0.31 (DN15 PN100), with play
 FLANGE_PIPE = (1.2, 4.7)  # flange over pipe: ASME B16.5 4.2 (DN15 class 150), 1.5 (DN300)
-CASE_DEPTH = (0.18, 0.95)  # depth over diameter, as makers build gauges: 0.25 to 0.8
 STEM_CASE = 0.5  # greatest width of a stem over the case that it carries: 22 mm flats under 63 mm
 MAX_OPENING = 200.0  # degrees that what holds a pipe may leave open: a U-bolt leaves 180
-COAXIAL = 0.2  # greatest offset of two axes that are one, over the lesser radius
-
-
-@dataclass(frozen=True)
-class _Forms:
-    """What the shape of a part alone would allow it to be."""
-
-    tube: bool
-    bend: bool
-    flange: bool
-    gasket: bool
-    wheel: bool
-    lever: bool
-    pin: bool
-    nut: bool
-    washer: bool
-    case: bool
-    bar: bool
-    plate: bool
-
-
-def _forms(f: Facts) -> _Forms:
-    diameter, long, mid, thin = 2 * f.radius, *(float(x) for x in f.section)
-    tube_width = 2 * f.ports[0].outer if f.tube else 0.0
-    full = np.nonzero(f.outer > 0.93 * f.radius)[0]
-    rim = (full[-1] - full[0] + 1) / len(f.outer) * f.length if len(full) else 0.0
-    # The plate of a flange is at one end; its raised face, a slice or two, may stand before it.
-    at_end = len(full) > 0 and len(full) == full[-1] - full[0] + 1 and min(full[0], len(f.outer) - 1 - full[-1]) <= 2
-    holed = any(0.3 * p.outer < p.inner < p.outer for p in f.ports)
-    holes = [p.inner / f.radius for p in f.ports]
-    ring = f.round and f.length < min(MAX_GASKET, 0.08 * diameter) and holed
-    return _Forms(
-        tube=f.tube > 0 and not f.bent and tube_width > MIN_PIPE and f.length > 0.25 * diameter,
-        bend=f.bent and tube_width > MIN_PIPE,
-        flange=f.round and FLANGE[0] < diameter < FLANGE[1] and at_end and not ring and f.length < 0.9 * diameter
-        and FLANGE_RIM[0] * diameter < rim < FLANGE_RIM[1] * diameter,
-        gasket=ring and diameter > 0.02,
-        wheel=f.sides >= 8 and 3 <= f.spokes <= 8 and f.rim > 0.45 and WHEEL[0] < diameter < WHEEL[1]
-        and f.length < 0.6 * diameter,
-        lever=LEVER[0] < long < LEVER[1] and long > 3 * mid and thin < 0.3 * long and not f.round,
-        pin=f.round and 1.2 * diameter < f.length < BOLT[0] and diameter < BOLT[1],
-        nut=f.turned > 0.7 and f.sides == 6 and holed and 0.25 * diameter < f.length < 1.1 * diameter < BOLT[1],
-        washer=f.round and len(holes) == 2 and min(holes) > 0.35 and max(holes) < 0.75 and diameter < MAX_WASHER
-        and f.length < 0.2 * diameter,
-        case=f.round and CASE[0] < diameter < CASE[1] and CASE_DEPTH[0] < f.length / diameter < CASE_DEPTH[1],
-        bar=long > MIN_BEAM and long > 4 * mid and not f.round and not f.tube,
-        plate=thin < 0.08 * mid and mid > 0.1 and f.fill > 0.7,
-    )  # fmt: skip
-
-
-class _Context:
-    """All parts with their facts, forms, neighbours, and the labels that rules have given so far."""
-
-    def __init__(self, parts: Parts, contacts: Contacts) -> None:
-        self.parts = parts
-        self.facts = find_facts(parts)
-        self.forms = [_forms(f) for f in self.facts]
-        self.labels: list[Label | None] = [None] * parts.n_parts
-        self.near: list[list[int]] = [[] for _ in self.facts]
-        self.spot: dict[tuple[int, int], Floats] = {}
-        for (a, b), points in zip(contacts.pairs.tolist(), contacts.points, strict=True):
-            if not parts.ground[a] and not parts.ground[b]:
-                self.near[a].append(b)
-                self.near[b].append(a)
-                self.spot[a, b], self.spot[b, a] = points
-
-    def say(self, part: int, group: str, name: str | None, confidence: float, why: str) -> None:
-        """Labels a part unless a rule before was at least as sure."""
-        before = self.labels[part]
-        if before is None or before.confidence < confidence:
-            self.labels[part] = Label(group, name, confidence, "geometry", {"why": why})
-
-    def is_a(self, part: int, group: str, *names: str) -> bool:
-        """Whether a part has a label of this group (with one of these names)."""
-        label = self.labels[part]
-        return label is not None and label.group == group and (not names or label.name in names)
-
-    def free(self, part: int) -> bool:
-        """Whether no rule has labelled a part."""
-        return self.labels[part] is None
-
-    def mates(self, part: int, port: Disc) -> Iterator[int]:
-        """The neighbours that continue a part beyond one of its ports, on the same axis."""
-        for other in self.near[part]:
-            g = self.facts[other]
-            lines = [(p.center, p.normal, p.outer) for p in g.ports]
-            lines += [(g.center, g.axis, g.radius)] if g.round and not g.ports else []
-            for center, axis, radius in lines:
-                offset = COAXIAL * min(port.outer, radius) + 0.001
-                if same_line(port.center, port.normal, center, axis, offset):
-                    ahead = (self.parts.properties.obb_center[other] - port.center) @ port.normal
-                    beyond = min((abs((p.center - port.center) @ port.normal) for p in g.ports), default=0.0)
-                    if ahead > 0 and beyond < MAX_GAP:
-                        yield other
-                        break
-
-    def run(self, part: int) -> Iterator[tuple[Disc, Disc]]:
-        """Pairs of ports of a part that look away from each other on one axis."""
-        ports = self.facts[part].ports
-        for i, first in enumerate(ports):
-            for second in ports[i + 1 :]:
-                offset = COAXIAL * min(first.outer, second.outer) + 0.001
-                apart = (second.center - first.center) @ second.normal
-                if apart > 0 and first.normal @ second.normal < 0 and same_line(
-                    first.center, first.normal, second.center, second.normal, offset
-                ):  # fmt: skip
-                    yield first, second
 
 
 def _mm(length: float) -> str:
     return f"{1000 * length:.0f} mm"
 
 
-def _fasteners(c: _Context) -> None:
+def _fasteners(c: Context) -> None:
     """Three or more of one shape, parallel, on a circle about a port: bolts, studs, nuts."""
     for part, f in enumerate(c.facts):
         small = [j for j in c.near[part] if c.forms[j].pin or c.forms[j].nut or c.forms[j].washer]
         for shape in sorted({int(c.parts.shape[j]) for j in small}):
             same = [j for j in small if c.parts.shape[j] == shape]
             for port in f.ports if len(same) >= 3 else ():
-                radii = [_offset(c.facts[j].center, port) for j in same if _parallel(c.facts[j].axis, port.normal)]
+                radii = [offset(c.facts[j].center, port) for j in same if parallel(c.facts[j].axis, port.normal)]
                 middle = float(np.median(radii)) if len(radii) >= 3 else 0.0
                 if middle > 1.2 * c.facts[same[0]].radius and np.ptp(radii) < 0.1 * middle:
                     g = c.facts[same[0]]
@@ -175,16 +57,7 @@ def _fasteners(c: _Context) -> None:
                     break
 
 
-def _offset(point: Floats, port: Disc) -> float:
-    apart = point - port.center
-    return float(np.linalg.norm(apart - (apart @ port.normal) * port.normal))
-
-
-def _parallel(a: Floats, b: Floats) -> bool:
-    return bool(abs(a @ b) > 0.99)
-
-
-def _stems(c: _Context) -> None:
+def _stems(c: Context) -> None:
     """What a wheel or a lever may sit on is set aside before pipes are named: a rod in the wheel's axis."""
     for wheel, forms in enumerate(c.forms):
         if not forms.wheel:
@@ -199,7 +72,7 @@ def _stems(c: _Context) -> None:
                 c.say(rod, VALVE, "valve stem", 0.7, f"rod in the axis of a wheel of {_mm(2 * f.radius)}")
 
 
-def _continues(c: _Context, part: int, port: Disc) -> str:
+def _continues(c: Context, part: int, port: Disc) -> str:
     """What goes on beyond a port of a pipe or bend, in words; empty if nothing of piping does."""
     for other in c.mates(part, port):
         g, forms = c.facts[other], c.forms[other]
@@ -219,7 +92,7 @@ def _continues(c: _Context, part: int, port: Disc) -> str:
     return ""
 
 
-def _pipes(c: _Context) -> None:
+def _pipes(c: Context) -> None:
     """Tubes that go on at an end; bends that do; long hollow tubes even alone."""
     for part, forms in enumerate(c.forms):
         f = c.facts[part]
@@ -230,7 +103,7 @@ def _pipes(c: _Context) -> None:
         hollow = f.ports[0].inner > 0
         kind = f"{'hollow' if hollow else 'solid'} {'bend' if forms.bend else 'tube'}, {_mm(width)} across"
         why = f"{kind}, {_mm(f.tube)} long, " + (f"goes on in {' and '.join(ends)}" if ends else "alone")
-        if not hollow and width < MAX_ROD and "bend" not in ends:
+        if (not hollow and width < MAX_ROD and "bend" not in ends) or (width > MAX_PIPE and f.tube < 6 * width):
             continue
         straight = f.tube > 4 * width or (not forms.bend)
         name = "pipe" if straight else "elbow"
@@ -244,7 +117,7 @@ def _pipes(c: _Context) -> None:
             c.say(part, PIPE, name, 0.6 if forms.tube else 0.7, why)
 
 
-def _flanges(c: _Context) -> None:
+def _flanges(c: Context) -> None:
     """Discs and hubbed rings on a narrower pipe, or bolted; rings between two of them are gaskets."""
     for part, forms in enumerate(c.forms):
         f = c.facts[part]
@@ -272,7 +145,7 @@ def _flanges(c: _Context) -> None:
                 c.say(part, PIPE, "gasket", 0.9, f"ring {_mm(f.length)} thick between two faces, {_mm(2 * f.radius)}")
 
 
-def _fittings(c: _Context) -> None:
+def _fittings(c: Context) -> None:
     """Reducers, tees and crosses: what joins pipes by its ports."""
     for part, f in enumerate(c.facts):
         if not c.free(part) or len(f.ports) < 2:
@@ -291,17 +164,17 @@ def _fittings(c: _Context) -> None:
                 c.say(part, PIPE, "reducer", 0.75, f"narrows from {_mm(2 * f.radius)} to {_mm(2 * f.outer.min())}")
 
 
-def _is_piping(c: _Context, part: int) -> bool:
+def _is_piping(c: Context, part: int) -> bool:
     return c.is_a(part, PIPE) and not c.is_a(part, PIPE, "branch outlet")
 
 
-def _same_pipe(c: _Context, part: int, port: Disc) -> bool:
+def _same_pipe(c: Context, part: int, port: Disc) -> bool:
     """Whether a part is a pipe or elbow as wide as a port."""
     g = c.facts[part]
     return c.is_a(part, PIPE, "pipe", "elbow") and abs(g.ports[0].outer - port.outer) < 0.05 * port.outer
 
 
-def _valves(c: _Context) -> None:
+def _valves(c: Context) -> None:
     """What lies between two pipe ends and carries something on its side; or a handle, where nothing else is near."""
     for part in range(len(c.facts)):
         for first, second in c.run(part) if c.free(part) and not c.facts[part].tube else ():
@@ -316,12 +189,12 @@ def _valves(c: _Context) -> None:
                 break
 
 
-def _is_valve(c: _Context, part: int, first: Disc, second: Disc, between_pipes: bool) -> bool:
+def _is_valve(c: Context, part: int, first: Disc, second: Disc, between_pipes: bool) -> bool:
     """Labels a body between two ends, and its handle, if what it carries tells a valve."""
     f, width = c.facts[part], max(first.outer, second.outer)
     top = [j for j in c.near[part] if _on_side(c, j, first, width)]
     handle = _find_handle(c, part, top)
-    off = _offset(c.parts.properties.obb_center[part], first) / width
+    off = offset(c.parts.properties.obb_center[part], first) / width
     length = float((second.center - first.center) @ second.normal)
     kind = f"body of {_mm(length)} between two ends of {_mm(2 * width)}"
     for j, name in handle.items():
@@ -329,19 +202,19 @@ def _is_valve(c: _Context, part: int, first: Disc, second: Disc, between_pipes: 
     if handle:
         c.say(part, VALVE, "valve body", 0.95, f"{kind}, with a handle")
     elif between_pipes and any(_stands(c, j, first.normal) for j in top) and length < 12 * width:
-        c.say(part, VALVE, "valve body", 0.75, f"{kind}, with a stem on one side")
+        c.say(part, VALVE, "valve body", 0.7, f"{kind}, with a stem on one side")
     elif between_pipes and off > 0.1 and length < 12 * width:
-        c.say(part, VALVE, "valve", 0.75, f"{kind}, with something on one side")
+        c.say(part, VALVE, "valve", 0.7, f"{kind}, with something on one side")
     elif between_pipes and not f.tube and length < 8 * width and (not f.round or _swells(f)):
         c.say(part, VALVE, None, 0.55, f"{kind}, wider in its middle than a pipe")
     return not c.free(part)
 
 
-def _is_lone_valve(c: _Context, part: int, first: Disc, second: Disc) -> bool:
+def _is_lone_valve(c: Context, part: int, first: Disc, second: Disc) -> bool:
     """Labels a device without piping: a through bore, and a handle beside it that is longer than the ends are wide."""
     f, width = c.facts[part], max(first.outer, second.outer)
     through = min(first.inner, second.inner) > 0.3 * width and abs(first.outer - second.outer) < 0.1 * width
-    branches = [p for p in f.ports if not _parallel(p.normal, first.normal) and p.outer > 0.5 * width]
+    branches = [p for p in f.ports if not parallel(p.normal, first.normal) and p.outer > 0.5 * width]
     if not through or branches or f.section[0] > 1.5 or f.round:
         return False
     handle = _find_handle(c, part, [j for j in c.near[part] if c.free(j)])
@@ -350,7 +223,7 @@ def _is_lone_valve(c: _Context, part: int, first: Disc, second: Disc) -> bool:
         c.say(j, VALVE, name, 0.7, f"{name or 'trim'} on a {kind}")
     corners = c.parts.scene.mesh(part)[0] - first.center
     reach = np.linalg.norm(corners - np.outer(corners @ first.normal, first.normal), axis=1).max(initial=0.0)
-    off = _offset(c.parts.properties.obb_center[part], first)
+    off = offset(c.parts.properties.obb_center[part], first)
     if handle:
         c.say(part, VALVE, "valve body", 0.7, kind)
     elif not c.near[part] and reach > 2.0 * width and off > 0.4 * width:
@@ -358,14 +231,14 @@ def _is_lone_valve(c: _Context, part: int, first: Disc, second: Disc) -> bool:
     return not c.free(part)
 
 
-def _on_side(c: _Context, part: int, port: Disc, width: float) -> bool:
+def _on_side(c: Context, part: int, port: Disc, width: float) -> bool:
     """Whether a free part stands on the side of a run rather than on its axis."""
     if not (c.free(part) or c.is_a(part, VALVE)):
         return False
-    return _offset(c.parts.properties.obb_center[part], port) > 0.5 * width
+    return offset(c.parts.properties.obb_center[part], port) > 0.5 * width
 
 
-def _stands(c: _Context, part: int, axis: Floats) -> bool:
+def _stands(c: Context, part: int, axis: Floats) -> bool:
     """Whether a part is round about an axis across a run, as stems and bonnets are."""
     f = c.facts[part]
     return f.round and bool(abs(f.axis @ axis) < 0.1)
@@ -379,7 +252,7 @@ def _swells(f: Facts) -> bool:
     return bool(middle > 1.15 * necks and min(f.outer[:3].max(), f.outer[-3:].max()) > 1.15 * necks)
 
 
-def _find_handle(c: _Context, body: int, top: Sequence[int]) -> dict[int, str | None]:
+def _find_handle(c: Context, body: int, top: Sequence[int]) -> dict[int, str | None]:
     """The free parts from a body's side up to its handle, each with its name; empty if there is no handle."""
     size = float(c.facts[body].section[0])
     reached: dict[int, str | None] = {}
@@ -403,14 +276,14 @@ def _find_handle(c: _Context, body: int, top: Sequence[int]) -> dict[int, str | 
     return reached if {"handwheel", "lever"} & set(reached.values()) else {}
 
 
-def _is_plain_wheel(c: _Context, part: int, rod: int) -> bool:
+def _is_plain_wheel(c: Context, part: int, rod: int) -> bool:
     """Whether a flat round part sits on a much thinner rod."""
     f, g = c.facts[part], c.facts[rod]
     flat = f.sides >= 8 and f.turned > 0.85 and f.length < 0.9 * f.radius and WHEEL[0] < 2 * f.radius < WHEEL[1]
     return flat and g.radius < 0.35 * f.radius and same_line(f.center, f.axis, g.center, g.axis, 0.1 * f.radius)
 
 
-def _trim_name(c: _Context, part: int, body: int) -> str | None:
+def _trim_name(c: Context, part: int, body: int) -> str | None:
     f = c.facts[part]
     if f.round and f.radius < 0.25 * c.facts[body].section[1] and f.length > f.radius:
         return "valve stem"
@@ -419,58 +292,70 @@ def _trim_name(c: _Context, part: int, body: int) -> str | None:
     return None
 
 
-def _gauges(c: _Context) -> None:
+def _gauges(c: Context) -> None:
     """A short cylinder on a thin stem that stands on piping; or both as one mesh."""
     for part, forms in enumerate(c.forms):
         f = c.facts[part]
         if not c.free(part):
             continue
         if forms.case:
-            for stem in c.near[part]:
-                foot = _gauge_foot(c, part, stem)
-                if foot is None:
-                    continue
-                kind = (
-                    f"case of {_mm(2 * f.radius)}, {_mm(f.length)} deep, on a stem of {_mm(c.facts[stem].section[0])}"
-                )
-                c.say(part, GAUGE, "gauge case", 0.92, kind)
-                c.say(stem, GAUGE, "gauge stem", 0.88, f"stem under a {kind}")
-                c.say(foot, PIPE, "branch outlet", 0.8, f"between a pipe and the stem of a {kind}")
-                for j in c.near[part]:
-                    g = c.facts[j]
-                    inside = same_line(f.center, f.axis, g.center, g.axis, 0.2 * f.radius) and g.radius < f.radius
-                    if c.free(j) and inside:
-                        c.say(j, GAUGE, "gauge face", 0.85, f"disc in a {kind}")
-                break
+            size, kind = 2 * f.radius, f"case of {_mm(2 * f.radius)}, {_mm(f.length)} deep"
+            for stem in (j for j in c.near[part] if _is_gauge_stem(c, part, j)):
+                way = _way_to_piping(c, stem, 3 * size, {part, stem, *c.near[part]})
+                if way is not None:
+                    c.say(part, GAUGE, "gauge case", 0.92, f"{kind}, on a stem on piping")
+                    c.say(stem, GAUGE, "gauge stem", 0.88, f"stem under a {kind}")
+                    _name_stand(c, way, kind)
+                    for j in (j for j in c.near[part] if c.free(j)):
+                        g = c.facts[j]
+                        if g.radius < f.radius and same_line(f.center, f.axis, g.center, g.axis, 0.2 * f.radius):
+                            c.say(j, GAUGE, "gauge face", 0.85, f"disc in a {kind}")
+                    break
         elif f.discs and _is_whole_gauge(c, part):
-            feet = [j for j in c.near[part] if _foot_on_pipe(c, j, float(f.section[0]))]
-            for j in feet:
-                c.say(j, PIPE, "branch outlet", 0.75, "stub between a pipe and a gauge")
-            if feet:
-                c.say(part, GAUGE, "gauge", 0.8, f"dial of {_mm(2 * f.discs[0].outer)} on a stem, in one mesh")
+            way = _way_to_piping(c, part, float(f.section[0]), {part})
+            if way is not None:
+                kind = f"dial of {_mm(2 * f.discs[0].outer)}"
+                c.say(part, GAUGE, "gauge", 0.8, f"{kind} on a stem, in one mesh")
+                _name_stand(c, way, kind)
 
 
-def _gauge_foot(c: _Context, case: int, stem: int) -> int | None:
-    """What the stem of a gauge stands on: an outlet or piping; None if this is no stem of a gauge."""
+def _is_gauge_stem(c: Context, case: int, stem: int) -> bool:
+    """Whether a free part is slender and points at the case."""
     f, g = c.facts[case], c.facts[stem]
     way = c.parts.properties.obb_axes[stem][0]
     # On the axis of the case (back entry) a stem must be thinner and short, or a flange on its pipe would do.
     back = abs(f.axis @ way) > 0.9
-    slender = g.section[0] > 1.5 * g.section[1] and g.section[1] < (0.6 if back else 1.0) * STEM_CASE * 2 * f.radius
-    slender = slender and g.section[0] < (1.5 if back else 4.0) * 2 * f.radius
+    long, wide = float(g.section[0]), float(g.section[1])
+    slender = long > 1.5 * wide and wide < (0.6 if back else 1.0) * STEM_CASE * 2 * f.radius
     apart = c.parts.properties.obb_center[stem] - c.parts.properties.obb_center[case]
     aims = np.linalg.norm(apart - (apart @ way) * way) < 0.35 * f.radius + 0.5 * f.length * abs(f.axis @ way)
-    if not slender or not aims or not c.free(stem):
-        return None
-    for foot in c.near[stem]:
-        if foot == case or foot in c.near[case]:
-            continue
-        if _foot_on_pipe(c, foot, 2 * f.radius):
-            return foot
+    return bool(slender and long < (1.5 if back else 4.0) * 2 * f.radius and aims and c.free(stem))
+
+
+def _way_to_piping(c: Context, start: int, size: float, banned: set[int]) -> tuple[int, ...] | None:
+    """The free parts (three at most, none larger than ``size`` [m]) from a part to piping; None if none lead there."""
+    queue: list[tuple[int, tuple[int, ...]]] = [(start, ())]
+    while queue:
+        here, way = queue.pop(0)
+        onward = [j for j in c.near[here] if j not in banned and j not in way]
+        if any(_is_piping(c, j) for j in onward):
+            return way
+        if len(way) < 3:
+            queue += [(j, (*way, j)) for j in onward if c.free(j) and c.facts[j].section[0] < size]
     return None
 
 
-def _is_whole_gauge(c: _Context, part: int) -> bool:
+def _name_stand(c: Context, way: Sequence[int], kind: str) -> None:
+    for j in way:
+        if c.facts[j].bent:
+            c.say(j, GAUGE, "siphon", 0.8, f"thin bent tube under a {kind}")
+        elif j == way[-1]:
+            c.say(j, PIPE, "branch outlet", 0.8, f"stub between piping and a {kind}")
+        else:
+            c.say(j, GAUGE, None, 0.7, f"under a {kind}")
+
+
+def _is_whole_gauge(c: Context, part: int) -> bool:
     """A dial whose axis has the stem far out on one side only, touching piping there and nothing else."""
     f = c.facts[part]
     dial = max(f.discs, key=lambda d: d.outer)
@@ -489,13 +374,7 @@ def _is_whole_gauge(c: _Context, part: int) -> bool:
     return bool(reach.max() > 1.35 * dial.outer and one_sided and thin_foot and depth < 2.2 * dial.outer and touches)
 
 
-def _foot_on_pipe(c: _Context, foot: int, size: float) -> bool:
-    """Whether a part is piping, or a free stub no larger than ``size`` [m] that stands on piping."""
-    stub = c.free(foot) and float(c.facts[foot].section[0]) < size
-    return _is_piping(c, foot) or (stub and any(_is_piping(c, j) for j in c.near[foot]))
-
-
-def _supports(c: _Context) -> None:
+def _supports(c: Context) -> None:
     """Rods and bands around a pipe; what carries them."""
     held = []
     for part in range(len(c.facts)):
@@ -516,15 +395,15 @@ def _supports(c: _Context) -> None:
                 c.say(j, FASTENER, "bracket", 0.6, "carries what goes around a pipe")
 
 
-def _opening(c: _Context, part: int, pipe: int) -> float:
+def _opening(c: Context, part: int, pipe: int) -> float:
     """The widest angle around a pipe without a corner of a part close to its skin [degrees]."""
     spot = c.spot[part, pipe]
     corners = c.parts.scene.mesh(part)[0]
     for port in c.facts[pipe].ports:
         r = port.outer
-        if any(0.8 * r < p.outer < 1.25 * r and not _parallel(p.normal, port.normal) for p in c.facts[part].ports):
+        if any(0.8 * r < p.outer < 1.25 * r and not parallel(p.normal, port.normal) for p in c.facts[part].ports):
             continue  # an elbow that starts here
-        if _offset(spot, port) > r + 0.02 or max(c.facts[part].section) > 10 * r:
+        if offset(spot, port) > r + 0.02 or max(c.facts[part].section) > 10 * r:
             continue
         apart = corners - port.center
         across = apart - np.outer(apart @ port.normal, port.normal)
@@ -536,7 +415,7 @@ def _opening(c: _Context, part: int, pipe: int) -> float:
     return 360.0
 
 
-def _bolt_sets(c: _Context) -> None:
+def _bolt_sets(c: Context) -> None:
     """All bolts of a joint as one mesh: it lies around the axis of a flange, within its rim, clear of its bore."""
     for part, f in enumerate(c.facts):
         flanges = [j for j in c.near[part] if c.is_a(j, PIPE, "flange", "blind flange", "gasket")]
@@ -552,7 +431,7 @@ def _bolt_sets(c: _Context) -> None:
                 c.say(part, FASTENER, "bolt", 0.75, f"pieces around the axis of a flange of {_mm(2 * rim.radius)}")
 
 
-def _structure(c: _Context) -> None:
+def _structure(c: Context) -> None:
     """Long bars and plates that touch each other."""
     for part, forms in enumerate(c.forms):
         if not c.free(part) or not (forms.bar or forms.plate):
@@ -561,12 +440,12 @@ def _structure(c: _Context) -> None:
         beside = [j for j in c.near[part] if c.forms[j].bar or (forms.bar and c.forms[j].plate)]
         if not beside:
             continue
-        stands = any(_parallel(c.parts.properties.obb_axes[j][0], across) for j in beside)
+        stands = any(parallel(c.parts.properties.obb_axes[j][0], across) for j in beside)
         name = ("base plate" if stands and size < MAX_BASE else "plate") if forms.plate else None
         c.say(part, STRUCTURE, name, 0.6, f"{'plate' if forms.plate else 'bar'} of {_mm(float(size))} in a frame")
 
 
-def _leftovers(c: _Context) -> None:
+def _leftovers(c: Context) -> None:
     """What touches only parts of one device, or is enclosed by it, belongs to it; a wheel without a valve does not."""
     for group in (VALVE, GAUGE):
         for _ in range(2):
@@ -598,7 +477,7 @@ def _has_head(f: Facts) -> bool:
     return bool(level and outer[:head].min() > 1.3 * shank and f.radius < 2.4 * shank and thick < 1.6 * 2 * shank)
 
 
-def _on_valve(c: _Context, part: int) -> bool:
+def _on_valve(c: Context, part: int) -> bool:
     """Whether parts labelled as valve lead from here to a body."""
     seen, queue = {part}, [part]
     while queue:
@@ -610,7 +489,7 @@ def _on_valve(c: _Context, part: int) -> bool:
     return False
 
 
-_RULES: tuple[Callable[[_Context], None], ...] = (
+_RULES: tuple[Callable[[Context], None], ...] = (
     _fasteners, _stems, _pipes, _flanges, _fittings, _valves, _gauges, _bolt_sets, _supports, _structure, _leftovers,
 )  # fmt: skip
 
@@ -619,11 +498,11 @@ _RULES: tuple[Callable[[_Context], None], ...] = (
 class GeometryLabeler:
     """Labels by rules on geometry; most parts of an unknown kind stay without a label."""
 
-    rules: tuple[Callable[[_Context], None], ...] = field(default=_RULES)
+    rules: tuple[Callable[[Context], None], ...] = field(default=_RULES)
 
     def label(self, parts: Parts, contacts: Contacts, vocabulary: Vocabulary) -> Sequence[Label | None]:
         """Labels parts; see ``Labeler.label``. Labels that the vocabulary lacks are left out."""
-        context = _Context(parts, contacts)
+        context = Context(parts, contacts)
         for rule in self.rules:
             rule(context)
         return [
