@@ -41,9 +41,11 @@ $(VENV)/bin/python:
 $(VENV)/.with-all: pyproject.toml constraints.txt | $(VENV)/bin/python
 	@echo "installing into $(VENV) (once, a minute or two)"
 	$(PIP) --editable '.[all]'
+	@$(BIN)/python -m cadgraph.warm
 	@touch $@
 
 $(VENV)/.with-dev: pyproject.toml constraints.txt | $(VENV)/bin/python
 	@echo "installing into $(VENV) (once, a minute or two)"
 	$(PIP) --editable '.[all,dev]'
+	@$(BIN)/python -m cadgraph.warm
 	@touch $@ $(VENV)/.with-all

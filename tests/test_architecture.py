@@ -41,6 +41,7 @@ MAY_IMPORT = {
     "reproduce": VALUES | {"environment", "evaluate", "load", "pipeline", "render", "report", "summary", "truth"},
     "cli": VALUES
     | {"environment", "evaluate", "export", "load", "pipeline", "render", "report", "reproduce", "run", "summary"},
+    "warm": {"environment", "pipeline"},
     "__main__": {"cli"},
     "__init__": VALUES | {"load", "pipeline", "run"},
 }

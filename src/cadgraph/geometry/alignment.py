@@ -7,7 +7,7 @@ from math import ceil, floor, sqrt
 import numpy as np
 
 from cadgraph.geometry.order import sort_rows
-from cadgraph.geometry.parallel import ZERO, compiled, inner
+from cadgraph.geometry.parallel import ZERO, compiled
 from cadgraph.geometry.weld import weld
 from cadgraph.scene import Faces, Floats, Ints
 
@@ -28,7 +28,7 @@ _NORMAL_TOLERANCE = 0.3
 _MAX_CHECKS = 2_000_000
 
 
-@inner
+@compiled
 def pick_anchors(vertices: Floats, v0: int, v1: int, row: int, anchors: Ints) -> None:
     """Three vertices far apart: the farthest from the first, the farthest from that, the farthest from their line.
 
@@ -58,7 +58,7 @@ def pick_anchors(vertices: Floats, v0: int, v1: int, row: int, anchors: Ints) ->
             ex, ey, ez = x - px, y - py, z - pz
 
 
-@inner
+@compiled
 def _frame(ex: float, ey: float, ez: float, wx: float, wy: float, wz: float, frame: Floats) -> None:
     """Orthonormal rows from two vectors; some completion of the first where they span no plane."""
     length = sqrt(ex * ex + ey * ey + ez * ez)
@@ -86,7 +86,7 @@ def _frame(ex: float, ey: float, ez: float, wx: float, wy: float, wz: float, fra
     frame[2, 0], frame[2, 1], frame[2, 2] = ey * z - ez * y, ez * x - ex * z, ex * y - ey * x
 
 
-@inner
+@compiled
 def _frame_at(points: Floats, a: int, b: int, c: int, frame: Floats) -> None:
     """The frame of three points: first row from the first to the second, then towards the third."""
     x, y, z = points[a, 0], points[a, 1], points[a, 2]
@@ -101,7 +101,7 @@ def _frame_at(points: Floats, a: int, b: int, c: int, frame: Floats) -> None:
     )
 
 
-@inner
+@compiled
 def _turn_between(source: Floats, target: Floats, sense: int, turn: Floats) -> None:
     """The orthogonal matrix that takes the rows of one frame to those of another; ``sense`` -1 mirrors."""
     for r in range(3):
@@ -109,7 +109,7 @@ def _turn_between(source: Floats, target: Floats, sense: int, turn: Floats) -> N
             turn[r, c] = target[0, r] * source[0, c] + target[1, r] * source[1, c] + sense * target[2, r] * source[2, c]
 
 
-@inner
+@compiled
 def _same_faces(faces: Faces, a: int, b: int, n: int) -> bool:
     """Whether the ``n`` triangles from ``a`` and from ``b`` on are the same, whatever their first corner and sense."""
     for f in range(n):
@@ -123,7 +123,7 @@ def _same_faces(faces: Faces, a: int, b: int, n: int) -> bool:
     return True
 
 
-@inner
+@compiled
 def align_by_order(
     vertices: Floats, a: int, b: int, n: int, faces: Faces, faces_a: int, faces_b: int, n_faces: int,
     anchors: Ints, row: int, tolerance: float, frame_a: Floats, frame_b: Floats, turn: Floats, shift: Floats,
@@ -177,7 +177,7 @@ def align_by_order(
     return 0
 
 
-@inner
+@compiled
 def _classes(
     reach: Floats, a: int, n: int, tolerance: float, strict: bool, rows: Floats, spare: Floats, size: Ints
 ) -> None:
@@ -204,13 +204,13 @@ def _classes(
         start = end
 
 
-@inner
+@compiled
 def _area_tolerance(area: float, tolerance: float) -> float:
     """How much rounding may change the area around a vertex [m2]."""
     return 1e-3 * area + 8.0 * tolerance * sqrt(area) + 1e-12
 
 
-@inner
+@compiled
 def _pick_pair(spots: Floats, reach: Floats, a: int, n: int, size: Ints) -> tuple[int, int]:
     """Two vertices of rare looks that fix a motion about the centroid; both the same if all lie on one line."""
     farthest = 0.0
@@ -235,19 +235,19 @@ def _pick_pair(spots: Floats, reach: Floats, a: int, n: int, size: Ints) -> tupl
     return first, second if second >= 0 else widest
 
 
-@inner
+@compiled
 def _cells_along(n: int) -> int:
     """How many cells along each axis there are for ``n`` points."""
     return int(min(64.0, ceil(n ** (1.0 / 3.0))))
 
 
-@inner
+@compiled
 def count_cells(n: int) -> int:
     """The most cells that ``n`` points are sorted into."""
     return _cells_along(n) ** 3
 
 
-@inner
+@compiled
 def _cell(x: float, axis: int, grid: Floats) -> int:
     """Which of the cells along an axis a coordinate is in, or nearest to; the far edge belongs to the last one."""
     at, last = floor((x - grid[axis, 0]) / grid[axis, 1]), grid[axis, 2] - 1.0
@@ -256,7 +256,7 @@ def _cell(x: float, axis: int, grid: Floats) -> int:
     return int(at) if at > 0.0 else 0
 
 
-@inner
+@compiled
 def _sort_cells(spots: Floats, b: int, n: int, grid: Floats, starts: Ints, members: Ints, cells: Ints) -> None:
     """Sorts points into the cells of a regular grid: starts of each cell, and the points by cell.
 
@@ -289,7 +289,7 @@ def _sort_cells(spots: Floats, b: int, n: int, grid: Floats, starts: Ints, membe
         members[starts[cells[k]]] = k
 
 
-@inner
+@compiled
 def _nearest(
     x: float, y: float, z: float, spots: Floats, b: int, grid: Floats, starts: Ints, members: Ints, limit: float
 ) -> int:
@@ -312,7 +312,7 @@ def _nearest(
     return found
 
 
-@inner
+@compiled
 def _n_fitting(
     turn: Floats, spots: Floats, normals: Floats, a: int, b: int, n: int, tolerance: float,
     grid: Floats, starts: Ints, members: Ints, taken: Ints,
@@ -346,7 +346,7 @@ def _n_fitting(
     return n if n_taken == n else n - 1
 
 
-@inner
+@compiled
 def align_sets(
     spots: Floats, normals: Floats, reach: Floats, a: int, b: int, n: int, tolerance: float, sense: int, strict: bool,
     rows: Floats, spare: Floats, work: Ints, starts: Ints, frame_a: Floats, frame_b: Floats, grid: Floats, turn: Floats,
@@ -412,7 +412,7 @@ def align_sets(
     return False
 
 
-@inner
+@compiled
 def _alike(reach: Floats, look: int, b: int, n: int, tolerance: float, strict: bool, found: Ints) -> int:
     """Lists the vertices from ``b`` on that look like a given one; returns how many there are."""
     far, area = reach[look, 0], reach[look, 1]

@@ -13,7 +13,7 @@ from math import inf, sqrt
 import numpy as np
 
 from cadgraph.geometry.order import sort_rows
-from cadgraph.geometry.parallel import ZERO, compiled, inner
+from cadgraph.geometry.parallel import ZERO, compiled
 from cadgraph.parts import Bools
 from cadgraph.scene import Faces, Floats, Ints
 
@@ -168,7 +168,7 @@ def fit_boxes(
         _span(local, n, best, i, rows, bounds)
 
 
-@inner
+@compiled
 def _add_axis(candidates: Floats, n: int, rows: Floats, row: int) -> int:
     """Appends a row as a unit axis unless it's there already; returns how many there are now."""
     x, y, z = rows[row, 0], rows[row, 1], rows[row, 2]
@@ -185,7 +185,7 @@ def _add_axis(candidates: Floats, n: int, rows: Floats, row: int) -> int:
     return n + 1
 
 
-@inner
+@compiled
 def _propose_axes(
     bins: Floats,
     n_bins: int,
@@ -227,7 +227,7 @@ def _propose_axes(
     return int(n)
 
 
-@inner
+@compiled
 def _bin_normals(
     vertices: Floats,
     used: Bools,
@@ -300,7 +300,7 @@ def _bin_normals(
     return n_bins
 
 
-@inner
+@compiled
 def _box_along(
     local: Floats,
     n: int,
@@ -343,7 +343,7 @@ def _box_along(
     return cost * (high - low + _FLAT * size)
 
 
-@inner
+@compiled
 def _outside_octagon(flat: Floats, n: int, ends: Floats) -> int:
     """Keeps the points that can be on the hull, those not inside the octagon of eight extreme points; how many."""
     for e in range(8):
@@ -368,7 +368,7 @@ def _outside_octagon(flat: Floats, n: int, ends: Floats) -> int:
     return m
 
 
-@inner
+@compiled
 def _hull(flat: Floats, n: int, upper: Floats, hull: Floats) -> int:
     """The corners of the convex hull of points sorted by abscissa, counter-clockwise; returns how many."""
     n_low = n_up = ZERO
@@ -388,7 +388,7 @@ def _hull(flat: Floats, n: int, upper: Floats, hull: Floats) -> int:
     return int(n_low + n_up)
 
 
-@inner
+@compiled
 def _add_corner(chain: Floats, n: int, x: float, y: float, sign: float) -> int:
     """Adds a point to a convex chain, less the corners that it makes concave; returns the new length."""
     while n >= 2:
@@ -400,7 +400,7 @@ def _add_corner(chain: Floats, n: int, x: float, y: float, sign: float) -> int:
     return n + 1
 
 
-@inner
+@compiled
 def _least_rectangle(hull: Floats, n: int, size: float) -> tuple[float, float, float]:
     """Direction (cosine, sine) and cost of the least rectangle around a convex polygon.
 
@@ -440,7 +440,7 @@ def _least_rectangle(hull: Floats, n: int, size: float) -> tuple[float, float, f
     return best_c, best_s, best
 
 
-@inner
+@compiled
 def _advance(hull: Floats, n: int, at: int, x: float, y: float) -> int:
     """The next corner from ``at`` on that is farthest along (x, y)."""
     reach = hull[at, 0] * x + hull[at, 1] * y
@@ -453,7 +453,7 @@ def _advance(hull: Floats, n: int, at: int, x: float, y: float) -> int:
     return at
 
 
-@inner
+@compiled
 def _span(local: Floats, n: int, best: Floats, i: int, rows: Floats, bounds: Floats) -> None:
     """Writes the axes of a box and the extent of the points along each."""
     for r in range(3):

@@ -6,7 +6,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from cadgraph.geometry.parallel import inner
+from cadgraph.geometry.parallel import compiled
 
 __all__ = ["NO_KEY", "Keys", "key_position", "mix"]
 
@@ -20,7 +20,7 @@ _S27, _S30, _S31 = np.uint64(27), np.uint64(30), np.uint64(31)
 _MINUS_ZERO = np.uint64(1 << 63)
 
 
-@inner
+@compiled
 def mix(x: np.uint64) -> np.uint64:
     """The finaliser of splitmix64: each bit of the input moves each bit of the output."""
     x = (x ^ (x >> _S30)) * _MIX_1
@@ -28,7 +28,7 @@ def mix(x: np.uint64) -> np.uint64:
     return x ^ (x >> _S31)
 
 
-@inner
+@compiled
 def key_position(x: np.uint64, y: np.uint64, z: np.uint64) -> np.uint64:
     """A key, never 0, of the bits of three coordinates; -0.0 and 0.0 are one."""
     key = mix(_SEED ^ (x if x != _MINUS_ZERO else NO_KEY))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cadgraph.geometry.parallel import inner
+from cadgraph.geometry.parallel import compiled
 from cadgraph.scene import Floats
 
 __all__ = ["sort_rows"]
@@ -10,7 +10,7 @@ __all__ = ["sort_rows"]
 _RUN = 16
 
 
-@inner
+@compiled
 def sort_rows(rows: Floats, low: int, high: int, spare: Floats) -> None:
     """Sorts rows ``low`` to ``high`` of two columns by the first, in place; equal ones keep their order.
 

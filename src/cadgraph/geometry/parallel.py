@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from cadgraph.scene import Ints
 
-__all__ = ["ZERO", "compiled", "for_ranges", "inner", "readable"]
+__all__ = ["ZERO", "compiled", "for_ranges", "readable"]
 
 _F = TypeVar("_F", bound=Callable[..., Any])
 _T = TypeVar("_T", bound=np.generic)
@@ -39,27 +39,8 @@ def compiled(function: _F) -> _F:
     and ``np.linalg`` pull in thousands of lines. An integer that starts as a constant and goes to another kernel
     should start as ``ZERO``.
     """
-    return _compile(function, from_python=True)
-
-
-def inner(function: _F) -> _F:
-    """As ``compiled``, for what only other kernels call: there is no way in from Python, which is slow to compile."""
-    kernel: Any = _compile(function, from_python=False)
-
-    def refuse(*_: object) -> None:
-        raise TypeError(f"{function.__name__} can only be called by a compiled kernel")
-
-    # A call from Python must find nothing to call, or it would jump to address 0.
-    kernel._insert = lambda *_, **__: None
-    kernel._compile_for_args = refuse
-    inner_function: _F = kernel
-    return inner_function
-
-
-def _compile(function: _F, from_python: bool) -> _F:
     # Nobody calls kernels from C, and each such entry would have to be compiled too.
-    options = {"no_cfunc_wrapper": True, "no_cpython_wrapper": not from_python}
-    kernel: Any = numba.njit(cache=True, nogil=True, error_model="numpy", **options)(function)
+    kernel: Any = numba.njit(cache=True, nogil=True, error_model="numpy", no_cfunc_wrapper=True)(function)
     # numba throws a cached kernel away when its own file changes, but not when that of a kernel that it calls does.
     index: Any = getattr(getattr(kernel, "_cache", None), "_cache_file", None)
     if index is not None and hasattr(index, "_source_stamp"):

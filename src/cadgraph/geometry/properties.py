@@ -8,7 +8,7 @@ import numpy as np
 
 from cadgraph.geometry.box import fit_boxes, order_boxes
 from cadgraph.geometry.key import NO_KEY, Keys, key_position, mix
-from cadgraph.geometry.parallel import compiled, for_ranges, inner, readable
+from cadgraph.geometry.parallel import compiled, for_ranges, readable
 from cadgraph.parts import Bools, Properties
 from cadgraph.scene import Faces, Floats, Ints, Scene
 
@@ -126,7 +126,7 @@ def _sum_meshes(
         _bound(vertices, keys, v0, v1, i, used, sums[i, 0] == 0.0, centroid, aabb)
 
 
-@inner
+@compiled
 def _key_vertices(vertices: Floats, bits: Keys, v0: int, v1: int, i: int, keys: Keys, counts: Ints) -> int:
     """Gives equal positions equal keys, 0 where not finite; returns the first finite vertex or -1."""
     anchor = -1
@@ -143,7 +143,7 @@ def _key_vertices(vertices: Floats, bits: Keys, v0: int, v1: int, i: int, keys: 
     return anchor
 
 
-@inner
+@compiled
 def _edge_key(a: np.uint64, b: np.uint64) -> np.uint64:
     """A number for a directed edge; that of the opposite direction is its negative."""
     if a == b:
@@ -153,7 +153,7 @@ def _edge_key(a: np.uint64, b: np.uint64) -> np.uint64:
     return NO_KEY - mix(mix(b) ^ a)
 
 
-@inner
+@compiled
 def _sum_faces(
     vertices: Floats,
     keys: Keys,
@@ -238,7 +238,7 @@ def _sum_faces(
     return area > 0.0 and edges == NO_KEY
 
 
-@inner
+@compiled
 def _bound(
     vertices: Floats,
     keys: Keys,

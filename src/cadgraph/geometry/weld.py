@@ -7,7 +7,7 @@ from math import atan2, nan, sqrt
 import numpy as np
 
 from cadgraph.geometry.key import Keys, key_position
-from cadgraph.geometry.parallel import compiled, inner, readable
+from cadgraph.geometry.parallel import compiled, readable
 from cadgraph.scene import Faces, Floats, Ints
 
 __all__ = ["weld", "weld_range"]
@@ -16,7 +16,7 @@ __all__ = ["weld", "weld_range"]
 _MIN_HEIGHT = 30.0
 
 
-@inner
+@compiled
 def _weld(
     vertices: Floats, bits: Keys, v0: int, n: int, faces: Faces, f0: int, f1: int,
     x0: float, y0: float, z0: float, tolerance: float, spot_of: Ints, table: Ints,
@@ -138,14 +138,14 @@ def weld(
     return int(n_spots[0])
 
 
-@inner
+@compiled
 def _is_whole(faces: Faces, f: int, n: int) -> bool:
     """Whether all corners of a face are among ``n`` vertices."""
     i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
     return bool(i >= 0 and j >= 0 and k >= 0 and i < n and j < n and k < n)
 
 
-@inner
+@compiled
 def _add_corners(
     vertices: Floats, v0: int, faces: Faces, f: int, spot_of: Ints, tolerance: float, normals: Floats, reach: Floats
 ) -> None:

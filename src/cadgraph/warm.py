@@ -1,0 +1,25 @@
+"""Compiles the kernels ahead of the first run: ``python -m cadgraph.warm``.
+
+Machine code is cached beside the installed package, so this is needed once after an installation, and only to have
+the first run as quick as the next.
+"""
+
+from __future__ import annotations
+
+import sys
+
+from cadgraph.environment import make_skid
+from cadgraph.pipeline import build
+
+__all__ = ["warm_up"]
+
+
+def warm_up() -> None:
+    """Builds the graph of a small generated plant, by which every kernel that a plant needs is compiled."""
+    build(make_skid().scene())
+
+
+if __name__ == "__main__":
+    sys.stdout.write("compiling kernels (once, up to a minute)\n")
+    sys.stdout.flush()
+    warm_up()
