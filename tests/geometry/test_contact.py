@@ -144,7 +144,9 @@ class TestDegenerate:
         vertices, faces = shapes.sphere(0.5)
         soup = (vertices[faces].reshape(-1, 3), np.arange(3 * len(faces)).reshape(-1, 3))
         other = shapes.box((1, 1, 1), (0, 0, 1.003))
-        assert find_contacts(scene_of(soup, other)).distance == find_contacts(scene_of((vertices, faces), other)).distance
+        assert (
+            find_contacts(scene_of(soup, other)).distance == find_contacts(scene_of((vertices, faces), other)).distance
+        )
 
     def test_huge_coordinates_do_not_crash(self):
         wild = (np.array([[1e300, 0, 0], [0, 1e300, 0], [0, 0, -1e300]]), np.array([[0, 1, 2]]))
@@ -213,7 +215,10 @@ class TestSameOutput:
     def test_order_of_meshes_changes_nothing(self, seed):
         meshes = mixed_meshes(seed, 20)
         order = np.random.default_rng(seed).permutation(len(meshes))
-        found, shuffled = find_contacts(scene_of(*meshes), 0.05), find_contacts(scene_of(*(meshes[i] for i in order)), 0.05)
+        found, shuffled = (
+            find_contacts(scene_of(*meshes), 0.05),
+            find_contacts(scene_of(*(meshes[i] for i in order)), 0.05),
+        )
         there = np.sort(order[shuffled.pairs], axis=1)
         rows = np.lexsort((there[:, 1], there[:, 0]))
         np.testing.assert_array_equal(there[rows], found.pairs)
@@ -294,7 +299,9 @@ class TestHostile:
         x, y = np.meshgrid(np.linspace(0, 4, n + 1), np.linspace(0, 4, n + 1), indexing="ij")
         plate = np.column_stack([x.ravel(), y.ravel(), np.zeros(x.size)])
         at = np.arange(n * (n + 1)).reshape(n, n + 1)[:, :n].ravel()
-        faces = np.concatenate([np.column_stack([at, at + n + 1, at + 1]), np.column_stack([at + 1, at + n + 1, at + n + 2])])
+        faces = np.concatenate(
+            [np.column_stack([at, at + n + 1, at + 1]), np.column_stack([at + 1, at + n + 1, at + n + 2])]
+        )
         random = np.random.default_rng(0)
         gaps = np.where(random.uniform(size=50) < 0.5, 0.008, 0.012)
         bolts = [

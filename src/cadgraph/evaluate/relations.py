@@ -329,7 +329,7 @@ def _upright(edge: EdgeVerdict) -> EdgeVerdict:
     )
 
 
-def _end_key(true: str | None, found: str | None) -> tuple[bool, tuple[tuple[int, int | str], ...]]:
+def _end_key(true: str | None, found: str | None) -> tuple[bool, tuple[tuple[str | int, ...], str]]:
     return true is None, natural_key(true if true is not None else str(found))
 
 
