@@ -85,7 +85,7 @@ def run(
         from cadgraph.report import write_report
 
         clock("draw report", 0)
-        files["report"] = write_report(scene, graph, target / "report.html", config.report)
+        files["report"] = write_report(scene, graph, target / "report.html", config.report, clock)
         files["picture"] = target / "picture.png"
     clock("", 1)
     files["timings"] = target / "timings.json"

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from cadgraph.atomic import write_atomically
 from cadgraph.config import ReportConfig
 from cadgraph.graph import SceneGraph
+from cadgraph.progress import Progress, quiet
 from cadgraph.scene import Scene
 
 if TYPE_CHECKING:
@@ -24,7 +25,13 @@ _JPEG_QUALITY = 90
 _PLURALS = {"equipment": "equipment"}
 
 
-def write_report(scene: Scene, graph: SceneGraph, path: str | Path, config: ReportConfig | None = None) -> Path:
+def write_report(
+    scene: Scene,
+    graph: SceneGraph,
+    path: str | Path,
+    config: ReportConfig | None = None,
+    progress: Progress = quiet,
+) -> Path:
     """Writes the report, and the main picture as ``picture.png`` in the same folder.
 
     The page holds its pictures, styles and script, asks nothing of a network, and shows every name from the source as
@@ -35,6 +42,7 @@ def write_report(scene: Scene, graph: SceneGraph, path: str | Path, config: Repo
         graph: the finished graph.
         path: the file, or a folder that gets ``report.html``.
         config: size and number of pictures; the defaults if None.
+        progress: told how many of the pictures are drawn.
 
     Returns:
         The path of the page.
@@ -46,7 +54,7 @@ def write_report(scene: Scene, graph: SceneGraph, path: str | Path, config: Repo
 
     target = Path(path)
     target = target if target.suffix.lower() in (".html", ".htm") else target / "report.html"
-    pictures = draw_pictures(scene, graph, config or ReportConfig())
+    pictures = draw_pictures(scene, graph, config or ReportConfig(), progress)
     if pictures:
         write_atomically(target.parent / "picture.png", _png(pictures[0]))
     write_atomically(target, _page(graph, pictures))

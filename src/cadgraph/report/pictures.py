@@ -11,6 +11,7 @@ from PIL import Image
 
 from cadgraph.config import ReportConfig
 from cadgraph.graph import SceneGraph
+from cadgraph.progress import Progress, quiet
 from cadgraph.records import Cluster, Connected, Edge, Junction, Part, Point, Related, Terminal, Unit
 from cadgraph.render.annotation import LegendEntry, Mark, Segment, Tag, annotate
 from cadgraph.render.camera import Camera, frame
@@ -68,13 +69,14 @@ class _Ready:
     unit_colors: dict[str, str]
 
 
-def draw_pictures(scene: Scene, graph: SceneGraph, config: ReportConfig) -> list[Picture]:
+def draw_pictures(scene: Scene, graph: SceneGraph, config: ReportConfig, progress: Progress = quiet) -> list[Picture]:
     """Draws all pictures of a report.
 
     Args:
         scene: that the graph was made from; meshes are found by their source paths.
         graph: the finished graph.
         config: size, anti-aliasing and number of pictures.
+        progress: told how many of the pictures are drawn.
 
     Returns:
         The pictures by group (with relations), as it is, by cluster; then the pipe systems, the largest first.
@@ -103,6 +105,7 @@ def draw_pictures(scene: Scene, graph: SceneGraph, config: ReportConfig) -> list
     # The page shows a single system over its whole width, several side by side.
     size = 1.0 if len(systems) == 1 else _SIDE_BY_SIDE
     for number, cluster in enumerate(systems, 1):
+        progress("draw report", number / (len(systems) + 1))
         picture = _system(ready, cluster, f"Pipe system {number}: {cluster.id}", camera, size)
         if picture is not None:
             pictures.append(picture)
