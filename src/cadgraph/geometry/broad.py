@@ -8,15 +8,18 @@ pair is found once: a scene of a million small boxes and a few as large as itsel
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
 from cadgraph.geometry.gather import gather
 from cadgraph.geometry.parallel import compiled
-from cadgraph.geometry.tree import LEAF, first_face, radix_sort, spread_bits
+from cadgraph.geometry.tree import LEAF, first_face
 from cadgraph.scene import Floats, Ints
 
 __all__ = ["near_boxes"]
 
 _OCTAVES = 3  # sizes within a class differ by less than two to this power
+
+_FEW = 40  # below this many keys insertion beats counting
 
 
 def near_boxes(boxes: Floats, reach: float, workers: int | None = None) -> Ints:
@@ -67,6 +70,57 @@ def _sort_boxes(boxes: Floats) -> tuple[Ints, Ints]:
 
 
 @compiled
+def _radix_sort(
+    keys: npt.NDArray[np.uint64], spare: npt.NDArray[np.uint64], n: int, low: int, high: int, digit: int
+) -> bool:
+    """Sorts the first ``n`` keys, stable, by their bits ``low`` to ``high``; True: the outcome is in ``spare``.
+
+    The keys must be below ``2**high``, and equal in the bits under ``low`` or sorted by them.
+    """
+    if n <= _FEW:
+        for i in range(1, n):
+            key = keys[i]
+            j = i - 1
+            while j >= 0 and keys[j] > key:
+                keys[j + 1] = keys[j]
+                j -= 1
+            keys[j + 1] = key
+        return False
+    size = 1 << digit
+    mask = np.uint64(size - 1)
+    counts = np.empty(size, np.int64)
+    source, target, flipped = keys, spare, False
+    for shift in range(low, high, digit):
+        amount = np.uint64(shift)
+        for k in range(size):
+            counts[k] = 0
+        for i in range(n):
+            counts[np.int64((source[i] >> amount) & mask)] += 1
+        if counts[np.int64((source[0] >> amount) & mask)] == n:
+            continue
+        total = 0
+        for k in range(size):
+            here = counts[k]
+            counts[k] = total
+            total += here
+        for i in range(n):
+            k = np.int64((source[i] >> amount) & mask)
+            target[counts[k]] = source[i]
+            counts[k] += 1
+        source, target, flipped = target, source, not flipped
+    return flipped
+
+
+@compiled
+def _spread_bits(x: int) -> int:
+    """The ten low bits of ``x`` with two zeros after each."""
+    x = (x | (x << 16)) & 0x030000FF
+    x = (x | (x << 8)) & 0x0300F00F
+    x = (x | (x << 4)) & 0x030C30C3
+    return (x | (x << 2)) & 0x09249249
+
+
+@compiled
 def _morton_order(boxes: Floats, group: Ints) -> Ints:
     n = len(boxes)
     low, high = np.empty(3), np.empty(3)
@@ -83,9 +137,9 @@ def _morton_order(boxes: Floats, group: Ints) -> Ints:
         code = np.int64(0)
         for k in range(3):
             cell = min(int((boxes[i, 0, k] + boxes[i, 1, k] - low[k]) * scale), 1023)
-            code |= spread_bits(cell) << (2 - k)
+            code |= _spread_bits(cell) << (2 - k)
         keys[i] = np.uint64(group[i] << 30 | code) << np.uint64(28) | np.uint64(i)
-    if radix_sort(keys, spare, n, 28, 64, 9):
+    if _radix_sort(keys, spare, n, 28, 64, 9):
         keys = spare
     order = np.empty(n, np.int64)
     for i in range(n):

@@ -33,6 +33,8 @@ MIN_ROUND = 0.84
 _BORED = 0.9
 # Fewer sides are a polygon, not a coarse circle.
 _MIN_SIDES = 5
+# Principal moments that differ by less than this share of them have no axes. Ours: float32 sources leave 1e-6.
+_ISOTROPIC = 1e-5
 # How far the normals of a coarse turned part without walls may miss its axis on average, and how much more they may
 # with bolt holes or the like in it.
 _COARSE = 0.06
@@ -219,9 +221,12 @@ def _fit_mesh(
         for r in range(3):
             for c in range(3):
                 moments[r, c] += areas[f] * normals[f, r] * normals[f, c]
-    principal_axes(inertia, candidates[:3], spare)
     candidates[3:6] = box_axes
-    principal_axes(moments, candidates[6:], spare)
+    for k, tensor in ((0, inertia), (6, moments)):
+        principal_axes(tensor, candidates[k : k + 3], spare)
+        # A cube looks alike from everywhere: its principal axes are rounding noise.
+        if spare.max() - spare.min() <= _ISOTROPIC * spare.max():
+            candidates[k : k + 3] = box_axes
 
     best, least = 0, np.inf
     for k in range(9):

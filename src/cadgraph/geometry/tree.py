@@ -1,9 +1,9 @@
 """Box trees over the faces of all meshes, in flat arrays.
 
-The faces of a mesh are sorted along a Morton curve; every four neighbours make a leaf, and the leaves an implicit
-binary tree in heap order: the children of node ``k`` are ``2 k + 1`` and ``2 k + 2``, the last half are leaves. A box
-is a centre and half extents in float32, relative to the centre of the mesh and rounded so that it never loses
-anything: 12 bytes a triangle for the boxes, 12 for the sorted faces.
+The faces of a mesh are halved along their longest side again and again (``split``); eight make a leaf, and the leaves
+an implicit binary tree in heap order: the children of node ``k`` are ``2 k + 1`` and ``2 k + 2``, the last half are
+leaves. A box is a centre and half extents in float32, relative to the centre of the mesh and rounded so that it never
+loses anything: 6 bytes a triangle for the boxes, 12 for the sorted faces.
 
 Long things that lie askew would fill none of their upright boxes, so such a mesh gets boxes along its own axes.
 """
@@ -17,19 +17,18 @@ import numpy.typing as npt
 
 from cadgraph.geometry.borrow import borrow
 from cadgraph.geometry.parallel import compiled, for_ranges
+from cadgraph.geometry.split import INDEX, MAX_FACES, halve, record
 from cadgraph.scene import Faces, Floats, Ints, Scene
 
-__all__ = ["LEAF", "Forest", "build_forest", "first_face", "first_leaf", "radix_sort", "spread_bits"]
+__all__ = ["LEAF", "Forest", "build_forest", "first_face", "first_leaf"]
 
-LEAF = 4
+LEAF = 8
 """Faces in a leaf."""
 
 _ASKEW = 0.6
 # A mesh gets boxes along its own axes if that shrinks the surface of its box at least to this share.
 
 _SAMPLES = 256  # vertices looked at to find a mesh's own axes
-
-_FEW = 40  # below this many keys insertion beats counting
 
 Nodes = npt.NDArray[np.float32]
 Bools = npt.NDArray[np.bool_]
@@ -83,10 +82,12 @@ def build_forest(scene: Scene, workers: int | None = None) -> Forest:
         workers: threads; all processors by default. The outcome does not depend on it.
 
     Raises:
-        ValueError: ``workers`` is below 1.
+        ValueError: ``workers`` is below 1, or a mesh has more than ``MAX_FACES`` faces.
     """
     n = scene.n_meshes
     n_faces = np.diff(scene.face_offsets)
+    if n and n_faces.max() > MAX_FACES:
+        raise ValueError(f"a mesh has {n_faces.max()} faces, {MAX_FACES} can be handled; split it")
     leaves = -(-n_faces // LEAF)
     node_offsets = np.zeros(n + 1, np.int64)
     np.cumsum(np.maximum(2 * leaves - 1, 0), out=node_offsets[1:])
@@ -144,57 +145,6 @@ def first_face(node: int, n_leaves: int) -> int:
 
 
 @compiled
-def radix_sort(
-    keys: npt.NDArray[np.uint64], spare: npt.NDArray[np.uint64], n: int, low: int, high: int, digit: int
-) -> bool:
-    """Sorts the first ``n`` keys, stable, by their bits ``low`` to ``high``; True: the outcome is in ``spare``.
-
-    The keys must be below ``2**high``, and equal in the bits under ``low`` or sorted by them.
-    """
-    if n <= _FEW:
-        for i in range(1, n):
-            key = keys[i]
-            j = i - 1
-            while j >= 0 and keys[j] > key:
-                keys[j + 1] = keys[j]
-                j -= 1
-            keys[j + 1] = key
-        return False
-    size = 1 << digit
-    mask = np.uint64(size - 1)
-    counts = np.empty(size, np.int64)
-    source, target, flipped = keys, spare, False
-    for shift in range(low, high, digit):
-        amount = np.uint64(shift)
-        for k in range(size):
-            counts[k] = 0
-        for i in range(n):
-            counts[np.int64((source[i] >> amount) & mask)] += 1
-        if counts[np.int64((source[0] >> amount) & mask)] == n:
-            continue
-        total = 0
-        for k in range(size):
-            here = counts[k]
-            counts[k] = total
-            total += here
-        for i in range(n):
-            k = np.int64((source[i] >> amount) & mask)
-            target[counts[k]] = source[i]
-            counts[k] += 1
-        source, target, flipped = target, source, not flipped
-    return flipped
-
-
-@compiled
-def spread_bits(x: int) -> int:
-    """The ten low bits of ``x`` with two zeros after each."""
-    x = (x | (x << 16)) & 0x030000FF
-    x = (x | (x << 8)) & 0x0300F00F
-    x = (x | (x << 4)) & 0x030C30C3
-    return (x | (x << 2)) & 0x09249249
-
-
-@compiled
 def _build_trees(
     first: int,
     last: int,
@@ -214,11 +164,11 @@ def _build_trees(
     largest = 0
     for mesh in range(first, last):
         largest = max(largest, face_offsets[mesh + 1] - face_offsets[mesh])
-    keys, spare = np.empty(largest, np.uint64), np.empty(largest, np.uint64)
+    keys = np.empty(largest, np.uint64)
     for mesh in range(first, last):
         _build_tree(
             mesh, vertices, vertex_offsets, faces, face_offsets, sorted_faces, counts, nodes, node_offsets, centers,
-            axes, upright, boxes, keys, spare,
+            axes, upright, boxes, keys,
         )  # fmt: skip
 
 
@@ -238,10 +188,9 @@ def _build_tree(
     upright: Bools,
     boxes: Floats,
     keys: npt.NDArray[np.uint64],
-    spare: npt.NDArray[np.uint64],
 ) -> None:
     vertices, faces, sorted_faces, nodes = borrow(vertices), borrow(faces), borrow(sorted_faces), borrow(nodes)
-    keys, spare = borrow(keys), borrow(spare)
+    keys = borrow(keys)
     v0, v1 = vertex_offsets[mesh], vertex_offsets[mesh + 1]
     f0, f1 = face_offsets[mesh], face_offsets[mesh + 1]
     box, center, own = borrow(boxes)[mesh], borrow(centers)[mesh], borrow(axes)[mesh]
@@ -253,7 +202,7 @@ def _build_tree(
         center[k] = 0.5 * (box[0, k] + box[1, k])
     is_upright = not _own_axes(vertices, v0, faces, f0, keys, n, box, center, own)
     upright[mesh] = is_upright
-    _sort_faces(vertices, v0, faces, f0, keys, spare, n, box, center, own, is_upright, sorted_faces)
+    _sort_faces(vertices, v0, faces, f0, keys, n, box, center, own, is_upright, sorted_faces)
     _fill_nodes(vertices, v0, sorted_faces, f0, n, center, own, is_upright, nodes, node_offsets[mesh])
 
 
@@ -427,13 +376,33 @@ def _principal_axes(spread: Floats, axes: Floats) -> bool:
 
 
 @compiled
+def _middle(
+    vertices: Floats, v0: int, faces: Faces, f: int, center: Floats, axes: Floats, is_upright: bool
+) -> tuple[float, float, float]:
+    """The middle of a face's box from the mesh's centre, in its own axes: the same for both halves of a rectangle."""
+    a, b, c = v0 + faces[f, 0], v0 + faces[f, 1], v0 + faces[f, 2]
+    p, q, r = vertices[a, 0], vertices[b, 0], vertices[c, 0]
+    x = 0.5 * (min(p, q, r) + max(p, q, r)) - center[0]
+    p, q, r = vertices[a, 1], vertices[b, 1], vertices[c, 1]
+    y = 0.5 * (min(p, q, r) + max(p, q, r)) - center[1]
+    p, q, r = vertices[a, 2], vertices[b, 2], vertices[c, 2]
+    z = 0.5 * (min(p, q, r) + max(p, q, r)) - center[2]
+    if is_upright:
+        return x, y, z
+    return (
+        axes[0, 0] * x + axes[0, 1] * y + axes[0, 2] * z,
+        axes[1, 0] * x + axes[1, 1] * y + axes[1, 2] * z,
+        axes[2, 0] * x + axes[2, 1] * y + axes[2, 2] * z,
+    )
+
+
+@compiled
 def _sort_faces(
     vertices: Floats,
     v0: int,
     faces: Faces,
     f0: int,
     keys: npt.NDArray[np.uint64],
-    spare: npt.NDArray[np.uint64],
     n: int,
     box: Floats,
     center: Floats,
@@ -441,45 +410,25 @@ def _sort_faces(
     is_upright: bool,
     sorted_faces: Faces,
 ) -> None:
-    """Writes the faces along a Morton curve through their centroids."""
+    """Writes the faces in the order of the leaves."""
     if n > LEAF:
+        low, extents = np.empty(3), np.empty(3)
         half = 0.0
-        if is_upright:
+        for k in range(3):
+            low[k], extents[k] = box[0, k] - center[k], box[1, k] - box[0, k]
+            half += extents[k] * extents[k]
+        if not is_upright:
+            # the diagonal covers any turn; a finer grid is not worth a pass
+            half = 0.5 * np.sqrt(half)
             for k in range(3):
-                half = max(half, box[1, k] - center[k])
-        else:
-            for k in range(3):
-                half += (box[1, k] - center[k]) ** 2
-            half = np.sqrt(half)
-        bits = 9 if n < 4096 else 10
-        cells = 1 << bits
-        scale = cells / (4.0 * half) if half > 0.0 else 0.0
-        x2, y2, z2 = 2.0 * center[0], 2.0 * center[1], 2.0 * center[2]
+                low[k], extents[k] = -half, 2.0 * half
         for i in range(n):
-            f = f0 + np.int64(keys[i])
-            a, b, c = v0 + faces[f, 0], v0 + faces[f, 1], v0 + faces[f, 2]
-            # the middle of the box: the same for the two halves of a rectangle, which so stay neighbours
-            x, p, q = vertices[a, 0], vertices[b, 0], vertices[c, 0]
-            x = min(x, p, q) + max(x, p, q) - x2
-            y, p, q = vertices[a, 1], vertices[b, 1], vertices[c, 1]
-            y = min(y, p, q) + max(y, p, q) - y2
-            z, p, q = vertices[a, 2], vertices[b, 2], vertices[c, 2]
-            z = min(z, p, q) + max(z, p, q) - z2
-            if not is_upright:
-                x, y, z = (
-                    axes[0, 0] * x + axes[0, 1] * y + axes[0, 2] * z,
-                    axes[1, 0] * x + axes[1, 1] * y + axes[1, 2] * z,
-                    axes[2, 0] * x + axes[2, 1] * y + axes[2, 2] * z,
-                )
-            i0 = min(max(int(x * scale + 0.5 * cells), 0), cells - 1)
-            i1 = min(max(int(y * scale + 0.5 * cells), 0), cells - 1)
-            i2 = min(max(int(z * scale + 0.5 * cells), 0), cells - 1)
-            code = spread_bits(i0) << 2 | spread_bits(i1) << 1 | spread_bits(i2)
-            keys[i] = np.uint64(code) << np.uint64(32) | keys[i]
-        if radix_sort(keys, spare, n, 32, 32 + 3 * bits, bits):
-            keys = spare
+            f = np.int64(keys[i])
+            x, y, z = _middle(vertices, v0, faces, f0 + f, center, axes, is_upright)
+            keys[i] = record(f, x, y, z, low, extents)
+        halve(keys, n, extents, LEAF)
     for i in range(n):
-        f = f0 + np.int64(keys[i] & np.uint64(0xFFFFFFFF))
+        f = f0 + np.int64(keys[i] & INDEX)
         for k in range(3):
             sorted_faces[f0 + i, k] = faces[f, k]
 

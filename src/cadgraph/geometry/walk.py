@@ -122,6 +122,30 @@ def lay_side(meshes: Placed, mesh: int, origin: Floats, side: Floats, whole: Int
 
 
 @compiled
+def _turn_side(side: Floats, whole: Ints, turn: Floats, spare: Floats) -> None:
+    """Takes a side into other axes (rows of ``turn``)."""
+    for k in range(3):
+        for m in range(3):
+            if whole[_MOVED]:
+                at = turn[k, 0] * side[0, m] + turn[k, 1] * side[1, m] + turn[k, 2] * side[2, m]
+            else:
+                at = turn[k, m]
+            spare[k, m] = at
+            # the box axes as rows, so turned from the right
+            spare[3 + k, m] = turn[m, 0] * side[5 + k, 0] + turn[m, 1] * side[5 + k, 1] + turn[m, 2] * side[5 + k, 2]
+        spare[6, k] = turn[k, 0] * side[4, 0] + turn[k, 1] * side[4, 1] + turn[k, 2] * side[4, 2]
+    if not whole[_MOVED]:
+        # the origin was taken off the vertices; now the centre is, and added again after the turn
+        for k in range(3):
+            side[3, k] += side[4, k]
+    for k in range(3):
+        side[4, k] = spare[6, k]
+        for m in range(3):
+            side[k, m], side[5 + k, m] = spare[k, m], spare[3 + k, m]
+    whole[_MOVED], whole[UPRIGHT] = 1, 0
+
+
+@compiled
 def relate(a: Floats, b: Floats, frame: Floats) -> None:
     """Writes the pose of the boxes of ``b`` in the axes of those of ``a``.
 
@@ -618,7 +642,7 @@ def closest(
         np.empty((2, LEAF, 11, 6)),
         np.empty(3),
     )
-    line = np.empty((4, 3))
+    line, turn = np.empty((4, 3)), np.zeros((3, 3))
     p, q, single = np.empty((LEAF, ROW)), np.empty((LEAF, ROW)), np.empty((LEAF, ROW))
     stack, own, bounds = np.empty(2 * DEPTH, np.int64), np.empty(DEPTH, np.int64), np.empty(DEPTH)
     side_a, side_b, whole_a, whole_b = np.zeros(SIDE), np.zeros(SIDE), np.empty(8, np.int64), np.empty(8, np.int64)
@@ -634,6 +658,15 @@ def closest(
         lay_side(meshes, b, origin, side_b, whole_b)
         if whole_a[COUNT] == 0 or whole_b[COUNT] == 0:
             continue
+        # where boxes stand askew, work in their axes: long thin triangles then have slim boxes as well
+        askew = not (whole_a[UPRIGHT] and whole_b[UPRIGHT])
+        if askew:
+            own_axes = meshes.axes[a] if not whole_a[UPRIGHT] else meshes.axes[b]
+            for k in range(3):
+                for m in range(3):
+                    turn[k, m] = own_axes[k, m]
+            _turn_side(side_a, whole_a, turn, frame)
+            _turn_side(side_b, whole_b, turn, frame)
         found[6] = np.inf
         _walk(
             nodes, vertices, faces, side_a, whole_a, side_b, whole_b, limit2, stop * stop,
@@ -642,7 +675,10 @@ def closest(
         if found[6] < limit2:
             row[n_found] = i
             distance[n_found] = np.sqrt(found[6])
-            for k in range(6):
-                points[n_found, k // 3, k % 3] = found[k] + origin[k % 3]
+            for k in range(3):
+                for m in range(0, 6, 3):
+                    x, y, z = found[m], found[m + 1], found[m + 2]
+                    at = turn[0, k] * x + turn[1, k] * y + turn[2, k] * z if askew else found[m + k]
+                    points[n_found, m // 3, k] = at + origin[k]
             n_found += 1
     return row[:n_found].copy(), distance[:n_found].copy(), points[:n_found].copy()
