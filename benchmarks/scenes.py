@@ -224,7 +224,7 @@ def bin_of_bolts(n: int, seed: int = 0) -> Scene:
 def far_away(scene: Scene) -> Scene:
     """The same scene at 2.4e7 m, its coordinates rounded as float64 rounds them there."""
     return Scene(
-        vertices=scene.vertices + [2.4e7, -1.7e7, 300.0],
+        vertices=scene.vertices + np.array([2.4e7, -1.7e7, 300.0]),
         faces=scene.faces,
         vertex_offsets=scene.vertex_offsets,
         face_offsets=scene.face_offsets,

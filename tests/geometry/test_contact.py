@@ -4,15 +4,15 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-import shapes
-from geometry import peers
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
+import shapes
 from cadgraph.geometry.contact import distances, find_contacts, touching
 from cadgraph.geometry.tree import build_forest
 from cadgraph.scene import Scene
+from geometry import peers
 
 EPS = 0.01
 

@@ -2,9 +2,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-import shapes
 from scipy.spatial.transform import Rotation
 
+import shapes
 from cadgraph.geometry.contact import find_contacts
 from cadgraph.geometry.region import contact_regions
 from cadgraph.scene import Scene

@@ -2,10 +2,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from geometry import oracle
 from scipy.spatial.transform import Rotation
 
 from cadgraph.geometry.triangle import triangle_distances
+from geometry import oracle
 
 N = 1500  # pairs of each class
 
@@ -129,7 +129,7 @@ def test_distance_survives_rigid_motion(kind):
 def test_segment_through_face_is_at_distance_zero():
     face = np.array([[[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]])
     through = np.array([[[0.2, 0.2, -1], [0.2, 0.2, 1], [0.2, 0.2, 1]]])
-    beside = through + [1.0, 1.0, 0.0]
+    beside = through + np.array([1.0, 1.0, 0.0])
     assert triangle_distances(face, through)[0] == 0
     assert triangle_distances(through, face)[0] == 0
     assert triangle_distances(face, beside)[0] == pytest.approx(np.sqrt(2) * 0.7, abs=1e-12)
@@ -150,7 +150,7 @@ def test_triangle_within_a_coplanar_one_is_at_distance_zero():
 
 def test_far_coordinates_keep_the_precision_of_their_own_size():
     first = np.array([[[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]]) + 2.0**24
-    second = first + [0, 0, 0.0078125]  # 2**-7: exact at this size
+    second = first + np.array([0, 0, 0.0078125])  # 2**-7: exact at this size
     assert triangle_distances(first, second)[0] == 0.0078125
 
 

@@ -208,7 +208,7 @@ def score_units(true: Sequence[TrueUnit], predicted: Sequence[PredictedUnit]) ->
     )
 
 
-def _place(meshes: Sequence[str]) -> tuple[tuple[tuple[int, int | str], ...], ...]:
+def _place(meshes: Sequence[str]) -> tuple[tuple[tuple[str | int, ...], str], ...]:
     return tuple(sorted(natural_key(mesh) for mesh in meshes))
 
 

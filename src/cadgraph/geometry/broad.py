@@ -104,9 +104,9 @@ def _radix_sort(
             counts[k] = total
             total += here
         for i in range(n):
-            k = np.int64((source[i] >> amount) & mask)
-            target[counts[k]] = source[i]
-            counts[k] += 1
+            digit_at = np.int64((source[i] >> amount) & mask)
+            target[counts[digit_at]] = source[i]
+            counts[digit_at] += 1
         source, target, flipped = target, source, not flipped
     return flipped
 

@@ -6,15 +6,13 @@ import numpy as np
 
 from cadgraph.geometry.borrow import borrow
 from cadgraph.geometry.parallel import compiled
-from cadgraph.geometry.tree import LEAF
-from cadgraph.geometry.triangle import ROW, lay_normal
-from cadgraph.geometry.walk import (
+from cadgraph.geometry.side import (
     COUNT,
-    DEPTH,
     LEAVES,
     NODE,
     SIDE,
     UPRIGHT,
+    WHOLE,
     Nodes,
     Placed,
     lay_side,
@@ -24,6 +22,9 @@ from cadgraph.geometry.walk import (
     relate,
     rows_gap2,
 )
+from cadgraph.geometry.tree import LEAF
+from cadgraph.geometry.triangle import ROW, lay_normal
+from cadgraph.geometry.walk import DEPTH
 from cadgraph.scene import Faces, Floats, Ints
 
 __all__ = ["ALIGNED", "FACING", "MOMENTS", "SIDES", "contact_measures"]
@@ -295,7 +296,12 @@ def contact_measures(
     found = np.zeros((last - first, 3, MOMENTS))
     frame, polygon, spare, origin = np.empty((7, 3)), np.empty((12, 4)), np.empty((12, 4)), np.empty(3)
     p, q, stack = np.empty((LEAF, ROW)), np.empty((LEAF, ROW)), np.empty(4 * DEPTH, np.int64)
-    side_a, side_b, whole_a, whole_b = np.zeros(SIDE), np.zeros(SIDE), np.empty(8, np.int64), np.empty(8, np.int64)
+    side_a, side_b, whole_a, whole_b = (
+        np.zeros(SIDE),
+        np.zeros(SIDE),
+        np.empty(WHOLE, np.int64),
+        np.empty(WHOLE, np.int64),
+    )
     nodes, vertices, faces = meshes.nodes, meshes.vertices, meshes.faces
     for i in range(first, last):
         for k in range(3):

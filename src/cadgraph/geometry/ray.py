@@ -6,9 +6,10 @@ import numpy as np
 
 from cadgraph.geometry.borrow import borrow
 from cadgraph.geometry.parallel import compiled
+from cadgraph.geometry.side import LEAVES, NODE, SIDE, WHOLE, Nodes, Placed, lay_side, load_leaf
 from cadgraph.geometry.tree import LEAF
 from cadgraph.geometry.triangle import ROW
-from cadgraph.geometry.walk import DEPTH, LEAVES, NODE, SIDE, Nodes, Placed, lay_side, load_leaf
+from cadgraph.geometry.walk import DEPTH
 from cadgraph.scene import Faces, Floats, Ints
 
 __all__ = ["enclosure", "sample_points"]
@@ -20,7 +21,7 @@ def _area(vertices: Floats, faces: Faces, v0: int, f: int) -> float:
     ux, uy, uz = vertices[b, 0] - vertices[a, 0], vertices[b, 1] - vertices[a, 1], vertices[b, 2] - vertices[a, 2]
     vx, vy, vz = vertices[c, 0] - vertices[a, 0], vertices[c, 1] - vertices[a, 1], vertices[c, 2] - vertices[a, 2]
     x, y, z = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
-    return 0.5 * np.sqrt(x * x + y * y + z * z)
+    return float(0.5 * np.sqrt(x * x + y * y + z * z))
 
 
 @compiled
@@ -216,7 +217,7 @@ def enclosure(
         rays of an enclosed point don't agree.
     """
     result = np.empty((last - first, 2))
-    side, whole, origin = np.zeros(SIDE), np.empty(8, np.int64), np.empty(3)
+    side, whole, origin = np.zeros(SIDE), np.empty(WHOLE, np.int64), np.empty(3)
     rows, stack, senses = np.empty((LEAF, ROW)), np.empty(DEPTH, np.int64), np.empty(len(directions), np.int64)
     nodes, vertices, faces = meshes.nodes, meshes.vertices, meshes.faces
     for i in range(first, last):

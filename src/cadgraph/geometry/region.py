@@ -115,9 +115,9 @@ def _regions(measures: Floats, points: Floats, apart: Floats, eps: float) -> Reg
     """Chooses for each pair the first measure that is worth something, and derives the rest from it."""
     n = len(measures)
     rows = np.arange(n)
-    worth = measures[:, :, 0] > [_THIN * eps * eps, _THIN * eps * eps, 0.0]
+    worth = measures[:, :, 0] > np.array([_THIN * eps * eps, _THIN * eps * eps, 0.0])
     kind = np.argmax(worth, axis=1)
-    of_points = ~worth.any(axis=1)
+    of_points = np.logical_not(np.logical_or.reduce(worth, axis=1))
     chosen = measures[rows, kind]
     weight = np.where(of_points, 1.0, chosen[:, 0])
     mean = np.where(of_points[:, None], 0.5 * (points[:, 1] - points[:, 0]), chosen[:, 1:4] / weight[:, None])

@@ -35,7 +35,7 @@ _X, _Y, _Z = np.uint64(52), np.uint64(40), np.uint64(28)
 
 
 @compiled
-def record(index: int, x: float, y: float, z: float, low: Floats, extents: Floats) -> int:
+def record(index: int, x: float, y: float, z: float, low: Floats, extents: Floats) -> np.uint64:
     """The record of a face whose box has its middle at ``(x, y, z)``, on a grid from ``low`` over ``extents``."""
     i = int((x - low[0]) / extents[0] * _STEPS) if extents[0] > 0.0 else 0
     j = int((y - low[1]) / extents[1] * _STEPS) if extents[1] > 0.0 else 0

@@ -423,12 +423,12 @@ def _sort_faces(
             for k in range(3):
                 low[k], extents[k] = -half, 2.0 * half
         for i in range(n):
-            f = np.int64(keys[i])
+            f = int(keys[i])
             x, y, z = _middle(vertices, v0, faces, f0 + f, center, axes, is_upright)
             keys[i] = record(f, x, y, z, low, extents)
         halve(keys, n, extents, LEAF)
     for i in range(n):
-        f = f0 + np.int64(keys[i] & INDEX)
+        f = f0 + int(keys[i] & INDEX)
         for k in range(3):
             sorted_faces[f0 + i, k] = faces[f, k]
 

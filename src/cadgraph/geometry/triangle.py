@@ -72,7 +72,7 @@ def prepare(rows: Floats, i: int) -> None:
 def lay_normal(rows: Floats, i: int) -> float:
     """Fills the normal of row ``i``, unless known; returns its squared length, 0 for a degenerate triangle."""
     if rows[i, 12] >= 0.0:
-        return rows[i, 12]
+        return float(rows[i, 12])
     ux, uy, uz = rows[i, 3] - rows[i, 0], rows[i, 4] - rows[i, 1], rows[i, 5] - rows[i, 2]
     vx, vy, vz = rows[i, 6] - rows[i, 0], rows[i, 7] - rows[i, 1], rows[i, 8] - rows[i, 2]
     wx, wy, wz = vx - ux, vy - uy, vz - uz
@@ -87,7 +87,7 @@ def lay_normal(rows: Floats, i: int) -> float:
     if not (n2 > _FLAT * _FLAT * max(u2, v2, w2) and n2 > 1e-26 * u2 * v2):
         n2 = 0.0
     rows[i, 9], rows[i, 10], rows[i, 11], rows[i, 12] = nx, ny, nz, n2
-    return n2
+    return float(n2)
 
 
 @compiled
@@ -149,7 +149,7 @@ def _side_gap2(p: Floats, i: int, a: int, b: int, q: Floats, j: int) -> float:
     x = max(min(p[i, a], p[i, b]) - q[j, 16], q[j, 13] - max(p[i, a], p[i, b]), 0.0)
     y = max(min(p[i, a + 1], p[i, b + 1]) - q[j, 17], q[j, 14] - max(p[i, a + 1], p[i, b + 1]), 0.0)
     z = max(min(p[i, a + 2], p[i, b + 2]) - q[j, 18], q[j, 15] - max(p[i, a + 2], p[i, b + 2]), 0.0)
-    return x * x + y * y + z * z
+    return float(x * x + y * y + z * z)
 
 
 @compiled
@@ -210,7 +210,7 @@ def _sides(p: Floats, i: int, q: Floats, j: int, best: float, out: Floats) -> fl
 @compiled
 def _height(rows: Floats, i: int, corners: Floats, j: int, k: int) -> float:
     """Height of corner ``k`` of row ``j`` over the plane of row ``i``, times the length of its normal."""
-    return (
+    return float(
         rows[i, 9] * (corners[j, k] - rows[i, 0])
         + rows[i, 10] * (corners[j, k + 1] - rows[i, 1])
         + rows[i, 11] * (corners[j, k + 2] - rows[i, 2])
