@@ -59,6 +59,28 @@ def _product_difference(a: float, b: float, c: float, d: float) -> float:
 
 
 @compiled
+def _lost(a: float, b: float) -> float:
+    """What rounding took from ``a - b`` (Knuth's exact difference)."""
+    difference = a - b
+    virtual = difference - a
+    return (a - (difference - virtual)) - (b + virtual)
+
+
+@compiled
+def _sliver_normal(
+    rows: Floats, i: int, ux: float, uy: float, uz: float, vx: float, vy: float, vz: float
+) -> tuple[float, float, float]:
+    """The normal of row ``i`` with the rounding errors of its sides and of their product made good."""
+    ax, ay, az = _lost(rows[i, 3], rows[i, 0]), _lost(rows[i, 4], rows[i, 1]), _lost(rows[i, 5], rows[i, 2])
+    bx, by, bz = _lost(rows[i, 6], rows[i, 0]), _lost(rows[i, 7], rows[i, 1]), _lost(rows[i, 8], rows[i, 2])
+    return (
+        _product_difference(uy, vz, uz, vy) + ((ay * vz - az * vy) + (uy * bz - uz * by)),
+        _product_difference(uz, vx, ux, vz) + ((az * vx - ax * vz) + (uz * bx - ux * bz)),
+        _product_difference(ux, vy, uy, vx) + ((ax * vy - ay * vx) + (ux * by - uy * bx)),
+    )
+
+
+@compiled
 def prepare(rows: Floats, i: int) -> None:
     """Fills the box of row ``i`` from its corners, and marks its normal as not known yet."""
     rows[i, 12] = -1.0
@@ -80,9 +102,7 @@ def lay_normal(rows: Floats, i: int) -> float:
     n2 = nx * nx + ny * ny + nz * nz
     u2, v2, w2 = ux * ux + uy * uy + uz * uz, vx * vx + vy * vy + vz * vz, wx * wx + wy * wy + wz * wz
     if n2 < _SLIVER * u2 * v2:
-        nx = _product_difference(uy, vz, uz, vy)
-        ny = _product_difference(uz, vx, ux, vz)
-        nz = _product_difference(ux, vy, uy, vx)
+        nx, ny, nz = _sliver_normal(rows, i, ux, uy, uz, vx, vy, vz)
         n2 = nx * nx + ny * ny + nz * nz
     if not (n2 > _FLAT * _FLAT * max(u2, v2, w2) and n2 > 1e-26 * u2 * v2):
         n2 = 0.0
@@ -197,12 +217,12 @@ def _sides(p: Floats, i: int, q: Floats, j: int, best: float, out: Floats) -> fl
                 fx, fy, fz = ax + s * ux, ay + s * uy, az + s * uz
                 gx, gy, gz = dx + t * vx, dy + t * vy, dz + t * vz
                 out[0], out[1], out[2], out[3], out[4], out[5] = fx, fy, fz, gx, gy, gz
-                # The slab between the two points has a triangle on each side: nothing can be closer.
-                if (
-                    found > 0.0
-                    and (p[i, c] - fx) * wx + (p[i, c + 1] - fy) * wy + (p[i, c + 2] - fz) * wz <= 0.0
-                    and (q[j, f] - gx) * wx + (q[j, f + 1] - gy) * wy + (q[j, f + 2] - gz) * wz >= 0.0
-                ):
+                # The slab between the two points has a triangle on each side: nothing can be closer. The margin is
+                # the rounding of the line between the points.
+                margin = 4e-15 * (uu + vv + rx * rx + ry * ry + rz * rz)
+                if (p[i, c] - fx) * wx + (p[i, c + 1] - fy) * wy + (p[i, c + 2] - fz) * wz < -margin and (
+                    q[j, f] - gx
+                ) * wx + (q[j, f + 1] - gy) * wy + (q[j, f + 2] - gz) * wz > margin:
                     return best
     return best
 
