@@ -37,13 +37,13 @@ MAY_IMPORT = {
     "truth": {"atomic", "errors", "vocabulary"},
     "environment": VALUES | {"geometry", "truth"},
     "evaluate": VALUES | {"load", "truth"},
-    "run": VALUES | {"environment", "export", "load", "pipeline", "render", "report", "summary"},
+    "job": VALUES | {"environment", "export", "load", "pipeline", "render", "report", "summary"},
     "reproduce": VALUES | {"environment", "evaluate", "load", "pipeline", "render", "report", "summary", "truth"},
     "cli": VALUES
-    | {"environment", "evaluate", "export", "load", "pipeline", "render", "report", "reproduce", "run", "summary"},
+    | {"environment", "evaluate", "export", "load", "pipeline", "render", "report", "reproduce", "job", "summary"},
     "warm": {"environment", "pipeline"},
     "__main__": {"cli"},
-    "__init__": VALUES | {"load", "pipeline", "run"},
+    "__init__": VALUES | {"job", "load", "pipeline"},
 }
 
 MAY_USE_USD = {"load", "export", "environment", "evaluate"}

@@ -190,3 +190,17 @@ def test_a_crash_between_files_leaves_none_half_written(monkeypatch, tmp_path):
     with pytest.raises(cadgraph.OutputError, match="No space left"):
         graph.save(tmp_path)
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", ["graph.json", "semantics.usda", "scene.usdc"])
+def test_files_of_the_user_are_never_written_over(capsys, scene_file, tmp_path, name):
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / name).write_text('{"my": "data"}')
+    assert name in refused(capsys, "build", scene_file, "-o", tmp_path / "out", "--no-report")
+    assert (tmp_path / "out" / name).read_text() == '{"my": "data"}'
+
+
+def test_run_can_be_called_again_and_writes_over_its_own(scene_file, tmp_path):
+    for _ in range(2):
+        cadgraph.run(scene_file, tmp_path / "out", report=False)
+    assert cadgraph.SceneGraph.load(tmp_path / "out").parts()

@@ -25,8 +25,8 @@ from cadgraph.scene import Diagnostic, Scene
 from cadgraph.vocabulary import Vocabulary, default_vocabulary, read_vocabulary
 
 if TYPE_CHECKING:
+    from cadgraph.job import run
     from cadgraph.pipeline import build
-    from cadgraph.run import run
 
 __version__ = "0.1.0"
 
@@ -70,7 +70,7 @@ def __getattr__(name: str) -> Any:
 
         return build
     if name == "run":
-        from cadgraph.run import run
+        from cadgraph.job import run
 
         return run
     raise AttributeError(f"module 'cadgraph' has no attribute {name!r}")

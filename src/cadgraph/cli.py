@@ -88,7 +88,7 @@ def build(
     report: Annotated[bool, typer.Option("--report/--no-report", help="Draw pictures and write report.html.")] = True,
 ) -> None:
     """Turn a CAD scene into a scene graph, a USD label layer and a report."""
-    from cadgraph.run import run
+    from cadgraph.job import run
 
     changes = [*(settings or [])]
     chosen = _settings(config, changes, method)
@@ -110,7 +110,7 @@ def demo(
 ) -> None:
     """Generate a small plant skid with meaningless names, and turn it into a scene graph."""
     from cadgraph.environment import make_skid, write_usd
-    from cadgraph.run import run
+    from cadgraph.job import run
 
     chosen = _settings(config, settings or [], None)
     scene = ensure_writable(output) / "skid.usdc"

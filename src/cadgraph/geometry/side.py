@@ -25,6 +25,7 @@ __all__ = [
     "load_leaf",
     "node_extent",
     "node_gap2",
+    "node_girth",
     "node_middle2",
     "relate",
     "rows_gap2",
@@ -230,6 +231,13 @@ def rows_gap2(p: Floats, i: int, q: Floats, j: int) -> float:
     y = max(p[i, 14] - q[j, 17], q[j, 14] - p[i, 17], 0.0)
     z = max(p[i, 15] - q[j, 18], q[j, 15] - p[i, 18], 0.0)
     return float(x * x + y * y + z * z)
+
+
+@compiled
+def node_girth(nodes: Nodes, node: int) -> float:
+    """The middle one of the half extents of a node [m]: what a long box measures across."""
+    x, y, z = nodes[node, 3], nodes[node, 4], nodes[node, 5]
+    return float(max(min(x, y), min(max(x, y), z)))
 
 
 @compiled

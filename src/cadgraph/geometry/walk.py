@@ -4,8 +4,8 @@ A pair of meshes is walked from the two roots, nearer children first, with the l
 limit. Coordinates of triangles are taken relative to the centre of the first mesh, so that they keep their digits
 wherever the scene lies.
 
-Boxes of long diagonal slivers are nearly empty, and trees of them let everything through. So a leaf that is larger
-than the node it meets is taken apart: each of its triangles walks the other tree on its own, by a separating-axis
+Boxes of long diagonal slivers are nearly empty, and trees of them let everything through. So a leaf that is much
+wider than the node it meets is taken apart: each of its triangles walks the other tree on its own, by a separating-axis
 test of triangle against box (Akenine-Moeller 2001, with the limit as margin).
 """
 
@@ -28,6 +28,7 @@ from cadgraph.geometry.side import (
     load_leaf,
     node_extent,
     node_gap2,
+    node_girth,
     node_middle2,
     relate,
     rows_gap2,
@@ -39,11 +40,11 @@ from cadgraph.scene import Faces, Floats, Ints
 
 __all__ = ["DEPTH", "closest"]
 
-_OVERSIZED = 8.0  # a leaf this much larger than the node it meets is taken apart
+_OVERSIZED = 8.0  # a leaf this much wider than the node it meets is long is taken apart
 
-_COARSE = 0.5
-# So is any leaf this large compared to its whole tree, if the tree has at least _COARSE_LEAVES of them: the faces are
-# then long slivers that no box tells apart.
+_COARSE = 0.8
+# So is any leaf this wide compared to the length of its whole tree, if the tree has at least _COARSE_LEAVES of them:
+# the faces are then slivers at a slant that no box tells apart.
 
 _COARSE_LEAVES = 12
 
@@ -139,7 +140,20 @@ def _leaves(p: Floats, n_p: int, q: Floats, n_q: int, bound: float, stop: float,
         return bound
     if _apart(p, n_p, q, n_q, bound) or _apart(q, n_q, p, n_p, bound):
         return bound
+    x0 = y0 = z0 = np.inf
+    x1 = y1 = z1 = -np.inf
+    for j in range(n_q):
+        x0, y0, z0 = min(x0, q[j, 13]), min(y0, q[j, 14]), min(z0, q[j, 15])
+        x1, y1, z1 = max(x1, q[j, 16]), max(y1, q[j, 17]), max(z1, q[j, 18])
     for i in range(n_p):
+        x, y, z = (
+            max(p[i, 13] - x1, x0 - p[i, 16]),
+            max(p[i, 14] - y1, y0 - p[i, 17]),
+            max(p[i, 15] - z1, z0 - p[i, 18]),
+        )
+        x, y, z = max(x, 0.0), max(y, 0.0), max(z, 0.0)
+        if x * x + y * y + z * z >= bound:
+            continue
         for j in range(n_q):
             if rows_gap2(p, i, q, j) >= bound:
                 continue
@@ -350,8 +364,9 @@ def _walk(
                 continue
         leaf_a, leaf_b = at_a >= leaves_a - 1, at_b >= leaves_b - 1
         size_a, size_b = node_extent(nodes, base_a + at_a), node_extent(nodes, base_b + at_b)
-        split_a = leaf_a and size_a > min(_OVERSIZED * size_b, coarse_a)
-        split_b = leaf_b and not split_a and size_b > min(_OVERSIZED * size_a, coarse_b)
+        split_a = leaf_a and node_girth(nodes, base_a + at_a) > min(_OVERSIZED * size_b, coarse_a)
+        girth_b = node_girth(nodes, base_b + at_b)
+        split_b = leaf_b and not split_a and girth_b > min(_OVERSIZED * size_a, coarse_b)
         if leaf_a and (leaf_b or split_a) and loaded_a != at_a:
             count_a = load_leaf(vertices, faces, side_a, whole_a, at_a, p)
             loaded_a = at_a

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from cadgraph.atomic import ensure_writable, write_atomically
 from cadgraph.config import Config
+from cadgraph.errors import OutputError
 from cadgraph.graph import SceneGraph
 from cadgraph.labels import GivenLabel, read_labels
 from cadgraph.load import load
@@ -70,6 +71,7 @@ def run(
 
     config = config or Config()
     target = ensure_writable(folder)
+    _refuse_foreign(target)
     clock = _Clock(progress)
     tree = read_vocabulary(vocabulary) if vocabulary else default_vocabulary()
     given: Sequence[GivenLabel] = read_labels(labels, tree) if labels else ()
@@ -91,6 +93,16 @@ def run(
     files["timings"] = target / "timings.json"
     write_atomically(files["timings"], json.dumps(clock.seconds, indent=1) + "\n")
     return Outcome(graph, files, clock.seconds)
+
+
+def _refuse_foreign(folder: Path) -> None:
+    """Makes sure that what will be written over is ours: the user's own files may have these names too."""
+    ours = (folder / "graph.json").is_file() and b'"cadgraph"' in (folder / "graph.json").read_bytes()[:200]
+    marks = {"graph.json": b'"cadgraph"', "semantics.usda": b"cadgraph", "scene.usdc": b"" if ours else None}
+    for name, mark in marks.items():
+        path = folder / name
+        if path.is_file() and (mark is None or mark not in path.read_bytes()[:2000]):
+            raise OutputError(f"{path}: not written by cadgraph, so it is left alone; choose another output folder")
 
 
 class _Clock:
