@@ -73,3 +73,8 @@ def test_bytes_that_are_no_text_are_named(tmp_path):
     (tmp_path / "labels.json").write_bytes(b"\xff\xfe\x00\x80")
     with pytest.raises(LabelError, match="UTF-8"):
         read_labels(tmp_path / "labels.json", VOCABULARY)
+
+
+def test_a_quote_left_open_is_named(tmp_path):
+    with pytest.raises(LabelError, match="quote"):
+        read(tmp_path, 'mesh,group,name\n"' + "x" * 200_000, "labels.csv")

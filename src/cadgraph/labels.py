@@ -77,7 +77,10 @@ def _csv_rows(text: str, source: Path) -> Iterable[tuple[str, Any]]:
     missing = {"mesh", "group"} - set(reader.fieldnames or ())
     if missing:
         raise LabelError(f"{source}: no column {sorted(missing)[0]!r}; the first line must name mesh, group, name")
-    return ((f"line {reader.line_num}", row) for row in reader)
+    try:
+        return [(f"line {reader.line_num}", row) for row in reader]
+    except csv.Error as error:
+        raise LabelError(f"{source}: line {reader.line_num}: not CSV ({error}); is a quote left open?") from error
 
 
 def _checked(row: Any, place: str, vocabulary: Vocabulary) -> GivenLabel:
