@@ -14,7 +14,7 @@ from pathlib import Path
 from typer.testing import CliRunner
 
 from cadgraph.atomic import write_atomically
-from cadgraph.cli import app, plants
+from cadgraph.cli import app
 from cadgraph.config import Config, describe
 from cadgraph.records import document_schema
 
@@ -50,8 +50,14 @@ def commands() -> str:
     runner = CliRunner(env={"COLUMNS": "100", "TERMINAL_WIDTH": "100", "NO_COLOR": "1", "TERM": "dumb"})
     names = [str(command.name or command.callback.__name__) for command in app.registered_commands if command.callback]
     blocks = ["# Commands", ""]
-    nested = [[str(inner.name)] for inner in plants.registered_commands]
-    for words in ([], *([name] for name in names), *(["environment", *inner] for inner in nested)):
+    nested = [
+        [str(group.name), str(inner.name or inner.callback.__name__)]
+        for group in app.registered_groups
+        if group.typer_instance
+        for inner in group.typer_instance.registered_commands
+        if inner.callback
+    ]
+    for words in ([], *([name] for name in names), *nested):
         text = runner.invoke(app, [*words, "--help"], prog_name="cadgraph").output
         body = "\n".join(line.rstrip() for line in text.strip().splitlines())
         blocks += [f"## {' '.join(['cadgraph', *words])}", "", "```", body, "```", ""]

@@ -1,0 +1,14 @@
+"""The command line: one command per verb, no logic; each module registers a few commands, in the order of the help."""
+
+from __future__ import annotations
+
+# isort: off
+from cadgraph.cli import building as _building  # noqa: F401
+from cadgraph.cli import reading as _reading  # noqa: F401
+from cadgraph.cli import judging as _judging  # noqa: F401
+from cadgraph.cli import planting as _planting  # noqa: F401
+
+# isort: on
+from cadgraph.cli.application import app, main, plants
+
+__all__ = ["app", "main", "plants"]

@@ -1,0 +1,52 @@
+"""The application and its groups of commands; modules beside this one register theirs."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from typing import Annotated
+
+import typer
+from rich.markup import escape
+
+from cadgraph import __version__
+from cadgraph.cli.screen import err, out
+from cadgraph.errors import CadGraphError
+
+__all__ = ["app", "main", "plants"]
+
+app = typer.Typer(
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode="markdown",
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    help="Turns an unlabelled CAD scene into a semantic 3D scene graph: what each part is, what it touches, which "
+    "structure it belongs to, and how valves, gauges, pumps and tanks hang together along the pipes.",
+    epilog="Start with **cadgraph demo**, then **cadgraph build SCENE -o FOLDER**.",
+)
+plants = typer.Typer(no_args_is_help=True, help="Generated test plants with their ground truth.")
+app.add_typer(plants, name="environment")
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Runs the command line; ends the process with 0, with 2 on bad input or arguments, with 130 on Ctrl-C."""
+    try:
+        app(arguments)
+    except (CadGraphError, ValueError) as error:
+        err.print(f"[bold red]error:[/] {escape(_one_line(error))}")
+        sys.exit(2)
+    except KeyboardInterrupt:
+        err.print("stopped; nothing half-written was left, the same command starts anew")
+        sys.exit(130)
+
+
+@app.callback(invoke_without_command=True)
+def _root(version: Annotated[bool, typer.Option("--version", help="Print the version and stop.")] = False) -> None:
+    if version:
+        out.print(f"cadgraph {__version__}")
+        raise typer.Exit
+
+
+def _one_line(error: Exception) -> str:
+    return " ".join(str(error).split())

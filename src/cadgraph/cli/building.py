@@ -1,0 +1,65 @@
+"""From a scene to a graph: build, demo."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from cadgraph.atomic import ensure_writable
+from cadgraph.cli.application import app
+from cadgraph.cli.options import ConfigOption, MethodOption, SetOption, settings_of
+from cadgraph.cli.screen import bars, tell
+
+
+@app.command()
+def build(
+    scene: Annotated[Path, typer.Argument(metavar="SCENE", help="A CAD scene: USD (usd, usda, usdc, usdz) or STEP.")],
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="FOLDER", help="Where the results go.")],
+    labels: Annotated[
+        Path | None, typer.Option("--labels", metavar="FILE", help="Labels from outside: JSON, CSV or a truth file.")
+    ] = None,
+    vocabulary: Annotated[
+        Path | None, typer.Option("--vocabulary", metavar="FILE", help="Another label tree, as YAML.")
+    ] = None,
+    ground: Annotated[
+        list[str] | None,
+        typer.Option("--ground", metavar="PATH", help="A mesh that is the ground, or 'none'. May be repeated."),
+    ] = None,
+    method: MethodOption = None,
+    config: ConfigOption = None,
+    settings: SetOption = None,
+    report: Annotated[bool, typer.Option("--report/--no-report", help="Draw pictures and write report.html.")] = True,
+) -> None:
+    """Turn a CAD scene into a scene graph, a USD label layer and a report."""
+    from cadgraph.job import run
+
+    changes = [*(settings or [])]
+    chosen = settings_of(config, changes, method)
+    if ground:
+        find = "none" if ground == ["none"] else "named"
+        chosen = chosen.replace({"ground.find": find, "ground.meshes": [] if find == "none" else ground})
+    with bars() as progress:
+        outcome = run(scene, output, chosen, labels=labels, vocabulary=vocabulary, report=report, progress=progress)
+    tell(outcome)
+
+
+@app.command()
+def demo(
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="FOLDER", help="Where the results go.")] = Path(
+        "demo"
+    ),
+    config: ConfigOption = None,
+    settings: SetOption = None,
+) -> None:
+    """Generate a small plant skid with meaningless names, and turn it into a scene graph."""
+    from cadgraph.environment import make_skid, write_usd
+    from cadgraph.job import run
+
+    chosen = settings_of(config, settings or [], None)
+    scene = ensure_writable(output) / "skid.usdc"
+    write_usd(make_skid(), scene)
+    with bars() as progress:
+        outcome = run(scene, output, chosen, progress=progress)
+    tell(outcome)

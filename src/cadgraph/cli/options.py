@@ -1,0 +1,46 @@
+"""Options that several commands share, and the settings they make."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from cadgraph.config import Config, read_config
+
+__all__ = ["ConfigOption", "GraphArgument", "MethodOption", "SetOption", "settings_of"]
+
+ConfigOption = Annotated[
+    Path | None, typer.Option("--config", metavar="FILE", help="Settings as TOML; 'cadgraph config' prints them all.")
+]
+SetOption = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="NAME=VALUE", help="Change one setting, e.g. cluster.eps=0.02. May be repeated."),
+]
+MethodOption = Annotated[str | None, typer.Option("--method", help="How to decide what touches: exact or paper.")]
+GraphArgument = Annotated[Path, typer.Argument(metavar="FOLDER", help="What 'cadgraph build' wrote, or a graph.json.")]
+
+
+def settings_of(file: Path | None, changes: Sequence[str], method: str | None) -> Config:
+    """Defaults, then the file, then flags."""
+    chosen = read_config(file) if file else Config()
+    values: dict[str, Any] = {}
+    for change in changes:
+        name, equals, text = change.partition("=")
+        if not equals:
+            raise ValueError(f"--set {change}: expected NAME=VALUE, e.g. cluster.eps=0.02")
+        values[name.strip()] = _value(text.strip())
+    if method is not None:
+        values["method"] = method
+    return chosen.replace(values) if values else chosen
+
+
+def _value(text: str) -> Any:
+    """A TOML value; what is none is taken as text, so that words need no quotes."""
+    try:
+        return tomllib.loads(f"value = {text}")["value"]
+    except tomllib.TOMLDecodeError:
+        return text

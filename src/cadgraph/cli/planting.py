@@ -1,0 +1,55 @@
+"""Generated plants and truth: environment make, environment truth-from-usd."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+from rich.markup import escape
+
+from cadgraph.cli.application import plants
+from cadgraph.cli.screen import out
+
+
+@plants.command("make")
+def make_plant(
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The scene, e.g. field.usdc.")],
+    preset: Annotated[str, typer.Option(help="skid, riser, tank, pumps, rack or field.")] = "skid",
+    seed: Annotated[int, typer.Option(min=0, help="Of everything that varies.")] = 0,
+    hand: Annotated[
+        str | None, typer.Option(help="In whose style it is modelled; the preset's own by default.")
+    ] = None,
+    spoilt: Annotated[
+        float,
+        typer.Option(min=0, max=1, help="Share of meshes with each modelling sin: there twice, hidden, inside out..."),
+    ] = 0.0,
+    unit: Annotated[float, typer.Option(help="Metres in one authored unit.")] = 0.001,
+    up: Annotated[str, typer.Option(help="Authored up axis, Y or Z.")] = "Z",
+    instances: Annotated[bool, typer.Option("--instances", help="Repeated shapes as native instances.")] = False,
+) -> None:
+    """Generate a plant as USD with meaningless names, and its ground truth beside it."""
+    from cadgraph.environment import Sins, UsdStyle, make, write_usd
+
+    if up not in ("Y", "Z"):
+        raise ValueError(f"--up {up}: give Y or Z")
+    sins = Sins(duplicates=spoilt, hidden=spoilt, flipped=spoilt, soup=spoilt, degenerate=spoilt)
+    plant = make(preset, seed, hand, sins if spoilt else None)
+    axis: Literal["Y", "Z"] = "Y" if up == "Y" else "Z"
+    truth = write_usd(plant, output, UsdStyle(meters_per_unit=unit, up_axis=axis, instances=instances))
+    out.print(f"wrote {escape(str(output))} and {escape(str(truth))}")
+
+
+@plants.command("truth-from-usd")
+def truth_of(
+    scene: Annotated[Path, typer.Argument(metavar="SCENE", help="A USD file that carries labels.")],
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The truth file (JSON).")],
+    vocabulary: Annotated[Path | None, typer.Option("--vocabulary", metavar="FILE", help="Another label tree.")] = None,
+) -> None:
+    """Read the labels of a USD file into a truth file."""
+    from cadgraph.evaluate import truth_from_usd
+    from cadgraph.vocabulary import read_vocabulary
+
+    truth = truth_from_usd(scene, read_vocabulary(vocabulary) if vocabulary else None)
+    truth.save(output)
+    out.print(f"wrote {escape(str(output))}: {len(truth.meshes or ()):,} labelled meshes")

@@ -1,0 +1,58 @@
+"""What a graph holds, and the settings: show, export, config."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.markup import escape
+
+from cadgraph.cli.application import app
+from cadgraph.cli.options import ConfigOption, GraphArgument, SetOption, settings_of
+from cadgraph.cli.screen import out, summary_lines
+from cadgraph.config import to_toml
+
+
+@app.command()
+def show(
+    graph: GraphArgument,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
+) -> None:
+    """Say what a graph holds."""
+    from cadgraph.graph import SceneGraph
+    from cadgraph.summary import summarize
+
+    summary = summarize(SceneGraph.load(graph))
+    if as_json:
+        print(json.dumps(dataclasses.asdict(summary), ensure_ascii=False, indent=1))  # noqa: T201
+        return
+    for line in summary_lines(summary):
+        out.print(line)
+
+
+@app.command()
+def export(
+    graph: GraphArgument,
+    to: Annotated[str, typer.Option("--to", metavar="FORMAT", help="graphml, csv or networkx-json.")],
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", metavar="PATH", help="File or folder; beside the graph by default.")
+    ] = None,
+) -> None:
+    """Write a graph in another format."""
+    from cadgraph.export import export_graph
+    from cadgraph.graph import SceneGraph
+
+    for path in export_graph(SceneGraph.load(graph), to, output or (graph if graph.is_dir() else graph.parent)):
+        out.print(f"wrote {escape(str(path))}")
+
+
+@app.command("config")
+def config_(
+    config: ConfigOption = None,
+    settings: SetOption = None,
+) -> None:
+    """Print the settings in force, with their meaning and source, as TOML."""
+    print(to_toml(settings_of(config, settings or [], None)), end="")  # noqa: T201
