@@ -28,6 +28,7 @@ __all__ = [
     "Part",
     "PartLabel",
     "Point",
+    "Port",
     "Related",
     "Site",
     "SourceRecord",
@@ -122,6 +123,15 @@ class Part(_Record):
     ground: bool = False
 
 
+class Port(_Record):
+    """Where a line joins a unit: a nozzle, a flanged end, a gauge's foot."""
+
+    name: str = Field(description="unique in its unit: N1, N2...")
+    point: Point = Field(description="centre of the opening")
+    direction: Point | None = Field(None, description="unit vector out of the unit")
+    diameter: float | None = Field(None, description="bore, else outer diameter, of the line that joins here [m]")
+
+
 class Unit(_Record):
     """A functional unit: connected parts that work as one valve, gauge, pump, tank..."""
 
@@ -129,8 +139,9 @@ class Unit(_Record):
     layer: Literal["unit"] = "unit"
     unit_type: str
     tag: str
-    kind: str | None = None
+    kind: str | None = Field(None, description="ball valve, check valve, pressure gauge... where it is known")
     parts: tuple[str, ...]
+    ports: tuple[Port, ...] = ()
     centroid: Point
     aabb: Box
 
@@ -145,10 +156,11 @@ class Junction(_Record):
 
 
 class Terminal(_Record):
-    """An open end of a run."""
+    """Where a run ends without a unit."""
 
     id: str
     layer: Literal["terminal"] = "terminal"
+    kind: Literal["open", "blind", "unknown"] = Field("unknown", description="an open pipe end, or one that is closed")
     point: Point
     parts: tuple[str, ...]
 
@@ -159,7 +171,10 @@ class System(_Record):
     id: str
     layer: Literal["system"] = "system"
     units: tuple[str, ...]
-    length: float | None = Field(None, description="[m]")
+    junctions: tuple[str, ...] = ()
+    terminals: tuple[str, ...] = ()
+    length: float | None = Field(None, description="of all its connections along the centrelines [m]")
+    sizes: tuple[int, ...] = Field((), description="nominal sizes (DN) of its lines, ascending")
 
 
 class Contains(_Record):
@@ -189,8 +204,16 @@ class Connected(_Record):
     via: tuple[str, ...] = Field((), description="part ids in order")
     length: float | None = Field(None, description="along the centreline [m]")
     diameter: float | None = Field(None, description="nominal bore estimate [m]")
-    direction: Literal["forward", "backward", "unknown"] = "unknown"
-    reason: str | None = None
+    size: int | None = Field(None, description="nominal size (DN) by the standard tables of outer diameters")
+    source_port: str | None = Field(None, description="name of the port at the source, where that is a unit")
+    target_port: str | None = Field(None, description="name of the port at the target, where that is a unit")
+    path: tuple[Point, ...] = Field((), description="polyline along the centreline, from the source to the target")
+    direction: Literal["forward", "backward", "unknown"] = Field(
+        "unknown", description="of the flow; forward is from source to target"
+    )
+    reason: str | None = Field(None, description="why the flow has that direction")
+    direction_confidence: float | None = Field(None, ge=0, le=1, description="of the direction")
+    confidence: float | None = Field(None, ge=0, le=1, description="of the connection itself")
 
 
 class Related(_Record):
