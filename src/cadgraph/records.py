@@ -99,7 +99,7 @@ class Cluster(_Record):
     id: str
     layer: Literal["cluster"] = "cluster"
     kind: str | None = Field(
-        None, description="'pipe system' where it holds a connector part, else its commonest group"
+        default=None, description="'pipe system' where it holds a connector part, else its commonest group"
     )
     n_parts: int
     centroid: Point
@@ -128,8 +128,10 @@ class Port(_Record):
 
     name: str = Field(description="unique in its unit: N1, N2...")
     point: Point = Field(description="centre of the opening")
-    direction: Point | None = Field(None, description="unit vector out of the unit")
-    diameter: float | None = Field(None, description="bore, else outer diameter, of the line that joins here [m]")
+    direction: Point | None = Field(default=None, description="unit vector out of the unit")
+    diameter: float | None = Field(
+        default=None, description="bore, else outer diameter, of the line that joins here [m]"
+    )
 
 
 class Unit(_Record):
@@ -139,7 +141,7 @@ class Unit(_Record):
     layer: Literal["unit"] = "unit"
     unit_type: str
     tag: str
-    kind: str | None = Field(None, description="ball valve, check valve, pressure gauge... where it is known")
+    kind: str | None = Field(default=None, description="ball valve, check valve, pressure gauge... where it is known")
     parts: tuple[str, ...]
     ports: tuple[Port, ...] = ()
     centroid: Point
@@ -160,7 +162,9 @@ class Terminal(_Record):
 
     id: str
     layer: Literal["terminal"] = "terminal"
-    kind: Literal["open", "blind", "unknown"] = Field("unknown", description="an open pipe end, or one that is closed")
+    kind: Literal["open", "blind", "unknown"] = Field(
+        default="unknown", description="an open pipe end, or one that is closed"
+    )
     point: Point
     parts: tuple[str, ...]
 
@@ -173,8 +177,8 @@ class System(_Record):
     units: tuple[str, ...]
     junctions: tuple[str, ...] = ()
     terminals: tuple[str, ...] = ()
-    length: float | None = Field(None, description="of all its connections along the centrelines [m]")
-    sizes: tuple[int, ...] = Field((), description="nominal sizes (DN) of its lines, ascending")
+    length: float | None = Field(default=None, description="of all its connections along the centrelines [m]")
+    sizes: tuple[int, ...] = Field(default=(), description="nominal sizes (DN) of its lines, ascending")
 
 
 class Contains(_Record):
@@ -201,19 +205,21 @@ class Connected(_Record):
     source: str
     target: str
     kind: Literal["connected"] = "connected"
-    via: tuple[str, ...] = Field((), description="part ids in order")
-    length: float | None = Field(None, description="along the centreline [m]")
-    diameter: float | None = Field(None, description="nominal bore estimate [m]")
-    size: int | None = Field(None, description="nominal size (DN) by the standard tables of outer diameters")
-    source_port: str | None = Field(None, description="name of the port at the source, where that is a unit")
-    target_port: str | None = Field(None, description="name of the port at the target, where that is a unit")
-    path: tuple[Point, ...] = Field((), description="polyline along the centreline, from the source to the target")
-    direction: Literal["forward", "backward", "unknown"] = Field(
-        "unknown", description="of the flow; forward is from source to target"
+    via: tuple[str, ...] = Field(default=(), description="part ids in order")
+    length: float | None = Field(default=None, description="along the centreline [m]")
+    diameter: float | None = Field(default=None, description="nominal bore estimate [m]")
+    size: int | None = Field(default=None, description="nominal size (DN) by the standard tables of outer diameters")
+    source_port: str | None = Field(default=None, description="name of the port at the source, where that is a unit")
+    target_port: str | None = Field(default=None, description="name of the port at the target, where that is a unit")
+    path: tuple[Point, ...] = Field(
+        default=(), description="polyline along the centreline, from the source to the target"
     )
-    reason: str | None = Field(None, description="why the flow has that direction")
-    direction_confidence: float | None = Field(None, ge=0, le=1, description="of the direction")
-    confidence: float | None = Field(None, ge=0, le=1, description="of the connection itself")
+    direction: Literal["forward", "backward", "unknown"] = Field(
+        default="unknown", description="of the flow; forward is from source to target"
+    )
+    reason: str | None = Field(default=None, description="why the flow has that direction")
+    direction_confidence: float | None = Field(default=None, ge=0, le=1, description="of the direction")
+    confidence: float | None = Field(default=None, ge=0, le=1, description="of the connection itself")
 
 
 class Related(_Record):
