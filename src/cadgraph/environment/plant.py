@@ -32,6 +32,8 @@ class Component:
         line: tag of the pipe run that it belongs to, or "".
         cluster: name of the connected structure that it belongs to, or "" (the ground).
         flaws: what was spoilt about its mesh (``flipped``, ``soup``, ``degenerate``).
+        family: what kind of device or structure it was built as (``"ball valve/two-piece"``), or "".
+        granularity: how finely that was modelled: ``one``, ``few`` or ``pieces``, or "".
     """
 
     solid: Solid
@@ -43,6 +45,8 @@ class Component:
     line: str = ""
     cluster: str = ""
     flaws: tuple[str, ...] = ()
+    family: str = ""
+    granularity: str = ""
 
     @property
     def vertices(self) -> Floats:
