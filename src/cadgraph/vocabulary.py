@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping
+import re
+import reprlib
+from collections.abc import Hashable, Iterable, Mapping
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
@@ -16,6 +18,9 @@ from cadgraph.errors import LabelError
 __all__ = ["Group", "Vocabulary", "default_vocabulary", "read_vocabulary"]
 
 _FORBIDDEN = ":;,&|!"  # what USD semantics taxonomies and labels may not hold
+_MAX_LENGTH = 80  # of a label, ours: it has to fit into a legend
+_KEYS = ("names", "unit", "connector")
+_UNIT = re.compile(r"[a-z][a-z0-9]*(?:[ -][a-z0-9]+)*")
 
 
 @dataclass(frozen=True)
@@ -66,36 +71,72 @@ class Vocabulary:
 
     @classmethod
     def from_json(cls, tree: Mapping[str, Any], where: str = "vocabulary") -> Vocabulary:
-        """Reads ``{group: {"names": [...], "unit": ..., "connector": ...}}``.
+        """Reads ``{group: {"names": [...], "unit": ..., "connector": ...}}``; other keys are passed over.
+
+        Labels are text of at most 80 characters without ``:;,&|!``, names in lower case; the type of a unit is made
+        of lower-case letters, digits, spaces and hyphens.
 
         Args:
             tree: what was parsed.
             where: the file's name, for messages.
 
         Raises:
-            LabelError: a group or name is malformed.
+            LabelError: a group or name is malformed or there twice.
         """
         if not isinstance(tree, Mapping) or not tree:
             raise LabelError(f"{where}: no groups; expected groups: {{name: {{names: [...]}}}}")
-        groups: dict[str, Group] = {}
-        for group_name, content in tree.items():
-            if not isinstance(content, Mapping) or not isinstance(content.get("names"), (list, tuple)):
-                raise LabelError(f"{where}: group {group_name!r} needs a list 'names'")
-            names = tuple(content["names"])
-            for label in (group_name, *names):
-                if not isinstance(label, str) or not label.strip() or any(c in _FORBIDDEN for c in label):
-                    raise LabelError(
-                        f"{where}: {label!r} in group {group_name!r} is not a label (text without {_FORBIDDEN})"
-                    )
-            unit, connector = content.get("unit"), content.get("connector", False)
-            if unit is not None and not isinstance(unit, str):
-                raise LabelError(f"{where}: 'unit' of group {group_name!r} must be text, not {unit!r}")
-            if not isinstance(connector, bool):
-                raise LabelError(
-                    f"{where}: 'connector' of group {group_name!r} must be true or false, not {connector!r}"
-                )
-            groups[group_name] = Group(names, unit, connector)
+        groups = {name: _group(name, content, where) for name, content in tree.items()}
+        repeated = _first_repeat(name.lower() for name in groups)
+        if repeated is not None:
+            raise LabelError(f"{where}: group {repeated!r} is there twice; put all its names in one")
         return cls(groups)
+
+
+def _group(name: Any, content: Any, where: str) -> Group:
+    shown = reprlib.repr(name)
+    if not isinstance(content, Mapping) or not isinstance(content.get("names"), (list, tuple)):
+        raise LabelError(f"{where}: group {shown} needs a list 'names'")
+    names = tuple(content["names"])
+    for label in (name, *names):
+        if not _is_label(label):
+            raise LabelError(
+                f"{where}: {reprlib.repr(label)} in group {shown} is not a label "
+                f"(text of at most {_MAX_LENGTH} characters without {_FORBIDDEN})"
+            )
+    for label in names:
+        if label != label.lower():
+            raise LabelError(f"{where}: name {label!r} of group {shown} must be lower case: {label.lower()!r}")
+    repeated = _first_repeat(names)
+    if repeated is not None:
+        raise LabelError(f"{where}: name {repeated!r} is twice in group {shown}; keep one")
+    unit, connector = content.get("unit"), content.get("connector", False)
+    if unit is not None and not (isinstance(unit, str) and len(unit) <= _MAX_LENGTH and _UNIT.fullmatch(unit)):
+        raise LabelError(
+            f"{where}: 'unit' of group {shown} must be text of lower-case letters and digits, as 'valve', "
+            f"not {reprlib.repr(unit)}"
+        )
+    if not isinstance(connector, bool):
+        raise LabelError(f"{where}: 'connector' of group {shown} must be true or false, not {reprlib.repr(connector)}")
+    return Group(names, unit, connector)
+
+
+def _is_label(label: Any) -> bool:
+    return (
+        isinstance(label, str)
+        and 0 < len(label) <= _MAX_LENGTH
+        and label == " ".join(label.split())
+        and label.isprintable()
+        and not any(c in _FORBIDDEN for c in label)
+    )
+
+
+def _first_repeat(names: Iterable[str]) -> str | None:
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            return name
+        seen.add(name)
+    return None
 
 
 @functools.cache
@@ -112,11 +153,47 @@ def read_vocabulary(path: str | Path) -> Vocabulary:
         LabelError: the file can't be read or is malformed.
     """
     try:
-        content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+        content = yaml.load(Path(path).read_text(encoding="utf-8"), Loader=_StrictLoader)
     except OSError as error:
         raise LabelError(f"{path}: can't be read ({error.strerror}); give a YAML vocabulary") from error
     except (yaml.YAMLError, ValueError, RecursionError) as error:
-        raise LabelError(f"{path}: not YAML ({str(error).splitlines()[0]})") from error
+        raise LabelError(f"{path}: not YAML ({_what(error)})") from error
+    groups = content
     if isinstance(content, Mapping) and isinstance(content.get("groups"), Mapping):
-        content = content["groups"]
-    return Vocabulary.from_json(content, str(path))
+        groups = content["groups"]
+        _refuse_unknown(content, ("groups", "version"), str(path))
+    if isinstance(groups, Mapping):
+        for name, group in groups.items():
+            if isinstance(group, Mapping):
+                _refuse_unknown(group, _KEYS, f"{path}: group {reprlib.repr(name)}")
+    return Vocabulary.from_json(groups, str(path))
+
+
+def _refuse_unknown(content: Mapping[Any, Any], known: tuple[str, ...], where: str) -> None:
+    for key in content:
+        if key not in known:
+            raise LabelError(f"{where}: unknown key {reprlib.repr(key)}; known are {', '.join(known)}")
+
+
+class _StrictLoader(yaml.SafeLoader):
+    """Plain values only, like its base, but no key twice: of two groups of one name the first would be lost."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Hashable, Any]:
+        """A mapping whose keys are all there once."""
+        seen: set[Any] = set()
+        for key_node, _ in node.value:
+            if key_node.tag == "tag:yaml.org,2002:merge":
+                continue
+            key = self.construct_object(key_node, deep=True)
+            if isinstance(key, Hashable) and key in seen:
+                raise yaml.constructor.ConstructorError(None, None, f"{key!r} is there twice", key_node.start_mark)
+            seen.add(key)
+        return super().construct_mapping(node, deep)
+
+
+def _what(error: Exception) -> str:
+    """What is wrong and in which line, on one line."""
+    mark, problem = getattr(error, "problem_mark", None), getattr(error, "problem", None)
+    if mark is None or not problem:
+        return str(error).splitlines()[0] if str(error) else type(error).__name__
+    return f"{problem} in line {mark.line + 1}"
