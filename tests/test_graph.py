@@ -41,7 +41,42 @@ def test_parts_are_found_by_group_name_and_cluster(graph):
     assert ids(graph.parts(name="handwheel")) == ["part-1"]
     assert ids(graph.parts(group="Pipe assembly", name="handwheel")) == []
     assert ids(graph.parts(cluster="cluster-1")) == ["part-4"]
-    assert ids(graph.parts(cluster="nowhere")) == []
+    with pytest.raises(KeyError, match="no cluster has the id 'nowhere'"):
+        graph.parts(cluster="nowhere")
+
+
+def test_a_group_or_name_that_the_vocabulary_lacks_is_a_mistake_that_names_the_known_ones():
+    tree = {"Tank": {"names": ["shell", "nozzle"]}, "Valve assembly": {"names": ["valve body"]}}
+    graph = graphs.graph([graphs.part(0, label=graphs.label("Own group", "own name"))], vocabulary=tree)
+    assert graph.parts(group="Tank") == graph.parts(name="nozzle") == graph.parts(group="Tank", name="shell") == []
+    assert ids(graph.parts(group="Own group", name="own name")) == ["part-0"], "what is in use is known"
+    with pytest.raises(ValueError, match=r"no group is called 'tank'.*has Tank, Valve assembly"):
+        graph.parts(group="tank")
+    with pytest.raises(ValueError, match="group 'Tank' has no name 'valve body'; it has shell, nozzle"):
+        graph.parts(group="Tank", name="valve body")
+    with pytest.raises(ValueError, match="vocabulary has no name 'lever'"):
+        graph.parts(name="lever")
+
+
+def test_the_functional_layers_have_typed_access(graph):
+    assert ids(graph.terminals()) == ["end-0"]
+    assert graph.terminals("open") == graph.junctions() == []
+    assert ids(graph.systems()) == ["system-0"]
+    assert [(e.source, e.target) for e in graph.connections()] == [
+        ("unit-V-002", "unit-V-001"),
+        ("unit-V-002", "end-0"),
+    ]
+    assert [e.target for e in graph.connections("end-0")] == ["end-0"]
+    assert len(graph.connections(graph.unit("V-002"))) == 2
+    with pytest.raises(KeyError, match="V-009"):
+        graph.connections("V-009")
+
+
+def test_a_graph_shows_what_it_holds_in_one_line(graph):
+    assert repr(graph) == (
+        "<SceneGraph of 'plant.usd': 5 parts, 2 clusters, 3 units, 1 terminal, 1 system, 3 contacts, 2 connections, "
+        "1 relation>"
+    )
 
 
 def test_units_and_clusters_are_found_by_type_and_kind(graph):
@@ -71,7 +106,12 @@ def test_a_part_knows_its_unit_and_cluster(graph):
     assert graph.unit_of("part-1").tag == "V-001"
     assert graph.unit_of(graph.part("part-2")) is None
     assert graph.cluster_of("part-2").kind == "pipe system"
-    assert graph.cluster_of("no such part") is None
+    assert graph.cluster_of(graph.unit("V-001")) is graph.cluster_of("V-001") is graph.cluster_of("/mesh_0")
+    assert graph.cluster_of("end-0").id == "cluster-0"
+    assert graphs.graph([graphs.part(0)]).cluster_of("part-0") is None
+    for look in (graph.cluster_of, graph.unit_of):
+        with pytest.raises(KeyError, match="no such part"):
+            look("no such part")
 
 
 # How things hang together
@@ -81,6 +121,22 @@ def test_neighbors_of_a_part_are_the_adjacent_parts(graph):
     assert ids(graph.neighbors(graph.part("part-2"))) == ["part-0", "part-3"]
     assert ids(graph.neighbors("/mesh_1")) == ["part-0"]
     assert graph.neighbors("part-4") == []
+
+
+@pytest.mark.parametrize("which", ["cluster-0", "site", "system-0"])
+def test_what_has_no_neighbors_by_its_nature_says_so(graph, which):
+    with pytest.raises(ValueError, match=f"'{which}' is a "):
+        graph.neighbors(which)
+
+
+def test_neighbors_of_a_terminal_are_the_units_connected_to_it(graph):
+    assert ids(graph.neighbors("end-0")) == ["unit-V-002"]
+
+
+@pytest.mark.parametrize("what", [None, 3, object()])
+def test_neighbors_of_nothing_is_a_type_error(graph, what):
+    with pytest.raises(TypeError, match="give a part, a unit, or the id of one"):
+        graph.neighbors(what)
 
 
 def test_neighbors_of_a_unit_are_the_units_related_or_connected(graph):
@@ -102,8 +158,10 @@ def test_no_way_is_an_empty_path(graph):
 def test_a_path_from_a_part_to_a_unit_is_an_error(graph):
     with pytest.raises(ValueError, match="two parts or two units"):
         graph.path("part-0", "V-002")
-    with pytest.raises(KeyError, match="nowhere"):
+    with pytest.raises(KeyError, match="'nowhere'; its units are V-001, V-002, G-001"):
         graph.path("part-0", "nowhere")
+    with pytest.raises(ValueError, match=r"'cluster-0' \(cluster\)"):
+        graph.path("cluster-0", "cluster-1")
 
 
 # networkx
@@ -183,6 +241,10 @@ def test_lone_surrogates_survive_a_round_trip(tmp_path):
     assert SceneGraph.load(graph.save(tmp_path)).to_json() == graph.to_json()
 
 
+def adjacent(data):
+    return next(edge for edge in data["edges"] if edge["kind"] == "adjacent")
+
+
 @pytest.mark.parametrize(
     ("change", "says"),
     [
@@ -191,7 +253,33 @@ def test_lone_surrogates_survive_a_round_trip(tmp_path):
         (lambda d: d.update(version=2), "version 2, but this cadgraph reads version 1"),
         (lambda d: d.pop("nodes"), "nodes"),
         (lambda d: d.update(edges={}), "edges"),
-        (lambda d: d["nodes"][3].pop("area"), r"nodes\.3\.part\.area"),
+        (lambda d: d["nodes"][3].pop("area"), r"node 'part-0' \(nodes\.3\.part\.area\) is missing"),
+        (
+            lambda d: d["edges"][-3].update(source=7),
+            r"edge 'related' from 7 to 'unit-V-002' \(.*\) must be text, not 7",
+        ),
+        (lambda d: adjacent(d).pop("distance"), r"edge 'adjacent' from 'part-0' to 'part-1' \(.*distance\) is missing"),
+        (lambda d: adjacent(d).update(target="part-0"), "ends where it starts"),
+        (lambda d: adjacent(d).update(source="part-1", target="part-0"), "the wrong way round"),
+        (lambda d: adjacent(d).update(distance=-1e-9), "no distance is below zero"),
+        (lambda d: adjacent(d).update(target="unit-V-001"), "joins a part with a unit"),
+        (lambda d: d["edges"].append(adjacent(d)), "from 'part-0' to 'part-1' is there twice"),
+        (
+            lambda d: d["edges"].append({"source": "unit-V-002", "target": "unit-V-001", "kind": "related"}),
+            "'related' edge .* is there twice",
+        ),
+        (
+            lambda d: d["edges"].append({"source": "cluster-1", "target": "part-0", "kind": "contains"}),
+            "'part-0' is in two nodes of layer 'cluster': 'cluster-0' and 'cluster-1'",
+        ),
+        (lambda d: d["edges"][-2].update(via=["ghost"]), "names 'ghost', but no part has that id"),
+        (lambda d: d["nodes"][4].update(meshes=["/mesh_0"]), "mesh '/mesh_0' is in two parts: 'part-0' and 'part-1'"),
+        (lambda d: d["nodes"][8].update(parts=["ghost"]), "unit 'unit-V-001' names 'ghost', but no part"),
+        (lambda d: d["nodes"][9].update(parts=["part-0"]), "part 'part-0' is in two units"),
+        (lambda d: d["nodes"][9].update(tag="V-001"), "tag 'V-001' is used by two units"),
+        (lambda d: d["nodes"][11].update(parts=["cluster-0"]), "'end-0' names 'cluster-0', but no part"),
+        (lambda d: d["nodes"][12].update(units=["part-0"]), "'system-0' names 'part-0', but no unit"),
+        (lambda d: d["nodes"][12].update(junctions=["ghost"]), "'system-0' names 'ghost', but no junction"),
         (lambda d: d["nodes"][3].update(meshes=[]), r"nodes\.3\.part\.meshes"),
         (lambda d: d["nodes"][3]["label"].update(confidence=1.01), r"nodes\.3\.part\.label\.confidence"),
         (lambda d: d["nodes"][3].update(centroid=[0, 0]), r"nodes\.3\.part\.centroid"),

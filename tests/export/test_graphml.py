@@ -51,10 +51,10 @@ def test_characters_that_xml_cannot_hold_are_dropped(tmp_path):
     graph = graphs.graph([graphs.part(0, "/a\x00\x1b<&>\ud800b"), graphs.part(1), graphs.part(2)])
     data = graph.to_json()
     data["nodes"][2]["id"], data["nodes"][3]["id"] = "same", "sa\x07me"
-    data["edges"] = [{"kind": "related", "source": "same", "target": "sa\x07me"}]
+    data["edges"] = [{"kind": "adjacent", "source": "sa\x07me", "target": "same", "distance": 0, "point": [0, 0, 0]}]
     found = read(write_graphml(SceneGraph.from_json(data), tmp_path / "graph.graphml"))
     assert json.loads(found.nodes["part-0"]["meshes"])[0].replace("\\u", "").startswith("/a")
-    assert [(u, v) for u, v in found.edges()] == [("same", "same_2")]
+    assert [(u, v) for u, v in found.edges()] == [("same_2", "same")]
 
 
 def test_unknown_keys_called_like_parameters_are_kept(tmp_path):
