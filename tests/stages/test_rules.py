@@ -16,7 +16,7 @@ from cadgraph.geometry.shape import find_shapes
 from cadgraph.load import load
 from cadgraph.parts import Parts
 from cadgraph.scene import Scene
-from cadgraph.stages.label.features import find_facts
+from cadgraph.stages.label.facts import find_facts
 from cadgraph.stages.label.rules import GeometryLabeler
 from cadgraph.vocabulary import Vocabulary, default_vocabulary
 

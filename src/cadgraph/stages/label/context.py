@@ -8,7 +8,7 @@ import numpy as np
 
 from cadgraph.parts import Contacts, Label, Parts
 from cadgraph.scene import Floats
-from cadgraph.stages.label.features import Disc, find_facts, same_line
+from cadgraph.stages.label.facts import Disc, find_facts, same_line
 from cadgraph.stages.label.forms import forms_of
 
 __all__ = ["Context", "offset", "parallel"]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cadgraph.stages.label.features import Facts
+from cadgraph.stages.label.facts import Facts
 
 __all__ = ["BOLT", "CASE", "WHEEL", "Forms", "forms_of"]
 

@@ -15,7 +15,7 @@ import numpy as np
 from cadgraph.parts import Contacts, Label, Parts
 from cadgraph.scene import Floats
 from cadgraph.stages.label.context import Context, offset, parallel
-from cadgraph.stages.label.features import Disc, Facts, angles_about, same_line
+from cadgraph.stages.label.facts import Disc, Facts, angles_about, same_line
 from cadgraph.stages.label.forms import BOLT, CASE, WHEEL
 from cadgraph.vocabulary import Vocabulary
 
