@@ -7,7 +7,7 @@ from cadgraph.environment import HANDS, PRESETS, Sins, make, spoil
 from cadgraph.vocabulary import default_vocabulary
 from environment.solids import is_closed, shell_volumes, touching
 
-SMALL = [name for name in PRESETS if name != "field"]
+SMALL = [name for name in PRESETS if name not in ("assortment", "field")]
 EXACT = [name for name, hand in HANDS.items() if not hand.looseness]
 LOOSE = [name for name, hand in HANDS.items() if hand.looseness]
 

@@ -8,9 +8,10 @@ from typing import Literal
 
 import numpy as np
 
-__all__ = ["HANDS", "RGB", "Hand"]
+__all__ = ["HANDS", "RGB", "Grain", "Hand"]
 
 RGB = tuple[float, float, float]
+Grain = Literal["one", "few", "pieces"]
 
 _REALISTIC: dict[str, RGB] = {
     "pipe": (0.36, 0.40, 0.44),
@@ -49,12 +50,22 @@ class Hand:
         hollow: whether pipes have inner walls.
         flange: ``neck`` (hub, raised face), ``slip`` (short hub) or ``ring`` (a plain disc).
         holes: whether flanges are drilled.
-        fasteners: ``none``, ``set`` (the bolts of a joint are one mesh), ``bolt`` (a bolt with its nuts is one mesh) or
-            ``pieces`` (stud, nuts, washers).
+        fasteners: ``none``, ``flange`` (the bolts of a joint are of one mesh with a flange), ``set`` (they are one
+            mesh), ``bolt`` (a bolt with its nuts is one mesh) or ``pieces`` (stud, nuts, washers).
         gaskets: whether there are any.
         valve: pieces of a valve: ``one``, ``few`` (body, handle) or ``pieces``.
         gauge: likewise.
         spool: ``segments`` (pipes and elbows) or ``bent`` (one mesh from flange to flange).
+        pump: likewise pieces of a pump; None as of a valve.
+        tank: of a tank; None all pieces.
+        equipment: of a heat exchanger, boiler, filter...; None one.
+        structure: of ladders, gratings, railings, clamps...; None all pieces.
+        merged: whether pipes, elbows and flanges of a spool are one mesh (what ``assortment`` does).
+        capped: whether solid pipes have end faces (likewise).
+        rows: longest piece of a long face [m]: regular rows rather than slivers; 0 leaves slivers (likewise).
+        fans: whether round caps are fanned from a corner rather than from their middle (likewise).
+        soup: share of meshes whose triangles share no corners (likewise).
+        cracks: share of meshes that lack some triangles or have some twice (likewise).
         gap: least and greatest gap left between what should touch, negative for overlaps [m].
         wobble: greatest unevenness of surfaces [m].
         palette: colour by kind of material.
@@ -66,11 +77,21 @@ class Hand:
     hollow: bool = True
     flange: Literal["neck", "slip", "ring"] = "neck"
     holes: bool = True
-    fasteners: Literal["none", "set", "bolt", "pieces"] = "bolt"
+    fasteners: Literal["none", "flange", "set", "bolt", "pieces"] = "bolt"
     gaskets: bool = True
     valve: Literal["one", "few", "pieces"] = "pieces"
     gauge: Literal["one", "few", "pieces"] = "pieces"
     spool: Literal["segments", "bent"] = "segments"
+    pump: Grain | None = None
+    tank: Grain | None = None
+    equipment: Grain | None = None
+    structure: Grain | None = None
+    merged: bool = False
+    capped: bool = True
+    rows: float = 0.0
+    fans: bool = False
+    soup: float = 0.0
+    cracks: float = 0.0
     gap: tuple[float, float] = (0.0, 0.0)
     wobble: float = 0.0
     palette: Mapping[str, RGB] = field(default_factory=lambda: _REALISTIC, compare=False)
@@ -85,6 +106,18 @@ class Hand:
         angle = 2 * np.arccos(max(-0.5, 1 - self.sag / max(radius, self.sag)))
         least, most = self.sides
         return int(np.clip(np.ceil(2 * np.pi / angle / 4) * 4, least, most))
+
+    def grain(self, kind: str) -> Grain:
+        """How fine a ``valve``, ``gauge``, ``pump``, ``tank``, ``equipment``, ``structure`` or ``fitting`` is."""
+        grains: dict[str, Grain] = {
+            "valve": self.valve,
+            "gauge": self.gauge,
+            "pump": self.pump or self.valve,
+            "tank": self.tank or "pieces",
+            "equipment": self.equipment or "one",
+            "structure": self.structure or "pieces",
+        }
+        return grains.get(kind, "pieces")
 
     def bend(self, radius: float, turn: float = np.pi / 2) -> int:
         """Pieces of a bend of this radius [m] and turn [rad]."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from cadgraph.environment.assortment import make_assortment
 from cadgraph.environment.field import make_field
 from cadgraph.environment.hand import HANDS, Hand
 from cadgraph.environment.imperfection import Sins, spoil
@@ -17,6 +18,7 @@ from cadgraph.environment.tank import make_tank
 __all__ = ["PRESETS", "make"]
 
 PRESETS: dict[str, Callable[[int, Hand | None], Plant]] = {
+    "assortment": make_assortment,
     "field": make_field,
     "pumps": make_pumps,
     "rack": make_rack,
