@@ -41,6 +41,10 @@ def test_a_file_lies_over_its_base(tmp_path):
     assert base.cluster.eps == 0.01, "the base stays as it is"
 
 
+def test_a_byte_order_mark_is_no_matter(tmp_path):
+    assert read_config(toml(tmp_path, "\ufeff[cluster]\neps = 0.02")).cluster.eps == 0.02
+
+
 def test_an_empty_file_changes_nothing(tmp_path):
     assert read_config(toml(tmp_path, "")) == Config()
 
@@ -51,13 +55,33 @@ def test_an_empty_file_changes_nothing(tmp_path):
         ("[cluster]\nepsilon = 1", "no setting is called 'cluster.epsilon'"),
         ("[clusters]\neps = 1", "no setting is called 'clusters'"),
         ("eps = 1", "no setting is called 'eps'"),
-        ("[cluster]\neps = -1", "cluster.eps = -1: "),
-        ("[cluster]\neps = nan", "cluster.eps = nan: "),
-        ("[cluster]\neps = 'wide'", "cluster.eps = 'wide': "),
-        ("cluster = 1", "cluster = 1: "),
-        ("method = 'guess'", "method = 'guess': "),
-        ("[report]\nwidth = 63", "report.width = 63: "),
+        (
+            "[cluster]\neps = -1",
+            "cluster.eps must be at least 0, not -1 (parts at most this far apart",
+        ),
+        ("[cluster]\neps = nan", "cluster.eps must be a finite number, not nan"),
+        ("[cluster]\neps = 'wide'", "cluster.eps must be a number, not 'wide'"),
+        ("[cluster]\neps = '0.01'", "cluster.eps must be a number, not '0.01'"),
+        ("[cluster]\neps = true", "cluster.eps must be a number, not true"),
+        ("[cluster]\neps = 11", "cluster.eps must be at most 10, not 11"),
+        ("[cluster]\nmin_samples = 1.5", "cluster.min_samples must be a whole number, not 1.5"),
+        ("[cluster]\nmin_samples = true", "cluster.min_samples must be a whole number, not true"),
+        ("[cluster]\ncut_bridges = 1", "cluster.cut_bridges must be true or false, not 1"),
+        (
+            "[load]\npurposes = 'proxy'",
+            "load.purposes must be a list, not 'proxy' (USD purposes that count as geometry",
+        ),
+        ("[load]\npurposes = ['x']", "must be 'default', 'render', 'proxy' or 'guide', not 'x'"),
+        ("[load]\ntime = true", "load.time must be a number, not true"),
+        ("[load]\nsides = 1000000", "load.sides must be at most 512, not 1000000"),
+        ("[load]\nmax_gap = 1e-12", "load.max_gap must be at least 1e-06, not 1e-12"),
+        ("[preprocess]\nspacing = 1e-9", "preprocess.spacing must be at least 0.0001, not 1e-09"),
+        ("cluster = 1", "cluster must be a table of names and values, not 1"),
+        ("method = 'guess'", "method must be 'exact' or 'paper', not 'guess' (what touches"),
+        ("[report]\nwidth = 63", "report.width must be at least 64, not 63"),
+        ("[report]\nwidth = 63", "default 1280)"),
         ("[cluster", "not TOML"),
+        ("x = " + "[" * 5000, "not TOML"),
     ],
 )
 def test_a_wrong_setting_is_an_error_that_names_file_and_setting(tmp_path, text, says):

@@ -13,6 +13,8 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from cadgraph.expectation import expectation
+
 __all__ = [
     "ClusterConfig",
     "Config",
@@ -33,13 +35,15 @@ _PAPER = "paper, section III-B"
 
 
 def _setting(default: Any, meaning: str, source: str = "ours", **limits: Any) -> Any:
-    return Field(default, description=meaning, json_schema_extra={"source": source}, **limits)
+    # TOML and JSON know lists only.
+    strict = False if isinstance(default, tuple) else None
+    return Field(default, description=meaning, json_schema_extra={"source": source}, strict=strict, **limits)
 
 
 class Section(BaseModel):
-    """A frozen group of settings; an unknown name is an error."""
+    """A frozen group of settings; an unknown name is an error, and so is a number in quotes or true for a number."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, strict=True)
 
 
 class LoadConfig(Section):
@@ -52,19 +56,27 @@ class LoadConfig(Section):
     split_subsets: bool = _setting(False, "split a USD mesh into one mesh for each material subset")
     time: float | None = _setting(None, "USD time code to read; none: the default time, else the first sample")
     isolate: bool = _setting(True, "read USD in a process of its own, so that a damaged file can't crash the caller")
-    timeout: float = _setting(600.0, "give up on reading a file after this long [s]", gt=0)
+    timeout: float = _setting(600.0, "give up on reading a file after this long [s]", gt=0, le=604_800)
     max_gap: float = _setting(
-        0.0005, "greatest gap between a curved STEP surface and its triangles [m]", "ours: bolts stay round", gt=0
+        0.0005,
+        "greatest gap between a curved STEP surface and its triangles [m]",
+        "ours: bolts stay round",
+        ge=1e-6,
+        le=1,
     )
-    max_angle: float = _setting(0.35, "greatest angle between neighbouring STEP triangles on a curve [rad]", gt=0)
-    sides: int = _setting(32, "sides of a round USD primitive (Cylinder, Sphere...) when turned into triangles", ge=6)
+    max_angle: float = _setting(
+        0.35, "greatest angle between neighbouring STEP triangles on a curve [rad]", ge=0.01, le=1.6
+    )
+    sides: int = _setting(
+        32, "sides of a round USD primitive (Cylinder, Sphere...) when turned into triangles", ge=6, le=512
+    )
 
 
 class PreprocessConfig(Section):
     """How surfaces become points; for method = 'paper' only."""
 
-    voxel: float = _setting(0.01, "edge of a voxel, to whose centre vertices move [m]", _PAPER, gt=0)
-    spacing: float = _setting(0.01, "distance of the points along the sides of each face [m]", _PAPER, gt=0)
+    voxel: float = _setting(0.01, "edge of a voxel, to whose centre vertices move [m]", _PAPER, ge=1e-4, le=1)
+    spacing: float = _setting(0.01, "distance of the points along the sides of each face [m]", _PAPER, ge=1e-4, le=1)
 
 
 class InspectConfig(Section):
@@ -103,13 +115,14 @@ class GroupConfig(Section):
         "a small mesh joins the nearest larger one within this distance [m]",
         "ours; the paper gives no figure",
         ge=0,
+        le=10,
     )
 
 
 class ClusterConfig(Section):
     """What touches, and what is one structure."""
 
-    eps: float = _setting(0.01, "parts at most this far apart are adjacent [m]", _PAPER + " (DBSCAN eps)", ge=0)
+    eps: float = _setting(0.01, "parts at most this far apart are adjacent [m]", _PAPER + " (DBSCAN eps)", ge=0, le=10)
     bridge_gap: float = _setting(
         0.002, "a single contact over at least this gap is a weak bridge between two structures [m]", ge=0
     )
@@ -132,7 +145,7 @@ class ReportConfig(Section):
     width: int = _setting(1280, "width of a picture [px]", ge=64, le=8192)
     height: int = _setting(800, "height of a picture [px]", ge=64, le=8192)
     samples: int = _setting(3, "anti-aliasing: rays along each side of a pixel", ge=1, le=8)
-    max_systems: int = _setting(12, "at most so many pipe systems get a picture, the largest first", ge=0)
+    max_systems: int = _setting(12, "at most so many pipe systems get a picture, the largest first", ge=0, le=1000)
 
 
 class Config(Section):
@@ -178,13 +191,13 @@ def read_config(path: str | Path, base: Config | None = None) -> Config:
         ValueError: the file can't be read, is no TOML, or holds an unknown or impossible setting.
     """
     try:
-        tree = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+        tree = tomllib.loads(Path(path).read_text(encoding="utf-8-sig"))
     except OSError as error:
         raise ValueError(
             f"{path}: can't be read ({error.strerror}); give a TOML file as 'cadgraph config' prints it"
         ) from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ValueError(f"{path}: not TOML ({error})") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise ValueError(f"{path}: not TOML ({error}); 'cadgraph config' prints a file to start from") from error
     whole = (base or Config()).model_dump()
     for name, value in tree.items():
         if isinstance(value, dict) and isinstance(whole.get(name), dict):
@@ -218,7 +231,16 @@ def _validated(tree: Mapping[str, Any], where: str) -> Config:
         name = ".".join(str(step) for step in first["loc"])
         if first["type"] == "extra_forbidden":
             raise ValueError(f"{where}: no setting is called {name!r}; 'cadgraph config' lists them all") from None
-        raise ValueError(f"{where}: {name} = {first['input']!r}: {first['msg']}") from None
+        raise ValueError(f"{where}: {name} {expectation(first)}{_meaning_of(first['loc'])}") from None
+
+
+def _meaning_of(place: tuple[str | int, ...]) -> str:
+    """What a setting is for and its default, in brackets; empty for a whole section."""
+    names = [str(step) for step in place if isinstance(step, str)]
+    for name, value, meaning, _ in describe(Config()):
+        if names and name == ".".join(names[: name.count(".") + 1]):
+            return f" ({meaning}; {'default ' + _toml(value) if value is not None else 'none by default'})"
+    return ""
 
 
 def to_toml(config: Config) -> str:

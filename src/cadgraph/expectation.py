@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import reprlib
 from collections.abc import Mapping
 from typing import Any
@@ -36,7 +37,7 @@ def expectation(detail: Mapping[str, Any]) -> str:
         A clause as ``"must be a number, not True"`` or ``"is missing"``.
     """
     kind, context = str(detail["type"]), detail.get("ctx", {})
-    value = reprlib.repr(detail.get("input"))
+    value = _shown(detail.get("input"))
     if kind == "missing":
         return "is missing"
     if kind == "finite_number":
@@ -54,3 +55,8 @@ def expectation(detail: Mapping[str, Any]) -> str:
         return f"must have {bound} {context.get('min_length', context.get('max_length'))} values, not {value}"
     expected = _EXPECTED.get(kind.partition("_")[0])
     return f"must be {expected}, not {value}" if expected else f"is refused: {detail['msg']}"
+
+
+def _shown(value: Any) -> str:
+    # As TOML and JSON write them, which is where the value comes from.
+    return json.dumps(value) if isinstance(value, bool) else reprlib.repr(value)
