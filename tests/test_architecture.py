@@ -33,8 +33,10 @@ MAY_IMPORT = {
     "stages": VALUES | {"geometry"},
     "render": VALUES | {"geometry"},
     "pipeline": VALUES | {"geometry", "stages"},
-    "export": VALUES | {"render"},
-    "report": VALUES | {"render", "summary"},
+    "functional": VALUES,
+    "diagram": VALUES | {"functional"},
+    "export": VALUES | {"diagram", "functional", "render"},
+    "report": VALUES | {"diagram", "functional", "render", "summary"},
     # Not among the values: no stage may ever see the truth.
     "truth": {"atomic", "errors", "vocabulary"},
     "environment": VALUES | {"geometry", "truth"},
@@ -42,6 +44,7 @@ MAY_IMPORT = {
     "job": VALUES | {"environment", "export", "load", "pipeline", "render", "report", "summary"},
     "reproduce": VALUES | {"environment", "evaluate", "load", "pipeline", "render", "report", "summary", "truth"},
     "cli": VALUES
+    | {"diagram", "functional"}
     | {"environment", "evaluate", "export", "load", "pipeline", "render", "report", "reproduce", "job", "summary"},
     "warm": {"environment", "pipeline"},
     "__main__": {"cli"},
@@ -49,7 +52,7 @@ MAY_IMPORT = {
 }
 
 MAY_USE_USD = {"load", "export", "environment", "evaluate"}
-HEAVY = {"PIL", "cascadio", "embreex", "jinja2", "networkx", "numba", "pxr", "scipy", "trimesh"}
+HEAVY = {"PIL", "cascadio", "embreex", "graphlay", "jinja2", "networkx", "numba", "pxr", "scipy", "trimesh"}
 VAGUE = {"manager", "managers", "helper", "helpers", "util", "utils", "common", "misc"}
 
 MODULES = sorted(PACKAGE.rglob("*.py"))

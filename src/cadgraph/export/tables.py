@@ -13,7 +13,7 @@ from cadgraph.atomic import write_atomically
 from cadgraph.graph import SceneGraph
 from cadgraph.records import Adjacent, Box, Cluster, Connected, Part, Related, Unit
 
-__all__ = ["write_tables"]
+__all__ = ["table_bytes", "write_tables"]
 
 # A spreadsheet runs a cell that starts so as a formula, in a file from anybody (OWASP, "CSV Injection").
 _FORMULA = re.compile(r"\s*[=+\-@\uff1d\uff0b\uff0d\uff20]")
@@ -126,10 +126,15 @@ def _extents(aabb: Box) -> tuple[float, ...]:
     return tuple(high - low for low, high in zip(*aabb, strict=True))
 
 
-def _write(path: Path, rows: Iterable[Row]) -> Path:
+def table_bytes(rows: Iterable[Row]) -> bytes:
+    """Rows as CSV for spreadsheets: UTF-8 with a byte order mark, no cell that would be run as a formula."""
     text = io.StringIO(newline="")
     csv.writer(text).writerows([_cell(value) for value in row] for row in rows)
-    write_atomically(path, text.getvalue().encode("utf-8-sig"))
+    return text.getvalue().encode("utf-8-sig")
+
+
+def _write(path: Path, rows: Iterable[Row]) -> Path:
+    write_atomically(path, table_bytes(rows))
     return path
 
 

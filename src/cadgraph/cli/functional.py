@@ -1,0 +1,119 @@
+"""Questions to the functional graph: lines, trace, isolate, diagram."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.markup import escape
+
+from cadgraph.cli.application import app
+from cadgraph.cli.options import GraphArgument
+from cadgraph.cli.screen import out
+
+JsonOption = Annotated[bool, typer.Option("--json", help="Print as JSON.")]
+
+
+@app.command()
+def lines(
+    graph: GraphArgument,
+    file: Annotated[Path | None, typer.Argument(metavar="[FILE]", help="With --csv or --json: write there.")] = None,
+    as_csv: Annotated[bool, typer.Option("--csv", help="As CSV, for a spreadsheet.")] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Print the line list: from, to, length, nominal size, direction, and the valves and gauges in order.
+
+    A line runs on through valves, gauges and the taps of gauges; it ends at junctions, open or blind ends, tanks,
+    pumps and other equipment. Its number is made from what it joins, so that a line added elsewhere renumbers nothing.
+    """
+    from cadgraph.atomic import write_atomically
+    from cadgraph.export.tables import table_bytes
+    from cadgraph.functional import find_lines
+    from cadgraph.functional.text import line_rows, line_table, line_values
+    from cadgraph.graph import SceneGraph
+
+    if as_csv and as_json:
+        raise ValueError("--csv and --json: give one of them")
+    if file is not None and not (as_csv or as_json):
+        raise ValueError(f"{file}: say --csv or --json to write a file")
+    found = find_lines(SceneGraph.load(graph))
+    if as_csv:
+        content = table_bytes(line_rows(found))
+    elif as_json:
+        content = (json.dumps([line_values(line) for line in found], ensure_ascii=False, indent=1) + "\n").encode()
+    else:
+        for text in line_table(found):
+            out.print(escape(text))
+        return
+    if file is None:
+        typer.echo(content.decode("utf-8-sig").replace("\r\n", "\n"), nl=False)
+        return
+    write_atomically(file, content)
+    out.print(f"wrote {escape(str(file))}: {len(found):,} lines")
+
+
+@app.command()
+def trace(
+    graph: GraphArgument,
+    tag: Annotated[str, typer.Argument(metavar="TAG", help="Where to begin, e.g. V-003.")],
+    downstream: Annotated[bool, typer.Option("--downstream", help="Follow the flow (the default).")] = False,
+    upstream: Annotated[bool, typer.Option("--upstream", help="Go against the flow.")] = False,
+    to: Annotated[str | None, typer.Option("--to", metavar="TAG", help="The shortest way to this one.")] = None,
+    unknown: Annotated[
+        bool, typer.Option("--unknown", help="Also follow connections whose direction of flow is unknown, both ways.")
+    ] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Say what lies downstream or upstream of a unit, or on the way to another, in order with distances.
+
+    A way to another unit goes along the pipes whichever way they flow; with --downstream or --upstream only with or
+    against the flow.
+    """
+    from cadgraph.functional import Network, find_way
+    from cadgraph.functional import trace as follow
+    from cadgraph.functional.text import trace_lines, trace_values, way_lines
+    from cadgraph.graph import SceneGraph
+
+    if downstream and upstream:
+        raise ValueError("--downstream and --upstream: give one of them")
+    network = Network(SceneGraph.load(graph))
+    if to is not None:
+        if unknown:
+            raise ValueError("--unknown goes with --downstream or --upstream, not with --to")
+        found = find_way(network, tag, to, "downstream" if downstream else "upstream" if upstream else None)
+        text = way_lines(found, tag, to)
+    else:
+        found = follow(network, tag, "upstream" if upstream else "downstream", through_unknown=unknown)
+        text = trace_lines(found)
+    _show(text, trace_values(found), as_json)
+
+
+@app.command()
+def isolate(
+    graph: GraphArgument,
+    tag: Annotated[str, typer.Argument(metavar="TAG", help="What to isolate, e.g. P-001.")],
+    check_valves: Annotated[
+        bool, typer.Option("--check-valves", help="Count check valves that hold back what could flow to it.")
+    ] = False,
+    fewest: Annotated[
+        bool, typer.Option("--fewest", help="The fewest valves, even if more is shut off; by default the nearest.")
+    ] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """List the valves that isolate a unit on every port, what can't be isolated, and what is shut off with it."""
+    from cadgraph.functional import find_isolation
+    from cadgraph.functional.text import isolation_lines, isolation_values
+    from cadgraph.graph import SceneGraph
+
+    found = find_isolation(SceneGraph.load(graph), tag, check_valves=check_valves, fewest=fewest)
+    _show(isolation_lines(found), isolation_values(found), as_json)
+
+
+def _show(text: list[str], values: dict[str, Any], as_json: bool) -> None:
+    if as_json:
+        typer.echo(json.dumps(values, ensure_ascii=False, indent=1))
+        return
+    for line in text:
+        out.print(escape(line))

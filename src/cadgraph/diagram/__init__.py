@@ -1,0 +1,1 @@
+"""The functional graph as a schematic in the manner of P&IDs."""
