@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from cadgraph.errors import FormatError, OutputError
-from cadgraph.truth import Truth, TruthCluster, TruthConnection, TruthMesh, TruthUnit, check_truth
+from cadgraph.truth import Truth, TruthCluster, TruthConnection, TruthLine, TruthMesh, TruthPoint, TruthUnit, check_truth
 from cadgraph.vocabulary import default_vocabulary
 from evaluate.plants import line
 
@@ -43,7 +43,7 @@ def test_documented_check_runs(tmp_path, monkeypatch):
 
 def test_every_key_is_documented():
     page = PAGE.read_text(encoding="utf-8")
-    for record in (Truth, TruthMesh, TruthUnit, TruthConnection, TruthCluster):
+    for record in (Truth, TruthMesh, TruthUnit, TruthPoint, TruthConnection, TruthLine, TruthCluster):
         for name, field in record.model_fields.items():
             assert f"`{field.alias or name}`" in page
 

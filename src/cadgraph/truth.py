@@ -18,11 +18,20 @@ from cadgraph.atomic import write_atomically
 from cadgraph.errors import FormatError
 from cadgraph.vocabulary import Vocabulary
 
-__all__ = ["Truth", "TruthCluster", "TruthConnection", "TruthMesh", "TruthPoint", "TruthUnit", "check_truth"]
+__all__ = [
+    "Truth",
+    "TruthCluster",
+    "TruthConnection",
+    "TruthLine",
+    "TruthMesh",
+    "TruthPoint",
+    "TruthUnit",
+    "check_truth",
+]
 
 FORMAT = "cadgraph-truth"
 VERSION = 1
-_ROWS = ("meshes", "units", "points", "connections", "clusters", "contacts")
+_ROWS = ("meshes", "units", "points", "connections", "lines", "clusters", "parts", "contacts")
 _SHOWN = 3  # examples in a message
 
 
@@ -39,6 +48,10 @@ class TruthMesh(_Record):
     group: str | None = Field(default=None, description="of the vocabulary; null: not annotated")
     name: str | None = Field(default=None, description="in that group; null: not annotated")
     line: str | None = Field(default=None, description="tag of the pipe run that it belongs to")
+    family: str | None = Field(default=None, description="what it was built as (ball valve, flange...)")
+    build: str | None = Field(default=None, description="which design of that family (two-piece, barrel...)")
+    granularity: str | None = Field(default=None, description="how finely its device is modelled: one, few or pieces")
+    hand: str | None = Field(default=None, description="modelling style")
 
 
 class TruthUnit(_Record):
@@ -49,6 +62,9 @@ class TruthUnit(_Record):
     kind: str | None = Field(default=None, description="ball valve, pressure gauge...")
     tag: str | None = Field(default=None, description="as people call it; the id where null")
     meshes: tuple[str, ...] = Field(description="all meshes that belong to it", min_length=1)
+    fasteners: tuple[str, ...] = Field(
+        default=(), description="bolts that clamp it into its line; no meshes of its own"
+    )
 
 
 class TruthPoint(_Record):
@@ -59,6 +75,9 @@ class TruthPoint(_Record):
         description="terminal: the open end of a run; junction: three or more branches meet"
     )
     point: tuple[float, float, float] | None = Field(default=None, description="where it is [m]")
+    end: Literal["open", "blind"] | None = Field(
+        default=None, description="of a terminal: whether something could flow out of it"
+    )
 
 
 class TruthConnection(_Record):
@@ -73,6 +92,16 @@ class TruthConnection(_Record):
         default="unknown", description="of the flow; forward: source to target"
     )
     reason: str | None = Field(default=None, description="what fixes the direction")
+
+
+class TruthLine(_Record):
+    """The centreline of a pipe run."""
+
+    id: str = Field(description="its tag")
+    points: tuple[tuple[float, float, float], ...] = Field(
+        description="along the axis, in order; bends as chords with their ends on it [m]", min_length=2
+    )
+    outer: float | None = Field(default=None, gt=0, description="greatest outside diameter of its pipe [m]")
 
 
 class TruthCluster(_Record):
@@ -104,7 +133,12 @@ class Truth(_Record):
     units: tuple[TruthUnit, ...] | None = None
     points: tuple[TruthPoint, ...] = ()
     connections: tuple[TruthConnection, ...] | None = None
+    lines: tuple[TruthLine, ...] | None = None
     clusters: tuple[TruthCluster, ...] | None = None
+    parts: tuple[tuple[str, ...], ...] | None = Field(
+        default=None,
+        description="meshes that act as one item, the largest first; a mesh in none of them is a part by itself",
+    )
     looseness: float | None = Field(default=None, ge=0, description="greatest gap between parts that touch [m]")
     contacts: tuple[tuple[str, str], ...] | None = Field(default=None, description="pairs of meshes that touch")
     duplicates: tuple[tuple[str, str], ...] = Field(
@@ -112,8 +146,17 @@ class Truth(_Record):
     )
     hidden: tuple[str, ...] = Field(default=(), description="meshes that can't be seen from anywhere")
     flaws: dict[str, tuple[str, ...]] = Field(
-        default_factory=dict, description="what is wrong with a mesh, by its path: flipped, soup, degenerate"
+        default_factory=dict, description="what is wrong with a mesh, by its path: flipped, soup, degenerate, polygons"
     )
+    gaps: dict[str, float] = Field(
+        default_factory=dict,
+        description="what was taken off a mesh so that it misses its neighbours, by its path; negative: overlap [m]",
+    )
+    colors: str | None = Field(default=None, description="how the scene is painted: own, gray, random or none")
+    instances: str | None = Field(
+        default=None, description="how repeats are stored: none, native, nested, point or mixed"
+    )
+    nested: int | None = Field(default=None, ge=0, description="levels of frames without meaning above a mesh")
     meters_per_unit: float | None = Field(
         default=None, gt=0, description="length of one authored unit of the scene [m]"
     )
@@ -137,14 +180,26 @@ class Truth(_Record):
         _refuse_strangers((mesh for pair in self.contacts or () for mesh in pair), known, "contacts", "mesh")
         _refuse_strangers((mesh for pair in self.duplicates for mesh in pair), known, "duplicates", "mesh")
         _refuse_strangers((*self.hidden, *self.flaws), known, "hidden and flaws", "mesh")
+        _refuse_strangers(self.gaps, known, "gaps", "mesh")
+        _refuse_strangers((mesh for unit in units for mesh in unit.fasteners), known, "units", "mesh")
+        _refuse_strangers((mesh for part in self.parts or () for mesh in part), known, "parts", "mesh")
+        _refuse_repeats((mesh for part in self.parts or () for mesh in part), "parts", "mesh")
+        _refuse_repeats((line.id for line in self.lines or ()), "lines", "id")
         return self
 
     def to_json(self) -> dict[str, Any]:
-        """The content of the file as plain values; a mesh without line has no such key."""
+        """The content of the file as plain values; what a mesh or unit may lack is left out where it does."""
         data = self.model_dump(mode="json", by_alias=True)
         for row in data["meshes"]:
-            if row["line"] is None:
-                del row["line"]
+            for key in ("line", "family", "build", "granularity", "hand"):
+                if row[key] is None:
+                    del row[key]
+        for row in data["units"] or ():
+            if not row["fasteners"]:
+                del row["fasteners"]
+        for row in data["points"]:
+            if row["end"] is None:
+                del row["end"]
         return data
 
     @classmethod

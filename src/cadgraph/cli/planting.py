@@ -1,4 +1,4 @@
-"""Generated plants and truth: environment make, environment truth-from-usd."""
+"""Generated plants and truth: environment make, environment check, environment truth-from-usd."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from rich.markup import escape
 
 from cadgraph.cli.application import plants
 from cadgraph.cli.screen import out
+from cadgraph.errors import FormatError
 
 
 @plants.command("make")
@@ -38,6 +39,28 @@ def make_plant(
     axis: Literal["Y", "Z"] = "Y" if up == "Y" else "Z"
     truth = write_usd(plant, output, UsdStyle(meters_per_unit=unit, up_axis=axis, instances=instances))
     out.print(f"wrote {escape(str(output))} and {escape(str(truth))}")
+
+
+@plants.command("check")
+def check_plant(
+    scene: Annotated[Path, typer.Argument(metavar="SCENE", help="A scene, e.g. field.usdc.")],
+    truth: Annotated[
+        Path | None, typer.Argument(metavar="TRUTH", help="Its truth (JSON); beside the scene by default.")
+    ] = None,
+) -> None:
+    """Prove a truth against the exact geometry of its scene."""
+    from cadgraph.environment import truth_path
+    from cadgraph.environment.proof import prove
+    from cadgraph.load import load
+    from cadgraph.truth import Truth
+
+    proof = prove(load(scene), Truth.load(truth or truth_path(scene)))
+    out.print(f"checked {', '.join(f'{n:,} {code}' for code, n in proof.n_checked.items())}")
+    if not proof.holds:
+        for line in proof.lines():
+            out.print(escape(line))
+        raise FormatError(f"{truth or truth_path(scene)}: the geometry contradicts it in {len(proof.findings)} places")
+    out.print("the truth holds")
 
 
 @plants.command("truth-from-usd")

@@ -86,10 +86,11 @@ def make_field(seed: int = 0, hand: Hand | None = None) -> Plant:
         whole.units,
         whole.points,
         whole.connections,
-        "field",
-        seed,
-        tuple(one.name for one in hands),
-        max(one.looseness for one in hands),
+        whole.lines,
+        name="field",
+        seed=seed,
+        hands=tuple(one.name for one in hands),
+        looseness=max(one.looseness for one in hands),
     )
 
 

@@ -108,12 +108,29 @@ def _flange_solid(dn: int, hand: Hand) -> Solid:
     return about_x(weld([head, revolve([*outside, *inside], sides)]))
 
 
-def flange(dn: int, hand: Hand, blind: bool = False) -> Assembly:
-    """A flange along x: its raised face at 0 looking to -x, its pipe end towards +x."""
+def flange(dn: int, hand: Hand, blind: bool = False, grip: float = 0.0) -> Assembly:
+    """A flange along x: its raised face at 0 looking to -x, its pipe end towards +x.
+
+    Args:
+        dn: nominal size.
+        hand: that models it.
+        blind: whether it is a lid.
+        grip: what the bolts of its joint clamp, from its own back on, where this hand makes them one mesh with it;
+            0: they are left to the other flange [m].
+    """
     color = hand.color("flange")
     if blind:
-        return Assembly((Component(_blind_solid(dn, hand), "Pipe assembly", "blind flange", color),))
-    return Assembly((Component(_flange_solid(dn, hand), "Pipe assembly", "flange", color),))
+        lid = Component(_blind_solid(dn, hand), "Pipe assembly", "blind flange", color, family="blind flange")
+        return Assembly((lid,))
+    solid = _bolted_solid(dn, round(grip, 6), hand) if grip and hand.fasteners == "flange" else _flange_solid(dn, hand)
+    return Assembly((Component(solid, "Pipe assembly", "flange", color, family=f"flange/{hand.flange}"),))
+
+
+@cache
+def _bolted_solid(dn: int, grip: float, hand: Hand) -> Solid:
+    """A flange and all bolts of its joint, their far nuts beyond the other flange."""
+    pose = at(plate_thickness(dn)) @ spun("z", np.pi)
+    return merge([_flange_solid(dn, hand), moved(_bolt_set(dn, grip, hand), pose)])
 
 
 @cache
@@ -142,8 +159,13 @@ def gasket(dn: int, hand: Hand) -> Assembly:
 
 
 def bolts(dn: int, grip: float, hand: Hand) -> Assembly:
-    """The bolts of a joint along x, their nuts' faces at 0 and ``grip`` [m], straddling the vertical."""
+    """The bolts of a joint along x, their nuts' faces at 0 and ``grip`` [m], straddling the vertical.
+
+    There are none where the hand makes them one mesh with a flange.
+    """
     size = FLANGES[dn]
+    if hand.fasteners == "flange":
+        return Assembly()
     one = bolt(size.bolt, grip, hand)
     turns = [(2 * k + 1) * np.pi / size.n_bolts for k in range(size.n_bolts)]
     poses = [spun("x", turn) @ at(0, size.circle / 2, 0) for turn in turns]

@@ -11,7 +11,7 @@ from cadgraph.environment.frame import at
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.plant import Assembly, Component, Plant
 from cadgraph.environment.solid import Solid, box
-from cadgraph.scene import Floats
+from cadgraph.scene import Floats, Scene
 
 __all__ = ["Sins", "loosen", "spoil"]
 
@@ -32,11 +32,21 @@ def loosen(assembly: Assembly, hand: Hand, seed: int) -> Assembly:
     components = []
     for component in assembly.components:
         gap = float(rng.uniform(*hand.gap))
-        component = replace(component, pose=component.pose @ _shrunk(component.solid, gap))
+        component = replace(component, pose=component.pose @ _shrunk(component.solid, gap), gap=gap)
         if hand.wobble:
             component = replace(component, solid=_uneven(component.solid, hand.wobble, rng))
         components.append(component)
-    return replace(assembly, components=tuple(components))
+    loose = replace(assembly, components=tuple(components))
+    return replace(loose, contacts=(*loose.contacts, *_met(loose))) if hand.gap[0] < 0 or hand.wobble else loose
+
+
+def _met(assembly: Assembly) -> list[tuple[int, int]]:
+    """Pairs that were not meant to touch, but do since they grew."""
+    from cadgraph.geometry.contact import touching
+
+    meant = {tuple(sorted(pair)) for pair in assembly.contacts}
+    scene = Scene.from_meshes([(c.vertices, c.faces) for c in assembly.components])
+    return [(a, b) for a, b in touching(scene, 0.0).tolist() if (a, b) not in meant]
 
 
 def _shrunk(solid: Solid, gap: float) -> Floats:

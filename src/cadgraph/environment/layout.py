@@ -1,111 +1,30 @@
-"""Runs of pipe: devices placed by arc length on a centreline, pipes and bends in between, and the truth in order.
+"""Runs of pipe: devices placed by arc length on a centreline, pipes and bends in between.
 
 Positions along a run are chainages: lengths [m] along the sharp-cornered route, from its first point.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from cadgraph.environment.course import ONE_WAY, course
 from cadgraph.environment.fastener import clamping
 from cadgraph.environment.flange import GASKET, bolts, flange, flange_length, gasket, plate_thickness
 from cadgraph.environment.frame import arc, at, looking, spun
 from cadgraph.environment.hand import Hand
-from cadgraph.environment.piping import bend_tangent, elbow, outlet, pipe, spool
-from cadgraph.environment.plant import Assembly, Connection, Device, Point, gather
-from cadgraph.environment.route import Route
-from cadgraph.environment.standard import ELBOW_LONG_RADIUS, PIPES
+from cadgraph.environment.piping import elbow, outlet, pipe, spool
+from cadgraph.environment.plant import Assembly, Device, gather
+from cadgraph.environment.run import Inline, Run, Tap
+from cadgraph.environment.standard import PIPES
 from cadgraph.scene import Floats
 
 __all__ = ["Inline", "Laid", "Piece", "Run", "Tap", "lay"]
 
 _SHORTEST = 0.002  # m; a shorter piece of pipe is a mistake in the layout
 OUTLET_HEIGHT = 0.024
-
-
-@dataclass(frozen=True)
-class Inline:
-    """Something flanged or welded into a run.
-
-    Args:
-        s: chainage of its middle [m].
-        build: makes the device for a hand; None for a plain joint of two flanges.
-        unit: id of the device, "" for a joint.
-        roll: of its stem about the run [rad]; 0 is upright.
-        reverse: whether it is built against the run (check valves).
-        welded: whether it is butt-welded (tees, reducers) instead of flanged.
-        junction: id of the junction that it makes (tees), or "".
-        dn: nominal size of the run behind it (reducers); 0 as before.
-    """
-
-    s: float
-    build: Callable[[Hand], Device] | None = None
-    unit: str = ""
-    roll: float = 0.0
-    reverse: bool = False
-    welded: bool = False
-    junction: str = ""
-    dn: int = 0
-
-
-@dataclass(frozen=True)
-class Tap:
-    """An instrument on a branch outlet.
-
-    Args:
-        s: chainage [m], on a straight piece of pipe.
-        build: makes the instrument for a hand, standing on z = 0.
-        unit: its id.
-        roll: of the outlet about the run [rad]; 0 is upright.
-    """
-
-    s: float
-    build: Callable[[Hand], Assembly]
-    unit: str
-    roll: float = 0.0
-
-
-@dataclass(frozen=True)
-class Run:
-    """One line.
-
-    Args:
-        tag: unique in the plant.
-        dn: nominal size.
-        route: its centreline.
-        inline: flanged devices and joints.
-        taps: instruments.
-        bent: whether corners are bent pipe (one mesh from flange to flange) rather than elbows.
-        bend: bend radius of bent pipe, in outside diameters.
-        ends: how it begins and ends: ``open`` (a pipe), ``flange``, ``blind``, or ``joint`` (a flange bolted with its
-            gasket to a face at that point: a nozzle).
-        nodes: ids of the units or junctions that it begins and ends at; "" for a terminal.
-        flow: ``forward`` or ``backward`` along the route where physics fixes it, else ``unknown``.
-        reason: what fixes it.
-    """
-
-    tag: str
-    dn: int
-    route: Route
-    inline: tuple[Inline, ...] = ()
-    taps: tuple[Tap, ...] = ()
-    bent: bool = False
-    bend: float = 2.5
-    ends: tuple[str, str] = ("open", "open")
-    nodes: tuple[str, str] = ("", "")
-    flow: str = "unknown"
-    reason: str = ""
-
-    def dn_at(self, s: float) -> int:
-        """The nominal size at a chainage."""
-        dn = self.dn
-        for item in sorted(self.inline, key=lambda item: item.s):
-            if item.dn and item.s <= s:
-                dn = item.dn
-        return dn
 
 
 @dataclass(frozen=True)
@@ -169,6 +88,7 @@ class _Work:
     cursor: float = 0.0
     dn: int = 0
     devices: dict[str, int] = field(default_factory=dict)
+    one_way: dict[str, bool] = field(default_factory=dict)
 
     def add(self, assembly: Assembly) -> int:
         """Appends an assembly and returns the index of its first component."""
@@ -203,7 +123,7 @@ def lay(run: Run, hand: Hand) -> Laid:
         else:
             _block(work, item)
         work.dn = item.dn or work.dn
-    tail = {"open": 0.0, "joint": flange_length(work.dn, hand) + _pad(hand)}.get(
+    tail = {"open": 0.0, "plate": 0.0, "joint": flange_length(work.dn, hand) + _pad(hand)}.get(
         run.ends[1], flange_length(work.dn, hand)
     )
     _fill(work, end - tail)
@@ -211,7 +131,7 @@ def lay(run: Run, hand: Hand) -> Laid:
     laid = Laid(run, Assembly(), tuple(work.pieces), first or (0,), last or (work.tail,), work.devices)
     for tap in run.taps:
         _tap(work, laid, tap)
-    assembly = gather([*work.parts, _truth(run)], work.joints).marked(line=run.tag)
+    assembly = gather([*work.parts, course(run, work.one_way)], work.joints).marked(line=run.tag)
     return replace(laid, assembly=assembly)
 
 
@@ -234,24 +154,26 @@ def _block(work: _Work, item: Inline) -> None:
     neck, pad = flange_length(work.dn, hand), _pad(hand)
     frame = run.route.frame(work.cursor)
     back = spun("z", np.pi)
-    work.follow(flange(work.dn, hand).placed(frame @ at(neck) @ back))
+    device = item.build(hand) if item.build is not None else Device(Assembly(), 0.0)
+    grip = 2 * (plate_thickness(work.dn) + pad) + device.length if device.wafer else _grip(work)
+    work.follow(flange(work.dn, hand, grip=grip).placed(frame @ at(neck) @ back))
     first = work.tail
     face = neck
-    device = item.build(hand) if item.build is not None else Device(Assembly(), 0.0)
     if device.wafer:
         _wafer(work, item, device, frame @ at(face), first)
         work.cursor += 2 * (neck + pad) + device.length
         return
-    sealed = _joint(work, frame, face)
+    sealed = _joint(work, frame, face, item.unit)
     face += pad
     if item.build is not None:
         inlet, outlet_ = _set(work, item, device, frame @ at(face))
         _join_bolts(work, sealed, first, work.tail - outlet_ + inlet)
         first = work.tail
         face += device.length
-        sealed = _joint(work, frame, face)
+        sealed = _joint(work, frame, face, item.unit)
         face += pad
-    work.follow(flange(work.dn, hand).placed(frame @ at(face)))
+    # The bolts of a plain joint are of one mesh with its first flange.
+    work.follow(flange(work.dn, hand, grip=_grip(work) if item.build is not None else 0.0).placed(frame @ at(face)))
     _join_bolts(work, sealed, first, work.tail)
     work.cursor += face + neck
 
@@ -264,6 +186,8 @@ def _set(work: _Work, item: Inline, device: Device, pose: Floats) -> tuple[int, 
         pose, inlet, outlet_ = pose @ at(device.length) @ spun("z", np.pi), outlet_, inlet
     if item.unit or item.junction:
         work.devices[item.unit or item.junction] = work.count
+    if any(unit.id == item.unit and unit.kind in ONE_WAY for unit in device.assembly.units):
+        work.one_way[item.unit] = not item.reverse
     work.follow(device.assembly.placed(pose), inlet, outlet_)
     return inlet, outlet_
 
@@ -275,24 +199,32 @@ def _wafer(work: _Work, item: Inline, device: Device, frame: Floats, first: int)
     _set(work, item, device, frame @ at(pad))
     far = 2 * pad + device.length
     work.follow(gasket(work.dn, hand).placed(frame @ at(far - pad)))
-    start = work.add(bolts(work.dn, 2 * plate + far, hand).placed(frame @ at(-plate)))
-    studs = range(start, work.count)
+    studs = bolts(work.dn, 2 * plate + far, hand).marked(holds=item.unit)
+    start = work.add(studs.placed(frame @ at(-plate)))
+    clamped = range(start, work.count)
     work.follow(flange(work.dn, hand).placed(frame @ at(far)))
-    _join_bolts(work, studs, first, work.tail)
+    _join_bolts(work, clamped, first, work.tail)
 
 
-def _joint(work: _Work, frame: Floats, face: float) -> range:
-    """Gasket and bolts at a face; returns the indices of the bolts' components."""
+def _grip(work: _Work) -> float:
+    """What the bolts of a joint clamp [m]."""
+    return 2 * plate_thickness(work.dn) + _pad(work.hand)
+
+
+def _joint(work: _Work, frame: Floats, face: float, unit: str = "") -> range:
+    """Gasket and bolts at a face of a unit; returns the indices of the bolts' components."""
     hand = work.hand
     plate = plate_thickness(work.dn)
     work.follow(gasket(work.dn, hand).placed(frame @ at(face)))
-    studs = bolts(work.dn, 2 * plate + _pad(hand), hand).placed(frame @ at(face - plate))
+    studs = bolts(work.dn, _grip(work), hand).placed(frame @ at(face - plate)).marked(holds=unit)
     first = work.add(studs)
     return range(first, work.count)
 
 
 def _join_bolts(work: _Work, studs: range, first: int, second: int) -> None:
     """Records that the nuts press on the two flanges."""
+    if work.hand.fasteners == "flange" and work.hand.gaskets:
+        work.joints.append((first, second))
     for near, far in clamping(studs, work.hand):
         work.joints += [(first, near), (second, far)]
 
@@ -301,14 +233,14 @@ def _begin(work: _Work) -> tuple[int, ...]:
     """What stands at the start of the run; returns what touches the outside, if it is more than the first pipe."""
     run, hand = work.run, work.hand
     kind = run.ends[0]
-    if kind == "open":
+    if kind in ("open", "plate"):
         return ()
     frame, back = run.route.frame(0.0), spun("z", np.pi)
     pad = _pad(hand)
     work.cursor = flange_length(work.dn, hand)
     if kind == "joint":
         sealed = _joint(work, frame, 0.0)
-        work.follow(flange(work.dn, hand).placed(frame @ at(pad)))
+        work.follow(flange(work.dn, hand, grip=_grip(work)).placed(frame @ at(pad)))
         work.cursor += pad
         outside = _outer_bolts(work, sealed, work.tail, first=True)
         return (0 if pad else work.tail, *outside)
@@ -316,7 +248,7 @@ def _begin(work: _Work) -> tuple[int, ...]:
         work.follow(flange(work.dn, hand, blind=True).placed(frame @ at(-pad) @ back))
         lid = work.tail
         sealed = _joint(work, frame, -pad)
-        work.follow(flange(work.dn, hand).placed(frame))
+        work.follow(flange(work.dn, hand, grip=_grip(work)).placed(frame))
         _join_bolts(work, sealed, lid, work.tail)
         return ()
     work.follow(flange(work.dn, hand).placed(frame))
@@ -327,13 +259,13 @@ def _finish(work: _Work) -> tuple[int, ...]:
     """What stands at the end of the run; returns what touches the outside, if it is more than the last pipe."""
     run, hand = work.run, work.hand
     kind = run.ends[1]
-    if kind == "open":
+    if kind in ("open", "plate"):
         return ()
     frame = run.route.frame(run.route.length)
     back = spun("z", np.pi)
     pad = _pad(hand)
     face = -pad if kind == "joint" else 0.0
-    work.follow(flange(work.dn, hand).placed(frame @ at(face) @ back))
+    work.follow(flange(work.dn, hand, grip=0.0 if kind == "flange" else _grip(work)).placed(frame @ at(face) @ back))
     body = work.tail
     if kind == "flange":
         return ()
@@ -348,7 +280,7 @@ def _finish(work: _Work) -> tuple[int, ...]:
 
 def _outer_bolts(work: _Work, studs: range, inner: int, first: bool) -> tuple[int, ...]:
     """Joins the bolts to the flange of the run; returns those components that press on the flange beyond."""
-    outside = []
+    outside = [inner] if work.hand.fasteners == "flange" and work.hand.gaskets else []
     for near, far in clamping(studs, work.hand):
         work.joints.append((inner, far if first else near))
         outside.append(near if first else far)
@@ -383,20 +315,13 @@ def _fill(work: _Work, stop: float) -> None:
     work.cursor = stop
 
 
-def _tangent(run: Run, corner: int) -> float:
-    dn = run.dn_at(run.route.starts[corner])
-    radius = run.bend * PIPES[dn].outer if run.bent else ELBOW_LONG_RADIUS[dn]
-    directions = run.route.directions
-    return bend_tangent(radius, directions[corner - 1], directions[corner])
-
-
 def _bent(work: _Work, begin: float, stop: float, corners: list[int]) -> None:
     """One bent pipe through some corners."""
     run, route = work.run, work.run.route
     path = [route.point(begin)[None]]
     reached = begin
     for corner in corners:
-        tangent, s = _tangent(run, corner), route.starts[corner]
+        tangent, s = run.tangent(corner), route.starts[corner]
         if s - tangent < reached - 1e-9 or s + tangent > stop + 1e-9:
             raise ValueError(f"run {run.tag}: no room for the bend at chainage {s:.3f} m")
         reached = s + tangent
@@ -420,7 +345,7 @@ def _segments(work: _Work, begin: float, stop: float, corners: list[int]) -> Non
     run, route = work.run, work.run.route
     for corner in [*corners, -1]:
         s = route.starts[corner] if corner > 0 else stop
-        tangent = _tangent(run, corner) if corner > 0 else 0.0
+        tangent = run.tangent(corner) if corner > 0 else 0.0
         length = s - tangent - begin
         if length < -1e-9:
             raise ValueError(f"run {run.tag}: no room for the elbow at chainage {s:.3f} m")
@@ -443,38 +368,3 @@ def _tap(work: _Work, laid: Laid, tap: Tap) -> None:
     work.joints.append((laid.at(tap.s), foot))
     top = frame @ at(0, 0, PIPES[dn].radius + OUTLET_HEIGHT)
     work.joints.append((foot, work.add(tap.build(work.hand).placed(top))))
-
-
-def _truth(run: Run) -> Assembly:
-    """Terminals, junctions and the connections between consecutive nodes of the run."""
-    nodes = [(item.s, item.unit or item.junction) for item in run.inline if item.unit or item.junction]
-    nodes += [(tap.s, tap.unit) for tap in run.taps]
-    points = [_point(item.junction, "junction", run.route.point(item.s)) for item in run.inline if item.junction]
-    for s, node, name in ((0.0, run.nodes[0], "start"), (run.route.length, run.nodes[1], "end")):
-        if not node:
-            node = f"{run.tag}/{name}"
-            points.append(_point(node, "terminal", run.route.points[0 if name == "start" else -1]))
-        nodes.append((s, node))
-    nodes.sort()
-    connections = tuple(
-        Connection(a, b, run.tag, _along(run, low, high), run.dn_at(low) / 1000, run.flow, run.reason)
-        for (low, a), (high, b) in zip(nodes[:-1], nodes[1:], strict=True)
-    )
-    return Assembly(points=tuple(points), connections=connections)
-
-
-def _point(name: str, kind: str, place: Floats) -> Point:
-    x, y, z = (float(value) for value in place)
-    return Point(name, kind, (x, y, z))
-
-
-def _along(run: Run, low: float, high: float) -> float:
-    """Length of the real centreline between two chainages: bends cut the corners [m]."""
-    length = high - low
-    directions = run.route.directions
-    for corner in range(1, len(run.route.points) - 1):
-        s, tangent = run.route.starts[corner], _tangent(run, corner)
-        if low < s < high:
-            turn = float(np.arccos(np.clip(directions[corner - 1] @ directions[corner], -1, 1)))
-            length -= 2 * tangent - tangent / np.tan(turn / 2) * turn
-    return float(length)

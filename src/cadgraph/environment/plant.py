@@ -1,4 +1,4 @@
-"""The generated plant and its truth: components, units, nodes of the functional graph and their connections."""
+"""The generated plant: components, units, nodes of the functional graph and their connections."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from cadgraph.environment.frame import IDENTITY
 from cadgraph.environment.solid import Solid, moved
 from cadgraph.scene import Floats, Scene
 
-__all__ = ["RGB", "Assembly", "Component", "Connection", "Device", "Plant", "Point", "Unit", "gather"]
+__all__ = ["RGB", "Assembly", "Component", "Connection", "Device", "Line", "Plant", "Point", "Unit", "gather"]
 
 RGB = tuple[float, float, float]
 
@@ -34,6 +34,9 @@ class Component:
         flaws: what was spoilt about its mesh (``flipped``, ``soup``, ``degenerate``).
         family: what kind of device or structure it was built as (``"ball valve/two-piece"``), or "".
         granularity: how finely that was modelled: ``one``, ``few`` or ``pieces``, or "".
+        hand: name of the modelling style, or "".
+        holds: id of the unit that it clamps into its line (bolts of the counter-flanges), or "".
+        gap: what was taken off its sides so that it no longer reaches its neighbours; negative: overlap [m].
     """
 
     solid: Solid
@@ -47,6 +50,9 @@ class Component:
     flaws: tuple[str, ...] = ()
     family: str = ""
     granularity: str = ""
+    hand: str = ""
+    holds: str = ""
+    gap: float = 0.0
 
     @property
     def vertices(self) -> Floats:
@@ -80,13 +86,30 @@ class Point:
 
     Args:
         id: unique in its plant.
-        kind: ``"terminal"`` (open end of a run) or ``"junction"`` (three or more branches meet).
+        kind: ``"terminal"`` (end of a run) or ``"junction"`` (three or more branches meet).
         point: ``(3,)`` where it is [m].
+        end: of a terminal: ``"open"`` (a pipe's mouth or an open flange) or ``"blind"``; else "".
     """
 
     id: str
     kind: str
     point: tuple[float, float, float]
+    end: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """The centreline of a run.
+
+    Args:
+        id: tag of the run.
+        points: ``(n, 3)``; chords of its bends lie on them [m].
+        outer: greatest outside diameter of its pipe [m].
+    """
+
+    id: str
+    points: Floats
+    outer: float
 
 
 @dataclass(frozen=True)
@@ -127,6 +150,7 @@ class Assembly:
         units: that the components refer to.
         points: terminals and junctions.
         connections: in order along their runs.
+        lines: centrelines of the runs.
     """
 
     components: tuple[Component, ...] = ()
@@ -134,6 +158,7 @@ class Assembly:
     units: tuple[Unit, ...] = ()
     points: tuple[Point, ...] = ()
     connections: tuple[Connection, ...] = ()
+    lines: tuple[Line, ...] = ()
 
     def placed(self, pose: Floats) -> Assembly:
         """The whole assembly moved by a 4x4 matrix."""
@@ -141,6 +166,7 @@ class Assembly:
             self,
             components=tuple(replace(c, pose=pose @ c.pose) for c in self.components),
             points=tuple(replace(p, point=_moved(pose, p.point)) for p in self.points),
+            lines=tuple(replace(one, points=one.points @ pose[:3, :3].T + pose[:3, 3]) for one in self.lines),
         )
 
     def prefixed(self, prefix: str) -> Assembly:
@@ -152,18 +178,27 @@ class Assembly:
         return replace(
             self,
             components=tuple(
-                replace(c, unit=named(c.unit), line=named(c.line), cluster=named(c.cluster)) for c in self.components
+                replace(c, unit=named(c.unit), line=named(c.line), cluster=named(c.cluster), holds=named(c.holds))
+                for c in self.components
             ),
             units=tuple(replace(u, id=named(u.id)) for u in self.units),
             points=tuple(replace(p, id=named(p.id)) for p in self.points),
             connections=tuple(
                 replace(c, source=named(c.source), target=named(c.target), line=named(c.line)) for c in self.connections
             ),
+            lines=tuple(replace(one, id=named(one.id)) for one in self.lines),
         )
 
-    def marked(self, unit: str | None = None, line: str | None = None, cluster: str | None = None) -> Assembly:
-        """The assembly with its components' unit, line or cluster set."""
-        given = {"unit": unit, "line": line, "cluster": cluster}
+    def marked(
+        self,
+        unit: str | None = None,
+        line: str | None = None,
+        cluster: str | None = None,
+        hand: str | None = None,
+        holds: str | None = None,
+    ) -> Assembly:
+        """The assembly with its components' unit, line, cluster, hand or clamped unit set."""
+        given = {"unit": unit, "line": line, "cluster": cluster, "hand": hand, "holds": holds}
         changes: dict[str, Any] = {key: value for key, value in given.items() if value is not None}
         return replace(self, components=tuple(replace(c, **changes) for c in self.components))
 
@@ -199,6 +234,7 @@ def gather(assemblies: Iterable[Assembly], joints: Sequence[tuple[int, int]] = (
     units: list[Unit] = []
     points: list[Point] = []
     connections: list[Connection] = []
+    lines: list[Line] = []
     for assembly in assemblies:
         shift = len(components)
         contacts += [(a + shift, b + shift) for a, b in assembly.contacts]
@@ -206,8 +242,9 @@ def gather(assemblies: Iterable[Assembly], joints: Sequence[tuple[int, int]] = (
         units += assembly.units
         points += assembly.points
         connections += assembly.connections
+        lines += assembly.lines
     contacts += joints
-    return Assembly(tuple(components), tuple(contacts), tuple(units), tuple(points), tuple(connections))
+    return Assembly(tuple(components), tuple(contacts), tuple(units), tuple(points), tuple(connections), tuple(lines))
 
 
 @dataclass(frozen=True)
@@ -221,6 +258,7 @@ class Plant(Assembly):
         looseness: greatest gap that was left between parts that touch by design [m].
         duplicates: pairs of components, the second an exact copy of the first.
         hidden: components that can't be seen from anywhere.
+        colors: how it is painted: ``own`` (by what things are or belong to), ``gray`` or ``random``.
     """
 
     name: str = ""
@@ -229,6 +267,7 @@ class Plant(Assembly):
     looseness: float = 0.0
     duplicates: tuple[tuple[int, int], ...] = ()
     hidden: tuple[int, ...] = ()
+    colors: str = "own"
 
     @property
     def n_meshes(self) -> int:
@@ -246,49 +285,11 @@ class Plant(Assembly):
         )
 
     def truth(self, paths: Sequence[str] | None = None) -> dict[str, Any]:
-        """Everything known about the plant, as plain JSON values.
+        """Everything known about the plant, as plain JSON values (``docs/truth.md``).
 
         Args:
             paths: of the components in a file; those of ``scene()`` by default.
         """
-        names = tuple(paths) if paths is not None else self.paths()
-        of_unit: dict[str, list[str]] = {unit.id: [] for unit in self.units}
-        of_cluster: dict[str, list[str]] = {}
-        for path, component in zip(names, self.components, strict=True):
-            if component.unit:
-                of_unit[component.unit].append(path)
-            if component.cluster:
-                of_cluster.setdefault(component.cluster, []).append(path)
-        return {
-            "format": "cadgraph-truth",
-            "version": 1,
-            "preset": self.name,
-            "seed": self.seed,
-            "hands": list(self.hands),
-            "meshes": [
-                {"mesh": path, "group": c.group, "name": c.name, **({"line": c.line} if c.line else {})}
-                for path, c in zip(names, self.components, strict=True)
-            ],
-            "units": [
-                {"id": u.id, "type": u.type, "kind": u.kind, "tag": u.id, "meshes": of_unit[u.id]} for u in self.units
-            ],
-            "points": [{"id": p.id, "kind": p.kind, "point": [round(x, 6) for x in p.point]} for p in self.points],
-            "connections": [
-                {
-                    "from": c.source,
-                    "to": c.target,
-                    "line": c.line,
-                    "length": round(c.length, 6),
-                    "diameter": c.diameter,
-                    "direction": c.direction,
-                    "reason": c.reason or None,
-                }
-                for c in self.connections
-            ],
-            "clusters": [{"id": name, "meshes": meshes} for name, meshes in of_cluster.items()],
-            "looseness": self.looseness,
-            "contacts": [[names[a], names[b]] for a, b in self.contacts],
-            "duplicates": [[names[a], names[b]] for a, b in self.duplicates],
-            "hidden": [names[i] for i in self.hidden],
-            "flaws": {path: list(c.flaws) for path, c in zip(names, self.components, strict=True) if c.flaws},
-        }
+        from cadgraph.environment.account import account
+
+        return account(self, tuple(paths) if paths is not None else self.paths())

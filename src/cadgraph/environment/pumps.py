@@ -123,6 +123,7 @@ def _suction(
         (gauge_tap((0.85 if strained else 0.80) * route.length, gauge, rng),),
         ends=("open", "joint"),
         nodes=(node, f"P-{number // 10}"),
+        arms=(TEE_CENTER_TO_END[sizes[0]], 0.0),
         flow="forward",
         reason="into the suction of a pump",
     )
@@ -162,6 +163,7 @@ def _discharge(
         (side_gauge_tap(0.125 * space, gauge, rng, roll=np.pi),),
         ends=("joint", "open"),
         nodes=(f"P-{number // 10}", node),
+        arms=(0.0, TEE_CENTER_TO_END[sizes[0]]),
         flow="forward",
         reason="check valve behind a pump",
     )

@@ -160,5 +160,14 @@ def _branch(
     actuated = bool(rng.random() < 0.4)
     inline = (valve_at(top - 1.25, kind, unit, dn, roll, make=make, actuated=actuated),)
     taps = (side_gauge_tap(top - 1.75, gauge, rng, down=True, roll=roll + np.pi / 2),)
-    branch = Run(f"L{number}B{bay + 1}", dn, route, inline, taps, ends=("open", "flange"), nodes=(node, ""))
+    branch = Run(
+        f"L{number}B{bay + 1}",
+        dn,
+        route,
+        inline,
+        taps,
+        ends=("open", "flange"),
+        nodes=(node, ""),
+        arms=(TEE_CENTER_TO_END[run.dn], 0.0),
+    )
     site.lay(branch, hand, [trunk.device(node)])

@@ -73,7 +73,7 @@ def _loop(number: int, x: float, dn: int, make: Make, rng: np.random.Generator) 
         s = 0.62 + float(rng.uniform(-0.05, 0.05))
         build = partial(_gauge, unit=gauge, down=leg == 1, needle=float(rng.uniform(0.6, 2.6)))
         taps.append(Tap(s if leg == 0 else length - s, build, gauge, outward))
-    return Run(f"R{number + 1}", dn, route, tuple(inline), tuple(taps), bent=True, bend=1.5)
+    return Run(f"R{number + 1}", dn, route, tuple(inline), tuple(taps), bent=True, bend=1.5, ends=("plate", "plate"))
 
 
 def _valve(hand: Hand, kind: str, unit: str, dn: int, make: Make) -> Device:

@@ -103,15 +103,16 @@ class Site:
 
     def plant(self, name: str, seed: int, hand: Hand) -> Plant:
         """The finished plant, with the gaps and unevenness of its hand."""
-        whole = loosen(gather(self._parts, self._joints), hand, seed)
+        whole = loosen(gather(self._parts, self._joints), hand, seed).marked(hand=hand.name)
         return Plant(
             whole.components,
             whole.contacts,
             whole.units,
             whole.points,
             whole.connections,
-            name,
-            seed,
-            (hand.name,),
-            hand.looseness,
+            whole.lines,
+            name=name,
+            seed=seed,
+            hands=(hand.name,),
+            looseness=hand.looseness,
         )

@@ -121,7 +121,8 @@ def _vents(
         touching_other,
     )
     up = (start[0], y, level - TEE_CENTER_TO_END[dn])
-    branch = Run("L3", dn, Route(np.array([start, up])), ends=("joint", "open"), nodes=("T-1", "J-1"))
+    arm = TEE_CENTER_TO_END[dn]
+    branch = Run("L3", dn, Route(np.array([start, up])), ends=("joint", "open"), nodes=("T-1", "J-1"), arms=(0.0, arm))
     site.lay(branch, hand, touching, [trunk.device("J-1")])
     return trunk
 
