@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -75,10 +76,16 @@ class Caster:
         self.low: Floats = vertices.min(axis=0)
         self.high: Floats = vertices.max(axis=0)
         self.center: Floats = (self.low + self.high) / 2
+        self._n_faces = len(scene.faces)
         self._tree = EmbreeScene(robust=True)
         self._mesh = TriangleMesh(self._tree, (vertices - self.center).astype(np.float32), indices.astype(np.int32))
         # The first ray makes it build the tree; done here, so that threads find it finished.
         self._tree.run(np.zeros((1, 3), np.float32), np.ones((1, 3), np.float32))
+
+    @property
+    def faces(self) -> Ints:
+        """``(n_primitives,)`` the scene's face behind each triangle that is cast at."""
+        return np.arange(self._n_faces) if self._face_of_primitive is None else self._face_of_primitive
 
     @property
     def diagonal(self) -> float:
@@ -104,6 +111,22 @@ class Caster:
             face = np.where(missed, -1, self._face_of_primitive[primitive]).astype(np.int32)
         normal, _ = normalized(found["Ng"])
         return Hits(face, found["u"], found["v"], np.where(missed, np.float32(np.inf), found["tfar"]), normal)
+
+    def trace(self, origins: Singles, directions: Singles) -> dict[str, Any]:
+        """What each ray meets first, as the ray caster says it: for callers that work through the answer themselves.
+
+        Args:
+            origins: ``(n, 3)`` about the local centre (see :meth:`local`).
+            directions: ``(n, 3)`` unit vectors.
+
+        Returns:
+            ``primID`` (index into :attr:`faces`, -1: nothing), ``u``, ``v``, ``tfar`` [m] and ``Ng`` (not of unit
+            length), one row for each ray.
+        """
+        found: dict[str, Any] = self._tree.run(
+            np.ascontiguousarray(origins, np.float32), np.ascontiguousarray(directions, np.float32), output=1
+        )
+        return found
 
     def blocked(self, origins: Singles, directions: Singles, lengths: Singles) -> npt.NDArray[np.bool_]:
         """``(n,)`` whether anything lies on each ray before the given length [m]; arguments as in :meth:`first`."""

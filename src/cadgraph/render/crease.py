@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import threading
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -120,15 +121,23 @@ class CornerNormals:
             u: ``(n,)`` barycentric weight of the second corner.
             v: ``(n,)`` barycentric weight of the third corner.
         """
+        corners = self.ready(meshes)[faces]
+        w = (1 - u - v)[:, None]
+        normals: Singles = corners[:, 0] * w + corners[:, 1] * u[:, None] + corners[:, 2] * v[:, None]
+        return normals
+
+    def ready(self, meshes: npt.NDArray[np.integer[Any]]) -> Singles:
+        """``(n_faces, 3, 3)`` the normals of the whole scene, worked out for these meshes at least; not to be changed.
+
+        Args:
+            meshes: ``(n,)`` indices, in any order, repeated at will.
+        """
         shown = np.zeros(len(self._ready), bool)
         shown[meshes] = True
         if (shown & ~self._ready).any():
             with self._lock:
                 self._work_out(np.flatnonzero(shown & ~self._ready))
-        corners = self._normals[faces]
-        w = (1 - u - v)[:, None]
-        normals: Singles = corners[:, 0] * w + corners[:, 1] * u[:, None] + corners[:, 2] * v[:, None]
-        return normals
+        return self._normals
 
     def _work_out(self, meshes: npt.NDArray[np.int64]) -> None:
         counts = np.diff(self._scene.face_offsets)[meshes]

@@ -10,9 +10,10 @@ import numpy.typing as npt
 from cadgraph.render.camera import Camera, direction_from_angles, frame
 from cadgraph.render.caster import Caster
 from cadgraph.render.picture import Renderer
+from cadgraph.render.target import Target, View, choose_views
 from cadgraph.scene import Floats, Ints
 
-__all__ = ["three_quarter_view"]
+__all__ = ["Target", "View", "choose_views", "three_quarter_view"]
 
 ELEVATION = math.radians(27.0)
 """High enough to see on top of pipes and decks, low enough to see between them."""
