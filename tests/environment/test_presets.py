@@ -134,7 +134,7 @@ def test_flow_is_known_where_physics_fixes_it():
 
 def test_sins_are_recorded():
     clean = make("riser", 0)
-    sins = Sins(duplicates=0.05, hidden=0.2, flipped=0.05, soup=0.05, degenerate=0.05, gray=True)
+    sins = Sins(duplicates=0.05, hidden=0.2, flipped=0.05, soup=0.05, degenerate=0.05, colors="gray")
     plant = spoil(clean, sins, 3)
     assert len(plant.duplicates) == round(0.05 * clean.n_meshes)
     assert plant.hidden

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any
 
 import typer
 from rich.markup import escape
@@ -25,19 +26,38 @@ def make_plant(
         float,
         typer.Option(min=0, max=1, help="Share of meshes with each modelling sin: there twice, hidden, inside out..."),
     ] = 0.0,
-    unit: Annotated[float, typer.Option(help="Metres in one authored unit.")] = 0.001,
-    up: Annotated[str, typer.Option(help="Authored up axis, Y or Z.")] = "Z",
-    instances: Annotated[bool, typer.Option("--instances", help="Repeated shapes as native instances.")] = False,
+    sins: Annotated[
+        bool,
+        typer.Option(
+            "--sins", help="Draw all sins by the seed: those of --spoilt, unit, up axis, instances, frames, polygons."
+        ),
+    ] = False,
+    unit: Annotated[float | None, typer.Option(help="Metres in one authored unit; 0.001 by default.")] = None,
+    up: Annotated[str | None, typer.Option(help="Authored up axis, Y or Z; Z by default.")] = None,
+    instances: Annotated[
+        str | None, typer.Option(help="Repeated shapes: none, native, nested, point or mixed; none by default.")
+    ] = None,
+    polygons: Annotated[
+        float | None, typer.Option(min=0, max=1, help="Share of meshes with polygons of more than three corners.")
+    ] = None,
 ) -> None:
     """Generate a plant as USD with meaningless names, and its ground truth beside it."""
-    from cadgraph.environment import Sins, UsdStyle, make, write_usd
+    from cadgraph.environment import Sins, UsdStyle, draw_sins, draw_style, make, write_usd
 
-    if up not in ("Y", "Z"):
-        raise ValueError(f"--up {up}: give Y or Z")
-    sins = Sins(duplicates=spoilt, hidden=spoilt, flipped=spoilt, soup=spoilt, degenerate=spoilt)
-    plant = make(preset, seed, hand, sins if spoilt else None)
-    axis: Literal["Y", "Z"] = "Y" if up == "Y" else "Z"
-    truth = write_usd(plant, output, UsdStyle(meters_per_unit=unit, up_axis=axis, instances=instances))
+    style = draw_style(seed) if sins else UsdStyle()
+    given: dict[str, Any] = {"meters_per_unit": unit, "up_axis": up, "instances": instances, "polygons": polygons}
+    for name, value, choices in (
+        ("--up", up, ("Y", "Z")),
+        ("--instances", instances, ("none", "native", "nested", "point", "mixed")),
+    ):
+        if value is not None and value not in choices:
+            raise ValueError(f"{name} {value}: give {', '.join(choices[:-1])} or {choices[-1]}")
+    if unit is not None and not 0 < unit < float("inf"):
+        raise ValueError(f"--unit {unit}: give metres, more than 0")
+    style = replace(style, **{key: value for key, value in given.items() if value is not None})
+    share = Sins(spoilt, spoilt, spoilt, spoilt, spoilt, spoilt) if spoilt else None
+    plant = make(preset, seed, hand, draw_sins(seed) if sins else share)
+    truth = write_usd(plant, output, style)
     out.print(f"wrote {escape(str(output))} and {escape(str(truth))}")
 
 

@@ -1,9 +1,10 @@
-"""Modelling sins: a hand's gaps, overlaps and unevenness; duplicates, hidden bodies and broken meshes at random."""
+"""Modelling sins: gaps, overlaps and unevenness; duplicates, hidden bodies, broken meshes and odd paint at random."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from cadgraph.environment.plant import Assembly, Component, Plant
 from cadgraph.environment.solid import Solid, box
 from cadgraph.scene import Floats, Scene
 
-__all__ = ["Sins", "loosen", "spoil"]
+__all__ = ["Sins", "draw_sins", "loosen", "spoil"]
 
 _LEAST_SCALE = 0.6  # thin parts (gaskets, washers) keep this share of their thickness
 
@@ -77,7 +78,9 @@ class Sins:
         flipped: meshes with their faces inward.
         soup: meshes whose triangles share no corners.
         degenerate: meshes with triangles without area.
-        gray: whether all meshes have one colour.
+        gaps: meshes that no longer reach their neighbours, or run into them.
+        gap: least and greatest gap of these, half of it on each side; negative: overlap [m].
+        colors: ``own`` leaves them, ``gray`` gives all meshes one, ``random`` each its own.
     """
 
     duplicates: float = 0.0
@@ -85,7 +88,18 @@ class Sins:
     flipped: float = 0.0
     soup: float = 0.0
     degenerate: float = 0.0
-    gray: bool = False
+    gaps: float = 0.0
+    gap: tuple[float, float] = (-0.001, 0.004)
+    colors: Literal["own", "gray", "random"] = "own"
+
+
+def draw_sins(seed: int, most: float = 0.1) -> Sins:
+    """Sins at random, each with its own share up to ``most``, some of them none."""
+    rng = np.random.default_rng([seed, 12])
+    shares = [float(rng.uniform(0, most)) if rng.random() < 0.6 else 0.0 for _ in range(6)]
+    paints: tuple[Literal["own", "gray", "random"], ...] = ("own", "own", "gray", "random")
+    duplicates, hidden, flipped, soup, degenerate, gaps = shares
+    return Sins(duplicates, hidden, flipped, soup, degenerate, 5 * gaps, colors=paints[int(rng.integers(len(paints)))])
 
 
 def spoil(plant: Plant, sins: Sins, seed: int = 0) -> Plant:
@@ -97,12 +111,14 @@ def spoil(plant: Plant, sins: Sins, seed: int = 0) -> Plant:
         seed: which meshes.
     """
     rng = np.random.default_rng([seed, 9])
-    components = list(plant.components)
-    n = len(components)
+    n = len(plant.components)
 
     def some(share: float) -> list[int]:
         return [int(i) for i in np.sort(rng.permutation(n)[: round(share * n)])]
 
+    if sins.gaps:
+        plant = _parted(plant, some(sins.gaps), sins.gap, np.random.default_rng([seed, 13]))
+    components = list(plant.components)
     flaws: tuple[tuple[str, float, Callable[[Solid], Solid]], ...] = (
         ("flipped", sins.flipped, _flipped),
         ("degenerate", sins.degenerate, _degenerate),
@@ -121,9 +137,29 @@ def spoil(plant: Plant, sins: Sins, seed: int = 0) -> Plant:
         if inside is not None:
             hidden.append(len(components))
             components.append(inside)
-    if sins.gray:
+    if sins.colors == "gray":
         components = [replace(c, color=(0.5, 0.5, 0.5)) for c in components]
-    return replace(plant, components=tuple(components), duplicates=tuple(duplicates), hidden=tuple(hidden))
+    elif sins.colors == "random":
+        drawn = np.random.default_rng([seed, 14]).random((len(components), 3)).round(3).tolist()
+        components = [replace(c, color=(r, g, b)) for c, (r, g, b) in zip(components, drawn, strict=True)]
+    return replace(
+        plant,
+        components=tuple(components),
+        duplicates=tuple(duplicates),
+        hidden=tuple(hidden),
+        colors=sins.colors if sins.colors != "own" else plant.colors,
+    )
+
+
+def _parted(plant: Plant, chosen: list[int], sizes: tuple[float, float], rng: np.random.Generator) -> Plant:
+    """Leaves gaps round some meshes of a plant, and lets some run into their neighbours; the ground stays."""
+    components = list(plant.components)
+    for i in chosen:
+        one, gap = components[i], round(float(rng.uniform(*sizes)), 6)
+        if one.cluster:
+            components[i] = replace(one, pose=one.pose @ _shrunk(one.solid, gap), gap=one.gap + gap)
+    parted = replace(plant, components=tuple(components), looseness=plant.looseness + max(0.0, sizes[1]))
+    return replace(parted, contacts=(*plant.contacts, *_met(parted)))
 
 
 def _flipped(solid: Solid) -> Solid:
