@@ -24,6 +24,7 @@ __all__ = [
     "LabelConfig",
     "LoadConfig",
     "PreprocessConfig",
+    "RelateConfig",
     "ReportConfig",
     "Section",
     "describe",
@@ -139,6 +140,21 @@ class LabelConfig(Section):
     overrule: bool = _setting(True, "labels from outside replace those of the labeler; off: they only fill gaps")
 
 
+class RelateConfig(Section):
+    """What counts as a connection along the pipes."""
+
+    bridge: float = _setting(
+        0.012,
+        "ends of pipes that face each other over at most this gap are joined [m]",
+        "ours: see functional.md",
+        ge=0,
+    )
+    leg: float = _setting(
+        0.6, "a gauge stands in the run that it is tapped into where the way to it is at most this long [m]", ge=0
+    )
+    flow: tuple[str, ...] = _setting((), "flow directions that are known: 'P-001 -> T-001', tags of units or nodes")
+
+
 class ReportConfig(Section):
     """The pictures and the page."""
 
@@ -161,6 +177,7 @@ class Config(Section):
     group: GroupConfig = GroupConfig()
     cluster: ClusterConfig = ClusterConfig()
     label: LabelConfig = LabelConfig()
+    relate: RelateConfig = RelateConfig()
     report: ReportConfig = ReportConfig()
 
     def replace(self, changes: Mapping[str, Any]) -> Config:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from cadgraph.scene import Floats, Ints, Scene
 
-__all__ = ["Contacts", "Label", "Parts", "Properties", "UnitParts"]
+__all__ = ["Contacts", "Label", "Link", "Network", "Opening", "Parts", "Place", "Properties", "UnitParts"]
 
 Bools = npt.NDArray[np.bool_]
 
@@ -124,8 +124,98 @@ class UnitParts:
         unit_type: as the vocabulary calls it (``"valve"``).
         tag: ``V-001``, ``G-001``...
         parts: part indices, ascending.
+        kind: ``"ball valve"``, ``"pressure gauge"``...; None where unknown.
+        openings: where lines join it.
     """
 
     unit_type: str
     tag: str
     parts: tuple[int, ...]
+    kind: str | None = None
+    openings: tuple[Opening, ...] = ()
+
+
+@dataclass(frozen=True)
+class Opening:
+    """Where a line joins a unit.
+
+    Args:
+        point: its middle, ``(x, y, z)`` [m], relative to the scene's origin.
+        direction: unit vector out of the unit, or None.
+        diameter: bore, else outer diameter, of the line that joins [m], or None.
+    """
+
+    point: tuple[float, float, float]
+    direction: tuple[float, float, float] | None = None
+    diameter: float | None = None
+
+
+@dataclass(frozen=True)
+class Place:
+    """A node of the functional network that is no unit.
+
+    Args:
+        kind: ``junction``, or how a run ends there: ``open``, ``blind`` or ``unknown``.
+        point: ``(x, y, z)`` [m], relative to the scene's origin.
+        parts: that meet or end there.
+    """
+
+    kind: str
+    point: tuple[float, float, float]
+    parts: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Link:
+    """Two nodes that follow each other along a run.
+
+    Nodes are numbered: first the units, then the places.
+
+    Args:
+        source: node.
+        target: node.
+        via: parts in order.
+        path: along the centreline from the source to the target [m], relative to the scene's origin.
+        length: along the centreline [m].
+        sizes: nominal sizes (DN) along the way, where they begin.
+        size: of most of its length, or None.
+        diameter: nominal bore [m], or None.
+        source_port: index of the source's opening, -1 where it is no unit.
+        target_port: likewise of the target.
+        confidence: of the connection, 0..1.
+        direction: of the flow: ``forward`` (source to target), ``backward`` or ``unknown``.
+        reason: why, or None.
+        direction_confidence: 0..1, or None.
+    """
+
+    source: int
+    target: int
+    via: tuple[int, ...]
+    path: tuple[tuple[float, float, float], ...]
+    length: float
+    sizes: tuple[int, ...] = ()
+    size: int | None = None
+    diameter: float | None = None
+    source_port: int = -1
+    target_port: int = -1
+    confidence: float = 1.0
+    direction: Literal["forward", "backward", "unknown"] = "unknown"
+    reason: str | None = None
+    direction_confidence: float | None = None
+
+
+@dataclass(frozen=True)
+class Network:
+    """The functional network.
+
+    Args:
+        units: with their openings.
+        places: junctions and terminals.
+        links: between units and places.
+        systems: for each connected network its nodes, ascending; units that nothing joins are in none.
+    """
+
+    units: tuple[UnitParts, ...] = ()
+    places: tuple[Place, ...] = ()
+    links: tuple[Link, ...] = ()
+    systems: tuple[tuple[int, ...], ...] = ()

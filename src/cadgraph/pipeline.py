@@ -20,7 +20,8 @@ from cadgraph.stages.inspect import inspect_meshes
 from cadgraph.stages.label import Labeler, apply_given, label_parts, labeler_of
 from cadgraph.stages.parts import make_parts
 from cadgraph.stages.preprocess import prepare_scene
-from cadgraph.stages.relate import find_units, pipe_systems, relate_units
+from cadgraph.stages.relate import pipe_systems, relate_units
+from cadgraph.stages.relate.connect import connect_units
 from cadgraph.vocabulary import Vocabulary, default_vocabulary
 
 __all__ = ["STAGES", "build"]
@@ -61,6 +62,7 @@ def build(
 
     progress("measure", 0)
     scene, properties, told_meshes = inspect_meshes(scene, measure(scene), config.inspect)
+    told = (*told_scene, *told_meshes)
     ground, told_ground = find_ground(scene, properties, config.ground)
 
     progress("contacts", 0)
@@ -81,8 +83,8 @@ def build(
     named, told_labels = apply_given(guessed, labels, scene, parts, config.label)
 
     progress("relate", 0)
-    units = find_units(named, contacts, cluster, vocabulary)
-    related = relate_units(units, named, contacts, cluster, vocabulary)
+    network, told_lines = connect_units(parts, named, guessed, contacts, cluster, vocabulary, config)
+    related = relate_units(network.units, named, contacts, cluster, vocabulary)
 
     progress("assemble", 0)
     results = Results(
@@ -92,9 +94,9 @@ def build(
         cluster=cluster,
         pipe_systems=pipe_systems(named, cluster, vocabulary),
         labels=named,
-        units=units,
+        network=network,
         related=related,
-        diagnostics=(*scene.diagnostics, *told_scene, *told_meshes, *told_ground, *told_bridges, *told_labels),
+        diagnostics=(*scene.diagnostics, *told, *told_ground, *told_bridges, *told_labels, *told_lines),
     )
     graph = assemble_graph(results, vocabulary, config.model_dump(mode="json"))
     progress("assemble", 1)

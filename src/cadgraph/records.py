@@ -209,6 +209,9 @@ class Connected(_Record):
     length: float | None = Field(default=None, description="along the centreline [m]")
     diameter: float | None = Field(default=None, description="nominal bore estimate [m]")
     size: int | None = Field(default=None, description="nominal size (DN) by the standard tables of outer diameters")
+    sizes: tuple[int, ...] = Field(
+        default=(), description="nominal sizes (DN) from the source to the target, where they change: reducers"
+    )
     source_port: str | None = Field(default=None, description="name of the port at the source, where that is a unit")
     target_port: str | None = Field(default=None, description="name of the port at the target, where that is a unit")
     path: tuple[Point, ...] = Field(

@@ -5,25 +5,32 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
 from cadgraph.graph import SceneGraph
-from cadgraph.parts import Contacts, Label, Parts, UnitParts
+from cadgraph.parts import Contacts, Label, Link, Network, Parts, UnitParts
 from cadgraph.records import (
     Adjacent,
     Cluster,
+    Connected,
     Contains,
     Edge,
     Finding,
     GraphDocument,
+    Junction,
     Node,
     OrientedBox,
     Part,
     PartLabel,
+    Point,
+    Port,
     Related,
     Site,
     SourceRecord,
+    System,
+    Terminal,
     Unit,
     points,
 )
@@ -33,6 +40,7 @@ from cadgraph.vocabulary import Vocabulary
 __all__ = ["Results", "assemble_graph"]
 
 PIPE_SYSTEM = "pipe system"
+_ENDINGS: dict[str, Literal["open", "blind"]] = {"open": "open", "blind": "blind"}
 
 
 @dataclass(frozen=True)
@@ -46,7 +54,7 @@ class Results:
         cluster: ``(n_parts,)`` -1 for the ground and for noise.
         pipe_systems: the clusters that hold a connector part.
         labels: of each part.
-        units: functional units.
+        network: functional units, and what follows what along the lines between them.
         related: pairs of unit indices.
         diagnostics: of all stages.
     """
@@ -57,7 +65,7 @@ class Results:
     cluster: Ints
     pipe_systems: frozenset[int]
     labels: Sequence[Label | None]
-    units: Sequence[UnitParts]
+    network: Network
     related: Sequence[tuple[int, int]]
     diagnostics: Sequence[Diagnostic]
 
@@ -86,7 +94,12 @@ def assemble_graph(results: Results, vocabulary: Vocabulary, config: dict[str, o
     edges += [Contains(source=unit.id, target=part) for unit in units for part in unit.parts]
     edges += _adjacency(results, part_ids)
     edges += [Related(source=units[a].id, target=units[b].id) for a, b in results.related]
-    nodes: tuple[Node, ...] = (site, *clusters, *_parts(results, part_ids), *units)
+    places = _places(results, part_ids)
+    ends = [node.id for node in (*units, *places)]
+    edges += [_connected(link, results, ends, part_ids) for link in results.network.links]
+    systems = _systems(results, ends)
+    edges += [Contains(source=s.id, target=node) for s in systems for node in (*s.units, *s.junctions, *s.terminals)]
+    nodes: tuple[Node, ...] = (site, *clusters, *_parts(results, part_ids), *units, *places, *systems)
     return SceneGraph(
         GraphDocument(
             source=SourceRecord(
@@ -157,19 +170,106 @@ def _clusters(results: Results, ids: Sequence[str]) -> list[Cluster]:
 
 def _units(results: Results, part_ids: Sequence[str]) -> list[Unit]:
     nodes = []
-    for unit in results.units:
+    for unit in results.network.units:
         centroid, low, high = _extent(results, unit.parts)
         nodes.append(
             Unit(
                 id=f"unit-{unit.tag}",
                 unit_type=unit.unit_type,
                 tag=unit.tag,
+                kind=unit.kind,
                 parts=tuple(part_ids[part] for part in unit.parts),
+                ports=_ports(unit, results.scene.origin),
                 centroid=centroid,
                 aabb=(low, high),
             )
         )
     return nodes
+
+
+def _ports(unit: UnitParts, origin: Floats) -> tuple[Port, ...]:
+    """The openings, named N1, N2... in their order."""
+    return tuple(
+        Port(
+            name=f"N{number}",
+            point=_point(opening.point, origin),
+            direction=None if opening.direction is None else points(opening.direction)[0],
+            diameter=None if opening.diameter is None else _rounded(opening.diameter),
+        )
+        for number, opening in enumerate(unit.openings, 1)
+    )
+
+
+def _places(results: Results, part_ids: Sequence[str]) -> list[Junction | Terminal]:
+    """Junctions and terminals, each kind numbered in its order."""
+    nodes: list[Junction | Terminal] = []
+    counts: Counter[str] = Counter()
+    for place in results.network.places:
+        where, parts = _point(place.point, results.scene.origin), tuple(part_ids[part] for part in place.parts)
+        layer = "junction" if place.kind == "junction" else "terminal"
+        name = f"{layer}-{counts[layer]:03d}"
+        counts[layer] += 1
+        if layer == "junction":
+            nodes.append(Junction(id=name, point=where, parts=parts))
+        else:
+            nodes.append(Terminal(id=name, kind=_ENDINGS.get(place.kind, "unknown"), point=where, parts=parts))
+    return nodes
+
+
+def _connected(link: Link, results: Results, ends: Sequence[str], part_ids: Sequence[str]) -> Connected:
+    path = points(np.asarray(link.path, np.float64).reshape(-1, 3) + results.scene.origin)
+    return Connected(
+        source=ends[link.source],
+        target=ends[link.target],
+        via=tuple(part_ids[part] for part in link.via),
+        length=_rounded(link.length),
+        diameter=None if link.diameter is None else _rounded(link.diameter),
+        size=link.size,
+        sizes=link.sizes,
+        source_port=_port_name(link.source_port),
+        target_port=_port_name(link.target_port),
+        path=path,
+        direction=link.direction,
+        reason=link.reason,
+        direction_confidence=link.direction_confidence,
+        confidence=round(link.confidence, 6),
+    )
+
+
+def _systems(results: Results, ends: Sequence[str]) -> list[System]:
+    """The connected networks; one's length and sizes are those of its connections."""
+    network, n_units = results.network, len(results.network.units)
+    system_of = {node: k for k, members in enumerate(network.systems) for node in members}
+    lengths = [0.0] * len(network.systems)
+    sizes: list[set[int]] = [set() for _ in network.systems]
+    for link in network.links:
+        lengths[system_of[link.source]] += link.length
+        sizes[system_of[link.source]].update((*link.sizes, *(() if link.size is None else (link.size,))))
+    return [
+        System(
+            id=f"system-{k:03d}",
+            units=tuple(ends[node] for node in members if node < n_units),
+            junctions=tuple(ends[node] for node in members if _is(network, node, junction=True)),
+            terminals=tuple(ends[node] for node in members if _is(network, node, junction=False)),
+            length=_rounded(lengths[k]),
+            sizes=tuple(sorted(sizes[k])),
+        )
+        for k, members in enumerate(network.systems)
+    ]
+
+
+def _is(network: Network, node: int, junction: bool) -> bool:
+    """Whether a node is a junction, or a terminal."""
+    place = node - len(network.units)
+    return place >= 0 and (network.places[place].kind == "junction") == junction
+
+
+def _port_name(number: int) -> str | None:
+    return f"N{number + 1}" if number >= 0 else None
+
+
+def _point(point: Point, origin: Floats) -> Point:
+    return points(np.asarray(point) + origin)[0]
 
 
 def _adjacency(results: Results, part_ids: Sequence[str]) -> list[Adjacent]:

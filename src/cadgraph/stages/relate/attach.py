@@ -1,0 +1,263 @@
+"""What joins what: every end of a line finds the end, the side of a line, or the solid that it belongs to."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from cadgraph.geometry.centreline import Centreline
+from cadgraph.geometry.region import Regions, contact_regions
+from cadgraph.parts import Contacts, Parts
+from cadgraph.scene import Floats, Ints
+from cadgraph.stages.relate.joint import (
+    Ends,
+    Facing,
+    Tap,
+    face_ends,
+    find_tap,
+    gather_ends,
+    nearest_on,
+    same_place,
+)
+
+__all__ = ["Attachments", "Mount", "Side", "attach_lines", "flat_contacts", "regions_of"]
+
+# The middle of a contact lies before an end, or behind it by at most this many radii or this much [m]: a nozzle that
+# runs into a shell.
+_DEPTH, _LEAST_DEPTH = 3.0, 0.06
+# ... and off its axis by at most this many radii: a saddle on a slanted shell.
+_OFF = 1.3
+# A contact's normal that is this sure of itself must agree with the direction of the end (cosine).
+_FLAT, _AGREES = 0.6, 0.2
+# Two solids are flanged to each other where they meet in a flat round area: normals this parallel, extents this alike,
+# and at least this large against the lesser solid.
+_FACE_FLAT, _FACE_ROUND, _FACE_SHARE = 0.9, 0.72, 0.25
+
+
+@dataclass(frozen=True)
+class Mount:
+    """An end of a line at a solid part.
+
+    Args:
+        row: of the end.
+        part: the solid.
+        gap: between them [m].
+    """
+
+    row: int
+    part: int
+    gap: float
+
+
+@dataclass(frozen=True)
+class Side:
+    """A solid part that touches the side of a line.
+
+    Args:
+        solid: the part.
+        part: whose line it is.
+        tap: where on it.
+    """
+
+    solid: int
+    part: int
+    tap: Tap
+
+
+@dataclass(frozen=True)
+class Attachments:
+    """All that is joined, by parts.
+
+    Args:
+        ends: of all lines.
+        facings: ends that face each other.
+        doubled: pairs of ends in one place that look the same way: a slip-on flange and its pipe.
+        taps: end, part on whose line it sits, and where.
+        mounts: ends at solids.
+        sides: solids that touch the sides of lines.
+        touching: pairs of solids in contact, first < second, and where [m].
+    """
+
+    ends: Ends
+    facings: tuple[Facing, ...]
+    doubled: tuple[tuple[int, int], ...]
+    taps: tuple[tuple[int, int, Tap], ...]
+    mounts: tuple[Mount, ...]
+    sides: tuple[Side, ...]
+
+
+def attach_lines(
+    parts: Parts, contacts: Contacts, lines: Mapping[int, Centreline], solids: Collection[int], bridge: float
+) -> Attachments:
+    """Finds for each end of a line what it joins.
+
+    Args:
+        parts: of the scene.
+        contacts: pairs of parts that are near.
+        lines: of the connector parts.
+        solids: parts without a line that lines may end at: of units, and connectors of odd shape.
+        bridge: greatest gap between ends that face each other [m].
+    """
+    ends = gather_ends(lines)
+    solid = set(solids)
+    facings = face_ends(ends, contacts, bridge, _shut(contacts, lines, solid))
+    partner = {facing.first: facing.second for facing in facings} | {f.second: f.first for f in facings}
+    neighbors = _neighbors(contacts, lines)
+    taps = []
+    loose = [row for row in range(len(ends.part)) if row not in partner]
+    doubled = _double(ends, loose, partner, neighbors, bridge)
+    loose = sorted(set(loose) - {row for row, _ in doubled})
+    mounts, sides = _mount(parts, contacts, lines, solid, ends, set(loose))
+    held = {mount.row: mount.gap for mount in mounts}
+    for row in loose:
+        options = [
+            (tap.gap, other, tap)
+            for other, gap in neighbors.get(int(ends.part[row]), ())
+            if (tap := find_tap(ends, row, lines[other], gap + bridge)) is not None
+        ]
+        if options and row not in held:
+            _, other, tap = min(options, key=lambda option: (option[2].sleeve, round(option[0], 6), option[1]))
+            taps.append((row, other, tap))
+    return Attachments(ends, tuple(facings), tuple(doubled), tuple(taps), mounts, sides)
+
+
+def _double(
+    ends: Ends,
+    loose: Sequence[int],
+    partner: Mapping[int, int],
+    neighbors: Mapping[int, Sequence[tuple[int, float]]],
+    bridge: float,
+) -> list[tuple[int, int]]:
+    """Loose ends that lie where another end lies which looks the same way, and that one."""
+    doubled: list[tuple[int, int]] = []
+    gone: set[int] = set()
+    for row in loose:
+        part = int(ends.part[row])
+        there = [
+            r
+            for other, _ in neighbors.get(part, ())
+            for r in ends.of_part[other]
+            # The end that the other side of this part faces looks the same way too.
+            if r not in gone and (r not in partner or int(ends.part[partner[r]]) != part)
+        ]
+        twin = same_place(ends, row, there, max(0.5 * bridge, 0.2 * float(ends.radius[row])))
+        # Of two loose ends the one that is not too long to be a flange goes; of equal ones the later.
+        if twin is not None and (twin in partner or (ends.length[row], row) <= (ends.length[twin], twin)):
+            doubled.append((row, twin))
+            gone.add(row)
+    return doubled
+
+
+def _neighbors(contacts: Contacts, lines: Mapping[int, Centreline]) -> dict[int, list[tuple[int, float]]]:
+    """The parts with lines that are near each part with a line, and how near."""
+    found: dict[int, list[tuple[int, float]]] = {}
+    for (a, b), distance in zip(contacts.pairs.tolist(), contacts.distance.tolist(), strict=True):
+        if a in lines and b in lines:
+            found.setdefault(a, []).append((b, distance))
+            found.setdefault(b, []).append((a, distance))
+    return found
+
+
+def _shut(contacts: Contacts, lines: Mapping[int, Centreline], solids: set[int]) -> list[tuple[int, int]]:
+    """Pairs of lines that are near one and the same solid: it may lie between them."""
+    at_solid: dict[int, list[int]] = {}
+    for a, b in contacts.pairs.tolist():
+        if a in lines and b in solids:
+            at_solid.setdefault(b, []).append(a)
+        elif b in lines and a in solids:
+            at_solid.setdefault(a, []).append(b)
+    return [(p, q) for near in at_solid.values() if len(near) < 32 for p in near for q in near if p < q]
+
+
+def regions_of(parts: Parts, contacts: Contacts, rows: Ints, eps: float) -> Regions:
+    """The extents of some contacts only."""
+    pairs = contacts.pairs[rows]
+    used = np.unique(pairs)
+    chosen = Contacts(np.searchsorted(used, pairs), contacts.distance[rows], contacts.points[rows])
+    return contact_regions(parts.scene.select(used), chosen, eps)
+
+
+def _mount(
+    parts: Parts,
+    contacts: Contacts,
+    lines: Mapping[int, Centreline],
+    solids: set[int],
+    ends: Ends,
+    loose: set[int],
+) -> tuple[tuple[Mount, ...], tuple[Side, ...]]:
+    """Ends at solids: each at the nearest; and solids at the sides of lines."""
+    rows = [
+        k
+        for k, (a, b) in enumerate(contacts.pairs.tolist())
+        if (a in lines and b in solids) or (b in lines and a in solids)
+    ]
+    if not rows:
+        return (), ()
+    index = np.array(rows, np.int64)
+    regions = regions_of(parts, contacts, index, max(float(contacts.distance.max()), 0.002))
+    best: dict[int, tuple[float, float, int]] = {}
+    sides = []
+    for k, row in enumerate(rows):
+        a, b = contacts.pairs[row].tolist()
+        line, solid, sense = (a, b, 1.0) if a in lines else (b, a, -1.0)
+        place, normal, gap = regions.centroid[k], sense * regions.normal[k], float(contacts.distance[row])
+        reached = False
+        for end in ends.of_part.get(line, ()):
+            miss = _miss(ends, end, place, normal if regions.flatness[k] > _FLAT else None, gap)
+            if miss is None:
+                continue
+            reached = True
+            if end in loose and (end not in best or (miss, gap, solid) < best[end]):
+                best[end] = (miss, gap, solid)
+        if not reached:
+            number, near = min(
+                enumerate(nearest_on(branch, place) for branch in lines[line].branches), key=lambda option: option[1][4]
+            )
+            sides.append(Side(solid, line, Tap(number, near[0], near[1], gap)))
+    mounts = tuple(Mount(end, solid, gap) for end, (_, gap, solid) in sorted(best.items()))
+    return mounts, tuple(sides)
+
+
+def _miss(ends: Ends, row: int, place: Floats, normal: Floats | None, gap: float) -> float | None:
+    """How far the middle of a contact is from an end [m]; None where it is not at that end."""
+    direction, radius = ends.direction[row], float(ends.radius[row])
+    offset = place - ends.point[row]
+    along = float(offset @ direction)
+    off = float(np.linalg.norm(offset - along * direction))
+    depth = min(max(_DEPTH * radius, _LEAST_DEPTH), 0.5 * float(ends.length[row]))
+    if not -depth - 0.001 <= along <= gap + 0.5 * radius + 0.005 or off > _OFF * radius + gap:
+        return None
+    if normal is not None and float(normal @ direction) < _AGREES:
+        return None
+    return abs(along) + 0.5 * off
+
+
+def flat_contacts(
+    parts: Parts, contacts: Contacts, pairs: Iterable[tuple[int, int]], eps: float
+) -> dict[tuple[int, int], tuple[Floats, Floats]]:
+    """Which pairs of parts are flanged to each other: they meet in a flat round area.
+
+    Returns:
+        For each such pair the middle of the area [m] and its normal, from the first to the second.
+    """
+    wanted = set(pairs)
+    rows = [k for k, (a, b) in enumerate(contacts.pairs.tolist()) if (a, b) in wanted]
+    if not rows:
+        return {}
+    index = np.array(rows, np.int64)
+    regions = regions_of(parts, contacts, index, eps)
+    found = {}
+    for k, row in enumerate(rows):
+        a, b = contacts.pairs[row].tolist()
+        wide, high, thin = regions.extents[k]
+        size = min(float(parts.properties.obb_extents[part, 1]) for part in (a, b))
+        if (
+            regions.flatness[k] >= _FACE_FLAT
+            and high >= _FACE_ROUND * wide
+            and thin <= 0.2 * wide + 0.002
+            and wide >= _FACE_SHARE * size
+        ):
+            found[a, b] = regions.centroid[k], regions.normal[k]
+    return found

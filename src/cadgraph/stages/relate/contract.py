@@ -1,0 +1,148 @@
+"""From spans to runs: what is there twice goes, gauges take their taps' places, and what merely passes is joined."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import replace
+
+import numpy as np
+
+from cadgraph.scene import Floats
+from cadgraph.stages.relate.network import Drawing
+from cadgraph.stages.relate.span import Net, Span
+
+__all__ = ["simplify"]
+
+# Two spans between the same nodes are one thing there twice (a pipe within its flange or coupling) where both are
+# shorter than this many of their diameters, or this much [m], and nowhere farther apart than half a diameter.
+_TWICE, _LEAST_TWICE = 3.0, 0.05
+# A stub of a flange or gasket that hangs beside a joint of two others says nothing.
+_STUB = 0.15
+# Without a fitting of its own, a leg stands in the run where it is at most this wide against it.
+_NARROW = 0.7
+
+
+def simplify(drawing: Drawing, gauges: Collection[int], n_units: int, leg: float) -> Net:
+    """Joins spans to runs between units, junctions and terminals.
+
+    Args:
+        drawing: the network as drawn; its net is changed.
+        gauges: numbers of the units that may stand in a run by their tap.
+        n_units: the nodes below are units.
+        leg: greatest length between a tap and its gauge [m].
+
+    Returns:
+        The net, in which each node is a unit, or has one or at least three spans.
+    """
+    net = drawing.net
+    units = range(n_units)
+    for _ in range(3):
+        _merge_parallel(net)
+        if not _drop_stubs(net, n_units, drawing):
+            net.dissolve(units)
+            if not _merge_parallel(net):
+                break
+    net.dissolve(units)
+    for gauge in sorted(gauges):
+        _fold(net, gauge, drawing.taps, gauges, n_units, leg)
+    net.dissolve(units)
+    return net
+
+
+def _width(span: Span) -> float:
+    """The diameter of most of a span [m]; 0 where it has no pipe."""
+    return max(span.pieces, key=lambda piece: piece[0])[1] if span.pieces else 0.0
+
+
+def _merge_parallel(net: Net) -> bool:
+    """Drops spans that lie in another one."""
+    between: dict[tuple[int, int], list[int]] = {}
+    for number, span in sorted(net.spans.items()):
+        between.setdefault((min(span.a, span.b), max(span.a, span.b)), []).append(number)
+    merged = False
+    for (a, b), numbers in sorted(between.items()):
+        if a == b:
+            for number in numbers:
+                if net.spans[number].length < max(_LEAST_TWICE, _TWICE * _width(net.spans[number])):
+                    net.remove(number)
+                    merged = True
+            continue
+        kept: list[int] = []
+        for number in sorted(numbers, key=lambda n: (not net.spans[n].pieces, -len(net.spans[n].via), n)):
+            span = net.spans[number]
+            if any(_twice(net.spans[other], span) for other in kept):
+                net.remove(number)
+                merged = True
+            else:
+                kept.append(number)
+    return merged
+
+
+def _twice(one: Span, other: Span) -> bool:
+    wide = max(_width(one), _width(other))
+    if max(one.length, other.length) > max(_LEAST_TWICE, _TWICE * wide):
+        return False
+    # Both begin and end at the same nodes, so that middles near each other say that they lie in each other.
+    apart = float(np.linalg.norm(_middle(one.points) - _middle(other.points)))
+    return apart <= max(0.5 * wide, 0.5 * _LEAST_TWICE)
+
+
+def _middle(points: Floats) -> Floats:
+    if len(points) == 1:
+        return np.asarray(points[0])
+    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    walked = np.concatenate([[0.0], np.cumsum(steps)])
+    return np.array([np.interp(walked[-1] / 2, walked, points[:, c]) for c in range(3)])
+
+
+def _drop_stubs(net: Net, n_units: int, drawing: Drawing) -> bool:
+    """Drops what ends freely beside a joint of two others without being pipe."""
+    dropped = False
+    for number, span in sorted(net.spans.items()):
+        for tip, foot in ((span.a, span.b), (span.b, span.a)):
+            if (
+                number in net.spans
+                and tip >= n_units
+                and net.degree(tip) == 1
+                and net.degree(foot) >= 3
+                and not span.pieces
+                and span.length <= _STUB
+                and tip not in drawing.solids
+            ):
+                net.remove(number)
+                dropped = True
+    return dropped
+
+
+def _fold(net: Net, gauge: int, taps: Collection[int], gauges: Collection[int], n_units: int, leg: float) -> None:
+    """Puts a gauge that hangs on a run into the run; several on one tap follow each other."""
+    if net.degree(gauge) != 1:
+        return
+    ((_, own),) = net.leaving(gauge)
+    joint = own.b
+    if joint < n_units or own.length > leg:
+        return
+    legs: list[tuple[int, int, Span]] = []
+    others: list[int] = []
+    for number, span in net.leaving(joint):
+        if span.b in gauges and net.degree(span.b) == 1 and span.length <= leg:
+            legs.append((span.b, number, span))
+        else:
+            others.append(number)
+    if len(others) != 2 or others[0] == others[1]:
+        return
+    narrow = min(_width(net.spans[number]) for number in others)
+    if joint not in taps and any(_width(span) > _NARROW * narrow for _, _, span in legs):
+        return
+    legs.sort()
+    ports = []
+    for _, number, span in legs:
+        net.remove(number)
+        ports.append(span.port_b)
+    chain = [unit for unit, _, _ in legs]
+    point = own.points[-1][None]
+    for number, unit, port in ((others[0], chain[0], ports[0]), (others[1], chain[-1], ports[-1])):
+        span = net.remove(number)
+        net.add(replace(span, a=unit, port_a=port) if span.a == joint else replace(span, b=unit, port_b=port))
+    for k in range(len(chain) - 1):
+        net.add(Span(chain[k], chain[k + 1], (), point, 0.0, (), own.confidence, ports[k], ports[k + 1]))

@@ -1,0 +1,270 @@
+"""Joints: which ends of lines face each other, which sit on the side of another line, and which lie in one place."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from cadgraph.geometry.centreline import Branch, Centreline
+from cadgraph.parts import Contacts
+from cadgraph.scene import Floats, Ints
+
+__all__ = ["Ends", "Facing", "Tap", "face_ends", "find_tap", "gather_ends", "nearest_on", "same_place"]
+
+# Ends face each other where their directions are opposed (a coarse elbow's end is up to 15 degrees off) ...
+_OPPOSED = -0.85
+# ... and their axes apart by at most this share of the lesser radius, or this much [m] where that is more.
+_OFFSET, _LEAST_OFFSET = 0.35, 0.003
+# One may lie within the other: a pipe in a socket or slip-on flange, as deep as that is long, and a weld's overlap [m].
+_SINK, _OVERLAP = 0.95, 0.004
+# A gap is never bridged that is wider than this share of the lesser radius.
+_WIDEST = 1.0
+# Two straight pipes may meet in a corner without an elbow: their axes pass each other this near, as share of the lesser
+# radius, and both ends lie within this many greater radii of that corner.
+_CORNER, _CORNER_REACH = 0.4, 1.5
+# A branch meets the wall at this angle at least (cosine) and runs into the axis within this share of the radius.
+_SLANT, _ECCENTRIC = 0.86, 0.85
+_EQUAL_SIZE = 0.9
+# Where a solid is near both, a wider gap [m] may be its own place: no wafer valve is thinner.
+_BESIDE = 0.006
+
+
+@dataclass(frozen=True)
+class Ends:
+    """The free ends of all lines, one row each.
+
+    Args:
+        part: ``(n,)`` whose line it is.
+        index: ``(n,)`` which of that line's ends.
+        point: ``(n, 3)`` [m].
+        direction: ``(n, 3)`` unit vectors outward.
+        radius: ``(n,)`` outer radius [m].
+        bore: ``(n,)`` radius of the hole [m], NaN where none is seen.
+        length: ``(n,)`` of the branch [m].
+        of_part: the rows of each part.
+    """
+
+    part: Ints
+    index: Ints
+    point: Floats
+    direction: Floats
+    radius: Floats
+    bore: Floats
+    length: Floats
+    of_part: Mapping[int, tuple[int, ...]]
+
+
+@dataclass(frozen=True)
+class Facing:
+    """Two ends that face each other.
+
+    Args:
+        first: row of one end.
+        second: row of the other.
+        gap: from the first to the second along their axis [m]; negative where one lies in the other.
+        corner: whether they meet at an angle.
+    """
+
+    first: int
+    second: int
+    gap: float
+    corner: bool = False
+
+
+@dataclass(frozen=True)
+class Tap:
+    """Where an end sits on another line.
+
+    Args:
+        branch: of that line.
+        s: position along the branch [m].
+        point: ``(3,)`` on the branch [m].
+        gap: from the end to the wall [m]; negative where it lies within.
+        sleeve: whether it lies along the line rather than across: a coupling over a pipe, a pipe in a socket.
+    """
+
+    branch: int
+    s: float
+    point: Floats
+    gap: float
+    sleeve: bool = False
+
+
+def gather_ends(lines: Mapping[int, Centreline]) -> Ends:
+    """The free ends of lines, by part."""
+    rows = [(part, k, end, line) for part, line in sorted(lines.items()) for k, end in enumerate(line.ends)]
+    of_part: dict[int, list[int]] = {}
+    for row, (part, _, _, _) in enumerate(rows):
+        of_part.setdefault(part, []).append(row)
+    return Ends(
+        part=np.array([part for part, _, _, _ in rows], np.int64),
+        index=np.array([k for _, k, _, _ in rows], np.int64),
+        point=np.array([end.point for _, _, end, _ in rows], np.float64).reshape(-1, 3),
+        direction=np.array([end.direction for _, _, end, _ in rows], np.float64).reshape(-1, 3),
+        radius=np.array([end.radius for _, _, end, _ in rows], np.float64),
+        bore=np.array([end.bore for _, _, end, _ in rows], np.float64),
+        length=np.array([line.branches[end.branch].length for _, _, end, line in rows], np.float64),
+        of_part={part: tuple(found) for part, found in of_part.items()},
+    )
+
+
+def face_ends(ends: Ends, contacts: Contacts, bridge: float, blocked: Iterable[tuple[int, int]] = ()) -> list[Facing]:
+    """The ends that face each other, each at most once, the closest first.
+
+    Args:
+        ends: of all lines.
+        contacts: pairs of parts that are near.
+        bridge: greatest gap [m].
+        blocked: pairs of parts with something between them: only ends that touch count.
+
+    Returns:
+        In the order in which they were chosen.
+    """
+    pairs = _candidates(ends, contacts, bridge)
+    if not len(pairs):
+        return []
+    i, j = pairs[:, 0], pairs[:, 1]
+    between = ends.point[j] - ends.point[i]
+    di, dj = ends.direction[i], ends.direction[j]
+    cosine = np.einsum("ij,ij->i", di, dj)
+    axis = di - dj
+    axis /= np.maximum(np.linalg.norm(axis, axis=1, keepdims=True), 1e-12)
+    gap = np.einsum("ij,ij->i", between, axis)
+    offset = np.linalg.norm(between - gap[:, None] * axis, axis=1)
+    lesser = np.minimum(ends.radius[i], ends.radius[j])
+    greater = np.maximum(ends.radius[i], ends.radius[j])
+    sink = np.minimum(_SINK * np.minimum(ends.length[i], ends.length[j]), 2 * greater)
+    shut = set(blocked)
+    apart = np.array([(int(a), int(b)) in shut for a, b in np.sort(ends.part[pairs], axis=1)]) if shut else False
+    widest = np.minimum(np.where(apart, min(bridge, _BESIDE), bridge), _WIDEST * lesser)
+    straight = (
+        (cosine <= _OPPOSED)
+        & (offset <= np.maximum(_OFFSET * lesser, _LEAST_OFFSET))
+        & (gap <= widest + 1e-9)
+        & (gap >= -(sink + _OVERLAP))
+    )
+    corner = ~straight & _corners(ends, i, j, cosine, bridge)
+    sizes = lesser / greater
+    # Overlaps deeper than a weld's cost more than gaps: behind a slip-on flange lies the gasket that it faces.
+    cost = np.abs(gap) + 0.5 * offset + 0.002 * (1 - sizes) + np.where(corner, 1.0, 0.0)
+    cost = np.round(cost, 7)
+    good = np.flatnonzero(straight | corner)
+    taken: set[int] = set()
+    found = []
+    for k in good[np.lexsort((j[good], i[good], cost[good]))]:
+        a, b = int(i[k]), int(j[k])
+        if a not in taken and b not in taken:
+            taken |= {a, b}
+            found.append(Facing(a, b, float(gap[k]) if straight[k] else 0.0, bool(corner[k])))
+    return found
+
+
+def _candidates(ends: Ends, contacts: Contacts, bridge: float) -> Ints:
+    """Pairs of ends of parts that are near each other, or that are near each other themselves."""
+    if not len(ends.part):
+        return np.zeros((0, 2), np.int64)
+    found = {
+        (p, q) if p < q else (q, p)
+        for a, b in contacts.pairs.tolist()
+        if a in ends.of_part and b in ends.of_part
+        for p in ends.of_part[a]
+        for q in ends.of_part[b]
+    }
+    near = cKDTree(ends.point).query_pairs(1.5 * bridge, output_type="ndarray")
+    found.update((p, q) for p, q in near.tolist() if ends.part[p] != ends.part[q])
+    return np.array(sorted(found), np.int64).reshape(-1, 2)
+
+
+def _corners(ends: Ends, i: Ints, j: Ints, cosine: Floats, bridge: float) -> np.typing.NDArray[np.bool_]:
+    """Whether two ends of one size meet at an angle: mitred or simply run into each other."""
+    between = ends.point[j] - ends.point[i]
+    di, dj = ends.direction[i], ends.direction[j]
+    det = np.maximum(1 - cosine**2, 1e-9)
+    # Where the two axes are nearest to each other, counted from both ends.
+    s = (np.einsum("ij,ij->i", between, di) - cosine * np.einsum("ij,ij->i", between, dj)) / det
+    t = (cosine * np.einsum("ij,ij->i", between, di) - np.einsum("ij,ij->i", between, dj)) / det
+    offset = np.linalg.norm(between + t[:, None] * dj - s[:, None] * di, axis=1)
+    greater, lesser = np.maximum(ends.radius[i], ends.radius[j]), np.minimum(ends.radius[i], ends.radius[j])
+    reach = _CORNER_REACH * greater + bridge
+    return np.asarray(
+        (cosine > _OPPOSED)
+        & (cosine < 0.5)
+        & (offset <= _CORNER * lesser)
+        & (np.abs(s) <= reach)
+        & (np.abs(t) <= reach)
+        & (lesser >= _EQUAL_SIZE * greater)
+        & (np.minimum(ends.length[i], ends.length[j]) > 2 * greater)
+    )
+
+
+def same_place(ends: Ends, row: int, others: Sequence[int], reach: float) -> int | None:
+    """The nearest of other ends that lies where this one does and looks the same way; None if there is none."""
+    best: tuple[float, int] | None = None
+    for other in others:
+        between = ends.point[other] - ends.point[row]
+        along = float(between @ ends.direction[row])
+        offset = float(np.linalg.norm(between - along * ends.direction[row]))
+        lesser = float(min(ends.radius[row], ends.radius[other]))
+        if (
+            float(ends.direction[row] @ ends.direction[other]) > -_OPPOSED
+            and offset <= max(_OFFSET * lesser, _LEAST_OFFSET)
+            and abs(along) <= reach
+            and (best is None or abs(along) < best[0])
+        ):
+            best = abs(along), other
+    return None if best is None else best[1]
+
+
+def nearest_on(branch: Branch, point: Floats) -> tuple[float, Floats, Floats, float, float]:
+    """Where a branch is nearest to a point.
+
+    Returns:
+        Position along it [m], the point there, the unit direction of the branch there, its radius there [m], and the
+        distance to the point [m].
+    """
+    steps = np.diff(branch.points, axis=0)
+    lengths = np.linalg.norm(steps, axis=1)
+    offset = point - branch.points[:-1]
+    u = np.clip((offset * steps).sum(axis=1) / np.maximum(lengths**2, 1e-300), 0.0, 1.0)
+    feet = branch.points[:-1] + u[:, None] * steps
+    gaps = np.linalg.norm(feet - point, axis=1)
+    k = int(np.argmin(gaps))
+    s = float(lengths[:k].sum() + u[k] * lengths[k])
+    radius = float(branch.radius[k] + u[k] * (branch.radius[k + 1] - branch.radius[k]))
+    return s, feet[k], steps[k] / max(float(lengths[k]), 1e-300), radius, float(gaps[k])
+
+
+def find_tap(ends: Ends, row: int, line: Centreline, reach: float) -> Tap | None:
+    """Where an end runs into the side of a line, or lies along it.
+
+    Args:
+        ends: of all lines.
+        row: the end.
+        line: of another part.
+        reach: greatest gap to the wall [m].
+
+    Returns:
+        The place with the least gap, or None.
+    """
+    point, direction, radius = ends.point[row], ends.direction[row], float(ends.radius[row])
+    best: Tap | None = None
+    for number, branch in enumerate(line.branches):
+        s, foot, tangent, wall, apart = nearest_on(branch, point)
+        across = abs(float(tangent @ direction))
+        tap: Tap | None = None
+        if across < _SLANT and radius <= 1.25 * wall:
+            # Ahead of the end its axis passes the branch's; how far off tells a branch from a pipe that only touches.
+            ahead = foot - point
+            inward = float(ahead @ direction)
+            miss = float(np.linalg.norm(ahead - inward * direction))
+            gap = apart - wall
+            if inward > -0.5 * wall and miss <= _ECCENTRIC * wall and -1.05 * wall <= gap <= reach:
+                tap = Tap(number, s, foot, gap)
+        elif across >= _SLANT and apart <= max(_OFFSET * min(radius, wall), _LEAST_OFFSET) and 0 < s < branch.length:
+            tap = Tap(number, s, foot, 0.0, sleeve=True)
+        if tap is not None and (best is None or tap.gap < best.gap):
+            best = tap
+    return best

@@ -1,0 +1,275 @@
+"""Drawing the network of lines between units: every piece of line between two joints is a span."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from cadgraph.geometry.centreline import Branch, Centreline
+from cadgraph.parts import Opening, UnitParts
+from cadgraph.scene import Floats
+from cadgraph.stages.relate.attach import Attachments, Side
+from cadgraph.stages.relate.line import is_disc
+from cadgraph.stages.relate.span import Net, Span
+
+__all__ = ["Drawing", "draw_network"]
+
+# How sure a joint is (ours): touching ends, bridged ones, corners without elbow, ends on sides, solids.
+_TOUCH, _BRIDGED, _CORNERED, _TAPPED, _MOUNTED, _BESIDE = 0.99, 0.9, 0.85, 0.95, 0.97, 0.85
+_TOUCHING = 0.001  # ends this near touch [m]
+_SAME_PLACE = 1e-6  # positions on a branch closer than this are one [m]
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """The network as drawn.
+
+    Args:
+        net: spans between nodes; the first nodes are the units, by number.
+        openings: of each unit.
+        ends: rows of the free ends that lie at a node.
+        taps: nodes where something sits on the side of a line.
+        solids: nodes that are a connector without a line, and which part.
+        bridged: parts on both sides of each bridged gap, and the gap [m].
+    """
+
+    net: Net
+    openings: tuple[tuple[Opening, ...], ...]
+    ends: Mapping[int, tuple[int, ...]]
+    taps: frozenset[int]
+    solids: Mapping[int, int]
+    bridged: tuple[tuple[int, int, float], ...]
+
+
+@dataclass
+class _Draft:
+    """The network while it is drawn: nodes may still turn out to be one."""
+
+    lines: Mapping[int, Centreline]
+    found: Attachments
+    owner: Mapping[int, int]
+    root: list[int]
+    sure: dict[int, float] = field(default_factory=dict)
+    spans: list[Span] = field(default_factory=list)
+    openings: list[list[Opening]] = field(default_factory=list)
+    node_of_end: dict[int, int] = field(default_factory=dict)
+    node_of_solid: dict[int, int] = field(default_factory=dict)
+    places: dict[tuple[int, int], list[tuple[float, int, Floats]]] = field(default_factory=dict)
+    taps: list[int] = field(default_factory=list)
+    bridged: list[tuple[int, int, float]] = field(default_factory=list)
+
+    def new(self) -> int:
+        self.root.append(len(self.root))
+        return len(self.root) - 1
+
+    def find(self, node: int) -> int:
+        while self.root[node] != node:
+            self.root[node] = self.root[self.root[node]]
+            node = self.root[node]
+        return node
+
+    def join(self, a: int, b: int, confidence: float) -> None:
+        low, high = sorted((self.find(a), self.find(b)))
+        self.root[high] = low
+        self.sure[low] = min(confidence, self.sure.get(low, 1.0), self.sure.get(high, 1.0))
+
+    def open(self, unit: int, point: Floats, outward: Floats | None, diameter: float | None) -> int:
+        """Adds an opening to a unit and returns its number there."""
+        x, y, z = (float(v) for v in point)
+        direction = None if outward is None else (float(outward[0]), float(outward[1]), float(outward[2]))
+        self.openings[unit].append(Opening((x, y, z), direction, diameter))
+        return len(self.openings[unit]) - 1
+
+
+def draw_network(
+    lines: Mapping[int, Centreline],
+    solids: Sequence[int],
+    units: Sequence[UnitParts],
+    found: Attachments,
+    flanged: Mapping[tuple[int, int], Floats],
+    sure: Callable[[int], float],
+) -> Drawing:
+    """Draws the spans between units, joints, junctions and taps.
+
+    Args:
+        lines: of the connector parts, without those that are in units.
+        solids: connector parts without a line.
+        units: with their parts.
+        found: what joins what.
+        flanged: pairs of solids that are flanged to each other, and where [m].
+        sure: how sure it is that a part is a connector.
+    """
+    owner = {part: number for number, unit in enumerate(units) for part in unit.parts}
+    draft = _Draft(lines, found, owner, list(range(len(units))), openings=[[] for _ in units])
+    draft.node_of_solid = {part: draft.new() for part in solids if part not in owner}
+    for row, part in enumerate(found.ends.part.tolist()):
+        if part in lines:
+            draft.node_of_end[row] = draft.new()
+    _join_ends(draft)
+    _place_taps(draft)
+    _place_gauges(draft, units)
+    for part in sorted(lines):
+        _draw_line(draft, part, sure(part))
+    _draw_mounts(draft)
+    _draw_flanged(draft, flanged)
+    return _finish(draft)
+
+
+def _join_ends(draft: _Draft) -> None:
+    nodes, ends = draft.node_of_end, draft.found.ends
+    for facing in draft.found.facings:
+        if facing.first in nodes and facing.second in nodes:
+            gapped = facing.gap > _TOUCHING
+            kind = _CORNERED if facing.corner else _BRIDGED if gapped else _TOUCH
+            draft.join(nodes[facing.first], nodes[facing.second], kind)
+            if gapped:
+                draft.bridged.append((int(ends.part[facing.first]), int(ends.part[facing.second]), facing.gap))
+    for row, twin in draft.found.doubled:
+        if row in nodes and twin in nodes:
+            draft.join(nodes[row], nodes[twin], _TOUCH)
+
+
+def _place_taps(draft: _Draft) -> None:
+    """The nodes on each branch between its ends."""
+    for row, part, tap in draft.found.taps:
+        if row in draft.node_of_end and part in draft.lines:
+            here = draft.new()
+            draft.join(here, draft.node_of_end[row], _TAPPED)
+            draft.places.setdefault((part, tap.branch), []).append((tap.s, here, tap.point))
+            draft.taps.append(here)
+
+
+def _place_gauges(draft: _Draft, units: Sequence[UnitParts]) -> None:
+    """A gauge that no end leads to hangs on the side of the line that it touches best."""
+    mounted = {draft.owner.get(mount.part) for mount in draft.found.mounts}
+    best: dict[int, Side] = {}
+    for side in draft.found.sides:
+        unit = draft.owner.get(side.solid)
+        if unit is None or unit in mounted or units[unit].unit_type != "gauge" or side.part not in draft.lines:
+            continue
+        if unit not in best or (side.tap.gap, side.part) < (best[unit].tap.gap, best[unit].part):
+            best[unit] = side
+    for unit, side in sorted(best.items()):
+        here = draft.new()
+        draft.places.setdefault((side.part, side.tap.branch), []).append((side.tap.s, here, side.tap.point))
+        draft.taps.append(here)
+        port = draft.open(unit, side.tap.point, None, None)
+        draft.spans.append(Span(here, unit, (), side.tap.point[None], 0.0, (), _BESIDE, -1, port))
+
+
+def _draw_line(draft: _Draft, part: int, sure: float) -> None:
+    """Spans along each branch, from end or junction to end or junction, cut where something sits on it."""
+    line = draft.lines[part]
+    tips: dict[tuple[int, bool], int] = {}
+    for row in draft.found.ends.of_part.get(part, ()):
+        end = line.ends[int(draft.found.ends.index[row])]
+        points = line.branches[end.branch].points
+        at_start = bool(np.linalg.norm(points[0] - end.point) <= np.linalg.norm(points[-1] - end.point))
+        tips[end.branch, at_start] = draft.node_of_end[row]
+    for junction in line.junctions:
+        node = draft.new()
+        for number in set(junction.branches):
+            points = line.branches[number].points
+            for at_start, point in ((True, points[0]), (False, points[-1])):
+                if np.linalg.norm(point - junction.point) < 1e-6:
+                    tips[number, at_start] = node
+    short = is_disc(line)
+    for number, branch in enumerate(line.branches):
+        start = tips.get((number, True))
+        start = draft.new() if start is None else start
+        stop = start if branch.closed else tips.get((number, False))
+        stop = draft.new() if stop is None else stop
+        _draw_branch(draft, part, number, branch, (start, stop), short, sure)
+
+
+def _draw_branch(
+    draft: _Draft, part: int, number: int, branch: Branch, tips: tuple[int, int], short: bool, sure: float
+) -> None:
+    length = branch.length
+    stops = [(0.0, tips[0], branch.points[0])]
+    for s, node, point in sorted(draft.places.get((part, number), ()), key=lambda place: place[:2]):
+        if s <= _SAME_PLACE:
+            draft.join(tips[0], node, 1.0)
+        elif s >= length - _SAME_PLACE:
+            draft.join(tips[1], node, 1.0)
+        else:
+            stops.append((s, node, point))
+    stops.append((length, tips[1], branch.points[-1]))
+    walked = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(branch.points, axis=0), axis=1))])
+    for (low, a, p), (high, b, q) in zip(stops[:-1], stops[1:], strict=True):
+        between = branch.points[(walked > low + _SAME_PLACE) & (walked < high - _SAME_PLACE)]
+        pieces = () if short else _pieces(branch, walked, low, high)
+        points = np.concatenate([p[None], between, q[None]])
+        draft.spans.append(Span(a, b, (part,), points, high - low, pieces, sure))
+
+
+def _pieces(branch: Branch, walked: Floats, low: float, high: float) -> tuple[tuple[float, float, float], ...]:
+    """Length, outer diameter and bore of each stretch of one size."""
+    found: list[tuple[float, float, float]] = []
+    for k in range(len(walked) - 1):
+        length = min(high, float(walked[k + 1])) - max(low, float(walked[k]))
+        outer = float(branch.radius[k] + branch.radius[k + 1])
+        # A stretch that tapers has no size of its own.
+        if length <= 0 or abs(float(branch.radius[k] - branch.radius[k + 1])) > 0.05 * outer:
+            continue
+        bore = float(branch.bore[k] + branch.bore[k + 1])
+        if found and abs(found[-1][1] - outer) <= 0.02 * outer:
+            found[-1] = (found[-1][0] + length, found[-1][1], found[-1][2])
+        else:
+            found.append((length, outer, bore))
+    return tuple(found)
+
+
+def _draw_mounts(draft: _Draft) -> None:
+    """Spans without length between an end and the unit or solid that it is at."""
+    ends = draft.found.ends
+    for mount in draft.found.mounts:
+        here = draft.node_of_end.get(mount.row)
+        if here is None:
+            continue
+        point, diameter = ends.point[mount.row], 2 * float(ends.radius[mount.row])
+        sure = _MOUNTED if mount.gap <= _TOUCHING else _BRIDGED
+        if mount.part in draft.owner:
+            unit = draft.owner[mount.part]
+            port = draft.open(unit, point, -ends.direction[mount.row], diameter)
+            draft.spans.append(Span(here, unit, (), point[None], 0.0, (), sure, -1, port))
+        elif mount.part in draft.node_of_solid:
+            node = draft.node_of_solid[mount.part]
+            draft.spans.append(Span(here, node, (mount.part,), point[None], 0.0, (), sure))
+
+
+def _draw_flanged(draft: _Draft, flanged: Mapping[tuple[int, int], Floats]) -> None:
+    """Spans without length between solids that are flanged to each other."""
+    for (a, b), point in sorted(flanged.items()):
+        first = draft.owner.get(a, draft.node_of_solid.get(a))
+        second = draft.owner.get(b, draft.node_of_solid.get(b))
+        if first is None or second is None or first == second:
+            continue
+        ports = [
+            draft.open(node, point, None, None) if part in draft.owner else -1
+            for part, node in ((a, first), (b, second))
+        ]
+        draft.spans.append(Span(first, second, (), point[None], 0.0, (), _MOUNTED, ports[0], ports[1]))
+
+
+def _finish(draft: _Draft) -> Drawing:
+    """The network with every joint as one node."""
+    net = Net()
+    for span in draft.spans:
+        a, b = draft.find(span.a), draft.find(span.b)
+        sure = min(span.confidence, draft.sure.get(a, 1.0), draft.sure.get(b, 1.0))
+        if a != b or span.length > 0.05:
+            net.add(replace(span, a=a, b=b, confidence=sure))
+    ends: dict[int, list[int]] = {}
+    for row, node in sorted(draft.node_of_end.items()):
+        ends.setdefault(draft.find(node), []).append(row)
+    return Drawing(
+        net=net,
+        openings=tuple(tuple(found) for found in draft.openings),
+        ends={node: tuple(rows) for node, rows in ends.items()},
+        taps=frozenset(draft.find(node) for node in draft.taps),
+        solids={draft.find(node): part for part, node in draft.node_of_solid.items()},
+        bridged=tuple(draft.bridged),
+    )
