@@ -111,6 +111,25 @@ def isolate(
     _show(isolation_lines(found), isolation_values(found), as_json)
 
 
+@app.command()
+def diagram(
+    graph: GraphArgument,
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The drawing, e.g. plant.svg.")],
+    system: Annotated[
+        str | None, typer.Option("--system", metavar="ID", help="Only this system, e.g. system-001; all by default.")
+    ] = None,
+) -> None:
+    """Draw the functional graph as a schematic (SVG), in the manner of a piping and instrumentation diagram."""
+    from cadgraph.atomic import write_atomically
+    from cadgraph.diagram import draw_diagram
+    from cadgraph.graph import SceneGraph
+
+    if output.suffix.lower() != ".svg":
+        raise ValueError(f"{output}: a diagram is written as SVG; give a file that ends in .svg")
+    write_atomically(output, draw_diagram(SceneGraph.load(graph), system))
+    out.print(f"wrote {escape(str(output))}")
+
+
 def _show(text: list[str], values: dict[str, Any], as_json: bool) -> None:
     if as_json:
         typer.echo(json.dumps(values, ensure_ascii=False, indent=1))

@@ -207,16 +207,23 @@ class Network:
         """The connections of a node without those that only lead to an instrument."""
         return tuple(arc for arc in self.arcs(place) if not self.is_tap(arc))
 
-    def instruments(self, place: str) -> tuple[str, ...]:
-        """What hangs at a node on taps, from the node outwards: root valves and gauges."""
-        found: list[str] = []
+    def tap_chains(self, place: str) -> tuple[tuple[str, ...], ...]:
+        """What hangs at a node on taps: for each tap, from the node outwards, its root valves and gauges."""
+        chains: list[tuple[str, ...]] = []
         for arc in self.arcs(place):
+            found: list[str] = []
             step: Arc | None = arc if self.is_tap(arc) else None
             while step is not None:
                 found.append(step.end)
                 onward = [o for o in self.arcs(step.end) if o.index != step.index and self.is_tap(o)]
                 step = onward[0] if onward else None
-        return tuple(found)
+            if found:
+                chains.append(tuple(found))
+        return tuple(chains)
+
+    def instruments(self, place: str) -> tuple[str, ...]:
+        """All that hangs at a node on taps."""
+        return tuple(name for chain in self.tap_chains(place) for name in chain)
 
     def _order(self, arc: Arc) -> tuple[object, ...]:
         return natural(self.name(arc.end)), natural(arc.start_port or ""), arc.index, arc.forward

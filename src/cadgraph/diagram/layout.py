@@ -1,0 +1,290 @@
+"""Where everything of a sketch goes: a layered layout with orthogonal lines, by the library graphlay."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Any
+
+import graphlay
+import numpy as np
+
+from cadgraph.diagram.plan import Anchor, Edge, Row, Sketch
+from cadgraph.diagram.symbol import Symbol, text_width
+
+__all__ = ["Placed", "lay_out", "pack"]
+
+_PORT_PITCH = 26.0  # px between nozzles on one side of a tank
+_POINT = 0.1  # px, a junction: the lines meet in one point
+_CLEAR = 7.0  # px between what stands on different levels
+_LEAST = 56.0  # px, height of the smallest tank
+_GROWING = ("tank", "equipment", "exchanger", "strainer")
+_OPTIONS: dict[str, Any] = {
+    "spacing": {"layer_gap": 34.0, "node_gap": 22.0, "dummy_gap": 22.0, "port_gap": 22.0, "stub": 16.0},
+    "routing": {
+        "style": "orthogonal",
+        "bundle_parallel": False,
+        "port_sides": "facing_preferred",
+        "merge_edges": "none",
+        "centre_ports": "all",
+    },
+    "coords": {"placement": "network_simplex", "branch_style": "straight_main"},
+    "cycles": {"strategy": "follow_flow"},
+}
+
+Way = tuple[tuple[float, float], ...]
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A sketch with places.
+
+    Args:
+        sketch: what was laid out; the symbols of its anchors as they are drawn.
+        anchors: centre of each anchor [px].
+        rows: centre of each row [px].
+        ways: polyline of each edge from the anchor to the row [px].
+        box: left, top, right, bottom of all [px].
+    """
+
+    sketch: Sketch
+    anchors: Way
+    rows: Way
+    ways: tuple[Way, ...]
+    box: tuple[float, float, float, float]
+
+
+def lay_out(sketch: Sketch) -> Placed:
+    """Places a sketch: flow from left to right, lines orthogonal, rows straight; the same sketch always alike."""
+    sketch = _with_tanks_grown(sketch)
+    nodes = [*map(_node, sketch.anchors), *map(_node, sketch.rows)]
+    edges = []
+    for edge in sketch.edges:
+        ends = (edge.anchor, len(sketch.anchors) + edge.row)
+        source, target = ends if edge.into else ends[::-1]
+        ports = _ports(sketch, edge)
+        edges.append({"source": source, "target": target, "weight": _weight(sketch.rows[edge.row]), **ports})
+    found = graphlay.layout({"nodes": nodes, "edges": edges}, options=_OPTIONS)
+    centres = tuple((node["center"]["x"], node["center"]["y"]) for node in found.nodes)
+    ways = []
+    for edge, route in zip(sketch.edges, found.edges, strict=True):
+        way = tuple((point["x"], point["y"]) for point in route["points"])
+        ways.append(way if edge.into else way[::-1])
+    placed = Placed(sketch, centres[: len(sketch.anchors)], centres[len(sketch.anchors) :], tuple(ways), (0, 0, 0, 0))
+    placed = _compacted(_straightened(placed))
+    return replace(placed, box=_box(placed))
+
+
+def pack(boxes: Sequence[tuple[float, float]], gap: float) -> tuple[list[tuple[float, float]], float, float]:
+    """Places rectangles in shelves, in their order.
+
+    Args:
+        boxes: width and height of each.
+        gap: between them.
+
+    Returns:
+        The upper left corner of each, and the width and height of all.
+    """
+    if not boxes:
+        return [], 0.0, 0.0
+    area = sum((w + gap) * (h + gap) for w, h in boxes)
+    wide = max(max(w for w, _ in boxes), (1.6 * area) ** 0.5)
+    x = y = tall = right = 0.0
+    corners = []
+    for w, h in boxes:
+        if x and x + w > wide:
+            x, y, tall = 0.0, y + tall + gap, 0.0
+        corners.append((x, y))
+        right, tall, x = max(right, x + w), max(tall, h), x + w + gap
+    return corners, right, y + tall
+
+
+def _with_tanks_grown(sketch: Sketch) -> Sketch:
+    """Tanks (and what else has room for nozzles) as high as their busier side needs."""
+    sides: dict[tuple[int, bool], int] = {}
+    for edge in sketch.edges:
+        sides[edge.anchor, edge.into] = sides.get((edge.anchor, edge.into), 0) + 1
+    anchors = []
+    for i, anchor in enumerate(sketch.anchors):
+        symbol = anchor.symbol
+        if symbol.form in _GROWING:
+            most = max(sides.get((i, True), 0), sides.get((i, False), 0))
+            half = max(symbol.top, (most + 1) * _PORT_PITCH / 2)
+            symbol = replace(symbol, top=half, bottom=half)
+        anchors.append(Anchor(anchor.place, symbol))
+    return replace(sketch, anchors=tuple(anchors))
+
+
+def _extents(item: Anchor | Row) -> tuple[float, float, float]:
+    """Room that an anchor or a row takes: its width, and above and below the line [px]."""
+    if isinstance(item, Row):
+        return item.width, item.top, item.bottom
+    symbol = item.symbol
+    if symbol.form == "junction":
+        return _POINT, _POINT / 2, _POINT / 2
+    if symbol.form in ("open", "end", "blind"):
+        high = symbol.bottom + 11
+        return max(symbol.width, text_width(symbol.label, 6.5)), high, high
+    return max(symbol.width, symbol.label_width), symbol.top + (13 if symbol.label_width else 0), symbol.bottom
+
+
+def _node(item: Anchor | Row) -> dict[str, Any]:
+    # As high below the line as above it, since the library keeps the middles of boxes in line; compacted later.
+    width, above, below = _extents(item)
+    return {"size": {"width": width, "height": 2 * max(above, below)}, "shape": "box"}
+
+
+def _ports(sketch: Sketch, edge: Edge) -> dict[str, Any]:
+    """Rows are entered and left at their ends; pumps have their suction at the left. Tanks are entered anywhere."""
+    here, there = ("source_port", "target_port") if edge.into else ("target_port", "source_port")
+    sides = ("right", "left") if edge.into else ("left", "right")
+    ports: dict[str, Any] = {there: {"side": sides[1]}}
+    if sketch.anchors[edge.anchor].symbol.form in ("pump", "valve", "instrument", *_IN_LINE):
+        ports[here] = {"side": sides[0]}
+    return ports
+
+
+_IN_LINE = ("ball", "gate", "globe", "plug", "butterfly", "check", "control", "relief")
+
+
+def _straightened(placed: Placed) -> Placed:
+    """Ends of lines moved to the level of the line that leads there, where nothing else stands."""
+    anchors, ways = list(placed.anchors), list(placed.ways)
+    of_anchor: dict[int, list[int]] = {}
+    for i, edge in enumerate(placed.sketch.edges):
+        of_anchor.setdefault(edge.anchor, []).append(i)
+    for anchor, edges in of_anchor.items():
+        symbol = placed.sketch.anchors[anchor].symbol
+        way = ways[edges[0]]
+        if len(edges) != 1 or symbol.form in _GROWING or len(way) < 3:
+            continue
+        (x, y), (end_x, end_y) = anchors[anchor], way[-1]
+        if not math.isclose(way[0][1], way[1][1]) or abs(end_x - way[0][0]) < 1 or abs(y - way[0][1]) > _POINT:
+            continue
+        width, above, below = _extents(placed.sketch.anchors[anchor])
+        half = max(above, below)
+        left, right = min(x - width / 2, end_x + 0.1), max(x + width / 2, end_x - 0.1)
+        taken = [
+            block
+            for block in _blocks(replace(placed, anchors=tuple(anchors), ways=tuple(ways)), without=(anchor, edges[0]))
+            if block[0] < right
+            and block[1] > left
+            and block[2] - block[3] < end_y + half
+            and block[2] + block[4] > end_y - half
+        ]
+        if not taken:
+            anchors[anchor] = (x, end_y)
+            ways[edges[0]] = ((way[0][0], end_y), (end_x, end_y))
+    return replace(placed, anchors=tuple(anchors), ways=tuple(ways))
+
+
+def _compacted(placed: Placed) -> Placed:
+    """The levels of a drawing moved together as far as what stands on them allows.
+
+    Whatever lay on one level stays on one, and no two levels change their order, so that no line gets a new bend or
+    crossing.
+    """
+    blocks = _blocks(placed)
+    levels = _levels([block[2] for block in blocks])
+    at = np.array([levels[block[2]] for block in blocks])
+    x0, x1, up, down = (np.array([block[i] for block in blocks]) for i in (0, 1, 3, 4))
+    new = np.zeros(len(blocks))
+    height: list[float] = []
+    for level in range(int(at.max(initial=-1)) + 1):
+        low = height[-1] if height else 0.0
+        for i in np.nonzero(at == level)[0]:
+            above = (at < level) & (x0 < x1[i] + _CLEAR) & (x1 > x0[i] - _CLEAR)
+            low = max(low, float((new[above] + down[above]).max(initial=-np.inf) + up[i] + _CLEAR))
+        height.append(low)
+        new[at == level] = low
+    move = {y: height[level] for y, level in levels.items()}
+    anchors, sketch = _moved_anchors(placed, move)
+    return Placed(
+        sketch,
+        anchors,
+        tuple((x, move[y]) for x, y in placed.rows),
+        tuple(tuple((x, move[y]) for x, y in way) for way in placed.ways),
+        placed.box,
+    )
+
+
+def _moved_anchors(placed: Placed, move: dict[float, float]) -> tuple[Way, Sketch]:
+    """Anchors at their new levels; tanks as high as their nozzles need now."""
+    centres, anchors = [], []
+    for (x, y), anchor in zip(placed.anchors, placed.sketch.anchors, strict=True):
+        symbol = anchor.symbol
+        if symbol.form in _GROWING:
+            top, bottom = move[y - symbol.top], move[y + symbol.bottom]
+            half = (bottom - top) / 2
+            symbol = replace(symbol, top=half, bottom=half)
+            centres.append((x, top + half))
+        else:
+            centres.append((x, move[y]))
+        anchors.append(Anchor(anchor.place, symbol))
+    return tuple(centres), replace(placed.sketch, anchors=tuple(anchors))
+
+
+def _blocks(placed: Placed, without: tuple[int, int] = (-1, -1)) -> list[tuple[float, float, float, float, float]]:
+    """All that takes room on a level: left, right, the level, room above it and below it [px].
+
+    Args:
+        placed: the drawing.
+        without: an anchor and an edge to leave out, by index.
+    """
+    blocks = []
+    for (x, y), row in zip(placed.rows, placed.sketch.rows, strict=True):
+        blocks.append((x - row.width / 2, x + row.width / 2, y, row.top, row.bottom))
+    for i, ((x, y), anchor) in enumerate(zip(placed.anchors, placed.sketch.anchors, strict=True)):
+        width, above, below = _extents(anchor)
+        if i == without[0]:
+            continue
+        if anchor.symbol.form in _GROWING:
+            # Its edges are levels of their own, so that it shrinks with what is beside it, down to what holds its tag.
+            least = _LEAST / 2
+            blocks.append((x - width / 2, x + width / 2, y - anchor.symbol.top, 4.0, least))
+            blocks.append((x - width / 2, x + width / 2, y + anchor.symbol.bottom, least, 4.0))
+        else:
+            blocks.append((x - width / 2, x + width / 2, y, above, below))
+    for i, (way, edge) in enumerate(zip(placed.ways, placed.sketch.edges, strict=True)):
+        if i == without[1]:
+            continue
+        if placed.sketch.anchors[edge.anchor].symbol.form in _GROWING:
+            # Nozzles keep apart, and clear of the edges.
+            blocks.append((way[0][0] - 12, way[0][0] + 12, way[0][1], 6.0, 6.0))
+        for (ax, ay), (bx, _) in pairwise(way):
+            blocks.append((min(ax, bx), max(ax, bx), ay, 0.0, 0.0))
+        blocks.append((way[-1][0], way[-1][0], way[-1][1], 0.0, 0.0))
+    return blocks
+
+
+def _levels(values: Sequence[float]) -> dict[float, int]:
+    """The number of the level of each height; heights closer than a line is wide are one level."""
+    levels: dict[float, int] = {}
+    last, number = -math.inf, -1
+    for value in sorted(set(values)):
+        if value - last > _POINT * 4:
+            number += 1
+        last = value
+        levels[value] = number
+    return levels
+
+
+def _weight(row: Row) -> float:
+    """Wide lines are kept straight before narrow ones."""
+    return 1.0 + max(row.line.sizes, default=0) / 50 if row.line else 0.5
+
+
+def _box(placed: Placed) -> tuple[float, float, float, float]:
+    boxes = [(x, y, x, y) for way in placed.ways for x, y in way]
+    for (x, y), anchor in zip(placed.anchors, placed.sketch.anchors, strict=True):
+        boxes.append(_around(x, y, anchor.symbol))
+    for (x, y), row in zip(placed.rows, placed.sketch.rows, strict=True):
+        boxes.append((x - row.width / 2, y - row.top, x + row.width / 2, y + row.bottom))
+    return (min(b[0] for b in boxes), min(b[1] for b in boxes), max(b[2] for b in boxes), max(b[3] for b in boxes))
+
+
+def _around(x: float, y: float, symbol: Symbol) -> tuple[float, float, float, float]:
+    half = max(symbol.width, text_width(symbol.label, 8.0)) / 2
+    return x - half, y - symbol.top - 12, x + half, y + symbol.bottom + 12
