@@ -208,6 +208,62 @@ def test_interrupt_ends_the_child_and_leaves_nothing(tmp_path, scratch):
     assert list(scratch.iterdir()) == []
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="needs signals")
+def test_a_killed_caller_takes_the_child_and_its_folder_with_it(tmp_path, scratch):
+    (tmp_path / "slow_loader.py").write_text(
+        "import os, pathlib, time\n"
+        "def read(path, config):\n"
+        f"    pathlib.Path({str(tmp_path / 'pid')!r}).write_text(str(os.getpid()))\n"
+        "    time.sleep(600)\n"
+    )
+    caller = (
+        "import sys, tempfile, pathlib\n"
+        f"sys.path.insert(0, {str(tmp_path)!r}); tempfile.tempdir = {str(scratch)!r}\n"
+        "from cadgraph.config import LoadConfig\n"
+        "from cadgraph.load.isolation import read_isolated\n"
+        "read_isolated('slow_loader', pathlib.Path('a'), 'a', LoadConfig())\n"
+    )
+    process = subprocess.Popen([sys.executable, "-c", caller])
+    pid_file = tmp_path / "pid"
+    deadline = time.monotonic() + 60
+    while not (pid_file.exists() and pid_file.read_text()) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    process.kill()
+    process.wait(60)
+    while list(scratch.iterdir()) and time.monotonic() < deadline:
+        time.sleep(0.02)
+    assert list(scratch.iterdir()) == []
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs locks that end with a process")
+def test_folders_of_killed_processes_are_cleared_and_those_in_use_kept(tmp_path, crate, scratch):
+    import fcntl
+
+    for name in ("cadgraph-dead", "cadgraph-alive", "other-dead", "cadgraph-foreign"):
+        (scratch / name).mkdir()
+        (scratch / name / "vertices.npy").touch()
+    for name in ("cadgraph-dead", "cadgraph-alive", "other-dead"):
+        (scratch / name / "lock").touch()
+    (tmp_path / "a.usdc").write_bytes(crate)
+    with (scratch / "cadgraph-alive" / "lock").open("wb") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        load(tmp_path / "a.usdc")
+    assert sorted(path.name for path in scratch.iterdir()) == ["cadgraph-alive", "cadgraph-foreign", "other-dead"]
+
+
+def test_want_of_memory_is_no_damage(tmp_path, monkeypatch):
+    module = loader(tmp_path, monkeypatch, "raise MemoryError('Unable to allocate 99 GiB')")
+    with pytest.raises(LoadError, match="not enough memory to read it") as caught:
+        read_isolated(module, tmp_path / "a.usd", "a.usd", LIMITED)
+    assert "damaged" not in str(caught.value)
+
+
+def test_a_cut_crate_says_what_to_do(tmp_path, crate):
+    for cut in (len(crate) // 2, len(crate) - 1, 90):
+        (tmp_path / "cut.usdc").write_bytes(crate[:cut])
+        assert "export it again" in outcome(tmp_path / "cut.usdc")
+
+
 def test_result_holds_no_pickles(tmp_path, monkeypatch):
     body = (
         "import numpy, pathlib, json; folder = pathlib.Path(sys.argv[1]); "

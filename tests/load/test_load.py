@@ -1,12 +1,14 @@
 from __future__ import annotations
 
 import hashlib
+import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
-from cadgraph.config import LoadConfig
+from cadgraph.config import Config, LoadConfig
 from cadgraph.errors import LoadError, MissingExtra
 from cadgraph.load import formats, load
 
@@ -43,6 +45,32 @@ def test_missing_file(tmp_path):
 def test_folder(tmp_path):
     with pytest.raises(LoadError, match="a folder; give one of the files"):
         load(tmp_path)
+
+
+@pytest.mark.parametrize("what", [None, 3, ["a.usd"], b"a.usd"])
+def test_what_is_no_path_is_a_type_error(what):
+    with pytest.raises(TypeError, match="load takes the path of a file"):
+        load(what)
+
+
+def test_the_settings_of_everything_are_not_those_of_loading(tmp_path):
+    with pytest.raises(TypeError, match=r"config\.load of a Config"):
+        load(tmp_path / "a.usd", Config())
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
+@pytest.mark.parametrize("isolate", [True, False])
+def test_a_named_pipe_is_refused_at_once(tmp_path, isolate):
+    os.mkfifo(tmp_path / "a.usda")
+    with pytest.raises(LoadError, match=r"a\.usda: not a regular file but a named pipe; give a file on a disk"):
+        load(tmp_path / "a.usda", LoadConfig(isolate=isolate))
+
+
+@pytest.mark.skipif(not Path("/dev/null").is_char_device(), reason="needs devices")
+def test_a_device_is_refused(tmp_path):
+    (tmp_path / "a.usda").symlink_to("/dev/zero")
+    with pytest.raises(LoadError, match="not a regular file but a device"):
+        load(tmp_path / "a.usda")
 
 
 def test_empty_file(tmp_path):

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import os
+
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -97,7 +99,7 @@ def test_file_without_units_or_axis_gets_those_of_usd(tmp_path):
     assert {"missing-units", "missing-up-axis"} <= codes(scene)
 
 
-@pytest.mark.parametrize("meters", [0.0, -1.0, float("inf"), float("nan")])
+@pytest.mark.parametrize("meters", [0.0, -1.0, float("inf"), float("nan"), 0.9e-10, 1.1e6, 1e300, 1e-300])
 def test_impossible_units_are_repaired(stage, meters):
     stage.SetMetadata("metersPerUnit", meters)
     add_mesh(stage, "/a")
@@ -419,6 +421,62 @@ def test_payloads_are_loaded_and_missing_files_are_named(stage, tmp_path):
         ("missing-layer", ()),
     } <= found
     assert not any(str(tmp_path) in n.message or "0x" in n.message for n in scene.diagnostics)
+
+
+@pytest.mark.parametrize("meters", [1e-10, 1e6])
+def test_units_at_their_limits_are_taken_and_an_unusual_size_is_told(stage, meters):
+    UsdGeom.SetStageMetersPerUnit(stage, meters)
+    add_mesh(stage, "/a")
+    scene = saved(stage)
+    assert scene.source.meters_per_unit == meters
+    assert codes(scene) == {"unusual-size"}
+
+
+def test_meshes_beyond_all_measure_are_left_out_and_named(stage):
+    add_mesh(stage, "/a")
+    add_mesh(stage, "/near", at=(0.99e9, 0, 0))
+    add_mesh(stage, "/far", points=box()[0] * 1e30)
+    add_mesh(stage, "/shifted", at=(-1e300, 0, 0))
+    scene = saved(stage)
+    assert scene.paths == ("/a", "/near")
+    assert ("too-far", ("/far", "/shifted")) in {(n.code, n.meshes) for n in scene.diagnostics}
+
+
+def test_a_scene_beyond_all_measure_is_one_line(stage):
+    add_mesh(stage, "/a", points=box()[0] * 1e30)
+    with pytest.raises(LoadError, match=r"no mesh to load: 1 farther than .* \(check metersPerUnit\)"):
+        saved(stage)
+
+
+def test_a_file_that_is_there_but_no_usd_is_not_called_missing(stage, tmp_path):
+    add_mesh(stage, "/a")
+    (tmp_path / "words.usd").write_text("just words\n")
+    (tmp_path / "bare.usda").write_text('#usda 1.0\ndef Cube "x" {}\n')
+    stage.DefinePrim("/words").GetReferences().AddReference("./words.usd")
+    stage.DefinePrim("/bare").GetReferences().AddReference("./bare.usda")
+    told = {n.meshes: n.message for n in saved(stage).diagnostics}
+    assert told["/words",] == "'words.usd' is there, but can't be read as USD; export it again"
+    assert told["/bare",] == "'bare.usda' names no defaultPrim; set it there, or name a prim in the reference"
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
+@pytest.mark.parametrize(
+    "text",
+    [
+        "( subLayers = [@./pipe.usda@] )",
+        'def "b" ( references = @./pipe.usda@ ) {}',
+        'def "b" ( payload = @./pipe.usda@</x> ) {}',
+        'def "b" ( references = @./part.usda@</x> ) {}',
+        'def "b" ( variants = {string v = "one"}\nprepend variantSets = "v" )\n'
+        '{\nvariantSet "v" = { "one" ( references = @./pipe.usda@ ) {} }\n}',
+    ],
+)
+def test_a_named_pipe_below_the_scene_is_refused_at_once(tmp_path, text):
+    os.mkfifo(tmp_path / "pipe.usda")
+    (tmp_path / "part.usda").write_text('#usda 1.0\ndef "x" ( references = @./pipe.usda@ ) {}\n')
+    (tmp_path / "scene.usda").write_text(f"#usda 1.0\n{text}\n")
+    with pytest.raises(LoadError, match=r"scene\.usda: refers to '\./pipe\.usda', which is .* a named pipe; put"):
+        load(tmp_path / "scene.usda", IN_PROCESS.model_copy(update={"timeout": 20, "isolate": True}))
 
 
 def test_library_warnings_stay_off_the_terminal(stage, tmp_path, capfd):

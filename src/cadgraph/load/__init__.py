@@ -9,12 +9,13 @@ import hashlib
 import importlib
 import importlib.util
 import os
+import stat
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cadgraph.errors import LoadError, MissingExtra
-from cadgraph.load.signature import find_damage, name_content
+from cadgraph.load.signature import find_damage, kind_of, name_content
 
 if TYPE_CHECKING:
     from cadgraph.config import LoadConfig
@@ -70,11 +71,16 @@ def load(path: str | os.PathLike[str], config: LoadConfig | None = None) -> Scen
         All its meshes in metres, Z up, right-handed, sorted by path (``mesh_2`` before ``mesh_10``), at least one.
 
     Raises:
+        TypeError: ``path`` is no path, or ``config`` no ``LoadConfig``.
         LoadError: the file is missing, damaged, of no known format, or holds no mesh; the text is one line.
         MissingExtra: the format needs a package that isn't installed.
     """
     from cadgraph.config import LoadConfig
 
+    if not isinstance(path, str | os.PathLike):
+        raise TypeError(f"load takes the path of a file, not {path!r:.60}")
+    if not isinstance(config, LoadConfig | None):
+        raise TypeError(f"load takes a LoadConfig (config.load of a Config), not {type(config).__name__}")
     config = config or LoadConfig()
     file = Path(path)
     given = os.fspath(path)
@@ -112,15 +118,17 @@ def _check_file(file: Path, given: str) -> None:
     try:
         if file.is_dir():
             raise LoadError(f"{given}: a folder; give one of the files in it ({_known_suffixes()})")
-        size = file.stat().st_size
+        told = file.stat()
+        if not stat.S_ISREG(told.st_mode):
+            raise LoadError(f"{given}: not a regular file but {kind_of(told.st_mode)}; give a file on a disk")
         with file.open("rb"):
             pass
     except FileNotFoundError:
         raise LoadError(f"{given}: no such file; check the path") from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
-        raise LoadError(f"{given}: can't be opened ({reason})") from None
-    if size == 0:
+        raise LoadError(f"{given}: can't be opened ({reason}); check the path and its permissions") from None
+    if told.st_size == 0:
         raise LoadError(f"{given}: the file is empty; export it again")
 
 

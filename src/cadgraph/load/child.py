@@ -1,6 +1,7 @@
 """The reading process: ``python -m cadgraph.load.child FOLDER`` reads what ``FOLDER/request.json`` asks for.
 
-It leaves the scene in the folder, or ``error.json`` with one line. Only ``isolation.py`` starts it.
+It leaves the scene in the folder, or ``error.json`` with one line. Only ``isolation.py`` starts it, and holds the other
+end of its standard input: when that end is gone, so is the caller, and this process ends and clears the folder.
 """
 
 from __future__ import annotations
@@ -9,7 +10,10 @@ import gc
 import importlib
 import json
 import os
+import shutil
+import signal
 import sys
+import threading
 from contextlib import suppress
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
@@ -42,6 +46,18 @@ def main(folder: Path) -> None:
     write_scene(scene, folder)
 
 
+def _end_with_caller(folder: Path) -> None:
+    def wait() -> None:
+        with suppress(OSError, ValueError):
+            # Unbuffered: the lock of a buffered reader would be held for ever.
+            while os.read(0, 1024):
+                pass
+        shutil.rmtree(folder, ignore_errors=True)
+        os._exit(1)
+
+    threading.Thread(target=wait, daemon=True).start()
+
+
 def _leave_no_core() -> None:
     # A crash on a damaged file is expected here and must not leave gigabytes in the user's folder.
     with suppress(ImportError, OSError, ValueError):
@@ -51,6 +67,9 @@ def _leave_no_core() -> None:
 
 
 if __name__ == "__main__":
+    # Ctrl-C reaches both processes; the caller decides, and ends this one.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    _end_with_caller(Path(sys.argv[1]))
     main(Path(sys.argv[1]))
     # All is written. To take the scene and the libraries down piece by piece takes time, and some of them crash at it.
     os._exit(0)

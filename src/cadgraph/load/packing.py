@@ -14,6 +14,8 @@ __all__ = ["Notes", "Piece", "pack", "unique_name"]
 
 _FAR = 10_000.0  # [m] beyond this a scene gets an origin of its own; ours: float32 renders still resolve 1 mm
 _ORIGIN_STEP = 100.0  # [m] origins are whole multiples, so that they are exact and stable under small edits
+_TOO_FAR = 1e9  # [m] ours: there float64 still resolves a micrometre; the Moon is at 4e8
+_SIZES = (1e-3, 1e5)  # [m] ours: no plant is smaller than a millimetre or larger than 100 km
 _EXAMPLES = 20  # so many paths stand for the rest in a note on meshes that were loaded
 
 
@@ -90,7 +92,9 @@ def pack(
     """Places all pieces, in metres and Z up, and joins them into one scene.
 
     Mirrored pieces get their triangles turned, so that these still face outward. A piece without area is left out
-    (``degenerate-mesh``), and so is one with a placement that isn't finite (``invalid-transform``).
+    (``degenerate-mesh``), and so is one with a placement that isn't finite (``invalid-transform``) or that reaches
+    farther than a million kilometres from the origin (``too-far``). A scene smaller than a millimetre or larger than
+    100 km is told (``unusual-size``).
 
     Args:
         pieces: in any order.
@@ -109,6 +113,7 @@ def pack(
         kept, vertices = _placed(ordered, matrices, origin, notes)
         mirrored = np.linalg.det(matrices[kept, :3, :3]) < 0
     ordered = [ordered[i] for i in kept]
+    _tell_size(vertices, source, notes)
     faces = [p.faces[:, ::-1] if turned else p.faces for p, turned in zip(ordered, mirrored.tolist(), strict=True)]
     taken: set[str] = set()
     paths = tuple(unique_name(piece.path, taken) for piece in ordered)
@@ -141,9 +146,12 @@ def _placed(pieces: Sequence[Piece], matrices: Floats, origin: Floats, notes: No
         np.matmul(piece.points.astype(np.float64, copy=False), turn, out=slot)
         slot += shift
     finite = np.asarray(np.isfinite(matrices).all(axis=(1, 2)))
-    # A sum is finite only where every term is: one pass instead of a mask.
-    if not np.isfinite(vertices.sum()):
+    near = np.ones(len(pieces), bool)
+    # Written so that NaN fails it too.
+    limit = _TOO_FAR - float(np.abs(origin).max())
+    if len(vertices) and not (vertices.max() <= limit and vertices.min() >= -limit):
         finite &= np.array([np.isfinite(slot.sum()) for slot in slots], bool)
+        near = np.array([slot.max() <= limit and slot.min() >= -limit for slot in slots], bool)
     # The first face nearly always settles it, without a look at all the others.
     corners = ends[:-1, None] + np.array([piece.faces[0] for piece in pieces], np.int64).reshape(-1, 3)
     solid = _have_area(vertices, corners)
@@ -151,6 +159,9 @@ def _placed(pieces: Sequence[Piece], matrices: Floats, origin: Floats, notes: No
     for i, (piece, slot) in enumerate(zip(pieces, slots, strict=True)):
         if not finite[i]:
             notes.add("invalid-transform", "left out: its placement is not finite", piece.path)
+        elif not near[i]:
+            message = "left out: it reaches farther than a million kilometres; check its points and the file's units"
+            notes.add("too-far", message, piece.path)
         elif not (solid[i] or _have_area(slot, piece.faces).any()):
             notes.add("degenerate-mesh", "left out: all its faces have zero area", piece.path)
         else:
@@ -159,6 +170,15 @@ def _placed(pieces: Sequence[Piece], matrices: Floats, origin: Floats, notes: No
     if len(kept) < len(pieces):
         vertices = np.concatenate(where) if where else np.zeros((0, 3))
     return kept, vertices
+
+
+def _tell_size(vertices: Floats, source: Source, notes: Notes) -> None:
+    if not len(vertices):
+        return
+    size = float((vertices.max(axis=0) - vertices.min(axis=0)).max())
+    if not _SIZES[0] <= size <= _SIZES[1]:
+        unit = f"check its units (one is taken as {source.meters_per_unit:g} m)"
+        notes.add("unusual-size", f"the scene is {size:.3g} m across, which no plant is; {unit}")
 
 
 def _have_area(points: Floats, faces: Faces | Ints) -> npt.NDArray[np.bool_]:
@@ -175,7 +195,7 @@ def _origin(pieces: Sequence[Piece], matrices: Floats) -> Floats:
         return np.zeros(3)
     corners = np.array([piece.points[piece.faces[0, 0]] for piece in pieces], np.float64)
     first = np.einsum("ij,ijk->ik", corners, matrices[:, :3, :3]) + matrices[:, 3, :3]
-    first = first[np.isfinite(first).all(axis=1)]
+    first = first[(np.abs(first) <= _TOO_FAR).all(axis=1)]
     if not len(first):
         return np.zeros(3)
     # The median: one stray mesh must not drag the origin away from all others.

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+import stat
 import zipfile
 from pathlib import Path
 
-__all__ = ["find_damage", "name_content"]
+__all__ = ["find_damage", "kind_of", "name_content"]
 
 _CRATE = b"PXR-USDC"
 _CRATE_HEADER = 88  # identifier 8, version 8, offset of the table of contents 8, reserved 64 (OpenUSD crateFile.cpp)
+
+
+def kind_of(mode: int) -> str:
+    """What a file that isn't regular is, from its ``st_mode``; to open one may wait for ever."""
+    kinds = ((stat.S_ISDIR, "a folder"), (stat.S_ISFIFO, "a named pipe"), (stat.S_ISSOCK, "a socket"))
+    return next((name for is_kind, name in kinds if is_kind(mode)), "a device")
 
 
 def name_content(path: Path) -> str | None:

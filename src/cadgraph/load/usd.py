@@ -3,11 +3,11 @@
 What this reader notes in ``Scene.diagnostics``; meshes with a code of the first row are not in the scene:
 
 - left out: ``hidden``, ``other-purpose``, ``unsupported-geometry``, ``empty-mesh`` (no points or no usable face),
-  ``degenerate-mesh`` (no area), ``invalid-transform``, ``unreadable``;
+  ``degenerate-mesh`` (no area), ``invalid-transform``, ``too-far``, ``unreadable``;
 - not found: ``missing-reference``, ``missing-payload``, ``missing-layer``, ``missing-prototype``;
 - repaired: ``invalid-units``, ``invalid-up-axis``, ``invalid-points``, ``invalid-indices``, ``invalid-face-counts``,
   ``invalid-instancer``, ``twisted-faces``, ``overlapping-subsets``;
-- assumed: ``missing-units``, ``missing-up-axis``, ``control-cage``;
+- assumed: ``missing-units``, ``missing-up-axis``, ``control-cage``, ``unusual-size``;
 - anything else that the USD library says: ``usd-warning``.
 """
 
@@ -26,6 +26,7 @@ from pxr import Tf, Usd, UsdGeom, UsdUtils
 
 from cadgraph.errors import LoadError
 from cadgraph.load.packing import Notes, Piece, pack
+from cadgraph.load.usd_assets import is_there, open_layers
 from cadgraph.load.usd_color import Materials, mean_display_color
 from cadgraph.load.usd_mesh import CutMesh, RawMesh, cut_meshes
 from cadgraph.load.usd_walk import Placement, Walk, message_of
@@ -54,6 +55,7 @@ _ABRIDGED = (
     "missing-payload",
     "missing-reference",
 )
+_LEAST_UNIT, _GREATEST_UNIT = 1e-10, 1e6  # [m] ours: from an angstrom to a thousand kilometres
 _MAX_WARNINGS = 20  # different messages of the USD library that are kept
 
 
@@ -75,9 +77,12 @@ def read(path: Path, config: LoadConfig) -> Scene:
     delegate = UsdUtils.CoalescingDiagnosticDelegate()
     try:
         try:
+            layers = open_layers(path)
             stage = Usd.Stage.Open(str(path), Usd.Stage.LoadAll)
+            del layers
         except Tf.ErrorException as error:
-            raise LoadError(f"{path}: not readable as USD ({_reason(error, path)})") from None
+            reason = _reason(error, path)
+            raise LoadError(f"{path}: not readable as USD ({reason}); it is damaged; copy or export it again") from None
         scene = _scene(stage, config, notes, lambda: _take_warnings(delegate, path, notes))
     finally:
         delegate.TakeUncoalescedDiagnostics()
@@ -110,7 +115,7 @@ def _units(stage: Any, notes: Notes) -> tuple[Source, Floats]:
     meters = UsdGeom.GetStageMetersPerUnit(stage)
     if not UsdGeom.StageHasAuthoredMetersPerUnit(stage):
         notes.add("missing-units", "the file names no metersPerUnit; USD then means centimetres (0.01)")
-    elif not (np.isfinite(meters) and meters > 0):
+    elif not _LEAST_UNIT <= meters <= _GREATEST_UNIT:
         notes.add("invalid-units", f"metersPerUnit = {meters:g} is impossible; taken as centimetres (0.01)")
         meters = 0.01
     axis = str(UsdGeom.GetStageUpAxis(stage))
@@ -274,14 +279,24 @@ def _take_warnings(delegate: Any, path: Path, notes: Notes) -> None:
         layer = _MISSING_LAYER.search(text)
         if missing:
             code = "missing-payload" if missing["arc"] == "payload" else "missing-reference"
-            target = missing["asset"] + (f"<{missing['prim']}>" if "prim" in missing.groupdict() else "")
-            notes.add(code, f"can't find {target!r}; put it there", missing["path"])
+            notes.add(code, _what_is_missing(missing, folder), missing["path"])
         elif layer:
-            notes.add("missing-layer", f"can't find sublayer {layer['asset']!r}; put it there")
+            notes.add("missing-layer", f"sublayer: {_what_is_missing(layer, folder)}")
         else:
             others.append(_PASSING.sub("", text)[:300])
     for text in sorted(set(others))[:_MAX_WARNINGS]:
         notes.add("usd-warning", text)
+
+
+def _what_is_missing(said: re.Match[str], folder: Path) -> str:
+    asset, prim = said["asset"], said.groupdict().get("prim")
+    if prim == "defaultPrim":
+        return f"{asset!r} names no defaultPrim; set it there, or name a prim in the reference"
+    if prim is not None:
+        return f"{asset!r} has no prim <{prim}>; correct the reference" if asset else f"there is no prim <{prim}>"
+    if is_there(folder / asset):
+        return f"{asset!r} is there, but can't be read as USD; export it again"
+    return f"can't find {asset!r}; put it there"
 
 
 def _relative(asset: str, folder: Path) -> str:
@@ -311,6 +326,7 @@ _FINDINGS = {
     "empty-mesh": "{} without a usable face",
     "degenerate-mesh": "{} without area",
     "invalid-transform": "{} with an impossible placement",
+    "too-far": "{} farther than a million kilometres from the origin (check metersPerUnit)",
     "unreadable": "{} unreadable",
     "missing-prototype": "{} missing prototypes",
 }
