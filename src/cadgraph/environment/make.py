@@ -10,7 +10,7 @@ import numpy as np
 
 from cadgraph.environment.hand import HANDS, RGB, Hand
 
-__all__ = ["Make", "draw_make", "painted"]
+__all__ = ["Make", "draw_make", "dressed", "painted"]
 
 _PIPE_PAINTS: tuple[RGB, ...] = (
     (0.36, 0.40, 0.44),
@@ -63,6 +63,11 @@ class Make:
             return {"gearbox": self.gearbox, "spokes": min(self.spokes, 4)}
         return {}
 
+    def design(self, kind: str) -> str:
+        """Family and build of a kind of valve, for the truth."""
+        build = {"ball": self.ball, "globe": self.globe}.get(kind, "")
+        return f"{kind} valve/{build}" if build else f"{kind} valve"
+
 
 def draw_make(rng: np.random.Generator) -> Make:
     """One manufacturer at random."""
@@ -95,3 +100,23 @@ def painted(hand: Hand, rng: np.random.Generator, seed: int) -> Hand:
         hand,
         palette={**hand.palette, "pipe": pipe, "flange": flange, "valve": valve, "handle": handle, "steel": steel},
     )
+
+
+def dressed(hand: Hand | None, rng: np.random.Generator, seed: int, usual: Mapping[str, Any]) -> Hand:
+    """The hand that models a plant: the one asked for, or plant-design CAD as fine as somebody happened to model.
+
+    Args:
+        hand: asked for, or None.
+        rng: of paint and grain.
+        seed: 0 takes the preset's usual grain and the hand's own colours.
+        usual: settings of ``Hand`` that give the preset as many parts as the paper's structure has.
+    """
+    grains = {
+        "fasteners": ("flange", "flange", "set", "bolt")[int(rng.integers(4))],
+        "valve": ("few", "few", "pieces")[int(rng.integers(3))],
+        "gauge": ("few", "pieces")[int(rng.integers(2))],
+        "spool": ("segments", "segments", "bent")[int(rng.integers(3))],
+        "gaskets": bool(rng.random() < 0.7),
+    }
+    chosen: dict[str, Any] = {**usual, **(grains if seed else {})}
+    return painted(hand if hand is not None else replace(HANDS["plant-design"], **chosen), rng, seed)
