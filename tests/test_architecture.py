@@ -32,6 +32,7 @@ MAY_IMPORT = {
     "geometry": {"errors", "parts", "progress", "scene"},
     "stages": VALUES | {"geometry"},
     "render": VALUES | {"geometry"},
+    "lvlm": VALUES | {"geometry", "render", "stages"},
     "pipeline": VALUES | {"geometry", "stages"},
     "functional": VALUES,
     "diagram": VALUES | {"functional"},
@@ -46,6 +47,7 @@ MAY_IMPORT = {
     "cli": VALUES
     | {"diagram", "functional"}
     | {"environment", "evaluate", "export", "load", "pipeline", "render", "report", "reproduce", "job", "summary"},
+    "training": VALUES | {"environment", "evaluate", "geometry", "load", "pipeline", "stages", "truth"},
     "warm": {"environment", "pipeline"},
     "__main__": {"cli"},
     "__init__": VALUES | {"job", "load", "pipeline"},

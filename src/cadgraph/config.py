@@ -23,6 +23,7 @@ __all__ = [
     "InspectConfig",
     "LabelConfig",
     "LoadConfig",
+    "LvlmConfig",
     "PreprocessConfig",
     "RelateConfig",
     "ReportConfig",
@@ -135,9 +136,55 @@ class ClusterConfig(Section):
 class LabelConfig(Section):
     """How parts get their labels."""
 
-    labeler: Literal["geometry", "none"] = _setting("geometry", "embedded labeler: rules on geometry, or none")
-    min_confidence: float = _setting(0.5, "a label below this confidence is dropped", ge=0, le=1)
+    labeler: Literal["embedded", "none"] = _setting("embedded", "the trained network in the package, or none")
+    min_confidence: float | None = _setting(
+        None,
+        "a label below this confidence is only a guess; none: the labeler's own threshold",
+        "ours: docs/labeler.md",
+        ge=0,
+        le=1,
+    )
     overrule: bool = _setting(True, "labels from outside replace those of the labeler; off: they only fill gaps")
+
+
+class LvlmConfig(Section):
+    """How a vision-language model is asked; keys come from the environment only."""
+
+    ask: Literal["never", "unsure", "all"] = _setting(
+        "never", "ask it never, where the embedded labeler is unsure, or about all parts instead of that"
+    )
+    model: str = _setting("gpt-4o", "name of the model, as the server knows it", "paper, section III", max_length=200)
+    base_url: str = _setting(
+        "", "address of a compatible server (vLLM, Ollama, Azure...); empty: OpenAI", max_length=500
+    )
+    key_variable: str = _setting("OPENAI_API_KEY", "environment variable that holds the key", pattern=r"^\w{1,100}$")
+    per: Literal["shape", "part"] = _setting(
+        "shape", "one question for each shape and role, or for each part as the paper asks"
+    )
+    votes: int = _setting(1, "members of a kind that are asked about; the majority counts", ge=1, le=15)
+    hints: bool = _setting(False, "tell it what geometry knows: form, repeats, labels of neighbours")
+    below: float = _setting(0.8, "ask = 'unsure': where the embedded labeler's confidence is below", ge=0, le=1)
+    again_below: float = _setting(
+        0.5, "answers below this confidence are asked again with what geometry knows; 0: never", ge=0, le=1
+    )
+    repair: bool = _setting(True, "let sizes correct gaskets and flanges", "ASME B16.20, B16.21, EN 1092-1")
+    paper_views: bool = _setting(False, "plain pictures from three sides around, as in the paper")
+    size: int = _setting(512, "side of a picture [px]", "paper, section III-B", ge=128, le=2048)
+    detail: Literal["low", "high", "auto"] = _setting("high", "how closely the model looks; low costs a third")
+    max_questions: int | None = _setting(None, "at most so many questions in a run, those that help most", ge=0)
+    max_cost: float | None = _setting(None, "at most so many US dollars in a run, by the price table", ge=0)
+    prices: str = _setting("", "price table (YAML); empty: the built-in one", max_length=4096)
+    cache: str = _setting(
+        "", "file of answers that were given; empty: lvlm/answers.sqlite in the output folder", max_length=4096
+    )
+    concurrency: int = _setting(8, "questions at a time", ge=1, le=256)
+    timeout: float = _setting(120.0, "give up on one try after this long [s]", gt=0)
+    retries: int = _setting(5, "further tries after 429, 5xx, a timeout or a broken connection", ge=0, le=20)
+    max_answer_tokens: int = _setting(600, "greatest length of an answer [tokens]", ge=50, le=20000)
+    temperature: float | None = _setting(0.0, "of the model; none: its own", ge=0, le=2)
+    structured: Literal["auto", "json_schema", "json_object", "none"] = _setting(
+        "auto", "how the server is held to a form; auto: the strictest that it knows"
+    )
 
 
 class RelateConfig(Section):
@@ -177,6 +224,7 @@ class Config(Section):
     group: GroupConfig = GroupConfig()
     cluster: ClusterConfig = ClusterConfig()
     label: LabelConfig = LabelConfig()
+    lvlm: LvlmConfig = LvlmConfig()
     relate: RelateConfig = RelateConfig()
     report: ReportConfig = ReportConfig()
 

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from cadgraph.scene import Floats, Ints, Scene
 
-__all__ = ["Contacts", "Label", "Link", "Network", "Opening", "Parts", "Place", "Properties", "UnitParts"]
+__all__ = ["Contacts", "Guess", "Label", "Link", "Network", "Opening", "Parts", "Place", "Properties", "UnitParts"]
 
 Bools = npt.NDArray[np.bool_]
 
@@ -98,6 +98,21 @@ class Contacts:
 
 
 @dataclass(frozen=True)
+class Guess:
+    """What a part might be.
+
+    Args:
+        group: a group of the vocabulary.
+        name: a name in that group, or None.
+        confidence: 0..1.
+    """
+
+    group: str
+    name: str | None
+    confidence: float
+
+
+@dataclass(frozen=True)
 class Label:
     """What a part is.
 
@@ -107,6 +122,7 @@ class Label:
         confidence: 0..1.
         source: who says so: ``geometry``, ``lvlm``, ``catalog``, ``repeat``, ``context``, ``author`` or ``human``.
         evidence: what that source needs to be traced, plain JSON values.
+        guesses: what else it may be, the likeliest first; the label itself may be among them.
     """
 
     group: str
@@ -114,6 +130,7 @@ class Label:
     confidence: float
     source: str
     evidence: Mapping[str, Any] = field(default_factory=dict)
+    guesses: tuple[Guess, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -79,11 +79,13 @@ def build(
     cluster = cluster_parts(parts.n_parts, contacts, parts.ground, config.cluster.min_samples)
 
     progress("label", 0)
-    guessed = label_parts(labeler or labeler_of(config.label), parts, contacts, vocabulary, config.label)
-    named, told_labels = apply_given(guessed, labels, scene, parts, config.label)
+    labeler = labeler or labeler_of(config.label)
+    labeled = label_parts(labeler, parts, contacts, vocabulary, config.label)
+    named, told_labels = apply_given(labeled.labels, labels, scene, parts, config.label)
+    told_labels = (*getattr(labeler, "diagnostics", ()), *told_labels)
 
     progress("relate", 0)
-    network, told_lines = connect_units(parts, named, guessed, contacts, cluster, vocabulary, config)
+    network, told_lines = connect_units(parts, named, labeled.labels, contacts, cluster, vocabulary, config)
     related = relate_units(network.units, named, contacts, cluster, vocabulary)
 
     progress("assemble", 0)
@@ -94,6 +96,7 @@ def build(
         cluster=cluster,
         pipe_systems=pipe_systems(named, cluster, vocabulary),
         labels=named,
+        guesses=labeled.guesses,
         network=network,
         related=related,
         diagnostics=(*scene.diagnostics, *told, *told_ground, *told_bridges, *told_labels, *told_lines),

@@ -26,6 +26,7 @@ __all__ = [
     "Node",
     "OrientedBox",
     "Part",
+    "PartGuess",
     "PartLabel",
     "Point",
     "Port",
@@ -106,6 +107,14 @@ class Cluster(_Record):
     aabb: Box
 
 
+class PartGuess(_Record):
+    """What a part might be, where nobody is sure enough."""
+
+    group: str
+    name: str | None = None
+    confidence: float = Field(ge=0, le=1)
+
+
 class Part(_Record):
     """What the paper calls a mesh after grouping: one or more source meshes that act as one item."""
 
@@ -113,6 +122,9 @@ class Part(_Record):
     layer: Literal["part"] = "part"
     meshes: tuple[str, ...] = Field(description="source paths, the largest first", min_length=1)
     label: PartLabel | None = None
+    guesses: tuple[PartGuess, ...] = Field(
+        default=(), description="where no labeler is sure enough; likeliest first"
+    )
     centroid: Point
     aabb: Box
     obb: OrientedBox

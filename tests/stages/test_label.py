@@ -8,10 +8,10 @@ from cadgraph.config import LabelConfig
 from cadgraph.errors import LabelError
 from cadgraph.geometry.properties import measure
 from cadgraph.labels import GivenLabel
-from cadgraph.parts import Contacts, Label, Parts
+from cadgraph.parts import Contacts, Guess, Label, Parts
 from cadgraph.scene import Scene
 from cadgraph.stages.label import apply_given, label_parts, labeler_of
-from cadgraph.stages.label.rules import GeometryLabeler
+from cadgraph.stages.label.embedded import EmbeddedLabeler
 from cadgraph.vocabulary import default_vocabulary
 
 VOCABULARY = default_vocabulary()
@@ -47,12 +47,14 @@ def given(mesh, name="valve", group="Valve assembly"):
 
 def test_no_labeler_leaves_all_parts_open():
     parts = parts_of(scene_of(2), (0,), (1,))
-    assert label_parts(None, parts, NO_CONTACTS, VOCABULARY, LabelConfig()) == (None, None)
+    labeled = label_parts(None, parts, NO_CONTACTS, VOCABULARY, LabelConfig())
+    assert labeled.labels == (None, None)
+    assert labeled.guesses == ((), ())
 
 
 def test_setting_chooses_the_labeler():
     assert labeler_of(LabelConfig(labeler="none")) is None
-    assert isinstance(labeler_of(LabelConfig()), GeometryLabeler)
+    assert isinstance(labeler_of(LabelConfig()), EmbeddedLabeler)
 
 
 @pytest.mark.parametrize(("confidence", "kept"), [(0.5, True), (0.4999, False)])
@@ -60,14 +62,24 @@ def test_label_at_least_as_sure_as_the_limit_is_kept(confidence, kept):
     parts = parts_of(scene_of(1), (0,))
     answer = replace(PIPE, confidence=confidence)
     result = label_parts(Says(answer), parts, NO_CONTACTS, VOCABULARY, LabelConfig(min_confidence=0.5))
-    assert result == ((answer,) if kept else (None,))
+    assert result.labels == ((answer,) if kept else (None,))
+    assert result.guesses == ((() if kept else (Guess("Pipe assembly", "pipe", confidence),)),)
+
+
+def test_without_a_setting_the_labelers_own_threshold_counts():
+    parts = parts_of(scene_of(1), (0,))
+    strict = Says(replace(PIPE, confidence=0.7))
+    assert label_parts(strict, parts, NO_CONTACTS, VOCABULARY, LabelConfig()).labels[0] is not None
+    strict.least_confidence = 0.8
+    assert label_parts(strict, parts, NO_CONTACTS, VOCABULARY, LabelConfig()).labels == (None,)
+    assert label_parts(strict, parts, NO_CONTACTS, VOCABULARY, LabelConfig(min_confidence=0.6)).labels[0] is not None
 
 
 @pytest.mark.parametrize("unknown", [("Spaceship", None), ("Pipe assembly", "warp core")])
 def test_label_outside_the_vocabulary_is_dropped(unknown):
     parts = parts_of(scene_of(2), (0,), (1,))
     answers = Label(*unknown, 1.0, "geometry"), PIPE
-    assert label_parts(Says(*answers), parts, NO_CONTACTS, VOCABULARY, LabelConfig()) == (None, PIPE)
+    assert label_parts(Says(*answers), parts, NO_CONTACTS, VOCABULARY, LabelConfig()).labels == (None, PIPE)
 
 
 def test_wrong_number_of_answers_is_an_error():

@@ -39,7 +39,7 @@ class Labeling:
 
 LABELINGS = (
     Labeling("true", "true labels", {"label.labeler": "none"}, true=True),
-    Labeling("geometry", "embedded labeler", {"label.labeler": "geometry"}),
+    Labeling("embedded", "embedded labeler", {"label.labeler": "embedded"}),
 )
 """Every labeler that runs without a network; a later one needs a row here."""
 

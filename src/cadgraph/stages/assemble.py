@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 
 from cadgraph.graph import SceneGraph
-from cadgraph.parts import Contacts, Label, Link, Network, Parts, UnitParts
+from cadgraph.parts import Contacts, Guess, Label, Link, Network, Parts, UnitParts
 from cadgraph.records import (
     Adjacent,
     Cluster,
@@ -23,6 +23,7 @@ from cadgraph.records import (
     Node,
     OrientedBox,
     Part,
+    PartGuess,
     PartLabel,
     Point,
     Port,
@@ -54,6 +55,7 @@ class Results:
         cluster: ``(n_parts,)`` -1 for the ground and for noise.
         pipe_systems: the clusters that hold a connector part.
         labels: of each part.
+        guesses: of each part that has no label because nobody is sure enough.
         network: functional units, and what follows what along the lines between them.
         related: pairs of unit indices.
         diagnostics: of all stages.
@@ -65,6 +67,7 @@ class Results:
     cluster: Ints
     pipe_systems: frozenset[int]
     labels: Sequence[Label | None]
+    guesses: Sequence[Sequence[Guess]]
     network: Network
     related: Sequence[tuple[int, int]]
     diagnostics: Sequence[Diagnostic]
@@ -131,6 +134,7 @@ def _parts(results: Results, ids: Sequence[str]) -> list[Part]:
             id=ids[i],
             meshes=tuple(scene.paths[mesh] for mesh in parts.meshes[i]),
             label=_label(results.labels[i]),
+            guesses=_guesses(results.guesses[i]) if results.labels[i] is None else (),
             centroid=centroids[i],
             aabb=(corners[2 * i], corners[2 * i + 1]),
             obb=OrientedBox(
@@ -296,6 +300,10 @@ def _findings(results: Results) -> list[Finding]:
             heads = tuple(paths[parts.meshes[i][0]] for i in members)
             found.append(Diagnostic(code, f"{len(members)} {message}", heads))
     return [Finding(code=d.code, message=d.message, meshes=d.meshes) for d in found]
+
+
+def _guesses(guesses: Sequence[Guess]) -> tuple[PartGuess, ...]:
+    return tuple(PartGuess(group=g.group, name=g.name, confidence=round(g.confidence, 6)) for g in guesses)
 
 
 def _label(label: Label | None) -> PartLabel | None:

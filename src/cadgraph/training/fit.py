@@ -131,11 +131,11 @@ def fit(
             loss = loss_of(joint[known], y[known]) + 0.3 * loss_of(alone[known], y[known])
             total = (loss * w[known]).sum() / w[known].sum().clamp(min=1e-9)
             optimizer.zero_grad()
-            total.backward()  # type: ignore[no-untyped-call]
+            total.backward()
             nn.utils.clip_grad_norm_(net.parameters(), 2.0)
             optimizer.step()
             schedule.step()
-            losses.append(float(total))
+            losses.append(total.item())
         told(f"epoch {epoch + 1} of {recipe.epochs}: loss {np.mean(losses):.3f}")
     return Network(
         {"mean": mean, "spread": spread, "side_mean": side_mean, "side_spread": side_spread, **_arrays(net)},
@@ -202,10 +202,10 @@ def _batch(
 
 def _arrays(net: _Net) -> dict[str, Floats]:
     def matrix(layer: nn.Module) -> Floats:
-        return np.asarray(layer.weight.detach().numpy().T, np.float64)  # type: ignore[union-attr, operator]
+        return np.asarray(layer.weight.detach().numpy().T, np.float64)  # type: ignore[operator]
 
     def bias(layer: nn.Module) -> Floats:
-        return np.asarray(layer.bias.detach().numpy(), np.float64)  # type: ignore[union-attr, operator]
+        return np.asarray(layer.bias.detach().numpy(), np.float64)  # type: ignore[operator]
 
     arrays = {"w0": matrix(net.first), "b0": bias(net.first), "w1": matrix(net.second), "b1": bias(net.second)}
     for k in range(net.recipe.rounds):

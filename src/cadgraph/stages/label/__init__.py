@@ -3,20 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Protocol
 
 from cadgraph.config import LabelConfig
 from cadgraph.errors import LabelError
 from cadgraph.labels import GivenLabel
-from cadgraph.parts import Contacts, Label, Parts
+from cadgraph.parts import Contacts, Guess, Label, Parts
 from cadgraph.scene import Diagnostic, Scene
 from cadgraph.vocabulary import Vocabulary
 
-__all__ = ["Labeler", "apply_given", "label_parts", "labeler_of"]
+__all__ = ["Labeled", "Labeler", "apply_given", "label_parts", "labeler_of"]
+
+LEAST_CONFIDENCE = 0.5
+"""Of a label, where neither the settings nor the labeler say."""
 
 
 class Labeler(Protocol):
-    """Whatever can say what parts are."""
+    """Whatever can say what parts are.
+
+    A labeler may have an attribute ``least_confidence``: labels below it are guesses unless the settings
+    say otherwise; and ``diagnostics``: what is to be told once it has labelled.
+    """
 
     def label(self, parts: Parts, contacts: Contacts, vocabulary: Vocabulary) -> Sequence[Label | None]:
         """Labels parts.
@@ -32,36 +40,61 @@ class Labeler(Protocol):
         ...
 
 
+@dataclass(frozen=True)
+class Labeled:
+    """What a labeler said.
+
+    Args:
+        labels: of each part, None where it isn't sure enough.
+        guesses: of each part that has no label for that reason, the likeliest first.
+    """
+
+    labels: tuple[Label | None, ...]
+    guesses: tuple[tuple[Guess, ...], ...]
+
+
 def labeler_of(config: LabelConfig) -> Labeler | None:
-    """The labeler that is set; None if labels come from outside only."""
+    """The labeler that is set; None if labels come from outside only.
+
+    Raises:
+        LabelError: the trained model is damaged.
+    """
     if config.labeler == "none":
         return None
-    from cadgraph.stages.label.rules import GeometryLabeler
+    from cadgraph.stages.label.embedded import EmbeddedLabeler
 
-    return GeometryLabeler()
+    return EmbeddedLabeler()
 
 
 def label_parts(
     labeler: Labeler | None, parts: Parts, contacts: Contacts, vocabulary: Vocabulary, config: LabelConfig
-) -> tuple[Label | None, ...]:
+) -> Labeled:
     """Asks a labeler, and keeps what it is sure enough of and the vocabulary holds.
 
     Raises:
         LabelError: the labeler answers for another number of parts.
     """
     if labeler is None:
-        return (None,) * parts.n_parts
+        return Labeled((None,) * parts.n_parts, ((),) * parts.n_parts)
     answers = labeler.label(parts, contacts, vocabulary)
     if len(answers) != parts.n_parts:
         raise LabelError(f"the labeler gave {len(answers)} answers for {parts.n_parts} parts")
-    return tuple(
-        answer
-        if answer is not None
-        and answer.confidence >= config.min_confidence
-        and vocabulary.holds(answer.group, answer.name)
-        else None
-        for answer in answers
+    least = config.min_confidence
+    if least is None:
+        least = float(getattr(labeler, "least_confidence", LEAST_CONFIDENCE))
+    held = [
+        answer if answer is not None and vocabulary.holds(answer.group, answer.name) else None for answer in answers
+    ]
+    labels = tuple(answer if answer is not None and answer.confidence >= least else None for answer in held)
+    guesses = tuple(
+        _guesses(answer) if answer is not None and label is None else ()
+        for answer, label in zip(held, labels, strict=True)
     )
+    return Labeled(labels, guesses)
+
+
+def _guesses(answer: Label) -> tuple[Guess, ...]:
+    return answer.guesses or (Guess(answer.group, answer.name, answer.confidence),)
 
 
 def apply_given(

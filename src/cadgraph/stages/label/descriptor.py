@@ -157,7 +157,8 @@ def _box(properties: Properties, rows: Ints, extents: Floats) -> Floats:
 
 def _shares(axis: Floats, box: Floats) -> Floats:
     """How much the main axis agrees with the long, middle and short side of the box."""
-    return np.abs(np.einsum("mk,mjk->mj", axis, box)) ** 2
+    squares: Floats = np.einsum("mk,mjk->mj", axis, box) ** 2
+    return squares
 
 
 def _histogram(values: Floats, low: float, high: float, bins: int) -> Floats:
@@ -165,14 +166,16 @@ def _histogram(values: Floats, low: float, high: float, bins: int) -> Floats:
     m, n = values.shape
     place = np.clip(((values - low) / (high - low) * bins).astype(np.int64), 0, bins - 1)
     counts = np.bincount((np.arange(m)[:, None] * bins + place).reshape(-1), minlength=m * bins)
-    return counts.reshape(m, bins) * (bins / n)
+    shares: Floats = counts.reshape(m, bins) * (bins / n)
+    return shares
 
 
 def _joint(t: Floats, r: Floats) -> Floats:
     m, n = t.shape
     place = np.clip((t * 6).astype(np.int64), 0, 5) * 6 + np.clip((r * 6).astype(np.int64), 0, 5)
     counts = np.bincount((np.arange(m)[:, None] * 36 + place).reshape(-1), minlength=m * 36)
-    return np.minimum(counts.reshape(m, 36) * (36 / n), 10)
+    shares: Floats = np.minimum(counts.reshape(m, 36) * (36 / n), 10)
+    return shares
 
 
 def _profiles(facts: list[Facts], turn: Bools, radius: Floats) -> Floats:
@@ -181,7 +184,8 @@ def _profiles(facts: list[Facts], turn: Bools, radius: Floats) -> Floats:
     inner = np.array([f.inner for f in facts]).reshape(len(facts), _BINS, -1)
     both = np.stack([outer.max(axis=2), inner.min(axis=2)], axis=1) / radius[:, None, None]
     both = np.where(turn[:, None, None], both[..., ::-1], both)
-    return both.reshape(len(facts), 2 * _BINS)
+    rows: Floats = both.reshape(len(facts), 2 * _BINS)
+    return rows
 
 
 def _normals(normals: Floats, axis: Floats, across: Floats) -> tuple[Floats, Floats]:
@@ -197,15 +201,12 @@ def _around(points: Floats, axis: Floats, across: Floats, r: Floats) -> tuple[Fl
     least = np.argmin(np.abs(axis), axis=1)
     u = np.cross(axis, np.eye(3)[least])
     u /= np.linalg.norm(u, axis=1, keepdims=True)
-    angle = np.arctan2(
-        np.einsum("mnk,mk->mn", across, np.cross(axis, u)), np.einsum("mnk,mk->mn", across, u)
-    )
+    angle = np.arctan2(np.einsum("mnk,mk->mn", across, np.cross(axis, u)), np.einsum("mnk,mk->mn", across, u))
     found = []
     for zone in (r > 0.02, r > 0.72, (r > 0.36) & (r <= 0.68)):
         count = np.maximum(zone.sum(axis=1), 1)
         rows = [
-            np.abs((np.exp(1j * k * angle) * zone).sum(axis=1)) / count * np.minimum(1, count / 32)
-            for k in _HARMONICS
+            np.abs((np.exp(1j * k * angle) * zone).sum(axis=1)) / count * np.minimum(1, count / 32) for k in _HARMONICS
         ]
         found.append(np.column_stack(rows))
     return found[0], found[1], found[2]
@@ -234,7 +235,7 @@ def _long(points: Floats, properties: Properties, rows: Ints, extents: Floats) -
     t = np.where((t.mean(axis=1) > 0.5)[:, None], 1 - t, t)
     wide = np.linalg.norm(apart - np.einsum("mnk,mk->mn", apart, axis)[..., None] * axis[:, None], axis=2)
     wide = wide / np.maximum(np.linalg.norm(extents[:, 1:], axis=1) / 2, 1e-9)[:, None]
-    m, n = t.shape
+    m = len(t)
     place = np.arange(m)[:, None] * _BINS + np.clip((t * _BINS).astype(np.int64), 0, _BINS - 1)
     width = np.zeros(m * _BINS)
     np.maximum.at(width, place.reshape(-1), wide.reshape(-1))

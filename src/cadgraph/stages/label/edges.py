@@ -6,7 +6,7 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from cadgraph.scene import Floats, Scene, mesh_of_face
+from cadgraph.scene import Floats, Ints, Scene, mesh_of_face
 
 __all__ = ["EDGE_FEATURES", "edge_features"]
 
@@ -71,7 +71,7 @@ def edge_features(scene: Scene) -> Floats:
     return rows
 
 
-def _welded(triangles: Floats, owner: Floats, n: int) -> Floats:
+def _welded(triangles: Floats, owner: Ints, n: int) -> Ints:
     """A number for each place of each mesh, ``(n_faces, 3)``."""
     points = triangles.reshape(-1, 3)
     mesh = np.repeat(owner, 3)
@@ -87,7 +87,7 @@ def _welded(triangles: Floats, owner: Floats, n: int) -> Floats:
     return np.unique(key, return_inverse=True)[1].reshape(-1, 3).astype(np.int64)
 
 
-def _topology(corner: Floats, sides: Floats, owner: Floats, mesh_of_edge: Floats, n: int) -> Floats:
+def _topology(corner: Ints, sides: Ints, owner: Ints, mesh_of_edge: Ints, n: int) -> Floats:
     """Logarithms of the numbers of pieces and of handles (Euler's formula) of each mesh."""
     n_vertices = int(corner.max()) + 1
     links = coo_array((np.ones(len(sides), np.int8), (sides[:, 0], sides[:, 1])), shape=(n_vertices, n_vertices))

@@ -50,9 +50,7 @@ class Network:
         s = np.clip((sides - w["side_mean"]) / w["side_spread"], -LIMIT, LIMIT)
         h = _relu(_relu(x @ w["w0"] + w["b0"]) @ w["w1"] + w["b1"])
         for k in range(self.rounds):
-            said = _relu(
-                (h @ w[f"give{k}"])[there] + s @ w[f"side{k}"] + (h @ w[f"take{k}"])[here] + w[f"talk_b{k}"]
-            )
+            said = _relu((h @ w[f"give{k}"])[there] + s @ w[f"side{k}"] + (h @ w[f"take{k}"])[here] + w[f"talk_b{k}"])
             heard = aggregate(said, here, len(h))
             h = h + _relu(np.hstack([h, heard]) @ w[f"join{k}"] + w[f"join_b{k}"])
         scores: Floats = h @ w["out"] + w["out_b"]

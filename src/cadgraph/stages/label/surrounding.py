@@ -21,7 +21,7 @@ SIDE_FEATURES = (
     "spot along back", "spot out back", "holds", "is held", "same shape", "gap", "way", "way back", "far", "radius",
     "length", "round", "round back",
 )  # fmt: skip
-"""What is known of one neighbour as a part sees it. Lengths are relative to the part's, logarithmic where open-ended."""
+"""What is known of one neighbour as a part sees it. Lengths are relative to the part's, logarithmic if unbounded."""
 
 PLACE_FEATURES = ("neighbors", "alike around one", "alike in all", "held most", "round", "alike touching")
 """What is known of a part's place among all."""
@@ -113,9 +113,7 @@ def _held(hulls: _Hulls, holder: Ints, points: Floats) -> Floats:
     return share
 
 
-def _sides(
-    parts: Parts, hulls: _Hulls, samples: Samples, here: Ints, there: Ints, gap: Floats, spot: Floats
-) -> Floats:
+def _sides(parts: Parts, hulls: _Hulls, samples: Samples, here: Ints, there: Ints, gap: Floats, spot: Floats) -> Floats:
     if not len(here):
         return np.zeros((0, len(SIDE_FEATURES)))
     properties = parts.properties
@@ -142,7 +140,8 @@ def _sides(
         np.log(hulls.radius[there] / hulls.radius[here]), np.log(hulls.half[there] / hulls.half[here]),
         hulls.round[here], hulls.round[there],
     )  # fmt: skip
-    return np.clip(np.column_stack(columns), -8, 8)
+    rows: Floats = np.clip(np.column_stack(columns), -8, 8)
+    return rows
 
 
 def _places(parts: Parts, hulls: _Hulls, here: Ints, there: Ints, sides: Floats) -> Floats:
