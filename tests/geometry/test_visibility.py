@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 import shapes
+from cadgraph.geometry import visibility
 from cadgraph.geometry.properties import measure
 from cadgraph.geometry.visibility import find_visible, visible_share
 from cadgraph.scene import Scene
@@ -73,6 +74,17 @@ def test_the_same_every_time():
     scene = Scene.from_meshes([shapes.box((2, 2, 2)), shapes.cylinder(0.2, 4.0)])
     first, second = (visible_share(scene, measure(scene)) for _ in range(2))
     assert first.tobytes() == second.tobytes()
+
+
+@pytest.mark.parametrize("first_only", [True, False])
+def test_pieces_of_any_size_give_the_same(monkeypatch, first_only):
+    meshes = [shapes.box(center=(0.9 * i, 0, 0)) for i in range(7)] + [shapes.box((0.1,) * 3), shapes.box((20, 3, 3))]
+    empty = (np.zeros((0, 3)), np.zeros((0, 3)))
+    scene = Scene.from_meshes([empty, *meshes, empty])
+    whole = visible_share(scene, measure(scene), first_only=first_only)
+    for batch in (1, 64, 200):
+        monkeypatch.setattr(visibility, "_BATCH", batch)
+        np.testing.assert_array_equal(visible_share(scene, measure(scene), first_only=first_only), whole)
 
 
 def test_no_rays_are_an_error():

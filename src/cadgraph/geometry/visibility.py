@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from cadgraph.geometry.parallel import compiled, for_ranges
@@ -12,7 +14,7 @@ __all__ = ["find_visible", "visible_share"]
 
 # Rays start this far off a surface, as share of the scene's size: embree works in float32, which has 6e-8.
 _OFF = 1e-6
-_BATCH = 1 << 18
+_BATCH = 1 << 18  # sample points in hand at once: about 100 MB, however many meshes there are
 
 
 def find_visible(scene: Scene, properties: Properties, n_points: int = 64, n_directions: int = 64) -> Bools:
@@ -74,25 +76,40 @@ def visible_share(
     local = np.nan_to_num(vertices - middle, nan=0.0, posinf=0.0, neginf=0.0)
     world = rtcore_scene.EmbreeScene()
     TriangleMesh(world, local.astype(np.float32), corners.astype(np.int32))
-    points, normals, mesh = _sample(local, corners, area[faces], owner, n, n_points)
+    share = np.zeros(n)
+    step = max(1, _BATCH // n_points)
+    for first in range(0, n, step):
+        last = min(first + step, n)
+        own = slice(*np.searchsorted(owner, (first, last)))
+        points, normals, mesh = _sample(
+            local, corners[own], area[faces[own]], owner[own] - first, last - first, n_points
+        )
+        seen = _seen(world, points, normals, mesh, 2 * _OFF * size, n_directions, first_only)
+        share[first:last] = np.bincount(mesh[seen], minlength=last - first) / n_points
+    return share
+
+
+def _seen(
+    world: Any, points: Floats, normals: Floats, mesh: Ints, off: float, n_directions: int, first_only: bool
+) -> Bools:
+    """Which points have a ray that gets out; with ``first_only`` at least one of each mesh that has any."""
     seen = np.zeros(len(points), np.bool_)
     # Directions in an order that jumps around, so that most points are settled by the first few.
     for direction in _directions(n_directions):
         waiting = ~seen
-        if first_only:
-            done = np.zeros(n, np.bool_)
+        if first_only and len(mesh):
+            done = np.zeros(int(mesh[-1]) + 1, np.bool_)
             done[mesh[seen]] = True
             waiting &= ~done[mesh]
         index = np.flatnonzero(waiting)
-        for start in range(0, len(index), _BATCH):
-            batch = index[start : start + _BATCH]
-            side = np.sign(normals[batch] @ direction)[:, None] * normals[batch]
-            origins = points[batch] + 2 * _OFF * size * side
-            aims = np.broadcast_to(direction.astype(np.float32), origins.shape)
-            hits = world.run(np.ascontiguousarray(origins, np.float32), np.ascontiguousarray(aims), query="OCCLUDED")
-            seen[batch] = hits < 0
-    share: Floats = np.bincount(mesh[seen], minlength=n) / n_points
-    return share
+        if not len(index):
+            break
+        side = np.sign(normals[index] @ direction)[:, None] * normals[index]
+        origins = points[index] + off * side
+        aims = np.broadcast_to(direction.astype(np.float32), origins.shape)
+        hits = world.run(np.ascontiguousarray(origins, np.float32), np.ascontiguousarray(aims), query="OCCLUDED")
+        seen[index] = hits < 0
+    return seen
 
 
 @compiled
