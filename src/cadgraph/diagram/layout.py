@@ -18,6 +18,7 @@ __all__ = ["Placed", "lay_out", "pack"]
 
 _PORT_PITCH = 26.0  # px between nozzles on one side of a tank
 _POINT = 0.1  # px, a junction: the lines meet in one point
+_SAME = 2.0  # px; ports of boxes in line can be that far off each other
 _CLEAR = 7.0  # px between what stands on different levels
 _LEAST = 56.0  # px, height of the smallest tank
 _GROWING = ("tank", "equipment", "exchanger", "strainer")
@@ -140,10 +141,15 @@ def _ports(sketch: Sketch, edge: Edge) -> dict[str, Any]:
     """Rows are entered and left at their ends; pumps have their suction at the left. Tanks are entered anywhere."""
     here, there = ("source_port", "target_port") if edge.into else ("target_port", "source_port")
     sides = ("right", "left") if edge.into else ("left", "right")
-    ports: dict[str, Any] = {there: {"side": sides[1]}}
-    if sketch.anchors[edge.anchor].symbol.form in ("pump", "valve", "instrument", *_IN_LINE):
-        ports[here] = {"side": sides[0]}
+    ports: dict[str, Any] = {there: _middle(sides[1])}
+    if sketch.anchors[edge.anchor].symbol.form in ("pump", "valve", "instrument", "open", "end", "blind", *_IN_LINE):
+        ports[here] = _middle(sides[0])
     return ports
+
+
+def _middle(side: str) -> dict[str, Any]:
+    # Without the offset a line is led to wherever on the side it comes straight from.
+    return {"offset": {"side": side, "t": 0.0}}
 
 
 _IN_LINE = ("ball", "gate", "globe", "plug", "butterfly", "check", "control", "relief")
@@ -161,7 +167,7 @@ def _straightened(placed: Placed) -> Placed:
         if len(edges) != 1 or symbol.form in _GROWING or len(way) < 3:
             continue
         (x, y), (end_x, end_y) = anchors[anchor], way[-1]
-        if not math.isclose(way[0][1], way[1][1]) or abs(end_x - way[0][0]) < 1 or abs(y - way[0][1]) > _POINT:
+        if not math.isclose(way[0][1], way[1][1]) or abs(end_x - way[0][0]) < 1 or abs(y - way[0][1]) > _SAME:
             continue
         width, above, below = _extents(placed.sketch.anchors[anchor])
         half = max(above, below)
@@ -264,7 +270,7 @@ def _levels(values: Sequence[float]) -> dict[float, int]:
     levels: dict[float, int] = {}
     last, number = -math.inf, -1
     for value in sorted(set(values)):
-        if value - last > _POINT * 4:
+        if value - last > _SAME:
             number += 1
         last = value
         levels[value] = number

@@ -11,7 +11,7 @@ import networkx
 from cadgraph.diagram.symbol import Symbol, symbol_of, text_width
 from cadgraph.functional.line import Line, find_lines
 from cadgraph.functional.network import Network, natural
-from cadgraph.records import Junction, System
+from cadgraph.records import Junction, System, Terminal
 
 __all__ = ["Anchor", "Cell", "Edge", "Row", "Sketch", "plan_systems"]
 
@@ -247,7 +247,8 @@ def _layering(network: Network, anchors: Sequence[str], lines: Iterable[Line]) -
     def rank(place: str) -> tuple[object, ...]:
         kind = network.unit_type(place)
         is_source = bool(ahead[place]) and place not in entered
-        return (not (kind == "tank" and ahead[place]), not is_source, kind != "tank", kind != "pump")
+        is_end = isinstance(network.places[place], Terminal)
+        return (not (kind == "tank" and ahead[place]), not is_source, kind != "tank", not is_end, kind == "pump")
 
     finished: list[str] = []
     seen: set[str] = set()
