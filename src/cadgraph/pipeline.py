@@ -85,7 +85,9 @@ def build(
     told_labels = (*getattr(labeler, "diagnostics", ()), *told_labels)
 
     progress("relate", 0)
-    network, told_lines = connect_units(parts, named, labeled.labels, contacts, cluster, vocabulary, config)
+    network, told_lines = connect_units(
+        scene, properties, parts, named, labeled.labels, contacts, cluster, vocabulary, config
+    )
     related = relate_units(network.units, named, contacts, cluster, vocabulary)
 
     progress("assemble", 0)

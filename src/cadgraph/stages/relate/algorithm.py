@@ -9,9 +9,9 @@ from cadgraph.parts import Contacts, Label, UnitParts
 from cadgraph.scene import Ints, natural_key
 from cadgraph.vocabulary import Vocabulary
 
-__all__ = ["find_units", "pipe_systems", "relate_units"]
+__all__ = ["LETTERS", "find_units", "pipe_systems", "relate_units"]
 
-_LETTER = {"valve": "V", "gauge": "G", "pump": "P", "tank": "T", "equipment": "E"}
+LETTERS = {"valve": "V", "gauge": "G", "pump": "P", "tank": "T", "equipment": "E"}
 
 
 def find_units(
@@ -51,7 +51,7 @@ def find_units(
     for first, parts in sorted(members.items()):
         unit_type = unit_of_group[str(groups[first])]
         counts[unit_type] += 1
-        letter = _LETTER.get(unit_type, unit_type[:3].upper())
+        letter = LETTERS.get(unit_type, unit_type[:3].upper())
         units.append(UnitParts(unit_type, f"{letter}-{counts[unit_type]:03d}", tuple(parts)))
     return tuple(sorted(units, key=lambda unit: natural_key(unit.tag)))
 

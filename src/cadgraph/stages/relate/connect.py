@@ -2,23 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
+
+import numpy as np
 
 from cadgraph.config import Config
-from cadgraph.parts import Contacts, Label, Network, Parts
-from cadgraph.scene import Diagnostic, Ints
+from cadgraph.geometry.centreline import Centreline
+from cadgraph.parts import Contacts, Label, Network, Parts, Properties
+from cadgraph.scene import Diagnostic, Ints, Scene
 from cadgraph.stages.relate.algorithm import find_units
-from cadgraph.stages.relate.attach import attach_lines
+from cadgraph.stages.relate.attach import Attachments, attach_lines, flat_contacts
 from cadgraph.stages.relate.contract import simplify
-from cadgraph.stages.relate.line import find_lines
+from cadgraph.stages.relate.joint import face_ends, gather_ends
+from cadgraph.stages.relate.line import find_lines, is_disc, is_plain_tube
 from cadgraph.stages.relate.network import draw_network
+from cadgraph.stages.relate.role import Roles, find_roles, likely_lines, neighbor_lists
 from cadgraph.stages.relate.run import make_network
+from cadgraph.stages.relate.tag import tag_units
+from cadgraph.stages.relate.unit import Group, connected_groups, mend_groups, split_groups
 from cadgraph.vocabulary import Vocabulary
 
 __all__ = ["connect_units"]
 
+# A part that only its shape calls a pipe must face one of about its size: this ratio of radii, that of a reducing
+# flange; one that its label calls a device must face one of its own size.
+_RATIO, _OWN_RATIO = 0.3, 0.9
+_BY_SHAPE = 0.8  # how sure it is that such a part is a connector
+_CLOSED = {"blind flange": "blind", "pipe cap": "blind"}
+
 
 def connect_units(
+    scene: Scene,
+    properties: Properties,
     parts: Parts,
     labels: Sequence[Label | None],
     guessed: Sequence[Label | None],
@@ -30,7 +45,9 @@ def connect_units(
     """Finds the units and what follows what along the lines between them.
 
     Args:
-        parts: of the scene.
+        scene: the source meshes.
+        properties: of the source meshes.
+        parts: made from them.
         labels: of each part.
         guessed: what the embedded labeler alone says of each part: a second opinion.
         contacts: pairs of parts that are near.
@@ -41,20 +58,149 @@ def connect_units(
     Returns:
         The network, and what is to be told.
     """
-    units = find_units(labels, contacts, cluster, vocabulary)
     if config.method == "paper":
-        return Network(units), ()
-    owner = {part for unit in units for part in unit.parts}
-    connectors = [
+        return Network(find_units(labels, contacts, cluster, vocabulary)), ()
+    roles = find_roles(parts, labels, guessed)
+    near = neighbor_lists(contacts)
+    bridge = config.relate.bridge
+    groups = connected_groups(roles, contacts, cluster, vocabulary.unit_of_group)
+    lines = _find_all_lines(scene, properties, parts, roles, guessed, contacts, vocabulary, groups, bridge)
+    groups = connected_groups(roles, contacts, cluster, vocabulary.unit_of_group, lines)
+    blobs = [
         part
-        for part, label in enumerate(labels)
-        if label is not None and label.group in vocabulary.connector_groups and part not in owner
+        for part, group in enumerate(roles.groups)
+        if group in vocabulary.connector_groups and part not in lines and cluster[part] >= 0
     ]
-    lines = find_lines(parts, connectors)
-    blobs = [part for part in connectors if part not in lines]
-    found = attach_lines(parts, contacts, lines, [*owner, *blobs], config.relate.bridge)
-    drawing = draw_network(lines, blobs, units, found, {}, lambda part: 1.0)
+    members = {part for group in groups for part in group.parts}
+    found = attach_lines(parts, contacts, lines, [*members, *blobs], bridge)
+    unsure = _unsupported(roles)
+    mended = mend_groups(
+        groups, roles.names, near, {mount.part for mount in found.mounts}, _kept_apart(parts, found), unsure
+    )
+    if mended != groups:
+        members = {part for group in mended for part in group.parts}
+        lines = {part: line for part, line in lines.items() if part not in members}
+        blobs = [part for part in blobs if part not in members]
+        found = attach_lines(parts, contacts, lines, [*members, *blobs], bridge)
+    eps = config.cluster.eps
+    groups = split_groups(parts, mended, contacts, found, near, roles.names, eps)
+    units = tag_units(parts, groups)
+    owner = {part: number for number, unit in enumerate(units) for part in unit.parts}
+    flanged = flat_contacts(parts, contacts, _between(contacts, owner, set(blobs)), eps)
+    connectors = vocabulary.connector_groups
+    sure = {part for part, label in enumerate(labels) if label is not None and label.group in connectors}
+    where = {pair: middle for pair, (middle, _) in flanged.items()}
+    drawing = draw_network(lines, blobs, units, found, where, lambda part: 1.0 if part in sure else _BY_SHAPE)
     gauges = {number for number, unit in enumerate(units) if unit.unit_type == "gauge"}
     net = simplify(drawing, gauges, len(units), config.relate.leg)
-    network = make_network(net, drawing, units, lines, found, lambda part: None, lambda part: True)
-    return network, ()
+    network = make_network(
+        net, drawing, units, lines, found, lambda part: _CLOSED.get(roles.names[part] or ""), sure.__contains__
+    )
+    return network, _tell(parts, roles, drawing.bridged)
+
+
+def _find_all_lines(
+    scene: Scene,
+    properties: Properties,
+    parts: Parts,
+    roles: Roles,
+    guessed: Sequence[Label | None],
+    contacts: Contacts,
+    vocabulary: Vocabulary,
+    groups: Sequence[Group],
+    bridge: float,
+) -> dict[int, Centreline]:
+    """The lines of the connectors, and of what only geometry shows to be one."""
+    connectors = [part for part, group in enumerate(roles.groups) if group in vocabulary.connector_groups]
+    others = likely_lines(roles, guessed, contacts, vocabulary, parts.ground.tolist())
+    singles = [group.parts[0] for group in groups if len(group.parts) == 1 and group.unit_type != "tank"]
+    # What is too small for a part of its own (a flange's nuts) would blur the shape of the mesh that it joined.
+    heads = {parts.meshes[part][0]: part for part in (*connectors, *others, *singles)}
+    lines = {heads[mesh]: line for mesh, line in find_lines(scene, properties, list(heads)).items()}
+    kept = {part: lines[part] for part in connectors if part in lines}
+    maybe = {part: _RATIO for part in others if part in lines}
+    for part in singles:
+        if part not in lines or part in roles.backed:
+            continue
+        if is_plain_tube(lines[part]):
+            maybe[part] = _OWN_RATIO
+        elif roles.doubtful and is_disc(lines[part]):
+            maybe[part] = _RATIO
+    if maybe:
+        _accept(kept, maybe, lines, contacts, bridge)
+    return dict(sorted(kept.items()))
+
+
+def _accept(
+    kept: dict[int, Centreline],
+    maybe: Mapping[int, float],
+    lines: Mapping[int, Centreline],
+    contacts: Contacts,
+    bridge: float,
+) -> None:
+    """Adds those lines that continue one that is kept."""
+    tried = {part: line for part, line in lines.items() if part in kept or part in maybe}
+    ends = gather_ends(tried)
+    steps: dict[int, list[int]] = {}
+    for facing in face_ends(ends, contacts, bridge):
+        if facing.corner:
+            continue
+        a, b = int(ends.part[facing.first]), int(ends.part[facing.second])
+        radii = sorted((float(ends.radius[facing.first]), float(ends.radius[facing.second])))
+        for part, other in ((a, b), (b, a)):
+            if part not in maybe or radii[0] >= maybe[part] * radii[1]:
+                steps.setdefault(other, []).append(part)
+    front = list(kept)
+    while front:
+        for part in steps.get(front.pop(), ()):
+            if part in maybe and part not in kept:
+                kept[part] = lines[part]
+                front.append(part)
+
+
+def _unsupported(roles: Roles) -> set[int]:
+    """Parts whose group only their own doubtful label says."""
+    if not roles.doubtful:
+        return set()
+    return {part for part, group in enumerate(roles.groups) if group is not None and part not in roles.backed}
+
+
+def _kept_apart(parts: Parts, found: Attachments) -> set[int]:
+    """Parts that no unit takes in: the ground, and those whose line is joined to another one."""
+    rows = {row for facing in found.facings for row in (facing.first, facing.second)}
+    rows |= {row for row, _, tap in found.taps if not tap.sleeve}
+    return {int(found.ends.part[row]) for row in rows} | set(np.flatnonzero(parts.ground).tolist())
+
+
+def _between(contacts: Contacts, owner: Mapping[int, int], blobs: Collection[int]) -> list[tuple[int, int]]:
+    """Pairs of solids in contact that are not of one unit."""
+    return [
+        (a, b)
+        for a, b in contacts.pairs.tolist()
+        if (a in owner or a in blobs) and (b in owner or b in blobs) and owner.get(a, -1 - a) != owner.get(b, -1 - b)
+    ]
+
+
+def _tell(parts: Parts, roles: Roles, bridged: Sequence[tuple[int, int, float]]) -> tuple[Diagnostic, ...]:
+    paths, told = parts.scene.paths, []
+    if bridged:
+        widest = max(gap for _, _, gap in bridged)
+        heads = tuple(paths[part] for a, b, _ in sorted(bridged) for part in (a, b))
+        told.append(
+            Diagnostic(
+                "bridged-gap",
+                f"{len(bridged)} gaps between ends of pipes that face each other are bridged, the widest "
+                f"{1000 * widest:.1f} mm (relate.bridge); each pair of meshes is listed in turn",
+                heads,
+            )
+        )
+    if roles.doubted:
+        told.append(
+            Diagnostic(
+                "label-doubted",
+                f"{len(roles.doubted)} labels are not followed where units are formed and lines traced: so many "
+                "disagree with the geometry that it goes first",
+                tuple(paths[part] for part in roles.doubted),
+            )
+        )
+    return tuple(told)

@@ -8,8 +8,8 @@ from dataclasses import fields, replace
 import numpy as np
 
 from cadgraph.geometry.centreline import Branch, Centreline, End, trace_centrelines
-from cadgraph.parts import Parts, Properties
-from cadgraph.scene import Floats
+from cadgraph.parts import Properties
+from cadgraph.scene import Floats, Scene
 
 __all__ = ["find_lines", "is_disc", "is_plain_tube", "is_ring"]
 
@@ -21,7 +21,10 @@ _ROUND = 1.2
 # The two sides of a disc lie as far from its middle, within this share of its radius.
 _CENTRED = 0.08
 # A disc whose thickness is below this share of its breadth needs no tracing.
-_FLAT = 0.62
+_FLAT = 0.9
+# The corners of the bore lie within this factor of the least distance from the axis, or this share of the breadth: what
+# stands out from the faces (bolts that are one mesh with their flange) does not.
+_BORE, _CORE = 1.3, 0.3
 # Corners this close to an end of the axis, as share of the length, belong to that end's face.
 _FACE = 0.02
 # A hole below this share of the face's radius, or above the other, is none that tells a bore.
@@ -31,31 +34,34 @@ _TURNS = np.column_stack([np.cos(np.arange(24) * np.pi / 12), np.sin(np.arange(2
 _STEADY = 0.06
 
 
-def find_lines(parts: Parts, chosen: Sequence[int], workers: int | None = None) -> dict[int, Centreline]:
-    """The lines of some parts.
+def find_lines(
+    scene: Scene, properties: Properties, chosen: Sequence[int], workers: int | None = None
+) -> dict[int, Centreline]:
+    """The lines of some meshes.
 
     Args:
-        parts: all of them.
+        scene: all meshes.
+        properties: of them.
         chosen: indices of those that may be connectors.
         workers: threads; all processors by default. The outcome does not depend on it.
 
     Returns:
-        For each part that has one its line: what ``trace_centrelines`` finds, or for what is flat and round the axis
-        from face to face. Parts that are neither have none.
+        For each mesh that has one its line: what ``trace_centrelines`` finds, or for what is flat and round the axis
+        from face to face. Meshes that are neither have none.
     """
     lines: dict[int, Centreline] = {}
     rest: list[int] = []
     for part in chosen:
-        breadth = parts.properties.obb_extents[part]
-        disc = _disc(parts, part) if breadth[2] < _FLAT * breadth[1] else None
+        breadth = properties.obb_extents[part]
+        disc = _disc(scene, properties, part) if breadth[2] < _FLAT * breadth[1] else None
         if disc is not None:
             lines[part] = disc
         else:
             rest.append(part)
     if rest:
-        scene, properties = parts.scene.select(rest), _rows(parts.properties, rest)
-        for part, traced in zip(rest, trace_centrelines(scene, properties, workers), strict=True):
-            line = traced if isinstance(traced, Centreline) and traced.ends else _disc(parts, part)
+        found = trace_centrelines(scene.select(rest), _rows(properties, rest), workers)
+        for part, traced in zip(rest, found, strict=True):
+            line = traced if isinstance(traced, Centreline) and traced.ends else _disc(scene, properties, part)
             if line is not None:
                 lines[part] = line
     return lines
@@ -66,9 +72,9 @@ def _rows(properties: Properties, chosen: Sequence[int]) -> Properties:
     return replace(properties, **{field.name: getattr(properties, field.name)[index] for field in fields(properties)})
 
 
-def _disc(parts: Parts, part: int) -> Centreline | None:
+def _disc(scene: Scene, properties: Properties, part: int) -> Centreline | None:
     """The axis of a part that looks alike all around it, from end to end."""
-    moments, axes = np.linalg.eigh(parts.properties.inertia[part])
+    moments, axes = np.linalg.eigh(properties.inertia[part])
     if not moments[2] > 0:
         return None
     # The odd one of the three moments belongs to the axis.
@@ -77,16 +83,17 @@ def _disc(parts: Parts, part: int) -> Centreline | None:
     if pair[1] - pair[0] > _ALIKE * moments[2] or abs(moments[odd] - pair.mean()) <= _ALIKE * moments[2]:
         return None
     axis, u, w = axes[:, odd], axes[:, (odd + 1) % 3], axes[:, (odd + 2) % 3]
-    vertices, faces = parts.scene.mesh(part)
+    vertices, faces = scene.mesh(part)
     used = vertices[np.unique(faces)]
-    middle = parts.properties.centroid[part]
+    middle = properties.centroid[part]
     offset = used[np.isfinite(used).all(axis=1)] - middle
     across = offset @ np.column_stack([u, w])
     widths = (across @ _TURNS.T).max(axis=0)
     if widths.max() > _ROUND * widths.min() or np.abs(widths[:12] - widths[12:]).max() > _CENTRED * widths.max():
         return None
     along, reach = offset @ axis, np.linalg.norm(across, axis=1)
-    low, high = float(along.min()), float(along.max())
+    core = reach <= max(_BORE * float(reach.min()), _CORE * float(reach.max()))
+    low, high = float(along[core].min()), float(along[core].max())
     if not high > low:
         return None
     ends = np.array([_face(along, reach, at, high - low) for at in (low, high)])
