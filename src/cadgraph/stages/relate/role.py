@@ -1,0 +1,140 @@
+"""Which parts carry lines and which form units: the labels, and what is left of them where they are doubtful."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from cadgraph.parts import Contacts, Label, Parts
+from cadgraph.vocabulary import Vocabulary
+
+__all__ = ["Roles", "find_roles", "likely_lines", "neighbor_lists"]
+
+# A second opinion counts from this confidence on.
+_CONFIDENT = 0.55
+# Labels that disagree with the second opinion each in their own way are strays; above this share of the parts, and from
+# this number on, labels are taken for doubtful. Ours: true labels give below 1 % (what the labeler always gets wrong
+# is one way), 20 % at random give 15 to 20 %.
+_STRAY_SHARE, _LEAST_STRAYS = 0.04, 3
+# What happens this often at most, as share of the parts, is a way of its own.
+_RARE = 0.002
+# Least share of the parts of one shape that must agree to outvote a label.
+_MAJORITY = 0.5
+
+
+@dataclass(frozen=True)
+class Roles:
+    """What each part does.
+
+    Args:
+        groups: of each part, None where unknown; the label's own unless that is doubted.
+        names: likewise.
+        doubted: parts whose label is not followed.
+        doubtful: whether labels are wrong so often that the second opinion goes first.
+        backed: parts whose group the second opinion or most of their repeats say, too.
+    """
+
+    groups: tuple[str | None, ...]
+    names: tuple[str | None, ...]
+    doubted: tuple[int, ...]
+    doubtful: bool
+    backed: frozenset[int]
+
+
+def find_roles(parts: Parts, labels: Sequence[Label | None], guessed: Sequence[Label | None]) -> Roles:
+    """Takes each part's label, or in a scene of doubtful labels what its shape, its repeats and geometry say.
+
+    Args:
+        parts: of the scene.
+        labels: of each part.
+        guessed: what the embedded labeler alone says.
+    """
+    groups = [label.group if label is not None else None for label in labels]
+    names = [label.name if label is not None else None for label in labels]
+    majority = _majorities(parts, labels)
+    if not _are_doubtful(labels, guessed):
+        return Roles(tuple(groups), tuple(names), (), False, _backed(parts, groups, guessed, majority))
+    for part, (label, guess) in enumerate(zip(labels, guessed, strict=True)):
+        # Wrong labels at random hardly ever agree with each other; the labeler is wrong alike about all repeats.
+        better = majority.get(int(parts.shape[part]))
+        if better is None and guess is not None and guess.confidence >= _CONFIDENT:
+            better = guess.group, guess.name
+        if better is not None and (label is None or better[0] != label.group):
+            groups[part], names[part] = better
+    doubted = tuple(part for part, label in enumerate(labels) if label is not None and groups[part] != label.group)
+    return Roles(tuple(groups), tuple(names), doubted, True, _backed(parts, groups, guessed, majority))
+
+
+def _backed(
+    parts: Parts,
+    groups: Sequence[str | None],
+    guessed: Sequence[Label | None],
+    majority: Mapping[int, tuple[str, str | None]],
+) -> frozenset[int]:
+    def said(part: int) -> set[str]:
+        guess = guessed[part]
+        return {majority.get(int(parts.shape[part]), ("", None))[0], guess.group if guess is not None else ""}
+
+    return frozenset(part for part, group in enumerate(groups) if group is not None and group in said(part))
+
+
+def _are_doubtful(labels: Sequence[Label | None], guessed: Sequence[Label | None]) -> bool:
+    both = [
+        (label, guess)
+        for label, guess in zip(labels, guessed, strict=True)
+        if label is not None and guess is not None and guess.confidence >= _CONFIDENT
+    ]
+    ways = Counter((a.group, a.name, b.group) for a, b in both if a.group != b.group)
+    rare = max(1.0, _RARE * len(both))
+    strays = sum(count for count in ways.values() if count <= rare)
+    return strays >= max(_LEAST_STRAYS, _STRAY_SHARE * len(both))
+
+
+def _majorities(parts: Parts, labels: Sequence[Label | None]) -> dict[int, tuple[str, str | None]]:
+    """The label that at least two, and most, of the parts of a shape have."""
+    votes: dict[int, Counter[tuple[str, str | None]]] = {}
+    for part, label in enumerate(labels):
+        if label is not None:
+            votes.setdefault(int(parts.shape[part]), Counter())[label.group, label.name] += 1
+    found = {}
+    for shape, counts in votes.items():
+        (best, n), total = counts.most_common(1)[0], sum(counts.values())
+        if n >= 2 and n >= _MAJORITY * total:
+            found[shape] = best
+    return found
+
+
+def likely_lines(
+    roles: Roles, guessed: Sequence[Label | None], contacts: Contacts, vocabulary: Vocabulary, ground: Sequence[bool]
+) -> list[int]:
+    """Parts that are no connectors by label but may be by shape: they touch one, or a unit, and nothing speaks against.
+
+    Args:
+        roles: of each part.
+        guessed: what the embedded labeler says.
+        contacts: pairs of parts that are near.
+        vocabulary: says which groups are connectors and which form units.
+        ground: of each part, whether it is the ground.
+    """
+    connectors, unit_of = vocabulary.connector_groups, vocabulary.unit_of_group
+    functional = [group in connectors or group in unit_of for group in roles.groups]
+    found = set()
+    for a, b in contacts.pairs.tolist():
+        for part, other in ((a, b), (b, a)):
+            if functional[part] or not functional[other] or ground[part]:
+                continue
+            guess = guessed[part]
+            # Two say that it is something else: then it is.
+            if guess is None or guess.group in connectors:
+                found.add(part)
+    return sorted(found)
+
+
+def neighbor_lists(contacts: Contacts) -> Mapping[int, list[int]]:
+    """The parts that are near each part, ascending."""
+    found: dict[int, list[int]] = {}
+    for a, b in contacts.pairs.tolist():
+        found.setdefault(a, []).append(b)
+        found.setdefault(b, []).append(a)
+    return {part: sorted(near) for part, near in found.items()}
