@@ -26,6 +26,7 @@ MAY_IMPORT = {
     "labels": {"errors", "vocabulary"},
     "consistency": {"errors", "records"},
     "expectation": set(),
+    "folder": {"atomic", "errors"},
     "graph": {"atomic", "consistency", "errors", "expectation", "records"},
     "summary": {"graph", "records"},
     "load": {"config", "errors", "scene"},
@@ -42,19 +43,21 @@ MAY_IMPORT = {
     "truth": {"atomic", "errors", "vocabulary"},
     "environment": VALUES | {"geometry", "truth"},
     "evaluate": VALUES | {"load", "truth"},
-    "job": VALUES | {"environment", "export", "load", "pipeline", "render", "report", "summary"},
+    "job": VALUES | {"stages"} | {"environment", "export", "folder", "load", "pipeline", "render", "report", "summary"},
+    "relabel": VALUES | {"job", "stages"},
     "reproduce": VALUES | {"environment", "evaluate", "load", "pipeline", "render", "report", "summary", "truth"},
     "cli": VALUES
     | {"diagram", "functional"}
+    | {"lvlm", "relabel"}
     | {"environment", "evaluate", "export", "load", "pipeline", "render", "report", "reproduce", "job", "summary"},
     "training": VALUES | {"environment", "evaluate", "geometry", "load", "pipeline", "stages", "truth"},
-    "warm": {"environment", "pipeline"},
+    "warm": {"environment", "pipeline", "render"},
     "__main__": {"cli"},
     "__init__": VALUES | {"job", "load", "pipeline"},
 }
 
 MAY_USE_USD = {"load", "export", "environment", "evaluate"}
-HEAVY = {"PIL", "cascadio", "embreex", "graphlay", "jinja2", "networkx", "numba", "pxr", "scipy", "trimesh"}
+HEAVY = {"PIL", "cascadio", "embreex", "graphlay", "jinja2", "networkx", "numba", "openai", "pxr", "scipy", "trimesh"}
 VAGUE = {"manager", "managers", "helper", "helpers", "util", "utils", "common", "misc"}
 
 MODULES = sorted(PACKAGE.rglob("*.py"))

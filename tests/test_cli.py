@@ -1,6 +1,8 @@
 import json
+import signal
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
 import pytest
@@ -63,8 +65,10 @@ def test_build_writes_everything_and_says_what_to_open(capsys, scene_file, tmp_p
 
 
 def test_show_prints_a_summary_or_json(capsys, scene_file, tmp_path):
-    run(capsys, "build", scene_file, "-o", tmp_path / "out", "--no-report")
-    assert "1 meshes" in run(capsys, "show", tmp_path / "out")[1]
+    run(capsys, "build", scene_file, "-o", tmp_path / "out", "--no-report", "--set", "label.labeler=none")
+    shown = run(capsys, "show", tmp_path / "out")[1]
+    for words in ("1 mesh, 12 triangles", "1, not labelled", "1, no pipe system", "0 pairs of parts"):
+        assert words in shown
     assert json.loads(run(capsys, "show", tmp_path / "out", "--json")[1])["n_parts"] == 1
 
 
@@ -122,7 +126,9 @@ def test_a_label_file_with_an_unknown_path(capsys, scene_file, tmp_path):
     (tmp_path / "labels.json").write_text(json.dumps([{"mesh": "/nowhere", "group": "Tank", "name": "tank"}]))
     message = refused(capsys, "build", scene_file, "-o", tmp_path / "out", "--labels", tmp_path / "labels.json")
     assert "/nowhere" in message
-    assert not (tmp_path / "out" / "graph.json").exists()
+    assert str(tmp_path / "labels.json") in message
+    assert "correct its path" in message
+    assert not (tmp_path / "out").exists(), "a folder that was made for nothing is gone again"
 
 
 @pytest.mark.parametrize(
@@ -133,7 +139,9 @@ def test_a_label_file_with_an_unknown_path(capsys, scene_file, tmp_path):
         (["--set", "cluster.eps=-1"], "cluster.eps"),
         (["--set", "nonsense.eps=1"], "nonsense.eps"),
         (["--method", "guess"], "method"),
-        (["--ground", "/nowhere"], "/nowhere"),
+        (["--ground", "/nowhere"], "'/nowhere' is not a mesh of the scene; give a path as in graph.json"),
+        (["--ground", "/"], "give a mesh, as '/box' below it"),
+        (["--set", "cluster.eps=true"], "cluster.eps must be a number, not true"),
         (["--config", "nothing.toml"], "nothing.toml"),
         (["--labels", "nothing.json"], "nothing.json"),
         (["--vocabulary", "nothing.yaml"], "nothing.yaml"),
@@ -192,7 +200,105 @@ def test_a_crash_between_files_leaves_none_half_written(monkeypatch, tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("name", ["graph.json", "semantics.usda", "scene.usdc"])
+@pytest.mark.parametrize("name", ["a\nb.usda", "a\x01b.usda", "a\x7fb.usda"])
+def test_a_name_that_no_layer_can_refer_to_is_refused_before_the_work(capsys, tmp_path, name):
+    (tmp_path / name).write_text(USDA)
+    assert "rename it" in refused(capsys, "build", tmp_path / name, "-o", tmp_path / "out", "--no-report")
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_name_that_is_no_text_is_refused_in_one_line(capsys, tmp_path):
+    path = tmp_path / "a\udce4.usda"
+    try:
+        path.write_text(USDA)
+    except (OSError, UnicodeError):
+        pytest.skip("this system has no such names")
+    assert "rename it" in refused(capsys, "build", path, "-o", tmp_path / "out", "--no-report")
+    with pytest.raises(cadgraph.LoadError, match="not UTF-8"):
+        cadgraph.load(path)
+
+
+def test_an_error_cannot_move_the_cursor(capsys, tmp_path):
+    message = refused(capsys, "build", tmp_path / "a\x1b[31m\r\nb.usda", "-o", tmp_path / "out")
+    assert message.isprintable()
+
+
+def test_no_bars_where_nobody_looks(capsys, scene_file, tmp_path):
+    (tmp_path / "labels.json").write_text('[{"mesh": "/no", "group": "Tank"}]')
+    flags = ("--labels", tmp_path / "labels.json", "--no-report")
+    _, out, err = run(capsys, "build", scene_file, "-o", tmp_path / "out", *flags)
+    assert out == ""
+    assert len(err.splitlines()) == 1
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_ctrl_c_and_a_polite_kill_end_alike(capsys, monkeypatch, tmp_path, number, code):
+    handlers = signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)
+    monkeypatch.setattr("cadgraph.job.run", lambda *_, **__: signal.raise_signal(number))
+    ended, _, err = run(capsys, "build", "a.usd", "-o", tmp_path / "out")
+    assert ended == code
+    assert err.splitlines() == ["stopped; nothing half-written was left, the same command starts anew"]
+    assert (signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)) == handlers
+
+
+def test_a_stop_that_a_library_swallows_comes_again(capsys, monkeypatch, tmp_path):
+    class Swallows:
+        def __del__(self):
+            signal.raise_signal(signal.SIGINT)
+
+    def work(*_, **__):
+        Swallows()
+        threading.Event().wait(30)
+
+    monkeypatch.setattr("cadgraph.cli.signals._PATIENCE", 0.05)
+    monkeypatch.setattr("sys.unraisablehook", lambda _: None)
+    monkeypatch.setattr("cadgraph.job.run", work)
+    assert run(capsys, "build", "a.usd", "-o", tmp_path / "out")[0] == 130
+
+
+def test_want_of_memory_is_one_line(capsys, monkeypatch, tmp_path):
+    def greedy(*_, **__):
+        raise MemoryError
+
+    monkeypatch.setattr("cadgraph.job.run", greedy)
+    assert "not enough memory" in refused(capsys, "build", "a.usd", "-o", tmp_path / "out")
+
+
+def test_an_earlier_report_is_gone_when_the_new_run_draws_none(capsys, scene_file, tmp_path):
+    small = [word for name in ("samples=1", "width=64", "height=64") for word in ("--set", f"report.{name}")]
+    flags = ("-o", tmp_path / "out", *small)
+    run(capsys, "build", scene_file, *flags)
+    (tmp_path / "out" / "notes.txt").write_text("mine")
+    (tmp_path / "out" / ".graph-abcdefgh.json").write_text("left by a killed run")
+    run(capsys, "build", scene_file, *flags, "--no-report")
+    names = sorted(path.name for path in (tmp_path / "out").iterdir())
+    assert names == ["graph.json", "notes.txt", "semantics.usda", "timings.json"]
+
+
+def test_a_failed_run_leaves_the_earlier_results(capsys, scene_file, tmp_path):
+    run(capsys, "build", scene_file, "-o", tmp_path / "out", "--no-report")
+    before = (tmp_path / "out" / "graph.json").read_bytes()
+    refused(capsys, "build", scene_file, "-o", tmp_path / "out", "--ground", "/nowhere")
+    assert (tmp_path / "out" / "graph.json").read_bytes() == before
+
+
+def test_the_source_itself_is_refused_before_the_work(capsys, tmp_path):
+    source = tmp_path / "semantics.usda"
+    source.write_text(USDA + "# cadgraph\n")
+    assert "this is the source itself" in refused(capsys, "build", source, "-o", tmp_path)
+    assert source.read_text() == USDA + "# cadgraph\n"
+
+
+def test_a_layer_that_the_source_refers_to_is_never_written_over(capsys, scene_file, tmp_path):
+    run(capsys, "build", scene_file, "-o", tmp_path / "out", "--no-report")
+    layer = (tmp_path / "out" / "semantics.usda").read_bytes()
+    (tmp_path / "whole.usda").write_text("#usda 1.0\n( subLayers = [@out/semantics.usda@] )\n")
+    message = refused(capsys, "build", tmp_path / "whole.usda", "-o", tmp_path / "out", "--no-report")
+    assert "a file that the source refers to" in message
+    assert (tmp_path / "out" / "semantics.usda").read_bytes() == layer
+
+
+@pytest.mark.parametrize("name", ["graph.json", "semantics.usda", "scene.usdc", "report.html", "picture.png"])
 def test_files_of_the_user_are_never_written_over(capsys, scene_file, tmp_path, name):
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / name).write_text('{"my": "data"}')

@@ -8,15 +8,18 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from cadgraph.atomic import ensure_writable, write_atomically
+from cadgraph.atomic import write_atomically
 from cadgraph.config import Config
-from cadgraph.errors import OutputError
+from cadgraph.errors import LabelError
+from cadgraph.folder import clear_results, refuse_to_overwrite, results_folder
 from cadgraph.graph import SceneGraph
 from cadgraph.labels import GivenLabel, read_labels
 from cadgraph.load import load
 from cadgraph.pipeline import STAGES, build
 from cadgraph.progress import Progress, quiet
-from cadgraph.vocabulary import default_vocabulary, read_vocabulary
+from cadgraph.scene import Scene
+from cadgraph.stages.label import Labeler
+from cadgraph.vocabulary import Vocabulary, default_vocabulary, read_vocabulary
 
 __all__ = ["RUN_STAGES", "Outcome", "run"]
 
@@ -44,65 +47,93 @@ def run(
     folder: str | Path,
     config: Config | None = None,
     *,
-    labels: str | Path | None = None,
-    vocabulary: str | Path | None = None,
+    labels: str | Path | Sequence[GivenLabel] | None = None,
+    vocabulary: str | Path | Vocabulary | None = None,
+    labeler: Labeler | None = None,
     report: bool = True,
     progress: Progress = quiet,
 ) -> Outcome:
     """Reads a scene, builds its graph, and writes ``graph.json``, ``semantics.usda``, ``report.html`` and pictures.
 
-    Each file is written whole or not at all; the folder is tried before the work begins.
+    Each file is written whole or not at all; the folder is tried before the work begins, and results of an earlier run
+    in it are removed before the first new one is written.
 
     Args:
         source: the scene's file.
         folder: where the results go; made if missing.
         config: all settings; the defaults if None.
-        labels: a file of labels from outside.
-        vocabulary: a file with another label tree.
+        labels: labels from outside, or a file of them.
+        vocabulary: another label tree, or a file with it.
+        labeler: another labeler than the one that is set.
         report: whether to draw pictures and write the report.
         progress: told how far it is.
 
     Raises:
         LoadError: the scene can't be read.
         LabelError: labels or vocabulary can't be used.
-        OutputError: the folder can't be written.
+        OutputError: the folder can't be written, or a result would take the place of a file that isn't ours.
     """
-    from cadgraph.export.usd import write_semantics
+    from cadgraph.export.usd import check_source, is_usd, write_semantics
 
     config = config or Config()
-    target = ensure_writable(folder)
-    _refuse_foreign(target)
     clock = _Clock(progress)
-    tree = read_vocabulary(vocabulary) if vocabulary else default_vocabulary()
-    given: Sequence[GivenLabel] = read_labels(labels, tree) if labels else ()
+    with results_folder(folder) as target:
+        refuse_to_overwrite(target, [source], "the source itself")
+        check_source(source, target / "semantics.usda")
+        tree = vocabulary if isinstance(vocabulary, Vocabulary) else _tree(vocabulary)
+        given = read_labels(labels, tree) if isinstance(labels, str | Path) else labels or ()
 
-    clock("read", 0)
-    scene = load(source, config.load)
-    graph = build(scene, config, labels=given, vocabulary=tree, progress=clock)
-    clock("write graph", 0)
-    files = {"graph": graph.save(target / "graph.json")}
-    clock("write labels", 0)
-    files["labels"] = write_semantics(scene, graph, source, target / "semantics.usda")
-    if report:
-        from cadgraph.report import write_report
+        clock("read", 0)
+        scene = load(source, config.load)
+        if is_usd(source):
+            _refuse_to_overwrite_layers(source, target)
+        graph = _built(scene, config, labels, given, tree, labeler, clock)
+        clock("write graph", 0)
+        clear_results(target)
+        files = {"graph": graph.save(target / "graph.json")}
+        clock("write labels", 0)
+        files["labels"] = write_semantics(scene, graph, source, target / "semantics.usda")
+        if report:
+            from cadgraph.report import write_report
 
-        clock("draw report", 0)
-        files["report"] = write_report(scene, graph, target / "report.html", config.report, clock)
-        files["picture"] = target / "picture.png"
-    clock("", 1)
-    files["timings"] = target / "timings.json"
-    write_atomically(files["timings"], json.dumps(clock.seconds, indent=1) + "\n")
+            clock("draw report", 0)
+            files["report"] = write_report(scene, graph, target / "report.html", config.report, clock)
+            files["picture"] = target / "picture.png"
+        clock("", 1)
+        files["timings"] = target / "timings.json"
+        write_atomically(files["timings"], json.dumps(clock.seconds, indent=1) + "\n")
     return Outcome(graph, files, clock.seconds)
 
 
-def _refuse_foreign(folder: Path) -> None:
-    """Makes sure that what will be written over is ours: the user's own files may have these names too."""
-    ours = (folder / "graph.json").is_file() and b'"cadgraph"' in (folder / "graph.json").read_bytes()[:200]
-    marks = {"graph.json": b'"cadgraph"', "semantics.usda": b"cadgraph", "scene.usdc": b"" if ours else None}
-    for name, mark in marks.items():
-        path = folder / name
-        if path.is_file() and (mark is None or mark not in path.read_bytes()[:2000]):
-            raise OutputError(f"{path}: not written by cadgraph, so it is left alone; choose another output folder")
+def _built(
+    scene: Scene,
+    config: Config,
+    labels: str | Path | Sequence[GivenLabel] | None,
+    given: Sequence[GivenLabel],
+    vocabulary: Vocabulary,
+    labeler: Labeler | None,
+    progress: Progress,
+) -> SceneGraph:
+    try:
+        return build(scene, config, labels=given, vocabulary=vocabulary, labeler=labeler, progress=progress)
+    except LabelError as error:
+        # The stages know labels, but not the file that they came from.
+        if isinstance(labels, str | Path) and str(error).startswith("labels: "):
+            raise LabelError(f"{labels}: {str(error).removeprefix('labels: ')}") from None
+        raise
+
+
+def _tree(file: str | Path | None) -> Vocabulary:
+    return read_vocabulary(file) if file else default_vocabulary()
+
+
+def _refuse_to_overwrite_layers(source: str | Path, folder: Path) -> None:
+    """A result of an earlier run may have become a layer of the scene."""
+    from cadgraph.load.usd_assets import open_layers
+
+    if (folder / "semantics.usda").exists() or (folder / "scene.usdc").exists():
+        layers = [layer.realPath for layer in open_layers(Path(source)) if layer.realPath]
+        refuse_to_overwrite(folder, layers, "a file that the source refers to")
 
 
 class _Clock:

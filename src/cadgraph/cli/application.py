@@ -11,6 +11,7 @@ from rich.markup import escape
 
 from cadgraph import __version__
 from cadgraph.cli.screen import err, out
+from cadgraph.cli.signals import Stopped, stoppable
 from cadgraph.errors import CadGraphError
 
 __all__ = ["app", "main", "plants"]
@@ -32,13 +33,22 @@ app.add_typer(plants, name="environment")
 def main(arguments: Sequence[str] | None = None) -> None:
     """Runs the command line; ends the process with 0, with 2 on bad input or arguments, with 130 on Ctrl-C."""
     try:
-        app(arguments)
+        with stoppable():
+            app(arguments)
     except (CadGraphError, ValueError) as error:
-        err.print(f"[bold red]error:[/] {escape(_one_line(error))}")
-        sys.exit(2)
-    except KeyboardInterrupt:
+        _refuse(str(error))
+    except MemoryError:
+        _refuse("there is not enough memory for this scene; close other programs, or split it")
+    except OSError as error:
+        _refuse(f"{error.filename or 'the system'}: {error.strerror or error}")
+    except Stopped as stop:
         err.print("stopped; nothing half-written was left, the same command starts anew")
-        sys.exit(130)
+        sys.exit(stop.code)
+
+
+def _refuse(reason: str) -> None:
+    err.print(f"[bold red]error:[/] {escape(_one_line(reason))}")
+    sys.exit(2)
 
 
 @app.callback(invoke_without_command=True)
@@ -48,5 +58,6 @@ def _root(version: Annotated[bool, typer.Option("--version", help="Print the ver
         raise typer.Exit
 
 
-def _one_line(error: Exception) -> str:
-    return " ".join(str(error).split())
+def _one_line(text: str) -> str:
+    # Names from a file may hold what moves the cursor or recolours the terminal.
+    return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in " ".join(text.split()))

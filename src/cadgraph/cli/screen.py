@@ -10,6 +10,8 @@ from rich.console import Console
 from rich.markup import escape
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
 
+from cadgraph.progress import quiet
+
 __all__ = ["bars", "err", "out", "summary_lines", "tell"]
 
 out = Console(highlight=False, soft_wrap=True)
@@ -18,17 +20,35 @@ err = Console(stderr=True, highlight=False, soft_wrap=True)
 
 @contextmanager
 def bars() -> Iterator[Any]:
-    """A progress bar for each stage."""
+    """A progress bar for each stage; nothing where nobody looks at a terminal."""
+    if not err.is_terminal:
+        yield quiet
+        return
     columns = (TextColumn("{task.description:<14}"), BarColumn(), TimeElapsedColumn())
     with Progress(*columns, console=err) as bars:
-        tasks: dict[str, TaskID] = {}
+        yield _Told(bars)
 
-        def told(stage: str, share: float) -> None:
-            if stage not in tasks:
-                tasks[stage] = bars.add_task(stage, total=1.0)
-            bars.update(tasks[stage], completed=share)
 
-        yield told
+class _Told:
+    """Moves the bars, and takes them away for a while where something has to be asked."""
+
+    def __init__(self, bars: Progress) -> None:
+        self._bars = bars
+        self._tasks: dict[str, TaskID] = {}
+
+    def __call__(self, stage: str, share: float) -> None:
+        if stage not in self._tasks:
+            self._tasks[stage] = self._bars.add_task(stage, total=1.0)
+        self._bars.update(self._tasks[stage], completed=share)
+
+    @contextmanager
+    def paused(self) -> Iterator[None]:
+        """No bars within the block."""
+        self._bars.stop()
+        try:
+            yield
+        finally:
+            self._bars.start()
 
 
 def tell(outcome: Any) -> None:
@@ -49,13 +69,30 @@ def summary_lines(summary: Any) -> list[str]:
     units = ", ".join(f"{len(tags)} {escape(kind)}{'s' * (len(tags) != 1)}" for kind, tags in summary.units.items())
     found = ", ".join(f"{escape(code)} {n}" for code, n in summary.diagnostics.items()) or "none"
     rows = (
-        ("source", f"{escape(summary.source)}: {summary.n_meshes:,} meshes, {summary.n_triangles:,} triangles"),
-        ("parts", f"{summary.n_parts:,}, {summary.n_labelled:,} of them labelled"),
+        (
+            "source",
+            f"{escape(summary.source)}: {_count(summary.n_meshes, 'mesh', 'es')}, "
+            f"{_count(summary.n_triangles, 'triangle')}",
+        ),
+        ("parts", _of_them(summary.n_parts, summary.n_labelled, "labelled", "labelled", "not labelled")),
         ("labels", groups),
-        ("structures", f"{summary.n_clusters:,}, {summary.n_pipe_systems:,} of them pipe systems"),
-        ("touching", f"{summary.n_adjacent:,} pairs of parts"),
+        (
+            "structures",
+            _of_them(summary.n_clusters, summary.n_pipe_systems, "pipe systems", "a pipe system", "no pipe system"),
+        ),
+        ("touching", f"{_count(summary.n_adjacent, 'pair')} of parts"),
         ("units", units or "none"),
         ("relations", f"{summary.n_related:,} between units"),
         ("diagnostics", found),
     )
     return [f"[dim]{name:<15}[/]{text}" for name, text in rows]
+
+
+def _count(n: int, noun: str, plural: str = "s") -> str:
+    return f"{n:,} {noun}{'' if n == 1 else plural}"
+
+
+def _of_them(n: int, some: int, are: str, is_one: str, is_none: str) -> str:
+    if n == 1:
+        return f"1, {is_one if some else is_none}"
+    return f"{n:,}, {some:,} of them {is_one if some == 1 else are}"

@@ -24,7 +24,7 @@ from cadgraph.graph import SceneGraph
 from cadgraph.records import Cluster, Connected, Contains, Junction, Part, Related, System, Terminal, Unit
 from cadgraph.scene import Scene
 
-__all__ = ["CLASS", "GROUP", "UNIT", "is_usd", "prim_paths", "write_geometry", "write_semantics"]
+__all__ = ["CLASS", "GROUP", "UNIT", "check_source", "is_usd", "prim_paths", "write_geometry", "write_semantics"]
 
 CLASS, GROUP, UNIT = "class", "cad_group", "cad_unit"
 """The taxonomies: what a mesh is, the group that it is in, the type of a functional unit."""
@@ -46,6 +46,24 @@ def is_usd(source_path: str | Path) -> bool:
     return Path(source_path).suffix.lower() in _USD_SUFFIXES
 
 
+def check_source(source_path: str | Path, path: str | Path) -> None:
+    """Makes sure that a layer can lie over a source, before any work is done for it.
+
+    Args:
+        source_path: the file that the scene comes from.
+        path: the layer to write.
+
+    Raises:
+        OutputError: the layer would overwrite the source, or USD can't refer to the source by its name.
+    """
+    source, target = Path(source_path), Path(path)
+    _refuse_overwriting(source, target)
+    if is_usd(source) and _CONTROL.search(_relative(source, target)):
+        raise OutputError(
+            f"{source}: no USD layer can refer to it, as its path holds control characters or broken text; rename it"
+        )
+
+
 def write_semantics(scene: Scene, graph: SceneGraph, source_path: str | Path, path: str | Path) -> Path:
     """Writes the layer of labels, units and clusters over the source, which stays as it is.
 
@@ -64,10 +82,10 @@ def write_semantics(scene: Scene, graph: SceneGraph, source_path: str | Path, pa
     Raises:
         ValueError: the graph names a mesh that the scene doesn't have.
         LoadError: the source can't be opened any more.
-        OutputError: the layer can't be written, or would overwrite the source.
+        OutputError: the layer can't be written, would overwrite the source, or can't refer to it.
     """
     target, source = Path(path), Path(source_path)
-    _refuse_overwriting(source, target)
+    check_source(source, target)
     if is_usd(source):
         below, anchors, targets = source, scene.anchors or scene.paths, scene.paths
     else:

@@ -30,6 +30,10 @@ def open_layers(path: Path) -> list[Any]:
         LoadError: a layer is named that is no regular file.
     """
     try:
+        os.fspath(path).encode("utf-8")
+    except UnicodeEncodeError:
+        raise LoadError(f"{path}: its path is not UTF-8, which USD needs; rename it") from None
+    try:
         root = Sdf.Layer.FindOrOpen(str(path))
     except Tf.ErrorException:
         # To open the stage meets the same error, and tells it.

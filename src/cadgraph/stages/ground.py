@@ -39,7 +39,9 @@ def find_ground(scene: Scene, properties: Properties, config: GroundConfig) -> t
         rank = {path: i for i, path in enumerate(scene.paths)}
         for path in config.meshes:
             if path not in rank:
-                raise ValueError(f"{scene.source.path}: ground {path!r} is not a mesh of the scene")
+                raise ValueError(
+                    f"{scene.source.path}: ground {path!r} is not a mesh of the scene; {_remedy(path, scene)}"
+                )
             ground[rank[path]] = True
     elif scene.n_meshes > 1:
         ground[_candidates(properties, config)] = True
@@ -72,3 +74,8 @@ def _candidates(properties: Properties, config: GroundConfig) -> list[int]:
         if cover >= config.min_cover and margin >= config.min_margin and buried <= config.max_buried:
             chosen.append(int(i))
     return chosen
+
+
+def _remedy(path: str, scene: Scene) -> str:
+    below = [mesh for mesh in scene.paths if mesh.startswith(f"{path.rstrip('/')}/")]
+    return f"give a mesh, as {below[0]!r} below it" if below else "give a path as in graph.json, or none at all"
