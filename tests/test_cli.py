@@ -256,6 +256,19 @@ def test_a_stop_that_a_library_swallows_comes_again(capsys, monkeypatch, tmp_pat
     assert run(capsys, "build", "a.usd", "-o", tmp_path / "out")[0] == 130
 
 
+@pytest.mark.parametrize("unit", ["nan", "0", "-1", "inf", "1e-9"])
+def test_a_plant_in_an_impossible_unit_is_refused(capsys, tmp_path, unit):
+    message = refused(capsys, "environment", "make", "-o", tmp_path / "a.usdc", "--unit", unit)
+    assert "from 1e-06 to 1000" in message
+    assert not (tmp_path / "a.usdc").exists()
+
+
+def test_the_demo_leaves_a_skid_of_the_user_alone(capsys, tmp_path):
+    (tmp_path / "skid.usdc").write_text("mine")
+    assert "not written by cadgraph" in refused(capsys, "demo", "-o", tmp_path)
+    assert (tmp_path / "skid.usdc").read_text() == "mine"
+
+
 def test_want_of_memory_is_one_line(capsys, monkeypatch, tmp_path):
     def greedy(*_, **__):
         raise MemoryError

@@ -238,3 +238,14 @@ def test_authored_units_and_up_axis_do_not_matter(tmp_path_factory, method, unit
     for key in ("distances", "sizes"):  # float32 in the file
         assert np.allclose(found.pop(key), expected.pop(key), atol=2e-5)
     assert found == expected
+
+
+@pytest.mark.parametrize("what", [None, "plant.usd", 3])
+def test_what_is_no_scene_is_a_type_error(what):
+    with pytest.raises(TypeError, match=r"build takes a Scene, as cadgraph.load returns it"):
+        cadgraph.build(what)
+
+
+def test_settings_as_a_dictionary_are_a_type_error():
+    with pytest.raises(TypeError, match="build takes a Config, not dict"):
+        cadgraph.build(Scene.from_meshes([shapes.box()]), {"cluster.eps": 1})

@@ -132,3 +132,8 @@ def test_merging_leaves_the_scene_as_it_is():
     scene.merge([0, 0, 0, 0], [2])
     scene.select([3, 1])
     assert_same(scene, before)
+
+
+def test_a_scene_shows_what_it_holds_in_one_line():
+    assert repr(Scene.from_meshes([shapes.box()])) == "<Scene of '': 1 mesh, 12 triangles>"
+    assert repr(Scene.from_meshes([shapes.box()] * 2)) == "<Scene of '': 2 meshes, 24 triangles>"

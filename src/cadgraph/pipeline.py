@@ -55,7 +55,12 @@ def build(
     Raises:
         LabelError: a label names a mesh that is not in the scene.
         ValueError: a setting names a mesh that is not in the scene, or the scene's arrays don't fit together.
+        TypeError: ``scene`` is no scene, or ``config`` no configuration.
     """
+    if not isinstance(scene, Scene):
+        raise TypeError(f"build takes a Scene, as cadgraph.load returns it, not {type(scene).__name__}")
+    if not isinstance(config, Config | None):
+        raise TypeError(f"build takes a Config, not {type(config).__name__}")
     config = config or Config()
     vocabulary = vocabulary or default_vocabulary()
     scene, told_scene = prepare_scene(scene)

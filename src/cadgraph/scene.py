@@ -52,7 +52,7 @@ class Source:
     format: str = ""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Scene:
     """All meshes of a source, in metres, Z up, right-handed, in world coordinates relative to ``origin``.
 
@@ -96,6 +96,12 @@ class Scene:
             raise ValueError("the paths of a scene must be unique")
         if self.anchors and len(self.anchors) != n:
             raise ValueError(f"a scene of {n} paths needs {n} anchors, got {len(self.anchors)}")
+
+    def __repr__(self) -> str:
+        counts = ((self.n_meshes, "mesh", "es"), (self.n_triangles, "triangle", "s"))
+        told = [f"{n:,} {noun}{'' if n == 1 else plural}" for n, noun, plural in counts]
+        told += [f"{len(self.diagnostics):,} diagnostics"] if self.diagnostics else []
+        return f"<Scene of {self.source.path!r}: {', '.join(told)}>"
 
     @classmethod
     def from_meshes(

@@ -52,8 +52,9 @@ def make_plant(
     ):
         if value is not None and value not in choices:
             raise ValueError(f"{name} {value}: give {', '.join(choices[:-1])} or {choices[-1]}")
-    if unit is not None and not 0 < unit < float("inf"):
-        raise ValueError(f"--unit {unit}: give metres, more than 0")
+    # Written so that NaN fails it too.
+    if unit is not None and not 1e-6 <= unit <= 1e3:
+        raise ValueError(f"--unit {unit:g}: give the length of one authored unit in metres, from 1e-06 to 1000")
     style = replace(style, **{key: value for key, value in given.items() if value is not None})
     share = Sins(spoilt, spoilt, spoilt, spoilt, spoilt, spoilt) if spoilt else None
     plant = make(preset, seed, hand, draw_sins(seed) if sins else share)

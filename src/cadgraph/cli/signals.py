@@ -60,4 +60,4 @@ def _raise_in_main_thread(number: int) -> None:
         # Wakes the main thread from what it waits for, too.
         signal.pthread_kill(thread, number)
     else:
-        _thread.interrupt_main(number)
+        _thread.interrupt_main(signal.Signals(number))
