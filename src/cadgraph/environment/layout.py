@@ -217,6 +217,9 @@ def _wafer(work: _Work, item: Inline, device: Device, frame: Floats, first: int)
     clamped = range(start, work.count)
     work.follow(flange(work.dn, hand).placed(frame @ at(far)))
     _join_bolts(work, clamped, first, work.tail)
+    if hand.fasteners == "flange" and not hand.gaskets:
+        # Without gaskets only here does the device keep the flanges apart, but not the bolts of the first.
+        work.joints.append((first, work.tail))
 
 
 def _grip(work: _Work) -> float:

@@ -272,7 +272,8 @@ def _drain(
     dn = plan.drain
     z = float(start[2])
     corner = start + (0.78 + 0.20 * (number == 0)) * out
-    y = side * (reach + 0.42 + 0.16 * (number == 0))
+    # Past the columns of the portal.
+    y = side * (max(reach + 0.42, 1.17) + 0.16 * (number == 0))
     end = plan.far - 1.0
     route = Route(np.array([start, corner, (float(corner[0]), y, z), (end, y, z), (end, y, z - 0.24)]))
     s = route.starts
