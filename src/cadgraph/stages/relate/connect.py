@@ -13,7 +13,9 @@ from cadgraph.scene import Diagnostic, Ints, Scene
 from cadgraph.stages.relate.algorithm import find_units
 from cadgraph.stages.relate.attach import Attachments, attach_lines, flat_contacts
 from cadgraph.stages.relate.contract import simplify
+from cadgraph.stages.relate.flow import direct_flow, stated_flow
 from cadgraph.stages.relate.joint import face_ends, gather_ends
+from cadgraph.stages.relate.kind import name_kinds
 from cadgraph.stages.relate.line import find_lines, is_disc, is_plain_tube
 from cadgraph.stages.relate.network import draw_network
 from cadgraph.stages.relate.role import Roles, find_roles, likely_lines, neighbor_lists
@@ -73,6 +75,11 @@ def connect_units(
     ]
     members = {part for group in groups for part in group.parts}
     found = attach_lines(parts, contacts, lines, [*members, *blobs], bridge)
+    shapeless = _shapeless(found, lines, contacts)
+    if shapeless:
+        lines = {part: line for part, line in lines.items() if part not in shapeless}
+        blobs = sorted([*blobs, *shapeless])
+        found = attach_lines(parts, contacts, lines, [*members, *blobs], bridge)
     unsure = _unsupported(roles)
     mended = mend_groups(
         groups, roles.names, near, {mount.part for mount in found.mounts}, _kept_apart(parts, found), unsure
@@ -96,7 +103,9 @@ def connect_units(
     network = make_network(
         net, drawing, units, lines, found, lambda part: _CLOSED.get(roles.names[part] or ""), sure.__contains__
     )
-    return network, _tell(parts, roles, drawing.bridged)
+    network = name_kinds(network, roles.names, parts)
+    network, told_flow = direct_flow(network, parts, roles.names, stated_flow(network, config.relate.flow))
+    return network, (*_tell(parts, roles, drawing.bridged), *told_flow)
 
 
 def _find_all_lines(
@@ -122,9 +131,9 @@ def _find_all_lines(
     for part in singles:
         if part not in lines or part in roles.backed:
             continue
-        if is_plain_tube(lines[part]):
+        if is_plain_tube(lines[part]) and not roles.doubtful:
             maybe[part] = _OWN_RATIO
-        elif roles.doubtful and is_disc(lines[part]):
+        elif is_plain_tube(lines[part]) or (roles.doubtful and is_disc(lines[part])):
             maybe[part] = _RATIO
     if maybe:
         _accept(kept, maybe, lines, contacts, bridge)
@@ -163,6 +172,20 @@ def _unsupported(roles: Roles) -> set[int]:
     if not roles.doubtful:
         return set()
     return {part for part, group in enumerate(roles.groups) if group is not None and part not in roles.backed}
+
+
+def _shapeless(found: Attachments, lines: Mapping[int, Centreline], contacts: Contacts) -> set[int]:
+    """Parts whose line joins nothing although ends of others are at them: it was traced wrongly."""
+    joined = {row for facing in found.facings for row in (facing.first, facing.second)}
+    joined |= {row for row, _ in found.doubled} | {row for row, _, tap in found.taps if not tap.sleeve}
+    joined |= {mount.row for mount in found.mounts}
+    idle = {part for part, rows in found.ends.of_part.items() if not joined.intersection(rows)}
+    loose: dict[int, int] = {}
+    for a, b in contacts.pairs.tolist():
+        for part, other in ((a, b), (b, a)):
+            if part in idle and other in lines and other not in idle:
+                loose[part] = loose.get(part, 0) + any(row not in joined for row in found.ends.of_part.get(other, ()))
+    return {part for part, count in loose.items() if count >= 2}
 
 
 def _kept_apart(parts: Parts, found: Attachments) -> set[int]:

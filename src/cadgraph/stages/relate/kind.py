@@ -1,0 +1,100 @@
+"""Kinds of units: ball valve, check valve, pressure gauge..., from the parts and the way they lie in the line."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from cadgraph.parts import Network, Parts, UnitParts
+
+__all__ = ["name_kinds"]
+
+_HAND = frozenset({"handwheel", "yoke", "valve bonnet"})
+_QUARTER = frozenset({"lever", "valve ball"})
+_DRIVEN = frozenset({"lever", "handwheel", "actuator", "gearbox", "valve stem", "yoke"})
+# A wafer body is shorter than this share of its pipe's outer diameter; flanged bodies are longer than it is wide.
+_WAFER = 1.0
+# Face to face of flanged valves, class 150 [mm], by nominal size: gate and globe (ASME B16.10, table 1).
+_FACES: dict[int, tuple[float, float]] = {
+    50: (178, 203), 65: (190, 216), 80: (203, 241), 100: (229, 292), 125: (254, 356), 150: (267, 406), 200: (292, 495),
+    250: (330, 622), 300: (356, 698),
+}  # fmt: skip
+_FACE_TOLERANCE = 0.01  # m, gaskets included
+_GAUGES = ("level gauge", "flow meter", "transmitter", "sight glass", "thermowell")
+
+
+def name_kinds(network: Network, names: Sequence[str | None], parts: Parts) -> Network:
+    """Says of each unit what it is, as far as its parts and shape tell.
+
+    Args:
+        network: with openings and sizes.
+        names: of each part.
+        parts: of the scene.
+    """
+    sizes: dict[int, list[int]] = {}
+    for link in network.links:
+        for node in (link.source, link.target):
+            if node < len(network.units) and link.size is not None:
+                sizes.setdefault(node, []).append(link.size)
+    units = tuple(
+        replace(unit, kind=_kind(unit, {name for part in unit.parts if (name := names[part])}, sizes.get(k, []), parts))
+        for k, unit in enumerate(network.units)
+    )
+    return replace(network, units=units)
+
+
+def _kind(unit: UnitParts, names: set[str], sizes: Sequence[int], parts: Parts) -> str | None:
+    if unit.unit_type == "valve":
+        return _valve(unit, names, sizes)
+    if unit.unit_type == "gauge":
+        for name in _GAUGES:
+            if name in names:
+                return name if name != "transmitter" or len(unit.openings) < 2 else "flow meter"
+        if len(unit.openings) > 1 and "gauge face" not in names:
+            return "flow meter"
+        return "pressure gauge"
+    if unit.unit_type == "pump":
+        return "centrifugal pump" if _has_crossed_nozzles(unit) else None
+    if unit.unit_type == "tank":
+        return "tank"
+    return next((name for name in sorted(names) if unit.unit_type == "equipment"), None)
+
+
+def _valve(unit: UnitParts, names: set[str], sizes: Sequence[int]) -> str | None:
+    length = _through(unit)
+    wafer = length is not None and sizes and length < _WAFER * min(sizes) / 1000
+    whole = not names - {"valve"}
+    if whole:
+        return None
+    if wafer:
+        return "butterfly valve" if names & _DRIVEN else "check valve"
+    if "gearbox" in names:
+        return None
+    if names & _QUARTER or ("actuator" in names and not names & {"yoke", "handwheel"}):
+        return "ball valve"
+    if names & _HAND and names & {"handwheel", "yoke"}:
+        if length is None or not sizes or min(sizes) not in _FACES:
+            return None
+        gate, globe = _FACES[min(sizes)]
+        for kind, face in (("gate valve", gate), ("globe valve", globe)):
+            if abs(length - face / 1000) <= _FACE_TOLERANCE:
+                return kind
+        return None
+    return "check valve" if not names & _DRIVEN else None
+
+
+def _through(unit: UnitParts) -> float | None:
+    """From one opening to the other of two that lie in one line [m]."""
+    if len(unit.openings) != 2:
+        return None
+    a, b = unit.openings
+    if a.direction is not None and b.direction is not None and float(np.dot(a.direction, b.direction)) > -0.9:
+        return None
+    return float(np.linalg.norm(np.subtract(a.point, b.point)))
+
+
+def _has_crossed_nozzles(unit: UnitParts) -> bool:
+    directions = [opening.direction for opening in unit.openings if opening.direction is not None]
+    return len(directions) == 2 and abs(float(np.dot(directions[0], directions[1]))) < 0.35
