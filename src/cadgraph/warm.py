@@ -10,13 +10,18 @@ import sys
 
 from cadgraph.environment import make_skid
 from cadgraph.pipeline import build
+from cadgraph.render.camera import frame
+from cadgraph.render.pair import PairRenderer
 
 __all__ = ["warm_up"]
 
 
 def warm_up() -> None:
     """Builds the graph of a small generated plant, by which every kernel that a plant needs is compiled."""
-    build(make_skid().scene())
+    scene = make_skid().scene()
+    build(scene)
+    renderer = PairRenderer(scene)
+    renderer.pair(0, frame(scene.mesh(0)[0], (1, -2, 1), (64, 64), margin=0.3), [1])
 
 
 if __name__ == "__main__":

@@ -9,14 +9,18 @@ import typer
 
 from cadgraph.atomic import ensure_writable
 from cadgraph.cli.application import app
+from cadgraph.cli.asking import AskingOptions, asks
 from cadgraph.cli.options import ConfigOption, MethodOption, SetOption, settings_of
 from cadgraph.cli.screen import bars, tell
+from cadgraph.errors import OutputError
 
 
 @app.command()
+@asks
 def build(
     scene: Annotated[Path, typer.Argument(metavar="SCENE", help="A CAD scene: USD (usd, usda, usdc, usdz) or STEP.")],
     output: Annotated[Path, typer.Option("--output", "-o", metavar="FOLDER", help="Where the results go.")],
+    asking: AskingOptions,
     labels: Annotated[
         Path | None, typer.Option("--labels", metavar="FILE", help="Labels from outside: JSON, CSV or a truth file.")
     ] = None,
@@ -40,9 +44,21 @@ def build(
     if ground:
         find = "none" if ground == ["none"] else "named"
         chosen = chosen.replace({"ground.find": find, "ground.meshes": [] if find == "none" else ground})
+    chosen = asking.settings(chosen)
     with bars() as progress:
-        outcome = run(scene, output, chosen, labels=labels, vocabulary=vocabulary, report=report, progress=progress)
+        labeler = asking.labeler(chosen, output, progress)
+        outcome = run(
+            scene,
+            output,
+            chosen,
+            labels=labels,
+            vocabulary=vocabulary,
+            labeler=labeler,
+            report=report,
+            progress=progress,
+        )
     tell(outcome)
+    asking.tell(labeler)
 
 
 @app.command()
@@ -55,10 +71,13 @@ def demo(
 ) -> None:
     """Generate a small plant skid with meaningless names, and turn it into a scene graph."""
     from cadgraph.environment import make_skid, write_usd
+    from cadgraph.environment.usd import truth_path
     from cadgraph.job import run
 
     chosen = settings_of(config, settings or [], None)
     scene = ensure_writable(output) / "skid.usdc"
+    if scene.exists() and not truth_path(scene).exists():
+        raise OutputError(f"{scene}: not written by cadgraph, so it is left alone; choose another output folder")
     write_usd(make_skid(), scene)
     with bars() as progress:
         outcome = run(scene, output, chosen, progress=progress)

@@ -11,7 +11,7 @@ import typer
 
 from cadgraph.config import Config, read_config
 
-__all__ = ["ConfigOption", "GraphArgument", "MethodOption", "SetOption", "settings_of"]
+__all__ = ["ConfigOption", "GraphArgument", "MethodOption", "SetOption", "settings_of", "values_of"]
 
 ConfigOption = Annotated[
     Path | None, typer.Option("--config", metavar="FILE", help="Settings as TOML; 'cadgraph config' prints them all.")
@@ -27,15 +27,21 @@ GraphArgument = Annotated[Path, typer.Argument(metavar="FOLDER", help="What 'cad
 def settings_of(file: Path | None, changes: Sequence[str], method: str | None) -> Config:
     """Defaults, then the file, then flags."""
     chosen = read_config(file) if file else Config()
+    values = values_of(changes)
+    if method is not None:
+        values["method"] = method
+    return chosen.replace(values) if values else chosen
+
+
+def values_of(changes: Sequence[str]) -> dict[str, Any]:
+    """Settings and their values, of ``NAME=VALUE`` each."""
     values: dict[str, Any] = {}
     for change in changes:
         name, equals, text = change.partition("=")
         if not equals:
             raise ValueError(f"--set {change}: expected NAME=VALUE, e.g. cluster.eps=0.02")
         values[name.strip()] = _value(text.strip())
-    if method is not None:
-        values["method"] = method
-    return chosen.replace(values) if values else chosen
+    return values
 
 
 def _value(text: str) -> Any:
