@@ -103,7 +103,9 @@ def along(*names, **places):
             }
         )
         for a, b in pairwise(names)
-        for edge in chain(f"{a} {b}", size, direction=direction, reason="pump P-001")
+        for edge in chain(
+            f"{a} {b}", size, direction=direction, reason=None if direction == "unknown" else "pump P-001"
+        )
     ]
 
 

@@ -6,7 +6,7 @@ from cadgraph.export import export_graph, formats
 
 
 def test_formats_are_named_in_order_with_their_meaning():
-    assert list(formats()) == ["csv", "graphml", "networkx-json"]
+    assert list(formats()) == ["csv", "dexpi", "graphml", "networkx-json"]
     assert all(formats().values())
 
 
@@ -43,7 +43,7 @@ def test_several_tables_do_not_fit_one_file(tmp_path):
 
 
 def test_an_unknown_format_names_the_known_ones(tmp_path):
-    with pytest.raises(ValueError, match="'pdf'; there are csv, graphml, networkx-json"):
+    with pytest.raises(ValueError, match="'pdf'; there are csv, dexpi, graphml, networkx-json"):
         export_graph(graphs.graph(), "pdf", tmp_path)
 
 

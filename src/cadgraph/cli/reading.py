@@ -36,7 +36,7 @@ def show(
 @app.command()
 def export(
     graph: GraphArgument,
-    to: Annotated[str, typer.Option("--to", metavar="FORMAT", help="graphml, csv or networkx-json.")],
+    to: Annotated[str, typer.Option("--to", metavar="FORMAT", help="graphml, csv, networkx-json or dexpi.")],
     output: Annotated[
         Path | None, typer.Option("--output", "-o", metavar="PATH", help="File or folder; beside the graph by default.")
     ] = None,

@@ -189,6 +189,9 @@ def _draw_row(paper: _Paper, row: Row, x: float, y: float) -> None:
 
 
 def _draw_cell(paper: _Paper, cell: Cell, x: float, y: float, style: str) -> None:
+    if cell.sizes is not None:
+        _draw_reducer(paper, x, y, cell.sizes)
+        return
     if cell.symbol is not None:
         paper.marks.append(cell.symbol.draw(x, y))
         paper.boxes.append((x - cell.symbol.left, y - cell.symbol.top, x + cell.symbol.right, y + cell.symbol.bottom))
@@ -212,8 +215,6 @@ def _draw_cell(paper: _Paper, cell: Cell, x: float, y: float, style: str) -> Non
         foot = middle - symbol.top
     if cell.symbol is None:
         paper.marks.append(f'<circle class="k" cx="{number(x)}" cy="{number(y)}" r="1.8"/>')
-    if cell.sizes is not None:
-        _draw_reducer(paper, x + cell.width / 2 - 10, y, cell.sizes)
 
 
 def _draw_reducer(paper: _Paper, x: float, y: float, sizes: tuple[int, int]) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import networkx
 
@@ -16,6 +17,7 @@ from cadgraph.records import Junction, System, Terminal
 __all__ = ["Anchor", "Cell", "Edge", "Row", "Sketch", "plan_systems"]
 
 _CELL_GAP = 14.0  # px between neighbours in a row
+_REDUCER = 20.0  # px along the line
 _STEM = 20.0  # px from a line to the next symbol of a tap
 _TEXT = 8.0  # px, size of tags
 _BELOW = 16.0  # px for the line's label below it
@@ -23,23 +25,27 @@ _BELOW = 16.0  # px for the line's label below it
 
 @dataclass(frozen=True)
 class Cell:
-    """One place in a row: a symbol in the line, or a tap with what hangs at it.
+    """One place in a row: a symbol in the line, a tap with what hangs at it, or a reducer.
 
     Args:
         symbol: in the line; None for a tap.
         hanging: symbols above the line, the nearest first.
-        sizes: nominal sizes before and after it, where they differ; else None.
+        sizes: of a reducer, nominal sizes to its left and right; else None.
+        place: id of what stands here.
     """
 
     symbol: Symbol | None
     hanging: tuple[Symbol, ...] = ()
     sizes: tuple[int, int] | None = None
+    place: str = ""
 
     @cached_property
     def width(self) -> float:
         """Room along the line [px]."""
+        if self.sizes:
+            return _REDUCER
         shown = [s for s in (self.symbol, *self.hanging) if s is not None]
-        return max(max(s.width, s.label_width) for s in shown) + _CELL_GAP + (18 if self.sizes else 0)
+        return max(max(s.width, s.label_width) for s in shown) + _CELL_GAP
 
     @cached_property
     def top(self) -> float:
@@ -180,7 +186,7 @@ def _sketch(network: Network, group: Sequence[str], lines: Sequence[Line]) -> Sk
         _add_line(network, line, index, order, rows, edges)
     for place in anchors:
         for chain in network.tap_chains(place):
-            cells = tuple(Cell(symbol_of(network, one)) for one in chain)
+            cells = tuple(Cell(symbol_of(network, one), place=one) for one in chain)
             edges.append(Edge(index[place], len(rows), True, "", "", True))
             rows.append(Row(cells, "", None, False))
     drawn = tuple(Anchor(place, symbol_of(network, place)) for place in anchors)
@@ -199,7 +205,7 @@ def _add_line(
     cells = _cells(network, line, reverse)
     label = f"{line.tag}  DN {line.size}" if line.size else line.tag
     row = len(rows)
-    rows.append(Row(tuple(reversed(cells)) if reverse else tuple(cells), label, line, reverse))
+    rows.append(Row(tuple(cells), label, line, reverse))
     sure = [arc.edge.confidence is None or arc.edge.confidence >= _SURE for arc in line.arcs]
     flows = {"forward": ("out", "in"), "backward": ("in", "out")}.get(line.flow, ("", ""))
     edges.append(Edge(index[line.start], row, not reverse, line.start_port or "", flows[0], sure[0]))
@@ -209,22 +215,28 @@ def _add_line(
 def _cells(network: Network, line: Line, reverse: bool) -> list[Cell]:
     forward = {"forward": 1, "backward": -1}.get(line.flow, 0) * (-1 if reverse else 1)
     cells: list[Cell] = []
-    for arc, following in zip(line.arcs, line.arcs[1:], strict=False):
-        before, after = arc.edge.size, following.edge.size
-        change = (before, after) if before and after and before != after else None
-        if change and reverse:
-            change = (change[1], change[0])
-        place = arc.end
-        if isinstance(network.places[place], Junction):
-            chains = network.tap_chains(place)
-            for number, chain in enumerate(chains):
-                hanging = tuple(symbol_of(network, one, upright=True) for one in chain)
-                cells.append(Cell(None, hanging, change if number == len(chains) - 1 else None))
-        elif network.is_gauge(place):
-            cells.append(Cell(None, (symbol_of(network, place),), change))
-        else:
-            cells.append(Cell(symbol_of(network, place, flow=forward), (), change))
+    arcs = [arc.back for arc in reversed(line.arcs)] if reverse else list(line.arcs)
+    for number, arc in enumerate(arcs):
+        if number:
+            cells += _standing(network, arc.start, forward)
+        before = arcs[number - 1].sizes[-1:] if number else ()
+        sizes = [*before, *arc.sizes]
+        for pair in pairwise(sizes):
+            if pair[0] != pair[1]:
+                cells.append(Cell(None, (), pair))
     return cells
+
+
+def _standing(network: Network, place: str, flow: int) -> list[Cell]:
+    """The cells of one node in a line."""
+    if isinstance(network.places[place], Junction):
+        return [
+            Cell(None, tuple(symbol_of(network, one, upright=True) for one in chain), None, place)
+            for chain in network.tap_chains(place)
+        ]
+    if network.is_gauge(place):
+        return [Cell(None, (symbol_of(network, place),), None, place)]
+    return [Cell(symbol_of(network, place, flow=flow), (), None, place)]
 
 
 def _layering(network: Network, anchors: Sequence[str], lines: Iterable[Line]) -> dict[str, int]:

@@ -34,6 +34,12 @@ class Format:
 _FORMATS = (
     Format("csv", "tables of parts, units, relations, clusters, contacts and meshes, for Excel", write_tables),
     Format(
+        "dexpi",
+        "tanks, pumps, lines, valves and instruments as Proteus XML in DEXPI 1.3 terms, for P&ID tools",
+        lambda graph, path: [_write_dexpi(graph, path)],
+        "dexpi.xml",
+    ),
+    Format(
         "graphml",
         "the whole graph, for yEd, Gephi, Cytoscape",
         lambda graph, path: [write_graphml(graph, path)],
@@ -74,6 +80,13 @@ def export_graph(graph: SceneGraph, to: str, path: str | Path) -> list[Path]:
         if each.name == to:
             return each.write(graph, _place(each, target))
     raise ValueError(f"no export format is called {to!r}; there are {', '.join(formats())}")
+
+
+def _write_dexpi(graph: SceneGraph, path: Path) -> Path:
+    # It places what it writes by the layout library, which the other formats do without.
+    from cadgraph.export.dexpi import write_dexpi
+
+    return write_dexpi(graph, path)
 
 
 def _place(form: Format, path: Path) -> Path:

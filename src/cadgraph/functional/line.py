@@ -179,7 +179,7 @@ def _line(network: Network, tag: str, run: list[Arc]) -> Line:
         through_names=tuple(network.name(place) for place in through),
         length=sum(known) if known else None,
         whole=len(known) == len(lengths),
-        sizes=tuple(_changes(arc.edge.size for arc in run)),
+        sizes=tuple(_changes(size for arc in run for size in arc.sizes)),
         diameters=tuple(_changes(arc.edge.diameter for arc in run)),
         flow=_flow_of(flows),
         reasons=tuple(dict.fromkeys(arc.edge.reason for arc in run if arc.edge.reason)),

@@ -68,6 +68,12 @@ class Arc:
         return self.edge.path if self.forward else self.edge.path[::-1]
 
     @property
+    def sizes(self) -> tuple[int, ...]:
+        """Nominal sizes (DN) in the order that it is walked, each change once; empty where none is known."""
+        found = self.edge.sizes or ((self.edge.size,) if self.edge.size is not None else ())
+        return found if self.forward else found[::-1]
+
+    @property
     def length(self) -> float | None:
         """Along the centreline [m]; of the polyline where no length is given, None where that is missing too."""
         if self.edge.length is not None:

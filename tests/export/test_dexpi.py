@@ -1,0 +1,225 @@
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import pytest
+import xmlschema
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from cadgraph.errors import FormatError
+from cadgraph.export import export_graph
+from cadgraph.export.dexpi import read_dexpi, write_dexpi
+from cadgraph.functional import find_isolation, find_lines, trace
+from cadgraph.functional.text import isolation_values, line_values, trace_values
+from cadgraph.records import Connected, Junction, Terminal
+from networks import chain, junction, network, pumping, terminal, unit
+
+
+@pytest.fixture(scope="module")
+def schema():
+    return xmlschema.XMLSchema(Path(__file__).parent / "proteus.xsd")
+
+
+def there_and_back(graph, folder):
+    return read_dexpi(write_dexpi(graph, folder / "plant.xml"))
+
+
+def listed(graph):
+    return [line_values(line) for line in find_lines(graph)]
+
+
+NETWORKS = {
+    "one line": ("T-001.N1 V-001 G-001 V-002 P-001.N1",),
+    "gauges in a row": ("T-001.N1 G-001 G-002 V-001 G-003 P-001.N1",),
+    "a tee": ("T-001.N1 J1 P-001.N1", "J1 V-001 X1"),
+    "a cross": ("T-001.N1 J1 P-001.N1", "X1 J1 V-001 X2"),
+    "parallel": ("T-001.N1 P-001.N1", "P-001.N2 T-001.N2"),
+    "a loop": ("P-001.N2 V-001 P-001.N1",),
+    "a ring": ("V-001 V-002 V-003 V-001",),
+    "a junction ring": ("J1 V-001 J1", "J1 X1"),
+    "valves at both ends": ("V-001 V-002",),
+    "a three-way valve": ("X1 V-001 X2", "V-001 X3"),
+    "gauges at both ends": ("G-001 V-001 G-002",),
+    "a tap": ("T-001.N1 J1 P-001.N1", "J1 V-001 G-001"),
+    "a bare tap": ("T-001.N1 J1 V-001 P-001.N1", "J1 G-001"),
+    "a tap at a tank": ("T-001.N1 V-001 G-001", "T-001.N2 P-001.N1"),
+    "no ports": ("T-001 V-001 P-001", "P-001 T-001"),
+}
+
+
+def made(texts, kinds=(), **more):
+    kinds = dict(kinds)
+    names = dict.fromkeys(name.split(".")[0] for text in texts for name in text.split())
+    ports = {}
+    for text in texts:
+        for name in text.split():
+            if "." in name:
+                ports.setdefault(name.split(".")[0], {})[name.split(".")[1]] = True
+    nodes = [
+        junction(int(n[1:]), (1.0, 2.0, 3.0))
+        if n[0] == "J"
+        else terminal(int(n[1:]), kinds.get(n, "open"))
+        if n[0] == "X"
+        else unit(n, kinds.get(n), (4.0, 5.0, 6.0), tuple(sorted(ports.get(n, ()))))
+        for n in names
+    ]
+    return network(nodes, [edge for text in texts for edge in chain(text, **more)])
+
+
+@pytest.mark.parametrize("direction", ["forward", "unknown"])
+@pytest.mark.parametrize("texts", NETWORKS.values(), ids=NETWORKS)
+def test_every_construct_comes_back_and_is_valid(texts, direction, tmp_path, schema):
+    graph = made(texts, direction=direction, length=0.5)
+    back = there_and_back(graph, tmp_path)
+    schema.validate(tmp_path / "plant.xml")
+    assert listed(back) == listed(graph)
+    assert {(u.id, u.tag, u.unit_type, u.kind, u.centroid) for u in back.units()} == {
+        (u.id, u.tag, u.unit_type, u.kind, u.centroid) for u in graph.units()
+    }
+
+
+def test_a_plant_comes_back_with_all_its_answers(tmp_path, schema):
+    graph = pumping()
+    back = there_and_back(graph, tmp_path)
+    schema.validate(tmp_path / "plant.xml")
+    assert listed(back) == listed(graph)
+    assert trace_values(trace(back, "V-003")) == trace_values(trace(graph, "V-003"))
+    assert isolation_values(find_isolation(back, "P-001")) == isolation_values(find_isolation(graph, "P-001"))
+    for kind in (Junction, Terminal):
+        assert sorted(back.of_layer(kind), key=lambda n: n.id) == sorted(graph.of_layer(kind), key=lambda n: n.id)
+    assert len(back.of_kind(Connected)) == len(graph.of_kind(Connected))
+
+
+@pytest.mark.parametrize("word", ["ball", "gate", "globe", "butterfly", "check", "control", "relief", "plug", None])
+def test_kinds_of_valves_come_back(word, tmp_path):
+    kind = word and f"{word} valve"
+    graph = made(("T-001.N1 V-001 P-001.N1",), [("V-001", kind)])
+    assert there_and_back(graph, tmp_path).unit("V-001").kind == kind
+
+
+@pytest.mark.parametrize("kind", ["open", "blind", "unknown"])
+def test_kinds_of_ends_come_back(kind, tmp_path):
+    graph = made(("T-001.N1 X1",), [("X1", kind)])
+    assert there_and_back(graph, tmp_path).of_layer(Terminal)[0].kind == kind
+
+
+def test_a_change_of_size_at_a_valve_begins_a_segment(tmp_path):
+    nodes = [unit("T-001"), unit("V-001"), unit("P-001")]
+    graph = network(nodes, chain("T-001 V-001", 80) + chain("V-001 P-001", 50))
+    assert listed(there_and_back(graph, tmp_path)) == listed(graph)
+    root = ET.parse(tmp_path / "plant.xml").getroot()
+    assert len(root.findall(".//PipingNetworkSegment")) == 2
+    assert root.find(".//PipingComponent[@ComponentClass='PipeReducer']") is None
+
+
+def test_a_reducer_in_a_connection_is_written_and_read(tmp_path, schema):
+    edges = chain("T-001 P-001", 80, 2.0, sizes=(80, 50))
+    graph = network([unit("T-001"), unit("P-001")], edges)
+    assert listed(there_and_back(graph, tmp_path)) == listed(graph)
+    schema.validate(tmp_path / "plant.xml")
+    assert "PipeReducer-1" in (tmp_path / "plant.xml").read_text(encoding="utf-8")
+
+
+def test_a_change_of_size_at_a_gauge_is_a_reducer(tmp_path):
+    nodes = [unit("T-001"), unit("G-001"), unit("P-001")]
+    graph = network(nodes, chain("T-001 G-001", 80) + chain("G-001 P-001", 50))
+    assert listed(there_and_back(graph, tmp_path)) == listed(graph)
+
+
+def test_unconnected_units_are_not_lost(tmp_path, schema):
+    graph = network([unit("V-001"), unit("G-001", "pressure gauge"), unit("P-001")], [])
+    back = there_and_back(graph, tmp_path)
+    schema.validate(tmp_path / "plant.xml")
+    assert {u.tag for u in back.units()} == {"V-001", "G-001", "P-001"}
+
+
+def test_contradictory_flow_stays_unknown(tmp_path):
+    nodes = [unit("T-001"), unit("V-001"), unit("P-001")]
+    graph = network(nodes, chain("T-001 V-001") + chain("V-001 P-001", direction="backward"))
+    assert [line["flow"] for line in listed(there_and_back(graph, tmp_path))] == ["unknown"]
+
+
+def test_the_file_is_the_same_every_time(tmp_path):
+    write_dexpi(pumping(), tmp_path / "a.xml")
+    write_dexpi(pumping(), tmp_path / "b.xml")
+    assert (tmp_path / "a.xml").read_bytes() == (tmp_path / "b.xml").read_bytes()
+
+
+@pytest.mark.parametrize("tag", ["V\"<&>'001", "V]]>", "V\x00\x1f1", "\ud800V", "=1+1"])
+def test_hostile_tags_are_text(tag, tmp_path, schema):
+    nodes = [unit("T-001"), unit(tag, unit_type="valve"), unit("P-001")]
+    one = chain("T-001 P-001")[0]
+    edges = [one.model_copy(update={"target": f"unit-{tag}"}), one.model_copy(update={"source": f"unit-{tag}"})]
+    graph = network(nodes, edges, path="/home/me/a&b<c>.usd")
+    back = there_and_back(graph, tmp_path)
+    schema.validate(tmp_path / "plant.xml")
+    assert "/home/me" not in (tmp_path / "plant.xml").read_text(encoding="utf-8")
+    kept = "".join(c for c in tag if c >= " " and not "\ud800" <= c <= "\udfff")
+    assert kept in {u.tag for u in back.units()}
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.text(max_size=12))
+def test_any_text_makes_well_formed_xml(text):
+    from cadgraph.export.dexpi.element import xml_text
+
+    element = ET.Element("a", value=xml_text(text))
+    ET.fromstring(ET.tostring(element))
+
+
+@pytest.mark.parametrize(
+    ("content", "says"),
+    [
+        ("<!DOCTYPE a [<!ENTITY b 'c'>]><PlantModel>&b;</PlantModel>", "document type declaration"),
+        ("<!DOCTYPE PlantModel SYSTEM 'file:///etc/passwd'><PlantModel/>", "document type declaration"),
+        ("<PlantModel>", "not XML"),
+        ("", "not XML"),
+        ("<svg/>", "the root is 'svg'"),
+        ("<PlantModel><Equipment ComponentClass='Tank'/></PlantModel>", "has no ID"),
+        (
+            "<PlantModel><PipingNetworkSystem><PipingNetworkSegment><Connection FromID='x' ToID='y'/>"
+            "</PipingNetworkSegment></PipingNetworkSystem></PlantModel>",
+            "names 'x'",
+        ),
+    ],
+)
+def test_bad_files_are_refused_in_one_line(content, says, tmp_path):
+    path = tmp_path / "bad.xml"
+    path.write_text(content, encoding="utf-8")
+    with pytest.raises(FormatError, match=says) as error:
+        read_dexpi(path)
+    assert str(path) in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+def test_a_missing_file_is_refused(tmp_path):
+    with pytest.raises(FormatError, match="can't be read"):
+        read_dexpi(tmp_path / "nothing.xml")
+
+
+def test_a_file_of_another_tool_is_read(tmp_path):
+    (tmp_path / "other.xml").write_text(
+        """<PlantModel>
+        <PlantInformation SchemaVersion="4.1.1"/>
+        <Equipment ID="E1" ComponentClass="Tank">
+          <GenericAttributes Set="DexpiAttributes">
+            <GenericAttribute Name="TagNameAssignmentClass" Value="T4750"/>
+          </GenericAttributes>
+          <Nozzle ID="N1"><ConnectionPoints><Node/><Node Type="process"/></ConnectionPoints></Nozzle>
+        </Equipment>
+        <Equipment ID="E2" ComponentClass="ReciprocatingPump" TagName="P4711"><Nozzle ID="N2"/></Equipment>
+        <PipingNetworkSystem ID="S1"><PipingNetworkSegment ID="S1-1">
+          <PipingComponent ID="V1" ComponentClass="BallValve" TagName="HV-1"/>
+          <CenterLine NumPoints="0"/>
+          <Connection FromID="N1" FromNode="1" ToID="N2" ToNode="1"/>
+        </PipingNetworkSegment></PipingNetworkSystem></PlantModel>""",
+        encoding="utf-8",
+    )
+    (line,) = find_lines(read_dexpi(tmp_path / "other.xml"))
+    assert (line.start_name, line.through_names, line.end_name, line.flow) == ("T4750", ("HV-1",), "P4711", "forward")
+    assert line.reasons == ("drawn so in the diagram",)
+
+
+def test_it_is_a_format_of_export(tmp_path):
+    assert export_graph(pumping(), "dexpi", tmp_path) == [tmp_path / "dexpi.xml"]
+    assert export_graph(pumping(), "dexpi", tmp_path / "plant.xml") == [tmp_path / "plant.xml"]
