@@ -42,7 +42,6 @@ def find_places(network: Network) -> Places:
     spots: dict[str, Spot] = {}
     routes: dict[str, tuple[tuple[Spot, ...], tuple[Spot, ...]]] = {}
     for one, (left, top) in zip(placed, corners, strict=True):
-
         move = _Move(left - one.box[0] + _MARGIN, top - one.box[1] + _MARGIN, height)
         for anchor, (x, y) in zip(one.sketch.anchors, one.anchors, strict=True):
             spots[anchor.place] = move.spot(x, y)

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 
 import networkx
 
+from cadgraph.diagram.order import order_anchors
 from cadgraph.diagram.symbol import Symbol, symbol_of, text_width
 from cadgraph.functional.line import Line, find_lines
 from cadgraph.functional.network import Network, natural
-from cadgraph.records import Junction, System, Terminal
+from cadgraph.records import Junction, System
 
 __all__ = ["Anchor", "Cell", "Edge", "Row", "Sketch", "plan_systems"]
 
@@ -179,7 +180,7 @@ def _sketch(network: Network, group: Sequence[str], lines: Sequence[Line]) -> Sk
             places.setdefault(place)
     anchors = sorted(places, key=lambda place: natural(network.name(place)))
     index = {place: i for i, place in enumerate(anchors)}
-    order = _layering(network, anchors, own)
+    order = order_anchors(network, anchors, own)
     rows: list[Row] = []
     edges: list[Edge] = []
     for line in own:
@@ -237,69 +238,6 @@ def _standing(network: Network, place: str, flow: int) -> list[Cell]:
     if network.is_gauge(place):
         return [Cell(None, (symbol_of(network, place),), None, place)]
     return [Cell(symbol_of(network, place, flow=flow), (), None, place)]
-
-
-def _layering(network: Network, anchors: Sequence[str], lines: Iterable[Line]) -> dict[str, int]:
-    """An order of the anchors from left to right, with the flow as far as loops allow.
-
-    Depth first from the sources along the flow; what comes back to where the walk is already is drawn from right to
-    left, so that a recirculation is a row of its own above or below the main run.
-    """
-    ahead: dict[str, list[str]] = {place: [] for place in anchors}
-    either: dict[str, list[str]] = {place: [] for place in anchors}
-    entered: set[str] = set()
-    for line in lines:
-        start, end = (line.end, line.start) if line.flow == "backward" else (line.start, line.end)
-        if line.flow in ("forward", "backward"):
-            ahead[start].append(end)
-            entered.add(end)
-        either[start].append(end)
-        either[end].append(start)
-
-    def rank(place: str) -> tuple[object, ...]:
-        kind = network.unit_type(place)
-        is_source = bool(ahead[place]) and place not in entered
-        is_end = isinstance(network.places[place], Terminal)
-        return (not (kind == "tank" and ahead[place]), not is_source, kind != "tank", not is_end, kind == "pump")
-
-    finished: list[str] = []
-    seen: set[str] = set()
-    roots = sorted(anchors, key=lambda place: (rank(place), natural(network.name(place))))
-    for root in roots:
-        if root in seen or (seen and not ahead[root]):
-            continue
-        _visit(root, ahead, seen, finished)
-    order = {place: i for i, place in enumerate(reversed(finished))}
-    return _placed_by_neighbours(roots, either, order)
-
-
-def _visit(root: str, ahead: dict[str, list[str]], seen: set[str], finished: list[str]) -> None:
-    """Depth first without recursion, for plants of any size; nodes are finished after all that they lead to."""
-    stack = [(root, iter(sorted(ahead[root], key=natural)))]
-    seen.add(root)
-    while stack:
-        place, onward = stack[-1]
-        step = next((one for one in onward if one not in seen), None)
-        if step is None:
-            finished.append(place)
-            stack.pop()
-        else:
-            seen.add(step)
-            stack.append((step, iter(sorted(ahead[step], key=natural))))
-
-
-def _placed_by_neighbours(roots: Sequence[str], either: dict[str, list[str]], order: dict[str, int]) -> dict[str, int]:
-    """Those that no known flow reaches come after what they hang at, breadth first."""
-    placed = dict(order)
-    queue = sorted(placed, key=placed.__getitem__) or list(roots[:1])
-    for place in (*queue, *roots):
-        placed.setdefault(place, len(placed))
-        wave = [place]
-        while wave:
-            wave = [n for p in wave for n in sorted(either[p], key=natural) if n not in placed]
-            for one in wave:
-                placed.setdefault(one, len(placed))
-    return placed
 
 
 def _title(network: Network, group: Sequence[str]) -> str:
