@@ -16,12 +16,12 @@ import numpy as np
 
 from cadgraph.environment.families import FAMILIES
 from cadgraph.environment.family import Family, Model, as_assembly, as_device
-from cadgraph.environment.flange import GASKET, flange_length
+from cadgraph.environment.flange import GASKET, bolts, flange, flange_length, gasket, plate_thickness
 from cadgraph.environment.frame import at, looking, spun
 from cadgraph.environment.hand import Grain, Hand
 from cadgraph.environment.imperfection import loosen
 from cadgraph.environment.layout import Inline, Laid, Run, Tap, lay
-from cadgraph.environment.piping import bend_tangent, cap
+from cadgraph.environment.piping import bend_tangent, cap, elbow
 from cadgraph.environment.plant import Assembly, Device, Plant, gather
 from cadgraph.environment.route import Route
 from cadgraph.environment.solid import merge, moved
@@ -248,19 +248,45 @@ def _item(work: _Draw, hand: Hand, dn: int, low: float) -> tuple[Inline, float]:
 
 
 def _endings(work: _Draw, hand: Hand, run: Run) -> list[Assembly]:
-    """What closes or goes on from an open end: caps and the families for ends."""
-    rng, parts = work.rng, []
+    """What closes or goes on from the ends of a line: caps, bends and hoses on pipes; valves and lids on flanges."""
+    parts = []
     for which, s in ((0, 0.0), (1, run.route.length)):
-        if run.ends[which] != "open" or rng.random() < 0.3:
-            continue
-        dn = run.dn_at(s)
         frame = run.route.frame(s) if which else run.route.frame(s) @ spun("z", np.pi)
-        family = work.family("end", dn)
-        if family is None or rng.random() < 0.3:
-            parts.append(cap(dn, hand).placed(frame))
-        else:
-            parts.append(as_assembly(family, family.build(dn, hand, rng), hand).placed(frame))
+        dn = run.dn_at(s)
+        if work.rng.random() < 0.3 or run.ends[which] not in ("open", "flange"):
+            continue
+        parts += _pipe_end(work, hand, dn, frame) if run.ends[which] == "open" else _flange_end(work, hand, dn, frame)
     return parts
+
+
+def _pipe_end(work: _Draw, hand: Hand, dn: int, frame: Floats) -> list[Assembly]:
+    family = work.family("end", dn)
+    if family is None or work.rng.random() < 0.25:
+        return [cap(dn, hand).placed(frame)]
+    own = work.grained(hand)
+    return [as_assembly(family, family.build(dn, own, work.rng), own).placed(frame)]
+
+
+def _flange_end(work: _Draw, hand: Hand, dn: int, frame: Floats) -> list[Assembly]:
+    """A device with one flange, bolted on; half of the upright ones stand on an elbow."""
+    family = work.family("head", dn)
+    if family is None:
+        return []
+    own, unit = work.grained(hand), work.unit(family)
+    pad, plate = GASKET if hand.gaskets else 0.0, plate_thickness(dn)
+    parts = [gasket(dn, hand).placed(frame), bolts(dn, 2 * plate + pad, hand).placed(frame @ at(-plate))]
+    if family.unit and abs(frame[2, 0]) < 0.1 and work.rng.random() < 0.6:
+        neck, radius = flange_length(dn, hand), ELBOW_LONG_RADIUS[dn]
+        turn = looking(frame[:3, 3], frame[:3, 0], (0.0, 0.0, 1.0)) @ spun("x", np.pi / 2)
+        start = turn @ at(pad)
+        parts.append(flange(dn, hand).placed(start))
+        parts.append(elbow(dn, np.pi / 2, hand).placed(start @ at(neck)))
+        frame = start @ at(neck + radius, radius) @ spun("z", np.pi / 2) @ at(neck)
+        parts.append(flange(dn, hand).placed(frame @ spun("z", np.pi)))
+        parts += [gasket(dn, hand).placed(frame), bolts(dn, 2 * plate + pad, hand).placed(frame @ at(-plate))]
+    model = family.build(dn, own, work.rng)
+    roll = spun("x", float(work.rng.uniform(0, 2 * np.pi)))
+    return [*parts, as_assembly(family, model, own, unit).placed(frame @ at(pad) @ roll)]
 
 
 def _supports(work: _Draw, hand: Hand, laid: Laid) -> list[Assembly]:

@@ -173,7 +173,11 @@ def _in_few(parts: list[Part]) -> list[Part]:
     for k, part in enumerate(parts):
         bundles.setdefault((part.group, part.bundle or f"#{k}"), []).append(part)
     return [
-        replace(some[0], solid=merge([p.solid for p in some]), name=some[0].bundle or some[0].name)
+        replace(
+            some[0],
+            solid=merge([p.solid for p in some]),
+            name=some[0].name if some[0].group or not some[0].bundle else some[0].bundle,
+        )
         for some in bundles.values()
     ]
 
