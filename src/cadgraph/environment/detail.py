@@ -27,7 +27,7 @@ Marks = Literal["none", "few", "all"]
 
 _PAINT = 0.0002  # m; how far marks stand out of a dial
 _PLATE = 0.0005  # m; a name plate of sheet
-_STEPS, _FINE = 10, 5  # main marks of a scale and parts of each, EN 837-1, 270 degrees
+_STEPS = 10  # main marks of a scale over 270 degrees, EN 837-1
 
 
 def marked_gauge(gauge: Assembly, size: int, marks: Marks, hand: Hand) -> Assembly:
@@ -80,12 +80,13 @@ def _scale(size: int, marks: Marks, turn: float | None) -> list[tuple[Solid, Flo
     inner = gauge.case / 2 - 0.003
     face = gauge.depth - 0.009 + 0.001
     pieces: list[tuple[Solid, Floats]] = []
-    fine = _FINE if marks == "all" else 1
+    # Scales of EN 837-1: 0.2 of 10 bar from mark to mark on small dials, 0.1 from nominal size 100 on.
+    fine = (5 if size < 100 else 10) if marks == "all" else 1
     for k in range(_STEPS * fine + 1):
         angle = np.radians(225 - 270 * k / (_STEPS * fine))
         main = k % fine == 0
         low, high = (0.82 * inner, 0.95 * inner) if main else (0.88 * inner, 0.95 * inner)
-        wide = (0.030 if main else 0.014) * inner
+        wide = (0.030 if main else 0.012) * inner
         bar = _mark_solid(round(high - low, 7), round(wide, 7))
         pieces.append((bar, spun("z", angle) @ at((low + high) / 2, 0, face)))
     if marks == "all":
@@ -97,8 +98,10 @@ def _scale(size: int, marks: Marks, turn: float | None) -> list[tuple[Solid, Flo
             middle = at(0.64 * inner * np.cos(angle), 0.64 * inner * np.sin(angle), face)
             pieces += [(solid, middle @ pose) for solid, pose in letters(str(k), round(height, 6), _PAINT)]
         if turn is None or np.cos(np.radians(-90) - turn) < 0.80:
-            words = letters("BAR", round(0.13 * inner, 6), _PAINT)
-            pieces += [(solid, at(0, -0.60 * inner, face) @ pose) for solid, pose in words]
+            # Unit, class and standard as EN 837-1, section 10, asks for them.
+            for text, height, y in (("BAR", 0.13, -0.60), ("CL 16", 0.09, -0.38), ("EN 837-1", 0.075, -0.80)):
+                words = letters(text, round(height * inner, 6), _PAINT)
+                pieces += [(solid, at(0, y * inner, face) @ pose) for solid, pose in words]
     return pieces
 
 

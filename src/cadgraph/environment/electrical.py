@@ -6,9 +6,11 @@ from functools import cache
 
 import numpy as np
 
+from cadgraph.environment.detail import plate
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
-from cadgraph.environment.plant import Assembly, Component
+from cadgraph.environment.lettering import letters
+from cadgraph.environment.plant import Assembly, Component, gather
 from cadgraph.environment.polygon import circle, rounded_rectangle
 from cadgraph.environment.solid import Solid, box, extrude, moved, revolve, tube, weld
 
@@ -27,13 +29,23 @@ def _cabinet_solids(width: float, depth: float, height: float) -> tuple[Solid, S
     return plinth, body, door, lock
 
 
-def cabinet(hand: Hand, width: float = 0.8, depth: float = 0.4, height: float = 1.9) -> Assembly:
-    """A control cabinet on z = 0: plinth, body, door, lock."""
+def cabinet(
+    hand: Hand, width: float = 0.8, depth: float = 0.4, height: float = 1.9, plates: tuple[tuple[str, ...], ...] = ()
+) -> Assembly:
+    """A control cabinet on z = 0: plinth, body, door, lock; and plates with text on its door, from above."""
     solids = _cabinet_solids(round(width, 6), round(depth, 6), round(height, 6))
     colors = ("steel", "electrical", "electrical", "rubber")
     pairs = zip(solids, colors, strict=True)
     components = tuple(Component(solid, _GROUP, "control panel", hand.color(color)) for solid, color in pairs)
-    return Assembly(components, ((0, 1), (1, 2), (2, 3)))
+    parts = [Assembly(components, ((0, 1), (1, 2), (2, 3)))]
+    joints, count = [], len(components)
+    for k, lines in enumerate(plates):
+        place = at(-0.12 * width, -depth / 2 - 0.02, (0.90 - 0.09 * k) * height) @ spun("x", np.pi / 2)
+        text = plate(lines, hand, 0.010)
+        parts.append(text.placed(place))
+        joints.append((2, count))
+        count += len(text.components)
+    return gather(parts, joints)
 
 
 @cache
@@ -96,11 +108,18 @@ def _sign_solids() -> tuple[Solid, Solid]:
     return pole, plate
 
 
-def sign(hand: Hand) -> Assembly:
-    """A warning sign on a pole on z = 0; it looks to -y."""
-    pole, plate = _sign_solids()
+def sign(hand: Hand, lines: tuple[str, ...] = ()) -> Assembly:
+    """A warning sign on a pole on z = 0; it looks to -y, with raised letters where it says something."""
+    pole, sheet = _sign_solids()
     components = (
         Component(pole, "Structural element", "post", hand.color("clamp")),
-        Component(plate, _GROUP, "sign", hand.color("safety")),
+        Component(sheet, _GROUP, "sign", hand.color("safety")),
     )
-    return Assembly(components, ((0, 1),))
+    parts = list(components)
+    contacts = [(0, 1)]
+    for k, text in enumerate(lines):
+        face = at(0, -0.0225, 1.3 + 0.045 * ((len(lines) - 1) / 2 - k)) @ spun("x", np.pi / 2)
+        for solid, pose in letters(text, 0.028, 0.0008):
+            contacts.append((1, len(parts)))
+            parts.append(Component(solid, _GROUP, "sign", hand.color("rubber"), face @ pose, family="sign"))
+    return Assembly(tuple(parts), tuple(contacts))

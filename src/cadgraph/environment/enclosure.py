@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
-from cadgraph.environment.frame import at
+import numpy as np
+
+from cadgraph.environment.detail import screw
+from cadgraph.environment.frame import IDENTITY, at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.plant import Assembly, Component, gather
 from cadgraph.environment.polygon import circle, rounded_rectangle
@@ -36,7 +40,10 @@ def fence(length: float, hand: Hand, height: float = 1.10, pitch: float = 0.14, 
         hand: that models it.
         height: of the posts [m].
         pitch: least distance of the bars [m].
-        gate: whether it is a leaf that hangs between its posts, a little off the ground, with a brace.
+        gate: whether it is a leaf of square bars.
+
+    Returns:
+        Posts, rails and bars; and the screw at each end of each bar through the rail where this hand models fasteners.
     """
     color = hand.color("gate" if gate else "fence")
     name = "gate" if gate else "fence"
@@ -56,6 +63,13 @@ def fence(length: float, hand: Hand, height: float = 1.10, pitch: float = 0.14, 
         x = -inner / 2 + (k + 0.5) * inner / count
         parts.append(Component(bar, _GROUP, name, color, at(x, 0, low + deep / 2)))
         contacts += [(2, len(parts) - 1), (3, len(parts) - 1)]
+    if hand.fasteners not in ("none", "set") and hand.sides[1] > 16:
+        heads = ((2, low - deep / 2, spun("x", np.pi)), (3, high + deep / 2, IDENTITY))
+        for part in parts[4 : 4 + count]:
+            for rail_index, z, turn in heads:
+                head = screw(hand).components[0]
+                parts.append(replace(head, pose=at(float(part.pose[0, 3]), 0, z) @ turn))
+                contacts.append((rail_index, len(parts) - 1))
     return Assembly(tuple(parts), tuple(contacts))
 
 

@@ -1,12 +1,15 @@
-"""The preset ``field``: all other presets in a fenced yard, with a platform, cabinets and lamps."""
+"""The preset ``field``: the other presets in a fenced yard, with platforms, a storage tank, cabinets and lamps."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from cadgraph.environment.access import platform, stairs
+from cadgraph.environment.drum import drum
 from cadgraph.environment.electrical import cabinet, lamp, sign
 from cadgraph.environment.enclosure import fence, pillar
 from cadgraph.environment.frame import at, spun
@@ -18,56 +21,51 @@ from cadgraph.environment.riser import make_riser
 from cadgraph.environment.skid import make_skid
 from cadgraph.environment.solid import box
 from cadgraph.environment.tank import make_tank
+from cadgraph.environment.vessel import Nozzle
 from cadgraph.scene import Floats
 
 __all__ = ["make_field"]
 
-_Make = Callable[[int, Hand | None], Plant]
+_Make = Callable[..., Plant]
 
-# Where the structures stand: maker, name, place [m], quarter turns.
-_PLACES: tuple[tuple[_Make, str, tuple[float, float], int], ...] = (
-    (make_rack, "A", (-8.0, 6.2), 0),
-    (make_pumps, "B", (-8.2, 0.0), 0),
-    (make_pumps, "C", (-3.4, 0.0), 0),
-    (make_tank, "D", (9.0, 2.6), 0),
-    (make_tank, "E", (9.0, -5.0), 0),
-    (make_skid, "F", (-7.8, -6.2), 0),
-    (make_skid, "G", (-3.6, -6.2), 0),
-    (make_skid, "H", (0.4, -6.2), 0),
-    (make_riser, "I", (1.6, -3.0), 1),
-    (make_riser, "J", (3.2, -6.4), 0),
-    (make_riser, "K", (-0.6, -3.0), 1),
+# Where the structures stand: maker, what it is asked for, name, place [m], quarter turns, and the axis along which it
+# is lopsided: in a mirrored yard it is turned round where that axis is.
+_PLACES: tuple[tuple[_Make, dict[str, Any], str, tuple[float, float], int, int], ...] = (
+    (make_rack, {"n_bays": 4}, "A", (-8.6, 5.6), 0, 0),
+    (make_pumps, {"n_pumps": 3}, "B", (-7.9, 0.0), 0, 0),
+    (make_tank, {}, "C", (7.3, -5.0), 0, 0),
+    (make_skid, {}, "D", (-7.4, -6.3), 0, 0),
+    (make_riser, {}, "E", (-3.7, -5.9), 1, 0),
+    (make_riser, {}, "F", (-1.3, -5.9), 1, 0),
 )
-_HALF = (12.0, 9.0)  # m, half of the yard
-_PANEL = 3.60  # m
+_HALF = (11.2, 8.6)  # m, half of the yard
+_PANEL = 3.35  # m
+_BARS = 0.094  # m, least distance of the bars of the fence: no child's head fits through
+_FINE: dict[str, Any] = {"fasteners": "flange", "valve": "few", "gauge": "few", "pump": "few"}
 
 
 def make_field(seed: int = 0, hand: Hand | None = None) -> Plant:
-    """Builds a yard of 24 by 18 m; every structure in it is a cluster, as is every panel of the fence.
+    """Builds a yard of 22 by 17 m; every structure in it is a cluster, as is every panel of the fence.
 
     Args:
-        seed: of everything that varies.
-        hand: how it is modelled; by default plant-design and mechanical CAD take turns.
+        seed: of everything that varies; also which way round the yard is laid out.
+        hand: how it is modelled; by default plant-design and mechanical CAD take turns, with all marks and letters and
+            so many parts as the paper's plant has.
     """
     rng = np.random.default_rng([seed, 6])
+    flips = (1, 1) if seed == 0 else (int(rng.choice([-1, 1])), int(rng.choice([-1, 1])))
     parts: list[Assembly] = []
     used: list[Hand] = []
-    for k, (build, name, (x, y), turns) in enumerate(_PLACES):
-        style = hand or HANDS[("plant-design", "mechanical")[int(rng.random() < 0.75)]]
+    for k, (build, wishes, name, (x, y), turns, axis) in enumerate(_PLACES):
+        style = hand or replace(HANDS[("plant-design", "mechanical")[int(rng.random() < 0.35)]], **_FINE)
         used.append(style)
-        one = build(1000 * seed + k, style).prefixed(name)
-        pose = at(x + float(rng.uniform(-0.1, 0.1)), y + float(rng.uniform(-0.1, 0.1)), 0) @ spun(
-            "z", turns * np.pi / 2
-        )
+        one = build(1000 * seed + k + 1, style, marks="all", **wishes).prefixed(name)
+        turned = turns + (2 if flips[axis] < 0 else 0)
+        shift = rng.uniform(-0.1, 0.1, 2)
+        pose = at(flips[0] * x + float(shift[0]), flips[1] * y + float(shift[1]), 0) @ spun("z", turned * np.pi / 2)
         parts.append(one.placed(pose))
-    style = hand or HANDS["plant-design"]
-    parts.append(_platform(style))
-    for k, (x, y) in enumerate(((11.2, -0.6), (11.2, 0.4), (-11.3, 3.4))):
-        parts.append(cabinet(style).placed(at(x, y, 0) @ spun("z", -np.pi / 2)).marked(cluster=f"cabinet-{k}"))
-    for k, (x, y) in enumerate(((-10.8, 7.8), (10.8, 7.8), (-10.8, -7.8), (6.4, -7.9))):
-        parts.append(lamp(style).placed(at(x, y, 0)).marked(cluster=f"lamp-{k}"))
-    parts.append(sign(style).placed(at(-1.2, -8.2, 0)).marked(cluster="sign"))
-    parts += _yard(style)
+    style = hand or replace(HANDS["plant-design"], **_FINE)
+    parts += [part.marked(hand=style.name) for part in (*_inside(style, flips, rng), *_yard(style, flips))]
     whole = gather(parts)
     standing = [i for i, c in enumerate(whole.components) if abs(float(c.vertices[:, 2].min())) < 1e-9]
     slab = Component(
@@ -76,6 +74,7 @@ def make_field(seed: int = 0, hand: Hand | None = None) -> Plant:
         "ground",
         style.color("ground"),
         cluster="",
+        hand=style.name,
     )
     count = len(whole.components)
     whole = gather([whole, Assembly((slab,))], [(i, count) for i in standing])
@@ -89,9 +88,38 @@ def make_field(seed: int = 0, hand: Hand | None = None) -> Plant:
         whole.lines,
         name="field",
         seed=seed,
-        hands=tuple(one.name for one in hands),
+        hands=tuple(dict.fromkeys(one.name for one in hands)),
         looseness=max(one.looseness for one in hands),
     )
+
+
+def _inside(hand: Hand, flips: tuple[int, int], rng: np.random.Generator) -> list[Assembly]:
+    """What stands in the yard without lines: platforms, a storage tank, cabinets, lamps, a sign."""
+
+    def placed(part: Assembly, x: float, y: float, turn: float, cluster: str) -> Assembly:
+        return part.placed(at(flips[0] * x, flips[1] * y, 0) @ spun("z", turn)).marked(cluster=cluster)
+
+    round_y = np.pi if flips[1] < 0 else 0.0
+    to_side = -np.pi / 2 * flips[0]
+    deck = platform(2.4, 1.2, float(rng.uniform(1.0, 1.4)), hand)
+    nozzles = [
+        Nozzle(100, "top", (0.0, 0.35)),
+        Nozzle(50, "top", (0.0, -0.35)),
+        Nozzle(300, "left", (0.0, 0.0), 0.2, manway=True),
+    ]
+    store, _ = drum("T-9", hand, float(rng.uniform(0.6, 0.75)), float(rng.uniform(1.6, 2.2)), 0.35, nozzles)
+    found = [
+        placed(_platform(hand), 0.2, 1.1, round_y, "platform"),
+        placed(deck, -3.6, 1.3, 0.0, "deck"),
+        placed(store.assembly.prefixed("S"), 6.2, 0.4, 0.0, "storage"),
+    ]
+    for k, (x, y) in enumerate(((9.9, -1.2), (9.9, 0.2))):
+        plates = ((f"PANEL LP-{k + 1}", "400 V 50 HZ"), ("DANGER", "HIGH VOLTAGE"), ("MAIN SWITCH",))
+        found.append(placed(cabinet(hand, plates=plates), x, y, to_side, f"cabinet-{k}"))
+    for k, (x, y) in enumerate(((-10.2, 3.0), (10.2, 7.4), (10.3, -7.7))):
+        found.append(placed(lamp(hand), x, y, 0.0, f"lamp-{k}"))
+    found.append(placed(sign(hand, ("TEST FIELD", "HELMETS ON", "NO SMOKING")), -9.9, -4.3, 0.0, "sign"))
+    return found
 
 
 def _platform(hand: Hand) -> Assembly:
@@ -111,15 +139,15 @@ def _platform(hand: Hand) -> Assembly:
             g_low, g_high = _span(floor.components[i].vertices)
             if high >= g_low - 1e-9 and low <= g_high + 1e-9:
                 joints.append((i, n + stringer))
-    return gather([floor, up], joints).placed(at(4.2, 0.0, 0)).marked(cluster="platform")
+    return gather([floor, up], joints)
 
 
 def _span(vertices: Floats) -> tuple[float, float]:
     return float(vertices[:, 0].min()), float(vertices[:, 0].max())
 
 
-def _yard(hand: Hand) -> list[Assembly]:
-    """Panels round the yard, a gate in its front, and pillars at its corners; all apart from each other."""
+def _yard(hand: Hand, flips: tuple[int, int]) -> list[Assembly]:
+    """Panels round the yard, a gate in its front side, and pillars at its corners; all apart from each other."""
     parts = []
     for axis, turn in ((0, 0.0), (1, np.pi / 2)):
         along, across = _HALF[axis], _HALF[1 - axis]
@@ -129,8 +157,8 @@ def _yard(hand: Hand) -> list[Assembly]:
         for side in (-1, 1):
             for k in range(count):
                 where = -clear + (k + 0.5) * pitch
-                gate = axis == 0 and side < 0 and k == count // 2
-                panel = fence(pitch - 0.05, hand, gate=gate)
+                gate = axis == 0 and side * flips[1] < 0 and k == count // 2
+                panel = fence(pitch - 0.05, hand, pitch=_BARS, gate=gate)
                 place = (where, side * across) if axis == 0 else (side * across, where)
                 parts.append(panel.placed(at(*place) @ spun("z", turn)).marked(cluster=f"fence-{axis}-{side}-{k}"))
     for sx in (-1, 1):

@@ -238,9 +238,9 @@ def _branch(
 
 
 def _number(site: Site, hand: Hand, plan: _Plan, beams: list[tuple[int, int, tuple[int, int]]]) -> None:
-    """A number plate on the outer flange of each column, at the height of the eyes."""
+    """A number plate on the flange of each column, at the height of the eyes."""
     depth = SECTIONS[_COLUMN][0]
     for k, (_, _, shafts) in enumerate(beams):
         for side, shaft, row in ((-1, shafts[0], "A"), (1, shafts[1], "B")):
-            x = looking((k * plan.bay, side * (plan.half + depth / 2), 1.6), (-side, 0, 0), (0, side, 0))
+            x = looking((k * plan.bay - depth / 2, side * plan.half, 1.6), (0, -1, 0), (-1, 0, 0))
             site.add(plate((f"{row}{k + 1}", "MAX 2 T"), hand, 0.008).placed(x), shaft)
