@@ -12,7 +12,7 @@ from cadgraph.config import Config
 from cadgraph.environment.plant import Plant
 from cadgraph.geometry.properties import measure
 from cadgraph.parts import Contacts, Parts
-from cadgraph.scene import Floats, Ints
+from cadgraph.scene import Floats, Ints, Scene
 from cadgraph.stages.adjacency import find_near_meshes, join_contacts
 from cadgraph.stages.ground import find_ground
 from cadgraph.stages.group import group_meshes
@@ -20,7 +20,7 @@ from cadgraph.stages.label.observation import observe
 from cadgraph.stages.parts import make_parts
 from cadgraph.stages.preprocess import prepare_scene
 
-__all__ = ["Example", "make_example", "make_parts_of", "read_examples", "write_examples"]
+__all__ = ["Example", "make_example", "make_parts_from", "read_examples", "write_examples"]
 
 Texts = npt.NDArray[np.str_]
 
@@ -58,10 +58,10 @@ class Example:
     ground: npt.NDArray[np.bool_]
 
 
-def make_parts_of(plant: Plant, config: Config | None = None) -> tuple[Parts, Contacts]:
-    """The parts of a generated plant and what touches what, as the pipeline finds them."""
+def make_parts_from(scene: Scene, config: Config | None = None) -> tuple[Parts, Contacts]:
+    """The parts of a scene and what touches what, as the pipeline finds them."""
     config = config or Config()
-    scene, _ = prepare_scene(plant.scene())
+    scene, _ = prepare_scene(scene)
     properties = measure(scene)
     ground, _ = find_ground(scene, properties, config.ground)
     near = find_near_meshes(scene, max(config.cluster.eps, config.group.proximity), config, lambda *_: None)
@@ -76,7 +76,7 @@ def make_example(plant: Plant, hand: str = "") -> Example:
         plant: generated.
         hand: the name of its style where the plant's components don't tell.
     """
-    parts, contacts = make_parts_of(plant)
+    parts, contacts = make_parts_from(plant.scene())
     seen = observe(parts, contacts)
     rank = {path: i for i, path in enumerate(plant.paths())}
     heads = [plant.components[rank[parts.scene.paths[i]]] for i in range(parts.n_parts)]

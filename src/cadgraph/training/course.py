@@ -1,0 +1,153 @@
+"""The whole course: build the plants, try held-out families, train, calibrate, and write the model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from cadgraph.stages.label.model import STRANGE, Model
+from cadgraph.training.example import Example, Texts
+from cadgraph.training.figure import Answers, Scores, answer, least_confidence, score, temperature
+from cadgraph.training.fit import Recipe, fit
+from cadgraph.training.lesson import TRIED_FROM, build_lessons, held_out_lessons, training_lessons
+from cadgraph.vocabulary import default_vocabulary
+
+__all__ = ["Course", "Trials", "run_course"]
+
+PRECISION = 0.95
+"""Of the names above the threshold, on families that were held out."""
+
+
+@dataclass(frozen=True)
+class Course:
+    """The settings of a training run; they are written into the model.
+
+    Args:
+        plants: how many are learnt from.
+        strangers: scenes of shapes that belong to no plant.
+        members: networks whose answers are averaged.
+        folds: parts that the families are dealt into; each is held out once.
+        seeds: plants of each kind that the network is tried on.
+        recipe: of each network.
+    """
+
+    plants: int = 400
+    strangers: int = 60
+    members: int = 3
+    folds: int = 4
+    seeds: int = 2
+    recipe: Recipe = field(default_factory=Recipe)
+
+
+@dataclass(frozen=True)
+class Trials:
+    """What a run leaves.
+
+    Args:
+        model: that was trained.
+        families: answers about parts of families that were held out, by networks that never saw these.
+        unlearnable: likewise about those whose name no other family has: no answer can be right.
+        plants: what the model is tried on, by the name of the trial.
+    """
+
+    model: Model
+    families: Answers
+    unlearnable: Answers
+    plants: dict[str, list[Example]]
+
+
+def run_course(course: Course, folder: Path, workers: int = 2, told: Callable[[str], None] = lambda _: None) -> Trials:
+    """Trains the model.
+
+    Args:
+        course: the settings.
+        folder: keeps the plants.
+        workers: processes that build plants.
+        told: how far it is.
+    """
+    lessons = training_lessons(course.plants, course.strangers)
+    examples = build_lessons(lessons, folder, workers, told)
+    plants = {
+        name: build_lessons(some, folder, workers, lambda text, name=name: told(f"{name}: {text}"))  # type: ignore[misc]
+        for name, some in held_out_lessons(course.seeds).items()
+    }
+    classes = known_classes()
+    raw = _try_families(course, examples, plants["new seeds"], classes, told)
+    best = temperature(lambda value: _asked(raw, value))
+    families, unlearnable = _asked(raw, best), _asked(raw, best, learnable=False)
+    threshold = least_confidence(_both(families, unlearnable), PRECISION)
+    members = []
+    for k in range(course.members):
+        members.append(fit(examples, classes, course.recipe, k, lambda text, k=k: told(f"network {k}: {text}")))  # type: ignore[misc]
+    card = {
+        "plants": course.plants, "strangers": course.strangers, "seeds": [0, course.plants - 1],
+        "tried from": TRIED_FROM,
+        "parts": int(sum(len(e.label) for e in examples)), "recipe": asdict(course.recipe), "folds": course.folds,
+        "held-out families": _card(score(families, threshold)),
+        "held-out families, unlearnable": {
+            "parts": len(unlearnable.truth), "left open": float((unlearnable.confidence < threshold).mean()),
+        },
+    }  # fmt: skip
+    model = Model(tuple(members), tuple(classes), best, threshold, card)
+    return Trials(model, families, unlearnable, plants)
+
+
+def known_classes() -> list[str]:
+    """All names of the built-in vocabulary, and what is strange."""
+    tree = default_vocabulary().to_json()
+    return [f"{group}/{name}" for group, content in tree.items() for name in content["names"]] + [STRANGE]
+
+
+def deal_families(examples: Sequence[Example], folds: int) -> list[frozenset[str]]:
+    """Families, by what stands before their slash, dealt into folds of about as many kinds each."""
+    bases = sorted({str(name).split("/")[0] for e in examples for name in np.unique(e.family)} - {"strange"})
+    order = np.random.default_rng(43).permutation(len(bases))
+    return [frozenset(bases[i] for i in order[k::folds]) for k in range(folds)]
+
+
+_Raw = list[tuple[Model, list[Example], frozenset[str], frozenset[str]]]
+
+
+def _try_families(
+    course: Course,
+    examples: Sequence[Example],
+    tried: Sequence[Example],
+    classes: Sequence[str],
+    told: Callable[[str], None],
+) -> _Raw:
+    """A network for each fold of families, which sees the others only."""
+    raw: _Raw = []
+    for k, out in enumerate(deal_families(examples, course.folds)):
+        rest = [replace(e, label=np.where(_within(e.family, out), "", e.label)) for e in examples]
+        network = fit(rest, classes, course.recipe, 100 + k, lambda text, k=k: told(f"fold {k}: {text}"))  # type: ignore[misc]
+        left = frozenset(str(name) for e in rest for name in np.unique(e.label))
+        raw.append((Model((network,), tuple(classes), 1.0, 0.5), list(tried), out, left))
+    return raw
+
+
+def _within(family: Texts, out: frozenset[str]) -> npt.NDArray[np.bool_]:
+    """Whether each family is one of those, by what stands before its slash."""
+    return np.array([str(name).split("/")[0] in out for name in family], np.bool_)
+
+
+def _asked(raw: _Raw, value: float, learnable: bool = True) -> Answers:
+    """What the networks of all folds say of the families that each never saw."""
+    found = []
+    for model, tried, out, left in raw:
+        told = answer(replace(model, temperature=value), tried)
+        mine = _within(told.family, out)
+        can = np.array([str(name) in left for name in told.truth], np.bool_)
+        found.append(told.where(mine & (can == learnable)))
+    return _both(*found)
+
+
+def _both(*answers: Answers) -> Answers:
+    return Answers(**{key: np.concatenate([getattr(a, key) for a in answers]) for key in Answers.__annotations__})
+
+
+def _card(scores: Scores) -> dict[str, float]:
+    return {key: round(value, 4) for key, value in asdict(scores).items()}

@@ -1,0 +1,136 @@
+"""Which plants the network learns from, and which it is tried on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass, replace
+from hashlib import sha256
+from pathlib import Path
+
+from cadgraph.environment.assortment import make_assortment
+from cadgraph.environment.hand import HANDS, Hand
+from cadgraph.environment.imperfection import Sins, spoil
+from cadgraph.environment.plant import Plant
+from cadgraph.environment.preset import PRESETS
+from cadgraph.training.example import Example, make_example, read_examples, write_examples
+from cadgraph.training.stranger import make_strangers
+
+__all__ = ["SINS", "Lesson", "build_lessons", "held_out_lessons", "training_lessons"]
+
+SINS: dict[str, Sins] = {
+    "duplicates": Sins(duplicates=0.3),
+    "hidden": Sins(hidden=0.3),
+    "flipped": Sins(flipped=1.0),
+    "soup": Sins(soup=1.0),
+    "degenerate": Sins(degenerate=1.0),
+}
+_PLANTS = ("skid", "riser", "tank", "pumps", "rack")
+_SPOILT_EVERY = 3
+_SHARE = 0.15
+_BATCH = 12
+TRIED_FROM = 100_000
+"""Seeds from here on are never learnt from."""
+
+
+@dataclass(frozen=True)
+class Lesson:
+    """One plant, by name.
+
+    Args:
+        kind: ``assortment``, ``strangers`` or a preset.
+        seed: of the plant.
+        hand: a published style by name; empty for drawn ones, or the preset's own.
+        sin: a key of ``SINS``, ``some`` for a few of each, or empty.
+        sides: factor of the number of sides of everything round.
+    """
+
+    kind: str
+    seed: int
+    hand: str = ""
+    sin: str = ""
+    sides: float = 1.0
+
+    def plant(self) -> Plant:
+        """Builds the plant."""
+        if self.kind == "strangers":
+            return make_strangers(self.seed)
+        hand = _retold(HANDS[self.hand], self.sides) if self.hand else None
+        plant = make_assortment(self.seed, hand) if self.kind == "assortment" else PRESETS[self.kind](self.seed, hand)
+        if self.sin == "some":
+            share = _SHARE
+            sins = Sins(duplicates=share / 3, flipped=share, soup=share, degenerate=share)
+            return spoil(plant, sins, self.seed)
+        return spoil(plant, SINS[self.sin], self.seed) if self.sin else plant
+
+
+def _retold(hand: Hand, factor: float) -> Hand:
+    """The same style with more or fewer sides."""
+    if factor == 1.0:
+        return hand
+    least, most = (max(6, round(n * factor)) for n in hand.sides)
+    return replace(hand, sides=(least, most), sag=hand.sag / factor**2)
+
+
+def training_lessons(count: int, strangers: int) -> list[Lesson]:
+    """Assortments in drawn styles, a third of them spoilt, and shapes that belong to no plant."""
+    plants = [Lesson("assortment", seed, sin="some" if seed % _SPOILT_EVERY == 0 else "") for seed in range(count)]
+    return plants + [Lesson("strangers", seed) for seed in range(strangers)]
+
+
+def held_out_lessons(seeds: int = 2) -> dict[str, list[Lesson]]:
+    """What the network is tried on, by the name of the trial.
+
+    ``new seeds``: assortments in drawn styles. ``new styles``: the presets, whose layouts were never learnt from, and
+    assortments, both in the six published styles, which were never learnt from either; then each of these again for
+    each sin, with half and double the sides, and strangers.
+    """
+    tried = range(TRIED_FROM, TRIED_FROM + seeds)
+    styles = [Lesson(kind, seed, hand) for hand in HANDS for kind in (*_PLANTS, "assortment") for seed in tried]
+    few = [Lesson(kind, TRIED_FROM, hand) for hand in HANDS for kind in ("skid", "tank", "assortment")]
+    return {
+        "new seeds": [Lesson("assortment", seed) for seed in range(TRIED_FROM, TRIED_FROM + 10 * seeds)],
+        "new styles": styles,
+        **{f"sin: {sin}": [replace(lesson, sin=sin) for lesson in few] for sin in SINS},
+        "half the sides": [replace(lesson, sides=0.5) for lesson in few],
+        "twice the sides": [replace(lesson, sides=2.0) for lesson in few],
+        "strangers": [Lesson("strangers", seed) for seed in range(TRIED_FROM, TRIED_FROM + 5 * seeds)],
+    }
+
+
+def build_lessons(
+    lessons: Sequence[Lesson], folder: Path, workers: int = 1, told: Callable[[str], None] = lambda _: None
+) -> list[Example]:
+    """Builds plants, or reads them where they were built before.
+
+    Args:
+        lessons: in order.
+        folder: keeps what was built, a file for each few plants; delete it after the generator or the descriptors
+            change.
+        workers: processes.
+        told: how far it is.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    batches = [tuple(lessons[k : k + _BATCH]) for k in range(0, len(lessons), _BATCH)]
+    examples: list[Example] = []
+    with ProcessPoolExecutor(max_workers=workers) as pool:
+        for k, path in enumerate(pool.map(_built, batches, [folder] * len(batches))):
+            examples += read_examples(path)
+            told(f"plants: {min(_BATCH * (k + 1), len(lessons))} of {len(lessons)}")
+    return examples
+
+
+def _built(lessons: Iterable[Lesson], folder: Path) -> Path:
+    batch = list(lessons)
+    name = f"{_hash_of(repr(batch)):08x}-{len(batch)}"
+    path = folder / f"{name}.npz"
+    if not path.is_file():
+        beside = path.with_suffix(".part")
+        write_examples([make_example(lesson.plant(), lesson.hand or "drawn") for lesson in batch], beside)
+        beside.replace(path)
+    return path
+
+
+def _hash_of(text: str) -> int:
+    """A number that depends on a text alone, the same on every machine."""
+    return int.from_bytes(sha256(text.encode()).digest()[:4], "big")
