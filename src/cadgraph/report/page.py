@@ -14,6 +14,7 @@ from cadgraph.atomic import write_atomically
 from cadgraph.config import ReportConfig
 from cadgraph.graph import SceneGraph
 from cadgraph.progress import Progress, quiet
+from cadgraph.records import Connected
 from cadgraph.scene import Scene
 
 if TYPE_CHECKING:
@@ -86,6 +87,8 @@ def _page(graph: SceneGraph, pictures: list[Picture]) -> str:
         overview=[_shown(picture) for picture in pictures[:3]],
         systems=[_shown(picture) for picture in pictures[3:]],
         n_systems=len(graph.clusters("pipe system")),
+        schematic=_schematic(graph),
+        lines=tables.line_table(graph),
         chart=draw_bars(tables.label_bars(graph, colors)),
         labels=tables.label_table(graph, colors),
         units=tables.unit_table(graph, color_of_unit_type(graph, colors)),
@@ -134,6 +137,18 @@ def _shown(picture: Picture) -> dict[str, Any]:
         "height": picture.image.height,
         "data": base64.b64encode(buffer.getvalue()).decode("ascii"),
     }
+
+
+def _schematic(graph: SceneGraph) -> str:
+    """The schematic as base64, or nothing where no two units are connected along a pipe.
+
+    As a picture of its own, so that nothing in it can act on the page.
+    """
+    from cadgraph.diagram import draw_diagram
+
+    if not graph.of_kind(Connected):
+        return ""
+    return base64.b64encode(draw_diagram(graph).encode("utf-8")).decode("ascii")
 
 
 def _png(picture: Picture) -> bytes:

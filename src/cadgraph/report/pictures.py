@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
@@ -29,6 +30,7 @@ _MOST_TAGS = 48  # more tags in one picture hide what they speak of
 _LEGEND_CLUSTERS = 10
 _MARGIN = 0.07
 _NEARLY_ALL = 0.7
+_LEAD = 0.45  # of a line's width: from a line to the ball of what stands at it
 _SIDE_BY_SIDE = 1.6  # letters of pictures that the page shows at about half their size
 
 
@@ -128,11 +130,19 @@ def functional_edges(graph: SceneGraph) -> list[Edge]:
     return [edge for edge in graph.document.edges if isinstance(edge, Related | Connected)]
 
 
+def _drawn_edges(graph: SceneGraph) -> list[Edge]:
+    """What the red lines stand for: connections along pipes; Algorithm 1's relations in paper mode or without them."""
+    connected, related = list[Edge](graph.of_kind(Connected)), list[Edge](graph.of_kind(Related))
+    return related or connected if graph.document.config.get("method") == "paper" else connected or related
+
+
 def _by_group(ready: _Ready, camera: Camera, image: Image.Image, legend: tuple[LegendEntry, ...]) -> Picture:
-    units, edges = ready.graph.units(), functional_edges(ready.graph)
+    units, edges = ready.graph.units(), _drawn_edges(ready.graph)
     image = _related(ready, image, camera, units, edges)
     told = "Every part in the colour of its group. "
-    if edges:
+    if any(isinstance(edge, Connected) for edge in edges):
+        told += "Red lines are the connections along the pipes; red balls are units, grey ones junctions and ends."
+    elif edges:
         told += "Red lines are the functional relations between units, whose balls stand at their centroids."
     elif units:
         told += "Red balls stand at the centroids of the functional units."
@@ -194,7 +204,7 @@ def _system(ready: _Ready, cluster: Cluster, title: str, overview: Camera, size:
     names = {unit.id for unit in units}
     ends: list[Junction | Terminal] = [*graph.of_layer(Junction), *graph.of_layer(Terminal)]
     names |= {end.id for end in ends if members.intersection(end.parts)}
-    edges = [edge for edge in functional_edges(graph) if edge.source in names and edge.target in names]
+    edges = [edge for edge in _drawn_edges(graph) if edge.source in names and edge.target in names]
     # A system that is nearly everything would look as in the overview: it is shown from the other side.
     unlike = -overview.forward if len(meshes) > _NEARLY_ALL * ready.scene.n_meshes else None
     aspect = ready.config.width / ready.config.height
@@ -248,7 +258,7 @@ def _related(
     """Draws units and relations over a picture."""
     crowded = len(units) > _MOST_TAGS
     pairs = sorted({(min(e.source, e.target), max(e.source, e.target)) for e in edges})
-    segments = [Segment(_place(ready, a), _place(ready, b), RELATION, 3.0 if crowded else 4.5) for a, b in pairs]
+    segments = _lines(ready, edges, 3.0 if crowded else 4.5)
     marks = [Mark(_local(ready, unit.centroid), RELATION, 4.5 if crowded else 7.0) for unit in units]
     ends = {name for pair in pairs for name in pair if not isinstance(ready.graph.nodes[name], Unit)}
     marks += [Mark(_place(ready, name), "#5b6470", 4.5) for name in sorted(ends)]
@@ -256,6 +266,22 @@ def _related(
         Tag(_local(ready, unit.centroid), unit.tag, ready.unit_colors.get(unit.unit_type, "#5b6470")) for unit in units
     ]
     return annotate(image, camera, segments=segments, marks=marks, tags=() if crowded else tags, size=size)
+
+
+def _lines(ready: _Ready, edges: Sequence[Edge], width: float) -> list[Segment]:
+    """Connections along their pipes, with a thinner lead from there to a unit's ball; relations straight."""
+    found: dict[tuple[Point, Point], float] = {}
+    for edge in edges:
+        path = [_local(ready, point) for point in edge.path] if isinstance(edge, Connected) else []
+        start, end = _place(ready, edge.source), _place(ready, edge.target)
+        if len(path) < 2:
+            found.setdefault((min(start, end), max(start, end)), width)
+            continue
+        for a, b in pairwise(path):
+            found.setdefault((min(a, b), max(a, b)), width)
+        for a, b in ((start, path[0]), (path[-1], end)):
+            found.setdefault((min(a, b), max(a, b)), width * _LEAD)
+    return [Segment(a, b, RELATION, size) for (a, b), size in sorted(found.items()) if a != b]
 
 
 def _place(ready: _Ready, name: str) -> Point:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from cadgraph.config import Config, describe
+from cadgraph.functional.line import find_lines
 from cadgraph.graph import SceneGraph
 from cadgraph.records import Connected, Edge, Junction, Node, Part, Terminal, Unit
 from cadgraph.report.chart import Bar
@@ -26,6 +27,7 @@ __all__ = [
     "findings",
     "label_bars",
     "label_table",
+    "line_table",
     "relation_table",
     "setting_table",
     "unit_table",
@@ -161,6 +163,28 @@ def _relation(graph: SceneGraph, edge: Edge) -> tuple[Cell, ...]:
         Cell(_title(ends[0])), Cell(_title(ends[1])), Cell(edge.kind), apart, along, bore, between, Cell(flow),
         Cell(reason),
     )  # fmt: skip
+
+
+def line_table(graph: SceneGraph) -> Table:
+    """The line list, as ``cadgraph lines`` prints it."""
+    flows = {"forward": "→", "backward": "←", "unknown": "unknown", "contradictory": "contradictory"}
+    rows = [
+        (
+            Cell(line.tag),
+            Cell(line.start_name),
+            Cell(flows[line.flow]),
+            Cell(line.end_name),
+            Cell(" ".join(line.through_names)),
+            _blank() if line.length is None else _length(line.length),
+            Cell(line.size, str(line.sizes[0]) if line.sizes else "-1"),
+        )
+        for line in find_lines(graph)
+    ]
+    columns = [
+        Column("Line"), Column("From"), Column("Flow"), Column("To"), Column("Through"), Column("Length [m]", True),
+        Column("DN", True),
+    ]  # fmt: skip
+    return _table("lines", columns, rows)
 
 
 def cluster_table(graph: SceneGraph) -> Table:
