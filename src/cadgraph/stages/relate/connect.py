@@ -75,14 +75,14 @@ def connect_units(
     ]
     members = {part for group in groups for part in group.parts}
     found = attach_lines(parts, contacts, lines, [*members, *blobs], bridge)
-    shapeless = _shapeless(found, lines, contacts)
+    shapeless = _shapeless(parts, found, lines, contacts)
     if shapeless:
         lines = {part: line for part, line in lines.items() if part not in shapeless}
         blobs = sorted([*blobs, *shapeless])
         found = attach_lines(parts, contacts, lines, [*members, *blobs], bridge)
     unsure = _unsupported(roles)
     mended = mend_groups(
-        groups, roles.names, near, {mount.part for mount in found.mounts}, _kept_apart(parts, found), unsure
+        groups, roles.names, near, _mounted(found), _kept_apart(parts, found), unsure, frozenset(lines)
     )
     if mended != groups:
         members = {part for group in mended for part in group.parts}
@@ -122,7 +122,9 @@ def _find_all_lines(
     """The lines of the connectors, and of what only geometry shows to be one."""
     connectors = [part for part, group in enumerate(roles.groups) if group in vocabulary.connector_groups]
     others = likely_lines(roles, guessed, contacts, vocabulary, parts.ground.tolist())
-    singles = [group.parts[0] for group in groups if len(group.parts) == 1 and group.unit_type != "tank"]
+    singles = [
+        group.parts[0] for group in groups if len(group.parts) == 1 and (roles.doubtful or group.unit_type != "tank")
+    ]
     # What is too small for a part of its own (a flange's nuts) would blur the shape of the mesh that it joined.
     heads = {parts.meshes[part][0]: part for part in (*connectors, *others, *singles)}
     lines = {heads[mesh]: line for mesh, line in find_lines(scene, properties, list(heads)).items()}
@@ -174,7 +176,15 @@ def _unsupported(roles: Roles) -> set[int]:
     return {part for part, group in enumerate(roles.groups) if group is not None and part not in roles.backed}
 
 
-def _shapeless(found: Attachments, lines: Mapping[int, Centreline], contacts: Contacts) -> set[int]:
+def _mounted(found: Attachments) -> dict[int, set[int]]:
+    """For each solid at an end of a line the parts whose line that is."""
+    mounted: dict[int, set[int]] = {}
+    for mount in found.mounts:
+        mounted.setdefault(mount.part, set()).add(int(found.ends.part[mount.row]))
+    return mounted
+
+
+def _shapeless(parts: Parts, found: Attachments, lines: Mapping[int, Centreline], contacts: Contacts) -> set[int]:
     """Parts whose line joins nothing although ends of others are at them: it was traced wrongly."""
     joined = {row for facing in found.facings for row in (facing.first, facing.second)}
     joined |= {row for row, _ in found.doubled} | {row for row, _, tap in found.taps if not tap.sleeve}
@@ -184,7 +194,12 @@ def _shapeless(found: Attachments, lines: Mapping[int, Centreline], contacts: Co
     for a, b in contacts.pairs.tolist():
         for part, other in ((a, b), (b, a)):
             if part in idle and other in lines and other not in idle:
-                loose[part] = loose.get(part, 0) + any(row not in joined for row in found.ends.of_part.get(other, ()))
+                low, high = parts.properties.aabb[part]
+                for row in found.ends.of_part.get(other, ()):
+                    reach = float(found.ends.radius[row])
+                    point = found.ends.point[row]
+                    if row not in joined and np.all(point >= low - reach) and np.all(point <= high + reach):
+                        loose[part] = loose.get(part, 0) + 1
     return {part for part, count in loose.items() if count >= 2}
 
 

@@ -20,6 +20,8 @@ _TWICE, _LEAST_TWICE = 3.0, 0.05
 _STUB = 0.15
 # Without a fitting of its own, a leg stands in the run where it is at most this wide against it.
 _NARROW = 0.7
+# Junctions nearer to each other than this share of the diameter are one.
+_WITHIN = 0.3
 
 
 def simplify(drawing: Drawing, gauges: Collection[int], n_units: int, leg: float) -> Net:
@@ -36,17 +38,30 @@ def simplify(drawing: Drawing, gauges: Collection[int], n_units: int, leg: float
     """
     net = drawing.net
     units = range(n_units)
-    for _ in range(3):
-        _merge_parallel(net)
-        if not _drop_stubs(net, n_units, drawing):
-            net.dissolve(units)
-            if not _merge_parallel(net):
-                break
+    changed = True
+    while changed:
+        changed = _merge_parallel(net) | _drop_stubs(net, n_units, drawing)
+        net.dissolve(units)
+        changed |= _merge_parallel(net) | _drop_stubs(net, n_units, drawing)
     net.dissolve(units)
     for gauge in sorted(gauges):
         _fold(net, gauge, drawing.taps, gauges, n_units, leg)
     net.dissolve(units)
+    _collapse(net, n_units)
     return net
+
+
+def _collapse(net: Net, n_units: int) -> None:
+    """Makes one junction of two that lie within each other: a cross traced as two tees."""
+    for number, span in sorted(net.spans.items()):
+        span = net.spans[number]
+        if min(span.a, span.b) < n_units or span.a == span.b or min(net.degree(span.a), net.degree(span.b)) < 3:
+            continue
+        width = max(_width(net.spans[other]) for node in (span.a, span.b) for other in net.at[node])
+        if span.length <= _WITHIN * width:
+            net.remove(number)
+            for other in list(net.at[span.b]):
+                net.move(other, span.b, span.a)
 
 
 def _width(span: Span) -> float:

@@ -134,4 +134,4 @@ def is_plain_tube(line: Centreline) -> bool:
     if len(line.branches) != 1 or len(line.ends) != 2:
         return False
     radius = line.branches[0].radius
-    return bool(radius.max() <= (1 + _STEADY) * radius.min() and line.length >= 4.0 * radius.max() and line.share > 0.9)
+    return bool(radius.max() <= (1 + _STEADY) * radius.min() and line.length >= 3.0 * radius.max() and line.share > 0.9)

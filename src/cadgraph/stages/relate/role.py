@@ -13,6 +13,9 @@ __all__ = ["Roles", "find_roles", "likely_lines", "neighbor_lists"]
 
 # A second opinion counts from this confidence on.
 _CONFIDENT = 0.55
+# A label whose group it gives at least this probability stands. By Bayes' rule: where a fifth of the labels are wrong at
+# random over nine groups, a label is right at even odds if the second opinion gives its group a 32nd of its own.
+_POSSIBLE = 0.03
 # Labels that disagree with the second opinion each in their own way are strays; above this share of the parts, and from
 # this number on, labels are taken for doubtful. Ours: true labels give below 1 % (what the labeler always gets wrong
 # is one way), 20 % at random give 15 to 20 %.
@@ -58,7 +61,7 @@ def find_roles(parts: Parts, labels: Sequence[Label | None], guessed: Sequence[L
     for part, (label, guess) in enumerate(zip(labels, guessed, strict=True)):
         # Wrong labels at random hardly ever agree with each other; the labeler is wrong alike about all repeats.
         better = majority.get(int(parts.shape[part]))
-        if better is None and guess is not None and guess.confidence >= _CONFIDENT:
+        if better is None and guess is not None and guess.confidence >= _CONFIDENT and not _allows(guess, label):
             better = guess.group, guess.name
         if better is not None and (label is None or better[0] != label.group):
             groups[part], names[part] = better
@@ -77,6 +80,13 @@ def _backed(
         return {majority.get(int(parts.shape[part]), ("", None))[0], guess.group if guess is not None else ""}
 
     return frozenset(part for part, group in enumerate(groups) if group is not None and group in said(part))
+
+
+def _allows(guess: Label, label: Label | None) -> bool:
+    """Whether the second opinion holds a label's group for possible."""
+    if label is None:
+        return False
+    return sum(one.confidence for one in guess.guesses if one.group == label.group) >= _POSSIBLE
 
 
 def _are_doubtful(labels: Sequence[Label | None], guessed: Sequence[Label | None]) -> bool:

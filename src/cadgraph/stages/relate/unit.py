@@ -19,8 +19,10 @@ __all__ = ["Group", "connected_groups", "mend_groups", "split_groups"]
 # A body stands out from the line's axis this many times farther on one side than on the other where it carries its own
 # operator: one mesh for a whole valve.
 _LOPSIDED = 1.5
-# Types of which two that touch are told apart; a tank or an item of equipment with many nozzles is one.
 _FASTENERS = frozenset({"bolt", "nut", "washer", "stud", "screw", "gasket"})
+_OPERATORS = frozenset(
+    {"valve stem", "handwheel", "lever", "yoke", "gland", "gearbox", "actuator", "position indicator"}
+)
 _SPLIT = frozenset({"valve", "pump", "gauge"})
 
 
@@ -102,9 +104,10 @@ def mend_groups(
     groups: Sequence[Group],
     names: Sequence[str | None],
     near: Mapping[int, Sequence[int]],
-    mounted: Collection[int],
+    mounted: Mapping[int, Collection[int]],
     apart: Collection[int],
     unsure: Collection[int],
+    lines: Collection[int],
 ) -> list[Group]:
     """Takes in pieces that only fit there, and joins what such a piece joins.
 
@@ -112,9 +115,10 @@ def mend_groups(
         groups: connected parts.
         names: of each part.
         near: parts near each part.
-        mounted: parts at which an end of a line sits.
+        mounted: parts at which ends of lines sit, and whose lines these are.
         apart: parts that belong to no unit: the ground, and pipe, however it is called.
         unsure: parts whose label nothing supports, where labels are doubtful.
+        lines: parts with a line.
     """
     work = _Work(
         {k: group.unit_type for k, group in enumerate(groups)},
@@ -123,7 +127,7 @@ def mend_groups(
     )
     for _ in range(3):
         changed = _join_odd(work, near, mounted, unsure)
-        changed |= _join_pieces(work, names, near, mounted, apart)
+        changed |= _join_pieces(work, names, near, mounted, apart, lines)
         if not changed:
             break
     return sorted(
@@ -131,16 +135,18 @@ def mend_groups(
     )
 
 
-def _has(parts: Collection[int], marked: Collection[int]) -> bool:
-    return any(part in marked for part in parts)
+def _stands(parts: Collection[int], mounted: Mapping[int, Collection[int]], without: int = -1) -> bool:
+    """Whether a line other than that of one part ends at some parts."""
+    return any(line != without for part in parts for line in mounted.get(part, ()))
 
 
 def _join_pieces(
     work: _Work,
     names: Sequence[str | None],
     near: Mapping[int, Sequence[int]],
-    mounted: Collection[int],
+    mounted: Mapping[int, Collection[int]],
     apart: Collection[int],
+    lines: Collection[int],
 ) -> bool:
     """A piece in between: a fastener all of whose neighbours are one unit, or what joins pieces of which one at most
     is on a line.
@@ -154,7 +160,12 @@ def _join_pieces(
         own = names[piece] in _FASTENERS and all(other in work.of_part for other in near[piece])
         for unit in sorted({work.types[k] for k in touched}):
             same = [k for k in touched if work.types[k] == unit]
-            standing = [k for k in same if _has(work.parts[k], mounted)]
+            standing = [k for k in same if _stands(work.parts[k], mounted, piece)]
+            # A nipple between two valves is no piece of theirs; what holds a mere operator is.
+            if piece in lines and not all(
+                k in standing or all(names[part] in _OPERATORS for part in work.parts[k]) for k in same
+            ):
+                continue
             if (own and len(touched) == 1) or (len(same) > 1 and len(standing) <= 1):
                 work.merge(standing[0] if standing else same[0], same, piece)
                 changed = True
@@ -163,7 +174,7 @@ def _join_pieces(
 
 
 def _join_odd(
-    work: _Work, near: Mapping[int, Sequence[int]], mounted: Collection[int], unsure: Collection[int]
+    work: _Work, near: Mapping[int, Sequence[int]], mounted: Mapping[int, Collection[int]], unsure: Collection[int]
 ) -> bool:
     """A single part of another type whose label nothing supports, next to pieces of one type only."""
     changed = False
@@ -175,7 +186,7 @@ def _join_odd(
             continue
         touched = sorted({work.of_part[other] for other in near.get(piece, ()) if other in work.of_part} - {k})
         types = {work.types[other] for other in touched}
-        standing = [other for other in touched if _has(work.parts[other], mounted)]
+        standing = [other for other in touched if _stands(work.parts[other], mounted)]
         if len(types) == 1 and len(standing) + (piece in mounted) <= 1:
             keep = touched[0]
             work.merge(keep, [*touched[1:], k], None)
@@ -230,12 +241,20 @@ def _cores(
     found: Attachments,
 ) -> list[int]:
     """The bodies that are devices of their own."""
-    rest = [part for part in group.parts if part not in mounts]
-    holders: dict[int, int] = {}
-    for operator in _components(rest, [(a, b) for a, b in pairs if a in rest and b in rest]):
-        touched = {b if a in operator else a for a, b in pairs if (a in operator) != (b in operator)} & set(bodies)
-        if len(touched) == 1:
-            holders[touched.pop()] = 1
+    rest = {part for part in group.parts if part not in mounts}
+    touched: dict[int, set[int]] = {}
+    for a, b in pairs:
+        for part, body in ((a, b), (b, a)):
+            if part in rest and body in mounts:
+                touched.setdefault(part, set()).add(body)
+    # What is on one body alone and stands out from it is its operator.
+    holders = {
+        body
+        for part, found_on in touched.items()
+        if len(found_on) == 1
+        for body in found_on
+        if _reach(parts, part, mounts[body], found) > _reach(parts, body, mounts[body], found)
+    }
     cores = []
     for body in bodies:
         n_open = len(mounts[body]) + sum(body in pair for pair in flanged)
@@ -246,6 +265,14 @@ def _cores(
         # A gauge has one foot; two feet are two gauges.
         return cores or [body for body in bodies if body in holders or len(group.parts) == len(bodies)]
     return cores
+
+
+def _reach(parts: Parts, part: int, rows: Sequence[int], found: Attachments) -> float:
+    """The greatest distance of a part from the axis of the line at an end [m]."""
+    vertices, _ = parts.scene.mesh(part)
+    offset = vertices - found.ends.point[rows[0]]
+    axis = found.ends.direction[rows[0]]
+    return float(np.linalg.norm(offset - (offset @ axis)[:, None] * axis, axis=1).max(initial=0.0))
 
 
 def _stands_out(parts: Parts, body: int, rows: Sequence[int], found: Attachments) -> bool:
