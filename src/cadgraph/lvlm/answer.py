@@ -20,6 +20,7 @@ __all__ = [
     "Verdict",
     "answer_schema",
     "growth_schema",
+    "plain_words",
     "read",
     "settle",
 ]
@@ -56,7 +57,7 @@ class Answer(_Data):
     @field_validator("seen", "reason", mode="before")
     @classmethod
     def _cut(cls, value: Any) -> Any:
-        return _words(value) if isinstance(value, str) else value
+        return plain_words(value) if isinstance(value, str) else value
 
     @field_validator("confidence", mode="before")
     @classmethod
@@ -75,7 +76,7 @@ class Addition(_Data):
     @field_validator("reason", mode="before")
     @classmethod
     def _cut(cls, value: Any) -> Any:
-        return _words(value) if isinstance(value, str) else value
+        return plain_words(value) if isinstance(value, str) else value
 
 
 class GrowthAnswer(_Data):
@@ -214,7 +215,8 @@ def _strict(schema: dict[str, Any]) -> dict[str, Any]:
     return schema
 
 
-def _words(value: str) -> str:
+def plain_words(value: str) -> str:
+    """A text of the model on one line, cut, without control characters: it goes to terminals and pages."""
     plain = "".join(c if c.isprintable() else " " for c in value[: 4 * _MAX_WORDS])
     return " ".join(plain.split())[:_MAX_WORDS]
 

@@ -14,7 +14,7 @@ from typing import Generic, TypeVar
 
 from pydantic import BaseModel
 
-from cadgraph.lvlm.answer import Malformed, read
+from cadgraph.lvlm.answer import Malformed, plain_words, read
 from cadgraph.lvlm.cache import Cache
 from cadgraph.lvlm.folder import write_question
 from cadgraph.lvlm.price import ANSWER_TOKENS, Estimate, Price, text_tokens
@@ -204,7 +204,7 @@ class Asking:
             if reply.error is not None:
                 return self._failed(asked, reply.error)
             if reply.refusal is not None:
-                reason = f"the model refused: {reply.refusal[:120]}"
+                reason = f"the model refused: {plain_words(reply.refusal)[:120]}"
             else:
                 try:
                     return Outcome(asked, read(reply.text, model))

@@ -39,7 +39,9 @@ def clean_label(text: str, *, lower: bool = True) -> str | None:
 def folded(text: str) -> str:
     """What equal labels have in common: lower case, one space for hyphens, the last word in the singular."""
     words = _SPACES.sub(" ", unicodedata.normalize("NFKC", text).casefold()).strip().split(" ")
-    words[-1] = _singular(words[-1])
+    # Once more until nothing changes, so that what was folded folds to itself.
+    while (single := _singular(words[-1])) != words[-1]:
+        words[-1] = single
     return " ".join(words)
 
 

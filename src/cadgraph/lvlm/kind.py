@@ -33,7 +33,8 @@ class Kind:
     def members(self, count: int) -> tuple[int, ...]:
         """Up to ``count`` of the parts, spread evenly over all."""
         n = len(self.parts)
-        places = {round(i * (n - 1) / max(count - 1, 1)) for i in range(min(count, n))}
+        count = min(count, n)
+        places = {round(i * (n - 1) / max(count - 1, 1)) for i in range(count)}
         return tuple(self.parts[place] for place in sorted(places))
 
 

@@ -91,16 +91,17 @@ def merge_vocabularies(base: Vocabulary, other: Vocabulary, source: str = "") ->
 
 
 def _merged(tree: Vocabulary, wish: Wish) -> tuple[Vocabulary, Merged]:
-    group = fold_group(wish.group, tree)
-    known = fold_name(wish.name, tree, group) if wish.name and group else None
-    if known is None and wish.name:
-        known = fold_name(wish.name, tree)
+    wanted = clean_label(wish.group, lower=False)
+    name = clean_label(wish.name) if wish.name else None
+    if wanted is None or (wish.name and name is None):
+        return tree, Merged(wish, None, None, "refused")
+    group = fold_group(wanted, tree)
+    known = fold_name(name, tree, group) if name and group else None
+    if known is None and name:
+        known = fold_name(name, tree)
     if known is not None:
         return tree, Merged(wish, known[0], known[1], "folded")
-    place = group or clean_label(wish.group, lower=False)
-    name = clean_label(wish.name) if wish.name else None
-    if place is None or (wish.name and name is None):
-        return tree, Merged(wish, None, None, "refused")
+    place = group or wanted
     if group is not None and name is None:
         return tree, Merged(wish, group, None, "folded")
     content = tree.groups.get(place, Group(()))
