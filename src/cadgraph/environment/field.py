@@ -28,15 +28,15 @@ __all__ = ["make_field"]
 
 _Make = Callable[..., Plant]
 
-# Where the structures stand: maker, what it is asked for, name, place [m], quarter turns, and the axis along which it
-# is lopsided: in a mirrored yard it is turned round where that axis is.
-_PLACES: tuple[tuple[_Make, dict[str, Any], str, tuple[float, float], int, int], ...] = (
-    (make_rack, {"n_bays": 4}, "A", (-8.6, 5.6), 0, 0),
-    (make_pumps, {"n_pumps": 3}, "B", (-7.9, 0.0), 0, 0),
-    (make_tank, {}, "C", (7.3, -5.0), 0, 0),
-    (make_skid, {}, "D", (-7.4, -6.3), 0, 0),
-    (make_riser, {}, "E", (-3.7, -5.9), 1, 0),
-    (make_riser, {}, "F", (-1.3, -5.9), 1, 0),
+# Where the structures stand: maker, what it is asked for, name, place [m], quarter turns, and how their bolts are
+# modelled. In a yard that is mirrored left to right they are turned round.
+_PLACES: tuple[tuple[_Make, dict[str, Any], str, tuple[float, float], int, str], ...] = (
+    (make_rack, {"n_bays": 4}, "A", (-8.6, 5.6), 0, "none"),
+    (make_pumps, {"n_pumps": 3}, "B", (-7.9, 0.0), 0, "set"),
+    (make_tank, {}, "C", (7.3, -5.0), 0, "set"),
+    (make_skid, {}, "D", (-7.4, -6.3), 0, "none"),
+    (make_riser, {}, "E", (-3.7, -5.9), 1, "flange"),
+    (make_riser, {}, "F", (-1.3, -5.9), 1, "none"),
 )
 _HALF = (11.2, 8.6)  # m, half of the yard
 _PANEL = 3.35  # m
@@ -56,11 +56,12 @@ def make_field(seed: int = 0, hand: Hand | None = None) -> Plant:
     flips = (1, 1) if seed == 0 else (int(rng.choice([-1, 1])), int(rng.choice([-1, 1])))
     parts: list[Assembly] = []
     used: list[Hand] = []
-    for k, (build, wishes, name, (x, y), turns, axis) in enumerate(_PLACES):
-        style = hand or replace(HANDS[("plant-design", "mechanical")[int(rng.random() < 0.35)]], **_FINE)
+    for k, (build, wishes, name, (x, y), turns, bolts) in enumerate(_PLACES):
+        modeller = HANDS[("plant-design", "mechanical")[int(rng.random() < 0.35)]]
+        style = hand or replace(modeller, **{**_FINE, "fasteners": bolts})
         used.append(style)
         one = build(1000 * seed + k + 1, style, marks="all", **wishes).prefixed(name)
-        turned = turns + (2 if flips[axis] < 0 else 0)
+        turned = turns + (2 if flips[0] < 0 else 0)
         shift = rng.uniform(-0.1, 0.1, 2)
         pose = at(flips[0] * x + float(shift[0]), flips[1] * y + float(shift[1]), 0) @ spun("z", turned * np.pi / 2)
         parts.append(one.placed(pose))

@@ -112,7 +112,7 @@ def dressed(hand: Hand | None, rng: np.random.Generator, seed: int, usual: Mappi
         usual: settings of ``Hand`` that give the preset as many parts as the paper's structure has.
     """
     grains = {
-        "fasteners": ("flange", "flange", "set", "bolt")[int(rng.integers(4))],
+        "fasteners": ("none", "flange", "set", "set", "bolt")[int(rng.integers(5))],
         "valve": ("few", "few", "pieces")[int(rng.integers(3))],
         "gauge": ("few", "pieces")[int(rng.integers(2))],
         "spool": ("segments", "segments", "bent")[int(rng.integers(3))],

@@ -30,7 +30,7 @@ from cadgraph.environment.structure import (
 __all__ = ["make_riser"]
 
 _TOP = CASTER_HEIGHT + DECK_HEIGHT
-_USUAL = {"fasteners": "flange", "valve": "few", "gauge": "few", "gaskets": False}
+_USUAL = {"fasteners": "none", "valve": "few", "gauge": "few", "gaskets": False}
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ from cadgraph.environment.valve import valve_length
 __all__ = ["make_skid"]
 
 _TOP = CASTER_HEIGHT + DECK_HEIGHT  # m, the plate's top over the ground
-_USUAL = {"fasteners": "flange", "valve": "few", "gauge": "few"}
+_USUAL = {"fasteners": "none", "valve": "few", "gauge": "few"}
 
 
 @dataclass(frozen=True)
