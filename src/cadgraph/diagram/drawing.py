@@ -26,7 +26,7 @@ _STYLE = (
     ".s{fill:#fff;stroke:#111;stroke-width:1.2;stroke-linejoin:round}"
     ".n{fill:none;stroke:#111;stroke-width:1.2}.t{fill:none;stroke:#111;stroke-width:.8}"
     ".d{fill:none;stroke:#111;stroke-width:.8;stroke-dasharray:3 2}.b{stroke:#111;stroke-width:2}"
-    ".k{fill:#111}.w{fill:#fff}.p{fill:none;stroke:#111;stroke-width:1.6}.i{fill:none;stroke:#111;stroke-width:.8}"
+    ".k{fill:#111}.w{fill:#fff}.p{fill:none;stroke:#111;stroke-width:1.6;stroke-linecap:round}.i{fill:none;stroke:#111;stroke-width:.8}"
     ".u{stroke-dasharray:6 3}.f{fill:none;stroke:#99a;stroke-width:1}"
 )
 

@@ -156,34 +156,41 @@ _IN_LINE = ("ball", "gate", "globe", "plug", "butterfly", "check", "control", "r
 
 
 def _straightened(placed: Placed) -> Placed:
-    """Ends of lines moved to the level of the line that leads there, where nothing else stands."""
-    anchors, ways = list(placed.anchors), list(placed.ways)
+    """Ends of lines, pumps and the like moved to the level of the lines that lead there, where nothing else stands."""
     of_anchor: dict[int, list[int]] = {}
     for i, edge in enumerate(placed.sketch.edges):
         of_anchor.setdefault(edge.anchor, []).append(i)
     for anchor, edges in of_anchor.items():
-        symbol = placed.sketch.anchors[anchor].symbol
-        way = ways[edges[0]]
-        if len(edges) != 1 or symbol.form in _GROWING or len(way) < 3:
-            continue
-        (x, y), (end_x, end_y) = anchors[anchor], way[-1]
-        if not math.isclose(way[0][1], way[1][1]) or abs(end_x - way[0][0]) < 1 or abs(y - way[0][1]) > _SAME:
-            continue
-        width, above, below = _extents(placed.sketch.anchors[anchor])
-        half = max(above, below)
-        left, right = min(x - width / 2, end_x + 0.1), max(x + width / 2, end_x - 0.1)
-        taken = [
-            block
-            for block in _blocks(replace(placed, anchors=tuple(anchors), ways=tuple(ways)), without=(anchor, edges[0]))
-            if block[0] < right
+        form = placed.sketch.anchors[anchor].symbol.form
+        if len(edges) <= 2 and form not in (*_GROWING, "junction"):
+            placed = _moved_to_line(placed, anchor, edges)
+    return placed
+
+
+def _moved_to_line(placed: Placed, anchor: int, edges: Sequence[int]) -> Placed:
+    """An anchor at the level of its rows, if that is one level and free all along the new straight ways."""
+    (x, y), level = placed.anchors[anchor], placed.ways[edges[0]][-1][1]
+    ways = [placed.ways[i] for i in edges]
+    turning = any(abs(way[0][1] - way[1][1]) > _SAME or abs(way[0][0] - way[-1][0]) < 1 for way in ways)
+    if abs(y - level) <= _SAME or turning or any(abs(way[-1][1] - level) > _SAME for way in ways):
+        return placed
+    width, above, below = _extents(placed.sketch.anchors[anchor])
+    half = max(above, below)
+    reach = [x - width / 2, x + width / 2, *(way[-1][0] for way in ways)]
+    left, right = min(reach) + 0.1, max(reach) - 0.1
+    for block in _blocks(placed, anchor, edges):
+        if (
+            block[0] < right
             and block[1] > left
-            and block[2] - block[3] < end_y + half
-            and block[2] + block[4] > end_y - half
-        ]
-        if not taken:
-            anchors[anchor] = (x, end_y)
-            ways[edges[0]] = ((way[0][0], end_y), (end_x, end_y))
-    return replace(placed, anchors=tuple(anchors), ways=tuple(ways))
+            and block[2] - block[3] < level + half
+            and block[2] + block[4] > level - half
+        ):
+            return placed
+    anchors, straight = list(placed.anchors), list(placed.ways)
+    anchors[anchor] = (x, level)
+    for i, way in zip(edges, ways, strict=True):
+        straight[i] = ((way[0][0], level), (way[-1][0], level))
+    return replace(placed, anchors=tuple(anchors), ways=tuple(straight))
 
 
 def _compacted(placed: Placed) -> Placed:
@@ -232,19 +239,22 @@ def _moved_anchors(placed: Placed, move: dict[float, float]) -> tuple[Way, Sketc
     return tuple(centres), replace(placed.sketch, anchors=tuple(anchors))
 
 
-def _blocks(placed: Placed, without: tuple[int, int] = (-1, -1)) -> list[tuple[float, float, float, float, float]]:
+def _blocks(
+    placed: Placed, no_anchor: int = -1, no_edges: Sequence[int] = ()
+) -> list[tuple[float, float, float, float, float]]:
     """All that takes room on a level: left, right, the level, room above it and below it [px].
 
     Args:
         placed: the drawing.
-        without: an anchor and an edge to leave out, by index.
+        no_anchor: one to leave out, by index.
+        no_edges: to leave out, by index.
     """
     blocks = []
     for (x, y), row in zip(placed.rows, placed.sketch.rows, strict=True):
         blocks.append((x - row.width / 2, x + row.width / 2, y, row.top, row.bottom))
     for i, ((x, y), anchor) in enumerate(zip(placed.anchors, placed.sketch.anchors, strict=True)):
         width, above, below = _extents(anchor)
-        if i == without[0]:
+        if i == no_anchor:
             continue
         if anchor.symbol.form in _GROWING:
             # Its edges are levels of their own, so that it shrinks with what is beside it, down to what holds its tag.
@@ -254,7 +264,7 @@ def _blocks(placed: Placed, without: tuple[int, int] = (-1, -1)) -> list[tuple[f
         else:
             blocks.append((x - width / 2, x + width / 2, y, above, below))
     for i, (way, edge) in enumerate(zip(placed.ways, placed.sketch.edges, strict=True)):
-        if i == without[1]:
+        if i in no_edges:
             continue
         if placed.sketch.anchors[edge.anchor].symbol.form in _GROWING:
             # Nozzles keep apart, and clear of the edges.
