@@ -241,7 +241,9 @@ def _smallest(network: Network, start: str, barriers: set[str], check_valves: bo
     for place in sources:
         flow.add_edge(origin, (place, "out"))
     # Seen from the unit, so that of equally small sets the nearest one is found.
-    _, (_, near) = networkx.minimum_cut(flow, origin, sink)
+    # The set is small where there is one, which this algorithm is quick at.
+    augment = networkx.algorithms.flow.shortest_augmenting_path
+    _, (_, near) = networkx.minimum_cut(flow, origin, sink, flow_func=augment)
     return {place for place in barriers if (place, "out") in near and (place, "in") not in near}
 
 
