@@ -8,12 +8,15 @@ from __future__ import annotations
 
 import argparse
 import gc
+import importlib
 import os
 import platform
 import statistics
 import sys
 import time
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -21,8 +24,9 @@ import numpy.typing as npt
 from cadgraph.render.annotation import Mark, Segment, Tag, annotate
 from cadgraph.render.camera import frame
 from cadgraph.render.color import distinct_colors
+from cadgraph.render.pair import PairRenderer
 from cadgraph.render.picture import Look, Paint, Renderer
-from cadgraph.render.views import three_quarter_view
+from cadgraph.render.views import Target, View, choose_views, three_quarter_view
 from cadgraph.scene import Scene
 
 Mesh = tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]
@@ -124,11 +128,70 @@ def measure(lines: int, sides: int, size: tuple[int, int], repeats: int) -> str:
     )
 
 
+def spent(act: Callable[[], object]) -> str:
+    """Wall and processor time of one run [s]."""
+    wall, work = time.perf_counter(), time.process_time()
+    act()
+    return f"{time.perf_counter() - wall:.2f} / {time.process_time() - work:.2f}"
+
+
+def measure_pairs(lines: int, sides: int, threads: int) -> str:
+    """Views of 2,000 meshes, and 25 pairs of pictures as a vision-language model is shown them."""
+    scene = plant(lines, sides)
+    renderer = PairRenderer(scene)
+    chosen = np.linspace(0, scene.n_meshes - 1, 2000).round().astype(int).tolist()
+
+    def views_of(mesh: int) -> list[tuple[int, View]]:
+        found = choose_views(renderer.caster, renderer.mesh_of_face, Target.of(scene, mesh))
+        return [(mesh, view) for view in found]
+
+    with ThreadPoolExecutor(threads) as pool:
+        looks: list[tuple[int, View]] = []
+        chosen_in = spent(lambda: looks.extend(look for found in pool.map(views_of, chosen) for look in found))
+        some = looks[:: len(looks) // 25][:25]
+
+        def draw() -> None:
+            for _ in pool.map(lambda look: renderer.pair(look[0], look[1].camera, look[1].hidden), some):
+                pass
+
+        draw()
+        pairs = spent(draw)
+        some *= 4
+        sustained = spent(draw)
+    slow = spent(lambda: Renderer(scene, threads=threads).picture(some[0][1].camera))
+    cells = [f"{scene.n_meshes:,}", f"{scene.n_triangles:,}", chosen_in, pairs, sustained, slow, beside(scene, some)]
+    return "| " + " | ".join([*cells, f"{peak_memory():.2f}"]) + " |"
+
+
+def beside(scene: Scene, looks: list[tuple[int, View]]) -> str:
+    """The same 50 pictures by pyvista, where it is installed and finds a driver that draws off screen."""
+    try:
+        pyvista: Any = importlib.import_module("pyvista")
+    except ImportError:
+        return "not here"
+    plotter = pyvista.Plotter(off_screen=True, window_size=[512, 512])
+    faces = np.concatenate([np.full((scene.n_triangles, 1), 3), scene.global_faces()], axis=1)
+    plotter.add_mesh(pyvista.PolyData(scene.vertices, faces.reshape(-1)))
+    plotter.enable_anti_aliasing("ssaa")
+
+    def draw() -> None:
+        for _, view in looks:
+            eye, ahead = view.camera.eye, view.camera.eye + view.camera.forward
+            plotter.camera_position = [tuple(eye), tuple(ahead), tuple(view.camera.up)]
+            plotter.screenshot(return_img=True)
+            plotter.screenshot(return_img=True)
+
+    draw()
+    return spent(draw)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--size", default="1280x800", help="of the large pictures, WIDTHxHEIGHT")
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--huge", action="store_true", help="also a scene of about 7 million triangles")
+    parser.add_argument("--pairs", action="store_true", help="only the pictures for a vision-language model")
+    parser.add_argument("--threads", type=int, default=os.cpu_count() or 1, help="that draw pairs")
     options = parser.parse_args()
     width, height = (int(side) for side in options.size.split("x"))
     print(f"{platform.platform()}, {os.cpu_count()} processors, Python {platform.python_version()}")
@@ -138,7 +201,23 @@ def main() -> None:
     print("| " + " | ".join([*titles, "peak GB"]) + " |")
     print("|" + "---:|" * (len(titles) + 1))
     for lines, sides in ((8, 24), (64, 24), (180, 48), *(((180, 540),) if options.huge else ())):
-        print(measure(lines, sides, (width, height), options.repeats), flush=True)
+        if not options.pairs:
+            print(measure(lines, sides, (width, height), options.repeats), flush=True)
+            gc.collect()
+    print("\nFor a vision-language model, wall / processor seconds, pictures of 512x512 with anti-aliasing:\n")
+    titles = [
+        "meshes",
+        "triangles",
+        "views of 2,000",
+        "25 pairs",
+        "100 pairs",
+        "1 full picture",
+        "pyvista, 50 pictures",
+    ]
+    print("| " + " | ".join([*titles, "peak GB"]) + " |")
+    print("|" + "---:|" * (len(titles) + 1))
+    for lines, sides in ((180, 48), (190, 380)):
+        print(measure_pairs(lines, sides, options.threads), flush=True)
         gc.collect()
 
 
