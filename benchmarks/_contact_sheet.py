@@ -1,7 +1,7 @@
-"""Draws the contact sheet of docs/lvlm.md: ``python benchmarks/contact_sheet.py -o docs/lvlm_parts.jpg``.
+"""Draws the contact sheet of docs/lvlm.md: ``python benchmarks/_contact_sheet.py -o docs/lvlm_parts.jpg``.
 
-Forty parts of a generated plant, one of each name as far as there are so many; for each the three pairs of pictures that a
-model is shown, the question's figures, and the truth.
+Forty parts of a generated plant, one of each name as far as there are so many; for each the three pairs of pictures
+that a model is shown, the question's figures, and the truth.
 """
 
 from __future__ import annotations
