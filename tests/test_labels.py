@@ -1,10 +1,12 @@
 import json
+from pathlib import Path
 
 import pytest
 
+from cadgraph.config import read_config
 from cadgraph.errors import LabelError
 from cadgraph.labels import GivenLabel, read_labels
-from cadgraph.vocabulary import default_vocabulary
+from cadgraph.vocabulary import default_vocabulary, read_vocabulary
 
 VOCABULARY = default_vocabulary()
 ROW = {"mesh": "/a", "group": "Pipe assembly", "name": "pipe"}
@@ -78,3 +80,24 @@ def test_bytes_that_are_no_text_are_named(tmp_path):
 def test_a_quote_left_open_is_named(tmp_path):
     with pytest.raises(LabelError, match="quote"):
         read(tmp_path, 'mesh,group,name\n"' + "x" * 200_000, "labels.csv")
+
+
+def test_a_row_of_too_few_or_too_many_values_is_named(tmp_path):
+    path = tmp_path / "labels.csv"
+    for text, says in (
+        ("mesh,group,name\n/a,Tank,shell,more\n", "line 2: more values than columns"),
+        ("mesh,group,name\n/a\n", "line 2: 'group' is missing"),
+    ):
+        path.write_text(text)
+        with pytest.raises(LabelError, match=says):
+            read_labels(path, default_vocabulary())
+
+
+@pytest.mark.skipif(not Path("/dev/zero").is_char_device(), reason="needs devices")
+def test_an_endless_device_is_refused():
+    with pytest.raises(LabelError, match="a device"):
+        read_labels("/dev/zero", default_vocabulary())
+    with pytest.raises(LabelError, match="a device"):
+        read_vocabulary("/dev/zero")
+    with pytest.raises(ValueError, match="a device"):
+        read_config("/dev/zero")

@@ -63,6 +63,8 @@ def ensure_writable(folder: str | Path) -> Path:
         OutputError: it can't be made or written to.
     """
     path = Path(folder)
+    if path.exists() and not path.is_dir():
+        raise OutputError(f"{path}: not a folder but a file; choose another output folder")
     try:
         path.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=path):

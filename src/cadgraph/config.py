@@ -255,6 +255,8 @@ def read_config(path: str | Path, base: Config | None = None) -> Config:
     Raises:
         ValueError: the file can't be read, is no TOML, or holds an unknown or impossible setting.
     """
+    if Path(path).is_char_device() or Path(path).is_block_device():
+        raise ValueError(f"{path}: a device; give a TOML file as 'cadgraph config' prints it")
     try:
         tree = tomllib.loads(Path(path).read_text(encoding="utf-8-sig"))
     except OSError as error:

@@ -44,6 +44,8 @@ def read_labels(path: str | Path, vocabulary: Vocabulary) -> tuple[GivenLabel, .
         LabelError: the file can't be read, or a row is malformed, repeated, or not in the vocabulary.
     """
     source = Path(path)
+    if source.is_char_device() or source.is_block_device():
+        raise LabelError(f"{path}: a device; give a JSON or CSV file of labels")
     try:
         text = source.read_text(encoding="utf-8-sig")
     except OSError as error:
@@ -78,9 +80,13 @@ def _csv_rows(text: str, source: Path) -> Iterable[tuple[str, Any]]:
     if missing:
         raise LabelError(f"{source}: no column {sorted(missing)[0]!r}; the first line must name mesh, group, name")
     try:
-        return [(f"line {reader.line_num}", row) for row in reader]
+        rows = [(f"line {reader.line_num}", row) for row in reader]
     except csv.Error as error:
         raise LabelError(f"{source}: line {reader.line_num}: not CSV ({error}); is a quote left open?") from error
+    for place, row in rows:
+        if None in row:
+            raise LabelError(f"{source}: {place}: more values than columns; put what holds a comma in quotes")
+    return rows
 
 
 def _checked(row: Any, place: str, vocabulary: Vocabulary) -> GivenLabel:
@@ -88,7 +94,9 @@ def _checked(row: Any, place: str, vocabulary: Vocabulary) -> GivenLabel:
         raise LabelError(f"{place}: not an object with mesh, group and name")
     mesh, group, name = row.get("mesh"), row.get("group"), row.get("name") or None
     for key, value in (("mesh", mesh), ("group", group), ("name", name)):
-        if (value is None and key != "name") or not isinstance(value, str | None) or len(value or "") > _MAX_LENGTH:
+        if value is None and key != "name":
+            raise LabelError(f"{place}: {key!r} is missing")
+        if not isinstance(value, str | None) or len(value or "") > _MAX_LENGTH:
             raise LabelError(f"{place}: {key!r} must be text, not {str(value)[:60]!r}")
     if not vocabulary.holds(str(group)):
         raise LabelError(

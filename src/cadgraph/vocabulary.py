@@ -152,6 +152,8 @@ def read_vocabulary(path: str | Path) -> Vocabulary:
     Raises:
         LabelError: the file can't be read or is malformed.
     """
+    if Path(path).is_char_device() or Path(path).is_block_device():
+        raise LabelError(f"{path}: a device; give a YAML vocabulary")
     try:
         content = yaml.load(Path(path).read_text(encoding="utf-8"), Loader=_StrictLoader)
     except OSError as error:
