@@ -31,6 +31,7 @@ def test_unknown_direction_halts_and_says_so():
     assert told(found) == [("V-001", 0)]
     assert [(halt.after, halt.towards) for halt in found.halts] == [("V-001", "T-001"), ("V-001", "V-002")]
     assert "not followed" in " ".join(trace_lines(found))
+    assert not found.steps[0].ends
 
 
 def test_unknown_direction_is_followed_both_ways_when_asked():

@@ -19,6 +19,7 @@ __all__ = ["Placed", "lay_out", "pack"]
 _PORT_PITCH = 26.0  # px between nozzles on one side of a tank
 _POINT = 0.1  # px, a junction: the lines meet in one point
 _SAME = 2.0  # px; ports of boxes in line can be that far off each other
+_JOG = 40.0  # px; a row is moved by no more for the sake of a straight line
 _CLEAR = 7.0  # px between what stands on different levels
 _LEAST = 56.0  # px, height of the smallest tank
 _GROWING = ("tank", "equipment", "exchanger", "strainer")
@@ -164,6 +165,8 @@ def _straightened(placed: Placed) -> Placed:
         form = placed.sketch.anchors[anchor].symbol.form
         if len(edges) <= 2 and form not in (*_GROWING, "junction"):
             placed = _moved_to_line(placed, anchor, edges)
+    for row in range(len(placed.sketch.rows)):
+        placed = _moved_to_anchor(placed, row, [i for i, edge in enumerate(placed.sketch.edges) if edge.row == row])
     return placed
 
 
@@ -178,19 +181,41 @@ def _moved_to_line(placed: Placed, anchor: int, edges: Sequence[int]) -> Placed:
     half = max(above, below)
     reach = [x - width / 2, x + width / 2, *(way[-1][0] for way in ways)]
     left, right = min(reach) + 0.1, max(reach) - 0.1
-    for block in _blocks(placed, anchor, edges):
-        if (
-            block[0] < right
-            and block[1] > left
-            and block[2] - block[3] < level + half
-            and block[2] + block[4] > level - half
-        ):
-            return placed
+    box = (left, right, level, half, half)
+    if any(_collide(box, block) for block in _blocks(placed, anchor, edges)):
+        return placed
     anchors, straight = list(placed.anchors), list(placed.ways)
     anchors[anchor] = (x, level)
     for i, way in zip(edges, ways, strict=True):
         straight[i] = ((way[0][0], level), (way[-1][0], level))
     return replace(placed, anchors=tuple(anchors), ways=tuple(straight))
+
+
+def _moved_to_anchor(placed: Placed, row: int, edges: Sequence[int]) -> Placed:
+    """A row at the level of the pump or valve beside it, where it has a bend at its other end anyway and is free."""
+    (x, y), shape = placed.rows[row], placed.sketch.rows[row]
+    for i, other in (edges, edges[::-1]) if len(edges) == 2 else ():
+        level, way = placed.anchors[placed.sketch.edges[i].anchor][1], placed.ways[other]
+        form = placed.sketch.anchors[placed.sketch.edges[i].anchor].symbol.form
+        straight = form not in (*_GROWING, "junction") and len(placed.ways[i]) == 4 and 0 < abs(level - y) <= _JOG
+        if not straight or len(way) < 3 or abs(way[-2][0] - way[-3][0]) > _SAME:
+            continue
+        reach = [x - shape.width / 2, x + shape.width / 2, placed.ways[i][0][0], way[-2][0]]
+        half = max(shape.top, shape.bottom)
+        box = (min(reach) + 0.1, max(reach) - 0.1, level, half, half)
+        if any(_collide(box, block) for block in _blocks(placed, no_edges=edges, no_row=row)):
+            continue
+        rows, ways = list(placed.rows), list(placed.ways)
+        rows[row] = (x, level)
+        ways[i] = ((ways[i][0][0], level), (ways[i][-1][0], level))
+        ways[other] = (*way[:-2], (way[-2][0], level), (way[-1][0], level))
+        return replace(placed, rows=tuple(rows), ways=tuple(ways))
+    return placed
+
+
+def _collide(a: tuple[float, ...], b: tuple[float, ...]) -> bool:
+    """Whether two blocks (left, right, level, room above, room below) overlap."""
+    return b[0] < a[1] and b[1] > a[0] and b[2] - b[3] < a[2] + a[4] and b[2] + b[4] > a[2] - a[3]
 
 
 def _compacted(placed: Placed) -> Placed:
@@ -240,7 +265,7 @@ def _moved_anchors(placed: Placed, move: dict[float, float]) -> tuple[Way, Sketc
 
 
 def _blocks(
-    placed: Placed, no_anchor: int = -1, no_edges: Sequence[int] = ()
+    placed: Placed, no_anchor: int = -1, no_edges: Sequence[int] = (), no_row: int = -1
 ) -> list[tuple[float, float, float, float, float]]:
     """All that takes room on a level: left, right, the level, room above it and below it [px].
 
@@ -248,10 +273,12 @@ def _blocks(
         placed: the drawing.
         no_anchor: one to leave out, by index.
         no_edges: to leave out, by index.
+        no_row: one to leave out, by index.
     """
     blocks = []
-    for (x, y), row in zip(placed.rows, placed.sketch.rows, strict=True):
-        blocks.append((x - row.width / 2, x + row.width / 2, y, row.top, row.bottom))
+    for i, ((x, y), row) in enumerate(zip(placed.rows, placed.sketch.rows, strict=True)):
+        if i != no_row:
+            blocks.append((x - row.width / 2, x + row.width / 2, y, row.top, row.bottom))
     for i, ((x, y), anchor) in enumerate(zip(placed.anchors, placed.sketch.anchors, strict=True)):
         width, above, below = _extents(anchor)
         if i == no_anchor:

@@ -147,7 +147,8 @@ def trace(
                 walked.add(arc.index)
                 returns.append(Return(network.name(place), network.name(arc.end), arc.end in ways[place]))
         onward = [arc for arc in network.main_arcs(place) if follows(arc) and (not arcs or arc.index != arcs[-1].index)]
-        steps.append(_step(network, place, arcs, distances[place], line_of, not onward))
+        halted = bool(halts) and halts[-1].after == network.name(place)
+        steps.append(_step(network, place, arcs, distances[place], line_of, not onward and not halted))
     return Trace(first, direction, tuple(steps), tuple(halts), tuple(returns))
 
 
