@@ -92,6 +92,15 @@ def test_flows_against_each_other_are_told():
     assert "contradictory (><) in 1" in line_table(find_lines(graph))[-1]
 
 
+def test_nothing_flows_to_a_blind_end():
+    nodes = [unit("T-001"), unit("V-001"), terminal(1, "blind")]
+    graph = network(nodes, chain("T-001 V-001 X1", direction="unknown"))
+    assert [line.flow for line in find_lines(graph)] == ["none"]
+    assert "unknown" not in line_table(find_lines(graph))[-1]
+    open_end = network([*nodes[:2], terminal(1)], chain("T-001 V-001 X1", direction="unknown"))
+    assert [line.flow for line in find_lines(open_end)] == ["unknown"]
+
+
 def test_a_reducer_gives_both_sizes_and_an_unknown_length_is_told():
     nodes = [unit("T-001"), unit("V-001"), unit("P-001")]
     (line,) = find_lines(network(nodes, chain("T-001 V-001", 80) + chain("V-001 P-001", 50, None)))

@@ -40,6 +40,14 @@ def test_unknown_direction_is_followed_both_ways_when_asked():
     assert found.halts == found.returns == ()
 
 
+def test_a_trace_passes_by_a_blind_end_without_a_word():
+    nodes = [unit("P-001"), junction(1), terminal(1), terminal(2, "blind")]
+    graph = network(nodes, chain("P-001 J1 X1") + chain("J1 X2", direction="unknown"))
+    found = trace(graph, "P-001")
+    assert told(found) == [("P-001", 0), ("junction-001", 1.0), ("terminal-001", 2.0)]
+    assert found.halts == ()
+
+
 def test_a_loop_ends_and_is_told():
     nodes = [unit("P-001"), unit("V-001"), unit("V-002")]
     found = trace(network(nodes, chain("P-001 V-001 V-002 P-001")), "P-001")

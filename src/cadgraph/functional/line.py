@@ -14,7 +14,7 @@ from cadgraph.records import Unit
 __all__ = ["Line", "find_lines"]
 
 _Number = TypeVar("_Number", int, float)
-LineFlow = Literal["forward", "backward", "unknown", "contradictory"]
+LineFlow = Literal["forward", "backward", "none", "unknown", "contradictory"]
 
 _NUMBERS = 10_000
 _GRID = 0.1  # m; lines that join no unit are told apart by place, to this
@@ -38,7 +38,7 @@ class Line:
         whole: False where a part of the length is unknown.
         sizes: nominal sizes (DN) in order from the start, each change once.
         diameters: bores in the same manner [m].
-        flow: of the whole line; ``forward`` is from start to end.
+        flow: of the whole line; ``forward`` is from start to end, ``none`` leads to a blind end.
         reasons: why the flow is so, each once.
         confidence: the least of its connections.
         system: id of the system.
@@ -181,7 +181,7 @@ def _line(network: Network, tag: str, run: list[Arc]) -> Line:
         whole=len(known) == len(lengths),
         sizes=tuple(_changes(size for arc in run for size in arc.sizes)),
         diameters=tuple(_changes(arc.edge.diameter for arc in run)),
-        flow=_flow_of(flows),
+        flow=_flow_of(flows, all(network.is_dead(arc) for arc in run)),
         reasons=tuple(dict.fromkeys(arc.edge.reason for arc in run if arc.edge.reason)),
         confidence=min(confidences) if confidences else None,
         system=network.system(run[0].start),
@@ -194,13 +194,15 @@ def _carries_start(network: Network, run: list[Arc]) -> bool:
     return run[0].start == run[-1].end and not divides(network, run[0].start)
 
 
-def _flow_of(flows: set[Flow]) -> LineFlow:
+def _flow_of(flows: set[Flow], dead: bool) -> LineFlow:
     if "along" in flows and "against" in flows:
         return "contradictory"
     # Nothing branches off a line, so what flows in one part of it flows in all.
     if "along" in flows:
         return "forward"
-    return "backward" if "against" in flows else "unknown"
+    if "against" in flows:
+        return "backward"
+    return "none" if dead else "unknown"
 
 
 def _changes(values: Iterable[_Number | None]) -> list[_Number]:

@@ -192,19 +192,36 @@ class Network:
         """
         return arc.index in self._taps
 
-    def _tap_from(self, arc: Arc) -> list[int]:
-        """The connections from a gauge at an end back to where it branches off."""
-        way = [arc.index]
+    @cached_property
+    def _dead(self) -> frozenset[int]:
+        found: set[int] = set()
+        for place, node in self.places.items():
+            if isinstance(node, Terminal) and node.kind == "blind" and len(self.arcs(place)) == 1:
+                found.update(arc.index for arc in self._back_from(self.arcs(place)[0]))
+        return frozenset(found)
+
+    def is_dead(self, arc: Arc) -> bool:
+        """Whether a connection leads to nothing but a blind end, so that nothing flows there."""
+        return arc.index in self._dead
+
+    def _back_from(self, arc: Arc) -> list[Arc]:
+        """From an end back over valves and gauges to where the line branches off."""
+        way = [arc]
         while (self.is_valve(arc.end) or self.is_gauge(arc.end)) and len(self.arcs(arc.end)) == 2:
             onward = [other for other in self.arcs(arc.end) if other.index != arc.index]
             if not onward:
-                return way
+                break
             arc = onward[0]
-            way.append(arc.index)
-        # A run that ends in a gauge without having branched off anything is a line of its own, not a tap.
-        if not isinstance(self.places[arc.end], Junction) and not self._is_vessel(arc.end):
-            return []
+            way.append(arc)
         return way
+
+    def _tap_from(self, arc: Arc) -> list[int]:
+        """The connections from a gauge at an end back to where it branches off."""
+        way = self._back_from(arc)
+        last = way[-1].end
+        # A run that ends in a gauge without having branched off anything is a line of its own, not a tap.
+        branches_off = isinstance(self.places[last], Junction) or self._is_vessel(last)
+        return [step.index for step in way] if branches_off else []
 
     def _is_vessel(self, place: str) -> bool:
         return isinstance(self.places[place], Unit) and not self.is_valve(place) and not self.is_gauge(place)

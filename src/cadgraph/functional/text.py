@@ -27,7 +27,7 @@ LINE_COLUMNS = (
     "line", "from", "from_port", "to", "to_port", "through", "length_m", "length_complete", "dn", "flow", "reason",
     "confidence", "system",
 )  # fmt: skip
-_FLOWS = {"forward": "->", "backward": "<-", "unknown": "?", "contradictory": "><"}
+_FLOWS = {"forward": "->", "backward": "<-", "none": "--", "unknown": "?", "contradictory": "><"}
 _FLOW_WORDS = {"along": "with the flow", "against": "against the flow", "unknown": "direction unknown"}
 
 

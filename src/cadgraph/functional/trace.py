@@ -139,7 +139,7 @@ def trace(
         arcs = arcs_to[place]
         for arc in network.arcs(place):
             if not follows(arc):
-                if arc.flow == "unknown" and arc.index not in {a.index for a in arcs}:
+                if arc.flow == "unknown" and not network.is_dead(arc) and arc.index not in {a.index for a in arcs}:
                     halts.append(
                         Halt(network.name(place), network.name(arc.end), line_of.get(arc.index), distances[place])
                     )

@@ -167,7 +167,7 @@ def _relation(graph: SceneGraph, edge: Edge) -> tuple[Cell, ...]:
 
 def line_table(graph: SceneGraph) -> Table:
     """The line list, as ``cadgraph lines`` prints it."""
-    flows = {"forward": "→", "backward": "←", "unknown": "unknown", "contradictory": "contradictory"}
+    flows = {"forward": "→", "backward": "←", "none": "none", "unknown": "unknown", "contradictory": "contradictory"}
     rows = [
         (
             Cell(line.tag),

@@ -218,7 +218,7 @@ class _Reading:
         values, custom = _values(segment, DEXPI_SET), _values(segment, CUSTOM_SET)
         size = _number(values.get("NominalDiameterNumericalValueRepresentation"))
         flow = custom.get("Flow")
-        direction: _Direction = "unknown" if flow in ("unknown", "contradictory") else "forward"
+        direction: _Direction = "unknown" if flow in ("none", "unknown", "contradictory") else "forward"
         reason = _values(system, CUSTOM_SET).get("Reason") if flow else "drawn so in the diagram"
         base = _Pipe(None, int(size) if size else None, direction, reason, None)
         chain = self._chain(segment, base)
