@@ -31,6 +31,8 @@ _DEPTH, _LEAST_DEPTH = 3.0, 0.06
 _OFF = 1.3
 # A contact's normal that is this sure of itself must agree with the direction of the end (cosine).
 _FLAT, _AGREES = 0.6, 0.2
+# Surfaces nearer than this touch [m]: where they do, only what is that near tells where.
+_TIGHT = 0.001
 # Two solids are flanged to each other where they meet in a flat round area: normals this parallel, extents this alike,
 # and at least this large against the lesser solid.
 _FACE_FLAT, _FACE_ROUND, _FACE_SHARE = 0.9, 0.72, 0.25
@@ -89,7 +91,12 @@ class Attachments:
 
 
 def attach_lines(
-    parts: Parts, contacts: Contacts, lines: Mapping[int, Centreline], solids: Collection[int], bridge: float
+    parts: Parts,
+    contacts: Contacts,
+    lines: Mapping[int, Centreline],
+    solids: Collection[int],
+    feet: Collection[int],
+    bridge: float,
 ) -> Attachments:
     """Finds for each end of a line what it joins.
 
@@ -98,6 +105,7 @@ def attach_lines(
         contacts: pairs of parts that are near.
         lines: of the connector parts.
         solids: parts without a line that lines may end at: of units, and connectors of odd shape.
+        feet: those of the solids that may sit on the side of a line: of gauges.
         bridge: greatest gap between ends that face each other [m].
     """
     ends = gather_ends(lines)
@@ -109,7 +117,7 @@ def attach_lines(
     loose = [row for row in range(len(ends.part)) if row not in partner]
     doubled = _double(ends, loose, partner, neighbors, bridge)
     loose = sorted(set(loose) - {row for row, _ in doubled})
-    mounts, sides = _mount(parts, contacts, lines, solid, ends, set(loose))
+    mounts, sides = _mount(parts, contacts, lines, solid, set(feet), ends, set(loose))
     held = {mount.row: mount.gap for mount in mounts}
     for row in loose:
         options = [
@@ -184,40 +192,58 @@ def _mount(
     contacts: Contacts,
     lines: Mapping[int, Centreline],
     solids: set[int],
+    feet: set[int],
     ends: Ends,
     loose: set[int],
 ) -> tuple[tuple[Mount, ...], tuple[Side, ...]]:
     """Ends at solids: each at the nearest; and solids at the sides of lines."""
-    rows = [
-        k
-        for k, (a, b) in enumerate(contacts.pairs.tolist())
-        if (a in lines and b in solids) or (b in lines and a in solids)
-    ]
-    if not rows:
-        return (), ()
-    index = np.array(rows, np.int64)
-    regions = regions_of(parts, contacts, index, max(float(contacts.distance.max()), 0.002))
-    best: dict[int, tuple[float, float, int]] = {}
+    tight: list[int] = []
+    wide: list[int] = []
     sides = []
-    for k, row in enumerate(rows):
-        a, b = contacts.pairs[row].tolist()
-        line, solid, sense = (a, b, 1.0) if a in lines else (b, a, -1.0)
-        place, normal, gap = regions.centroid[k], sense * regions.normal[k], float(contacts.distance[row])
-        reached = False
-        for end in ends.of_part.get(line, ()):
-            miss = _miss(ends, end, place, normal if regions.flatness[k] > _FLAT else None, gap)
-            if miss is None:
-                continue
-            reached = True
-            if end in loose and (end not in best or (miss, gap, solid) < best[end]):
-                best[end] = (miss, gap, solid)
-        if not reached:
-            number, near = min(
-                enumerate(nearest_on(branch, place) for branch in lines[line].branches), key=lambda option: option[1][4]
-            )
-            sides.append(Side(solid, line, Tap(number, near[0], near[1], gap)))
+    for k, (a, b) in enumerate(contacts.pairs.tolist()):
+        if not ((a in lines and b in solids) or (b in lines and a in solids)):
+            continue
+        line, solid = (a, b) if a in lines else (b, a)
+        if solid in feet or any(
+            end in loose and _is_near(parts, ends, end, solid) for end in ends.of_part.get(line, ())
+        ):
+            (tight if contacts.distance[k] <= _TIGHT else wide).append(k)
+        else:
+            sides.append(_side(lines[line], line, solid, contacts.points[k].mean(axis=0), float(contacts.distance[k])))
+    best: dict[int, tuple[float, float, int]] = {}
+    for rows, eps in ((tight, 2 * _TIGHT), (wide, float(contacts.distance.max(initial=0.0)) + _TIGHT)):
+        if not rows:
+            continue
+        regions = regions_of(parts, contacts, np.array(rows, np.int64), eps)
+        for k, row in enumerate(rows):
+            a, b = contacts.pairs[row].tolist()
+            line, solid, sense = (a, b, 1.0) if a in lines else (b, a, -1.0)
+            place, normal, gap = regions.centroid[k], sense * regions.normal[k], float(contacts.distance[row])
+            reached = False
+            for end in ends.of_part[line]:
+                miss = _miss(ends, end, place, normal if regions.flatness[k] > _FLAT else None, gap)
+                reached |= miss is not None
+                if miss is not None and end in loose and (end not in best or (miss, gap, solid) < best[end]):
+                    best[end] = (miss, gap, solid)
+            if not reached:
+                sides.append(_side(lines[line], line, solid, place, gap))
     mounts = tuple(Mount(end, solid, gap) for end, (_, gap, solid) in sorted(best.items()))
     return mounts, tuple(sides)
+
+
+def _is_near(parts: Parts, ends: Ends, row: int, solid: int) -> bool:
+    """Whether an end lies in a solid's box, or about its own radius from it."""
+    reach = _OFF * float(ends.radius[row]) + _LEAST_DEPTH / 2
+    low, high = parts.properties.aabb[solid]
+    point = ends.point[row]
+    return bool(np.all(point >= low - reach) and np.all(point <= high + reach))
+
+
+def _side(line: Centreline, part: int, solid: int, place: Floats, gap: float) -> Side:
+    number, near = min(
+        enumerate(nearest_on(branch, place) for branch in line.branches), key=lambda option: option[1][4]
+    )
+    return Side(solid, part, Tap(number, near[0], near[1], gap))
 
 
 def _miss(ends: Ends, row: int, place: Floats, normal: Floats | None, gap: float) -> float | None:

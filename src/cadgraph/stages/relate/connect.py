@@ -21,7 +21,7 @@ from cadgraph.stages.relate.network import draw_network
 from cadgraph.stages.relate.role import Roles, find_roles, likely_lines, neighbor_lists
 from cadgraph.stages.relate.run import make_network
 from cadgraph.stages.relate.tag import tag_units
-from cadgraph.stages.relate.unit import Group, connected_groups, mend_groups, split_groups
+from cadgraph.stages.relate.unit import FASTENERS, Group, connected_groups, mend_groups, split_groups
 from cadgraph.vocabulary import Vocabulary
 
 __all__ = ["connect_units"]
@@ -74,23 +74,28 @@ def connect_units(
         if group in vocabulary.connector_groups and part not in lines and cluster[part] >= 0
     ]
     members = {part for group in groups for part in group.parts}
-    found = attach_lines(parts, contacts, lines, [*members, *blobs], bridge)
+    feet = {part for group in groups if group.unit_type == "gauge" for part in group.parts}
+    found = attach_lines(parts, contacts, lines, [*members, *blobs], feet, bridge)
     shapeless = _shapeless(parts, found, lines, contacts)
     if shapeless:
         lines = {part: line for part, line in lines.items() if part not in shapeless}
         blobs = sorted([*blobs, *shapeless])
-        found = attach_lines(parts, contacts, lines, [*members, *blobs], bridge)
+        found = attach_lines(parts, contacts, lines, [*members, *blobs], feet, bridge)
     unsure = _unsupported(roles)
     mended = mend_groups(
         groups, roles.names, near, _mounted(found), _kept_apart(parts, found), unsure, frozenset(lines)
     )
-    if mended != groups:
-        members = {part for group in mended for part in group.parts}
+    taken_in = {part for group in mended for part in group.parts} - members
+    if any(part in lines or part in blobs or roles.names[part] not in FASTENERS for part in taken_in):
+        members |= taken_in
         lines = {part: line for part, line in lines.items() if part not in members}
         blobs = [part for part in blobs if part not in members]
-        found = attach_lines(parts, contacts, lines, [*members, *blobs], bridge)
+        found = attach_lines(parts, contacts, lines, [*members, *blobs], feet, bridge)
     eps = config.cluster.eps
-    groups = split_groups(parts, mended, contacts, found, near, roles.names, eps)
+    reached = set(_mounted(found))
+    # Where labels are doubtful, what only its own label calls a device and no line leads to is none.
+    kept = [group for group in mended if not unsure.issuperset(group.parts) or reached.intersection(group.parts)]
+    groups = split_groups(parts, kept, contacts, found, near, roles.names, eps)
     units = tag_units(parts, groups)
     owner = {part: number for number, unit in enumerate(units) for part in unit.parts}
     flanged = flat_contacts(parts, contacts, _between(contacts, owner, set(blobs)), eps)

@@ -13,8 +13,8 @@ __all__ = ["Roles", "find_roles", "likely_lines", "neighbor_lists"]
 
 # A second opinion counts from this confidence on.
 _CONFIDENT = 0.55
-# A label whose group it gives at least this probability stands. By Bayes' rule: where a fifth of the labels are wrong at
-# random over nine groups, a label is right at even odds if the second opinion gives its group a 32nd of its own.
+# A label whose group it gives at least this probability stands. By Bayes' rule: where a fifth of the labels are wrong
+# at random over nine groups, a label is right at even odds if the second opinion gives its group a 32nd of its own.
 _POSSIBLE = 0.03
 # Labels that disagree with the second opinion each in their own way are strays; above this share of the parts, and from
 # this number on, labels are taken for doubtful. Ours: true labels give below 1 % (what the labeler always gets wrong

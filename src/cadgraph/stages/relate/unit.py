@@ -14,12 +14,12 @@ from cadgraph.scene import Ints
 from cadgraph.stages.relate.attach import Attachments, flat_contacts
 from cadgraph.stages.relate.role import Roles
 
-__all__ = ["Group", "connected_groups", "mend_groups", "split_groups"]
+__all__ = ["FASTENERS", "Group", "connected_groups", "mend_groups", "split_groups"]
 
 # A body stands out from the line's axis this many times farther on one side than on the other where it carries its own
 # operator: one mesh for a whole valve.
 _LOPSIDED = 1.5
-_FASTENERS = frozenset({"bolt", "nut", "washer", "stud", "screw", "gasket"})
+FASTENERS = frozenset({"bolt", "nut", "washer", "stud", "screw", "gasket"})
 _OPERATORS = frozenset(
     {"valve stem", "handwheel", "lever", "yoke", "gland", "gearbox", "actuator", "position indicator"}
 )
@@ -157,7 +157,7 @@ def _join_pieces(
         if piece in work.of_part or piece in apart:
             continue
         touched = sorted({work.of_part[other] for other in near[piece] if other in work.of_part})
-        own = names[piece] in _FASTENERS and all(other in work.of_part for other in near[piece])
+        own = names[piece] in FASTENERS and all(other in work.of_part for other in near[piece])
         for unit in sorted({work.types[k] for k in touched}):
             same = [k for k in touched if work.types[k] == unit]
             standing = [k for k in same if _stands(work.parts[k], mounted, piece)]
