@@ -115,7 +115,8 @@ class Asking:
     def __post_init__(self) -> None:
         self._lock = threading.Lock()
         self._drawing = threading.Semaphore(_DRAWING)
-        self._used_questions = 0
+        self._used_questions = self._on_the_way = 0
+        self._promised = 0.0
 
     def tokens(self, question: Question) -> int:
         """About how many tokens a question takes."""
@@ -220,6 +221,26 @@ class Asking:
             self.tally.failed += 1
         return Outcome(question, None, reason)
 
+    def _asked(self, question: Question) -> Reply:
+        """Asks unless the budget is used up: an estimate may have been too low, and second tries come on top."""
+        cost = self.cost(question)
+        with self._lock:
+            over = (
+                self.budget.questions is not None and self._used_questions + self._on_the_way >= self.budget.questions
+            )
+            if self.budget.cost is not None and self.tally.cost + self._promised + cost > self.budget.cost:
+                over = True
+            if over:
+                return Reply(None, error="not asked: the budget is used up")
+            self._on_the_way += 1
+            self._promised += cost
+        try:
+            return self.answerer.ask(question)
+        finally:
+            with self._lock:
+                self._on_the_way -= 1
+                self._promised -= cost
+
     def _cached(self, question: Question) -> Reply | None:
         return self.cache.get(key_of(question, self.answerer.name, self.detail))
 
@@ -232,16 +253,16 @@ class Asking:
             if self.answerer.looks or self.keep is not None:
                 with self._drawing:
                     drawn = _drawn(question)
-            reply = self.answerer.ask(drawn)
+            reply = self._asked(drawn)
             if self.answerer.keeps and reply.error is None and not reply.waiting:
                 self.cache.put(key_of(question, self.answerer.name, self.detail), self.answerer.name, reply)
             if self.keep is not None:
                 write_question(self.keep, drawn, reply=reply)
         cost = self.price.cost(reply.prompt_tokens, reply.answer_tokens, batch=reply.batch) if self.price else 0.0
         with self._lock:
-            self._used_questions += 1
+            self._used_questions += reply.error is None
             self.tally.known += known
-            self.tally.asked += not known and not reply.waiting
+            self.tally.asked += not known and not reply.waiting and reply.error is None
             self.tally.prompt_tokens += reply.prompt_tokens
             self.tally.answer_tokens += reply.answer_tokens
             self.tally.cost += cost

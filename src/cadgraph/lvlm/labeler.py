@@ -107,7 +107,7 @@ class LvlmLabeler:
         if self.embedded is not None:
             base = list(self.embedded.label(parts, contacts, vocabulary))
         round_ = _Round(self, parts, contacts, vocabulary, base)
-        kinds = self._chosen(find_kinds(parts, self.way.per), base)
+        kinds = self._chosen(find_kinds(parts, self.way.per), base, parts)
         planned = [round_.questions(kind) for kind in kinds]
         kept, left_out = self._paid(planned)
         self.estimate = self.asking.estimate([q for questions in kept for q in questions], left_out=left_out)
@@ -124,13 +124,15 @@ class LvlmLabeler:
         self._tell(round_, kinds, len(kept), first)
         return labels
 
-    def _chosen(self, kinds: Sequence[Kind], base: Sequence[Label | None]) -> list[Kind]:
+    def _chosen(self, kinds: Sequence[Kind], base: Sequence[Label | None], parts: Parts) -> list[Kind]:
         """The kinds to ask about, those first where an answer is worth most: many parts, little known."""
 
         def doubt(kind: Kind) -> float:
             if self.way.ask == "all":
                 return float(len(kind.parts))
-            known = [label.confidence if (label := base[part]) is not None else 0.0 for part in kind.parts]
+            # The ground is found by its place, not by labels.
+            own = [part for part in kind.parts if not parts.ground[part]]
+            known = [label.confidence if (label := base[part]) is not None else 0.0 for part in own]
             return sum(1 - c for c in known if c < self.way.below)
 
         worth = [(doubt(kind), kind) for kind in kinds]

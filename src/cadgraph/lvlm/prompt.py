@@ -49,7 +49,6 @@ def label_text(wording: Wording) -> str:
     """The question what a part is."""
     return _filled(
         "label",
-        marked="single" if wording.paper else "marked",
         paper=wording.paper,
         box=" x ".join(size_text(e) for e in wording.box),
         height=size_text(wording.height),
