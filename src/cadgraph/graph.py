@@ -327,7 +327,7 @@ class SceneGraph:
         except OSError as error:
             raise FormatError(f"{target}: can't be read ({error.strerror}); 'cadgraph build' makes it") from error
         except (ValueError, RecursionError) as error:
-            raise FormatError(f"{target}: not JSON ({error})") from error
+            raise FormatError(f"{target}: not JSON ({error}); give a folder that 'cadgraph build' wrote") from error
         return cls.from_json(data, str(target))
 
     # Look-ups, made when first needed
