@@ -79,7 +79,9 @@ def test_units_of_the_same_name_get_ids_of_their_own(tmp_path):
     assert [u.id for u in truth_from_usd(written(tmp_path, text)).units] == ["V", "V-2"]
 
 
-@pytest.mark.parametrize("style", [UsdStyle(), UsdStyle(meters_per_unit=0.01, up_axis="Y", instances="native", nested=1)])
+@pytest.mark.parametrize(
+    "style", [UsdStyle(), UsdStyle(meters_per_unit=0.01, up_axis="Y", instances="native", nested=1)]
+)
 def test_a_layer_of_ours_gives_back_labels_units_and_clusters(tmp_path, style):
     scene = tmp_path / "skid.usdc"
     truth = Truth.load(write_usd(make_skid(), scene, style))

@@ -16,6 +16,7 @@ from cadgraph.evaluate.clusters import (
     score_clusters,
     score_contacts,
 )
+from cadgraph.evaluate.grouping import JoinVerdict, compare_joins, score_joins
 from cadgraph.evaluate.labels import (
     Calibration,
     LabelScores,
@@ -34,8 +35,11 @@ from cadgraph.evaluate.relations import (
     compare_ends,
     score_relations,
 )
+from cadgraph.evaluate.scores import Score
+from cadgraph.evaluate.taps import TapScores, TapVerdict, compare_taps, score_taps
 from cadgraph.evaluate.units import UnitMatch, UnitScores, match_units, score_units
 from cadgraph.graph import SceneGraph
+from cadgraph.records import Connected, Related
 from cadgraph.truth import Truth
 
 __all__ = ["Evaluation", "StructureScores", "evaluate", "evaluate_files"]
@@ -53,6 +57,9 @@ class StructureScores:
         units: functional units.
         connected: what follows what along the runs, junctions contracted.
         related: Algorithm 1's relations, against the same truth.
+        connected_taps: order of neighbours that tap into one mesh, by ``connected``; None without true contacts.
+        related_taps: the same by ``related``.
+        joins: small meshes that join a larger one.
         clusters: connected structures.
         contacts: what touches what.
         group_calibration: of the confidence of parts' groups.
@@ -66,6 +73,9 @@ class StructureScores:
     units: UnitScores | None
     connected: RelationScores | None
     related: RelationScores | None
+    connected_taps: TapScores | None
+    related_taps: TapScores | None
+    joins: Score | None
     clusters: ClusterScores | None
     contacts: ContactScores | None
     group_calibration: Calibration
@@ -110,6 +120,9 @@ class _Facts:
     units: UnitMatch | None
     connected: tuple[EdgeVerdict, ...] | None
     related: tuple[EdgeVerdict, ...] | None
+    taps: dict[str, tuple[TapVerdict, ...]] | None
+    present: frozenset[str]
+    joins: tuple[JoinVerdict, ...] | None
     ends: tuple[EndVerdict, ...]
     clusters: tuple[tuple[str, str], ...] | None
     contacts: tuple[ContactVerdict, ...] | None
@@ -180,12 +193,26 @@ def _observe(pairing: Pairing) -> _Facts:
     truth = pairing.truth
     units = match_units(pairing) if truth.units is not None else None
     runs = units if truth.connections is not None else None
+    touched = runs if truth.contacts is not None else None
+    kinds = ("connected", "related")
+    graph = pairing.graph
     return _Facts(
         meshes=observe_meshes(pairing),
         parts=observe_parts(pairing),
         units=units,
         connected=compare_edges(pairing, runs, "connected") if runs is not None else None,
         related=compare_edges(pairing, runs, "related") if runs is not None else None,
+        taps={kind: compare_taps(pairing, touched, kind) for kind in kinds} if touched is not None else None,
+        present=frozenset(
+            kind
+            for kind, held in (
+                ("connected", graph.of_kind(Connected)),
+                ("related", graph.of_kind(Related)),
+                ("units", graph.units()),
+            )
+            if held
+        ),
+        joins=compare_joins(pairing) if truth.parts is not None else None,
         ends=compare_ends(pairing, runs) if runs is not None else (),
         clusters=compare_clusters(pairing) if truth.clusters is not None else None,
         contacts=compare_contacts(pairing) if truth.contacts is not None else None,
@@ -206,11 +233,17 @@ def _count(facts: _Facts, only: str | None, kind: str | None) -> StructureScores
         units=score_units(
             [unit for unit in facts.units.true if only in (None, unit.structure)],
             [unit for unit in facts.units.predicted if only in (None, unit.structure)],
+            present="units" in facts.present,
         )
         if facts.units is not None
         else None,
-        connected=_relations("connected", facts.connected, ends, only),
-        related=_relations("related", facts.related, ends, only),
+        connected=_relations("connected", facts, facts.connected, ends, only),
+        related=_relations("related", facts, facts.related, ends, only),
+        connected_taps=_taps("connected", facts, only),
+        related_taps=_taps("related", facts, only),
+        joins=score_joins([join for join in facts.joins if only in (None, join.structure)])
+        if facts.joins is not None
+        else None,
         clusters=score_clusters(facts.clusters, only) if facts.clusters is not None else None,
         contacts=score_contacts([c for c in contacts if only is None or only in c.structures])
         if contacts is not None
@@ -221,8 +254,15 @@ def _count(facts: _Facts, only: str | None, kind: str | None) -> StructureScores
 
 
 def _relations(
-    kind: str, edges: tuple[EdgeVerdict, ...] | None, ends: list[EndVerdict], only: str | None
+    kind: str, facts: _Facts, edges: tuple[EdgeVerdict, ...] | None, ends: list[EndVerdict], only: str | None
 ) -> RelationScores | None:
     if edges is None:
         return None
-    return score_relations(kind, [edge for edge in edges if only is None or only in edge.structures], ends)
+    here = [edge for edge in edges if only is None or only in edge.structures]
+    return score_relations(kind, here, ends, present=kind in facts.present)
+
+
+def _taps(kind: str, facts: _Facts, only: str | None) -> TapScores | None:
+    if facts.taps is None:
+        return None
+    return score_taps([tap for tap in facts.taps[kind] if only is None or only in tap.structures])

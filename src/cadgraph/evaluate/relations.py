@@ -16,12 +16,15 @@ __all__ = [
     "DirectionScores",
     "EdgeVerdict",
     "EndVerdict",
+    "ReasonScores",
     "RelationScores",
     "UnitGraph",
     "compare_edges",
     "compare_ends",
     "contract",
+    "predicted_graph",
     "score_relations",
+    "true_graph",
 ]
 
 Pair = tuple[str, str]
@@ -55,6 +58,7 @@ class EdgeVerdict:
         structures: the true clusters that its ends are in.
         true_direction: of the flow, forward from source to target.
         direction: predicted likewise.
+        reason: why the true direction is that, or None.
     """
 
     source: str | None
@@ -66,6 +70,7 @@ class EdgeVerdict:
     structures: tuple[str, ...]
     true_direction: str
     direction: str
+    reason: str | None = None
 
     @property
     def matched(self) -> bool:
@@ -125,6 +130,17 @@ class DirectionScores:
 
 
 @dataclass(frozen=True)
+class ReasonScores(DirectionScores):
+    """Flow directions that one reason fixes.
+
+    Args:
+        reason: as the truth says it.
+    """
+
+    reason: str = ""
+
+
+@dataclass(frozen=True)
 class RelationScores:
     """One kind of functional edges.
 
@@ -134,6 +150,8 @@ class RelationScores:
         between_matched: only pairs of units that are in both.
         terminals: open ends, counted by the unit they are next to; None for ``related``.
         direction: None for ``related``.
+        reasons: the same for each reason that fixes a direction in the truth.
+        present: whether the graph has any such edge at all; where it has none it was most likely not asked for them.
         missing: edges that only the truth has.
         extra: edges that only the graph has.
     """
@@ -145,6 +163,8 @@ class RelationScores:
     direction: DirectionScores | None
     missing: tuple[EdgeVerdict, ...]
     extra: tuple[EdgeVerdict, ...]
+    reasons: tuple[ReasonScores, ...] = ()
+    present: bool = True
 
 
 def contract(
@@ -186,10 +206,11 @@ def compare_edges(pairing: Pairing, match: UnitMatch, kind: str) -> tuple[EdgeVe
         match: which predicted unit stands for which true one.
         kind: ``"connected"`` or ``"related"``; the truth is the same for both.
     """
-    true = _true_graph(pairing).directions
+    true = true_graph(pairing).directions
+    reasons = _reasons(pairing)
     predicted: dict[Pair, str] = {}
     tag, structure = _names(pairing, match)
-    for (a, b), direction in _predicted_graph(pairing, kind).directions.items():
+    for (a, b), direction in predicted_graph(pairing, kind).directions.items():
         one, other = match.true_of.get(a, _stray(a)), match.true_of.get(b, _stray(b))
         predicted[min(one, other), max(one, other)] = direction if one < other else _REVERSE[direction]
     found = []
@@ -205,6 +226,7 @@ def compare_edges(pairing: Pairing, match: UnitMatch, kind: str) -> tuple[EdgeVe
             structures=tuple(sorted({here for end in pair if (here := structure[end]) is not None})),
             true_direction=true.get(pair, "unknown"),
             direction=predicted.get(pair, "unknown"),
+            reason=reasons.get(pair),
         )
         found.append(_upright(verdict))
     return tuple(sorted(found, key=_edge_key))
@@ -212,9 +234,9 @@ def compare_edges(pairing: Pairing, match: UnitMatch, kind: str) -> tuple[EdgeVe
 
 def compare_ends(pairing: Pairing, match: UnitMatch) -> tuple[EndVerdict, ...]:
     """Counts the open ends next to each unit on both sides."""
-    true = _true_graph(pairing).open_ends
+    true = true_graph(pairing).open_ends
     predicted: Counter[str] = Counter()
-    for unit, n in _predicted_graph(pairing, "connected").open_ends.items():
+    for unit, n in predicted_graph(pairing, "connected").open_ends.items():
         predicted[match.true_of.get(unit, _stray(unit))] += n
     tag, structure = _names(pairing, match)
     verdicts = [
@@ -230,12 +252,20 @@ def compare_ends(pairing: Pairing, match: UnitMatch) -> tuple[EndVerdict, ...]:
     return tuple(sorted(verdicts, key=lambda verdict: (natural_key(verdict.unit), verdict.n_true)))
 
 
-def score_relations(kind: str, edges: Sequence[EdgeVerdict], ends: Sequence[EndVerdict]) -> RelationScores:
-    """Counts edges and open ends; for ``related`` there are neither ends nor directions."""
+def score_relations(
+    kind: str, edges: Sequence[EdgeVerdict], ends: Sequence[EndVerdict], *, present: bool = True
+) -> RelationScores:
+    """Counts edges and open ends; for ``related`` there are neither ends nor directions.
+
+    Args:
+        kind: of edges.
+        edges: to count.
+        ends: to count.
+        present: whether the graph has any such edge, here or elsewhere.
+    """
     both = [edge for edge in edges if edge.in_truth and edge.in_graph]
-    known = [edge for edge in both if edge.true_direction != "unknown"]
-    decided = [edge for edge in known if edge.direction != "unknown"]
     run = kind == "connected"
+    reasons = sorted({edge.reason for edge in both if edge.reason})
     return RelationScores(
         kind=kind,
         edges=_score(edges),
@@ -245,17 +275,29 @@ def score_relations(kind: str, edges: Sequence[EdgeVerdict], ends: Sequence[EndV
         )
         if run
         else None,
-        direction=DirectionScores(
-            n_known=len(known),
-            n_decided=len(decided),
-            n_right=sum(edge.direction == edge.true_direction for edge in decided),
-            n_invented=sum(edge.true_direction == "unknown" != edge.direction for edge in both),
-        )
-        if run
-        else None,
+        direction=DirectionScores(**_directions(both)) if run else None,
         missing=tuple(edge for edge in edges if not edge.in_graph),
         extra=tuple(edge for edge in edges if not edge.in_truth),
+        reasons=tuple(
+            ReasonScores(**_directions([edge for edge in both if edge.reason == reason]), reason=reason)
+            for reason in reasons
+        )
+        if run
+        else (),
+        present=present,
     )
+
+
+def _directions(edges: Sequence[EdgeVerdict]) -> dict[str, int]:
+    """The counts of ``DirectionScores`` over edges that are in truth and graph."""
+    known = [edge for edge in edges if edge.true_direction != "unknown"]
+    decided = [edge for edge in known if edge.direction != "unknown"]
+    return {
+        "n_known": len(known),
+        "n_decided": len(decided),
+        "n_right": sum(edge.direction == edge.true_direction for edge in decided),
+        "n_invented": sum(edge.true_direction == "unknown" != edge.direction for edge in edges),
+    }
 
 
 _REVERSE = {"forward": "backward", "backward": "forward", "unknown": "unknown"}
@@ -273,7 +315,8 @@ def _reached(start: str, ways: Mapping[str, Sequence[str]], through: set[str]) -
     return seen - {start}
 
 
-def _true_graph(pairing: Pairing) -> UnitGraph:
+def true_graph(pairing: Pairing) -> UnitGraph:
+    """The truth's functional graph."""
     truth = pairing.truth
     return contract(
         [(c.source, c.target, c.direction) for c in truth.connections or ()],
@@ -283,7 +326,25 @@ def _true_graph(pairing: Pairing) -> UnitGraph:
     )
 
 
-def _predicted_graph(pairing: Pairing, kind: str) -> UnitGraph:
+def _reasons(pairing: Pairing) -> dict[Pair, str]:
+    """Why the direction of a true pair is what it is, where one reason holds along some whole way."""
+    truth = pairing.truth
+    found: dict[Pair, str] = {}
+    for reason in sorted({c.reason for c in truth.connections or () if c.reason}):
+        edges = [
+            (c.source, c.target, c.direction if c.reason == reason else "unknown") for c in truth.connections or ()
+        ]
+        graph = contract(
+            edges,
+            [unit.id for unit in truth.units or ()],
+            [point.id for point in truth.points if point.kind == "junction"],
+            (),
+        )
+        found |= {pair: reason for pair, way in graph.directions.items() if way != "unknown" and pair not in found}
+    return found
+
+
+def predicted_graph(pairing: Pairing, kind: str) -> UnitGraph:
     """The graph's own functional graph, of the units that hold a mesh of the truth."""
     graph = pairing.graph
     units = {unit.id for unit in graph.units() if any(part in pairing.head for part in unit.parts)}
@@ -326,6 +387,7 @@ def _upright(edge: EdgeVerdict) -> EdgeVerdict:
         edge.structures,
         _REVERSE[edge.true_direction],
         _REVERSE[edge.direction],
+        edge.reason,
     )
 
 

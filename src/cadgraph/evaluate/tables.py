@@ -8,13 +8,14 @@ from cadgraph.evaluate.evaluation import Evaluation, StructureScores
 from cadgraph.evaluate.labels import UNLABELLED, Confusion, LabelScores, TaskScores
 from cadgraph.evaluate.relations import EdgeVerdict, RelationScores
 from cadgraph.evaluate.scores import Score
-from cadgraph.evaluate.units import UnitTypeScores
+from cadgraph.evaluate.units import UnitScores, UnitTypeScores
 
 __all__ = ["to_markdown"]
 
 _MOST_ROWS = 40  # of a list of single cases; the JSON holds all
 
 _NO_VALUE = "–"
+_ABSENT = "not in this graph"
 
 
 def to_markdown(evaluation: Evaluation, pictures: Sequence[str] = ()) -> str:
@@ -84,12 +85,23 @@ def _summary(scores: StructureScores) -> tuple[str, ...]:
         _percent(scores.parts.name.accuracy),
         _percent(scores.parts.unlabelled),
         f"{units.fully} / {units.partially} / {units.missed}" if units else _NO_VALUE,
-        f"{units.exact} / {units.spurious}" if units else _NO_VALUE,
-        _number(scores.connected.edges.f1) if scores.connected else _NO_VALUE,
-        _number(scores.related.edges.f1) if scores.related else _NO_VALUE,
+        (f"{units.exact} / {units.spurious}" if _present(scores.units) else _ABSENT) if units else _NO_VALUE,
+        _f1(scores.connected),
+        _f1(scores.related),
         f"{clusters.n_split} / {clusters.n_merged}" if clusters else _NO_VALUE,
         _number(scores.contacts.pairs.f1) if scores.contacts else _NO_VALUE,
     )
+
+
+def _present(scores: UnitScores | RelationScores | None) -> bool:
+    """Whether the graph has anything of this kind; without it a score of 0 would say more than is known."""
+    return scores is not None and scores.present
+
+
+def _f1(scores: RelationScores | None) -> str:
+    if scores is None:
+        return _NO_VALUE
+    return _number(scores.edges.f1) if scores.present else _ABSENT
 
 
 def _labels(scores: StructureScores) -> list[str]:
@@ -205,22 +217,57 @@ def _relations(scores: StructureScores) -> list[str]:
         "",
         *_table(("edges", "true", "predicted", "correct", "precision", "recall", "F1"), rows),
     ]
-    direction = scores.connected.direction if scores.connected else None
-    if direction is not None:
+    direction = scores.connected.direction if scores.connected and scores.connected.present else None
+    if direction is not None and scores.connected is not None:
         lines += [
             "",
             f"Direction of flow: {direction.n_known} of the correct edges have a known one; "
             f"{_percent(direction.decided)} of them decided, {_percent(direction.wrong)} wrong; "
             f"{direction.n_invented} more decided where the truth knows none.",
         ]
+        known = [
+            (_escaped(r.reason), str(r.n_known), str(r.n_decided), str(r.n_right), _percent(r.accuracy))
+            for r in scores.connected.reasons
+        ]
+        if known:
+            lines += ["", *_table(("what fixes the direction", "known", "decided", "right", "right of these"), known)]
+    lines += _taps(scores)
     for relations in found:
+        if not relations.present:
+            continue
         for title, edges in (("Missing", relations.missing), ("Extra", relations.extra)):
             lines += ["", f"### {title} in {relations.kind}", ""]
             lines += _cases(("from", "to", "structure"), [_edge_row(edge) for edge in edges], "None.")
     return lines
 
 
+def _taps(scores: StructureScores) -> list[str]:
+    """The order of two taps on one mesh, where the truth has any."""
+    pairs = ((scores.connected, scores.connected_taps), (scores.related, scores.related_taps))
+    rows = [
+        (relations.kind, str(taps.n_pairs), str(taps.n_right), str(taps.n_wrong), _percent(taps.accuracy))
+        if relations.present
+        else (relations.kind, str(taps.n_pairs), _ABSENT, _NO_VALUE, _NO_VALUE)
+        for relations, taps in pairs
+        if relations is not None and taps is not None and taps.n_pairs
+    ]
+    if not rows:
+        return []
+    return [
+        "",
+        "### Order of two taps on one mesh",
+        "",
+        "Of each two neighbours that tap into the same mesh (two gauges on one pipe): right where what lies beyond "
+        "each of them in the truth is next to it in the graph, wrong where it is next to the other.",
+        "",
+        *_table(("by", "pairs", "right", "the wrong way round", "right share"), rows),
+    ]
+
+
 def _relation_rows(relations: RelationScores) -> Iterable[tuple[str, ...]]:
+    if not relations.present:
+        yield relations.kind, str(relations.edges.n_true), _ABSENT, *(4 * (_NO_VALUE,))
+        return
     named: list[tuple[str, Score | None]] = [
         (relations.kind, relations.edges),
         (f"{relations.kind}, of units found", relations.between_matched),
@@ -247,6 +294,16 @@ def _end(true: str | None, found: str | None) -> str:
 
 def _structures(scores: StructureScores) -> list[str]:
     lines = []
+    if scores.joins is not None and scores.joins.n_true + scores.joins.n_predicted:
+        joins = scores.joins
+        precision, recall, f1 = _score(joins)
+        lines += [
+            "## Grouping",
+            "",
+            f"{joins.n_true} small meshes join a larger one in the truth, {joins.n_predicted} in the graph, "
+            f"{joins.n_correct} the same one: precision {precision}, recall {recall}, F1 {f1}.",
+            "",
+        ]
     clusters, contacts = scores.clusters, scores.contacts
     if clusters is not None:
         lines += [
@@ -275,7 +332,7 @@ def _structures(scores: StructureScores) -> list[str]:
         pairs = contacts.pairs
         precision, recall, f1 = _score(pairs)
         lines += [
-            *([""] if lines else []),
+            *([""] if clusters is not None else []),
             "## Contacts",
             "",
             f"{pairs.n_true} pairs of parts touch, {pairs.n_predicted} are adjacent in the graph, {pairs.n_correct} "

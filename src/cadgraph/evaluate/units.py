@@ -160,12 +160,14 @@ class UnitScores:
         total: their sum.
         units: each true unit.
         predicted: each predicted unit.
+        present: whether the graph has any unit at all.
     """
 
     types: tuple[UnitTypeScores, ...]
     total: UnitTypeScores
     units: tuple[TrueUnit, ...]
     predicted: tuple[PredictedUnit, ...]
+    present: bool = True
 
 
 def match_units(pairing: Pairing) -> UnitMatch:
@@ -194,7 +196,7 @@ def match_units(pairing: Pairing) -> UnitMatch:
     )
 
 
-def score_units(true: Sequence[TrueUnit], predicted: Sequence[PredictedUnit]) -> UnitScores:
+def score_units(true: Sequence[TrueUnit], predicted: Sequence[PredictedUnit], *, present: bool = True) -> UnitScores:
     """Counts units by type."""
     types = sorted({unit.type for unit in true} | {unit.type for unit in predicted})
     return UnitScores(
@@ -205,6 +207,7 @@ def score_units(true: Sequence[TrueUnit], predicted: Sequence[PredictedUnit]) ->
         _score_type("all", true, predicted),
         tuple(true),
         tuple(predicted),
+        present,
     )
 
 
