@@ -36,8 +36,8 @@ _Made = TypeVar("_Made", Assembly, Device)
 
 _LANE = 1.8  # m between two lines
 _LOWEST, _HIGHEST = 0.45, 3.2  # m, of a line's axis
-_ROOM = 4.5  # m between things on the floor
-_LINES, _FLOOR = (3, 6), (5, 10)  # how many lines and things on the floor
+_ROOM = 8.0  # m between things on the floor: their lines stay clear of each other
+_MESHES, _MOST = (120, 420), 24  # a plant is full at a number drawn from the first, or has so many things
 _DN_WEIGHTS = np.array([2, 2, 3, 2, 3, 4, 2, 3, 3, 1, 2, 2, 1, 1], float)  # of DN15..DN300
 
 
@@ -59,13 +59,22 @@ def make_assortment(seed: int = 0, hand: Hand | None = None, without: frozenset[
     rng = np.random.default_rng([seed, 20])
     work = _Draw(rng, hand, draw_hand(rng) if hand is None else hand, without)
     parts: list[Assembly] = []
-    for k in range(int(rng.integers(*_LINES))):
+    budget = int(rng.integers(*_MESHES))
+    lines = 0
+    for k in range(_MOST):
         style = work.style()
-        parts.append(_finished(_line(work, style, f"L{k + 1}", _LANE * k), style, seed + 1000 * k))
-    for k in range(int(rng.integers(*_FLOOR))):
-        style = work.style()
-        place = at(_ROOM * (k % 4), -4.0 - _ROOM * (k // 4)) @ spun("z", float(rng.choice([0, 0.5, 1, 1.5])) * np.pi)
-        parts.append(_finished(_stand(work, style, f"S{k + 1}").placed(place), style, seed + 1000 * (k + 50)))
+        if k % 3 == 0:
+            one = _line(work, style, f"L{lines + 1}", _LANE * lines)
+            lines += 1
+        else:
+            j = k - lines
+            place = at(_ROOM * (j % 4), -4.0 - _ROOM * (j // 4)) @ spun(
+                "z", float(rng.choice([0, 0.5, 1, 1.5])) * np.pi
+            )
+            one = _stand(work, style, f"S{j + 1}").placed(place)
+        parts.append(_finished(one, style, seed + 1000 * k))
+        if sum(len(part.components) for part in parts) > budget and k > 1:
+            break
     whole = gather(parts)
     given: dict[str, Any] = {one.name: getattr(whole, one.name) for one in fields(whole)}
     looseness = max(style.looseness for style in work.used)
@@ -128,7 +137,7 @@ def _finished(assembly: Assembly, hand: Hand, seed: int) -> Assembly:
     whole = retold(loosen(assembly, hand, seed), hand, seed)
     styles = {"flange": f"flange/{hand.flange}", "blind flange": "flange/blind", "elbow": "elbow/long radius"}
     components = tuple(
-        c if c.family else replace(c, family=styles.get(c.name, f"{c.name}/plain"), granularity="pieces")
+        replace(c, family=c.family or styles.get(c.name, f"{c.name}/plain"), granularity=c.granularity or "pieces")
         for c in whole.components
     )
     return replace(whole, components=components)
@@ -316,7 +325,7 @@ _SPOOL = ("pipe", "elbow", "flange")
 
 def _spooled(whole: Assembly) -> Assembly:
     """Pipes, elbows and flanges that are welded to each other as one mesh called pipe; flanges stay apart."""
-    names = [c.name if c.group == "Pipe assembly" and "/" not in c.family else "" for c in whole.components]
+    names = [c.name if c.group == "Pipe assembly" and c.family not in FAMILIES else "" for c in whole.components]
     root = list(range(len(names)))
 
     def find(i: int) -> int:

@@ -30,7 +30,7 @@ def course(run: Run, one_way: Mapping[str, bool]) -> Assembly:
         one_way: ids of the devices that let flow pass one way only: whether that is along the run.
     """
     nodes = [(item.s, item.unit or item.junction) for item in run.inline if item.unit or item.junction]
-    nodes += [(tap.s, tap.unit) for tap in run.taps]
+    nodes += [(tap.s, tap.unit) for tap in run.taps if tap.unit]
     points = [_point(item.junction, "junction", run.route.point(item.s)) for item in run.inline if item.junction]
     for s, node, end, name in ((0.0, run.nodes[0], 0, "start"), (run.route.length, run.nodes[1], 1, "end")):
         if not node:

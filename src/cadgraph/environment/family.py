@@ -31,7 +31,8 @@ class Part:
         solid: in the device's coordinates [m].
         name: of the vocabulary.
         color: kind of material.
-        bundle: name under which a hand that models in a few meshes joins it with others; "" leaves it on its own.
+        bundle: name under which a hand that models in a few meshes joins it with others of its group; "" leaves it on
+            its own. One that models a device as one mesh takes in every part with a bundle.
         group: of the vocabulary; "" is the device's.
         fine: whether a hand without fasteners leaves it out.
     """
@@ -163,8 +164,8 @@ def _called(assembly: Assembly, unit: str) -> Assembly:
 
 
 def _in_one(family: Family, parts: list[Part]) -> list[Part]:
-    own = [p for p in parts if not p.group or p.group == family.group]
-    rest = [p for p in parts if p.group and p.group != family.group]
+    own = [p for p in parts if p.bundle or p.group in ("", family.group)]
+    rest = [p for p in parts if not p.bundle and p.group not in ("", family.group)]
     return [Part(merge([p.solid for p in own]), family.whole, own[0].color), *rest]
 
 
@@ -195,5 +196,5 @@ def as_device(family: Family, model: Model | Device | Assembly, hand: Hand, unit
 def _stamped(assembly: Assembly, family: str, grain: str) -> Assembly:
     return replace(
         assembly,
-        components=tuple(c if c.family else replace(c, family=family, granularity=grain) for c in assembly.components),
+        components=tuple(replace(c, family=family, granularity=c.granularity or grain) for c in assembly.components),
     )

@@ -8,13 +8,14 @@ import numpy as np
 
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.polygon import circle
-from cadgraph.environment.solid import Solid, extrude, loft, merge, moved, revolve, sweep, weld
+from cadgraph.environment.solid import Solid, extrude, loft, merge, moved, revolve, tube, weld
 from cadgraph.scene import Floats
 
 __all__ = [
     "along",
     "around",
     "ball",
+    "box",
     "cylinder",
     "dome",
     "hexagon",
@@ -35,6 +36,10 @@ _AXES: dict[str, Floats] = {
     "y": spun("x", -np.pi / 2),
     "-y": spun("x", np.pi / 2),
 }
+
+_CORNERS = np.array([[x, y, z] for z in (-0.5, 0.5) for x, y in ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5))])
+_QUADS = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
+_SIDES = np.array([t for a, b, c, d in _QUADS for t in ((a, b, c), (a, c, d))], np.int32)
 
 
 def along(axis: str, solid: Solid, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Solid:
@@ -57,6 +62,11 @@ def cylinder(radius: float, low: float, high: float, sides: int) -> Solid:
     return turned([(radius, low), (radius, high)], sides)
 
 
+def box(size: Sequence[float], center: Sequence[float] = (0.0, 0.0, 0.0)) -> Solid:
+    """A box with its edges along the axes [m]."""
+    return Solid(_CORNERS * np.asarray(size, float) + np.asarray(center, float), _SIDES)
+
+
 def ring(inner: float, outer: float, low: float, high: float, sides: int) -> Solid:
     """A ring or tube about z; a plain cylinder where ``inner`` is 0 [m]."""
     if inner <= 0:
@@ -66,8 +76,9 @@ def ring(inner: float, outer: float, low: float, high: float, sides: int) -> Sol
 
 def hexagon(flats: float, low: float, high: float, bore: float = 0.0, sides: int = 12) -> Solid:
     """A hexagonal prism about z, this wide across its flats [m], with a round hole where ``bore`` is a radius."""
-    holes = (circle(bore, sides),) if bore else ()
-    return extrude(circle(flats / np.sqrt(3), 6), low, high, holes)
+    if not bore:
+        return cylinder(flats / np.sqrt(3), low, high, 6)
+    return extrude(circle(flats / np.sqrt(3), 6), low, high, (circle(bore, sides),))
 
 
 def ball(radius: float, sides: int, stretch: float = 1.0) -> Solid:
@@ -95,12 +106,12 @@ def torus(radius: float, thick: float, sides: int, turns: int = 10) -> Solid:
 
 def rod(start: Sequence[float], end: Sequence[float], radius: float, sides: int) -> Solid:
     """A round bar between two points [m]."""
-    return sweep(np.array([start, end], float), circle(radius, sides))
+    return tube(np.array([start, end], float), radius, 0.0, sides)
 
 
 def rope(path: Floats | Sequence[Sequence[float]], radius: float, sides: int) -> Solid:
     """A bent round bar along ``(n, 3)`` points [m]."""
-    return sweep(np.asarray(path, float), circle(radius, sides))
+    return tube(np.asarray(path, float), radius, 0.0, sides)
 
 
 def around(solid: Solid, count: int, radius: float = 0.0, start: float = 0.0) -> Solid:

@@ -63,7 +63,7 @@ def _roundness(rng: np.random.Generator) -> tuple[float, tuple[int, int]]:
         count = int(rng.choice(_SIDES))
         return 0.001, (count, count)
     least = int(rng.choice([6, 8, 10, 12, 16, 20]))
-    return float(10 ** rng.uniform(-4.2, -2.5)), (least, least + 4 * int(rng.integers(1, 13)))
+    return float(10 ** rng.uniform(-4.2, -2.5)), (least, min(64, least + 4 * int(rng.integers(1, 13))))
 
 
 def _grain(rng: np.random.Generator) -> Grain:

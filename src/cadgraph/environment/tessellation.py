@@ -135,7 +135,8 @@ def in_rows(solid: Solid, step: float) -> Solid:
             break
         edges = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2)
         edges.sort(axis=2)
-        pairs, which = np.unique(edges.reshape(-1, 2), axis=0, return_inverse=True)
+        keys, which = np.unique(edges[..., 0].ravel() * len(vertices) + edges[..., 1].ravel(), return_inverse=True)
+        pairs = np.column_stack(np.divmod(keys, len(vertices)))
         long = np.linalg.norm(vertices[pairs[:, 0]] - vertices[pairs[:, 1]], axis=1) > 1.5 * step
         if not long.any():
             break

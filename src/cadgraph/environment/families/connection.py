@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.environment.family import Family, Model, Part
-from cadgraph.environment.form import along, cylinder, hexagon, ring, rod, turned
+from cadgraph.environment.form import along, box, cylinder, hexagon, ring, rod, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
-from cadgraph.environment.solid import Solid, box, extrude, merge, moved, sweep
+from cadgraph.environment.solid import Solid, extrude, merge, moved, sweep
 from cadgraph.environment.standard import PIPES, SIZES
 from cadgraph.scene import Floats
 

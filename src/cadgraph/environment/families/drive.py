@@ -7,12 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from cadgraph.environment.family import Part
-from cadgraph.environment.form import along, around, ball, cylinder, hexagon, rod, rope, torus, turned
+from cadgraph.environment.form import along, around, ball, box, cylinder, hexagon, rod, rope, torus, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.operator import actuator_solids, handwheel, lever_solid, plate_wheel, solid_wheel
 from cadgraph.environment.polygon import rounded_rectangle
-from cadgraph.environment.solid import Solid, box, extrude, merge, moved, sweep
+from cadgraph.environment.solid import Solid, extrude, merge, moved, sweep
 
 __all__ = ["QUARTER", "diaphragm_head", "drive", "quarter", "stem", "wheel"]
 

@@ -7,11 +7,11 @@ import numpy as np
 from cadgraph.environment.families.valve import bolt_circle
 from cadgraph.environment.families.vessels import head_profile, nozzle
 from cadgraph.environment.family import Family, Model, Part, Port
-from cadgraph.environment.form import along, around, cylinder, hexagon, ring, rod, rope, torus, turned
+from cadgraph.environment.form import along, around, box, cylinder, hexagon, ring, rod, rope, torus, turned
 from cadgraph.environment.frame import at, looking, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import rounded_rectangle
-from cadgraph.environment.solid import Solid, box, extrude, merge, moved
+from cadgraph.environment.solid import Solid, extrude, merge, moved
 from cadgraph.environment.standard import FLANGES, PIPES, SIZES
 
 __all__ = ["EQUIPMENT"]

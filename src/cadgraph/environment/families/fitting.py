@@ -8,7 +8,7 @@ from cadgraph.environment.families.small import hex_end
 from cadgraph.environment.families.valve import bolt_circle, disc_flange, flanged_body
 from cadgraph.environment.family import Family, Model, Part
 from cadgraph.environment.flange import nut_room, plate_thickness
-from cadgraph.environment.form import along, around, cylinder, hexagon, ring, torus, turned, waves
+from cadgraph.environment.form import along, around, box, cylinder, hexagon, ring, torus, turned, waves
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle
@@ -16,7 +16,6 @@ from cadgraph.environment.solid import (
     Branch,
     Solid,
     about_x,
-    box,
     branched,
     extrude,
     merge,

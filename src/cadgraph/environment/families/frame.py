@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.environment.family import Family, Model, Part
-from cadgraph.environment.form import along, ball, cylinder, hexagon, rod, turned
+from cadgraph.environment.form import along, ball, box, cylinder, hexagon, rod, turned
 from cadgraph.environment.frame import at, looking, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
-from cadgraph.environment.solid import Solid, box, extrude, lattice, merge, moved, sweep
+from cadgraph.environment.solid import Solid, extrude, lattice, merge, moved, sweep
 from cadgraph.scene import Floats
 
 __all__ = ["FRAMES", "profile"]

@@ -8,11 +8,11 @@ from cadgraph.environment.families.small import hex_end
 from cadgraph.environment.families.valve import bolt_circle, disc_flange, flanged_body
 from cadgraph.environment.family import Family, Model, Part
 from cadgraph.environment.flange import nut_room, plate_thickness
-from cadgraph.environment.form import along, around, cylinder, hexagon, ring, rod, rope, turned
+from cadgraph.environment.form import along, around, box, cylinder, hexagon, ring, rod, rope, turned
 from cadgraph.environment.frame import arc, at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle
-from cadgraph.environment.solid import Solid, about_x, box, extrude, merge, moved, tube
+from cadgraph.environment.solid import Solid, about_x, extrude, merge, moved, tube
 from cadgraph.environment.standard import FLANGES, PIPES, SIZES
 from cadgraph.scene import Floats
 

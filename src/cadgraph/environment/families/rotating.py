@@ -7,11 +7,11 @@ import numpy as np
 from cadgraph.environment.families.valve import disc_flange, flanged_body
 from cadgraph.environment.family import Family, Model, Part, Port
 from cadgraph.environment.flange import plate_thickness
-from cadgraph.environment.form import along, around, ball, cylinder, dome, hexagon, ring, rod, rope, torus, turned
+from cadgraph.environment.form import along, around, ball, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned
 from cadgraph.environment.frame import at, looking, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import rounded_rectangle, section_channel
-from cadgraph.environment.solid import Solid, box, extrude, merge, moved
+from cadgraph.environment.solid import Solid, extrude, merge, moved
 from cadgraph.environment.standard import FLANGES, PIPES, SIZES
 from cadgraph.scene import Floats
 

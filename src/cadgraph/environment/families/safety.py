@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.environment.family import Family, Model, Part
-from cadgraph.environment.form import along, around, cylinder, dome, hexagon, ring, rod, rope, torus, turned
+from cadgraph.environment.form import along, around, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle
-from cadgraph.environment.solid import Solid, box, extrude, lattice, merge, moved
+from cadgraph.environment.solid import Solid, extrude, lattice, merge, moved
 
 __all__ = ["SAFETY"]
 

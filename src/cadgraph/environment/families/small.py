@@ -6,11 +6,11 @@ import numpy as np
 
 from cadgraph.environment.families.drive import BODY, drive, stem, wheel
 from cadgraph.environment.family import Family, Model, Part
-from cadgraph.environment.form import along, ball, cylinder, hexagon, ring, rod, turned
+from cadgraph.environment.form import along, ball, box, cylinder, hexagon, ring, rod, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle
-from cadgraph.environment.solid import Solid, box, extrude, merge, moved
+from cadgraph.environment.solid import Solid, extrude, merge, moved
 from cadgraph.environment.standard import PIPES, SIZES
 
 __all__ = ["SMALL_VALVES", "hex_end"]

@@ -8,11 +8,11 @@ from cadgraph.environment.body import bore_of, flipped
 from cadgraph.environment.families.drive import BODY, diaphragm_head, drive, stem, wheel
 from cadgraph.environment.family import Family, Model, Part
 from cadgraph.environment.flange import face_shell, nut_room, plate_thickness
-from cadgraph.environment.form import along, around, ball, cylinder, dome, hexagon, ring, rod, turned
+from cadgraph.environment.form import along, around, ball, box, cylinder, dome, hexagon, ring, rod, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle
-from cadgraph.environment.solid import Solid, about_x, box, extrude, merge, moved, revolve, weld
+from cadgraph.environment.solid import Solid, about_x, extrude, merge, moved, revolve, weld
 from cadgraph.environment.standard import FACE_TO_FACE, FLANGES, PIPES, SIZES
 
 __all__ = ["VALVE_FAMILIES", "bolt_circle", "disc_flange", "flanged_body"]

@@ -7,11 +7,11 @@ import numpy as np
 from cadgraph.environment.families.valve import bolt_circle, disc_flange
 from cadgraph.environment.family import Family, Model, Part, Port
 from cadgraph.environment.flange import plate_thickness
-from cadgraph.environment.form import along, around, ball, cylinder, hexagon, ring, rod, turned
+from cadgraph.environment.form import along, around, ball, box, cylinder, hexagon, ring, rod, turned
 from cadgraph.environment.frame import at, looking, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle
-from cadgraph.environment.solid import Solid, box, extrude, merge, moved, revolve, weld
+from cadgraph.environment.solid import Solid, extrude, merge, moved, revolve, weld
 from cadgraph.environment.standard import FLANGES, PIPES
 from cadgraph.scene import Floats
 
