@@ -8,7 +8,7 @@ little is seen, what stands in the way is cut away.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -28,8 +28,10 @@ _N_DIRECTIONS, _N_POINTS = 64, 128  # design study: 0.987 correlation with the e
 _LEAST_SHARE = 0.1  # of the points that must be seen; below, half a flange's rim, nobody can say what it is
 _FILL = 0.5  # of the picture, that the mesh takes in a close view
 _WIDE = (8.0, 0.8)  # a wide view frames 8 extents, for small parts, or 0.8 m more than the extent, for larger ones [m]
+_DENSER = 8  # times as many points on slender meshes, so that a section still has some
 _SLENDER, _SECTION = 14.0, 9.0  # longer than this many widths, close views show a section of so many widths
 _EDGE_ON = 0.5  # of the greatest area that it could show: if no view shows more, one is a cutaway that does
+_NEARER = 0.75  # of the supposed distance: nearer than that, a camera may see what the rays did not
 _FRAME_POINTS = 3000
 _MOST_LAYERS = 10  # of meshes one behind the other that a cutaway may take away
 _BLOCKING = 0.03  # share of the rays; what hides less stays in a cutaway
@@ -109,7 +111,13 @@ class Target:
         points = t[:, 0] + u * (t[:, 1] - t[:, 0]) + v * (t[:, 2] - t[:, 0])
         used = vertices[np.unique(faces[area > 0])]
         axes, extents = _principal(points, used)
+        if n_points < _DENSER * _N_POINTS and _is_slender(extents):
+            return cls.of(scene, mesh, _DENSER * n_points)
         return cls(mesh, points, double[face] / area[face, None], _outer(used), axes, extents)
+
+    def only(self, kept: Bools | slice) -> Target:
+        """The same mesh with some of the points."""
+        return replace(self, points=self.points[kept], normals=self.normals[kept])
 
 
 def choose_views(
@@ -126,14 +134,15 @@ def choose_views(
     Returns:
         The views, the wide one last.
     """
-    sight = _Sight(caster, mesh_of_face, target)
     directions = _DIRECTIONS
     whole = target.vertices
-    focus, section = _focus(sight, directions)
-    near = focus if section else whole
-    seen = sight.seen(near, directions, _FILL)
-    share = seen.mean(axis=1)
-    ahead = np.abs(directions @ target.normals.T).sum(axis=1)
+    sight = far = _Sight(caster, mesh_of_face, target)
+    near, section = whole, _is_slender(target.extents)
+    if section:
+        far = _Sight(caster, mesh_of_face, target.only(slice(None, None, _DENSER)))
+        sight, near = _focus(sight, directions)
+    share = sight.seen(near, directions, _FILL).mean(axis=1)
+    ahead = np.abs(directions @ sight.target.normals.T).sum(axis=1)
     worth = (0.35 + 0.65 * ahead / ahead.max()) * _NATURAL
     open_air = ~sight.covered(near, directions, _FILL)
     score = np.where(share >= _LEAST_SHARE, share * worth * np.where(open_air, 1.0, 0.8), 0.0)
@@ -143,25 +152,26 @@ def choose_views(
         # A gasket between its flanges shows its rim from everywhere; one look at its face is worth a cutaway.
         chosen = chosen[:2]
     if len(chosen) < 3:
-        blockers = sight.blockers(near, directions, _FILL)
+        blockers = sight.blockers(sight.eyes(near, directions, _FILL))
         fewer = worth**2 / (1 + 0.2 * np.array([len(b) for b in blockers]))
         for direction in _spread(fewer, chosen)[len(chosen) :]:
             chosen.append(direction)
             hidden[direction] = blockers[direction]
-    order = _wide_last(sight, chosen, directions, share, hidden)
+    order = _wide_last(far, chosen, directions, share, hidden)
     views = []
     for place, direction in enumerate(order):
         wide = place == 2
         shown = whole if wide or not section else near
         fill = _wide_fill(target) if wide else _FILL
-        if wide and hidden.get(direction):
-            # From further away more stands in the way.
-            hidden[direction] = sight.blockers(shown, directions[[direction]], fill)[0]
-        camera = frame(shown, directions[direction], size, margin=(1 - fill) / 2)
-        out = hidden.get(direction, ())
+        rays = far if wide else sight
+        camera = _framed(rays, shown, directions[direction], size, fill)
+        out: tuple[int, ...] = ()
+        visible = float(rays.seen_from(camera.eye[None]).mean())
+        if direction in hidden or visible < _LEAST_SHARE:
+            # Anew from where the camera really is: from further away more stands in the way.
+            out = rays.blockers(camera.eye[None])[0]
+            visible = float(rays.seen_from(camera.eye[None], out).mean())
         depth = float(((shown.min(axis=0) + shown.max(axis=0)) / 2 - camera.eye) @ camera.forward)
-        # For what is cut away the share was taken with it in the way.
-        visible = float(sight.seen_from(camera.eye[None], out).mean())
         views.append(View(camera, visible, out, wide, section and not wide, camera.pixel_size * depth * size[0]))
     return views[0], views[1], views[2]
 
@@ -199,11 +209,11 @@ class _Sight:
             eyes, directions.astype(np.float32), np.full(len(eyes), 2 * self.caster.diagonal, np.float32)
         )
 
-    def blockers(self, shown: Floats, directions: Floats, fill: float) -> list[tuple[int, ...]]:
-        """For each direction the meshes that stand before the target for more than a few rays, ascending."""
-        start, towards, length = self._rays(self.eyes(shown, directions, fill))
+    def blockers(self, eyes: Floats) -> list[tuple[int, ...]]:
+        """For each eye the meshes that stand before the target for more than a few rays, ascending."""
+        start, towards, length = self._rays(eyes)
         n = len(self.target.points)
-        counts: list[dict[int, int]] = [{} for _ in directions]
+        counts: list[dict[int, int]] = [{} for _ in eyes]
         active = np.arange(len(towards))
         reached = np.zeros(len(towards), np.float32)
         step = np.float32(max(2e-6 * self.caster.diagonal, 1e-5))
@@ -253,28 +263,45 @@ class _Sight:
         return met
 
 
-def _focus(sight: _Sight, directions: Floats) -> tuple[Floats, bool]:
-    """The vertices of a section of a slender mesh that can be seen well, and whether it is slender at all."""
+def _framed(sight: _Sight, shown: Floats, direction: Floats, size: tuple[int, int], fill: float) -> Camera:
+    """A camera as far away as the rays supposed, whatever side of a long mesh it looks at: with a longer lens."""
+    margin = (1 - fill) / 2
+    camera = frame(shown, direction, size, margin=margin)
+    middle = (shown.min(axis=0) + shown.max(axis=0)) / 2
+    supposed = float(np.linalg.norm(sight.eyes(shown, direction[None], fill)[0] - middle))
+    found = float(np.linalg.norm(camera.eye - middle))
+    if found >= _NEARER * supposed:
+        return camera
+    view = 2 * math.atan(math.tan(FIELD_OF_VIEW / 2) * found / supposed)
+    return frame(shown, direction, size, margin=margin, field_of_view=view)
+
+
+def _is_slender(extents: Floats) -> bool:
+    return bool(extents[0] >= _SLENDER * max(float(extents[1]), 1e-6))
+
+
+def _focus(sight: _Sight, directions: Floats) -> tuple[_Sight, Floats]:
+    """A section of a slender mesh that can be seen well: rays to its points only, and the corners of its box."""
     target = sight.target
-    long, wide = float(target.extents[0]), max(float(target.extents[1]), 1e-6)
-    if long < _SLENDER * wide:
-        return target.vertices, False
+    wide = max(float(target.extents[1]), 1e-6)
     axis = target.axes[0]
     along = target.points @ axis
     low, high = float(along.min()), float(along.max())
     half = _SECTION * wide / 2
-    best, chosen = -1.0, target.vertices
+    best, chosen, shown = -1.0, sight, target.vertices
     for share in (0.5, 0.3, 0.7, 0.12, 0.88):
-        place = low + share * (high - low)
-        nearest = target.points[int(np.argmin(np.abs(along - place)))]
-        corners = nearest + half * np.array([[-1.0], [1.0]]) * axis
-        box = np.concatenate([corners + s * wide / 2 * a for a in target.axes[1:] for s in (-1, 1)])
-        near = np.abs(along - nearest @ axis) <= max(half, (high - low) / 16)
-        seen = sight.seen(box, directions[::4], _FILL)[:, near]
-        score = float(np.sort(seen.mean(axis=1))[-3:].sum()) if near.any() else 0.0
+        nearest = target.points[int(np.argmin(np.abs(along - (low + share * (high - low)))))]
+        near = np.abs(along - nearest @ axis) <= half
+        if not near.any():
+            continue
+        ends = nearest + half * np.array([[-1.0], [1.0]]) * axis
+        box = np.concatenate([ends + s * wide / 2 * a for a in target.axes[1:] for s in (-1, 1)])
+        local = _Sight(sight.caster, sight._mesh_of_face, target.only(near))
+        seen = local.seen(box, directions[::4], _FILL).mean(axis=1)
+        score = float(np.sort(seen)[-3:].sum())
         if score > best + 0.05:
-            best, chosen = score, box
-    return chosen, True
+            best, chosen, shown = score, local, box
+    return chosen, shown
 
 
 def _wide_fill(target: Target) -> float:
