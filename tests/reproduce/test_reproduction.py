@@ -57,7 +57,7 @@ def test_every_picture_is_there_and_every_file_is_shown(folder, page):
 
 def test_both_cases_of_the_functional_graph_are_drawn(page):
     assert "S2-paper-true.jpg" in page
-    assert "S2-paper-geometry.jpg" in page
+    assert "S2-paper-embedded.jpg" in page
 
 
 def test_tables_are_rectangular(page):

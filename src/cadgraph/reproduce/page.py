@@ -37,8 +37,8 @@ _HEAD = """# The paper's experiments, run again
   named in them. *True labels* are the plant's own: what remains wrong with them is the algorithm's fault.
 - **The truth is not theirs.** The paper's was annotated by hand, by its authors, with the vocabulary that gpt-4o had
   grown; ours follows from how the plant was generated, with the built-in vocabulary.
-- **The embedded labeler is on its home ground.** Its rules could be tried on these very plants while they were written;
-  its figures here say nothing yet about plants from elsewhere.
+- **The embedded labeler is on its home ground.** It learned from plants of the same generator, of other layouts but
+  partly with the same devices; its figures here say nothing yet about plants from elsewhere.
 - The paper prints no figures for relations, and its label pie gives shares of gpt-4o's labels without a truth.
 """
 
@@ -97,7 +97,8 @@ def _plant(findings: Findings, pictures: Pictures) -> list[str]:
         ("true clusters split", "1 seen", *(_clusters(t, lambda s: s.n_split) for t in by_method.values())),
         ("clusters that join true ones", "1 seen", *(_clusters(t, lambda s: s.n_merged) for t in by_method.values())),
     ]
-    fasteners = _of_group(one.graph, "Connection assembly")
+    bolts = _of_group(one.graph, "Connection assembly")
+    structural = _of_group(one.graph, "Structural element")
     n_parts = len(one.graph.parts())
     n_joined = sum(len(part.meshes) - 1 for part in one.graph.parts())
     hands = ", ".join(one.subject.plant.hands)
@@ -109,8 +110,9 @@ def _plant(findings: Findings, pictures: Pictures) -> list[str]:
         *_table(("", "paper", "ours, paper mode", "ours, exact mode"), rows),
         "",
         "Grouping follows the paper's rule: a mesh below 1 cm³ joins the closest larger one. Three quarters of the "
-        f"paper's meshes were that small; of ours {n_joined:,} joined another. {fasteners:,} of our {n_parts:,} parts "
-        "in exact mode are bolts, nuts, washers, brackets and other connections, which would have to be smaller to go.",
+        f"paper's meshes were that small; of ours {n_joined:,} joined another: marks and figures of dials, letters of "
+        f"plates, rivets, screws. Of our {n_parts:,} parts in exact mode {structural:,} are structural elements and "
+        f"{bolts:,} bolts, brackets and other connections.",
         "",
         *(line for trial in by_method.values() for line in _cluster_cases(trial)),
         f"![Every cluster of the plant in a colour of its own]({pictures['clusters']})",
@@ -305,9 +307,12 @@ def _relations(findings: Findings) -> list[str]:
     named = [*findings.structures.items(), ("whole plant", findings.whole)]
     for name, trials in named:
         for trial in trials:
-            for relations in (trial.evaluation.total.related, trial.evaluation.total.connected):
-                if relations is not None and (relations.kind == "related" or relations.edges.n_predicted):
-                    rows.append((name, trial.method, trial.labeling.title, relations.kind, *_score(relations.edges)))
+            total = trial.evaluation.total
+            for relations, taps in ((total.related, total.related_taps), (total.connected, total.connected_taps)):
+                if relations is not None and relations.present:
+                    order = f"{taps.n_right} of {taps.n_pairs}" if taps is not None and taps.n_pairs else _NO_VALUE
+                    row = (name, trial.method, trial.labeling.title, relations.kind, *_score(relations.edges), order)
+                    rows.append((*row, *_directions(relations)))
         if name != "whole plant":
             related = findings.trial(trials, "exact", true=True).evaluation.total.related
             missing += _wrong_edges(name, related) if related is not None else []
@@ -315,10 +320,16 @@ def _relations(findings: Findings) -> list[str]:
         "## Functional relations",
         "",
         "Pairs of units that follow each other along a run against the truth, junctions contracted. *related* is the "
-        "paper's Algorithm 1; *connected* is ours along centrelines, where the graph holds any.",
+        "paper's Algorithm 1; *connected* is ours along centrelines, where the graph holds any. *Taps in order*: of "
+        "each two neighbours on one common mesh, how many are in the right order. *Flow*: of the edges found whose "
+        "direction physics fixes, how many are decided, and how many of these rightly.",
         "",
         *_table(
-            ("", "method", "labels", "relation", "true", "found", "correct", "precision", "recall", "F1"), rows
+            (
+                "", "method", "labels", "relation", "true", "found", "correct", "precision", "recall", "F1",
+                "taps in order", "flow decided", "flow right",
+            ),
+            rows,
         ),
         "",
         "What Algorithm 1 gets wrong in exact mode although every label is true, by the truth's own tags (the paper, "
@@ -326,6 +337,13 @@ def _relations(findings: Findings) -> list[str]:
         "",
         *(missing or ["- nothing"]),
     ]  # fmt: skip
+
+
+def _directions(relations: RelationScores) -> tuple[str, str]:
+    flow = relations.direction
+    if flow is None or not flow.n_known:
+        return _NO_VALUE, _NO_VALUE
+    return f"{flow.n_decided} of {flow.n_known}", f"{flow.n_right} of {flow.n_decided}"
 
 
 def _wrong_edges(name: str, relations: RelationScores) -> list[str]:
