@@ -28,7 +28,7 @@ class Course:
 
     Args:
         plants: how many are learnt from.
-        strangers: scenes of shapes that belong to no plant.
+        strangers: scenes of shapes that belong to no plant, and as many of loose fasteners.
         members: networks whose answers are averaged.
         folds: parts that the families are dealt into; each is held out once.
         seeds: plants of each kind that the network is tried on.

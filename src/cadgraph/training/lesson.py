@@ -14,6 +14,7 @@ from cadgraph.environment.imperfection import Sins, spoil
 from cadgraph.environment.plant import Plant
 from cadgraph.environment.preset import PRESETS
 from cadgraph.training.example import Example, make_example, read_examples, write_examples
+from cadgraph.training.fastener import make_fasteners
 from cadgraph.training.stranger import make_strangers
 
 __all__ = ["SINS", "Lesson", "build_lessons", "held_out_lessons", "training_lessons"]
@@ -28,6 +29,7 @@ SINS: dict[str, Sins] = {
 _PLANTS = ("skid", "riser", "tank", "pumps", "rack")
 _SPOILT_EVERY = 3
 _SHARE = 0.15
+_LOOSE: dict[str, Callable[[int], Plant]] = {"strangers": make_strangers, "fasteners": make_fasteners}
 _BATCH = 12
 TRIED_FROM = 100_000
 """Seeds from here on are never learnt from."""
@@ -38,7 +40,7 @@ class Lesson:
     """One plant, by name.
 
     Args:
-        kind: ``assortment``, ``strangers`` or a preset.
+        kind: ``assortment``, ``strangers``, ``fasteners`` or a preset.
         seed: of the plant.
         hand: a published style by name; empty for drawn ones, or the preset's own.
         sin: a key of ``SINS``, ``some`` for a few of each, or empty.
@@ -53,8 +55,8 @@ class Lesson:
 
     def plant(self) -> Plant:
         """Builds the plant."""
-        if self.kind == "strangers":
-            return make_strangers(self.seed)
+        if self.kind in _LOOSE:
+            return _LOOSE[self.kind](self.seed)
         hand = _retold(HANDS[self.hand], self.sides) if self.hand else None
         plant = make_assortment(self.seed, hand) if self.kind == "assortment" else PRESETS[self.kind](self.seed, hand)
         if self.sin == "some":
@@ -73,9 +75,9 @@ def _retold(hand: Hand, factor: float) -> Hand:
 
 
 def training_lessons(count: int, strangers: int) -> list[Lesson]:
-    """Assortments in drawn styles, a third of them spoilt, and shapes that belong to no plant."""
+    """Assortments in drawn styles, a third of them spoilt, loose fasteners, and shapes that belong to no plant."""
     plants = [Lesson("assortment", seed, sin="some" if seed % _SPOILT_EVERY == 0 else "") for seed in range(count)]
-    return plants + [Lesson("strangers", seed) for seed in range(strangers)]
+    return plants + [Lesson(kind, seed) for kind in _LOOSE for seed in range(strangers)]
 
 
 def held_out_lessons(seeds: int = 2) -> dict[str, list[Lesson]]:

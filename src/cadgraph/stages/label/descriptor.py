@@ -69,11 +69,12 @@ def describe_shapes(scene: Scene, properties: Properties, facts: list[Facts]) ->
         facts: of these meshes.
     """
     n = scene.n_meshes
+    if not n:
+        return Descriptors(np.zeros((0, len(SIZES))), np.zeros((0, len(FORMS))), np.zeros(0), np.zeros(0))
     blocks = [
         _describe(scene, properties, facts, np.arange(start, min(start + _CHUNK, n))) for start in range(0, n, _CHUNK)
     ]
-    sizes = np.concatenate([b[0] for b in blocks]) if blocks else np.zeros((0, len(SIZES)))
-    forms = np.concatenate([b[1] for b in blocks]) if blocks else np.zeros((0, len(FORMS)))
+    sizes, forms = np.concatenate([b[0] for b in blocks]), np.concatenate([b[1] for b in blocks])
     forms = np.clip(np.nan_to_num(np.hstack([forms, edge_features(scene)]), posinf=10, neginf=-10), -10, 10)
     return Descriptors(
         sizes, forms, np.array([f.radius for f in facts], np.float64), np.array([f.length for f in facts], np.float64)

@@ -54,6 +54,12 @@ class EmbeddedLabeler:
         """Labels below this confidence are guesses: set on families of parts that were held out of training."""
         return self._model.threshold
 
+    @property
+    def known(self) -> frozenset[tuple[str, str]]:
+        """The names that it has learnt, as (group, name)."""
+        pairs = (label.partition("/") for label in self._model.classes if label != STRANGE)
+        return frozenset((group, name) for group, _, name in pairs)
+
     def label(self, parts: Parts, contacts: Contacts, vocabulary: Vocabulary) -> Sequence[Label | None]:
         """Labels parts; see ``Labeler``. Names that the vocabulary lacks are never given."""
         seen = observe(parts, contacts)
@@ -62,7 +68,7 @@ class EmbeddedLabeler:
         around = seen.surroundings
         starts = np.searchsorted(around.here, np.arange(parts.n_parts + 1))
         said = [
-            verdicts.classes[k][1] if p[k] >= self.least_confidence else None
+            verdicts.classes[k][1] if len(p) and p[k] >= self.least_confidence else None
             for k, p in zip(best.tolist(), verdicts.names, strict=True)
         ]
         alike = np.expm1(around.places[:, 1]).round().astype(np.int64)
