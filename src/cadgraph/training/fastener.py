@@ -70,12 +70,12 @@ def _hex_bolt(d: float, sides: int, rng: np.random.Generator) -> Solid:
     hexagon = (flat * d / 2 / np.cos(np.pi / 6)) * circle(1.0, 6)
     solids = [extrude(hexagon, 0, head * d), _shank(d, -length, 0.02 * d, sides, rng)]
     if rng.random() < 0.3:
-        solids[0] = weld([revolve([(0.0, 0.0), (flat * d / 2, 0.0), (0.57 * flat * d, 0.1 * d),
-                                   (0.57 * flat * d, 0.9 * head * d), (flat * d / 2, head * d), (0.0, head * d)], 6)])  # fmt: skip
+        wide, cut = 0.57 * flat * d, flat * d / 2
+        rounded: Profile = [(0.0, 0.0), (cut, 0.0), (wide, 0.1 * d), (wide, 0.9 * head * d), (cut, head * d)]
+        solids[0] = weld([revolve([*rounded, (0.0, head * d)], 6)])
     if rng.random() < 0.2:
-        solids.append(
-            weld([revolve([(0.0, -0.05 * d), (1.05 * d, -0.05 * d), (1.05 * d, 0.08 * d), (0.0, 0.08 * d)], sides)])
-        )
+        collar: Profile = [(0.0, -0.05 * d), (1.05 * d, -0.05 * d), (1.05 * d, 0.08 * d), (0.0, 0.08 * d)]
+        solids.append(weld([revolve(collar, sides)]))
     if rng.random() < 0.25 and length > 2 * d:
         solids.append(extrude(hexagon, -length + 0.3 * d, -length + 1.1 * d, (circle(0.5 * d, sides),)))
     return merge(solids)
@@ -141,16 +141,9 @@ def _nut(d: float, sides: int, rng: np.random.Generator) -> Solid:
     if rng.random() < 0.5:
         return extrude(corner * circle(1.0, 6), 0.0, tall, (circle(bore, sides),))
     cut = 0.93 * corner
-    outside: Profile = [
-        (bore, 0.0),
-        (cut, 0.0),
-        (corner, 0.12 * tall),
-        (corner, 0.88 * tall),
-        (cut, tall),
-        (bore, tall),
-    ]
-    hexagonal = weld([revolve(outside, 6, closed=True)])
-    return hexagonal if sides < 16 else extrude(corner * circle(1.0, 6), 0.0, tall, (circle(bore, sides),))
+    low: Profile = [(bore, 0.0), (cut, 0.0), (corner, 0.12 * tall)]
+    high: Profile = [(corner, 0.88 * tall), (cut, tall), (bore, tall)]
+    return weld([revolve([*low, *high], 6, closed=True)])
 
 
 def _round_nut(d: float, sides: int, rng: np.random.Generator) -> Solid:
