@@ -145,6 +145,12 @@ class LabelConfig(Section):
         le=1,
     )
     overrule: bool = _setting(True, "labels from outside replace those of the labeler; off: they only fill gaps")
+    catalogs: tuple[str, ...] = _setting(
+        (), "catalogues of your own parts, made by 'cadgraph catalog add'; the first that knows a shape counts"
+    )
+    use_names: bool = _setting(
+        False, "words in the source's names of meshes speak for a label that the labeler thinks possible"
+    )
 
 
 class LvlmConfig(Section):

@@ -10,7 +10,7 @@ import typer
 from cadgraph.atomic import ensure_writable
 from cadgraph.cli.application import app
 from cadgraph.cli.asking import AskingOptions, asks
-from cadgraph.cli.options import ConfigOption, MethodOption, SetOption, settings_of
+from cadgraph.cli.options import ConfigOption, MethodOption, SetOption, read_flows, settings_of
 from cadgraph.cli.screen import bars, tell
 from cadgraph.errors import OutputError
 
@@ -31,6 +31,14 @@ def build(
         list[str] | None,
         typer.Option("--ground", metavar="PATH", help="A mesh that is the ground, or 'none'. May be repeated."),
     ] = None,
+    flow: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--flow",
+            metavar="FLOW",
+            help="What flows where, as 'P-001 -> T-001', or a file of such lines. May be repeated.",
+        ),
+    ] = None,
     method: MethodOption = None,
     config: ConfigOption = None,
     settings: SetOption = None,
@@ -44,6 +52,8 @@ def build(
     if ground:
         find = "none" if ground == ["none"] else "named"
         chosen = chosen.replace({"ground.find": find, "ground.meshes": [] if find == "none" else ground})
+    if flow:
+        chosen = chosen.replace({"relate.flow": (*chosen.relate.flow, *read_flows(flow))})
     chosen = asking.settings(chosen)
     with bars() as progress:
         labeler = asking.labeler(chosen, output, progress)

@@ -11,7 +11,7 @@ import typer
 
 from cadgraph.config import Config, read_config
 
-__all__ = ["ConfigOption", "GraphArgument", "MethodOption", "SetOption", "settings_of", "values_of"]
+__all__ = ["ConfigOption", "GraphArgument", "MethodOption", "SetOption", "read_flows", "settings_of", "values_of"]
 
 ConfigOption = Annotated[
     Path | None, typer.Option("--config", metavar="FILE", help="Settings as TOML; 'cadgraph config' prints them all.")
@@ -42,6 +42,26 @@ def values_of(changes: Sequence[str]) -> dict[str, Any]:
             raise ValueError(f"--set {change}: expected NAME=VALUE, e.g. cluster.eps=0.02")
         values[name.strip()] = _value(text.strip())
     return values
+
+
+def read_flows(given: Sequence[str]) -> tuple[str, ...]:
+    """Statements of flow: those given, and the lines of files that are named in their place.
+
+    Raises:
+        ValueError: what has no arrow is no file that can be read.
+    """
+    flows: list[str] = []
+    for one in given:
+        if "->" in one:
+            flows.append(one)
+            continue
+        try:
+            text = Path(one).read_text(encoding="utf-8-sig")
+        except (OSError, UnicodeDecodeError, ValueError):
+            raise ValueError(f"--flow {one}: no flow as 'P-001 -> T-001', and no text file of such lines") from None
+        lines = (line.partition("#")[0].strip() for line in text.splitlines())
+        flows += [line for line in lines if line]
+    return tuple(flows)
 
 
 def _value(text: str) -> Any:

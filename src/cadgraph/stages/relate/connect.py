@@ -30,6 +30,7 @@ __all__ = ["connect_units"]
 # flange; one that its label calls a device must face one of its own size.
 _RATIO, _OWN_RATIO = 0.3, 0.9
 _BY_SHAPE = 0.8  # how sure it is that such a part is a connector
+_ON_LINES = frozenset({None, "pipe", "flange", "blind flange", "gasket", "coupling", "union", "nipple", "pipe cap"})
 _CLOSED = {"blind flange": "blind", "pipe cap": "blind"}
 
 
@@ -104,7 +105,8 @@ def connect_units(
     where = {pair: middle for pair, (middle, _) in flanged.items()}
     drawing = draw_network(lines, blobs, units, found, where, lambda part: 1.0 if part in sure else _BY_SHAPE)
     gauges = {number for number, unit in enumerate(units) if unit.unit_type == "gauge"}
-    net = simplify(drawing, gauges, len(units), config.relate.leg)
+    covers = frozenset(part for part, line in lines.items() if _is_cover(line, roles.names[part]))
+    net = simplify(drawing, gauges, covers, len(units), config.relate.leg)
     network = make_network(
         net, drawing, units, lines, found, lambda part: _CLOSED.get(roles.names[part] or ""), sure.__contains__
     )
@@ -179,6 +181,12 @@ def _unsupported(roles: Roles) -> set[int]:
     if not roles.doubtful:
         return set()
     return {part for part, group in enumerate(roles.groups) if group is not None and part not in roles.backed}
+
+
+def _is_cover(line: Centreline, name: str | None) -> bool:
+    """Whether a part is a lid without being called one of a line's: a disc without a hole."""
+    hollow = any(np.isfinite(end.bore) for end in line.ends)
+    return is_disc(line) and not hollow and name not in _ON_LINES
 
 
 def _mounted(found: Attachments) -> dict[int, set[int]]:

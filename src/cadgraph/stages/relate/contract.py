@@ -18,18 +18,21 @@ __all__ = ["simplify"]
 _TWICE, _LEAST_TWICE = 3.0, 0.05
 # A stub of a flange or gasket that hangs beside a joint of two others says nothing.
 _STUB = 0.15
+# A lid of a fitting is at most this many diameters from its axis.
+_POCKET = 3.0
 # Without a fitting of its own, a leg stands in the run where it is at most this wide against it.
 _NARROW = 0.7
 # Junctions nearer to each other than this share of the diameter are one.
 _WITHIN = 0.3
 
 
-def simplify(drawing: Drawing, gauges: Collection[int], n_units: int, leg: float) -> Net:
+def simplify(drawing: Drawing, gauges: Collection[int], covers: frozenset[int], n_units: int, leg: float) -> Net:
     """Joins spans to runs between units, junctions and terminals.
 
     Args:
         drawing: the network as drawn; its net is changed.
         gauges: numbers of the units that may stand in a run by their tap.
+        covers: parts that close a fitting of their own, as a strainer's lid does; no run ends there.
         n_units: the nodes below are units.
         leg: greatest length between a tap and its gauge [m].
 
@@ -40,9 +43,9 @@ def simplify(drawing: Drawing, gauges: Collection[int], n_units: int, leg: float
     units = range(n_units)
     changed = True
     while changed:
-        changed = _merge_parallel(net) | _drop_stubs(net, n_units, drawing)
+        changed = _merge_parallel(net) | _drop_stubs(net, n_units, drawing, covers)
         net.dissolve(units)
-        changed |= _merge_parallel(net) | _drop_stubs(net, n_units, drawing)
+        changed |= _merge_parallel(net) | _drop_stubs(net, n_units, drawing, covers)
     net.dissolve(units)
     for gauge in sorted(gauges):
         _fold(net, gauge, drawing.taps, gauges, n_units, leg)
@@ -110,20 +113,17 @@ def _middle(points: Floats) -> Floats:
     return np.array([np.interp(walked[-1] / 2, walked, points[:, c]) for c in range(3)])
 
 
-def _drop_stubs(net: Net, n_units: int, drawing: Drawing) -> bool:
+def _drop_stubs(net: Net, n_units: int, drawing: Drawing, covers: frozenset[int]) -> bool:
     """Drops what ends freely beside a joint of two others without being pipe."""
     dropped = False
     for number, span in sorted(net.spans.items()):
         for tip, foot in ((span.a, span.b), (span.b, span.a)):
-            if (
-                number in net.spans
-                and tip >= n_units
-                and net.degree(tip) == 1
-                and net.degree(foot) >= 3
-                and not span.pieces
-                and span.length <= _STUB
-                and tip not in drawing.solids
-            ):
+            free = number in net.spans and tip >= n_units and net.degree(tip) == 1 and tip not in drawing.solids
+            if not free or net.degree(foot) < 3:
+                continue
+            wide = max(_width(net.spans[other]) for other in net.at[foot])
+            pocket = not covers.isdisjoint(span.via) and span.length <= max(_STUB, _POCKET * wide)
+            if pocket or (not span.pieces and span.length <= _STUB):
                 net.remove(number)
                 dropped = True
     return dropped
