@@ -281,3 +281,19 @@ def test_input_is_not_changed():
     labeler, _ = labeler_of(plates.oracle(PARTS), Way(ask="unsure"), embedded=Known(before))
     label(labeler)
     assert before == kept
+
+
+def test_second_tries_stay_within_the_budget():
+    labeler, told = labeler_of(lambda text: "no JSON", budget=Budget(questions=6))
+    assert set(label(labeler)) == {None}
+    assert len(told.asked) == 6
+    assert any("budget" in finding.message for finding in labeler.diagnostics)
+
+
+def test_the_ground_is_not_asked_about_where_the_embedded_labeler_is_used():
+    parts = plates.parts_of(SCENE)
+    object.__setattr__(parts, "ground", np.arange(parts.n_parts) < 2)
+    labeler, told = labeler_of(plates.oracle(parts), Way(ask="unsure"), embedded=Known([None] * parts.n_parts))
+    label(labeler, parts)
+    assert 0 not in {question.part for question in told.asked}
+    assert len(told.asked) == 5

@@ -298,15 +298,15 @@ class _Round:
         settled: dict[int, _Settled] = {}
         for i, (kind, questions) in enumerate(zip(kinds, planned, strict=True)):
             verdicts: list[Verdict] = []
-            asked = questions[0]
+            asked, reason = questions[0], "it was not asked"
             for _ in questions:
                 outcome = next(outcomes)
                 self.note(outcome)
                 if outcome.answer is not None:
                     asked = outcome.question if not verdicts else asked
                     verdicts.append(settle(outcome.answer, self.vocabulary))
-                elif outcome.reason:
-                    reason = outcome.reason
+                else:
+                    reason = outcome.reason or reason
             if not verdicts:
                 self.unanswered.append((reason, kind))
             result = poll(verdicts, len(questions))
