@@ -39,7 +39,7 @@ def test_units_are_those_that_their_components_name(plants):
 
 def test_everything_stands_in_a_cluster_of_its_own(plants):
     for plant in plants:
-        assert all(c.cluster for c in plant.components)
+        assert all(c.cluster or c.name == "ground" for c in plant.components)
         assert len({c.cluster for c in plant.components}) > 3
 
 
@@ -69,7 +69,7 @@ def test_whole_kinds_and_single_builds_can_be_left_out():
 
 def test_a_plant_without_any_family_is_bare_pipe():
     plant = make_assortment(1, PLAIN, frozenset(FAMILIES))
-    assert {c.group for c in plant.components} == {"Pipe assembly"}
+    assert {c.group for c in plant.components if c.name != "ground"} == {"Pipe assembly"}
     assert not plant.units
 
 

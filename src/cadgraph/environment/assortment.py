@@ -17,12 +17,13 @@ import numpy as np
 from cadgraph.environment.families import FAMILIES
 from cadgraph.environment.family import Family, Model, as_assembly, as_device
 from cadgraph.environment.flange import GASKET, bolts, flange, flange_length, gasket, plate_thickness
+from cadgraph.environment.form import box
 from cadgraph.environment.frame import at, looking, spun
 from cadgraph.environment.hand import Grain, Hand
 from cadgraph.environment.imperfection import loosen
 from cadgraph.environment.layout import Inline, Laid, Run, Tap, lay
 from cadgraph.environment.piping import bend_tangent, cap, elbow
-from cadgraph.environment.plant import Assembly, Device, Plant, gather
+from cadgraph.environment.plant import Assembly, Component, Device, Plant, gather
 from cadgraph.environment.route import Route
 from cadgraph.environment.solid import merge, moved
 from cadgraph.environment.standard import ELBOW_LONG_RADIUS, PIPES, SIZES
@@ -37,12 +38,14 @@ _Made = TypeVar("_Made", Assembly, Device)
 _LANE = 1.8  # m between two lines
 _LOWEST, _HIGHEST = 0.45, 3.2  # m, of a line's axis
 _ROOM = 8.0  # m between things on the floor: their lines stay clear of each other
-_MESHES, _MOST = (120, 420), 24  # a plant is full at a number drawn from the first, or has so many things
+_MESHES, _MOST = (90, 280), 24  # a plant is full at a number of meshes without fasteners, or has so many things
+_FASTENERS = ("bolt", "nut", "washer", "stud", "screw")
+_GROUND = 0.3  # share of plants that stand on a slab
 _DN_WEIGHTS = np.array([2, 2, 3, 2, 3, 4, 2, 3, 3, 1, 2, 2, 1, 1], float)  # of DN15..DN300
 
 
 def make_assortment(seed: int = 0, hand: Hand | None = None, without: frozenset[str] = frozenset()) -> Plant:
-    """Builds a random assortment of lines, devices and structures, about 150 to 500 meshes.
+    """Builds a random assortment of lines, devices and structures, about 100 to 500 meshes and their fasteners.
 
     Args:
         seed: of everything.
@@ -57,13 +60,13 @@ def make_assortment(seed: int = 0, hand: Hand | None = None, without: frozenset[
     """
     _check_names(without)
     rng = np.random.default_rng([seed, 20])
-    work = _Draw(rng, hand, draw_hand(rng) if hand is None else hand, without)
+    work = _Draw(rng, hand, draw_hand(rng, "drawn-1") if hand is None else hand, without)
     parts: list[Assembly] = []
     budget = int(rng.integers(*_MESHES))
     lines = 0
     for k in range(_MOST):
         style = work.style()
-        if k % 3 == 0:
+        if k % 4 == 0:
             one = _line(work, style, f"L{lines + 1}", _LANE * lines)
             lines += 1
         else:
@@ -73,12 +76,17 @@ def make_assortment(seed: int = 0, hand: Hand | None = None, without: frozenset[
             )
             one = _stand(work, style, f"S{j + 1}").placed(place)
         parts.append(_finished(one, style, seed + 1000 * k))
-        if sum(len(part.components) for part in parts) > budget and k > 1:
+        budget -= sum(c.name not in _FASTENERS for c in one.components)
+        if budget < 0 and k > 1:
             break
+    if work.rng.random() < _GROUND:
+        parts.append(_ground(gather(parts), work.hand))
     whole = gather(parts)
     given: dict[str, Any] = {one.name: getattr(whole, one.name) for one in fields(whole)}
     looseness = max(style.looseness for style in work.used)
-    return Plant(**given, name="assortment", seed=seed, hands=(work.hand.name,), looseness=looseness)
+    return Plant(
+        **given, name="assortment", seed=seed, hands=tuple(style.name for style in work.used), looseness=looseness
+    )
 
 
 def _check_names(without: frozenset[str]) -> None:
@@ -103,7 +111,7 @@ class _Draw:
         """The plant's hand, or in a third of the cases another one."""
         if self.fixed is not None or self.rng.random() < 0.65:
             return self.hand
-        self.used.append(draw_hand(self.rng))
+        self.used.append(draw_hand(self.rng, f"drawn-{len(self.used) + 1}"))
         return self.used[-1]
 
     def grained(self, hand: Hand) -> Hand:
@@ -140,7 +148,17 @@ def _finished(assembly: Assembly, hand: Hand, seed: int) -> Assembly:
         replace(c, family=c.family or styles.get(c.name, f"{c.name}/plain"), granularity=c.granularity or "pieces")
         for c in whole.components
     )
-    return replace(whole, components=components)
+    return replace(whole, components=components).marked(hand=hand.name)
+
+
+def _ground(whole: Assembly, hand: Hand) -> Assembly:
+    """A slab under everything."""
+    points = np.concatenate([c.vertices for c in whole.components])[:, :2]
+    (low_x, low_y), (high_x, high_y) = points.min(axis=0) - 0.5, points.max(axis=0) + 0.5
+    slab = box((high_x - low_x, high_y - low_y, 0.1), ((low_x + high_x) / 2, (low_y + high_y) / 2, -0.05))
+    color = hand.color("ground")
+    ground = Component(slab, "Structural element", "ground", color, family="ground/slab", granularity="one")
+    return Assembly((replace(ground, hand=hand.name),))
 
 
 # --- lines ---

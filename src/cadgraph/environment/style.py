@@ -11,7 +11,7 @@ from cadgraph.environment.hand import HANDS, RGB, Grain, Hand
 __all__ = ["draw_hand"]
 
 _SIDES = (6, 8, 8, 10, 12, 14, 16, 16, 18, 20, 24, 24, 28, 30, 32, 36, 40, 48, 64)
-_LEAST_DRILLED = 10  # sides; a coarser flange's holes would cut its rim
+_LEAST_DRILLED = 12  # sides; the holes of a coarser flange (DN250 of B16.5) would cut its rim
 
 
 def draw_hand(rng: np.random.Generator, name: str = "drawn") -> Hand:

@@ -558,10 +558,10 @@ EQUIPMENT: tuple[Family, ...] = (
     _family("heat exchanger/air cooled", _air_cooled),
     _family("radiator/panel", _panel_radiator, weight=1.2),
     _family("radiator/column", _column_radiator, weight=1.2),
-    _family("boiler/packaged", _boiler, weight=1.2),
-    _family("burner/forced draught", _burner),
+    _family("boiler/packaged", _boiler, weight=1.8),
+    _family("burner/forced draught", _burner, weight=1.5),
     _family("filter/housing", _bag_filter, weight=1.5),
     _family("filter/bowl", _small_filter, "inline", (15, 20, 25, 32, 40), 1.2),
-    _family("separator/cyclone", _cyclone),
+    _family("separator/cyclone", _cyclone, weight=1.5),
     _family("separator/inline", _separator, "inline", tuple(dn for dn in SIZES if 25 <= dn <= 150)),
 )

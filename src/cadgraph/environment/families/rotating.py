@@ -668,7 +668,7 @@ ROTATING: tuple[Family, ...] = (
     _family("pump/diaphragm", _diaphragm, (15, 20, 25, 40, 50)),
     _family("pump/dosing", _dosing, (15,)),
     _family("pump/submersible", _submersible, _MID),
-    _family("pump/impeller", _impeller, (15,), weight=0.7),
-    _family("compressor/packaged", _compressor, (15,), group="Equipment", whole="compressor"),
-    _family("blower/radial", _blower, (15,), group="Equipment", whole="blower"),
+    _family("pump/impeller", _impeller, (15,), weight=1.2),
+    _family("compressor/packaged", _compressor, (15,), group="Equipment", whole="compressor", weight=1.6),
+    _family("blower/radial", _blower, (15,), group="Equipment", whole="blower", weight=1.6),
 )

@@ -482,9 +482,9 @@ SAFETY: tuple[Family, ...] = (
     _family("junction box/post", _junction),
     _family("control panel/station", _panel, 1.2),
     _family("lamp/head", _lamp),
-    _family("camera/post", _camera),
+    _family("camera/post", _camera, 1.5),
     _family("sign/shapes", _sign),
     _family("fire extinguisher/bottle", _extinguisher),
     _family("fire extinguisher/reel", _shower, 0.6),
-    _family("hydrant/pillar", _hydrant),
+    _family("hydrant/pillar", _hydrant, 1.5),
 )

@@ -142,9 +142,22 @@ def _ball_driven(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
             "x", cylinder(bulge * 1.12, 0.60 * length, 0.60 * length + 0.02 + 0.1 * radius, hand.round(bulge))
         )
         parts.append(Part(split, BODY, "valve", BODY))
+    if hand.hollow:
+        parts.append(_valve_ball(dn, x, hand))
     parts.append(stem(top, top + 0.012 + 0.2 * radius, 0.004 + 0.14 * radius, hand, x))
     parts += drive(x, top + 0.012 + 0.2 * radius, radius, hand, rng)
     return Model(parts, length, kind="ball valve")
+
+
+def _valve_ball(dn: int, x: float, hand: Hand) -> Part:
+    """The bored ball of a ball valve, open: a belt of a sphere along the run."""
+    bore = 0.85 * PIPES[dn].bore
+    angles = np.linspace(-0.9, 0.9, 9)
+    reach = bore / np.cos(0.9) * 0.97
+    belt = [(max(reach * float(np.cos(a)), bore * 1.01), reach * float(np.sin(a))) for a in angles]
+    low, high = belt[0][1], belt[-1][1]
+    solid = weld([revolve([*belt, (bore, high), (bore, low)], hand.round(reach), closed=True)])
+    return Part(moved(about_x(solid), at(x)), "valve ball", "trim", BODY)
 
 
 def _ball_compact(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
