@@ -11,7 +11,20 @@ import cadgraph
 
 PACKAGE = Path(cadgraph.__file__).parent
 
-VALUES = {"atomic", "config", "errors", "graph", "labels", "parts", "progress", "records", "scene", "vocabulary"}
+VALUES = {
+    "atomic",
+    "catalog",
+    "config",
+    "corrections",
+    "errors",
+    "graph",
+    "labels",
+    "parts",
+    "progress",
+    "records",
+    "scene",
+    "vocabulary",
+}
 
 # What each module or folder right under cadgraph may import from the others.
 MAY_IMPORT = {
@@ -24,6 +37,8 @@ MAY_IMPORT = {
     "parts": {"scene"},
     "vocabulary": {"errors"},
     "labels": {"errors", "vocabulary"},
+    "catalog": {"atomic", "errors", "scene", "vocabulary"},
+    "corrections": {"atomic", "errors", "vocabulary"},
     "consistency": {"errors", "records"},
     "expectation": set(),
     "folder": {"atomic", "errors"},

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from cadgraph.atomic import write_atomically
 from cadgraph.config import Config
+from cadgraph.corrections import Correction, read_corrections
 from cadgraph.errors import LabelError
 from cadgraph.folder import clear_results, refuse_to_overwrite, results_folder
 from cadgraph.graph import SceneGraph
@@ -56,7 +57,7 @@ def run(
     """Reads a scene, builds its graph, and writes ``graph.json``, ``semantics.usda``, ``report.html`` and pictures.
 
     Each file is written whole or not at all; the folder is tried before the work begins, and results of an earlier run
-    in it are removed before the first new one is written.
+    in it are removed before the first new one is written. Corrections that lie in the folder are applied again.
 
     Args:
         source: the scene's file.
@@ -82,12 +83,13 @@ def run(
         check_source(source, target / "semantics.usda")
         tree = vocabulary if isinstance(vocabulary, Vocabulary) else _tree(vocabulary)
         given = read_labels(labels, tree) if isinstance(labels, str | Path) else labels or ()
+        corrections = read_corrections(target, tree)
 
         clock("read", 0)
         scene = load(source, config.load)
         if is_usd(source):
             _refuse_to_overwrite_layers(source, target)
-        graph = _built(scene, config, labels, given, tree, labeler, clock)
+        graph = _built(scene, config, labels, given, tree, labeler, corrections, clock)
         clock("write graph", 0)
         clear_results(target)
         files = {"graph": graph.save(target / "graph.json")}
@@ -112,10 +114,19 @@ def _built(
     given: Sequence[GivenLabel],
     vocabulary: Vocabulary,
     labeler: Labeler | None,
+    corrections: Sequence[Correction],
     progress: Progress,
 ) -> SceneGraph:
     try:
-        return build(scene, config, labels=given, vocabulary=vocabulary, labeler=labeler, progress=progress)
+        return build(
+            scene,
+            config,
+            labels=given,
+            vocabulary=vocabulary,
+            labeler=labeler,
+            corrections=corrections,
+            progress=progress,
+        )
     except LabelError as error:
         # The stages know labels, but not the file that they came from.
         if isinstance(labels, str | Path) and str(error).startswith("labels: "):

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from cadgraph.catalog import read_catalog
 from cadgraph.config import Config
+from cadgraph.corrections import Correction
 from cadgraph.geometry.properties import measure
 from cadgraph.graph import SceneGraph
 from cadgraph.labels import GivenLabel
@@ -17,7 +19,8 @@ from cadgraph.stages.cluster import cluster_parts
 from cadgraph.stages.ground import find_ground
 from cadgraph.stages.group import group_meshes
 from cadgraph.stages.inspect import inspect_meshes
-from cadgraph.stages.label import Labeler, apply_given, label_parts, labeler_of
+from cadgraph.stages.label import Labeler, label_parts, labeler_of
+from cadgraph.stages.label.precedence import settle_labels
 from cadgraph.stages.parts import make_parts
 from cadgraph.stages.preprocess import prepare_scene
 from cadgraph.stages.relate import pipe_systems, relate_units
@@ -37,6 +40,7 @@ def build(
     labels: Sequence[GivenLabel] = (),
     vocabulary: Vocabulary | None = None,
     labeler: Labeler | None = None,
+    corrections: Sequence[Correction] = (),
     progress: Progress = quiet,
 ) -> SceneGraph:
     """Turns a scene into a scene graph (paper, section III).
@@ -47,13 +51,14 @@ def build(
         labels: labels of source meshes from outside.
         vocabulary: the built-in tree if None.
         labeler: another labeler than the one that is set.
+        corrections: a user's, of single parts; they spread to others like them.
         progress: told how far it is.
 
     Returns:
         The graph; the same scene and settings give the same graph to the byte.
 
     Raises:
-        LabelError: a label names a mesh that is not in the scene.
+        LabelError: a label names a mesh that is not in the scene, or a catalogue can't be read.
         ValueError: a setting names a mesh that is not in the scene, or the scene's arrays don't fit together.
         TypeError: ``scene`` is no scene, or ``config`` no configuration.
     """
@@ -63,6 +68,7 @@ def build(
         raise TypeError(f"build takes a Config, not {type(config).__name__}")
     config = config or Config()
     vocabulary = vocabulary or default_vocabulary()
+    catalogs = [read_catalog(file) for file in config.label.catalogs]
     scene, told_scene = prepare_scene(scene)
 
     progress("measure", 0)
@@ -86,14 +92,15 @@ def build(
     progress("label", 0)
     labeler = labeler or labeler_of(config.label)
     labeled = label_parts(labeler, parts, contacts, vocabulary, config.label)
-    named, told_labels = apply_given(labeled.labels, labels, scene, parts, config.label)
-    told_labels = (*getattr(labeler, "diagnostics", ()), *told_labels)
+    settled = settle_labels(
+        labeled.labels, labeler, catalogs, labels, corrections, scene, parts, contacts, vocabulary, config.label
+    )
 
     progress("relate", 0)
     network, told_lines = connect_units(
-        scene, properties, parts, named, labeled.labels, contacts, cluster, vocabulary, config
+        scene, properties, parts, settled.labels, settled.opinions, contacts, cluster, vocabulary, config
     )
-    related = relate_units(network.units, named, contacts, cluster, vocabulary)
+    related = relate_units(network.units, settled.labels, contacts, cluster, vocabulary)
 
     progress("assemble", 0)
     results = Results(
@@ -101,12 +108,19 @@ def build(
         parts=parts,
         contacts=contacts,
         cluster=cluster,
-        pipe_systems=pipe_systems(named, cluster, vocabulary),
-        labels=named,
+        pipe_systems=pipe_systems(settled.labels, cluster, vocabulary),
+        labels=settled.labels,
         guesses=labeled.guesses,
         network=network,
         related=related,
-        diagnostics=(*scene.diagnostics, *told, *told_ground, *told_bridges, *told_labels, *told_lines),
+        diagnostics=(
+            *scene.diagnostics,
+            *told,
+            *told_ground,
+            *told_bridges,
+            *settled.diagnostics,
+            *told_lines,
+        ),
     )
     graph = assemble_graph(results, vocabulary, config.model_dump(mode="json"))
     progress("assemble", 1)

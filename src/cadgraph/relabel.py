@@ -15,7 +15,7 @@ from cadgraph.progress import Progress, quiet
 from cadgraph.stages.label import Labeler
 from cadgraph.vocabulary import Vocabulary
 
-__all__ = ["config_of", "relabel"]
+__all__ = ["config_of", "find_source", "relabel"]
 
 
 def relabel(
@@ -42,7 +42,7 @@ def relabel(
         FormatError: the folder holds no graph.
     """
     graph = SceneGraph.load(folder)
-    source = _source(graph, Path(folder), scene)
+    source = find_source(graph, Path(folder), scene)
     tree = Vocabulary.from_json(graph.document.vocabulary, f"{folder}: vocabulary of the graph")
     given = [
         GivenLabel(str(part.label.evidence.get("mesh", part.meshes[0])), part.label.group, part.label.name)
@@ -70,7 +70,17 @@ def config_of(folder: str | Path) -> Config:
         raise FormatError(f"{folder}: its settings can't be used any more ({error}); build the graph anew") from error
 
 
-def _source(graph: SceneGraph, folder: Path, scene: str | Path | None) -> Path:
+def find_source(graph: SceneGraph, folder: Path, scene: str | Path | None) -> Path:
+    """The file that a graph was built from, unchanged since.
+
+    Args:
+        graph: says where it was and what was in it.
+        folder: that holds the graph; the file may lie there, too.
+        scene: where it is now, if somebody knows better.
+
+    Raises:
+        LabelError: it isn't there, or has changed.
+    """
     tried = [Path(scene)] if scene is not None else [Path(graph.source.path), folder / Path(graph.source.path).name]
     found = next((path for path in tried if path.is_file()), None)
     if found is None:

@@ -14,7 +14,7 @@ from cadgraph.geometry.shape import Shapes, find_shapes
 from cadgraph.parts import Bools, Properties
 from cadgraph.scene import Floats, Ints, Scene, mesh_of_vertex
 
-__all__ = ["NearShapes", "corners_of", "deviation", "find_near_shapes", "sample_surface"]
+__all__ = ["NearShapes", "corners_of", "deviation", "find_alike", "find_near_shapes", "sample_surface"]
 
 # Scale-free invariants of candidates may differ by this much (logarithms): 8 against 64 sides differ by 0.03.
 _LOOSE = 0.08
@@ -24,6 +24,10 @@ _UNLIKE = 0.05
 _N_COARSE, _N_FINE = 24, 192
 # Extents of boxes laid on each other may differ by this share of the longest.
 _BOX_SLACK = 0.08
+# Of references that might look like a mesh only so many are compared with it, those of nearest moments.
+_MOST_COMPARED = 12
+# Logarithm of the ratio of sizes up to which two meshes are of one size: another tessellation takes off up to 2 %.
+_SAME_SIZE = 0.03
 
 
 @dataclass(frozen=True)
@@ -97,6 +101,65 @@ def find_near_shapes(
     pairs, seconds = pairs[order], seconds[order]
     size = np.sqrt(properties.area[heads])
     return NearShapes(pairs, similarity[seconds], size[pairs[:, 1]] / size[pairs[:, 0]], mirrored[seconds])
+
+
+def find_alike(
+    scene: Scene,
+    properties: Properties,
+    references: Ints,
+    others: Ints,
+    rigid: Bools,
+    min_similarity: float = 0.75,
+    workers: int | None = None,
+) -> NearShapes:
+    """Finds what each of some meshes looks like among references, whatever its triangles, size or handedness.
+
+    Args:
+        scene: any.
+        properties: of its meshes.
+        references: ``(n,)`` distinct meshes.
+        others: ``(m,)`` meshes to be compared with them.
+        rigid: ``(n_meshes,)`` meshes that look like others of their own size only.
+        min_similarity: pairs below are left out.
+        workers: threads; all processors by default. The outcome does not depend on it.
+
+    Returns:
+        Pairs of a reference and another mesh, as mesh indices; other than in ``find_near_shapes`` a mesh may look
+        like several references. Ascending by the other mesh.
+    """
+    usable = (properties.area > 0) & np.isfinite(properties.centroid).all(axis=1)
+    first, second = references[usable[references]], others[usable[others]]
+    same = _candidates(properties, first, second, scaled=False)
+    free = _candidates(properties, first[~rigid[first]], second[~rigid[second]], scaled=True)
+    size = np.sqrt(properties.area)
+    same = same[np.abs(np.log(size[same[:, 1]] / size[same[:, 0]])) <= _SAME_SIZE]
+    pairs = np.unique(np.vstack([same, free])[:, ::-1], axis=0)[:, ::-1]
+    # Extents are descending: if they don't agree so, they don't in any turn.
+    extents = properties.obb_extents / np.where(size > 0, size, 1.0)[:, None]
+    one, other = extents[pairs[:, 0]], extents[pairs[:, 1]]
+    pairs = pairs[np.all(np.abs(one - other) <= _BOX_SLACK * np.maximum(one, other)[:, :1], axis=1)]
+    alike, flipped = np.zeros(len(pairs)), np.zeros(len(pairs), np.bool_)
+
+    def compare(low: int, high: int) -> None:
+        for at in range(low, high):
+            alike[at], flipped[at] = _compare(scene, properties, int(pairs[at, 0]), int(pairs[at, 1]))
+
+    for_ranges(compare, np.diff(scene.face_offsets)[pairs[:, 1]], workers)
+    kept = alike >= min_similarity
+    pairs = pairs[kept]
+    return NearShapes(pairs, alike[kept], size[pairs[:, 1]] / size[pairs[:, 0]], flipped[kept])
+
+
+def _candidates(properties: Properties, first: Ints, second: Ints, scaled: bool) -> Ints:
+    """``(n, 2)`` pairs of like moments, for each of the second at most a few of the first."""
+    if not len(first) or not len(second):
+        return np.zeros((0, 2), np.int64)
+    tree = cKDTree(_looks(properties, first, scaled))
+    most = np.arange(1, min(_MOST_COMPARED, len(first)) + 1)
+    found = tree.query(_looks(properties, second, scaled), k=most, p=np.inf)
+    far, near = np.asarray(found[0]), np.asarray(found[1])
+    row, column = np.nonzero(far <= _LOOSE)
+    return np.column_stack([first[near[row, column]], second[row]])
 
 
 def _unit_scene(scene: Scene, properties: Properties, meshes: Ints) -> Scene:

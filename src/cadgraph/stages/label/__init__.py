@@ -79,6 +79,10 @@ def label_parts(
     answers = labeler.label(parts, contacts, vocabulary)
     if len(answers) != parts.n_parts:
         raise LabelError(f"the labeler gave {len(answers)} answers for {parts.n_parts} parts")
+    if config.use_names:
+        from cadgraph.stages.label.word import weigh_words
+
+        answers = weigh_words(answers, parts, vocabulary)
     least = config.min_confidence
     if least is None:
         least = float(getattr(labeler, "least_confidence", LEAST_CONFIDENCE))

@@ -60,6 +60,17 @@ class Model:
             total += softmax(member.scores(inputs, around.sides, around.here, around.there) / self.temperature)
         return total / max(len(self.members), 1)
 
+    def kinship(self, seen: Observation) -> Floats:
+        """A point for each part, ``(n_parts, width)`` of length 1: parts of one kind lie close, known or not.
+
+        It is the direction of what the networks make of a part's shape, size and place before neighbours talk.
+        """
+        inputs = inputs_of(seen)
+        hidden = [member.hidden(inputs) for member in self.members]
+        units = [rows / np.maximum(np.linalg.norm(rows, axis=1, keepdims=True), 1e-12) for rows in hidden]
+        points: Floats = np.hstack(units) / np.sqrt(max(len(units), 1)) if units else np.zeros((len(inputs), 0))
+        return points
+
 
 def softmax(scores: Floats) -> Floats:
     """Scores as probabilities, row by row."""

@@ -46,15 +46,24 @@ class Network:
             ``(n_parts, n_classes)``.
         """
         w = self.weights
-        x = np.clip((inputs - w["mean"]) / w["spread"], -LIMIT, LIMIT)
         s = np.clip((sides - w["side_mean"]) / w["side_spread"], -LIMIT, LIMIT)
-        h = _relu(_relu(x @ w["w0"] + w["b0"]) @ w["w1"] + w["b1"])
+        h = self.hidden(inputs)
         for k in range(self.rounds):
             said = _relu((h @ w[f"give{k}"])[there] + s @ w[f"side{k}"] + (h @ w[f"take{k}"])[here] + w[f"talk_b{k}"])
             heard = aggregate(said, here, len(h))
             h = h + _relu(np.hstack([h, heard]) @ w[f"join{k}"] + w[f"join_b{k}"])
         scores: Floats = h @ w["out"] + w["out_b"]
         return scores
+
+    def hidden(self, inputs: Floats) -> Floats:
+        """What the look at each part by itself comes to, before neighbours talk, ``(n_parts, width)``, not negative.
+
+        Args:
+            inputs: as for ``scores``.
+        """
+        w = self.weights
+        x = np.clip((inputs - w["mean"]) / w["spread"], -LIMIT, LIMIT)
+        return _relu(_relu(x @ w["w0"] + w["b0"]) @ w["w1"] + w["b1"])
 
 
 def aggregate(said: Floats, here: Ints, n: int) -> Floats:

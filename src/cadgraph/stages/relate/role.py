@@ -59,6 +59,8 @@ def find_roles(parts: Parts, labels: Sequence[Label | None], guessed: Sequence[L
     if not _are_doubtful(labels, guessed):
         return Roles(tuple(groups), tuple(names), (), False, _backed(parts, groups, guessed, majority))
     for part, (label, guess) in enumerate(zip(labels, guessed, strict=True)):
+        if label is not None and label.source == "human":
+            continue
         # Wrong labels at random hardly ever agree with each other; the labeler is wrong alike about all repeats.
         better = majority.get(int(parts.shape[part]))
         if better is None and guess is not None and guess.confidence >= _CONFIDENT and not _allows(guess, label):
