@@ -1,4 +1,4 @@
-"""What asking costs and what it brings: ``python benchmarks/lvlm.py [--preset field] [--seeds 3]``.
+"""What asking costs and what it brings: ``python benchmarks/lvlm.py [--preset field] [--seeds 8]``.
 
 Asks a simulated model about a generated plant in the ways that the package knows, and prints a table in Markdown:
 questions, tokens and the price at gpt-4o's list price, and how many parts get the right name and group.
@@ -169,7 +169,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--preset", default="field")
     parser.add_argument("--seed", type=int, default=0, help="of the plant")
-    parser.add_argument("--seeds", type=int, default=3, help="of the simulated model, averaged")
+    parser.add_argument("--seeds", type=int, default=8, help="of the simulated model, averaged")
     options = parser.parse_args()
     plant = make(options.preset, options.seed)
     kept = Kept()

@@ -115,15 +115,21 @@ class Asking:
     def __post_init__(self) -> None:
         self._lock = threading.Lock()
         self._drawing = threading.Semaphore(_DRAWING)
+        self._tokens: dict[str, int] = {}
         self._used_questions = self._on_the_way = 0
         self._promised = 0.0
 
     def tokens(self, question: Question) -> int:
         """About how many tokens a question takes."""
+        known = self._tokens.get(question.id)
+        if known is not None:
+            return known
         pictures = self.n_pictures * (self.price.image_tokens(self.size, self.size, self.detail) if self.price else 0.0)
         captions = 10 * self.n_pictures
         schema = text_tokens(json.dumps(question.schema)) // 2
-        return int(pictures + captions + text_tokens(question.system) + text_tokens(question.text) + schema)
+        words = text_tokens(question.system) + text_tokens(question.text)
+        self._tokens[question.id] = total = int(pictures + captions + words + schema)
+        return total
 
     def cost(self, question: Question) -> float:
         """About what a question costs, in US dollars; 0 without a price."""

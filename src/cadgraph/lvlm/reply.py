@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import json
 from collections.abc import Callable, Sequence
@@ -37,7 +38,7 @@ class Question:
     part: int = -1
     attempt: int = 0
 
-    @property
+    @functools.cached_property
     def id(self) -> str:
         """Sixteen hexadecimal digits by its content: the same question has the same id, whoever is asked."""
         content = [self.system, self.text, self.schema, self.recipe, self.attempt]
