@@ -2,6 +2,7 @@
 # make test   set up, run every test
 # make check  style, types, structure, generated documents
 # make bench  the benchmarks, with what a user would pick instead in the same run
+# make train  the embedded labeler anew, with its page of figures (a quarter of an hour or more; needs torch)
 # make docs   write the generated documents anew
 
 PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11 python; do \
@@ -10,7 +11,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip install --disable-pip-version-check --quiet --constraint constraints.txt
 
-.PHONY: demo test check bench docs clean
+.PHONY: demo test check bench train docs clean
 
 demo: $(VENV)/.with-all
 	$(BIN)/cadgraph demo --output demo
@@ -27,6 +28,9 @@ check: $(VENV)/.with-dev
 
 bench: $(VENV)/.with-dev
 	@for f in benchmarks/[!_]*.py; do echo "== $$f"; $(BIN)/python $$f || exit 1; done
+
+train: $(VENV)/.with-train
+	$(BIN)/python -m cadgraph.training
 
 docs: $(VENV)/.with-dev
 	$(BIN)/python tools/write_docs.py
@@ -49,3 +53,7 @@ $(VENV)/.with-dev: pyproject.toml constraints.txt | $(VENV)/bin/python
 	$(PIP) --editable '.[all,dev]'
 	@$(BIN)/python -m cadgraph.warm
 	@touch $@ $(VENV)/.with-all
+
+$(VENV)/.with-train: $(VENV)/.with-dev
+	$(PIP) --editable '.[all,dev,train]'
+	@touch $@

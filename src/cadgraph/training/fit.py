@@ -43,13 +43,13 @@ class Recipe:
     width: int = 128
     talk: int = 48
     rounds: int = 2
-    epochs: int = 24
-    batch: int = 6
+    epochs: int = 12
+    batch: int = 8
     rate: float = 2e-3
     decay: float = 0.02
     dropout: float = 0.2
     noise: float = 0.1
-    alone: float = 0.2
+    alone: float = 0.25
     deaf: float = 0.15
     scale: float = 0.15
     sizeless: float = 0.15
@@ -202,10 +202,10 @@ def _batch(
 
 def _arrays(net: _Net) -> dict[str, Floats]:
     def matrix(layer: nn.Module) -> Floats:
-        return np.asarray(layer.weight.detach().numpy().T, np.float64)  # type: ignore[operator]
+        return np.asarray(layer.weight.detach().numpy().T, np.float64)
 
     def bias(layer: nn.Module) -> Floats:
-        return np.asarray(layer.bias.detach().numpy(), np.float64)  # type: ignore[operator]
+        return np.asarray(layer.bias.detach().numpy(), np.float64)
 
     arrays = {"w0": matrix(net.first), "b0": bias(net.first), "w1": matrix(net.second), "b1": bias(net.second)}
     for k in range(net.recipe.rounds):

@@ -89,9 +89,9 @@ def held_out_lessons(seeds: int = 2) -> dict[str, list[Lesson]]:
     """
     tried = range(TRIED_FROM, TRIED_FROM + seeds)
     styles = [Lesson(kind, seed, hand) for hand in HANDS for kind in (*_PLANTS, "assortment") for seed in tried]
-    few = [Lesson(kind, TRIED_FROM, hand) for hand in HANDS for kind in ("skid", "tank", "assortment")]
+    few = [Lesson(kind, TRIED_FROM, hand) for hand in HANDS for kind in ("riser", "tank")]
     return {
-        "new seeds": [Lesson("assortment", seed) for seed in range(TRIED_FROM, TRIED_FROM + 10 * seeds)],
+        "new seeds": [Lesson("assortment", seed) for seed in range(TRIED_FROM, TRIED_FROM + 16 * seeds)],
         "new styles": styles,
         **{f"sin: {sin}": [replace(lesson, sin=sin) for lesson in few] for sin in SINS},
         "half the sides": [replace(lesson, sides=0.5) for lesson in few],
