@@ -20,7 +20,7 @@ PRESETS = ("skid", "riser", "tank", "pumps", "rack", "field")
 SEEDS = range(5)
 CELL, WIDE = (470, 330), (940, 560)  # px
 TITLE = 22  # px
-COLORS = 128
+COLORS = 224
 
 
 def picture(plant: Plant, size: tuple[int, int]) -> Image.Image:
@@ -67,7 +67,8 @@ def main() -> None:
         row = [(f"{only.only}, seed {seed}", picture(make(only.only, seed), CELL)) for seed in SEEDS]
         save(sheet([row]), only.folder / f"{only.only}.png")
         return
-    pictures = [(name, picture(make(name), CELL if name != "field" else WIDE)) for name in PRESETS]
+    sizes = {"rack": (940, 380), "field": WIDE}
+    pictures = [(name, picture(make(name), sizes.get(name, CELL))) for name in PRESETS]
     save(sheet([pictures[:2], pictures[2:4], pictures[4:5], pictures[5:]]), only.folder / "presets.png")
     rows = [[(f"{name}, seed {s}", picture(make(name, s), (300, 220))) for s in SEEDS] for name in PRESETS[:5]]
     save(sheet(rows), only.folder / "seeds.png")

@@ -7,11 +7,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cadgraph.environment.detail import Marks, marked_gauge
+from cadgraph.environment.families import FAMILIES
+from cadgraph.environment.family import as_assembly, as_device
 from cadgraph.environment.gauge import pressure_gauge, side_gauge
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.instrument import valve_at
 from cadgraph.environment.make import Make
-from cadgraph.environment.plant import Assembly
+from cadgraph.environment.meeting import whole
+from cadgraph.environment.plant import Assembly, Device
 from cadgraph.environment.run import Inline, Tap
 
 __all__ = ["Choice"]
@@ -46,6 +49,47 @@ class Choice:
         """A valve with its middle at a chainage; arguments as of ``valve_at``."""
         item = valve_at(s, kind, unit, dn, roll, reverse, self.make, turn, actuated)
         return replace(item, family=self.make.design(kind))
+
+    def control_valve(self, s: float, unit: str, dn: int, seed: int, roll: float = 0.0) -> Inline:
+        """A control valve with a diaphragm or an electric actuator, its middle at a chainage.
+
+        Args:
+            s: chainage.
+            unit: its id.
+            dn: nominal size.
+            seed: of its details.
+            roll: of its stem about the run [rad].
+        """
+        family = FAMILIES[("control valve/diaphragm", "control valve/electric")[seed % 2]]
+
+        def build(hand: Hand) -> Device:
+            def draw(number: int) -> Device:
+                return as_device(family, family.build(dn, hand, np.random.default_rng([seed, number])), hand, unit)
+
+            made = whole(lambda number: draw(number).assembly)
+            # All that are drawn have one length for one size.
+            return replace(draw(0), assembly=made)
+
+        return Inline(s, build, unit, roll, family=family.name)
+
+    def relief_valve(self, s: float, unit: str, seed: int) -> Tap:
+        """A small relief valve on a branch outlet on top of a level pipe.
+
+        Args:
+            s: chainage.
+            unit: its id.
+            seed: of its details.
+        """
+        family = FAMILIES["relief valve/threaded"]
+
+        def build(hand: Hand) -> Assembly:
+            return whole(
+                lambda number: as_assembly(
+                    family, family.build(15, hand, np.random.default_rng([seed, number])), hand, unit
+                )
+            )
+
+        return Tap(s, build, unit)
 
     def gauge(self, s: float, unit: str, size: int, needle: float, turn: float = 0.0, height: float = 0.0) -> Tap:
         """A pressure gauge upright on a level pipe.

@@ -9,19 +9,22 @@ from typing import Any
 import numpy as np
 
 from cadgraph.environment.access import platform, stairs
-from cadgraph.environment.drum import drum
 from cadgraph.environment.electrical import cabinet, lamp, sign
 from cadgraph.environment.enclosure import fence, pillar
+from cadgraph.environment.families import FAMILIES
+from cadgraph.environment.families.vessels import level_gauge
+from cadgraph.environment.family import as_assembly
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import HANDS, Hand
-from cadgraph.environment.plant import Assembly, Component, Plant, gather
+from cadgraph.environment.meeting import met, whole
+from cadgraph.environment.plant import Assembly, Component, Plant, Unit, gather
 from cadgraph.environment.pumps import make_pumps
 from cadgraph.environment.rack import make_rack
 from cadgraph.environment.riser import make_riser
 from cadgraph.environment.skid import make_skid
 from cadgraph.environment.solid import box
 from cadgraph.environment.tank import make_tank
-from cadgraph.environment.vessel import Nozzle
+from cadgraph.environment.vessel import Nozzle, tank
 from cadgraph.scene import Floats
 
 __all__ = ["make_field"]
@@ -103,21 +106,16 @@ def _inside(hand: Hand, flips: tuple[int, int], rng: np.random.Generator) -> lis
     round_y = np.pi if flips[1] < 0 else 0.0
     to_side = -np.pi / 2 * flips[0]
     deck = platform(2.4, 1.2, float(rng.uniform(1.0, 1.4)), hand)
-    nozzles = [
-        Nozzle(100, "top", (0.0, 0.35)),
-        Nozzle(50, "top", (0.0, -0.35)),
-        Nozzle(300, "left", (0.0, 0.0), 0.2, manway=True),
-    ]
-    store, _ = drum("T-9", hand, float(rng.uniform(0.6, 0.75)), float(rng.uniform(1.6, 2.2)), 0.35, nozzles)
     found = [
         placed(_platform(hand), 0.2, 1.1, round_y, "platform"),
         placed(deck, -3.6, 1.3, 0.0, "deck"),
-        placed(store.assembly.prefixed("S"), 6.2, 0.4, 0.0, "storage"),
+        placed(_storage(hand, rng).prefixed("S"), 6.0, 0.4, 0.0, "storage"),
+        placed(_ladder(hand, rng), 7.9, 0.6, 0.0, "ladder"),
     ]
     for k, (x, y) in enumerate(((9.9, -1.2), (9.9, 0.2))):
         plates = ((f"PANEL LP-{k + 1}", "400 V 50 HZ"), ("DANGER", "HIGH VOLTAGE"), ("MAIN SWITCH",))
         found.append(placed(cabinet(hand, plates=plates), x, y, to_side, f"cabinet-{k}"))
-    for k, (x, y) in enumerate(((-10.2, 3.0), (10.2, 7.4), (10.3, -7.7))):
+    for k, (x, y) in enumerate(((-10.2, 3.0), (10.2, 7.4))):
         found.append(placed(lamp(hand), x, y, 0.0, f"lamp-{k}"))
     found.append(placed(sign(hand, ("TEST FIELD", "HELMETS ON", "NO SMOKING")), -9.9, -4.3, 0.0, "sign"))
     return found
@@ -145,6 +143,39 @@ def _platform(hand: Hand) -> Assembly:
 
 def _span(vertices: Floats) -> tuple[float, float]:
     return float(vertices[:, 0].min()), float(vertices[:, 0].max())
+
+
+def _storage(hand: Hand, rng: np.random.Generator) -> Assembly:
+    """A tall tank without lines, with a level gauge between two cocks on its shell."""
+    radius, height = round(float(rng.uniform(0.6, 0.75)), 3), round(float(rng.uniform(2.0, 2.6)), 3)
+    nozzles = [
+        Nozzle(100, "top", (0.0, 0.3)),
+        Nozzle(80, "top", (0.0, -0.3)),
+        Nozzle(80, "side", (np.pi, 0.25), 0.16),
+        Nozzle(300, "side", (np.pi / 2, 0.7), 0.2, manway=True),
+    ]
+    vessel = tank("T-9", hand, radius, height, 0.35, nozzles).assembly
+    low = 0.35 + radius / 2 + 0.04
+    family = FAMILIES["tank/dished on legs"]
+    parts = level_gauge(radius, low + 0.3, low + height - 0.3, -0.3 * np.pi, hand, rng)
+    unit = "G-9"
+    gauge = tuple(
+        Component(p.solid, p.group, p.name, hand.color(p.color), unit=unit, family="level gauge", granularity="pieces")
+        for p in parts
+    )
+    joined = met(Assembly((*vessel.components, *gauge)))
+    first = len(vessel.components)
+    new = tuple(pair for pair in joined.contacts if pair[1] >= first)
+    units = (*vessel.units, Unit(unit, "gauge", "level gauge"))
+    named = tuple(replace(c, family=c.family or family.name) for c in joined.components)
+    return Assembly(named, (*vessel.contacts, *new), units)
+
+
+def _ladder(hand: Hand, rng: np.random.Generator) -> Assembly:
+    """A caged ladder that stands by itself beside the tank."""
+    family = FAMILIES["ladder/cage"]
+    seed = int(rng.integers(1000))
+    return whole(lambda number: as_assembly(family, family.build(0, hand, np.random.default_rng([seed, number])), hand))
 
 
 def _yard(hand: Hand, flips: tuple[int, int]) -> list[Assembly]:

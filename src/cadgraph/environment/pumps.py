@@ -121,8 +121,10 @@ def _header(
     valve = choice.valve(high - low - 0.50, kind, unit, dn)
     dial = np.pi / 2 * plan.side
     tap = choice.gauge(high - low - 0.86, f"G-{tag}", 100, float(rng.uniform(0.6, 2.6)), dial)
+    # Behind the pumps a relief valve guards the header.
+    taps = (tap,) if tag == "S" else (tap, choice.relief_valve(ys[-1] - low + 0.33, "V-R", int(rng.integers(1000))))
     flow, reason = ("backward", "feeds the pumps") if tag == "S" else ("forward", "leaves the pumps")
-    run = Run(tag, dn, route, (*tees, valve), (tap,), ends=("blind", "flange"), flow=flow, reason=reason)
+    run = Run(tag, dn, route, (*tees, valve), taps, ends=("blind", "flange"), flow=flow, reason=reason)
     placed = site.lay(run, hand)
     height = z - PIPES[dn].radius - SUPPORT_REACH
     side = 0.05 if height < 1 else 0.08

@@ -185,8 +185,11 @@ def _line(
             inline.append(Inline(middle))
         if rng.random() < 0.5 and level == 1:
             unit = f"V-{number}{bay + 1}"
-            kind = str(rng.choice(["gate", "globe", "ball", "butterfly"]))
-            inline.append(choice.valve(middle - 0.75, kind, unit, dn))
+            kind = str(rng.choice(["gate", "globe", "ball", "butterfly", "control"]))
+            if kind == "control":
+                inline.append(choice.control_valve(middle - 0.75, unit, dn, int(rng.integers(1000))))
+            else:
+                inline.append(choice.valve(middle - 0.75, kind, unit, dn))
             taps.append(choice.gauge(middle + 0.70, f"G-{number}{bay + 1}", 100, float(rng.uniform(0.6, 2.6))))
     if down:
         drop = float(route.starts[1])
