@@ -72,11 +72,21 @@ def lay_out(sketch: Sketch) -> Placed:
     centres = tuple((node["center"]["x"], node["center"]["y"]) for node in found.nodes)
     ways = []
     for edge, route in zip(sketch.edges, found.edges, strict=True):
-        way = tuple((point["x"], point["y"]) for point in route["points"])
+        way = _upright([(point["x"], point["y"]) for point in route["points"]])
         ways.append(way if edge.into else way[::-1])
     placed = Placed(sketch, centres[: len(sketch.anchors)], centres[len(sketch.anchors) :], tuple(ways), (0, 0, 0, 0))
     placed = _compacted(_straightened(placed))
     return replace(placed, box=_box(placed))
+
+
+def _upright(points: list[tuple[float, float]]) -> Way:
+    """A way whose vertical pieces are just that; the library leans some of them by a fraction of a pixel."""
+    way = list(points)
+    for i in range(1, len(way) - 2):
+        (ax, ay), (bx, by) = way[i], way[i + 1]
+        if abs(bx - ax) <= _SAME < abs(by - ay):
+            way[i + 1] = (ax, by)
+    return tuple(way)
 
 
 def pack(boxes: Sequence[tuple[float, float]], gap: float) -> tuple[list[tuple[float, float]], float, float]:

@@ -169,7 +169,11 @@ def _isolates(network: Network, place: str) -> bool:
 
 def _holds_back(network: Network, arc: Arc) -> bool:
     """Whether an arc away from the unit enters a check valve against which nothing comes back."""
-    return _CHECK in _kind(network, arc.end) and arc.flow == "along"
+    if _CHECK not in _kind(network, arc.end):
+        return False
+    # The flow through a valve is one: known on its far side, it is known on this one.
+    beyond = any(onward.flow == "along" for onward in network.arcs(arc.end) if onward.index != arc.index)
+    return arc.flow == "along" or (arc.flow == "unknown" and beyond)
 
 
 def _flood(
@@ -235,8 +239,8 @@ def _smallest(network: Network, start: str, barriers: set[str], check_valves: bo
         elif not _is_relief(network, place) and network.unit_type(place) != "tank":
             flow.add_edge((place, "in"), (place, "out"))
         for arc in network.arcs(place):
-            # What flows to the unit walks the arc's way; a check valve is entered only the way it lets through.
-            if not (check_valves and _CHECK in _kind(network, arc.end) and arc.flow == "against"):
+            # What flows to the unit walks the arc's way; a check valve lets it out only the way it opens.
+            if not (check_valves and _holds_back(network, arc.back)):
                 flow.add_edge((arc.start, "out"), (arc.end, "in"))
     for place in sources:
         flow.add_edge(origin, (place, "out"))

@@ -9,7 +9,7 @@ from typing import Literal
 from xml.parsers import expat
 
 from cadgraph.errors import FormatError
-from cadgraph.export.dexpi.terms import CUSTOM_SET, DEXPI_SET, kind_of, unit_type_of
+from cadgraph.export.dexpi.terms import CUSTOM_SET, DEXPI_SET, INSTRUMENT, kind_of, unit_type_of
 from cadgraph.graph import SceneGraph
 from cadgraph.records import (
     Connected,
@@ -31,6 +31,7 @@ _LETTERS = {"P": "pressure gauge", "L": "level gauge", "F": "flow meter", "T": "
 _THROUGH = frozenset({"PipeReducer"})  # no node of the graph: a change of size in a connection
 _ORIGIN: Point = (0.0, 0.0, 0.0)
 _Direction = Literal["forward", "backward", "unknown"]
+_FLOWS: dict[str, _Direction] = {"along": "forward", "against": "backward"}
 
 
 def read_dexpi(path: str | Path) -> SceneGraph:
@@ -152,6 +153,9 @@ class _Reading:
         what, point = values.get("TypeName", ""), _point(custom)
         if name in _THROUGH:
             self.reducers.add(key)
+        elif what == INSTRUMENT:
+            self.owner[item.get("ID", "")] = key, None
+            return
         elif name == "PipeTee" or what.startswith("junction"):
             self.nodes[key] = Junction(id=key, point=point, parts=())
         elif name == "BlindFlange" or what in ("open end", "end of pipe") or item.tag == "PipeOffPageConnector":
@@ -245,7 +249,9 @@ class _Reading:
             elif item.tag == "CenterLine":
                 more = _values(item, CUSTOM_SET)
                 length, sure = _number(more.get("Length")), _number(more.get("Confidence"))
-                rows.append(_Pipe(length, base.size, base.direction, base.reason, sure))
+                rows.append(
+                    _Pipe(length, base.size, _FLOWS.get(more.get("Flow", ""), base.direction), base.reason, sure)
+                )
         target = links.get("ToID")
         if target and (target not in own or (rows and rows[-1:] and isinstance(rows[-1], _Pipe))):
             rows.append(self._owner(target))

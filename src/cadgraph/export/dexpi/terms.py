@@ -10,7 +10,17 @@ from dataclasses import dataclass
 
 from cadgraph.records import Terminal, Unit
 
-__all__ = ["CUSTOM_SET", "DEXPI_SET", "URIS", "Term", "kind_of", "term_of_terminal", "term_of_unit", "unit_type_of"]
+__all__ = [
+    "CUSTOM_SET",
+    "DEXPI_SET",
+    "INSTRUMENT",
+    "URIS",
+    "Term",
+    "kind_of",
+    "term_of_terminal",
+    "term_of_unit",
+    "unit_type_of",
+]
 
 DEXPI_SET = "DexpiAttributes"
 CUSTOM_SET = "DexpiCustomAttributes"
@@ -46,6 +56,9 @@ class Term:
     name: str
     custom: str = ""
 
+
+INSTRUMENT = "instrument connection"
+"""The fitting that stands for an instrument where lines meet."""
 
 _VALVES = (
     ("ball", "BallValve"), ("butterfly", "ButterflyValve"), ("gate", "GateValve"), ("globe", "GlobeValve"),

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 from cadgraph.atomic import write_atomically
 from cadgraph.diagram.symbol import instrument_letters
 from cadgraph.export.dexpi.element import Ids, add_item, add_nodes, add_position, add_values, diameter_values, xml_text
-from cadgraph.export.dexpi.terms import Term, term_of_terminal, term_of_unit
-from cadgraph.functional.line import Line, find_lines
+from cadgraph.export.dexpi.terms import INSTRUMENT, Term, term_of_terminal, term_of_unit
+from cadgraph.functional.line import Line, divides, find_lines
 from cadgraph.functional.network import Arc, Network, natural
 from cadgraph.graph import SceneGraph
 from cadgraph.records import Terminal, Unit
@@ -71,6 +71,7 @@ class _Document:
         self.root = ET.Element("PlantModel")
         self.nozzles: dict[tuple[int, bool], _End] = {}  # by connection and the end of it
         self.components: dict[str, ET.Element] = {}  # valves, junctions and ends by the id of the node
+        self.rings: set[str] = set()  # where a line begins and ends at the same node
         self.sensed: dict[str, tuple[ET.Element, float]] = {}  # segment of each instrument, and how far along it
 
     def build(self) -> ET.Element:
@@ -196,6 +197,8 @@ class _Document:
         flow: str,
     ) -> None:
         """One run of connections as segments: a new one wherever the nominal size changes."""
+        if arcs[0].start == arcs[-1].end:
+            self.rings.add(arcs[0].start)
         size = next((s for arc in arcs for s in arc.sizes), None)
         segment = self._segment(system, size, flow)
         links: dict[str, str] = {}
@@ -209,22 +212,27 @@ class _Document:
                     segment, gone, size = self._segment(system, own, flow), 0.0, own
                 last = i == len(sizes) - 1
                 corners = _corners(arc, number, len(arcs), route, self.places)
-                self._pipe(segment, arc, arc.length if i == 0 else 0.0, corners if last else ())
+                self._pipe(segment, arc, arc.length if i == 0 else 0.0, corners if last else (), flow)
                 gone += (arc.length or 0.0) if i == 0 else 0.0
             self._stop(segment, arc, gone, links if number == len(arcs) - 1 else {})
         _connect(segment, links)
 
     def _start(self, segment: ET.Element, arc: Arc, links: dict[str, str]) -> None:
-        if self.network.is_gauge(arc.start):
+        if self._hangs(arc.start):
             self.sensed.setdefault(arc.start, (segment, 0.0))
         else:
             _set(links, "From", self._joined(segment, arc))
 
     def _stop(self, segment: ET.Element, arc: Arc, gone: float, links: dict[str, str]) -> None:
-        if self.network.is_gauge(arc.end):
+        if self._hangs(arc.end):
             self.sensed.setdefault(arc.end, (segment, gone))
         else:
             _set(links, "To", self._joined(segment, arc.back))
+
+    def _hangs(self, place: str) -> bool:
+        """Whether a node is an instrument that stands at one line; one where lines meet is written as a fitting."""
+        alone = len(self.network.arcs(place)) < 2 or not divides(self.network, place)
+        return self.network.is_gauge(place) and alone and place not in self.rings
 
     def _joined(self, segment: ET.Element, arc: Arc) -> _End:
         """The connection point of what an arc starts at; made in this segment if it is nowhere yet."""
@@ -255,17 +263,20 @@ class _Document:
         _connect(before, links)
         return following
 
-    def _pipe(self, segment: ET.Element, arc: Arc, length: float | None, corners: Sequence[Spot]) -> None:
+    def _pipe(self, segment: ET.Element, arc: Arc, length: float | None, corners: Sequence[Spot], flow: str) -> None:
         pipe = ET.SubElement(segment, "CenterLine", NumPoints=str(len(corners)))
         for x, y in corners:
             ET.SubElement(pipe, "Coordinate", X=f"{x:g}", Y=f"{y:g}", Z="0")
-        add_values(pipe, {"Length": length, "Confidence": _word(arc.edge.confidence)}, custom=True)
+        own = arc.flow if flow == "contradictory" else None
+        add_values(pipe, {"Length": length, "Confidence": _word(arc.edge.confidence), "Flow": own}, custom=True)
 
     def _component(self, place: str, segment: ET.Element) -> None:
         """A valve, junction or end of a line, in the segment that comes to it first."""
         node = self.network.places[place]
         arcs = self._ordered(place)
-        if isinstance(node, Unit):
+        if self.network.is_gauge(place):
+            term = Term("CustomPipeFitting", INSTRUMENT)
+        elif isinstance(node, Unit):
             term = term_of_unit(node)
         elif isinstance(node, Terminal):
             term = term_of_terminal(node)
