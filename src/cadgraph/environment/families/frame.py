@@ -300,7 +300,10 @@ def _platform(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         Part(_between((s * w / 2, -d / 2, z), (s * w / 2, d / 2, z), edge, edge_hole), "beam", "steel") for s in (-1, 1)
     ]
     panels = int(rng.integers(1, 4))
-    for k in range(panels):
+    whole = rng.random() < 0.3
+    if whole:
+        parts.append(Part(box((w, d, 0.012), (0, 0, h + 0.006)), "platform", "clamp"))
+    for k in range(0 if whole else panels):
         name, solid = grating(w / panels - 0.004, d, 0.03, rng)
         parts.append(Part(moved(solid, at(-w / 2 + (k + 0.5) * w / panels, 0, h)), name, "clamp"))
     if h > 0.5:
@@ -516,7 +519,7 @@ def _stock(_: int, hand: Hand, rng: np.random.Generator) -> Model:
 
 def _family(name: str, build: object, weight: float = 1.0) -> Family:
     whole = name.split("/")[0]
-    grain = "structure" if whole in ("ladder",) else "fitting"
+    grain = "structure" if whole in ("ladder", "platform") else "fitting"
     return Family(name, "floor", _GROUP, whole, build, (15,), grain, weight)  # type: ignore[arg-type]
 
 
@@ -525,10 +528,10 @@ FRAMES: tuple[Family, ...] = (
     _family("ladder/cage", _ladder, 1.5),
     _family("railing/tubular", _railing),
     _family("stairs/flight", _stairs, 1.5),
-    _family("platform/bay", _platform, 1.5),
+    _family("platform/bay", _platform, 2.5),
     _family("grating/panel", _grating),
     _family("fence/panel", _mesh_fence, 1.5),
     _family("foundation/concrete", _civil, 1.5),
-    _family("skid frame/wheeled", _skid, 2),
+    _family("skid frame/wheeled", _skid, 3),
     _family("profile/stock", _stock, 1.5),
 )
