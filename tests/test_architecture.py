@@ -59,11 +59,14 @@ MAY_IMPORT = {
     "environment": VALUES | {"geometry", "truth"},
     "evaluate": VALUES | {"load", "truth"},
     "job": VALUES | {"stages"} | {"environment", "export", "folder", "load", "pipeline", "render", "report", "summary"},
+    "intake": VALUES | {"geometry", "load", "relabel", "stages"},
+    "amendment": VALUES | {"relabel"},
+    "explanation": VALUES,
     "relabel": VALUES | {"job", "stages"},
     "reproduce": VALUES | {"environment", "evaluate", "load", "pipeline", "render", "report", "summary", "truth"},
     "cli": VALUES
     | {"diagram", "functional"}
-    | {"lvlm", "relabel"}
+    | {"amendment", "explanation", "intake", "lvlm", "relabel"}
     | {"environment", "evaluate", "export", "load", "pipeline", "render", "report", "reproduce", "job", "summary"},
     "training": VALUES | {"environment", "evaluate", "geometry", "load", "pipeline", "stages", "truth"},
     "warm": {"environment", "pipeline", "render"},

@@ -12,7 +12,7 @@ import struct
 import zipfile
 import zlib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -24,7 +24,7 @@ from cadgraph.errors import LabelError
 from cadgraph.scene import Scene
 from cadgraph.vocabulary import Vocabulary
 
-__all__ = ["SUFFIX", "Catalog", "Entry", "read_catalog", "write_catalog"]
+__all__ = ["SUFFIX", "Catalog", "Entry", "read_catalog", "rows_of", "write_catalog"]
 
 SUFFIX = ".cadgraph-catalog"
 """How the name of a catalogue ends."""
@@ -118,11 +118,7 @@ def write_catalog(catalog: Catalog, path: str | Path) -> Path:
     Raises:
         OutputError: it can't be written.
     """
-    rows = [
-        {"id": e.id, "group": e.group, "name": e.name, "file": e.file, "mesh": e.mesh, "said_by": e.said_by}
-        for e in catalog.entries
-    ]
-    head = {"format": _FORMAT, "version": _VERSION, "entries": rows}
+    head = {"format": _FORMAT, "version": _VERSION, "entries": [asdict(entry) for entry in catalog.entries]}
     shapes, target = catalog.shapes, Path(path)
     content = BytesIO()
     np.savez_compressed(
@@ -166,6 +162,17 @@ def read_catalog(path: str | Path) -> Catalog:
         )
     entries = _entries(head.get("entries"), path)
     return Catalog(entries, _shapes(arrays, len(entries), path), str(path))
+
+
+def rows_of(catalog: Catalog) -> list[dict[str, Any]]:
+    """The entries as plain values: what each is, where it comes from, its size [m] along its axes and its triangles."""
+    rows = []
+    for i, entry in enumerate(catalog.entries):
+        vertices, faces = catalog.shapes.mesh(i)
+        extents = np.ptp(vertices, axis=0) if len(vertices) else np.zeros(3)
+        size = [round(x, 6) for x in sorted(extents.tolist(), reverse=True)]
+        rows.append({**asdict(entry), "size": size, "n_triangles": len(faces)})
+    return rows
 
 
 def _arrays(content: bytes, path: str | Path) -> dict[str, Any]:

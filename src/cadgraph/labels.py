@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import csv
+import difflib
 import json
+import reprlib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,7 +14,7 @@ from typing import Any
 from cadgraph.errors import LabelError
 from cadgraph.vocabulary import Vocabulary
 
-__all__ = ["GivenLabel", "read_labels"]
+__all__ = ["GivenLabel", "read_labels", "split_label"]
 
 _MAX_LENGTH = 4096  # of a path or label; longer is no label but damage
 
@@ -106,3 +108,31 @@ def _checked(row: Any, place: str, vocabulary: Vocabulary) -> GivenLabel:
     if not vocabulary.holds(str(group), name):
         raise LabelError(f"{place}: {name!r} is no name of group {group!r}; add it with --vocabulary")
     return GivenLabel(str(mesh), str(group), name)
+
+
+def split_label(text: str, vocabulary: Vocabulary | None) -> tuple[str, str | None]:
+    """The group and name that somebody means.
+
+    Args:
+        text: ``group/name``, a group alone, or a name that only one group has.
+        vocabulary: must hold it; None takes any ``group/name``.
+
+    Raises:
+        LabelError: it is no label, or the vocabulary lacks it.
+    """
+    group, slash, name = (piece.strip() for piece in text.partition("/"))
+    if vocabulary is None:
+        # Whatever is no label there is none here.
+        Vocabulary.from_json({group: {"names": [name] if name else []}}, reprlib.repr(text))
+        return group, name or None
+    if vocabulary.holds(group, name or None) and (name or not slash):
+        return group, name or None
+    owners = [owner for owner, content in vocabulary.groups.items() if not slash and group in content.names]
+    if len(owners) == 1:
+        return owners[0], group
+    if owners:
+        raise LabelError(f"{reprlib.repr(text)}: several groups have this name; say group/name ({', '.join(owners)})")
+    spelt = [f"{one}/{each}" for one, content in vocabulary.groups.items() for each in content.names]
+    close = difflib.get_close_matches(text, spelt, 3) or difflib.get_close_matches(name, spelt, 3, 0.4)
+    hint = f"; did you mean {' or '.join(map(repr, close))}?" if close else "; 'cadgraph vocabulary show' lists them"
+    raise LabelError(f"{reprlib.repr(text)} is not in the vocabulary{hint}")

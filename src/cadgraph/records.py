@@ -123,7 +123,7 @@ class Part(_Record):
     meshes: tuple[str, ...] = Field(description="source paths, the largest first", min_length=1)
     label: PartLabel | None = None
     guesses: tuple[PartGuess, ...] = Field(
-        default=(), description="where no labeler is sure enough; likeliest first"
+        default=(), description="what the labeler holds for possible; likeliest first"
     )
     centroid: Point
     aabb: Box

@@ -27,6 +27,10 @@ def build(
     vocabulary: Annotated[
         Path | None, typer.Option("--vocabulary", metavar="FILE", help="Another label tree, as YAML.")
     ] = None,
+    catalog: Annotated[
+        list[Path] | None,
+        typer.Option("--catalog", metavar="FILE", help="A catalogue of your own parts. May be repeated."),
+    ] = None,
     ground: Annotated[
         list[str] | None,
         typer.Option("--ground", metavar="PATH", help="A mesh that is the ground, or 'none'. May be repeated."),
@@ -54,6 +58,8 @@ def build(
         chosen = chosen.replace({"ground.find": find, "ground.meshes": [] if find == "none" else ground})
     if flow:
         chosen = chosen.replace({"relate.flow": (*chosen.relate.flow, *read_flows(flow))})
+    if catalog:
+        chosen = chosen.replace({"label.catalogs": [str(file) for file in catalog]})
     chosen = asking.settings(chosen)
     with bars() as progress:
         labeler = asking.labeler(chosen, output, progress)

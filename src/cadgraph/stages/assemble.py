@@ -134,7 +134,7 @@ def _parts(results: Results, ids: Sequence[str]) -> list[Part]:
             id=ids[i],
             meshes=tuple(scene.paths[mesh] for mesh in parts.meshes[i]),
             label=_label(results.labels[i]),
-            guesses=_guesses(results.guesses[i]) if results.labels[i] is None else (),
+            guesses=_guesses(_possible(results, i)),
             centroid=centroids[i],
             aabb=(corners[2 * i], corners[2 * i + 1]),
             obb=OrientedBox(
@@ -304,6 +304,14 @@ def _findings(results: Results) -> list[Finding]:
 
 def _guesses(guesses: Sequence[Guess]) -> tuple[PartGuess, ...]:
     return tuple(PartGuess(group=g.group, name=g.name, confidence=round(g.confidence, 6)) for g in guesses)
+
+
+def _possible(results: Results, part: int) -> Sequence[Guess]:
+    """What a part may be; nothing where its label alone is possible."""
+    label = results.labels[part]
+    if label is None:
+        return results.guesses[part]
+    return label.guesses if len(label.guesses) > 1 else ()
 
 
 def _label(label: Label | None) -> PartLabel | None:

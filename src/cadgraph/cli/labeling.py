@@ -1,0 +1,167 @@
+"""A user's own parts and corrections: explain, relabel, and the catalogue: add, list."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.markup import escape
+
+from cadgraph.cli.application import app
+from cadgraph.cli.options import ConfigOption, GraphArgument, SetOption, settings_of
+from cadgraph.cli.screen import bars, err, out
+
+catalogs = typer.Typer(no_args_is_help=True, help="Catalogues of your own parts: add to one, list it.")
+app.add_typer(catalogs, name="catalog")
+
+_DEFAULT = Path("parts.cadgraph-catalog")
+_SHOWN = 8  # parts that are named when a correction spreads
+
+_PartArgument = Annotated[
+    str, typer.Argument(metavar="PART", help="Id of a part (part-00012), or source path of one of its meshes.")
+]
+_LabelOption = Annotated[
+    str | None, typer.Option("--as", metavar="LABEL", help="'group/name', as 'Valve assembly/valve'.")
+]
+_SceneOption = Annotated[Path | None, typer.Option("--scene", metavar="FILE", help="The scene, if it has been moved.")]
+_JsonOption = Annotated[bool, typer.Option("--json", help="Print as JSON.")]
+
+
+@app.command()
+def explain(graph: GraphArgument, part: _PartArgument, as_json: _JsonOption = False) -> None:
+    """Say why a part has its label: evidence, best guesses, neighbours, repeats, unit."""
+    from cadgraph.explanation import explain as explain_part
+    from cadgraph.graph import SceneGraph
+
+    told = explain_part(SceneGraph.load(graph), part)
+    if as_json:
+        print(json.dumps(dataclasses.asdict(told), ensure_ascii=False, indent=1))  # noqa: T201
+        return
+    for heading, text in told.lines():
+        out.print(f"[dim]{heading:<12}[/]{escape(text)}")
+
+
+@app.command()
+def relabel(
+    folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="What 'cadgraph build' wrote.")],
+    part: _PartArgument,
+    label: _LabelOption = None,
+    forget: Annotated[bool, typer.Option("--forget", help="Take the correction of this part back.")] = False,
+    this_only: Annotated[bool, typer.Option("--this-only", help="Leave all other parts as they are.")] = False,
+    scene: _SceneOption = None,
+    report: Annotated[bool, typer.Option("--report/--no-report", help="Draw pictures and write report.html.")] = True,
+) -> None:
+    """Correct the label of a part; its repeats follow, and softly what is much like it.
+
+    The correction is kept in corrections.json in the folder: a later 'cadgraph build' into it applies it again.
+    """
+    from cadgraph.amendment import amend
+
+    if (label is None) != forget:
+        raise ValueError("say what the part is with --as 'group/name', or take a correction back with --forget")
+    with bars() as progress:
+        done = amend(folder, part, label, this_only=this_only, scene=scene, report=report, progress=progress)
+    now = done.part.label
+    said = "without a label" if now is None else f"{now.group}/{now.name}" if now.name else now.group
+    out.print(f"[bold]{done.part.id}[/] is {escape(said)} now")
+    others = [p for p in done.changed if p.id != done.part.id]
+    for p in others[:_SHOWN]:
+        why = "" if p.label is None else str(p.label.evidence.get("why", p.label.source))
+        out.print(f"[dim]{p.id:<12}[/]{escape(why)}")
+    more = f", {len(others) - _SHOWN} of them not shown" if len(others) > _SHOWN else ""
+    out.print(f"{len(others):,} other parts changed{more}")
+
+
+@catalogs.command("add")
+def add_(
+    files: Annotated[
+        list[Path], typer.Argument(metavar="FILE...", help="CAD files, or folders that 'cadgraph build' wrote.")
+    ],
+    label: Annotated[
+        str | None, typer.Option("--as", metavar="LABEL", help="'group/name'. Graphs bring their own labels.")
+    ] = None,
+    catalog: Annotated[Path, typer.Option("--catalog", metavar="FILE", help="To add to; made if missing.")] = _DEFAULT,
+    merge: Annotated[bool, typer.Option("--merge", help="One entry of a whole file instead of one per part.")] = False,
+    only: Annotated[
+        str | None, typer.Option("--only", metavar="LABEL", help="Of graphs: parts with this label, whoever gave it.")
+    ] = None,
+    vocabulary: Annotated[
+        Path | None, typer.Option("--vocabulary", metavar="FILE", help="The label tree that must hold --as.")
+    ] = None,
+    scene: _SceneOption = None,
+    config: ConfigOption = None,
+    settings: SetOption = None,
+) -> None:
+    """Add parts to a catalogue, from CAD files under one label or from graphs with theirs.
+
+    A file of several parts gives an entry for each distinct shape, all with the same label; --merge makes one entry of
+    the whole file, for devices that plants hold as one mesh. Of a graph the parts that were labelled by hand or from
+    outside are taken, or with --only those of one label.
+    """
+    from cadgraph.catalog import read_catalog, write_catalog
+    from cadgraph.intake import EMPTY, take_file, take_graph
+    from cadgraph.labels import split_label
+    from cadgraph.vocabulary import default_vocabulary, read_vocabulary
+
+    tree = read_vocabulary(vocabulary) if vocabulary else None
+    meant = split_label(label, tree) if label is not None else None
+    if meant is not None and tree is None and not default_vocabulary().holds(*meant):
+        err.print(
+            f"[dim]{escape(str(label))} is not in the built-in vocabulary; build with the --vocabulary that has it[/]"
+        )
+    chosen = settings_of(config, settings or [], None)
+    whole = read_catalog(catalog) if catalog.exists() else EMPTY
+    wanted = split_label(only, None) if only is not None else None
+    for file in files:
+        if file.is_dir() or file.name == "graph.json":
+            if merge:
+                raise ValueError(f"{file}: --merge is for CAD files; a graph has its parts")
+            taken = take_graph(whole, file, wanted, meant, scene)
+        else:
+            if meant is None:
+                raise ValueError(f"{file}: say what it is with --as 'group/name'")
+            if only is not None:
+                raise ValueError(f"{file}: --only is for graphs; a CAD file has no labels")
+            taken = take_file(whole, file, *meant, merge=merge, config=chosen)
+        whole = taken.catalog
+        _tell(file, taken, merge)
+    write_catalog(whole, catalog)
+    out.print(f"wrote {escape(str(catalog))}: {_entries(len(whole.entries))}")
+
+
+@catalogs.command("list")
+def list_(
+    catalog: Annotated[Path, typer.Argument(metavar="[FILE]", help="A catalogue.")] = _DEFAULT,
+    as_json: _JsonOption = False,
+) -> None:
+    """Print the entries of a catalogue."""
+    from cadgraph.catalog import read_catalog, rows_of
+
+    rows = rows_of(read_catalog(catalog))
+    if as_json:
+        print(json.dumps(rows, ensure_ascii=False, indent=1))  # noqa: T201
+        return
+    for row in rows:
+        size = " x ".join(f"{1000 * x:.0f}" for x in row["size"])
+        label = f"{row['group']}/{row['name']}" if row["name"] else row["group"]
+        origin = f"{row['file']} {row['mesh']}".strip()
+        told = f"{size} mm, {row['n_triangles']:,} triangles, {escape(origin)}"
+        out.print(f"[dim]{row['id']}[/] {escape(label)} [dim]{told}[/]")
+    out.print(_entries(len(rows)))
+
+
+def _tell(file: Path, taken: Any, merge: bool) -> None:
+    told = [f"{taken.n_parts:,} part{'s' * (taken.n_parts != 1)}", f"{_entries(len(taken.added))} added"]
+    told += [f"{taken.known:,} known or repeated"] if taken.known else []
+    told += [f"{len(taken.replaced):,} replaced, which had another label"] if taken.replaced else []
+    told += [f"{taken.torn:,} shapes left out, which have several labels"] if taken.torn else []
+    several = len(taken.added) > 1 and not file.is_dir() and not merge
+    hint = " [dim](all with the same label; --merge makes one entry of a file)[/]" if several else ""
+    out.print(f"{escape(str(file))}: {', '.join(told)}{hint}")
+
+
+def _entries(n: int) -> str:
+    return f"{n:,} entr{'y' if n == 1 else 'ies'}"
