@@ -365,3 +365,35 @@ def test_the_method_of_the_paper_has_its_units_and_no_lines():
     graph = line_with_valve().graph(method="paper")
     assert [unit.tag for unit in graph.units()] == ["V-001"]
     assert connections(graph) == []
+
+
+def test_a_relief_valve_on_a_branch_outlet_stands_in_the_run():
+    plant = Plant().pipe((0, 0, 0), (3, 0, 0))
+    tapped(plant, 1.0)
+    plant.add(turned(shapes.cylinder(0.011, 0.03), (2, 0, R + 0.014), (0, 0, 1)), PIPE, "branch outlet")
+    plant.add(turned(shapes.cylinder(0.02, 0.1), (2, 0, R + 0.079), (0, 0, 1)), VALVE, "valve")
+    assert links(plant.graph()) == [("G-001", "V-001"), ("G-001", "open"), ("V-001", "open")]
+
+
+def test_copies_in_one_place_are_there_once():
+    plant = line_with_valve()
+    plant.add(plant.meshes[2], PIPE, "pipe").add(plant.meshes[1], PIPE, "flange")
+    assert links(plant.graph()) == [("V-001", "open"), ("V-001", "open")]
+
+
+def test_meshes_turned_inside_out_are_joined_too():
+    plant = line_with_valve()
+    plant.meshes = [(vertices, faces[:, ::-1]) for vertices, faces in plant.meshes]
+    assert links(plant.graph()) == [("V-001", "open"), ("V-001", "open")]
+
+
+def test_bolts_in_one_mesh_with_their_flange_do_not_hide_its_faces():
+    plant = line_with_valve()
+    for k in (1, 3):
+        (x, y, z), sign = plant.meshes[k][0].mean(axis=0), (-1 if k == 1 else 1)
+        bolts = [
+            turned(shapes.cylinder(0.008, 0.06), (x, y + 0.06 * np.cos(a), z + 0.06 * np.sin(a)), (sign, 0, 0))
+            for a in np.arange(4) * np.pi / 2 + 0.3
+        ]
+        plant.meshes[k] = merged(plant.meshes[k], *bolts)
+    assert links(plant.graph()) == [("V-001", "open"), ("V-001", "open")]

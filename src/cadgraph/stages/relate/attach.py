@@ -211,6 +211,7 @@ def _mount(
         else:
             sides.append(_side(lines[line], line, solid, contacts.points[k].mean(axis=0), float(contacts.distance[k])))
     best: dict[int, tuple[float, float, int]] = {}
+    outward = parts.properties.closed & (parts.properties.volume > 0)
     for rows, eps in ((tight, 2 * _TIGHT), (wide, float(contacts.distance.max(initial=0.0)) + _TIGHT)):
         if not rows:
             continue
@@ -220,8 +221,10 @@ def _mount(
             line, solid, sense = (a, b, 1.0) if a in lines else (b, a, -1.0)
             place, normal, gap = regions.centroid[k], sense * regions.normal[k], float(contacts.distance[row])
             reached = False
+            # Of faces that look inward the normals lie.
+            known = regions.flatness[k] > _FLAT and outward[a] and outward[b]
             for end in ends.of_part[line]:
-                miss = _miss(ends, end, place, normal if regions.flatness[k] > _FLAT else None, gap)
+                miss = _miss(ends, end, place, normal if known else None, gap)
                 reached |= miss is not None
                 if miss is not None and end in loose and (end not in best or (miss, gap, solid) < best[end]):
                     best[end] = (miss, gap, solid)

@@ -29,6 +29,7 @@ __all__ = ["connect_units"]
 # A part that only its shape calls a pipe must face one of about its size: this ratio of radii, that of a reducing
 # flange; one that its label calls a device must face one of its own size.
 _RATIO, _OWN_RATIO = 0.3, 0.9
+_SAME_PLACE = 1e-4  # copies of a part lie this near to each other [m]
 _BY_SHAPE = 0.8  # how sure it is that such a part is a connector
 _ON_LINES = frozenset({None, "pipe", "flange", "blind flange", "gasket", "coupling", "union", "nipple", "pipe cap"})
 _CLOSED = {"blind flange": "blind", "pipe cap": "blind"}
@@ -67,12 +68,12 @@ def connect_units(
     near = neighbor_lists(contacts)
     bridge = config.relate.bridge
     groups = connected_groups(roles, contacts, cluster, vocabulary.unit_of_group)
-    lines = _find_all_lines(scene, properties, parts, roles, guessed, contacts, vocabulary, groups, bridge)
+    lines, copies = _find_all_lines(scene, properties, parts, roles, guessed, contacts, vocabulary, groups, bridge)
     groups = connected_groups(roles, contacts, cluster, vocabulary.unit_of_group, lines)
     blobs = [
         part
         for part, group in enumerate(roles.groups)
-        if group in vocabulary.connector_groups and part not in lines and cluster[part] >= 0
+        if group in vocabulary.connector_groups and part not in lines and part not in copies and cluster[part] >= 0
     ]
     members = {part for group in groups for part in group.parts}
     feet = {part for group in groups if group.unit_type == "gauge" for part in group.parts}
@@ -104,9 +105,9 @@ def connect_units(
     sure = {part for part, label in enumerate(labels) if label is not None and label.group in connectors}
     where = {pair: middle for pair, (middle, _) in flanged.items()}
     drawing = draw_network(lines, blobs, units, found, where, lambda part: 1.0 if part in sure else _BY_SHAPE)
-    gauges = {number for number, unit in enumerate(units) if unit.unit_type == "gauge"}
+    tapped = {number for number, unit in enumerate(units) if unit.unit_type in ("gauge", "valve")}
     covers = frozenset(part for part, line in lines.items() if _is_cover(line, roles.names[part]))
-    net = simplify(drawing, gauges, covers, len(units), config.relate.leg)
+    net = simplify(drawing, tapped, covers, len(units), config.relate.leg)
     network = make_network(
         net, drawing, units, lines, found, lambda part: _CLOSED.get(roles.names[part] or ""), sure.__contains__
     )
@@ -125,8 +126,8 @@ def _find_all_lines(
     vocabulary: Vocabulary,
     groups: Sequence[Group],
     bridge: float,
-) -> dict[int, Centreline]:
-    """The lines of the connectors, and of what only geometry shows to be one."""
+) -> tuple[dict[int, Centreline], set[int]]:
+    """The lines of the connectors, and of what only geometry shows to be one; and the parts that are mere copies."""
     connectors = [part for part, group in enumerate(roles.groups) if group in vocabulary.connector_groups]
     others = likely_lines(roles, guessed, contacts, vocabulary, parts.ground.tolist())
     singles = [
@@ -135,6 +136,8 @@ def _find_all_lines(
     # What is too small for a part of its own (a flange's nuts) would blur the shape of the mesh that it joined.
     heads = {parts.meshes[part][0]: part for part in (*connectors, *others, *singles)}
     lines = {heads[mesh]: line for mesh, line in find_lines(scene, properties, list(heads)).items()}
+    copies = _repeated(parts, contacts, lines)
+    lines = {part: line for part, line in lines.items() if part not in copies}
     kept = {part: lines[part] for part in connectors if part in lines}
     maybe = {part: _RATIO for part in others if part in lines}
     for part in singles:
@@ -146,7 +149,20 @@ def _find_all_lines(
             maybe[part] = _RATIO
     if maybe:
         _accept(kept, maybe, lines, contacts, bridge)
-    return dict(sorted(kept.items()))
+    return dict(sorted(kept.items())), copies
+
+
+def _repeated(parts: Parts, contacts: Contacts, lines: Mapping[int, Centreline]) -> set[int]:
+    """Parts that lie where another one of their shape lies: of copies the first carries the line."""
+    middles = parts.properties.centroid
+    return {
+        b
+        for a, b in contacts.pairs.tolist()
+        if a in lines
+        and b in lines
+        and parts.shape[a] == parts.shape[b]
+        and float(np.abs(middles[a] - middles[b]).max()) < _SAME_PLACE
+    }
 
 
 def _accept(

@@ -22,6 +22,8 @@ _FACES: dict[int, tuple[float, float]] = {
     250: (330, 622), 300: (356, 698),
 }  # fmt: skip
 _FACE_TOLERANCE = 0.01  # m, gaskets included
+# A tank lies where it is longer than high and than deep by this factor.
+_LYING = 1.15
 _GAUGES = ("level gauge", "flow meter", "transmitter", "sight glass", "thermowell")
 
 
@@ -58,7 +60,13 @@ def _kind(unit: UnitParts, names: set[str], sizes: Sequence[int], parts: Parts) 
     if unit.unit_type == "pump":
         return "centrifugal pump" if _has_crossed_nozzles(unit) else None
     if unit.unit_type == "tank":
-        return "tank"
+        low = parts.properties.aabb[list(unit.parts), 0].min(axis=0)
+        wide, deep, high = parts.properties.aabb[list(unit.parts), 1].max(axis=0) - low
+        return (
+            "horizontal tank"
+            if max(wide, deep) > _LYING * high and max(wide, deep) > _LYING * min(wide, deep)
+            else "tank"
+        )
     return next((name for name in sorted(names) if unit.unit_type == "equipment"), None)
 
 
@@ -66,6 +74,8 @@ def _valve(unit: UnitParts, names: set[str], sizes: Sequence[int]) -> str | None
     length = _through(unit)
     wafer = length is not None and sizes and length < _WAFER * min(sizes) / 1000
     whole = not names - {"valve"}
+    if len(unit.openings) == 1 and not names & _DRIVEN and not whole:
+        return "relief valve"
     if whole:
         return None
     if wafer:
