@@ -6,7 +6,7 @@ from tests import shapes
 from tests.piping import PIPE, PUMP, TANK, VALVE, Plant, R, bend, connections, merged, tags, turned, valve_mesh
 
 from cadgraph.parts import Link, Network, UnitParts
-from cadgraph.records import System
+from cadgraph.records import Contains, System
 from cadgraph.stages.relate.flow import stated_flow
 from cadgraph.stages.relate.size import nominal_size, sizes_along
 
