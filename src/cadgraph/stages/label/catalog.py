@@ -17,11 +17,11 @@ from cadgraph.vocabulary import Vocabulary
 
 __all__ = ["Match", "apply_catalogs", "find_matches"]
 
-# Least similarity of another tessellation of the same size, and where sizes differ. Ours, measured on pairs of shapes
-# of generated plants in different styles; see docs/catalog.md.
-LEAST_NEAR, LEAST_SCALED = 0.90, 0.95
-# Prisms, plates, tubes and rings of any section are all alike but for their sizes: a scaled washer is a gasket. From
-# this share of the area along or across one axis on a shape is one of them.
+# Least similarity of another tessellation: of shapes of a form of their own in the same size; of plain ones, or where
+# sizes differ. Ours, measured on pairs of shapes of generated plants in different styles; see docs/catalog.md.
+LEAST_RICH, LEAST_OTHER = 0.90, 0.95
+# The plain ones: prisms, plates, tubes and rings of any section are all alike but for their sizes: a scaled washer is a
+# gasket. From this share of the area along or across one axis on a shape is one of them.
 _PRISM = 0.985
 # Entries of different labels that fit about equally well decide nothing.
 _MARGIN = 0.02
@@ -127,12 +127,13 @@ def find_matches(
     rest = n + np.array([row for row in range(m) if not found[row]], np.int64)
     rigid = _prisms(both, properties)
     heads = np.array(sorted(first.values()), np.int64)
-    alike = find_alike(both, properties, heads, rest, rigid, min(LEAST_NEAR, LEAST_SCALED), workers)
+    alike = find_alike(both, properties, heads, rest, rigid, min(LEAST_RICH, LEAST_OTHER), workers)
     for (entry, mesh), similarity, scale in zip(
         alike.pairs.tolist(), alike.similarity.tolist(), alike.scale.tolist(), strict=True
     ):
         kind = "near" if abs(np.log(scale)) <= _SAME_SIZE else "scaled"
-        if similarity >= (LEAST_NEAR if kind == "near" else LEAST_SCALED):
+        rich = kind == "near" and not rigid[entry] and not rigid[mesh]
+        if similarity >= (LEAST_RICH if rich else LEAST_OTHER):
             found[mesh - n].append(Match(entry, kind, min(1.0, similarity), scale))
     return _decided(catalog, found)
 
