@@ -37,6 +37,7 @@ class Course:
         strangers: scenes of shapes that belong to no plant, and as many of loose fasteners.
         members: networks whose answers are averaged.
         folds: parts that the families are dealt into; each is held out once.
+        kind_folds: likewise for whole kinds of families.
         seeds: plants of each kind that the network is tried on.
         recipe: of each network.
     """
@@ -45,6 +46,7 @@ class Course:
     strangers: int = 50
     members: int = 2
     folds: int = 3
+    kind_folds: int = 2
     seeds: int = 1
     recipe: Recipe = field(default_factory=Recipe)
 
@@ -56,12 +58,14 @@ class Trials:
     Args:
         model: that was trained.
         families: answers about parts of families that were held out, by networks that never saw these.
-        unlearnable: likewise about those whose name no other family has: no answer can be right.
+        kinds: likewise where all families of a kind were held out.
+        unlearnable: likewise about those whose name nothing else has: no answer can be right.
         plants: what the model is tried on, by the name of the trial.
     """
 
     model: Model
     families: Answers
+    kinds: Answers
     unlearnable: Answers
     plants: dict[str, list[Example]]
 
@@ -82,10 +86,13 @@ def run_course(course: Course, folder: Path, workers: int = 2, told: Callable[[s
         for name, some in held_out_lessons(course.seeds).items()
     }
     classes = known_classes()
-    raw = _try_families(course, examples, plants["new seeds"], classes, told)
-    best = temperature(lambda value: _asked(raw, value))
-    families, unlearnable = _asked(raw, best), _asked(raw, best, learnable=False)
-    threshold = least_confidence(_both(families, unlearnable), PRECISION)
+    builds = _try_families(course, examples, plants["new seeds"], classes, deal_families(examples, course.folds), told)
+    kinds = _try_families(
+        course, examples, plants["new seeds"], classes, deal_families(examples, course.kind_folds, whole=True), told
+    )
+    best = temperature(lambda value: _asked(builds, value))
+    families, unlearnable = _asked(builds, best), _asked(builds, best, learnable=False)
+    threshold = least_confidence(families, PRECISION)
     members = []
     for k in range(course.members):
         members.append(fit(examples, classes, course.recipe, k, lambda text, k=k: told(f"network {k}: {text}")))  # type: ignore[misc]
@@ -94,13 +101,14 @@ def run_course(course: Course, folder: Path, workers: int = 2, told: Callable[[s
         "tried from": TRIED_FROM,
         "parts": int(sum(len(e.label) for e in examples)), "recipe": asdict(course.recipe), "folds": course.folds,
         "held-out families": _card(score(families, threshold)),
+        "held-out kinds": _card(score(_asked(kinds, best), threshold)),
         "held-out families, unlearnable": {
             "parts": len(unlearnable.truth), "left open": float((unlearnable.confidence < threshold).mean()),
         },
     }  # fmt: skip
     model = Model(tuple(members), tuple(classes), best, threshold, card)
     model = replace(model, card=card | {"fixed trial": [_fixed_trial(model, *trial) for trial in FIXED]})
-    return Trials(model, families, unlearnable, plants)
+    return Trials(model, families, _asked(kinds, best), _both(unlearnable, _asked(kinds, best, False)), plants)
 
 
 def _fixed_trial(model: Model, preset: str, seed: int, hand: str) -> dict[str, Any]:
@@ -124,11 +132,19 @@ def known_classes() -> list[str]:
     return [f"{group}/{name}" for group, content in tree.items() for name in content["names"]] + [STRANGE]
 
 
-def deal_families(examples: Sequence[Example], folds: int) -> list[frozenset[str]]:
-    """Families, by what stands before their slash, dealt into folds of about as many kinds each."""
-    bases = sorted({str(name).split("/")[0] for e in examples for name in np.unique(e.family)} - {"strange"})
-    order = np.random.default_rng(43).permutation(len(bases))
-    return [frozenset(bases[i] for i in order[k::folds]) for k in range(folds)]
+def deal_families(examples: Sequence[Example], folds: int, whole: bool = False) -> list[frozenset[str]]:
+    """Families dealt into folds of about as many each.
+
+    Args:
+        examples: that hold them.
+        folds: how many.
+        whole: whether all families of a kind (``ball valve/...``) go together.
+    """
+    names = {str(name) for e in examples for name in np.unique(e.family) if not str(name).startswith("strange")}
+    kinds = sorted({name.split("/")[0] for name in names} if whole else names)
+    order = np.random.default_rng(43).permutation(len(kinds))
+    dealt = [{kinds[i] for i in order[k::folds]} for k in range(folds)]
+    return [frozenset(name for name in names if name in out or name.split("/")[0] in out) for out in dealt]
 
 
 _Raw = list[tuple[Model, list[Example], frozenset[str], frozenset[str]]]
@@ -139,11 +155,12 @@ def _try_families(
     examples: Sequence[Example],
     tried: Sequence[Example],
     classes: Sequence[str],
+    folds: Sequence[frozenset[str]],
     told: Callable[[str], None],
 ) -> _Raw:
-    """A network for each fold of families, which sees the others only."""
+    """A network for each fold of families, which learns from the others only."""
     raw: _Raw = []
-    for k, out in enumerate(deal_families(examples, course.folds)):
+    for k, out in enumerate(folds):
         rest = [replace(e, label=np.where(_within(e.family, out), "", e.label)) for e in examples]
         network = fit(rest, classes, course.recipe, 100 + k, lambda text, k=k: told(f"fold {k}: {text}"))  # type: ignore[misc]
         left = frozenset(str(name) for e in rest for name in np.unique(e.label))
@@ -152,8 +169,8 @@ def _try_families(
 
 
 def _within(family: Texts, out: frozenset[str]) -> npt.NDArray[np.bool_]:
-    """Whether each family is one of those, by what stands before its slash."""
-    return np.array([str(name).split("/")[0] in out for name in family], np.bool_)
+    """Whether each family is one of those."""
+    return np.array([str(name) in out for name in family], np.bool_)
 
 
 def _asked(raw: _Raw, value: float, learnable: bool = True) -> Answers:

@@ -32,6 +32,7 @@ class Recipe:
         dropout: of what is known, and of inputs (a third of it).
         noise: added to standardised inputs.
         alone: share of the parts that are shown without neighbours.
+        scattered: share of the plants whose parts are all shown without neighbours.
         deaf: share of the contacts that are left out.
         scale: spread of the logarithm of a random scale for each plant.
         sizeless: share of the plants that are shown without absolute sizes.
@@ -43,17 +44,18 @@ class Recipe:
     width: int = 128
     talk: int = 48
     rounds: int = 2
-    epochs: int = 12
+    epochs: int = 14
     batch: int = 8
     rate: float = 2e-3
     decay: float = 0.02
     dropout: float = 0.2
     noise: float = 0.1
-    alone: float = 0.25
+    alone: float = 0.2
+    scattered: float = 0.15
     deaf: float = 0.15
     scale: float = 0.15
     sizeless: float = 0.15
-    smoothing: float = 0.05
+    smoothing: float = 0.03
     balance: float = 0.5
 
 
@@ -185,7 +187,7 @@ def _batch(
         if rng.random() < recipe.sizeless:
             x[:, size_columns] = 0.0
         alone = rng.random(len(x)) < recipe.alone
-        if rng.random() < 0.05:
+        if rng.random() < recipe.scattered:
             alone[:] = True
         x[alone, size_columns.stop :] = -mean[size_columns.stop :] / spread[size_columns.stop :]
         kept = ~alone[e.here] & ~alone[e.there] & (rng.random(len(e.here)) > recipe.deaf)

@@ -48,7 +48,10 @@ are right there.
 {main}
 
 *New seeds* are of the same styles and families as the training plants and say little. *Held-out families*: networks
-trained without whole families of devices (a {folds}-fold trial), asked about parts of these; {unlearnable}
+trained without some families (`ball valve/compact`: one build of a device with all its pieces; a {folds}-fold trial),
+asked about the parts of these. *Held-out kinds*: likewise without any ball valve, without any pipe, without any bolt; so
+that most of their parts were never seen in any form.
+{unlearnable}
 *New styles*: the six published modelling hands, of which nothing was seen in training, building layouts that were not
 seen either.
 
@@ -103,14 +106,19 @@ def write_page(trials: Trials, real: Sequence[RealPart], size: int, families: in
     model, least = trials.model, trials.model.threshold
     told = {name: answer(model, plants) for name, plants in trials.plants.items()}
     styles = told["new styles"]
-    main = [("new seeds", told["new seeds"]), ("held-out families", trials.families), ("new styles", styles)]
+    main = [
+        ("new seeds", told["new seeds"]),
+        ("held-out families", trials.families),
+        ("held-out kinds", trials.kinds),
+        ("new styles", styles),
+    ]
     open_share = float((trials.unlearnable.confidence < least).mean()) if len(trials.unlearnable.truth) else 1.0
     return _TEXT.format(
         weights=sum(int(values.size) for values in model.members[0].weights.values()) * len(model.members),
         size=size / 1e6, forms=len(FORMS), sizes=len(SIZES), sides=len(SIDE_FEATURES), places=len(PLACE_FEATURES),
         threshold=least, precision=0.95, families=families, strangers=model.card["strangers"],
         folds=model.card["folds"], main=_table((name, score(a, least)) for name, a in main),
-        unlearnable=f"of {len(trials.unlearnable.truth):,} parts whose name no other family has, for which no answer "
+        unlearnable=f"Of {len(trials.unlearnable.truth):,} parts in these trials whose name nothing else has, so that no answer "
         f"can be right, {open_share:.0%} are left unlabelled.",
         styles=_table(
             (hand, score(styles.where(styles.hand == hand), least)) for hand in sorted(set(styles.hand.tolist()))
