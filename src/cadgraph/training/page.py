@@ -49,9 +49,8 @@ are right there.
 
 *New seeds* are of the same styles and families as the training plants and say little. *Held-out families*: networks
 trained without some families (`ball valve/compact`: one build of a device with all its pieces; a {folds}-fold trial),
-asked about the parts of these. *Held-out kinds*: likewise without any ball valve, without any pipe, without any bolt; so
-that most of their parts were never seen in any form.
-{unlearnable}
+asked about the parts of these. *Held-out kinds*: likewise without any ball valve, any pipe, any bolt, so that most of
+their parts were never seen in any form. {unlearnable}
 *New styles*: the six published modelling hands, of which nothing was seen in training, building layouts that were not
 seen either.
 
@@ -118,8 +117,8 @@ def write_page(trials: Trials, real: Sequence[RealPart], size: int, families: in
         size=size / 1e6, forms=len(FORMS), sizes=len(SIZES), sides=len(SIDE_FEATURES), places=len(PLACE_FEATURES),
         threshold=least, precision=0.95, families=families, strangers=model.card["strangers"],
         folds=model.card["folds"], main=_table((name, score(a, least)) for name, a in main),
-        unlearnable=f"Of {len(trials.unlearnable.truth):,} parts in these trials whose name nothing else has, so that no answer "
-        f"can be right, {open_share:.0%} are left unlabelled.",
+        unlearnable=f"Of {len(trials.unlearnable.truth):,} parts in these trials whose name nothing else has, so that no "
+        f"answer can be right, {open_share:.0%} are left unlabelled.",
         styles=_table(
             (hand, score(styles.where(styles.hand == hand), least)) for hand in sorted(set(styles.hand.tolist()))
         ),
