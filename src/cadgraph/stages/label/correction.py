@@ -25,7 +25,11 @@ __all__ = ["apply_corrections", "find_parts", "fingerprint_of"]
 # times as far that may be as the nearest part with another label: for a part that nobody was sure about; one with the
 # label that the corrected parts had, too; any other. Ours, measured on kinds of parts that a network had not learnt, in
 # generated plants; see docs/catalog.md.
-OPEN, CONFUSED, SURE = (0.7, 1.2), (0.4, 0.9), (0.25, 0.7)
+CONFUSED, SURE = (0.4, 0.9), (0.25, 0.7)
+_OPEN_SHARE = 1.2
+# Parts that nobody was sure about are reached as far as corrected parts of one label lie apart, times this, within
+# these bounds; a single correction reaches as far as the last number says.
+_SPREAD, _LEAST_OPEN, _MOST_OPEN, _ALONE = 1.5, 0.4, 0.7, 0.5
 _SETTLED = frozenset({"author", "human", "catalog"})
 _KIN_CONFIDENCE = 0.9  # of the closest kin
 _PLACE = 0.01  # m; a part that was renamed lies where it lay
@@ -175,6 +179,7 @@ class _Spread:
             }
             for s in self._sources
         }
+        reaches = {label: self._reach(space, label) for label in confused}
         chosen = []
         for part in open_parts:
             far = np.linalg.norm(space[[s.part for s in self._sources]] - space[part], axis=1)
@@ -184,13 +189,25 @@ class _Spread:
             label = (old.group, old.name) if old is not None else None
             if label == (source.group, source.name):
                 continue
-            reach, share = OPEN if label is None else CONFUSED if label in wrong else SURE
-            if near <= reach and near <= share * self._nearest_other(space, part, source, wrong):
+            widest = reaches[source.group, source.name]
+            reach, share = (widest, _OPEN_SHARE) if label is None else CONFUSED if label in wrong else SURE
+            if near <= min(reach, widest) and near <= share * self._nearest_other(space, part, source, wrong):
                 chosen.append((part, source, near))
         for part, source, near in chosen:
             alike = 1.0 - near**2 / 2  # the cosine
             confidence = _KIN_CONFIDENCE * alike
             self._take(part, source, confidence, f"much like it ({alike:.0%})", "kin", {"similarity": round(alike, 4)})
+
+    def _reach(self, space: Floats, label: tuple[str, str | None]) -> float:
+        """How far corrections to a label reach among parts that nobody was sure about."""
+        shape = self._parts.shape
+        members = {int(shape[s.part]): s.part for s in self._sources if (s.group, s.name) == label}
+        rows = space[list(members.values())]
+        if len(rows) < 2:
+            return _ALONE
+        apart = np.linalg.norm(rows[:, None] - rows[None], axis=2)
+        np.fill_diagonal(apart, np.inf)
+        return float(np.clip(_SPREAD * np.median(apart.min(axis=1)), _LEAST_OPEN, _MOST_OPEN))
 
     def _nearest_other(
         self, space: Floats, part: int, source: _Source, wrong: Collection[tuple[str, str | None]]
