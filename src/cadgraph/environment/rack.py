@@ -193,7 +193,9 @@ def _line(
             taps.append(choice.gauge(middle + 0.70, f"G-{number}{bay + 1}", 100, float(rng.uniform(0.6, 2.6))))
     if down:
         drop = float(route.starts[1])
-        inline.append(choice.valve(drop + 1.15, "gate" if number == 2 else "globe", f"V-{number}9", dn, np.pi / 2))
+        inline.append(
+            choice.valve(route.length - 0.86, "gate" if number == 2 else "globe", f"V-{number}9", dn, np.pi / 2)
+        )
         taps.append(choice.side_gauge(drop + 0.62, f"G-{number}9", 63, float(rng.uniform(0.6, 2.6)), True))
     ends = ("flange", "flange") if index < len(plan.ys) - 1 else ("blind", "flange")
     placed = site.lay(Run(tag, dn, route, tuple(inline), tuple(taps), ends=ends), hand)
