@@ -66,7 +66,7 @@ MAY_IMPORT = {
     "reproduce": VALUES | {"environment", "evaluate", "load", "pipeline", "render", "report", "summary", "truth"},
     "cli": VALUES
     | {"diagram", "functional"}
-    | {"amendment", "explanation", "intake", "lvlm", "relabel"}
+    | {"amendment", "explanation", "intake", "lvlm", "relabel", "truth"}
     | {"environment", "evaluate", "export", "load", "pipeline", "render", "report", "reproduce", "job", "summary"},
     "training": VALUES | {"environment", "evaluate", "geometry", "load", "pipeline", "stages", "truth"},
     "warm": {"environment", "pipeline", "render"},
