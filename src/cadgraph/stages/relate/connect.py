@@ -68,7 +68,9 @@ def connect_units(
     near = neighbor_lists(contacts)
     bridge = config.relate.bridge
     groups = connected_groups(roles, contacts, cluster, vocabulary.unit_of_group)
-    lines, copies = _find_all_lines(scene, properties, parts, roles, guessed, contacts, vocabulary, groups, bridge)
+    lines, copies = _find_all_lines(
+        scene, properties, parts, roles, labels, guessed, contacts, vocabulary, groups, bridge
+    )
     groups = connected_groups(roles, contacts, cluster, vocabulary.unit_of_group, lines)
     blobs = [
         part
@@ -121,6 +123,7 @@ def _find_all_lines(
     properties: Properties,
     parts: Parts,
     roles: Roles,
+    labels: Sequence[Label | None],
     guessed: Sequence[Label | None],
     contacts: Contacts,
     vocabulary: Vocabulary,
@@ -130,9 +133,7 @@ def _find_all_lines(
     """The lines of the connectors, and of what only geometry shows to be one; and the parts that are mere copies."""
     connectors = [part for part, group in enumerate(roles.groups) if group in vocabulary.connector_groups]
     others = likely_lines(roles, guessed, contacts, vocabulary, parts.ground.tolist())
-    singles = [
-        group.parts[0] for group in groups if len(group.parts) == 1 and (roles.doubtful or group.unit_type != "tank")
-    ]
+    singles = [group.parts[0] for group in groups if len(group.parts) == 1]
     # What is too small for a part of its own (a flange's nuts) would blur the shape of the mesh that it joined.
     heads = {parts.meshes[part][0]: part for part in (*connectors, *others, *singles)}
     lines = {heads[mesh]: line for mesh, line in find_lines(scene, properties, list(heads)).items()}
@@ -141,7 +142,8 @@ def _find_all_lines(
     kept = {part: lines[part] for part in connectors if part in lines}
     maybe = {part: _RATIO for part in others if part in lines}
     for part in singles:
-        if part not in lines or part in roles.backed:
+        # The labeler is no second opinion on what it said itself.
+        if part not in lines or (part in roles.backed and labels[part] is not guessed[part]):
             continue
         if is_plain_tube(lines[part]) and not roles.doubtful:
             maybe[part] = _OWN_RATIO
@@ -176,6 +178,7 @@ def _accept(
     tried = {part: line for part, line in lines.items() if part in kept or part in maybe}
     ends = gather_ends(tried)
     steps: dict[int, list[int]] = {}
+    weak: dict[int, list[int]] = {}
     for facing in face_ends(ends, contacts, bridge):
         if facing.corner:
             continue
@@ -184,6 +187,12 @@ def _accept(
         for part, other in ((a, b), (b, a)):
             if part not in maybe or radii[0] >= maybe[part] * radii[1]:
                 steps.setdefault(other, []).append(part)
+            elif radii[0] >= _RATIO * radii[1]:
+                weak.setdefault(part, []).append(other)
+    # What has a flange at either end is no less a pipe.
+    for part, others in sorted(weak.items()):
+        if len(others) >= 2 and all(other in kept for other in others):
+            kept[part] = lines[part]
     front = list(kept)
     while front:
         for part in steps.get(front.pop(), ()):
