@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from tests import shapes, tubes
 
+import shapes
+import tubes
 from cadgraph.config import Config
 from cadgraph.labels import GivenLabel
 from cadgraph.pipeline import build

@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
-from tests import shapes, tubes
-from tests.piping import (
+
+import shapes
+import tubes
+from piping import (
     BORE,
     FASTENER,
     GAUGE,
@@ -397,3 +399,21 @@ def test_bolts_in_one_mesh_with_their_flange_do_not_hide_its_faces():
         ]
         plant.meshes[k] = merged(plant.meshes[k], *bolts)
     assert links(plant.graph()) == [("V-001", "open"), ("V-001", "open")]
+
+
+def test_a_wheel_that_sits_on_no_valve_is_no_unit_and_is_told():
+    plant = Plant().pipe((0, 0, 0), (2, 0, 0))
+    plant.add(turned(shapes.tube(0.1, 0.08, 0.02), (1, 0, R + 0.012), (0, 0, 1)), VALVE, "handwheel")
+    graph = plant.graph()
+    assert not graph.units()
+    assert [d.code for d in graph.diagnostics if d.code == "loose-operator"] == ["loose-operator"]
+
+
+def test_a_wheel_on_a_valve_belongs_to_it():
+    plant = Plant().pipe((0, 0, 0), (1, 0, 0))
+    plant.add(valve_mesh((1.089, 0, 0)), VALVE, "valve body")
+    plant.pipe((1.178, 0, 0), (2, 0, 0))
+    top = plant.graph().units("valve")[0].aabb[1][2]
+    plant.add(turned(shapes.tube(0.1, 0.08, 0.02), (1.089, 0, top + 0.01), (0, 0, 1)), VALVE, "handwheel")
+    [valve] = plant.graph().units("valve")
+    assert len(valve.parts) == 2

@@ -21,7 +21,14 @@ from cadgraph.stages.relate.network import draw_network
 from cadgraph.stages.relate.role import Roles, find_roles, likely_lines, neighbor_lists
 from cadgraph.stages.relate.run import make_network
 from cadgraph.stages.relate.tag import tag_units
-from cadgraph.stages.relate.unit import FASTENERS, Group, connected_groups, mend_groups, split_groups
+from cadgraph.stages.relate.unit import (
+    FASTENERS,
+    Group,
+    connected_groups,
+    is_loose_operator,
+    mend_groups,
+    split_groups,
+)
 from cadgraph.vocabulary import Vocabulary
 
 __all__ = ["connect_units"]
@@ -99,6 +106,8 @@ def connect_units(
     reached = set(_mounted(found))
     # Where labels are doubtful, what only its own label calls a device and no line leads to is none.
     kept = [group for group in mended if not unsure.issuperset(group.parts) or reached.intersection(group.parts)]
+    loose = [group for group in kept if is_loose_operator(group, roles.names, reached)]
+    kept = [group for group in kept if group not in loose]
     groups = split_groups(parts, kept, contacts, found, near, roles.names, eps)
     units = tag_units(parts, groups)
     owner = {part: number for number, unit in enumerate(units) for part in unit.parts}
@@ -115,7 +124,14 @@ def connect_units(
     )
     network = name_kinds(network, roles.names, parts)
     network, told_flow = direct_flow(network, parts, roles.names, stated_flow(network, config.relate.flow))
-    return network, (*_tell(parts, roles, drawing.bridged), *told_flow)
+    return network, (*_tell(parts, roles, drawing.bridged), *_tell_loose(parts, loose), *told_flow)
+
+
+def _tell_loose(parts: Parts, loose: Sequence[Group]) -> tuple[Diagnostic, ...]:
+    if not loose:
+        return ()
+    heads = tuple(parts.scene.paths[part] for group in loose for part in group.parts)
+    return (Diagnostic("loose-operator", "handwheels, levers or the like that sit on no valve form no unit", heads),)
 
 
 def _find_all_lines(

@@ -14,7 +14,7 @@ from cadgraph.scene import Ints
 from cadgraph.stages.relate.attach import Attachments, flat_contacts
 from cadgraph.stages.relate.role import Roles
 
-__all__ = ["FASTENERS", "Group", "connected_groups", "mend_groups", "split_groups"]
+__all__ = ["FASTENERS", "Group", "connected_groups", "is_loose_operator", "mend_groups", "split_groups"]
 
 # A body stands out from the line's axis this many times farther on one side than on the other where it carries its own
 # operator: one mesh for a whole valve.
@@ -59,6 +59,21 @@ def connected_groups(
         if types[a] is not None and types[a] == types[b] and cluster[a] == cluster[b] >= 0
     ]
     return [Group(str(types[parts[0]]), parts) for parts in _components(members, pairs)]
+
+
+def is_loose_operator(group: Group, names: Sequence[str | None], reached: Collection[int]) -> bool:
+    """Whether a group is but a handwheel, lever or the like that sits on no valve.
+
+    Args:
+        group: connected parts.
+        names: of each part.
+        reached: parts at which lines end.
+    """
+    return (
+        group.unit_type == "valve"
+        and all(names[part] in _OPERATORS for part in group.parts)
+        and not any(part in reached for part in group.parts)
+    )
 
 
 def _components(members: Collection[int], pairs: Collection[tuple[int, int]]) -> list[tuple[int, ...]]:
