@@ -96,7 +96,7 @@ def main() -> None:
     gallery = Gallery(parts.scene)
     picked = chosen(parts, [name for _, name in truth], options.count)
     with ThreadPoolExecutor(2) as pool:
-        tiles = list(pool.map(lambda each: tile(gallery, parts, *each, ": ".join(truth[each[0]])), picked))
+        tiles = list(pool.map(lambda each: tile(gallery, parts, each[0], each[1], ": ".join(truth[each[0]])), picked))
     rows = -(-len(tiles) // COLUMNS)
     sheet = Image.new("RGB", (COLUMNS * 6 * SIDE, rows * (SIDE + HEAD)), "white")
     for i, each in enumerate(tiles):

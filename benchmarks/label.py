@@ -10,8 +10,8 @@ import argparse
 from typing import Any
 
 import numpy as np
-
 from _table import machine, once, table
+
 from cadgraph.environment import make
 from cadgraph.parts import Contacts, Parts
 from cadgraph.scene import Scene
@@ -60,7 +60,17 @@ def main() -> None:
     for preset in ("tank", "rack", *(("field",) if parser.parse_args().field else ())):
         rows.append(row(preset, *make_parts_from(make(preset).scene())))
     print(machine() + "\n")
-    titles = ["plant", "parts", "contacts", "shapes", "triangles", "looking [s]", "naming [s]", "in all [s]", "ms a shape"]
+    titles = [
+        "plant",
+        "parts",
+        "contacts",
+        "shapes",
+        "triangles",
+        "looking [s]",
+        "naming [s]",
+        "in all [s]",
+        "ms a shape",
+    ]
     print(table(titles, rows))
 
 

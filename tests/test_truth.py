@@ -8,7 +8,16 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from cadgraph.errors import FormatError, OutputError
-from cadgraph.truth import Truth, TruthCluster, TruthConnection, TruthLine, TruthMesh, TruthPoint, TruthUnit, check_truth
+from cadgraph.truth import (
+    Truth,
+    TruthCluster,
+    TruthConnection,
+    TruthLine,
+    TruthMesh,
+    TruthPoint,
+    TruthUnit,
+    check_truth,
+)
 from cadgraph.vocabulary import default_vocabulary
 from evaluate.plants import line
 

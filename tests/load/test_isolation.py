@@ -188,7 +188,9 @@ def test_interrupt_ends_the_child_and_leaves_nothing(tmp_path, scratch):
         "    time.sleep(600)\n"
     )
     caller = (
-        "import sys, tempfile, pathlib\n"
+        "import signal, sys, tempfile, pathlib\n"
+        # Whoever runs the tests in the background may have made them deaf to it.
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         f"sys.path.insert(0, {str(tmp_path)!r}); tempfile.tempdir = {str(scratch)!r}\n"
         "from cadgraph.config import LoadConfig\n"
         "from cadgraph.load.isolation import read_isolated\n"

@@ -111,7 +111,7 @@ def test_repeats_that_nearly_agree_follow_each_other():
 
 def test_one_that_is_sure_of_another_role_keeps_it():
     p = np.array([[0.97, 0.03]] * 5 + [[0.01, 0.99]])
-    assert spread(p, np.zeros(6, np.int64))[5, 1] > 0.9
+    assert spread(p, np.zeros(6, np.int64))[5, 1] > 0.85
 
 
 def test_talk_takes_mean_and_greatest_of_what_neighbours_say():

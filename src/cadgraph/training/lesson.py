@@ -8,7 +8,9 @@ from dataclasses import dataclass, replace
 from hashlib import sha256
 from pathlib import Path
 
-from cadgraph.environment.assortment import make_assortment
+import numpy as np
+
+from cadgraph.environment.assortment import FAMILIES, make_assortment
 from cadgraph.environment.hand import HANDS, Hand
 from cadgraph.environment.imperfection import Sins, spoil
 from cadgraph.environment.plant import Plant
@@ -29,7 +31,13 @@ SINS: dict[str, Sins] = {
 _PLANTS = ("skid", "riser", "tank", "pumps", "rack")
 _SPOILT_EVERY = 3
 _SHARE = 0.15
-_LOOSE: dict[str, Callable[[int], Plant]] = {"strangers": make_strangers, "fasteners": make_fasteners}
+_RARE = frozenset({"skid frame", "platform", "conduit", "hydrant", "camera", "impeller", "fire extinguisher", "ladder",
+                   "u-bolt", "bracket", "clamp", "tank", "gauge"})  # fmt: skip
+_COMMON = 0.15
+_LOOSE: dict[str, Callable[[int], Plant]] = {
+    "strangers": make_strangers,
+    "fasteners": make_fasteners,
+}
 _BATCH = 12
 TRIED_FROM = 100_000
 """Seeds from here on are never learnt from."""
@@ -40,7 +48,7 @@ class Lesson:
     """One plant, by name.
 
     Args:
-        kind: ``assortment``, ``strangers``, ``fasteners`` or a preset.
+        kind: ``assortment``, ``rare``, ``strangers``, ``fasteners`` or a preset.
         seed: of the plant.
         hand: a published style by name; empty for drawn ones, or the preset's own.
         sin: a key of ``SINS``, ``some`` for a few of each, or empty.
@@ -55,6 +63,8 @@ class Lesson:
 
     def plant(self) -> Plant:
         """Builds the plant."""
+        if self.kind == "rare":
+            return _make_rare(self.seed)
         if self.kind in _LOOSE:
             return _LOOSE[self.kind](self.seed)
         hand = _retold(HANDS[self.hand], self.sides) if self.hand else None
@@ -66,6 +76,13 @@ class Lesson:
         return spoil(plant, SINS[self.sin], self.seed) if self.sin else plant
 
 
+def _make_rare(seed: int) -> Plant:
+    """A plant of what is seldom drawn otherwise, and a few other things."""
+    rng = np.random.default_rng([seed, 83])
+    out = [name for name in FAMILIES if name.split("/")[0] not in _RARE and rng.random() > _COMMON]
+    return make_assortment(1_000_000 + seed, without=frozenset(out))
+
+
 def _retold(hand: Hand, factor: float) -> Hand:
     """The same style with more or fewer sides."""
     if factor == 1.0:
@@ -75,9 +92,9 @@ def _retold(hand: Hand, factor: float) -> Hand:
 
 
 def training_lessons(count: int, strangers: int) -> list[Lesson]:
-    """Assortments in drawn styles, a third of them spoilt, loose fasteners, and shapes that belong to no plant."""
+    """Assortments in drawn styles, a third of them spoilt; rare things; loose fasteners; what belongs to no plant."""
     plants = [Lesson("assortment", seed, sin="some" if seed % _SPOILT_EVERY == 0 else "") for seed in range(count)]
-    return plants + [Lesson(kind, seed) for kind in _LOOSE for seed in range(strangers)]
+    return plants + [Lesson(kind, seed) for kind in ("rare", *_LOOSE) for seed in range(strangers)]
 
 
 def held_out_lessons(seeds: int = 2) -> dict[str, list[Lesson]]:

@@ -17,14 +17,14 @@ def describe_form(f: Facts) -> str:
     long, middle, short = (float(x) for x in f.section)
     across = 2 * f.radius
     bored = [p for p in f.ports if 0 < p.inner < p.outer]
+    if f.turned > 0.7 and f.sides == 6 and (not f.tube or f.length < 2 * across):
+        return f"six-sided {'ring' if bored else 'prism'}, {_mm(across)} across, {_mm(f.length)} long"
     if f.tube:
         width = 2 * f.ports[0].outer
         hollow = "hollow" if bored else "solid"
         return f"{hollow} {'bent ' if f.bent else ''}tube, {_mm(width)} across, {_mm(f.tube)} long"
     if f.sides >= 8 and 3 <= f.spokes <= 8 and f.rim > 0.4:
         return f"ring with {f.spokes} spokes, {_mm(across)} across"
-    if f.turned > 0.7 and f.sides == 6:
-        return f"six-sided {'ring' if bored else 'prism'}, {_mm(across)} across, {_mm(f.length)} long"
     if f.round:
         kind = "ring" if bored else "round body"
         flat = "flat " if f.length < 0.25 * across else "long " if f.length > 3 * across else ""
