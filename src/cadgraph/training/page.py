@@ -42,8 +42,8 @@ scenes of things that belong to no plant teach it what it doesn't know.
 
 `make train` makes the model and this page. *Name* and *group*: share of the parts named right, whatever the confidence.
 *Macro F1*: mean over names, so that rare ones count as much as pipes. *ECE*: calibration error. *Kept*, *precision*:
-with the threshold that was set where a third of the families is new, and on nothing else, so that {precision:.0%} of
-the names above it are right there.
+with the threshold. It lies midway between the one at which {precision:.0%} of the names are right on whole plants of
+which a third of the families is new, and the one that this takes on the new families alone.
 
 {main}
 

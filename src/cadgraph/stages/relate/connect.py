@@ -106,7 +106,10 @@ def connect_units(
     reached = set(_mounted(found))
     # Where labels are doubtful, what only its own label calls a device and no line leads to is none.
     kept = [group for group in mended if not unsure.issuperset(group.parts) or reached.intersection(group.parts)]
-    loose = [group for group in kept if is_loose_operator(group, roles.names, reached)]
+    vague = {
+        part for part, label in enumerate(labels) if label is not None and label.name is None and label is guessed[part]
+    }
+    loose = [group for group in kept if is_loose_operator(group, roles.names, vague, reached)]
     kept = [group for group in kept if group not in loose]
     groups = split_groups(parts, kept, contacts, found, near, roles.names, eps)
     units = tag_units(parts, groups)
