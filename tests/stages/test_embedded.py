@@ -37,8 +37,7 @@ def riser():
 
 def said(scene):
     parts, contacts = make_parts_from(scene)
-    labels = EmbeddedLabeler().label(parts, contacts, VOCABULARY)
-    return {parts.scene.paths[i]: label and (label.group, label.name) for i, label in enumerate(labels)}
+    return dict(zip(parts.scene.paths, EmbeddedLabeler().label(parts, contacts, VOCABULARY), strict=True))
 
 
 def test_order_and_pose_of_meshes_change_no_label(riser):
@@ -50,9 +49,14 @@ def test_order_and_pose_of_meshes_change_no_label(riser):
         [(v @ q.T + [10.0, 5.0, -3.0], f) for v, f in reversed(meshes)], tuple(reversed(scene.paths))
     )
     first, second = said(scene), said(moved)
-    differ = [path for path in first if first[path] != second[path]]
-    # Rounding may tip a part that sits on the fence, no more than one in a hundred.
-    assert len(differ) <= len(first) // 100
+    least = EmbeddedLabeler().least_confidence
+    for path, one in first.items():
+        other = second[path]
+        # Rounding moves confidence a little: only what sits on the fence may fall to the other side of it.
+        assert abs(one.guesses[0].confidence - other.guesses[0].confidence) < 0.05
+        fence = min(abs(label.confidence - least) for label in (one, other)) < 0.03
+        assert (one.group, one.name) == (other.group, other.name) or fence
+        assert (one.guesses[0].group, one.guesses[0].name) == (other.guesses[0].group, other.guesses[0].name)
 
 
 def test_the_model_reproduces_its_recorded_figures():
@@ -60,7 +64,7 @@ def test_the_model_reproduces_its_recorded_figures():
     for row in trial:
         plant = make(row["preset"], row["seed"], row["hand"])
         truth = dict(zip(plant.paths(), ((c.group, c.name) for c in plant.components), strict=True))
-        found = {path: label for path, label in said(plant.scene()).items() if label is not None}
+        found = {path: label and (label.group, label.name) for path, label in said(plant.scene()).items() if label}
         right = np.mean([label == truth[path] for path, label in found.items()])
         group = np.mean([label[0] == truth[path][0] for path, label in found.items()])
         assert right == pytest.approx(row["name"], abs=0.02)
