@@ -82,7 +82,10 @@ def summary_lines(summary: Any) -> list[str]:
         ),
         ("touching", f"{_count(summary.n_adjacent, 'pair')} of parts"),
         ("units", units or "none"),
-        ("relations", f"{summary.n_related:,} between units"),
+        (
+            "relations",
+            f"{_count(summary.n_connected, 'connection')} along the pipes; the paper's algorithm: {summary.n_related:,}",
+        ),
         ("diagnostics", found),
     )
     return [f"[dim]{name:<15}[/]{text}" for name, text in rows]
