@@ -84,7 +84,7 @@ def summary_lines(summary: Any) -> list[str]:
         ("units", units or "none"),
         (
             "relations",
-            f"{_count(summary.n_connected, 'connection')} along the pipes; the paper's algorithm: {summary.n_related:,}",
+            f"{_count(summary.n_connected, 'connection')} along the pipes; the paper's way {summary.n_related:,}",
         ),
         ("diagnostics", found),
     )
