@@ -68,6 +68,7 @@ def summary_lines(summary: Any) -> list[str]:
     groups = ", ".join(f"{escape(group)} {n}" for group, n in summary.groups.items()) or "none"
     units = ", ".join(f"{len(tags)} {escape(kind)}{'s' * (len(tags) != 1)}" for kind, tags in summary.units.items())
     found = ", ".join(f"{escape(code)} {n}" for code, n in summary.diagnostics.items()) or "none"
+    along = f"{_count(summary.n_connected, 'connection')} along the pipes"
     rows = (
         (
             "source",
@@ -82,10 +83,7 @@ def summary_lines(summary: Any) -> list[str]:
         ),
         ("touching", f"{_count(summary.n_adjacent, 'pair')} of parts"),
         ("units", units or "none"),
-        (
-            "relations",
-            f"{_count(summary.n_connected, 'connection')} along the pipes; the paper's way {summary.n_related:,}",
-        ),
+        ("relations", f"{along}; {summary.n_related:,} by the algorithm of the paper"),
         ("diagnostics", found),
     )
     return [f"[dim]{name:<15}[/]{text}" for name, text in rows]
