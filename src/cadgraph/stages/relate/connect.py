@@ -106,10 +106,11 @@ def connect_units(
     reached = set(_mounted(found))
     # Where labels are doubtful, what only its own label calls a device and no line leads to is none.
     kept = [group for group in mended if not unsure.issuperset(group.parts) or reached.intersection(group.parts)]
-    vague = {
-        part for part, label in enumerate(labels) if label is not None and label.name is None and label is guessed[part]
-    }
-    loose = [group for group in kept if is_loose_operator(group, roles.names, vague, reached)]
+    likeliest = [
+        name or (label.guesses[0].name if label is not None and label.guesses else None)
+        for name, label in zip(roles.names, labels, strict=True)
+    ]
+    loose = [group for group in kept if is_loose_operator(group, likeliest, reached)]
     kept = [group for group in kept if group not in loose]
     groups = split_groups(parts, kept, contacts, found, near, roles.names, eps)
     units = tag_units(parts, groups)

@@ -61,20 +61,17 @@ def connected_groups(
     return [Group(str(types[parts[0]]), parts) for parts in _components(members, pairs)]
 
 
-def is_loose_operator(
-    group: Group, names: Sequence[str | None], vague: Collection[int], reached: Collection[int]
-) -> bool:
+def is_loose_operator(group: Group, names: Sequence[str | None], reached: Collection[int]) -> bool:
     """Whether a group is but a handwheel, lever or the like that sits on no valve.
 
     Args:
         group: connected parts.
-        names: of each part.
-        vague: parts of which the labeler knows no more than the group.
+        names: of each part, or the likeliest where only the group is known.
         reached: parts at which lines end.
     """
     return (
         group.unit_type == "valve"
-        and all(names[part] in _OPERATORS or part in vague for part in group.parts)
+        and all(names[part] in _OPERATORS for part in group.parts)
         and not any(part in reached for part in group.parts)
     )
 
