@@ -240,12 +240,16 @@ class Asking:
                 return Reply(None, error="not asked: the budget is used up")
             self._on_the_way += 1
             self._promised += cost
+        reply: Reply | None = None
         try:
-            return self.answerer.ask(question)
+            reply = self.answerer.ask(question)
         finally:
+            # In one step, or another question slips in between what is on the way and what is used.
             with self._lock:
                 self._on_the_way -= 1
                 self._promised -= cost
+                self._used_questions += reply is not None and reply.error is None
+        return reply
 
     def _cached(self, question: Question) -> Reply | None:
         return self.cache.get(key_of(question, self.answerer.name, self.detail))
@@ -266,7 +270,7 @@ class Asking:
                 write_question(self.keep, drawn, reply=reply)
         cost = self.price.cost(reply.prompt_tokens, reply.answer_tokens, batch=reply.batch) if self.price else 0.0
         with self._lock:
-            self._used_questions += reply.error is None
+            self._used_questions += known and reply.error is None
             self.tally.known += known
             self.tally.asked += not known and not reply.waiting and reply.error is None
             self.tally.prompt_tokens += reply.prompt_tokens
