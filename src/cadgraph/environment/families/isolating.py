@@ -1,0 +1,9 @@
+"""Further isolating and control valves: gate, globe, ball, butterfly, plug, diaphragm, pinch."""
+
+from __future__ import annotations
+
+from cadgraph.environment.family import Family
+
+__all__ = ["ISOLATING"]
+
+ISOLATING: tuple[Family, ...] = ()

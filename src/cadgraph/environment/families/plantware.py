@@ -1,0 +1,9 @@
+"""Further tanks, exchangers, boilers, filters and separators."""
+
+from __future__ import annotations
+
+from cadgraph.environment.family import Family
+
+__all__ = ["PLANTWARE"]
+
+PLANTWARE: tuple[Family, ...] = ()
