@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from cadgraph.environment.families.vesselbuild import VESSEL_BUILDS
 from cadgraph.environment.family import Family
 
 __all__ = ["PLANTWARE"]
 
-PLANTWARE: tuple[Family, ...] = ()
+PLANTWARE: tuple[Family, ...] = (*VESSEL_BUILDS,)
