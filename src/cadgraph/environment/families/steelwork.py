@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from cadgraph.environment.families.steel_beam import BEAMS
+from cadgraph.environment.families.steel_column import COLUMNS
 from cadgraph.environment.family import Family
 
 __all__ = ["STEELWORK"]
 
-STEELWORK: tuple[Family, ...] = ()
+STEELWORK: tuple[Family, ...] = (*BEAMS, *COLUMNS)
