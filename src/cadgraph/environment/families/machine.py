@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from cadgraph.environment.families.machine_rotary import ROTARY
+from cadgraph.environment.families.machine_special import SPECIAL
 from cadgraph.environment.family import Family
 
 __all__ = ["MACHINES"]
 
-MACHINES: tuple[Family, ...] = ()
+MACHINES: tuple[Family, ...] = (*ROTARY, *SPECIAL)
