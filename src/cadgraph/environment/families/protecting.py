@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from cadgraph.environment.families.protecting_check import CHECKS
 from cadgraph.environment.family import Family
 
 __all__ = ["PROTECTING"]
 
-PROTECTING: tuple[Family, ...] = ()
+PROTECTING: tuple[Family, ...] = (*CHECKS,)
