@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from cadgraph.environment.families.isolating_gate import GATES
 from cadgraph.environment.family import Family
 
 __all__ = ["ISOLATING"]
 
-ISOLATING: tuple[Family, ...] = ()
+ISOLATING: tuple[Family, ...] = (*GATES,)
