@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from cadgraph.environment.families.measuring_gauge import GAUGE_BUILDS
+from cadgraph.environment.families.measuring_panel import PANEL_BUILDS
 from cadgraph.environment.family import Family
 
 __all__ = ["MEASURING"]
 
-MEASURING: tuple[Family, ...] = ()
+MEASURING: tuple[Family, ...] = (*GAUGE_BUILDS, *PANEL_BUILDS)
+"""The families of devices and structures that an assortment draws from."""
