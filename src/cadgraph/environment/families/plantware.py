@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from cadgraph.environment.families.storage import STORAGE
 from cadgraph.environment.families.vesselbuild import VESSEL_BUILDS
 from cadgraph.environment.family import Family
 
 __all__ = ["PLANTWARE"]
 
-PLANTWARE: tuple[Family, ...] = (*VESSEL_BUILDS,)
+PLANTWARE: tuple[Family, ...] = (*VESSEL_BUILDS, *STORAGE)

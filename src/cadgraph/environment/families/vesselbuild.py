@@ -145,10 +145,10 @@ def _lying(
     _: int, hand: Hand, rng: np.random.Generator, rest: str = "ribbed", top: str = "", man: str = "", lift: str = ""
 ) -> Model:
     """A lying vessel on two or three saddles of one build, with nozzles and maybe a manway on top."""
-    r = float(np.exp(rng.uniform(np.log(0.4 if man else 0.2), np.log(1.3))))
+    r = float(np.exp(rng.uniform(np.log(0.4 if man else 0.2), np.log(1.15))))
     if rest in ("sheet", "block"):
         r = min(r, 0.8) * 0.7
-    length, n = float(rng.uniform(2.2, 6.0)) * r, sides(hand, r)
+    length, n = min(float(rng.uniform(2.2, 6.0)) * r, 4.5), sides(hand, r)
     axis = r + float(rng.uniform(0.15, 0.3)) + 0.25 * r * float(rng.random())
     if rest in ("frame", "concrete"):
         axis += 0.5

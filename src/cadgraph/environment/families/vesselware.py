@@ -22,6 +22,7 @@ from cadgraph.scene import Floats
 __all__ = [
     "Drum",
     "bent",
+    "capped",
     "fall",
     "head",
     "head_height",
@@ -105,10 +106,15 @@ def head_height(kind: str, r: float) -> float:
 
 def head(kind: str, r: float, hand: Hand, n: int) -> Solid:
     """A head about z, rim at 0, apex up; a sheet where the hand models hollow."""
-    outside = head_outline(kind, r)
+    return capped(head_outline(kind, r), hand, n)
+
+
+def capped(outside: list[tuple[float, float]], hand: Hand, n: int) -> Solid:
+    """A round lid from the outline of its outside, rim (r, 0) to apex (0, h); a sheet where the hand models hollow."""
+    r = outside[0][0]
     if not hand.hollow:
         return turned(outside, n)
-    wall = max(0.003, 0.012 * r)
+    wall = min(max(0.003, 0.012 * r), 0.5 * outside[-1][1])
     x_share, z_share = 1 - wall / r, 1 - wall / outside[-1][1]
     inside = [(x * x_share, z * z_share) for x, z in outside[::-1]]
     return weld([revolve([*outside, *inside], n), revolve([inside[-1], outside[0]], n)])
@@ -148,7 +154,7 @@ def mouth(kind: str, dn: int, reach: float, hand: Hand, r: float = 0.0, dip: flo
     """A nozzle about z on a surface of radius ``r``, its face at ``reach``; flanges after ASME B16.5 class 150.
 
     ``plain``, ``pad`` (reinforced), ``heavy`` (long welding neck, self-reinforced), ``blind`` (closed), ``vent`` (a
-    gooseneck), ``half`` (threaded half coupling), ``ferrule`` (hygienic clamp) or ``fitting`` (a tank fitting with nut).
+    gooseneck), ``half`` (threaded half coupling), ``ferrule`` (hygienic clamp) or ``fitting`` (with a nut).
     """
     radius, name = PIPES[dn].radius, "nozzle"
     n, thick = hand.round(radius), plate_thickness(dn)
@@ -353,8 +359,8 @@ def _screw_lid(size: float, low: float, hand: Hand, rng: np.random.Generator) ->
 def lug(kind: str, size: float, hand: Hand, r: float = 0.0, dip: float = 0.0) -> list[Part]:
     """A lifting lug about z, its pull along -x (upward on an upright shell); ``size`` is its width [m].
 
-    ``plate``, ``pad`` (on a doubler), ``trunnion``, ``eyebolt`` (DIN 580), ``ring`` (a bent bar) or ``cheeks`` (two plates
-    with a pin).
+    ``plate``, ``pad`` (on a doubler), ``trunnion``, ``eyebolt`` (DIN 580), ``ring`` (a bent bar) or ``cheeks`` (two
+    plates with a pin).
     """
     name, s, low = "lifting lug", size, -dip - 0.01
     if kind == "trunnion":
