@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from cadgraph.environment.families.support_clamp import CLAMPS
+from cadgraph.environment.families.support_hanger import HANGERS
+from cadgraph.environment.families.support_ubolt import U_BOLTS
 from cadgraph.environment.family import Family
 
 __all__ = ["SUPPORTS"]
 
-SUPPORTS: tuple[Family, ...] = ()
+SUPPORTS: tuple[Family, ...] = (*U_BOLTS, *CLAMPS, *HANGERS)
