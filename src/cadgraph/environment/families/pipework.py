@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from cadgraph.environment.families.piping_bend import BENDS
+from cadgraph.environment.families.piping_branch import BRANCHES
 from cadgraph.environment.family import Family
 
 __all__ = ["PIPEWORK"]
 
-PIPEWORK: tuple[Family, ...] = ()
+PIPEWORK: tuple[Family, ...] = (*BENDS, *BRANCHES)
