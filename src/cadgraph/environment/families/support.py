@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from cadgraph.environment.families.support_clamp import CLAMPS
 from cadgraph.environment.families.support_hanger import HANGERS
+from cadgraph.environment.families.support_stand import STANDS
 from cadgraph.environment.families.support_ubolt import U_BOLTS
 from cadgraph.environment.family import Family
 
 __all__ = ["SUPPORTS"]
 
-SUPPORTS: tuple[Family, ...] = (*U_BOLTS, *CLAMPS, *HANGERS)
+SUPPORTS: tuple[Family, ...] = (*U_BOLTS, *CLAMPS, *HANGERS, *STANDS)

@@ -50,7 +50,7 @@ def _nut(d: float, z: float, hand: Hand, y: float = 0.0, up: bool = True) -> Par
 
 
 def _attached(d: float, z: float, height: float, hand: Hand, rng: np.random.Generator, half: float = 0.0) -> list[Part]:
-    """How a rod that ends at ``z`` holds on above: through a plate, a welded lug with clevis, a beam clamp, a channel."""
+    """How a rod that ends at ``z`` holds on above: a plate, a welded lug, a beam clamp, a channel."""
     kind = int(rng.integers(4))
     if kind == 0:  # a washer plate and nuts under a beam
         plate = box((0.06 + d, 0.06 + d, 0.008), (0, 0, z + 0.004))
@@ -97,7 +97,7 @@ def _attached(d: float, z: float, height: float, hand: Hand, rng: np.random.Gene
 
 
 def _clevis(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
-    """An adjustable clevis of one bent strap with a cross bolt through a yoke (MSS SP-58 type 1), maybe with a shield."""
+    """An adjustable clevis of one bent strap with a cross bolt and a yoke (MSS SP-58 type 1)."""
     r = PIPES[dn].radius
     d = _rod_d(r)
     shield = bool(rng.random() < 0.4)
@@ -185,7 +185,7 @@ def _swivel(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
 
 
 def _three_bolt(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
-    """A three-bolt clamp (MSS SP-58 type 3): halves with long upper ears, the load bolt carries an eye rod or a link."""
+    """A three-bolt clamp (MSS SP-58 type 3): long upper ears, their load bolt carries an eye rod."""
     r = PIPES[dn].radius
     d = _rod_d(r)
     thick, wide, blade = 0.005 + 0.02 * r, 0.03 + 0.22 * r, 1.0 * d
@@ -223,7 +223,7 @@ def roller(half: float, r: float, waist: float, hand: Hand) -> Solid:
 
 
 def _rolling(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
-    """A roller hanger: a yoke on one rod (MSS SP-58 type 43) or an axle between two rods (type 41), an hourglass roller."""
+    """A roller hanger: a yoke on one rod (MSS SP-58 type 43) or an axle between two rods (type 41)."""
     r = PIPES[dn].radius
     d = _rod_d(r)
     waist, half = 0.012 + 0.22 * r, 0.72 * r + 0.006
@@ -305,7 +305,7 @@ def _trapeze(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mo
 
 
 def _spring(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
-    """A variable spring hanger (MSS SP-58 type 51): a can with end plates, a slot with a scale, a turnbuckle, a clamp."""
+    """A variable spring hanger (MSS SP-58 type 51): a can or a caged coil, a turnbuckle, a clamp."""
     r = PIPES[dn].radius
     d = _rod_d(r)
     thick, wide, ear = 0.005 + 0.02 * r, 0.03 + 0.2 * r, 2.6 * d

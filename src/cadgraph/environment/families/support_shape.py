@@ -289,7 +289,7 @@ def overhead(low: float, height: float, half: float, hand: Hand, rng: np.random.
     size = float(rng.choice([0.08, 0.1, 0.14, 0.18]))
     outline, holes = member(size, hand, rng, flat=True)
     span = half + float(rng.uniform(0.2, 0.6))
-    along_ = rng.random() < 0.3 and half < 0.1
+    along_ = rng.random() < 0.3 and half < 0.04
     a, b = ((-span, 0.0), (span, 0.0)) if along_ else ((0.0, -span), (0.0, span))
     parts = [framed(bar((*a, low + size / 2), (*b, low + size / 2), outline, holes), "beam")]
     kind = int(rng.integers(3)) if height < 3.0 else 0
