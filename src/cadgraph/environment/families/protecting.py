@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from cadgraph.environment.families.protecting_check import CHECKS
+from cadgraph.environment.families.protecting_relief import RELIEFS
+from cadgraph.environment.families.protecting_vent import VENTS
 from cadgraph.environment.family import Family
 
 __all__ = ["PROTECTING"]
 
-PROTECTING: tuple[Family, ...] = (*CHECKS,)
+PROTECTING: tuple[Family, ...] = (*CHECKS, *RELIEFS, *VENTS)

@@ -168,7 +168,8 @@ def bend(points: Sequence[Sequence[float]], corner: float, steps: int = 4) -> Fl
         for t in np.linspace(0, 1, steps + 1):
             path.append(q + corner * ((1 - t) ** 2 * back + t**2 * on))
     path.append(np.asarray(points[-1], float))
-    return np.array(path)
+    apart = [path[0]] + [q for p, q in zip(path[:-1], path[1:], strict=True) if np.abs(q - p).max() > 1e-6]
+    return np.array(apart)
 
 
 def chain(start: Sequence[float], end: Sequence[float], sag: float, wire: float) -> Solid:
