@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from cadgraph.environment.families.support_clamp import CLAMPS
+from cadgraph.environment.families.support_fastener import FASTENERS
+from cadgraph.environment.families.support_gusset import GUSSETS
 from cadgraph.environment.families.support_hanger import HANGERS
 from cadgraph.environment.families.support_stand import STANDS
 from cadgraph.environment.families.support_ubolt import U_BOLTS
@@ -10,4 +12,4 @@ from cadgraph.environment.family import Family
 
 __all__ = ["SUPPORTS"]
 
-SUPPORTS: tuple[Family, ...] = (*U_BOLTS, *CLAMPS, *HANGERS, *STANDS)
+SUPPORTS: tuple[Family, ...] = (*U_BOLTS, *CLAMPS, *HANGERS, *STANDS, *GUSSETS, *FASTENERS)
