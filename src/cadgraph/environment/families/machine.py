@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from cadgraph.environment.families.machine_air import AIR
+from cadgraph.environment.families.machine_compressor import COMPRESSORS
 from cadgraph.environment.families.machine_displacing import DISPLACING
+from cadgraph.environment.families.machine_fired import FIRED
 from cadgraph.environment.families.machine_rotary import ROTARY
 from cadgraph.environment.families.machine_small import SMALL
 from cadgraph.environment.families.machine_special import SPECIAL
@@ -11,4 +14,4 @@ from cadgraph.environment.family import Family
 
 __all__ = ["MACHINES"]
 
-MACHINES: tuple[Family, ...] = (*ROTARY, *SPECIAL, *WHEELS, *DISPLACING, *SMALL)
+MACHINES: tuple[Family, ...] = (*ROTARY, *SPECIAL, *WHEELS, *DISPLACING, *SMALL, *AIR, *COMPRESSORS, *FIRED)

@@ -112,16 +112,17 @@ def _hand_pump(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         necks = [hexagon(0.06 * s, z + 0.9 * r, z + 1.25 * r), hexagon(0.06 * s, z - 1.25 * r, z - 0.9 * r)]
         necks = [moved(x, at(0, -0.065)) for x in necks]
         plate = box((2.4 * r, 0.012, 1.0 * r), (0, -0.014, z))
-        lever = [(0, -0.1, z), (0, -0.14, z), (0.1 * s, -0.14, z + 0.22 * s), (0.1 * s, -0.14, z + 0.4 * s)]
+        bow = [(0, -0.1, z), (0, -0.14, z), (0.1 * s, -0.14, z + 0.22 * s), (0.1 * s, -0.14, z + 0.4 * s)]
         pipe = moved(cylinder(0.017, 0.0, z - 1.2 * r, 12), at(0, -0.065))
         return Model(
             [
                 Part(merge([disc, *necks, plate]), CASING, "pump", CASING),
                 Part(
-                    merge([rope(lever, 0.01, 8), along("-y", cylinder(0.02, 0.1, 0.12, 12), 0, -0.01, z)]),
-                    "shaft",
+                    merge([rope(bow, 0.01, 8), along("-y", cylinder(0.02, 0.1, 0.12, 12), 0, -0.01, z)]),
+                    "lever",
                     "handle",
                     CASING,
+                    "Valve assembly",
                 ),
                 Part(pipe, "pipe", "pipe", "", "Pipe assembly"),
                 Part(box((0.8, 0.1, z + 0.6), (0, 0.042, (z + 0.6) / 2)), "wall", "concrete", "", "Structural element"),
@@ -172,7 +173,7 @@ def _hand_pump(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         return Model(
             [
                 Part(merge([*body, spout, ear]), CASING, "pump", CASING),
-                Part(merge([lever, bar]), "shaft", "handle", CASING),
+                Part(merge([lever, bar]), "lever", "handle", CASING, "Valve assembly"),
                 Part(pipe, "pipe", "pipe", "", "Pipe assembly"),
             ],
             kind="hand pump",
@@ -216,7 +217,7 @@ def _hand_pump(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(
         [
             Part(merge([disc, stem, beak]), CASING, "pump", CASING),
-            Part(crank, "shaft", "handle", CASING),
+            Part(crank, "lever", "handle", CASING, "Valve assembly"),
             Part(drum, "tank", "tank", "", "Tank"),
         ],
         kind="hand pump",
