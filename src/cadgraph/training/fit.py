@@ -40,16 +40,16 @@ class Recipe:
         balance: exponent of the frequency by which rare names weigh more.
     """
 
-    hidden: int = 256
-    width: int = 128
+    hidden: int = 512
+    width: int = 192
     talk: int = 48
-    rounds: int = 2
-    epochs: int = 14
+    rounds: int = 3
+    epochs: int = 18
     batch: int = 8
     rate: float = 2e-3
     decay: float = 0.02
-    dropout: float = 0.2
-    noise: float = 0.1
+    dropout: float = 0.3
+    noise: float = 0.15
     alone: float = 0.2
     scattered: float = 0.15
     deaf: float = 0.15

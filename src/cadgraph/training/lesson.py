@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from hashlib import sha256
 from pathlib import Path
@@ -17,7 +18,7 @@ from cadgraph.environment.plant import Plant
 from cadgraph.environment.preset import PRESETS
 from cadgraph.training.example import Example, make_example, read_examples, write_examples
 from cadgraph.training.fastener import make_fasteners
-from cadgraph.training.stranger import make_strangers
+from cadgraph.training.stranger import UNSEEN_FROM, make_strangers, visited
 
 __all__ = ["SINS", "Lesson", "build_lessons", "held_out_lessons", "training_lessons"]
 
@@ -29,7 +30,7 @@ SINS: dict[str, Sins] = {
     "degenerate": Sins(degenerate=1.0),
 }
 _PLANTS = ("skid", "riser", "tank", "pumps", "rack")
-_SPOILT_EVERY = 3
+_SPOILT_EVERY, _VISITED_EVERY = 3, 6
 _SHARE = 0.15
 _RARE = frozenset({"skid frame", "platform", "conduit", "hydrant", "camera", "impeller", "fire extinguisher", "ladder",
                    "u-bolt", "bracket", "clamp", "tank", "gauge"})  # fmt: skip
@@ -53,6 +54,7 @@ class Lesson:
         hand: a published style by name; empty for drawn ones, or the preset's own.
         sin: a key of ``SINS``, ``some`` for a few of each, or empty.
         sides: factor of the number of sides of everything round.
+        guests: whether strangers lean on its parts.
     """
 
     kind: str
@@ -60,9 +62,14 @@ class Lesson:
     hand: str = ""
     sin: str = ""
     sides: float = 1.0
+    guests: bool = False
 
     def plant(self) -> Plant:
         """Builds the plant."""
+        plant = self._plant()
+        return visited(plant, self.seed) if self.guests else plant
+
+    def _plant(self) -> Plant:
         if self.kind == "rare":
             return _make_rare(self.seed)
         if self.kind in _LOOSE:
@@ -92,8 +99,13 @@ def _retold(hand: Hand, factor: float) -> Hand:
 
 
 def training_lessons(count: int, strangers: int) -> list[Lesson]:
-    """Assortments in drawn styles, a third of them spoilt; rare things; loose fasteners; what belongs to no plant."""
-    plants = [Lesson("assortment", seed, sin="some" if seed % _SPOILT_EVERY == 0 else "") for seed in range(count)]
+    """Assortments in drawn styles, a third of them spoilt, a sixth among strangers; rare things; loose fasteners; what
+    belongs to no plant.
+    """
+    plants = [
+        Lesson("assortment", seed, sin="some" if seed % _SPOILT_EVERY == 0 else "", guests=seed % _VISITED_EVERY == 1)
+        for seed in range(count)
+    ]
     return plants + [Lesson(kind, seed) for kind in ("rare", *_LOOSE) for seed in range(strangers)]
 
 
@@ -108,12 +120,13 @@ def held_out_lessons(seeds: int = 2) -> dict[str, list[Lesson]]:
     styles = [Lesson(kind, seed, hand) for hand in HANDS for kind in (*_PLANTS, "assortment") for seed in tried]
     few = [Lesson(kind, TRIED_FROM, hand) for hand in HANDS for kind in ("riser", "tank")]
     return {
-        "new seeds": [Lesson("assortment", seed) for seed in range(TRIED_FROM, TRIED_FROM + 16 * seeds)],
+        "new seeds": [Lesson("assortment", seed) for seed in range(TRIED_FROM, TRIED_FROM + 48 * seeds)],
         "new styles": styles,
         **{f"sin: {sin}": [replace(lesson, sin=sin) for lesson in few] for sin in SINS},
         "half the sides": [replace(lesson, sides=0.5) for lesson in few],
         "twice the sides": [replace(lesson, sides=2.0) for lesson in few],
         "strangers": [Lesson("strangers", seed) for seed in range(TRIED_FROM, TRIED_FROM + 5 * seeds)],
+        "unseen strangers": [Lesson("strangers", seed) for seed in range(UNSEEN_FROM, UNSEEN_FROM + 5 * seeds)],
     }
 
 
@@ -132,8 +145,9 @@ def build_lessons(
     folder.mkdir(parents=True, exist_ok=True)
     batches = [tuple(lessons[k : k + _BATCH]) for k in range(0, len(lessons), _BATCH)]
     examples: list[Example] = []
-    with ProcessPoolExecutor(max_workers=workers) as pool:
-        for k, path in enumerate(pool.map(_built, batches, [folder] * len(batches))):
+    with nullcontext() if workers == 1 else ProcessPoolExecutor(max_workers=workers) as pool:
+        run = map if pool is None else pool.map
+        for k, path in enumerate(run(_built, batches, [folder] * len(batches))):
             examples += read_examples(path)
             told(f"plants: {min(_BATCH * (k + 1), len(lessons))} of {len(lessons)}")
     return examples

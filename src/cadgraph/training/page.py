@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -18,6 +18,7 @@ __all__ = ["write_page"]
 
 _SCALE = 1.3
 _CONFUSIONS = 15
+_WORDS = ("No", "One", "Two", "Three", "Four")
 
 _TEXT = """# The embedded labeler
 
@@ -30,29 +31,32 @@ arrays, nothing that could run); numpy alone runs it.
    {sizes} absolute sizes. They are taken from points spread evenly over the surface, so triangles matter little.
 2. **Each part among its neighbours**: {sides} numbers for each contact (coaxial or not, end or side, what lies within
    what, relative sizes, the same shape or not) and {places} on its place (eight alike on one flange).
-3. **Two rounds of talk** between neighbours in the contact graph: a thin ring between two flanges becomes a gasket.
+3. **{rounds} rounds of talk** between neighbours in the contact graph: a thin ring between flanges becomes a gasket.
 4. **Repeats** of a shape agree among themselves, as far as they agree already.
 5. **Confidence** is calibrated; below {threshold:.2f} a part stays unlabelled, with its best guesses listed. Where only
    the name is in doubt, the group is given. `cadgraph explain FOLDER PART` says why.
 
-The generated plants are drawn from {families} families of devices in randomly drawn modelling styles; {strangers}
-scenes of things that belong to no plant teach it what it doesn't know.
+The generated plants are drawn from {families} families of devices in randomly drawn modelling styles. Things that
+belong to no plant, in {strangers} scenes by themselves and among the parts of every sixth plant, teach it what it
+doesn't know.
 
 ## How good it is
 
 `make train` makes the model and this page. *Name* and *group*: share of the parts named right, whatever the confidence.
 *Macro F1*: mean over names, so that rare ones count as much as pipes. *ECE*: calibration error. *Kept*, *precision*:
 with the threshold. It lies midway between the one at which {precision:.0%} of the names are right on whole plants of
-which a third of the families is new, and the one that this takes on the new families alone.
+which one family in {folds} is new, and the one that this takes on the new families alone.
 
 {main}
 
-*New seeds* are of the same styles and families as the training plants and say little. *A third of the families new*:
-networks trained without some families (`ball valve/compact`: one build of a device with all its pieces; a {folds}-fold
-trial), asked about whole plants with these in them; then about the parts of these alone. *Held-out kinds*: likewise
-without any ball valve at all, any pump, any tank; about their parts alone. {unlearnable}
+*New seeds* are of the same styles and families as the training plants and say little. *One family in {folds} new*:
+networks trained without some families (`ball valve/compact`: one build of a device with all its pieces; each family is
+left out once), asked about whole plants with these in them; then about the parts of these alone. *Held-out kinds*:
+likewise without half of all kinds: no ball valve at all, no strainer; about their parts alone. {unlearnable}
 *New styles*: the six published modelling hands, of which nothing was seen in training, building layouts that were not
 seen either.
+
+{strange}
 
 By style:
 
@@ -75,7 +79,11 @@ By group (new styles):
 
 {groups}
 
-Where it errs most (new styles): {confusions}.
+Where it errs most (new styles): {confusions}; on the held-out families alone: {family_confusions}.
+
+By name: parts, share found and share right of what is called so, in the new styles and in the held-out families alone:
+
+{names}
 
 ## Speed
 
@@ -113,7 +121,7 @@ def write_page(trials: Trials, real: Sequence[RealPart], size: int, families: in
     styles = told["new styles"]
     main = [
         ("new seeds", told["new seeds"]),
-        ("a third of the families new", trials.mixed),
+        (f"one family in {model.card['folds']} new", trials.mixed),
         ("the held-out families alone", trials.families),
         ("held-out kinds", trials.kinds),
         ("new styles", styles),
@@ -132,6 +140,8 @@ def write_page(trials: Trials, real: Sequence[RealPart], size: int, families: in
         sins=_table((name, score(a, least)) for name, a in told.items() if name.startswith("sin") or "sides" in name),
         ablations=_table(_ablations(model, trials.plants["new styles"])),
         real=_real(model, real), groups=_groups(styles, least), confusions=_confusions(styles),
+        family_confusions=_confusions(trials.families), names=_names(styles, trials.families),
+        strange=_strange(told, least), rounds=_WORDS[model.members[0].rounds],
         card="\n".join(f"- {key}: {value}" for key, value in model.card.items())
         + f"\n- temperature: {model.temperature:.3f}; threshold: {least:.3f}",
     )  # fmt: skip
@@ -189,16 +199,50 @@ def _confusions(a: Answers) -> str:
     return "; ".join(f"{true.split('/')[1]} for {said.split('/')[1]} ({n})" for (true, said), n in ranked)
 
 
+def _names(*trials: Answers) -> str:
+    """Recall and precision of each name in some trials."""
+    lines = ["| name |" + " parts | found | right |" * len(trials), "|---|" + "---|---|---|" * len(trials)]
+    for name in sorted({name for a in trials for name in a.truth.tolist()}):
+        cells = []
+        for a in trials:
+            true, said = a.truth == name, a.name == name
+            both = int((true & said).sum())
+            cells += [
+                f"{true.sum():,}" if true.any() else "",
+                f"{both / true.sum():.0%}" if true.any() else "",
+                f"{both / said.sum():.0%}" if said.any() and true.any() else "",
+            ]
+        lines.append(f"| {name.replace('/', ': ')} | " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def _strange(told: Mapping[str, Answers], least: float) -> str:
+    """How much of what belongs to no plant is left open."""
+    shares = {
+        name: float((np.maximum(told[name].confidence, told[name].group_confidence) < least).mean())
+        for name in ("strangers", "unseen strangers")
+    }
+    return (
+        f"*Strangers*: of things that belong to no plant (furniture, toys, gears, blobs), {shares['strangers']:.0%} "
+        "are left open where the network has learnt from others of their kind, and "
+        f"{shares['unseen strangers']:.0%} where it has not (teapots and jugs, boats and aeroplanes, linkages)."
+    )
+
+
 def _real(model: Model, parts: Sequence[RealPart]) -> str:
     if not parts:
         return ""
     kinds: dict[str, list[tuple[bool, bool, bool]]] = {}
+    strange = []
     for part in parts:
         told = answer(model, [part.example])
+        sure = max(float(told.confidence[part.index]), float(told.group_confidence[part.index])) >= model.threshold
+        if not part.group:
+            strange.append(not sure)
+            continue
         group_right = bool(told.group[part.index] == part.group)
         said = str(told.name[part.index]).split("/")[1]
         name_right = group_right and (not part.names or said in part.names)
-        sure = max(float(told.confidence[part.index]), float(told.group_confidence[part.index])) >= model.threshold
         kinds.setdefault(f"{part.group}: {', '.join(part.names) or 'any'}", []).append((group_right, name_right, sure))
     lines = [
         "Real parts by other hands (STEP files from public libraries, each alone in its file; never learnt from):", "",
@@ -207,4 +251,7 @@ def _real(model: Model, parts: Sequence[RealPart]) -> str:
     for kind, rows in kinds.items():
         share = np.array(rows, np.float64).mean(axis=0)
         lines.append(f"| {kind} | {len(rows)} | {share[0]:.0%} | {share[1]:.0%} | {share[2]:.0%} |")
+    if strange:
+        lines += ["", f"Of {len(strange)} real parts of ball bearings and pulleys, for which there is no name, "
+                      f"{sum(strange)} are left open."]  # fmt: skip
     return "\n".join(lines) + "\n"

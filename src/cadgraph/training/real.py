@@ -21,8 +21,13 @@ KINDS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     ("Washers/", "Connection assembly", ("washer",)),
     ("Piping/DN15_FIG_130", "Pipe assembly", ("tee",)),
     ("Piping/DN15_Stamped_Flange", "Pipe assembly", ("flange",)),
+    ("Bearings/", "", ()),
+    ("Pulleys/", "", ()),
 )
-"""What the parts of a file are, by a piece of its path: group, and the names that count as right (any if empty)."""
+"""What the parts of a file are, by a piece of its path: group, and the names that count as right (any if empty).
+
+Things without a group are none of a plant's: right is to leave them open.
+"""
 
 
 @dataclass(frozen=True)
@@ -31,7 +36,7 @@ class RealPart:
 
     Args:
         file: its path below the folder.
-        group: that is right.
+        group: that is right; empty if none is.
         names: that are right; any of the group if empty.
         example: what the network sees of the file.
         index: of the part in it.

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -11,36 +12,65 @@ from cadgraph.environment.plant import Component, Plant
 from cadgraph.environment.polygon import circle
 from cadgraph.environment.solid import Solid, box, extrude, merge, moved, revolve, sweep, weld
 from cadgraph.scene import Floats
+from cadgraph.training.oddity import ODDITIES
 
-__all__ = ["make_strangers"]
+__all__ = ["UNSEEN", "UNSEEN_FROM", "make_strangers", "visited"]
 
 _SIZES = (0.01, 3.0)  # m
 _STRANGE: tuple[str, str] = ("strange", "strange")
+_FASTENERS = ("bolt", "nut", "washer", "stud", "screw", "gasket")
+UNSEEN = frozenset({"_pot", "_vessel", "_mechanism"})
+"""Builders of what is never learnt from, so that one can ask what the network makes of the wholly unknown."""
+UNSEEN_FROM = 200_000
+"""Seeds of strangers from here on are of these kinds."""
 
 
 def make_strangers(seed: int, count: int = 60) -> Plant:
-    """Furniture, ornaments, gears, blobs and fantasies, some in heaps; each labelled ``STRANGE``.
+    """Furniture, toys, gears, blobs and fantasies, some in heaps; each labelled ``STRANGE``.
 
     Args:
-        seed: of everything.
+        seed: of everything; from ``UNSEEN_FROM`` on only the kinds ``UNSEEN``, before it all others.
         count: about how many.
     """
     rng = np.random.default_rng([seed, 77])
+    builds = [b for b in (*_BUILDS, *ODDITIES) if (b.__name__ in UNSEEN) == (seed >= UNSEEN_FROM)]
     components: list[Component] = []
     for k in range(count):
-        build = _BUILDS[int(rng.integers(len(_BUILDS)))]
-        solid = _fitted(build(rng), float(np.exp(rng.uniform(*np.log(_SIZES)))))
+        one = _stranger(rng, builds)
         spot = at(*(rng.uniform(-1, 1, 3) * (0.3 if rng.random() < 0.5 else 12.0) + [4.0 * (k // 8), 0, 0]))
-        turn = spun("z", rng.uniform(0, 6)) @ spun("x", rng.choice([0, 0, np.pi / 2, rng.uniform(0, 6)]))
-        repeats = int(rng.choice([1, 1, 1, 2, 4]))
-        for j in range(repeats):
+        for j in range(int(rng.choice([1, 1, 1, 2, 4]))):
             shift = at(*(rng.uniform(0.0, 0.6, 3) * j))
-            components.append(
-                Component(
-                    solid, *_STRANGE, (0.5, 0.5, 0.5), shift @ spot @ turn, family=f"strange/{build.__name__[1:]}"
-                )
-            )
+            components.append(replace(one, pose=shift @ spot @ one.pose))
     return Plant(tuple(components), name="strangers", seed=seed)
+
+
+def visited(plant: Plant, seed: int, share: float = 0.08) -> Plant:
+    """A plant with strangers that lean on its parts, so that neighbours alone don't make a thing known.
+
+    Args:
+        plant: any.
+        seed: of what comes.
+        share: of the components of the plant that something leans on.
+    """
+    rng = np.random.default_rng([seed, 78])
+    builds = [b for b in (*_BUILDS, *ODDITIES) if b.__name__ not in UNSEEN]
+    guests = []
+    for component in plant.components:
+        if component.name in _FASTENERS or rng.random() > share:
+            continue
+        one = _stranger(rng, builds)
+        points, host, way = one.vertices, component.vertices, rng.normal(size=3)
+        touch = host[np.argmax(host @ way)] - points[np.argmin(points @ way)]
+        guests.append(replace(one, pose=at(*touch) @ one.pose))
+    return replace(plant, components=(*plant.components, *guests))
+
+
+def _stranger(rng: np.random.Generator, builds: Sequence[Callable[[np.random.Generator], Solid]]) -> Component:
+    """One thing about the origin, turned some way."""
+    build = builds[int(rng.integers(len(builds)))]
+    solid = _fitted(build(rng), float(np.exp(rng.uniform(*np.log(_SIZES)))))
+    turn = spun("z", rng.uniform(0, 6)) @ spun("x", rng.choice([0, 0, np.pi / 2, rng.uniform(0, 6)]))
+    return Component(solid, *_STRANGE, (0.5, 0.5, 0.5), turn, family=f"strange/{build.__name__[1:]}")
 
 
 def _fitted(solid: Solid, size: float) -> Solid:
