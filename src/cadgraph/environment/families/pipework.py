@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from cadgraph.environment.families.piping_bend import BENDS
 from cadgraph.environment.families.piping_branch import BRANCHES
+from cadgraph.environment.families.piping_strainer import STRAINERS
 from cadgraph.environment.family import Family
 
 __all__ = ["PIPEWORK"]
 
-PIPEWORK: tuple[Family, ...] = (*BENDS, *BRANCHES)
+PIPEWORK: tuple[Family, ...] = (*BENDS, *BRANCHES, *STRAINERS)
