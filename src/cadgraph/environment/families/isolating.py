@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from cadgraph.environment.families.isolating_ball import BALLS
 from cadgraph.environment.families.isolating_gate import GATES
+from cadgraph.environment.families.isolating_globe import GLOBES
 from cadgraph.environment.family import Family
 
 __all__ = ["ISOLATING"]
 
-ISOLATING: tuple[Family, ...] = (*GATES,)
+ISOLATING: tuple[Family, ...] = (*GATES, *GLOBES, *BALLS)
