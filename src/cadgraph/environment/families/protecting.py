@@ -6,9 +6,10 @@ from cadgraph.environment.families.protecting_check import CHECKS
 from cadgraph.environment.families.protecting_cock import COCKS
 from cadgraph.environment.families.protecting_regulate import REGULATORS
 from cadgraph.environment.families.protecting_relief import RELIEFS
+from cadgraph.environment.families.protecting_station import STATIONS
 from cadgraph.environment.families.protecting_vent import VENTS
 from cadgraph.environment.family import Family
 
 __all__ = ["PROTECTING"]
 
-PROTECTING: tuple[Family, ...] = (*CHECKS, *RELIEFS, *VENTS, *REGULATORS, *COCKS)
+PROTECTING: tuple[Family, ...] = (*CHECKS, *RELIEFS, *VENTS, *REGULATORS, *COCKS, *STATIONS)

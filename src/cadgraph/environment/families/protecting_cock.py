@@ -324,7 +324,9 @@ def _gauge_valve(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         piece("valve stem", moved(merge(stalk), pose)),
     ]
     grip = (
-        drive(0.0, 5.8 * r, r, hand, rng, ("bar",)) if rng.random() < 0.6 else [wheel(1.8 * r, 0, 5.6 * r, hand, rng)]
+        drive(0.0, 5.8 * r, r, hand, rng, ("bar",))
+        if rng.random() < 0.6
+        else [wheel(0.012 + 1.4 * r, 0, 5.6 * r, hand, rng)]
     )
     parts += posed(grip, pose)
     parts.append(bonnet(hexagon(2.0 * r, top - 0.001, top + 0.9 * r), cylinder(1.0 * r, top, top + 1.2 * r, 12)))
@@ -350,7 +352,7 @@ def _needle_angle(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts.append(piece("gland", hexagon(1.4 * r, top + 2.5 * r, top + 3.2 * r)))
     parts.append(piece("valve stem", cylinder(0.33 * r, top + 3.1 * r, top + 5.4 * r, 8)))
     if rng.random() < 0.5:
-        parts.append(wheel(float(rng.uniform(1.4, 2.2)) * r, 0, top + 4.6 * r, hand, rng))
+        parts.append(wheel(0.012 + float(rng.uniform(1.4, 2.2)) * r, 0, top + 4.6 * r, hand, rng))
     else:
         parts += drive(0.0, top + 5.0 * r, r, hand, rng, ("bar",))
     far, rise = float(rng.uniform(0.08, 0.2)), float(rng.choice([-0.15, 0.15, 0.25]))
