@@ -310,7 +310,7 @@ def _anchors(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         ]
     length = (count - 1) * pitch
     if cast:
-        parts.append(framed(box((length + 10 * d, 10 * d, top), (length / 2, 0, top / 2)), "foundation", "concrete"))
+        parts.append(framed(box((length + 14 * d, 14 * d, top), (length / 2, 0, top / 2)), "foundation", "concrete"))
     else:  # a setting template keeps them upright before they are cast in
         parts.append(framed(box((length + 6 * d, 4 * d, 0.5 * d), (length / 2, 0, deep - 0.25 * d)), "plate"))
         legs = [box((d, 4 * d, deep - 0.5 * d), (x, 0, (deep - 0.5 * d) / 2)) for x in (-2.4 * d, length + 2.4 * d)]

@@ -58,12 +58,14 @@ def _on_angle(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> M
         upper = nut_parts([(0, s * leg, -top) for s in (-1, 1)], d, hand, "u-bolt", False)
         parts += placed(upper, spun("x", np.pi))
     parts.append(framed(solid, str(rng.choice(["beam", "beam", "brace"]))))
+    seed = int(rng.integers(1 << 30))
     for s in (-1, 1):
         y = s * (reach - 0.02)
         if s > 0 or rng.random() < 0.6:
-            size = float(rng.choice([0.05, 0.06, 0.08]))
-            foot_parts, up = footing(size + 0.08, size, hand, rng)
-            post = extrude(rounded_rectangle(size, size, 0.004, 1), up - height, top - side + thick * 0.0)
+            same = np.random.default_rng(seed)
+            size = float(same.choice([0.05, 0.06, 0.08]))
+            foot_parts, up = footing(size + 0.08, size, hand, same)
+            post = extrude(rounded_rectangle(size, size, 0.004, 1), up - height, top - side)
             parts += [framed(moved(post, at(0.03, y)), "post"), *placed(foot_parts, at(0.03, y, -height))]
     return Model(parts)
 
