@@ -146,19 +146,16 @@ def _pulley(rng: np.random.Generator) -> Solid:
     return merge(solids)
 
 
-def _extrusion(rng: np.random.Generator) -> Solid:
-    """A slotted aluminium profile or a heat sink: a section that no mill rolls for plants."""
-    if rng.random() < 0.5:
-        fins, deep = int(rng.integers(4, 14)), float(rng.uniform(0.3, 1.0))
-        solids = [box((1, 1, 0.08), (0, 0, 0.04))]
+def _heat_sink(rng: np.random.Generator) -> Solid:
+    """A plate with fins, a comb, or a brush."""
+    fins, deep = int(rng.integers(4, 14)), float(rng.uniform(0.3, 1.0))
+    solids = [box((1, 1, 0.08), (0, 0, 0.04))]
+    if rng.random() < 0.4:
+        spots = np.linspace(-0.4, 0.4, min(fins, 6))
+        solids += [moved(cylinder(0.03, 0.05, deep, 6), at(float(x), float(y))) for x in spots for y in spots]
+    else:
         solids += [box((0.3 / fins, 1, deep), (-0.5 + (k + 0.5) / fins, 0, deep / 2)) for k in range(fins)]
-        return merge(solids)
-    slot, arm = float(rng.uniform(0.12, 0.2)), float(rng.uniform(0.5, 0.75))
-    quarter = [(1.0, 1.0), (slot, 1.0), (slot, arm + 0.12), (0.45, arm + 0.12), (0.45, arm), (slot + 0.05, arm - 0.2)]
-    mirrored = [(y, x) for x, y in reversed(quarter)]
-    corner = np.array([*mirrored, *quarter[1:]])
-    loops = [corner @ np.array([[np.cos(a), np.sin(a)], [-np.sin(a), np.cos(a)]]) for a in np.arange(4) * np.pi / 2]
-    return extrude(np.vstack(loops), 0.0, float(np.exp(rng.uniform(0, 3))))
+    return merge(solids)
 
 
 def _tool(rng: np.random.Generator) -> Solid:
@@ -298,7 +295,7 @@ def _twisted(rng: np.random.Generator) -> Solid:
 
 
 ODDITIES: tuple[Callable[[np.random.Generator], Solid], ...] = (
-    _pot, _pot, _bottle, _vehicle, _house, _tree, _figure, _bearing, _pulley, _extrusion, _tool, _letters, _terrain,
+    _pot, _pot, _bottle, _vehicle, _house, _tree, _figure, _bearing, _pulley, _heat_sink, _tool, _letters, _terrain,
     _vessel, _instrument, _mechanism, _fantasy, _twisted,
 )  # fmt: skip
 """Builders, each of which draws one closed solid of about a metre."""
