@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from cadgraph.environment.families.isolating_ball import BALLS
+from cadgraph.environment.families.isolating_disc import DISCS
 from cadgraph.environment.families.isolating_gate import GATES
 from cadgraph.environment.families.isolating_globe import GLOBES
 from cadgraph.environment.family import Family
 
 __all__ = ["ISOLATING"]
 
-ISOLATING: tuple[Family, ...] = (*GATES, *GLOBES, *BALLS)
+ISOLATING: tuple[Family, ...] = (*GATES, *GLOBES, *BALLS, *DISCS)
