@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from cadgraph.environment.families.utility_tray import TRAYS
+from cadgraph.environment.families.utility_wiring import WIRING
 from cadgraph.environment.family import Family
 
 __all__ = ["UTILITIES"]
 
-UTILITIES: tuple[Family, ...] = ()
+UTILITIES: tuple[Family, ...] = (*TRAYS, *WIRING)
