@@ -6,8 +6,9 @@ from cadgraph.environment.families.isolating_ball import BALLS
 from cadgraph.environment.families.isolating_disc import DISCS
 from cadgraph.environment.families.isolating_gate import GATES
 from cadgraph.environment.families.isolating_globe import GLOBES
+from cadgraph.environment.families.isolating_lining import LININGS
 from cadgraph.environment.family import Family
 
 __all__ = ["ISOLATING"]
 
-ISOLATING: tuple[Family, ...] = (*GATES, *GLOBES, *BALLS, *DISCS)
+ISOLATING: tuple[Family, ...] = (*GATES, *GLOBES, *BALLS, *DISCS, *LININGS)
