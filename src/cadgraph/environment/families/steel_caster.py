@@ -30,7 +30,7 @@ from cadgraph.environment.polygon import circle, rounded_rectangle
 from cadgraph.environment.solid import Solid, merge, moved
 from cadgraph.scene import Floats
 
-__all__ = ["CASTERS", "caster_parts", "wheel"]
+__all__ = ["CASTERS", "caster_parts", "wheel", "wheeled"]
 
 Colored = tuple[Solid, str]
 WHEELS = ("solid", "tread", "plain", "spoked", "tyre")
