@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cadgraph.environment.families.heatware import HEATWARE
 from cadgraph.environment.families.pressware import PRESSWARE
 from cadgraph.environment.families.smallware import SMALLWARE
 from cadgraph.environment.families.storage import STORAGE
@@ -10,4 +11,4 @@ from cadgraph.environment.family import Family
 
 __all__ = ["PLANTWARE"]
 
-PLANTWARE: tuple[Family, ...] = (*VESSEL_BUILDS, *STORAGE, *PRESSWARE, *SMALLWARE)
+PLANTWARE: tuple[Family, ...] = (*VESSEL_BUILDS, *STORAGE, *PRESSWARE, *SMALLWARE, *HEATWARE)
