@@ -23,8 +23,10 @@ from cadgraph.scene import Floats
 __all__ = [
     "CASE",
     "FRAME",
+    "JOINT",
     "STEM",
     "STYLES",
+    "TANK",
     "bent",
     "board",
     "bolted",
