@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cadgraph.environment.families.protecting_block import BLOCKS
 from cadgraph.environment.families.protecting_check import CHECKS
 from cadgraph.environment.families.protecting_cock import COCKS
 from cadgraph.environment.families.protecting_regulate import REGULATORS
@@ -12,4 +13,4 @@ from cadgraph.environment.family import Family
 
 __all__ = ["PROTECTING"]
 
-PROTECTING: tuple[Family, ...] = (*CHECKS, *RELIEFS, *VENTS, *REGULATORS, *COCKS, *STATIONS)
+PROTECTING: tuple[Family, ...] = (*CHECKS, *RELIEFS, *VENTS, *REGULATORS, *COCKS, *STATIONS, *BLOCKS)

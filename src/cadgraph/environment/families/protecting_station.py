@@ -152,7 +152,7 @@ def _manifold(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             (0.18 * wide, -0.28 * tall),
         ]
     slope = bool(count < 5 and rng.random() < 0.5)
-    for k, (x, z) in enumerate(spots):
+    for x, z in spots:
         outward = spun("x", np.pi / 2)
         if slope and abs(x) > 0.01:
             pose = at(np.sign(x) * wide / 2, 0, high + z) @ spun("y", float(np.sign(x)) * np.pi / 2)
