@@ -6,10 +6,18 @@ from cadgraph.environment.families.measuring_gauge import GAUGE_BUILDS
 from cadgraph.environment.families.measuring_heat import HEAT_BUILDS
 from cadgraph.environment.families.measuring_level import LEVEL_BUILDS
 from cadgraph.environment.families.measuring_panel import PANEL_BUILDS
+from cadgraph.environment.families.measuring_pressure import PRESSURE_BUILDS
 from cadgraph.environment.families.measuring_siphon import SIPHON_BUILDS
 from cadgraph.environment.family import Family
 
 __all__ = ["MEASURING"]
 
-MEASURING: tuple[Family, ...] = (*GAUGE_BUILDS, *PANEL_BUILDS, *SIPHON_BUILDS, *HEAT_BUILDS, *LEVEL_BUILDS)
+MEASURING: tuple[Family, ...] = (
+    *GAUGE_BUILDS,
+    *PANEL_BUILDS,
+    *SIPHON_BUILDS,
+    *HEAT_BUILDS,
+    *LEVEL_BUILDS,
+    *PRESSURE_BUILDS,
+)
 """The families of devices and structures that an assortment draws from."""
