@@ -16,7 +16,7 @@ from cadgraph.environment.solid import Solid, extrude, merge, moved
 from cadgraph.environment.standard import FLANGES, PIPES
 from cadgraph.scene import Floats
 
-__all__ = ["HEATWARE", "equipment_family", "equipment_mouth", "frame_of"]
+__all__ = ["HEATWARE", "equipment_family", "equipment_mouth", "feet_of", "frame_of"]
 
 _NAME, _FRAME, _JOINT = "heat exchanger", "Structural element", "Connection assembly"
 
@@ -32,6 +32,11 @@ def equipment_mouth(
     """A flanged mouth that belongs to a piece of equipment of this name, and its port."""
     parts, ports = outlet("plain", dn, pose, hand, r, dip)
     return renamed(parts, name), ports
+
+
+def feet_of(parts: list[Part], name: str) -> list[Part]:
+    """Saddles, skirts or legs under a piece of equipment of this name: they stay parts of tanks."""
+    return [p if p.group else Part(p.solid, p.name, p.color, name, "Tank") for p in parts]
 
 
 def frame_of(w: float, d: float, h: float, side: float, low: float = 0.0, rails: bool = True) -> Solid:
@@ -95,7 +100,7 @@ def _kettle(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts += some
         ports += port if turn == 0.0 else []
     for px in (-0.3 * length, 0.3 * length):
-        parts += placed(saddle("ribbed", r, axis, hand, rng), at(px))
+        parts += feet_of(placed(saddle("ribbed", r, axis, hand, rng), at(px)), _NAME)
     return Model(parts, ports=tuple(ports), kind="kettle reboiler")
 
 
