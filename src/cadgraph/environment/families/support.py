@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cadgraph.environment.families.support_arm import ARMS
 from cadgraph.environment.families.support_bracket import BRACKETS
 from cadgraph.environment.families.support_clamp import CLAMPS
 from cadgraph.environment.families.support_fastener import FASTENERS
@@ -14,4 +15,4 @@ from cadgraph.environment.family import Family
 
 __all__ = ["SUPPORTS"]
 
-SUPPORTS: tuple[Family, ...] = (*U_BOLTS, *CLAMPS, *HANGERS, *STANDS, *GUSSETS, *FASTENERS, *BRACKETS, *MOUNTS)
+SUPPORTS: tuple[Family, ...] = (*U_BOLTS, *CLAMPS, *HANGERS, *STANDS, *GUSSETS, *FASTENERS, *BRACKETS, *MOUNTS, *ARMS)
