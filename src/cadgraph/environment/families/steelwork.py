@@ -6,6 +6,7 @@ from cadgraph.environment.families.steel_beam import BEAMS
 from cadgraph.environment.families.steel_caster import CASTERS
 from cadgraph.environment.families.steel_climb import CLIMBS
 from cadgraph.environment.families.steel_column import COLUMNS
+from cadgraph.environment.families.steel_fence import FENCES
 from cadgraph.environment.families.steel_floor import FLOORS
 from cadgraph.environment.families.steel_rail import RAILS
 from cadgraph.environment.families.steel_skid import SKIDS
@@ -14,4 +15,4 @@ from cadgraph.environment.family import Family
 
 __all__ = ["STEELWORK"]
 
-STEELWORK: tuple[Family, ...] = (*BEAMS, *COLUMNS, *CASTERS, *SKIDS, *RAILS, *CLIMBS, *STAIRS, *FLOORS)
+STEELWORK: tuple[Family, ...] = (*BEAMS, *COLUMNS, *CASTERS, *SKIDS, *RAILS, *CLIMBS, *STAIRS, *FLOORS, *FENCES)
