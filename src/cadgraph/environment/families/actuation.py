@@ -2,102 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
-from cadgraph.environment.families.actuation_hand import lever_of, slab, wheel_of
+from cadgraph.environment.families.actuation_base import hand_lever, hand_wheel, indicator, put, quarter, shaft
+from cadgraph.environment.families.actuation_gear import bevel, worm
+from cadgraph.environment.families.actuation_hand import cylinder_at, slab, span
 from cadgraph.environment.families.drive import BODY
 from cadgraph.environment.family import Part
-from cadgraph.environment.form import along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
+from cadgraph.environment.form import along, box, cylinder, hexagon, rod, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle
-from cadgraph.environment.solid import Solid, merge, moved
-from cadgraph.scene import Floats
+from cadgraph.environment.solid import merge, moved
 
-__all__ = ["bolted", "hand_lever", "hand_wheel", "indicator", "put", "quarter_turn", "shaft"]
+__all__ = ["quarter_turn"]
 
 Rng = np.random.Generator
 Maker = Callable[[float, Hand, Rng], list[Part]]
 
 
-def put(parts: Sequence[Part], pose: Floats) -> list[Part]:
-    """The parts moved together."""
-    return [replace(part, solid=moved(part.solid, pose)) for part in parts]
-
-
-def bolted(solid: Solid, bundle: str = BODY) -> Part:
-    """Bolts as one part, which hands without fasteners leave out."""
-    return Part(solid, "bolt", "fastener", bundle, "Connection assembly", True)
-
-
-def shaft(low: float, high: float, radius: float, hand: Hand, rng: Rng | None = None) -> Part:
-    """A stem: plain, threaded (rings) or with two flats at its top [m]."""
-    n = max(8, min(hand.round(radius), 16))
-    kind = 0 if rng is None else int(rng.integers(4))
-    if kind == 1 and high - low > 4 * radius:
-        pitch = max(0.5 * radius, (high - low) / 24)
-        count = max(2, int((high - low) / pitch))
-        steps = np.linspace(low, high, 2 * count + 1)
-        solid = turned([(radius * (0.85 if k % 2 else 1.0), float(z)) for k, z in enumerate(steps)], n)
-    elif kind == 2 and high - low > 2 * radius:
-        top = high - 1.5 * radius
-        solid = merge(
-            [cylinder(radius, low, top, n), box((1.3 * radius, 1.3 * radius, high - top), (0, 0, (high + top) / 2))]
-        )
-    else:
-        solid = cylinder(radius, low, high, n)
-    return Part(solid, "valve stem", "trim", BODY)
-
-
-def hand_wheel(radius: float, z: float, hand: Hand, rng: Rng, kinds: tuple[str, ...] = ()) -> Part:
-    """A handwheel with its hub on the height ``z`` [m]."""
-    solid = wheel_of(radius, hand, rng, kinds) if kinds else wheel_of(radius, hand, rng)
-    return Part(moved(solid, at(0, 0, z)), "handwheel", "handle")
-
-
-def hand_lever(length: float, z: float, hand: Hand, rng: Rng, kinds: tuple[str, ...] = ()) -> Part:
-    """A lever with its eye on the height ``z`` [m]."""
-    solid = lever_of(length, hand, rng, kinds) if kinds else lever_of(length, hand, rng)
-    return Part(moved(solid, at(0, 0, z)), "lever", "handle")
-
-
-def _turn(rng: Rng) -> Floats:
-    return spun("z", float(rng.choice([0.0, 0.5, 1.0, 1.5])) * np.pi)
-
-
 # --- position indicators ---
-
-
-def indicator(size: float, hand: Hand, rng: Rng, kinds: int = 5) -> Part:
-    """What shows the position on top of a turning shaft: puck, dome, pointer over a scale, or a switch box."""
-    n, kind = max(12, hand.round(size)), int(rng.integers(kinds))
-    if kind == 0:
-        solid = turned([(size, 0.0), (size, 0.5 * size), (0.8 * size, 0.7 * size)], n)
-        solid = merge([solid, box((1.7 * size, 0.3 * size, 0.15 * size), (0, 0, 0.75 * size))])
-    elif kind == 1:
-        solid = merge([cylinder(size, 0.0, 0.25 * size, n), dome(0.8 * size, 0.8 * size, 0.25 * size, n)])
-    elif kind == 2:
-        arrow = np.array([(-0.8, -0.15), (0.6, -0.15), (0.6, -0.4), (1.3, 0.0), (0.6, 0.4), (0.6, 0.15), (-0.8, 0.15)])
-        solid = merge([cylinder(1.2 * size, 0.0, 0.08 * size, n), slab(arrow * size, 0.1 * size, 0.25 * size)])
-    else:
-        wide, tall = 0.045 + 0.4 * size, 0.05 + 0.5 * size
-        case = slab(rounded_rectangle(2.4 * wide, 1.8 * wide, 0.3 * wide, 3), 0.02, 0.02 + tall)
-        lid = slab(rounded_rectangle(2.6 * wide, 2.0 * wide, 0.35 * wide, 3), 0.02 + 0.5 * tall, 0.02 + 0.6 * tall)
-        glands = [
-            along("-y", hexagon(0.02, 0.8 * wide, 0.9 * wide + 0.02), s * 0.6 * wide, 0, 0.02 + 0.25 * tall)
-            for s in (-1, 1)
-        ]
-        beacon = (
-            dome(0.5 * wide, 0.35 * wide, 0.02 + tall, n)
-            if kind == 3
-            else cylinder(0.45 * wide, 0.02 + tall, 0.02 + 1.4 * tall, n)
-        )
-        legs = [box((0.003, 1.4 * wide, 0.025), (s * wide, 0, 0.0125)) for s in (-1, 1)]
-        solid = merge([case, lid, beacon, *glands, *legs, cylinder(0.012, 0.0, 0.025, 8)])
-    return Part(solid, "position indicator", "electrical" if kind > 2 else "handle", "actuator")
 
 
 def mount(half: float, tall: float, rng: Rng) -> Part:
@@ -118,125 +45,6 @@ def mount(half: float, tall: float, rng: Rng) -> Part:
 # --- quarter turn ---
 
 
-def _input(size: float, reach: float, hand: Hand, rng: Rng) -> list[Part]:
-    """What turns a gear's input shaft, which leaves along +z: a wheel, a chainwheel with its chain, a square, a crank."""
-    kind = rng.random()
-    rod_ = shaft(-0.01, reach + 0.02, 0.08 * size + 0.003, hand)
-    if kind < 0.6:
-        return [rod_, hand_wheel(size, reach, hand, rng)]
-    if kind < 0.8:
-        n = max(16, hand.round(size))
-        groove = ring(0.86 * size, 0.96 * size, reach, reach + 0.03, n)
-        teeth = around(box((0.12 * size, 0.012, 0.05), (0, 0, reach + 0.015)), 10, size)
-        web = around(
-            rod((0, 0, reach + 0.015), (0.9 * size, 0, reach + 0.015), 0.05 * size, 6), int(rng.integers(3, 6))
-        )
-        hub = cylinder(0.15 * size, reach, reach + 0.04, 12)
-        # The wheel stands upright beside the case: its chain hangs along the local -x.
-        drop, out = float(rng.uniform(0.5, 1.2)), size
-        path = [(0.0, -out, reach + 0.015), (-drop, -out, reach + 0.015), (-drop - 0.08, -0.5 * out, reach + 0.015),
-                (-drop - 0.08, 0.5 * out, reach + 0.015), (-drop, out, reach + 0.015), (0.0, out, reach + 0.015)]  # fmt: skip
-        return [rod_, Part(merge([groove, teeth, web, hub, rope(path, 0.004, 6)]), "handwheel", "handle")]
-    if kind < 0.9:
-        return [
-            rod_,
-            Part(box((0.22 * size, 0.22 * size, 0.05), (0, 0, reach + 0.02)), "valve stem", "trim", "gearbox"),
-        ]
-    return [rod_, Part(moved(_crank(size), at(0, 0, reach)), "lever", "handle")]
-
-
-def _crank(size: float) -> Solid:
-    arm = box((size, 0.12 * size, 0.06 * size), (0.45 * size, 0, 0.05 * size))
-    return merge(
-        [
-            arm,
-            cylinder(0.14 * size, 0.0, 0.16 * size, 12),
-            cylinder_at(0.07 * size, 0.02 * size, 0.6 * size, 0.88 * size),
-        ]
-    )
-
-
-def cylinder_at(radius: float, low: float, high: float, x: float) -> Solid:
-    """An upright cylinder at ``x`` [m]."""
-    return moved(cylinder(radius, low, high, 10), at(x))
-
-
-def _worm(radius: float, hand: Hand, rng: Rng) -> list[Part]:
-    """A worm gearbox: a round, pear-shaped or square case with a stop boss, its shaft to the side."""
-    half = float(rng.uniform(0.85, 1.2)) * (0.04 + 0.34 * radius)
-    n, tall = max(16, hand.round(half)), float(rng.uniform(0.7, 1.1)) * half
-    kind = int(rng.integers(3))
-    if kind == 0:
-        case = turned([(half, 0.0), (half, 0.6 * tall), (0.85 * half, 0.8 * tall), (0.5 * half, tall)], n)
-    elif kind == 1:
-        turns = np.linspace(0.6 * np.pi, 1.75 * np.pi, 12)
-        pear = [(half * float(np.cos(t)), half * float(np.sin(t))) for t in turns]
-        case = slab(np.array([*pear, (1.1 * half, -0.7 * half), (1.1 * half, 0.6 * half)]), 0.0, 0.85 * tall)
-        case = merge([case, cylinder(0.6 * half, 0.85 * tall, tall, n)])
-    else:
-        case = slab(rounded_rectangle(2.1 * half, 2.0 * half, 0.3 * half, 3), 0.0, 0.8 * tall)
-        case = merge([case, turned([(0.8 * half, 0.8 * tall), (0.7 * half, tall)], n)])
-    x, z = 0.75 * half, 0.45 * tall
-    tunnel = along(
-        "y",
-        turned(
-            [(0.28 * half, -1.1 * half), (0.36 * half, -0.8 * half), (0.36 * half, 0.8 * half), (0.22 * half, half)], 12
-        ),
-        x,
-        0,
-        z,
-    )
-    screws = around(hexagon(0.012 + 0.05 * half, 0.6 * tall, tall), 4, 0.9 * half, 0.8)
-    parts = [Part(merge([case, tunnel]), "gearbox", "valve", "gearbox"), bolted(screws, "gearbox")]
-    drive = _input(float(rng.uniform(0.8, 1.3)) * (0.05 + 0.8 * radius), float(rng.uniform(0.3, 1.4)) * half, hand, rng)
-    parts += put(drive, at(x, -1.05 * half, z) @ spun("x", np.pi / 2) @ spun("z", np.pi / 2))
-    if rng.random() < 0.75:
-        parts.append(replace(put([indicator(0.4 * half, hand, rng)], at(0, 0, tall))[0], bundle="gearbox"))
-    return put(parts, _turn(rng))
-
-
-def _bevel(radius: float, hand: Hand, rng: Rng) -> list[Part]:
-    """A bevel gearbox: a bell on the stem with a cone to the side, a stem cover pipe above."""
-    half = 0.045 + 0.4 * radius
-    n = max(16, hand.round(half))
-    bell = turned(
-        [
-            (1.1 * half, 0.0),
-            (1.1 * half, 0.15 * half),
-            (0.8 * half, 0.3 * half),
-            (0.95 * half, 0.9 * half),
-            (0.9 * half, 1.3 * half),
-            (0.4 * half, 1.5 * half),
-        ],
-        n,
-    )
-    cone = along(
-        "-y",
-        turned(
-            [(0.75 * half, 0.3 * half), (0.5 * half, 1.2 * half), (0.55 * half, 1.3 * half), (0.55 * half, 1.5 * half)],
-            n,
-        ),
-        0,
-        0,
-        0.75 * half,
-    )
-    parts = [Part(merge([bell, cone]), "gearbox", "valve", "gearbox")]
-    if rng.random() < 0.6:
-        cover = turned(
-            [
-                (0.22 * half, 1.45 * half),
-                (0.22 * half, 1.5 * half + float(rng.uniform(1, 4)) * half),
-                (0.1 * half, 5.8 * half),
-            ],
-            12,
-        )
-        parts.append(Part(cover, "position indicator" if rng.random() < 0.3 else "gearbox", "trim", "gearbox"))
-    drive = _input(0.06 + 0.9 * radius, 0.35 * half, hand, rng)
-    return put(
-        [*parts, *put(drive, at(0, -1.5 * half, 0.75 * half) @ spun("x", np.pi / 2) @ spun("z", np.pi / 2))], _turn(rng)
-    )
-
-
 def _rack(radius: float, hand: Hand, rng: Rng) -> list[Part]:
     """A rack-and-pinion actuator: an extruded profile with end caps, an air pad, stop screws, an indicator."""
     half = float(rng.uniform(0.85, 1.2)) * (0.028 + 0.36 * radius)
@@ -249,7 +57,7 @@ def _rack(radius: float, hand: Hand, rng: Rng) -> list[Part]:
         section = circle(1.1 * half, max(16, hand.round(half)))
     tube_ = along("x", slab(section, -reach, reach), 0, 0, half)
     caps = [
-        along("x", slab(section * f, *sorted((s * reach, s * (reach + w)))), 0, 0, half)
+        along("x", slab(section * f, *span(s * reach, s * (reach + w))), 0, 0, half)
         for s in (-1, 1)
         for f, w in ((1.04, 0.3 * half), (0.75, 0.45 * half))
     ]
@@ -274,7 +82,7 @@ def _rack(radius: float, hand: Hand, rng: Rng) -> list[Part]:
         parts.append(Part(coil, "actuator", "electrical", "actuator"))
     tall = float(rng.uniform(0.5, 1.6)) * half + 0.01
     return put(
-        [mount(0.9 * half, tall, rng), shaft(0.0, tall, 0.2 * half, hand), *put(parts, at(0, 0, tall))], _turn(rng)
+        [mount(0.9 * half, tall, rng), shaft(0.0, tall, 0.2 * half, hand), *put(parts, at(0, 0, tall))], quarter(rng)
     )
 
 
@@ -335,7 +143,7 @@ def _scotch(radius: float, hand: Hand, rng: Rng) -> list[Part]:
         *put([indicator(0.3 * half, hand, rng)], at(0, 0, 1.3 * half)),
     ]
     return put(
-        [mount(0.9 * half, tall, rng), shaft(0.0, tall, 0.22 * half, hand), *put(parts, at(0, 0, tall))], _turn(rng)
+        [mount(0.9 * half, tall, rng), shaft(0.0, tall, 0.22 * half, hand), *put(parts, at(0, 0, tall))], quarter(rng)
     )
 
 
@@ -391,11 +199,11 @@ def _motor_box(radius: float, hand: Hand, rng: Rng) -> list[Part]:
     if rng.random() < 0.6:
         side = [shaft(0.0, 0.3 * half, 0.08 * half, hand), hand_wheel(0.75 * half, 0.25 * half, hand, rng)]
         parts += put(side, at(-0.3 * half, -1.0 * deep, 0.35 * tall) @ spun("x", np.pi / 2))
-    return put(parts, _turn(rng))
+    return put(parts, quarter(rng))
 
 
 def _multi_turn(radius: float, hand: Hand, rng: Rng) -> list[Part]:
-    """A multi-turn electric actuator shaped like an elbow: gear case, motor to one side, control housing to the other."""
+    """A multi-turn electric actuator shaped like an elbow: gear case, motor to one side, controls to the other."""
     half = float(rng.uniform(0.9, 1.15)) * (0.06 + 0.4 * radius)
     n, z = max(16, hand.round(half)), 0.9 * half
     body = turned(
@@ -443,7 +251,7 @@ def _multi_turn(radius: float, hand: Hand, rng: Rng) -> list[Part]:
     parts.append(Part(glass, "position indicator", "dial", "actuator"))
     side = [shaft(0.0, 0.35 * half, 0.12 * half, hand), hand_wheel(0.9 * half, 0.3 * half, hand, rng)]
     parts += put(side, at(0, -0.6 * half, z) @ spun("x", np.pi / 2))
-    return put(parts, _turn(rng))
+    return put(parts, quarter(rng))
 
 
 def _electrohydraulic(radius: float, hand: Hand, rng: Rng) -> list[Part]:
@@ -476,12 +284,12 @@ def _electrohydraulic(radius: float, hand: Hand, rng: Rng) -> list[Part]:
     parts = [Part(merge([base, block, cabin, door, bottle, stand]), "actuator", "motor", "actuator")]
     tall = 0.4 * half
     return put(
-        [mount(0.7 * half, tall, rng), shaft(0.0, tall, 0.2 * half, hand), *put(parts, at(0, 0, tall))], _turn(rng)
+        [mount(0.7 * half, tall, rng), shaft(0.0, tall, 0.2 * half, hand), *put(parts, at(0, 0, tall))], quarter(rng)
     )
 
 
 _QUARTERS: dict[str, Maker] = {
-    "worm": _worm, "bevel": _bevel, "rack": _rack, "scotch": _scotch, "vertical": _vertical, "motor box": _motor_box,
+    "worm": worm, "bevel": bevel, "rack": _rack, "scotch": _scotch, "vertical": _vertical, "motor box": _motor_box,
     "multi-turn": _multi_turn, "electrohydraulic": _electrohydraulic,
 }  # fmt: skip
 

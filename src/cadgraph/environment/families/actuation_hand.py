@@ -13,7 +13,7 @@ from cadgraph.environment.polygon import circle, rounded_rectangle
 from cadgraph.environment.solid import Solid, extrude, loft, merge, moved, revolve, sweep, weld
 from cadgraph.scene import Floats
 
-__all__ = ["LEVERS", "WHEELS", "lever_of", "slab", "wheel_of"]
+__all__ = ["LEVERS", "WHEELS", "cylinder_at", "lever_of", "slab", "span", "wheel_of"]
 
 Rng = np.random.Generator
 
@@ -23,6 +23,11 @@ def slab(outline: Floats, low: float, high: float, holes: tuple[Floats, ...] = (
     x, y = outline[:, 0], outline[:, 1]
     turned_round = float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) < 0
     return extrude(outline[::-1] if turned_round else outline, low, high, holes)
+
+
+def span(a: float, b: float) -> tuple[float, float]:
+    """Two heights, the lower first [m]."""
+    return min(a, b), max(a, b)
 
 
 def _hub(radius: float, tall: float, rng: Rng) -> Solid:
@@ -89,8 +94,10 @@ def _wire(radius: float, hand: Hand, rng: Rng) -> Solid:
     thick, count = 0.002 + 0.025 * radius, int(rng.integers(2, 5))
     hub, tall = 0.22 * radius, 0.012 + 0.06 * radius
     rise = float(rng.uniform(0.0, 0.3)) * radius
-    pair = [rod((0, s * 0.6 * hub, 0.5 * tall), (0.93 * radius, s * 0.12 * radius, 0.5 * tall + rise), 0.8 * thick, 6)
-            for s in (-1, 1)]  # fmt: skip
+    pair = [
+        rod((0, s * 0.6 * hub, 0.5 * tall), (0.93 * radius, s * 0.12 * radius, 0.5 * tall + rise), 0.8 * thick, 6)
+        for s in (-1, 1)
+    ]
     rim = moved(torus(radius - thick, thick, max(16, hand.round(radius)), 8), at(0, 0, 0.5 * tall + rise))
     return merge([rim, around(merge(pair), count), cylinder(hub, 0, tall, 16)])
 
@@ -148,8 +155,12 @@ def _lobed(radius: float, hand: Hand, rng: Rng) -> Solid:
     levels = [(0.45, 0.0), (0.7, 0.25), (1.0, 0.4), (1.0, 0.85), (0.8, 1.0)]
     if rng.random() < 0.4:
         levels = [(1.0, 0.0), (0.97, 0.8), (0.85, 1.0)]
-    loops = [np.column_stack([s * radius * reach * np.cos(turns), s * radius * reach * np.sin(turns),
-                              np.full(len(turns), h * tall)]) for s, h in levels]  # fmt: skip
+    loops = [
+        np.column_stack(
+            [s * radius * reach * np.cos(turns), s * radius * reach * np.sin(turns), np.full(len(turns), h * tall)]
+        )
+        for s, h in levels
+    ]
     return weld([loft([np.zeros((1, 3)), *loops, np.array([[0.0, 0.0, tall]])])])
 
 
@@ -264,8 +275,11 @@ def _bar(length: float, hand: Hand, rng: Rng) -> Solid:
     slim, socket = 0.022 * length + 0.003, 0.06 * length + 0.005
     tilt = float(rng.choice([0.0, 0.25, 0.6]))
     tip = np.array([length * np.cos(tilt), 0.0, socket + length * np.sin(tilt)])
-    path = [(-1.3 * socket, 0, socket), (0.3 * length, 0, socket), tuple(tip)] if rng.random() < 0.5 else [
-        (-socket, 0, socket - 0.9 * np.tan(tilt) * socket), tuple(tip)]  # fmt: skip
+    path = (
+        [(-1.3 * socket, 0, socket), (0.3 * length, 0, socket), tuple(tip)]
+        if rng.random() < 0.5
+        else [(-socket, 0, socket - 0.9 * np.tan(tilt) * socket), tuple(tip)]
+    )
     solids = [rope(path, slim, 8), cylinder(socket, 0.0, 2 * socket, 12)]
     end = rng.random()
     if end < 0.4:

@@ -6,7 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from cadgraph.environment.families.actuation import bolted, hand_wheel, put, quarter_turn, shaft
+from cadgraph.environment.families.actuation import quarter_turn
+from cadgraph.environment.families.actuation_base import bolted, hand_wheel, put, shaft
 from cadgraph.environment.families.actuation_hand import slab
 from cadgraph.environment.families.drive import BODY
 from cadgraph.environment.family import Part
@@ -23,7 +24,7 @@ Maker = Callable[[float, float, Hand, Rng], list[Part]]
 
 
 def yoke_arms(half: float, tall: float, hand: Hand, rng: Rng, bundle: str = BODY) -> Part:
-    """A yoke from z = 0 to ``tall``: arched, straight or waisted arms, pillars, a window frame or a slotted tube [m]."""
+    """A yoke from z = 0 to ``tall``: arched, straight or waisted arms, pillars, a window frame, a slotted tube [m]."""
     n, kind = max(12, hand.round(half)), int(rng.integers(6))
     plate = max(0.006, 0.10 * half)
     crown = float(rng.uniform(0.45, 0.8)) * half
@@ -260,7 +261,7 @@ def _ram(radius: float, tall: float, hand: Hand, rng: Rng) -> list[Part]:
 
 
 def _motor(radius: float, tall: float, hand: Hand, rng: Rng) -> list[Part]:
-    """A linear electric actuator, as on heating valves: a moulded case, round or boxy, with a cable gland and a knob."""
+    """A linear electric actuator, as on heating valves: a moulded case, round or boxy, a cable gland, a knob."""
     half, n = 0.035 + 0.4 * radius, max(16, hand.round(0.05))
     high = float(rng.uniform(1.6, 3.0)) * half
     if rng.random() < 0.5:

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.environment.body import bore_of
-from cadgraph.environment.families.actuation import bolted
-from cadgraph.environment.families.actuation_hand import slab
+from cadgraph.environment.families.actuation_base import bolted
+from cadgraph.environment.families.actuation_hand import slab, span
 from cadgraph.environment.families.drive import BODY
 from cadgraph.environment.families.small import hex_end
 from cadgraph.environment.families.valve import flanged_body
 from cadgraph.environment.family import Part
 from cadgraph.environment.flange import plate_thickness
-from cadgraph.environment.form import along, box, cylinder, hexagon, lofted, ring, rod, turned
+from cadgraph.environment.form import along, box, cylinder, hexagon, lofted, rod, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle, triangulate
@@ -45,7 +45,7 @@ def oval(a: float, b: float, n: int) -> Floats:
 
 
 def plate_outline(kind: str, a: float, b: float, n: int) -> Floats:
-    """The outline of a bonnet's flange: ``round``, ``oval``, ``square`` or ``octagon``, half widths along and across."""
+    """The outline of a bonnet's flange: ``round``, ``oval``, ``square`` or ``octagon``, of two half widths [m]."""
     if kind == "square":
         return rounded_rectangle(2 * a, 2 * b, 0.35 * min(a, b), 3)
     if kind == "octagon":
@@ -87,8 +87,10 @@ def ended(dn: int, hand: Hand, length: float, middle: Middle, ends: str) -> Soli
 
 def part_turned(outline: Floats, start: float, end: float, steps: int) -> Solid:
     """A closed outline ``(radius, height)`` turned about z by less than a whole turn: a cut-away [m, rad]."""
-    loops = [np.column_stack([outline[:, 0] * np.cos(a), outline[:, 0] * np.sin(a), outline[:, 1]])
-             for a in np.linspace(start, end, steps + 1)]  # fmt: skip
+    loops = [
+        np.column_stack([outline[:, 0] * np.cos(a), outline[:, 0] * np.sin(a), outline[:, 1]])
+        for a in np.linspace(start, end, steps + 1)
+    ]
     x, y = outline[:, 0], outline[:, 1]
     if float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) < 0:
         loops = [loop[::-1] for loop in loops]
@@ -211,7 +213,7 @@ def valve_ball(radius: float, bore: float, hand: Hand, turn: float, trunnions: f
     belt[0], belt[-1] = (bore, belt[0][1]), (bore, belt[-1][1])
     solids = [moved(about_x(weld([revolve(belt, n, closed=True)])), spun("z", turn))]
     if trunnions:
-        solids += [cylinder(0.3 * radius, *sorted((s * 0.9 * radius, s * trunnions)), 16) for s in (-1, 1)]
+        solids += [cylinder(0.3 * radius, *span(s * 0.9 * radius, s * trunnions), 16) for s in (-1, 1)]
     return merge(solids)
 
 
