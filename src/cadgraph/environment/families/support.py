@@ -9,10 +9,22 @@ from cadgraph.environment.families.support_fastener import FASTENERS
 from cadgraph.environment.families.support_gusset import GUSSETS
 from cadgraph.environment.families.support_hanger import HANGERS
 from cadgraph.environment.families.support_mount import MOUNTS
+from cadgraph.environment.families.support_sling import SLINGS
 from cadgraph.environment.families.support_stand import STANDS
 from cadgraph.environment.families.support_ubolt import U_BOLTS
 from cadgraph.environment.family import Family
 
 __all__ = ["SUPPORTS"]
 
-SUPPORTS: tuple[Family, ...] = (*U_BOLTS, *CLAMPS, *HANGERS, *STANDS, *GUSSETS, *FASTENERS, *BRACKETS, *MOUNTS, *ARMS)
+SUPPORTS: tuple[Family, ...] = (
+    *U_BOLTS,
+    *CLAMPS,
+    *HANGERS,
+    *STANDS,
+    *GUSSETS,
+    *FASTENERS,
+    *BRACKETS,
+    *MOUNTS,
+    *ARMS,
+    *SLINGS,
+)

@@ -285,7 +285,7 @@ def _ell(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
     out = r + float(rng.uniform(0.08, 0.3))
     outline, holes = member(size, hand, rng, flat=True)
     over = bool(rng.random() < 0.4)
-    z = r + float(rng.uniform(0.12, 0.35)) if over else -r - size / 2
+    z = 1.3 * r + float(rng.uniform(0.14, 0.35)) if over else -r - size / 2
     foot, top = footing(size + 0.12, size, hand, rng)
     post = moved(extrude(outline, top - height, z + size / 2, holes), at(0, out))
     arm = bar((0, -r - 0.06, z), (0, out - float(outline[:, 1].max()), z), outline, holes)
@@ -305,12 +305,11 @@ def _ell(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
     if not over:
         return Model([*parts, *tie(dn, 0.006, hand, rng)])
     d = 0.01
-    low, up = r + 0.02, z - size / 2
+    low, up = 1.25 * r + 0.01, z - size / 2
     bolt_top = up
-    hanger = arc_yz(r + 0.002, np.pi, 2 * np.pi, 10)
-    loop = np.vstack(
-        [[[0, -0.006, low + 0.02], [0, -r - 0.002, 0.2 * r]], hanger, [[0, r + 0.002, 0.2 * r], [0, 0.006, low + 0.02]]]
-    )
+    lean = float(np.arcsin((r + 0.002) / (low + 0.02)))  # where the legs leave the line as tangents
+    hanger = arc_yz(r + 0.002, np.pi - lean, 2 * np.pi + lean, 16)
+    loop = np.vstack([[[0, -0.006, low + 0.02]], hanger, [[0, 0.006, low + 0.02]]])
     parts += [
         piece(strap(loop, 0.03, 0.004), "pipe hanger", "hanger"),
         piece(cylinder(d / 2, low, bolt_top, 8), "stud", "hanger", "fastener"),
