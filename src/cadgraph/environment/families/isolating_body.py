@@ -12,7 +12,7 @@ from cadgraph.environment.families.small import hex_end
 from cadgraph.environment.families.valve import flanged_body
 from cadgraph.environment.family import Part
 from cadgraph.environment.flange import plate_thickness
-from cadgraph.environment.form import along, box, cylinder, hexagon, lofted, rod, turned
+from cadgraph.environment.form import along, box, cylinder, dome, hexagon, lofted, rod, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle, triangulate
@@ -21,8 +21,9 @@ from cadgraph.environment.standard import FLANGES, PIPES
 from cadgraph.scene import Floats
 
 __all__ = [
-    "bolts_on", "chest", "ended", "lid_joint", "metal", "neck_of", "oval", "packing", "part_turned", "plate_outline",
-    "room", "trim", "valve_ball", "wedge",
+    "blade", "bolts_on", "chest", "ended", "lid_joint", "metal", "neck_of", "oval", "packing", "part_turned",
+    "plate_outline",
+    "room", "trim", "turned_blade", "valve_ball", "wedge",
 ]  # fmt: skip
 
 Rng = np.random.Generator
@@ -220,3 +221,55 @@ def valve_ball(radius: float, bore: float, hand: Hand, turn: float, trunnions: f
 def neck_of(dn: int) -> tuple[float, float]:
     """Radius of a flange's neck and where it leaves the flange's back [m]."""
     return 0.485 * FLANGES[dn].hub, plate_thickness(dn)
+
+
+def blade(radius: float, hand: Hand, rng: Rng) -> Solid:
+    """A butterfly's disc across x at the origin, its shaft along z: lens, ribbed dish, offset plate or lattice [m]."""
+    n, kind = max(16, hand.round(radius)), int(rng.integers(5))
+    rim = 0.985 * radius
+    if kind == 0:
+        plate = turned(
+            [
+                (0.3 * radius, -0.11 * radius),
+                (0.8 * radius, -0.05 * radius),
+                (rim, -0.004),
+                (rim, 0.004),
+                (0.8 * radius, 0.05 * radius),
+                (0.3 * radius, 0.11 * radius),
+            ],
+            n,
+        )
+        solids = [along("x", plate)]
+    elif kind == 1:
+        plate = turned(
+            [(0.9 * rim, -0.06 * radius), (rim, -0.02 * radius), (rim, 0.05 * radius), (0.6 * radius, 0.06 * radius)], n
+        )
+        ribs = [
+            box((0.16 * radius, 0.05 * radius, 1.5 * radius * w), (0.1 * radius, y * radius, 0))
+            for y, w in ((-0.45, 0.9), (0.0, 1.1), (0.45, 0.9))
+        ]
+        solids = [along("x", plate), *ribs]
+    elif kind == 2:
+        plate = turned([(0.94 * rim, -0.09 * radius), (rim, -0.05 * radius), (0.93 * rim, 0.04 * radius)], n)
+        eyes = [
+            merge([cylinder(0.17 * radius, s * 0.5 * radius - 0.14 * radius, s * 0.5 * radius + 0.14 * radius, 12)])
+            for s in (-1, 1)
+        ]
+        solids = [along("x", plate), *(moved(eye, at(0.12 * radius)) for eye in eyes)]
+    elif kind == 3:
+        plate = along("x", slab(circle(rim, n), -0.03 * radius - 0.001, 0.03 * radius + 0.001))
+        clips = [
+            box((0.05 * radius, 0.18 * radius, 0.18 * radius), (0.15 * radius, 0, s * 0.5 * radius)) for s in (-1, 0, 1)
+        ]
+        solids = [plate, *clips]
+    else:
+        plate = along("x", turned([(0.97 * rim, -0.03 * radius), (rim, 0.0), (0.97 * rim, 0.03 * radius)], n))
+        solids = [plate, along("x", dome(0.7 * radius, 0.18 * radius, 0.02 * radius, n))]
+    stub = cylinder(0.1 * radius + 0.002, -0.9 * radius, 0.9 * radius, 12)
+    return merge([*solids, stub])
+
+
+def turned_blade(radius: float, x: float, hand: Hand, rng: Rng) -> list[Part]:
+    """A butterfly's disc at ``x``, open, half open or shut [m]."""
+    angle = float(rng.choice([0.0, 0.0, 0.5, 0.3, 0.15])) * np.pi
+    return [trim(moved(blade(radius, hand, rng), at(x) @ spun("z", angle)), "valve disc")]

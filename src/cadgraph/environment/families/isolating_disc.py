@@ -8,10 +8,20 @@ from cadgraph.environment.families.actuation import quarter_turn
 from cadgraph.environment.families.actuation_base import bolted, hand_lever, put, shaft
 from cadgraph.environment.families.actuation_hand import slab, span
 from cadgraph.environment.families.isolating_ball import clamped_ends, ferrule, part_ring
-from cadgraph.environment.families.isolating_body import bolts_on, ended, metal, neck_of, packing, plate_outline, trim
+from cadgraph.environment.families.isolating_body import (
+    blade,
+    bolts_on,
+    ended,
+    metal,
+    neck_of,
+    packing,
+    plate_outline,
+    trim,
+    turned_blade,
+)
 from cadgraph.environment.family import Family, Model, Part
 from cadgraph.environment.flange import plate_thickness
-from cadgraph.environment.form import along, around, box, cylinder, dome, hexagon, ring, turned
+from cadgraph.environment.form import along, around, box, cylinder, hexagon, ring, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle
@@ -21,57 +31,6 @@ from cadgraph.environment.standard import FACE_TO_FACE, FLANGES, PIPES, SIZES
 __all__ = ["DISCS"]
 
 Rng = np.random.Generator
-
-
-def _blade(radius: float, hand: Hand, rng: Rng) -> Solid:
-    """A butterfly's disc across x at the origin, its shaft along z: lens, ribbed dish, offset plate or lattice [m]."""
-    n, kind = max(16, hand.round(radius)), int(rng.integers(5))
-    rim = 0.985 * radius
-    if kind == 0:
-        plate = turned(
-            [
-                (0.3 * radius, -0.11 * radius),
-                (0.8 * radius, -0.05 * radius),
-                (rim, -0.004),
-                (rim, 0.004),
-                (0.8 * radius, 0.05 * radius),
-                (0.3 * radius, 0.11 * radius),
-            ],
-            n,
-        )
-        solids = [along("x", plate)]
-    elif kind == 1:
-        plate = turned(
-            [(0.9 * rim, -0.06 * radius), (rim, -0.02 * radius), (rim, 0.05 * radius), (0.6 * radius, 0.06 * radius)], n
-        )
-        ribs = [
-            box((0.16 * radius, 0.05 * radius, 1.5 * radius * w), (0.1 * radius, y * radius, 0))
-            for y, w in ((-0.45, 0.9), (0.0, 1.1), (0.45, 0.9))
-        ]
-        solids = [along("x", plate), *ribs]
-    elif kind == 2:
-        plate = turned([(0.94 * rim, -0.09 * radius), (rim, -0.05 * radius), (0.93 * rim, 0.04 * radius)], n)
-        eyes = [
-            merge([cylinder(0.17 * radius, s * 0.5 * radius - 0.14 * radius, s * 0.5 * radius + 0.14 * radius, 12)])
-            for s in (-1, 1)
-        ]
-        solids = [along("x", plate), *(moved(eye, at(0.12 * radius)) for eye in eyes)]
-    elif kind == 3:
-        plate = along("x", slab(circle(rim, n), -0.03 * radius - 0.001, 0.03 * radius + 0.001))
-        clips = [
-            box((0.05 * radius, 0.18 * radius, 0.18 * radius), (0.15 * radius, 0, s * 0.5 * radius)) for s in (-1, 0, 1)
-        ]
-        solids = [plate, *clips]
-    else:
-        plate = along("x", turned([(0.97 * rim, -0.03 * radius), (rim, 0.0), (0.97 * rim, 0.03 * radius)], n))
-        solids = [plate, along("x", dome(0.7 * radius, 0.18 * radius, 0.02 * radius, n))]
-    stub = cylinder(0.1 * radius + 0.002, -0.9 * radius, 0.9 * radius, 12)
-    return merge([*solids, stub])
-
-
-def _turned_blade(radius: float, x: float, hand: Hand, rng: Rng) -> list[Part]:
-    angle = float(rng.choice([0.0, 0.0, 0.5, 0.3, 0.15])) * np.pi
-    return [trim(moved(_blade(radius, hand, rng), at(x) @ spun("z", angle)), "valve disc")]
 
 
 def _neck(low: float, high: float, slim: float, hand: Hand, rng: Rng) -> tuple[Solid, Part]:
@@ -131,7 +90,7 @@ def _triple(dn: int, hand: Hand, rng: Rng) -> Model:
     gland, _ = packing(0.4 * slim, hand, rng)
     parts += put([*gland, shaft(0.0, 0.05 + 0.2 * radius, 0.4 * slim, hand)], at(x, 0, high))
     if hand.hollow:
-        parts += _turned_blade(bore, x, hand, rng)
+        parts += turned_blade(bore, x, hand, rng)
         parts.append(trim(about_x(ring(0.94 * bore, 0.999 * bore, x - 0.06 * bore, x + 0.06 * bore, n)), "valve body"))
     if rng.random() < 0.4:
         parts.append(
@@ -196,7 +155,7 @@ def _waterworks(dn: int, hand: Hand, rng: Rng) -> Model:
     )
     parts = [metal(merge(body)), *put(upright, at(x) @ spun("x", side))]
     if hand.hollow:
-        disc = moved(_blade(bore, hand, rng), spun("z", float(rng.choice([0.0, 0.4, 0.5])) * np.pi))
+        disc = moved(blade(bore, hand, rng), spun("z", float(rng.choice([0.0, 0.4, 0.5])) * np.pi))
         parts.append(trim(moved(disc, at(x) @ spun("x", side)), "valve disc"))
     return Model(parts, round(length, 6), kind="butterfly valve")
 
@@ -245,7 +204,7 @@ def _mono(dn: int, hand: Hand, rng: Rng) -> Model:
         metal(merge([*plates, hub, moved(tower, at(x))])),
         trim(liner, "valve body", 0.0, "rubber"),
         *put([bolts], at(x)),
-        *_turned_blade(bore, x, hand, rng),
+        *turned_blade(bore, x, hand, rng),
         *put([shaft(0.0, 0.012, 0.45 * slim, hand)], at(x, 0, high)),
         *quarter_turn(x, high + 0.006, radius, hand, rng, ("worm", "rack", "lever", "motor box", "scotch")),
     ]
@@ -328,7 +287,7 @@ def _hygienic(dn: int, hand: Hand, rng: Rng) -> Model:
         *put([shaft(high - 0.004, high + 0.012, 0.6 * boss, hand)], at(x)),
     ]
     if hand.hollow:
-        parts += _turned_blade(bore, x, hand, rng)
+        parts += turned_blade(bore, x, hand, rng)
     if clamped:
         parts += clamped_ends(dn, stub, length, hand, rng)
     parts += _hygienic_drive(x, high, boss, radius, hand, rng)
@@ -385,7 +344,7 @@ def _plastic(dn: int, hand: Hand, rng: Rng) -> Model:
     parts = [
         metal(merge([skin, web, rim, *ribs, moved(tower, at(x))])),
         trim(ratchet, "position indicator", x),
-        *_turned_blade(bore, x, hand, rng),
+        *turned_blade(bore, x, hand, rng),
     ]
     parts += put([shaft(high - 0.01, high + 0.02, 0.4 * slim, hand)], at(x))
     if rng.random() < 0.75:
@@ -418,7 +377,7 @@ def _damper(dn: int, hand: Hand, rng: Rng) -> Model:
     )
     parts = [
         metal(merge(body)),
-        *_turned_blade(bore, x, hand, rng),
+        *turned_blade(bore, x, hand, rng),
         trim(slab(plate, high, high + 0.003, (slot,)), "position indicator", x),
         *put([shaft(-radius - 0.03, high + 0.02, slim, hand)], at(x)),
     ]
