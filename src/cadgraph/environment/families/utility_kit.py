@@ -13,7 +13,7 @@ from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import section_channel, section_i
 from cadgraph.environment.solid import Solid, about_x, extrude, merge, moved
 
-__all__ = ["FRAME", "GROUP", "JOINT", "beam_over", "gland", "h_column", "pick", "pole", "strut", "wall"]
+__all__ = ["FRAME", "GROUP", "JOINT", "back", "beam_over", "gland", "h_column", "pick", "pole", "strut", "wall"]
 
 GROUP = "Electrical and safety"
 FRAME, JOINT = "Structural element", "Connection assembly"
@@ -85,3 +85,14 @@ def hanger(x: float, y: float, low: float, high: float) -> Solid:
 def several(solids: Sequence[Solid], name: str, color: str, group: str = "") -> list[Part]:
     """Each solid as a part of its own."""
     return [Part(s, name, color, "", group) for s in solids]
+
+
+def back(height: float, hand: Hand, rng: np.random.Generator, wide: float = 0.5) -> list[Part]:
+    """What a thing whose back is at y = 0 is fixed to: a wall, a column or a post."""
+    kind = pick(rng, "wall", "wall", "column", "post")
+    if kind == "wall":
+        return [wall(-wide, wide, height)]
+    if kind == "column":
+        return [h_column(height, 0.2)]
+    r = float(rng.uniform(0.03, 0.05))
+    return [Part(moved(p.solid, at(0, r)), p.name, p.color, "", p.group, p.fine) for p in pole(height, r, hand, True)]

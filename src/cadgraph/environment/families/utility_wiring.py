@@ -63,10 +63,10 @@ def _on_struts(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     n = max(6, min(12, hand.round(0.02)))
     y, pitch, parts = -0.041, 0.085, []
     turn_down = rng.random() < 0.7
-    xs, radii = (0.2 * length, 0.6 * length), []
+    xs = (0.2 * length, 0.6 * length)
     for k in range(count):
         r = float(rng.choice(_SIZES[:4] if count > 4 else _SIZES))
-        zk, radii = z - k * pitch, [*radii, r]
+        zk = z - k * pitch
         end = length - k * pitch
         points = [(-0.1, y - r, zk), (end, y - r, zk)]
         if turn_down:
@@ -109,7 +109,7 @@ def _flexible(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         Part(cylinder(r, 0.0, h - 0.02, n), "conduit", "clamp"),
         Part(merge([hexagon(2.8 * r, h - 0.03, h), *case]), "junction box", "electrical"),
     ]
-    for k, sign in enumerate((-1, 1)[: int(rng.integers(1, 3))]):
+    for sign in (-1, 1)[: int(rng.integers(1, 3))]:
         x, z = sign * float(rng.uniform(0.5, 0.9)), float(rng.uniform(0.4, 1.4))
         q = float(rng.choice([0.008, 0.011, 0.015]))
         start = h + 0.4 * s
@@ -152,7 +152,6 @@ def _flexible(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         )
         stand = box((0.05, 0.05, z + 0.5 * w), (x, w / 2 + 0.025, (z + 0.5 * w) / 2))
         parts.append(Part(stand, "post", "steel", "", FRAME))
-        del k
     return Model(parts)
 
 
@@ -210,8 +209,6 @@ def _bodies(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             )
         )
     parts += [Part(s, "clamp", "clamp", "", JOINT) for s in straps]
-    backs = box((length + 0.1, 0.003, 0.02), (length / 2, -0.0015, z - 0.3))
-    del backs
     parts.append(wall(-0.2, length + 0.2, z + 0.6))
     return Model(parts)
 
@@ -276,7 +273,7 @@ def _catenary(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         path += [(float(a + (b - a) * q), 0.0, float(h - 0.1 - depth * np.sin(np.pi * q) ** 0.7)) for q in t]
     path.append((float(xs[-1]), 0.0, h - 0.1))
     for y in (-0.025, 0.025)[: int(rng.integers(1, 3))]:
-        parts.append(Part(rope(np.array(path) + (0, y, 0), r, n), "cable", "rubber"))
+        parts.append(Part(rope(np.array(path) + np.array((0.0, y, 0.0)), r, n), "cable", "rubber"))
     for x in xs:
         saddle = merge([box((0.05, 0.09, 0.02), (x, 0, h - 0.09)), box((0.04, 0.05, 0.09), (x, 0, h - 0.045))])
         parts.append(Part(saddle, "pipe hanger", "clamp", "", JOINT))
@@ -317,7 +314,7 @@ def _coiled(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             [
                 Part(moved(merge([*rings]), lay), "cable", "rubber"),
                 Part(tail, "cable", "rubber"),
-                Part(moved(merge([*cheek, *hub]), lay), "bracket", "steel", "", JOINT),
+                Part(moved(merge([*cheek, *hub]), lay), "cable", "steel"),
             ]
         )
     big = float(rng.uniform(0.15, 0.35))
@@ -389,13 +386,13 @@ def _cleated(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             box((0.94 * w, 0.01, 0.28), (0, -(deep + 2 * gap + 0.045), low - 0.15)),
         ]
     )
-    nuts = [moved(spun_gland(r), at(x, y - gap, low)) for x, y in spots]
+    nuts = [moved(_standing(r), at(x, y - gap, low)) for x, y in spots]
     parts += [Part(merge([case, *nuts]), "junction box", "electrical")]
     back = wall(-0.5, 0.5, h + 0.2) if rng.random() < 0.5 else h_column(h + 0.2, 0.2)
     return Model([*parts, back])
 
 
-def spun_gland(r: float) -> Solid:
+def _standing(r: float) -> Solid:
     """A gland that stands up from z = 0."""
     return moved(merge([hexagon(2.6 * r, 0.0, 0.8 * r), cylinder(1.2 * r, 0.7 * r, 1.6 * r, 10)]), at())
 
