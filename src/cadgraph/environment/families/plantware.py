@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from cadgraph.environment.families.airware import AIRWARE
 from cadgraph.environment.families.boilerware import BOILERWARE
+from cadgraph.environment.families.filterware import FILTERWARE
 from cadgraph.environment.families.heatware import HEATWARE
 from cadgraph.environment.families.pressware import PRESSWARE
 from cadgraph.environment.families.smallware import SMALLWARE
@@ -13,4 +15,14 @@ from cadgraph.environment.family import Family
 
 __all__ = ["PLANTWARE"]
 
-PLANTWARE: tuple[Family, ...] = (*VESSEL_BUILDS, *STORAGE, *PRESSWARE, *SMALLWARE, *HEATWARE, *WARMWARE, *BOILERWARE)
+PLANTWARE: tuple[Family, ...] = (
+    *VESSEL_BUILDS,
+    *STORAGE,
+    *PRESSWARE,
+    *SMALLWARE,
+    *HEATWARE,
+    *WARMWARE,
+    *BOILERWARE,
+    *FILTERWARE,
+    *AIRWARE,
+)
