@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from cadgraph.environment.families.measuring_counter import COUNTER_BUILDS
+from cadgraph.environment.families.measuring_flow import FLOW_BUILDS
 from cadgraph.environment.families.measuring_gauge import GAUGE_BUILDS
 from cadgraph.environment.families.measuring_heat import HEAT_BUILDS
 from cadgraph.environment.families.measuring_level import LEVEL_BUILDS
@@ -19,5 +21,7 @@ MEASURING: tuple[Family, ...] = (
     *HEAT_BUILDS,
     *LEVEL_BUILDS,
     *PRESSURE_BUILDS,
+    *FLOW_BUILDS,
+    *COUNTER_BUILDS,
 )
 """The families of devices and structures that an assortment draws from."""

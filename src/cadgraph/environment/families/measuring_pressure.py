@@ -28,7 +28,7 @@ from cadgraph.environment.polygon import rounded_rectangle
 from cadgraph.environment.solid import Solid, extrude, merge, moved
 from cadgraph.environment.standard import FLANGES, PIPES, SIZES
 
-__all__ = ["PRESSURE_BUILDS"]
+__all__ = ["PRESSURE_BUILDS", "differential_cell"]
 
 _NAME, _KIND, _GLASS = "transmitter", "pressure transmitter", "sight glass"
 
@@ -129,7 +129,7 @@ def _switch(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(posed(parts, spun("z", float(rng.uniform(0, 6)))), kind="pressure switch")
 
 
-def _cell(hand: Hand, rng: np.random.Generator, coplanar: bool) -> tuple[list[Part], float]:
+def differential_cell(hand: Hand, rng: np.random.Generator, coplanar: bool) -> tuple[list[Part], float]:
     """A differential cell on z = 0 over a manifold, its process side below, and where its electronics begin."""
     if coplanar:
         wide = 0.09
@@ -161,7 +161,7 @@ def _piped(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         place = (sign * 0.5 * wide, y, z - tall / 2) if sign else (float(x), y - 0.035, z - tall / 2)
         block.append(along(side, t_handle(0.06, 0.05), *place))
     parts.append(piece(block, STEM, "trim"))
-    cell, top = _cell(hand, rng, bool(rng.random() < 0.6))
+    cell, top = differential_cell(hand, rng, bool(rng.random() < 0.6))
     head = piece(moved(housing(hand, rng, str(rng.choice(["double", "single"]))), at(0, 0, top)), _NAME, "valve")
     parts += posed([*cell, head], at(0, y, z))
     for x in (-0.027, 0.027):
@@ -189,7 +189,7 @@ def _seal(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         cylinder(0.024, thick, thick + 0.02, 16),
         cylinder(0.012, thick, thick + out + 0.01, 12),
     ]
-    cell, top = _cell(hand, rng, bool(rng.random() < 0.5))
+    cell, top = differential_cell(hand, rng, bool(rng.random() < 0.5))
     head = piece(moved(housing(hand, rng, str(rng.choice(["double", "single", "pot"]))), at(0, 0, top)), _NAME, "valve")
     parts = [piece(solids, _NAME, "trim"), *posed([*cell, head], at(0, 0, thick + out))]
     if rng.random() < 0.4:  # the other capillary comes off sideways in a loop
