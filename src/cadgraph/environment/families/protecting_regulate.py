@@ -250,11 +250,13 @@ def _pilot_globe(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         ],
         12,
     )
+    block.append(rod((x + 0.3 * span, side * 0.5 * wide, z), (x + 0.3 * span, y, z), 0.5 * size, 10))
     parts += [body(*block), bonnet(moved(case, at(x + 0.3 * span, y, z)))]
     for k in range(int(rng.integers(0, 3))):
         cx = (thick, length - thick)[k]
-        cock = along("z", hexagon(1.5 * size, -size, size), cx, y, 0.3 * hub + 0.45 * (z - 0.3 * hub))
-        key = box((0.012, 0.9 * size, 2.6 * size), (cx, y + side * 1.1 * size, 0.3 * hub + 0.45 * (z - 0.3 * hub)))
+        way, start = ("y" if side > 0 else "-y"), 0.7 * hub
+        cock = along(way, hexagon(1.7 * size, start, start + 0.3 * hub + 2.2 * size), cx, 0, 0.3 * hub)
+        key = box((0.012, 0.012, 3.0 * size), (cx, side * (start + 0.3 * hub + size), 0.3 * hub + 1.8 * size))
         parts += [body(cock), piece("lever", key, color="handle", bundle="")]
     return Model(parts, length, kind="control valve")
 

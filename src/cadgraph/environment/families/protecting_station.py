@@ -209,6 +209,7 @@ def _panel(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     k = int(rng.integers(count))
     x = 0.16 * (k - (count - 1) / 2)
     core = box((2.6 * r, 0.04, 2.6 * r), (x, 0.022, high))
+    core = merge([core, along("-y", cylinder(0.9 * r, -0.01, 0.0085, 12), x, 0, high)])  # through the sheet
     ends = [
         along(way, merge([hexagon(1.8 * r, 0.0, 3.0 * r), cylinder(0.8 * r, 0, 4 * r, 10)]), x, 0.024, high)
         for way in ("z", "-z")

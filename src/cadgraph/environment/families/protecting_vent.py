@@ -153,7 +153,8 @@ def _bowl(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     elif kind == 1:
         mesh = ring(0.75 * r, 0.8 * r, top - 0.001, top + 2 * gap, n)
         lid = turned([(r, top + 2 * gap), (r, top + 2 * gap + 0.008), (0.5 * r, top + 2 * gap + 0.016)], n)
-        parts += [bonnet(lid), other("Pipe assembly", "strainer", "trim", mesh, own=True)]
+        posts = around(cylinder(0.003 + 0.03 * r, top - 0.001, top + 2 * gap + 0.001, 8), 3, 0.9 * r)
+        parts += [bonnet(lid, posts), other("Pipe assembly", "strainer", "trim", mesh, own=True)]
     elif kind == 2:
         path = bend(
             [(0, 0, top - 0.002), (0, 0, top + 1.4 * r), (0, 1.8 * r, top + 1.4 * r), (0, 1.8 * r, top + 0.6 * r)],
