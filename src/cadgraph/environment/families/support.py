@@ -5,9 +5,11 @@ from __future__ import annotations
 from cadgraph.environment.families.support_arm import ARMS
 from cadgraph.environment.families.support_bracket import BRACKETS
 from cadgraph.environment.families.support_clamp import CLAMPS
+from cadgraph.environment.families.support_couple import COUPLES
 from cadgraph.environment.families.support_fastener import FASTENERS
 from cadgraph.environment.families.support_gusset import GUSSETS
 from cadgraph.environment.families.support_hanger import HANGERS
+from cadgraph.environment.families.support_joint import JOINTS
 from cadgraph.environment.families.support_mount import MOUNTS
 from cadgraph.environment.families.support_sling import SLINGS
 from cadgraph.environment.families.support_stand import STANDS
@@ -27,4 +29,6 @@ SUPPORTS: tuple[Family, ...] = (
     *MOUNTS,
     *ARMS,
     *SLINGS,
+    *COUPLES,
+    *JOINTS,
 )

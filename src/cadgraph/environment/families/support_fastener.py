@@ -15,7 +15,7 @@ from cadgraph.environment.polygon import circle, rounded_rectangle, section_chan
 from cadgraph.environment.solid import Solid, extrude, merge, moved
 from cadgraph.scene import Floats
 
-__all__ = ["FASTENERS"]
+__all__ = ["FASTENERS", "head_solid", "nut_solid"]
 
 _D = (0.008, 0.01, 0.012, 0.016, 0.02, 0.024, 0.03)  # m, ISO 261 coarse threads
 _Named = tuple[str, Solid]
@@ -42,7 +42,7 @@ def _wings(d: float, low: float, span: float, high: float) -> Solid:
     return merge(ears)
 
 
-def _nut(kind: str, d: float, hand: Hand) -> Solid:
+def nut_solid(kind: str, d: float, hand: Hand) -> Solid:
     """A nut on z = 0 with its thread about z [m]; proportions of ISO 4032, DIN 1587, 315, 557, 935, 6334, 466."""
     n, bore = few(d / 2, hand), d / 2
     if kind == "square":
@@ -77,7 +77,7 @@ def _nut(kind: str, d: float, hand: Hand) -> Solid:
 _NUTS = ("hex", "square", "cap", "wing", "castle", "lock", "jam", "flange", "coupling", "knurled", "eye", "star")
 
 
-def _head(kind: str, d: float, hand: Hand) -> Solid:
+def head_solid(kind: str, d: float, hand: Hand) -> Solid:
     """A head on z = 0 over its shank [m] (ISO 4014, 4762, 7380, 10642, EN 1665, DIN 603, 261, 464, 444)."""
     n = max(8, few(d / 2, hand))
     if kind == "square":
@@ -139,7 +139,7 @@ def _nuts(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     for k, kind in enumerate(kinds):
         pose = at((k % columns) * pitch, (k // columns) * pitch, t + up) @ spun("z", float(rng.uniform(0, 6)))
         flat = 0.16 * d if rng.random() < 0.6 else 0.0
-        named: list[_Named] = [("nut", moved(_nut(kind, d, hand), at(0, 0, flat)))]
+        named: list[_Named] = [("nut", moved(nut_solid(kind, d, hand), at(0, 0, flat)))]
         if flat:
             named.append(("washer", ring(0.54 * d, d * float(rng.uniform(1.0, 1.6)), 0, flat, max(8, few(d, hand)))))
         over = {"coupling": 2.5 * d, "cap": 0.7 * d, "eye": 0.6 * d}.get(kind, d * float(rng.uniform(1.2, 3.5)))
@@ -170,7 +170,7 @@ def _screws(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         out = float(rng.choice([0.0, 0.0, 1.2])) * d
         grip = float(rng.uniform(2.2, 4.0)) * d
         shank = _shank(d, -grip, 0.0, hand, rng)
-        solid = merge([_head(kind, d, hand), shank])
+        solid = merge([head_solid(kind, d, hand), shank])
         if rng.random() < 0.25:  # lies on the floor before the plates
             reach = max(1.5 * d, float(-solid.vertices[:, 0].min()))
             lying = moved(solid, at(k * pitch, -4.2 * d, reach) @ spun("x", 0.5 * np.pi))
@@ -180,7 +180,7 @@ def _screws(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             pose = at(k * pitch, 0, low + 2 * t + out) @ spun("z", float(rng.uniform(0, 6)))
             parts += _emit([(name, solid)], pose)
             if rng.random() < 0.4 and name == "bolt" and not out:
-                nut = moved(_nut(str(rng.choice(["hex", "square", "lock", "flange"])), d, hand), spun("x", np.pi))
+                nut = moved(nut_solid(str(rng.choice(["hex", "square", "lock", "flange"])), d, hand), spun("x", np.pi))
                 parts += _emit([("nut", nut)], at(k * pitch, 0, low))
     n = len(kinds)
     for z in (low, low + t):
@@ -236,9 +236,9 @@ def _washers(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         head = str(rng.choice(["hex", "hex", "square", "flange", "socket"]))
         name = "screw" if head == "socket" else "bolt"
         shank = _shank(d, -t - 2.2 * d, high, hand, rng)
-        parts += _emit([(name, merge([shank, moved(_head(head, d, hand), at(0, 0, high))]))], pose)
+        parts += _emit([(name, merge([shank, moved(head_solid(head, d, hand), at(0, 0, high))]))], pose)
         nut = moved(
-            _nut(str(rng.choice(["hex", "square", "lock", "jam"])), d, hand), at(0, 0, -t - w) @ spun("x", np.pi)
+            nut_solid(str(rng.choice(["hex", "square", "lock", "jam"])), d, hand), at(0, 0, -t - w) @ spun("x", np.pi)
         )
         parts += _emit([("nut", nut), ("washer", ring(0.54 * d, d, -t - w, -t, n))], pose)
         span += 4.2 * d
@@ -280,7 +280,7 @@ def _anchors(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             solids = [
                 ("bolt", cylinder(d / 2, 0, deep + out, n)),
                 ("plate", plate),
-                ("nut", moved(_nut("hex", d, hand), at(0, 0, 0.5 * d))),
+                ("nut", moved(nut_solid("hex", d, hand), at(0, 0, 0.5 * d))),
             ]
         elif kind == 3:
             solids = [
@@ -299,7 +299,9 @@ def _anchors(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             ("washer", flat),
             (
                 "nut",
-                moved(_nut(str(rng.choice(["hex", "hex", "square", "jam", "cap"])), d, hand), at(0, 0, deep + 2 * t)),
+                moved(
+                    nut_solid(str(rng.choice(["hex", "hex", "square", "jam", "cap"])), d, hand), at(0, 0, deep + 2 * t)
+                ),
             ),
         ]
         lift = top - deep if cast else 0.0
