@@ -137,6 +137,11 @@ def _clamp_on(dn: int, hand: Hand, rng: np.random.Generator, _: float) -> Model:
     lead = [(-apart, 0, top), (-apart, 0, top + 0.05), (-0.2 * apart, 0, top + 0.07), (0, 0, top + 0.14)]
     parts.append(piece(bent(lead, 0.003, hand), _NAME, "rubber"))
     crate = moved(housing(hand, rng, "rectangle"), at(0, 0, top + 0.135))
+    # The box stands on a strip that a third band holds behind it.
+    strip = box((0.025, 0.004, top + 0.19), (0, r + 0.0022, (top + 0.19) / 2))
+    arm = box((0.025, r + 0.004, 0.004), (0, (r + 0.004) / 2, top + 0.137))
+    hold = along("x", ring(r, r + 0.0012, -0.008, 0.008, n))
+    parts.append(Part(merge([strip, arm, hold]), "bracket", "clamp", "", JOINT))
     return Model([*parts, piece(crate, "transmitter", "electrical")], kind=_NAME)
 
 
