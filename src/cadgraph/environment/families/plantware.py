@@ -7,6 +7,7 @@ from cadgraph.environment.families.boilerware import BOILERWARE
 from cadgraph.environment.families.filterware import FILTERWARE
 from cadgraph.environment.families.heatware import HEATWARE
 from cadgraph.environment.families.pressware import PRESSWARE
+from cadgraph.environment.families.separateware import SEPARATEWARE
 from cadgraph.environment.families.smallware import SMALLWARE
 from cadgraph.environment.families.storage import STORAGE
 from cadgraph.environment.families.vesselbuild import VESSEL_BUILDS
@@ -25,4 +26,5 @@ PLANTWARE: tuple[Family, ...] = (
     *BOILERWARE,
     *FILTERWARE,
     *AIRWARE,
+    *SEPARATEWARE,
 )
