@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from cadgraph.environment.families.steel_beam import BEAMS
+from cadgraph.environment.families.steel_brace import BRACES
 from cadgraph.environment.families.steel_caster import CASTERS
 from cadgraph.environment.families.steel_civil import CIVIL
 from cadgraph.environment.families.steel_climb import CLIMBS
@@ -20,6 +21,7 @@ __all__ = ["STEELWORK"]
 STEELWORK: tuple[Family, ...] = (
     *BEAMS,
     *COLUMNS,
+    *BRACES,
     *CASTERS,
     *SKIDS,
     *RAILS,
