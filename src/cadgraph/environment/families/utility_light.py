@@ -98,11 +98,11 @@ def _flood(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             (x + w / 2 + 0.012, -0.014, z),
             (x + w / 2 + 0.012, y, z),
         ]
-        back = box((0.1, 0.016, 0.05), (x, -0.008, z))
+        pad = box((0.1, 0.016, 0.05), (x, -0.008, z))
         parts += [
             Part(moved(merge([*body, *fins, *yoke]), pose), _L, "rubber", _L),
             Part(moved(glass, pose), _L, "dial", _L),
-            Part(merge([rope(bow, 0.008, 6), back]), _L, "clamp", _L),
+            Part(merge([rope(bow, 0.008, 6), pad]), _L, "clamp", _L),
         ]
     if count == 1:
         return Model([*parts, *back(z + 0.4, hand, rng, 0.4)])
