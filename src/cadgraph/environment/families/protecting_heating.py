@@ -12,6 +12,7 @@ from cadgraph.environment.families.protecting_parts import (
     bolting,
     bonnet,
     family,
+    fronted,
     other,
     piece,
     posed,
@@ -234,7 +235,7 @@ def _distributor(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         level = high + 0.2 * row
         rail = [box((0.02, 0.004, 0.16), (x, 0.058, level)), box((0.02, 0.058, 0.006), (x, 0.029, level - r - 0.0028))]
         parts.append(other(_FIX, "bracket", "clamp", *rail))
-    return Model(parts, kind="control valve")
+    return Model(fronted(parts), kind="control valve")
 
 
 def _cistern(_: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -283,7 +284,7 @@ def _cistern(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         other(_PIPE, "union", "trim", along("-x", hexagon(2.7 * r, 0.028, 0.048), x, 0, z)),
         other(_PIPE, "pipe", "pipe", tube(path, 0.9 * r, 0.75 * r if hand.hollow else 0.0, n)),
     ]
-    return Model(parts, kind="float valve")
+    return Model(fronted(parts), kind="float valve")
 
 
 def _bleed(_: int, hand: Hand, rng: np.random.Generator) -> Model:

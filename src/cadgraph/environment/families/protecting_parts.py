@@ -31,6 +31,7 @@ __all__ = [
     "chain",
     "cover",
     "family",
+    "fronted",
     "hub_radius",
     "laid",
     "other",
@@ -90,6 +91,11 @@ def posed(parts: Sequence[Part], pose: Floats) -> list[Part]:
 def laid(parts: Sequence[Part]) -> list[Part]:
     """What was built upon z = 0 laid along x, as a device with one flange is."""
     return [Part(about_x(p.solid), p.name, p.color, p.bundle, p.group, p.fine) for p in parts]
+
+
+def fronted(parts: Sequence[Part]) -> list[Part]:
+    """Parts with a valve body first: the contacts of a device are recorded from its first part."""
+    return sorted(parts, key=lambda p: p.name != BODY)
 
 
 def branch(dn: int, hand: Hand, reach: float, way: str, center: Sequence[float] = (0.0, 0.0, 0.0)) -> Solid:

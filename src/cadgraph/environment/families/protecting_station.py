@@ -12,6 +12,7 @@ from cadgraph.environment.families.protecting_parts import (
     bonnet,
     chain,
     family,
+    fronted,
     other,
     piece,
     posed,
@@ -105,7 +106,7 @@ def _bibb(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     else:
         parts.append(moved_one(piece("valve stem", cylinder(0.5 * r, top - 0.002, top + 0.6 * r, 10)), at(0, y)))
         parts += posed(drive(0.0, top + 0.5 * r, r, hand, rng, ("lever", "wing", "bar")), at(0, y))
-    return Model(parts, kind="ball valve")
+    return Model(fronted(parts), kind="ball valve")
 
 
 def moved_one(part: Part, pose: np.ndarray) -> Part:
@@ -194,7 +195,7 @@ def _manifold(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         foot = float(rng.uniform(0.1, 0.5))
         path = bend([(x, 0, high - tall / 2 - 0.03), (x, 0, foot), (x, -0.5, foot)], 0.04)
         parts += [body(fit), other(_PIPE, "pipe", "pipe", tube(path, 0.006, 0.0045 if hand.hollow else 0.0, 8))]
-    return Model(parts, kind="needle valve")
+    return Model(fronted(parts), kind="needle valve")
 
 
 def _panel(_: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -229,7 +230,7 @@ def _panel(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts.append(other(_PIPE, "pipe", "pipe", tube(path, 0.6 * r, 0.45 * r if hand.hollow else 0.0, 8)))
     label = box((0.08, 0.001, 0.025), (x, -0.0025, high + 0.07))
     parts.append(other("Electrical and safety", "sign", "dial", label))
-    return Model(parts, kind="needle valve")
+    return Model(fronted(parts), kind="needle valve")
 
 
 def _radiator(_: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -289,7 +290,7 @@ def _radiator(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         [(other_end + 0.025, 0, low + 0.05), (other_end - 0.05, 0, low + 0.05), (other_end - 0.05, 0, 0.0)], 0.015
     )
     parts.append(other(_PIPE, "pipe", "pipe", tube(back, 0.009, 0.0075 if hand.hollow else 0.0, n)))
-    return Model(parts, kind="thermostatic valve")
+    return Model(fronted(parts), kind="thermostatic valve")
 
 
 def _hose_valve(_: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -350,7 +351,7 @@ def _hose_valve(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         wheel(float(rng.uniform(1.5, 2.2)) * wide, 0, top + 2.1 * wide, hand, rng),
     ]
     parts += posed(head, at(0, y, high))
-    return Model(parts, kind="globe valve")
+    return Model(fronted(parts), kind="globe valve")
 
 
 STATIONS: tuple[Family, ...] = (
