@@ -9,6 +9,7 @@ from cadgraph.environment.families.piping_flange import FLANGINGS
 from cadgraph.environment.families.piping_flexible import FLEXIBLES
 from cadgraph.environment.families.piping_hose import HOSES
 from cadgraph.environment.families.piping_reducer import REDUCERS
+from cadgraph.environment.families.piping_special import SPECIALS
 from cadgraph.environment.families.piping_strainer import STRAINERS
 from cadgraph.environment.families.piping_union import UNIONS
 from cadgraph.environment.family import Family
@@ -21,6 +22,7 @@ PIPEWORK: tuple[Family, ...] = (
     *STRAINERS,
     *COUPLINGS,
     *UNIONS,
+    *SPECIALS,
     *FLANGINGS,
     *FLEXIBLES,
     *HOSES,

@@ -346,7 +346,7 @@ def _hinged(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         box((2.6 * plate + 0.02, 0.03 + 0.12 * rim, thick), (-0.1 * plate, y, s * (0.5 * wide + 0.6 * thick)))
         for s in (-1, 1)
     ]
-    legs = box((0.9 * plate, y - rim + 0.02, wide + 2.2 * thick), (-0.55 * plate - 0.002, 0.5 * (rim + y), 0))
+    legs = box((0.9 * plate, y - rim + 0.001, wide + 2.2 * thick), (-0.55 * plate - 0.002, 0.5 * (rim + y), 0))
     pin = moved(cylinder(0.006 + 0.02 * rim, -0.75 * wide, 0.75 * wide, 10), at(0.8 * plate + 0.004, y))
     return Model(
         [
@@ -441,9 +441,9 @@ FLANGINGS: tuple[Family, ...] = (
     family("gasket/ring joint", _pair(_long_neck, _ringed)),
     family("gasket/tabbed", _pair(_standard, _tabbed)),
     family("blind flange/paddle", _paddle, weight=0.4),
-    family("blind flange/handle", _handled, SIZES[4:], "head"),
-    family("blind flange/davit", _davit, SIZES[7:], "head"),
-    family("blind flange/hinged", _hinged, SIZES[5:], "head"),
-    family("blind flange/tapped", _tapped, SIZES[2:], "head"),
-    family("blind flange/ribbed", _ribbed, SIZES[2:], "head"),
+    family("blind flange/handle", _handled, SIZES[4:], "head", 1.0),
+    family("blind flange/davit", _davit, SIZES[7:], "head", 1.0),
+    family("blind flange/hinged", _hinged, SIZES[5:], "head", 1.0),
+    family("blind flange/tapped", _tapped, SIZES[2:], "head", 1.0),
+    family("blind flange/ribbed", _ribbed, SIZES[2:], "head", 1.0),
 )
