@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from cadgraph.environment.families.airware import AIRWARE
 from cadgraph.environment.families.boilerware import BOILERWARE
+from cadgraph.environment.families.boxware import BOXWARE
 from cadgraph.environment.families.filterware import FILTERWARE
 from cadgraph.environment.families.heatware import HEATWARE
 from cadgraph.environment.families.pressware import PRESSWARE
@@ -27,4 +28,5 @@ PLANTWARE: tuple[Family, ...] = (
     *FILTERWARE,
     *AIRWARE,
     *SEPARATEWARE,
+    *BOXWARE,
 )
