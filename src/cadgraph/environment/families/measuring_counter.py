@@ -64,6 +64,8 @@ def _acrylic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         clear = along("x", extrude(rounded_rectangle(2.6 * r, 2.2 * r, 0.15 * r, 2), low - 0.002, length - low + 0.002))
     place = float(rng.uniform(0.35, 0.65)) * length
     bob = along("x", turned([(0.1 * r, place - 0.4 * r), (0.7 * r, place), (0.7 * r, place + 0.2 * r)], 12))
+    # A rod guides the float from end to end.
+    bob = merge([bob, along("x", cylinder(0.08 * r, 0.1 * length, 0.9 * length, 8))])
     ticks = [box((0.002, 0.5 * r, 0.001), (x * length, 0, 1.31 * r)) for x in np.linspace(0.28, 0.72, 9)]
     parts = [piece([*ends, *nuts], _NAME, "rubber"), piece(clear, "gauge glass", "dial", _NAME)]
     parts += [

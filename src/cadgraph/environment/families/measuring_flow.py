@@ -40,9 +40,11 @@ def measuring_tube(dn: int, hand: Hand, length: float, middle: Outline | None = 
     return flanged_body(dn, hand, length, middle or [(r, low), (r, length - low)])
 
 
-def _electronics(x: float, top: float, hand: Hand, rng: np.random.Generator, shape: str = "") -> list[Part]:
-    """A post at ``x`` from inside the body up, with a transmitter's housing [m]."""
-    rise, r = top + float(rng.uniform(0.03, 0.12)), float(rng.uniform(0.011, 0.02))
+def _electronics(
+    x: float, top: float, hand: Hand, rng: np.random.Generator, shape: str = "", clear: float = 0.0
+) -> list[Part]:
+    """A post at ``x`` from inside a body this high up, ``clear`` and more over it, with a transmitter's housing [m]."""
+    rise, r = top + clear + float(rng.uniform(0.03, 0.12)), float(rng.uniform(0.011, 0.02))
     post = [cylinder(r, 0.8 * top, rise, 14)]
     if rng.random() < 0.4:
         post.append(cylinder(1.7 * r, rise - 0.01, rise, 14))
@@ -292,7 +294,7 @@ def _wafer(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
             for q, a, b in ((outer, 0.0, 0.14), (0.88 * outer, 0.13, 0.87), (outer, 0.86, 1.0))
         ]
     return Model(
-        [piece(solids, _NAME, "gauge"), *_electronics(length / 2, max(outer, size.outer / 2), hand, rng)],
+        [piece(solids, _NAME, "gauge"), *_electronics(length / 2, outer, hand, rng, "", size.outer / 2 - outer)],
         length,
         "wafer",
         _NAME,

@@ -194,7 +194,7 @@ def _seal(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts = [piece(solids, _NAME, "trim"), *posed([*cell, head], at(0, 0, thick + out))]
     if rng.random() < 0.4:  # the other capillary comes off sideways in a loop
         z = thick + out + 0.03
-        way = [(0.044, 0, z), (0.14, 0, z), (0.2, 0.1, z - 0.03), (0.1, 0.22, z), (0.05, 0.3, z - 0.06)]
+        way = [(0.034, 0, z), (0.14, 0, z), (0.2, 0.1, z - 0.03), (0.1, 0.22, z), (0.05, 0.3, z - 0.06)]
         parts.append(piece(bent(way, 0.004, hand), _NAME, "rubber"))
     return Model(headed(parts), kind=_KIND)
 
@@ -334,7 +334,12 @@ def _full(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     if rng.random() < 0.4:
         vanes = along(
             "x",
-            merge([around(box((0.5 * r, 0.003, 0.02), (0.3 * r, 0, 0)), 4), cylinder(0.1 * r, -0.03, 0.03, 8)]),
+            merge(
+                [
+                    around(box((0.5 * r, 0.003, 0.02), (0.3 * r, 0, 0)), 4),
+                    cylinder(0.1 * r, low - length / 2, length / 2 - low, 8),
+                ]
+            ),
             length / 2,
         )
         parts.append(piece(vanes, "gauge needle", "handle", _GLASS))
