@@ -200,7 +200,7 @@ def _cabinet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
 
 
 def _hermetic(_: int, hand: Hand, rng: np.random.Generator) -> Model:
-    """Refrigerant compressors: hermetic pots (scroll or piston), or a semi-hermetic block with finned heads, on rails."""
+    """Refrigerant compressors: hermetic pots (scroll or piston), or a semi-hermetic block with finned heads."""
     eq, parts = "compressor", []
     r = float(rng.uniform(0.07, 0.13))
     n = hand.round(r)

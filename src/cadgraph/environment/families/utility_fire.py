@@ -70,7 +70,7 @@ def _horned(r: float, h: float, hand: Hand, rng: np.random.Generator, kind: str)
 
 
 def _kept(_: int, hand: Hand, rng: np.random.Generator) -> Model:
-    """Hand extinguishers (EN 3): on a wall bracket, on a stand with a sign, in a cabinet with a door, or on the floor."""
+    """Hand extinguishers (EN 3): on a wall bracket, on a stand with a sign, in a cabinet, on the floor."""
     kind, place = pick(rng, "horn", "cartridge", "gauge"), pick(rng, "wall", "stand", "cabinet", "floor")
     r, h = float(rng.uniform(0.055, 0.09)), 0.0
     h = float(rng.uniform(3.8, 6.5)) * r

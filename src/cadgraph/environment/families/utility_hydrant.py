@@ -172,7 +172,7 @@ def _cabinet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         + [box((w, 0.006, h), (0, -0.003, mid))]
     )
     door = box((w, 0.02, h), (0, 0, 0))
-    door = moved(door, at(-w / 2, -d - 0.009, mid) @ spun("z", -float(rng.uniform(1.2, 2.0))) @ at(w / 2))
+    door = moved(door, at(-w / 2, -d + 0.001, mid) @ spun("z", -float(rng.uniform(1.2, 2.0))) @ at(w / 2))
     r, n = 0.36 * min(w, h), 24
     parts = [Part(merge(walls), _H, "handle", _H), Part(door, _H, "handle", _H)]
     if rng.random() < 0.6:

@@ -56,7 +56,7 @@ def pole(height: float, radius: float, hand: Hand, square: bool = False) -> list
 def strut(x0: float, x1: float, size: float = 0.041) -> Solid:
     """A strut channel (41 mm) along x, its open side looking to -y, its back at y = 0."""
     section = section_channel(size, size, 0.0025, 0.0025)
-    return moved(about_x(extrude(section, x0, x1)), spun("x", 0.0) @ at(0, 0, 0) @ spun("x", np.pi))
+    return moved(about_x(extrude(section, x0, x1)), spun("x", np.pi))
 
 
 def beam_over(x0: float, x1: float, height: float, y: float = 0.0, size: float = 0.14) -> list[Part]:
