@@ -285,7 +285,7 @@ def _motor(radius: float, tall: float, hand: Hand, rng: Rng) -> list[Part]:
 
 
 def _turning(radius: float, tall: float, hand: Hand, rng: Rng) -> list[Part]:
-    return quarter_turn(0.0, tall, radius, hand, rng, ("multi-turn", "electrohydraulic", "bevel"))
+    return quarter_turn(0.0, tall, max(radius, 0.024), hand, rng, ("multi-turn", "electrohydraulic", "bevel"))
 
 
 LINEAR: dict[str, Maker] = {

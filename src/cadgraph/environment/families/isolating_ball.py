@@ -219,6 +219,7 @@ def _welded(dn: int, hand: Hand, rng: Rng) -> Model:
             vents.append(
                 moved(merge([hexagon(0.024, 0.0, 0.04), cylinder(0.009, 0.0, 0.055, 8)]), at(side, 0, reach - 0.09))
             )
+        vents.append(box((2 * boss + 0.04, 0.012, 0.005), (0, 0, 0.5 * (big + reach))))
         parts.append(metal(merge(vents), x))
     parts += [*put([shaft(reach - 0.002, reach + 0.02, 0.4 * boss, hand)], at(x)), *ball_inside(dn, x, hand, rng)]
     kinds = ("lever", "worm", "bevel", "multi-turn", "scotch", "worm")

@@ -117,6 +117,52 @@ def _control_angle(dn: int, hand: Hand, rng: Rng) -> Model:
     return Model([metal(body), *lying], kind="control valve")
 
 
+def _short_piston(z: float, reach: float, slim: float, radius: float, n: int, hand: Hand, rng: Rng) -> list[Part]:
+    """A short piston actuator with its air ports and a clear sight dome, its stem from ``reach`` up [m]."""
+    half, long = 0.02 + float(rng.uniform(0.8, 1.3)) * radius, 0.04 + float(rng.uniform(1.4, 2.2)) * radius
+    kind = int(rng.integers(3))
+    can = turned(
+        [
+            (0.45 * half, z),
+            (half, z + 0.15 * half),
+            (half, z + long),
+            (0.92 * half, z + long + 0.12 * half),
+            (0.4 * half, z + long + 0.3 * half),
+        ],
+        n,
+    )
+    if kind == 1:
+        can = turned(
+            [
+                (0.6 * half, z),
+                (0.6 * half, z + 0.1 * long),
+                (half, z + 0.12 * long),
+                (half, z + 0.3 * long),
+                (0.93 * half, z + 0.32 * long),
+                (0.93 * half, z + long),
+                (0.4 * half, z + long + 0.08 * long),
+            ],
+            n,
+        )
+    if kind == 2:
+        can = merge([can, ring(0.95 * half, 1.06 * half, z + 0.45 * long, z + 0.6 * long, n)])
+    ports = merge(
+        [
+            moved(along("x", hexagon(0.018, 0.85 * half, 1.15 * half + 0.008)), at(0, 0, z + f * long))
+            for f in (0.3, 0.7)
+        ]
+    )
+    rest = [Part(merge([can, ports]), "actuator", "clamp", "actuator"), shaft(reach, z + 0.02, slim, hand)]
+    sight = merge(
+        [
+            cylinder(0.2 * half, z + long, z + long + 0.45 * half, 12),
+            dome(0.2 * half, 0.2 * half, z + long + 0.45 * half, 12),
+        ]
+    )
+    rest.append(Part(sight, "position indicator", "dial", "actuator"))
+    return rest
+
+
 def _angle_seat(dn: int, hand: Hand, rng: Rng) -> Model:
     """An angle-seat valve: an oblique bonnet that carries a short piston actuator with a clear dome, or a wheel."""
     radius, ends = PIPES[dn].radius, str(rng.choice(["hex", "octagon", "butt", "flanged"]))
@@ -150,47 +196,7 @@ def _angle_seat(dn: int, hand: Hand, rng: Rng) -> Model:
     ]
     z = top + 0.5 * radius
     if rng.random() < 0.7:
-        half, long = 0.02 + float(rng.uniform(0.8, 1.3)) * radius, 0.04 + float(rng.uniform(1.4, 2.2)) * radius
-        kind = int(rng.integers(3))
-        can = turned(
-            [
-                (0.45 * half, z),
-                (half, z + 0.15 * half),
-                (half, z + long),
-                (0.92 * half, z + long + 0.12 * half),
-                (0.4 * half, z + long + 0.3 * half),
-            ],
-            n,
-        )
-        if kind == 1:
-            can = turned(
-                [
-                    (0.6 * half, z),
-                    (0.6 * half, z + 0.1 * long),
-                    (half, z + 0.12 * long),
-                    (half, z + 0.3 * long),
-                    (0.93 * half, z + 0.32 * long),
-                    (0.93 * half, z + long),
-                    (0.4 * half, z + long + 0.08 * long),
-                ],
-                n,
-            )
-        if kind == 2:
-            can = merge([can, ring(0.95 * half, 1.06 * half, z + 0.45 * long, z + 0.6 * long, n)])
-        ports = merge(
-            [
-                moved(along("x", hexagon(0.018, 0.85 * half, 1.15 * half + 0.008)), at(0, 0, z + f * long))
-                for f in (0.3, 0.7)
-            ]
-        )
-        rest += [Part(merge([can, ports]), "actuator", "clamp", "actuator"), shaft(reach, z + 0.02, slim, hand)]
-        sight = merge(
-            [
-                cylinder(0.2 * half, z + long, z + long + 0.45 * half, 12),
-                dome(0.2 * half, 0.2 * half, z + long + 0.45 * half, 12),
-            ]
-        )
-        rest.append(Part(sight, "position indicator", "dial", "actuator"))
+        rest += _short_piston(z, reach, slim, radius, n, hand, rng)
     else:
         rest += [
             shaft(reach, z + 0.05 + 0.5 * radius, slim, hand, rng),

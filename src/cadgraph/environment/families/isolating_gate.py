@@ -243,6 +243,20 @@ def resilient(dn: int, hand: Hand, rng: Rng) -> Model:
     return Model(parts, round(length, 6), kind="gate valve")
 
 
+def _girdles(half_x: float, half_y: float, down: float, up: float, radius: float, rng: Rng) -> list[Solid]:
+    """What sits on a flat chest: ribs around it, a drain below and vents beside it [m]."""
+    solids = []
+    if rng.random() < 0.6:
+        levels = np.linspace(-0.85 * down, 0.8 * up, int(rng.integers(3, 7)))
+        solids += [box((2 * half_x + 0.016, 2 * half_y + 0.016, 0.012), (0, 0, float(z))) for z in levels]
+    if rng.random() < 0.5:
+        drain = turned([(0.3 * radius, 0.0), (0.3 * radius, 0.02), (0.12 * radius, 0.03)], 12)
+        solids.append(along("-z", drain, 0, 0, -down))
+        vent = hexagon(0.03, half_y - 0.002, half_y + 0.03)
+        solids += [along("y", vent, 0, 0, s * 0.6 * up) for s in (-1, 1)]
+    return solids
+
+
 def _conduit(dn: int, hand: Hand, rng: Rng) -> Model:
     """A slab or through-conduit gate valve: a tall flat chest above and below the bore, covers bolted on (API 6D)."""
     radius = PIPES[dn].radius
@@ -281,33 +295,7 @@ def _conduit(dn: int, hand: Hand, rng: Rng) -> Model:
         ),
         moved(merge([box_, collar]), at(x)),
     ]
-    if rng.random() < 0.6:
-        bars = [
-            box((2 * half_x + 0.016, 2 * half_y + 0.016, 0.012), (0, 0, float(z)))
-            for z in np.linspace(-0.85 * down, 0.8 * up, int(rng.integers(3, 7)))
-        ]
-        solids.append(moved(merge(bars), at(x)))
-    if rng.random() < 0.5:
-        solids.append(
-            moved(
-                merge(
-                    [
-                        along(
-                            "-z",
-                            turned([(0.3 * radius, 0.0), (0.3 * radius, 0.02), (0.12 * radius, 0.03)], 12),
-                            0,
-                            0,
-                            -down,
-                        ),
-                        *[
-                            along("y", hexagon(0.03, half_y - 0.002, half_y + 0.03), 0, 0, s * 0.6 * up)
-                            for s in (-1, 1)
-                        ],
-                    ]
-                ),
-                at(x),
-            )
-        )
+    solids += [moved(one, at(x)) for one in _girdles(half_x, half_y, down, up, radius, rng)]
     slim, top = 0.008 + 0.08 * radius, up + plate
     crown = turned(
         [(0.5 * half_y, top - 0.002), (0.35 * half_y, top + 0.3 * radius), (2.6 * slim, top + 0.6 * radius + 0.01)], 20
@@ -327,6 +315,23 @@ def _conduit(dn: int, hand: Hand, rng: Rng) -> Model:
         gate = box((0.5 * half_x, 1.8 * half_y, 2.4 * radius), (x, 0, float(rng.choice([0.0, 1.0])) * 1.1 * radius))
         parts.append(trim(gate, "valve disc"))
     return Model(parts, round(length, 6), kind="gate valve")
+
+
+def _welded_cap(big: float, seat: float, high: float, radius: float, n: int, rng: Rng) -> Solid:
+    """A bonnet welded or screwed into a forged body, maybe with a hexagon [m]."""
+    cap = turned(
+        [
+            (0.95 * big, seat),
+            (1.05 * big, seat + 0.1 * radius),
+            (0.9 * big, seat + 0.7 * radius),
+            (0.6 * big, high - 0.004),
+            (0.55 * big, high),
+        ],
+        n,
+    )
+    if rng.random() < 0.5:
+        cap = merge([cap, hexagon(2.1 * big, seat + 0.002, seat + 0.5 * radius)])
+    return cap
 
 
 def _forged(dn: int, hand: Hand, rng: Rng) -> Model:
@@ -365,18 +370,7 @@ def _forged(dn: int, hand: Hand, rng: Rng) -> Model:
         high = seat + plate + 0.5 * radius + 0.006
     else:
         high = seat + 1.3 * radius + 0.012
-        cap = turned(
-            [
-                (0.95 * big, seat),
-                (1.05 * big, seat + 0.1 * radius),
-                (0.9 * big, seat + 0.7 * radius),
-                (0.6 * big, high - 0.004),
-                (0.55 * big, high),
-            ],
-            n,
-        )
-        if rng.random() < 0.5:
-            cap = merge([cap, hexagon(2.1 * big, seat + 0.002, seat + 0.5 * radius)])
+        cap = _welded_cap(big, seat, high, radius, n, rng)
     parts = [metal(merge(solids)), trim(cap, "valve bonnet", x, "valve"), *parts]
     gland, tall = packing(slim, hand, rng)
     parts += put(gland, at(x, 0, high))
@@ -394,6 +388,7 @@ def _forged(dn: int, hand: Hand, rng: Rng) -> Model:
                         (0.75 * radius, 0.3 * radius),
                         (0.75 * radius, 0.6 * radius),
                         (0.3 * radius, radius),
+                        (0.3 * radius, seat + 0.004),
                     ],
                     16,
                 ),

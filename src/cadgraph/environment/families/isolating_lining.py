@@ -26,7 +26,7 @@ from cadgraph.environment.form import along, box, cylinder, hexagon, lofted, rin
 from cadgraph.environment.frame import at
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import rounded_rectangle
-from cadgraph.environment.solid import about_x, merge, moved
+from cadgraph.environment.solid import Solid, about_x, merge, moved
 from cadgraph.environment.standard import FACE_TO_FACE, FLANGES, PIPES, SIZES
 
 __all__ = ["LININGS"]
@@ -165,17 +165,8 @@ def _aseptic(dn: int, hand: Hand, rng: Rng) -> Model:
     return Model(parts, round(length, 6), "welded", "diaphragm valve")
 
 
-def _pinch_open(dn: int, hand: Hand, rng: Rng) -> Model:
-    """An open-frame pinch valve: a rubber sleeve between two flanges, squeezed by bars in an open yoke."""
-    radius = PIPES[dn].radius
-    size, thick = FLANGES[dn], plate_thickness(dn)
-    length = 0.12 + 4.4 * radius
-    x, n = length / 2, max(16, hand.round(radius))
-    sleeve_out, bore = 1.25 * radius + 0.006, PIPES[dn].bore
-    squeeze = float(rng.uniform(0.3, 1.0))
-    inner = bore if hand.hollow else 0.0
-    flat = float(squeeze)
-    ends = [along("x", ring(inner, size.outer / 2, z, z + thick, n)) for z in (0.0, length - thick)]
+def _sleeve(length: float, thick: float, sleeve_out: float, flat: float, n: int) -> Solid:
+    """A rubber sleeve that is pressed flat in its middle and gives way to the sides [m]."""
     stations = [
         (thick, 1.0),
         (0.25 * length, 1.0),
@@ -185,13 +176,26 @@ def _pinch_open(dn: int, hand: Hand, rng: Rng) -> Model:
         (length - thick, 1.0),
     ]
     wide = [1 + 0.45 * (1 - s) for _, s in stations]
-    tube_ = lofted(
+    return lofted(
         [
             np.column_stack([np.full(n, z), sleeve_out * w * np.cos(t), sleeve_out * s * np.sin(t)])
             for (z, s), w in zip(stations, wide, strict=True)
             for t in [np.arange(n) * 2 * np.pi / n]
         ]
     )
+
+
+def _pinch_open(dn: int, hand: Hand, rng: Rng) -> Model:
+    """An open-frame pinch valve: a rubber sleeve between two flanges, squeezed by bars in an open yoke."""
+    radius = PIPES[dn].radius
+    size, thick = FLANGES[dn], plate_thickness(dn)
+    length = 0.12 + 4.4 * radius
+    x, n = length / 2, max(16, hand.round(radius))
+    sleeve_out, bore = 1.25 * radius + 0.006, PIPES[dn].bore
+    flat = float(rng.uniform(0.3, 1.0))
+    inner = bore if hand.hollow else 0.0
+    ends = [along("x", ring(inner, size.outer / 2, z, z + thick, n)) for z in (0.0, length - thick)]
+    tube_ = _sleeve(length, thick, sleeve_out, flat, n)
     bar = 0.05 * length + 0.01
     reach = 1.7 * sleeve_out + 0.01
     up = max(sleeve_out + 0.06, 0.5 * size.outer + 0.02)
@@ -238,23 +242,18 @@ def _pinch_open(dn: int, hand: Hand, rng: Rng) -> Model:
     return Model(parts, round(length, 6), kind="pinch valve")
 
 
-def _pinch_closed(dn: int, hand: Hand, rng: Rng) -> Model:
-    """An enclosed pinch valve: two cast halves bolted along the middle, air-operated or with a wheel above."""
-    radius = PIPES[dn].radius
-    length = 0.08 + 3.6 * radius
-    neck, back = neck_of(dn)
-    x, big = length / 2, 1.55 * radius + 0.012
-    n = max(16, hand.round(big))
+def _casing(length: float, neck: float, back: float, big: float, rng: Rng) -> list[tuple[float, float]]:
+    """The outline of an enclosed pinch valve between its flanges: drum, barrel or ringed [m]."""
     kind = int(rng.integers(3))
     if kind == 0:
-        middle = [
+        return [
             (neck, back),
             (big, back + 0.12 * length),
             (big, length - back - 0.12 * length),
             (neck, length - back),
         ]
     elif kind == 1:
-        middle = [
+        return [
             (neck, back),
             *[
                 (r, float(z))
@@ -266,7 +265,7 @@ def _pinch_closed(dn: int, hand: Hand, rng: Rng) -> Model:
             (neck, length - back),
         ]
     else:
-        middle = [
+        return [
             (neck, back),
             *[
                 (r, z)
@@ -274,6 +273,28 @@ def _pinch_closed(dn: int, hand: Hand, rng: Rng) -> Model:
             ],
             (neck, length - back),
         ]
+
+
+def _squeezer(half: float, radius: float, hand: Hand, rng: Rng) -> list[Part]:
+    """What presses an enclosed sleeve together: a wheel on a yoke, a piston or a ram [m]."""
+    tall, slim = 0.05 + 0.9 * radius, 0.006 + 0.06 * radius
+    if rng.random() < 0.4:
+        return LINEAR[str(rng.choice(["piston", "ram"]))](radius, 0.0, hand, rng)
+    return [
+        yoke_arms(1.3 * half, tall, hand, rng),
+        shaft(-0.02, tall + 0.06 + 0.5 * radius, slim, hand, rng),
+        hand_wheel(0.05 + 1.2 * radius, tall + 0.002, hand, rng),
+    ]
+
+
+def _pinch_closed(dn: int, hand: Hand, rng: Rng) -> Model:
+    """An enclosed pinch valve: two cast halves bolted along the middle, air-operated or with a wheel above."""
+    radius = PIPES[dn].radius
+    length = 0.08 + 3.6 * radius
+    neck, back = neck_of(dn)
+    x, big = length / 2, 1.55 * radius + 0.012
+    n = max(16, hand.round(big))
+    middle = _casing(length, neck, back, big, rng)
     body = [ended(dn, hand, length, middle, "flanged")]
     flange_ = (
         slab(rounded_rectangle(length - 2 * back - 0.012, 2 * big + 0.05, 0.02, 3), -0.010, 0.010)
@@ -302,23 +323,10 @@ def _pinch_closed(dn: int, hand: Hand, rng: Rng) -> Model:
         )
         parts.insert(0, metal(merge(body)))
     else:
-        seat = max(high, 0.5 * FLANGES[dn].outer)
-        half, tall, slim = 0.55 * big, 0.05 + 0.9 * radius, 0.006 + 0.06 * radius
-        body.append(
-            moved(merge([cylinder(half, 0.7 * big, seat, n), cylinder(1.4 * half, seat - 0.012, seat, n)]), at(x))
-        )
-        parts.insert(0, metal(merge(body)))
-        if rng.random() < 0.6:
-            parts += put(
-                [
-                    yoke_arms(1.3 * half, tall, hand, rng),
-                    shaft(-0.02, tall + 0.06 + 0.5 * radius, slim, hand, rng),
-                    hand_wheel(0.05 + 1.2 * radius, tall + 0.002, hand, rng),
-                ],
-                at(x, 0, seat),
-            )
-        else:
-            parts += put(LINEAR[str(rng.choice(["piston", "ram"]))](radius, seat, hand, rng), at(x))
+        seat, half = max(high, 0.5 * FLANGES[dn].outer), 0.55 * big
+        tower = merge([cylinder(half, 0.7 * big, seat, n), cylinder(1.4 * half, seat - 0.012, seat, n)])
+        parts.insert(0, metal(merge([*body, moved(tower, at(x))])))
+        parts += put(_squeezer(half, radius, hand, rng), at(x, 0, seat))
     if hand.hollow:
         bore = PIPES[dn].bore
         liner = about_x(
