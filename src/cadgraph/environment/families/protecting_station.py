@@ -42,28 +42,31 @@ def _foot(x: float, y: float, high: float, half: float, rng: np.random.Generator
     ]
 
 
+def _riser(dn: int, high: float, hand: Hand, rng: np.random.Generator) -> tuple[list[Part], float]:
+    """A wall with a rosette, or a pipe clamped to a post; also where a tap upon it begins along y [m]."""
+    r, inner = PIPES[dn].radius, PIPES[dn].bore if hand.hollow else 0.0
+    n = hand.round(r)
+    if rng.random() < 0.4:
+        wall = box((0.8, 0.12, high + 0.5), (0, -0.06, (high + 0.5) / 2))
+        plate = turned([(2.2 * r, 0.0), (2.0 * r, 0.006), (1.2 * r, 0.01)], n)
+        rosette = other(_PIPE, "flange", "trim", along("y", plate, 0, 0, high))
+        return [other(_FRAME, "wall", "concrete", wall), rosette], 0.0095
+    path = bend([(0, 0, 0.0), (0, 0, high), (0, 2.2 * r, high)], 1.8 * r, 6)
+    parts = [other(_PIPE, "pipe", "pipe", tube(path, r, inner, n))]
+    parts += _foot(0.0, -r - 0.021, high - 0.1, 0.02, rng)
+    band = ring(r, r + 0.003, -0.012, 0.012, n)
+    strap = box((2 * r + 0.03, 0.003, 0.024), (0, -r - 0.0005, 0))
+    for z in (0.35 * high, 0.75 * high):
+        parts.append(other(_FIX, "clamp", "clamp", moved(merge([band, strap]), at(0, 0, z))))
+    return parts, 2.2 * r - 0.001
+
+
 def _bibb(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     """A hose tap (EN 200) with a bent spout on a riser clamped to a post or led through a wall; wheel, lever or T."""
     dn = int(rng.choice([15, 20, 25]))
     r = PIPES[dn].radius
     n, high = hand.round(r), float(rng.uniform(0.5, 1.1))
-    inner = PIPES[dn].bore if hand.hollow else 0.0
-    wall = bool(rng.random() < 0.4)
-    parts: list[Part] = []
-    if wall:
-        parts.append(other(_FRAME, "wall", "concrete", box((0.8, 0.12, high + 0.5), (0, -0.06, (high + 0.5) / 2))))
-        plate = turned([(2.2 * r, 0.0), (2.0 * r, 0.006), (1.2 * r, 0.01)], n)
-        parts.append(other(_PIPE, "flange", "trim", along("y", plate, 0, 0, high)))
-        start = 0.0095
-    else:
-        riser = bend([(0, 0, 0.0), (0, 0, high), (0, 2.2 * r, high)], 1.8 * r, 6)
-        parts.append(other(_PIPE, "pipe", "pipe", tube(riser, r, inner, n)))
-        parts += _foot(0.0, -r - 0.021, high - 0.1, 0.02, rng)
-        band = ring(r, r + 0.003, -0.012, 0.012, n)
-        strap = box((2 * r + 0.03, 0.003, 0.024), (0, -r - 0.0005, 0))
-        for z in (0.35 * high, 0.75 * high):
-            parts.append(other(_FIX, "clamp", "clamp", moved(merge([band, strap]), at(0, 0, z))))
-        start = 2.2 * r - 0.001
+    parts, start = _riser(dn, high, hand, rng)
     y = start + 2.6 * r
     shank = along(
         "y", merge([cylinder(0.95 * r, start, y, n), hexagon(2.6 * r, start + 0.2 * r, start + 1.4 * r)]), 0, 0, high
@@ -131,6 +134,35 @@ def _needles(x: float, z: float, r: float, hand: Hand, rng: np.random.Generator,
     return posed(parts, at(x, 0, z))
 
 
+def _pipe_post(wide: float, tall: float, deep: float, high: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+    """A pipe post behind a block, with a bracket between them held by u-bolts."""
+    pipe = float(rng.choice([0.0302, 0.024]))
+    parts = [other(_FRAME, "post", "steel", moved(cylinder(pipe, 0.01, high + 0.2, hand.round(pipe)), at(0, 0.12)))]
+    parts.append(other(_FRAME, "base plate", "steel", box((0.2, 0.2, 0.01), (0, 0.12, 0.005))))
+    back = 0.12 - pipe
+    gap = back - deep / 2
+    bracket = [
+        box((min(wide, 0.09), 0.005, tall + 0.04), (0, back - 0.0025, high)),
+        box((0.05, gap, 0.006), (0, deep / 2 + gap / 2, high + tall / 2 - 0.004)),
+        box((0.05, gap, 0.006), (0, deep / 2 + gap / 2, high - tall / 2 + 0.004)),
+    ]
+    parts.append(other(_FIX, "bracket", "steel", merge(bracket)))
+    bow = bend(
+        [
+            (0.0, back - 0.012, 0),
+            (pipe + 0.006, back - 0.012, 0),
+            (pipe + 0.006, 0.12 + pipe + 0.006, 0),
+            (-pipe - 0.006, 0.12 + pipe + 0.006, 0),
+            (-pipe - 0.006, back - 0.012, 0),
+        ][1:],
+        pipe,
+        4,
+    )
+    for z in (high + tall / 2 + 0.008, high - tall / 2 - 0.008):
+        parts.append(other(_FIX, "u-bolt", "fastener", moved(rope(bow, 0.004, 6), at(0, 0, z))))
+    return parts
+
+
 def _manifold(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     """An instrument manifold (IEC 61518 spacing) of two, three or five valves on a pipe post, with impulse tubes."""
     count, r = int(rng.choice([2, 3, 5])), float(rng.uniform(0.008, 0.011))
@@ -160,30 +192,7 @@ def _manifold(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         else:
             pose = at(x, -deep / 2, high + z) @ outward
         parts += posed(_needles(0.0, 0.0, r, hand, rng, 1 if count == 5 and knob == 0 else knob), pose)
-    pipe = float(rng.choice([0.0302, 0.024]))
-    parts.append(other(_FRAME, "post", "steel", moved(cylinder(pipe, 0.01, high + 0.2, hand.round(pipe)), at(0, 0.12))))
-    parts.append(other(_FRAME, "base plate", "steel", box((0.2, 0.2, 0.01), (0, 0.12, 0.005))))
-    back = 0.12 - pipe
-    gap = back - deep / 2
-    bracket = [
-        box((min(wide, 0.09), 0.005, tall + 0.04), (0, back - 0.0025, high)),
-        box((0.05, gap, 0.006), (0, deep / 2 + gap / 2, high + tall / 2 - 0.004)),
-        box((0.05, gap, 0.006), (0, deep / 2 + gap / 2, high - tall / 2 + 0.004)),
-    ]
-    parts.append(other(_FIX, "bracket", "steel", merge(bracket)))
-    bow = bend(
-        [
-            (0.0, back - 0.012, 0),
-            (pipe + 0.006, back - 0.012, 0),
-            (pipe + 0.006, 0.12 + pipe + 0.006, 0),
-            (-pipe - 0.006, 0.12 + pipe + 0.006, 0),
-            (-pipe - 0.006, back - 0.012, 0),
-        ][1:],
-        pipe,
-        4,
-    )
-    for z in (high + tall / 2 + 0.008, high - tall / 2 - 0.008):
-        parts.append(other(_FIX, "u-bolt", "fastener", moved(rope(bow, 0.004, 6), at(0, 0, z))))
+    parts += _pipe_post(wide, tall, deep, high, hand, rng)
     for x in (-0.027, 0.027):
         fit = along(
             "-z",

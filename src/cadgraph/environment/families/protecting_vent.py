@@ -282,6 +282,16 @@ def _vacuum(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([body(*stem), bonnet(posts, cap), piece("valve disc", disc)], kind="vacuum breaker")
 
 
+def _pallet_hood(wide: float, high: float, n: int, rng: np.random.Generator) -> list[Part]:
+    """What closes a pallet chamber above: a weather hood, or a bolted lid with a grip."""
+    if rng.random() < 0.5:
+        shape = [(1.35 * wide, high - 0.35 * wide), (1.35 * wide, high + 0.15 * wide), (0.5 * wide, high + 0.45 * wide)]
+        return [bonnet(turned(shape, n))]
+    grip = along("y", rod((0, 0, -0.3 * wide), (0, 0, 0.3 * wide), 0.06 * wide, 6), 0, 0, high + 0.14 * wide)
+    screws = around(cylinder(0.004, high - 0.01, high + 0.08 * wide + 0.008, 6), 6, 1.0 * wide)
+    return [bonnet(cylinder(1.1 * wide, high - 0.001, high + 0.08 * wide, n), grip), bolting(screws)]
+
+
 def _breather(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     """A pressure and vacuum vent on a tank's nozzle (API 2000): two pallet chambers under hoods on a flanged chest."""
     r, thick = PIPES[dn].radius, plate_thickness(dn)
@@ -316,33 +326,7 @@ def _breather(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     for sign, tall in zip((-1, 1), heights, strict=True):
         ring_ = turned([(0.85 * wide, top - 0.5 * wide), (0.85 * wide, top + tall)], n)
         high = top + tall
-        kind = rng.random()
-        if kind < 0.5:
-            hood = [
-                turned(
-                    [
-                        (1.35 * wide, high - 0.35 * wide),
-                        (1.35 * wide, high + 0.15 * wide),
-                        (0.5 * wide, high + 0.45 * wide),
-                    ],
-                    n,
-                )
-            ]
-        else:
-            hood = [
-                cylinder(1.1 * wide, high - 0.001, high + 0.08 * wide, n),
-                along("y", rod((0, 0, -0.3 * wide), (0, 0, 0.3 * wide), 0.06 * wide, 6), 0, 0, high + 0.14 * wide),
-            ]
-        parts += posed([body(ring_), bonnet(*hood)], at(sign * span))
-        if kind >= 0.5:
-            parts.append(
-                bolting(
-                    moved(
-                        around(cylinder(0.004, high - 0.01, high + 0.08 * wide + 0.008, 6), 6, 1.0 * wide),
-                        at(sign * span),
-                    )
-                )
-            )
+        parts += posed([body(ring_), *_pallet_hood(wide, high, n, rng)], at(sign * span))
     side = 1.0 * wide if boxy else 0.75 * wide
     screen = along("y", ring(0.5 * wide, 0.62 * wide, 0.7 * side, side + 0.2 * wide, n), span, 0, low + 0.65 * wide)
     parts.append(body(screen))
