@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from cadgraph.environment.families.support_shape import GROUP, bar, eye, few, framed, piece, upright
+from cadgraph.environment.families.support_shape import GROUP, bar, eye, few, framed, piece, placed, upright
 from cadgraph.environment.family import Family, Model, Part
 from cadgraph.environment.form import around, box, cylinder, dome, hexagon, ring, rope, turned
 from cadgraph.environment.frame import arc, at, spun
@@ -164,7 +164,7 @@ def _screws(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     kinds = [str(k) for k in rng.permutation(heads)[: int(rng.integers(5, 10))]]
     pitch, t = 4.0 * d, float(rng.uniform(0.4, 1.2)) * d
     parts: list[Part] = []
-    low = 2.6 * d
+    low = 4.2 * d
     for k, kind in enumerate(kinds):
         name = "screw" if kind in _SCREWS else "bolt"
         out = float(rng.choice([0.0, 0.0, 1.2])) * d
@@ -317,7 +317,9 @@ def _anchors(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts.append(framed(box((length + 6 * d, 4 * d, 0.5 * d), (length / 2, 0, deep - 0.25 * d)), "plate"))
         legs = [box((d, 4 * d, deep - 0.5 * d), (x, 0, (deep - 0.5 * d) / 2)) for x in (-2.4 * d, length + 2.4 * d)]
         parts.append(framed(merge(legs), "plate"))
-    return Model(parts)
+    # A bar bent at the foot lies on the floor with its skin, not with its axis.
+    lowest = min(float(p.solid.vertices[:, 2].min()) for p in parts)
+    return Model(placed(parts, at(0, 0, max(0.0, -lowest))))
 
 
 FASTENERS: tuple[Family, ...] = tuple(

@@ -88,9 +88,8 @@ def _node(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 parts += bolt_parts(d, outer - low, pose, hand, "", str(rng.choice(_HEADS)))
     plate = upright(_hull(np.array(corners)) + np.array([0.0, level]), -t / 2, t / 2)
     parts.insert(0, piece(plate, _G, "", "steel"))
-    if not down:
-        posts = [box((0.08, 0.08, level - 0.5 * leg), (s * 0.8 * span, 0, (level - 0.5 * leg) / 2)) for s in (-1, 1)]
-        parts += [framed(p, "post") for p in posts]
+    posts = [box((0.08, 0.08, level - 0.5 * leg), (s * 0.8 * span, 0, (level - 0.5 * leg) / 2)) for s in (-1, 1)]
+    parts += [framed(p, "post") for p in posts]
     return Model(parts)
 
 

@@ -206,7 +206,7 @@ def _three_bolt(dn: int, hand: Hand, rng: np.random.Generator, height: float) ->
         pose = at(0, blade / 2 + thick, z) @ spun("x", np.pi / 2)
         parts += bolt_parts(0.85 * d, blade + 2 * thick, pose, hand, _NAME)
     loop_z = end - 0.5 * d + 0.6 * d
-    parts.append(piece(moved(eye(1.0 * d, 0.42 * d, hand), at(0, 0, loop_z) @ np.eye(4)), "nut", _NAME, "fastener"))
+    parts.append(piece(moved(eye(1.0 * d, 0.5 * d, hand), at(0, 0, loop_z) @ np.eye(4)), "nut", _NAME, "fastener"))
     drop = float(rng.uniform(0.2, 0.7))
     parts.append(_rod(d, loop_z + 0.8 * d, loop_z + drop, hand))
     parts.append(_nut(d, loop_z + 1.4 * d, hand))
@@ -317,7 +317,7 @@ def _spring(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
             0.85 * d, d + 2 * thick, at(0, d / 2 + thick, s * (r + thick + 0.55 * ear)) @ stand, hand, _NAME
         )
     z = r + thick + 0.9 * ear
-    parts.append(piece(moved(eye(d, 0.42 * d, hand), at(0, 0, z)), "nut", _NAME, "fastener"))
+    parts.append(piece(moved(eye(d, 0.5 * d, hand), at(0, 0, z)), "nut", _NAME, "fastener"))
     turn = z + float(rng.uniform(0.05, 0.2))
     buckle = 7 * d
     parts += [_rod(d, z + 0.7 * d, turn + 1.5 * d, hand), *_turnbuckle(d, turn, turn + buckle, hand)]
@@ -327,7 +327,7 @@ def _spring(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
     parts.append(_rod(d, turn + buckle - 1.5 * d, low + 0.02, hand))
     if rng.random() < 0.6:
         shell = turned([(can, low + 0.004), (can, low + tall)], n)
-        lids = [cylinder(1.08 * can, q, q + 0.006, n) for q in (low, low + tall)]
+        lids = [cylinder(1.08 * can, q, q + 0.008, n) for q in (low, low + tall)]
         slot = box((0.006, 0.022, 0.55 * tall), (can, 0, low + 0.45 * tall))
         solids = [shell, *lids, slot]
     else:  # an open frame: a coil between plates on tie rods
@@ -342,10 +342,10 @@ def _spring(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
     if rng.random() < 0.5:
         plate = box((0.002, 0.03, 0.05), (can + 0.001 + 0.003, 0, low + 0.85 * tall))
         parts.append(piece(plate, _NAME, _NAME, "dial", True))
-    top = low + tall + 0.006
+    top = low + tall + 0.008
     kind = int(rng.integers(3))
     if kind == 0:
-        return Model([*parts, *overhead(top + 0.002, height, can, hand, rng)])
+        return Model([*parts, *overhead(top, height, can, hand, rng)])
     if kind == 1:  # two lugs and a pin
         lugs = [box((0.05, 0.008, 0.06), (0, s * 0.014, top + 0.03)) for s in (-1, 1)]
         ear_ = box((0.05, 0.02, 0.07), (0, 0, top + 0.06))

@@ -112,9 +112,10 @@ def _corner(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     hole = (circle(0.2 * s, 8),) if hand.holes else ()
     square = rounded_rectangle(s, s, 0.08 * s, 1)
     parts: list[Part] = []
+    feet = bool(rng.random() < 0.5)
     for x in (-w / 2, w / 2):
         parts.append(framed(moved(extrude(square, 0, h, hole), at(x)), "post"))
-        if rng.random() < 0.5:
+        if feet:
             parts.append(framed(box((2 * s, 2 * s, 0.008), (x, 0, -0.004)), "base plate"))
     levels = sorted({round(h - s / 2, 6), round(float(rng.uniform(0.25, 0.6)) * h, 6)})
     for z in levels:
@@ -151,7 +152,7 @@ def _corner(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 for q in ((0.65 * leg, -0.5 * s), (-0.5 * s, 0.65 * leg), (-0.5 * s, -0.5 * s)):
                     one = bolt_parts(d, t, at(q[0], -s / 2, q[1]) @ spun("x", np.pi / 2), hand, "", "none")
                     parts += placed(one, pose)
-    lift = 0.008
+    lift = 0.008 if feet else 0.0
     return Model(placed(parts, at(0, 0, lift)))
 
 
@@ -180,7 +181,8 @@ def _feet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         if parts[-1].name == "filter":
             parts[-1] = Part(body, "filter", "tank", "", "Equipment")
         count = int(rng.integers(3, 5))
-        spots = [spun("z", 2 * np.pi * k / count) @ at(r) for k in range(count)]
+        flat = r * float(np.cos(np.pi / hand.round(r)))  # the feet reach the sides of a coarse vessel too
+        spots = [spun("z", 2 * np.pi * k / count) @ at(flat) for k in range(count)]
     tall = clear + float(rng.uniform(0.1, 0.25)) * high + 0.08
     form = int(rng.integers(3))
     high_ = tall if kind else max(tall, clear + 0.05)

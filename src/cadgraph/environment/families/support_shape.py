@@ -190,7 +190,9 @@ def member(size: float, hand: Hand, rng: np.random.Generator, flat: bool = False
         return np.array([1.0, -1.0]) * section_angle(size, 0.1 * size)[::-1] - (0.3 * size, -size / 2), ()
     n = hand.round(size / 2)
     if kind == 5:
-        return circle(size / 2, n), ((circle(size / 2 - wall, n),) if hand.hollow else ())
+        # A corner on top, so that what lies on a coarse tube touches it.
+        bore = (circle(size / 2 - wall, n, phase=np.pi / 2),) if hand.hollow else ()
+        return circle(size / 2, n, phase=np.pi / 2), bore
     strut = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (0.5 - 0.18, 0.5), (0.5 - 0.18, 0.32), (0.5 - 0.06, 0.32)]
     strut += [(0.44, -0.44), (-0.44, -0.44), (-0.44, 0.32), (-0.32, 0.32), (-0.32, 0.5), (-0.5, 0.5)]
     return size * np.array(strut), ()

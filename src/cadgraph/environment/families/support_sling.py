@@ -73,7 +73,7 @@ def _constant(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> M
     loop = r + thick + 0.8 * ear
     low = loop + float(rng.uniform(0.15, 0.5))
     parts += [
-        piece(moved(eye(d, 0.4 * d, hand), at(0, 0, loop)), "nut", _NAME, "fastener"),
+        piece(moved(eye(d, 0.5 * d, hand), at(0, 0, loop)), "nut", _NAME, "fastener"),
         _stud(d, loop + 0.8 * d, low + 0.05 * k, hand),
     ]
     tall, back = 0.22 * k, 0.2 * k * float(rng.uniform(0.8, 1.2))

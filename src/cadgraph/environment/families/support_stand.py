@@ -247,7 +247,7 @@ def _knee(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model
     z = -r - size / 2
     arm = bar((0, -r - 0.06, z), (0, reach, z), outline, holes)
     parts: list[Part] = [piece(arm, _B, _B, "steel") if coarse(hand) or rng.random() < 0.6 else framed(arm, "beam")]
-    tall = float(rng.uniform(0.15, 0.35)) + r
+    tall = max(0.08, min(float(rng.uniform(0.15, 0.35)) + r, height - r - size - 0.06))
     low = -r - size - tall
     wide = 0.13
     if rng.random() < 0.35:  # a web plate instead of a brace, straight, clipped or curved
