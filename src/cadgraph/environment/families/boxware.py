@@ -134,7 +134,7 @@ def _sectional(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     p = min(p, 0.75) if rng.random() < 0.4 else p
     w, d, h = cols * p, deep * p, rows * p
     base = float(rng.uniform(0.35, 0.6))
-    one = _panel(p - 0.004, p - 0.004)
+    one = _panel(p, p)
     panels = []
     for k in range(rows):
         z = base + (k + 0.5) * p

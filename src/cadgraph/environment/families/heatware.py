@@ -279,8 +279,8 @@ def _long_plate(_: int, hand: Hand, rng: np.random.Generator) -> Model:
 
     count = int(np.clip(stack / 0.016, 10, 60))
     step = stack / count
-    sheets = [sheet(thick + k * step, 0.75 * step, 0.93 if k % 2 else 0.95) for k in range(count)]
-    fixed, follow = sheet(0.0, thick, 1.08), sheet(thick + stack - 0.25 * step, thick, 1.05)
+    sheets = [sheet(thick + k * step, step, 0.93 if k % 2 else 0.95) for k in range(count)]
+    fixed, follow = sheet(0.0, thick, 1.08), sheet(thick + stack, thick, 1.05)
     high = low + tall
     bars = [
         box((rail + thick, 0.06, 0.1), ((rail + thick) / 2, 0, high + 0.1)),
@@ -320,7 +320,7 @@ def _long_plate(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         box((thick, 0.12 * wide, 0.06), (x, s * 0.57 * wide, low + f * tall))
         for s in (-1, 1)
         for f in (0.12, 0.37, 0.63, 0.88)
-        for x in (thick / 2, thick + stack + thick / 2 - 0.25 * step)
+        for x in (thick / 2, thick + stack + thick / 2)
     ]
     parts = [
         Part(merge([fixed, feet, *ears[::2]]), _NAME, "valve", _NAME),
@@ -356,7 +356,7 @@ def _fin_fan(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         for e in (-1, 1):
             header = rod((e * (0.5 * w + 0.02), 0, -0.48 * h), (e * (0.5 * w + 0.02), 0, 0.48 * h), 0.04, 12)
             parts.append(Part(moved(header, pose), _NAME, "pipe", _NAME))
-    top = low + h + 0.08
+    top = low + h / 2 + 0.5 * h * np.cos(lean) + 0.5 * thick * abs(np.sin(lean)) + 0.055
     deck = box((w + 0.12, 1.1 * d, 0.06), (0, 0, top - 0.03))
     fans = int(rng.choice([1, 2, 3]))
     r = 0.4 * min(w / fans, d)

@@ -151,7 +151,7 @@ def _mixer(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     section = section_channel(0.12, 0.06, 0.007, 0.009)
     for s in (-1, 1):
         pose = (-r - 0.05, s * 0.6 * size, z + 0.06), (r + 0.05, s * 0.6 * size, z + 0.06)
-        solid = bar(*pose, section, (0.0, 0.0, 1.0))
+        solid = bar(*pose, section, (0.0, float(s), 0.0))
         parts.append(Part(solid, "beam", "steel", "", _FRAME))
     plate = box((1.9 * size, 1.6 * size, 0.015), (0, 0, z + 0.1275))
     parts.append(Part(plate, "plate", "steel", "", _FRAME))

@@ -391,7 +391,7 @@ def lug(kind: str, size: float, hand: Hand, r: float = 0.0, dip: float = 0.0) ->
     half = 0.05 * s + 0.004
     plate = moved(extrude(outline, -half, half, (hole,)), spun("x", np.pi / 2))
     if kind == "cheeks":
-        pin = along("y", cylinder(0.17 * s, -0.3 * s, 0.3 * s, 12), -0.2 * s, 0, 0.72 * s)
+        pin = along("y", cylinder(0.2 * s, -0.3 * s, 0.3 * s, 12), -0.2 * s, 0, 0.72 * s)
         pair = [moved(plate, at(0, y)) for y in (-0.2 * s, 0.2 * s)]
         return [Part(merge(pair), name, "tank", name), Part(pin, name, "trim", name)]
     if kind == "pad":

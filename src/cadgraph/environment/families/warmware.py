@@ -57,7 +57,7 @@ def _towel(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             bars.append(rope(path, 0.011, n))
     stand = 0.09
     holders = [
-        rod((s * 0.4 * w, 0, z), (s * 0.4 * w, stand, z), 0.009, 8)
+        rod((s * w / 2, 0, z), (s * w / 2, stand, z), 0.009, 8)
         for s in (-1, 1)
         for z in (bars[0].vertices[:, 2].mean(), bars[-1].vertices[:, 2].mean())
     ]
