@@ -191,7 +191,7 @@ def _manifold(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             pose = at(np.sign(x) * wide / 2, 0, high + z) @ spun("y", float(np.sign(x)) * np.pi / 2)
         else:
             pose = at(x, -deep / 2, high + z) @ outward
-        parts += posed(_needles(0.0, 0.0, r, hand, rng, 1 if count == 5 and knob == 0 else knob), pose)
+        parts += posed(_needles(0.0, 0.0, r, hand, rng, 1 if count == 5 else knob), pose)
     parts += _pipe_post(wide, tall, deep, high, hand, rng)
     for x in (-0.027, 0.027):
         fit = along(
