@@ -70,81 +70,84 @@ def _monobloc(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="monobloc burner")
 
 
-def _duct(_: int, hand: Hand, rng: np.random.Generator) -> Model:
-    """Burners without a fan of their own: a duct burner in a rectangular duct, a row of them, or pilots."""
-    eq, kind = "burner", int(rng.integers(3))
-    if kind == 0:
-        w, h, z = float(rng.uniform(0.6, 1.2)), float(rng.uniform(0.5, 1.0)), float(rng.uniform(0.5, 1.0))
-        t, long = 0.004, 0.5
-        sides = [box((long, t, h), (0, s * w / 2, z + h / 2)) for s in (-1, 1)] + [
-            box((long, w + t, t), (0, 0, z + h / 2 + s * h / 2)) for s in (-1, 1)
-        ]
-        rims = [
-            merge(
-                [
-                    *(box((0.03, 0.05, h + 0.1), (x, s * (w / 2 + 0.02), z + h / 2)) for s in (-1, 1)),
-                    *(box((0.03, w + 0.09, 0.05), (x, 0, z + h / 2 + s * (h / 2 + 0.02))) for s in (-1, 1)),
-                ]
-            )
-            for x in (-long / 2, long / 2)
-        ]
-        rows = [box((0.08, w - 0.006, 0.06), (0, 0, z + q * h)) for q in (0.25, 0.5, 0.75)]
-        wings = [
-            moved(box((0.18, w - 0.02, 0.003)), at(0.1, 0, z + q * h + s * 0.07) @ spun("y", -0.5 * s))
-            for q in (0.25, 0.5, 0.75)
-            for s in (-1, 1)
-        ]
-        head = rod((0, -w / 2 - 0.12, z + 0.1 * h), (0, -w / 2 - 0.12, z + 0.95 * h), 0.03, 12)
-        feeds = [
-            rod((0, -w / 2 - 0.12, z + q * h), (0, -w / 2 + 0.01, z + q * h), 0.018, 10) for q in (0.25, 0.5, 0.75)
-        ]
-        legs = [box((0.05, 0.05, z), (x * 0.4 * long, y * (w / 2 + 0.02), z / 2)) for x in (-1, 1) for y in (-1, 1)]
-        pilot = along(
-            "-y", merge([cylinder(0.03, 0, 0.15, 12), cylinder(0.045, 0.15, 0.24, 12)]), 0.12, -w / 2, z + 0.6 * h
-        )
-        parts = [
-            Part(merge([*sides, *rims]), eq, "clamp", eq),
-            Part(merge([*rows, *wings]), eq, "trim", eq),
-            Part(merge([head, *feeds]), "pipe", "pipe", eq, "Pipe assembly"),
-            Part(pilot, eq, "handle", eq),
-            Part(merge(legs), "bracket", "steel", "", "Connection assembly"),
-        ]
-        return Model(parts, kind="duct burner")
-    if kind == 1:
-        count, long, z = int(rng.integers(4, 12)), float(rng.uniform(0.3, 0.8)), float(rng.uniform(0.25, 0.7))
-        pitch = 0.07
-        tubes = [
-            merge(
-                [
-                    along("x", extrude(rounded_rectangle(0.05, 0.03, 0.014, 3), 0.05, long), 0, k * pitch, z),
-                    along("x", turned([(0.022, -0.03), (0.012, 0.01), (0.018, 0.08)], 12), 0, k * pitch, z),
-                ]
-            )
-            for k in range(count)
-        ]
-        mid = (count - 1) * pitch / 2
-        bar = merge(
+def _in_duct(eq: str, hand: Hand, rng: np.random.Generator) -> Model:
+    """Runners with mixing wings across a flanged rectangular duct."""
+    w, h, z = float(rng.uniform(0.6, 1.2)), float(rng.uniform(0.5, 1.0)), float(rng.uniform(0.5, 1.0))
+    t, long = 0.004, 0.5
+    sides = [box((long, t, h), (0, s * w / 2, z + h / 2)) for s in (-1, 1)] + [
+        box((long, w + t, t), (0, 0, z + h / 2 + s * h / 2)) for s in (-1, 1)
+    ]
+    rims = [
+        merge(
             [
-                rod((-0.06, -0.08, z), (-0.06, 2 * mid + 0.08, z), 0.014, 10),
-                *(along("x", hexagon(0.016, -0.06, -0.02), 0, k * pitch, z) for k in range(count)),
+                *(box((0.03, 0.05, h + 0.1), (x, s * (w / 2 + 0.02), z + h / 2)) for s in (-1, 1)),
+                *(box((0.03, w + 0.09, 0.05), (x, 0, z + h / 2 + s * (h / 2 + 0.02))) for s in (-1, 1)),
             ]
         )
-        frame = [box((0.03, 2 * mid + 0.14, 0.03), (x, mid, z - 0.04)) for x in (0.08, long - 0.03)]
-        posts = [
-            box((0.03, 0.03, z - 0.05), (x, y, (z - 0.05) / 2))
-            for x in (0.08, long - 0.03)
-            for y in (-0.05, 2 * mid + 0.05)
-        ]
-        block = box((0.08, 0.1, 0.09), (-0.06, -0.12, z))
-        return Model(
+        for x in (-long / 2, long / 2)
+    ]
+    rows = [box((0.08, w - 0.006, 0.06), (0, 0, z + q * h)) for q in (0.25, 0.5, 0.75)]
+    wings = [
+        moved(box((0.18, w - 0.02, 0.003)), at(0.1, 0, z + q * h + s * 0.07) @ spun("y", -0.5 * s))
+        for q in (0.25, 0.5, 0.75)
+        for s in (-1, 1)
+    ]
+    head = rod((0, -w / 2 - 0.12, z + 0.1 * h), (0, -w / 2 - 0.12, z + 0.95 * h), 0.03, 12)
+    feeds = [rod((0, -w / 2 - 0.12, z + q * h), (0, -w / 2 + 0.01, z + q * h), 0.018, 10) for q in (0.25, 0.5, 0.75)]
+    legs = [box((0.05, 0.05, z), (x * 0.4 * long, y * (w / 2 + 0.02), z / 2)) for x in (-1, 1) for y in (-1, 1)]
+    pilot = along(
+        "-y", merge([cylinder(0.03, 0, 0.15, 12), cylinder(0.045, 0.15, 0.24, 12)]), 0.12, -w / 2, z + 0.6 * h
+    )
+    parts = [
+        Part(merge([*sides, *rims]), eq, "clamp", eq),
+        Part(merge([*rows, *wings]), eq, "trim", eq),
+        Part(merge([head, *feeds]), "pipe", "pipe", eq, "Pipe assembly"),
+        Part(pilot, eq, "handle", eq),
+        Part(merge(legs), "bracket", "steel", "", "Connection assembly"),
+    ]
+    return Model(parts, kind="duct burner")
+
+
+def _row(eq: str, hand: Hand, rng: np.random.Generator) -> Model:
+    """Slotted tubes with their injectors on one gas bar."""
+    count, long, z = int(rng.integers(4, 12)), float(rng.uniform(0.3, 0.8)), float(rng.uniform(0.25, 0.7))
+    pitch = 0.07
+    tubes = [
+        merge(
             [
-                Part(merge(tubes), eq, "trim", eq),
-                Part(bar, "pipe", "pipe", eq, "Pipe assembly"),
-                Part(block, "valve", "trim", eq, "Valve assembly"),
-                Part(merge([*frame, *posts]), "bracket", "steel", "", "Connection assembly"),
-            ],
-            kind="atmospheric burner",
+                along("x", extrude(rounded_rectangle(0.05, 0.03, 0.014, 3), 0.05, long), 0, k * pitch, z),
+                along("x", turned([(0.022, -0.03), (0.012, 0.01), (0.018, 0.08)], 12), 0, k * pitch, z),
+            ]
         )
+        for k in range(count)
+    ]
+    mid = (count - 1) * pitch / 2
+    bar = merge(
+        [
+            rod((-0.06, -0.08, z), (-0.06, 2 * mid + 0.08, z), 0.014, 10),
+            *(along("x", hexagon(0.016, -0.06, -0.02), 0, k * pitch, z) for k in range(count)),
+        ]
+    )
+    frame = [box((0.03, 2 * mid + 0.14, 0.03), (x, mid, z - 0.04)) for x in (0.08, long - 0.03)]
+    posts = [
+        box((0.03, 0.03, z - 0.05), (x, y, (z - 0.05) / 2))
+        for x in (0.08, long - 0.03)
+        for y in (-0.05, 2 * mid + 0.05)
+    ]
+    block = box((0.08, 0.1, 0.09), (-0.06, -0.12, z))
+    return Model(
+        [
+            Part(merge(tubes), eq, "trim", eq),
+            Part(bar, "pipe", "pipe", eq, "Pipe assembly"),
+            Part(block, "valve", "trim", eq, "Valve assembly"),
+            Part(merge([*frame, *posts]), "bracket", "steel", "", "Connection assembly"),
+        ],
+        kind="atmospheric burner",
+    )
+
+
+def _nozzle_mix(eq: str, hand: Hand, rng: np.random.Generator) -> Model:
+    """A nozzle mixing burner on a furnace wall with pilot and scanner."""
     r, z = float(rng.uniform(0.05, 0.12)), float(rng.uniform(0.7, 1.3))
     n = hand.round(r)
     wall = box((0.15, 8 * r + 0.2, z + 5 * r), (-0.075, 0, (z + 5 * r) / 2))
@@ -198,6 +201,16 @@ def _duct(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         ],
         kind="nozzle burner",
     )
+
+
+def _duct(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+    """Burners without a fan of their own: a duct burner in a rectangular duct, a row of them, or pilots."""
+    eq, kind = "burner", int(rng.integers(3))
+    if kind == 0:
+        return _in_duct(eq, hand, rng)
+    if kind == 1:
+        return _row(eq, hand, rng)
+    return _nozzle_mix(eq, hand, rng)
 
 
 FIRED: tuple[Family, ...] = (

@@ -90,94 +90,98 @@ def _metering(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, ports=tuple(ports), kind="metering pump")
 
 
-def _hand_pump(_: int, hand: Hand, rng: np.random.Generator) -> Model:
-    """A hand pump: a wing pump on a wall, a pitcher pump with spout and lever, or a rotary barrel pump on a drum."""
-    kind, s = int(rng.integers(3)), float(rng.uniform(0.8, 1.2))
-    n = hand.round(0.1 * s)
-    if kind == 0:
-        r, z = 0.1 * s, float(rng.uniform(0.8, 1.3))
-        disc = along(
-            "-y",
-            merge(
-                [
-                    cylinder(r, 0, 0.09, n),
-                    cylinder(1.15 * r, 0.07, 0.085, n),
-                    around(hexagon(0.016, 0.085, 0.098), 6, 1.07 * r),
-                ]
+def _wing(s: float, n: int, hand: Hand, rng: np.random.Generator) -> Model:
+    """A wing pump on a wall with its rocking lever."""
+    r, z = 0.1 * s, float(rng.uniform(0.8, 1.3))
+    disc = along(
+        "-y",
+        merge(
+            [
+                cylinder(r, 0, 0.09, n),
+                cylinder(1.15 * r, 0.07, 0.085, n),
+                around(hexagon(0.016, 0.085, 0.098), 6, 1.07 * r),
+            ]
+        ),
+        0,
+        -0.02,
+        z,
+    )
+    necks = [hexagon(0.06 * s, z + 0.9 * r, z + 1.25 * r), hexagon(0.06 * s, z - 1.25 * r, z - 0.9 * r)]
+    necks = [moved(x, at(0, -0.065)) for x in necks]
+    plate = box((2.4 * r, 0.012, 1.0 * r), (0, -0.014, z))
+    bow = [(0, -0.1, z), (0, -0.14, z), (0.1 * s, -0.14, z + 0.22 * s), (0.1 * s, -0.14, z + 0.4 * s)]
+    pipe = moved(cylinder(0.017, 0.0, z - 1.2 * r, 12), at(0, -0.065))
+    return Model(
+        [
+            Part(merge([disc, *necks, plate]), CASING, "pump", CASING),
+            Part(
+                merge([rope(bow, 0.01, 8), along("-y", cylinder(0.02, 0.1, 0.12, 12), 0, -0.01, z)]),
+                "lever",
+                "handle",
+                CASING,
+                "Valve assembly",
             ),
-            0,
-            -0.02,
-            z,
-        )
-        necks = [hexagon(0.06 * s, z + 0.9 * r, z + 1.25 * r), hexagon(0.06 * s, z - 1.25 * r, z - 0.9 * r)]
-        necks = [moved(x, at(0, -0.065)) for x in necks]
-        plate = box((2.4 * r, 0.012, 1.0 * r), (0, -0.014, z))
-        bow = [(0, -0.1, z), (0, -0.14, z), (0.1 * s, -0.14, z + 0.22 * s), (0.1 * s, -0.14, z + 0.4 * s)]
-        pipe = moved(cylinder(0.017, 0.0, z - 1.2 * r, 12), at(0, -0.065))
-        return Model(
+            Part(pipe, "pipe", "pipe", "", "Pipe assembly"),
+            Part(box((0.8, 0.1, z + 0.6), (0, 0.042, (z + 0.6) / 2)), "wall", "concrete", "", "Structural element"),
+        ],
+        kind="hand pump",
+    )
+
+
+def _pitcher(s: float, n: int, hand: Hand, rng: np.random.Generator) -> Model:
+    """A pitcher pump with spout and lever on its suction pipe."""
+    r, h = 0.055 * s, 0.35 * s
+    low = float(rng.uniform(0.3, 0.7))
+    body = [
+        turned(
             [
-                Part(merge([disc, *necks, plate]), CASING, "pump", CASING),
-                Part(
-                    merge([rope(bow, 0.01, 8), along("-y", cylinder(0.02, 0.1, 0.12, 12), 0, -0.01, z)]),
-                    "lever",
-                    "handle",
-                    CASING,
-                    "Valve assembly",
-                ),
-                Part(pipe, "pipe", "pipe", "", "Pipe assembly"),
-                Part(box((0.8, 0.1, z + 0.6), (0, 0.042, (z + 0.6) / 2)), "wall", "concrete", "", "Structural element"),
+                (1.8 * r, low),
+                (1.8 * r, low + 0.02),
+                (0.6 * r, low + 0.04),
+                (0.6 * r, low + 0.1),
+                (r, low + 0.14),
+                (r, low + h),
+                (1.3 * r, low + h),
+                (1.3 * r, low + h + 0.02),
             ],
-            kind="hand pump",
+            n,
         )
-    if kind == 1:
-        r, h = 0.055 * s, 0.35 * s
-        low = float(rng.uniform(0.3, 0.7))
-        body = [
-            turned(
-                [
-                    (1.8 * r, low),
-                    (1.8 * r, low + 0.02),
-                    (0.6 * r, low + 0.04),
-                    (0.6 * r, low + 0.1),
-                    (r, low + 0.14),
-                    (r, low + h),
-                    (1.3 * r, low + h),
-                    (1.3 * r, low + h + 0.02),
-                ],
-                n,
-            )
-        ]
-        spout = rope(
-            [
-                (0.8 * r, 0, low + 0.7 * h),
-                (2.6 * r, 0, low + 0.72 * h),
-                (3.2 * r, 0, low + 0.6 * h),
-                (3.3 * r, 0, low + 0.45 * h),
-            ],
-            0.4 * r,
-            10,
-        )
-        ear = box((0.8 * r, 0.3 * r, 1.6 * r), (-1.1 * r, 0, low + h + 0.6 * r))
-        lever = rope(
-            [
-                (0.0, 0, low + h + 1.4 * r),
-                (-1.3 * r, 0, low + h + 1.3 * r),
-                (-3.5 * r, 0, low + h),
-                (-4.5 * r, 0, low + 0.3 * h),
-            ],
-            0.18 * r,
-            8,
-        )
-        bar = cylinder(0.1 * r, low + h, low + h + 1.5 * r, 8)
-        pipe = cylinder(0.024, 0.0, low, 12)
-        return Model(
-            [
-                Part(merge([*body, spout, ear]), CASING, "pump", CASING),
-                Part(merge([lever, bar]), "lever", "handle", CASING, "Valve assembly"),
-                Part(pipe, "pipe", "pipe", "", "Pipe assembly"),
-            ],
-            kind="hand pump",
-        )
+    ]
+    spout = rope(
+        [
+            (0.8 * r, 0, low + 0.7 * h),
+            (2.6 * r, 0, low + 0.72 * h),
+            (3.2 * r, 0, low + 0.6 * h),
+            (3.3 * r, 0, low + 0.45 * h),
+        ],
+        0.4 * r,
+        10,
+    )
+    ear = box((0.8 * r, 0.3 * r, 1.6 * r), (-1.1 * r, 0, low + h + 0.6 * r))
+    lever = rope(
+        [
+            (0.0, 0, low + h + 1.4 * r),
+            (-1.3 * r, 0, low + h + 1.3 * r),
+            (-3.5 * r, 0, low + h),
+            (-4.5 * r, 0, low + 0.3 * h),
+        ],
+        0.18 * r,
+        8,
+    )
+    bar = cylinder(0.1 * r, low + h, low + h + 1.5 * r, 8)
+    pipe = cylinder(0.024, 0.0, low, 12)
+    return Model(
+        [
+            Part(merge([*body, spout, ear]), CASING, "pump", CASING),
+            Part(merge([lever, bar]), "lever", "handle", CASING, "Valve assembly"),
+            Part(pipe, "pipe", "pipe", "", "Pipe assembly"),
+        ],
+        kind="hand pump",
+    )
+
+
+def _barrel_pump(s: float, n: int, hand: Hand, rng: np.random.Generator) -> Model:
+    """A rotary barrel pump screwed into a drum, with a crank."""
     drum = merge(
         [
             cylinder(0.29, 0, 0.88, hand.round(0.29)),
@@ -222,6 +226,17 @@ def _hand_pump(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         ],
         kind="hand pump",
     )
+
+
+def _hand_pump(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+    """A hand pump: a wing pump on a wall, a pitcher pump with spout and lever, or a rotary barrel pump on a drum."""
+    kind, s = int(rng.integers(3)), float(rng.uniform(0.8, 1.2))
+    n = hand.round(0.1 * s)
+    if kind == 0:
+        return _wing(s, n, hand, rng)
+    if kind == 1:
+        return _pitcher(s, n, hand, rng)
+    return _barrel_pump(s, n, hand, rng)
 
 
 def _power_pack(_: int, hand: Hand, rng: np.random.Generator) -> Model:

@@ -326,6 +326,7 @@ def coupling(r: float, x0: float, x1: float, axis: float, hand: Hand) -> Part:
 
 
 def _arch(r: float, below: float, steps: int) -> Floats:
+    """An arch over a shaft and its legs down, in (y, z)."""
     a = np.linspace(0, np.pi, steps)
     return np.vstack([[(r, -below)], r * np.column_stack([np.cos(a), np.sin(a)]), [(-r, -below)]])
 

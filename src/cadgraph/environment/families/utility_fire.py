@@ -78,6 +78,7 @@ def _kept(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     full = h + 2.0 * r
 
     def lifted(x: float, y: float, z: float) -> list[Part]:
+        """The unit put somewhere."""
         return [Part(moved(p.solid, at(x, y, z)), p.name, p.color, p.bundle) for p in unit]
 
     if place == "floor":

@@ -79,6 +79,7 @@ def _straight(kind: str, length: float, w: float, side: float) -> Solid:
 
 
 def _sector(low: float, high: float, turn: float, steps: int) -> Floats:
+    """A quarter ring or part of it about the origin, from -y on."""
     a = np.linspace(0, turn, steps)
     unit = np.column_stack([np.sin(a), -np.cos(a)])
     return np.vstack([high * unit, low * unit[::-1]])

@@ -135,6 +135,7 @@ def _housed(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
 
 
 def _plate(kind: str, s: float, hand: Hand) -> Floats:
+    """The outline of a sign of a shape, about its middle."""
     if kind == "rectangle":
         return rounded_rectangle(2 * s, 1.4 * s, 0.1 * s, 3)
     if kind == "tall":

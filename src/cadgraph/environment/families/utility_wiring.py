@@ -42,6 +42,7 @@ def _bent(points: list[tuple[float, float, float]], radius: float, steps: int = 
 
 
 def _coupling(r: float, x: float, y: float, z: float, axis: str) -> Solid:
+    """A conduit coupling with its two nuts along an axis."""
     return along(
         axis,
         merge(
