@@ -9,6 +9,7 @@ from cadgraph.environment.families.measuring_heat import HEAT_BUILDS
 from cadgraph.environment.families.measuring_level import LEVEL_BUILDS
 from cadgraph.environment.families.measuring_panel import PANEL_BUILDS
 from cadgraph.environment.families.measuring_pressure import PRESSURE_BUILDS
+from cadgraph.environment.families.measuring_sight import SIGHT_BUILDS
 from cadgraph.environment.families.measuring_siphon import SIPHON_BUILDS
 from cadgraph.environment.family import Family
 
@@ -23,5 +24,6 @@ MEASURING: tuple[Family, ...] = (
     *PRESSURE_BUILDS,
     *FLOW_BUILDS,
     *COUNTER_BUILDS,
+    *SIGHT_BUILDS,
 )
 """The families of devices and structures that an assortment draws from."""
