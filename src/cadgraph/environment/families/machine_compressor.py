@@ -199,47 +199,47 @@ def _cabinet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, ports=(port,), kind="screw compressor")
 
 
-def _hermetic(_: int, hand: Hand, rng: np.random.Generator) -> Model:
-    """Refrigerant compressors: hermetic pots (scroll or piston), or a semi-hermetic block with finned heads."""
-    eq, parts = "compressor", []
-    r = float(rng.uniform(0.07, 0.13))
-    n = hand.round(r)
-    if rng.random() < 0.6:
-        for k in range(int(rng.integers(1, 4))):
-            x, h = 3.2 * r * k, float(rng.uniform(2.4, 4.2)) * r
-            pot = [
-                (0.75 * r, 0.09),
-                (r, 0.09 + 0.3 * r),
-                (r, 0.09 + 0.7 * h),
-                (1.05 * r, 0.09 + 0.7 * h),
-                (1.05 * r, 0.09 + 0.74 * h),
-                (r, 0.09 + 0.74 * h),
-                (0.95 * r, 0.09 + 0.85 * h),
-                (0.6 * r, 0.09 + h),
-            ]
-            base_ = [
-                box((2.4 * r, 2.4 * r, 0.008), (x, 0, 0.0865)),
-                *(moved(cylinder(0.02, 0.03, 0.08, 10), at(x + sx * r, sy * r)) for sx in (-1, 1) for sy in (-1, 1)),
-            ]
-            stubs = [
-                rope(
-                    [(x + 0.9 * r, 0, 0.09 + 0.4 * h), (x + 1.5 * r, 0, 0.09 + 0.4 * h), (x + 1.5 * r, 0, 0.2 + h)],
-                    0.018,
-                    8,
-                ),
-                rope([(x, 0, 0.08 + h), (x, 0, 0.15 + h), (x, 0.9 * r, 0.2 + h)], 0.011, 8),
-            ]
-            lid = box((0.14 * h, 0.6 * r, 0.4 * r), (x, -1.05 * r, 0.09 + 0.5 * h))
-            parts += [
-                Part(moved(turned(pot, n), at(x)), eq, "rubber", eq),
-                Part(merge(base_), eq, "steel", eq),
-                Part(merge(stubs), eq, "trim", eq),
-                Part(lid, "terminal box", "electrical", eq, PUMP),
-            ]
-        rails = [box((3.2 * r * k + 3 * r, 0.04, 0.03), (1.6 * r * k, s * r, 0.015)) for s in (-1, 1)]
-        return Model(
-            [*parts, Part(merge(rails), "skid frame", "steel", "", "Structural element")], kind="hermetic compressor"
-        )
+def _pots(eq: str, r: float, n: int, parts: list[Part], rng: np.random.Generator) -> Model:
+    """Hermetic pots in a row on rubber feet and rails."""
+    for k in range(int(rng.integers(1, 4))):
+        x, h = 3.2 * r * k, float(rng.uniform(2.4, 4.2)) * r
+        pot = [
+            (0.75 * r, 0.09),
+            (r, 0.09 + 0.3 * r),
+            (r, 0.09 + 0.7 * h),
+            (1.05 * r, 0.09 + 0.7 * h),
+            (1.05 * r, 0.09 + 0.74 * h),
+            (r, 0.09 + 0.74 * h),
+            (0.95 * r, 0.09 + 0.85 * h),
+            (0.6 * r, 0.09 + h),
+        ]
+        base_ = [
+            box((2.4 * r, 2.4 * r, 0.008), (x, 0, 0.0865)),
+            *(moved(cylinder(0.02, 0.03, 0.08, 10), at(x + sx * r, sy * r)) for sx in (-1, 1) for sy in (-1, 1)),
+        ]
+        stubs = [
+            rope(
+                [(x + 0.9 * r, 0, 0.09 + 0.4 * h), (x + 1.5 * r, 0, 0.09 + 0.4 * h), (x + 1.5 * r, 0, 0.2 + h)],
+                0.018,
+                8,
+            ),
+            rope([(x, 0, 0.08 + h), (x, 0, 0.15 + h), (x, 0.9 * r, 0.2 + h)], 0.011, 8),
+        ]
+        lid = box((0.14 * h, 0.6 * r, 0.4 * r), (x, -1.05 * r, 0.09 + 0.5 * h))
+        parts += [
+            Part(moved(turned(pot, n), at(x)), eq, "rubber", eq),
+            Part(merge(base_), eq, "steel", eq),
+            Part(merge(stubs), eq, "trim", eq),
+            Part(lid, "terminal box", "electrical", eq, PUMP),
+        ]
+    rails = [box((3.2 * r * k + 3 * r, 0.04, 0.03), (1.6 * r * k, s * r, 0.015)) for s in (-1, 1)]
+    return Model(
+        [*parts, Part(merge(rails), "skid frame", "steel", "", "Structural element")], kind="hermetic compressor"
+    )
+
+
+def _semi_hermetic(eq: str, r: float, n: int, parts: list[Part], rng: np.random.Generator) -> Model:
+    """A semi-hermetic block with banks of heads and its stop valves."""
     s, low = 2.0 * r, 0.08
     axis = low + 0.8 * s
     barrel = along(
@@ -295,6 +295,17 @@ def _hermetic(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(
         [*parts, Part(merge(rails), "skid frame", "steel", "", "Structural element")], kind="semi-hermetic compressor"
     )
+
+
+def _hermetic(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+    """Refrigerant compressors: hermetic pots (scroll or piston), or a semi-hermetic block with finned heads."""
+    eq = "compressor"
+    parts: list[Part] = []
+    r = float(rng.uniform(0.07, 0.13))
+    n = hand.round(r)
+    if rng.random() < 0.6:
+        return _pots(eq, r, n, parts, rng)
+    return _semi_hermetic(eq, r, n, parts, rng)
 
 
 def _turbo(dn: int, hand: Hand, rng: np.random.Generator) -> Model:

@@ -233,57 +233,59 @@ def _high_bay(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([*parts, *beam_over(-0.6, 1.2 * count - 0.6, high)])
 
 
-def _beacon(_: int, hand: Hand, rng: np.random.Generator) -> Model:
-    """Signal lamps: a beacon with a horn on a wall, a stack of coloured lamps on a stem, a traffic or exit light."""
-    kind, s = pick(rng, "beacon", "stack", "exit"), float(rng.uniform(0.8, 1.4))
-    n, z = hand.round(0.05), float(rng.uniform(1.6, 2.4))
-    if kind == "stack":
-        r, count = 0.03 * s, int(rng.integers(2, 6))
-        solids, q = [cylinder(1.1 * r, 0, 0.03, n)], 0.03
-        rods = cylinder(0.4 * r, -0.25, 0.0, 10)
-        lights = []
-        for _k in range(count):
-            lights.append(cylinder(r, q, q + 1.6 * r, n))
-            solids.append(cylinder(1.04 * r, q + 1.6 * r, q + 1.75 * r, n))
-            q += 1.75 * r
-        solids.append(dome(r, 0.4 * r, q, n))
-        case = [
-            box((0.5, 0.3, 0.7), (0, 0, 1.05)),
-            box((0.47, 0.02, 0.66), (0, -0.16, 1.05)),
-            box((0.1, 0.1, 0.7), (0, 0, 0.35)),
-            box((0.35, 0.3, 0.02), (0, 0, 0.01)),
+def _tower(s: float, n: int, z: float, hand: Hand, rng: np.random.Generator) -> Model:
+    """Coloured lamps in a stack on a cabinet."""
+    r, count = 0.03 * s, int(rng.integers(2, 6))
+    solids, q = [cylinder(1.1 * r, 0, 0.03, n)], 0.03
+    rods = cylinder(0.4 * r, -0.25, 0.0, 10)
+    lights = []
+    for _k in range(count):
+        lights.append(cylinder(r, q, q + 1.6 * r, n))
+        solids.append(cylinder(1.04 * r, q + 1.6 * r, q + 1.75 * r, n))
+        q += 1.75 * r
+    solids.append(dome(r, 0.4 * r, q, n))
+    case = [
+        box((0.5, 0.3, 0.7), (0, 0, 1.05)),
+        box((0.47, 0.02, 0.66), (0, -0.16, 1.05)),
+        box((0.1, 0.1, 0.7), (0, 0, 0.35)),
+        box((0.35, 0.3, 0.02), (0, 0, 0.01)),
+    ]
+    pose = at(0.15, 0.05, 1.65)
+    return Model(
+        [
+            Part(moved(merge([*solids, rods]), pose), _L, "rubber", _L),
+            *(
+                Part(moved(x, pose), _L, c, _L)
+                for x, c in zip(lights, ("handle", "safety", "gate", "dial", "motor"), strict=False)
+            ),
+            Part(merge(case), "control panel", "electrical"),
         ]
-        pose = at(0.15, 0.05, 1.65)
-        return Model(
-            [
-                Part(moved(merge([*solids, rods]), pose), _L, "rubber", _L),
-                *(
-                    Part(moved(x, pose), _L, c, _L)
-                    for x, c in zip(lights, ("handle", "safety", "gate", "dial", "motor"), strict=False)
-                ),
-                Part(merge(case), "control panel", "electrical"),
-            ]
-        )
-    if kind == "exit":
-        w, h = 0.3 * s, 0.15 * s
-        body, face = box((w, 0.05, h), (0, -0.025, z)), box((0.95 * w, 0.006, 0.9 * h), (0, -0.053, z))
-        heads = [
-            along(
-                "-y", turned([(0.03, 0.0), (0.05, 0.05), (0.05, 0.06)], n), q * (w / 2 - 0.03), -0.04, z + h / 2 + 0.05
-            )
-            for q in (-1, 1)
+    )
+
+
+def _exit_light(s: float, n: int, z: float, hand: Hand, rng: np.random.Generator) -> Model:
+    """An exit or emergency light on a wall, maybe with two heads."""
+    w, h = 0.3 * s, 0.15 * s
+    body, face = box((w, 0.05, h), (0, -0.025, z)), box((0.95 * w, 0.006, 0.9 * h), (0, -0.053, z))
+    heads = [
+        along("-y", turned([(0.03, 0.0), (0.05, 0.05), (0.05, 0.06)], n), q * (w / 2 - 0.03), -0.04, z + h / 2 + 0.05)
+        for q in (-1, 1)
+    ]
+    necks = [
+        rod((q * (w / 2 - 0.03), -0.03, z + h / 2 - 0.01), (q * (w / 2 - 0.03), -0.045, z + h / 2 + 0.03), 0.01, 8)
+        for q in (-1, 1)
+    ]
+    return Model(
+        [
+            Part(merge([body, *(heads + necks if rng.random() < 0.6 else [])]), _L, "electrical", _L),
+            Part(face, _L, "gate", _L),
+            wall(-0.6, 0.6, z + 0.6),
         ]
-        necks = [
-            rod((q * (w / 2 - 0.03), -0.03, z + h / 2 - 0.01), (q * (w / 2 - 0.03), -0.045, z + h / 2 + 0.03), 0.01, 8)
-            for q in (-1, 1)
-        ]
-        return Model(
-            [
-                Part(merge([body, *(heads + necks if rng.random() < 0.6 else [])]), _L, "electrical", _L),
-                Part(face, _L, "gate", _L),
-                wall(-0.6, 0.6, z + 0.6),
-            ]
-        )
+    )
+
+
+def _flashing(s: float, n: int, z: float, hand: Hand, rng: np.random.Generator) -> Model:
+    """A caged beacon on a bracket, maybe with a horn below."""
     r = 0.06 * s
     base_ = merge(
         [
@@ -322,6 +324,17 @@ def _beacon(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     if rng.random() < 0.6:
         parts.append(Part(merge([horn, pad]), _L, "handle", _L))
     return Model([*parts, *back(z + 0.6, hand, rng)])
+
+
+def _beacon(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+    """Signal lamps: a beacon with a horn on a wall, a stack of coloured lamps on a stem, a traffic or exit light."""
+    kind, s = pick(rng, "beacon", "stack", "exit"), float(rng.uniform(0.8, 1.4))
+    n, z = hand.round(0.05), float(rng.uniform(1.6, 2.4))
+    if kind == "stack":
+        return _tower(s, n, z, hand, rng)
+    if kind == "exit":
+        return _exit_light(s, n, z, hand, rng)
+    return _flashing(s, n, z, hand, rng)
 
 
 LIGHTS: tuple[Family, ...] = tuple(
