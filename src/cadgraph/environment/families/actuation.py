@@ -243,7 +243,7 @@ def _multi_turn(radius: float, hand: Hand, rng: Rng) -> list[Part]:
         control = along(
             "-x", turned([(0.8 * half, 0.6 * half), (0.8 * half, 1.3 * half), (0.7 * half, 1.5 * half)], n), 0, 0, z
         )
-    glass = along("-x", cylinder(0.35 * half, 1.45 * half, 1.6 * half, 16), 0, 0, z + 0.1 * half)
+    glass = along("-x", cylinder(0.35 * half, 1.35 * half, 1.6 * half, 16), 0, 0, z + 0.1 * half)
     cover = turned(
         [(0.2 * half, 1.65 * half), (0.2 * half, float(rng.uniform(1.9, 4.0)) * half), (0.1 * half, 4.1 * half)], 10
     )

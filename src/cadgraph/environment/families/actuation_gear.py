@@ -133,7 +133,7 @@ def bevel(radius: float, hand: Hand, rng: Rng) -> list[Part]:
             ],
             12,
         )
-        parts.append(Part(cover, "position indicator" if rng.random() < 0.3 else "gearbox", "trim", "gearbox"))
+        parts.append(Part(cover, "gearbox", "trim", "gearbox"))
     drive = _input(0.06 + 0.9 * radius, 0.35 * half, hand, rng)
     return put(
         [*parts, *put(drive, at(0, -1.5 * half, 0.75 * half) @ spun("x", np.pi / 2) @ spun("z", np.pi / 2))],

@@ -252,7 +252,8 @@ def _sheet(length: float, hand: Hand, rng: Rng) -> Solid:
             (length, 0, thick + rise),
         ]
     )
-    solids = [_strip(path, half, thick), hexagon(1.2 * half, 1.5 * thick, 1.5 * thick + 0.4 * half)]
+    solids = [_strip(path, half, thick), cylinder(1.1 * half, 0.0, 1.2 * thick, 12)]
+    solids.append(hexagon(1.2 * half, 1.5 * thick, 1.5 * thick + 0.4 * half))
     if rng.random() < 0.6:
         solids.append(_sleeve(length, thick + rise, half, thick, float(rng.uniform(0.4, 0.6))))
     return merge(solids)

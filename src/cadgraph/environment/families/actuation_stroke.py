@@ -102,7 +102,7 @@ def screwed_up(half: float, tall: float, wheel: float, slim: float, hand: Hand, 
             parts.append(
                 Part(
                     cylinder(1.8 * slim, tall + 3 * slim + 0.01, tall + 5 * slim + open_ + 0.04, 12),
-                    "position indicator",
+                    "valve stem",
                     "trim",
                     BODY,
                 )

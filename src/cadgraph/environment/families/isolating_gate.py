@@ -377,7 +377,7 @@ def _forged(dn: int, hand: Hand, rng: Rng) -> Model:
     wheel, yoke = float(rng.uniform(0.85, 1.2)) * (0.035 + 1.6 * radius), tall + 0.05 + 1.3 * radius
     parts += put(screwed_up(max(3.6 * slim, 0.8 * big), yoke, min(wheel, 0.079), slim, hand, rng), at(x, 0, high))
     if hand.hollow:
-        plug = rng.random() < 0.5
+        plug = rng.random() < 0.5 and ends in ("socket", "butt")
         inside = (
             wedge(dn, x, 0.8 * radius, 0.0, hand)
             if plug

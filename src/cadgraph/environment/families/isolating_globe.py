@@ -173,7 +173,17 @@ def _bellows(dn: int, hand: Hand, rng: Rng) -> Model:
             at(x, 0, high + 0.004),
         )
         parts += put(
-            [trim(merge([cylinder(1.8 * slim, tall + 0.05, tall + 0.1, 10)]), "position indicator")],
+            [
+                trim(
+                    merge(
+                        [
+                            cylinder(0.8 * slim, tall + 0.05, tall + 0.1, 10),
+                            cylinder(2.6 * slim, tall + 0.06, tall + 0.066, 14),
+                        ]
+                    ),
+                    "position indicator",
+                )
+            ],
             at(x, 0, high + 0.004),
         )
     if hand.hollow:

@@ -200,7 +200,7 @@ def _cut_open(dn: int, hand: Hand, rng: Rng) -> Model:
         else [hand_wheel(0.05 + radius, 0.0, hand, rng)]
     )
     return Model(
-        [metal(shell), *put([*rest, *put(drive, at(0, 0, high + 1.3 * boss))], at(x))], length, kind="ball valve"
+        [metal(shell), *put([*rest, *put(drive, at(0, 0, high + 1.2 * boss))], at(x))], length, kind="ball valve"
     )
 
 
