@@ -21,10 +21,71 @@ from cadgraph.environment.form import along, box, cylinder, hexagon, ring
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle, section_channel, section_i
-from cadgraph.environment.solid import extrude, merge, moved, tube
+from cadgraph.environment.solid import Solid, extrude, merge, moved, tube
 from cadgraph.environment.standard import PIPES, SIZES
 
 __all__ = ["COUPLES"]
+
+
+def _hose_clamp(kind: int, out: float, t: float, wide: float, n: int, twin: bool) -> list[tuple[str, Solid]]:
+    """A clamp round x over a hose of radius ``out``: its band, what closes it on top, its screw [m]."""
+    band = along("x", ring(out, out + t, -wide / 2, wide / 2, n))
+    b = 0.35 * wide + 0.002
+    if kind == 0:  # a housing with a screw across
+        house = merge(
+            [
+                box((1.15 * wide, 3.2 * b, 1.5 * b), (0, 0, out + t + 0.7 * b)),
+                along("y", cylinder(0.75 * b, -1.6 * b, 1.6 * b, 10), 0, 0, out + t + 1.2 * b),
+            ]
+        )
+        screw = merge(
+            [
+                along("y", cylinder(0.5 * b, 1.5 * b, 3.4 * b, 8), 0, 0, out + t + 1.2 * b),
+                along("y", hexagon(1.5 * b, 2.0 * b, 3.4 * b), 0, 0, out + t + 1.2 * b),
+            ]
+        )
+        solids = [("clamp", merge([band, house])), ("screw", screw)]
+    elif kind == 1:  # trunnions and a bolt
+        lugs = [
+            along("x", cylinder(0.8 * b, -0.6 * wide, 0.6 * wide, 10), 0, q * 2.2 * b, out + t + 0.6 * b)
+            for q in (-1, 1)
+        ]
+        bolt = merge(
+            [
+                along("y", cylinder(0.35 * b, -3.5 * b, 4 * b, 8), 0, 0, out + t + 0.6 * b),
+                along("y", hexagon(1.3 * b, 3.0 * b, 3.7 * b), 0, 0, out + t + 0.6 * b),
+            ]
+        )
+        solids = [("clamp", merge([band, *lugs])), ("bolt", bolt)]
+    elif kind == 2:  # pinched ears
+        ears = [
+            slab_yz(
+                [
+                    [q * 0.3 * b - b, 0],
+                    [q * 0.3 * b + b, 0],
+                    [q * 0.1 * b + 0.3 * b, 1.6 * b],
+                    [q * 0.1 * b - 0.3 * b, 1.6 * b],
+                ],
+                -wide / 2,
+                wide / 2,
+            )
+            for q in (0,)
+        ]
+        ear = moved(merge(ears), at(0, 0, out + 0.5 * t))
+        both = [ear, moved(ear, spun("x", np.pi))] if twin else [ear]
+        solids = [("clamp", merge([band, *both]))]
+    else:  # a doubled wire with a screw block
+        wires = [along("x", ring(out, out + 2 * t, q - t, q + t, n)) for q in (-0.35 * wide, 0.35 * wide)]
+        block = box((wide, 2 * b, 2 * b), (0, 0, out + 2 * t + 0.8 * b))
+        screw = along(
+            "y",
+            merge([cylinder(0.4 * b, -1.5 * b, 3 * b, 8), cylinder(0.8 * b, 3 * b, 3.6 * b, 8)]),
+            0,
+            0,
+            out + 2 * t + b,
+        )
+        solids = [("clamp", merge([*wires, block])), ("screw", screw)]
+    return solids
 
 
 def _hose(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -46,62 +107,7 @@ def _hose(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     wide = 0.009 + 0.06 * r
     for x in (-0.5 * over,) if rng.random() < 0.6 else (-0.7 * over, -0.25 * over):
         turn = at(x) @ spun("x", float(rng.uniform(0, 6)))
-        band = along("x", ring(out, out + t, -wide / 2, wide / 2, n))
-        b = 0.35 * wide + 0.002
-        if kind == 0:  # a housing with a screw across
-            house = merge(
-                [
-                    box((1.15 * wide, 3.2 * b, 1.5 * b), (0, 0, out + t + 0.7 * b)),
-                    along("y", cylinder(0.75 * b, -1.6 * b, 1.6 * b, 10), 0, 0, out + t + 1.2 * b),
-                ]
-            )
-            screw = merge(
-                [
-                    along("y", cylinder(0.5 * b, 1.5 * b, 3.4 * b, 8), 0, 0, out + t + 1.2 * b),
-                    along("y", hexagon(1.5 * b, 2.0 * b, 3.4 * b), 0, 0, out + t + 1.2 * b),
-                ]
-            )
-            solids = [("clamp", merge([band, house])), ("screw", screw)]
-        elif kind == 1:  # trunnions and a bolt
-            lugs = [
-                along("x", cylinder(0.8 * b, -0.6 * wide, 0.6 * wide, 10), 0, q * 2.2 * b, out + t + 0.6 * b)
-                for q in (-1, 1)
-            ]
-            bolt = merge(
-                [
-                    along("y", cylinder(0.35 * b, -3.5 * b, 4 * b, 8), 0, 0, out + t + 0.6 * b),
-                    along("y", hexagon(1.3 * b, 3.0 * b, 3.7 * b), 0, 0, out + t + 0.6 * b),
-                ]
-            )
-            solids = [("clamp", merge([band, *lugs])), ("bolt", bolt)]
-        elif kind == 2:  # pinched ears
-            ears = [
-                slab_yz(
-                    [
-                        [q * 0.3 * b - b, 0],
-                        [q * 0.3 * b + b, 0],
-                        [q * 0.1 * b + 0.3 * b, 1.6 * b],
-                        [q * 0.1 * b - 0.3 * b, 1.6 * b],
-                    ],
-                    -wide / 2,
-                    wide / 2,
-                )
-                for q in (0,)
-            ]
-            ear = moved(merge(ears), at(0, 0, out + 0.5 * t))
-            both = [ear, moved(ear, spun("x", np.pi))] if rng.random() < 0.6 else [ear]
-            solids = [("clamp", merge([band, *both]))]
-        else:  # a doubled wire with a screw block
-            wires = [along("x", ring(out, out + 2 * t, q - t, q + t, n)) for q in (-0.35 * wide, 0.35 * wide)]
-            block = box((wide, 2 * b, 2 * b), (0, 0, out + 2 * t + 0.8 * b))
-            screw = along(
-                "y",
-                merge([cylinder(0.4 * b, -1.5 * b, 3 * b, 8), cylinder(0.8 * b, 3 * b, 3.6 * b, 8)]),
-                0,
-                0,
-                out + 2 * t + b,
-            )
-            solids = [("clamp", merge([*wires, block])), ("screw", screw)]
+        solids = _hose_clamp(kind, out, t, wide, n, bool(rng.random() < 0.6))
         for name, solid in solids:
             parts.append(
                 piece(moved(solid, turn), name, "clamp", "clamp" if name == "clamp" else "fastener", name != "clamp")
@@ -171,13 +177,69 @@ def _coupler(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
+def _cleat_solids(kind: int, q: float, wide: float) -> tuple[list[Solid], list[float], float]:
+    """A cleat over cables of radius ``q`` that lie on z = 0, where its bolts go and what they clamp [m]."""
+    t = 0.003
+    if kind == 0:
+        ear, knee = 2 * q + 0.02, np.pi / 6
+        right = arc_yz(q + t / 2, -0.25, knee, 4, q, q)
+        crown = arc_yz(q + t / 2, knee, np.pi - knee, 6, 0.0, q + np.sqrt(3) * q)
+        left = (right * (1, -1, 1))[::-1]
+        foot = [[0, 2 * q + t / 2 + 0.002, t / 2], [0, 2 * q + ear, t / 2]]
+        path = np.vstack([foot[::-1], right[1:], crown, left[:-1], [[0, -y, z] for _, y, z in foot]])
+        solids = [strap(path, wide, t)]
+        spots = [-2 * q - 0.6 * ear, 2 * q + 0.6 * ear]
+        grip = t
+    elif kind == 1:
+        a = np.linspace(0, np.pi, 9)
+        reach = q + 0.014
+        hollow = np.column_stack([q * np.cos(a), q * np.sin(a)])[::-1]
+        upper = slab_yz(
+            [
+                [-reach, 0.0005],
+                *hollow[1:-1],
+                [reach, 0.0005],
+                [reach, 0.6 * q],
+                [0.5 * reach, q + 0.006],
+                [-0.5 * reach, q + 0.006],
+                [-reach, 0.6 * q],
+            ],
+            -wide / 2,
+            wide / 2,
+        )
+        lower = slab_yz(
+            [
+                [-reach, -0.0005],
+                *(hollow[1:-1] * (1, -1)),
+                [reach, -0.0005],
+                [reach, -q - 0.004],
+                [-reach, -q - 0.004],
+            ],
+            -wide / 2,
+            wide / 2,
+        )
+        solids = [moved(upper, at(0, 0, q + 0.004)), moved(lower, at(0, 0, q + 0.004))]
+        spots, grip = [-reach + 0.006, reach - 0.006], 1.6 * q + 0.004
+    else:
+        path = np.vstack(
+            [
+                [[0, q + 0.02, t / 2]],
+                [[0, q + t / 2, t / 2]],
+                arc_yz(q + t / 2, 0, np.pi, 8, 0.0, q + 0.004),
+                [[0, -q - t / 2, t / 2], [0, -q - 0.02, t / 2]],
+            ]
+        )
+        solids = [strap(path, wide, t)]
+        spots, grip = [-q - 0.012, q + 0.012], t
+    return solids, spots, grip
+
+
 def _cleat(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     """Cables in cleats (IEC 61914) on a ladder or struts: trefoil of sheet, blocks, straps."""
     q = float(rng.uniform(0.012, 0.032))
     n = few(q, hand, 20)
     length, pitch, high = float(rng.uniform(1.0, 2.2)), float(rng.uniform(0.3, 0.5)), float(rng.uniform(0.3, 1.2))
     kind = int(rng.integers(3))
-    t = 0.003
     parts: list[Part] = []
     top = high
     centers = [(-q, q), (q, q), (0.0, q + np.sqrt(3) * q)] if kind == 0 else [(0.0, q + 0.004)]
@@ -200,57 +262,7 @@ def _cleat(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             )
         )
         for y0 in rows:
-            if kind == 0:
-                ear, knee = 2 * q + 0.02, np.pi / 6
-                right = arc_yz(q + t / 2, -0.25, knee, 4, q, q)
-                crown = arc_yz(q + t / 2, knee, np.pi - knee, 6, 0.0, q + np.sqrt(3) * q)
-                left = (right * (1, -1, 1))[::-1]
-                foot = [[0, 2 * q + t / 2 + 0.002, t / 2], [0, 2 * q + ear, t / 2]]
-                path = np.vstack([foot[::-1], right[1:], crown, left[:-1], [[0, -y, z] for _, y, z in foot]])
-                solids = [strap(path, wide, t)]
-                spots = [-2 * q - 0.6 * ear, 2 * q + 0.6 * ear]
-                grip = t
-            elif kind == 1:
-                a = np.linspace(0, np.pi, 9)
-                reach = q + 0.014
-                hollow = np.column_stack([q * np.cos(a), q * np.sin(a)])[::-1]
-                upper = slab_yz(
-                    [
-                        [-reach, 0.0005],
-                        *hollow[1:-1],
-                        [reach, 0.0005],
-                        [reach, 0.6 * q],
-                        [0.5 * reach, q + 0.006],
-                        [-0.5 * reach, q + 0.006],
-                        [-reach, 0.6 * q],
-                    ],
-                    -wide / 2,
-                    wide / 2,
-                )
-                lower = slab_yz(
-                    [
-                        [-reach, -0.0005],
-                        *(hollow[1:-1] * (1, -1)),
-                        [reach, -0.0005],
-                        [reach, -q - 0.004],
-                        [-reach, -q - 0.004],
-                    ],
-                    -wide / 2,
-                    wide / 2,
-                )
-                solids = [moved(upper, at(0, 0, q + 0.004)), moved(lower, at(0, 0, q + 0.004))]
-                spots, grip = [-reach + 0.006, reach - 0.006], 1.6 * q + 0.004
-            else:
-                path = np.vstack(
-                    [
-                        [[0, q + 0.02, t / 2]],
-                        [[0, q + t / 2, t / 2]],
-                        arc_yz(q + t / 2, 0, np.pi, 8, 0.0, q + 0.004),
-                        [[0, -q - t / 2, t / 2], [0, -q - 0.02, t / 2]],
-                    ]
-                )
-                solids = [strap(path, wide, t)]
-                spots, grip = [-q - 0.012, q + 0.012], t
+            solids, spots, grip = _cleat_solids(kind, q, wide)
             for solid in solids:
                 parts.append(
                     piece(

@@ -253,6 +253,36 @@ def _washers(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
+def _anchor(kind: int, d: float, deep: float, out: float, hand: Hand, rng: np.random.Generator) -> list[_Named]:
+    """An anchor about z: bent to a J or an L, with an end plate, glued in a sleeve, with a head at its foot [m]."""
+    n = few(d / 2, hand)
+    bend = 2 * d
+    if kind < 2:
+        corner = arc((0, 0, bend), (0, 0, 0), (bend, 0, 0), 4)
+        tail = (
+            [[2.5 * d + bend, 0, 0]]
+            if kind == 0
+            else [[2 * bend, 0, 0], [2.7 * bend, 0, 0.4 * bend], [2.9 * bend, 0, 1.8 * bend]]
+        )
+        path = np.vstack([[[0, 0, deep + out]], corner, tail])
+        solids: list[_Named] = [("bolt", rope(path, d / 2, n))]
+    elif kind == 2:
+        plate = box((4 * d, 4 * d, 0.5 * d), (0, 0, 0.25 * d))
+        solids = [
+            ("bolt", cylinder(d / 2, 0, deep + out, n)),
+            ("plate", plate),
+            ("nut", moved(nut_solid("hex", d, hand), at(0, 0, 0.5 * d))),
+        ]
+    elif kind == 3:
+        solids = [
+            ("stud", _shank(d, 0.3 * deep, deep + out, hand, rng)),
+            ("washer", ring(0.5 * d, 0.75 * d, 0.45 * deep, deep + 0.01 * d, n)),
+        ]
+    else:
+        solids = [("bolt", merge([hexagon(1.6 * d, 0, 0.65 * d), cylinder(d / 2, 0.6 * d, deep + out, n)]))]
+    return solids
+
+
 def _anchors(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     """Anchors in concrete: J, L, plate and U anchors, sleeve and chemical ones, with their nuts; some not yet cast."""
     d = float(rng.choice(_D[1:]))
@@ -265,30 +295,7 @@ def _anchors(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     for k in range(count):
         kind = int(rng.integers(5))
         x = k * pitch
-        bend = 2 * d
-        if kind < 2:
-            corner = arc((0, 0, bend), (0, 0, 0), (bend, 0, 0), 4)
-            tail = (
-                [[2.5 * d + bend, 0, 0]]
-                if kind == 0
-                else [[2 * bend, 0, 0], [2.7 * bend, 0, 0.4 * bend], [2.9 * bend, 0, 1.8 * bend]]
-            )
-            path = np.vstack([[[0, 0, deep + out]], corner, tail])
-            solids: list[_Named] = [("bolt", rope(path, d / 2, n))]
-        elif kind == 2:
-            plate = box((4 * d, 4 * d, 0.5 * d), (0, 0, 0.25 * d))
-            solids = [
-                ("bolt", cylinder(d / 2, 0, deep + out, n)),
-                ("plate", plate),
-                ("nut", moved(nut_solid("hex", d, hand), at(0, 0, 0.5 * d))),
-            ]
-        elif kind == 3:
-            solids = [
-                ("stud", _shank(d, 0.3 * deep, deep + out, hand, rng)),
-                ("washer", ring(0.5 * d, 0.75 * d, 0.45 * deep, deep + 0.01 * d, n)),
-            ]
-        else:
-            solids = [("bolt", merge([hexagon(1.6 * d, 0, 0.65 * d), cylinder(d / 2, 0.6 * d, deep + out, n)]))]
+        solids = _anchor(kind, d, deep, out, hand, rng)
         t = 0.2 * d
         flat = (
             box((2.6 * d, 2.6 * d, 0.4 * d), (0, 0, deep + t))
