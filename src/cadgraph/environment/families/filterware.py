@@ -24,7 +24,7 @@ from cadgraph.environment.form import (
 )
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
-from cadgraph.environment.solid import merge, moved
+from cadgraph.environment.solid import Solid, merge, moved
 from cadgraph.environment.standard import PIPES
 
 __all__ = ["FILTERWARE"]
@@ -247,6 +247,17 @@ def _media(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="media filter")
 
 
+def _pot(r: float, low: float, tall: float, n: int) -> tuple[Solid, Solid]:
+    """A pot with a drain below, and its lid with a handle."""
+    top = low + tall
+    outline = [(0.5 * r, low - 0.3 * r), (0.9 * r, low - 0.1 * r), (r, low), (r, top - 0.03)]
+    pot = turned([*outline, (1.22 * r, top - 0.03), (1.22 * r, top)], n)
+    drain = cylinder(0.014, low - 0.3 * r - 0.04, low - 0.28 * r, 8)
+    cover = turned([(1.22 * r, top), (1.22 * r, top + 0.025), (0.6 * r, top + 0.03), (0.5 * r, top + 0.06)], n)
+    grip = [(-0.3 * r, 0, top + 0.05), (-0.3 * r, 0, top + 0.1), (0.3 * r, 0, top + 0.1), (0.3 * r, 0, top + 0.05)]
+    return merge([pot, drain]), merge([cover, rope(grip, 0.006, 6)])
+
+
 def _duplex(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     """A duplex filter: two pots with bolted lids, change-over valves between them on one lever or wheel."""
     dn = int(rng.choice([25, 40, 50, 80]))
@@ -254,51 +265,14 @@ def _duplex(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     r = 1.6 * pr + float(rng.uniform(0.04, 0.09))
     tall, n, gap = r * float(rng.uniform(2.2, 4.0)), sides(hand, r), 1.25 * r + pr + 0.03
     low = 0.25
-    pots, lids, bolts = [], [], []
+    pots, lids = [], []
+    count = int(rng.choice([4, 6, 8]))
     for s in (-1, 1):
-        pot = turned(
-            [
-                (0.5 * r, low - 0.3 * r),
-                (0.9 * r, low - 0.1 * r),
-                (r, low),
-                (r, low + tall - 0.03),
-                (1.22 * r, low + tall - 0.03),
-                (1.22 * r, low + tall),
-            ],
-            n,
-        )
-        drain = cylinder(0.014, low - 0.3 * r - 0.04, low - 0.28 * r, 8)
-        lid = merge(
-            [
-                turned(
-                    [
-                        (1.22 * r, low + tall),
-                        (1.22 * r, low + tall + 0.025),
-                        (0.6 * r, low + tall + 0.03),
-                        (0.5 * r, low + tall + 0.06),
-                    ],
-                    n,
-                ),
-                rope(
-                    [
-                        (-0.3 * r, 0, low + tall + 0.05),
-                        (-0.3 * r, 0, low + tall + 0.1),
-                        (0.3 * r, 0, low + tall + 0.1),
-                        (0.3 * r, 0, low + tall + 0.05),
-                    ],
-                    0.006,
-                    6,
-                ),
-            ]
-        )
-        pots.append(moved(merge([pot, drain]), at(0, s * gap)))
+        pot, lid = _pot(r, low, tall, n)
+        pots.append(moved(pot, at(0, s * gap)))
         lids.append(moved(lid, at(0, s * gap)))
-        bolts.append(
-            moved(
-                bolt_circle(int(rng.choice([4, 6, 8])), 1.12 * r, 0.012, low + tall - 0.03, low + tall + 0.025),
-                at(0, s * gap),
-            )
-        )
+    ring_of = bolt_circle(count, 1.12 * r, 0.012, low + tall - 0.03, low + tall + 0.025)
+    bolts = [moved(ring_of, at(0, s * gap)) for s in (-1, 1)]
     parts = [*(Part(p, _NAME, "valve", _NAME) for p in pots), *(Part(p, _NAME, "valve", _NAME) for p in lids)]
     parts.append(Part(merge(bolts), "bolt", "fastener", _NAME, _JOINT, True))
     ports: list[Port] = []

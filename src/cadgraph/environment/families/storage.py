@@ -137,7 +137,7 @@ def _dome_roof(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     drum = _big(rng, hand)
     rise = drum.r * float(rng.uniform(0.2, 0.4))
     ball = (drum.r**2 + rise**2) / (2 * rise)
-    angles = np.linspace(np.arcsin(min(1.0, drum.r / ball)), 0, 8)
+    angles = np.linspace(np.arcsin(min(1.0, drum.r / ball)), 0, 6)
     outline = [(ball * np.sin(a), rise - ball * (1 - np.cos(a))) for a in angles]
     outline = [(drum.r, -0.02), *((float(x), float(z)) for x, z in outline[:-1]), (0.0, rise)]
     roof = capped([(x, z + 0.02) for x, z in outline], hand, drum.n)
@@ -145,7 +145,7 @@ def _dome_roof(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     if rng.random() < 0.7:
         path = np.array([(x + 0.01, 0.0, z + 0.02 + drum.high) for x, z in outline[1:]])
         rib = sweep(path, rounded_rectangle(0.05, 0.06, 0.0), up=(0.0, 1.0, 0.0))
-        count = int(rng.choice([8, 12, 16]))
+        count = int(rng.choice([8, 12]))
         parts.append(Part(around(rib, count), "dished head", "tank", "tank"))
     some, ports = _low_fittings(drum, hand, rng)
     top = mouth(str(rng.choice(["vent", "blind"])), 100, 0.15, hand, 0.0, 0.03)

@@ -40,9 +40,9 @@ _JOINT = "Connection assembly"
 
 
 def sides(hand: Hand, radius: float) -> int:
-    """Sides of a vessel's circle: what is large is not drawn as coarse as a pipe [m]."""
+    """Sides of a vessel's circle: what is large is drawn neither as coarse as a pipe nor finer than needed [m]."""
     least = 8 if radius < 0.15 else 12 if radius < 0.6 else 16
-    return max(hand.round(radius), least)
+    return min(max(hand.round(radius), least), 52)
 
 
 def placed(parts: Sequence[Part], pose: Floats) -> list[Part]:
