@@ -227,7 +227,19 @@ def _roof_truss(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts = [piece(bar(a, b, one, (0, 0.01, 1)), name, color, "beam") for a, b, name, one in lines]
     if chance(rng, 0.7):
         parts += [
-            piece(box((0.22, 0.004, 0.14), (float(p[0]), s * 0.045, float(p[2]) + 0.02)), "plate", "clamp", "beam")
+            piece(
+                box(
+                    (0.22, 0.004, 0.14),
+                    (
+                        float(p[0]),
+                        (span_of(chord)[1] + 0.002) if s > 0 else span_of(chord)[0] - 0.002,
+                        float(p[2]) + 0.02,
+                    ),
+                ),
+                "plate",
+                "clamp",
+                "beam",
+            )
             for p in (*feet, ridge)
             for s in (-1, 1)
         ]

@@ -124,7 +124,7 @@ def _brake(r: float, w: float, high: float) -> Solid:
     """A pedal behind the fork, bent down over the wheel."""
     z = -high + 1.95 * r
     line = [(-0.2 * r, z + 0.02 * r), (-0.75 * r, z + 0.05 * r), (-1.15 * r, z - 0.35 * r)]
-    return slab_xz(ribbon(line[::-1], 0.05 * r), 0.9 * w)
+    return slab_xz(ribbon(line[::-1], 0.05 * r), 1.22 * w)
 
 
 def caster_parts(kind: str, r: float, hand: Hand, rng: np.random.Generator) -> tuple[list[Part], float]:
@@ -291,7 +291,11 @@ def _cart(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts += [piece(box((0.04, 0.04, z - h), (0.4 * a, s * b / 2, (z - h) / 2)), "post") for s in (-1, 1)]
         grips = [
             pipe(
-                [(a / 2, s * b / 2, z), (a / 2 + 0.35, s * b / 2, z + 0.2), (a / 2 + 0.55, s * b / 2, z + 0.2)],
+                [
+                    (a / 2 - 0.1, s * b / 2, z + h),
+                    (a / 2 + 0.35, s * b / 2, z + 0.2),
+                    (a / 2 + 0.55, s * b / 2, z + 0.2),
+                ],
                 0.016,
                 hand,
                 0.08,
@@ -300,7 +304,7 @@ def _cart(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         ]
         parts += [piece(grip, "railing", "handle") for grip in grips]
     else:
-        tie = pipe([(a / 2, 0, z), (a / 2 + 0.7, 0, 0.1)], 0.02, hand)
+        tie = pipe([(0.45 * a, 0, z), (a / 2 + 0.7, 0, 0.1)], 0.02, hand)
         parts.append(piece(tie, "brace", "handle"))
         parts.append(
             piece(
@@ -338,6 +342,7 @@ def _rail_wheels(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 box((0.7 * r, 0.01, box_h + 0.3 * r), (x, s * b / 2 + q * (0.62 * w + 0.005), z + box_h / 2 - 0.15 * r))
                 for q in (-1, 1)
             ]
+            cheeks.append(box((0.7 * r, 1.24 * w + 0.02, 0.01), (x, s * b / 2, z + box_h - 0.005)))
             parts.append(piece(merge(cheeks), "bracket", "clamp"))
             pin = along("y", cylinder(0.12 * r, -0.8 * w, 0.8 * w, 8), x, s * b / 2, z)
             parts.append(piece(pin, "bolt", "fastener", fine=True))
@@ -364,7 +369,7 @@ def _skates(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             rollers = [
                 along(
                     "y",
-                    cylinder(r, -0.4 * wide, 0.4 * wide, few_sides(hand, r, 16)),
+                    cylinder(r, -0.48 * wide, 0.48 * wide, few_sides(hand, r, 16)),
                     x + (k - (rows - 1) / 2) * 2.2 * r,
                     y,
                     r,

@@ -197,7 +197,7 @@ def _brick(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     for k in range(rows):
         edges = [0.0, *np.arange(block[0] * (0.5 if k % 2 else 1.0), long - 0.02, block[0]), long]
         for a, b in zip(edges[:-1], edges[1:], strict=True):
-            solids.append(box((b - a - 0.008, t, block[1] - 0.004), ((a + b) / 2, 0, (k + 0.5) * block[1])))
+            solids.append(box((b - a - 0.002, t, block[1] - 0.001), ((a + b) / 2, 0, (k + 0.5) * block[1])))
     top = rows * block[1]
     parts = [piece(one, "wall", "concrete", "wall") for one in ([merge(solids)] if chance(rng, 0.8) else solids)]
     for x in np.linspace(0.15, long - 0.15, int(rng.integers(0, 4))):

@@ -132,7 +132,7 @@ def _ship(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     ]
     deep, kind = num(rng, 0.08, 0.18), pick(rng, "sheet", "bar", "fold")
     for z in np.arange(0.22, h - 0.1, 0.22):
-        step = panel(kind, deep, wide - 0.02, 0.025, hand)
+        step = panel(kind, deep, wide, 0.025, hand)
         parts.append(piece(moved(step, at(z / np.tan(angle), 0, z - 0.025)), "stair tread", "clamp", "ladder"))
     for s in (-1, 1) if chance(rng, 0.7) else (1,):
         y = s * (wide / 2 + 0.02)
@@ -162,12 +162,12 @@ def _leaning(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         ]
         if k == 0 and not hung:
             solids += [box((0.04, 0.08, 0.03), (s * wide / 2, 0, 0.01)) for s in (-1, 1)]
-        move = at(0, -0.065 * k, 0)
+        move = at(0, -0.06 * k, 0)
         if hung:
             move = at(-long / 2, 0, 1.2) @ spun("y", np.pi / 2)
         parts += _ladder_parts([moved(one_, pose @ move) for one_ in solids], rng, "clamp")
     high = 2.0 if hung else long * np.cos(tilt)
-    y = 0.035 if hung else long * np.sin(tilt) + 0.035
+    y = 0.035 if hung else long * np.sin(tilt) + 0.03 * np.cos(tilt)
     parts.append(piece(box((long + 0.4 if hung else 1.6, 0.15, high), (0, y + 0.075, high / 2)), "wall", "concrete"))
     if hung:
         parts += [

@@ -76,7 +76,7 @@ def _palisade(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     pale, y = slab_xz(shape, 0.003), -0.004 - half
     for k in range(count):
         solids = [
-            bar((k * w, -half + 0.0235, z), ((k + 1) * w, -half + 0.0235, z), section("L", 0.05, hand))
+            bar((k * w, -half + 0.0115, z), ((k + 1) * w, -half + 0.0115, z), section("L", 0.05, hand))
             for z in (0.3, h - 0.35)
         ]
         solids += [moved(pale, at(x, y)) for x in np.arange(k * w + 0.1, (k + 1) * w - 0.05, 0.15)]
@@ -104,7 +104,7 @@ def _chain_link(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     count, w, h = int(rng.integers(1, 3)), num(rng, 1.5, 2.5), num(rng, 1.2, 2.4)
     long, pitch = count * w, num(rng, 0.12, 0.2)
     parts, half = _posts([k * w for k in range(count + 1)], h + 0.1, hand, rng, ("CHS", "L", "SHS"))
-    strands, y = [], -half - 0.006
+    strands, y = [], -half - 0.002
     for way in (-1, 1):
         for c in np.arange(-h, long + h, pitch):
             lo, hi = (max(0.0, c), min(long, c + h)) if way > 0 else (max(0.0, c - h), min(long, c))
@@ -283,7 +283,9 @@ def _sliding(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             parts += [
                 piece(moved(m, at(x, 0, 0.02 + 0.78 * r)), "caster", c) for m, c in wheel("groove", r, 0.6 * r, hand)
             ]
-            parts.append(piece(box((1.6 * r, 0.5 * r + 0.02, 0.3 * r), (x, 0, low + 0.03 - 0.15 * r)), "bracket"))
+            parts.append(
+                piece(box((1.6 * r, 0.5 * r + 0.02, 0.3 * r + 0.04), (x, 0, low + 0.01 - 0.15 * r)), "bracket")
+            )
     else:
         parts.append(
             piece(
@@ -295,7 +297,7 @@ def _sliding(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     post = section("SHS", 0.08, hand)
     for s in (-1, 1):
         parts.append(piece(bar((0.3, s * 0.14, 0), (0.3, s * 0.14, h + 0.12), post), "post", "fence"))
-        parts.append(piece(moved(cylinder(0.03, h - 0.05, h + 0.1, 12), at(0.3, s * 0.065)), "caster", "rubber"))
+        parts.append(piece(moved(cylinder(0.03, h - 0.05, h + 0.12, 12), at(0.3, s * 0.065)), "caster", "rubber"))
     parts.append(piece(box((0.08, 0.36, 0.08), (0.3, 0, h + 0.16)), "beam", "fence"))
     parts.append(piece(bar((w + 0.09, 0, 0), (w + 0.09, 0, h + 0.1), section("SHS", 0.12, hand)), "post", "fence"))
     return Model(parts)

@@ -83,7 +83,8 @@ def panel(kind: str, w: float, d: float, thick: float, hand: Hand, most: int = 1
         for j, y in enumerate(np.linspace(-0.42 * d, 0.42 * d, int(np.clip(d / 0.08, 2, 9))))
     ]
     plate = box((w, d, 0.2 * thick), (0, 0, 0.9 * thick))
-    return merge([plate, *studs]) if coarse < 2 else plate
+    rims = [box((w, 0.004, 0.8 * thick), (0, s * (d / 2 - 0.002), 0.4 * thick)) for s in (-1, 1)]
+    return merge([plate, *rims, *studs]) if coarse < 2 else merge([plate, *rims])
 
 
 def _expanded(w: float, d: float, thick: float, coarse: float) -> Solid:

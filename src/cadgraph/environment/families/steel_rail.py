@@ -78,11 +78,11 @@ def _bay(_: int, hand: Hand, rng: np.random.Generator) -> Model:
 def _side_fixed(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     """Posts of flat, angle, tube or channel bolted to the side of an edge beam, with rails through or before them."""
     length, h = num(rng, 1.2, 4.0), num(rng, 0.95, 1.15)
-    edge = drawn(rng, hand, num(rng, 0.14, 0.24), ("U", "RHS", "H", "I"))
+    edge = drawn(rng, hand, num(rng, 0.14, 0.24), ("U", "RHS", "U", "H"))
     deep = float(np.ptp(edge[0][:, 1]))
-    face = float(edge[0][:, 0].max())
+    face = float(-edge[0][:, 0].min())
     z = num(rng, 0.0, 1.0) + 0.15
-    parts = [piece(bar((length, 0, z + deep / 2), (0, 0, z + deep / 2), edge), "beam")]
+    parts = [piece(bar((0, 0, z + deep / 2), (length, 0, z + deep / 2), edge), "beam")]
     parts += [
         piece(box((0.12, 0.12, z), (x, 0, z / 2)), pick(rng, "column", "foundation")) for x in (0.1, length - 0.1)
     ]
@@ -91,7 +91,7 @@ def _side_fixed(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     y = -face - size - 0.008
     for x in np.linspace(0.06, length - 0.06, max(2, int(length / 1.1) + 1)):
         parts.append(piece(bar((x, y, z + 0.03), (x, y, z + deep + h), one, (0, 1, 0)), "post", "safety", "railing"))
-        parts.append(piece(box((0.08, 0.008, 0.6 * deep), (x, -face - 0.004, z + 0.5 * deep)), "plate"))
+        parts.append(piece(box((0.08, 0.008, deep), (x, -face - 0.004, z + 0.5 * deep)), "plate"))
         turn = spun("x", np.pi / 2)
         parts += bolted([at(x + s * 0.025, -face - 0.008, z + 0.5 * deep) @ turn for s in (-1, 1)], 0.012, hand, 0.01)
     rail = section(pick(rng, "CHS", "SHS", "L", "flat"), 0.045, hand)

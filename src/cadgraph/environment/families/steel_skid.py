@@ -100,9 +100,9 @@ def _lugs(a: float, b: float, z: float, hand: Hand, rng: np.random.Generator) ->
     ]
 
 
-def _payload(a: float, b: float, z: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _payload(a: float, b: float, z: float, hand: Hand, rng: np.random.Generator, decked: bool = True) -> list[Part]:
     """Steel that stands on a skid: a panel stand, an upright frame, plinths, a railing bow; or nothing."""
-    kind = int(rng.integers(5))
+    kind = int(rng.integers(5)) if decked else pick(rng, 0, 3)
     if kind == 0:
         return []
     one = drawn(rng, hand, num(rng, 0.05, 0.08), ("SHS", "U", "L", "CHS", "strut"))
@@ -110,7 +110,10 @@ def _payload(a: float, b: float, z: float, hand: Hand, rng: np.random.Generator)
     if kind == 1:
         x = 0.35 * a
         parts = [piece(bar((x, y, z), (x, y, z + h), one), "post") for y in (-0.3 * b, 0.3 * b)]
-        return [*parts, piece(box((0.004, 0.7 * b, 0.5 * h), (x + 0.05, 0, z + 0.7 * h)), "plate", "clamp")]
+        return [
+            *parts,
+            piece(box((0.004, 0.7 * b, 0.5 * h), (x - span_of(one)[2] + 0.002, 0, z + 0.7 * h)), "plate", "clamp"),
+        ]
     if kind == 2:
         xs, ys = (-0.44 * a, 0.44 * a), (-0.42 * b, 0.42 * b)
         parts = [piece(bar((x, y, z), (x, y, z + h), one), "column") for x in xs for y in ys]
@@ -122,7 +125,7 @@ def _payload(a: float, b: float, z: float, hand: Hand, rng: np.random.Generator)
         return parts
     if kind == 3:
         level, xs = z - span_of(one)[2], (-0.2 * a, 0.2 * a)
-        return [piece(bar((x, -0.35 * b, level), (x, 0.35 * b, level), one), "beam") for x in xs]
+        return [piece(bar((x, -0.5 * b, level), (x, 0.5 * b, level), one), "beam") for x in xs]
     path = [
         (-0.4 * a, -0.45 * b, z),
         (-0.4 * a, -0.45 * b, z + h),
@@ -149,7 +152,7 @@ def _welded(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts = [piece(one_, "skid frame", bundle="skid frame") for one_ in solids]
     deck = _deck(a, b, top, hand, rng)
     high = max([top, *(float(p.solid.vertices[:, 2].max()) for p in deck)])
-    parts += [*deck, *_lugs(a, b, top, hand, rng), *_payload(a, b, high, hand, rng)]
+    parts += [*deck, *_lugs(a, b, top, hand, rng), *_payload(a, b, high, hand, rng, bool(deck))]
     if chance(rng, 0.4):
         spots = [
             at(sx * (a / 2 - 0.08), sy * (b / 2 + 0.06 - span_of(one)[0]), 0.012) for sx in (-1, 1) for sy in (-1, 1)
@@ -173,7 +176,7 @@ def _forked(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts = [piece(one_, "skid frame", bundle="skid frame") for one_ in solids]
     deck = _deck(a, b, top, hand, rng)
     high = max([top, *(float(p.solid.vertices[:, 2].max()) for p in deck)])
-    return Model([*parts, *deck, *_payload(a, b, high, hand, rng)])
+    return Model([*parts, *deck, *_payload(a, b, high, hand, rng, bool(deck))])
 
 
 def _cage(_: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -351,7 +354,7 @@ def _sledge(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     top = 3.4 * r if timber else 2 * r
     deck = _deck(0.95 * a, b, top, hand, rng)
     high = max([top, *(float(p.solid.vertices[:, 2].max()) for p in deck)])
-    return Model([*parts, *deck, *_payload(0.9 * a, b, high, hand, rng)])
+    return Model([*parts, *deck, *_payload(0.9 * a, b, high, hand, rng, bool(deck))])
 
 
 def _table(_: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -365,10 +368,9 @@ def _table(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             x, y = sx * a / 2, sy * b / 2
             parts.append(piece(bar((x, y, foot or 0.008), (x, y, h), one), "column"))
             n = few_sides(hand, 0.03, 16)
+            levelling = [(0.03, 0), (0.03, 0.008), (0.009, 0.016), (0.009, 0.042), (half, 0.042), (half, 0.05)]
             if foot:
-                parts.append(
-                    piece(moved(turned([(0.03, 0), (0.03, 0.008), (0.012, 0.016)], n), at(x, y)), "base plate", "trim")
-                )
+                parts.append(piece(moved(turned(levelling, n), at(x, y)), "base plate", "trim"))
                 parts.append(
                     piece(moved(cylinder(0.007, 0.01, foot + 0.01, 8), at(x, y)), "stud", "fastener", fine=True)
                 )
