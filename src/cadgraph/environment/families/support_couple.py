@@ -97,7 +97,7 @@ def _hose(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     s = np.linspace(0, 1, 9)[1:]
     path = np.vstack(
         [
-            [[-over, 0, 0], [0, 0, 0]],
+            np.array([[-over, 0.0, 0.0], [0.0, 0.0, 0.0]]),
             np.column_stack([reach * s, np.zeros(8), -swing * (1 - np.cos(np.pi * s / 2)) * s]),
         ]
     )

@@ -112,12 +112,13 @@ def _corner(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     clip = 0.3 * min(w, h)
     a = np.linspace(0, np.pi / 2, 8)[1:-1]
     form = int(rng.integers(4))
-    shape = [
+    forms: list[list[list[float]]] = [
         [[0, 0], [w, 0], [w, clip], [clip, h], [0, h]],
         [[0, 0], [w, 0], *([w * (1 - np.sin(q)), h * (1 - np.cos(q))] for q in a), [0, h]],
         [[0.03, 0], [w, 0], [w, 0.4 * h], [0.4 * w, h], [0, h], [0, 0.03]],
         [[0, 0], [w, 0], [0, h]],
-    ][form]
+    ]
+    shape = forms[form]
     gusset = upright([[x0 + x, z0 + up * y] for x, y in shape], -t / 2, t / 2)
     mid = np.array([x0 + 0.3 * w, 0, z0 + up * 0.3 * h])
     end = np.array([reach - 0.1, 0, z0 + up * (reach - 0.1 - x0) * h / w])
@@ -218,7 +219,7 @@ def _stiffened(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts = [framed(beam, "beam")]
     half, deep = (b - web) / 2, h - 2 * f
     clip = 0.2 * half
-    shapes = (
+    shapes: tuple[list[list[float]], ...] = (
         [[0, 0], [half, 0], [half, deep], [0, deep]],
         [[clip, 0], [half, 0], [half, deep], [clip, deep], [0, deep - clip], [0, clip]],
         [[0, 0], [0.9 * half, 0], [0, 0.6 * deep]],
@@ -242,7 +243,7 @@ def _stiffened(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         for q in (-1, 1):
             parts += bolt_parts(0.012, f + 0.012, at(x + q * (size / 2 + 0.012), q * 0.3 * b, top - h - 0.012), hand)
     if rng.random() < 0.4:
-        foot = [[0, 0], [0.05, 0], [0.0, 0.1]]
+        foot: list[list[float]] = [[0, 0], [0.05, 0], [0.0, 0.1]]
         for s in (-1, 1):
             for q in (-1, 1):
                 rib = upright([[s * 0.42 * span + q * (size / 2 + x), 0.015 + z] for x, z in foot], -0.004, 0.004)
@@ -316,7 +317,7 @@ def _foot(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     w, high, thick = (side - size) / 2 - 0.005, float(rng.uniform(0.1, 0.25)), float(rng.choice([0.008, 0.012]))
     form = int(rng.integers(4))
     c = 0.012
-    shape = [
+    forms: list[list[list[float]]] = [
         [[0, 0], [w, 0], [w, 0.02], [0.02, high], [0, high]],
         [[c, 0], [w, 0], [0, high], [0, c]],
         [[0, 0], [w, 0], [w, 0.35 * high], [0.3 * w, high], [0, high]],
@@ -326,7 +327,8 @@ def _foot(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             *([w * (1 - np.sin(q)), high * (1 - np.cos(q)) + 0.01] for q in np.linspace(0.1, 1.4, 6)),
             [0, high + 0.01],
         ],
-    ][form]
+    ]
+    shape = forms[form]
     rib = upright([[size / 2 + x, top + y] for x, y in shape], -thick / 2, thick / 2)
     spread = float(rng.choice([0.0, 0.0, 0.35])) * size
     for k in range(4):

@@ -164,7 +164,7 @@ def _tie_rods(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     for sx in (-1, 1):
         for sz in (-1, 1):
             corner = np.array([x0 if sx < 0 else x1, 0.0, low if sz < 0 else high])
-            inner = [[0, 0], [g, 0], [g, 0.45 * g], [0.45 * g, g], [0, g]]
+            inner: list[list[float]] = [[0, 0], [g, 0], [g, 0.45 * g], [0.45 * g, g], [0, g]]
             plate = upright([[corner[0] - sx * a, corner[2] - sz * b] for a, b in inner], -t / 2, t / 2)
             parts.append(piece(plate, "gusset plate", "", "steel"))
             hole = corner + np.array([-sx * 0.5 * g, 0.0, -sz * 0.5 * g])

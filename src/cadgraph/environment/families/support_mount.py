@@ -123,7 +123,7 @@ def _corner(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     leg, t, d = float(rng.uniform(0.9, 2.2)) * s, 0.12 * s, 0.15 * s
     wide = float(rng.uniform(0.6, 0.98)) * s
     kind = int(rng.integers(4))
-    shape = [[0, 0], [leg, 0], [leg, t], [t, t], [t, leg], [0, leg]]
+    shape: list[list[float]] = [[0, 0], [leg, 0], [leg, t], [t, t], [t, leg], [0, leg]]
     if kind == 0:  # cast, with webs at its sides
         web = upright([[t, t], [leg, t], [leg, 1.5 * t], [1.5 * t, leg], [t, leg]], -0.08 * s, 0.08 * s)
         solid = merge([upright(shape, -wide / 2, wide / 2), *(moved(web, at(0, q * 0.42 * wide)) for q in (-1, 1))])

@@ -86,7 +86,7 @@ def _wound(outline: Floats | Sequence[Point]) -> Floats:
     return points if float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) > 0 else points[::-1]
 
 
-def bar(start: Point, end: Point, outline: Floats, holes: tuple[Floats, ...] = ()) -> Solid:
+def bar(start: Point | Floats, end: Point | Floats, outline: Floats, holes: tuple[Floats, ...] = ()) -> Solid:
     """A section along a line, its y axis as upright as can be [m]."""
     a, b = np.asarray(start, float), np.asarray(end, float)
     look = looking(a, b - a)
