@@ -19,6 +19,17 @@ __all__ = ["BOILERWARE"]
 _FRAME, _PIPE, _BOIL = "Structural element", "Pipe assembly", "boiler"
 
 
+def _walkway(r: float, length: float, z: float) -> list[Part]:
+    """A walkway along a drum on arms, with a railing outside."""
+    y = 0.75 * r + 0.58
+    deck = box((0.8 * length, 0.6, 0.03), (0, 0.75 * r + 0.3, z))
+    arms = [box((0.05, 0.3 * r + 0.55, 0.06), (x, 0.6 * r + 0.25, z - 0.045)) for x in (-0.3 * length, 0.3 * length)]
+    rails = [rod((-0.4 * length, y, z + h), (0.4 * length, y, z + h), 0.018, 6) for h in (0.5, 1.0)]
+    rails += [rod((x, y, z), (x, y, z + 1.0), 0.018, 6) for x in (-0.4 * length, 0.0, 0.4 * length)]
+    grate = Part(merge([deck, *arms]), "grating", "steel", "", _FRAME)
+    return [grate, Part(merge(rails), "railing", "safety", "", _FRAME)]
+
+
 def _fire_tube(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     """A shell boiler (EN 12953): a clad drum on a base frame, front door with peephole, smoke box, stack, walkway."""
     r = float(rng.uniform(0.5, 1.0))
@@ -72,26 +83,7 @@ def _fire_tube(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts += some
         ports += port
     if rng.random() < 0.6:
-        deck = box((0.8 * length, 0.6, 0.03), (0, 0.75 * r + 0.3, axis + 0.8 * r))
-        arms = [
-            box((0.05, 0.75 * r + 0.55 - 0.45 * r, 0.06), (x, 0.6 * r + 0.25, axis + 0.8 * r - 0.045))
-            for x in (-0.3 * length, 0.3 * length)
-        ]
-        rails = [
-            rod(
-                (-0.4 * length, 0.75 * r + 0.58, axis + 0.8 * r + z),
-                (0.4 * length, 0.75 * r + 0.58, axis + 0.8 * r + z),
-                0.018,
-                6,
-            )
-            for z in (0.5, 1.0)
-        ]
-        rails += [
-            rod((x, 0.75 * r + 0.58, axis + 0.8 * r), (x, 0.75 * r + 0.58, axis + 0.8 * r + 1.0), 0.018, 6)
-            for x in (-0.4 * length, 0.0, 0.4 * length)
-        ]
-        parts.append(Part(merge([deck, *arms]), "grating", "steel", "", _FRAME))
-        parts.append(Part(merge(rails), "railing", "safety", "", _FRAME))
+        parts += _walkway(r, length, axis + 0.8 * r)
     if rng.random() < 0.6:
         panel = box((0.5, 0.2, 0.7), (-0.25 * length, -r - 0.09, axis + 0.1))
         parts.append(Part(panel, "control panel", "electrical", "", "Electrical and safety"))

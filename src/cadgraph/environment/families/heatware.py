@@ -293,29 +293,10 @@ def _long_plate(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         ]
     )
     feet = box((0.12, 1.1 * wide, 0.09), (thick / 2, 0, 0.045))
-    ties = merge(
-        [
-            merge(
-                [
-                    rod(
-                        (-0.03, s * 0.57 * wide, low + f * tall),
-                        (thick + stack + 0.35, s * 0.57 * wide, low + f * tall),
-                        0.014,
-                        8,
-                    ),
-                    along(
-                        "x",
-                        hexagon(0.045, thick + stack + thick - 0.005, thick + stack + thick + 0.03),
-                        0,
-                        s * 0.57 * wide,
-                        low + f * tall,
-                    ),
-                ]
-            )
-            for s in (-1, 1)
-            for f in (0.12, 0.37, 0.63, 0.88)
-        ]
-    )
+    nut, end = thick + stack + thick, thick + stack + 0.35
+    spots = [(s * 0.57 * wide, low + f * tall) for s in (-1, 1) for f in (0.12, 0.37, 0.63, 0.88)]
+    rods = [rod((-0.03, y, z), (end, y, z), 0.014, 8) for y, z in spots]
+    ties = merge([*rods, *(along("x", hexagon(0.045, nut - 0.005, nut + 0.03), 0, y, z) for y, z in spots)])
     ears = [
         box((thick, 0.12 * wide, 0.06), (x, s * 0.57 * wide, low + f * tall))
         for s in (-1, 1)
