@@ -308,7 +308,7 @@ def _cart(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts.append(piece(tie, "brace", "handle"))
         parts.append(
             piece(
-                along("x", moved(ring(0.025, 0.04, -0.012, 0.012, 12), spun("y", 0)), a / 2 + 0.73, 0, 0.09),
+                along("x", ring(0.025, 0.04, -0.012, 0.012, 12), a / 2 + 0.705, 0, 0.09),
                 "lifting lug",
                 "handle",
             )

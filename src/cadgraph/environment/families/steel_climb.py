@@ -223,10 +223,10 @@ def _irons(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts.append(piece(moved(shaft, at(0, -np.sqrt(bend * bend - wide * wide / 4))), "wall", "concrete"))
     dip = pick(rng, 0.0, 0.03)
     for k in range(count):
-        z, x = 0.3 + 0.3 * k, stagger * (-1) ** k / 2 * 2
+        z, x = 0.3 + 0.3 * k, stagger * (-1) ** k
         path = [(-wide / 2, 0.02, z), (-wide / 2, -reach, z), (-wide / 2 + 0.05, -reach, z - dip)]
         path += [(-x_, y_, z_) for x_, y_, z_ in path[::-1]]
-        parts.append(piece(moved(pipe(path, r, hand, 0.03), at(x if len(parts) else 0)), "ladder"))
+        parts.append(piece(moved(pipe(path, r, hand, 0.03), at(x)), "ladder"))
     return Model(parts)
 
 

@@ -75,7 +75,7 @@ def panel(kind: str, w: float, d: float, thick: float, hand: Hand, most: int = 1
         return merge([moved(slab_yz(line, w), at(0, (k + 0.5) * wide - d / 2)) for k in range(count)])
     if kind == "fold":
         x = w / 2
-        line = ribbon([(x, 0.0), (x, thick - 0.002), (-x, thick - 0.002), (-x, 0.0), (-x + 0.02, 0.002)][:4], 0.004)
+        line = ribbon([(x, 0.0), (x, thick - 0.002), (-x, thick - 0.002), (-x, 0.0)], 0.004)
         return slab_xz(line, d)
     studs = [
         moved(box((0.03, 0.006, 0.003), (0, 0, thick)), at(x, y) @ spun("z", 0.7854 * (-1) ** (i + j)))

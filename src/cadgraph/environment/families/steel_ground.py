@@ -113,8 +113,8 @@ def _grounds(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             )
         )
         if chance(rng, 0.5):
-            post = cylinder(0.05, pick(rng, 0.0, 0.0), 1.0, 12)
-            parts.append(piece(moved(post, at(0, 0, 0.05)), "post", "fence"))
+            post = cylinder(0.05, 0.0, 1.0, 12)
+            parts.append(piece(post, "post", "fence"))
     elif kind == 2:
         xs = np.linspace(-b / 2, b / 2, 9)
         top = 0.03 * (1 - (2 * xs / b) ** 2)

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from cadgraph.environment.family import Family, Part
-from cadgraph.environment.form import along, box, cylinder, hexagon, rope
+from cadgraph.environment.form import box, cylinder, hexagon, rope
 from cadgraph.environment.frame import at, looking, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle
@@ -24,7 +24,6 @@ __all__ = [
     "base",
     "bolted",
     "chance",
-    "disc",
     "drawn",
     "few_sides",
     "filleted",
@@ -338,8 +337,3 @@ def lug(hand: Hand, size: float, thick: float) -> Solid:
     head = np.column_stack([0.5 * size * np.cos(a), 0.65 * size + 0.5 * size * np.sin(a)])
     outline = np.vstack([[[-0.7 * size, 0.0], [0.7 * size, 0.0]], head])
     return slab_xz(outline, thick, 0.0, (circle(0.24 * size, n, (0.0, 0.68 * size)),))
-
-
-def disc(axis: str, radius: float, thick: float, hand: Hand) -> Solid:
-    """A round plate about the origin across an axis [m]."""
-    return along(axis, cylinder(radius, -thick / 2, thick / 2, few_sides(hand, radius, 32)))

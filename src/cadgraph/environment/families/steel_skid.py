@@ -377,8 +377,14 @@ def _table(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             else:
                 parts.append(piece(box((2 * half + 0.06, 2 * half + 0.06, 0.008), (x, y, 0.004)), "base plate"))
     for z in (h - half, *((0.25 * h,) if chance(rng, 0.6) else ())):
-        parts += [piece(bar((-a / 2 + half, s * b / 2, z), (a / 2 - half, s * b / 2, z), one), "beam") for s in (-1, 1)]
-        parts += [piece(bar((s * a / 2, -b / 2 + half, z), (s * a / 2, b / 2 - half, z), one), "beam") for s in (-1, 1)]
+        parts += [
+            piece(bar((-a / 2 + 0.4 * half, s * b / 2, z), (a / 2 - 0.4 * half, s * b / 2, z), one), "beam")
+            for s in (-1, 1)
+        ]
+        parts += [
+            piece(bar((s * a / 2, -b / 2 + 0.4 * half, z), (s * a / 2, b / 2 - 0.4 * half, z), one), "beam")
+            for s in (-1, 1)
+        ]
     if chance(rng, 0.4):
         thin = section(pick(rng, "flat", "L", "round"), 0.03, hand)
         parts += [

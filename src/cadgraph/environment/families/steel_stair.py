@@ -116,6 +116,7 @@ def _flight(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         one = section(kind, num(rng, 0.16, 0.22), hand)
         parts += [piece(bar((0, s * wide / 2, 0), (run, s * wide / 2, h), one), "beam") for s in (-1, 1)]
     tread, deep = pick(rng, "bar", "fold", "sheet", "perforated", "planks"), go + 0.02
+    more = 0.024 if tread in ("fold", "planks", "sheet") else 0.0
     for k in range(count):
         x, z = (k + 0.5) * go, (k + 1) * rise - 0.03
         solids = [moved(panel(tread, deep, wide - 0.02, 0.03, hand), at(x, 0, z))]
@@ -123,8 +124,8 @@ def _flight(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             solids.append(box((0.03, wide - 0.02, 0.006), (x - deep / 2 + 0.015, 0, z + 0.033)))
         if kind in ("U", "flat", "RHS"):
             solids += [box((deep, 0.004, 0.06), (x, s * (wide / 2 - 0.012), z)) for s in (-1, 1)]
-        if kind == "spine" and k < count - 1 + 1:
-            parts.append(piece(box((0.15, 0.3, 0.125), (x - go / 2, 0, z - 0.0625)), "bracket"))
+        if kind == "spine":
+            parts.append(piece(box((0.15, 0.3, 0.125 + more), (x - go / 2, 0, z - 0.0625 + more / 2)), "bracket"))
         parts.append(piece(merge(solids), "stair tread", "clamp"))
     if chance(rng, 0.7):
         for s in (-1, 1) if chance(rng, 0.6) else (1,):
