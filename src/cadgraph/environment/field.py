@@ -12,7 +12,7 @@ from cadgraph.environment.access import platform, stairs
 from cadgraph.environment.electrical import cabinet, lamp, sign
 from cadgraph.environment.enclosure import fence, pillar
 from cadgraph.environment.families import FAMILIES
-from cadgraph.environment.families.vessels import level_gauge
+from cadgraph.environment.families.vessels.vessel import level_gauge
 from cadgraph.environment.family import as_assembly
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import HANDS, Hand

@@ -1,0 +1,1 @@
+"""Families of gauges, meters and transmitters."""

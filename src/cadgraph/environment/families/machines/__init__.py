@@ -1,0 +1,1 @@
+"""Families of pumps, blowers, compressors and burners."""

@@ -1,0 +1,1 @@
+"""Families of pipe fittings, flanges, joints and strainers."""

@@ -1,0 +1,1 @@
+"""Families of pipe supports, brackets and fasteners."""

@@ -1,0 +1,1 @@
+"""Families of electrical and safety equipment."""

@@ -1,0 +1,1 @@
+"""Families of tanks, exchangers, boilers, filters and separators."""
