@@ -23,6 +23,7 @@ from cadgraph.stages.label.network import Network
 from cadgraph.training.example import Example, Texts, make_parts_from
 from cadgraph.training.figure import Answers, Scores, answer, least_confidence, score, temperature
 from cadgraph.training.fit import Recipe, fit
+from cadgraph.training.fit import __file__ as fit_file
 from cadgraph.training.lesson import TRIED_FROM, Lesson, build_lessons, held_out_lessons, training_lessons
 from cadgraph.vocabulary import default_vocabulary
 
@@ -52,7 +53,7 @@ class Course:
         recipe: of each network.
     """
 
-    plants: int = 640
+    plants: int = 800
     strangers: int = 60
     members: int = 3
     folds: int = 6
@@ -87,8 +88,8 @@ def run_course(course: Course, folder: Path, workers: int = 2, told: Callable[[s
 
     Args:
         course: the settings.
-        folder: keeps the plants.
-        workers: processes that build plants.
+        folder: keeps plants and networks: a run that was broken off goes on where it stopped.
+        workers: processes that build and train.
         told: how far it is.
     """
     folder = folder / source_digest()
@@ -213,11 +214,21 @@ def _train(jobs: Sequence[_Job], workers: int, told: Callable[[str], None]) -> l
 
 
 def _trained(job: _Job) -> Network:
-    # One thread each: the same sums in the same order on every machine, and no waiting for each other.
-    torch.set_num_threads(1)
-    examples = build_lessons(job.lessons, job.folder)
-    rest = [replace(e, label=np.where(_within(e.family, job.out), "", e.label)) for e in examples]
-    return fit(rest, job.classes, job.recipe, job.seed)
+    """Trains one network, or reads it where it was trained before."""
+    text = repr((job.lessons, job.classes, job.recipe, job.seed, sorted(job.out))) + Path(fit_file).read_text("utf-8")
+    path = job.folder / f"network-{sha256(text.encode()).hexdigest()[:12]}.npz"
+    if not path.is_file():
+        # One thread each: the same sums in the same order on every machine, and no waiting for each other.
+        torch.set_num_threads(1)
+        examples = build_lessons(job.lessons, job.folder)
+        rest = [replace(e, label=np.where(_within(e.family, job.out), "", e.label)) for e in examples]
+        network = fit(rest, job.classes, job.recipe, job.seed)
+        beside = path.with_suffix(".part")
+        with beside.open("wb") as file:
+            np.savez(file, allow_pickle=False, **network.weights)
+        beside.replace(path)
+    with np.load(path, allow_pickle=False) as file:
+        return Network({name: file[name] for name in file.files}, job.recipe.rounds)
 
 
 def _left(examples: Sequence[Example], out: frozenset[str]) -> frozenset[str]:

@@ -32,9 +32,13 @@ SINS: dict[str, Sins] = {
 _PLANTS = ("skid", "riser", "tank", "pumps", "rack")
 _SPOILT_EVERY, _VISITED_EVERY = 3, 6
 _SHARE = 0.15
-_RARE = frozenset({"skid frame", "platform", "conduit", "hydrant", "camera", "impeller", "fire extinguisher", "ladder",
-                   "u-bolt", "bracket", "clamp", "tank", "gauge"})  # fmt: skip
-_COMMON = 0.15
+# Kinds of families with names that other plants hold too few of to learn from.
+_RARE = frozenset({
+    "blower", "boiler", "burner", "cable tray", "camera", "compressor", "conduit", "control panel", "cross",
+    "fire extinguisher", "grating", "hydrant", "impeller", "junction box", "lamp", "level gauge", "manway", "platform",
+    "pump", "radiator", "sign", "siphon", "skid frame", "skirt", "tank",
+})  # fmt: skip
+_COMMON = 0.04
 _LOOSE: dict[str, Callable[[int], Plant]] = {
     "strangers": make_strangers,
     "fasteners": make_fasteners,

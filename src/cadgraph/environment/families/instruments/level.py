@@ -144,7 +144,7 @@ def _reflex(_: int, hand: Hand, rng: np.random.Generator) -> Model:
 def _tubular(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     """A tubular gauge glass between two screwed cocks, with guard rods (13 to 20 mm)."""
     low, high = _heights(rng, 0.2, 0.8)
-    parts, _ = vessel(low, high, 15, hand, rng, False)
+    parts = vessel(low, high, 15, hand, rng, False)[0]
     x, r, wheel = float(rng.uniform(0.05, 0.09)), float(rng.uniform(0.0065, 0.01)), bool(rng.random() < 0.5)
     metal = [along("x", cylinder(0.0095, 0.0, x, 12), 0, 0, z) for z in (low, high)]
     metal += [along("x", hexagon(0.028, 0.004, 0.02), 0, 0, z) for z in (low, high)]
