@@ -95,7 +95,11 @@ def _plate(rng: np.random.Generator) -> Solid:
     angle = np.sort(rng.uniform(0, 2 * np.pi, n)) + np.linspace(0, 0.4, n)
     radius = rng.uniform(0.3, 1.0, n)
     outline = np.column_stack([np.cos(angle), np.sin(angle)]) * radius[:, None]
-    return extrude(outline, 0.0, float(np.exp(rng.uniform(np.log(0.02), np.log(2)))))
+    thick = float(np.exp(rng.uniform(np.log(0.02), np.log(2))))
+    try:
+        return extrude(outline, 0.0, thick)
+    except ValueError:  # all corners on one side: its last edge may cross the others
+        return extrude(circle(1.0, n) * radius[:, None], 0.0, thick)
 
 
 def _gear(rng: np.random.Generator) -> Solid:
