@@ -2,7 +2,7 @@
 # make test   set up, run every test
 # make check  style, types, structure, generated documents
 # make bench  the benchmarks, with what a user would pick instead in the same run
-# make train  the embedded labeler anew, with its page of figures (a quarter of an hour or more; needs torch)
+# make train  the embedded labeler anew, with its page of figures (an hour or more on two cores; needs torch)
 # make docs   write the generated documents anew
 
 PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11 python; do \
