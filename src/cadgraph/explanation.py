@@ -77,7 +77,7 @@ class Explanation:
         before = self.evidence.get("before")
         if isinstance(before, Mapping):
             name = "/".join(str(before[key]) for key in ("group", "name") if before.get(key))
-            rows.append(("before", f"{name} ({before.get('confidence')}, {before.get('source')})"))
+            rows.append(("before", f"{name} ({_percent(before.get('confidence'))}, {before.get('source')})"))
         if self.guesses:
             rows.append(("guesses", ", ".join(f"{name} {p:.0%}" for name, p in self.guesses)))
         rows.append(("touches", _some([f"{n.label or 'unlabelled'} ({n.part})" for n in self.neighbors]) or "nothing"))
@@ -149,6 +149,10 @@ def _name(part: Part) -> str | None:
 
 def _spelt(guess: PartGuess) -> str:
     return f"{guess.group}/{guess.name}" if guess.name else guess.group
+
+
+def _percent(confidence: object) -> str:
+    return f"{confidence:.0%}" if isinstance(confidence, int | float) else "no confidence"
 
 
 def _length(x: float) -> str:

@@ -122,7 +122,14 @@ class SceneGraph:
         ]
 
     def units(self, unit_type: str | None = None) -> list[Unit]:
-        """All functional units, or those of one type (``"valve"``)."""
+        """All functional units, or those of one type (``"valve"``).
+
+        Raises:
+            ValueError: no unit is of that type and the graph's vocabulary has none such.
+        """
+        if unit_type is not None and self.document.vocabulary and unit_type not in self._unit_types():
+            known = ", ".join(sorted(self._unit_types()))
+            raise ValueError(f"no type of units is called {unit_type!r}; there are {known or 'none'}")
         return [unit for unit in self.of_layer(Unit) if unit_type is None or unit.unit_type == unit_type]
 
     def junctions(self) -> list[Junction]:
@@ -385,6 +392,12 @@ class SceneGraph:
         tags = list(self._unit_of_tag)
         shown = ", ".join(tags[:_MOST_TOLD]) + (f" and {len(tags) - _MOST_TOLD} more" if len(tags) > _MOST_TOLD else "")
         return f"its units are {shown}" if tags else "it has no units"
+
+    def _unit_types(self) -> set[str]:
+        """Those in the graph, and those of the vocabulary's groups."""
+        trees = [tree for tree in self.document.vocabulary.values() if isinstance(tree, Mapping)]
+        told = {str(tree["unit"]) for tree in trees if tree.get("unit")}
+        return told | {unit.unit_type for unit in self.of_layer(Unit)}
 
     def _check_label(self, group: str | None, name: str | None) -> None:
         """A group or name that can't be in the graph is a mistake, not an empty answer."""

@@ -10,6 +10,9 @@ from cadgraph.records import Adjacent, Connected, Related
 
 __all__ = ["Summary", "summarize"]
 
+_GRAVE = frozenset({"invalid-units", "invalid-up-axis", "unusual-size", "vocabulary-unknown-to-model"})
+"""Codes of findings that are said aloud: with the wrong scale or vocabulary hardly any label can be right."""
+
 
 @dataclass(frozen=True)
 class Summary:
@@ -29,6 +32,7 @@ class Summary:
         n_related: pairs of units that Algorithm 1 relates.
         n_connected: connections along pipes.
         diagnostics: number of findings' meshes (or findings, where they name none) by code.
+        warnings: what may spoil the whole result, in words.
     """
 
     source: str
@@ -44,6 +48,7 @@ class Summary:
     n_related: int
     n_connected: int
     diagnostics: dict[str, int]
+    warnings: tuple[str, ...]
 
 
 def summarize(graph: SceneGraph) -> Summary:
@@ -70,4 +75,5 @@ def summarize(graph: SceneGraph) -> Summary:
         n_related=len(graph.of_kind(Related)),
         n_connected=len(graph.of_kind(Connected)),
         diagnostics=dict(sorted(findings.items())),
+        warnings=tuple(finding.message for finding in graph.diagnostics if finding.code in _GRAVE),
     )

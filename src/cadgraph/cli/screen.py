@@ -85,6 +85,7 @@ def summary_lines(summary: Any) -> list[str]:
         ("units", units or "none"),
         ("relations", f"{along}; {summary.n_related:,} by the algorithm of the paper"),
         ("diagnostics", found),
+        *(("mind", escape(warning)) for warning in summary.warnings),
     )
     return [f"[dim]{name:<15}[/]{text}" for name, text in rows]
 

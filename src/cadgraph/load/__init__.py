@@ -45,6 +45,9 @@ class Format:
     extra: str | None = None
 
 
+_NOT_YET = (".ifc", ".ifczip", ".dae", ".obj", ".stl", ".glb", ".gltf", ".fbx", ".dwg", ".dgn", ".rvm", ".jt")
+"""Formats of scenes that other programs turn into USD or STEP."""
+
 _FORMATS = (
     Format("usd", "OpenUSD", (".usd", ".usda", ".usdc", ".usdz"), "cadgraph.load.usd", "pxr"),
     Format("step", "STEP", (".step", ".stp"), "cadgraph.load.step", "cascadio", "cad"),
@@ -137,6 +140,8 @@ def _format_of(file: Path, given: str) -> Format:
     for form in _FORMATS:
         if suffix in form.suffixes:
             return form
+    if suffix in _NOT_YET:
+        raise LoadError(f"{given}: {suffix} files are not read; export it as USD or STEP")
     content = name_content(file)
     for form in _FORMATS:
         if form.name == content:

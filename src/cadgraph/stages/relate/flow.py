@@ -103,7 +103,7 @@ def stated_flow(network: Network, statements: Sequence[str]) -> list[_Evidence]:
             raise ValueError(f"relate.flow: {statement!r} is no flow; write 'P-001 -> T-001'")
         for tag in ends:
             if tag not in number:
-                raise ValueError(f"relate.flow: {statement!r}: no unit has the tag {tag!r}; 'cadgraph info' lists them")
+                raise ValueError(f"relate.flow: {statement!r}: no unit is called {tag!r}; see 'cadgraph lines'")
         way = _shortest(network, number[ends[0]], number[ends[1]], frozenset())
         if way is None:
             raise ValueError(f"relate.flow: {statement!r}: no line joins {ends[0]} and {ends[1]}")
