@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.markup import escape
@@ -16,6 +16,9 @@ from cadgraph.cli.screen import bars, err, out
 
 catalogs = typer.Typer(no_args_is_help=True, help="Catalogues of your own parts: add to one, list it.")
 app.add_typer(catalogs, name="catalog")
+
+if TYPE_CHECKING:
+    from cadgraph.records import Part
 
 _DEFAULT = Path("parts.cadgraph-catalog")
 _SHOWN = 8  # parts that are named when a correction spreads
@@ -64,15 +67,18 @@ def relabel(
         raise ValueError("say what the part is with --as 'group/name', or take a correction back with --forget")
     with bars() as progress:
         done = amend(folder, part, label, this_only=this_only, scene=scene, report=report, progress=progress)
-    now = done.part.label
-    said = "without a label" if now is None else f"{now.group}/{now.name}" if now.name else now.group
-    out.print(f"[bold]{done.part.id}[/] is {escape(said)} now")
+    out.print(f"[bold]{done.part.id}[/] is {escape(_said(done.part))} now")
     others = [p for p in done.changed if p.id != done.part.id]
     for p in others[:_SHOWN]:
         why = "" if p.label is None else str(p.label.evidence.get("why", p.label.source))
-        out.print(f"[dim]{p.id:<12}[/]{escape(why)}")
+        out.print(f"[dim]{p.id:<12}[/]{escape(_said(p))}{escape(f': {why}') if why else ''}")
     more = f", {len(others) - _SHOWN} of them not shown" if len(others) > _SHOWN else ""
     out.print(f"{len(others):,} other parts changed{more}")
+
+
+def _said(part: Part) -> str:
+    label = part.label
+    return "without a label" if label is None else f"{label.group}/{label.name}" if label.name else label.group
 
 
 @catalogs.command("add")

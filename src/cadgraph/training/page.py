@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from cadgraph.stages.label.model import Model
-from cadgraph.training.course import Trials
+from cadgraph.training.course import NEW_PRECISION, PRECISION, Trials
 from cadgraph.training.example import Example
 from cadgraph.training.figure import Answers, Scores, answer, score
 from cadgraph.training.real import RealPart
@@ -44,8 +44,8 @@ doesn't know.
 
 `make train` makes the model and this page. *Name* and *group*: share of the parts named right, whatever the confidence.
 *Macro F1*: mean over names, so that rare ones count as much as pipes. *ECE*: calibration error. *Kept*, *precision*:
-with the threshold. It lies midway between the one at which {precision:.0%} of the names are right on whole plants of
-which one family in {folds} is new, and the one that this takes on the new families alone.
+with the threshold: the least one above which {precision:.0%} of the names are right on whole plants of which one family
+in {folds} is new, and {new_precision:.0%} on the parts of the new families alone.
 
 {main}
 
@@ -130,7 +130,8 @@ def write_page(trials: Trials, real: Sequence[RealPart], size: int, families: in
     return _TEXT.format(
         weights=sum(int(values.size) for values in model.members[0].weights.values()) * len(model.members),
         size=size / 1e6, forms=len(FORMS), sizes=len(SIZES), sides=len(SIDE_FEATURES), places=len(PLACE_FEATURES),
-        threshold=least, precision=0.95, families=families, strangers=model.card["strangers"],
+        threshold=least, precision=PRECISION, new_precision=NEW_PRECISION,
+        families=families, strangers=model.card["strangers"],
         folds=model.card["folds"], main=_table((name, score(a, least)) for name, a in main),
         unlearnable=f"Of {len(trials.unlearnable.truth):,} parts in these trials whose name nothing else has, "
         f"so that no answer can be right, {open_share:.0%} are left unlabelled.",
