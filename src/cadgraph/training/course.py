@@ -24,7 +24,14 @@ from cadgraph.training.example import Example, Texts, make_parts_from
 from cadgraph.training.figure import Answers, Scores, answer, least_confidence, score, temperature
 from cadgraph.training.fit import Recipe, fit
 from cadgraph.training.fit import __file__ as fit_file
-from cadgraph.training.lesson import TRIED_FROM, Lesson, build_lessons, held_out_lessons, training_lessons
+from cadgraph.training.lesson import (
+    TRIED_FROM,
+    Lesson,
+    bolted_lessons,
+    build_lessons,
+    held_out_lessons,
+    training_lessons,
+)
 from cadgraph.vocabulary import default_vocabulary
 
 __all__ = ["Course", "Trials", "run_course"]
@@ -48,6 +55,8 @@ class Course:
     Args:
         plants: how many are learnt from.
         strangers: scenes of shapes that belong to no plant, and as many of loose fasteners and of rare things.
+        bolted: plants whose flanges hold their bolts in one mesh. The networks that are kept learn from these as well;
+            those of the trials do not.
         members: networks whose answers are averaged.
         folds: parts that the families are dealt into; each is held out once.
         kind_folds: likewise for whole kinds of families.
@@ -57,6 +66,7 @@ class Course:
 
     plants: int = 800
     strangers: int = 60
+    bolted: int = 80
     members: int = 2
     folds: int = 6
     kind_folds: int = 2
@@ -105,7 +115,12 @@ def run_course(course: Course, folder: Path, workers: int = 2, told: Callable[[s
     build_folds = deal_families(examples, course.folds)
     kind_folds = deal_families(examples, course.kind_folds, whole=True)
     outs = [*build_folds, *kind_folds, *[frozenset[str]()] * course.members]
-    jobs = [_Job(tuple(lessons), folder, tuple(classes), course.recipe, k, out) for k, out in enumerate(outs)]
+    bolted = bolted_lessons(course.bolted)
+    examples += build_lessons(bolted, folder, workers, told)
+    jobs = [
+        _Job(tuple(lessons), () if out else tuple(bolted), folder, tuple(classes), course.recipe, k, out)
+        for k, out in enumerate(outs)
+    ]
     networks = _train(jobs, workers, told)
     trials = [
         _Trial(Model((network,), tuple(classes), 1.0, 0.5), plants["new seeds"], out, _left(examples, out))
@@ -118,7 +133,8 @@ def run_course(course: Course, folder: Path, workers: int = 2, told: Callable[[s
     mixed, families, unlearnable = (_asked(builds, best, learnable) for learnable in (None, True, False))
     threshold = max(least_confidence(mixed, PRECISION), least_confidence(families, NEW_PRECISION))
     card = {
-        "plants": course.plants, "strangers": course.strangers, "seeds": [0, course.plants - 1],
+        "plants": course.plants, "strangers": course.strangers, "bolted": course.bolted,
+        "seeds": [0, course.plants - 1],
         "tried from": TRIED_FROM,
         "parts": int(sum(len(e.label) for e in examples)), "recipe": asdict(course.recipe), "folds": course.folds,
         "generator": folder.name,
@@ -185,6 +201,7 @@ class _Job:
     """One network to train, in a process of its own: it reads the plants itself."""
 
     lessons: tuple[Lesson, ...]
+    more: tuple[Lesson, ...]
     folder: Path
     classes: tuple[str, ...]
     recipe: Recipe
@@ -215,11 +232,12 @@ def _train(jobs: Sequence[_Job], workers: int, told: Callable[[str], None]) -> l
 def _trained(job: _Job) -> Network:
     """Trains one network, or reads it where it was trained before."""
     text = repr((job.lessons, job.classes, job.recipe, job.seed, sorted(job.out))) + Path(fit_file).read_text("utf-8")
+    text += repr(job.more) if job.more else ""
     path = job.folder / f"network-{sha256(text.encode()).hexdigest()[:12]}.npz"
     if not path.is_file():
         # One thread each: the same sums in the same order on every machine, and no waiting for each other.
         torch.set_num_threads(1)
-        examples = build_lessons(job.lessons, job.folder)
+        examples = [*build_lessons(job.lessons, job.folder), *build_lessons(job.more, job.folder)]
         rest = [replace(e, label=np.where(_within(e.family, job.out), "", e.label)) for e in examples]
         network = fit(rest, job.classes, job.recipe, job.seed)
         beside = path.with_suffix(".part")

@@ -16,11 +16,12 @@ from cadgraph.environment.hand import HANDS, Hand
 from cadgraph.environment.imperfection import Sins, spoil
 from cadgraph.environment.plant import Plant
 from cadgraph.environment.preset import PRESETS
+from cadgraph.environment.style import draw_hand
 from cadgraph.training.example import Example, make_example, read_examples, write_examples
 from cadgraph.training.fastener import make_fasteners
 from cadgraph.training.stranger import UNSEEN_FROM, make_strangers, visited
 
-__all__ = ["SINS", "Lesson", "build_lessons", "held_out_lessons", "training_lessons"]
+__all__ = ["SINS", "Lesson", "bolted_lessons", "build_lessons", "held_out_lessons", "training_lessons"]
 
 SINS: dict[str, Sins] = {
     "duplicates": Sins(duplicates=0.3),
@@ -53,7 +54,7 @@ class Lesson:
     """One plant, by name.
 
     Args:
-        kind: ``assortment``, ``rare``, ``strangers``, ``fasteners`` or a preset.
+        kind: ``assortment``, ``rare``, ``bolted``, ``strangers``, ``fasteners`` or a preset.
         seed: of the plant.
         hand: a published style by name; empty for drawn ones, or the preset's own.
         sin: a key of ``SINS``, ``some`` for a few of each, or empty.
@@ -76,6 +77,9 @@ class Lesson:
     def _plant(self) -> Plant:
         if self.kind == "rare":
             return _make_rare(self.seed)
+        if self.kind == "bolted":
+            drawn = draw_hand(np.random.default_rng([self.seed, 84]))
+            return make_assortment(2_000_000 + self.seed, replace(drawn, fasteners="flange"))
         if self.kind in _LOOSE:
             return _LOOSE[self.kind](self.seed)
         hand = _retold(HANDS[self.hand], self.sides) if self.hand else None
@@ -111,6 +115,11 @@ def training_lessons(count: int, strangers: int) -> list[Lesson]:
         for seed in range(count)
     ]
     return plants + [Lesson(kind, seed) for kind in ("rare", *_LOOSE) for seed in range(strangers)]
+
+
+def bolted_lessons(count: int) -> list[Lesson]:
+    """Assortments whose flanges are of one mesh with the bolts of their joint."""
+    return [Lesson("bolted", seed) for seed in range(count)]
 
 
 def held_out_lessons(seeds: int = 2) -> dict[str, list[Lesson]]:
