@@ -55,9 +55,9 @@ class Course:
     Args:
         plants: how many are learnt from.
         strangers: scenes of shapes that belong to no plant, and as many of loose fasteners and of rare things.
-        bolted: plants whose flanges hold their bolts in one mesh. The networks that are kept learn from these as well;
-            those of the trials do not.
-        members: networks whose answers are averaged.
+        bolted: plants whose flanges hold their bolts in one mesh: half of the networks that are kept learn from these
+            as well, those of the trials do not.
+        members: pairs of networks whose answers are averaged.
         folds: parts that the families are dealt into; each is held out once.
         kind_folds: likewise for whole kinds of families.
         seeds: plants of each kind that the networks are tried on.
@@ -114,20 +114,20 @@ def run_course(course: Course, folder: Path, workers: int = 2, told: Callable[[s
     classes = known_classes()
     build_folds = deal_families(examples, course.folds)
     kind_folds = deal_families(examples, course.kind_folds, whole=True)
-    outs = [*build_folds, *kind_folds, *[frozenset[str]()] * course.members]
-    bolted = bolted_lessons(course.bolted)
+    outs = [*build_folds, *kind_folds]
+    bolted = tuple(bolted_lessons(course.bolted))
     examples += build_lessons(bolted, folder, workers, told)
-    jobs = [
-        _Job(tuple(lessons), () if out else tuple(bolted), folder, tuple(classes), course.recipe, k, out)
-        for k, out in enumerate(outs)
-    ]
+    job = _Job(tuple(lessons), (), folder, tuple(classes), course.recipe, 0, frozenset())
+    jobs = [replace(job, seed=seed, out=out) for seed, out in enumerate(outs)]
+    for seed in range(len(outs), len(outs) + course.members):
+        jobs += [replace(job, seed=seed), replace(job, seed=seed, more=bolted)]
     networks = _train(jobs, workers, told)
     trials = [
         _Trial(Model((network,), tuple(classes), 1.0, 0.5), plants["new seeds"], out, _left(examples, out))
-        for network, out in zip(networks, outs, strict=True)
+        for network, out in zip(networks, outs, strict=False)
     ]
     builds, kinds = trials[: course.folds], trials[course.folds : course.folds + course.kind_folds]
-    members = networks[course.folds + course.kind_folds :]
+    members = networks[len(outs) :]
     # Calibrated on whole plants of which some families are new: known things and unknown ones, as in life.
     best = temperature(lambda value: _asked(builds, value, None))
     mixed, families, unlearnable = (_asked(builds, best, learnable) for learnable in (None, True, False))

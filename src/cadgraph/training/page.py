@@ -53,9 +53,9 @@ in {folds} is new, and {new_precision:.0%} on the parts of the new families alon
 networks trained without some families (`ball valve/compact`: one build of a device with all its pieces; each family is
 left out once), asked about whole plants with these in them; then about the parts of these alone. *Held-out kinds*:
 likewise without half of all kinds: no ball valve at all, no strainer; about their parts alone. {unlearnable}
-The trial networks have not seen the {bolted} plants whose flanges hold their bolts in one mesh; the one in the package
-has. *New styles*: the six published modelling hands, of which nothing was seen in training, building layouts that were
-not seen either.
+The trial networks have not seen the {bolted} plants whose flanges hold their bolts in one mesh; half of those in the
+package have. *New styles*: the six published modelling hands, of which nothing was seen in training, building layouts
+that were not seen either.
 
 {strange}
 

@@ -25,11 +25,11 @@ __all__ = ["apply_corrections", "find_parts", "fingerprint_of"]
 # times as far that may be as the nearest part with another label: for a part that nobody was sure about; one with the
 # label that the corrected parts had, too; any other. Ours, measured on kinds of parts that a network had not learnt, in
 # generated plants; see docs/catalog.md.
-CONFUSED, SURE = (0.4, 0.9), (0.25, 0.7)
+CONFUSED, SURE = (0.5, 0.9), (0.3, 0.7)
 _OPEN_SHARE = 1.2
 # Parts that nobody was sure about are reached as far as corrected parts of one label lie apart, times this, within
 # these bounds; a single correction reaches as far as the last number says.
-_SPREAD, _LEAST_OPEN, _MOST_OPEN, _ALONE = 1.5, 0.4, 0.7, 0.5
+_SPREAD, _LEAST_OPEN, _MOST_OPEN, _ALONE = 1.5, 0.5, 0.85, 0.6
 _SETTLED = frozenset({"author", "human", "catalog"})
 _KIN_CONFIDENCE = 0.9  # of the closest kin
 _PLACE = 0.01  # m; a part that was renamed lies where it lay
