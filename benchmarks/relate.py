@@ -117,7 +117,9 @@ def cases(seeds: list[int], presets: list[str], hands: list[str], modes: list[st
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seeds", type=int, nargs="+", default=[7])
-    parser.add_argument("--presets", nargs="+", default=[name for name in sorted(PRESETS) if name != "field"])
+    # Lines of an assortment are random: a check valve there may stand against the pump.
+    usual = [name for name in sorted(PRESETS) if name not in ("assortment", "field")]
+    parser.add_argument("--presets", nargs="+", default=usual)
     parser.add_argument("--hands", nargs="+", default=list(HANDS))
     parser.add_argument("--modes", nargs="+", default=list(MODES))
     parser.add_argument("--write", action="store_true", help="put the table into docs/functional.md")
