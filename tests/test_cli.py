@@ -323,3 +323,30 @@ def test_run_can_be_called_again_and_writes_over_its_own(scene_file, tmp_path):
     for _ in range(2):
         cadgraph.run(scene_file, tmp_path / "out", report=False)
     assert cadgraph.SceneGraph.load(tmp_path / "out").parts()
+
+
+def test_what_may_spoil_everything_is_said_in_words(capsys, tmp_path):
+    path = tmp_path / "scene.usda"
+    path.write_text(USDA.replace("metersPerUnit = 1", "metersPerUnit = 0"))
+    code, out, _ = run(capsys, "build", path, "-o", tmp_path / "out", "--no-report")
+    assert code == 0
+    assert "metersPerUnit = 0 is impossible; taken as centimetres" in out
+
+
+@pytest.mark.parametrize("name", ["plant.ifc", "plant.dae", "plant.OBJ"])
+def test_formats_that_others_turn_into_usd_are_named_as_such(capsys, tmp_path, name):
+    (tmp_path / name).write_text("ISO-10303-21;\nHEADER;\n")
+    assert "files are not read; export it as USD or STEP" in refused(capsys, "build", tmp_path / name, "-o", tmp_path / "out")
+
+
+def test_relabel_says_what_the_others_became(capsys, tmp_path):
+    mesh = USDA.split("def Mesh", 1)
+    far = mesh[1].replace('"box"', '"other"', 1).replace("(0,0,0)", "(0,0,0)")
+    turned = far.rstrip().removesuffix("}") + "    double3 xformOp:translate = (9, 0, 0)\n"
+    turned += '    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n'
+    (tmp_path / "scene.usda").write_text(USDA + "def Mesh" + turned)
+    assert run(capsys, "build", tmp_path / "scene.usda", "-o", tmp_path / "out", "--no-report")[0] == 0
+    code, out, err = run(capsys, "relabel", tmp_path / "out", "part-00000", "--as", "Tank/shell", "--no-report")
+    assert code == 0, err
+    assert "part-00000 is Tank/shell now" in out
+    assert "part-00001 Tank/shell" in " ".join(out.split())

@@ -45,6 +45,14 @@ def test_parts_are_found_by_group_name_and_cluster(graph):
         graph.parts(cluster="nowhere")
 
 
+def test_a_type_of_units_that_neither_graph_nor_vocabulary_knows_is_a_mistake():
+    tree = {"Tank": {"names": ["shell"], "unit": "tank"}}
+    graph = graphs.graph([graphs.part(0, label=graphs.label("Tank", "shell"))], vocabulary=tree)
+    assert graph.units("tank") == []
+    with pytest.raises(ValueError, match="no type of units is called 'tnak'; there are tank"):
+        graph.units("tnak")
+
+
 def test_a_group_or_name_that_the_vocabulary_lacks_is_a_mistake_that_names_the_known_ones():
     tree = {"Tank": {"names": ["shell", "nozzle"]}, "Valve assembly": {"names": ["valve body"]}}
     graph = graphs.graph([graphs.part(0, label=graphs.label("Own group", "own name"))], vocabulary=tree)
