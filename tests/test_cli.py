@@ -336,7 +336,9 @@ def test_what_may_spoil_everything_is_said_in_words(capsys, tmp_path):
 @pytest.mark.parametrize("name", ["plant.ifc", "plant.dae", "plant.OBJ"])
 def test_formats_that_others_turn_into_usd_are_named_as_such(capsys, tmp_path, name):
     (tmp_path / name).write_text("ISO-10303-21;\nHEADER;\n")
-    assert "files are not read; export it as USD or STEP" in refused(capsys, "build", tmp_path / name, "-o", tmp_path / "out")
+    assert "files are not read; export it as USD or STEP" in refused(
+        capsys, "build", tmp_path / name, "-o", tmp_path / "out"
+    )
 
 
 def test_relabel_says_what_the_others_became(capsys, tmp_path):
