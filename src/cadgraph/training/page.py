@@ -94,7 +94,10 @@ By name: parts, share found and share right of what is called so, in the new sty
 
 ## Limits
 
-- Plants are generated from published dimensions; a device family that nobody generated is at best left unlabelled.
+- Plants are generated. Of a device family that nobody generated some parts are named wrongly, and a few of these with
+  confidence: see *the held-out families alone*.
+- Nothing is known of up and down, so that a scene may lie on its side: beams, columns, posts and braces that stand in
+  unusual company are taken for each other, and so are U-shaped pipes and railings.
 - Absolute size is evidence: a scene whose unit is declared wrongly is labelled worse. See *wrong scale* above.
 - Parts with few neighbours (a device drawn alone) are named less surely than in a plant.
 - It knows the names of the built-in vocabulary only. Other names come from a catalogue, corrections or an LVLM.
