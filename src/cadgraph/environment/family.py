@@ -8,11 +8,11 @@ from dataclasses import dataclass, field, replace
 from cadgraph.environment.frame import IDENTITY
 from cadgraph.environment.hand import Grain, Hand
 from cadgraph.environment.plant import Assembly, Component, Device, Unit
-from cadgraph.environment.solid import Solid, merge
+from cadgraph.environment.solid import Solid, merge, moved
 from cadgraph.environment.standard import SIZES
 from cadgraph.scene import Floats
 
-__all__ = ["UNIT", "Build", "Family", "Model", "Part", "Port", "as_assembly", "as_device"]
+__all__ = ["UNIT", "Build", "Family", "Model", "Part", "Port", "as_assembly", "as_device", "placed"]
 
 _UNITS = {
     "Valve assembly": "valve",
@@ -117,6 +117,11 @@ class Family:
     def unit(self) -> str:
         """Type of the functional unit, or ""."""
         return _UNITS.get(self.group, "")
+
+
+def placed(parts: Sequence[Part], pose: Floats) -> list[Part]:
+    """The parts moved together by a ``(4, 4)`` pose."""
+    return [replace(part, solid=moved(part.solid, pose)) for part in parts]
 
 
 def _grain_of(family: Family, hand: Hand) -> Grain:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from cadgraph.environment.frame import at, spun
+from cadgraph.environment.frame import at, looking, spun
 from cadgraph.environment.polygon import circle
 from cadgraph.environment.solid import Solid, extrude, loft, merge, moved, revolve, tube, weld
 from cadgraph.scene import Floats
@@ -15,6 +15,7 @@ __all__ = [
     "along",
     "around",
     "ball",
+    "bar",
     "box",
     "cylinder",
     "dome",
@@ -131,3 +132,14 @@ def lofted(loops: Sequence[Floats]) -> Solid:
     """A solid through outlines of as many corners each, closed by flat ends."""
     ends = [loop.mean(axis=0, keepdims=True) for loop in (loops[0], loops[-1])]
     return weld([loft([ends[0], *loops, ends[1]])])
+
+
+def bar(
+    start: Floats | Sequence[float], end: Floats | Sequence[float], outline: Floats, holes: tuple[Floats, ...] = ()
+) -> Solid:
+    """A section along a line, its y axis as upright as can be [m]."""
+    a, b = np.asarray(start, float), np.asarray(end, float)
+    look = looking(a, b - a)
+    pose = np.eye(4)
+    pose[:3, 0], pose[:3, 1], pose[:3, 2], pose[:3, 3] = look[:3, 1], look[:3, 2], look[:3, 0], a
+    return moved(extrude(outline, 0.0, float(np.linalg.norm(b - a)), holes), pose)

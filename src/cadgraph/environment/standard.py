@@ -20,6 +20,7 @@ __all__ = [
     "Flange",
     "Gauge",
     "Pipe",
+    "smaller",
 ]
 
 
@@ -228,3 +229,8 @@ SECTIONS: dict[str, tuple[float, float, float, float]] = {
     "IPE 160": (0.160, 0.082, 0.0050, 0.0074),
     "IPE 200": (0.200, 0.100, 0.0056, 0.0085),
 }
+
+
+def smaller(dn: int, steps: int = 1) -> int:
+    """The nominal size some steps down, the least at most."""
+    return SIZES[max(0, SIZES.index(dn) - steps)]

@@ -4,19 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph.environment.families.instruments.flow import measuring_tube
-from cadgraph.environment.families.instruments.kit import (
-    CASE,
-    JOINT,
-    bent,
-    housing,
-    piece,
-    posed,
-    screws,
-)
+from cadgraph.environment.families.instruments.flow import measuring_tube, meter_family
+from cadgraph.environment.families.instruments.kit import CASE, JOINT, bent, housing, piece, screws
 from cadgraph.environment.families.valves.small import hex_end
 from cadgraph.environment.families.valves.valve import disc_flange
-from cadgraph.environment.family import Family, Model, Part, Port
+from cadgraph.environment.family import Family, Model, Part, Port, placed
 from cadgraph.environment.form import along, around, box, cylinder, hexagon, turned
 from cadgraph.environment.frame import at, looking, spun
 from cadgraph.environment.hand import Hand
@@ -127,8 +119,10 @@ def _woltman(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     ]
     parts = [piece([body, moved(merge(dome_[:2]), at(length / 2))], _NAME, str(rng.choice(["valve", "gauge", "pump"])))]
     parts.append(piece(moved(dome_[2], at(length / 2)), _NAME, "valve"))
-    parts += posed([screws(int(rng.choice([4, 6, 8])), 1.1 * r, 0.01, top - 0.012, top + 0.012, _NAME)], at(length / 2))
-    return Model([*parts, *posed(_counter(0.8 * r, hand, rng), at(length / 2, 0, top + 0.012))], length, kind=_NAME)
+    parts += placed(
+        [screws(int(rng.choice([4, 6, 8])), 1.1 * r, 0.01, top - 0.012, top + 0.012, _NAME)], at(length / 2)
+    )
+    return Model([*parts, *placed(_counter(0.8 * r, hand, rng), at(length / 2, 0, top + 0.012))], length, kind=_NAME)
 
 
 def _displacement(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -161,7 +155,7 @@ def _displacement(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         counter = [piece([crate, knob], CASE, "valve"), piece(panes, "gauge face", "dial", CASE)]
     else:
         counter = _counter(0.6 * r, hand, rng)
-    head = [piece(neck, _NAME, "gauge"), *posed(counter, at(0, 0, half + 0.029))]
+    head = [piece(neck, _NAME, "gauge"), *placed(counter, at(0, 0, half + 0.029))]
     parts += [Part(along(axis, p.solid, x), p.name, p.color, p.bundle, p.group, p.fine) for p in head]
     return Model(parts, length, kind=_NAME)
 
@@ -189,7 +183,7 @@ def _rotary(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts = [piece([*plates, core], _NAME, "gauge")]
     counter = [
         piece(cylinder(0.4 * r, half + 0.028, half + 0.05, 14), _NAME, "gauge"),
-        *posed(_counter(0.6 * r, hand, rng), at(0, 0, half + 0.049)),
+        *placed(_counter(0.6 * r, hand, rng), at(0, 0, half + 0.049)),
     ]
     return Model(
         [*parts, *(Part(along("-y", p.solid, x), p.name, p.color, p.bundle, p.group, p.fine) for p in counter)],
@@ -268,7 +262,7 @@ def _heat(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         piece([case, moved(key, at(0, -0.25 * deep)), *leads], "transmitter", "electrical"),
         piece(view, "gauge glass", "dial", "transmitter"),
     ]
-    return Model([piece(body, _NAME, "trim"), *posed(head, lean)], length, "welded", _NAME)
+    return Model([piece(body, _NAME, "trim"), *placed(head, lean)], length, "welded", _NAME)
 
 
 def _pickup(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -295,21 +289,15 @@ def _pickup(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([*parts, piece(moved(head, at(x)), "transmitter", "rubber")], length, kind=_NAME)
 
 
-def _family(
-    name: str, build: object, place: str = "inline", sizes: tuple[int, ...] = SIZES, weight: float = 1.0
-) -> Family:
-    return Family(name, place, "Gauge assembly", _NAME, build, sizes, weight=weight)  # type: ignore[arg-type]
-
-
 _SMALL = tuple(dn for dn in SIZES if dn <= 50)
 _SOME = tuple(dn for dn in SIZES if dn <= 150)
 COUNTER_BUILDS: tuple[Family, ...] = (
-    _family("flow meter/clear tube", _acrylic, sizes=_SMALL),
-    _family("flow meter/paddle wheel", _paddle, sizes=_SMALL),
-    _family("flow meter/woltman", _woltman, sizes=tuple(dn for dn in SIZES if dn >= 40)),
-    _family("flow meter/displacement", _displacement, sizes=_SOME),
-    _family("flow meter/rotary gas", _rotary, sizes=tuple(dn for dn in _SOME if dn >= 25)),
-    _family("flow meter/diaphragm gas", _diaphragm, "floor", (15,)),
-    _family("flow meter/heat", _heat, sizes=_SMALL),
-    _family("flow meter/pick-up", _pickup),
+    meter_family("flow meter/clear tube", _acrylic, sizes=_SMALL),
+    meter_family("flow meter/paddle wheel", _paddle, sizes=_SMALL),
+    meter_family("flow meter/woltman", _woltman, sizes=tuple(dn for dn in SIZES if dn >= 40)),
+    meter_family("flow meter/displacement", _displacement, sizes=_SOME),
+    meter_family("flow meter/rotary gas", _rotary, sizes=tuple(dn for dn in _SOME if dn >= 25)),
+    meter_family("flow meter/diaphragm gas", _diaphragm, "floor", (15,)),
+    meter_family("flow meter/heat", _heat, sizes=_SMALL),
+    meter_family("flow meter/pick-up", _pickup),
 )

@@ -6,19 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from cadgraph.environment.families.instruments.kit import (
-    JOINT,
-    STEM,
-    bent,
-    gland,
-    housing,
-    piece,
-    posed,
-    t_handle,
-)
+from cadgraph.environment.families.instruments.kit import JOINT, STEM, bent, gland, housing, piece, t_handle
 from cadgraph.environment.families.instruments.pressure import differential_cell
 from cadgraph.environment.families.valves.valve import flanged_body
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.flange import nut_room, plate_thickness
 from cadgraph.environment.form import along, box, cylinder, hexagon, ring, rod, turned
 from cadgraph.environment.frame import at, spun
@@ -27,7 +18,7 @@ from cadgraph.environment.polygon import rounded_rectangle
 from cadgraph.environment.solid import Solid, about_x, extrude, merge, moved
 from cadgraph.environment.standard import FLANGES, PIPES, SIZES
 
-__all__ = ["FLOW_BUILDS", "measuring_tube"]
+__all__ = ["FLOW_BUILDS", "measuring_tube", "meter_family"]
 
 _NAME = "flow meter"
 Outline = list[tuple[float, float]]
@@ -84,7 +75,7 @@ def _impulse(first: float, second: float, r: float, hand: Hand, rng: np.random.G
     head = piece(
         moved(housing(hand, rng, str(rng.choice(["double", "single"]))), at(0, 0, top)), "transmitter", "valve"
     )
-    return [*parts, *posed([*cell, head], at(mid, 0, high + 0.015))]
+    return [*parts, *placed([*cell, head], at(mid, 0, high + 0.015))]
 
 
 def _ultrasonic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -225,7 +216,7 @@ def _nozzle(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts = [piece(body, _NAME, "trim"), piece([*lines, block, *handles], STEM, "trim")]
     cell, top = differential_cell(hand, rng, bool(rng.random() < 0.6))
     head = piece(moved(housing(hand, rng, "double"), at(0, 0, top)), "transmitter", "valve")
-    return Model([*parts, *posed([*cell, head], at(thick / 2, 0, rise + 0.0445))], round(thick, 6), "wafer", _NAME)
+    return Model([*parts, *placed([*cell, head], at(thick / 2, 0, rise + 0.0445))], round(thick, 6), "wafer", _NAME)
 
 
 def _pitot(_: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -246,8 +237,8 @@ def _pitot(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     head = piece(
         moved(housing(hand, rng, str(rng.choice(["double", "single"]))), at(0, 0, top)), "transmitter", "valve"
     )
-    parts += posed([*cell, head], at(0, 0, high + 0.022))
-    return Model(posed(parts, spun("z", float(rng.choice([0.0, np.pi / 2])))), kind=_NAME)
+    parts += placed([*cell, head], at(0, 0, high + 0.022))
+    return Model(placed(parts, spun("z", float(rng.choice([0.0, np.pi / 2])))), kind=_NAME)
 
 
 def _thermal(_: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -349,24 +340,25 @@ def _straight(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([*parts, *_electronics(length / 2, 1.1 * r, hand, rng)], length, kind=_NAME)
 
 
-def _family(
+def meter_family(
     name: str, build: object, place: str = "inline", sizes: tuple[int, ...] = SIZES, weight: float = 1.0
 ) -> Family:
+    """A family of flow meters."""
     return Family(name, place, "Gauge assembly", _NAME, build, sizes, weight=weight)  # type: ignore[arg-type]
 
 
 _SMALL = tuple(dn for dn in SIZES if dn <= 50)
 _SOME = tuple(dn for dn in SIZES if dn <= 150)
 FLOW_BUILDS: tuple[Family, ...] = (
-    _family("flow meter/ultrasonic", _ultrasonic),
-    _family("flow meter/clamp-on", _clamp_on, "carrier"),
-    _family("flow meter/wedge", _wedge),
-    _family("flow meter/cone", _cone),
-    _family("flow meter/venturi", _venturi),
-    _family("flow meter/nozzle", _nozzle, sizes=tuple(dn for dn in SIZES if dn >= 25)),
-    _family("flow meter/pitot bar", _pitot, "tap", (15,)),
-    _family("flow meter/thermal insertion", _thermal, "tap", (15,)),
-    _family("flow meter/wafer", _wafer),
-    _family("flow meter/boxy remote", _clamshell),
-    _family("flow meter/straight coriolis", _straight, sizes=_SOME),
+    meter_family("flow meter/ultrasonic", _ultrasonic),
+    meter_family("flow meter/clamp-on", _clamp_on, "carrier"),
+    meter_family("flow meter/wedge", _wedge),
+    meter_family("flow meter/cone", _cone),
+    meter_family("flow meter/venturi", _venturi),
+    meter_family("flow meter/nozzle", _nozzle, sizes=tuple(dn for dn in SIZES if dn >= 25)),
+    meter_family("flow meter/pitot bar", _pitot, "tap", (15,)),
+    meter_family("flow meter/thermal insertion", _thermal, "tap", (15,)),
+    meter_family("flow meter/wafer", _wafer),
+    meter_family("flow meter/boxy remote", _clamshell),
+    meter_family("flow meter/straight coriolis", _straight, sizes=_SOME),
 )

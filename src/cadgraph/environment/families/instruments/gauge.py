@@ -11,19 +11,19 @@ from cadgraph.environment.families.instruments.kit import (
     dial,
     face_of,
     fine_sides,
+    gauge_family,
     gland,
     headed,
     indicator,
     needle_of,
     piece,
-    posed,
     shank,
     standing,
     t_handle,
     upright,
 )
 from cadgraph.environment.families.valves.valve import disc_flange
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.flange import plate_thickness
 from cadgraph.environment.form import along, around, box, cylinder, dome, hexagon, ring, rod, torus, turned
 from cadgraph.environment.frame import at, spun
@@ -124,7 +124,7 @@ def _contact(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     foot = shank(tall - 0.004, tall + 0.04, hand, rng, size)
     turn = float(rng.uniform(0, 6))
     return Model(
-        [_plain(tall, hand), *posed([foot], spun("z", turn)), *upright(head, size, tall + 0.038, turn)], kind=_KIND
+        [_plain(tall, hand), *placed([foot], spun("z", turn)), *upright(head, size, tall + 0.038, turn)], kind=_KIND
     )
 
 
@@ -193,7 +193,7 @@ def _duplex(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         )
         body = box((0.02, 0.02, 0.03), (x, 0, tall - 0.01))
         parts.append(piece([moved(leg, at(x)), body, nut], STEM, "trim"))
-        parts += posed([shank(tall, tall + 0.034 + span, hand, rng, size)], at(x))
+        parts += placed([shank(tall, tall + 0.034 + span, hand, rng, size)], at(x))
     return Model([*parts, *upright(head, size, tall + 0.03)], kind=_KIND)
 
 
@@ -209,22 +209,16 @@ def _manifold(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([piece(body, STEM, "trim"), *standing(tall, hand, rng)], kind=_KIND)
 
 
-def _family(
-    name: str, build: object, place: str = "tap", sizes: tuple[int, ...] = (15,), weight: float = 1.0
-) -> Family:
-    return Family(name, place, "Gauge assembly", "gauge", build, sizes, weight=weight)  # type: ignore[arg-type]
-
-
 GAUGE_BUILDS: tuple[Family, ...] = (
-    _family("gauge/safety pattern", _safety),
-    _family("gauge/bayonet", _bayonet),
-    _family("gauge/cock", _cast),
-    _family("gauge/turret", _turret),
-    _family("gauge/filled", _filled),
-    _family("gauge/contact", _contact),
-    _family("gauge/square", _square),
-    _family("gauge/screen", _smart),
-    _family("gauge/flanged seal", _sealed, "head", (25, 40, 50, 80, 100)),
-    _family("gauge/duplex", _duplex),
-    _family("gauge/block and bleed", _manifold),
+    gauge_family("gauge/safety pattern", _safety),
+    gauge_family("gauge/bayonet", _bayonet),
+    gauge_family("gauge/cock", _cast),
+    gauge_family("gauge/turret", _turret),
+    gauge_family("gauge/filled", _filled),
+    gauge_family("gauge/contact", _contact),
+    gauge_family("gauge/square", _square),
+    gauge_family("gauge/screen", _smart),
+    gauge_family("gauge/flanged seal", _sealed, "head", (25, 40, 50, 80, 100)),
+    gauge_family("gauge/duplex", _duplex),
+    gauge_family("gauge/block and bleed", _manifold),
 )

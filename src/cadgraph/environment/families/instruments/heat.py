@@ -17,11 +17,10 @@ from cadgraph.environment.families.instruments.kit import (
     headed,
     housing,
     piece,
-    posed,
     screws,
 )
 from cadgraph.environment.families.valves.valve import disc_flange
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.flange import plate_thickness
 from cadgraph.environment.form import along, ball, box, cylinder, hexagon, ring, rod, rope, torus, turned
 from cadgraph.environment.frame import at, spun
@@ -61,7 +60,7 @@ def _top_of(low: float, hand: Hand, rng: np.random.Generator, kind: str = "") ->
         head = dial(size, hand, rng, str(rng.choice(["plain", "crimped", "bayonet"])))
         # The back of the case sits on a swivel just beyond the neck.
         pose = at(0, 0, high) @ spun("x", tilt) @ at(0, 0.0, 0.01)
-        return [*parts, piece(joint, STEM, "trim"), *posed(head, pose)]
+        return [*parts, piece(joint, STEM, "trim"), *placed(head, pose)]
     turn = spun("z", float(rng.uniform(0, 6)))
     parts.append(piece(moved(housing(hand, rng), at(0, 0, high - 0.003) @ turn), "transmitter", "valve"))
     return parts
@@ -156,7 +155,7 @@ def _bimetal(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         stem_ += [hinge, along("x", hexagon(0.012, 0.02, 0.026), 0, 0, top + 0.008)]
         tilt = float(rng.uniform(0.2, 1.5))
         pose = at(0, 0, top + 0.008) @ spun("x", tilt) @ at(0, 0, 0.012)
-    return Model([piece(stem_, STEM, "trim"), *posed(head, pose)], kind=_KIND)
+    return Model([piece(stem_, STEM, "trim"), *placed(head, pose)], kind=_KIND)
 
 
 def _v_case(_: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -186,7 +185,7 @@ def _v_case(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         piece(scale, "gauge face", "dial", CASE),
         piece(glass, "gauge glass", "dial", CASE),
     ]
-    return Model([*parts, *posed(head, pose)], kind=_KIND)
+    return Model([*parts, *placed(head, pose)], kind=_KIND)
 
 
 def _capillary(_: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -196,7 +195,7 @@ def _capillary(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     n, dn = hand.round(size / 2), int(rng.choice([40, 50, 80, 100]))
     head = [*dial(size, hand, rng, "plain"), piece(cylinder(0.66 * size, 0.0, 0.004, n), CASE, "gauge")]
     head.append(screws(3, 0.59 * size, 0.005, -0.001, 0.004, CASE))
-    parts += posed(head, at(0, 0, z) @ spun("x", np.pi / 2))
+    parts += placed(head, at(0, 0, z) @ spun("x", np.pi / 2))
     r, x, y = PIPES[dn].radius, float(rng.uniform(0.45, 0.8)), -0.15
     low, high = 0.0, z + 0.5
     parts.append(Part(moved(cylinder(r, low, high, hand.round(r)), at(x, y)), "pipe", "pipe", "", "Pipe assembly"))
@@ -233,7 +232,7 @@ def _furnace(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             piece(head, "transmitter", "valve"),
             Part(bolts, "bolt", "fastener", "", JOINT, True),
         ]
-        parts += posed(
+        parts += placed(
             some, at((k - (count - 1) / 2) * 0.35 * wide, 0, float(rng.uniform(0.6, 0.8)) * tall) @ spun("x", np.pi / 2)
         )
     return Model(parts, kind="temperature transmitter")

@@ -6,7 +6,7 @@ import numpy as np
 
 from cadgraph.environment.families.valves.small import hex_end
 from cadgraph.environment.families.valves.valve import bolt_circle, disc_flange, flanged_body
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.flange import nut_room, plate_thickness
 from cadgraph.environment.form import along, around, box, cylinder, hexagon, ring, rod, rope, turned
 from cadgraph.environment.frame import arc, at, spun
@@ -56,10 +56,6 @@ def _dial(size: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
     return parts
 
 
-def _posed(parts: list[Part], pose: Floats) -> list[Part]:
-    return [Part(moved(p.solid, pose), p.name, p.color, p.bundle, p.group, p.fine) for p in parts]
-
-
 def _shank(low: float, high: float, square: float, hand: Hand, hexagonal: bool) -> Part:
     """The wrench flats and thread of a connection about z [m]."""
     flats = (
@@ -83,7 +79,7 @@ def _mount(hand: Hand, rng: np.random.Generator) -> tuple[list[Part], float]:
         loop = np.column_stack([reach * np.sin(t), 0.022 * t / (2 * np.pi), 0.03 + reach - reach * np.cos(t)])
         path = np.vstack([[0, 0, 0], loop, [0, 0.022, 0.06 + 2 * reach]])
         path[1:-1, 2] += np.linspace(0, 0.006, 17)
-        parts = _posed([Part(tube(path, r, 0.0, n), "siphon", "trim", "siphon")], np.eye(4))
+        parts = placed([Part(tube(path, r, 0.0, n), "siphon", "trim", "siphon")], np.eye(4))
         nut = moved(hexagon(0.022, 0.05 + 2 * reach, 0.075 + 2 * reach), at(0, 0.022, 0))
         return [*parts, Part(moved(nut, at()), "siphon", "trim", "siphon")], 0.075 + 2 * reach
     if kind == 2:  # a U siphon
@@ -154,9 +150,9 @@ def _bottom_gauge(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     case = _dial(size, hand, rng)
     depth = float(case[0].solid.vertices[:, 2].max())
     stand = at(0, depth / 2, top + 0.028 + size / 2) @ spun("x", np.pi / 2)
-    head = [shank, *_posed(case, stand)]
+    head = [shank, *placed(case, stand)]
     turn = spun("z", float(rng.uniform(0, 6.3)))
-    return Model([*parts, *_posed(head, at(x, y) @ turn)], kind="pressure gauge")
+    return Model([*parts, *placed(head, at(x, y) @ turn)], kind="pressure gauge")
 
 
 def _back_gauge(_: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -179,7 +175,7 @@ def _back_gauge(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         pose = at(*path[-1]) @ spun("x", tilt)
     else:
         pose = at(0, 0, tall)
-    return Model([*parts, *_posed(case, pose)], kind="pressure gauge" if rng.random() < 0.5 else "thermometer")
+    return Model([*parts, *placed(case, pose)], kind="pressure gauge" if rng.random() < 0.5 else "thermometer")
 
 
 def _digital(_: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -196,7 +192,7 @@ def _digital(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     keys = merge(
         [moved(cylinder(0.05 * side, depth, depth + 0.003, 8), at(x * side, -0.25 * side)) for x in (-0.2, 0.0, 0.2)]
     )
-    parts += _posed(
+    parts += placed(
         [
             Part(extrude(shape, 0, depth), _CASE, "electrical", _CASE),
             Part(screen, "gauge glass", "dial", _CASE),
@@ -325,7 +321,7 @@ def _thermowell(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts.append(Part(moved(_head(hand, rng), at(0, 0, top - 0.003)), "transmitter", "valve", "transmitter"))
         kind = "temperature transmitter"
     else:
-        parts += _posed(
+        parts += placed(
             _dial(float(rng.choice([0.08, 0.1, 0.125])), hand, rng),
             at(0, 0, top - 0.002) @ spun("x", float(rng.choice([0.0, 0.0, 0.6]))),
         )
@@ -343,7 +339,7 @@ def _glass_thermometer(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(
         [
             Part(stem_, _STEM, "trim", _STEM),
-            *_posed([Part(case, _CASE, "handle", _CASE), Part(glass, "gauge glass", "dial", _CASE)], pose),
+            *placed([Part(case, _CASE, "handle", _CASE), Part(glass, "gauge glass", "dial", _CASE)], pose),
         ],
         kind="thermometer",
     )

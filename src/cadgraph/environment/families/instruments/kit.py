@@ -10,7 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from cadgraph.environment.families.valves.valve import bolt_circle, disc_flange
-from cadgraph.environment.family import Part
+from cadgraph.environment.family import Build, Family, Part, placed
 from cadgraph.environment.flange import plate_thickness
 from cadgraph.environment.form import along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
 from cadgraph.environment.frame import at, spun
@@ -34,13 +34,13 @@ __all__ = [
     "dial",
     "face_of",
     "fine_sides",
+    "gauge_family",
     "gland",
     "headed",
     "housing",
     "indicator",
     "needle_of",
     "piece",
-    "posed",
     "screws",
     "shank",
     "stand",
@@ -61,14 +61,9 @@ def piece(solid: Solid | Sequence[Solid], name: str, color: str, bundle: str = "
     return Part(solid if isinstance(solid, Solid) else merge(list(solid)), name, color, bundle or name)
 
 
-def posed(parts: Sequence[Part], pose: Floats) -> list[Part]:
-    """The parts somewhere else."""
-    return [Part(moved(p.solid, pose), p.name, p.color, p.bundle, p.group, p.fine) for p in parts]
-
-
 def headed(parts: Sequence[Part]) -> list[Part]:
     """What stands upright on its flange, as a head on the end of a line: z becomes x."""
-    return posed(parts, spun("y", np.pi / 2))
+    return placed(parts, spun("y", np.pi / 2))
 
 
 def fine_sides(radius: float, hand: Hand, most: int = 16) -> int:
@@ -178,7 +173,7 @@ def dial(size: float, hand: Hand, rng: np.random.Generator, style: str = "", dee
 def upright(parts: Sequence[Part], size: float, top: float, turn: float = 0.0) -> list[Part]:
     """A dial set upright on the height ``top``, centred over the z axis, turned about it."""
     depth = float(parts[0].solid.vertices[:, 2].max())
-    return posed(parts, spun("z", turn) @ at(0, depth / 2, top + size / 2) @ UPRIGHT)
+    return placed(parts, spun("z", turn) @ at(0, depth / 2, top + size / 2) @ UPRIGHT)
 
 
 def shank(low: float, high: float, hand: Hand, rng: np.random.Generator, size: float = 0.1) -> Part:
@@ -202,7 +197,7 @@ def standing(top: float, hand: Hand, rng: np.random.Generator, style: str = "", 
     span = 0.03 + 0.12 * size
     foot = shank(top - 0.004, top + span, hand, rng, size)
     turn = float(rng.uniform(0, 6.28))
-    return [*posed([foot], spun("z", turn)), *upright(dial(size, hand, rng, style), size, top + span - 0.002, turn)]
+    return [*placed([foot], spun("z", turn)), *upright(dial(size, hand, rng, style), size, top + span - 0.002, turn)]
 
 
 # --- heads ---
@@ -383,3 +378,10 @@ def bolted(dn: int, z: float, hand: Hand, pad: float = 0.002) -> list[Part]:
 def hole(radius: float, hand: Hand) -> Floats:
     """The outline of a small round hole."""
     return circle(radius, fine_sides(radius, hand))
+
+
+def gauge_family(
+    name: str, build: Build, place: str = "tap", sizes: tuple[int, ...] = (15,), weight: float = 1.0
+) -> Family:
+    """A family of gauges."""
+    return Family(name, place, "Gauge assembly", "gauge", build, sizes, weight=weight)

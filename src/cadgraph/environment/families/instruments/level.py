@@ -15,13 +15,12 @@ from cadgraph.environment.families.instruments.kit import (
     headed,
     housing,
     piece,
-    posed,
     screws,
     t_handle,
     vessel,
 )
 from cadgraph.environment.families.valves.valve import disc_flange
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.flange import plate_thickness
 from cadgraph.environment.form import along, around, box, cylinder, hexagon, ring, rod, rope, turned
 from cadgraph.environment.frame import at, spun
@@ -200,7 +199,7 @@ def _displacer(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     chamber = [moved(turned(outline, n), at(x)), *_arms(low, high, dn, x, hand)]
     chamber.append(moved(cylinder(0.0107, bottom - 0.4 * r - 0.05, bottom - 0.3 * r, 12), at(x)))
     parts = [piece(chamber, _NAME, "valve")]
-    parts += posed([screws(int(rng.choice([8, 12])), 1.45 * r, 0.016, top, lid + 0.024, _NAME)], at(x))
+    parts += placed([screws(int(rng.choice([8, 12])), 1.45 * r, 0.016, top, lid + 0.024, _NAME)], at(x))
     z, side = lid + 0.065, str(rng.choice(["y", "-y", "x"]))
     arm = merge([cylinder(0.022, 0.0, 0.8 * r + 0.1, 14), cylinder(0.036, 0.8 * r + 0.09, 0.8 * r + 0.11, 14)])
     head = moved(housing(hand, rng), at(0, 0, 0.8 * r + 0.105))
@@ -290,7 +289,7 @@ def _swing(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     high = thick + float(rng.uniform(0.008, 0.03))
     solids = [disc_flange(dn, hand, thick + 0.001), cylinder(0.3 * size, thick, high + 0.001, 14)]
     arm = [cylinder(0.005, -0.05, 0.001, 8), rod((0, 0, -0.048), (0.3 * PIPES[dn].bore, 0, -0.09), 0.004, 8)]
-    head = posed(dial(size, hand, rng, str(rng.choice(["plain", "turret", "crimped"])), 0.025), at(0, 0, high))
+    head = placed(dial(size, hand, rng, str(rng.choice(["plain", "turret", "crimped"])), 0.025), at(0, 0, high))
     return Model(headed([piece([*solids, *arm], _NAME, "trim"), *head]), kind=_KIND)
 
 
@@ -322,7 +321,7 @@ def _column(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     bolts = [moved(hexagon(0.017, 0.022, 0.03), at(0, s * long / 2)) for s in (-1, 1)]
     parts = [piece([back, *walls, *ends], _NAME, "electrical"), piece(glass, "gauge glass", "dial", _NAME)]
     parts.append(Part(merge(bolts), "screw", "fastener", _NAME, JOINT, True))
-    return Model([sump, *posed(parts, at(x, 0, z) @ spun("x", np.pi / 2))], kind=_KIND)
+    return Model([sump, *placed(parts, at(x, 0, z) @ spun("x", np.pi / 2))], kind=_KIND)
 
 
 def _family(

@@ -13,9 +13,9 @@ from cadgraph.environment.families.instruments.kit import (
     board,
     dial,
     fine_sides,
+    gauge_family,
     indicator,
     piece,
-    posed,
     screws,
     shank,
     stand,
@@ -24,7 +24,7 @@ from cadgraph.environment.families.instruments.kit import (
     upright,
 )
 from cadgraph.environment.families.valves.valve import disc_flange
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.flange import plate_thickness
 from cadgraph.environment.form import along, box, cylinder, hexagon, ring, rod, rope
 from cadgraph.environment.frame import at, spun
@@ -69,7 +69,7 @@ def _panel(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         )
         nuts = [moved(cylinder(0.006, low - 0.012, low - 0.0055, 10), at(x)) for x in (-0.27 * size, 0.27 * size)]
         head.append(Part(merge([strap, *nuts]), "bracket", "clamp", "", JOINT))
-        parts += posed(head, pose)
+        parts += placed(head, pose)
     return Model(parts, kind=_KIND)
 
 
@@ -81,16 +81,16 @@ def _wall(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     n = hand.round(size / 2)
     for k in range(count):
         x = (k - (count - 1) / 2) * pitch
-        head = posed(dial(size, hand, rng, str(rng.choice(["plain", "safety", "cast"]))), at(0, 0, 0.006))
+        head = placed(dial(size, hand, rng, str(rng.choice(["plain", "safety", "cast"]))), at(0, 0, 0.006))
         if rng.random() < 0.6:
             flat = cylinder(0.68 * size, 0.0, 0.005, n)
         else:
             flat = merge([box((0.2 * size, 1.35 * size, 0.004), (0, 0, 0.002)), cylinder(0.47 * size, 0.0, 0.006, n)])
         head.append(piece(flat, CASE, "gauge"))
         head.append(screws(3, 0.61 * size, 0.005, -0.002, 0.005, CASE))
-        parts += posed(head, at(x, 0, middle) @ _LOOK)
+        parts += placed(head, at(x, 0, middle) @ _LOOK)
         y, low = -0.25 * size, middle - 0.5 * size
-        foot = posed([shank(-0.04, 0.004, hand, rng, size)], at(x, y, low))
+        foot = placed([shank(-0.04, 0.004, hand, rng, size)], at(x, y, low))
         drop = [(x, y, low - 0.036), (x, y, low - 0.12), (x, -0.012, low - 0.2), (x, -0.012, 0.25)]
         parts += [*foot, piece(bent(drop, 0.004, hand), STEM, "trim")]
         if rng.random() < 0.6:
@@ -121,13 +121,13 @@ def _remote(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     arm = box((0.05, 0.05, 0.006), (0, -0.05, z - 0.003))
     back = box((0.08, 0.006, 0.09), (0, -0.0332, z - 0.04))
     head = upright(dial(size, hand, rng), size, z + 0.04)
-    foot = posed([shank(z - 0.02, z + 0.042, hand, rng, size)], at())
+    foot = placed([shank(z - 0.02, z + 0.042, hand, rng, size)], at())
     hang = out + 0.3 * PIPES[dn].outer + 0.05
     line = [(0, 0, z - 0.018), (0, 0, z - 0.12), (0.4 * out, 0.02, 0.45 * low), (hang + 0.12, 0.01, 0.7 * low)]
     line += [(hang + 0.1, 0, low + thick + 0.006), (hang - 0.002, 0, low + thick + 0.006)]
     shift = at(0, -0.052, 0)
     tube = bent([(a, b - 0.052 * (1 - a / (hang + 0.12)), c) for a, b, c in line], 0.0035, hand)
-    parts = [*pole, Part(merge([arm, back]), "bracket", "clamp", "", JOINT), *column, *posed([foot[0], *head], shift)]
+    parts = [*pole, Part(merge([arm, back]), "bracket", "clamp", "", JOINT), *column, *placed([foot[0], *head], shift)]
     return Model([*parts, piece(tube, STEM, "rubber")], kind=_KIND)
 
 
@@ -156,7 +156,7 @@ def _sector(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         head.append(piece(moved(needle, at(0, 0, 0.8 * deep + 0.002)), "gauge needle", "needle", CASE))
         if rng.random() < 0.5:
             head.append(piece(extrude(0.815 * outline, 0.94 * deep, 0.96 * deep), "gauge glass", "dial", CASE))
-        parts += posed(head, at((k - (count - 1) / 2) * 1.5 * wide, 0, middle) @ _LOOK)
+        parts += placed(head, at((k - (count - 1) / 2) * 1.5 * wide, 0, middle) @ _LOOK)
     return Model(parts, kind=_KIND)
 
 
@@ -169,8 +169,8 @@ def _differential(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     z, y = height - 0.1, -0.2
     lie = at(0, y, z) @ spun("y", np.pi / 2)
     parts.append(piece(moved(merge(cell), lie), CASE, "gauge"))
-    parts += posed([screws(int(rng.choice([6, 8])), 0.85 * r, 0.008, -0.032, 0.032, CASE)], lie)
-    parts += posed(dial(size, hand, rng), at(0, y - 0.9 * r, z) @ _LOOK)
+    parts += placed([screws(int(rng.choice([6, 8])), 0.85 * r, 0.008, -0.032, 0.032, CASE)], lie)
+    parts += placed(dial(size, hand, rng), at(0, y - 0.9 * r, z) @ _LOOK)
     block = box((0.09, 0.04, 0.05), (0, y, z - r - 0.022))
     tees = [along(a, t_handle(0.05, 0.04), s * 0.044, y, z - r - 0.022) for a, s in (("x", 1), ("-x", -1))]
     tees.append(along("-y", t_handle(0.05, 0.04), 0, y - 0.019, z - r - 0.03))
@@ -228,7 +228,7 @@ def _inclined(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             [(x, 0.35 * tall, deep - 0.001), (x, 0.35 * tall, deep + 0.03), (x, -tall, deep + 0.03)], 0.004, hand
         )
         head.append(piece(tube, STEM, "rubber"))
-    return Model([*parts, *posed(head, at(0, 0, z) @ _LOOK)], kind="manometer")
+    return Model([*parts, *placed(head, at(0, 0, z) @ _LOOK)], kind="manometer")
 
 
 def _draught(_: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -239,7 +239,7 @@ def _draught(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     n = hand.round(size / 2)
     head = dial(size, hand, rng, "plain", 0.45 * size)
     head.append(piece(cylinder(0.6 * size, 0.0, 0.006, n), CASE, "gauge"))
-    parts = [Part(duct, "filter", "tank", "", "Equipment"), *posed(head, at(0, 0, z) @ _LOOK)]
+    parts = [Part(duct, "filter", "tank", "", "Equipment"), *placed(head, at(0, 0, z) @ _LOOK)]
     for s in (-1, 1):
         x = s * 0.3 * wide
         port = along("-y", merge([cylinder(0.018, 0.0, 0.004, 12), cylinder(0.006, 0.0, 0.02, 10)]), x, 0, z + s * 0.15)
@@ -263,25 +263,19 @@ def _guarded(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts.append(Part(merge([ledge, lip]), "bracket", "clamp", "", JOINT))
     nut = merge([moved(slot, at(0, y, height - 0.06)), moved(hexagon(0.027, 0.0, 0.014), at(0, y, height - 0.057))])
     parts.append(piece(nut, STEM, "trim"))
-    parts += posed(standing(height - 0.045, hand, rng, "", size), at(0, y))
+    parts += placed(standing(height - 0.045, hand, rng, "", size), at(0, y))
     way = [(0, y, height - 0.062), (0, y, height - 0.12), (0, y - 0.02, 0.4 * height), (0.3, y - 0.02, 0.12)]
     return Model([*parts, piece(bent(way, 0.004, hand), STEM, "trim")], kind=_KIND)
 
 
-def _family(
-    name: str, build: object, place: str = "tap", sizes: tuple[int, ...] = (15,), weight: float = 1.0
-) -> Family:
-    return Family(name, place, "Gauge assembly", "gauge", build, sizes, weight=weight)  # type: ignore[arg-type]
-
-
 PANEL_BUILDS: tuple[Family, ...] = (
-    _family("gauge/panel", _panel, "floor"),
-    _family("gauge/wall", _wall, "floor"),
-    _family("gauge/capillary seal", _remote, "floor"),
-    _family("gauge/sector", _sector, "floor"),
-    _family("gauge/differential", _differential, "floor"),
-    _family("gauge/u-tube", _u_tube, "floor"),
-    _family("gauge/inclined tube", _inclined, "floor"),
-    _family("gauge/draught", _draught, "floor"),
-    _family("gauge/post", _guarded, "floor"),
+    gauge_family("gauge/panel", _panel, "floor"),
+    gauge_family("gauge/wall", _wall, "floor"),
+    gauge_family("gauge/capillary seal", _remote, "floor"),
+    gauge_family("gauge/sector", _sector, "floor"),
+    gauge_family("gauge/differential", _differential, "floor"),
+    gauge_family("gauge/u-tube", _u_tube, "floor"),
+    gauge_family("gauge/inclined tube", _inclined, "floor"),
+    gauge_family("gauge/draught", _draught, "floor"),
+    gauge_family("gauge/post", _guarded, "floor"),
 )

@@ -12,14 +12,13 @@ from cadgraph.environment.families.instruments.kit import (
     headed,
     housing,
     piece,
-    posed,
     screws,
     stand,
     t_handle,
 )
 from cadgraph.environment.families.valves.small import hex_end
 from cadgraph.environment.families.valves.valve import bolt_circle, disc_flange, flanged_body
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.flange import plate_thickness
 from cadgraph.environment.form import along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
 from cadgraph.environment.frame import at, spun
@@ -76,7 +75,7 @@ def _turning(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         "y", merge([cylinder(0.006, 0.0, 0.02, 10), cylinder(0.0075, 0.01, 0.04, 10)]), 0, 0.95 * r, low + 0.7 * tall
     )
     parts = [piece(body, _NAME, "trim"), piece(top, _NAME, "rubber"), piece(view, "gauge face", "dial", _NAME)]
-    return Model(posed([*parts, piece(plug, _NAME, "trim")], spun("z", float(rng.uniform(0, 6)))), kind=_KIND)
+    return Model(placed([*parts, piece(plug, _NAME, "trim")], spun("z", float(rng.uniform(0, 6)))), kind=_KIND)
 
 
 def _hygienic(_: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -126,7 +125,7 @@ def _switch(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
     parts = [piece(cell, STEM, "trim"), piece(case, _NAME, str(rng.choice(["electrical", "valve", "rubber"])))]
     parts += [piece(view, "gauge face", "dial", _NAME), piece(mark, "gauge needle", "needle", _NAME)]
-    return Model(posed(parts, spun("z", float(rng.uniform(0, 6)))), kind="pressure switch")
+    return Model(placed(parts, spun("z", float(rng.uniform(0, 6)))), kind="pressure switch")
 
 
 def differential_cell(hand: Hand, rng: np.random.Generator, coplanar: bool) -> tuple[list[Part], float]:
@@ -163,7 +162,7 @@ def _piped(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts.append(piece(block, STEM, "trim"))
     cell, top = differential_cell(hand, rng, bool(rng.random() < 0.6))
     head = piece(moved(housing(hand, rng, str(rng.choice(["double", "single"]))), at(0, 0, top)), _NAME, "valve")
-    parts += posed([*cell, head], at(0, y, z))
+    parts += placed([*cell, head], at(0, y, z))
     for x in (-0.027, 0.027):
         nut = moved(hexagon(0.018, -0.02, 0.001), at(x, y, z - tall))
         way = [(x, y, z - tall - 0.01), (x, y, z - tall - 0.12), (x, y - 0.12, 0.4 * z), (1.5 * x, y - 0.12, 0.08)]
@@ -191,7 +190,7 @@ def _seal(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     ]
     cell, top = differential_cell(hand, rng, bool(rng.random() < 0.5))
     head = piece(moved(housing(hand, rng, str(rng.choice(["double", "single", "pot"]))), at(0, 0, top)), _NAME, "valve")
-    parts = [piece(solids, _NAME, "trim"), *posed([*cell, head], at(0, 0, thick + out))]
+    parts = [piece(solids, _NAME, "trim"), *placed([*cell, head], at(0, 0, thick + out))]
     if rng.random() < 0.4:  # the other capillary comes off sideways in a loop
         z = thick + out + 0.03
         way = [(0.034, 0, z), (0.14, 0, z), (0.2, 0.1, z - 0.03), (0.1, 0.22, z), (0.05, 0.3, z - 0.06)]

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph.environment.families.instruments.kit import JOINT, fine_sides, piece, posed, screws
+from cadgraph.environment.families.instruments.kit import JOINT, fine_sides, piece, screws
 from cadgraph.environment.families.valves.valve import disc_flange
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.flange import plate_thickness
 from cadgraph.environment.form import along, around, box, cylinder, dome, hexagon, ring, rod, turned
 from cadgraph.environment.frame import at, spun
@@ -90,7 +90,7 @@ def _eye(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             eye.append(piece(cylinder(0.84 * r, 0.2 * r, 0.35 * r, n), "gauge glass", "dial", _GLASS))
             eye.append(screws(int(rng.choice([3, 4, 6])), 1.38 * r, 0.12 * r + 0.002, 0.1 * r, 0.2 * r, _GLASS))
         x = (k - (count - 1) / 2) * 0.12
-        parts += posed(eye, at(x, 0, float(rng.uniform(0.3, 0.7)) * size[2]) @ spun("x", np.pi / 2))
+        parts += placed(eye, at(x, 0, float(rng.uniform(0.3, 0.7)) * size[2]) @ spun("x", np.pi / 2))
     plug = merge([cylinder(0.018, 0.0, 0.02, 14), turned([(0.03, 0.02), (0.034, 0.05), (0.025, 0.06)], 16)])
     cap = moved(plug, at(0.3 * size[0], 0.5 * size[1], size[2]))
     return Model([*parts, Part(cap, "pipe cap", "rubber", "", "Pipe assembly")], kind=_GLASS)

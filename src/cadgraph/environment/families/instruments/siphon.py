@@ -12,13 +12,12 @@ from cadgraph.environment.families.instruments.kit import (
     housing,
     indicator,
     piece,
-    posed,
     shank,
     standing,
     t_handle,
     upright,
 )
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.form import along, around, box, cylinder, hexagon, rope, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
@@ -72,7 +71,7 @@ def _topped(
     parts = [piece(solids, _NAME, str(rng.choice(["trim", "pipe", "gauge"])))]
     draw = rng.random()
     if draw < 0.72:
-        parts += posed(standing(z, hand, rng), at(x, y))
+        parts += placed(standing(z, hand, rng), at(x, y))
         return Model(parts, kind=kind or "pressure gauge")
     neck = cylinder(0.011, z - 0.002, z + 0.05, 12)
     if draw < 0.86:
@@ -80,7 +79,7 @@ def _topped(
         parts.append(piece(moved(head, at(x, y)), "transmitter", "valve"))
         return Model(parts, kind="pressure transmitter")
     case = upright(indicator(0.08, 0.1, 0.06, hand, rng), 0.1, z + 0.048)
-    parts += posed([piece(neck, STEM, "trim"), *case], at(x, y))
+    parts += placed([piece(neck, STEM, "trim"), *case], at(x, y))
     return Model(parts, kind="pressure switch")
 
 
@@ -237,7 +236,7 @@ def _double(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         [cylinder(0.014, z - 0.01, z + 0.05, n), along("x", cylinder(0.011, -0.03, arm + 0.013, n), 0, 0, z + 0.02)]
     )
     solids = [rope(path, r, fine_sides(r, hand, 12)), moved(tee, at(x))]
-    parts = [piece(solids, _NAME, "trim"), *posed(standing(z + 0.05, hand, rng), at(x))]
+    parts = [piece(solids, _NAME, "trim"), *placed(standing(z + 0.05, hand, rng), at(x))]
     side: list[Part]
     if rng.random() < 0.5:
         cock = merge(
@@ -247,7 +246,7 @@ def _double(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     else:
         side = [shank(-0.002, 0.05, hand, rng), *upright(indicator(0.06, 0.09, 0.05, hand, rng), 0.09, 0.048)]
         side = [p if p.name != CASE else piece(p.solid, CASE, "valve") for p in side]
-    return Model([*parts, *posed(side, at(x + arm, 0, z + 0.028) @ spun("z", 0.0))], kind="pressure gauge")
+    return Model([*parts, *placed(side, at(x + arm, 0, z + 0.028) @ spun("z", 0.0))], kind="pressure gauge")
 
 
 def _family(name: str, build: object, weight: float = 1.5) -> Family:

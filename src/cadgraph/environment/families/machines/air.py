@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.families.machines.machinery import (
     BASES,
     LYING,
@@ -13,12 +14,10 @@ from cadgraph.environment.families.machines.machinery import (
     foreign,
     motor,
     mouth,
-    pick,
-    put,
     slab,
 )
 from cadgraph.environment.families.machines.rotary import train
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.form import along, around, box, cylinder, hexagon, ring, rod, torus, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
@@ -117,13 +116,13 @@ def _belt_fan(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             Part(merge([table, *beams, *post]), eq, "steel", eq),
         ]
         pose = at(mx, far + 0.05, mz) @ spun("x", np.pi / 2) @ spun("z", np.pi / 2)
-        parts += foreign(put(motor(m, min(2.8 * m, 0.7 * deep), hand, rng, mz - seat), pose))
+        parts += foreign(placed(motor(m, min(2.8 * m, 0.7 * deep), hand, rng, mz - seat), pose))
         parts.append(Part(along("y", cylinder(0.15 * m, far, out, 10), mx, 0, mz), "shaft", "trim", "motor", PUMP))
         return Model(parts, kind="radial fan")
     block = box((2.2 * m, 0.8 * deep, axis - seat - 1.25 * m), (0, y0 + 0.45 * deep, (axis + seat - 1.25 * m) / 2))
     parts.append(Part(block, eq, "steel", eq))
     pose = at(0, y0 + 0.04, axis) @ spun("x", -np.pi / 2) @ spun("z", -np.pi / 2)
-    parts += foreign(put(motor(m, 2.8 * m, hand, rng, 1.25 * m), pose))
+    parts += foreign(placed(motor(m, 2.8 * m, hand, rng, 1.25 * m), pose))
     parts.append(
         Part(along("y", cylinder(0.15 * m, y0 - 0.03, y0 + 0.05, 10), 0, 0, axis), "shaft", "trim", "motor", PUMP)
     )
@@ -216,7 +215,7 @@ def _roots(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
             along("x", cylinder(0.15 * s, drive_x, -length / 2 + 0.05, 12), 0, gap, mz), "shaft", "trim", "motor", PUMP
         ),
     ]
-    parts += foreign(put(motor(m, length, hand, rng, mz - seat), at(-length / 2, gap, mz) @ LYING))
+    parts += foreign(placed(motor(m, length, hand, rng, mz - seat), at(-length / 2, gap, mz) @ LYING))
     return Model(parts, ports=(port,), kind="Roots blower")
 
 
@@ -267,7 +266,7 @@ def _side_channel(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     x = 0.2 * r + 0.42 * r * (stages - 1)
     parts = [Part(merge([house, *boxes, foot]), eq, "trim", eq)]
     parts += foreign(
-        put(
+        placed(
             motor(m, float(rng.uniform(2.2, 3.0)) * m, hand, rng, 0.0, pick(rng, "cast", "square")),
             at(x - 0.01, 0, axis) @ LYING,
         )
@@ -298,7 +297,7 @@ def _axial(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     ]
     m = 0.34 * r
     parts += foreign(
-        put(
+        placed(
             motor(m, 0.85 * long, hand, rng, 0.0, pick(rng, "cast", "smooth", "square"))[:2],
             at(-0.25 * long, 0, axis) @ LYING,
         )

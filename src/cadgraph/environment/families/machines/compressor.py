@@ -4,19 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph.environment.families.machines.machinery import (
-    PUMP,
-    base,
-    dead_room,
-    foreign,
-    motor,
-    mouth,
-    pick,
-    put,
-    volute,
-)
+from cadgraph.environment.families.chance import pick
+from cadgraph.environment.families.machines.machinery import PUMP, base, dead_room, foreign, motor, mouth, volute
 from cadgraph.environment.families.machines.rotary import train
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.form import along, around, box, cylinder, dome, hexagon, ring, rope, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
@@ -115,7 +106,7 @@ def _piston(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         hood, at((x0 + mx) / 2, -my - 0.02 * c, (mz + z + 0.95 * c) / 2) @ spun("x", np.pi / 2) @ spun("z", tilt)
     )
     drive = foreign(
-        put(
+        placed(
             motor(m, 1.15 * r, hand, rng, 1.2 * m),
             at(mx, -my + 0.02 * c, mz) @ spun("x", -np.pi / 2) @ spun("z", -np.pi / 2),
         )
@@ -345,7 +336,7 @@ def _turbo(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     more, far, seats = train(
         start, axis, seat, min(1.1 * r, 0.9 * (axis - seat)), hand, rng, pick(rng, "cast", "cooled", "ex", "drip")
     )
-    more = put(foreign(more), at(0, y_drive))
+    more = placed(foreign(more), at(0, y_drive))
     bed = base(pick(rng, "beams", "grid", "rim"), -1.2 * r, far, 3.6 * r, seat, [-0.3 * r, 0.3 * r, *seats], rng)
     frame = [Part(x.solid, "skid frame", "steel", "", "Structural element") for x in bed]
     return Model([*parts, *more, *frame], ports=tuple(ports), kind="centrifugal compressor")

@@ -4,27 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph.environment.families.machines.machinery import (
-    BASES,
-    CASING,
-    LYING,
-    PUMP,
-    base,
-    dead_room,
-    motor,
-    mouth,
-    pick,
-    put,
-)
-from cadgraph.environment.families.machines.rotary import smaller, train
+from cadgraph.environment.families.chance import pick
+from cadgraph.environment.families.machines.machinery import BASES, CASING, LYING, PUMP, base, dead_room, motor, mouth
+from cadgraph.environment.families.machines.rotary import train
 from cadgraph.environment.families.valves.valve import bolt_circle
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.form import along, around, ball, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import rounded_rectangle
 from cadgraph.environment.solid import extrude, merge, moved
-from cadgraph.environment.standard import FLANGES, PIPES
+from cadgraph.environment.standard import FLANGES, PIPES, smaller
 
 __all__ = ["DISPLACING"]
 
@@ -81,7 +71,7 @@ def _cavity(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     gear.append(box((1.2 * m, 1.9 * m, axis - seat), (box_x + 0.8 * m, 0, (seat + axis) / 2)))
     parts.append(Part(merge(gear), "motor", "motor", "motor"))
     length = float(rng.uniform(2.4, 3.2)) * m
-    parts += put(motor(m, length, hand, rng), at(box_x + 1.4 * m, 0, axis) @ LYING)
+    parts += placed(motor(m, length, hand, rng), at(box_x + 1.4 * m, 0, axis) @ LYING)
     stations = [0.25 * stator, 0.8 * stator, x, box_x + 0.8 * m]
     parts += base(pick(rng, *BASES), -0.05, box_x + 2.5 * m, 2.6 * m, seat, stations, rng)
     return Model(parts, ports=(first,) if hopper else (first, second), kind="progressive cavity pump")
@@ -166,7 +156,7 @@ def _hose_pump(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         Part(moved(merge([*cover, spokes]), pose), CASING, "steel", CASING),
         Part(screws, "bolt", "fastener", CASING, "Connection assembly", True),
         Part(moved(gear, pose), "motor", "motor", "motor"),
-        *put(motor(m, float(rng.uniform(2.4, 3.2)) * m, hand, rng), at(wide + 1.6 * m, 0, axis) @ LYING),
+        *placed(motor(m, float(rng.uniform(2.4, 3.2)) * m, hand, rng), at(wide + 1.6 * m, 0, axis) @ LYING),
     ]
     stay = box((0.05, 0.9 * m, axis - seat - 0.9 * m), (wide + 0.9 * m, 0, (seat + axis - 0.9 * m) / 2))
     parts.append(Part(stay, "pump base", "steel"))
@@ -323,7 +313,7 @@ def _triplex(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         )
     )
     length = 2.6 * m
-    drive = put(
+    drive = placed(
         motor(m, length, hand, rng, axis - seat),
         at(mx, y - 0.05 * s, axis) @ spun("x", np.pi / 2) @ spun("z", np.pi / 2),
     )

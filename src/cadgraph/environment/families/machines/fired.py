@@ -4,13 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph.environment.families.machines.machinery import (
-    foreign,
-    motor,
-    pick,
-    put,
-)
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.families.chance import pick
+from cadgraph.environment.families.machines.machinery import foreign, motor
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.form import along, around, box, cylinder, hexagon, rod, rope, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
@@ -43,7 +39,7 @@ def _monobloc(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     m = 0.5 * r
     side = -1 if rng.random() < 0.5 else 1
     pose = at(0.8 * r, side * 0.89 * r, z - 0.15 * r) @ spun("x", -side * np.pi / 2) @ spun("z", -side * np.pi / 2)
-    parts += foreign(put(motor(m, 2.3 * m, hand, rng, 0.0, pick(rng, "cast", "smooth", "square")), pose))
+    parts += foreign(placed(motor(m, 2.3 * m, hand, rng, 0.0, pick(rng, "cast", "smooth", "square")), pose))
     dn_r = 0.02 + 0.06 * r
     zt = z - 0.2 * r
     y0 = -side * 0.85 * r

@@ -1,4 +1,4 @@
-"""What machines are put together from: motors and their covers, couplings, guards, bases, volutes, mouths."""
+"""What machines are placed together from: motors and their covers, couplings, guards, bases, volutes, mouths."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.families.valves.valve import disc_flange
 from cadgraph.environment.family import Part, Port
 from cadgraph.environment.flange import nut_room, plate_thickness
@@ -44,8 +45,6 @@ __all__ = [
     "guard",
     "motor",
     "mouth",
-    "pick",
-    "put",
     "slab",
     "volute",
 ]
@@ -54,16 +53,6 @@ CASING = "pump casing"
 PUMP = "Pump unit"
 LYING: Floats = spun("y", np.pi / 2) @ spun("z", np.pi)  # a motor's z to x, its x up
 MOTORS = ("cast", "cast", "square", "smooth", "drip", "ex")
-
-
-def pick(rng: np.random.Generator, *kinds: str) -> str:
-    """One of some words."""
-    return kinds[int(rng.integers(len(kinds)))]
-
-
-def put(parts: Sequence[Part], pose: Floats) -> list[Part]:
-    """Parts moved by a pose."""
-    return [replace(p, solid=moved(p.solid, pose)) for p in parts]
 
 
 def foreign(parts: Sequence[Part]) -> list[Part]:

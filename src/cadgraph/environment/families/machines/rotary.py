@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.families.machines.machinery import (
     BASES,
     CASING,
@@ -17,27 +18,20 @@ from cadgraph.environment.families.machines.machinery import (
     guard,
     motor,
     mouth,
-    pick,
-    put,
     volute,
 )
 from cadgraph.environment.families.valves.valve import bolt_circle, flanged_body
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.form import along, around, box, cylinder, hexagon, ring, rod, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import rounded_rectangle
 from cadgraph.environment.solid import extrude, merge, moved
-from cadgraph.environment.standard import FLANGES, PIPES, SIZES
+from cadgraph.environment.standard import FLANGES, PIPES, smaller
 
-__all__ = ["ROTARY", "smaller", "train"]
+__all__ = ["ROTARY", "train"]
 
 _BOLTS = "Connection assembly"
-
-
-def smaller(dn: int, steps: int = 1) -> int:
-    """A nominal size some steps down."""
-    return SIZES[max(0, SIZES.index(dn) - steps)]
 
 
 def train(
@@ -49,7 +43,7 @@ def train(
     parts = [coupling(0.42 * r, x + 0.02 * gap, far - 0.05 * gap, axis, hand)]
     if rng.random() < 0.85:
         parts.append(guard(pick(rng, *GUARDS), 0.56 * r, x + 0.04 * gap, far - 0.04 * gap, axis, seat, hand))
-    parts += put(motor(r, length, hand, rng, axis - seat, kind), at(far, 0, axis) @ LYING)
+    parts += placed(motor(r, length, hand, rng, axis - seat, kind), at(far, 0, axis) @ LYING)
     return parts, far + length, [x + gap / 2, far + 0.2 * length, far + 0.66 * length]
 
 
@@ -211,7 +205,7 @@ def _block(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         Part(along("x", cylinder(0.14 * r, half - 0.05, back, 12), 0, 0, axis), "shaft", "trim", CASING),
     ]
     length = float(rng.uniform(2.3, 3.2)) * m
-    parts += put(motor(m, length, hand, rng, 0.0), at(back, 0, axis) @ LYING)
+    parts += placed(motor(m, length, hand, rng, 0.0), at(back, 0, axis) @ LYING)
     if rng.random() < 0.5:
         leg = box((0.3 * half + 0.03, 1.2 * r, axis - 0.75 * r), (0, 0, (axis - 0.75 * r) / 2))
         parts.append(
@@ -266,7 +260,7 @@ def _vertical_inline(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         shell = ring(0.4 * r, 0.42 * r, z0 + 0.015, z1 - 0.02, n)
         slots = around(box((0.02 * r, 0.1 * r, 0.6 * tall), (0.42 * r, 0, (z0 + z1) / 2)), 8)
         parts.append(Part(moved(merge([shell, slots]), at(x)), "coupling guard", "safety"))
-    parts += put(
+    parts += placed(
         motor(m, float(rng.uniform(2.4, 3.4)) * m, hand, rng),
         at(x, 0, z1) @ spun("z", float(rng.integers(4)) * np.pi / 2),
     )

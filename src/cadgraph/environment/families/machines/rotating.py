@@ -12,7 +12,7 @@ from cadgraph.environment.frame import at, looking, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import rounded_rectangle, section_channel
 from cadgraph.environment.solid import Solid, extrude, merge, moved
-from cadgraph.environment.standard import FLANGES, PIPES, SIZES
+from cadgraph.environment.standard import FLANGES, PIPES, smaller
 from cadgraph.scene import Floats
 
 __all__ = ["ROTATING", "motor_parts"]
@@ -116,13 +116,9 @@ def _ports(
     return Port(looking(suction, way), dn), Port(looking(discharge, up), out)
 
 
-def _smaller(dn: int, steps: int = 1) -> int:
-    return SIZES[max(0, SIZES.index(dn) - steps)]
-
-
 def _end_suction(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     """A close-coupled or frame-mounted end-suction pump (EN 733): volute, discharge up, motor behind, guard."""
-    out = _smaller(dn)
+    out = smaller(dn)
     s = (PIPES[dn].outer / 0.0889) ** 0.6
     r, half = 0.13 * s * float(rng.uniform(0.85, 1.2)), 0.045 * s
     base = float(rng.choice([0.02, 0.08, 0.12]))

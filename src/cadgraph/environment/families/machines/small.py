@@ -4,16 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph.environment.families.machines.machinery import (
-    CASING,
-    LYING,
-    PUMP,
-    dead_room,
-    motor,
-    mouth,
-    put,
-)
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.families.machines.machinery import CASING, LYING, PUMP, dead_room, motor, mouth
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.form import along, around, box, cylinder, hexagon, rope, torus, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
@@ -86,7 +78,7 @@ def _metering(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
     parts.append(Part(bell, "motor", "motor", "motor"))
     turn = at(0, 0, top + 0.45 * s) @ spun("z", float(rng.choice([0.5, 1.0, 1.5])) * np.pi)
-    parts += put(motor(m, float(rng.uniform(2.4, 3.2)) * m, hand, rng), turn)
+    parts += placed(motor(m, float(rng.uniform(2.4, 3.2)) * m, hand, rng), turn)
     return Model(parts, ports=tuple(ports), kind="metering pump")
 
 
@@ -266,7 +258,7 @@ def _power_pack(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             hand.round(m),
         )
         parts.append(Part(moved(bell, at(-0.2 * w)), CASING, "pump", CASING))
-        parts += put(
+        parts += placed(
             motor(m, 2.8 * m, hand, rng), at(-0.2 * w, 0, z + m) @ spun("z", float(rng.integers(4)) * np.pi / 2)
         )
     else:
@@ -284,7 +276,7 @@ def _power_pack(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             ]
         )
         parts.append(Part(block, CASING, "pump", CASING))
-        parts += put(motor(m, min(3.0 * m, 0.6 * w), hand, rng, 1.2 * m), at(-0.42 * w + 1.2 * m, 0, axis) @ LYING)
+        parts += placed(motor(m, min(3.0 * m, 0.6 * w), hand, rng, 1.2 * m), at(-0.42 * w + 1.2 * m, 0, axis) @ LYING)
         hose = [
             (-0.42 * w, 0.5 * m, axis),
             (-0.42 * w, 0.9 * m, axis),

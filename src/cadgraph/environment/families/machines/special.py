@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.families.machines.machinery import (
     BASES,
     CASING,
@@ -13,20 +14,18 @@ from cadgraph.environment.families.machines.machinery import (
     dead_room,
     motor,
     mouth,
-    pick,
-    put,
     volute,
 )
-from cadgraph.environment.families.machines.rotary import smaller, train
+from cadgraph.environment.families.machines.rotary import train
 from cadgraph.environment.families.valves.valve import disc_flange, flanged_body
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.flange import plate_thickness
 from cadgraph.environment.form import along, around, box, cylinder, hexagon, ring, rod, rope, torus, turned
 from cadgraph.environment.frame import at, looking, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle
 from cadgraph.environment.solid import extrude, merge, moved, tube
-from cadgraph.environment.standard import ELBOW_LONG_RADIUS, FLANGES, PIPES
+from cadgraph.environment.standard import ELBOW_LONG_RADIUS, FLANGES, PIPES, smaller
 
 __all__ = ["SPECIAL"]
 
@@ -134,7 +133,7 @@ def _turbine(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         Part(merge([bell, *bowls]), CASING, "pump", CASING),
         Part(column, CASING, "pipe", CASING),
         Part(merge([shaft, gland]), "shaft", "trim", CASING),
-        *put(
+        *placed(
             motor(m, long, hand, rng, 0.0, pick(rng, "cast", "drip", "ex")),
             at(0, 0, z + head_high) @ spun("z", float(rng.uniform(0, 6))),
         ),
@@ -201,7 +200,7 @@ def _magnetic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
             (1.15 * m, 1.05 * r),
         ]
         parts.append(Part(along("x", turned(bell, n), back, 0, axis), CASING, "rubber", CASING))
-        parts += put(motor(m, length, hand, rng), at(back + 1.05 * r, 0, axis) @ LYING)
+        parts += placed(motor(m, length, hand, rng), at(back + 1.05 * r, 0, axis) @ LYING)
         far = back + 1.05 * r + 0.8 * length
     for x in (0.0, 0.75 * far):
         leg = box((0.25 * r, 1.5 * r, axis - 0.7 * r - seat), (x, 0, (seat + axis - 0.7 * r) / 2))

@@ -4,15 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph.environment.families.machines.machinery import (
-    CASING,
-    PUMP,
-    base,
-    pick,
-    put,
-    slab,
-)
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.families.chance import pick
+from cadgraph.environment.families.machines.machinery import CASING, PUMP, base, slab
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.form import along, around, box, cylinder, ring, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
@@ -168,7 +162,7 @@ def _cutaway(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 for y in (-1, 1)
             ),
         ]
-        parts[-1:] = put(parts[-1:], at(0, 0, seat - 0.1))
+        parts[-1:] = placed(parts[-1:], at(0, 0, seat - 0.1))
         parts += [Part(x, "post" if k else "plate", "steel", "", "Structural element") for k, x in enumerate(table)]
     return Model(parts, kind="centrifugal pump")
 

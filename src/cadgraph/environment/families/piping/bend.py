@@ -6,16 +6,16 @@ from collections.abc import Callable
 
 import numpy as np
 
+from cadgraph.environment.body import bore_of
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.families.piping.shape import (
     SMALL,
     bend_path,
-    bore_of,
     counter,
     family,
     grooved,
     lathe,
     mouth,
-    pick,
     pipe_x,
     prism,
     tail,

@@ -6,18 +6,18 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from cadgraph.environment.body import bore_of
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.families.piping.shape import (
     BOLTED,
     SMALL,
     bend_path,
     bolting,
-    bore_of,
     counter,
     family,
     grooved,
     lathe,
     mouth,
-    pick,
     pipe_x,
     prism,
     seated,

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
+from cadgraph.environment.body import bore_of
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.families.piping.shape import (
     BOLTED,
     SMALL,
     bolting,
-    bore_of,
     counter,
     family,
     flat_flange,
     grooved,
     knurled,
     lathe,
-    pick,
     pipe_x,
     prism,
 )

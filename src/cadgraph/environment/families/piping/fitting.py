@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from cadgraph.environment.body import bore_of
 from cadgraph.environment.families.valves.small import hex_end
 from cadgraph.environment.families.valves.valve import bolt_circle, disc_flange, flanged_body
 from cadgraph.environment.family import Family, Model, Part
@@ -36,16 +37,12 @@ def _single(solid: Solid, name: str, length: float, dn: int = 0, joint: str = "w
     return Model([Part(solid, name, color)], round(length, 6), joint, dn=dn)
 
 
-def _bore(dn: int, hand: Hand) -> float:
-    return PIPES[dn].bore if hand.hollow else 0.0
-
-
 def _coupling(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     """A threaded or socket coupling (ASME B16.11), plain or hexagonal; or a grooved one of two halves with bolts."""
     radius, n = PIPES[dn].radius, hand.round(PIPES[dn].radius)
     length = 1.5 * radius + 0.025
     kind = int(rng.integers(4))
-    bore = _bore(dn, hand)
+    bore = bore_of(dn, hand)
     if kind == 0:
         return _single(along("x", ring(bore, 1.25 * radius + 0.002, 0, length, n)), "coupling", length)
     if kind == 1:
@@ -113,7 +110,7 @@ def _union(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
 def _nipple(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     """A hexagon nipple, or a barrel nipple between two couplings."""
     radius, n = PIPES[dn].radius, hand.round(PIPES[dn].radius)
-    length, bore = 2.0 * radius + 0.03, _bore(dn, hand)
+    length, bore = 2.0 * radius + 0.03, bore_of(dn, hand)
     if rng.random() < 0.5:
         tube_ = ring(bore, 0.96 * radius, 0, length, n)
         hexa = hexagon(2.4 * radius + 0.004, 0.42 * length, 0.58 * length, 0.5 * radius)
@@ -171,7 +168,7 @@ def _bellows_welded(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     length = 0.3 * count * radius + 0.06
     swing = waves(0.03, length - 0.03, 1.0 * radius, 1.3 * radius + 0.003, count)
     outline = [(radius, 0.0), *swing, (radius, length)]
-    bore = _bore(dn, hand)
+    bore = bore_of(dn, hand)
     shell = weld([revolve([*outline, (bore, length), (bore, 0.0)], n, closed=True)]) if bore else turned(outline, n)
     return _single(about_x(shell), "expansion joint", length, color="trim")
 
@@ -289,7 +286,7 @@ def _cross(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
 
 def _arm(dn: int, hand: Hand, low: float, reach: float, n: int) -> Solid:
     """A forged mouth about z from ``low`` to ``reach`` with a band at its end, bored where the hand models hollow."""
-    radius, bore = PIPES[dn].radius, _bore(dn, hand)
+    radius, bore = PIPES[dn].radius, bore_of(dn, hand)
     outline = [(1.15 * radius, low), (1.15 * radius, 0.6 * reach), (1.3 * radius, 0.65 * reach), (1.3 * radius, reach)]
     if low < 0:
         outline = [(1.3 * radius, low), (1.3 * radius, 0.65 * low), (1.15 * radius, 0.6 * low), *outline[1:]]
@@ -415,7 +412,7 @@ def _hose(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     path = np.vstack([[0.0, 0.0, 0.0], path])
     collar = along(
         "x",
-        merge([ring(_bore(dn, hand), 1.3 * radius, 0.0, 0.02, n), hexagon(2.7 * radius, 0.02, 0.035 + 0.2 * radius)]),
+        merge([ring(bore_of(dn, hand), 1.3 * radius, 0.0, 0.02, n), hexagon(2.7 * radius, 0.02, 0.035 + 0.2 * radius)]),
     )
     return Model(
         [
@@ -449,7 +446,7 @@ def _turn(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     points = np.column_stack([path, np.zeros(len(path))])
     out = np.array([np.cos(turn), np.sin(turn), 0.0])
     tail = points[-1] + out * float(rng.uniform(1, 5)) * size.outer
-    bore = _bore(dn, hand)
+    bore = bore_of(dn, hand)
     parts = [
         Part(moved(tube(points, size.radius, bore, n), roll), "elbow", "pipe"),
         Part(moved(tube(np.vstack([points[-1], tail]), size.radius, bore, n), roll), "pipe", "pipe"),
@@ -490,7 +487,7 @@ def _elbow_forged(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         ]
     )
     roll = spun("x", float(rng.choice([0.0, 0.5, 1.0, 1.5])) * np.pi)
-    tail = along("y", ring(_bore(dn, hand), radius, reach, reach + 0.1 + 2 * radius, n), reach)
+    tail = along("y", ring(bore_of(dn, hand), radius, reach, reach + 0.1 + 2 * radius, n), reach)
     return Model([Part(moved(body, roll), "elbow", "pipe"), Part(moved(tail, roll), "nipple", "pipe")])
 
 
@@ -511,7 +508,10 @@ def _weldolet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     rise = 1.0 * radius + 0.012
     cone = turned([(1.5 * radius, -0.004), (1.5 * radius, 0.25 * rise), (1.05 * radius, rise)], n)
     tall = rise + float(rng.uniform(0.05, 0.2))
-    parts = [Part(cone, "branch outlet", "pipe"), Part(ring(_bore(dn, hand), radius, rise, tall, n), "nipple", "pipe")]
+    parts = [
+        Part(cone, "branch outlet", "pipe"),
+        Part(ring(bore_of(dn, hand), radius, rise, tall, n), "nipple", "pipe"),
+    ]
     kind = int(rng.integers(3))
     if kind == 0:
         parts.append(Part(hexagon(2.6 * radius, tall, tall + radius + 0.01), "pipe cap", "pipe"))

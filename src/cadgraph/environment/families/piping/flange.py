@@ -6,17 +6,17 @@ from collections.abc import Callable
 
 import numpy as np
 
+from cadgraph.environment.body import bore_of
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.families.piping.shape import (
     BOLTED,
     STEEL,
     bolting,
-    bore_of,
     drilled,
     family,
     flat_flange,
     lathe,
     parts_of,
-    pick,
     pipe_x,
     prism,
     tail,

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
+from cadgraph.environment.body import bore_of
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.families.piping.shape import (
     BOLTED,
     bolting,
-    bore_of,
     drilled,
     family,
     flat_flange,
     lathe,
-    pick,
+    mirrored,
     pipe_x,
     prism,
 )
@@ -35,12 +36,6 @@ def _own(solid: Solid, color: str = "trim") -> Part:
     return Part(solid, _ME, color, _ME)
 
 
-def _mirrored(parts: list[Part], length: float) -> list[Part]:
-    """The same pieces at the other end."""
-    flip = at(length) @ np.diag([-1.0, 1.0, 1.0, 1.0])
-    return [Part(moved(p.solid, flip), p.name, p.color, p.bundle, p.group, p.fine) for p in parts]
-
-
 def _waved(low: float, high: float, r: float, depth: float, count: int) -> list[tuple[float, float]]:
     return [(a, x) for a, x in waves(low, high, r, r + depth, count)]
 
@@ -52,7 +47,7 @@ def _ears(dn: int, hand: Hand, count: int, x: float, thick: float, length: float
     wide = 4 * bolt
     ear = box((thick, reach + 1.5 * bolt - 0.93 * rim, wide), (x, 0.5 * (reach + 1.5 * bolt + 0.93 * rim), 0))
     one = merge([moved(ear, spun("x", start + 2 * np.pi * k / count)) for k in range(count)])
-    parts = [_own(one, "steel"), *_mirrored([_own(one, "steel")], length)]
+    parts = [_own(one, "steel"), *mirrored([_own(one, "steel")], length)]
     return parts + bolting(count, reach, bolt, x - 0.5 * thick, length - x + 0.5 * thick, hand, _ME, at(), start)
 
 
@@ -87,7 +82,7 @@ def _rubber(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         ring_ = moved(torus(1.12 * r + 0.004, 0.06 * r + 0.004, n, 8), at(0.5 * length) @ spun("y", np.pi / 2))
         body = merge([body, ring_])
     loose = [Part(flat_flange(dn, hand, 0.0045, plate - 0.0045, 1.081 * r), "flange", "flange", _ME)]
-    parts = [_own(body, "rubber"), *loose, *_mirrored(loose, length)]
+    parts = [_own(body, "rubber"), *loose, *mirrored(loose, length)]
     if rng.random() < 0.45:
         parts += _ears(dn, hand, int(rng.choice([2, 3, 4])), 0.5 * plate, 0.7 * plate, length)
     return Model(parts, round(length, 9))
@@ -182,7 +177,7 @@ def _universal(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts = [
         *pipes,
         *own,
-        *_mirrored(own, length),
+        *mirrored(own, length),
         *bolting(count, outer, bolt, x - 1.25 * thick, length - x + 1.25 * thick, hand, _ME, at(), 0.0),
     ]
     return Model(parts, round(length, 9), "welded")
@@ -271,7 +266,7 @@ def _fabric(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         for k in range(count)
     ]
     side.append(Part(merge(heads), "bolt", "fastener", "", BOLTED, True))
-    return Model([side[0], *parts, *side[1:], *_mirrored(side, length)], round(length, 9), "welded")
+    return Model([side[0], *parts, *side[1:], *mirrored(side, length)], round(length, 9), "welded")
 
 
 def _dismantling(dn: int, hand: Hand, rng: np.random.Generator) -> Model:

@@ -4,16 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph.environment.families.piping.shape import (
-    STEEL,
-    family,
-    knurled,
-    lathe,
-    parts_of,
-    pick,
-    pipe_x,
-    prism,
-)
+from cadgraph.environment.families.chance import pick
+from cadgraph.environment.families.piping.shape import STEEL, family, knurled, lathe, mirrored, parts_of, pipe_x, prism
 from cadgraph.environment.family import Family, Model, Part
 from cadgraph.environment.flange import flange, flange_length
 from cadgraph.environment.form import box, lofted, rod, rope, torus
@@ -27,12 +19,6 @@ from cadgraph.scene import Floats
 __all__ = ["HOSES"]
 
 _BACK = spun("z", np.pi)
-
-
-def _mirrored(parts: list[Part], length: float) -> list[Part]:
-    """The same pieces at the other end."""
-    flip = at(length) @ np.diag([-1.0, 1.0, 1.0, 1.0])
-    return [Part(moved(p.solid, flip), p.name, p.color, p.bundle, p.group, p.fine) for p in parts]
 
 
 def _along(path: Floats, radii: Floats, n: int) -> Solid:
@@ -97,7 +83,7 @@ def _between(
     hose = Part(_along(path, _skin(count, 1.12 * r, kind), n), "hose", str(rng.choice(["rubber", "trim", "handle"])))
     # A flange meets the counter-flange that the line brings along, no bare pipe.
     lead = 0.0 if ends[0].name == "flange" else pick(rng, 0.0, 0.06)
-    whole = [ends[0], *ends[1:], hose, *_mirrored(ends, length)]
+    whole = [ends[0], *ends[1:], hose, *mirrored(ends, length)]
     if lead:
         whole = [Part(moved(p.solid, at(lead)), p.name, p.color, p.bundle, p.group, p.fine) for p in whole]
         whole.insert(0, Part(pipe_x(dn, 0.0, lead, hand), "pipe", "pipe"))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.families.piping.shape import (
     BOLTED,
     bolting,
@@ -11,11 +12,12 @@ from cadgraph.environment.families.piping.shape import (
     lathe,
     lathe_z,
     mouth,
-    pick,
+    necks,
     prism,
+    swell_room,
 )
 from cadgraph.environment.family import Family, Model, Part
-from cadgraph.environment.flange import nut_room, plate_thickness
+from cadgraph.environment.flange import plate_thickness
 from cadgraph.environment.form import around, box, cylinder, dome, hexagon, rod, torus
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
@@ -32,29 +34,18 @@ def _own(solid: Solid, color: str = "valve") -> Part:
     return Part(solid, _ME, color, _ME)
 
 
-def _room(dn: int) -> float:
-    """How far from a face the body may swell beyond the neck [m]."""
-    return plate_thickness(dn) + nut_room(dn)
-
-
-def _necks(dn: int, hand: Hand, length: float) -> list[Solid]:
-    """The two flanged mouths of a body, up to its middle."""
-    one = mouth("flanged", dn, hand, 0.0, 0.5 * length)
-    return [moved(one, at(0.5 * length)), moved(one, at(0.5 * length) @ spun("z", np.pi))]
-
-
 def _tee_type(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     """A T strainer: a welded or cast tee with flanges in the line, a lid with handles on its upright mouth."""
     n, size = hand.round(PIPES[dn].radius), FLANGES[dn]
     wide = float(rng.uniform(1.0, 1.5)) * 0.485 * size.hub
-    length = max(size.outer, 2.6 * wide) + 2 * _room(dn)
-    x, high = 0.5 * length, max(0.5 * size.outer, wide) + _room(dn) + 0.02
+    length = max(size.outer, 2.6 * wide) + 2 * swell_room(dn)
+    x, high = 0.5 * length, max(0.5 * size.outer, wide) + swell_room(dn) + 0.02
     plate, collar = plate_thickness(dn), max(0.5 * size.outer, 1.35 * wide + 0.015)
     low = -float(rng.uniform(1.0, 1.6)) * wide
     pot = lathe_z(
         [(0.5 * wide, low - 0.3 * wide), (wide, low), (wide, high - plate), (collar, high - plate), (collar, high)], n
     )
-    parts = [_own(merge([*_necks(dn, hand, length), moved(pot, at(x))]))]
+    parts = [_own(merge([*necks(dn, hand, length), moved(pot, at(x))]))]
     way = at(x, 0, high) @ _UP
     count = 8 if dn > 80 else 6
     seal = moved(lathe([(0.75 * collar, 0.0), (0.75 * collar, 0.002)], n), way)
@@ -77,7 +68,7 @@ def _quick_basket(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     r, size = PIPES[dn].radius, FLANGES[dn]
     pot = float(rng.uniform(1.8, 2.6)) * r + 0.03
     n = hand.round(pot)
-    length = 2 * pot + 2 * _room(dn) + 0.04
+    length = 2 * pot + 2 * swell_room(dn) + 0.04
     x, high = 0.5 * length, max(1.4 * r, 0.5 * size.outer) + 0.04
     low, thick = -float(rng.uniform(2.2, 3.6)) * pot, 0.012 + 0.06 * pot
     shell = [(0.3 * pot, low - 0.3 * pot), (0.8 * pot, low - 0.18 * pot), (pot, low), (pot, high - thick)]
@@ -131,10 +122,10 @@ def _duplex(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     r = PIPES[dn].radius
     pot = float(rng.uniform(1.6, 2.1)) * r + 0.025
     n = hand.round(pot)
-    length = max(3.0 * pot, 2.6 * r + 0.06) + 2 * _room(dn)
+    length = max(3.0 * pot, 2.6 * r + 0.06) + 2 * swell_room(dn)
     x, gap = 0.5 * length, 1.35 * pot + 1.1 * r
     high, low = 1.2 * r + 0.35 * pot + 0.02, -2.4 * pot
-    body = [*_necks(dn, hand, length), lathe([(1.5 * r, x - 1.3 * r), (1.5 * r, x + 1.3 * r)], n)]
+    body = [*necks(dn, hand, length), lathe([(1.5 * r, x - 1.3 * r), (1.5 * r, x + 1.3 * r)], n)]
     body[2] = moved(cylinder(1.6 * r + 0.01, -1.5 * r, high + 0.2 * pot, n), at(x))
     cross = moved(lathe([(1.1 * r, -gap), (1.1 * r, gap)], n), at(x) @ spun("z", np.pi / 2))
     parts = [_own(merge([*body, cross]))]
@@ -175,7 +166,7 @@ def _separator(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     r, size = PIPES[dn].radius, FLANGES[dn]
     pot = float(rng.uniform(1.7, 2.3)) * r + 0.02
     n = hand.round(pot)
-    length = 2 * pot + 2 * _room(dn) + float(rng.uniform(0.02, 0.1))
+    length = 2 * pot + 2 * swell_room(dn) + float(rng.uniform(0.02, 0.1))
     x, tall, deep = (
         0.5 * length,
         float(rng.uniform(1.0, 2.2)) * pot + 0.4 * size.outer,
@@ -184,7 +175,7 @@ def _separator(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     a = np.linspace(0, np.pi / 2, 6)
     bottom = [(max(0.05, np.sin(t)) * pot, -deep - 0.5 * pot * np.cos(t)) for t in a]
     top = [(max(0.05, np.cos(t)) * pot, tall + 0.5 * pot * np.sin(t)) for t in a]
-    parts = [_own(merge([*_necks(dn, hand, length), moved(lathe_z([*bottom, *top], n), at(x))]), "tank")]
+    parts = [_own(merge([*necks(dn, hand, length), moved(lathe_z([*bottom, *top], n), at(x))]), "tank")]
     if rng.random() < 0.5:
         collar = [lathe_z([(1.25 * pot, -deep * 0.6), (1.25 * pot, -deep * 0.6 + 0.03)], n)]
         parts[0] = _own(merge([parts[0].solid, moved(collar[0], at(x))]), "tank")
@@ -210,13 +201,13 @@ def _self_cleaning(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     r, size = PIPES[dn].radius, FLANGES[dn]
     pot = float(rng.uniform(1.9, 2.6)) * r + 0.04
     n = hand.round(pot)
-    length = 2 * pot + 2 * _room(dn) + 0.05
+    length = 2 * pot + 2 * swell_room(dn) + 0.05
     x, plate = 0.5 * length, 0.018 + 0.05 * pot
     low, high = -float(rng.uniform(1.6, 2.6)) * pot, max(1.3 * r, 0.5 * size.outer) + 0.05
     cone = 0.7 * pot
     shell = [(0.25 * pot, low - cone - 0.08), (0.25 * pot, low - cone), (pot, low), (pot, high - plate)]
     shell += [(1.2 * pot, high - plate), (1.2 * pot, high)]
-    parts = [_own(merge([*_necks(dn, hand, length), moved(lathe_z(shell, n), at(x))]), "tank")]
+    parts = [_own(merge([*necks(dn, hand, length), moved(lathe_z(shell, n), at(x))]), "tank")]
     way = at(x, 0, high) @ _UP
     lid = lathe([(1.2 * pot, 0.0), (1.2 * pot, plate), (0.4 * pot, 1.4 * plate)], n)
     parts.append(_own(moved(lid, way), "tank"))

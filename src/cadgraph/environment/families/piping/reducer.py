@@ -6,16 +6,16 @@ from collections.abc import Callable
 
 import numpy as np
 
+from cadgraph.environment.body import bore_of
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.families.piping.shape import (
     BOLTED,
     SMALL,
-    bore_of,
     counter,
     family,
     flat_flange,
     grooved,
     lathe,
-    pick,
     pipe_x,
     prism,
     tail,

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from cadgraph.environment.family import Build, Family, Part
-from cadgraph.environment.flange import bolts, flange, flange_length, gasket, plate_thickness
+from cadgraph.environment.body import bore_of
+from cadgraph.environment.family import Build, Family, Part, placed
+from cadgraph.environment.flange import bolts, flange, flange_length, gasket, nut_room, plate_thickness
 from cadgraph.environment.form import cylinder, hexagon, ring, turned
 from cadgraph.environment.frame import IDENTITY, arc, at, spun
 from cadgraph.environment.hand import Hand
@@ -25,7 +26,6 @@ __all__ = [
     "Outline",
     "bend_path",
     "bolting",
-    "bore_of",
     "counter",
     "drilled",
     "family",
@@ -35,13 +35,15 @@ __all__ = [
     "knurled",
     "lathe",
     "lathe_z",
+    "mirrored",
     "mouth",
+    "necks",
     "notched",
     "parts_of",
-    "pick",
     "pipe_x",
     "prism",
     "seated",
+    "swell_room",
     "tail",
 ]
 
@@ -62,16 +64,6 @@ def family(
 ) -> Family:
     """A family of fittings; by default its pieces stay apart, since neighbours of other names come with them."""
     return Family(name, place, "Pipe assembly", name.split("/")[0], build, sizes, grain, weight)
-
-
-def pick(rng: np.random.Generator, *choices: float) -> float:
-    """One of some numbers at random."""
-    return choices[int(rng.integers(len(choices)))]
-
-
-def bore_of(dn: int, hand: Hand) -> float:
-    """Inside radius of a pipe, 0 where the hand models solid ones [m]."""
-    return PIPES[dn].bore if hand.hollow else 0.0
 
 
 def lathe_z(outline: Outline, sides: int, bore: float = 0.0) -> Solid:
@@ -329,3 +321,19 @@ def seated(outline: Outline, run: float, sides: int, bore: float = 0.0, sunk: fl
         inner = [np.column_stack([bore * unit, np.full(sides, top)]), foot(bore, 0.0)]
         return weld([loft([*loops, *inner], closed=True)])
     return weld([loft([loops[0].mean(axis=0)[None], *loops, loops[-1].mean(axis=0)[None]])])
+
+
+def mirrored(parts: Sequence[Part], length: float) -> list[Part]:
+    """The same pieces at the other end of something this long [m]."""
+    return placed(parts, at(length) @ np.diag([-1.0, 1.0, 1.0, 1.0]))
+
+
+def swell_room(dn: int) -> float:
+    """How far from a face the body may swell beyond the neck [m]."""
+    return plate_thickness(dn) + nut_room(dn)
+
+
+def necks(dn: int, hand: Hand, length: float) -> list[Solid]:
+    """The two flanged mouths of a body, up to its middle."""
+    one = mouth("flanged", dn, hand, 0.0, 0.5 * length)
+    return [moved(one, at(0.5 * length)), moved(one, at(0.5 * length) @ spun("z", np.pi))]

@@ -4,24 +4,26 @@ from __future__ import annotations
 
 import numpy as np
 
+from cadgraph.environment.body import bore_of
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.families.piping.pot import POTS
 from cadgraph.environment.families.piping.shape import (
     BOLTED,
     SMALL,
     bolting,
-    bore_of,
     family,
     flat_flange,
     knurled,
     lathe,
     lathe_z,
     mouth,
-    pick,
+    necks,
     pipe_x,
     prism,
+    swell_room,
 )
 from cadgraph.environment.family import Family, Model, Part
-from cadgraph.environment.flange import nut_room, plate_thickness
+from cadgraph.environment.flange import plate_thickness
 from cadgraph.environment.form import box, cylinder
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
@@ -37,17 +39,6 @@ _UP, _DOWN = spun("y", -np.pi / 2), spun("y", np.pi / 2)
 
 def _own(solid: Solid, color: str = "valve") -> Part:
     return Part(solid, _ME, color, _ME)
-
-
-def _room(dn: int) -> float:
-    """How far from a face the body may swell beyond the neck [m]."""
-    return plate_thickness(dn) + nut_room(dn)
-
-
-def _necks(dn: int, hand: Hand, length: float) -> list[Solid]:
-    """The two flanged mouths of a body, up to its middle."""
-    one = mouth("flanged", dn, hand, 0.0, 0.5 * length)
-    return [moved(one, at(0.5 * length)), moved(one, at(0.5 * length) @ spun("z", np.pi))]
 
 
 def _lid(radius: float, thick: float, count: int, hand: Hand, rng: np.random.Generator, way: Floats) -> list[Part]:
@@ -79,8 +70,8 @@ def _y_cast(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     n, arm = hand.round(1.3 * r), max(neck, float(rng.uniform(1.15, 1.4)) * r + 0.004)
     lean = float(rng.uniform(0.6, 1.0))
     swell = float(rng.uniform(1.0, 1.2)) * arm
-    body = _necks(dn, hand, length)
-    low = _room(dn)
+    body = necks(dn, hand, length)
+    low = swell_room(dn)
     body.append(lathe([(neck, low), (swell, 0.35 * length), (swell, 0.62 * length), (neck, length - low)], n))
     far = max(1.0 * length * float(rng.uniform(0.55, 0.75)), (0.5 * FLANGES[dn].outer + arm) / np.sin(lean))
     x = 0.38 * length

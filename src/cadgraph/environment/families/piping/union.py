@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 
+from cadgraph.environment.body import bore_of
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.families.piping.coupling import half_band
 from cadgraph.environment.families.piping.shape import (
     BOLTED,
     SMALL,
     bolting,
-    bore_of,
     family,
     grooved,
     knurled,
     lathe,
     mouth,
     notched,
-    pick,
     prism,
 )
 from cadgraph.environment.family import Family, Model, Part

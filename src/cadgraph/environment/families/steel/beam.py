@@ -6,6 +6,7 @@ from functools import partial
 
 import numpy as np
 
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.families.steel.shape import (
     ROLLED,
     Section,
@@ -18,7 +19,6 @@ from cadgraph.environment.families.steel.shape import (
     floor_family,
     mirrored,
     num,
-    pick,
     piece,
     propped,
     section,

@@ -6,6 +6,7 @@ from functools import partial
 
 import numpy as np
 
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.families.steel.caster import wheeled
 from cadgraph.environment.families.steel.shape import (
     Section,
@@ -19,7 +20,6 @@ from cadgraph.environment.families.steel.shape import (
     floor_family,
     lug,
     num,
-    pick,
     piece,
     pipe,
     ribbon,

@@ -6,6 +6,7 @@ from functools import partial
 
 import numpy as np
 
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.families.steel.shape import (
     bar,
     bolted,
@@ -14,7 +15,6 @@ from cadgraph.environment.families.steel.shape import (
     few_sides,
     floor_family,
     num,
-    pick,
     piece,
     pipe,
     ribbon,
@@ -22,7 +22,7 @@ from cadgraph.environment.families.steel.shape import (
     slab_xy,
     slab_xz,
 )
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.form import along, box, cylinder, hexagon, ring, rod, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
@@ -190,10 +190,6 @@ def _extruded(outline: Floats, long: float) -> Solid:
     return slab_xy(turn, -long / 2, long / 2)
 
 
-def _moved(parts: list[Part], pose: Floats) -> list[Part]:
-    return [Part(moved(p.solid, pose), p.name, p.color, p.bundle, p.group, p.fine) for p in parts]
-
-
 def wheeled(
     spots: list[tuple[float, float]], kinds: tuple[str, ...], r: float, hand: Hand, rng: np.random.Generator
 ) -> tuple[list[Part], float]:
@@ -206,7 +202,7 @@ def wheeled(
         made, high_ = caster_parts(kind, r, hand, np.random.default_rng(seed))
         high = high or high_
         turn = 0.0 if kind == "fixed" else num(rng, 0, 6.28)
-        parts += _moved(made, at(x, y, high) @ spun("z", turn))
+        parts += placed(made, at(x, y, high) @ spun("z", turn))
         if kind not in ("stem", "twin") and chance(rng, 0.5):
             heads = [
                 at(x, y, high) @ spun("z", turn) @ at(sx * 0.8 * r, sy * 0.6 * r, 0.005)

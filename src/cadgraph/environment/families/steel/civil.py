@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.families.steel.shape import (
     bar,
     base,
@@ -13,8 +14,8 @@ from cadgraph.environment.families.steel.shape import (
     few_sides,
     floor_family,
     num,
-    pick,
     piece,
+    rect,
     ribbon,
     section,
     slab_xy,
@@ -24,16 +25,11 @@ from cadgraph.environment.family import Family, Model, Part
 from cadgraph.environment.form import box, cylinder, ring, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
-from cadgraph.environment.polygon import circle, rounded_rectangle
+from cadgraph.environment.polygon import circle
 from cadgraph.environment.solid import Solid, extrude, loft, merge, moved, weld
 from cadgraph.scene import Floats
 
 __all__ = ["CIVIL"]
-
-
-def _rect(a: float, b: float, x: float = 0.0, y: float = 0.0) -> Floats:
-    outline: Floats = rounded_rectangle(a, b, 0.0) + np.array([x, y])
-    return outline
 
 
 def _frustum(low: Floats, high: Floats, z: tuple[float, float]) -> Solid:
@@ -50,20 +46,20 @@ def _plinth(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     if kind == 0:
         solid = merge(
             [
-                extrude(_rect(a, b), 0, h - chamfer),
-                _frustum(_rect(a, b), _rect(a - 2 * chamfer, b - 2 * chamfer), (h - chamfer, h)),
+                extrude(rect(a, b), 0, h - chamfer),
+                _frustum(rect(a, b), rect(a - 2 * chamfer, b - 2 * chamfer), (h - chamfer, h)),
             ]
         )
     elif kind == 1:
-        solid = _frustum(_rect(a + 0.4 * h, b + 0.4 * h), _rect(a, b), (0, h))
+        solid = _frustum(rect(a + 0.4 * h, b + 0.4 * h), rect(a, b), (0, h))
     elif kind == 2:
         solid = slab_xz([(-a / 2, 0), (a / 2, 0), (a / 2, h), (0, h), (0, 0.6 * h), (-a / 2, 0.6 * h)], b)
     elif kind == 3:
         r = a / 2
         solid, b = turned([(r, 0), (r, h - chamfer), (r - chamfer, h)], few_sides(hand, r, 40)), a
     else:
-        pit = (_rect(0.5 * a, 0.4 * b),)
-        solid = extrude(_rect(a, b), 0, h, pit)
+        pit = (rect(0.5 * a, 0.4 * b),)
+        solid = extrude(rect(a, b), 0, h, pit)
     parts = [piece(solid, "foundation", "concrete")]
     if chance(rng, 0.4):
         parts.append(
@@ -93,7 +89,7 @@ def _footing(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     if kind == 1:
         solids = [
             box((a, a, 0.6 * deep), (0, 0, 0.3 * deep)),
-            _frustum(_rect(a, a), _rect(1.2 * p, 1.2 * p), (0.6 * deep, deep)),
+            _frustum(rect(a, a), rect(1.2 * p, 1.2 * p), (0.6 * deep, deep)),
         ]
     if kind == 3:
         n = few_sides(hand, 0.15, 24)
@@ -103,12 +99,12 @@ def _footing(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             for y in (-1, 1)
         ]
     if kind == 2:
-        solids.append(extrude(_rect(1.6 * p, 1.6 * p), deep, h, (_rect(1.05 * p, 1.05 * p),)))
+        solids.append(extrude(rect(1.6 * p, 1.6 * p), deep, h, (rect(1.05 * p, 1.05 * p),)))
         parts.append(piece(box((0.95 * p, 0.95 * p, num(rng, 1.0, 2.5)), (0, 0, deep + 0.5)), "column", "concrete"))
         top = parts[-1].solid.vertices
         top[:, 2] += deep - top[:, 2].min()
     else:
-        solids.append(extrude(pick(rng, _rect(p, p), circle(p / 2, few_sides(hand, p / 2, 32))), deep, h))
+        solids.append(extrude(pick(rng, rect(p, p), circle(p / 2, few_sides(hand, p / 2, 32))), deep, h))
         one = drawn(rng, hand, 0.5 * p, ("H", "SHS", "CHS", "I"))
         plates, z = base(0, 0, (0.8 * p, 0.8 * p), hand, rng, h)
         parts += [*plates, piece(bar((0, 0, z), (0, 0, z + num(rng, 0.3, 1.5)), one, (0, 1, 0)), "column")]
@@ -171,7 +167,7 @@ def _strip(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         elif kind == 2:
             parts.append(piece(box((w, long, h), (x, 0, h / 2)), "foundation", "concrete"))
         else:
-            parts.append(piece(_frustum(_rect(1.4 * w, 1.4 * w, x), _rect(w, w, x), (0, h)), "foundation", "concrete"))
+            parts.append(piece(_frustum(rect(1.4 * w, 1.4 * w, x), rect(w, w, x), (0, h)), "foundation", "concrete"))
     if kind == 2:
         parts.append(
             piece(box((count * gap, long + 0.2, 0.2), ((count - 1) * gap / 2, 0, -0.1)), "foundation", "concrete")
@@ -203,7 +199,7 @@ def _brick(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     for x in np.linspace(0.15, long - 0.15, int(rng.integers(0, 4))):
         parts.append(piece(box((0.3, t + 0.2, top), (x, 0, top / 2)), pick(rng, "wall", "column"), "concrete"))
     if chance(rng, 0.6):
-        parts.append(piece(slab_xy(_rect(long + 0.06, t + 0.1, long / 2), top, top + 0.05), "wall", "ground", "wall"))
+        parts.append(piece(slab_xy(rect(long + 0.06, t + 0.1, long / 2), top, top + 0.05), "wall", "ground", "wall"))
     parts.append(piece(box((long + 0.3, t + 0.3, 0.2), (long / 2, 0, -0.1)), "foundation", "concrete"))
     return Model(parts)
 
@@ -240,10 +236,10 @@ def _panel_wall(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 )
             )
     else:
-        hole = (_rect(0.9, 0.8, long / 2, 0.6 * h),) if long > 1.4 else ()
-        parts.append(piece(slab_xz(_rect(long, h, long / 2, h / 2), 0.1, face - 0.05, hole), "wall", "concrete"))
+        hole = (rect(0.9, 0.8, long / 2, 0.6 * h),) if long > 1.4 else ()
+        parts.append(piece(slab_xz(rect(long, h, long / 2, h / 2), 0.1, face - 0.05, hole), "wall", "concrete"))
         if hole and chance(rng, 0.6):
-            parts.append(piece(slab_xz(_rect(0.9, 0.8, long / 2, 0.6 * h), 0.02, face - 0.05), "plate", "dial"))
+            parts.append(piece(slab_xz(rect(0.9, 0.8, long / 2, 0.6 * h), 0.02, face - 0.05), "plate", "dial"))
     return Model(parts)
 
 
@@ -259,7 +255,7 @@ def _bund(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             piece(cylinder(r + 0.1, -0.15, 0, n), "ground", "concrete"),
         ]
         return Model(parts)
-    outline, inner = _rect(a, b), _rect(a - 2 * t, b - 2 * t)
+    outline, inner = rect(a, b), rect(a - 2 * t, b - 2 * t)
     if kind == 1:
         outline = np.array([[0, 0], [a, 0], [a, 0.5 * b], [0.5 * a, 0.5 * b], [0.5 * a, b], [0, b]]) - np.array(
             [a / 2, b / 2]
@@ -293,7 +289,7 @@ def _retaining(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             solid = moved(slab_xz(shape, long / count - 0.006), at(0, (k + 0.5) * long / count))
             parts.append(piece(solid, "wall", "concrete"))
     elif kind == 1:
-        wall = [slab_xz(_rect(long, h, long / 2, h / 2), t)]
+        wall = [slab_xz(rect(long, h, long / 2, h / 2), t)]
         rib = [(0, 0), (0.5 * h, 0), (0.05, h), (0, h)]
         wall += [
             moved(slab_xz(rib, 0.15), at(x, t / 2) @ spun("z", np.pi / 2)) for x in np.linspace(0.2, long - 0.2, 3)
@@ -311,7 +307,7 @@ def _retaining(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         else:
             n = few_sides(hand, 0.15, 24)
             hole = (circle(0.15, n, (0.5 * long, 0.5 * h)),)
-            parts.append(piece(slab_xz(_rect(long, h, long / 2, h / 2), t, t / 2, hole), "wall", "concrete"))
+            parts.append(piece(slab_xz(rect(long, h, long / 2, h / 2), t, t / 2, hole), "wall", "concrete"))
             parts.append(piece(box((t, 0.7 * long - t, h), (t / 2, 0.35 * long + t / 2, h / 2)), "wall", "concrete"))
     return Model(parts)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.families.steel.caster import wheeled
 from cadgraph.environment.families.steel.floor import panel
 from cadgraph.environment.families.steel.shape import (
@@ -14,7 +15,6 @@ from cadgraph.environment.families.steel.shape import (
     filleted,
     floor_family,
     num,
-    pick,
     piece,
     pipe,
     section,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.families.steel.caster import wheeled
 from cadgraph.environment.families.steel.shape import (
     bar,
@@ -13,7 +14,6 @@ from cadgraph.environment.families.steel.shape import (
     few_sides,
     floor_family,
     num,
-    pick,
     piece,
     pipe,
     ribbon,

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.environment.family import Family, Model, Part
-from cadgraph.environment.form import along, ball, box, cylinder, hexagon, rod, turned
-from cadgraph.environment.frame import at, looking, spun
+from cadgraph.environment.form import along, ball, bar, box, cylinder, hexagon, rod, turned
+from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
 from cadgraph.environment.solid import Solid, extrude, lattice, merge, moved, sweep
@@ -36,17 +36,6 @@ def profile(rng: np.random.Generator, hand: Hand, big: float = 0.2) -> tuple[Flo
     return circle(0.35 * h, n), ((circle(0.31 * h, n),) if hand.hollow else ())
 
 
-def _between(
-    start: tuple[float, float, float], end: tuple[float, float, float], outline: Floats, holes: tuple[Floats, ...]
-) -> Solid:
-    """A section along a line: its y axis as upright as can be."""
-    a, b = np.asarray(start, float), np.asarray(end, float)
-    frame_ = looking(a, b - a)
-    pose = np.eye(4)
-    pose[:3, 0], pose[:3, 1], pose[:3, 2], pose[:3, 3] = frame_[:3, 1], frame_[:3, 2], frame_[:3, 0], a
-    return moved(extrude(outline, 0.0, float(np.linalg.norm(b - a)), holes), pose)
-
-
 def _portal(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     """A bay of a steel frame: columns on base plates, beams, braces (crossed, single, knee), gusset plates, anchors."""
     w, d, h = (float(rng.uniform(*span)) for span in ((1.2, 3.0), (1.0, 2.5), (1.8, 3.5)))
@@ -58,7 +47,7 @@ def _portal(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     for x in (0.0, w):
         for y in (0.0, d):
             side = float(np.ptp(up, axis=0).max()) + 0.12
-            parts.append(Part(_between((x, y, 0.015), (x, y, h), up, up_hole), "column", "steel"))
+            parts.append(Part(bar((x, y, 0.015), (x, y, h), up, up_hole), "column", "steel"))
             parts.append(Part(box((side, side, 0.015), (x, y, 0.0075)), "base plate", "steel"))
             if rng.random() < 0.5:
                 bolt = merge([cylinder(0.008, 0.0, 0.05, 8), hexagon(0.024, 0.015, 0.028)])
@@ -77,11 +66,11 @@ def _portal(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             if rng.random() < 0.4:
                 parts.append(Part(box((side + 0.15, side + 0.15, 0.2), (x, y, -0.1)), "foundation", "concrete"))
     for y in (0.0, d):
-        parts.append(Part(_between((0, y, h + deep), (w, y, h + deep), across, across_hole), "beam", "steel"))
+        parts.append(Part(bar((0, y, h + deep), (w, y, h + deep), across, across_hole), "beam", "steel"))
     for x in np.linspace(0, w, int(rng.integers(2, 5))):
         parts.append(
             Part(
-                _between(
+                bar(
                     (x, 0, h + 2.0 * deep + float(np.ptp(thin[:, 1])) / 2),
                     (x, d, h + 2.0 * deep + float(np.ptp(thin[:, 1])) / 2),
                     thin,
@@ -100,7 +89,7 @@ def _portal(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     else:
         lines = [((0.0, y, h - 0.6), (0.5, y, h)), ((w, y, h - 0.6), (w - 0.5, y, h))]
     for start, end in lines:
-        parts.append(Part(_between(start, end, 0.8 * thin, tuple(0.8 * hole for hole in thin_hole)), "brace", "steel"))
+        parts.append(Part(bar(start, end, 0.8 * thin, tuple(0.8 * hole for hole in thin_hole)), "brace", "steel"))
         side = 0.16
         gusset = extrude(
             np.array([[0, 0], [side, 0], [side, 0.3 * side], [0.3 * side, side], [0, side]]), -0.004, 0.004
@@ -200,20 +189,20 @@ def _rail(length: float, pose: Floats, hand: Hand, rng: np.random.Generator) -> 
     n, h = max(6, min(16, hand.round(0.022))), float(rng.uniform(0.95, 1.15))
     square = bool(rng.random() < 0.3)
 
-    def bar(a: tuple[float, float, float], b: tuple[float, float, float], r: float) -> Solid:
+    def tube_of(a: tuple[float, float, float], b: tuple[float, float, float], r: float) -> Solid:
         if not square:
             return rod(a, b, r, n)
-        return _between(a, b, rounded_rectangle(1.8 * r, 1.8 * r, 0.0), ())
+        return bar(a, b, rounded_rectangle(1.8 * r, 1.8 * r, 0.0), ())
 
     count = max(2, int(length / 1.2) + 1)
     xs = np.linspace(0, length, count)
     solids = [
-        ("railing", bar((0, 0, h), (length, 0, h), 0.021)),
-        ("railing", bar((0, 0, 0.5 * h), (length, 0, 0.5 * h), 0.014)),
+        ("railing", tube_of((0, 0, h), (length, 0, h), 0.021)),
+        ("railing", tube_of((0, 0, 0.5 * h), (length, 0, 0.5 * h), 0.014)),
     ]
-    solids += [("post", bar((x, 0, 0), (x, 0, h), 0.021)) for x in xs]
+    solids += [("post", tube_of((x, 0, 0), (x, 0, h), 0.021)) for x in xs]
     if rng.random() < 0.3:
-        solids += [("railing", bar((x, 0, 0.08), (x, 0, h), 0.007)) for x in np.arange(0.12, length, 0.14)]
+        solids += [("railing", tube_of((x, 0, 0.08), (x, 0, h), 0.007)) for x in np.arange(0.12, length, 0.14)]
     if rng.random() < 0.5:
         solids.append(("railing", box((length, 0.005, 0.1), (length / 2, 0.025, 0.06))))
     if rng.random() < 0.3:
@@ -243,7 +232,7 @@ def _stairs(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     flat = rng.random() < 0.5
     outline = rounded_rectangle(0.01, 0.2, 0.0) if flat else section_channel(0.18, 0.05, 0.006, 0.008)
     for s in (-1, 1):
-        solid = _between((0, s * wide / 2, 0.0), (run, s * wide / 2, height), outline, ())
+        solid = bar((0, s * wide / 2, 0.0), (run, s * wide / 2, height), outline, ())
         parts.append(Part(solid, "beam", "steel"))
     kind_rng = np.random.default_rng(int(rng.integers(1 << 30)))
     kind = int(kind_rng.integers(3))
@@ -286,18 +275,16 @@ def _platform(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     edge, edge_hole = profile(rng, hand, 0.16)
     deep = float(np.ptp(edge[:, 1]))
     parts = [
-        Part(
-            _between((sx * w / 2, sy * d / 2, 0.0), (sx * w / 2, sy * d / 2, h - deep), up, up_hole), "column", "steel"
-        )
+        Part(bar((sx * w / 2, sy * d / 2, 0.0), (sx * w / 2, sy * d / 2, h - deep), up, up_hole), "column", "steel")
         for sx in (-1, 1)
         for sy in (-1, 1)
     ]
     z = h - deep / 2 - float(edge[:, 1].max() + edge[:, 1].min()) / 2
     parts += [
-        Part(_between((-w / 2, s * d / 2, z), (w / 2, s * d / 2, z), edge, edge_hole), "beam", "steel") for s in (-1, 1)
+        Part(bar((-w / 2, s * d / 2, z), (w / 2, s * d / 2, z), edge, edge_hole), "beam", "steel") for s in (-1, 1)
     ]
     parts += [
-        Part(_between((s * w / 2, -d / 2, z), (s * w / 2, d / 2, z), edge, edge_hole), "beam", "steel") for s in (-1, 1)
+        Part(bar((s * w / 2, -d / 2, z), (s * w / 2, d / 2, z), edge, edge_hole), "beam", "steel") for s in (-1, 1)
     ]
     panels = int(rng.integers(1, 4))
     whole = rng.random() < 0.3
@@ -321,7 +308,7 @@ def _grating(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     for s in (-1, 1):
         parts.append(
             Part(
-                _between((-w / 2, s * d / 2, 0.07), (w / 2, s * d / 2, 0.07), section_angle(0.05, 0.005) * (1, 1), ()),
+                bar((-w / 2, s * d / 2, 0.07), (w / 2, s * d / 2, 0.07), section_angle(0.05, 0.005) * (1, 1), ()),
                 "beam",
                 "steel",
             )
@@ -431,9 +418,9 @@ def _skid(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     r = float(rng.uniform(0.04, 0.09))
     low = 2.6 * r if wheels else 0.0
     z = low - float(outline[:, 1].min())
-    runners = [_between((-w / 2, s * d / 2, z), (w / 2, s * d / 2, z), outline, holes) for s in (-1, 1)]
+    runners = [bar((-w / 2, s * d / 2, z), (w / 2, s * d / 2, z), outline, holes) for s in (-1, 1)]
     ties = [
-        _between((x, -d / 2, z), (x, d / 2, z), 0.95 * outline, tuple(0.95 * hole for hole in holes))
+        bar((x, -d / 2, z), (x, d / 2, z), 0.95 * outline, tuple(0.95 * hole for hole in holes))
         for x in np.linspace(-w / 2 + 0.05, w / 2 - 0.05, int(rng.integers(3, 6)))
     ]
     parts = [Part(s, "skid frame", "steel", "skid frame") for s in (*runners, *ties)]
@@ -486,7 +473,7 @@ def _stock(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         solid = (
             moved(extrude(outline, 0.0, length, holes), at(0, 0.45 * k))
             if upright
-            else _between((0.5, 0.45 * k, half), (0.5 + length, 0.45 * k, half), outline, holes)
+            else bar((0.5, 0.45 * k, half), (0.5 + length, 0.45 * k, half), outline, holes)
         )
         parts.append(Part(solid, name, "steel"))
         if upright:

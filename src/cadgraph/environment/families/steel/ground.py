@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.families.steel.shape import (
     chance,
     few_sides,
     floor_family,
     num,
-    pick,
     piece,
+    rect,
     slab_xy,
     slab_xz,
 )
@@ -18,16 +19,11 @@ from cadgraph.environment.family import Family, Model, Part
 from cadgraph.environment.form import box, cylinder, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
-from cadgraph.environment.polygon import circle, rounded_rectangle
+from cadgraph.environment.polygon import circle
 from cadgraph.environment.solid import Solid, merge, moved
 from cadgraph.scene import Floats
 
 __all__ = ["GROUNDS"]
-
-
-def _rect(a: float, b: float, x: float = 0.0, y: float = 0.0) -> Floats:
-    outline: Floats = rounded_rectangle(a, b, 0.0) + np.array([x, y])
-    return outline
 
 
 def _slabs(_: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -85,7 +81,7 @@ def _slabs(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts.append(piece(slab_xz(shape, 0.5 * b), "ground", "concrete"))
     else:
         outline = np.array([[0, 0], [a, 0], [a, 0.6 * b], [0.6 * a, 0.6 * b], [0.6 * a, b], [0, b]])
-        holes = (circle(0.12, few_sides(hand, 0.12, 24), (0.3 * a, 0.3 * b)), _rect(0.3, 0.3, 0.4 * a, 0.75 * b))
+        holes = (circle(0.12, few_sides(hand, 0.12, 24), (0.3 * a, 0.3 * b)), rect(0.3, 0.3, 0.4 * a, 0.75 * b))
         parts.append(piece(slab_xy(outline, -t, 0, holes if chance(rng, 0.6) else ()), "ground", "concrete"))
     if chance(rng, 0.4) and kind in (0, 3):
         size = num(rng, 0.3, 0.8)

@@ -8,6 +8,7 @@ from typing import TypeVar
 import numpy as np
 import numpy.typing as npt
 
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.family import Family, Part
 from cadgraph.environment.form import box, cylinder, hexagon, rope
 from cadgraph.environment.frame import at, looking, spun
@@ -32,10 +33,10 @@ __all__ = [
     "lug",
     "mirrored",
     "num",
-    "pick",
     "piece",
     "pipe",
     "propped",
+    "rect",
     "ribbon",
     "section",
     "slab_xy",
@@ -61,11 +62,6 @@ ROLLED = ("H", "I", "IPN", "U", "RHS", "SHS", "CHS")
 def num(rng: np.random.Generator, low: float, high: float) -> float:
     """A number between two."""
     return float(rng.uniform(low, high))
-
-
-def pick(rng: np.random.Generator, *items: _T) -> _T:
-    """One of some things."""
-    return items[int(rng.integers(len(items)))]
 
 
 def chance(rng: np.random.Generator, share: float) -> bool:
@@ -337,3 +333,9 @@ def lug(hand: Hand, size: float, thick: float) -> Solid:
     head = np.column_stack([0.5 * size * np.cos(a), 0.65 * size + 0.5 * size * np.sin(a)])
     outline = np.vstack([[[-0.7 * size, 0.0], [0.7 * size, 0.0]], head])
     return slab_xz(outline, thick, 0.0, (circle(0.24 * size, n, (0.0, 0.68 * size)),))
+
+
+def rect(a: float, b: float, x: float = 0.0, y: float = 0.0) -> Floats:
+    """A rectangle about a point [m]."""
+    outline: Floats = rounded_rectangle(a, b, 0.0) + np.array([x, y])
+    return outline

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.families.steel.shape import (
     Section,
     bar,
@@ -14,7 +15,6 @@ from cadgraph.environment.families.steel.shape import (
     floor_family,
     lug,
     num,
-    pick,
     piece,
     pipe,
     ribbon,

@@ -9,7 +9,6 @@ import numpy as np
 from cadgraph.environment.families.supports.clamp import half_band
 from cadgraph.environment.families.supports.shape import (
     arc_yz,
-    bar,
     below,
     bolt_parts,
     carrier,
@@ -19,14 +18,13 @@ from cadgraph.environment.families.supports.shape import (
     member,
     nut_parts,
     piece,
-    placed,
     slab_yz,
     strap,
     upright,
 )
 from cadgraph.environment.families.supports.stand import tie
-from cadgraph.environment.family import Family, Model, Part
-from cadgraph.environment.form import along, box, cylinder, hexagon, ring, rod, turned
+from cadgraph.environment.family import Family, Model, Part, placed
+from cadgraph.environment.form import along, bar, box, cylinder, hexagon, ring, rod, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle, section_i

@@ -5,20 +5,20 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.environment.families.supports.shape import (
-    GROUP,
     bolt_parts,
     few,
+    floor_family,
     footing,
     framed,
     nut_parts,
     piece,
-    placed,
+    screwed,
     slab_yz,
     strap,
 )
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.form import along, box, cylinder, hexagon, ring, rod, rope, turned
-from cadgraph.environment.frame import at, spun
+from cadgraph.environment.frame import at
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import rounded_rectangle
 from cadgraph.environment.solid import extrude, merge, moved
@@ -33,11 +33,6 @@ def _wall(rng: np.random.Generator, width: float, height: float, depth: float = 
     """A wall behind y = 0 on the floor [m]."""
     thick = depth or float(rng.uniform(0.1, 0.25))
     return framed(box((width, thick, height), (0, thick / 2, height / 2)), "wall", "concrete")
-
-
-def _screwed(d: float, grip: float, x: float, y: float, z: float, hand: Hand, head: str = "none") -> list[Part]:
-    """A bolt whose head shows towards -y, through a plate in front of ``y`` [m]."""
-    return bolt_parts(d, grip, at(x, y, z) @ spun("x", np.pi / 2), hand, "", head)
 
 
 def _shelf(_: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -95,7 +90,7 @@ def _shelf(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts.append(piece(moved(solid, at(float(x), 0, level)), _B, "", "steel"))
         for z in (-0.03, -0.75 * drop) if kind < 4 else (-0.075, -0.0):
             if kind < 4:
-                parts += _screwed(
+                parts += screwed(
                     0.008,
                     t,
                     float(x) + (0.3 * wide if kind in (1, 3) else 0.0) * (-1 if z > -0.05 else 1),
@@ -250,12 +245,8 @@ def _slide(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _family(name: str, build: object, weight: float = 1.0) -> Family:
-    return Family(name, "floor", GROUP, _B, build, (15,), "fitting", weight)  # type: ignore[arg-type]
-
-
 BRACKETS: tuple[Family, ...] = (
-    _family("bracket/shelf", _shelf),
-    _family("bracket/instrument stand", _stanchion, 1.5),
-    _family("bracket/motor slide", _slide),
+    floor_family("bracket/shelf", _shelf, _B),
+    floor_family("bracket/instrument stand", _stanchion, _B, 1.5),
+    floor_family("bracket/motor slide", _slide, _B),
 )

@@ -7,7 +7,6 @@ import numpy as np
 from cadgraph.environment.families.supports.shape import (
     GROUP,
     arc_yz,
-    bar,
     below,
     bolt_parts,
     carrier,
@@ -15,12 +14,11 @@ from cadgraph.environment.families.supports.shape import (
     framed,
     overhead,
     piece,
-    placed,
     slab_yz,
     strap,
 )
-from cadgraph.environment.family import Family, Model, Part
-from cadgraph.environment.form import along, box, cylinder, hexagon, ring
+from cadgraph.environment.family import Family, Model, Part, placed
+from cadgraph.environment.form import along, bar, box, cylinder, hexagon, ring
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle, section_channel, section_i

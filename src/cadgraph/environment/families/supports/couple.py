@@ -7,9 +7,9 @@ import numpy as np
 from cadgraph.environment.families.supports.shape import (
     GROUP,
     arc_yz,
-    bar,
     bolt_parts,
     few,
+    floor_family,
     framed,
     piece,
     slab_yz,
@@ -17,7 +17,7 @@ from cadgraph.environment.families.supports.shape import (
     upright,
 )
 from cadgraph.environment.family import Family, Model, Part
-from cadgraph.environment.form import along, box, cylinder, hexagon, ring
+from cadgraph.environment.form import along, bar, box, cylinder, hexagon, ring
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle, section_channel, section_i
@@ -342,13 +342,9 @@ def _girder(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _floor(name: str, build: object, whole: str, weight: float = 1.0) -> Family:
-    return Family(name, "floor", GROUP, whole, build, (15,), "fitting", weight)  # type: ignore[arg-type]
-
-
 COUPLES: tuple[Family, ...] = (
     Family("clamp/hose", "end", GROUP, "clamp", _hose, SIZES[:9], "structure"),
-    _floor("clamp/coupler", _coupler, "clamp"),
-    _floor("clamp/cleat", _cleat, "clamp"),
-    _floor("clamp/girder", _girder, "clamp"),
+    floor_family("clamp/coupler", _coupler, "clamp"),
+    floor_family("clamp/cleat", _cleat, "clamp"),
+    floor_family("clamp/girder", _girder, "clamp"),
 )

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from cadgraph.environment.families.supports.shape import GROUP, bar, eye, few, framed, piece, placed, upright
-from cadgraph.environment.family import Family, Model, Part
-from cadgraph.environment.form import around, box, cylinder, dome, hexagon, ring, rope, turned
+from cadgraph.environment.families.supports.shape import GROUP, eye, few, framed, piece, upright
+from cadgraph.environment.family import Family, Model, Part, placed
+from cadgraph.environment.form import around, bar, box, cylinder, dome, hexagon, ring, rope, turned
 from cadgraph.environment.frame import arc, at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle, section_channel, section_i

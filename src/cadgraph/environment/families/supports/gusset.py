@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph.environment.families.supports.shape import GROUP, bar, bolt_parts, framed, member, piece, slab_yz, upright
+from cadgraph.environment.families.supports.shape import GROUP, bolt_parts, framed, member, piece, slab_yz, upright
 from cadgraph.environment.family import Family, Model, Part
-from cadgraph.environment.form import box, cylinder, hexagon, ring
+from cadgraph.environment.form import bar, box, cylinder, hexagon, ring
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i

@@ -7,7 +7,6 @@ import numpy as np
 from cadgraph.environment.families.supports.clamp import half_band
 from cadgraph.environment.families.supports.shape import (
     arc_yz,
-    bar,
     bolt_parts,
     carrier,
     eye,
@@ -22,14 +21,14 @@ from cadgraph.environment.families.supports.shape import (
     upright,
 )
 from cadgraph.environment.family import Family, Model, Part
-from cadgraph.environment.form import along, around, box, cylinder, hexagon, ring, rod, rope, turned
+from cadgraph.environment.form import along, around, bar, box, cylinder, hexagon, ring, rod, rope, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import section_channel, section_i
 from cadgraph.environment.solid import Solid, merge, moved
 from cadgraph.environment.standard import PIPES, SIZES
 
-__all__ = ["HANGERS", "roller"]
+__all__ = ["HANGERS", "hanger_rod", "roller"]
 
 _NAME = "pipe hanger"
 
@@ -39,7 +38,8 @@ def _rod_d(r: float) -> float:
     return 0.010 if r < 0.035 else 0.012 if r < 0.06 else 0.016 if r < 0.1 else 0.022
 
 
-def _rod(d: float, low: float, high: float, hand: Hand, y: float = 0.0) -> Part:
+def hanger_rod(d: float, low: float, high: float, hand: Hand, y: float = 0.0) -> Part:
+    """A threaded rod along z [m]."""
     return piece(moved(cylinder(d / 2, low, high, few(d / 2, hand)), at(0, y)), "stud", _NAME, "fastener")
 
 
@@ -136,7 +136,7 @@ def _clevis(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
         parts.append(piece(strap(half_, 4 * wide, 0.002), _NAME, _NAME, "pipe"))
     drop = float(rng.uniform(0.15, 0.7))
     parts += [
-        _rod(d, top - 0.6 * d - thick, top + drop, hand),
+        hanger_rod(d, top - 0.6 * d - thick, top + drop, hand),
         _nut(d, top + thick / 2, hand),
         _nut(d, top - thick / 2, hand, up=False),
     ]
@@ -178,7 +178,7 @@ def _swivel(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
     parts = [
         piece(merge([band, cap]), _NAME, _NAME),
         piece(insert, "nut", _NAME, "fastener"),
-        _rod(d, top, top + drop, hand),
+        hanger_rod(d, top, top + drop, hand),
         _nut(d, top + 0.75 * d, hand),
     ]
     return Model([*parts, *_attached(d, top + drop, height, hand, rng)])
@@ -208,7 +208,7 @@ def _three_bolt(dn: int, hand: Hand, rng: np.random.Generator, height: float) ->
     loop_z = end - 0.5 * d + 0.6 * d
     parts.append(piece(moved(eye(1.0 * d, 0.5 * d, hand), at(0, 0, loop_z) @ np.eye(4)), "nut", _NAME, "fastener"))
     drop = float(rng.uniform(0.2, 0.7))
-    parts.append(_rod(d, loop_z + 0.8 * d, loop_z + drop, hand))
+    parts.append(hanger_rod(d, loop_z + 0.8 * d, loop_z + drop, hand))
     parts.append(_nut(d, loop_z + 1.4 * d, hand))
     return Model([*parts, *_attached(d, loop_z + drop, height, hand, rng)])
 
@@ -240,7 +240,7 @@ def _rolling(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mo
             if rng.random() < 0.8:
                 loop = moved(eye(0.5 * d + 0.4 * d, 0.4 * d, hand), at(0, s * out, axle_z))
                 parts.append(piece(loop, "nut", _NAME, "fastener"))
-            parts += [_rod(d, axle_z + axle, drop, hand, s * out), _nut(d, drop, hand, s * out, up=False)]
+            parts += [hanger_rod(d, axle_z + axle, drop, hand, s * out), _nut(d, drop, hand, s * out, up=False)]
         return Model([*parts, *overhead(drop, height, out, hand, rng)])
     thick, wide = 0.004 + 0.015 * r, 0.03 + 0.15 * r
     top = r + 0.02 + 0.3 * r
@@ -254,7 +254,7 @@ def _rolling(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mo
     ]
     parts += [
         piece(strap(path, wide, thick), _NAME, _NAME),
-        _rod(d, top - 1.4 * d, top + drop, hand),
+        hanger_rod(d, top - 1.4 * d, top + drop, hand),
         _nut(d, top + thick / 2, hand),
         _nut(d, top - thick / 2, hand, up=False),
     ]
@@ -275,14 +275,14 @@ def _trapeze(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mo
     double = bool(rng.random() < 0.25)
     for s in (-1, 1):
         y = s * out
-        parts.append(_rod(d, low - 2 * d, drop, hand, y))
+        parts.append(hanger_rod(d, low - 2 * d, drop, hand, y))
         flat = box((0.041, 0.041, 0.005), (0, y, low - 0.0025))
         parts.append(piece(flat, "washer", _NAME, "fastener", True))
         parts += [_nut(d, low - 0.005, hand, y, up=False), _nut(d, -r, hand, y), _nut(d, drop, hand, y, up=False)]
     if double:
         z = low - r - float(rng.uniform(0.1, 0.3))
         parts.append(framed(bar((0, -out - 0.04, z), (0, out + 0.04, z), outline, holes), "beam"))
-        parts += [_rod(d, z - 0.03, low - 2 * d, hand, s * out) for s in (-1, 1)]
+        parts += [hanger_rod(d, z - 0.03, low - 2 * d, hand, s * out) for s in (-1, 1)]
     hold = int(rng.integers(3))
     t = 0.003
     if hold == 0:
@@ -320,11 +320,11 @@ def _spring(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
     parts.append(piece(moved(eye(d, 0.5 * d, hand), at(0, 0, z)), "nut", _NAME, "fastener"))
     turn = z + float(rng.uniform(0.05, 0.2))
     buckle = 7 * d
-    parts += [_rod(d, z + 0.7 * d, turn + 1.5 * d, hand), *_turnbuckle(d, turn, turn + buckle, hand)]
+    parts += [hanger_rod(d, z + 0.7 * d, turn + 1.5 * d, hand), *_turnbuckle(d, turn, turn + buckle, hand)]
     low = turn + buckle + float(rng.uniform(0.04, 0.15))
     can, tall = 0.035 + 0.4 * r + float(rng.uniform(0, 0.03)), 0.14 + r + float(rng.uniform(0, 0.2))
     n = max(12, hand.round(can))
-    parts.append(_rod(d, turn + buckle - 1.5 * d, low + 0.02, hand))
+    parts.append(hanger_rod(d, turn + buckle - 1.5 * d, low + 0.02, hand))
     if rng.random() < 0.6:
         shell = turned([(can, low + 0.004), (can, low + tall)], n)
         lids = [cylinder(1.08 * can, q, q + 0.008, n) for q in (low, low + tall)]
@@ -357,7 +357,7 @@ def _spring(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
         ]
         return Model([*parts, *overhead(top + 0.095, height, can, hand, rng)])
     up = top + float(rng.uniform(0.1, 0.4))
-    parts += [_rod(d, top - 0.01, up, hand), _nut(d, top, hand)]
+    parts += [hanger_rod(d, top - 0.01, up, hand), _nut(d, top, hand)]
     return Model([*parts, *_attached(d, up, height, hand, rng)])
 
 

@@ -5,18 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.environment.families.supports.fastener import head_solid, nut_solid
-from cadgraph.environment.families.supports.shape import (
-    GROUP,
-    bar,
-    few,
-    framed,
-    piece,
-    placed,
-    strap,
-    upright,
-)
-from cadgraph.environment.family import Family, Model, Part
-from cadgraph.environment.form import along, box, cylinder, dome, ring, rod
+from cadgraph.environment.families.supports.shape import few, floor_family, framed, piece, strap, upright
+from cadgraph.environment.family import Family, Model, Part, placed
+from cadgraph.environment.form import along, bar, box, cylinder, dome, ring, rod
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle, section_i
@@ -205,12 +196,8 @@ def _tie_rods(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _floor(name: str, build: object, whole: str, weight: float = 1.0) -> Family:
-    return Family(name, "floor", GROUP, whole, build, (15,), "fitting", weight)  # type: ignore[arg-type]
-
-
 JOINTS: tuple[Family, ...] = (
-    _floor("bolt/swing", _swing, "bolt"),
-    _floor("bolt/strut", _slotted, "bolt"),
-    _floor("gusset plate/tie rods", _tie_rods, "gusset plate"),
+    floor_family("bolt/swing", _swing, "bolt"),
+    floor_family("bolt/strut", _slotted, "bolt"),
+    floor_family("gusset plate/tie rods", _tie_rods, "gusset plate"),
 )

@@ -5,20 +5,19 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.environment.families.supports.shape import (
-    GROUP,
-    bar,
     bolt_parts,
     few,
+    floor_family,
     footing,
     framed,
     member,
     piece,
-    placed,
+    screwed,
     strap,
     upright,
 )
-from cadgraph.environment.family import Family, Model, Part
-from cadgraph.environment.form import around, box, cylinder, ring, turned
+from cadgraph.environment.family import Family, Model, Part, placed
+from cadgraph.environment.form import around, bar, box, cylinder, ring, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle
@@ -28,11 +27,6 @@ __all__ = ["MOUNTS"]
 
 _B = "bracket"
 _SAFETY = "Electrical and safety"
-
-
-def _screwed(d: float, grip: float, x: float, y: float, z: float, hand: Hand, head: str = "none") -> list[Part]:
-    """A bolt whose head shows towards -y, through a plate in front of ``y`` [m]."""
-    return bolt_parts(d, grip, at(x, y, z) @ spun("x", np.pi / 2), hand, "", head)
 
 
 def _hinged(_: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -82,7 +76,7 @@ def _hinged(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             piece(moved(bolt, at(x)), "bolt", "", "fastener", True),
         ]
         for q in (0.4, 0.85):
-            parts += _screwed(0.006, t, x + 0.8 * knuckle + q * reach, t / 2, float(thirds[1]) + tall / 6, hand)
+            parts += screwed(0.006, t, x + 0.8 * knuckle + q * reach, t / 2, float(thirds[1]) + tall / 6, hand)
     kind = int(rng.integers(3))
     z0, z1 = 0.08, high
     if kind == 0:
@@ -297,13 +291,9 @@ def _lantern(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _family(name: str, build: object, weight: float = 1.0) -> Family:
-    return Family(name, "floor", GROUP, _B, build, (15,), "fitting", weight)  # type: ignore[arg-type]
-
-
 MOUNTS: tuple[Family, ...] = (
-    _family("bracket/hinge", _hinged),
-    _family("bracket/corner", _corner),
-    _family("bracket/mounting foot", _feet),
-    _family("bracket/lantern", _lantern),
+    floor_family("bracket/hinge", _hinged, _B),
+    floor_family("bracket/corner", _corner, _B),
+    floor_family("bracket/mounting foot", _feet, _B),
+    floor_family("bracket/lantern", _lantern, _B),
 )

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
-from cadgraph.environment.family import Family, Part
-from cadgraph.environment.form import box, cylinder, dome, hexagon, ring, rope, torus
-from cadgraph.environment.frame import at, looking, spun
+from cadgraph.environment.family import Build, Family, Part, placed
+from cadgraph.environment.form import bar, box, cylinder, dome, hexagon, ring, rope, torus
+from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
 from cadgraph.environment.solid import Solid, about_x, extrude, merge, moved, sweep
@@ -20,7 +19,6 @@ __all__ = [
     "FRAME",
     "GROUP",
     "arc_yz",
-    "bar",
     "below",
     "bolt_parts",
     "bow",
@@ -28,13 +26,14 @@ __all__ = [
     "coarse",
     "eye",
     "few",
+    "floor_family",
     "footing",
     "framed",
     "member",
     "nut_parts",
     "overhead",
     "piece",
-    "placed",
+    "screwed",
     "slab_yz",
     "strap",
     "upright",
@@ -64,11 +63,6 @@ def framed(solid: Solid, name: str, color: str = "steel") -> Part:
     return Part(solid, name, color, "", FRAME)
 
 
-def placed(parts: Sequence[Part], pose: Floats) -> list[Part]:
-    """Parts moved together."""
-    return [replace(p, solid=moved(p.solid, pose)) for p in parts]
-
-
 def slab_yz(outline: Floats | Sequence[Point], low: float, high: float, holes: tuple[Floats, ...] = ()) -> Solid:
     """A plate across the line: its outline in (y, z), thick along x [m]."""
     return about_x(extrude(_wound(outline), low, high, holes))
@@ -84,15 +78,6 @@ def _wound(outline: Floats | Sequence[Point]) -> Floats:
     points = np.asarray(outline, float)
     x, y = points.T
     return points if float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) > 0 else points[::-1]
-
-
-def bar(start: Point | Floats, end: Point | Floats, outline: Floats, holes: tuple[Floats, ...] = ()) -> Solid:
-    """A section along a line, its y axis as upright as can be [m]."""
-    a, b = np.asarray(start, float), np.asarray(end, float)
-    look = looking(a, b - a)
-    pose = np.eye(4)
-    pose[:3, 0], pose[:3, 1], pose[:3, 2], pose[:3, 3] = look[:3, 1], look[:3, 2], look[:3, 0], a
-    return moved(extrude(outline, 0.0, float(np.linalg.norm(b - a)), holes), pose)
 
 
 def strap(path: Floats | Sequence[Point], wide: float, thick: float, up: Point = (1.0, 0.0, 0.0)) -> Solid:
@@ -311,3 +296,13 @@ def eye(radius: float, thick: float, hand: Hand) -> Solid:
 def carrier(name: str, build: object, sizes: tuple[int, ...] = SIZES, weight: float = 1.0) -> Family:
     """A family that holds a line."""
     return Family(name, "carrier", GROUP, name.split("/")[0], build, sizes, "structure", weight)  # type: ignore[arg-type]
+
+
+def screwed(d: float, grip: float, x: float, y: float, z: float, hand: Hand, head: str = "none") -> list[Part]:
+    """A bolt whose head shows towards -y, through a plate in front of ``y`` [m]."""
+    return bolt_parts(d, grip, at(x, y, z) @ spun("x", np.pi / 2), hand, "", head)
+
+
+def floor_family(name: str, build: Build, whole: str, weight: float = 1.0) -> Family:
+    """A family of fittings that stand on the floor with what they hold together."""
+    return Family(name, "floor", GROUP, whole, build, (15,), "fitting", weight)

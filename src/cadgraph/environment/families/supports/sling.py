@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.environment.families.supports.clamp import half_band
+from cadgraph.environment.families.supports.hanger import hanger_rod
 from cadgraph.environment.families.supports.shape import (
     arc_yz,
     bolt_parts,
@@ -14,12 +15,11 @@ from cadgraph.environment.families.supports.shape import (
     framed,
     overhead,
     piece,
-    placed,
     slab_yz,
     strap,
     upright,
 )
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.form import along, box, cylinder, dome, hexagon, rod, rope
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
@@ -30,10 +30,6 @@ from cadgraph.environment.standard import PIPES, SIZES
 __all__ = ["SLINGS"]
 
 _NAME = "pipe hanger"
-
-
-def _stud(d: float, low: float, high: float, hand: Hand, y: float = 0.0) -> Part:
-    return piece(moved(cylinder(d / 2, low, high, few(d / 2, hand)), at(0, y)), "stud", _NAME, "fastener")
 
 
 def _nut(d: float, low: float, hand: Hand, y: float = 0.0) -> Part:
@@ -74,7 +70,7 @@ def _constant(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> M
     low = loop + float(rng.uniform(0.15, 0.5))
     parts += [
         piece(moved(eye(d, 0.5 * d, hand), at(0, 0, loop)), "nut", _NAME, "fastener"),
-        _stud(d, loop + 0.8 * d, low + 0.05 * k, hand),
+        hanger_rod(d, loop + 0.8 * d, low + 0.05 * k, hand),
     ]
     tall, back = 0.22 * k, 0.2 * k * float(rng.uniform(0.8, 1.2))
     side = [
@@ -175,7 +171,7 @@ def _hooked(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
         nuts = [piece(link, "nut", _NAME, "fastener")]
     top = start_rod + float(rng.uniform(0.15, 0.7))
     return Model(
-        [piece(body, _NAME, _NAME), *nuts, _stud(d, start_rod, top, hand), *_ceiling(top, d, height, hand, rng)]
+        [piece(body, _NAME, _NAME), *nuts, hanger_rod(d, start_rod, top, hand), *_ceiling(top, d, height, hand, rng)]
     )
 
 
@@ -291,7 +287,7 @@ def _two_rod(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mo
     top = r + float(rng.uniform(0.1, 0.6))
     for s in (-1, 1):
         parts += [
-            _stud(d, level - t - 1.6 * d, top, hand, s * y),
+            hanger_rod(d, level - t - 1.6 * d, top, hand, s * y),
             _nut(d, level, hand, s * y),
             _nut(d, level - t - 0.85 * d, hand, s * y),
             _nut(d, top - 0.85 * d, hand, s * y),
@@ -318,7 +314,7 @@ def _hinged_ring(dn: int, hand: Hand, rng: np.random.Generator, height: float) -
     ]
     z = r + t + 1.2 * d
     top = z + float(rng.uniform(0.15, 0.7))
-    parts.append(_stud(d, z, top, hand))
+    parts.append(hanger_rod(d, z, top, hand))
     if rng.random() < 0.5:
         parts.append(_nut(d, r + t + 1.6 * d, hand))
     if rng.random() < 0.5:

@@ -7,7 +7,6 @@ import numpy as np
 from cadgraph.environment.families.supports.hanger import roller
 from cadgraph.environment.families.supports.shape import (
     arc_yz,
-    bar,
     below,
     bolt_parts,
     carrier,
@@ -18,13 +17,12 @@ from cadgraph.environment.families.supports.shape import (
     member,
     nut_parts,
     piece,
-    placed,
     slab_yz,
     strap,
     upright,
 )
-from cadgraph.environment.family import Family, Model, Part
-from cadgraph.environment.form import along, box, cylinder, hexagon, ring, rope, turned
+from cadgraph.environment.family import Family, Model, Part, placed
+from cadgraph.environment.form import along, bar, box, cylinder, hexagon, ring, rope, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import section_i

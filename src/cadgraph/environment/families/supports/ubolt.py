@@ -6,7 +6,6 @@ import numpy as np
 
 from cadgraph.environment.families.supports.shape import (
     arc_yz,
-    bar,
     below,
     bow,
     carrier,
@@ -16,12 +15,11 @@ from cadgraph.environment.families.supports.shape import (
     nut_parts,
     overhead,
     piece,
-    placed,
     slab_yz,
     strap,
 )
-from cadgraph.environment.family import Family, Model, Part
-from cadgraph.environment.form import along, box, ring, rope
+from cadgraph.environment.family import Family, Model, Part, placed
+from cadgraph.environment.form import along, bar, box, ring, rope
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph.environment.families.utilities.kit import FRAME, GROUP, JOINT, h_column, pick, wall
+from cadgraph.environment.families.chance import pick
+from cadgraph.environment.families.utilities.kit import FRAME, GROUP, JOINT, h_column, wall
 from cadgraph.environment.family import Family, Model, Part
 from cadgraph.environment.form import along, around, box, cylinder, hexagon, ring, rod, rope, torus, turned
 from cadgraph.environment.frame import at, spun

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from cadgraph.environment.families.chance import pick
 from cadgraph.environment.family import Part
 from cadgraph.environment.form import box, cylinder, hexagon, rod
 from cadgraph.environment.frame import at, spun
@@ -13,15 +14,10 @@ from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import section_channel, section_i
 from cadgraph.environment.solid import Solid, about_x, extrude, merge, moved
 
-__all__ = ["FRAME", "GROUP", "JOINT", "back", "beam_over", "gland", "h_column", "pick", "pole", "strut", "wall"]
+__all__ = ["FRAME", "GROUP", "JOINT", "back", "beam_over", "gland", "h_column", "pole", "strut", "wall"]
 
 GROUP = "Electrical and safety"
 FRAME, JOINT = "Structural element", "Connection assembly"
-
-
-def pick(rng: np.random.Generator, *kinds: str) -> str:
-    """One of some words."""
-    return kinds[int(rng.integers(len(kinds)))]
 
 
 def wall(x0: float, x1: float, height: float, thick: float = 0.12) -> Part:

@@ -4,17 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph.environment.families.utilities.kit import (
-    GROUP,
-    JOINT,
-    back,
-    beam_over,
-    h_column,
-    hanger,
-    pick,
-    pole,
-    wall,
-)
+from cadgraph.environment.families.chance import pick
+from cadgraph.environment.families.utilities.kit import GROUP, JOINT, back, beam_over, h_column, hanger, pole, wall
 from cadgraph.environment.family import Family, Model, Part
 from cadgraph.environment.form import along, around, box, cylinder, dome, hexagon, rod, rope, torus, turned
 from cadgraph.environment.frame import at, spun

@@ -6,17 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from cadgraph.environment.families.utilities.kit import (
-    FRAME,
-    GROUP,
-    JOINT,
-    beam_over,
-    h_column,
-    hanger,
-    pick,
-    several,
-    wall,
-)
+from cadgraph.environment.families.chance import pick
+from cadgraph.environment.families.utilities.kit import FRAME, GROUP, JOINT, beam_over, h_column, hanger, several, wall
 from cadgraph.environment.family import Family, Model, Part
 from cadgraph.environment.form import box, rod, rope
 from cadgraph.environment.frame import at, spun

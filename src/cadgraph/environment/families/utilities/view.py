@@ -4,16 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph.environment.families.utilities.kit import (
-    FRAME,
-    GROUP,
-    JOINT,
-    back,
-    beam_over,
-    pick,
-    pole,
-    wall,
-)
+from cadgraph.environment.families.chance import pick
+from cadgraph.environment.families.utilities.kit import FRAME, GROUP, JOINT, back, beam_over, pole, wall
 from cadgraph.environment.family import Family, Model, Part
 from cadgraph.environment.form import along, around, ball, box, cylinder, dome, ring, rod, rope, turned
 from cadgraph.environment.frame import at, spun

@@ -4,17 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph.environment.families.utilities.kit import (
-    FRAME,
-    GROUP,
-    JOINT,
-    beam_over,
-    h_column,
-    pick,
-    pole,
-    strut,
-    wall,
-)
+from cadgraph.environment.families.chance import pick
+from cadgraph.environment.families.utilities.kit import FRAME, GROUP, JOINT, beam_over, h_column, pole, strut, wall
 from cadgraph.environment.family import Family, Model, Part
 from cadgraph.environment.form import along, box, cylinder, hexagon, ring, rod, rope, torus
 from cadgraph.environment.frame import at, spun

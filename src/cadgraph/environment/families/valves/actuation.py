@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from cadgraph.environment.families.valves.actuation_base import hand_lever, hand_wheel, indicator, put, quarter, shaft
+from cadgraph.environment.families.valves.actuation_base import hand_lever, hand_wheel, indicator, quarter, shaft
 from cadgraph.environment.families.valves.actuation_gear import bevel, worm
 from cadgraph.environment.families.valves.actuation_hand import cylinder_at, slab, span
 from cadgraph.environment.families.valves.drive import BODY
-from cadgraph.environment.family import Part
+from cadgraph.environment.family import Part, placed
 from cadgraph.environment.form import along, box, cylinder, hexagon, rod, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
@@ -74,15 +74,15 @@ def _rack(radius: float, hand: Hand, rng: Rng) -> list[Part]:
     crown = cylinder(0.3 * half, 1.9 * half, 2.25 * half, 12)
     parts.append(replace(parts[0], solid=crown))
     if rng.random() < 0.85:
-        parts += put([indicator(0.5 * half, hand, rng)], at(0, 0, 2.25 * half))
+        parts += placed([indicator(0.5 * half, hand, rng)], at(0, 0, 2.25 * half))
     if rng.random() < 0.4:
         coil = merge(
             [box((0.05, 0.05, 0.07), (0, 1.35 * half + 0.025, half)), cylinder_at(0.014, half + 0.03, half + 0.09, 0.0)]
         )
         parts.append(Part(coil, "actuator", "electrical", "actuator"))
     tall = float(rng.uniform(0.5, 1.6)) * half + 0.01
-    return put(
-        [mount(0.9 * half, tall, rng), shaft(0.0, tall, 0.2 * half, hand), *put(parts, at(0, 0, tall))], quarter(rng)
+    return placed(
+        [mount(0.9 * half, tall, rng), shaft(0.0, tall, 0.2 * half, hand), *placed(parts, at(0, 0, tall))], quarter(rng)
     )
 
 
@@ -140,10 +140,11 @@ def _scotch(radius: float, hand: Hand, rng: Rng) -> list[Part]:
     tall = 0.5 * half
     parts = [
         Part(merge(solids), "actuator", "motor", "actuator"),
-        *put([indicator(0.3 * half, hand, rng)], at(0, 0, 1.3 * half)),
+        *placed([indicator(0.3 * half, hand, rng)], at(0, 0, 1.3 * half)),
     ]
-    return put(
-        [mount(0.9 * half, tall, rng), shaft(0.0, tall, 0.22 * half, hand), *put(parts, at(0, 0, tall))], quarter(rng)
+    return placed(
+        [mount(0.9 * half, tall, rng), shaft(0.0, tall, 0.22 * half, hand), *placed(parts, at(0, 0, tall))],
+        quarter(rng),
     )
 
 
@@ -175,7 +176,11 @@ def _vertical(radius: float, hand: Hand, rng: Rng) -> list[Part]:
         Part(moved(merge([can, ports]), at(0, 0, low)), "actuator", "clamp", "actuator"),
         Part(yoke, "yoke", "clamp", BODY),
     ]
-    return [*parts, shaft(0.0, low, 0.16 * half, hand), *put([indicator(0.45 * half, hand, rng)], at(0, 0, low + tall))]
+    return [
+        *parts,
+        shaft(0.0, low, 0.16 * half, hand),
+        *placed([indicator(0.45 * half, hand, rng)], at(0, 0, low + tall)),
+    ]
 
 
 def _motor_box(radius: float, hand: Hand, rng: Rng) -> list[Part]:
@@ -195,11 +200,11 @@ def _motor_box(radius: float, hand: Hand, rng: Rng) -> list[Part]:
         along("-x", hexagon(0.022, 1.05 * half, 1.1 * half + 0.025), 0, s * 0.4 * deep, 0.45 * tall) for s in (-1, 1)
     ]
     parts = [Part(merge(solids), "actuator", "motor", "actuator")]
-    parts += put([indicator(0.4 * half, hand, rng, 3)], at(0.3 * half, 0, tall + 0.15 * half))
+    parts += placed([indicator(0.4 * half, hand, rng, 3)], at(0.3 * half, 0, tall + 0.15 * half))
     if rng.random() < 0.6:
         side = [shaft(0.0, 0.3 * half, 0.08 * half, hand), hand_wheel(0.75 * half, 0.25 * half, hand, rng)]
-        parts += put(side, at(-0.3 * half, -1.0 * deep, 0.35 * tall) @ spun("x", np.pi / 2))
-    return put(parts, quarter(rng))
+        parts += placed(side, at(-0.3 * half, -1.0 * deep, 0.35 * tall) @ spun("x", np.pi / 2))
+    return placed(parts, quarter(rng))
 
 
 def _multi_turn(radius: float, hand: Hand, rng: Rng) -> list[Part]:
@@ -250,8 +255,8 @@ def _multi_turn(radius: float, hand: Hand, rng: Rng) -> list[Part]:
     parts = [Part(merge([body, motor, *fins, control, cover]), "actuator", "motor", "actuator")]
     parts.append(Part(glass, "position indicator", "dial", "actuator"))
     side = [shaft(0.0, 0.35 * half, 0.12 * half, hand), hand_wheel(0.9 * half, 0.3 * half, hand, rng)]
-    parts += put(side, at(0, -0.6 * half, z) @ spun("x", np.pi / 2))
-    return put(parts, quarter(rng))
+    parts += placed(side, at(0, -0.6 * half, z) @ spun("x", np.pi / 2))
+    return placed(parts, quarter(rng))
 
 
 def _electrohydraulic(radius: float, hand: Hand, rng: Rng) -> list[Part]:
@@ -283,8 +288,8 @@ def _electrohydraulic(radius: float, hand: Hand, rng: Rng) -> list[Part]:
     door = box((0.02 * half, 1.0 * half, 0.9 * half), (1.31 * half, 0, 1.7 * half))
     parts = [Part(merge([base, block, cabin, door, bottle, stand]), "actuator", "motor", "actuator")]
     tall = 0.4 * half
-    return put(
-        [mount(0.7 * half, tall, rng), shaft(0.0, tall, 0.2 * half, hand), *put(parts, at(0, 0, tall))], quarter(rng)
+    return placed(
+        [mount(0.7 * half, tall, rng), shaft(0.0, tall, 0.2 * half, hand), *placed(parts, at(0, 0, tall))], quarter(rng)
     )
 
 
@@ -310,4 +315,4 @@ def quarter_turn(x: float, z: float, radius: float, hand: Hand, rng: Rng, kinds:
         parts = [hand_lever(float(rng.uniform(0.9, 1.4)) * (0.09 + 2.2 * radius), 0.0, hand, rng)]
     else:
         parts = _QUARTERS[kind](radius, hand, rng)
-    return put(parts, at(x, 0, z))
+    return placed(parts, at(x, 0, z))

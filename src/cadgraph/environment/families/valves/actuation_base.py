@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
-
 import numpy as np
 
 from cadgraph.environment.families.valves.actuation_hand import lever_of, slab, wheel_of
@@ -17,14 +14,9 @@ from cadgraph.environment.polygon import rounded_rectangle
 from cadgraph.environment.solid import Solid, merge, moved
 from cadgraph.scene import Floats
 
-__all__ = ["bolted", "hand_lever", "hand_wheel", "indicator", "put", "quarter", "shaft"]
+__all__ = ["bolted", "hand_lever", "hand_wheel", "indicator", "quarter", "shaft"]
 
 Rng = np.random.Generator
-
-
-def put(parts: Sequence[Part], pose: Floats) -> list[Part]:
-    """The parts moved together."""
-    return [replace(part, solid=moved(part.solid, pose)) for part in parts]
 
 
 def bolted(solid: Solid, bundle: str = BODY) -> Part:

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from cadgraph.environment.families.valves.actuation_base import bolted, hand_wheel, indicator, put, quarter, shaft
+from cadgraph.environment.families.valves.actuation_base import bolted, hand_wheel, indicator, quarter, shaft
 from cadgraph.environment.families.valves.actuation_hand import cylinder_at, slab
-from cadgraph.environment.family import Part
+from cadgraph.environment.family import Part, placed
 from cadgraph.environment.form import along, around, box, cylinder, hexagon, ring, rod, rope, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
@@ -92,10 +92,10 @@ def worm(radius: float, hand: Hand, rng: Rng) -> list[Part]:
     screws = around(hexagon(0.012 + 0.05 * half, 0.6 * tall, tall), 4, 0.9 * half, 0.8)
     parts = [Part(merge([case, tunnel]), "gearbox", "valve", "gearbox"), bolted(screws, "gearbox")]
     drive = _input(float(rng.uniform(0.8, 1.3)) * (0.05 + 0.8 * radius), float(rng.uniform(0.3, 1.4)) * half, hand, rng)
-    parts += put(drive, at(x, -1.05 * half, z) @ spun("x", np.pi / 2) @ spun("z", np.pi / 2))
+    parts += placed(drive, at(x, -1.05 * half, z) @ spun("x", np.pi / 2) @ spun("z", np.pi / 2))
     if rng.random() < 0.75:
-        parts.append(replace(put([indicator(0.4 * half, hand, rng)], at(0, 0, tall))[0], bundle="gearbox"))
-    return put(parts, quarter(rng))
+        parts.append(replace(placed([indicator(0.4 * half, hand, rng)], at(0, 0, tall))[0], bundle="gearbox"))
+    return placed(parts, quarter(rng))
 
 
 def bevel(radius: float, hand: Hand, rng: Rng) -> list[Part]:
@@ -135,7 +135,7 @@ def bevel(radius: float, hand: Hand, rng: Rng) -> list[Part]:
         )
         parts.append(Part(cover, "gearbox", "trim", "gearbox"))
     drive = _input(0.06 + 0.9 * radius, 0.35 * half, hand, rng)
-    return put(
-        [*parts, *put(drive, at(0, -1.5 * half, 0.75 * half) @ spun("x", np.pi / 2) @ spun("z", np.pi / 2))],
+    return placed(
+        [*parts, *placed(drive, at(0, -1.5 * half, 0.75 * half) @ spun("x", np.pi / 2) @ spun("z", np.pi / 2))],
         quarter(rng),
     )

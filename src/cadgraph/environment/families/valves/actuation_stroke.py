@@ -7,10 +7,10 @@ from collections.abc import Callable
 import numpy as np
 
 from cadgraph.environment.families.valves.actuation import quarter_turn
-from cadgraph.environment.families.valves.actuation_base import bolted, hand_wheel, put, shaft
+from cadgraph.environment.families.valves.actuation_base import bolted, hand_wheel, shaft
 from cadgraph.environment.families.valves.actuation_hand import slab
 from cadgraph.environment.families.valves.drive import BODY
-from cadgraph.environment.family import Part
+from cadgraph.environment.family import Part, placed
 from cadgraph.environment.form import along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
@@ -178,7 +178,7 @@ def _diaphragm(radius: float, tall: float, hand: Hand, rng: Rng) -> list[Part]:
             shaft(high - 0.01, high + 0.25 * head, 0.05 * head, hand, rng),
             hand_wheel(0.5 * head, high + 0.15 * head, hand, rng),
         ]
-    return put(parts, at(0, 0, tall))
+    return placed(parts, at(0, 0, tall))
 
 
 def _piston(radius: float, tall: float, hand: Hand, rng: Rng) -> list[Part]:
@@ -242,7 +242,7 @@ def _piston(radius: float, tall: float, hand: Hand, rng: Rng) -> list[Part]:
             ]
         )
         parts.append(Part(eye, "position indicator", "safety", "actuator"))
-    return put(parts, at(0, 0, tall))
+    return placed(parts, at(0, 0, tall))
 
 
 def _ram(radius: float, tall: float, hand: Hand, rng: Rng) -> list[Part]:
@@ -257,7 +257,7 @@ def _ram(radius: float, tall: float, hand: Hand, rng: Rng) -> list[Part]:
         0.08 * half + 0.002,
         8,
     )
-    return put([Part(merge([*heads, tube_, ties, pipe]), "actuator", "motor", "actuator")], at(0, 0, tall))
+    return placed([Part(merge([*heads, tube_, ties, pipe]), "actuator", "motor", "actuator")], at(0, 0, tall))
 
 
 def _motor(radius: float, tall: float, hand: Hand, rng: Rng) -> list[Part]:
@@ -281,7 +281,7 @@ def _motor(radius: float, tall: float, hand: Hand, rng: Rng) -> list[Part]:
                 "actuator",
             )
         )
-    return put(parts, at(0, 0, tall))
+    return placed(parts, at(0, 0, tall))
 
 
 def _turning(radius: float, tall: float, hand: Hand, rng: Rng) -> list[Part]:
@@ -350,4 +350,4 @@ def linear(x: float, z: float, radius: float, hand: Hand, rng: Rng, kinds: tuple
         parts += _positioner(half, tall, rng)
     if rng.random() < 0.6:
         parts.append(_scale(half, tall))
-    return put(parts, at(x, 0, z) @ spun("z", float(rng.choice([0.0, 0.5, 1.0])) * np.pi))
+    return placed(parts, at(x, 0, z) @ spun("z", float(rng.choice([0.0, 0.5, 1.0])) * np.pi))

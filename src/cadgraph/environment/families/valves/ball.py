@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.environment.families.valves.actuation import quarter_turn
-from cadgraph.environment.families.valves.actuation_base import bolted, put, shaft
+from cadgraph.environment.families.valves.actuation_base import bolted, shaft
 from cadgraph.environment.families.valves.actuation_hand import slab, span
 from cadgraph.environment.families.valves.body import (
     bolts_on,
@@ -21,7 +21,8 @@ from cadgraph.environment.families.valves.body import (
     valve_ball,
 )  # fmt: skip
 from cadgraph.environment.families.valves.drive import BODY
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.families.valves.valve import valve_family
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.form import along, around, box, cylinder, hexagon, ring, rod, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
@@ -72,7 +73,7 @@ def stem_top(x: float, low: float, high: float, radius: float, hand: Hand, rng: 
             "gland",
         )
     )
-    return put(parts, at(x))
+    return placed(parts, at(x))
 
 
 _HEAVY = ("worm", "worm", "scotch", "rack", "electrohydraulic", "multi-turn", "lever", "bevel")
@@ -165,7 +166,7 @@ def _top_entry(dn: int, hand: Hand, rng: Rng) -> Model:
     parts = [
         metal(merge([ended(dn, hand, length, middle, ends), moved(merge([tower, collar]), at(x))])),
         trim(merge([lid, dome_]), "valve bonnet", x, "valve"),
-        *put([bolts], at(x)),
+        *placed([bolts], at(x)),
         *stem_top(x, high - 0.01, high + 0.02 + 0.2 * radius, radius, hand, rng),
         *ball_inside(dn, x, hand, rng),
         *quarter_turn(x, high + 0.024 + 0.4 * radius, radius, hand, rng, _HEAVY),
@@ -221,7 +222,7 @@ def _welded(dn: int, hand: Hand, rng: Rng) -> Model:
             )
         vents.append(box((2 * boss + 0.04, 0.012, 0.005), (0, 0, 0.5 * (big + reach))))
         parts.append(metal(merge(vents), x))
-    parts += [*put([shaft(reach - 0.002, reach + 0.02, 0.4 * boss, hand)], at(x)), *ball_inside(dn, x, hand, rng)]
+    parts += [*placed([shaft(reach - 0.002, reach + 0.02, 0.4 * boss, hand)], at(x)), *ball_inside(dn, x, hand, rng)]
     kinds = ("lever", "worm", "bevel", "multi-turn", "scotch", "worm")
     parts += quarter_turn(x, reach + 0.012, radius, hand, rng, kinds)
     return Model(parts, round(length, 6), "welded", "ball valve")
@@ -268,7 +269,7 @@ def _segment(dn: int, hand: Hand, rng: Rng) -> Model:
     )
     parts.append(trim(cover, "valve bonnet", x, "valve"))
     gland, _ = packing(0.35 * boss, hand, rng, int(rng.choice([0, 2])))
-    parts += put([*gland, shaft(-0.1 * radius, 0.05, 0.35 * boss, hand)], at(x, 0, high))
+    parts += placed([*gland, shaft(-0.1 * radius, 0.05, 0.35 * boss, hand)], at(x, 0, high))
     if hand.hollow:
         big = 1.12 * PIPES[dn].bore
         arc_ = np.linspace(-0.75, 0.75, 9)
@@ -433,15 +434,11 @@ _MID = tuple(dn for dn in SIZES if dn <= 150)
 _ALL = SIZES
 
 
-def _family(name: str, build: object, sizes: tuple[int, ...], weight: float = 1.0) -> Family:
-    return Family(name, "inline", "Valve assembly", "valve", build, sizes, weight=weight)  # type: ignore[arg-type]
-
-
 BALLS: tuple[Family, ...] = (
-    _family("ball valve/trunnion", _trunnion, _BIG),
-    _family("ball valve/top entry", _top_entry, _ALL),
-    _family("ball valve/fully welded", _welded, _ALL),
-    _family("ball valve/segment", _segment, tuple(dn for dn in SIZES if dn >= 25)),
-    _family("ball valve/wafer", _wafer, _MID),
-    _family("ball valve/split body", _split, _ALL, 1.5),
+    valve_family("ball valve/trunnion", _trunnion, _BIG),
+    valve_family("ball valve/top entry", _top_entry, _ALL),
+    valve_family("ball valve/fully welded", _welded, _ALL),
+    valve_family("ball valve/segment", _segment, tuple(dn for dn in SIZES if dn >= 25)),
+    valve_family("ball valve/wafer", _wafer, _MID),
+    valve_family("ball valve/split body", _split, _ALL, weight=1.5),
 )

@@ -12,16 +12,14 @@ from cadgraph.environment.families.valves.parts import (
     body,
     bonnet,
     cover,
-    family,
     hub_radius,
     laid,
     other,
     piece,
-    posed,
     screwed,
 )
-from cadgraph.environment.families.valves.valve import disc_flange, flanged_body
-from cadgraph.environment.family import Family, Model
+from cadgraph.environment.families.valves.valve import disc_flange, flanged_body, valve_family
+from cadgraph.environment.family import Family, Model, placed
 from cadgraph.environment.flange import plate_thickness
 from cadgraph.environment.form import along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
 from cadgraph.environment.frame import at, spun
@@ -54,7 +52,7 @@ def _block_bleed(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     span = high - low
     for x in (low + 0.22 * span, high - 0.22 * span):
         head = [body(cylinder(boss, 0.8 * face, top, 12)), stem(top - 0.001, top + 0.012, 0.5 * boss, hand)]
-        parts += posed([*head, *drive(0.0, top + 0.01, 0.7 * r, hand, rng, ("lever", "lever", "bar"))], at(x))
+        parts += placed([*head, *drive(0.0, top + 0.01, 0.7 * r, hand, rng, ("lever", "lever", "bar"))], at(x))
     b = 0.009 + 0.03 * r
     way = spun("x", float(rng.choice([-0.5, 0.5, 0.0])) * np.pi)
     mid = at(length / 2) @ way
@@ -67,7 +65,7 @@ def _block_bleed(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         piece("valve stem", cylinder(0.35 * b, face + 5.1 * b, face + 7.2 * b, 8)),
         *drive(0.0, face + 6.8 * b, b, hand, rng, ("bar",)),
     ]
-    return Model([*parts, *posed(bleed, mid)], length, kind="ball valve")
+    return Model([*parts, *placed(bleed, mid)], length, kind="ball valve")
 
 
 def _balancing(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -119,12 +117,12 @@ def _balancing(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     head.append(piece("handwheel", merge(knob), color="handle", bundle=""))
     window = box((0.5 * grip, 0.3 * grip, 0.05 * grip), (0, 0.3 * grip, top + tall + 1.0 * grip))
     head.append(piece("position indicator", window, color="dial"))
-    parts = [body(shell), *posed(head, pose)]
+    parts = [body(shell), *placed(head, pose)]
     lean = float(rng.choice([0.4, 0.9, np.pi / 2]))
     for x in (thick + 0.07 * length, length - thick - 0.07 * length):
         test = [hexagon(0.018, 0.9 * neck, neck + 0.016), cylinder(0.007, neck + 0.01, neck + 0.03, 10)]
         cap = cylinder(0.010, neck + 0.028, neck + 0.055, 10)
-        parts += posed([body(*test), bonnet(cap)], at(x) @ spun("x", -lean))
+        parts += placed([body(*test), bonnet(cap)], at(x) @ spun("x", -lean))
     return Model(parts, length, kind="globe valve")
 
 
@@ -190,7 +188,7 @@ def _quick(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         chest = moved(extrude(rounded_rectangle(1.3 * wide, 2.1 * wide, 0.3 * wide, 3), 0.0, seat - 0.003), np.eye(4))
     parts = [
         body(shell, moved(chest, at(x))),
-        *posed(cover(1.2 * wide + 0.006, seat, plate, 8, hand, flat, 0.3 * r), at(x)),
+        *placed(cover(1.2 * wide + 0.006, seat, plate, 8, hand, flat, 0.3 * r), at(x)),
     ]
     top = seat + plate + 0.3 * r
     box_ = turned([(0.45 * wide, top - 0.3 * r), (0.4 * wide, top + 0.9 * r)], n)
@@ -250,7 +248,7 @@ def _landing(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         stem(top + 1.55 * wide, top + 2.8 * wide, 0.15 * wide, hand),
         wheel(float(rng.uniform(1.4, 2.0)) * wide + 0.01, 0, top + 2.2 * wide, hand, rng),
     ]
-    parts += posed(head, up)
+    parts += placed(head, up)
     mouth = at(0, 0, center) @ spun("x", -lean - 0.5)
     out = turned(
         [
@@ -309,7 +307,7 @@ def _tank_bottom(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         ]
         head.append(piece("actuator", turned(shape, m), bundle="actuator"))
         head.append(piece("valve stem", cylinder(0.1 * wide + 0.003, top, top + 0.42 * tall, 8)))
-    parts += posed(head, at(0, 0, center) @ spun("x", 0.55))  # away from the outlet
+    parts += placed(head, at(0, 0, center) @ spun("x", 0.55))  # away from the outlet
     return Model(laid(parts), kind="tank valve")
 
 
@@ -334,7 +332,7 @@ def _sampler(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     head.append(wheel(0.012 + 2.0 * r, 0, top + 6.4 * r, hand, rng)) if rng.random() < 0.6 else head.extend(
         drive(0, top + 7.0 * r, r, hand, rng, ("bar", "lever"))
     )
-    parts += posed(head, at(length / 2))
+    parts += placed(head, at(length / 2))
     z = 0.5 * size.outer + 0.045
     spout = bend([(length / 2, 1.2 * r, z), (length / 2, 6 * r, z), (length / 2, 6 * r, z - 3.6 * r)], 2.5 * r)
     parts.append(body(rope(spout, 0.6 * r, 12)))
@@ -344,11 +342,11 @@ def _sampler(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
 _MOST = tuple(dn for dn in MID if dn >= 25)
 
 BLOCKS: tuple[Family, ...] = (
-    family("ball valve/double block and bleed", _block_bleed, tuple(dn for dn in MID if dn <= 80)),
-    family("globe valve/balancing flanged", _balancing, _MOST),
-    family("shut-off valve/fusible link", _fusible, SMALL),
-    family("gate valve/quick opening", _quick, tuple(dn for dn in MID if dn <= 100)),
-    family("globe valve/fire landing", _landing, (50, 65, 80), "head"),
-    family("tank valve/flush bottom", _tank_bottom, _MOST, "head"),
-    family("sampling valve/wafer", _sampler, _MOST),
+    valve_family("ball valve/double block and bleed", _block_bleed, tuple(dn for dn in MID if dn <= 80)),
+    valve_family("globe valve/balancing flanged", _balancing, _MOST),
+    valve_family("shut-off valve/fusible link", _fusible, SMALL),
+    valve_family("gate valve/quick opening", _quick, tuple(dn for dn in MID if dn <= 100)),
+    valve_family("globe valve/fire landing", _landing, (50, 65, 80), "head"),
+    valve_family("tank valve/flush bottom", _tank_bottom, _MOST, "head"),
+    valve_family("sampling valve/wafer", _sampler, _MOST),
 )

@@ -13,18 +13,16 @@ from cadgraph.environment.families.valves.parts import (
     bonnet,
     cage,
     cover,
-    family,
     hub_radius,
     laid,
     other,
     piece,
-    posed,
     screwed,
     spring,
     thread_nut,
 )
-from cadgraph.environment.families.valves.valve import bolt_circle, disc_flange, flanged_body
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.families.valves.valve import bolt_circle, disc_flange, flanged_body, valve_family
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.flange import plate_thickness
 from cadgraph.environment.form import (
     along,
@@ -58,7 +56,7 @@ def _weighted(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     throat = float(rng.uniform(0.8, 0.95)) * bulge
     parts = [
         body(flanged_body(dn, hand, length, middle), moved(cylinder(throat, 0.3 * bulge, seat - 0.004, n), at(x))),
-        *posed(
+        *placed(
             cover(
                 1.2 * throat + 0.006, seat, 0.01 + 0.08 * r, 8, hand, bool(rng.integers(2)), rng.choice([0, 0.3]) * r
             ),
@@ -78,7 +76,7 @@ def _weighted(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     arm = merge([box((far, 0.4 * half + 0.004, 2 * half), (far / 2 - half, 0, 0)),
                  along("y", cylinder(2 * half, -0.9 * half, 0.9 * half, 12))])  # fmt: skip
     parts.append(piece("lever", moved(arm, pose), color="handle", bundle=""))
-    parts += posed(_counter(far, r, half, hand, rng), pose)
+    parts += placed(_counter(far, r, half, hand, rng), pose)
     if hand.hollow:
         disc = moved(cylinder(0.93 * PIPES[dn].bore, -0.004, 0.004 + 0.03 * r, n), at(px) @ spun("y", np.pi / 2))
         parts.append(piece("valve disc", disc))
@@ -188,7 +186,7 @@ def _piston(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts = [body(run, tower)]
     kind = int(rng.integers(3))
     if kind < 2:
-        parts += posed(
+        parts += placed(
             cover(1.25 * chest + 0.008, seat, 0.008 + 0.1 * r, 4 + 2 * int(rng.integers(2)), hand, kind == 1), at(x)
         )
         top = seat + 0.008 + 0.1 * r
@@ -366,7 +364,7 @@ def _ball_y(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     arm = turned([(0.9 * wide, 0.0), (wide, 0.4 * reach), (wide, reach - 0.003)], n)
     parts = [body(screwed(dn, hand, length, core), moved(arm, pose))]
     if rng.random() < 0.6:
-        parts += posed(
+        parts += placed(
             cover(1.25 * wide + 0.006, reach, 0.007 + 0.05 * r, 4, hand, bool(rng.integers(2)), 0.3 * r), pose
         )
     else:
@@ -401,15 +399,15 @@ def _plastic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
 _FOUR = tuple(dn for dn in SIZES if FLANGES[dn].n_bolts == 4)
 
 CHECKS: tuple[Family, ...] = (
-    family("check valve/weighted lever", _weighted, BIG, weight=1.5),
-    family("check valve/tilting disc", _tilting, BIG),
-    family("check valve/dual plate", _dual_plate, BIG),
-    family("check valve/piston", _piston, MID),
-    family("check valve/nozzle", _nozzle, BIG),
-    family("check valve/disc", _disc, _FOUR),
-    family("foot valve/strainer", _foot, MID, "head"),
-    family("flap valve/hinged", _flap, BIG, "head"),
-    family("duckbill valve/cuff", _duckbill, BIG, "head", 0.7),
-    family("check valve/ball threaded", _ball_y, SMALL),
-    family("check valve/plastic union", _plastic, SMALL),
+    valve_family("check valve/weighted lever", _weighted, BIG, weight=1.5),
+    valve_family("check valve/tilting disc", _tilting, BIG),
+    valve_family("check valve/dual plate", _dual_plate, BIG),
+    valve_family("check valve/piston", _piston, MID),
+    valve_family("check valve/nozzle", _nozzle, BIG),
+    valve_family("check valve/disc", _disc, _FOUR),
+    valve_family("foot valve/strainer", _foot, MID, "head"),
+    valve_family("flap valve/hinged", _flap, BIG, "head"),
+    valve_family("duckbill valve/cuff", _duckbill, BIG, "head", 0.7),
+    valve_family("check valve/ball threaded", _ball_y, SMALL),
+    valve_family("check valve/plastic union", _plastic, SMALL),
 )

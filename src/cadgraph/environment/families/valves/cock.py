@@ -14,17 +14,15 @@ from cadgraph.environment.families.valves.parts import (
     bonnet,
     chain,
     cover,
-    family,
     hub_radius,
     other,
     piece,
-    posed,
     screwed,
     square,
 )
 from cadgraph.environment.families.valves.small import hex_end
-from cadgraph.environment.families.valves.valve import flanged_body
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.families.valves.valve import flanged_body, valve_family
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.form import along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
@@ -101,7 +99,7 @@ def _solenoid(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     chest = cylinder(0.9 * wide, 0.3 * wide, seat - 0.003, n)
     parts = [
         body(shell, moved(chest, at(x))),
-        *posed(cover(1.15 * wide + 0.006, seat, plate, 6, hand, bool(rng.integers(2))), at(x)),
+        *placed(cover(1.15 * wide + 0.006, seat, plate, 6, hand, bool(rng.integers(2))), at(x)),
     ]
     top, size = seat + plate, float(rng.uniform(0.018, 0.03)) + 0.1 * r
     px = x if rng.random() < 0.6 else x + 0.5 * wide
@@ -328,7 +326,7 @@ def _gauge_valve(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         if rng.random() < 0.6
         else [wheel(0.012 + 1.4 * r, 0, 5.6 * r, hand, rng)]
     )
-    parts += posed(grip, pose)
+    parts += placed(grip, pose)
     parts.append(bonnet(hexagon(2.0 * r, top - 0.001, top + 0.9 * r), cylinder(1.0 * r, top, top + 1.2 * r, 12)))
     return Model(parts, kind="needle valve")
 
@@ -362,12 +360,12 @@ def _needle_angle(_: int, hand: Hand, rng: np.random.Generator) -> Model:
 
 
 COCKS: tuple[Family, ...] = (
-    family("angle seat valve/piston", _angle_seat, SMALL),
-    family("solenoid valve/flanged", _solenoid, tuple(dn for dn in MID if dn <= 100)),
-    family("ball valve/mini", _mini, tuple(dn for dn in SMALL if dn <= 25)),
-    family("plug valve/gas cock", _gas_cock, SMALL),
-    family("globe valve/stop cock", _stop_cock, SMALL),
-    family("drain valve/hose tail", _drain, SIZES, "tap"),
-    family("needle valve/multiport", _gauge_valve, SIZES, "tap"),
-    family("needle valve/angle", _needle_angle, SIZES, "tap"),
+    valve_family("angle seat valve/piston", _angle_seat, SMALL),
+    valve_family("solenoid valve/flanged", _solenoid, tuple(dn for dn in MID if dn <= 100)),
+    valve_family("ball valve/mini", _mini, tuple(dn for dn in SMALL if dn <= 25)),
+    valve_family("plug valve/gas cock", _gas_cock, SMALL),
+    valve_family("globe valve/stop cock", _stop_cock, SMALL),
+    valve_family("drain valve/hose tail", _drain, SIZES, "tap"),
+    valve_family("needle valve/multiport", _gauge_valve, SIZES, "tap"),
+    valve_family("needle valve/angle", _needle_angle, SIZES, "tap"),
 )

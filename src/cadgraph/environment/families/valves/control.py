@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph.environment.families.valves.actuation_base import hand_wheel, indicator, put, shaft
+from cadgraph.environment.families.valves.actuation_base import hand_wheel, indicator, shaft
 from cadgraph.environment.families.valves.actuation_stroke import LINEAR, linear, yoke_arms
 from cadgraph.environment.families.valves.body import (
     ended,
@@ -17,8 +17,8 @@ from cadgraph.environment.families.valves.body import (
 )  # fmt: skip
 from cadgraph.environment.families.valves.globe import globe_body, globe_plug
 from cadgraph.environment.families.valves.small import hex_end
-from cadgraph.environment.families.valves.valve import disc_flange
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.families.valves.valve import disc_flange, valve_family
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.form import (
     along,
     ball,
@@ -67,9 +67,9 @@ def _cage(dn: int, hand: Hand, rng: Rng) -> Model:
         [lid, _finned(throat, top, high, n, rng), turned([(2.8 * slim, high - 0.004), (2.8 * slim, high + 0.02)], n)]
     )
     body = merge([globe_body(dn, hand, rng, length, ends, seat, throat), moved(collar, at(x))])
-    parts = [metal(body), trim(hood, "valve bonnet", x, "valve"), *put([bolts], at(x))]
+    parts = [metal(body), trim(hood, "valve bonnet", x, "valve"), *placed([bolts], at(x))]
     gland, _ = packing(slim, hand, rng)
-    parts += put(gland, at(x, 0, high + 0.02))
+    parts += placed(gland, at(x, 0, high + 0.02))
     parts += linear(x, high, radius, hand, rng)
     if hand.hollow:
         bore = PIPES[dn].bore
@@ -202,9 +202,9 @@ def _angle_seat(dn: int, hand: Hand, rng: Rng) -> Model:
             shaft(reach, z + 0.05 + 0.5 * radius, slim, hand, rng),
             hand_wheel(0.025 + 1.2 * radius, z + 0.01 + 0.3 * radius, hand, rng, ("spoked", "lobed", "disc", "star")),
         ]
-    parts = [metal(merge([ended(dn, hand, length, barrel, ends), moved(arm, way)])), *put(rest, way)]
+    parts = [metal(merge([ended(dn, hand, length, barrel, ends), moved(arm, way)])), *placed(rest, way)]
     if hand.hollow:
-        parts += put([trim(globe_plug(0.85 * PIPES[dn].bore, 0, hand, 0.2 * radius), "valve disc")], way)
+        parts += placed([trim(globe_plug(0.85 * PIPES[dn].bore, 0, hand, 0.2 * radius), "valve disc")], way)
     return Model(parts, round(length, 6), "flanged" if ends == "flanged" else "welded", "globe valve")
 
 
@@ -230,7 +230,7 @@ def _heating(dn: int, hand: Hand, rng: Rng) -> Model:
     parts = [metal(merge(body)), trim(cap, "valve bonnet", x, "valve")]
     z, tall = seat + 0.03, 0.05 + 0.6 * radius
     half = 0.018 + 0.35 * radius
-    parts += put(
+    parts += placed(
         [
             yoke_arms(half, tall, hand, rng, "actuator"),
             shaft(-0.01, tall, 0.004 + 0.03 * radius, hand),
@@ -239,7 +239,7 @@ def _heating(dn: int, hand: Hand, rng: Rng) -> Model:
         at(x, 0, z),
     )
     if rng.random() < 0.4:
-        parts += put([indicator(0.015, hand, rng, 3)], at(x, -half - 0.0, z + 0.5 * tall) @ spun("x", np.pi / 2))
+        parts += placed([indicator(0.015, hand, rng, 3)], at(x, -half - 0.0, z + 0.5 * tall) @ spun("x", np.pi / 2))
     return Model(parts, round(length, 6), "flanged" if ends == "flanged" else "welded", "control valve")
 
 
@@ -247,13 +247,9 @@ _MID = tuple(dn for dn in SIZES if dn <= 200)
 _SMALL = tuple(dn for dn in SIZES if dn <= 65)
 
 
-def _family(name: str, build: object, sizes: tuple[int, ...], place: str = "inline", weight: float = 1.0) -> Family:
-    return Family(name, place, "Valve assembly", "valve", build, sizes, weight=weight)  # type: ignore[arg-type]
-
-
 CONTROLS: tuple[Family, ...] = (
-    _family("control valve/cage", _cage, SIZES, weight=2),
-    _family("control valve/angle", _control_angle, _MID, "head"),
-    _family("control valve/heating", _heating, tuple(dn for dn in SIZES if dn <= 100)),
-    _family("angle seat valve/piston", _angle_seat, _SMALL, weight=1.5),
+    valve_family("control valve/cage", _cage, SIZES, weight=2),
+    valve_family("control valve/angle", _control_angle, _MID, "head"),
+    valve_family("control valve/heating", _heating, tuple(dn for dn in SIZES if dn <= 100)),
+    valve_family("angle seat valve/piston", _angle_seat, _SMALL, weight=1.5),
 )

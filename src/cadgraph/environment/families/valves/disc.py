@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.environment.families.valves.actuation import quarter_turn
-from cadgraph.environment.families.valves.actuation_base import bolted, hand_lever, put, shaft
+from cadgraph.environment.families.valves.actuation_base import bolted, hand_lever, shaft
 from cadgraph.environment.families.valves.actuation_hand import slab, span
 from cadgraph.environment.families.valves.ball import clamped_ends, ferrule, part_ring
 from cadgraph.environment.families.valves.body import (
@@ -19,7 +19,7 @@ from cadgraph.environment.families.valves.body import (
     trim,
     turned_blade,
 )
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.flange import plate_thickness
 from cadgraph.environment.form import along, around, box, cylinder, hexagon, ring, turned
 from cadgraph.environment.frame import at, spun
@@ -85,10 +85,10 @@ def _triple(dn: int, hand: Hand, rng: Rng) -> Model:
     parts = [
         metal(merge([body, moved(merge([tower, *foot]), at(x))])),
         trim(cover, "valve bonnet", x, "valve"),
-        *put([bolts], at(x)),
+        *placed([bolts], at(x)),
     ]
     gland, _ = packing(0.4 * slim, hand, rng)
-    parts += put([*gland, shaft(0.0, 0.05 + 0.2 * radius, 0.4 * slim, hand)], at(x, 0, high))
+    parts += placed([*gland, shaft(0.0, 0.05 + 0.2 * radius, 0.4 * slim, hand)], at(x, 0, high))
     if hand.hollow:
         parts += turned_blade(bore, x, hand, rng)
         parts.append(trim(about_x(ring(0.94 * bore, 0.999 * bore, x - 0.06 * bore, x + 0.06 * bore, n)), "valve body"))
@@ -149,11 +149,11 @@ def _waterworks(dn: int, hand: Hand, rng: Rng) -> Model:
             for sx in (thick / 2 + 0.006, length - thick / 2 - 0.006)
         ]
     rest = [shaft(0.0, 0.02, 0.5 * slim, hand), bolted(around(hexagon(0.016, 0.0, 0.01), 4, 1.6 * slim, 0.7))]
-    upright = put(
+    upright = placed(
         [*rest, *quarter_turn(0, 0.005, radius, hand, rng, ("worm", "worm", "bevel", "multi-turn", "scotch", "lever"))],
         at(0, 0, high),
     )
-    parts = [metal(merge(body)), *put(upright, at(x) @ spun("x", side))]
+    parts = [metal(merge(body)), *placed(upright, at(x) @ spun("x", side))]
     if hand.hollow:
         disc = moved(blade(bore, hand, rng), spun("z", float(rng.choice([0.0, 0.4, 0.5])) * np.pi))
         parts.append(trim(moved(disc, at(x) @ spun("x", side)), "valve disc"))
@@ -203,9 +203,9 @@ def _mono(dn: int, hand: Hand, rng: Rng) -> Model:
     parts = [
         metal(merge([*plates, hub, moved(tower, at(x))])),
         trim(liner, "valve body", 0.0, "rubber"),
-        *put([bolts], at(x)),
+        *placed([bolts], at(x)),
         *turned_blade(bore, x, hand, rng),
-        *put([shaft(0.0, 0.012, 0.45 * slim, hand)], at(x, 0, high)),
+        *placed([shaft(0.0, 0.012, 0.45 * slim, hand)], at(x, 0, high)),
         *quarter_turn(x, high + 0.006, radius, hand, rng, ("worm", "rack", "lever", "motor box", "scotch")),
     ]
     return Model(parts, length, "wafer", "butterfly valve")
@@ -232,7 +232,7 @@ def _hygienic_drive(x: float, high: float, boss: float, radius: float, hand: Han
         )
         parts += [
             index,
-            *put([hand_lever(reach, high + 0.008, hand, rng, ("notched", "notched", "sheet", "bar"))], at(x)),
+            *placed([hand_lever(reach, high + 0.008, hand, rng, ("notched", "notched", "sheet", "bar"))], at(x)),
         ]
     else:
         parts += quarter_turn(x, high + 0.002, radius, hand, rng, ("vertical", "vertical", "rack"))
@@ -284,7 +284,7 @@ def _hygienic(dn: int, hand: Hand, rng: Rng) -> Model:
     parts = [
         metal(merge([*tube_, waist, moved(tower, at(x))]), 0.0, "clamp"),
         bolted(lugs),
-        *put([shaft(high - 0.004, high + 0.012, 0.6 * boss, hand)], at(x)),
+        *placed([shaft(high - 0.004, high + 0.012, 0.6 * boss, hand)], at(x)),
     ]
     if hand.hollow:
         parts += turned_blade(bore, x, hand, rng)
@@ -346,9 +346,11 @@ def _plastic(dn: int, hand: Hand, rng: Rng) -> Model:
         trim(ratchet, "position indicator", x),
         *turned_blade(bore, x, hand, rng),
     ]
-    parts += put([shaft(high - 0.01, high + 0.02, 0.4 * slim, hand)], at(x))
+    parts += placed([shaft(high - 0.01, high + 0.02, 0.4 * slim, hand)], at(x))
     if rng.random() < 0.75:
-        parts += put([hand_lever(0.12 + 1.6 * radius, high + 0.01, hand, rng, ("notched", "notched", "cast"))], at(x))
+        parts += placed(
+            [hand_lever(0.12 + 1.6 * radius, high + 0.01, hand, rng, ("notched", "notched", "cast"))], at(x)
+        )
     else:
         parts += quarter_turn(x, high + 0.006, radius, hand, rng, ("worm", "rack", "motor box"))
     return Model(parts, length, "wafer", "butterfly valve")
@@ -379,11 +381,11 @@ def _damper(dn: int, hand: Hand, rng: Rng) -> Model:
         metal(merge(body)),
         *turned_blade(bore, x, hand, rng),
         trim(slab(plate, high, high + 0.003, (slot,)), "position indicator", x),
-        *put([shaft(-radius - 0.03, high + 0.02, slim, hand)], at(x)),
+        *placed([shaft(-radius - 0.03, high + 0.02, slim, hand)], at(x)),
     ]
     if rng.random() < 0.65:
         wing = merge([cylinder(0.004, high - 0.004, high + 0.02, 8), box((0.025, 0.004, 0.012), (0, 0, high + 0.02))])
-        parts += put(
+        parts += placed(
             [
                 hand_lever(1.5 * reach + 0.03, high + 0.006, hand, rng, ("sheet", "bar", "sheet")),
                 bolted(moved(wing, at(0.78 * reach))),

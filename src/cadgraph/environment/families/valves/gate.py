@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph.environment.families.valves.actuation_base import hand_wheel, put, shaft
+from cadgraph.environment.families.valves.actuation_base import hand_wheel, shaft
 from cadgraph.environment.families.valves.actuation_hand import slab
 from cadgraph.environment.families.valves.actuation_stroke import linear, screwed_up
 from cadgraph.environment.families.valves.body import (
@@ -21,7 +21,8 @@ from cadgraph.environment.families.valves.body import (
     wedge,
 )  # fmt: skip
 from cadgraph.environment.families.valves.drive import BODY
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.families.valves.valve import valve_family
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.form import along, around, box, cylinder, hexagon, lofted, ring, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
@@ -86,16 +87,16 @@ def _cast(dn: int, hand: Hand, rng: Rng) -> Model:
         )
     gland, tall = packing(slim, hand, rng)
     rise = float(rng.choice([0.0, 1.1, 2.1])) * PIPES[dn].bore
-    parts = [metal(merge(body)), trim(hood, "valve bonnet", x, "valve"), *put([bolts], at(x))]
+    parts = [metal(merge(body)), trim(hood, "valve bonnet", x, "valve"), *placed([bolts], at(x))]
     if hand.hollow:
         parts.append(wedge(dn, x, 0.5 * length - back, rise, hand))
     yoke = float(rng.uniform(1.5, 2.4)) * radius + 0.06 + tall
     wheel = float(rng.uniform(0.9, 1.3)) * (0.05 + 1.15 * radius)
     if rng.random() < 0.75:
-        parts += put(screwed_up(max(3.4 * slim, 0.6 * b), yoke, wheel, slim, hand, rng), at(x, 0, top))
-        parts += put(gland, at(x, 0, top + 0.004))
+        parts += placed(screwed_up(max(3.4 * slim, 0.6 * b), yoke, wheel, slim, hand, rng), at(x, 0, top))
+        parts += placed(gland, at(x, 0, top + 0.004))
     else:
-        parts += put(
+        parts += placed(
             [*gland, shaft(-0.3 * radius, tall + 0.06, slim, hand, rng), hand_wheel(wheel, tall + 0.02, hand, rng)],
             at(x, 0, top),
         )
@@ -142,7 +143,7 @@ def _pressure_seal(dn: int, hand: Hand, rng: Rng) -> Model:
     studs = bolts_on(circle(0.95 * big, n), 6, high, high + 0.014 + 0.06 * radius, 0.008 + 0.05 * radius)
     parts = [
         metal(merge([ended(dn, hand, length, barrel, "butt"), moved(bottle, at(x))])),
-        *put([trim(merge([cap, ring_]), "valve bonnet", 0.0, "valve"), studs], at(x)),
+        *placed([trim(merge([cap, ring_]), "valve bonnet", 0.0, "valve"), studs], at(x)),
     ]
     gland, tall = packing(slim, hand, rng, int(rng.choice([0, 2, 3])))
     clamp = merge(
@@ -151,10 +152,10 @@ def _pressure_seal(dn: int, hand: Hand, rng: Rng) -> Model:
             *(box((0.02, 0.4 * big, 0.2 * radius), (s * 1.22 * big, 0, high - 0.19 * radius)) for s in (-1, 1)),
         ]
     )
-    parts += put(gland, at(x, 0, top))
+    parts += placed(gland, at(x, 0, top))
     yoke = top - high + tall + 1.6 * radius + 0.08
     parts.append(trim(clamp, "yoke", x, "valve"))
-    parts += put(screwed_up(1.12 * big, yoke, 0.07 + 1.5 * radius, slim, hand, rng), at(x, 0, high))
+    parts += placed(screwed_up(1.12 * big, yoke, 0.07 + 1.5 * radius, slim, hand, rng), at(x, 0, high))
     if hand.hollow:
         parts.append(wedge(dn, x, 0.3 * length, float(rng.choice([0.0, 1.8])) * PIPES[dn].bore, hand))
     return Model(parts, round(length, 6), "welded", "gate valve")
@@ -185,7 +186,7 @@ def _spindle(radius: float, slim: float, hand: Hand, rng: Rng) -> list[Part]:
         sleeve = turned([(4.0 * slim, 3 * slim), (3.0 * slim, 9 * slim), (3.0 * slim, reach - 0.05)], 14)
         rest += [
             Part(merge([tube, sleeve]), "valve stem", "trim", BODY),
-            *put([Part(square, "valve stem", "trim", BODY)], at(0, 0, reach)),
+            *placed([Part(square, "valve stem", "trim", BODY)], at(0, 0, reach)),
         ]
     return rest
 
@@ -233,11 +234,11 @@ def resilient(dn: int, hand: Hand, rng: Rng) -> Model:
         moved(merge([hollow, collar]), at(x)),
         *([foot] if foot else []),
     ]
-    parts = [metal(merge(pieces)), trim(merge([lid, hood, box_]), "valve bonnet", x, "valve"), *put([bolts], at(x))]
+    parts = [metal(merge(pieces)), trim(merge([lid, hood, box_]), "valve bonnet", x, "valve"), *placed([bolts], at(x))]
     if rng.random() < 0.5:
         parts.append(trim(merge([cylinder(2.6 * slim, top, top + 0.8 * slim, n)]), "gland", x))
     rest = _spindle(radius, slim, hand, rng)
-    parts += put(rest, at(x, 0, top))
+    parts += placed(rest, at(x, 0, top))
     if hand.hollow:
         parts.append(wedge(dn, x, 0.9 * a, float(rng.choice([0.0, 1.0])) * radius, hand))
     return Model(parts, round(length, 6), kind="gate valve")
@@ -300,12 +301,12 @@ def _conduit(dn: int, hand: Hand, rng: Rng) -> Model:
     crown = turned(
         [(0.5 * half_y, top - 0.002), (0.35 * half_y, top + 0.3 * radius), (2.6 * slim, top + 0.6 * radius + 0.01)], 20
     )
-    parts = [metal(merge(solids)), trim(merge([lid, crown]), "valve bonnet", x, "valve"), *put([bolts], at(x))]
+    parts = [metal(merge(solids)), trim(merge([lid, crown]), "valve bonnet", x, "valve"), *placed([bolts], at(x))]
     gland, tall = packing(slim, hand, rng)
     high = top + 0.6 * radius + 0.01
     if rng.random() < 0.7:
-        parts += put(gland, at(x, 0, high))
-        parts += put(
+        parts += placed(gland, at(x, 0, high))
+        parts += placed(
             screwed_up(3.6 * slim + 0.3 * radius, tall + 2.0 * radius + 0.08, 0.08 + 1.4 * radius, slim, hand, rng),
             at(x, 0, high),
         )
@@ -366,16 +367,16 @@ def _forged(dn: int, hand: Hand, rng: Rng) -> Model:
                 ),
             ]
         )
-        parts += put([bolts], at(x))
+        parts += placed([bolts], at(x))
         high = seat + plate + 0.5 * radius + 0.006
     else:
         high = seat + 1.3 * radius + 0.012
         cap = _welded_cap(big, seat, high, radius, n, rng)
     parts = [metal(merge(solids)), trim(cap, "valve bonnet", x, "valve"), *parts]
     gland, tall = packing(slim, hand, rng)
-    parts += put(gland, at(x, 0, high))
+    parts += placed(gland, at(x, 0, high))
     wheel, yoke = float(rng.uniform(0.85, 1.2)) * (0.035 + 1.6 * radius), tall + 0.05 + 1.3 * radius
-    parts += put(screwed_up(max(3.6 * slim, 0.8 * big), yoke, min(wheel, 0.079), slim, hand, rng), at(x, 0, high))
+    parts += placed(screwed_up(max(3.6 * slim, 0.8 * big), yoke, min(wheel, 0.079), slim, hand, rng), at(x, 0, high))
     if hand.hollow:
         plug = rng.random() < 0.5 and ends in ("socket", "butt")
         inside = (
@@ -404,14 +405,10 @@ _MID = tuple(dn for dn in SIZES if dn >= 40)
 _SMALL = tuple(dn for dn in SIZES if dn <= 50)
 
 
-def _family(name: str, build: object, sizes: tuple[int, ...], place: str = "inline", weight: float = 1.0) -> Family:
-    return Family(name, place, "Valve assembly", "valve", build, sizes, weight=weight)  # type: ignore[arg-type]
-
-
 GATES: tuple[Family, ...] = (
-    _family("gate valve/cast wedge", _cast, SIZES, weight=1.5),
-    _family("gate valve/pressure seal", _pressure_seal, _MID),
-    _family("gate valve/resilient seated", resilient, _MID),
-    _family("gate valve/through conduit", _conduit, _MID),
-    _family("gate valve/forged", _forged, _SMALL),
+    valve_family("gate valve/cast wedge", _cast, SIZES, weight=1.5),
+    valve_family("gate valve/pressure seal", _pressure_seal, _MID),
+    valve_family("gate valve/resilient seated", resilient, _MID),
+    valve_family("gate valve/through conduit", _conduit, _MID),
+    valve_family("gate valve/forged", _forged, _SMALL),
 )

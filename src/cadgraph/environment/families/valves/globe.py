@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph.environment.families.valves.actuation_base import hand_lever, hand_wheel, put, shaft
+from cadgraph.environment.families.valves.actuation_base import hand_lever, hand_wheel, shaft
 from cadgraph.environment.families.valves.actuation_hand import slab
 from cadgraph.environment.families.valves.actuation_stroke import screwed_up
 from cadgraph.environment.families.valves.body import (
@@ -21,7 +21,8 @@ from cadgraph.environment.families.valves.body import (
 )  # fmt: skip
 from cadgraph.environment.families.valves.drive import BODY
 from cadgraph.environment.families.valves.small import hex_end
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.families.valves.valve import valve_family
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.form import (
     along,
     ball,
@@ -156,23 +157,23 @@ def _bellows(dn: int, hand: Hand, rng: Rng) -> Model:
             ]
         )
     body = merge([globe_body(dn, hand, rng, length, "flanged", seat, throat), moved(collar, at(x))])
-    parts = [metal(body), trim(hood, "valve bonnet", x, "valve"), *put([bolts], at(x))]
+    parts = [metal(body), trim(hood, "valve bonnet", x, "valve"), *placed([bolts], at(x))]
     if open_ or hand.hollow:
         parts.append(trim(turned(bell, max(12, n // 2)), "valve stem", x))
     gland, tall = packing(slim, hand, rng)
     wheel = 0.04 + 1.25 * radius
-    parts += put(gland, at(x, 0, high + 0.004))
+    parts += placed(gland, at(x, 0, high + 0.004))
     if rng.random() < 0.5:
-        parts += put(
+        parts += placed(
             screwed_up(max(0.8 * throat, 3.5 * slim), tall + 0.04 + radius, wheel, slim, hand, rng),
             at(x, 0, high + 0.004),
         )
     else:
-        parts += put(
+        parts += placed(
             [shaft(-0.02, tall + 0.05, slim, hand, rng), hand_wheel(wheel, tall + 0.008, hand, rng)],
             at(x, 0, high + 0.004),
         )
-        parts += put(
+        parts += placed(
             [
                 trim(
                     merge(
@@ -238,7 +239,7 @@ def _needle(dn: int, hand: Hand, rng: Rng) -> Model:
             hand_wheel(0.02 + radius, 0.015, hand, rng, ("spoked",)),
         ]
         rest.pop(1)
-    parts += put(rest, at(x, 0, z))
+    parts += placed(rest, at(x, 0, z))
     if rng.random() < 0.3:
         flat = box((0.5 * length, 3.2 * big, 0.004), (x, 0, -1.0 * big - 0.002))
         parts.append(Part(flat, "bracket", "steel", BODY, "Connection assembly"))
@@ -283,8 +284,8 @@ def _cryogenic(dn: int, hand: Hand, rng: Rng) -> Model:
     parts = [
         metal(merge([body, moved(flange_, at(x))])),
         trim(merge(tube), "valve bonnet", x, "valve"),
-        *put([bolts], at(x)),
-        *put(rest, at(x, 0, reach + 0.016)),
+        *placed([bolts], at(x)),
+        *placed(rest, at(x, 0, reach + 0.016)),
     ]
     return Model(parts, round(length, 6), "welded", "globe valve")
 
@@ -344,23 +345,19 @@ def _cut_open(dn: int, hand: Hand, rng: Rng) -> Model:
         trim(globe_plug(0.9 * bore, int(rng.integers(3)), hand, 0.05 * radius), "valve disc"),
         trim(ring(0.6 * bore, 1.0 * bore, -0.25 * bore, 0.0, n), "valve body"),
         shaft(0.3 * bore, high + 0.06 + radius, slim, hand, rng),
-        *put(packing(slim, hand, rng)[0], at(0, 0, high)),
+        *placed(packing(slim, hand, rng)[0], at(0, 0, high)),
         hand_wheel(0.04 + 1.2 * radius, high + 0.03 + 0.6 * radius, hand, rng),
     ]
-    return Model([metal(shell), *put(rest, at(x))], length, kind="globe valve")
+    return Model([metal(shell), *placed(rest, at(x))], length, kind="globe valve")
 
 
 _MID = tuple(dn for dn in SIZES if dn <= 200)
 _SMALL = tuple(dn for dn in SIZES if dn <= 65)
 
 
-def _family(name: str, build: object, sizes: tuple[int, ...], place: str = "inline", weight: float = 1.0) -> Family:
-    return Family(name, place, "Valve assembly", "valve", build, sizes, weight=weight)  # type: ignore[arg-type]
-
-
 GLOBES: tuple[Family, ...] = (
-    _family("globe valve/bellows seal", _bellows, _MID),
-    _family("needle valve/bar stock", _needle, tuple(dn for dn in SIZES if dn <= 40)),
-    _family("globe valve/cryogenic", _cryogenic, _SMALL),
-    _family("globe valve/cut open", _cut_open, _MID, weight=0.6),
+    valve_family("globe valve/bellows seal", _bellows, _MID),
+    valve_family("needle valve/bar stock", _needle, tuple(dn for dn in SIZES if dn <= 40)),
+    valve_family("globe valve/cryogenic", _cryogenic, _SMALL),
+    valve_family("globe valve/cut open", _cut_open, _MID, weight=0.6),
 )

@@ -11,15 +11,14 @@ from cadgraph.environment.families.valves.parts import (
     body,
     bolting,
     bonnet,
-    family,
     fronted,
     other,
     piece,
-    posed,
     screwed,
     square,
 )
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.families.valves.valve import valve_family
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.form import along, around, ball, box, cylinder, hexagon, ring, rod, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
@@ -87,7 +86,7 @@ def _rotary(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
             piece("actuator", case, foot, color="rubber", bundle="actuator"),
             piece("position indicator", dial, color="handle", bundle="actuator"),
         ]
-    parts += posed(head, at(x) @ spun("x", np.pi / 2))
+    parts += placed(head, at(x) @ spun("x", np.pi / 2))
     return Model(parts, round(length, 6), "welded", "mixing valve")
 
 
@@ -335,10 +334,10 @@ def _bleed(_: int, hand: Hand, rng: np.random.Generator) -> Model:
 
 
 HEATING: tuple[Family, ...] = (
-    family("mixing valve/rotary", _rotary, SMALL),
-    family("control valve/zone", _zone, tuple(dn for dn in SMALL if dn <= 32)),
-    family("solenoid valve/gas block", _gas_block, SMALL),
-    family("control valve/distributor", _distributor, SMALL, "floor", 0.6),
-    family("float valve/cistern", _cistern, SMALL, "floor"),
-    family("bleed valve/hexagon", _bleed, SIZES, "tap"),
+    valve_family("mixing valve/rotary", _rotary, SMALL),
+    valve_family("control valve/zone", _zone, tuple(dn for dn in SMALL if dn <= 32)),
+    valve_family("solenoid valve/gas block", _gas_block, SMALL),
+    valve_family("control valve/distributor", _distributor, SMALL, "floor", 0.6),
+    valve_family("float valve/cistern", _cistern, SMALL, "floor"),
+    valve_family("bleed valve/hexagon", _bleed, SIZES, "tap"),
 )

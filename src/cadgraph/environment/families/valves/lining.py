@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.environment.families.valves.actuation import quarter_turn
-from cadgraph.environment.families.valves.actuation_base import bolted, hand_wheel, put, shaft
+from cadgraph.environment.families.valves.actuation_base import bolted, hand_wheel, shaft
 from cadgraph.environment.families.valves.actuation_hand import slab
 from cadgraph.environment.families.valves.actuation_stroke import LINEAR, yoke_arms
 from cadgraph.environment.families.valves.ball import clamped_ends, ferrule, part_ring
@@ -20,7 +20,8 @@ from cadgraph.environment.families.valves.body import (
     trim,
 )  # fmt: skip
 from cadgraph.environment.families.valves.drive import BODY
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.families.valves.valve import valve_family
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.flange import plate_thickness
 from cadgraph.environment.form import along, box, cylinder, hexagon, lofted, ring, rod, turned, waves
 from cadgraph.environment.frame import at
@@ -87,10 +88,10 @@ def _straight(dn: int, hand: Hand, rng: Rng) -> Model:
         ),
         Part(moved(seal, at(x)), "gasket", "rubber", BODY, "Pipe assembly"),
         trim(merge([moved(lid, at(0, 0, 0.004)), hood]), "valve bonnet", x, "valve"),
-        *put([bolts], at(x)),
+        *placed([bolts], at(x)),
     ]
     if rng.random() < 0.65:
-        parts += put(
+        parts += placed(
             [
                 shaft(-0.01, 0.05 + radius, slim, hand, rng),
                 hand_wheel(0.04 + 1.2 * radius, 0.012, hand, rng, ("spoked", "spoked", "lobed", "dished", "disc")),
@@ -101,7 +102,7 @@ def _straight(dn: int, hand: Hand, rng: Rng) -> Model:
             trim(cylinder(0.8 * slim, high + 0.04 + radius, high + 0.08 + 1.3 * radius, 10), "position indicator", x)
         )
     else:
-        parts += put(LINEAR[str(rng.choice(["piston", "diaphragm"]))](radius, high - 0.002, hand, rng), at(x))
+        parts += placed(LINEAR[str(rng.choice(["piston", "diaphragm"]))](radius, high - 0.002, hand, rng), at(x))
     return Model(parts, length, kind="diaphragm valve")
 
 
@@ -141,13 +142,13 @@ def _aseptic(dn: int, hand: Hand, rng: Rng) -> Model:
         metal(merge([*arms, *(moved(s, at(x)) for s in block)]), 0.0, "clamp"),
         Part(moved(seal, at(x)), "gasket", "rubber", BODY, "Pipe assembly"),
         trim(merge(lid), "valve bonnet", x),
-        *put([bolts], at(x)),
+        *placed([bolts], at(x)),
     ]
     if ends == "clamp":
         parts += clamped_ends(dn, stub, length, hand, rng)
     if rng.random() < 0.65:
         size = 0.85 * half + 0.008
-        parts += put(
+        parts += placed(
             [
                 shaft(-0.004, 0.02 + radius, 0.15 * half, hand),
                 hand_wheel(size, 0.001, hand, rng, ("lobed", "lobed", "spoked", "dished")),
@@ -160,7 +161,7 @@ def _aseptic(dn: int, hand: Hand, rng: Rng) -> Model:
         parts += (
             quarter_turn(x, high, radius, hand, rng, ("vertical",))
             if rng.random() < 0.5
-            else put(LINEAR["piston"](radius, high - 0.001, hand, rng), at(x))
+            else placed(LINEAR["piston"](radius, high - 0.001, hand, rng), at(x))
         )
     return Model(parts, round(length, 6), "welded", "diaphragm valve")
 
@@ -232,13 +233,13 @@ def _pinch_open(dn: int, hand: Hand, rng: Rng) -> Model:
         trim(merge([*posts, *beams]), "yoke", x, "steel"),
     ]
     if rng.random() < 0.6:
-        parts += put(
+        parts += placed(
             [shaft(low, up + 0.08 + radius, slim, hand, rng), hand_wheel(0.06 + 1.2 * radius, up + 0.012, hand, rng)],
             at(x),
         )
     else:
         kind = str(rng.choice(["piston", "ram", "turning"]))
-        parts += put([shaft(low, up + 0.012, slim, hand), *LINEAR[kind](radius, up + 0.009, hand, rng)], at(x))
+        parts += placed([shaft(low, up + 0.012, slim, hand), *LINEAR[kind](radius, up + 0.009, hand, rng)], at(x))
     return Model(parts, round(length, 6), kind="pinch valve")
 
 
@@ -326,7 +327,7 @@ def _pinch_closed(dn: int, hand: Hand, rng: Rng) -> Model:
         seat, half = max(high, 0.5 * FLANGES[dn].outer), 0.55 * big
         tower = merge([cylinder(half, 0.7 * big, seat, n), cylinder(1.4 * half, seat - 0.012, seat, n)])
         parts.insert(0, metal(merge([*body, moved(tower, at(x))])))
-        parts += put(_squeezer(half, radius, hand, rng), at(x, 0, seat))
+        parts += placed(_squeezer(half, radius, hand, rng), at(x, 0, seat))
     if hand.hollow:
         bore = PIPES[dn].bore
         liner = about_x(
@@ -340,13 +341,9 @@ _MID = tuple(dn for dn in SIZES if dn <= 200)
 _SMALL = tuple(dn for dn in SIZES if dn <= 100)
 
 
-def _family(name: str, build: object, sizes: tuple[int, ...], place: str = "inline", weight: float = 1.0) -> Family:
-    return Family(name, place, "Valve assembly", "valve", build, sizes, weight=weight)  # type: ignore[arg-type]
-
-
 LININGS: tuple[Family, ...] = (
-    _family("diaphragm valve/straight through", _straight, _MID),
-    _family("diaphragm valve/aseptic", _aseptic, _SMALL, weight=1.5),
-    _family("pinch valve/open frame", _pinch_open, tuple(dn for dn in SIZES if dn >= 25)),
-    _family("pinch valve/enclosed", _pinch_closed, tuple(dn for dn in SIZES if dn >= 25)),
+    valve_family("diaphragm valve/straight through", _straight, _MID),
+    valve_family("diaphragm valve/aseptic", _aseptic, _SMALL, weight=1.5),
+    valve_family("pinch valve/open frame", _pinch_open, tuple(dn for dn in SIZES if dn >= 25)),
+    valve_family("pinch valve/enclosed", _pinch_closed, tuple(dn for dn in SIZES if dn >= 25)),
 )

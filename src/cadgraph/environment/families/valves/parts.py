@@ -8,7 +8,7 @@ import numpy as np
 
 from cadgraph.environment.families.valves.small import hex_end
 from cadgraph.environment.families.valves.valve import bolt_circle, disc_flange
-from cadgraph.environment.family import Family, Part
+from cadgraph.environment.family import Part
 from cadgraph.environment.form import along, around, box, cylinder, hexagon, rope, torus, turned
 from cadgraph.environment.frame import at
 from cadgraph.environment.hand import Hand
@@ -30,13 +30,11 @@ __all__ = [
     "cage",
     "chain",
     "cover",
-    "family",
     "fronted",
     "hub_radius",
     "laid",
     "other",
     "piece",
-    "posed",
     "screwed",
     "spring",
     "square",
@@ -49,13 +47,6 @@ MID = tuple(dn for dn in SIZES if dn <= 200)
 BIG = tuple(dn for dn in SIZES if dn >= 40)
 
 _BACK = {"x": "-x", "-x": "x", "y": "-y", "-y": "y", "z": "-z", "-z": "z"}
-
-
-def family(
-    name: str, build: object, sizes: tuple[int, ...] = SIZES, place: str = "inline", weight: float = 1.0
-) -> Family:
-    """A family of valves."""
-    return Family(name, place, "Valve assembly", "valve", build, sizes, weight=weight)  # type: ignore[arg-type]
 
 
 def piece(name: str, *solids: Solid, color: str = "trim", bundle: str = BODY) -> Part:
@@ -81,11 +72,6 @@ def bolting(solid: Solid) -> Part:
 def other(group: str, name: str, color: str, *solids: Solid, own: bool = False) -> Part:
     """A part of another group; one with the valve's mesh where the hand makes it whole if it is its ``own``."""
     return Part(merge(list(solids)), name, color, BODY if own else "", group)
-
-
-def posed(parts: Sequence[Part], pose: Floats) -> list[Part]:
-    """Parts moved by a pose."""
-    return [Part(moved(p.solid, pose), p.name, p.color, p.bundle, p.group, p.fine) for p in parts]
 
 
 def laid(parts: Sequence[Part]) -> list[Part]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.environment.families.valves.actuation import quarter_turn
-from cadgraph.environment.families.valves.actuation_base import bolted, hand_lever, hand_wheel, put, shaft
+from cadgraph.environment.families.valves.actuation_base import bolted, hand_lever, hand_wheel, shaft
 from cadgraph.environment.families.valves.actuation_hand import slab
 from cadgraph.environment.families.valves.body import (
     ended,
@@ -18,8 +18,8 @@ from cadgraph.environment.families.valves.body import (
     trim,
 )  # fmt: skip
 from cadgraph.environment.families.valves.drive import BODY
-from cadgraph.environment.families.valves.valve import disc_flange
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.families.valves.valve import disc_flange, valve_family
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.form import along, box, cylinder, dome, hexagon, lofted, rod, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
@@ -72,7 +72,7 @@ def _lubricated(dn: int, hand: Hand, rng: Rng) -> Model:
     )
     top, half = high + plate, 0.3 * radius + 0.006
     body = merge([ended(dn, hand, length, middle, "flanged"), moved(merge([chest, collar]), at(x))])
-    parts = [metal(body), trim(lid, "valve bonnet", x, "valve"), *put([bolts], at(x))]
+    parts = [metal(body), trim(lid, "valve bonnet", x, "valve"), *placed([bolts], at(x))]
     gland, _ = packing(0.8 * half, hand, rng, int(rng.choice([0, 2])))
     head = merge([cylinder(half, -0.01, 2.2 * half, 12), box((1.7 * half, 1.7 * half, 2.2 * half), (0, 0, 3.2 * half))])
     grease = merge(
@@ -82,10 +82,10 @@ def _lubricated(dn: int, hand: Hand, rng: Rng) -> Model:
             dome(0.005, 0.005, 4.2 * half + 0.03, 8),
         ]
     )
-    parts += put([*gland, Part(merge([head, grease]), "valve stem", "trim", BODY)], at(x, 0, top))
+    parts += placed([*gland, Part(merge([head, grease]), "valve stem", "trim", BODY)], at(x, 0, top))
     pick = rng.random()
     if pick < 0.55:
-        parts += put(
+        parts += placed(
             [hand_lever(0.14 + 2.8 * radius, 2.3 * half, hand, rng, ("spanner", "bar", "cast"))], at(x, 0, top)
         )
     elif pick < 0.9:
@@ -141,17 +141,19 @@ def _eccentric(dn: int, hand: Hand, rng: Rng) -> Model:
     parts = [
         metal(merge([*body, foot])),
         trim(moved(cover, at(0, 0.35 * radius)), "valve bonnet", x, "valve"),
-        *put([bolts], at(x, 0.35 * radius)),
+        *placed([bolts], at(x, 0.35 * radius)),
     ]
-    parts += put([shaft(-0.02, 0.04, 0.5 * hub, hand)], pose)
+    parts += placed([shaft(-0.02, 0.04, 0.5 * hub, hand)], pose)
     pick = rng.random()
     if pick < 0.3:
         nut = box((0.05, 0.05, 0.05), (0, 0, 0.06))
-        parts += put([Part(nut, "valve stem", "trim", BODY)], pose)
+        parts += placed([Part(nut, "valve stem", "trim", BODY)], pose)
     elif pick < 0.5:
-        parts += put([hand_lever(0.12 + 2.4 * radius, 0.01, hand, rng, ("bar", "cast", "spanner"))], pose)
+        parts += placed([hand_lever(0.12 + 2.4 * radius, 0.01, hand, rng, ("bar", "cast", "spanner"))], pose)
     else:
-        parts += put(quarter_turn(0, 0.004, radius, hand, rng, ("worm", "worm", "bevel", "multi-turn", "scotch")), pose)
+        parts += placed(
+            quarter_turn(0, 0.004, radius, hand, rng, ("worm", "worm", "bevel", "multi-turn", "scotch")), pose
+        )
     if hand.hollow:
         plug = np.array(
             [(1.05 * radius * np.cos(t), 1.05 * radius * np.sin(t)) for t in np.linspace(0.25, 2.9, 12)]
@@ -201,7 +203,7 @@ def _multi_plug(dn: int, hand: Hand, rng: Rng) -> Model:
     parts = [
         metal(merge([*body, moved(collar, at(x))])),
         trim(lid, "valve bonnet", x, "valve"),
-        *put([bolts, bolted(adjust), shaft(-0.2 * radius, top + 2.5 * slim, slim, hand)], at(x)),
+        *placed([bolts, bolted(adjust), shaft(-0.2 * radius, top + 2.5 * slim, slim, hand)], at(x)),
     ]
     stop = merge(
         [
@@ -211,7 +213,7 @@ def _multi_plug(dn: int, hand: Hand, rng: Rng) -> Model:
     )
     parts.append(trim(stop, "position indicator", x))
     if rng.random() < 0.6:
-        parts += put(
+        parts += placed(
             [hand_lever(0.12 + 2.2 * radius, top + 0.012, hand, rng, ("spanner", "bar", "sheet", "cast"))], at(x)
         )
     else:
@@ -265,20 +267,16 @@ def _tap(dn: int, hand: Hand, rng: Rng) -> Model:
         rest.append(hand_lever(0.04 + 2.0 * radius, 0.002, hand, rng, ("wing", "sheet", "tee", "loop", "bar")))
     else:
         rest.append(hand_wheel(0.016 + 0.9 * radius, 0.003, hand, rng, ("cross", "lobed", "star", "spoked", "disc")))
-    return Model([*parts, *put(rest, at(x, 0, top))], kind="tap")
+    return Model([*parts, *placed(rest, at(x, 0, top))], kind="tap")
 
 
 _MID = tuple(dn for dn in SIZES if dn <= 200)
 _BIG = tuple(dn for dn in SIZES if dn >= 50)
 
 
-def _family(name: str, build: object, sizes: tuple[int, ...], place: str = "inline", weight: float = 1.0) -> Family:
-    return Family(name, place, "Valve assembly", "valve", build, sizes, weight=weight)  # type: ignore[arg-type]
-
-
 PLUGS: tuple[Family, ...] = (
-    _family("plug valve/lubricated", _lubricated, _MID),
-    _family("plug valve/eccentric", _eccentric, _BIG),
-    _family("plug valve/multi-port", _multi_plug, _MID),
-    _family("bib tap/spout", _tap, tuple(dn for dn in SIZES if dn <= 50), "end"),
+    valve_family("plug valve/lubricated", _lubricated, _MID),
+    valve_family("plug valve/eccentric", _eccentric, _BIG),
+    valve_family("plug valve/multi-port", _multi_plug, _MID),
+    valve_family("bib tap/spout", _tap, tuple(dn for dn in SIZES if dn <= 50), "end"),
 )

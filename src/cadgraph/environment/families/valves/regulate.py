@@ -12,17 +12,15 @@ from cadgraph.environment.families.valves.parts import (
     bolting,
     bonnet,
     cover,
-    family,
     hub_radius,
     laid,
     other,
     piece,
-    posed,
     screwed,
     spring,
 )
-from cadgraph.environment.families.valves.valve import bolt_circle, disc_flange, flanged_body
-from cadgraph.environment.family import Family, Model
+from cadgraph.environment.families.valves.valve import bolt_circle, disc_flange, flanged_body, valve_family
+from cadgraph.environment.family import Family, Model, placed
 from cadgraph.environment.flange import plate_thickness
 from cadgraph.environment.form import along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
 from cadgraph.environment.frame import at, spun
@@ -187,7 +185,7 @@ def _gas(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
     head = [body(neck, lower), bonnet(turned(upper, n), vent), bonnet(cap), bolting(bolts)]
     x = length / 2
-    parts = [body(shell), *posed(head, at(x) @ (spun("x", np.pi / 2) if side else np.eye(4)))]
+    parts = [body(shell), *placed(head, at(x) @ (spun("x", np.pi / 2) if side else np.eye(4)))]
     if rng.random() < 0.5:
         size = 0.45 * rim
         way = "-z" if not side else "y"
@@ -214,7 +212,7 @@ def _pilot_globe(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     n = hand.round(rim)
     neck = turned([(0.9 * wide, 0.3 * wide), (rim, seat - plate - 0.15 * wide), (rim, seat - plate + 0.001)], n)
     parts = [body(shell, moved(neck, at(x)))]
-    parts += posed(cover(rim, seat, plate, int(rng.choice([8, 10, 12])), hand, False, 0.45 * wide), at(x))
+    parts += placed(cover(rim, seat, plate, int(rng.choice([8, 10, 12])), hand, False, 0.45 * wide), at(x))
     top = seat + plate + 0.45 * wide
     if rng.random() < 0.5:
         rodlet = cylinder(0.006 + 0.02 * r, top - 0.003, top + 0.06 + 0.3 * r, 8)
@@ -268,7 +266,7 @@ def _self_acting(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     seat = max(1.2 * wide, 0.5 * FLANGES[dn].outer + 0.01)
     parts = [
         body(shell),
-        *posed(
+        *placed(
             [
                 body(cylinder(0.85 * wide, 0, seat - 0.002, n)),
                 *cover(1.15 * wide + 0.006, seat, 0.01 + 0.06 * r, 4, hand),
@@ -307,7 +305,7 @@ def _self_acting(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         )
     )
     low.append(bolting(bolt_circle(8, 0.94 * rim, 0.007, z + 0.13 * rim, z + 0.27 * rim)))
-    parts += posed(low, at(x) @ spun("x", np.pi))
+    parts += placed(low, at(x) @ spun("x", np.pi))
     start = (0.88 * length - plate_thickness(dn) * 0.5, 0.0, -0.9 * hub_radius(dn))
     line = [start, (start[0], 0, -z - 0.36 * rim), (x, 0, -z - 0.6 * rim), (x, 0, -z - 0.4 * rim)]
     if start[0] - x > rim + 0.01:
@@ -424,11 +422,11 @@ def _mixing(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
 
 
 REGULATORS: tuple[Family, ...] = (
-    family("pressure reducing valve/filter bowl", _filter_bowl, SMALL),
-    family("pressure reducing valve/dome loaded", _dome_loaded, MID),
-    family("pressure reducing valve/gas", _gas, tuple(dn for dn in SIZES if dn <= 100), weight=1.3),
-    family("control valve/pilot loop", _pilot_globe, tuple(dn for dn in SIZES if dn >= 40)),
-    family("pressure reducing valve/self-acting", _self_acting, tuple(dn for dn in MID if dn <= 100)),
-    family("float valve/arm", _float, MID, "head"),
-    family("mixing valve/thermostatic", _mixing, SMALL),
+    valve_family("pressure reducing valve/filter bowl", _filter_bowl, SMALL),
+    valve_family("pressure reducing valve/dome loaded", _dome_loaded, MID),
+    valve_family("pressure reducing valve/gas", _gas, tuple(dn for dn in SIZES if dn <= 100), weight=1.3),
+    valve_family("control valve/pilot loop", _pilot_globe, tuple(dn for dn in SIZES if dn >= 40)),
+    valve_family("pressure reducing valve/self-acting", _self_acting, tuple(dn for dn in MID if dn <= 100)),
+    valve_family("float valve/arm", _float, MID, "head"),
+    valve_family("mixing valve/thermostatic", _mixing, SMALL),
 )

@@ -9,16 +9,14 @@ from cadgraph.environment.families.valves.parts import (
     bonnet,
     branch,
     cover,
-    family,
     hub_radius,
     laid,
     other,
     piece,
-    posed,
     spring,
 )
-from cadgraph.environment.families.valves.valve import disc_flange
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.families.valves.valve import disc_flange, valve_family
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.flange import plate_thickness
 from cadgraph.environment.form import along, around, box, cylinder, hexagon, ring, rope, turned
 from cadgraph.environment.frame import at, spun
@@ -308,7 +306,7 @@ def _spring_lever(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         piece("lever", bar, color="handle", bundle=""),
         piece("lever", load, color="handle", bundle=""),
     ]
-    return Model(laid([*parts, *posed(top_parts, spun("z", way))]), kind="relief valve")
+    return Model(laid([*parts, *placed(top_parts, spun("z", way))]), kind="relief valve")
 
 
 def _rupture(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
@@ -341,11 +339,11 @@ def _rupture(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
 
 
 RELIEFS: tuple[Family, ...] = (
-    family("relief valve/full lift", _full_lift, MID, "head", 1.5),
-    family("relief valve/open bonnet", _open_bonnet, MID, "head"),
-    family("relief valve/pilot", _pilot, tuple(dn for dn in MID if dn >= 25), "head"),
-    family("relief valve/weight loaded", _spring_lever, MID, "head", 0.7),
-    family("relief valve/thermal", _thermal, SIZES, "tap"),
-    family("relief valve/water heater", _heater, SIZES, "tap"),
-    family("rupture disc/holder", _rupture, tuple(dn for dn in SIZES if dn >= 25)),
+    valve_family("relief valve/full lift", _full_lift, MID, "head", 1.5),
+    valve_family("relief valve/open bonnet", _open_bonnet, MID, "head"),
+    valve_family("relief valve/pilot", _pilot, tuple(dn for dn in MID if dn >= 25), "head"),
+    valve_family("relief valve/weight loaded", _spring_lever, MID, "head", 0.7),
+    valve_family("relief valve/thermal", _thermal, SIZES, "tap"),
+    valve_family("relief valve/water heater", _heater, SIZES, "tap"),
+    valve_family("rupture disc/holder", _rupture, tuple(dn for dn in SIZES if dn >= 25)),
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.environment.families.valves.actuation import quarter_turn
-from cadgraph.environment.families.valves.actuation_base import bolted, hand_wheel, put, shaft
+from cadgraph.environment.families.valves.actuation_base import bolted, hand_wheel, shaft
 from cadgraph.environment.families.valves.actuation_hand import slab
 from cadgraph.environment.families.valves.body import (
     metal,
@@ -13,7 +13,8 @@ from cadgraph.environment.families.valves.body import (
 )  # fmt: skip
 from cadgraph.environment.families.valves.drive import BODY
 from cadgraph.environment.families.valves.gate import resilient
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.families.valves.valve import valve_family
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.form import along, around, box, cylinder, hexagon, ring, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
@@ -56,7 +57,7 @@ def _slide(dn: int, hand: Hand, rng: Rng) -> Model:
     if kind < 0.4:
         rest.append(hand_wheel(0.06 + 0.8 * radius, 0.03, hand, rng))
         rest.append(Part(ring(slim, 2.5 * slim, 0.014, 0.032, 12), "gland", "trim", BODY))
-        parts += put(rest, at(x, 0, reach))
+        parts += placed(rest, at(x, 0, reach))
     elif kind < 0.75:
         bore, long = 0.03 + 0.25 * radius, 2.2 * radius + 0.08
         ends = [
@@ -74,9 +75,9 @@ def _slide(dn: int, hand: Hand, rng: Rng) -> Model:
                 ),
             ]
         )
-        parts += put([rest[0], Part(can, "actuator", "clamp", "actuator")], at(x, 0, reach))
+        parts += placed([rest[0], Part(can, "actuator", "clamp", "actuator")], at(x, 0, reach))
     else:
-        parts += put([rest[0], *quarter_turn(0, 0.015, radius, hand, rng, ("bevel", "multi-turn"))], at(x, 0, reach))
+        parts += placed([rest[0], *quarter_turn(0, 0.015, radius, hand, rng, ("bevel", "multi-turn"))], at(x, 0, reach))
     return Model(parts, round(length, 6), "wafer", "slide gate valve")
 
 
@@ -119,7 +120,7 @@ def _sluice(dn: int, hand: Hand, rng: Rng) -> Model:
         Part(frame, BODY, "steel", BODY),
         trim(merge(door), "valve disc"),
         Part(wall, "wall", "concrete", "", "Structural element"),
-        *put([shaft(low, tall + 0.35 + lift, slim, hand, rng)], at(0.045)),
+        *placed([shaft(low, tall + 0.35 + lift, slim, hand, rng)], at(0.045)),
     ]
     anchors = merge(
         [
@@ -131,7 +132,7 @@ def _sluice(dn: int, hand: Hand, rng: Rng) -> Model:
     parts.append(bolted(anchors))
     if rng.random() < 0.55:
         stand = turned([(0.13, 0.0), (0.13, 0.02), (0.06, 0.06), (0.05, 0.2), (0.08, 0.25), (0.08, 0.28)], 20)
-        parts += put(
+        parts += placed(
             [Part(stand, "yoke", "valve", BODY), hand_wheel(float(rng.uniform(0.18, 0.32)), 0.28, hand, rng)],
             at(0.045, 0, tall + 0.04),
         )
@@ -175,20 +176,16 @@ def _pillar(dn: int, hand: Hand, rng: Rng) -> Model:
     rest = [
         Part(joint, "valve stem", "trim", BODY),
         Part(deck, "plate", "steel", "", "Structural element"),
-        *put(stand, at(0, 0, reach)),
+        *placed(stand, at(0, 0, reach)),
     ]
-    return Model([*kept, *put(rest, at(x, 0, top))], model.length, kind="gate valve")
+    return Model([*kept, *placed(rest, at(x, 0, top))], model.length, kind="gate valve")
 
 
 _MID = tuple(dn for dn in SIZES if dn >= 40)
 
 
-def _family(name: str, build: object, sizes: tuple[int, ...], place: str = "inline", weight: float = 1.0) -> Family:
-    return Family(name, place, "Valve assembly", "valve", build, sizes, weight=weight)  # type: ignore[arg-type]
-
-
 SLUICES: tuple[Family, ...] = (
-    _family("gate valve/pedestal", _pillar, _MID, weight=0.7),
-    _family("slide gate valve/frame", _slide, _MID),
-    _family("sluice gate/wall", _sluice, (100,), "floor"),
+    valve_family("gate valve/pedestal", _pillar, _MID, weight=0.7),
+    valve_family("slide gate valve/frame", _slide, _MID),
+    valve_family("sluice gate/wall", _sluice, (100,), "floor"),
 )

@@ -5,20 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.environment.families.valves.drive import drive, stem, wheel
-from cadgraph.environment.families.valves.parts import (
-    SMALL,
-    bend,
-    body,
-    bonnet,
-    chain,
-    family,
-    fronted,
-    other,
-    piece,
-    posed,
-    square,
-)
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.families.valves.parts import SMALL, bend, body, bonnet, chain, fronted, other, piece, square
+from cadgraph.environment.families.valves.valve import valve_family
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.form import along, around, ball, box, cylinder, hexagon, ring, rope, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
@@ -99,7 +88,7 @@ def _bibb(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             )
         )
         parts.append(moved_one(piece("gland", hexagon(1.3 * r, top + 1.7 * r, top + 2.4 * r)), at(0, y)))
-        parts += posed(
+        parts += placed(
             [
                 stem(top + 2.3 * r, top + 4.2 * r, 0.3 * r, hand),
                 wheel(0.012 + float(rng.uniform(1.2, 2.0)) * r, 0, top + 3.4 * r, hand, rng),
@@ -108,13 +97,13 @@ def _bibb(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         )
     else:
         parts.append(moved_one(piece("valve stem", cylinder(0.5 * r, top - 0.002, top + 0.6 * r, 10)), at(0, y)))
-        parts += posed(drive(0.0, top + 0.5 * r, r, hand, rng, ("lever", "wing", "bar")), at(0, y))
+        parts += placed(drive(0.0, top + 0.5 * r, r, hand, rng, ("lever", "wing", "bar")), at(0, y))
     return Model(fronted(parts), kind="ball valve")
 
 
 def moved_one(part: Part, pose: np.ndarray) -> Part:
     """One part moved by a pose."""
-    return posed([part], pose)[0]
+    return placed([part], pose)[0]
 
 
 def _needles(x: float, z: float, r: float, hand: Hand, rng: np.random.Generator, knob: int) -> list[Part]:
@@ -131,7 +120,7 @@ def _needles(x: float, z: float, r: float, hand: Hand, rng: np.random.Generator,
         parts.append(piece("handwheel", grip, color="handle", bundle=""))
     else:
         parts.append(wheel(0.012 + 1.5 * r, 0, 5.8 * r, hand, rng))
-    return posed(parts, at(x, 0, z))
+    return placed(parts, at(x, 0, z))
 
 
 def _pipe_post(wide: float, tall: float, deep: float, high: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
@@ -191,7 +180,7 @@ def _manifold(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             pose = at(np.sign(x) * wide / 2, 0, high + z) @ spun("y", float(np.sign(x)) * np.pi / 2)
         else:
             pose = at(x, -deep / 2, high + z) @ outward
-        parts += posed(_needles(0.0, 0.0, r, hand, rng, 1 if count == 5 else knob), pose)
+        parts += placed(_needles(0.0, 0.0, r, hand, rng, 1 if count == 5 else knob), pose)
     parts += _pipe_post(wide, tall, deep, high, hand, rng)
     for x in (-0.027, 0.027):
         fit = along(
@@ -224,7 +213,7 @@ def _panel(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         along(way, merge([hexagon(1.8 * r, 0.0, 3.0 * r), cylinder(0.8 * r, 0, 4 * r, 10)]), x, 0.024, high)
         for way in ("z", "-z")
     ]
-    front = posed(_needles(0.0, 0.0, r, hand, rng, knob), at(x, -0.0085, high) @ spun("x", np.pi / 2))
+    front = placed(_needles(0.0, 0.0, r, hand, rng, knob), at(x, -0.0085, high) @ spun("x", np.pi / 2))
     nut = along("-y", hexagon(3.0 * r, 0.0018, 0.009), x, 0, high)
     parts += [body(core, *ends), piece("gland", nut), *front]
     for way in (1, -1):
@@ -359,14 +348,14 @@ def _hose_valve(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         stem(top + 1.45 * wide, top + 2.6 * wide, 0.16 * wide, hand),
         wheel(float(rng.uniform(1.5, 2.2)) * wide, 0, top + 2.1 * wide, hand, rng),
     ]
-    parts += posed(head, at(0, y, high))
+    parts += placed(head, at(0, y, high))
     return Model(fronted(parts), kind="globe valve")
 
 
 STATIONS: tuple[Family, ...] = (
-    family("hose tap/bent spout", _bibb, SMALL, "floor"),
-    family("needle valve/manifold", _manifold, SMALL, "floor"),
-    family("needle valve/panel", _panel, SMALL, "floor", 0.7),
-    family("thermostatic valve/radiator", _radiator, SMALL, "floor"),
-    family("hose valve/standpipe", _hose_valve, SMALL, "floor"),
+    valve_family("hose tap/bent spout", _bibb, SMALL, "floor"),
+    valve_family("needle valve/manifold", _manifold, SMALL, "floor"),
+    valve_family("needle valve/panel", _panel, SMALL, "floor", 0.7),
+    valve_family("thermostatic valve/radiator", _radiator, SMALL, "floor"),
+    valve_family("hose valve/standpipe", _hose_valve, SMALL, "floor"),
 )

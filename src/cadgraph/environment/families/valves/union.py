@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.environment.families.valves.actuation import quarter_turn
-from cadgraph.environment.families.valves.actuation_base import bolted, hand_lever, hand_wheel, put, shaft
+from cadgraph.environment.families.valves.actuation_base import bolted, hand_lever, hand_wheel, shaft
 from cadgraph.environment.families.valves.actuation_hand import slab, span
 from cadgraph.environment.families.valves.ball import ball_inside, clamped_ends, ferrule, some_turn, stem_top
 from cadgraph.environment.families.valves.body import (
@@ -18,7 +18,8 @@ from cadgraph.environment.families.valves.body import (
 )  # fmt: skip
 from cadgraph.environment.families.valves.drive import BODY
 from cadgraph.environment.families.valves.small import hex_end
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.families.valves.valve import valve_family
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.form import along, around, ball, box, cylinder, hexagon, ring, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
@@ -113,9 +114,9 @@ def _true_union(dn: int, hand: Hand, rng: Rng) -> Model:
     pick = rng.random()
     if pick < 0.75:
         rest.append(hand_lever(0.05 + 2.2 * radius, 0.003, hand, rng, ("tee", "tee", "wing", "notched")))
-        parts += put(rest, at(x, 0, high))
+        parts += placed(rest, at(x, 0, high))
     else:
-        parts += put(rest, at(x, 0, high))
+        parts += placed(rest, at(x, 0, high))
         parts += quarter_turn(x, high + 0.006, radius, hand, rng, ("rack", "motor box"))
     return Model(parts, round(length, 6), "welded", "ball valve")
 
@@ -190,7 +191,7 @@ def _cut_open(dn: int, hand: Hand, rng: Rng) -> Model:
     rest: list[Part] = [
         metal(ring(0.5 * boss, boss, 0.93 * big, high, 16)),
         shaft(0.95 * ball_, high + 0.015, 0.45 * boss, hand),
-        *put(packing(0.45 * boss, hand, rng, 1)[0], at(0, 0, high - 0.001)),
+        *placed(packing(0.45 * boss, hand, rng, 1)[0], at(0, 0, high - 0.001)),
         trim(valve_ball(ball_, bore, hand, turn), "valve ball"),
         *(Part(moved(seat, at(s)), "gasket", "rubber", BODY, "Pipe assembly") for s in (far, -far - 0.15 * bore)),
     ]
@@ -200,7 +201,7 @@ def _cut_open(dn: int, hand: Hand, rng: Rng) -> Model:
         else [hand_wheel(0.05 + radius, 0.0, hand, rng)]
     )
     return Model(
-        [metal(shell), *put([*rest, *put(drive, at(0, 0, high + 1.2 * boss))], at(x))], length, kind="ball valve"
+        [metal(shell), *placed([*rest, *placed(drive, at(0, 0, high + 1.2 * boss))], at(x))], length, kind="ball valve"
     )
 
 
@@ -231,21 +232,19 @@ def _blocked(dn: int, hand: Hand, rng: Rng) -> Model:
         hand_lever(0.09 + 2.4 * radius, half + 0.007, hand, rng, ("bar", "sheet", "tee", "sheet")),
         metal(moved(stop, at(0.7 * half, 0.5 * half))),
     ]
-    return Model([*parts, *put(rest, at(x)), *ball_inside(dn, x, hand, rng)], round(length, 6), "welded", "ball valve")
+    return Model(
+        [*parts, *placed(rest, at(x)), *ball_inside(dn, x, hand, rng)], round(length, 6), "welded", "ball valve"
+    )
 
 
 _SMALL = tuple(dn for dn in SIZES if dn <= 50)
 _MID = tuple(dn for dn in SIZES if dn <= 150)
 
 
-def _family(name: str, build: object, sizes: tuple[int, ...], weight: float = 1.0) -> Family:
-    return Family(name, "inline", "Valve assembly", "valve", build, sizes, weight=weight)  # type: ignore[arg-type]
-
-
 UNIONS: tuple[Family, ...] = (
-    _family("ball valve/sanitary clamp", _sanitary, tuple(dn for dn in SIZES if dn <= 100)),
-    _family("ball valve/true union", _true_union, tuple(dn for dn in SIZES if dn <= 100)),
-    _family("ball valve/multi-port", _multi_port, _SMALL),
-    _family("ball valve/cut open", _cut_open, _MID),
-    _family("ball valve/block", _blocked, _SMALL),
+    valve_family("ball valve/sanitary clamp", _sanitary, tuple(dn for dn in SIZES if dn <= 100)),
+    valve_family("ball valve/true union", _true_union, tuple(dn for dn in SIZES if dn <= 100)),
+    valve_family("ball valve/multi-port", _multi_port, _SMALL),
+    valve_family("ball valve/cut open", _cut_open, _MID),
+    valve_family("ball valve/block", _blocked, _SMALL),
 )

@@ -6,7 +6,7 @@ import numpy as np
 
 from cadgraph.environment.body import bore_of, flipped
 from cadgraph.environment.families.valves.drive import BODY, diaphragm_head, drive, stem, wheel
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.family import Build, Family, Model, Part
 from cadgraph.environment.flange import face_shell, nut_room, plate_thickness
 from cadgraph.environment.form import along, around, ball, box, cylinder, dome, hexagon, ring, rod, turned
 from cadgraph.environment.frame import at, spun
@@ -15,7 +15,7 @@ from cadgraph.environment.polygon import circle, rounded_rectangle
 from cadgraph.environment.solid import Solid, about_x, extrude, merge, moved, revolve, weld
 from cadgraph.environment.standard import FACE_TO_FACE, FLANGES, PIPES, SIZES
 
-__all__ = ["VALVE_FAMILIES", "bolt_circle", "disc_flange", "flanged_body"]
+__all__ = ["VALVE_FAMILIES", "bolt_circle", "disc_flange", "flanged_body", "valve_family"]
 
 Middle = list[tuple[float, float]]
 
@@ -629,29 +629,30 @@ _BIG = tuple(dn for dn in SIZES if dn >= 40)
 _MID = tuple(dn for dn in SIZES if dn <= 200)
 
 
-def _family(
-    name: str, build: object, sizes: tuple[int, ...] = SIZES, place: str = "inline", weight: float = 1.0
+def valve_family(
+    name: str, build: Build, sizes: tuple[int, ...] = SIZES, place: str = "inline", weight: float = 1.0
 ) -> Family:
-    return Family(name, place, "Valve assembly", "valve", build, sizes, weight=weight)  # type: ignore[arg-type]
+    """A family of valves."""
+    return Family(name, place, "Valve assembly", "valve", build, sizes, weight=weight)
 
 
 VALVE_FAMILIES: tuple[Family, ...] = (
-    _family("control valve/diaphragm", _control_diaphragm, weight=1.5),
-    _family("control valve/electric", _control_electric),
-    _family("ball valve/driven", _ball_driven, weight=2),
-    _family("ball valve/compact", _ball_compact, tuple(dn for dn in SIZES if FLANGES[dn].n_bolts == 4)),
-    _family("plug valve/tapered", _plug, _MID),
-    _family("diaphragm valve/weir", _weir, _MID),
-    _family("butterfly valve/wafer", _butterfly_wafer, _BIG, weight=1.5),
-    _family("butterfly valve/lug", _butterfly_lug, _BIG),
-    _family("butterfly valve/flanged", _butterfly_flanged, _BIG),
-    _family("knife gate valve/wafer", _knife, _BIG),
-    _family("check valve/wafer", _wafer_check, _BIG, weight=1.5),
-    _family("check valve/ball", _ball_check, _MID),
-    _family("check valve/axial", _nozzle_check),
-    _family("three-way valve/flanged", _three_way, _MID),
-    _family("globe valve/Y pattern", _y_globe, _MID),
-    _family("pressure reducing valve/spring", _reducing, _MID),
-    _family("relief valve/spring", _relief, _MID, "head", 2),
-    _family("globe valve/angle", _angle, _MID, "head"),
+    valve_family("control valve/diaphragm", _control_diaphragm, weight=1.5),
+    valve_family("control valve/electric", _control_electric),
+    valve_family("ball valve/driven", _ball_driven, weight=2),
+    valve_family("ball valve/compact", _ball_compact, tuple(dn for dn in SIZES if FLANGES[dn].n_bolts == 4)),
+    valve_family("plug valve/tapered", _plug, _MID),
+    valve_family("diaphragm valve/weir", _weir, _MID),
+    valve_family("butterfly valve/wafer", _butterfly_wafer, _BIG, weight=1.5),
+    valve_family("butterfly valve/lug", _butterfly_lug, _BIG),
+    valve_family("butterfly valve/flanged", _butterfly_flanged, _BIG),
+    valve_family("knife gate valve/wafer", _knife, _BIG),
+    valve_family("check valve/wafer", _wafer_check, _BIG, weight=1.5),
+    valve_family("check valve/ball", _ball_check, _MID),
+    valve_family("check valve/axial", _nozzle_check),
+    valve_family("three-way valve/flanged", _three_way, _MID),
+    valve_family("globe valve/Y pattern", _y_globe, _MID),
+    valve_family("pressure reducing valve/spring", _reducing, _MID),
+    valve_family("relief valve/spring", _relief, _MID, "head", 2),
+    valve_family("globe valve/angle", _angle, _MID, "head"),
 )

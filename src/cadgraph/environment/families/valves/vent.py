@@ -13,16 +13,14 @@ from cadgraph.environment.families.valves.parts import (
     bolting,
     bonnet,
     cover,
-    family,
     hub_radius,
     laid,
     other,
     piece,
-    posed,
     screwed,
 )
-from cadgraph.environment.families.valves.valve import bolt_circle, disc_flange, flanged_body
-from cadgraph.environment.family import Family, Model, Part
+from cadgraph.environment.families.valves.valve import bolt_circle, disc_flange, flanged_body, valve_family
+from cadgraph.environment.family import Family, Model, Part, placed
 from cadgraph.environment.flange import plate_thickness
 from cadgraph.environment.form import along, around, box, cylinder, hexagon, ring, rod, rope, turned
 from cadgraph.environment.frame import at, spun
@@ -46,7 +44,7 @@ def _test_cocks(places: list[tuple[float, float]], r: float, hand: Hand, rng: np
         )
         key = box((0.028, 0.004, 0.008), (0.014, 0.012, z + 0.019))
         shank = along("y", cylinder(0.003, 0.0, 0.012, 6), 0, 0, z + 0.019)
-        parts += posed([body(stub), piece("lever", key, shank, color="handle", bundle="")], at(x))
+        parts += placed([body(stub), piece("lever", key, shank, color="handle", bundle="")], at(x))
     return parts
 
 
@@ -66,7 +64,7 @@ def _backflow(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     for x in (0.27 * length, 0.7 * length):
         pose = at(x) @ spun("y", tilt)
         chest = cylinder(0.92 * wide, 0.0, seat - 0.003, n)
-        parts += posed(
+        parts += placed(
             [body(chest), *cover(1.15 * wide + 0.006, seat, 0.008 + 0.1 * r, 8, hand, corners, 0.2 * r)], pose
         )
     x = 0.47 * length
@@ -215,13 +213,13 @@ def _double(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
                     cylinder(0.1 * small, top, top + 0.5 * small, 8),
                 )
             )
-        parts += posed(one, at(x))
+        parts += placed(one, at(x))
     if rng.random() < 0.6:
         z = low - 0.2 * r
         reach = 0.9 * r + 0.01
         shaft = along("-y", cylinder(0.006 + 0.06 * r, 0.0, reach + 0.07 + 0.5 * r, 10), 0, 0, z)
         gland = along("-y", hexagon(0.03 + 0.3 * r, 0.8 * reach, reach + 0.02), 0, 0, z)
-        rim = posed([wheel(0.03 + 0.8 * r, 0, reach + 0.05 + 0.4 * r, hand, rng)], at(0, 0, z) @ spun("x", np.pi / 2))
+        rim = placed([wheel(0.03 + 0.8 * r, 0, reach + 0.05 + 0.4 * r, hand, rng)], at(0, 0, z) @ spun("x", np.pi / 2))
         parts += [piece("valve stem", shaft), piece("gland", gland), *rim]
     return Model(laid(parts), kind="air valve")
 
@@ -326,7 +324,7 @@ def _breather(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     for sign, tall in zip((-1, 1), heights, strict=True):
         ring_ = turned([(0.85 * wide, top - 0.5 * wide), (0.85 * wide, top + tall)], n)
         high = top + tall
-        parts += posed([body(ring_), *_pallet_hood(wide, high, n, rng)], at(sign * span))
+        parts += placed([body(ring_), *_pallet_hood(wide, high, n, rng)], at(sign * span))
     side = 1.0 * wide if boxy else 0.75 * wide
     screen = along("y", ring(0.5 * wide, 0.62 * wide, 0.7 * side, side + 0.2 * wide, n), span, 0, low + 0.65 * wide)
     parts.append(body(screen))
@@ -412,13 +410,13 @@ def _hatch(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
 _WIDE = tuple(dn for dn in SIZES if dn >= 50)
 
 VENTS: tuple[Family, ...] = (
-    family("backflow preventer/reduced pressure", _backflow, tuple(dn for dn in SIZES if 50 <= dn <= 200)),
-    family("backflow preventer/threaded", _backflow_small, SMALL),
-    family("air valve/bowl", _bowl, tuple(dn for dn in MID if dn >= 25), "head"),
-    family("air valve/double orifice", _double, tuple(dn for dn in MID if dn >= 40), "head"),
-    family("air valve/plastic", _plastic_air, SIZES, "tap"),
-    family("vacuum breaker/cowl", _vacuum, SIZES, "tap"),
-    family("breather valve/pallet", _breather, _WIDE, "head"),
-    family("breather valve/flame arrester", _end_of_line, _WIDE, "head"),
-    family("breather valve/hatch", _hatch, tuple(dn for dn in SIZES if dn >= 80), "head", 0.7),
+    valve_family("backflow preventer/reduced pressure", _backflow, tuple(dn for dn in SIZES if 50 <= dn <= 200)),
+    valve_family("backflow preventer/threaded", _backflow_small, SMALL),
+    valve_family("air valve/bowl", _bowl, tuple(dn for dn in MID if dn >= 25), "head"),
+    valve_family("air valve/double orifice", _double, tuple(dn for dn in MID if dn >= 40), "head"),
+    valve_family("air valve/plastic", _plastic_air, SIZES, "tap"),
+    valve_family("vacuum breaker/cowl", _vacuum, SIZES, "tap"),
+    valve_family("breather valve/pallet", _breather, _WIDE, "head"),
+    valve_family("breather valve/flame arrester", _end_of_line, _WIDE, "head"),
+    valve_family("breather valve/hatch", _hatch, tuple(dn for dn in SIZES if dn >= 80), "head", 0.7),
 )

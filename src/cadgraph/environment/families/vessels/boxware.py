@@ -7,8 +7,8 @@ import numpy as np
 from cadgraph.environment.families.vessels.heatware import frame_of
 from cadgraph.environment.families.vessels.vesselbuild import outlet, tank_family
 from cadgraph.environment.families.vessels.vesselfeet import bar, ladder
-from cadgraph.environment.families.vessels.vesselware import head, head_height, lug, manway, mouth, placed, sides
-from cadgraph.environment.family import Family, Model, Part, Port
+from cadgraph.environment.families.vessels.vesselware import head, head_height, lug, manway, mouth, sides
+from cadgraph.environment.family import Family, Model, Part, Port, placed
 from cadgraph.environment.form import along, box, cylinder, hexagon, lofted, ring, rod, rope, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand

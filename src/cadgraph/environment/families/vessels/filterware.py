@@ -7,17 +7,8 @@ import numpy as np
 from cadgraph.environment.families.valves.valve import bolt_circle
 from cadgraph.environment.families.vessels.heatware import equipment_family, equipment_mouth, feet_of
 from cadgraph.environment.families.vessels.vesselfeet import legs, skirt
-from cadgraph.environment.families.vessels.vesselware import (
-    Drum,
-    head,
-    head_height,
-    manway,
-    mouth,
-    placed,
-    renamed,
-    sides,
-)
-from cadgraph.environment.family import Family, Model, Part, Port
+from cadgraph.environment.families.vessels.vesselware import Drum, head, head_height, manway, mouth, renamed, sides
+from cadgraph.environment.family import Family, Model, Part, Port, placed
 from cadgraph.environment.form import (
     along,
     around,

@@ -7,8 +7,8 @@ import numpy as np
 from cadgraph.environment.families.valves.valve import bolt_circle
 from cadgraph.environment.families.vessels.vesselbuild import outlet
 from cadgraph.environment.families.vessels.vesselfeet import saddle
-from cadgraph.environment.families.vessels.vesselware import head, placed, renamed, sides
-from cadgraph.environment.family import Build, Family, Model, Part, Port
+from cadgraph.environment.families.vessels.vesselware import head, renamed, sides
+from cadgraph.environment.family import Build, Family, Model, Part, Port, placed
 from cadgraph.environment.form import along, around, box, cylinder, hexagon, lofted, ring, rod, rope, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand

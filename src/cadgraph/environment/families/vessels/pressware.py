@@ -4,43 +4,22 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph.environment.families.vessels.vesselbuild import outlet, tank_family
+from cadgraph.environment.families.vessels.vesselbuild import closed_vessel, outlet, tank_family
 from cadgraph.environment.families.vessels.vesselfeet import bar, foot_plate, ladder, legs, saddle
-from cadgraph.environment.families.vessels.vesselware import (
-    Drum,
-    head,
-    head_height,
-    lug,
-    manway,
-    mouth,
-    placed,
-    sides,
-    wrapped,
-)
-from cadgraph.environment.family import Family, Model, Part, Port
+from cadgraph.environment.families.vessels.vesselware import Drum, head, head_height, lug, manway, mouth, sides, wrapped
+from cadgraph.environment.family import Family, Model, Part, Port, placed
 from cadgraph.environment.form import along, around, ball, box, cylinder, ring, rod, rope, torus, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
 from cadgraph.environment.polygon import section_channel
 from cadgraph.environment.solid import merge, moved
 
-__all__ = ["PRESSWARE", "agitator", "closed_vessel"]
+__all__ = [
+    "PRESSWARE",
+    "agitator",
+]
 
 _FRAME, _JOINT = "Structural element", "Connection assembly"
-
-
-def closed_vessel(drum: Drum, lower: str, upper: str, hand: Hand) -> list[Part]:
-    """A shell with its two heads."""
-    return [
-        Part(drum.solid(hand), "shell", "tank", "tank"),
-        Part(moved(head(upper, drum.r, hand, drum.n), at(0, 0, drum.high)), "dished head", "tank", "tank"),
-        Part(
-            moved(head(lower, drum.r, hand, drum.n), at(0, 0, drum.low) @ spun("x", np.pi)),
-            "dished head",
-            "tank",
-            "tank",
-        ),
-    ]
 
 
 def agitator(z: float, size: float, hand: Hand, rng: np.random.Generator) -> list[Part]:

@@ -7,17 +7,8 @@ import numpy as np
 from cadgraph.environment.families.valves.valve import bolt_circle, flanged_body
 from cadgraph.environment.families.vessels.heatware import equipment_family, equipment_mouth, feet_of, frame_of
 from cadgraph.environment.families.vessels.vesselfeet import legs, saddle, skirt
-from cadgraph.environment.families.vessels.vesselware import (
-    Drum,
-    head,
-    head_height,
-    manway,
-    mouth,
-    placed,
-    renamed,
-    sides,
-)
-from cadgraph.environment.family import Family, Model, Part, Port
+from cadgraph.environment.families.vessels.vesselware import Drum, head, head_height, manway, mouth, renamed, sides
+from cadgraph.environment.family import Family, Model, Part, Port, placed
 from cadgraph.environment.flange import nut_room, plate_thickness
 from cadgraph.environment.form import along, around, box, cylinder, dome, hexagon, lofted, ring, rod, rope, turned
 from cadgraph.environment.frame import at, spun

@@ -4,15 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph.environment.families.vessels.pressware import closed_vessel
-from cadgraph.environment.families.vessels.vesselbuild import tank_family
-from cadgraph.environment.families.vessels.vesselware import (
-    Drum,
-    head_height,
-    placed,
-    sides,
-)
-from cadgraph.environment.family import Family, Model, Part, Port
+from cadgraph.environment.families.vessels.vesselbuild import closed_vessel, tank_family
+from cadgraph.environment.families.vessels.vesselware import Drum, head_height, sides
+from cadgraph.environment.family import Family, Model, Part, Port, placed
 from cadgraph.environment.form import along, around, box, cylinder, dome, hexagon, ring, rope, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand

@@ -6,16 +6,8 @@ import numpy as np
 
 from cadgraph.environment.families.vessels.vesselbuild import outlet, tank_family
 from cadgraph.environment.families.vessels.vesselfeet import foot_plate, ladder, legs, ringed_rail
-from cadgraph.environment.families.vessels.vesselware import (
-    Drum,
-    capped,
-    head,
-    manway,
-    mouth,
-    placed,
-    sides,
-)
-from cadgraph.environment.family import Family, Model, Part, Port
+from cadgraph.environment.families.vessels.vesselware import Drum, capped, head, manway, mouth, sides
+from cadgraph.environment.family import Family, Model, Part, Port, placed
 from cadgraph.environment.form import along, around, box, cylinder, lofted, ring, rod, rope, torus, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand

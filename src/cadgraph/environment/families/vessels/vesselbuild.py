@@ -16,10 +16,9 @@ from cadgraph.environment.families.vessels.vesselware import (
     manway,
     mouth,
     mouth_reach,
-    placed,
     sides,
 )
-from cadgraph.environment.family import Build, Family, Model, Part, Port
+from cadgraph.environment.family import Build, Family, Model, Part, Port, placed
 from cadgraph.environment.form import cylinder, ring
 from cadgraph.environment.frame import at, looking, spun
 from cadgraph.environment.hand import Hand
@@ -27,7 +26,7 @@ from cadgraph.environment.solid import moved
 from cadgraph.environment.standard import FLANGES
 from cadgraph.scene import Floats
 
-__all__ = ["VESSEL_BUILDS", "outlet", "tank_family"]
+__all__ = ["VESSEL_BUILDS", "closed_vessel", "outlet", "tank_family"]
 
 _HEADS = ("2:1", "torispherical", "torispherical")
 
@@ -54,7 +53,7 @@ def _dn(rng: np.random.Generator, r: float) -> int:
     return int(rng.choice([dn for dn in (25, 40, 50, 80, 100, 150) if FLANGES[dn].outer < 0.9 * r] or [25]))
 
 
-def _closed(drum: Drum, bottom: str, top: str, hand: Hand) -> list[Part]:
+def closed_vessel(drum: Drum, bottom: str, top: str, hand: Hand) -> list[Part]:
     """A shell, maybe in courses, with two heads."""
     return [
         Part(drum.solid(hand), "shell", "tank", "tank"),
@@ -89,7 +88,7 @@ def _upright(
     spare = 0.12 if feet == "pads" else float(rng.uniform(0.2, 0.6)) + 0.3 * r
     low = head_height(lower, r) + spare
     drum = Drum(r, low, low + height, n)
-    parts = _closed(drum, lower, upper, hand)
+    parts = closed_vessel(drum, lower, upper, hand)
     if feet in ("open", "flared", "chairs"):
         parts += skirt(feet, drum, hand, rng)
     else:
@@ -155,7 +154,7 @@ def _lying(
     drum = Drum(r, 0.0, length, n)
     kind = top or str(rng.choice([*_HEADS, "hemispherical", "flat"]))
     lay = at(-length / 2, 0, axis) @ spun("y", np.pi / 2)
-    parts = placed(_closed(drum, kind, kind, hand), lay)
+    parts = placed(closed_vessel(drum, kind, kind, hand), lay)
     count = 3 if length > 4.8 * r and rng.random() < 0.3 else 2
     one = saddle(rest, r, axis, hand, rng)
     for x in np.linspace(-0.3, 0.3, count) * length:
@@ -230,7 +229,7 @@ def _bottom_nozzles(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     lower = str(rng.choice(["conical", "conical", "torispherical"]))
     low = head_height(lower, r) + float(rng.uniform(0.35, 0.6))
     drum = Drum(r, low, low + height, n)
-    parts = [*_closed(drum, lower, "torispherical", hand), *legs("pipe", drum, hand, rng)]
+    parts = [*closed_vessel(drum, lower, "torispherical", hand), *legs("pipe", drum, hand, rng)]
     apex = drum.high + head_height("torispherical", r)
     dn = int(rng.choice([25, 40, 50]))
     for k in range(int(rng.integers(3, 7))):

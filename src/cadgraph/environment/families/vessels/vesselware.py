@@ -30,7 +30,6 @@ __all__ = [
     "manway",
     "mouth",
     "mouth_reach",
-    "placed",
     "renamed",
     "sides",
     "wrapped",
@@ -43,11 +42,6 @@ def sides(hand: Hand, radius: float) -> int:
     """Sides of a vessel's circle: what is large is drawn neither as coarse as a pipe nor finer than needed [m]."""
     least = 8 if radius < 0.15 else 12 if radius < 0.6 else 16
     return min(max(hand.round(radius), least), 52)
-
-
-def placed(parts: Sequence[Part], pose: Floats) -> list[Part]:
-    """Parts in another place."""
-    return [Part(moved(p.solid, pose), p.name, p.color, p.bundle, p.group, p.fine) for p in parts]
 
 
 def renamed(parts: Sequence[Part], name: str) -> list[Part]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.environment.families.vessels.heatware import equipment_family, equipment_mouth
-from cadgraph.environment.families.vessels.vesselware import placed, sides
-from cadgraph.environment.family import Family, Model, Part, Port
+from cadgraph.environment.families.vessels.vesselware import sides
+from cadgraph.environment.family import Family, Model, Part, Port, placed
 from cadgraph.environment.form import along, around, box, cylinder, hexagon, lofted, ring, rod, rope, turned
 from cadgraph.environment.frame import at, spun
 from cadgraph.environment.hand import Hand
