@@ -14,7 +14,7 @@ from typing import Any
 
 from cadgraph.atomic import write_atomically
 from cadgraph.errors import LabelError
-from cadgraph.vocabulary import Vocabulary
+from cadgraph.vocabulary import Vocabulary, spell_label
 
 __all__ = ["CORRECTIONS", "Correction", "Fingerprint", "read_corrections", "with_correction", "write_corrections"]
 
@@ -137,7 +137,7 @@ def read_corrections(path: str | Path, vocabulary: Vocabulary | None = None) -> 
     for i, row in enumerate(rows):
         correction = _correction(row, f"{file}: correction {i}")
         if vocabulary is not None and not vocabulary.holds(correction.group, correction.name):
-            label = f"{correction.group}/{correction.name}" if correction.name else correction.group
+            label = spell_label(correction.group, correction.name)
             raise LabelError(
                 f"{file}: correction {i}: {label!r} is not in the vocabulary; build with the --vocabulary that has it, "
                 "or take the row out"

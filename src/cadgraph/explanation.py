@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from cadgraph.graph import SceneGraph
-from cadgraph.records import Adjacent, Part, PartGuess
+from cadgraph.records import Adjacent, Part
+from cadgraph.vocabulary import spell_label
 
 __all__ = ["Explanation", "Neighbor", "explain"]
 
@@ -119,7 +120,7 @@ def explain(graph: SceneGraph, which: str) -> Explanation:
         source=None if label is None else label.source,
         why=_why(part),
         evidence={} if label is None else label.evidence,
-        guesses=tuple((_spelt(g), g.confidence) for g in part.guesses),
+        guesses=tuple((spell_label(g.group, g.name), g.confidence) for g in part.guesses),
         neighbors=tuple(Neighbor(o.id, o.meshes[0], _name(o), far[o.id]) for o in near),
         repeats=dict(sorted(repeats.items(), key=lambda row: (-row[1], row[0]))),
         unit=None if unit is None else unit.tag,
@@ -142,13 +143,7 @@ def _why(part: Part) -> str:
 
 
 def _name(part: Part) -> str | None:
-    if part.label is None:
-        return None
-    return f"{part.label.group}/{part.label.name}" if part.label.name else part.label.group
-
-
-def _spelt(guess: PartGuess) -> str:
-    return f"{guess.group}/{guess.name}" if guess.name else guess.group
+    return None if part.label is None else spell_label(part.label.group, part.label.name)
 
 
 def _percent(confidence: object) -> str:

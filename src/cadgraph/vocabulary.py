@@ -15,7 +15,7 @@ import yaml
 
 from cadgraph.errors import LabelError
 
-__all__ = ["Group", "Vocabulary", "default_vocabulary", "read_vocabulary"]
+__all__ = ["Group", "Vocabulary", "default_vocabulary", "read_vocabulary", "spell_label"]
 
 _FORBIDDEN = ":;,&|!"  # what USD semantics taxonomies and labels may not hold
 _MAX_LENGTH = 80  # of a label, ours: it has to fit into a legend
@@ -199,3 +199,8 @@ def _what(error: Exception) -> str:
     if mark is None or not problem:
         return str(error).splitlines()[0] if str(error) else type(error).__name__
     return f"{problem} in line {mark.line + 1}"
+
+
+def spell_label(group: str, name: str | None) -> str:
+    """A label as people write it: ``group/name``, or the group where no name is known."""
+    return f"{group}/{name}" if name else group

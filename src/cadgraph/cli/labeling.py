@@ -77,8 +77,9 @@ def relabel(
 
 
 def _said(part: Part) -> str:
-    label = part.label
-    return "without a label" if label is None else f"{label.group}/{label.name}" if label.name else label.group
+    from cadgraph.vocabulary import spell_label
+
+    return "without a label" if part.label is None else spell_label(part.label.group, part.label.name)
 
 
 @catalogs.command("add")
