@@ -44,8 +44,14 @@ PRECISION = 0.95
 NEW_PRECISION = 0.85
 """Of the names above the threshold, on the parts of held-out families alone."""
 
-_MAKERS = ("environment", "geometry", "stages/label")
-_LESSONS = ("example", "fastener", "lesson", "oddity", "stranger")
+_MAKERS = (
+    "environment/**/*.py", "geometry/**/*.py", "scene.py", "parts.py",
+    *(f"stages/{name}.py" for name in ("adjacency", "ground", "group", "parts", "preprocess")),
+    *(f"stages/label/{name}.py" for name in (
+        "descriptor", "edges", "facts", "observation", "sample", "surrounding")),
+    *(f"training/{name}.py" for name in ("example", "fastener", "lesson", "oddity", "stranger")),
+)  # fmt: skip
+"""What makes plants, and what the labeler sees of them."""
 
 
 @dataclass(frozen=True)
@@ -188,11 +194,10 @@ def deal_families(examples: Sequence[Example], folds: int, whole: bool = False) 
 def source_digest() -> str:
     """Eight digits that change with the code that makes plants or looks at them: plants kept under others are stale."""
     package = Path(cadgraph.__file__).parent
-    files = [path for name in _MAKERS for path in sorted((package / name).rglob("*.py"))]
-    files += [package / "training" / f"{name}.py" for name in _LESSONS]
     digest = sha256()
-    for path in files:
-        digest.update(path.read_text(encoding="utf-8").encode())
+    for pattern in _MAKERS:
+        for path in sorted(package.glob(pattern)):
+            digest.update(path.read_text(encoding="utf-8").encode())
     return digest.hexdigest()[:8]
 
 

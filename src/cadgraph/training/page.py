@@ -230,7 +230,8 @@ def _strange(told: Mapping[str, Answers], least: float) -> str:
     return (
         f"*Strangers*: of things that belong to no plant (furniture, toys, gears, blobs), {shares['strangers']:.0%} "
         "are left open where the network has learnt from others of their kind, and "
-        f"{shares['unseen strangers']:.0%} where it has not (teapots and jugs, boats and aeroplanes, linkages)."
+        f"{shares['unseen strangers']:.0%} where it has not (teapots and jugs, but for a few twisted ones, boats and "
+        "aeroplanes, linkages)."
     )
 
 

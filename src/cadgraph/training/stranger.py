@@ -20,7 +20,7 @@ _SIZES = (0.01, 3.0)  # m
 _STRANGE: tuple[str, str] = ("strange", "strange")
 _FASTENERS = ("bolt", "nut", "washer", "stud", "screw", "gasket")
 UNSEEN = frozenset({"_pot", "_vessel", "_mechanism"})
-"""Builders of what is never learnt from, so that one can ask what the network makes of the wholly unknown."""
+"""Builders of what is not learnt from (but for a few twisted pots): what does the network make of the unknown?"""
 UNSEEN_FROM = 200_000
 """Seeds of strangers from here on are of these kinds."""
 
