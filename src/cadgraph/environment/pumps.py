@@ -216,8 +216,10 @@ def _discharge(
 
 
 def _name(site: Site, hand: Hand, number: int, base: int, one: Pump, y: float) -> None:
-    """A name plate on the side of a baseplate that looks to -y."""
-    index = next(i for i, c in enumerate(one.assembly.components) if c.name == "pump base")
+    """A name plate on the side of a baseplate that looks to -y; none where the pump is one mesh with its baseplate."""
+    index = next((i for i, c in enumerate(one.assembly.components) if c.name == "pump base"), None)
+    if index is None:
+        return
     bed = one.assembly.components[index].vertices
     low, high = bed.min(axis=0), bed.max(axis=0)
     place = at(float(low[0] + high[0]) / 2, y + float(low[1]), float(low[2] + high[2]) / 2) @ spun("x", np.pi / 2)

@@ -1,0 +1,89 @@
+"""Digests of whole results, and the files that keep them: a change of behaviour that nobody meant shows here first.
+
+Each record has two digests. ``structure`` covers what is said: ids, labels, tags, edges, directions, counts, faces; it
+holds on every machine. ``bytes`` covers every bit, rounding included, and holds where processor and libraries round as
+they did on the machine that wrote it. ``pytest --renew-golden`` writes the records anew.
+"""
+
+import hashlib
+import importlib.metadata
+import json
+import os
+import platform
+import struct
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+FOLDER = Path(__file__).parent / "golden"
+
+
+@cache
+def rounding():
+    """What decides how the last bits come out: processor, libraries and their kernels."""
+    from numpy._core._multiarray_umath import __cpu_features__
+
+    features = ",".join(sorted(name for name, on in __cpu_features__.items() if on))
+    libraries = [f"{name} {importlib.metadata.version(name)}" for name in ("numba", "numpy", "scipy", "usd-core")]
+    rest = (platform.machine(), platform.system(), features, os.environ.get("OPENBLAS_CORETYPE", ""), *libraries)
+    return digest(repr(rest).encode())[:8]
+
+
+def digest(content):
+    return hashlib.sha256(content).hexdigest()[:20]
+
+
+def without_numbers(value):
+    """A JSON value with every number that is no count left out."""
+    if isinstance(value, dict):
+        return {key: without_numbers(inner) for key, inner in value.items() if key not in ("sha256", "guesses", "why")}
+    if isinstance(value, list):
+        return [without_numbers(inner) for inner in value]
+    return None if isinstance(value, float) else value
+
+
+def of_graph(path, layer):
+    """The record of a graph and of the layer of labels beside it."""
+    text = path.read_bytes()
+    content = json.loads(text)
+    # Messages hold measured numbers in words; the settings are tested by themselves.
+    content["diagnostics"] = [(found["code"], found["meshes"]) for found in content["diagnostics"]]
+    del content["config"]
+    structure = json.dumps(without_numbers(content), sort_keys=True).encode()
+    return {"structure": digest(structure), "graph": digest(text), "layer": digest(layer.read_bytes())}
+
+
+def of_components(components):
+    """The record of a device: what its parts are called and how their corners are joined; then where these lie."""
+    said, exact = hashlib.sha256(), hashlib.sha256()
+    for component in components:
+        solid = component.solid
+        said.update(f"{component.group}/{component.name}/{len(solid.vertices)}/{len(solid.faces)};".encode())
+        said.update(np.ascontiguousarray(solid.faces, np.int64).tobytes())
+        exact.update(np.ascontiguousarray(solid.vertices, np.float64).tobytes())
+        exact.update(np.ascontiguousarray(component.pose, np.float64).tobytes())
+        exact.update(struct.pack("<3d", *component.color))
+    return {"structure": said.hexdigest()[:20], "corners": exact.hexdigest()[:20]}
+
+
+class Records:
+    """The records in one file."""
+
+    def __init__(self, name, renew):
+        self.file, self.renew = FOLDER / f"{name}.json", renew
+        self.known = json.loads(self.file.read_text()) if self.file.exists() else {}
+
+    def check(self, name, found):
+        """Fails where a result differs from its record, or keeps it as the new one if that was asked for."""
+        found = {**found, "rounding": rounding()}
+        if self.renew:
+            self.known[name] = found
+            rows = ",\n".join(f' "{k}": {json.dumps(v)}' for k, v in sorted(self.known.items()))
+            self.file.write_text(f"{{\n{rows}\n}}\n")
+            return
+        known = self.known.get(name)
+        assert known is not None, f"{name} has no record; write it with pytest --renew-golden"
+        if known["rounding"] != found["rounding"]:
+            known, found = known["structure"], found["structure"]
+        assert found == known, f"{name} is not what it was; if that is meant, pytest --renew-golden and say so"

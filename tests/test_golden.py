@@ -1,0 +1,70 @@
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cadgraph.environment import HANDS, PRESETS, make, write_usd
+from cadgraph.environment.families import FAMILIES
+from cadgraph.environment.family import as_assembly
+from cadgraph.job import run
+from golden_digest import Records, of_components, of_graph
+
+STYLES = ("plant-design", "bim", "game")
+SLOW = {"field", "rack"}
+REAL = Path(__file__).parent / "data"
+FILES = sorted(
+    path.relative_to(REAL).as_posix()
+    for path in REAL.rglob("*")
+    if path.suffix in (".usda", ".usdc", ".usd", ".step", ".stp")
+)
+
+
+@pytest.fixture(scope="module")
+def graphs(request):
+    return Records("graphs", request.config.getoption("--renew-golden"))
+
+
+@pytest.fixture(scope="module")
+def families(request):
+    return Records("families", request.config.getoption("--renew-golden"))
+
+
+def build(source, name, graphs):
+    outcome = run(source, "out", report=False)
+    graphs.check(name, of_graph(outcome.files["graph"], outcome.files["labels"]))
+
+
+@pytest.mark.parametrize(
+    ("preset", "style"),
+    [
+        pytest.param(preset, style, marks=[pytest.mark.slow] if preset in SLOW else [])
+        for preset in PRESETS
+        for style in STYLES
+    ],
+)
+def test_graphs_of_generated_plants_stay_as_they_are(preset, style, graphs, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    write_usd(make(preset, 0, style), Path("plant.usdc"))
+    build("plant.usdc", f"{preset} {style}", graphs)
+
+
+@pytest.mark.parametrize("file", FILES)
+def test_graphs_of_real_files_stay_as_they_are(file, graphs, tmp_path, monkeypatch):
+    # The source's path stands in the graph, and what USD files refer to lies beside them.
+    monkeypatch.chdir(REAL)
+    outcome = run(file, tmp_path / "out", report=False)
+    graphs.check(f"file {file}", of_graph(outcome.files["graph"], outcome.files["labels"]))
+
+
+@pytest.mark.parametrize("family", FAMILIES.values(), ids=FAMILIES)
+def test_shapes_of_families_stay_as_they_are(family, families):
+    style, rng = HANDS["mechanical"], np.random.default_rng(7)
+    dn = family.sizes[len(family.sizes) // 2]
+    model = family.build(dn, style, rng, 1.1) if family.place == "carrier" else family.build(dn, style, rng)
+    families.check(family.name, of_components(as_assembly(family, model, style, "X-1").components))
+
+
+def test_every_record_still_has_its_test(graphs, families):
+    names = {f"{preset} {style}" for preset in PRESETS for style in STYLES} | {f"file {file}" for file in FILES}
+    assert set(graphs.known) == names
+    assert set(families.known) == set(FAMILIES)
