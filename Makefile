@@ -10,6 +10,8 @@ PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11 python; do \
 VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip install --disable-pip-version-check --quiet --constraint constraints.txt
+WHOLE := --editable '.[all,dev]' --editable packages/cadplants --editable packages/cadlab
+PROJECTS := pyproject.toml packages/cadplants/pyproject.toml packages/cadlab/pyproject.toml constraints.txt
 
 .PHONY: demo test check bench train docs clean
 
@@ -27,10 +29,10 @@ check: $(VENV)/.with-dev
 	$(BIN)/python tools/write_docs.py --check
 
 bench: $(VENV)/.with-dev
-	@for f in benchmarks/[!_]*.py; do echo "== $$f"; $(BIN)/python $$f || exit 1; done
+	@for f in packages/cadlab/benchmarks/[!_]*.py; do echo "== $$f"; $(BIN)/python $$f || exit 1; done
 
 train: $(VENV)/.with-train
-	$(BIN)/python -m cadgraph.training
+	$(BIN)/python -m cadlab.training
 
 docs: $(VENV)/.with-dev
 	$(BIN)/python tools/write_docs.py
@@ -44,16 +46,16 @@ $(VENV)/bin/python:
 
 $(VENV)/.with-all: pyproject.toml constraints.txt | $(VENV)/bin/python
 	@echo "installing into $(VENV) (once, a minute or two)"
-	$(PIP) --editable '.[all]'
-	@$(BIN)/python -m cadgraph.warm
+	$(PIP) --editable '.[all]' --editable packages/cadplants
+	@$(BIN)/python -m cadgraph.cli.warm
 	@touch $@
 
-$(VENV)/.with-dev: pyproject.toml constraints.txt | $(VENV)/bin/python
+$(VENV)/.with-dev: $(PROJECTS) | $(VENV)/bin/python
 	@echo "installing into $(VENV) (once, a minute or two)"
-	$(PIP) --editable '.[all,dev]'
-	@$(BIN)/python -m cadgraph.warm
+	$(PIP) $(WHOLE)
+	@$(BIN)/python -m cadgraph.cli.warm
 	@touch $@ $(VENV)/.with-all
 
 $(VENV)/.with-train: $(VENV)/.with-dev
-	$(PIP) --editable '.[all,dev,train]'
+	$(PIP) $(WHOLE) --editable 'packages/cadlab[train]'
 	@touch $@

@@ -6,8 +6,8 @@ python examples/own_labeler.py
 import numpy as np
 
 import cadgraph
-from cadgraph.environment import make_skid
-from cadgraph.parts import Label
+from cadgraph.model.parts import Label
+from cadplants import make_skid
 
 
 class LongAndRound:

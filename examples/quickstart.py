@@ -10,7 +10,7 @@ import tempfile
 from pathlib import Path
 
 import cadgraph
-from cadgraph.environment import make_skid, write_usd
+from cadplants import make_skid, write_usd
 
 
 def main(path: Path | None = None) -> cadgraph.SceneGraph:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 import shapes
-from cadgraph.graph import SceneGraph
-from cadgraph.records import (
+from cadgraph.model.graph import SceneGraph
+from cadgraph.model.records import (
     Adjacent,
     Cluster,
     Connected,
@@ -22,7 +22,7 @@ from cadgraph.records import (
     Terminal,
     Unit,
 )
-from cadgraph.scene import Scene, Source
+from cadgraph.model.scene import Scene, Source
 
 ORIGIN = (0.0, 0.0, 0.0)
 

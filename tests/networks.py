@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
-from cadgraph.graph import SceneGraph
-from cadgraph.records import (
+from cadgraph.model.graph import SceneGraph
+from cadgraph.model.records import (
     Connected,
     Contains,
     GraphDocument,

@@ -7,10 +7,10 @@ import numpy as np
 import shapes
 import tubes
 from cadgraph.config import Config
-from cadgraph.labels import GivenLabel
+from cadgraph.model.labels import GivenLabel
+from cadgraph.model.records import Connected, Junction, System, Terminal
+from cadgraph.model.scene import Scene
 from cadgraph.pipeline import build
-from cadgraph.records import Connected, Junction, System, Terminal
-from cadgraph.scene import Scene
 
 PIPE, VALVE, GAUGE, PUMP, TANK = "Pipe assembly", "Valve assembly", "Gauge assembly", "Pump unit", "Tank"
 STEEL, FASTENER = "Structural element", "Connection assembly"

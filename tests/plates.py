@@ -5,12 +5,12 @@ import re
 import numpy as np
 
 import shapes
-from cadgraph.geometry.properties import measure
-from cadgraph.geometry.shape import find_shapes
-from cadgraph.lvlm.prompt import size_text
-from cadgraph.parts import Contacts, Parts
-from cadgraph.scene import Scene
-from cadgraph.vocabulary import default_vocabulary
+from cadgraph.geometry.mesh.properties import measure
+from cadgraph.geometry.shape.repeats import find_shapes
+from cadgraph.labelers.lvlm.prompt import size_text
+from cadgraph.model.parts import Contacts, Parts
+from cadgraph.model.scene import Scene
+from cadgraph.model.vocabulary import default_vocabulary
 
 BOX = re.compile(r"along its own axes: (.*?)\. Height")
 VOCABULARY = default_vocabulary()
@@ -82,7 +82,7 @@ class Told:
     def ask(self, question):
         import json
 
-        from cadgraph.lvlm.reply import Reply
+        from cadgraph.labelers.lvlm.reply import Reply
 
         self.asked.append(question)
         content = self.answer(question.text)

@@ -3,126 +3,105 @@
 import ast
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import pytest
 
 import cadgraph
+import cadlab
+import cadplants
 
-PACKAGE = Path(cadgraph.__file__).parent
+PACKAGES = {package.__name__: Path(package.__file__).parent for package in (cadgraph, cadlab, cadplants)}
 
-VALUES = {
-    "atomic",
-    "catalog",
-    "config",
-    "corrections",
-    "errors",
-    "graph",
-    "labels",
-    "parts",
-    "progress",
-    "records",
-    "scene",
-    "vocabulary",
-}
-
-# What each module or folder right under cadgraph may import from the others.
+# What each room of the product may import from the others; 'draw.render' is the room 'render' within 'draw'.
 MAY_IMPORT = {
     "errors": set(),
-    "progress": set(),
-    "config": {"expectation"},
-    "scene": set(),
-    "records": set(),
-    "atomic": {"errors"},
-    "parts": {"scene"},
-    "vocabulary": {"errors"},
-    "labels": {"errors", "vocabulary"},
-    "catalog": {"atomic", "errors", "scene", "vocabulary"},
-    "corrections": {"atomic", "errors", "vocabulary"},
-    "consistency": {"errors", "records"},
-    "expectation": set(),
-    "folder": {"atomic", "errors"},
-    "graph": {"atomic", "consistency", "errors", "expectation", "records"},
-    "summary": {"graph", "records"},
-    "load": {"config", "errors", "scene"},
-    "geometry": {"errors", "parts", "progress", "scene"},
-    "stages": VALUES | {"geometry"},
-    "render": VALUES | {"geometry"},
-    "lvlm": VALUES | {"geometry", "render", "stages"},
-    "pipeline": VALUES | {"geometry", "stages"},
-    "functional": VALUES,
-    "diagram": VALUES | {"functional"},
-    "export": VALUES | {"diagram", "functional", "render"},
-    "report": VALUES | {"diagram", "functional", "render", "summary"},
-    # Not among the values: no stage may ever see the truth.
-    "truth": {"atomic", "errors", "vocabulary"},
-    "environment": VALUES | {"geometry", "truth"},
-    "evaluate": VALUES | {"load", "truth"},
-    "job": VALUES | {"stages"} | {"environment", "export", "folder", "load", "pipeline", "render", "report", "summary"},
-    "intake": VALUES | {"geometry", "load", "relabel", "stages"},
-    "amendment": VALUES | {"relabel"},
-    "explanation": VALUES,
-    "relabel": VALUES | {"job", "stages"},
-    "reproduce": VALUES | {"environment", "evaluate", "load", "pipeline", "render", "report", "summary", "truth"},
-    "cli": VALUES
-    | {"diagram", "functional"}
-    | {"amendment", "explanation", "intake", "lvlm", "relabel", "truth"}
-    | {"environment", "evaluate", "export", "load", "pipeline", "render", "report", "reproduce", "job", "summary"},
-    "training": VALUES | {"environment", "evaluate", "geometry", "load", "pipeline", "stages", "truth"},
-    "warm": {"environment", "pipeline", "render"},
+    "_io": {"errors"},
+    "config": {"_io"},
+    "model": {"_io", "errors"},
+    "geometry": {"_io", "errors", "model"},
+    "load": {"_io", "config", "errors", "model"},
+    "stages": {"_io", "config", "errors", "geometry", "model"},
+    "draw.render": {"_io", "errors", "geometry", "model"},
+    "labelers": {"_io", "config", "draw.render", "errors", "geometry", "model"},
+    "pipeline": {"_io", "config", "errors", "geometry", "labelers", "model", "stages"},
+    "query": {"_io", "errors", "model"},
+    "draw.schematic": {"_io", "errors", "model", "query"},
+    "draw.report": {"_io", "config", "draw.render", "draw.schematic", "errors", "model", "query"},
+    "export": {"_io", "config", "draw.schematic", "errors", "model", "query"},
+    "session": {
+        *("_io", "config", "errors", "geometry", "labelers", "load", "model", "pipeline", "query", "stages"),
+        *("draw.report", "export"),
+    },
+    "cli": {
+        *("_io", "config", "errors", "labelers", "load", "model", "pipeline", "query", "session"),
+        *("draw.render", "draw.report", "draw.schematic", "export"),
+    },
+    "draw": set(),
     "__main__": {"cli"},
-    "__init__": VALUES | {"job", "load", "pipeline"},
+    "__init__": {"config", "errors", "load", "model", "pipeline", "session"},
 }
+SPLIT = ("draw",)  # rooms whose folders are rooms of their own
 
-MAY_USE_USD = {"load", "export", "environment", "evaluate"}
+# No stage and no labeler may ever see the truth.
+MAY_SEE_THE_TRUTH = {"cli", "model", "session"}
+MAY_USE_USD = {"load", "export"}
 HEAVY = {"PIL", "cascadio", "embreex", "graphlay", "jinja2", "networkx", "numba", "openai", "pxr", "scipy", "trimesh"}
 VAGUE = {"manager", "managers", "helper", "helpers", "util", "utils", "common", "misc"}
 
-MODULES = sorted(PACKAGE.rglob("*.py"))
+
+@cache
+def modules():
+    """Of each module: its package, its place in it, and what it imports, wherever in the file that stands."""
+    return [
+        (name, path.relative_to(folder), imports_of(name, path, folder))
+        for name, folder in PACKAGES.items()
+        for path in sorted(folder.rglob("*.py"))
+    ]
 
 
-def place_of(path):
-    return path.relative_to(PACKAGE).parts[0].removesuffix(".py")
-
-
-def dotted(path):
-    parts = ("cadgraph", *path.relative_to(PACKAGE).with_suffix("").parts)
-    return parts[:-1] if parts[-1] == "__init__" else parts
-
-
-def imports_of(path):
-    """Every imported module as a dotted tuple, wherever in the file the import stands."""
+def imports_of(package, path, folder):
+    """Every imported module as a dotted tuple."""
+    parts = (package, *path.relative_to(folder).parts[:-1])
     found = set()
-    package = dotted(path) if path.name == "__init__.py" else dotted(path)[:-1]
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
             found.update(tuple(alias.name.split(".")) for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
-            above = package[: len(package) - node.level + 1] if node.level else ()
+            above = parts[: len(parts) - node.level + 1] if node.level else ()
             base = (*above, *(node.module or "").split(".")) if node.module else above
             found.update((*base, alias.name) for alias in node.names)
     return found
 
 
-def ours(path):
-    return {steps[1:] for steps in imports_of(path) if steps[0] == "cadgraph" and len(steps) > 1}
+def room_of(steps):
+    """The room that a dotted name or a path within the product belongs to."""
+    steps = [step.removesuffix(".py") for step in steps]
+    inner = len(steps) > 1 and steps[0] in SPLIT and steps[1] != "__init__"
+    return ".".join(steps[: 2 if inner else 1])
 
 
-def names(paths):
-    return [str(path.relative_to(PACKAGE)) for path in paths]
+def product():
+    return [(path, imports) for package, path, imports in modules() if package == "cadgraph"]
 
 
-def test_every_module_and_folder_has_its_place():
-    present = {place_of(path) for path in MODULES}
+def test_every_room_has_its_place():
+    present = {room_of(path.parts) for path, _ in product()}
     assert present - set(MAY_IMPORT) == set(), "say in MAY_IMPORT what the new ones may import"
     assert set(MAY_IMPORT) - present == set(), "these are gone"
 
 
-@pytest.mark.parametrize("path", MODULES, ids=names(MODULES))
-def test_imports_point_one_way(path):
-    here = place_of(path)
-    imported = {steps[0] for steps in ours(path)} - {here, "__version__"}
-    assert imported - MAY_IMPORT.get(here, set()) == set()
+def test_imports_point_one_way():
+    wrong = [
+        f"{path} imports {'.'.join(steps)}"
+        for path, imports in product()
+        for steps in imports
+        if steps[0] == "cadgraph" and len(steps) > 1 and steps[1] != "__version__"
+        for here, there in [(room_of(path.parts), room_of(steps[1:]))]
+        if there not in MAY_IMPORT[here] | {here}
+    ]
+    assert wrong == []
 
 
 def test_the_table_has_no_circles():
@@ -139,46 +118,77 @@ def test_the_table_has_no_circles():
         visit(name, ())
 
 
-STAGES = [path for path in MODULES if place_of(path) == "stages"]
+def test_the_product_knows_nothing_of_the_other_packages():
+    allowed = {"cadgraph": {"cadgraph"}, "cadplants": {"cadgraph", "cadplants"}, "cadlab": set(PACKAGES)}
+    wrong = [
+        f"{package}/{path} imports {'.'.join(steps)}"
+        for package, path, imports in modules()
+        for steps in imports
+        if steps[0] in PACKAGES and steps[0] not in allowed[package]
+    ]
+    assert wrong == []
 
 
-@pytest.mark.parametrize("path", STAGES, ids=names(STAGES))
-def test_no_stage_imports_another(path):
-    own = path.relative_to(PACKAGE / "stages").parts[0].removesuffix(".py")
-    others = {steps[1] for steps in ours(path) if steps[0] == "stages" and len(steps) > 1}
-    assert others - {own} == set()
+def test_no_stage_imports_another():
+    wrong = [
+        f"{path} imports {'.'.join(steps)}"
+        for path, imports in product()
+        if path.parts[0] == "stages"
+        for steps in imports
+        if steps[:2] == ("cadgraph", "stages") and steps[2:3] not in ((), (path.parts[1].removesuffix(".py"),))
+    ]
+    assert wrong == []
 
 
-@pytest.mark.parametrize("path", MODULES, ids=names(MODULES))
-def test_usd_stays_at_the_borders(path):
-    if place_of(path) not in MAY_USE_USD:
-        assert "pxr" not in {steps[0] for steps in imports_of(path)}
+def test_nobody_who_judges_sees_the_truth():
+    wrong = [
+        str(path)
+        for path, imports in product()
+        if path.parts[0] not in MAY_SEE_THE_TRUTH
+        for steps in imports
+        if steps[:3] == ("cadgraph", "model", "truth")
+    ]
+    assert wrong == []
+
+
+def test_usd_stays_at_the_borders():
+    wrong = [
+        str(path)
+        for path, imports in product()
+        if path.parts[0] not in MAY_USE_USD and "pxr" in {steps[0] for steps in imports}
+    ]
+    assert wrong == []
 
 
 def test_geometry_stands_on_arrays_alone():
-    paths = [path for path in MODULES if place_of(path) == "geometry"]
-    outside = {steps[0] for path in paths for steps in imports_of(path)} - set(sys.stdlib_module_names)
-    assert outside <= {"cadgraph", "numba", "numpy", "scipy", "embreex"}
+    outside = {steps[0] for path, imports in product() if path.parts[0] == "geometry" for steps in imports}
+    assert outside - set(sys.stdlib_module_names) <= {"cadgraph", "numba", "numpy", "scipy", "embreex"}
 
 
-PACKAGES = [path for path in MODULES if path.name == "__init__.py"]
+def test_packages_import_nothing_heavy_at_once():
+    wrong = [
+        f"{package}/{path} imports {node_name}"
+        for package, path, _ in modules()
+        if path.name == "__init__.py"
+        for node_name in at_once(PACKAGES[package] / path) & HEAVY
+    ]
+    assert wrong == []
 
 
-@pytest.mark.parametrize("path", PACKAGES, ids=names(PACKAGES))
-def test_packages_import_nothing_heavy_at_once(path):
-    top = {
+def at_once(path):
+    return {
         alias.name.split(".")[0] if isinstance(node, ast.Import) else (node.module or "").split(".")[0]
         for node in ast.parse(path.read_text(encoding="utf-8")).body
         if isinstance(node, ast.Import | ast.ImportFrom)
         for alias in node.names
     }
-    assert top & HEAVY == set()
 
 
-@pytest.mark.parametrize("path", MODULES, ids=names(MODULES))
-def test_modules_are_named_by_what_they_are(path):
-    words = {word for part in path.relative_to(PACKAGE).with_suffix("").parts for word in part.split("_")}
-    assert words & VAGUE == set()
+def test_modules_are_named_by_what_they_are():
+    words = {
+        word: str(path) for _, path, _ in modules() for part in path.with_suffix("").parts for word in part.split("_")
+    }
+    assert {path for word, path in words.items() if word in VAGUE} == set()
 
 
 def test_importing_cadgraph_brings_nothing_heavy():

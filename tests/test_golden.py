@@ -3,10 +3,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cadgraph.environment import HANDS, PRESETS, make, write_usd
-from cadgraph.environment.families import FAMILIES
-from cadgraph.environment.family import as_assembly
-from cadgraph.job import run
+from cadgraph.session.run import run
+from cadplants import HANDS, PRESETS, make, write_usd
+from cadplants.families import FAMILIES
+from cadplants.family import as_assembly
 from golden_digest import Records, of_components, of_graph
 
 STYLES = ("plant-design", "bim", "game")

@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 
 import cadgraph
 import shapes
-from cadgraph.labels import GivenLabel
-from cadgraph.records import Adjacent, Contains, Related
-from cadgraph.scene import Scene
+from cadgraph.model.labels import GivenLabel
+from cadgraph.model.records import Adjacent, Contains, Related
+from cadgraph.model.scene import Scene
 
 METHODS = ["exact", "paper"]
 PATHS = ["/p0", "/v1", "/p2", "/v3", "/bolt4", "/lone5", "/g6", "/floor7"]

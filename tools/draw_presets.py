@@ -8,13 +8,13 @@ from pathlib import Path
 
 from PIL import Image, ImageDraw, ImageFont
 
-from cadgraph.atomic import write_atomically
-from cadgraph.environment import make
-from cadgraph.environment.plant import Plant
-from cadgraph.render.camera import direction_from_angles, frame
-from cadgraph.render.color import source_colors
-from cadgraph.render.picture import Look, Paint, Renderer
-from cadgraph.scene import Scene
+from cadgraph._io.atomic import write_atomically
+from cadgraph.draw.render.camera import direction_from_angles, frame
+from cadgraph.draw.render.color import source_colors
+from cadgraph.draw.render.picture import Look, Paint, Renderer
+from cadgraph.model.scene import Scene
+from cadplants import make
+from cadplants.plant import Plant
 
 PRESETS = ("skid", "riser", "tank", "pumps", "rack", "field")
 SEEDS = range(5)

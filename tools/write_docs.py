@@ -13,10 +13,10 @@ from pathlib import Path
 
 from typer.testing import CliRunner
 
-from cadgraph.atomic import write_atomically
+from cadgraph._io.atomic import write_atomically
 from cadgraph.cli import app
 from cadgraph.config import Config, describe
-from cadgraph.records import document_schema
+from cadgraph.model.records import document_schema
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 

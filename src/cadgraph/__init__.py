@@ -17,16 +17,16 @@ from typing import TYPE_CHECKING, Any
 
 from cadgraph.config import Config, read_config
 from cadgraph.errors import CadGraphError, FormatError, LabelError, LoadError, MissingExtra, OutputError
-from cadgraph.graph import SceneGraph
-from cadgraph.labels import GivenLabel, read_labels
 from cadgraph.load import load
-from cadgraph.records import Adjacent, Cluster, Connected, Contains, Part, Related, Site, System, Terminal, Unit
-from cadgraph.scene import Diagnostic, Scene
-from cadgraph.vocabulary import Vocabulary, default_vocabulary, read_vocabulary
+from cadgraph.model.graph import SceneGraph
+from cadgraph.model.labels import GivenLabel, read_labels
+from cadgraph.model.records import Adjacent, Cluster, Connected, Contains, Part, Related, Site, System, Terminal, Unit
+from cadgraph.model.scene import Diagnostic, Scene
+from cadgraph.model.vocabulary import Vocabulary, default_vocabulary, read_vocabulary
 
 if TYPE_CHECKING:
-    from cadgraph.job import run
     from cadgraph.pipeline import build
+    from cadgraph.session.run import run
 
 __version__ = "0.1.0"
 
@@ -70,7 +70,7 @@ def __getattr__(name: str) -> Any:
 
         return build
     if name == "run":
-        from cadgraph.job import run
+        from cadgraph.session.run import run
 
         return run
     raise AttributeError(f"module 'cadgraph' has no attribute {name!r}")

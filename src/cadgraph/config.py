@@ -13,7 +13,7 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from cadgraph.expectation import expectation
+from cadgraph._io.validation_messages import expectation
 
 __all__ = [
     "ClusterConfig",

@@ -7,7 +7,8 @@
     ├── LabelError     labels given from outside, or a labeler's answers, can't be used
     ├── FormatError    a graph on disk is not what ``graph.json`` promises
     ├── OutputError    a result can't be written
-    └── MissingExtra   a command needs an optional dependency that isn't installed
+    ├── MissingExtra   a command needs an optional dependency that isn't installed
+    └── MissingPackage a command comes with a package that isn't installed
 
 Bad arguments raise ``ValueError``. What is merely skipped, repaired or guessed is no error: it is listed in the
 graph's ``diagnostics``.
@@ -15,7 +16,7 @@ graph's ``diagnostics``.
 
 from __future__ import annotations
 
-__all__ = ["CadGraphError", "FormatError", "LabelError", "LoadError", "MissingExtra", "OutputError"]
+__all__ = ["CadGraphError", "FormatError", "LabelError", "LoadError", "MissingExtra", "MissingPackage", "OutputError"]
 
 
 class CadGraphError(Exception):
@@ -49,3 +50,16 @@ class MissingExtra(CadGraphError):
     def __init__(self, purpose: str, extra: str) -> None:
         self.extra = extra
         super().__init__(f"{purpose} needs an extra: pip install 'cadgraph[{extra}]'")
+
+
+class MissingPackage(CadGraphError):
+    """A package that brings a command is not installed.
+
+    Args:
+        command: the command, without ``cadgraph``.
+        package: the package to install.
+    """
+
+    def __init__(self, command: str, package: str) -> None:
+        self.package = package
+        super().__init__(f"'cadgraph {command}' comes with the package {package}: pip install {package}")

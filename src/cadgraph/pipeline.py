@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from cadgraph.catalog import read_catalog
+from cadgraph._io.progress import Progress, quiet
 from cadgraph.config import Config
-from cadgraph.corrections import Correction
-from cadgraph.geometry.properties import measure
-from cadgraph.graph import SceneGraph
-from cadgraph.labels import GivenLabel
-from cadgraph.progress import Progress, quiet
-from cadgraph.scene import Scene
+from cadgraph.geometry.mesh.properties import measure
+from cadgraph.labelers.base import Labeler, label_parts, labeler_of
+from cadgraph.labelers.precedence import settle_labels
+from cadgraph.model.catalog import read_catalog
+from cadgraph.model.corrections import Correction
+from cadgraph.model.graph import SceneGraph
+from cadgraph.model.labels import GivenLabel
+from cadgraph.model.scene import Scene
+from cadgraph.model.vocabulary import Vocabulary, default_vocabulary
 from cadgraph.stages.adjacency import find_near_meshes, join_contacts
 from cadgraph.stages.assemble import Results, assemble_graph
 from cadgraph.stages.bridge import cut_bridges, find_weak_bridges, tell_bridges
@@ -19,13 +22,10 @@ from cadgraph.stages.cluster import cluster_parts
 from cadgraph.stages.ground import find_ground
 from cadgraph.stages.group import group_meshes
 from cadgraph.stages.inspect import inspect_meshes
-from cadgraph.stages.label import Labeler, label_parts, labeler_of
-from cadgraph.stages.label.precedence import settle_labels
 from cadgraph.stages.parts import make_parts
 from cadgraph.stages.preprocess import prepare_scene
 from cadgraph.stages.relate import pipe_systems, relate_units
 from cadgraph.stages.relate.connect import connect_units
-from cadgraph.vocabulary import Vocabulary, default_vocabulary
 
 __all__ = ["STAGES", "build"]
 

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from cadgraph.errors import FormatError
 from cadgraph.export import export_graph
 from cadgraph.export.dexpi import read_dexpi, write_dexpi
-from cadgraph.functional import find_isolation, find_lines, trace
-from cadgraph.functional.text import isolation_values, line_values, trace_values
-from cadgraph.records import Connected, Junction, Terminal
+from cadgraph.model.records import Connected, Junction, Terminal
+from cadgraph.query import find_isolation, find_lines, trace
+from cadgraph.query.text import isolation_values, line_values, trace_values
 from networks import chain, junction, network, pumping, terminal, unit
 
 

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 import graphs
 from cadgraph.export.graphml import write_graphml
-from cadgraph.graph import SceneGraph
+from cadgraph.model.graph import SceneGraph
 
 
 def read(path):

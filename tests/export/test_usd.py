@@ -15,7 +15,7 @@ import graphs
 import shapes
 from cadgraph.errors import LoadError, OutputError
 from cadgraph.export.usd import prim_paths, write_geometry, write_semantics
-from cadgraph.scene import Scene, Source
+from cadgraph.model.scene import Scene, Source
 
 DATA = Path(__file__).parents[2] / "../shared/data/usd"
 TEAPOTS = DATA / "teapot_scene/scenes/teapotScene.usd"

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cadgraph.geometry.broad import near_boxes
+from cadgraph.geometry.contact.broad import near_boxes
 
 
 def brute_force(boxes, reach):

@@ -6,9 +6,9 @@ from scipy.spatial.transform import Rotation
 
 import shapes
 import tubes
-from cadgraph.geometry.centreline import Centreline, NotTube, trace_centrelines
-from cadgraph.geometry.properties import measure
-from cadgraph.scene import Scene
+from cadgraph.geometry.line.centreline import Centreline, NotTube, trace_centrelines
+from cadgraph.geometry.mesh.properties import measure
+from cadgraph.model.scene import Scene
 
 QUARTER = 0.15 * np.pi / 2
 S_BEND = tubes.follow(

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 import shapes
-from cadgraph.geometry.contact import distances, find_contacts, touching
-from cadgraph.geometry.tree import build_forest
-from cadgraph.scene import Scene
+from cadgraph.geometry.contact.pairs import distances, find_contacts, touching
+from cadgraph.geometry.kernels.tree import build_forest
+from cadgraph.model.scene import Scene
 from geometry import peers
 
 EPS = 0.01

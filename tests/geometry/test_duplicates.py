@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 
 import shapes
-from cadgraph.geometry.duplicates import find_duplicates, findings
-from cadgraph.geometry.properties import measure
-from cadgraph.scene import Scene
+from cadgraph.geometry.mesh.duplicates import find_duplicates, findings
+from cadgraph.geometry.mesh.properties import measure
+from cadgraph.model.scene import Scene
 
 
 def found(*meshes):

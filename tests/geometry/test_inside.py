@@ -5,9 +5,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import shapes
-from cadgraph.geometry.contact import find_contacts
-from cadgraph.geometry.inside import find_inside
-from cadgraph.scene import Scene
+from cadgraph.geometry.contact.pairs import find_contacts
+from cadgraph.geometry.visibility.inside import find_inside
+from cadgraph.model.scene import Scene
 
 
 def inside_of(*meshes, **settings):

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 import shapes
-from cadgraph.geometry.contact import find_contacts, find_contacts_placed
-from cadgraph.scene import Scene
+from cadgraph.geometry.contact.pairs import find_contacts, find_contacts_placed
+from cadgraph.model.scene import Scene
 
 PROTOTYPES = [
     shapes.box((0.2, 0.1, 0.05)),

@@ -5,8 +5,8 @@ from hypothesis import strategies as st
 from scipy.spatial.distance import cdist
 
 import shapes
-from cadgraph.geometry.points import find_point_contacts, sample_surface
-from cadgraph.scene import Scene
+from cadgraph.geometry.contact.points import find_point_contacts, sample_surface
+from cadgraph.model.scene import Scene
 
 
 def contacts_of(scene, limit=0.01):

@@ -6,9 +6,9 @@ from scipy.spatial.transform import Rotation
 
 import shapes
 import tubes
-from cadgraph.geometry.primitive import KINDS, MAX_RESIDUAL, N_SLICES, SURFACES, fit_primitives
-from cadgraph.geometry.properties import measure
-from cadgraph.scene import Scene
+from cadgraph.geometry.mesh.properties import measure
+from cadgraph.geometry.shape.primitive import KINDS, MAX_RESIDUAL, N_SLICES, SURFACES, fit_primitives
+from cadgraph.model.scene import Scene
 
 
 def fitted(*meshes, **options):

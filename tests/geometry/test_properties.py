@@ -6,8 +6,8 @@ from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
 import shapes
-from cadgraph.geometry.properties import measure
-from cadgraph.scene import Scene
+from cadgraph.geometry.mesh.properties import measure
+from cadgraph.model.scene import Scene
 
 
 def measured(*meshes, **options):

@@ -5,9 +5,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import shapes
-from cadgraph.geometry.contact import find_contacts
-from cadgraph.geometry.region import contact_regions
-from cadgraph.scene import Scene
+from cadgraph.geometry.contact.pairs import find_contacts
+from cadgraph.geometry.contact.region import contact_regions
+from cadgraph.model.scene import Scene
 
 EPS = 0.01
 

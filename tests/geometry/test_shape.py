@@ -5,9 +5,9 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 import shapes
-from cadgraph.geometry.properties import measure
-from cadgraph.geometry.shape import find_shapes, position_tolerance
-from cadgraph.scene import Scene
+from cadgraph.geometry.mesh.properties import measure
+from cadgraph.geometry.shape.repeats import find_shapes, position_tolerance
+from cadgraph.model.scene import Scene
 
 
 def found(*meshes, **options):

@@ -4,10 +4,10 @@ from scipy.spatial.transform import Rotation
 
 import shapes
 import tubes
-from cadgraph.geometry.properties import measure
-from cadgraph.geometry.shape import find_shapes
-from cadgraph.geometry.similarity import deviation, find_near_shapes, sample_surface
-from cadgraph.scene import Scene
+from cadgraph.geometry.mesh.properties import measure
+from cadgraph.geometry.shape.repeats import find_shapes
+from cadgraph.geometry.shape.similarity import deviation, find_near_shapes, sample_surface
+from cadgraph.model.scene import Scene
 
 
 def near(*meshes, **options):

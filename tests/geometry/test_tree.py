@@ -5,8 +5,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import shapes
-from cadgraph.geometry.tree import LEAF, build_forest, first_face
-from cadgraph.scene import Scene
+from cadgraph.geometry.kernels.tree import LEAF, build_forest, first_face
+from cadgraph.model.scene import Scene
 
 
 def forest_of(*meshes, workers=None):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from cadgraph.geometry.triangle import triangle_distances
+from cadgraph.geometry.kernels.triangle import triangle_distances
 from geometry import oracle
 
 N = 1500  # pairs of each class

@@ -2,10 +2,10 @@ import numpy as np
 import pytest
 
 import shapes
-from cadgraph.geometry import visibility
-from cadgraph.geometry.properties import measure
-from cadgraph.geometry.visibility import find_visible, visible_share
-from cadgraph.scene import Scene
+from cadgraph.geometry.visibility import outside as visibility
+from cadgraph.geometry.mesh.properties import measure
+from cadgraph.geometry.visibility.outside import find_visible, visible_share
+from cadgraph.model.scene import Scene
 
 
 def seen(*meshes, **options):

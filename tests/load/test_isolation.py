@@ -17,7 +17,7 @@ from pxr import Usd, UsdGeom
 from cadgraph.config import LoadConfig
 from cadgraph.errors import LoadError
 from cadgraph.load import load
-from cadgraph.load.isolation import read_isolated
+from cadgraph.load.sandbox.isolation import read_isolated
 
 LIMITED = LoadConfig(timeout=60)
 
@@ -193,7 +193,7 @@ def test_interrupt_ends_the_child_and_leaves_nothing(tmp_path, scratch):
         "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         f"sys.path.insert(0, {str(tmp_path)!r}); tempfile.tempdir = {str(scratch)!r}\n"
         "from cadgraph.config import LoadConfig\n"
-        "from cadgraph.load.isolation import read_isolated\n"
+        "from cadgraph.load.sandbox.isolation import read_isolated\n"
         "read_isolated('slow_loader', pathlib.Path('a'), 'a', LoadConfig())\n"
     )
     process = subprocess.Popen([sys.executable, "-c", caller], stderr=subprocess.PIPE)
@@ -222,7 +222,7 @@ def test_a_killed_caller_takes_the_child_and_its_folder_with_it(tmp_path, scratc
         "import sys, tempfile, pathlib\n"
         f"sys.path.insert(0, {str(tmp_path)!r}); tempfile.tempdir = {str(scratch)!r}\n"
         "from cadgraph.config import LoadConfig\n"
-        "from cadgraph.load.isolation import read_isolated\n"
+        "from cadgraph.load.sandbox.isolation import read_isolated\n"
         "read_isolated('slow_loader', pathlib.Path('a'), 'a', LoadConfig())\n"
     )
     process = subprocess.Popen([sys.executable, "-c", caller])

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.load.packing import Notes, Piece, pack, unique_name
-from cadgraph.scene import Source, natural_key
+from cadgraph.model.scene import Source, natural_key
 from shapes import box
 
 

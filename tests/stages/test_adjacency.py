@@ -1,6 +1,6 @@
 import numpy as np
 
-from cadgraph.parts import Contacts
+from cadgraph.model.parts import Contacts
 from cadgraph.stages.adjacency import join_contacts
 
 

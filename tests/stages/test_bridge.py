@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cadgraph.config import ClusterConfig
-from cadgraph.parts import Contacts
+from cadgraph.model.parts import Contacts
 from cadgraph.stages.bridge import cut_bridges, find_weak_bridges
 
 

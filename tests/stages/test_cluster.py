@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cadgraph.parts import Contacts
+from cadgraph.model.parts import Contacts
 from cadgraph.stages.cluster import cluster_parts
 
 

@@ -3,8 +3,8 @@ import pytest
 
 import shapes
 from cadgraph.config import GroundConfig
-from cadgraph.geometry.properties import measure
-from cadgraph.scene import Scene
+from cadgraph.geometry.mesh.properties import measure
+from cadgraph.model.scene import Scene
 from cadgraph.stages.ground import find_ground
 
 

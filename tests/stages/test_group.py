@@ -3,9 +3,9 @@ import pytest
 
 import shapes
 from cadgraph.config import GroupConfig
-from cadgraph.geometry.properties import measure
-from cadgraph.parts import Contacts
-from cadgraph.scene import Scene
+from cadgraph.geometry.mesh.properties import measure
+from cadgraph.model.parts import Contacts
+from cadgraph.model.scene import Scene
 from cadgraph.stages.group import group_meshes, group_volume
 
 

@@ -4,8 +4,8 @@ import pytest
 import cadgraph
 import shapes
 from cadgraph.config import InspectConfig
-from cadgraph.geometry.properties import measure
-from cadgraph.scene import Scene
+from cadgraph.geometry.mesh.properties import measure
+from cadgraph.model.scene import Scene
 from cadgraph.stages.inspect import inspect_meshes
 
 MESHES = [shapes.box(), shapes.box(), shapes.box((0.2, 0.2, 0.2)), shapes.box(center=(3, 0, 0))]

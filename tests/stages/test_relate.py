@@ -3,9 +3,9 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cadgraph.parts import Contacts, Label
+from cadgraph.model.parts import Contacts, Label
+from cadgraph.model.vocabulary import default_vocabulary
 from cadgraph.stages.relate import find_units, pipe_systems, relate_units
-from cadgraph.vocabulary import default_vocabulary
 
 VOCABULARY = default_vocabulary()
 GROUPS = {"p": "Pipe assembly", "v": "Valve assembly", "g": "Gauge assembly", "s": "Structural element", "-": None}

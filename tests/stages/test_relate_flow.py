@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import shapes
-from cadgraph.parts import Link, Network, UnitParts
-from cadgraph.records import Contains, System
+from cadgraph.model.parts import Link, Network, UnitParts
+from cadgraph.model.records import Contains, System
 from cadgraph.stages.relate.flow import stated_flow
 from cadgraph.stages.relate.size import nominal_size, sizes_along
 from piping import PIPE, PUMP, TANK, VALVE, Plant, R, bend, connections, merged, tags, turned, valve_mesh

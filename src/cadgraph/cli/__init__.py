@@ -8,10 +8,11 @@ from cadgraph.cli import lvlm as _lvlm  # noqa: F401
 from cadgraph.cli import labeling as _labeling  # noqa: F401
 from cadgraph.cli import reading as _reading  # noqa: F401
 from cadgraph.cli import functional as _functional  # noqa: F401
-from cadgraph.cli import judging as _judging  # noqa: F401
-from cadgraph.cli import planting as _planting  # noqa: F401
 
 # isort: on
-from cadgraph.cli.application import app, main, plants
+from cadgraph.cli.application import app, main
+from cadgraph.cli.plugins import add_installed
 
-__all__ = ["app", "main", "plants"]
+__all__ = ["app", "main"]
+
+add_installed(app)

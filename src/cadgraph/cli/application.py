@@ -14,7 +14,7 @@ from cadgraph.cli.screen import err, out
 from cadgraph.cli.signals import Stopped, stoppable
 from cadgraph.errors import CadGraphError
 
-__all__ = ["app", "main", "plants"]
+__all__ = ["app", "main"]
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -26,8 +26,6 @@ app = typer.Typer(
     "structure it belongs to, and how valves, gauges, pumps and tanks hang together along the pipes.",
     epilog="Start with **cadgraph demo**, then **cadgraph build SCENE -o FOLDER**.",
 )
-plants = typer.Typer(no_args_is_help=True, help="Generated test plants with their ground truth.")
-app.add_typer(plants, name="environment")
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -96,13 +96,13 @@ class AskingOptions:
             if self.dry_run or self.batch or more:
                 raise ValueError("nobody to ask: give --labeler lvlm or --labeler embedded+lvlm as well")
             return None
-        from cadgraph.lvlm.setup import make_labeler
+        from cadgraph.labelers.lvlm.setup import make_labeler
 
         return make_labeler(config, output, self.run(progress, **more))
 
     def run(self, progress: Any, **more: Any) -> Any:
         """How this run asks."""
-        from cadgraph.lvlm.setup import Run
+        from cadgraph.labelers.lvlm.setup import Run
 
         mode = "dry" if self.dry_run else "batch" if self.batch else "ask"
         values = {"mode": mode, "keep_renders": self.keep_renders, "note": _Note(), **more}

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from cadgraph.atomic import ensure_writable
+from cadgraph._io.atomic import ensure_writable
 from cadgraph.cli.application import app
 from cadgraph.cli.asking import AskingOptions, asks
 from cadgraph.cli.options import ConfigOption, MethodOption, SetOption, read_flows, settings_of
@@ -49,7 +49,7 @@ def build(
     report: Annotated[bool, typer.Option("--report/--no-report", help="Draw pictures and write report.html.")] = True,
 ) -> None:
     """Turn a CAD scene into a scene graph, a USD label layer and a report."""
-    from cadgraph.job import run
+    from cadgraph.session.run import run
 
     changes = [*(settings or [])]
     chosen = settings_of(config, changes, method)
@@ -86,15 +86,16 @@ def demo(
     settings: SetOption = None,
 ) -> None:
     """Generate a small plant skid with meaningless names, and turn it into a scene graph."""
-    from cadgraph.environment import make_skid, write_usd
-    from cadgraph.environment.usd import truth_path
-    from cadgraph.job import run
+    from importlib import import_module
+
+    from cadgraph.session.run import run
 
     chosen = settings_of(config, settings or [], None)
     scene = ensure_writable(output) / "skid.usdc"
-    if scene.exists() and not truth_path(scene).exists():
+    if scene.exists() and not scene.with_name("skid.truth.json").exists():
         raise OutputError(f"{scene}: not written by cadgraph, so it is left alone; choose another output folder")
-    write_usd(make_skid(), scene)
+    plants = import_module("cadplants")
+    plants.write_usd(plants.make_skid(), scene)
     with bars() as progress:
         outcome = run(scene, output, chosen, progress=progress)
     tell(outcome)

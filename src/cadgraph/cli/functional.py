@@ -28,11 +28,11 @@ def lines(
     A line runs on through valves, gauges and the taps of gauges; it ends at junctions, open or blind ends, tanks,
     pumps and other equipment. Its number is made from what it joins, so that a line added elsewhere renumbers nothing.
     """
-    from cadgraph.atomic import write_atomically
+    from cadgraph._io.atomic import write_atomically
     from cadgraph.export.tables import table_bytes
-    from cadgraph.functional import find_lines
-    from cadgraph.functional.text import line_rows, line_table, line_values
-    from cadgraph.graph import SceneGraph
+    from cadgraph.model.graph import SceneGraph
+    from cadgraph.query import find_lines
+    from cadgraph.query.text import line_rows, line_table, line_values
 
     if as_csv and as_json:
         raise ValueError("--csv and --json: give one of them")
@@ -71,10 +71,10 @@ def trace(
     A way to another unit goes along the pipes whichever way they flow; with --downstream or --upstream only with or
     against the flow.
     """
-    from cadgraph.functional import Network, find_way
-    from cadgraph.functional import trace as follow
-    from cadgraph.functional.text import trace_lines, trace_values, way_lines
-    from cadgraph.graph import SceneGraph
+    from cadgraph.model.graph import SceneGraph
+    from cadgraph.query import Network, find_way
+    from cadgraph.query import trace as follow
+    from cadgraph.query.text import trace_lines, trace_values, way_lines
 
     if downstream and upstream:
         raise ValueError("--downstream and --upstream: give one of them")
@@ -103,9 +103,9 @@ def isolate(
     as_json: JsonOption = False,
 ) -> None:
     """List the valves that isolate a unit on every port, what can't be isolated, and what is shut off with it."""
-    from cadgraph.functional import find_isolation
-    from cadgraph.functional.text import isolation_lines, isolation_values
-    from cadgraph.graph import SceneGraph
+    from cadgraph.model.graph import SceneGraph
+    from cadgraph.query import find_isolation
+    from cadgraph.query.text import isolation_lines, isolation_values
 
     found = find_isolation(SceneGraph.load(graph), tag, check_valves=check_valves, fewest=fewest)
     _show(isolation_lines(found), isolation_values(found), as_json)
@@ -120,9 +120,9 @@ def diagram(
     ] = None,
 ) -> None:
     """Draw the functional graph as a schematic (SVG), in the manner of a piping and instrumentation diagram."""
-    from cadgraph.atomic import write_atomically
-    from cadgraph.diagram import draw_diagram
-    from cadgraph.graph import SceneGraph
+    from cadgraph._io.atomic import write_atomically
+    from cadgraph.draw.schematic import draw_diagram
+    from cadgraph.model.graph import SceneGraph
 
     if output.suffix.lower() != ".svg":
         raise ValueError(f"{output}: a diagram is written as SVG; give a file that ends in .svg")

@@ -18,7 +18,7 @@ catalogs = typer.Typer(no_args_is_help=True, help="Catalogues of your own parts:
 app.add_typer(catalogs, name="catalog")
 
 if TYPE_CHECKING:
-    from cadgraph.records import Part
+    from cadgraph.model.records import Part
 
 _DEFAULT = Path("parts.cadgraph-catalog")
 _SHOWN = 8  # parts that are named when a correction spreads
@@ -36,8 +36,8 @@ _JsonOption = Annotated[bool, typer.Option("--json", help="Print as JSON.")]
 @app.command()
 def explain(graph: GraphArgument, part: _PartArgument, as_json: _JsonOption = False) -> None:
     """Say why a part has its label: evidence, best guesses, neighbours, repeats, unit."""
-    from cadgraph.explanation import explain as explain_part
-    from cadgraph.graph import SceneGraph
+    from cadgraph.model.graph import SceneGraph
+    from cadgraph.query.explain import explain as explain_part
 
     told = explain_part(SceneGraph.load(graph), part)
     if as_json:
@@ -61,7 +61,7 @@ def relabel(
 
     The correction is kept in corrections.json in the folder: a later 'cadgraph build' into it applies it again.
     """
-    from cadgraph.amendment import amend
+    from cadgraph.session.correct import amend
 
     if (label is None) != forget:
         raise ValueError("say what the part is with --as 'group/name', or take a correction back with --forget")
@@ -77,7 +77,7 @@ def relabel(
 
 
 def _said(part: Part) -> str:
-    from cadgraph.vocabulary import spell_label
+    from cadgraph.model.vocabulary import spell_label
 
     return "without a label" if part.label is None else spell_label(part.label.group, part.label.name)
 
@@ -108,10 +108,10 @@ def add_(
     the whole file, for devices that plants hold as one mesh. Of a graph the parts that were labelled by hand or from
     outside are taken, or with --only those of one label.
     """
-    from cadgraph.catalog import read_catalog, write_catalog
-    from cadgraph.intake import EMPTY, take_file, take_graph
-    from cadgraph.labels import split_label
-    from cadgraph.vocabulary import default_vocabulary, read_vocabulary
+    from cadgraph.model.catalog import read_catalog, write_catalog
+    from cadgraph.model.labels import split_label
+    from cadgraph.model.vocabulary import default_vocabulary, read_vocabulary
+    from cadgraph.session.catalog_builder import EMPTY, take_file, take_graph
 
     tree = read_vocabulary(vocabulary) if vocabulary else None
     meant = split_label(label, tree) if label is not None else None
@@ -145,7 +145,7 @@ def list_(
     as_json: _JsonOption = False,
 ) -> None:
     """Print the entries of a catalogue."""
-    from cadgraph.catalog import read_catalog, rows_of
+    from cadgraph.model.catalog import read_catalog, rows_of
 
     rows = rows_of(read_catalog(catalog))
     if as_json:

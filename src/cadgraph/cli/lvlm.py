@@ -42,7 +42,7 @@ def label(
     report: Annotated[bool, typer.Option("--report/--no-report", help="Draw pictures and write report.html.")] = True,
 ) -> None:
     """Label a graph anew: by a model, by answers in a folder, or by the results of a batch."""
-    from cadgraph.relabel import config_of, relabel
+    from cadgraph.session.relabel import config_of, relabel
 
     chosen = asking.settings(config_of(folder).replace(values_of(settings or [])))
     more: dict[str, object] = {}
@@ -72,12 +72,12 @@ def grow_(
     settings: SetOption = None,
 ) -> None:
     """Show a model overview pictures one after the other, and add the labels that it misses."""
-    from cadgraph.atomic import write_atomically
+    from cadgraph._io.atomic import write_atomically
+    from cadgraph.labelers.lvlm.growth import grow
+    from cadgraph.labelers.lvlm.merging import to_yaml
+    from cadgraph.labelers.lvlm.setup import make_asking
     from cadgraph.load import load
-    from cadgraph.lvlm.growth import grow
-    from cadgraph.lvlm.merging import to_yaml
-    from cadgraph.lvlm.setup import make_asking
-    from cadgraph.vocabulary import Vocabulary, default_vocabulary, read_vocabulary
+    from cadgraph.model.vocabulary import Vocabulary, default_vocabulary, read_vocabulary
 
     if empty and start:
         raise ValueError("--empty and --from contradict each other; give one")
@@ -111,7 +111,7 @@ def grow_(
 @vocabularies.command("show")
 def show_(tree: _TreeArgument = None) -> None:
     """Print a tree of labels."""
-    from cadgraph.vocabulary import default_vocabulary, read_vocabulary
+    from cadgraph.model.vocabulary import default_vocabulary, read_vocabulary
 
     for group, content in (read_vocabulary(tree) if tree else default_vocabulary()).groups.items():
         marks = [f"unit: {content.unit}"] if content.unit else []
@@ -124,8 +124,8 @@ def show_(tree: _TreeArgument = None) -> None:
 @vocabularies.command("check")
 def check_(tree: _TreeArgument = None) -> None:
     """Say what is wrong or odd in a tree of labels; ends with 1 where something is."""
-    from cadgraph.lvlm.merging import findings
-    from cadgraph.vocabulary import default_vocabulary, read_vocabulary
+    from cadgraph.labelers.lvlm.merging import findings
+    from cadgraph.model.vocabulary import default_vocabulary, read_vocabulary
 
     found = findings(read_vocabulary(tree) if tree else default_vocabulary())
     for line in found:
@@ -142,9 +142,9 @@ def merge_(
     output: _OutputOption,
 ) -> None:
     """Merge trees and proposals into one tree; other spellings of a label fold into it."""
-    from cadgraph.atomic import write_atomically
-    from cadgraph.lvlm.merging import Merged, merge, merge_vocabularies, read_wishes, to_yaml
-    from cadgraph.vocabulary import default_vocabulary, read_vocabulary
+    from cadgraph._io.atomic import write_atomically
+    from cadgraph.labelers.lvlm.merging import Merged, merge, merge_vocabularies, read_wishes, to_yaml
+    from cadgraph.model.vocabulary import default_vocabulary, read_vocabulary
 
     tree = default_vocabulary() if str(base) == "builtin" else read_vocabulary(base)
     results: list[Merged] = []

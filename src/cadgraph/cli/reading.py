@@ -22,8 +22,8 @@ def show(
     as_json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
 ) -> None:
     """Say what a graph holds."""
-    from cadgraph.graph import SceneGraph
-    from cadgraph.summary import summarize
+    from cadgraph.model.graph import SceneGraph
+    from cadgraph.query.summary import summarize
 
     summary = summarize(SceneGraph.load(graph))
     if as_json:
@@ -43,7 +43,7 @@ def export(
 ) -> None:
     """Write a graph in another format."""
     from cadgraph.export import export_graph
-    from cadgraph.graph import SceneGraph
+    from cadgraph.model.graph import SceneGraph
 
     for path in export_graph(SceneGraph.load(graph), to, output or (graph if graph.is_dir() else graph.parent)):
         out.print(f"wrote {escape(str(path))}")

@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
 
-from cadgraph.progress import quiet
+from cadgraph._io.progress import quiet
 
 __all__ = ["bars", "err", "out", "summary_lines", "tell"]
 
@@ -53,7 +53,7 @@ class _Told:
 
 def tell(outcome: Any) -> None:
     """Says what was found and what to open next."""
-    from cadgraph.summary import summarize
+    from cadgraph.query.summary import summarize
 
     for line in summary_lines(summarize(outcome.graph)):
         out.print(line)

@@ -8,8 +8,8 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from cadgraph.atomic import replacing
-from cadgraph.graph import SceneGraph
+from cadgraph._io.atomic import replacing
+from cadgraph.model.graph import SceneGraph
 
 __all__ = ["write_graphml"]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from cadgraph.atomic import write_atomically
-from cadgraph.graph import SceneGraph
+from cadgraph._io.atomic import write_atomically
+from cadgraph.model.graph import SceneGraph
 
 __all__ = ["write_nodelink"]
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from cadgraph.export.graphml import write_graphml
 from cadgraph.export.nodelink import write_nodelink
 from cadgraph.export.tables import write_tables
-from cadgraph.graph import SceneGraph
+from cadgraph.model.graph import SceneGraph
 
 __all__ = ["Format", "export_graph", "formats"]
 

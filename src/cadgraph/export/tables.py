@@ -9,9 +9,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from cadgraph.atomic import write_atomically
-from cadgraph.graph import SceneGraph
-from cadgraph.records import Adjacent, Box, Cluster, Connected, Part, Related, Unit
+from cadgraph._io.atomic import write_atomically
+from cadgraph.model.graph import SceneGraph
+from cadgraph.model.records import Adjacent, Box, Cluster, Connected, Part, Related, Unit
 
 __all__ = ["table_bytes", "write_tables"]
 

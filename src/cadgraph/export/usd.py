@@ -18,11 +18,11 @@ from typing import Any
 import numpy as np
 from pxr import Sdf, Tf, Vt
 
-from cadgraph.atomic import replacing, write_atomically
+from cadgraph._io.atomic import replacing, write_atomically
 from cadgraph.errors import LoadError, OutputError
-from cadgraph.graph import SceneGraph
-from cadgraph.records import Cluster, Connected, Contains, Junction, Part, Related, System, Terminal, Unit
-from cadgraph.scene import Scene
+from cadgraph.model.graph import SceneGraph
+from cadgraph.model.records import Cluster, Connected, Contains, Junction, Part, Related, System, Terminal, Unit
+from cadgraph.model.scene import Scene
 
 __all__ = ["CLASS", "GROUP", "UNIT", "check_source", "is_usd", "prim_paths", "write_geometry", "write_semantics"]
 

@@ -15,11 +15,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cadgraph.errors import LoadError, MissingExtra
-from cadgraph.load.signature import find_damage, kind_of, name_content
+from cadgraph.load.sandbox.signature import find_damage, kind_of, name_content
 
 if TYPE_CHECKING:
     from cadgraph.config import LoadConfig
-    from cadgraph.scene import Scene
+    from cadgraph.model.scene import Scene
 
 __all__ = ["Format", "formats", "load"]
 
@@ -99,7 +99,7 @@ def load(path: str | os.PathLike[str], config: LoadConfig | None = None) -> Scen
     if config.isolate:
         from concurrent.futures import ThreadPoolExecutor
 
-        from cadgraph.load.isolation import read_isolated
+        from cadgraph.load.sandbox.isolation import read_isolated
 
         # The hash is made here while the other process reads.
         with ThreadPoolExecutor(1) as threads:

@@ -7,7 +7,7 @@ import numpy.typing as npt
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from cadgraph.scene import Faces, Ints
+from cadgraph.model.scene import Faces, Ints
 
 __all__ = ["split_bodies", "weld"]
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from cadgraph.scene import Faces, Floats
+from cadgraph.model.scene import Faces, Floats
 
 __all__ = ["GlbMesh", "GlbNode", "read_glb"]
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from cadgraph.scene import Floats, Ints
+from cadgraph.model.scene import Floats, Ints
 
 __all__ = ["Indices", "Triangles", "triangulate"]
 

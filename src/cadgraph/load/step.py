@@ -23,7 +23,7 @@ from cadgraph.errors import LoadError
 from cadgraph.load.bodies import split_bodies, weld
 from cadgraph.load.glb import GlbMesh, GlbNode, read_glb
 from cadgraph.load.packing import Notes, Piece, pack, unique_name
-from cadgraph.scene import Faces, Floats, Scene, Source
+from cadgraph.model.scene import Faces, Floats, Scene, Source
 
 if TYPE_CHECKING:
     from cadgraph.config import LoadConfig

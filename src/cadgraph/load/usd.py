@@ -30,7 +30,7 @@ from cadgraph.load.usd_assets import is_there, open_layers
 from cadgraph.load.usd_color import Materials, mean_display_color
 from cadgraph.load.usd_mesh import CutMesh, RawMesh, cut_meshes
 from cadgraph.load.usd_walk import Placement, Walk, message_of
-from cadgraph.scene import Faces, Floats, Ints, Scene, Source
+from cadgraph.model.scene import Faces, Floats, Ints, Scene, Source
 
 if TYPE_CHECKING:
     from cadgraph.config import LoadConfig

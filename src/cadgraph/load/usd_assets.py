@@ -10,7 +10,7 @@ from typing import Any
 from pxr import Ar, Sdf, Tf
 
 from cadgraph.errors import LoadError
-from cadgraph.load.signature import kind_of
+from cadgraph.load.sandbox.signature import kind_of
 
 __all__ = ["is_there", "open_layers"]
 

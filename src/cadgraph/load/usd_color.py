@@ -10,7 +10,7 @@ import numpy.typing as npt
 from pxr import Sdf, Usd, UsdShade
 
 from cadgraph.load.polygons import Indices
-from cadgraph.scene import Floats
+from cadgraph.model.scene import Floats
 
 __all__ = ["Materials", "mean_display_color", "usable_color"]
 

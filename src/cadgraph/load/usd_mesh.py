@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from cadgraph.load.polygons import Indices, triangulate
-from cadgraph.scene import Ints
+from cadgraph.model.scene import Ints
 
 __all__ = ["CutMesh", "RawMesh", "cut_meshes"]
 

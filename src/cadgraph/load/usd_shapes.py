@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from cadgraph.scene import Faces, Floats
+from cadgraph.model.scene import Faces, Floats
 
 __all__ = ["SHAPES", "Shape"]
 

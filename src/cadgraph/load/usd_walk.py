@@ -14,7 +14,7 @@ from cadgraph.load.packing import Notes
 from cadgraph.load.usd_color import usable_color
 from cadgraph.load.usd_mesh import RawMesh
 from cadgraph.load.usd_shapes import SHAPES
-from cadgraph.scene import Floats, Ints
+from cadgraph.model.scene import Floats, Ints
 
 __all__ = ["Placement", "Walk", "message_of"]
 

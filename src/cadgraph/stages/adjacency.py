@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from cadgraph._io.progress import Progress, quiet
 from cadgraph.config import Config
-from cadgraph.geometry.contact import find_contacts
-from cadgraph.geometry.points import find_point_contacts, sample_surface
-from cadgraph.parts import Contacts
-from cadgraph.progress import Progress, quiet
-from cadgraph.scene import Ints, Scene
+from cadgraph.geometry.contact.pairs import find_contacts
+from cadgraph.geometry.contact.points import find_point_contacts, sample_surface
+from cadgraph.model.parts import Contacts
+from cadgraph.model.scene import Ints, Scene
 
 __all__ = ["find_near_meshes", "join_contacts"]
 

@@ -9,9 +9,9 @@ from typing import Literal
 
 import numpy as np
 
-from cadgraph.graph import SceneGraph
-from cadgraph.parts import Contacts, Guess, Label, Link, Network, Parts, UnitParts
-from cadgraph.records import (
+from cadgraph.model.graph import SceneGraph
+from cadgraph.model.parts import Contacts, Guess, Label, Link, Network, Parts, UnitParts
+from cadgraph.model.records import (
     Adjacent,
     Cluster,
     Connected,
@@ -35,8 +35,8 @@ from cadgraph.records import (
     Unit,
     points,
 )
-from cadgraph.scene import Diagnostic, Floats, Ints, Scene
-from cadgraph.vocabulary import Vocabulary
+from cadgraph.model.scene import Diagnostic, Floats, Ints, Scene
+from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["Results", "assemble_graph"]
 

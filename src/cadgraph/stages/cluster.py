@@ -6,8 +6,8 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from cadgraph.parts import Bools, Contacts
-from cadgraph.scene import Ints
+from cadgraph.model.parts import Bools, Contacts
+from cadgraph.model.scene import Ints
 
 __all__ = ["cluster_parts"]
 

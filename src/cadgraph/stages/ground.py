@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.config import GroundConfig
-from cadgraph.parts import Bools, Properties
-from cadgraph.scene import Diagnostic, Scene
+from cadgraph.model.parts import Bools, Properties
+from cadgraph.model.scene import Diagnostic, Scene
 
 __all__ = ["find_ground"]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.config import GroupConfig
-from cadgraph.parts import Bools, Contacts, Properties
-from cadgraph.scene import Floats, Ints
+from cadgraph.model.parts import Bools, Contacts, Properties
+from cadgraph.model.scene import Floats, Ints
 
 __all__ = ["group_meshes", "group_volume"]
 

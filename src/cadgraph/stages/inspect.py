@@ -11,10 +11,10 @@ import dataclasses
 import numpy as np
 
 from cadgraph.config import InspectConfig
-from cadgraph.geometry.duplicates import find_duplicates, findings
-from cadgraph.geometry.visibility import find_visible
-from cadgraph.parts import Properties
-from cadgraph.scene import Diagnostic, Scene
+from cadgraph.geometry.mesh.duplicates import find_duplicates, findings
+from cadgraph.geometry.visibility.outside import find_visible
+from cadgraph.model.parts import Properties
+from cadgraph.model.scene import Diagnostic, Scene
 
 __all__ = ["inspect_meshes"]
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph.geometry.properties import measure
-from cadgraph.geometry.shape import find_shapes
-from cadgraph.parts import Bools, Parts, Properties
-from cadgraph.scene import Ints, Scene
+from cadgraph.geometry.mesh.properties import measure
+from cadgraph.geometry.shape.repeats import find_shapes
+from cadgraph.model.parts import Bools, Parts, Properties
+from cadgraph.model.scene import Ints, Scene
 
 __all__ = ["make_parts"]
 

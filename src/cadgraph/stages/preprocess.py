@@ -6,8 +6,8 @@ import dataclasses
 
 import numpy as np
 
-from cadgraph.parts import Bools
-from cadgraph.scene import Diagnostic, Scene, mesh_of_face, mesh_of_vertex
+from cadgraph.model.parts import Bools
+from cadgraph.model.scene import Diagnostic, Scene, mesh_of_face, mesh_of_vertex
 
 __all__ = ["prepare_scene"]
 

@@ -10,8 +10,8 @@ from xml.parsers import expat
 
 from cadgraph.errors import FormatError
 from cadgraph.export.dexpi.terms import CUSTOM_SET, DEXPI_SET, INSTRUMENT, kind_of, unit_type_of
-from cadgraph.graph import SceneGraph
-from cadgraph.records import (
+from cadgraph.model.graph import SceneGraph
+from cadgraph.model.records import (
     Connected,
     Contains,
     GraphDocument,

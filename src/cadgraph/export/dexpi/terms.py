@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from cadgraph.records import Terminal, Unit
+from cadgraph.model.records import Terminal, Unit
 
 __all__ = [
     "CUSTOM_SET",

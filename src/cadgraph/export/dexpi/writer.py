@@ -8,17 +8,17 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import TYPE_CHECKING
 
-from cadgraph.atomic import write_atomically
-from cadgraph.diagram.symbol import instrument_letters
+from cadgraph._io.atomic import write_atomically
+from cadgraph.draw.schematic.symbol import instrument_letters
 from cadgraph.export.dexpi.element import Ids, add_item, add_nodes, add_position, add_values, diameter_values, xml_text
 from cadgraph.export.dexpi.terms import INSTRUMENT, Term, term_of_terminal, term_of_unit
-from cadgraph.functional.line import Line, divides, find_lines
-from cadgraph.functional.network import Arc, Network, natural
-from cadgraph.graph import SceneGraph
-from cadgraph.records import Terminal, Unit
+from cadgraph.model.graph import SceneGraph
+from cadgraph.model.records import Terminal, Unit
+from cadgraph.query.lines import Line, divides, find_lines
+from cadgraph.query.network import Arc, Network, natural
 
 if TYPE_CHECKING:
-    from cadgraph.diagram.place import Places, Spot
+    from cadgraph.draw.schematic.place import Places, Spot
 
 __all__ = ["write_dexpi"]
 
@@ -43,7 +43,7 @@ def write_dexpi(graph: SceneGraph, path: str | Path) -> Path:
     Raises:
         OutputError: it can't be written.
     """
-    from cadgraph.diagram.place import find_places
+    from cadgraph.draw.schematic.place import find_places
 
     network = Network(graph)
     root = _Document(network, find_places(network)).build()

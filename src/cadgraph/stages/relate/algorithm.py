@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
-from cadgraph.parts import Contacts, Label, UnitParts
-from cadgraph.scene import Ints, natural_key
-from cadgraph.vocabulary import Vocabulary
+from cadgraph.model.parts import Contacts, Label, UnitParts
+from cadgraph.model.scene import Ints, natural_key
+from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["LETTERS", "find_units", "pipe_systems", "relate_units"]
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cadgraph.geometry.centreline import Centreline
-from cadgraph.geometry.region import Regions, contact_regions
-from cadgraph.parts import Contacts, Parts
-from cadgraph.scene import Floats, Ints
+from cadgraph.geometry.contact.region import Regions, contact_regions
+from cadgraph.geometry.line.centreline import Centreline
+from cadgraph.model.parts import Contacts, Parts
+from cadgraph.model.scene import Floats, Ints
 from cadgraph.stages.relate.joint import (
     Ends,
     Facing,

@@ -7,9 +7,10 @@ from collections.abc import Collection, Mapping, Sequence
 import numpy as np
 
 from cadgraph.config import Config
-from cadgraph.geometry.centreline import Centreline
-from cadgraph.parts import Contacts, Label, Network, Parts, Properties
-from cadgraph.scene import Diagnostic, Ints, Scene
+from cadgraph.geometry.line.centreline import Centreline
+from cadgraph.model.parts import Contacts, Label, Network, Parts, Properties
+from cadgraph.model.scene import Diagnostic, Ints, Scene
+from cadgraph.model.vocabulary import Vocabulary
 from cadgraph.stages.relate.algorithm import find_units
 from cadgraph.stages.relate.attach import Attachments, attach_lines, flat_contacts
 from cadgraph.stages.relate.contract import simplify
@@ -29,7 +30,6 @@ from cadgraph.stages.relate.unit import (
     mend_groups,
     split_groups,
 )
-from cadgraph.vocabulary import Vocabulary
 
 __all__ = ["connect_units"]
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from cadgraph.scene import Floats
+from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.network import Drawing
 from cadgraph.stages.relate.span import Net, Span
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cadgraph.parts import Network, Opening, Parts, UnitParts
-from cadgraph.scene import Diagnostic, Floats
+from cadgraph.model.parts import Network, Opening, Parts, UnitParts
+from cadgraph.model.scene import Diagnostic, Floats
 
 __all__ = ["direct_flow", "stated_flow"]
 

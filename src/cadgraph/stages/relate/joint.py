@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from cadgraph.geometry.centreline import Branch, Centreline
-from cadgraph.parts import Contacts
-from cadgraph.scene import Floats, Ints
+from cadgraph.geometry.line.centreline import Branch, Centreline
+from cadgraph.model.parts import Contacts
+from cadgraph.model.scene import Floats, Ints
 
 __all__ = ["Ends", "Facing", "Tap", "face_ends", "find_tap", "gather_ends", "nearest_on", "same_place"]
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from cadgraph.parts import Network, Parts, UnitParts
+from cadgraph.model.parts import Network, Parts, UnitParts
 
 __all__ = ["name_kinds"]
 

@@ -7,9 +7,9 @@ from dataclasses import fields, replace
 
 import numpy as np
 
-from cadgraph.geometry.centreline import Branch, Centreline, End, trace_centrelines
-from cadgraph.parts import Properties
-from cadgraph.scene import Floats, Scene
+from cadgraph.geometry.line.centreline import Branch, Centreline, End, trace_centrelines
+from cadgraph.model.parts import Properties
+from cadgraph.model.scene import Floats, Scene
 
 __all__ = ["find_lines", "is_disc", "is_plain_tube", "is_ring"]
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from cadgraph.geometry.centreline import Branch, Centreline
-from cadgraph.parts import Opening, UnitParts
-from cadgraph.scene import Floats
+from cadgraph.geometry.line.centreline import Branch, Centreline
+from cadgraph.model.parts import Opening, UnitParts
+from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.attach import Attachments, Side
 from cadgraph.stages.relate.line import is_disc
 from cadgraph.stages.relate.span import Net, Span

@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from cadgraph.geometry.centreline import Centreline
-from cadgraph.parts import Link, Network, Opening, Place, UnitParts
-from cadgraph.scene import Floats
+from cadgraph.geometry.line.centreline import Centreline
+from cadgraph.model.parts import Link, Network, Opening, Place, UnitParts
+from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.attach import Attachments
 from cadgraph.stages.relate.network import Drawing
 from cadgraph.stages.relate.size import nominal_size, sizes_along

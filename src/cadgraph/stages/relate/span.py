@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from cadgraph.scene import Floats
+from cadgraph.model.scene import Floats
 
 __all__ = ["Net", "Span", "join_spans"]
 

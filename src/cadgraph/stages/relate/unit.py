@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cadgraph.parts import Contacts, Parts
-from cadgraph.scene import Ints
+from cadgraph.model.parts import Contacts, Parts
+from cadgraph.model.scene import Ints
 from cadgraph.stages.relate.attach import Attachments, flat_contacts
 from cadgraph.stages.relate.role import Roles
 

@@ -1,0 +1,78 @@
+"""How long labelling takes: ``python benchmarks/label.py [--field]``.
+
+Prints a Markdown table: for generated plants of growing size, processor seconds for the features of shapes, for those
+of contacts and for the network, and per distinct shape; repeats of one plant show that shapes count, not parts.
+"""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+import numpy as np
+from _table import machine, once, table
+
+from cadgraph.labelers.embedded.features import Observation, observe
+from cadgraph.labelers.embedded.labeler import EmbeddedLabeler, judge
+from cadgraph.labelers.embedded.model import default_model
+from cadgraph.model.parts import Contacts, Parts
+from cadgraph.model.scene import Scene
+from cadgraph.model.vocabulary import default_vocabulary
+from cadlab.training.example import make_parts_from
+from cadplants import make
+
+
+def tiled(scene: Scene, times: int) -> Scene:
+    """The same scene several times side by side."""
+    width = float(np.ptp(scene.vertices[:, 0])) + 2.0
+    meshes, paths = [], []
+    for k in range(times):
+        for i in range(scene.n_meshes):
+            vertices, faces = scene.mesh(i)
+            meshes.append((vertices + np.array([k * width, 0, 0]), faces))
+            paths.append(f"/tile_{k}{scene.paths[i]}")
+    return Scene.from_meshes(meshes, paths)
+
+
+def row(name: str, parts: Parts, contacts: Contacts) -> list[Any]:
+    """One line of the table."""
+    seen: list[Observation] = []
+    model, vocabulary = default_model(), default_vocabulary()
+    observe(parts, contacts)
+    looking = once(lambda: seen.append(observe(parts, contacts)))
+    naming = once(lambda: judge(model, seen[0], vocabulary))
+    whole = once(lambda: EmbeddedLabeler().label(parts, contacts, vocabulary))
+    shapes = len(seen[0].facts)
+    return [
+        name, f"{parts.n_parts:,}", f"{len(contacts.pairs):,}", f"{shapes:,}", f"{parts.scene.n_triangles:,}",
+        f"{looking:.2f}", f"{naming:.2f}", f"{whole:.2f}", f"{1000 * whole / max(shapes, 1):.1f}",
+    ]  # fmt: skip
+
+
+def main() -> None:
+    """Runs the benchmark."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--field", action="store_true", help="also the whole field plant")
+    rows = []
+    skid = make("skid").scene()
+    for times in (1, 4, 16):
+        rows.append(row(f"{times} x skid", *make_parts_from(tiled(skid, times))))
+    for preset in ("tank", "rack", *(("field",) if parser.parse_args().field else ())):
+        rows.append(row(preset, *make_parts_from(make(preset).scene())))
+    print(machine() + "\n")
+    titles = [
+        "plant",
+        "parts",
+        "contacts",
+        "shapes",
+        "triangles",
+        "looking [s]",
+        "naming [s]",
+        "in all [s]",
+        "ms a shape",
+    ]
+    print(table(titles, rows))
+
+
+if __name__ == "__main__":
+    main()

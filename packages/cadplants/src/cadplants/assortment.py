@@ -1,0 +1,405 @@
+"""The preset ``assortment``: lines, devices and structures of all families at random, each in realistic context.
+
+A plant to learn from rather than to look at: every part sits where such parts sit (valves between flanges in pipe runs,
+gauges on outlets, pumps with their motors on bases, pipes on supports), but what there is, of which build, how finely
+modelled and by what style is drawn anew for each plant and each device.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+from functools import partial
+from typing import Any, TypeVar
+
+import numpy as np
+
+from cadgraph.model.scene import Floats
+from cadplants.defects import loosen
+from cadplants.drawn_styles import draw_hand
+from cadplants.families import FAMILIES
+from cadplants.family import Family, Model, as_assembly, as_device
+from cadplants.flange import GASKET, bolts, flange, flange_length, gasket, plate_thickness
+from cadplants.layout import Inline, Laid, Run, Tap, lay
+from cadplants.mesh_ops import merge, moved
+from cadplants.modeling_style import Grain, Hand
+from cadplants.piping import bend_tangent, cap, elbow
+from cadplants.plant import Assembly, Component, Device, Plant, gather
+from cadplants.primitives import box
+from cadplants.retessellate import retold
+from cadplants.route import Route
+from cadplants.standards import ELBOW_LONG_RADIUS, PIPES, SIZES
+from cadplants.transforms import at, looking, spun
+
+__all__ = ["FAMILIES", "draw_hand", "make_assortment"]
+
+_Made = TypeVar("_Made", Assembly, Device)
+
+_LANE = 1.8  # m between two lines
+_LOWEST, _HIGHEST = 0.45, 3.2  # m, of a line's axis
+_ROOM = 8.0  # m between things on the floor: their lines stay clear of each other
+_MESHES, _MOST = (90, 280), 24  # a plant is full at a number of meshes without fasteners, or has so many things
+_FASTENERS = ("bolt", "nut", "washer", "stud", "screw")
+_GROUND = 0.3  # share of plants that stand on a slab
+_DN_WEIGHTS = np.array([2, 2, 3, 2, 3, 4, 2, 3, 3, 1, 2, 2, 1, 1], float)  # of DN15..DN300
+
+
+def make_assortment(seed: int = 0, hand: Hand | None = None, without: frozenset[str] = frozenset()) -> Plant:
+    """Builds a random assortment of lines, devices and structures, about 100 to 500 meshes and their fasteners.
+
+    Args:
+        seed: of everything.
+        hand: how everything is modelled; else styles are drawn, one for the plant and others for some of its parts.
+        without: names of families that are left out (keys of ``FAMILIES``), or what comes before their slash.
+
+    Returns:
+        The plant with its labels and families. Contacts are recorded along the lines only.
+
+    Raises:
+        ValueError: ``without`` names a family that there is not.
+    """
+    _check_names(without)
+    rng = np.random.default_rng([seed, 20])
+    work = _Draw(rng, hand, draw_hand(rng, "drawn-1") if hand is None else hand, without)
+    parts: list[Assembly] = []
+    budget = int(rng.integers(*_MESHES))
+    lines = 0
+    for k in range(_MOST):
+        style = work.style()
+        if k % 4 == 0:
+            one = _line(work, style, f"L{lines + 1}", _LANE * lines)
+            lines += 1
+        else:
+            j = k - lines
+            place = at(_ROOM * (j % 4), -4.0 - _ROOM * (j // 4)) @ spun(
+                "z", float(rng.choice([0, 0.5, 1, 1.5])) * np.pi
+            )
+            one = _stand(work, style, f"S{j + 1}").placed(place)
+        parts.append(_finished(one, style, seed + 1000 * k))
+        budget -= sum(c.name not in _FASTENERS for c in one.components)
+        if budget < 0 and k > 1:
+            break
+    if work.rng.random() < _GROUND:
+        parts.append(_ground(gather(parts), work.hand))
+    whole = gather(parts)
+    given: dict[str, Any] = {one.name: getattr(whole, one.name) for one in fields(whole)}
+    looseness = max(style.looseness for style in work.used)
+    return Plant(
+        **given, name="assortment", seed=seed, hands=tuple(style.name for style in work.used), looseness=looseness
+    )
+
+
+def _check_names(without: frozenset[str]) -> None:
+    known = set(FAMILIES) | {name.split("/")[0] for name in FAMILIES}
+    for name in sorted(without - known):
+        raise ValueError(f"there is no family {name!r}; see FAMILIES for their names")
+
+
+class _Draw:
+    """Draws families, sizes and styles for one plant."""
+
+    def __init__(self, rng: np.random.Generator, fixed: Hand | None, hand: Hand, without: frozenset[str]) -> None:
+        self.rng, self.fixed, self.hand = rng, fixed, hand
+        self.used = [hand]
+        self.count = 0
+        self.families: dict[str, list[Family]] = {}
+        for family in FAMILIES.values():
+            if family.name not in without and family.name.split("/")[0] not in without:
+                self.families.setdefault(family.place, []).append(family)
+
+    def style(self) -> Hand:
+        """The plant's hand, or in a third of the cases another one."""
+        if self.fixed is not None or self.rng.random() < 0.65:
+            return self.hand
+        self.used.append(draw_hand(self.rng, f"drawn-{len(self.used) + 1}"))
+        return self.used[-1]
+
+    def grained(self, hand: Hand) -> Hand:
+        """The hand with a granularity of its own for one device; a given hand keeps its own."""
+        if self.fixed is not None or self.rng.random() < 0.5:
+            return hand
+        grains: tuple[Grain, ...] = ("one", "few", "pieces")
+        grain = grains[int(self.rng.integers(3))]
+        return replace(hand, valve=grain, gauge=grain, pump=grain, tank=grain, equipment=grain, structure=grain)
+
+    def family(self, place: str, dn: int = 0) -> Family | None:
+        """One family for a place, made in this size; None where all are left out."""
+        some = [f for f in self.families.get(place, []) if not dn or dn in f.sizes]
+        if not some:
+            return None
+        weights = np.array([f.weight for f in some])
+        return some[int(self.rng.choice(len(some), p=weights / weights.sum()))]
+
+    def unit(self, family: Family) -> str:
+        """An id for a device's unit."""
+        self.count += 1
+        return f"{family.unit[:1].upper()}-{self.count}" if family.unit else ""
+
+    def dn(self) -> int:
+        """A nominal size, small ones more often."""
+        return int(self.rng.choice(SIZES, p=_DN_WEIGHTS / _DN_WEIGHTS.sum()))
+
+
+def _finished(assembly: Assembly, hand: Hand, seed: int) -> Assembly:
+    """Gaps, unevenness and triangles as the hand leaves them; families for plain pipe."""
+    whole = retold(loosen(assembly, hand, seed), hand, seed)
+    styles = {"flange": f"flange/{hand.flange}", "blind flange": "flange/blind", "elbow": "elbow/long radius"}
+    components = tuple(
+        replace(c, family=c.family or styles.get(c.name, f"{c.name}/plain"), granularity=c.granularity or "pieces")
+        for c in whole.components
+    )
+    return replace(whole, components=components).marked(hand=hand.name)
+
+
+def _ground(whole: Assembly, hand: Hand) -> Assembly:
+    """A slab under everything."""
+    points = np.concatenate([c.vertices for c in whole.components])[:, :2]
+    (low_x, low_y), (high_x, high_y) = points.min(axis=0) - 0.5, points.max(axis=0) + 0.5
+    slab = box((high_x - low_x, high_y - low_y, 0.1), ((low_x + high_x) / 2, (low_y + high_y) / 2, -0.05))
+    color = hand.color("ground")
+    ground = Component(slab, "Structural element", "ground", color, family="ground/slab", granularity="one")
+    return Assembly((replace(ground, hand=hand.name),))
+
+
+# --- lines ---
+
+
+@dataclass(frozen=True)
+class _Leg:
+    """A straight stretch of a line: what is in it and how long it is without bends [m]."""
+
+    items: tuple[Inline, ...]
+    taps: tuple[Tap, ...]
+    length: float
+
+
+def _line(work: _Draw, hand: Hand, tag: str, lane: float) -> Assembly:
+    """One line along x in its lane, with its supports and whatever ends it."""
+    rng, dn = work.rng, work.dn()
+    bent, bend = bool(rng.random() < 0.4), float(rng.uniform(1.5, 3.5))
+    directions = _directions(rng, int(rng.integers(1, 5)))
+    tangents = [
+        bend_tangent(bend * PIPES[dn].outer if bent else ELBOW_LONG_RADIUS[dn], a, b)
+        for a, b in zip(directions[:-1], directions[1:], strict=True)
+    ]
+    points = [np.array([0.0, lane, float(rng.uniform(0.8, 1.8))])]
+    inline: list[Inline] = []
+    taps: list[Tap] = []
+    s = 0.0
+    for k, direction in enumerate(directions):
+        before = tangents[k - 1] if k else flange_length(dn, hand) + 0.05
+        after = tangents[k] if k < len(tangents) else flange_length(dn, hand) + 0.05
+        leg = _leg(work, hand, dn, s + before, abs(float(direction[2])) < 0.1)
+        length = before + leg.length + after
+        points.append(points[-1] + length * direction)
+        inline += leg.items
+        taps += leg.taps
+        s += length
+    ends = tuple(str(rng.choice(["open", "open", "flange", "blind"])) for _ in range(2))
+    height = min(float(p[2]) for p in points)
+    lift = np.array([0.0, 0.0, max(0.0, _LOWEST - height)])
+    points = [p + lift for p in points]
+    run = Run(
+        tag, dn, Route(np.array(points)), tuple(inline), tuple(taps), bent=bent, bend=bend, ends=(ends[0], ends[1])
+    )
+    laid = lay(run, hand)
+    pieces = [laid.assembly, *_supports(work, hand, laid), *_endings(work, hand, run)]
+    whole = gather(pieces)
+    return (_spooled(whole) if hand.merged else whole).marked(cluster=tag)
+
+
+def _directions(rng: np.random.Generator, count: int) -> list[Floats]:
+    """Directions of the legs of a line that goes on towards +x: bends of 90 and 45 degrees, offsets, risers."""
+    result = [np.array([1.0, 0.0, 0.0])]
+    while len(result) < count:
+        last = result[-1]
+        if last[0] > 0.9:
+            turn = float(rng.choice([0.5, 0.5, 0.25])) * np.pi
+            way = (
+                (0.0, 0.0, float(rng.choice([1.0, 1.0, -1.0])))
+                if rng.random() < 0.75
+                else (0.0, float(rng.choice([1, -1])), 0.0)
+            )
+            result.append(np.array([1.0, 0.0, 0.0]) * np.cos(turn) + np.array(way) * np.sin(turn))
+        else:
+            result.append(np.array([1.0, 0.0, 0.0]))
+    return [np.where(np.abs(d) < 1e-12, 0.0, d) for d in result]
+
+
+def _leg(work: _Draw, hand: Hand, dn: int, start: float, level: bool) -> _Leg:
+    """Some devices in a row with pipe between them."""
+    rng = work.rng
+    items: list[Inline] = []
+    taps: list[Tap] = []
+    x = float(rng.uniform(0.08, 0.4))
+    for _ in range(int(rng.integers(1, 4))):
+        pipe = float(rng.choice([0.12, 0.25, 0.5])) * float(rng.uniform(0.8, 1.6))
+        if rng.random() < 0.45 and level and pipe > 0.2 and (family := work.family("tap")) is not None:
+            taps.append(_tap_of(work, hand, family, dn, start + x + pipe / 2))
+        x += pipe
+        item, length = _item(work, hand, dn, start + x)
+        items.append(item)
+        x += length
+    return _Leg(tuple(items), tuple(taps), x + float(rng.uniform(0.15, 0.9)))
+
+
+def _tap_of(work: _Draw, hand: Hand, family: Family, dn: int, s: float) -> Tap:
+    own = work.grained(hand)
+    unit = work.unit(family)
+    assembly = as_assembly(family, family.build(dn, own, work.rng), own, unit)
+    return Tap(s, partial(_given, assembly), unit)
+
+
+def _given(made: _Made, _: Hand) -> _Made:
+    """What was made already, whatever hand asks."""
+    return made
+
+
+def _item(work: _Draw, hand: Hand, dn: int, low: float) -> tuple[Inline, float]:
+    """One thing in a line that begins at a chainage, and how long it is with its flanges [m]."""
+    rng = work.rng
+    neck, pad = flange_length(dn, hand), GASKET if hand.gaskets else 0.0
+    family = work.family("inline", dn) if rng.random() < 0.9 else None
+    if family is None:
+        length = 2 * neck + pad
+        return Inline(low + length / 2), length
+    own = work.grained(hand)
+    unit = work.unit(family)
+    model = family.build(dn, own, rng)
+    device = as_device(family, model, own, unit)
+    welded = family.welded or (isinstance(model, Model) and model.joint == "welded")
+    length = device.length + (0.0 if welded else 2 * (neck + pad))
+    roll = float(rng.choice([0.0, 0.0, 0.0, 0.5, -0.5, 1.0])) * np.pi
+    build: Callable[[Hand], Device] = partial(_given, device)
+    return Inline(low + length / 2, build, unit, roll, welded=welded), length
+
+
+def _endings(work: _Draw, hand: Hand, run: Run) -> list[Assembly]:
+    """What closes or goes on from the ends of a line: caps, bends and hoses on pipes; valves and lids on flanges."""
+    parts = []
+    for which, s in ((0, 0.0), (1, run.route.length)):
+        frame = run.route.frame(s) if which else run.route.frame(s) @ spun("z", np.pi)
+        dn = run.dn_at(s)
+        if work.rng.random() < 0.3 or run.ends[which] not in ("open", "flange"):
+            continue
+        parts += _pipe_end(work, hand, dn, frame) if run.ends[which] == "open" else _flange_end(work, hand, dn, frame)
+    return parts
+
+
+def _pipe_end(work: _Draw, hand: Hand, dn: int, frame: Floats) -> list[Assembly]:
+    family = work.family("end", dn)
+    if family is None or work.rng.random() < 0.25:
+        return [cap(dn, hand).placed(frame)]
+    own = work.grained(hand)
+    return [as_assembly(family, family.build(dn, own, work.rng), own).placed(frame)]
+
+
+def _flange_end(work: _Draw, hand: Hand, dn: int, frame: Floats) -> list[Assembly]:
+    """A device with one flange, bolted on; half of the upright ones stand on an elbow."""
+    family = work.family("head", dn)
+    if family is None:
+        return []
+    own, unit = work.grained(hand), work.unit(family)
+    pad, plate = GASKET if hand.gaskets else 0.0, plate_thickness(dn)
+    parts = [gasket(dn, hand).placed(frame), bolts(dn, 2 * plate + pad, hand).placed(frame @ at(-plate))]
+    if family.unit and abs(frame[2, 0]) < 0.1 and work.rng.random() < 0.6:
+        neck, radius = flange_length(dn, hand), ELBOW_LONG_RADIUS[dn]
+        turn = looking(frame[:3, 3], frame[:3, 0], (0.0, 0.0, 1.0)) @ spun("x", np.pi / 2)
+        start = turn @ at(pad)
+        parts.append(flange(dn, hand).placed(start))
+        parts.append(elbow(dn, np.pi / 2, hand).placed(start @ at(neck)))
+        frame = start @ at(neck + radius, radius) @ spun("z", np.pi / 2) @ at(neck)
+        parts.append(flange(dn, hand).placed(frame @ spun("z", np.pi)))
+        parts += [gasket(dn, hand).placed(frame), bolts(dn, 2 * plate + pad, hand).placed(frame @ at(-plate))]
+    model = family.build(dn, own, work.rng)
+    roll = spun("x", float(work.rng.uniform(0, 2 * np.pi)))
+    return [*parts, as_assembly(family, model, own, unit).placed(frame @ at(pad) @ roll)]
+
+
+def _supports(work: _Draw, hand: Hand, laid: Laid) -> list[Assembly]:
+    """What carries the level pipes of a line: from the ground up, or from a beam above."""
+    rng, parts = work.rng, []
+    run = laid.run
+    taken = [tap.s for tap in run.taps]
+    for piece in laid.pieces:
+        middle = (piece.low + piece.high) / 2
+        frame = run.route.frame(middle)
+        straight = run.route.leg(piece.low + 1e-6) == run.route.leg(piece.high - 1e-6)
+        clear = all(abs(s - middle) > 0.12 for s in taken)
+        if not straight or abs(frame[2, 0]) > 0.01 or piece.high - piece.low < 0.25 or not clear or rng.random() < 0.4:
+            continue
+        dn = run.dn_at(middle)
+        family = work.family("carrier", dn)
+        if family is None:
+            continue
+        own = work.grained(hand)
+        model = family.build(dn, own, rng, float(frame[2, 3]))
+        parts.append(as_assembly(family, model, own).placed(frame))
+    return parts
+
+
+_SPOOL = ("pipe", "elbow", "flange")
+
+
+def _spooled(whole: Assembly) -> Assembly:
+    """Pipes, elbows and flanges that are welded to each other as one mesh called pipe; flanges stay apart."""
+    names = [c.name if c.group == "Pipe assembly" and c.family not in FAMILIES else "" for c in whole.components]
+    root = list(range(len(names)))
+
+    def find(i: int) -> int:
+        while root[i] != i:
+            i = root[i]
+        return i
+
+    for a, b in whole.contacts:
+        if names[a] in _SPOOL and names[b] in _SPOOL and (names[a], names[b]) != ("flange", "flange"):
+            root[max(find(a), find(b))] = min(find(a), find(b))
+    heads = sorted({find(i) for i in range(len(names))})
+    place = {head: k for k, head in enumerate(heads)}
+    members: dict[int, list[int]] = {head: [] for head in heads}
+    for i in range(len(names)):
+        members[find(i)].append(i)
+    components = []
+    for head in heads:
+        one = whole.components[head]
+        if len(members[head]) > 1:
+            solids = [moved(whole.components[i].solid, whole.components[i].pose) for i in members[head]]
+            one = replace(one, solid=merge(solids), pose=np.eye(4), name="pipe", family="pipe/spool", granularity="one")
+        components.append(one)
+    pairs = {(place[find(a)], place[find(b)]) for a, b in whole.contacts}
+    contacts = tuple(sorted({(min(p), max(p)) for p in pairs if p[0] != p[1]}))
+    return replace(whole, components=tuple(components), contacts=contacts)
+
+
+# --- the floor ---
+
+
+def _stand(work: _Draw, hand: Hand, cluster: str) -> Assembly:
+    """One thing on the floor, with a short line from each of its faces."""
+    family = work.family("floor")
+    if family is None:
+        return Assembly()
+    own, unit = work.grained(hand), work.unit(family)
+    model = family.build(int(work.rng.choice(family.sizes)), own, work.rng)
+    parts = [as_assembly(family, model, own, unit)]
+    ports = model.ports if isinstance(model, Model) else ()
+    for k, port in enumerate(ports):
+        if work.rng.random() < 0.8:
+            parts.append(_stub_line(work, hand, f"{cluster}-{k + 1}", port.frame, port.dn, unit))
+    whole = gather(parts)
+    return (_spooled(whole) if hand.merged else whole).marked(cluster=cluster)
+
+
+def _stub_line(work: _Draw, hand: Hand, tag: str, frame: Floats, dn: int, unit: str) -> Assembly:
+    """A line of one or two legs away from a face, with a device in it."""
+    rng = work.rng
+    start, out = frame[:3, 3], frame[:3, 0]
+    neck = flange_length(dn, hand) + GASKET + 0.05
+    leg = _leg(work, hand, dn, neck, abs(float(out[2])) < 0.1)
+    points = [start, start + out * (neck + leg.length + ELBOW_LONG_RADIUS[dn])]
+    if rng.random() < 0.6:
+        up = np.array([0.0, 0.0, 1.0]) if abs(out[2]) < 0.5 else looking((0, 0, 0), out)[:3, 1]
+        points.append(points[-1] + up * (ELBOW_LONG_RADIUS[dn] + neck + float(rng.uniform(0.2, 0.8))))
+    end = str(rng.choice(["open", "flange", "blind"]))
+    route = Route(np.array(points))
+    return lay(Run(tag, dn, route, leg.items, leg.taps, ends=("joint", end), nodes=(unit, "")), hand).assembly

@@ -1,0 +1,137 @@
+"""What the presets hang into their runs: valves of one manufacturer, gauges with as many marks as somebody modelled."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cadplants.brand import Make
+from cadplants.contacts import whole
+from cadplants.detail import Marks, marked_gauge
+from cadplants.families import FAMILIES
+from cadplants.family import as_assembly, as_device
+from cadplants.gauge import pressure_gauge, side_gauge
+from cadplants.instrument import valve_at
+from cadplants.modeling_style import Hand
+from cadplants.plant import Assembly, Device
+from cadplants.run import Inline, Tap
+
+__all__ = ["Choice"]
+
+_AGAINST = np.diag([-1.0, -1.0, 1.0, 1.0])
+_FINE = 0.0003  # m; a hand whose circles are coarser than this models no marks
+
+
+@dataclass(frozen=True)
+class Choice:
+    """What a preset's devices look like.
+
+    Args:
+        make: of the valves.
+        marks: of the gauges' dials.
+    """
+
+    make: Make
+    marks: Marks
+
+    def valve(
+        self,
+        s: float,
+        kind: str,
+        unit: str,
+        dn: int,
+        roll: float = 0.0,
+        reverse: bool = False,
+        turn: float = 0.0,
+        actuated: bool = False,
+    ) -> Inline:
+        """A valve with its middle at a chainage; arguments as of ``valve_at``."""
+        item = valve_at(s, kind, unit, dn, roll, reverse, self.make, turn, actuated)
+        return replace(item, family=self.make.design(kind))
+
+    def control_valve(self, s: float, unit: str, dn: int, seed: int, roll: float = 0.0) -> Inline:
+        """A control valve with a diaphragm or an electric actuator, its middle at a chainage.
+
+        Args:
+            s: chainage.
+            unit: its id.
+            dn: nominal size.
+            seed: of its details.
+            roll: of its stem about the run [rad].
+        """
+        family = FAMILIES[("control valve/diaphragm", "control valve/electric")[seed % 2]]
+
+        def build(hand: Hand) -> Device:
+            def draw(number: int) -> Device:
+                return as_device(family, family.build(dn, hand, np.random.default_rng([seed, number])), hand, unit)
+
+            made = whole(lambda number: draw(number).assembly)
+            # All that are drawn have one length for one size.
+            return replace(draw(0), assembly=made)
+
+        return Inline(s, build, unit, roll, family=family.name)
+
+    def relief_valve(self, s: float, unit: str, seed: int) -> Tap:
+        """A small relief valve on a branch outlet on top of a level pipe.
+
+        Args:
+            s: chainage.
+            unit: its id.
+            seed: of its details.
+        """
+        family = FAMILIES["relief valve/threaded"]
+
+        def build(hand: Hand) -> Assembly:
+            return whole(
+                lambda number: as_assembly(
+                    family, family.build(15, hand, np.random.default_rng([seed, number])), hand, unit
+                )
+            )
+
+        return Tap(s, build, unit)
+
+    def gauge(self, s: float, unit: str, size: int, needle: float, turn: float = 0.0, height: float = 0.0) -> Tap:
+        """A pressure gauge upright on a level pipe.
+
+        Args:
+            s: chainage.
+            unit: its id.
+            size: nominal size of its case.
+            needle: angle of its needle [rad].
+            turn: of its dial [rad].
+            height: of its stem [m]; as its size usually has where 0.
+        """
+        rise = height or (0.075 if size < 100 else 0.09)
+
+        def build(hand: Hand) -> Assembly:
+            gauge = pressure_gauge(unit, hand, size, rise, turn, needle)
+            return marked_gauge(gauge, size, self._marks(hand), hand)
+
+        return Tap(s, build, unit)
+
+    def side_gauge(
+        self, s: float, unit: str, size: int, needle: float, down: bool = False, roll: float = np.pi / 2
+    ) -> Tap:
+        """A pressure gauge beside an upright pipe.
+
+        Args:
+            s: chainage.
+            unit: its id.
+            size: nominal size of its case.
+            needle: angle of its needle [rad].
+            down: whether the run goes down there.
+            roll: of the outlet about the run [rad].
+        """
+
+        def build(hand: Hand) -> Assembly:
+            turn = -np.pi / 2 if down else np.pi / 2
+            gauge = side_gauge(unit, hand, size, 0.09 if size < 100 else 0.11, 0.06, turn, needle)
+            gauge = marked_gauge(gauge, size, self._marks(hand), hand)
+            # On a run that goes down, up is against it.
+            return gauge.placed(_AGAINST) if down else gauge
+
+        return Tap(s, build, unit, roll)
+
+    def _marks(self, hand: Hand) -> Marks:
+        return self.marks if hand.sag <= _FINE and not hand.wobble else "none"

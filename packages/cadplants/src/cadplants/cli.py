@@ -1,0 +1,102 @@
+"""Generated plants and truth: environment make, environment check, environment truth-from-usd."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.markup import escape
+
+from cadgraph.cli.screen import out
+from cadgraph.errors import FormatError
+
+__all__ = ["plants"]
+
+plants = typer.Typer(no_args_is_help=True, help="Generated test plants with their ground truth.")
+
+
+@plants.command("make")
+def make_plant(
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The scene, e.g. field.usdc.")],
+    preset: Annotated[str, typer.Option(help="skid, riser, tank, pumps, rack or field.")] = "skid",
+    seed: Annotated[int, typer.Option(min=0, help="Of everything that varies.")] = 0,
+    hand: Annotated[
+        str | None, typer.Option(help="In whose style it is modelled; the preset's own by default.")
+    ] = None,
+    spoilt: Annotated[
+        float,
+        typer.Option(min=0, max=1, help="Share of meshes with each modelling sin: there twice, hidden, inside out..."),
+    ] = 0.0,
+    sins: Annotated[
+        bool,
+        typer.Option(
+            "--sins", help="Draw all sins by the seed: those of --spoilt, unit, up axis, instances, frames, polygons."
+        ),
+    ] = False,
+    unit: Annotated[float | None, typer.Option(help="Metres in one authored unit; 0.001 by default.")] = None,
+    up: Annotated[str | None, typer.Option(help="Authored up axis, Y or Z; Z by default.")] = None,
+    instances: Annotated[
+        str | None, typer.Option(help="Repeated shapes: none, native, nested, point or mixed; none by default.")
+    ] = None,
+    polygons: Annotated[
+        float | None, typer.Option(min=0, max=1, help="Share of meshes with polygons of more than three corners.")
+    ] = None,
+) -> None:
+    """Generate a plant as USD with meaningless names, and its ground truth beside it."""
+    from cadplants import Sins, UsdStyle, draw_sins, draw_style, make, write_usd
+
+    style = draw_style(seed) if sins else UsdStyle()
+    given: dict[str, Any] = {"meters_per_unit": unit, "up_axis": up, "instances": instances, "polygons": polygons}
+    for name, value, choices in (
+        ("--up", up, ("Y", "Z")),
+        ("--instances", instances, ("none", "native", "nested", "point", "mixed")),
+    ):
+        if value is not None and value not in choices:
+            raise ValueError(f"{name} {value}: give {', '.join(choices[:-1])} or {choices[-1]}")
+    # Written so that NaN fails it too.
+    if unit is not None and not 1e-6 <= unit <= 1e3:
+        raise ValueError(f"--unit {unit:g}: give the length of one authored unit in metres, from 1e-06 to 1000")
+    style = replace(style, **{key: value for key, value in given.items() if value is not None})
+    share = Sins(spoilt, spoilt, spoilt, spoilt, spoilt, spoilt) if spoilt else None
+    plant = make(preset, seed, hand, draw_sins(seed) if sins else share)
+    truth = write_usd(plant, output, style)
+    out.print(f"wrote {escape(str(output))} and {escape(str(truth))}")
+
+
+@plants.command("check")
+def check_plant(
+    scene: Annotated[Path, typer.Argument(metavar="SCENE", help="A scene, e.g. field.usdc.")],
+    truth: Annotated[
+        Path | None, typer.Argument(metavar="TRUTH", help="Its truth (JSON); beside the scene by default.")
+    ] = None,
+) -> None:
+    """Prove a truth against the exact geometry of its scene."""
+    from cadgraph.load import load
+    from cadgraph.model.truth import Truth
+    from cadplants import truth_path
+    from cadplants.truth_check import prove
+
+    proof = prove(load(scene), Truth.load(truth or truth_path(scene)))
+    out.print(f"checked {', '.join(f'{n:,} {code}' for code, n in proof.n_checked.items())}")
+    if not proof.holds:
+        for line in proof.lines():
+            out.print(escape(line))
+        raise FormatError(f"{truth or truth_path(scene)}: the geometry contradicts it in {len(proof.findings)} places")
+    out.print("the truth holds")
+
+
+@plants.command("truth-from-usd")
+def truth_of(
+    scene: Annotated[Path, typer.Argument(metavar="SCENE", help="A USD file that carries labels.")],
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The truth file (JSON).")],
+    vocabulary: Annotated[Path | None, typer.Option("--vocabulary", metavar="FILE", help="Another label tree.")] = None,
+) -> None:
+    """Read the labels of a USD file into a truth file."""
+    from cadgraph.model.vocabulary import read_vocabulary
+    from cadplants.labelled_usd import truth_from_usd
+
+    truth = truth_from_usd(scene, read_vocabulary(vocabulary) if vocabulary else None)
+    truth.save(output)
+    out.print(f"wrote {escape(str(output))}: {len(truth.meshes or ()):,} labelled meshes")

@@ -1,0 +1,200 @@
+"""Modelling sins: gaps, overlaps and unevenness; duplicates, hidden bodies, broken meshes and odd paint at random."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from cadgraph.model.scene import Floats, Scene
+from cadplants.mesh_ops import Solid, box
+from cadplants.modeling_style import Hand
+from cadplants.plant import Assembly, Component, Plant
+from cadplants.transforms import at
+
+__all__ = ["Sins", "draw_sins", "loosen", "spoil"]
+
+_LEAST_SCALE = 0.6  # thin parts (gaskets, washers) keep this share of their thickness
+
+
+def loosen(assembly: Assembly, hand: Hand, seed: int) -> Assembly:
+    """Leaves gaps and overlaps between parts and makes surfaces uneven, as this hand does; nothing else changes.
+
+    Args:
+        assembly: whose parts touch exactly.
+        hand: ``gap`` and ``wobble`` are used.
+        seed: of the sizes of gaps and waves.
+    """
+    if hand.gap == (0.0, 0.0) and not hand.wobble:
+        return assembly
+    rng = np.random.default_rng([seed, 8])
+    components = []
+    for component in assembly.components:
+        gap = float(rng.uniform(*hand.gap))
+        component = replace(component, pose=component.pose @ _shrunk(component.solid, gap), gap=gap)
+        if hand.wobble:
+            component = replace(component, solid=_uneven(component.solid, hand.wobble, rng))
+        components.append(component)
+    loose = replace(assembly, components=tuple(components))
+    return replace(loose, contacts=(*loose.contacts, *_met(loose))) if hand.gap[0] < 0 or hand.wobble else loose
+
+
+def _met(assembly: Assembly) -> list[tuple[int, int]]:
+    """Pairs that were not meant to touch, but do since they grew."""
+    from cadgraph.geometry.contact.pairs import touching
+
+    meant = {tuple(sorted(pair)) for pair in assembly.contacts}
+    scene = Scene.from_meshes([(c.vertices, c.faces) for c in assembly.components])
+    return [(a, b) for a, b in touching(scene, 0.0).tolist() if (a, b) not in meant]
+
+
+def _shrunk(solid: Solid, gap: float) -> Floats:
+    """Takes half a gap off each side of a solid's box."""
+    low, high = solid.vertices.min(axis=0), solid.vertices.max(axis=0)
+    middle, extent = (low + high) / 2, high - low
+    scale = np.maximum(1 - gap / extent, _LEAST_SCALE)
+    pose = np.diag([*scale, 1.0])
+    pose[:3, 3] = middle - scale * middle
+    return pose
+
+
+def _uneven(solid: Solid, height: float, rng: np.random.Generator) -> Solid:
+    """Waves of a few centimetres to decimetres over the surface, up to ``height`` [m]."""
+    waves = rng.normal(size=(3, 3)) * 2 * np.pi / rng.uniform(0.08, 0.5, (3, 1))
+    phases = rng.uniform(0, 2 * np.pi, 3)
+    amplitude = height * rng.uniform(0.3, 1.0, 3) / np.sqrt(3)
+    return Solid(solid.vertices + amplitude * np.sin(solid.vertices @ waves.T + phases), solid.faces)
+
+
+@dataclass(frozen=True)
+class Sins:
+    """What share of a plant's meshes is spoilt, each between 0 and 1.
+
+    Args:
+        duplicates: meshes that lie there twice.
+        hidden: meshes with a body inside that can't be seen.
+        flipped: meshes with their faces inward.
+        soup: meshes whose triangles share no corners.
+        degenerate: meshes with triangles without area.
+        gaps: meshes that no longer reach their neighbours, or run into them.
+        gap: least and greatest gap of these, half of it on each side; negative: overlap [m].
+        colors: ``own`` leaves them, ``gray`` gives all meshes one, ``random`` each its own.
+    """
+
+    duplicates: float = 0.0
+    hidden: float = 0.0
+    flipped: float = 0.0
+    soup: float = 0.0
+    degenerate: float = 0.0
+    gaps: float = 0.0
+    gap: tuple[float, float] = (-0.001, 0.004)
+    colors: Literal["own", "gray", "random"] = "own"
+
+
+def draw_sins(seed: int, most: float = 0.1) -> Sins:
+    """Sins at random, each with its own share up to ``most``, some of them none."""
+    rng = np.random.default_rng([seed, 12])
+    shares = [float(rng.uniform(0, most)) if rng.random() < 0.6 else 0.0 for _ in range(6)]
+    paints: tuple[Literal["own", "gray", "random"], ...] = ("own", "own", "gray", "random")
+    duplicates, hidden, flipped, soup, degenerate, gaps = shares
+    return Sins(duplicates, hidden, flipped, soup, degenerate, 5 * gaps, colors=paints[int(rng.integers(len(paints)))])
+
+
+def spoil(plant: Plant, sins: Sins, seed: int = 0) -> Plant:
+    """The plant with sins, all of them recorded in its truth.
+
+    Args:
+        plant: clean.
+        sins: how much of each.
+        seed: which meshes.
+    """
+    rng = np.random.default_rng([seed, 9])
+    n = len(plant.components)
+
+    def some(share: float) -> list[int]:
+        return [int(i) for i in np.sort(rng.permutation(n)[: round(share * n)])]
+
+    if sins.gaps:
+        plant = _parted(plant, some(sins.gaps), sins.gap, np.random.default_rng([seed, 13]))
+    components = list(plant.components)
+    flaws: tuple[tuple[str, float, Callable[[Solid], Solid]], ...] = (
+        ("flipped", sins.flipped, _flipped),
+        ("degenerate", sins.degenerate, _degenerate),
+        ("soup", sins.soup, _soup),
+    )
+    for name, share, change in flaws:
+        for i in some(share):
+            one = components[i]
+            components[i] = replace(one, solid=change(one.solid), flaws=(*one.flaws, name))
+    duplicates, hidden = [], []
+    for i in some(sins.duplicates):
+        duplicates.append((i, len(components)))
+        components.append(components[i])
+    for i in some(sins.hidden):
+        inside = _body_inside(plant.components[i])
+        if inside is not None:
+            hidden.append(len(components))
+            components.append(inside)
+    if sins.colors == "gray":
+        components = [replace(c, color=(0.5, 0.5, 0.5)) for c in components]
+    elif sins.colors == "random":
+        drawn = np.random.default_rng([seed, 14]).random((len(components), 3)).round(3).tolist()
+        components = [replace(c, color=(r, g, b)) for c, (r, g, b) in zip(components, drawn, strict=True)]
+    return replace(
+        plant,
+        components=tuple(components),
+        duplicates=tuple(duplicates),
+        hidden=tuple(hidden),
+        colors=sins.colors if sins.colors != "own" else plant.colors,
+    )
+
+
+def _parted(plant: Plant, chosen: list[int], sizes: tuple[float, float], rng: np.random.Generator) -> Plant:
+    """Leaves gaps round some meshes of a plant, and lets some run into their neighbours; the ground stays."""
+    components = list(plant.components)
+    for i in chosen:
+        one, gap = components[i], round(float(rng.uniform(*sizes)), 6)
+        if one.cluster:
+            components[i] = replace(one, pose=one.pose @ _shrunk(one.solid, gap), gap=one.gap + gap)
+    parted = replace(plant, components=tuple(components), looseness=plant.looseness + max(0.0, sizes[1]))
+    return replace(parted, contacts=(*plant.contacts, *_met(parted)))
+
+
+def _flipped(solid: Solid) -> Solid:
+    return Solid(solid.vertices, solid.faces[:, ::-1])
+
+
+def _soup(solid: Solid) -> Solid:
+    count = 3 * len(solid.faces)
+    return Solid(solid.vertices[solid.faces.reshape(-1)], np.arange(count, dtype=np.int32).reshape(-1, 3))
+
+
+def _degenerate(solid: Solid) -> Solid:
+    some = solid.faces[:: max(1, len(solid.faces) // 5)]
+    return Solid(solid.vertices, np.concatenate([solid.faces, some[:, [0, 1, 1]]]))
+
+
+def _body_inside(component: Component) -> Component | None:
+    """A small cube about the middle of a solid, where that lies inside it with room; else None."""
+    vertices = component.vertices
+    middle = (vertices.min(axis=0) + vertices.max(axis=0)) / 2
+    corners = vertices[component.faces] - middle
+    a, b, c = np.moveaxis(corners, 1, 0)
+    la, lb, lc = (np.linalg.norm(x, axis=1) for x in (a, b, c))
+    solid_angle = 2 * np.arctan2(
+        np.einsum("ij,ij->i", a, np.cross(b, c)),
+        la * lb * lc
+        + np.einsum("ij,ij->i", a, b) * lc
+        + np.einsum("ij,ij->i", b, c) * la
+        + np.einsum("ij,ij->i", c, a) * lb,
+    )
+    normals = np.cross(b - a, c - a)
+    areas = np.linalg.norm(normals, axis=1)
+    # The planes of the faces are never farther than the faces: a cautious distance.
+    room = float(np.abs(np.einsum("ij,ij->i", a, normals)[areas > 0] / areas[areas > 0]).min())
+    if solid_angle.sum() < 2 * np.pi or room < 0.003:
+        return None
+    side = room / np.sqrt(3)
+    return replace(component, solid=box((side, side, side)), pose=at(*middle))

@@ -1,0 +1,339 @@
+"""Shapes that further pipe fittings are put together from; along x unless said otherwise."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from cadgraph.model.scene import Floats
+from cadplants.family import Build, Family, Part, placed
+from cadplants.flange import bolts, flange, flange_length, gasket, nut_room, plate_thickness
+from cadplants.mesh_ops import Solid, about_x, extrude, loft, merge, moved, revolve, weld
+from cadplants.modeling_style import Hand
+from cadplants.piping import cap
+from cadplants.plant import Assembly
+from cadplants.polygon import circle, rounded_rectangle
+from cadplants.primitives import cylinder, hexagon, ring, turned
+from cadplants.standards import FLANGES, PIPES, SIZES
+from cadplants.transforms import IDENTITY, arc, at, spun
+from cadplants.valve_body import bore_of
+
+__all__ = [
+    "BOLTED",
+    "SMALL",
+    "STEEL",
+    "Outline",
+    "bend_path",
+    "bolting",
+    "counter",
+    "drilled",
+    "family",
+    "flat_flange",
+    "grooved",
+    "joint",
+    "knurled",
+    "lathe",
+    "lathe_z",
+    "mirrored",
+    "mouth",
+    "necks",
+    "notched",
+    "parts_of",
+    "pipe_x",
+    "prism",
+    "seated",
+    "swell_room",
+    "tail",
+]
+
+Outline = Sequence[tuple[float, float]]
+BOLTED, STEEL = "Connection assembly", "Structural element"
+SMALL = tuple(dn for dn in SIZES if dn <= 50)
+
+_COLORS = {"flange": "flange", "blind flange": "flange", "gasket": "gasket", "pipe": "pipe", "pipe cap": "pipe"}
+
+
+def family(
+    name: str,
+    build: Build,
+    sizes: tuple[int, ...] = SIZES,
+    place: str = "inline",
+    weight: float = 0.5,
+    grain: str = "fitting",
+) -> Family:
+    """A family of fittings; by default its pieces stay apart, since neighbours of other names come with them."""
+    return Family(name, place, "Pipe assembly", name.split("/")[0], build, sizes, grain, weight)
+
+
+def lathe_z(outline: Outline, sides: int, bore: float = 0.0) -> Solid:
+    """What is turned about z: ``(radius, height)`` up its outside, with a round bore right through [m]."""
+    points = list(outline)
+    if bore <= 0:
+        return turned(points, sides)
+    return weld([revolve([*points, (bore, points[-1][1]), (bore, points[0][1])], sides, closed=True)])
+
+
+def lathe(outline: Outline, sides: int, bore: float = 0.0) -> Solid:
+    """What is turned about x: ``(radius, x)`` along its outside, with a round bore right through [m]."""
+    return about_x(lathe_z(outline, sides, bore))
+
+
+def pipe_x(dn: int, low: float, high: float, hand: Hand) -> Solid:
+    """A piece of pipe along x [m]."""
+    return about_x(ring(bore_of(dn, hand), PIPES[dn].radius, low, high, hand.round(PIPES[dn].radius)))
+
+
+def prism(flats: float, corners: int, low: float, high: float, bore: float = 0.0, sides: int = 12) -> Solid:
+    """A prism along x, this wide across its flats, with a round hole where ``bore`` is a radius [m]."""
+    outline = circle(flats / 2 / np.cos(np.pi / corners), corners, phase=np.pi / corners)
+    return about_x(extrude(outline, low, high, (circle(bore, sides),) if bore else ()))
+
+
+def knurled(radius: float, count: int, depth: float, low: float, high: float, bore: float, sides: int) -> Solid:
+    """A nut along x with a wavy rim for the hand [m]."""
+    angles = np.linspace(0, 2 * np.pi, 4 * count, endpoint=False)
+    reach = radius - depth / 2 + depth / 2 * np.cos(count * angles)
+    outline = np.column_stack([reach * np.cos(angles), reach * np.sin(angles)])
+    return about_x(extrude(outline, low, high, (circle(bore, sides),) if bore else ()))
+
+
+def notched(
+    radius: float, count: int, depth: float, share: float, low: float, high: float, bore: float, sides: int
+) -> Solid:
+    """A nut along x with slots across its rim; they take this share of it [m]."""
+    step = 2 * np.pi / count
+    half = step * (1 - share) / 2
+    points = []
+    for k in range(count):
+        for turn in np.linspace(-half, half, 4):
+            points.append((radius, k * step + turn))
+        points += [(radius - depth, k * step + half), (radius - depth, (k + 1) * step - half)]
+    outline = np.array([(r * np.cos(a), r * np.sin(a)) for r, a in points])
+    return about_x(extrude(outline, low, high, (circle(bore, sides),) if bore else ()))
+
+
+def drilled(
+    outline: Floats, low: float, high: float, bore: float, spots: Floats, hole: float, hand: Hand, sides: int
+) -> Solid:
+    """A plate across x with a bore and bolt holes of radius ``hole`` at some spots, where the hand drills any [m]."""
+    holes = [circle(bore, sides)] if bore else []
+    if hand.holes:
+        holes += [circle(hole, 8, (float(x), float(y))) for x, y in spots]
+    return about_x(extrude(outline, low, high, tuple(holes)))
+
+
+def flat_flange(dn: int, hand: Hand, low: float, thick: float, bore: float) -> Solid:
+    """A flat drilled disc with the rim and the bolt circle of a class 150 flange (ASME B16.5)."""
+    size = FLANGES[dn]
+    n = hand.round(size.outer / 2)
+    turns = (2 * np.arange(size.n_bolts) + 1) * np.pi / size.n_bolts
+    spots = size.circle / 2 * np.column_stack([np.cos(turns), np.sin(turns)])
+    return drilled(circle(size.outer / 2, n), low, low + thick, bore, spots, size.hole / 2, hand, n)
+
+
+def bolting(
+    count: int,
+    radius: float,
+    thread: float,
+    low: float,
+    high: float,
+    hand: Hand,
+    bundle: str = "",
+    pose: Floats = IDENTITY,
+    start: float | None = None,
+) -> list[Part]:
+    """Bolts along x on a circle, clamping what lies between two places, in as many pieces as the hand makes [m]."""
+    thick, turn = 0.8 * thread, np.pi / count if start is None else start
+    poses = [pose @ spun("x", turn + 2 * np.pi * k / count) @ at(0, radius, 0) for k in range(count)]
+    nuts = [about_x(hexagon(1.6 * thread, a, b)) for a, b in ((low - thick, low), (high, high + thick))]
+    shank = about_x(cylinder(thread / 2, low - 1.2 * thick, high + 1.4 * thick, 8))
+    if hand.fasteners == "pieces":
+        named = [(shank, "stud"), (nuts[0], "nut"), (nuts[1], "nut")]
+    else:
+        named = [(merge([shank, *nuts]), "bolt")]
+    if hand.fasteners in ("set", "flange"):
+        whole = merge([moved(named[0][0], one) for one in poses])
+        return [Part(whole, "bolt", "fastener", bundle, BOLTED, True)]
+    return [Part(moved(solid, one), name, "fastener", bundle, BOLTED, True) for one in poses for solid, name in named]
+
+
+def parts_of(assembly: Assembly, pose: Floats = IDENTITY) -> list[Part]:
+    """Finished components as parts."""
+    parts = []
+    for c in assembly.components:
+        bolted = c.group == BOLTED
+        solid = moved(c.solid, pose @ c.pose)
+        parts.append(Part(solid, c.name, _COLORS.get(c.name, "fastener"), "", BOLTED if bolted else "", bolted))
+    return parts
+
+
+def joint(dn: int, hand: Hand, pose: Floats, blind: bool = False, open_: bool = False) -> tuple[list[Part], float]:
+    """Two flanges with gasket and bolts from the pose's origin along its x, and how long they are [m].
+
+    Args:
+        dn: nominal size.
+        hand: that models them.
+        pose: of the end of the pipe before them.
+        blind: whether the second one is a lid.
+        open_: whether there is no second one.
+    """
+    neck, plate = flange_length(dn, hand), plate_thickness(dn)
+    back = at(neck) @ spun("z", np.pi)
+    pad = 0.002 if hand.gaskets else 0.0
+    parts = parts_of(flange(dn, hand, grip=0.0 if open_ else 2 * plate + pad), pose @ back)
+    if open_:
+        return parts, neck
+    parts += parts_of(gasket(dn, hand), pose @ at(neck))
+    parts += parts_of(flange(dn, hand, blind=blind), pose @ at(neck + pad))
+    parts += parts_of(bolts(dn, 2 * plate + pad, hand), pose @ at(neck - plate))
+    return parts, neck + pad + (plate if blind else neck)
+
+
+def counter(dn: int, hand: Hand, pose: Floats) -> tuple[list[Part], float]:
+    """Gasket, counter-flange and bolts at a flat face of a fitting, outward along x of the pose; and their length."""
+    neck, plate = flange_length(dn, hand), plate_thickness(dn)
+    pad = 0.002 if hand.gaskets else 0.0
+    parts = parts_of(gasket(dn, hand), pose)
+    parts += parts_of(flange(dn, hand, grip=2 * plate + pad), pose @ at(pad))
+    parts += parts_of(bolts(dn, 2 * plate + pad, hand), pose @ at(-plate))
+    return parts, pad + neck
+
+
+def mouth(style: str, dn: int, hand: Hand, low: float, high: float) -> Solid:
+    """The end of a fitting along x, its face at ``high``: for a thread, a socket, glue, a groove, bolts or a weld [m].
+
+    Args:
+        style: ``banded``, ``socket``, ``glued``, ``grooved``, ``flanged``, ``hex`` or ``plain``.
+        dn: of the pipe in it.
+        hand: that models it.
+        low: where it begins inside the fitting.
+        high: its face.
+    """
+    r, bore, room = PIPES[dn].radius, bore_of(dn, hand), high - low
+    n = hand.round(1.2 * r)
+    if style == "banded":
+        band, far = min(0.3 * r + 0.004, 0.4 * room), 1.32 * r + 0.003
+        body = [(1.14 * r + 0.0015, low), (1.14 * r + 0.0015, high - 1.25 * band)]
+        return lathe([*body, (far, high - band), (1.02 * far, high - 0.5 * band), (far, high)], n, bore)
+    if style == "socket":
+        neck = low + 0.45 * room
+        return lathe([(1.15 * r, low), (1.15 * r, neck), (1.36 * r + 0.002, neck), (1.36 * r + 0.002, high)], n, bore)
+    if style == "glued":
+        lip = high - 0.12 * room - 0.002
+        return lathe([(1.15 * r, low), (1.18 * r, lip), (1.26 * r, lip), (1.26 * r, high)], n, bore)
+    if style == "grooved":
+        a, b, deep = high - 0.024, high - 0.015, 0.965 * r
+        return lathe([(r, low), (r, a), (deep, a), (deep, b), (r, b), (r, high)], n, min(bore, 0.93 * r))
+    if style == "hex":
+        return prism(2.3 * r + 0.006, 6, low, high, 0.98 * r if hand.hollow else 0.0, max(8, n))
+    if style == "flanged":
+        thick, neck = plate_thickness(dn), 0.485 * FLANGES[dn].hub
+        plate = flat_flange(dn, hand, high - thick, thick, bore)
+        return merge([plate, lathe([(neck, low), (neck, high - thick)], n, bore)])
+    return lathe([(r, low), (r, high)], n, bore)
+
+
+def _half_ring(inner: float, outer: float, width: float, sides: int) -> Solid:
+    """The half of a ring about x on the side of +z, from -width / 2 [m]."""
+    angles = np.linspace(0.015, np.pi - 0.015, max(6, sides // 2) + 1)
+    unit = np.column_stack([np.cos(angles), np.sin(angles)])
+    return about_x(extrude(np.concatenate([outer * unit, inner * unit[::-1]]), -width / 2, width / 2))
+
+
+def grooved(dn: int, hand: Hand, pose: Floats, ribbed: bool = False) -> list[Part]:
+    """A grooved coupling of two housings with bolts (AWWA C606) round the ends of two pipes, which meet in the pose."""
+    r, n = PIPES[dn].radius, hand.round(PIPES[dn].radius)
+    width, thick = 0.044 + 0.12 * r, 0.008 + 0.1 * r
+    outer, lug = r + thick, 0.012 + 0.2 * r
+    pieces = [_half_ring(r, outer, width, n)]
+    if ribbed:
+        pieces += [
+            moved(_half_ring(outer - 0.001, outer + 0.005, 0.15 * width, n), at(s * 0.3 * width)) for s in (-1, 1)
+        ]
+    high = 0.5 * r + 0.006
+    for side in (-1, 1):
+        block = extrude(rounded_rectangle(0.6 * width, lug, 0.2 * lug, 2), 0.001, high)
+        pieces.append(moved(block, at(0, side * (outer + 0.3 * lug))))
+    half = merge(pieces)
+    parts = [Part(moved(half, pose @ spun("x", turn)), "coupling", "handle", "coupling") for turn in (0.0, np.pi)]
+    for side in (-1, 1):
+        way = pose @ at(0, side * (outer + 0.35 * lug)) @ spun("y", -np.pi / 2)
+        parts += bolting(1, 0.0, 0.3 * lug + 0.004, -high, high, hand, "coupling", way)
+    return parts
+
+
+def tail(dn: int, hand: Hand, rng: np.random.Generator, pose: Floats, kinds: str = "ocfb") -> list[Part]:
+    """What goes on from a mouth along x of the pose: a piece of pipe, open or with a cap, a flange or a lid on it."""
+    length = float(rng.uniform(0.04, 0.25)) + 1.5 * PIPES[dn].outer
+    parts = [Part(moved(pipe_x(dn, 0.0, length, hand), pose), "pipe", "pipe")]
+    end, kind = pose @ at(length), kinds[int(rng.integers(len(kinds)))]
+    if kind == "c":
+        parts += parts_of(cap(dn, hand), end)
+    elif kind in "fb":
+        parts += joint(dn, hand, end, blind=kind == "b", open_=kind == "f")[0]
+    return parts
+
+
+def bend_path(radius: float, turn: float, steps: int, lead: float = 0.0) -> tuple[Floats, float]:
+    """A round bend from the origin along +x towards +y with straight ends, and its centre to end [m]."""
+    tangent = radius * float(np.tan(turn / 2)) if turn < 3.0 else 0.0
+    reach = tangent + lead
+    way = np.array([np.cos(turn), np.sin(turn), 0.0])
+    if turn >= 3.0:
+        angles = np.linspace(0, turn, 2 * steps + 1)
+        far = np.column_stack([lead + radius * np.sin(angles), radius * (1 - np.cos(angles)), np.zeros(len(angles))])
+        path = np.vstack([[0, 0, 0], far, far[-1] + way * lead])
+        reach = lead + radius
+    else:
+        corner = np.array([reach, 0.0, 0.0])
+        curve = arc(corner - (tangent, 0, 0), corner, corner + tangent * way, steps)
+        path = np.vstack([[0, 0, 0], curve, corner + reach * way])
+    keep = np.concatenate([[True], np.linalg.norm(np.diff(path, axis=0), axis=1) > 1e-6])
+    return path[keep], reach
+
+
+def seated(outline: Outline, run: float, sides: int, bore: float = 0.0, sunk: float = 0.0006) -> Solid:
+    """A branch turned about z whose foot follows a pipe of radius ``run`` along x through the origin.
+
+    Args:
+        outline: radius and height over the pipe's axis; the height of the first point is that of the foot over the
+            pipe's surface.
+        run: radius of the pipe [m].
+        sides: of the branch.
+        bore: its inside radius [m].
+        sunk: how deep it bites [m].
+    """
+    angles = np.arange(sides) * 2 * np.pi / sides
+    unit = np.column_stack([np.cos(angles), np.sin(angles)])
+
+    def foot(radius: float, over: float) -> Floats:
+        flat = radius * unit
+        height = np.sqrt(np.maximum(run**2 - flat[:, 1] ** 2, 0.0)) - sunk + over
+        return np.column_stack([flat, height])
+
+    loops = [foot(outline[0][0], 0.0)]
+    if outline[0][1] > 0:
+        loops.append(foot(outline[0][0], outline[0][1]))
+    loops += [np.column_stack([r * unit, np.full(sides, z)]) for r, z in outline[1:]]
+    if bore > 0:
+        top = outline[-1][1]
+        inner = [np.column_stack([bore * unit, np.full(sides, top)]), foot(bore, 0.0)]
+        return weld([loft([*loops, *inner], closed=True)])
+    return weld([loft([loops[0].mean(axis=0)[None], *loops, loops[-1].mean(axis=0)[None]])])
+
+
+def mirrored(parts: Sequence[Part], length: float) -> list[Part]:
+    """The same pieces at the other end of something this long [m]."""
+    return placed(parts, at(length) @ np.diag([-1.0, 1.0, 1.0, 1.0]))
+
+
+def swell_room(dn: int) -> float:
+    """How far from a face the body may swell beyond the neck [m]."""
+    return plate_thickness(dn) + nut_room(dn)
+
+
+def necks(dn: int, hand: Hand, length: float) -> list[Solid]:
+    """The two flanged mouths of a body, up to its middle."""
+    one = mouth("flanged", dn, hand, 0.0, 0.5 * length)
+    return [moved(one, at(0.5 * length)), moved(one, at(0.5 * length) @ spun("z", np.pi))]

@@ -1,0 +1,341 @@
+"""Sections, plates, footings and fasteners that steelwork is put together from."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from cadgraph.model.scene import Floats
+from cadplants.families.chance import pick
+from cadplants.family import Family, Part
+from cadplants.mesh_ops import Solid, extrude, merge, moved, tube
+from cadplants.modeling_style import Hand
+from cadplants.polygon import circle, rounded_rectangle
+from cadplants.primitives import box, cylinder, hexagon, rope
+from cadplants.transforms import at, looking, spun
+
+__all__ = [
+    "GROUP",
+    "ROLLED",
+    "Section",
+    "bar",
+    "base",
+    "bolted",
+    "chance",
+    "drawn",
+    "few_sides",
+    "filleted",
+    "flat",
+    "floor_family",
+    "lug",
+    "mirrored",
+    "num",
+    "piece",
+    "pipe",
+    "propped",
+    "rect",
+    "ribbon",
+    "section",
+    "slab_xy",
+    "slab_xz",
+    "slab_yz",
+    "span_of",
+]
+
+GROUP = "Structural element"
+Section = tuple[Floats, tuple[Floats, ...]]
+_T = TypeVar("_T")
+_OTHER = {
+    **dict.fromkeys(
+        ("bolt", "nut", "washer", "stud", "screw", "u-bolt", "clamp", "pipe hanger", "bracket", "gusset plate"),
+        "Connection assembly",
+    ),
+    **dict.fromkeys(("lifting lug", "tank", "shell", "saddle"), "Tank"),
+    **dict.fromkeys(("sign", "lamp", "junction box", "control panel"), "Electrical and safety"),
+}
+ROLLED = ("H", "I", "IPN", "U", "RHS", "SHS", "CHS")
+
+
+def num(rng: np.random.Generator, low: float, high: float) -> float:
+    """A number between two."""
+    return float(rng.uniform(low, high))
+
+
+def chance(rng: np.random.Generator, share: float) -> bool:
+    """Whether something happens that happens this often."""
+    return bool(rng.random() < share)
+
+
+def piece(solid: Solid, name: str, color: str = "steel", bundle: str = "", fine: bool = False) -> Part:
+    """A part in the group that its name belongs to."""
+    return Part(solid, name, color, bundle, _OTHER.get(name, ""), fine)
+
+
+def floor_family(name: str, build: object, weight: float = 1.0, grain: str = "structure", whole: str = "") -> Family:
+    """A family of structures on the floor; ``grain`` is ``fitting`` where nobody makes one mesh of it."""
+    label = whole or name.split("/")[0]
+    return Family(name, "floor", GROUP, label, build, (15,), grain, weight)  # type: ignore[arg-type]
+
+
+def few_sides(hand: Hand, radius: float, most: int = 20) -> int:
+    """Sides of a round thing of which there are many [m]."""
+    return int(min(hand.round(radius), most))
+
+
+def filleted(
+    points: npt.ArrayLike, radius: float, steps: int = 3, closed: bool = True, hollows: bool = False
+) -> Floats:
+    """A polygon or polyline (plane or in space) with its corners rounded [m], as far as its legs allow.
+
+    Only the reentrant corners of a counter-clockwise polygon are where ``hollows`` is set.
+    """
+    p = np.asarray(points, float)
+    if radius <= 0 or steps < 1:
+        return p
+    count = len(p)
+    rows: list[Floats] = []
+    for k in range(count):
+        if not closed and k in (0, count - 1):
+            rows.append(p[k : k + 1])
+            continue
+        u, v = p[k - 1] - p[k], p[(k + 1) % count] - p[k]
+        if hollows and u[0] * v[1] - u[1] * v[0] < 0:
+            rows.append(p[k : k + 1])
+            continue
+        long_u, long_v = float(np.linalg.norm(u)), float(np.linalg.norm(v))
+        u, v = u / long_u, v / long_v
+        half = np.arccos(np.clip(u @ v, -1, 1)) / 2
+        if half > 0.5 * np.pi - 0.02:
+            rows.append(p[k : k + 1])
+            continue
+        reach = min(radius / np.tan(half), 0.45 * long_u, 0.45 * long_v)
+        r = reach * np.tan(half)
+        middle = (u + v) / np.linalg.norm(u + v)
+        center = p[k] + middle * r / np.sin(half)
+        first, second = p[k] + u * reach - center, p[k] + v * reach - center
+        turn = np.pi - 2 * half
+        share = np.linspace(0, 1, steps + 1)[:, None]
+        rows.append(center + (np.sin((1 - share) * turn) * first + np.sin(share * turn) * second) / np.sin(turn))
+    return np.concatenate(rows)
+
+
+def ribbon(points: npt.ArrayLike, thick: float, radius: float = 0.0, steps: int = 3) -> Floats:
+    """The outline of sheet bent along a plane polyline (its middle line), counter-clockwise [m]."""
+    p = filleted(points, radius, steps, closed=False)
+    legs = np.diff(p, axis=0)
+    legs = legs / np.linalg.norm(legs, axis=1, keepdims=True)
+    side = np.column_stack([-legs[:, 1], legs[:, 0]])
+    before, after = np.vstack([side[:1], side]), np.vstack([side, side[-1:]])
+    miter = (before + after) / (1 + (before * after).sum(axis=1, keepdims=True))
+    return np.vstack([p - miter * thick / 2, (p + miter * thick / 2)[::-1]])
+
+
+def mirrored(half: Sequence[tuple[float, float]]) -> Floats:
+    """A closed outline from its right half, which goes from the bottom up."""
+    right = np.array(half, float)
+    return np.vstack([right, right[::-1] * (-1, 1)])
+
+
+def _open_section(kind: str, h: float, root: float, steps: int) -> Floats:
+    """Open sections about the middle of their height: EN 10365, EN 10279, EN 10056, EN 10162, DIN 536."""
+    if kind in ("H", "I", "IPN"):
+        wide, web, deep = {"H": (0.5, 0.028, 0.08), "I": (0.25, 0.018, 0.05), "IPN": (0.21, 0.02, 0.03)}[kind]
+        b, t, f, y = wide * h, web * h, deep * h, h / 2
+        inner = y - f - (0.14 * (b - t) if kind == "IPN" else 0.0)
+        half = [(b, -y), (b, -y + f), (t, -inner), (t, inner), (b, y - f), (b, y)]
+        outline = mirrored(half)
+        return filleted(outline, 0.5 * root, steps, hollows=True)
+    if kind == "U":
+        b, t, f = 0.42 * h, 0.05 * h, 0.07 * h
+        slope = 0.08 * b if steps else 0.0
+        y = h / 2
+        points = [(0, -y), (b, -y), (b, -y + f), (t, -y + f + slope), (t, y - f - slope), (b, y - f), (b, y), (0, y)]
+        centred: Floats = np.array(points) - np.array([0.16 * h, 0.0])
+        return centred
+    if kind in ("C", "Z", "strut", "hat"):
+        b, lip, y, e = 0.38 * h, 0.14 * h, h / 2, 0.25 * h
+        line = {
+            "C": [(b, -y + lip), (b, -y), (0, -y), (0, y), (b, y), (b, y - lip)],
+            "Z": [(-b, -y + lip), (-b, -y), (0, -y), (0, y), (b, y), (b, y - lip)],
+            "strut": [(e, y - lip), (e, y), (y, y), (y, -y), (-y, -y), (-y, y), (-e, y), (-e, y - lip)],
+            "hat": [(-1.7 * b, -y), (-b, -y), (-0.7 * b, y), (0.7 * b, y), (b, -y), (1.7 * b, -y)],
+        }[kind]
+        return ribbon(line, max(0.0015, 0.025 * h), 0.04 * h, steps)
+    if kind in ("L", "LL"):
+        a, b, t = h, h if kind == "L" else 0.6 * h, 0.1 * h
+        heel = filleted([(0, 0), (b, 0), (b, t), (t, t), (t, a), (0, a)], 0.8 * t, min(steps, 2), hollows=True)
+        angle: Floats = heel - np.array([0.28 * b, 0.5 * a])
+        return angle
+    if kind == "T":
+        b, t, y = 0.45 * h, 0.045 * h, h / 2
+        return mirrored([(t, -y), (t, y - 0.1 * h), (b, y - 0.1 * h), (b, y)])
+    y = h / 2  # a flat-bottomed crane or railway rail
+    foot = [(0.45 * h, -y), (0.45 * h, -y + 0.07 * h), (0.08 * h, -y + 0.2 * h), (0.06 * h, 0.12 * h)]
+    return mirrored([*foot, (0.24 * h, 0.2 * h), (0.25 * h, 0.45 * h), (0.2 * h, y)])
+
+
+def section(kind: str, h: float, hand: Hand) -> Section:
+    """A section of this height [m] about the middle of its height: its outline and holes.
+
+    Args:
+        kind: H, I, IPN, U, C (lipped), Z, strut, hat, L, LL, T, rail; RHS, SHS, CHS (hollow where the hand models
+            that); flat, round, square, timber.
+        h: height [m].
+        hand: how round and hollow it is.
+    """
+    steps = 0 if hand.sides[1] <= 12 else 2 if hand.sides[1] <= 24 else 3
+    if kind in ("RHS", "SHS"):
+        b, t = (0.5 * h, 0.06 * h) if kind == "RHS" else (h, 0.06 * h)
+        outer = rounded_rectangle(b, h, 0.09 * h if steps else 0.0, max(steps, 1))
+        hole = rounded_rectangle(b - 2 * t, h - 2 * t, 0.04 * h if steps else 0.0, max(steps, 1))
+        return outer, (hole,) if hand.hollow else ()
+    if kind in ("CHS", "round"):
+        n = few_sides(hand, h / 2, 28)
+        hollow = hand.hollow and kind == "CHS"
+        return circle(h / 2, n), (circle(0.44 * h, n),) if hollow else ()
+    if kind in ("flat", "square", "timber"):
+        b = {"flat": max(0.1 * h, 0.004), "square": h, "timber": 0.6 * h}[kind]
+        return rounded_rectangle(b, h, 0.02 * h if kind == "timber" and steps else 0.0, 1), ()
+    return _open_section(kind, h, 0.1 * h, steps), ()
+
+
+def drawn(rng: np.random.Generator, hand: Hand, h: float, kinds: Sequence[str] = ROLLED) -> Section:
+    """A section of one of some kinds [m]."""
+    return section(kinds[int(rng.integers(len(kinds)))], h, hand)
+
+
+def span_of(one: Section) -> tuple[float, float, float, float]:
+    """Least and greatest x, then y of a section [m]."""
+    (x0, y0), (x1, y1) = one[0].min(axis=0), one[0].max(axis=0)
+    return float(x0), float(x1), float(y0), float(y1)
+
+
+def bar(start: npt.ArrayLike, end: npt.ArrayLike, one: Section, up: npt.ArrayLike = (0.0, 0.0, 1.0)) -> Solid:
+    """A section along a line, its y axis as near to ``up`` as can be."""
+    a, b = np.asarray(start, float), np.asarray(end, float)
+    frame = looking(a, b - a, up)
+    pose = np.eye(4)
+    pose[:3, 0], pose[:3, 1], pose[:3, 2], pose[:3, 3] = frame[:3, 1], frame[:3, 2], frame[:3, 0], a
+    return moved(extrude(one[0], 0.0, float(np.linalg.norm(b - a)), one[1]), pose)
+
+
+def flat(start: npt.ArrayLike, end: npt.ArrayLike, wide: float, thick: float, up: npt.ArrayLike = (0, 0, 1)) -> Solid:
+    """A flat bar along a line, its width towards ``up`` [m]."""
+    return bar(start, end, (rounded_rectangle(thick, wide, 0.0), ()), up)
+
+
+def pipe(points: npt.ArrayLike, radius: float, hand: Hand, bend: float = 0.0, wall: float = 0.0) -> Solid:
+    """A round tube or bar along a polyline with bends of a radius; hollow where the hand models that [m]."""
+    path = filleted(points, bend, 4 if hand.sides[1] > 16 else 3, closed=False)
+    n = few_sides(hand, radius, 16)
+    if wall and hand.hollow:
+        return tube(path, radius, radius - wall, n)
+    return rope(path, radius, n)
+
+
+def slab_xy(outline: npt.ArrayLike, low: float, high: float, holes: tuple[Floats, ...] = ()) -> Solid:
+    """A level plate between two heights [m]."""
+    return extrude(np.asarray(outline, float), low, high, holes)
+
+
+def slab_xz(outline: npt.ArrayLike, thick: float, y: float = 0.0, holes: tuple[Floats, ...] = ()) -> Solid:
+    """An upright plate over an outline in x and z, its middle at ``y`` [m]."""
+    one = extrude(np.asarray(outline, float), -thick / 2, thick / 2, holes)
+    return moved(one, at(0, y) @ spun("x", np.pi / 2))
+
+
+def slab_yz(outline: npt.ArrayLike, thick: float, x: float = 0.0, holes: tuple[Floats, ...] = ()) -> Solid:
+    """An upright plate over an outline in y and z, its middle at ``x`` [m]."""
+    one = extrude(np.asarray(outline, float), -thick / 2, thick / 2, holes)
+    return Solid(one.vertices[:, [2, 0, 1]] + (x, 0, 0), one.faces)
+
+
+def bolted(poses: Sequence[Floats], d: float, hand: Hand, grip: float = 0.02, through: bool = False) -> list[Part]:
+    """Bolts at faces that look along z of their poses: hex nut on a stud out of concrete, or right through [m]."""
+    n = 6 if hand.sides[1] <= 16 else 10
+    shank = cylinder(0.5 * d, -grip - (0.9 * d if through else 1.5 * d), 1.4 * d, n)
+    nut, washer = hexagon(1.5 * d, 0.15 * d, 0.95 * d), cylinder(d, 0.0, 0.15 * d, n)
+    below = [hexagon(1.5 * d, -grip - 0.7 * d, -grip)] if through else []
+    if hand.fasteners == "pieces":
+        kinds = [(shank, "stud" if not through else "bolt"), (nut, "nut"), (washer, "washer")]
+        kinds += [(one, "nut") for one in below]
+        return [piece(moved(one, pose), name, "fastener", fine=True) for pose in poses for one, name in kinds]
+    one = merge([shank, nut, washer, *below])
+    placed = [moved(one, pose) for pose in poses]
+    if hand.fasteners == "set" and placed:
+        return [piece(merge(placed), "bolt", "fastener", fine=True)]
+    return [piece(solid, "bolt", "fastener", fine=True) for solid in placed]
+
+
+def base(
+    x: float, y: float, size: tuple[float, float], hand: Hand, rng: np.random.Generator, z: float = 0.0
+) -> tuple[list[Part], float]:
+    """A base plate with its anchors (four, two or none), square, round or clipped; also the height of its top [m]."""
+    a, b = size
+    thick = pick(rng, 0.008, 0.012, 0.02)
+    d = float(np.clip(0.1 * min(a, b), 0.008, 0.02))
+    style = int(rng.integers(4))
+    if style == 0:
+        outline = circle(0.55 * max(a, b), few_sides(hand, 0.55 * max(a, b), 32))
+        spots = [(0.37 * max(a, b) * np.cos(w), 0.37 * max(a, b) * np.sin(w)) for w in np.arange(4) * 1.5708 + 0.7854]
+    else:
+        cut = 1.2 * d if style == 1 else 0.0
+        outline = rounded_rectangle(a, b, cut, 1 if style == 1 and chance(rng, 0.5) else 3)
+        spots = [(sx * (a / 2 - 1.4 * d), sy * (b / 2 - 1.4 * d)) for sx in (-1, 1) for sy in (-1, 1)]
+        spots = spots if style != 3 else spots[::3]
+    holes = tuple(circle(0.58 * d, 8, (float(u), float(v))) for u, v in spots) if hand.holes else ()
+    parts = [piece(moved(slab_xy(outline, z, z + thick, holes), at(x, y)), "base plate")]
+    if chance(rng, 0.7):
+        parts += bolted([at(x + float(u), y + float(v), z + thick) for u, v in spots], d, hand, thick)
+    return parts, z + thick
+
+
+def propped(length: float, wide: float, hand: Hand, rng: np.random.Generator) -> tuple[list[Part], float]:
+    """What something long along x from 0 lies on: battens, trestles, columns, pedestals; and the height of its top."""
+    kind = int(rng.integers(4))
+    ends = (0.12 * length, 0.88 * length) if kind == 0 else (0.04 * length, 0.96 * length)
+    parts: list[Part] = []
+    if kind == 0:
+        h = pick(rng, 0.08, 0.1, 0.14)
+        parts = [piece(box((h, wide + 0.3, h), (x, 0, h / 2)), "beam", "safety") for x in ends]
+        return parts, h
+    h = num(rng, 0.5, 2.6) if kind < 3 else num(rng, 0.3, 1.0)
+    if kind == 3:
+        side = max(0.25, wide + 0.1)
+        return [piece(box((0.3, side, h), (x, 0, h / 2)), "foundation", "concrete") for x in ends], h
+    size = float(np.clip(0.8 * wide, 0.08, 0.2))
+    if kind == 1:
+        leg = section(pick(rng, "L", "SHS", "CHS"), 0.06, hand)
+        for x in ends:
+            top = section(pick(rng, "SHS", "U", "H"), 0.08, hand)
+            parts.append(piece(bar((x, -wide / 2 - 0.15, h - 0.04), (x, wide / 2 + 0.15, h - 0.04), top), "beam"))
+            parts += [
+                piece(bar((x + sx * 0.2, s * (wide / 2 + 0.1), 0), (x, s * (wide / 2 + 0.1), h - 0.08), leg), "post")
+                for s in (-1, 1)
+                for sx in (-1, 1)
+            ]
+        return parts, h
+    one = drawn(rng, hand, size)
+    for x in ends:
+        plates, low = base(x, 0, (size + 0.12, size + 0.12), hand, rng)
+        parts += [*plates, piece(bar((x, 0, low), (x, 0, h - 0.01), one), "column")]
+        parts.append(piece(box((size + 0.04, max(size, wide) + 0.04, 0.01), (x, 0, h - 0.005)), "plate"))
+    return parts, h
+
+
+def lug(hand: Hand, size: float, thick: float) -> Solid:
+    """A lifting eye: a plate in x and z with a round head and a hole, its foot on z = 0 [m]."""
+    n = max(8, few_sides(hand, size / 2, 16))
+    a = np.linspace(-0.2, np.pi + 0.2, n // 2 + 2)
+    head = np.column_stack([0.5 * size * np.cos(a), 0.65 * size + 0.5 * size * np.sin(a)])
+    outline = np.vstack([[[-0.7 * size, 0.0], [0.7 * size, 0.0]], head])
+    return slab_xz(outline, thick, 0.0, (circle(0.24 * size, n, (0.0, 0.68 * size)),))
+
+
+def rect(a: float, b: float, x: float = 0.0, y: float = 0.0) -> Floats:
+    """A rectangle about a point [m]."""
+    outline: Floats = rounded_rectangle(a, b, 0.0) + np.array([x, y])
+    return outline

@@ -1,0 +1,275 @@
+"""Pieces that bodies of valves are put together from, along x from 0, stem towards +z."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from cadgraph.model.scene import Floats
+from cadplants.families.valves.actuation_base import bolted
+from cadplants.families.valves.actuation_hand import slab, span
+from cadplants.families.valves.drive import BODY
+from cadplants.families.valves.small import hex_end
+from cadplants.families.valves.valve import flanged_body
+from cadplants.family import Part
+from cadplants.flange import plate_thickness
+from cadplants.mesh_ops import Solid, about_x, loft, merge, moved, reverse, revolve, volume, weld
+from cadplants.modeling_style import Hand
+from cadplants.polygon import circle, rounded_rectangle, triangulate
+from cadplants.primitives import along, box, cylinder, dome, hexagon, lofted, rod, turned
+from cadplants.standards import FLANGES, PIPES
+from cadplants.transforms import at, spun
+from cadplants.valve_body import bore_of
+
+__all__ = [
+    "blade", "bolts_on", "chest", "ended", "lid_joint", "metal", "neck_of", "oval", "packing", "part_turned",
+    "plate_outline",
+    "room", "trim", "turned_blade", "valve_ball", "wedge",
+]  # fmt: skip
+
+Rng = np.random.Generator
+Middle = list[tuple[float, float]]
+
+
+def metal(solid: Solid, x: float = 0.0, color: str = "valve") -> Part:
+    """A piece of the body, shifted along the run [m]."""
+    return Part(moved(solid, at(x)) if x else solid, BODY, color, BODY)
+
+
+def trim(solid: Solid, name: str, x: float = 0.0, color: str = "trim") -> Part:
+    """Another piece of the valve that goes with its body [m]."""
+    return Part(moved(solid, at(x)) if x else solid, name, color, BODY)
+
+
+def oval(a: float, b: float, n: int) -> Floats:
+    """An ellipse of half widths ``a`` along the run and ``b`` across it [m]."""
+    return circle(1.0, n) * (a, b)
+
+
+def plate_outline(kind: str, a: float, b: float, n: int) -> Floats:
+    """The outline of a bonnet's flange: ``round``, ``oval``, ``square`` or ``octagon``, of two half widths [m]."""
+    if kind == "square":
+        return rounded_rectangle(2 * a, 2 * b, 0.35 * min(a, b), 3)
+    if kind == "octagon":
+        return circle(1.06, 8, phase=np.pi / 8) * (a, b)
+    return oval(max(a, b), max(a, b), n) if kind == "round" else oval(a, b, n)
+
+
+def room(dn: int) -> float:
+    """How high above the axis a collar of the body must lie to clear the flanges and their bolts [m]."""
+    return 0.5 * FLANGES[dn].outer + 0.004
+
+
+def ended(dn: int, hand: Hand, length: float, middle: Middle, ends: str) -> Solid:
+    """A body of revolution along x between ``flanged``, ``butt`` (welded), ``socket``, ``hex`` or ``octagon`` ends.
+
+    Args:
+        dn: nominal size.
+        hand: decides on bore and roundness.
+        length: face to face [m].
+        middle: radius and place between the ends [m].
+        ends: their kind.
+    """
+    if ends == "flanged":
+        return flanged_body(dn, hand, length, middle)
+    radius, bore = PIPES[dn].radius, bore_of(dn, hand)
+    n = hand.round(max(r for r, _ in middle))
+    if ends in ("hex", "octagon"):
+        end = min(middle[0][1], length - middle[-1][1]) + 0.002
+        solids = [along("x", turned(middle, n))]
+        solids += [hex_end(dn, low, low + end, hand, 6 if ends == "hex" else 8) for low in (0.0, length - end)]
+        return merge(solids)
+    end = 1.3 * radius + 0.003 if ends == "socket" else radius
+    deep = 0.9 * middle[0][1]
+    outside = [(end, 0.0), (end, deep), *middle, (end, length - 0.9 * (length - middle[-1][1])), (end, length)]
+    if bore:
+        return about_x(weld([revolve([*outside, (bore, length), (bore, 0.0)], n, closed=True)]))
+    return about_x(turned(outside, n))
+
+
+def part_turned(outline: Floats, start: float, end: float, steps: int) -> Solid:
+    """A closed outline ``(radius, height)`` turned about z by less than a whole turn: a cut-away [m, rad]."""
+    loops = [
+        np.column_stack([outline[:, 0] * np.cos(a), outline[:, 0] * np.sin(a), outline[:, 1]])
+        for a in np.linspace(start, end, steps + 1)
+    ]
+    x, y = outline[:, 0], outline[:, 1]
+    if float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) < 0:
+        loops = [loop[::-1] for loop in loops]
+        outline = outline[::-1]
+    fill = triangulate(outline)
+    caps = [Solid(loops[0], fill.astype(np.int32)), Solid(loops[-1], fill[:, ::-1].astype(np.int32))]
+    skin = loft(loops)
+    solid = weld([reverse(skin), *caps])
+    if not _matched(solid):
+        solid = weld([skin, *caps])
+    return solid if volume(solid) > 0 else reverse(solid)
+
+
+def _matched(solid: Solid) -> bool:
+    """Whether every edge is walked once each way."""
+    edges = np.concatenate([solid.faces[:, [a, b]] for a, b in ((0, 1), (1, 2), (2, 0))])
+    return len(np.unique(edges, axis=0)) == len(edges)
+
+
+def chest(low: float, high: float, a: float, b: float, n: int, bottom: float, swell: float = 1.0) -> Solid:
+    """The upright hollow of a gate valve from a round bottom up to its collar, oval in plan [m]."""
+    loops = []
+    for share, size in ((0.0, 0.35), (0.06, 0.7), (0.16, 0.92), (0.3, 1.0)):
+        loops.append((low + share * bottom, size * swell))
+    loops += [(low + 0.55 * (high - low), swell), (high, 1.0)]
+    outlines = [np.column_stack([oval(a * s, b * s, n), np.full(n, z)]) for z, s in loops]
+    return lofted(outlines)
+
+
+def bolts_on(outline: Floats, count: int, low: float, high: float, thread: float) -> Part:
+    """Bolts with their nuts set in from an outline, through what lies between two heights [m]."""
+    inset = float(np.abs(outline).max())
+    share = 1 - 1.1 * thread / inset
+    step = np.vstack([outline, outline[:1]]) * share
+    walked = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(step, axis=0), axis=1))])
+    where = (np.arange(count) + 0.5) * walked[-1] / count
+    one = merge(
+        [
+            cylinder(thread / 2, low, high, 8),
+            hexagon(1.5 * thread, high, high + 0.7 * thread),
+            hexagon(1.5 * thread, low - 0.7 * thread, low),
+        ]
+    )
+    spots = np.column_stack([np.interp(where, walked, step[:, k]) for k in (0, 1)])
+    return bolted(merge([moved(one, at(float(x), float(y))) for x, y in spots]))
+
+
+def lid_joint(
+    kind: str, a: float, b: float, seat: float, plate: float, hand: Hand, rng: Rng
+) -> tuple[Solid, Solid, Part]:
+    """The body's collar below ``seat``, the lid's plate above it, and the bolts through both [m]."""
+    outline = plate_outline(kind, a, b, hand.round(b))
+    thread = float(np.clip(0.14 * min(a, b), 0.006, 0.02))
+    count = max(4, 2 * int((a + b) / (3.2 * thread) / 2))
+    bolts = bolts_on(outline, min(count, 16), seat - plate, seat + plate, thread)
+    return slab(outline, seat - plate, seat), slab(outline, seat, seat + plate), bolts
+
+
+def packing(slim: float, hand: Hand, rng: Rng, kind: int = -1) -> tuple[list[Part], float]:
+    """A gland on z = 0 about a stem: an oval or round follower with its bolts, a nut, or a lantern; and its height."""
+    kind = int(rng.integers(4)) if kind < 0 else kind
+    n = max(12, hand.round(2 * slim))
+    if kind == 0:
+        flat = oval(4.6 * slim, 2.0 * slim, 16)
+        follower = merge([slab(flat, 0.9 * slim, 1.7 * slim), cylinder(1.5 * slim, 0.0, 2.1 * slim, n)])
+        one = merge([cylinder(0.5 * slim, -1.5 * slim, 3.0 * slim, 8), hexagon(1.5 * slim, 1.7 * slim, 2.4 * slim)])
+        turn = spun("z", float(rng.choice([0.0, 0.5])) * np.pi)
+        bolts = merge([moved(one, at(s * 3.5 * slim)) for s in (-1, 1)])
+        return [trim(moved(follower, turn), "gland"), bolted(moved(bolts, turn))], 2.1 * slim
+    if kind == 1:
+        nut = merge(
+            [hexagon(4.0 * slim, 0.0, 2.2 * slim), turned([(1.9 * slim, 2.2 * slim), (1.4 * slim, 2.8 * slim)], n)]
+        )
+        return [trim(nut, "gland")], 2.8 * slim
+    if kind == 2:
+        follower = turned(
+            [(3.4 * slim, 0.3 * slim), (3.4 * slim, 1.1 * slim), (1.6 * slim, 1.4 * slim), (1.5 * slim, 2.4 * slim)], n
+        )
+        one = hexagon(1.3 * slim, 1.0 * slim, 1.8 * slim)
+        return [
+            trim(follower, "gland"),
+            bolted(merge([moved(one, spun("z", k * np.pi / 2) @ at(2.7 * slim)) for k in range(4)])),
+        ], 2.4 * slim
+    bar = box((8.0 * slim, 2.4 * slim, 0.9 * slim), (0, 0, 2.4 * slim))
+    eyes = merge(
+        [rod((s * 3.4 * slim, 0, -1.5 * slim), (s * 3.4 * slim, 0, 3.6 * slim), 0.5 * slim, 8) for s in (-1, 1)]
+    )
+    nuts = merge([moved(hexagon(1.5 * slim, 2.85 * slim, 3.5 * slim), at(s * 3.4 * slim)) for s in (-1, 1)])
+    follower = merge([bar, cylinder(1.6 * slim, 0.0, 2.0 * slim, n)])
+    return [trim(follower, "gland"), bolted(merge([eyes, nuts]))], 2.9 * slim
+
+
+def wedge(dn: int, x: float, thick: float, rise: float, hand: Hand) -> Part:
+    """A gate, maybe with its guides, standing across the bore at ``x``, lifted by ``rise`` [m]."""
+    bore = PIPES[dn].bore
+    n = hand.round(bore)
+    slim = 0.42 * thick
+    disc = turned(
+        [
+            (0.5 * bore, -slim),
+            (0.9 * bore, -slim),
+            (0.95 * bore, -0.9 * slim),
+            (1.12 * bore, -0.55 * slim),
+            (1.12 * bore, 0.55 * slim),
+            (0.95 * bore, 0.9 * slim),
+            (0.5 * bore, slim),
+        ],
+        n,
+    )
+    head = box((0.7 * thick, 0.5 * bore, 0.4 * bore), (0, 0, 1.2 * bore))
+    return trim(moved(merge([along("x", disc), head]), at(x, 0, rise)), "valve disc")
+
+
+def valve_ball(radius: float, bore: float, hand: Hand, turn: float, trunnions: float = 0.0) -> Solid:
+    """A bored ball about the origin, turned about z, with a slot or stubs for its stem [m, rad]."""
+    n = max(16, hand.round(radius))
+    edge = float(np.arccos(min(0.99, bore / radius)))
+    angles = np.linspace(-edge, edge, max(7, n // 3))
+    belt = [(radius * float(np.cos(a)), radius * float(np.sin(a))) for a in angles]
+    belt[0], belt[-1] = (bore, belt[0][1]), (bore, belt[-1][1])
+    solids = [moved(about_x(weld([revolve(belt, n, closed=True)])), spun("z", turn))]
+    if trunnions:
+        solids += [cylinder(0.3 * radius, *span(s * 0.9 * radius, s * trunnions), 16) for s in (-1, 1)]
+    return merge(solids)
+
+
+def neck_of(dn: int) -> tuple[float, float]:
+    """Radius of a flange's neck and where it leaves the flange's back [m]."""
+    return 0.485 * FLANGES[dn].hub, plate_thickness(dn)
+
+
+def blade(radius: float, hand: Hand, rng: Rng) -> Solid:
+    """A butterfly's disc across x at the origin, its shaft along z: lens, ribbed dish, offset plate or lattice [m]."""
+    n, kind = max(16, hand.round(radius)), int(rng.integers(5))
+    rim = 0.985 * radius
+    if kind == 0:
+        plate = turned(
+            [
+                (0.3 * radius, -0.11 * radius),
+                (0.8 * radius, -0.05 * radius),
+                (rim, -0.004),
+                (rim, 0.004),
+                (0.8 * radius, 0.05 * radius),
+                (0.3 * radius, 0.11 * radius),
+            ],
+            n,
+        )
+        solids = [along("x", plate)]
+    elif kind == 1:
+        plate = turned(
+            [(0.9 * rim, -0.06 * radius), (rim, -0.02 * radius), (rim, 0.05 * radius), (0.6 * radius, 0.06 * radius)], n
+        )
+        ribs = [
+            box((0.16 * radius, 0.05 * radius, 1.5 * radius * w), (0.1 * radius, y * radius, 0))
+            for y, w in ((-0.45, 0.9), (0.0, 1.1), (0.45, 0.9))
+        ]
+        solids = [along("x", plate), *ribs]
+    elif kind == 2:
+        plate = turned([(0.94 * rim, -0.09 * radius), (rim, -0.05 * radius), (0.93 * rim, 0.04 * radius)], n)
+        eyes = [
+            merge([cylinder(0.17 * radius, s * 0.5 * radius - 0.14 * radius, s * 0.5 * radius + 0.14 * radius, 12)])
+            for s in (-1, 1)
+        ]
+        solids = [along("x", plate), *(moved(eye, at(0.12 * radius)) for eye in eyes)]
+    elif kind == 3:
+        plate = along("x", slab(circle(rim, n), -0.03 * radius - 0.001, 0.03 * radius + 0.001))
+        clips = [
+            box((0.05 * radius, 0.18 * radius, 0.18 * radius), (0.15 * radius, 0, s * 0.5 * radius)) for s in (-1, 0, 1)
+        ]
+        solids = [plate, *clips]
+    else:
+        plate = along("x", turned([(0.97 * rim, -0.03 * radius), (rim, 0.0), (0.97 * rim, 0.03 * radius)], n))
+        solids = [plate, along("x", dome(0.7 * radius, 0.18 * radius, 0.02 * radius, n))]
+    stub = cylinder(0.1 * radius + 0.002, -0.9 * radius, 0.9 * radius, 12)
+    return merge([*solids, stub])
+
+
+def turned_blade(radius: float, x: float, hand: Hand, rng: Rng) -> list[Part]:
+    """A butterfly's disc at ``x``, open, half open or shut [m]."""
+    angle = float(rng.choice([0.0, 0.0, 0.5, 0.3, 0.15])) * np.pi
+    return [trim(moved(blade(radius, hand, rng), at(x) @ spun("z", angle)), "valve disc")]

@@ -1,0 +1,205 @@
+"""Families of devices: parts that a builder makes, and the components that a hand makes of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+
+from cadgraph.model.scene import Floats
+from cadplants.mesh_ops import Solid, merge, moved
+from cadplants.modeling_style import Grain, Hand
+from cadplants.plant import Assembly, Component, Device, Unit
+from cadplants.standards import SIZES
+from cadplants.transforms import IDENTITY
+
+__all__ = ["UNIT", "Build", "Family", "Model", "Part", "Port", "as_assembly", "as_device", "placed"]
+
+_UNITS = {
+    "Valve assembly": "valve",
+    "Gauge assembly": "gauge",
+    "Pump unit": "pump",
+    "Tank": "tank",
+    "Equipment": "equipment",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """One piece of a device.
+
+    Args:
+        solid: in the device's coordinates [m].
+        name: of the vocabulary.
+        color: kind of material.
+        bundle: name under which a hand that models in a few meshes joins it with others of its group; "" leaves it on
+            its own. One that models a device as one mesh takes in every part with a bundle.
+        group: of the vocabulary; "" is the device's.
+        fine: whether a hand without fasteners leaves it out.
+    """
+
+    solid: Solid
+    name: str
+    color: str
+    bundle: str = ""
+    group: str = ""
+    fine: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Port:
+    """Where a line can be joined to a device.
+
+    Args:
+        frame: ``(4, 4)`` of its face, x outward.
+        dn: nominal size.
+        part: index of the part with that face.
+    """
+
+    frame: Floats
+    dn: int
+    part: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """What a builder made: a device that sits in a line, on an outlet or on the floor.
+
+    Args:
+        parts: in the device's coordinates: in a line along x from 0, else on z = 0 about the origin.
+        length: of a device in a line, face to face [m].
+        joint: how it sits in a line: ``flanged``, ``wafer`` or ``welded`` (also screwed: the pipe reaches its ends).
+        kind: of the functional unit, ``"relief valve"``.
+        ports: faces that lines can be joined to.
+        dn: nominal size behind a reducer; 0 as before.
+    """
+
+    parts: Sequence[Part]
+    length: float = 0.0
+    joint: str = "flanged"
+    kind: str = ""
+    ports: tuple[Port, ...] = ()
+    dn: int = 0
+
+
+# Nominal size, hand, generator (and what a carrier is asked for besides); a builder may also return finished components
+# whose unit is called ``UNIT``.
+Build = Callable[..., "Model | Device | Assembly"]
+UNIT = "unit"
+
+
+@dataclass(frozen=True)
+class Family:
+    """A kind of device or structure in one build.
+
+    Args:
+        name: ``"relief valve/spring bonnet"``; plants can leave whole families out by it.
+        place: ``inline``, ``tap``, ``floor``, ``end`` (of a line) or ``carrier`` (holds a line).
+        group: of the vocabulary.
+        whole: the label of a device in one mesh.
+        build: makes one of a nominal size for a hand.
+        sizes: nominal sizes that it is made in.
+        grain: what the hand is asked for its granularity.
+        weight: how often it is drawn, against others.
+        welded: whether a finished device is welded or screwed into its line (a ``Model`` says so itself).
+    """
+
+    name: str
+    place: str
+    group: str
+    whole: str
+    build: Build
+    sizes: tuple[int, ...] = field(default=SIZES)
+    grain: str = ""
+    weight: float = 1.0
+    welded: bool = False
+
+    @property
+    def unit(self) -> str:
+        """Type of the functional unit, or ""."""
+        return _UNITS.get(self.group, "")
+
+
+def placed(parts: Sequence[Part], pose: Floats) -> list[Part]:
+    """The parts moved together by a ``(4, 4)`` pose."""
+    return [replace(part, solid=moved(part.solid, pose)) for part in parts]
+
+
+def _grain_of(family: Family, hand: Hand) -> Grain:
+    return hand.grain(family.grain or family.unit or "structure")
+
+
+def as_assembly(family: Family, model: Model | Device | Assembly, hand: Hand, unit: str = "") -> Assembly:
+    """The components that a hand makes of a device.
+
+    Args:
+        family: of the device.
+        model: its parts, or what was built already.
+        hand: decides on the granularity.
+        unit: id of the functional unit, where the family makes one.
+    """
+    grain = _grain_of(family, hand)
+    if isinstance(model, Device):
+        model = model.assembly
+    if isinstance(model, Assembly):
+        return _stamped(_called(model, unit), family.name, grain)
+    parts = [p for p in model.parts if not p.fine or hand.fasteners != "none"]
+    if grain == "one":
+        parts = _in_one(family, parts)
+    elif grain == "few":
+        parts = _in_few(parts)
+    components = tuple(_component(part, family, hand, unit, grain) for part in parts)
+    units = (Unit(unit, family.unit, model.kind or family.whole),) if unit and family.unit else ()
+    return Assembly(components, tuple((0, k) for k in range(1, len(components))), units)
+
+
+def _component(part: Part, family: Family, hand: Hand, unit: str, grain: str) -> Component:
+    group = part.group or family.group
+    owner = unit if family.unit and group == family.group else ""
+    color = hand.color(part.color)
+    return Component(part.solid, group, part.name, color, IDENTITY, owner, family=family.name, granularity=grain)
+
+
+def _called(assembly: Assembly, unit: str) -> Assembly:
+    """Finished components with their unit's id in place of ``UNIT``."""
+    return replace(
+        assembly,
+        components=tuple(replace(c, unit=unit) if c.unit == UNIT else c for c in assembly.components),
+        units=tuple(replace(u, id=unit) if u.id == UNIT else u for u in assembly.units),
+    )
+
+
+def _in_one(family: Family, parts: list[Part]) -> list[Part]:
+    own = [p for p in parts if p.bundle or p.group in ("", family.group)]
+    rest = [p for p in parts if not p.bundle and p.group not in ("", family.group)]
+    return [Part(merge([p.solid for p in own]), family.whole, own[0].color), *rest]
+
+
+def _in_few(parts: list[Part]) -> list[Part]:
+    bundles: dict[tuple[str, str], list[Part]] = {}
+    for k, part in enumerate(parts):
+        bundles.setdefault((part.group, part.bundle or f"#{k}"), []).append(part)
+    return [
+        replace(
+            some[0],
+            solid=merge([p.solid for p in some]),
+            name=some[0].name if some[0].group or not some[0].bundle else some[0].bundle,
+        )
+        for some in bundles.values()
+    ]
+
+
+def as_device(family: Family, model: Model | Device | Assembly, hand: Hand, unit: str = "") -> Device:
+    """The device for a line; the first component of a model has both faces."""
+    assembly = as_assembly(family, model, hand, unit)
+    if isinstance(model, Device):
+        return replace(model, assembly=assembly)
+    if isinstance(model, Assembly):
+        raise ValueError(f"{family.name} is no device for a line")
+    return Device(assembly, model.length, 0, 0, model.joint == "wafer")
+
+
+def _stamped(assembly: Assembly, family: str, grain: str) -> Assembly:
+    return replace(
+        assembly,
+        components=tuple(replace(c, family=family, granularity=c.granularity or grain) for c in assembly.components),
+    )

@@ -1,0 +1,126 @@
+"""Builders that a run calls with its hand: valves, gauges and tees by name, ready for ``Inline`` and ``Tap``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from cadplants.brand import Make
+from cadplants.gauge import pressure_gauge, side_gauge
+from cadplants.layout import Inline, Tap
+from cadplants.meter import flow_meter, strainer
+from cadplants.modeling_style import Hand
+from cadplants.piping import reducer, tee
+from cadplants.plant import Assembly, Device
+from cadplants.valve import VALVES
+
+__all__ = ["gauge_tap", "meter_at", "reducer_at", "side_gauge_tap", "strainer_at", "tee_at", "valve_at"]
+
+_REVERSED = np.diag([-1.0, -1.0, 1.0, 1.0])
+
+
+def valve_at(
+    s: float,
+    kind: str,
+    unit: str,
+    dn: int,
+    roll: float = 0.0,
+    reverse: bool = False,
+    make: Make | None = None,
+    turn: float = 0.0,
+    actuated: bool = False,
+) -> Inline:
+    """A valve of a kind of ``VALVES`` with its middle at a chainage [m].
+
+    Args:
+        s: chainage.
+        kind: of valve.
+        unit: its id.
+        dn: nominal size.
+        roll: of its stem about the run [rad]; 0 is upright.
+        reverse: whether it is built against the run.
+        make: what its manufacturer builds.
+        turn: of its wheel or lever [rad].
+        actuated: whether a ball valve has an actuator in place of its lever.
+    """
+    options = dict((make or Make()).options(kind, turn))
+    if actuated and kind == "ball":
+        options["lever"] = "actuator"
+    build: Callable[[Hand], Device] = partial(_valve, kind=kind, unit=unit, dn=dn, options=options)
+    return Inline(s, build, unit, roll, reverse)
+
+
+def meter_at(s: float, unit: str, dn: int) -> Inline:
+    """A flow meter with its middle at a chainage [m]."""
+    return Inline(s, partial(_meter, unit=unit, dn=dn), unit)
+
+
+def strainer_at(s: float, dn: int, roll: float = np.pi) -> Inline:
+    """A basket strainer with its middle at a chainage [m], its cover downward by default; no unit of its own."""
+    return Inline(s, partial(_strainer, dn=dn), roll=roll)
+
+
+def tee_at(s: float, junction: str, dn: int, branch: int, roll: float = 0.0) -> Inline:
+    """A tee with its middle at a chainage [m], its branch at ``roll`` from the run's z."""
+    return Inline(s, partial(_tee, dn=dn, branch=branch), roll=roll, welded=True, junction=junction)
+
+
+def reducer_at(s: float, dn: int, other: int) -> Inline:
+    """A reducer with its middle at a chainage [m]; the run goes on in the other size."""
+    return Inline(s, partial(_reducer, dn=dn, other=other), welded=True, dn=other)
+
+
+def gauge_tap(s: float, unit: str, rng: np.random.Generator, size: int = 63, turn: float = 0.0) -> Tap:
+    """A pressure gauge upright on a level pipe; ``turn`` of its dial [rad]."""
+    build: Callable[[Hand], Assembly] = partial(
+        _gauge,
+        unit=unit,
+        size=size,
+        turn=turn,
+        needle=float(rng.uniform(0.6, 2.6)),
+        height=0.075 if size < 100 else 0.09,
+    )
+    return Tap(s, build, unit)
+
+
+def side_gauge_tap(
+    s: float, unit: str, rng: np.random.Generator, down: bool = False, roll: float = np.pi / 2, size: int = 63
+) -> Tap:
+    """A pressure gauge beside an upright pipe; ``down`` where the run goes down there, ``roll`` about the run [rad]."""
+    build: Callable[[Hand], Assembly] = partial(
+        _side, unit=unit, size=size, down=down, needle=float(rng.uniform(0.6, 2.6))
+    )
+    return Tap(s, build, unit, roll)
+
+
+def _valve(hand: Hand, kind: str, unit: str, dn: int, options: Mapping[str, Any]) -> Device:
+    return VALVES[kind](unit, dn, hand, **options)
+
+
+def _meter(hand: Hand, unit: str, dn: int) -> Device:
+    return flow_meter(unit, dn, hand)
+
+
+def _strainer(hand: Hand, dn: int) -> Device:
+    return strainer(dn, hand)
+
+
+def _tee(hand: Hand, dn: int, branch: int) -> Device:
+    return tee(dn, branch, hand)
+
+
+def _reducer(hand: Hand, dn: int, other: int) -> Device:
+    return reducer(dn, other, hand)
+
+
+def _gauge(hand: Hand, unit: str, size: int, turn: float, needle: float, height: float) -> Assembly:
+    return pressure_gauge(unit, hand, size, height, turn, needle)
+
+
+def _side(hand: Hand, unit: str, size: int, down: bool, needle: float) -> Assembly:
+    gauge = side_gauge(unit, hand, size, 0.09 if size < 100 else 0.11, 0.06, -np.pi / 2 if down else np.pi / 2, needle)
+    # On a run that goes down, up is against it.
+    return gauge.placed(_REVERSED) if down else gauge

@@ -1,0 +1,295 @@
+"""The generated plant: components, units, nodes of the functional graph and their connections."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from cadgraph.model.scene import Floats, Scene
+from cadplants.mesh_ops import Solid, moved
+from cadplants.transforms import IDENTITY
+
+__all__ = ["RGB", "Assembly", "Component", "Connection", "Device", "Line", "Plant", "Point", "Unit", "gather"]
+
+RGB = tuple[float, float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Component:
+    """One mesh of a plant.
+
+    Args:
+        solid: its shape in a frame of its own [m]; repeats share it.
+        group: of the vocabulary.
+        name: in that group.
+        color: linear RGB, 0..1.
+        pose: ``(4, 4)`` outer from local coordinates, rigid or mirrored.
+        unit: id of the functional unit that it belongs to, or "".
+        line: tag of the pipe run that it belongs to, or "".
+        cluster: name of the connected structure that it belongs to, or "" (the ground).
+        flaws: what was spoilt about its mesh (``flipped``, ``soup``, ``degenerate``).
+        family: what kind of device or structure it was built as (``"ball valve/two-piece"``), or "".
+        granularity: how finely that was modelled: ``one``, ``few`` or ``pieces``, or "".
+        hand: name of the modelling style, or "".
+        holds: id of the unit that it clamps into its line (bolts of the counter-flanges), or "".
+        gap: what was taken off its sides so that it no longer reaches its neighbours; negative: overlap [m].
+    """
+
+    solid: Solid
+    group: str
+    name: str
+    color: RGB
+    pose: Floats = field(default_factory=lambda: IDENTITY)
+    unit: str = ""
+    line: str = ""
+    cluster: str = ""
+    flaws: tuple[str, ...] = ()
+    family: str = ""
+    granularity: str = ""
+    hand: str = ""
+    holds: str = ""
+    gap: float = 0.0
+
+    @property
+    def vertices(self) -> Floats:
+        """``(n, 3)`` placed vertices [m]."""
+        return self.solid.vertices @ self.pose[:3, :3].T + self.pose[:3, 3]
+
+    @property
+    def faces(self) -> npt.NDArray[np.int32]:
+        """``(m, 3)`` triangles, counter-clockwise seen from outside."""
+        return moved(self.solid, self.pose).faces
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A functional unit.
+
+    Args:
+        id: unique in its plant, also its tag (``"V-101"``).
+        type: as the vocabulary calls it (``"valve"``).
+        kind: ``"ball valve"``, ``"globe valve"``, ``"pressure gauge"``...
+    """
+
+    id: str
+    type: str
+    kind: str
+
+
+@dataclass(frozen=True)
+class Point:
+    """A node of the functional graph that is no unit.
+
+    Args:
+        id: unique in its plant.
+        kind: ``"terminal"`` (end of a run) or ``"junction"`` (three or more branches meet).
+        point: ``(3,)`` where it is [m].
+        end: of a terminal: ``"open"`` (a pipe's mouth or an open flange) or ``"blind"``; else "".
+    """
+
+    id: str
+    kind: str
+    point: tuple[float, float, float]
+    end: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """The centreline of a run.
+
+    Args:
+        id: tag of the run.
+        points: ``(n, 3)``; chords of its bends lie on them [m].
+        outer: greatest outside diameter of its pipe [m].
+    """
+
+    id: str
+    points: Floats
+    outer: float
+
+
+@dataclass(frozen=True)
+class Connection:
+    """Two nodes that follow each other along a run.
+
+    Args:
+        source: id of a unit or point.
+        target: likewise.
+        line: tag of the run.
+        length: along the centreline [m].
+        diameter: nominal bore [m].
+        direction: ``forward`` (source to target), ``backward`` or ``unknown``.
+        reason: what fixes the direction, or "".
+    """
+
+    source: str
+    target: str
+    line: str
+    length: float
+    diameter: float
+    direction: str = "unknown"
+    reason: str = ""
+
+
+def _moved(pose: Floats, point: tuple[float, float, float]) -> tuple[float, float, float]:
+    x, y, z = (float(value) for value in pose[:3, :3] @ point + pose[:3, 3])
+    return x, y, z
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """Components that were built together, with what touches what and which functional truth they carry.
+
+    Args:
+        components: in order.
+        contacts: pairs of indices into ``components`` that touch by design.
+        units: that the components refer to.
+        points: terminals and junctions.
+        connections: in order along their runs.
+        lines: centrelines of the runs.
+    """
+
+    components: tuple[Component, ...] = ()
+    contacts: tuple[tuple[int, int], ...] = ()
+    units: tuple[Unit, ...] = ()
+    points: tuple[Point, ...] = ()
+    connections: tuple[Connection, ...] = ()
+    lines: tuple[Line, ...] = ()
+
+    def placed(self, pose: Floats) -> Assembly:
+        """The whole assembly moved by a 4x4 matrix."""
+        return replace(
+            self,
+            components=tuple(replace(c, pose=pose @ c.pose) for c in self.components),
+            points=tuple(replace(p, point=_moved(pose, p.point)) for p in self.points),
+            lines=tuple(replace(one, points=one.points @ pose[:3, :3].T + pose[:3, 3]) for one in self.lines),
+        )
+
+    def prefixed(self, prefix: str) -> Assembly:
+        """The assembly with ``prefix-`` before every id, line and cluster, so that several stand side by side."""
+
+        def named(name: str) -> str:
+            return f"{prefix}-{name}" if name else ""
+
+        return replace(
+            self,
+            components=tuple(
+                replace(c, unit=named(c.unit), line=named(c.line), cluster=named(c.cluster), holds=named(c.holds))
+                for c in self.components
+            ),
+            units=tuple(replace(u, id=named(u.id)) for u in self.units),
+            points=tuple(replace(p, id=named(p.id)) for p in self.points),
+            connections=tuple(
+                replace(c, source=named(c.source), target=named(c.target), line=named(c.line)) for c in self.connections
+            ),
+            lines=tuple(replace(one, id=named(one.id)) for one in self.lines),
+        )
+
+    def marked(
+        self,
+        unit: str | None = None,
+        line: str | None = None,
+        cluster: str | None = None,
+        hand: str | None = None,
+        holds: str | None = None,
+    ) -> Assembly:
+        """The assembly with its components' unit, line, cluster, hand or clamped unit set."""
+        given = {"unit": unit, "line": line, "cluster": cluster, "hand": hand, "holds": holds}
+        changes: dict[str, Any] = {key: value for key, value in given.items() if value is not None}
+        return replace(self, components=tuple(replace(c, **changes) for c in self.components))
+
+
+@dataclass(frozen=True)
+class Device:
+    """An assembly that sits in a run: its inlet face at x = 0, its outlet face at x = ``length``.
+
+    Args:
+        assembly: what it is made of.
+        length: face to face [m].
+        inlet: index of the component with the inlet face.
+        outlet: index of the component with the outlet face.
+        wafer: whether it has no flanges and is held by bolts that reach from one counter-flange to the other.
+    """
+
+    assembly: Assembly
+    length: float
+    inlet: int = 0
+    outlet: int = 0
+    wafer: bool = False
+
+
+def gather(assemblies: Iterable[Assembly], joints: Sequence[tuple[int, int]] = ()) -> Assembly:
+    """One assembly out of several, in order.
+
+    Args:
+        assemblies: their contact pairs are shifted along.
+        joints: further pairs that touch, as indices into all components.
+    """
+    components: list[Component] = []
+    contacts: list[tuple[int, int]] = []
+    units: list[Unit] = []
+    points: list[Point] = []
+    connections: list[Connection] = []
+    lines: list[Line] = []
+    for assembly in assemblies:
+        shift = len(components)
+        contacts += [(a + shift, b + shift) for a, b in assembly.contacts]
+        components += assembly.components
+        units += assembly.units
+        points += assembly.points
+        connections += assembly.connections
+        lines += assembly.lines
+    contacts += joints
+    return Assembly(tuple(components), tuple(contacts), tuple(units), tuple(points), tuple(connections), tuple(lines))
+
+
+@dataclass(frozen=True)
+class Plant(Assembly):
+    """A finished plant.
+
+    Args:
+        name: of the preset.
+        seed: that it was made from.
+        hands: names of the modelling styles in it.
+        looseness: greatest gap that was left between parts that touch by design [m].
+        duplicates: pairs of components, the second an exact copy of the first.
+        hidden: components that can't be seen from anywhere.
+        colors: how it is painted: ``own`` (by what things are or belong to), ``gray`` or ``random``.
+    """
+
+    name: str = ""
+    seed: int = 0
+    hands: tuple[str, ...] = ()
+    looseness: float = 0.0
+    duplicates: tuple[tuple[int, int], ...] = ()
+    hidden: tuple[int, ...] = ()
+    colors: str = "own"
+
+    @property
+    def n_meshes(self) -> int:
+        """How many meshes there are."""
+        return len(self.components)
+
+    def paths(self) -> tuple[str, ...]:
+        """Meaningless paths in component order, as ``scene()`` uses them."""
+        return tuple(f"/World/Geo_{i:05d}" for i in range(self.n_meshes))
+
+    def scene(self) -> Scene:
+        """The plant's meshes as a scene, in metres and Z up, in component order."""
+        return Scene.from_meshes(
+            [(c.vertices, c.faces) for c in self.components], self.paths(), [c.color for c in self.components]
+        )
+
+    def truth(self, paths: Sequence[str] | None = None) -> dict[str, Any]:
+        """Everything known about the plant, as plain JSON values (``docs/truth.md``).
+
+        Args:
+            paths: of the components in a file; those of ``scene()`` by default.
+        """
+        from cadplants.truth_writer import account
+
+        return account(self, tuple(paths) if paths is not None else self.paths())

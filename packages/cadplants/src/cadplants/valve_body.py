@@ -1,0 +1,62 @@
+"""What all valves share: flanged bodies, and how finely a hand models them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from cadgraph.model.scene import Floats
+from cadplants.mesh_ops import Shell, Solid, merge, moved
+from cadplants.modeling_style import Hand
+from cadplants.plant import Assembly, Component, Device, Unit
+from cadplants.standards import PIPES
+from cadplants.transforms import IDENTITY
+
+__all__ = ["Piece", "assemble", "bore_of", "flipped"]
+
+# What stays a mesh of its own where a valve is modelled as body and operator; an indicator sits on its actuator.
+_OPERATORS = ("handwheel", "lever", "actuator", "position indicator")
+
+Piece = tuple[Solid, Floats, str, str]  # solid, pose, name, colour
+
+
+def flipped(shell: Shell, length: float) -> Shell:
+    """The mirror image of a flange shell for the other end of a body about z."""
+    mirror = np.diag([1.0, 1.0, -1.0, 1.0])
+    mirror[2, 3] = length
+    return moved(shell, mirror)
+
+
+def bore_of(dn: int, hand: Hand) -> float:
+    """The radius of a body's bore [m]; 0 where the hand models solid."""
+    return PIPES[dn].bore if hand.hollow else 0.0
+
+
+def assemble(
+    pieces: list[Piece],
+    kind: str,
+    unit: str,
+    hand: Hand,
+    contacts: tuple[tuple[int, int], ...],
+    outlet: int,
+    length: float,
+) -> Device:
+    """The device as fine as the hand models valves; the first piece holds the inlet face, ``outlet`` the other."""
+    if hand.valve == "one":
+        whole = merge([moved(solid, pose) for solid, pose, _, _ in pieces])
+        pieces, contacts = [(whole, IDENTITY, "valve", "valve")], ()
+        outlet = 0
+    elif hand.valve == "few":
+        bodies = [p for p in pieces if p[2] not in _OPERATORS]
+        rest = [p for p in pieces if p[2] in _OPERATORS]
+        whole = merge([moved(solid, pose) for solid, pose, _, _ in bodies])
+        pieces, contacts = (
+            [(whole, IDENTITY, "valve body", "valve"), *rest],
+            tuple((min(k, 1), k + 1) for k in range(len(rest))),
+        )
+        outlet = 0
+    assembly = Assembly(
+        tuple(Component(s, "Valve assembly", name, hand.color(c), pose, unit) for s, pose, name, c in pieces),
+        contacts,
+        (Unit(unit, "valve", kind),),
+    )
+    return Device(assembly, length, 0, outlet)

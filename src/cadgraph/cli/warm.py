@@ -1,0 +1,30 @@
+"""Compiles the kernels ahead of the first run: ``python -m cadgraph.cli.warm``.
+
+Machine code is cached beside the installed package, so this is needed once after an installation, and only to have
+the first run as quick as the next.
+"""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+
+from cadgraph.draw.render.camera import frame
+from cadgraph.draw.render.pair import PairRenderer
+from cadgraph.pipeline import build
+
+__all__ = ["warm_up"]
+
+
+def warm_up() -> None:
+    """Builds the graph of a small generated plant, by which every kernel that a plant needs is compiled."""
+    scene = import_module("cadplants").make_skid().scene()
+    build(scene)
+    renderer = PairRenderer(scene)
+    renderer.pair(0, frame(scene.mesh(0)[0], (1, -2, 1), (64, 64), margin=0.3), [1])
+
+
+if __name__ == "__main__":
+    sys.stdout.write("compiling kernels (once, up to a minute)\n")
+    sys.stdout.flush()
+    warm_up()

@@ -1,0 +1,381 @@
+"""Where to look at one mesh from, among all the others: the directions in which it is really visible.
+
+For each of 64 directions rays go from where the camera would be to points spread evenly over the mesh's area; a point
+counts as seen where its ray meets the mesh first. Three directions at least 50 degrees apart are taken. Where too
+little is seen, what stands in the way is cut away.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from cadgraph.draw.render.camera import FIELD_OF_VIEW, Camera, frame
+from cadgraph.draw.render.caster import Caster
+from cadgraph.model.scene import Floats, Ints, Scene
+
+__all__ = ["APART", "Target", "View", "choose_views"]
+
+Bools = npt.NDArray[np.bool_]
+
+APART = math.radians(50.0)
+"""Least angle between two of the views."""
+
+_N_DIRECTIONS, _N_POINTS = 64, 128  # design study: 0.987 correlation with the exact visible share
+_LEAST_SHARE = 0.18  # of the points that must be seen; below, nobody can say what it is, and a cutaway shows more
+_FILL = 0.5  # of the picture, that the mesh takes in a close view
+_WIDE = (8.0, 0.8)  # a wide view frames 8 extents, for small parts, or 0.8 m more than the extent, for larger ones [m]
+_GOOD_ENOUGH = 2.7  # of three directions, the share of a section that is seen: no other section is tried
+_DENSER = 8  # times as many points on slender meshes, so that a section still has some
+_SLENDER, _SECTION = 14.0, 9.0  # longer than this many widths, close views show a section of so many widths
+_EDGE_ON = 0.5  # of the greatest area that it could show: if no view shows more, one is a cutaway that does
+_NEARER = 0.75  # of the supposed distance: nearer than that, a camera may see what the rays did not
+_FRAME_POINTS = 3000
+_MOST_LAYERS = 10  # of meshes one behind the other that a cutaway may take away
+_BLOCKING = 0.03  # share of the rays; what hides less stays in a cutaway
+_FIRST_CHOICES = 6
+_GOLDEN = math.pi * (3 - math.sqrt(5))
+
+
+@dataclass(frozen=True)
+class View:
+    """One look at a mesh.
+
+    Args:
+        camera: where from.
+        visible: share of the mesh's surface points that are in sight, 0..1, once ``hidden`` is away.
+        hidden: meshes that are cut away for this view, ascending.
+        wide: whether it steps back to show the surroundings.
+        section: whether it shows only a section of a long mesh.
+        span: width of the picture at the mesh [m].
+    """
+
+    camera: Camera
+    visible: float
+    hidden: tuple[int, ...] = ()
+    wide: bool = False
+    section: bool = False
+    span: float = 0.0
+
+    @property
+    def direction(self) -> Floats:
+        """``(3,)`` unit vector from the mesh towards the camera."""
+        return -self.camera.forward
+
+
+@dataclass(frozen=True)
+class Target:
+    """A mesh and what the views of it need.
+
+    Args:
+        mesh: its index.
+        points: ``(n, 3)`` spread evenly over its area [m].
+        normals: ``(n, 3)`` unit.
+        vertices: ``(m, 3)`` enough of its vertices to frame it by [m].
+        axes: ``(3, 3)`` principal axes as rows, the longest extent first.
+        extents: ``(3,)`` along them [m].
+    """
+
+    mesh: int
+    points: Floats
+    normals: Floats
+    vertices: Floats
+    axes: Floats
+    extents: Floats
+
+    @classmethod
+    def of(cls, scene: Scene, mesh: int, n_points: int = _N_POINTS) -> Target:
+        """Samples a mesh; the same every time.
+
+        Raises:
+            ValueError: none of its triangles has an area.
+        """
+        vertices, faces = scene.mesh(mesh)
+        corners = vertices[faces]
+        double = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        area = np.sqrt((double * double).sum(axis=1))
+        area = np.where(np.isfinite(area), area, 0.0)
+        total = np.cumsum(area)
+        if not len(total) or not total[-1] > 0:
+            raise ValueError(f"{scene.paths[mesh]} can't be looked at: none of its triangles has an area")
+        face = np.searchsorted(total, (np.arange(n_points) + 0.5) / n_points * total[-1], side="right")
+        face = np.minimum(face, len(total) - 1)
+        k = np.arange(n_points)
+        # Within a face, the plastic number spreads points (Roberts 2018, R2 sequence); folded into the triangle.
+        u, v = (0.5 + k * 0.7548776662466927) % 1.0, (0.5 + k * 0.5698402909980532) % 1.0
+        fold = u + v > 1
+        u, v = np.where(fold, 1 - u, u)[:, None], np.where(fold, 1 - v, v)[:, None]
+        t = corners[face]
+        points = t[:, 0] + u * (t[:, 1] - t[:, 0]) + v * (t[:, 2] - t[:, 0])
+        used = vertices[np.unique(faces[area > 0])]
+        axes, extents = _principal(points, used)
+        if n_points < _DENSER * _N_POINTS and _is_slender(extents):
+            return cls.of(scene, mesh, _DENSER * n_points)
+        return cls(mesh, points, double[face] / area[face, None], _outer(used), axes, extents)
+
+    def only(self, kept: Ints | slice) -> Target:
+        """The same mesh with some of the points."""
+        return replace(self, points=self.points[kept], normals=self.normals[kept])
+
+
+def choose_views(
+    caster: Caster, mesh_of_face: npt.NDArray[np.int32], target: Target, size: tuple[int, int] = (512, 512)
+) -> tuple[View, View, View]:
+    """Three views of a mesh: two close ones and a wide one, pairwise at least 50 degrees apart.
+
+    Args:
+        caster: of the whole scene.
+        mesh_of_face: ``(n_faces,)`` mesh of each of the scene's faces.
+        target: the mesh.
+        size: width and height of the pictures [px].
+
+    Returns:
+        The views, the wide one last.
+    """
+    directions = _DIRECTIONS
+    whole = target.vertices
+    sight = far = _Sight(caster, mesh_of_face, target)
+    near, section = whole, _is_slender(target.extents)
+    if section:
+        far = _Sight(caster, mesh_of_face, target.only(slice(None, None, _DENSER)))
+        sight, near = _focus(sight, directions)
+    share = sight.seen(near, directions, _FILL).mean(axis=1)
+    ahead = np.abs(directions @ sight.target.normals.T).sum(axis=1)
+    worth = (0.35 + 0.65 * ahead / ahead.max()) * _NATURAL
+    open_air = ~sight.covered(near, directions, _FILL)
+    score = np.where(share >= _LEAST_SHARE, share * worth * np.where(open_air, 1.0, 0.8), 0.0)
+    chosen = _spread(score)
+    hidden: dict[int, tuple[int, ...]] = {}
+    if len(chosen) == 3 and not section and ahead[chosen].max() < _EDGE_ON * ahead.max():
+        # A gasket between its flanges shows its rim from everywhere; one look at its face is worth a cutaway.
+        chosen = chosen[:2]
+    if len(chosen) < 3:
+        blockers = sight.blockers(sight.eyes(near, directions, _FILL))
+        fewer = worth**2 / (1 + 0.2 * np.array([len(b) for b in blockers]))
+        for direction in _spread(fewer, chosen)[len(chosen) :]:
+            chosen.append(direction)
+            hidden[direction] = blockers[direction]
+    order = _wide_last(far, chosen, directions, share, hidden)
+    views = []
+    for place, direction in enumerate(order):
+        wide = place == 2
+        shown = whole if wide or not section else near
+        fill = _wide_fill(target) if wide else _FILL
+        rays = far if wide else sight
+        camera = _framed(rays, shown, directions[direction], size, fill)
+        out: tuple[int, ...] = ()
+        visible = float(rays.seen_from(camera.eye[None]).mean())
+        if direction in hidden or visible < _LEAST_SHARE:
+            # Anew from where the camera really is: from further away more stands in the way.
+            out = rays.blockers(camera.eye[None])[0]
+            visible = float(rays.seen_from(camera.eye[None], out).mean())
+        depth = float(((shown.min(axis=0) + shown.max(axis=0)) / 2 - camera.eye) @ camera.forward)
+        views.append(View(camera, visible, out, wide, section and not wide, camera.pixel_size * depth * size[0]))
+    return views[0], views[1], views[2]
+
+
+class _Sight:
+    """Rays from would-be cameras to the points of a target."""
+
+    def __init__(self, caster: Caster, mesh_of_face: npt.NDArray[np.int32], target: Target) -> None:
+        self.caster, self.target = caster, target
+        self._mesh_of_face = mesh_of_face
+        self._faces = caster.faces
+
+    def eyes(self, shown: Floats, directions: Floats, fill: float) -> Floats:
+        """``(n, 3)`` where cameras would stand that show some points in so large a share of the picture."""
+        middle = (shown.min(axis=0) + shown.max(axis=0)) / 2
+        radius = float(np.sqrt(((shown - middle) ** 2).sum(axis=1).max()))
+        away: Floats = middle + directions * (radius / (fill * math.tan(FIELD_OF_VIEW / 2)))
+        return away
+
+    def seen(self, shown: Floats, directions: Floats, fill: float) -> Bools:
+        """``(n_directions, n_points)`` which points are in sight."""
+        return self.seen_from(self.eyes(shown, directions, fill))
+
+    def seen_from(self, eyes: Floats, hidden: tuple[int, ...] = ()) -> Bools:
+        """``(n_eyes, n_points)`` which points are in sight once some meshes are away."""
+        start, towards, _ = self._rays(eyes)
+        met = self._first(start, towards, np.array(hidden, np.int64))
+        seen: Bools = (met == self.target.mesh).reshape(len(eyes), -1)
+        return seen
+
+    def covered(self, shown: Floats, directions: Floats, fill: float) -> Bools:
+        """``(n_directions,)`` whether something lies behind the camera: it stands under or within another mesh."""
+        eyes = self.caster.local(self.eyes(shown, directions, fill))
+        return self.caster.blocked(
+            eyes, directions.astype(np.float32), np.full(len(eyes), 2 * self.caster.diagonal, np.float32)
+        )
+
+    def blockers(self, eyes: Floats) -> list[tuple[int, ...]]:
+        """For each eye the meshes that stand before the target for more than a few rays, ascending."""
+        start, towards, length = self._rays(eyes)
+        n = len(self.target.points)
+        counts: list[dict[int, int]] = [{} for _ in eyes]
+        active = np.arange(len(towards))
+        reached = np.zeros(len(towards), np.float32)
+        step = np.float32(max(2e-6 * self.caster.diagonal, 1e-5))
+        for _ in range(_MOST_LAYERS):
+            found = self.caster.trace(start[active] + towards[active] * reached[active, None], towards[active])
+            reached[active] += found["tfar"] + step
+            mesh = self._meshes(found["primID"])
+            going = (mesh >= 0) & (mesh != self.target.mesh) & (reached[active] < length[active])
+            active = active[going]
+            if not len(active):
+                break
+            pairs, times = np.unique(np.stack([active // n, mesh[going]]), axis=1, return_counts=True)
+            for (direction, other), count in zip(pairs.T.tolist(), times.tolist(), strict=True):
+                counts[direction][other] = counts[direction].get(other, 0) + count
+        return [tuple(sorted(m for m, count in each.items() if count > _BLOCKING * n)) for each in counts]
+
+    def _rays(self, eyes: Floats) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32], Floats]:
+        towards = self.target.points[None] - eyes[:, None]
+        length = np.sqrt((towards * towards).sum(axis=2))
+        towards /= np.maximum(length, 1e-12)[..., None]
+        start = np.repeat(self.caster.local(eyes), len(self.target.points), axis=0)
+        return start, towards.reshape(-1, 3).astype(np.float32), length.reshape(-1)
+
+    def _meshes(self, primitive: npt.NDArray[np.int32]) -> npt.NDArray[np.int32]:
+        mesh: npt.NDArray[np.int32] = np.where(
+            primitive >= 0, self._mesh_of_face[self._faces[primitive]], np.int32(-1)
+        ).astype(np.int32)
+        return mesh
+
+    def _first(
+        self, start: npt.NDArray[np.float32], towards: npt.NDArray[np.float32], hidden: Ints
+    ) -> npt.NDArray[np.int32]:
+        found = self.caster.trace(start, towards)
+        met = self._meshes(found["primID"])
+        if not len(hidden):
+            return met
+        step = np.float32(max(2e-6 * self.caster.diagonal, 1e-5))
+        reached = found["tfar"].copy()
+        for _ in range(_MOST_LAYERS):
+            through = np.flatnonzero(np.isin(met, hidden))
+            if not len(through):
+                break
+            reached[through] += step
+            found = self.caster.trace(start[through] + towards[through] * reached[through, None], towards[through])
+            reached[through] += found["tfar"]
+            met[through] = self._meshes(found["primID"])
+        return met
+
+
+def _framed(sight: _Sight, shown: Floats, direction: Floats, size: tuple[int, int], fill: float) -> Camera:
+    """A camera as far away as the rays supposed, whatever side of a long mesh it looks at: with a longer lens."""
+    margin = (1 - fill) / 2
+    camera = frame(shown, direction, size, margin=margin)
+    middle = (shown.min(axis=0) + shown.max(axis=0)) / 2
+    supposed = float(np.linalg.norm(sight.eyes(shown, direction[None], fill)[0] - middle))
+    found = float(np.linalg.norm(camera.eye - middle))
+    if found >= _NEARER * supposed:
+        return camera
+    view = 2 * math.atan(math.tan(FIELD_OF_VIEW / 2) * found / supposed)
+    return frame(shown, direction, size, margin=margin, field_of_view=view)
+
+
+def _is_slender(extents: Floats) -> bool:
+    return bool(extents[0] >= _SLENDER * max(float(extents[1]), 1e-6))
+
+
+def _focus(sight: _Sight, directions: Floats) -> tuple[_Sight, Floats]:
+    """A section of a slender mesh that can be seen well: rays to its points only, and the corners of its box."""
+    target = sight.target
+    wide = max(float(target.extents[1]), 1e-6)
+    axis = target.axes[0]
+    along = target.points @ axis
+    low, high = float(along.min()), float(along.max())
+    half = _SECTION * wide / 2
+    best, chosen, shown = -1.0, sight, target.vertices
+    for share in (0.5, 0.3, 0.7, 0.12, 0.88):
+        nearest = target.points[int(np.argmin(np.abs(along - (low + share * (high - low)))))]
+        near = np.flatnonzero(np.abs(along - nearest @ axis) <= half)
+        if not len(near):
+            continue
+        near = near[:: -(-len(near) // _N_POINTS)]
+        ends = nearest + half * np.array([[-1.0], [1.0]]) * axis
+        box = np.concatenate([ends + s * wide / 2 * a for a in target.axes[1:] for s in (-1, 1)])
+        local = _Sight(sight.caster, sight._mesh_of_face, target.only(near))
+        seen = local.seen(box, directions[::4], _FILL).mean(axis=1)
+        score = float(np.sort(seen)[-3:].sum())
+        if score > best + 0.05:
+            best, chosen, shown = score, local, box
+        if best > _GOOD_ENOUGH:
+            break
+    return chosen, shown
+
+
+def _wide_fill(target: Target) -> float:
+    extent = max(float(np.linalg.norm(target.extents)) / math.sqrt(2), float(target.extents[0]), 1e-6)
+    factor, room = _WIDE
+    return extent / max(extent / _FILL, min(factor * extent, extent + room))
+
+
+def _wide_last(
+    sight: _Sight, chosen: list[int], directions: Floats, share: Floats, hidden: dict[int, tuple[int, ...]]
+) -> list[int]:
+    """The chosen directions, last the one from which most is seen from further away."""
+    index = np.array(chosen)
+    wide = sight.seen(sight.target.vertices, directions[index], _wide_fill(sight.target)).mean(axis=1)
+    best = int(np.argmax(np.round(wide, 6) - 2.0 * np.array([d in hidden for d in chosen])))
+    order = [d for i, d in enumerate(chosen) if i != best]
+    return [*sorted(order, key=lambda d: (d in hidden, -round(float(share[d]), 6), d)), chosen[best]]
+
+
+def _spread(score: Floats, given: list[int] | None = None) -> list[int]:
+    """Up to three directions of a positive score, pairwise far enough apart, of the greatest sum; ``given`` first."""
+    rounded = np.round(score, 9)
+    order = [int(i) for i in np.argsort(-rounded, kind="stable") if rounded[i] > 0]
+    fixed = list(given or [])
+    best: list[int] = fixed
+    greatest = -1.0
+    for first in order[:_FIRST_CHOICES] if not fixed else [-1]:
+        picked = [*fixed] if first < 0 else [first]
+        for other in order:
+            if len(picked) == 3:
+                break
+            if all(_CLOSE[other, one] == 0 for one in picked):
+                picked.append(other)
+        total = len(picked) * 10 + float(rounded[picked].sum())
+        if total > greatest + 1e-9:
+            best, greatest = picked, total
+    return best
+
+
+def _principal(points: Floats, vertices: Floats) -> tuple[Floats, Floats]:
+    """Principal axes of the surface, and the extents of the vertices along them, descending."""
+    centered = points - points.mean(axis=0)
+    axes = np.linalg.eigh(centered.T @ centered)[1].T
+    along = vertices @ axes.T
+    extents = along.max(axis=0) - along.min(axis=0)
+    order = np.argsort(-extents, kind="stable")
+    return axes[order], extents[order]
+
+
+def _outer(vertices: Floats) -> Floats:
+    """At most a few thousand of the vertices, among them the outermost in many directions."""
+    if len(vertices) <= _FRAME_POINTS:
+        return vertices
+    far = np.argmax(vertices @ _DIRECTIONS.T, axis=0)
+    keep = np.unique(np.concatenate([far, np.arange(0, len(vertices), len(vertices) // _FRAME_POINTS + 1)]))
+    kept: Floats = vertices[keep]
+    return kept
+
+
+def _lattice(n: int) -> Floats:
+    """Unit vectors spread evenly over the sphere (Fibonacci lattice)."""
+    k = np.arange(n)
+    z = 1 - (2 * k + 1) / n
+    level = np.sqrt(1 - z * z)
+    directions: Floats = np.column_stack([level * np.cos(_GOLDEN * k), level * np.sin(_GOLDEN * k), z])
+    return directions
+
+
+_DIRECTIONS = _lattice(_N_DIRECTIONS)
+_COSINES = _DIRECTIONS @ _DIRECTIONS.T
+_CLOSE = np.greater(_COSINES, math.cos(APART)).astype(np.int8)
+# People know things from obliquely above; straight down, and from below, they look strange.
+_NATURAL = np.interp(np.degrees(np.arcsin(_DIRECTIONS[:, 2])), [-90, -25, 0, 12, 50, 90], [0.55, 0.65, 0.9, 1, 1, 0.7])

@@ -1,0 +1,314 @@
+"""The pictures of a finished graph: as it is, by cluster, by group, and system by system."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+import numpy.typing as npt
+from PIL import Image
+
+from cadgraph._io.progress import Progress, quiet
+from cadgraph.config import ReportConfig
+from cadgraph.draw.render.annotation import LegendEntry, Mark, Segment, Tag, annotate
+from cadgraph.draw.render.camera import Camera, frame
+from cadgraph.draw.render.color import distinct_colors, from_hex, source_colors, to_hex
+from cadgraph.draw.render.picture import Look, Paint, Renderer
+from cadgraph.draw.render.views import three_quarter_view
+from cadgraph.draw.report.colors import BACKDROP, RELATION, UNLABELLED, color_of_unit_type, group_colors
+from cadgraph.model.graph import SceneGraph
+from cadgraph.model.records import Cluster, Connected, Edge, Junction, Part, Point, Related, Terminal, Unit
+from cadgraph.model.scene import Ints, Scene
+
+__all__ = ["Picture", "cluster_colors", "draw_pictures", "functional_edges", "largest_first"]
+
+Bools = npt.NDArray[np.bool_]
+
+_MOST_TAGS = 48  # more tags in one picture hide what they speak of
+_LEGEND_CLUSTERS = 10
+_MARGIN = 0.07
+_NEARLY_ALL = 0.7
+_LEAD = 0.45  # of a line's width: from a line to the ball of what stands at it
+_SIDE_BY_SIDE = 1.6  # letters of pictures that the page shows at about half their size
+
+
+@dataclass(frozen=True)
+class Picture:
+    """One picture of the report.
+
+    Args:
+        name: short, for links.
+        title: a heading.
+        caption: one or two sentences.
+        alternative: what the picture shows, for those who don't see it.
+        image: RGB.
+        legend: colours and their meaning, for the page; the image holds none.
+        camera: that it was taken with.
+    """
+
+    name: str
+    title: str
+    caption: str
+    alternative: str
+    image: Image.Image
+    legend: tuple[LegendEntry, ...]
+    camera: Camera
+
+
+@dataclass(frozen=True)
+class _Ready:
+    """What all pictures are drawn from."""
+
+    scene: Scene
+    graph: SceneGraph
+    config: ReportConfig
+    renderer: Renderer
+    look: Look
+    part_of_mesh: list[Part | None]
+    colors: dict[str, str]
+    unit_colors: dict[str, str]
+
+
+def draw_pictures(scene: Scene, graph: SceneGraph, config: ReportConfig, progress: Progress = quiet) -> list[Picture]:
+    """Draws all pictures of a report.
+
+    Args:
+        scene: that the graph was made from; meshes are found by their source paths.
+        graph: the finished graph.
+        config: size, anti-aliasing and number of pictures.
+        progress: told how many of the pictures are drawn.
+
+    Returns:
+        The pictures by group (with relations), as it is, by cluster; then the pipe systems, the largest first.
+        None at all if the scene has nothing to draw.
+    """
+    if not scene.n_triangles or not np.isfinite(scene.vertices).all(axis=1).any():
+        return []
+    owner = {mesh: part for part in graph.parts() for mesh in part.meshes}
+    colors = group_colors(graph)
+    ready = _Ready(
+        scene, graph, config, Renderer(scene), Look(samples=config.samples), [owner.get(p) for p in scene.paths],
+        colors, color_of_unit_type(graph, colors),
+    )  # fmt: skip
+    shown = _shown_meshes(ready)
+    camera = _camera(ready, shown, three_quarter_view(ready.renderer, shown, aspect=config.width / config.height))
+    groups, hatched, legend = _group_paint(ready)
+    clusters = _cluster_paint(ready)
+    paints = [Paint(groups, hatched), Paint(source_colors(scene)), Paint(clusters)]
+    images = ready.renderer.pictures(camera, paints, ready.look)
+    pictures = [
+        _by_group(ready, camera, images[0], legend),
+        _as_it_is(ready, camera, images[1]),
+        _by_cluster(ready, camera, images[2], bool((clusters == from_hex(BACKDROP)).all(axis=1).any())),
+    ]
+    systems = largest_first(graph.clusters("pipe system"))[: config.max_systems]
+    # The page shows a single system over its whole width, several side by side.
+    size = 1.0 if len(systems) == 1 else _SIDE_BY_SIDE
+    for number, cluster in enumerate(systems, 1):
+        progress("draw report", number / (len(systems) + 1))
+        picture = _system(ready, cluster, f"Pipe system {number}: {cluster.id}", camera, size)
+        if picture is not None:
+            pictures.append(picture)
+    return pictures
+
+
+def largest_first(clusters: Sequence[Cluster]) -> list[Cluster]:
+    """By number of parts, descending; of equals by id."""
+    return sorted(clusters, key=lambda cluster: (-cluster.n_parts, cluster.id))
+
+
+def cluster_colors(graph: SceneGraph) -> dict[str, str]:
+    """``"#rrggbb"`` by cluster id, the largest cluster first."""
+    clusters = largest_first(graph.clusters())
+    return {c.id: to_hex(color) for c, color in zip(clusters, distinct_colors(len(clusters)), strict=True)}
+
+
+def functional_edges(graph: SceneGraph) -> list[Edge]:
+    """Relations of Algorithm 1 and connections along pipes, in the order of the file."""
+    return [edge for edge in graph.document.edges if isinstance(edge, Related | Connected)]
+
+
+def _drawn_edges(graph: SceneGraph) -> list[Edge]:
+    """What the red lines stand for: connections along pipes; Algorithm 1's relations in paper mode or without them."""
+    connected, related = list[Edge](graph.of_kind(Connected)), list[Edge](graph.of_kind(Related))
+    return related or connected if graph.document.config.get("method") == "paper" else connected or related
+
+
+def _by_group(ready: _Ready, camera: Camera, image: Image.Image, legend: tuple[LegendEntry, ...]) -> Picture:
+    units, edges = ready.graph.units(), _drawn_edges(ready.graph)
+    image = _related(ready, image, camera, units, edges)
+    told = "Every part in the colour of its group. "
+    if any(isinstance(edge, Connected) for edge in edges):
+        told += "Red lines are the connections along the pipes; red balls are units, grey ones junctions and ends."
+    elif edges:
+        told += "Red lines are the functional relations between units, whose balls stand at their centroids."
+    elif units:
+        told += "Red balls stand at the centroids of the functional units."
+    groups = ", ".join(entry.text for entry in legend) or "none"
+    return Picture(
+        "groups", "By group, with relations", told.strip(),
+        f"The scene, coloured by group ({groups}), with {len(units)} functional units and {len(edges)} relations.",
+        image, legend, camera,
+    )  # fmt: skip
+
+
+def _as_it_is(ready: _Ready, camera: Camera, image: Image.Image) -> Picture:
+    given = np.isfinite(ready.scene.colors).all(axis=1)
+    told = "in the colours of the source" + ("" if given.all() else ", light grey where it has none")
+    if not given.any():
+        told = "in grey, since the source gives no colours"
+    return Picture(
+        "source", "As it is", f"The scene {told}.", f"The scene from obliquely above, {told}.", image, (), camera
+    )
+
+
+def _cluster_paint(ready: _Ready) -> npt.NDArray[np.float32]:
+    linear = {cluster: from_hex(color) for cluster, color in cluster_colors(ready.graph).items()}
+    paint = np.tile(from_hex(BACKDROP), (ready.scene.n_meshes, 1))
+    for mesh, part in enumerate(ready.part_of_mesh):
+        cluster = ready.graph.cluster_of(part) if part is not None else None
+        if cluster is not None:
+            paint[mesh] = linear[cluster.id]
+    return paint
+
+
+def _by_cluster(ready: _Ready, camera: Camera, image: Image.Image, others: bool) -> Picture:
+    colors = cluster_colors(ready.graph)
+    clusters = largest_first(ready.graph.clusters())
+    legend = [
+        LegendEntry(colors[c.id], f"{c.id}: {c.kind or 'unlabelled'}, {_counted(c.n_parts, 'part')}")
+        for c in clusters[:_LEGEND_CLUSTERS]
+    ]
+    more = len(clusters) - len(legend)
+    if others:
+        legend.append(LegendEntry(BACKDROP, "ground, and parts outside all clusters"))
+    told = f"Every connected structure in a colour of its own, {len(clusters)} in all"
+    told += f"; the legend names the {_LEGEND_CLUSTERS} largest." if more > 0 else "."
+    return Picture(
+        "clusters", "By cluster", told, f"The scene coloured by cluster: {_counted(len(clusters), 'cluster')}.",
+        image, tuple(legend), camera,
+    )  # fmt: skip
+
+
+def _system(ready: _Ready, cluster: Cluster, title: str, overview: Camera, size: float) -> Picture | None:
+    graph, renderer = ready.graph, ready.renderer
+    members = {part.id for part in graph.parts(cluster=cluster.id)}
+    inside = np.array([part is not None and part.id in members for part in ready.part_of_mesh])
+    meshes = np.flatnonzero(inside & (np.diff(ready.scene.face_offsets) > 0))
+    if not len(ready.renderer.points(meshes)):
+        return None
+    paint, hatched, legend = _group_paint(ready, inside)
+    units = [unit for unit in graph.units() if members.intersection(unit.parts)]
+    names = {unit.id for unit in units}
+    ends: list[Junction | Terminal] = [*graph.of_layer(Junction), *graph.of_layer(Terminal)]
+    names |= {end.id for end in ends if members.intersection(end.parts)}
+    edges = [edge for edge in _drawn_edges(graph) if edge.source in names and edge.target in names]
+    # A system that is nearly everything would look as in the overview: it is shown from the other side.
+    unlike = -overview.forward if len(meshes) > _NEARLY_ALL * ready.scene.n_meshes else None
+    aspect = ready.config.width / ready.config.height
+    camera = _camera(ready, meshes, three_quarter_view(renderer, meshes, alone=True, aspect=aspect, unlike=unlike))
+    image = renderer.picture(camera, Paint(paint, hatched, ghosted=~inside), _grounded(ready, meshes))
+    image = _related(ready, image, camera, units, edges, size)
+    types = [unit.unit_type for unit in units]
+    counts = [_counted(types.count(name), name) for name in dict.fromkeys(types)]
+    contents = ", ".join([_counted(cluster.n_parts, "part"), *counts, _counted(len(edges), "relation")])
+    extent = " × ".join(f"{high - low:.2f}" for low, high in zip(*cluster.aabb, strict=True))
+    return Picture(
+        f"system-{cluster.id}", title, f"{contents}; {extent} m.",
+        f"Pipe system {cluster.id} coloured by group, all else faint: {contents}.", image, legend, camera,
+    )  # fmt: skip
+
+
+def _grounded(ready: _Ready, meshes: Ints) -> Look:
+    """A floor only where the system stands on the same ground as the scene: else its shadow would hang in the air."""
+    everything, system = ready.renderer.points(), ready.renderer.points(meshes)
+    height = everything[:, 2].max() - everything[:, 2].min()
+    return replace(ready.look, floor=bool(system[:, 2].min() - everything[:, 2].min() < 0.1 * height))
+
+
+def _group_paint(
+    ready: _Ready, inside: Bools | None = None
+) -> tuple[npt.NDArray[np.float32], Bools, tuple[LegendEntry, ...]]:
+    """Colours and stripes of all meshes, and the legend of those inside."""
+    n = ready.scene.n_meshes
+    paint, hatched = np.tile(from_hex(UNLABELLED), (n, 1)), np.zeros(n, bool)
+    linear = {group: from_hex(color) for group, color in ready.colors.items()}
+    used: set[str] = set()
+    for mesh, part in enumerate(ready.part_of_mesh):
+        counts = inside is None or inside[mesh]
+        if part is not None and part.label is not None:
+            paint[mesh] = linear[part.label.group]
+            if counts:
+                used.add(part.label.group)
+        elif part is not None and part.ground:
+            paint[mesh] = from_hex(BACKDROP)
+        else:
+            hatched[mesh] = True
+    legend = [LegendEntry(color, group) for group, color in ready.colors.items() if group in used]
+    if (hatched if inside is None else hatched & inside).any():
+        legend.append(LegendEntry(UNLABELLED, "unlabelled", hatched=True))
+    return paint, hatched, tuple(legend)
+
+
+def _related(
+    ready: _Ready, image: Image.Image, camera: Camera, units: Sequence[Unit], edges: Sequence[Edge], size: float = 1.0
+) -> Image.Image:
+    """Draws units and relations over a picture."""
+    crowded = len(units) > _MOST_TAGS
+    pairs = sorted({(min(e.source, e.target), max(e.source, e.target)) for e in edges})
+    segments = _lines(ready, edges, 3.0 if crowded else 4.5)
+    marks = [Mark(_local(ready, unit.centroid), RELATION, 4.5 if crowded else 7.0) for unit in units]
+    ends = {name for pair in pairs for name in pair if not isinstance(ready.graph.nodes[name], Unit)}
+    marks += [Mark(_place(ready, name), "#5b6470", 4.5) for name in sorted(ends)]
+    tags = [
+        Tag(_local(ready, unit.centroid), unit.tag, ready.unit_colors.get(unit.unit_type, "#5b6470")) for unit in units
+    ]
+    return annotate(image, camera, segments=segments, marks=marks, tags=() if crowded else tags, size=size)
+
+
+def _lines(ready: _Ready, edges: Sequence[Edge], width: float) -> list[Segment]:
+    """Connections along their pipes, with a thinner lead from there to a unit's ball; relations straight."""
+    found: dict[tuple[Point, Point], float] = {}
+    for edge in edges:
+        path = [_local(ready, point) for point in edge.path] if isinstance(edge, Connected) else []
+        start, end = _place(ready, edge.source), _place(ready, edge.target)
+        if len(path) < 2:
+            found.setdefault((min(start, end), max(start, end)), width)
+            continue
+        for a, b in pairwise(path):
+            found.setdefault((min(a, b), max(a, b)), width)
+        for a, b in ((start, path[0]), (path[-1], end)):
+            found.setdefault((min(a, b), max(a, b)), width * _LEAD)
+    return [Segment(a, b, RELATION, size) for (a, b), size in sorted(found.items()) if a != b]
+
+
+def _place(ready: _Ready, name: str) -> Point:
+    node = ready.graph.nodes[name]
+    if isinstance(node, Junction | Terminal):
+        return _local(ready, node.point)
+    if isinstance(node, Unit | Part | Cluster):
+        return _local(ready, node.centroid)
+    raise ValueError(f"node {name!r} of layer {node.layer!r} has no place in the picture, so no relation can end there")
+
+
+def _local(ready: _Ready, point: Point) -> Point:
+    x, y, z = (float(c) for c in np.asarray(point) - ready.scene.origin)
+    return x, y, z
+
+
+def _shown_meshes(ready: _Ready) -> Ints:
+    """What the overviews are framed on: everything but the ground, unless there is nothing else."""
+    shown = np.array([part is None or not part.ground for part in ready.part_of_mesh], bool)
+    filled = np.diff(ready.scene.face_offsets) > 0
+    return np.flatnonzero(shown & filled if (shown & filled).any() else filled)
+
+
+def _camera(ready: _Ready, meshes: Ints, direction: npt.ArrayLike) -> Camera:
+    size = (ready.config.width, ready.config.height)
+    return frame(ready.renderer.points(meshes), direction, size, margin=_MARGIN)
+
+
+def _counted(count: int, noun: str) -> str:
+    return f"{count:,} {noun}" + ("" if count == 1 else "s")

@@ -1,0 +1,30 @@
+"""The functional graph as a schematic in the manner of a piping and instrumentation diagram."""
+
+from __future__ import annotations
+
+from cadgraph.model.graph import SceneGraph
+from cadgraph.query import Network
+
+__all__ = ["draw_diagram"]
+
+
+def draw_diagram(graph: SceneGraph | Network, system: str | None = None) -> str:
+    """The functional graph as a schematic, one or all systems on a sheet.
+
+    Valves after ISO 10628-2, instruments after ISA 5.1. Arrows stand where the direction of flow is known. Every name
+    from the source is text, never markup; the same graph gives the same bytes.
+
+    Args:
+        graph: the finished graph, or its network.
+        system: id of the system to draw; all where None.
+
+    Returns:
+        An SVG document.
+
+    Raises:
+        ValueError: no system has that id.
+    """
+    # The layout library is needed only by those who draw.
+    from cadgraph.draw.schematic.drawing import draw_sheet
+
+    return draw_sheet(graph if isinstance(graph, Network) else Network(graph), system)

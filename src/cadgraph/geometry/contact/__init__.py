@@ -1,0 +1,1 @@
+"""Which surfaces come near each other, how near, and where."""

@@ -1,0 +1,1 @@
+"""The lines along the middle of tubes, found by cross-sections."""

@@ -1,0 +1,1 @@
+"""What a shape is: repeats in any pose, likeness, simple solids, symmetry."""

@@ -1,0 +1,1 @@
+"""Which meshes can be seen from outside, and which lie inside others."""

@@ -1,0 +1,1 @@
+"""Who says what a part is: the embedded network, a vision-language model, catalogues, corrections."""

@@ -1,0 +1,276 @@
+"""A user's corrections laid over the labels, and what they say about other parts.
+
+A correction spreads in three steps: to the exact repeats of the part, to parts of its shape with other triangles, other
+size or mirrored, and to its kin: parts that lie close to it in the space in which the network sees shapes, even if the
+network has no name for them. The farther a part is, and the surer somebody was about it, the less a correction reaches.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from cadgraph.labelers.catalog import find_matches
+from cadgraph.model.catalog import Catalog, Entry
+from cadgraph.model.corrections import Correction, Fingerprint
+from cadgraph.model.parts import Contacts, Label, Parts
+from cadgraph.model.scene import Diagnostic, Floats, Scene
+
+__all__ = ["apply_corrections", "find_parts", "fingerprint_of"]
+
+# How far a correction reaches among kin, as distance of unit vectors (0 the same, 1.41 nothing in common), and how many
+# times as far that may be as the nearest part with another label: for a part that nobody was sure about; one with the
+# label that the corrected parts had, too; any other. Ours, measured on kinds of parts that a network had not learnt, in
+# generated plants; see docs/catalog.md.
+CONFUSED, SURE = (0.5, 0.9), (0.3, 0.7)
+_OPEN_SHARE = 1.2
+# Parts that nobody was sure about are reached as far as corrected parts of one label lie apart, times this, within
+# these bounds; a single correction reaches as far as the last number says.
+_SPREAD, _LEAST_OPEN, _MOST_OPEN, _ALONE = 1.5, 0.5, 0.85, 0.6
+_SETTLED = frozenset({"author", "human", "catalog"})
+_KIN_CONFIDENCE = 0.9  # of the closest kin
+_PLACE = 0.01  # m; a part that was renamed lies where it lay
+
+
+def apply_corrections(
+    labels: Sequence[Label | None],
+    corrections: Sequence[Correction],
+    scene: Scene,
+    parts: Parts,
+    contacts: Contacts,
+) -> tuple[tuple[Label | None, ...], tuple[Diagnostic, ...]]:
+    """Lays corrections over the labels so far.
+
+    Args:
+        labels: of each part.
+        corrections: the latest last.
+        scene: the source meshes.
+        parts: made from them.
+        contacts: pairs of parts that are adjacent.
+
+    Returns:
+        The labels of each part, and what is to be told.
+    """
+    if not corrections:
+        return tuple(labels), ()
+    found = find_parts(corrections, scene, parts)
+    corrected = {part: c for part, c in zip(found, corrections, strict=True) if part is not None}
+    work = _Spread(labels, corrected, parts)
+    work.correct()
+    work.to_repeats(contacts)
+    work.to_near_shapes()
+    work.to_kin(contacts)
+    lost = [c for part, c in zip(found, corrections, strict=True) if part is None]
+    if not lost:
+        return tuple(work.labels), ()
+    message = f"{len(lost)} corrections found no part any more: nothing of that path and shape is in the scene"
+    return tuple(work.labels), (Diagnostic("correction-lost", message, tuple(c.mesh for c in lost)),)
+
+
+def fingerprint_of(parts: Parts, part: int) -> Fingerprint:
+    """What of a part's shape stays in any pose."""
+    measured = parts.properties
+    extents = [float(x) for x in measured.obb_extents[part]]
+    lengths = (float(np.sqrt(max(measured.area[part], 0.0))), extents[0], extents[1], extents[2])
+    return Fingerprint(int(measured.n_triangles[part]), lengths)
+
+
+def find_parts(corrections: Sequence[Correction], scene: Scene, parts: Parts) -> list[int | None]:
+    """The part that each correction means: that of its mesh if the shape agrees, else one of that shape there."""
+    rank = {path: i for i, path in enumerate(scene.paths)}
+    prints = [fingerprint_of(parts, part) for part in range(parts.n_parts)]
+    by_count: dict[int, list[int]] = {}
+    for part, fingerprint in enumerate(prints):
+        by_count.setdefault(fingerprint.n_triangles, []).append(part)
+    found: list[int | None] = []
+    for correction in corrections:
+        mesh = rank.get(correction.mesh)
+        here: int | None = int(parts.part_of_mesh[mesh]) if mesh is not None else None
+        if here is None or not prints[here].agrees(correction.fingerprint):
+            place = np.asarray(correction.centroid) - scene.origin
+            others = [
+                (float(np.linalg.norm(parts.properties.centroid[other] - place)), other)
+                for other in by_count.get(correction.fingerprint.n_triangles, ())
+                if prints[other].agrees(correction.fingerprint)
+            ]
+            far, nearest = min(others, default=(np.inf, -1))
+            here = nearest if far <= _PLACE else None
+        found.append(here)
+    return found
+
+
+@dataclass(frozen=True)
+class _Source:
+    """A corrected part that speaks for others."""
+
+    part: int
+    group: str
+    name: str | None
+
+
+class _Spread:
+    """Labels while corrections spread; ``labels`` is what comes out."""
+
+    def __init__(self, labels: Sequence[Label | None], corrected: Mapping[int, Correction], parts: Parts) -> None:
+        self.before = tuple(labels)
+        self.labels = list(labels)
+        self._corrected = corrected
+        self._parts = parts
+        self._sources = [_Source(p, c.group, c.name) for p, c in corrected.items() if not c.this_only]
+        self._space: Floats | None = None
+
+    def correct(self) -> None:
+        """The corrected parts themselves."""
+        for part, correction in self._corrected.items():
+            evidence = {"why": "corrected by a user", "mesh": correction.mesh, **_former(self.before[part])}
+            self.labels[part] = Label(correction.group, correction.name, 1.0, "human", evidence)
+
+    def to_repeats(self, contacts: Contacts) -> None:
+        """Parts of exactly the same shape; of several corrections of it the part most alike in its place counts."""
+        shape = self._parts.shape
+        by_shape: dict[int, list[_Source]] = {}
+        for source in self._sources:
+            by_shape.setdefault(int(shape[source.part]), []).append(source)
+        for part in range(self._parts.n_parts):
+            sources = by_shape.get(int(shape[part]), [])
+            if not sources or not self._may_change(part, {"author", "human"}):
+                continue
+            source = sources[-1]
+            if len({(s.group, s.name) for s in sources}) > 1:
+                space = self._kinship(contacts)
+                source = min(reversed(sources), key=lambda s: float(np.linalg.norm(space[s.part] - space[part])))
+            self._take(part, source, 1.0, "same shape", "exact", {})
+
+    def to_near_shapes(self) -> None:
+        """Parts of the same shape with other triangles, of other size, or mirrored."""
+        open_parts = [part for part in range(self._parts.n_parts) if self._is_open(part)]
+        if not self._sources or not open_parts:
+            return
+        entries = [Entry("", s.group, s.name) for s in self._sources]
+        catalog = Catalog.of(self._parts.scene.select([s.part for s in self._sources]), entries)
+        shape = self._parts.shape
+        heads: dict[int, int] = {}
+        for part in open_parts:
+            heads.setdefault(int(shape[part]), part)
+        matches, _ = find_matches(catalog, self._parts.scene.select(list(heads.values())))
+        of_shape = dict(zip(heads, matches, strict=True))
+        for part in open_parts:
+            match = of_shape[int(shape[part])]
+            if match is not None:
+                words = f"{match.kind} shape" if match.kind == "mirrored" else f"{match.similarity:.0%} the same shape"
+                words += f" at {match.scale:.3g} times the size" if match.kind == "scaled" else ""
+                more = {"similarity": round(match.similarity, 4), "scale": round(match.scale, 4)}
+                self._take(part, self._sources[match.entry], match.confidence, words, match.kind, more)
+
+    def to_kin(self, contacts: Contacts) -> None:
+        """Parts that the network sees much like corrected ones."""
+        open_parts = [part for part in range(self._parts.n_parts) if self._is_open(part)]
+        if not self._sources or not open_parts:
+            return
+        space = self._kinship(contacts)
+        confused = {
+            (s.group, s.name): {
+                (old.group, old.name)
+                for other in self._sources
+                if (other.group, other.name) == (s.group, s.name) and (old := self.before[other.part]) is not None
+            }
+            for s in self._sources
+        }
+        reaches = {label: self._reach(space, label) for label in confused}
+        chosen = []
+        for part in open_parts:
+            far = np.linalg.norm(space[[s.part for s in self._sources]] - space[part], axis=1)
+            source, near = self._sources[int(far.argmin())], float(far.min())
+            wrong = confused[source.group, source.name]
+            old = self.before[part]
+            label = (old.group, old.name) if old is not None else None
+            if label == (source.group, source.name):
+                continue
+            widest = reaches[source.group, source.name]
+            reach, share = (widest, _OPEN_SHARE) if label is None else CONFUSED if label in wrong else SURE
+            if near <= min(reach, widest) and near <= share * self._nearest_other(space, part, source, wrong):
+                chosen.append((part, source, near))
+        for part, source, near in chosen:
+            alike = 1.0 - near**2 / 2  # the cosine
+            confidence = _KIN_CONFIDENCE * alike
+            self._take(part, source, confidence, f"much like it ({alike:.0%})", "kin", {"similarity": round(alike, 4)})
+
+    def _reach(self, space: Floats, label: tuple[str, str | None]) -> float:
+        """How far corrections to a label reach among parts that nobody was sure about."""
+        shape = self._parts.shape
+        members = {int(shape[s.part]): s.part for s in self._sources if (s.group, s.name) == label}
+        rows = space[list(members.values())]
+        if len(rows) < 2:
+            return _ALONE
+        apart = np.linalg.norm(rows[:, None] - rows[None], axis=2)
+        np.fill_diagonal(apart, np.inf)
+        return float(np.clip(_SPREAD * np.median(apart.min(axis=1)), _LEAST_OPEN, _MOST_OPEN))
+
+    def _nearest_other(
+        self, space: Floats, part: int, source: _Source, wrong: Collection[tuple[str, str | None]]
+    ) -> float:
+        """How far the nearest part is whose label, another one, nothing speaks against."""
+        mine = (source.group, source.name)
+        others = [
+            other
+            for other, label in enumerate(self.labels)
+            if other != part
+            and label is not None
+            and (label.group, label.name) != mine
+            and ((label.group, label.name) not in wrong or label.source in _SETTLED)
+            and self._parts.shape[other] != self._parts.shape[part]
+        ]
+        return float(np.linalg.norm(space[others] - space[part], axis=1).min()) if others else np.inf
+
+    def _take(
+        self, part: int, source: _Source, confidence: float, how: str, match: str, more: Mapping[str, Any]
+    ) -> None:
+        mesh = self._corrected[source.part].mesh
+        evidence = {
+            "why": f"{how} as {mesh}, which a user corrected" if match == "exact" else f"{how}: {mesh} was corrected",
+            "corrected": mesh,
+            "match": match,
+            **more,
+            **_former(self.before[part]),
+        }
+        self.labels[part] = Label(source.group, source.name, confidence, "repeat", evidence)
+
+    def _may_change(self, part: int, kept: Collection[str]) -> bool:
+        label = self.labels[part]
+        return (
+            part not in self._corrected
+            and not self._parts.ground[part]
+            and not (label is not None and label.source in kept)
+        )
+
+    def _is_open(self, part: int) -> bool:
+        """Whether nobody has settled a part, nor a correction reached it."""
+        label = self.labels[part]
+        reached = label is not None and "corrected" in label.evidence
+        return self._may_change(part, _SETTLED) and not reached
+
+    def _kinship(self, contacts: Contacts) -> Floats:
+        if self._space is None:
+            from cadgraph.labelers.embedded.features import observe
+            from cadgraph.labelers.embedded.model import default_model
+
+            self._space = default_model().kinship(observe(self._parts, contacts))
+        return self._space
+
+
+def _former(label: Label | None) -> dict[str, Any]:
+    """What a part was before, so that nothing is lost."""
+    if label is None:
+        return {}
+    return {
+        "before": {
+            "group": label.group,
+            "name": label.name,
+            "confidence": round(label.confidence, 6),
+            "source": label.source,
+            **({"why": label.evidence["why"]} if "why" in label.evidence else {}),
+        }
+    }

@@ -1,0 +1,1 @@
+"""The embedded labeler: a trained network over shapes and contacts, offline and without a GPU."""

@@ -1,0 +1,146 @@
+"""The embedded labeler: a trained network over shapes and contacts, offline and without a GPU."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from cadgraph.labelers.embedded.features import Observation, observe
+from cadgraph.labelers.embedded.model import STRANGE, Model, default_model
+from cadgraph.labelers.embedded.wording import describe_company, describe_form
+from cadgraph.model.parts import Contacts, Guess, Label, Parts
+from cadgraph.model.scene import Floats, Ints
+from cadgraph.model.vocabulary import Vocabulary
+
+__all__ = ["EmbeddedLabeler", "Verdicts", "judge", "spread"]
+
+_GUESSES = 3
+_LEAST_GUESS = 0.02
+_SHARED = 0.5  # greatest weight of what all repeats of a shape say together
+
+
+@dataclass(frozen=True)
+class Verdicts:
+    """The probabilities of all parts, and what they come to.
+
+    Args:
+        classes: ``(group, name)`` of each column.
+        names: ``(n_parts, n_classes)`` probabilities of the classes; what is missing to 1 is strange to the model, or
+            unknown to the vocabulary.
+        groups: ``(n_parts, n_groups)``.
+        group_names: of the columns of ``groups``.
+    """
+
+    classes: tuple[tuple[str, str], ...]
+    names: Floats
+    groups: Floats
+    group_names: tuple[str, ...]
+
+
+class EmbeddedLabeler:
+    """Names parts by the trained network in the package.
+
+    Args:
+        model: another one than that in the package.
+    """
+
+    def __init__(self, model: Model | None = None) -> None:
+        self._model = model or default_model()
+
+    @property
+    def least_confidence(self) -> float:
+        """Labels below this confidence are guesses: set on families of parts that were held out of training."""
+        return self._model.threshold
+
+    @property
+    def known(self) -> frozenset[tuple[str, str]]:
+        """The names that it has learnt, as (group, name)."""
+        pairs = (label.partition("/") for label in self._model.classes if label != STRANGE)
+        return frozenset((group, name) for group, _, name in pairs)
+
+    def label(self, parts: Parts, contacts: Contacts, vocabulary: Vocabulary) -> Sequence[Label | None]:
+        """Labels parts; see ``Labeler``. Names that the vocabulary lacks are never given."""
+        seen = observe(parts, contacts)
+        verdicts = judge(self._model, seen, vocabulary)
+        best = verdicts.names.argmax(axis=1) if len(verdicts.classes) else np.zeros(parts.n_parts, np.int64)
+        around = seen.surroundings
+        starts = np.searchsorted(around.here, np.arange(parts.n_parts + 1))
+        said = [
+            verdicts.classes[k][1] if len(p) and p[k] >= self.least_confidence else None
+            for k, p in zip(best.tolist(), verdicts.names, strict=True)
+        ]
+        alike = np.expm1(around.places[:, 1]).round().astype(np.int64)
+        answers: list[Label | None] = []
+        for part in range(parts.n_parts):
+            if parts.ground[part] or not len(verdicts.classes):
+                answers.append(None)
+                continue
+            near = [said[j] for j in around.there[starts[part] : starts[part + 1]].tolist()]
+            form = describe_form(seen.facts[int(seen.shape_of_part[part])])
+            why = f"{form}; {describe_company(near, int(alike[part]))}"
+            answers.append(_answer(verdicts, part, int(best[part]), self.least_confidence, why))
+        return answers
+
+
+def judge(model: Model, seen: Observation, vocabulary: Vocabulary) -> Verdicts:
+    """The probabilities of all names and groups that model and vocabulary share."""
+    raw = spread(model.probabilities(seen), seen.shape_of_part)
+    known = [
+        (k, (group, name))
+        for k, label in enumerate(model.classes)
+        if label != STRANGE
+        for group, _, name in [label.partition("/")]
+        if vocabulary.holds(group, name)
+    ]
+    names = raw[:, [k for k, _ in known]]
+    classes = tuple(pair for _, pair in known)
+    group_names = tuple(dict.fromkeys(group for group, _ in classes))
+    groups = np.stack(
+        [names[:, [k for k, (g, _) in enumerate(classes) if g == group]].sum(axis=1) for group in group_names], axis=1
+    ) if group_names else np.zeros((len(names), 0))  # fmt: skip
+    return Verdicts(classes, names, groups, group_names)
+
+
+def spread(probabilities: Floats, shape: Ints) -> Floats:
+    """Lets the repeats of each shape agree, as far as they look alike to begin with.
+
+    A bolt that the network is unsure about follows the other bolts; a plain disc that is a blind flange here keeps its
+    name although it is a base plate there.
+
+    Args:
+        probabilities: ``(n_parts, n_classes)``.
+        shape: ``(n_parts,)`` the same for repeats.
+
+    Returns:
+        Of the same shape as ``probabilities``.
+    """
+    n_shapes = int(shape.max(initial=-1)) + 1
+    count = np.maximum(np.bincount(shape, minlength=n_shapes), 1)
+    mean = np.zeros((n_shapes, probabilities.shape[1]))
+    np.add.at(mean, shape, probabilities)
+    common = (mean / count[:, None])[shape]
+    agreement = np.sqrt(probabilities * common).sum(axis=1) ** 2
+    weight = _SHARED * agreement * (count[shape] > 1)
+    mixed: Floats = (1 - weight[:, None]) * probabilities + weight[:, None] * common
+    return mixed
+
+
+def _answer(verdicts: Verdicts, part: int, best: int, least: float, why: str) -> Label:
+    """The likeliest name; only its group where no name is likely enough but the group is."""
+    p = verdicts.names[part]
+    order = np.argsort(-p, kind="stable")[:_GUESSES]
+    guesses = tuple(
+        Guess(verdicts.classes[k][0], verdicts.classes[k][1], round(float(p[k]), 4))
+        for k in order.tolist()
+        if k == best or p[k] >= _LEAST_GUESS
+    )
+    group, name = verdicts.classes[best]
+    k = int(np.argmax(verdicts.groups[part]))
+    evidence = {"why": why}
+    if p[best] < least <= verdicts.groups[part, k]:
+        return Label(
+            verdicts.group_names[k], None, min(1.0, float(verdicts.groups[part, k])), "geometry", evidence, guesses
+        )
+    return Label(group, name, min(1.0, float(p[best])), "geometry", evidence, guesses)

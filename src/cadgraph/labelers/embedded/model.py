@@ -1,0 +1,171 @@
+"""The trained model as it lies in the package: networks, the names they know, and how sure they must be."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import zipfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from importlib import resources
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from cadgraph.errors import LabelError
+from cadgraph.labelers.embedded.classifier import Network
+from cadgraph.labelers.embedded.descriptor import FORMS, SIZES
+from cadgraph.labelers.embedded.features import Observation
+from cadgraph.labelers.embedded.surroundings import PLACE_FEATURES, SIDE_FEATURES
+from cadgraph.model.scene import Floats
+
+__all__ = ["STRANGE", "VERSION", "Model", "default_model", "inputs_of", "read_model", "write_model"]
+
+VERSION = 1
+STRANGE = "strange/strange"
+"""The class of what belongs to no plant; it is never given as a label."""
+
+_FILE = "model.npz"
+_INPUTS = (*FORMS, *SIZES, *PLACE_FEATURES)
+_REMEDY = "reinstall cadgraph, or train it anew with 'make train'"
+
+
+@dataclass(frozen=True)
+class Model:
+    """What the embedded labeler has learnt.
+
+    Args:
+        members: networks whose answers are averaged.
+        classes: ``group/name``, and ``STRANGE``.
+        temperature: the scores are divided by it, so that confidence means frequency.
+        threshold: least confidence of a label.
+        card: how it was made: seeds, settings, figures.
+    """
+
+    members: tuple[Network, ...]
+    classes: tuple[str, ...]
+    temperature: float
+    threshold: float
+    card: Mapping[str, Any] = field(default_factory=dict)
+
+    def probabilities(self, seen: Observation) -> Floats:
+        """The probability of each class for each part, ``(n_parts, n_classes)``."""
+        around = seen.surroundings
+        inputs = inputs_of(seen)
+        total = np.zeros((len(inputs), len(self.classes)))
+        for member in self.members:
+            total += softmax(member.scores(inputs, around.sides, around.here, around.there) / self.temperature)
+        return total / max(len(self.members), 1)
+
+    def kinship(self, seen: Observation) -> Floats:
+        """A point for each part, ``(n_parts, width)`` of length 1: parts of one kind lie close, known or not.
+
+        It is the direction of what the networks make of a part's shape, size and place before neighbours talk.
+        """
+        inputs = inputs_of(seen)
+        hidden = [member.hidden(inputs) for member in self.members]
+        units = [rows / np.maximum(np.linalg.norm(rows, axis=1, keepdims=True), 1e-12) for rows in hidden]
+        points: Floats = np.hstack(units) / np.sqrt(max(len(units), 1)) if units else np.zeros((len(inputs), 0))
+        return points
+
+
+def softmax(scores: Floats) -> Floats:
+    """Scores as probabilities, row by row."""
+    powers = np.exp(scores - scores.max(axis=1, keepdims=True, initial=-np.inf))
+    shares: Floats = powers / powers.sum(axis=1, keepdims=True)
+    return shares
+
+
+def inputs_of(seen: Observation) -> Floats:
+    """What a network sees of each part by itself, ``(n_parts, n_inputs)``."""
+    shape = seen.shape_of_part
+    return np.hstack([seen.shapes.forms[shape], seen.shapes.sizes[shape], seen.surroundings.places])
+
+
+def write_model(model: Model, path: str | Path) -> None:
+    """Writes a model: plain arrays and one JSON text, nothing that could run."""
+    arrays: dict[str, Any] = {}
+    for k, member in enumerate(model.members):
+        for name, values in member.weights.items():
+            # Half precision halves the file; standardisation needs all digits.
+            arrays[f"{k}/{name}"] = values.astype(np.float32 if "mean" in name or "spread" in name else np.float16)
+    head = {
+        "version": VERSION,
+        "classes": list(model.classes),
+        "temperature": model.temperature,
+        "threshold": model.threshold,
+        "rounds": [member.rounds for member in model.members],
+        "inputs": _digest(_INPUTS),
+        "sides": _digest(SIDE_FEATURES),
+        "card": dict(model.card),
+    }
+    arrays["head"] = np.frombuffer(json.dumps(head, sort_keys=True).encode(), np.uint8)
+    with Path(path).open("wb") as file:
+        np.savez_compressed(file, allow_pickle=False, **arrays)
+
+
+def read_model(path: str | Path) -> Model:
+    """Reads what ``write_model`` wrote.
+
+    Raises:
+        LabelError: the file is missing or damaged, or of another version.
+    """
+    try:
+        return _parse(Path(path).read_bytes(), str(path))
+    except OSError as error:
+        raise LabelError(f"{path}: the labeler's model can't be read ({error.strerror}); {_REMEDY}") from error
+
+
+def _parse(content: bytes, name: str) -> Model:
+    try:
+        with np.load(BytesIO(content), allow_pickle=False) as file:
+            arrays = {key: file[key] for key in file.files}
+        head = json.loads(arrays.pop("head").tobytes().decode())
+        version = head["version"]
+    except (ValueError, KeyError, EOFError, OSError, zipfile.BadZipFile, AttributeError, TypeError) as error:
+        raise LabelError(f"{name}: the labeler's model is damaged; {_REMEDY}") from error
+    if version != VERSION or head.get("inputs") != _digest(_INPUTS) or head.get("sides") != _digest(SIDE_FEATURES):
+        raise LabelError(
+            f"{name}: the labeler's model is of version {version!r} or of another cadgraph, this one reads version "
+            f"{VERSION}; {_REMEDY}"
+        )
+    try:
+        members = tuple(
+            Network(
+                {
+                    key.split("/", 1)[1]: values.astype(np.float64)
+                    for key, values in arrays.items()
+                    if key.startswith(f"{k}/")
+                },
+                int(rounds),
+            )
+            for k, rounds in enumerate(head["rounds"])
+        )
+        return Model(
+            members, tuple(map(str, head["classes"])), float(head["temperature"]), float(head["threshold"]),
+            head["card"],
+        )  # fmt: skip
+    except (KeyError, ValueError, TypeError) as error:
+        raise LabelError(f"{name}: the labeler's model is damaged; {_REMEDY}") from error
+
+
+@lru_cache(maxsize=1)
+def default_model() -> Model:
+    """The model in the package.
+
+    Raises:
+        LabelError: it is missing or damaged.
+    """
+    file = resources.files("cadgraph.labelers.embedded").joinpath(_FILE)
+    try:
+        content = file.read_bytes()
+    except OSError as error:
+        raise LabelError(f"{_FILE}: the labeler's model is missing from the package; {_REMEDY}") from error
+    return _parse(content, _FILE)
+
+
+def _digest(names: Sequence[str]) -> str:
+    return hashlib.sha256("\n".join(names).encode()).hexdigest()[:16]

@@ -1,0 +1,93 @@
+"""Answers that were given, kept on disk: what was answered once is never asked again."""
+
+from __future__ import annotations
+
+import sqlite3
+import threading
+import time
+from collections.abc import Iterable
+from pathlib import Path
+
+from cadgraph.errors import LabelError, OutputError
+from cadgraph.labelers.lvlm.reply import Reply
+
+__all__ = ["Cache"]
+
+_SCHEMA = 1
+_TABLE = """
+CREATE TABLE IF NOT EXISTS answers (
+    key TEXT PRIMARY KEY, model TEXT NOT NULL, text TEXT, refusal TEXT, prompt_tokens INTEGER NOT NULL,
+    answer_tokens INTEGER NOT NULL, batch INTEGER NOT NULL, stored REAL NOT NULL
+) WITHOUT ROWID
+"""
+
+
+class Cache:
+    """Answers by the content of their questions. Safe for threads, for several processes, and for being killed.
+
+    Each answer is committed as it comes. In write-ahead mode a process that is killed loses nothing committed.
+
+    Args:
+        path: of the file; made if missing. ``":memory:"`` keeps nothing.
+
+    Raises:
+        LabelError: the file is something else.
+        OutputError: it can't be written.
+    """
+
+    def __init__(self, path: str | Path) -> None:
+        self.path = path
+        self._lock = threading.Lock()
+        try:
+            if str(path) != ":memory:":
+                Path(path).parent.mkdir(parents=True, exist_ok=True)
+            self._base = sqlite3.connect(str(path), timeout=30.0, check_same_thread=False, isolation_level=None)
+            self._base.execute("PRAGMA journal_mode=WAL")
+            self._base.execute("PRAGMA synchronous=NORMAL")
+            version = int(self._base.execute("PRAGMA user_version").fetchone()[0])
+            tables = self._base.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]
+            if version != _SCHEMA and (version or tables):
+                raise LabelError(f"{path}: not a cache of answers of this version; name another with lvlm.cache")
+            self._base.execute(_TABLE)
+            self._base.execute(f"PRAGMA user_version={_SCHEMA}")
+        except sqlite3.DatabaseError as error:
+            if isinstance(error, sqlite3.OperationalError):
+                raise OutputError(f"{path}: the cache of answers can't be opened ({error})") from error
+            raise LabelError(f"{path}: not a cache of answers ({error}); name another with lvlm.cache") from error
+        except OSError as error:
+            raise OutputError(f"{path}: the cache of answers can't be written ({error.strerror})") from error
+
+    def get(self, key: str) -> Reply | None:
+        """The answer to a question, or None."""
+        with self._lock:
+            row = self._base.execute(
+                "SELECT text, refusal, prompt_tokens, answer_tokens, batch FROM answers WHERE key = ?", (key,)
+            ).fetchone()
+        return None if row is None else Reply(row[0], row[1], int(row[2]), int(row[3]), batch=bool(row[4]))
+
+    def known(self, keys: Iterable[str]) -> set[str]:
+        """Which of these questions have an answer."""
+        return {key for key in keys if self.get(key) is not None}
+
+    def put(self, key: str, model: str, reply: Reply) -> None:
+        """Keeps an answer; a first one stays."""
+        used = reply.prompt_tokens, reply.answer_tokens, int(reply.batch)
+        row = key, model, reply.text, reply.refusal, *used, time.time()
+        try:
+            with self._lock:
+                self._base.execute("INSERT OR IGNORE INTO answers VALUES (?, ?, ?, ?, ?, ?, ?, ?)", row)
+        except sqlite3.OperationalError as error:
+            raise OutputError(f"{self.path}: the answer can't be kept ({error}); is the disk full?") from error
+
+    def __len__(self) -> int:
+        with self._lock:
+            return int(self._base.execute("SELECT count(*) FROM answers").fetchone()[0])
+
+    def __del__(self) -> None:
+        if hasattr(self, "_base"):
+            self._base.close()
+
+    def close(self) -> None:
+        """Closes the file."""
+        with self._lock:
+            self._base.close()

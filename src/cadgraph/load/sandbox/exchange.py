@@ -1,0 +1,47 @@
+"""A scene as a folder of arrays, for the way from a reading process to its caller."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+
+from cadgraph.model.scene import Diagnostic, Scene, Source
+
+__all__ = ["read_scene", "write_scene"]
+
+_ARRAYS = ("vertices", "faces", "vertex_offsets", "face_offsets", "colors", "origin")
+
+
+def write_scene(scene: Scene, folder: Path) -> None:
+    """Writes a scene into an existing folder: an ``.npy`` file for each array and ``scene.json``."""
+    for name in _ARRAYS:
+        np.save(folder / f"{name}.npy", getattr(scene, name), allow_pickle=False)
+    rest = {
+        "paths": scene.paths,
+        "anchors": scene.anchors,
+        "source": asdict(scene.source),
+        "diagnostics": [asdict(note) for note in scene.diagnostics],
+    }
+    (folder / "scene.json").write_text(json.dumps(rest), encoding="utf-8")
+
+
+def read_scene(folder: Path) -> Scene:
+    """Reads what ``write_scene`` wrote.
+
+    Raises:
+        OSError, ValueError, KeyError: the folder doesn't hold a whole scene.
+    """
+    arrays = {name: np.load(folder / f"{name}.npy", allow_pickle=False) for name in _ARRAYS}
+    rest = json.loads((folder / "scene.json").read_text(encoding="utf-8"))
+    return Scene(
+        **arrays,
+        paths=tuple(rest["paths"]),
+        anchors=tuple(rest["anchors"]),
+        source=Source(**rest["source"]),
+        diagnostics=tuple(
+            Diagnostic(note["code"], note["message"], tuple(note["meshes"])) for note in rest["diagnostics"]
+        ),
+    )

@@ -1,0 +1,441 @@
+"""The scene graph: typed access to its nodes and edges, and ``graph.json`` on disk.
+
+Nodes and edges load as they are with ``networkx.node_link_graph(data, edges="edges", multigraph=True)``.
+"""
+
+from __future__ import annotations
+
+import json
+import reprlib
+from collections import Counter, deque
+from collections.abc import Mapping
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, cast, overload
+
+from pydantic import ValidationError
+
+from cadgraph._io.atomic import write_atomically
+from cadgraph._io.validation_messages import expectation
+from cadgraph.errors import FormatError
+from cadgraph.model.records import (
+    AnyEdge,
+    AnyNode,
+    Cluster,
+    Connected,
+    Contains,
+    Finding,
+    GraphDocument,
+    Junction,
+    Node,
+    Part,
+    Site,
+    SourceRecord,
+    System,
+    Terminal,
+    Unit,
+)
+from cadgraph.model.validate import check_document, check_names
+
+if TYPE_CHECKING:
+    import networkx
+
+__all__ = ["SceneGraph"]
+
+FORMAT = "cadgraph"
+VERSION = 1
+
+Functional = Unit | Junction | Terminal
+_MOST_TOLD = 8  # tags that an error names
+
+
+class SceneGraph:
+    """A finished graph with typed access.
+
+    Args:
+        document: the content, as it stands on disk.
+
+    Raises:
+        FormatError: an id is used twice, an edge ends nowhere, or there isn't exactly one site.
+    """
+
+    def __init__(self, document: GraphDocument) -> None:
+        self.document = document
+        self.nodes: dict[str, Node] = {node.id: node for node in document.nodes}
+        check_names(document)
+
+    def __repr__(self) -> str:
+        layers = Counter(node.layer for node in self.document.nodes)
+        kinds = Counter(edge.kind for edge in self.document.edges)
+        always = {"part": layers["part"], "cluster": layers["cluster"], "unit": layers["unit"]}
+        others = {"mesh": self.source.n_meshes, **{name: layers[name] for name in ("junction", "terminal", "system")}}
+        others |= {"contact": kinds["adjacent"], "connection": kinds["connected"], "relation": kinds["related"]}
+        told = [_count(n, noun) for noun, n in (always | {name: n for name, n in others.items() if n}).items()]
+        return f"<SceneGraph of {self.source.path!r}: {', '.join(told)}>"
+
+    # What is in the graph
+
+    @property
+    def source(self) -> SourceRecord:
+        """Where the scene came from."""
+        return self.document.source
+
+    @property
+    def diagnostics(self) -> tuple[Finding, ...]:
+        """Everything skipped, repaired, guessed or left unlabelled."""
+        return self.document.diagnostics
+
+    @property
+    def site(self) -> Site:
+        """The root."""
+        return self.of_layer(Site)[0]
+
+    def of_layer(self, layer: type[AnyNode]) -> list[AnyNode]:
+        """All nodes of a class (``Part``, ``Unit``...), in the order of the file."""
+        return [node for node in self.document.nodes if isinstance(node, layer)]
+
+    def of_kind(self, kind: type[AnyEdge]) -> list[AnyEdge]:
+        """All edges of a class (``Adjacent``, ``Related``...), in the order of the file."""
+        return [edge for edge in self.document.edges if isinstance(edge, kind)]
+
+    def clusters(self, kind: str | None = None) -> list[Cluster]:
+        """All connected structures, or those of one kind (``"pipe system"``)."""
+        return [node for node in self.of_layer(Cluster) if kind is None or node.kind == kind]
+
+    def parts(self, group: str | None = None, name: str | None = None, cluster: str | None = None) -> list[Part]:
+        """All parts, or those with this group label, this name label, in the cluster of this id.
+
+        Raises:
+            ValueError: the graph's vocabulary has no such group, or no such name.
+            KeyError: no cluster has that id.
+        """
+        self._check_label(group, name)
+        if cluster is not None and not isinstance(self.nodes.get(cluster), Cluster):
+            raise KeyError(f"no cluster has the id {cluster!r}")
+        members = self._members.get(cluster, ()) if cluster is not None else None
+        return [
+            part
+            for part in self.of_layer(Part)
+            if (group is None or (part.label is not None and part.label.group == group))
+            and (name is None or (part.label is not None and part.label.name == name))
+            and (members is None or part.id in members)
+        ]
+
+    def units(self, unit_type: str | None = None) -> list[Unit]:
+        """All functional units, or those of one type (``"valve"``).
+
+        Raises:
+            ValueError: no unit is of that type and the graph's vocabulary has none such.
+        """
+        if unit_type is not None and self.document.vocabulary and unit_type not in self._unit_types():
+            known = ", ".join(sorted(self._unit_types()))
+            raise ValueError(f"no type of units is called {unit_type!r}; there are {known or 'none'}")
+        return [unit for unit in self.of_layer(Unit) if unit_type is None or unit.unit_type == unit_type]
+
+    def junctions(self) -> list[Junction]:
+        """All points where three or more branches of connectors meet."""
+        return self.of_layer(Junction)
+
+    def terminals(self, kind: str | None = None) -> list[Terminal]:
+        """All ends of runs without a unit, or those of one kind (``"open"``)."""
+        return [end for end in self.of_layer(Terminal) if kind is None or end.kind == kind]
+
+    def systems(self) -> list[System]:
+        """All connected functional networks."""
+        return self.of_layer(System)
+
+    def connections(self, node: Functional | str | None = None) -> list[Connected]:
+        """All connections along pipes, or those that end at this unit (by tag, id or itself), junction or terminal.
+
+        Raises:
+            KeyError: that node is not in the graph.
+        """
+        if node is None:
+            return self.of_kind(Connected)
+        here = self._resolve(node).id
+        return [edge for edge in self.of_kind(Connected) if here in (edge.source, edge.target)]
+
+    def part(self, which: str) -> Part:
+        """The part with this id, or that holds the mesh of this source path.
+
+        Raises:
+            KeyError: neither is in the graph.
+        """
+        node = self.nodes.get(which) or self.nodes.get(self._part_of_mesh.get(which, ""))
+        if not isinstance(node, Part):
+            raise KeyError(f"no part has the id or holds the mesh {which!r}")
+        return node
+
+    def unit(self, which: str) -> Unit:
+        """The unit with this tag or id.
+
+        Raises:
+            KeyError: neither is in the graph.
+        """
+        node = self._unit_of_tag.get(which) or self.nodes.get(which)
+        if not isinstance(node, Unit):
+            raise KeyError(f"no unit has the tag or id {which!r}; {self._known_tags()}")
+        return node
+
+    def unit_of(self, part: Part | str) -> Unit | None:
+        """The unit that a part belongs to, if any.
+
+        Raises:
+            KeyError: the part is not in the graph.
+        """
+        node = self.nodes.get(self._unit_of_part.get(self._resolve(part).id, ""))
+        return node if isinstance(node, Unit) else None
+
+    def cluster_of(self, node: Part | Unit | str) -> Cluster | None:
+        """The cluster that a part, or the parts of a unit, belong to; None for the ground and for noise.
+
+        Raises:
+            KeyError: the part or unit is not in the graph.
+        """
+        here = self._resolve(node)
+        members = here.parts if isinstance(here, Unit | Junction | Terminal) else (here.id,)
+        found = (self._cluster_of_part.get(part) for part in members)
+        cluster = self.nodes.get(next((name for name in found if name is not None), ""))
+        return cluster if isinstance(cluster, Cluster) else None
+
+    # How things hang together
+
+    @overload
+    def neighbors(self, node: Part) -> list[Part]: ...
+    @overload
+    def neighbors(self, node: Unit) -> list[Unit]: ...
+    @overload
+    def neighbors(self, node: str | Junction | Terminal) -> list[Part] | list[Unit]: ...
+    def neighbors(self, node: Part | Functional | str) -> list[Part] | list[Unit]:
+        """The parts adjacent to a part, or the units related or connected to a unit, in the order of the file.
+
+        Of a junction or terminal: the units connected to it.
+
+        Raises:
+            KeyError: it is not in the graph.
+            ValueError: it has no neighbours by its nature, as a cluster.
+        """
+        here = self._resolve(node)
+        if not isinstance(here, Part | Unit | Junction | Terminal):
+            raise ValueError(f"parts and units have neighbours, but {here.id!r} is a {here.layer}")
+        found = [self.nodes[i] for i in sorted(self._links[here.id], key=self._rank.__getitem__)]
+        if isinstance(here, Part):
+            return [other for other in found if isinstance(other, Part)]
+        return [other for other in found if isinstance(other, Unit)]
+
+    def path(self, start: Part | Functional | str, end: Part | Functional | str) -> list[Node]:
+        """A shortest way from one part to another over adjacent parts, or from one unit to another over relations.
+
+        Returns:
+            The nodes on the way, both ends included; empty if there is no way.
+
+        Raises:
+            KeyError: an end is not in the graph.
+            ValueError: the ends are not two parts, nor two units.
+        """
+        first, last = self._resolve(start), self._resolve(end)
+        kinds = {"part" if isinstance(node, Part) else node.layer for node in (first, last)}
+        if kinds != {"part"} and not kinds <= {"unit", "junction", "terminal"}:
+            raise ValueError(
+                f"a path joins two parts or two units, not {first.id!r} ({first.layer}) and {last.id!r} ({last.layer})"
+            )
+        came_from: dict[str, str] = {first.id: first.id}
+        queue = deque([first.id])
+        while queue and last.id not in came_from:
+            here = queue.popleft()
+            for there in sorted(self._links[here], key=self._rank.__getitem__):
+                if there not in came_from:
+                    came_from[there] = here
+                    queue.append(there)
+        if last.id not in came_from:
+            return []
+        way = [last.id]
+        while way[-1] != first.id:
+            way.append(came_from[way[-1]])
+        return [self.nodes[step] for step in reversed(way)]
+
+    def to_networkx(self) -> networkx.MultiDiGraph[str]:
+        """The graph for networkx: node and edge attributes as in ``graph.json``, edge keys 0, 1... per pair."""
+        import networkx
+
+        data = self.to_json()
+        return cast("networkx.MultiDiGraph[str]", networkx.node_link_graph(data, edges="edges", multigraph=True))
+
+    # On disk
+
+    def to_json(self) -> dict[str, Any]:
+        """The content of ``graph.json`` as plain values."""
+        return self.document.model_dump(mode="json")
+
+    @classmethod
+    def from_json(cls, data: Mapping[str, Any], where: str = "graph") -> SceneGraph:
+        """Reads the content of ``graph.json``.
+
+        Args:
+            data: plain values.
+            where: the file's name, for messages.
+
+        Raises:
+            FormatError: it does not follow the format or contradicts itself, see ``consistency.check_document``.
+        """
+        if not isinstance(data, Mapping) or data.get("format") != FORMAT:
+            raise FormatError(f"{where}: not a cadgraph graph (key 'format' must be {FORMAT!r})")
+        if data.get("version") != VERSION:
+            raise FormatError(
+                f"{where}: format version {data.get('version')!r}, but this cadgraph reads version {VERSION}; update it"
+            )
+        try:
+            document = GraphDocument.model_validate(data)
+            check_document(document)
+            return cls(document)
+        except ValidationError as error:
+            raise FormatError(f"{where}: {_what_is_wrong(error, data)}; build the graph anew") from None
+        except FormatError as error:
+            raise FormatError(f"{where}: {error}; build the graph anew") from None
+
+    def save(self, path: str | Path) -> Path:
+        """Writes ``graph.json``, whole or not at all; the same graph gives the same bytes.
+
+        Args:
+            path: the file, or a folder that gets ``graph.json``.
+
+        Returns:
+            The file.
+
+        Raises:
+            OutputError: it can't be written.
+        """
+        target = Path(path)
+        target = target / "graph.json" if target.suffix != ".json" else target
+        data = self.to_json()
+        lines = []
+        for key, value in data.items():
+            if key in ("nodes", "edges", "diagnostics") and value:
+                rows = ",\n".join("  " + _dumps(row) for row in value)
+                lines.append(f" {_dumps(key)}: [\n{rows}\n ]")
+            else:
+                lines.append(f" {_dumps(key)}: {_dumps(value)}")
+        text = "{\n" + ",\n".join(lines) + "\n}\n"
+        # A lone surrogate has no UTF-8, but its backslash form is what JSON calls it.
+        write_atomically(target, text.encode("utf-8", "backslashreplace"))
+        return target
+
+    @classmethod
+    def load(cls, path: str | Path) -> SceneGraph:
+        """Reads ``graph.json``, or the folder that holds it.
+
+        Raises:
+            FormatError: it is missing, no JSON, or does not follow the format.
+        """
+        target = Path(path)
+        target = target / "graph.json" if target.is_dir() else target
+        try:
+            data = json.loads(target.read_text(encoding="utf-8"))
+        except OSError as error:
+            raise FormatError(f"{target}: can't be read ({error.strerror}); 'cadgraph build' makes it") from error
+        except (ValueError, RecursionError) as error:
+            raise FormatError(f"{target}: not JSON ({error}); give a folder that 'cadgraph build' wrote") from error
+        return cls.from_json(data, str(target))
+
+    # Look-ups, made when first needed
+
+    @cached_property
+    def _rank(self) -> dict[str, int]:
+        return {node.id: i for i, node in enumerate(self.document.nodes)}
+
+    @cached_property
+    def _links(self) -> dict[str, set[str]]:
+        links: dict[str, set[str]] = {node: set() for node in self.nodes}
+        for edge in self.document.edges:
+            if not isinstance(edge, Contains):
+                links[edge.source].add(edge.target)
+                links[edge.target].add(edge.source)
+        return links
+
+    @cached_property
+    def _members(self) -> dict[str, set[str]]:
+        members: dict[str, set[str]] = {}
+        for edge in self.of_kind(Contains):
+            members.setdefault(edge.source, set()).add(edge.target)
+        return members
+
+    @cached_property
+    def _cluster_of_part(self) -> dict[str, str]:
+        return {m: c.id for c in self.of_layer(Cluster) for m in self._members.get(c.id, ())}
+
+    @cached_property
+    def _unit_of_part(self) -> dict[str, str]:
+        return {part: unit.id for unit in self.of_layer(Unit) for part in unit.parts}
+
+    @cached_property
+    def _part_of_mesh(self) -> dict[str, str]:
+        return {mesh: part.id for part in self.of_layer(Part) for mesh in part.meshes}
+
+    @cached_property
+    def _unit_of_tag(self) -> dict[str, Unit]:
+        return {unit.tag: unit for unit in self.of_layer(Unit)}
+
+    def _resolve(self, which: Part | Functional | str) -> Node:
+        if not isinstance(which, str):
+            if not isinstance(getattr(which, "id", None), str):
+                raise TypeError(f"give a part, a unit, or the id of one, not {reprlib.repr(which)}")
+            if which.id not in self.nodes:
+                raise KeyError(f"{which.id!r} is not in this graph")
+            return self.nodes[which.id]
+        found = self.nodes.get(which) or self._unit_of_tag.get(which)
+        found = found or self.nodes.get(self._part_of_mesh.get(which, ""))
+        if found is None:
+            raise KeyError(f"nothing in the graph has the id, tag or mesh {which!r}; {self._known_tags()}")
+        return found
+
+    def _known_tags(self) -> str:
+        tags = list(self._unit_of_tag)
+        shown = ", ".join(tags[:_MOST_TOLD]) + (f" and {len(tags) - _MOST_TOLD} more" if len(tags) > _MOST_TOLD else "")
+        return f"its units are {shown}" if tags else "it has no units"
+
+    def _unit_types(self) -> set[str]:
+        """Those in the graph, and those of the vocabulary's groups."""
+        trees = [tree for tree in self.document.vocabulary.values() if isinstance(tree, Mapping)]
+        told = {str(tree["unit"]) for tree in trees if tree.get("unit")}
+        return told | {unit.unit_type for unit in self.of_layer(Unit)}
+
+    def _check_label(self, group: str | None, name: str | None) -> None:
+        """A group or name that can't be in the graph is a mistake, not an empty answer."""
+        known = self.document.vocabulary
+        if not known or (group is None and name is None):
+            return
+        in_use = {(p.label.group, p.label.name) for p in self.of_layer(Part) if p.label is not None}
+        if group is not None and group not in known and not any(group == used for used, _ in in_use):
+            raise ValueError(f"no group is called {group!r}; the graph's vocabulary has {', '.join(map(str, known))}")
+        if name is None or any(name == used for _, used in in_use):
+            return
+        trees = known.values() if group is None else [known.get(group)]
+        names = [each for tree in trees if isinstance(tree, Mapping) for each in tree.get("names", ())]
+        if name not in names:
+            where = "the graph's vocabulary" if group is None else f"group {group!r}"
+            raise ValueError(f"{where} has no name {name!r}; it has {', '.join(map(str, names))}")
+
+
+def _what_is_wrong(error: ValidationError, data: Mapping[str, Any]) -> str:
+    """The first fault, with the id of its node or the ends of its edge."""
+    fault = error.errors()[0]
+    steps = list(fault["loc"])
+    place = ".".join(str(step) for step in steps)
+    if len(steps) < 2 or steps[0] not in ("nodes", "edges") or not isinstance(steps[1], int):
+        return f"{place} {expectation(fault)}"
+    row = data[str(steps[0])][steps[1]]
+    names = [row.get(key) for key in ("id", "kind", "source", "target")] if isinstance(row, Mapping) else []
+    if steps[0] == "nodes" and names and names[0] is not None:
+        place = f"node {reprlib.repr(names[0])} ({place})"
+    elif names and names[2] is not None:
+        place = f"edge {reprlib.repr(names[1])} from {reprlib.repr(names[2])} to {reprlib.repr(names[3])} ({place})"
+    return f"{place} {expectation(fault)}"
+
+
+def _count(n: int, noun: str) -> str:
+    plural = {"mesh": "meshes"}.get(noun, f"{noun}s")
+    return f"{n:,} {noun if n == 1 else plural}"
+
+
+def _dumps(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False, allow_nan=False)

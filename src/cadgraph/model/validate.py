@@ -1,0 +1,160 @@
+"""Whether a graph agrees with itself, beyond the types of its records."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from cadgraph.errors import FormatError
+from cadgraph.model.records import (
+    Adjacent,
+    Cluster,
+    Connected,
+    Contains,
+    Edge,
+    GraphDocument,
+    Junction,
+    Node,
+    Part,
+    Related,
+    Site,
+    System,
+    Terminal,
+    Unit,
+)
+
+__all__ = ["check_document", "check_names"]
+
+# Which layers an edge may join: (source, target).
+_JOINS: dict[str, tuple[tuple[tuple[type[Any], ...], tuple[type[Any], ...]], ...]] = {
+    "contains": (
+        ((Site,), (Cluster, Part, Unit, Junction, Terminal, System)),
+        ((Cluster, Unit), (Part,)),
+        ((System,), (Unit, Junction, Terminal)),
+    ),
+    "adjacent": (((Part,), (Part,)),),
+    "connected": (((Unit, Junction, Terminal), (Unit, Junction, Terminal)),),
+    "related": (((Unit,), (Unit,)),),
+}
+_DIGITS = re.compile(r"([0-9]+)")
+
+
+def check_names(document: GraphDocument) -> dict[str, Node]:
+    """Makes sure that each node has an id of its own, each edge two ends, and that there is one site.
+
+    Args:
+        document: the content of a graph.
+
+    Returns:
+        The nodes by id.
+
+    Raises:
+        FormatError: it isn't so.
+    """
+    nodes: dict[str, Node] = {node.id: node for node in document.nodes}
+    if len(nodes) != len(document.nodes):
+        raise FormatError(f"node id {_first_repeat(node.id for node in document.nodes)!r} is used twice")
+    sites = [node for node in document.nodes if isinstance(node, Site)]
+    if len(sites) != 1:
+        raise FormatError(f"a graph needs exactly one node of layer 'site', found {len(sites)}")
+    for edge in document.edges:
+        for end in (edge.source, edge.target):
+            if end not in nodes:
+                raise FormatError(f"a {edge.kind!r} edge names {end!r}, but no node has that id")
+    return nodes
+
+
+def check_document(document: GraphDocument) -> None:
+    """Makes sure that nothing is there twice, that all that is named exists, and that edges join what they can join.
+
+    Args:
+        document: the content of a graph.
+
+    Raises:
+        FormatError: a node id, a mesh, a tag, a contact or a relation is there twice; an edge or node names what isn't
+            there or is of the wrong layer; a contact has the wrong order or a distance below zero; there isn't exactly
+            one site.
+    """
+    nodes = check_names(document)
+    _check_edges(document.edges, nodes)
+    _check_nodes(document.nodes, nodes)
+
+
+def _check_edges(edges: Iterable[Edge], nodes: Mapping[str, Node]) -> None:
+    seen: set[tuple[str, str, str]] = set()
+    home: dict[tuple[str, str], str] = {}
+    for edge in edges:
+        source, target = edge.source, edge.target
+        here = f"the {edge.kind!r} edge from {source!r} to {target!r}"
+        ends = nodes[source], nodes[target]
+        if not any(isinstance(ends[0], above) and isinstance(ends[1], below) for above, below in _JOINS[edge.kind]):
+            raise FormatError(f"{here} joins a {ends[0].layer} with a {ends[1].layer}, which it can't")
+        if isinstance(edge, Connected):
+            _check_known(edge.via, Part, nodes, here)
+            continue
+        if source == target:
+            raise FormatError(f"{here} ends where it starts")
+        # A relation has no direction; two connections may join the same two units, by two pipes.
+        first, last = sorted((source, target)) if isinstance(edge, Related) else (source, target)
+        key = (edge.kind, first, last)
+        if key in seen:
+            raise FormatError(f"{here} is there twice")
+        seen.add(key)
+        if isinstance(edge, Adjacent):
+            _check_contact(edge, here)
+        elif isinstance(edge, Contains) and not isinstance(ends[0], Site):
+            other = home.setdefault((ends[0].layer, target), source)
+            if other != source:
+                raise FormatError(f"{target!r} is in two nodes of layer {ends[0].layer!r}: {other!r} and {source!r}")
+
+
+def _check_contact(edge: Adjacent, here: str) -> None:
+    if _order(edge.source) > _order(edge.target):
+        raise FormatError(f"{here} is the wrong way round: its source must come before its target")
+    if edge.distance < 0:
+        raise FormatError(f"{here} has the distance {edge.distance:g} m; no distance is below zero")
+
+
+def _order(name: str) -> tuple[str | int, ...]:
+    return tuple(int(step) if i % 2 else step for i, step in enumerate(_DIGITS.split(name)))
+
+
+def _check_nodes(listed: Iterable[Node], nodes: Mapping[str, Node]) -> None:
+    part_of_mesh: dict[str, str] = {}
+    unit_of_tag: dict[str, str] = {}
+    unit_of_part: dict[str, str] = {}
+    for node in listed:
+        here = f"{node.layer} {node.id!r}"
+        if isinstance(node, Part):
+            for mesh in node.meshes:
+                if part_of_mesh.setdefault(mesh, node.id) != node.id:
+                    raise FormatError(f"mesh {mesh!r} is in two parts: {part_of_mesh[mesh]!r} and {node.id!r}")
+        elif isinstance(node, Unit):
+            if unit_of_tag.setdefault(node.tag, node.id) != node.id:
+                raise FormatError(f"tag {node.tag!r} is used by two units: {unit_of_tag[node.tag]!r} and {node.id!r}")
+            _check_known(node.parts, Part, nodes, here)
+            for part in node.parts:
+                if unit_of_part.setdefault(part, node.id) != node.id:
+                    raise FormatError(f"part {part!r} is in two units: {unit_of_part[part]!r} and {node.id!r}")
+        elif isinstance(node, Junction | Terminal):
+            _check_known(node.parts, Part, nodes, here)
+        elif isinstance(node, System):
+            _check_known(node.units, Unit, nodes, here)
+            _check_known(node.junctions, Junction, nodes, here)
+            _check_known(node.terminals, Terminal, nodes, here)
+
+
+def _check_known(names: Iterable[str], layer: type[Any], nodes: Mapping[str, Node], here: str) -> None:
+    for name in names:
+        if not isinstance(nodes.get(name), layer):
+            raise FormatError(f"{here} names {name!r}, but no {layer.__name__.lower()} has that id")
+
+
+def _first_repeat(names: Iterable[str]) -> str:
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            return name
+        seen.add(name)
+    return ""

@@ -1,0 +1,28 @@
+"""Questions to the functional graph: the line list, what lies along the pipes, what isolates a unit.
+
+All functions are pure: a finished :class:`~cadgraph.model.graph.SceneGraph` in, frozen values out.
+"""
+
+from __future__ import annotations
+
+from cadgraph.query.isolate import Closing, Isolation, Opening, find_isolation
+from cadgraph.query.lines import Line, find_lines
+from cadgraph.query.network import Arc, Network
+from cadgraph.query.trace import Halt, Return, Step, Trace, find_way, trace
+
+__all__ = [
+    "Arc",
+    "Closing",
+    "Halt",
+    "Isolation",
+    "Line",
+    "Network",
+    "Opening",
+    "Return",
+    "Step",
+    "Trace",
+    "find_isolation",
+    "find_lines",
+    "find_way",
+    "trace",
+]

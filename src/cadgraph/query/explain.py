@@ -1,0 +1,159 @@
+"""Why a part has its label: all that the graph holds about it, in one place."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from cadgraph.model.graph import SceneGraph
+from cadgraph.model.records import Adjacent, Part
+from cadgraph.model.vocabulary import spell_label
+
+__all__ = ["Explanation", "Neighbor", "explain"]
+
+_MOST_TOLD = 12  # of neighbours and repeats, in words
+
+
+@dataclass(frozen=True)
+class Neighbor:
+    """A part that touches the explained one.
+
+    Args:
+        part: id.
+        mesh: source path of its largest mesh.
+        label: ``group/name``, or None.
+        distance: between the surfaces [m].
+    """
+
+    part: str
+    mesh: str
+    label: str | None
+    distance: float
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """Why a part has its label, or none.
+
+    Args:
+        part: id.
+        meshes: its source paths, the largest first.
+        size: extents of its oriented box, descending [m].
+        label: ``group/name``, or None where nobody is sure enough.
+        confidence: of the label, or None.
+        source: who says so, or None.
+        why: in words.
+        evidence: as the graph holds it.
+        guesses: what it might be, ``group/name`` and probability, the likeliest first.
+        neighbors: that touch it, the nearest first.
+        repeats: other parts of its shape: how many have each label ("" for none).
+        unit: tag of its functional unit, or None.
+        cluster: id of its structure, or None.
+    """
+
+    part: str
+    meshes: tuple[str, ...]
+    size: tuple[float, float, float]
+    label: str | None
+    confidence: float | None
+    source: str | None
+    why: str
+    evidence: Mapping[str, Any] = field(default_factory=dict)
+    guesses: tuple[tuple[str, float], ...] = ()
+    neighbors: tuple[Neighbor, ...] = ()
+    repeats: Mapping[str, int] = field(default_factory=dict)
+    unit: str | None = None
+    cluster: str | None = None
+
+    def lines(self) -> list[tuple[str, str]]:
+        """The explanation as pairs of a heading and a text."""
+        rows = [
+            ("part", f"{self.part}, {' x '.join(_length(x) for x in self.size)}"),
+            ("mesh", self.meshes[0] + (f" and {len(self.meshes) - 1} more" if len(self.meshes) > 1 else "")),
+            ("label", f"{self.label} ({self.confidence:.0%}, {self.source})" if self.label else "none"),
+            ("why", self.why),
+        ]
+        before = self.evidence.get("before")
+        if isinstance(before, Mapping):
+            name = "/".join(str(before[key]) for key in ("group", "name") if before.get(key))
+            rows.append(("before", f"{name} ({_percent(before.get('confidence'))}, {before.get('source')})"))
+        if self.guesses:
+            rows.append(("guesses", ", ".join(f"{name} {p:.0%}" for name, p in self.guesses)))
+        rows.append(("touches", _some([f"{n.label or 'unlabelled'} ({n.part})" for n in self.neighbors]) or "nothing"))
+        alike = ", ".join(f"{count} {label or 'unlabelled'}" for label, count in self.repeats.items())
+        rows.append(("same shape", alike or "no other part"))
+        rows.append(("unit", self.unit or "none"))
+        rows.append(("structure", self.cluster or "none"))
+        return rows
+
+
+def explain(graph: SceneGraph, which: str) -> Explanation:
+    """Gathers why a part has its label.
+
+    Args:
+        graph: finished.
+        which: id of the part, or source path of one of its meshes.
+
+    Raises:
+        ValueError: the graph has no such part.
+    """
+    try:
+        part = graph.part(which)
+    except KeyError:
+        raise ValueError(f"{which}: no part has this id or holds a mesh of this path") from None
+    far = {
+        edge.target if edge.source == part.id else edge.source: edge.distance
+        for edge in graph.of_kind(Adjacent)
+        if part.id in (edge.source, edge.target)
+    }
+    near = sorted(graph.neighbors(part), key=lambda other: (far[other.id], other.id))
+    repeats = Counter(_name(p) or "" for p in graph.parts() if p.shape == part.shape and p.id != part.id)
+    unit, cluster, label = graph.unit_of(part), graph.cluster_of(part), part.label
+    return Explanation(
+        part=part.id,
+        meshes=part.meshes,
+        size=part.obb.extents,
+        label=_name(part),
+        confidence=None if label is None else label.confidence,
+        source=None if label is None else label.source,
+        why=_why(part),
+        evidence={} if label is None else label.evidence,
+        guesses=tuple((spell_label(g.group, g.name), g.confidence) for g in part.guesses),
+        neighbors=tuple(Neighbor(o.id, o.meshes[0], _name(o), far[o.id]) for o in near),
+        repeats=dict(sorted(repeats.items(), key=lambda row: (-row[1], row[0]))),
+        unit=None if unit is None else unit.tag,
+        cluster=None if cluster is None else cluster.id,
+    )
+
+
+def _why(part: Part) -> str:
+    if part.label is None:
+        if part.ground:
+            return "it is the ground, which gets no label"
+        return "nobody is sure enough" if part.guesses else "nobody has an idea"
+    told = part.label.evidence.get("why")
+    if isinstance(told, str):
+        return told
+    given = part.label.evidence.get("mesh")
+    if part.label.source == "author" and isinstance(given, str):
+        return f"given from outside for {given}"
+    return "the graph does not say"
+
+
+def _name(part: Part) -> str | None:
+    return None if part.label is None else spell_label(part.label.group, part.label.name)
+
+
+def _percent(confidence: object) -> str:
+    return f"{confidence:.0%}" if isinstance(confidence, int | float) else "no confidence"
+
+
+def _length(x: float) -> str:
+    return f"{x:.2f} m" if x >= 2 else f"{1000 * x:.0f} mm" if x >= 0.01 else f"{1000 * x:.1f} mm"
+
+
+def _some(names: Sequence[str]) -> str:
+    more = len(names) - _MOST_TOLD
+    return ", ".join(names[:_MOST_TOLD]) + (f" and {more} more" if more > 0 else "")

@@ -1,0 +1,311 @@
+"""Which valves cut a unit off: the first question before anybody opens it."""
+
+from __future__ import annotations
+
+import heapq
+from dataclasses import dataclass
+
+from cadgraph.model.graph import SceneGraph
+from cadgraph.model.records import Terminal
+from cadgraph.query.lines import find_lines
+from cadgraph.query.network import Arc, Network, natural
+
+__all__ = ["Closing", "Isolation", "Opening", "find_isolation"]
+
+# What stands for more than a hand-operated shut-off: a control valve may leak and moves by itself, so that rules of
+# lockout and tagout (OSHA 29 CFR 1910.147, EN ISO 14118) don't take it for an isolating device.
+_NOT_ISOLATING = ("control",)
+_CHECK = "check"
+_RELIEF = ("relief", "safety")
+
+
+@dataclass(frozen=True)
+class Closing:
+    """A valve to close.
+
+    Args:
+        place: its id.
+        name: its tag.
+        what: its kind, or ``valve``.
+        port: nozzle of the unit that it is reached by.
+        distance: along the pipes from the unit [m].
+        line: tag of the line that it stands in, on the side of the unit.
+        automatic: whether it is a check valve, which closes by itself.
+    """
+
+    place: str
+    name: str
+    what: str
+    port: str | None
+    distance: float
+    line: str | None
+    automatic: bool = False
+
+
+@dataclass(frozen=True)
+class Opening:
+    """A way to the unit that no valve closes.
+
+    Args:
+        place: id of where it leads.
+        name: tag of that.
+        what: what that is.
+        port: nozzle of the unit that it is reached by.
+        distance: along the pipes from the unit [m].
+        why: what is wrong with it, in words.
+    """
+
+    place: str
+    name: str
+    what: str
+    port: str | None
+    distance: float
+    why: str
+
+
+@dataclass(frozen=True)
+class Isolation:
+    """The answer.
+
+    Args:
+        target: id of what is to be isolated.
+        name: its tag.
+        valves: to close, the nearest first.
+        openings: what can't be isolated; empty where the unit can be.
+        shut_off: ids of the units that lie in the isolated section too, the nearest first.
+        shut_off_names: their tags.
+        lines: tags of the lines in the section, wholly or in part.
+        remarks: what the reader should know, a sentence each.
+    """
+
+    target: str
+    name: str
+    valves: tuple[Closing, ...]
+    openings: tuple[Opening, ...]
+    shut_off: tuple[str, ...]
+    shut_off_names: tuple[str, ...]
+    lines: tuple[str, ...]
+    remarks: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class _Reached:
+    distance: float
+    arc: Arc  # that it was reached by
+    port: str | None
+
+
+def find_isolation(
+    graph: SceneGraph | Network, target: str, *, check_valves: bool = False, fewest: bool = False
+) -> Isolation:
+    """The valves that isolate a unit, on every one of its ports.
+
+    By default the nearest valve on every way out, so that as little as possible is shut off with it; a valve behind
+    which nothing can flow (a blind end, an instrument) need not be closed. Control valves never count as isolating,
+    relief valves are taken for closed and never asked to be blocked. A tank is a source: the section ends there, valve
+    or not.
+
+    Args:
+        graph: the finished graph, or its network.
+        target: tag or id.
+        check_valves: whether a check valve counts that the flow leaves the unit through.
+        fewest: rather the smallest set of valves (a minimum node cut between the unit and all tanks and open ends),
+            the nearest of those, although it may shut off more.
+
+    Raises:
+        ValueError: nothing is called so.
+    """
+    network = graph if isinstance(graph, Network) else Network(graph)
+    start = network.find(target)
+    barriers = {place for place in network.places if place != start and _isolates(network, place)}
+    if fewest:
+        barriers = _smallest(network, start, barriers, check_valves)
+    reached, walls = _flood(network, start, barriers, check_valves)
+    region = {start, *(place for place in reached if place not in walls)}
+    needed = [place for place in walls if not _is_relief(network, place) and _is_fed(network, place, region, walls)]
+    line_of = {arc.index: line.tag for line in find_lines(network) for arc in line.arcs}
+    nearest = sorted(reached, key=lambda place: (reached[place].distance, natural(network.name(place))))
+    valves = [_closing(network, place, reached[place], line_of) for place in nearest if place in needed]
+    openings = [
+        opening
+        for place in nearest
+        if place in region
+        for opening in [_opening(network, place, reached[place])]
+        if opening is not None
+    ]
+    inside = [place for place in nearest if place in region and network.unit_type(place) not in (None, "tank")]
+    lines = {
+        line_of[arc.index] for p in region for arc in network.arcs(p) if arc.index in line_of and _in(network, p, start)
+    }
+    return Isolation(
+        target=start,
+        name=network.name(start),
+        valves=tuple(valves),
+        openings=tuple(openings),
+        shut_off=tuple(inside),
+        shut_off_names=tuple(network.name(place) for place in inside),
+        lines=tuple(sorted(lines, key=natural)),
+        remarks=_remarks(network, start, region, walls, needed, reached, check_valves),
+    )
+
+
+def _in(network: Network, place: str, start: str) -> bool:
+    """Whether the pipes at a node of the section belong to it; those at a tank beside it don't."""
+    return place == start or network.unit_type(place) != "tank"
+
+
+def _kind(network: Network, place: str) -> str:
+    return network.what(place).casefold() if network.is_valve(place) else ""
+
+
+def _is_relief(network: Network, place: str) -> bool:
+    return any(word in _kind(network, place) for word in _RELIEF)
+
+
+def _isolates(network: Network, place: str) -> bool:
+    kind = _kind(network, place)
+    return bool(kind) and not any(word in kind for word in (*_NOT_ISOLATING, _CHECK, *_RELIEF))
+
+
+def _holds_back(network: Network, arc: Arc) -> bool:
+    """Whether an arc away from the unit enters a check valve against which nothing comes back."""
+    if _CHECK not in _kind(network, arc.end):
+        return False
+    # The flow through a valve is one: known on its far side, it is known on this one.
+    beyond = any(onward.flow == "along" for onward in network.arcs(arc.end) if onward.index != arc.index)
+    return arc.flow == "along" or (arc.flow == "unknown" and beyond)
+
+
+def _flood(
+    network: Network, start: str, barriers: set[str], check_valves: bool
+) -> tuple[dict[str, _Reached], set[str]]:
+    """All that something can come from to the unit, with the distance, and the walls where that ends."""
+    reached: dict[str, _Reached] = {}
+    walls: set[str] = set()
+    settled: set[str] = set()
+    queue: list[tuple[float, int, str, str | None, Arc | None]] = [(0.0, 0, start, None, None)]
+    count = 0
+    while queue:
+        distance, _, place, port, arc = heapq.heappop(queue)
+        if place in settled:
+            continue
+        settled.add(place)
+        if arc is not None:
+            reached[place] = _Reached(distance, arc, port)
+            blocked = check_valves and _holds_back(network, arc)
+            if place in barriers or blocked or _is_relief(network, place):
+                walls.add(place)
+                continue
+            if network.unit_type(place) == "tank":
+                continue
+        for onward in network.arcs(place):
+            count += 1
+            entry = onward.start_port if arc is None else port
+            heapq.heappush(queue, (distance + (onward.length or 0.0), count, onward.end, entry, onward))
+    return reached, walls
+
+
+def _is_fed(network: Network, wall: str, region: set[str], walls: set[str]) -> bool:
+    """Whether anything behind a valve could flow to it: an end that isn't blind, a tank, a pump, other equipment."""
+    seen, stack = {wall}, [arc.end for arc in network.arcs(wall)]
+    while stack:
+        place = stack.pop()
+        if place in seen or place in region or place in walls:
+            continue
+        seen.add(place)
+        node = network.places[place]
+        if isinstance(node, Terminal):
+            if node.kind != "blind":
+                return True
+            continue
+        if network.unit_type(place) not in (None, "valve", "gauge"):
+            return True
+        stack += [arc.end for arc in network.arcs(place)]
+    return False
+
+
+def _smallest(network: Network, start: str, barriers: set[str], check_valves: bool) -> set[str]:
+    """The smallest set of barriers between the unit and all sources that barriers can keep off."""
+    import networkx
+
+    reached, _ = _flood(network, start, barriers, check_valves)
+    sources = [p for p in network.places if p != start and _is_source(network, p) and (p not in reached)]
+    flow: networkx.DiGraph[tuple[str, str]] = networkx.DiGraph()
+    origin, sink = ("", "all sources"), (start, "in")
+    flow.add_nodes_from((origin, sink))
+    for place in network.places:
+        if place in barriers:
+            flow.add_edge((place, "in"), (place, "out"), capacity=1)
+        elif not _is_relief(network, place) and network.unit_type(place) != "tank":
+            flow.add_edge((place, "in"), (place, "out"))
+        for arc in network.arcs(place):
+            # What flows to the unit walks the arc's way; a check valve lets it out only the way it opens.
+            if not (check_valves and _holds_back(network, arc.back)):
+                flow.add_edge((arc.start, "out"), (arc.end, "in"))
+    for place in sources:
+        flow.add_edge(origin, (place, "out"))
+    # Seen from the unit, so that of equally small sets the nearest one is found.
+    # The set is small where there is one, which this algorithm is quick at.
+    augment = networkx.algorithms.flow.shortest_augmenting_path
+    _, (_, near) = networkx.minimum_cut(flow, origin, sink, flow_func=augment)
+    return {place for place in barriers if (place, "out") in near and (place, "in") not in near}
+
+
+def _is_source(network: Network, place: str) -> bool:
+    node = network.places[place]
+    return network.unit_type(place) == "tank" or (isinstance(node, Terminal) and node.kind != "blind")
+
+
+def _closing(network: Network, place: str, reached: _Reached, line_of: dict[int, str]) -> Closing:
+    return Closing(
+        place=place,
+        name=network.name(place),
+        what=network.what(place),
+        port=reached.port,
+        distance=reached.distance,
+        line=line_of.get(reached.arc.index),
+        automatic=_CHECK in _kind(network, place),
+    )
+
+
+def _opening(network: Network, place: str, reached: _Reached) -> Opening | None:
+    node = network.places[place]
+    if network.unit_type(place) == "tank":
+        why = "no valve between; empty it, or isolate it as well"
+    elif isinstance(node, Terminal) and node.kind == "open":
+        why = "open end with no valve before it"
+    elif isinstance(node, Terminal) and node.kind == "unknown":
+        why = "end of the modelled pipe with no valve before it; what follows is not known"
+    else:
+        return None
+    return Opening(place, network.name(place), network.what(place), reached.port, reached.distance, why)
+
+
+def _remarks(
+    network: Network,
+    start: str,
+    region: set[str],
+    walls: set[str],
+    needed: list[str],
+    reached: dict[str, _Reached],
+    check_valves: bool,
+) -> tuple[str, ...]:
+    told: list[str] = []
+    for place in sorted((region | walls) - {start}, key=lambda place: natural(network.name(place))):
+        name, kind = network.name(place), _kind(network, place)
+        if place in walls and _is_relief(network, place):
+            told.append(f"{name} is a relief valve: taken for closed, not to be blocked")
+        elif place in walls and place not in needed and not network.is_tap(reached[place].arc):
+            told.append(f"{name} need not be closed: nothing can flow from behind it")
+        elif place in region and _CHECK in kind and not check_valves:
+            told.append(f"{name} is a check valve: passed over (--check-valves counts it)")
+        elif place in region and _CHECK in kind and reached[place].arc.flow == "unknown":
+            told.append(f"{name} is a check valve, but which way it lets through is not known")
+        elif place in region and any(word in kind for word in _NOT_ISOLATING):
+            told.append(f"{name} is a control valve: not counted as isolating")
+    guessed = sorted((network.name(place) for place in needed if network.what(place) == "valve"), key=natural)
+    if guessed:
+        told.append(f"{', '.join(guessed)}: kind not known, taken for shut-off valves")
+    if not network.arcs(start):
+        told.append(f"{network.name(start)} is connected to nothing")
+    return tuple(told)

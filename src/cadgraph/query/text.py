@@ -1,0 +1,228 @@
+"""The answers as people read them: aligned columns of text, and as plain values for JSON and CSV."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from typing import Any
+
+from cadgraph.query.isolate import Isolation
+from cadgraph.query.lines import Line
+from cadgraph.query.trace import Step, Trace
+
+__all__ = [
+    "LINE_COLUMNS",
+    "aligned",
+    "isolation_lines",
+    "isolation_values",
+    "line_rows",
+    "line_table",
+    "line_values",
+    "trace_lines",
+    "trace_values",
+    "way_lines",
+]
+
+LINE_COLUMNS = (
+    "line", "from", "from_port", "to", "to_port", "through", "length_m", "length_complete", "dn", "flow", "reason",
+    "confidence", "system",
+)  # fmt: skip
+_FLOWS = {"forward": "->", "backward": "<-", "none": "--", "unknown": "?", "contradictory": "><"}
+_FLOW_WORDS = {"along": "with the flow", "against": "against the flow", "unknown": "direction unknown"}
+
+
+def aligned(rows: Sequence[Sequence[str]], right: Sequence[int] = ()) -> list[str]:
+    """Rows of cells as lines of text with straight columns; the columns in ``right`` are flush right."""
+    if not rows:
+        return []
+    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
+    return [
+        "  ".join(
+            cell.rjust(width) if i in right else cell.ljust(width)
+            for i, (cell, width) in enumerate(zip(row, widths, strict=True))
+        ).rstrip()
+        for row in rows
+    ]
+
+
+def line_table(lines: Sequence[Line]) -> list[str]:
+    """The line list: a header, a row for each line, the sum."""
+    if not lines:
+        return ["no lines: the graph has no connections along pipes"]
+    rows = [("line", "from", "", "to", "length", "DN", "through")]
+    for line in lines:
+        start = f"{line.start_name}:{line.start_port}" if line.start_port else line.start_name
+        end = f"{line.end_name}:{line.end_port}" if line.end_port else line.end_name
+        length = _metres(line.length, not line.whole) if line.length is not None else "?"
+        rows.append((line.tag, start, _FLOWS[line.flow], end, length, line.size or "?", " ".join(line.through_names)))
+    total = sum(line.length or 0.0 for line in lines)
+    some = any(not line.whole for line in lines)
+    unknown = sum(line.flow == "unknown" for line in lines)
+    contradictory = sum(line.flow == "contradictory" for line in lines)
+    told = [f"{len(lines)} line{'s' * (len(lines) != 1)}, {_metres(total, some)}"]
+    told += [f"direction unknown (?) in {unknown}"] * bool(unknown)
+    told += [f"contradictory (><) in {contradictory}"] * bool(contradictory)
+    return [*aligned(rows, right=(4, 5)), "", ", ".join(told)]
+
+
+def line_values(line: Line) -> dict[str, Any]:
+    """A line as plain values, by the names of :data:`LINE_COLUMNS`, ``through`` and ``dn`` as lists."""
+    return {
+        "line": line.tag,
+        "from": line.start_name,
+        "from_port": line.start_port,
+        "to": line.end_name,
+        "to_port": line.end_port,
+        "through": list(line.through_names),
+        "length_m": None if line.length is None else round(line.length, 6),
+        "length_complete": line.whole,
+        "dn": list(line.sizes),
+        "flow": line.flow,
+        "reason": "; ".join(line.reasons) or None,
+        "confidence": line.confidence,
+        "system": line.system,
+    }
+
+
+def line_rows(lines: Sequence[Line]) -> list[tuple[Any, ...]]:
+    """The line list as a table: the header and a row for each line, lists joined by blanks."""
+    rows: list[tuple[Any, ...]] = [LINE_COLUMNS]
+    for line in lines:
+        values = line_values(line)
+        joined = {"through": " ".join(values["through"]), "dn": line.size, "length_complete": _yes(line.whole)}
+        rows.append(tuple({**values, **joined}[column] for column in LINE_COLUMNS))
+    return rows
+
+
+def trace_lines(found: Trace) -> list[str]:
+    """A trace: each node with its distance and what it comes after, then where the way halts and where it returns."""
+    start = found.steps[0].name
+    rows: list[tuple[str, ...]] = [("distance", "", "", "after", "line", "")]
+    rows += [_step_row(step) for step in found.steps[1:]]
+    told = [f"{found.direction} of {start} ({found.steps[0].what}):"]
+    if len(rows) == 1:
+        told.append(f"nothing: no known flow {'leaves' if found.direction == 'downstream' else 'comes to'} {start}")
+    else:
+        told += aligned(rows, right=(0,))
+    if found.halts:
+        told += ["", "not followed, as the direction of flow is unknown (--unknown follows it both ways):"]
+        told += aligned([(f"{h.distance:.2f} m", f"{h.after} - {h.towards}", h.line or "") for h in found.halts], (0,))
+    loops = [f"{r.after} -> {r.to}" for r in found.returns if r.loop]
+    meets = [f"{r.after} -> {r.to}" for r in found.returns if not r.loop]
+    told += ["", f"comes round in a loop: {', '.join(loops)}"] if loops else []
+    told += ["", f"branches meet again: {', '.join(meets)}"] if meets else []
+    return told
+
+
+def way_lines(found: Trace, start: str, end: str) -> list[str]:
+    """A way from one node to another in order, or that there is none."""
+    manner = f" {found.direction}" if found.direction else ""
+    if not found.steps:
+        return [f"no way{manner} along the pipes from {start} to {end}"]
+    rows = [("distance", "", "", "line", "")]
+    for step in found.steps:
+        flow = _FLOW_WORDS[step.flow] if step.after and not step.tap else ""
+        rows.append((_metres(step.distance, step.at_least), step.name, step.what, step.line or "", flow))
+    last = found.steps[-1]
+    return [
+        f"from {found.steps[0].name} to {last.name}{manner}: {_metres(last.distance, last.at_least)}",
+        *aligned(rows, right=(0,)),
+    ]
+
+
+def trace_values(found: Trace) -> dict[str, Any]:
+    """A trace as plain values; distances in metres."""
+    return {
+        "start": found.steps[0].name if found.steps else None,
+        "direction": found.direction,
+        "steps": [
+            {
+                "tag": step.name,
+                "what": step.what,
+                "distance_m": round(step.distance, 6),
+                "distance_complete": not step.at_least,
+                "after": step.after,
+                "line": step.line,
+                "flow": step.flow,
+                "reason": step.reason,
+                "tap": step.tap,
+                "ends": step.ends,
+            }
+            for step in found.steps
+        ],
+        "halts": [{**dataclasses.asdict(halt), "distance": round(halt.distance, 6)} for halt in found.halts],
+        "returns": [dataclasses.asdict(back) for back in found.returns],
+    }
+
+
+def isolation_lines(found: Isolation) -> list[str]:
+    """What to close, what can't be isolated, what else is shut off."""
+    told = []
+    by_hand = [valve for valve in found.valves if not valve.automatic]
+    if found.openings:
+        told.append(f"{found.name} can't be isolated wholly:")
+        open_rows = [(f"{o.name} ({o.what})", _by(o.port), _metres(o.distance), o.why) for o in found.openings]
+        told += [f"  {row}" for row in aligned(open_rows, right=(2,))]
+    if found.valves:
+        told.append(f"to isolate {found.name}, close {len(by_hand)} valve{'s' * (len(by_hand) != 1)}:")
+        rows = [
+            (v.name, v.what, _by(v.port), _metres(v.distance), v.line or "", "closes by itself" if v.automatic else "")
+            for v in found.valves
+        ]
+        told += [f"  {row}" for row in aligned(rows, right=(3,))]
+    elif not found.openings:
+        told.append(f"no valve has to be closed to isolate {found.name}: nothing can flow to it")
+    shut = ", ".join(found.shut_off_names) or "nothing else"
+    told.append(f"shut off with it: {shut}" + (f" (lines {', '.join(found.lines)})" if found.lines else ""))
+    return told + [f"note: {remark}" for remark in found.remarks]
+
+
+def isolation_values(found: Isolation) -> dict[str, Any]:
+    """An isolation as plain values; distances in metres."""
+    return {
+        "target": found.name,
+        "isolated": not found.openings,
+        "valves": [
+            {
+                "tag": v.name,
+                "what": v.what,
+                "port": v.port,
+                "distance_m": round(v.distance, 6),
+                "line": v.line,
+                "automatic": v.automatic,
+            }
+            for v in found.valves
+        ],
+        "openings": [
+            {"to": o.name, "what": o.what, "port": o.port, "distance_m": round(o.distance, 6), "why": o.why}
+            for o in found.openings
+        ],
+        "shut_off": list(found.shut_off_names),
+        "lines": list(found.lines),
+        "remarks": list(found.remarks),
+    }
+
+
+def _step_row(step: Step) -> tuple[str, ...]:
+    marks = ["instrument"] * step.tap + ["end"] * (step.ends and not step.tap)
+    marks += ["direction unknown"] * (step.flow == "unknown" and not step.tap)
+    return (
+        _metres(step.distance, step.at_least),
+        step.name,
+        step.what,
+        step.after or "",
+        step.line or "",
+        ", ".join(marks),
+    )
+
+
+def _by(port: str | None) -> str:
+    return f"by {port}" if port else ""
+
+
+def _metres(value: float, at_least: bool = False) -> str:
+    return f"{'>= ' if at_least else ''}{value + 0.0:.2f} m"
+
+
+def _yes(value: bool) -> str:
+    return "yes" if value else "no"

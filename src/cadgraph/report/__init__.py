@@ -1,5 +1,0 @@
-"""The report: one self-contained page with pictures, and ``picture.png`` beside it."""
-
-from cadgraph.report.page import write_report
-
-__all__ = ["write_report"]

@@ -1,0 +1,1 @@
+"""What makes and changes results: a run from file to folder, relabelling, corrections, catalogues."""

@@ -1,0 +1,167 @@
+"""One run from file to folder: load, build, write everything."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from cadgraph._io.atomic import write_atomically
+from cadgraph._io.progress import Progress, quiet
+from cadgraph._io.run_folder import clear_results, refuse_to_overwrite, results_folder
+from cadgraph.config import Config
+from cadgraph.errors import LabelError
+from cadgraph.labelers.base import Labeler
+from cadgraph.load import load
+from cadgraph.model.corrections import Correction, read_corrections
+from cadgraph.model.graph import SceneGraph
+from cadgraph.model.labels import GivenLabel, read_labels
+from cadgraph.model.scene import Scene
+from cadgraph.model.vocabulary import Vocabulary, default_vocabulary, read_vocabulary
+from cadgraph.pipeline import STAGES, build
+
+__all__ = ["RUN_STAGES", "Outcome", "run"]
+
+RUN_STAGES = ("read", *STAGES, "write graph", "write labels", "draw report")
+"""The names that ``run`` gives to its progress, in order."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a run made.
+
+    Args:
+        graph: the scene graph.
+        files: what was written, by purpose (``"graph"``, ``"labels"``, ``"report"``, ``"picture"``, ``"timings"``).
+        seconds: wall time of each stage [s].
+    """
+
+    graph: SceneGraph
+    files: dict[str, Path]
+    seconds: dict[str, float] = field(default_factory=dict)
+
+
+def run(
+    source: str | Path,
+    folder: str | Path,
+    config: Config | None = None,
+    *,
+    labels: str | Path | Sequence[GivenLabel] | None = None,
+    vocabulary: str | Path | Vocabulary | None = None,
+    labeler: Labeler | None = None,
+    report: bool = True,
+    progress: Progress = quiet,
+) -> Outcome:
+    """Reads a scene, builds its graph, and writes ``graph.json``, ``semantics.usda``, ``report.html`` and pictures.
+
+    Each file is written whole or not at all; the folder is tried before the work begins, and results of an earlier run
+    in it are removed before the first new one is written. Corrections that lie in the folder are applied again.
+
+    Args:
+        source: the scene's file.
+        folder: where the results go; made if missing.
+        config: all settings; the defaults if None.
+        labels: labels from outside, or a file of them.
+        vocabulary: another label tree, or a file with it.
+        labeler: another labeler than the one that is set.
+        report: whether to draw pictures and write the report.
+        progress: told how far it is.
+
+    Raises:
+        LoadError: the scene can't be read.
+        LabelError: labels or vocabulary can't be used.
+        OutputError: the folder can't be written, or a result would take the place of a file that isn't ours.
+    """
+    from cadgraph.export.usd import check_source, is_usd, write_semantics
+
+    config = config or Config()
+    clock = _Clock(progress)
+    with results_folder(folder) as target:
+        refuse_to_overwrite(target, [source], "the source itself")
+        check_source(source, target / "semantics.usda")
+        tree = vocabulary if isinstance(vocabulary, Vocabulary) else _tree(vocabulary)
+        given = read_labels(labels, tree) if isinstance(labels, str | Path) else labels or ()
+        corrections = read_corrections(target, tree)
+
+        clock("read", 0)
+        scene = load(source, config.load)
+        if is_usd(source):
+            _refuse_to_overwrite_layers(source, target)
+        graph = _built(scene, config, labels, given, tree, labeler, corrections, clock)
+        clock("write graph", 0)
+        clear_results(target)
+        files = {"graph": graph.save(target / "graph.json")}
+        clock("write labels", 0)
+        files["labels"] = write_semantics(scene, graph, source, target / "semantics.usda")
+        if report:
+            from cadgraph.draw.report import write_report
+
+            clock("draw report", 0)
+            files["report"] = write_report(scene, graph, target / "report.html", config.report, clock)
+            files["picture"] = target / "picture.png"
+        clock("", 1)
+        files["timings"] = target / "timings.json"
+        write_atomically(files["timings"], json.dumps(clock.seconds, indent=1) + "\n")
+    return Outcome(graph, files, clock.seconds)
+
+
+def _built(
+    scene: Scene,
+    config: Config,
+    labels: str | Path | Sequence[GivenLabel] | None,
+    given: Sequence[GivenLabel],
+    vocabulary: Vocabulary,
+    labeler: Labeler | None,
+    corrections: Sequence[Correction],
+    progress: Progress,
+) -> SceneGraph:
+    try:
+        return build(
+            scene,
+            config,
+            labels=given,
+            vocabulary=vocabulary,
+            labeler=labeler,
+            corrections=corrections,
+            progress=progress,
+        )
+    except LabelError as error:
+        # The stages know labels, but not the file that they came from.
+        if isinstance(labels, str | Path) and str(error).startswith("labels: "):
+            raise LabelError(f"{labels}: {str(error).removeprefix('labels: ')}") from None
+        raise
+
+
+def _tree(file: str | Path | None) -> Vocabulary:
+    return read_vocabulary(file) if file else default_vocabulary()
+
+
+def _refuse_to_overwrite_layers(source: str | Path, folder: Path) -> None:
+    """A result of an earlier run may have become a layer of the scene."""
+    from cadgraph.load.usd_assets import open_layers
+
+    if (folder / "semantics.usda").exists() or (folder / "scene.usdc").exists():
+        layers = [layer.realPath for layer in open_layers(Path(source)) if layer.realPath]
+        refuse_to_overwrite(folder, layers, "a file that the source refers to")
+
+
+class _Clock:
+    """Passes progress on and notes how long each stage takes."""
+
+    def __init__(self, progress: Progress) -> None:
+        self.seconds: dict[str, float] = {}
+        self._progress = progress
+        self._stage = ""
+        self._since = time.perf_counter()
+
+    def __call__(self, stage: str, share: float) -> None:
+        now = time.perf_counter()
+        if stage != self._stage:
+            if self._stage:
+                self.seconds[self._stage] = round(now - self._since, 3)
+                self._progress(self._stage, 1.0)
+            self._stage, self._since = stage, now
+        if stage:
+            self._progress(stage, share)

@@ -1,0 +1,333 @@
+import json
+import signal
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import pytest
+
+import cadgraph
+import shapes
+from cadgraph.model.scene import Scene
+from command_line import refused, run
+
+USDA = """#usda 1.0
+(
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Mesh "box"
+{
+    int[] faceVertexCounts = [4, 4, 4, 4, 4, 4]
+    int[] faceVertexIndices = [0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5]
+    point3f[] points = [(0,0,0), (1,0,0), (0,1,0), (1,1,0), (0,0,1), (1,0,1), (0,1,1), (1,1,1)]
+}
+"""
+
+
+@pytest.fixture
+def scene_file(tmp_path):
+    path = tmp_path / "scene.usda"
+    path.write_text(USDA)
+    return path
+
+
+def test_build_writes_everything_and_says_what_to_open(capsys, scene_file, tmp_path):
+    code, out, _ = run(capsys, "build", scene_file, "-o", tmp_path / "out", "--set", "report.samples=1")
+    assert code == 0
+    for name in ("graph.json", "semantics.usda", "report.html", "picture.png", "timings.json"):
+        assert (tmp_path / "out" / name).stat().st_size > 0
+        assert name in out or name == "timings.json"
+    assert not [p for p in (tmp_path / "out").iterdir() if p.name.startswith(".")]
+    assert cadgraph.SceneGraph.load(tmp_path / "out").source.n_meshes == 1
+
+
+def test_show_prints_a_summary_or_json(capsys, scene_file, tmp_path):
+    run(capsys, "build", scene_file, "-o", tmp_path / "out", "--no-report", "--set", "label.labeler=none")
+    shown = run(capsys, "show", tmp_path / "out")[1]
+    for words in ("1 mesh, 12 triangles", "1, not labelled", "1, no pipe system", "0 pairs of parts"):
+        assert words in shown
+    assert json.loads(run(capsys, "show", tmp_path / "out", "--json")[1])["n_parts"] == 1
+
+
+@pytest.mark.parametrize("to", ["graphml", "csv", "networkx-json"])
+def test_export_names_what_it_wrote(capsys, scene_file, tmp_path, to):
+    run(capsys, "build", scene_file, "-o", tmp_path / "out", "--no-report")
+    code, out, _ = run(capsys, "export", tmp_path / "out", "--to", to, "-o", tmp_path / "exported")
+    assert code == 0
+    for line in out.splitlines():
+        assert Path(line.removeprefix("wrote ")).stat().st_size > 0
+
+
+def test_the_printed_settings_can_be_read_back(capsys, tmp_path):
+    text = run(capsys, "config", "--set", "cluster.eps=0.02", "--set", "ground.meshes=['/a', '/b']")[1]
+    (tmp_path / "settings.toml").write_text(text)
+    assert run(capsys, "config", "--config", tmp_path / "settings.toml")[1] == text
+    assert cadgraph.read_config(tmp_path / "settings.toml").cluster.eps == 0.02
+
+
+def test_flags_win_over_the_file_and_the_file_over_the_defaults(capsys, scene_file, tmp_path):
+    (tmp_path / "settings.toml").write_text('method = "paper"\n[cluster]\neps = 0.05\n')
+    arguments = ("build", scene_file, "-o", tmp_path / "out", "--no-report", "--config", tmp_path / "settings.toml")
+    run(capsys, *arguments, "--set", "cluster.eps=0.03")
+    config = cadgraph.SceneGraph.load(tmp_path / "out").document.config
+    assert config["method"] == "paper"
+    assert config["cluster"]["eps"] == 0.03
+
+
+def test_a_missing_file(capsys, tmp_path):
+    assert "nothing.usd" in refused(capsys, "build", tmp_path / "nothing.usd", "-o", tmp_path / "out")
+
+
+def test_an_empty_file(capsys, tmp_path):
+    (tmp_path / "empty.usd").touch()
+    assert "empty.usd" in refused(capsys, "build", tmp_path / "empty.usd", "-o", tmp_path / "out")
+
+
+def test_a_text_file_named_usd(capsys, tmp_path):
+    (tmp_path / "text.usd").write_text("this is no scene\n")
+    assert "text.usd" in refused(capsys, "build", tmp_path / "text.usd", "-o", tmp_path / "out")
+
+
+def test_a_stage_without_meshes(capsys, tmp_path):
+    (tmp_path / "bare.usda").write_text('#usda 1.0\ndef Xform "a" {}\n')
+    assert "bare.usda" in refused(capsys, "build", tmp_path / "bare.usda", "-o", tmp_path / "out")
+
+
+def test_an_output_folder_that_cannot_be_written(capsys, scene_file, tmp_path):
+    (tmp_path / "file").touch()
+    message = refused(capsys, "build", scene_file, "-o", tmp_path / "file" / "out")
+    assert "choose another output folder" in message
+
+
+def test_a_label_file_with_an_unknown_path(capsys, scene_file, tmp_path):
+    (tmp_path / "labels.json").write_text(json.dumps([{"mesh": "/nowhere", "group": "Tank", "name": "tank"}]))
+    message = refused(capsys, "build", scene_file, "-o", tmp_path / "out", "--labels", tmp_path / "labels.json")
+    assert "/nowhere" in message
+    assert str(tmp_path / "labels.json") in message
+    assert "correct its path" in message
+    assert not (tmp_path / "out").exists(), "a folder that was made for nothing is gone again"
+
+
+@pytest.mark.parametrize(
+    ("extra", "word"),
+    [
+        (["--set", "cluster.eps"], "NAME=VALUE"),
+        (["--set", "cluster.epsilon=1"], "cluster.epsilon"),
+        (["--set", "cluster.eps=-1"], "cluster.eps"),
+        (["--set", "nonsense.eps=1"], "nonsense.eps"),
+        (["--method", "guess"], "method"),
+        (["--ground", "/nowhere"], "'/nowhere' is not a mesh of the scene; give a path as in graph.json"),
+        (["--ground", "/"], "give a mesh, as '/box' below it"),
+        (["--set", "cluster.eps=true"], "cluster.eps must be a number, not true"),
+        (["--config", "nothing.toml"], "nothing.toml"),
+        (["--labels", "nothing.json"], "nothing.json"),
+        (["--vocabulary", "nothing.yaml"], "nothing.yaml"),
+    ],
+)
+def test_bad_flags_are_named(capsys, scene_file, tmp_path, extra, word):
+    assert word in refused(capsys, "build", scene_file, "-o", tmp_path / "out", "--no-report", *extra)
+
+
+def test_an_unknown_export_format_lists_the_known_ones(capsys, scene_file, tmp_path):
+    run(capsys, "build", scene_file, "-o", tmp_path / "out", "--no-report")
+    assert "graphml" in refused(capsys, "export", tmp_path / "out", "--to", "dwg")
+
+
+@pytest.mark.parametrize("content", ["", "{", "[]", '{"format": "cadgraph", "version": 99}'])
+def test_a_graph_that_is_none_is_named(capsys, tmp_path, content):
+    (tmp_path / "graph.json").write_text(content)
+    assert "graph.json" in refused(capsys, "show", tmp_path)
+
+
+def test_labels_come_from_a_file_and_say_so(capsys, scene_file, tmp_path):
+    (tmp_path / "labels.csv").write_text("mesh,group,name\n/box,Tank,shell\n")
+    run(capsys, "build", scene_file, "-o", tmp_path / "out", "--no-report", "--labels", tmp_path / "labels.csv")
+    label = cadgraph.SceneGraph.load(tmp_path / "out").parts()[0].label
+    assert (label.group, label.name, label.source, label.confidence) == ("Tank", "shell", "author", 1.0)
+
+
+def test_another_vocabulary_is_used_and_kept(capsys, scene_file, tmp_path):
+    (tmp_path / "own.yaml").write_text("groups:\n  Vessel:\n    unit: vessel\n    names: [drum]\n")
+    (tmp_path / "labels.json").write_text(json.dumps([{"mesh": "/box", "group": "Vessel", "name": "drum"}]))
+    flags = ("--labels", tmp_path / "labels.json", "--vocabulary", tmp_path / "own.yaml", "--no-report")
+    run(capsys, "build", scene_file, "-o", tmp_path / "out", *flags)
+    graph = cadgraph.SceneGraph.load(tmp_path / "out")
+    assert [u.unit_type for u in graph.units()] == ["vessel"]
+    assert graph.document.vocabulary == {"Vessel": {"names": ["drum"], "unit": "vessel"}}
+
+
+def test_the_version_and_the_help_are_there(capsys):
+    assert run(capsys, "--version")[1].strip() == f"cadgraph {cadgraph.__version__}"
+    code, out, _ = run(capsys, "--help")
+    assert code == 0
+    for command in ("build", "demo", "show", "export", "config"):
+        assert command in out
+
+
+def test_it_runs_as_a_module():
+    done = subprocess.run([sys.executable, "-m", "cadgraph", "--version"], capture_output=True, text=True, check=True)
+    assert done.stdout.startswith("cadgraph ")
+
+
+def test_a_crash_between_files_leaves_none_half_written(monkeypatch, tmp_path):
+    graph = cadgraph.build(Scene.from_meshes([shapes.box()]), cadgraph.Config().replace({"label.labeler": "none"}))
+    monkeypatch.setattr(Path, "replace", lambda *_: (_ for _ in ()).throw(OSError(28, "No space left on device")))
+    with pytest.raises(cadgraph.OutputError, match="No space left"):
+        graph.save(tmp_path)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", ["a\nb.usda", "a\x01b.usda", "a\x7fb.usda"])
+def test_a_name_that_no_layer_can_refer_to_is_refused_before_the_work(capsys, tmp_path, name):
+    (tmp_path / name).write_text(USDA)
+    assert "rename it" in refused(capsys, "build", tmp_path / name, "-o", tmp_path / "out", "--no-report")
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_name_that_is_no_text_is_refused_in_one_line(capsys, tmp_path):
+    path = tmp_path / "a\udce4.usda"
+    try:
+        path.write_text(USDA)
+    except (OSError, UnicodeError):
+        pytest.skip("this system has no such names")
+    assert "rename it" in refused(capsys, "build", path, "-o", tmp_path / "out", "--no-report")
+    with pytest.raises(cadgraph.LoadError, match="not UTF-8"):
+        cadgraph.load(path)
+
+
+def test_an_error_cannot_move_the_cursor(capsys, tmp_path):
+    message = refused(capsys, "build", tmp_path / "a\x1b[31m\r\nb.usda", "-o", tmp_path / "out")
+    assert message.isprintable()
+
+
+def test_no_bars_where_nobody_looks(capsys, scene_file, tmp_path):
+    (tmp_path / "labels.json").write_text('[{"mesh": "/no", "group": "Tank"}]')
+    flags = ("--labels", tmp_path / "labels.json", "--no-report")
+    _, out, err = run(capsys, "build", scene_file, "-o", tmp_path / "out", *flags)
+    assert out == ""
+    assert len(err.splitlines()) == 1
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_ctrl_c_and_a_polite_kill_end_alike(capsys, monkeypatch, tmp_path, number, code):
+    handlers = signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)
+    monkeypatch.setattr("cadgraph.session.run.run", lambda *_, **__: signal.raise_signal(number))
+    ended, _, err = run(capsys, "build", "a.usd", "-o", tmp_path / "out")
+    assert ended == code
+    assert err.splitlines() == ["stopped; nothing half-written was left, the same command starts anew"]
+    assert (signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)) == handlers
+
+
+def test_a_stop_that_a_library_swallows_comes_again(capsys, monkeypatch, tmp_path):
+    class Swallows:
+        def __del__(self):
+            signal.raise_signal(signal.SIGINT)
+
+    def work(*_, **__):
+        Swallows()
+        threading.Event().wait(30)
+
+    monkeypatch.setattr("cadgraph.cli.signals._PATIENCE", 0.05)
+    monkeypatch.setattr("sys.unraisablehook", lambda _: None)
+    monkeypatch.setattr("cadgraph.session.run.run", work)
+    assert run(capsys, "build", "a.usd", "-o", tmp_path / "out")[0] == 130
+
+
+@pytest.mark.parametrize("unit", ["nan", "0", "-1", "inf", "1e-9"])
+def test_a_plant_in_an_impossible_unit_is_refused(capsys, tmp_path, unit):
+    message = refused(capsys, "environment", "make", "-o", tmp_path / "a.usdc", "--unit", unit)
+    assert "from 1e-06 to 1000" in message
+    assert not (tmp_path / "a.usdc").exists()
+
+
+def test_the_demo_leaves_a_skid_of_the_user_alone(capsys, tmp_path):
+    (tmp_path / "skid.usdc").write_text("mine")
+    assert "not written by cadgraph" in refused(capsys, "demo", "-o", tmp_path)
+    assert (tmp_path / "skid.usdc").read_text() == "mine"
+
+
+def test_want_of_memory_is_one_line(capsys, monkeypatch, tmp_path):
+    def greedy(*_, **__):
+        raise MemoryError
+
+    monkeypatch.setattr("cadgraph.session.run.run", greedy)
+    assert "not enough memory" in refused(capsys, "build", "a.usd", "-o", tmp_path / "out")
+
+
+def test_an_earlier_report_is_gone_when_the_new_run_draws_none(capsys, scene_file, tmp_path):
+    small = [word for name in ("samples=1", "width=64", "height=64") for word in ("--set", f"report.{name}")]
+    flags = ("-o", tmp_path / "out", *small)
+    run(capsys, "build", scene_file, *flags)
+    (tmp_path / "out" / "notes.txt").write_text("mine")
+    (tmp_path / "out" / ".graph-abcdefgh.json").write_text("left by a killed run")
+    run(capsys, "build", scene_file, *flags, "--no-report")
+    names = sorted(path.name for path in (tmp_path / "out").iterdir())
+    assert names == ["graph.json", "notes.txt", "semantics.usda", "timings.json"]
+
+
+def test_a_failed_run_leaves_the_earlier_results(capsys, scene_file, tmp_path):
+    run(capsys, "build", scene_file, "-o", tmp_path / "out", "--no-report")
+    before = (tmp_path / "out" / "graph.json").read_bytes()
+    refused(capsys, "build", scene_file, "-o", tmp_path / "out", "--ground", "/nowhere")
+    assert (tmp_path / "out" / "graph.json").read_bytes() == before
+
+
+def test_the_source_itself_is_refused_before_the_work(capsys, tmp_path):
+    source = tmp_path / "semantics.usda"
+    source.write_text(USDA + "# cadgraph\n")
+    assert "this is the source itself" in refused(capsys, "build", source, "-o", tmp_path)
+    assert source.read_text() == USDA + "# cadgraph\n"
+
+
+def test_a_layer_that_the_source_refers_to_is_never_written_over(capsys, scene_file, tmp_path):
+    run(capsys, "build", scene_file, "-o", tmp_path / "out", "--no-report")
+    layer = (tmp_path / "out" / "semantics.usda").read_bytes()
+    (tmp_path / "whole.usda").write_text("#usda 1.0\n( subLayers = [@out/semantics.usda@] )\n")
+    message = refused(capsys, "build", tmp_path / "whole.usda", "-o", tmp_path / "out", "--no-report")
+    assert "a file that the source refers to" in message
+    assert (tmp_path / "out" / "semantics.usda").read_bytes() == layer
+
+
+@pytest.mark.parametrize("name", ["graph.json", "semantics.usda", "scene.usdc", "report.html", "picture.png"])
+def test_files_of_the_user_are_never_written_over(capsys, scene_file, tmp_path, name):
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / name).write_text('{"my": "data"}')
+    assert name in refused(capsys, "build", scene_file, "-o", tmp_path / "out", "--no-report")
+    assert (tmp_path / "out" / name).read_text() == '{"my": "data"}'
+
+
+def test_run_can_be_called_again_and_writes_over_its_own(scene_file, tmp_path):
+    for _ in range(2):
+        cadgraph.run(scene_file, tmp_path / "out", report=False)
+    assert cadgraph.SceneGraph.load(tmp_path / "out").parts()
+
+
+def test_what_may_spoil_everything_is_said_in_words(capsys, tmp_path):
+    path = tmp_path / "scene.usda"
+    path.write_text(USDA.replace("metersPerUnit = 1", "metersPerUnit = 0"))
+    code, out, _ = run(capsys, "build", path, "-o", tmp_path / "out", "--no-report")
+    assert code == 0
+    assert "metersPerUnit = 0 is impossible; taken as centimetres" in out
+
+
+@pytest.mark.parametrize("name", ["plant.ifc", "plant.dae", "plant.OBJ"])
+def test_formats_that_others_turn_into_usd_are_named_as_such(capsys, tmp_path, name):
+    (tmp_path / name).write_text("ISO-10303-21;\nHEADER;\n")
+    assert "files are not read; export it as USD or STEP" in refused(
+        capsys, "build", tmp_path / name, "-o", tmp_path / "out"
+    )
+
+
+def test_relabel_says_what_the_others_became(capsys, tmp_path):
+    mesh = USDA.split("def Mesh", 1)
+    far = mesh[1].replace('"box"', '"other"', 1).replace("(0,0,0)", "(0,0,0)")
+    turned = far.rstrip().removesuffix("}") + "    double3 xformOp:translate = (9, 0, 0)\n"
+    turned += '    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n'
+    (tmp_path / "scene.usda").write_text(USDA + "def Mesh" + turned)
+    assert run(capsys, "build", tmp_path / "scene.usda", "-o", tmp_path / "out", "--no-report")[0] == 0
+    code, out, err = run(capsys, "relabel", tmp_path / "out", "part-00000", "--as", "Tank/shell", "--no-report")
+    assert code == 0, err
+    assert "part-00000 is Tank/shell now" in out
+    assert "part-00001 Tank/shell" in " ".join(out.split())

@@ -1,0 +1,53 @@
+import numpy as np
+
+from cadgraph.config import ReportConfig
+from cadgraph.draw.report.colors import RELATION, group_colors
+from cadgraph.draw.report.pictures import cluster_colors, draw_pictures, functional_edges, largest_first
+
+CONFIG = ReportConfig(width=240, height=150, samples=1)
+
+
+def test_overviews_come_first_then_the_systems(scene, graph):
+    pictures = draw_pictures(scene, graph, CONFIG)
+    assert [p.name for p in pictures] == ["groups", "source", "clusters", "system-cluster-000"]
+
+
+def test_legend_names_the_groups_in_use_and_the_unlabelled(scene, graph):
+    by_group = draw_pictures(scene, graph, CONFIG)[0]
+    assert [e.text for e in by_group.legend] == [
+        "Pipe assembly", "Valve assembly", "Gauge assembly", "Tank", "unlabelled",
+    ]  # fmt: skip
+    assert by_group.legend[-1].hatched
+
+
+def test_relation_is_drawn_in_red_between_its_units(scene, graph):
+    by_group = draw_pictures(scene, graph, CONFIG)[0]
+    ends = [graph.unit(tag).centroid for tag in ("V-001", "G-001")]
+    places, _ = by_group.camera.project(ends)
+    column, row = (places[0] * 0.4 + places[1] * 0.6).astype(int)
+    patch = np.asarray(by_group.image)[row - 2 : row + 3, column - 2 : column + 3].astype(int)
+    assert (patch[..., 0] - patch[..., 2]).max() > 100
+    assert RELATION.startswith("#e")
+
+
+def test_graph_and_scene_far_out_agree(build_scene, build_graph):
+    origin = (4.5e6, -2.4e7, 120.0)
+    near = draw_pictures(build_scene(), build_graph(), CONFIG)
+    far = draw_pictures(build_scene(origin), build_graph(origin), CONFIG)
+    assert [p.image.tobytes() for p in near] == [p.image.tobytes() for p in far]
+
+
+def test_largest_cluster_comes_first(graph):
+    assert [c.id for c in largest_first(graph.clusters())] == ["cluster-000", "cluster-001", "cluster-002"]
+    assert len(set(cluster_colors(graph).values())) == 3
+
+
+def test_functional_edges_leave_out_adjacency(graph):
+    assert [edge.kind for edge in functional_edges(graph)] == ["related"]
+
+
+def test_group_outside_the_vocabulary_gets_a_colour_of_its_own(build_graph):
+    colors = group_colors(build_graph(vocabulary={"Rotor": {"names": ["blade"]}}))
+    assert next(iter(colors)) == "Rotor"
+    assert colors["Tank"] != colors["Rotor"]
+    assert len(set(colors.values())) == len(colors)

@@ -1,0 +1,73 @@
+import os
+import sys
+
+import pytest
+
+from cadgraph._io.atomic import ensure_writable, replacing, write_atomically
+from cadgraph.errors import OutputError
+
+
+def test_text_is_written_as_utf8_with_line_feeds(tmp_path):
+    write_atomically(tmp_path / "a.txt", "é\n")
+    assert (tmp_path / "a.txt").read_bytes() == b"\xc3\xa9\n"
+
+
+def test_folders_are_made_and_nothing_else_is_left(tmp_path):
+    write_atomically(tmp_path / "a" / "b" / "c.bin", b"\x00")
+    assert [path.name for path in (tmp_path / "a" / "b").iterdir()] == ["c.bin"]
+
+
+def test_a_failing_block_leaves_the_old_file_and_nothing_beside_it(tmp_path):
+    target = tmp_path / "a.txt"
+    target.write_text("old", encoding="utf-8")
+
+    def fail():
+        with replacing(target) as beside:
+            beside.write_text("half", encoding="utf-8")
+            raise RuntimeError("stop")
+
+    with pytest.raises(RuntimeError, match="stop"):
+        fail()
+    assert target.read_text(encoding="utf-8") == "old"
+    assert list(tmp_path.iterdir()) == [target]
+
+
+def test_the_path_beside_keeps_the_suffix(tmp_path):
+    with replacing(tmp_path / "scene.usdc") as beside:
+        assert beside.suffix == ".usdc"
+        assert beside.parent == tmp_path
+
+
+def test_the_old_file_stays_until_the_block_ends(tmp_path):
+    target = tmp_path / "a.txt"
+    write_atomically(target, "old")
+    with replacing(target) as beside:
+        beside.write_text("new", encoding="utf-8")
+        assert target.read_text(encoding="utf-8") == "old"
+    assert target.read_text(encoding="utf-8") == "new"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such modes")
+def test_the_file_gets_the_modes_that_any_new_file_gets(tmp_path):
+    (tmp_path / "plain").write_text("", encoding="utf-8")
+    write_atomically(tmp_path / "ours", "")
+    assert os.stat(tmp_path / "ours").st_mode == os.stat(tmp_path / "plain").st_mode
+
+
+def test_a_file_where_a_folder_should_be_is_an_output_error(tmp_path):
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    for attempt in (lambda: write_atomically(tmp_path / "file" / "a", ""), lambda: ensure_writable(tmp_path / "file")):
+        with pytest.raises(OutputError, match="choose another output folder"):
+            attempt()
+
+
+def test_a_folder_where_the_file_should_be_is_an_output_error(tmp_path):
+    (tmp_path / "a.txt").mkdir()
+    with pytest.raises(OutputError, match=r"a\.txt: can't be written"):
+        write_atomically(tmp_path / "a.txt", "text")
+    assert [path.name for path in tmp_path.iterdir()] == ["a.txt"]
+
+
+def test_a_writable_folder_is_made_and_left_empty(tmp_path):
+    assert ensure_writable(tmp_path / "a" / "b") == tmp_path / "a" / "b"
+    assert list((tmp_path / "a" / "b").iterdir()) == []

@@ -1,0 +1,261 @@
+import json
+
+import pytest
+
+import plates
+from cadgraph.cli import main
+from cadgraph.load import load
+from cadgraph.model.graph import SceneGraph
+from chat_server import ChatServer
+
+SMALL = ("--set", "lvlm.size=128", "--set", "load.isolate=false", "--set", "inspect.hidden=false", "--no-report")
+
+
+@pytest.fixture(autouse=True)
+def _no_settings_from_outside(monkeypatch):
+    monkeypatch.delenv("OPENAI_BASE_URL", raising=False)
+    monkeypatch.setenv("OPENAI_API_KEY", "x")
+
+
+def usda(scene):
+    lines = ['#usda 1.0\n(\n    metersPerUnit = 1\n    upAxis = "Z"\n)\n']
+    for i in range(scene.n_meshes):
+        vertices, faces = scene.mesh(i)
+        points = ", ".join(f"({x}, {y}, {z})" for x, y, z in vertices.tolist())
+        indices = ", ".join(str(k) for k in faces.reshape(-1).tolist())
+        counts = ", ".join(["3"] * len(faces))
+        lines.append(
+            f'def Mesh "mesh_{i}"\n{{\n    int[] faceVertexCounts = [{counts}]\n'
+            f"    int[] faceVertexIndices = [{indices}]\n    point3f[] points = [{points}]\n}}\n"
+        )
+    return "".join(lines)
+
+
+@pytest.fixture
+def scene_file(tmp_path):
+    path = tmp_path / "plates.usda"
+    path.write_text(usda(plates.scene_of(3)))
+    return path
+
+
+def run(capsys, *arguments):
+    code = 0
+    try:
+        main([str(a) for a in arguments])
+    except SystemExit as end:
+        code = end.code or 0
+    out, err = capsys.readouterr()
+    return code, out, err
+
+
+def parts_in(scene_file):
+    return plates.parts_of(load(scene_file))
+
+
+def labels_in(folder):
+    return {
+        part.meshes[0]: None if part.label is None else (part.label.group, part.label.name)
+        for part in SceneGraph.load(folder).parts()
+    }
+
+
+def wanted(scene_file):
+    parts = parts_in(scene_file)
+    return dict(zip(parts.scene.paths, plates.truth_of(parts), strict=True))
+
+
+def test_build_asks_a_server_and_a_second_run_asks_nothing(capsys, scene_file, tmp_path):
+    server = ChatServer(plates.oracle(parts_in(scene_file)))
+    with server.running() as address:
+        arguments = ("build", scene_file, "-o", tmp_path / "out", "--labeler", "lvlm", "--base-url", address, "--yes")
+        code, _, err = run(capsys, *arguments, *SMALL)
+        assert code == 0
+        assert "3 questions" in err
+        assert labels_in(tmp_path / "out") == wanted(scene_file)
+        first = (tmp_path / "out" / "graph.json").read_bytes()
+        assert run(capsys, *arguments, *SMALL)[0] == 0
+    assert len(server.bodies) == 3
+    assert (tmp_path / "out" / "graph.json").read_bytes() == first
+    record = json.loads((tmp_path / "out" / "lvlm" / "run.json").read_text())
+    assert (record["asked"], record["from_cache"]) == (0, 3)
+
+
+def test_nobody_there_to_confirm_asks_nothing(capsys, scene_file, tmp_path):
+    server = ChatServer(plates.oracle(parts_in(scene_file)))
+    with server.running() as address:
+        code, _, err = run(
+            capsys, "build", scene_file, "-o", tmp_path / "out", "--labeler", "lvlm", "--base-url", address, *SMALL
+        )
+    assert code == 2
+    assert "--yes" in err
+    assert server.bodies == []
+
+
+def test_a_dry_run_can_be_answered_by_hand(capsys, scene_file, tmp_path):
+    out = tmp_path / "out"
+    assert run(capsys, "build", scene_file, "-o", out, "--labeler", "lvlm", "--dry-run", *SMALL)[0] == 0
+    assert set(labels_in(out).values()) == {None}
+    folders = sorted((out / "lvlm" / "questions").glob("q-*"))
+    assert len(folders) == 3
+    answer = plates.oracle(parts_in(scene_file))
+    for folder in folders:
+        assert len(list(folder.glob("view*.jpg"))) == 6
+        prompt = (folder / "prompt.md").read_text()
+        (folder / "answer.json").write_text(json.dumps(answer(prompt)))
+    index = json.loads((out / "lvlm" / "questions" / "index.json").read_text())
+    assert sorted(index) == [folder.name for folder in folders]
+    (folders[1] / "answer.json").write_text("a flange, I think")
+    code, _, err = run(capsys, "label", out, "--from-folder", out / "lvlm" / "questions", "--no-report")
+    assert code == 0
+    found, truth = labels_in(out), wanted(scene_file)
+    missing = set(index[folders[1].name])
+    assert {mesh for mesh, label in found.items() if label is None} == missing
+    assert all(found[mesh] == truth[mesh] for mesh in found if mesh not in missing)
+    assert "no JSON object" in err
+
+
+def test_batch_requests_are_written_and_results_read_back(capsys, scene_file, tmp_path):
+    out = tmp_path / "out"
+    assert run(capsys, "build", scene_file, "-o", out, "--labeler", "lvlm", "--batch", *SMALL)[0] == 0
+    rows = [json.loads(line) for line in (out / "lvlm" / "batch-001.jsonl").read_text().splitlines()]
+    assert len(rows) == 3
+    assert {(row["method"], row["url"]) for row in rows} == {("POST", "/v1/chat/completions")}
+    answer = plates.oracle(parts_in(scene_file))
+    results = []
+    for i, row in enumerate(rows):
+        text = row["body"]["messages"][1]["content"][0]["text"]
+        message = {"role": "assistant", "content": json.dumps(answer(text)), "refusal": None}
+        body = {"choices": [{"message": message}], "usage": {"prompt_tokens": 2000, "completion_tokens": 90}}
+        response = {"status_code": 200 if i else 500, "body": body}
+        results.append(json.dumps({"id": str(i), "custom_id": row["custom_id"], "response": response, "error": None}))
+    (tmp_path / "results.jsonl").write_text("\n".join(results) + "\n")
+    assert run(capsys, "label", out, "--batch-results", tmp_path / "results.jsonl", "--no-report")[0] == 0
+    found, truth = labels_in(out), wanted(scene_file)
+    assert sum(label is not None for label in found.values()) == 4
+    assert all(label in (None, truth[mesh]) for mesh, label in found.items())
+    # The request that failed is in the next batch.
+    assert len((out / "lvlm" / "batch-001.jsonl").read_text().splitlines()) == 1
+
+
+def test_keeping_renders_keeps_prompt_pictures_and_reply(capsys, scene_file, tmp_path):
+    server = ChatServer(plates.oracle(parts_in(scene_file)))
+    with server.running() as address:
+        run(
+            capsys, "build", scene_file, "-o", tmp_path / "out", "--labeler", "lvlm", "--base-url", address, "--yes",
+            "--keep-renders", "--paper-views", "--max-questions", "1", *SMALL,
+        )  # fmt: skip
+    kept = list((tmp_path / "out" / "lvlm" / "renders").glob("q-*"))
+    assert len(kept) == 1
+    assert {path.name for path in kept[0].iterdir()} >= {"prompt.md", "reply.json", "view1-all.jpg", "view3-alone.jpg"}
+    assert "magenta" not in (kept[0] / "prompt.md").read_text()
+
+
+def test_words_of_a_model_do_nothing_on_the_terminal(capsys, scene_file, tmp_path):
+    evil = "\x1b[31m[bold]<script>alert(1)</script>"
+
+    def answer(text):
+        return {"group": evil, "name": evil, "seen": evil, "propose_group": evil, "propose_name": evil, "confidence": 1}
+
+    server = ChatServer(answer, ["refuse"])
+    with server.running() as address:
+        _, out, err = run(
+            capsys,
+            "build",
+            scene_file,
+            "-o",
+            tmp_path / "out",
+            "--labeler",
+            "lvlm",
+            "--base-url",
+            address,
+            "--yes",
+            *SMALL,
+        )
+    assert "\x1b[31m" not in out + err
+    assert "<script>" not in (tmp_path / "out" / "graph.json").read_text()
+
+
+def test_vocabulary_grows_with_the_source_of_each_addition(capsys, scene_file, tmp_path):
+    def answer(text):
+        return {
+            "labels": [
+                {"group": "tank", "name": "Level Indicators", "reason": "a dial"},
+                {"group": "Pipe assembly", "name": "Elbows", "reason": "bent"},
+                {"group": "Vehicle", "name": "forklift", "reason": "wheels"},
+            ]
+        }
+
+    server = ChatServer(answer)
+    new = tmp_path / "new.yaml"
+    with server.running() as address:
+        code, out, _ = run(
+            capsys,
+            "vocabulary",
+            "grow",
+            scene_file,
+            "-o",
+            new,
+            "--base-url",
+            address,
+            "--yes",
+            "--pictures",
+            "2",
+            "--set",
+            "load.isolate=false",
+        )
+    assert code == 0
+    assert "level indicator" in out
+    assert len(server.bodies) == 2
+    assert "forklift" in server.bodies[1]["messages"][1]["content"][0]["text"]
+    rows = json.loads((tmp_path / "new.added.json").read_text())
+    assert [(row["source"], row["outcome"]) for row in rows[:3]] == [
+        ("overview-1", "added"),
+        ("overview-1", "folded"),
+        ("overview-1", "added"),
+    ]
+    assert {row["outcome"] for row in rows[3:]} == {"folded"}
+    code, out, _ = run(capsys, "vocabulary", "show", new)
+    assert "Vehicle" in out
+    assert run(capsys, "vocabulary", "check", new)[0] == 0
+
+
+def test_proposals_of_a_run_merge_into_a_tree(capsys, tmp_path):
+    proposals = {"labels": [{"group": "Tank", "name": "agitators"}, {"group": "Tank", "name": "Shells"}]}
+    (tmp_path / "proposals.json").write_text(json.dumps(proposals))
+    code, out, _ = run(
+        capsys, "vocabulary", "merge", "builtin", tmp_path / "proposals.json", "-o", tmp_path / "merged.yaml"
+    )
+    assert code == 0
+    assert "added    Tank: agitators" in out
+    assert "into Tank: shell" in out
+    assert "agitator" in (tmp_path / "merged.yaml").read_text()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--labeler", "chatgpt"], "embedded+lvlm"),
+        (["--dry-run"], "--labeler lvlm"),
+        (["--labeler", "lvlm", "--dry-run", "--batch"], "one of them"),
+        (["--labeler", "lvlm", "--base-url", "http://a:b@c/v1"], "environment"),
+        (["--labeler", "lvlm", "--model", "unheard-of", "--max-cost", "1", "--yes"], "has no price"),
+    ],
+)
+def test_options_that_make_no_sense_are_refused_in_one_line(capsys, scene_file, tmp_path, arguments, words):
+    code, _, err = run(capsys, "build", scene_file, "-o", tmp_path / "out", *arguments, *SMALL)
+    assert code == 2
+    assert words in err
+    assert "Traceback" not in err
+
+
+def test_labelling_anew_needs_the_same_scene(capsys, scene_file, tmp_path):
+    out = tmp_path / "out"
+    assert run(capsys, "build", scene_file, "-o", out, "--labeler", "lvlm", "--dry-run", *SMALL)[0] == 0
+    scene_file.write_text(usda(plates.scene_of(2)))
+    code, _, err = run(capsys, "label", out, "--from-folder", out / "lvlm" / "questions", "--no-report")
+    assert code == 2
+    assert "changed" in err
+    scene_file.unlink()
+    code, _, err = run(capsys, "label", out, "--from-folder", out / "lvlm" / "questions", "--no-report")
+    assert code == 2
+    assert "--scene" in err

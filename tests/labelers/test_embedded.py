@@ -1,0 +1,212 @@
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import shapes
+from cadgraph.errors import LabelError
+from cadgraph.geometry.mesh.properties import measure
+from cadgraph.labelers.embedded.classifier import Network, aggregate
+from cadgraph.labelers.embedded.features import observe
+from cadgraph.labelers.embedded.labeler import EmbeddedLabeler, judge, spread
+from cadgraph.labelers.embedded.model import STRANGE, Model, default_model, read_model, write_model
+from cadgraph.labelers.embedded.wording import describe_company, describe_form
+from cadgraph.model.parts import Contacts, Parts
+from cadgraph.model.scene import Scene
+from cadgraph.model.vocabulary import default_vocabulary
+from cadlab.training.example import make_parts_from
+from cadplants import make
+
+VOCABULARY = default_vocabulary()
+NO_CONTACTS = Contacts(np.zeros((0, 2), np.int64), np.zeros(0), np.zeros((0, 2, 3)))
+
+
+def parts_of(*meshes):
+    scene = Scene.from_meshes(list(meshes))
+    n = scene.n_meshes
+    return Parts(
+        scene, tuple((i,) for i in range(n)), np.arange(n), measure(scene), np.arange(n), np.zeros(n, np.bool_)
+    )
+
+
+@pytest.fixture(scope="module")
+def riser():
+    return make("riser", 3, "vendor")
+
+
+def said(scene):
+    parts, contacts = make_parts_from(scene)
+    return dict(zip(parts.scene.paths, EmbeddedLabeler().label(parts, contacts, VOCABULARY), strict=True))
+
+
+def test_order_and_pose_of_meshes_change_no_label(riser):
+    scene = riser.scene()
+    q, _ = np.linalg.qr(np.random.default_rng(5).normal(size=(3, 3)))
+    q *= np.sign(np.linalg.det(q))
+    meshes = [scene.mesh(i) for i in range(scene.n_meshes)]
+    moved = Scene.from_meshes(
+        [(v @ q.T + [10.0, 5.0, -3.0], f) for v, f in reversed(meshes)], tuple(reversed(scene.paths))
+    )
+    first, second = said(scene), said(moved)
+    least, moves = EmbeddedLabeler().least_confidence, []
+    for path, one in first.items():
+        other = second[path]
+        # A rounding tips histograms of what lies on a border of their bins, and the axis of what is square: confidence
+        # moves, and only what sits on the fence may fall to the other side of it.
+        moves.append(abs(one.guesses[0].confidence - other.guesses[0].confidence))
+        fence = min(abs(label.confidence - least) for label in (one, other)) < 0.1
+        assert (one.group, one.name) == (other.group, other.name) or fence
+        assert (one.guesses[0].group, one.guesses[0].name) == (other.guesses[0].group, other.guesses[0].name)
+    assert max(moves) < 0.15
+    assert np.quantile(moves, 0.95) < 0.04
+
+
+def test_the_model_reproduces_its_recorded_figures():
+    trial = default_model().card["fixed trial"]
+    for row in trial:
+        plant = make(row["preset"], row["seed"], row["hand"])
+        truth = dict(zip(plant.paths(), ((c.group, c.name) for c in plant.components), strict=True))
+        found = {path: label and (label.group, label.name) for path, label in said(plant.scene()).items() if label}
+        right = np.mean([label == truth[path] for path, label in found.items()])
+        group = np.mean([label[0] == truth[path][0] for path, label in found.items()])
+        assert right == pytest.approx(row["name"], abs=0.02)
+        assert group == pytest.approx(row["group"], abs=0.02)
+
+
+def test_ground_has_no_label_and_no_neighbours(riser):
+    parts, contacts = make_parts_from(riser.scene())
+    ground = np.zeros(parts.n_parts, np.bool_)
+    ground[contacts.pairs[0, 0]] = True
+    parts = replace(parts, ground=ground)
+    assert EmbeddedLabeler().label(parts, contacts, VOCABULARY)[int(contacts.pairs[0, 0])] is None
+    seen = observe(parts, contacts)
+    assert not ground[seen.surroundings.here].any()
+    assert not ground[seen.surroundings.there].any()
+
+
+def test_nothing_gives_nothing():
+    assert EmbeddedLabeler().label(parts_of(), NO_CONTACTS, VOCABULARY) == []
+
+
+def test_parts_without_area_get_a_finite_answer():
+    flat = (np.zeros((3, 3)), np.array([[0, 1, 2]]))
+    [label] = EmbeddedLabeler().label(parts_of(flat), NO_CONTACTS, VOCABULARY)
+    assert 0 <= label.confidence <= 1
+
+
+def test_names_outside_the_vocabulary_are_never_said_and_their_share_is_lost(riser):
+    parts, contacts = make_parts_from(riser.scene())
+    seen = observe(parts, contacts)
+    full = judge(default_model(), seen, VOCABULARY)
+    small = type(VOCABULARY).from_json({"Pipe assembly": {"names": ["pipe"], "connector": True}})
+    few = judge(default_model(), seen, small)
+    assert few.classes == (("Pipe assembly", "pipe"),)
+    np.testing.assert_allclose(few.names[:, 0], full.names[:, full.classes.index(("Pipe assembly", "pipe"))])
+    assert ("strange", "strange") not in full.classes
+    foreign = type(VOCABULARY).from_json({"Ship": {"names": ["mast"]}})
+    assert EmbeddedLabeler().label(parts, contacts, foreign) == [None] * parts.n_parts
+
+
+def test_repeats_that_nearly_agree_follow_each_other():
+    p = np.array([[0.9, 0.1], [0.9, 0.1], [0.45, 0.55], [0.02, 0.98]])
+    mixed = spread(p, np.array([0, 0, 0, 1]))
+    assert mixed[2, 0] > 0.5
+    np.testing.assert_allclose(mixed[3], p[3])
+    np.testing.assert_allclose(mixed.sum(axis=1), 1)
+
+
+def test_one_that_is_sure_of_another_role_keeps_it():
+    p = np.array([[0.97, 0.03]] * 5 + [[0.01, 0.99]])
+    assert spread(p, np.zeros(6, np.int64))[5, 1] > 0.85
+
+
+def test_talk_takes_mean_and_greatest_of_what_neighbours_say():
+    heard = aggregate(np.array([[1.0, 4.0], [3.0, 0.0], [5.0, 5.0]]), np.array([0, 0, 2]), 3)
+    np.testing.assert_allclose(heard, [[2, 2, 3, 4], [0, 0, 0, 0], [5, 5, 5, 5]])
+
+
+def small_network(rounds=1):
+    rng = np.random.default_rng(0)
+    shape = {
+        "mean": (3,), "spread": (3,), "side_mean": (2,), "side_spread": (2,), "w0": (3, 4), "b0": (4,), "w1": (4, 5),
+        "b1": (5,), "give0": (5, 6), "side0": (2, 6), "take0": (5, 6), "talk_b0": (6,), "join0": (17, 5),
+        "join_b0": (5,), "out": (5, 3), "out_b": (3,),
+    }  # fmt: skip
+    return Network({name: rng.uniform(0.5, 1.5, size) for name, size in shape.items()}, rounds)
+
+
+def test_without_neighbours_a_part_hears_nothing():
+    network = small_network()
+    x = np.array([[1.0, 2.0, 3.0]])
+    nobody = np.zeros(0, np.int64)
+    alone = network.scores(x, np.zeros((0, 2)), nobody, nobody)
+    both = network.scores(np.vstack([x, x]), np.zeros((0, 2)), nobody, nobody)
+    np.testing.assert_allclose(both, np.vstack([alone, alone]))
+    pair = network.scores(np.vstack([x, x]), np.ones((2, 2)), np.array([0, 1]), np.array([1, 0]))
+    assert not np.allclose(pair, both)
+
+
+def test_model_files_come_back_as_they_were(tmp_path):
+    model = Model((small_network(),), ("Tank/tank", STRANGE), 1.5, 0.7, {"seeds": [0, 9]})
+    write_model(model, tmp_path / "m.npz")
+    again = read_model(tmp_path / "m.npz")
+    assert (again.classes, again.temperature, again.threshold, again.card) == (
+        model.classes, model.temperature, model.threshold, model.card
+    )  # fmt: skip
+    np.testing.assert_allclose(again.members[0].weights["w0"], model.members[0].weights["w0"], rtol=1e-3)
+
+
+def test_damaged_or_foreign_model_files_end_in_one_clear_line(tmp_path):
+    path = tmp_path / "m.npz"
+    write_model(Model((small_network(),), ("Tank/tank",), 1.0, 0.5), path)
+    whole = path.read_bytes()
+    for content in (b"", b"not a model", whole[: len(whole) // 2], b"PK\x03\x04" + bytes(50)):
+        path.write_bytes(content)
+        with pytest.raises(LabelError, match=r"m\.npz.*damaged"):
+            read_model(path)
+    with pytest.raises(LabelError, match="can't be read"):
+        read_model(tmp_path / "missing.npz")
+
+
+def test_another_version_is_refused_by_name(tmp_path):
+    path = tmp_path / "m.npz"
+    head = {"version": 99, "classes": [], "rounds": []}
+    np.savez(path, head=np.frombuffer(json.dumps(head).encode(), np.uint8))
+    with pytest.raises(LabelError, match="version 99"):
+        read_model(path)
+
+
+def test_pickles_are_never_loaded(tmp_path):
+    path = tmp_path / "m.npz"
+    np.savez(path, head=np.array([{"version": 1}], dtype=object))
+    with pytest.raises(LabelError, match="damaged"):
+        read_model(path)
+
+
+def test_the_model_in_the_package_is_small_and_knows_the_vocabulary():
+    model = default_model()
+    assert {c for c in model.classes if c != STRANGE} == {
+        f"{group}/{name}" for group, content in VOCABULARY.to_json().items() for name in content["names"]
+    }
+
+
+@pytest.mark.parametrize(
+    ("mesh", "words"),
+    [
+        (shapes.tube(0.05, 0.04, 0.6, 32), "hollow tube, 100 mm across, 600 mm long"),
+        (shapes.box(size=(0.4, 0.3, 0.01)), "plate, 400 mm x 300 mm x 10 mm"),
+        (shapes.box(size=(1.5, 0.1, 0.1)), "bar, 1500 mm x 100 mm x 100 mm"),
+        (shapes.tube(0.01, 0.006, 0.01, 6), "six-sided ring"),
+    ],
+)
+def test_forms_in_words(mesh, words):
+    seen = observe(parts_of(mesh), NO_CONTACTS)
+    assert describe_form(seen.facts[0]).startswith(words)
+
+
+def test_company_in_words():
+    assert describe_company([], 1) == "stands alone"
+    assert describe_company([None], 1) == "touches nothing known"
+    words = describe_company(["flange", "flange", "bolt", None], 8)
+    assert words == "touches 2 flanges, 1 bolt; one of 8 alike on one part"

@@ -1,0 +1,116 @@
+from dataclasses import replace
+from itertools import cycle
+
+import numpy as np
+import pytest
+
+from cadgraph.model.vocabulary import default_vocabulary
+from cadplants.drawn_styles import draw_hand
+from cadplants.families import FAMILIES
+from cadplants.family import UNIT, Family, Model, Part, as_assembly, as_device
+from cadplants.modeling_style import HANDS
+from cadplants.plant import Device
+from cadplants.primitives import box
+from plants.solids import is_closed, shell_volumes
+
+# Every style, but none finer than 16 sides, so that hundreds of builds stay quick.
+STYLES = [
+    replace(hand, sides=(min(hand.sides[0], 12), min(hand.sides[1], 16)))
+    for hand in (*HANDS.values(), *(draw_hand(np.random.default_rng(seed)) for seed in range(2)))
+]
+
+
+def built(family, dn, hand, seed):
+    rng = np.random.default_rng(seed)
+    return family.build(dn, hand, rng, 1.1) if family.place == "carrier" else family.build(dn, hand, rng)
+
+
+def sizes(family):
+    return sorted({family.sizes[0], family.sizes[len(family.sizes) // 2], family.sizes[-1]})
+
+
+@pytest.mark.parametrize("family", FAMILIES.values(), ids=FAMILIES)
+def test_every_family_is_closed_and_labelled_in_every_hand(family):
+    vocabulary = default_vocabulary()
+    for seed, (hand, dn) in enumerate(zip(STYLES, cycle(sizes(family)), strict=False)):
+        assembly = as_assembly(family, built(family, dn, hand, seed), hand, "X-1")
+        assert assembly.components
+        for component in assembly.components:
+            assert vocabulary.holds(component.group, component.name), component.name
+            assert component.family == family.name
+            assert component.granularity in ("one", "few", "pieces")
+            assert is_closed(component.solid), (hand.name, dn, component.name)
+            assert (shell_volumes(component.solid) > 0).all(), (hand.name, dn, component.name)
+
+
+@pytest.mark.parametrize("family", FAMILIES.values(), ids=FAMILIES)
+def test_the_same_seed_builds_the_same_shape(family):
+    hand = HANDS["game"]
+    first, second = (as_assembly(family, built(family, sizes(family)[0], hand, 5), hand) for _ in range(2))
+    for a, b in zip(first.components, second.components, strict=True):
+        assert a.name == b.name
+        np.testing.assert_array_equal(a.solid.vertices, b.solid.vertices)
+
+
+@pytest.mark.parametrize("family", [f for f in FAMILIES.values() if f.place == "inline"], ids=lambda f: f.name)
+def test_what_sits_in_a_line_reaches_from_one_end_to_the_other(family):
+    dn, hand = sizes(family)[1 if len(sizes(family)) > 1 else 0], HANDS["plant-design"]
+    device = as_device(family, built(family, dn, hand, 3), hand, "X-1")
+    vertices = np.concatenate([c.vertices for c in device.assembly.components])
+    near = vertices[np.hypot(vertices[:, 1], vertices[:, 2]) < 0.5 * dn / 1000 + 0.02][:, 0]
+    assert device.length > 0
+    assert np.isclose(near, 0.0, atol=1e-9).any()
+    assert np.isclose(near, device.length, atol=2e-6).any()
+
+
+def test_units_belong_to_the_group_of_their_type():
+    of_group = default_vocabulary().unit_of_group
+    for family in FAMILIES.values():
+        assert (family.unit or None) == of_group.get(family.group)
+
+
+def test_names_say_kind_and_build():
+    assert all(name.count("/") == 1 and name == family.name for name, family in FAMILIES.items())
+
+
+PARTS = (
+    Part(box((1, 1, 1)), "valve body", "valve", "valve body"),
+    Part(box((1, 1, 1), (0, 0, 1)), "valve stem", "trim", "valve body"),
+    Part(box((1, 1, 1), (0, 0, 2)), "handwheel", "handle"),
+    Part(box((1, 1, 1), (0, 0, 3)), "bolt", "fastener", "valve body", "Connection assembly", True),
+)
+FAMILY = Family("gate valve/test", "inline", "Valve assembly", "valve", lambda *_: Model(PARTS))
+
+
+@pytest.mark.parametrize(
+    ("grain", "fasteners", "names"),
+    [
+        ("one", "bolt", ["valve"]),
+        ("one", "none", ["valve"]),
+        ("few", "bolt", ["valve body", "handwheel", "bolt"]),
+        ("few", "none", ["valve body", "handwheel"]),
+        ("pieces", "bolt", ["valve body", "valve stem", "handwheel", "bolt"]),
+    ],
+)
+def test_a_hand_joins_parts_as_finely_as_it_models(grain, fasteners, names):
+    hand = replace(HANDS["plant-design"], valve=grain, fasteners=fasteners)
+    assembly = as_assembly(FAMILY, Model(PARTS), hand, "V-1")
+    assert [c.name for c in assembly.components] == names
+    owners = {c.group: c.unit for c in assembly.components}
+    assert owners["Valve assembly"] == "V-1"
+    assert owners.get("Connection assembly", "") == ""
+
+
+def test_finished_devices_take_the_id_of_their_unit():
+    family = FAMILIES["check valve/swing"]
+    device = as_device(family, built(family, 50, HANDS["bim"], 0), HANDS["bim"], "V-7")
+    assert isinstance(device, Device)
+    assert {c.unit for c in device.assembly.components} == {"V-7"}
+    assert [u.id for u in device.assembly.units] == ["V-7"]
+    assert UNIT not in {c.unit for c in device.assembly.components}
+
+
+def test_what_stands_on_the_floor_does_not_fit_a_line():
+    family = FAMILIES["tank/dished on legs"]
+    with pytest.raises(ValueError, match="no device for a line"):
+        as_device(family, built(family, 15, HANDS["bim"], 0), HANDS["bim"])

@@ -1,0 +1,176 @@
+from collections import Counter
+
+import numpy as np
+import pytest
+
+from cadgraph.model.vocabulary import default_vocabulary
+from cadplants import HANDS, PRESETS, Sins, make, spoil
+from plants.solids import is_closed, shell_volumes, touching
+
+SMALL = [name for name in PRESETS if name not in ("assortment", "field")]
+EXACT = [name for name, hand in HANDS.items() if not hand.looseness]
+LOOSE = [name for name, hand in HANDS.items() if hand.looseness]
+
+
+@pytest.fixture(scope="module", params=SMALL)
+def plant(request):
+    return make(request.param, 0)
+
+
+def test_labels_are_in_the_vocabulary(plant):
+    vocabulary = default_vocabulary()
+    assert all(vocabulary.holds(c.group, c.name) for c in plant.components)
+
+
+def test_components_are_closed_and_look_outward(plant):
+    seen = {id(c.solid): c for c in plant.components}
+    for component in seen.values():
+        assert is_closed(component.solid), component.name
+        assert (shell_volumes(component.solid) > 0).all(), component.name
+
+
+def test_units_are_of_the_type_of_their_group(plant):
+    types = {unit.id: unit.type for unit in plant.units}
+    assert len(types) == len(plant.units)
+    of_group = default_vocabulary().unit_of_group
+    for component in plant.components:
+        if component.unit:
+            assert types[component.unit] == of_group[component.group]
+        else:
+            assert of_group.get(component.group) is None
+
+
+def test_every_unit_has_meshes_and_a_place_in_the_network(plant):
+    assert {c.unit for c in plant.components} - {""} == {unit.id for unit in plant.units}
+    joined = {c.source for c in plant.connections} | {c.target for c in plant.connections}
+    assert joined == {unit.id for unit in plant.units} | {point.id for point in plant.points}
+
+
+def test_junctions_have_three_branches_and_terminals_one(plant):
+    degree = Counter()
+    for connection in plant.connections:
+        degree[connection.source] += 1
+        degree[connection.target] += 1
+    for point in plant.points:
+        assert degree[point.id] == {"junction": 3, "terminal": 1}[point.kind], point
+
+
+def test_lines_have_no_gaps_in_their_order(plant):
+    steps = {}
+    for connection in plant.connections:
+        steps.setdefault(connection.line, []).append(connection)
+    for line in steps.values():
+        assert all(a.target == b.source for a, b in zip(line, line[1:], strict=False))
+        assert all(step.length > 0 for step in line)
+
+
+def test_each_plant_is_one_cluster_that_hangs_together(plant):
+    parent = list(range(plant.n_meshes))
+
+    def root(i):
+        while parent[i] != i:
+            i = parent[i]
+        return i
+
+    for a, b in plant.contacts:
+        parent[root(a)] = root(b)
+    assert len({root(i) for i in range(plant.n_meshes)}) == 1
+    assert len({c.cluster for c in plant.components}) == 1
+
+
+@pytest.mark.parametrize(
+    ("preset", "hand"),
+    [(preset, EXACT[k % len(EXACT)]) for k, preset in enumerate(SMALL)]
+    + [("skid", hand) for hand in EXACT]
+    + [("pumps", "plant-design"), ("rack", "plant-design"), ("tank", "plant-design"), ("riser", "vendor")],
+)
+def test_exactly_the_designed_pairs_touch(preset, hand):
+    pytest.importorskip("fcl")
+    plant = make(preset, 1, hand)
+    assert {tuple(sorted(pair)) for pair in plant.contacts} == set(touching(plant))
+
+
+@pytest.mark.parametrize("preset", SMALL)
+@pytest.mark.parametrize("hand", LOOSE)
+def test_loose_hands_leave_no_more_than_their_looseness(preset, hand):
+    pytest.importorskip("fcl")
+    plant = make(preset, 1, hand)
+    near = touching(plant, plant.looseness + 1e-6)
+    assert {tuple(sorted(pair)) for pair in plant.contacts} <= set(near)
+
+
+@pytest.mark.parametrize(("preset", "valves", "gauges"), [("skid", 12, 12), ("riser", 6, 6), ("tank", 4, 5)])
+@pytest.mark.parametrize("seed", range(3))
+def test_structures_of_the_paper_have_its_valves_and_gauges(preset, valves, gauges, seed):
+    count = Counter(unit.type for unit in make(preset, seed).units)
+    assert (count["valve"], count["gauge"]) == (valves, gauges)
+
+
+@pytest.mark.parametrize("preset", SMALL)
+def test_same_seed_same_plant_and_another_seed_another(preset):
+    one, again, other = make(preset, 4), make(preset, 4), make(preset, 5)
+    assert one.truth() == again.truth()
+    assert np.array_equal(one.scene().vertices, again.scene().vertices)
+    assert not np.array_equal(one.scene().vertices, other.scene().vertices)
+
+
+def test_hands_differ_in_what_they_model():
+    count = {name: make("skid", 0, name).n_meshes for name in HANDS}
+    assert len(HANDS) >= 6
+    assert count["bim"] < count["game"] < count["plant-design"] < count["mechanical"]
+
+
+@pytest.mark.parametrize("arguments", [("skids", 0), ("skid", 0, "foot")])
+def test_an_unknown_name_is_an_error(arguments):
+    with pytest.raises(ValueError, match="unknown"):
+        make(*arguments)
+
+
+def test_flow_is_known_where_physics_fixes_it():
+    drains = [c for c in make("tank", 0).connections if c.line in ("L4", "L5")]
+    assert {c.direction for c in drains} == {"forward"}
+    assert all(c.reason for c in make("pumps", 0).connections if c.direction != "unknown")
+
+
+def test_sins_are_recorded():
+    clean = make("riser", 0)
+    sins = Sins(duplicates=0.05, hidden=0.2, flipped=0.05, soup=0.05, degenerate=0.05, colors="gray")
+    plant = spoil(clean, sins, 3)
+    assert len(plant.duplicates) == round(0.05 * clean.n_meshes)
+    assert plant.hidden
+    assert plant.n_meshes == clean.n_meshes + len(plant.duplicates) + len(plant.hidden)
+    for a, b in plant.duplicates:
+        assert np.array_equal(plant.components[a].vertices, plant.components[b].vertices)
+    flaws = Counter(flaw for c in plant.components[: clean.n_meshes] for flaw in c.flaws)
+    assert set(flaws) == {"flipped", "soup", "degenerate"}
+    assert len({c.color for c in plant.components}) == 1
+    truth = plant.truth()
+    assert len(truth["hidden"]) == len(plant.hidden)
+    assert len(truth["meshes"]) == plant.n_meshes
+
+
+def test_hidden_bodies_lie_inside_without_touching():
+    pytest.importorskip("fcl")
+    plant = spoil(make("riser", 0), Sins(hidden=0.2), 3)
+    hidden = set(plant.hidden)
+    assert not [pair for pair in touching(plant) if hidden & set(pair)]
+
+
+def test_no_sins_change_nothing():
+    clean = make("riser", 0)
+    assert spoil(clean, Sins()).truth() == clean.truth()
+
+
+def test_field_holds_all_of_them_apart():
+    plant = make("field", 0)
+    clusters = Counter(c.cluster for c in plant.components)
+    assert 30 <= len(clusters) - 1 <= 45
+    assert [c.name for c in plant.components if not c.cluster] == ["ground"]
+    boxes = {}
+    for component in plant.components:
+        low, high = component.vertices.min(axis=0), component.vertices.max(axis=0)
+        boxes.setdefault(component.cluster, []).append((low, high))
+    assert len({unit.id for unit in plant.units}) == len(plant.units)
+    for a, b in plant.contacts:
+        pair = {plant.components[a].cluster, plant.components[b].cluster} - {""}
+        assert len(pair) == 1

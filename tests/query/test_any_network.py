@@ -1,0 +1,93 @@
+"""Whatever the network, however odd: every answer ends, nothing is lost, the drawing is sound, DEXPI comes back."""
+
+import xml.etree.ElementTree as ET
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from cadgraph.draw.schematic import draw_diagram
+from cadgraph.draw.schematic.layout import lay_out
+from cadgraph.draw.schematic.plan import plan_systems
+from cadgraph.export.dexpi import read_dexpi, write_dexpi
+from cadgraph.query import Arc, Network, find_isolation, find_lines, trace
+from cadgraph.query.text import isolation_lines, trace_lines
+from networks import chain, id_of, junction, network, terminal, unit
+
+NAMES = ["T-001", "P-001", "E-001", "J1", "J2", "X1", "X2", "V-001", "V-002", "V-003", "V-004", "G-001", "G-002"]
+KINDS = {"X2": "blind", "V-001": "check valve", "V-002": "relief valve", "V-003": "control valve"}
+EDGE = st.tuples(
+    st.sampled_from(NAMES),
+    st.sampled_from(NAMES),
+    st.sampled_from(["forward", "backward", "unknown"]),
+    st.sampled_from([50, 80, None]),
+    st.sampled_from([1.0, 0.25, None]),
+)
+
+
+def node(name):
+    at = (float(NAMES.index(name)), 1.0, 2.0)
+    if name[0] == "J":
+        return junction(int(name[1:]), at)
+    return terminal(int(name[1:]), KINDS.get(name, "open"), at) if name[0] == "X" else unit(name, KINDS.get(name), at)
+
+
+def made(rows):
+    used = dict.fromkeys(name for row in rows for name in row[:2])
+    return network(
+        [node(name) for name in used],
+        [e for a, b, flow, size, long in rows for e in chain(f"{a} {b}", size, long, flow)],
+    )
+
+
+networks = st.lists(EDGE, min_size=1, max_size=12).map(made)
+
+
+@settings(max_examples=25, deadline=None)
+@given(networks)
+def test_every_connection_is_in_one_line_or_on_one_tap(graph):
+    view = Network(graph)
+    inside = [arc.index for line in find_lines(view) for arc in line.arcs]
+    taps = [i for i, edge in enumerate(view.edges) if view.is_tap(Arc(i, edge, True))]
+    assert sorted(inside + taps) == list(range(len(view.edges)))
+
+
+@settings(max_examples=15, deadline=None)
+@given(networks, st.booleans())
+def test_every_question_has_an_answer(graph, check_valves):
+    view = Network(graph)
+    for place in view.places:
+        for direction in ("downstream", "upstream"):
+            assert trace_lines(trace(view, place, direction, through_unknown=check_valves))
+        for fewest in (False, True):
+            found = find_isolation(view, place, check_valves=check_valves, fewest=fewest)
+            assert isolation_lines(found)
+            assert not {valve.place for valve in found.valves} & set(found.shut_off)
+
+
+@settings(max_examples=15, deadline=None)
+@given(networks)
+def test_every_drawing_is_orthogonal_and_well_formed(graph):
+    ET.fromstring(draw_diagram(graph))
+    for sketch in plan_systems(Network(graph)):
+        for way in lay_out(sketch).ways:
+            for (ax, ay), (bx, by) in zip(way, way[1:], strict=False):
+                assert abs(ax - bx) < 0.01 or abs(ay - by) < 0.01
+
+
+@settings(max_examples=25, deadline=None)
+@given(networks)
+def test_lines_come_back_from_dexpi(tmp_path_factory, graph):
+    def told(lines):
+        rows = []
+        for line in lines:
+            ends = sorted([(line.start, line.start_port or ""), (line.end, line.end_port or "")])
+            length = None if line.length is None else round(line.length, 6)
+            rows.append((ends, sorted(line.through), length, sorted(line.sizes), line.flow))
+        return sorted(map(str, rows))
+
+    path = write_dexpi(graph, tmp_path_factory.mktemp("dexpi") / "plant.xml")
+    assert told(find_lines(read_dexpi(path))) == told(find_lines(graph))
+
+
+def test_ids_of_names_are_those_of_the_nodes():
+    assert [node(name).id for name in NAMES] == [id_of(name) for name in NAMES]

@@ -1,0 +1,140 @@
+import pytest
+
+from cadgraph.query import find_way, trace
+from cadgraph.query.text import trace_lines, way_lines
+from networks import chain, junction, network, pumping, terminal, unit
+
+
+def told(found):
+    return [(step.name, round(step.distance, 3)) for step in found.steps]
+
+
+def series(direction="forward"):
+    nodes = [unit("T-001"), unit("V-001"), unit("V-002"), terminal(1)]
+    return network(nodes, chain("T-001 V-001 V-002 X1", length=1.5, direction=direction))
+
+
+def test_downstream_goes_with_the_flow_in_order_of_distance():
+    assert told(trace(series(), "V-001")) == [("V-001", 0), ("V-002", 1.5), ("terminal-001", 3.0)]
+
+
+def test_upstream_goes_against_it():
+    assert told(trace(series(), "V-001", "upstream")) == [("V-001", 0), ("T-001", 1.5)]
+
+
+def test_a_backward_connection_flows_from_target_to_source():
+    assert told(trace(series("backward"), "V-001")) == [("V-001", 0), ("T-001", 1.5)]
+
+
+def test_unknown_direction_halts_and_says_so():
+    found = trace(series("unknown"), "V-001")
+    assert told(found) == [("V-001", 0)]
+    assert [(halt.after, halt.towards) for halt in found.halts] == [("V-001", "T-001"), ("V-001", "V-002")]
+    assert "not followed" in " ".join(trace_lines(found))
+    assert not found.steps[0].ends
+
+
+def test_unknown_direction_is_followed_both_ways_when_asked():
+    found = trace(series("unknown"), "V-001", through_unknown=True)
+    assert told(found) == [("V-001", 0), ("T-001", 1.5), ("V-002", 1.5), ("terminal-001", 3.0)]
+    assert found.halts == found.returns == ()
+
+
+def test_a_trace_passes_by_a_blind_end_without_a_word():
+    nodes = [unit("P-001"), junction(1), terminal(1), terminal(2, "blind")]
+    graph = network(nodes, chain("P-001 J1 X1") + chain("J1 X2", direction="unknown"))
+    found = trace(graph, "P-001")
+    assert told(found) == [("P-001", 0), ("junction-001", 1.0), ("terminal-001", 2.0)]
+    assert found.halts == ()
+
+
+def test_a_loop_ends_and_is_told():
+    nodes = [unit("P-001"), unit("V-001"), unit("V-002")]
+    found = trace(network(nodes, chain("P-001 V-001 V-002 P-001")), "P-001")
+    assert told(found) == [("P-001", 0), ("V-001", 1.0), ("V-002", 2.0)]
+    assert [(r.after, r.to, r.loop) for r in found.returns] == [("V-002", "P-001", True)]
+
+
+def test_a_loop_of_unknown_direction_ends_too():
+    nodes = [unit("P-001"), unit("V-001"), unit("V-002")]
+    graph = network(nodes, chain("P-001 V-001 V-002 P-001", direction="unknown"))
+    found = trace(graph, "P-001", through_unknown=True)
+    assert told(found) == [("P-001", 0), ("V-001", 1.0), ("V-002", 1.0)]
+    assert len(found.returns) == 1
+
+
+def test_branches_that_meet_again_are_no_loop():
+    nodes = [unit("P-001"), junction(1), junction(2), unit("V-001"), unit("V-002"), terminal(1)]
+    edges = chain("P-001 J1 V-001 J2 X1") + chain("J1 V-002 J2", length=2.0)
+    found = trace(network(nodes, edges), "P-001")
+    assert [(r.after, r.to, r.loop) for r in found.returns] == [("V-002", "junction-002", False)]
+
+
+def test_the_shorter_of_parallel_connections_counts():
+    nodes = [unit("P-001"), unit("T-001")]
+    found = trace(network(nodes, chain("P-001 T-001", length=3.0) + chain("P-001 T-001", length=1.0)), "P-001")
+    assert told(found) == [("P-001", 0), ("T-001", 1.0)]
+    assert [(r.after, r.to) for r in found.returns] == [("P-001", "T-001")]
+
+
+def test_a_connection_to_itself_is_a_loop():
+    found = trace(network([unit("P-001")], chain("P-001 P-001")), "P-001")
+    assert [(r.after, r.to, r.loop) for r in found.returns] == [("P-001", "P-001", True)]
+
+
+def test_instruments_on_taps_are_named_whatever_their_direction():
+    nodes = [unit("P-001"), junction(1), unit("G-001"), terminal(1)]
+    found = trace(network(nodes, chain("P-001 J1 X1") + chain("J1 G-001", 15, 0.1, "unknown")), "P-001")
+    assert told(found) == [("P-001", 0), ("junction-001", 1.0), ("G-001", 1.1), ("terminal-001", 2.0)]
+    assert [step.tap for step in found.steps] == [False, False, True, False]
+    assert found.halts == ()
+
+
+def test_a_trace_can_begin_at_an_instrument():
+    nodes = [unit("P-001"), junction(1), unit("G-001"), terminal(1)]
+    found = trace(network(nodes, chain("P-001 J1 X1") + chain("J1 G-001", 15, 0.5, "unknown")), "G-001")
+    assert told(found) == [("G-001", 0), ("junction-001", 0.5), ("terminal-001", 1.5)]
+
+
+def test_an_unknown_length_makes_the_distance_a_lower_bound():
+    nodes = [unit("P-001"), unit("V-001"), terminal(1)]
+    found = trace(network(nodes, chain("P-001 V-001", length=None) + chain("V-001 X1")), "P-001")
+    assert [(step.distance, step.at_least) for step in found.steps] == [(0, False), (0, True), (1.0, True)]
+    assert ">= 1.00 m" in "\n".join(trace_lines(found))
+
+
+def test_nothing_downstream_is_said():
+    assert "nothing: no known flow leaves" in " ".join(trace_lines(trace(series("unknown"), "V-001")))
+
+
+def test_the_way_to_another_unit_is_the_shortest_in_order():
+    found = find_way(pumping(), "V-003", "G-007")
+    assert [step.name for step in found.steps][:4] == ["V-003", "G-002", "P-002", "G-004"]
+    assert found.steps[-1].distance == pytest.approx(7.118, abs=1e-3)
+    assert found.steps[1].flow == "along"
+
+
+def test_the_way_against_the_flow_is_told_as_such():
+    assert [step.flow for step in find_way(series(), "V-002", "T-001").steps] == ["unknown", "against", "against"]
+
+
+def test_a_way_only_downstream_may_not_exist():
+    found = find_way(series(), "V-002", "T-001", "downstream")
+    assert found.steps == ()
+    assert way_lines(found, "V-002", "T-001") == ["no way downstream along the pipes from V-002 to T-001"]
+
+
+def test_the_way_to_itself_has_one_step():
+    assert told(find_way(series(), "V-001", "V-001")) == [("V-001", 0)]
+
+
+@pytest.mark.parametrize("typed", ["V-003", "unit-V-003", "v-3", "V003", "v3"])
+def test_tags_are_found_as_people_type_them(typed):
+    assert trace(pumping(), typed).start == "unit-V-003"
+
+
+def test_an_unknown_tag_is_refused_with_near_ones():
+    with pytest.raises(ValueError, match=r"nothing in the graph is called 'V-0044'; did you mean V-004"):
+        trace(pumping(), "V-0044")
+    with pytest.raises(ValueError, match="'cadgraph lines' prints"):
+        trace(pumping(), "&&&")

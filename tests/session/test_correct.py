@@ -1,0 +1,213 @@
+import json
+
+import pytest
+
+import knobs
+import shapes
+from cadgraph.config import Config
+from cadgraph.errors import LabelError
+from cadgraph.model.catalog import read_catalog, write_catalog
+from cadgraph.model.graph import SceneGraph
+from cadgraph.model.labels import GivenLabel, split_label
+from cadgraph.model.vocabulary import default_vocabulary
+from cadgraph.query.explain import explain
+from cadgraph.session.catalog_builder import EMPTY, take_file, take_graph
+from cadgraph.session.correct import amend
+from cadgraph.session.run import run
+from command_line import refused
+from command_line import run as command
+
+NONE = Config().replace({"label.labeler": "none", "load.isolate": False})
+
+
+def write_usda(path, meshes):
+    """The meshes as USD text."""
+    lines = ['#usda 1.0\n(\n    metersPerUnit = 1\n    upAxis = "Z"\n)']
+    for name, (vertices, faces) in meshes.items():
+        points = ", ".join(f"({x!r}, {y!r}, {z!r})" for x, y, z in vertices.tolist())
+        indices = ", ".join(str(i) for i in faces.reshape(-1).tolist())
+        lines.append(
+            f'def Mesh "{name}" {{\n  int[] faceVertexCounts = [{", ".join("3" * len(faces))}]\n'
+            f"  int[] faceVertexIndices = [{indices}]\n  point3f[] points = [{points}]\n}}"
+        )
+    path.write_text("\n".join(lines))
+    return path
+
+
+@pytest.fixture
+def scene(tmp_path):
+    """Two equal hooks that touch a box, and a knob apart."""
+    return write_usda(
+        tmp_path / "plant.usda",
+        {
+            "a": knobs.hook(),
+            "b": shapes.moved(knobs.hook(), translation=(1, 0, 0)),
+            "box": shapes.box((2, 1, 0.1), (0.5, 0, -0.06)),
+            "knob": shapes.moved(knobs.knob(), translation=(5, 0, 0)),
+        },
+    )
+
+
+@pytest.fixture
+def folder(scene, tmp_path):
+    run(scene, tmp_path / "out", NONE, report=False)
+    return tmp_path / "out"
+
+
+def label_of(graph, mesh):
+    label = graph.part(mesh).label
+    return None if label is None else (label.name, label.source)
+
+
+def test_a_correction_changes_the_part_and_its_repeats_and_is_kept(folder, scene):
+    done = amend(folder, "/a", "handwheel", report=False)
+    assert {p.meshes[0] for p in done.changed} == {"/a", "/b"}
+    graph = SceneGraph.load(folder)
+    assert label_of(graph, "/a") == ("handwheel", "human")
+    assert label_of(graph, "/b") == ("handwheel", "repeat")
+    assert {u.unit_type for u in graph.units()} == {"valve"}
+    assert "handwheel" in (folder / "semantics.usda").read_text()
+
+
+def test_a_later_build_into_the_folder_gives_the_same_graph(folder, scene):
+    amend(folder, "/a", "Valve assembly/handwheel", report=False)
+    amend(folder, "/knob", "Tank", this_only=True, report=False)
+    before = (folder / "graph.json").read_bytes()
+    run(scene, folder, NONE, report=False)
+    assert (folder / "graph.json").read_bytes() == before
+    assert len(json.loads((folder / "corrections.json").read_text())["corrections"]) == 2
+
+
+def test_a_correction_can_be_taken_back(folder):
+    before = (folder / "graph.json").read_bytes()
+    amend(folder, "/a", "handwheel", report=False)
+    amend(folder, "/a", None, report=False)
+    assert (folder / "graph.json").read_bytes() == before
+    with pytest.raises(ValueError, match="nobody corrected"):
+        amend(folder, "/a", None, report=False)
+
+
+def test_given_labels_stay(scene, tmp_path):
+    run(scene, tmp_path / "out", NONE, labels=[GivenLabel("/b", "Tank", "tank")], report=False)
+    done = amend(tmp_path / "out", "/a", "handwheel", report=False)
+    assert label_of(done.outcome.graph, "/b") == ("tank", "author")
+
+
+def test_when_the_source_is_gone_nothing_is_left_behind(folder, scene):
+    scene.unlink()
+    with pytest.raises(LabelError, match="--scene"):
+        amend(folder, "/a", "handwheel", report=False)
+    assert not (folder / "corrections.json").exists()
+
+
+def test_labels_of_a_model_that_was_asked_are_kept_without_asking(folder):
+    graph = json.loads((folder / "graph.json").read_text())
+    graph["config"]["lvlm"]["ask"] = "all"
+    for node in graph["nodes"]:
+        if node["layer"] == "part" and node["meshes"] != ["/box"]:
+            node["label"] = {"group": "Tank", "name": "tank", "confidence": 0.7, "source": "lvlm", "evidence": {}}
+        elif node["layer"] == "part":
+            node["guesses"] = [{"group": "Tank", "name": "shell", "confidence": 0.2}]
+    (folder / "graph.json").write_text(json.dumps(graph))
+    amend(folder, "/a", "handwheel", report=False)
+    done = amend(folder, "/a", None, report=False)
+    graph = done.outcome.graph
+    assert {label_of(graph, mesh) for mesh in ("/a", "/b", "/knob")} == {("tank", "lvlm")}
+    assert label_of(graph, "/box") is None
+    assert [g.name for g in graph.part("/box").guesses] == ["shell"]
+
+
+def test_labels_are_split_by_the_vocabulary():
+    tree = default_vocabulary()
+    assert split_label("Valve assembly/lever", tree) == ("Valve assembly", "lever")
+    assert split_label(" Tank ", tree) == ("Tank", None)
+    assert split_label("lever", tree) == ("Valve assembly", "lever")
+    assert split_label("My/own part", None) == ("My", "own part")
+    with pytest.raises(LabelError, match="did you mean 'Valve assembly/handwheel'"):
+        split_label("Valve assembly/hanwheel", tree)
+    for nonsense in ("", "/", "Tank/", "Tank/x:y"):
+        with pytest.raises(LabelError):
+            split_label(nonsense, tree)
+    with pytest.raises(LabelError):
+        split_label("A:b/c", None)
+
+
+def test_a_file_gives_an_entry_for_each_shape_or_one_of_all(scene):
+    taken = take_file(EMPTY, scene, "Valve assembly", "valve", config=NONE)
+    assert (taken.n_parts, len(taken.added), taken.known) == (4, 3, 1)
+    again = take_file(taken.catalog, scene, "Valve assembly", "valve", config=NONE)
+    assert (len(again.added), again.known) == (0, 4)
+    other = take_file(taken.catalog, scene, "Tank", None, config=NONE)
+    assert (len(other.replaced), len(other.catalog.entries)) == (3, 3)
+    assert len(take_file(EMPTY, scene, "Tank", None, merge=True, config=NONE).added) == 1
+
+
+def test_a_graph_gives_its_corrected_parts_with_their_labels(folder, scene, tmp_path):
+    with pytest.raises(LabelError, match="--only"):
+        take_graph(EMPTY, folder)
+    amend(folder, "/a", "handwheel", report=False)
+    taken = take_graph(EMPTY, folder)
+    assert [(e.name, e.said_by, e.mesh) for e in taken.added] == [("handwheel", "human", "/a")]
+    assert len(take_graph(EMPTY, folder, only=("Valve assembly", None)).added) == 1
+    file = write_catalog(taken.catalog, tmp_path / "parts.cadgraph-catalog")
+    graph = run(scene, tmp_path / "new", NONE.replace({"label.catalogs": [str(file)]}), report=False).graph
+    assert label_of(graph, "/b") == ("handwheel", "catalog")
+    assert label_of(graph, "/knob") is None
+    scene.write_text(scene.read_text() + "\n")
+    with pytest.raises(LabelError, match="changed since"):
+        take_graph(EMPTY, folder)
+
+
+def test_a_shape_with_two_labels_in_a_graph_is_left_out(scene, tmp_path):
+    given = [GivenLabel("/a", "Tank", "tank"), GivenLabel("/b", "Tank", "shell"), GivenLabel("/knob", "Tank", "shell")]
+    run(scene, tmp_path / "out", NONE, labels=given, report=False)
+    taken = take_graph(EMPTY, tmp_path / "out")
+    assert (len(taken.added), taken.torn) == (1, 1)
+
+
+def test_explanations_say_what_the_graph_knows(folder):
+    told = explain(amend(folder, "/a", "handwheel", report=False).outcome.graph, "/b")
+    assert (told.label, told.source, told.confidence) == ("Valve assembly/handwheel", "repeat", 1.0)
+    assert "/a" in told.why
+    assert [n.mesh for n in told.neighbors] == ["/box"]
+    assert told.repeats == {"Valve assembly/handwheel": 1}
+    assert told.unit == "V-001"
+    box = explain(SceneGraph.load(folder), "/box")
+    assert (box.label, box.why) == (None, "nobody has an idea")
+    assert dict(box.lines())["label"] == "none"
+    with pytest.raises(ValueError, match="/nowhere"):
+        explain(SceneGraph.load(folder), "/nowhere")
+
+
+def test_the_commands_say_what_they_did(capsys, folder, scene, tmp_path):
+    code, out, _ = command(capsys, "relabel", folder, "/a", "--as", "handwheel", "--no-report")
+    assert code == 0
+    assert "is Valve assembly/handwheel now" in out
+    assert "1 other parts changed" in out
+    code, out, _ = command(capsys, "explain", folder, "/a", "--json")
+    assert json.loads(out)["source"] == "human"
+    assert "corrected by a user" in command(capsys, "explain", folder, "/a")[1]
+    file = tmp_path / "p.cadgraph-catalog"
+    code, out, _ = command(capsys, "catalog", "add", folder, "--catalog", file)
+    assert code == 0
+    assert "1 entry added" in out
+    code, out, _ = command(capsys, "catalog", "add", scene, "--as", "Tank/tank", "--merge", "--catalog", file)
+    assert len(read_catalog(file).entries) == 2
+    assert len(json.loads(command(capsys, "catalog", "list", file, "--json")[1])) == 2
+    assert "handwheel" in command(capsys, "catalog", "list", file)[1]
+    code, out, _ = command(
+        capsys, "build", scene, "-o", tmp_path / "n", "--catalog", file, "--no-report", "--labeler", "none"
+    )
+    assert label_of(SceneGraph.load(tmp_path / "n"), "/b") == ("handwheel", "catalog")
+
+
+def test_bad_input_ends_in_one_line(capsys, folder, scene, tmp_path):
+    assert "spaceship" in refused(capsys, "relabel", folder, "/a", "--as", "spaceship")
+    assert "/nowhere" in refused(capsys, "relabel", folder, "/nowhere", "--as", "valve")
+    assert "--forget" in refused(capsys, "relabel", folder, "/a")
+    assert "--as" in refused(capsys, "catalog", "add", scene)
+    assert "catalog add" in refused(capsys, "catalog", "list", tmp_path / "none")
+    (tmp_path / "bad").write_bytes(b"PK\x03\x04 nonsense")
+    assert "damaged" in refused(capsys, "build", scene, "-o", tmp_path / "n", "--catalog", tmp_path / "bad")
+    (folder / "corrections.json").write_text("{}")
+    assert "corrections.json" in refused(capsys, "build", scene, "-o", folder, "--no-report")
