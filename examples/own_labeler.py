@@ -6,7 +6,6 @@ python examples/own_labeler.py
 import numpy as np
 
 import cadgraph
-from cadgraph.model.parts import Label
 from cadplants import make_skid
 
 
@@ -16,9 +15,8 @@ class LongAndRound:
     def label(self, parts, contacts, vocabulary):
         length, width, depth = parts.properties.obb_extents.T
         is_pipe = (length > 3 * width) & (np.abs(width - depth) < 0.05 * width)
-        return [
-            Label("Pipe assembly", "pipe", 0.6, "geometry", {"why": "long and round"}) if p else None for p in is_pipe
-        ]
+        pipe = cadgraph.Label("Pipe assembly", "pipe", 0.6, "geometry", {"why": "long and round"})
+        return cadgraph.Labeling.judge([pipe if p else None for p in is_pipe])
 
 
 def main() -> cadgraph.SceneGraph:

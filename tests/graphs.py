@@ -6,6 +6,7 @@ import numpy as np
 
 import shapes
 from cadgraph.model.graph import SceneGraph
+from cadgraph.model.labels import Label
 from cadgraph.model.records import (
     Adjacent,
     Cluster,
@@ -14,7 +15,6 @@ from cadgraph.model.records import (
     GraphDocument,
     OrientedBox,
     Part,
-    PartLabel,
     Related,
     Site,
     SourceRecord,
@@ -33,7 +33,7 @@ def box(size=1.0):
 
 
 def label(group="Valve assembly", name="valve body", confidence=0.75, source="geometry", **evidence):
-    return PartLabel(group=group, name=name, confidence=confidence, source=source, evidence=evidence)
+    return Label(group=group, name=name, confidence=confidence, source=source, evidence=evidence)
 
 
 def part(number, *meshes, label=None, size=1.0, **more):

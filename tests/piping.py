@@ -7,7 +7,7 @@ import numpy as np
 import shapes
 import tubes
 from cadgraph.config import Config
-from cadgraph.model.labels import GivenLabel
+from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.records import Connected, Junction, System, Terminal
 from cadgraph.model.scene import Scene
 from cadgraph.pipeline import build

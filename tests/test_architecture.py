@@ -40,7 +40,7 @@ MAY_IMPORT = {
     },
     "draw": set(),
     "__main__": {"cli"},
-    "__init__": {"config", "errors", "load", "model", "pipeline", "session"},
+    "__init__": {"_io", "config", "errors", "labelers", "load", "model", "pipeline", "session"},
 }
 SPLIT = ("draw",)  # rooms whose folders are rooms of their own
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 import cadgraph
 import shapes
-from cadgraph.model.labels import GivenLabel
+from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.records import Adjacent, Contains, Related
 from cadgraph.model.scene import Scene
 

@@ -13,20 +13,26 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from cadgraph._io.moved import keep_old_names
 from cadgraph.config import Config, read_config
-from cadgraph.errors import CadGraphError, FormatError, LabelError, LoadError, MissingExtra, OutputError
+from cadgraph.errors import CadGraphError, FormatError, LabelError, LoadError, MissingExtra, MissingPackage, OutputError
 from cadgraph.load import load
+from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.given_labels import GivenLabel, read_labels
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.labels import GivenLabel, read_labels
+from cadgraph.model.labels import Guess, Label
 from cadgraph.model.records import Adjacent, Cluster, Connected, Contains, Part, Related, Site, System, Terminal, Unit
-from cadgraph.model.scene import Diagnostic, Scene
+from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary, read_vocabulary
 
 if TYPE_CHECKING:
-    from cadgraph.pipeline import build
+    from cadgraph.labelers.base import Labeling
+    from cadgraph.pipeline import analyse, build, interpret
     from cadgraph.session.run import run
+    from cadgraph.session.session import Session
 
 __version__ = "0.1.0"
 
@@ -40,21 +46,28 @@ __all__ = [
     "Diagnostic",
     "FormatError",
     "GivenLabel",
+    "Guess",
+    "Label",
     "LabelError",
+    "Labeling",
     "LoadError",
     "MissingExtra",
+    "MissingPackage",
     "OutputError",
     "Part",
     "Related",
     "Scene",
     "SceneGraph",
+    "Session",
     "Site",
     "System",
     "Terminal",
     "Unit",
     "Vocabulary",
+    "analyse",
     "build",
     "default_vocabulary",
+    "interpret",
     "load",
     "read_config",
     "read_labels",
@@ -62,15 +75,20 @@ __all__ = [
     "run",
 ]
 
+keep_old_names()
+
+# These bring compiled kernels with them; 'import cadgraph' stays quick without.
+_LATER = {
+    "Labeling": "cadgraph.labelers.base",
+    "Session": "cadgraph.session.session",
+    "analyse": "cadgraph.pipeline",
+    "build": "cadgraph.pipeline",
+    "interpret": "cadgraph.pipeline",
+    "run": "cadgraph.session.run",
+}
+
 
 def __getattr__(name: str) -> Any:
-    # These two bring compiled kernels with them; 'import cadgraph' stays quick without.
-    if name == "build":
-        from cadgraph.pipeline import build
-
-        return build
-    if name == "run":
-        from cadgraph.session.run import run
-
-        return run
+    if name in _LATER:
+        return getattr(import_module(_LATER[name]), name)
     raise AttributeError(f"module 'cadgraph' has no attribute {name!r}")

@@ -1,4 +1,4 @@
-"""The method, from scene to graph."""
+"""The method, from scene to graph: what geometry says, what the parts are called, and what follows from both."""
 
 from __future__ import annotations
 
@@ -8,11 +8,12 @@ from cadgraph._io.progress import Progress, quiet
 from cadgraph.config import Config
 from cadgraph.geometry.mesh.properties import measure
 from cadgraph.labelers.base import Labeler, label_parts, labeler_of
-from cadgraph.labelers.precedence import settle_labels
+from cadgraph.labelers.precedence import SettledLabels, settle_labels
+from cadgraph.model.analysis import Analysis
 from cadgraph.model.catalog import read_catalog
 from cadgraph.model.corrections import Correction
+from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.labels import GivenLabel
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary
 from cadgraph.stages.adjacency import find_near_meshes, join_contacts
@@ -27,10 +28,13 @@ from cadgraph.stages.preprocess import prepare_scene
 from cadgraph.stages.relate import pipe_systems, relate_units
 from cadgraph.stages.relate.connect import connect_units
 
-__all__ = ["STAGES", "build"]
+__all__ = ["ANALYSIS_SETTINGS", "STAGES", "analyse", "build", "interpret"]
 
 STAGES = ("measure", "contacts", "group", "cluster", "label", "relate", "assemble")
 """The names that ``build`` gives to its progress, in order."""
+
+ANALYSIS_SETTINGS = ("method", "inspect", "ground", "group", "cluster", "preprocess")
+"""The settings that an analysis depends on; all others are about labels and what follows from them."""
 
 
 def build(
@@ -52,7 +56,7 @@ def build(
         vocabulary: the built-in tree if None.
         labeler: another labeler than the one that is set.
         corrections: a user's, of single parts; they spread to others like them.
-        progress: told how far it is.
+        progress: called with the name of a stage and the share of it that is done.
 
     Returns:
         The graph; the same scene and settings give the same graph to the byte.
@@ -62,65 +66,97 @@ def build(
         ValueError: a setting names a mesh that is not in the scene, or the scene's arrays don't fit together.
         TypeError: ``scene`` is no scene, or ``config`` no configuration.
     """
+    config = config or Config()
+    tree = vocabulary or default_vocabulary()
+    if not isinstance(config, Config):
+        raise TypeError(f"build takes a Config, not {type(config).__name__}")
+    catalogs = [read_catalog(file) for file in config.label.catalogs]
+    analysis = analyse(scene, config, progress)
+    progress("label", 0)
+    labeling = label_parts(labeler or labeler_of(config.label), analysis.parts, analysis.contacts, tree, config.label)
+    settled = settle_labels(
+        labeling, analysis, tree, config.label, catalogs=catalogs, given=labels, corrections=corrections
+    )
+    return interpret(analysis, settled, tree, config, progress)
+
+
+def analyse(scene: Scene, config: Config | None = None, progress: Progress = quiet) -> Analysis:
+    """What geometry alone says of a scene: parts, contacts, structures.
+
+    Args:
+        scene: what ``load`` returned; it is not changed.
+        config: those of ``ANALYSIS_SETTINGS`` count; the defaults if None.
+        progress: called with the name of a stage and the share of it that is done.
+
+    Raises:
+        ValueError: a setting names a mesh that is not in the scene, or the scene's arrays don't fit together.
+        TypeError: ``scene`` is no scene.
+    """
     if not isinstance(scene, Scene):
         raise TypeError(f"build takes a Scene, as cadgraph.load returns it, not {type(scene).__name__}")
-    if not isinstance(config, Config | None):
-        raise TypeError(f"build takes a Config, not {type(config).__name__}")
     config = config or Config()
-    vocabulary = vocabulary or default_vocabulary()
-    catalogs = [read_catalog(file) for file in config.label.catalogs]
-    scene, told_scene = prepare_scene(scene)
-
+    scene, from_scene = prepare_scene(scene)
     progress("measure", 0)
-    scene, properties, told_meshes = inspect_meshes(scene, measure(scene), config.inspect)
-    told = (*told_scene, *told_meshes)
-    ground, told_ground = find_ground(scene, properties, config.ground)
-
+    scene, properties, from_meshes = inspect_meshes(scene, measure(scene), config.inspect)
+    ground, from_ground = find_ground(scene, properties, config.ground)
     progress("contacts", 0)
     near = find_near_meshes(scene, max(config.cluster.eps, config.group.proximity), config, progress)
-
     progress("group", 0)
     parts = make_parts(scene, properties, group_meshes(properties, ground, near, config.group), ground)
     contacts = join_contacts(near, parts.part_of_mesh, config.cluster.eps)
-
     progress("cluster", 0)
     bridges = find_weak_bridges(parts.n_parts, contacts, parts.ground, config.cluster)
-    told_bridges = tell_bridges(bridges, contacts, parts, config.cluster.cut_bridges)
+    from_bridges = tell_bridges(bridges, contacts, parts, config.cluster.cut_bridges)
     contacts = cut_bridges(contacts, bridges) if config.cluster.cut_bridges else contacts
     cluster = cluster_parts(parts.n_parts, contacts, parts.ground, config.cluster.min_samples)
+    found = (*scene.diagnostics, *from_scene, *from_meshes, *from_ground, *from_bridges)
+    settings = config.model_dump(mode="json", include=set(ANALYSIS_SETTINGS))
+    return Analysis(scene, properties, parts, contacts, cluster, found, settings)
 
-    progress("label", 0)
-    labeler = labeler or labeler_of(config.label)
-    labeled = label_parts(labeler, parts, contacts, vocabulary, config.label)
-    settled = settle_labels(
-        labeled.labels, labeler, catalogs, labels, corrections, scene, parts, contacts, vocabulary, config.label
-    )
 
+def interpret(
+    analysis: Analysis,
+    labels: SettledLabels,
+    vocabulary: Vocabulary,
+    config: Config | None = None,
+    progress: Progress = quiet,
+) -> SceneGraph:
+    """Makes the graph of analysed parts whose labels are settled: units, lines, flow.
+
+    Args:
+        analysis: of the scene.
+        labels: of its parts.
+        vocabulary: the tree that they are from.
+        config: all settings, which go into the graph; the defaults if None.
+        progress: called with the name of a stage and the share of it that is done.
+    """
+    config = config or Config()
+    parts, contacts, cluster = analysis.parts, analysis.contacts, analysis.cluster
     progress("relate", 0)
-    network, told_lines = connect_units(
-        scene, properties, parts, settled.labels, settled.opinions, contacts, cluster, vocabulary, config
+    network, from_lines = connect_units(
+        analysis.scene,
+        analysis.properties,
+        parts,
+        labels.labels,
+        labels.opinions,
+        contacts,
+        cluster,
+        vocabulary,
+        config,
     )
-    related = relate_units(network.units, settled.labels, contacts, cluster, vocabulary)
-
+    related = relate_units(network.units, labels.labels, contacts, cluster, vocabulary)
     progress("assemble", 0)
     results = Results(
-        scene=scene,
+        scene=analysis.scene,
         parts=parts,
         contacts=contacts,
         cluster=cluster,
-        pipe_systems=pipe_systems(settled.labels, cluster, vocabulary),
-        labels=settled.labels,
-        guesses=labeled.guesses,
+        pipe_systems=pipe_systems(labels.labels, cluster, vocabulary),
+        labels=labels.labels,
+        guesses=labels.guesses,
         network=network,
         related=related,
-        diagnostics=(
-            *scene.diagnostics,
-            *told,
-            *told_ground,
-            *told_bridges,
-            *settled.diagnostics,
-            *told_lines,
-        ),
+        diagnostics=(*analysis.diagnostics, *labels.diagnostics, *from_lines),
     )
     graph = assemble_graph(results, vocabulary, config.model_dump(mode="json"))
     progress("assemble", 1)

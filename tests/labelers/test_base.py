@@ -1,5 +1,3 @@
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -7,10 +5,12 @@ import shapes
 from cadgraph.config import LabelConfig
 from cadgraph.errors import LabelError
 from cadgraph.geometry.mesh.properties import measure
-from cadgraph.labelers.base import apply_given, label_parts, labeler_of
+from cadgraph.labelers.base import Labeling, label_parts, labeler_of
 from cadgraph.labelers.embedded.labeler import EmbeddedLabeler
-from cadgraph.model.labels import GivenLabel
-from cadgraph.model.parts import Contacts, Guess, Label, Parts
+from cadgraph.labelers.given import apply_given
+from cadgraph.model.given_labels import GivenLabel
+from cadgraph.model.labels import GivenEvidence, Guess, Label
+from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import default_vocabulary
 
@@ -20,11 +20,15 @@ PIPE = Label("Pipe assembly", "pipe", 0.9, "geometry")
 
 
 class Says:
-    def __init__(self, *answers):
-        self.answers = answers
+    def __init__(self, *answers, threshold=0.5):
+        self.labeling = Labeling.judge(answers, threshold)
 
     def label(self, parts, contacts, vocabulary):
-        return self.answers
+        return self.labeling
+
+
+def sure(confidence):
+    return PIPE.model_copy(update={"confidence": confidence})
 
 
 def scene_of(n):
@@ -60,7 +64,7 @@ def test_setting_chooses_the_labeler():
 @pytest.mark.parametrize(("confidence", "kept"), [(0.5, True), (0.4999, False)])
 def test_label_at_least_as_sure_as_the_limit_is_kept(confidence, kept):
     parts = parts_of(scene_of(1), (0,))
-    answer = replace(PIPE, confidence=confidence)
+    answer = sure(confidence)
     result = label_parts(Says(answer), parts, NO_CONTACTS, VOCABULARY, LabelConfig(min_confidence=0.5))
     assert result.labels == ((answer,) if kept else (None,))
     assert result.guesses == ((() if kept else (Guess("Pipe assembly", "pipe", confidence),)),)
@@ -68,9 +72,8 @@ def test_label_at_least_as_sure_as_the_limit_is_kept(confidence, kept):
 
 def test_without_a_setting_the_labelers_own_threshold_counts():
     parts = parts_of(scene_of(1), (0,))
-    strict = Says(replace(PIPE, confidence=0.7))
-    assert label_parts(strict, parts, NO_CONTACTS, VOCABULARY, LabelConfig()).labels[0] is not None
-    strict.least_confidence = 0.8
+    assert label_parts(Says(sure(0.7)), parts, NO_CONTACTS, VOCABULARY, LabelConfig()).labels[0] is not None
+    strict = Says(sure(0.7), threshold=0.8)
     assert label_parts(strict, parts, NO_CONTACTS, VOCABULARY, LabelConfig()).labels == (None,)
     assert label_parts(strict, parts, NO_CONTACTS, VOCABULARY, LabelConfig(min_confidence=0.6)).labels[0] is not None
 
@@ -88,12 +91,32 @@ def test_wrong_number_of_answers_is_an_error():
         label_parts(Says(PIPE), parts, NO_CONTACTS, VOCABULARY, LabelConfig())
 
 
+def test_a_plain_list_of_labels_still_counts():
+    class Lists:
+        def label(self, parts, contacts, vocabulary):
+            return [PIPE, sure(0.4)]
+
+    parts = parts_of(scene_of(2), (0,), (1,))
+    with pytest.warns(DeprecationWarning, match="Labeling.judge"):
+        said = label_parts(Lists(), parts, NO_CONTACTS, VOCABULARY, LabelConfig())
+    assert said.labels == (PIPE, None)
+
+
+def test_guesses_without_an_answer_are_kept():
+    parts = parts_of(scene_of(1), (0,))
+    guess = Guess("Tank", "shell", 0.2)
+    labeler = Says(None)
+    labeler.labeling = Labeling((None,), ((guess,),), (None,), 0.0)
+    said = label_parts(labeler, parts, NO_CONTACTS, VOCABULARY, LabelConfig(use_names=True, min_confidence=0.1))
+    assert (said.labels, said.guesses) == ((None,), ((guess,),))
+
+
 def test_largest_labelled_mesh_wins_and_the_others_are_told():
     scene = scene_of(3)
     parts = parts_of(scene, (2, 1, 0))
     labels, told = apply_given([PIPE], [given(0, "lever"), given(1, "valve body")], scene, parts, LabelConfig())
     assert (labels[0].group, labels[0].name, labels[0].source) == ("Valve assembly", "valve body", "author")
-    assert labels[0].evidence == {"mesh": "/mesh_1"}
+    assert labels[0].evidence == GivenEvidence(mesh="/mesh_1")
     assert [(d.code, d.meshes) for d in told] == [("label-outvoted", ("/mesh_0",))]
 
 

@@ -6,11 +6,11 @@ from hypothesis import strategies as st
 import knobs
 import shapes
 from cadgraph.config import LabelConfig
-from cadgraph.labelers.base import apply_given
 from cadgraph.labelers.catalog import apply_catalogs, find_matches
+from cadgraph.labelers.given import apply_given
 from cadgraph.model.catalog import Catalog, Entry
-from cadgraph.model.labels import GivenLabel
-from cadgraph.model.parts import Label
+from cadgraph.model.given_labels import GivenLabel
+from cadgraph.model.labels import Label
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import default_vocabulary
 from plates import parts_of
@@ -58,8 +58,8 @@ def test_another_size_is_flagged_with_its_scale():
     assert match.kind == "scaled"
     assert match.scale == pytest.approx(2.5, rel=1e-6)
     labels, _ = labelled(catalog_of(knobs.knob()), (2.5 * vertices, faces))
-    assert labels[0].evidence["scale"] == 2.5
-    assert "2.5 times its size" in labels[0].evidence["why"]
+    assert labels[0].evidence.scale == 2.5
+    assert "2.5 times its size" in labels[0].evidence.why
 
 
 @pytest.mark.parametrize("mesh", [shapes.tube(0.02, 0.01, 0.003), shapes.box((0.1, 0.1, 0.01)), shapes.cylinder()])
@@ -94,7 +94,7 @@ def test_repeats_get_the_label_with_evidence_and_the_labeler_is_overruled():
     labels, _ = labelled(catalog_of(knobs.knob()), *meshes, before=before)
     assert [label.source for label in labels] == ["catalog", "catalog", "geometry"]
     assert labels[0].confidence == pytest.approx(0.99)
-    assert labels[0].evidence["match"] == "exact"
+    assert labels[0].evidence.match == "exact"
     assert before[0].name == "tank"
 
 

@@ -10,7 +10,8 @@ from cadgraph.labelers.base import label_parts
 from cadgraph.labelers.corrections import apply_corrections, find_parts, fingerprint_of
 from cadgraph.labelers.embedded.labeler import EmbeddedLabeler
 from cadgraph.model.corrections import Correction
-from cadgraph.model.parts import Contacts, Label
+from cadgraph.model.labels import Label
+from cadgraph.model.parts import Contacts
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import default_vocabulary
 from cadgraph.stages.preprocess import prepare_scene
@@ -45,7 +46,7 @@ def test_a_correction_is_by_a_human_and_keeps_what_was():
     labels, told = applied(scene_of(knobs.knob()), [{"part": 0}], [PIPE])
     assert (labels[0].group, labels[0].name, labels[0].confidence) == ("Valve assembly", "handwheel", 1.0)
     assert labels[0].source == "human"
-    assert labels[0].evidence["before"] == {
+    assert labels[0].evidence.to_json()["before"] == {
         "group": "Pipe assembly", "name": "pipe", "confidence": 0.9, "source": "geometry",
     }  # fmt: skip
     assert told == ()
@@ -55,8 +56,8 @@ def test_exact_repeats_follow_with_evidence():
     scene = scene_of(knobs.hook(), shapes.moved(knobs.hook(), knobs.turn_of((1, 2, 3))))
     labels, _ = applied(scene, [{"part": 0}], [PIPE, PIPE])
     assert (labels[1].name, labels[1].source, labels[1].confidence) == ("handwheel", "repeat", 1.0)
-    assert labels[1].evidence["corrected"] == "/mesh_0"
-    assert labels[1].evidence["match"] == "exact"
+    assert labels[1].evidence.corrected == "/mesh_0"
+    assert labels[1].evidence.match == "exact"
 
 
 def test_this_only_changes_nothing_else():
@@ -72,7 +73,7 @@ def test_other_triangles_sizes_and_hands_follow_softly():
     others = knobs.knob(sides=40), (3 * vertices, faces), knobs.mirrored(knobs.hook())
     scene = scene_of(knobs.knob(), knobs.hook(), *others)
     labels, _ = applied(scene, [{"part": 0}, {"part": 1, "name": "lever"}])
-    assert [label.evidence.get("match") for label in labels] == [None, None, "near", "scaled", "mirrored"]
+    assert [label.evidence.match for label in labels] == [None, None, "near", "scaled", "mirrored"]
     assert [label.name for label in labels[2:]] == ["handwheel", "handwheel", "lever"]
     assert all(0.5 < label.confidence < 1 for label in labels[2:])
 
@@ -153,7 +154,7 @@ def test_three_corrections_change_a_family_that_the_model_does_not_know_and_litt
     followed = [after[part] for part in others if after[part] is not None and after[part].name == "lamp"]
     assert len(followed) >= 0.8 * len(others)
     assert {label.source for label in followed} == {"repeat"}
-    assert "kin" in {label.evidence["match"] for label in followed}
+    assert "kin" in {label.evidence.match for label in followed}
     strangers = [part for part in range(parts.n_parts) if part not in knob_of]
     changed = [part for part in strangers if after[part] != before[part]]
     assert len(changed) < 0.02 * len(strangers)
@@ -166,5 +167,5 @@ def test_parts_that_the_model_is_sure_about_are_not_drawn_along(plant):
         before, [correction(parts, sure, "lamp", "Electrical and safety")], scene, parts, contacts
     )
     moved = [p for p in range(parts.n_parts) if parts.shape[p] != parts.shape[sure] and after[p] != before[p]]
-    kin = [p for p in moved if after[p].evidence["match"] == "kin"]
-    assert all(after[p].evidence["similarity"] > 0.9 for p in kin if before[p] is not None)
+    kin = [p for p in moved if after[p].evidence.match == "kin"]
+    assert all(after[p].evidence.similarity > 0.9 for p in kin if before[p] is not None)

@@ -37,7 +37,7 @@ def riser():
 
 def said(scene):
     parts, contacts = make_parts_from(scene)
-    return dict(zip(parts.scene.paths, EmbeddedLabeler().label(parts, contacts, VOCABULARY), strict=True))
+    return dict(zip(parts.scene.paths, EmbeddedLabeler().label(parts, contacts, VOCABULARY).answers, strict=True))
 
 
 def test_order_and_pose_of_meshes_change_no_label(riser):
@@ -49,7 +49,7 @@ def test_order_and_pose_of_meshes_change_no_label(riser):
         [(v @ q.T + [10.0, 5.0, -3.0], f) for v, f in reversed(meshes)], tuple(reversed(scene.paths))
     )
     first, second = said(scene), said(moved)
-    least, moves = EmbeddedLabeler().least_confidence, []
+    least, moves = EmbeddedLabeler().threshold, []
     for path, one in first.items():
         other = second[path]
         # A rounding tips histograms of what lies on a border of their bins, and the axis of what is square: confidence
@@ -79,19 +79,19 @@ def test_ground_has_no_label_and_no_neighbours(riser):
     ground = np.zeros(parts.n_parts, np.bool_)
     ground[contacts.pairs[0, 0]] = True
     parts = replace(parts, ground=ground)
-    assert EmbeddedLabeler().label(parts, contacts, VOCABULARY)[int(contacts.pairs[0, 0])] is None
+    assert EmbeddedLabeler().label(parts, contacts, VOCABULARY).answers[int(contacts.pairs[0, 0])] is None
     seen = observe(parts, contacts)
     assert not ground[seen.surroundings.here].any()
     assert not ground[seen.surroundings.there].any()
 
 
 def test_nothing_gives_nothing():
-    assert EmbeddedLabeler().label(parts_of(), NO_CONTACTS, VOCABULARY) == []
+    assert EmbeddedLabeler().label(parts_of(), NO_CONTACTS, VOCABULARY).answers == ()
 
 
 def test_parts_without_area_get_a_finite_answer():
     flat = (np.zeros((3, 3)), np.array([[0, 1, 2]]))
-    [label] = EmbeddedLabeler().label(parts_of(flat), NO_CONTACTS, VOCABULARY)
+    [label] = EmbeddedLabeler().label(parts_of(flat), NO_CONTACTS, VOCABULARY).answers
     assert 0 <= label.confidence <= 1
 
 
@@ -105,7 +105,7 @@ def test_names_outside_the_vocabulary_are_never_said_and_their_share_is_lost(ris
     np.testing.assert_allclose(few.names[:, 0], full.names[:, full.classes.index(("Pipe assembly", "pipe"))])
     assert ("strange", "strange") not in full.classes
     foreign = type(VOCABULARY).from_json({"Ship": {"names": ["mast"]}})
-    assert EmbeddedLabeler().label(parts, contacts, foreign) == [None] * parts.n_parts
+    assert EmbeddedLabeler().label(parts, contacts, foreign).answers == (None,) * parts.n_parts
 
 
 def test_repeats_that_nearly_agree_follow_each_other():

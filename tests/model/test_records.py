@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 import graphs
-from cadgraph.model.records import Adjacent, GraphDocument, PartLabel, Site, document_schema, points
+from cadgraph.model.labels import Label
+from cadgraph.model.records import Adjacent, GraphDocument, Site, document_schema, points
 
 
 def test_records_are_frozen():
@@ -37,7 +38,7 @@ def test_a_part_needs_a_mesh():
 
 
 def test_unknown_keys_are_kept():
-    assert PartLabel(group="Tank", confidence=1, source="human", reviewer="R. D.").model_dump()["reviewer"] == "R. D."
+    assert Label(group="Tank", confidence=1, source="human", reviewer="R. D.").model_dump()["reviewer"] == "R. D."
 
 
 def test_points_are_rounded_to_a_nanometre_without_negative_zero():

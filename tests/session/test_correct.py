@@ -7,8 +7,8 @@ import shapes
 from cadgraph.config import Config
 from cadgraph.errors import LabelError
 from cadgraph.model.catalog import read_catalog, write_catalog
+from cadgraph.model.given_labels import GivenLabel, split_label
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.labels import GivenLabel, split_label
 from cadgraph.model.vocabulary import default_vocabulary
 from cadgraph.query.explain import explain
 from cadgraph.session.catalog_builder import EMPTY, take_file, take_graph

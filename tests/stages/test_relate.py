@@ -3,7 +3,8 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cadgraph.model.parts import Contacts, Label
+from cadgraph.model.labels import Label
+from cadgraph.model.parts import Contacts
 from cadgraph.model.vocabulary import default_vocabulary
 from cadgraph.stages.relate import find_units, pipe_systems, relate_units
 

@@ -18,25 +18,14 @@ from PIL import Image, ImageDraw, ImageFont
 from cadgraph.labelers.lvlm.gallery import Gallery
 from cadgraph.labelers.lvlm.prompt import size_text
 from cadgraph.labelers.lvlm.question_groups import find_kinds
-from cadgraph.model.parts import Contacts, Label, Parts
-from cadgraph.model.vocabulary import Vocabulary
-from cadgraph.pipeline import build
+from cadgraph.model.parts import Parts
+from cadgraph.pipeline import analyse
 from cadplants import make
 
 SIDE = 150  # px of one picture; a model sees 512
 HEAD = 34
 COLUMNS = 2
 MOST_BYTES = 1_000_000
-
-
-class Kept:
-    """Keeps what the pipeline gives to its labeler."""
-
-    parts: Parts
-
-    def label(self, parts: Parts, contacts: Contacts, vocabulary: Vocabulary) -> Sequence[Label | None]:
-        self.parts = parts
-        return [None] * parts.n_parts
 
 
 def chosen(parts: Parts, names: Sequence[str], count: int) -> list[tuple[int, int]]:
@@ -88,9 +77,7 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=40)
     options = parser.parse_args()
     plant = make(options.preset, options.seed)
-    kept = Kept()
-    build(plant.scene(), labeler=kept)
-    parts = kept.parts
+    parts = analyse(plant.scene()).parts
     named = {mesh["mesh"]: (mesh["group"], mesh["name"]) for mesh in plant.truth()["meshes"]}
     truth = [named[path] for path in parts.scene.paths]
     gallery = Gallery(parts.scene)

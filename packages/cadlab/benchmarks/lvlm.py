@@ -23,16 +23,18 @@ from dataclasses import dataclass
 import numpy as np
 from _table import machine, table
 
-from cadgraph.config import Config
-from cadgraph.labelers.base import labeler_of
+from cadgraph.labelers.base import Labeling
+from cadgraph.labelers.embedded.labeler import EmbeddedLabeler
 from cadgraph.labelers.lvlm.asking import Asking, Budget
 from cadgraph.labelers.lvlm.cache import Cache
 from cadgraph.labelers.lvlm.labeler import LvlmLabeler, Way
 from cadgraph.labelers.lvlm.price import ANSWER_TOKENS, read_price
 from cadgraph.labelers.lvlm.reply import Question, Reply
-from cadgraph.model.parts import Contacts, Label, Parts
+from cadgraph.model.analysis import Analysis
+from cadgraph.model.labels import Label
+from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary
-from cadgraph.pipeline import build
+from cadgraph.pipeline import analyse
 from cadplants import make
 
 NAMES_RIGHT, GROUPS_RIGHT = 0.38, 0.80
@@ -94,28 +96,14 @@ class Simulated:
         return np.random.default_rng(int.from_bytes(digest[:8], "little"))
 
 
-@dataclass(frozen=True)
 class Known:
-    """An embedded labeler that has done its work."""
+    """A labeler that says what was said before."""
 
-    labels: Sequence[Label | None]
+    def __init__(self, labeling: Labeling) -> None:
+        self.labeling = labeling
 
-    def label(self, parts: Parts, contacts: Contacts, vocabulary: Vocabulary) -> Sequence[Label | None]:
-        return self.labels
-
-
-class Kept:
-    """Keeps what the pipeline gives to its labeler."""
-
-    parts: Parts
-    contacts: Contacts
-    labels: Sequence[Label | None]
-
-    def label(self, parts: Parts, contacts: Contacts, vocabulary: Vocabulary) -> Sequence[Label | None]:
-        embedded = labeler_of(Config().label)
-        self.parts, self.contacts = parts, contacts
-        self.labels = list(embedded.label(parts, contacts, vocabulary)) if embedded else [None] * parts.n_parts
-        return self.labels
+    def label(self, parts: Parts, contacts: Contacts, vocabulary: Vocabulary) -> Labeling:
+        return self.labeling
 
 
 WAYS: Mapping[str, tuple[Way, Budget]] = {
@@ -142,7 +130,8 @@ def shown(shares: Sequence[float]) -> list[str]:
     return [f"{names:.1%} ({of_given:.0%})", f"{groups:.1%}"]
 
 
-def row(title: str, kept: Kept, truth: Sequence[Pair], seeds: int) -> list[str]:
+def row(title: str, analysis: Analysis, labeling: Labeling, truth: Sequence[Pair], seeds: int) -> list[str]:
+    parts, contacts = analysis.parts, analysis.contacts
     way, budget = WAYS[title]
     vocabulary = default_vocabulary()
     cells: list[str] = []
@@ -150,12 +139,12 @@ def row(title: str, kept: Kept, truth: Sequence[Pair], seeds: int) -> list[str]:
     for systematic in (False, True):
         found = []
         for seed in range(seeds):
-            model = Simulated(truth, kept.parts.shape.tolist(), vocabulary, systematic, seed)
+            model = Simulated(truth, parts.shape.tolist(), vocabulary, systematic, seed)
             asking = Asking(model, Cache(":memory:"), read_price("gpt-4o"), budget, concurrency=1)
             model.asking = asking
-            embedded = Known(kept.labels) if way.ask == "unsure" else None
+            embedded = Known(labeling) if way.ask == "unsure" else None
             labeler = LvlmLabeler(asking, way, embedded=embedded)
-            found.append(accuracy(labeler.label(kept.parts, kept.contacts, vocabulary), truth))
+            found.append(accuracy(labeler.label(parts, contacts, vocabulary).answers, truth))
             if estimate is None:
                 estimate = asking.tally
         cells += shown(np.mean(found, axis=0).tolist())
@@ -172,18 +161,18 @@ def main() -> None:
     parser.add_argument("--seeds", type=int, default=8, help="of the simulated model, averaged")
     options = parser.parse_args()
     plant = make(options.preset, options.seed)
-    kept = Kept()
     start = time.perf_counter()
-    build(plant.scene(), labeler=kept)
+    analysis = analyse(plant.scene())
+    labeling = EmbeddedLabeler().label(analysis.parts, analysis.contacts, default_vocabulary())
     named = {mesh["mesh"]: (mesh["group"], mesh["name"]) for mesh in plant.truth()["meshes"]}
-    truth = [(str(g), str(n)) for g, n in (named[path] for path in kept.parts.scene.paths)]
+    truth = [(str(g), str(n)) for g, n in (named[path] for path in analysis.parts.scene.paths)]
     print(machine())
-    print(f"\n{options.preset}: {kept.parts.n_parts:,} parts; graph in {time.perf_counter() - start:.0f} s.\n")
+    print(f"\n{options.preset}: {analysis.parts.n_parts:,} parts; labelled in {time.perf_counter() - start:.0f} s.\n")
     titles = ["way", "questions", "M tokens", "US$", "names, random", "groups", "names, systematic", "groups "]
     rows = []
-    embedded = accuracy(kept.labels, truth)
+    embedded = accuracy(labeling.answers, truth)
     rows.append(["embedded alone", "0", "0", "0", *shown(embedded) * 2])
-    rows += [row(title, kept, truth, options.seeds) for title in WAYS]
+    rows += [row(title, analysis, labeling, truth, options.seeds) for title in WAYS]
     print(table(titles, rows))
     print("\nIn brackets: of the names that are given; where votes agree on the group only, the name is left open.")
 

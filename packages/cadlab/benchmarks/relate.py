@@ -15,7 +15,7 @@ from pathlib import Path
 
 from _table import table
 
-from cadgraph.model.labels import GivenLabel
+from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.truth import Truth
 from cadgraph.model.vocabulary import default_vocabulary
 from cadgraph.pipeline import build

@@ -16,6 +16,7 @@ from rich.markup import escape
 
 from cadgraph.cli.screen import err
 from cadgraph.config import Config
+from cadgraph.model.graph import SceneGraph
 
 __all__ = ["AskingOptions", "asks"]
 
@@ -108,15 +109,20 @@ class AskingOptions:
         values = {"mode": mode, "keep_renders": self.keep_renders, "note": _Note(), **more}
         return Run(confirm=functools.partial(_confirmed, progress, self.yes), **values)
 
-    def tell(self, labeler: Any) -> None:
-        """Says what asking came to."""
+    def tell(self, labeler: Any, graph: SceneGraph) -> None:
+        """Says what asking came to.
+
+        Args:
+            labeler: that asked; None where nobody was asked.
+            graph: that came of it.
+        """
         if labeler is None:
             return
         tally = labeler.tally
         cost = f", ${tally.cost:.2f} in all, ${tally.spent:.2f} now" if labeler.asking.price else ""
         counts = f"{tally.asked:,} sent, {tally.known:,} from the cache, {tally.failed:,} without a usable answer"
         err.print(f"[dim]questions      [/]{counts}{cost}")
-        for finding in labeler.diagnostics:
+        for finding in (one for one in graph.diagnostics if one.code.startswith("lvlm-")):
             err.print(f"[dim]{'':<15}[/]{escape(finding.message)}")
 
 

@@ -74,7 +74,7 @@ def build(
             progress=progress,
         )
     tell(outcome)
-    asking.tell(labeler)
+    asking.tell(labeler, outcome.graph)
 
 
 @app.command()

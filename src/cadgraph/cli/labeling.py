@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -41,7 +40,7 @@ def explain(graph: GraphArgument, part: _PartArgument, as_json: _JsonOption = Fa
 
     told = explain_part(SceneGraph.load(graph), part)
     if as_json:
-        print(json.dumps(dataclasses.asdict(told), ensure_ascii=False, indent=1))  # noqa: T201
+        print(json.dumps(told.to_json(), ensure_ascii=False, indent=1))  # noqa: T201
         return
     for heading, text in told.lines():
         out.print(f"[dim]{heading:<12}[/]{escape(text)}")
@@ -70,7 +69,7 @@ def relabel(
     out.print(f"[bold]{done.part.id}[/] is {escape(_said(done.part))} now")
     others = [p for p in done.changed if p.id != done.part.id]
     for p in others[:_SHOWN]:
-        why = "" if p.label is None else str(p.label.evidence.get("why", p.label.source))
+        why = "" if p.label is None else p.label.evidence.why or p.label.source
         out.print(f"[dim]{p.id:<12}[/]{escape(_said(p))}{escape(f': {why}') if why else ''}")
     more = f", {len(others) - _SHOWN} of them not shown" if len(others) > _SHOWN else ""
     out.print(f"{len(others):,} other parts changed{more}")
@@ -109,7 +108,7 @@ def add_(
     outside are taken, or with --only those of one label.
     """
     from cadgraph.model.catalog import read_catalog, write_catalog
-    from cadgraph.model.labels import split_label
+    from cadgraph.model.given_labels import split_label
     from cadgraph.model.vocabulary import default_vocabulary, read_vocabulary
     from cadgraph.session.catalog_builder import EMPTY, take_file, take_graph
 

@@ -42,7 +42,7 @@ def label(
     report: Annotated[bool, typer.Option("--report/--no-report", help="Draw pictures and write report.html.")] = True,
 ) -> None:
     """Label a graph anew: by a model, by answers in a folder, or by the results of a batch."""
-    from cadgraph.session.relabel import config_of, relabel
+    from cadgraph.session.reopen import config_of, relabel
 
     chosen = asking.settings(config_of(folder).replace(values_of(settings or [])))
     more: dict[str, object] = {}
@@ -54,7 +54,7 @@ def label(
         labeler = asking.labeler(chosen, folder, progress, **more)
         outcome = relabel(folder, chosen, labeler, scene=scene, report=report, progress=progress)
     tell(outcome)
-    asking.tell(labeler)
+    asking.tell(labeler, outcome.graph)
 
 
 @vocabularies.command("grow")

@@ -1,32 +1,95 @@
-"""Labelling: what each part is."""
+"""What a labeler is, and what it hands back."""
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 from cadgraph.config import LabelConfig
 from cadgraph.errors import LabelError
-from cadgraph.model.labels import GivenLabel
-from cadgraph.model.parts import Contacts, Guess, Label, Parts
-from cadgraph.model.scene import Diagnostic, Scene
+from cadgraph.labelers.name_hints import weigh_names
+from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.labels import Guess, Label
+from cadgraph.model.parts import Contacts, Parts
+from cadgraph.model.scene import Floats
 from cadgraph.model.vocabulary import Vocabulary
 
-__all__ = ["Labeled", "Labeler", "apply_given", "label_parts", "labeler_of"]
+__all__ = ["LEAST_CONFIDENCE", "Labeler", "Labeling", "Probabilities", "label_parts", "labeler_of"]
 
 LEAST_CONFIDENCE = 0.5
 """Of a label, where neither the settings nor the labeler say."""
 
 
-class Labeler(Protocol):
-    """Whatever can say what parts are.
+@dataclass(frozen=True, eq=False)
+class Probabilities:
+    """How likely each name is for each part.
 
-    A labeler may have an attribute ``least_confidence``: labels below it are guesses unless the settings
-    say otherwise; and ``diagnostics``: what is to be told once it has labelled.
+    Args:
+        classes: group and name of each column.
+        values: ``(n_parts, n_classes)``; what is missing to 1 in a row belongs to no name of the vocabulary.
     """
 
-    def label(self, parts: Parts, contacts: Contacts, vocabulary: Vocabulary) -> Sequence[Label | None]:
+    classes: tuple[tuple[str, str], ...]
+    values: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Labeling:
+    """What a labeler says of the parts of a scene.
+
+    Args:
+        labels: of each part, None where it isn't sure enough.
+        guesses: of each part that has no label for that reason what it may be, the likeliest first.
+        answers: of each part the likeliest label, however unsure; ``labels`` are those that are sure enough.
+        threshold: least confidence of a label.
+        probabilities: of all names, where the labeler knows them.
+        diagnostics: what is to be reported about it.
+    """
+
+    labels: tuple[Label | None, ...]
+    guesses: tuple[tuple[Guess, ...], ...]
+    answers: tuple[Label | None, ...]
+    threshold: float = LEAST_CONFIDENCE
+    probabilities: Probabilities | None = None
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+    @classmethod
+    def judge(
+        cls,
+        answers: Sequence[Label | None],
+        threshold: float = LEAST_CONFIDENCE,
+        probabilities: Probabilities | None = None,
+        diagnostics: Sequence[Diagnostic] = (),
+    ) -> Labeling:
+        """Tells labels from guesses by their confidence.
+
+        Args:
+            answers: of each part the likeliest label, None where there is none.
+            threshold: least confidence of a label.
+            probabilities: of all names, where they are known.
+            diagnostics: what is to be reported.
+        """
+        labels = tuple(a if a is not None and a.confidence >= threshold else None for a in answers)
+        guesses = tuple(
+            (answer.guesses or (Guess(answer.group, answer.name, answer.confidence),))
+            if answer is not None and label is None
+            else ()
+            for answer, label in zip(answers, labels, strict=True)
+        )
+        return cls(labels, guesses, tuple(answers), threshold, probabilities, tuple(diagnostics))
+
+    @classmethod
+    def empty(cls, n_parts: int) -> Labeling:
+        """Nobody says anything about any of ``n_parts`` parts."""
+        return cls.judge([None] * n_parts)
+
+
+class Labeler(Protocol):
+    """Whatever can say what parts are."""
+
+    def label(self, parts: Parts, contacts: Contacts, vocabulary: Vocabulary) -> Labeling:
         """Labels parts.
 
         Args:
@@ -35,22 +98,9 @@ class Labeler(Protocol):
             vocabulary: the labels to choose from.
 
         Returns:
-            For each part its label, or None where it isn't known.
+            What it says of each part; ``Labeling.judge`` makes it of the likeliest labels.
         """
         ...
-
-
-@dataclass(frozen=True)
-class Labeled:
-    """What a labeler said.
-
-    Args:
-        labels: of each part, None where it isn't sure enough.
-        guesses: of each part that has no label for that reason, the likeliest first.
-    """
-
-    labels: tuple[Label | None, ...]
-    guesses: tuple[tuple[Guess, ...], ...]
 
 
 def labeler_of(config: LabelConfig) -> Labeler | None:
@@ -68,80 +118,44 @@ def labeler_of(config: LabelConfig) -> Labeler | None:
 
 def label_parts(
     labeler: Labeler | None, parts: Parts, contacts: Contacts, vocabulary: Vocabulary, config: LabelConfig
-) -> Labeled:
-    """Asks a labeler, and keeps what it is sure enough of and the vocabulary holds.
+) -> Labeling:
+    """Asks a labeler; labels that the vocabulary does not hold are left out.
+
+    Args:
+        labeler: None says nothing.
+        parts: with their geometry.
+        contacts: pairs of parts that are adjacent.
+        vocabulary: the labels to choose from.
+        config: the least confidence, in place of the labeler's own, and whether names in the source count.
 
     Raises:
         LabelError: the labeler answers for another number of parts.
     """
     if labeler is None:
-        return Labeled((None,) * parts.n_parts, ((),) * parts.n_parts)
-    answers = labeler.label(parts, contacts, vocabulary)
-    if len(answers) != parts.n_parts:
-        raise LabelError(f"the labeler gave {len(answers)} answers for {parts.n_parts} parts")
+        return Labeling.empty(parts.n_parts)
+    said = _as_labeling(labeler.label(parts, contacts, vocabulary))
+    if len(said.labels) != parts.n_parts:
+        raise LabelError(f"the labeler gave {len(said.labels)} answers for {parts.n_parts} parts")
+    held = [answer if answer is not None and vocabulary.holds(*answer.said) else None for answer in said.answers]
     if config.use_names:
-        from cadgraph.labelers.name_hints import weigh_words
-
-        answers = weigh_words(answers, parts, vocabulary)
-    least = config.min_confidence
-    if least is None:
-        least = float(getattr(labeler, "least_confidence", LEAST_CONFIDENCE))
-    held = [
-        answer if answer is not None and vocabulary.holds(answer.group, answer.name) else None for answer in answers
-    ]
-    labels = tuple(answer if answer is not None and answer.confidence >= least else None for answer in held)
+        held = list(weigh_names(held, parts, vocabulary))
+    least = said.threshold if config.min_confidence is None else config.min_confidence
+    judged = Labeling.judge(held, least, said.probabilities, said.diagnostics)
+    # What a labeler holds for possible without an answer of its own stays.
     guesses = tuple(
-        _guesses(answer) if answer is not None and label is None else ()
-        for answer, label in zip(held, labels, strict=True)
+        known if answer is None else mine
+        for answer, known, mine in zip(said.answers, said.guesses, judged.guesses, strict=True)
     )
-    return Labeled(labels, guesses)
+    return replace(judged, guesses=guesses)
 
 
-def _guesses(answer: Label) -> tuple[Guess, ...]:
-    return answer.guesses or (Guess(answer.group, answer.name, answer.confidence),)
-
-
-def apply_given(
-    labels: Sequence[Label | None],
-    given: Sequence[GivenLabel],
-    scene: Scene,
-    parts: Parts,
-    config: LabelConfig,
-) -> tuple[tuple[Label | None, ...], tuple[Diagnostic, ...]]:
-    """Lays labels from outside over those of the labeler; a part takes that of its largest labelled mesh.
-
-    Args:
-        labels: of each part so far.
-        given: labels of source meshes.
-        scene: the source meshes.
-        parts: made from them, each part's meshes the largest first.
-        config: whether given labels overrule.
-
-    Returns:
-        The labels of each part, and what is to be told.
-
-    Raises:
-        LabelError: a label names a mesh that is not in the scene.
-    """
-    rank = {path: i for i, path in enumerate(scene.paths)}
-    by_mesh: dict[int, GivenLabel] = {}
-    for label in given:
-        if label.mesh not in rank:
-            raise LabelError(
-                f"labels: {label.mesh!r} is not a mesh of {scene.source.path or 'the scene'}; "
-                "remove the row or correct its path"
-            )
-        by_mesh[rank[label.mesh]] = label
-    result = list(labels)
-    outvoted: list[str] = []
-    for part, meshes in enumerate(parts.meshes):
-        found = [by_mesh[mesh] for mesh in meshes if mesh in by_mesh]
-        if not found or (result[part] is not None and not config.overrule):
-            continue
-        first = found[0]
-        result[part] = Label(first.group, first.name, 1.0, "author", {"mesh": first.mesh})
-        outvoted += [label.mesh for label in found if (label.group, label.name) != (first.group, first.name)]
-    if not outvoted:
-        return tuple(result), ()
-    message = "meshes with another given label than the largest mesh of their part, whose label counts"
-    return tuple(result), (Diagnostic("label-outvoted", message, tuple(outvoted)),)
+def _as_labeling(said: Labeling | Sequence[Label | None]) -> Labeling:
+    """What a labeler says, also where it speaks in the manner of version 0.1.0."""
+    if isinstance(said, Labeling):
+        return said
+    warnings.warn(
+        "a labeler that returns a list of labels is deprecated; return Labeling.judge(labels)",
+        DeprecationWarning,
+        stacklevel=3,
+    )
+    return Labeling.judge(said)

@@ -11,8 +11,10 @@ from cadgraph.geometry.mesh.properties import measure
 from cadgraph.geometry.shape.repeats import find_shapes
 from cadgraph.geometry.shape.similarity import find_alike
 from cadgraph.model.catalog import Catalog, Entry
-from cadgraph.model.parts import Bools, Label, Parts, Properties
-from cadgraph.model.scene import Diagnostic, Ints, Scene, mesh_of_face
+from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.labels import CatalogEvidence, Label
+from cadgraph.model.parts import Bools, Parts, Properties
+from cadgraph.model.scene import Ints, Scene, mesh_of_face
 from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["Match", "apply_catalogs", "find_matches"]
@@ -173,17 +175,15 @@ def _label(entry: Entry, file: str, match: Match) -> Label:
         "near": f"this shape and size with other triangles ({match.similarity:.0%} alike)",
         "scaled": f"this shape at {match.scale:.3g} times its size ({match.similarity:.0%} alike)",
     }[match.kind]
-    evidence: dict[str, object] = {
-        "why": f"{how}: entry {entry.id} of {file}",
-        "entry": entry.id,
-        "catalog": file,
-        "match": match.kind,
-        "similarity": round(match.similarity, 4),
-    }
-    if entry.file:
-        evidence["taken_from"] = f"{entry.file} {entry.mesh}".strip()
-    if match.kind == "scaled":
-        evidence["scale"] = round(match.scale, 4)
+    evidence = CatalogEvidence(
+        why=f"{how}: entry {entry.id} of {file}",
+        entry=entry.id,
+        catalog=file,
+        match=match.kind,
+        similarity=round(match.similarity, 4),
+        taken_from=f"{entry.file} {entry.mesh}".strip() if entry.file else None,
+        scale=round(match.scale, 4) if match.kind == "scaled" else None,
+    )
     return Label(entry.group, entry.name, match.confidence, "catalog", evidence)
 
 

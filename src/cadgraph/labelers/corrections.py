@@ -9,15 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from cadgraph.labelers.catalog import find_matches
 from cadgraph.model.catalog import Catalog, Entry
 from cadgraph.model.corrections import Correction, Fingerprint
-from cadgraph.model.parts import Contacts, Label, Parts
-from cadgraph.model.scene import Diagnostic, Floats, Scene
+from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.labels import CorrectedEvidence, FormerLabel, Label
+from cadgraph.model.parts import Contacts, Parts
+from cadgraph.model.scene import Floats, Scene
 
 __all__ = ["apply_corrections", "find_parts", "fingerprint_of"]
 
@@ -125,7 +126,9 @@ class _Spread:
     def correct(self) -> None:
         """The corrected parts themselves."""
         for part, correction in self._corrected.items():
-            evidence = {"why": "corrected by a user", "mesh": correction.mesh, **_former(self.before[part])}
+            evidence = CorrectedEvidence(
+                why="corrected by a user", mesh=correction.mesh, before=FormerLabel.of(self.before[part])
+            )
             self.labels[part] = Label(correction.group, correction.name, 1.0, "human", evidence)
 
     def to_repeats(self, contacts: Contacts) -> None:
@@ -226,16 +229,17 @@ class _Spread:
         return float(np.linalg.norm(space[others] - space[part], axis=1).min()) if others else np.inf
 
     def _take(
-        self, part: int, source: _Source, confidence: float, how: str, match: str, more: Mapping[str, Any]
+        self, part: int, source: _Source, confidence: float, how: str, match: str, more: Mapping[str, float]
     ) -> None:
         mesh = self._corrected[source.part].mesh
-        evidence = {
-            "why": f"{how} as {mesh}, which a user corrected" if match == "exact" else f"{how}: {mesh} was corrected",
-            "corrected": mesh,
-            "match": match,
-            **more,
-            **_former(self.before[part]),
-        }
+        evidence = CorrectedEvidence(
+            why=f"{how} as {mesh}, which a user corrected" if match == "exact" else f"{how}: {mesh} was corrected",
+            corrected=mesh,
+            match=match,
+            similarity=more.get("similarity"),
+            scale=more.get("scale"),
+            before=FormerLabel.of(self.before[part]),
+        )
         self.labels[part] = Label(source.group, source.name, confidence, "repeat", evidence)
 
     def _may_change(self, part: int, kept: Collection[str]) -> bool:
@@ -249,7 +253,7 @@ class _Spread:
     def _is_open(self, part: int) -> bool:
         """Whether nobody has settled a part, nor a correction reached it."""
         label = self.labels[part]
-        reached = label is not None and "corrected" in label.evidence
+        reached = label is not None and isinstance(label.evidence, CorrectedEvidence)
         return self._may_change(part, _SETTLED) and not reached
 
     def _kinship(self, contacts: Contacts) -> Floats:
@@ -259,18 +263,3 @@ class _Spread:
 
             self._space = default_model().kinship(observe(self._parts, contacts))
         return self._space
-
-
-def _former(label: Label | None) -> dict[str, Any]:
-    """What a part was before, so that nothing is lost."""
-    if label is None:
-        return {}
-    return {
-        "before": {
-            "group": label.group,
-            "name": label.name,
-            "confidence": round(label.confidence, 6),
-            "source": label.source,
-            **({"why": label.evidence["why"]} if "why" in label.evidence else {}),
-        }
-    }

@@ -2,30 +2,30 @@
 
 from __future__ import annotations
 
-from cadgraph.model.scene import Diagnostic
+from collections.abc import Collection
+
+from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary
 
-__all__ = ["tell_unknown"]
+__all__ = ["find_unlearnt"]
 
 _MOST_TOLD = 30
 
 
-def tell_unknown(labeler: object, vocabulary: Vocabulary) -> tuple[Diagnostic, ...]:
-    """Tells the user which of their names only a catalogue, corrections or a vision-language model can give.
+def find_unlearnt(learnt: Collection[tuple[str, str]], vocabulary: Vocabulary) -> tuple[Diagnostic, ...]:
+    """Names of a user's vocabulary that only a catalogue, corrections or a vision-language model can give.
 
     Args:
-        labeler: one with an attribute ``known``, the pairs ``(group, name)`` that it has learnt; others are taken to
-            know all names.
-        vocabulary: a user's; about the built-in one nothing is told.
+        learnt: group and name of each label that a trained labeler knows.
+        vocabulary: a user's; about the built-in one nothing is reported.
     """
-    known = getattr(labeler, "known", None)
-    if known is None or vocabulary.to_json() == default_vocabulary().to_json():
+    if vocabulary.to_json() == default_vocabulary().to_json():
         return ()
     missing = [
         f"{group}/{name}"
         for group, content in vocabulary.groups.items()
         for name in content.names
-        if (group, name) not in known
+        if (group, name) not in learnt
     ]
     if not missing:
         return ()

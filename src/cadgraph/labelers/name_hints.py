@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import replace
 
-from cadgraph.model.parts import Guess, Label, Parts
+from cadgraph.model.labels import GeometryEvidence, Guess, Label, NameHint
+from cadgraph.model.parts import Parts
 from cadgraph.model.vocabulary import Vocabulary
 
-__all__ = ["weigh_words", "words_of"]
+__all__ = ["weigh_names", "words_of"]
 
 # The odds of a label that a name speaks for are multiplied by this. Ours, a modest guess, not measured: the generated
 # plants have meaningless names on purpose.
@@ -38,7 +38,7 @@ def words_of(path: str) -> tuple[str, ...]:
     return tuple(word.lower() for segment in segments for word in _WORD.findall(segment[:_LONGEST]))
 
 
-def weigh_words(answers: Sequence[Label | None], parts: Parts, vocabulary: Vocabulary) -> tuple[Label | None, ...]:
+def weigh_names(answers: Sequence[Label | None], parts: Parts, vocabulary: Vocabulary) -> tuple[Label | None, ...]:
     """Raises the labels that the names of parts speak for.
 
     Args:
@@ -76,6 +76,8 @@ def _meant(words: Sequence[str], names: set[str]) -> dict[str, str]:
 
 
 def _weighed(answer: Label, meant: dict[str, str]) -> Label:
+    if isinstance(answer.evidence, GeometryEvidence) and answer.evidence.name is not None:
+        return answer
     guesses = answer.guesses or (Guess(answer.group, answer.name, answer.confidence),)
     spoken = [g for g in guesses if g.name in meant and g.confidence >= _POSSIBLE]
     if not spoken:
@@ -85,15 +87,13 @@ def _weighed(answer: Label, meant: dict[str, str]) -> Label:
     raised = odds / (1.0 + odds)
     others = (1.0 - raised) / max(1.0 - best.confidence, 1e-9)
     weighed = [
-        replace(g, confidence=raised if g is best else round(g.confidence * others, 4)) for g in guesses
+        g.model_copy(update={"confidence": raised if g is best else round(g.confidence * others, 4)}) for g in guesses
     ]  # fmt: skip
     weighed.sort(key=lambda g: -g.confidence)
     top = weighed[0]
-    evidence = {
-        **answer.evidence,
-        "name": {"word": meant[str(best.name)], "speaks_for": best.name, "without": round(best.confidence, 4)},
-    }
+    hint = NameHint(word=meant[str(best.name)], speaks_for=str(best.name), without=round(best.confidence, 4))
+    evidence = answer.evidence.model_copy(update={"name": hint})
     if (top.group, top.name) != (best.group, best.name):
-        return replace(answer, evidence=evidence, guesses=tuple(weighed))
+        return answer.model_copy(update={"evidence": evidence, "guesses": tuple(weighed)})
     confidence = max(raised, answer.confidence if answer.name == best.name else 0.0)
     return Label(top.group, top.name, confidence, answer.source, evidence, tuple(weighed))

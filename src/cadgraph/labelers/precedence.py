@@ -6,75 +6,96 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from cadgraph.config import LabelConfig
-from cadgraph.labelers.base import Labeler, apply_given
+from cadgraph.labelers.base import Labeling
 from cadgraph.labelers.catalog import apply_catalogs
 from cadgraph.labelers.corrections import apply_corrections
-from cadgraph.labelers.coverage import tell_unknown
+from cadgraph.labelers.given import apply_given
+from cadgraph.model.analysis import Analysis
 from cadgraph.model.catalog import Catalog
 from cadgraph.model.corrections import Correction
-from cadgraph.model.labels import GivenLabel
-from cadgraph.model.parts import Contacts, Label, Parts
-from cadgraph.model.scene import Diagnostic, Scene
+from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.given_labels import GivenLabel
+from cadgraph.model.labels import CorrectedEvidence, Guess, Label
 from cadgraph.model.vocabulary import Vocabulary
 
-__all__ = ["Settled", "settle_labels"]
+__all__ = ["SettledLabels", "lay_corrections", "lay_known", "settle_labels"]
 
 
-@dataclass(frozen=True)
-class Settled:
+@dataclass(frozen=True, eq=False)
+class SettledLabels:
     """The labels that count.
 
     Args:
         labels: of each part.
+        guesses: of each part that nobody is sure about, the likeliest first.
         opinions: what the labeler alone says, but for parts that the user knows: a second opinion on the rest.
-        diagnostics: what is to be told.
+        diagnostics: what is to be reported.
     """
 
     labels: tuple[Label | None, ...]
+    guesses: tuple[tuple[Guess, ...], ...]
     opinions: tuple[Label | None, ...]
-    diagnostics: tuple[Diagnostic, ...]
+    diagnostics: tuple[Diagnostic, ...] = ()
 
 
 def settle_labels(
-    labels: Sequence[Label | None],
-    labeler: Labeler | None,
-    catalogs: Sequence[Catalog],
-    given: Sequence[GivenLabel],
-    corrections: Sequence[Correction],
-    scene: Scene,
-    parts: Parts,
-    contacts: Contacts,
+    labeling: Labeling,
+    analysis: Analysis,
     vocabulary: Vocabulary,
     config: LabelConfig,
-) -> Settled:
+    *,
+    catalogs: Sequence[Catalog] = (),
+    given: Sequence[GivenLabel] = (),
+    corrections: Sequence[Correction] = (),
+) -> SettledLabels:
     """Lays what the user knows over what a labeler said.
 
     Args:
-        labels: of each part, by the labeler.
-        labeler: that gave them; what it has to tell is told.
+        labeling: what it said.
+        analysis: of the scene.
+        vocabulary: the labels in use.
+        config: how parts get their labels.
         catalogs: of the user's own parts.
         given: labels of source meshes from outside.
         corrections: of single parts, which spread.
-        scene: the source meshes.
-        parts: made from them.
-        contacts: pairs of parts that are adjacent.
-        vocabulary: the labels in use.
-        config: how parts get their labels.
 
     Raises:
         LabelError: a given label names a mesh that is not in the scene.
     """
-    told = (*getattr(labeler, "diagnostics", ()), *tell_unknown(labeler, vocabulary))
-    known, told_catalogs = apply_catalogs(labels, catalogs, parts, vocabulary)
-    named, told_given = apply_given(known, given, scene, parts, config)
-    final, told_corrections = apply_corrections(named, corrections, scene, parts, contacts)
-    opinions = tuple(
+    known = lay_known(labeling, analysis, vocabulary, config, catalogs, given)
+    return lay_corrections(known, labeling, analysis, corrections)
+
+
+def lay_known(
+    labeling: Labeling,
+    analysis: Analysis,
+    vocabulary: Vocabulary,
+    config: LabelConfig,
+    catalogs: Sequence[Catalog],
+    given: Sequence[GivenLabel],
+) -> SettledLabels:
+    """The labels before any correction; see ``settle_labels``."""
+    known, from_catalogs = apply_catalogs(labeling.labels, catalogs, analysis.parts, vocabulary)
+    named, from_outside = apply_given(known, given, analysis.scene, analysis.parts, config)
+    diagnostics = (*labeling.diagnostics, *from_catalogs, *from_outside)
+    return SettledLabels(named, labeling.guesses, _opinions(named, labeling), diagnostics)
+
+
+def lay_corrections(
+    known: SettledLabels, labeling: Labeling, analysis: Analysis, corrections: Sequence[Correction]
+) -> SettledLabels:
+    """The labels with corrections over what ``lay_known`` returned."""
+    labels, found = apply_corrections(known.labels, corrections, analysis.scene, analysis.parts, analysis.contacts)
+    return SettledLabels(labels, known.guesses, _opinions(labels, labeling), (*known.diagnostics, *found))
+
+
+def _opinions(labels: Sequence[Label | None], labeling: Labeling) -> tuple[Label | None, ...]:
+    return tuple(
         label if label is not None and _is_known(label) else opinion
-        for label, opinion in zip(final, labels, strict=True)
+        for label, opinion in zip(labels, labeling.labels, strict=True)
     )
-    return Settled(final, opinions, (*told, *told_catalogs, *told_given, *told_corrections))
 
 
 def _is_known(label: Label) -> bool:
     """Whether a label comes from the user's catalogue or corrections, which no labeler may doubt."""
-    return label.source in ("human", "catalog") or "corrected" in label.evidence
+    return label.source == "catalog" or isinstance(label.evidence, CorrectedEvidence)

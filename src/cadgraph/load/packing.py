@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
-from cadgraph.model.scene import Diagnostic, Faces, Floats, Ints, Scene, Source, natural_key
+from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.scene import Faces, Floats, Ints, Scene, Source, natural_key
 
 __all__ = ["Notes", "Piece", "pack", "unique_name"]
 

@@ -18,13 +18,13 @@ from pydantic import ValidationError
 from cadgraph._io.atomic import write_atomically
 from cadgraph._io.validation_messages import expectation
 from cadgraph.errors import FormatError
+from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.records import (
     AnyEdge,
     AnyNode,
     Cluster,
     Connected,
     Contains,
-    Finding,
     GraphDocument,
     Junction,
     Node,
@@ -81,7 +81,7 @@ class SceneGraph:
         return self.document.source
 
     @property
-    def diagnostics(self) -> tuple[Finding, ...]:
+    def diagnostics(self) -> tuple[Diagnostic, ...]:
         """Everything skipped, repaired, guessed or left unlabelled."""
         return self.document.diagnostics
 

@@ -1,138 +1,333 @@
-"""Labels from outside: reading them from JSON, CSV or a truth file."""
+"""What a part is, how sure that is, who says so, and what that rests on: in the stages and in the graph alike.
+
+The kinds of evidence are told apart by the label's ``source``, which stands in ``graph.json`` beside them.
+"""
 
 from __future__ import annotations
 
-import csv
-import difflib
-import json
-import reprlib
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
+import warnings
+from collections.abc import Mapping
+from typing import Any, ClassVar
 
-from cadgraph.errors import LabelError
-from cadgraph.model.vocabulary import Vocabulary
+from pydantic import (
+    Field,
+    SerializeAsAny,
+    ValidationError,
+    field_validator,
+    model_validator,
+)
 
-__all__ = ["GivenLabel", "read_labels", "split_label"]
+from cadgraph.model.record import Record
 
-_MAX_LENGTH = 4096  # of a path or label; longer is no label but damage
+__all__ = [
+    "EVIDENCE",
+    "CatalogEvidence",
+    "CorrectedEvidence",
+    "Evidence",
+    "FileEvidence",
+    "FormerLabel",
+    "GeometryEvidence",
+    "GivenEvidence",
+    "Guess",
+    "Label",
+    "LvlmEvidence",
+    "NameHint",
+    "NetworkEvidence",
+]
 
 
-@dataclass(frozen=True)
-class GivenLabel:
-    """What somebody says a mesh is.
+def _absent(**limits: Any) -> Any:
+    """A field that is left out of the file where nothing is known."""
+    return Field(default=None, exclude_if=lambda value: value is None, **limits)
+
+
+class Guess(Record):
+    """What a part may be.
+
+    Args:
+        group: a group of the vocabulary.
+        name: a name in that group, or None where only the group is meant.
+        confidence: 0..1.
+    """
+
+    group: str
+    name: str | None = None
+    confidence: float = Field(ge=0, le=1)
+
+    def __init__(self, group: str, name: str | None = None, confidence: float = 0.0, **unknown: Any) -> None:
+        super().__init__(**{"group": group, "name": name, "confidence": confidence, **unknown})
+
+
+class FormerLabel(Record):
+    """What a label was before something else took its place.
+
+    Args:
+        group: of the vocabulary.
+        name: in that group, or None.
+        confidence: 0..1, None where it was not kept.
+        source: who said so, None where it was not kept.
+        why: in words, or None.
+    """
+
+    group: str
+    name: str | None = None
+    confidence: float | None = _absent(ge=0, le=1)
+    source: str | None = _absent()
+    why: str | None = _absent()
+
+    @classmethod
+    def of(cls, label: Label | None) -> FormerLabel | None:
+        """The former label of a part that had this one; None of none."""
+        if label is None:
+            return None
+        return cls(
+            group=label.group,
+            name=label.name,
+            confidence=round(label.confidence, 6),
+            source=label.source,
+            why=label.evidence.why,
+        )
+
+
+class Evidence(Record):
+    """What a label rests on; labelers of others may put anything else beside these.
+
+    Args:
+        why: in words.
+        before: what the part's label was until this evidence replaced it.
+    """
+
+    sources: ClassVar[tuple[str, ...]] = ()
+    """The values of ``Label.source`` that go with this kind of evidence."""
+
+    why: str | None = _absent()
+    before: FormerLabel | None = _absent()
+
+    @field_validator("before", mode="before")
+    @classmethod
+    def _read_text(cls, value: Any) -> Any:
+        # Graphs of version 0.1.0 have 'group: name' where sizes corrected a label.
+        if isinstance(value, str):
+            group, _, name = (piece.strip() for piece in value.partition(":"))
+            return {"group": group, "name": name or None}
+        return value
+
+    def to_json(self) -> dict[str, Any]:
+        """As it stands in ``graph.json``."""
+        return self.model_dump(mode="json")
+
+    def __getitem__(self, key: str) -> Any:
+        """Deprecated: what stands under a key of ``graph.json``."""
+        warnings.warn("evidence['key'] is deprecated; use evidence.key or to_json()", DeprecationWarning, stacklevel=2)
+        return self.to_json()[key]
+
+    def get(self, key: str, default: Any = None) -> Any:
+        """Deprecated: what stands under a key of ``graph.json``, if anything."""
+        warnings.warn("evidence.get is deprecated; use evidence.key or to_json()", DeprecationWarning, stacklevel=2)
+        return self.to_json().get(key, default)
+
+
+class NameHint(Record):
+    """A word in the source's name of a mesh that spoke for a label.
+
+    Args:
+        word: as it stands in the name.
+        speaks_for: the name of the vocabulary that it means.
+        without: confidence by geometry alone, 0..1.
+    """
+
+    word: str
+    speaks_for: str
+    without: float
+
+
+class GeometryEvidence(Evidence):
+    """Shape and surroundings.
+
+    Args:
+        name: the word that made the label surer, where names in the source count (``label.use_names``).
+    """
+
+    sources = ("geometry",)
+
+    name: NameHint | None = _absent()
+
+
+class LvlmEvidence(Evidence):
+    """The answer of a vision-language model; sizes may have corrected it (source ``context``).
+
+    Args:
+        model: who answered.
+        prompt: version of the question's words.
+        question: id of the question.
+        asked: source path of the part that was shown.
+        repeats: how many parts of its shape and role the answer holds for.
+        votes: ``group: name`` of each answer.
+        seen: what the model says it saw.
+        again: whether the answer is that to a second question with more context.
+    """
+
+    sources = ("lvlm", "context")
+
+    model: str | None = _absent()
+    prompt: str | None = _absent()
+    question: str | None = _absent()
+    asked: str | None = _absent()
+    repeats: int | None = _absent()
+    votes: tuple[str, ...] | None = _absent()
+    seen: str | None = _absent()
+    again: bool | None = _absent()
+
+
+class CatalogEvidence(Evidence):
+    """An entry of a user's catalogue.
+
+    Args:
+        entry: its id.
+        catalog: name of the catalogue's file.
+        match: how the shapes agree: ``exact``, ``mirrored``, ``near`` or ``scaled``.
+        similarity: of the shapes, 0..1.
+        taken_from: file and mesh that the entry was made from.
+        scale: size of the part over that of the entry.
+    """
+
+    sources = ("catalog",)
+
+    entry: str | None = _absent()
+    catalog: str | None = _absent()
+    match: str | None = _absent()
+    similarity: float | None = _absent()
+    taken_from: str | None = _absent()
+    scale: float | None = _absent()
+
+
+class GivenEvidence(Evidence):
+    """A label that somebody gave for a mesh, from outside.
 
     Args:
         mesh: its source path.
+    """
+
+    sources = ("author",)
+
+    mesh: str | None = _absent()
+
+
+class CorrectedEvidence(Evidence):
+    """A user's correction: of this part (source ``human``), or of one that it is like (source ``repeat``).
+
+    Args:
+        mesh: source path of the part, where it was corrected itself.
+        corrected: source path of the corrected part that this one follows.
+        match: how they agree: ``exact``, ``mirrored``, ``near``, ``scaled``, or ``kin`` (seen much alike).
+        similarity: 0..1.
+        scale: size of this part over that of the corrected one.
+    """
+
+    sources = ("human", "repeat")
+
+    mesh: str | None = _absent()
+    corrected: str | None = _absent()
+    match: str | None = _absent()
+    similarity: float | None = _absent()
+    scale: float | None = _absent()
+
+
+class FileEvidence(Evidence):
+    """What the source file says of the mesh by itself: a name, a type, an attribute.
+
+    Args:
+        key: where it stands in the file (``"name"``, ``"TYPE"``).
+        text: what stands there.
+    """
+
+    sources = ("file",)
+
+    key: str | None = _absent()
+    text: str | None = _absent()
+
+
+class NetworkEvidence(Evidence):
+    """What the lines through a part say about it: what a line runs through is a pipe."""
+
+    sources = ("network",)
+
+
+EVIDENCE: dict[str, type[Evidence]] = {
+    source: kind
+    for kind in (
+        GeometryEvidence,
+        LvlmEvidence,
+        CatalogEvidence,
+        GivenEvidence,
+        CorrectedEvidence,
+        FileEvidence,
+        NetworkEvidence,
+    )
+    for source in kind.sources
+}
+"""The kind of evidence of each source of labels."""
+
+
+class Label(Record):
+    """What a part is, how sure that is, and who says so.
+
+    Args:
         group: a group of the vocabulary.
-        name: a name in that group, or None.
+        name: a name in that group, or None where only the group is known.
+        confidence: 0..1.
+        source: who says so: a key of ``EVIDENCE``, or a word of a labeler of your own.
+        evidence: what the source's word rests on; plain values become the kind that goes with the source.
+        guesses: what the part may be, the likeliest first, the label itself among them; in a graph they stand beside
+            the label, not in it.
     """
 
-    mesh: str
     group: str
-    name: str | None
+    name: str | None = None
+    confidence: float = Field(ge=0, le=1)
+    source: str = Field(description=f"{', '.join(EVIDENCE)}, or a word of somebody's own labeler")
+    evidence: SerializeAsAny[Evidence] = Field(
+        default_factory=Evidence, description="what the source needs to be traced"
+    )
+    guesses: tuple[Guess, ...] = Field(default=(), exclude=True, repr=False)
+
+    def __init__(
+        self,
+        group: str,
+        name: str | None = None,
+        confidence: float = 1.0,
+        source: str = "",
+        evidence: Evidence | Mapping[str, Any] | None = None,
+        guesses: tuple[Guess, ...] = (),
+        **unknown: Any,
+    ) -> None:
+        values = {"group": group, "name": name, "confidence": confidence, "source": source, "guesses": guesses}
+        super().__init__(**values, **{"evidence": {} if evidence is None else evidence, **unknown})
+
+    @model_validator(mode="before")
+    @classmethod
+    def _type_evidence(cls, values: Any) -> Any:
+        plain = values.get("evidence") if isinstance(values, Mapping) else None
+        if not isinstance(plain, Mapping):
+            return values
+        return {**values, "evidence": typed_evidence(values.get("source"), plain)}
+
+    @property
+    def said(self) -> tuple[str, str | None]:
+        """Group and name."""
+        return self.group, self.name
 
 
-def read_labels(path: str | Path, vocabulary: Vocabulary) -> tuple[GivenLabel, ...]:
-    """Reads labels.
-
-    Args:
-        path: a JSON list of ``{"mesh": path, "group": ..., "name": ...}``; an object with such a list under
-            ``meshes`` (a truth file); or a CSV with these columns. An empty name leaves it open.
-        vocabulary: groups and names must be in it.
-
-    Raises:
-        LabelError: the file can't be read, or a row is malformed, repeated, or not in the vocabulary.
-    """
-    source = Path(path)
-    if source.is_char_device() or source.is_block_device():
-        raise LabelError(f"{path}: a device; give a JSON or CSV file of labels")
-    try:
-        text = source.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise LabelError(f"{path}: can't be read ({error.strerror}); give a JSON or CSV file of labels") from error
-    except UnicodeDecodeError as error:
-        raise LabelError(f"{path}: not UTF-8 text; give a JSON or CSV file of labels") from error
-    rows = _csv_rows(text, source) if source.suffix.lower() == ".csv" else _json_rows(text, source)
-    labels = tuple(_checked(row, f"{path}: {place}", vocabulary) for place, row in rows)
-    seen: set[str] = set()
-    for label in labels:
-        if label.mesh in seen:
-            raise LabelError(f"{path}: mesh {label.mesh!r} is labelled twice; keep one row")
-        seen.add(label.mesh)
-    return labels
-
-
-def _json_rows(text: str, source: Path) -> Iterable[tuple[str, Any]]:
-    try:
-        content = json.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise LabelError(f"{source}: not JSON ({error}); give a list of {{mesh, group, name}}") from error
-    if isinstance(content, Mapping):
-        content = content.get("meshes")
-    if not isinstance(content, Sequence) or isinstance(content, str):
-        raise LabelError(f"{source}: no list of {{mesh, group, name}}, nor an object that holds one under 'meshes'")
-    return ((f"entry {i}", row) for i, row in enumerate(content))
-
-
-def _csv_rows(text: str, source: Path) -> Iterable[tuple[str, Any]]:
-    reader = csv.DictReader(text.splitlines())
-    missing = {"mesh", "group"} - set(reader.fieldnames or ())
-    if missing:
-        raise LabelError(f"{source}: no column {sorted(missing)[0]!r}; the first line must name mesh, group, name")
-    try:
-        rows = [(f"line {reader.line_num}", row) for row in reader]
-    except csv.Error as error:
-        raise LabelError(f"{source}: line {reader.line_num}: not CSV ({error}); is a quote left open?") from error
-    for place, row in rows:
-        if None in row:
-            raise LabelError(f"{source}: {place}: more values than columns; put what holds a comma in quotes")
-    return rows
-
-
-def _checked(row: Any, place: str, vocabulary: Vocabulary) -> GivenLabel:
-    if not isinstance(row, Mapping):
-        raise LabelError(f"{place}: not an object with mesh, group and name")
-    mesh, group, name = row.get("mesh"), row.get("group"), row.get("name") or None
-    for key, value in (("mesh", mesh), ("group", group), ("name", name)):
-        if value is None and key != "name":
-            raise LabelError(f"{place}: {key!r} is missing")
-        if not isinstance(value, str | None) or len(value or "") > _MAX_LENGTH:
-            raise LabelError(f"{place}: {key!r} must be text, not {str(value)[:60]!r}")
-    if not vocabulary.holds(str(group)):
-        raise LabelError(
-            f"{place}: group {group!r} is not in the vocabulary ({', '.join(vocabulary.groups)}); "
-            "add it with --vocabulary"
-        )
-    if not vocabulary.holds(str(group), name):
-        raise LabelError(f"{place}: {name!r} is no name of group {group!r}; add it with --vocabulary")
-    return GivenLabel(str(mesh), str(group), name)
-
-
-def split_label(text: str, vocabulary: Vocabulary | None) -> tuple[str, str | None]:
-    """The group and name that somebody means.
+def typed_evidence(source: object, plain: Mapping[str, Any]) -> Evidence:
+    """Evidence as the kind that goes with a source; what doesn't fit that kind is kept as it is.
 
     Args:
-        text: ``group/name``, a group alone, or a name that only one group has.
-        vocabulary: must hold it; None takes any ``group/name``.
-
-    Raises:
-        LabelError: it is no label, or the vocabulary lacks it.
+        source: of the label.
+        plain: keys and values, as they stand in ``graph.json``.
     """
-    group, slash, name = (piece.strip() for piece in text.partition("/"))
-    if vocabulary is None:
-        # Whatever is no label there is none here.
-        Vocabulary.from_json({group: {"names": [name] if name else []}}, reprlib.repr(text))
-        return group, name or None
-    if vocabulary.holds(group, name or None) and (name or not slash):
-        return group, name or None
-    owners = [owner for owner, content in vocabulary.groups.items() if not slash and group in content.names]
-    if len(owners) == 1:
-        return owners[0], group
-    if owners:
-        raise LabelError(f"{reprlib.repr(text)}: several groups have this name; say group/name ({', '.join(owners)})")
-    spelt = [f"{one}/{each}" for one, content in vocabulary.groups.items() for each in content.names]
-    close = difflib.get_close_matches(text, spelt, 3) or difflib.get_close_matches(name, spelt, 3, 0.4)
-    hint = f"; did you mean {' or '.join(map(repr, close))}?" if close else "; 'cadgraph vocabulary show' lists them"
-    raise LabelError(f"{reprlib.repr(text)} is not in the vocabulary{hint}")
+    kind = EVIDENCE.get(source, Evidence) if isinstance(source, str) else Evidence
+    try:
+        return kind.model_validate(dict(plain))
+    except ValidationError:
+        # Somebody's own labeler may use our word for its source, and other values.
+        return Evidence.model_validate(dict(plain))

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Any, Literal
+from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from cadgraph.model.scene import Floats, Ints, Scene
 
-__all__ = ["Contacts", "Guess", "Label", "Link", "Network", "Opening", "Parts", "Place", "Properties", "UnitParts"]
+__all__ = ["Contacts", "Link", "Network", "Opening", "Parts", "Place", "Properties", "UnitParts"]
 
 Bools = npt.NDArray[np.bool_]
 
@@ -56,7 +55,7 @@ class Properties:
         return volume
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Parts:
     """The parts of a scene: groups of meshes that act as one item.
 
@@ -82,7 +81,7 @@ class Parts:
         return len(self.meshes)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Contacts:
     """All pairs that are within the contact distance of each other.
 
@@ -95,42 +94,6 @@ class Contacts:
     pairs: Ints
     distance: Floats
     points: Floats
-
-
-@dataclass(frozen=True)
-class Guess:
-    """What a part might be.
-
-    Args:
-        group: a group of the vocabulary.
-        name: a name in that group, or None.
-        confidence: 0..1.
-    """
-
-    group: str
-    name: str | None
-    confidence: float
-
-
-@dataclass(frozen=True)
-class Label:
-    """What a part is.
-
-    Args:
-        group: a group of the vocabulary.
-        name: a name in that group, or None where only the group is known.
-        confidence: 0..1.
-        source: who says so: ``geometry``, ``lvlm``, ``catalog``, ``repeat``, ``context``, ``author`` or ``human``.
-        evidence: what that source needs to be traced, plain JSON values.
-        guesses: what else it may be, the likeliest first; the label itself may be among them.
-    """
-
-    group: str
-    name: str | None
-    confidence: float
-    source: str
-    evidence: Mapping[str, Any] = field(default_factory=dict)
-    guesses: tuple[Guess, ...] = ()
 
 
 @dataclass(frozen=True)

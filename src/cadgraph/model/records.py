@@ -9,7 +9,11 @@ from typing import Annotated, Any, Literal, TypeVar
 
 import numpy as np
 import numpy.typing as npt
-from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
+from pydantic import Field, TypeAdapter
+
+from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.labels import Guess, Label
+from cadgraph.model.record import Record
 
 __all__ = [
     "Adjacent",
@@ -20,14 +24,11 @@ __all__ = [
     "Connected",
     "Contains",
     "Edge",
-    "Finding",
     "GraphDocument",
     "Junction",
     "Node",
     "OrientedBox",
     "Part",
-    "PartGuess",
-    "PartLabel",
     "Point",
     "Port",
     "Related",
@@ -44,13 +45,7 @@ Point = tuple[float, float, float]
 Box = tuple[Point, Point]
 
 
-class _Record(BaseModel):
-    """A frozen record that keeps keys it doesn't know."""
-
-    model_config = ConfigDict(frozen=True, extra="allow", allow_inf_nan=False)
-
-
-class SourceRecord(_Record):
+class SourceRecord(Record):
     """Where the scene came from."""
 
     path: str = Field("", description="as the user gave it")
@@ -61,15 +56,7 @@ class SourceRecord(_Record):
     n_triangles: int = 0
 
 
-class Finding(_Record):
-    """One entry of ``diagnostics``: something skipped, repaired, guessed or left open."""
-
-    code: str = Field(description="stable kebab-case word")
-    message: str
-    meshes: tuple[str, ...] = ()
-
-
-class OrientedBox(_Record):
+class OrientedBox(Record):
     """A box in any pose."""
 
     center: Point
@@ -77,24 +64,14 @@ class OrientedBox(_Record):
     extents: Point = Field(description="full side lengths along the axes [m]")
 
 
-class PartLabel(_Record):
-    """What a part is, how sure that is, and who says so."""
-
-    group: str
-    name: str | None = None
-    confidence: float = Field(ge=0, le=1)
-    source: str = Field(description="geometry, lvlm, catalog, repeat, context, author or human")
-    evidence: dict[str, Any] = Field(default_factory=dict, description="what the source needs to be traced")
-
-
-class Site(_Record):
+class Site(Record):
     """The root; exactly one."""
 
     id: str
     layer: Literal["site"] = "site"
 
 
-class Cluster(_Record):
+class Cluster(Record):
     """One connected structure."""
 
     id: str
@@ -107,24 +84,14 @@ class Cluster(_Record):
     aabb: Box
 
 
-class PartGuess(_Record):
-    """What a part might be, where nobody is sure enough."""
-
-    group: str
-    name: str | None = None
-    confidence: float = Field(ge=0, le=1)
-
-
-class Part(_Record):
+class Part(Record):
     """What the paper calls a mesh after grouping: one or more source meshes that act as one item."""
 
     id: str
     layer: Literal["part"] = "part"
     meshes: tuple[str, ...] = Field(description="source paths, the largest first", min_length=1)
-    label: PartLabel | None = None
-    guesses: tuple[PartGuess, ...] = Field(
-        default=(), description="what the labeler holds for possible; likeliest first"
-    )
+    label: Label | None = None
+    guesses: tuple[Guess, ...] = Field(default=(), description="what the labeler holds for possible; likeliest first")
     centroid: Point
     aabb: Box
     obb: OrientedBox
@@ -135,7 +102,7 @@ class Part(_Record):
     ground: bool = False
 
 
-class Port(_Record):
+class Port(Record):
     """Where a line joins a unit: a nozzle, a flanged end, a gauge's foot."""
 
     name: str = Field(description="unique in its unit: N1, N2...")
@@ -146,7 +113,7 @@ class Port(_Record):
     )
 
 
-class Unit(_Record):
+class Unit(Record):
     """A functional unit: connected parts that work as one valve, gauge, pump, tank..."""
 
     id: str
@@ -160,7 +127,7 @@ class Unit(_Record):
     aabb: Box
 
 
-class Junction(_Record):
+class Junction(Record):
     """A point where three or more branches of connectors meet."""
 
     id: str
@@ -169,7 +136,7 @@ class Junction(_Record):
     parts: tuple[str, ...]
 
 
-class Terminal(_Record):
+class Terminal(Record):
     """Where a run ends without a unit."""
 
     id: str
@@ -181,7 +148,7 @@ class Terminal(_Record):
     parts: tuple[str, ...]
 
 
-class System(_Record):
+class System(Record):
     """One connected functional network."""
 
     id: str
@@ -193,7 +160,7 @@ class System(_Record):
     sizes: tuple[int, ...] = Field(default=(), description="nominal sizes (DN) of its lines, ascending")
 
 
-class Contains(_Record):
+class Contains(Record):
     """Site to cluster, cluster to part, system to unit, unit to part."""
 
     source: str
@@ -201,7 +168,7 @@ class Contains(_Record):
     kind: Literal["contains"] = "contains"
 
 
-class Adjacent(_Record):
+class Adjacent(Record):
     """Two parts that touch or nearly do; stored once, source < target."""
 
     source: str
@@ -211,7 +178,7 @@ class Adjacent(_Record):
     point: Point = Field(description="of contact or of closest approach")
 
 
-class Connected(_Record):
+class Connected(Record):
     """Two units, junctions or terminals, consecutive along connector parts."""
 
     source: str
@@ -237,7 +204,7 @@ class Connected(_Record):
     confidence: float | None = Field(default=None, ge=0, le=1, description="of the connection itself")
 
 
-class Related(_Record):
+class Related(Record):
     """Two units that Algorithm 1 of the paper relates."""
 
     source: str
@@ -253,7 +220,7 @@ AnyNode = TypeVar("AnyNode", Site, Cluster, Part, Unit, Junction, Terminal, Syst
 AnyEdge = TypeVar("AnyEdge", Contains, Adjacent, Connected, Related)
 
 
-class GraphDocument(_Record):
+class GraphDocument(Record):
     """``graph.json`` as it stands on disk."""
 
     format: Literal["cadgraph"] = "cadgraph"
@@ -266,7 +233,7 @@ class GraphDocument(_Record):
     config: dict[str, Any] = Field(default_factory=dict)
     nodes: tuple[_NodeField, ...]
     edges: tuple[_EdgeField, ...]
-    diagnostics: tuple[Finding, ...] = ()
+    diagnostics: tuple[Diagnostic, ...] = ()
 
 
 def document_schema() -> dict[str, Any]:

@@ -9,6 +9,8 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
+from cadgraph.model.diagnostic import Diagnostic
+
 __all__ = ["Diagnostic", "Floats", "Ints", "Scene", "Source", "mesh_of_face", "mesh_of_vertex", "natural_key"]
 
 Floats = npt.NDArray[np.float64]
@@ -16,21 +18,6 @@ Ints = npt.NDArray[np.int64]
 _DIGITS = re.compile(r"([0-9]+)")
 
 Faces = npt.NDArray[np.int32]
-
-
-@dataclass(frozen=True)
-class Diagnostic:
-    """One thing that was skipped, repaired, guessed or left open.
-
-    Args:
-        code: a stable kebab-case word for programs (``"missing-reference"``).
-        message: one line for people.
-        meshes: source paths that it concerns, maybe none.
-    """
-
-    code: str
-    message: str
-    meshes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

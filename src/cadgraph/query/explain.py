@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from cadgraph.model.graph import SceneGraph
+from cadgraph.model.labels import Evidence, GivenEvidence
 from cadgraph.model.records import Adjacent, Part
 from cadgraph.model.vocabulary import spell_label
 
@@ -60,12 +61,16 @@ class Explanation:
     confidence: float | None
     source: str | None
     why: str
-    evidence: Mapping[str, Any] = field(default_factory=dict)
+    evidence: Evidence = field(default_factory=Evidence)
     guesses: tuple[tuple[str, float], ...] = ()
     neighbors: tuple[Neighbor, ...] = ()
     repeats: Mapping[str, int] = field(default_factory=dict)
     unit: str | None = None
     cluster: str | None = None
+
+    def to_json(self) -> dict[str, Any]:
+        """As plain values."""
+        return {**asdict(self), "evidence": self.evidence.to_json()}
 
     def lines(self) -> list[tuple[str, str]]:
         """The explanation as pairs of a heading and a text."""
@@ -75,10 +80,10 @@ class Explanation:
             ("label", f"{self.label} ({self.confidence:.0%}, {self.source})" if self.label else "none"),
             ("why", self.why),
         ]
-        before = self.evidence.get("before")
-        if isinstance(before, Mapping):
-            name = "/".join(str(before[key]) for key in ("group", "name") if before.get(key))
-            rows.append(("before", f"{name} ({_percent(before.get('confidence'))}, {before.get('source')})"))
+        before = self.evidence.before
+        if before is not None:
+            told = [_percent(before.confidence), *([before.source] if before.source else [])]
+            rows.append(("before", f"{spell_label(before.group, before.name)} ({', '.join(told)})"))
         if self.guesses:
             rows.append(("guesses", ", ".join(f"{name} {p:.0%}" for name, p in self.guesses)))
         rows.append(("touches", _some([f"{n.label or 'unlabelled'} ({n.part})" for n in self.neighbors]) or "nothing"))
@@ -119,7 +124,7 @@ def explain(graph: SceneGraph, which: str) -> Explanation:
         confidence=None if label is None else label.confidence,
         source=None if label is None else label.source,
         why=_why(part),
-        evidence={} if label is None else label.evidence,
+        evidence=Evidence() if label is None else label.evidence,
         guesses=tuple((spell_label(g.group, g.name), g.confidence) for g in part.guesses),
         neighbors=tuple(Neighbor(o.id, o.meshes[0], _name(o), far[o.id]) for o in near),
         repeats=dict(sorted(repeats.items(), key=lambda row: (-row[1], row[0]))),
@@ -133,12 +138,11 @@ def _why(part: Part) -> str:
         if part.ground:
             return "it is the ground, which gets no label"
         return "nobody is sure enough" if part.guesses else "nobody has an idea"
-    told = part.label.evidence.get("why")
-    if isinstance(told, str):
-        return told
-    given = part.label.evidence.get("mesh")
-    if part.label.source == "author" and isinstance(given, str):
-        return f"given from outside for {given}"
+    evidence = part.label.evidence
+    if evidence.why is not None:
+        return evidence.why
+    if isinstance(evidence, GivenEvidence) and evidence.mesh is not None:
+        return f"given from outside for {evidence.mesh}"
     return "the graph does not say"
 
 
@@ -146,8 +150,8 @@ def _name(part: Part) -> str | None:
     return None if part.label is None else spell_label(part.label.group, part.label.name)
 
 
-def _percent(confidence: object) -> str:
-    return f"{confidence:.0%}" if isinstance(confidence, int | float) else "no confidence"
+def _percent(confidence: float | None) -> str:
+    return "no confidence" if confidence is None else f"{confidence:.0%}"
 
 
 def _length(x: float) -> str:

@@ -17,11 +17,8 @@ from cadgraph.model.catalog import Catalog, Entry
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Part
 from cadgraph.model.scene import Scene
-from cadgraph.session.relabel import config_of, find_source
-from cadgraph.stages.adjacency import find_near_meshes
-from cadgraph.stages.group import group_meshes
-from cadgraph.stages.inspect import inspect_meshes
-from cadgraph.stages.parts import make_parts
+from cadgraph.pipeline import analyse
+from cadgraph.session.reopen import config_of, find_source
 from cadgraph.stages.preprocess import prepare_scene
 
 __all__ = ["EMPTY", "Intake", "take_file", "take_graph"]
@@ -70,18 +67,15 @@ def take_file(
     Raises:
         LoadError: the file can't be read, or holds no surface.
     """
-    config = config or Config()
-    scene, _ = prepare_scene(load(file, config.load))
-    scene, properties, _ = inspect_meshes(scene, measure(scene), config.inspect)
-    if not scene.n_meshes or not float(np.nansum(properties.area)) > 0:
+    config = (config or Config()).replace({"ground.find": "none"})
+    analysis = analyse(load(file, config.load), config)
+    area = analysis.properties.area
+    if not analysis.scene.n_meshes or not float(np.nansum(area)) > 0:
         raise LoadError(f"{file}: holds no surface that could be a part; look at it in a viewer")
+    shapes = analysis.parts.scene
     if merge:
-        largest = int(np.nan_to_num(properties.area).argmax())
-        shapes = scene.merge(np.zeros(scene.n_meshes, np.int64), [largest])
-    else:
-        near = find_near_meshes(scene, config.group.proximity, config, lambda *_: None)
-        ground = np.zeros(scene.n_meshes, np.bool_)
-        shapes = make_parts(scene, properties, group_meshes(properties, ground, near, config.group), ground).scene
+        scene = analysis.scene
+        shapes = scene.merge(np.zeros(scene.n_meshes, np.int64), [int(np.nan_to_num(area).argmax())])
     rows = [Entry("", group, name, Path(file).name, path) for path in shapes.paths]
     return _taken(catalog, shapes, rows)
 
@@ -113,21 +107,27 @@ def take_graph(
         what = "is labelled so" if only else "has a label from outside or a correction"
         raise LabelError(f"{folder}: no part {what}; name a label that its parts have with --only 'group/name'")
     source = find_source(graph, Path(folder), scene)
-    whole, _ = prepare_scene(load(source, config_of(folder).load))
+    shapes = _shapes_of(chosen, source, config_of(folder))
+    return _taken(catalog, shapes, [_entry(part, source, label) for part in chosen])
+
+
+def _shapes_of(parts: Sequence[Part], source: Path, config: Config) -> Scene:
+    """The shapes of parts of a graph, read from its source again."""
+    whole, _ = prepare_scene(load(source, config.load))
     rank = {path: i for i, path in enumerate(whole.paths)}
-    meshes = [[rank[mesh] for mesh in part.meshes if mesh in rank] for part in chosen]
-    lost = next((part for part, found in zip(chosen, meshes, strict=True) if len(found) < len(part.meshes)), None)
+    lost = next((part.meshes[0] for part in parts if not rank.keys() >= set(part.meshes)), None)
     if lost is not None:
-        raise LabelError(f"{source}: has no mesh {lost.meshes[0]!r} any more; build the graph anew")
-    owner = np.repeat(np.arange(len(chosen)), [len(found) for found in meshes])
-    heads = np.cumsum([0, *(len(found) for found in meshes[:-1])])
-    shapes = whole.select([mesh for found in meshes for mesh in found]).merge(owner, heads)
-    rows = []
-    for part in chosen:
-        group, name = label or ((part.label.group, part.label.name) if part.label is not None else ("", None))
-        said_by = "user" if label or part.label is None else part.label.source
-        rows.append(Entry("", group, name, Path(source).name, part.meshes[0], said_by))
-    return _taken(catalog, shapes, rows)
+        raise LabelError(f"{source}: has no mesh {lost!r} any more; build the graph anew")
+    counts = [len(part.meshes) for part in parts]
+    meshes = [rank[mesh] for part in parts for mesh in part.meshes]
+    return whole.select(meshes).merge(np.repeat(np.arange(len(parts)), counts), np.cumsum([0, *counts[:-1]]))
+
+
+def _entry(part: Part, source: Path, label: tuple[str, str | None] | None) -> Entry:
+    """What the catalogue says of a part: the label that is given for all, else its own."""
+    said = label or (part.label.said if part.label is not None else ("", None))
+    said_by = "user" if label or part.label is None else part.label.source
+    return Entry("", *said, source.name, part.meshes[0], said_by)
 
 
 def _is_wanted(part: Part, only: tuple[str, str | None] | None) -> bool:

@@ -1,29 +1,21 @@
-"""Amending a finished graph: one part gets another label, others like it follow, and everything is built again."""
+"""Correcting a finished graph: one part gets another label, others like it follow, and the folder is written anew."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
+from cadgraph._io.atomic import write_atomically
 from cadgraph._io.progress import Progress, quiet
-from cadgraph.errors import LabelError
-from cadgraph.model.corrections import (
-    CORRECTIONS,
-    Correction,
-    Fingerprint,
-    read_corrections,
-    with_correction,
-    write_corrections,
-)
+from cadgraph._io.run_folder import results_folder
+from cadgraph.model.corrections import CORRECTIONS, read_corrections, write_corrections
+from cadgraph.model.given_labels import split_label
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.labels import split_label
-from cadgraph.model.parts import Contacts, Guess, Label, Parts
 from cadgraph.model.records import Part
 from cadgraph.model.vocabulary import Vocabulary
-from cadgraph.session.relabel import config_of, relabel
+from cadgraph.session.reopen import FormerLabeler, config_of, find_source, reopen
+from cadgraph.session.run import Clock, Outcome, write_results
+from cadgraph.session.session import Session, changed_parts
 
 __all__ = ["Amendment", "amend"]
 
@@ -33,12 +25,12 @@ class Amendment:
     """What a correction changed.
 
     Args:
-        outcome: of building anew, see ``cadgraph.session.run.Outcome``.
+        outcome: of writing the folder anew.
         part: that was corrected, as it is now.
         changed: all parts with another label than before, itself included, as they are now.
     """
 
-    outcome: Any
+    outcome: Outcome
     part: Part
     changed: tuple[Part, ...]
 
@@ -56,6 +48,7 @@ def amend(
     """Corrects the label of one part of a graph, and of others like it; the folder's results are written anew.
 
     The correction is kept in ``corrections.json`` beside the graph; a later build into the folder applies it again.
+    Several corrections of one scene are quicker in a :class:`~cadgraph.session.session.Session`.
 
     Args:
         folder: what ``cadgraph build`` wrote.
@@ -64,7 +57,7 @@ def amend(
         this_only: whether others keep their labels.
         scene: the source, where it isn't where the graph says.
         report: whether to draw pictures and write the report.
-        progress: told how far it is.
+        progress: called with the name of a stage and the share of it that is done.
 
     Raises:
         ValueError: the graph has no such part, or there is no correction of it to take back.
@@ -72,90 +65,46 @@ def amend(
         FormatError: the folder holds no graph.
     """
     before = SceneGraph.load(folder)
-    try:
-        node = before.part(part)
-    except KeyError:
-        raise ValueError(
-            f"{part}: no part of {folder} has this id or holds a mesh of this path; "
-            "'cadgraph export --to csv' lists them"
-        ) from None
+    node = _part(before, part, folder)
     tree = Vocabulary.from_json(before.document.vocabulary, f"{folder}: vocabulary of the graph")
-    file = (Path(folder) if Path(folder).is_dir() else Path(folder).parent) / CORRECTIONS
-    old = read_corrections(file, tree)
     if label is not None:
-        new = with_correction(old, _correction(node, split_label(label, tree), this_only))
-    else:
-        new = tuple(one for one in old if one.mesh not in node.meshes)
-        if len(new) == len(old):
+        split_label(label, tree)
+    clock = Clock(progress)
+    with results_folder(Path(folder) if Path(folder).is_dir() else Path(folder).parent) as target:
+        if label is None and not any(one.mesh in node.meshes for one in read_corrections(target, tree)):
             raise ValueError(f"{part}: nobody corrected this part itself; 'cadgraph explain' names the one that was")
-    config = config_of(folder)
-    former = _Former(before) if config.lvlm.ask != "never" else None
-    write_corrections(new, file)
+        config = config_of(folder)
+        source = find_source(before, target, scene)
+        former = FormerLabeler(before) if config.lvlm.ask != "never" else None
+        session = reopen(before, target, source, config, former, clock)
+        mesh = node.meshes[0]
+        change = session.forget(mesh) if label is None else session.correct(mesh, label, this_only=this_only)
+        outcome = _write(session, source, target, report, clock)
+    now = outcome.graph
+    return Amendment(outcome, change.part or now.part(mesh), changed_parts(before, now))
+
+
+def _write(session: Session, source: Path, target: Path, report: bool, clock: Clock) -> Outcome:
+    """The results with the corrections beside them, or neither."""
+    file = target / CORRECTIONS
+    old = file.read_bytes() if file.exists() else None
+    write_corrections(session.corrections, file)
     try:
-        outcome = relabel(file.parent, config, former, scene=scene, report=report, progress=progress)
+        return write_results(session, source, target, report, clock)
     except BaseException:
         # A correction that the graph does not show must not wait for a later build.
-        if old:
-            write_corrections(old, file)
-        else:
+        if old is None:
             file.unlink(missing_ok=True)
+        else:
+            write_atomically(file, old)
         raise
-    now = outcome.graph
-    changed = tuple(p for p in now.parts() if _said(p) != _said_before(before, p))
-    return Amendment(outcome, now.part(node.meshes[0]), changed)
 
 
-def _correction(part: Part, label: tuple[str, str | None], this_only: bool) -> Correction:
-    extents = part.obb.extents
-    fingerprint = Fingerprint(part.n_triangles, (math.sqrt(part.area), extents[0], extents[1], extents[2]))
-    return Correction(part.meshes[0], *label, fingerprint, part.centroid, this_only)
-
-
-def _said(part: Part | None) -> tuple[str, str | None] | None:
-    return (part.label.group, part.label.name) if part is not None and part.label is not None else None
-
-
-def _said_before(graph: SceneGraph, part: Part) -> tuple[str, str | None] | None:
+def _part(graph: SceneGraph, which: str, folder: str | Path) -> Part:
     try:
-        return _said(graph.part(part.meshes[0]))
+        return graph.part(which)
     except KeyError:
-        return None
-
-
-class _Former:
-    """Labels that a vision-language model gave cost money: those of the graph are taken again, asking nobody."""
-
-    least_confidence = 0.0
-    """What was sure enough is so again."""
-
-    def __init__(self, graph: SceneGraph) -> None:
-        self._graph = graph
-
-    def label(self, parts: Parts, contacts: Contacts, vocabulary: Vocabulary) -> Sequence[Label | None]:
-        """Labels parts; see ``cadgraph.labelers.base.Labeler``."""
-        return [self._former(parts.scene.paths[i]) for i in range(parts.n_parts)]
-
-    def _former(self, mesh: str) -> Label | None:
-        try:
-            part = self._graph.part(mesh)
-        except KeyError:
-            return None
-        label = part.label
-        if label is not None and (label.source == "human" or "corrected" in label.evidence):
-            old = label.evidence.get("before")
-            if not isinstance(old, dict):
-                return None
-            try:
-                evidence = {"why": old["why"]} if "why" in old else {}
-                return Label(str(old["group"]), old["name"], float(old["confidence"]), str(old["source"]), evidence)
-            except (KeyError, TypeError, ValueError) as error:
-                raise LabelError(f"{mesh}: its former label is damaged; build the graph anew") from error
-        if label is not None:
-            if label.source in ("author", "catalog"):
-                return None
-            return Label(label.group, label.name, label.confidence, label.source, label.evidence)
-        if not part.guesses:
-            return None
-        guesses = tuple(Guess(g.group, g.name, g.confidence) for g in part.guesses)
-        # Less than any limit: it was no label, only a guess, and stays so.
-        return Label(guesses[0].group, guesses[0].name, -1.0, "geometry", {}, guesses)
+        raise ValueError(
+            f"{which}: no part of {folder} has this id or holds a mesh of this path; "
+            "'cadgraph export --to csv' lists them"
+        ) from None

@@ -1,4 +1,4 @@
-"""One run from file to folder: load, build, write everything."""
+"""One run from file to folder: read, analyse, label, interpret, write everything."""
 
 from __future__ import annotations
 
@@ -12,17 +12,16 @@ from cadgraph._io.atomic import write_atomically
 from cadgraph._io.progress import Progress, quiet
 from cadgraph._io.run_folder import clear_results, refuse_to_overwrite, results_folder
 from cadgraph.config import Config
-from cadgraph.errors import LabelError
 from cadgraph.labelers.base import Labeler
 from cadgraph.load import load
-from cadgraph.model.corrections import Correction, read_corrections
+from cadgraph.model.corrections import read_corrections
+from cadgraph.model.given_labels import GivenLabel, read_labels
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.labels import GivenLabel, read_labels
-from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary, read_vocabulary
-from cadgraph.pipeline import STAGES, build
+from cadgraph.pipeline import STAGES
+from cadgraph.session.session import Session
 
-__all__ = ["RUN_STAGES", "Outcome", "run"]
+__all__ = ["RUN_STAGES", "Outcome", "run", "write_results"]
 
 RUN_STAGES = ("read", *STAGES, "write graph", "write labels", "draw report")
 """The names that ``run`` gives to its progress, in order."""
@@ -67,88 +66,109 @@ def run(
         vocabulary: another label tree, or a file with it.
         labeler: another labeler than the one that is set.
         report: whether to draw pictures and write the report.
-        progress: told how far it is.
+        progress: called with the name of a stage and the share of it that is done.
 
     Raises:
         LoadError: the scene can't be read.
         LabelError: labels or vocabulary can't be used.
         OutputError: the folder can't be written, or a result would take the place of a file that isn't ours.
     """
-    from cadgraph.export.usd import check_source, is_usd, write_semantics
-
     config = config or Config()
-    clock = _Clock(progress)
+    clock = Clock(progress)
     with results_folder(folder) as target:
-        refuse_to_overwrite(target, [source], "the source itself")
-        check_source(source, target / "semantics.usda")
+        check_target(source, target)
         tree = vocabulary if isinstance(vocabulary, Vocabulary) else _tree(vocabulary)
         given = read_labels(labels, tree) if isinstance(labels, str | Path) else labels or ()
         corrections = read_corrections(target, tree)
-
         clock("read", 0)
         scene = load(source, config.load)
-        if is_usd(source):
-            _refuse_to_overwrite_layers(source, target)
-        graph = _built(scene, config, labels, given, tree, labeler, corrections, clock)
-        clock("write graph", 0)
-        clear_results(target)
-        files = {"graph": graph.save(target / "graph.json")}
-        clock("write labels", 0)
-        files["labels"] = write_semantics(scene, graph, source, target / "semantics.usda")
-        if report:
-            from cadgraph.draw.report import write_report
+        check_layers(source, target)
+        session = Session.start(
+            scene, config, labels=given, vocabulary=tree, labeler=labeler, corrections=corrections, progress=clock
+        )
+        return write_results(session, source, target, report, clock)
 
-            clock("draw report", 0)
-            files["report"] = write_report(scene, graph, target / "report.html", config.report, clock)
-            files["picture"] = target / "picture.png"
-        clock("", 1)
-        files["timings"] = target / "timings.json"
-        write_atomically(files["timings"], json.dumps(clock.seconds, indent=1) + "\n")
+
+def write_results(session: Session, source: str | Path, target: Path, report: bool, clock: Clock) -> Outcome:
+    """Writes the graph of a session and what goes with it into a folder, over the results of an earlier run.
+
+    Args:
+        session: whose graph it is.
+        source: the scene's file.
+        target: the folder; it exists.
+        report: whether to draw pictures and write the report.
+        clock: takes the time of each stage.
+
+    Raises:
+        OutputError: a file can't be written.
+    """
+    from cadgraph.export.usd import write_semantics
+
+    graph, scene = session.make_graph(clock), session.analysis.scene
+    clock("write graph", 0)
+    clear_results(target)
+    files = {"graph": graph.save(target / "graph.json")}
+    clock("write labels", 0)
+    files["labels"] = write_semantics(scene, graph, source, target / "semantics.usda")
+    if report:
+        from cadgraph.draw.report import write_report
+
+        clock("draw report", 0)
+        files["report"] = write_report(scene, graph, target / "report.html", session.config.report, clock)
+        files["picture"] = target / "picture.png"
+    clock("", 1)
+    files["timings"] = target / "timings.json"
+    write_atomically(files["timings"], json.dumps(clock.seconds, indent=1) + "\n")
     return Outcome(graph, files, clock.seconds)
 
 
-def _built(
-    scene: Scene,
-    config: Config,
-    labels: str | Path | Sequence[GivenLabel] | None,
-    given: Sequence[GivenLabel],
-    vocabulary: Vocabulary,
-    labeler: Labeler | None,
-    corrections: Sequence[Correction],
-    progress: Progress,
-) -> SceneGraph:
-    try:
-        return build(
-            scene,
-            config,
-            labels=given,
-            vocabulary=vocabulary,
-            labeler=labeler,
-            corrections=corrections,
-            progress=progress,
-        )
-    except LabelError as error:
-        # The stages know labels, but not the file that they came from.
-        if isinstance(labels, str | Path) and str(error).startswith("labels: "):
-            raise LabelError(f"{labels}: {str(error).removeprefix('labels: ')}") from None
-        raise
+def check_target(source: str | Path, target: Path) -> None:
+    """Refuses a folder in which a result would take the place of the source.
+
+    Args:
+        source: the scene's file.
+        target: the folder.
+
+    Raises:
+        OutputError: it would.
+    """
+    from cadgraph.export.usd import check_source
+
+    refuse_to_overwrite(target, [source], "the source itself")
+    check_source(source, target / "semantics.usda")
+
+
+def check_layers(source: str | Path, target: Path) -> None:
+    """Refuses a folder in which a result of an earlier run has become a layer of the scene.
+
+    Args:
+        source: the scene's file, which can be read.
+        target: the folder.
+
+    Raises:
+        OutputError: one has.
+    """
+    from cadgraph.export.usd import is_usd
+    from cadgraph.load.usd_assets import open_layers
+
+    if is_usd(source) and ((target / "semantics.usda").exists() or (target / "scene.usdc").exists()):
+        layers = [layer.realPath for layer in open_layers(Path(source)) if layer.realPath]
+        refuse_to_overwrite(target, layers, "a file that the source refers to")
 
 
 def _tree(file: str | Path | None) -> Vocabulary:
     return read_vocabulary(file) if file else default_vocabulary()
 
 
-def _refuse_to_overwrite_layers(source: str | Path, folder: Path) -> None:
-    """A result of an earlier run may have become a layer of the scene."""
-    from cadgraph.load.usd_assets import open_layers
+class Clock:
+    """Passes progress on and notes how long each stage takes.
 
-    if (folder / "semantics.usda").exists() or (folder / "scene.usdc").exists():
-        layers = [layer.realPath for layer in open_layers(Path(source)) if layer.realPath]
-        refuse_to_overwrite(folder, layers, "a file that the source refers to")
+    Args:
+        progress: called with the name of a stage and the share of it that is done.
 
-
-class _Clock:
-    """Passes progress on and notes how long each stage takes."""
+    Attributes:
+        seconds: wall time of each stage that is over [s].
+    """
 
     def __init__(self, progress: Progress) -> None:
         self.seconds: dict[str, float] = {}
@@ -157,6 +177,7 @@ class _Clock:
         self._since = time.perf_counter()
 
     def __call__(self, stage: str, share: float) -> None:
+        """Moves on to a stage, or within it."""
         now = time.perf_counter()
         if stage != self._stage:
             if self._stage:

@@ -9,22 +9,21 @@ from typing import Literal
 
 import numpy as np
 
+from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.parts import Contacts, Guess, Label, Link, Network, Parts, UnitParts
+from cadgraph.model.labels import Guess, Label
+from cadgraph.model.parts import Contacts, Link, Network, Parts, UnitParts
 from cadgraph.model.records import (
     Adjacent,
     Cluster,
     Connected,
     Contains,
     Edge,
-    Finding,
     GraphDocument,
     Junction,
     Node,
     OrientedBox,
     Part,
-    PartGuess,
-    PartLabel,
     Point,
     Port,
     Related,
@@ -35,7 +34,7 @@ from cadgraph.model.records import (
     Unit,
     points,
 )
-from cadgraph.model.scene import Diagnostic, Floats, Ints, Scene
+from cadgraph.model.scene import Floats, Ints, Scene
 from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["Results", "assemble_graph"]
@@ -287,7 +286,7 @@ def _adjacency(results: Results, part_ids: Sequence[str]) -> list[Adjacent]:
     ]
 
 
-def _findings(results: Results) -> list[Finding]:
+def _findings(results: Results) -> list[Diagnostic]:
     parts, paths = results.parts, results.scene.paths
     found = list(results.diagnostics)
     noise = [i for i in range(parts.n_parts) if results.cluster[i] < 0 and not parts.ground[i]]
@@ -299,11 +298,11 @@ def _findings(results: Results) -> list[Finding]:
         if members:
             heads = tuple(paths[parts.meshes[i][0]] for i in members)
             found.append(Diagnostic(code, f"{len(members)} {message}", heads))
-    return [Finding(code=d.code, message=d.message, meshes=d.meshes) for d in found]
+    return found
 
 
-def _guesses(guesses: Sequence[Guess]) -> tuple[PartGuess, ...]:
-    return tuple(PartGuess(group=g.group, name=g.name, confidence=round(g.confidence, 6)) for g in guesses)
+def _guesses(guesses: Sequence[Guess]) -> tuple[Guess, ...]:
+    return tuple(g.model_copy(update={"confidence": round(g.confidence, 6)}) for g in guesses)
 
 
 def _possible(results: Results, part: int) -> Sequence[Guess]:
@@ -314,16 +313,10 @@ def _possible(results: Results, part: int) -> Sequence[Guess]:
     return label.guesses if len(label.guesses) > 1 else ()
 
 
-def _label(label: Label | None) -> PartLabel | None:
+def _label(label: Label | None) -> Label | None:
     if label is None:
         return None
-    return PartLabel(
-        group=label.group,
-        name=label.name,
-        confidence=round(label.confidence, 6),
-        source=label.source,
-        evidence=dict(label.evidence),
-    )
+    return label.model_copy(update={"confidence": round(label.confidence, 6), "guesses": ()})
 
 
 def _extent(

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from cadgraph.config import ClusterConfig
+from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.parts import Bools, Contacts, Parts
-from cadgraph.model.scene import Diagnostic
 
 __all__ = ["Bridge", "cut_bridges", "find_weak_bridges", "tell_bridges"]
 

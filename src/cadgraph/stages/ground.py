@@ -1,12 +1,13 @@
-"""Finding the ground, which the paper excludes from clustering (section III-B, step 5)."""
+"""Diagnostic the ground, which the paper excludes from clustering (section III-B, step 5)."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from cadgraph.config import GroundConfig
+from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.parts import Bools, Properties
-from cadgraph.model.scene import Diagnostic, Scene
+from cadgraph.model.scene import Scene
 
 __all__ = ["find_ground"]
 

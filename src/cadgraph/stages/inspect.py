@@ -1,4 +1,4 @@
-"""Finding what is odd about the meshes: twice there, never seen, inside out, open, without area.
+"""Diagnostic what is odd about the meshes: twice there, never seen, inside out, open, without area.
 
 The paper excludes nine meshes as modelling artifacts by hand (section IV) and names redundant and invisible meshes as
 a challenge of CAD (section V-A). Here they are found, kept, and told; a setting leaves them out.
@@ -13,8 +13,9 @@ import numpy as np
 from cadgraph.config import InspectConfig
 from cadgraph.geometry.mesh.duplicates import find_duplicates, findings
 from cadgraph.geometry.visibility.outside import find_visible
+from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.parts import Properties
-from cadgraph.model.scene import Diagnostic, Scene
+from cadgraph.model.scene import Scene
 
 __all__ = ["inspect_meshes"]
 

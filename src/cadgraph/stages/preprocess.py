@@ -6,8 +6,9 @@ import dataclasses
 
 import numpy as np
 
+from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.parts import Bools
-from cadgraph.model.scene import Diagnostic, Scene, mesh_of_face, mesh_of_vertex
+from cadgraph.model.scene import Scene, mesh_of_face, mesh_of_vertex
 
 __all__ = ["prepare_scene"]
 

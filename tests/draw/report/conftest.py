@@ -5,16 +5,16 @@ import pytest
 
 import shapes
 from cadgraph.config import Config
+from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
+from cadgraph.model.labels import Label
 from cadgraph.model.records import (
     Adjacent,
     Cluster,
     Contains,
-    Finding,
     GraphDocument,
     OrientedBox,
     Part,
-    PartLabel,
     Related,
     Site,
     SourceRecord,
@@ -67,7 +67,7 @@ def make_graph(origin=(0.0, 0.0, 0.0), meshes=MESHES, **changes):
         low, high = _box(world)
         part = Part(
             id=f"part-{i:05d}", meshes=(path,), centroid=_triple(world.mean(axis=0)), aabb=(low, high),
-            label=label and PartLabel(group=label[0], name=label[1], confidence=0.8, source="geometry"),
+            label=label and Label(group=label[0], name=label[1], confidence=0.8, source="geometry"),
             obb=OrientedBox(center=low, axes=((1, 0, 0), (0, 1, 0), (0, 0, 1)), extents=high), area=1.0, volume=None,
             n_triangles=len(faces), shape=f"shape-{i}", ground=cluster is None,
         )  # fmt: skip
@@ -109,8 +109,8 @@ def make_graph(origin=(0.0, 0.0, 0.0), meshes=MESHES, **changes):
         nodes=(Site(id="site"), *clusters, *nodes, *units),
         edges=tuple(edges),
         diagnostics=(
-            Finding(code="unlabelled", message="1 part <i>unsure</i>", meshes=("/World/mystery",)),
-            *(Finding(code="many", message=f"finding {i}", meshes=(f"/World/m{i}",)) for i in range(100)),
+            Diagnostic(code="unlabelled", message="1 part <i>unsure</i>", meshes=("/World/mystery",)),
+            *(Diagnostic(code="many", message=f"finding {i}", meshes=(f"/World/m{i}",)) for i in range(100)),
         ),
     )
     return SceneGraph(document.model_copy(update=changes))

@@ -6,6 +6,7 @@ import random
 
 import graphs
 from cadgraph.model.graph import SceneGraph
+from cadgraph.model.labels import Label
 from cadgraph.model.records import (
     Adjacent,
     Cluster,
@@ -13,7 +14,6 @@ from cadgraph.model.records import (
     Contains,
     GraphDocument,
     Junction,
-    PartLabel,
     Related,
     Site,
     Terminal,
@@ -94,7 +94,7 @@ def agreeing(truth, confidence=1.0, rename=lambda kind, name: f"{kind}-{name}", 
             ground=row.name == "ground",
             label=None
             if row.group is None or row.name == "ground"
-            else PartLabel(group=row.group, name=row.name, confidence=confidence, source="human"),
+            else Label(group=row.group, name=row.name, confidence=confidence, source="human"),
         )
         for i, row in enumerate(truth.meshes)
     ]
@@ -150,7 +150,7 @@ def relabelled(graph, labels):
         if mesh not in labels:
             return node
         given = labels[mesh]
-        label = PartLabel(group=given[0], name=given[1], confidence=given[2], source="human") if given else None
+        label = Label(group=given[0], name=given[1], confidence=given[2], source="human") if given else None
         return node.model_copy(update={"label": label})
 
     return changed(graph, change)

@@ -27,8 +27,8 @@ def labelled(server, *, way=None, timeout=10.0, retries=3, concurrency=1, size=S
         client = Client("gpt-4o", base_url=address, timeout=timeout, retries=retries, structured=structured)
         asking = Asking(client, Cache(":memory:"), read_price("gpt-4o"), concurrency=concurrency, size=size)
         labeler = LvlmLabeler(asking, way or Way(again_below=0))
-        labels = labeler.label(PARTS, plates.NO_CONTACTS, plates.VOCABULARY)
-    return labels, labeler
+        labeler.said = labeler.label(PARTS, plates.NO_CONTACTS, plates.VOCABULARY)
+    return labeler.said.answers, labeler
 
 
 def names(labels):
@@ -87,7 +87,7 @@ def test_what_stays_no_use_leaves_the_part_unlabelled_with_a_reason(order):
     labels, labeler = labelled(server)
     missing = [i for i, each in enumerate(labels) if each is None]
     assert missing == ([0] if order != "wrong" else [0, 1])
-    told = {mesh for finding in labeler.diagnostics for mesh in finding.meshes}
+    told = {mesh for finding in labeler.said.diagnostics for mesh in finding.meshes}
     assert told == {SCENE.paths[i] for i in missing}
 
 
@@ -95,7 +95,7 @@ def test_a_server_that_keeps_failing_leaves_reasons():
     server = ChatServer(plates.oracle(PARTS), ["500"] * 99)
     labels, labeler = labelled(server, retries=0)
     assert set(labels) == {None}
-    assert "500 (server error)" in labeler.diagnostics[0].message
+    assert "500 (server error)" in labeler.said.diagnostics[0].message
 
 
 def test_an_enormous_reply_is_not_read():
@@ -110,7 +110,7 @@ def test_a_faulty_run_ends_with_every_part_labelled_or_told():
     orders = ["429", "drop", "broken", "wrong", "refuse", "refuse", "ok", "500", "huge", "empty", "ok"]
     server = ChatServer(plates.oracle(PARTS), orders)
     labels, labeler = labelled(server, concurrency=4)
-    told = {mesh for finding in labeler.diagnostics for mesh in finding.meshes}
+    told = {mesh for finding in labeler.said.diagnostics for mesh in finding.meshes}
     assert all(each is not None or SCENE.paths[i] in told for i, each in enumerate(labels))
 
 

@@ -5,12 +5,14 @@ import pytest
 
 import plates
 from cadgraph.errors import LabelError
+from cadgraph.labelers.base import Labeling
 from cadgraph.labelers.lvlm.asking import Asking, Budget
 from cadgraph.labelers.lvlm.cache import Cache
 from cadgraph.labelers.lvlm.labeler import LvlmLabeler, Way
 from cadgraph.labelers.lvlm.price import read_price
 from cadgraph.labelers.lvlm.reply import Reply
-from cadgraph.model.parts import Contacts, Label
+from cadgraph.model.labels import Label
+from cadgraph.model.parts import Contacts
 
 SCENE = plates.scene_of()
 PARTS = plates.parts_of(SCENE)
@@ -25,7 +27,8 @@ def labeler_of(answer, way=None, *, budget=None, embedded=None, cache=None, **mo
 
 
 def label(labeler, parts=PARTS, contacts=plates.NO_CONTACTS):
-    return labeler.label(parts, contacts, plates.VOCABULARY)
+    labeler.said = labeler.label(parts, contacts, plates.VOCABULARY)
+    return labeler.said.answers
 
 
 class Known:
@@ -33,7 +36,7 @@ class Known:
         self.labels = labels
 
     def label(self, parts, contacts, vocabulary):
-        return self.labels
+        return Labeling.judge(self.labels)
 
 
 def test_one_question_for_each_shape_labels_all_its_repeats():
@@ -48,11 +51,11 @@ def test_labels_can_be_traced():
     first = label(labeler)[0]
     assert first.source == "lvlm"
     assert first.confidence == pytest.approx(0.9)
-    assert first.evidence["model"] == "told"
-    assert first.evidence["prompt"].startswith("label-1-")
-    assert first.evidence["question"] in {question.id for question in told.asked}
-    assert first.evidence["asked"] == "/plant/mesh_0"
-    assert first.evidence["repeats"] == 2
+    assert first.evidence.model == "told"
+    assert first.evidence.prompt.startswith("label-1-")
+    assert first.evidence.question in {question.id for question in told.asked}
+    assert first.evidence.asked == "/plant/mesh_0"
+    assert first.evidence.repeats == 2
 
 
 def test_per_part_asks_about_every_part():
@@ -89,7 +92,7 @@ def test_unsure_answers_are_asked_again_with_what_geometry_knows():
     assert len(answers) == 2
     assert "taken for: skirt" in answers[1]
     assert [each.name for each in labels] == ["shell", "shell"]
-    assert labels[0].evidence["again"] is True
+    assert labels[0].evidence.again is True
 
 
 def test_a_second_answer_that_is_less_sure_does_not_count():
@@ -130,7 +133,7 @@ def test_the_budget_goes_where_most_is_unknown():
     assert [question.part for question in told.asked] == [4]
     assert (labels[4].name, labels[5].name) == (TRUTH[4][1], TRUTH[5][1])
     assert labels[0] == known[0]
-    assert {finding.code for finding in labeler.diagnostics} == {"lvlm-budget"}
+    assert {finding.code for finding in labeler.said.diagnostics} == {"lvlm-budget"}
     assert labeler.estimate.left_out == 1
 
 
@@ -187,13 +190,13 @@ def test_labels_outside_the_vocabulary_are_kept_as_proposals(tmp_path):
     rows = json.loads((tmp_path / "proposals.json").read_text())["labels"]
     assert rows[0]["name"] == "agitators"
     assert rows[0]["times"] == 6
-    assert "lvlm-proposals" in {finding.code for finding in labeler.diagnostics}
+    assert "lvlm-proposals" in {finding.code for finding in labeler.said.diagnostics}
 
 
 def test_an_answer_outside_the_vocabulary_gives_the_reason():
     labeler, _ = labeler_of(lambda text: {"group": "Spaceship", "name": "warp core", "confidence": 1})
     assert set(label(labeler)) == {None}
-    finding = labeler.diagnostics[0]
+    finding = labeler.said.diagnostics[0]
     assert finding.code == "lvlm-unanswered"
     assert "no label of the vocabulary" in finding.message
     assert len(finding.meshes) == PARTS.n_parts
@@ -204,20 +207,20 @@ def test_malformed_answers_are_asked_once_more_then_unlabelled_with_the_reason()
     assert set(label(labeler)) == {None}
     assert len(told.asked) == 12
     assert sum("could not be used" in question.text for question in told.asked) == 6
-    assert "no JSON object" in labeler.diagnostics[0].message
+    assert "no JSON object" in labeler.said.diagnostics[0].message
 
 
 def test_refusals_are_told():
     labeler, _ = labeler_of(lambda text: Reply(None, "I can't help with that", 900, 5))
     assert set(label(labeler)) == {None}
-    assert "refused" in labeler.diagnostics[0].message
+    assert "refused" in labeler.said.diagnostics[0].message
 
 
 def test_errors_of_the_server_are_told_and_not_kept():
     cache = Cache(":memory:")
     failing, _ = labeler_of(lambda text: Reply(None, error="the server answered 500 to every try"), cache=cache)
     assert set(label(failing)) == {None}
-    assert "500" in failing.diagnostics[0].message
+    assert "500" in failing.said.diagnostics[0].message
     working, told = labeler_of(plates.oracle(PARTS), cache=cache)
     assert [(each.group, each.name) for each in label(working)] == TRUTH
     assert len(told.asked) == 6
@@ -233,7 +236,7 @@ def test_every_part_ends_labelled_or_with_a_reason():
 
     labeler, _ = labeler_of(answer)
     labels = label(labeler)
-    told = {mesh for finding in labeler.diagnostics for mesh in finding.meshes}
+    told = {mesh for finding in labeler.said.diagnostics for mesh in finding.meshes}
     assert all(each is not None or SCENE.paths[i] in told for i, each in enumerate(labels))
 
 
@@ -271,7 +274,7 @@ def test_labels_do_not_depend_on_how_many_are_asked_at_a_time():
 def test_a_scene_without_parts_asks_nothing():
     empty = plates.parts_of(SCENE.select([]))
     labeler, told = labeler_of(plates.oracle(PARTS))
-    assert label(labeler, empty) == []
+    assert label(labeler, empty) == ()
     assert told.asked == []
 
 
@@ -287,7 +290,7 @@ def test_second_tries_stay_within_the_budget():
     labeler, told = labeler_of(lambda text: "no JSON", budget=Budget(questions=6))
     assert set(label(labeler)) == {None}
     assert len(told.asked) == 6
-    assert any("budget" in finding.message for finding in labeler.diagnostics)
+    assert any("budget" in finding.message for finding in labeler.said.diagnostics)
 
 
 def test_the_ground_is_not_asked_about_where_the_embedded_labeler_is_used():

@@ -5,7 +5,7 @@ import shapes
 from cadgraph.labelers.lvlm.answer import Verdict
 from cadgraph.labelers.lvlm.poll import poll
 from cadgraph.labelers.lvlm.repair import repair
-from cadgraph.model.parts import Label
+from cadgraph.model.labels import Label
 from cadgraph.model.scene import Scene
 
 NEAR = {0: (1, 2)}
@@ -38,9 +38,9 @@ def test_a_thin_flange_that_touches_nothing_stays_one():
 def test_what_was_changed_says_why_and_what_it_was():
     label = repaired(0.02, "gasket")
     assert label.source == "context"
-    assert label.evidence["before"] == "Pipe assembly: gasket"
-    assert "20.0 mm" in label.evidence["why"]
-    assert label.evidence["model"] == "m"
+    assert (label.evidence.before.group, label.evidence.before.name) == ("Pipe assembly", "gasket")
+    assert "20.0 mm" in label.evidence.why
+    assert label.evidence.model == "m"
 
 
 def test_labels_of_others_are_left_alone():

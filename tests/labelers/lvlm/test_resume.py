@@ -21,7 +21,7 @@ from cadgraph.config import Config
 from cadgraph.labelers.lvlm.setup import make_labeler
 config = Config().replace({"lvlm.ask": "all", "lvlm.base_url": sys.argv[1], "lvlm.concurrency": 2, "lvlm.size": 128})
 labeler = make_labeler(config, Path(sys.argv[2]))
-labels = labeler.label(plates.parts_of(plates.scene_of(14, 1)), plates.NO_CONTACTS, plates.VOCABULARY)
+labels = labeler.label(plates.parts_of(plates.scene_of(14, 1)), plates.NO_CONTACTS, plates.VOCABULARY).answers
 print(sum(each is not None for each in labels))
 """
 

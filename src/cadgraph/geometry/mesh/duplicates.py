@@ -12,8 +12,9 @@ from scipy.spatial import cKDTree
 from cadgraph.geometry.shape.alignment import fits_in_place, weld
 from cadgraph.geometry.shape.repeats import position_tolerance
 from cadgraph.geometry.shape.similarity import corners_of, deviation, sample_surface
+from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.parts import Bools, Properties
-from cadgraph.model.scene import Diagnostic, Floats, Ints, Scene
+from cadgraph.model.scene import Floats, Ints, Scene
 
 __all__ = ["Duplicates", "find_duplicates", "findings"]
 

@@ -9,6 +9,7 @@ import numpy as np
 from cadgraph.labelers.embedded.descriptor import Descriptors, describe_shapes
 from cadgraph.labelers.embedded.shape_facts import Facts, find_facts
 from cadgraph.labelers.embedded.surroundings import Surroundings, find_surroundings
+from cadgraph.model.derived import kept_with
 from cadgraph.model.parts import Contacts, Parts, Properties
 from cadgraph.model.scene import Floats, Ints
 
@@ -32,8 +33,9 @@ class Observation:
     surroundings: Surroundings
 
 
+@kept_with
 def observe(parts: Parts, contacts: Contacts) -> Observation:
-    """Looks at each distinct shape, and at how the parts touch.
+    """Looks at each distinct shape, and at how the parts touch; once for the same parts and contacts.
 
     Args:
         parts: with their geometry.

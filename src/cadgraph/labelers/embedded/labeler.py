@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from cadgraph.labelers.base import Labeling, Probabilities
+from cadgraph.labelers.coverage import find_unlearnt
 from cadgraph.labelers.embedded.features import Observation, observe
 from cadgraph.labelers.embedded.model import STRANGE, Model, default_model
 from cadgraph.labelers.embedded.wording import describe_company, describe_form
-from cadgraph.model.parts import Contacts, Guess, Label, Parts
+from cadgraph.model.labels import GeometryEvidence, Guess, Label
+from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.scene import Floats, Ints
 from cadgraph.model.vocabulary import Vocabulary
 
@@ -50,25 +52,32 @@ class EmbeddedLabeler:
         self._model = model or default_model()
 
     @property
-    def least_confidence(self) -> float:
-        """Labels below this confidence are guesses: set on families of parts that were held out of training."""
+    def threshold(self) -> float:
+        """Least confidence of a label: set on families of parts that were held out of training."""
         return self._model.threshold
 
     @property
-    def known(self) -> frozenset[tuple[str, str]]:
-        """The names that it has learnt, as (group, name)."""
+    def learnt(self) -> frozenset[tuple[str, str]]:
+        """Group and name of each label that it knows."""
         pairs = (label.partition("/") for label in self._model.classes if label != STRANGE)
         return frozenset((group, name) for group, _, name in pairs)
 
-    def label(self, parts: Parts, contacts: Contacts, vocabulary: Vocabulary) -> Sequence[Label | None]:
+    def label(self, parts: Parts, contacts: Contacts, vocabulary: Vocabulary) -> Labeling:
         """Labels parts; see ``Labeler``. Names that the vocabulary lacks are never given."""
         seen = observe(parts, contacts)
         verdicts = judge(self._model, seen, vocabulary)
+        probabilities = Probabilities(verdicts.classes, verdicts.names)
+        unlearnt = find_unlearnt(self.learnt, vocabulary)
+        return Labeling.judge(self._answers(parts, seen, verdicts), self.threshold, probabilities, unlearnt)
+
+    def _answers(self, parts: Parts, seen: Observation, verdicts: Verdicts) -> list[Label | None]:
+        """The likeliest label of each part, and why."""
+        least = self.threshold
         best = verdicts.names.argmax(axis=1) if len(verdicts.classes) else np.zeros(parts.n_parts, np.int64)
         around = seen.surroundings
         starts = np.searchsorted(around.here, np.arange(parts.n_parts + 1))
         said = [
-            verdicts.classes[k][1] if len(p) and p[k] >= self.least_confidence else None
+            verdicts.classes[k][1] if len(p) and p[k] >= least else None
             for k, p in zip(best.tolist(), verdicts.names, strict=True)
         ]
         alike = np.expm1(around.places[:, 1]).round().astype(np.int64)
@@ -80,7 +89,7 @@ class EmbeddedLabeler:
             near = [said[j] for j in around.there[starts[part] : starts[part + 1]].tolist()]
             form = describe_form(seen.facts[int(seen.shape_of_part[part])])
             why = f"{form}; {describe_company(near, int(alike[part]))}"
-            answers.append(_answer(verdicts, part, int(best[part]), self.least_confidence, why))
+            answers.append(_answer(verdicts, part, int(best[part]), least, why))
         return answers
 
 
@@ -138,7 +147,7 @@ def _answer(verdicts: Verdicts, part: int, best: int, least: float, why: str) ->
     )
     group, name = verdicts.classes[best]
     k = int(np.argmax(verdicts.groups[part]))
-    evidence = {"why": why}
+    evidence = GeometryEvidence(why=why)
     if p[best] < least <= verdicts.groups[part, k]:
         return Label(
             verdicts.group_names[k], None, min(1.0, float(verdicts.groups[part, k])), "geometry", evidence, guesses

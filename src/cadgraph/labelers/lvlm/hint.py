@@ -10,7 +10,8 @@ import numpy as np
 
 from cadgraph.geometry.shape.primitive import KINDS, Primitives, fit_primitives
 from cadgraph.labelers.lvlm.prompt import size_text
-from cadgraph.model.parts import Contacts, Label, Parts, Properties
+from cadgraph.model.labels import Label
+from cadgraph.model.parts import Contacts, Parts, Properties
 
 __all__ = ["Hints", "neighbors_of"]
 

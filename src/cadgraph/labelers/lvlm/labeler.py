@@ -11,7 +11,7 @@ from typing import Literal
 
 from cadgraph._io.atomic import write_atomically
 from cadgraph.errors import LabelError
-from cadgraph.labelers.base import Labeler
+from cadgraph.labelers.base import Labeler, Labeling
 from cadgraph.labelers.lvlm.answer import Answer, Proposal, Verdict, answer_schema, settle
 from cadgraph.labelers.lvlm.asking import Asking, Outcome, Tally
 from cadgraph.labelers.lvlm.folder import write_index
@@ -23,8 +23,9 @@ from cadgraph.labelers.lvlm.prompt import Wording, label_text, system_text, vers
 from cadgraph.labelers.lvlm.question_groups import Kind, find_kinds
 from cadgraph.labelers.lvlm.repair import repair
 from cadgraph.labelers.lvlm.reply import Question
-from cadgraph.model.parts import Contacts, Label, Parts
-from cadgraph.model.scene import Diagnostic
+from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.labels import Label, LvlmEvidence
+from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["LvlmLabeler", "Way"]
@@ -70,7 +71,6 @@ class LvlmLabeler:
         gallery: draws the pictures of a scene.
 
     Attributes:
-        diagnostics: what is to be told, once ``label`` is done.
         proposals: labels that the vocabulary doesn't hold, with how often.
         estimate: of the first round.
     """
@@ -86,7 +86,6 @@ class LvlmLabeler:
         gallery: Callable[[Parts], Gallery] | None = None,
     ) -> None:
         self.asking, self.way, self.embedded = asking, way or Way(), embedded
-        self.diagnostics: tuple[Diagnostic, ...] = ()
         self.proposals: Counter[tuple[str, str | None, str]] = Counter()
         self.estimate: Estimate | None = None
         self._confirm, self._folder = confirm, folder
@@ -97,7 +96,7 @@ class LvlmLabeler:
         """What the run has used."""
         return self.asking.tally
 
-    def label(self, parts: Parts, contacts: Contacts, vocabulary: Vocabulary) -> Sequence[Label | None]:
+    def label(self, parts: Parts, contacts: Contacts, vocabulary: Vocabulary) -> Labeling:
         """Labels parts (see :class:`~cadgraph.labelers.base.Labeler`).
 
         Raises:
@@ -105,7 +104,7 @@ class LvlmLabeler:
         """
         base: list[Label | None] = [None] * parts.n_parts
         if self.embedded is not None:
-            base = list(self.embedded.label(parts, contacts, vocabulary))
+            base = list(self.embedded.label(parts, contacts, vocabulary).answers)
         round_ = _Round(self, parts, contacts, vocabulary, base)
         kinds = self._chosen(find_kinds(parts, self.way.per), base, parts)
         planned = [round_.questions(kind) for kind in kinds]
@@ -121,8 +120,7 @@ class LvlmLabeler:
         labels = self._labels(round_, first, base)
         if self.way.repair:
             labels = repair(labels, parts, round_.near, vocabulary)
-        self._tell(round_, kinds, len(kept), first)
-        return labels
+        return Labeling.judge(labels, diagnostics=self._report(round_, kinds, len(kept), first))
 
     def _chosen(self, kinds: Sequence[Kind], base: Sequence[Label | None], parts: Parts) -> list[Kind]:
         """The kinds to ask about, those first where an answer is worth most: many parts, little known."""
@@ -181,22 +179,25 @@ class LvlmLabeler:
         for each in polls.values():
             if each.poll.group is None:
                 continue
-            evidence = {
-                "model": self.asking.answerer.name,
-                "prompt": each.question.prompt,
-                "question": each.question.id,
-                "asked": round_.parts.scene.paths[each.question.part],
-                "repeats": len(each.kind.parts),
-                "votes": list(each.poll.votes),
-                "seen": each.seen,
-                **({"again": True} if each.again else {}),
-            }
+            evidence = LvlmEvidence(
+                model=self.asking.answerer.name,
+                prompt=each.question.prompt,
+                question=each.question.id,
+                asked=round_.parts.scene.paths[each.question.part],
+                repeats=len(each.kind.parts),
+                votes=each.poll.votes,
+                seen=each.seen,
+                again=True if each.again else None,
+            )
             label = Label(each.poll.group, each.poll.name, each.poll.confidence, "lvlm", evidence)
             for part in each.kind.parts:
                 labels[part] = _joined(base[part], label, self.way)
         return labels
 
-    def _tell(self, round_: _Round, kinds: Sequence[Kind], n_asked: int, polls: Mapping[int, _Settled]) -> None:
+    def _report(
+        self, round_: _Round, kinds: Sequence[Kind], n_asked: int, polls: Mapping[int, _Settled]
+    ) -> tuple[Diagnostic, ...]:
+        """What has no answer, and what was proposed; the files of the run are written."""
         paths = round_.parts.scene.paths
         told = []
         by_reason: dict[str, list[str]] = {}
@@ -213,9 +214,9 @@ class LvlmLabeler:
             shown = ", ".join(f"{g}: {n}" for g, n, _ in sorted(self.proposals, key=str)[:5])
             message = f"{len(self.proposals)} labels outside the vocabulary were proposed ({shown}...)"
             told.append(Diagnostic("lvlm-proposals", message[:_MESSAGE]))
-        self.diagnostics = tuple(told)
         if self._folder is not None:
             self._write(round_, polls)
+        return tuple(told)
 
     def _write(self, round_: _Round, polls: Mapping[int, _Settled]) -> None:
         if self._folder is None or self.estimate is None:
@@ -365,5 +366,5 @@ def _joined(base: Label | None, answer: Label, way: Way) -> Label:
     if base.group == answer.group and (answer.name is None or base.name == answer.name):
         # Two that come to the same by different means are surer than either.
         together = 1 - (1 - base.confidence) * (1 - answer.confidence)
-        return replace(answer, name=base.name or answer.name, confidence=min(together, 0.99))
+        return answer.model_copy(update={"name": base.name or answer.name, "confidence": min(together, 0.99)})
     return answer if answer.confidence > base.confidence else base

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
 
-from cadgraph.model.parts import Label, Parts
+from cadgraph.model.labels import FormerLabel, Label
+from cadgraph.model.parts import Parts
 from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["repair"]
@@ -62,8 +62,7 @@ def _place(name: str, vocabulary: Vocabulary) -> tuple[str, str] | None:
 
 
 def _changed(label: Label, to: tuple[str, str], why: str) -> Label:
-    evidence = {**label.evidence, "before": f"{label.group}: {label.name}", "why": why}
-    return replace(
-        label, group=to[0], name=to[1], confidence=float(np.clip(max(label.confidence, _SURE), 0, 1)), source="context",
-        evidence=evidence,
-    )  # fmt: skip
+    evidence = label.evidence.model_copy(update={"before": FormerLabel.of(label), "why": why})
+    confidence = float(np.clip(max(label.confidence, _SURE), 0, 1))
+    said = {"group": to[0], "name": to[1], "confidence": confidence, "source": "context", "evidence": evidence}
+    return label.model_copy(update=said)

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from cadgraph.model.scene import Diagnostic, Scene, Source
+from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.scene import Scene, Source
 
 __all__ = ["read_scene", "write_scene"]
 
@@ -23,7 +24,7 @@ def write_scene(scene: Scene, folder: Path) -> None:
         "paths": scene.paths,
         "anchors": scene.anchors,
         "source": asdict(scene.source),
-        "diagnostics": [asdict(note) for note in scene.diagnostics],
+        "diagnostics": [note.model_dump() for note in scene.diagnostics],
     }
     (folder / "scene.json").write_text(json.dumps(rest), encoding="utf-8")
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
-from cadgraph.model.parts import Contacts, Label, UnitParts
+from cadgraph.model.labels import Label
+from cadgraph.model.parts import Contacts, UnitParts
 from cadgraph.model.scene import Ints, natural_key
 from cadgraph.model.vocabulary import Vocabulary
 

@@ -8,8 +8,10 @@ import numpy as np
 
 from cadgraph.config import Config
 from cadgraph.geometry.line.centreline import Centreline
-from cadgraph.model.parts import Contacts, Label, Network, Parts, Properties
-from cadgraph.model.scene import Diagnostic, Ints, Scene
+from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.labels import Label
+from cadgraph.model.parts import Contacts, Network, Parts, Properties
+from cadgraph.model.scene import Ints, Scene
 from cadgraph.model.vocabulary import Vocabulary
 from cadgraph.stages.relate.algorithm import find_units
 from cadgraph.stages.relate.attach import Attachments, attach_lines, flat_contacts

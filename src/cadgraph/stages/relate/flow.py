@@ -8,8 +8,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.parts import Network, Opening, Parts, UnitParts
-from cadgraph.model.scene import Diagnostic, Floats
+from cadgraph.model.scene import Floats
 
 __all__ = ["direct_flow", "stated_flow"]
 

@@ -6,7 +6,8 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from cadgraph.model.parts import Contacts, Label, Parts
+from cadgraph.model.labels import Label
+from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["Roles", "find_roles", "likely_lines", "neighbor_lists"]

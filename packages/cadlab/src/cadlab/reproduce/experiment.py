@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from cadgraph.config import Config
+from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.labels import GivenLabel
 from cadgraph.model.scene import Scene
 from cadgraph.model.truth import Truth
 from cadgraph.pipeline import build

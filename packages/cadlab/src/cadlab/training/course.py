@@ -164,7 +164,7 @@ def _fixed_trial(model: Model, preset: str, seed: int, hand: str) -> dict[str, A
     rank = {path: i for i, path in enumerate(plant.paths())}
     heads = [plant.components[rank[path]] for path in parts.scene.paths]
     said = EmbeddedLabeler(model).label(parts, contacts, default_vocabulary())
-    pairs = [(label, head) for label, head in zip(said, heads, strict=True) if label is not None]
+    pairs = [(label, head) for label, head in zip(said.answers, heads, strict=True) if label is not None]
     return {
         "preset": preset, "seed": seed, "hand": hand,
         "name": round(float(np.mean([(a.group, a.name) == (b.group, b.name) for a, b in pairs])), 4),

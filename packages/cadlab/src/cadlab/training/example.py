@@ -9,15 +9,10 @@ import numpy as np
 import numpy.typing as npt
 
 from cadgraph.config import Config
-from cadgraph.geometry.mesh.properties import measure
 from cadgraph.labelers.embedded.features import observe
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.scene import Floats, Ints, Scene
-from cadgraph.stages.adjacency import find_near_meshes, join_contacts
-from cadgraph.stages.ground import find_ground
-from cadgraph.stages.group import group_meshes
-from cadgraph.stages.parts import make_parts
-from cadgraph.stages.preprocess import prepare_scene
+from cadgraph.pipeline import analyse
 from cadplants.plant import Plant
 
 __all__ = ["Example", "make_example", "make_parts_from", "read_examples", "write_examples"]
@@ -60,13 +55,10 @@ class Example:
 
 def make_parts_from(scene: Scene, config: Config | None = None) -> tuple[Parts, Contacts]:
     """The parts of a scene and what touches what, as the pipeline finds them."""
-    config = config or Config()
-    scene, _ = prepare_scene(scene)
-    properties = measure(scene)
-    ground, _ = find_ground(scene, properties, config.ground)
-    near = find_near_meshes(scene, max(config.cluster.eps, config.group.proximity), config, lambda *_: None)
-    parts = make_parts(scene, properties, group_meshes(properties, ground, near, config.group), ground)
-    return parts, join_contacts(near, parts.part_of_mesh, config.cluster.eps)
+    # What is odd about meshes changes no part.
+    quick = (config or Config()).replace({"inspect.duplicates": False, "inspect.hidden": False})
+    analysis = analyse(scene, quick)
+    return analysis.parts, analysis.contacts
 
 
 def make_example(plant: Plant, hand: str = "") -> Example:

@@ -5,7 +5,7 @@ import pytest
 
 from cadgraph.config import read_config
 from cadgraph.errors import LabelError
-from cadgraph.model.labels import GivenLabel, read_labels
+from cadgraph.model.given_labels import GivenLabel, read_labels
 from cadgraph.model.vocabulary import default_vocabulary, read_vocabulary
 
 VOCABULARY = default_vocabulary()

@@ -1,0 +1,44 @@
+"""What follows from a value alone is worked out once, and kept as long as the value lives."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import wraps
+from threading import Lock
+from typing import Any, ParamSpec, TypeVar
+from weakref import WeakKeyDictionary
+
+__all__ = ["kept_with"]
+
+_P = ParamSpec("_P")
+_R = TypeVar("_R")
+
+
+def kept_with(function: Callable[_P, _R]) -> Callable[_P, _R]:
+    """Keeps what a pure function returns with its first argument.
+
+    The same arguments (the very same objects, not equal ones) give the same result without work; when the first one is
+    thrown away, so is what was kept with it. Only for functions that change nothing, on frozen values that are
+    compared by identity.
+
+    Args:
+        function: takes its arguments by position.
+    """
+    kept: WeakKeyDictionary[Any, list[tuple[tuple[Any, ...], _R]]] = WeakKeyDictionary()
+    lock = Lock()
+
+    @wraps(function)
+    def once(*args: _P.args, **kwargs: _P.kwargs) -> _R:
+        if kwargs:
+            return function(*args, **kwargs)
+        first, rest = args[0], args[1:]
+        with lock:
+            known = kept.setdefault(first, [])
+        for others, result in known:
+            if len(others) == len(rest) and all(a is b for a, b in zip(others, rest, strict=True)):
+                return result
+        result = function(*args, **kwargs)
+        known.append((rest, result))
+        return result
+
+    return once

@@ -1,0 +1,140 @@
+"""Labels from outside: reading them from JSON, CSV or a truth file."""
+
+from __future__ import annotations
+
+import csv
+import difflib
+import json
+import reprlib
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from cadgraph.errors import LabelError
+from cadgraph.model.vocabulary import Vocabulary
+
+__all__ = ["GivenLabel", "read_labels", "split_label"]
+
+_MAX_LENGTH = 4096  # of a path or label; longer is no label but damage
+
+
+@dataclass(frozen=True)
+class GivenLabel:
+    """What somebody says a mesh is.
+
+    Args:
+        mesh: its source path.
+        group: a group of the vocabulary.
+        name: a name in that group, or None.
+        file: where that is written, or "".
+    """
+
+    mesh: str
+    group: str
+    name: str | None
+    file: str = field(default="", compare=False)
+
+
+def read_labels(path: str | Path, vocabulary: Vocabulary) -> tuple[GivenLabel, ...]:
+    """Reads labels.
+
+    Args:
+        path: a JSON list of ``{"mesh": path, "group": ..., "name": ...}``; an object with such a list under
+            ``meshes`` (a truth file); or a CSV with these columns. An empty name leaves it open.
+        vocabulary: groups and names must be in it.
+
+    Raises:
+        LabelError: the file can't be read, or a row is malformed, repeated, or not in the vocabulary.
+    """
+    source = Path(path)
+    if source.is_char_device() or source.is_block_device():
+        raise LabelError(f"{path}: a device; give a JSON or CSV file of labels")
+    try:
+        text = source.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise LabelError(f"{path}: can't be read ({error.strerror}); give a JSON or CSV file of labels") from error
+    except UnicodeDecodeError as error:
+        raise LabelError(f"{path}: not UTF-8 text; give a JSON or CSV file of labels") from error
+    rows = _csv_rows(text, source) if source.suffix.lower() == ".csv" else _json_rows(text, source)
+    labels = tuple(replace(_checked(row, f"{path}: {place}", vocabulary), file=str(path)) for place, row in rows)
+    seen: set[str] = set()
+    for label in labels:
+        if label.mesh in seen:
+            raise LabelError(f"{path}: mesh {label.mesh!r} is labelled twice; keep one row")
+        seen.add(label.mesh)
+    return labels
+
+
+def _json_rows(text: str, source: Path) -> Iterable[tuple[str, Any]]:
+    try:
+        content = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise LabelError(f"{source}: not JSON ({error}); give a list of {{mesh, group, name}}") from error
+    if isinstance(content, Mapping):
+        content = content.get("meshes")
+    if not isinstance(content, Sequence) or isinstance(content, str):
+        raise LabelError(f"{source}: no list of {{mesh, group, name}}, nor an object that holds one under 'meshes'")
+    return ((f"entry {i}", row) for i, row in enumerate(content))
+
+
+def _csv_rows(text: str, source: Path) -> Iterable[tuple[str, Any]]:
+    reader = csv.DictReader(text.splitlines())
+    missing = {"mesh", "group"} - set(reader.fieldnames or ())
+    if missing:
+        raise LabelError(f"{source}: no column {sorted(missing)[0]!r}; the first line must name mesh, group, name")
+    try:
+        rows = [(f"line {reader.line_num}", row) for row in reader]
+    except csv.Error as error:
+        raise LabelError(f"{source}: line {reader.line_num}: not CSV ({error}); is a quote left open?") from error
+    for place, row in rows:
+        if None in row:
+            raise LabelError(f"{source}: {place}: more values than columns; put what holds a comma in quotes")
+    return rows
+
+
+def _checked(row: Any, place: str, vocabulary: Vocabulary) -> GivenLabel:
+    if not isinstance(row, Mapping):
+        raise LabelError(f"{place}: not an object with mesh, group and name")
+    mesh, group, name = row.get("mesh"), row.get("group"), row.get("name") or None
+    for key, value in (("mesh", mesh), ("group", group), ("name", name)):
+        if value is None and key != "name":
+            raise LabelError(f"{place}: {key!r} is missing")
+        if not isinstance(value, str | None) or len(value or "") > _MAX_LENGTH:
+            raise LabelError(f"{place}: {key!r} must be text, not {str(value)[:60]!r}")
+    if not vocabulary.holds(str(group)):
+        raise LabelError(
+            f"{place}: group {group!r} is not in the vocabulary ({', '.join(vocabulary.groups)}); "
+            "add it with --vocabulary"
+        )
+    if not vocabulary.holds(str(group), name):
+        raise LabelError(f"{place}: {name!r} is no name of group {group!r}; add it with --vocabulary")
+    return GivenLabel(str(mesh), str(group), name)
+
+
+def split_label(text: str, vocabulary: Vocabulary | None) -> tuple[str, str | None]:
+    """The group and name that somebody means.
+
+    Args:
+        text: ``group/name``, a group alone, or a name that only one group has.
+        vocabulary: must hold it; None takes any ``group/name``.
+
+    Raises:
+        LabelError: it is no label, or the vocabulary lacks it.
+    """
+    group, slash, name = (piece.strip() for piece in text.partition("/"))
+    if vocabulary is None:
+        # Whatever is no label there is none here.
+        Vocabulary.from_json({group: {"names": [name] if name else []}}, reprlib.repr(text))
+        return group, name or None
+    if vocabulary.holds(group, name or None) and (name or not slash):
+        return group, name or None
+    owners = [owner for owner, content in vocabulary.groups.items() if not slash and group in content.names]
+    if len(owners) == 1:
+        return owners[0], group
+    if owners:
+        raise LabelError(f"{reprlib.repr(text)}: several groups have this name; say group/name ({', '.join(owners)})")
+    spelt = [f"{one}/{each}" for one, content in vocabulary.groups.items() for each in content.names]
+    close = difflib.get_close_matches(text, spelt, 3) or difflib.get_close_matches(name, spelt, 3, 0.4)
+    hint = f"; did you mean {' or '.join(map(repr, close))}?" if close else "; 'cadgraph vocabulary show' lists them"
+    raise LabelError(f"{reprlib.repr(text)} is not in the vocabulary{hint}")

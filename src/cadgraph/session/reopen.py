@@ -1,0 +1,182 @@
+"""Going on with a finished graph: its scene, settings, vocabulary and labels taken up again from its folder."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+from typing import Any
+
+from cadgraph._io.progress import Progress, quiet
+from cadgraph._io.run_folder import results_folder
+from cadgraph.config import Config
+from cadgraph.errors import FormatError, LabelError
+from cadgraph.labelers.base import Labeler, Labeling
+from cadgraph.load import load
+from cadgraph.model.corrections import read_corrections
+from cadgraph.model.given_labels import GivenLabel
+from cadgraph.model.graph import SceneGraph
+from cadgraph.model.labels import CorrectedEvidence, GivenEvidence, Label
+from cadgraph.model.parts import Contacts, Parts
+from cadgraph.model.records import Part
+from cadgraph.model.vocabulary import Vocabulary
+from cadgraph.session.run import Clock, Outcome, check_layers, check_target, write_results
+from cadgraph.session.session import Session
+
+__all__ = ["FormerLabeler", "config_of", "find_source", "relabel", "reopen"]
+
+
+def relabel(
+    folder: str | Path,
+    config: Config,
+    labeler: Labeler | None,
+    *,
+    scene: str | Path | None = None,
+    report: bool = True,
+    progress: Progress = quiet,
+) -> Outcome:
+    """Builds the graph in a folder again with another labeler; labels that were given from outside are kept.
+
+    Args:
+        folder: what ``cadgraph build`` wrote; written over.
+        config: all settings, :func:`config_of` the folder with changes.
+        labeler: the new one; the embedded one if None.
+        scene: the source, where it isn't where the graph says.
+        report: whether to draw pictures and write the report.
+        progress: called with the name of a stage and the share of it that is done.
+
+    Raises:
+        LabelError: the source isn't there, or has changed.
+        FormatError: the folder holds no graph.
+    """
+    clock = Clock(progress)
+    with results_folder(folder) as target:
+        graph = SceneGraph.load(target)
+        source = find_source(graph, target, scene)
+        session = reopen(graph, target, source, config, labeler, clock)
+        return write_results(session, source, target, report, clock)
+
+
+def reopen(
+    graph: SceneGraph, target: Path, source: Path, config: Config, labeler: Labeler | None, progress: Progress = quiet
+) -> Session:
+    """A session on the scene of a finished graph, with its vocabulary, the labels given from outside, its corrections.
+
+    Args:
+        graph: finished.
+        target: the folder that it lies in; with its corrections.
+        source: the scene's file, see :func:`find_source`.
+        config: all settings.
+        labeler: says what the parts are; the one that is set if None.
+        progress: called with the name of a stage and the share of it that is done.
+
+    Raises:
+        LabelError: the corrections can't be read.
+        LoadError: the scene can't be read.
+        OutputError: a result would take the place of a file of the scene.
+    """
+    check_target(source, target)
+    tree = Vocabulary.from_json(graph.document.vocabulary, f"{target}: vocabulary of the graph")
+    corrections = read_corrections(target, tree)
+    progress("read", 0)
+    scene = load(source, config.load)
+    check_layers(source, target)
+    return Session.start(
+        scene,
+        config,
+        labels=_given(graph),
+        vocabulary=tree,
+        labeler=labeler,
+        corrections=corrections,
+        graph=graph if labeler is None or isinstance(labeler, FormerLabeler) else None,
+        progress=progress,
+    )
+
+
+def _given(graph: SceneGraph) -> list[GivenLabel]:
+    """The labels that came from outside."""
+    found = []
+    for part in graph.parts():
+        if part.label is not None and part.label.source == "author":
+            evidence = part.label.evidence
+            mesh = evidence.mesh if isinstance(evidence, GivenEvidence) else None
+            found.append(GivenLabel(mesh or part.meshes[0], *part.label.said))
+    return found
+
+
+def config_of(folder: str | Path) -> Config:
+    """The settings that the graph in a folder was built with.
+
+    Raises:
+        FormatError: the folder holds no graph, or one with settings that aren't known any more.
+    """
+    flat: dict[str, Any] = {}
+    for name, value in SceneGraph.load(folder).document.config.items():
+        if isinstance(value, dict):
+            flat.update({f"{name}.{inner}": each for inner, each in value.items()})
+        else:
+            flat[name] = value
+    try:
+        return Config().replace(flat)
+    except ValueError as error:
+        raise FormatError(f"{folder}: its settings can't be used any more ({error}); build the graph anew") from error
+
+
+def find_source(graph: SceneGraph, folder: Path, scene: str | Path | None) -> Path:
+    """The file that a graph was built from, unchanged since.
+
+    Args:
+        graph: says where it was and what was in it.
+        folder: that holds the graph; the file may lie there, too.
+        scene: where it is now, if somebody knows better.
+
+    Raises:
+        LabelError: it isn't there, or has changed.
+    """
+    tried = [Path(scene)] if scene is not None else [Path(graph.source.path), folder / Path(graph.source.path).name]
+    found = next((path for path in tried if path.is_file()), None)
+    if found is None:
+        raise LabelError(f"{tried[0]}: the scene isn't there; name it with --scene")
+    if graph.source.sha256 and hashlib.sha256(found.read_bytes()).hexdigest() != graph.source.sha256:
+        raise LabelError(f"{found}: changed since the graph was built; run 'cadgraph build' on it instead")
+    return found
+
+
+class FormerLabeler:
+    """Gives the labels of a finished graph again, as they were before corrections: a model's answers cost money.
+
+    Args:
+        graph: finished.
+    """
+
+    def __init__(self, graph: SceneGraph) -> None:
+        self._graph = graph
+
+    def label(self, parts: Parts, contacts: Contacts, vocabulary: Vocabulary) -> Labeling:
+        """Labels parts; see ``cadgraph.labelers.base.Labeler``."""
+        former = [self._part(parts.scene.paths[i]) for i in range(parts.n_parts)]
+        labels = tuple(_former_label(part) for part in former)
+        guesses = tuple(
+            part.guesses if part is not None and label is None else ()
+            for part, label in zip(former, labels, strict=True)
+        )
+        return Labeling(labels, guesses, labels, 0.0)
+
+    def _part(self, mesh: str) -> Part | None:
+        try:
+            return self._graph.part(mesh)
+        except KeyError:
+            return None
+
+
+def _former_label(part: Part | None) -> Label | None:
+    """What a labeler said of a part, before anybody corrected it."""
+    label = part.label if part is not None else None
+    if label is None or label.source in ("author", "catalog"):
+        return None
+    if not isinstance(label.evidence, CorrectedEvidence):
+        return label.model_copy(update={"guesses": part.guesses if part is not None else ()})
+    old = label.evidence.before
+    if old is None:
+        return None
+    evidence = {} if old.why is None else {"why": old.why}
+    return Label(old.group, old.name, 0.0 if old.confidence is None else old.confidence, old.source or "", evidence)
