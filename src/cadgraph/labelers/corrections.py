@@ -15,10 +15,11 @@ import numpy as np
 from cadgraph.labelers.catalog import find_matches
 from cadgraph.model.catalog import Catalog, Entry
 from cadgraph.model.corrections import Correction, Fingerprint
+from cadgraph.model.derived import store_of
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.labels import CorrectedEvidence, FormerLabel, Label
-from cadgraph.model.parts import Contacts, Parts
-from cadgraph.model.scene import Floats, Scene
+from cadgraph.model.parts import Bools, Contacts, Parts
+from cadgraph.model.scene import Floats, Ints, Scene
 
 __all__ = ["apply_corrections", "find_parts", "fingerprint_of"]
 
@@ -112,6 +113,23 @@ class _Source:
     name: str | None
 
 
+@dataclass(frozen=True, eq=False)
+class _Rivals:
+    """The labels of all parts as numbers.
+
+    Args:
+        number: of each label.
+        label: ``(n_parts,)`` its number, -1 where there is none.
+        labelled: ``(n_parts,)`` whether there is one.
+        settled: ``(n_parts,)`` whether somebody has settled it.
+    """
+
+    number: Mapping[tuple[str, str | None], int]
+    label: Ints
+    labelled: Bools
+    settled: Bools
+
+
 class _Spread:
     """Labels while corrections spread; ``labels`` is what comes out."""
 
@@ -121,7 +139,6 @@ class _Spread:
         self._corrected = corrected
         self._parts = parts
         self._sources = [_Source(p, c.group, c.name) for p, c in corrected.items() if not c.this_only]
-        self._space: Floats | None = None
 
     def correct(self) -> None:
         """The corrected parts themselves."""
@@ -183,6 +200,7 @@ class _Spread:
             for s in self._sources
         }
         reaches = {label: self._reach(space, label) for label in confused}
+        rivals = self._rivals()
         chosen = []
         for part in open_parts:
             far = np.linalg.norm(space[[s.part for s in self._sources]] - space[part], axis=1)
@@ -194,7 +212,7 @@ class _Spread:
                 continue
             widest = reaches[source.group, source.name]
             reach, share = (widest, _OPEN_SHARE) if label is None else CONFUSED if label in wrong else SURE
-            if near <= min(reach, widest) and near <= share * self._nearest_other(space, part, source, wrong):
+            if near <= min(reach, widest) and near <= share * self._nearest_other(space, part, source, wrong, rivals):
                 chosen.append((part, source, near))
         for part, source, near in chosen:
             alike = 1.0 - near**2 / 2  # the cosine
@@ -213,20 +231,25 @@ class _Spread:
         return float(np.clip(_SPREAD * np.median(apart.min(axis=1)), _LEAST_OPEN, _MOST_OPEN))
 
     def _nearest_other(
-        self, space: Floats, part: int, source: _Source, wrong: Collection[tuple[str, str | None]]
+        self, space: Floats, part: int, source: _Source, wrong: Collection[tuple[str, str | None]], rivals: _Rivals
     ) -> float:
         """How far the nearest part is whose label, another one, nothing speaks against."""
-        mine = (source.group, source.name)
-        others = [
-            other
-            for other, label in enumerate(self.labels)
-            if other != part
-            and label is not None
-            and (label.group, label.name) != mine
-            and ((label.group, label.name) not in wrong or label.source in _SETTLED)
-            and self._parts.shape[other] != self._parts.shape[part]
-        ]
-        return float(np.linalg.norm(space[others] - space[part], axis=1).min()) if others else np.inf
+        mine = rivals.number.get((source.group, source.name), -1)
+        doubted = [rivals.number[label] for label in wrong if label in rivals.number]
+        others = rivals.labelled & (rivals.label != mine) & (self._parts.shape != self._parts.shape[part])
+        others &= rivals.settled | ~np.isin(rivals.label, doubted)
+        others[part] = False
+        return float(np.linalg.norm(space[others] - space[part], axis=1).min()) if others.any() else np.inf
+
+    def _rivals(self) -> _Rivals:
+        said = [None if label is None else label.said for label in self.labels]
+        number = {label: k for k, label in enumerate(dict.fromkeys(label for label in said if label is not None))}
+        return _Rivals(
+            number,
+            np.array([-1 if label is None else number[label] for label in said], np.int64),
+            np.array([label is not None for label in said], np.bool_),
+            np.array([label is not None and label.source in _SETTLED for label in self.labels], np.bool_),
+        )
 
     def _take(
         self, part: int, source: _Source, confidence: float, how: str, match: str, more: Mapping[str, float]
@@ -257,9 +280,11 @@ class _Spread:
         return self._may_change(part, _SETTLED) and not reached
 
     def _kinship(self, contacts: Contacts) -> Floats:
-        if self._space is None:
+        kept = store_of(contacts, "kinship")
+        if self._parts not in kept:
             from cadgraph.labelers.embedded.features import observe
             from cadgraph.labelers.embedded.model import default_model
 
-            self._space = default_model().kinship(observe(self._parts, contacts))
-        return self._space
+            kept[self._parts] = default_model().kinship(observe(self._parts, contacts))
+        space: Floats = kept[self._parts]
+        return space

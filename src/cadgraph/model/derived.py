@@ -8,8 +8,9 @@ from threading import Lock
 from typing import Any, ParamSpec, TypeVar
 from weakref import WeakKeyDictionary
 
-__all__ = ["kept_with"]
+__all__ = ["kept_with", "store_of"]
 
+_STORES: WeakKeyDictionary[Any, dict[Any, dict[Any, Any]]] = WeakKeyDictionary()
 _P = ParamSpec("_P")
 _R = TypeVar("_R")
 
@@ -42,3 +43,13 @@ def kept_with(function: Callable[_P, _R]) -> Callable[_P, _R]:
         return result
 
     return once
+
+
+def store_of(value: object, *name: object) -> dict[Any, Any]:
+    """A place to keep what follows from single items of a frozen value: its lines, its pairs.
+
+    Args:
+        value: frozen, compared by identity; what is kept is thrown away with it.
+        name: what is kept there, and the settings that it depends on.
+    """
+    return _STORES.setdefault(value, {}).setdefault(name, {})

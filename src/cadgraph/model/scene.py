@@ -39,7 +39,7 @@ class Source:
     format: str = ""
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Scene:
     """All meshes of a source, in metres, Z up, right-handed, in world coordinates relative to ``origin``.
 

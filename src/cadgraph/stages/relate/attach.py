@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
 from cadgraph.geometry.contact.region import Regions, contact_regions
 from cadgraph.geometry.line.centreline import Centreline
+from cadgraph.model.derived import store_of
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.scene import Floats, Ints
 from cadgraph.stages.relate.joint import (
@@ -180,11 +181,17 @@ def _shut(contacts: Contacts, lines: Mapping[int, Centreline], solids: set[int])
 
 
 def regions_of(parts: Parts, contacts: Contacts, rows: Ints, eps: float) -> Regions:
-    """The extents of some contacts only."""
-    pairs = contacts.pairs[rows]
-    used = np.unique(pairs)
-    chosen = Contacts(np.searchsorted(used, pairs), contacts.distance[rows], contacts.points[rows])
-    return contact_regions(parts.scene.select(used), chosen, eps)
+    """The extents of some contacts only; each is measured once for the same contacts."""
+    known = store_of(contacts, "regions", eps)
+    new = np.array([row for row in rows.tolist() if row not in known], np.int64)
+    if len(new):
+        pairs = contacts.pairs[new]
+        used = np.unique(pairs)
+        chosen = Contacts(np.searchsorted(used, pairs), contacts.distance[new], contacts.points[new])
+        found = contact_regions(parts.scene.select(used), chosen, eps)
+        columns = [getattr(found, field.name) for field in fields(Regions)]
+        known.update(zip(new.tolist(), zip(*columns, strict=True), strict=True))
+    return Regions(*(np.array(column) for column in zip(*(known[row] for row in rows.tolist()), strict=True)))
 
 
 def _mount(

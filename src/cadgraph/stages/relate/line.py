@@ -8,6 +8,7 @@ from dataclasses import fields, replace
 import numpy as np
 
 from cadgraph.geometry.line.centreline import Branch, Centreline, End, trace_centrelines
+from cadgraph.model.derived import store_of
 from cadgraph.model.parts import Properties
 from cadgraph.model.scene import Floats, Scene
 
@@ -37,7 +38,7 @@ _STEADY = 0.06
 def find_lines(
     scene: Scene, properties: Properties, chosen: Sequence[int], workers: int | None = None
 ) -> dict[int, Centreline]:
-    """The lines of some meshes.
+    """The lines of some meshes; each is traced once for the same scene.
 
     Args:
         scene: all meshes.
@@ -49,22 +50,19 @@ def find_lines(
         For each mesh that has one its line: what ``trace_centrelines`` finds, or for what is flat and round the axis
         from face to face. Meshes that are neither have none.
     """
-    lines: dict[int, Centreline] = {}
-    rest: list[int] = []
-    for part in chosen:
+    flat, traced = store_of(scene, "axes"), store_of(scene, "lines")
+    for part in (part for part in chosen if part not in flat):
         breadth = properties.obb_extents[part]
-        disc = _disc(scene, properties, part) if breadth[2] < _FLAT * breadth[1] else None
-        if disc is not None:
-            lines[part] = disc
-        else:
-            rest.append(part)
-    if rest:
-        found = trace_centrelines(scene.select(rest), _rows(properties, rest), workers)
-        for part, traced in zip(rest, found, strict=True):
-            line = traced if isinstance(traced, Centreline) and traced.ends else _disc(scene, properties, part)
-            if line is not None:
-                lines[part] = line
-    return lines
+        flat[part] = _disc(scene, properties, part) if breadth[2] < _FLAT * breadth[1] else None
+    rest = [part for part in chosen if flat[part] is None]
+    new = [part for part in rest if part not in traced]
+    if new:
+        found = trace_centrelines(scene.select(new), _rows(properties, new), workers)
+        for part, line in zip(new, found, strict=True):
+            whole = isinstance(line, Centreline) and line.ends
+            traced[part] = line if whole else _disc(scene, properties, part)
+    lines = {part: flat[part] for part in chosen if flat[part] is not None}
+    return lines | {part: traced[part] for part in rest if traced[part] is not None}
 
 
 def _rows(properties: Properties, chosen: Sequence[int]) -> Properties:
