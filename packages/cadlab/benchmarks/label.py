@@ -7,6 +7,7 @@ of contacts and for the network, and per distinct shape; repeats of one plant sh
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -39,9 +40,10 @@ def row(name: str, parts: Parts, contacts: Contacts) -> list[Any]:
     seen: list[Observation] = []
     model, vocabulary = default_model(), default_vocabulary()
     observe(parts, contacts)
-    looking = once(lambda: seen.append(observe(parts, contacts)))
+    # What was seen is kept with the parts; a copy of them is looked at anew.
+    looking = once(lambda: seen.append(observe(replace(parts), contacts)))
     naming = once(lambda: judge(model, seen[0], vocabulary))
-    whole = once(lambda: EmbeddedLabeler().label(parts, contacts, vocabulary))
+    whole = once(lambda: EmbeddedLabeler().label(replace(parts), contacts, vocabulary))
     shapes = len(seen[0].facts)
     return [
         name, f"{parts.n_parts:,}", f"{len(contacts.pairs):,}", f"{shapes:,}", f"{parts.scene.n_triangles:,}",
