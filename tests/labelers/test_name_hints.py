@@ -43,11 +43,20 @@ def test_a_name_raises_what_is_possible_and_is_kept_as_evidence():
     label = weighed(unsure(0.4), "/line/Lever_3")
     assert (label.group, label.name) == ("Valve assembly", "lever")
     assert label.confidence == pytest.approx(6 * 0.3 / 0.7 / (1 + 6 * 0.3 / 0.7))
+    assert label.source == "file"
+    assert (label.evidence.key, label.evidence.text) == ("name", "lever")
+    assert (label.evidence.before.name, label.evidence.before.source) == ("pipe", "geometry")
+    assert sum(g.confidence for g in label.guesses) <= 1.0
+
+
+def test_a_name_that_agrees_makes_surer():
+    label = weighed(unsure(0.4), "/line/pipe_3")
+    assert (label.name, label.source) == ("pipe", "geometry")
+    assert label.confidence > 0.4
     assert label.evidence.to_json() == {
         "why": "bar",
-        "name": {"word": "lever", "speaks_for": "lever", "without": 0.3},
+        "name": {"word": "pipe", "speaks_for": "pipe", "without": 0.4},
     }
-    assert sum(g.confidence for g in label.guesses) <= 1.0
 
 
 def test_synonyms_and_plurals_count():
@@ -64,7 +73,7 @@ def test_names_that_say_nothing_possible_change_nothing(path):
 @pytest.mark.parametrize(("lever", "heard"), [(0.05, True), (0.0499, False)])
 def test_a_name_alone_makes_no_label(lever, heard):
     label = weighed(unsure(0.6, lever), "/lever")
-    assert (label.evidence.name is not None) is heard
+    assert ("name" in label.evidence.to_json()) is heard
     assert label.name == "pipe"
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from cadgraph.model.labels import GeometryEvidence, Guess, Label, NameHint
+from cadgraph.model.labels import FileEvidence, FormerLabel, GeometryEvidence, Guess, Label, NameHint
 from cadgraph.model.parts import Parts
 from cadgraph.model.vocabulary import Vocabulary
 
@@ -47,8 +47,8 @@ def weigh_names(answers: Sequence[Label | None], parts: Parts, vocabulary: Vocab
         vocabulary: the labels to choose from.
 
     Returns:
-        The answers, some with another confidence, or another of their guesses as the label. Where a name decided, the
-        evidence holds the word and what the confidence was before.
+        The answers, some with another confidence; the evidence holds the word and what the confidence was before. Where
+        a name makes another of the guesses the label, its source is ``file``.
     """
     names = {name for group in vocabulary.groups.values() for name in group.names}
     paths = parts.scene.paths
@@ -76,7 +76,7 @@ def _meant(words: Sequence[str], names: set[str]) -> dict[str, str]:
 
 
 def _weighed(answer: Label, meant: dict[str, str]) -> Label:
-    if isinstance(answer.evidence, GeometryEvidence) and answer.evidence.name is not None:
+    if answer.source == "file" or (isinstance(answer.evidence, GeometryEvidence) and answer.evidence.name):
         return answer
     guesses = answer.guesses or (Guess(answer.group, answer.name, answer.confidence),)
     spoken = [g for g in guesses if g.name in meant and g.confidence >= _POSSIBLE]
@@ -93,7 +93,16 @@ def _weighed(answer: Label, meant: dict[str, str]) -> Label:
     top = weighed[0]
     hint = NameHint(word=meant[str(best.name)], speaks_for=str(best.name), without=round(best.confidence, 4))
     evidence = answer.evidence.model_copy(update={"name": hint})
-    if (top.group, top.name) != (best.group, best.name):
+    if top.said != best.said:
         return answer.model_copy(update={"evidence": evidence, "guesses": tuple(weighed)})
-    confidence = max(raised, answer.confidence if answer.name == best.name else 0.0)
-    return Label(top.group, top.name, confidence, answer.source, evidence, tuple(weighed))
+    if top.said != answer.said:
+        word = FileEvidence(
+            why=f"named {hint.word!r} in the source, which geometry holds for possible ({hint.without:.0%})",
+            key="name",
+            text=hint.word,
+            before=FormerLabel.of(answer),
+        )
+        return Label(*top.said, raised, "file", word, tuple(weighed))
+    return answer.model_copy(
+        update={"confidence": max(raised, answer.confidence), "evidence": evidence, "guesses": tuple(weighed)}
+    )

@@ -57,6 +57,11 @@ class Guess(Record):
     def __init__(self, group: str, name: str | None = None, confidence: float = 0.0, **unknown: Any) -> None:
         super().__init__(**{"group": group, "name": name, "confidence": confidence, **unknown})
 
+    @property
+    def said(self) -> tuple[str, str | None]:
+        """Group and name."""
+        return self.group, self.name
+
 
 class FormerLabel(Record):
     """What a label was before something else took its place.
