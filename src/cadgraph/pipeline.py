@@ -25,8 +25,7 @@ from cadgraph.stages.group import group_meshes
 from cadgraph.stages.inspect import inspect_meshes
 from cadgraph.stages.parts import make_parts
 from cadgraph.stages.preprocess import prepare_scene
-from cadgraph.stages.relate import pipe_systems, relate_units
-from cadgraph.stages.relate.connect import connect_units
+from cadgraph.stages.relate import RelateInput, connect_units, pipe_systems, relate_units
 
 __all__ = ["ANALYSIS_SETTINGS", "STAGES", "analyse", "build", "interpret"]
 
@@ -133,17 +132,7 @@ def interpret(
     config = config or Config()
     parts, contacts, cluster = analysis.parts, analysis.contacts, analysis.cluster
     progress("relate", 0)
-    network, from_lines = connect_units(
-        analysis.scene,
-        analysis.properties,
-        parts,
-        labels.labels,
-        labels.opinions,
-        contacts,
-        cluster,
-        vocabulary,
-        config,
-    )
+    network, from_lines = connect_units(RelateInput(analysis, labels.labels, labels.opinions, vocabulary, config))
     related = relate_units(network.units, labels.labels, contacts, cluster, vocabulary)
     progress("assemble", 0)
     results = Results(

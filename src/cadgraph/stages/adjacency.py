@@ -27,7 +27,7 @@ def join_contacts(near: Contacts, part_of_mesh: Ints, eps: float) -> Contacts:
 
     Args:
         near: pairs of meshes.
-        part_of_mesh: ``(n_meshes,)``.
+        part_of_mesh: ``(n_meshes,)`` the part of each mesh.
         eps: greatest distance that counts [m].
 
     Returns:

@@ -22,8 +22,8 @@ class Bridge:
     """One contact whose removal separates two structures.
 
     Args:
-        contact: its index.
-        sizes: how many parts hang together on the side of its first and of its second part.
+        contact: index of the contact.
+        sizes: number of parts that hang together on the side of its first and of its second part.
     """
 
     contact: int
@@ -36,10 +36,10 @@ def find_weak_bridges(n_parts: int, contacts: Contacts, ground: Bools, config: C
     Joints of a pipe are single contacts too, but without a gap; so a bridge is weak from ``config.bridge_gap`` on.
 
     Args:
-        n_parts: how many parts there are.
+        n_parts: number of parts.
         contacts: pairs of parts within eps.
         ground: ``(n_parts,)`` parts that join nothing.
-        config: least gap, and least number of parts on either side.
+        config: settings: least gap, and least number of parts on either side.
 
     Returns:
         The weak bridges in the order of their contacts.
@@ -106,7 +106,7 @@ def cut_bridges(contacts: Contacts, bridges: Sequence[Bridge]) -> Contacts:
 
 
 def tell_bridges(bridges: Sequence[Bridge], contacts: Contacts, parts: Parts, cut: bool) -> tuple[Diagnostic, ...]:
-    """One finding for each bridge: the gap, the two sides' sizes, and the two parts."""
+    """One diagnostic for each bridge: the gap, the number of parts on either side, and the two parts."""
     told = []
     for bridge in bridges:
         heads = tuple(parts.scene.paths[part] for part in contacts.pairs[bridge.contact])

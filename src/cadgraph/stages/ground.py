@@ -28,7 +28,7 @@ def find_ground(scene: Scene, properties: Properties, config: GroundConfig) -> t
         config: thresholds, or the paths named by the user.
 
     Returns:
-        ``(n_meshes,)`` bool, and what is to be told.
+        ``(n_meshes,)`` bool, and diagnostics about what was found.
 
     Raises:
         ValueError: a named path is not in the scene.

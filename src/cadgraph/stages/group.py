@@ -30,10 +30,10 @@ def group_meshes(properties: Properties, ground: Bools, near: Contacts, config: 
     lower index. One that finds none stays on its own. Nothing joins the ground, or it would be lost with it.
 
     Args:
-        properties: of each mesh.
-        ground: ``(n_meshes,)`` bool.
+        properties: measurements of each mesh.
+        ground: ``(n_meshes,)`` whether each mesh is ground.
         near: pairs of meshes with their distances, at least all within the proximity.
-        config: the thresholds.
+        config: settings with the thresholds.
 
     Returns:
         ``(n_meshes,)`` the mesh that heads the part of each mesh: itself, or the larger one that it joined.

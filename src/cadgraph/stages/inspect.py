@@ -1,7 +1,7 @@
 """Diagnostic what is odd about the meshes: twice there, never seen, inside out, open, without area.
 
 The paper excludes nine meshes as modelling artifacts by hand (section IV) and names redundant and invisible meshes as
-a challenge of CAD (section V-A). Here they are found, kept, and told; a setting leaves them out.
+a challenge of CAD (section V-A). Here they are found, kept and reported; a setting leaves them out.
 """
 
 from __future__ import annotations

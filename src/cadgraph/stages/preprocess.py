@@ -17,7 +17,7 @@ def prepare_scene(scene: Scene) -> tuple[Scene, tuple[Diagnostic, ...]]:
     """Puts meshes in the order of their paths and takes out what has no place in space.
 
     Args:
-        scene: of any origin, a loader's or a caller's own arrays.
+        scene: a loader's scene, or a caller's own arrays.
 
     Returns:
         A scene of finite vertices in which every mesh has at least one, and what was taken out.

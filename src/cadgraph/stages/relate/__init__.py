@@ -1,5 +1,7 @@
 """Functional relations: units, what follows what along the pipes, and in which direction it flows."""
 
 from cadgraph.stages.relate.algorithm import find_units, pipe_systems, relate_units
+from cadgraph.stages.relate.connect import connect_units
+from cadgraph.stages.relate.piping import RelateInput
 
-__all__ = ["find_units", "pipe_systems", "relate_units"]
+__all__ = ["RelateInput", "connect_units", "find_units", "pipe_systems", "relate_units"]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -44,9 +44,9 @@ class Mount:
     """An end of a line at a solid part.
 
     Args:
-        row: of the end.
-        part: the solid.
-        gap: between them [m].
+        row: row of the end.
+        part: the solid part.
+        gap: distance between the two [m].
     """
 
     row: int
@@ -59,9 +59,9 @@ class Side:
     """A solid part that touches the side of a line.
 
     Args:
-        solid: the part.
-        part: whose line it is.
-        tap: where on it.
+        solid: the solid part.
+        part: the part that carries the line.
+        tap: place on the line.
     """
 
     solid: int
@@ -71,16 +71,15 @@ class Side:
 
 @dataclass(frozen=True)
 class Attachments:
-    """All that is joined, by parts.
+    """What joins what.
 
     Args:
-        ends: of all lines.
+        ends: the free ends of all lines.
         facings: ends that face each other.
         doubled: pairs of ends in one place that look the same way: a slip-on flange and its pipe.
-        taps: end, part on whose line it sits, and where.
+        taps: rows of ends that sit on the side of a line, the part that carries it, and the place.
         mounts: ends at solids.
         sides: solids that touch the sides of lines.
-        touching: pairs of solids in contact, first < second, and where [m].
     """
 
     ends: Ends
@@ -102,11 +101,11 @@ def attach_lines(
     """Finds for each end of a line what it joins.
 
     Args:
-        parts: of the scene.
+        parts: parts of the scene.
         contacts: pairs of parts that are near.
-        lines: of the connector parts.
-        solids: parts without a line that lines may end at: of units, and connectors of odd shape.
-        feet: those of the solids that may sit on the side of a line: of gauges.
+        lines: centreline of each part that carries one.
+        solids: parts without a line that lines may end at: those of units, and connectors of odd shape.
+        feet: solids that may sit on the side of a line: parts of gauges.
         bridge: greatest gap between ends that face each other [m].
     """
     ends = gather_ends(lines)
@@ -194,6 +193,25 @@ def regions_of(parts: Parts, contacts: Contacts, rows: Ints, eps: float) -> Regi
     return Regions(*(np.array(column) for column in zip(*(known[row] for row in rows.tolist()), strict=True)))
 
 
+@dataclass(frozen=True)
+class _Touch:
+    """Where a line's part and a solid touch.
+
+    Args:
+        part: the part that carries the line.
+        solid: the part that it touches.
+        place: ``(3,)`` middle of the contact [m].
+        normal: ``(3,)`` from the line to the solid; None where it is not sure.
+        gap: between the two [m].
+    """
+
+    part: int
+    solid: int
+    place: Floats
+    normal: Floats | None
+    gap: float
+
+
 def _mount(
     parts: Parts,
     contacts: Contacts,
@@ -207,38 +225,55 @@ def _mount(
     tight: list[int] = []
     wide: list[int] = []
     sides = []
-    for k, (a, b) in enumerate(contacts.pairs.tolist()):
-        if not ((a in lines and b in solids) or (b in lines and a in solids)):
-            continue
-        line, solid = (a, b) if a in lines else (b, a)
+    for row, line, solid in _meetings(contacts, lines, solids):
+        gap = float(contacts.distance[row])
         if solid in feet or any(
             end in loose and _is_near(parts, ends, end, solid) for end in ends.of_part.get(line, ())
         ):
-            (tight if contacts.distance[k] <= _TIGHT else wide).append(k)
+            (tight if gap <= _TIGHT else wide).append(row)
         else:
-            sides.append(_side(lines[line], line, solid, contacts.points[k].mean(axis=0), float(contacts.distance[k])))
+            sides.append(_side(lines[line], line, solid, contacts.points[row].mean(axis=0), gap))
     best: dict[int, tuple[float, float, int]] = {}
-    outward = parts.properties.closed & (parts.properties.volume > 0)
-    for rows, eps in ((tight, 2 * _TIGHT), (wide, float(contacts.distance.max(initial=0.0)) + _TIGHT)):
-        if not rows:
-            continue
-        regions = regions_of(parts, contacts, np.array(rows, np.int64), eps)
-        for k, row in enumerate(rows):
-            a, b = contacts.pairs[row].tolist()
-            line, solid, sense = (a, b, 1.0) if a in lines else (b, a, -1.0)
-            place, normal, gap = regions.centroid[k], sense * regions.normal[k], float(contacts.distance[row])
-            reached = False
-            # Of faces that look inward the normals lie.
-            known = regions.flatness[k] > _FLAT and outward[a] and outward[b]
-            for end in ends.of_part[line]:
-                miss = _miss(ends, end, place, normal if known else None, gap)
-                reached |= miss is not None
-                if miss is not None and end in loose and (end not in best or (miss, gap, solid) < best[end]):
-                    best[end] = (miss, gap, solid)
-            if not reached:
-                sides.append(_side(lines[line], line, solid, place, gap))
-    mounts = tuple(Mount(end, solid, gap) for end, (_, gap, solid) in sorted(best.items()))
+    for touch in (
+        *_touches(parts, contacts, lines, tight, 2 * _TIGHT),
+        *_touches(parts, contacts, lines, wide, float(contacts.distance.max(initial=0.0)) + _TIGHT),
+    ):
+        misses = [
+            (end, miss) for end in ends.of_part.get(touch.part, ()) if (miss := _miss(ends, end, touch)) is not None
+        ]
+        if not misses:
+            sides.append(_side(lines[touch.part], touch.part, touch.solid, touch.place, touch.gap))
+        for end, miss in misses:
+            offer = (miss, touch.gap, touch.solid)
+            best[end] = min(best.get(end, offer), offer)
+    mounts = tuple(Mount(end, solid, gap) for end, (_, gap, solid) in sorted(best.items()) if end in loose)
     return mounts, tuple(sides)
+
+
+def _meetings(contacts: Contacts, lines: Collection[int], solids: Collection[int]) -> Iterator[tuple[int, int, int]]:
+    """The contacts of a part with a line and a solid: row, the former and the latter."""
+    for row, (a, b) in enumerate(contacts.pairs.tolist()):
+        if a in lines and b in solids:
+            yield row, a, b
+        elif b in lines and a in solids:
+            yield row, b, a
+
+
+def _touches(
+    parts: Parts, contacts: Contacts, lines: Collection[int], rows: Sequence[int], eps: float
+) -> Iterator[_Touch]:
+    """The extents of some contacts between lines and solids, of what is nearer than ``eps`` [m]."""
+    if not rows:
+        return
+    outward = parts.properties.closed & (parts.properties.volume > 0)
+    regions = regions_of(parts, contacts, np.array(rows, np.int64), eps)
+    for k, row in enumerate(rows):
+        a, b = contacts.pairs[row].tolist()
+        line, solid, sense = (a, b, 1.0) if a in lines else (b, a, -1.0)
+        # Normals of faces that look inward are wrong.
+        known = regions.flatness[k] > _FLAT and outward[a] and outward[b]
+        normal = sense * regions.normal[k] if known else None
+        yield _Touch(line, solid, regions.centroid[k], normal, float(contacts.distance[row]))
 
 
 def _is_near(parts: Parts, ends: Ends, row: int, solid: int) -> bool:
@@ -256,16 +291,16 @@ def _side(line: Centreline, part: int, solid: int, place: Floats, gap: float) ->
     return Side(solid, part, Tap(number, near[0], near[1], gap))
 
 
-def _miss(ends: Ends, row: int, place: Floats, normal: Floats | None, gap: float) -> float | None:
+def _miss(ends: Ends, row: int, touch: _Touch) -> float | None:
     """How far the middle of a contact is from an end [m]; None where it is not at that end."""
     direction, radius = ends.direction[row], float(ends.radius[row])
-    offset = place - ends.point[row]
+    offset = touch.place - ends.point[row]
     along = float(offset @ direction)
     off = float(np.linalg.norm(offset - along * direction))
     depth = min(max(_DEPTH * radius, _LEAST_DEPTH), 0.5 * float(ends.length[row]))
-    if not -depth - 0.001 <= along <= gap + 0.5 * radius + 0.005 or off > _OFF * radius + gap:
+    if not -depth - 0.001 <= along <= touch.gap + 0.5 * radius + 0.005 or off > _OFF * radius + touch.gap:
         return None
-    if normal is not None and float(normal @ direction) < _AGREES:
+    if touch.normal is not None and float(touch.normal @ direction) < _AGREES:
         return None
     return abs(along) + 0.5 * off
 
@@ -273,7 +308,7 @@ def _miss(ends: Ends, row: int, place: Floats, normal: Floats | None, gap: float
 def flat_contacts(
     parts: Parts, contacts: Contacts, pairs: Iterable[tuple[int, int]], eps: float
 ) -> dict[tuple[int, int], tuple[Floats, Floats]]:
-    """Which pairs of parts are flanged to each other: they meet in a flat round area.
+    """Pairs of parts that are flanged to each other: they meet in a flat round area.
 
     Returns:
         For each such pair the middle of the area [m] and its normal, from the first to the second.

@@ -30,16 +30,16 @@ def simplify(drawing: Drawing, gauges: Collection[int], covers: frozenset[int], 
     """Joins spans to runs between units, junctions and terminals.
 
     Args:
-        drawing: the network as drawn; its net is changed.
-        gauges: numbers of the units that may stand in a run by their tap.
+        drawing: the network as drawn; it stays as it is.
+        gauges: numbers of the units that may stand in a run although they only sit on a tap of it.
         covers: parts that close a fitting of their own, as a strainer's lid does; no run ends there.
-        n_units: the nodes below are units.
+        n_units: number of units, which are the first nodes.
         leg: greatest length between a tap and its gauge [m].
 
     Returns:
         The net, in which each node is a unit, or has one or at least three spans.
     """
-    net = drawing.net
+    net = drawing.net.copy()
     units = range(n_units)
     changed = True
     while changed:

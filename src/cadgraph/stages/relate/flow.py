@@ -1,4 +1,4 @@
-"""Flow directions: what tells one, and how far that carries."""
+"""Flow directions: what shows one, and how far along the network that holds."""
 
 from __future__ import annotations
 
@@ -44,16 +44,16 @@ class _Evidence:
 def direct_flow(
     network: Network, parts: Parts, names: Sequence[str | None], stated: Sequence[_Evidence] = ()
 ) -> tuple[Network, tuple[Diagnostic, ...]]:
-    """Gives links the direction of their flow where something tells it.
+    """Gives links the direction of their flow where something shows it.
 
     Args:
-        network: without directions.
-        parts: of the scene.
-        names: of each part.
-        stated: what the user says (``stated_flow``).
+        network: units and links, without directions.
+        parts: parts of the scene.
+        names: name of each part, None where unknown.
+        stated: directions that the user states (``stated_flow``).
 
     Returns:
-        The network with directions, their reasons and confidences, and the contradictions met.
+        The network with directions, their reasons and confidences, and a diagnostic of the contradictions.
     """
     evidence = [*stated, *_pumps(network, parts), *_tanks(network, parts, names)]
     chosen, against = _spread(network, evidence)
@@ -90,7 +90,7 @@ def stated_flow(network: Network, statements: Sequence[str]) -> list[_Evidence]:
     """What the user says about the flow.
 
     Args:
-        network: with its links.
+        network: units and links.
         statements: ``"P-001 -> T-001"`` each: it flows from one unit to the other.
 
     Raises:

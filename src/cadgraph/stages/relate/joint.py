@@ -37,14 +37,14 @@ class Ends:
     """The free ends of all lines, one row each.
 
     Args:
-        part: ``(n,)`` whose line it is.
-        index: ``(n,)`` which of that line's ends.
-        point: ``(n, 3)`` [m].
+        part: ``(n,)`` the part that carries the line.
+        index: ``(n,)`` number of the end among that line's.
+        point: ``(n, 3)`` position [m].
         direction: ``(n, 3)`` unit vectors outward.
         radius: ``(n,)`` outer radius [m].
         bore: ``(n,)`` radius of the hole [m], NaN where none is seen.
-        length: ``(n,)`` of the branch [m].
-        of_part: the rows of each part.
+        length: ``(n,)`` length of the branch that ends there [m].
+        of_part: rows of each part.
     """
 
     part: Ints
@@ -64,7 +64,7 @@ class Facing:
     Args:
         first: row of one end.
         second: row of the other.
-        gap: from the first to the second along their axis [m]; negative where one lies in the other.
+        gap: distance from the first to the second along their axis [m]; negative where one lies in the other.
         corner: whether they meet at an angle.
     """
 
@@ -79,10 +79,10 @@ class Tap:
     """Where an end sits on another line.
 
     Args:
-        branch: of that line.
+        branch: number of that line's branch.
         s: position along the branch [m].
-        point: ``(3,)`` on the branch [m].
-        gap: from the end to the wall [m]; negative where it lies within.
+        point: ``(3,)`` the point there, on the axis [m].
+        gap: distance from the end to the wall [m]; negative where it lies within.
         sleeve: whether it lies along the line rather than across: a coupling over a pipe, a pipe in a socket.
     """
 

@@ -11,7 +11,6 @@ from cadgraph.model.parts import Network, Parts, UnitParts
 
 __all__ = ["name_kinds"]
 
-_HAND = frozenset({"handwheel", "yoke", "valve bonnet"})
 _QUARTER = frozenset({"lever", "valve ball"})
 _DRIVEN = frozenset({"lever", "handwheel", "actuator", "gearbox", "valve stem", "yoke"})
 # A wafer body is shorter than this share of its pipe's outer diameter; flanged bodies are longer than it is wide.
@@ -71,28 +70,32 @@ def _kind(unit: UnitParts, names: set[str], sizes: Sequence[int], parts: Parts) 
 
 
 def _valve(unit: UnitParts, names: set[str], sizes: Sequence[int]) -> str | None:
+    """The kind of a valve: the first rule that holds says it, None where it leaves it open."""
     length = _through(unit)
-    wafer = length is not None and sizes and length < _WAFER * min(sizes) / 1000
-    whole = not names - {"valve"}
-    if len(unit.openings) == 1 and not names & _DRIVEN and not whole:
-        return "relief valve"
-    if whole:
+    driven = bool(names & _DRIVEN)
+    if not names - {"valve"}:
         return None
-    if wafer:
-        return "butterfly valve" if names & _DRIVEN else "check valve"
+    if len(unit.openings) == 1 and not driven:
+        return "relief valve"
+    if length is not None and sizes and length < _WAFER * min(sizes) / 1000:
+        return "butterfly valve" if driven else "check valve"
     if "gearbox" in names:
         return None
     if names & _QUARTER or ("actuator" in names and not names & {"yoke", "handwheel"}):
         return "ball valve"
-    if names & _HAND and names & {"handwheel", "yoke"}:
-        if length is None or not sizes or min(sizes) not in _FACES:
-            return None
-        gate, globe = _FACES[min(sizes)]
-        for kind, face in (("gate valve", gate), ("globe valve", globe)):
-            if abs(length - face / 1000) <= _FACE_TOLERANCE:
-                return kind
+    if names & {"handwheel", "yoke"}:
+        return _rising_stem(length, sizes)
+    return "check valve" if not driven else None
+
+
+def _rising_stem(length: float | None, sizes: Sequence[int]) -> str | None:
+    """A valve with a handwheel or yoke: gate or globe, whichever its face to face length is."""
+    if length is None or not sizes or min(sizes) not in _FACES:
         return None
-    return "check valve" if not names & _DRIVEN else None
+    for kind, face in zip(("gate valve", "globe valve"), _FACES[min(sizes)], strict=True):
+        if abs(length - face / 1000) <= _FACE_TOLERANCE:
+            return kind
+    return None
 
 
 def _through(unit: UnitParts) -> float | None:

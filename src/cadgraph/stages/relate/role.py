@@ -10,7 +10,7 @@ from cadgraph.model.labels import Label
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.vocabulary import Vocabulary
 
-__all__ = ["Roles", "find_roles", "likely_lines", "neighbor_lists"]
+__all__ = ["Roles", "find_roles", "likely_lines"]
 
 # A second opinion counts from this confidence on.
 _CONFIDENT = 0.55
@@ -32,8 +32,8 @@ class Roles:
     """What each part does.
 
     Args:
-        groups: of each part, None where unknown; the label's own unless that is doubted.
-        names: likewise.
+        groups: group of each part, None where unknown; its label's unless that is doubted.
+        names: name of each part, likewise.
         doubted: parts whose label is not followed.
         doubtful: whether labels are wrong so often that the second opinion goes first.
         backed: parts whose group the second opinion or most of their repeats say, too.
@@ -50,9 +50,9 @@ def find_roles(parts: Parts, labels: Sequence[Label | None], guessed: Sequence[L
     """Takes each part's label, or in a scene of doubtful labels what its shape, its repeats and geometry say.
 
     Args:
-        parts: of the scene.
-        labels: of each part.
-        guessed: what the embedded labeler alone says.
+        parts: parts of the scene.
+        labels: label of each part, None where it has none.
+        guessed: label that the embedded labeler alone gives each part.
     """
     groups = [label.group if label is not None else None for label in labels]
     names = [label.name if label is not None else None for label in labels]
@@ -124,11 +124,11 @@ def likely_lines(
     """Parts that are no connectors by label but may be by shape: they touch one, or a unit, and nothing speaks against.
 
     Args:
-        roles: of each part.
-        guessed: what the embedded labeler says.
+        roles: what each part does.
+        guessed: label that the embedded labeler alone gives each part.
         contacts: pairs of parts that are near.
         vocabulary: says which groups are connectors and which form units.
-        ground: of each part, whether it is the ground.
+        ground: whether each part is ground.
     """
     connectors, unit_of = vocabulary.connector_groups, vocabulary.unit_of_group
     functional = [group in connectors or group in unit_of for group in roles.groups]
@@ -142,12 +142,3 @@ def likely_lines(
             if guess is None or guess.group in connectors:
                 found.add(part)
     return sorted(found)
-
-
-def neighbor_lists(contacts: Contacts) -> Mapping[int, list[int]]:
-    """The parts that are near each part, ascending."""
-    found: dict[int, list[int]] = {}
-    for a, b in contacts.pairs.tolist():
-        found.setdefault(a, []).append(b)
-        found.setdefault(b, []).append(a)
-    return {part: sorted(near) for part, near in found.items()}

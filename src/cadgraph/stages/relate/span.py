@@ -88,6 +88,10 @@ class Net:
     at: dict[int, list[int]] = field(default_factory=dict)
     _next: int = 0
 
+    def copy(self) -> Net:
+        """The same network, to be changed apart from this one."""
+        return Net(dict(self.spans), {node: list(numbers) for node, numbers in self.at.items()}, self._next)
+
     def add(self, span: Span) -> int:
         """Adds a span and returns its number."""
         number = self._next

@@ -10,7 +10,7 @@ import numpy as np
 from cadgraph.model.parts import Parts, UnitParts
 from cadgraph.model.scene import natural_key
 from cadgraph.stages.relate.algorithm import LETTERS
-from cadgraph.stages.relate.unit import Group
+from cadgraph.stages.relate.piping import Group
 
 __all__ = ["tag_units"]
 

@@ -9,53 +9,37 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cadgraph.model.parts import Contacts, Parts
-from cadgraph.model.scene import Ints
+from cadgraph.model.parts import Parts
 from cadgraph.stages.relate.attach import Attachments, flat_contacts
+from cadgraph.stages.relate.piping import Group, Piping, RelateInput
 from cadgraph.stages.relate.role import Roles
 
-__all__ = ["FASTENERS", "Group", "connected_groups", "is_loose_operator", "mend_groups", "split_groups"]
+__all__ = ["connected_groups", "is_loose_operator", "mend_units", "split_groups"]
 
 # A body stands out from the line's axis this many times farther on one side than on the other where it carries its own
 # operator: one mesh for a whole valve.
 _LOPSIDED = 1.5
-FASTENERS = frozenset({"bolt", "nut", "washer", "stud", "screw", "gasket"})
+_FASTENERS = frozenset({"bolt", "nut", "washer", "stud", "screw", "gasket"})
 _OPERATORS = frozenset(
     {"valve stem", "handwheel", "lever", "yoke", "gland", "gearbox", "actuator", "position indicator"}
 )
 _SPLIT = frozenset({"valve", "pump", "gauge"})
 
 
-@dataclass(frozen=True)
-class Group:
-    """Parts that work as one.
-
-    Args:
-        unit_type: as the vocabulary calls it.
-        parts: ascending.
-    """
-
-    unit_type: str
-    parts: tuple[int, ...]
-
-
-def connected_groups(
-    roles: Roles, contacts: Contacts, cluster: Ints, unit_of_group: Mapping[str, str], skip: Collection[int] = ()
-) -> list[Group]:
+def connected_groups(given: RelateInput, roles: Roles, skip: Collection[int] = ()) -> list[Group]:
     """Connected parts of one functional group, as in the paper (section III-B, step 6).
 
     Args:
-        roles: of each part.
-        contacts: pairs of parts that are near.
-        cluster: ``(n_parts,)``; -1 takes no part.
-        unit_of_group: the unit type of each group that forms units.
+        given: what everything is found from.
+        roles: what each part does.
         skip: parts that are left out.
     """
+    unit_of_group, cluster = given.vocabulary.unit_of_group, given.cluster
     types = [unit_of_group.get(group) if group is not None else None for group in roles.groups]
     members = [part for part, unit in enumerate(types) if unit is not None and part not in skip]
     pairs = [
         (a, b)
-        for a, b in contacts.pairs.tolist()
+        for a, b in given.contacts.pairs.tolist()
         if types[a] is not None and types[a] == types[b] and cluster[a] == cluster[b] >= 0
     ]
     return [Group(str(types[parts[0]]), parts) for parts in _components(members, pairs)]
@@ -69,11 +53,13 @@ def is_loose_operator(group: Group, names: Sequence[str | None], reached: Collec
         names: of each part, or the likeliest where only the group is known.
         reached: parts at which lines end.
     """
-    return (
-        group.unit_type == "valve"
-        and all(names[part] in _OPERATORS for part in group.parts)
-        and not any(part in reached for part in group.parts)
-    )
+    on_line = any(part in reached for part in group.parts)
+    return group.unit_type == "valve" and _is_operator(group.parts, names) and not on_line
+
+
+def _is_operator(parts: Collection[int], names: Sequence[str | None]) -> bool:
+    """Whether parts are but what moves a valve: a handwheel, a lever, a stem."""
+    return all(names[part] in _OPERATORS for part in parts)
 
 
 def _components(members: Collection[int], pairs: Collection[tuple[int, int]]) -> list[tuple[int, ...]]:
@@ -115,34 +101,40 @@ class _Work:
             self.of_part[piece] = keep
 
 
-def mend_groups(
-    groups: Sequence[Group],
-    names: Sequence[str | None],
-    near: Mapping[int, Sequence[int]],
-    mounted: Mapping[int, Collection[int]],
-    apart: Collection[int],
-    unsure: Collection[int],
-    lines: Collection[int],
-) -> list[Group]:
-    """Takes in pieces that only fit there, and joins what such a piece joins.
+def mend_units(piping: Piping) -> tuple[Piping, list[Group]]:
+    """Takes pieces into groups where they only fit there, and joins the groups that such a piece joins.
 
-    Args:
-        groups: connected parts.
-        names: of each part.
-        near: parts near each part.
-        mounted: parts at which ends of lines sit, and whose lines these are.
-        apart: parts that belong to no unit: the ground, and pipe, however it is called.
-        unsure: parts whose label nothing supports, where labels are doubtful.
-        lines: parts with a line.
+    Returns:
+        The piping, in which what was taken in carries no line, and the groups.
     """
+    groups = _mended(piping)
+    taken_in = {part for group in groups for part in group.parts} - piping.members
+    if all(_is_mere_fastener(piping, part) for part in taken_in):
+        return piping, groups
+    members = piping.members | taken_in
+    return replace(
+        piping,
+        lines={part: line for part, line in piping.lines.items() if part not in members},
+        lineless=tuple(part for part in piping.lineless if part not in members),
+        members=members,
+    ), groups
+
+
+def _is_mere_fastener(piping: Piping, part: int) -> bool:
+    """Whether a part is a fastener by name, and neither line nor connector."""
+    return piping.roles.names[part] in _FASTENERS and part not in piping.lines and part not in piping.lineless
+
+
+def _mended(piping: Piping) -> list[Group]:
+    groups = piping.groups
     work = _Work(
         {k: group.unit_type for k, group in enumerate(groups)},
         {k: set(group.parts) for k, group in enumerate(groups)},
         {part: k for k, group in enumerate(groups) for part in group.parts},
     )
     for _ in range(3):
-        changed = _join_odd(work, near, mounted, unsure)
-        changed |= _join_pieces(work, names, near, mounted, apart, lines)
+        changed = _join_odd(work, piping)
+        changed |= _join_pieces(work, piping)
         if not changed:
             break
     return sorted(
@@ -155,131 +147,131 @@ def _stands(parts: Collection[int], mounted: Mapping[int, Collection[int]], with
     return any(line != without for part in parts for line in mounted.get(part, ()))
 
 
-def _join_pieces(
-    work: _Work,
-    names: Sequence[str | None],
-    near: Mapping[int, Sequence[int]],
-    mounted: Mapping[int, Collection[int]],
-    apart: Collection[int],
-    lines: Collection[int],
-) -> bool:
-    """A piece in between: a fastener all of whose neighbours are one unit, or what joins pieces of which one at most
-    is on a line.
-    """
-    around = sorted({part for parts in work.parts.values() for member in parts for part in near.get(member, ())})
+def _join_pieces(work: _Work, piping: Piping) -> bool:
+    """Takes in the pieces in between, each after what the one before it changed."""
+    near = piping.given.neighbors
+    around = {part for parts in work.parts.values() for member in parts for part in near.get(member, ())}
     changed = False
-    for piece in around:
-        if piece in work.of_part or piece in apart:
-            continue
-        touched = sorted({work.of_part[other] for other in near[piece] if other in work.of_part})
-        own = names[piece] in FASTENERS and all(other in work.of_part for other in near[piece])
-        for unit in sorted({work.types[k] for k in touched}):
-            same = [k for k in touched if work.types[k] == unit]
-            standing = [k for k in same if _stands(work.parts[k], mounted, piece)]
-            # A nipple between two valves is no piece of theirs; what holds a mere operator is.
-            if piece in lines and not all(
-                k in standing or all(names[part] in _OPERATORS for part in work.parts[k]) for k in same
-            ):
-                continue
-            if (own and len(touched) == 1) or (len(same) > 1 and len(standing) <= 1):
-                work.merge(standing[0] if standing else same[0], same, piece)
-                changed = True
-                break
+    for piece in sorted(around - piping.apart):
+        takers = _takers(work, piece, piping) if piece not in work.of_part else []
+        if takers:
+            work.merge(takers[0], takers[1:], piece)
+            changed = True
     return changed
 
 
-def _join_odd(
-    work: _Work, near: Mapping[int, Sequence[int]], mounted: Mapping[int, Collection[int]], unsure: Collection[int]
-) -> bool:
+def _takers(work: _Work, piece: int, piping: Piping) -> list[int]:
+    """The groups that a piece in between makes one, the one that stays first; none where it belongs to none.
+
+    Such a piece is a fastener all of whose neighbours are one unit, or it joins groups of which one at most is on a
+    line.
+    """
+    near, names = piping.given.neighbors[piece], piping.roles.names
+    touched = sorted({work.of_part[other] for other in near if other in work.of_part})
+    clamped = _is_clamped(work, piece, piping)
+    for unit_type in sorted({work.types[k] for k in touched}):
+        same = [k for k in touched if work.types[k] == unit_type]
+        standing = [k for k in same if _stands(work.parts[k], piping.mounted, piece)]
+        others = sorted(set(same).difference(standing))
+        # A nipple between two valves is no piece of theirs; what holds a mere operator is.
+        fits = piece not in piping.lines or all(_is_operator(work.parts[k], names) for k in others)
+        if fits and (clamped or len(same) > 1 >= len(standing)):
+            return standing + others
+    return []
+
+
+def _is_clamped(work: _Work, piece: int, piping: Piping) -> bool:
+    """Whether a piece is a fastener all of whose neighbours are one group."""
+    holders = {work.of_part.get(other, -1) for other in piping.given.neighbors[piece]}
+    return piping.roles.names[piece] in _FASTENERS and len(holders) == 1 and -1 not in holders
+
+
+def _join_odd(work: _Work, piping: Piping) -> bool:
     """A single part of another type whose label nothing supports, next to pieces of one type only."""
+    near, mounted = piping.given.neighbors, piping.mounted
     changed = False
     for k in sorted(work.parts):
         if k not in work.parts or len(work.parts[k]) != 1:
             continue
         (piece,) = work.parts[k]
-        if piece not in unsure:
+        if piece not in piping.unsupported:
             continue
         touched = sorted({work.of_part[other] for other in near.get(piece, ()) if other in work.of_part} - {k})
         types = {work.types[other] for other in touched}
         standing = [other for other in touched if _stands(work.parts[other], mounted)]
         if len(types) == 1 and len(standing) + (piece in mounted) <= 1:
-            keep = touched[0]
-            work.merge(keep, [*touched[1:], k], None)
+            work.merge(touched[0], [*touched[1:], k], None)
             changed = True
     return changed
 
 
-def split_groups(
-    parts: Parts,
-    groups: Sequence[Group],
-    contacts: Contacts,
-    found: Attachments,
-    near: Mapping[int, Sequence[int]],
-    names: Sequence[str | None],
-    eps: float,
-) -> list[Group]:
+def split_groups(piping: Piping, groups: Sequence[Group]) -> list[Group]:
     """Cuts groups that hold several devices: each body with an operator of its own, or with two open ends.
 
     Args:
-        parts: of the scene.
+        piping: what joins what.
         groups: connected parts.
-        contacts: pairs of parts that are near.
-        found: what joins what.
-        near: parts near each part.
-        names: of each part.
-        eps: contact distance [m].
     """
     mounts: dict[int, list[int]] = {}
-    for mount in found.mounts:
+    for mount in piping.joints.mounts:
         mounts.setdefault(mount.part, []).append(mount.row)
     outcome = []
     for group in groups:
         bodies = [part for part in group.parts if part in mounts]
-        if group.unit_type not in _SPLIT or len(bodies) < 2:
-            outcome.append(group)
-            continue
-        inside = set(group.parts)
-        pairs = [(a, b) for a in group.parts for b in near.get(a, ()) if a < b and b in inside]
-        flanged = flat_contacts(parts, contacts, [(a, b) for a, b in pairs if a in bodies and b in bodies], eps)
-        cores = _cores(parts, group, bodies, mounts, pairs, set(flanged), found)
-        outcome += _divide(parts, group, cores, near) if len(cores) > 1 else [group]
+        cores = _cores(piping, group, bodies, mounts) if group.unit_type in _SPLIT and len(bodies) > 1 else []
+        outcome += _divide(piping, group, cores) if len(cores) > 1 else [group]
     return sorted(outcome, key=lambda group: group.parts)
 
 
-def _cores(
-    parts: Parts,
-    group: Group,
-    bodies: Sequence[int],
-    mounts: Mapping[int, Sequence[int]],
-    pairs: Sequence[tuple[int, int]],
-    flanged: Collection[tuple[int, int]],
-    found: Attachments,
-) -> list[int]:
-    """The bodies that are devices of their own."""
-    rest = {part for part in group.parts if part not in mounts}
+def _cores(piping: Piping, group: Group, bodies: Sequence[int], mounts: Mapping[int, Sequence[int]]) -> list[int]:
+    """The bodies that are devices of their own.
+
+    Args:
+        piping: what joins what.
+        group: connected parts.
+        bodies: parts of the group at which lines end.
+        mounts: rows of the ends of lines at each part.
+    """
+    given, found = piping.given, piping.joints
+    pairs = _pairs_within(group.parts, given.neighbors)
+    between = [(a, b) for a, b in pairs if a in bodies and b in bodies]
+    flanged = flat_contacts(given.parts, given.contacts, between, given.config.cluster.eps)
+    holders = _holders(given.parts, pairs, mounts, found)
+
+    def is_core(body: int) -> bool:
+        n_open = len(mounts[body]) + sum(body in pair for pair in flanged)
+        return n_open >= 2 and (
+            body in holders or len(mounts[body]) >= 2 or _stands_out(given.parts, body, mounts[body], found)
+        )
+
+    cores = [body for body in bodies if is_core(body)]
+    if group.unit_type == "gauge" and not cores:
+        # A gauge has one foot; two feet are two gauges.
+        return [body for body in bodies if body in holders or len(group.parts) == len(bodies)]
+    return cores
+
+
+def _pairs_within(parts: Sequence[int], near: Mapping[int, Sequence[int]]) -> list[tuple[int, int]]:
+    """The pairs of some parts that are near each other, first < second."""
+    inside = set(parts)
+    return [(a, b) for a in parts for b in near.get(a, ()) if a < b and b in inside]
+
+
+def _holders(
+    parts: Parts, pairs: Sequence[tuple[int, int]], mounts: Mapping[int, Sequence[int]], found: Attachments
+) -> set[int]:
+    """Bodies with an operator of their own: a part on that body alone that stands out from it."""
     touched: dict[int, set[int]] = {}
     for a, b in pairs:
         for part, body in ((a, b), (b, a)):
-            if part in rest and body in mounts:
+            if part not in mounts and body in mounts:
                 touched.setdefault(part, set()).add(body)
-    # What is on one body alone and stands out from it is its operator.
-    holders = {
+    alone = [(part, body) for part, bodies in touched.items() if len(bodies) == 1 for body in bodies]
+    return {
         body
-        for part, found_on in touched.items()
-        if len(found_on) == 1
-        for body in found_on
+        for part, body in alone
         if _reach(parts, part, mounts[body], found) > _reach(parts, body, mounts[body], found)
     }
-    cores = []
-    for body in bodies:
-        n_open = len(mounts[body]) + sum(body in pair for pair in flanged)
-        own = body in holders or _stands_out(parts, body, mounts[body], found)
-        if n_open >= 2 and (own or len(mounts[body]) >= 2):
-            cores.append(body)
-    if group.unit_type == "gauge":
-        # A gauge has one foot; two feet are two gauges.
-        return cores or [body for body in bodies if body in holders or len(group.parts) == len(bodies)]
-    return cores
 
 
 def _reach(parts: Parts, part: int, rows: Sequence[int], found: Attachments) -> float:
@@ -303,11 +295,11 @@ def _stands_out(parts: Parts, body: int, rows: Sequence[int], found: Attachments
     return bool(reach.max() > _LOPSIDED * max(float(-(across @ far).min()), float(found.ends.radius[rows[0]])))
 
 
-def _divide(parts: Parts, group: Group, cores: Sequence[int], near: Mapping[int, Sequence[int]]) -> list[Group]:
+def _divide(piping: Piping, group: Group, cores: Sequence[int]) -> list[Group]:
     """Gives each part to the core that is the fewest contacts away; of two the one that is nearer."""
-    centers = parts.properties.obb_center
+    centers = piping.given.parts.properties.obb_center
     inside = set(group.parts)
-    steps = {core: _steps(core, inside, near, set(cores) - {core}) for core in cores}
+    steps = {core: _steps(core, inside, piping.given.neighbors, set(cores) - {core}) for core in cores}
     members: dict[int, list[int]] = {core: [] for core in cores}
     for part in group.parts:
         ranked = sorted(

@@ -1,0 +1,137 @@
+"""What relating starts from, and the piping as far as it is known."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from cadgraph.config import Config
+from cadgraph.geometry.line.centreline import Centreline
+from cadgraph.model.analysis import Analysis
+from cadgraph.model.labels import Label
+from cadgraph.model.parts import Contacts, Parts
+from cadgraph.model.scene import Ints
+from cadgraph.model.vocabulary import Vocabulary
+from cadgraph.stages.relate.attach import Attachments, attach_lines
+from cadgraph.stages.relate.role import Roles
+
+__all__ = ["Group", "Piping", "RelateInput"]
+
+
+@dataclass(frozen=True, eq=False)
+class RelateInput:
+    """Everything that functional relations are found from.
+
+    Args:
+        analysis: what geometry says: parts, contacts, structures.
+        labels: label of each part, None where it has none.
+        opinions: label that the embedded labeler alone gives each part, None where it gives none; a second opinion.
+        vocabulary: label tree, with the groups that are connectors and those that form units.
+        config: settings.
+    """
+
+    analysis: Analysis
+    labels: Sequence[Label | None]
+    opinions: Sequence[Label | None]
+    vocabulary: Vocabulary
+    config: Config
+
+    @property
+    def parts(self) -> Parts:
+        """The items that the source meshes make up."""
+        return self.analysis.parts
+
+    @property
+    def contacts(self) -> Contacts:
+        """Pairs of parts that are near."""
+        return self.analysis.contacts
+
+    @property
+    def cluster(self) -> Ints:
+        """``(n_parts,)`` number of each part's structure; -1 for none."""
+        return self.analysis.cluster
+
+    @cached_property
+    def neighbors(self) -> Mapping[int, list[int]]:
+        """The parts that are near each part, ascending."""
+        found: dict[int, list[int]] = {}
+        for a, b in self.contacts.pairs.tolist():
+            found.setdefault(a, []).append(b)
+            found.setdefault(b, []).append(a)
+        return {part: sorted(near) for part, near in found.items()}
+
+    @cached_property
+    def is_connector(self) -> tuple[bool, ...]:
+        """Of each part, whether its own label calls it a connector."""
+        connectors = self.vocabulary.connector_groups
+        return tuple(label is not None and label.group in connectors for label in self.labels)
+
+
+@dataclass(frozen=True)
+class Group:
+    """Parts that work as one.
+
+    Args:
+        unit_type: as the vocabulary calls it.
+        parts: ascending.
+    """
+
+    unit_type: str
+    parts: tuple[int, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Piping:
+    """Lines, what they may end at, and what joins what; a pass returns a new one.
+
+    Args:
+        given: what everything is found from.
+        roles: what each part does.
+        lines: centreline of each part that carries one.
+        lineless: connectors without a line, ascending.
+        groups: connected parts of one functional group, as labels have them.
+        members: parts of groups that lines may end at.
+        feet: parts of gauges, which may sit on the side of a line.
+    """
+
+    given: RelateInput
+    roles: Roles
+    lines: Mapping[int, Centreline]
+    lineless: tuple[int, ...]
+    groups: tuple[Group, ...]
+    members: frozenset[int]
+    feet: frozenset[int]
+
+    @cached_property
+    def joints(self) -> Attachments:
+        """What every end of a line joins; it follows from the lines and from what they may end at."""
+        given = self.given
+        solids = self.members.union(self.lineless)
+        return attach_lines(given.parts, given.contacts, self.lines, solids, self.feet, given.config.relate.bridge)
+
+    @cached_property
+    def mounted(self) -> Mapping[int, set[int]]:
+        """For each solid at an end of a line the parts whose line that is."""
+        mounted: dict[int, set[int]] = {}
+        for mount in self.joints.mounts:
+            mounted.setdefault(mount.part, set()).add(int(self.joints.ends.part[mount.row]))
+        return mounted
+
+    @cached_property
+    def apart(self) -> frozenset[int]:
+        """Parts that no unit takes in: the ground, and those whose line is joined to another one."""
+        rows = {row for facing in self.joints.facings for row in (facing.first, facing.second)}
+        rows |= {row for row, _, tap in self.joints.taps if not tap.sleeve}
+        ground = np.flatnonzero(self.given.parts.ground).tolist()
+        return frozenset({int(self.joints.ends.part[row]) for row in rows} | set(ground))
+
+    @cached_property
+    def unsupported(self) -> frozenset[int]:
+        """Parts whose group only their own label says, in a scene of doubtful labels."""
+        roles = self.roles
+        if not roles.doubtful:
+            return frozenset()
+        return frozenset(part for part, group in enumerate(roles.groups) if group is not None) - roles.backed

@@ -1,0 +1,202 @@
+"""Which parts carry lines: the connectors, and what only geometry shows to be one."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from cadgraph.geometry.line.centreline import Centreline
+from cadgraph.model.parts import Contacts, Parts
+from cadgraph.stages.relate.attach import Attachments
+from cadgraph.stages.relate.joint import face_ends, gather_ends
+from cadgraph.stages.relate.line import find_lines, is_disc, is_plain_tube
+from cadgraph.stages.relate.piping import Group, Piping, RelateInput
+from cadgraph.stages.relate.role import Roles, likely_lines
+from cadgraph.stages.relate.unit import connected_groups
+
+__all__ = ["drop_shapeless", "trace_lines"]
+
+# A part that only its shape calls a pipe must face one of about its size: this ratio of radii, that of a reducing
+# flange; one that its label calls a device must face one of its own size.
+_RATIO, _OWN_RATIO = 0.3, 0.9
+_SAME_PLACE = 1e-4  # copies of a part lie this near to each other [m]
+
+
+def trace_lines(given: RelateInput, roles: Roles) -> Piping:
+    """Finds the lines, and the groups of parts between which they run.
+
+    Args:
+        given: what everything is found from.
+        roles: what each part does.
+
+    Returns:
+        The piping; a connector whose shape is no line's is among its lineless ones.
+    """
+    connectors = [part for part, group in enumerate(roles.groups) if group in given.vocabulary.connector_groups]
+    others = likely_lines(roles, given.opinions, given.contacts, given.vocabulary, given.parts.ground.tolist())
+    singles = [group.parts[0] for group in connected_groups(given, roles) if len(group.parts) == 1]
+    traced, copies = _distinct_lines(given, [*connectors, *others, *singles])
+    lines = {part: traced[part] for part in connectors if part in traced}
+    ratios = _least_ratios(given, roles, others, singles, traced)
+    if ratios:
+        lines = _continued(lines, ratios, traced, given.contacts, given.config.relate.bridge)
+    lineless = [part for part in connectors if part not in lines and part not in copies and given.cluster[part] >= 0]
+    groups = connected_groups(given, roles, lines)
+    return Piping(
+        given=given,
+        roles=roles,
+        lines=dict(sorted(lines.items())),
+        lineless=tuple(lineless),
+        groups=tuple(groups),
+        members=_parts_of(groups),
+        feet=_parts_of(group for group in groups if group.unit_type == "gauge"),
+    )
+
+
+def _parts_of(groups: Iterable[Group]) -> frozenset[int]:
+    return frozenset(part for group in groups for part in group.parts)
+
+
+def _distinct_lines(given: RelateInput, candidates: Sequence[int]) -> tuple[dict[int, Centreline], set[int]]:
+    """The line of each part that has one, and the parts that are mere copies of another one, without theirs."""
+    # What is too small for a part of its own (a flange's nuts) would blur the shape of the mesh that it joined.
+    heads = {given.parts.meshes[part][0]: part for part in candidates}
+    found = find_lines(given.analysis.scene, given.analysis.properties, list(heads))
+    traced = {heads[mesh]: line for mesh, line in found.items()}
+    copies = _repeated(given.parts, given.contacts, traced)
+    return {part: line for part, line in traced.items() if part not in copies}, copies
+
+
+def _repeated(parts: Parts, contacts: Contacts, lines: Mapping[int, Centreline]) -> set[int]:
+    """Parts that lie where another one of their shape lies: of copies the first carries the line."""
+    middles = parts.properties.centroid
+    return {
+        b
+        for a, b in contacts.pairs.tolist()
+        if a in lines
+        and b in lines
+        and parts.shape[a] == parts.shape[b]
+        and float(np.abs(middles[a] - middles[b]).max()) < _SAME_PLACE
+    }
+
+
+def _least_ratios(
+    given: RelateInput, roles: Roles, others: list[int], singles: list[int], traced: Mapping[int, Centreline]
+) -> dict[int, float]:
+    """Parts that are no connectors by label but may continue a line, and the least ratio of radii for each.
+
+    Args:
+        given: what everything is found from.
+        roles: what each part does.
+        others: parts of unknown function.
+        singles: parts that stand alone as a unit.
+        traced: line of each part.
+    """
+    ratios = {part: _RATIO for part in others if part in traced}
+    for part in singles:
+        # The labeler is no second opinion on what it said itself.
+        if part not in traced or (part in roles.backed and given.labels[part] is not given.opinions[part]):
+            continue
+        if is_plain_tube(traced[part]):
+            ratios[part] = _RATIO if roles.doubtful else _OWN_RATIO
+        elif roles.doubtful and is_disc(traced[part]):
+            ratios[part] = _RATIO
+    return ratios
+
+
+def _continued(
+    sure: Mapping[int, Centreline],
+    ratios: Mapping[int, float],
+    traced: Mapping[int, Centreline],
+    contacts: Contacts,
+    bridge: float,
+) -> dict[int, Centreline]:
+    """The sure lines with those that continue one of them.
+
+    Args:
+        sure: lines that are kept.
+        ratios: parts whose line may continue one, and the least ratio of radii for each.
+        traced: line of each part.
+        contacts: pairs of parts that are near.
+        bridge: greatest gap between ends that face each other [m].
+    """
+    possible = {part: line for part, line in traced.items() if part in sure or part in ratios}
+    steps, weak = _facing_parts(possible, ratios, contacts, bridge)
+    lines = dict(sure)
+    # What has a flange at either end is no less a pipe.
+    for part, others in sorted(weak.items()):
+        if len(others) >= 2 and all(other in lines for other in others):
+            lines[part] = traced[part]
+    front = list(lines)
+    while front:
+        for part in steps.get(front.pop(), ()):
+            if part in ratios and part not in lines:
+                lines[part] = traced[part]
+                front.append(part)
+    return lines
+
+
+def _facing_parts(
+    lines: Mapping[int, Centreline], ratios: Mapping[int, float], contacts: Contacts, bridge: float
+) -> tuple[dict[int, list[int]], dict[int, list[int]]]:
+    """Whose ends face each other: the parts that may continue each, and for each the others of a lesser ratio."""
+    ends = gather_ends(lines)
+    steps: dict[int, list[int]] = {}
+    weak: dict[int, list[int]] = {}
+    for facing in face_ends(ends, contacts, bridge):
+        if facing.corner:
+            continue
+        a, b = int(ends.part[facing.first]), int(ends.part[facing.second])
+        lesser, greater = sorted((float(ends.radius[facing.first]), float(ends.radius[facing.second])))
+        for part, other in ((a, b), (b, a)):
+            if part not in ratios or lesser >= ratios[part] * greater:
+                steps.setdefault(other, []).append(part)
+            elif lesser >= _RATIO * greater:
+                weak.setdefault(part, []).append(other)
+    return steps, weak
+
+
+def drop_shapeless(piping: Piping) -> Piping:
+    """Takes away lines that join nothing although ends of others are at them: these were traced wrongly."""
+    shapeless = _shapeless(piping)
+    if not shapeless:
+        return piping
+    return replace(
+        piping,
+        lines={part: line for part, line in piping.lines.items() if part not in shapeless},
+        lineless=tuple(sorted((*piping.lineless, *shapeless))),
+    )
+
+
+def _shapeless(piping: Piping) -> set[int]:
+    """Parts with a line of their own that joins nothing, at which two or more loose ends of other lines lie."""
+    found = piping.joints
+    joined = _joined_ends(found)
+    idle = {part for part, rows in found.ends.of_part.items() if not joined.intersection(rows)}
+    loose: Counter[int] = Counter()
+    for a, b in piping.given.contacts.pairs.tolist():
+        for part, other in ((a, b), (b, a)):
+            if part in idle and other in piping.lines and other not in idle:
+                rows = [row for row in found.ends.of_part[other] if row not in joined]
+                loose[part] += sum(_lies_at(piping, row, part) for row in rows)
+    return {part for part, count in loose.items() if count >= 2}
+
+
+def _joined_ends(found: Attachments) -> set[int]:
+    """Rows of the ends that join something; one in a sleeve doesn't."""
+    return (
+        {row for facing in found.facings for row in (facing.first, facing.second)}
+        | {row for row, _ in found.doubled}
+        | {row for row, _, tap in found.taps if not tap.sleeve}
+        | {mount.row for mount in found.mounts}
+    )
+
+
+def _lies_at(piping: Piping, row: int, part: int) -> bool:
+    """Whether an end lies in a part's box, or its own radius from it."""
+    radius, point = float(piping.joints.ends.radius[row]), piping.joints.ends.point[row]
+    low, high = piping.given.parts.properties.aabb[part]
+    return bool(np.all(point >= low - radius) and np.all(point <= high + radius))
