@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal, Self
 
@@ -164,28 +164,40 @@ class Truth(_Record):
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
-        paths = [row.mesh for row in self.meshes]
-        _refuse_repeats(paths, "meshes", "mesh")
-        known = set(paths)
-        units, clusters = self.units or (), self.clusters or ()
-        nodes = [unit.id for unit in units] + [point.id for point in self.points]
-        _refuse_repeats(nodes, "units and points", "id")
-        _refuse_strangers((mesh for unit in units for mesh in unit.meshes), known, "units", "mesh")
-        _refuse_repeats((mesh for unit in units for mesh in unit.meshes), "units", "mesh")
-        _refuse_strangers((mesh for cluster in clusters for mesh in cluster.meshes), known, "clusters", "mesh")
-        _refuse_repeats((mesh for cluster in clusters for mesh in cluster.meshes), "clusters", "mesh")
-        _refuse_repeats((cluster.id for cluster in clusters if cluster.id), "clusters", "id")
+        known = {row.mesh for row in self.meshes}
+        for section, what, names in self._listed_once():
+            _refuse_repeats(names, section, what)
+        for section, names in self._named_meshes():
+            _refuse_strangers(names, known, section, "mesh")
+        nodes = set(self._node_ids())
         ends = (end for c in self.connections or () for end in (c.source, c.target))
-        _refuse_strangers(ends, set(nodes), "connections", "unit or point")
-        _refuse_strangers((mesh for pair in self.contacts or () for mesh in pair), known, "contacts", "mesh")
-        _refuse_strangers((mesh for pair in self.duplicates for mesh in pair), known, "duplicates", "mesh")
-        _refuse_strangers((*self.hidden, *self.flaws), known, "hidden and flaws", "mesh")
-        _refuse_strangers(self.gaps, known, "gaps", "mesh")
-        _refuse_strangers((mesh for unit in units for mesh in unit.fasteners), known, "units", "mesh")
-        _refuse_strangers((mesh for part in self.parts or () for mesh in part), known, "parts", "mesh")
-        _refuse_repeats((mesh for part in self.parts or () for mesh in part), "parts", "mesh")
-        _refuse_repeats((line.id for line in self.lines or ()), "lines", "id")
+        _refuse_strangers(ends, nodes, "connections", "unit or point")
         return self
+
+    def _listed_once(self) -> Iterator[tuple[str, str, Iterable[str]]]:
+        """What may be listed once only: section, what it is, and the names in the order of the file."""
+        units, clusters = self.units or (), self.clusters or ()
+        yield "meshes", "mesh", (row.mesh for row in self.meshes)
+        yield "units and points", "id", self._node_ids()
+        yield "units", "mesh", _flat(unit.meshes for unit in units)
+        yield "clusters", "mesh", _flat(cluster.meshes for cluster in clusters)
+        yield "clusters", "id", (cluster.id for cluster in clusters if cluster.id)
+        yield "parts", "mesh", _flat(self.parts or ())
+        yield "lines", "id", (line.id for line in self.lines or ())
+
+    def _node_ids(self) -> tuple[str, ...]:
+        return (*(unit.id for unit in self.units or ()), *(point.id for point in self.points))
+
+    def _named_meshes(self) -> Iterator[tuple[str, Iterable[str]]]:
+        """The sections that name meshes, and which."""
+        yield "units", _flat(unit.meshes for unit in self.units or ())
+        yield "clusters", _flat(cluster.meshes for cluster in self.clusters or ())
+        yield "contacts", _flat(self.contacts or ())
+        yield "duplicates", _flat(self.duplicates)
+        yield "hidden and flaws", (*self.hidden, *self.flaws)
+        yield "gaps", self.gaps
+        yield "units", _flat(unit.fasteners for unit in self.units or ())
+        yield "parts", _flat(self.parts or ())
 
     def to_json(self) -> dict[str, Any]:
         """The content of the file as plain values; what a mesh or unit may lack is left out where it does."""
@@ -280,39 +292,68 @@ def check_truth(truth: Truth, vocabulary: Vocabulary, paths: Iterable[str] | Non
     Returns:
         One line for each kind of finding, with how often it occurs and examples; empty if there are none.
     """
+    cases = [*_odd_meshes(truth, vocabulary), *_odd_units(truth, vocabulary), *_unconnected(truth)]
+    if paths is not None:
+        cases += _differences(truth, set(paths))
     found: dict[str, list[str]] = {}
+    for what, name in cases:
+        found.setdefault(what, []).append(name)
+    return tuple(_counted(what, names) for what, names in found.items())
+
+
+_Cases = Iterator[tuple[str, str]]
+"""A kind of finding and the name that it is about."""
+
+
+def _odd_meshes(truth: Truth, vocabulary: Vocabulary) -> _Cases:
+    """Meshes whose group or name the vocabulary doesn't have."""
     for row in truth.meshes:
         if row.group is None:
-            found.setdefault("meshes without a group (not evaluated)", []).append(row.mesh)
+            yield "meshes without a group (not evaluated)", row.mesh
         elif not vocabulary.holds(row.group):
-            found.setdefault("groups that are not in the vocabulary", []).append(row.group)
+            yield "groups that are not in the vocabulary", row.group
         elif not vocabulary.holds(row.group, row.name):
-            found.setdefault("names that are not in their group", []).append(f"{row.group} / {row.name}")
-    types = set(vocabulary.unit_of_group.values())
-    group_of = {row.mesh: row.group for row in truth.meshes}
+            yield "names that are not in their group", f"{row.group} / {row.name}"
+
+
+def _odd_units(truth: Truth, vocabulary: Vocabulary) -> _Cases:
+    """Units whose type the vocabulary doesn't have, or none of their meshes."""
     unit_of_group = vocabulary.unit_of_group
+    types = set(unit_of_group.values())
+    type_of = {row.mesh: unit_of_group.get(row.group or "") for row in truth.meshes}
     for unit in truth.units or ():
         if unit.type not in types:
-            found.setdefault("unit types that are not in the vocabulary", []).append(unit.type)
-        elif all(unit_of_group.get(group_of[mesh] or "") != unit.type for mesh in unit.meshes):
-            found.setdefault("units of which no mesh has a group of their type", []).append(unit.id)
+            yield "unit types that are not in the vocabulary", unit.type
+        elif all(type_of[mesh] != unit.type for mesh in unit.meshes):
+            yield "units of which no mesh has a group of their type", unit.id
+
+
+def _unconnected(truth: Truth) -> _Cases:
+    """Meshes in no cluster, and points at no connection."""
     if truth.clusters is not None:
-        clustered = {mesh for cluster in truth.clusters for mesh in cluster.meshes}
-        loose = [row.mesh for row in truth.meshes if row.mesh not in clustered]
-        found["meshes in no cluster (right for the ground only)"] = loose
+        clustered = set(_flat(cluster.meshes for cluster in truth.clusters))
+        for row in truth.meshes:
+            if row.mesh not in clustered:
+                yield "meshes in no cluster (right for the ground only)", row.mesh
     joined = {end for c in truth.connections or () for end in (c.source, c.target)}
-    found["points that no connection names"] = [point.id for point in truth.points if point.id not in joined]
-    if paths is not None:
-        there = set(paths)
-        listed = [row.mesh for row in truth.meshes]
-        found["meshes that the scene doesn't have"] = [mesh for mesh in listed if mesh not in there]
-        found["meshes of the scene that are not listed"] = sorted(there - set(listed))
-    return tuple(_told(what, cases) for what, cases in found.items() if cases)
+    for point in truth.points:
+        if point.id not in joined:
+            yield "points that no connection names", point.id
 
 
-def _told(what: str, cases: Iterable[str]) -> str:
-    several = list(cases)
-    return f"{len(several)} {what}: {', '.join(list(dict.fromkeys(several))[:_SHOWN])}"
+def _differences(truth: Truth, there: set[str]) -> _Cases:
+    """Meshes that either the truth or the scene lacks."""
+    listed = [row.mesh for row in truth.meshes]
+    yield from (("meshes that the scene doesn't have", mesh) for mesh in listed if mesh not in there)
+    yield from (("meshes of the scene that are not listed", mesh) for mesh in sorted(there - set(listed)))
+
+
+def _flat(groups: Iterable[Iterable[str]]) -> Iterator[str]:
+    return (name for group in groups for name in group)
+
+
+def _counted(what: str, names: Sequence[str]) -> str:
+    return f"{len(names)} {what}: {', '.join(list(dict.fromkeys(names))[:_SHOWN])}"
 
 
 def _refuse_repeats(names: Iterable[str], section: str, what: str) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import heapq
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
 from cadgraph.model.graph import SceneGraph
@@ -116,42 +117,76 @@ def find_isolation(
         ValueError: nothing is called so.
     """
     network = graph if isinstance(graph, Network) else Network(graph)
-    start = network.find(target)
+    section = _close_off(network, network.find(target), check_valves, fewest)
+    line_of = {arc.index: line.tag for line in find_lines(network) for arc in line.arcs}
+    inside = [place for place in section.inside() if network.unit_type(place) not in (None, "tank")]
+    return Isolation(
+        target=section.start,
+        name=network.name(section.start),
+        valves=tuple(
+            _closing(network, place, section.reached[place], line_of)
+            for place in section.nearest
+            if place in section.needed
+        ),
+        openings=tuple(
+            opening
+            for place in section.inside()
+            if (opening := _opening(network, place, section.reached[place])) is not None
+        ),
+        shut_off=tuple(inside),
+        shut_off_names=tuple(network.name(place) for place in inside),
+        lines=_lines(network, section, line_of),
+        remarks=_remarks(network, section, check_valves),
+    )
+
+
+@dataclass(frozen=True)
+class _Section:
+    """What is cut off.
+
+    Args:
+        start: the unit to be isolated.
+        reached: all that something can come from to it, the walls included.
+        nearest: the same, the nearest first.
+        walls: where the section ends.
+        region: the nodes within, the start included.
+        needed: the walls that have to be closed.
+    """
+
+    start: str
+    reached: Mapping[str, _Reached]
+    nearest: tuple[str, ...]
+    walls: frozenset[str]
+    region: frozenset[str]
+    needed: tuple[str, ...]
+
+    def inside(self) -> list[str]:
+        """The nodes within but for the start, the nearest first."""
+        return [place for place in self.nearest if place in self.region]
+
+
+def _close_off(network: Network, start: str, check_valves: bool, fewest: bool) -> _Section:
+    """Finds the walls around a unit: the nearest barriers, or the fewest."""
     barriers = {place for place in network.places if place != start and _isolates(network, place)}
     if fewest:
         barriers = _smallest(network, start, barriers, check_valves)
     reached, walls = _flood(network, start, barriers, check_valves)
     region = {start, *(place for place in reached if place not in walls)}
     needed = [place for place in walls if not _is_relief(network, place) and _is_fed(network, place, region, walls)]
-    line_of = {arc.index: line.tag for line in find_lines(network) for arc in line.arcs}
     nearest = sorted(reached, key=lambda place: (reached[place].distance, natural(network.name(place))))
-    valves = [_closing(network, place, reached[place], line_of) for place in nearest if place in needed]
-    openings = [
-        opening
-        for place in nearest
-        if place in region
-        for opening in [_opening(network, place, reached[place])]
-        if opening is not None
-    ]
-    inside = [place for place in nearest if place in region and network.unit_type(place) not in (None, "tank")]
-    lines = {
-        line_of[arc.index] for p in region for arc in network.arcs(p) if arc.index in line_of and _in(network, p, start)
+    return _Section(start, reached, tuple(nearest), frozenset(walls), frozenset(region), tuple(needed))
+
+
+def _lines(network: Network, section: _Section, line_of: Mapping[int, str]) -> tuple[str, ...]:
+    """The tags of the lines of a section; the pipes at a tank beside it don't belong to it."""
+    tags = {
+        line_of[arc.index]
+        for place in section.region
+        if place == section.start or network.unit_type(place) != "tank"
+        for arc in network.arcs(place)
+        if arc.index in line_of
     }
-    return Isolation(
-        target=start,
-        name=network.name(start),
-        valves=tuple(valves),
-        openings=tuple(openings),
-        shut_off=tuple(inside),
-        shut_off_names=tuple(network.name(place) for place in inside),
-        lines=tuple(sorted(lines, key=natural)),
-        remarks=_remarks(network, start, region, walls, needed, reached, check_valves),
-    )
-
-
-def _in(network: Network, place: str, start: str) -> bool:
-    """Whether the pipes at a node of the section belong to it; those at a tank beside it don't."""
-    return place == start or network.unit_type(place) != "tank"
+    return tuple(sorted(tags, key=natural))
 
 
 def _kind(network: Network, place: str) -> str:
@@ -205,7 +240,7 @@ def _flood(
     return reached, walls
 
 
-def _is_fed(network: Network, wall: str, region: set[str], walls: set[str]) -> bool:
+def _is_fed(network: Network, wall: str, region: Collection[str], walls: Collection[str]) -> bool:
     """Whether anything behind a valve could flow to it: an end that isn't blind, a tank, a pump, other equipment."""
     seen, stack = {wall}, [arc.end for arc in network.arcs(wall)]
     while stack:
@@ -256,7 +291,7 @@ def _is_source(network: Network, place: str) -> bool:
     return network.unit_type(place) == "tank" or (isinstance(node, Terminal) and node.kind != "blind")
 
 
-def _closing(network: Network, place: str, reached: _Reached, line_of: dict[int, str]) -> Closing:
+def _closing(network: Network, place: str, reached: _Reached, line_of: Mapping[int, str]) -> Closing:
     return Closing(
         place=place,
         name=network.name(place),
@@ -281,31 +316,33 @@ def _opening(network: Network, place: str, reached: _Reached) -> Opening | None:
     return Opening(place, network.name(place), network.what(place), reached.port, reached.distance, why)
 
 
-def _remarks(
-    network: Network,
-    start: str,
-    region: set[str],
-    walls: set[str],
-    needed: list[str],
-    reached: dict[str, _Reached],
-    check_valves: bool,
-) -> tuple[str, ...]:
-    told: list[str] = []
-    for place in sorted((region | walls) - {start}, key=lambda place: natural(network.name(place))):
-        name, kind = network.name(place), _kind(network, place)
-        if place in walls and _is_relief(network, place):
-            told.append(f"{name} is a relief valve: taken for closed, not to be blocked")
-        elif place in walls and place not in needed and not network.is_tap(reached[place].arc):
-            told.append(f"{name} need not be closed: nothing can flow from behind it")
-        elif place in region and _CHECK in kind and not check_valves:
-            told.append(f"{name} is a check valve: passed over (--check-valves counts it)")
-        elif place in region and _CHECK in kind and reached[place].arc.flow == "unknown":
-            told.append(f"{name} is a check valve, but which way it lets through is not known")
-        elif place in region and any(word in kind for word in _NOT_ISOLATING):
-            told.append(f"{name} is a control valve: not counted as isolating")
-    guessed = sorted((network.name(place) for place in needed if network.what(place) == "valve"), key=natural)
+def _remarks(network: Network, section: _Section, check_valves: bool) -> tuple[str, ...]:
+    places = sorted((section.region | section.walls) - {section.start}, key=lambda place: natural(network.name(place)))
+    told = [
+        f"{network.name(place)} {remark}"
+        for place in places
+        if (remark := _remark(network, section, place, check_valves)) is not None
+    ]
+    guessed = sorted((network.name(p) for p in section.needed if network.what(p) == "valve"), key=natural)
     if guessed:
         told.append(f"{', '.join(guessed)}: kind not known, taken for shut-off valves")
-    if not network.arcs(start):
-        told.append(f"{network.name(start)} is connected to nothing")
+    if not network.arcs(section.start):
+        told.append(f"{network.name(section.start)} is connected to nothing")
     return tuple(told)
+
+
+def _remark(network: Network, section: _Section, place: str, check_valves: bool) -> str | None:
+    """What should be known about a node of the section or at its end, if anything."""
+    kind, arc = _kind(network, place), section.reached[place].arc
+    if place in section.walls:
+        if _is_relief(network, place):
+            return "is a relief valve: taken for closed, not to be blocked"
+        needless = place not in section.needed and not network.is_tap(arc)
+        return "need not be closed: nothing can flow from behind it" if needless else None
+    if _CHECK in kind and not check_valves:
+        return "is a check valve: passed over (--check-valves counts it)"
+    if _CHECK in kind and arc.flow == "unknown":
+        return "is a check valve, but which way it lets through is not known"
+    if any(word in kind for word in _NOT_ISOLATING):
+        return "is a control valve: not counted as isolating"
+    return None

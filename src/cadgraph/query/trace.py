@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, Literal, cast
@@ -122,34 +122,47 @@ def trace(
     """
     network = graph if isinstance(graph, Network) else Network(graph)
     first = network.find(start)
-    wanted: Flow = "along" if direction == "downstream" else "against"
-
-    def follows(arc: Arc) -> bool:
-        return network.is_tap(arc) or arc.flow == wanted or (arc.flow == "unknown" and through_unknown)
-
+    follows = _follower(network, direction, through_unknown)
     walkable = _walkable(network, follows)
     distances, ways = _shortest(walkable, first)
     arcs_to = {p: [walkable.edges[a, b]["arc"] for a, b in pairwise(way)] for p, way in ways.items()}
     walked = {arcs[-1].index for arcs in arcs_to.values() if arcs}
     line_of = _line_of(network)
+    order = sorted(distances, key=lambda p: (distances[p], len(ways[p]), natural(network.name(p))))
     steps: list[Step] = []
     halts: list[Halt] = []
     returns: list[Return] = []
-    for place in sorted(distances, key=lambda p: (distances[p], len(ways[p]), natural(network.name(p)))):
-        arcs = arcs_to[place]
-        for arc in network.arcs(place):
-            if not follows(arc):
-                if arc.flow == "unknown" and not network.is_dead(arc) and arc.index not in {a.index for a in arcs}:
-                    halts.append(
-                        Halt(network.name(place), network.name(arc.end), line_of.get(arc.index), distances[place])
-                    )
-            elif arc.index not in walked:
-                walked.add(arc.index)
-                returns.append(Return(network.name(place), network.name(arc.end), arc.end in ways[place]))
-        onward = [arc for arc in network.main_arcs(place) if follows(arc) and (not arcs or arc.index != arcs[-1].index)]
-        halted = bool(halts) and halts[-1].after == network.name(place)
-        steps.append(_step(network, place, arcs, distances[place], line_of, not onward and not halted))
+    for place in order:
+        arcs, name = arcs_to[place], network.name(place)
+        met = [
+            Halt(name, network.name(arc.end), line_of.get(arc.index), distances[place])
+            for arc in network.arcs(place)
+            if not follows(arc) and _is_doubtful(network, arc, arcs)
+        ]
+        # By its number, for a connection from a node to itself leaves it twice.
+        back = {arc.index: arc for arc in network.arcs(place) if follows(arc) and arc.index not in walked}
+        walked.update(back)
+        returns += [Return(name, network.name(arc.end), arc.end in ways[place]) for arc in back.values()]
+        halts += met
+        ends = not met and not _goes_on(network, place, arcs, follows)
+        steps.append(_step(network, place, arcs, distances[place], line_of, ends))
     return Trace(first, direction, tuple(steps), tuple(halts), tuple(returns))
+
+
+def _follower(network: Network, direction: Direction, through_unknown: bool) -> Callable[[Arc], bool]:
+    """Whether a connection is walked: with the flow, or against it; those of instruments either way."""
+    wanted = {"along" if direction == "downstream" else "against", *(("unknown",) if through_unknown else ())}
+    return lambda arc: network.is_tap(arc) or arc.flow in wanted
+
+
+def _is_doubtful(network: Network, arc: Arc, arcs: Sequence[Arc]) -> bool:
+    """Whether a connection off the way could carry flow, but nobody knows which way."""
+    return arc.flow == "unknown" and not network.is_dead(arc) and arc.index not in {one.index for one in arcs}
+
+
+def _goes_on(network: Network, place: str, arcs: Sequence[Arc], follows: Callable[[Arc], bool]) -> bool:
+    """Whether the way goes on from a node, not back where it came from."""
+    return any(follows(arc) and (not arcs or arc.index != arcs[-1].index) for arc in network.main_arcs(place))
 
 
 def find_way(graph: SceneGraph | Network, start: str, end: str, direction: Direction | None = None) -> Trace:

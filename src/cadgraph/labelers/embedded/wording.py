@@ -14,32 +14,45 @@ _FEW = 3  # kinds of neighbours that are named
 
 def describe_form(f: Facts) -> str:
     """The shape of a part: ``torus with 5 spokes, 310 mm``."""
-    long, middle, short = (float(x) for x in f.section)
+    return _turned_form(f) or _angular_form(f)
+
+
+def _turned_form(f: Facts) -> str | None:
+    """What looks alike all around an axis, or follows one: prisms, tubes, wheels, rings."""
     across = 2 * f.radius
-    bored = [p for p in f.ports if 0 < p.inner < p.outer]
+    bored = any(0 < port.inner < port.outer for port in f.ports)
     if f.turned > 0.7 and f.sides == 6 and (not f.tube or f.length < 2 * across):
         return f"six-sided {'ring' if bored else 'prism'}, {_mm(across)} across, {_mm(f.length)} long"
     if f.tube:
-        width = 2 * f.ports[0].outer
-        hollow = "hollow" if bored else "solid"
-        return f"{hollow} {'bent ' if f.bent else ''}tube, {_mm(width)} across, {_mm(f.tube)} long"
+        hollow, bent = "hollow" if bored else "solid", "bent " if f.bent else ""
+        return f"{hollow} {bent}tube, {_mm(2 * f.ports[0].outer)} across, {_mm(f.tube)} long"
     if f.sides >= 8 and 3 <= f.spokes <= 8 and f.rim > 0.4:
         return f"ring with {f.spokes} spokes, {_mm(across)} across"
     if f.round:
         kind = "ring" if bored else "round body"
-        flat = "flat " if f.length < 0.25 * across else "long " if f.length > 3 * across else ""
-        return f"{flat}{kind}, {_mm(across)} across, {_mm(f.length)} long"
-    ways = len([p for p in f.ports if p.outer > 0.2 * f.radius])
-    size = f"{_mm(long)} x {_mm(middle)} x {_mm(short)}"
-    if ways >= 2:
-        return f"body with {ways} round ends, {size}"
-    if short < 0.1 * middle:
-        return f"{'strip' if long > 4 * middle else 'plate'}, {size}"
-    if long > 4 * middle:
-        return f"bar, {size}"
-    if f.fill > 0.95:
-        return f"block, {size}"
-    return f"body, {size}"
+        return f"{_proportion(f.length, across)}{kind}, {_mm(across)} across, {_mm(f.length)} long"
+    return None
+
+
+def _proportion(length: float, across: float) -> str:
+    if length < 0.25 * across:
+        return "flat "
+    return "long " if length > 3 * across else ""
+
+
+def _angular_form(f: Facts) -> str:
+    """Everything else, by the proportions of its box."""
+    long, middle, short = (float(x) for x in f.section)
+    ways = sum(port.outer > 0.2 * f.radius for port in f.ports)
+    rules = (
+        (ways >= 2, f"body with {ways} round ends"),
+        (short < 0.1 * middle, "strip" if long > 4 * middle else "plate"),
+        (long > 4 * middle, "bar"),
+        (f.fill > 0.95, "block"),
+        (True, "body"),
+    )
+    kind = next(kind for holds, kind in rules if holds)
+    return f"{kind}, {_mm(long)} x {_mm(middle)} x {_mm(short)}"
 
 
 def describe_company(names: Sequence[str | None], alike: int) -> str:
