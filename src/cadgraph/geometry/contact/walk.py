@@ -11,8 +11,12 @@ test of triangle against box (Akenine-Moeller 2001, with the limit as margin).
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
+from cadgraph.geometry.contact.leaf import compare_leaves, keep_closer
+from cadgraph.geometry.contact.separation import is_separated, lay_axes
 from cadgraph.geometry.contact.side import (
     COUNT,
     LEAVES,
@@ -33,84 +37,20 @@ from cadgraph.geometry.contact.side import (
     turn_side,
 )
 from cadgraph.geometry.kernels.borrow import borrow
-from cadgraph.geometry.kernels.parallel import compiled
+from cadgraph.geometry.kernels.parallel import ZERO, compiled
 from cadgraph.geometry.kernels.tree import LEAF
-from cadgraph.geometry.kernels.triangle import ROW, distance2, lay_normal
+from cadgraph.geometry.kernels.triangle import ROW, distance2
 from cadgraph.model.scene import Faces, Floats, Ints
 
 __all__ = ["DEPTH", "closest"]
 
 _OVERSIZED = 8.0  # a leaf this much wider than the node it meets is long is taken apart
 
-_COARSE = 0.8
-# So is any leaf this wide compared to the length of its whole tree, if the tree has at least _COARSE_LEAVES of them:
-# the faces are then slivers at a slant that no box tells apart.
-
-_COARSE_LEAVES = 12
-
-_TIE = 1e-10
-# Once a pair of points is found, others must be closer by this [m] to be of interest: faces that run parallel would
-# otherwise be searched for the last bit.
+# So is any leaf this wide compared to the length of its whole tree, if the tree has at least this many of them: the
+# faces are then slivers at a slant that no box tells apart.
+_COARSE, _COARSE_LEAVES = 0.8, 12
 
 DEPTH = 160  # of the stacks: two trees of at most 2**40 leaves, one waiting node a level
-
-
-@compiled
-def _apart(p: Floats, n_p: int, q: Floats, n_q: int, best: float) -> bool:
-    """Whether the normal of the first triangle of ``p`` shows two leaves to be ``best`` (squared) or more apart."""
-    n2 = lay_normal(p, 0)
-    x, y, z = p[0, 9], p[0, 10], p[0, 11]
-    p_low = q_low = np.inf
-    p_high = q_high = -np.inf
-    for i in range(n_p):
-        for k in range(0, 9, 3):
-            at = x * p[i, k] + y * p[i, k + 1] + z * p[i, k + 2]
-            p_low, p_high = min(p_low, at), max(p_high, at)
-    for i in range(n_q):
-        for k in range(0, 9, 3):
-            at = x * q[i, k] + y * q[i, k + 1] + z * q[i, k + 2]
-            q_low, q_high = min(q_low, at), max(q_high, at)
-    gap = max(q_low - p_high, p_low - q_high)
-    return gap > 0.0 and gap * gap >= best * n2 and n2 > 0.0
-
-
-@compiled
-def _keep(d2: float, stop: float, found: Floats, spare: Floats) -> float:
-    """Notes a closer pair of points; returns the bound for the next, or 0 where this one is close enough."""
-    for k in range(6):
-        found[k] = spare[k]
-    found[6] = d2
-    if d2 <= stop:
-        return 0.0
-    size = np.sqrt(d2)
-    for k in range(3):
-        found[7 + k] = (spare[3 + k] - spare[k]) / size
-    less = size - _TIE
-    return less * less if less > 0.0 else 0.0
-
-
-@compiled
-def _behind(p: Floats, n_p: int, q: Floats, n_q: int, bound: float, found: Floats) -> bool:
-    """Whether two leaves lie ``bound`` (squared) or more apart along the line of the closest points so far.
-
-    Parts that bulge towards each other are told apart by this at once. Leaves the furthest point of each row of ``p``,
-    and the nearest of each row of ``q``, along that line in the free column.
-    """
-    x, y, z = found[7], found[8], found[9]
-    high, low = -np.inf, np.inf
-    for i in range(n_p):
-        a = x * p[i, 0] + y * p[i, 1] + z * p[i, 2]
-        b = x * p[i, 3] + y * p[i, 4] + z * p[i, 5]
-        c = x * p[i, 6] + y * p[i, 7] + z * p[i, 8]
-        p[i, 19] = max(a, b, c)
-        high = max(high, p[i, 19])
-    for i in range(n_q):
-        a = x * q[i, 0] + y * q[i, 1] + z * q[i, 2]
-        b = x * q[i, 3] + y * q[i, 4] + z * q[i, 5]
-        c = x * q[i, 6] + y * q[i, 7] + z * q[i, 8]
-        q[i, 19] = min(a, b, c)
-        low = min(low, q[i, 19])
-    return low > high and (low - high) * (low - high) >= bound
 
 
 @compiled
@@ -133,120 +73,6 @@ def _node_behind(nodes: Nodes, a: int, b: int, frame: Floats, line: Floats, boun
 
 
 @compiled
-def _leaves(p: Floats, n_p: int, q: Floats, n_q: int, bound: float, stop: float, found: Floats, spare: Floats) -> float:
-    """Looks for triangles of two leaves below a squared distance; returns the new bound."""
-    known = found[6] < np.inf
-    if known and _behind(p, n_p, q, n_q, bound, found):
-        return bound
-    if _apart(p, n_p, q, n_q, bound) or _apart(q, n_q, p, n_p, bound):
-        return bound
-    x0 = y0 = z0 = np.inf
-    x1 = y1 = z1 = -np.inf
-    for j in range(n_q):
-        x0, y0, z0 = min(x0, q[j, 13]), min(y0, q[j, 14]), min(z0, q[j, 15])
-        x1, y1, z1 = max(x1, q[j, 16]), max(y1, q[j, 17]), max(z1, q[j, 18])
-    for i in range(n_p):
-        x, y, z = (
-            max(p[i, 13] - x1, x0 - p[i, 16]),
-            max(p[i, 14] - y1, y0 - p[i, 17]),
-            max(p[i, 15] - z1, z0 - p[i, 18]),
-        )
-        x, y, z = max(x, 0.0), max(y, 0.0), max(z, 0.0)
-        if x * x + y * y + z * z >= bound:
-            continue
-        for j in range(n_q):
-            if rows_gap2(p, i, q, j) >= bound:
-                continue
-            if known:
-                gap = q[j, 19] - p[i, 19]
-                if gap > 0.0 and gap * gap >= bound:
-                    continue
-            d2 = distance2(p, i, q, j, bound, spare)
-            if d2 < bound:
-                bound = _keep(d2, stop, found, spare)
-                if bound <= 0.0:
-                    return bound
-    return bound
-
-
-@compiled
-def _lay_axes(p: Floats, i: int, side: Floats, whole: Ints, all_axes: Floats) -> None:
-    """For a triangle in the box axes of a mesh: the axes that can separate it from a box, with its extent on each.
-
-    Args:
-        p: rows.
-        i: row.
-        side: the mesh.
-        whole: the mesh.
-        all_axes: ``(n, 11, 6)`` takes in its row ``i`` direction (3), least and greatest position (2) and length (1)
-            of the normal and of the nine products of a side and a box axis; the last row is the triangle's own box.
-    """
-    axes = all_axes[i]
-    ax, ay, az = _turned(p, i, 0, side, whole)
-    bx, by, bz = _turned(p, i, 3, side, whole)
-    cx, cy, cz = _turned(p, i, 6, side, whole)
-    lay_normal(p, i)
-    x, y, z = p[i, 9], p[i, 10], p[i, 11]
-    for k in range(3):
-        axes[0, k] = side[5 + k, 0] * x + side[5 + k, 1] * y + side[5 + k, 2] * z
-    n = 1
-    for edge in range(3):
-        if edge == 0:
-            x, y, z = bx - ax, by - ay, bz - az
-        elif edge == 1:
-            x, y, z = cx - bx, cy - by, cz - bz
-        else:
-            x, y, z = ax - cx, ay - cy, az - cz
-        axes[n, 0], axes[n, 1], axes[n, 2] = 0.0, z, -y
-        axes[n + 1, 0], axes[n + 1, 1], axes[n + 1, 2] = -z, 0.0, x
-        axes[n + 2, 0], axes[n + 2, 1], axes[n + 2, 2] = y, -x, 0.0
-        n += 3
-    for n in range(10):
-        x, y, z = axes[n, 0], axes[n, 1], axes[n, 2]
-        a = x * ax + y * ay + z * az
-        b = x * bx + y * by + z * bz
-        c = x * cx + y * cy + z * cz
-        axes[n, 3], axes[n, 4] = min(a, b, c), max(a, b, c)
-        axes[n, 5] = np.sqrt(x * x + y * y + z * z)
-    axes[10, 0], axes[10, 1], axes[10, 2] = min(ax, bx, cx), min(ay, by, cy), min(az, bz, cz)
-    axes[10, 3], axes[10, 4], axes[10, 5] = max(ax, bx, cx), max(ay, by, cy), max(az, bz, cz)
-
-
-@compiled
-def _turned(p: Floats, i: int, corner: int, side: Floats, whole: Ints) -> tuple[float, float, float]:
-    """A corner of a row in the box axes of a mesh."""
-    x, y, z = p[i, corner] - side[4, 0], p[i, corner + 1] - side[4, 1], p[i, corner + 2] - side[4, 2]
-    if whole[UPRIGHT]:
-        return x, y, z
-    return (
-        side[5, 0] * x + side[5, 1] * y + side[5, 2] * z,
-        side[6, 0] * x + side[6, 1] * y + side[6, 2] * z,
-        side[7, 0] * x + side[7, 1] * y + side[7, 2] * z,
-    )
-
-
-@compiled
-def _separated(axes: Floats, nodes: Nodes, node: int, limit: float) -> bool:
-    """Whether an axis shows that a triangle is further than ``limit`` from a box."""
-    cx, cy, cz = np.float64(nodes[node, 0]), np.float64(nodes[node, 1]), np.float64(nodes[node, 2])
-    hx, hy, hz = np.float64(nodes[node, 3]), np.float64(nodes[node, 4]), np.float64(nodes[node, 5])
-    x = max(axes[10, 0] - cx - hx, cx - hx - axes[10, 3], 0.0)
-    y = max(axes[10, 1] - cy - hy, cy - hy - axes[10, 4], 0.0)
-    z = max(axes[10, 2] - cz - hz, cz - hz - axes[10, 5], 0.0)
-    if x * x + y * y + z * z > limit * limit:
-        return True
-    for n in range(10):
-        x, y, z = axes[n, 0], axes[n, 1], axes[n, 2]
-        at = x * cx + y * cy + z * cz
-        reach = abs(x) * hx + abs(y) * hy + abs(z) * hz + limit * axes[n, 5]
-        # rounding of the projections, far above what it can be
-        reach += 1e-12 * (abs(at) + abs(axes[n, 3]) + abs(axes[n, 4]))
-        if axes[n, 3] - at > reach or at - axes[n, 4] > reach:
-            return True
-    return False
-
-
-@compiled
 def _in_reach(p: Floats, n_p: int, nodes: Nodes, node: int, frame: Floats, bound: float) -> bool:
     """Whether the box of any triangle comes within a squared distance of an upright node of the other mesh."""
     cx, cy, cz = frame[6, 0] + nodes[node, 0], frame[6, 1] + nodes[node, 1], frame[6, 2] + nodes[node, 2]
@@ -260,37 +86,76 @@ def _in_reach(p: Floats, n_p: int, nodes: Nodes, node: int, frame: Floats, bound
     return False
 
 
+class _Mesh(NamedTuple):
+    """One of the two meshes of a walk, with the leaf of it that is loaded.
+
+    Args:
+        nodes: boxes of all trees.
+        vertices: vertices of all trees [m].
+        faces: triangles of all trees.
+        side: ``SIDE`` the mesh, as ``lay_side`` writes it.
+        whole: ``(WHOLE,)`` likewise.
+        rows: ``(LEAF, ROW)`` triangles of the loaded leaf.
+        held: ``(3,)`` the loaded leaf, its number of triangles, and the leaf that ``axes`` are of; -1 for none.
+        axes: ``(LEAF, 11, 6)`` of each triangle of a leaf, as ``lay_axes`` writes them.
+    """
+
+    nodes: Nodes
+    vertices: Floats
+    faces: Faces
+    side: Floats
+    whole: Ints
+    rows: Floats
+    held: Ints
+    axes: Floats
+
+
+class _Search(NamedTuple):
+    """What a walk writes to.
+
+    Args:
+        found: ``(10,)`` the closest points so far (6) [m], their squared distance, and the direction from the first to
+            the second.
+        spare: ``(6,)`` another pair of points [m].
+        frame: ``(7, 3)`` pose of the second mesh's boxes in the axes of the first's.
+        line: ``(4, 3)`` that direction in the box axes of both meshes.
+        single: ``(LEAF, ROW)`` triangles of a leaf that one triangle meets.
+        stack: ``(2 * DEPTH,)`` pairs of nodes that wait.
+        bounds: ``(DEPTH,)`` lower bounds of their squared distances.
+        own: ``(DEPTH,)`` nodes that wait for one triangle.
+    """
+
+    found: Floats
+    spare: Floats
+    frame: Floats
+    line: Floats
+    single: Floats
+    stack: Ints
+    bounds: Floats
+    own: Ints
+
+
+# What is done with a pair of nodes: one is opened, two leaves are compared, or an oversized leaf is taken apart.
+_OPEN_FIRST, _OPEN_SECOND, _COMPARE, _FIRST_APART, _SECOND_APART = range(5)
+
+
 @compiled
 def _descend(
-    nodes: Nodes,
-    vertices: Floats,
-    faces: Faces,
-    side: Floats,
-    whole: Ints,
-    root: int,
-    p: Floats,
-    i: int,
-    swapped: bool,
-    bound: float,
-    stop: float,
-    found: Floats,
-    spare: Floats,
-    all_axes: Floats,
-    rows: Floats,
-    stack: Ints,
+    tree: _Mesh, root: int, p: Floats, i: int, axes: Floats, swapped: bool, bound: float, stop: float, work: _Search
 ) -> float:
     """Looks for a triangle of a subtree below a squared distance from one triangle; returns the new bound.
 
     Where ``swapped``, the tree is that of the first mesh.
     """
-    axes = all_axes[i]
+    nodes, vertices, faces, side, whole = tree.nodes, tree.vertices, tree.faces, tree.side, tree.whole
+    found, spare, rows, stack = work.found, work.spare, work.single, work.own
     limit = np.sqrt(bound)
     stack[0] = root
     top = 1
     while top > 0:
         top -= 1
         node = stack[top]
-        if _separated(axes, nodes, whole[NODE] + node, limit):
+        if is_separated(axes, nodes, whole[NODE] + node, limit):
             continue
         if node < whole[LEAVES] - 1:
             stack[top], stack[top + 1] = 2 * node + 2, 2 * node + 1
@@ -302,7 +167,7 @@ def _descend(
                 continue
             d2 = distance2(rows, j, p, i, bound, spare) if swapped else distance2(p, i, rows, j, bound, spare)
             if d2 < bound:
-                bound = _keep(d2, stop, found, spare)
+                bound = keep_closer(d2, stop, found, spare)
                 if bound <= 0.0:
                     return bound
                 limit = np.sqrt(bound)
@@ -310,48 +175,122 @@ def _descend(
 
 
 @compiled
-def _walk(
-    nodes: Nodes,
-    vertices: Floats,
-    faces: Faces,
-    side_a: Floats,
-    whole_a: Ints,
-    side_b: Floats,
-    whole_b: Ints,
-    bound: float,
-    stop: float,
-    found: Floats,
-    spare: Floats,
-    frame: Floats,
-    axes_p: Floats,
-    axes_q: Floats,
-    p: Floats,
-    q: Floats,
-    single: Floats,
-    stack: Ints,
-    own: Ints,
-    bounds: Floats,
-    line: Floats,
+def _take_apart(
+    wide: _Mesh, at: int, tree: _Mesh, root: int, swapped: bool, bound: float, stop: float, work: _Search
 ) -> float:
+    """Lets each triangle of the loaded leaf walk a subtree of the other mesh; returns the new bound."""
+    laid = wide.held[2] == at
+    for i in range(wide.held[1]):
+        if not laid:
+            lay_axes(wide.rows, i, tree.side, tree.whole, wide.axes)
+        bound = _descend(tree, root, wide.rows, i, wide.axes[i], swapped, bound, stop, work)
+        if bound <= 0.0:
+            return bound
+    wide.held[2] = at
+    return bound
+
+
+@compiled
+def _hold(mesh: _Mesh, at: int) -> None:
+    """Loads the triangles of a leaf, unless they are loaded."""
+    if mesh.held[0] != at:
+        mesh.held[1] = load_leaf(mesh.vertices, mesh.faces, mesh.side, mesh.whole, at, mesh.rows)
+        mesh.held[0] = at
+
+
+@compiled
+def _coarse_girth(mesh: _Mesh) -> float:
+    """How wide a leaf of a mesh has to be to be taken apart whatever it meets."""
+    if mesh.whole[LEAVES] < _COARSE_LEAVES:
+        return np.inf
+    return _COARSE * node_extent(mesh.nodes, mesh.whole[NODE])
+
+
+@compiled
+def _next_step(nodes: Nodes, a: int, b: int, leaf_a: bool, leaf_b: bool, coarse_a: float, coarse_b: float) -> int:
+    """What is done with two nodes; of two that can be opened the longer is."""
+    if not leaf_a and not leaf_b:
+        return _OPEN_FIRST if node_extent(nodes, a) >= node_extent(nodes, b) else _OPEN_SECOND
+    if leaf_a and node_girth(nodes, a) > min(_OVERSIZED * node_extent(nodes, b), coarse_a):
+        return _FIRST_APART
+    if leaf_b and node_girth(nodes, b) > min(_OVERSIZED * node_extent(nodes, a), coarse_b):
+        return _SECOND_APART
+    if leaf_a and leaf_b:
+        return _COMPARE
+    return _OPEN_FIRST if leaf_b else _OPEN_SECOND
+
+
+@compiled
+def _open(
+    nodes: Nodes,
+    base_a: int,
+    base_b: int,
+    at_a: int,
+    at_b: int,
+    first: bool,
+    upright: bool,
+    bound: float,
+    frame: Floats,
+    stack: Ints,
+    bounds: Floats,
+    top: int,
+) -> int:
+    """Puts the two children of one node, each with the other node, on the stack, the nearer on top.
+
+    Returns:
+        How many pairs wait; none is put there whose boxes are too far apart.
+    """
+    if first:
+        a0, a1, b0, b1 = 2 * at_a + 1, 2 * at_a + 2, at_b, at_b
+    else:
+        a0, a1, b0, b1 = at_a, at_a, 2 * at_b + 1, 2 * at_b + 2
+    gap0 = node_gap2(nodes, base_a + a0, base_b + b0, frame, upright)
+    gap1 = node_gap2(nodes, base_a + a1, base_b + b1, frame, upright)
+    nearer = gap1 < gap0
+    if gap1 == gap0:
+        # both overlap: where the middles are closer, surfaces are found to meet sooner
+        middle0 = node_middle2(nodes, base_a + a0, base_b + b0, frame, upright)
+        nearer = node_middle2(nodes, base_a + a1, base_b + b1, frame, upright) < middle0
+    if nearer:
+        a0, a1, b0, b1, gap0, gap1 = a1, a0, b1, b0, gap1, gap0
+    if gap1 < bound:
+        stack[2 * top], stack[2 * top + 1], bounds[top] = a1, b1, gap1
+        top += 1
+    if gap0 < bound:
+        stack[2 * top], stack[2 * top + 1], bounds[top] = a0, b0, gap0
+        top += 1
+    return top
+
+
+@compiled
+def _walk(a: _Mesh, b: _Mesh, bound: float, stop: float, work: _Search) -> float:
     """Looks for the closest points of two meshes below a squared distance; returns the last bound."""
-    nodes, vertices, faces = borrow(nodes), borrow(vertices), borrow(faces)
-    side_a, whole_a, side_b, whole_b = borrow(side_a), borrow(whole_a), borrow(side_b), borrow(whole_b)
-    found, spare, frame, axes_p = borrow(found), borrow(spare), borrow(frame), borrow(axes_p)
-    axes_q = borrow(axes_q)
-    p, q, single = borrow(p), borrow(q), borrow(single)
-    stack, own, bounds = borrow(stack), borrow(own), borrow(bounds)
-    line = borrow(line)
-    base_a, base_b, leaves_a, leaves_b = whole_a[NODE], whole_b[NODE], whole_a[LEAVES], whole_b[LEAVES]
-    upright = whole_a[UPRIGHT] != 0 and whole_b[UPRIGHT] != 0
+    a = _Mesh(
+        borrow(a.nodes), borrow(a.vertices), borrow(a.faces), borrow(a.side), borrow(a.whole),
+        borrow(a.rows), borrow(a.held), borrow(a.axes),
+    )  # fmt: skip
+    b = _Mesh(
+        borrow(b.nodes), borrow(b.vertices), borrow(b.faces), borrow(b.side), borrow(b.whole),
+        borrow(b.rows), borrow(b.held), borrow(b.axes),
+    )  # fmt: skip
+    work = _Search(
+        borrow(work.found), borrow(work.spare), borrow(work.frame), borrow(work.line), borrow(work.single),
+        borrow(work.stack), borrow(work.bounds), borrow(work.own),
+    )  # fmt: skip
+    nodes, base_a, base_b = a.nodes, a.whole[NODE], b.whole[NODE]
+    deep_a, deep_b = a.whole[LEAVES] - 1, b.whole[LEAVES] - 1
+    found, spare, frame, line = work.found, work.spare, work.frame, work.line
+    side_a, rows_a, held_a = a.side, a.rows, a.held
+    side_b, rows_b, held_b = b.side, b.rows, b.held
+    stack, bounds = work.stack, work.bounds
+    upright = a.whole[UPRIGHT] != 0 and b.whole[UPRIGHT] != 0
     relate(side_a, side_b, frame)
-    coarse_a = _COARSE * node_extent(nodes, base_a) if leaves_a >= _COARSE_LEAVES else np.inf
-    coarse_b = _COARSE * node_extent(nodes, base_b) if leaves_b >= _COARSE_LEAVES else np.inf
-    loaded_a = loaded_b = laid_a = laid_b = -1
+    coarse_a, coarse_b = _coarse_girth(a), _coarse_girth(b)
+    held_a[0] = held_a[2] = held_b[0] = held_b[2] = -1
     laid = np.inf
-    count_a = count_b = 0
     stack[0], stack[1], bounds[0] = 0, 0, node_gap2(nodes, base_a, base_b, frame, upright)
-    top = 1
-    while top > 0:
+    top = ZERO + 1
+    while top > 0 and bound > 0.0:
         top -= 1
         if bounds[top] >= bound:
             continue
@@ -362,65 +301,24 @@ def _walk(
                 _lay_line(found, side_a, side_b, line)
             if _node_behind(nodes, base_a + at_a, base_b + at_b, frame, line, bound):
                 continue
-        leaf_a, leaf_b = at_a >= leaves_a - 1, at_b >= leaves_b - 1
-        size_a, size_b = node_extent(nodes, base_a + at_a), node_extent(nodes, base_b + at_b)
-        split_a = leaf_a and node_girth(nodes, base_a + at_a) > min(_OVERSIZED * size_b, coarse_a)
-        girth_b = node_girth(nodes, base_b + at_b)
-        split_b = leaf_b and not split_a and girth_b > min(_OVERSIZED * size_a, coarse_b)
-        if leaf_a and (leaf_b or split_a) and loaded_a != at_a:
-            count_a = load_leaf(vertices, faces, side_a, whole_a, at_a, p)
-            loaded_a = at_a
-        if upright and leaf_a and leaf_b and not _in_reach(p, count_a, nodes, base_b + at_b, frame, bound):
+        leaf_a, leaf_b = at_a >= deep_a, at_b >= deep_b
+        step = _next_step(nodes, base_a + at_a, base_b + at_b, leaf_a, leaf_b, coarse_a, coarse_b)
+        if step <= _OPEN_SECOND:
+            first = step == _OPEN_FIRST
+            top = _open(nodes, base_a, base_b, at_a, at_b, first, upright, bound, frame, stack, bounds, top)
             continue
-        if leaf_b and (leaf_a or split_b) and loaded_b != at_b:
-            count_b = load_leaf(vertices, faces, side_b, whole_b, at_b, q)
-            loaded_b = at_b
-        if split_a:
-            for i in range(count_a):
-                if laid_a != at_a:
-                    _lay_axes(p, i, side_b, whole_b, axes_p)
-                bound = _descend(
-                    nodes, vertices, faces, side_b, whole_b, at_b,
-                    p, i, split_b, bound, stop, found, spare, axes_p, single, own,
-                )  # fmt: skip
-                if bound <= 0.0:
-                    return bound
-            laid_a = at_a
-        elif split_b:
-            for i in range(count_b):
-                if laid_b != at_b:
-                    _lay_axes(q, i, side_a, whole_a, axes_q)
-                bound = _descend(
-                    nodes, vertices, faces, side_a, whole_a, at_a,
-                    q, i, split_b, bound, stop, found, spare, axes_q, single, own,
-                )  # fmt: skip
-                if bound <= 0.0:
-                    return bound
-            laid_b = at_b
-        elif leaf_a and leaf_b:
-            bound = _leaves(p, count_a, q, count_b, bound, stop, found, spare)
-            if bound <= 0.0:
-                return bound
+        if leaf_a:
+            _hold(a, at_a)
+            if leaf_b and upright and not _in_reach(rows_a, held_a[1], nodes, base_b + at_b, frame, bound):
+                continue
+        if step == _FIRST_APART:
+            bound = _take_apart(a, at_a, b, at_b, step == _SECOND_APART, bound, stop, work)
+            continue
+        _hold(b, at_b)
+        if step == _SECOND_APART:
+            bound = _take_apart(b, at_b, a, at_a, step == _SECOND_APART, bound, stop, work)
         else:
-            if leaf_b or (not leaf_a and size_a >= size_b):
-                a0, a1, b0, b1 = 2 * at_a + 1, 2 * at_a + 2, at_b, at_b
-            else:
-                a0, a1, b0, b1 = at_a, at_a, 2 * at_b + 1, 2 * at_b + 2
-            gap0 = node_gap2(nodes, base_a + a0, base_b + b0, frame, upright)
-            gap1 = node_gap2(nodes, base_a + a1, base_b + b1, frame, upright)
-            nearer = gap1 < gap0
-            if gap1 == gap0:
-                # both overlap: where the middles are closer, surfaces are found to meet sooner
-                middle0 = node_middle2(nodes, base_a + a0, base_b + b0, frame, upright)
-                nearer = node_middle2(nodes, base_a + a1, base_b + b1, frame, upright) < middle0
-            if nearer:
-                a0, a1, b0, b1, gap0, gap1 = a1, a0, b1, b0, gap1, gap0
-            if gap1 < bound:
-                stack[2 * top], stack[2 * top + 1], bounds[top] = a1, b1, gap1
-                top += 1
-            if gap0 < bound:
-                stack[2 * top], stack[2 * top + 1], bounds[top] = a0, b0, gap0
-                top += 1
+            bound = compare_leaves(rows_a, held_a[1], rows_b, held_b[1], bound, stop, found, spare)
     return bound
 
 
@@ -443,23 +341,18 @@ def closest(
     """
     n = last - first
     row, distance, points = np.empty(n, np.int64), np.empty(n), np.empty((n, 2, 3))
-    found, spare, frame, axes, origin = (
-        np.empty(10),
-        np.empty(6),
-        np.empty((7, 3)),
-        np.empty((2, LEAF, 11, 6)),
-        np.empty(3),
+    origin, turn = np.empty(3), np.zeros((3, 3))
+    one, other = _new_mesh(meshes), _new_mesh(meshes)
+    work = _Search(
+        found=np.empty(10),
+        spare=np.empty(6),
+        frame=np.empty((7, 3)),
+        line=np.empty((4, 3)),
+        single=np.empty((LEAF, ROW)),
+        stack=np.empty(2 * DEPTH, np.int64),
+        bounds=np.empty(DEPTH),
+        own=np.empty(DEPTH, np.int64),
     )
-    line, turn = np.empty((4, 3)), np.zeros((3, 3))
-    p, q, single = np.empty((LEAF, ROW)), np.empty((LEAF, ROW)), np.empty((LEAF, ROW))
-    stack, own, bounds = np.empty(2 * DEPTH, np.int64), np.empty(DEPTH, np.int64), np.empty(DEPTH)
-    side_a, side_b, whole_a, whole_b = (
-        np.zeros(SIDE),
-        np.zeros(SIDE),
-        np.empty(WHOLE, np.int64),
-        np.empty(WHOLE, np.int64),
-    )
-    nodes, vertices, faces = meshes.nodes, meshes.vertices, meshes.faces
     # the walk looks for less than this, and the limit itself counts
     limit2 = limit * limit * (1.0 + 1e-15) + 1e-300
     n_found = 0
@@ -467,24 +360,22 @@ def closest(
         a, b = pairs[i, 0], pairs[i, 1]
         for k in range(3):
             origin[k] = meshes.centers[a, k]
-        lay_side(meshes, a, origin, side_a, whole_a)
-        lay_side(meshes, b, origin, side_b, whole_b)
-        if whole_a[COUNT] == 0 or whole_b[COUNT] == 0:
+        lay_side(meshes, a, origin, one.side, one.whole)
+        lay_side(meshes, b, origin, other.side, other.whole)
+        if one.whole[COUNT] == 0 or other.whole[COUNT] == 0:
             continue
         # where boxes stand askew, work in their axes: long thin triangles then have slim boxes as well
-        askew = not (whole_a[UPRIGHT] and whole_b[UPRIGHT])
+        askew = not (one.whole[UPRIGHT] and other.whole[UPRIGHT])
         if askew:
-            own_axes = meshes.axes[a] if not whole_a[UPRIGHT] else meshes.axes[b]
+            own_axes = meshes.axes[a] if not one.whole[UPRIGHT] else meshes.axes[b]
             for k in range(3):
                 for m in range(3):
                     turn[k, m] = own_axes[k, m]
-            turn_side(side_a, whole_a, turn, frame)
-            turn_side(side_b, whole_b, turn, frame)
+            turn_side(one.side, one.whole, turn, work.frame)
+            turn_side(other.side, other.whole, turn, work.frame)
+        found = work.found
         found[6] = np.inf
-        _walk(
-            nodes, vertices, faces, side_a, whole_a, side_b, whole_b, limit2, stop * stop,
-            found, spare, frame, axes[0], axes[1], p, q, single, stack, own, bounds, line,
-        )  # fmt: skip
+        _walk(one, other, limit2, stop * stop, work)
         if found[6] < limit2:
             row[n_found] = i
             distance[n_found] = np.sqrt(found[6])
@@ -495,3 +386,18 @@ def closest(
                     points[n_found, m // 3, k] = at + origin[k]
             n_found += 1
     return row[:n_found].copy(), distance[:n_found].copy(), points[:n_found].copy()
+
+
+@compiled
+def _new_mesh(meshes: Placed) -> _Mesh:
+    """Room for one mesh of a walk."""
+    return _Mesh(
+        meshes.nodes,
+        meshes.vertices,
+        meshes.faces,
+        np.zeros(SIDE),
+        np.empty(WHOLE, np.int64),
+        np.empty((LEAF, ROW)),
+        np.empty(3, np.int64),
+        np.empty((LEAF, 11, 6)),
+    )

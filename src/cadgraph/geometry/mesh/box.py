@@ -14,19 +14,15 @@ import numpy as np
 
 from cadgraph.geometry.kernels.order import sort_rows
 from cadgraph.geometry.kernels.parallel import ZERO, compiled
+from cadgraph.geometry.mesh.normals import N_BINS, bin_normals
 from cadgraph.model.parts import Bools
 from cadgraph.model.scene import Faces, Floats, Ints
 
 __all__ = ["fit_boxes", "order_boxes", "principal_axes"]
 
-_N_BINS = 12
 _N_NORMALS = 4
 _N_ROUNDS = 4
 _N_CANDIDATES = _N_NORMALS + 9 + 2 * _N_ROUNDS
-# At most so many faces vote on normals; more are sampled evenly.
-_MAX_FACES = 4096
-# Normals this close (1 - cosine; 1.4e-3 rad) are one: float32 coordinates of small faces scatter as much.
-_SAME_NORMAL = 1e-6
 # Directions this close (squared sine) are one candidate: the extents change by less than 1e-7 of the size.
 _SAME_AXIS = 1e-14
 # What each extent is padded with before multiplying, as share of the size, so that flat boxes compare by area.
@@ -120,7 +116,7 @@ def fit_boxes(
         n_most = max(n_most, v_offsets[i + 1] - v_offsets[i])
     local, flat, spare = np.empty((n_most, 3)), np.empty((n_most, 2)), np.empty((n_most, 2))
     hull = np.empty((2 * n_most, 2))
-    candidates, bins, ends = np.empty((_N_CANDIDATES, 3)), np.empty((_N_BINS, 5)), np.empty((8, 3))
+    candidates, bins, ends = np.empty((_N_CANDIDATES, 3)), np.empty((N_BINS, 5)), np.empty((8, 3))
     moments, values = np.empty((3, 3)), np.empty(3)
     best, box = np.empty((3, 3)), np.empty((3, 3))
     for i in range(first, last):
@@ -144,7 +140,7 @@ def fit_boxes(
         sizes[i] = size = sqrt(size)
         if size == 0.0:
             continue
-        n_bins = _bin_normals(
+        n_bins = bin_normals(
             vertices, used, faces, v0, v_offsets[i + 1] - v0, f_offsets[i], f_offsets[i + 1], bins, moments
         )
         n_candidates = _propose_axes(bins, n_bins, moments, covariance, i, local, n, values, candidates)
@@ -225,79 +221,6 @@ def _propose_axes(
             # Of the normals the direction that fewest have comes first: the axis of anything round.
             n = _add_axis(candidates, n, moments, 2 - r if source == 0 else r)
     return int(n)
-
-
-@compiled
-def _bin_normals(
-    vertices: Floats,
-    used: Bools,
-    faces: Faces,
-    v0: int,
-    n_vertices: int,
-    f0: int,
-    f1: int,
-    bins: Floats,
-    moments: Floats,
-) -> int:
-    """Area by direction of normal, either sense: rows of unit normal, area, area of the face that gave the normal.
-
-    When all rows are taken, the least gives way to a greater newcomer.
-    """
-    xx = yy = zz = xy = xz = yz = 0.0
-    n_bins = last = 0
-    step = max(1, (f1 - f0) // _MAX_FACES)
-    for f in range(f0, f1, step):
-        i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
-        if i < 0 or j < 0 or k < 0 or i >= n_vertices or j >= n_vertices or k >= n_vertices:
-            continue
-        i, j, k = v0 + i, v0 + j, v0 + k
-        if not (used[i] and used[j] and used[k]):
-            continue
-        x, y, z = vertices[i, 0], vertices[i, 1], vertices[i, 2]
-        ux, uy, uz = vertices[j, 0] - x, vertices[j, 1] - y, vertices[j, 2] - z
-        wx, wy, wz = vertices[k, 0] - x, vertices[k, 1] - y, vertices[k, 2] - z
-        x, y, z = uy * wz - uz * wy, uz * wx - ux * wz, ux * wy - uy * wx
-        area = sqrt(x * x + y * y + z * z)
-        if not area > 0.0:
-            continue
-        x, y, z = x / area, y / area, z / area
-        xx += area * x * x
-        yy += area * y * y
-        zz += area * z * z
-        xy += area * x * y
-        xz += area * x * z
-        yz += area * y * z
-        found = -1
-        # Neighbouring faces often share their normal, so start where the last one matched.
-        b = last
-        for _ in range(n_bins):
-            if abs(x * bins[b, 0] + y * bins[b, 1] + z * bins[b, 2]) > 1.0 - _SAME_NORMAL:
-                found = b
-                break
-            b += 1
-            if b == n_bins:
-                b = 0
-        if found < 0:
-            if n_bins < _N_BINS:
-                found = n_bins
-                n_bins += 1
-            else:
-                found = 0
-                for b in range(1, _N_BINS):
-                    if bins[b, 3] < bins[found, 3]:
-                        found = b
-                if area <= bins[found, 3]:
-                    continue
-            bins[found, 3] = bins[found, 4] = 0.0
-        last = found
-        bins[found, 3] += area
-        if area > bins[found, 4]:
-            bins[found, 0], bins[found, 1], bins[found, 2], bins[found, 4] = x, y, z, area
-    moments[0, 0], moments[1, 1], moments[2, 2] = xx, yy, zz
-    moments[0, 1] = moments[1, 0] = xy
-    moments[0, 2] = moments[2, 0] = xz
-    moments[1, 2] = moments[2, 1] = yz
-    return n_bins
 
 
 @compiled
