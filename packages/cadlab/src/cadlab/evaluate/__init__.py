@@ -1,7 +1,8 @@
 """How well a graph agrees with what is known for certain about its scene."""
 
-from cadlab.evaluate.evaluation import Evaluation, StructureScores, evaluate, evaluate_files
+from cadlab.evaluate.evaluation import Evaluation, StructureScores, evaluate
 from cadlab.evaluate.figures import figures
+from cadlab.evaluate.files import evaluate_files
 from cadlab.evaluate.plain import to_json
 from cadlab.evaluate.tables import to_markdown
 from cadplants.labelled_usd import truth_from_usd

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import json
-from dataclasses import dataclass
-from pathlib import Path
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass, replace
+from typing import Protocol, TypeVar
 
-from cadgraph._io.atomic import ensure_writable, write_atomically
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Connected, Related
 from cadgraph.model.truth import Truth
@@ -42,7 +41,7 @@ from cadlab.evaluate.scores import Score
 from cadlab.evaluate.taps import TapScores, TapVerdict, compare_taps, score_taps
 from cadlab.evaluate.units import UnitMatch, UnitScores, match_units, score_units
 
-__all__ = ["Evaluation", "StructureScores", "evaluate", "evaluate_files"]
+__all__ = ["Evaluation", "StructureScores", "evaluate"]
 
 
 @dataclass(frozen=True)
@@ -159,36 +158,6 @@ def evaluate(graph: SceneGraph, truth: Truth) -> Evaluation:
     )
 
 
-def evaluate_files(graph_path: str | Path, truth_path: str | Path, folder: str | Path | None = None) -> Evaluation:
-    """Compares a graph file with a truth file.
-
-    Args:
-        graph_path: ``graph.json``, or the folder that holds it.
-        truth_path: a ``.truth.json`` file.
-        folder: gets ``evaluation.md``, ``evaluation.json`` and the figures; nothing is written if None.
-
-    Returns:
-        All measures.
-
-    Raises:
-        FormatError: a file is missing or malformed, or the truth is of another scene.
-        LabelError: the vocabulary in the graph is malformed.
-        OutputError: the folder can't be written.
-    """
-    from cadlab.evaluate.figures import figures
-    from cadlab.evaluate.plain import to_json
-    from cadlab.evaluate.tables import to_markdown
-
-    target = ensure_writable(folder) if folder is not None else None
-    evaluation = evaluate(SceneGraph.load(graph_path), Truth.load(truth_path))
-    if target is not None:
-        drawn = figures(evaluation, target)
-        write_atomically(target / "evaluation.md", to_markdown(evaluation, [path.name for path in drawn]))
-        text = json.dumps(to_json(evaluation), ensure_ascii=False, allow_nan=False, indent=1)
-        write_atomically(target / "evaluation.json", text.encode("utf-8", "backslashreplace") + b"\n")
-    return evaluation
-
-
 def _observe(pairing: Pairing) -> _Facts:
     truth = pairing.truth
     units = match_units(pairing) if truth.units is not None else None
@@ -221,48 +190,70 @@ def _observe(pairing: Pairing) -> _Facts:
 
 def _count(facts: _Facts, only: str | None, kind: str | None) -> StructureScores:
     """The scores of one structure, or of everything if None."""
-    meshes = [seen for seen in facts.meshes if only in (None, seen.structure)]
-    parts = [seen for seen in facts.parts if only in (None, seen.structure)]
-    ends = [end for end in facts.ends if only in (None, end.structure)]
-    contacts = facts.contacts
+    seen = _within(facts, only) if only is not None else facts
     return StructureScores(
         id=only if only is not None else "all",
         kind=kind,
-        meshes=score_labels("mesh", meshes),
-        parts=score_labels("part", parts),
-        units=score_units(
-            [unit for unit in facts.units.true if only in (None, unit.structure)],
-            [unit for unit in facts.units.predicted if only in (None, unit.structure)],
-            present="units" in facts.present,
-        )
-        if facts.units is not None
-        else None,
-        connected=_relations("connected", facts, facts.connected, ends, only),
-        related=_relations("related", facts, facts.related, ends, only),
-        connected_taps=_taps("connected", facts, only),
-        related_taps=_taps("related", facts, only),
-        joins=score_joins([join for join in facts.joins if only in (None, join.structure)])
-        if facts.joins is not None
-        else None,
-        clusters=score_clusters(facts.clusters, only) if facts.clusters is not None else None,
-        contacts=score_contacts([c for c in contacts if only is None or only in c.structures])
-        if contacts is not None
-        else None,
-        group_calibration=calibrate("group", parts),
-        name_calibration=calibrate("name", parts),
+        meshes=score_labels("mesh", seen.meshes),
+        parts=score_labels("part", seen.parts),
+        units=_units(seen),
+        connected=_relations("connected", seen, seen.connected),
+        related=_relations("related", seen, seen.related),
+        connected_taps=score_taps(seen.taps["connected"]) if seen.taps is not None else None,
+        related_taps=score_taps(seen.taps["related"]) if seen.taps is not None else None,
+        joins=score_joins(seen.joins) if seen.joins is not None else None,
+        clusters=score_clusters(seen.clusters, only) if seen.clusters is not None else None,
+        contacts=score_contacts(seen.contacts) if seen.contacts is not None else None,
+        group_calibration=calibrate("group", seen.parts),
+        name_calibration=calibrate("name", seen.parts),
     )
 
 
-def _relations(
-    kind: str, facts: _Facts, edges: tuple[EdgeVerdict, ...] | None, ends: list[EndVerdict], only: str | None
-) -> RelationScores | None:
-    if edges is None:
-        return None
-    here = [edge for edge in edges if only is None or only in edge.structures]
-    return score_relations(kind, here, ends, present=kind in facts.present)
+class _Placed(Protocol):
+    @property
+    def structure(self) -> str | None: ...
 
 
-def _taps(kind: str, facts: _Facts, only: str | None) -> TapScores | None:
-    if facts.taps is None:
+class _Spanning(Protocol):
+    @property
+    def structures(self) -> Collection[str]: ...
+
+
+_In = TypeVar("_In", bound=_Placed)
+_Over = TypeVar("_Over", bound=_Spanning)
+
+
+def _inside(seen: Iterable[_In], structure: str) -> tuple[_In, ...]:
+    return tuple(one for one in seen if one.structure == structure)
+
+
+def _touching(seen: Iterable[_Over], structure: str) -> tuple[_Over, ...]:
+    return tuple(one for one in seen if structure in one.structures)
+
+
+def _within(facts: _Facts, structure: str) -> _Facts:
+    """What was seen of one structure; clusters are compared with all others, so all of them stay."""
+    units = facts.units
+    return replace(
+        facts,
+        meshes=_inside(facts.meshes, structure),
+        parts=_inside(facts.parts, structure),
+        units=units
+        and replace(units, true=_inside(units.true, structure), predicted=_inside(units.predicted, structure)),
+        connected=facts.connected and _touching(facts.connected, structure),
+        related=facts.related and _touching(facts.related, structure),
+        taps=facts.taps and {kind: _touching(some, structure) for kind, some in facts.taps.items()},
+        joins=facts.joins and _inside(facts.joins, structure),
+        ends=_inside(facts.ends, structure),
+        contacts=facts.contacts and _touching(facts.contacts, structure),
+    )
+
+
+def _units(facts: _Facts) -> UnitScores | None:
+    if facts.units is None:
         return None
-    return score_taps([tap for tap in facts.taps[kind] if only is None or only in tap.structures])
+    return score_units(facts.units.true, facts.units.predicted, present="units" in facts.present)
+
+
+def _relations(kind: str, facts: _Facts, edges: tuple[EdgeVerdict, ...] | None) -> RelationScores | None:
+    return score_relations(kind, edges, facts.ends, present=kind in facts.present) if edges is not None else None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from cadgraph.model.records import Connected, Junction, Related, Terminal
 from cadgraph.model.scene import natural_key
@@ -263,29 +263,41 @@ def score_relations(
         ends: to count.
         present: whether the graph has any such edge, here or elsewhere.
     """
-    both = [edge for edge in edges if edge.in_truth and edge.in_graph]
-    run = kind == "connected"
-    reasons = sorted({edge.reason for edge in both if edge.reason})
-    return RelationScores(
+    scores = RelationScores(
         kind=kind,
         edges=_score(edges),
         between_matched=_score([edge for edge in edges if edge.matched]),
-        terminals=Score(
-            sum(end.n_true for end in ends), sum(end.n_predicted for end in ends), sum(end.n_correct for end in ends)
-        )
-        if run
-        else None,
-        direction=DirectionScores(**_directions(both)) if run else None,
+        terminals=None,
+        direction=None,
         missing=tuple(edge for edge in edges if not edge.in_graph),
         extra=tuple(edge for edge in edges if not edge.in_truth),
-        reasons=tuple(
-            ReasonScores(**_directions([edge for edge in both if edge.reason == reason]), reason=reason)
-            for reason in reasons
-        )
-        if run
-        else (),
+        reasons=(),
         present=present,
     )
+    if kind != "connected":
+        return scores
+    both = [edge for edge in edges if edge.in_truth and edge.in_graph]
+    return replace(
+        scores,
+        terminals=_score_ends(ends),
+        direction=DirectionScores(**_directions(both)),
+        reasons=_score_reasons(both),
+    )
+
+
+def _score_ends(ends: Sequence[EndVerdict]) -> Score:
+    return Score(
+        sum(end.n_true for end in ends), sum(end.n_predicted for end in ends), sum(end.n_correct for end in ends)
+    )
+
+
+def _score_reasons(edges: Sequence[EdgeVerdict]) -> tuple[ReasonScores, ...]:
+    """Directions by what fixes them, of edges that are in truth and graph."""
+    by_reason: dict[str, list[EdgeVerdict]] = {}
+    for edge in edges:
+        if edge.reason:
+            by_reason.setdefault(edge.reason, []).append(edge)
+    return tuple(ReasonScores(**_directions(some), reason=reason) for reason, some in sorted(by_reason.items()))
 
 
 def _directions(edges: Sequence[EdgeVerdict]) -> dict[str, int]:

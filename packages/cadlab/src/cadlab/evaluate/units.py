@@ -250,18 +250,10 @@ def _true_unit(
     found: dict[str, frozenset[str]],
     match: tuple[Unit, float] | None,
 ) -> TrueUnit:
-    groups = {group for group, type_ in pairing.vocabulary.unit_of_group.items() if type_ == unit.type}
     parts = pairing.true_parts[unit.id]
-    # A unit may hold parts of another group (its bolts): only those of its own must carry the group.
-    own = {part for part in parts if pairing.rows[pairing.head[part]].group in groups}
-    counted = own or parts
-    # A unit that only shares parts with others can't be held by a unit of its own.
-    owned = bool(parts) and all(pairing.unit_of_mesh.get(pairing.head[part]) == unit.id for part in parts)
-    labelled = [part for part in counted if (label := pairing.label(part)) is not None and label[0] in groups]
+    counted, labelled = _labelled_parts(pairing, unit, parts)
     same_type = [other for other in predicted if other.unit_type == unit.type]
-    verdict = "partially" if labelled else "missed"
-    if counted and len(labelled) == len(counted):
-        verdict = "fully"
+    matched, overlap = match if match is not None else (None, 0.0)
     return TrueUnit(
         id=unit.id,
         tag=unit.tag or unit.id,
@@ -271,13 +263,36 @@ def _true_unit(
         n_parts=len(parts),
         n_labelled=len(labelled),
         n_counted=len(counted),
-        found=verdict,
-        exact=owned and any(found[other.id] == parts for other in same_type),
+        found=_verdict(len(labelled), len(counted)),
+        exact=_owns(pairing, unit, parts) and any(found[other.id] == parts for other in same_type),
         pieces=tuple(other.tag for other in same_type if found[other.id] & parts),
-        match=match[0].tag if match else None,
-        overlap=match[1] if match else 0.0,
-        predicted_kind=match[0].kind if match else None,
+        match=matched.tag if matched is not None else None,
+        overlap=overlap,
+        predicted_kind=matched.kind if matched is not None else None,
     )
+
+
+def _labelled_parts(pairing: Pairing, unit: TruthUnit, parts: frozenset[str]) -> tuple[frozenset[str], list[str]]:
+    """The parts of a true unit that count, and those of them whose label is of its type.
+
+    A unit may hold parts of another group (its bolts): only those of its own must carry the group.
+    """
+    groups = {group for group, type_ in pairing.vocabulary.unit_of_group.items() if type_ == unit.type}
+    own = frozenset(part for part in parts if pairing.rows[pairing.head[part]].group in groups)
+    counted = own or parts
+    return counted, [part for part in counted if (label := pairing.label(part)) is not None and label[0] in groups]
+
+
+def _verdict(n_labelled: int, n_counted: int) -> str:
+    """What the paper's looser reading says of a unit."""
+    if not n_labelled:
+        return "missed"
+    return "fully" if n_labelled == n_counted else "partially"
+
+
+def _owns(pairing: Pairing, unit: TruthUnit, parts: frozenset[str]) -> bool:
+    """Whether a true unit has parts, and all are its own: one that only shares parts can't be held by one unit."""
+    return bool(parts) and all(pairing.unit_of_mesh.get(pairing.head[part]) == unit.id for part in parts)
 
 
 def _predicted_unit(
