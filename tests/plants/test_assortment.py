@@ -6,6 +6,7 @@ import pytest
 from cadgraph.model.vocabulary import default_vocabulary
 from cadplants import HANDS, make
 from cadplants.assortment import FAMILIES, draw_hand, make_assortment
+from cadplants.truth_writer import truth_of
 
 # Exact and whole, so that nothing but the layout is looked at.
 PLAIN = replace(HANDS["bim"], name="plain", gap=(0.0, 0.0))
@@ -51,7 +52,7 @@ def test_connections_join_what_there_is(plants):
 
 def test_one_seed_makes_one_plant():
     first, second = make("assortment", 3), make("assortment", 3)
-    assert first.truth() == second.truth()
+    assert truth_of(first) == truth_of(second)
     for a, b in zip(first.components, second.components, strict=True):
         np.testing.assert_array_equal(a.vertices, b.vertices)
         np.testing.assert_array_equal(a.faces, b.faces)

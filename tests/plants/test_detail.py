@@ -13,6 +13,7 @@ from cadplants.lettering import letters
 from cadplants.part_oracle import SMALL, find_parts
 from cadplants.plant import Plant
 from cadplants.truth_check import prove
+from cadplants.truth_writer import truth_of
 from plants.solids import is_closed, shell_volumes
 
 HAND = HANDS["plant-design"]
@@ -27,7 +28,7 @@ def plant_of(assembly):
 @pytest.mark.parametrize("needle", [0.6, 2.2, 4.5])
 def test_marks_lie_on_the_dial_and_touch_nothing_else(size, needle):
     gauge = plant_of(marked_gauge(pressure_gauge("G", HAND, size, needle=needle), size, "all", HAND))
-    assert prove(gauge.scene(), Truth.from_json(gauge.truth())).lines() == ()
+    assert prove(gauge.scene(), Truth.from_json(truth_of(gauge))).lines() == ()
     assert all(is_closed(c.solid) and (shell_volumes(c.solid) > 0).all() for c in gauge.components)
 
 
@@ -46,7 +47,7 @@ def test_a_gauge_of_one_mesh_has_no_marks():
 def test_a_plate_has_a_mesh_for_each_letter_and_rivet():
     sign = plant_of(plate(("V-101", "DN50"), HAND))
     assert len(sign.components) == 1 + 9 + 4
-    assert prove(sign.scene(), Truth.from_json(sign.truth())).lines() == ()
+    assert prove(sign.scene(), Truth.from_json(truth_of(sign))).lines() == ()
 
 
 def test_a_coarse_hand_leaves_letters_out():

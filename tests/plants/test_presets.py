@@ -5,6 +5,7 @@ import pytest
 
 from cadgraph.model.vocabulary import default_vocabulary
 from cadplants import HANDS, PRESETS, Sins, make, spoil
+from cadplants.truth_writer import truth_of
 from plants.solids import is_closed, shell_volumes, touching
 
 SMALL = [name for name in PRESETS if name not in ("assortment", "field")]
@@ -109,7 +110,7 @@ def test_structures_of_the_paper_have_its_valves_and_gauges(preset, valves, gaug
 @pytest.mark.parametrize("preset", SMALL)
 def test_same_seed_same_plant_and_another_seed_another(preset):
     one, again, other = make(preset, 4), make(preset, 4), make(preset, 5)
-    assert one.truth() == again.truth()
+    assert truth_of(one) == truth_of(again)
     assert np.array_equal(one.scene().vertices, again.scene().vertices)
     assert not np.array_equal(one.scene().vertices, other.scene().vertices)
 
@@ -144,7 +145,7 @@ def test_sins_are_recorded():
     flaws = Counter(flaw for c in plant.components[: clean.n_meshes] for flaw in c.flaws)
     assert set(flaws) == {"flipped", "soup", "degenerate"}
     assert len({c.color for c in plant.components}) == 1
-    truth = plant.truth()
+    truth = truth_of(plant)
     assert len(truth["hidden"]) == len(plant.hidden)
     assert len(truth["meshes"]) == plant.n_meshes
 
@@ -158,7 +159,7 @@ def test_hidden_bodies_lie_inside_without_touching():
 
 def test_no_sins_change_nothing():
     clean = make("riser", 0)
-    assert spoil(clean, Sins()).truth() == clean.truth()
+    assert truth_of(spoil(clean, Sins())) == truth_of(clean)
 
 
 def test_field_holds_all_of_them_apart():

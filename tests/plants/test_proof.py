@@ -8,12 +8,13 @@ from cadgraph.model.truth import Truth
 from cadplants import draw_sins, draw_style, make, spoil, truth_path, write_usd
 from cadplants.transforms import at
 from cadplants.truth_check import prove
+from cadplants.truth_writer import truth_of
 
 SMALL = ("skid", "riser", "tank", "pumps", "rack")
 
 
 def proof_of(plant, **changes):
-    truth = Truth.from_json({**plant.truth(), **changes})
+    truth = Truth.from_json({**truth_of(plant), **changes})
     return prove(plant.scene(), truth)
 
 
@@ -68,25 +69,25 @@ def test_a_part_that_has_moved_contradicts_its_contacts_and_its_line(riser):
 
 
 def test_a_contact_that_is_not_listed_is_found(riser):
-    contacts = riser.truth()["contacts"][1:]
+    contacts = truth_of(riser)["contacts"][1:]
     assert "touch" in codes(proof_of(riser, contacts=contacts))
 
 
 def test_a_cluster_that_falls_apart_is_found(riser):
-    truth = riser.truth()
+    truth = truth_of(riser)
     lone = truth["meshes"][-1]["mesh"]
     contacts = [pair for pair in truth["contacts"] if lone not in pair]
     assert {"cluster", "touch"} <= codes(proof_of(riser, contacts=contacts))
 
 
 def test_clusters_that_touch_are_found(riser):
-    meshes = [row["mesh"] for row in riser.truth()["meshes"]]
+    meshes = [row["mesh"] for row in truth_of(riser)["meshes"]]
     clusters = [{"id": "a", "meshes": meshes[:40]}, {"id": "b", "meshes": meshes[40:]}]
     assert "apart" in codes(proof_of(riser, clusters=clusters))
 
 
 def test_devices_in_the_wrong_order_are_found(riser):
-    connections = riser.truth()["connections"]
+    connections = truth_of(riser)["connections"]
     first, second = connections[1], connections[2]
     swapped = {first["to"]: second["to"], second["to"]: first["to"]}
     wrong = [{**c, "from": swapped.get(c["from"], c["from"]), "to": swapped.get(c["to"], c["to"])} for c in connections]
@@ -94,13 +95,13 @@ def test_devices_in_the_wrong_order_are_found(riser):
 
 
 def test_a_wrong_length_is_found(riser):
-    connections = riser.truth()["connections"]
+    connections = truth_of(riser)["connections"]
     connections[0]["length"] += 0.2
     assert "order" in codes(proof_of(riser, connections=connections))
 
 
 def test_units_with_a_stranger_are_found(riser):
-    truth = riser.truth()
+    truth = truth_of(riser)
     units = [dict(unit) for unit in truth["units"]]
     caster = next(row["mesh"] for row in truth["meshes"] if row["name"] == "caster")
     units[0]["meshes"] = [*units[0]["meshes"], caster]
@@ -108,7 +109,7 @@ def test_units_with_a_stranger_are_found(riser):
 
 
 def test_a_copy_that_is_none_is_found(riser):
-    meshes = [row["mesh"] for row in riser.truth()["meshes"]]
+    meshes = [row["mesh"] for row in truth_of(riser)["meshes"]]
     assert "duplicate" in codes(proof_of(riser, duplicates=[meshes[:2]]))
 
 
@@ -124,13 +125,13 @@ def test_a_hidden_body_that_sticks_out_is_found():
 
 
 def test_a_truth_of_another_scene_is_told_at_once(riser):
-    other = Truth.from_json(make("skid", 0).truth())
+    other = Truth.from_json(truth_of(make("skid", 0)))
     proof = prove(riser.scene(), other)
     assert codes(proof) == {"mesh"}
 
 
 def test_what_a_truth_leaves_open_is_not_checked(riser):
-    truth = riser.truth()
+    truth = truth_of(riser)
     least = {key: truth[key] for key in ("format", "version", "meshes")}
     assert prove(riser.scene(), Truth.from_json(least)).holds
 

@@ -21,6 +21,7 @@ from cadgraph.labelers.lvlm.question_groups import find_kinds
 from cadgraph.model.parts import Parts
 from cadgraph.pipeline import analyse
 from cadplants import make
+from cadplants.truth_writer import truth_of
 
 SIDE = 150  # px of one picture; a model sees 512
 HEAD = 34
@@ -78,7 +79,7 @@ def main() -> None:
     options = parser.parse_args()
     plant = make(options.preset, options.seed)
     parts = analyse(plant.scene()).parts
-    named = {mesh["mesh"]: (mesh["group"], mesh["name"]) for mesh in plant.truth()["meshes"]}
+    named = {mesh["mesh"]: (mesh["group"], mesh["name"]) for mesh in truth_of(plant)["meshes"]}
     truth = [named[path] for path in parts.scene.paths]
     gallery = Gallery(parts.scene)
     picked = chosen(parts, [name for _, name in truth], options.count)

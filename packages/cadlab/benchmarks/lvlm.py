@@ -36,6 +36,7 @@ from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary
 from cadgraph.pipeline import analyse
 from cadplants import make
+from cadplants.truth_writer import truth_of
 
 NAMES_RIGHT, GROUPS_RIGHT = 0.38, 0.80
 FLANGE_AS_GASKET = 0.6
@@ -164,7 +165,7 @@ def main() -> None:
     start = time.perf_counter()
     analysis = analyse(plant.scene())
     labeling = EmbeddedLabeler().label(analysis.parts, analysis.contacts, default_vocabulary())
-    named = {mesh["mesh"]: (mesh["group"], mesh["name"]) for mesh in plant.truth()["meshes"]}
+    named = {mesh["mesh"]: (mesh["group"], mesh["name"]) for mesh in truth_of(plant)["meshes"]}
     truth = [(str(g), str(n)) for g, n in (named[path] for path in analysis.parts.scene.paths)]
     print(machine())
     print(f"\n{options.preset}: {analysis.parts.n_parts:,} parts; labelled in {time.perf_counter() - start:.0f} s.\n")

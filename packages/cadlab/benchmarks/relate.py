@@ -21,6 +21,7 @@ from cadgraph.model.vocabulary import default_vocabulary
 from cadgraph.pipeline import build
 from cadlab.evaluate.evaluation import Evaluation, evaluate
 from cadplants import HANDS, PRESETS, Plant, Sins, make
+from cadplants.truth_writer import truth_of
 
 PAGE = Path(__file__).parent.parent / "docs" / "functional.md"
 BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
@@ -109,7 +110,7 @@ def cases(seeds: list[int], presets: list[str], hands: list[str], modes: list[st
                 for seed in seeds:
                     plant = make(preset, seed, hand, SINS if mode == "sins" else None)
                     graph = build(plant.scene(), labels=labels_of(plant, mode, seed))
-                    truth = Truth.from_json(plant.truth())
+                    truth = Truth.from_json(truth_of(plant))
                     total.add(truth, evaluate(graph, truth))
             yield mode, hand, total
 

@@ -15,6 +15,7 @@ from cadgraph.model.truth import Truth
 from cadgraph.model.vocabulary import default_vocabulary
 from cadlab.evaluate import evaluate, evaluate_files, to_json
 from cadplants import make_skid, write_usd
+from cadplants.truth_writer import truth_of
 from lab.evaluate.plants import agreeing, changed, line, made_of, relabelled
 
 
@@ -47,7 +48,7 @@ def test_a_perfect_graph_scores_one_everywhere():
 @pytest.mark.parametrize("seed", range(2))
 def test_a_perfect_graph_of_a_whole_plant_scores_one_everywhere(seed):
     # The agreeing graph has a part for each mesh.
-    truth = Truth.from_json({**make_skid(seed).truth(), "parts": None})
+    truth = Truth.from_json({**truth_of(make_skid(seed)), "parts": None})
     evaluation = evaluate(agreeing(truth), truth)
     assert_perfect(evaluation)
     assert evaluation.total.units.total.n_true == 24
@@ -55,7 +56,7 @@ def test_a_perfect_graph_of_a_whole_plant_scores_one_everywhere(seed):
 
 
 def test_shuffled_labels_are_right_about_as_often_as_by_chance():
-    truth = Truth.from_json(make_skid().truth())
+    truth = Truth.from_json(truth_of(make_skid()))
     rows = list(truth.meshes)
     groups = Counter(row.group for row in rows)
     chance = sum((n / len(rows)) ** 2 for n in groups.values())
@@ -71,7 +72,7 @@ def test_shuffled_labels_are_right_about_as_often_as_by_chance():
 
 
 def test_shuffled_structure_scores_near_chance():
-    truth = Truth.from_json(make_skid().truth())
+    truth = Truth.from_json(truth_of(make_skid()))
     data = truth.to_json()
     paths = [row["mesh"] for row in data["meshes"]]
     mixed = dict(zip(paths, random.Random(0).sample(paths, len(paths)), strict=True))

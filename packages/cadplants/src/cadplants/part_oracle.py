@@ -5,12 +5,9 @@ The rule is written down here a second time, apart from the stage that is measur
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-if TYPE_CHECKING:
-    from cadplants.plant import Plant
+from cadplants.plant import Plant
 
 __all__ = ["PROXIMITY", "SMALL", "find_parts"]
 

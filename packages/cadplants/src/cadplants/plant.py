@@ -283,13 +283,3 @@ class Plant(Assembly):
         return Scene.from_meshes(
             [(c.vertices, c.faces) for c in self.components], self.paths(), [c.color for c in self.components]
         )
-
-    def truth(self, paths: Sequence[str] | None = None) -> dict[str, Any]:
-        """Everything known about the plant, as plain JSON values (``docs/truth.md``).
-
-        Args:
-            paths: of the components in a file; those of ``scene()`` by default.
-        """
-        from cadplants.truth_writer import account
-
-        return account(self, tuple(paths) if paths is not None else self.paths())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from cadgraph.geometry.contact.pairs import distances, find_contacts
 from cadgraph.model.parts import Contacts
 from cadgraph.model.scene import Floats, Scene
-from cadgraph.model.truth import Truth, TruthLine, TruthUnit
+from cadgraph.model.truth import Truth, TruthConnection, TruthLine, TruthUnit
 
 __all__ = ["APART", "Finding", "Proof", "prove"]
 
@@ -211,21 +211,28 @@ def _units(case: _Case) -> _Outcomes:
     """The meshes of a unit hang together, be it by their gaskets and bolts."""
     if case.truth.contacts is None:
         return
-    joined = [(case.scene.paths[a], case.scene.paths[b]) for a, b in case.told()]
     hidden = set(case.truth.hidden)
     taken = {mesh for unit in case.truth.units or () for mesh in unit.meshes}
     loose = {row.mesh for row in case.truth.meshes if row.name in _BETWEEN} - taken
+    beside = _neighbors((case.scene.paths[a], case.scene.paths[b]) for a, b in case.told())
+    for unit in case.truth.units or ():
+        n_pieces = _count_pieces([mesh for mesh in unit.meshes if mesh not in hidden], loose, beside)
+        yield None if n_pieces <= 1 else (f"{unit.id} falls into {n_pieces} pieces", unit.meshes)
+
+
+def _count_pieces(own: Sequence[str], loose: Collection[str], beside: Mapping[str, Collection[str]]) -> int:
+    """Into how many pieces some meshes fall that loose ones may hold together."""
+    between = {mesh for one in own for mesh in beside.get(one, ()) if mesh in loose}
+    near = [(a, b) for a in (*own, *between) for b in beside.get(a, ())]
+    return sum(not set(own).isdisjoint(piece) for piece in _pieces([*own, *sorted(between)], near))
+
+
+def _neighbors(joined: Iterable[tuple[str, str]]) -> dict[str, set[str]]:
     beside: dict[str, set[str]] = {}
     for a, b in joined:
         beside.setdefault(a, set()).add(b)
         beside.setdefault(b, set()).add(a)
-    for unit in case.truth.units or ():
-        own = [mesh for mesh in unit.meshes if mesh not in hidden]
-        between = {mesh for one in own for mesh in beside.get(one, ()) if mesh in loose}
-        near = [(a, b) for a in (*own, *between) for b in beside.get(a, ())]
-        pieces = [piece for piece in _pieces([*own, *sorted(between)], near) if set(piece) & set(own)]
-        wrong = f"{unit.id} falls into {len(pieces)} pieces"
-        yield None if len(pieces) <= 1 else (wrong, unit.meshes)
+    return beside
 
 
 def _tubes(case: _Case) -> _Outcomes:
@@ -244,27 +251,30 @@ def _tubes(case: _Case) -> _Outcomes:
 
 def _order(case: _Case) -> _Outcomes:
     """Nodes of the functional graph lie on their line where the lengths of the connections put them."""
-    truth = case.truth
-    units = {unit.id: unit for unit in truth.units or ()}
-    points = {point.id: point for point in truth.points}
-    for line in truth.lines or ():
-        chain = [c for c in truth.connections or () if c.line == line.id]
-        if not chain or any(c.length is None for c in chain):
-            continue
-        s = 0.0
-        for k, (node, length) in enumerate([(chain[0].source, 0.0), *((c.target, c.length or 0.0) for c in chain)]):
-            s += length
-            if k and chain[k - 1].source == chain[k - 1].target:
-                yield f"{line.id}: {node} follows itself", ()
-            place, slack = _at(line, s), _SHIFT + _STRETCH * s
-            if node in points:
-                known = points[node].point
-                away = 0.0 if known is None else float(np.linalg.norm(np.subtract(known, place)))
-            else:
-                slack += _REACH if line.outer is None else line.outer / 2 + _REACH
-                away = _to_unit(case, units[node], place)
-            wrong = f"{node} is {1000 * away:.1f} mm from where {line.id} puts it, {s:.3f} m along"
-            yield None if away <= slack else (wrong, ())
+    for line in case.truth.lines or ():
+        chain = [c for c in case.truth.connections or () if c.line == line.id]
+        if chain and all(c.length is not None for c in chain):
+            yield from _order_along(case, line, chain)
+
+
+def _order_along(case: _Case, line: TruthLine, chain: Sequence[TruthConnection]) -> _Outcomes:
+    """The same of the nodes of one line, whose connections all have a length."""
+    units = {unit.id: unit for unit in case.truth.units or ()}
+    points = {point.id: point for point in case.truth.points}
+    s = 0.0
+    for k, (node, length) in enumerate([(chain[0].source, 0.0), *((c.target, c.length or 0.0) for c in chain)]):
+        s += length
+        if k and chain[k - 1].source == chain[k - 1].target:
+            yield f"{line.id}: {node} follows itself", ()
+        place, slack = _at(line, s), _SHIFT + _STRETCH * s
+        if node in points:
+            known = points[node].point
+            away = 0.0 if known is None else float(np.linalg.norm(np.subtract(known, place)))
+        else:
+            slack += _REACH if line.outer is None else line.outer / 2 + _REACH
+            away = _to_unit(case, units[node], place)
+        wrong = f"{node} is {1000 * away:.1f} mm from where {line.id} puts it, {s:.3f} m along"
+        yield None if away <= slack else (wrong, ())
 
 
 def _duplicates(case: _Case) -> _Outcomes:

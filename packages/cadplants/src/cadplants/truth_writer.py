@@ -2,34 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Sequence
+from typing import Any
 
 from cadplants.part_oracle import find_parts
+from cadplants.plant import Component, Connection, Line, Plant, Point
 
-if TYPE_CHECKING:
-    from cadplants.plant import Component, Connection, Plant
-
-__all__ = ["account"]
+__all__ = ["truth_of"]
 
 
-def account(plant: Plant, names: Sequence[str]) -> dict[str, Any]:
+def truth_of(plant: Plant, paths: Sequence[str] | None = None) -> dict[str, Any]:
     """Everything known about a plant, as plain JSON values in the order of ``docs/truth.md``.
 
     Args:
-        plant: finished.
-        names: path of each component.
+        plant: finished plant.
+        paths: path of each component in a file; those of ``plant.scene()`` by default.
     """
-    of_unit: dict[str, list[str]] = {unit.id: [] for unit in plant.units}
-    clamped: dict[str, list[str]] = {unit.id: [] for unit in plant.units}
-    of_cluster: dict[str, list[str]] = {}
-    for path, component in zip(names, plant.components, strict=True):
-        if component.unit:
-            of_unit[component.unit].append(path)
-        if component.holds:
-            clamped[component.holds].append(path)
-        if component.cluster:
-            of_cluster.setdefault(component.cluster, []).append(path)
+    names = tuple(paths) if paths is not None else plant.paths()
+    of_cluster = _paths_by(lambda component: component.cluster, plant, names)
     return {
         "format": "cadgraph-truth",
         "version": 1,
@@ -37,31 +27,15 @@ def account(plant: Plant, names: Sequence[str]) -> dict[str, Any]:
         "seed": plant.seed,
         "hands": list(plant.hands),
         "meshes": [_mesh(path, c) for path, c in zip(names, plant.components, strict=True)],
-        "units": [
-            {
-                "id": u.id,
-                "type": u.type,
-                "kind": u.kind,
-                "tag": u.id,
-                "meshes": of_unit[u.id],
-                **({"fasteners": clamped[u.id]} if clamped[u.id] else {}),
-            }
-            for u in plant.units
-        ],
-        "points": [
-            {"id": p.id, "kind": p.kind, "point": _rounded(p.point), **({"end": p.end} if p.end else {})}
-            for p in plant.points
-        ],
+        "units": _units(plant, names),
+        "points": [_point(p) for p in plant.points],
         "connections": [_connection(c) for c in plant.connections],
-        "lines": [
-            {"id": one.id, "points": [_rounded(point) for point in one.points.tolist()], "outer": round(one.outer, 6)}
-            for one in plant.lines
-        ],
+        "lines": [_line(line) for line in plant.lines],
         "clusters": [{"id": name, "meshes": meshes} for name, meshes in of_cluster.items()],
         "parts": [[names[i] for i in part] for part in find_parts(plant)],
         "looseness": round(plant.looseness, 9),
-        "contacts": [[names[a], names[b]] for a, b in plant.contacts],
-        "duplicates": [[names[a], names[b]] for a, b in plant.duplicates],
+        "contacts": _named_pairs(plant.contacts, names),
+        "duplicates": _named_pairs(plant.duplicates, names),
         "hidden": [names[i] for i in plant.hidden],
         "flaws": {path: list(c.flaws) for path, c in zip(names, plant.components, strict=True) if c.flaws},
         "gaps": {path: round(c.gap, 6) for path, c in zip(names, plant.components, strict=True) if c.gap},
@@ -69,16 +43,58 @@ def account(plant: Plant, names: Sequence[str]) -> dict[str, Any]:
     }
 
 
+def _paths_by(key: Callable[[Component], str], plant: Plant, names: Sequence[str]) -> dict[str, list[str]]:
+    """The paths of the components that have a key, by that key."""
+    found: dict[str, list[str]] = {}
+    for path, component in zip(names, plant.components, strict=True):
+        if key(component):
+            found.setdefault(key(component), []).append(path)
+    return found
+
+
+def _units(plant: Plant, names: Sequence[str]) -> list[dict[str, Any]]:
+    meshes = _paths_by(lambda component: component.unit, plant, names)
+    clamped = _paths_by(lambda component: component.holds, plant, names)
+    return [
+        {
+            "id": unit.id,
+            "type": unit.type,
+            "kind": unit.kind,
+            "tag": unit.id,
+            "meshes": meshes.get(unit.id, []),
+            **({"fasteners": clamped[unit.id]} if unit.id in clamped else {}),
+        }
+        for unit in plant.units
+    ]
+
+
+def _point(point: Point) -> dict[str, Any]:
+    said = {"id": point.id, "kind": point.kind, "point": _rounded(point.point)}
+    return {**said, "end": point.end} if point.end else said
+
+
+def _line(line: Line) -> dict[str, Any]:
+    return {
+        "id": line.id,
+        "points": [_rounded(point) for point in line.points.tolist()],
+        "outer": round(line.outer, 6),
+    }
+
+
+def _named_pairs(pairs: Sequence[tuple[int, int]], names: Sequence[str]) -> list[list[str]]:
+    return [[names[a], names[b]] for a, b in pairs]
+
+
 def _mesh(path: str, component: Component) -> dict[str, str]:
     family, _, build = (component.family or component.name).partition("/")
-    told = {
+    said = {
         "line": component.line,
         "family": family,
         "build": build,
         "granularity": component.granularity,
         "hand": component.hand,
     }
-    known = {key: value for key, value in told.items() if value}
+    known = {key: value for key, value in said.items() if value}
     return {"mesh": path, "group": component.group, "name": component.name, **known}
 
 

@@ -16,6 +16,7 @@ from cadplants.mesh_ops import Solid
 from cadplants.plant import RGB, Component, Plant
 from cadplants.tessellate import facets
 from cadplants.transforms import at, spun
+from cadplants.truth_writer import truth_of
 
 __all__ = ["Instances", "UsdStyle", "draw_style", "truth_path", "write_usd"]
 
@@ -99,7 +100,7 @@ def write_usd(plant: Plant, path: str | Path, style: UsdStyle | None = None) -> 
     with replacing(target) as beside:
         writer = _Writer(plant, layout)
         writer.save(beside)
-    truth = plant.truth(writer.paths)
+    truth = truth_of(plant, writer.paths)
     for index in sorted(writer.polygonal):
         truth["flaws"].setdefault(writer.paths[index], []).append("polygons")
     truth |= {

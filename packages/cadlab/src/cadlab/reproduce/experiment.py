@@ -14,6 +14,7 @@ from cadgraph.model.truth import Truth
 from cadgraph.pipeline import build
 from cadlab.evaluate import Evaluation, evaluate
 from cadplants import Plant
+from cadplants.truth_writer import truth_of
 
 __all__ = ["LABELINGS", "METHODS", "Labeling", "Subject", "Trial", "subject_of", "try_out"]
 
@@ -80,7 +81,7 @@ class Trial:
 
 def subject_of(plant: Plant) -> Subject:
     """Makes a plant ready: its scene and its truth."""
-    return Subject(plant, plant.scene(), Truth.from_json(plant.truth(), plant.name))
+    return Subject(plant, plant.scene(), Truth.from_json(truth_of(plant), plant.name))
 
 
 def try_out(subject: Subject, method: str, labeling: Labeling) -> Trial:
