@@ -1,6 +1,6 @@
 # make demo   set up, build the scene graph of a generated plant skid, say what was found
 # make test   set up, run every test
-# make check  style, types, structure, generated documents
+# make check  style, types, structure, complexity, generated documents
 # make bench  the benchmarks, with what a user would pick instead in the same run
 # make train  the embedded labeler anew, with its page of figures (an hour or more on two cores; needs torch)
 # make docs   write the generated documents anew
@@ -27,6 +27,7 @@ check: $(VENV)/.with-dev
 	$(BIN)/mypy
 	$(BIN)/python -m pytest -q tests/test_architecture.py
 	$(BIN)/python tools/write_docs.py --check
+	$(BIN)/python tools/draw_architecture.py --check
 
 bench: $(VENV)/.with-dev
 	@for f in packages/cadlab/benchmarks/[!_]*.py; do echo "== $$f"; $(BIN)/python $$f || exit 1; done
@@ -36,6 +37,7 @@ train: $(VENV)/.with-train
 
 docs: $(VENV)/.with-dev
 	$(BIN)/python tools/write_docs.py
+	$(BIN)/python tools/draw_architecture.py
 
 clean:
 	rm -rf $(VENV) demo .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -6,7 +6,9 @@ import sys
 from functools import cache
 from pathlib import Path
 
+import networkx
 import pytest
+from radon.complexity import cc_visit
 
 import cadgraph
 import cadlab
@@ -48,6 +50,7 @@ SPLIT = ("draw",)  # rooms whose folders are rooms of their own
 MAY_SEE_THE_TRUTH = {"cli", "model", "session"}
 MAY_USE_USD = {"load", "export"}
 HEAVY = {"PIL", "cascadio", "embreex", "graphlay", "jinja2", "networkx", "numba", "openai", "pxr", "scipy", "trimesh"}
+MOST_COMPLEX = 20  # cyclomatic complexity of a function
 VAGUE = {"manager", "managers", "helper", "helpers", "util", "utils", "common", "misc"}
 
 
@@ -116,6 +119,36 @@ def test_the_table_has_no_circles():
 
     for name in MAY_IMPORT:
         visit(name, ())
+
+
+def test_no_modules_import_each_other_in_a_circle():
+    graph = networkx.DiGraph()
+    names = {".".join((package, *place_of(path))) for package, path, _ in modules()}
+    for package, path, imports in modules():
+        here = ".".join((package, *place_of(path)))
+        for steps in imports:
+            there = next((name for n in (len(steps), len(steps) - 1) if (name := ".".join(steps[:n])) in names), here)
+            # A package as a whole is asked for its version, or where it lies.
+            if there not in (here, package):
+                graph.add_edge(here, there)
+    assert [sorted(circle) for circle in networkx.strongly_connected_components(graph) if len(circle) > 1] == []
+
+
+def place_of(path):
+    """The steps of a module below its package; those of a folder for its ``__init__``."""
+    return path.parts[:-1] if path.name == "__init__.py" else path.with_suffix("").parts
+
+
+def test_no_function_is_too_complex():
+    root = Path(__file__).parents[1]
+    found = {
+        f"{path.relative_to(root)}: {block.fullname}": block.complexity
+        for folder in ("src", "packages")
+        for path in sorted((root / folder).rglob("*.py"))
+        for block in cc_visit(path.read_text(encoding="utf-8"))
+        if block.letter in "FM"
+    }
+    assert {name: n for name, n in found.items() if n > MOST_COMPLEX} == {}
 
 
 def test_the_product_knows_nothing_of_the_other_packages():
