@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from cadgraph._io.progress import Progress, quiet
 from cadgraph.config import Config
 from cadgraph.geometry.mesh.properties import measure
-from cadgraph.labelers.base import Labeler, label_parts, labeler_of
+from cadgraph.labelers.base import Labeler, label_parts
 from cadgraph.labelers.precedence import SettledLabels, settle_labels
+from cadgraph.labelers.registry import labeler_of
 from cadgraph.model.analysis import Analysis
 from cadgraph.model.catalog import read_catalog
 from cadgraph.model.corrections import Correction

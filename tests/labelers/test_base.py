@@ -5,9 +5,10 @@ import shapes
 from cadgraph.config import LabelConfig
 from cadgraph.errors import LabelError
 from cadgraph.geometry.mesh.properties import measure
-from cadgraph.labelers.base import Labeling, label_parts, labeler_of
+from cadgraph.labelers.base import Labeling, label_parts
 from cadgraph.labelers.embedded.labeler import EmbeddedLabeler
 from cadgraph.labelers.given import apply_given
+from cadgraph.labelers.registry import labeler_of
 from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.labels import GivenEvidence, Guess, Label
 from cadgraph.model.parts import Contacts, Parts

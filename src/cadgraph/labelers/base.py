@@ -16,7 +16,7 @@ from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.scene import Floats
 from cadgraph.model.vocabulary import Vocabulary
 
-__all__ = ["LEAST_CONFIDENCE", "Labeler", "Labeling", "Probabilities", "label_parts", "labeler_of"]
+__all__ = ["LEAST_CONFIDENCE", "Labeler", "Labeling", "Probabilities", "label_parts"]
 
 LEAST_CONFIDENCE = 0.5
 """Of a label, where neither the settings nor the labeler say."""
@@ -101,19 +101,6 @@ class Labeler(Protocol):
             What it says of each part; ``Labeling.judge`` makes it of the likeliest labels.
         """
         ...
-
-
-def labeler_of(config: LabelConfig) -> Labeler | None:
-    """The labeler that is set; None if labels come from outside only.
-
-    Raises:
-        LabelError: the trained model is damaged.
-    """
-    if config.labeler == "none":
-        return None
-    from cadgraph.labelers.embedded.labeler import EmbeddedLabeler
-
-    return EmbeddedLabeler()
 
 
 def label_parts(

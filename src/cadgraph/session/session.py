@@ -8,8 +8,9 @@ from dataclasses import dataclass
 
 from cadgraph._io.progress import Progress, quiet
 from cadgraph.config import Config
-from cadgraph.labelers.base import Labeler, Labeling, label_parts, labeler_of
+from cadgraph.labelers.base import Labeler, Labeling, label_parts
 from cadgraph.labelers.precedence import SettledLabels, lay_corrections, lay_known
+from cadgraph.labelers.registry import labeler_of
 from cadgraph.model.analysis import Analysis
 from cadgraph.model.catalog import read_catalog
 from cadgraph.model.corrections import Correction, Fingerprint, with_correction

@@ -9,7 +9,6 @@ from typing import Literal
 
 from cadgraph.config import Config, LvlmConfig
 from cadgraph.errors import LabelError
-from cadgraph.labelers.base import labeler_of
 from cadgraph.labelers.lvlm.asking import Asking, Budget, Tally, key_of
 from cadgraph.labelers.lvlm.batch import BatchWriter, read_results
 from cadgraph.labelers.lvlm.cache import Cache
@@ -18,6 +17,7 @@ from cadgraph.labelers.lvlm.folder import DryRun, FolderAnswers
 from cadgraph.labelers.lvlm.labeler import LvlmLabeler, Way
 from cadgraph.labelers.lvlm.price import Estimate, read_price
 from cadgraph.labelers.lvlm.reply import Answerer, Question
+from cadgraph.labelers.registry import labeler_of
 
 __all__ = ["Run", "make_asking", "make_labeler"]
 
