@@ -31,6 +31,7 @@ from cadgraph.stages.relate.unit import (
     is_loose_operator,
     mend_groups,
     split_groups,
+    take_in_enclosed,
 )
 
 __all__ = ["connect_units"]
@@ -98,6 +99,8 @@ def connect_units(
     mended = mend_groups(
         groups, roles.names, near, _mounted(found), _kept_apart(parts, found), unsure, frozenset(lines)
     )
+    types = [vocabulary.unit_of_group.get(group, "") if group is not None else None for group in roles.groups]
+    mended = take_in_enclosed(mended, parts.inside, types, near, lines)
     taken_in = {part for group in mended for part in group.parts} - members
     if any(part in lines or part in blobs or roles.names[part] not in FASTENERS for part in taken_in):
         members |= taken_in

@@ -14,7 +14,15 @@ from cadgraph.model.scene import Ints
 from cadgraph.stages.relate.attach import Attachments, flat_contacts
 from cadgraph.stages.relate.role import Roles
 
-__all__ = ["FASTENERS", "Group", "connected_groups", "is_loose_operator", "mend_groups", "split_groups"]
+__all__ = [
+    "FASTENERS",
+    "Group",
+    "connected_groups",
+    "is_loose_operator",
+    "mend_groups",
+    "split_groups",
+    "take_in_enclosed",
+]
 
 # A body stands out from the line's axis this many times farther on one side than on the other where it carries its own
 # operator: one mesh for a whole valve.
@@ -207,6 +215,54 @@ def _join_odd(
             work.merge(keep, [*touched[1:], k], None)
             changed = True
     return changed
+
+
+def take_in_enclosed(
+    groups: Sequence[Group],
+    inside: Mapping[int, int],
+    types: Sequence[str | None],
+    near: Mapping[int, Sequence[int]],
+    lines: Collection[int],
+) -> list[Group]:
+    """Gives what lies within a unit's parts, and touches nothing else, to that unit: the ball to its valve.
+
+    Args:
+        groups: connected parts.
+        inside: the innermost part around each part that lies inside another one.
+        types: the unit type of each part, None for parts without a group; ``""`` for groups that form no unit.
+        near: parts near each part.
+        lines: parts with a line, which stay apart.
+    """
+    owner = {part: k for k, group in enumerate(groups) for part in group.parts}
+    within = {part: k for part in inside if (k := _unit_around(part, inside, owner)) is not None}
+    home = {
+        part: k
+        for part, k in within.items()
+        if owner.get(part) != k and part not in lines and types[part] in (None, groups[k].unit_type)
+    }
+
+    def stays(other: int, k: int) -> bool:
+        return home.get(other, owner.get(other, within.get(other))) == k
+
+    while loose := [part for part, k in home.items() if not all(stays(other, k) for other in near.get(part, ()))]:
+        for part in loose:
+            del home[part]
+    if not home:
+        return list(groups)
+    members = [[part for part in group.parts if part not in home] for group in groups]
+    for part, target in home.items():
+        members[target].append(part)
+    kept = [Group(group.unit_type, tuple(sorted(own))) for group, own in zip(groups, members, strict=True) if own]
+    return sorted(kept, key=lambda group: group.parts)
+
+
+def _unit_around(part: int, inside: Mapping[int, int], owner: Mapping[int, int]) -> int | None:
+    """The group of the innermost part around a part that is of one."""
+    while part in inside:
+        part = inside[part]
+        if part in owner:
+            return owner[part]
+    return None
 
 
 def split_groups(
