@@ -330,7 +330,7 @@ class SceneGraph:
         """
         target = Path(path)
         target = target / "graph.json" if target.is_dir() else target
-        text = read_text_within(target, GRAPH, FormatError, "give a folder that 'cadgraph build' wrote")
+        text = read_text_within(target, GRAPH, FormatError, "'cadgraph build' makes it")
         try:
             data = json.loads(text)
         except (ValueError, RecursionError) as error:

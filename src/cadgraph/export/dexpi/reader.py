@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Literal
 from xml.parsers import expat
 
+from cadgraph._io.limits import DEXPI, read_bytes_within
 from cadgraph.errors import FormatError
 from cadgraph.export.dexpi.terms import CUSTOM_SET, DEXPI_SET, INSTRUMENT, kind_of, unit_type_of
 from cadgraph.model.graph import SceneGraph
@@ -55,10 +56,7 @@ def read_dexpi(path: str | Path) -> SceneGraph:
 
 
 def _parsed(path: Path) -> ET.Element:
-    try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise FormatError(f"{path}: can't be read ({error.strerror})") from error
+    data = read_bytes_within(path, DEXPI, FormatError, "give a P&ID as Proteus XML, sheet by sheet")
 
     def refuse(*_: object) -> None:
         raise FormatError(f"{path}: has a document type declaration, which DEXPI doesn't use; remove it")
