@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from cadgraph._io import limits
-from cadgraph._io.limits import Limit, lines_within, read_arrays, read_bytes_within, read_text_within
+from cadgraph._io.arrays import check_array, read_arrays
+from cadgraph._io.limits import Limit, lines_within, read_bytes_within, read_text_within
 from cadgraph.config import read_config
 from cadgraph.errors import FormatError, LabelError, LoadError
 from cadgraph.export.dexpi import read_dexpi
@@ -23,8 +24,8 @@ from cadgraph.labelers.lvlm.reply import Reply
 from cadgraph.load.sandbox.exchange import read_scene, write_scene
 from cadgraph.model.catalog import read_catalog
 from cadgraph.model.corrections import read_corrections
+from cadgraph.model.given_labels import read_labels
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.labels import read_labels
 from cadgraph.model.scene import Scene
 from cadgraph.model.truth import Truth
 from cadgraph.model.vocabulary import default_vocabulary, read_vocabulary
@@ -178,7 +179,7 @@ def test_answer_in_a_cache_that_is_larger_than_any_is_as_good_as_none(tmp_path):
 
 def test_npy_of_a_foreign_version_is_refused():
     with pytest.raises(ValueError, match="unknown kind"):
-        limits.check_array(io.BytesIO(b"\x93NUMPY\x09\x00" + struct.pack("<H", 0)), 10, "a")
+        check_array(io.BytesIO(b"\x93NUMPY\x09\x00" + struct.pack("<H", 0)), 10, "a")
 
 
 def test_error_of_the_reading_process_is_told_whatever_it_left(tmp_path):

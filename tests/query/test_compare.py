@@ -24,7 +24,7 @@ def changed(graph, nodes=None, edges=None, without=()):
 def renamed(graph, tags):
     """The same graph with other tags and ids, as another tool gives them."""
     text = json.dumps(graph.to_json())
-    for k, (old, new) in enumerate(tags.items()):
+    for k, old in enumerate(tags):
         text = text.replace(f'"unit-{old}"', f'"unit-#{k}#"').replace(f'"{old}"', f'"#{k}#"')
     for k, new in enumerate(tags.values()):
         text = text.replace(f"#{k}#", new)

@@ -3,8 +3,8 @@ import pytest
 
 import shapes
 from cadgraph import Config, build
+from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.labels import GivenLabel
 from cadgraph.model.scene import Scene
 from cadgraph.query.explain import explain
 from cadgraph.stages.insides import find_insides, join_enclosed

@@ -8,15 +8,10 @@ XML take about ten times their size in memory while they are parsed.
 from __future__ import annotations
 
 import stat
-import zipfile
 from collections.abc import Iterator
 from dataclasses import dataclass
-from io import BytesIO
 from pathlib import Path
-from typing import IO, Any
-
-import numpy as np
-import numpy.typing as npt
+from typing import IO
 
 __all__ = [
     "ANSWER",
@@ -38,11 +33,10 @@ __all__ = [
     "TRUTH",
     "VOCABULARY",
     "Limit",
-    "check_array",
     "lines_within",
-    "read_arrays",
     "read_bytes_within",
     "read_text_within",
+    "size_text",
 ]
 
 _KB, _MB = 1 << 10, 1 << 20
@@ -127,8 +121,8 @@ def read_bytes_within(path: str | Path, limit: Limit, error: type[Exception], re
         # A path with a null character.
         raise error(f"{path!r}: can't be read ({failure}); {remedy}") from failure
     if max(size, len(content)) > limit.most:
-        shown = _size(size) if size > limit.most else f"over {_size(limit.most)}"
-        raise error(f"{path}: {shown} large, and at most {_size(limit.most)} are read of {limit.what}; {remedy}")
+        shown = size_text(size) if size > limit.most else f"over {size_text(limit.most)}"
+        raise error(f"{path}: {shown} large, and at most {size_text(limit.most)} are read of {limit.what}; {remedy}")
     return content
 
 
@@ -150,59 +144,7 @@ def lines_within(file: IO[str], most: int) -> Iterator[str]:
     return iter(lambda: file.readline(most), "")
 
 
-def read_arrays(content: bytes, limit: Limit) -> dict[str, npt.NDArray[Any]]:
-    """The arrays of an npz file, once it is known that they are as large as the file says and together not too large.
-
-    Args:
-        content: of the file.
-        limit: of all arrays together, unpacked.
-
-    Raises:
-        ValueError: they are too large, an array claims another size than it has, or it holds objects.
-        zipfile.BadZipFile, KeyError, EOFError, OSError, zlib.error, RuntimeError: the file is damaged.
-    """
-    with zipfile.ZipFile(BytesIO(content)) as archive:
-        infos = archive.infolist()
-        size = sum(info.file_size for info in infos)
-        if size > limit.most:
-            raise ValueError(f"holds {_size(size)}, and at most {_size(limit.most)} are read of {limit.what}")
-        for info in infos:
-            with archive.open(info) as file:
-                check_array(file, info.file_size, info.filename)
-    with np.load(BytesIO(content), allow_pickle=False) as loaded:
-        return {name: loaded[name] for name in loaded.files}
-
-
-def check_array(file: IO[bytes], size: int, name: str) -> tuple[tuple[int, ...], np.dtype[Any], bool]:
-    """Makes sure that an npy array is as large as its head says, before memory is taken for it.
-
-    Args:
-        file: open at its start; left behind its head.
-        size: of the whole array with its head [bytes].
-        name: of the array, for messages.
-
-    Returns:
-        Its shape, its type, and whether its columns come first.
-
-    Raises:
-        ValueError: it isn't, or it holds objects.
-    """
-    version = np.lib.format.read_magic(file)
-    if version not in ((1, 0), (2, 0)):
-        raise ValueError(f"unknown kind of array {name}")
-    read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
-    shape, fortran, dtype = read(file)
-    if dtype.hasobject:
-        raise ValueError(f"{name} holds objects")
-    claimed = dtype.itemsize
-    for length in shape:
-        claimed *= length
-    if file.tell() + claimed != size:
-        raise ValueError(f"{name} is cut short or too long")
-    return shape, dtype, fortran
-
-
-def _size(n: int) -> str:
+def size_text(n: int) -> str:
     """A number of bytes in the unit that people read it in."""
     if n >= _MB:
         return f"{n / _MB:,.0f} MB" if n >= 10 * _MB else f"{n / _MB:.3g} MB"

@@ -19,8 +19,9 @@ from typing import Any
 
 import numpy as np
 
+from cadgraph._io.arrays import read_arrays
 from cadgraph._io.atomic import write_atomically
-from cadgraph._io.limits import CATALOG, read_arrays, read_bytes_within
+from cadgraph._io.limits import CATALOG, read_bytes_within
 from cadgraph.errors import LabelError
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary

@@ -12,11 +12,11 @@ from cadgraph._io.limits import DEXPI, read_bytes_within
 from cadgraph.errors import FormatError
 from cadgraph.export.dexpi.chain import Chain, Direction, Pipe, as_chain, join_through, with_sensors
 from cadgraph.export.dexpi.terms import CUSTOM_SET, DEXPI_SET, INSTRUMENT, kind_of, unit_type_of
+from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import (
     Connected,
     Contains,
-    Finding,
     GraphDocument,
     Junction,
     Point,
@@ -137,7 +137,7 @@ class _Reading:
                 nodes=(Site(id="site"), *self.nodes.values(), *self._systems(set(used), edges)),
                 edges=(*edges, *self._contains(set(used))),
                 diagnostics=tuple(
-                    Finding(code=f"dexpi-{code}", message=_told(code, names)) for code, names in self.skipped.items()
+                    Diagnostic(f"dexpi-{code}", _told(code, names)) for code, names in self.skipped.items()
                 ),
             )
         )
@@ -184,18 +184,22 @@ class _Reading:
         elif name == "PipeTee" or what.startswith("junction"):
             self.nodes[key] = Junction(id=key, point=point, parts=())
         elif name == "BlindFlange" or what in ("open end", "end of pipe") or item.tag == "PipeOffPageConnector":
-            kind: Literal["open", "blind", "unknown"] = "blind" if name == "BlindFlange" else "unknown"
-            self.nodes[key] = Terminal(id=key, kind="open" if what == "open end" else kind, point=point, parts=())
+            ending: Literal["open", "blind", "unknown"] = "blind" if name == "BlindFlange" else "unknown"
+            self.nodes[key] = Terminal(id=key, kind="open" if what == "open end" else ending, point=point, parts=())
         else:
-            tag = values.get("PipingComponentName") or item.get("TagName")
-            kind = kind_of(name, what)
-            if "Valve" in name:
-                self._unit(item, "valve", tag, kind, custom, ())
-            elif any(word in name for word in _METERS):
-                self._unit(item, "gauge", tag, kind or "flow meter", custom, ())
-            else:
-                self._unit(item, "equipment", tag, kind, custom, ())
+            self._in_line(item, values, custom)
         self.owner[item.get("ID", "")] = key, None
+
+    def _in_line(self, item: ET.Element, values: dict[str, str], custom: dict[str, str]) -> None:
+        """A valve, a meter, or another device that stands in a line."""
+        name, tag = item.get("ComponentClass", ""), values.get("PipingComponentName") or item.get("TagName")
+        kind = kind_of(name, values.get("TypeName", ""))
+        if "Valve" in name:
+            self._unit(item, "valve", tag, kind, custom, ())
+        elif any(word in name for word in _METERS):
+            self._unit(item, "gauge", tag, kind or "flow meter", custom, ())
+        else:
+            self._unit(item, "equipment", tag, kind, custom, ())
 
     def _instrument(self, item: ET.Element) -> None:
         values, custom = _values(item, DEXPI_SET), _values(item, CUSTOM_SET)

@@ -14,7 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from cadgraph._io.limits import MODEL, read_arrays, read_bytes_within
+from cadgraph._io.arrays import read_arrays
+from cadgraph._io.limits import MODEL, read_bytes_within
 from cadgraph.errors import LabelError
 from cadgraph.labelers.embedded.classifier import Network
 from cadgraph.labelers.embedded.descriptor import FORMS, SIZES

@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from cadgraph._io.limits import EXCHANGE_HEAD, check_array, read_text_within
+from cadgraph._io.arrays import check_array
+from cadgraph._io.limits import EXCHANGE_HEAD, read_text_within
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.scene import Scene, Source
 
