@@ -313,3 +313,24 @@ def test_fittings_at_which_pipes_branch_or_end_are_nodes(tmp_path):
 def test_it_is_a_format_of_export(tmp_path):
     assert export_graph(pumping(), "dexpi", tmp_path) == [tmp_path / "dexpi.xml"]
     assert export_graph(pumping(), "dexpi", tmp_path / "plant.xml") == [tmp_path / "plant.xml"]
+
+
+def test_pipe_drawn_in_two_strokes_is_one_connection(tmp_path):
+    def stroke(length):
+        return (
+            "<CenterLine><GenericAttributes Set='DexpiCustomAttributes'>"
+            f"<GenericAttribute Name='Length' Value='{length}'/></GenericAttributes></CenterLine>"
+        )
+
+    (tmp_path / "a.xml").write_text(
+        f"""<PlantModel><PipingNetworkSystem><PipingNetworkSegment ID="S">
+        <PipingComponent ID="V1" ComponentClass="GateValve"/>{stroke(1.0)}{stroke(2.0)}
+        <PipingComponent ID="V2" ComponentClass="GateValve"/></PipingNetworkSegment></PipingNetworkSystem>
+        <ProcessInstrumentationFunction ID="G1" TagName="PI-1"><ProcessSignalGeneratingFunction ID="P1">
+        <GenericAttributes Set="DexpiCustomAttributes"><GenericAttribute Name="DistanceAlongSegment" Value="2.5"/>
+        </GenericAttributes><Association Type="is located in" ItemID="S"/></ProcessSignalGeneratingFunction>
+        </ProcessInstrumentationFunction></PlantModel>""",
+        encoding="utf-8",
+    )
+    edges = read_dexpi(tmp_path / "a.xml").connections()
+    assert [(edge.source, edge.target, edge.length) for edge in edges] == [("V1", "G1", 2.5), ("G1", "V2", 0.5)]

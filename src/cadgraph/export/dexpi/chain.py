@@ -11,6 +11,7 @@ from cadgraph.model.records import Connected
 __all__ = ["Chain", "Direction", "Pipe", "as_chain", "join_through", "with_sensors"]
 
 Direction = Literal["forward", "backward", "unknown"]
+_SAME = 1e-6  # lengths along a line that differ by less are the same [m]
 _TURNED: dict[Direction, Direction] = {"forward": "backward", "backward": "forward", "unknown": "unknown"}
 
 
@@ -75,11 +76,13 @@ def with_sensors(
     nodes, ports, pipes = chain.nodes[:1], chain.ports[:1], []
     waiting = list(sensors)
     gone = 0.0
+    carried: float | None = 0.0  # length that is drawn, up to no node
     if waiting and nodes[:1] == [""]:
         nodes[0] = waiting.pop(0)[1]
     for i, pipe in enumerate(chain.pipes):
         last = i == len(chain.pipes) - 1
-        end, length = chain.nodes[i + 1], pipe.length
+        end, length = chain.nodes[i + 1], _together(carried, pipe.length)
+        carried = 0.0
         while waiting and (last or (length is not None and waiting[0][0] < gone + length - 1e-9)):
             if last and len(waiting) == 1 and end == "":
                 break
@@ -90,15 +93,21 @@ def with_sensors(
             ports.append((None, None))
             if length is not None and part is not None:
                 length, gone = length - part, gone + part
-        if end == "" and waiting:
+        if end == "" and waiting and (length is None or waiting[0][0] <= gone + length + _SAME):
             end = waiting.pop(0)[1]
-        gone += length or 0.0
         if end == "":
+            # Drawn in two strokes.
+            carried = length
             continue
+        gone += length or 0.0
         pipes.append(Pipe(length, pipe.size, pipe.direction, pipe.reason, pipe.confidence))
         nodes.append(end)
         ports.append(chain.ports[i + 1])
     return nodes, ports, pipes
+
+
+def _together(one: float | None, other: float | None) -> float | None:
+    return None if one is None or other is None else one + other
 
 
 def join_through(
