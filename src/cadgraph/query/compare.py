@@ -297,16 +297,26 @@ def _orders(names: _Names) -> tuple[tuple[str, ...], tuple[OtherOrder, ...]]:
             common = set(row) & set(plan_row)
             built, planned = ([name for name in each if name in common] for each in (row, plan_row))
             # What is there twice, as the unit of a ring, tells no order.
-            if len(common) < 2 or len(built) > len(common) or len(planned) > len(common):
-                continue
-            oriented = line.flow == "forward" == other.flow
-            if len(common) == 2 and not oriented:
-                continue
-            if built == planned or (built == planned[::-1] and not (oriented and len(common) == 2)):
-                same.append(line.tag)
-            else:
-                others.append(OtherOrder(line.tag, tuple(built), tuple(planned)))
+            if len(built) == len(planned) == len(common):
+                follows = _follows(built, planned, line.flow == "forward" == other.flow)
+                if follows:
+                    same.append(line.tag)
+                elif follows is False:
+                    others.append(OtherOrder(line.tag, tuple(built), tuple(planned)))
     return tuple(dict.fromkeys(same)), tuple(others)
+
+
+def _follows(built: list[str], planned: list[str], oriented: bool) -> bool | None:
+    """Whether units follow each other as planned, from whichever end; None where nobody can say.
+
+    Args:
+        built: units in the plant's order.
+        planned: the same units in the plan's order.
+        oriented: whether both orders go with the flow, without which two units have none.
+    """
+    if len(built) < 2 or (len(built) == 2 and not oriented):
+        return None
+    return built == planned or (len(built) > 2 and built == planned[::-1])
 
 
 def _row(names: _Names, line: Line, side: int) -> list[str]:
@@ -317,24 +327,35 @@ def _row(names: _Names, line: Line, side: int) -> list[str]:
 
 def _directions(names: _Names, regions: tuple[list[Region], list[Region]]) -> tuple[OtherDirection, ...]:
     """Where the flow goes the other way, in the pieces of pipe that join the same units in both."""
-    drawn: dict[tuple[str, ...], list[Region]] = {}
-    for region in regions[1]:
-        drawn.setdefault(tuple(names.members(region, 1)[0]), []).append(region)
-    found = []
-    for region in regions[0]:
-        ends = tuple(names.members(region, 0)[0])
+    built, drawn = (_by_ends(names, found, side) for side, found in enumerate(regions))
+    told = []
+    for ends, own in built.items():
         others = drawn.get(ends, [])
         # Of two pipes between the same two units nobody knows which is which.
-        if len(others) != 1 or sum(tuple(names.members(r, 0)[0]) == ends for r in regions[0]) != 1:
-            continue
-        planned = {names.of[1][name]: flow for name, flow in others[0].flows.items()}
-        built = {names.of[0][name]: flow for name, flow in region.flows.items()}
-        against = [name for name in ends if name in planned and built.get(name, planned[name]) != planned[name]]
-        # A pipe between two units flows backwards as a whole.
-        for name in against[: 1 if len(ends) == 2 else None]:
-            rest = tuple(other for other in ends if other != name)
-            found.append(OtherDirection(name, rest, built[name], planned[name]))
-    return tuple(found)
+        if len(own) == len(others) == 1:
+            told += _against(ends, _flows(names, own[0], 0), _flows(names, others[0], 1))
+    return tuple(told)
+
+
+def _by_ends(names: _Names, regions: Iterable[Region], side: int) -> dict[tuple[str, ...], list[Region]]:
+    found: dict[tuple[str, ...], list[Region]] = {}
+    for region in regions:
+        found.setdefault(tuple(names.members(region, side)[0]), []).append(region)
+    return found
+
+
+def _flows(names: _Names, region: Region, side: int) -> dict[str, str]:
+    return {names.of[side][name]: flow for name, flow in region.flows.items()}
+
+
+def _against(ends: tuple[str, ...], built: Mapping[str, str], planned: Mapping[str, str]) -> list[OtherDirection]:
+    """The units of a piece of pipe at which the flow goes the other way; one where it joins only two."""
+    known = [name for name in ends if name in built and name in planned]
+    turned = [name for name in known if built[name] != planned[name]]
+    return [
+        OtherDirection(name, tuple(other for other in ends if other != name), built[name], planned[name])
+        for name in turned[: 1 if len(ends) == 2 else None]
+    ]
 
 
 def _kinds(networks: tuple[Network, Network], pairs: Iterable[Match]) -> tuple[Difference, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Literal
 
 from cadgraph.model.records import Unit
@@ -97,27 +97,22 @@ def kind_words(kind: str | None) -> frozenset[int]:
     return frozenset(i for i, words in enumerate(_KINDS) if any(word in text for word in words))
 
 
-@dataclass
 class _Side:
     """One graph: its units, and the pieces of pipe that join them, gauges and junctions contracted."""
 
-    network: Network
-    units: dict[str, Unit] = field(init=False)
-    regions: list[list[str]] = field(init=False)
-    at: dict[str, list[int]] = field(init=False)
-    near: dict[str, set[str]] = field(init=False)  # other units in the regions of each
-
-    def __post_init__(self) -> None:
-        self.units = {name: node for name, node in self.network.places.items() if isinstance(node, Unit)}
-        dividing = {name for name in self.units if not self.network.is_gauge(name)}
-        found = find_regions(self.network, dividing)
-        self.regions = [sorted(region.ends | (region.inside & self.units.keys())) for region in found]
-        self.at = {name: [] for name in self.units}
-        self.near = {name: set() for name in self.units}
+    def __init__(self, network: Network) -> None:
+        self.network = network
+        self.units = {name: node for name, node in network.places.items() if isinstance(node, Unit)}
+        dividing = {name for name in self.units if not network.is_gauge(name)}
+        # Per piece its units, and per unit the pieces that it is at, and the other units there.
+        self.regions = [sorted((r.ends | r.inside) & self.units.keys()) for r in find_regions(network, dividing)]
+        self.at: dict[str, list[int]] = {name: [] for name in self.units}
+        self.near: dict[str, set[str]] = {name: set() for name in self.units}
         for number, members in enumerate(self.regions):
             for name in members:
                 self.at[name].append(number)
-                self.near[name].update(other for other in members if other != name)
+                self.near[name].update(members)
+                self.near[name].discard(name)
 
 
 def _same_tags(plant: Network, plan: Network, found: _Found) -> list[tuple[str, str]]:
@@ -138,22 +133,18 @@ def _refine(sides: tuple[_Side, _Side], found: _Found, kinds: bool) -> list[tupl
     """Adds matches by the network until there are no more; returns what is alike."""
     while True:
         rounds = _colored(sides, found, kinds)
-        new: list[tuple[str, str]] = []
-        taken: set[str] = set()
-        # The deepest colours first: they stand for the most in common.
-        for colors in reversed(rounds):
-            for plant_ids, plan_ids in _classes(sides, colors, found):
-                if len(plant_ids) == len(plan_ids) == 1 and not taken.intersection((*plant_ids, *plan_ids)):
-                    new.append((plant_ids[0], plan_ids[0]))
-                    taken.update((*plant_ids, *plan_ids))
-            if new:
-                break
+        new = next(filter(None, (_singles(sides, colors, found) for colors in reversed(rounds))), [])
         new = new or _beside(sides, found)
         if not new:
             classes = _classes(sides, rounds[-1], found)
             return [(tuple(a), tuple(b)) for a, b in classes if len(a) == len(b) > 1]
         for plant_id, plan_id in new:
             found[plant_id] = plan_id, "network"
+
+
+def _singles(sides: tuple[_Side, _Side], colors: Sequence[Mapping[str, int]], found: _Found) -> list[tuple[str, str]]:
+    """Units whose colour is that of one unit in each graph."""
+    return [(a[0], b[0]) for a, b in _classes(sides, colors, found) if len(a) == len(b) == 1]
 
 
 def _colored(sides: tuple[_Side, _Side], found: _Found, kinds: bool) -> list[tuple[dict[str, int], dict[str, int]]]:
@@ -201,28 +192,35 @@ def _classes(
 
 def _beside(sides: tuple[_Side, _Side], found: _Found) -> list[tuple[str, str]]:
     """Units of one type that are each other's only best match by the matched units that they are joined to."""
-    plant, plan = sides
     plan_of = {plant_id: plan_id for plant_id, (plan_id, _) in found.items()}
-    done = set(plan_of.values())
-    scores: dict[tuple[str, str], float] = {}
-    for a, unit in plant.units.items():
-        own = {plan_of[name] for name in plant.near[a] if name in plan_of}
-        if a in plan_of or not own:
-            continue
-        for b in {name for each in own for name in plan.near[each]} - done:
-            other = plan.near[b] & done
-            if plan.units[b].unit_type == unit.unit_type:
-                scores[a, b] = len(own & other) / len(own | other)
-    best: dict[str, list[float]] = {}
+    scores = _scores(sides, plan_of)
+    rivals: dict[tuple[str, str], list[float]] = {}
     for (a, b), score in scores.items():
-        for name in (f"plant {a}", f"plan {b}"):
-            best.setdefault(name, []).append(score)
+        for name in (("plant", a), ("plan", b)):
+            rivals.setdefault(name, []).append(score)
+
+    def wins(name: tuple[str, str], score: float) -> bool:
+        return score == max(rivals[name]) and rivals[name].count(score) == 1
+
     return [
         (a, b)
         for (a, b), score in sorted(scores.items())
-        if score >= _LEAST_SURE
-        and all(score == max(best[name]) and best[name].count(score) == 1 for name in (f"plant {a}", f"plan {b}"))
+        if score >= _LEAST_SURE and wins(("plant", a), score) and wins(("plan", b), score)
     ]
+
+
+def _scores(sides: tuple[_Side, _Side], plan_of: Mapping[str, str]) -> dict[tuple[str, str], float]:
+    """Share of matched neighbours in common, for units of one type that aren't matched and have some in common."""
+    plant, plan = sides
+    done = set(plan_of.values())
+    scores: dict[tuple[str, str], float] = {}
+    for a in plant.units.keys() - plan_of.keys():
+        own = {plan_of[name] for name in plant.near[a] if name in plan_of}
+        for b in {name for each in own for name in plan.near[each]} - done:
+            if plan.units[b].unit_type == plant.units[a].unit_type:
+                other = plan.near[b] & done
+                scores[a, b] = len(own & other) / len(own | other)
+    return scores
 
 
 class _Agreement:

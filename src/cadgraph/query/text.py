@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
@@ -213,8 +214,23 @@ def comparison_lines(found: Comparison, *, most: int = 20) -> list[str]:
         found: the comparison.
         most: rows that are shown of each matter; how many more there are is said.
     """
-    by = {way: sum(unit.by == way for unit in found.found) for way in ("tag", "given", "network")}
-    ways = ", ".join(f"{count} {words}" for way, words in _WAYS.items() if (count := by[way]))
+    return [
+        *_unit_lines(found, most),
+        *_connection_lines(found, most),
+        *_order_lines(found, most),
+        f"directions     {len(found.directions)} contradict",
+        *_listed([_way(way.at, way.to, way.plant, way.plan) for way in found.directions], most),
+        f"kinds          {len(found.kinds)} differ",
+        *_listed(aligned([(*k.where, f"{k.plant} in the plant,", f"{k.plan} in the plan") for k in found.kinds]), most),
+        *(f"note: {remark}" for remark in found.told),
+        "",
+        "the plant and the plan agree" if found.agrees else "the plant and the plan differ",
+    ]
+
+
+def _unit_lines(found: Comparison, most: int) -> list[str]:
+    by = Counter(unit.by for unit in found.found)
+    ways = ", ".join(f"{by[way]} {words}" for way, words in _WAYS.items() if by[way])
     told = [f"units          {len(found.found)} in both{f' ({ways})' if ways else ''}"]
     guessed = [unit for unit in found.found if unit.by == "network"]
     rows = [(u.plant, "=", u.plan, u.what, f"{u.sure:.0%} of the neighbours agree") for u in guessed]
@@ -225,24 +241,24 @@ def comparison_lines(found: Comparison, *, most: int = 20) -> list[str]:
         told += _listed(aligned([(unit.tag, unit.what, _around(unit)) for unit in units]), most)
     if {unit.what for unit in found.only_plant} & {unit.what for unit in found.only_plan}:
         told.append("               some of these may be the same; --map FILE says which is which")
-    told.append(
-        f"connections    {len(found.agreeing)} agree, {len(found.missing)} only in the plan, "
-        f"{len(found.extra)} only in the plant"
-    )
-    told += _listed([f"only in the plan: {a} - {b}" for a, b in found.missing], most)
-    told += _listed([f"only in the plant: {a} - {b}" for a, b in found.extra], most)
-    told.append(f"orders         {len(found.lines)} lines agree, {len(found.orders)} differ")
+    return told
+
+
+def _connection_lines(found: Comparison, most: int) -> list[str]:
+    counts = f"{len(found.missing)} only in the plan, {len(found.extra)} only in the plant"
+    return [
+        f"connections    {len(found.agreeing)} agree, {counts}",
+        *_listed([f"only in the plan: {a} - {b}" for a, b in found.missing], most),
+        *_listed([f"only in the plant: {a} - {b}" for a, b in found.extra], most),
+    ]
+
+
+def _order_lines(found: Comparison, most: int) -> list[str]:
+    told = [f"orders         {len(found.lines)} lines agree, {len(found.orders)} differ"]
     for order in found.orders[:most]:
-        told += [f"  {order.line} in the plant: {' '.join(order.plant)}"]
-        told += [f"  {'':<{len(order.line)}} in the plan:  {' '.join(order.plan)}"]
-    told += _more(len(found.orders) - most)
-    told.append(f"directions     {len(found.directions)} contradict")
-    told += _listed([_way(way.at, way.to, way.plant, way.plan) for way in found.directions], most)
-    told.append(f"kinds          {len(found.kinds)} differ")
-    kinds = [(" ".join(kind.where), f"{kind.plant} in the plant,", f"{kind.plan} in the plan") for kind in found.kinds]
-    told += _listed(aligned(kinds), most)
-    told += [f"note: {remark}" for remark in found.told]
-    return [*told, "", "the plant and the plan agree" if found.agrees else "the plant and the plan differ"]
+        told.append(f"  {order.line} in the plant: {' '.join(order.plant)}")
+        told.append(f"  {'':<{len(order.line)}} in the plan:  {' '.join(order.plan)}")
+    return told + _more(len(found.orders) - most)
 
 
 _WAYS = {"tag": "by tag", "given": "as given", "network": "by the network"}

@@ -79,25 +79,28 @@ def join_enclosed(cluster: Ints, parts: Parts) -> Ints:
     """
     if not parts.inside:
         return cluster
-    joined = cluster.copy()
-    members: dict[int, list[int]] = {}
-    for part, own in enumerate(cluster.tolist()):
-        if own >= 0:
-            members.setdefault(own, []).append(part)
-    loose = [[part] for part in parts.inside if cluster[part] < 0]
-    whole = [members[own] for own in sorted({int(cluster[part]) for part in parts.inside if cluster[part] >= 0})]
     # The outer ones first, so that what is nested twice follows the one around it.
     size = np.prod(np.diff(parts.properties.aabb, axis=1)[:, 0], axis=1)
-    around = [(_around(own, parts), own) for own in (*loose, *whole) if len(own) <= _FEW]
+    around = [(_around(own, parts), own) for own in _small(cluster, parts)]
+    joined = cluster.copy()
     for outer, own in sorted(around, key=lambda row: -size[row[0]]):
         if outer >= 0 and joined[outer] >= 0:
             joined[own] = joined[outer]
     kept = joined >= 0
-    numbers, first, inverse = np.unique(joined[kept], return_index=True, return_inverse=True)
-    rank = np.empty(len(numbers), np.int64)
-    rank[np.argsort(first)] = np.arange(len(numbers))
-    joined[kept] = rank[inverse.reshape(-1)]
+    _, first, inverse = np.unique(joined[kept], return_index=True, return_inverse=True)
+    joined[kept] = np.argsort(np.argsort(first))[inverse.reshape(-1)]
     return joined
+
+
+def _small(cluster: Ints, parts: Parts) -> list[list[int]]:
+    """The members of each structure of few parts that has one inside another part; noise is a structure of its own."""
+    wanted = {int(cluster[part]) for part in parts.inside}
+    members: dict[int, list[int]] = {own: [] for own in sorted(wanted - {-1})}
+    for part, own in enumerate(cluster.tolist()):
+        if own in members:
+            members[own].append(part)
+    loose = [[part] for part in parts.inside if cluster[part] < 0]
+    return [*loose, *(own for own in members.values() if len(own) <= _FEW)]
 
 
 def _around(own: list[int], parts: Parts) -> int:

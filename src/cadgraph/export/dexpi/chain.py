@@ -122,39 +122,33 @@ def join_through(
     Returns:
         The connections; and those of the items at which other than two of them meet, with how many do.
     """
-    edges: dict[int, Connected] = {
-        number: Connected(
-            source=source,
-            target=target,
-            length=pipe.length,
-            size=pipe.size,
-            diameter=pipe.size / 1000 if pipe.size else None,
-            source_port=source_port,
-            target_port=target_port,
-            direction=pipe.direction,
-            reason=pipe.reason if pipe.direction != "unknown" else None,
-            confidence=pipe.confidence,
-        )
-        for number, (source, target, source_port, target_port, pipe) in enumerate(rows)
-        if source != ""
-    }
+    edges = {number: _connected(*row) for number, row in enumerate(rows) if row[0] != ""}
     at: dict[str, set[int]] = {item: set() for item in through}
     for number, edge in edges.items():
-        for end in (edge.source, edge.target):
-            if end in at:
-                at[end].add(number)
-    others: dict[str, int] = {}
+        for end in {edge.source, edge.target} & at.keys():
+            at[end].add(number)
     for item, numbers in at.items():
-        if len(numbers) != 2:
-            if numbers:
-                others[item] = len(numbers)
-            continue
-        first, second = sorted(numbers)
-        edges[first] = _merged(edges[first], edges.pop(second), item)
-        for end in (edges[first].source, edges[first].target):
-            if end in at:
+        if len(numbers) == 2:
+            first, second = sorted(numbers)
+            edges[first] = _merged(edges[first], edges.pop(second), item)
+            for end in {edges[first].source, edges[first].target} & at.keys():
                 at[end] = (at[end] - {second}) | {first}
-    return list(edges.values()), others
+    return list(edges.values()), {item: len(numbers) for item, numbers in at.items() if len(numbers) not in (0, 2)}
+
+
+def _connected(source: str, target: str, source_port: str | None, target_port: str | None, pipe: Pipe) -> Connected:
+    return Connected(
+        source=source,
+        target=target,
+        length=pipe.length,
+        size=pipe.size,
+        diameter=pipe.size / 1000 if pipe.size else None,
+        source_port=source_port,
+        target_port=target_port,
+        direction=pipe.direction,
+        reason=pipe.reason if pipe.direction != "unknown" else None,
+        confidence=pipe.confidence,
+    )
 
 
 def _merged(one: Connected, other: Connected, item: str) -> Connected:
@@ -163,16 +157,15 @@ def _merged(one: Connected, other: Connected, item: str) -> Connected:
         one, other = other, one
     before = one if one.target == item else _turned(one)
     after = other if other.source == item else _turned(other)
-    lengths = [length for length in (before.length, after.length) if length is not None]
-    sizes = [*(before.sizes or (before.size,)), *(after.sizes or (after.size,))]
-    kept = [size for size in sizes if size is not None]
+    kept = [size for edge in (before, after) for size in (edge.sizes or (edge.size,)) if size is not None]
     longer = before if (before.length or 0.0) >= (after.length or 0.0) else after
     told = before if before.direction != "unknown" else after
+    unknown = before.length is None and after.length is None
     return before.model_copy(
         update={
             "target": after.target,
             "target_port": after.target_port,
-            "length": sum(lengths) if lengths else None,
+            "length": None if unknown else (before.length or 0.0) + (after.length or 0.0),
             "size": longer.size,
             "diameter": longer.diameter,
             "sizes": tuple(size for i, size in enumerate(kept) if i == 0 or size != kept[i - 1]),

@@ -107,21 +107,7 @@ class _Reading:
         self.tags: set[str] = set()
 
     def graph(self) -> SceneGraph:
-        # Shapes look like the items that they are drawn for.
-        for above in list(self.root.iter()):
-            for shapes in above.findall("ShapeCatalogue"):
-                above.remove(shapes)
-        nested: set[int] = set()
-        for item in self.root.iter("Equipment"):
-            if id(item) not in nested:
-                nested.update(id(inner) for inner in item.iter("Equipment"))
-                if self._is_item(item):
-                    self._equipment(item)
-        for tag in _ITEMS:
-            for item in filter(self._is_item, self.root.iter(tag)):
-                self._component(item)
-        for item in filter(self._is_item, self.root.iter("ProcessInstrumentationFunction")):
-            self._instrument(item)
+        self._items()
         sensors = self._sensors()
         for system in self.root.iter("PipingNetworkSystem"):
             for segment in system.iter("PipingNetworkSegment"):
@@ -141,6 +127,24 @@ class _Reading:
                 ),
             )
         )
+
+    def _items(self) -> None:
+        """All that can be a node."""
+        # Shapes look like the items that they are drawn for.
+        for above in list(self.root.iter()):
+            for shapes in above.findall("ShapeCatalogue"):
+                above.remove(shapes)
+        nested: set[int] = set()
+        for item in self.root.iter("Equipment"):
+            if id(item) not in nested:
+                nested.update(id(inner) for inner in item.iter("Equipment"))
+                if self._is_item(item):
+                    self._equipment(item)
+        for tag in _ITEMS:
+            for item in filter(self._is_item, self.root.iter(tag)):
+                self._component(item)
+        for item in filter(self._is_item, self.root.iter("ProcessInstrumentationFunction")):
+            self._instrument(item)
 
     def _is_item(self, item: ET.Element) -> bool:
         """Whether an element can be a node; what has no id can't be joined to anything."""

@@ -233,20 +233,7 @@ def take_in_enclosed(
         near: parts near each part.
         lines: parts with a line, which stay apart.
     """
-    owner = {part: k for k, group in enumerate(groups) for part in group.parts}
-    within = {part: k for part in inside if (k := _unit_around(part, inside, owner)) is not None}
-    home = {
-        part: k
-        for part, k in within.items()
-        if owner.get(part) != k and part not in lines and types[part] in (None, groups[k].unit_type)
-    }
-
-    def stays(other: int, k: int) -> bool:
-        return home.get(other, owner.get(other, within.get(other))) == k
-
-    while loose := [part for part, k in home.items() if not all(stays(other, k) for other in near.get(part, ()))]:
-        for part in loose:
-            del home[part]
+    home = _homes(groups, inside, types, near, lines)
     if not home:
         return list(groups)
     members = [[part for part in group.parts if part not in home] for group in groups]
@@ -254,6 +241,32 @@ def take_in_enclosed(
         members[target].append(part)
     kept = [Group(group.unit_type, tuple(sorted(own))) for group, own in zip(groups, members, strict=True) if own]
     return sorted(kept, key=lambda group: group.parts)
+
+
+def _homes(
+    groups: Sequence[Group],
+    inside: Mapping[int, int],
+    types: Sequence[str | None],
+    near: Mapping[int, Sequence[int]],
+    lines: Collection[int],
+) -> dict[int, int]:
+    """The group that each part goes to that lies within one, fits it, and touches nothing outside of it."""
+    owner = {part: k for k, group in enumerate(groups) for part in group.parts}
+    around = {part: _unit_around(part, inside, owner) for part in inside}
+    within = {part: k for part, k in around.items() if k is not None}
+
+    def fits(part: int, k: int) -> bool:
+        return owner.get(part) != k and part not in lines and types[part] in (None, groups[k].unit_type)
+
+    home = {part: k for part, k in within.items() if fits(part, k)}
+
+    def reaches_out(part: int) -> bool:
+        return any(home.get(o, owner.get(o, within.get(o))) != home[part] for o in near.get(part, ()))
+
+    while loose := [part for part in home if reaches_out(part)]:
+        for part in loose:
+            del home[part]
+    return home
 
 
 def _unit_around(part: int, inside: Mapping[int, int], owner: Mapping[int, int]) -> int | None:
