@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import base64
+import gzip
 import io
 import json
 import math
@@ -69,6 +70,10 @@ class ChatServer:
             content = ""
         elif order == "enormous":
             return Response(b" " * 5_000_000, media_type="application/json")
+        elif order == "endless":
+            return StreamingResponse(iter([b" " * 1_000_000] * 9), media_type="application/json")
+        elif order == "packed":
+            return Response(gzip.compress(b" " * 9_000_000), headers={"content-encoding": "gzip"})
         usage = self._count(body, content or "")
         with self._lock:
             self.answered.append(digest(body))

@@ -99,7 +99,7 @@ def test_what_cannot_be_read_is_an_error(tmp_path):
     with pytest.raises(ValueError, match="can't be read"):
         read_config(tmp_path)
     (tmp_path / "binary.toml").write_bytes(b"\xff\xfe")
-    with pytest.raises(ValueError, match="not TOML"):
+    with pytest.raises(ValueError, match="not UTF-8 text"):
         read_config(tmp_path / "binary.toml")
 
 

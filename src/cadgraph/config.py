@@ -13,6 +13,7 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from cadgraph._io.limits import CONFIG, read_text_within
 from cadgraph._io.validation_messages import expectation
 
 __all__ = [
@@ -261,15 +262,10 @@ def read_config(path: str | Path, base: Config | None = None) -> Config:
     Raises:
         ValueError: the file can't be read, is no TOML, or holds an unknown or impossible setting.
     """
-    if Path(path).is_char_device() or Path(path).is_block_device():
-        raise ValueError(f"{path}: a device; give a TOML file as 'cadgraph config' prints it")
+    text = read_text_within(path, CONFIG, ValueError, "give a TOML file as 'cadgraph config' prints it")
     try:
-        tree = tomllib.loads(Path(path).read_text(encoding="utf-8-sig"))
-    except OSError as error:
-        raise ValueError(
-            f"{path}: can't be read ({error.strerror}); give a TOML file as 'cadgraph config' prints it"
-        ) from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
+        tree = tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
         raise ValueError(f"{path}: not TOML ({error}); 'cadgraph config' prints a file to start from") from error
     whole = (base or Config()).model_dump()
     for name, value in tree.items():

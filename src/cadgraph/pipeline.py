@@ -23,6 +23,7 @@ from cadgraph.stages.bridge import cut_bridges, find_weak_bridges, tell_bridges
 from cadgraph.stages.cluster import cluster_parts
 from cadgraph.stages.ground import find_ground
 from cadgraph.stages.group import group_meshes
+from cadgraph.stages.insides import find_insides, join_enclosed
 from cadgraph.stages.inspect import inspect_meshes
 from cadgraph.stages.parts import make_parts
 from cadgraph.stages.preprocess import prepare_scene
@@ -103,12 +104,14 @@ def analyse(scene: Scene, config: Config | None = None, progress: Progress = qui
     near = find_near_meshes(scene, max(config.cluster.eps, config.group.proximity), config, progress)
     progress("group", 0)
     parts = make_parts(scene, properties, group_meshes(properties, ground, near, config.group), ground)
+    parts = find_insides(parts, config.method)
     contacts = join_contacts(near, parts.part_of_mesh, config.cluster.eps)
     progress("cluster", 0)
     bridges = find_weak_bridges(parts.n_parts, contacts, parts.ground, config.cluster)
     from_bridges = tell_bridges(bridges, contacts, parts, config.cluster.cut_bridges)
     contacts = cut_bridges(contacts, bridges) if config.cluster.cut_bridges else contacts
     cluster = cluster_parts(parts.n_parts, contacts, parts.ground, config.cluster.min_samples)
+    cluster = join_enclosed(cluster, parts)
     found = (*scene.diagnostics, *from_scene, *from_meshes, *from_ground, *from_bridges)
     settings = config.model_dump(mode="json", include=set(ANALYSIS_SETTINGS))
     return Analysis(scene, properties, parts, contacts, cluster, found, settings)

@@ -176,12 +176,6 @@ def test_any_text_makes_well_formed_xml(text):
         ("<PlantModel>", "not XML"),
         ("", "not XML"),
         ("<svg/>", "the root is 'svg'"),
-        ("<PlantModel><Equipment ComponentClass='Tank'/></PlantModel>", "has no ID"),
-        (
-            "<PlantModel><PipingNetworkSystem><PipingNetworkSegment><Connection FromID='x' ToID='y'/>"
-            "</PipingNetworkSegment></PipingNetworkSystem></PlantModel>",
-            "names 'x'",
-        ),
     ],
 )
 def test_bad_files_are_refused_in_one_line(content, says, tmp_path):
@@ -221,6 +215,122 @@ def test_a_file_of_another_tool_is_read(tmp_path):
     assert line.reasons == ("drawn so in the diagram",)
 
 
+OTHER = """<PlantModel>
+  <PlantInformation SchemaVersion="4.1.1"/>
+  <ShapeCatalogue>
+    <Equipment ID="shape-1" ComponentClass="Tank" ComponentName="TANK"/>
+    <PipingComponent ID="shape-2" ComponentClass="BallValve" ComponentName="VALVE"/>
+  </ShapeCatalogue>
+  <Drawing Name="1">
+    <Equipment ID="E1" ComponentClass="PlateHeatExchanger" TagName="H-7">
+      <Nozzle ID="N1" TagName="A"/>
+      <Equipment ID="E1-1" ComponentClass="Chamber"><Nozzle ID="N2" TagName="B"/></Equipment>
+    </Equipment>
+    <Equipment ComponentClass="Tank" TagName="T-lost"/>
+    <PipingNetworkSystem ID="S1">
+      <PipingNetworkSegment ID="S1-1">
+        <PipingComponent ID="F1" ComponentClass="Flange"/>
+        <PipingComponent ID="V1" ComponentClass="NeedleValve" TagName="HV-1"/>
+        <PropertyBreak ID="B1" ComponentClass="PropertyBreak"/>
+        <Label ID="L1"/>
+        <PipingComponent ComponentClass="GateValve"/>
+        <Connection FromID="N1" ToID="F1"/><Connection FromID="F1" ToID="V1"/><Connection FromID="V1" ToID="B1"/>
+      </PipingNetworkSegment>
+      <PipingNetworkSegment ID="S1-2">
+        <PipingComponent ID="M1" ComponentClass="ElectromagneticFlowMeter" TagName="FT-1"/>
+        <Connection FromID="N2" ToID="M1"/><Connection FromID="M1" ToID="B1"/>
+      </PipingNetworkSegment>
+      <PipingNetworkSegment ID="S1-3">
+        <GenericAttributes Set="DexpiAttributes">
+          <GenericAttribute Name="NominalDiameterNumericalValueRepresentationAssignmentClass" Value="1e999"/>
+        </GenericAttributes>
+        <PipingComponent ID="V2" ComponentClass="OperatedValve" TagName="HV-1"/>
+        <CenterLine/>
+        <Connection FromID="E1" ToID="elsewhere"/>
+      </PipingNetworkSegment>
+      <PipingNetworkSegment ID="S1-4"/>
+    </PipingNetworkSystem>
+  </Drawing>
+</PlantModel>"""
+
+
+@pytest.fixture
+def other(tmp_path):
+    (tmp_path / "other.xml").write_text(OTHER, encoding="utf-8")
+    return read_dexpi(tmp_path / "other.xml")
+
+
+def test_what_other_tools_write_is_read_as_far_as_it_goes(other):
+    units = {unit.tag: (unit.unit_type, unit.kind) for unit in other.units()}
+    assert units == {
+        "H-7": ("equipment", None),
+        "HV-1": ("valve", "needle valve"),
+        "FT-1": ("gauge", "flow meter"),
+        "HV-1 (V2)": ("valve", None),
+    }
+    edges = {(edge.source, edge.target) for edge in other.connections()}
+    # The flange and the break are passed over, and the second half was drawn towards the break.
+    assert edges == {("E1", "V1"), ("V1", "M1"), ("E1", "M1"), ("E1", "V2"), ("V2", "end-elsewhere")}
+    assert other.nodes["end-elsewhere"].kind == "unknown"
+
+
+def test_flow_turns_with_a_segment_that_was_drawn_the_other_way(other):
+    directions = {(edge.source, edge.target): edge.direction for edge in other.connections()}
+    assert directions["V1", "M1"] == "forward"
+    assert directions["E1", "M1"] == "forward"
+
+
+def test_ports_of_other_tools_are_kept(other):
+    assert [port.name for port in other.unit("H-7").ports] == ["A", "B"]
+
+
+def test_what_was_skipped_is_told(other):
+    told = {finding.code: finding.message for finding in other.diagnostics}
+    assert told == {
+        "dexpi-no-id": "2 items without an ID are left out: T-lost, GateValve",
+        "dexpi-tag-twice": "1 tags are used more than once; later ones get their ID behind them: HV-1",
+        "dexpi-unknown-end": "1 connections end at something that the file doesn't hold; taken for ends of pipes: "
+        "elsewhere",
+        "dexpi-no-ends": "1 segments join nothing: S1-4",
+    }
+
+
+def test_fittings_at_which_pipes_branch_or_end_are_nodes(tmp_path):
+    (tmp_path / "a.xml").write_text(
+        """<PlantModel><PipingNetworkSystem><PipingNetworkSegment>
+        <PipingComponent ID="F" ComponentClass="Flange"/><PipingComponent ID="G" ComponentClass="Flange"/>
+        <PipingComponent ID="V1" ComponentClass="GateValve"/><PipingComponent ID="V2" ComponentClass="GateValve"/>
+        <PipingComponent ID="V3" ComponentClass="GateValve"/>
+        <Connection FromID="V1" ToID="F"/><Connection FromID="F" ToID="V2"/><Connection FromID="F" ToID="V3"/>
+        <Connection FromID="V3" ToID="G"/></PipingNetworkSegment></PipingNetworkSystem></PlantModel>""",
+        encoding="utf-8",
+    )
+    graph = read_dexpi(tmp_path / "a.xml")
+    assert [node.id for node in graph.junctions()] == ["F"]
+    assert [node.id for node in graph.terminals()] == ["G"]
+
+
 def test_it_is_a_format_of_export(tmp_path):
     assert export_graph(pumping(), "dexpi", tmp_path) == [tmp_path / "dexpi.xml"]
     assert export_graph(pumping(), "dexpi", tmp_path / "plant.xml") == [tmp_path / "plant.xml"]
+
+
+def test_pipe_drawn_in_two_strokes_is_one_connection(tmp_path):
+    def stroke(length):
+        return (
+            "<CenterLine><GenericAttributes Set='DexpiCustomAttributes'>"
+            f"<GenericAttribute Name='Length' Value='{length}'/></GenericAttributes></CenterLine>"
+        )
+
+    (tmp_path / "a.xml").write_text(
+        f"""<PlantModel><PipingNetworkSystem><PipingNetworkSegment ID="S">
+        <PipingComponent ID="V1" ComponentClass="GateValve"/>{stroke(1.0)}{stroke(2.0)}
+        <PipingComponent ID="V2" ComponentClass="GateValve"/></PipingNetworkSegment></PipingNetworkSystem>
+        <ProcessInstrumentationFunction ID="G1" TagName="PI-1"><ProcessSignalGeneratingFunction ID="P1">
+        <GenericAttributes Set="DexpiCustomAttributes"><GenericAttribute Name="DistanceAlongSegment" Value="2.5"/>
+        </GenericAttributes><Association Type="is located in" ItemID="S"/></ProcessSignalGeneratingFunction>
+        </ProcessInstrumentationFunction></PlantModel>""",
+        encoding="utf-8",
+    )
+    edges = read_dexpi(tmp_path / "a.xml").connections()
+    assert [(edge.source, edge.target, edge.length) for edge in edges] == [("V1", "G1", 2.5), ("G1", "V2", 0.5)]

@@ -5,14 +5,12 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import shapes
-from cadgraph.geometry.contact.pairs import find_contacts
 from cadgraph.geometry.visibility.inside import find_inside
 from cadgraph.model.scene import Scene
 
 
 def inside_of(*meshes, **settings):
-    scene = Scene.from_meshes(meshes)
-    return find_inside(scene, find_contacts(scene), **settings)
+    return find_inside(Scene.from_meshes(meshes), **settings)
 
 
 def pairs_of(found):
@@ -95,10 +93,10 @@ def test_nested_parts_are_in_all_around_them():
     assert pairs_of(found) == [(0, 1), (0, 2), (2, 1)]
 
 
-def test_pairs_in_contact_are_left_out_unless_contacts_are_not_given():
-    meshes = [shapes.sphere(1.0), shapes.moved(shapes.sphere(0.5), translation=(0, 0, 0.495))]
-    assert pairs_of(inside_of(*meshes)) == []
-    assert pairs_of(find_inside(Scene.from_meshes(meshes))) == [(1, 0)]
+def test_what_touches_its_encloser_is_inside_all_the_same():
+    assert pairs_of(inside_of(shapes.sphere(1.0), shapes.moved(shapes.sphere(0.5), translation=(0, 0, 0.495)))) == [
+        (1, 0)
+    ]
 
 
 @pytest.mark.parametrize(("depth", "expected"), [(0.35, [(1, 0)]), (-0.35, [])])

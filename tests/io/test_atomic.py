@@ -54,6 +54,30 @@ def test_the_file_gets_the_modes_that_any_new_file_gets(tmp_path):
     assert os.stat(tmp_path / "ours").st_mode == os.stat(tmp_path / "plain").st_mode
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such modes")
+def test_a_file_that_is_replaced_keeps_its_modes(tmp_path):
+    for mode in (0o600, 0o640, 0o664, 0o444):
+        target = tmp_path / f"{mode:o}"
+        target.write_text("old", encoding="utf-8")
+        target.chmod(mode)
+        write_atomically(target, "new")
+        assert (target.read_text(encoding="utf-8"), os.stat(target).st_mode & 0o777) == ("new", mode)
+
+
+def test_the_umask_of_the_process_is_never_touched(tmp_path, monkeypatch):
+    monkeypatch.setattr(os, "umask", lambda mask: pytest.fail("another thread would write with that mask"))
+    write_atomically(tmp_path / "a", "")
+
+
+def test_a_name_that_is_taken_is_left_alone(tmp_path, monkeypatch):
+    taken = iter(["00000000", "11111111"])
+    monkeypatch.setattr("cadgraph._io.atomic.secrets.token_hex", lambda n: next(taken))
+    (tmp_path / ".a-00000000.txt").write_text("somebody's", encoding="utf-8")
+    write_atomically(tmp_path / "a.txt", "ours")
+    assert (tmp_path / ".a-00000000.txt").read_text(encoding="utf-8") == "somebody's"
+    assert sorted(path.name for path in tmp_path.iterdir()) == [".a-00000000.txt", "a.txt"]
+
+
 def test_a_file_where_a_folder_should_be_is_an_output_error(tmp_path):
     (tmp_path / "file").write_text("", encoding="utf-8")
     for attempt in (lambda: write_atomically(tmp_path / "file" / "a", ""), lambda: ensure_writable(tmp_path / "file")):

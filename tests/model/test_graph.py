@@ -321,7 +321,7 @@ def test_a_file_that_is_no_graph_is_a_format_error(tmp_path, content):
 
 def test_bytes_that_are_no_text_are_a_format_error(tmp_path):
     (tmp_path / "graph.json").write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(FormatError, match="not JSON"):
+    with pytest.raises(FormatError, match="not UTF-8 text"):
         SceneGraph.load(tmp_path)
 
 

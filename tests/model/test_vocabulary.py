@@ -134,5 +134,5 @@ def test_what_cannot_be_read_is_an_error(tmp_path):
     with pytest.raises(LabelError, match="can't be read"):
         read_vocabulary(tmp_path)
     (tmp_path / "binary.yaml").write_bytes(b"\xff\xfe\xff")
-    with pytest.raises(LabelError, match="not YAML"):
+    with pytest.raises(LabelError, match="not UTF-8 text"):
         read_vocabulary(tmp_path / "binary.yaml")

@@ -1,6 +1,6 @@
 """Contact search side by side: ours, coal, python-fcl, trimesh, KD-trees on samples, the paper's matrix.
 
-    python benchmarks/contacts.py [--quick] [--million] [--repeated] > contacts.md
+    python benchmarks/contacts.py [--quick] [--million] > contacts.md
 
 Every candidate runs in a process of its own, one after the other, so that its peak memory is its own. Times are CPU
 seconds of the thread for what runs on one thread, since they stay meaningful on a machine that others use too, and
@@ -251,36 +251,12 @@ METHODS: dict[str, Callable[[Scene, int], dict[str, Any]]] = {
 }
 
 
-def placed(n_meshes: int, repeat: int) -> dict[str, Any]:
-    """Repeated shapes: one tree for each of a few prototypes, placed many times."""
-    from scipy.spatial.transform import Rotation
-
-    from cadgraph.geometry.contact.pairs import find_contacts_placed
-
-    parts = [scenes.tube(0.05, 0.045, 0.4, 64, 2), scenes.bolt(25), scenes.sphere(0.1, 24, 18), scenes.bolt(30)]
-    prototypes = Scene.from_meshes(parts)
-    random = np.random.default_rng(0)
-    kind = random.integers(0, len(parts), n_meshes)
-    pose = np.zeros((n_meshes, 4, 4))
-    pose[:, :3, :3] = Rotation.random(n_meshes, random_state=0).as_matrix()
-    pose[:, :3, 3] = random.uniform(0, 0.45 * n_meshes ** (1 / 3), (n_meshes, 3))
-    pose[:, 3, 3] = 1
-    find_contacts_placed(prototypes, kind[:50], pose[:50], EPS)
-    start = time.perf_counter()
-    found = find_contacts_placed(prototypes, kind, pose, EPS)
-    triangles = int(np.diff(prototypes.face_offsets)[kind].sum())
-    return {"query": time.perf_counter() - start, "pairs": len(found.pairs), "triangles": triangles}
-
-
 def run_one(method: str, scene_name: str, scale: float, repeat: int) -> None:
     """The work of a child process: prints its result as JSON."""
-    if method == "placed":
-        result = placed(round(scale), repeat)
-    else:
-        scene = SCENES[scene_name](scale)
-        result = METHODS[method](scene, repeat)
-        result["meshes"], result["triangles"] = scene.n_meshes, scene.n_triangles
-        result["scene"] = (scene.vertices.nbytes + scene.faces.nbytes) / 2**20
+    scene = SCENES[scene_name](scale)
+    result = METHODS[method](scene, repeat)
+    result["meshes"], result["triangles"] = scene.n_meshes, scene.n_triangles
+    result["scene"] = (scene.vertices.nbytes + scene.faces.nbytes) / 2**20
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     result["peak"] = peak / (2**20 if sys.platform == "darwin" else 2**10)
     print(json.dumps(result))
@@ -419,7 +395,6 @@ def main() -> None:
     parser.add_argument("--quick", action="store_true", help="scenes a tenth of the size")
     parser.add_argument("--scale", type=float, default=None, help="size of the scenes; 1 by default, 0.1 if quick")
     parser.add_argument("--million", action="store_true", help="also a million small parts (needs about 8 GiB)")
-    parser.add_argument("--repeated", action="store_true", help="also 250,000 placed meshes, 200 million triangles")
     parser.add_argument("--one", nargs=4, metavar=("METHOD", "SCENE", "SCALE", "REPEAT"), help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     if arguments.one:
@@ -443,14 +418,6 @@ def main() -> None:
         if result:
             print("## A million small parts\n")
             print(_row("small parts", result, result["build"] + result["query"]))
-    if arguments.repeated:
-        result = measure("placed", "", 250_000, 1)
-        if result:
-            print("## Repeated shapes\n")
-            print(
-                f"250,000 meshes, {result['triangles']:,} triangles: {result['query']:.1f} s, "
-                f"{result['pairs']:,} pairs, peak {result['peak']:,.0f} MiB"
-            )
     print(f"\n{machine()}")
 
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import secrets
+import stat
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from cadgraph.errors import OutputError
@@ -17,7 +19,8 @@ __all__ = ["ensure_writable", "replacing", "write_atomically"]
 def replacing(target: str | Path) -> Iterator[Path]:
     """A path beside the target to write to; it takes the target's place when the block ends well, else it is removed.
 
-    The path keeps the target's suffix, which some libraries choose the format by.
+    The path keeps the target's suffix, which some libraries choose the format by. A new file gets the modes that any
+    new file gets, one that takes the place of another those of the other.
 
     Raises:
         OutputError: the folder can't be made or written to.
@@ -25,14 +28,13 @@ def replacing(target: str | Path) -> Iterator[Path]:
     final = Path(target)
     try:
         final.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(dir=final.parent, prefix=f".{final.stem}-", suffix=final.suffix)
-        os.close(handle)
+        beside = _make_beside(final)
     except OSError as error:
         raise OutputError(f"{final}: can't be written ({error.strerror}); choose another output folder") from error
-    beside = Path(name)
     try:
         yield beside
-        beside.chmod(0o666 & ~_umask())
+        with suppress(FileNotFoundError):
+            beside.chmod(stat.S_IMODE(final.stat().st_mode))
         beside.replace(final)
     except OSError as error:
         raise OutputError(f"{final}: can't be written ({error.strerror}); choose another output folder") from error
@@ -50,10 +52,18 @@ def write_atomically(target: str | Path, content: str | bytes) -> None:
         beside.write_bytes(content.encode("utf-8") if isinstance(content, str) else content)
 
 
-def _umask() -> int:
-    mask = os.umask(0o022)
-    os.umask(mask)
-    return mask
+def _make_beside(final: Path) -> Path:
+    """An empty file of a new name beside a target, with the modes that the system gives to new files.
+
+    ``tempfile`` would make it private, and what the umask is can only be asked by changing it, for all threads.
+    """
+    # What is to be private is so from the first byte.
+    modes = stat.S_IMODE(final.stat().st_mode) & 0o666 | 0o600 if final.exists() else 0o666
+    while True:
+        beside = final.with_name(f".{final.stem}-{secrets.token_hex(4)}{final.suffix}")
+        with suppress(FileExistsError):
+            os.close(os.open(beside, os.O_CREAT | os.O_EXCL | os.O_WRONLY, modes))
+            return beside
 
 
 def ensure_writable(folder: str | Path) -> Path:

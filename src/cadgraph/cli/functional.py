@@ -1,4 +1,4 @@
-"""Questions to the functional graph: lines, trace, isolate, diagram."""
+"""Questions to the functional graph: lines, trace, isolate, diagram, compare."""
 
 from __future__ import annotations
 
@@ -128,6 +128,51 @@ def diagram(
         raise ValueError(f"{output}: a diagram is written as SVG; give a file that ends in .svg")
     write_atomically(output, draw_diagram(SceneGraph.load(graph), system))
     out.print(f"wrote {escape(str(output))}")
+
+
+@app.command()
+def compare(
+    graph: GraphArgument,
+    plan: Annotated[Path, typer.Argument(metavar="PLAN", help="The P&ID as Proteus XML (DEXPI).")],
+    mapping: Annotated[
+        Path | None,
+        typer.Option("--map", metavar="FILE", help="CSV with a tag of the plan and the plant's tag in each line."),
+    ] = None,
+    by_network: Annotated[
+        bool, typer.Option("--by-network", help="Don't go by tags: the plan counts in a way of its own.")
+    ] = False,
+    strict: Annotated[bool, typer.Option("--strict", help="End with 1 where anything differs.")] = False,
+    as_json: JsonOption = False,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", metavar="FILE", help="Write the answer there.")
+    ] = None,
+) -> None:
+    """Compare a plant with its P&ID: units, connections, order along the lines, directions, kinds.
+
+    Units are matched as --map says, then by tag, then by their place in the network with a figure that says how sure
+    that is; what can't be matched is listed.
+    """
+    from cadgraph._io.atomic import write_atomically
+    from cadgraph._io.limits import MAPPING, read_text_within
+    from cadgraph.export.dexpi import read_dexpi
+    from cadgraph.model.graph import SceneGraph
+    from cadgraph.query.compare import compare as compare_graphs
+    from cadgraph.query.compare import read_mapping
+    from cadgraph.query.text import comparison_lines, comparison_values
+
+    given = {}
+    if mapping is not None:
+        remedy = "give a CSV file with the plan's tag and the plant's tag in each line"
+        given = read_mapping(read_text_within(mapping, MAPPING, ValueError, remedy), str(mapping))
+    found = compare_graphs(SceneGraph.load(graph), read_dexpi(plan), given, by_tag=not by_network)
+    if output is None:
+        _show(comparison_lines(found), comparison_values(found), as_json)
+    else:
+        values = json.dumps(comparison_values(found), ensure_ascii=False, indent=1)
+        write_atomically(output, (values if as_json else "\n".join(comparison_lines(found, most=10**9))) + "\n")
+        out.print(f"wrote {escape(str(output))}: the plant and the plan {'agree' if found.agrees else 'differ'}")
+    if strict and not found.agrees:
+        raise typer.Exit(1)
 
 
 def _show(text: list[str], values: dict[str, Any], as_json: bool) -> None:

@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
+from cadgraph._io.limits import FLOWS, read_text_within
 from cadgraph.config import Config, read_config
 
 __all__ = ["ConfigOption", "GraphArgument", "MethodOption", "SetOption", "read_flows", "settings_of", "values_of"]
@@ -56,9 +57,11 @@ def read_flows(given: Sequence[str]) -> tuple[str, ...]:
             flows.append(one)
             continue
         try:
-            text = Path(one).read_text(encoding="utf-8-sig")
-        except (OSError, UnicodeDecodeError, ValueError):
-            raise ValueError(f"--flow {one}: no flow as 'P-001 -> T-001', and no text file of such lines") from None
+            text = read_text_within(one, FLOWS, ValueError, "give a text file of lines as 'P-001 -> T-001'")
+        except ValueError as error:
+            raise ValueError(
+                f"--flow {one}: no flow as 'P-001 -> T-001', and no text file of such lines ({error})"
+            ) from None
         lines = (line.partition("#")[0].strip() for line in text.splitlines())
         flows += [line for line in lines if line]
     return tuple(flows)

@@ -53,7 +53,7 @@ def write_tables(graph: SceneGraph, folder: str | Path) -> list[Path]:
 def _parts(graph: SceneGraph) -> Iterator[Row]:
     yield (
         "part", "group", "name", "confidence", "label_source", "unit", "cluster", *_PLACE, "area_m2", "volume_m3",
-        "n_meshes", "n_triangles", "shape", "ground", "largest_mesh",
+        "n_meshes", "n_triangles", "shape", "ground", "largest_mesh", "inside",
     )  # fmt: skip
     for part in graph.of_layer(Part):
         label, unit, cluster = part.label, graph.unit_of(part), graph.cluster_of(part)
@@ -62,6 +62,7 @@ def _parts(graph: SceneGraph) -> Iterator[Row]:
             part.id, *says, unit.tag if unit else None, cluster.id if cluster else None,
             *part.centroid, *_extents(part.aabb), part.area, part.volume,
             len(part.meshes), part.n_triangles, part.shape, "yes" if part.ground else "no", part.meshes[0],
+            part.inside,
         )  # fmt: skip
 
 

@@ -19,7 +19,9 @@ from typing import Any
 
 import numpy as np
 
+from cadgraph._io.arrays import read_arrays
 from cadgraph._io.atomic import write_atomically
+from cadgraph._io.limits import CATALOG, read_bytes_within
 from cadgraph.errors import LabelError
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary
@@ -30,8 +32,8 @@ SUFFIX = ".cadgraph-catalog"
 """How the name of a catalogue ends."""
 
 _FORMAT, _VERSION = "cadgraph-catalog", 1
-# What a file may hold at most; ours: a thousand times what a maker's catalogue has, and still within memory.
-_MOST_ENTRIES, _MOST_BYTES, _MOST_TEXT = 100_000, 1 << 30, 4096
+# What a file may hold at most; ours: a thousand times what a maker's catalogue has.
+_MOST_ENTRIES, _MOST_TEXT = 100_000, 4096
 _ARRAYS: Mapping[str, tuple[str, int]] = {
     "head": ("|u1", 1),
     "vertices": ("<f4", 2),
@@ -140,14 +142,9 @@ def read_catalog(path: str | Path) -> Catalog:
     Raises:
         LabelError: the file is missing, damaged, too large, or of another version.
     """
-    try:
-        if Path(path).stat().st_size > _MOST_BYTES:
-            raise LabelError(f"{path}: larger than {_MOST_BYTES >> 20} MB, so it isn't read; split the catalogue")
-        content = Path(path).read_bytes()
-    except OSError as error:
-        raise LabelError(
-            f"{path}: the catalogue can't be read ({error.strerror}); 'cadgraph catalog add' makes one"
-        ) from error
+    content = read_bytes_within(
+        path, CATALOG, LabelError, "split the catalogue, or make one with 'cadgraph catalog add'"
+    )
     arrays = _arrays(content, path)
     try:
         head = json.loads(arrays["head"].tobytes().decode())
@@ -182,36 +179,15 @@ def _arrays(content: bytes, path: str | Path) -> dict[str, Any]:
             infos = archive.infolist()
             if sorted(info.filename for info in infos) != sorted(f"{name}.npy" for name in _ARRAYS):
                 raise LabelError(f"{path}: no catalogue of cadgraph (it holds other things); {_REMEDY}")
-            if sum(info.file_size for info in infos) > _MOST_BYTES:
-                raise LabelError(f"{path}: holds more than {_MOST_BYTES >> 20} MB; split the catalogue")
-            for info in infos:
-                _check_header(archive, info)
-        with np.load(BytesIO(content), allow_pickle=False) as file:
-            return {name: file[name] for name in _ARRAYS}
+        arrays = read_arrays(content, CATALOG)
+        for name, (kind, n_axes) in _ARRAYS.items():
+            own = arrays[name]
+            if own.dtype != np.dtype(kind) or own.ndim != n_axes or (n_axes == 2 and own.shape[1] != 3):
+                raise ValueError(f"{name}.npy is of another form")
+        return arrays
     except _DAMAGE as error:
         reason = (str(error).splitlines() or [type(error).__name__])[0][:120]
         raise LabelError(f"{path}: the catalogue is damaged ({reason}); {_REMEDY}") from error
-
-
-def _check_header(archive: zipfile.ZipFile, info: zipfile.ZipInfo) -> None:
-    """Refuses an array of another type, or one that claims to be larger than its bytes.
-
-    Raises:
-        ValueError: it does.
-    """
-    kind, n_axes = _ARRAYS[info.filename.removesuffix(".npy")]
-    with archive.open(info) as file:
-        if np.lib.format.read_magic(file) != (1, 0):
-            raise ValueError(f"unknown kind of array {info.filename}")
-        shape, fortran, dtype = np.lib.format.read_array_header_1_0(file)
-        begins = file.tell()
-    if dtype != np.dtype(kind) or len(shape) != n_axes or fortran or (n_axes == 2 and shape[1] != 3):
-        raise ValueError(f"{info.filename} is of another form")
-    size = dtype.itemsize
-    for length in shape:
-        size *= length
-    if begins + size != info.file_size:
-        raise ValueError(f"{info.filename} is cut short or too long")
 
 
 def _entries(rows: Any, path: str | Path) -> tuple[Entry, ...]:

@@ -12,7 +12,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from cadgraph._io import limits
 from cadgraph._io.atomic import write_atomically
+from cadgraph._io.limits import read_text_within
 from cadgraph.errors import LabelError
 from cadgraph.model.vocabulary import Vocabulary, spell_label
 
@@ -22,7 +24,7 @@ CORRECTIONS = "corrections.json"
 """Name of the file beside the graph."""
 
 _FORMAT, _VERSION = "cadgraph-corrections", 1
-_MOST, _MOST_BYTES, _MOST_TEXT = 100_000, 64 << 20, 4096
+_MOST, _MOST_TEXT = 100_000, 4096
 _SLACK = 1e-3  # of a length; ours: another writer rounds to single precision, another tessellation differs by more
 _LEAST = 1e-5  # m
 _FAR = 1e12  # m; beyond lies no plant
@@ -113,14 +115,11 @@ def read_corrections(path: str | Path, vocabulary: Vocabulary | None = None) -> 
         LabelError: the file can't be read, is damaged, or names labels that the vocabulary lacks.
     """
     file = Path(path) / CORRECTIONS if Path(path).is_dir() else Path(path)
+    if not file.exists():
+        return ()
+    text = read_text_within(file, limits.CORRECTIONS, LabelError, "take rows out, or remove it to build without")
     try:
-        if not file.exists():
-            return ()
-        if file.stat().st_size > _MOST_BYTES:
-            raise LabelError(f"{file}: larger than {_MOST_BYTES >> 20} MB; remove it, or take rows out")
-        content = json.loads(file.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise LabelError(f"{file}: can't be read ({error.strerror}); close what holds it, or remove it") from error
+        content = json.loads(text)
     except (ValueError, RecursionError) as error:
         raise LabelError(f"{file}: not JSON ({error}); correct it, or remove it to build without") from error
     if not isinstance(content, Mapping) or content.get("format") != _FORMAT:

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from cadgraph._io.limits import LABELS, read_text_within
 from cadgraph.errors import LabelError
 from cadgraph.model.vocabulary import Vocabulary
 
@@ -48,14 +49,7 @@ def read_labels(path: str | Path, vocabulary: Vocabulary) -> tuple[GivenLabel, .
         LabelError: the file can't be read, or a row is malformed, repeated, or not in the vocabulary.
     """
     source = Path(path)
-    if source.is_char_device() or source.is_block_device():
-        raise LabelError(f"{path}: a device; give a JSON or CSV file of labels")
-    try:
-        text = source.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise LabelError(f"{path}: can't be read ({error.strerror}); give a JSON or CSV file of labels") from error
-    except UnicodeDecodeError as error:
-        raise LabelError(f"{path}: not UTF-8 text; give a JSON or CSV file of labels") from error
+    text = read_text_within(source, LABELS, LabelError, "give a JSON or CSV file of labels")
     rows = _csv_rows(text, source) if source.suffix.lower() == ".csv" else _json_rows(text, source)
     labels = tuple(replace(_checked(row, f"{path}: {place}", vocabulary), file=str(path)) for place, row in rows)
     seen: set[str] = set()

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, cast, overload
 from pydantic import ValidationError
 
 from cadgraph._io.atomic import write_atomically
+from cadgraph._io.limits import GRAPH, read_text_within
 from cadgraph._io.validation_messages import expectation
 from cadgraph.errors import FormatError
 from cadgraph.model.diagnostic import Diagnostic
@@ -329,10 +330,9 @@ class SceneGraph:
         """
         target = Path(path)
         target = target / "graph.json" if target.is_dir() else target
+        text = read_text_within(target, GRAPH, FormatError, "'cadgraph build' makes it")
         try:
-            data = json.loads(target.read_text(encoding="utf-8"))
-        except OSError as error:
-            raise FormatError(f"{target}: can't be read ({error.strerror}); 'cadgraph build' makes it") from error
+            data = json.loads(text)
         except (ValueError, RecursionError) as error:
             raise FormatError(f"{target}: not JSON ({error}); give a folder that 'cadgraph build' wrote") from error
         return cls.from_json(data, str(target))

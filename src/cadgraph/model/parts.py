@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
@@ -66,6 +67,7 @@ class Parts:
         properties: of each part.
         shape: ``(n_parts,)`` equal for parts of the same shape in any pose.
         ground: ``(n_parts,)`` whether a part is the ground.
+        inside: the innermost part around each part that lies inside another one.
     """
 
     scene: Scene
@@ -74,6 +76,7 @@ class Parts:
     properties: Properties
     shape: Ints
     ground: Bools
+    inside: Mapping[int, int] = field(default_factory=dict)
 
     @property
     def n_parts(self) -> int:

@@ -100,6 +100,11 @@ class Part(Record):
     n_triangles: int
     shape: str = Field(description="shared by parts of the same shape in any pose")
     ground: bool = False
+    inside: str | None = Field(
+        default=None,
+        exclude_if=lambda part: part is None,
+        description="id of the innermost part that encloses it on all sides; absent where none does",
+    )
 
 
 class Port(Record):

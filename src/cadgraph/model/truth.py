@@ -15,6 +15,7 @@ from typing import Any, Literal, Self
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from cadgraph._io.atomic import write_atomically
+from cadgraph._io.limits import TRUTH, read_text_within
 from cadgraph.errors import FormatError
 from cadgraph.model.vocabulary import Vocabulary
 
@@ -268,12 +269,7 @@ class Truth(_Record):
             FormatError: it is missing, no JSON, or does not follow the format.
         """
         target = Path(path)
-        try:
-            text = target.read_text(encoding="utf-8-sig")
-        except OSError as error:
-            raise FormatError(f"{target}: can't be read ({error.strerror}); give a .truth.json file") from error
-        except UnicodeDecodeError as error:
-            raise FormatError(f"{target}: not UTF-8 text; give a .truth.json file") from error
+        text = read_text_within(target, TRUTH, FormatError, "give a .truth.json file")
         try:
             data = json.loads(text, parse_constant=_refuse_constant)
         except (ValueError, RecursionError) as error:

@@ -130,6 +130,7 @@ def _check_nodes(listed: Iterable[Node], nodes: Mapping[str, Node]) -> None:
             for mesh in node.meshes:
                 if part_of_mesh.setdefault(mesh, node.id) != node.id:
                     raise FormatError(f"mesh {mesh!r} is in two parts: {part_of_mesh[mesh]!r} and {node.id!r}")
+            _check_known((node.inside,) if node.inside is not None else (), Part, nodes, here)
         elif isinstance(node, Unit):
             if unit_of_tag.setdefault(node.tag, node.id) != node.id:
                 raise FormatError(f"tag {node.tag!r} is used by two units: {unit_of_tag[node.tag]!r} and {node.id!r}")

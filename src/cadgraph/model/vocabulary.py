@@ -13,6 +13,7 @@ from typing import Any
 
 import yaml
 
+from cadgraph._io.limits import VOCABULARY, read_text_within
 from cadgraph.errors import LabelError
 
 __all__ = ["Group", "Vocabulary", "default_vocabulary", "read_vocabulary", "spell_label"]
@@ -152,12 +153,9 @@ def read_vocabulary(path: str | Path) -> Vocabulary:
     Raises:
         LabelError: the file can't be read or is malformed.
     """
-    if Path(path).is_char_device() or Path(path).is_block_device():
-        raise LabelError(f"{path}: a device; give a YAML vocabulary")
+    text = read_text_within(path, VOCABULARY, LabelError, "give a YAML vocabulary")
     try:
-        content = yaml.load(Path(path).read_text(encoding="utf-8"), Loader=_StrictLoader)
-    except OSError as error:
-        raise LabelError(f"{path}: can't be read ({error.strerror}); give a YAML vocabulary") from error
+        content = yaml.load(text, Loader=_StrictLoader)
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         raise LabelError(f"{path}: not YAML ({_what(error)})") from error
     groups = content

@@ -5,6 +5,7 @@ All functions are pure: a finished :class:`~cadgraph.model.graph.SceneGraph` in,
 
 from __future__ import annotations
 
+from cadgraph.query.compare import Comparison, compare
 from cadgraph.query.isolate import Closing, Isolation, Opening, find_isolation
 from cadgraph.query.lines import Line, find_lines
 from cadgraph.query.network import Arc, Network
@@ -13,6 +14,7 @@ from cadgraph.query.trace import Halt, Return, Step, Trace, find_way, trace
 __all__ = [
     "Arc",
     "Closing",
+    "Comparison",
     "Halt",
     "Isolation",
     "Line",
@@ -21,6 +23,7 @@ __all__ = [
     "Return",
     "Step",
     "Trace",
+    "compare",
     "find_isolation",
     "find_lines",
     "find_way",

@@ -52,6 +52,7 @@ class Explanation:
         repeats: other parts of its shape: how many have each label ("" for none).
         unit: tag of its functional unit, or None.
         cluster: id of its structure, or None.
+        inside: id of the part that encloses it on all sides, or None.
     """
 
     part: str
@@ -67,6 +68,7 @@ class Explanation:
     repeats: Mapping[str, int] = field(default_factory=dict)
     unit: str | None = None
     cluster: str | None = None
+    inside: str | None = None
 
     def to_json(self) -> dict[str, Any]:
         """As plain values."""
@@ -87,6 +89,8 @@ class Explanation:
         if self.guesses:
             rows.append(("guesses", ", ".join(f"{name} {p:.0%}" for name, p in self.guesses)))
         rows.append(("touches", _some([f"{n.label or 'unlabelled'} ({n.part})" for n in self.neighbors]) or "nothing"))
+        if self.inside:
+            rows.append(("lies", f"inside {self.inside}"))
         alike = ", ".join(f"{count} {label or 'unlabelled'}" for label, count in self.repeats.items())
         rows.append(("same shape", alike or "no other part"))
         rows.append(("unit", self.unit or "none"))
@@ -130,6 +134,7 @@ def explain(graph: SceneGraph, which: str) -> Explanation:
         repeats=dict(sorted(repeats.items(), key=lambda row: (-row[1], row[0]))),
         unit=None if unit is None else unit.tag,
         cluster=None if cluster is None else cluster.id,
+        inside=part.inside,
     )
 
 

@@ -13,7 +13,7 @@ from typing import Literal
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Connected, Junction, Point, System, Terminal, Unit
 
-__all__ = ["Arc", "Flow", "Network", "Place", "natural"]
+__all__ = ["Arc", "Flow", "Network", "Place", "loose_tag", "natural"]
 
 Flow = Literal["along", "against", "unknown"]
 Place = Unit | Junction | Terminal
@@ -156,10 +156,10 @@ class Network:
         names = {self.name(place): place for place in reversed(self.places)}
         if which in names:
             return names[which]
-        loose = {_loose(name): name for name in names}
-        if _loose(which) in loose:
-            return names[loose[_loose(which)]]
-        near = [loose[key] for key in difflib.get_close_matches(_loose(which), loose, _NEAR, 0.6)]
+        loose = {loose_tag(name): name for name in names}
+        if loose_tag(which) in loose:
+            return names[loose[loose_tag(which)]]
+        near = [loose[key] for key in difflib.get_close_matches(loose_tag(which), loose, _NEAR, 0.6)]
         hint = f"did you mean {', '.join(near)}?" if near else "'cadgraph lines' prints all that are connected"
         raise ValueError(f"nothing in the graph is called {which!r}; {hint}")
 
@@ -261,6 +261,6 @@ def natural(text: str) -> tuple[tuple[int, int, str], ...]:
     )
 
 
-def _loose(name: str) -> str:
+def loose_tag(name: str) -> str:
     """A tag as people type it: small letters, no separators, no leading zeros."""
     return re.sub(r"(?<![0-9])0+(?=[0-9])", "", re.sub(r"[\W_]+", "", name.casefold()))

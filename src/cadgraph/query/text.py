@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import dataclasses
+from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
+from cadgraph.query.compare import Comparison, Missing
 from cadgraph.query.isolate import Isolation
 from cadgraph.query.lines import Line
 from cadgraph.query.trace import Step, Trace
@@ -13,6 +15,8 @@ from cadgraph.query.trace import Step, Trace
 __all__ = [
     "LINE_COLUMNS",
     "aligned",
+    "comparison_lines",
+    "comparison_values",
     "isolation_lines",
     "isolation_values",
     "line_rows",
@@ -201,6 +205,104 @@ def isolation_values(found: Isolation) -> dict[str, Any]:
         "lines": list(found.lines),
         "remarks": list(found.remarks),
     }
+
+
+def comparison_lines(found: Comparison, *, most: int = 20) -> list[str]:
+    """A comparison of a plant with its plan: a line of counts for each matter, and what differs below it.
+
+    Args:
+        found: the comparison.
+        most: rows that are shown of each matter; how many more there are is said.
+    """
+    return [
+        *_unit_lines(found, most),
+        *_connection_lines(found, most),
+        *_order_lines(found, most),
+        f"directions     {len(found.directions)} contradict",
+        *_listed([_way(way.at, way.to, way.plant, way.plan) for way in found.directions], most),
+        f"kinds          {len(found.kinds)} differ",
+        *_listed(aligned([(*k.where, f"{k.plant} in the plant,", f"{k.plan} in the plan") for k in found.kinds]), most),
+        *(f"note: {remark}" for remark in found.told),
+        "",
+        "the plant and the plan agree" if found.agrees else "the plant and the plan differ",
+    ]
+
+
+def _unit_lines(found: Comparison, most: int) -> list[str]:
+    by = Counter(unit.by for unit in found.found)
+    ways = ", ".join(f"{by[way]} {words}" for way, words in _WAYS.items() if by[way])
+    told = [f"units          {len(found.found)} in both{f' ({ways})' if ways else ''}"]
+    guessed = [unit for unit in found.found if unit.by == "network"]
+    rows = [(u.plant, "=", u.plan, u.what, f"{u.sure:.0%} of the neighbours agree") for u in guessed]
+    told += _listed(aligned(rows), most)
+    told += _listed([f"nobody can say which is which: {_either(*each)}" for each in found.alike], most)
+    for where, units in (("plant", found.only_plant), ("plan", found.only_plan)):
+        told += [f"only in {where:<7}{len(units)}"]
+        told += _listed(aligned([(unit.tag, unit.what, _around(unit)) for unit in units]), most)
+    if {unit.what for unit in found.only_plant} & {unit.what for unit in found.only_plan}:
+        told.append("               some of these may be the same; --map FILE says which is which")
+    return told
+
+
+def _connection_lines(found: Comparison, most: int) -> list[str]:
+    counts = f"{len(found.missing)} only in the plan, {len(found.extra)} only in the plant"
+    return [
+        f"connections    {len(found.agreeing)} agree, {counts}",
+        *_listed([f"only in the plan: {a} - {b}" for a, b in found.missing], most),
+        *_listed([f"only in the plant: {a} - {b}" for a, b in found.extra], most),
+    ]
+
+
+def _order_lines(found: Comparison, most: int) -> list[str]:
+    told = [f"orders         {len(found.lines)} lines agree, {len(found.orders)} differ"]
+    for order in found.orders[:most]:
+        told.append(f"  {order.line} in the plant: {' '.join(order.plant)}")
+        told.append(f"  {'':<{len(order.line)}} in the plan:  {' '.join(order.plan)}")
+    return told + _more(len(found.orders) - most)
+
+
+_WAYS = {"tag": "by tag", "given": "as given", "network": "by the network"}
+
+
+def comparison_values(found: Comparison) -> dict[str, Any]:
+    """A comparison as plain values; tags are those of the plant unless the key says otherwise."""
+    return {
+        "agrees": found.agrees,
+        "units": [{**dataclasses.asdict(unit), "sure": round(unit.sure, 6)} for unit in found.found],
+        "only_in_plant": [dataclasses.asdict(unit) for unit in found.only_plant],
+        "only_in_plan": [dataclasses.asdict(unit) for unit in found.only_plan],
+        "alike": [{"plant": list(plant), "plan": list(plan)} for plant, plan in found.alike],
+        "connections": {
+            "agree": [list(pair) for pair in found.agreeing],
+            "only_in_plan": [list(pair) for pair in found.missing],
+            "only_in_plant": [list(pair) for pair in found.extra],
+        },
+        "orders": {"agree": list(found.lines), "differ": [dataclasses.asdict(order) for order in found.orders]},
+        "directions": [dataclasses.asdict(way) for way in found.directions],
+        "kinds": [dataclasses.asdict(kind) for kind in found.kinds],
+        "notes": list(found.told),
+    }
+
+
+def _listed(rows: Sequence[str], most: int) -> list[str]:
+    return [f"  {row}" for row in rows[:most]] + _more(len(rows) - most)
+
+
+def _more(count: int) -> list[str]:
+    return [f"  and {count} more; --json has them all"] if count > 0 else []
+
+
+def _either(plant: Sequence[str], plan: Sequence[str]) -> str:
+    return f"{', '.join(plant)} in the plant, {', '.join(plan)} in the plan"
+
+
+def _around(unit: Missing) -> str:
+    return f"beside {', '.join(unit.near)}" if unit.near else ""
+
+
+def _way(at: str, to: Sequence[str], plant: str, plan: str) -> str:
+    words = {"out": f"from {at} to {', '.join(to)}", "in": f"from {', '.join(to)} to {at}"}
+    return f"{words[plant]} in the plant, {words[plan]} in the plan"
 
 
 def _step_row(step: Step) -> tuple[str, ...]:

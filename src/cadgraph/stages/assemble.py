@@ -144,6 +144,7 @@ def _parts(results: Results, ids: Sequence[str]) -> list[Part]:
             n_triangles=int(measured.n_triangles[i]),
             shape=f"shape-{parts.shape[i]:05d}",
             ground=bool(parts.ground[i]),
+            inside=ids[parts.inside[i]] if i in parts.inside else None,
         )
         for i in range(parts.n_parts)
     ]

@@ -2,10 +2,11 @@ import pytest
 
 import plates
 from cadgraph.errors import LabelError
+from cadgraph.labelers.lvlm.address import check_address, is_local
 from cadgraph.labelers.lvlm.answer import Answer
 from cadgraph.labelers.lvlm.asking import Asking
 from cadgraph.labelers.lvlm.cache import Cache
-from cadgraph.labelers.lvlm.client import Client, check_address, is_local
+from cadgraph.labelers.lvlm.client import Client
 from cadgraph.labelers.lvlm.labeler import LvlmLabeler, Way
 from cadgraph.labelers.lvlm.price import read_price
 from chat_server import ChatServer
@@ -98,8 +99,9 @@ def test_a_server_that_keeps_failing_leaves_reasons():
     assert "500 (server error)" in labeler.said.diagnostics[0].message
 
 
-def test_an_enormous_reply_is_not_read():
-    server = ChatServer(plates.oracle(PARTS), ["enormous"])
+@pytest.mark.parametrize("order", ["enormous", "endless", "packed"])
+def test_an_enormous_reply_is_not_read(order):
+    server = ChatServer(plates.oracle(PARTS), [order])
     labels, labeler = labelled(server, retries=0)
     assert labels[0] is None
     assert names(labels[1:]) == TRUTH[1:]
@@ -138,8 +140,15 @@ def test_without_a_key_openai_is_not_asked(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    "address", ["ftp://x/v1", "localhost:8000", "http://me:secret@host/v1", "https://host/v1?key=secret", "http://["]
-)
+    "address",
+    [
+        "ftp://x/v1", "localhost:8000", "http://me:secret@host/v1", "https://host/v1?key=secret", "http://[",
+        "http://localhost@example.com/v1", "http://@example.com/v1", "http://example.com\\@localhost/v1",
+        "http://example.com /v1", "http://127.0.0.1%2eexample.com/v1", "http://localhost:port/v1",
+        "http://2130706433/v1", "http://0x7f000001/v1", "http://127.1/v1", "http://0177.0.0.1/v1",
+        "http://127.0.0.1.2/v1", "http://\uff11\uff12\uff17.1/v1",
+    ],
+)  # fmt: skip
 def test_addresses_that_are_none_or_hold_a_secret_are_refused(address):
     with pytest.raises(LabelError, match="base_url"):
         check_address(address)
@@ -149,7 +158,31 @@ def test_addresses_that_are_none_or_hold_a_secret_are_refused(address):
     ("address", "local"),
     [
         ("http://localhost:11434/v1", True),
+        ("http://LOCALHOST./v1", True),
+        ("http://plant.localhost/v1", True),
+        ("http://localhost.example.com/v1", False),
+        ("http://notlocalhost/v1", False),
+        ("http://127.0.0.1:8000/v1", True),
+        ("http://127.200.3.4/v1", True),
+        ("http://127.0.0.1.example.com/v1", False),
+        ("http://0.0.0.0:8000/v1", True),
+        ("http://[::1]:8000/v1", True),
+        ("http://[::]/v1", True),
+        ("http://[::ffff:127.0.0.1]/v1", True),
+        ("http://[::ffff:8.8.8.8]/v1", False),
+        ("http://[fe80::1%25eth0]/v1", True),
+        ("http://[fd00::7]/v1", True),
+        ("http://[2001:db8::1]/v1", False),
         ("http://192.168.1.7/v1", True),
+        ("http://10.example.com/v1", False),
+        ("http://172.16.0.9/v1", True),
+        ("http://172.32.0.9/v1", False),
+        ("http://172.200.0.9/v1", False),
+        ("http://8.8.8.8/v1", False),
+        ("http://server.lan/v1", True),
+        ("http://lan/v1", False),
+        ("http://2130706433/v1", False),
+        ("http://localhost@example.com/v1", False),
         ("https://api.example.com/v1", False),
         ("", False),
     ],

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 import xml.etree.ElementTree as ET
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 from xml.parsers import expat
 
+from cadgraph._io.limits import DEXPI, read_bytes_within
 from cadgraph.errors import FormatError
+from cadgraph.export.dexpi.chain import Chain, Direction, Pipe, as_chain, join_through, with_sensors
 from cadgraph.export.dexpi.terms import CUSTOM_SET, DEXPI_SET, INSTRUMENT, kind_of, unit_type_of
+from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import (
     Connected,
@@ -27,19 +30,38 @@ from cadgraph.model.records import (
 
 __all__ = ["read_dexpi"]
 
+# Pieces of pipe that are no unit in a plant's graph: a change of size, and what only joins pipe to pipe.
+_THROUGH = frozenset(
+    {
+        "PipeReducer", "PropertyBreak", "Flange", "FlangedConnection", "ClampedFlangeCoupling", "PipeCoupling",
+        "PipeFlangeSpacer", "PipeFlangeSpade", "Compensator", "Hose", "Penetration", "LineBlind", "RestrictionOrifice",
+        "FlowNozzle", "PipeFitting", "DirectPipingConnection", "CustomPipingComponent",
+    }
+)  # fmt: skip
+# What measures the flow in a line, as DEXPI's classes are called.
+_METERS = ("FlowMeter", "FlowDetector", "FlowMeasuringElement", "VenturiTube", "OrificePlate")
+_ITEMS = ("PipingComponent", "PipeOffPageConnector", "PropertyBreak")  # that stand in a segment
+_MOST_TOLD = 5  # ids that a finding names
+
+_SKIPPED = {
+    "no-id": "items without an ID are left out",
+    "tag-twice": "tags are used more than once; later ones get their ID behind them",
+    "unknown-end": "connections end at something that the file doesn't hold; taken for ends of pipes",
+    "no-ends": "segments join nothing",
+}
+
 _LETTERS = {"P": "pressure gauge", "L": "level gauge", "F": "flow meter", "T": "thermometer"}
-_THROUGH = frozenset({"PipeReducer"})  # no node of the graph: a change of size in a connection
 _ORIGIN: Point = (0.0, 0.0, 0.0)
-_Direction = Literal["forward", "backward", "unknown"]
-_FLOWS: dict[str, _Direction] = {"along": "forward", "against": "backward"}
+_FLOWS: dict[str, Direction] = {"along": "forward", "against": "backward"}
 
 
 def read_dexpi(path: str | Path) -> SceneGraph:
     """Reads the functional graph of a DEXPI file in Proteus XML.
 
     What cadgraph wrote comes back as it was, without parts and geometry. In files of other tools a segment is taken to
-    flow from its source to its target, as DEXPI has it; lengths are then unknown. A document type is refused, so that
-    no entity is ever expanded or fetched.
+    flow from its source to its target, as DEXPI has it; lengths are then unknown, flanges and other fittings that only
+    join pipes are passed over. What can't be understood is skipped and told as a finding of the graph. A document type
+    is refused, so that no entity is ever expanded or fetched.
 
     Args:
         path: the file.
@@ -48,17 +70,14 @@ def read_dexpi(path: str | Path) -> SceneGraph:
         Units, junctions, terminals, systems and connections.
 
     Raises:
-        FormatError: the file can't be read, is no XML or no PlantModel, or names what it doesn't hold.
+        FormatError: the file can't be read, is too large, no XML or no PlantModel.
     """
     root = _parsed(Path(path))
     return _Reading(root, str(path)).graph()
 
 
 def _parsed(path: Path) -> ET.Element:
-    try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise FormatError(f"{path}: can't be read ({error.strerror})") from error
+    data = read_bytes_within(path, DEXPI, FormatError, "give a P&ID as Proteus XML, sheet by sheet")
 
     def refuse(*_: object) -> None:
         raise FormatError(f"{path}: has a document type declaration, which DEXPI doesn't use; remove it")
@@ -75,66 +94,73 @@ def _parsed(path: Path) -> ET.Element:
     return root
 
 
-@dataclass
-class _Pipe:
-    """A stretch between two nodes, as it stands in the file."""
-
-    length: float | None
-    size: int | None
-    direction: _Direction
-    reason: str | None
-    confidence: float | None
-
-
-@dataclass
-class _Chain:
-    """What follows each other along a segment: nodes, and the pipes between them."""
-
-    nodes: list[str] = field(default_factory=list)
-    ports: list[tuple[str | None, str | None]] = field(default_factory=list)
-    pipes: list[_Pipe] = field(default_factory=list)
-
-
 class _Reading:
     def __init__(self, root: ET.Element, where: str) -> None:
         self.root = root
         self.where = where
         self.nodes: dict[str, Unit | Junction | Terminal] = {}
         self.owner: dict[str, tuple[str, str | None]] = {}  # id of an item or nozzle: the node, the port
-        self.reducers: set[str] = set()
-        self.edges: list[tuple[str, str, str | None, str | None, _Pipe]] = []
+        self.through: dict[str, None] = {}  # items that are no node, by id
+        self.edges: list[tuple[str, str, str | None, str | None, Pipe]] = []
         self.systems: dict[str, set[str]] = {}
+        self.skipped: dict[str, list[str]] = {}
+        self.tags: set[str] = set()
 
     def graph(self) -> SceneGraph:
-        for item in self.root.iter("Equipment"):
-            if item.get("ComponentClass") is not None and item.find("ConnectionPoints") is None:
-                self._equipment(item)
-        for item in (*self.root.iter("PipingComponent"), *self.root.iter("PipeOffPageConnector")):
-            self._component(item)
-        for item in self.root.iter("ProcessInstrumentationFunction"):
-            self._instrument(item)
+        self._items()
         sensors = self._sensors()
         for system in self.root.iter("PipingNetworkSystem"):
             for segment in system.iter("PipingNetworkSegment"):
                 self._segment(system, segment, sensors.get(segment.get("ID", ""), []))
-        edges = _joined(self.edges, self.reducers)
+        edges, others = join_through(self.edges, self.through)
+        for name, count in others.items():
+            kind = Junction if count > 1 else Terminal
+            self.nodes[name] = kind(id=name, point=_ORIGIN, parts=())
         used = dict.fromkeys(end for edge in edges for end in (edge.source, edge.target))
         return SceneGraph(
             GraphDocument(
                 source=SourceRecord.model_validate({"path": self.where}),
                 nodes=(Site(id="site"), *self.nodes.values(), *self._systems(set(used), edges)),
                 edges=(*edges, *self._contains(set(used))),
+                diagnostics=tuple(
+                    Diagnostic(f"dexpi-{code}", _told(code, names)) for code, names in self.skipped.items()
+                ),
             )
         )
+
+    def _items(self) -> None:
+        """All that can be a node."""
+        # Shapes look like the items that they are drawn for.
+        for above in list(self.root.iter()):
+            for shapes in above.findall("ShapeCatalogue"):
+                above.remove(shapes)
+        nested: set[int] = set()
+        for item in self.root.iter("Equipment"):
+            if id(item) not in nested:
+                nested.update(id(inner) for inner in item.iter("Equipment"))
+                if self._is_item(item):
+                    self._equipment(item)
+        for tag in _ITEMS:
+            for item in filter(self._is_item, self.root.iter(tag)):
+                self._component(item)
+        for item in filter(self._is_item, self.root.iter("ProcessInstrumentationFunction")):
+            self._instrument(item)
+
+    def _is_item(self, item: ET.Element) -> bool:
+        """Whether an element can be a node; what has no id can't be joined to anything."""
+        if item.get("ID") or item.find("PersistentID[@Context='cadgraph']") is not None:
+            return True
+        self.skipped.setdefault("no-id", []).append(item.get("TagName") or item.get("ComponentClass") or item.tag)
+        return False
 
     # Nodes
 
     def _equipment(self, item: ET.Element) -> None:
         values, custom = _values(item, DEXPI_SET), _values(item, CUSTOM_SET)
-        ports = []
-        for number, nozzle in enumerate(item.findall("Nozzle"), 1):
-            name = _values(nozzle, DEXPI_SET).get("SubTagName")
-            ports.append((nozzle.get("ID", ""), name, number))
+        ports = [
+            (nozzle.get("ID", ""), _values(nozzle, DEXPI_SET).get("SubTagName") or nozzle.get("TagName"))
+            for nozzle in item.iter("Nozzle")
+        ]
         name = item.get("ComponentClass", "")
         node = self._unit(
             item,
@@ -142,30 +168,42 @@ class _Reading:
             values.get("TagName") or item.get("TagName"),
             kind_of(name, values.get("TypeName", "")),
             custom,
-            tuple(Port(name=name, point=_point(custom)) for _, name, _ in ports if name),
+            tuple(Port(name=name, point=_point(custom)) for name in dict.fromkeys(port for _, port in ports) if name),
         )
-        for nozzle_id, port, _ in ports:
+        # Chambers and bundles are equipment within equipment; pipes may end at them, too.
+        for part in item.iter("Equipment"):
+            self.owner[part.get("ID", "")] = node, None
+        for nozzle_id, port in ports:
             self.owner[nozzle_id] = node, port
 
     def _component(self, item: ET.Element) -> None:
         name, key = item.get("ComponentClass", ""), self._id(item)
         values, custom = _values(item, DEXPI_SET), _values(item, CUSTOM_SET)
         what, point = values.get("TypeName", ""), _point(custom)
-        if name in _THROUGH:
-            self.reducers.add(key)
+        if name in _THROUGH or item.tag == "PropertyBreak":
+            self.through[key] = None
         elif what == INSTRUMENT:
             self.owner[item.get("ID", "")] = key, None
             return
         elif name == "PipeTee" or what.startswith("junction"):
             self.nodes[key] = Junction(id=key, point=point, parts=())
         elif name == "BlindFlange" or what in ("open end", "end of pipe") or item.tag == "PipeOffPageConnector":
-            kind: Literal["open", "blind", "unknown"] = "blind" if name == "BlindFlange" else "unknown"
-            self.nodes[key] = Terminal(id=key, kind="open" if what == "open end" else kind, point=point, parts=())
+            ending: Literal["open", "blind", "unknown"] = "blind" if name == "BlindFlange" else "unknown"
+            self.nodes[key] = Terminal(id=key, kind="open" if what == "open end" else ending, point=point, parts=())
         else:
-            tag = values.get("PipingComponentName") or item.get("TagName")
-            is_valve = "Valve" in name or name == "CustomSafetyValveOrFitting"
-            self._unit(item, "valve" if is_valve else "equipment", tag, kind_of(name, what), custom, ())
+            self._in_line(item, values, custom)
         self.owner[item.get("ID", "")] = key, None
+
+    def _in_line(self, item: ET.Element, values: dict[str, str], custom: dict[str, str]) -> None:
+        """A valve, a meter, or another device that stands in a line."""
+        name, tag = item.get("ComponentClass", ""), values.get("PipingComponentName") or item.get("TagName")
+        kind = kind_of(name, values.get("TypeName", ""))
+        if "Valve" in name:
+            self._unit(item, "valve", tag, kind, custom, ())
+        elif any(word in name for word in _METERS):
+            self._unit(item, "gauge", tag, kind or "flow meter", custom, ())
+        else:
+            self._unit(item, "equipment", tag, kind, custom, ())
 
     def _instrument(self, item: ET.Element) -> None:
         values, custom = _values(item, DEXPI_SET), _values(item, CUSTOM_SET)
@@ -185,10 +223,15 @@ class _Reading:
         ports: tuple[Port, ...],
     ) -> str:
         key, point = self._id(item), _point(custom)
+        tag = tag or key
+        if tag in self.tags:
+            self.skipped.setdefault("tag-twice", []).append(tag)
+            tag = f"{tag} ({item.get('ID', key)})"
+        self.tags.add(tag)
         self.nodes[key] = Unit(
             id=key,
             unit_type=unit_type,
-            tag=tag or key,
+            tag=tag,
             kind=kind,
             parts=(),
             ports=ports,
@@ -222,46 +265,68 @@ class _Reading:
         values, custom = _values(segment, DEXPI_SET), _values(segment, CUSTOM_SET)
         size = _number(values.get("NominalDiameterNumericalValueRepresentation"))
         flow = custom.get("Flow")
-        direction: _Direction = "unknown" if flow in ("none", "unknown", "contradictory") else "forward"
+        direction: Direction = "unknown" if flow in ("none", "unknown", "contradictory") else "forward"
         reason = _values(system, CUSTOM_SET).get("Reason") if flow else "drawn so in the diagram"
-        base = _Pipe(None, int(size) if size else None, direction, reason, None)
-        chain = self._chain(segment, base)
-        nodes, ports, pipes = _with_sensors(chain, sensors)
+        base = Pipe(None, int(size) if size else None, direction, reason, None)
         name = _values(system, CUSTOM_SET).get("System")
-        for i, pipe in enumerate(pipes):
-            self.edges.append((nodes[i], nodes[i + 1], ports[i][1], ports[i + 1][0], pipe))
-            if name:
-                self.systems.setdefault(name, set()).update((nodes[i], nodes[i + 1]))
+        for number, chain in enumerate(self._chains(segment, base)):
+            # Which of several chains in one segment an instrument stands on, nobody says.
+            nodes, ports, pipes = with_sensors(chain, sensors if number == 0 else [])
+            if not pipes:
+                self.skipped.setdefault("no-ends", []).append(segment.get("ID", "?"))
+            for i, pipe in enumerate(pipes):
+                self.edges.append((nodes[i], nodes[i + 1], ports[i][1], ports[i + 1][0], pipe))
+                if name:
+                    self.systems.setdefault(name, set()).update((nodes[i], nodes[i + 1]))
 
-    def _chain(self, segment: ET.Element, base: _Pipe) -> _Chain:
+    def _chains(self, segment: ET.Element, base: Pipe) -> list[Chain]:
+        """What follows each other in a segment: as its connections have it where there are several, else in order."""
+        links = [link for link in segment.findall("Connection") if link.get("FromID") and link.get("ToID")]
+        if len(links) < 2:
+            return [self._chain(segment, base)]
+        # Other tools name each connection from one item to the next.
+        chains: list[Chain] = []
+        for link in links:
+            start, end = self._owner(link.get("FromID", "")), self._owner(link.get("ToID", ""))
+            if not chains or chains[-1].nodes[-1] != start[0]:
+                chains.append(Chain([start[0]], [(start[1], start[1])]))
+            chains[-1].nodes.append(end[0])
+            chains[-1].ports.append((end[1], end[1]))
+            chains[-1].pipes.append(Pipe(None, base.size, base.direction, base.reason, None))
+        return chains
+
+    def _chain(self, segment: ET.Element, base: Pipe) -> Chain:
         """What a segment names, in its order: source, items, target."""
         links: dict[str, str] = {}
         for link in segment.findall("Connection"):
             for end in ("FromID", "ToID"):
                 links.setdefault(end, link.get(end, ""))
-        rows: list[tuple[str, str | None] | _Pipe] = []
-        own = {item.get("ID") for item in segment if item.tag in ("PipingComponent", "PipeOffPageConnector")}
+        rows: list[tuple[str, str | None] | Pipe] = []
+        own = {item.get("ID") for item in segment if item.tag in _ITEMS and item.get("ID") in self.owner}
         if links.get("FromID") and links["FromID"] not in own:
             rows.append(self._owner(links["FromID"]))
         for item in segment:
-            if item.tag in ("PipingComponent", "PipeOffPageConnector"):
+            if item.tag in _ITEMS and item.get("ID") in own:
                 rows.append(self._owner(item.get("ID", "")))
             elif item.tag == "CenterLine":
                 more = _values(item, CUSTOM_SET)
                 length, sure = _number(more.get("Length")), _number(more.get("Confidence"))
                 rows.append(
-                    _Pipe(length, base.size, _FLOWS.get(more.get("Flow", ""), base.direction), base.reason, sure)
+                    Pipe(length, base.size, _FLOWS.get(more.get("Flow", ""), base.direction), base.reason, sure)
                 )
         target = links.get("ToID")
-        if target and (target not in own or (rows and rows[-1:] and isinstance(rows[-1], _Pipe))):
+        if target and (target not in own or (rows and rows[-1:] and isinstance(rows[-1], Pipe))):
             rows.append(self._owner(target))
-        return _as_chain(rows, base)
+        return as_chain(rows, base)
 
     def _owner(self, key: str) -> tuple[str, str | None]:
-        try:
-            return self.owner[key]
-        except KeyError:
-            raise FormatError(f"{self.where}: a connection names {key!r}, but no item has that ID") from None
+        """The node, and its port, that an id in a connection stands for; an end of pipe where the file holds none."""
+        if key not in self.owner:
+            # A connection may name a node of an item, or what the file left out.
+            self.skipped.setdefault("unknown-end", []).append(key)
+            self.nodes[f"end-{key}"] = Terminal(id=f"end-{key}", kind="unknown", point=_ORIGIN, parts=())
+            self.owner[key] = f"end-{key}", None
+        return self.owner[key]
 
     # Systems
 
@@ -295,106 +360,10 @@ class _Reading:
         ]
 
 
-def _as_chain(rows: list[tuple[str, str | None] | _Pipe], base: _Pipe) -> _Chain:
-    """Nodes and pipes in turn; an end that the file leaves open is an empty name."""
-    chain = _Chain()
-    for row in rows:
-        if isinstance(row, _Pipe):
-            if len(chain.pipes) == len(chain.nodes):
-                chain.nodes.append("")
-                chain.ports.append((None, None))
-            chain.pipes.append(row)
-        else:
-            if len(chain.nodes) > len(chain.pipes):
-                chain.pipes.append(_Pipe(None, base.size, base.direction, base.reason, None))
-            chain.nodes.append(row[0])
-            chain.ports.append((row[1], row[1]))
-    if chain.pipes and len(chain.pipes) == len(chain.nodes):
-        chain.nodes.append("")
-        chain.ports.append((None, None))
-    return chain
-
-
-def _with_sensors(
-    chain: _Chain, sensors: list[tuple[float, str]]
-) -> tuple[list[str], list[tuple[str | None, str | None]], list[_Pipe]]:
-    """The chain with its instruments at their distances; each splits the pipe that it stands on."""
-    nodes, ports, pipes = chain.nodes[:1], chain.ports[:1], []
-    waiting = list(sensors)
-    gone = 0.0
-    return_nodes = nodes
-    if waiting and nodes[:1] == [""]:
-        nodes[0] = waiting.pop(0)[1]
-    for i, pipe in enumerate(chain.pipes):
-        last = i == len(chain.pipes) - 1
-        end, length = chain.nodes[i + 1], pipe.length
-        while waiting and (last or (length is not None and waiting[0][0] < gone + length - 1e-9)):
-            if last and len(waiting) == 1 and end == "":
-                break
-            distance, name = waiting.pop(0)
-            part = None if length is None else min(max(distance - gone, 0.0), length)
-            pipes.append(_Pipe(part, pipe.size, pipe.direction, pipe.reason, pipe.confidence))
-            nodes.append(name)
-            ports.append((None, None))
-            if length is not None and part is not None:
-                length, gone = length - part, gone + part
-        if end == "" and waiting:
-            end = waiting.pop(0)[1]
-        gone += length or 0.0
-        if end == "":
-            continue
-        pipes.append(_Pipe(length, pipe.size, pipe.direction, pipe.reason, pipe.confidence))
-        nodes.append(end)
-        ports.append(chain.ports[i + 1])
-    return return_nodes, ports, pipes
-
-
-def _joined(edges: list[tuple[str, str, str | None, str | None, _Pipe]], reducers: set[str]) -> list[Connected]:
-    """Connections with those on either side of a reducer made one."""
-    found: list[Connected] = []
-    open_at: dict[str, int] = {}
-    for source, target, source_port, target_port, pipe in edges:
-        if source == "":
-            continue
-        size = pipe.size
-        edge = Connected(
-            source=source,
-            target=target,
-            length=pipe.length,
-            size=size,
-            diameter=size / 1000 if size else None,
-            source_port=source_port,
-            target_port=target_port,
-            direction=pipe.direction,
-            reason=pipe.reason if pipe.direction != "unknown" else None,
-            confidence=pipe.confidence,
-        )
-        if source in open_at:
-            before = found[open_at.pop(source)]
-            edge = _merged(before, edge)
-            found[found.index(before)] = edge
-        else:
-            found.append(edge)
-        if target in reducers:
-            open_at[target] = found.index(edge)
-    return [edge for edge in found if edge.target not in reducers and edge.source not in reducers]
-
-
-def _merged(before: Connected, after: Connected) -> Connected:
-    lengths = [length for length in (before.length, after.length) if length is not None]
-    sizes = [*(before.sizes or (before.size,)), after.size]
-    kept = [size for size in sizes if size is not None]
-    longer = before if (before.length or 0.0) >= (after.length or 0.0) else after
-    return before.model_copy(
-        update={
-            "target": after.target,
-            "target_port": after.target_port,
-            "length": sum(lengths) if lengths else None,
-            "size": longer.size,
-            "diameter": longer.diameter,
-            "sizes": tuple(kept),
-        }
-    )
+def _told(code: str, names: list[str]) -> str:
+    """A finding in words: how many, and the first of them."""
+    shown = ", ".join(dict.fromkeys(names[:_MOST_TOLD])) + (" and others" if len(names) > _MOST_TOLD else "")
+    return f"{len(names)} {_SKIPPED[code]}: {shown}"
 
 
 def _values(item: ET.Element, name: str) -> dict[str, str]:
@@ -409,9 +378,10 @@ def _values(item: ET.Element, name: str) -> dict[str, str]:
 
 def _number(text: str | None) -> float | None:
     try:
-        return float(text) if text else None
+        value = float(text) if text else None
     except ValueError:
         return None
+    return value if value is not None and math.isfinite(value) else None
 
 
 def _point(custom: dict[str, str]) -> Point:

@@ -6,6 +6,7 @@ there is written without one.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from cadgraph.model.records import Terminal, Unit
@@ -112,4 +113,6 @@ def kind_of(name: str, custom: str) -> str | None:
         return None if custom in ("valve", "pump", "tank", "equipment") else custom
     if name == "CentrifugalPump":
         return "centrifugal pump"
+    if name.endswith("Valve") and name not in _KINDS and not name.startswith(("Custom", "Operated")):
+        return " ".join(re.findall("[A-Z][a-z]*", name)).lower()
     return "pressure vessel" if name == "PressureVessel" else _KINDS.get(name)

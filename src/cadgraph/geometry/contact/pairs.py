@@ -24,9 +24,7 @@ from cadgraph.geometry.kernels.triangle import TOLERANCE
 from cadgraph.model.parts import Contacts
 from cadgraph.model.scene import Floats, Ints, Scene
 
-__all__ = ["distances", "find_contacts", "find_contacts_placed", "plain", "touching"]
-
-_RIGID = 1e-6  # greatest deviation of a rotation from an orthogonal matrix
+__all__ = ["distances", "find_contacts", "plain", "touching"]
 
 
 def find_contacts(
@@ -111,90 +109,9 @@ def distances(
     return distance, points
 
 
-def find_contacts_placed(
-    prototypes: Scene,
-    prototype_of_mesh: npt.ArrayLike,
-    world_from_mesh: npt.ArrayLike,
-    eps: float = 0.01,
-    *,
-    forest: Forest | None = None,
-    workers: int | None = None,
-) -> Contacts:
-    """All pairs of placed shapes whose surfaces are at most ``eps`` apart.
-
-    Each prototype has one tree, however often it is placed: the memory grows with the distinct triangles only.
-
-    Args:
-        prototypes: the distinct shapes, each about its own origin [m].
-        prototype_of_mesh: ``(n,)`` the prototype of each placed mesh.
-        world_from_mesh: ``(n, 4, 4)`` where it is placed, acting on columns: a rigid motion, mirrored or not.
-        eps: greatest distance [m].
-        forest: the trees of the prototypes, if built before.
-        workers: threads; all processors by default. The output does not depend on it.
-
-    Returns:
-        As ``find_contacts``, indices being those of placed meshes. Turning a shape rounds its coordinates, so that
-        distances may differ in the last digits from those of a scene with the same shapes written out.
-
-    Raises:
-        ValueError: a transform is not rigid, the shapes don't match, an index is no prototype, ``eps`` is negative or
-            not finite, or ``workers`` is below 1.
-    """
-    _check_eps(eps)
-    tree = np.ascontiguousarray(prototype_of_mesh, np.int64).reshape(-1)
-    poses = np.asarray(world_from_mesh, np.float64).reshape(-1, 4, 4)
-    if len(tree) != len(poses):
-        raise ValueError(f"{len(tree)} meshes need as many transforms, got {len(poses)}")
-    if len(tree) and (tree.min() < 0 or tree.max() >= prototypes.n_meshes):
-        raise ValueError(f"meshes refer to prototypes {tree.min()}..{tree.max()}; there are {prototypes.n_meshes}")
-    _check_rigid(poses)
-    trees = forest if forest is not None else build_forest(prototypes, workers)
-    meshes = _place(trees, tree, poses)
-    pairs = near_boxes(_placed_boxes(trees, meshes), eps + TOLERANCE, workers)
-    rows, distance, points = _closest(meshes, pairs, eps + TOLERANCE, TOLERANCE, workers)
-    return Contacts(pairs[rows], distance, points)
-
-
-def _check_rigid(poses: Floats) -> None:
-    turns = poses[:, :3, :3]
-    error = np.abs(np.einsum("nij,nkj->nik", turns, turns) - np.eye(3)).max(axis=(1, 2)) if len(poses) else np.zeros(0)
-    wrong = np.flatnonzero(~((error <= _RIGID) & np.isfinite(poses).all(axis=(1, 2))))
-    if len(wrong):
-        raise ValueError(f"the transform of mesh {wrong[0]} is not rigid; give scaled shapes prototypes of their own")
-
-
-def _place(trees: Forest, tree: Ints, poses: Floats) -> Placed:
-    """Trees put in the world."""
-    turns = np.ascontiguousarray(poses[:, :3, :3])
-    axes = np.einsum("nij,nkj->nik", trees.axes[tree], turns)
-    return plain(trees)._replace(
-        tree=tree,
-        moved=True,
-        rotations=turns,
-        centers=np.einsum("nij,nj->ni", turns, trees.centers[tree]) + poses[:, :3, 3],
-        axes=np.ascontiguousarray(axes),
-        upright=(axes == np.eye(3)).all(axis=(1, 2)),
-    )
-
-
-def _placed_boxes(trees: Forest, meshes: Placed) -> Floats:
-    """Upright boxes ``(n, 2, 3)`` around the turned root boxes of placed meshes; NaN for those without faces."""
-    roots = np.full((trees.n_trees, 6), np.nan)
-    filled = trees.counts > 0
-    roots[filled] = trees.nodes[trees.node_offsets[:-1][filled]]
-    middle = meshes.centers + np.einsum("nik,ni->nk", meshes.axes, roots[meshes.tree, :3])
-    half = np.einsum("nik,ni->nk", np.abs(meshes.axes), roots[meshes.tree, 3:])
-    # rounding of the turn, far above what it can be
-    half += 1e-12 * (np.abs(middle) + half)
-    return np.stack([middle - half, middle + half], axis=1)
-
-
 def plain(forest: Forest) -> Placed:
-    """The meshes of a forest where they are, one for each tree."""
+    """The meshes of a forest as the search kernels take them."""
     return Placed(
-        tree=np.arange(forest.n_trees),
-        moved=False,
-        rotations=np.zeros((0, 3, 3)),
         centers=forest.centers,
         axes=forest.axes,
         upright=forest.upright,
@@ -205,7 +122,6 @@ def plain(forest: Forest) -> Placed:
         counts=forest.counts,
         nodes=forest.nodes,
         node_offsets=forest.node_offsets,
-        tree_centers=forest.centers,
     )
 
 
@@ -237,7 +153,7 @@ def _closest(
     meshes: Placed, pairs: Ints, limit: float, stop: float, workers: int | None
 ) -> tuple[Ints, Floats, Floats]:
     """Rows, distances and points of the pairs within the limit, in the order of the pairs."""
-    counts = meshes.counts[meshes.tree]
+    counts = meshes.counts
     weights = np.minimum(counts[pairs[:, 0]], counts[pairs[:, 1]]) + 16
 
     def part(first: int, last: int) -> Any:

@@ -1,4 +1,4 @@
-"""Meshes as the search kernels see them: a box tree, and where in the world a mesh puts it."""
+"""Meshes as the search kernels see them: a box tree, maybe turned into other axes."""
 
 from __future__ import annotations
 
@@ -36,14 +36,13 @@ Nodes = npt.NDArray[np.float32]
 
 
 class Placed(NamedTuple):
-    """Box trees and where each mesh puts one of them.
+    """The box trees of all meshes where they are, as the kernels take them.
+
+    Stored machine code of earlier versions names this class; by another name it could not even be read and discarded.
 
     Args:
-        tree: ``(n,)`` the tree of each mesh.
-        moved: whether meshes have a rotation and translation of their own.
-        rotations: ``(n, 3, 3)`` world from tree, where moved.
-        centers: ``(n, 3)`` the tree's centre in the world [m].
-        axes: ``(n, 3, 3)`` the tree's box axes in the world, as rows.
+        centers: ``(n, 3)`` origin of each tree's boxes [m].
+        axes: ``(n, 3, 3)`` their axes, as rows.
         upright: ``(n,)`` whether these are the world's axes.
         vertices: as in ``Forest``, like all below.
         vertex_offsets: ditto.
@@ -52,12 +51,8 @@ class Placed(NamedTuple):
         counts: ditto.
         nodes: ditto.
         node_offsets: ditto.
-        tree_centers: ``(n_trees, 3)`` ``Forest.centers``.
     """
 
-    tree: Ints
-    moved: bool
-    rotations: Floats
     centers: Floats
     axes: Floats
     upright: npt.NDArray[np.bool_]
@@ -68,33 +63,28 @@ class Placed(NamedTuple):
     counts: Ints
     nodes: Nodes
     node_offsets: Ints
-    tree_centers: Floats
 
 
 # Kernels pass a mesh on as two small arrays. In numbers: rotation (3 rows), what to take off the vertices before it,
 # what to add after (the centre of the boxes), box axes (3 rows). In whole numbers: first vertex, first face, faces,
-# first node, leaves, moved, upright, first node of the deepest level.
+# first node, leaves, turned, upright, first node of the deepest level.
 SIDE = (8, 3)
-V0, F0, COUNT, NODE, LEAVES, MOVED, UPRIGHT, DEEPEST = range(8)
+V0, F0, COUNT, NODE, LEAVES, TURNED, UPRIGHT, DEEPEST = range(8)
 WHOLE = 8
 
 
 @compiled
 def lay_side(meshes: Placed, mesh: int, origin: Floats, side: Floats, whole: Ints) -> None:
     """Writes what the kernels need of a mesh, relative to an origin."""
-    tree = meshes.tree[mesh]
     for k in range(3):
-        # not moved: vertices relative to the origin directly
-        side[3, k] = meshes.tree_centers[tree, k] if meshes.moved else origin[k]
+        side[3, k] = origin[k]
         side[4, k] = meshes.centers[mesh, k] - origin[k]
         for m in range(3):
-            if meshes.moved:
-                side[k, m] = meshes.rotations[mesh, k, m]
             side[5 + k, m] = meshes.axes[mesh, k, m]
-    whole[V0], whole[F0] = meshes.vertex_offsets[tree], meshes.face_offsets[tree]
-    whole[COUNT], whole[NODE] = meshes.counts[tree], meshes.node_offsets[tree]
-    whole[LEAVES] = (meshes.counts[tree] + LEAF - 1) // LEAF
-    whole[MOVED], whole[UPRIGHT] = meshes.moved, meshes.upright[mesh]
+    whole[V0], whole[F0] = meshes.vertex_offsets[mesh], meshes.face_offsets[mesh]
+    whole[COUNT], whole[NODE] = meshes.counts[mesh], meshes.node_offsets[mesh]
+    whole[LEAVES] = (meshes.counts[mesh] + LEAF - 1) // LEAF
+    whole[TURNED], whole[UPRIGHT] = 0, meshes.upright[mesh]
     # the first node whose leaf holds face 0; leaves before it come last (see first_face)
     whole[DEEPEST] = first_leaf(whole[LEAVES])
 
@@ -104,7 +94,7 @@ def turn_side(side: Floats, whole: Ints, turn: Floats, spare: Floats) -> None:
     """Takes a side into other axes (rows of ``turn``)."""
     for k in range(3):
         for m in range(3):
-            if whole[MOVED]:
+            if whole[TURNED]:
                 at = turn[k, 0] * side[0, m] + turn[k, 1] * side[1, m] + turn[k, 2] * side[2, m]
             else:
                 at = turn[k, m]
@@ -112,7 +102,7 @@ def turn_side(side: Floats, whole: Ints, turn: Floats, spare: Floats) -> None:
             # the box axes as rows, so turned from the right
             spare[3 + k, m] = turn[m, 0] * side[5 + k, 0] + turn[m, 1] * side[5 + k, 1] + turn[m, 2] * side[5 + k, 2]
         spare[6, k] = turn[k, 0] * side[4, 0] + turn[k, 1] * side[4, 1] + turn[k, 2] * side[4, 2]
-    if not whole[MOVED]:
+    if not whole[TURNED]:
         # the origin was taken off the vertices; now the centre is, and added again after the turn
         for k in range(3):
             side[3, k] += side[4, k]
@@ -120,7 +110,7 @@ def turn_side(side: Floats, whole: Ints, turn: Floats, spare: Floats) -> None:
         side[4, k] = spare[6, k]
         for m in range(3):
             side[k, m], side[5 + k, m] = spare[k, m], spare[3 + k, m]
-    whole[MOVED], whole[UPRIGHT] = 1, 0
+    whole[TURNED], whole[UPRIGHT] = 1, 0
 
 
 @compiled
@@ -213,7 +203,7 @@ def load_leaf(vertices: Floats, faces: Faces, side: Floats, whole: Ints, node: i
         for corner in range(3):
             v = v0 + faces[f0 + i, corner]
             x, y, z = vertices[v, 0] - side[3, 0], vertices[v, 1] - side[3, 1], vertices[v, 2] - side[3, 2]
-            if whole[MOVED]:
+            if whole[TURNED]:
                 x, y, z = (
                     side[0, 0] * x + side[0, 1] * y + side[0, 2] * z + side[4, 0],
                     side[1, 0] * x + side[1, 1] * y + side[1, 2] * z + side[4, 1],

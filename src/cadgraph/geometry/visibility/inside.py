@@ -1,4 +1,4 @@
-"""Which meshes lie inside others without touching them: the ball in the valve, the shaft in its housing.
+"""Which meshes lie inside others: the ball in the valve, the shaft in its housing.
 
 'Inside' means enclosed by the surface: wherever one looks from the inner mesh, the outer one is in the way. That is
 asked of points spread over the inner surface, each with rays in fixed directions all around; a point from which 90 %
@@ -26,7 +26,6 @@ from cadgraph.geometry.kernels.gather import gather
 from cadgraph.geometry.kernels.parallel import for_ranges
 from cadgraph.geometry.kernels.tree import Forest, build_forest
 from cadgraph.geometry.visibility.ray import enclosure, sample_points
-from cadgraph.model.parts import Contacts
 from cadgraph.model.scene import Floats, Ints, Scene
 
 __all__ = ["Inside", "find_inside"]
@@ -56,21 +55,12 @@ class Inside:
     in_material: Floats
 
 
-def find_inside(
-    scene: Scene,
-    contacts: Contacts | None = None,
-    *,
-    min_share: float = 0.5,
-    forest: Forest | None = None,
-    workers: int | None = None,
-) -> Inside:
-    """Meshes that lie wholly or mostly inside another one.
+def find_inside(scene: Scene, *, min_share: float = 0.5, workers: int | None = None) -> Inside:
+    """Meshes that lie wholly or mostly inside another one, whether they touch it or not.
 
     Args:
         scene: all meshes.
-        contacts: pairs that touch and are left out; none by default, which also gives what is inside and touches.
         min_share: least share of the inner surface that must be enclosed; half of it by default ('mostly').
-        forest: the trees of this scene, if built before.
         workers: threads; all processors by default. The output does not depend on it.
 
     Returns:
@@ -81,11 +71,11 @@ def find_inside(
     """
     if not 0 < min_share <= 1:
         raise ValueError(f"min_share is {min_share}; give a share above 0, at most 1")
-    trees = forest if forest is not None else build_forest(scene, workers)
+    trees = build_forest(scene, workers)
     meshes = plain(trees)
     points = np.empty((scene.n_meshes, _POINTS, 3))
     for_ranges(lambda first, last: sample_points(meshes, first, last, points), trees.counts, workers)
-    pairs = _candidates(trees, points, contacts, min_share, workers)
+    pairs = _candidates(trees, points, min_share, workers)
     directions = _directions(_RAYS)
     found = gather(
         lambda first, last: enclosure(
@@ -99,14 +89,9 @@ def find_inside(
     return Inside(pairs[keep], shares[keep, 0], shares[keep, 1])
 
 
-def _candidates(
-    trees: Forest, points: Floats, contacts: Contacts | None, min_share: float, workers: int | None
-) -> Ints:
+def _candidates(trees: Forest, points: Floats, min_share: float, workers: int | None) -> Ints:
     """Pairs (inner, outer) with enough of the inner points in the outer box, in ascending order."""
     near = near_boxes(trees.boxes, 0.0, workers)
-    if contacts is not None and len(near):
-        n = trees.n_trees
-        near = near[~np.isin(near[:, 0] * n + near[:, 1], contacts.pairs[:, 0] * n + contacts.pairs[:, 1])]
     pairs = np.concatenate([near, near[:, ::-1]])
     kept = [np.zeros((0, 2), np.int64)]
     batch = 1 << 16  # bounds the memory

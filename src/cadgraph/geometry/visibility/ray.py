@@ -29,7 +29,7 @@ def sample_points(meshes: Placed, first: int, last: int, points: Floats) -> None
     """Fills points spread evenly over the area of each mesh, the same on every call.
 
     Args:
-        meshes: meshes that are where their trees are.
+        meshes: all meshes.
         first: mesh to begin with.
         last: mesh to end before.
         points: ``(n_meshes, n, 3)`` takes them [m]; NaN where a mesh has no area.

@@ -9,12 +9,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from importlib import resources
-from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from cadgraph._io.arrays import read_arrays
+from cadgraph._io.limits import MODEL, read_bytes_within
 from cadgraph.errors import LabelError
 from cadgraph.labelers.embedded.classifier import Network
 from cadgraph.labelers.embedded.descriptor import FORMS, SIZES
@@ -113,16 +114,12 @@ def read_model(path: str | Path) -> Model:
     Raises:
         LabelError: the file is missing or damaged, or of another version.
     """
-    try:
-        return _parse(Path(path).read_bytes(), str(path))
-    except OSError as error:
-        raise LabelError(f"{path}: the labeler's model can't be read ({error.strerror}); {_REMEDY}") from error
+    return _parse(read_bytes_within(path, MODEL, LabelError, _REMEDY), str(path))
 
 
 def _parse(content: bytes, name: str) -> Model:
     try:
-        with np.load(BytesIO(content), allow_pickle=False) as file:
-            arrays = {key: file[key] for key in file.files}
+        arrays: dict[str, Any] = dict(read_arrays(content, MODEL))
         head = json.loads(arrays.pop("head").tobytes().decode())
         version = head["version"]
     except (ValueError, KeyError, EOFError, OSError, zipfile.BadZipFile, AttributeError, TypeError) as error:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import IO, Any
 
+from cadgraph._io.limits import BATCH, REPLY, lines_within
 from cadgraph.errors import LabelError, OutputError
 from cadgraph.labelers.lvlm.cache import Cache
 from cadgraph.labelers.lvlm.client import Manner, body_of, encoded
@@ -17,8 +18,6 @@ __all__ = ["BatchWriter", "read_results"]
 
 MAX_REQUESTS, MAX_BYTES = 50_000, 190_000_000
 """Of one file, as OpenAI takes it (50,000 requests, 200 MB)."""
-
-_MAX_LINE = 4_000_000
 
 
 class BatchWriter:
@@ -110,12 +109,18 @@ def read_results(path: Path, cache: Cache, model: str) -> tuple[int, int]:
 
 def _rows(path: Path) -> Iterator[dict[str, Any]]:
     try:
-        with path.open(encoding="utf-8") as lines:
-            for number, line in enumerate(lines, 1):
+        size = path.stat().st_size
+        if size > BATCH.most:
+            raise LabelError(
+                f"{path}: {size >> 20:,} MB large, and at most {BATCH.most >> 20:,} MB are read of {BATCH.what}; "
+                "split it"
+            )
+        with path.open(encoding="utf-8") as file:
+            for number, line in enumerate(lines_within(file, REPLY.most + 1), 1):
                 if not line.strip():
                     continue
                 try:
-                    row = json.loads(line) if len(line) <= _MAX_LINE else None
+                    row = json.loads(line) if len(line) <= REPLY.most else None
                 except (ValueError, RecursionError):
                     row = None
                 if not isinstance(row, dict):

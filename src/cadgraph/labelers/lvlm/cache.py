@@ -6,8 +6,10 @@ import sqlite3
 import threading
 import time
 from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
 
+from cadgraph._io.limits import REPLY
 from cadgraph.errors import LabelError, OutputError
 from cadgraph.labelers.lvlm.reply import Reply
 
@@ -42,6 +44,8 @@ class Cache:
             if str(path) != ":memory:":
                 Path(path).parent.mkdir(parents=True, exist_ok=True)
             self._base = sqlite3.connect(str(path), timeout=30.0, check_same_thread=False, isolation_level=None)
+            # The file may be anybody's: a text beyond this is never brought into memory.
+            self._base.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, REPLY.most)
             self._base.execute("PRAGMA journal_mode=WAL")
             self._base.execute("PRAGMA synchronous=NORMAL")
             version = int(self._base.execute("PRAGMA user_version").fetchone()[0])
@@ -58,8 +62,9 @@ class Cache:
             raise OutputError(f"{path}: the cache of answers can't be written ({error.strerror})") from error
 
     def get(self, key: str) -> Reply | None:
-        """The answer to a question, or None."""
-        with self._lock:
+        """The answer to a question; None where there is none, or one that is larger than any answer can be."""
+        row = None
+        with self._lock, suppress(sqlite3.DataError):
             row = self._base.execute(
                 "SELECT text, refusal, prompt_tokens, answer_tokens, batch FROM answers WHERE key = ?", (key,)
             ).fetchone()

@@ -5,20 +5,18 @@ from __future__ import annotations
 import base64
 import os
 import threading
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
-from urllib.parse import urlsplit
 
+from cadgraph._io.limits import REPLY
 from cadgraph.errors import LabelError, MissingExtra
+from cadgraph.labelers.lvlm.address import check_address
 from cadgraph.labelers.lvlm.gallery import Picture
 from cadgraph.labelers.lvlm.reply import Question, Reply
 
-__all__ = ["Client", "Manner", "body_of", "check_address", "is_local"]
+__all__ = ["Client", "Manner", "body_of"]
 
-MAX_REPLY = 4_000_000
-"""Bytes of a reply that are read at most."""
-
-_LOCAL = ("localhost", "127.0.0.1", "::1", "0.0.0.0")
 _IN_A_ROW = 12  # questions that fail one after the other, none answered between them: the server is gone
 
 
@@ -228,40 +226,26 @@ def encoded(question: Question, detail: str) -> list[dict[str, Any]]:
     return parts
 
 
-def check_address(address: str) -> None:
-    """Makes sure that an address is one, and carries no secret that would end up in the graph's settings.
-
-    Raises:
-        LabelError: it isn't.
-    """
-    if not address:
-        return
-    try:
-        parts = urlsplit(address)
-        host = parts.hostname
-    except ValueError:
-        parts, host = urlsplit(""), None
-    if parts.scheme not in ("http", "https") or not host:
-        raise LabelError(f"base_url {address[:80]!r} is no address; give one like http://localhost:11434/v1")
-    if parts.username or parts.password or parts.query:
-        raise LabelError("base_url must hold no user, password or query; keys come from the environment only")
-
-
-def is_local(address: str) -> bool:
-    """Whether an address is of a server of one's own, on this machine or in a private network."""
-    host = (urlsplit(address).hostname or "") if address else ""
-    private = host.startswith(("10.", "192.168.", "172.16.", "172.17.", "172.18.", "172.19.", "172.2", "172.3"))
-    return host in _LOCAL or private or host.endswith((".local", ".internal", ".lan"))
-
-
 def _data_url(picture: Picture) -> str:
     return "data:image/jpeg;base64," + base64.b64encode(picture.draw()).decode("ascii")
 
 
 def _refuse_huge(response: Any) -> None:
     length = str(response.headers.get("content-length", "0"))
-    if length.isdigit() and int(length) > MAX_REPLY:
-        raise ValueError(f"the reply has {length} bytes, more than {MAX_REPLY}")
+    if length.isdigit() and int(length) > REPLY.most:
+        raise ValueError(f"the reply has {length} bytes, more than {REPLY.most}")
+    # A server may tell no length, or a wrong one, or pack a reply that grows a thousandfold.
+    read = response.iter_bytes
+
+    def pieces(chunk_size: int | None = None) -> Iterator[bytes]:
+        size = 0
+        for piece in read(chunk_size):
+            size += len(piece)
+            if size > REPLY.most:
+                raise ValueError(f"the reply has more than {REPLY.most} bytes")
+            yield piece
+
+    response.iter_bytes = pieces
 
 
 def _count(value: Any) -> int:

@@ -7,12 +7,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from cadgraph._io.atomic import write_atomically
+from cadgraph._io.limits import ANSWER, read_text_within
 from cadgraph.errors import LabelError
 from cadgraph.labelers.lvlm.reply import Question, Reply
 
 __all__ = ["DryRun", "FolderAnswers", "write_question"]
-
-_MAX_FILE = 200_000
 
 
 class DryRun:
@@ -67,11 +66,9 @@ class FolderAnswers:
             if not path.is_file():
                 continue
             try:
-                if path.stat().st_size > _MAX_FILE:
-                    return Reply(None, error=f"{path.name} of q-{question.id} is larger than {_MAX_FILE} bytes")
-                return Reply(path.read_text(encoding="utf-8-sig"))
-            except (OSError, UnicodeDecodeError) as error:
-                return Reply(None, error=f"{path.name} of q-{question.id} can't be read ({type(error).__name__})")
+                return Reply(read_text_within(path, ANSWER, LabelError, "write the answer alone"))
+            except LabelError as error:
+                return Reply(None, error=f"of q-{question.id}: {error}")
         return Reply(None, waiting=True)
 
     def close(self) -> None:

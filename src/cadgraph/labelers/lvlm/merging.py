@@ -10,13 +10,12 @@ from typing import Any
 
 import yaml
 
+from cadgraph._io.limits import PROPOSALS, read_text_within
 from cadgraph.errors import LabelError
 from cadgraph.labelers.lvlm.normalize import clean_label, fold_group, fold_name, folded
 from cadgraph.model.vocabulary import Group, Vocabulary, read_vocabulary
 
 __all__ = ["Merged", "Wish", "findings", "merge", "merge_vocabularies", "read_wishes", "to_yaml"]
-
-_MAX_FILE = 4_000_000
 
 
 @dataclass(frozen=True)
@@ -126,12 +125,9 @@ def read_wishes(path: str | Path) -> tuple[Wish, ...]:
     if source.suffix.lower() != ".json":
         other = read_vocabulary(source)
         return tuple(Wish(g, name, source=str(path)) for g, content in other.groups.items() for name in content.names)
+    text = read_text_within(source, PROPOSALS, LabelError, "give a run's proposals.json")
     try:
-        if source.stat().st_size > _MAX_FILE:
-            raise LabelError(f"{path}: larger than {_MAX_FILE} bytes; that is no list of proposals")
-        content = json.loads(source.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise LabelError(f"{path}: can't be read ({error.strerror}); give a run's proposals.json") from error
+        content = json.loads(text)
     except (ValueError, RecursionError) as error:
         raise LabelError(f"{path}: not JSON ({type(error).__name__}); give a run's proposals.json") from error
     if isinstance(content, Mapping) and isinstance(content.get("groups"), Mapping):

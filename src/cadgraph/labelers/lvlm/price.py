@@ -14,6 +14,7 @@ from typing import Any
 import yaml
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from cadgraph._io.limits import PRICES, read_text_within
 from cadgraph.errors import LabelError
 
 __all__ = ["ANSWER_TOKENS", "Estimate", "Price", "read_price", "text_tokens"]
@@ -121,17 +122,13 @@ def read_price(model: str, file: str | Path = "", *, local: bool = False) -> Pri
         LabelError: the table can't be read or is malformed.
     """
     where = str(file) or "the built-in price table"
+    text = (
+        read_text_within(file, PRICES, LabelError, "give a YAML file like the built-in one")
+        if str(file)
+        else resources.files("cadgraph.labelers.lvlm").joinpath("prices.yaml").read_text(encoding="utf-8")
+    )
     try:
-        text = (
-            Path(file).read_text(encoding="utf-8")
-            if str(file)
-            else resources.files("cadgraph.labelers.lvlm").joinpath("prices.yaml").read_text(encoding="utf-8")
-        )
         table: Any = yaml.safe_load(text)
-    except OSError as error:
-        raise LabelError(
-            f"{where}: can't be read ({error.strerror}); give a YAML file like the built-in one"
-        ) from error
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         raise LabelError(f"{where}: not YAML ({str(error).splitlines()[0]})") from error
     if not isinstance(table, Mapping):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,10 +10,11 @@ from typing import Literal
 
 from cadgraph.config import Config, LvlmConfig
 from cadgraph.errors import LabelError
+from cadgraph.labelers.lvlm.address import check_address, is_local
 from cadgraph.labelers.lvlm.asking import Asking, Budget, Tally, key_of
 from cadgraph.labelers.lvlm.batch import BatchWriter, read_results
 from cadgraph.labelers.lvlm.cache import Cache
-from cadgraph.labelers.lvlm.client import Client, check_address, is_local
+from cadgraph.labelers.lvlm.client import Client
 from cadgraph.labelers.lvlm.folder import DryRun, FolderAnswers
 from cadgraph.labelers.lvlm.labeler import LvlmLabeler, Way
 from cadgraph.labelers.lvlm.price import Estimate, read_price
@@ -85,8 +87,9 @@ def make_asking(settings: LvlmConfig, folder: Path, run: Run) -> Asking:
         LabelError: a setting can't be used, or a cost limit is set for a model without a price.
         MissingExtra: the client library isn't installed.
     """
-    check_address(settings.base_url)
-    price = read_price(settings.model, settings.prices, local=is_local(settings.base_url))
+    address = settings.base_url or os.environ.get("OPENAI_BASE_URL", "")
+    check_address(address)
+    price = read_price(settings.model, settings.prices, local=is_local(address))
     if price is None and settings.max_cost is not None:
         raise LabelError(
             f"model {settings.model!r} has no price, so max_cost can't be kept; "

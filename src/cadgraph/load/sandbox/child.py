@@ -19,6 +19,7 @@ from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import TYPE_CHECKING, cast
 
+from cadgraph._io.limits import NOTE, read_text_within
 from cadgraph.errors import LoadError
 from cadgraph.load.sandbox.exchange import write_scene
 
@@ -35,7 +36,7 @@ def main(folder: Path) -> None:
     gc.disable()
     # cascadio imports it, where it is installed, for a bridge that nothing here crosses: most of a second.
     sys.modules["trimesh"] = cast("ModuleType", None)
-    request = json.loads((folder / "request.json").read_text(encoding="utf-8"))
+    request = json.loads(read_text_within(folder / "request.json", NOTE, LoadError, "read the file again"))
     # The caller has checked these settings; importing pydantic only to check them again would cost a fifth of a start.
     config = cast("LoadConfig", SimpleNamespace(**request["config"]))
     try:

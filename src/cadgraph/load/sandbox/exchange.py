@@ -5,9 +5,12 @@ from __future__ import annotations
 import json
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+from cadgraph._io.arrays import check_array
+from cadgraph._io.limits import EXCHANGE_HEAD, read_text_within
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.scene import Scene, Source
 
@@ -35,8 +38,8 @@ def read_scene(folder: Path) -> Scene:
     Raises:
         OSError, ValueError, KeyError: the folder doesn't hold a whole scene.
     """
-    arrays = {name: np.load(folder / f"{name}.npy", allow_pickle=False) for name in _ARRAYS}
-    rest = json.loads((folder / "scene.json").read_text(encoding="utf-8"))
+    arrays = {name: _array(folder / f"{name}.npy") for name in _ARRAYS}
+    rest = json.loads(read_text_within(folder / "scene.json", EXCHANGE_HEAD, ValueError, "split the scene"))
     return Scene(
         **arrays,
         paths=tuple(rest["paths"]),
@@ -46,3 +49,10 @@ def read_scene(folder: Path) -> Scene:
             Diagnostic(note["code"], note["message"], tuple(note["meshes"])) for note in rest["diagnostics"]
         ),
     )
+
+
+def _array(path: Path) -> Any:
+    """An array, once it is known to be as large as its head says: a library that a damaged file led astray wrote it."""
+    with path.open("rb") as file:
+        check_array(file, path.stat().st_size, path.name)
+    return np.load(path, allow_pickle=False)

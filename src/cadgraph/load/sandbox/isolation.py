@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import cadgraph
+from cadgraph._io.limits import NOTE, read_text_within
 from cadgraph.errors import LoadError
 from cadgraph.load.sandbox.exchange import read_scene
 from cadgraph.model.scene import Scene
@@ -53,13 +54,21 @@ def read_isolated(module: str, file: Path, given: str, config: LoadConfig) -> Sc
         (folder / "request.json").write_text(json.dumps(request), encoding="utf-8")
         code = _run(folder, given, config.timeout)
         if (folder / "error.json").exists():
-            raise LoadError(_with_given_path(json.loads((folder / "error.json").read_text("utf-8")), file, given))
+            raise LoadError(_with_given_path(_told(folder, given), file, given))
         if code != 0:
             raise LoadError(f"{given}: {_reason(code, folder / 'stderr.txt')}")
         try:
             return read_scene(folder)
         except (OSError, EOFError, ValueError, KeyError, TypeError) as error:
             raise LoadError(f"{given}: the reading process left no whole result ({error})") from error
+
+
+def _told(folder: Path, given: str) -> str:
+    """The error that the reading process left."""
+    try:
+        return str(json.loads(read_text_within(folder / "error.json", NOTE, LoadError, "export the file again")))
+    except ValueError:
+        raise LoadError(f"{given}: reading it failed; the file is likely damaged, export it again") from None
 
 
 def _run(folder: Path, given: str, timeout: float) -> int:

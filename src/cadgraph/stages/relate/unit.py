@@ -14,7 +14,7 @@ from cadgraph.stages.relate.attach import Attachments, flat_contacts
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
 from cadgraph.stages.relate.role import Roles
 
-__all__ = ["connected_groups", "is_loose_operator", "mend_units", "split_groups"]
+__all__ = ["connected_groups", "is_loose_operator", "mend_units", "split_groups", "take_in_enclosed"]
 
 # A body stands out from the line's axis this many times farther on one side than on the other where it carries its own
 # operator: one mesh for a whole valve.
@@ -107,7 +107,10 @@ def mend_units(piping: Piping) -> tuple[Piping, list[Group]]:
     Returns:
         The piping, in which what was taken in carries no line, and the groups.
     """
-    groups = _mended(piping)
+    given = piping.given
+    unit_types = given.vocabulary.unit_of_group
+    types = [None if group is None else unit_types.get(group, "") for group in piping.roles.groups]
+    groups = take_in_enclosed(_mended(piping), given.parts.inside, types, given.neighbors, piping.lines)
     taken_in = {part for group in groups for part in group.parts} - piping.members
     if all(_is_mere_fastener(piping, part) for part in taken_in):
         return piping, groups
@@ -203,6 +206,67 @@ def _join_odd(work: _Work, piping: Piping) -> bool:
             work.merge(touched[0], [*touched[1:], k], None)
             changed = True
     return changed
+
+
+def take_in_enclosed(
+    groups: Sequence[Group],
+    inside: Mapping[int, int],
+    types: Sequence[str | None],
+    near: Mapping[int, Sequence[int]],
+    lines: Collection[int],
+) -> list[Group]:
+    """Gives what lies within a unit's parts, and touches nothing else, to that unit: the ball to its valve.
+
+    Args:
+        groups: connected parts.
+        inside: the innermost part around each part that lies inside another one.
+        types: the unit type of each part, None for parts without a group; ``""`` for groups that form no unit.
+        near: parts near each part.
+        lines: parts with a line, which stay apart.
+    """
+    home = _homes(groups, inside, types, near, lines)
+    if not home:
+        return list(groups)
+    members = [[part for part in group.parts if part not in home] for group in groups]
+    for part, target in home.items():
+        members[target].append(part)
+    kept = [Group(group.unit_type, tuple(sorted(own))) for group, own in zip(groups, members, strict=True) if own]
+    return sorted(kept, key=lambda group: group.parts)
+
+
+def _homes(
+    groups: Sequence[Group],
+    inside: Mapping[int, int],
+    types: Sequence[str | None],
+    near: Mapping[int, Sequence[int]],
+    lines: Collection[int],
+) -> dict[int, int]:
+    """The group that each part goes to that lies within one, fits it, and touches nothing outside of it."""
+    owner = {part: k for k, group in enumerate(groups) for part in group.parts}
+    around = {part: _unit_around(part, inside, owner) for part in inside}
+    within = {part: k for part, k in around.items() if k is not None}
+
+    def fits(part: int, k: int) -> bool:
+        return owner.get(part) != k and part not in lines and types[part] in (None, groups[k].unit_type)
+
+    home = {part: k for part, k in within.items() if fits(part, k)}
+
+    def reaches_out(part: int) -> bool:
+        return any(home.get(o, owner.get(o, within.get(o))) != home[part] for o in near.get(part, ()))
+
+    while loose := [part for part in home if reaches_out(part)]:
+        for part in loose:
+            del home[part]
+    return home
+
+
+def _unit_around(part: int, inside: Mapping[int, int], owner: Mapping[int, int]) -> int | None:
+    """The group of the innermost part around a part that is of one."""
+    while part in inside:
+        part = inside[part]
+        if part in owner:
+            return owner[part]
+    return None
 
 
 def split_groups(piping: Piping, groups: Sequence[Group]) -> list[Group]:
