@@ -1,4 +1,4 @@
-# make demo   set up, build the scene graph of a generated plant skid, say what was found
+# make demo   set up, build the scene graph of a small plant, say what was found
 # make test   set up, run every test
 # make check  style, types, structure, complexity, generated documents
 # make bench  the benchmarks, with what a user would pick instead in the same run
@@ -48,7 +48,7 @@ $(VENV)/bin/python:
 
 $(VENV)/.with-all: pyproject.toml constraints.txt | $(VENV)/bin/python
 	@echo "installing into $(VENV) (once, a minute or two)"
-	$(PIP) --editable '.[all]' --editable packages/cadplants
+	$(PIP) --editable '.[all]'
 	@$(BIN)/python -m cadgraph.cli.warm
 	@touch $@
 

@@ -1,4 +1,4 @@
-"""The preset ``station``: a feed tank, two pumps in parallel and a receiving drum on one slab; cadgraph's demo scene."""
+"""The preset ``station``: a feed tank, two pumps in parallel and a receiving drum on a slab; cadgraph's demo scene."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from cadplants.fastener import SUPPORT_REACH
 from cadplants.instrument import tee_at
 from cadplants.mesh_ops import box
 from cadplants.modeling_style import Hand
-from cadplants.plant import Assembly, Component, Connection, Plant, Unit, gather
+from cadplants.plant import Assembly, Component, Plant, Unit, gather
 from cadplants.pump import Pump, pump
 from cadplants.route import Route
-from cadplants.run import Inline, Run, Tap
+from cadplants.run import Run
 from cadplants.site import Placed, Site
 from cadplants.standards import PIPES, TEE_CENTER_TO_END
 from cadplants.structure import post
@@ -86,7 +86,7 @@ def _draw(rng: np.random.Generator) -> _Plan:
 
 
 def make_station(seed: int = 0, hand: Hand | None = None, marks: Marks | None = None) -> Plant:
-    """Builds a tank that feeds two pumps, which deliver through a control valve into a drum; stands on a slab at z = 0.
+    """Builds a tank that feeds two pumps, which deliver through a globe valve into a drum; stands on a slab at z = 0.
 
     Args:
         seed: of everything that varies: proportions, paint, looks of the devices; 0 makes the demo.
@@ -111,11 +111,13 @@ def make_station(seed: int = 0, hand: Hand | None = None, marks: Marks | None = 
         _into_pump(site, style, choice, plan, k + 1, suction, base, one, rng)
         _out_of_pump(site, style, choice, plan, k + 1, discharge, base, one, rng)
     _outlet(site, style, choice, receiver, lowest, rng)
+    _fill(site, style, choice, feed, first)
+    _vent(site, style, receiver, lowest)
     return _on_slab(site.plant("station", seed, style), style)
 
 
 def _feed_tank(site: Site, hand: Hand, plan: _Plan, rng: np.random.Generator) -> tuple[Tank, int]:
-    """An upright tank: nozzles of feed, drain and vent, a manway, a level gauge; and its first component."""
+    """An upright tank: nozzles of outlet, drain and filling, a manway, a level gauge; and its first component."""
     nozzles = [
         Nozzle(_SUCTION, "side", (np.pi / 2, 0.16), 0.16),
         Nozzle(_DRAIN, "side", (np.pi, 0.14), 0.14),
@@ -194,7 +196,7 @@ def _suction_header(
 def _discharge_header(
     site: Site, hand: Hand, choice: Choice, plan: _Plan, rng: np.random.Generator, receiver: Tank, first: int
 ) -> Placed:
-    """Over both pumps, through a control valve and down into the drum; a relief valve guards it."""
+    """Over both pumps, through a globe valve and down into the drum; a relief valve guards it."""
     face, touching = _start(receiver, first, 0)
     start, z = plan.pumps[0] - 0.50, plan.discharge_z
     corners = [(0.0, start, z), (0.0, float(face[1]), z), tuple(float(v) for v in face)]
@@ -206,7 +208,11 @@ def _discharge_header(
         "D",
         _DISCHARGE,
         Route(np.array(corners)),
-        (*tees, choice.control_valve(last + 1.00, "V-C", _DISCHARGE, 2), choice.valve(last + 1.72, "gate", "V-D", _DISCHARGE)),
+        (
+            *tees,
+            choice.valve(last + 1.00, "globe", "V-C", _DISCHARGE),
+            choice.valve(last + 1.72, "gate", "V-D", _DISCHARGE),
+        ),
         (
             choice.relief_valve(last + 0.24, "V-R", int(rng.integers(1000))),
             choice.gauge(last + 0.48, "G-D", 100, float(rng.uniform(0.6, 2.6)), dial),
@@ -322,6 +328,31 @@ def _outlet(site: Site, hand: Hand, choice: Choice, receiver: Tank, first: int, 
     )
     placed = site.lay(run, hand, touching)
     _stand(site, hand, placed, 1.15)
+
+
+def _fill(site: Site, hand: Hand, choice: Choice, feed: Tank, first: int) -> None:
+    """From a flange, where the plant before ends, through a gate valve to the top of the tank."""
+    face, touching = _start(feed, first, 2)
+    x, y, z = (float(v) for v in face)
+    rise, reach = 0.34, 1.00
+    route = Route(np.array([(x, y, z), (x, y, z + rise), (x - reach, y, z + rise)]))
+    run = Run(
+        "F",
+        _DISCHARGE,
+        route,
+        (choice.valve(rise + 0.55, "gate", "V-F", _DISCHARGE),),
+        ends=("joint", "flange"),
+        nodes=("T-1", ""),
+    )
+    site.lay(run, hand, touching)
+
+
+def _vent(site: Site, hand: Hand, receiver: Tank, first: int) -> None:
+    """From the top of the drum round a gooseneck into the open."""
+    face, touching = _start(receiver, first, 2)
+    x, y, z = (float(v) for v in face)
+    corners = [(x, y, z), (x, y, z + 0.28), (x, y + 0.26, z + 0.28), (x, y + 0.26, z + 0.12)]
+    site.lay(Run("B", _PUMP_OUT, Route(np.array(corners)), ends=("joint", "open"), nodes=("T-2", "")), hand, touching)
 
 
 def _stand(site: Site, hand: Hand, placed: Placed, s: float, side: float = 0.05) -> None:
