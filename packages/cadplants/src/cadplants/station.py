@@ -20,7 +20,7 @@ from cadplants.modeling_style import Hand
 from cadplants.plant import Assembly, Component, Plant, Unit, gather
 from cadplants.pump import Pump, pump
 from cadplants.route import Route
-from cadplants.run import Run
+from cadplants.run import Inline, Run
 from cadplants.site import Placed, Site
 from cadplants.standards import PIPES, TEE_CENTER_TO_END
 from cadplants.structure import post
@@ -85,6 +85,25 @@ def _draw(rng: np.random.Generator) -> _Plan:
     )
 
 
+@dataclass(frozen=True)
+class _Work:
+    """What every piece of the station is built with.
+
+    Args:
+        site: where it goes.
+        hand: how it is modelled.
+        choice: of the looks of valves and gauges.
+        plan: of the proportions.
+        rng: of what varies besides.
+    """
+
+    site: Site
+    hand: Hand
+    choice: Choice
+    plan: _Plan
+    rng: np.random.Generator
+
+
 def make_station(seed: int = 0, hand: Hand | None = None, marks: Marks | None = None) -> Plant:
     """Builds a tank that feeds two pumps, which deliver through a globe valve into a drum; stands on a slab at z = 0.
 
@@ -98,25 +117,24 @@ def make_station(seed: int = 0, hand: Hand | None = None, marks: Marks | None = 
     make = draw_make(rng)
     drawn = marks or ("few", "none", "few", "all")[int(rng.integers(4))]
     choice = Choice(make if seed else Make(), drawn if seed or marks else "few")
-    plan = _draw(rng) if seed else _Plan()
-    site = Site("station")
-    feed, first = _feed_tank(site, style, plan, rng)
-    _drain(site, style, choice, feed, first)
+    work = _Work(Site("station"), style, choice, _draw(rng) if seed else _Plan(), rng)
+    feed, first = _feed_tank(work)
+    _drain(work, feed, first)
     pumps = [pump(f"P-{k + 1}", _PUMP_IN, _PUMP_OUT, style) for k in range(2)]
-    suction = _suction_header(site, style, choice, plan, feed, first, float(pumps[0].suction[2, 3]))
-    receiver, lowest = _receiver(site, style, plan)
-    discharge = _discharge_header(site, style, choice, plan, rng, receiver, lowest)
-    for k, (y, one) in enumerate(zip(plan.pumps, pumps, strict=True)):
-        base = site.add(one.assembly.placed(at(0, y, 0)))
-        _into_pump(site, style, choice, plan, k + 1, suction, base, one, rng)
-        _out_of_pump(site, style, choice, plan, k + 1, discharge, base, one, rng)
-    _outlet(site, style, choice, receiver, lowest, rng)
-    _fill(site, style, choice, feed, first)
-    _vent(site, style, receiver, lowest)
-    return _on_slab(site.plant("station", seed, style), style)
+    suction = _suction_header(work, feed, first, float(pumps[0].suction[2, 3]))
+    receiver, lowest = _receiver(work)
+    discharge = _discharge_header(work, receiver, lowest)
+    for k, (y, one) in enumerate(zip(work.plan.pumps, pumps, strict=True)):
+        base = work.site.add(one.assembly.placed(at(0, y, 0)))
+        _into_pump(work, k + 1, suction, base, one)
+        _out_of_pump(work, k + 1, discharge, base, one)
+    _outlet(work, receiver, lowest)
+    _fill(work, feed, first)
+    _vent(work, receiver, lowest)
+    return _on_slab(work.site.plant("station", seed, style), style)
 
 
-def _feed_tank(site: Site, hand: Hand, plan: _Plan, rng: np.random.Generator) -> tuple[Tank, int]:
+def _feed_tank(work: _Work) -> tuple[Tank, int]:
     """An upright tank: nozzles of outlet, drain and filling, a manway, a level gauge; and its first component."""
     nozzles = [
         Nozzle(_SUCTION, "side", (np.pi / 2, 0.16), 0.16),
@@ -124,16 +142,16 @@ def _feed_tank(site: Site, hand: Hand, plan: _Plan, rng: np.random.Generator) ->
         Nozzle(_DISCHARGE, "top", (0.0, 0.0)),
         Nozzle(_MANWAY, "side", (-0.42 * np.pi, 0.70), 0.20, manway=True),
     ]
-    vessel = tank("T-1", hand, plan.radius, plan.height, _CLEAR, nozzles)
-    low = _CLEAR + plan.radius / 2 + 0.04
-    gauge = _level_gauge(hand, plan.radius, low + 0.28, low + plan.height - 0.25, rng)
+    vessel = tank("T-1", work.hand, work.plan.radius, work.plan.height, _CLEAR, nozzles)
+    low = _CLEAR + work.plan.radius / 2 + 0.04
+    gauge = _level_gauge(work.hand, work.plan.radius, low + 0.28, low + work.plan.height - 0.25, work.rng)
     count = len(vessel.assembly.components)
     both = met(gather([vessel.assembly, gauge]))
     # The builder of the tank says what touches within it; the gauge's are those that its surfaces have.
     mine = tuple(pair for pair in both.contacts if pair[1] >= count)
     whole = replace(both, contacts=(*vessel.assembly.contacts, *mine))
-    pose = at(plan.suction_x, plan.tank, 0.0)
-    first = site.add(whole.placed(pose))
+    pose = at(work.plan.suction_x, work.plan.tank, 0.0)
+    first = work.site.add(whole.placed(pose))
     return replace(vessel, faces=tuple(pose @ face for face in vessel.faces)), first
 
 
@@ -147,17 +165,17 @@ def _level_gauge(hand: Hand, radius: float, low: float, high: float, rng: np.ran
     return Assembly(components, (), (Unit("L-1", "gauge", "level gauge"),))
 
 
-def _receiver(site: Site, hand: Hand, plan: _Plan) -> tuple[Tank, int]:
+def _receiver(work: _Work) -> tuple[Tank, int]:
     """A lying drum: nozzles of inlet, outlet and vent, a manway; and its first component."""
     nozzles = [
-        Nozzle(_DISCHARGE, "top", (0.0, -0.25 * plan.drum_length)),
-        Nozzle(_DISCHARGE, "right", (0.18 * plan.drum_length, -0.55 * plan.drum_radius), 0.16),
-        Nozzle(_PUMP_OUT, "top", (0.0, 0.25 * plan.drum_length)),
+        Nozzle(_DISCHARGE, "top", (0.0, -0.25 * work.plan.drum_length)),
+        Nozzle(_DISCHARGE, "right", (0.18 * work.plan.drum_length, -0.55 * work.plan.drum_radius), 0.16),
+        Nozzle(_PUMP_OUT, "top", (0.0, 0.25 * work.plan.drum_length)),
         Nozzle(_MANWAY, "left", (0.0, 0.0), 0.20, manway=True),
     ]
-    vessel, _ = drum("T-2", hand, plan.drum_radius, plan.drum_length, _CLEAR, nozzles)
-    pose = at(0.0, plan.drum + 0.25 * plan.drum_length, 0.0)
-    first = site.add(vessel.assembly.placed(pose))
+    vessel, _ = drum("T-2", work.hand, work.plan.drum_radius, work.plan.drum_length, _CLEAR, nozzles)
+    pose = at(0.0, work.plan.drum + 0.25 * work.plan.drum_length, 0.0)
+    first = work.site.add(vessel.assembly.placed(pose))
     return replace(vessel, faces=tuple(pose @ face for face in vessel.faces)), first
 
 
@@ -166,42 +184,40 @@ def _start(vessel: Tank, first: int, nozzle: int) -> tuple[Floats, list[int]]:
     return vessel.faces[nozzle][:3, 3], [first + vessel.flanges[nozzle]]
 
 
-def _suction_header(
-    site: Site, hand: Hand, choice: Choice, plan: _Plan, feed: Tank, first: int, level: float
-) -> Placed:
+def _suction_header(work: _Work, feed: Tank, first: int, level: float) -> Placed:
     """From the tank through a valve down to the height of the pumps, past both of them."""
     face, touching = _start(feed, first, 0)
     x, y, z = (float(v) for v in face)
     down = y + 1.00
-    corners = [(x, y, z), (x, down, z), (x, down, level), (x, plan.pumps[1] + 0.62, level)]
+    corners = [(x, y, z), (x, down, z), (x, down, level), (x, work.plan.pumps[1] + 0.62, level)]
     route = Route(np.array(corners))
     behind = float(route.starts[2]) - down
-    tees = [tee_at(behind + place, f"J-S{k + 1}", _SUCTION, _PUMP_IN, np.pi / 2) for k, place in enumerate(plan.pumps)]
+    tees = [
+        tee_at(behind + place, f"J-S{k + 1}", _SUCTION, _PUMP_IN, np.pi / 2) for k, place in enumerate(work.plan.pumps)
+    ]
     run = Run(
         "S",
         _SUCTION,
         route,
-        (choice.valve(0.42, "gate", "V-S", _SUCTION), *tees),
+        (work.choice.valve(0.42, "gate", "V-S", _SUCTION), *tees),
         ends=("joint", "blind"),
         nodes=("T-1", ""),
         flow="forward",
         reason="feeds the pumps",
     )
-    placed = site.lay(run, hand, touching)
-    for place in (plan.pumps[0] - 0.30, (plan.pumps[0] + plan.pumps[1]) / 2, plan.pumps[1] + 0.30):
-        _stand(site, hand, placed, behind + place)
+    placed = work.site.lay(run, work.hand, touching)
+    for place in (work.plan.pumps[0] - 0.30, (work.plan.pumps[0] + work.plan.pumps[1]) / 2, work.plan.pumps[1] + 0.30):
+        _stand(work, placed, behind + place)
     return placed
 
 
-def _discharge_header(
-    site: Site, hand: Hand, choice: Choice, plan: _Plan, rng: np.random.Generator, receiver: Tank, first: int
-) -> Placed:
+def _discharge_header(work: _Work, receiver: Tank, first: int) -> Placed:
     """Over both pumps, through a globe valve and down into the drum; a relief valve guards it."""
     face, touching = _start(receiver, first, 0)
-    start, z = plan.pumps[0] - 0.50, plan.discharge_z
+    start, z = work.plan.pumps[0] - 0.50, work.plan.discharge_z
     corners = [(0.0, start, z), (0.0, float(face[1]), z), tuple(float(v) for v in face)]
-    tees = [tee_at(y - start, f"J-D{k + 1}", _DISCHARGE, _PUMP_OUT, np.pi) for k, y in enumerate(plan.pumps)]
-    last = plan.pumps[1] - start
+    tees = [tee_at(y - start, f"J-D{k + 1}", _DISCHARGE, _PUMP_OUT, np.pi) for k, y in enumerate(work.plan.pumps)]
+    last = work.plan.pumps[1] - start
     # The header comes from behind, so a dial that is to be read from the motors' side turns to the right.
     dial = -np.pi / 2
     run = Run(
@@ -210,90 +226,78 @@ def _discharge_header(
         Route(np.array(corners)),
         (
             *tees,
-            choice.valve(last + 1.00, "globe", "V-C", _DISCHARGE),
-            choice.valve(last + 1.72, "gate", "V-D", _DISCHARGE),
+            work.choice.valve(last + 1.00, "globe", "V-C", _DISCHARGE),
+            work.choice.valve(last + 1.72, "gate", "V-D", _DISCHARGE),
         ),
         (
-            choice.relief_valve(last + 0.24, "V-R", int(rng.integers(1000))),
-            choice.gauge(last + 0.48, "G-D", 100, float(rng.uniform(0.6, 2.6)), dial),
+            work.choice.relief_valve(last + 0.24, "V-R", int(work.rng.integers(1000))),
+            work.choice.gauge(last + 0.48, "G-D", 100, float(work.rng.uniform(0.6, 2.6)), dial),
         ),
         ends=("blind", "joint"),
         nodes=("", "T-2"),
         flow="forward",
         reason="leaves the pumps",
     )
-    placed = site.lay(run, hand, (), touching)
-    for place in (plan.pumps[0] - 0.25, (plan.pumps[0] + plan.pumps[1]) / 2, plan.pumps[1] + 0.62):
-        _stand(site, hand, placed, place - start, 0.08)
+    placed = work.site.lay(run, work.hand, (), touching)
+    for place in (work.plan.pumps[0] - 0.25, (work.plan.pumps[0] + work.plan.pumps[1]) / 2, work.plan.pumps[1] + 0.62):
+        _stand(work, placed, place - start, 0.08)
     return placed
 
 
-def _into_pump(
-    site: Site,
-    hand: Hand,
-    choice: Choice,
-    plan: _Plan,
-    number: int,
-    header: Placed,
-    base: int,
-    one: Pump,
-    rng: np.random.Generator,
-) -> None:
+def _into_pump(work: _Work, number: int, header: Placed, base: int, one: Pump) -> None:
     """From the suction header's tee through a gate valve to a pump."""
-    arm, y = TEE_CENTER_TO_END[_SUCTION], plan.pumps[number - 1]
+    arm, y = TEE_CENTER_TO_END[_SUCTION], work.plan.pumps[number - 1]
     x, _, z = (float(v) for v in one.suction[:3, 3])
-    route = Route(np.array([(plan.suction_x + arm, y, z), (x, y, z)]))
+    route = Route(np.array([(work.plan.suction_x + arm, y, z), (x, y, z)]))
     node = f"J-S{number}"
     run = Run(
         f"S{number}",
         _PUMP_IN,
         route,
-        (choice.valve(0.40 * route.length, "gate", f"V-{number}1", _PUMP_IN),),
-        (choice.gauge(0.80 * route.length, f"G-{number}1", 63, float(rng.uniform(0.6, 2.6))),),
+        (work.choice.valve(0.40 * route.length, "gate", f"V-{number}1", _PUMP_IN),),
+        (work.choice.gauge(0.80 * route.length, f"G-{number}1", 63, float(work.rng.uniform(0.6, 2.6))),),
         ends=("open", "joint"),
         nodes=(node, f"P-{number}"),
         arms=(arm, 0.0),
         flow="forward",
         reason="into the suction of a pump",
     )
-    site.lay(run, hand, [header.device(node)], [base])
+    work.site.lay(run, work.hand, [header.device(node)], [base])
 
 
-def _out_of_pump(
-    site: Site,
-    hand: Hand,
-    choice: Choice,
-    plan: _Plan,
-    number: int,
-    header: Placed,
-    base: int,
-    one: Pump,
-    rng: np.random.Generator,
-) -> None:
+def _out_of_pump(work: _Work, number: int, header: Placed, base: int, one: Pump) -> None:
     """From a pump up through a check valve and a gate valve to the discharge header's tee."""
-    arm, y = TEE_CENTER_TO_END[_DISCHARGE], plan.pumps[number - 1]
+    arm, y = TEE_CENTER_TO_END[_DISCHARGE], work.plan.pumps[number - 1]
     x, _, z = (float(v) for v in one.discharge[:3, 3])
-    route = Route(np.array([(x, y, z), (x, y, plan.discharge_z - arm)]))
+    route = Route(np.array([(x, y, z), (x, y, work.plan.discharge_z - arm)]))
     node, length = f"J-D{number}", route.length
     run = Run(
         f"D{number}",
         _PUMP_OUT,
         route,
         (
-            choice.valve(0.42 * length, "check", f"V-{number}2", _PUMP_OUT),
-            choice.valve(0.77 * length, "gate", f"V-{number}3", _PUMP_OUT),
+            _in_pieces(work.choice.of_family("check valve/axial", 0.42 * length, f"V-{number}2", _PUMP_OUT, 2)),
+            work.choice.valve(0.77 * length, "gate", f"V-{number}3", _PUMP_OUT),
         ),
-        (choice.side_gauge(0.14 * length, f"G-{number}2", 63, float(rng.uniform(0.6, 2.6)), roll=np.pi),),
+        (work.choice.side_gauge(0.14 * length, f"G-{number}2", 63, float(work.rng.uniform(0.6, 2.6)), roll=np.pi),),
         ends=("joint", "open"),
         nodes=(f"P-{number}", node),
         arms=(0.0, arm),
         flow="forward",
         reason="check valve behind a pump",
     )
-    site.lay(run, hand, [base], [header.device(node)])
+    work.site.lay(run, work.hand, [base], [header.device(node)])
 
 
-def _drain(site: Site, hand: Hand, choice: Choice, feed: Tank, first: int) -> None:
+def _in_pieces(item: Inline) -> Inline:
+    """The device as somebody models it who takes more pains with it than with others."""
+    build = item.build
+    if build is None:
+        return item
+    return replace(item, build=lambda hand: build(replace(hand, valve="pieces")))
+
+
+def _drain(work: _Work, feed: Tank, first: int) -> None:
     """From the bottom of the tank's shell through a ball valve down to the slab."""
     face, touching = _start(feed, first, 1)
     x, y, z = (float(v) for v in face)
@@ -302,16 +306,16 @@ def _drain(site: Site, hand: Hand, choice: Choice, feed: Tank, first: int) -> No
         "W",
         _DRAIN,
         route,
-        (choice.valve(0.30, "ball", "V-W", _DRAIN),),
+        (work.choice.valve(0.30, "ball", "V-W", _DRAIN),),
         ends=("joint", "open"),
         nodes=("T-1", ""),
         flow="forward",
         reason="drains the tank by gravity",
     )
-    site.lay(run, hand, touching)
+    work.site.lay(run, work.hand, touching)
 
 
-def _outlet(site: Site, hand: Hand, choice: Choice, receiver: Tank, first: int, rng: np.random.Generator) -> None:
+def _outlet(work: _Work, receiver: Tank, first: int) -> None:
     """From low on the drum through a gate valve to a flange, where the next plant begins."""
     face, touching = _start(receiver, first, 1)
     x, y, z = (float(v) for v in face)
@@ -319,18 +323,18 @@ def _outlet(site: Site, hand: Hand, choice: Choice, receiver: Tank, first: int, 
         "E",
         _DISCHARGE,
         Route(np.array([(x, y, z), (x + 1.50, y, z)])),
-        (choice.valve(0.45, "gate", "V-E", _DISCHARGE),),
-        (choice.gauge(0.85, "G-E", 100, float(rng.uniform(0.6, 2.6))),),
+        (work.choice.valve(0.45, "gate", "V-E", _DISCHARGE),),
+        (work.choice.gauge(0.85, "G-E", 100, float(work.rng.uniform(0.6, 2.6))),),
         ends=("joint", "flange"),
         nodes=("T-2", ""),
         flow="forward",
         reason="leaves the drum by gravity",
     )
-    placed = site.lay(run, hand, touching)
-    _stand(site, hand, placed, 1.15)
+    placed = work.site.lay(run, work.hand, touching)
+    _stand(work, placed, 1.15)
 
 
-def _fill(site: Site, hand: Hand, choice: Choice, feed: Tank, first: int) -> None:
+def _fill(work: _Work, feed: Tank, first: int) -> None:
     """From a flange, where the plant before ends, through a gate valve to the top of the tank."""
     face, touching = _start(feed, first, 2)
     x, y, z = (float(v) for v in face)
@@ -340,28 +344,30 @@ def _fill(site: Site, hand: Hand, choice: Choice, feed: Tank, first: int) -> Non
         "F",
         _DISCHARGE,
         route,
-        (choice.valve(rise + 0.55, "gate", "V-F", _DISCHARGE),),
+        (work.choice.valve(rise + 0.55, "gate", "V-F", _DISCHARGE),),
         ends=("joint", "flange"),
         nodes=("T-1", ""),
     )
-    site.lay(run, hand, touching)
+    work.site.lay(run, work.hand, touching)
 
 
-def _vent(site: Site, hand: Hand, receiver: Tank, first: int) -> None:
+def _vent(work: _Work, receiver: Tank, first: int) -> None:
     """From the top of the drum round a gooseneck into the open."""
     face, touching = _start(receiver, first, 2)
     x, y, z = (float(v) for v in face)
     corners = [(x, y, z), (x, y, z + 0.28), (x, y + 0.26, z + 0.28), (x, y + 0.26, z + 0.12)]
-    site.lay(Run("B", _PUMP_OUT, Route(np.array(corners)), ends=("joint", "open"), nodes=("T-2", "")), hand, touching)
+    work.site.lay(
+        Run("B", _PUMP_OUT, Route(np.array(corners)), ends=("joint", "open"), nodes=("T-2", "")), work.hand, touching
+    )
 
 
-def _stand(site: Site, hand: Hand, placed: Placed, s: float, side: float = 0.05) -> None:
+def _stand(work: _Work, placed: Placed, s: float, side: float = 0.05) -> None:
     """A post on the slab that holds a run at a chainage."""
     run = placed.laid.run
     x, y, z = (float(v) for v in run.route.point(s))
     height = z - PIPES[run.dn_at(s)].radius - SUPPORT_REACH
-    base = site.add(post(height, hand, side, capped=True).placed(at(x, y, 0.0)))
-    site.support(placed, s, base + 2, hand)
+    base = work.site.add(post(height, work.hand, side, capped=True).placed(at(x, y, 0.0)))
+    work.site.support(placed, s, base + 2, work.hand)
 
 
 def _on_slab(plant: Plant, hand: Hand) -> Plant:
