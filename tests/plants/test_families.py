@@ -66,6 +66,7 @@ def vertices_of(family):
     ]
 
 
+@pytest.mark.slow
 def test_the_same_seed_builds_the_same_shape():
     assert [
         family.name
@@ -85,6 +86,7 @@ def reaches_from_end_to_end(family):
     return device.length > 0 and bool(ends)
 
 
+@pytest.mark.slow
 def test_what_sits_in_a_line_reaches_from_one_end_to_the_other():
     inline = [family for family in FAMILIES.values() if family.place == "inline"]
     assert inline
