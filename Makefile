@@ -1,5 +1,7 @@
-# make demo   set up, build the scene graph of a generated plant skid, say what was found
+# make demo   set up, build the scene graph of a small plant, say what was found
 # make test   set up, run every test
+# make test-fast  the tests that take no more than two minutes of one processor together
+# make check-wheel  a wheel of the product alone, tried out in an empty environment (needs a package index)
 # make check  style, types, structure, complexity, generated documents
 # make bench  the benchmarks, with what a user would pick instead in the same run
 # make train  the embedded labeler anew, with its page of figures (an hour or more on two cores; needs torch)
@@ -13,13 +15,16 @@ PIP := $(BIN)/python -m pip install --disable-pip-version-check --quiet --constr
 WHOLE := --editable '.[all,dev]' --editable packages/cadplants --editable packages/cadlab
 PROJECTS := pyproject.toml packages/cadplants/pyproject.toml packages/cadlab/pyproject.toml constraints.txt
 
-.PHONY: demo test check bench train docs clean
+.PHONY: demo test test-fast check check-wheel bench train docs clean
 
 demo: $(VENV)/.with-all
 	$(BIN)/cadgraph demo --output demo
 
 test: $(VENV)/.with-dev
 	$(BIN)/python -m pytest
+
+test-fast: $(VENV)/.with-dev
+	$(BIN)/python -m pytest -m "not slow"
 
 check: $(VENV)/.with-dev
 	$(BIN)/ruff check .
@@ -28,6 +33,9 @@ check: $(VENV)/.with-dev
 	$(BIN)/python -m pytest -q tests/test_architecture.py
 	$(BIN)/python tools/write_docs.py --check
 	$(BIN)/python tools/draw_architecture.py --check
+
+check-wheel: $(VENV)/bin/python
+	$(BIN)/python tools/check_wheel.py
 
 bench: $(VENV)/.with-dev
 	@for f in packages/cadlab/benchmarks/[!_]*.py; do echo "== $$f"; $(BIN)/python $$f || exit 1; done
@@ -48,7 +56,7 @@ $(VENV)/bin/python:
 
 $(VENV)/.with-all: pyproject.toml constraints.txt | $(VENV)/bin/python
 	@echo "installing into $(VENV) (once, a minute or two)"
-	$(PIP) --editable '.[all]' --editable packages/cadplants
+	$(PIP) --editable '.[all]'
 	@$(BIN)/python -m cadgraph.cli.warm
 	@touch $@
 

@@ -6,7 +6,7 @@ python examples/own_labeler.py
 import numpy as np
 
 import cadgraph
-from cadplants import make_skid
+from cadgraph.session.demo import DEMO_SCENE
 
 
 class LongAndRound:
@@ -20,7 +20,7 @@ class LongAndRound:
 
 
 def main() -> cadgraph.SceneGraph:
-    graph = cadgraph.build(make_skid().scene(), labeler=LongAndRound())
+    graph = cadgraph.build(cadgraph.load(DEMO_SCENE), labeler=LongAndRound())
     print(f"{len(graph.parts(name='pipe'))} of {len(graph.parts())} parts called pipe")
     return graph
 

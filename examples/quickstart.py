@@ -2,21 +2,17 @@
 
 python examples/quickstart.py [SCENE]
 
-Without a scene, a small plant skid is generated.
+Without a scene, that of the demo is taken.
 """
 
 import sys
-import tempfile
 from pathlib import Path
 
 import cadgraph
-from cadplants import make_skid, write_usd
+from cadgraph.session.demo import DEMO_SCENE
 
 
-def main(path: Path | None = None) -> cadgraph.SceneGraph:
-    if path is None:
-        path = Path(tempfile.mkdtemp()) / "skid.usdc"
-        write_usd(make_skid(), path)
+def main(path: Path = DEMO_SCENE) -> cadgraph.SceneGraph:
     graph = cadgraph.build(cadgraph.load(path))
 
     for system in graph.clusters("pipe system"):
@@ -29,4 +25,4 @@ def main(path: Path | None = None) -> cadgraph.SceneGraph:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else None)
+    main(*map(Path, sys.argv[1:2]))

@@ -1,13 +1,34 @@
+import contextlib
 import os
+from pathlib import Path
 
-from hypothesis import settings
+import pytest
+from hypothesis import HealthCheck, settings
 
-# The same examples on every machine, so that a run says something about the change and not about luck;
-# HYPOTHESIS_PROFILE=explore looks for new ones.
-settings.register_profile("fixed", derandomize=True, database=None)
-settings.register_profile("explore", derandomize=False)
+# The same examples on every machine, so that a run says something about the change and not about luck, and without
+# deadlines, as a machine may be busy. HYPOTHESIS_PROFILE=explore looks for new ones.
+_PATIENT = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
+settings.register_profile("fixed", derandomize=True, database=None, **_PATIENT)
+settings.register_profile("explore", derandomize=False, **_PATIENT)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "fixed"))
 
 
 def pytest_addoption(parser):
     parser.addoption("--renew-golden", action="store_true", help="write the records in tests/golden anew")
+
+
+@pytest.fixture(scope="session")
+def demo(tmp_path_factory):
+    """A folder in which ``cadgraph demo`` was run, and what it printed in ``said.txt``; for reading only."""
+    from cadgraph.cli import main
+
+    folder = tmp_path_factory.mktemp("demo")
+    with (
+        contextlib.chdir(folder),
+        Path("said.txt").open("w") as said,
+        contextlib.redirect_stdout(said),
+        pytest.raises(SystemExit) as end,
+    ):
+        main(["demo"])
+    assert not end.value.code
+    return folder

@@ -76,14 +76,22 @@ class Records:
 
     def check(self, name, found):
         """Fails where a result differs from its record, or keeps it as the new one if that was asked for."""
-        found = {**found, "rounding": rounding()}
+        self.check_all({name: found})
+
+    def check_all(self, results):
+        """The same for several results by name; all that differ are named at once."""
+        found = {name: {**result, "rounding": rounding()} for name, result in results.items()}
         if self.renew:
-            self.known[name] = found
+            self.known |= found
             rows = ",\n".join(f' "{k}": {json.dumps(v)}' for k, v in sorted(self.known.items()))
             self.file.write_text(f"{{\n{rows}\n}}\n")
             return
-        known = self.known.get(name)
-        assert known is not None, f"{name} has no record; write it with pytest --renew-golden"
-        if known["rounding"] != found["rounding"]:
-            known, found = known["structure"], found["structure"]
-        assert found == known, f"{name} is not what it was; if that is meant, pytest --renew-golden and say so"
+        missing = sorted(found.keys() - self.known.keys())
+        assert missing == [], "without a record; write it with pytest --renew-golden"
+        changed = [name for name, result in found.items() if not _agree(self.known[name], result)]
+        assert changed == [], "not what they were; if that is meant, pytest --renew-golden and say so"
+
+
+def _agree(known, found):
+    """Whether two records are of one result: to the last bit where both were made with the same rounding."""
+    return known == found if known["rounding"] == found["rounding"] else known["structure"] == found["structure"]

@@ -242,12 +242,6 @@ def test_a_plant_in_an_impossible_unit_is_refused(capsys, tmp_path, unit):
     assert not (tmp_path / "a.usdc").exists()
 
 
-def test_the_demo_leaves_a_skid_of_the_user_alone(capsys, tmp_path):
-    (tmp_path / "skid.usdc").write_text("mine")
-    assert "not written by cadgraph" in refused(capsys, "demo", "-o", tmp_path)
-    assert (tmp_path / "skid.usdc").read_text() == "mine"
-
-
 def test_want_of_memory_is_one_line(capsys, monkeypatch, tmp_path):
     def greedy(*_, **__):
         raise MemoryError

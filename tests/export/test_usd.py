@@ -20,7 +20,8 @@ from cadgraph.model.scene import Scene, Source
 DATA = Path(__file__).parents[2] / "../shared/data/usd"
 TEAPOTS = DATA / "teapot_scene/scenes/teapotScene.usd"
 
-needs_data = pytest.mark.skipif(not TEAPOTS.exists(), reason="the real CAD files are not here")
+WATER_TANK = Path(__file__).parents[1] / "data/parts/water_tank.usdc"
+more = pytest.mark.skipif(not TEAPOTS.exists(), reason="no further real files here")
 
 
 @pytest.fixture(autouse=True)
@@ -452,17 +453,17 @@ def test_eight_thousand_meshes_are_all_labelled(tmp_path):
     assert all(labels(stage, path) == ["pipe"] for path in scene.paths)
 
 
-@needs_data
-def test_every_mesh_of_the_teapot_scene_lies_under_a_label(tmp_path):
-    before = hashlib.sha256(TEAPOTS.read_bytes()).hexdigest()
-    scene = scene_of(TEAPOTS)
-    assert scene.n_meshes >= 494
-    layer = write_semantics(scene, graphs.labelled(scene), TEAPOTS, tmp_path / "semantics.usda")
+@pytest.mark.parametrize(("source", "least"), [(WATER_TANK, 21), pytest.param(TEAPOTS, 494, marks=more)])
+def test_every_mesh_of_a_real_scene_lies_under_a_label(source, least, tmp_path):
+    before = hashlib.sha256(source.read_bytes()).hexdigest()
+    scene = scene_of(source)
+    assert scene.n_meshes >= least
+    layer = write_semantics(scene, graphs.labelled(scene), source, tmp_path / "semantics.usda")
     stage = opened(layer)
     assert len(meshes_of(stage)) == scene.n_meshes
     assert all(labels(stage, anchor) == ["pipe"] for anchor in scene.anchors)
-    assert errors_of(layer) <= errors_of(TEAPOTS)
-    assert hashlib.sha256(TEAPOTS.read_bytes()).hexdigest() == before
+    assert errors_of(layer) <= errors_of(source)
+    assert hashlib.sha256(source.read_bytes()).hexdigest() == before
 
 
 # Geometry for sources that are not USD

@@ -1,4 +1,7 @@
-"""Real files, where they are present. Counts are checked against the USD library; known sizes are as first loaded."""
+"""Real files: the few that travel with the tests, and more where a collection of them is present.
+
+Counts are checked against the USD library; known sizes are as first loaded.
+"""
 
 from __future__ import annotations
 
@@ -12,15 +15,15 @@ from cadgraph.config import LoadConfig
 from cadgraph.errors import LoadError
 from cadgraph.load import load
 
+HERE = Path(__file__).parents[1] / "data"
 DATA = Path(__file__).parents[2] / "../shared/data/usd"
 IN_PROCESS = LoadConfig(isolate=False)
-pytestmark = pytest.mark.skipif(not DATA.is_dir(), reason="no real files here")
+more = pytest.mark.skipif(not DATA.is_dir(), reason="no further real files here")
 
-CONFORMANCE = sorted(
-    path.relative_to(DATA).as_posix()
-    for part in ("foundation", "schemaTests")
-    for path in (DATA / part).rglob("*.usd*")
-)
+CONFORMANCE = [
+    *sorted(path for path in (HERE / "usd").rglob("*.usd*")),
+    *sorted(path for part in ("foundation", "schemaTests") for path in (DATA / part).rglob("*.usd*")),
+]
 # Reasons that are right: the collection lacks the layers that hold all geometry of some files.
 NO_MESH = ("animated_cube_translation.usda", "axis.usda", "without a usable face", "framesPerSecond")
 
@@ -29,28 +32,42 @@ def volumes(scene):
     return [np.linalg.det(v[f]).sum() / 6 for v, f in (scene.mesh(i) for i in range(scene.n_meshes))]
 
 
-def loaded(name):
+def loaded(path):
     """The scene, or the text of the error."""
     try:
-        return load(DATA / name, IN_PROCESS)
+        return load(path, IN_PROCESS)
     except LoadError as error:
         return str(error)
 
 
-@pytest.mark.parametrize("name", CONFORMANCE)
-def test_every_conformance_file_loads_or_says_why_not(name):
-    scene = loaded(name)
+@pytest.mark.parametrize("path", CONFORMANCE, ids=lambda path: path.name)
+def test_every_conformance_file_loads_or_says_why_not(path):
+    scene = loaded(path)
     if isinstance(scene, str):
         assert any(reason in scene for reason in NO_MESH)
         assert "\n" not in scene
         return
     assert np.isfinite(scene.vertices).all()
-    assert scene.n_meshes == counted_by_the_library(DATA / name, scene)
+    assert scene.n_meshes == counted_by_the_library(path, scene)
 
 
-@pytest.mark.parametrize("shape", ["capsule", "cone", "cube", "cylinder", "sphere", "all_primitives"])
-def test_primitives_face_outward(shape):
-    assert min(volumes(loaded(f"schemaTests/usdGeom/primitives/{shape}.usda"))) > 0
+def test_primitives_face_outward():
+    assert min(volumes(loaded(HERE / "usd/all_primitives.usda"))) > 0
+
+
+@pytest.mark.parametrize(
+    ("name", "n", "extent"),
+    [
+        ("bolt", 1, (0.02771, 0.024, 0.08)),
+        ("flange_slip_on", 1, (0.1499, 0.1499, 0.026)),
+        ("lever_valve", 2, (0.02499, 0.05095, 0.1044)),
+        ("water_tank", 21, (1.375, 1.022, 0.5235)),
+    ],
+)
+def test_known_parts(name, n, extent):
+    scene = load(HERE / f"parts/{name}.usdc", IN_PROCESS)
+    assert scene.n_meshes == n
+    np.testing.assert_allclose(np.ptp(scene.vertices, axis=0), extent, rtol=1e-3)
 
 
 def counted_by_the_library(path, scene):
@@ -62,6 +79,7 @@ def counted_by_the_library(path, scene):
     return sum(bool(UsdGeom.Gprim(p)) and str(p.GetPath()) not in left_out for p in shown)
 
 
+@more
 @pytest.mark.parametrize(
     ("name", "n", "extent"),
     [
@@ -77,6 +95,7 @@ def test_known_scenes(name, n, extent):
     np.testing.assert_allclose(np.ptp(scene.vertices, axis=0), extent, rtol=1e-3)
 
 
+@more
 def test_teapots_are_instances_and_point_instances():
     scene = load(DATA / "teapot_scene/scenes/teapotScene.usd", IN_PROCESS)
     stage = Usd.Stage.Open(str(DATA / "teapot_scene/scenes/teapotScene.usd"))
@@ -93,7 +112,7 @@ def test_teapots_are_instances_and_point_instances():
     "name", sorted(p.relative_to(DATA).as_posix() for p in DATA.glob("USD_Mini*/assets/**/*.usd*"))
 )
 def test_car_kit_agrees_with_the_box_that_the_library_computes(name):
-    scene = loaded(name)
+    scene = loaded(DATA / name)
     if isinstance(scene, str):
         assert "holds no mesh" in scene
         return

@@ -17,9 +17,15 @@ from load.solids import _FACES, StepFile
 from shapes import box, moved
 
 IN_PROCESS = LoadConfig(isolate=False)
+HERE = Path(__file__).parents[1] / "data/step"
 VALVES = Path(__file__).parents[2] / "../shared/data/step/valves"
+more = pytest.mark.skipif(not VALVES.is_dir(), reason="no further real files here")
 
 # Numbers of solids as the STEP text lists them; sizes as first loaded, to catch changes [m].
+FASTENER_FACTS = {
+    "nut_iso4032_m3.step": (1, (0.0055, 0.00635, 0.0024)),
+    "washer_iso7093_m12.step": (1, (0.037, 0.037, 0.003)),
+}
 VALVE_FACTS = {
     "ballvalves/ballDN15.stp": (3, (0.1215, 0.0688, 0.0690)),
     "ballvalves/ballDN25.step": (1, (0.1640, 0.0923, 0.0890)),
@@ -170,13 +176,17 @@ def wrapped(text, width):
     return lines
 
 
-@pytest.mark.skipif(not VALVES.is_dir(), reason="no real valves here")
-@pytest.mark.parametrize("name", VALVE_FACTS)
-def test_real_valves(name):
-    n, extent = VALVE_FACTS[name]
-    scene = load(VALVES / name, IN_PROCESS)
+@pytest.mark.parametrize(
+    ("path", "n", "extent"),
+    [
+        *((HERE / name, *facts) for name, facts in FASTENER_FACTS.items()),
+        *(pytest.param(VALVES / name, *facts, marks=more) for name, facts in VALVE_FACTS.items()),
+    ],
+)
+def test_real_files_hold_their_solids(path, n, extent):
+    scene = load(path, IN_PROCESS)
     assert scene.n_meshes == n
-    np.testing.assert_allclose(np.ptp(scene.vertices, axis=0), extent, atol=1e-3)
+    np.testing.assert_allclose(np.ptp(scene.vertices, axis=0), extent, rtol=0.01)
     assert all(volume(scene, i) > 0 for i in range(n))
     for i in range(n):
         faces = scene.mesh(i)[1]
@@ -184,10 +194,8 @@ def test_real_valves(name):
         assert sorted(map(tuple, edges)) == sorted(tuple(e[::-1]) for e in edges)
 
 
-def test_finer_settings_give_more_triangles(tmp_path):
-    if not VALVES.is_dir():
-        pytest.skip("no real valves here")
-    path = VALVES / "checkvalves/DN40cv.step"
+def test_finer_settings_give_more_triangles():
+    path = HERE / "nut_iso4032_m3.step"
     coarse = load(path, LoadConfig(isolate=False, max_gap=0.002, max_angle=0.8))
     assert coarse.n_triangles < load(path, IN_PROCESS).n_triangles
 

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cadgraph._io.atomic import ensure_writable
 from cadgraph.cli.application import app
 from cadgraph.cli.asking import AskingOptions, asks
 from cadgraph.cli.options import ConfigOption, MethodOption, SetOption, read_flows, settings_of
-from cadgraph.cli.screen import bars, tell
-from cadgraph.errors import OutputError
+from cadgraph.cli.screen import bars, tell, tell_next
+
+if TYPE_CHECKING:
+    from cadgraph.model.graph import SceneGraph
 
 
 @app.command()
@@ -85,17 +86,26 @@ def demo(
     config: ConfigOption = None,
     settings: SetOption = None,
 ) -> None:
-    """Generate a small plant skid with meaningless names, and turn it into a scene graph."""
-    from importlib import import_module
-
+    """Build the scene graph of a small plant that comes with cadgraph: two tanks, two pumps, valves and gauges."""
+    from cadgraph.session.demo import copy_demo_scene
     from cadgraph.session.run import run
 
     chosen = settings_of(config, settings or [], None)
-    scene = ensure_writable(output) / "skid.usdc"
-    if scene.exists() and not scene.with_name("skid.truth.json").exists():
-        raise OutputError(f"{scene}: not written by cadgraph, so it is left alone; choose another output folder")
-    plants = import_module("cadplants")
-    plants.write_usd(plants.make_skid(), scene)
+    scene = copy_demo_scene(output)
     with bars() as progress:
         outcome = run(scene, output, chosen, progress=progress)
     tell(outcome)
+    tell_next(_questions(outcome.graph, output))
+
+
+def _questions(graph: SceneGraph, folder: Path) -> list[str]:
+    """Commands to try on a graph, with tags that are in it."""
+    from cadgraph.query import trace
+
+    commands = [f"cadgraph lines {folder}"]
+    valves = {unit.tag for unit in graph.units("valve")}
+    for pump in graph.units("pump")[:1]:
+        feeding = [step.name for step in trace(graph, pump.tag, "upstream").steps if step.name in valves]
+        commands += [f"cadgraph trace {folder} {valve} --downstream" for valve in feeding[-1:]]
+        commands.append(f"cadgraph isolate {folder} {pump.tag}")
+    return commands

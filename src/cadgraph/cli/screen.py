@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -12,7 +12,7 @@ from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedCo
 
 from cadgraph._io.progress import quiet
 
-__all__ = ["bars", "err", "out", "summary_lines", "tell"]
+__all__ = ["bars", "err", "out", "summary_lines", "tell", "tell_next"]
 
 out = Console(highlight=False, soft_wrap=True)
 err = Console(stderr=True, highlight=False, soft_wrap=True)
@@ -61,6 +61,12 @@ def tell(outcome: Any) -> None:
     for purpose, words in names.items():
         if purpose in outcome.files:
             out.print(f"[dim]{words:<15}[/][bold]{escape(str(outcome.files[purpose]))}[/]")
+
+
+def tell_next(commands: Sequence[str]) -> None:
+    """Names commands to go on with, one a line."""
+    for number, command in enumerate(commands):
+        out.print(f"[dim]{'' if number else 'try next':<15}[/]{escape(command)}")
 
 
 def summary_lines(summary: Any) -> list[str]:

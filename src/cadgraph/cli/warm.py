@@ -7,18 +7,19 @@ the first run as quick as the next.
 from __future__ import annotations
 
 import sys
-from importlib import import_module
 
 from cadgraph.draw.render.camera import frame
 from cadgraph.draw.render.pair import PairRenderer
+from cadgraph.load import load
 from cadgraph.pipeline import build
+from cadgraph.session.demo import DEMO_SCENE
 
 __all__ = ["warm_up"]
 
 
 def warm_up() -> None:
-    """Builds the graph of a small generated plant, by which every kernel that a plant needs is compiled."""
-    scene = import_module("cadplants").make_skid().scene()
+    """Builds the graph of the demo scene, by which every kernel that a plant needs is compiled."""
+    scene = load(DEMO_SCENE)
     build(scene)
     renderer = PairRenderer(scene)
     renderer.pair(0, frame(scene.mesh(0)[0], (1, -2, 1), (64, 64), margin=0.3), [1])

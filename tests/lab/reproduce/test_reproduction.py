@@ -11,6 +11,8 @@ from cadlab.reproduce.page import _inside
 from cadlab.reproduce.paper import STRUCTURES
 from cadplants import make
 
+pytestmark = pytest.mark.slow
+
 PICTURE = re.compile(r"!\[[^]]+\]\(([^)]+)\)")
 
 

@@ -31,6 +31,7 @@ def test_what_is_kept_for_the_trial_is_never_learnt_from():
     assert not learnt & tried
 
 
+@pytest.mark.slow
 def test_guests_touch_their_hosts_and_change_nothing_else():
     plant = make_assortment(3)
     whole = visited(plant, 3, 0.5)

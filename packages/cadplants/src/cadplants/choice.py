@@ -60,14 +60,26 @@ class Choice:
             seed: of its details.
             roll: of its stem about the run [rad].
         """
-        family = FAMILIES[("control valve/diaphragm", "control valve/electric")[seed % 2]]
+        return self.of_family(("control valve/diaphragm", "control valve/electric")[seed % 2], s, unit, dn, seed, roll)
+
+    def of_family(self, name: str, s: float, unit: str, dn: int, seed: int, roll: float = 0.0) -> Inline:
+        """A device of a family, its middle at a chainage.
+
+        Args:
+            name: of the family, all of whose builds must have one length for one size.
+            s: chainage.
+            unit: its id.
+            dn: nominal size.
+            seed: of its details.
+            roll: of its stem about the run [rad].
+        """
+        family = FAMILIES[name]
 
         def build(hand: Hand) -> Device:
             def draw(number: int) -> Device:
                 return as_device(family, family.build(dn, hand, np.random.default_rng([seed, number])), hand, unit)
 
             made = whole(lambda number: draw(number).assembly)
-            # All that are drawn have one length for one size.
             return replace(draw(0), assembly=made)
 
         return Inline(s, build, unit, roll, family=family.name)

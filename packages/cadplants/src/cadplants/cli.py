@@ -20,7 +20,7 @@ plants = typer.Typer(no_args_is_help=True, help="Generated test plants with thei
 @plants.command("make")
 def make_plant(
     output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The scene, e.g. field.usdc.")],
-    preset: Annotated[str, typer.Option(help="skid, riser, tank, pumps, rack or field.")] = "skid",
+    preset: Annotated[str, typer.Option(help="skid, riser, tank, pumps, station, rack or field.")] = "skid",
     seed: Annotated[int, typer.Option(min=0, help="Of everything that varies.")] = 0,
     hand: Annotated[
         str | None, typer.Option(help="In whose style it is modelled; the preset's own by default.")

@@ -13,6 +13,7 @@ from cadplants.pumps import make_pumps
 from cadplants.rack import make_rack
 from cadplants.riser import make_riser
 from cadplants.skid import make_skid
+from cadplants.station import make_station
 from cadplants.tank import make_tank
 
 __all__ = ["PRESETS", "make"]
@@ -24,6 +25,7 @@ PRESETS: dict[str, Callable[[int, Hand | None], Plant]] = {
     "rack": make_rack,
     "riser": make_riser,
     "skid": make_skid,
+    "station": make_station,
     "tank": make_tank,
 }
 

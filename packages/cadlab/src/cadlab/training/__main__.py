@@ -9,18 +9,22 @@ from dataclasses import replace
 from pathlib import Path
 
 from cadgraph._io.atomic import write_atomically
+from cadgraph.labelers import embedded
 from cadgraph.labelers.embedded.model import write_model
 from cadlab.training.course import Course, run_course
 from cadlab.training.page import write_page
 from cadlab.training.real import read_real_parts
 from cadplants.assortment import FAMILIES
 
+_MODEL = Path(embedded.__file__).with_name("model.npz")
+"""The model that the labeler reads; ``make train`` writes it anew in place."""
+
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Runs the command."""
     usual = Course()
     parser = argparse.ArgumentParser(prog="python -m cadlab.training", description="Trains the embedded labeler.")
-    parser.add_argument("--model", type=Path, default=Path("src/cadgraph/stages/label/model.npz"), help="what to write")
+    parser.add_argument("--model", type=Path, default=_MODEL, help="what to write")
     parser.add_argument("--page", type=Path, default=Path("docs/labeler.md"), help="where the figures go")
     parser.add_argument("--plants-in", type=Path, default=Path(".training"), help="folder that keeps generated plants")
     parser.add_argument("--real", type=Path, help="folder with real STEP parts to try the model on")
