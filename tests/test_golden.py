@@ -1,3 +1,4 @@
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -50,8 +51,9 @@ def test_graphs_of_generated_plants_stay_as_they_are(preset, style, graphs, tmp_
 
 @pytest.mark.parametrize("file", FILES)
 def test_graphs_of_real_files_stay_as_they_are(file, graphs, tmp_path, monkeypatch):
-    # The source's path stands in the graph, and what USD files refer to lies beside them.
-    monkeypatch.chdir(REAL)
+    # The source's path stands in the graph and in the layer, and what USD files refer to lies beside them.
+    shutil.copytree(REAL, tmp_path / "data")
+    monkeypatch.chdir(tmp_path / "data")
     outcome = run(file, tmp_path / "out", report=False)
     graphs.check(f"file {file}", of_graph(outcome.files["graph"], outcome.files["labels"]))
 
