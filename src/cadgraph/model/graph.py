@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, cast, overload
 
 from pydantic import ValidationError
 
-from cadgraph._io.atomic import write_atomically
+from cadgraph._io.json_rows import write_json_rows
 from cadgraph._io.validation_messages import expectation
 from cadgraph.errors import FormatError
 from cadgraph.model.diagnostic import Diagnostic
@@ -307,17 +307,7 @@ class SceneGraph:
         """
         target = Path(path)
         target = target / "graph.json" if target.suffix != ".json" else target
-        data = self.to_json()
-        lines = []
-        for key, value in data.items():
-            if key in ("nodes", "edges", "diagnostics") and value:
-                rows = ",\n".join("  " + _dumps(row) for row in value)
-                lines.append(f" {_dumps(key)}: [\n{rows}\n ]")
-            else:
-                lines.append(f" {_dumps(key)}: {_dumps(value)}")
-        text = "{\n" + ",\n".join(lines) + "\n}\n"
-        # A lone surrogate has no UTF-8, but its backslash form is what JSON calls it.
-        write_atomically(target, text.encode("utf-8", "backslashreplace"))
+        write_json_rows(target, self.to_json(), rows=("nodes", "edges", "diagnostics"))
         return target
 
     @classmethod
@@ -435,7 +425,3 @@ def _what_is_wrong(error: ValidationError, data: Mapping[str, Any]) -> str:
 def _count(n: int, noun: str) -> str:
     plural = {"mesh": "meshes"}.get(noun, f"{noun}s")
     return f"{n:,} {noun if n == 1 else plural}"
-
-
-def _dumps(value: Any) -> str:
-    return json.dumps(value, ensure_ascii=False, allow_nan=False)

@@ -5,10 +5,11 @@ from __future__ import annotations
 import heapq
 from dataclasses import dataclass
 
+from cadgraph._io.text import tag_key
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Terminal
 from cadgraph.query.lines import find_lines
-from cadgraph.query.network import Arc, Network, natural
+from cadgraph.query.network import Arc, Network
 
 __all__ = ["Closing", "Isolation", "Opening", "find_isolation"]
 
@@ -124,7 +125,7 @@ def find_isolation(
     region = {start, *(place for place in reached if place not in walls)}
     needed = [place for place in walls if not _is_relief(network, place) and _is_fed(network, place, region, walls)]
     line_of = {arc.index: line.tag for line in find_lines(network) for arc in line.arcs}
-    nearest = sorted(reached, key=lambda place: (reached[place].distance, natural(network.name(place))))
+    nearest = sorted(reached, key=lambda place: (reached[place].distance, tag_key(network.name(place))))
     valves = [_closing(network, place, reached[place], line_of) for place in nearest if place in needed]
     openings = [
         opening
@@ -144,7 +145,7 @@ def find_isolation(
         openings=tuple(openings),
         shut_off=tuple(inside),
         shut_off_names=tuple(network.name(place) for place in inside),
-        lines=tuple(sorted(lines, key=natural)),
+        lines=tuple(sorted(lines, key=tag_key)),
         remarks=_remarks(network, start, region, walls, needed, reached, check_valves),
     )
 
@@ -291,7 +292,7 @@ def _remarks(
     check_valves: bool,
 ) -> tuple[str, ...]:
     told: list[str] = []
-    for place in sorted((region | walls) - {start}, key=lambda place: natural(network.name(place))):
+    for place in sorted((region | walls) - {start}, key=lambda place: tag_key(network.name(place))):
         name, kind = network.name(place), _kind(network, place)
         if place in walls and _is_relief(network, place):
             told.append(f"{name} is a relief valve: taken for closed, not to be blocked")
@@ -303,7 +304,7 @@ def _remarks(
             told.append(f"{name} is a check valve, but which way it lets through is not known")
         elif place in region and any(word in kind for word in _NOT_ISOLATING):
             told.append(f"{name} is a control valve: not counted as isolating")
-    guessed = sorted((network.name(place) for place in needed if network.what(place) == "valve"), key=natural)
+    guessed = sorted((network.name(place) for place in needed if network.what(place) == "valve"), key=tag_key)
     if guessed:
         told.append(f"{', '.join(guessed)}: kind not known, taken for shut-off valves")
     if not network.arcs(start):

@@ -10,10 +10,11 @@ from functools import cached_property
 from itertools import pairwise
 from typing import Literal
 
+from cadgraph._io.text import tag_key
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Connected, Junction, Point, System, Terminal, Unit
 
-__all__ = ["Arc", "Flow", "Network", "Place", "natural"]
+__all__ = ["Arc", "Flow", "Network", "Place"]
 
 Flow = Literal["along", "against", "unknown"]
 Place = Unit | Junction | Terminal
@@ -249,16 +250,7 @@ class Network:
         return tuple(name for chain in self.tap_chains(place) for name in chain)
 
     def _order(self, arc: Arc) -> tuple[object, ...]:
-        return natural(self.name(arc.end)), natural(arc.start_port or ""), arc.index, arc.forward
-
-
-def natural(text: str) -> tuple[tuple[int, int, str], ...]:
-    """A key that sorts ``V-2`` before ``V-10``."""
-    return tuple(
-        (0, int(piece), "") if piece.isdigit() else (1, 0, piece.casefold())
-        for piece in re.split(r"([0-9]+)", text)
-        if piece
-    )
+        return tag_key(self.name(arc.end)), tag_key(arc.start_port or ""), arc.index, arc.forward
 
 
 def _loose(name: str) -> str:

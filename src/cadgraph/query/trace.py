@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, Literal, cast
 
+from cadgraph._io.text import tag_key
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Terminal
 from cadgraph.query.lines import find_lines
-from cadgraph.query.network import Arc, Flow, Network, natural
+from cadgraph.query.network import Arc, Flow, Network
 
 if TYPE_CHECKING:
     import networkx
@@ -135,7 +136,7 @@ def trace(
     steps: list[Step] = []
     halts: list[Halt] = []
     returns: list[Return] = []
-    for place in sorted(distances, key=lambda p: (distances[p], len(ways[p]), natural(network.name(p)))):
+    for place in sorted(distances, key=lambda p: (distances[p], len(ways[p]), tag_key(network.name(p)))):
         arcs = arcs_to[place]
         for arc in network.arcs(place):
             if not follows(arc):

@@ -9,10 +9,11 @@ from html import escape
 from itertools import pairwise
 from pathlib import PurePosixPath, PureWindowsPath
 
+from cadgraph._io.text import tag_key
 from cadgraph.draw.schematic.layout import Placed, Way, lay_out, pack
 from cadgraph.draw.schematic.plan import Cell, Edge, Row, plan_systems
 from cadgraph.draw.schematic.symbol import TAG_SIZE, Symbol, clean, number, text_width
-from cadgraph.query.network import Network, natural
+from cadgraph.query.network import Network
 
 __all__ = ["draw_sheet"]
 
@@ -309,7 +310,7 @@ def _file_name(path: str) -> str:
 
 def _loose_units(network: Network) -> list[str]:
     tags = (clean(network.name(place)) for place in network.places if not network.arcs(place))
-    return sorted(tags, key=natural)
+    return sorted(tags, key=tag_key)
 
 
 def _wrapped(text: str, width: float) -> Iterator[str]:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
 
+from cadgraph._io.text import xml_text
 from cadgraph.model.records import Junction, Terminal, Unit
 from cadgraph.query.network import Network
 
@@ -19,8 +19,6 @@ _VALVE = (13.0, 7.5)  # px, half the length and half the height of a valve
 _BUBBLE = 15.0  # px, radius of an instrument's circle
 _PUMP = 18.0  # px, radius of a pump's circle
 
-# XML 1.0, production [2] Char: everything else can't stand in a document, not even escaped.
-_NO_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _MOST = 40  # characters of a name that are shown
 
 
@@ -151,7 +149,7 @@ def instrument_letters(kind: str | None) -> str:
 
 def clean(text: str) -> str:
     """A name fit for XML, not longer than a drawing can show."""
-    told = " ".join(_NO_XML.sub("", text).split())
+    told = " ".join(xml_text(text).split())
     return told if len(told) <= _MOST else f"{told[: _MOST - 1]}…"
 
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
+from cadgraph._io.text import natural_key
 from cadgraph.model.labels import Label
 from cadgraph.model.parts import Contacts, UnitParts
-from cadgraph.model.scene import Ints, natural_key
+from cadgraph.model.scene import Ints
 from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["LETTERS", "find_units", "pipe_systems", "relate_units"]

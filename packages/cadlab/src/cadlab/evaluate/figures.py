@@ -7,6 +7,7 @@ from html import escape
 from pathlib import Path
 
 from cadgraph._io.atomic import ensure_writable, write_atomically
+from cadgraph._io.text import printable
 from cadlab.evaluate.evaluation import Evaluation
 from cadlab.evaluate.labels import Calibration, Confusion
 from cadlab.evaluate.scores import ClassScore
@@ -174,7 +175,7 @@ def _rule(x1: float, y1: float, x2: float, y2: float) -> str:
 
 def _safe(text: str) -> str:
     """Escaped, without the control characters that XML forbids."""
-    return escape("".join(letter if letter.isprintable() else " " for letter in text))
+    return escape(printable(text))
 
 
 def _blend(color: tuple[int, int, int], share: float) -> str:
