@@ -21,7 +21,7 @@ MAY_IMPORT = {
     "config": {"_io"},
     "model": {"_io", "errors"},
     "geometry": {"_io", "errors", "model"},
-    "load": {"_io", "config", "errors", "model"},
+    "load": {"_io", "config", "errors", "geometry", "model"},
     "stages": {"_io", "config", "errors", "geometry", "model"},
     "draw.render": {"_io", "errors", "geometry", "model"},
     "labelers": {"_io", "config", "draw.render", "errors", "geometry", "model"},

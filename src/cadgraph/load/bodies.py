@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
+from cadgraph.geometry.components import first_of_component
 from cadgraph.model.scene import Faces, Ints
 
 __all__ = ["split_bodies", "weld"]
@@ -77,6 +76,5 @@ def _shells(faces: Faces, n_points: int) -> tuple[Ints, bool]:
     # Every edge an even number of times, its uses in pairs of opposite sense: closed.
     if (key[a] != key[b]).any() or (forward[a] == forward[b]).any():
         return np.zeros(m, np.int64), False
-    links = coo_array((np.ones(len(owner) // 2, np.int8), (owner[a], owner[b])), shape=(m, m))
-    _, shells = connected_components(links, directed=False)
-    return shells.astype(np.int64), True
+    shells = first_of_component(m, np.column_stack([owner[a], owner[b]]))
+    return np.unique(shells, return_inverse=True)[1], True

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
+from cadgraph.geometry.components import first_of_component
 from cadgraph.model.scene import Floats, Ints, Scene, mesh_of_face
 
 __all__ = ["EDGE_FEATURES", "edge_features"]
@@ -90,8 +89,7 @@ def _welded(triangles: Floats, owner: Ints, n: int) -> Ints:
 def _topology(corner: Ints, sides: Ints, owner: Ints, mesh_of_edge: Ints, n: int) -> Floats:
     """Logarithms of the numbers of pieces and of handles (Euler's formula) of each mesh."""
     n_vertices = int(corner.max()) + 1
-    links = coo_array((np.ones(len(sides), np.int8), (sides[:, 0], sides[:, 1])), shape=(n_vertices, n_vertices))
-    piece = connected_components(links, directed=False)[1]
+    piece = first_of_component(n_vertices, sides)
     mesh_of_vertex = np.full(n_vertices, -1)
     mesh_of_vertex[corner.reshape(-1)] = np.repeat(owner, 3)
     used = mesh_of_vertex >= 0

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cadgraph.geometry.components import connected_sets
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.scene import Ints
 from cadgraph.stages.relate.attach import Attachments, flat_contacts
@@ -58,7 +59,7 @@ def connected_groups(
         for a, b in contacts.pairs.tolist()
         if types[a] is not None and types[a] == types[b] and cluster[a] == cluster[b] >= 0
     ]
-    return [Group(str(types[parts[0]]), parts) for parts in _components(members, pairs)]
+    return [Group(str(types[parts[0]]), parts) for parts in connected_sets(members, pairs)]
 
 
 def is_loose_operator(group: Group, names: Sequence[str | None], reached: Collection[int]) -> bool:
@@ -74,25 +75,6 @@ def is_loose_operator(group: Group, names: Sequence[str | None], reached: Collec
         and all(names[part] in _OPERATORS for part in group.parts)
         and not any(part in reached for part in group.parts)
     )
-
-
-def _components(members: Collection[int], pairs: Collection[tuple[int, int]]) -> list[tuple[int, ...]]:
-    root = {part: part for part in members}
-
-    def find(part: int) -> int:
-        while root[part] != part:
-            root[part] = root[root[part]]
-            part = root[part]
-        return part
-
-    for a, b in pairs:
-        if a in root and b in root:
-            low, high = sorted((find(a), find(b)))
-            root[high] = low
-    found: dict[int, list[int]] = {}
-    for part in sorted(members):
-        found.setdefault(find(part), []).append(part)
-    return [tuple(parts) for _, parts in sorted(found.items())]
 
 
 @dataclass
