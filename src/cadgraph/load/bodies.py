@@ -8,21 +8,7 @@ import numpy.typing as npt
 from cadgraph.geometry.components import first_of_component
 from cadgraph.model.scene import Faces, Ints
 
-__all__ = ["split_bodies", "weld"]
-
-
-def weld(points: npt.NDArray[np.float32], faces: Faces) -> tuple[npt.NDArray[np.float32], Faces]:
-    """Joins points in exactly the same place and drops triangles that lose a corner by it.
-
-    Converters repeat the points along the edges between the faces of a solid, bit by bit the same.
-    """
-    rows = np.ascontiguousarray(points + np.float32(0))  # -0 becomes 0
-    _, first, inverse = np.unique(rows.view(np.dtype((np.void, 12))).ravel(), return_index=True, return_inverse=True)
-    order = np.argsort(first)
-    rank = np.empty(len(order), np.int32)
-    rank[order] = np.arange(len(order), dtype=np.int32)
-    joined = rank[inverse.reshape(-1)][faces]
-    return rows[first[order]], joined
+__all__ = ["split_bodies"]
 
 
 def split_bodies(points: npt.NDArray[np.float32], faces: Faces) -> list[Ints]:
