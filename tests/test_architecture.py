@@ -27,8 +27,9 @@ MAY_IMPORT = {
     "labelers": {"_io", "config", "draw.render", "errors", "geometry", "model"},
     "pipeline": {"_io", "config", "errors", "geometry", "labelers", "model", "stages"},
     "query": {"_io", "errors", "model"},
-    "draw.schematic": {"_io", "errors", "model", "query"},
-    "draw.report": {"_io", "config", "draw.render", "draw.schematic", "errors", "model", "query"},
+    "draw.svg": {"_io"},
+    "draw.schematic": {"_io", "draw.svg", "errors", "model", "query"},
+    "draw.report": {"_io", "config", "draw.render", "draw.schematic", "draw.svg", "errors", "model", "query"},
     "export": {"_io", "config", "draw.schematic", "errors", "model", "query"},
     "session": {
         *("_io", "config", "errors", "geometry", "labelers", "load", "model", "pipeline", "query", "stages"),
