@@ -8,7 +8,8 @@
     ├── FormatError    a graph on disk is not what ``graph.json`` promises
     ├── OutputError    a result can't be written
     ├── MissingExtra   a command needs an optional dependency that isn't installed
-    └── MissingPackage a command comes with a package that isn't installed
+    ├── MissingPackage a command comes with a package that isn't installed
+    └── UnknownNode    nothing in a graph is called so; also a ``KeyError`` and a ``ValueError``
 
 Bad arguments raise ``ValueError``. What is merely skipped, repaired or guessed is no error: it is listed in the
 graph's ``diagnostics``.
@@ -16,7 +17,16 @@ graph's ``diagnostics``.
 
 from __future__ import annotations
 
-__all__ = ["CadGraphError", "FormatError", "LabelError", "LoadError", "MissingExtra", "MissingPackage", "OutputError"]
+__all__ = [
+    "CadGraphError",
+    "FormatError",
+    "LabelError",
+    "LoadError",
+    "MissingExtra",
+    "MissingPackage",
+    "OutputError",
+    "UnknownNode",
+]
 
 
 class CadGraphError(Exception):
@@ -63,3 +73,12 @@ class MissingPackage(CadGraphError):
     def __init__(self, command: str, package: str) -> None:
         self.package = package
         super().__init__(f"'cadgraph {command}' comes with the package {package}: pip install {package}")
+
+
+class UnknownNode(CadGraphError, KeyError, ValueError):
+    """Nothing in a graph is called by this tag, id or path of a mesh.
+
+    A ``KeyError``, as a look-up fails, and a ``ValueError``, as an argument of a query or a command is wrong.
+    """
+
+    __str__ = Exception.__str__  # that of KeyError would put the message in quotes

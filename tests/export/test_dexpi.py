@@ -162,7 +162,7 @@ def test_hostile_tags_are_text(tag, tmp_path, schema):
 @settings(max_examples=20, deadline=None)
 @given(st.text(max_size=12))
 def test_any_text_makes_well_formed_xml(text):
-    from cadgraph.export.dexpi.element import xml_text
+    from cadgraph._io.text import xml_text
 
     element = ET.Element("a", value=xml_text(text))
     ET.fromstring(ET.tostring(element))

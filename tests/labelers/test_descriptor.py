@@ -3,9 +3,10 @@ import pytest
 
 import shapes
 from cadgraph.geometry.mesh.properties import measure
+from cadgraph.geometry.mesh.sample import sample_surfaces
 from cadgraph.labelers.embedded.descriptor import FORMS, SIZES, describe_shapes
 from cadgraph.labelers.embedded.edges import edge_features
-from cadgraph.labelers.embedded.sample import ray_gaps, sample_surfaces
+from cadgraph.labelers.embedded.sample import ray_gaps
 from cadgraph.labelers.embedded.shape_facts import find_facts
 from cadgraph.model.parts import Parts
 from cadgraph.model.scene import Scene

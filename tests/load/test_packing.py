@@ -2,8 +2,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from cadgraph._io.text import natural_key
 from cadgraph.load.packing import Notes, Piece, pack, unique_name
-from cadgraph.model.scene import Source, natural_key
+from cadgraph.model.scene import Source
 from shapes import box
 
 

@@ -11,7 +11,7 @@ pytest.importorskip("cascadio")
 from cadgraph.config import LoadConfig
 from cadgraph.errors import LoadError
 from cadgraph.load import load
-from cadgraph.load.bodies import split_bodies, weld
+from cadgraph.load.bodies import split_bodies
 from cadgraph.load.glb import read_glb
 from load.solids import _FACES, StepFile
 from shapes import box, moved
@@ -222,13 +222,6 @@ def test_void_without_a_solid_is_left_alone():
 
 def test_no_faces_make_one_empty_body():
     assert [len(b) for b in split_bodies(np.zeros((0, 3), np.float32), np.zeros((0, 3), np.int32))] == [0]
-
-
-def test_weld_joins_equal_points_in_order():
-    points = np.array([[1, 0, 0], [0, 0, 0], [-0.0, 0, 0], [1, 0, 0], [5, 5, 5]], np.float32)
-    welded, faces = weld(points, np.array([[0, 1, 4], [2, 3, 4]], np.int32))
-    assert welded.tolist() == [[1, 0, 0], [0, 0, 0], [5, 5, 5]]
-    assert faces.tolist() == [[0, 1, 2], [1, 0, 2]]
 
 
 @pytest.mark.parametrize("data", [b"", b"glTF", b"glTF" + struct.pack("<II", 2, 20) + b"\0" * 12])

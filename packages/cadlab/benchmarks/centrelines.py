@@ -11,13 +11,14 @@ import argparse
 import numpy as np
 import scenes
 import trimesh
-from _table import machine, once, table, timed
+from _timing import machine, once, timed
 from scipy.spatial.transform import Rotation
 
 from cadgraph.geometry.line.centreline import Centreline, trace_centrelines
 from cadgraph.geometry.mesh.properties import measure
 from cadgraph.geometry.shape.primitive import fit_primitives
 from cadgraph.model.scene import Scene
+from cadlab.markdown import table
 
 KINDS: list[tuple[str, scenes.Mesh, float | None]] = [
     ("straight pipe, 6 sides", scenes.tube(0.05, 0.045, 2.0, 6), 2.0),
@@ -55,7 +56,10 @@ def main() -> None:
         wall, spent = timed(act)
         ratio = f"{other / spent:,.0f}" if other else ""
         rows.append([name, f"{wall:.2f}", f"{spent:.2f}", f"{other:,.1f}" if other else "", ratio])
-    print(table(["", "wall", "processor", "trimesh least cylinder, processor", "trimesh / here"], rows))
+    print(
+        *table(["", "wall", "processor", "trimesh least cylinder, processor", "trimesh / here"], rows, numbers=True),
+        sep="\n",
+    )
 
     lines, fits = trace_centrelines(scene, properties), fit_primitives(scene, properties)
     rows = []
@@ -65,7 +69,11 @@ def main() -> None:
         tubes = f"{len(found)} of {len(lines[k :: len(KINDS)])}"
         kinds = ", ".join(sorted({str(fits.name(i)) for i in range(k, scene.n_meshes, len(KINDS))}))
         rows.append([name, f"{len(mesh[1]):,}", tubes, f"{worst:.1e}" if length else "", kinds])
-    print("\n" + table(["part", "triangles", "has a centreline", "worst error of length", "fits as"], rows))
+    print(
+        "",
+        *table(["part", "triangles", "has a centreline", "worst error of length", "fits as"], rows, numbers=True),
+        sep="\n",
+    )
 
 
 if __name__ == "__main__":

@@ -25,6 +25,7 @@ import numpy as np
 import scenes
 
 from cadgraph.model.scene import Floats, Ints, Scene
+from cadlab.markdown import head, row
 
 EPS = 0.01
 LIMIT = EPS + 1e-9
@@ -296,8 +297,19 @@ def wrong(result: dict[str, Any], truth: set[tuple[int, int]]) -> tuple[str, str
 
 def side_by_side(scale: float, repeat: int) -> Iterator[str]:
     """The table of all candidates on the plant."""
-    yield "| candidate | meshes | triangles | build s | query s | total s | peak MiB | false | missed | note |"
-    yield "|---|---|---|---|---|---|---|---|---|---|"
+    titles = (
+        "candidate",
+        "meshes",
+        "triangles",
+        "build s",
+        "query s",
+        "total s",
+        "peak MiB",
+        "false",
+        "missed",
+        "note",
+    )
+    yield from head(titles)
     results: dict[str, dict[str, Any]] = {}
     for method in METHODS:
         # what samples surfaces would drown in the plate and the long tubes of the whole scene
@@ -317,10 +329,9 @@ def side_by_side(scale: float, repeat: int) -> Iterator[str]:
         if "yes_no" in result:
             note = f"yes/no only: query {result['yes_no']:.3f} s; tree {result['tree']:.0f} bytes a triangle"
         build, query = result["build"], result["query"]
-        yield (
-            f"| {method} | {result['meshes']:,} | {result['triangles']:,} | {build:.3f} | {query:.3f} "
-            f"| {build + query:.3f} | {result['peak']:,.0f} | {false} | {missed} | {note} |"
-        )
+        times = f"{build:.3f}", f"{query:.3f}", f"{build + query:.3f}"
+        counts = f"{result['meshes']:,}", f"{result['triangles']:,}"
+        yield row((method, *counts, *times, f"{result['peak']:,.0f}", false, missed, note))
     yield ""
     mine, peer = results.get("ours, 1 thread"), results.get("coal")
     if mine and peer:
@@ -346,8 +357,7 @@ def side_by_side(scale: float, repeat: int) -> Iterator[str]:
 
 def growth(scales: list[float], tiles: bool, repeat: int) -> Iterator[str]:
     """Time over size, and its exponent."""
-    yield "| scene | meshes | triangles | pairs | total s (1 thread) | ns a triangle | peak MiB |"
-    yield "|---|---|---|---|---|---|---|"
+    yield from head(("scene", "meshes", "triangles", "pairs", "total s (1 thread)", "ns a triangle", "peak MiB"))
     sizes, times = [], []
     for scale, name in [(s, "plant") for s in scales] + ([(scales[-1], "plant, 10 tiles")] if tiles else []):
         result = measure("ours, 1 thread", name, scale, repeat)
@@ -356,7 +366,7 @@ def growth(scales: list[float], tiles: bool, repeat: int) -> Iterator[str]:
         total = result["build"] + result["query"]
         sizes.append(result["triangles"])
         times.append(total)
-        yield _row(name, result, total)
+        yield row(_cells(name, result, total))
     yield ""
     exponent = np.polyfit(np.log(sizes), np.log(times), 1)[0]
     yield f"Exponent: {exponent:.2f}"
@@ -365,8 +375,8 @@ def growth(scales: list[float], tiles: bool, repeat: int) -> Iterator[str]:
 
 def hostile(scale: float, repeat: int) -> Iterator[str]:
     """Scenes that broke other designs, against the plain one."""
-    yield "| scene | meshes | triangles | pairs | s, 1 thread | ns a triangle | MiB | to the plant | same as coal |"
-    yield "|---|---|---|---|---|---|---|---|---|"
+    titles = ("scene", "meshes", "triangles", "pairs", "s, 1 thread", "ns a triangle", "MiB")
+    yield from head((*titles, "to the plant", "same as coal"))
     plain = measure("ours, 1 thread", "plant", scale, repeat)
     if plain is None:
         return
@@ -378,15 +388,13 @@ def hostile(scale: float, repeat: int) -> Iterator[str]:
             continue
         total = result["build"] + result["query"]
         same = "" if peer is None else str(peer["pairs"] == result["pairs"])
-        yield f"{_row(name, result, total)} {total / result['triangles'] / base:.1f}x | {same} |"
+        yield row((*_cells(name, result, total), f"{total / result['triangles'] / base:.1f}x", same))
     yield ""
 
 
-def _row(name: str, result: dict[str, Any], total: float) -> str:
-    return (
-        f"| {name} | {result['meshes']:,} | {result['triangles']:,} | {len(result['pairs']):,} | {total:.3f} "
-        f"| {1e9 * total / result['triangles']:.0f} | {result['peak']:,.0f} |"
-    )
+def _cells(name: str, result: dict[str, Any], total: float) -> tuple[str, ...]:
+    counts = f"{result['meshes']:,}", f"{result['triangles']:,}", f"{len(result['pairs']):,}"
+    return name, *counts, f"{total:.3f}", f"{1e9 * total / result['triangles']:.0f}", f"{result['peak']:,.0f}"
 
 
 def main() -> None:
@@ -417,7 +425,7 @@ def main() -> None:
         result = measure("ours, all threads", "small parts", 1.0, 1)
         if result:
             print("## A million small parts\n")
-            print(_row("small parts", result, result["build"] + result["query"]))
+            print(row(_cells("small parts", result, result["build"] + result["query"])))
     print(f"\n{machine()}")
 
 

@@ -11,11 +11,12 @@ import statistics
 import tempfile
 from pathlib import Path
 
-from _table import machine, once, table
+from _timing import machine, once
 
 import cadgraph
 from cadgraph.model.scene import Scene
 from cadgraph.session.session import Change
+from cadlab.markdown import table
 from cadplants import make, write_usd
 
 # One part of each, and what it is said to be.
@@ -80,7 +81,7 @@ def main() -> None:
         "ratio",
         "most changed",
     ]
-    print(table(titles, [row(preset) for preset in presets]))
+    print(*table(titles, [row(preset) for preset in presets], numbers=True), sep="\n")
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from _table import machine, once, table
+from _timing import machine, once
 
 from cadgraph.labelers.embedded.features import Observation, observe
 from cadgraph.labelers.embedded.labeler import EmbeddedLabeler, judge
@@ -19,6 +19,7 @@ from cadgraph.labelers.embedded.model import default_model
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import default_vocabulary
+from cadlab.markdown import table
 from cadlab.training.example import make_parts_from
 from cadplants import make
 
@@ -73,7 +74,7 @@ def main() -> None:
         "in all [s]",
         "ms a shape",
     ]
-    print(table(titles, rows))
+    print(*table(titles, rows, numbers=True), sep="\n")
 
 
 if __name__ == "__main__":

@@ -26,6 +26,7 @@ from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade, Vt
 import cadgraph
 from cadgraph.config import LoadConfig
 from cadgraph.model.scene import Scene
+from cadlab.markdown import head, row
 
 Arrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]
 
@@ -183,7 +184,7 @@ def measure(name: str, path: Path, repeats: int) -> str:
     megabytes = path.stat().st_size / 1e6
     cells = [name, f"{scene.n_meshes:,}", f"{len(scene.vertices):,}", f"{scene.n_triangles:,}", f"{megabytes:.0f}"]
     cells += [f"{seconds:.2f}" for seconds in (plain, own, own_wall, isolated, isolated_wall)]
-    return "| " + " | ".join([*cells, f"{own / plain:.2f}", f"{isolated / plain:.2f}"]) + " |"
+    return row([*cells, f"{own / plain:.2f}", f"{isolated / plain:.2f}"])
 
 
 def main() -> None:
@@ -199,8 +200,7 @@ def main() -> None:
     print(f"\nSeconds, median of {options.repeats}; 'script' is the straightforward script, processor time.\n")
     titles = ["stage", "meshes", "vertices", "triangles", "MB", "script", "here", "here, wall", "isolated"]
     titles += ["isolated, wall", "here / script", "isolated / script"]
-    print("| " + " | ".join(titles) + " |")
-    print("|:---|" + "---:|" * (len(titles) - 1))
+    print(*head(titles, numbers=True), sep="\n")
     with tempfile.TemporaryDirectory() as folder:
         stages: dict[str, Callable[[Path], None]] = {
             "triangles": lambda path: write_meshes(path, n, 3),

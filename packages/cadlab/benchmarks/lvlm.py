@@ -21,7 +21,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from _table import machine, table
+from _timing import machine
 
 from cadgraph.labelers.base import Labeling
 from cadgraph.labelers.embedded.labeler import EmbeddedLabeler
@@ -35,6 +35,7 @@ from cadgraph.model.labels import Label
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary
 from cadgraph.pipeline import analyse
+from cadlab.markdown import table
 from cadplants import make
 from cadplants.truth_writer import truth_of
 
@@ -174,7 +175,7 @@ def main() -> None:
     embedded = accuracy(labeling.answers, truth)
     rows.append(["embedded alone", "0", "0", "0", *shown(embedded) * 2])
     rows += [row(title, analysis, labeling, truth, options.seeds) for title in WAYS]
-    print(table(titles, rows))
+    print(*table(titles, rows, numbers=True), sep="\n")
     print("\nIn brackets: of the names that are given; where votes agree on the group only, the name is left open.")
 
 

@@ -11,12 +11,13 @@ import argparse
 import numpy as np
 import scenes
 import trimesh
-from _table import machine, once, table, timed
+from _timing import machine, once, timed
 
 from cadgraph.geometry.mesh.duplicates import find_duplicates
 from cadgraph.geometry.mesh.properties import measure
 from cadgraph.geometry.visibility.outside import find_visible
 from cadgraph.model.scene import Scene
+from cadlab.markdown import table
 
 
 def with_trimesh(scene: Scene, boxes: bool) -> None:
@@ -50,7 +51,7 @@ def main() -> None:
         wall, spent = timed(act)
         ratio = f"{other / spent:,.0f}" if other else ""
         rows.append([name, f"{wall:.2f}", f"{spent:.2f}", f"{other:,.1f}" if other else "", ratio])
-    print(table(["", "wall", "processor", "trimesh, processor", "trimesh / here"], rows))
+    print(*table(["", "wall", "processor", "trimesh, processor", "trimesh / here"], rows, numbers=True), sep="\n")
 
 
 if __name__ == "__main__":

@@ -13,13 +13,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from _table import table
-
 from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.truth import Truth
 from cadgraph.model.vocabulary import default_vocabulary
 from cadgraph.pipeline import build
 from cadlab.evaluate.evaluation import Evaluation, evaluate
+from cadlab.markdown import table
 from cadplants import HANDS, PRESETS, Plant, Sins, make
 from cadplants.truth_writer import truth_of
 
@@ -142,7 +141,7 @@ def main() -> None:
             totals[:] = [a + b for a, b in zip(totals, more, strict=True)]
         whole.plants += found.plants
     rows = [whole.row(MODES[mode], "**all**") for mode, whole in sums.items()] + rows
-    text = table(heads, rows)
+    text = "\n".join(table(heads, rows, numbers=True))
     seeds = ", ".join(str(seed) for seed in options.seeds)
     text = f"Presets {', '.join(options.presets)}; seed {seeds}.\n\n{text}"
     print(text)

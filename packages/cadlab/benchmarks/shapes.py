@@ -11,13 +11,14 @@ import argparse
 import numpy as np
 import scenes
 import trimesh
-from _table import machine, once, table, timed
+from _timing import machine, once, timed
 from scipy.spatial.transform import Rotation
 
 from cadgraph.geometry.mesh.properties import measure
 from cadgraph.geometry.shape.repeats import find_shapes
 from cadgraph.geometry.shape.similarity import find_near_shapes
 from cadgraph.model.scene import Scene
+from cadlab.markdown import table
 
 
 def changed(scene: Scene, posed: bool, scrambled: bool) -> Scene:
@@ -69,7 +70,7 @@ def main() -> None:
         wall, spent = timed(lambda s=scene, p=properties, h=shapes: find_near_shapes(s, p, h), 1)  # type: ignore[misc]
         rows.append([f"near repeats, {name}", "", f"{wall:.2f}", f"{spent:.2f}", "", "", ""])
     titles = ["", "shapes", "wall", "processor", "trimesh, processor", "trimesh / here", "of a part: here / trimesh"]
-    print(table(titles, rows))
+    print(*table(titles, rows, numbers=True), sep="\n")
 
 
 if __name__ == "__main__":

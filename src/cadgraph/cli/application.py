@@ -10,6 +10,7 @@ import typer
 from rich.markup import escape
 
 from cadgraph import __version__
+from cadgraph._io.text import printable
 from cadgraph.cli.screen import err, out
 from cadgraph.cli.signals import Stopped, stoppable
 from cadgraph.errors import CadGraphError
@@ -58,4 +59,4 @@ def _root(version: Annotated[bool, typer.Option("--version", help="Print the ver
 
 def _one_line(text: str) -> str:
     # Names from a file may hold what moves the cursor or recolours the terminal.
-    return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in " ".join(text.split()))
+    return printable(" ".join(text.split()), "\N{REPLACEMENT CHARACTER}")

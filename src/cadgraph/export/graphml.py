@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import json
-import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from cadgraph._io.atomic import replacing
+from cadgraph._io.text import xml_text
 from cadgraph.model.graph import SceneGraph
 
 __all__ = ["write_graphml"]
-
-# XML 1.0, production [2] Char: everything else can't stand in a document, not even escaped.
-_NO_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 # networkx reads attributes as keyword arguments, so that these names of its own parameters would stop it.
 _RESERVED = frozenset({"self", "node_for_adding", "u_for_edge", "v_for_edge", "key"})
@@ -44,7 +41,7 @@ def write_graphml(graph: SceneGraph, path: str | Path) -> Path:
     flat: networkx.MultiDiGraph[str] = networkx.MultiDiGraph()
     data = graph.to_json()
     for node in data["nodes"]:
-        ids[node["id"]] = _unique(_xml(node["id"]), taken)
+        ids[node["id"]] = _unique(xml_text(node["id"]), taken)
         flat.add_node(ids[node["id"]])
         flat.nodes[ids[node["id"]]].update(_flatten(node, without=("id",)))
     for number, edge in enumerate(data["edges"]):
@@ -61,9 +58,9 @@ def _flatten(values: Mapping[str, Any], without: tuple[str, ...]) -> Iterator[tu
     for key, value in values.items():
         if key in without or value is None:
             continue
-        name = f"{key}_" if key in _RESERVED else _xml(key)
+        name = f"{key}_" if key in _RESERVED else xml_text(key)
         if key == "label" and isinstance(value, Mapping):
-            yield from ((f"label.{_xml(k)}", _scalar(v)) for k, v in value.items() if v is not None)
+            yield from ((f"label.{xml_text(k)}", _scalar(v)) for k, v in value.items() if v is not None)
         elif key in ("centroid", "point") and isinstance(value, list) and len(value) == 3:
             yield from zip("xyz", (float(x) for x in value), strict=True)
         else:
@@ -73,11 +70,7 @@ def _flatten(values: Mapping[str, Any], without: tuple[str, ...]) -> Iterator[tu
 def _scalar(value: Any) -> str | int | float | bool:
     if isinstance(value, (bool, int, float)):
         return value
-    return _xml(value if isinstance(value, str) else json.dumps(value, ensure_ascii=False))
-
-
-def _xml(text: str) -> str:
-    return _NO_XML.sub("", text)
+    return xml_text(value if isinstance(value, str) else json.dumps(value, ensure_ascii=False))
 
 
 def _unique(name: str, taken: set[str]) -> str:

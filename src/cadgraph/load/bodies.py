@@ -4,26 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
+from cadgraph.geometry.components import first_of_component
 from cadgraph.model.scene import Faces, Ints
 
-__all__ = ["split_bodies", "weld"]
-
-
-def weld(points: npt.NDArray[np.float32], faces: Faces) -> tuple[npt.NDArray[np.float32], Faces]:
-    """Joins points in exactly the same place and drops triangles that lose a corner by it.
-
-    Converters repeat the points along the edges between the faces of a solid, bit by bit the same.
-    """
-    rows = np.ascontiguousarray(points + np.float32(0))  # -0 becomes 0
-    _, first, inverse = np.unique(rows.view(np.dtype((np.void, 12))).ravel(), return_index=True, return_inverse=True)
-    order = np.argsort(first)
-    rank = np.empty(len(order), np.int32)
-    rank[order] = np.arange(len(order), dtype=np.int32)
-    joined = rank[inverse.reshape(-1)][faces]
-    return rows[first[order]], joined
+__all__ = ["split_bodies"]
 
 
 def split_bodies(points: npt.NDArray[np.float32], faces: Faces) -> list[Ints]:
@@ -77,6 +62,5 @@ def _shells(faces: Faces, n_points: int) -> tuple[Ints, bool]:
     # Every edge an even number of times, its uses in pairs of opposite sense: closed.
     if (key[a] != key[b]).any() or (forward[a] == forward[b]).any():
         return np.zeros(m, np.int64), False
-    links = coo_array((np.ones(len(owner) // 2, np.int8), (owner[a], owner[b])), shape=(m, m))
-    _, shells = connected_components(links, directed=False)
-    return shells.astype(np.int64), True
+    shells = first_of_component(m, np.column_stack([owner[a], owner[b]]))
+    return np.unique(shells, return_inverse=True)[1], True

@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
+from cadgraph._io.text import natural_key
 from cadgraph.model.diagnostic import Diagnostic
-from cadgraph.model.scene import Faces, Floats, Ints, Scene, Source, natural_key
+from cadgraph.model.scene import Faces, Floats, Ints, Scene, Source
 
 __all__ = ["Notes", "Piece", "pack", "unique_name"]
 

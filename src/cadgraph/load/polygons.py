@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from cadgraph.geometry.mesh.ears import clip_ears, double_area
 from cadgraph.model.scene import Floats, Ints
 
 __all__ = ["Indices", "Triangles", "triangulate"]
@@ -164,18 +165,8 @@ def _dot(u: Rows, v: Rows) -> Floats:
 def _clip_ears(polygon: Floats) -> tuple[npt.NDArray[np.int64], bool]:
     """Triangles ``(n - 2, 3)`` of one polygon as corner numbers, and whether they tile it."""
     ring, total = _flattened(polygon)
-    left = list(range(len(ring)))
-    triangles: list[tuple[int, int, int]] = []
-    at = 0
-    while len(left) > 3:
-        ear = _next_ear(ring, left, at, _NO_TURN * total)
-        if ear is None:
-            ear = _least_bad(ring, left)
-        triangles.append((left[ear - 1], left[ear], left[(ear + 1) % len(left)]))
-        del left[ear]
-        at = ear % len(left)
-    triangles.append((left[0], left[1], left[2]))
-    covered = sum(abs(_cross(ring[a], ring[b], ring[c])) for a, b, c in triangles)
+    triangles, _ = clip_ears(ring, range(len(ring)), _NO_TURN * total)
+    covered = sum(abs(double_area(ring[a], ring[b], ring[c])) for a, b, c in triangles)
     return np.array(triangles, np.int64), abs(covered - total) <= _OVERLAP * total
 
 
@@ -191,42 +182,3 @@ def _flattened(polygon: Floats) -> tuple[Ring, float]:
     side /= np.linalg.norm(side)
     flat = np.column_stack([at @ side, at @ np.cross(normal, side)])
     return [(float(x), float(y)) for x, y in flat], length
-
-
-def _next_ear(ring: Ring, left: list[int], start: int, noise: float) -> int | None:
-    """The first place from ``start`` on whose corner can be cut off, or None."""
-    n = len(left)
-    turns = [_cross(ring[left[i - 1]], ring[left[i]], ring[left[(i + 1) % n]]) for i in range(n)]
-    # Only corners that don't turn left can lie in an ear.
-    inner = [left[i] for i in range(n) if turns[i] <= noise]
-    for step in range(n):
-        i = (start + step) % n
-        if turns[i] > noise and _is_free(ring, left[i - 1], left[i], left[(i + 1) % n], inner):
-            return i
-    return None
-
-
-def _is_free(ring: Ring, before: int, here: int, after: int, inner: list[int]) -> bool:
-    a, b, c = ring[before], ring[here], ring[after]
-    low_x, high_x = min(a[0], b[0], c[0]), max(a[0], b[0], c[0])
-    low_y, high_y = min(a[1], b[1], c[1]), max(a[1], b[1], c[1])
-    for j in inner:
-        p = ring[j]
-        if not (low_x <= p[0] <= high_x and low_y <= p[1] <= high_y):
-            continue
-        # A hole joined by a bridge has corners twice in the same place: those of the ear itself don't block it.
-        if p in (a, b, c):
-            continue
-        if _cross(a, b, p) >= 0 and _cross(b, c, p) >= 0 and _cross(c, a, p) >= 0:
-            return False
-    return True
-
-
-def _least_bad(ring: Ring, left: list[int]) -> int:
-    """The flattest corner: cutting it changes the outline least."""
-    n = len(left)
-    return min(range(n), key=lambda i: abs(_cross(ring[left[i - 1]], ring[left[i]], ring[left[(i + 1) % n]])))
-
-
-def _cross(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float]) -> float:
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])

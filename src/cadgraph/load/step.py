@@ -20,7 +20,8 @@ import numpy as np
 import numpy.typing as npt
 
 from cadgraph.errors import LoadError
-from cadgraph.load.bodies import split_bodies, weld
+from cadgraph.geometry.mesh.merge import weld_points
+from cadgraph.load.bodies import split_bodies
 from cadgraph.load.glb import GlbMesh, GlbNode, read_glb
 from cadgraph.load.packing import Notes, Piece, pack, unique_name
 from cadgraph.model.scene import Faces, Floats, Scene, Source
@@ -118,7 +119,9 @@ def _name(node: GlbNode, meshes: list[GlbMesh]) -> str:
 
 
 def _bodies(mesh: GlbMesh) -> list[_Body]:
-    points, faces = weld(mesh.points, mesh.faces)
+    # Converters repeat the points along the edges between the faces of a solid, bit by bit the same.
+    first, place = weld_points(mesh.points)
+    points, faces = mesh.points[first] + np.float32(0), place.astype(np.int32)[mesh.faces]  # -0 becomes 0
     a, b, c = faces.T
     finite = np.asarray(np.isfinite(points).all(axis=1))
     whole = (a != b) & (b != c) & (c != a) & finite[faces].all(axis=1)

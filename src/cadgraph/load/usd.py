@@ -24,6 +24,7 @@ import numpy as np
 import numpy.typing as npt
 from pxr import Tf, Usd, UsdGeom, UsdUtils
 
+from cadgraph._io.text import printable
 from cadgraph.errors import LoadError
 from cadgraph.load.packing import Notes, Piece, pack
 from cadgraph.load.usd_assets import is_there, open_layers
@@ -315,7 +316,7 @@ def _reason(error: Exception, path: Path) -> str:
     quoted = re.findall(r" : '(.*?)'(?=\s*(?:Error in|$))", report)
     text = quoted[0] if quoted else report
     text = text.replace(str(path.absolute().parent) + os.sep, "").replace(str(path), path.name)
-    text = "".join(c if c.isprintable() else "?" for c in text)
+    text = printable(text, "?")
     return re.sub(r"0x[0-9a-f]+|pxrInternal_\w*?pxrReserved__(::)?", "", text)[:300]
 
 

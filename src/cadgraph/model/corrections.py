@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from cadgraph._io import limits
-from cadgraph._io.atomic import write_atomically
+from cadgraph._io.json_rows import write_json_rows
 from cadgraph._io.limits import read_text_within
 from cadgraph.errors import LabelError
 from cadgraph.model.vocabulary import Vocabulary, spell_label
@@ -97,10 +97,8 @@ def write_corrections(corrections: Sequence[Correction], path: str | Path) -> Pa
         }
         for c in corrections
     ]
-    lines = ",\n".join("  " + json.dumps(row, ensure_ascii=False) for row in rows)
-    head = f' "format": "{_FORMAT}",\n "version": {_VERSION},\n'
-    text = "{\n" + head + (f' "corrections": [\n{lines}\n ]' if rows else ' "corrections": []') + "\n}\n"
-    write_atomically(path, text.encode("utf-8", "backslashreplace"))
+    document = {"format": _FORMAT, "version": _VERSION, "corrections": rows}
+    write_json_rows(path, document, rows=("corrections",))
     return Path(path)
 
 

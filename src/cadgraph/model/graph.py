@@ -11,15 +11,16 @@ from collections import Counter, deque
 from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast, overload
+from typing import TYPE_CHECKING, Any, cast, get_args, overload
 
 from pydantic import ValidationError
 
-from cadgraph._io.atomic import write_atomically
+from cadgraph._io.json_rows import write_json_rows
 from cadgraph._io.limits import GRAPH, read_text_within
 from cadgraph._io.validation_messages import expectation
-from cadgraph.errors import FormatError
+from cadgraph.errors import FormatError, UnknownNode
 from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.names import Names
 from cadgraph.model.records import (
     AnyEdge,
     AnyNode,
@@ -47,7 +48,6 @@ FORMAT = "cadgraph"
 VERSION = 1
 
 Functional = Unit | Junction | Terminal
-_MOST_TOLD = 8  # tags that an error names
 
 
 class SceneGraph:
@@ -112,7 +112,7 @@ class SceneGraph:
         """
         self._check_label(group, name)
         if cluster is not None and not isinstance(self.nodes.get(cluster), Cluster):
-            raise KeyError(f"no cluster has the id {cluster!r}")
+            raise UnknownNode(f"no cluster has the id {cluster!r}")
         members = self._members.get(cluster, ()) if cluster is not None else None
         return [
             part
@@ -162,10 +162,11 @@ class SceneGraph:
         Raises:
             KeyError: neither is in the graph.
         """
-        node = self.nodes.get(which) or self.nodes.get(self._part_of_mesh.get(which, ""))
-        if not isinstance(node, Part):
-            raise KeyError(f"no part has the id or holds the mesh {which!r}")
-        return node
+        return cast("Part", self.find(which, Part))
+
+    def part_with(self, mesh: str) -> Part | None:
+        """The part that holds the mesh of exactly this source path; None where no part does."""
+        return self._names.part_with(mesh)
 
     def unit(self, which: str) -> Unit:
         """The unit with this tag or id.
@@ -173,10 +174,22 @@ class SceneGraph:
         Raises:
             KeyError: neither is in the graph.
         """
-        node = self._unit_of_tag.get(which) or self.nodes.get(which)
-        if not isinstance(node, Unit):
-            raise KeyError(f"no unit has the tag or id {which!r}; {self._known_tags()}")
-        return node
+        return cast("Unit", self.find(which, Unit))
+
+    def find(self, which: str, *layers: type[Node]) -> Node:
+        """The node with this tag or id, or whose part holds the mesh of this source path.
+
+        A tag or id may be spelt loosely (``v4`` for ``V-004``) where only one is meant; a part stands for the unit,
+        junction or terminal that it belongs to, where no parts are asked for.
+
+        Args:
+            which: the tag, id or path.
+            layers: what it may be (``Part``, ``Unit``...); anything if none is given.
+
+        Raises:
+            UnknownNode: there is none, which is a ``KeyError``; the message names the nearest ones.
+        """
+        return self._names.find(which, layers or get_args(Node))
 
     def unit_of(self, part: Part | str) -> Unit | None:
         """The unit that a part belongs to, if any.
@@ -308,17 +321,7 @@ class SceneGraph:
         """
         target = Path(path)
         target = target / "graph.json" if target.suffix != ".json" else target
-        data = self.to_json()
-        lines = []
-        for key, value in data.items():
-            if key in ("nodes", "edges", "diagnostics") and value:
-                rows = ",\n".join("  " + _dumps(row) for row in value)
-                lines.append(f" {_dumps(key)}: [\n{rows}\n ]")
-            else:
-                lines.append(f" {_dumps(key)}: {_dumps(value)}")
-        text = "{\n" + ",\n".join(lines) + "\n}\n"
-        # A lone surrogate has no UTF-8, but its backslash form is what JSON calls it.
-        write_atomically(target, text.encode("utf-8", "backslashreplace"))
+        write_json_rows(target, self.to_json(), rows=("nodes", "edges", "diagnostics"))
         return target
 
     @classmethod
@@ -368,30 +371,17 @@ class SceneGraph:
         return {part: unit.id for unit in self.of_layer(Unit) for part in unit.parts}
 
     @cached_property
-    def _part_of_mesh(self) -> dict[str, str]:
-        return {mesh: part.id for part in self.of_layer(Part) for mesh in part.meshes}
-
-    @cached_property
-    def _unit_of_tag(self) -> dict[str, Unit]:
-        return {unit.tag: unit for unit in self.of_layer(Unit)}
+    def _names(self) -> Names:
+        return Names(self.nodes)
 
     def _resolve(self, which: Part | Functional | str) -> Node:
         if not isinstance(which, str):
             if not isinstance(getattr(which, "id", None), str):
                 raise TypeError(f"give a part, a unit, or the id of one, not {reprlib.repr(which)}")
             if which.id not in self.nodes:
-                raise KeyError(f"{which.id!r} is not in this graph")
+                raise UnknownNode(f"{which.id!r} is not in this graph")
             return self.nodes[which.id]
-        found = self.nodes.get(which) or self._unit_of_tag.get(which)
-        found = found or self.nodes.get(self._part_of_mesh.get(which, ""))
-        if found is None:
-            raise KeyError(f"nothing in the graph has the id, tag or mesh {which!r}; {self._known_tags()}")
-        return found
-
-    def _known_tags(self) -> str:
-        tags = list(self._unit_of_tag)
-        shown = ", ".join(tags[:_MOST_TOLD]) + (f" and {len(tags) - _MOST_TOLD} more" if len(tags) > _MOST_TOLD else "")
-        return f"its units are {shown}" if tags else "it has no units"
+        return self._names.find(which, get_args(Node))
 
     def _unit_types(self) -> set[str]:
         """Those in the graph, and those of the vocabulary's groups."""
@@ -435,7 +425,3 @@ def _what_is_wrong(error: ValidationError, data: Mapping[str, Any]) -> str:
 def _count(n: int, noun: str) -> str:
     plural = {"mesh": "meshes"}.get(noun, f"{noun}s")
     return f"{n:,} {noun if n == 1 else plural}"
-
-
-def _dumps(value: Any) -> str:
-    return json.dumps(value, ensure_ascii=False, allow_nan=False)

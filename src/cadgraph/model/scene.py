@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
 
+from cadgraph._io.text import natural_key
 from cadgraph.model.diagnostic import Diagnostic
 
-__all__ = ["Diagnostic", "Floats", "Ints", "Scene", "Source", "mesh_of_face", "mesh_of_vertex", "natural_key"]
+__all__ = ["Diagnostic", "Floats", "Ints", "Scene", "Source", "mesh_of_face", "mesh_of_vertex"]
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
-_DIGITS = re.compile(r"([0-9]+)")
 
 Faces = npt.NDArray[np.int32]
 
@@ -200,12 +199,6 @@ class Scene:
             anchors=tuple(self.anchors[i] for i in heads) if self.anchors else (),
             diagnostics=self.diagnostics,
         )
-
-
-def natural_key(path: str) -> tuple[tuple[str | int, ...], str]:
-    """A key that sorts ``mesh_2`` before ``mesh_10``, and parents before their children."""
-    steps = _DIGITS.split(path.replace("/", "\x00"))
-    return tuple(int(step) if i % 2 else step for i, step in enumerate(steps)), path
 
 
 def mesh_of_vertex(scene: Scene) -> Ints:

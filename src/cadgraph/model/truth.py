@@ -14,7 +14,7 @@ from typing import Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from cadgraph._io.atomic import write_atomically
+from cadgraph._io.json_rows import write_json_rows
 from cadgraph._io.limits import TRUTH, read_text_within
 from cadgraph.errors import FormatError
 from cadgraph.model.vocabulary import Vocabulary
@@ -250,15 +250,7 @@ class Truth(_Record):
             OutputError: it can't be written.
         """
         target = Path(path)
-        lines = []
-        for key, value in self.to_json().items():
-            if key in _ROWS and value:
-                rows = ",\n".join("  " + _dumps(row) for row in value)
-                lines.append(f" {_dumps(key)}: [\n{rows}\n ]")
-            else:
-                lines.append(f" {_dumps(key)}: {_dumps(value)}")
-        # A lone surrogate has no UTF-8, but its backslash form is what JSON calls it.
-        write_atomically(target, ("{\n" + ",\n".join(lines) + "\n}\n").encode("utf-8", "backslashreplace"))
+        write_json_rows(target, self.to_json(), rows=_ROWS)
         return target
 
     @classmethod
@@ -366,7 +358,3 @@ def _refuse_strangers(names: Iterable[str], known: set[str], section: str, what:
 
 def _refuse_constant(text: str) -> float:
     raise ValueError(f"{text} is no JSON number")
-
-
-def _dumps(value: Any) -> str:
-    return json.dumps(value, ensure_ascii=False, allow_nan=False)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from cadgraph._io.text import natural_key
 from cadgraph.errors import FormatError
 from cadgraph.model.records import (
     Adjacent,
@@ -37,7 +37,6 @@ _JOINS: dict[str, tuple[tuple[tuple[type[Any], ...], tuple[type[Any], ...]], ...
     "connected": (((Unit, Junction, Terminal), (Unit, Junction, Terminal)),),
     "related": (((Unit,), (Unit,)),),
 }
-_DIGITS = re.compile(r"([0-9]+)")
 
 
 def check_names(document: GraphDocument) -> dict[str, Node]:
@@ -110,14 +109,10 @@ def _check_edges(edges: Iterable[Edge], nodes: Mapping[str, Node]) -> None:
 
 
 def _check_contact(edge: Adjacent, here: str) -> None:
-    if _order(edge.source) > _order(edge.target):
+    if natural_key(edge.source) > natural_key(edge.target):
         raise FormatError(f"{here} is the wrong way round: its source must come before its target")
     if edge.distance < 0:
         raise FormatError(f"{here} has the distance {edge.distance:g} m; no distance is below zero")
-
-
-def _order(name: str) -> tuple[str | int, ...]:
-    return tuple(int(step) if i % 2 else step for i, step in enumerate(_DIGITS.split(name)))
 
 
 def _check_nodes(listed: Iterable[Node], nodes: Mapping[str, Node]) -> None:

@@ -7,11 +7,12 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
+from cadgraph._io.text import tag_key
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Unit
 from cadgraph.query.lines import Line, find_lines
 from cadgraph.query.matching import Match, kind_words, match_units
-from cadgraph.query.network import Network, natural
+from cadgraph.query.network import Network
 from cadgraph.query.regions import Region, find_regions
 
 __all__ = [
@@ -249,21 +250,21 @@ class _Names:
     def members(self, region: Region, side: int) -> tuple[list[str], list[str]]:
         """The dividing units and the gauges of a region that are in both, each in order."""
         of = self.of[side]
-        ends = sorted((of[name] for name in region.ends), key=natural)
-        return ends, sorted((of[name] for name in region.inside if name in of), key=natural)
+        ends = sorted((of[name] for name in region.ends), key=tag_key)
+        return ends, sorted((of[name] for name in region.inside if name in of), key=tag_key)
 
     def unmatched(self, side: int, regions: Sequence[Region], alike: Collection[str]) -> tuple[Missing, ...]:
         """The units that are only on this side, with what is around them; without those that are alike in both."""
         network, around = self.networks[side], {}
         for region in regions:
-            near = tuple(sorted((network.name(name) for name in region.ends), key=natural))
+            near = tuple(sorted((network.name(name) for name in region.ends), key=tag_key))
             around.update(dict.fromkeys(region.inside, near))
         units = (
             Missing(network.name(name), network.what(name), around.get(name, ()))
             for name, node in network.places.items()
             if isinstance(node, Unit) and name not in self.of[side] and name not in alike
         )
-        return tuple(sorted(units, key=lambda unit: natural(unit.tag)))
+        return tuple(sorted(units, key=lambda unit: tag_key(unit.tag)))
 
 
 _Pairs = tuple[tuple[str, str], ...]
@@ -281,7 +282,7 @@ def _connections(names: _Names, regions: tuple[list[Region], list[Region]]) -> t
         counts.append(joined)
 
     def listed(pairs: Counter[tuple[str, str]]) -> _Pairs:
-        return tuple(sorted(pairs.elements(), key=lambda pair: (natural(pair[0]), natural(pair[1]))))
+        return tuple(sorted(pairs.elements(), key=lambda pair: (tag_key(pair[0]), tag_key(pair[1]))))
 
     return listed(counts[0] & counts[1]), listed(counts[0] - counts[1]), listed(counts[1] - counts[0])
 

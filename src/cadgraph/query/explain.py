@@ -106,12 +106,9 @@ def explain(graph: SceneGraph, which: str) -> Explanation:
         which: id of the part, or source path of one of its meshes.
 
     Raises:
-        ValueError: the graph has no such part.
+        UnknownNode: the graph has no such part.
     """
-    try:
-        part = graph.part(which)
-    except KeyError:
-        raise ValueError(f"{which}: no part has this id or holds a mesh of this path") from None
+    part = graph.part(which)
     far = {
         edge.target if edge.source == part.id else edge.source: edge.distance
         for edge in graph.of_kind(Adjacent)

@@ -6,10 +6,11 @@ import heapq
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
+from cadgraph._io.text import tag_key
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Terminal
 from cadgraph.query.lines import find_lines
-from cadgraph.query.network import Arc, Network, natural
+from cadgraph.query.network import Arc, Network
 
 __all__ = ["Closing", "Isolation", "Opening", "find_isolation"]
 
@@ -173,7 +174,7 @@ def _close_off(network: Network, start: str, check_valves: bool, fewest: bool) -
     reached, walls = _flood(network, start, barriers, check_valves)
     region = {start, *(place for place in reached if place not in walls)}
     needed = [place for place in walls if not _is_relief(network, place) and _is_fed(network, place, region, walls)]
-    nearest = sorted(reached, key=lambda place: (reached[place].distance, natural(network.name(place))))
+    nearest = sorted(reached, key=lambda place: (reached[place].distance, tag_key(network.name(place))))
     return _Section(start, reached, tuple(nearest), frozenset(walls), frozenset(region), tuple(needed))
 
 
@@ -186,7 +187,7 @@ def _lines(network: Network, section: _Section, line_of: Mapping[int, str]) -> t
         for arc in network.arcs(place)
         if arc.index in line_of
     }
-    return tuple(sorted(tags, key=natural))
+    return tuple(sorted(tags, key=tag_key))
 
 
 def _kind(network: Network, place: str) -> str:
@@ -317,13 +318,13 @@ def _opening(network: Network, place: str, reached: _Reached) -> Opening | None:
 
 
 def _remarks(network: Network, section: _Section, check_valves: bool) -> tuple[str, ...]:
-    places = sorted((section.region | section.walls) - {section.start}, key=lambda place: natural(network.name(place)))
+    places = sorted((section.region | section.walls) - {section.start}, key=lambda place: tag_key(network.name(place)))
     told = [
         f"{network.name(place)} {remark}"
         for place in places
         if (remark := _remark(network, section, place, check_valves)) is not None
     ]
-    guessed = sorted((network.name(p) for p in section.needed if network.what(p) == "valve"), key=natural)
+    guessed = sorted((network.name(p) for p in section.needed if network.what(p) == "valve"), key=tag_key)
     if guessed:
         told.append(f"{', '.join(guessed)}: kind not known, taken for shut-off valves")
     if not network.arcs(section.start):

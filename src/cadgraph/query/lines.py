@@ -7,9 +7,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal, TypeVar
 
+from cadgraph._io.text import tag_key
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Unit
-from cadgraph.query.network import Arc, Flow, Network, natural
+from cadgraph.query.network import Arc, Flow, Network
 
 __all__ = ["Line", "find_lines"]
 
@@ -87,7 +88,7 @@ def find_lines(graph: SceneGraph | Network) -> list[Line]:
     used: set[int] = set()
     runs: list[list[Arc]] = []
     # First from what divides, then the rings that hold nothing of the kind.
-    for place in sorted(network.places, key=lambda place: (not divides(network, place), natural(network.name(place)))):
+    for place in sorted(network.places, key=lambda place: (not divides(network, place), tag_key(network.name(place)))):
         for arc in network.main_arcs(place):
             if arc.index not in used:
                 runs.append(_run(network, arc, used))
@@ -214,5 +215,5 @@ def _changes(values: Iterable[_Number | None]) -> list[_Number]:
 
 
 def _order(line: Line) -> tuple[object, ...]:
-    ends = natural(line.start_name), natural(line.start_port or ""), natural(line.end_name)
-    return natural(line.system or "~"), *ends, natural(line.end_port or ""), line.tag
+    ends = tag_key(line.start_name), tag_key(line.start_port or ""), tag_key(line.end_name)
+    return tag_key(line.system or "~"), *ends, tag_key(line.end_port or ""), line.tag

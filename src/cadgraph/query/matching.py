@@ -6,8 +6,9 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+from cadgraph.model.names import loose_tag
 from cadgraph.model.records import Unit
-from cadgraph.query.network import Network, loose_tag
+from cadgraph.query.network import Network
 from cadgraph.query.regions import find_regions
 
 __all__ = ["Match", "Matching", "kind_words", "match_units"]

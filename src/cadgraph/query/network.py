@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-import difflib
 import math
-import re
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from typing import Literal
 
+from cadgraph._io.text import tag_key
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Connected, Junction, Point, System, Terminal, Unit
 
-__all__ = ["Arc", "Flow", "Network", "Place", "loose_tag", "natural"]
+__all__ = ["Arc", "Flow", "Network", "Place"]
 
 Flow = Literal["along", "against", "unknown"]
 Place = Unit | Junction | Terminal
-
-_NEAR = 3  # tags offered where one is not found
 
 
 @dataclass(frozen=True)
@@ -146,22 +143,12 @@ class Network:
         return self.unit_type(place) == "valve"
 
     def find(self, which: str) -> str:
-        """The id of the unit, junction or terminal with this tag or id.
+        """The id of the unit, junction or terminal with this tag or id, or that a part with this id or mesh belongs to.
 
         Raises:
-            ValueError: there is none; the message names the nearest tags.
+            UnknownNode: there is none, which is a ``ValueError``; the message names the nearest tags.
         """
-        if which in self.places:
-            return which
-        names = {self.name(place): place for place in reversed(self.places)}
-        if which in names:
-            return names[which]
-        loose = {loose_tag(name): name for name in names}
-        if loose_tag(which) in loose:
-            return names[loose[loose_tag(which)]]
-        near = [loose[key] for key in difflib.get_close_matches(loose_tag(which), loose, _NEAR, 0.6)]
-        hint = f"did you mean {', '.join(near)}?" if near else "'cadgraph lines' prints all that are connected"
-        raise ValueError(f"nothing in the graph is called {which!r}; {hint}")
+        return self.graph.find(which, Unit, Junction, Terminal).id
 
     @cached_property
     def _system_of(self) -> dict[str, str]:
@@ -249,18 +236,4 @@ class Network:
         return tuple(name for chain in self.tap_chains(place) for name in chain)
 
     def _order(self, arc: Arc) -> tuple[object, ...]:
-        return natural(self.name(arc.end)), natural(arc.start_port or ""), arc.index, arc.forward
-
-
-def natural(text: str) -> tuple[tuple[int, int, str], ...]:
-    """A key that sorts ``V-2`` before ``V-10``."""
-    return tuple(
-        (0, int(piece), "") if piece.isdigit() else (1, 0, piece.casefold())
-        for piece in re.split(r"([0-9]+)", text)
-        if piece
-    )
-
-
-def loose_tag(name: str) -> str:
-    """A tag as people type it: small letters, no separators, no leading zeros."""
-    return re.sub(r"(?<![0-9])0+(?=[0-9])", "", re.sub(r"[\W_]+", "", name.casefold()))
+        return tag_key(self.name(arc.end)), tag_key(arc.start_port or ""), arc.index, arc.forward

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, Literal, cast
 
+from cadgraph._io.text import tag_key
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Terminal
 from cadgraph.query.lines import find_lines
-from cadgraph.query.network import Arc, Flow, Network, natural
+from cadgraph.query.network import Arc, Flow, Network
 
 if TYPE_CHECKING:
     import networkx
@@ -128,7 +129,7 @@ def trace(
     arcs_to = {p: [walkable.edges[a, b]["arc"] for a, b in pairwise(way)] for p, way in ways.items()}
     walked = {arcs[-1].index for arcs in arcs_to.values() if arcs}
     line_of = _line_of(network)
-    order = sorted(distances, key=lambda p: (distances[p], len(ways[p]), natural(network.name(p))))
+    order = sorted(distances, key=lambda p: (distances[p], len(ways[p]), tag_key(network.name(p))))
     steps: list[Step] = []
     halts: list[Halt] = []
     returns: list[Return] = []

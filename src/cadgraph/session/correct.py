@@ -60,12 +60,12 @@ def amend(
         progress: called with the name of a stage and the share of it that is done.
 
     Raises:
-        ValueError: the graph has no such part, or there is no correction of it to take back.
+        ValueError: the graph has no such part (``UnknownNode``), or there is no correction of it to take back.
         LabelError: the label is not in the graph's vocabulary; the source isn't there or has changed.
         FormatError: the folder holds no graph.
     """
     before = SceneGraph.load(folder)
-    node = _part(before, part, folder)
+    node = before.part(part)
     tree = Vocabulary.from_json(before.document.vocabulary, f"{folder}: vocabulary of the graph")
     if label is not None:
         split_label(label, tree)
@@ -98,13 +98,3 @@ def _write(session: Session, source: Path, target: Path, report: bool, clock: Cl
         else:
             write_atomically(file, old)
         raise
-
-
-def _part(graph: SceneGraph, which: str, folder: str | Path) -> Part:
-    try:
-        return graph.part(which)
-    except KeyError:
-        raise ValueError(
-            f"{which}: no part of {folder} has this id or holds a mesh of this path; "
-            "'cadgraph export --to csv' lists them"
-        ) from None

@@ -153,19 +153,13 @@ class FormerLabeler:
 
     def label(self, parts: Parts, contacts: Contacts, vocabulary: Vocabulary) -> Labeling:
         """Labels parts; see ``cadgraph.labelers.base.Labeler``."""
-        former = [self._part(parts.scene.paths[i]) for i in range(parts.n_parts)]
+        former = [self._graph.part_with(parts.scene.paths[i]) for i in range(parts.n_parts)]
         labels = tuple(_former_label(part) for part in former)
         guesses = tuple(
             part.guesses if part is not None and label is None else ()
             for part, label in zip(former, labels, strict=True)
         )
         return Labeling(labels, guesses, labels, 0.0)
-
-    def _part(self, mesh: str) -> Part | None:
-        try:
-            return self._graph.part(mesh)
-        except KeyError:
-            return None
 
 
 def _former_label(part: Part | None) -> Label | None:

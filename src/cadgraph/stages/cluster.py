@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
+from cadgraph.geometry.components import first_of_component
 from cadgraph.model.parts import Bools, Contacts
 from cadgraph.model.scene import Ints
 
@@ -32,10 +31,8 @@ def cluster_parts(n_parts: int, contacts: Contacts, ground: Bools, min_samples: 
     n_near = np.bincount(pairs.reshape(-1), minlength=n_parts) + 1
     core = (n_near >= min_samples) & ~ground
     inner = pairs[core[pairs].all(axis=1)]
-    links = coo_array((np.ones(len(inner), np.int8), (inner[:, 0], inner[:, 1])), shape=(n_parts, n_parts))
-    component = connected_components(links, directed=False)[1].astype(np.int64)
     cluster = np.full(n_parts, -1, np.int64)
-    _, cluster[core] = np.unique(_by_first(component[core]), return_inverse=True)
+    _, cluster[core] = np.unique(first_of_component(n_parts, inner)[core], return_inverse=True)
     border = pairs[core[pairs].sum(axis=1) == 1]
     outer = np.where(core[border[:, 0]], border[:, 1], border[:, 0])
     joined = cluster[np.where(core[border[:, 0]], border[:, 0], border[:, 1])]

@@ -14,6 +14,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from cadgraph.geometry.components import connected_sets
 from cadgraph.model.scene import Floats
 from cadplants.defects import loosen
 from cadplants.drawn_styles import draw_hand
@@ -344,29 +345,21 @@ _SPOOL = ("pipe", "elbow", "flange")
 def _spooled(whole: Assembly) -> Assembly:
     """Pipes, elbows and flanges that are welded to each other as one mesh called pipe; flanges stay apart."""
     names = [c.name if c.group == "Pipe assembly" and c.family not in FAMILIES else "" for c in whole.components]
-    root = list(range(len(names)))
-
-    def find(i: int) -> int:
-        while root[i] != i:
-            i = root[i]
-        return i
-
-    for a, b in whole.contacts:
-        if names[a] in _SPOOL and names[b] in _SPOOL and (names[a], names[b]) != ("flange", "flange"):
-            root[max(find(a), find(b))] = min(find(a), find(b))
-    heads = sorted({find(i) for i in range(len(names))})
-    place = {head: k for k, head in enumerate(heads)}
-    members: dict[int, list[int]] = {head: [] for head in heads}
-    for i in range(len(names)):
-        members[find(i)].append(i)
+    joined = [
+        (a, b)
+        for a, b in whole.contacts
+        if names[a] in _SPOOL and names[b] in _SPOOL and (names[a], names[b]) != ("flange", "flange")
+    ]
+    spools = connected_sets(range(len(names)), joined)
     components = []
-    for head in heads:
-        one = whole.components[head]
-        if len(members[head]) > 1:
-            solids = [moved(whole.components[i].solid, whole.components[i].pose) for i in members[head]]
+    for spool in spools:
+        one = whole.components[spool[0]]
+        if len(spool) > 1:
+            solids = [moved(whole.components[i].solid, whole.components[i].pose) for i in spool]
             one = replace(one, solid=merge(solids), pose=np.eye(4), name="pipe", family="pipe/spool", granularity="one")
         components.append(one)
-    pairs = {(place[find(a)], place[find(b)]) for a, b in whole.contacts}
+    place = {i: k for k, spool in enumerate(spools) for i in spool}
+    pairs = {(place[a], place[b]) for a, b in whole.contacts}
     contacts = tuple(sorted({(min(p), max(p)) for p in pairs if p[0] != p[1]}))
     return replace(whole, components=tuple(components), contacts=contacts)
 

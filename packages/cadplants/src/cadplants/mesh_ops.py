@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from cadgraph.geometry.mesh.merge import weld_points
 from cadgraph.model.scene import Floats
 from cadplants.polygon import triangulate
 
@@ -63,14 +64,10 @@ def _shell(vertices: npt.ArrayLike, faces: npt.ArrayLike) -> Shell:
 def weld(shells: Sequence[Shell]) -> Solid:
     """Joins shells at coincident corners and drops triangles that collapse."""
     joined = merge(shells)
-    keys = np.round(joined.vertices / _WELD).astype(np.int64)
-    _, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
-    order = np.argsort(first, kind="stable")
-    rank = np.empty_like(order)
-    rank[order] = np.arange(len(order))
-    faces = rank[inverse.reshape(-1)][joined.faces]
+    first, place = weld_points(joined.vertices, _WELD)
+    faces = place[joined.faces]
     keep = (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
-    return _shell(joined.vertices[first[order]], faces[keep])
+    return _shell(joined.vertices[first], faces[keep])
 
 
 def merge(shells: Sequence[Shell]) -> Solid:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from cadgraph.geometry.mesh.ears import clip_ears
 from cadgraph.model.scene import Floats, Ints
 
 __all__ = ["circle", "rounded_rectangle", "section_angle", "section_channel", "section_i", "triangulate"]
@@ -80,7 +81,10 @@ def triangulate(outline: Floats, holes: tuple[Floats, ...] = ()) -> Ints:
     for i in order:
         ring = list(range(int(starts[i]), int(starts[i + 1])))[::-1]
         loop = _bridge(points, loop, ring)
-    return _cut_ears(points, loop)
+    triangles, n_forced = clip_ears([(float(x), float(y)) for x, y in points], loop, _TINY, skip=1)
+    if n_forced:
+        raise ValueError("an outline crosses itself or its holes")
+    return np.array(triangles, np.int64)
 
 
 def _bridge(points: Floats, loop: list[int], ring: list[int]) -> list[int]:
@@ -111,39 +115,6 @@ def _bridge(points: Floats, loop: list[int], ring: list[int]) -> list[int]:
         best = np.flatnonzero(rank <= rank.min() * (1 + 1e-12))
         pick = int(best[np.argmin(offset[best, 0])])
     return [*loop[: pick + 1], *ring, ring[0], *loop[pick:]]
-
-
-def _cut_ears(points: Floats, loop: list[int]) -> Ints:
-    """Cuts convex corners that hold no other corner, going round so that triangles stay even."""
-    triangles: list[tuple[int, int, int]] = []
-    position, misses = 0, 0
-    while len(loop) > 3:
-        n = len(loop)
-        if misses > n:
-            raise ValueError("an outline crosses itself or its holes")
-        position %= n
-        ia, ib, ic = loop[position - 1], loop[position], loop[(position + 1) % n]
-        if _is_ear(points, loop, ia, ib, ic):
-            triangles.append((ia, ib, ic))
-            del loop[position]
-            misses = 0
-        else:
-            misses += 1
-        position += 1
-    triangles.append((loop[0], loop[1], loop[2]))
-    return np.array(triangles, np.int64)
-
-
-def _is_ear(points: Floats, loop: list[int], ia: int, ib: int, ic: int) -> bool:
-    a, b, c = points[ia], points[ib], points[ic]
-    if (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]) <= _TINY:
-        return False
-    others = points[loop]
-    low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
-    others = others[((others >= low) & (others <= high)).all(axis=1)]
-    inside = _inside(others, np.array([a, b, c]))
-    same = (others == a).all(axis=1) | (others == b).all(axis=1) | (others == c).all(axis=1)
-    return not (inside & ~same).any()
 
 
 def _cross(u: Floats, v: Floats) -> Floats:

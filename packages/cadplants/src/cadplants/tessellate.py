@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from cadgraph.geometry.components import first_of_component
 from cadplants.mesh_ops import Solid
 
 __all__ = ["facets"]
@@ -27,9 +28,6 @@ def facets(solid: Solid) -> tuple[_Ints, _Ints]:
     Returns:
         ``(n,)`` how many corners each polygon has, and ``(sum,)`` their indices into the solid's vertices.
     """
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
     faces = solid.faces.astype(np.int64)
     corners = solid.vertices[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -50,8 +48,7 @@ def facets(solid: Solid) -> tuple[_Ints, _Ints]:
     a, b = owner[paired], owner[mate[paired]]
     level = (np.einsum("ij,ij->i", normals[a], normals[b]) > 1 - _FLAT) & (np.abs(levels[a] - levels[b]) < _LEVEL)
     level &= (lengths[a] > 0) & (lengths[b] > 0)
-    links = coo_matrix((np.ones(int(level.sum())), (a[level], b[level])), shape=(len(faces), len(faces)))
-    _, group = connected_components(links, directed=False)
+    group = first_of_component(len(faces), np.column_stack([a[level], b[level]]))
     inner = np.zeros(len(forth), np.bool_)
     inner[np.flatnonzero(paired)[level]] = True
     counts: list[int] = []

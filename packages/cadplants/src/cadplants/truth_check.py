@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cadgraph.geometry.components import connected_sets
 from cadgraph.geometry.contact.pairs import distances, find_contacts
 from cadgraph.model.parts import Contacts
 from cadgraph.model.scene import Floats, Scene
@@ -191,7 +192,7 @@ def _clusters(case: _Case) -> _Outcomes:
     joined = [(case.scene.paths[a], case.scene.paths[b]) for a, b in case.told()]
     hidden = set(case.truth.hidden)
     for cluster in case.truth.clusters or ():
-        pieces = _pieces([mesh for mesh in cluster.meshes if mesh not in hidden], joined)
+        pieces = connected_sets([mesh for mesh in cluster.meshes if mesh not in hidden], joined)
         wrong = f"{cluster.id or 'a cluster'} falls into {len(pieces)} pieces"
         yield None if len(pieces) <= 1 else (wrong, tuple(piece[0] for piece in pieces))
 
@@ -224,7 +225,7 @@ def _count_pieces(own: Sequence[str], loose: Collection[str], beside: Mapping[st
     """Into how many pieces some meshes fall that loose ones may hold together."""
     between = {mesh for one in own for mesh in beside.get(one, ()) if mesh in loose}
     near = [(a, b) for a in (*own, *between) for b in beside.get(a, ())]
-    return sum(not set(own).isdisjoint(piece) for piece in _pieces([*own, *sorted(between)], near))
+    return sum(not set(own).isdisjoint(piece) for piece in connected_sets([*own, *sorted(between)], near))
 
 
 def _neighbors(joined: Iterable[tuple[str, str]]) -> dict[str, set[str]]:
@@ -300,25 +301,6 @@ def _hidden(case: _Case) -> _Outcomes:
     for mesh in case.truth.hidden:
         wrong = f"{mesh} is said to be hidden, but touches {', '.join(touched.get(mesh, ())[:_SHOWN])}"
         yield None if mesh not in touched else (wrong, (mesh,))
-
-
-def _pieces(members: Iterable[str], joined: Iterable[tuple[str, str]]) -> list[list[str]]:
-    """The sets of members that hang together by joined pairs among them."""
-    head = {member: member for member in members}
-
-    def root(member: str) -> str:
-        while head[member] != member:
-            head[member] = head[head[member]]
-            member = head[member]
-        return member
-
-    for a, b in joined:
-        if a in head and b in head:
-            head[root(a)] = root(b)
-    pieces: dict[str, list[str]] = {}
-    for member in head:
-        pieces.setdefault(root(member), []).append(member)
-    return list(pieces.values())
 
 
 def _to_axis(places: Floats, line: TruthLine) -> tuple[Floats, Floats]:

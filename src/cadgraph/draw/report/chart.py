@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from markupsafe import Markup
+from cadgraph.draw.svg import Svg, element, joined
 
 __all__ = ["Bar", "draw_bars"]
 
@@ -35,7 +35,7 @@ class Bar:
         return sum(count for _, count in self.segments)
 
 
-def draw_bars(bars: Sequence[Bar]) -> Markup:
+def draw_bars(bars: Sequence[Bar]) -> Svg:
     """A horizontal bar for each group, divided by name; counts and shares at the right.
 
     Every text is escaped. Colours of text come from the page's style sheet, so that they follow its light or dark mode.
@@ -48,29 +48,37 @@ def draw_bars(bars: Sequence[Bar]) -> Markup:
     """
     total = sum(bar.count for bar in bars)
     if not total:
-        return Markup("")
+        return Svg()
     longest = max(bar.count for bar in bars)
     room = _WIDTH - _LABEL - _COUNT
     height = _ROW * len(bars) + 4
     drawn = [_row(bar, i * _ROW + 4, room / longest, total) for i, bar in enumerate(bars)]
     summary = "; ".join(f"{bar.title}: {bar.count}" for bar in bars)
-    stripes = Markup(
-        '<defs><pattern id="stripes" width="6" height="6" patternUnits="userSpaceOnUse" '
-        'patternTransform="rotate(45)"><rect width="6" height="6" fill="#d3d8de"/>'
-        '<rect width="2" height="6" fill="#a9b1bb"/></pattern></defs>'
+    stripes = element(
+        "pattern",
+        element("rect", width=6, height=6, fill="#d3d8de"),
+        element("rect", width=2, height=6, fill="#a9b1bb"),
+        id="stripes",
+        width=6,
+        height=6,
+        patternUnits="userSpaceOnUse",
+        patternTransform="rotate(45)",
     )
-    return Markup(
-        '<svg class="chart" viewBox="0 0 {w} {h}" role="img" aria-label="Parts by group. {label}">{defs}{rows}</svg>'
-    ).format(w=_WIDTH, h=height, label=summary, defs=stripes, rows=Markup("").join(drawn))
+    return element(
+        "svg",
+        element("defs", stripes),
+        *drawn,
+        class_="chart",
+        viewBox=f"0 0 {_WIDTH} {height}",
+        role="img",
+        aria_label=f"Parts by group. {summary}",
+    )
 
 
-def _row(bar: Bar, top: float, scale: float, total: int) -> Markup:
+def _row(bar: Bar, top: float, scale: float, total: int) -> Svg:
     middle = top + _ROW / 2 - 4
-    pieces = [
-        Markup('<text class="name" x="{x}" y="{y}" text-anchor="end">{text}</text>').format(
-            x=_LABEL - 10, y=round(middle + 4, 1), text=_shortened(bar.title, _LABEL - 14)
-        )
-    ]
+    title = _shortened(bar.title, _LABEL - 14)
+    pieces = [element("text", title, class_="name", x=_LABEL - 10, y=middle + 4, text_anchor="end")]
     left = float(_LABEL)
     unnamed = []
     for i, (name, count) in enumerate(bar.segments):
@@ -81,40 +89,24 @@ def _row(bar: Bar, top: float, scale: float, total: int) -> Markup:
         left += width
     share = f"{100 * bar.count / total:.1f} %"
     room = _WIDTH - left - 24 - _LETTER * len(f"{bar.count:,} {share}")
-    pieces.append(
-        Markup('<text class="count" x="{x}" y="{y}">{n} <tspan class="share">{share}{names}</tspan></text>').format(
-            x=round(left + 8, 2),
-            y=round(middle + 4, 1),
-            n=f"{bar.count:,}",
-            share=share,
-            names=_listed(unnamed, room),
-        )
-    )
-    return Markup("").join(pieces)
+    shares = element("tspan", share + _listed(unnamed, room), class_="share")
+    pieces.append(element("text", f"{bar.count:,} ", shares, class_="count", x=left + 8, y=middle + 4))
+    return joined(pieces)
 
 
-def _segment(bar: Bar, name: str, count: int, place: tuple[float, float, float], number: int) -> Markup:
+def _segment(bar: Bar, name: str, count: int, place: tuple[float, float, float], number: int) -> Svg:
     left, top, width = place
-    label = name if _fits(name, width) else ""
-    text = Markup('<text class="{kind}" x="{x}" y="{y}">{text}</text>').format(
-        kind="dark" if bar.hatched else "light", x=round(left + 5, 2), y=round(top + _ROW / 2, 1), text=label
-    )
     # Alternating tints keep neighbours apart without another colour.
     tint = 1.0 if bar.hatched else (1.0, 0.78, 0.89, 0.7)[number % 4]
-    return Markup(
-        '<g><title>{name}: {count}</title><rect x="{x}" y="{y}" width="{width}" height="{height}" rx="2" '
-        'fill="{fill}" fill-opacity="{tint}"/>{text}</g>'
-    ).format(
-        name=name,
-        count=count,
-        x=round(left, 2),
-        y=round(top, 2),
-        width=round(max(width - 1, 0.6), 2),
-        height=_ROW - 9,
-        fill="url(#stripes)" if bar.hatched else bar.color,
-        tint=tint,
-        text=text if label else "",
-    )
+    fill = "url(#stripes)" if bar.hatched else bar.color
+    pieces = [
+        element("title", f"{name}: {count}"),
+        element("rect", x=left, y=top, width=max(width - 1, 0.6), height=_ROW - 9, rx=2, fill=fill, fill_opacity=tint),
+    ]
+    if _fits(name, width):
+        kind = "dark" if bar.hatched else "light"
+        pieces.append(element("text", name, class_=kind, x=left + 5, y=top + _ROW / 2))
+    return element("g", *pieces)
 
 
 def _fits(name: str, width: float) -> bool:

@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from html import escape
 from itertools import pairwise
 from pathlib import PurePosixPath, PureWindowsPath
 
+from cadgraph._io.text import tag_key
 from cadgraph.draw.schematic.layout import Placed, Way, lay_out, pack
 from cadgraph.draw.schematic.plan import Cell, Edge, Row, plan_systems
-from cadgraph.draw.schematic.symbol import TAG_SIZE, Symbol, clean, number, text_width
-from cadgraph.query.network import Network, natural
+from cadgraph.draw.schematic.symbol import TAG_SIZE, Symbol, clean, text_width
+from cadgraph.draw.svg import Svg, element, joined, number
+from cadgraph.query.network import Network
 
 __all__ = ["draw_sheet"]
 
@@ -37,8 +38,8 @@ Box = tuple[float, float, float, float]
 class _Paper:
     """What is drawn so far, and what of the paper is taken."""
 
-    pipes: list[str] = field(default_factory=list)
-    marks: list[str] = field(default_factory=list)
+    pipes: list[Svg] = field(default_factory=list)
+    marks: list[Svg] = field(default_factory=list)
     boxes: list[Box] = field(default_factory=list)
     segments: list[Box] = field(default_factory=list)
 
@@ -59,19 +60,26 @@ def draw_sheet(network: Network, system: str | None = None) -> str:
     ]
     if not placed:
         empty = "No connections along pipes in this graph."
-        body.append(f'<text x="{number(_MARGIN)}" y="{number(_MARGIN + 20)}" font-size="12">{empty}</text>')
+        body.append(element("text", empty, x=_MARGIN, y=_MARGIN + 20, font_size=12))
     for i, note in enumerate(notes):
         y = height - _MARGIN - _BLOCK[1] - 12 * (len(notes) - i)
-        body.append(f'<text class="g" x="{number(_MARGIN)}" y="{number(y)}" font-size="8">{escape(note)}</text>')
+        body.append(element("text", note, class_="g", x=_MARGIN, y=y, font_size=8))
     body.append(_title_block(network, width, height, len(placed), system))
-    frame = f'<rect class="f" x="8" y="8" width="{number(width - 16)}" height="{number(height - 16)}"/>'
-    size = f'width="{number(width)}" height="{number(height)}" viewBox="0 0 {number(width)} {number(height)}"'
-    name = escape(_file_name(network.graph.source.path))
-    return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" class="schematic" {size} role="img">'
-        f"<title>Schematic of {name}</title><style>.schematic {_scoped(_STYLE)}</style>"
-        f'<rect class="w" width="100%" height="100%"/>{frame}' + "".join(body) + "</svg>\n"
+    drawn = element(
+        "svg",
+        element("title", f"Schematic of {_file_name(network.graph.source.path)}"),
+        element("style", Svg(f".schematic {_scoped(_STYLE)}")),
+        element("rect", class_="w", width="100%", height="100%"),
+        element("rect", class_="f", x=8, y=8, width=width - 16, height=height - 16),
+        *body,
+        xmlns="http://www.w3.org/2000/svg",
+        class_="schematic",
+        width=width,
+        height=height,
+        viewBox=f"0 0 {number(width)} {number(height)}",
+        role="img",
     )
+    return f"{drawn}\n"
 
 
 def _scoped(style: str) -> str:
@@ -79,7 +87,7 @@ def _scoped(style: str) -> str:
     return "}.schematic ".join(style.rstrip("}").split("}")) + "}"
 
 
-def _system(placed: Placed, dx: float, dy: float) -> str:
+def _system(placed: Placed, dx: float, dy: float) -> Svg:
     paper = _Paper()
     sketch = placed.sketch
     for edge, way in zip(sketch.edges, placed.ways, strict=True):
@@ -99,9 +107,8 @@ def _system(placed: Placed, dx: float, dy: float) -> str:
     for edge, way in zip(sketch.edges, placed.ways, strict=True):
         if edge.port and sketch.anchors[edge.anchor].symbol.form in ("tank", "pump", "equipment", "exchanger"):
             _name_port(paper, edge.port, way)
-    caption = f'<text class="h" x="{number(placed.box[0])}" y="{number(placed.box[1] - 10)}" font-size="10">'
-    inner = caption + escape(clean(sketch.title)) + "</text>" + "".join(paper.pipes) + "".join(paper.marks)
-    return f'<g transform="translate({number(dx)} {number(dy)})">{inner}</g>'
+    caption = element("text", clean(sketch.title), class_="h", x=placed.box[0], y=placed.box[1] - 10, font_size=10)
+    return element("g", caption, *paper.pipes, *paper.marks, transform=f"translate({number(dx)} {number(dy)})")
 
 
 def _ended(placed: Placed, edge: Edge, way: Way) -> Way:
@@ -148,7 +155,7 @@ def _directions(
 def _draw_way(paper: _Paper, row: Row, edge: Edge, way: Way) -> None:
     style = ("p" if row.line else "i") + ("" if edge.solid else " u")
     d = "M" + "L".join(f"{number(x)} {number(y)}" for x, y in way)
-    paper.pipes.append(f'<path class="{style}" d="{d}"/>')
+    paper.pipes.append(element("path", class_=style, d=d))
     for (ax, ay), (bx, by) in zip(way, way[1:], strict=False):
         paper.segments.append((min(ax, bx), min(ay, by), max(ax, bx), max(ay, by)))
     if edge.flow == "in":
@@ -165,7 +172,7 @@ def _draw_arrow(paper: _Paper, way: Way, short: float) -> None:
             left = (x - 8 * ux - 3 * uy, y - 8 * uy + 3 * ux)
             right = (x - 8 * ux + 3 * uy, y - 8 * uy - 3 * ux)
             corners = " ".join(f"{number(a)},{number(b)}" for a, b in ((x, y), left, right))
-            paper.marks.append(f'<polygon class="k" points="{corners}"/>')
+            paper.marks.append(element("polygon", class_="k", points=corners))
             return
 
 
@@ -177,7 +184,7 @@ def _draw_row(paper: _Paper, row: Row, x: float, y: float) -> None:
     if row.line is None and row.cells:
         last = row.cells[-1]
         end = left + used - last.width / 2
-    paper.pipes.append(f'<path class="{style}" d="M{number(left)} {number(y)}H{number(end)}"/>')
+    paper.pipes.append(element("path", class_=style, d=f"M{number(left)} {number(y)}H{number(end)}"))
     paper.segments.append((left, y, left + row.width, y))
     at = left + (row.width - used) / 2 if row.line else left
     for cell in row.cells:
@@ -207,14 +214,14 @@ def _draw_cell(paper: _Paper, cell: Cell, x: float, y: float, style: str) -> Non
     foot = y
     for symbol in cell.hanging:
         middle = foot - 20.0 - symbol.bottom
-        paper.pipes.append(f'<path class="i" d="M{number(x)} {number(foot)}V{number(middle)}"/>')
+        paper.pipes.append(element("path", class_="i", d=f"M{number(x)} {number(foot)}V{number(middle)}"))
         paper.marks.append(symbol.draw(x, middle))
         paper.boxes.append((x - symbol.left, middle - symbol.top, x + symbol.right, middle + symbol.bottom))
         if symbol.label_width:
             _text(paper, symbol.label, x + symbol.right + 2, middle + 3, 6.5, "")
         foot = middle - symbol.top
     if cell.symbol is None:
-        paper.marks.append(f'<circle class="k" cx="{number(x)}" cy="{number(y)}" r="1.8"/>')
+        paper.marks.append(element("circle", class_="k", cx=x, cy=y, r=1.8))
 
 
 def _draw_reducer(paper: _Paper, x: float, y: float, sizes: tuple[int, int]) -> None:
@@ -223,7 +230,7 @@ def _draw_reducer(paper: _Paper, x: float, y: float, sizes: tuple[int, int]) -> 
     left, right = number(x - 5), number(x + 5)
     d = f"M{left} {number(y - big)}L{right} {number(y - small)}V{number(y + small)}L{left} {number(y + big)}Z"
     title = f"DN {sizes[0]} to DN {sizes[1]}"
-    paper.marks.append(f'<g><title>{title}</title><path class="s" d="{d}"/></g>')
+    paper.marks.append(element("g", element("title", title), element("path", class_="s", d=d)))
     paper.boxes.append((x - 5, y - 6, x + 5, y + 6))
 
 
@@ -236,7 +243,7 @@ def _draw_anchor(paper: _Paper, symbol: Symbol, x: float, y: float, own: list[tu
         # The box of an end is as wide as its name; the line goes on to the symbol in its middle.
         ax, ay = ways[0][0]
         reach = x - math.copysign(symbol.left, x - ax) if abs(ax - x) > abs(ay - y) else x
-        paper.pipes.append(f'<path class="p" d="M{number(ax)} {number(ay)}L{number(reach)} {number(y)}"/>')
+        paper.pipes.append(element("path", class_="p", d=f"M{number(ax)} {number(ay)}L{number(reach)} {number(y)}"))
         _text(paper, symbol.label, x, y + symbol.bottom + 8, 6.5, "c g")
     paper.marks.append(symbol.draw(x, y))
     paper.boxes.append((x - symbol.left, y - symbol.top, x + symbol.right, y + symbol.bottom))
@@ -280,11 +287,10 @@ def _text(paper: _Paper, text: str, x: float, y: float, size: float, style: str)
     width = text_width(text, size)
     left = x - width / 2 if "c" in style.split() else x
     paper.boxes.append((left, y - size, left + width, y + 1))
-    name = f' class="{style}"' if style else ""
-    paper.marks.append(f'<text{name} x="{number(x)}" y="{number(y)}" font-size="{number(size)}">{escape(text)}</text>')
+    paper.marks.append(element("text", text, class_=style or None, x=x, y=y, font_size=size))
 
 
-def _title_block(network: Network, width: float, height: float, count: int, system: str | None) -> str:
+def _title_block(network: Network, width: float, height: float, count: int, system: str | None) -> Svg:
     from cadgraph import __version__
 
     w, h = _BLOCK
@@ -295,11 +301,10 @@ def _title_block(network: Network, width: float, height: float, count: int, syst
         ("g", 7.0, "Derived from geometry, to be checked on site. Arrow: known flow. Dashed: unsure."),
         ("g", 7.0, f"cadgraph {__version__} · symbols after ISO 10628-2 and ISA 5.1"),
     )
-    told = [f'<rect class="f" x="{number(x)}" y="{number(y)}" width="{number(w)}" height="{number(h)}"/>']
+    drawn = [element("rect", class_="f", x=x, y=y, width=w, height=h)]
     for i, (style, size, text) in enumerate(rows):
-        place = f'x="{number(x + 8)}" y="{number(y + 15 + 13 * i)}" font-size="{number(size)}"'
-        told.append(f'<text class="{style}" {place}>{escape(clean(text) if i == 0 else text)}</text>')
-    return "".join(told)
+        drawn.append(element("text", text, class_=style, x=x + 8, y=y + 15 + 13 * i, font_size=size))
+    return joined(drawn)
 
 
 def _file_name(path: str) -> str:
@@ -309,7 +314,7 @@ def _file_name(path: str) -> str:
 
 def _loose_units(network: Network) -> list[str]:
     tags = (clean(network.name(place)) for place in network.places if not network.arcs(place))
-    return sorted(tags, key=natural)
+    return sorted(tags, key=tag_key)
 
 
 def _wrapped(text: str, width: float) -> Iterator[str]:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Sequence
 
+from cadgraph._io.text import tag_key
 from cadgraph.model.records import Terminal
 from cadgraph.query.lines import Line
-from cadgraph.query.network import Network, natural
+from cadgraph.query.network import Network
 
 __all__ = ["order_anchors"]
 
@@ -51,7 +52,7 @@ def order_anchors(network: Network, anchors: Sequence[str], lines: Sequence[Line
         tank_first = network.unit_type(place) == "tank" and (known[place] or unknown[place])
         return (
             not tank_first, not feeds, not open_suction, place not in suction, not is_end, is_pump,
-            -width.get(place, 0), natural(network.name(place)),
+            -width.get(place, 0), tag_key(network.name(place)),
         )  # fmt: skip
 
     roots = sorted(anchors, key=rank)
@@ -93,7 +94,7 @@ def _oriented(roots: Sequence[str], known: Links, unknown: Links) -> Links:
         while waiting:
             place = waiting.popleft()
             rank[place] = len(rank)
-            for other in sorted((*known[place], *unknown[place]), key=natural):
+            for other in sorted((*known[place], *unknown[place]), key=tag_key):
                 if other not in seen:
                     seen.add(other)
                     waiting.append(other)
@@ -104,7 +105,7 @@ def _oriented(roots: Sequence[str], known: Links, unknown: Links) -> Links:
 
 def _visit(root: str, ahead: Links, seen: set[str], finished: list[str]) -> None:
     """Depth first without recursion, for plants of any size; a node is finished after all that it leads to."""
-    stack = [(root, iter(sorted(ahead[root], key=natural)))]
+    stack = [(root, iter(sorted(ahead[root], key=tag_key)))]
     seen.add(root)
     while stack:
         place, onward = stack[-1]
@@ -114,4 +115,4 @@ def _visit(root: str, ahead: Links, seen: set[str], finished: list[str]) -> None
             stack.pop()
         else:
             seen.add(step)
-            stack.append((step, iter(sorted(ahead[step], key=natural))))
+            stack.append((step, iter(sorted(ahead[step], key=tag_key))))

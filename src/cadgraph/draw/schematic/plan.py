@@ -9,11 +9,12 @@ from itertools import pairwise
 
 import networkx
 
+from cadgraph._io.text import tag_key
 from cadgraph.draw.schematic.order import order_anchors
 from cadgraph.draw.schematic.symbol import Symbol, symbol_of, text_width
 from cadgraph.model.records import Junction, System
 from cadgraph.query.lines import Line, find_lines
-from cadgraph.query.network import Network, natural
+from cadgraph.query.network import Network
 
 __all__ = ["Anchor", "Cell", "Edge", "Row", "Sketch", "plan_systems"]
 
@@ -162,10 +163,10 @@ def plan_systems(network: Network, only: str | None = None) -> list[Sketch]:
     joined: networkx.Graph[str] = networkx.Graph()
     for edge in network.edges:
         joined.add_edge(edge.source, edge.target)
-    groups = [sorted(group, key=lambda p: natural(network.name(p))) for group in networkx.connected_components(joined)]
+    groups = [sorted(group, key=lambda p: tag_key(network.name(p))) for group in networkx.connected_components(joined)]
     if only is not None:
         groups = [group for group in groups if any(network.system(place) == only for place in group)]
-    groups.sort(key=lambda group: (-len(group), natural(network.name(group[0]))))
+    groups.sort(key=lambda group: (-len(group), tag_key(network.name(group[0]))))
     return [_sketch(network, group, lines) for group in groups]
 
 
@@ -178,7 +179,7 @@ def _sketch(network: Network, group: Sequence[str], lines: Sequence[Line]) -> Sk
         inside = any(place == arc.end for line in own for arc in line.arcs[:-1])
         if network.tap_chains(place) and not inside and not network.is_gauge(place) and not network.is_valve(place):
             places.setdefault(place)
-    anchors = sorted(places, key=lambda place: natural(network.name(place)))
+    anchors = sorted(places, key=lambda place: tag_key(network.name(place)))
     index = {place: i for i, place in enumerate(anchors)}
     order = order_anchors(network, anchors, own)
     rows: list[Row] = []

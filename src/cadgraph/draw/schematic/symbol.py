@@ -3,24 +3,22 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from html import escape
 
+from cadgraph._io.text import xml_text
+from cadgraph.draw.svg import Svg, element, number
 from cadgraph.model.records import Junction, Terminal, Unit
 from cadgraph.query.network import Network
 
-__all__ = ["Symbol", "clean", "instrument_letters", "number", "symbol_of", "text_width"]
+__all__ = ["Symbol", "clean", "instrument_letters", "symbol_of", "text_width"]
 
 TAG_SIZE = 8.0  # px, size of tags
 _VALVE = (13.0, 7.5)  # px, half the length and half the height of a valve
 _BUBBLE = 15.0  # px, radius of an instrument's circle
 _PUMP = 18.0  # px, radius of a pump's circle
 
-# XML 1.0, production [2] Char: everything else can't stand in a document, not even escaped.
-_NO_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _MOST = 40  # characters of a name that are shown
 
 
@@ -69,12 +67,12 @@ class Symbol:
             return 0.0
         return text_width(self.label, TAG_SIZE)
 
-    def draw(self, x: float, y: float) -> str:
+    def draw(self, x: float, y: float) -> Svg:
         """SVG of the symbol with its centre at a point, without the tag beside it."""
         turn = " rotate(-90)" if self.upright and self.form in _TURNING else ""
         body = _FORMS[self.form](self)
         move = f"translate({number(x)} {number(y)}){turn}"
-        return f'<g transform="{move}"><title>{escape(self.title)}</title>{body}</g>'
+        return element("g", element("title", self.title), body, transform=move)
 
 
 def symbol_of(network: Network, place: str, flow: int = 0, upright: bool = False) -> Symbol:
@@ -151,7 +149,7 @@ def instrument_letters(kind: str | None) -> str:
 
 def clean(text: str) -> str:
     """A name fit for XML, not longer than a drawing can show."""
-    told = " ".join(_NO_XML.sub("", text).split())
+    told = " ".join(xml_text(text).split())
     return told if len(told) <= _MOST else f"{told[: _MOST - 1]}…"
 
 
@@ -161,74 +159,73 @@ def text_width(text: str, size: float) -> float:
     return wide * size
 
 
-def number(value: float) -> str:
-    """A coordinate to a hundredth, without trailing zeros."""
-    return f"{round(value, 2) + 0.0:.2f}".rstrip("0").rstrip(".")
+def _path(d: str, style: str = "s") -> Svg:
+    return element("path", class_=style, d=d)
 
 
-def _path(d: str, style: str = "s") -> str:
-    return f'<path class="{style}" d="{d}"/>'
+def _circle(style: str, radius: float) -> Svg:
+    return element("circle", class_=style, r=radius)
 
 
-def _bow(_: Symbol | None = None) -> str:
+def _bow(_: Symbol | None = None) -> Svg:
     a, b = (number(v) for v in _VALVE)
     return _path(f"M-{a} -{b}L{a} {b}V-{b}L-{a} {b}Z")
 
 
-def _ball(symbol: Symbol) -> str:
-    return _bow() + '<circle class="s" r="4.6"/>'
+def _ball(symbol: Symbol) -> Svg:
+    return _bow() + _circle("s", 4.6)
 
 
-def _gate(symbol: Symbol) -> str:
+def _gate(symbol: Symbol) -> Svg:
     return _bow() + _path(f"M0 -{_VALVE[1]}V{_VALVE[1]}")
 
 
-def _globe(symbol: Symbol) -> str:
-    return _bow() + '<circle class="k" r="4"/>'
+def _globe(symbol: Symbol) -> Svg:
+    return _bow() + _circle("k", 4)
 
 
-def _plug(symbol: Symbol) -> str:
+def _plug(symbol: Symbol) -> Svg:
     return _bow() + _path("M0 -6L4 0L0 6L-4 0Z", "k")
 
 
-def _butterfly(symbol: Symbol) -> str:
+def _butterfly(symbol: Symbol) -> Svg:
     a, b = (number(v) for v in _VALVE)
-    blank = f'<rect class="w" x="-{a}" y="-{b}" width="{number(2 * _VALVE[0])}" height="{number(2 * _VALVE[1])}"/>'
-    return blank + _path(f"M-{a} -{b}V{b}M{a} -{b}V{b}M-{a} {b}L{a} -{b}") + '<circle class="k" r="2.6"/>'
+    blank = element("rect", class_="w", x=f"-{a}", y=f"-{b}", width=2 * _VALVE[0], height=2 * _VALVE[1])
+    return blank + _path(f"M-{a} -{b}V{b}M{a} -{b}V{b}M-{a} {b}L{a} -{b}") + _circle("k", 2.6)
 
 
-def _check(symbol: Symbol) -> str:
+def _check(symbol: Symbol) -> Svg:
     a, b = _VALVE
     x = number(a if symbol.flow >= 0 else -a)
     low, high = number(b), number(-b)
     minus = x[1:] if x.startswith("-") else f"-{x}"
-    blank = f'<rect class="w" x="-{number(a)}" y="{high}" width="{number(2 * a)}" height="{number(2 * b)}"/>'
+    blank = element("rect", class_="w", x=-a, y=high, width=2 * a, height=2 * b)
     body = _path(f"M{minus} {low}V{high}L{x} {low}V{high}")
     if symbol.flow == 0:
         return blank + body
     # The dot is where the flow comes from; the arrow says which way it may go.
     tip, tail = (9, -7) if symbol.flow > 0 else (-9, 7)
     arrow = _path(f"M{tail} -11.5H{tip}M{tip - 4 * symbol.flow} -13.5L{tip} -11.5L{tip - 4 * symbol.flow} -9.5", "t")
-    return blank + body + f'<circle class="k" cx="{minus}" cy="{high}" r="2.4"/>' + arrow
+    return blank + body + element("circle", class_="k", cx=minus, cy=high, r=2.4) + arrow
 
 
-def _control(symbol: Symbol) -> str:
+def _control(symbol: Symbol) -> Svg:
     return _path("M0 0V-14") + _bow() + _path("M-8 -14A8 8 0 0 1 8 -14Z")
 
 
-def _relief(symbol: Symbol) -> str:
+def _relief(symbol: Symbol) -> Svg:
     return _bow() + _path("M0 0V-8M-4 -9.5L4 -11.5M-4 -12.5L4 -14.5M-4 -15.5L4 -17.5M0 -8L-4 -9.5M0 -20V-17", "t")
 
 
-def _pump(symbol: Symbol) -> str:
+def _pump(symbol: Symbol) -> Svg:
     r = _PUMP
     side = -1 if symbol.flow < 0 else 1
     x, y = r * math.cos(math.radians(115)), r * math.sin(math.radians(115))
     wings = f"M{number(side * x)} -{number(y)}L{number(side * r)} 0L{number(side * x)} {number(y)}"
-    return f'<circle class="s" r="{number(r)}"/>' + _path(wings, "n")
+    return _circle("s", r) + _path(wings, "n")
 
 
-def _tank(symbol: Symbol) -> str:
+def _tank(symbol: Symbol) -> Svg:
     w, h = symbol.left, symbol.top
     dome = 12.0
     x, y, d = number(w), number(h - dome), number(dome)
@@ -236,51 +233,51 @@ def _tank(symbol: Symbol) -> str:
     return _path(shell) + _inside(symbol.label, TAG_SIZE + 1)
 
 
-def _equipment(symbol: Symbol) -> str:
+def _equipment(symbol: Symbol) -> Svg:
     return _frame(symbol) + _inside(symbol.label, TAG_SIZE)
 
 
-def _exchanger(symbol: Symbol) -> str:
-    zig = _path("M-18 -18L-10 -6L0 -16L10 -6L18 -18", "n") if symbol.left >= 18 else ""
+def _exchanger(symbol: Symbol) -> Svg:
+    zig = _path("M-18 -18L-10 -6L0 -16L10 -6L18 -18", "n") if symbol.left >= 18 else Svg()
     return _frame(symbol) + zig + _inside(symbol.label, TAG_SIZE, 8)
 
 
-def _strainer(symbol: Symbol) -> str:
+def _strainer(symbol: Symbol) -> Svg:
     x, y = number(symbol.left), number(symbol.top)
     return _frame(symbol) + _path(f"M-{x} {y}L{x} -{y}", "d") + _inside(symbol.label, TAG_SIZE)
 
 
-def _frame(symbol: Symbol) -> str:
+def _frame(symbol: Symbol) -> Svg:
     x, y = number(symbol.left), number(symbol.top)
     return _path(f"M-{x} -{y}H{x}V{y}H-{x}Z")
 
 
-def _instrument(symbol: Symbol) -> str:
-    circle = f'<circle class="s" r="{number(symbol.left)}"/>'
+def _instrument(symbol: Symbol) -> Svg:
+    circle = _circle("s", symbol.left)
     return circle + _inside(symbol.letters, TAG_SIZE, -1.5) + _inside(symbol.label, 6.5, 7)
 
 
-def _junction(symbol: Symbol) -> str:
-    return '<circle class="k" r="2.6"/>'
+def _junction(symbol: Symbol) -> Svg:
+    return _circle("k", 2.6)
 
 
-def _open(symbol: Symbol) -> str:
+def _open(symbol: Symbol) -> Svg:
     return _path("M-8 -6H2L8 0L2 6H-8Z") if symbol.flow >= 0 else _path("M8 -6H-2L-8 0L-2 6H8Z")
 
 
-def _end(symbol: Symbol) -> str:
-    return '<circle class="s" r="6"/>' + _inside("?", TAG_SIZE, 3)
+def _end(symbol: Symbol) -> Svg:
+    return _circle("s", 6) + _inside("?", TAG_SIZE, 3)
 
 
-def _blind(symbol: Symbol) -> str:
+def _blind(symbol: Symbol) -> Svg:
     return _path("M-2 -8V8M2 -8V8", "b")
 
 
-def _inside(text: str, size: float, y: float = 3.0) -> str:
-    return f'<text class="c" y="{number(y)}" font-size="{number(size)}">{escape(text)}</text>'
+def _inside(text: str, size: float, y: float = 3.0) -> Svg:
+    return element("text", text, class_="c", y=y, font_size=size)
 
 
-_FORMS: dict[str, Callable[[Symbol], str]] = {
+_FORMS: dict[str, Callable[[Symbol], Svg]] = {
     "valve": _bow, "ball": _ball, "gate": _gate, "globe": _globe, "plug": _plug, "butterfly": _butterfly,
     "check": _check, "control": _control, "relief": _relief, "pump": _pump, "tank": _tank, "equipment": _equipment,
     "exchanger": _exchanger, "strainer": _strainer, "instrument": _instrument, "junction": _junction, "open": _open,

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import re
 import xml.etree.ElementTree as ET
 from collections import Counter
 from collections.abc import Mapping
 
+from cadgraph._io.text import xml_text
 from cadgraph.export.dexpi.terms import CUSTOM_SET, DEXPI_SET, URIS, Term
 
-__all__ = ["Ids", "add_item", "add_nodes", "add_position", "add_values", "diameter_values", "xml_text"]
-
-# XML 1.0, production [2] Char: everything else can't stand in a document, not even escaped.
-_NO_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+__all__ = ["Ids", "add_item", "add_nodes", "add_position", "add_values", "diameter_values"]
 
 
 class Ids:
@@ -25,11 +22,6 @@ class Ids:
         """The next id of a class."""
         self._used[name] += 1
         return f"{name}-{self._used[name]}"
-
-
-def xml_text(text: str) -> str:
-    """A text without characters that XML can't hold."""
-    return _NO_XML.sub("", text)
 
 
 def add_item(

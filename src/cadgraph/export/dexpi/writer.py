@@ -9,13 +9,14 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import TYPE_CHECKING
 
 from cadgraph._io.atomic import write_atomically
+from cadgraph._io.text import tag_key, xml_text
 from cadgraph.draw.schematic.symbol import instrument_letters
-from cadgraph.export.dexpi.element import Ids, add_item, add_nodes, add_position, add_values, diameter_values, xml_text
+from cadgraph.export.dexpi.element import Ids, add_item, add_nodes, add_position, add_values, diameter_values
 from cadgraph.export.dexpi.terms import INSTRUMENT, Term, term_of_terminal, term_of_unit
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Terminal, Unit
 from cadgraph.query.lines import Line, divides, find_lines
-from cadgraph.query.network import Arc, Network, natural
+from cadgraph.query.network import Arc, Network
 
 if TYPE_CHECKING:
     from cadgraph.draw.schematic.place import Places, Spot
@@ -82,7 +83,7 @@ class _Document:
         lines = find_lines(self.network)
         for line in lines:
             self._system(line)
-        for place in sorted(self.network.places, key=lambda place: natural(self.network.name(place))):
+        for place in sorted(self.network.places, key=lambda place: tag_key(self.network.name(place))):
             for arc in self.network.arcs(place):
                 if self.network.is_tap(arc) and self._begins_tap(arc):
                     self._tap(arc)
@@ -95,7 +96,7 @@ class _Document:
 
     def _sorted(self, wanted: Callable[[Unit], bool]) -> list[str]:
         units = [node for node in self.network.places.values() if isinstance(node, Unit)]
-        return [u.id for u in sorted(units, key=lambda u: natural(u.tag)) if wanted(u)]
+        return [u.id for u in sorted(units, key=lambda u: tag_key(u.tag)) if wanted(u)]
 
     def _head(self) -> None:
         from cadgraph import __version__

@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
+from cadgraph.geometry.components import first_of_component
 from cadgraph.geometry.shape.alignment import fits_in_place, weld
 from cadgraph.geometry.shape.repeats import position_tolerance
 from cadgraph.geometry.shape.similarity import corners_of, deviation, sample_surface
@@ -81,7 +80,7 @@ def find_duplicates(scene: Scene, properties: Properties) -> Duplicates:
             same_of[b] = same_of[a]
         elif same_of[a] == a and _is_near(scene, properties, int(a), int(b)):
             near.append((a, b))
-    return Duplicates(_first_of(np.array(exact, np.int64).reshape(-1, 2), n), np.array(near, np.int64).reshape(-1, 2))
+    return Duplicates(first_of_component(n, exact), np.array(near, np.int64).reshape(-1, 2))
 
 
 def _near_pairs(points: Floats, reach: Floats) -> Ints:
@@ -96,14 +95,6 @@ def _near_pairs(points: Floats, reach: Floats) -> Ints:
     gap = np.abs(points[pairs[:, 0]] - points[pairs[:, 1]]).max(axis=1, initial=0.0)
     near: Ints = pairs[gap <= np.minimum(reach[pairs[:, 0]], reach[pairs[:, 1]])]
     return near
-
-
-def _first_of(pairs: Ints, n: int) -> Ints:
-    graph = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(n, n))
-    _, group = connected_components(graph, directed=False)
-    _, first = np.unique(group, return_index=True)
-    lowest: Ints = first[group].astype(np.int64)
-    return lowest
 
 
 def _is_exact(scene: Scene, properties: Properties, tolerance: Floats, a: int, b: int) -> bool:

@@ -10,6 +10,7 @@ from scipy.spatial import cKDTree
 
 from cadgraph.geometry.kernels.parallel import compiled, for_ranges
 from cadgraph.geometry.mesh.properties import measure
+from cadgraph.geometry.mesh.sample import spread_points
 from cadgraph.geometry.shape.repeats import Shapes, find_shapes
 from cadgraph.model.parts import Bools, Properties
 from cadgraph.model.scene import Floats, Ints, Scene, mesh_of_vertex
@@ -267,16 +268,7 @@ def corners_of(scene: Scene, mesh: int) -> Floats:
 
 def sample_surface(corners: Floats, n: int) -> Floats:
     """``(n, 3)`` points spread evenly over the area of triangles ``(m, 9)``; the same every time [m]."""
-    t = corners.reshape(-1, 3, 3)
-    area = np.linalg.norm(np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0]), axis=1)
-    reached = np.cumsum(area)
-    face = np.searchsorted(reached, reached[-1] * (np.arange(n) + 0.5) / n, side="right")
-    t = t[np.minimum(face, len(t) - 1)]
-    # The R2 sequence (Roberts 2018) folded into the triangle.
-    u, v = (0.5 + np.arange(n) * 0.7548776662466927) % 1.0, (0.5 + np.arange(n) * 0.5698402909980532) % 1.0
-    fold = u + v > 1.0
-    u, v = np.where(fold, 1 - u, u), np.where(fold, 1 - v, v)
-    points: Floats = t[:, 0] + u[:, None] * (t[:, 1] - t[:, 0]) + v[:, None] * (t[:, 2] - t[:, 0])
+    points: Floats = spread_points(corners.reshape(-1, 3, 3), np.array([0, len(corners)]), n).points[0]
     return points
 
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from cadgraph.geometry.kernels.parallel import compiled, for_ranges
+from cadgraph.geometry.mesh.sample import spread_points
 from cadgraph.model.parts import Bools, Properties
 from cadgraph.model.scene import Faces, Floats, Ints, Scene, mesh_of_face
 
@@ -81,9 +82,11 @@ def visible_share(
     for first in range(0, n, step):
         last = min(first + step, n)
         own = slice(*np.searchsorted(owner, (first, last)))
-        points, normals, mesh = _sample(
-            local, corners[own], area[faces[own]], owner[own] - first, last - first, n_points
-        )
+        offsets = np.searchsorted(owner[own], np.arange(first, last + 1))
+        samples = spread_points(local[corners[own]], offsets, n_points)
+        with_area = np.flatnonzero(np.diff(offsets))
+        points, normals = (rows[with_area].reshape(-1, 3) for rows in (samples.points, samples.normals))
+        mesh = np.repeat(with_area, n_points)
         seen = _seen(world, points, normals, mesh, 2 * _OFF * size, n_directions, first_only)
         share[first:last] = np.bincount(mesh[seen], minlength=last - first) / n_points
     return share
@@ -129,29 +132,6 @@ def _face_areas(
             x, y, z = uy * wz - uz * wy, uz * wx - ux * wz, ux * wy - uy * wx
             double = np.sqrt(x * x + y * y + z * z)
             area[f] = 0.5 * double if np.isfinite(double) else 0.0
-
-
-def _sample(
-    vertices: Floats, corners: Ints, area: Floats, owner: Ints, n_meshes: int, n_points: int
-) -> tuple[Floats, Floats, Ints]:
-    """Points spread evenly over the area of each mesh, their unit normals and meshes; the same every time."""
-    reached = np.concatenate([[0.0], np.cumsum(area)])
-    first = np.searchsorted(owner, np.arange(n_meshes + 1))
-    has = np.flatnonzero(np.diff(first) > 0)
-    low, high = reached[first[has]], reached[first[has + 1]]
-    at = low[:, None] + (high - low)[:, None] * (np.arange(n_points) + 0.5) / n_points
-    last = first[has + 1][:, None] - 1
-    face = np.clip(np.searchsorted(reached, at, side="right") - 1, first[has][:, None], last).reshape(-1)
-    mesh = np.repeat(has, n_points)
-    # Within a face, the plastic number spreads points (Roberts 2018, R2 sequence); folded into the triangle.
-    k = np.tile(np.arange(n_points), len(has))
-    u, v = (0.5 + k * 0.7548776662466927) % 1.0, (0.5 + k * 0.5698402909980532) % 1.0
-    fold = u + v > 1.0
-    u, v = np.where(fold, 1 - u, u), np.where(fold, 1 - v, v)
-    t = vertices[corners[face]]
-    double = np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0])
-    points = t[:, 0] + u[:, None] * (t[:, 1] - t[:, 0]) + v[:, None] * (t[:, 2] - t[:, 0])
-    return points, double / (2 * area[face, None]), mesh.astype(np.int64)
 
 
 def _directions(n: int) -> Floats:

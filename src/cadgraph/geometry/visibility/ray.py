@@ -10,21 +10,12 @@ from cadgraph.geometry.kernels.borrow import borrow
 from cadgraph.geometry.kernels.parallel import compiled
 from cadgraph.geometry.kernels.tree import LEAF
 from cadgraph.geometry.kernels.triangle import ROW
+from cadgraph.geometry.mesh.sample import spread_points
 from cadgraph.model.scene import Faces, Floats, Ints
 
 __all__ = ["enclosure", "sample_points"]
 
 
-@compiled
-def _area(vertices: Floats, faces: Faces, v0: int, f: int) -> float:
-    a, b, c = v0 + faces[f, 0], v0 + faces[f, 1], v0 + faces[f, 2]
-    ux, uy, uz = vertices[b, 0] - vertices[a, 0], vertices[b, 1] - vertices[a, 1], vertices[b, 2] - vertices[a, 2]
-    vx, vy, vz = vertices[c, 0] - vertices[a, 0], vertices[c, 1] - vertices[a, 1], vertices[c, 2] - vertices[a, 2]
-    x, y, z = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
-    return float(0.5 * np.sqrt(x * x + y * y + z * z))
-
-
-@compiled
 def sample_points(meshes: Placed, first: int, last: int, points: Floats) -> None:
     """Fills points spread evenly over the area of each mesh, the same on every call.
 
@@ -34,31 +25,13 @@ def sample_points(meshes: Placed, first: int, last: int, points: Floats) -> None
         last: mesh to end before.
         points: ``(n_meshes, n, 3)`` takes them [m]; NaN where a mesh has no area.
     """
-    vertices, faces, n = meshes.vertices, meshes.faces, points.shape[1]
-    for mesh in range(first, last):
-        v0, f0, count = meshes.vertex_offsets[mesh], meshes.face_offsets[mesh], meshes.counts[mesh]
-        total = 0.0
-        for f in range(f0, f0 + count):
-            total += _area(vertices, faces, v0, f)
-        if not 0.0 < total < np.inf:
-            for k in range(n):
-                for m in range(3):
-                    points[mesh, k, m] = np.nan
-            continue
-        f, so_far = f0, _area(vertices, faces, v0, f0)
-        for k in range(n):
-            while so_far < total * (k + 0.5) / n and f < f0 + count - 1:
-                f += 1
-                so_far += _area(vertices, faces, v0, f)
-            # the two-dimensional golden ratio fills the triangle evenly
-            s, t = (0.5 + 0.7548776662466927 * k) % 1.0, (0.5 + 0.5698402909980532 * k) % 1.0
-            if s + t > 1.0:
-                s, t = 1.0 - s, 1.0 - t
-            for m in range(3):
-                a = vertices[v0 + faces[f, 0], m]
-                points[mesh, k, m] = (
-                    a + s * (vertices[v0 + faces[f, 1], m] - a) + t * (vertices[v0 + faces[f, 2], m] - a)
-                )
+    counts = meshes.counts[first:last]
+    offsets = np.concatenate([[0], np.cumsum(counts)])
+    rows = np.arange(offsets[-1]) + np.repeat(meshes.face_offsets[first:last] - offsets[:-1], counts)
+    corners = meshes.faces[rows] + np.repeat(meshes.vertex_offsets[first:last], counts)[:, None]
+    samples = spread_points(meshes.vertices[corners], offsets, points.shape[1])
+    has_area = (samples.normals != 0).any(axis=(1, 2), keepdims=True)
+    points[first:last] = np.where(has_area, samples.points, np.nan)
 
 
 @compiled

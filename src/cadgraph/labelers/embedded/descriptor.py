@@ -10,8 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cadgraph.geometry.mesh.sample import sample_surfaces
 from cadgraph.labelers.embedded.edges import EDGE_FEATURES, edge_features
-from cadgraph.labelers.embedded.sample import ray_gaps, sample_surfaces
+from cadgraph.labelers.embedded.sample import ray_gaps
 from cadgraph.labelers.embedded.shape_facts import Disc, Facts
 from cadgraph.model.parts import Bools, Properties
 from cadgraph.model.scene import Floats, Ints, Scene

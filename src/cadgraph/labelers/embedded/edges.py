@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
+from cadgraph.geometry.components import first_of_component
+from cadgraph.geometry.mesh.merge import row_keys
 from cadgraph.model.scene import Floats, Ints, Scene, mesh_of_face
 
 __all__ = ["EDGE_FEATURES", "edge_features"]
@@ -80,18 +80,14 @@ def _welded(triangles: Floats, owner: Ints, n: int) -> Ints:
     np.maximum.at(high, mesh, points)
     size = np.linalg.norm(np.where(np.isfinite(high - low), high - low, 0), axis=1)
     grid = np.round((points - low[mesh]) / np.maximum(_WELD * size, 1e-9)[mesh, None]).astype(np.int64)
-    key = mesh.astype(np.uint64)
-    for column in grid.view(np.uint64).T:  # two places share a number with a chance of 1e-8 in a million
-        key = (key ^ column) * np.uint64(0x9E3779B97F4A7C15)
-        key ^= key >> np.uint64(29)
-    return np.unique(key, return_inverse=True)[1].reshape(-1, 3).astype(np.int64)
+    # Numbered by key: in that order edges are added up, and the model has learnt these sums to the last bit.
+    return np.unique(row_keys(grid, mesh), return_inverse=True)[1].reshape(-1, 3)
 
 
 def _topology(corner: Ints, sides: Ints, owner: Ints, mesh_of_edge: Ints, n: int) -> Floats:
     """Logarithms of the numbers of pieces and of handles (Euler's formula) of each mesh."""
     n_vertices = int(corner.max()) + 1
-    links = coo_array((np.ones(len(sides), np.int8), (sides[:, 0], sides[:, 1])), shape=(n_vertices, n_vertices))
-    piece = connected_components(links, directed=False)[1]
+    piece = first_of_component(n_vertices, sides)
     mesh_of_vertex = np.full(n_vertices, -1)
     mesh_of_vertex[corner.reshape(-1)] = np.repeat(owner, 3)
     used = mesh_of_vertex >= 0

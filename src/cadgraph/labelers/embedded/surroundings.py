@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cadgraph.labelers.embedded.sample import Samples, sample_surfaces
+from cadgraph.geometry.mesh.sample import Samples, sample_surfaces
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.scene import Floats, Ints
 

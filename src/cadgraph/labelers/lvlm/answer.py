@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 
+from cadgraph._io.text import printable
 from cadgraph.labelers.lvlm.normalize import MAX_LABEL, clean_label, fold_group, fold_name
 from cadgraph.model.vocabulary import Vocabulary
 
@@ -217,7 +218,7 @@ def _strict(schema: dict[str, Any]) -> dict[str, Any]:
 
 def plain_words(value: str) -> str:
     """A text of the model on one line, cut, without control characters: it goes to terminals and pages."""
-    plain = "".join(c if c.isprintable() else " " for c in value[: 4 * _MAX_WORDS])
+    plain = printable(value[: 4 * _MAX_WORDS])
     return " ".join(plain.split())[:_MAX_WORDS]
 
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from cadgraph._io.limits import REPLY
+from cadgraph._io.text import printable
 from cadgraph.errors import LabelError, MissingExtra
 from cadgraph.labelers.lvlm.address import check_address
 from cadgraph.labelers.lvlm.gallery import Picture
@@ -263,5 +264,5 @@ def _reason(error: Exception) -> str:
         return "no answer in time, at every try"
     if name == "APIConnectionError":
         return "the connection to the server failed at every try"
-    first = "".join(c for c in str(error).splitlines()[0] if c.isprintable()) if str(error) else ""
+    first = printable(str(error).splitlines()[0], "") if str(error) else ""
     return f"the server's reply can't be used: {first[:120] or name}"

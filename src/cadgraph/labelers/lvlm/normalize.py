@@ -9,6 +9,7 @@ from importlib import resources
 
 import yaml
 
+from cadgraph._io.text import printable
 from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["clean_label", "fold_group", "fold_name", "folded"]
@@ -28,8 +29,7 @@ def clean_label(text: str, *, lower: bool = True) -> str | None:
         text: anything.
         lower: whether it is a name; groups keep their capitals.
     """
-    plain = unicodedata.normalize("NFKC", text[: 4 * MAX_LABEL])
-    plain = "".join(c if c.isprintable() else " " for c in plain)
+    plain = printable(unicodedata.normalize("NFKC", text[: 4 * MAX_LABEL]))
     plain = " ".join(_FORBIDDEN.sub(" ", plain).replace("_", " ").split())
     if not plain or len(plain) > MAX_LABEL or not any(c.isalpha() for c in plain):
         return None

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 import cadgraph
 from cadgraph._io.limits import NOTE, read_text_within
+from cadgraph._io.text import printable
 from cadgraph.errors import LoadError
 from cadgraph.load.sandbox.exchange import read_scene
 from cadgraph.model.scene import Scene
@@ -181,5 +182,5 @@ def _reason(code: int, stderr: Path) -> str:
         lines = file.read().decode("utf-8", "replace").strip().splitlines()
     if lines and "MemoryError" in lines[-1]:
         return "there is not enough memory to read it; close other programs, or split the scene"
-    last = "".join(c if c.isprintable() else " " for c in lines[-1])[:300].strip() if lines else f"exit code {code}"
+    last = printable(lines[-1])[:300].strip() if lines else f"exit code {code}"
     return f"reading it failed ({last}); the file is likely damaged, export it again"

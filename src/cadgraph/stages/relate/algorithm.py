@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
+from cadgraph._io.text import natural_key
+from cadgraph.geometry.components import connected_sets
 from cadgraph.model.labels import Label
 from cadgraph.model.parts import Contacts, UnitParts
-from cadgraph.model.scene import Ints, natural_key
+from cadgraph.model.scene import Ints
 from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["LETTERS", "find_units", "pipe_systems", "relate_units"]
@@ -31,29 +33,15 @@ def find_units(
     """
     unit_of_group = vocabulary.unit_of_group
     groups = [label.group if label is not None and label.group in unit_of_group else None for label in labels]
-    root = list(range(len(labels)))
-
-    def find(part: int) -> int:
-        while root[part] != part:
-            root[part] = root[root[part]]
-            part = root[part]
-        return part
-
-    for a, b in contacts.pairs.tolist():
-        if groups[a] is not None and groups[a] == groups[b] and cluster[a] == cluster[b] >= 0:
-            low, high = sorted((find(a), find(b)))
-            root[high] = low
-    members: dict[int, list[int]] = {}
-    for part, group in enumerate(groups):
-        if group is not None:
-            members.setdefault(find(part), []).append(part)
+    members = [part for part, group in enumerate(groups) if group is not None]
+    joined = [(a, b) for a, b in contacts.pairs.tolist() if groups[a] == groups[b] and cluster[a] == cluster[b] >= 0]
     counts: Counter[str] = Counter()
     units = []
-    for first, parts in sorted(members.items()):
-        unit_type = unit_of_group[str(groups[first])]
+    for parts in connected_sets(members, joined):
+        unit_type = unit_of_group[str(groups[parts[0]])]
         counts[unit_type] += 1
         letter = LETTERS.get(unit_type, unit_type[:3].upper())
-        units.append(UnitParts(unit_type, f"{letter}-{counts[unit_type]:03d}", tuple(parts)))
+        units.append(UnitParts(unit_type, f"{letter}-{counts[unit_type]:03d}", parts))
     return tuple(sorted(units, key=lambda unit: natural_key(unit.tag)))
 
 

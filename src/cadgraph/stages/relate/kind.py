@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from cadgraph.model.parts import Network, Parts, UnitParts
+from cadgraph.model.standards import by_size
 
 __all__ = ["name_kinds"]
 
@@ -15,11 +16,6 @@ _QUARTER = frozenset({"lever", "valve ball"})
 _DRIVEN = frozenset({"lever", "handwheel", "actuator", "gearbox", "valve stem", "yoke"})
 # A wafer body is shorter than this share of its pipe's outer diameter; flanged bodies are longer than it is wide.
 _WAFER = 1.0
-# Face to face of flanged valves, class 150 [mm], by nominal size: gate and globe (ASME B16.10, table 1).
-_FACES: dict[int, tuple[float, float]] = {
-    50: (178, 203), 65: (190, 216), 80: (203, 241), 100: (229, 292), 125: (254, 356), 150: (267, 406), 200: (292, 495),
-    250: (330, 622), 300: (356, 698),
-}  # fmt: skip
 _FACE_TOLERANCE = 0.01  # m, gaskets included
 # A tank lies where it is longer than high and than deep by this factor.
 _LYING = 1.15
@@ -84,18 +80,16 @@ def _valve(unit: UnitParts, names: set[str], sizes: Sequence[int]) -> str | None
     if names & _QUARTER or ("actuator" in names and not names & {"yoke", "handwheel"}):
         return "ball valve"
     if names & {"handwheel", "yoke"}:
-        return _rising_stem(length, sizes)
+        return None if length is None or not sizes else _by_length(length, min(sizes))
     return "check valve" if not driven else None
 
 
-def _rising_stem(length: float | None, sizes: Sequence[int]) -> str | None:
-    """A valve with a handwheel or yoke: gate or globe, whichever its face to face length is."""
-    if length is None or not sizes or min(sizes) not in _FACES:
+def _by_length(length: float, size: int) -> str | None:
+    """Gate or globe valve, by the length from face to face [m] of a nominal size, where the two differ in that."""
+    lengths = {kind: by_size("face_to_face", "valve", kind).get(size, 0.0) for kind in ("gate", "globe")}
+    if lengths["globe"] - lengths["gate"] <= 2 * _FACE_TOLERANCE:
         return None
-    for kind, face in zip(("gate valve", "globe valve"), _FACES[min(sizes)], strict=True):
-        if abs(length - face / 1000) <= _FACE_TOLERANCE:
-            return kind
-    return None
+    return next((f"{kind} valve" for kind, face in lengths.items() if abs(length - face) <= _FACE_TOLERANCE), None)
 
 
 def _through(unit: UnitParts) -> float | None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from cadgraph.geometry.components import first_of_component
 from cadgraph.geometry.line.centreline import Branch, Centreline
 from cadgraph.model.parts import Opening, UnitParts
 from cadgraph.model.scene import Floats
@@ -50,8 +51,8 @@ class _Draft:
     lines: Mapping[int, Centreline]
     found: Attachments
     owner: Mapping[int, int]
-    root: list[int]
-    sure: dict[int, float] = field(default_factory=dict)
+    n_nodes: int
+    joints: list[tuple[int, int, float]] = field(default_factory=list)
     spans: list[Span] = field(default_factory=list)
     openings: list[list[Opening]] = field(default_factory=list)
     node_of_end: dict[int, int] = field(default_factory=dict)
@@ -61,19 +62,12 @@ class _Draft:
     bridged: list[tuple[int, int, float]] = field(default_factory=list)
 
     def new(self) -> int:
-        self.root.append(len(self.root))
-        return len(self.root) - 1
-
-    def find(self, node: int) -> int:
-        while self.root[node] != node:
-            self.root[node] = self.root[self.root[node]]
-            node = self.root[node]
-        return node
+        self.n_nodes += 1
+        return self.n_nodes - 1
 
     def join(self, a: int, b: int, confidence: float) -> None:
-        low, high = sorted((self.find(a), self.find(b)))
-        self.root[high] = low
-        self.sure[low] = min(confidence, self.sure.get(low, 1.0), self.sure.get(high, 1.0))
+        """Says that two nodes are one, and how sure that is."""
+        self.joints.append((a, b, confidence))
 
     def open(self, unit: int, point: Floats, outward: Floats | None, diameter: float | None) -> int:
         """Adds an opening to a unit and returns its number there."""
@@ -102,7 +96,7 @@ def draw_network(
         sure: how sure it is that a part is a connector.
     """
     owner = {part: number for number, unit in enumerate(units) for part in unit.parts}
-    draft = _Draft(lines, found, owner, list(range(len(units))), openings=[[] for _ in units])
+    draft = _Draft(lines, found, owner, len(units), openings=[[] for _ in units])
     draft.node_of_solid = {part: draft.new() for part in solids if part not in owner}
     for row, part in enumerate(found.ends.part.tolist()):
         if part in lines:
@@ -256,20 +250,24 @@ def _draw_flanged(draft: _Draft, flanged: Mapping[tuple[int, int], Floats]) -> N
 
 def _finish(draft: _Draft) -> Drawing:
     """The network with every joint as one node."""
+    node_of = first_of_component(draft.n_nodes, [(a, b) for a, b, _ in draft.joints]).tolist()
+    sure_of = [1.0] * draft.n_nodes
+    for a, _, confidence in draft.joints:
+        sure_of[node_of[a]] = min(sure_of[node_of[a]], confidence)
     net = Net()
     for span in draft.spans:
-        a, b = draft.find(span.a), draft.find(span.b)
-        sure = min(span.confidence, draft.sure.get(a, 1.0), draft.sure.get(b, 1.0))
+        a, b = node_of[span.a], node_of[span.b]
+        sure = min(span.confidence, sure_of[a], sure_of[b])
         if a != b or span.length > 0.05:
             net.add(replace(span, a=a, b=b, confidence=sure))
     ends: dict[int, list[int]] = {}
     for row, node in sorted(draft.node_of_end.items()):
-        ends.setdefault(draft.find(node), []).append(row)
+        ends.setdefault(node_of[node], []).append(row)
     return Drawing(
         net=net,
         openings=tuple(tuple(found) for found in draft.openings),
         ends={node: tuple(rows) for node, rows in ends.items()},
-        taps=frozenset(draft.find(node) for node in draft.taps),
-        solids={draft.find(node): part for part, node in draft.node_of_solid.items()},
+        taps=frozenset(node_of[node] for node in draft.taps),
+        solids={node_of[node]: part for part, node in draft.node_of_solid.items()},
         bridged=tuple(draft.bridged),
     )

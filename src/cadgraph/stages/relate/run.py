@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from cadgraph.geometry.components import connected_sets
 from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.parts import Link, Network, Opening, Place, UnitParts
 from cadgraph.model.scene import Floats
@@ -66,7 +67,7 @@ def make_network(
             one = span.reversed()
         links.append(_link(one, number, outcome, renumbered))
     links.sort(key=lambda link: (link.source, link.target, link.length, link.via, link.path))
-    return Network(outcome, places, tuple(links), _systems(links, len(units)))
+    return Network(outcome, places, tuple(links), _systems(links))
 
 
 def _kept(net: Net, n_units: int, sure: Callable[[int], bool]) -> list[Span]:
@@ -231,20 +232,6 @@ def _distinct(points: Floats) -> Floats:
     return kept
 
 
-def _systems(links: Sequence[Link], n_units: int) -> tuple[tuple[int, ...], ...]:
-    root: dict[int, int] = {}
-
-    def find(node: int) -> int:
-        root.setdefault(node, node)
-        while root[node] != node:
-            root[node] = root[root[node]]
-            node = root[node]
-        return node
-
-    for link in links:
-        low, high = sorted((find(link.source), find(link.target)))
-        root[high] = low
-    members: dict[int, list[int]] = {}
-    for node in sorted(root):
-        members.setdefault(find(node), []).append(node)
-    return tuple(tuple(nodes) for _, nodes in sorted(members.items()))
+def _systems(links: Sequence[Link]) -> tuple[tuple[int, ...], ...]:
+    pairs = [(link.source, link.target) for link in links]
+    return tuple(connected_sets(sorted({node for pair in pairs for node in pair}), pairs))

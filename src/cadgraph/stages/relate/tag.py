@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from cadgraph._io.text import natural_key
 from cadgraph.model.parts import Parts, UnitParts
-from cadgraph.model.scene import natural_key
 from cadgraph.stages.relate.algorithm import LETTERS
 from cadgraph.stages.relate.piping import Group
 

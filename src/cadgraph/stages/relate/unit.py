@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from cadgraph.geometry.components import connected_sets
 from cadgraph.model.parts import Parts
 from cadgraph.stages.relate.attach import Attachments, flat_contacts
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
@@ -42,7 +43,7 @@ def connected_groups(given: RelateInput, roles: Roles, skip: Collection[int] = (
         for a, b in given.contacts.pairs.tolist()
         if types[a] is not None and types[a] == types[b] and cluster[a] == cluster[b] >= 0
     ]
-    return [Group(str(types[parts[0]]), parts) for parts in _components(members, pairs)]
+    return [Group(str(types[parts[0]]), parts) for parts in connected_sets(members, pairs)]
 
 
 def is_loose_operator(group: Group, names: Sequence[str | None], reached: Collection[int]) -> bool:
@@ -60,25 +61,6 @@ def is_loose_operator(group: Group, names: Sequence[str | None], reached: Collec
 def _is_operator(parts: Collection[int], names: Sequence[str | None]) -> bool:
     """Whether parts are but what moves a valve: a handwheel, a lever, a stem."""
     return all(names[part] in _OPERATORS for part in parts)
-
-
-def _components(members: Collection[int], pairs: Collection[tuple[int, int]]) -> list[tuple[int, ...]]:
-    root = {part: part for part in members}
-
-    def find(part: int) -> int:
-        while root[part] != part:
-            root[part] = root[root[part]]
-            part = root[part]
-        return part
-
-    for a, b in pairs:
-        if a in root and b in root:
-            low, high = sorted((find(a), find(b)))
-            root[high] = low
-    found: dict[int, list[int]] = {}
-    for part in sorted(members):
-        found.setdefault(find(part), []).append(part)
-    return [tuple(parts) for _, parts in sorted(found.items())]
 
 
 @dataclass

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from html import escape
 from pathlib import Path
 
 from cadgraph._io.atomic import ensure_writable, write_atomically
+from cadgraph.draw.svg import Svg, element, joined
 from cadlab.evaluate.evaluation import Evaluation
 from cadlab.evaluate.labels import Calibration, Confusion
 from cadlab.evaluate.scores import ClassScore
@@ -56,10 +56,10 @@ def _reliability(calibrations: Sequence[Calibration]) -> str:
     if not any(b.n for c in calibrations for b in c.bins):
         return ""
     side, gap, left, top = 300, 90, 60, 50
-    pieces: list[str] = []
+    pieces: list[Svg] = []
     for number, calibration in enumerate(calibrations):
         x, y = left + number * (side + gap), top
-        dots: list[str] = []
+        dots: list[Svg] = []
         ece = "no labels" if calibration.ece is None else f"ECE {calibration.ece:.3f}"
         pieces.append(_text(x, y - 16, f"Confidence of {calibration.task}s: {ece}", size=14, weight=600))
         for step in range(6):
@@ -73,17 +73,12 @@ def _reliability(calibrations: Sequence[Calibration]) -> str:
             width, height = (b.high - b.low) * side, b.accuracy * side
             title = f"{b.n} parts, mean confidence {b.confidence:.3f}, accuracy {b.accuracy:.3f}"
             pieces.append(_box(x + b.low * side + 1, y + side - height, width - 2, height, "#9ec2ee", title))
-            place = (x + b.confidence * side, y + side - height)
-            dots.append(f'<circle cx="{place[0]:.1f}" cy="{place[1]:.1f}" r="4" fill="{_BARS[0][1]}"/>')
+            dots.append(element("circle", cx=x + b.confidence * side, cy=y + side - height, r=4, fill=_BARS[0][1]))
             pieces.append(_text(x + (b.low + b.high) / 2 * side, y + side - 6, str(b.n), "middle", _INK, 11))
         pieces += dots
-        pieces.append(
-            f'<line x1="{x}" y1="{y + side}" x2="{x + side}" y2="{y}" stroke="{_INK}" stroke-dasharray="4 4"/>'
-        )
+        pieces.append(element("line", x1=x, y1=y + side, x2=x + side, y2=y, stroke=_INK, stroke_dasharray="4 4"))
         pieces.append(_text(x + side / 2, y + side + 38, "confidence", "middle"))
-    pieces.append(
-        f'<g transform="rotate(-90 18 {top + side / 2})">{_text(18, top + side / 2, "accuracy", "middle")}</g>'
-    )
+    pieces.append(_upward(18, top + side / 2, "accuracy", "middle"))
     width = left + len(calibrations) * (side + gap) - gap + 24
     return _svg(width, top + side + 54, pieces, "Reliability of confidence")
 
@@ -98,7 +93,7 @@ def _confusion(confusion: Confusion, title: str) -> str:
     pieces = [_text(16, 24, f"{title}: true (rows) and predicted (columns)", size=14, weight=600)]
     for j, column in enumerate(confusion.columns):
         x = left + (j + 0.5) * cell + 4
-        pieces.append(f'<g transform="rotate(-90 {x:.1f} {top - 8})">{_text(x, top - 8, column)}</g>')
+        pieces.append(_upward(x, top - 8, column))
     for i, (label, counts) in enumerate(zip(confusion.labels, confusion.counts, strict=True)):
         y, whole = top + i * cell, sum(counts)
         pieces.append(_text(left - 8, y + cell / 2 + 4, label, "end"))
@@ -144,37 +139,39 @@ def _bars(classes: Sequence[ClassScore], title: str) -> str:
     return _svg(left + room + 190, top + row * len(ordered) + 16, pieces, title)
 
 
-def _svg(width: float, height: float, pieces: Iterable[str], title: str) -> str:
-    return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0f} {height:.0f}" width="{width:.0f}" '
-        f'height="{height:.0f}" font-family="system-ui, sans-serif" role="img"><title>{_safe(title)}</title>'
-        f'<rect width="100%" height="100%" fill="{_PAPER}"/>' + "\n".join(pieces) + "</svg>\n"
+def _svg(width: float, height: float, pieces: Iterable[Svg], title: str) -> str:
+    drawn = element(
+        "svg",
+        element("title", title),
+        element("rect", width="100%", height="100%", fill=_PAPER),
+        joined(Svg(f"{piece}\n") for piece in pieces),
+        xmlns="http://www.w3.org/2000/svg",
+        viewBox=f"0 0 {width:.0f} {height:.0f}",
+        width=round(width),
+        height=round(height),
+        font_family="system-ui, sans-serif",
+        role="img",
     )
+    return f"{drawn}\n"
 
 
 def _text(
     x: float, y: float, text: str, anchor: str = "start", color: str = _INK, size: int = 12, weight: int = 400
-) -> str:
-    return (
-        f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" fill="{color}" font-size="{size}" '
-        f'font-weight="{weight}">{_safe(text)}</text>'
-    )
+) -> Svg:
+    return element("text", text, x=x, y=y, text_anchor=anchor, fill=color, font_size=size, font_weight=weight)
 
 
-def _box(x: float, y: float, width: float, height: float, fill: str, note: str = "") -> str:
-    title = f"<title>{_safe(note)}</title>" if note else ""
-    return (
-        f'<rect x="{x:.1f}" y="{y:.1f}" width="{width:.1f}" height="{height:.1f}" rx="2" fill="{fill}">{title}</rect>'
-    )
+def _upward(x: float, y: float, text: str, anchor: str = "start") -> Svg:
+    return element("g", _text(x, y, text, anchor), transform=f"rotate(-90 {x:.1f} {y:.1f})")
 
 
-def _rule(x1: float, y1: float, x2: float, y2: float) -> str:
-    return f'<line x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}" stroke="{_LINE}"/>'
+def _box(x: float, y: float, width: float, height: float, fill: str, note: str = "") -> Svg:
+    title = element("title", note) if note else ""
+    return element("rect", title, x=x, y=y, width=width, height=height, rx=2, fill=fill)
 
 
-def _safe(text: str) -> str:
-    """Escaped, without the control characters that XML forbids."""
-    return escape("".join(letter if letter.isprintable() else " " for letter in text))
+def _rule(x1: float, y1: float, x2: float, y2: float) -> Svg:
+    return element("line", x1=x1, y1=y1, x2=x2, y2=y2, stroke=_LINE)
 
 
 def _blend(color: tuple[int, int, int], share: float) -> str:

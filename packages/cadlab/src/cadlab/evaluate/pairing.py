@@ -7,10 +7,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
+from cadgraph._io.text import natural_key
 from cadgraph.errors import FormatError
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Part
-from cadgraph.model.scene import natural_key
 from cadgraph.model.truth import Truth, TruthMesh
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary
 

@@ -6,8 +6,8 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from cadgraph._io.text import natural_key
 from cadgraph.model.records import Connected, Junction, Related, Terminal
-from cadgraph.model.scene import natural_key
 from cadlab.evaluate.pairing import Pairing
 from cadlab.evaluate.scores import Score, share
 from cadlab.evaluate.units import UnitMatch

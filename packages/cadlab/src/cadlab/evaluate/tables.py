@@ -9,6 +9,7 @@ from cadlab.evaluate.labels import UNLABELLED, Confusion, LabelScores, TaskScore
 from cadlab.evaluate.relations import EdgeVerdict, RelationScores
 from cadlab.evaluate.scores import Score
 from cadlab.evaluate.units import UnitScores, UnitTypeScores
+from cadlab.markdown import table
 
 __all__ = ["to_markdown"]
 
@@ -70,7 +71,7 @@ def _overview(evaluation: Evaluation) -> list[str]:
         "",
         "Group and name are accuracies per part; *exact* units are those that one predicted unit holds exactly.",
         "",
-        *_table(head, rows),
+        *table(head, rows),
     ]
 
 
@@ -122,11 +123,11 @@ def _labels(scores: StructureScores) -> list[str]:
         for level in (scores.meshes, scores.parts)
     ]
     lines = ["## Labels", ""]
-    lines += _table(("what", "n", "accuracy", "of the labelled", "macro F1", "unlabelled"), rows)
+    lines += table(("what", "n", "accuracy", "of the labelled", "macro F1", "unlabelled"), rows)
     for task, of in levels:
         classes = of(scores.parts).classes
         lines += ["", f"### By {task}, per part", ""]
-        lines += _table(
+        lines += table(
             (task, "true", "predicted", "precision", "recall", "F1"),
             [(_escaped(c.label), str(c.n_true), str(c.n_predicted), *_score(c)) for c in classes],
         )
@@ -186,7 +187,7 @@ def _units(evaluation: Evaluation) -> list[str]:
         "paper's Table I). *Exact*: one predicted unit holds exactly its parts. *Spurious*: a predicted unit shares no "
         "majority with any true one.",
         "",
-        *_table(head, rows),
+        *table(head, rows),
         "",
         "### Not exact",
         "",
@@ -215,7 +216,7 @@ def _relations(scores: StructureScores) -> list[str]:
         "Pairs of units that follow each other along a run, with no unit between them; junctions are contracted. "
         "*connected*: our relations along centrelines. *related*: the paper's Algorithm 1.",
         "",
-        *_table(("edges", "true", "predicted", "correct", "precision", "recall", "F1"), rows),
+        *table(("edges", "true", "predicted", "correct", "precision", "recall", "F1"), rows),
     ]
     direction = scores.connected.direction if scores.connected and scores.connected.present else None
     if direction is not None and scores.connected is not None:
@@ -230,7 +231,7 @@ def _relations(scores: StructureScores) -> list[str]:
             for r in scores.connected.reasons
         ]
         if known:
-            lines += ["", *_table(("what fixes the direction", "known", "decided", "right", "right of these"), known)]
+            lines += ["", *table(("what fixes the direction", "known", "decided", "right", "right of these"), known)]
     lines += _taps(scores)
     for relations in found:
         if not relations.present:
@@ -260,7 +261,7 @@ def _taps(scores: StructureScores) -> list[str]:
         "Of each two neighbours that tap into the same mesh (two gauges on one pipe): right where what lies beyond "
         "each of them in the truth is next to it in the graph, wrong where it is next to the other.",
         "",
-        *_table(("by", "pairs", "right", "the wrong way round", "right share"), rows),
+        *table(("by", "pairs", "right", "the wrong way round", "right share"), rows),
     ]
 
 
@@ -357,7 +358,7 @@ def _calibration(scores: StructureScores) -> list[str]:
         f"Expected calibration error: groups {_number(group.ece)}, names {_number(name.ece)}; greatest gap of a bin: "
         f"groups {_number(group.mce)}, names {_number(name.mce)}.",
         "",
-        *_table(("what", "confidence", "parts", "mean confidence", "accuracy"), rows),
+        *table(("what", "confidence", "parts", "mean confidence", "accuracy"), rows),
     ]
 
 
@@ -367,15 +368,7 @@ def _cases(head: Sequence[str], rows: Sequence[tuple[str, ...]], nothing: str) -
         return [nothing]
     more = len(rows) - _MOST_ROWS
     cut = [] if more <= 0 else ["", f"And {more} more; evaluation.json lists all."]
-    return [*_table(head, rows[:_MOST_ROWS]), *cut]
-
-
-def _table(head: Sequence[str], rows: Iterable[tuple[str, ...]]) -> list[str]:
-    return [
-        "| " + " | ".join(head) + " |",
-        "|" + "---|" * len(head),
-        *("| " + " | ".join(row) + " |" for row in rows),
-    ]
+    return [*table(head, rows[:_MOST_ROWS]), *cut]
 
 
 def _score(score: Score) -> tuple[str, str, str]:

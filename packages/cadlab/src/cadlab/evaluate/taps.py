@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from cadgraph.model.scene import natural_key
+from cadgraph._io.text import natural_key
 from cadlab.evaluate.pairing import Pairing
 from cadlab.evaluate.relations import UnitGraph, predicted_graph, true_graph
 from cadlab.evaluate.scores import share

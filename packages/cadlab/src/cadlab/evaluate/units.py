@@ -8,8 +8,8 @@ from functools import cached_property
 
 import numpy as np
 
+from cadgraph._io.text import natural_key
 from cadgraph.model.records import Unit
-from cadgraph.model.scene import natural_key
 from cadgraph.model.truth import TruthUnit
 from cadlab.evaluate.pairing import Pairing
 from cadlab.evaluate.scores import Score, share

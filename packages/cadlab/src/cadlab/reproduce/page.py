@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from cadgraph.model.graph import SceneGraph
@@ -10,6 +10,7 @@ from cadlab.evaluate.clusters import ClusterScores
 from cadlab.evaluate.relations import RelationScores
 from cadlab.evaluate.scores import Score
 from cadlab.evaluate.units import UnitTypeScores
+from cadlab.markdown import table
 from cadlab.reproduce import paper
 from cadlab.reproduce.experiment import Trial
 
@@ -107,7 +108,7 @@ def _plant(findings: Findings, pictures: Pictures) -> list[str]:
         "",
         f"Preset `{one.subject.plant.name}`, seed {findings.seed}, modelled by the hands {hands}.",
         "",
-        *_table(("", "paper", "ours, paper mode", "ours, exact mode"), rows),
+        *table(("", "paper", "ours, paper mode", "ours, exact mode"), rows),
         "",
         "Grouping follows the paper's rule: a mesh below 1 cm³ joins the closest larger one. Three quarters of the "
         f"paper's meshes were that small; of ours {n_joined:,} joined another: marks and figures of dials, letters of "
@@ -178,7 +179,7 @@ def _errors(findings: Findings, pictures: Pictures) -> list[str]:
         "tanks by a single edge. Its plant can't be had, so two small plants were built on which its method, followed "
         "to the letter, makes the same errors (`cadplants.trap`).",
         "",
-        *_table(("plant", "true clusters", "paper mode", "exact mode"), rows),
+        *table(("plant", "true clusters", "paper mode", "exact mode"), rows),
         "",
         "**A pipe falls apart.** The ends of two coarse segments are 2 mm apart, one on each side of a border between "
         "voxels. Snapped to voxel centres they are 1 cm apart along the pipe, and since no two of their points are "
@@ -229,7 +230,7 @@ def _labels(findings: Findings, pictures: Pictures) -> list[str]:
         "allow; the last column compares them (blind flanges counted). One gasket lies between two flanges, but those "
         "of valves, pumps and tanks are no parts of their own or carry another label, so the true figure is below 2.",
         "",
-        *_table(head, rows),
+        *table(head, rows),
         "",
         f"![Pies of the labels of all parts, one for each labeler]({pictures['pie']})",
         "",
@@ -293,7 +294,7 @@ def _columns(reference: paper.Structure, trials: Sequence[Trial]) -> list[str]:
             rows.append(
                 (f"{unit_type}s {title}", theirs, *(str(measure(s)) if s is not None else _NO_VALUE for s in found))
             )
-    return _table(head, rows)
+    return table(head, rows)
 
 
 def _units(trial: Trial, unit_type: str) -> UnitTypeScores | None:
@@ -324,7 +325,7 @@ def _relations(findings: Findings) -> list[str]:
         "each two neighbours on one common mesh, how many are in the right order. *Flow*: of the edges found whose "
         "direction physics fixes, how many are decided, and how many of these rightly.",
         "",
-        *_table(
+        *table(
             (
                 "", "method", "labels", "relation", "true", "found", "correct", "precision", "recall", "F1",
                 "taps in order", "flow decided", "flow right",
@@ -389,14 +390,6 @@ def _score(score: Score) -> tuple[str, ...]:
     shares = (score.precision, score.recall, score.f1)
     counts = (score.n_true, score.n_predicted, score.n_correct)
     return (*map(str, counts), *(_NO_VALUE if value is None else f"{value:.3f}" for value in shares))
-
-
-def _table(head: Sequence[str], rows: Iterable[tuple[str, ...]]) -> list[str]:
-    return [
-        "| " + " | ".join(head) + " |",
-        "|" + "---|" * len(head),
-        *("| " + " | ".join(row) + " |" for row in rows),
-    ]
 
 
 def _percent(value: float | None) -> str:

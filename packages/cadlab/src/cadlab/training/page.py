@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from cadgraph.labelers.embedded.model import Model
+from cadlab.markdown import table
 from cadlab.training.course import NEW_PRECISION, PRECISION, Trials
 from cadlab.training.example import Example
 from cadlab.training.figure import Answers, Scores, answer, score
@@ -153,13 +154,11 @@ def write_page(trials: Trials, real: Sequence[RealPart], size: int, families: in
 
 
 def _table(rows: Iterable[tuple[str, Scores]]) -> str:
-    lines = ["| | parts | group | name | macro F1 | ECE | kept | precision |", "|---|---|---|---|---|---|---|---|"]
+    lines = []
     for name, s in rows:
-        lines.append(
-            f"| {name} | {s.parts:,} | {s.group:.1%} | {s.name:.1%} | {s.macro:.2f} | {s.ece:.3f} | {s.kept:.1%} "
-            f"| {s.precision:.1%} |"
-        )
-    return "\n".join(lines)
+        shares = f"{s.group:.1%}", f"{s.name:.1%}", f"{s.macro:.2f}", f"{s.ece:.3f}", f"{s.kept:.1%}"
+        lines.append((name, f"{s.parts:,}", *shares, f"{s.precision:.1%}"))
+    return "\n".join(table(("", "parts", "group", "name", "macro F1", "ECE", "kept", "precision"), lines))
 
 
 def _ablations(model: Model, plants: Sequence[Example]) -> list[tuple[str, Scores]]:
@@ -189,12 +188,12 @@ def _ablations(model: Model, plants: Sequence[Example]) -> list[tuple[str, Score
 
 def _groups(a: Answers, least: float) -> str:
     groups = sorted(set(a.true_group.tolist()))
-    lines = ["| is \\ said | " + " | ".join(groups) + " |", "|---" * (len(groups) + 1) + "|"]
+    lines = []
     for row in groups:
         mine = a.where(a.true_group == row)
         counts = Counter(mine.group.tolist())
-        lines.append(f"| **{row}** | " + " | ".join(f"{counts[g]:,}" if counts[g] else "" for g in groups) + " |")
-    return "\n".join(lines)
+        lines.append([f"**{row}**", *(f"{counts[g]:,}" if counts[g] else "" for g in groups)])
+    return "\n".join(table(["is \\ said", *groups], lines))
 
 
 def _confusions(a: Answers) -> str:
@@ -206,9 +205,9 @@ def _confusions(a: Answers) -> str:
 
 def _names(*trials: Answers) -> str:
     """Recall and precision of each name in some trials."""
-    lines = ["| name |" + " parts | found | right |" * len(trials), "|---|" + "---|---|---|" * len(trials)]
+    lines = []
     for name in sorted({name for a in trials for name in a.truth.tolist()}):
-        cells = []
+        cells = [name.replace("/", ": ")]
         for a in trials:
             true, said = a.truth == name, a.name == name
             both = int((true & said).sum())
@@ -217,8 +216,8 @@ def _names(*trials: Answers) -> str:
                 f"{both / true.sum():.0%}" if true.any() else "",
                 f"{both / said.sum():.0%}" if said.any() and true.any() else "",
             ]
-        lines.append(f"| {name.replace('/', ': ')} | " + " | ".join(cells) + " |")
-    return "\n".join(lines)
+        lines.append(cells)
+    return "\n".join(table(["name", *("parts", "found", "right") * len(trials)], lines))
 
 
 def _strange(told: Mapping[str, Answers], least: float) -> str:
@@ -250,13 +249,15 @@ def _real(model: Model, parts: Sequence[RealPart]) -> str:
         said = str(told.name[part.index]).split("/")[1]
         name_right = group_right and (not part.names or said in part.names)
         kinds.setdefault(f"{part.group}: {', '.join(part.names) or 'any'}", []).append((group_right, name_right, sure))
+    shares = {kind: np.array(rows, np.float64).mean(axis=0) for kind, rows in kinds.items()}
     lines = [
-        "Real parts by other hands (STEP files from public libraries, each alone in its file; never learnt from):", "",
-        "| kind | parts | group right | name right | above the threshold |", "|---|---|---|---|---|",
-    ]  # fmt: skip
-    for kind, rows in kinds.items():
-        share = np.array(rows, np.float64).mean(axis=0)
-        lines.append(f"| {kind} | {len(rows)} | {share[0]:.0%} | {share[1]:.0%} | {share[2]:.0%} |")
+        "Real parts by other hands (STEP files from public libraries, each alone in its file; never learnt from):",
+        "",
+        *table(
+            ("kind", "parts", "group right", "name right", "above the threshold"),
+            ([kind, len(rows), *(f"{share:.0%}" for share in shares[kind])] for kind, rows in kinds.items()),
+        ),
+    ]
     if strange:
         lines += ["", f"Of {len(strange)} real parts of ball bearings and pulleys, for which there is no name, "
                       f"{sum(strange)} are left open."]  # fmt: skip

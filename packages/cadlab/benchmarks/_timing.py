@@ -1,4 +1,4 @@
-"""Timing and tables of the geometry benchmarks."""
+"""Timing of the geometry benchmarks, and the machine that they run on."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import os
 import platform
 import statistics
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 import numba
 import numpy as np
@@ -40,10 +40,3 @@ def once(act: Callable[[], object]) -> float:
     start = time.process_time()
     act()
     return time.process_time() - start
-
-
-def table(titles: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
-    """A Markdown table, its first column to the left."""
-    lines = ["| " + " | ".join(titles) + " |", "|:---|" + "---:|" * (len(titles) - 1)]
-    lines += ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]
-    return "\n".join(lines)

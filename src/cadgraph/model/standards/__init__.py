@@ -1,0 +1,56 @@
+"""Tables of the standards of piping, as CSV files beside this module: lengths in mm, a column ``source`` in each.
+
+=================  ===========================================================================================
+``pipes``          outer diameters by nominal size (DN), and the wall where the size is built by the generator
+``flanges``        class 150
+``face_to_face``   lengths of valves from flange face to flange face, class 150
+``fittings``       lengths of elbows, tees and reducers
+``nuts``           by the diameter of their bolt
+``washers``        by the diameter of their bolt
+``gauges``         pressure gauges by the diameter of their case
+``sections``       steel sections
+=================  ===========================================================================================
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping
+from functools import cache
+from importlib import resources
+from types import MappingProxyType
+
+__all__ = ["by_size", "outer_diameters", "read_table"]
+
+
+@cache
+def read_table(name: str) -> tuple[Mapping[str, str], ...]:
+    """The rows of a table by their columns, as they are written.
+
+    Args:
+        name: of the table, without ``.csv``.
+
+    Raises:
+        FileNotFoundError: there is no such table.
+    """
+    text = resources.files("cadgraph.model.standards").joinpath(f"{name}.csv").read_text(encoding="utf-8")
+    return tuple(MappingProxyType(row) for row in csv.DictReader(text.splitlines()))
+
+
+@cache
+def outer_diameters() -> tuple[tuple[int, float], ...]:
+    """Nominal size (DN) and outer diameter of pipes [m], by every standard that has a table of its own."""
+    return tuple(dict.fromkeys((int(row["dn"]), float(row["outer_mm"]) / 1000) for row in read_table("pipes")))
+
+
+@cache
+def by_size(table: str, column: str, kind: str) -> Mapping[int, float]:
+    """The lengths of one kind of a table by nominal size (DN) [m].
+
+    Args:
+        table: ``face_to_face`` or ``fittings``.
+        column: says what a row is of: ``valve`` or ``fitting``.
+        kind: is in that column: ``gate``, ``elbow``...
+    """
+    rows = (row for row in read_table(table) if row[column] == kind)
+    return MappingProxyType({int(row["dn"]): float(row["length_mm"]) / 1000 for row in rows})
