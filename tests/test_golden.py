@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 
 from cadgraph.session.run import run
-from cadplants import HANDS, PRESETS, make, write_usd
+from cadplants import PRESETS, STYLES, make, write_usd
 from cadplants.families import FAMILIES
 from cadplants.family import as_assembly
 from golden_digest import Records, of_components, of_graph
 
-STYLES = ("plant-design", "bim", "game")
+IN_STYLES = ("plant-design", "bim", "game")
 QUICK = {("riser", "plant-design"), ("pumps", "game")}
 REAL = Path(__file__).parent / "data"
 FILES = sorted(
@@ -40,7 +40,7 @@ def build(source, name, graphs):
     [
         pytest.param(preset, style, marks=[] if (preset, style) in QUICK else [pytest.mark.slow])
         for preset in PRESETS
-        for style in STYLES
+        for style in IN_STYLES
     ],
 )
 def test_graphs_of_generated_plants_stay_as_they_are(preset, style, graphs, tmp_path, monkeypatch):
@@ -59,7 +59,7 @@ def test_graphs_of_real_files_stay_as_they_are(file, graphs, tmp_path, monkeypat
 
 
 def family_digest(family):
-    style, rng = HANDS["mechanical"], np.random.default_rng(7)
+    style, rng = STYLES["mechanical"], np.random.default_rng(7)
     dn = family.sizes[len(family.sizes) // 2]
     model = family.build(dn, style, rng, 1.1) if family.place == "carrier" else family.build(dn, style, rng)
     return of_components(as_assembly(family, model, style, "X-1").components)
@@ -71,6 +71,6 @@ def test_shapes_of_families_stay_as_they_are(families):
 
 
 def test_every_record_still_has_its_test(graphs, families):
-    names = {f"{preset} {style}" for preset in PRESETS for style in STYLES} | {f"file {file}" for file in FILES}
+    names = {f"{preset} {style}" for preset in PRESETS for style in IN_STYLES} | {f"file {file}" for file in FILES}
     assert set(graphs.known) == names
     assert set(families.known) == set(FAMILIES)

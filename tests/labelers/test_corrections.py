@@ -155,9 +155,9 @@ def test_three_corrections_change_a_family_that_the_model_does_not_know_and_litt
     assert len(followed) >= 0.8 * len(others)
     assert {label.source for label in followed} == {"repeat"}
     assert "kin" in {label.evidence.match for label in followed}
-    strangers = [part for part in range(parts.n_parts) if part not in knob_of]
-    changed = [part for part in strangers if after[part] != before[part]]
-    assert len(changed) < 0.02 * len(strangers)
+    distractors = [part for part in range(parts.n_parts) if part not in knob_of]
+    changed = [part for part in distractors if after[part] != before[part]]
+    assert len(changed) < 0.02 * len(distractors)
 
 
 def test_parts_that_the_model_is_sure_about_are_not_drawn_along(plant):

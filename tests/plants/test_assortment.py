@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from cadgraph.model.vocabulary import default_vocabulary
-from cadplants import HANDS, make
-from cadplants.assortment import FAMILIES, draw_hand, make_assortment
+from cadplants import STYLES, make
+from cadplants.assortment import FAMILIES, draw_modeling_style, make_assortment
 from cadplants.truth_writer import truth_of
 
 # Exact and whole, so that nothing but the layout is looked at.
-PLAIN = replace(HANDS["bim"], name="plain", gap=(0.0, 0.0))
+PLAIN = replace(STYLES["bim"], name="plain", gap=(0.0, 0.0))
 
 
 @pytest.fixture(scope="module")
@@ -80,22 +80,22 @@ def test_an_unknown_family_is_named():
 
 
 def test_spools_take_in_their_elbows_and_flanges():
-    hand = replace(PLAIN, merged=True)
-    named = [c for seed in range(3) for c in make_assortment(seed, hand, frozenset(FAMILIES)).components]
+    style = replace(PLAIN, merged=True)
+    named = [c for seed in range(3) for c in make_assortment(seed, style, frozenset(FAMILIES)).components]
     assert "pipe/spool" in {c.family for c in named}
     assert "elbow" not in {c.name for c in named}
 
 
 def test_drawn_hands_vary_and_are_none_of_the_published():
-    hands = [draw_hand(np.random.default_rng(seed)) for seed in range(200)]
-    assert all(replace(hand, name=known.name) != known for hand in hands for known in HANDS.values())
-    assert not {hand.name for hand in hands} & set(HANDS)
+    styles = [draw_modeling_style(np.random.default_rng(seed)) for seed in range(200)]
+    assert all(replace(style, name=known.name) != known for style in styles for known in STYLES.values())
+    assert not {style.name for style in styles} & set(STYLES)
     for field, least in (("flange", 3), ("fasteners", 4), ("valve", 3), ("gauge", 3), ("pump", 3), ("sides", 12)):
-        assert len({getattr(hand, field) for hand in hands}) >= least, field
+        assert len({getattr(style, field) for style in styles}) >= least, field
     for field in ("hollow", "holes", "gaskets", "merged", "capped", "fans"):
-        assert {getattr(hand, field) for hand in hands} == {True, False}, field
-    assert min(hand.gap[0] for hand in hands) == -0.002
-    assert 0.004 < max(hand.gap[1] for hand in hands) <= 0.005
-    assert min(hand.sides[0] for hand in hands) == 6
-    assert max(hand.sides[1] for hand in hands) == 64
-    assert draw_hand(np.random.default_rng(1)) == draw_hand(np.random.default_rng(1))
+        assert {getattr(style, field) for style in styles} == {True, False}, field
+    assert min(style.gap[0] for style in styles) == -0.002
+    assert 0.004 < max(style.gap[1] for style in styles) <= 0.005
+    assert min(style.sides[0] for style in styles) == 6
+    assert max(style.sides[1] for style in styles) == 64
+    assert draw_modeling_style(np.random.default_rng(1)) == draw_modeling_style(np.random.default_rng(1))

@@ -5,7 +5,7 @@ import pytest
 
 from cadgraph.geometry.mesh.properties import measure
 from cadgraph.model.truth import Truth
-from cadplants import HANDS, make
+from cadplants import STYLES, make
 from cadplants.detail import marked_gauge, plate, screw
 from cadplants.field import make_field
 from cadplants.gauge import pressure_gauge
@@ -16,7 +16,7 @@ from cadplants.truth_check import prove
 from cadplants.truth_writer import truth_of
 from plants.solids import is_closed, shell_volumes
 
-HAND = HANDS["plant-design"]
+HAND = STYLES["plant-design"]
 
 
 def plant_of(assembly):
@@ -40,8 +40,8 @@ def test_marks_and_screws_are_below_a_cubic_centimetre_and_join_the_gauge():
 
 
 def test_a_gauge_of_one_mesh_has_no_marks():
-    gauge = pressure_gauge("G", HANDS["bim"], 63)
-    assert marked_gauge(gauge, 63, "all", HANDS["bim"]) is gauge
+    gauge = pressure_gauge("G", STYLES["bim"], 63)
+    assert marked_gauge(gauge, 63, "all", STYLES["bim"]) is gauge
 
 
 def test_a_plate_has_a_mesh_for_each_letter_and_rivet():
@@ -51,7 +51,7 @@ def test_a_plate_has_a_mesh_for_each_letter_and_rivet():
 
 
 def test_a_coarse_hand_leaves_letters_out():
-    assert len(plate(("V-101",), HANDS["game"]).components) == 1
+    assert len(plate(("V-101",), STYLES["game"]).components) == 1
 
 
 def test_letters_stand_in_a_row_about_the_origin():

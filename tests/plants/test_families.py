@@ -5,34 +5,34 @@ import numpy as np
 import pytest
 
 from cadgraph.model.vocabulary import default_vocabulary
-from cadplants.drawn_styles import draw_hand
+from cadplants.drawn_styles import draw_modeling_style
 from cadplants.families import FAMILIES
 from cadplants.family import UNIT, Family, Model, Part, as_assembly, as_device
-from cadplants.modeling_style import HANDS
+from cadplants.modeling_style import STYLES
 from cadplants.plant import Device
 from cadplants.primitives import box
 from plants.solids import is_closed, shell_volumes
 
 # Every style, but none finer than 16 sides, so that hundreds of builds stay quick.
 STYLES = [
-    replace(hand, sides=(min(hand.sides[0], 12), min(hand.sides[1], 16)))
-    for hand in (*HANDS.values(), *(draw_hand(np.random.default_rng(seed)) for seed in range(2)))
+    replace(style, sides=(min(style.sides[0], 12), min(style.sides[1], 16)))
+    for style in (*STYLES.values(), *(draw_modeling_style(np.random.default_rng(seed)) for seed in range(2)))
 ]
 
 
-def built(family, dn, hand, seed):
+def built(family, dn, style, seed):
     rng = np.random.default_rng(seed)
-    return family.build(dn, hand, rng, 1.1) if family.place == "carrier" else family.build(dn, hand, rng)
+    return family.build(dn, style, rng, 1.1) if family.place == "carrier" else family.build(dn, style, rng)
 
 
 def sizes(family):
     return sorted({family.sizes[0], family.sizes[len(family.sizes) // 2], family.sizes[-1]})
 
 
-def flaws(family, hand, dn, seed):
+def flaws(family, style, dn, seed):
     """What is wrong with a family as one hand builds it."""
-    where = f"{family.name}, {hand.name}, DN {dn}"
-    assembly = as_assembly(family, built(family, dn, hand, seed), hand, "X-1")
+    where = f"{family.name}, {style.name}, DN {dn}"
+    assembly = as_assembly(family, built(family, dn, style, seed), style, "X-1")
     if not assembly.components:
         yield f"{where}: nothing was built"
     for component in assembly.components:
@@ -46,7 +46,7 @@ def flaws(family, hand, dn, seed):
 
 def test_every_family_is_closed_and_labelled():
     turns = zip(FAMILIES.values(), cycle(STYLES), strict=False)
-    assert [flaw for family, hand in turns for flaw in flaws(family, hand, sizes(family)[0], 0)] == []
+    assert [flaw for family, style in turns for flaw in flaws(family, style, sizes(family)[0], 0)] == []
 
 
 @pytest.mark.slow
@@ -54,15 +54,15 @@ def test_every_family_is_closed_and_labelled_in_every_hand():
     assert [
         flaw
         for family in FAMILIES.values()
-        for seed, (hand, dn) in enumerate(zip(STYLES, cycle(sizes(family)), strict=False))
-        for flaw in flaws(family, hand, dn, seed)
+        for seed, (style, dn) in enumerate(zip(STYLES, cycle(sizes(family)), strict=False))
+        for flaw in flaws(family, style, dn, seed)
     ] == []
 
 
 def vertices_of(family):
-    hand = HANDS["game"]
+    style = STYLES["game"]
     return [
-        (c.name, c.vertices) for c in as_assembly(family, built(family, sizes(family)[0], hand, 5), hand).components
+        (c.name, c.vertices) for c in as_assembly(family, built(family, sizes(family)[0], style, 5), style).components
     ]
 
 
@@ -78,8 +78,8 @@ def test_the_same_seed_builds_the_same_shape():
 
 def reaches_from_end_to_end(family):
     """Whether the device has a face at either end of its length, about as wide as the line."""
-    dn, hand = sizes(family)[1 if len(sizes(family)) > 1 else 0], HANDS["plant-design"]
-    device = as_device(family, built(family, dn, hand, 3), hand, "X-1")
+    dn, style = sizes(family)[1 if len(sizes(family)) > 1 else 0], STYLES["plant-design"]
+    device = as_device(family, built(family, dn, style, 3), style, "X-1")
     vertices = np.concatenate([c.vertices for c in device.assembly.components])
     near = vertices[np.hypot(vertices[:, 1], vertices[:, 2]) < 0.5 * dn / 1000 + 0.02][:, 0]
     ends = np.isclose(near, 0.0, atol=1e-9).any() and np.isclose(near, device.length, atol=2e-6).any()
@@ -123,8 +123,8 @@ FAMILY = Family("gate valve/test", "inline", "Valve assembly", "valve", lambda *
     ],
 )
 def test_a_hand_joins_parts_as_finely_as_it_models(grain, fasteners, names):
-    hand = replace(HANDS["plant-design"], valve=grain, fasteners=fasteners)
-    assembly = as_assembly(FAMILY, Model(PARTS), hand, "V-1")
+    style = replace(STYLES["plant-design"], valve=grain, fasteners=fasteners)
+    assembly = as_assembly(FAMILY, Model(PARTS), style, "V-1")
     assert [c.name for c in assembly.components] == names
     owners = {c.group: c.unit for c in assembly.components}
     assert owners["Valve assembly"] == "V-1"
@@ -133,7 +133,7 @@ def test_a_hand_joins_parts_as_finely_as_it_models(grain, fasteners, names):
 
 def test_finished_devices_take_the_id_of_their_unit():
     family = FAMILIES["check valve/swing"]
-    device = as_device(family, built(family, 50, HANDS["bim"], 0), HANDS["bim"], "V-7")
+    device = as_device(family, built(family, 50, STYLES["bim"], 0), STYLES["bim"], "V-7")
     assert isinstance(device, Device)
     assert {c.unit for c in device.assembly.components} == {"V-7"}
     assert [u.id for u in device.assembly.units] == ["V-7"]
@@ -143,4 +143,4 @@ def test_finished_devices_take_the_id_of_their_unit():
 def test_what_stands_on_the_floor_does_not_fit_a_line():
     family = FAMILIES["tank/dished on legs"]
     with pytest.raises(ValueError, match="no device for a line"):
-        as_device(family, built(family, 15, HANDS["bim"], 0), HANDS["bim"])
+        as_device(family, built(family, 15, STYLES["bim"], 0), STYLES["bim"])

@@ -1,13 +1,13 @@
 import numpy as np
 import pytest
 
-from cadplants import HANDS
+from cadplants import STYLES
 from cadplants.instrument import gauge_tap, reducer_at, tee_at, valve_at
 from cadplants.layout import Inline, Run, lay
 from cadplants.route import Route
 from cadplants.standards import ELBOW_LONG_RADIUS
 
-HAND = HANDS["plant-design"]
+HAND = STYLES["plant-design"]
 STRAIGHT = Route(np.array([(0.0, 0.0, 0.0), (3.0, 0.0, 0.0)]))
 ROUND_A_CORNER = Route(np.array([(0.0, 0.0, 0.0), (2.0, 0.0, 0.0), (2.0, 2.0, 0.0)]))
 

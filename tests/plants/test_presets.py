@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from cadgraph.model.vocabulary import default_vocabulary
-from cadplants import HANDS, PRESETS, Sins, make, spoil
+from cadplants import PRESETS, STYLES, Defects, degrade, make
 from cadplants.truth_writer import truth_of
 from plants.solids import is_closed, shell_volumes, touching
 
 SMALL = [name for name in PRESETS if name not in ("assortment", "field")]
-EXACT = [name for name, hand in HANDS.items() if not hand.looseness]
-LOOSE = [name for name, hand in HANDS.items() if hand.looseness]
+EXACT = [name for name, style in STYLES.items() if not style.looseness]
+LOOSE = [name for name, style in STYLES.items() if style.looseness]
 
 
 @pytest.fixture(scope="module", params=SMALL)
@@ -82,22 +82,22 @@ def test_each_plant_is_one_cluster_that_hangs_together(plant):
 
 
 @pytest.mark.parametrize(
-    ("preset", "hand"),
+    ("preset", "style"),
     [(preset, EXACT[k % len(EXACT)]) for k, preset in enumerate(SMALL)]
-    + [("skid", hand) for hand in EXACT]
+    + [("skid", style) for style in EXACT]
     + [("pumps", "plant-design"), ("rack", "plant-design"), ("tank", "plant-design"), ("riser", "vendor")],
 )
-def test_exactly_the_designed_pairs_touch(preset, hand):
+def test_exactly_the_designed_pairs_touch(preset, style):
     pytest.importorskip("fcl")
-    plant = make(preset, 1, hand)
+    plant = make(preset, 1, style)
     assert {tuple(sorted(pair)) for pair in plant.contacts} == set(touching(plant))
 
 
 @pytest.mark.parametrize("preset", SMALL)
-@pytest.mark.parametrize("hand", LOOSE)
-def test_loose_hands_leave_no_more_than_their_looseness(preset, hand):
+@pytest.mark.parametrize("style", LOOSE)
+def test_loose_hands_leave_no_more_than_their_looseness(preset, style):
     pytest.importorskip("fcl")
-    plant = make(preset, 1, hand)
+    plant = make(preset, 1, style)
     near = touching(plant, plant.looseness + 1e-6)
     assert {tuple(sorted(pair)) for pair in plant.contacts} <= set(near)
 
@@ -118,8 +118,8 @@ def test_same_seed_same_plant_and_another_seed_another(preset):
 
 
 def test_hands_differ_in_what_they_model():
-    count = {name: make("skid", 0, name).n_meshes for name in HANDS}
-    assert len(HANDS) >= 6
+    count = {name: make("skid", 0, name).n_meshes for name in STYLES}
+    assert len(STYLES) >= 6
     assert count["bim"] < count["game"] < count["plant-design"] < count["mechanical"]
 
 
@@ -137,8 +137,8 @@ def test_flow_is_known_where_physics_fixes_it():
 
 def test_sins_are_recorded():
     clean = make("riser", 0)
-    sins = Sins(duplicates=0.05, hidden=0.2, flipped=0.05, soup=0.05, degenerate=0.05, colors="gray")
-    plant = spoil(clean, sins, 3)
+    defects = Defects(duplicates=0.05, hidden=0.2, flipped=0.05, soup=0.05, degenerate=0.05, colors="gray")
+    plant = degrade(clean, defects, 3)
     assert len(plant.duplicates) == round(0.05 * clean.n_meshes)
     assert plant.hidden
     assert plant.n_meshes == clean.n_meshes + len(plant.duplicates) + len(plant.hidden)
@@ -154,14 +154,14 @@ def test_sins_are_recorded():
 
 def test_hidden_bodies_lie_inside_without_touching():
     pytest.importorskip("fcl")
-    plant = spoil(make("riser", 0), Sins(hidden=0.2), 3)
+    plant = degrade(make("riser", 0), Defects(hidden=0.2), 3)
     hidden = set(plant.hidden)
     assert not [pair for pair in touching(plant) if hidden & set(pair)]
 
 
 def test_no_sins_change_nothing():
     clean = make("riser", 0)
-    assert truth_of(spoil(clean, Sins())) == truth_of(clean)
+    assert truth_of(degrade(clean, Defects())) == truth_of(clean)
 
 
 def test_field_holds_all_of_them_apart():

@@ -5,7 +5,7 @@ import pytest
 
 from cadgraph.load import load
 from cadgraph.model.truth import Truth
-from cadplants import draw_sins, draw_style, make, spoil, truth_path, write_usd
+from cadplants import degrade, draw_defects, draw_style, make, truth_path, write_usd
 from cadplants.transforms import at
 from cadplants.truth_check import prove
 from cadplants.truth_writer import truth_of
@@ -41,9 +41,9 @@ def test_the_truth_of_every_preset_holds(preset):
     assert proof.n_checked["order"] >= 18
 
 
-@pytest.mark.parametrize("hand", ["bim", "mechanical", "scan"])
-def test_the_truth_of_every_hand_holds(hand):
-    assert proof_of(make("riser", 3, hand)).lines() == ()
+@pytest.mark.parametrize("style", ["bim", "mechanical", "scan"])
+def test_the_truth_of_every_hand_holds(style):
+    assert proof_of(make("riser", 3, style)).lines() == ()
 
 
 @pytest.mark.slow
@@ -55,7 +55,7 @@ def test_fifty_seeds_hold(preset):
 
 @pytest.mark.parametrize("seed", [0, 1, 4])
 def test_the_truth_of_a_spoilt_file_holds(seed, tmp_path):
-    plant = make("riser", seed, sins=draw_sins(seed))
+    plant = make("riser", seed, defects=draw_defects(seed))
     write_usd(plant, tmp_path / "plant.usdc", draw_style(seed))
     proof = prove(load(tmp_path / "plant.usdc"), Truth.load(truth_path(tmp_path / "plant.usdc")))
     assert proof.lines() == ()
@@ -114,7 +114,7 @@ def test_a_copy_that_is_none_is_found(riser):
 
 
 def test_a_hidden_body_that_sticks_out_is_found():
-    plant = spoil(make("riser", 0), draw_sins(2), 2)
+    plant = degrade(make("riser", 0), draw_defects(2), 2)
     assert plant.hidden
     grown = shifted(plant, plant.hidden[0], np.eye(4))
     one = grown.components[plant.hidden[0]]

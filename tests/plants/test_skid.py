@@ -6,7 +6,7 @@ import pytest
 
 from cadgraph.errors import OutputError
 from cadgraph.model.vocabulary import default_vocabulary
-from cadplants import HANDS, UsdStyle, make_skid, truth_path, write_usd
+from cadplants import STYLES, UsdStyle, make_skid, truth_path, write_usd
 from cadplants.truth_writer import truth_of
 from plants.solids import touching
 
@@ -84,11 +84,11 @@ def test_other_seeds_differ():
     assert not np.array_equal(make_skid(1).scene().vertices, make_skid(2).scene().vertices)
 
 
-@pytest.mark.parametrize("hand", HANDS.values(), ids=HANDS)
-def test_every_hand_builds_it(hand):
-    plant = make_skid(1, hand)
+@pytest.mark.parametrize("style", STYLES.values(), ids=STYLES)
+def test_every_hand_builds_it(style):
+    plant = make_skid(1, style)
     assert len(plant.units) == 24
-    assert plant.hands == (hand.name,)
+    assert plant.styles == (style.name,)
 
 
 STYLES = [

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cadplants.mesh_ops import Solid, volume
-from cadplants.modeling_style import HANDS
+from cadplants.modeling_style import STYLES
 from cadplants.plant import Assembly, Component
 from cadplants.primitives import ball, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned, waves
 from cadplants.retessellate import broken, fanned, in_rows, retold, uncapped
@@ -82,17 +82,17 @@ def one(name, solid):
 
 def test_a_hand_without_ways_of_its_own_changes_nothing():
     whole = one("pipe", FORMS["cylinder"])
-    assert retold(whole, HANDS["plant-design"], 0) is whole
+    assert retold(whole, STYLES["plant-design"], 0) is whole
 
 
 def test_only_pipes_lose_their_caps():
-    hand = replace(HANDS["bim"], capped=False)
-    assert not is_closed(retold(one("pipe", FORMS["cylinder"]), hand, 0).components[0].solid)
-    assert is_closed(retold(one("shaft", FORMS["cylinder"]), hand, 0).components[0].solid)
+    style = replace(STYLES["bim"], capped=False)
+    assert not is_closed(retold(one("pipe", FORMS["cylinder"]), style, 0).components[0].solid)
+    assert is_closed(retold(one("shaft", FORMS["cylinder"]), style, 0).components[0].solid)
 
 
 def test_soup_and_cracks_are_told():
-    hand = replace(HANDS["bim"], soup=1.0, cracks=1.0)
-    (component,) = retold(one("pipe", FORMS["torus"]), hand, 0).components
+    style = replace(STYLES["bim"], soup=1.0, cracks=1.0)
+    (component,) = retold(one("pipe", FORMS["torus"]), style, 0).components
     assert component.flaws == ("cracked", "soup")
     assert len(component.solid.vertices) == 3 * len(component.solid.faces)

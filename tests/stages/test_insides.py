@@ -9,7 +9,7 @@ from cadgraph.model.scene import Scene
 from cadgraph.query.explain import explain
 from cadgraph.stages.insides import find_insides, join_enclosed
 from cadgraph.stages.relate.unit import Group, take_in_enclosed
-from cadplants import HANDS
+from cadplants import STYLES
 from cadplants.families import FAMILIES
 from cadplants.family import as_assembly
 from plates import parts_of
@@ -150,7 +150,7 @@ def test_paper_method_is_as_it_was(ball_in_body):
 
 @pytest.mark.parametrize("family", ["ball valve/trunnion", "ball valve/block", "globe valve/bellows seal"])
 def test_insides_of_generated_valves_lie_in_their_own_unit(family):
-    style, rng = HANDS["mechanical"], np.random.default_rng(7)
+    style, rng = STYLES["mechanical"], np.random.default_rng(7)
     made = FAMILIES[family]
     model = made.build(made.sizes[len(made.sizes) // 2], style, rng)
     assembly = as_assembly(made, model, style, "V-1").components

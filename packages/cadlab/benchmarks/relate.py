@@ -1,6 +1,6 @@
 """Functional relations on generated plants: ``python benchmarks/relate.py [--seeds 7] [--write]``.
 
-Every preset by every modelling hand, with its true labels, with those of the embedded labeler, and with a fifth of the
+Every preset by every modelling style, with its true labels, with those of the embedded labeler, and with a fifth of the
 labels wrong at random. Algorithm 1 of the paper runs on the same labels, contacts and units. ``--write`` puts the table
 into ``docs/functional.md``.
 """
@@ -19,13 +19,13 @@ from cadgraph.model.vocabulary import default_vocabulary
 from cadgraph.pipeline import build
 from cadlab.evaluate.evaluation import Evaluation, evaluate
 from cadlab.markdown import table
-from cadplants import HANDS, PRESETS, Plant, Sins, make
+from cadplants import PRESETS, STYLES, Defects, Plant, make
 from cadplants.truth_writer import truth_of
 
 PAGE = Path(__file__).parent.parent / "docs" / "functional.md"
 BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
 WRONG = 0.2
-SINS = Sins(duplicates=0.02, hidden=0.02, flipped=0.1, soup=0.1, degenerate=0.1)
+SINS = Defects(duplicates=0.02, hidden=0.02, flipped=0.1, soup=0.1, degenerate=0.1)
 MODES = {"true": "true", "embedded": "embedded labeler", "wrong": "20 % wrong at random", "sins": "true, spoilt meshes"}
 
 
@@ -100,18 +100,18 @@ def f1(counts: list[int]) -> str:
     return f"{2 * counts[2] / max(1, counts[0] + counts[1]):.3f}"
 
 
-def cases(seeds: list[int], presets: list[str], hands: list[str], modes: list[str]) -> Iterator[tuple[str, str, Sum]]:
-    """Each mode and hand with its sums."""
+def cases(seeds: list[int], presets: list[str], styles: list[str], modes: list[str]) -> Iterator[tuple[str, str, Sum]]:
+    """Each mode and style with its sums."""
     for mode in modes:
-        for hand in hands:
+        for style in styles:
             total = Sum()
             for preset in presets:
                 for seed in seeds:
-                    plant = make(preset, seed, hand, SINS if mode == "sins" else None)
+                    plant = make(preset, seed, style, SINS if mode == "sins" else None)
                     graph = build(plant.scene(), labels=labels_of(plant, mode, seed))
                     truth = Truth.from_json(truth_of(plant))
                     total.add(truth, evaluate(graph, truth))
-            yield mode, hand, total
+            yield mode, style, total
 
 
 def main() -> None:
@@ -121,7 +121,7 @@ def main() -> None:
     # was chosen for being read well.
     usual = [name for name in sorted(PRESETS) if name not in ("assortment", "field", "station")]
     parser.add_argument("--presets", nargs="+", default=usual)
-    parser.add_argument("--hands", nargs="+", default=list(HANDS))
+    parser.add_argument("--hands", nargs="+", default=list(STYLES))
     parser.add_argument("--modes", nargs="+", default=list(MODES))
     parser.add_argument("--write", action="store_true", help="put the table into docs/functional.md")
     options = parser.parse_args()
@@ -131,8 +131,8 @@ def main() -> None:
     ]  # fmt: skip
     rows = []
     sums: dict[str, Sum] = {}
-    for mode, hand, found in cases(options.seeds, options.presets, options.hands, options.modes):
-        rows.append(found.row(MODES[mode], hand))
+    for mode, style, found in cases(options.seeds, options.presets, options.styles, options.modes):
+        rows.append(found.row(MODES[mode], style))
         whole = sums.setdefault(mode, Sum())
         for totals, more in (
             (whole.edges, found.edges), (whole.paper, found.paper), (whole.ends, found.ends),

@@ -11,9 +11,9 @@ from cadgraph.labelers.embedded.model import Model, default_model, read_model, w
 from cadgraph.model.vocabulary import default_vocabulary
 from cadlab.training.example import Example
 from cadlab.training.figure import answer, score
-from cadlab.training.samples import Lesson, build_lessons
+from cadlab.training.samples import Sample, build_samples
 
-LESSONS = (Lesson("riser", 0, "game"), Lesson("fasteners", 0))
+LESSONS = (Sample("riser", 0, "game"), Sample("fasteners", 0))
 
 
 @pytest.fixture(scope="module")
@@ -23,7 +23,7 @@ def folder(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def examples(folder):
-    return build_lessons(LESSONS, folder)
+    return build_samples(LESSONS, folder)
 
 
 def test_examples_carry_names_of_the_vocabulary(examples):
@@ -32,13 +32,13 @@ def test_examples_carry_names_of_the_vocabulary(examples):
         n = len(example.label)
         assert n > 10
         assert all(vocabulary.holds(*label.split("/")) for label in example.label.tolist())
-        assert {len(getattr(example, name)) for name in ("shape", "places", "family", "hand", "ground")} == {n}
+        assert {len(getattr(example, name)) for name in ("shape", "places", "family", "style", "ground")} == {n}
         assert example.shape.max() < len(example.forms) == len(example.sizes)
 
 
 def test_plants_that_were_built_before_are_read_as_they_were(examples, folder):
     written = sorted(folder.iterdir())
-    again = build_lessons(LESSONS, folder)
+    again = build_samples(LESSONS, folder)
     assert sorted(folder.iterdir()) == written
     for a, b in zip(examples, again, strict=True):
         for name in Example.__annotations__:

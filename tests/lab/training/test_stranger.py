@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 from scipy.spatial import KDTree
 
-from cadlab.training.distractors import UNSEEN, UNSEEN_FROM, make_strangers, visited
+from cadlab.training.distractors import UNSEEN, UNSEEN_FROM, make_distractors, visited
 from cadlab.training.oddities import ODDITIES
-from cadlab.training.samples import Lesson, held_out_lessons, training_lessons
+from cadlab.training.samples import Sample, held_out_lessons, training_samples
 from cadplants.assortment import make_assortment
 from plants.solids import is_closed, shell_volumes
 
@@ -24,10 +24,10 @@ def kinds(plant):
 
 def test_what_is_kept_for_the_trial_is_never_learnt_from():
     unseen = {name[1:] for name in UNSEEN}
-    assert not kinds(make_strangers(0)) & unseen
-    assert kinds(make_strangers(UNSEEN_FROM)) <= unseen
-    learnt = {(lesson.kind, lesson.seed) for lesson in training_lessons(40, 4)}
-    tried = {(lesson.kind, lesson.seed) for some in held_out_lessons(1).values() for lesson in some}
+    assert not kinds(make_distractors(0)) & unseen
+    assert kinds(make_distractors(UNSEEN_FROM)) <= unseen
+    learnt = {(sample.kind, sample.seed) for sample in training_samples(40, 4)}
+    tried = {(sample.kind, sample.seed) for some in held_out_lessons(1).values() for sample in some}
     assert not learnt & tried
 
 
@@ -44,6 +44,6 @@ def test_guests_touch_their_hosts_and_change_nothing_else():
 
 
 def test_lessons_with_guests_hold_strangers():
-    lesson = next(lesson for lesson in training_lessons(8, 0) if lesson.guests)
-    assert kinds(lesson.plant())
-    assert not kinds(Lesson(lesson.kind, lesson.seed).plant())
+    sample = next(sample for sample in training_samples(8, 0) if sample.guests)
+    assert kinds(sample.plant())
+    assert not kinds(Sample(sample.kind, sample.seed).plant())

@@ -1,7 +1,10 @@
 """Generated industrial plants with their ground truth: an open benchmark for whoever reads CAD."""
 
-from cadplants.defects import Sins, draw_sins, spoil
-from cadplants.modeling_style import HANDS, Hand
+import warnings
+from typing import Any
+
+from cadplants.defects import Defects, degrade, draw_defects
+from cadplants.modeling_style import STYLES, ModelingStyle
 from cadplants.plant import Component, Plant
 from cadplants.preset import PRESETS, make
 from cadplants.riser import make_riser
@@ -12,20 +15,30 @@ from cadplants.usd import UsdStyle, draw_style, truth_path, write_usd
 __version__ = "0.1.0"
 
 __all__ = [
-    "HANDS",
     "PRESETS",
+    "STYLES",
     "Component",
-    "Hand",
+    "Defects",
+    "ModelingStyle",
     "Plant",
-    "Sins",
     "UsdStyle",
-    "draw_sins",
+    "degrade",
+    "draw_defects",
     "draw_style",
     "make",
     "make_riser",
     "make_skid",
     "make_tank",
-    "spoil",
     "truth_path",
     "write_usd",
 ]
+
+_OLD = {"HANDS": "STYLES", "Hand": "ModelingStyle", "Sins": "Defects", "draw_sins": "draw_defects", "spoil": "degrade"}
+
+
+def __getattr__(name: str) -> Any:
+    # Names of version 0.1.0, kept for one more.
+    if name in _OLD:
+        warnings.warn(f"cadplants.{name} is now cadplants.{_OLD[name]}", DeprecationWarning, stacklevel=2)
+        return globals()[_OLD[name]]
+    raise AttributeError(f"module 'cadplants' has no attribute {name!r}")

@@ -8,7 +8,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.mesh_ops import Solid, box, extrude, lattice, tube
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Assembly, Component, gather
 from cadplants.polygon import section_channel
 from cadplants.structure import column
@@ -40,13 +40,13 @@ def _grating_solid(length: float, width: float, thick: float) -> Solid:
     return lattice(xs, ys, filled, -thick, 0.0)
 
 
-def grating(length: float, width: float, hand: Hand, thick: float = 0.03, name: str = "grating") -> Assembly:
+def grating(length: float, width: float, style: ModelingStyle, thick: float = 0.03, name: str = "grating") -> Assembly:
     """A grating panel about the origin, its top at z = 0."""
-    if hand.sides[1] <= 16:
+    if style.sides[1] <= 16:
         solid = box((length, width, thick), (0, 0, -thick / 2))
     else:
         solid = _grating_solid(round(length, 6), round(width, 6), thick)
-    return Assembly((Component(solid, _GROUP, name, hand.color("clamp")),))
+    return Assembly((Component(solid, _GROUP, name, style.color("clamp")),))
 
 
 @cache
@@ -54,13 +54,13 @@ def _bar_solid(length: float, radius: float, sides: int) -> Solid:
     return tube(np.array([[0.0, 0.0, 0.0], [length, 0.0, 0.0]]), radius, 0.0, sides)
 
 
-def railing(start: Floats, end: Floats, hand: Hand) -> Assembly:
+def railing(start: Floats, end: Floats, style: ModelingStyle) -> Assembly:
     """Posts at most 1.2 m apart, handrail, knee rail and toe plate along a line on a floor.
 
     Args:
         start: ``(3,)`` on the floor [m].
         end: likewise; the line may rise, as along stairs (then without toe plate).
-        hand: that models it.
+        style: that models it.
 
     Returns:
         The posts first, in order.
@@ -70,8 +70,8 @@ def railing(start: Floats, end: Floats, hand: Hand) -> Assembly:
     length = float(np.linalg.norm(run))
     sloped = abs(run[2]) > 1e-6
     count = max(2, int(np.ceil(length / 1.2)) + 1)
-    color = hand.color("safety")
-    sides = min(hand.round(_RAIL), 16)
+    color = style.color("safety")
+    sides = min(style.round(_RAIL), 16)
     slope = run / length
     across = float(np.hypot(slope[0], slope[1]))
     top = _RAIL_HEIGHT - _RAIL
@@ -103,23 +103,23 @@ def _channel_solid(length: float) -> Solid:
     return extrude(section_channel(0.14, _CHANNEL, 0.007, 0.010), 0.0, length)
 
 
-def _channel(start: Floats, end: Floats, hand: Hand) -> Component:
+def _channel(start: Floats, end: Floats, style: ModelingStyle) -> Component:
     """A channel along a line; its web's back on the line, open to the left of it, its middle at the line's height."""
     frame = looking(start, end - start)
     pose = np.eye(4)
     pose[:3, 0], pose[:3, 1], pose[:3, 2], pose[:3, 3] = frame[:3, 1], frame[:3, 2], frame[:3, 0], start
     length = round(float(np.linalg.norm(end - start)), 9)
-    return Component(_channel_solid(length), _GROUP, "beam", hand.color("steel"), pose)
+    return Component(_channel_solid(length), _GROUP, "beam", style.color("steel"), pose)
 
 
-def platform(length: float, width: float, height: float, hand: Hand, gap_at: float | None = None) -> Assembly:
+def platform(length: float, width: float, height: float, style: ModelingStyle, gap_at: float | None = None) -> Assembly:
     """A platform about z on four columns: frame of channels, gratings of a metre, railing all round.
 
     Args:
         length: along x [m].
         width: along y [m].
         height: of the floor over z = 0 [m].
-        hand: that models it.
+        style: that models it.
         gap_at: x of the middle of an opening of 0.9 m for stairs in the railing of the side y < 0, or None.
 
     Returns:
@@ -134,12 +134,12 @@ def platform(length: float, width: float, height: float, hand: Hand, gap_at: flo
     joints: list[tuple[int, int]] = []
     for sx in (-1, 1):
         for sy in (-1, 1):
-            parts.append(column(frame_top - 0.14, hand, size).placed(at(sx * (x - 0.15), sy * (y - half), 0)))
+            parts.append(column(frame_top - 0.14, style, size).placed(at(sx * (x - 0.15), sy * (y - half), 0)))
     z = frame_top - 0.07
     # Two long channels on the columns, their webs outward; cross beams between their flanges under the panels' joints.
     sides = [
-        _channel(np.array([-x, -y, z]), np.array([x, -y, z]), hand),
-        _channel(np.array([x, y, z]), np.array([-x, y, z]), hand),
+        _channel(np.array([-x, -y, z]), np.array([x, -y, z]), style),
+        _channel(np.array([x, y, z]), np.array([-x, y, z]), style),
     ]
     parts.append(Assembly(tuple(sides)))
     frame = 8
@@ -152,19 +152,19 @@ def platform(length: float, width: float, height: float, hand: Hand, gap_at: flo
         at_x = -x + k * step
         at_x += 0.06 if k == 0 else -0.06 if k == count else 0.0
         solid = box((0.06, 2 * (y - _CHANNEL), 0.14), (at_x, 0, z))
-        parts.append(Assembly((Component(solid, _GROUP, "beam", hand.color("steel")),)))
+        parts.append(Assembly((Component(solid, _GROUP, "beam", style.color("steel")),)))
         crosses.append(index)
         joints += [(frame, index), (frame + 1, index)]
         index += 1
     for k in range(count):
-        panel_part = grating(step, width, hand, panel).placed(at(-x + (k + 0.5) * step, 0, height))
+        panel_part = grating(step, width, style, panel).placed(at(-x + (k + 0.5) * step, 0, height))
         parts.append(panel_part)
         joints += [(frame, index), (frame + 1, index), (crosses[k], index), (crosses[k + 1], index)]
         if k:
             joints.append((index - 1, index))
         index += 1
     first_panel = index - count
-    for rail in _guard(x, y, height, hand, gap_at):
+    for rail in _guard(x, y, height, style, gap_at):
         parts.append(rail)
         for k, piece in enumerate(rail.components):
             if piece.name == "post":
@@ -178,17 +178,17 @@ def platform(length: float, width: float, height: float, hand: Hand, gap_at: flo
     return gather(parts, joints)
 
 
-def _guard(x: float, y: float, height: float, hand: Hand, gap_at: float | None) -> list[Assembly]:
+def _guard(x: float, y: float, height: float, style: ModelingStyle, gap_at: float | None) -> list[Assembly]:
     """Railings along the edges of a floor that reaches to +-x and +-y, with an opening in the side y < 0."""
     inset = 0.05
     far, side, near = x - inset, y - inset, x - inset - 0.06
     stretches = [((far, -side), (far, side)), ((-far, side), (-far, -side)), ((near, side), (-near, side))]
     front = [(-near, near)] if gap_at is None else [(-near, gap_at - 0.45), (gap_at + 0.45, near)]
     stretches += [((a, -side), (b, -side)) for a, b in front if b - a > 0.3]
-    return [railing(np.array([*a, height]), np.array([*b, height]), hand) for a, b in stretches]
+    return [railing(np.array([*a, height]), np.array([*b, height]), style) for a, b in stretches]
 
 
-def stairs(height: float, hand: Hand, width: float = 0.80) -> Assembly:
+def stairs(height: float, style: ModelingStyle, width: float = 0.80) -> Assembly:
     """Stairs that climb along +x from z = 0 to ``height`` at x = 0, 38 degrees steep.
 
     Returns:
@@ -203,7 +203,7 @@ def stairs(height: float, hand: Hand, width: float = 0.80) -> Assembly:
         [[-reach, 0.0], [-reach + deep * 1.2, 0.0], [0.0, height - deep], [0.0, height], [-0.12, height]]
     )
     plate = extrude(outline, 0.0, 0.008)
-    color = hand.color("steel")
+    color = style.color("steel")
     stand = spun("x", np.pi / 2)
     parts = [
         Assembly(
@@ -218,7 +218,7 @@ def stairs(height: float, hand: Hand, width: float = 0.80) -> Assembly:
     for k in range(1, count):
         # The nosing stands 2 cm out of the stringers' upper edge.
         x = -reach + (reach - 0.12) * k / count + 0.10
-        tread = grating(0.24, width, hand, 0.03, "stair tread").placed(at(x, 0, k * rise))
+        tread = grating(0.24, width, style, 0.03, "stair tread").placed(at(x, 0, k * rise))
         parts.append(tread)
         joints += [(0, index), (1, index)]
         index += 1

@@ -17,13 +17,13 @@ import numpy as np
 from cadgraph.geometry.components import connected_sets
 from cadgraph.model.scene import Floats
 from cadplants.defects import loosen
-from cadplants.drawn_styles import draw_hand
+from cadplants.drawn_styles import draw_modeling_style
 from cadplants.families import FAMILIES
 from cadplants.family import Family, Model, as_assembly, as_device
 from cadplants.flange import GASKET, bolts, flange, flange_length, gasket, plate_thickness
 from cadplants.layout import Inline, Laid, Run, Tap, lay
 from cadplants.mesh_ops import merge, moved
-from cadplants.modeling_style import Grain, Hand
+from cadplants.modeling_style import Grain, ModelingStyle
 from cadplants.piping import bend_tangent, cap, elbow
 from cadplants.plant import Assembly, Component, Device, Plant, gather
 from cadplants.primitives import box
@@ -32,7 +32,7 @@ from cadplants.route import Route
 from cadplants.standards import ELBOW_LONG_RADIUS, PIPES, SIZES
 from cadplants.transforms import at, looking, spun
 
-__all__ = ["FAMILIES", "draw_hand", "make_assortment"]
+__all__ = ["FAMILIES", "draw_modeling_style", "make_assortment"]
 
 _Made = TypeVar("_Made", Assembly, Device)
 
@@ -45,12 +45,12 @@ _GROUND = 0.3  # share of plants that stand on a slab
 _DN_WEIGHTS = np.array([2, 2, 3, 2, 3, 4, 2, 3, 3, 1, 2, 2, 1, 1], float)  # of DN15..DN300
 
 
-def make_assortment(seed: int = 0, hand: Hand | None = None, without: frozenset[str] = frozenset()) -> Plant:
+def make_assortment(seed: int = 0, style: ModelingStyle | None = None, without: frozenset[str] = frozenset()) -> Plant:
     """Builds a random assortment of lines, devices and structures, about 100 to 500 meshes and their fasteners.
 
     Args:
         seed: of everything.
-        hand: how everything is modelled; else styles are drawn, one for the plant and others for some of its parts.
+        style: how everything is modelled; else styles are drawn, one for the plant and others for some of its parts.
         without: names of families that are left out (keys of ``FAMILIES``), or what comes before their slash.
 
     Returns:
@@ -61,7 +61,7 @@ def make_assortment(seed: int = 0, hand: Hand | None = None, without: frozenset[
     """
     _check_names(without)
     rng = np.random.default_rng([seed, 20])
-    work = _Draw(rng, hand, draw_hand(rng, "drawn-1") if hand is None else hand, without)
+    work = _Draw(rng, style, draw_modeling_style(rng, "drawn-1") if style is None else style, without)
     parts: list[Assembly] = []
     budget = int(rng.integers(*_MESHES))
     lines = 0
@@ -81,12 +81,12 @@ def make_assortment(seed: int = 0, hand: Hand | None = None, without: frozenset[
         if budget < 0 and k > 1:
             break
     if work.rng.random() < _GROUND:
-        parts.append(_ground(gather(parts), work.hand))
+        parts.append(_ground(gather(parts), work.main))
     whole = gather(parts)
     given: dict[str, Any] = {one.name: getattr(whole, one.name) for one in fields(whole)}
     looseness = max(style.looseness for style in work.used)
     return Plant(
-        **given, name="assortment", seed=seed, hands=tuple(style.name for style in work.used), looseness=looseness
+        **given, name="assortment", seed=seed, styles=tuple(style.name for style in work.used), looseness=looseness
     )
 
 
@@ -99,29 +99,31 @@ def _check_names(without: frozenset[str]) -> None:
 class _Draw:
     """Draws families, sizes and styles for one plant."""
 
-    def __init__(self, rng: np.random.Generator, fixed: Hand | None, hand: Hand, without: frozenset[str]) -> None:
-        self.rng, self.fixed, self.hand = rng, fixed, hand
-        self.used = [hand]
+    def __init__(
+        self, rng: np.random.Generator, fixed: ModelingStyle | None, style: ModelingStyle, without: frozenset[str]
+    ) -> None:
+        self.rng, self.fixed, self.main = rng, fixed, style
+        self.used = [style]
         self.count = 0
         self.families: dict[str, list[Family]] = {}
         for family in FAMILIES.values():
             if family.name not in without and family.name.split("/")[0] not in without:
                 self.families.setdefault(family.place, []).append(family)
 
-    def style(self) -> Hand:
-        """The plant's hand, or in a third of the cases another one."""
+    def style(self) -> ModelingStyle:
+        """The plant's style, or in a third of the cases another one."""
         if self.fixed is not None or self.rng.random() < 0.65:
-            return self.hand
-        self.used.append(draw_hand(self.rng, f"drawn-{len(self.used) + 1}"))
+            return self.main
+        self.used.append(draw_modeling_style(self.rng, f"drawn-{len(self.used) + 1}"))
         return self.used[-1]
 
-    def grained(self, hand: Hand) -> Hand:
-        """The hand with a granularity of its own for one device; a given hand keeps its own."""
+    def grained(self, style: ModelingStyle) -> ModelingStyle:
+        """The style with a granularity of its own for one device; a given style keeps its own."""
         if self.fixed is not None or self.rng.random() < 0.5:
-            return hand
+            return style
         grains: tuple[Grain, ...] = ("one", "few", "pieces")
         grain = grains[int(self.rng.integers(3))]
-        return replace(hand, valve=grain, gauge=grain, pump=grain, tank=grain, equipment=grain, structure=grain)
+        return replace(style, valve=grain, gauge=grain, pump=grain, tank=grain, equipment=grain, structure=grain)
 
     def family(self, place: str, dn: int = 0) -> Family | None:
         """One family for a place, made in this size; None where all are left out."""
@@ -141,25 +143,25 @@ class _Draw:
         return int(self.rng.choice(SIZES, p=_DN_WEIGHTS / _DN_WEIGHTS.sum()))
 
 
-def _finished(assembly: Assembly, hand: Hand, seed: int) -> Assembly:
-    """Gaps, unevenness and triangles as the hand leaves them; families for plain pipe."""
-    whole = retold(loosen(assembly, hand, seed), hand, seed)
-    styles = {"flange": f"flange/{hand.flange}", "blind flange": "flange/blind", "elbow": "elbow/long radius"}
+def _finished(assembly: Assembly, style: ModelingStyle, seed: int) -> Assembly:
+    """Gaps, unevenness and triangles as the style leaves them; families for plain pipe."""
+    whole = retold(loosen(assembly, style, seed), style, seed)
+    styles = {"flange": f"flange/{style.flange}", "blind flange": "flange/blind", "elbow": "elbow/long radius"}
     components = tuple(
         replace(c, family=c.family or styles.get(c.name, f"{c.name}/plain"), granularity=c.granularity or "pieces")
         for c in whole.components
     )
-    return replace(whole, components=components).marked(hand=hand.name)
+    return replace(whole, components=components).marked(style=style.name)
 
 
-def _ground(whole: Assembly, hand: Hand) -> Assembly:
+def _ground(whole: Assembly, style: ModelingStyle) -> Assembly:
     """A slab under everything."""
     points = np.concatenate([c.vertices for c in whole.components])[:, :2]
     (low_x, low_y), (high_x, high_y) = points.min(axis=0) - 0.5, points.max(axis=0) + 0.5
     slab = box((high_x - low_x, high_y - low_y, 0.1), ((low_x + high_x) / 2, (low_y + high_y) / 2, -0.05))
-    color = hand.color("ground")
+    color = style.color("ground")
     ground = Component(slab, "Structural element", "ground", color, family="ground/slab", granularity="one")
-    return Assembly((replace(ground, hand=hand.name),))
+    return Assembly((replace(ground, style=style.name),))
 
 
 # --- lines ---
@@ -174,7 +176,7 @@ class _Leg:
     length: float
 
 
-def _line(work: _Draw, hand: Hand, tag: str, lane: float) -> Assembly:
+def _line(work: _Draw, style: ModelingStyle, tag: str, lane: float) -> Assembly:
     """One line along x in its lane, with its supports and whatever ends it."""
     rng, dn = work.rng, work.dn()
     bent, bend = bool(rng.random() < 0.4), float(rng.uniform(1.5, 3.5))
@@ -188,9 +190,9 @@ def _line(work: _Draw, hand: Hand, tag: str, lane: float) -> Assembly:
     taps: list[Tap] = []
     s = 0.0
     for k, direction in enumerate(directions):
-        before = tangents[k - 1] if k else flange_length(dn, hand) + 0.05
-        after = tangents[k] if k < len(tangents) else flange_length(dn, hand) + 0.05
-        leg = _leg(work, hand, dn, s + before, abs(float(direction[2])) < 0.1)
+        before = tangents[k - 1] if k else flange_length(dn, style) + 0.05
+        after = tangents[k] if k < len(tangents) else flange_length(dn, style) + 0.05
+        leg = _leg(work, style, dn, s + before, abs(float(direction[2])) < 0.1)
         length = before + leg.length + after
         points.append(points[-1] + length * direction)
         inline += leg.items
@@ -203,10 +205,10 @@ def _line(work: _Draw, hand: Hand, tag: str, lane: float) -> Assembly:
     run = Run(
         tag, dn, Route(np.array(points)), tuple(inline), tuple(taps), bent=bent, bend=bend, ends=(ends[0], ends[1])
     )
-    laid = lay(run, hand)
-    pieces = [laid.assembly, *_supports(work, hand, laid), *_endings(work, hand, run)]
+    laid = lay(run, style)
+    pieces = [laid.assembly, *_supports(work, style, laid), *_endings(work, style, run)]
     whole = gather(pieces)
-    return (_spooled(whole) if hand.merged else whole).marked(cluster=tag)
+    return (_spooled(whole) if style.merged else whole).marked(cluster=tag)
 
 
 def _directions(rng: np.random.Generator, count: int) -> list[Floats]:
@@ -227,7 +229,7 @@ def _directions(rng: np.random.Generator, count: int) -> list[Floats]:
     return [np.where(np.abs(d) < 1e-12, 0.0, d) for d in result]
 
 
-def _leg(work: _Draw, hand: Hand, dn: int, start: float, level: bool) -> _Leg:
+def _leg(work: _Draw, style: ModelingStyle, dn: int, start: float, level: bool) -> _Leg:
     """Some devices in a row with pipe between them."""
     rng = work.rng
     items: list[Inline] = []
@@ -236,46 +238,46 @@ def _leg(work: _Draw, hand: Hand, dn: int, start: float, level: bool) -> _Leg:
     for _ in range(int(rng.integers(1, 4))):
         pipe = float(rng.choice([0.12, 0.25, 0.5])) * float(rng.uniform(0.8, 1.6))
         if rng.random() < 0.45 and level and pipe > 0.2 and (family := work.family("tap")) is not None:
-            taps.append(_tap_of(work, hand, family, dn, start + x + pipe / 2))
+            taps.append(_tap_of(work, style, family, dn, start + x + pipe / 2))
         x += pipe
-        item, length = _item(work, hand, dn, start + x)
+        item, length = _item(work, style, dn, start + x)
         items.append(item)
         x += length
     return _Leg(tuple(items), tuple(taps), x + float(rng.uniform(0.15, 0.9)))
 
 
-def _tap_of(work: _Draw, hand: Hand, family: Family, dn: int, s: float) -> Tap:
-    own = work.grained(hand)
+def _tap_of(work: _Draw, style: ModelingStyle, family: Family, dn: int, s: float) -> Tap:
+    own = work.grained(style)
     unit = work.unit(family)
     assembly = as_assembly(family, family.build(dn, own, work.rng), own, unit)
     return Tap(s, partial(_given, assembly), unit)
 
 
-def _given(made: _Made, _: Hand) -> _Made:
-    """What was made already, whatever hand asks."""
+def _given(made: _Made, _: ModelingStyle) -> _Made:
+    """What was made already, whatever style asks."""
     return made
 
 
-def _item(work: _Draw, hand: Hand, dn: int, low: float) -> tuple[Inline, float]:
+def _item(work: _Draw, style: ModelingStyle, dn: int, low: float) -> tuple[Inline, float]:
     """One thing in a line that begins at a chainage, and how long it is with its flanges [m]."""
     rng = work.rng
-    neck, pad = flange_length(dn, hand), GASKET if hand.gaskets else 0.0
+    neck, pad = flange_length(dn, style), GASKET if style.gaskets else 0.0
     family = work.family("inline", dn) if rng.random() < 0.9 else None
     if family is None:
         length = 2 * neck + pad
         return Inline(low + length / 2), length
-    own = work.grained(hand)
+    own = work.grained(style)
     unit = work.unit(family)
     model = family.build(dn, own, rng)
     device = as_device(family, model, own, unit)
     welded = family.welded or (isinstance(model, Model) and model.joint == "welded")
     length = device.length + (0.0 if welded else 2 * (neck + pad))
     roll = float(rng.choice([0.0, 0.0, 0.0, 0.5, -0.5, 1.0])) * np.pi
-    build: Callable[[Hand], Device] = partial(_given, device)
+    build: Callable[[ModelingStyle], Device] = partial(_given, device)
     return Inline(low + length / 2, build, unit, roll, welded=welded), length
 
 
-def _endings(work: _Draw, hand: Hand, run: Run) -> list[Assembly]:
+def _endings(work: _Draw, style: ModelingStyle, run: Run) -> list[Assembly]:
     """What closes or goes on from the ends of a line: caps, bends and hoses on pipes; valves and lids on flanges."""
     parts = []
     for which, s in ((0, 0.0), (1, run.route.length)):
@@ -283,41 +285,41 @@ def _endings(work: _Draw, hand: Hand, run: Run) -> list[Assembly]:
         dn = run.dn_at(s)
         if work.rng.random() < 0.3 or run.ends[which] not in ("open", "flange"):
             continue
-        parts += _pipe_end(work, hand, dn, frame) if run.ends[which] == "open" else _flange_end(work, hand, dn, frame)
+        parts += _pipe_end(work, style, dn, frame) if run.ends[which] == "open" else _flange_end(work, style, dn, frame)
     return parts
 
 
-def _pipe_end(work: _Draw, hand: Hand, dn: int, frame: Floats) -> list[Assembly]:
+def _pipe_end(work: _Draw, style: ModelingStyle, dn: int, frame: Floats) -> list[Assembly]:
     family = work.family("end", dn)
     if family is None or work.rng.random() < 0.25:
-        return [cap(dn, hand).placed(frame)]
-    own = work.grained(hand)
+        return [cap(dn, style).placed(frame)]
+    own = work.grained(style)
     return [as_assembly(family, family.build(dn, own, work.rng), own).placed(frame)]
 
 
-def _flange_end(work: _Draw, hand: Hand, dn: int, frame: Floats) -> list[Assembly]:
+def _flange_end(work: _Draw, style: ModelingStyle, dn: int, frame: Floats) -> list[Assembly]:
     """A device with one flange, bolted on; half of the upright ones stand on an elbow."""
     family = work.family("head", dn)
     if family is None:
         return []
-    own, unit = work.grained(hand), work.unit(family)
-    pad, plate = GASKET if hand.gaskets else 0.0, plate_thickness(dn)
-    parts = [gasket(dn, hand).placed(frame), bolts(dn, 2 * plate + pad, hand).placed(frame @ at(-plate))]
+    own, unit = work.grained(style), work.unit(family)
+    pad, plate = GASKET if style.gaskets else 0.0, plate_thickness(dn)
+    parts = [gasket(dn, style).placed(frame), bolts(dn, 2 * plate + pad, style).placed(frame @ at(-plate))]
     if family.unit and abs(frame[2, 0]) < 0.1 and work.rng.random() < 0.6:
-        neck, radius = flange_length(dn, hand), ELBOW_LONG_RADIUS[dn]
+        neck, radius = flange_length(dn, style), ELBOW_LONG_RADIUS[dn]
         turn = looking(frame[:3, 3], frame[:3, 0], (0.0, 0.0, 1.0)) @ spun("x", np.pi / 2)
         start = turn @ at(pad)
-        parts.append(flange(dn, hand).placed(start))
-        parts.append(elbow(dn, np.pi / 2, hand).placed(start @ at(neck)))
+        parts.append(flange(dn, style).placed(start))
+        parts.append(elbow(dn, np.pi / 2, style).placed(start @ at(neck)))
         frame = start @ at(neck + radius, radius) @ spun("z", np.pi / 2) @ at(neck)
-        parts.append(flange(dn, hand).placed(frame @ spun("z", np.pi)))
-        parts += [gasket(dn, hand).placed(frame), bolts(dn, 2 * plate + pad, hand).placed(frame @ at(-plate))]
+        parts.append(flange(dn, style).placed(frame @ spun("z", np.pi)))
+        parts += [gasket(dn, style).placed(frame), bolts(dn, 2 * plate + pad, style).placed(frame @ at(-plate))]
     model = family.build(dn, own, work.rng)
     roll = spun("x", float(work.rng.uniform(0, 2 * np.pi)))
     return [*parts, as_assembly(family, model, own, unit).placed(frame @ at(pad) @ roll)]
 
 
-def _supports(work: _Draw, hand: Hand, laid: Laid) -> list[Assembly]:
+def _supports(work: _Draw, style: ModelingStyle, laid: Laid) -> list[Assembly]:
     """What carries the level pipes of a line: from the ground up, or from a beam above."""
     rng, parts = work.rng, []
     run = laid.run
@@ -333,7 +335,7 @@ def _supports(work: _Draw, hand: Hand, laid: Laid) -> list[Assembly]:
         family = work.family("carrier", dn)
         if family is None:
             continue
-        own = work.grained(hand)
+        own = work.grained(style)
         model = family.build(dn, own, rng, float(frame[2, 3]))
         parts.append(as_assembly(family, model, own).placed(frame))
     return parts
@@ -367,32 +369,32 @@ def _spooled(whole: Assembly) -> Assembly:
 # --- the floor ---
 
 
-def _stand(work: _Draw, hand: Hand, cluster: str) -> Assembly:
+def _stand(work: _Draw, style: ModelingStyle, cluster: str) -> Assembly:
     """One thing on the floor, with a short line from each of its faces."""
     family = work.family("floor")
     if family is None:
         return Assembly()
-    own, unit = work.grained(hand), work.unit(family)
+    own, unit = work.grained(style), work.unit(family)
     model = family.build(int(work.rng.choice(family.sizes)), own, work.rng)
     parts = [as_assembly(family, model, own, unit)]
     ports = model.ports if isinstance(model, Model) else ()
     for k, port in enumerate(ports):
         if work.rng.random() < 0.8:
-            parts.append(_stub_line(work, hand, f"{cluster}-{k + 1}", port.frame, port.dn, unit))
+            parts.append(_stub_line(work, style, f"{cluster}-{k + 1}", port.frame, port.dn, unit))
     whole = gather(parts)
-    return (_spooled(whole) if hand.merged else whole).marked(cluster=cluster)
+    return (_spooled(whole) if style.merged else whole).marked(cluster=cluster)
 
 
-def _stub_line(work: _Draw, hand: Hand, tag: str, frame: Floats, dn: int, unit: str) -> Assembly:
+def _stub_line(work: _Draw, style: ModelingStyle, tag: str, frame: Floats, dn: int, unit: str) -> Assembly:
     """A line of one or two legs away from a face, with a device in it."""
     rng = work.rng
     start, out = frame[:3, 3], frame[:3, 0]
-    neck = flange_length(dn, hand) + GASKET + 0.05
-    leg = _leg(work, hand, dn, neck, abs(float(out[2])) < 0.1)
+    neck = flange_length(dn, style) + GASKET + 0.05
+    leg = _leg(work, style, dn, neck, abs(float(out[2])) < 0.1)
     points = [start, start + out * (neck + leg.length + ELBOW_LONG_RADIUS[dn])]
     if rng.random() < 0.6:
         up = np.array([0.0, 0.0, 1.0]) if abs(out[2]) < 0.5 else looking((0, 0, 0), out)[:3, 1]
         points.append(points[-1] + up * (ELBOW_LONG_RADIUS[dn] + neck + float(rng.uniform(0.2, 0.8))))
     end = str(rng.choice(["open", "flange", "blind"]))
     route = Route(np.array(points))
-    return lay(Run(tag, dn, route, leg.items, leg.taps, ends=("joint", end), nodes=(unit, "")), hand).assembly
+    return lay(Run(tag, dn, route, leg.items, leg.taps, ends=("joint", end), nodes=(unit, "")), style).assembly

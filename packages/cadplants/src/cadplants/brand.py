@@ -8,9 +8,9 @@ from typing import Any, Literal
 
 import numpy as np
 
-from cadplants.modeling_style import HANDS, RGB, Hand
+from cadplants.modeling_style import RGB, STYLES, ModelingStyle
 
-__all__ = ["Make", "draw_make", "dressed", "painted"]
+__all__ = ["Brand", "draw_brand", "dressed", "painted"]
 
 _PIPE_PAINTS: tuple[RGB, ...] = (
     (0.36, 0.40, 0.44),
@@ -32,7 +32,7 @@ _STEEL_PAINTS: tuple[RGB, ...] = ((0.24, 0.26, 0.28), (0.45, 0.46, 0.47), (0.10,
 
 
 @dataclass(frozen=True)
-class Make:
+class Brand:
     """How the valves of one manufacturer are built.
 
     Args:
@@ -69,9 +69,9 @@ class Make:
         return f"{kind} valve/{build}" if build else f"{kind} valve"
 
 
-def draw_make(rng: np.random.Generator) -> Make:
+def draw_brand(rng: np.random.Generator) -> Brand:
     """One manufacturer at random."""
-    return Make(
+    return Brand(
         wheel=("round", "round", "plate", "solid")[int(rng.integers(4))],
         spokes=int(rng.integers(3, 7)),
         lever=("cranked", "cranked", "straight")[int(rng.integers(3))],
@@ -81,35 +81,37 @@ def draw_make(rng: np.random.Generator) -> Make:
     )
 
 
-def painted(hand: Hand, rng: np.random.Generator, seed: int) -> Hand:
-    """The hand with a plant's own paint; those that colour by system or not at all keep their colours.
+def painted(style: ModelingStyle, rng: np.random.Generator, seed: int) -> ModelingStyle:
+    """The style with a plant's own paint; those that colour by system or not at all keep their colours.
 
     Args:
-        hand: that models the plant.
+        style: that models the plant.
         rng: of the paint.
         seed: 0 keeps the hand's own colours.
     """
     picks = [int(rng.integers(len(paints))) for paints in (_PIPE_PAINTS, _VALVE_PAINTS, _HANDLE_PAINTS, _STEEL_PAINTS)]
-    if seed == 0 or hand.palette is not HANDS["plant-design"].palette:
-        return hand
+    if seed == 0 or style.palette is not STYLES["plant-design"].palette:
+        return style
     pipe, valve = _PIPE_PAINTS[picks[0]], _VALVE_PAINTS[picks[1]]
     handle, steel = _HANDLE_PAINTS[picks[2]], _STEEL_PAINTS[picks[3]]
     bright = tuple(min(1.0, 1.12 * x + 0.01) for x in pipe)
     flange = (bright[0], bright[1], bright[2])
     return replace(
-        hand,
-        palette={**hand.palette, "pipe": pipe, "flange": flange, "valve": valve, "handle": handle, "steel": steel},
+        style,
+        palette={**style.palette, "pipe": pipe, "flange": flange, "valve": valve, "handle": handle, "steel": steel},
     )
 
 
-def dressed(hand: Hand | None, rng: np.random.Generator, seed: int, usual: Mapping[str, Any]) -> Hand:
-    """The hand that models a plant: the one asked for, or plant-design CAD as fine as somebody happened to model.
+def dressed(
+    style: ModelingStyle | None, rng: np.random.Generator, seed: int, usual: Mapping[str, Any]
+) -> ModelingStyle:
+    """The style that models a plant: the one asked for, or plant-design CAD as fine as somebody happened to model.
 
     Args:
-        hand: asked for, or None.
+        style: asked for, or None.
         rng: of paint and grain.
         seed: 0 takes the preset's usual grain and the hand's own colours.
-        usual: settings of ``Hand`` that give the preset as many parts as the paper's structure has.
+        usual: settings of ``Style`` that give the preset as many parts as the paper's structure has.
     """
     grains = {
         "fasteners": ("none", "flange", "set", "set", "bolt")[int(rng.integers(5))],
@@ -119,4 +121,4 @@ def dressed(hand: Hand | None, rng: np.random.Generator, seed: int, usual: Mappi
         "gaskets": bool(rng.random() < 0.7),
     }
     chosen: dict[str, Any] = {**usual, **(grains if seed else {})}
-    return painted(hand if hand is not None else replace(HANDS["plant-design"], **chosen), rng, seed)
+    return painted(style if style is not None else replace(STYLES["plant-design"], **chosen), rng, seed)

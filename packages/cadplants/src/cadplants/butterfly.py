@@ -8,7 +8,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.mesh_ops import Branch, Solid, about_x, branched, extrude, moved, revolve, stack, weld
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.operator import handwheel, lever_solid
 from cadplants.plant import Device
 from cadplants.polygon import circle, rounded_rectangle
@@ -20,11 +20,11 @@ __all__ = ["butterfly_valve"]
 
 
 @cache
-def _solids(dn: int, hand: Hand) -> tuple[Solid, Solid, Solid, float]:
+def _solids(dn: int, style: ModelingStyle) -> tuple[Solid, Solid, Solid, float]:
     """Body, disc, stem; and the height of the stem's top."""
     size, pipe, length = FLANGES[dn], PIPES[dn], FACE_TO_FACE["butterfly"][dn]
     outer = (size.circle - size.bolt) / 2 - 0.0015
-    sides = hand.round(outer)
+    sides = style.round(outer)
     neck = min(0.40 * length, 0.5 * outer)
     pad = neck + 0.012 + 0.06 * pipe.radius
     top = 0.5 * size.outer + 0.020 + 0.30 * pipe.radius
@@ -37,16 +37,16 @@ def _solids(dn: int, hand: Hand) -> tuple[Solid, Solid, Solid, float]:
     profile = [(0, -middle), (0.5 * reach, -middle), (reach, -edge), (reach, edge), (0.5 * reach, middle), (0, middle)]
     disc = weld([revolve(profile, sides)])
     # Open, its plane along the flow; where pipes are modelled solid it would run into them and stands shut.
-    turned = spun("x", -np.pi / 2) if hand.hollow else spun("y", np.pi / 2)
+    turned = spun("x", -np.pi / 2) if style.hollow else spun("y", np.pi / 2)
     disc = moved(disc, at(length / 2) @ turned)
     shaft = 0.42 * neck
     stem = stack([(top, top + 0.010, circle(shaft * 1.6, 6)), (top + 0.010, top + 0.030, circle(shaft, 12))])
     return body, disc, stem, top + 0.030
 
 
-def butterfly_valve(unit: str, dn: int, hand: Hand, gearbox: bool | None = None, spokes: int = 4) -> Device:
+def butterfly_valve(unit: str, dn: int, style: ModelingStyle, gearbox: bool | None = None, spokes: int = 4) -> Device:
     """A wafer butterfly valve, open, with a lever, or with a gearbox and a handwheel from DN200 on by default."""
-    body, disc, stem, top = _solids(dn, hand)
+    body, disc, stem, top = _solids(dn, style)
     length = FACE_TO_FACE["butterfly"][dn]
     stand = at(length / 2)
     pieces: list[Piece] = [
@@ -65,7 +65,7 @@ def butterfly_valve(unit: str, dn: int, hand: Hand, gearbox: bool | None = None,
         pieces.append(
             (lever_solid(0.14 + 1.4 * PIPES[dn].radius, 0.016, 0.006), stand @ at(0, 0, top), "lever", "handle")
         )
-    device = assemble(pieces, "butterfly valve", unit, hand, tuple(contacts), 0, length)
+    device = assemble(pieces, "butterfly valve", unit, style, tuple(contacts), 0, length)
     return Device(device.assembly, length, 0, 0, wafer=True)
 
 

@@ -6,21 +6,21 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cadplants.brand import Make
+from cadplants.brand import Brand
 from cadplants.contacts import whole
 from cadplants.detail import Marks, marked_gauge
 from cadplants.families import FAMILIES
 from cadplants.family import as_assembly, as_device
 from cadplants.gauge import pressure_gauge, side_gauge
 from cadplants.instrument import valve_at
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Assembly, Device
 from cadplants.run import Inline, Tap
 
 __all__ = ["Choice"]
 
 _AGAINST = np.diag([-1.0, -1.0, 1.0, 1.0])
-_FINE = 0.0003  # m; a hand whose circles are coarser than this models no marks
+_FINE = 0.0003  # m; a style whose circles are coarser than this models no marks
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Choice:
         marks: of the gauges' dials.
     """
 
-    make: Make
+    make: Brand
     marks: Marks
 
     def valve(
@@ -75,9 +75,9 @@ class Choice:
         """
         family = FAMILIES[name]
 
-        def build(hand: Hand) -> Device:
+        def build(style: ModelingStyle) -> Device:
             def draw(number: int) -> Device:
-                return as_device(family, family.build(dn, hand, np.random.default_rng([seed, number])), hand, unit)
+                return as_device(family, family.build(dn, style, np.random.default_rng([seed, number])), style, unit)
 
             made = whole(lambda number: draw(number).assembly)
             return replace(draw(0), assembly=made)
@@ -94,10 +94,10 @@ class Choice:
         """
         family = FAMILIES["relief valve/threaded"]
 
-        def build(hand: Hand) -> Assembly:
+        def build(style: ModelingStyle) -> Assembly:
             return whole(
                 lambda number: as_assembly(
-                    family, family.build(15, hand, np.random.default_rng([seed, number])), hand, unit
+                    family, family.build(15, style, np.random.default_rng([seed, number])), style, unit
                 )
             )
 
@@ -116,9 +116,9 @@ class Choice:
         """
         rise = height or (0.075 if size < 100 else 0.09)
 
-        def build(hand: Hand) -> Assembly:
-            gauge = pressure_gauge(unit, hand, size, rise, turn, needle)
-            return marked_gauge(gauge, size, self._marks(hand), hand)
+        def build(style: ModelingStyle) -> Assembly:
+            gauge = pressure_gauge(unit, style, size, rise, turn, needle)
+            return marked_gauge(gauge, size, self._marks(style), style)
 
         return Tap(s, build, unit)
 
@@ -136,14 +136,14 @@ class Choice:
             roll: of the outlet about the run [rad].
         """
 
-        def build(hand: Hand) -> Assembly:
+        def build(style: ModelingStyle) -> Assembly:
             turn = -np.pi / 2 if down else np.pi / 2
-            gauge = side_gauge(unit, hand, size, 0.09 if size < 100 else 0.11, 0.06, turn, needle)
-            gauge = marked_gauge(gauge, size, self._marks(hand), hand)
+            gauge = side_gauge(unit, style, size, 0.09 if size < 100 else 0.11, 0.06, turn, needle)
+            gauge = marked_gauge(gauge, size, self._marks(style), style)
             # On a run that goes down, up is against it.
             return gauge.placed(_AGAINST) if down else gauge
 
         return Tap(s, build, unit, roll)
 
-    def _marks(self, hand: Hand) -> Marks:
-        return self.marks if hand.sag <= _FINE and not hand.wobble else "none"
+    def _marks(self, style: ModelingStyle) -> Marks:
+        return self.marks if style.sag <= _FINE and not style.wobble else "none"

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import typer
 from rich.markup import escape
 
-from cadgraph.cli.screen import out
+from cadgraph.cli.screen import err, out
 from cadgraph.errors import FormatError
 
 __all__ = ["plants"]
@@ -22,17 +22,18 @@ def make_plant(
     output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The scene, e.g. field.usdc.")],
     preset: Annotated[str, typer.Option(help="skid, riser, tank, pumps, station, rack or field.")] = "skid",
     seed: Annotated[int, typer.Option(min=0, help="Of everything that varies.")] = 0,
-    hand: Annotated[
+    style: Annotated[
         str | None, typer.Option(help="In whose style it is modelled; the preset's own by default.")
     ] = None,
-    spoilt: Annotated[
+    defective: Annotated[
         float,
-        typer.Option(min=0, max=1, help="Share of meshes with each modelling sin: there twice, hidden, inside out..."),
+        typer.Option(min=0, max=1, help="Share of meshes with each modelling defect: twice, hidden, inside out..."),
     ] = 0.0,
-    sins: Annotated[
+    defects: Annotated[
         bool,
         typer.Option(
-            "--sins", help="Draw all sins by the seed: those of --spoilt, unit, up axis, instances, frames, polygons."
+            "--defects",
+            help="Draw all defects by the seed: those of --defective, unit, up axis, instances, frames, polygons.",
         ),
     ] = False,
     unit: Annotated[float | None, typer.Option(help="Metres in one authored unit; 0.001 by default.")] = None,
@@ -43,11 +44,19 @@ def make_plant(
     polygons: Annotated[
         float | None, typer.Option(min=0, max=1, help="Share of meshes with polygons of more than three corners.")
     ] = None,
+    hand: Annotated[str | None, typer.Option(hidden=True)] = None,
+    spoilt: Annotated[float, typer.Option(min=0, max=1, hidden=True)] = 0.0,
+    sins: Annotated[bool, typer.Option("--sins", hidden=True)] = False,
 ) -> None:
     """Generate a plant as USD with meaningless names, and its ground truth beside it."""
-    from cadplants import Sins, UsdStyle, draw_sins, draw_style, make, write_usd
+    from cadplants import Defects, UsdStyle, draw_defects, draw_style, make, write_usd
 
-    style = draw_style(seed) if sins else UsdStyle()
+    renamed = {"--hand": ("--style", hand), "--spoilt": ("--defective", spoilt), "--sins": ("--defects", sins)}
+    for old, (new, given_so) in renamed.items():
+        if given_so:
+            err.print(f"[dim]{old} is deprecated; use {new}[/]")
+    style, defective, defects = style or hand, defective or spoilt, defects or sins
+    authoring = draw_style(seed) if defects else UsdStyle()
     given: dict[str, Any] = {"meters_per_unit": unit, "up_axis": up, "instances": instances, "polygons": polygons}
     for name, value, choices in (
         ("--up", up, ("Y", "Z")),
@@ -58,10 +67,10 @@ def make_plant(
     # Written so that NaN fails it too.
     if unit is not None and not 1e-6 <= unit <= 1e3:
         raise ValueError(f"--unit {unit:g}: give the length of one authored unit in metres, from 1e-06 to 1000")
-    style = replace(style, **{key: value for key, value in given.items() if value is not None})
-    share = Sins(spoilt, spoilt, spoilt, spoilt, spoilt, spoilt) if spoilt else None
-    plant = make(preset, seed, hand, draw_sins(seed) if sins else share)
-    truth = write_usd(plant, output, style)
+    authoring = replace(authoring, **{key: value for key, value in given.items() if value is not None})
+    share = Defects(defective, defective, defective, defective, defective, defective) if defective else None
+    plant = make(preset, seed, style, draw_defects(seed) if defects else share)
+    truth = write_usd(plant, output, authoring)
     out.print(f"wrote {escape(str(output))} and {escape(str(truth))}")
 
 

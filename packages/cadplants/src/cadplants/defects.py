@@ -1,4 +1,4 @@
-"""Modelling sins: gaps, overlaps and unevenness; duplicates, hidden bodies, broken meshes and odd paint at random."""
+"""Modelling defects: gaps, overlaps, unevenness; duplicates, hidden bodies, broken meshes and odd paint at random."""
 
 from __future__ import annotations
 
@@ -10,35 +10,35 @@ import numpy as np
 
 from cadgraph.model.scene import Floats, Scene
 from cadplants.mesh_ops import Solid, box
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Assembly, Component, Plant
 from cadplants.transforms import at
 
-__all__ = ["Sins", "draw_sins", "loosen", "spoil"]
+__all__ = ["Defects", "degrade", "draw_defects", "loosen"]
 
 _LEAST_SCALE = 0.6  # thin parts (gaskets, washers) keep this share of their thickness
 
 
-def loosen(assembly: Assembly, hand: Hand, seed: int) -> Assembly:
-    """Leaves gaps and overlaps between parts and makes surfaces uneven, as this hand does; nothing else changes.
+def loosen(assembly: Assembly, style: ModelingStyle, seed: int) -> Assembly:
+    """Leaves gaps and overlaps between parts and makes surfaces uneven, as this style does; nothing else changes.
 
     Args:
         assembly: whose parts touch exactly.
-        hand: ``gap`` and ``wobble`` are used.
+        style: ``gap`` and ``wobble`` are used.
         seed: of the sizes of gaps and waves.
     """
-    if hand.gap == (0.0, 0.0) and not hand.wobble:
+    if style.gap == (0.0, 0.0) and not style.wobble:
         return assembly
     rng = np.random.default_rng([seed, 8])
     components = []
     for component in assembly.components:
-        gap = float(rng.uniform(*hand.gap))
+        gap = float(rng.uniform(*style.gap))
         component = replace(component, pose=component.pose @ _shrunk(component.solid, gap), gap=gap)
-        if hand.wobble:
-            component = replace(component, solid=_uneven(component.solid, hand.wobble, rng))
+        if style.wobble:
+            component = replace(component, solid=_uneven(component.solid, style.wobble, rng))
         components.append(component)
     loose = replace(assembly, components=tuple(components))
-    return replace(loose, contacts=(*loose.contacts, *_met(loose))) if hand.gap[0] < 0 or hand.wobble else loose
+    return replace(loose, contacts=(*loose.contacts, *_met(loose))) if style.gap[0] < 0 or style.wobble else loose
 
 
 def _met(assembly: Assembly) -> list[tuple[int, int]]:
@@ -69,7 +69,7 @@ def _uneven(solid: Solid, height: float, rng: np.random.Generator) -> Solid:
 
 
 @dataclass(frozen=True)
-class Sins:
+class Defects:
     """What share of a plant's meshes is spoilt, each between 0 and 1.
 
     Args:
@@ -93,21 +93,23 @@ class Sins:
     colors: Literal["own", "gray", "random"] = "own"
 
 
-def draw_sins(seed: int, most: float = 0.1) -> Sins:
-    """Sins at random, each with its own share up to ``most``, some of them none."""
+def draw_defects(seed: int, most: float = 0.1) -> Defects:
+    """Defects at random, each with its own share up to ``most``, some of them none."""
     rng = np.random.default_rng([seed, 12])
     shares = [float(rng.uniform(0, most)) if rng.random() < 0.6 else 0.0 for _ in range(6)]
     paints: tuple[Literal["own", "gray", "random"], ...] = ("own", "own", "gray", "random")
     duplicates, hidden, flipped, soup, degenerate, gaps = shares
-    return Sins(duplicates, hidden, flipped, soup, degenerate, 5 * gaps, colors=paints[int(rng.integers(len(paints)))])
+    return Defects(
+        duplicates, hidden, flipped, soup, degenerate, 5 * gaps, colors=paints[int(rng.integers(len(paints)))]
+    )
 
 
-def spoil(plant: Plant, sins: Sins, seed: int = 0) -> Plant:
-    """The plant with sins, all of them recorded in its truth.
+def degrade(plant: Plant, defects: Defects, seed: int = 0) -> Plant:
+    """The plant with defects, all of them recorded in its truth.
 
     Args:
         plant: clean.
-        sins: how much of each.
+        defects: how much of each.
         seed: which meshes.
     """
     rng = np.random.default_rng([seed, 9])
@@ -116,30 +118,30 @@ def spoil(plant: Plant, sins: Sins, seed: int = 0) -> Plant:
     def some(share: float) -> list[int]:
         return [int(i) for i in np.sort(rng.permutation(n)[: round(share * n)])]
 
-    if sins.gaps:
-        plant = _parted(plant, some(sins.gaps), sins.gap, np.random.default_rng([seed, 13]))
+    if defects.gaps:
+        plant = _parted(plant, some(defects.gaps), defects.gap, np.random.default_rng([seed, 13]))
     components = list(plant.components)
     flaws: tuple[tuple[str, float, Callable[[Solid], Solid]], ...] = (
-        ("flipped", sins.flipped, _flipped),
-        ("degenerate", sins.degenerate, _degenerate),
-        ("soup", sins.soup, _soup),
+        ("flipped", defects.flipped, _flipped),
+        ("degenerate", defects.degenerate, _degenerate),
+        ("soup", defects.soup, _soup),
     )
     for name, share, change in flaws:
         for i in some(share):
             one = components[i]
             components[i] = replace(one, solid=change(one.solid), flaws=(*one.flaws, name))
     duplicates, hidden = [], []
-    for i in some(sins.duplicates):
+    for i in some(defects.duplicates):
         duplicates.append((i, len(components)))
         components.append(components[i])
-    for i in some(sins.hidden):
+    for i in some(defects.hidden):
         inside = _body_inside(plant.components[i])
         if inside is not None:
             hidden.append(len(components))
             components.append(inside)
-    if sins.colors == "gray":
+    if defects.colors == "gray":
         components = [replace(c, color=(0.5, 0.5, 0.5)) for c in components]
-    elif sins.colors == "random":
+    elif defects.colors == "random":
         drawn = np.random.default_rng([seed, 14]).random((len(components), 3)).round(3).tolist()
         components = [replace(c, color=(r, g, b)) for c, (r, g, b) in zip(components, drawn, strict=True)]
     return replace(
@@ -147,7 +149,7 @@ def spoil(plant: Plant, sins: Sins, seed: int = 0) -> Plant:
         components=tuple(components),
         duplicates=tuple(duplicates),
         hidden=tuple(hidden),
-        colors=sins.colors if sins.colors != "own" else plant.colors,
+        colors=defects.colors if defects.colors != "own" else plant.colors,
     )
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.lettering import letters
 from cadplants.mesh_ops import Solid, box, extrude, stack
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Assembly, Component, gather
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.standards import GAUGES
@@ -30,14 +30,14 @@ _PLATE = 0.0005  # m; a name plate of sheet
 _STEPS = 10  # main marks of a scale over 270 degrees, EN 837-1
 
 
-def marked_gauge(gauge: Assembly, size: int, marks: Marks, hand: Hand) -> Assembly:
+def marked_gauge(gauge: Assembly, size: int, marks: Marks, style: ModelingStyle) -> Assembly:
     """A pressure gauge of ``gauge.py`` with the marks of its dial, and the screws of its bezel.
 
     Args:
         gauge: with a case of its own; one that is a single mesh stays as it is.
         size: nominal size of its case.
         marks: how many.
-        hand: that models it.
+        style: that models it.
     """
     cases = [i for i, c in enumerate(gauge.components) if c.name == "gauge case"]
     if marks == "none" or not cases:
@@ -58,7 +58,7 @@ def marked_gauge(gauge: Assembly, size: int, marks: Marks, hand: Hand) -> Assemb
             pieces.append((_head(0.0010, 0.0008), where, "gauge case", "trim"))
     extra = tuple(
         Component(
-            solid, "Gauge assembly", name, hand.color(color), case.pose @ pose, case.unit, granularity=case.granularity
+            solid, "Gauge assembly", name, style.color(color), case.pose @ pose, case.unit, granularity=case.granularity
         )
         for solid, pose, name, color in pieces
     )
@@ -116,10 +116,10 @@ def _head(radius: float, height: float) -> Solid:
     return stack([(0.0, 0.6 * height, circle(radius, 10)), (0.6 * height, height, circle(0.75 * radius, 10))])
 
 
-def screw(hand: Hand, radius: float = 0.004, height: float = 0.0025) -> Assembly:
+def screw(style: ModelingStyle, radius: float = 0.004, height: float = 0.0025) -> Assembly:
     """The visible head of a countersunk screw or blind rivet on z = 0 (heads after ISO 7045, ISO 15977)."""
     solid = _head(round(radius, 6), round(height, 6))
-    return Assembly((Component(solid, "Connection assembly", "screw", hand.color("fastener"), family="screw"),))
+    return Assembly((Component(solid, "Connection assembly", "screw", style.color("fastener"), family="screw"),))
 
 
 @cache
@@ -127,12 +127,12 @@ def _plate_solid(width: float, height: float, thick: float) -> Solid:
     return extrude(rounded_rectangle(width, height, 0.12 * height, 3), 0.0, thick)
 
 
-def plate(lines: tuple[str, ...], hand: Hand, size: float = 0.008, rivets: int = 4) -> Assembly:
+def plate(lines: tuple[str, ...], style: ModelingStyle, size: float = 0.008, rivets: int = 4) -> Assembly:
     """A sheet with raised letters and rivets in the plane z = 0, towards +z, its text along x.
 
     Args:
         lines: of text, from above.
-        hand: that models it; a coarse one leaves letters and rivets out.
+        style: that models it; a coarse one leaves letters and rivets out.
         size: height of the letters [m].
         rivets: 0, 2 or 4.
 
@@ -144,16 +144,16 @@ def plate(lines: tuple[str, ...], hand: Hand, size: float = 0.008, rivets: int =
     thick = _PLATE if size < 0.02 else 0.002
     group, name = "Electrical and safety", "sign"
     sheet = _plate_solid(round(width, 6), round(height, 6), thick)
-    parts = [Assembly((Component(sheet, group, name, hand.color("safety"), family="plate"),))]
-    if hand.sides[1] <= 16:
+    parts = [Assembly((Component(sheet, group, name, style.color("safety"), family="plate"),))]
+    if style.sides[1] <= 16:
         return parts[0]
     for k, text in enumerate(lines):
         y = ((len(lines) - 1) / 2 - k) * 1.45 * size
         for solid, pose in letters(text, round(size, 6), 0.0003 if size < 0.02 else 0.001):
             placed = at(0, y, thick) @ pose
-            parts.append(Assembly((Component(solid, group, name, hand.color("rubber"), placed, family="plate"),)))
+            parts.append(Assembly((Component(solid, group, name, style.color("rubber"), placed, family="plate"),)))
     x, y = width / 2 - 0.5 * size, height / 2 - 0.32 * size if rivets == 4 else 0.0
     for sx in (-1, 1):
         for sy in (-1, 1) if rivets == 4 else (1,) if rivets else ():
-            parts.append(screw(hand, 0.22 * size, 0.12 * size).placed(at(sx * x, sy * y, thick)))
+            parts.append(screw(style, 0.22 * size, 0.12 * size).placed(at(sx * x, sy * y, thick)))
     return gather(parts, [(0, k) for k in range(1, len(parts))])

@@ -1,4 +1,4 @@
-"""Random modelling styles: how a hand is drawn that nobody has published."""
+"""Random modelling styles: how a style is drawn that nobody has published."""
 
 from __future__ import annotations
 
@@ -6,30 +6,30 @@ from typing import Literal
 
 import numpy as np
 
-from cadplants.modeling_style import HANDS, RGB, Grain, Hand
+from cadplants.modeling_style import RGB, STYLES, Grain, ModelingStyle
 
-__all__ = ["draw_hand"]
+__all__ = ["draw_modeling_style"]
 
 _SIDES = (6, 8, 8, 10, 12, 14, 16, 16, 18, 20, 24, 24, 28, 30, 32, 36, 40, 48, 64)
 _LEAST_DRILLED = 12  # sides; the holes of a coarser flange (DN250 of B16.5) would cut its rim
 
 
-def draw_hand(rng: np.random.Generator, name: str = "drawn") -> Hand:
+def draw_modeling_style(rng: np.random.Generator, name: str = "drawn") -> ModelingStyle:
     """A modelling style at random, from coarse and merged to fine and in pieces, clean or broken.
 
     Args:
         rng: of everything.
-        name: of the hand, for the truth; never that of a published one.
+        name: of the style, for the truth; never that of a published one.
 
     Returns:
-        The hand. The published ones (``HANDS``) stay apart as test styles: a drawn one equals none of them.
+        The style. The published ones (``STYLES``) stay apart as test styles: a drawn one equals none of them.
     """
     sag, sides = _roundness(rng)
     hollow = bool(rng.random() < 0.5)
     drilled = bool(sides[0] >= _LEAST_DRILLED and rng.random() < 0.55)
     bent: Literal["segments", "bent"] = "bent" if rng.random() < 0.35 else "segments"
     loose = _gap(rng)
-    return Hand(
+    return ModelingStyle(
         name,
         sag=sag,
         sides=sides,
@@ -82,7 +82,7 @@ def _gap(rng: np.random.Generator) -> tuple[float, float]:
 
 def _palette(rng: np.random.Generator) -> dict[str, RGB]:
     """Painted as it is, all alike, by a few systems, or at random."""
-    kinds = HANDS["plant-design"].palette
+    kinds = STYLES["plant-design"].palette
     kind = rng.random()
     if kind < 0.4:
         return {key: _jitter(rng, color) for key, color in kinds.items()}

@@ -12,7 +12,7 @@ from cadgraph.model.scene import Floats
 from cadplants.fastener import clamping
 from cadplants.flange import GASKET, bolts, flange, flange_length, gasket, plate_thickness
 from cadplants.mesh_ops import Solid, box, extrude, revolve, weld
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.piping import stub
 from cadplants.plant import Assembly, Component, Unit, gather
 from cadplants.standards import PIPES
@@ -58,13 +58,13 @@ def _saddle_solid(radius: float, axis: float, sides: int) -> Solid:
 
 
 def drum(
-    unit: str, hand: Hand, radius: float, length: float, clearance: float, nozzles: Sequence[Nozzle]
+    unit: str, style: ModelingStyle, radius: float, length: float, clearance: float, nozzles: Sequence[Nozzle]
 ) -> tuple[Tank, float]:
     """A lying tank along y about z, on two saddles on the ground.
 
     Args:
         unit: its id.
-        hand: that models it.
+        style: that models it.
         radius: outside [m].
         length: of the cylindrical shell [m].
         clearance: from the ground to the lowest point of the shell [m].
@@ -74,10 +74,10 @@ def drum(
     Returns:
         The tank; and half its length over the heads [m].
     """
-    sides = 16 if hand.sides[1] <= 16 else 72
+    sides = 16 if style.sides[1] <= 16 else 72
     axis = clearance + radius
     shell, head = _shell_solids(round(radius, 6), round(length, 6), sides)
-    color, group = hand.color("tank"), "Tank"
+    color, group = style.color("tank"), "Tank"
     # Corners of the shell's polygon look straight up and down.
     lie = at(0, 0, axis) @ spun("x", -np.pi / 2)
     parts = [
@@ -93,11 +93,11 @@ def drum(
     ]
     joints: list[tuple[int, int]] = []
     for k, y in enumerate((-0.34 * length, 0.34 * length)):
-        parts.append(_saddle(hand, round(radius, 6), round(axis, 6), sides).placed(at(0, y, 0)))
+        parts.append(_saddle(style, round(radius, 6), round(axis, 6), sides).placed(at(0, y, 0)))
         joints.append((0, 3 + 2 * k))
     count, faces, flanges = 7, [], []
     for nozzle in nozzles:
-        part, face = _nozzle(nozzle, hand, radius, axis)
+        part, face = _nozzle(nozzle, style, radius, axis)
         parts.append(part)
         joints.append((0, count))
         faces.append(face)
@@ -114,19 +114,19 @@ def drum(
     ), length / 2 + _STRAIGHT + radius / 2
 
 
-def _saddle(hand: Hand, radius: float, axis: float, sides: int) -> Assembly:
+def _saddle(style: ModelingStyle, radius: float, axis: float, sides: int) -> Assembly:
     wide = 2 * (radius * np.sin(_WRAP) + 0.06)
     foot = box((wide, _SADDLE + 0.06, 0.012), (0, 0, 0.006))
     return Assembly(
         (
-            Component(_saddle_solid(radius, axis, sides), "Tank", "saddle", hand.color("tank")),
-            Component(foot, "Structural element", "base plate", hand.color("steel")),
+            Component(_saddle_solid(radius, axis, sides), "Tank", "saddle", style.color("tank")),
+            Component(foot, "Structural element", "base plate", style.color("steel")),
         ),
         ((0, 1),),
     )
 
 
-def _nozzle(nozzle: Nozzle, hand: Hand, radius: float, axis: float) -> tuple[Assembly, Floats]:
+def _nozzle(nozzle: Nozzle, style: ModelingStyle, radius: float, axis: float) -> tuple[Assembly, Floats]:
     """Stub and flange, with a lid on a manway; and the frame of the face."""
     dn, name = nozzle.dn, "manway" if nozzle.manway else "nozzle"
     out = np.array(_OUT[nozzle.kind])
@@ -135,26 +135,26 @@ def _nozzle(nozzle: Nozzle, hand: Hand, radius: float, axis: float) -> tuple[Ass
     aside = abs(first if nozzle.kind == "top" else second)
     low = np.sqrt(radius**2 - (aside + PIPES[dn].radius) ** 2) - _DEEP
     high = np.sqrt(radius**2 - max(0.0, aside - PIPES[dn].radius) ** 2) + nozzle.length
-    neck = flange_length(dn, hand)
+    neck = flange_length(dn, style)
     across = (0.0, 1.0, 0.0)
     stand = np.eye(4)
     stand[:3, 0], stand[:3, 1], stand[:3, 2], stand[:3, 3] = across, np.cross(out, across), out, foot + low * out
-    pipe = stub(dn, 0.0, high - neck - low, 0.0, hand, "Tank", name, "tank").placed(stand)
+    pipe = stub(dn, 0.0, high - neck - low, 0.0, style, "Tank", name, "tank").placed(stand)
     face = looking(foot + high * out, out)
-    body = Component(flange(dn, hand).components[0].solid, "Tank", name, hand.color("tank"))
+    body = Component(flange(dn, style).components[0].solid, "Tank", name, style.color("tank"))
     parts = [pipe, Assembly((body,)).placed(face @ spun("z", np.pi))]
     joints = [(0, 1)]
     if nozzle.manway:
-        pad = GASKET if hand.gaskets else 0.0
-        parts.append(gasket(dn, hand).placed(face))
+        pad = GASKET if style.gaskets else 0.0
+        parts.append(gasket(dn, style).placed(face))
         n_pads = len(parts[-1].components)
-        lid = Component(flange(dn, hand, blind=True).components[0].solid, "Tank", name, hand.color("tank"))
+        lid = Component(flange(dn, style, blind=True).components[0].solid, "Tank", name, style.color("tank"))
         parts.append(Assembly((lid,)).placed(face @ at(pad)))
         joints += [(1, 2), (2, 3)] if n_pads else [(1, 2)]
         plate = plate_thickness(dn)
-        studs = bolts(dn, 2 * plate + pad, hand).placed(face @ at(-plate))
+        studs = bolts(dn, 2 * plate + pad, style).placed(face @ at(-plate))
         start = 3 + n_pads
         parts.append(studs)
-        for near, far in clamping(range(start, start + len(studs.components)), hand):
+        for near, far in clamping(range(start, start + len(studs.components)), style):
             joints += [(1, near), (2 + n_pads, far)]
     return gather(parts, joints), face

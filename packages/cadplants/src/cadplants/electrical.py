@@ -9,7 +9,7 @@ import numpy as np
 from cadplants.detail import plate
 from cadplants.lettering import letters
 from cadplants.mesh_ops import Solid, box, extrude, moved, revolve, tube, weld
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Assembly, Component, gather
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.transforms import at, spun
@@ -30,18 +30,22 @@ def _cabinet_solids(width: float, depth: float, height: float) -> tuple[Solid, S
 
 
 def cabinet(
-    hand: Hand, width: float = 0.8, depth: float = 0.4, height: float = 1.9, plates: tuple[tuple[str, ...], ...] = ()
+    style: ModelingStyle,
+    width: float = 0.8,
+    depth: float = 0.4,
+    height: float = 1.9,
+    plates: tuple[tuple[str, ...], ...] = (),
 ) -> Assembly:
     """A control cabinet on z = 0: plinth, body, door, lock; and plates with text on its door, from above."""
     solids = _cabinet_solids(round(width, 6), round(depth, 6), round(height, 6))
     colors = ("steel", "electrical", "electrical", "rubber")
     pairs = zip(solids, colors, strict=True)
-    components = tuple(Component(solid, _GROUP, "control panel", hand.color(color)) for solid, color in pairs)
+    components = tuple(Component(solid, _GROUP, "control panel", style.color(color)) for solid, color in pairs)
     parts = [Assembly(components, ((0, 1), (1, 2), (2, 3)))]
     joints, count = [], len(components)
     for k, lines in enumerate(plates):
         place = at(-0.12 * width, -depth / 2 - 0.02, (0.90 - 0.09 * k) * height) @ spun("x", np.pi / 2)
-        text = plate(lines, hand, 0.010)
+        text = plate(lines, style, 0.010)
         parts.append(text.placed(place))
         joints.append((2, count))
         count += len(text.components)
@@ -67,17 +71,17 @@ def _cable_solid(length: float, radius: float) -> Solid:
     return tube(np.array([[0.0, 0.0, 0.0], [length, 0.0, 0.0]]), radius, 0.0, 12)
 
 
-def cable_tray(length: float, hand: Hand, width: float = 0.3, n_cables: int = 3, pieces: int = 1) -> Assembly:
+def cable_tray(length: float, style: ModelingStyle, width: float = 0.3, n_cables: int = 3, pieces: int = 1) -> Assembly:
     """A tray along x from 0 on z = 0 in pieces that meet, with cables in it."""
     step = length / pieces
     tray = _tray_solid(round(step, 6), width)
-    parts = [Component(tray, _GROUP, "cable tray", hand.color("clamp"), at(k * step)) for k in range(pieces)]
+    parts = [Component(tray, _GROUP, "cable tray", style.color("clamp"), at(k * step)) for k in range(pieces)]
     contacts = [(k, k + 1) for k in range(pieces - 1)]
     for k in range(n_cables):
         radius = (0.012, 0.009, 0.015)[k % 3]
         y = -width / 2 + (k + 1) * width / (n_cables + 1)
         pose = at(0.0, y, 0.002 + radius)
-        parts.append(Component(_cable_solid(round(length, 6), radius), _GROUP, "cable", hand.color("rubber"), pose))
+        parts.append(Component(_cable_solid(round(length, 6), radius), _GROUP, "cable", style.color("rubber"), pose))
         contacts += [(j, len(parts) - 1) for j in range(pieces)]
     return Assembly(tuple(parts), tuple(contacts))
 
@@ -90,12 +94,12 @@ def _lamp_solids(height: float) -> tuple[Solid, Solid]:
     return pole, moved(head, at(0.12, 0, height))
 
 
-def lamp(hand: Hand, height: float = 4.0) -> Assembly:
+def lamp(style: ModelingStyle, height: float = 4.0) -> Assembly:
     """A lamp on a tapered pole on z = 0, its head towards +x."""
     pole, head = _lamp_solids(round(height, 6))
     components = (
-        Component(pole, _GROUP, "lamp", hand.color("clamp")),
-        Component(head, _GROUP, "lamp", hand.color("electrical")),
+        Component(pole, _GROUP, "lamp", style.color("clamp")),
+        Component(head, _GROUP, "lamp", style.color("electrical")),
     )
     return Assembly(components, ((0, 1),))
 
@@ -108,12 +112,12 @@ def _sign_solids() -> tuple[Solid, Solid]:
     return pole, plate
 
 
-def sign(hand: Hand, lines: tuple[str, ...] = ()) -> Assembly:
+def sign(style: ModelingStyle, lines: tuple[str, ...] = ()) -> Assembly:
     """A warning sign on a pole on z = 0; it looks to -y, with raised letters where it says something."""
     pole, sheet = _sign_solids()
     components = (
-        Component(pole, "Structural element", "post", hand.color("clamp")),
-        Component(sheet, _GROUP, "sign", hand.color("safety")),
+        Component(pole, "Structural element", "post", style.color("clamp")),
+        Component(sheet, _GROUP, "sign", style.color("safety")),
     )
     parts = list(components)
     contacts = [(0, 1)]
@@ -121,5 +125,5 @@ def sign(hand: Hand, lines: tuple[str, ...] = ()) -> Assembly:
         face = at(0, -0.0225, 1.3 + 0.045 * ((len(lines) - 1) / 2 - k)) @ spun("x", np.pi / 2)
         for solid, pose in letters(text, 0.028, 0.0008):
             contacts.append((1, len(parts)))
-            parts.append(Component(solid, _GROUP, "sign", hand.color("rubber"), face @ pose, family="sign"))
+            parts.append(Component(solid, _GROUP, "sign", style.color("rubber"), face @ pose, family="sign"))
     return Assembly(tuple(parts), tuple(contacts))

@@ -9,7 +9,7 @@ import numpy as np
 
 from cadplants.detail import screw
 from cadplants.mesh_ops import Solid, box, extrude
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Assembly, Component, gather
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.transforms import IDENTITY, at, spun
@@ -32,24 +32,26 @@ def _post_solid(height: float) -> Solid:
     return extrude(rounded_rectangle(_POST, _POST, 0.006, 2), 0.0, height)
 
 
-def fence(length: float, hand: Hand, height: float = 1.10, pitch: float = 0.14, gate: bool = False) -> Assembly:
+def fence(
+    length: float, style: ModelingStyle, height: float = 1.10, pitch: float = 0.14, gate: bool = False
+) -> Assembly:
     """A panel along x about the origin, on z = 0: two posts, two rails, upright bars.
 
     Args:
         length: over the posts [m].
-        hand: that models it.
+        style: that models it.
         height: of the posts [m].
         pitch: least distance of the bars [m].
         gate: whether it is a leaf of square bars.
 
     Returns:
-        Posts, rails and bars; and the screw at each end of each bar through the rail where this hand models fasteners.
+        Posts, rails and bars; and the screw at each end of each bar through the rail where this style models fasteners.
     """
-    color = hand.color("gate" if gate else "fence")
+    color = style.color("gate" if gate else "fence")
     name = "gate" if gate else "fence"
     post = _post_solid(round(height, 6))
     reach = length / 2 - _POST / 2
-    parts = [Component(post, _GROUP, "post", hand.color("fence"), at(sign * reach)) for sign in (-1, 1)]
+    parts = [Component(post, _GROUP, "post", style.color("fence"), at(sign * reach)) for sign in (-1, 1)]
     inner = length - 2 * _POST
     width, deep = _RAIL
     low, high = 0.12, height - 0.08
@@ -58,16 +60,16 @@ def fence(length: float, hand: Hand, height: float = 1.10, pitch: float = 0.14, 
         parts.append(Component(rail, _GROUP, name, color, at(0, 0, z)))
     contacts = [(0, 2), (1, 2), (0, 3), (1, 3)]
     count = max(2, int(inner / pitch))
-    bar = _bar_solid(round(high - low - deep, 6), not gate, min(hand.round(0.010), 12))
+    bar = _bar_solid(round(high - low - deep, 6), not gate, min(style.round(0.010), 12))
     for k in range(count):
         x = -inner / 2 + (k + 0.5) * inner / count
         parts.append(Component(bar, _GROUP, name, color, at(x, 0, low + deep / 2)))
         contacts += [(2, len(parts) - 1), (3, len(parts) - 1)]
-    if hand.fasteners not in ("none", "set") and hand.sides[1] > 16:
+    if style.fasteners not in ("none", "set") and style.sides[1] > 16:
         heads = ((2, low - deep / 2, spun("x", np.pi)), (3, high + deep / 2, IDENTITY))
         for part in parts[4 : 4 + count]:
             for rail_index, z, turn in heads:
-                head = screw(hand).components[0]
+                head = screw(style).components[0]
                 parts.append(replace(head, pose=at(float(part.pose[0, 3]), 0, z) @ turn))
                 contacts.append((rail_index, len(parts) - 1))
     return Assembly(tuple(parts), tuple(contacts))
@@ -78,10 +80,10 @@ def _rail_solid(length: float, width: float, deep: float) -> Solid:
     return box((length, width, deep))
 
 
-def pillar(hand: Hand, side: float = 0.45, height: float = 1.7) -> Assembly:
+def pillar(style: ModelingStyle, side: float = 0.45, height: float = 1.7) -> Assembly:
     """A concrete post on z = 0 with a capping slab."""
     shaft, slab = _pillar_solids(round(side, 6), round(height, 6))
-    color = hand.color("concrete")
+    color = style.color("concrete")
     components = (
         Component(shaft, _GROUP, "column", color),
         Component(slab, _GROUP, "column", color, at(0, 0, height)),

@@ -1,4 +1,4 @@
-"""Families of devices: parts that a builder makes, and the components that a hand makes of them."""
+"""Families of devices: parts that a builder makes, and the components that a style makes of them."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 from cadgraph.model.scene import Floats
 from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.modeling_style import Grain, Hand
+from cadplants.modeling_style import Grain, ModelingStyle
 from cadplants.plant import Assembly, Component, Device, Unit
 from cadplants.standards import SIZES
 from cadplants.transforms import IDENTITY
@@ -31,10 +31,10 @@ class Part:
         solid: in the device's coordinates [m].
         name: of the vocabulary.
         color: kind of material.
-        bundle: name under which a hand that models in a few meshes joins it with others of its group; "" leaves it on
+        bundle: name under which a style that models in a few meshes joins it with others of its group; "" leaves it on
             its own. One that models a device as one mesh takes in every part with a bundle.
         group: of the vocabulary; "" is the device's.
-        fine: whether a hand without fasteners leaves it out.
+        fine: whether a style without fasteners leaves it out.
     """
 
     solid: Solid
@@ -81,8 +81,8 @@ class Model:
     dn: int = 0
 
 
-# Nominal size, hand, generator (and what a carrier is asked for besides); a builder may also return finished components
-# whose unit is called ``UNIT``.
+# Nominal size, style, generator (and what a carrier is asked for besides); a builder may also return finished
+# components whose unit is called ``UNIT``.
 Build = Callable[..., "Model | Device | Assembly"]
 UNIT = "unit"
 
@@ -96,9 +96,9 @@ class Family:
         place: ``inline``, ``tap``, ``floor``, ``end`` (of a line) or ``carrier`` (holds a line).
         group: of the vocabulary.
         whole: the label of a device in one mesh.
-        build: makes one of a nominal size for a hand.
+        build: makes one of a nominal size for a style.
         sizes: nominal sizes that it is made in.
-        grain: what the hand is asked for its granularity.
+        grain: what the style is asked for its granularity.
         weight: how often it is drawn, against others.
         welded: whether a finished device is welded or screwed into its line (a ``Model`` says so itself).
     """
@@ -124,38 +124,38 @@ def placed(parts: Sequence[Part], pose: Floats) -> list[Part]:
     return [replace(part, solid=moved(part.solid, pose)) for part in parts]
 
 
-def _grain_of(family: Family, hand: Hand) -> Grain:
-    return hand.grain(family.grain or family.unit or "structure")
+def _grain_of(family: Family, style: ModelingStyle) -> Grain:
+    return style.grain(family.grain or family.unit or "structure")
 
 
-def as_assembly(family: Family, model: Model | Device | Assembly, hand: Hand, unit: str = "") -> Assembly:
-    """The components that a hand makes of a device.
+def as_assembly(family: Family, model: Model | Device | Assembly, style: ModelingStyle, unit: str = "") -> Assembly:
+    """The components that a style makes of a device.
 
     Args:
         family: of the device.
         model: its parts, or what was built already.
-        hand: decides on the granularity.
+        style: decides on the granularity.
         unit: id of the functional unit, where the family makes one.
     """
-    grain = _grain_of(family, hand)
+    grain = _grain_of(family, style)
     if isinstance(model, Device):
         model = model.assembly
     if isinstance(model, Assembly):
         return _stamped(_called(model, unit), family.name, grain)
-    parts = [p for p in model.parts if not p.fine or hand.fasteners != "none"]
+    parts = [p for p in model.parts if not p.fine or style.fasteners != "none"]
     if grain == "one":
         parts = _in_one(family, parts)
     elif grain == "few":
         parts = _in_few(parts)
-    components = tuple(_component(part, family, hand, unit, grain) for part in parts)
+    components = tuple(_component(part, family, style, unit, grain) for part in parts)
     units = (Unit(unit, family.unit, model.kind or family.whole),) if unit and family.unit else ()
     return Assembly(components, tuple((0, k) for k in range(1, len(components))), units)
 
 
-def _component(part: Part, family: Family, hand: Hand, unit: str, grain: str) -> Component:
+def _component(part: Part, family: Family, style: ModelingStyle, unit: str, grain: str) -> Component:
     group = part.group or family.group
     owner = unit if family.unit and group == family.group else ""
-    color = hand.color(part.color)
+    color = style.color(part.color)
     return Component(part.solid, group, part.name, color, IDENTITY, owner, family=family.name, granularity=grain)
 
 
@@ -188,9 +188,9 @@ def _in_few(parts: list[Part]) -> list[Part]:
     ]
 
 
-def as_device(family: Family, model: Model | Device | Assembly, hand: Hand, unit: str = "") -> Device:
+def as_device(family: Family, model: Model | Device | Assembly, style: ModelingStyle, unit: str = "") -> Device:
     """The device for a line; the first component of a model has both faces."""
-    assembly = as_assembly(family, model, hand, unit)
+    assembly = as_assembly(family, model, style, unit)
     if isinstance(model, Device):
         return replace(model, assembly=assembly)
     if isinstance(model, Assembly):

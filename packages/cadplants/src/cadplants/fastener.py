@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 
 from cadplants.mesh_ops import Solid, about_x, box, extrude, merge, moved, stack, sweep
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Assembly, Component
 from cadplants.polygon import circle
 from cadplants.standards import HEX_NUTS, PIPES, WASHERS
@@ -36,18 +36,18 @@ def _bolt_solids(diameter: float, grip: float, sides: int, whole: bool) -> tuple
     return tuple(about_x(solid) for solid in (stud, nut, washer))
 
 
-def bolt(diameter: float, grip: float, hand: Hand) -> Assembly:
+def bolt(diameter: float, grip: float, style: ModelingStyle) -> Assembly:
     """A stud bolt with two heavy hex nuts along x; it clamps what lies between 0 and ``grip`` [m].
 
     Returns:
-        One component; or stud, two nuts, two washers where the hand models every piece (see ``clamping``); none where
+        One component; or stud, two nuts, two washers where the style models every piece (see ``clamping``); none where
         it models no fasteners.
     """
-    if hand.fasteners == "none":
+    if style.fasteners == "none":
         return Assembly()
-    sides = min(hand.round(diameter / 2), 12)
-    color, group = hand.color("fastener"), "Connection assembly"
-    if hand.fasteners != "pieces":
+    sides = min(style.round(diameter / 2), 12)
+    color, group = style.color("fastener"), "Connection assembly"
+    if style.fasteners != "pieces":
         (solid,) = _bolt_solids(diameter, round(grip, 6), sides, True)
         return Assembly((Component(solid, group, "bolt", color),))
     stud, nut, washer = _bolt_solids(diameter, round(grip, 6), sides, False)
@@ -64,14 +64,14 @@ def bolt(diameter: float, grip: float, hand: Hand) -> Assembly:
     )
 
 
-def clamping(studs: range, hand: Hand) -> list[tuple[int, int]]:
+def clamping(studs: range, style: ModelingStyle) -> list[tuple[int, int]]:
     """Which components of some bolts press on the near and on the far flange, for each bolt.
 
     Args:
         studs: indices of the components that ``bolt`` made, one bolt after the other.
-        hand: that modelled them.
+        style: that modelled them.
     """
-    if hand.fasteners == "pieces":
+    if style.fasteners == "pieces":
         return [(i + 3, i + 4) for i in range(studs.start, studs.stop, 5)]
     return [(i, i) for i in studs]
 
@@ -110,7 +110,7 @@ def _support_solids(dn: int, sides: int) -> tuple[Solid, Solid]:
     return merge([plate, spacer]), merge([rod_solid, *nuts])
 
 
-def pipe_support(dn: int, hand: Hand) -> Assembly:
+def pipe_support(dn: int, style: ModelingStyle) -> Assembly:
     """A U-bolt on a bracket; the pipe lies along x through the origin, the carrier's face at y = radius + 26 mm.
 
     Returns:
@@ -119,8 +119,8 @@ def pipe_support(dn: int, hand: Hand) -> Assembly:
     bracket, bow = _support_solids(dn, 12)
     return Assembly(
         (
-            Component(bracket, "Connection assembly", "bracket", hand.color("steel")),
-            Component(bow, "Connection assembly", "u-bolt", hand.color("clamp")),
+            Component(bracket, "Connection assembly", "bracket", style.color("steel")),
+            Component(bow, "Connection assembly", "u-bolt", style.color("clamp")),
         ),
         ((0, 1),),
     )

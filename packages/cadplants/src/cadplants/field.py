@@ -17,7 +17,7 @@ from cadplants.families import FAMILIES
 from cadplants.families.vessels.vessel import level_gauge
 from cadplants.family import as_assembly
 from cadplants.mesh_ops import box
-from cadplants.modeling_style import HANDS, Hand
+from cadplants.modeling_style import STYLES, ModelingStyle
 from cadplants.plant import Assembly, Component, Plant, Unit, gather
 from cadplants.pumps import make_pumps
 from cadplants.rack import make_rack
@@ -47,29 +47,29 @@ _BARS = 0.094  # m, least distance of the bars of the fence: no child's head fit
 _FINE: dict[str, Any] = {"fasteners": "flange", "valve": "few", "gauge": "few", "pump": "few"}
 
 
-def make_field(seed: int = 0, hand: Hand | None = None) -> Plant:
+def make_field(seed: int = 0, style: ModelingStyle | None = None) -> Plant:
     """Builds a yard of 22 by 17 m; every structure in it is a cluster, as is every panel of the fence.
 
     Args:
         seed: of everything that varies; also which way round the yard is laid out.
-        hand: how it is modelled; by default plant-design and mechanical CAD take turns, with all marks and letters and
+        style: how it is modelled; by default plant-design and mechanical CAD take turns, with all marks and letters and
             so many parts as the paper's plant has.
     """
     rng = np.random.default_rng([seed, 6])
     flips = (1, 1) if seed == 0 else (int(rng.choice([-1, 1])), int(rng.choice([-1, 1])))
     parts: list[Assembly] = []
-    used: list[Hand] = []
+    used: list[ModelingStyle] = []
     for k, (build, wishes, name, (x, y), turns, bolts) in enumerate(_PLACES):
-        modeller = HANDS[("plant-design", "mechanical")[int(rng.random() < 0.35)]]
-        style = hand or replace(modeller, **{**_FINE, "fasteners": bolts})
+        modeller = STYLES[("plant-design", "mechanical")[int(rng.random() < 0.35)]]
+        style = style or replace(modeller, **{**_FINE, "fasteners": bolts})
         used.append(style)
         one = build(1000 * seed + k + 1, style, marks="all", **wishes).prefixed(name)
         turned = turns + (2 if flips[0] < 0 else 0)
         shift = rng.uniform(-0.1, 0.1, 2)
         pose = at(flips[0] * x + float(shift[0]), flips[1] * y + float(shift[1]), 0) @ spun("z", turned * np.pi / 2)
         parts.append(one.placed(pose))
-    style = hand or replace(HANDS["plant-design"], **_FINE)
-    parts += [part.marked(hand=style.name) for part in (*_inside(style, flips, rng), *_yard(style, flips))]
+    style = style or replace(STYLES["plant-design"], **_FINE)
+    parts += [part.marked(style=style.name) for part in (*_inside(style, flips, rng), *_yard(style, flips))]
     whole = gather(parts)
     standing = [i for i, c in enumerate(whole.components) if abs(float(c.vertices[:, 2].min())) < 1e-9]
     slab = Component(
@@ -78,11 +78,11 @@ def make_field(seed: int = 0, hand: Hand | None = None) -> Plant:
         "ground",
         style.color("ground"),
         cluster="",
-        hand=style.name,
+        style=style.name,
     )
     count = len(whole.components)
     whole = gather([whole, Assembly((slab,))], [(i, count) for i in standing])
-    hands = tuple(dict.fromkeys([*used, style]))
+    styles = tuple(dict.fromkeys([*used, style]))
     return Plant(
         whole.components,
         whole.contacts,
@@ -92,12 +92,12 @@ def make_field(seed: int = 0, hand: Hand | None = None) -> Plant:
         whole.lines,
         name="field",
         seed=seed,
-        hands=tuple(dict.fromkeys(one.name for one in hands)),
-        looseness=max(one.looseness for one in hands),
+        styles=tuple(dict.fromkeys(one.name for one in styles)),
+        looseness=max(one.looseness for one in styles),
     )
 
 
-def _inside(hand: Hand, flips: tuple[int, int], rng: np.random.Generator) -> list[Assembly]:
+def _inside(style: ModelingStyle, flips: tuple[int, int], rng: np.random.Generator) -> list[Assembly]:
     """What stands in the yard without lines: platforms, a storage tank, cabinets, lamps, a sign."""
 
     def placed(part: Assembly, x: float, y: float, turn: float, cluster: str) -> Assembly:
@@ -105,27 +105,27 @@ def _inside(hand: Hand, flips: tuple[int, int], rng: np.random.Generator) -> lis
 
     round_y = np.pi if flips[1] < 0 else 0.0
     to_side = -np.pi / 2 * flips[0]
-    deck = platform(2.4, 1.2, float(rng.uniform(1.0, 1.4)), hand)
+    deck = platform(2.4, 1.2, float(rng.uniform(1.0, 1.4)), style)
     found = [
-        placed(_platform(hand), 0.2, 1.1, round_y, "platform"),
+        placed(_platform(style), 0.2, 1.1, round_y, "platform"),
         placed(deck, -3.6, 1.3, 0.0, "deck"),
-        placed(_storage(hand, rng).prefixed("S"), 6.0, 0.4, 0.0, "storage"),
-        placed(_ladder(hand, rng), 7.9, 0.6, 0.0, "ladder"),
+        placed(_storage(style, rng).prefixed("S"), 6.0, 0.4, 0.0, "storage"),
+        placed(_ladder(style, rng), 7.9, 0.6, 0.0, "ladder"),
     ]
     for k, (x, y) in enumerate(((9.9, -1.2), (9.9, 0.2))):
         plates = ((f"PANEL LP-{k + 1}", "400 V 50 HZ"), ("DANGER", "HIGH VOLTAGE"), ("MAIN SWITCH",))
-        found.append(placed(cabinet(hand, plates=plates), x, y, to_side, f"cabinet-{k}"))
+        found.append(placed(cabinet(style, plates=plates), x, y, to_side, f"cabinet-{k}"))
     for k, (x, y) in enumerate(((-10.2, 3.0), (10.2, 7.4))):
-        found.append(placed(lamp(hand), x, y, 0.0, f"lamp-{k}"))
-    found.append(placed(sign(hand, ("TEST FIELD", "HELMETS ON", "NO SMOKING")), -9.9, -4.3, 0.0, "sign"))
+        found.append(placed(lamp(style), x, y, 0.0, f"lamp-{k}"))
+    found.append(placed(sign(style, ("TEST FIELD", "HELMETS ON", "NO SMOKING")), -9.9, -4.3, 0.0, "sign"))
     return found
 
 
-def _platform(hand: Hand) -> Assembly:
+def _platform(style: ModelingStyle) -> Assembly:
     """A platform with stairs up its side."""
     length, width, height, gap = 4.0, 1.6, 2.1, 0.9
-    floor = platform(length, width, height, hand, gap)
-    steps = stairs(height, hand)
+    floor = platform(length, width, height, style, gap)
+    steps = stairs(height, style)
     up = steps.placed(at(gap, -width / 2, 0) @ spun("z", np.pi / 2))
     front = next(i for i, c in enumerate(floor.components) if c.name == "beam")
     gratings = [i for i, c in enumerate(floor.components) if c.name == "grating"]
@@ -145,7 +145,7 @@ def _span(vertices: Floats) -> tuple[float, float]:
     return float(vertices[:, 0].min()), float(vertices[:, 0].max())
 
 
-def _storage(hand: Hand, rng: np.random.Generator) -> Assembly:
+def _storage(style: ModelingStyle, rng: np.random.Generator) -> Assembly:
     """A tall tank without lines, with a level gauge between two cocks on its shell."""
     radius, height = round(float(rng.uniform(0.6, 0.75)), 3), round(float(rng.uniform(2.0, 2.6)), 3)
     nozzles = [
@@ -154,13 +154,13 @@ def _storage(hand: Hand, rng: np.random.Generator) -> Assembly:
         Nozzle(80, "side", (np.pi, 0.25), 0.16),
         Nozzle(300, "side", (np.pi / 2, 0.7), 0.2, manway=True),
     ]
-    vessel = tank("T-9", hand, radius, height, 0.35, nozzles).assembly
+    vessel = tank("T-9", style, radius, height, 0.35, nozzles).assembly
     low = 0.35 + radius / 2 + 0.04
     family = FAMILIES["tank/dished on legs"]
-    parts = level_gauge(radius, low + 0.3, low + height - 0.3, -0.3 * np.pi, hand, rng)
+    parts = level_gauge(radius, low + 0.3, low + height - 0.3, -0.3 * np.pi, style, rng)
     unit = "G-9"
     gauge = tuple(
-        Component(p.solid, p.group, p.name, hand.color(p.color), unit=unit, family="level gauge", granularity="pieces")
+        Component(p.solid, p.group, p.name, style.color(p.color), unit=unit, family="level gauge", granularity="pieces")
         for p in parts
     )
     joined = met(Assembly((*vessel.components, *gauge)))
@@ -171,14 +171,16 @@ def _storage(hand: Hand, rng: np.random.Generator) -> Assembly:
     return Assembly(named, (*vessel.contacts, *new), units)
 
 
-def _ladder(hand: Hand, rng: np.random.Generator) -> Assembly:
+def _ladder(style: ModelingStyle, rng: np.random.Generator) -> Assembly:
     """A caged ladder that stands by itself beside the tank."""
     family = FAMILIES["ladder/cage"]
     seed = int(rng.integers(1000))
-    return whole(lambda number: as_assembly(family, family.build(0, hand, np.random.default_rng([seed, number])), hand))
+    return whole(
+        lambda number: as_assembly(family, family.build(0, style, np.random.default_rng([seed, number])), style)
+    )
 
 
-def _yard(hand: Hand, flips: tuple[int, int]) -> list[Assembly]:
+def _yard(style: ModelingStyle, flips: tuple[int, int]) -> list[Assembly]:
     """Panels round the yard, a gate in its front side, and pillars at its corners; all apart from each other."""
     parts = []
     for axis, turn in ((0, 0.0), (1, np.pi / 2)):
@@ -190,10 +192,10 @@ def _yard(hand: Hand, flips: tuple[int, int]) -> list[Assembly]:
             for k in range(count):
                 where = -clear + (k + 0.5) * pitch
                 gate = axis == 0 and side * flips[1] < 0 and k == count // 2
-                panel = fence(pitch - 0.05, hand, pitch=_BARS, gate=gate)
+                panel = fence(pitch - 0.05, style, pitch=_BARS, gate=gate)
                 place = (where, side * across) if axis == 0 else (side * across, where)
                 parts.append(panel.placed(at(*place) @ spun("z", turn)).marked(cluster=f"fence-{axis}-{side}-{k}"))
     for sx in (-1, 1):
         for sy in (-1, 1):
-            parts.append(pillar(hand).placed(at(sx * _HALF[0], sy * _HALF[1])).marked(cluster=f"pillar-{sx}-{sy}"))
+            parts.append(pillar(style).placed(at(sx * _HALF[0], sy * _HALF[1])).marked(cluster=f"pillar-{sx}-{sy}"))
     return parts

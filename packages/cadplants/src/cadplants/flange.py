@@ -10,7 +10,7 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.fastener import PROUD, bolt
 from cadplants.mesh_ops import Shell, Solid, about_x, loft, merge, moved, planar, reverse, revolve, weld
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Assembly, Component, gather
 from cadplants.polygon import circle
 from cadplants.standards import FLANGES, HEX_NUTS, PIPES, RAISED_FACE, WASHERS
@@ -47,12 +47,12 @@ def nut_circle(dn: int) -> float:
     return float(size.circle / 2 - max(HEX_NUTS[size.bolt][0] / np.sqrt(3), WASHERS[size.bolt][0] / 2) - 0.002)
 
 
-def flange_length(dn: int, hand: Hand) -> float:
+def flange_length(dn: int, style: ModelingStyle) -> float:
     """From the raised face to where the pipe begins [m]."""
-    if hand.flange == "ring":
+    if style.flange == "ring":
         return plate_thickness(dn)
     size = FLANGES[dn]
-    return RAISED_FACE + (size.neck if hand.flange == "neck" else size.slip)
+    return RAISED_FACE + (size.neck if style.flange == "neck" else size.slip)
 
 
 @cache
@@ -89,95 +89,97 @@ def face_shell(dn: int, sides: int, back: float, bore: float, drilled: bool = Tr
 
 
 @cache
-def _flange_solid(dn: int, hand: Hand) -> Solid:
+def _flange_solid(dn: int, style: ModelingStyle) -> Solid:
     size, pipe = FLANGES[dn], PIPES[dn]
-    sides = hand.round(size.outer / 2)
-    length = flange_length(dn, hand)
-    bore = pipe.bore if hand.hollow else 0.0
-    if hand.flange == "ring":
+    sides = style.round(size.outer / 2)
+    length = flange_length(dn, style)
+    bore = pipe.bore if style.hollow else 0.0
+    if style.flange == "ring":
         profile = [(bore, 0.0), (size.outer / 2, 0.0), (size.outer / 2, length), (bore, length)]
-        return about_x(weld([revolve(profile, sides, closed=hand.hollow)]))
+        return about_x(weld([revolve(profile, sides, closed=style.hollow)]))
     back = size.hub / 2
-    head = face_shell(dn, sides, back, bore, hand.holes)
-    if hand.flange == "neck":
+    head = face_shell(dn, sides, back, bore, style.holes)
+    if style.flange == "neck":
         land = plate_thickness(dn) + 0.82 * (length - plate_thickness(dn))
         outside = [(back, plate_thickness(dn)), (pipe.radius, land), (pipe.radius, length)]
     else:
         outside = [(back, plate_thickness(dn)), (back, length)]
-    inside = [(bore, length), (bore, 0.0)] if hand.hollow else [(0.0, length)]
+    inside = [(bore, length), (bore, 0.0)] if style.hollow else [(0.0, length)]
     return about_x(weld([head, revolve([*outside, *inside], sides)]))
 
 
-def flange(dn: int, hand: Hand, blind: bool = False, grip: float = 0.0) -> Assembly:
+def flange(dn: int, style: ModelingStyle, blind: bool = False, grip: float = 0.0) -> Assembly:
     """A flange along x: its raised face at 0 looking to -x, its pipe end towards +x.
 
     Args:
         dn: nominal size.
-        hand: that models it.
+        style: that models it.
         blind: whether it is a lid.
-        grip: what the bolts of its joint clamp, from its own back on, where this hand makes them one mesh with it;
+        grip: what the bolts of its joint clamp, from its own back on, where this style makes them one mesh with it;
             0: they are left to the other flange [m].
     """
-    color = hand.color("flange")
+    color = style.color("flange")
     if blind:
-        lid = Component(_blind_solid(dn, hand), "Pipe assembly", "blind flange", color, family="blind flange")
+        lid = Component(_blind_solid(dn, style), "Pipe assembly", "blind flange", color, family="blind flange")
         return Assembly((lid,))
-    solid = _bolted_solid(dn, round(grip, 6), hand) if grip and hand.fasteners == "flange" else _flange_solid(dn, hand)
-    return Assembly((Component(solid, "Pipe assembly", "flange", color, family=f"flange/{hand.flange}"),))
+    solid = (
+        _bolted_solid(dn, round(grip, 6), style) if grip and style.fasteners == "flange" else _flange_solid(dn, style)
+    )
+    return Assembly((Component(solid, "Pipe assembly", "flange", color, family=f"flange/{style.flange}"),))
 
 
 @cache
-def _bolted_solid(dn: int, grip: float, hand: Hand) -> Solid:
+def _bolted_solid(dn: int, grip: float, style: ModelingStyle) -> Solid:
     """A flange and all bolts of its joint, their far nuts beyond the other flange."""
     pose = at(plate_thickness(dn)) @ spun("z", np.pi)
-    return merge([_flange_solid(dn, hand), moved(_bolt_set(dn, grip, hand), pose)])
+    return merge([_flange_solid(dn, style), moved(_bolt_set(dn, grip, style), pose)])
 
 
 @cache
-def _blind_solid(dn: int, hand: Hand) -> Solid:
+def _blind_solid(dn: int, style: ModelingStyle) -> Solid:
     size = FLANGES[dn]
-    sides = hand.round(size.outer / 2)
+    sides = style.round(size.outer / 2)
     back = size.hub / 2
-    head = face_shell(dn, sides, back, 0.0, hand.holes)
+    head = face_shell(dn, sides, back, 0.0, style.holes)
     return about_x(weld([head, revolve([(back, plate_thickness(dn)), (0.0, plate_thickness(dn))], sides)]))
 
 
 @cache
-def _gasket_solid(dn: int, hand: Hand) -> Solid:
+def _gasket_solid(dn: int, style: ModelingStyle) -> Solid:
     size, pipe = FLANGES[dn], PIPES[dn]
     # A hair inside the inner bolt circle of B16.21, so that it does not half touch the facets of the bolts.
     outer = (size.circle - size.bolt) / 2 - 0.0006
     profile = [(pipe.radius, 0.0), (outer, 0.0), (outer, GASKET), (pipe.radius, GASKET)]
-    return about_x(weld([revolve(profile, hand.round(outer), closed=True)]))
+    return about_x(weld([revolve(profile, style.round(outer), closed=True)]))
 
 
-def gasket(dn: int, hand: Hand) -> Assembly:
-    """A flat ring gasket from 0 to ``GASKET`` along x, nearly out to the bolts (B16.21); none if the hand has none."""
-    if not hand.gaskets:
+def gasket(dn: int, style: ModelingStyle) -> Assembly:
+    """A flat ring gasket from 0 to ``GASKET`` along x, nearly out to the bolts (B16.21); none if the style has none."""
+    if not style.gaskets:
         return Assembly()
-    return Assembly((Component(_gasket_solid(dn, hand), "Pipe assembly", "gasket", hand.color("gasket")),))
+    return Assembly((Component(_gasket_solid(dn, style), "Pipe assembly", "gasket", style.color("gasket")),))
 
 
-def bolts(dn: int, grip: float, hand: Hand) -> Assembly:
+def bolts(dn: int, grip: float, style: ModelingStyle) -> Assembly:
     """The bolts of a joint along x, their nuts' faces at 0 and ``grip`` [m], straddling the vertical.
 
-    There are none where the hand makes them one mesh with a flange.
+    There are none where the style makes them one mesh with a flange.
     """
     size = FLANGES[dn]
-    if hand.fasteners == "flange":
+    if style.fasteners == "flange":
         return Assembly()
-    one = bolt(size.bolt, grip, hand)
+    one = bolt(size.bolt, grip, style)
     turns = [(2 * k + 1) * np.pi / size.n_bolts for k in range(size.n_bolts)]
     poses = [spun("x", turn) @ at(0, size.circle / 2, 0) for turn in turns]
-    if hand.fasteners == "set":
-        return Assembly((replace(one.components[0], solid=_bolt_set(dn, round(grip, 6), hand)),))
+    if style.fasteners == "set":
+        return Assembly((replace(one.components[0], solid=_bolt_set(dn, round(grip, 6), style)),))
     return gather(one.placed(pose) for pose in poses)
 
 
 @cache
-def _bolt_set(dn: int, grip: float, hand: Hand) -> Solid:
+def _bolt_set(dn: int, grip: float, style: ModelingStyle) -> Solid:
     """All bolts of a joint as one mesh."""
     size = FLANGES[dn]
-    one = bolt(size.bolt, grip, hand).components[0].solid
+    one = bolt(size.bolt, grip, style).components[0].solid
     turns = [(2 * k + 1) * np.pi / size.n_bolts for k in range(size.n_bolts)]
     return merge([moved(one, spun("x", turn) @ at(0, size.circle / 2, 0)) for turn in turns])

@@ -8,7 +8,7 @@ import numpy as np
 
 from cadplants.flange import face_shell, nut_room, plate_thickness
 from cadplants.mesh_ops import Branch, Solid, about_x, branched, revolve, weld
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.operator import Topworks, topworks
 from cadplants.plant import Device
 from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES
@@ -33,13 +33,13 @@ def _swollen(dn: int, length: float, bulge: float, flat: float) -> list[tuple[fl
 
 
 def _cast_body(
-    dn: int, length: float, bulge: float, throat: float, collar: float, seat: float, plate: float, hand: Hand
+    dn: int, length: float, bulge: float, throat: float, collar: float, seat: float, plate: float, style: ModelingStyle
 ) -> Solid:
     """A flanged body with a round neck that ends in a flange at height ``seat``."""
-    sides, bore = hand.round(FLANGES[dn].outer / 2), bore_of(dn, hand)
+    sides, bore = style.round(FLANGES[dn].outer / 2), bore_of(dn, style)
     rise = ((throat, seat - plate), (collar, seat - plate), (collar, seat), (0.0, seat))
     middle, _ = branched(_swollen(dn, length, bulge, 0.5), sides, [Branch(length / 2, np.pi / 2, throat, rise)])
-    head = face_shell(dn, sides, 0.5 * FLANGES[dn].hub * 0.97, bore, hand.holes)
+    head = face_shell(dn, sides, 0.5 * FLANGES[dn].hub * 0.97, bore, style.holes)
     shells = [head, flipped(head, length), middle]
     if bore:
         shells.append(revolve([(bore, length), (bore, 0.0)], sides))
@@ -52,7 +52,7 @@ def _neck_room(dn: int, length: float) -> float:
 
 
 @cache
-def _gate_solids(dn: int, hand: Hand, spokes: int, style: str) -> tuple[Solid, Topworks]:
+def _gate_solids(dn: int, style: ModelingStyle, spokes: int, design: str) -> tuple[Solid, Topworks]:
     radius, length = PIPES[dn].radius, FACE_TO_FACE["gate"][dn]
     bulge = 1.32 * radius + 0.007
     throat = min(0.86 * bulge, 0.62 * _neck_room(dn, length) + 0.006)
@@ -60,21 +60,23 @@ def _gate_solids(dn: int, hand: Hand, spokes: int, style: str) -> tuple[Solid, T
     plate = 0.009 + 0.07 * radius
     # The bonnet's flange clears the nuts of the ends: it sits above the flanges.
     seat = max(bulge + 0.8 * radius, 0.5 * FLANGES[dn].outer + plate + 0.002)
-    body = _cast_body(dn, length, bulge, throat, collar, seat, plate, hand)
+    body = _cast_body(dn, length, bulge, throat, collar, seat, plate, style)
     wheel = min(0.055 + 1.35 * radius, 0.32)
-    return body, topworks(seat, collar, plate, radius, hand, spokes, wheel, 0.012 + 1.6 * radius, 1.25, style)
+    return body, topworks(seat, collar, plate, radius, style, spokes, wheel, 0.012 + 1.6 * radius, 1.25, design)
 
 
-def gate_valve(unit: str, dn: int, hand: Hand, spokes: int = 5, turn: float = 0.0, wheel: str = "round") -> Device:
+def gate_valve(
+    unit: str, dn: int, style: ModelingStyle, spokes: int = 5, turn: float = 0.0, wheel: str = "round"
+) -> Device:
     """A flanged wedge gate valve with outside screw and yoke and a rising stem (ASME B16.34 pattern), open."""
-    body, top = _gate_solids(dn, hand, spokes, wheel)
+    body, top = _gate_solids(dn, style, spokes, wheel)
     length = FACE_TO_FACE["gate"][dn]
     pieces: list[Piece] = [(body, IDENTITY, "valve body", "valve"), *top.pieces(at(length / 2), turn)]
-    return assemble(pieces, "gate valve", unit, hand, Topworks.contacts, 0, length)
+    return assemble(pieces, "gate valve", unit, style, Topworks.contacts, 0, length)
 
 
 @cache
-def cover_solids(dn: int, length: float, hand: Hand) -> tuple[Solid, Solid]:
+def cover_solids(dn: int, length: float, style: ModelingStyle) -> tuple[Solid, Solid]:
     """A flanged body along x with a bolted cover, and the cover about its own axis (swing checks, strainers)."""
     radius = PIPES[dn].radius
     bulge = 1.36 * radius + 0.007
@@ -82,19 +84,19 @@ def cover_solids(dn: int, length: float, hand: Hand) -> tuple[Solid, Solid]:
     collar = throat + 0.008 + 0.14 * radius
     plate = 0.009 + 0.06 * radius
     seat = max(bulge + 0.42 * radius, 0.5 * FLANGES[dn].outer + plate + 0.002)
-    body = _cast_body(dn, length, bulge, throat, collar, seat, plate, hand)
+    body = _cast_body(dn, length, bulge, throat, collar, seat, plate, style)
     dome = 0.5 * throat
     shape = [(0, seat), (collar, seat), (collar, seat + plate), (dome * 1.25, seat + plate)]
     shape += [(dome, seat + plate * 1.6), (0.0, seat + plate * 1.6)]
-    return body, weld([revolve(shape, hand.round(collar))])
+    return body, weld([revolve(shape, style.round(collar))])
 
 
-def check_valve(unit: str, dn: int, hand: Hand) -> Device:
+def check_valve(unit: str, dn: int, style: ModelingStyle) -> Device:
     """A flanged swing check valve with a bolted cover; it lets flow pass along +x only."""
     length = FACE_TO_FACE["check"][dn]
-    body, cover = cover_solids(dn, length, hand)
+    body, cover = cover_solids(dn, length, style)
     pieces: list[Piece] = [
         (body, IDENTITY, "valve body", "valve"),
         (cover, at(length / 2), "valve bonnet", "valve"),
     ]
-    return assemble(pieces, "check valve", unit, hand, ((0, 1),), 0, length)
+    return assemble(pieces, "check valve", unit, style, ((0, 1),), 0, length)

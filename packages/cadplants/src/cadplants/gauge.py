@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 
 from cadplants.mesh_ops import Solid, extrude, merge, moved, revolve, stack, tube, weld
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Assembly, Component, Unit, gather
 from cadplants.polygon import circle
 from cadplants.standards import GAUGES
@@ -20,11 +20,11 @@ _BITE = 0.0003  # m; the square of the stem runs this deep into the round case
 
 
 @cache
-def _case_solids(size: int, needle_angle: float, hand: Hand) -> tuple[Solid, Solid, Solid]:
+def _case_solids(size: int, needle_angle: float, style: ModelingStyle) -> tuple[Solid, Solid, Solid]:
     """Case, dial and needle about z, front towards +z."""
     gauge = GAUGES[size]
     outer, bezel, depth = gauge.case / 2, gauge.bezel / 2, gauge.depth
-    sides = hand.round(bezel)
+    sides = style.round(bezel)
     inner, floor = outer - 0.003, depth - 0.009
     lip = depth - 0.010
     case = weld(
@@ -56,14 +56,14 @@ def _case_solids(size: int, needle_angle: float, hand: Hand) -> tuple[Solid, Sol
 
 
 @cache
-def _stem_solid(size: int, length: float, hand: Hand) -> Solid:
+def _stem_solid(size: int, length: float, style: ModelingStyle) -> Solid:
     """The nipple from 0 up and the square of the gauge's connection."""
     gauge = GAUGES[size]
     square = gauge.square / 2
     corners = np.array([[square, -square], [square, square], [-square, square], [-square, -square]])
     flats = gauge.reach * 0.33
     hexagon = circle(_NIPPLE * 1.55, 6)
-    nipple = circle(_NIPPLE, max(12, min(hand.round(_NIPPLE), 20)))
+    nipple = circle(_NIPPLE, max(12, min(style.round(_NIPPLE), 20)))
     return stack(
         [
             (0.0, 0.012, hexagon),
@@ -75,21 +75,21 @@ def _stem_solid(size: int, length: float, hand: Hand) -> Solid:
 
 
 @cache
-def _whole_solid(size: int, height: float, hand: Hand) -> Solid:
+def _whole_solid(size: int, height: float, style: ModelingStyle) -> Solid:
     gauge = GAUGES[size]
     stand = at(0, gauge.depth / 2, height + gauge.case / 2) @ spun("x", np.pi / 2)
-    case, dial, _ = _case_solids(size, 0.0, hand)
-    return merge([_stem_solid(size, height + _BITE, hand), moved(case, stand), moved(dial, stand)])
+    case, dial, _ = _case_solids(size, 0.0, style)
+    return merge([_stem_solid(size, height + _BITE, style), moved(case, stand), moved(dial, stand)])
 
 
 def pressure_gauge(
-    unit: str, hand: Hand, size: int = 63, height: float = 0.075, turn: float = 0.0, needle: float = 2.2
+    unit: str, style: ModelingStyle, size: int = 63, height: float = 0.075, turn: float = 0.0, needle: float = 2.2
 ) -> Assembly:
     """A pressure gauge standing on z = 0 with its connection pointing down, its dial towards -y.
 
     Args:
         unit: id of the unit.
-        hand: that models it.
+        style: that models it.
         size: nominal size of the case, 63, 100 or 160.
         height: from the foot of the stem to the bottom of the case [m].
         turn: of the dial about z [rad].
@@ -99,12 +99,12 @@ def pressure_gauge(
         Stem, case, dial and needle; or stem and case; or all as one mesh.
     """
     gauge = GAUGES[size]
-    stem = _stem_solid(size, round(height + _BITE, 9), hand)
+    stem = _stem_solid(size, round(height + _BITE, 9), style)
     stand = at(0, gauge.depth / 2, height + gauge.case / 2) @ spun("x", np.pi / 2)
-    case, dial, pointer = _case_solids(size, round(needle, 3), hand)
-    if hand.gauge == "one":
-        parts = [(_whole_solid(size, round(height, 6), hand), IDENTITY, "gauge", "gauge")]
-    elif hand.gauge == "few":
+    case, dial, pointer = _case_solids(size, round(needle, 3), style)
+    if style.gauge == "one":
+        parts = [(_whole_solid(size, round(height, 6), style), IDENTITY, "gauge", "gauge")]
+    elif style.gauge == "few":
         parts = [(stem, IDENTITY, "gauge stem", "trim"), (merge([case, dial]), stand, "gauge case", "gauge")]
     else:
         parts = [
@@ -113,13 +113,13 @@ def pressure_gauge(
             (dial, stand, "gauge face", "dial"),
             (pointer, stand, "gauge needle", "needle"),
         ]
-    components = tuple(Component(s, "Gauge assembly", name, hand.color(c), pose, unit) for s, pose, name, c in parts)
+    components = tuple(Component(s, "Gauge assembly", name, style.color(c), pose, unit) for s, pose, name, c in parts)
     contacts = tuple((i, i + 1) for i in range(len(components) - 1))
     return Assembly(components, contacts, (Unit(unit, "gauge", "pressure gauge"),)).placed(spun("z", turn))
 
 
 @cache
-def _siphon_solid(out: float, rise: float, hand: Hand) -> Solid:
+def _siphon_solid(out: float, rise: float, style: ModelingStyle) -> Solid:
     bend = 0.024
     corner = np.array([0.0, 0.0, out])
     path = np.vstack(
@@ -129,17 +129,23 @@ def _siphon_solid(out: float, rise: float, hand: Hand) -> Solid:
             [[rise, 0.0, out]],
         ]
     )
-    return tube(path, _NIPPLE, 0.0, max(12, min(hand.round(_NIPPLE), 20)))
+    return tube(path, _NIPPLE, 0.0, max(12, min(style.round(_NIPPLE), 20)))
 
 
 def side_gauge(
-    unit: str, hand: Hand, size: int = 63, out: float = 0.09, rise: float = 0.05, turn: float = 0.0, needle: float = 2.2
+    unit: str,
+    style: ModelingStyle,
+    size: int = 63,
+    out: float = 0.09,
+    rise: float = 0.05,
+    turn: float = 0.0,
+    needle: float = 2.2,
 ) -> Assembly:
     """A pressure gauge beside a vertical pipe: from z = 0 out along z, then up along x.
 
     Args:
         unit: id of the unit.
-        hand: that models it.
+        style: that models it.
         size: nominal size of the case.
         out: how far it stands off [m].
         rise: from that axis to the foot of the gauge's stem [m].
@@ -147,11 +153,11 @@ def side_gauge(
         needle: angle of the needle [rad].
     """
     stand = at(rise, 0.0, out) @ spun("y", np.pi / 2)
-    gauge = pressure_gauge(unit, hand, size, 0.045, turn, needle).placed(stand)
-    solid = _siphon_solid(round(out, 6), round(rise, 6), hand)
-    if hand.gauge == "one":
+    gauge = pressure_gauge(unit, style, size, 0.045, turn, needle).placed(stand)
+    solid = _siphon_solid(round(out, 6), round(rise, 6), style)
+    if style.gauge == "one":
         whole = merge([solid, moved(gauge.components[0].solid, gauge.components[0].pose)])
-        one = Component(whole, "Gauge assembly", "gauge", hand.color("gauge"), unit=unit)
+        one = Component(whole, "Gauge assembly", "gauge", style.color("gauge"), unit=unit)
         return Assembly((one,), (), gauge.units)
-    pipe = Component(solid, "Gauge assembly", "siphon", hand.color("trim"), unit=unit)
+    pipe = Component(solid, "Gauge assembly", "siphon", style.color("trim"), unit=unit)
     return gather([Assembly((pipe,)), gauge], [(0, 1)])

@@ -1,4 +1,4 @@
-"""Builders that a run calls with its hand: valves, gauges and tees by name, ready for ``Inline`` and ``Tap``."""
+"""Builders that a run calls with its style: valves, gauges and tees by name, ready for ``Inline`` and ``Tap``."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from cadplants.brand import Make
+from cadplants.brand import Brand
 from cadplants.gauge import pressure_gauge, side_gauge
 from cadplants.layout import Inline, Tap
 from cadplants.meter import flow_meter, strainer
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.piping import reducer, tee
 from cadplants.plant import Assembly, Device
 from cadplants.valve import VALVES
@@ -29,7 +29,7 @@ def valve_at(
     dn: int,
     roll: float = 0.0,
     reverse: bool = False,
-    make: Make | None = None,
+    make: Brand | None = None,
     turn: float = 0.0,
     actuated: bool = False,
 ) -> Inline:
@@ -46,10 +46,10 @@ def valve_at(
         turn: of its wheel or lever [rad].
         actuated: whether a ball valve has an actuator in place of its lever.
     """
-    options = dict((make or Make()).options(kind, turn))
+    options = dict((make or Brand()).options(kind, turn))
     if actuated and kind == "ball":
         options["lever"] = "actuator"
-    build: Callable[[Hand], Device] = partial(_valve, kind=kind, unit=unit, dn=dn, options=options)
+    build: Callable[[ModelingStyle], Device] = partial(_valve, kind=kind, unit=unit, dn=dn, options=options)
     return Inline(s, build, unit, roll, reverse)
 
 
@@ -75,7 +75,7 @@ def reducer_at(s: float, dn: int, other: int) -> Inline:
 
 def gauge_tap(s: float, unit: str, rng: np.random.Generator, size: int = 63, turn: float = 0.0) -> Tap:
     """A pressure gauge upright on a level pipe; ``turn`` of its dial [rad]."""
-    build: Callable[[Hand], Assembly] = partial(
+    build: Callable[[ModelingStyle], Assembly] = partial(
         _gauge,
         unit=unit,
         size=size,
@@ -90,37 +90,37 @@ def side_gauge_tap(
     s: float, unit: str, rng: np.random.Generator, down: bool = False, roll: float = np.pi / 2, size: int = 63
 ) -> Tap:
     """A pressure gauge beside an upright pipe; ``down`` where the run goes down there, ``roll`` about the run [rad]."""
-    build: Callable[[Hand], Assembly] = partial(
+    build: Callable[[ModelingStyle], Assembly] = partial(
         _side, unit=unit, size=size, down=down, needle=float(rng.uniform(0.6, 2.6))
     )
     return Tap(s, build, unit, roll)
 
 
-def _valve(hand: Hand, kind: str, unit: str, dn: int, options: Mapping[str, Any]) -> Device:
-    return VALVES[kind](unit, dn, hand, **options)
+def _valve(style: ModelingStyle, kind: str, unit: str, dn: int, options: Mapping[str, Any]) -> Device:
+    return VALVES[kind](unit, dn, style, **options)
 
 
-def _meter(hand: Hand, unit: str, dn: int) -> Device:
-    return flow_meter(unit, dn, hand)
+def _meter(style: ModelingStyle, unit: str, dn: int) -> Device:
+    return flow_meter(unit, dn, style)
 
 
-def _strainer(hand: Hand, dn: int) -> Device:
-    return strainer(dn, hand)
+def _strainer(style: ModelingStyle, dn: int) -> Device:
+    return strainer(dn, style)
 
 
-def _tee(hand: Hand, dn: int, branch: int) -> Device:
-    return tee(dn, branch, hand)
+def _tee(style: ModelingStyle, dn: int, branch: int) -> Device:
+    return tee(dn, branch, style)
 
 
-def _reducer(hand: Hand, dn: int, other: int) -> Device:
-    return reducer(dn, other, hand)
+def _reducer(style: ModelingStyle, dn: int, other: int) -> Device:
+    return reducer(dn, other, style)
 
 
-def _gauge(hand: Hand, unit: str, size: int, turn: float, needle: float, height: float) -> Assembly:
-    return pressure_gauge(unit, hand, size, height, turn, needle)
+def _gauge(style: ModelingStyle, unit: str, size: int, turn: float, needle: float, height: float) -> Assembly:
+    return pressure_gauge(unit, style, size, height, turn, needle)
 
 
-def _side(hand: Hand, unit: str, size: int, down: bool, needle: float) -> Assembly:
-    gauge = side_gauge(unit, hand, size, 0.09 if size < 100 else 0.11, 0.06, -np.pi / 2 if down else np.pi / 2, needle)
+def _side(style: ModelingStyle, unit: str, size: int, down: bool, needle: float) -> Assembly:
+    gauge = side_gauge(unit, style, size, 0.09 if size < 100 else 0.11, 0.06, -np.pi / 2 if down else np.pi / 2, needle)
     # On a run that goes down, up is against it.
     return gauge.placed(_REVERSED) if down else gauge

@@ -1,4 +1,4 @@
-"""Modelling hands: consistent styles in which somebody models a plant."""
+"""Modelling styles: consistent styles in which somebody models a plant."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-__all__ = ["HANDS", "RGB", "Grain", "Hand"]
+__all__ = ["RGB", "STYLES", "Grain", "ModelingStyle"]
 
 RGB = tuple[float, float, float]
 Grain = Literal["one", "few", "pieces"]
@@ -40,7 +40,7 @@ _REALISTIC: dict[str, RGB] = {
 
 
 @dataclass(frozen=True)
-class Hand:
+class ModelingStyle:
     """How somebody models: what is left out, what is one mesh, how round things are.
 
     Args:
@@ -139,12 +139,12 @@ _SYSTEMS: dict[str, RGB] = {
     **dict.fromkeys(("concrete", "electrical", "ground"), (0.6, 0.58, 0.54)),
 }
 
-# The published styles; a plant names the hands it was made by, and a benchmark can hold any of them out.
-HANDS: dict[str, Hand] = {
-    hand.name: hand
-    for hand in (
-        Hand("plant-design"),
-        Hand(
+# The published styles; a plant names the styles it was made by, and a benchmark can hold any of them out.
+STYLES: dict[str, ModelingStyle] = {
+    style.name: style
+    for style in (
+        ModelingStyle("plant-design"),
+        ModelingStyle(
             "bim",
             sides=(12, 12),
             hollow=False,
@@ -157,8 +157,8 @@ HANDS: dict[str, Hand] = {
             gap=(0.0, 0.003),
             palette=_SYSTEMS,
         ),
-        Hand("mechanical", sag=0.00008, sides=(24, 72), fasteners="pieces"),
-        Hand(
+        ModelingStyle("mechanical", sag=0.00008, sides=(24, 72), fasteners="pieces"),
+        ModelingStyle(
             "game",
             sag=0.002,
             sides=(8, 16),
@@ -170,7 +170,7 @@ HANDS: dict[str, Hand] = {
             gauge="few",
             spool="bent",
         ),
-        Hand(
+        ModelingStyle(
             "scan",
             sag=0.001,
             sides=(12, 20),
@@ -185,7 +185,7 @@ HANDS: dict[str, Hand] = {
             wobble=0.001,
             palette=_GRAY,
         ),
-        Hand(
+        ModelingStyle(
             "vendor",
             sag=0.0001,
             sides=(20, 64),

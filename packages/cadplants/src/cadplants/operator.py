@@ -9,7 +9,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.mesh_ops import Solid, about_x, extrude, loft, merge, moved, revolve, stack, sweep, weld
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.transforms import at, spun
 from cadplants.valve_body import Piece
@@ -163,12 +163,12 @@ def topworks(
     collar: float,
     plate: float,
     radius: float,
-    hand: Hand,
+    style: ModelingStyle,
     spokes: int,
     wheel: float,
     rise: float = 0.008,
     tall: float = 1.0,
-    style: str = "round",
+    design: str = "round",
 ) -> Topworks:
     """A bolted bonnet with outside screw and yoke.
 
@@ -177,19 +177,19 @@ def topworks(
         collar: its radius [m].
         plate: thickness of the bonnet's flange [m].
         radius: of the pipe, which everything is scaled by [m].
-        hand: that models it.
+        style: that models it.
         spokes: of the handwheel.
         wheel: its radius [m].
         rise: how far the stem stands out of the wheel [m].
         tall: stretches the yoke.
-        style: of the wheel: ``round``, ``plate`` or ``solid``.
+        design: of the wheel: ``round``, ``plate`` or ``solid``.
     """
     stem_radius = 0.005 + 0.10 * radius
     box_radius, box_top = 2.1 * stem_radius, seat + plate + 0.55 * radius + 0.016
     shape = [(0, seat), (collar, seat), (collar, seat + plate), (0.62 * collar, seat + plate)]
     shape += [(box_radius, seat + plate + 0.3 * radius), (box_radius, box_top), (stem_radius, box_top), (0, box_top)]
-    bonnet = weld([revolve(shape, hand.round(collar))])
-    sides = max(12, min(hand.round(stem_radius), 16))
+    bonnet = weld([revolve(shape, style.round(collar))])
+    sides = max(12, min(style.round(stem_radius), 16))
     gland_top = box_top + 0.010
     bush, crown = 1.9 * stem_radius, 0.016 + 0.05 * radius
     between = 0.80 * collar - 2 * (0.22 * bush + 0.002) - 0.001
@@ -203,10 +203,10 @@ def topworks(
     yoke = yoke_solid(0.80 * collar, seat + plate, yoke_top, crown, bush, stem_radius, sides)
     low, thick = yoke_top + 0.012, 0.014 + 0.08 * radius
     stem = extrude(circle(stem_radius, sides), box_top, low + thick + rise)
-    hub, rim_sides = 2.2 * stem_radius, hand.round(wheel)
-    if style == "plate":
+    hub, rim_sides = 2.2 * stem_radius, style.round(wheel)
+    if design == "plate":
         disc = plate_wheel(wheel, spokes, hub, thick, stem_radius, rim_sides)
-    elif style == "solid":
+    elif design == "solid":
         disc = solid_wheel(wheel, hub, thick, stem_radius, rim_sides)
     else:
         disc = handwheel(wheel, 0.006 + 0.03 * wheel, spokes, hub, thick, stem_radius, rim_sides)

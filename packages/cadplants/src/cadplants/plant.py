@@ -34,7 +34,7 @@ class Component:
         flaws: what was spoilt about its mesh (``flipped``, ``soup``, ``degenerate``).
         family: what kind of device or structure it was built as (``"ball valve/two-piece"``), or "".
         granularity: how finely that was modelled: ``one``, ``few`` or ``pieces``, or "".
-        hand: name of the modelling style, or "".
+        style: name of the modelling style, or "".
         holds: id of the unit that it clamps into its line (bolts of the counter-flanges), or "".
         gap: what was taken off its sides so that it no longer reaches its neighbours; negative: overlap [m].
     """
@@ -50,7 +50,7 @@ class Component:
     flaws: tuple[str, ...] = ()
     family: str = ""
     granularity: str = ""
-    hand: str = ""
+    style: str = ""
     holds: str = ""
     gap: float = 0.0
 
@@ -194,11 +194,11 @@ class Assembly:
         unit: str | None = None,
         line: str | None = None,
         cluster: str | None = None,
-        hand: str | None = None,
+        style: str | None = None,
         holds: str | None = None,
     ) -> Assembly:
-        """The assembly with its components' unit, line, cluster, hand or clamped unit set."""
-        given = {"unit": unit, "line": line, "cluster": cluster, "hand": hand, "holds": holds}
+        """The assembly with its components' unit, line, cluster, style or clamped unit set."""
+        given = {"unit": unit, "line": line, "cluster": cluster, "style": style, "holds": holds}
         changes: dict[str, Any] = {key: value for key, value in given.items() if value is not None}
         return replace(self, components=tuple(replace(c, **changes) for c in self.components))
 
@@ -254,7 +254,7 @@ class Plant(Assembly):
     Args:
         name: of the preset.
         seed: that it was made from.
-        hands: names of the modelling styles in it.
+        styles: names of the modelling styles in it.
         looseness: greatest gap that was left between parts that touch by design [m].
         duplicates: pairs of components, the second an exact copy of the first.
         hidden: components that can't be seen from anywhere.
@@ -263,7 +263,7 @@ class Plant(Assembly):
 
     name: str = ""
     seed: int = 0
-    hands: tuple[str, ...] = ()
+    styles: tuple[str, ...] = ()
     looseness: float = 0.0
     duplicates: tuple[tuple[int, int], ...] = ()
     hidden: tuple[int, ...] = ()

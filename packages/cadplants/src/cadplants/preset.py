@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from cadplants.assortment import make_assortment
-from cadplants.defects import Sins, spoil
+from cadplants.defects import Defects, degrade
 from cadplants.field import make_field
-from cadplants.modeling_style import HANDS, Hand
+from cadplants.modeling_style import STYLES, ModelingStyle
 from cadplants.plant import Plant
 from cadplants.pumps import make_pumps
 from cadplants.rack import make_rack
@@ -18,7 +18,7 @@ from cadplants.tank import make_tank
 
 __all__ = ["PRESETS", "make"]
 
-PRESETS: dict[str, Callable[[int, Hand | None], Plant]] = {
+PRESETS: dict[str, Callable[[int, ModelingStyle | None], Plant]] = {
     "assortment": make_assortment,
     "field": make_field,
     "pumps": make_pumps,
@@ -30,21 +30,21 @@ PRESETS: dict[str, Callable[[int, Hand | None], Plant]] = {
 }
 
 
-def make(preset: str, seed: int = 0, hand: str | None = None, sins: Sins | None = None) -> Plant:
+def make(preset: str, seed: int = 0, style: str | None = None, defects: Defects | None = None) -> Plant:
     """Builds a plant.
 
     Args:
         preset: a key of ``PRESETS``.
         seed: of everything that varies.
-        hand: a key of ``HANDS``; the preset's own choice by default.
-        sins: what is spoilt; nothing by default.
+        style: a key of ``STYLES``; the preset's own choice by default.
+        defects: what is spoilt; nothing by default.
 
     Raises:
-        ValueError: an unknown preset or hand.
+        ValueError: an unknown preset or style.
     """
     if preset not in PRESETS:
         raise ValueError(f"unknown preset {preset!r}; there are {', '.join(PRESETS)}")
-    if hand is not None and hand not in HANDS:
-        raise ValueError(f"unknown hand {hand!r}; there are {', '.join(HANDS)}")
-    plant = PRESETS[preset](seed, HANDS[hand] if hand is not None else None)
-    return spoil(plant, sins, seed) if sins is not None else plant
+    if style is not None and style not in STYLES:
+        raise ValueError(f"unknown style {style!r}; there are {', '.join(STYLES)}")
+    plant = PRESETS[preset](seed, STYLES[style] if style is not None else None)
+    return degrade(plant, defects, seed) if defects is not None else plant

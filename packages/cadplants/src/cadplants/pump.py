@@ -10,7 +10,7 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.flange import face_shell, plate_thickness
 from cadplants.mesh_ops import Branch, Solid, about_x, box, branched, extrude, merge, moved, revolve, weld
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Assembly, Component, Unit
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.standards import FLANGES, PIPES
@@ -55,14 +55,14 @@ def _size(dn: int) -> _Size:
 
 
 @cache
-def _casing_solid(dn: int, out: int, hand: Hand) -> Solid:
+def _casing_solid(dn: int, out: int, style: ModelingStyle) -> Solid:
     """Volute about x, suction towards -x, discharge towards +z, the shaft's axis on x; the volute's plane at x = 0."""
     size = _size(dn)
-    sides = hand.round(size.volute)
+    sides = style.round(size.volute)
     suction, discharge = FLANGES[dn], FLANGES[out]
     thick = plate_thickness(dn)
     neck = 0.5 * suction.hub
-    bore, out_bore = (PIPES[dn].bore, PIPES[out].bore) if hand.hollow else (0.0, 0.0)
+    bore, out_bore = (PIPES[dn].bore, PIPES[out].bore) if style.hollow else (0.0, 0.0)
     h = size.half
     profile = [(neck, -size.reach + thick), (neck * 1.02, -h * 1.35), (0.80 * size.volute, -h)]
     profile += [(size.volute, -0.55 * h), (size.volute, 0.55 * h), (0.80 * size.volute, h)]
@@ -75,13 +75,13 @@ def _casing_solid(dn: int, out: int, hand: Hand) -> Solid:
         (back, size.rise - plate),
     )
     body, (rim,) = branched(profile, sides, [Branch(0.0, np.pi / 2, foot, rise)])
-    face = moved(face_shell(dn, sides, neck, bore, hand.holes), at(0, 0, -size.reach))
+    face = moved(face_shell(dn, sides, neck, bore, style.holes), at(0, 0, -size.reach))
     shells = [face, body, revolve(tail, sides)]
     if bore:
         shells.append(revolve([(0.0, -0.2 * h), (bore, -0.2 * h), (bore, -size.reach)], sides))
     main = about_x(weld([*shells, _lid(rim)]))
     # The discharge flange stands on the neck's rim, which has corners of its own; it is a shell of its own.
-    head = _disc_flange(out, hand, back, out_bore, plate)
+    head = _disc_flange(out, style, back, out_bore, plate)
     return merge([main, moved(head, at(0, 0, size.rise))])
 
 
@@ -94,10 +94,10 @@ def _lid(rim: Floats) -> Solid:
 
 
 @cache
-def _disc_flange(dn: int, hand: Hand, back: float, bore: float, thick: float) -> Solid:
+def _disc_flange(dn: int, style: ModelingStyle, back: float, bore: float, thick: float) -> Solid:
     """A flange with its face at z = 0 looking up, its back closed; a recess shows where the bore is."""
-    sides = hand.round(FLANGES[dn].outer / 2)
-    head = face_shell(dn, sides, back, bore, hand.holes)
+    sides = style.round(FLANGES[dn].outer / 2)
+    head = face_shell(dn, sides, back, bore, style.holes)
     inside = [revolve([(bore, 0.6 * thick), (bore, 0.0)], sides)] if bore else []
     floor = [revolve([(0.0, 0.6 * thick), (bore, 0.6 * thick)], sides)] if bore else []
     lid = revolve([(back, thick), (0.0, thick)], sides)
@@ -129,30 +129,30 @@ def _motor_solids(radius: float, length: float, sides: int, fins: int) -> tuple[
     return body, cover, terminal, shaft
 
 
-def pump(unit: str, dn: int, out: int, hand: Hand) -> Pump:
+def pump(unit: str, dn: int, out: int, style: ModelingStyle) -> Pump:
     """A pump along x on z = 0: suction towards -x, discharge upward, motor towards +x.
 
     Args:
         unit: its id.
         dn: nominal size of the suction.
         out: of the discharge.
-        hand: that models it.
+        style: that models it.
     """
     size = _size(dn)
     base = 0.11
     axis = base + size.shaft
     h, radius, length = size.half, size.motor, size.motor_length
     group = "Pump unit"
-    body, cover, terminal, shaft = _motor_solids(round(radius, 6), round(length, 6), hand.round(radius), 28)
+    body, cover, terminal, shaft = _motor_solids(round(radius, 6), round(length, 6), style.round(radius), 28)
     gap = 0.30 * length
     bearing_end = 1.12 * h + 0.9 * length * 0.6
     motor_at = at(bearing_end + gap, 0, axis)
-    bearing = _bearing_solid(dn, hand)
+    bearing = _bearing_solid(dn, style)
     guard = _guard_solid(round(0.62 * radius, 6), round(gap - 0.008, 6), size.shaft)
     plate, feet, motor_feet = _base_solids(dn, round(bearing_end + gap + length, 6), base)
-    color = hand.color
+    color = style.color
     whole = [
-        Component(_casing_solid(dn, out, hand), group, "pump casing", color("pump"), at(0, 0, axis)),
+        Component(_casing_solid(dn, out, style), group, "pump casing", color("pump"), at(0, 0, axis)),
         Component(bearing, group, "pump casing", color("pump"), at(1.12 * h, 0, axis)),
         Component(shaft, group, "shaft", color("trim"), motor_at),
         Component(guard, group, "coupling guard", color("safety"), at(bearing_end + 0.004, 0, axis)),
@@ -164,7 +164,7 @@ def pump(unit: str, dn: int, out: int, hand: Hand) -> Pump:
         Component(motor_feet, group, "motor", color("motor")),
     ]
     contacts: tuple[tuple[int, int], ...] = ((0, 1), (2, 4), (4, 5), (4, 6), (3, 7), (7, 8), (0, 8), (7, 9), (4, 9))
-    if hand.valve == "one":
+    if style.valve == "one":
         solid = merge([moved(c.solid, c.pose) for c in whole])
         whole, contacts = [Component(solid, group, "pump", color("pump"))], ()
     owned = tuple(Component(c.solid, c.group, c.name, c.color, c.pose, unit) for c in whole)
@@ -177,14 +177,14 @@ def pump(unit: str, dn: int, out: int, hand: Hand) -> Pump:
 
 
 @cache
-def _bearing_solid(dn: int, hand: Hand) -> Solid:
+def _bearing_solid(dn: int, style: ModelingStyle) -> Solid:
     """The bearing bracket behind the volute, along x from 0."""
     size = _size(dn)
     length = 0.9 * size.motor_length * 0.6
     r = size.volute
     profile = [(0, 0), (0.62 * r, 0), (0.62 * r, 0.08 * length), (0.40 * r, 0.25 * length), (0.36 * r, 0.9 * length)]
     profile += [(0.42 * r, 0.92 * length), (0.42 * r, length), (0, length)]
-    return about_x(weld([revolve(profile, hand.round(r))]))
+    return about_x(weld([revolve(profile, style.round(r))]))
 
 
 @cache

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cadplants.brand import Make, draw_make, dressed
+from cadplants.brand import Brand, draw_brand, dressed
 from cadplants.choice import Choice
 from cadplants.detail import Marks, plate
 from cadplants.fastener import SUPPORT_REACH
 from cadplants.instrument import strainer_at, tee_at
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Plant
 from cadplants.pump import Pump, pump
 from cadplants.route import Route
@@ -54,20 +54,22 @@ class _Plan:
         return [self.side * (k - (self.count - 1) / 2) * self.pitch for k in range(self.count)]
 
 
-def make_pumps(seed: int = 0, hand: Hand | None = None, n_pumps: int = 0, marks: Marks | None = None) -> Plant:
+def make_pumps(
+    seed: int = 0, style: ModelingStyle | None = None, n_pumps: int = 0, marks: Marks | None = None
+) -> Plant:
     """Builds two to four pumps with check, gate and globe valves between two headers; stands on z = 0.
 
     Args:
         seed: chooses sizes, how many pumps, distances, the side that the headers leave by, valves.
-        hand: how it is modelled; plant-design CAD by default.
+        style: how it is modelled; plant-design CAD by default.
         n_pumps: how many; chosen by the seed where 0.
         marks: what is modelled on the dials; by the seed by default. With all of it motors carry name plates.
     """
     rng = np.random.default_rng([seed, 4])
-    style = dressed(hand, rng, seed, _USUAL)
-    make = draw_make(rng)
+    style = dressed(style, rng, seed, _USUAL)
+    make = draw_brand(rng)
     drawn = marks or ("few", "none", "few", "all")[int(rng.integers(4))]
-    choice = Choice(make if seed else Make(), drawn if seed or marks else "few")
+    choice = Choice(make if seed else Brand(), drawn if seed or marks else "few")
     site = Site("pumps")
     plan = _Plan(
         count=n_pumps or (int(rng.integers(2, 5)) if seed else 3),
@@ -98,7 +100,7 @@ def make_pumps(seed: int = 0, hand: Hand | None = None, n_pumps: int = 0, marks:
 
 def _header(
     site: Site,
-    hand: Hand,
+    style: ModelingStyle,
     rng: np.random.Generator,
     choice: Choice,
     tag: str,
@@ -125,19 +127,19 @@ def _header(
     taps = (tap,) if tag == "S" else (tap, choice.relief_valve(ys[-1] - low + 0.33, "V-R", int(rng.integers(1000))))
     flow, reason = ("backward", "feeds the pumps") if tag == "S" else ("forward", "leaves the pumps")
     run = Run(tag, dn, route, (*tees, valve), taps, ends=("blind", "flange"), flow=flow, reason=reason)
-    placed = site.lay(run, hand)
+    placed = site.lay(run, style)
     height = z - PIPES[dn].radius - SUPPORT_REACH
     side = 0.05 if height < 1 else 0.08
     for k in range(count + 1):
         y = ys[0] - 0.36 if k == 0 else ys[k - 1] + (0.5 * plan.pitch if k < count else 0.43)
-        stand = site.add(post(height, hand, side, capped=True).placed(at(x, plan.side * y, 0)))
-        site.support(placed, y - low, stand + 2, hand)
+        stand = site.add(post(height, style, side, capped=True).placed(at(x, plan.side * y, 0)))
+        site.support(placed, y - low, stand + 2, style)
     return placed
 
 
 def _suction(
     site: Site,
-    hand: Hand,
+    style: ModelingStyle,
     rng: np.random.Generator,
     choice: Choice,
     header: Placed,
@@ -172,12 +174,12 @@ def _suction(
         flow="forward",
         reason="into the suction of a pump",
     )
-    site.lay(run, hand, [header.device(node)], [base])
+    site.lay(run, style, [header.device(node)], [base])
 
 
 def _discharge(
     site: Site,
-    hand: Hand,
+    style: ModelingStyle,
     rng: np.random.Generator,
     choice: Choice,
     header: Placed,
@@ -212,10 +214,10 @@ def _discharge(
         flow="forward",
         reason="check valve behind a pump",
     )
-    site.lay(run, hand, [base], [header.device(node)])
+    site.lay(run, style, [base], [header.device(node)])
 
 
-def _name(site: Site, hand: Hand, number: int, base: int, one: Pump, y: float) -> None:
+def _name(site: Site, style: ModelingStyle, number: int, base: int, one: Pump, y: float) -> None:
     """A name plate on the side of a baseplate that looks to -y; none where the pump is one mesh with its baseplate."""
     index = next((i for i, c in enumerate(one.assembly.components) if c.name == "pump base"), None)
     if index is None:
@@ -224,4 +226,4 @@ def _name(site: Site, hand: Hand, number: int, base: int, one: Pump, y: float) -
     low, high = bed.min(axis=0), bed.max(axis=0)
     place = at(float(low[0] + high[0]) / 2, y + float(low[1]), float(low[2] + high[2]) / 2) @ spun("x", np.pi / 2)
     text = (f"PUMP P-{number}", "Q 42 H 38", "5.5 KW 2900")
-    site.add(plate(text, hand, 0.007).placed(place), base + index)
+    site.add(plate(text, style, 0.007).placed(place), base + index)

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cadplants.brand import Make, draw_make, dressed
+from cadplants.brand import Brand, draw_brand, dressed
 from cadplants.choice import Choice
 from cadplants.detail import Marks, plate
 from cadplants.electrical import cable_tray
 from cadplants.fastener import SUPPORT_REACH
 from cadplants.instrument import meter_at, tee_at
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Plant
 from cadplants.route import Route
 from cadplants.run import Inline, Run
@@ -92,20 +92,20 @@ def _gaps(half: float, ys: list[float], levels: tuple[int, ...]) -> list[tuple[f
     return list(zip(edges[:-1], edges[1:], strict=True))
 
 
-def make_rack(seed: int = 0, hand: Hand | None = None, n_bays: int = 0, marks: Marks | None = None) -> Plant:
+def make_rack(seed: int = 0, style: ModelingStyle | None = None, n_bays: int = 0, marks: Marks | None = None) -> Plant:
     """Builds a rack with five lines on two levels, branches with valves, and a cable tray; stands on z = 0.
 
     Args:
         seed: chooses bays, proportions, lines, sizes, branches and devices.
-        hand: how it is modelled; plant-design CAD by default.
+        style: how it is modelled; plant-design CAD by default.
         n_bays: how many bays; chosen by the seed where 0.
         marks: what is modelled on the dials; by the seed by default. With all of it columns carry number plates.
     """
     rng = np.random.default_rng([seed, 5])
-    style = dressed(hand, rng, seed, _USUAL)
-    make = draw_make(rng)
+    style = dressed(style, rng, seed, _USUAL)
+    make = draw_brand(rng)
     drawn = marks or ("few", "none", "few", "all")[int(rng.integers(4))]
-    choice = Choice(make if seed else Make(), drawn if seed or marks else "few")
+    choice = Choice(make if seed else Brand(), drawn if seed or marks else "few")
     site = Site("rack")
     plan = _draw(rng, n_bays) if seed else _Plan(bays=n_bays or 4)
     beams = [_frame(site, style, plan, k * plan.bay) for k in range(plan.bays + 1)]
@@ -123,38 +123,38 @@ def make_rack(seed: int = 0, hand: Hand | None = None, n_bays: int = 0, marks: M
     return site.plant("rack", seed, style)
 
 
-def _frame(site: Site, hand: Hand, plan: _Plan, x: float) -> tuple[int, int, tuple[int, int]]:
+def _frame(site: Site, style: ModelingStyle, plan: _Plan, x: float) -> tuple[int, int, tuple[int, int]]:
     """Two columns with a beam on each level: the beams, and the columns' shafts."""
     depth, _, web, _ = SECTIONS[_COLUMN]
     height, _, _, _ = SECTIONS[_BEAM]
     shafts = []
     low, high = plan.tops
     for y in (-plan.half, plan.half):
-        shafts.append(site.add(column(high - height, hand, _COLUMN).placed(at(x, y, 0))) + 1)
+        shafts.append(site.add(column(high - height, style, _COLUMN).placed(at(x, y, 0))) + 1)
     z = low - height / 2
     # The lower beam reaches between the columns' flanges to their webs, the upper one lies on their heads.
     inner, outer = plan.half - web / 2, plan.half + depth / 2
-    lower = site.add(beam(np.array([x, -inner, z]), np.array([x, inner, z]), hand, _BEAM))
+    lower = site.add(beam(np.array([x, -inner, z]), np.array([x, inner, z]), style, _BEAM))
     z = high - height / 2
-    upper = site.add(beam(np.array([x, -outer, z]), np.array([x, outer, z]), hand, _BEAM))
+    upper = site.add(beam(np.array([x, -outer, z]), np.array([x, outer, z]), style, _BEAM))
     for shaft in shafts:
         site.join(shaft, lower)
         site.join(shaft, upper)
     return lower, upper, (shafts[0], shafts[1])
 
 
-def _tie(site: Site, hand: Hand, plan: _Plan, x: float, y: float, near: int, far: int) -> None:
+def _tie(site: Site, style: ModelingStyle, plan: _Plan, x: float, y: float, near: int, far: int) -> None:
     """A beam along x between the flanges of two columns."""
     half = SECTIONS[_COLUMN][0] / 2
     z = plan.tops[1] - 0.45
-    tie = site.add(beam(np.array([x + half, y, z]), np.array([x + plan.bay - half, y, z]), hand, "IPE 160"))
+    tie = site.add(beam(np.array([x + half, y, z]), np.array([x + plan.bay - half, y, z]), style, "IPE 160"))
     site.join(near, tie)
     site.join(far, tie)
 
 
 def _line(
     site: Site,
-    hand: Hand,
+    style: ModelingStyle,
     rng: np.random.Generator,
     choice: Choice,
     plan: _Plan,
@@ -198,16 +198,16 @@ def _line(
         )
         taps.append(choice.side_gauge(drop + 0.62, f"G-{number}9", 63, float(rng.uniform(0.6, 2.6)), True))
     ends = ("flange", "flange") if index < len(plan.ys) - 1 else ("blind", "flange")
-    placed = site.lay(Run(tag, dn, route, tuple(inline), tuple(taps), ends=ends), hand)
+    placed = site.lay(Run(tag, dn, route, tuple(inline), tuple(taps), ends=ends), style)
     for k, carrier in enumerate(beams):
-        site.support(placed, k * plan.bay - low, carrier, hand)
+        site.support(placed, k * plan.bay - low, carrier, style)
     for bay, middle in branches:
-        _branch(site, hand, rng, choice, placed, number, bay, middle, side)
+        _branch(site, style, rng, choice, placed, number, bay, middle, side)
 
 
 def _branch(
     site: Site,
-    hand: Hand,
+    style: ModelingStyle,
     rng: np.random.Generator,
     choice: Choice,
     trunk: Placed,
@@ -239,13 +239,13 @@ def _branch(
         nodes=(node, ""),
         arms=(TEE_CENTER_TO_END[run.dn], 0.0),
     )
-    site.lay(branch, hand, [trunk.device(node)])
+    site.lay(branch, style, [trunk.device(node)])
 
 
-def _number(site: Site, hand: Hand, plan: _Plan, beams: list[tuple[int, int, tuple[int, int]]]) -> None:
+def _number(site: Site, style: ModelingStyle, plan: _Plan, beams: list[tuple[int, int, tuple[int, int]]]) -> None:
     """A number plate on the flange of each column, at the height of the eyes."""
     depth = SECTIONS[_COLUMN][0]
     for k, (_, _, shafts) in enumerate(beams):
         for side, shaft, row in ((-1, shafts[0], "A"), (1, shafts[1], "B")):
             x = looking((k * plan.bay - depth / 2, side * plan.half, 1.6), (0, -1, 0), (-1, 0, 0))
-            site.add(plate((f"{row}{k + 1}", "MAX 2 T"), hand, 0.008).placed(x), shaft)
+            site.add(plate((f"{row}{k + 1}", "MAX 2 T"), style, 0.008).placed(x), shaft)

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from cadgraph.model.scene import Floats
 from cadplants.mesh_ops import Solid
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Assembly, Component
 
 __all__ = ["broken", "fanned", "in_rows", "retold", "uncapped"]
@@ -18,42 +18,42 @@ _MOST_TRIANGLES = 20_000  # of one mesh in rows; beyond it the rows stay wider
 _PIPES = ("pipe", "elbow", "hose", "conduit", "cable")
 
 
-def retold(assembly: Assembly, hand: Hand, seed: int) -> Assembly:
+def retold(assembly: Assembly, style: ModelingStyle, seed: int) -> Assembly:
     """The assembly with the triangles that this hand's program makes of its shapes.
 
     Args:
         assembly: as built.
-        hand: ``capped``, ``fans``, ``rows``, ``soup`` and ``cracks`` are used.
+        style: ``capped``, ``fans``, ``rows``, ``soup`` and ``cracks`` are used.
         seed: which meshes are broken.
     """
-    if hand.capped and not hand.fans and not hand.rows and not hand.soup and not hand.cracks:
+    if style.capped and not style.fans and not style.rows and not style.soup and not style.cracks:
         return assembly
     rng = np.random.default_rng([seed, 10])
     made: dict[tuple[int, bool], Solid] = {}
     components = []
     for component in assembly.components:
-        bare = not hand.capped and component.name in _PIPES
+        bare = not style.capped and component.name in _PIPES
         key = (id(component.solid), bare)
         if key not in made:
-            made[key] = _told(component.solid, hand, bare)
-        components.append(_spoilt(component, made[key], hand, rng))
+            made[key] = _told(component.solid, style, bare)
+        components.append(_spoilt(component, made[key], style, rng))
     return replace(assembly, components=tuple(components))
 
 
-def _told(solid: Solid, hand: Hand, bare: bool) -> Solid:
+def _told(solid: Solid, style: ModelingStyle, bare: bool) -> Solid:
     if bare:
         solid = uncapped(solid)
-    elif hand.fans:
+    elif style.fans:
         solid = fanned(solid)
-    return in_rows(solid, hand.rows) if hand.rows else solid
+    return in_rows(solid, style.rows) if style.rows else solid
 
 
-def _spoilt(component: Component, solid: Solid, hand: Hand, rng: np.random.Generator) -> Component:
+def _spoilt(component: Component, solid: Solid, style: ModelingStyle, rng: np.random.Generator) -> Component:
     flaws = component.flaws
     soup, crack = rng.random(2)
-    if crack < hand.cracks:
+    if crack < style.cracks:
         solid, flaws = broken(solid, rng), (*flaws, "cracked")
-    if soup < hand.soup:
+    if soup < style.soup:
         corners = solid.vertices[solid.faces.reshape(-1)]
         solid = Solid(corners, np.arange(len(corners), dtype=np.int32).reshape(-1, 3))
         flaws = (*flaws, "soup")

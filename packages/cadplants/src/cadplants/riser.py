@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cadplants.brand import Make, draw_make, dressed
+from cadplants.brand import Brand, draw_brand, dressed
 from cadplants.choice import Choice
 from cadplants.detail import Marks, plate
 from cadplants.fastener import SUPPORT_REACH
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Plant
 from cadplants.route import Route
 from cadplants.run import Inline, Run, Tap
@@ -86,19 +86,19 @@ def _draw(rng: np.random.Generator) -> _Plan:
     )
 
 
-def make_riser(seed: int = 0, hand: Hand | None = None, marks: Marks | None = None) -> Plant:
+def make_riser(seed: int = 0, style: ModelingStyle | None = None, marks: Marks | None = None) -> Plant:
     """Builds three upright loops on a wheeled plate: 6 valves, 6 gauges; stands on z = 0.
 
     Args:
         seed: chooses proportions, whether the loops are one serpentine, sizes, heights, sides of levers and wheels.
-        hand: how it is modelled; plant-design CAD by default.
+        style: how it is modelled; plant-design CAD by default.
         marks: what is modelled on the dials; by the seed by default. With all of it the plate carries a name plate.
     """
     rng = np.random.default_rng([seed, 2])
-    style = dressed(hand, rng, seed, _USUAL)
-    make = draw_make(rng)
+    style = dressed(style, rng, seed, _USUAL)
+    make = draw_brand(rng)
     drawn = marks or ("few", "none", "few", "all")[int(rng.integers(4))]
-    choice = Choice(make if seed else Make(), drawn if seed or marks else "none")
+    choice = Choice(make if seed else Brand(), drawn if seed or marks else "none")
     plan = _draw(rng) if seed else _Plan()
     site = Site("riser")
     bed = _bed(site, style, plan, rng)
@@ -122,20 +122,20 @@ def make_riser(seed: int = 0, hand: Hand | None = None, marks: Marks | None = No
     return site.plant("riser", seed, style)
 
 
-def _bed(site: Site, hand: Hand, plan: _Plan, rng: np.random.Generator) -> int:
+def _bed(site: Site, style: ModelingStyle, plan: _Plan, rng: np.random.Generator) -> int:
     """Plate and casters; returns the index of the plate."""
     length = 2 * (plan.rows[-1] + plan.margin[0])
     width = 2 * (plan.half + plan.margin[1])
-    bed = site.add(deck(length, width, hand).placed(at(0, 0, _TOP)))
+    bed = site.add(deck(length, width, style).placed(at(0, 0, _TOP)))
     rail = width / 2 - DECK_INSET - CHANNEL_WIDTH / 2
     for sx in (-1, 1):
         for sy in (-1, 1):
             place = at(sx * (length / 2 - 0.16), sy * rail, CASTER_HEIGHT)
-            site.add(caster(hand, float(rng.uniform(0, 2 * np.pi))).placed(place), bed + (1 if sy < 0 else 2))
+            site.add(caster(style, float(rng.uniform(0, 2 * np.pi))).placed(place), bed + (1 if sy < 0 else 2))
     return bed
 
 
-def _chain(site: Site, hand: Hand, plan: _Plan, bed: int, choice: Choice, rng: np.random.Generator) -> None:
+def _chain(site: Site, style: ModelingStyle, plan: _Plan, bed: int, choice: Choice, rng: np.random.Generator) -> None:
     """All loops as one serpentine; each bend between two of them rests on a post."""
     low, top, h = plan.link, plan.crown, plan.half
     first, second, third = plan.rows
@@ -144,12 +144,12 @@ def _chain(site: Site, hand: Hand, plan: _Plan, bed: int, choice: Choice, rng: n
         (second, h, low), (second, h, top), (second, -h, top), (second, -h, low),
         (third, -h, low), (third, -h, top), (third, h, top), (third, h, 0.0),
     ]  # fmt: skip
-    placed = site.lay(_run("R1", points, plan, 0, choice, rng), hand, [bed], [bed])
+    placed = site.lay(_run("R1", points, plan, 0, choice, rng), style, [bed], [bed])
     starts = placed.laid.run.route.starts
     height = low - PIPES[plan.dn].radius - SUPPORT_REACH
     for corner, (a, b, y) in ((3, (first, second, h)), (7, (second, third, -h))):
-        stand = site.add(post(height, hand, 0.04, capped=True).placed(at((a + b) / 2, y, _TOP)), bed)
-        site.support(placed, float(starts[corner] + starts[corner + 1]) / 2, stand + 2, hand)
+        stand = site.add(post(height, style, 0.04, capped=True).placed(at((a + b) / 2, y, _TOP)), bed)
+        site.support(placed, float(starts[corner] + starts[corner + 1]) / 2, stand + 2, style)
 
 
 def _run(

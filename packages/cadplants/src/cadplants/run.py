@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.piping import bend_tangent
 from cadplants.plant import Assembly, Device
 from cadplants.route import Route
@@ -20,7 +20,7 @@ class Inline:
 
     Args:
         s: chainage of its middle [m].
-        build: makes the device for a hand; None for a plain joint of two flanges.
+        build: makes the device for a style; None for a plain joint of two flanges.
         unit: id of the device, "" for a joint.
         roll: of its stem about the run [rad]; 0 is upright.
         reverse: whether it is built against the run (check valves).
@@ -31,7 +31,7 @@ class Inline:
     """
 
     s: float
-    build: Callable[[Hand], Device] | None = None
+    build: Callable[[ModelingStyle], Device] | None = None
     unit: str = ""
     roll: float = 0.0
     reverse: bool = False
@@ -47,13 +47,13 @@ class Tap:
 
     Args:
         s: chainage [m], on a straight piece of pipe.
-        build: makes the instrument for a hand, standing on z = 0.
+        build: makes the instrument for a style, standing on z = 0.
         unit: its id.
         roll: of the outlet about the run [rad]; 0 is upright.
     """
 
     s: float
-    build: Callable[[Hand], Assembly]
+    build: Callable[[ModelingStyle], Assembly]
     unit: str
     roll: float = 0.0
 

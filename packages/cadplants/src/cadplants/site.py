@@ -10,7 +10,7 @@ import numpy as np
 from cadplants.defects import loosen
 from cadplants.fastener import pipe_support
 from cadplants.layout import Laid, Run, lay
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Assembly, Plant, gather
 from cadplants.transforms import spun
 
@@ -70,9 +70,9 @@ class Site:
         """Records that two components touch."""
         self._joints.append((a, b))
 
-    def lay(self, run: Run, hand: Hand, first: Sequence[int] = (), last: Sequence[int] = ()) -> Placed:
+    def lay(self, run: Run, style: ModelingStyle, first: Sequence[int] = (), last: Sequence[int] = ()) -> Placed:
         """Lays a run between components that it touches at its ends."""
-        laid = lay(run, hand)
+        laid = lay(run, style)
         start = self.add(laid.assembly)
         for outside, inside in ((first, laid.first), (last, laid.last)):
             for a in outside:
@@ -80,14 +80,14 @@ class Site:
                     self.join(a, start + b)
         return Placed(laid, start)
 
-    def support(self, placed: Placed, s: float, carrier: int, hand: Hand, roll: float = 0.0) -> int:
+    def support(self, placed: Placed, s: float, carrier: int, style: ModelingStyle, roll: float = 0.0) -> int:
         """Holds a run by a U-bolt on a bracket.
 
         Args:
             placed: the run.
             s: chainage, on a pipe.
             carrier: component that the bracket is welded to.
-            hand: that models it.
+            style: that models it.
             roll: of the carrier about the run [rad]; 0 below it (-z of the run's frame).
 
         Returns:
@@ -96,14 +96,14 @@ class Site:
         run = placed.laid.run
         # The bracket looks for its carrier at +y; a quarter turn brings that to -z.
         pose = run.route.frame(s, roll) @ spun("x", -np.pi / 2)
-        first = self.add(pipe_support(run.dn_at(s), hand).placed(pose), carrier)
+        first = self.add(pipe_support(run.dn_at(s), style).placed(pose), carrier)
         self.join(placed.at(s), first)
         self.join(placed.at(s), first + 1)
         return first
 
-    def plant(self, name: str, seed: int, hand: Hand) -> Plant:
-        """The finished plant, with the gaps and unevenness of its hand."""
-        whole = loosen(gather(self._parts, self._joints), hand, seed).marked(hand=hand.name)
+    def plant(self, name: str, seed: int, style: ModelingStyle) -> Plant:
+        """The finished plant, with the gaps and unevenness of its style."""
+        whole = loosen(gather(self._parts, self._joints), style, seed).marked(style=style.name)
         return Plant(
             whole.components,
             whole.contacts,
@@ -113,6 +113,6 @@ class Site:
             whole.lines,
             name=name,
             seed=seed,
-            hands=(hand.name,),
-            looseness=hand.looseness,
+            styles=(style.name,),
+            looseness=style.looseness,
         )

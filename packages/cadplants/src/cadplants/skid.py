@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cadplants.brand import Make, draw_make, dressed
+from cadplants.brand import Brand, draw_brand, dressed
 from cadplants.choice import Choice
 from cadplants.detail import Marks, plate
 from cadplants.fastener import SUPPORT_REACH
 from cadplants.flange import GASKET, flange_length
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Plant
 from cadplants.route import Route
 from cadplants.run import Inline, Run, Tap
@@ -99,22 +99,22 @@ def _draw(rng: np.random.Generator) -> _Plan:
     )
 
 
-def make_skid(seed: int = 0, hand: Hand | None = None, marks: Marks | None = None) -> Plant:
+def make_skid(seed: int = 0, style: ModelingStyle | None = None, marks: Marks | None = None) -> Plant:
     """Builds a wheeled skid with 12 valves and 12 gauges; stands on z = 0, long side along x.
 
     Args:
         seed: chooses proportions, levels, sizes, the side of the bends, places of devices, spokes, levers, needles.
-        hand: how it is modelled; plant-design CAD by default.
+        style: how it is modelled; plant-design CAD by default.
         marks: what is modelled on the dials; by the seed by default. With all of it posts carry number plates.
 
     Returns:
         The plant with its truth; one cluster.
     """
     rng = np.random.default_rng([seed, 1])
-    style = dressed(hand, rng, seed, _USUAL)
-    make = draw_make(rng)
+    style = dressed(style, rng, seed, _USUAL)
+    make = draw_brand(rng)
     drawn = marks or ("few", "none", "few", "all")[int(rng.integers(4))]
-    choice = Choice(make if seed else Make(), drawn if seed or marks else "few")
+    choice = Choice(make if seed else Brand(), drawn if seed or marks else "few")
     plan = _draw(rng) if seed else _Plan()
     site = Site("skid")
     posts = _frame(site, style, plan, rng)
@@ -126,16 +126,18 @@ def make_skid(seed: int = 0, hand: Hand | None = None, marks: Marks | None = Non
     return site.plant("skid", seed, style)
 
 
-def _frame(site: Site, hand: Hand, plan: _Plan, rng: np.random.Generator) -> dict[tuple[int, int], int]:
+def _frame(site: Site, style: ModelingStyle, plan: _Plan, rng: np.random.Generator) -> dict[tuple[int, int], int]:
     """Deck, casters and posts; returns the index of the post at each corner (signs of x and y)."""
-    bed = site.add(deck(plan.length, plan.width, hand).placed(at(0, 0, _TOP)))
+    bed = site.add(deck(plan.length, plan.width, style).placed(at(0, 0, _TOP)))
     rail = plan.width / 2 - DECK_INSET - CHANNEL_WIDTH / 2
     posts = {}
     for sx in (-1, 1):
         for sy in (-1, 1):
             place = at(sx * (plan.length / 2 - 0.20), sy * rail, CASTER_HEIGHT)
-            site.add(caster(hand, float(rng.uniform(0, 2 * np.pi))).placed(place), bed + (1 if sy < 0 else 2))
-            upright = post(plan.levels[-1] + 0.10, hand, plan.post).placed(at(sx * plan.post_x, sy * plan.post_y, _TOP))
+            site.add(caster(style, float(rng.uniform(0, 2 * np.pi))).placed(place), bed + (1 if sy < 0 else 2))
+            upright = post(plan.levels[-1] + 0.10, style, plan.post).placed(
+                at(sx * plan.post_x, sy * plan.post_y, _TOP)
+            )
             posts[(sx, sy)] = site.add(upright, bed) + 1
     return posts
 
@@ -158,7 +160,7 @@ def _route(level: int, plan: _Plan) -> tuple[Route, float]:
     return route, float(route.starts[first])
 
 
-def _run(level: int, plan: _Plan, hand: Hand, choice: Choice, rng: np.random.Generator) -> Run:
+def _run(level: int, plan: _Plan, style: ModelingStyle, choice: Choice, rng: np.random.Generator) -> Run:
     """A line with its valves and gauges in two rows."""
     dn = plan.sizes[level]
     route, front = _route(level, plan)
@@ -168,7 +170,7 @@ def _run(level: int, plan: _Plan, hand: Hand, choice: Choice, rng: np.random.Gen
     for row, (origin, sign) in enumerate(((front, 1.0), (back, -1.0))):
         joint = plan.joints[2 * level + row]
         number = 100 * (level + 1) + 10 * row
-        places, gauges, kinds = _places(plan, dn, hand, joint, rng)
+        places, gauges, kinds = _places(plan, dn, style, joint, rng)
         if joint:
             inline.append(Inline(origin + sign * (places[0] - plan.left)))
         for k, (x, kind) in enumerate(zip(places[1:], kinds, strict=True)):
@@ -196,10 +198,10 @@ def _run(level: int, plan: _Plan, hand: Hand, choice: Choice, rng: np.random.Gen
 
 
 def _places(
-    plan: _Plan, dn: int, hand: Hand, joint: bool, rng: np.random.Generator
+    plan: _Plan, dn: int, style: ModelingStyle, joint: bool, rng: np.random.Generator
 ) -> tuple[list[float], list[float], list[str]]:
     """Where along x the joint and the valves of a row stand, and its gauges; and the kinds of the valves."""
-    neck = flange_length(dn, hand) + GASKET
+    neck = flange_length(dn, style) + GASKET
     kinds = ["ball", "globe"] if rng.random() < 0.5 else ["globe", "ball"]
     if plan.per_row == 3:
         # Six of each kind in all: rows take turns with two of one kind.
@@ -225,7 +227,9 @@ def _places(
     return [at_joint, *places], gauges, kinds
 
 
-def _hang(site: Site, placed: Placed, hand: Hand, plan: _Plan, level: int, posts: dict[tuple[int, int], int]) -> None:
+def _hang(
+    site: Site, placed: Placed, style: ModelingStyle, plan: _Plan, level: int, posts: dict[tuple[int, int], int]
+) -> None:
     """Holds a line by a U-bolt on a bracket where a row passes a post."""
     route = placed.laid.run.route
     for leg in range(len(route.points) - 1):
@@ -238,14 +242,14 @@ def _hang(site: Site, placed: Placed, hand: Hand, plan: _Plan, level: int, posts
             if route.starts[leg] < s < route.starts[leg + 1]:
                 # The post stands towards the middle plane: to the run's left where it goes to +x in front.
                 left = -side * direction[0] > 0
-                site.support(placed, s, posts[(sx, side)], hand, np.pi / 2 if left else -np.pi / 2)
+                site.support(placed, s, posts[(sx, side)], style, np.pi / 2 if left else -np.pi / 2)
 
 
-def _number(site: Site, hand: Hand, plan: _Plan, posts: dict[tuple[int, int], int]) -> None:
+def _number(site: Site, style: ModelingStyle, plan: _Plan, posts: dict[tuple[int, int], int]) -> None:
     """Number plates on the outer faces of the posts, one for each level and row."""
     for (sx, sy), index in posts.items():
         for level, height in enumerate(plan.levels):
             text = f"V-{100 * (level + 1) + 10 * (sy > 0) + (sx > 0) + 1}"
             z = _TOP + height - 0.13
             face = looking((sx * (plan.post_x + plan.post / 2), sy * plan.post_y, z), (0.0, sx, 0.0), (sx, 0.0, 0.0))
-            site.add(plate((text,), hand, 0.0052, 2).placed(face), index)
+            site.add(plate((text,), style, 0.0052, 2).placed(face), index)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.brand import Make, draw_make, dressed
+from cadplants.brand import Brand, draw_brand, dressed
 from cadplants.choice import Choice
 from cadplants.contacts import met
 from cadplants.detail import Marks
@@ -16,7 +16,7 @@ from cadplants.families.vessels.vessel import level_gauge
 from cadplants.fastener import SUPPORT_REACH
 from cadplants.instrument import tee_at
 from cadplants.mesh_ops import box
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Assembly, Component, Plant, Unit, gather
 from cadplants.pump import Pump, pump
 from cadplants.route import Route
@@ -91,32 +91,32 @@ class _Work:
 
     Args:
         site: where it goes.
-        hand: how it is modelled.
+        style: how it is modelled.
         choice: of the looks of valves and gauges.
         plan: of the proportions.
         rng: of what varies besides.
     """
 
     site: Site
-    hand: Hand
+    style: ModelingStyle
     choice: Choice
     plan: _Plan
     rng: np.random.Generator
 
 
-def make_station(seed: int = 0, hand: Hand | None = None, marks: Marks | None = None) -> Plant:
+def make_station(seed: int = 0, style: ModelingStyle | None = None, marks: Marks | None = None) -> Plant:
     """Builds a tank that feeds two pumps, which deliver through a globe valve into a drum; stands on a slab at z = 0.
 
     Args:
         seed: of everything that varies: proportions, paint, looks of the devices; 0 makes the demo.
-        hand: how it is modelled; plant-design CAD by default.
+        style: how it is modelled; plant-design CAD by default.
         marks: what is modelled on the dials; by the seed by default.
     """
     rng = np.random.default_rng([seed, 12])
-    style = dressed(hand, rng, seed, _USUAL)
-    make = draw_make(rng)
+    style = dressed(style, rng, seed, _USUAL)
+    make = draw_brand(rng)
     drawn = marks or ("few", "none", "few", "all")[int(rng.integers(4))]
-    choice = Choice(make if seed else Make(), drawn if seed or marks else "few")
+    choice = Choice(make if seed else Brand(), drawn if seed or marks else "few")
     work = _Work(Site("station"), style, choice, _draw(rng) if seed else _Plan(), rng)
     feed, first = _feed_tank(work)
     _drain(work, feed, first)
@@ -142,9 +142,9 @@ def _feed_tank(work: _Work) -> tuple[Tank, int]:
         Nozzle(_DISCHARGE, "top", (0.0, 0.0)),
         Nozzle(_MANWAY, "side", (-0.42 * np.pi, 0.70), 0.20, manway=True),
     ]
-    vessel = tank("T-1", work.hand, work.plan.radius, work.plan.height, _CLEAR, nozzles)
+    vessel = tank("T-1", work.style, work.plan.radius, work.plan.height, _CLEAR, nozzles)
     low = _CLEAR + work.plan.radius / 2 + 0.04
-    gauge = _level_gauge(work.hand, work.plan.radius, low + 0.28, low + work.plan.height - 0.25, work.rng)
+    gauge = _level_gauge(work.style, work.plan.radius, low + 0.28, low + work.plan.height - 0.25, work.rng)
     count = len(vessel.assembly.components)
     both = met(gather([vessel.assembly, gauge]))
     # The builder of the tank says what touches within it; the gauge's are those that its surfaces have.
@@ -155,11 +155,13 @@ def _feed_tank(work: _Work) -> tuple[Tank, int]:
     return replace(vessel, faces=tuple(pose @ face for face in vessel.faces)), first
 
 
-def _level_gauge(hand: Hand, radius: float, low: float, high: float, rng: np.random.Generator) -> Assembly:
+def _level_gauge(style: ModelingStyle, radius: float, low: float, high: float, rng: np.random.Generator) -> Assembly:
     """A level gauge between two cocks on the shell, which reads the level of the tank."""
-    parts = level_gauge(radius, low, high, 0.06 * np.pi, hand, rng)
+    parts = level_gauge(radius, low, high, 0.06 * np.pi, style, rng)
     components = tuple(
-        Component(p.solid, p.group, p.name, hand.color(p.color), unit="L-1", family="level gauge", granularity="pieces")
+        Component(
+            p.solid, p.group, p.name, style.color(p.color), unit="L-1", family="level gauge", granularity="pieces"
+        )
         for p in parts
     )
     return Assembly(components, (), (Unit("L-1", "gauge", "level gauge"),))
@@ -173,7 +175,7 @@ def _receiver(work: _Work) -> tuple[Tank, int]:
         Nozzle(_PUMP_OUT, "top", (0.0, 0.25 * work.plan.drum_length)),
         Nozzle(_MANWAY, "left", (0.0, 0.0), 0.20, manway=True),
     ]
-    vessel, _ = drum("T-2", work.hand, work.plan.drum_radius, work.plan.drum_length, _CLEAR, nozzles)
+    vessel, _ = drum("T-2", work.style, work.plan.drum_radius, work.plan.drum_length, _CLEAR, nozzles)
     pose = at(0.0, work.plan.drum + 0.25 * work.plan.drum_length, 0.0)
     first = work.site.add(vessel.assembly.placed(pose))
     return replace(vessel, faces=tuple(pose @ face for face in vessel.faces)), first
@@ -205,7 +207,7 @@ def _suction_header(work: _Work, feed: Tank, first: int, level: float) -> Placed
         flow="forward",
         reason="feeds the pumps",
     )
-    placed = work.site.lay(run, work.hand, touching)
+    placed = work.site.lay(run, work.style, touching)
     for place in (work.plan.pumps[0] - 0.30, (work.plan.pumps[0] + work.plan.pumps[1]) / 2, work.plan.pumps[1] + 0.30):
         _stand(work, placed, behind + place)
     return placed
@@ -238,7 +240,7 @@ def _discharge_header(work: _Work, receiver: Tank, first: int) -> Placed:
         flow="forward",
         reason="leaves the pumps",
     )
-    placed = work.site.lay(run, work.hand, (), touching)
+    placed = work.site.lay(run, work.style, (), touching)
     for place in (work.plan.pumps[0] - 0.25, (work.plan.pumps[0] + work.plan.pumps[1]) / 2, work.plan.pumps[1] + 0.62):
         _stand(work, placed, place - start, 0.08)
     return placed
@@ -262,7 +264,7 @@ def _into_pump(work: _Work, number: int, header: Placed, base: int, one: Pump) -
         flow="forward",
         reason="into the suction of a pump",
     )
-    work.site.lay(run, work.hand, [header.device(node)], [base])
+    work.site.lay(run, work.style, [header.device(node)], [base])
 
 
 def _out_of_pump(work: _Work, number: int, header: Placed, base: int, one: Pump) -> None:
@@ -286,7 +288,7 @@ def _out_of_pump(work: _Work, number: int, header: Placed, base: int, one: Pump)
         flow="forward",
         reason="check valve behind a pump",
     )
-    work.site.lay(run, work.hand, [base], [header.device(node)])
+    work.site.lay(run, work.style, [base], [header.device(node)])
 
 
 def _in_pieces(item: Inline) -> Inline:
@@ -294,7 +296,7 @@ def _in_pieces(item: Inline) -> Inline:
     build = item.build
     if build is None:
         return item
-    return replace(item, build=lambda hand: build(replace(hand, valve="pieces")))
+    return replace(item, build=lambda style: build(replace(style, valve="pieces")))
 
 
 def _drain(work: _Work, feed: Tank, first: int) -> None:
@@ -312,7 +314,7 @@ def _drain(work: _Work, feed: Tank, first: int) -> None:
         flow="forward",
         reason="drains the tank by gravity",
     )
-    work.site.lay(run, work.hand, touching)
+    work.site.lay(run, work.style, touching)
 
 
 def _outlet(work: _Work, receiver: Tank, first: int) -> None:
@@ -330,7 +332,7 @@ def _outlet(work: _Work, receiver: Tank, first: int) -> None:
         flow="forward",
         reason="leaves the drum by gravity",
     )
-    placed = work.site.lay(run, work.hand, touching)
+    placed = work.site.lay(run, work.style, touching)
     _stand(work, placed, 1.15)
 
 
@@ -348,7 +350,7 @@ def _fill(work: _Work, feed: Tank, first: int) -> None:
         ends=("joint", "flange"),
         nodes=("T-1", ""),
     )
-    work.site.lay(run, work.hand, touching)
+    work.site.lay(run, work.style, touching)
 
 
 def _vent(work: _Work, receiver: Tank, first: int) -> None:
@@ -357,7 +359,7 @@ def _vent(work: _Work, receiver: Tank, first: int) -> None:
     x, y, z = (float(v) for v in face)
     corners = [(x, y, z), (x, y, z + 0.28), (x, y + 0.26, z + 0.28), (x, y + 0.26, z + 0.12)]
     work.site.lay(
-        Run("B", _PUMP_OUT, Route(np.array(corners)), ends=("joint", "open"), nodes=("T-2", "")), work.hand, touching
+        Run("B", _PUMP_OUT, Route(np.array(corners)), ends=("joint", "open"), nodes=("T-2", "")), work.style, touching
     )
 
 
@@ -366,17 +368,17 @@ def _stand(work: _Work, placed: Placed, s: float, side: float = 0.05) -> None:
     run = placed.laid.run
     x, y, z = (float(v) for v in run.route.point(s))
     height = z - PIPES[run.dn_at(s)].radius - SUPPORT_REACH
-    base = work.site.add(post(height, work.hand, side, capped=True).placed(at(x, y, 0.0)))
-    work.site.support(placed, s, base + 2, work.hand)
+    base = work.site.add(post(height, work.style, side, capped=True).placed(at(x, y, 0.0)))
+    work.site.support(placed, s, base + 2, work.style)
 
 
-def _on_slab(plant: Plant, hand: Hand) -> Plant:
+def _on_slab(plant: Plant, style: ModelingStyle) -> Plant:
     """The plant with a slab under it, which is no part of its structure."""
     corners = np.concatenate([c.vertices for c in plant.components])
     low, high = corners.min(axis=0) - 0.6, corners.max(axis=0) + 0.6
     middle = (low + high) / 2
     solid = box((float(high[0] - low[0]), float(high[1] - low[1]), 0.2), (float(middle[0]), float(middle[1]), -0.1))
-    slab = Component(solid, "Structural element", "ground", hand.color("ground"), hand=hand.name)
+    slab = Component(solid, "Structural element", "ground", style.color("ground"), style=style.name)
     standing = [i for i, c in enumerate(plant.components) if abs(float(c.vertices[:, 2].min())) < 1e-9]
     count = plant.n_meshes
     contacts = (*plant.contacts, *((i, count) for i in standing))

@@ -8,7 +8,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.mesh_ops import Solid, extrude, merge, moved, revolve, weld
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Assembly, Component, gather
 from cadplants.polygon import circle, rounded_rectangle, section_channel, section_i
 from cadplants.standards import SECTIONS
@@ -63,14 +63,14 @@ def _caster_solids() -> tuple[Solid, Solid, Solid]:
     return fork, wheel, pin
 
 
-def caster(hand: Hand, turn: float = 0.0) -> Assembly:
+def caster(style: ModelingStyle, turn: float = 0.0) -> Assembly:
     """A swivel caster under z = 0, turned about z [rad]: fork, wheel and axle."""
     fork, wheel, pin = _caster_solids()
     group = "Structural element"
     components = (
-        Component(fork, group, "caster", hand.color("clamp")),
-        Component(wheel, group, "caster", hand.color("rubber")),
-        Component(pin, "Connection assembly", "bolt", hand.color("fastener")),
+        Component(fork, group, "caster", style.color("clamp")),
+        Component(wheel, group, "caster", style.color("rubber")),
+        Component(pin, "Connection assembly", "bolt", style.color("fastener")),
     )
     return Assembly(components, ((0, 1), (0, 2), (1, 2))).placed(spun("z", turn))
 
@@ -89,14 +89,14 @@ def _beam_pose(x: Floats, origin: tuple[float, float, float]) -> Floats:
     return pose
 
 
-def deck(length: float, width: float, hand: Hand, thick: float = 0.006, height: float = 0.08) -> Assembly:
+def deck(length: float, width: float, style: ModelingStyle, thick: float = 0.006, height: float = 0.08) -> Assembly:
     """A plate with round corners, its top at z = 0, on two channels with three cross members between them.
 
     Returns:
         Plate, the two long channels, then the cross members. Casters go under the long channels, whose underside is
         at z = -(thick + height) and whose webs stand ``DECK_INSET`` inside the plate's long edges.
     """
-    group, color = "Structural element", hand.color("steel")
+    group, color = "Structural element", style.color("steel")
     plate = extrude(rounded_rectangle(length, width, 0.09, 8), -thick, 0.0)
     level = -thick - height / 2
     rail = width / 2 - DECK_INSET
@@ -129,17 +129,19 @@ def _post_solid(height: float, side: float, wall: float) -> Solid:
     return extrude(outer, 0.0, height, (inner,))
 
 
-def post(height: float, hand: Hand, side: float = 0.05, wall: float = 0.003, capped: bool = False) -> Assembly:
+def post(
+    height: float, style: ModelingStyle, side: float = 0.05, wall: float = 0.003, capped: bool = False
+) -> Assembly:
     """A square hollow post (EN 10219-2) on a base plate at z = 0, its top at ``height``: base plate, post, head plate.
 
     Args:
         height: of the whole [m].
-        hand: that models it.
+        style: that models it.
         side: of the section [m].
         wall: of the section [m].
         capped: whether a head plate closes it, to carry something.
     """
-    group, color = "Structural element", hand.color("steel")
+    group, color = "Structural element", style.color("steel")
     thick = 0.008
     lid = thick if capped else 0.0
     components = [
@@ -164,13 +166,13 @@ def _section_solid(height: float, width: float, web: float, flange: float, lengt
     return extrude(section_i(height, width, web, flange), 0.0, length)
 
 
-def beam(start: Floats, end: Floats, hand: Hand, size: str = "HEA 100", name: str = "beam") -> Assembly:
+def beam(start: Floats, end: Floats, style: ModelingStyle, size: str = "HEA 100", name: str = "beam") -> Assembly:
     """A rolled H or I section between two points of its axis, its web upright.
 
     Args:
         start: ``(3,)`` [m].
         end: likewise.
-        hand: that models it.
+        style: that models it.
         size: a key of ``SECTIONS``.
         name: ``beam``, ``column`` or ``brace``.
     """
@@ -180,13 +182,13 @@ def beam(start: Floats, end: Floats, hand: Hand, size: str = "HEA 100", name: st
     pose = np.eye(4)
     pose[:3, 0], pose[:3, 1], pose[:3, 2], pose[:3, 3] = frame[:3, 1], frame[:3, 2], frame[:3, 0], start
     solid = _section_solid(*SECTIONS[size], round(float(np.linalg.norm(end - start)), 9))
-    return Assembly((Component(solid, "Structural element", name, hand.color("steel"), pose),))
+    return Assembly((Component(solid, "Structural element", name, style.color("steel"), pose),))
 
 
-def column(height: float, hand: Hand, size: str = "HEA 120") -> Assembly:
+def column(height: float, style: ModelingStyle, size: str = "HEA 120") -> Assembly:
     """A column on a base plate at z = 0, its top at ``height``: base plate, column."""
     thick = 0.015
     width = round(max(SECTIONS[size][:2]) + 0.10, 6)
-    base = Component(_base_solid(width, thick, 0.009), "Structural element", "base plate", hand.color("steel"))
-    shaft = beam(np.array([0, 0, thick]), np.array([0, 0, height]), hand, size, "column")
+    base = Component(_base_solid(width, thick, 0.009), "Structural element", "base plate", style.color("steel"))
+    shaft = beam(np.array([0, 0, thick]), np.array([0, 0, height]), style, size, "column")
     return gather([Assembly((base,)), shaft], [(0, 1)])

@@ -8,13 +8,13 @@ from functools import partial
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.brand import Make, draw_make, dressed
+from cadplants.brand import Brand, draw_brand, dressed
 from cadplants.choice import Choice
 from cadplants.detail import Marks, plate
 from cadplants.drum import drum
 from cadplants.fastener import SUPPORT_REACH
 from cadplants.flange import GASKET, plate_thickness
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.piping import tee
 from cadplants.plant import Device, Plant
 from cadplants.route import Route
@@ -77,19 +77,19 @@ def _draw(rng: np.random.Generator) -> _Plan:
     )
 
 
-def make_tank(seed: int = 0, hand: Hand | None = None, marks: Marks | None = None) -> Plant:
+def make_tank(seed: int = 0, style: ModelingStyle | None = None, marks: Marks | None = None) -> Plant:
     """Builds a tank with five lines: 4 valves, 5 gauges, one branch; stands on z = 0.
 
     Args:
         seed: chooses whether it stands or lies, proportions, sizes, sides and places.
-        hand: how it is modelled; plant-design CAD by default.
+        style: how it is modelled; plant-design CAD by default.
         marks: what is modelled on the dials; by the seed by default. With all of it the tank carries a name plate.
     """
     rng = np.random.default_rng([seed, 3])
-    style = dressed(hand, rng, seed, _USUAL)
-    make = draw_make(rng)
+    style = dressed(style, rng, seed, _USUAL)
+    make = draw_brand(rng)
     drawn = marks or ("few", "none", "few", "all")[int(rng.integers(4))]
-    choice = Choice(make if seed else Make(), drawn if seed or marks else "few")
+    choice = Choice(make if seed else Brand(), drawn if seed or marks else "few")
     plan = _draw(rng) if seed else _Plan()
     site = Site("tank")
     vessel, reach = _vessel(style, plan)
@@ -105,18 +105,18 @@ def make_tank(seed: int = 0, hand: Hand | None = None, marks: Marks | None = Non
     return site.plant("tank", seed, style)
 
 
-def _name(site: Site, hand: Hand, vessel: Tank, first: int) -> None:
+def _name(site: Site, style: ModelingStyle, vessel: Tank, first: int) -> None:
     """A name plate on the lid of the manway."""
-    face, pad = vessel.faces[-1], GASKET if hand.gaskets else 0.0
+    face, pad = vessel.faces[-1], GASKET if style.gaskets else 0.0
     out = face[:3, 0]
     pose = np.eye(4)
     pose[:3, 0], pose[:3, 1], pose[:3, 2] = np.cross((0.0, 0.0, 1.0), out), (0.0, 0.0, 1.0), out
     pose[:3, 3] = face[:3, 3] + (pad + plate_thickness(_MANWAY)) * out
-    text = plate(("TANK T-1", "PS 6 BAR", "TS 95 C", "V 2400 L"), hand, 0.014)
-    site.add(text.placed(pose), first + vessel.flanges[-1] + (2 if hand.gaskets else 1))
+    text = plate(("TANK T-1", "PS 6 BAR", "TS 95 C", "V 2400 L"), style, 0.014)
+    site.add(text.placed(pose), first + vessel.flanges[-1] + (2 if style.gaskets else 1))
 
 
-def _vessel(hand: Hand, plan: _Plan) -> tuple[Tank, float]:
+def _vessel(style: ModelingStyle, plan: _Plan) -> tuple[Tank, float]:
     """The tank with its nozzles: main, two vents, two drains, manway; and how far it reaches along y."""
     m, radius = plan.side, plan.radius
     vents = [Nozzle(plan.vent, "top", (x, 0.34 * m)) for x in (-0.30, 0.22)]
@@ -128,7 +128,7 @@ def _vessel(hand: Hand, plan: _Plan) -> tuple[Tank, float]:
             *(Nozzle(plan.drain, "right", (-0.13 * plan.height * sign * m, low), 0.16) for sign in (1, -1)),
             Nozzle(_MANWAY, "left", (-0.2 * plan.height * m, 0.0), 0.20, manway=True),
         ]
-        return drum("T-1", hand, radius, plan.height, 0.32, nozzles)
+        return drum("T-1", style, radius, plan.height, 0.32, nozzles)
     angle = 0.42 * m
     nozzles = [
         Nozzle(plan.main, "top", (0.0, 0.0)),
@@ -137,7 +137,7 @@ def _vessel(hand: Hand, plan: _Plan) -> tuple[Tank, float]:
         Nozzle(plan.drain, "side", (angle, 0.16), 0.16),
         Nozzle(_MANWAY, "side", (-2.0 * m, 0.75), 0.20, manway=True),
     ]
-    return tank("T-1", hand, radius, plan.height, 0.35, nozzles, plan.legs), radius
+    return tank("T-1", style, radius, plan.height, 0.35, nozzles, plan.legs), radius
 
 
 def _ends(vessel: Tank, first: int, nozzle: int) -> tuple[Floats, list[int]]:
@@ -147,7 +147,7 @@ def _ends(vessel: Tank, first: int, nozzle: int) -> tuple[Floats, list[int]]:
 
 def _overhead(
     site: Site,
-    hand: Hand,
+    style: ModelingStyle,
     vessel: Tank,
     first: int,
     plan: _Plan,
@@ -184,12 +184,12 @@ def _overhead(
         ends=("joint", "blind"),
         nodes=("T-1", ""),
     )
-    return site.lay(run, hand, touching)
+    return site.lay(run, style, touching)
 
 
 def _vents(
     site: Site,
-    hand: Hand,
+    style: ModelingStyle,
     vessel: Tank,
     first: int,
     plan: _Plan,
@@ -213,17 +213,17 @@ def _vents(
     taps = [choice.gauge(float(s[2]) - 1.1, "G-3", 100, float(rng.uniform(0.6, 2.6)))]
     trunk = site.lay(
         Run("L2", dn, route, tuple(inline), tuple(taps), ends=("joint", "flange"), nodes=("T-1", "")),
-        hand,
+        style,
         touching_other,
     )
     arm = TEE_CENTER_TO_END[dn]
     up = (start[0], y, level - arm)
     branch = Run("L3", dn, Route(np.array([start, up])), ends=("joint", "open"), nodes=("T-1", "J-1"), arms=(0.0, arm))
-    site.lay(branch, hand, touching, [trunk.device("J-1")])
+    site.lay(branch, style, touching, [trunk.device("J-1")])
     return trunk
 
 
-def _portal(site: Site, hand: Hand, plan: _Plan, overhead: Placed, vents: Placed) -> None:
+def _portal(site: Site, style: ModelingStyle, plan: _Plan, overhead: Placed, vents: Placed) -> None:
     """Two columns with two beams that carry the far ends, and a post in the middle."""
     run, other = overhead.laid.run, vents.laid.run
     level, lower = float(run.route.points[2][2]), float(other.route.points[1][2])
@@ -238,24 +238,24 @@ def _portal(site: Site, hand: Hand, plan: _Plan, overhead: Placed, vents: Placed
     ys = (-0.55, 0.95) if plan.side > 0 else (-0.95, 0.55)
     top = seats[0] + depth / 2
     for y in ys:
-        columns.append(site.add(column(top - depth, hand, size).placed(at(x, y, 0))))
-    head = site.add(beam(np.array([x, ys[0] - 0.10, seats[0]]), np.array([x, ys[1] + 0.10, seats[0]]), hand, size))
+        columns.append(site.add(column(top - depth, style, size).placed(at(x, y, 0))))
+    head = site.add(beam(np.array([x, ys[0] - 0.10, seats[0]]), np.array([x, ys[1] + 0.10, seats[0]]), style, size))
     for base in columns:
         site.join(base + 1, head)
     # The lower beam reaches between the flanges of the columns to their webs.
     near, far = np.array([x, ys[0] + web / 2, seats[1]]), np.array([x, ys[1] - web / 2, seats[1]])
-    shelf = site.add(beam(near, far, hand, "IPE 100"))
+    shelf = site.add(beam(near, far, style, "IPE 100"))
     for base in columns:
         site.join(base + 1, shelf)
     for placed, carrier in ((overhead, head), (vents, shelf)):
         route = placed.laid.run.route
         s = float(route.starts[2] - abs(route.points[2][0] - x))
-        site.support(placed, s, carrier, hand)
+        site.support(placed, s, carrier, style)
 
 
 def _drain(
     site: Site,
-    hand: Hand,
+    style: ModelingStyle,
     vessel: Tank,
     first: int,
     plan: _Plan,
@@ -294,14 +294,14 @@ def _drain(
         flow="forward",
         reason="drains the tank by gravity",
     )
-    placed = site.lay(run, hand, touching)
+    placed = site.lay(run, style, touching)
     height = z - PIPES[dn].radius - SUPPORT_REACH
     for share in (0.30, 0.62, 0.92):
         at_s = float(s[2] + share * (s[3] - s[2]))
         x, stand_y, _ = route.point(at_s)
-        base = site.add(post(height, hand, capped=True).placed(at(float(x), float(stand_y), 0)))
-        site.support(placed, at_s, base + 2, hand)
+        base = site.add(post(height, style, capped=True).placed(at(float(x), float(stand_y), 0)))
+        site.support(placed, at_s, base + 2, style)
 
 
-def _tee(hand: Hand, dn: int) -> Device:
-    return tee(dn, dn, hand)
+def _tee(style: ModelingStyle, dn: int) -> Device:
+    return tee(dn, dn, style)

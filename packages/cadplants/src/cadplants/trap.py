@@ -14,7 +14,7 @@ from cadplants.access import platform
 from cadplants.fastener import clamping
 from cadplants.flange import bolts, flange, flange_length, plate_thickness
 from cadplants.mesh_ops import box, tube
-from cadplants.modeling_style import HANDS, Hand
+from cadplants.modeling_style import STYLES, ModelingStyle
 from cadplants.piping import pipe
 from cadplants.plant import Assembly, Component, Plant, gather
 from cadplants.standards import ELBOW_LONG_RADIUS, PIPES
@@ -44,7 +44,7 @@ def make_bent_pipe(shift: float = 0.0) -> Plant:
     Returns:
         The plant with its truth: one cluster.
     """
-    hand = HANDS["game"]
+    style = STYLES["game"]
     radius, half = ELBOW_LONG_RADIUS[_DN], _ROOT_GAP / 2
     x, y, z, low = 0.006, 0.006, 1.50, 0.012
     axis = z + half + radius
@@ -53,15 +53,15 @@ def make_bent_pipe(shift: float = 0.0) -> Plant:
     side_x, first_y = far_x + half + radius, y + half + radius
     end_y = first_y + 0.90
     segments = (
-        (_straight((x, y, low), (x, y, z - half), hand, _TWIST), "pipe"),
-        (_bend((x, y, z + half), (x, y, axis), (x + radius, y, axis), hand), "elbow"),
-        (_straight((turn_x + half, y, axis), (far_x - half, y, axis), hand), "pipe"),
-        (_bend((far_x + half, y, axis), (side_x, y, axis), (side_x, y + radius, axis), hand), "elbow"),
-        (_straight((side_x, first_y + half, axis), (side_x, end_y, axis), hand), "pipe"),
+        (_straight((x, y, low), (x, y, z - half), style, _TWIST), "pipe"),
+        (_bend((x, y, z + half), (x, y, axis), (x + radius, y, axis), style), "elbow"),
+        (_straight((turn_x + half, y, axis), (far_x - half, y, axis), style), "pipe"),
+        (_bend((far_x + half, y, axis), (side_x, y, axis), (side_x, y + radius, axis), style), "elbow"),
+        (_straight((side_x, first_y + half, axis), (side_x, end_y, axis), style), "pipe"),
     )
-    pipes = [Component(c.solid, "Pipe assembly", name, hand.color("pipe"), c.pose) for c, name in segments]
+    pipes = [Component(c.solid, "Pipe assembly", name, style.color("pipe"), c.pose) for c, name in segments]
     under = axis - PIPES[_DN].radius
-    steel = hand.color("steel")
+    steel = style.color("steel")
     frame = (
         Component(box((0.50, 0.50, low), (x, y, low / 2)), "Structural element", "base plate", steel),
         Component(
@@ -73,21 +73,23 @@ def make_bent_pipe(shift: float = 0.0) -> Plant:
     )
     contacts = ((0, 1), (1, 2), (2, 3), (3, 4), (0, 5), (4, 6))
     whole = Assembly((*pipes, *frame), contacts).marked(cluster="bent pipe").placed(at(0, 0, shift))
-    return Plant(whole.components, whole.contacts, name="bent pipe", hands=(hand.name,), looseness=_ROOT_GAP)
+    return Plant(whole.components, whole.contacts, name="bent pipe", styles=(style.name,), looseness=_ROOT_GAP)
 
 
-def _straight(start: tuple[float, ...], end: tuple[float, ...], hand: Hand, twist: float = 0.0) -> Component:
+def _straight(start: tuple[float, ...], end: tuple[float, ...], style: ModelingStyle, twist: float = 0.0) -> Component:
     """A straight segment whose corners are turned about its axis [rad]."""
     size, way = PIPES[_DN], np.subtract(end, start)
     length = float(np.linalg.norm(way))
     solid = tube(np.array([[0.0, 0.0, 0.0], [length, 0.0, 0.0]]), size.radius, size.bore, _SIDES)
-    return Component(solid, "Pipe assembly", "pipe", hand.color("pipe"), looking(start, way) @ spun("x", twist))
+    return Component(solid, "Pipe assembly", "pipe", style.color("pipe"), looking(start, way) @ spun("x", twist))
 
 
-def _bend(start: tuple[float, ...], corner: tuple[float, ...], end: tuple[float, ...], hand: Hand) -> Component:
+def _bend(
+    start: tuple[float, ...], corner: tuple[float, ...], end: tuple[float, ...], style: ModelingStyle
+) -> Component:
     size = PIPES[_DN]
     solid = tube(arc(start, corner, end, 4), size.radius, size.bore, _SIDES)
-    return Component(solid, "Pipe assembly", "elbow", hand.color("pipe"))
+    return Component(solid, "Pipe assembly", "elbow", style.color("pipe"))
 
 
 _SHELL, _CLEARANCE = 1.20, 0.40  # m, of both tanks
@@ -109,7 +111,7 @@ def make_platform_and_tanks(gap: float = 0.016) -> Plant:
     Returns:
         The plant with its truth: two clusters, ``tanks`` and ``platform``, if the gap is more than 1 cm.
     """
-    hand = HANDS["plant-design"]
+    style = STYLES["plant-design"]
     # The shell ends between the lower and the upper edge of the floor's frame, so only one edge comes near it.
     height, length, width = 2.05, 3.60, 1.20
     # The border runs through y = 0: the shell begins above it, the platform ends below it. In x the tank's corner
@@ -117,12 +119,12 @@ def make_platform_and_tanks(gap: float = 0.016) -> Plant:
     y = gap / 2 + _RADII[0]
     poses = (at(VOXEL / 2, y, 0), at(VOXEL / 2 + _APART, y, 0))
     vessels = [
-        _vessel(f"T-{k + 1}", hand, radius, angle)
+        _vessel(f"T-{k + 1}", style, radius, angle)
         for k, (radius, angle) in enumerate(zip(_RADII, (0.0, np.pi), strict=True))
     ]
     n_first = len(vessels[0].assembly.components)
     n_both = n_first + len(vessels[1].assembly.components)
-    line = _line(poses[0] @ vessels[0].faces[0], poses[1] @ vessels[1].faces[0], hand)
+    line = _line(poses[0] @ vessels[0].faces[0], poses[1] @ vessels[1].faces[0], style)
     per_end = (len(line.components) - 3) // 2
     joints = []
     for tail, (flange_of_tank, flange_of_line) in enumerate(
@@ -130,29 +132,29 @@ def make_platform_and_tanks(gap: float = 0.016) -> Plant:
     ):
         studs = range(n_both + 3 + tail * per_end, n_both + 3 + (tail + 1) * per_end)
         joints.append((flange_of_tank, n_both + flange_of_line))
-        for near, far in clamping(studs, hand):
+        for near, far in clamping(studs, style):
             joints += [(flange_of_tank, near), (n_both + flange_of_line, far)]
     placed = [vessel.assembly.placed(pose) for vessel, pose in zip(vessels, poses, strict=True)]
     tanks = gather([*placed, line], joints).marked(cluster="tanks")
-    floor = platform(length, width, height, hand).placed(at(_APART / 2, -gap / 2 - width / 2, 0))
+    floor = platform(length, width, height, style).placed(at(_APART / 2, -gap / 2 - width / 2, 0))
     whole = gather([tanks, floor.marked(cluster="platform")])
-    return Plant(whole.components, whole.contacts, whole.units, name="platform and tanks", hands=(hand.name,))
+    return Plant(whole.components, whole.contacts, whole.units, name="platform and tanks", styles=(style.name,))
 
 
-def _vessel(name: str, hand: Hand, radius: float, angle: float) -> Tank:
+def _vessel(name: str, style: ModelingStyle, radius: float, angle: float) -> Tank:
     nozzles = (
         Nozzle(_LINE_DN, "side", (angle, 0.90), 0.15),
         Nozzle(_MANWAY_DN, "side", (np.pi / 2, 0.55), 0.15, manway=True),
         Nozzle(_LINE_DN, "top", (0.0, 0.0), 0.12),
     )
-    return tank(name, hand, radius, _SHELL, _CLEARANCE, nozzles)
+    return tank(name, style, radius, _SHELL, _CLEARANCE, nozzles)
 
 
-def _line(start: Floats, end: Floats, hand: Hand) -> Assembly:
+def _line(start: Floats, end: Floats, style: ModelingStyle) -> Assembly:
     """Flange, flange, pipe between two faces that look at each other, then the bolts of both joints."""
-    neck, plate = flange_length(_LINE_DN, hand), plate_thickness(_LINE_DN)
+    neck, plate = flange_length(_LINE_DN, style), plate_thickness(_LINE_DN)
     length = float(np.linalg.norm(end[:3, 3] - start[:3, 3])) - 2 * neck
-    pieces = [flange(_LINE_DN, hand).placed(face) for face in (start, end)]
-    pieces.append(pipe(_LINE_DN, length, hand).placed(start @ at(neck)))
-    pieces += [bolts(_LINE_DN, 2 * plate, hand).placed(face @ at(-plate)) for face in (start, end)]
+    pieces = [flange(_LINE_DN, style).placed(face) for face in (start, end)]
+    pieces.append(pipe(_LINE_DN, length, style).placed(start @ at(neck)))
+    pieces += [bolts(_LINE_DN, 2 * plate, style).placed(face @ at(-plate)) for face in (start, end)]
     return gather(pieces, [(0, 2), (1, 2)])

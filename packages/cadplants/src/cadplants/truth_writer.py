@@ -25,7 +25,7 @@ def truth_of(plant: Plant, paths: Sequence[str] | None = None) -> dict[str, Any]
         "version": 1,
         "preset": plant.name,
         "seed": plant.seed,
-        "hands": list(plant.hands),
+        "hands": list(plant.styles),
         "meshes": [_mesh(path, c) for path, c in zip(names, plant.components, strict=True)],
         "units": _units(plant, names),
         "points": [_point(p) for p in plant.points],
@@ -92,7 +92,7 @@ def _mesh(path: str, component: Component) -> dict[str, str]:
         "family": family,
         "build": build,
         "granularity": component.granularity,
-        "hand": component.hand,
+        "hand": component.style,
     }
     known = {key: value for key, value in said.items() if value}
     return {"mesh": path, "group": component.group, "name": component.name, **known}

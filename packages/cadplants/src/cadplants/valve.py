@@ -19,7 +19,7 @@ from cadplants.mesh_ops import (
     stack,
     weld,
 )
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.operator import Topworks, actuator_solids, lever_solid, topworks
 from cadplants.plant import Device
 from cadplants.polygon import circle
@@ -39,11 +39,11 @@ def valve_length(kind: str, dn: int) -> float:
 
 
 @cache
-def _ball_solids(dn: int, hand: Hand, build: str, straight: bool) -> tuple[Solid, Solid, Solid, Solid, float]:
+def _ball_solids(dn: int, style: ModelingStyle, build: str, straight: bool) -> tuple[Solid, Solid, Solid, Solid, float]:
     """Body, end piece, stem with gland, lever (about its foot); and the height of the lever's underside."""
     size, radius, length = FLANGES[dn], PIPES[dn].radius, valve_length("ball", dn)
-    thick, bore = plate_thickness(dn), bore_of(dn, hand)
-    sides = hand.round(size.outer / 2)
+    thick, bore = plate_thickness(dn), bore_of(dn, style)
+    sides = style.round(size.outer / 2)
     neck, barrel = 0.5 * size.hub * 0.98, min(1.55 * radius + 0.006, 0.44 * size.outer)
     split, rim, web = 0.62 * length, min(barrel + 0.011, 0.485 * size.outer), 0.08 * length
     if build == "barrel":
@@ -55,11 +55,11 @@ def _ball_solids(dn: int, hand: Hand, build: str, straight: bool) -> tuple[Solid
     outside = [(neck, thick), (neck, room - 0.004), (barrel, room), (barrel, split - web)]
     middle, _ = branched(outside, sides, [Branch(center, np.pi / 2, boss, ((boss, top), (0.0, top)))])
     ring = [(barrel, split - web), (rim, split - web), (rim, split), (bore, split)]
-    body = [face_shell(dn, sides, neck, bore, hand.holes), middle, revolve(ring, sides)]
+    body = [face_shell(dn, sides, neck, bore, style.holes), middle, revolve(ring, sides)]
     room = length - room
     end_neck = [(bore, split), (rim, split), (rim, split + web), (neck, min(split + 2.0 * web, room))]
     end_neck += [(neck, length - thick)]
-    end = [flipped(face_shell(dn, sides, neck, bore, hand.holes), length), revolve(end_neck, sides)]
+    end = [flipped(face_shell(dn, sides, neck, bore, style.holes), length), revolve(end_neck, sides)]
     if bore:
         body.append(revolve([(bore, split), (bore, 0.0)], sides))
         end.append(revolve([(bore, length), (bore, split)], sides))
@@ -76,19 +76,19 @@ def _ball_solids(dn: int, hand: Hand, build: str, straight: bool) -> tuple[Solid
 
 
 def ball_valve(
-    unit: str, dn: int, hand: Hand, turn: float = 0.0, lever: str = "cranked", build: str = "two-piece"
+    unit: str, dn: int, style: ModelingStyle, turn: float = 0.0, lever: str = "cranked", build: str = "two-piece"
 ) -> Device:
     """A flanged ball valve with a lever.
 
     Args:
         unit: its id.
         dn: nominal size.
-        hand: that models it.
+        style: that models it.
         turn: of the lever about the stem [rad]; 0 is open.
         lever: its style, see ``Make``; or ``actuator``.
         build: of the body, see ``Make``.
     """
-    body, end, stem, arm, height = _ball_solids(dn, hand, build, lever == "straight")
+    body, end, stem, arm, height = _ball_solids(dn, style, build, lever == "straight")
     stand = at(0.40 * valve_length("ball", dn))
     pose = stand @ at(0, 0, height)
     pieces: list[Piece] = [(body, IDENTITY, "valve body", "valve"), (stem, stand, "valve stem", "trim")]
@@ -102,18 +102,18 @@ def ball_valve(
     outlet = len(pieces)
     pieces.append((end, IDENTITY, "valve body", "valve"))
     contacts.append((0, outlet))
-    return assemble(pieces, "ball valve", unit, hand, tuple(contacts), outlet, valve_length("ball", dn))
+    return assemble(pieces, "ball valve", unit, style, tuple(contacts), outlet, valve_length("ball", dn))
 
 
 # --- globe valves ---
 
 
 @cache
-def _globe_solids(dn: int, hand: Hand, spokes: int, style: str, build: str) -> tuple[Solid, Topworks]:
+def _globe_solids(dn: int, style: ModelingStyle, spokes: int, design: str, build: str) -> tuple[Solid, Topworks]:
     """Body, and what stands on it."""
     size, radius, length = FLANGES[dn], PIPES[dn].radius, valve_length("globe", dn)
-    thick, bore = plate_thickness(dn), bore_of(dn, hand)
-    sides = hand.round(size.outer / 2)
+    thick, bore = plate_thickness(dn), bore_of(dn, style)
+    sides = style.round(size.outer / 2)
     neck, bulge = 0.5 * size.hub * 0.97, 1.5 * radius + 0.008
     half = length / 2 - thick
     # Small sizes swell only behind the nuts.
@@ -129,18 +129,18 @@ def _globe_solids(dn: int, hand: Hand, spokes: int, style: str, build: str) -> t
     plate = 0.010 + 0.06 * radius
     rise = ((throat, seat - plate), (collar, seat - plate), (collar, seat), (0.0, seat))
     middle, _ = branched(swell, sides, [Branch(length / 2, np.pi / 2, throat, rise)])
-    head = face_shell(dn, sides, neck, bore, hand.holes)
+    head = face_shell(dn, sides, neck, bore, style.holes)
     body = [head, flipped(head, length), middle]
     if bore:
         body.append(revolve([(bore, length), (bore, 0.0)], sides))
-    top = topworks(seat, collar, plate, radius, hand, spokes, min(0.050 + 1.45 * radius, 0.30), style=style)
+    top = topworks(seat, collar, plate, radius, style, spokes, min(0.050 + 1.45 * radius, 0.30), design=design)
     return about_x(weld(body)), top
 
 
 def globe_valve(
     unit: str,
     dn: int,
-    hand: Hand,
+    style: ModelingStyle,
     spokes: int = 5,
     turn: float = 0.0,
     wheel: str = "round",
@@ -151,16 +151,16 @@ def globe_valve(
     Args:
         unit: its id.
         dn: nominal size.
-        hand: that models it.
+        style: that models it.
         spokes: of the wheel.
         turn: of the wheel [rad].
         wheel: its style, see ``Make``.
         build: of the body, see ``Make``.
     """
-    body, top = _globe_solids(dn, hand, spokes, wheel, build)
+    body, top = _globe_solids(dn, style, spokes, wheel, build)
     length = valve_length("globe", dn)
     pieces: list[Piece] = [(body, IDENTITY, "valve body", "valve"), *top.pieces(at(length / 2), turn)]
-    return assemble(pieces, "globe valve", unit, hand, Topworks.contacts, 0, length)
+    return assemble(pieces, "globe valve", unit, style, Topworks.contacts, 0, length)
 
 
 VALVES: dict[str, Callable[..., Device]] = {

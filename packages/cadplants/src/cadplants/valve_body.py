@@ -1,4 +1,4 @@
-"""What all valves share: flanged bodies, and how finely a hand models them."""
+"""What all valves share: flanged bodies, and how finely a style models them."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.mesh_ops import Shell, Solid, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Assembly, Component, Device, Unit
 from cadplants.standards import PIPES
 from cadplants.transforms import IDENTITY
@@ -26,26 +26,26 @@ def flipped(shell: Shell, length: float) -> Shell:
     return moved(shell, mirror)
 
 
-def bore_of(dn: int, hand: Hand) -> float:
-    """The radius of a body's bore [m]; 0 where the hand models solid."""
-    return PIPES[dn].bore if hand.hollow else 0.0
+def bore_of(dn: int, style: ModelingStyle) -> float:
+    """The radius of a body's bore [m]; 0 where the style models solid."""
+    return PIPES[dn].bore if style.hollow else 0.0
 
 
 def assemble(
     pieces: list[Piece],
     kind: str,
     unit: str,
-    hand: Hand,
+    style: ModelingStyle,
     contacts: tuple[tuple[int, int], ...],
     outlet: int,
     length: float,
 ) -> Device:
-    """The device as fine as the hand models valves; the first piece holds the inlet face, ``outlet`` the other."""
-    if hand.valve == "one":
+    """The device as fine as the style models valves; the first piece holds the inlet face, ``outlet`` the other."""
+    if style.valve == "one":
         whole = merge([moved(solid, pose) for solid, pose, _, _ in pieces])
         pieces, contacts = [(whole, IDENTITY, "valve", "valve")], ()
         outlet = 0
-    elif hand.valve == "few":
+    elif style.valve == "few":
         bodies = [p for p in pieces if p[2] not in _OPERATORS]
         rest = [p for p in pieces if p[2] in _OPERATORS]
         whole = merge([moved(solid, pose) for solid, pose, _, _ in bodies])
@@ -55,7 +55,7 @@ def assemble(
         )
         outlet = 0
     assembly = Assembly(
-        tuple(Component(s, "Valve assembly", name, hand.color(c), pose, unit) for s, pose, name, c in pieces),
+        tuple(Component(s, "Valve assembly", name, style.color(c), pose, unit) for s, pose, name, c in pieces),
         contacts,
         (Unit(unit, "valve", kind),),
     )

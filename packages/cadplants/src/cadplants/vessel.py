@@ -12,7 +12,7 @@ from cadgraph.model.scene import Floats
 from cadplants.fastener import clamping
 from cadplants.flange import GASKET, bolts, flange, flange_length, gasket, plate_thickness
 from cadplants.mesh_ops import Solid, extrude, revolve, weld
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.piping import stub
 from cadplants.plant import Assembly, Component, Unit, gather
 from cadplants.polygon import circle, rounded_rectangle
@@ -87,7 +87,7 @@ def _leg_solids(height: float, side: float) -> tuple[Solid, Solid]:
 
 def tank(
     unit: str,
-    hand: Hand,
+    style: ModelingStyle,
     radius: float,
     height: float,
     clearance: float,
@@ -98,17 +98,17 @@ def tank(
 
     Args:
         unit: its id.
-        hand: that models it.
+        style: that models it.
         radius: outside [m].
         height: of the cylindrical shell [m].
         clearance: from the ground to the lowest point of the lower head [m].
         nozzles: in the order of the result.
         n_legs: legs evenly round the shell.
     """
-    sides = 16 if hand.sides[1] <= 16 else 72
+    sides = 16 if style.sides[1] <= 16 else 72
     shell, head = _shell_solids(radius, height, sides)
     low = clearance + radius / 2 + _STRAIGHT
-    color, group = hand.color("tank"), "Tank"
+    color, group = style.color("tank"), "Tank"
     parts = [
         Assembly(
             (
@@ -121,12 +121,12 @@ def tank(
         )
     ]
     sag = radius * (1 - np.cos(np.pi / sides))
-    parts.append(_legs(round(low + 0.25, 6), radius - sag, n_legs, hand))
+    parts.append(_legs(round(low + 0.25, 6), radius - sag, n_legs, style))
     joints = [(part, 3 + 2 * k) for k in range(n_legs) for part in (0, 2)]
     count = 3 + 2 * n_legs
     faces, flanges = [], []
     for nozzle in nozzles:
-        part, face = _nozzle(nozzle, hand, radius, low, height, sag)
+        part, face = _nozzle(nozzle, style, radius, low, height, sag)
         parts.append(part)
         joints.append((1 if nozzle.kind == "top" else 0, count))
         faces.append(face)
@@ -140,10 +140,10 @@ def tank(
     return Tank(whole, tuple(faces), tuple(flanges), low + height + _STRAIGHT + radius / 2)
 
 
-def _legs(height: float, radius: float, count: int, hand: Hand) -> Assembly:
+def _legs(height: float, radius: float, count: int, style: ModelingStyle) -> Assembly:
     """Legs round a shell of this radius, each with its base plate behind it."""
     leg, foot = _leg_solids(height, 0.08)
-    color = hand.color("steel")
+    color = style.color("steel")
     components = []
     for k in range(count):
         pose = spun("z", 2 * np.pi * (k + 0.5) / count) @ at(radius + 0.04 - 0.0005)
@@ -153,17 +153,17 @@ def _legs(height: float, radius: float, count: int, hand: Hand) -> Assembly:
 
 
 def _nozzle(
-    nozzle: Nozzle, hand: Hand, radius: float, low: float, height: float, sag: float
+    nozzle: Nozzle, style: ModelingStyle, radius: float, low: float, height: float, sag: float
 ) -> tuple[Assembly, Floats]:
     """Stub and flange, with a lid on a manway; and the frame of the face."""
     dn, name = nozzle.dn, "manway" if nozzle.manway else "nozzle"
-    neck = flange_length(dn, hand)
+    neck = flange_length(dn, style)
     if nozzle.kind == "side":
         angle, z = nozzle.place
         turn = spun("z", angle)
         # The stub's cylinder lies along x; a turn about y and one about z bring it upright and outward.
         stand = turn @ at(0, 0, low + z) @ spun("y", np.pi / 2)
-        pipe = stub(dn, radius, nozzle.length - neck, sag + 0.001, hand, "Tank", name, "tank").placed(
+        pipe = stub(dn, radius, nozzle.length - neck, sag + 0.001, style, "Tank", name, "tank").placed(
             stand @ spun("z", np.pi / 2) @ np.eye(4)
         )
         out = turn[:3, 0]
@@ -176,24 +176,24 @@ def _nozzle(
         base = low + height + _STRAIGHT
         lowest = base + radius / 2 * np.sqrt(1 - outer**2) - 0.003
         top = base + radius / 2 * np.sqrt(1 - inner**2) + nozzle.length
-        pipe = stub(dn, 0.0, top - neck - lowest, 0.0, hand, "Tank", name, "tank").placed(at(x, y, lowest))
+        pipe = stub(dn, 0.0, top - neck - lowest, 0.0, style, "Tank", name, "tank").placed(at(x, y, lowest))
         face = looking((x, y, top), (0.0, 0.0, 1.0))
-    body = flange(dn, hand)
-    body = Assembly((Component(body.components[0].solid, "Tank", name, hand.color("tank")),))
+    body = flange(dn, style)
+    body = Assembly((Component(body.components[0].solid, "Tank", name, style.color("tank")),))
     parts = [pipe, body.placed(face @ spun("z", np.pi))]
     joints = [(0, 1)]
     if nozzle.manway:
-        pad = GASKET if hand.gaskets else 0.0
-        parts.append(gasket(dn, hand).placed(face))
-        lid = flange(dn, hand, blind=True)
-        lid = Assembly((Component(lid.components[0].solid, "Tank", name, hand.color("tank")),))
+        pad = GASKET if style.gaskets else 0.0
+        parts.append(gasket(dn, style).placed(face))
+        lid = flange(dn, style, blind=True)
+        lid = Assembly((Component(lid.components[0].solid, "Tank", name, style.color("tank")),))
         n_pads = len(parts[-1].components)
         parts.append(lid.placed(face @ at(pad)))
         joints += [(1, 2), (2, 3)] if n_pads else [(1, 2)]
         plate = plate_thickness(dn)
-        studs = bolts(dn, 2 * plate + pad, hand).placed(face @ at(-plate))
+        studs = bolts(dn, 2 * plate + pad, style).placed(face @ at(-plate))
         first = 3 + n_pads
         parts.append(studs)
-        for near, far in clamping(range(first, first + len(studs.components)), hand):
+        for near, far in clamping(range(first, first + len(studs.components)), style):
             joints += [(1, near), (2 + n_pads, far)]
     return gather(parts, joints), face

@@ -102,11 +102,11 @@ def _plant(findings: Findings, pictures: Pictures) -> list[str]:
     structural = _of_group(one.graph, "Structural element")
     n_parts = len(one.graph.parts())
     n_joined = sum(len(part.meshes) - 1 for part in one.graph.parts())
-    hands = ", ".join(one.subject.plant.hands)
+    styles = ", ".join(one.subject.plant.styles)
     return [
         "## Meshes, parts and clusters",
         "",
-        f"Preset `{one.subject.plant.name}`, seed {findings.seed}, modelled by the hands {hands}.",
+        f"Preset `{one.subject.plant.name}`, seed {findings.seed}, modelled by the hands {styles}.",
         "",
         *table(("", "paper", "ours, paper mode", "ours, exact mode"), rows),
         "",

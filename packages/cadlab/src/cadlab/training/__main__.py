@@ -29,7 +29,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--plants-in", type=Path, default=Path(".training"), help="folder that keeps generated plants")
     parser.add_argument("--real", type=Path, help="folder with real STEP parts to try the model on")
     parser.add_argument("--plants", type=int, default=usual.plants)
-    parser.add_argument("--strangers", type=int, default=usual.strangers)
+    parser.add_argument("--strangers", type=int, default=usual.distractors)
     parser.add_argument("--members", type=int, default=usual.members)
     parser.add_argument("--folds", type=int, default=usual.folds)
     parser.add_argument("--seeds", type=int, default=usual.seeds)
@@ -37,7 +37,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--workers", type=int, default=2)
     given = parser.parse_args(arguments)
     course = replace(
-        usual, plants=given.plants, strangers=given.strangers,
+        usual, plants=given.plants, distractors=given.distractors,
         members=given.members, folds=given.folds, seeds=given.seeds,
         recipe=replace(usual.recipe, epochs=given.epochs),
     )  # fmt: skip

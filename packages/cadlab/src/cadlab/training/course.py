@@ -27,11 +27,11 @@ from cadlab.training.fit import Recipe, fit
 from cadlab.training.fit import __file__ as fit_file
 from cadlab.training.samples import (
     TRIED_FROM,
-    Lesson,
+    Sample,
     bolted_lessons,
-    build_lessons,
+    build_samples,
     held_out_lessons,
-    training_lessons,
+    training_samples,
 )
 from cadplants.assortment import FAMILIES
 from cadplants.preset import make
@@ -39,7 +39,7 @@ from cadplants.preset import make
 __all__ = ["Course", "Trials", "run_course"]
 
 FIXED = (("riser", 3, "vendor"), ("tank", 2, "bim"))
-"""Small plants by which the model in the package is known again: preset, seed, hand."""
+"""Small plants by which the model in the package is known again: preset, seed, style."""
 
 PRECISION = 0.95
 """Of the names above the threshold, on plants of which some families were held out."""
@@ -63,7 +63,7 @@ class Course:
 
     Args:
         plants: how many are learnt from.
-        strangers: scenes of shapes that belong to no plant, and as many of loose fasteners and of rare things.
+        distractors: scenes of shapes that belong to no plant, and as many of loose fasteners and of rare things.
         bolted: plants whose flanges hold their bolts in one mesh: half of the networks that are kept learn from these
             as well, those of the trials do not.
         members: pairs of networks whose answers are averaged.
@@ -74,7 +74,7 @@ class Course:
     """
 
     plants: int = 800
-    strangers: int = 60
+    distractors: int = 60
     bolted: int = 80
     members: int = 2
     folds: int = 6
@@ -114,10 +114,10 @@ def run_course(course: Course, folder: Path, workers: int = 2, told: Callable[[s
         told: how far it is.
     """
     folder = folder / source_digest()
-    lessons = training_lessons(course.plants, course.strangers)
-    examples = build_lessons(lessons, folder, workers, told)
+    samples = training_samples(course.plants, course.distractors)
+    examples = build_samples(samples, folder, workers, told)
     plants = {
-        name: build_lessons(some, folder, workers, lambda text, name=name: told(f"{name}: {text}"))  # type: ignore[misc]
+        name: build_samples(some, folder, workers, lambda text, name=name: told(f"{name}: {text}"))  # type: ignore[misc]
         for name, some in held_out_lessons(course.seeds).items()
     }
     classes = known_classes()
@@ -125,8 +125,8 @@ def run_course(course: Course, folder: Path, workers: int = 2, told: Callable[[s
     kind_folds = deal_families(examples, course.kind_folds, whole=True)
     outs = [*build_folds, *kind_folds]
     bolted = tuple(bolted_lessons(course.bolted))
-    examples += build_lessons(bolted, folder, workers, told)
-    job = _Job(tuple(lessons), (), folder, tuple(classes), course.recipe, 0, frozenset())
+    examples += build_samples(bolted, folder, workers, told)
+    job = _Job(tuple(samples), (), folder, tuple(classes), course.recipe, 0, frozenset())
     jobs = [replace(job, seed=seed, out=out) for seed, out in enumerate(outs)]
     for seed in range(len(outs), len(outs) + course.members):
         jobs += [replace(job, seed=seed), replace(job, seed=seed, more=bolted)]
@@ -142,7 +142,7 @@ def run_course(course: Course, folder: Path, workers: int = 2, told: Callable[[s
     mixed, families, unlearnable = (_asked(builds, best, learnable) for learnable in (None, True, False))
     threshold = max(least_confidence(mixed, PRECISION), least_confidence(families, NEW_PRECISION))
     card = {
-        "plants": course.plants, "strangers": course.strangers, "bolted": course.bolted,
+        "plants": course.plants, "strangers": course.distractors, "bolted": course.bolted,
         "seeds": [0, course.plants - 1],
         "tried from": TRIED_FROM,
         "parts": int(sum(len(e.label) for e in examples)), "recipe": asdict(course.recipe), "folds": course.folds,
@@ -157,16 +157,16 @@ def run_course(course: Course, folder: Path, workers: int = 2, told: Callable[[s
     return Trials(model, mixed, families, _asked(kinds, best), _both(unlearnable, _asked(kinds, best, False)), plants)
 
 
-def _fixed_trial(model: Model, preset: str, seed: int, hand: str) -> dict[str, Any]:
+def _fixed_trial(model: Model, preset: str, seed: int, style: str) -> dict[str, Any]:
     """What the labeler gets right of one small plant; a test repeats it with the model in the package."""
-    plant = make(preset, seed, hand)
+    plant = make(preset, seed, style)
     parts, contacts = make_parts_from(plant.scene())
     rank = {path: i for i, path in enumerate(plant.paths())}
     heads = [plant.components[rank[path]] for path in parts.scene.paths]
     said = EmbeddedLabeler(model).label(parts, contacts, default_vocabulary())
     pairs = [(label, head) for label, head in zip(said.answers, heads, strict=True) if label is not None]
     return {
-        "preset": preset, "seed": seed, "hand": hand,
+        "preset": preset, "seed": seed, "hand": style,
         "name": round(float(np.mean([(a.group, a.name) == (b.group, b.name) for a, b in pairs])), 4),
         "group": round(float(np.mean([a.group == b.group for a, b in pairs])), 4),
     }  # fmt: skip
@@ -207,8 +207,8 @@ def source_digest() -> str:
 class _Job:
     """One network to train, in a process of its own: it reads the plants itself."""
 
-    lessons: tuple[Lesson, ...]
-    more: tuple[Lesson, ...]
+    samples: tuple[Sample, ...]
+    more: tuple[Sample, ...]
     folder: Path
     classes: tuple[str, ...]
     recipe: Recipe
@@ -238,13 +238,13 @@ def _train(jobs: Sequence[_Job], workers: int, told: Callable[[str], None]) -> l
 
 def _trained(job: _Job) -> Network:
     """Trains one network, or reads it where it was trained before."""
-    text = repr((job.lessons, job.classes, job.recipe, job.seed, sorted(job.out))) + Path(fit_file).read_text("utf-8")
+    text = repr((job.samples, job.classes, job.recipe, job.seed, sorted(job.out))) + Path(fit_file).read_text("utf-8")
     text += repr(job.more) if job.more else ""
     path = job.folder / f"network-{sha256(text.encode()).hexdigest()[:12]}.npz"
     if not path.is_file():
         # One thread each: the same sums in the same order on every machine, and no waiting for each other.
         torch.set_num_threads(1)
-        examples = [*build_lessons(job.lessons, job.folder), *build_lessons(job.more, job.folder)]
+        examples = [*build_samples(job.samples, job.folder), *build_samples(job.more, job.folder)]
         rest = [replace(e, label=np.where(_within(e.family, job.out), "", e.label)) for e in examples]
         network = fit(rest, job.classes, job.recipe, job.seed)
         beside = path.with_suffix(".part")

@@ -14,7 +14,7 @@ from cadplants.plant import Component, Plant
 from cadplants.polygon import circle
 from cadplants.transforms import at, spun
 
-__all__ = ["UNSEEN", "UNSEEN_FROM", "make_strangers", "visited"]
+__all__ = ["UNSEEN", "UNSEEN_FROM", "make_distractors", "visited"]
 
 _SIZES = (0.01, 3.0)  # m
 _STRANGE: tuple[str, str] = ("strange", "strange")
@@ -22,10 +22,10 @@ _FASTENERS = ("bolt", "nut", "washer", "stud", "screw", "gasket")
 UNSEEN = frozenset({"_pot", "_vessel", "_mechanism"})
 """Builders of what is not learnt from (but for a few twisted pots): what does the network make of the unknown?"""
 UNSEEN_FROM = 200_000
-"""Seeds of strangers from here on are of these kinds."""
+"""Seeds of distractors from here on are of these kinds."""
 
 
-def make_strangers(seed: int, count: int = 60) -> Plant:
+def make_distractors(seed: int, count: int = 60) -> Plant:
     """Furniture, toys, gears, blobs and fantasies, some in heaps; each labelled ``STRANGE``.
 
     Args:
@@ -45,7 +45,7 @@ def make_strangers(seed: int, count: int = 60) -> Plant:
 
 
 def visited(plant: Plant, seed: int, share: float = 0.08) -> Plant:
-    """A plant with strangers that lean on its parts, so that neighbours alone don't make a thing known.
+    """A plant with distractors that lean on its parts, so that neighbours alone don't make a thing known.
 
     Args:
         plant: any.

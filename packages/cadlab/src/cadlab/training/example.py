@@ -35,7 +35,7 @@ class Example:
         label: ``(n_parts,)`` ``group/name``, empty where not known.
         family: ``(n_parts,)`` what kind of thing it is a piece of.
         flaws: ``(n_parts,)`` what was spoilt, joined by commas.
-        hand: ``(n_parts,)`` in whose style it is modelled.
+        style: ``(n_parts,)`` in whose style it is modelled.
         ground: ``(n_parts,)`` bool.
     """
 
@@ -49,7 +49,7 @@ class Example:
     label: Texts
     family: Texts
     flaws: Texts
-    hand: Texts
+    style: Texts
     ground: npt.NDArray[np.bool_]
 
 
@@ -61,12 +61,12 @@ def make_parts_from(scene: Scene, config: Config | None = None) -> tuple[Parts, 
     return analysis.parts, analysis.contacts
 
 
-def make_example(plant: Plant, hand: str = "") -> Example:
+def make_example(plant: Plant, style: str = "") -> Example:
     """Looks at a plant as the labeler does, and writes beside it what each part is.
 
     Args:
         plant: generated.
-        hand: the name of its style where the plant's components don't tell.
+        style: the name of its style where the plant's components don't tell.
     """
     parts, contacts = make_parts_from(plant.scene())
     seen = observe(parts, contacts)
@@ -84,7 +84,7 @@ def make_example(plant: Plant, hand: str = "") -> Example:
         label=np.array([f"{c.group}/{c.name}" for c in heads], np.str_),
         family=np.array([c.family or f"{c.group}/{c.name}" for c in heads], np.str_),
         flaws=np.array([",".join(c.flaws) for c in heads], np.str_),
-        hand=np.array([getattr(c, "hand", "") or hand for c in heads], np.str_),
+        style=np.array([c.style or style for c in heads], np.str_),
         ground=parts.ground,
     )
 

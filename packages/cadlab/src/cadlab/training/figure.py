@@ -30,7 +30,7 @@ class Answers:
         confidence: ``(n,)`` of the name.
         group_confidence: ``(n,)`` of the group.
         family: ``(n,)`` of the part.
-        hand: ``(n,)`` its style.
+        style: ``(n,)`` its style.
     """
 
     truth: Texts
@@ -39,7 +39,7 @@ class Answers:
     confidence: Floats
     group_confidence: Floats
     family: Texts
-    hand: Texts
+    style: Texts
 
     def where(self, chosen: npt.NDArray[np.bool_]) -> Answers:
         """Those of some parts."""
@@ -110,7 +110,7 @@ def answer(
                 values[kept]
                 for values in (
                     e.label, classes[told.argmax(axis=1)], groups[by_group.argmax(axis=1)], told.max(axis=1),
-                    by_group.max(axis=1), e.family, e.hand,
+                    by_group.max(axis=1), e.family, e.style,
                 )
             )
         )  # fmt: skip

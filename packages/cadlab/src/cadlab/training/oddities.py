@@ -1,4 +1,4 @@
-"""Everyday things and machine elements outside the vocabulary, for ``make_strangers``."""
+"""Everyday things and machine elements outside the vocabulary, for ``make_distractors``."""
 
 from __future__ import annotations
 

@@ -38,7 +38,7 @@ arrays, nothing that could run); numpy alone runs it.
    the name is in doubt, the group is given. `cadgraph explain FOLDER PART` says why.
 
 The generated plants are drawn from {families} families of devices in randomly drawn modelling styles. Things that
-belong to no plant, in {strangers} scenes by themselves and among the parts of every sixth plant, teach it what it
+belong to no plant, in {distractors} scenes by themselves and among the parts of every sixth plant, teach it what it
 doesn't know.
 
 ## How good it is
@@ -55,7 +55,7 @@ networks trained without some families (`ball valve/compact`: one build of a dev
 left out once), asked about whole plants with these in them; then about the parts of these alone. *Held-out kinds*:
 likewise without half of all kinds: no ball valve at all, no strainer; about their parts alone. {unlearnable}
 The trial networks have not seen the {bolted} plants whose flanges hold their bolts in one mesh; half of those in the
-package have. *New styles*: the six published modelling hands, of which nothing was seen in training, building layouts
+package have. *New styles*: the six published modelling styles, of which nothing was seen in training, building layouts
 that were not seen either.
 
 {strange}
@@ -64,10 +64,10 @@ By style:
 
 {styles}
 
-Sins of modelling, each on plants in the new styles (every mesh is spoilt, but for duplicates and hidden bodies, which
+Defects of modelling, each on plants in the new styles (every mesh has it, but for duplicates and hidden bodies, which
 are 30 % more):
 
-{sins}
+{defects}
 
 What the figures rest on (new styles):
 
@@ -136,14 +136,16 @@ def write_page(trials: Trials, real: Sequence[RealPart], size: int, families: in
         weights=sum(int(values.size) for values in model.members[0].weights.values()) * len(model.members),
         size=size / 1e6, forms=len(FORMS), sizes=len(SIZES), sides=len(SIDE_FEATURES), places=len(PLACE_FEATURES),
         threshold=least, precision=PRECISION, new_precision=NEW_PRECISION,
-        families=families, strangers=model.card["strangers"], bolted=model.card["bolted"],
+        families=families, distractors=model.card["strangers"], bolted=model.card["bolted"],
         folds=model.card["folds"], main=_table((name, score(a, least)) for name, a in main),
         unlearnable=f"Of {len(trials.unlearnable.truth):,} parts in these trials whose name nothing else has, "
         f"so that no answer can be right, {open_share:.0%} are left unlabelled.",
         styles=_table(
-            (hand, score(styles.where(styles.hand == hand), least)) for hand in sorted(set(styles.hand.tolist()))
+            (style, score(styles.where(styles.style == style), least)) for style in sorted(set(styles.style.tolist()))
         ),
-        sins=_table((name, score(a, least)) for name, a in told.items() if name.startswith("sin") or "sides" in name),
+        defects=_table(
+            (name, score(a, least)) for name, a in told.items() if name.startswith("sin") or "sides" in name
+        ),
         ablations=_table(_ablations(model, trials.plants["new styles"])),
         real=_real(model, real), groups=_groups(styles, least), confusions=_confusions(styles),
         family_confusions=_confusions(trials.families), names=_names(styles, trials.families),

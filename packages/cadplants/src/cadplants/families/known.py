@@ -12,7 +12,7 @@ from cadplants.enclosure import fence, pillar
 from cadplants.family import UNIT, Family
 from cadplants.gauge import pressure_gauge
 from cadplants.meter import flow_meter, strainer
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.piping import reducer, tee
 from cadplants.plant import Assembly, Device
 from cadplants.pump import pump
@@ -26,107 +26,109 @@ __all__ = ["KNOWN"]
 _WHEELS = ("round", "round", "plate", "solid")
 
 
-def _ball(dn: int, hand: Hand, rng: np.random.Generator, build: str) -> Device:
+def _ball(dn: int, style: ModelingStyle, rng: np.random.Generator, build: str) -> Device:
     lever = str(rng.choice(["cranked", "straight", "cranked", "actuator"]))
     turn = float(rng.choice([0.0, np.pi, np.pi / 2]))
-    return VALVES["ball"](UNIT, dn, hand, turn=turn, lever=lever, build=build)
+    return VALVES["ball"](UNIT, dn, style, turn=turn, lever=lever, build=build)
 
 
-def _wheeled(dn: int, hand: Hand, rng: np.random.Generator, kind: str, **more: str) -> Device:
+def _wheeled(dn: int, style: ModelingStyle, rng: np.random.Generator, kind: str, **more: str) -> Device:
     options = {"spokes": int(rng.integers(3, 7)), "turn": float(rng.uniform(0, 6)), "wheel": str(rng.choice(_WHEELS))}
-    return VALVES[kind](UNIT, dn, hand, **options, **more)
+    return VALVES[kind](UNIT, dn, style, **options, **more)
 
 
-def _butterfly(dn: int, hand: Hand, rng: np.random.Generator, gearbox: bool) -> Device:
-    return VALVES["butterfly"](UNIT, dn, hand, gearbox=gearbox, spokes=int(rng.integers(3, 5)))
+def _butterfly(dn: int, style: ModelingStyle, rng: np.random.Generator, gearbox: bool) -> Device:
+    return VALVES["butterfly"](UNIT, dn, style, gearbox=gearbox, spokes=int(rng.integers(3, 5)))
 
 
-def _check(dn: int, hand: Hand, _: np.random.Generator) -> Device:
-    return VALVES["check"](UNIT, dn, hand)
+def _check(dn: int, style: ModelingStyle, _: np.random.Generator) -> Device:
+    return VALVES["check"](UNIT, dn, style)
 
 
-def _meter(dn: int, hand: Hand, _: np.random.Generator) -> Device:
-    return flow_meter(UNIT, dn, hand)
+def _meter(dn: int, style: ModelingStyle, _: np.random.Generator) -> Device:
+    return flow_meter(UNIT, dn, style)
 
 
-def _strainer(dn: int, hand: Hand, _: np.random.Generator) -> Device:
-    return strainer(dn, hand)
+def _strainer(dn: int, style: ModelingStyle, _: np.random.Generator) -> Device:
+    return strainer(dn, style)
 
 
-def _tee(dn: int, hand: Hand, rng: np.random.Generator) -> Device:
+def _tee(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Device:
     smaller = [size for size in SIZES if size <= dn]
-    return tee(dn, int(rng.choice(smaller[-4:])), hand)
+    return tee(dn, int(rng.choice(smaller[-4:])), style)
 
 
-def _reducer(dn: int, hand: Hand, rng: np.random.Generator) -> Device:
-    return reducer(dn, int(rng.choice([size for size in SIZES if size < dn][-3:])), hand)
+def _reducer(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Device:
+    return reducer(dn, int(rng.choice([size for size in SIZES if size < dn][-3:])), style)
 
 
-def _gauge(_: int, hand: Hand, rng: np.random.Generator) -> Assembly:
+def _gauge(_: int, style: ModelingStyle, rng: np.random.Generator) -> Assembly:
     size = int(rng.choice([63, 63, 100, 160]))
     height = float(rng.choice([0.05, 0.075, 0.09, 0.12]))
-    return pressure_gauge(UNIT, hand, size, height, float(rng.uniform(0, 6)), float(rng.uniform(0.4, 2.8)))
+    return pressure_gauge(UNIT, style, size, height, float(rng.uniform(0, 6)), float(rng.uniform(0.4, 2.8)))
 
 
-def _pump(dn: int, hand: Hand, _: np.random.Generator) -> Assembly:
+def _pump(dn: int, style: ModelingStyle, _: np.random.Generator) -> Assembly:
     smaller = [size for size in SIZES if size < dn]
-    return pump(UNIT, dn, smaller[-1], hand).assembly
+    return pump(UNIT, dn, smaller[-1], style).assembly
 
 
-def _tank(_: int, hand: Hand, rng: np.random.Generator) -> Assembly:
+def _tank(_: int, style: ModelingStyle, rng: np.random.Generator) -> Assembly:
     nozzles = (
         Nozzle(int(rng.choice([25, 50, 80])), "top", (0.15, 0.1)),
         Nozzle(int(rng.choice([25, 40])), "side", (float(rng.uniform(0.2, 1.2)), 0.4)),
     )
     radius, height = float(rng.uniform(0.4, 0.9)), float(rng.uniform(0.8, 2.2))
-    return tank(UNIT, hand, round(radius, 3), round(height, 3), 0.3, nozzles, int(rng.choice([3, 4]))).assembly
+    return tank(UNIT, style, round(radius, 3), round(height, 3), 0.3, nozzles, int(rng.choice([3, 4]))).assembly
 
 
-def _platform(_: int, hand: Hand, rng: np.random.Generator) -> Assembly:
-    return platform(float(rng.uniform(1.5, 2.5)), float(rng.uniform(1.0, 1.6)), float(rng.uniform(1.0, 2.2)), hand, 0.3)
+def _platform(_: int, style: ModelingStyle, rng: np.random.Generator) -> Assembly:
+    return platform(
+        float(rng.uniform(1.5, 2.5)), float(rng.uniform(1.0, 1.6)), float(rng.uniform(1.0, 2.2)), style, 0.3
+    )
 
 
-def _stairs(_: int, hand: Hand, rng: np.random.Generator) -> Assembly:
-    return stairs(float(rng.uniform(0.9, 2.0)), hand)
+def _stairs(_: int, style: ModelingStyle, rng: np.random.Generator) -> Assembly:
+    return stairs(float(rng.uniform(0.9, 2.0)), style)
 
 
-def _railing(_: int, hand: Hand, rng: np.random.Generator) -> Assembly:
-    return railing(np.zeros(3), np.array([float(rng.uniform(1.0, 3.0)), 0.0, 0.0]), hand)
+def _railing(_: int, style: ModelingStyle, rng: np.random.Generator) -> Assembly:
+    return railing(np.zeros(3), np.array([float(rng.uniform(1.0, 3.0)), 0.0, 0.0]), style)
 
 
-def _fence(_: int, hand: Hand, rng: np.random.Generator, gate: bool) -> Assembly:
-    return fence(float(rng.uniform(1.2, 2.5)), hand, float(rng.uniform(0.9, 1.6)), float(rng.uniform(0.1, 0.3)), gate)
+def _fence(_: int, style: ModelingStyle, rng: np.random.Generator, gate: bool) -> Assembly:
+    return fence(float(rng.uniform(1.2, 2.5)), style, float(rng.uniform(0.9, 1.6)), float(rng.uniform(0.1, 0.3)), gate)
 
 
-def _pillar(_: int, hand: Hand, rng: np.random.Generator) -> Assembly:
-    return pillar(hand, float(rng.uniform(0.25, 0.5)), float(rng.uniform(1.0, 2.0)))
+def _pillar(_: int, style: ModelingStyle, rng: np.random.Generator) -> Assembly:
+    return pillar(style, float(rng.uniform(0.25, 0.5)), float(rng.uniform(1.0, 2.0)))
 
 
-def _cabinet(_: int, hand: Hand, rng: np.random.Generator) -> Assembly:
-    return cabinet(hand, float(rng.uniform(0.5, 1.2)), float(rng.uniform(0.25, 0.6)), float(rng.uniform(1.2, 2.1)))
+def _cabinet(_: int, style: ModelingStyle, rng: np.random.Generator) -> Assembly:
+    return cabinet(style, float(rng.uniform(0.5, 1.2)), float(rng.uniform(0.25, 0.6)), float(rng.uniform(1.2, 2.1)))
 
 
-def _tray(_: int, hand: Hand, rng: np.random.Generator) -> Assembly:
+def _tray(_: int, style: ModelingStyle, rng: np.random.Generator) -> Assembly:
     width = float(rng.choice([0.1, 0.2, 0.3, 0.4]))
-    return cable_tray(float(rng.uniform(1.5, 4.0)), hand, width, int(rng.integers(0, 4)), int(rng.integers(1, 3)))
+    return cable_tray(float(rng.uniform(1.5, 4.0)), style, width, int(rng.integers(0, 4)), int(rng.integers(1, 3)))
 
 
-def _lamp(_: int, hand: Hand, rng: np.random.Generator) -> Assembly:
-    return lamp(hand, float(rng.uniform(2.5, 5.0)))
+def _lamp(_: int, style: ModelingStyle, rng: np.random.Generator) -> Assembly:
+    return lamp(style, float(rng.uniform(2.5, 5.0)))
 
 
-def _sign(_: int, hand: Hand, rng: np.random.Generator) -> Assembly:
-    return sign(hand)
+def _sign(_: int, style: ModelingStyle, rng: np.random.Generator) -> Assembly:
+    return sign(style)
 
 
-def _column(_: int, hand: Hand, rng: np.random.Generator) -> Assembly:
+def _column(_: int, style: ModelingStyle, rng: np.random.Generator) -> Assembly:
     sizes = ("HEA 100", "HEA 120", "HEA 160", "HEA 200", "IPE 100", "IPE 160", "IPE 200")
-    return column(float(rng.uniform(1.5, 4.0)), hand, str(rng.choice(sizes)))
+    return column(float(rng.uniform(1.5, 4.0)), style, str(rng.choice(sizes)))
 
 
-def _post(_: int, hand: Hand, rng: np.random.Generator) -> Assembly:
+def _post(_: int, style: ModelingStyle, rng: np.random.Generator) -> Assembly:
     return post(
-        float(rng.uniform(0.5, 2.0)), hand, float(rng.choice([0.04, 0.05, 0.06, 0.08])), capped=bool(rng.integers(2))
+        float(rng.uniform(0.5, 2.0)), style, float(rng.choice([0.04, 0.05, 0.06, 0.08])), capped=bool(rng.integers(2))
     )
 
 

@@ -10,7 +10,7 @@ from cadplants.families.valves.small import hex_end
 from cadplants.families.valves.valve import disc_flange
 from cadplants.family import Family, Model, Part, Port, placed
 from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, turned
 from cadplants.standards import FLANGES, PIPES, SIZES
@@ -21,9 +21,9 @@ __all__ = ["COUNTER_BUILDS"]
 _NAME = "flow meter"
 
 
-def _counter(r: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _counter(r: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """A round register about z from 0 up: a case, a window of figures, maybe an open lid [m]."""
-    n, tall = hand.round(r), float(rng.uniform(0.5, 1.1)) * r
+    n, tall = style.round(r), float(rng.uniform(0.5, 1.1)) * r
     case = [turned([(0.9 * r, 0.0), (r, 0.1 * tall), (r, 0.9 * tall), (0.92 * r, tall)], n)]
     if rng.random() < 0.4:
         lid = moved(
@@ -40,13 +40,13 @@ def _counter(r: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
     ]
 
 
-def _acrylic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _acrylic(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A variable-area meter of clear plastic: a cone or drilled block between union nuts, a scale, a float, stops."""
     radius = PIPES[dn].radius
     length = round(0.16 + float(rng.uniform(5, 9)) * radius, 6)
-    r, n = 1.5 * radius + 0.004, hand.round(1.5 * radius)
+    r, n = 1.5 * radius + 0.004, style.round(1.5 * radius)
     low = 0.2 * length
-    ends = [hex_end(dn, 0, 0.1 * length, hand, 8), hex_end(dn, 0.9 * length, length, hand, 8)]
+    ends = [hex_end(dn, 0, 0.1 * length, style, 8), hex_end(dn, 0.9 * length, length, style, 8)]
     nut = around(box((0.2 * r, 0.3 * r, 0.1 * length), (0, 0, 0.15 * length)), 10, 1.42 * r)
     nut = merge([cylinder(1.45 * r, 0.09 * length, low, n), nut])
     nuts = [along("x", nut), moved(along("x", nut), at(length) @ spun("z", np.pi))]
@@ -67,10 +67,10 @@ def _acrylic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, length, "welded", _NAME)
 
 
-def _paddle(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _paddle(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A paddle-wheel sensor in a plastic tee or on a saddle: a union nut on a neck, a body, a display or plug."""
     radius = PIPES[dn].radius
-    length, n = round(0.09 + 4.2 * radius, 6), hand.round(radius)
+    length, n = round(0.09 + 4.2 * radius, 6), style.round(radius)
     r, rise = 0.014 + 0.25 * radius, 1.3 * radius + float(rng.uniform(0.03, 0.06))
     ends = [
         cylinder(1.3 * radius, 0.0, 0.28 * length, n),
@@ -91,27 +91,27 @@ def _paddle(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     top = rise + float(rng.uniform(0.03, 0.09))
     body: list[Solid] = [cylinder(0.95 * r, rise, top, 16)]
     if rng.random() < 0.5:
-        body.append(moved(housing(hand, rng, str(rng.choice(["slant", "rectangle", "pot"]))), at(0, 0, top - 0.003)))
+        body.append(moved(housing(style, rng, str(rng.choice(["slant", "rectangle", "pot"]))), at(0, 0, top - 0.003)))
     else:
         body.append(
-            bent([(0, 0, top - 0.002), (0, 0, top + 0.06), (0.04, 0, top + 0.1), (0.14, 0, top + 0.02)], 0.0035, hand)
+            bent([(0, 0, top - 0.002), (0, 0, top + 0.06), (0.04, 0, top + 0.1), (0.14, 0, top + 0.02)], 0.0035, style)
         )
     return Model([*parts, piece(moved(merge(body), at(length / 2)), "transmitter", "safety")], length, "welded", _NAME)
 
 
-def _woltman(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _woltman(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A Woltman water meter (EN ISO 4064): a cast body with a bolted insert and its register."""
     radius = PIPES[dn].radius
     length = round(0.2 + float(rng.uniform(0.8, 1.6)) * PIPES[dn].outer, 6)
     neck = 0.485 * FLANGES[dn].hub
     body = measuring_tube(
         dn,
-        hand,
+        style,
         length,
         [(neck, 0.3 * length), (1.08 * neck, 0.4 * length), (1.08 * neck, 0.6 * length), (neck, 0.7 * length)],
     )
     r, top = 0.045 + 0.5 * radius, 1.2 * neck + 0.015
-    n = hand.round(r)
+    n = style.round(r)
     dome_ = [
         cylinder(0.85 * r, 0.3 * radius, top, n),
         cylinder(1.25 * r, top - 0.012, top, n),
@@ -122,15 +122,15 @@ def _woltman(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts += placed(
         [screws(int(rng.choice([4, 6, 8])), 1.1 * r, 0.01, top - 0.012, top + 0.012, _NAME)], at(length / 2)
     )
-    return Model([*parts, *placed(_counter(0.8 * r, hand, rng), at(length / 2, 0, top + 0.012))], length, kind=_NAME)
+    return Model([*parts, *placed(_counter(0.8 * r, style, rng), at(length / 2, 0, top + 0.012))], length, kind=_NAME)
 
 
-def _displacement(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _displacement(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A displacement meter (piston, vane, oval gear): a round or oval chamber with bolted covers, a counter on it."""
     radius = PIPES[dn].radius
     length = round(0.16 + 4.0 * radius, 6)
     r, half, x = 0.05 + 1.4 * radius, 0.03 + 1.1 * radius, length / 2
-    n, upright = hand.round(r), bool(rng.random() < 0.5)
+    n, upright = style.round(r), bool(rng.random() < 0.5)
     axis = "z" if upright else "-y"
     squash = 1.0 if rng.random() < 0.5 else 0.75
     drum = [
@@ -142,7 +142,7 @@ def _displacement(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     bolts = along(
         axis, moved(screws(int(rng.choice([6, 8, 10])), 1.05 * r, 0.01, half - 0.014, half + 0.012).solid, oval), x
     )
-    parts = [piece([measuring_tube(dn, hand, length), chamber], _NAME, str(rng.choice(["valve", "gauge", "pump"])))]
+    parts = [piece([measuring_tube(dn, style, length), chamber], _NAME, str(rng.choice(["valve", "gauge", "pump"])))]
     parts.append(Part(bolts, "bolt", "fastener", _NAME, JOINT, True))
     neck = cylinder(0.3 * r, half, half + 0.03, 14)
     if rng.random() < 0.5:  # a tall counter with figure windows, a reset knob and a ticket printer
@@ -154,18 +154,18 @@ def _displacement(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
             panes = box((0.7 * wide, 0.25 * wide, 0.004), (0, 0.1 * wide, tall + 0.002))
         counter = [piece([crate, knob], CASE, "valve"), piece(panes, "gauge face", "dial", CASE)]
     else:
-        counter = _counter(0.6 * r, hand, rng)
+        counter = _counter(0.6 * r, style, rng)
     head = [piece(neck, _NAME, "gauge"), *placed(counter, at(0, 0, half + 0.029))]
     parts += [Part(along(axis, p.solid, x), p.name, p.color, p.bundle, p.group, p.fine) for p in head]
     return Model(parts, length, kind=_NAME)
 
 
-def _rotary(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _rotary(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A rotary gas meter (EN 12480): a ribbed body of two lobes across the line, gear covers, a counter at one end."""
     radius = PIPES[dn].radius
     length = round(0.15 + 2.2 * radius, 6)
     r, half, x = 0.04 + 0.9 * radius, 0.07 + 1.4 * radius, length / 2
-    n = hand.round(r)
+    n = style.round(r)
     lobes = [moved(cylinder(r, -half, half, n), at(0, s * 0.55 * r)) for s in (-1, 1)]
     ribs = [
         moved(cylinder(1.08 * r, z - 0.003, z + 0.003, n), at(0, s * 0.55 * r))
@@ -177,13 +177,13 @@ def _rotary(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     ]
     core = along("-y", merge([*lobes, *(ribs if rng.random() < 0.6 else []), *ends]), x)
     plates = [
-        along("x", disc_flange(dn, hand, 0.5 * length)),
-        moved(along("-x", disc_flange(dn, hand, 0.5 * length)), at(length)),
+        along("x", disc_flange(dn, style, 0.5 * length)),
+        moved(along("-x", disc_flange(dn, style, 0.5 * length)), at(length)),
     ]
     parts = [piece([*plates, core], _NAME, "gauge")]
     counter = [
         piece(cylinder(0.4 * r, half + 0.028, half + 0.05, 14), _NAME, "gauge"),
-        *placed(_counter(0.6 * r, hand, rng), at(0, 0, half + 0.049)),
+        *placed(_counter(0.6 * r, style, rng), at(0, 0, half + 0.049)),
     ]
     return Model(
         [*parts, *(Part(along("-y", p.solid, x), p.name, p.color, p.bundle, p.group, p.fine) for p in counter)],
@@ -192,7 +192,7 @@ def _rotary(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _diaphragm(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _diaphragm(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A diaphragm gas meter (EN 1359): a two-part sheet case on a stand with two connections on its top, a counter."""
     wide, deep, tall = float(rng.uniform(0.22, 0.4)), float(rng.uniform(0.16, 0.28)), float(rng.uniform(0.22, 0.38))
     dn, low = int(rng.choice([25, 32, 40, 50])), float(rng.uniform(0.5, 1.1))
@@ -213,7 +213,7 @@ def _diaphragm(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 hexagon(3.0 * PIPES[dn].radius, z + 0.01, z + 0.035),
             ]
         )
-        end = moved(moved(disc_flange(dn, hand, 0.07), spun("x", np.pi)), at(0, 0, z + 0.11))
+        end = moved(moved(disc_flange(dn, style, 0.07), spun("x", np.pi)), at(0, 0, z + 0.11))
         ports.append(Port(looking((s * apart, 0, z + 0.11), (0, 0, 1)), dn, len(parts)))
         parts.append(piece(moved(merge([stub, end]), at(s * apart)), _NAME, "trim"))
     view = box((0.35 * wide, 0.03, 0.16 * tall), (0, -0.47 * deep - 0.01, low + 0.82 * tall))
@@ -230,14 +230,14 @@ def _diaphragm(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind=_NAME, ports=tuple(ports))
 
 
-def _heat(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _heat(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A heat meter (EN 1434): a small brass body with union ends, its calculator on top or aslant, sensor cables."""
     radius = PIPES[dn].radius
     length, x = round(0.1 + 2.2 * radius, 6), 0.05 + 1.1 * radius
     body = [
-        hex_end(dn, 0, 0.16 * length, hand),
-        hex_end(dn, 0.84 * length, length, hand),
-        along("x", cylinder(0.95 * radius, 0.1 * length, 0.9 * length, hand.round(radius))),
+        hex_end(dn, 0, 0.16 * length, style),
+        hex_end(dn, 0.84 * length, length, style),
+        along("x", cylinder(0.95 * radius, 0.1 * length, 0.9 * length, style.round(radius))),
     ]
     z = 0.8 * radius + 0.02
     body.append(moved(box((0.04, 0.03, z), (0, 0, z / 2)), at(x)))
@@ -254,7 +254,7 @@ def _heat(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
                 (s * 0.8 * wide, -0.9 * deep, -0.02),
             ],
             0.002,
-            hand,
+            style,
         )
         for s in (-1, 1)
     ]
@@ -265,11 +265,11 @@ def _heat(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([piece(body, _NAME, "trim"), *placed(head, lean)], length, "welded", _NAME)
 
 
-def _pickup(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _pickup(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A turbine meter for liquids: a slim tube with a pick-up boss and hexagon, a plug, a small display or a head."""
     radius = PIPES[dn].radius
     length = round(0.1 + float(rng.uniform(2.0, 3.5)) * PIPES[dn].outer, 6)
-    parts = [piece(measuring_tube(dn, hand, length), _NAME, "gauge")]
+    parts = [piece(measuring_tube(dn, style, length), _NAME, "gauge")]
     x, top = float(rng.uniform(0.45, 0.55)) * length, radius + float(rng.uniform(0.03, 0.07))
     boss = [
         cylinder(0.016, 0.7 * radius, radius + 0.015, 14),
@@ -278,12 +278,12 @@ def _pickup(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     ]
     parts.append(piece(moved(merge(boss), at(x)), _NAME, "trim"))
     if rng.random() < 0.5:
-        head: Solid = moved(housing(hand, rng), at(0, 0, top + 0.017))
+        head: Solid = moved(housing(style, rng), at(0, 0, top + 0.017))
     else:
         head = merge(
             [
                 cylinder(0.013, top + 0.012, top + 0.05, 12),
-                bent([(0, 0, top + 0.048), (0, 0, top + 0.09), (0.1, 0, top + 0.1), (0.16, 0, top)], 0.004, hand),
+                bent([(0, 0, top + 0.048), (0, 0, top + 0.09), (0.1, 0, top + 0.1), (0.16, 0, top)], 0.004, style),
             ]
         )
     return Model([*parts, piece(moved(head, at(x)), "transmitter", "rubber")], length, kind=_NAME)

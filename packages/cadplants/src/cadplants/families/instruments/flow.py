@@ -12,7 +12,7 @@ from cadplants.families.valves.valve import flanged_body
 from cadplants.family import Family, Model, Part, placed
 from cadplants.flange import nut_room, plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, box, cylinder, hexagon, ring, rod, turned
 from cadplants.standards import FLANGES, PIPES, SIZES
@@ -24,15 +24,15 @@ _NAME = "flow meter"
 Outline = list[tuple[float, float]]
 
 
-def measuring_tube(dn: int, hand: Hand, length: float, middle: Outline | None = None) -> Solid:
+def measuring_tube(dn: int, style: ModelingStyle, length: float, middle: Outline | None = None) -> Solid:
     """A measuring tube between flanges; its middle as wide as a pipe unless given [m]."""
     r = 1.02 * PIPES[dn].radius
     low = plate_thickness(dn) + min(0.7 * nut_room(dn), 0.15 * length)
-    return flanged_body(dn, hand, length, middle or [(r, low), (r, length - low)])
+    return flanged_body(dn, style, length, middle or [(r, low), (r, length - low)])
 
 
 def _electronics(
-    x: float, top: float, hand: Hand, rng: np.random.Generator, shape: str = "", clear: float = 0.0
+    x: float, top: float, style: ModelingStyle, rng: np.random.Generator, shape: str = "", clear: float = 0.0
 ) -> list[Part]:
     """A post at ``x`` from inside a body this high up, ``clear`` and more over it, with a transmitter's housing [m]."""
     rise, r = top + clear + float(rng.uniform(0.03, 0.12)), float(rng.uniform(0.011, 0.02))
@@ -40,12 +40,12 @@ def _electronics(
     if rng.random() < 0.4:
         post.append(cylinder(1.7 * r, rise - 0.01, rise, 14))
     head = moved(
-        housing(hand, rng, shape), at(x, 0, rise - 0.002) @ spun("z", float(rng.choice([0.0, np.pi / 2, np.pi])))
+        housing(style, rng, shape), at(x, 0, rise - 0.002) @ spun("z", float(rng.choice([0.0, np.pi / 2, np.pi])))
     )
     return [piece(moved(merge(post), at(x)), _NAME, "gauge"), piece(head, "transmitter", "valve")]
 
 
-def _impulse(first: float, second: float, r: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _impulse(first: float, second: float, r: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """Two tappings on top of a tube of radius ``r``, their valves, and a differential transmitter over them [m]."""
     high = r + float(rng.uniform(0.09, 0.16))
     parts, mid = [], (first + second) / 2
@@ -67,22 +67,22 @@ def _impulse(first: float, second: float, r: float, hand: Hand, rng: np.random.G
                     (mid + 0.02 * s, 0, high + 0.02),
                 ],
                 0.0065,
-                hand,
+                style,
             )
         )
     parts.append(piece(ends, STEM, "trim"))
-    cell, top = differential_cell(hand, rng, bool(rng.random() < 0.5))
+    cell, top = differential_cell(style, rng, bool(rng.random() < 0.5))
     head = piece(
-        moved(housing(hand, rng, str(rng.choice(["double", "single"]))), at(0, 0, top)), "transmitter", "valve"
+        moved(housing(style, rng, str(rng.choice(["double", "single"]))), at(0, 0, top)), "transmitter", "valve"
     )
     return [*parts, *placed([*cell, head], at(mid, 0, high + 0.015))]
 
 
-def _ultrasonic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _ultrasonic(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An inline ultrasonic meter: slanting transducer pockets on both sides of a spool, cables, a box on a neck."""
     radius = PIPES[dn].radius
     length = round(0.22 + float(rng.uniform(3.5, 6)) * radius, 6)
-    parts = [piece(measuring_tube(dn, hand, length), _NAME, "gauge")]
+    parts = [piece(measuring_tube(dn, style, length), _NAME, "gauge")]
     r, lean = 0.012 + 0.1 * radius, float(rng.uniform(0.6, 0.9))
     pocket = merge(
         [
@@ -99,15 +99,15 @@ def _ultrasonic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
             )
             parts.append(piece(moved(pocket, pose @ spun("y", -lean)), _NAME, "trim"))
     return Model(
-        [*parts, *_electronics(length / 2, radius, hand, rng, str(rng.choice(["rectangle", "double", "pot"])))],
+        [*parts, *_electronics(length / 2, radius, style, rng, str(rng.choice(["rectangle", "double", "pot"])))],
         length,
         kind=_NAME,
     )
 
 
-def _clamp_on(dn: int, hand: Hand, rng: np.random.Generator, _: float) -> Model:
+def _clamp_on(dn: int, style: ModelingStyle, rng: np.random.Generator, _: float) -> Model:
     """A clamp-on ultrasonic meter: two transducers on a rail or apart, bands round the pipe, cables to a small box."""
-    r, n = PIPES[dn].radius, hand.round(PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(PIPES[dn].radius)
     tall, wide, long = float(rng.uniform(0.02, 0.04)), float(rng.uniform(0.018, 0.03)), float(rng.uniform(0.035, 0.06))
     apart = float(rng.uniform(0.045, 0.07))
     # Feet that fit the round pipe: a block let into its skin by a hair would do, so its foot is a saddle of two bars.
@@ -128,8 +128,8 @@ def _clamp_on(dn: int, hand: Hand, rng: np.random.Generator, _: float) -> Model:
         rail = [box((2 * apart + long + 0.02, 0.004, 0.02), (0, s * (wide / 2 + 0.002), r + 0.012)) for s in (-1, 1)]
         parts.append(piece(rail, _NAME, "steel"))
     lead = [(-apart, 0, top), (-apart, 0, top + 0.05), (-0.2 * apart, 0, top + 0.07), (0, 0, top + 0.14)]
-    parts.append(piece(bent(lead, 0.003, hand), _NAME, "rubber"))
-    crate = moved(housing(hand, rng, "rectangle"), at(0, 0, top + 0.135))
+    parts.append(piece(bent(lead, 0.003, style), _NAME, "rubber"))
+    crate = moved(housing(style, rng, "rectangle"), at(0, 0, top + 0.135))
     # The box stands on a strip that a third band holds behind it.
     strip = box((0.025, 0.004, top + 0.19), (0, r + 0.0022, (top + 0.19) / 2))
     arm = box((0.025, r + 0.004, 0.004), (0, (r + 0.004) / 2, top + 0.137))
@@ -138,31 +138,31 @@ def _clamp_on(dn: int, hand: Hand, rng: np.random.Generator, _: float) -> Model:
     return Model([*parts, piece(crate, "transmitter", "electrical")], kind=_NAME)
 
 
-def _wedge(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _wedge(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A wedge meter: a tube with a V let into its top, a tapping on either side of it, a differential transmitter."""
     radius = PIPES[dn].radius
     length = round(0.34 + 5 * radius, 6)
     a = 0.8 * radius
     v = extrude(np.array([(-a, 1.15 * radius), (0.0, 0.3 * radius), (a, 1.15 * radius)]), -0.6 * radius, 0.6 * radius)
     v = moved(v, at(length / 2) @ spun("x", np.pi / 2))
-    parts = [piece([measuring_tube(dn, hand, length), v], _NAME, "gauge")]
+    parts = [piece([measuring_tube(dn, style, length), v], _NAME, "gauge")]
     off = 0.05 + 1.2 * radius
-    return Model([*parts, *_impulse(length / 2 - off, length / 2 + off, 1.15 * radius, hand, rng)], length, kind=_NAME)
+    return Model([*parts, *_impulse(length / 2 - off, length / 2 + off, 1.15 * radius, style, rng)], length, kind=_NAME)
 
 
-def _cone(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _cone(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A cone meter: a plain spool with a tapping before the cone and one at it, a differential transmitter above."""
     radius = PIPES[dn].radius
     length = round(0.3 + 4.5 * radius, 6)
     low = plate_thickness(dn) + 0.03
-    parts = [piece(measuring_tube(dn, hand, length), _NAME, "gauge")]
+    parts = [piece(measuring_tube(dn, style, length), _NAME, "gauge")]
     parts.append(
-        piece(along("x", ring(1.0 * radius, 1.12 * radius, low, low + 0.02, hand.round(radius))), _NAME, "trim")
+        piece(along("x", ring(1.0 * radius, 1.12 * radius, low, low + 0.02, style.round(radius))), _NAME, "trim")
     )
-    return Model([*parts, *_impulse(length / 2 - 0.035, length / 2 + 0.035, radius, hand, rng)], length, kind=_NAME)
+    return Model([*parts, *_impulse(length / 2 - 0.035, length / 2 + 0.035, radius, style, rng)], length, kind=_NAME)
 
 
-def _venturi(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _venturi(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A Venturi tube (ISO 5167-4): 21 degree inlet cone, throat, long 7 to 15 degree outlet, maybe annular chambers."""
     radius = PIPES[dn].radius
     throat, low = float(rng.uniform(0.45, 0.7)) * radius + 0.003, plate_thickness(dn) + 0.04
@@ -178,7 +178,7 @@ def _venturi(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     # Its bore narrows with it, so that a straight one would break through.
     parts = [
         piece(
-            measuring_tube(dn, replace(hand, hollow=False), length, [(float(p), float(q)) for p, q in middle]),
+            measuring_tube(dn, replace(style, hollow=False), length, [(float(p), float(q)) for p, q in middle]),
             _NAME,
             "gauge",
         )
@@ -189,7 +189,7 @@ def _venturi(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         for x, q in chambers:
             half = 0.3 * throat + 0.008
             parts.append(
-                piece(along("x", ring(0.98 * q, 1.25 * q + 0.006, x - half, x + half, hand.round(q))), _NAME, "gauge")
+                piece(along("x", ring(0.98 * q, 1.25 * q + 0.006, x - half, x + half, style.round(q))), _NAME, "gauge")
             )
     for x, q in chambers:
         tap = [
@@ -201,9 +201,9 @@ def _venturi(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, length, kind=_NAME)
 
 
-def _nozzle(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _nozzle(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A flow nozzle or carrier ring between flanges (ISO 5167-3): a thick ring with two tappings and a cell above."""
-    size, n = FLANGES[dn], hand.round(FLANGES[dn].circle / 2)
+    size, n = FLANGES[dn], style.round(FLANGES[dn].circle / 2)
     outer, thick = 0.49 * (size.circle - size.bolt), float(rng.uniform(0.04, 0.08))
     body = [
         along("x", ring(0.8 * PIPES[dn].bore, outer, 0.0, thick, n)),
@@ -214,12 +214,12 @@ def _nozzle(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     block = box((thick + 0.03, 0.05, 0.05), (thick / 2, 0, rise + 0.02))
     handles = [along("-y", t_handle(0.05, 0.045), x * thick, -0.024, rise + 0.02) for x in (0.1, 0.9)]
     parts = [piece(body, _NAME, "trim"), piece([*lines, block, *handles], STEM, "trim")]
-    cell, top = differential_cell(hand, rng, bool(rng.random() < 0.6))
-    head = piece(moved(housing(hand, rng, "double"), at(0, 0, top)), "transmitter", "valve")
+    cell, top = differential_cell(style, rng, bool(rng.random() < 0.6))
+    head = piece(moved(housing(style, rng, "double"), at(0, 0, top)), "transmitter", "valve")
     return Model([*parts, *placed([*cell, head], at(thick / 2, 0, rise + 0.0445))], round(thick, 6), "wafer", _NAME)
 
 
-def _pitot(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _pitot(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An averaging pitot bar: a weld boss, a nut or a flange pair, a head with two valves and a cell."""
     out, n = float(rng.uniform(0.06, 0.14)), 14
     body = [turned([(0.026, 0.0), (0.02, 0.02), (0.016, 0.024)], n), cylinder(0.009, -0.04, out, n)]
@@ -233,15 +233,15 @@ def _pitot(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     body.append(box((0.08, 0.03, 0.045), (0, 0, high)))
     body += [along(a, t_handle(0.05, 0.045), s * 0.039, 0, high) for a, s in (("x", 1), ("-x", -1))]
     parts = [piece(body, _NAME, "trim")]
-    cell, top = differential_cell(hand, rng, bool(rng.random() < 0.7))
+    cell, top = differential_cell(style, rng, bool(rng.random() < 0.7))
     head = piece(
-        moved(housing(hand, rng, str(rng.choice(["double", "single"]))), at(0, 0, top)), "transmitter", "valve"
+        moved(housing(style, rng, str(rng.choice(["double", "single"]))), at(0, 0, top)), "transmitter", "valve"
     )
     parts += placed([*cell, head], at(0, 0, high + 0.022))
     return Model(placed(parts, spun("z", float(rng.choice([0.0, np.pi / 2])))), kind=_NAME)
 
 
-def _thermal(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _thermal(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A thermal mass meter to push in: a ball valve, a compression fitting, a long graduated rod, a housing."""
     long, r, n = float(rng.uniform(0.12, 0.35)), float(rng.uniform(0.006, 0.0105)), 12
     parts: list[Part] = []
@@ -267,15 +267,15 @@ def _thermal(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         hexagon(3.6 * r, low - 0.001, low + 0.016),
         hexagon(3.2 * r, low + 0.018, low + 0.034),
     ]
-    head = moved(housing(hand, rng), at(0, 0, low + long - 0.003) @ spun("z", float(rng.uniform(0, 6))))
+    head = moved(housing(style, rng), at(0, 0, low + long - 0.003) @ spun("z", float(rng.uniform(0, 6))))
     return Model([*parts, piece(shaft, _NAME, "trim"), piece(head, "transmitter", "valve")], kind=_NAME)
 
 
-def _wafer(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _wafer(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A magnetic or vortex meter as a wafer between the flanges: a short drum inside the bolts, a neck, a housing."""
     size = FLANGES[dn]
     outer, length = 0.485 * (size.circle - size.bolt), round(float(rng.uniform(0.06, 0.1)) + 0.5 * PIPES[dn].radius, 6)
-    n, bore = hand.round(outer), 0.95 * PIPES[dn].bore
+    n, bore = style.round(outer), 0.95 * PIPES[dn].bore
     if rng.random() < 0.5:
         body = ring(bore, outer, 0.0, length, n)
         solids = [about_x(body)]
@@ -285,14 +285,14 @@ def _wafer(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
             for q, a, b in ((outer, 0.0, 0.14), (0.88 * outer, 0.13, 0.87), (outer, 0.86, 1.0))
         ]
     return Model(
-        [piece(solids, _NAME, "gauge"), *_electronics(length / 2, outer, hand, rng, "", size.outer / 2 - outer)],
+        [piece(solids, _NAME, "gauge"), *_electronics(length / 2, outer, style, rng, "", size.outer / 2 - outer)],
         length,
         "wafer",
         _NAME,
     )
 
 
-def _clamshell(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _clamshell(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A magnetic meter in a boxy or eight-sided casing with a seam, a terminal box on its top."""
     radius = PIPES[dn].radius
     length = round(max(0.2, float(rng.uniform(2.2, 3.2)) * PIPES[dn].outer + 0.06), 6)
@@ -303,7 +303,7 @@ def _clamshell(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     else:
         casing = turned([(1.08 * reach, low), (1.08 * reach, length - low)], 8, np.pi / 8)
     seam = box((length - 2 * low, 2.36 * reach, 0.006), (length / 2, 0, 0))
-    parts = [piece([measuring_tube(dn, hand, length), along("x", casing), seam], _NAME, "gauge")]
+    parts = [piece([measuring_tube(dn, style, length), along("x", casing), seam], _NAME, "gauge")]
     wide, tall = float(rng.uniform(0.07, 0.12)), float(rng.uniform(0.04, 0.07))
     z = 0.95 * reach
     crate = [
@@ -312,12 +312,12 @@ def _clamshell(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         box((1.04 * wide, 1.04 * wide, 0.006), (0, 0, z + 0.03 + tall)),
     ]
     crate += [
-        along("-y", gland(hand, rng), x * wide, -0.5 * wide + 0.001, z + 0.028 + 0.4 * tall) for x in (-0.25, 0.25)
+        along("-y", gland(style, rng), x * wide, -0.5 * wide + 0.001, z + 0.028 + 0.4 * tall) for x in (-0.25, 0.25)
     ]
     return Model([*parts, piece(moved(merge(crate), at(length / 2)), "transmitter", "electrical")], length, kind=_NAME)
 
 
-def _straight(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _straight(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A straight-tube or slim Coriolis meter: a long case with end cones or a belly, a housing on a neck."""
     radius = PIPES[dn].radius
     length = round(0.35 + float(rng.uniform(8, 12)) * radius, 6)
@@ -331,13 +331,13 @@ def _straight(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
             (0.9 * r, length - low - 0.5 * r),
             (0.9 * neck, length - low),
         ]
-    parts = [piece(measuring_tube(dn, hand, length, middle), _NAME, "trim")]
+    parts = [piece(measuring_tube(dn, style, length, middle), _NAME, "trim")]
     if rng.random() < 0.5:
         bands = [
-            along("x", ring(0.95 * r, 1.06 * r, s * length, s * length + 0.012, hand.round(r))) for s in (0.4, 0.6)
+            along("x", ring(0.95 * r, 1.06 * r, s * length, s * length + 0.012, style.round(r))) for s in (0.4, 0.6)
         ]
         parts.append(piece(bands, _NAME, "trim"))
-    return Model([*parts, *_electronics(length / 2, 1.1 * r, hand, rng)], length, kind=_NAME)
+    return Model([*parts, *_electronics(length / 2, 1.1 * r, style, rng)], length, kind=_NAME)
 
 
 def meter_family(

@@ -10,7 +10,7 @@ from cadplants.families.valves.valve import bolt_circle, disc_flange, flanged_bo
 from cadplants.family import Family, Model, Part, placed
 from cadplants.flange import nut_room, plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved, tube
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, rope, turned
 from cadplants.standards import FLANGES, PIPES, SIZES
@@ -23,9 +23,9 @@ _CASE, _STEM = "gauge case", "gauge stem"
 _SIZES = (0.04, 0.05, 0.063, 0.08, 0.1, 0.16, 0.25)  # m, EN 837-1 nominal sizes of cases
 
 
-def _dial(size: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _dial(size: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """A case about z, its front towards +z and its back at 0: bezel, face, needle, glass."""
-    r, n = size / 2, hand.round(size / 2)
+    r, n = size / 2, style.round(size / 2)
     depth = float(rng.uniform(0.35, 0.6)) * size
     lip = float(rng.uniform(1.0, 1.1)) * r
     floor = 0.8 * depth
@@ -56,7 +56,7 @@ def _dial(size: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
     return parts
 
 
-def _shank(low: float, high: float, square: float, hand: Hand, hexagonal: bool) -> Part:
+def _shank(low: float, high: float, square: float, style: ModelingStyle, hexagonal: bool) -> Part:
     """The wrench flats and thread of a connection about z [m]."""
     flats = (
         hexagon(square, low + 0.4 * (high - low), high)
@@ -66,10 +66,10 @@ def _shank(low: float, high: float, square: float, hand: Hand, hexagonal: bool) 
     return Part(merge([cylinder(0.42 * square, low, low + 0.5 * (high - low), 12), flats]), _STEM, "trim", _STEM)
 
 
-def _mount(hand: Hand, rng: np.random.Generator) -> tuple[list[Part], float]:
+def _mount(style: ModelingStyle, rng: np.random.Generator) -> tuple[list[Part], float]:
     """What a gauge stands on (shank, siphon, needle valve, diaphragm seal, snubber), and the height of its top."""
     kind = int(rng.integers(6))
-    r, n = 0.0068, max(6, min(16, hand.round(0.007)))
+    r, n = 0.0068, max(6, min(16, style.round(0.007)))
     if kind == 0:
         tall = float(rng.uniform(0.03, 0.1))
         return [Part(cylinder(r, 0, tall, n), _STEM, "trim", _STEM)], tall
@@ -108,8 +108,8 @@ def _mount(hand: Hand, rng: np.random.Generator) -> tuple[list[Part], float]:
         seal = merge(
             [
                 cylinder(r, 0.0, 0.03, n),
-                turned([(0.6 * plate, 0.025), (plate, 0.03), (plate, 0.045)], hand.round(plate)),
-                turned([(plate, 0.046), (plate, 0.06), (0.4 * plate, 0.066), (0.3 * plate, 0.08)], hand.round(plate)),
+                turned([(0.6 * plate, 0.025), (plate, 0.03), (plate, 0.045)], style.round(plate)),
+                turned([(plate, 0.046), (plate, 0.06), (0.4 * plate, 0.066), (0.3 * plate, 0.08)], style.round(plate)),
             ]
         )
         bolts = bolt_circle(6, 0.85 * plate, 0.006, 0.03, 0.06)
@@ -141,13 +141,13 @@ def _top(parts: list[Part]) -> tuple[float, float]:
     return float(x), float(y)
 
 
-def _bottom_gauge(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _bottom_gauge(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     size = float(rng.choice(_SIZES))
-    parts, top = _mount(hand, rng)
+    parts, top = _mount(style, rng)
     x, y = _top(parts)
     square = 0.014 if size < 0.08 else 0.022
-    shank = _shank(top - 0.004, top + 0.03, square, hand, bool(rng.random() < 0.3))
-    case = _dial(size, hand, rng)
+    shank = _shank(top - 0.004, top + 0.03, square, style, bool(rng.random() < 0.3))
+    case = _dial(size, style, rng)
     depth = float(case[0].solid.vertices[:, 2].max())
     stand = at(0, depth / 2, top + 0.028 + size / 2) @ spun("x", np.pi / 2)
     head = [shank, *placed(case, stand)]
@@ -155,7 +155,7 @@ def _bottom_gauge(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([*parts, *placed(head, at(x, y) @ turn)], kind="pressure gauge")
 
 
-def _back_gauge(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _back_gauge(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A gauge or bimetal thermometer with its connection at the back: its dial looks up, or to the side of an elbow."""
     size = float(rng.choice(_SIZES))
     tall, n = float(rng.uniform(0.03, 0.12)), 12
@@ -167,7 +167,7 @@ def _back_gauge(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             _STEM,
         )
     ]
-    case = _dial(size, hand, rng)
+    case = _dial(size, style, rng)
     tilt = float(rng.choice([0.0, 0.0, 0.5, 0.25])) * np.pi
     if tilt:
         path = np.array([[0, 0, tall - 0.002], [0, 0, tall + 0.02], [0, -0.02 - 0.3 * size, tall + 0.02 + 0.1 * size]])
@@ -178,7 +178,7 @@ def _back_gauge(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([*parts, *placed(case, pose)], kind="pressure gauge" if rng.random() < 0.5 else "thermometer")
 
 
-def _digital(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _digital(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A digital gauge: a round or square case with a small display and buttons, on a hexagon."""
     side = float(rng.choice([0.06, 0.08, 0.1]))
     tall = float(rng.uniform(0.03, 0.06))
@@ -186,7 +186,7 @@ def _digital(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts = [
         Part(merge([cylinder(0.0068, 0, tall, 12), hexagon(0.024, 0.4 * tall, tall + 0.004)]), _STEM, "trim", _STEM)
     ]
-    shape = circle(side / 2, hand.round(side)) if rng.random() < 0.5 else rounded_rectangle(side, side, 0.15 * side, 4)
+    shape = circle(side / 2, style.round(side)) if rng.random() < 0.5 else rounded_rectangle(side, side, 0.15 * side, 4)
     pose = at(0, depth / 2, tall + side / 2) @ spun("x", np.pi / 2)
     screen = box((0.6 * side, 0.3 * side, 0.002), (0, 0.1 * side, depth + 0.001))
     keys = merge(
@@ -203,10 +203,10 @@ def _digital(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="pressure gauge")
 
 
-def _housing(hand: Hand, rng: np.random.Generator) -> Solid:
+def _housing(style: ModelingStyle, rng: np.random.Generator) -> Solid:
     """A two-chamber transmitter housing about x on its middle, with covers and a neck down to z = -1.1 r."""
     r = float(rng.uniform(0.038, 0.055))
-    n = hand.round(r)
+    n = style.round(r)
     body = along("x", cylinder(r, -0.9 * r, 0.9 * r, n))
     covers = [
         along(a, turned([(1.12 * r, 0.85 * r), (1.15 * r, 0.95 * r), (1.15 * r, 1.45 * r), (1.0 * r, 1.55 * r)], n))
@@ -220,9 +220,9 @@ def _housing(hand: Hand, rng: np.random.Generator) -> Solid:
     return moved(merge([body, *covers, neck, *glands]), at(0, 0, 1.35 * r))
 
 
-def _head(hand: Hand, rng: np.random.Generator) -> Solid:
+def _head(style: ModelingStyle, rng: np.random.Generator) -> Solid:
     """A connection head on z = 0 (DIN 43729 form B): a pot with a slanting or round lid, a cable gland."""
-    r, n = float(rng.uniform(0.028, 0.045)), hand.round(0.035)
+    r, n = float(rng.uniform(0.028, 0.045)), style.round(0.035)
     pot = turned([(0.45 * r, 0.0), (0.5 * r, 0.4 * r), (r, 0.7 * r), (r, 1.4 * r)], n)
     lid = turned([(1.08 * r, 1.4 * r), (1.08 * r, 1.75 * r), (0.8 * r, 2.0 * r)], n)
     lid = moved(lid, at(0, 0, 1.4 * r) @ spun("y", float(rng.choice([0.0, 0.25]))) @ at(0, 0, -1.4 * r))
@@ -230,7 +230,7 @@ def _head(hand: Hand, rng: np.random.Generator) -> Solid:
     return merge([pot, lid, gland])
 
 
-def _pressure_transmitter(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _pressure_transmitter(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A pressure transmitter: process connection, a sensor barrel or a pair of flanges with bolts, the housing."""
     parts: list[Part] = []
     if rng.random() < 0.5:
@@ -239,7 +239,7 @@ def _pressure_transmitter(_: int, hand: Hand, rng: np.random.Generator) -> Model
             [
                 cylinder(0.0068, 0, 0.02, 12),
                 hexagon(0.027, 0.018, 0.04),
-                cylinder(0.02, 0.038, 0.04 + tall, hand.round(0.02)),
+                cylinder(0.02, 0.038, 0.04 + tall, style.round(0.02)),
             ]
         )
         parts.append(Part(barrel, "transmitter", "trim", "transmitter"))
@@ -262,14 +262,14 @@ def _pressure_transmitter(_: int, hand: Hand, rng: np.random.Generator) -> Model
             0,
             0.08,
         )
-        cell = cylinder(0.035, 0.1, 0.1 + side, hand.round(0.035))
+        cell = cylinder(0.035, 0.1, 0.1 + side, style.round(0.035))
         foot = cylinder(0.0068, 0.0, 0.06, 12)
         parts.append(Part(merge([*flat, cell, foot]), "transmitter", "trim", "transmitter"))
         parts.append(Part(bolts, "bolt", "fastener", "transmitter", "Connection assembly", True))
         z = 0.16
     parts.append(
         Part(
-            moved(_housing(hand, rng), at(0, 0, z - 0.004) @ spun("z", float(rng.uniform(0, 6)))),
+            moved(_housing(style, rng), at(0, 0, z - 0.004) @ spun("z", float(rng.uniform(0, 6)))),
             "transmitter",
             "valve",
             "transmitter",
@@ -278,14 +278,14 @@ def _pressure_transmitter(_: int, hand: Hand, rng: np.random.Generator) -> Model
     return Model(parts, kind="pressure transmitter")
 
 
-def _compact_transmitter(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _compact_transmitter(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A small transmitter or switch: hexagon, slim can, plug (DIN EN 175301-803) or cable."""
     r, tall, n = float(rng.uniform(0.011, 0.02)), float(rng.uniform(0.04, 0.1)), 16
     body = merge(
         [
             cylinder(0.0068, 0, 0.015, 12),
             hexagon(2.2 * r, 0.013, 0.03),
-            cylinder(r, 0.028, 0.03 + tall, min(n, hand.round(r))),
+            cylinder(r, 0.028, 0.03 + tall, min(n, style.round(r))),
         ]
     )
     z = 0.03 + tall
@@ -301,7 +301,7 @@ def _compact_transmitter(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _thermowell(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _thermowell(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A thermowell with its extension and connection head, or with a bimetal dial."""
     r, reach = float(rng.uniform(0.008, 0.014)), float(rng.uniform(0.03, 0.07))
     n = 14
@@ -312,24 +312,24 @@ def _thermowell(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         ]
     )
     if rng.random() < 0.35:
-        flat = moved(disc_flange(25, hand, plate_thickness(25)), at(0, 0, 0.05))
+        flat = moved(disc_flange(25, style, plate_thickness(25)), at(0, 0, 0.05))
         well = merge([well, flat])
     top = 0.045 + float(rng.uniform(0.03, 0.15))
     neck = merge([cylinder(0.9 * r, 0.04, top, n), hexagon(2.6 * r, top - 0.02, top - 0.005)])
     parts = [Part(well, "thermowell", "trim", "thermowell"), Part(neck, "thermowell", "trim", "thermowell")]
     if rng.random() < 0.7:
-        parts.append(Part(moved(_head(hand, rng), at(0, 0, top - 0.003)), "transmitter", "valve", "transmitter"))
+        parts.append(Part(moved(_head(style, rng), at(0, 0, top - 0.003)), "transmitter", "valve", "transmitter"))
         kind = "temperature transmitter"
     else:
         parts += placed(
-            _dial(float(rng.choice([0.08, 0.1, 0.125])), hand, rng),
+            _dial(float(rng.choice([0.08, 0.1, 0.125])), style, rng),
             at(0, 0, top - 0.002) @ spun("x", float(rng.choice([0.0, 0.0, 0.6]))),
         )
         kind = "thermometer"
     return Model(parts, kind=kind)
 
 
-def _glass_thermometer(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _glass_thermometer(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An industrial glass thermometer: a V-shaped or flat case with a tube, straight or at an angle (DIN 16195)."""
     tall, wide = float(rng.uniform(0.11, 0.22)), float(rng.uniform(0.03, 0.045))
     stem_ = merge([cylinder(0.006, 0, 0.04, 12), hexagon(0.024, 0.03, 0.05)])
@@ -345,7 +345,7 @@ def _glass_thermometer(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _meter_body(dn: int, hand: Hand, rng: np.random.Generator, kind: int) -> tuple[list[Part], float, float]:
+def _meter_body(dn: int, style: ModelingStyle, rng: np.random.Generator, kind: int) -> tuple[list[Part], float, float]:
     """The measuring tube of a meter in a line: parts, length, height of its top."""
     size, radius = FLANGES[dn], PIPES[dn].radius
     length = max(0.2, float(rng.uniform(1.6, 2.6)) * PIPES[dn].outer + 0.08)
@@ -356,11 +356,15 @@ def _meter_body(dn: int, hand: Hand, rng: np.random.Generator, kind: int) -> tup
     else:
         middle = [(neck, low), (drum, low + 0.001), (drum, length - low - 0.001), (neck, length - low)]
     name = "flow meter"
-    return [Part(flanged_body(dn, hand, length, middle), name, "gauge", name)], round(length, 6), drum if kind else neck
+    return (
+        [Part(flanged_body(dn, style, length, middle), name, "gauge", name)],
+        round(length, 6),
+        drum if kind else neck,
+    )
 
 
-def _inline_meter(dn: int, hand: Hand, rng: np.random.Generator, kind: int, head: bool) -> Model:
-    parts, length, top = _meter_body(dn, hand, rng, kind)
+def _inline_meter(dn: int, style: ModelingStyle, rng: np.random.Generator, kind: int, head: bool) -> Model:
+    parts, length, top = _meter_body(dn, style, rng, kind)
     x, name = length / 2, "flow meter"
     rise = top + float(rng.uniform(0.03, 0.09)) + 0.2 * PIPES[dn].radius
     r = float(rng.uniform(0.012, 0.022))
@@ -368,7 +372,7 @@ def _inline_meter(dn: int, hand: Hand, rng: np.random.Generator, kind: int, head
     parts.append(Part(moved(post, at(x)), name, "gauge", name))
     pose = at(x, 0, rise - 0.002) @ spun("z", float(rng.choice([0.0, 1.5708])))
     solid = (
-        _housing(hand, rng)
+        _housing(style, rng)
         if head
         else merge([box((0.14, 0.1, 0.16), (0, 0, 0.08)), box((0.09, 0.004, 0.06), (0, -0.052, 0.1))])
     )
@@ -376,19 +380,19 @@ def _inline_meter(dn: int, hand: Hand, rng: np.random.Generator, kind: int, head
     return Model(parts, length, kind="flow meter")
 
 
-def _magnetic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
-    return _inline_meter(dn, hand, rng, int(rng.choice([1, 2])), bool(rng.random() < 0.6))
+def _magnetic(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+    return _inline_meter(dn, style, rng, int(rng.choice([1, 2])), bool(rng.random() < 0.6))
 
 
-def _vortex(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
-    return _inline_meter(dn, hand, rng, 0, True)
+def _vortex(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+    return _inline_meter(dn, style, rng, 0, True)
 
 
-def _turbine(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _turbine(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A turbine or water meter: a round register with a lid on the tube."""
-    parts, length, top = _meter_body(dn, hand, rng, int(rng.choice([0, 1])))
+    parts, length, top = _meter_body(dn, style, rng, int(rng.choice([0, 1])))
     x, r = length / 2, 0.035 + 0.35 * PIPES[dn].radius
-    n = hand.round(r)
+    n = style.round(r)
     neck = cylinder(0.8 * r, 0.6 * top, top + 0.02, n)
     register = turned([(r, top + 0.01), (1.05 * r, top + 0.03), (1.05 * r, top + 0.06), (0.95 * r, top + 0.075)], n)
     parts += [
@@ -403,16 +407,16 @@ def _turbine(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, length, kind="flow meter")
 
 
-def _water_meter(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _water_meter(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A small threaded water meter."""
     radius = PIPES[dn].radius
     length, r = 0.11 + 3.0 * radius, 0.03 + 0.9 * radius
-    n, x = hand.round(r), length / 2
+    n, x = style.round(r), length / 2
     body = merge(
         [
-            hex_end(dn, 0, 0.15 * length, hand),
+            hex_end(dn, 0, 0.15 * length, style),
             along("x", cylinder(1.05 * radius, 0.1 * length, 0.9 * length, n)),
-            hex_end(dn, 0.85 * length, length, hand),
+            hex_end(dn, 0.85 * length, length, style),
             moved(turned([(0.7 * r, -0.6 * r), (r, -0.3 * r), (r, 0.5 * r)], n), at(x)),
         ]
     )
@@ -429,13 +433,13 @@ def _water_meter(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _coriolis(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _coriolis(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A Coriolis meter: two bent tubes in a case below the line, a manifold with flanges, a housing on top."""
     radius = PIPES[dn].radius
     length = 0.3 + 8 * radius
     neck = 0.485 * FLANGES[dn].hub
-    body = flanged_body(dn, hand, length, [(neck, 0.3 * length), (neck, 0.7 * length)])
-    drop, n = 0.15 + 4.5 * radius, hand.round(radius)
+    body = flanged_body(dn, style, length, [(neck, 0.3 * length), (neck, 0.7 * length)])
+    drop, n = 0.15 + 4.5 * radius, style.round(radius)
     a, b, r = 0.24 * length, 0.76 * length, 0.8 * radius + 0.004
     if rng.random() < 0.6:
         bend = 0.3 * (b - a)
@@ -456,7 +460,7 @@ def _coriolis(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
             spun("x", np.pi / 2),
         )
     rise = 0.05 + radius
-    top = moved(_housing(hand, rng), at(length / 2, 0, rise))
+    top = moved(_housing(style, rng), at(length / 2, 0, rise))
     post = moved(cylinder(0.022, 0.0, rise + 0.01, 12), at(length / 2))
     return Model(
         [
@@ -469,13 +473,13 @@ def _coriolis(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _rotameter(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _rotameter(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A variable-area meter in a line: flanges, a glass cone between them, or a metal tube with an indicator box."""
-    radius, n = PIPES[dn].radius, hand.round(PIPES[dn].radius)
+    radius, n = PIPES[dn].radius, style.round(PIPES[dn].radius)
     length, low = 0.25 + 2 * radius, plate_thickness(dn)
     plates = [
-        along("x", disc_flange(dn, hand, low + 0.03)),
-        moved(along("-x", disc_flange(dn, hand, low + 0.03)), at(length)),
+        along("x", disc_flange(dn, style, low + 0.03)),
+        moved(along("-x", disc_flange(dn, style, low + 0.03)), at(length)),
     ]
     parts = [Part(solid, "flow meter", "gauge", "flow meter") for solid in plates]
     if rng.random() < 0.5:
@@ -500,9 +504,9 @@ def _rotameter(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(length, 6), kind="flow meter")
 
 
-def _orifice(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _orifice(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An orifice plate with its handle between flanges (ISO 5167)."""
-    size, n = FLANGES[dn], hand.round(FLANGES[dn].circle / 2)
+    size, n = FLANGES[dn], style.round(FLANGES[dn].circle / 2)
     thick, outer = 0.003 + 0.01 * PIPES[dn].radius, 0.49 * (size.circle - size.bolt)
     plate = merge(
         [
@@ -518,14 +522,14 @@ def _orifice(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _sight_glass(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _sight_glass(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A sight glass in a line: a body with two round windows, or a glass tube between flanges with rods."""
     radius = PIPES[dn].radius
-    n, neck = hand.round(1.4 * radius), 0.485 * FLANGES[dn].hub
+    n, neck = style.round(1.4 * radius), 0.485 * FLANGES[dn].hub
     name = "sight glass"
     if rng.random() < 0.55:
         length = 0.12 + 3.6 * radius
-        body = flanged_body(dn, hand, length, [(neck, 0.3 * length), (neck, 0.7 * length)])
+        body = flanged_body(dn, style, length, [(neck, 0.3 * length), (neck, 0.7 * length)])
         reach = max(1.5 * radius, 1.15 * neck) + 0.015
         port = along(
             "y",
@@ -549,8 +553,8 @@ def _sight_glass(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     length, low = 0.1 + 3 * radius, plate_thickness(dn)
     plates = merge(
         [
-            along("x", disc_flange(dn, hand, low + 0.004)),
-            moved(along("-x", disc_flange(dn, hand, low + 0.004)), at(length)),
+            along("x", disc_flange(dn, style, low + 0.004)),
+            moved(along("-x", disc_flange(dn, style, low + 0.004)), at(length)),
         ]
     )
     pane = along("x", ring(radius, 1.2 * radius, low, length - low, n))

@@ -14,7 +14,7 @@ from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.family import Build, Family, Part, placed
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
 from cadplants.standards import FLANGES, PIPES
@@ -66,9 +66,9 @@ def headed(parts: Sequence[Part]) -> list[Part]:
     return placed(parts, spun("y", np.pi / 2))
 
 
-def fine_sides(radius: float, hand: Hand, most: int = 16) -> int:
+def fine_sides(radius: float, style: ModelingStyle, most: int = 16) -> int:
     """Sides of a small round thing."""
-    return max(6, min(most, hand.round(radius)))
+    return max(6, min(most, style.round(radius)))
 
 
 def screws(count: int, radius: float, thread: float, low: float, high: float, bundle: str = "") -> Part:
@@ -80,28 +80,28 @@ def screws(count: int, radius: float, thread: float, low: float, high: float, bu
 # --- dials ---
 
 
-def case_of(size: float, depth: float, style: str, hand: Hand) -> tuple[Solid, float]:
+def case_of(size: float, depth: float, design: str, style: ModelingStyle) -> tuple[Solid, float]:
     """A round case about z, its back on 0 and its front towards +z, and the radius of its opening [m]."""
-    r, d, n = size / 2, depth, hand.round(size / 2)
+    r, d, n = size / 2, depth, style.round(size / 2)
     w, floor = 0.9 * r, 0.82 * d
     hollow = [(w, d), (w, floor)]
     extra: list[Solid] = []
-    if style == "safety":  # a solid front, and a disc at the back that blows out
+    if design == "safety":  # a solid front, and a disc at the back that blows out
         outline = [(0.96 * r, 0.0), (r, 0.03 * d), (r, 0.86 * d), (1.07 * r, 0.87 * d), (1.07 * r, d)]
         extra = [cylinder(0.86 * r, -0.003, 0.0005, n), around(box((0.12 * r, 0.2 * r, 0.005)), 3, 0.8 * r)]
-    elif style == "crimped":
+    elif design == "crimped":
         outline = [(0.8 * r, 0.0), (0.94 * r, 0.05 * d), (r, 0.2 * d), (r, 0.62 * d), (1.05 * r, 0.74 * d)]
         outline += [(1.06 * r, 0.9 * d), (1.0 * r, d)]
-    elif style == "cast":
+    elif design == "cast":
         outline = [(0.72 * r, 0.0), (0.78 * r, 0.12 * d), (r, 0.26 * d), (r, 0.58 * d), (1.13 * r, 0.6 * d)]
         outline += [(1.13 * r, 0.97 * d), (1.09 * r, d)]
         extra = [around(cylinder(0.05 * r, 0.9 * d, 1.05 * d, 8), 4, 1.03 * r, np.pi / 4)]
         extra.append(moved(along("y", cylinder(0.06 * r, -0.2 * r, 0.2 * r, 8)), at(1.16 * r, 0, 0.75 * d)))
-    elif style == "bayonet":
+    elif design == "bayonet":
         outline = [(0.94 * r, 0.0), (r, 0.06 * d), (r, 0.7 * d), (1.05 * r, 0.71 * d), (1.05 * r, 0.98 * d)]
         outline += [(1.02 * r, d)]
         extra = [around(box((0.1 * r, 0.22 * r, 0.2 * d), (0, 0, 0.84 * d)), 4, 1.06 * r, 0.3)]
-    elif style == "turret":  # a ring screwed on, a flange at the back
+    elif design == "turret":  # a ring screwed on, a flange at the back
         outline = [(1.2 * r, 0.0), (1.2 * r, 0.06 * d), (r, 0.08 * d), (0.97 * r, 0.62 * d), (1.06 * r, 0.64 * d)]
         outline += [(1.1 * r, 0.95 * d), (1.02 * r, d)]
         extra = [around(box((0.06 * r, 0.1 * r, 0.26 * d), (0, 0, 0.8 * d)), 12, 1.08 * r)]
@@ -111,9 +111,9 @@ def case_of(size: float, depth: float, style: str, hand: Hand) -> tuple[Solid, f
     return merge([turned([*outline, *hollow], n), *extra]), w
 
 
-def face_of(radius: float, low: float, hand: Hand, rng: np.random.Generator) -> Solid:
+def face_of(radius: float, low: float, style: ModelingStyle, rng: np.random.Generator) -> Solid:
     """A round dial plate, its scale raised, or bare [m]."""
-    plate = cylinder(0.985 * radius, low, low + 0.001, hand.round(radius))
+    plate = cylinder(0.985 * radius, low, low + 0.001, style.round(radius))
     if rng.random() < 0.5:
         return plate
     count, long = int(rng.choice([7, 11, 13])), float(rng.uniform(0.1, 0.2)) * radius
@@ -143,27 +143,29 @@ def needle_of(radius: float, low: float, rng: np.random.Generator) -> Solid:
     return moved(merge([flat, hub]), spun("z", float(rng.uniform(-0.7, 3.9))))
 
 
-def dial(size: float, hand: Hand, rng: np.random.Generator, style: str = "", deep: float = 0.0) -> list[Part]:
+def dial(
+    size: float, style: ModelingStyle, rng: np.random.Generator, design: str = "", deep: float = 0.0
+) -> list[Part]:
     """Case, face, needle and maybe glass of an instrument with a round dial (EN 837-1 sizes).
 
     Args:
         size: diameter of the case [m].
-        hand: that models it.
+        style: that models it.
         rng: draws what is open.
-        style: one of ``STYLES``; drawn where empty.
+        design: one of ``STYLES``; drawn where empty.
         deep: depth of the case [m]; drawn where 0.
     """
-    style = style or str(rng.choice(STYLES))
+    design = design or str(rng.choice(STYLES))
     if not deep:
-        deep = size * float(rng.uniform(0.5, 0.8) if style == "safety" else rng.uniform(0.28, 0.55))
-    solid, w = case_of(size, deep, style, hand)
+        deep = size * float(rng.uniform(0.5, 0.8) if design == "safety" else rng.uniform(0.28, 0.55))
+    solid, w = case_of(size, deep, design, style)
     floor = 0.82 * deep
-    parts = [piece(solid, CASE, "gauge"), piece(face_of(w, floor, hand, rng), "gauge face", "dial", CASE)]
+    parts = [piece(solid, CASE, "gauge"), piece(face_of(w, floor, style, rng), "gauge face", "dial", CASE)]
     parts.append(piece(needle_of(w, floor + 0.001, rng), "gauge needle", "needle", CASE))
-    if rng.random() < 0.15:  # a drag hand
+    if rng.random() < 0.15:  # a drag style
         parts.append(piece(needle_of(0.9 * w, floor + 0.0035, rng), "gauge needle", "handle", CASE))
     if rng.random() < 0.6:
-        n = hand.round(w)
+        n = style.round(w)
         flat = cylinder(0.99 * w, 0.93 * deep, 0.93 * deep + 0.002, n)
         glass = flat if rng.random() < 0.7 else dome(0.99 * w, 0.12 * w, 0.95 * deep, n)
         parts.append(piece(glass, "gauge glass", "dial", CASE))
@@ -176,10 +178,10 @@ def upright(parts: Sequence[Part], size: float, top: float, turn: float = 0.0) -
     return placed(parts, spun("z", turn) @ at(0, depth / 2, top + size / 2) @ UPRIGHT)
 
 
-def shank(low: float, high: float, hand: Hand, rng: np.random.Generator, size: float = 0.1) -> Part:
+def shank(low: float, high: float, style: ModelingStyle, rng: np.random.Generator, size: float = 0.1) -> Part:
     """Thread, wrench flats and maybe a collar of a connection about z (G 1/4 or G 1/2) [m]."""
     square = 0.014 if size < 0.08 else 0.022
-    span, n = high - low, fine_sides(0.4 * square, hand)
+    span, n = high - low, fine_sides(0.4 * square, style)
     solids = [cylinder(0.45 * square, low, low + 0.6 * span, n)]
     if rng.random() < 0.6:
         solids.append(box((square, square, 0.5 * span), (0, 0, high - 0.25 * span)))
@@ -191,21 +193,23 @@ def shank(low: float, high: float, hand: Hand, rng: np.random.Generator, size: f
     return piece(solids, STEM, "trim")
 
 
-def standing(top: float, hand: Hand, rng: np.random.Generator, style: str = "", size: float = 0.0) -> list[Part]:
+def standing(
+    top: float, style: ModelingStyle, rng: np.random.Generator, design: str = "", size: float = 0.0
+) -> list[Part]:
     """A gauge with its connection below, on what ends at the height ``top`` [m]."""
     size = size or float(rng.choice([0.05, 0.063, 0.08, 0.1, 0.1, 0.16]))
     span = 0.03 + 0.12 * size
-    foot = shank(top - 0.004, top + span, hand, rng, size)
+    foot = shank(top - 0.004, top + span, style, rng, size)
     turn = float(rng.uniform(0, 6.28))
-    return [*placed([foot], spun("z", turn)), *upright(dial(size, hand, rng, style), size, top + span - 0.002, turn)]
+    return [*placed([foot], spun("z", turn)), *upright(dial(size, style, rng, design), size, top + span - 0.002, turn)]
 
 
 # --- heads ---
 
 
-def gland(hand: Hand, rng: np.random.Generator, thread: float = 0.02) -> Solid:
+def gland(style: ModelingStyle, rng: np.random.Generator, thread: float = 0.02) -> Solid:
     """A cable gland or plug about z from 0 up (EN 62444), maybe with a stub of cable [m]."""
-    n, r = fine_sides(thread / 2, hand, 12), thread / 2
+    n, r = fine_sides(thread / 2, style, 12), thread / 2
     nut = merge([hexagon(2.5 * r, 0.0, 0.5 * r), hexagon(2.4 * r, 0.9 * r, 1.7 * r), cylinder(r, 0.0, 2.2 * r, n)])
     kind = rng.random()
     if kind < 0.4:
@@ -217,35 +221,35 @@ def gland(hand: Hand, rng: np.random.Generator, thread: float = 0.02) -> Solid:
     return merge([nut, rope(path, 0.45 * r, 8)])
 
 
-def housing(hand: Hand, rng: np.random.Generator, shape: str = "") -> Solid:
+def housing(style: ModelingStyle, rng: np.random.Generator, shape: str = "") -> Solid:
     """A transmitter's electronics on z = 0: one or two chambers, a pot, a rectangular or slanted head.
 
     Args:
-        hand: that models it.
+        style: that models it.
         rng: draws what is open.
         shape: ``single``, ``double``, ``pot``, ``rectangle``, ``slant`` or drawn.
     """
     shape = shape or str(rng.choice(["single", "double", "pot", "rectangle", "slant"]))
     r = float(rng.uniform(0.034, 0.052))
-    n, neck = hand.round(r), cylinder(0.45 * r, 0.0, 0.5 * r, 12)
+    n, neck = style.round(r), cylinder(0.45 * r, 0.0, 0.5 * r, 12)
     if shape == "pot":  # a can about z with a screwed lid, maybe with a window
         body = turned([(0.5 * r, 0.2 * r), (r, 0.45 * r), (r, 1.7 * r), (1.1 * r, 1.7 * r), (1.1 * r, 2.2 * r)], n)
         ribs = around(box((0.14 * r, 0.2 * r, 0.4 * r), (0, 0, 1.95 * r)), 8, 1.1 * r)
-        out = moved(along("x", gland(hand, rng), 0.9 * r, 0, r), spun("z", float(rng.uniform(0, 6))))
+        out = moved(along("x", gland(style, rng), 0.9 * r, 0, r), spun("z", float(rng.uniform(0, 6))))
         return merge([neck, body, ribs, out])
     if shape == "rectangle":
         wide, deep, tall = (float(rng.uniform(a, b)) for a, b in ((0.09, 0.15), (0.06, 0.1), (0.08, 0.14)))
         block = extrude(rounded_rectangle(wide, tall, 0.12 * tall, 3), 0.0, deep)
         lid = extrude(rounded_rectangle(0.96 * wide, 0.96 * tall, 0.1 * tall, 3), deep + 0.001, deep + 0.012)
         view = box((0.5 * wide, 0.3 * tall, 0.002), (0, 0.15 * tall, deep + 0.0128))
-        outs = [along("-y", gland(hand, rng), x, -0.5 * tall + 0.001, 0.4 * deep) for x in (-0.3 * wide, 0.3 * wide)]
+        outs = [along("-y", gland(style, rng), x, -0.5 * tall + 0.001, 0.4 * deep) for x in (-0.3 * wide, 0.3 * wide)]
         up = at(0, 0.5 * deep, 0.4 * r + 0.5 * tall) @ UPRIGHT
         return merge([neck, moved(merge([block, lid, view, *outs]), up)])
     if shape == "slant":  # a pot whose window leans to the reader
         body = turned([(0.5 * r, 0.2 * r), (0.9 * r, 0.4 * r), (0.9 * r, 1.5 * r), (0.5 * r, 1.9 * r)], n)
         lid = turned([(1.0 * r, 0.0), (1.08 * r, 0.1 * r), (1.08 * r, 0.5 * r), (0.9 * r, 0.6 * r)], n)
         lean = moved(lid, at(0, -0.2 * r, 1.3 * r) @ spun("x", np.pi / 4))
-        return merge([neck, body, lean, along("y", gland(hand, rng), 0, 0.8 * r, 0.9 * r)])
+        return merge([neck, body, lean, along("y", gland(style, rng), 0, 0.8 * r, 0.9 * r)])
     # A drum about x with screwed covers at one end or both.
     low, high = (-1.3 * r, 0.9 * r) if shape == "single" else (-1.0 * r, 1.0 * r)
     body = along("x", turned([(0.8 * r, low), (r, low + 0.15 * r), (r, high), (0.8 * r, high + 0.05 * r)], n))
@@ -254,11 +258,11 @@ def housing(hand: Hand, rng: np.random.Generator, shape: str = "") -> Solid:
     if shape == "double":
         covers.append(along("-x", cover, low + 0.1 * r))
     sides = ("y", "-y") if rng.random() < 0.5 else ("y",)
-    outs = [along(a, gland(hand, rng), 0, 0.9 * r * (1 if a == "y" else -1), 0.1 * r) for a in sides]
+    outs = [along(a, gland(style, rng), 0, 0.9 * r * (1 if a == "y" else -1), 0.1 * r) for a in sides]
     return merge([neck, moved(merge([body, *covers, *outs]), at(0, 0, 1.35 * r))])
 
 
-def indicator(wide: float, tall: float, deep: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def indicator(wide: float, tall: float, deep: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """A square case about z with its back on 0: bezel, face, a needle [m]."""
     outline = rounded_rectangle(wide, tall, float(rng.uniform(0.0, 0.15)) * tall, 3)
     back = extrude(0.94 * outline, 0.0, 0.7 * deep)
@@ -279,7 +283,7 @@ def t_handle(reach: float, wide: float, radius: float = 0.004) -> Solid:
     return merge([*body, rod((-wide / 2, 0, reach), (wide / 2, 0, reach), 0.8 * radius, 8)])
 
 
-def bent(points: Sequence[Sequence[float]], radius: float, hand: Hand) -> Solid:
+def bent(points: Sequence[Sequence[float]], radius: float, style: ModelingStyle) -> Solid:
     """A small tube through corners that are cut twice, so that its bends look round [m]."""
     path = [np.asarray(p, float) for p in points]
     for _ in range(2):
@@ -291,24 +295,24 @@ def bent(points: Sequence[Sequence[float]], radius: float, hand: Hand) -> Solid:
                 long = float(np.linalg.norm(step))
                 cut.append(b + step / long * min(0.3 * long, 5 * radius))
         path = [*cut, path[-1]]
-    return rope(np.array(path), radius, fine_sides(radius, hand, 10))
+    return rope(np.array(path), radius, fine_sides(radius, style, 10))
 
 
 # --- what instruments are mounted on ---
 
 
-def stand(height: float, hand: Hand, rng: np.random.Generator, radius: float = 0.0302) -> list[Part]:
+def stand(height: float, style: ModelingStyle, rng: np.random.Generator, radius: float = 0.0302) -> list[Part]:
     """A pipe stand about z (two inches by default) on a base plate [m]."""
     side = float(rng.uniform(0.15, 0.3))
     base = box((side, side, 0.01), (0, 0, 0.005))
-    n = hand.round(radius)
+    n = style.round(radius)
     if rng.random() < 0.3:
-        base = cylinder(side / 2, 0.0, 0.01, hand.round(side / 2))
+        base = cylinder(side / 2, 0.0, 0.01, style.round(side / 2))
     post = turned([(radius, 0.01), (radius, height - 0.004), (0.8 * radius, height)], n)
     return [Part(post, "post", "steel", "", FRAME), Part(base, "base plate", "steel", "", FRAME)]
 
 
-def board(wide: float, low: float, high: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def board(wide: float, low: float, high: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """Something to mount on, its front in y = 0 looking to -y: a wall, or a panel on posts [m]."""
     if rng.random() < 0.4:
         deep = float(rng.uniform(0.08, 0.2))
@@ -327,7 +331,7 @@ def board(wide: float, low: float, high: float, hand: Hand, rng: np.random.Gener
 
 
 def vessel(
-    low: float, high: float, dn: int, hand: Hand, rng: np.random.Generator, flanged: bool = True
+    low: float, high: float, dn: int, style: ModelingStyle, rng: np.random.Generator, flanged: bool = True
 ) -> tuple[list[Part], float]:
     """A small upright vessel beside the origin with two nozzles towards +x whose faces are in x = 0.
 
@@ -335,7 +339,7 @@ def vessel(
         low: height of the lower nozzle [m].
         high: of the upper one.
         dn: of the nozzles.
-        hand: that models it.
+        style: that models it.
         rng: draws what is open.
         flanged: whether the nozzles end in flanges; else in bosses.
 
@@ -343,7 +347,7 @@ def vessel(
         Its parts, and the place of its axis [m].
     """
     radius, reach = float(rng.uniform(0.15, 0.35)), float(rng.uniform(0.09, 0.15))
-    n, x = hand.round(radius), -radius - reach
+    n, x = style.round(radius), -radius - reach
     bottom, top = low - 0.06 - 0.1 * radius, high + 0.08
     shell = cylinder(radius, bottom, top, n)
     parts = [Part(moved(shell, at(x)), "shell", "tank", "", TANK)]
@@ -357,16 +361,16 @@ def vessel(
         parts.append(Part(moved(leg, turn), "tank leg", "steel", "", TANK))
     for z in (low, high):
         if flanged:
-            nozzle = along("-x", disc_flange(dn, hand, reach + 0.02), 0, 0, z)
+            nozzle = along("-x", disc_flange(dn, style, reach + 0.02), 0, 0, z)
         else:
-            nozzle = along("-x", cylinder(1.35 * PIPES[dn].radius, 0.0, reach + 0.02, hand.round(0.02)), 0, 0, z)
+            nozzle = along("-x", cylinder(1.35 * PIPES[dn].radius, 0.0, reach + 0.02, style.round(0.02)), 0, 0, z)
         parts.append(Part(nozzle, "nozzle", "tank", "", TANK))
     return parts, x
 
 
-def bolted(dn: int, z: float, hand: Hand, pad: float = 0.002) -> list[Part]:
+def bolted(dn: int, z: float, style: ModelingStyle, pad: float = 0.002) -> list[Part]:
     """Gasket and bolts of a joint in x = 0 on the height ``z``, a flange on either side."""
-    size, plate, n = FLANGES[dn], plate_thickness(dn), hand.round(FLANGES[dn].raised / 2)
+    size, plate, n = FLANGES[dn], plate_thickness(dn), style.round(FLANGES[dn].raised / 2)
     bolts = bolt_circle(size.n_bolts, size.circle / 2, size.bolt, -plate, plate + pad)
     disc = ring(PIPES[dn].radius, size.raised / 2, 0.0, pad, n)
     return [
@@ -375,9 +379,9 @@ def bolted(dn: int, z: float, hand: Hand, pad: float = 0.002) -> list[Part]:
     ]
 
 
-def hole(radius: float, hand: Hand) -> Floats:
+def hole(radius: float, style: ModelingStyle) -> Floats:
     """The outline of a small round hole."""
-    return circle(radius, fine_sides(radius, hand))
+    return circle(radius, fine_sides(radius, style))
 
 
 def gauge_family(

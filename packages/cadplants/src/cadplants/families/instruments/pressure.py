@@ -21,7 +21,7 @@ from cadplants.families.valves.valve import bolt_circle, disc_flange, flanged_bo
 from cadplants.family import Family, Model, Part, placed
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
 from cadplants.standards import FLANGES, PIPES, SIZES
@@ -32,10 +32,10 @@ __all__ = ["PRESSURE_BUILDS", "differential_cell"]
 _NAME, _KIND, _GLASS = "transmitter", "pressure transmitter", "sight glass"
 
 
-def _single(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _single(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A single-compartment transmitter: hexagon, slim or fat cell, maybe cooling fins, a pot or drum with one cover."""
     r, tall = float(rng.uniform(0.013, 0.028)), float(rng.uniform(0.03, 0.08))
-    n = hand.round(r)
+    n = style.round(r)
     cell = [
         cylinder(0.0095, 0.0, 0.02, 12),
         hexagon(max(0.027, 1.7 * r), 0.018, 0.036),
@@ -44,11 +44,11 @@ def _single(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     if rng.random() < 0.3:
         cell += [cylinder(1.3 * r, 0.04 + k * tall / 5, 0.04 + (k + 0.4) * tall / 5, n) for k in range(5)]
     shape = str(rng.choice(["single", "pot", "slant", "rectangle"]))
-    head = moved(housing(hand, rng, shape), at(0, 0, 0.034 + tall) @ spun("z", float(rng.uniform(0, 6))))
+    head = moved(housing(style, rng, shape), at(0, 0, 0.034 + tall) @ spun("z", float(rng.uniform(0, 6))))
     return Model([piece(cell, _NAME, "trim"), piece(head, _NAME, "valve")], kind=_KIND)
 
 
-def _pencil(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _pencil(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A pencil transmitter: a slim steel tube between a hexagon and a plug or a moulded cable."""
     r, tall, n = float(rng.uniform(0.008, 0.013)), float(rng.uniform(0.06, 0.16)), 14
     flats = 2.2 * r + 0.003
@@ -57,14 +57,14 @@ def _pencil(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     z = 0.025 + tall
     nut = [turned([(0.7 * r, z - 0.001), (0.85 * r, z + 0.01), (0.85 * r, z + 0.03), (0.4 * r, z + 0.045)], n)]
     way = [(0, 0, z + 0.04), (0, 0, z + 0.09), (0.03, 0.01, z + 0.14), (0.1, 0.02, z + 0.05), (0.11, 0.02, z - 0.1)]
-    nut.append(bent(way, 0.0028, hand))
+    nut.append(bent(way, 0.0028, style))
     return Model([piece(body, _NAME, "trim"), piece(nut, _NAME, "rubber")], kind=_KIND)
 
 
-def _turning(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _turning(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A compact switch with a turning display: hexagon, can, a slanting face with keys, a round plug behind."""
     r, low = float(rng.uniform(0.015, 0.021)), float(rng.uniform(0.03, 0.05))
-    n, tall = hand.round(r), float(rng.uniform(0.05, 0.08))
+    n, tall = style.round(r), float(rng.uniform(0.05, 0.08))
     body = [cylinder(0.0066, 0, 0.02, 12), hexagon(0.027, 0.016, low), cylinder(r, low - 0.001, low + tall, n)]
     outline = np.array([(-r, 0.0), (r, 0.0), (r, 0.02), (-0.2 * r, 0.03), (-r, 0.012)])
     wedge = extrude(outline[:, ::1], -0.9 * r, 0.9 * r)
@@ -78,10 +78,10 @@ def _turning(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(placed([*parts, piece(plug, _NAME, "trim")], spun("z", float(rng.uniform(0, 6)))), kind=_KIND)
 
 
-def _hygienic(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _hygienic(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A hygienic transmitter: a ferrule, a two-piece clamp with a wing nut (ISO 2852), a polished can with a lid."""
     r = float(rng.choice([0.0253, 0.032]))
-    n, low = hand.round(r), float(rng.uniform(0.015, 0.03))
+    n, low = style.round(r), float(rng.uniform(0.015, 0.03))
     foot = [cylinder(0.4 * r, 0.0, low + 0.002, n), turned([(0.5 * r, low - 0.01), (r, low), (r, low + 0.003)], n)]
     lid = turned([(r, low + 0.0031), (r, low + 0.006), (0.5 * r, low + 0.016)], n)
     band = ring(0.88 * r, 1.22 * r, low - 0.005, low + 0.011, n)
@@ -92,19 +92,19 @@ def _hygienic(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     ]
     clamp = Part(merge([band, ears, *wing]), "clamp", "clamp", _NAME, JOINT)
     tall, wide = float(rng.uniform(0.05, 0.1)), float(rng.uniform(0.022, 0.042))
-    m = hand.round(wide)
+    m = style.round(wide)
     z = low + 0.015 + float(rng.uniform(0.02, 0.05))
     can = [cylinder(0.009, low + 0.01, z + 0.001, 12), turned([(0.6 * wide, z), (wide, z + 0.01), (wide, z + tall)], m)]
     can.append(cylinder(1.08 * wide, z + tall - 0.001, z + tall + 0.02, m))
     can.append(dome(1.02 * wide, 0.25 * wide, z + tall + 0.02, m))
-    can.append(along("y", gland(hand, rng, 0.016), 0, 0.97 * wide, z + 0.6 * tall))
+    can.append(along("y", gland(style, rng, 0.016), 0, 0.97 * wide, z + 0.6 * tall))
     return Model([piece([*foot], _NAME, "pipe"), clamp, piece([lid, *can], _NAME, "trim")], kind=_KIND)
 
 
-def _switch(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _switch(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A pressure switch: a bellows or diaphragm housing under a rectangular box with a scale window and a knob."""
     r, tall = float(rng.uniform(0.018, 0.035)), float(rng.uniform(0.02, 0.05))
-    n = hand.round(r)
+    n = style.round(r)
     low = 0.03 + tall
     cell = [
         cylinder(0.0068, 0.0, 0.032, 12),
@@ -118,7 +118,7 @@ def _switch(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     ]
     case.append(cylinder(0.012, low + high - 0.002, low + high + 0.014, 12))
     side = "x" if rng.random() < 0.5 else "-x"
-    case.append(along(side, gland(hand, rng), (0.5 if side == "x" else -0.5) * wide, 0, low + 0.25 * high))
+    case.append(along(side, gland(style, rng), (0.5 if side == "x" else -0.5) * wide, 0, low + 0.25 * high))
     view = box((0.4 * wide, 0.003, 0.55 * high), (0, -deep / 2 - 0.0042, low + 0.55 * high))
     mark = box(
         (0.2 * wide, 0.002, 0.004), (0.05 * wide, -deep / 2 - 0.0065, low + float(rng.uniform(0.35, 0.75)) * high)
@@ -128,13 +128,13 @@ def _switch(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(placed(parts, spun("z", float(rng.uniform(0, 6)))), kind="pressure switch")
 
 
-def differential_cell(hand: Hand, rng: np.random.Generator, coplanar: bool) -> tuple[list[Part], float]:
+def differential_cell(style: ModelingStyle, rng: np.random.Generator, coplanar: bool) -> tuple[list[Part], float]:
     """A differential cell on z = 0 over a manifold, its process side below, and where its electronics begin."""
     if coplanar:
         wide = 0.09
         base = [
             box((wide, 0.075, 0.03), (0, 0, 0.015)),
-            turned([(0.043, 0.03), (0.043, 0.06), (0.025, 0.085)], hand.round(0.04)),
+            turned([(0.043, 0.03), (0.043, 0.06), (0.025, 0.085)], style.round(0.04)),
         ]
         bolts = [
             moved(merge([cylinder(0.005, -0.02, 0.034, 8), hexagon(0.017, 0.03, 0.04)]), at(x, y))
@@ -143,15 +143,15 @@ def differential_cell(hand: Hand, rng: np.random.Generator, coplanar: bool) -> t
         ]
         return [piece(base, _NAME, "trim"), Part(merge(bolts), "bolt", "fastener", _NAME, JOINT, True)], 0.083
     flats = [box((0.022, 0.095, 0.08), (s * 0.027, 0, 0.04)) for s in (-1, 1)]
-    body = [along("x", cylinder(0.042, -0.017, 0.017, hand.round(0.042)), 0, 0, 0.042), cylinder(0.025, 0.06, 0.1, 14)]
+    body = [along("x", cylinder(0.042, -0.017, 0.017, style.round(0.042)), 0, 0, 0.042), cylinder(0.025, 0.06, 0.1, 14)]
     rods = along("x", around(cylinder(0.005, -0.048, 0.048, 8), 4, 0.045, np.pi / 4), 0, 0, 0.04)
     return [piece([*flats, *body], _NAME, "trim"), Part(rods, "bolt", "fastener", _NAME, JOINT, True)], 0.098
 
 
-def _piped(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _piped(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A differential transmitter on a manifold on a two-inch stand: bracket, U-bolt, needle valves, two tubes down."""
     height = float(rng.uniform(1.1, 1.5))
-    parts, z, y = stand(height, hand, rng), height - 0.3, -0.16
+    parts, z, y = stand(height, style, rng), height - 0.3, -0.16
     wide, tall = 0.1, float(rng.choice([0.03, 0.06]))
     block = [box((wide, 0.07, tall), (0, y, z - tall / 2))]
     count = int(rng.choice([2, 3, 5]))
@@ -160,13 +160,13 @@ def _piped(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         place = (sign * 0.5 * wide, y, z - tall / 2) if sign else (float(x), y - 0.035, z - tall / 2)
         block.append(along(side, t_handle(0.06, 0.05), *place))
     parts.append(piece(block, STEM, "trim"))
-    cell, top = differential_cell(hand, rng, bool(rng.random() < 0.6))
-    head = piece(moved(housing(hand, rng, str(rng.choice(["double", "single"]))), at(0, 0, top)), _NAME, "valve")
+    cell, top = differential_cell(style, rng, bool(rng.random() < 0.6))
+    head = piece(moved(housing(style, rng, str(rng.choice(["double", "single"]))), at(0, 0, top)), _NAME, "valve")
     parts += placed([*cell, head], at(0, y, z))
     for x in (-0.027, 0.027):
         nut = moved(hexagon(0.018, -0.02, 0.001), at(x, y, z - tall))
         way = [(x, y, z - tall - 0.01), (x, y, z - tall - 0.12), (x, y - 0.12, 0.4 * z), (1.5 * x, y - 0.12, 0.08)]
-        parts.append(piece([nut, bent(way, 0.005, hand)], STEM, "trim"))
+        parts.append(piece([nut, bent(way, 0.005, style)], STEM, "trim"))
     arm = [
         box((0.08, 0.006, 0.11), (0, -0.0335, z - 0.02)),
         box((0.08, -y - 0.073, 0.006), (0, (y + 0.001) / 2, z - tall - 0.003)),
@@ -180,25 +180,27 @@ def _piped(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="differential pressure transmitter")
 
 
-def _seal(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _seal(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A remote-seal transmitter on its flange: a seal, an upright or bent link, the cell and its electronics."""
     thick, out = plate_thickness(dn), float(rng.uniform(0.05, 0.14))
     solids = [
-        disc_flange(dn, hand, thick + 0.001),
+        disc_flange(dn, style, thick + 0.001),
         cylinder(0.024, thick, thick + 0.02, 16),
         cylinder(0.012, thick, thick + out + 0.01, 12),
     ]
-    cell, top = differential_cell(hand, rng, bool(rng.random() < 0.5))
-    head = piece(moved(housing(hand, rng, str(rng.choice(["double", "single", "pot"]))), at(0, 0, top)), _NAME, "valve")
+    cell, top = differential_cell(style, rng, bool(rng.random() < 0.5))
+    head = piece(
+        moved(housing(style, rng, str(rng.choice(["double", "single", "pot"]))), at(0, 0, top)), _NAME, "valve"
+    )
     parts = [piece(solids, _NAME, "trim"), *placed([*cell, head], at(0, 0, thick + out))]
     if rng.random() < 0.4:  # the other capillary comes off sideways in a loop
         z = thick + out + 0.03
         way = [(0.034, 0, z), (0.14, 0, z), (0.2, 0.1, z - 0.03), (0.1, 0.22, z), (0.05, 0.3, z - 0.06)]
-        parts.append(piece(bent(way, 0.004, hand), _NAME, "rubber"))
+        parts.append(piece(bent(way, 0.004, style), _NAME, "rubber"))
     return Model(headed(parts), kind=_KIND)
 
 
-def _probe(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _probe(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A retractable analyser probe (pH, conductivity): a ball valve, a guide with rods, a shaft and head."""
     r, n = float(rng.uniform(0.012, 0.018)), 14
     valve = [
@@ -224,13 +226,13 @@ def _probe(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     shaft.append(around(cylinder(0.004, 0.12, 0.105 + 0.6 * long, 8), int(rng.choice([2, 3])), 1.8 * r))
     parts.append(piece(shaft, _NAME, "trim"))
     if rng.random() < 0.5:
-        head = moved(housing(hand, rng, "pot"), at(0, 0, 0.115 + long))
+        head = moved(housing(style, rng, "pot"), at(0, 0, 0.115 + long))
     else:
         z = 0.12 + long
         head = merge(
             [
                 cylinder(0.7 * r, z - 0.001, z + 0.05, n),
-                bent([(0, 0, z + 0.045), (0, 0, z + 0.1), (0.1, 0, z + 0.08), (0.12, 0, z - 0.15)], 0.004, hand),
+                bent([(0, 0, z + 0.045), (0, 0, z + 0.1), (0.1, 0, z + 0.08), (0.12, 0, z - 0.15)], 0.004, style),
             ]
         )
     return Model([*parts, piece(head, _NAME, "rubber")], kind="analyser")
@@ -239,24 +241,24 @@ def _probe(_: int, hand: Hand, rng: np.random.Generator) -> Model:
 # --- sight glasses ---
 
 
-def _body(dn: int, hand: Hand, rng: np.random.Generator) -> tuple[Solid, float, float, float]:
+def _body(dn: int, style: ModelingStyle, rng: np.random.Generator) -> tuple[Solid, float, float, float]:
     """A flanged body with two opposite window pads along y: solid, length, reach of its pads, radius of a pane."""
     radius, neck = PIPES[dn].radius, 0.485 * FLANGES[dn].hub
     length = 0.14 + 4 * radius
     body = flanged_body(
         dn,
-        hand,
+        style,
         length,
         [(neck, 0.32 * length), (1.15 * neck, 0.4 * length), (1.15 * neck, 0.6 * length), (neck, 0.68 * length)],
     )
     return body, round(length, 6), 1.15 * neck + 0.012, 0.9 * radius + 0.012
 
 
-def _windows(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _windows(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A sight glass with two bolted covers, square or round, and inside a flap, a rotor or nothing (DIN 3237)."""
-    body, length, reach, pane = _body(dn, hand, rng)
+    body, length, reach, pane = _body(dn, style, rng)
     square, half = bool(rng.random() < 0.5), 1.65 * pane
-    n, x = hand.round(pane), length / 2
+    n, x = style.round(pane), length / 2
     thick = 0.01 + 0.06 * pane
     core, covers, bolts = cylinder(1.2 * pane, -reach, reach, n), [], []
     for s in ("y", "-y"):
@@ -288,14 +290,14 @@ def n_circle(radius: float, sides: int) -> np.ndarray[tuple[int, ...], np.dtype[
     return radius * np.column_stack([np.cos(a), np.sin(a)])
 
 
-def _threaded(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _threaded(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A screwed bronze flow sight: two hexagon ends, a bowl with one or two screwed window rings, maybe a rotor."""
     radius = PIPES[dn].radius
     length, r = round(0.07 + 4.4 * radius, 6), 0.016 + 1.1 * radius
-    n, x = hand.round(r), length / 2
+    n, x = style.round(r), length / 2
     deep = 1.1 * radius + 0.012
     bowl = along("y", turned([(0.8 * r, -deep), (r, -0.8 * deep), (r, deep)], n), x)
-    body = [hex_end(dn, 0, 0.2 * length, hand), hex_end(dn, 0.8 * length, length, hand), bowl]
+    body = [hex_end(dn, 0, 0.2 * length, style), hex_end(dn, 0.8 * length, length, style), bowl]
     body.append(along("x", cylinder(1.05 * radius, 0.15 * length, 0.85 * length, n)))
     fronts = ("-y",) if rng.random() < 0.5 else ("-y", "y")
     nut = turned(
@@ -312,13 +314,13 @@ def _threaded(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, length, "welded", _GLASS)
 
 
-def _full(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _full(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A full-view sight glass with screwed ends: a glass tube between two caps, tie rods outside, maybe a spinner."""
     radius = PIPES[dn].radius
     length, r = round(0.1 + float(rng.uniform(5, 8)) * radius, 6), 1.5 * radius + 0.008
-    n, side = hand.round(r), float(rng.uniform(2.6, 3.2)) * radius + 0.03
+    n, side = style.round(r), float(rng.uniform(2.6, 3.2)) * radius + 0.03
     low, thick = 0.17 * length, 0.012
-    caps = [hex_end(dn, 0, low, hand), hex_end(dn, length - low, length, hand)]
+    caps = [hex_end(dn, 0, low, style), hex_end(dn, length - low, length, style)]
     plate = (
         extrude(rounded_rectangle(side, side, 0.2 * side, 3), low - thick, low)
         if rng.random() < 0.6
@@ -345,11 +347,11 @@ def _full(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, length, "welded", _GLASS)
 
 
-def _port(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _port(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A round sight port on a vessel's nozzle (DIN 28120): a pane under a bolted ring, maybe a wiper or a lamp."""
-    size, thick, n = FLANGES[dn], plate_thickness(dn), hand.round(FLANGES[dn].raised / 2)
+    size, thick, n = FLANGES[dn], plate_thickness(dn), style.round(FLANGES[dn].raised / 2)
     pane, inner = 0.42 * size.raised, 0.36 * size.raised
-    block = disc_flange(dn, hand, thick + 0.002)
+    block = disc_flange(dn, style, thick + 0.002)
     cover = [
         ring(inner, 0.55 * size.raised, thick, thick + 0.012, n),
         ring(0.9 * pane, 1.05 * pane, thick + 0.01, thick + 0.018, n),
@@ -367,13 +369,13 @@ def _port(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(headed(parts), kind=_GLASS)
 
 
-def _moisture(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _moisture(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A refrigerant sight glass: a brass block on copper stubs, a bull's eye on top, maybe its cap on a strap."""
     radius = PIPES[dn].radius
     length, r = round(0.09 + 3 * radius, 6), 0.012 + 0.75 * radius
-    n, x = hand.round(r), length / 2
+    n, x = style.round(r), length / 2
     body = [
-        along("x", cylinder(1.12 * radius, 0.0, length, hand.round(radius))),
+        along("x", cylinder(1.12 * radius, 0.0, length, style.round(radius))),
         moved(cylinder(r, -1.1 * radius, 1.15 * radius + 0.012, n), at(x)),
     ]
     top = 1.15 * radius + 0.012

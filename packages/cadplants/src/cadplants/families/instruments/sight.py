@@ -9,7 +9,7 @@ from cadplants.families.valves.valve import disc_flange
 from cadplants.family import Family, Model, Part, placed
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, turned
 from cadplants.standards import FLANGES, PIPES, SIZES
 from cadplants.transforms import at, spun
@@ -19,11 +19,11 @@ __all__ = ["SIGHT_BUILDS"]
 _GLASS = "sight glass"
 
 
-def _hygienic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _hygienic(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A hygienic sight glass: a bare or caged tube between two ferrules with clamps (DIN 32676), weld ends."""
     radius = PIPES[dn].radius
     length, end = round(0.13 + float(rng.uniform(2.5, 5)) * radius, 6), 0.035
-    r, n = 1.15 * radius, hand.round(radius)
+    r, n = 1.15 * radius, style.round(radius)
     lip = 1.25 * radius + 0.008
     stub = turned([(radius, 0.0), (radius, end - 0.008), (lip, end - 0.003), (lip, end)], n)
     cap = turned([(lip, end), (lip, end + 0.003), (1.1 * r, end + 0.01), (1.1 * r, end + 0.02)], n)
@@ -46,14 +46,14 @@ def _hygienic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, length, "welded", _GLASS)
 
 
-def _cage(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _cage(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A tubular sight glass whose two flanges are one casting: long ribs between them leave windows for the tube."""
     radius, size = PIPES[dn].radius, FLANGES[dn]
     length, low = round(0.14 + float(rng.uniform(2.5, 4.5)) * radius, 6), plate_thickness(dn)
-    n, r = hand.round(1.2 * radius), 1.2 * radius + 0.004
+    n, r = style.round(1.2 * radius), 1.2 * radius + 0.004
     plates = [
-        along("x", disc_flange(dn, hand, low + 0.012)),
-        moved(along("-x", disc_flange(dn, hand, low + 0.012)), at(length)),
+        along("x", disc_flange(dn, style, low + 0.012)),
+        moved(along("-x", disc_flange(dn, style, low + 0.012)), at(length)),
     ]
     outer = min(1.25 * r + 0.006, size.circle / 2 - 0.6 * size.hole)
     count, wide = int(rng.choice([2, 3, 4])), float(rng.uniform(0.4, 0.9)) * r
@@ -67,14 +67,14 @@ def _cage(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, length, kind=_GLASS)
 
 
-def _eye(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _eye(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Oil sight glasses on a machine's housing: bull's eyes with a hexagon or a screwed ring, and a breather."""
     size = (float(rng.uniform(0.4, 0.9)), float(rng.uniform(0.25, 0.5)), float(rng.uniform(0.3, 0.6)))
     parts = [Part(box(size, (0, size[1] / 2, size[2] / 2)), "tank", "tank", "", "Tank")]
     count = int(rng.integers(1, 4))
     for k in range(count):
         r = float(rng.uniform(0.012, 0.03))
-        n = hand.round(r)
+        n = style.round(r)
         if rng.random() < 0.5:
             eye = [
                 piece(hexagon(2.6 * r, 0.0, 0.35 * r), _GLASS, "trim"),
@@ -96,12 +96,12 @@ def _eye(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([*parts, Part(cap, "pipe cap", "rubber", "", "Pipe assembly")], kind=_GLASS)
 
 
-def _funnel(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _funnel(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A drip sight: a spout over a funnel on a drain pipe, a glass cylinder and maybe two stays between them."""
     dn, high = int(rng.choice([25, 40, 50])), float(rng.uniform(0.4, 0.9))
     r = PIPES[dn].radius
-    wide, n = float(rng.uniform(1.8, 2.6)) * r, hand.round(2 * r)
-    drain = cylinder(r, 0.0, high, hand.round(r))
+    wide, n = float(rng.uniform(1.8, 2.6)) * r, style.round(2 * r)
+    drain = cylinder(r, 0.0, high, style.round(r))
     funnel = turned(
         [
             (1.15 * r, high - 0.03),
@@ -116,8 +116,8 @@ def _funnel(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     head = turned(
         [(wide, top + gap), (wide, top + gap + 0.01), (1.15 * r, top + gap + 0.03), (1.15 * r, top + gap + 0.06)], n
     )
-    spout = cylinder(0.6 * r, top + 0.3 * gap, top + gap + 0.001, fine_sides(r, hand))
-    feed = cylinder(r, top + gap + 0.058, top + gap + float(rng.uniform(0.3, 0.8)), hand.round(r))
+    spout = cylinder(0.6 * r, top + 0.3 * gap, top + gap + 0.001, fine_sides(r, style))
+    feed = cylinder(r, top + gap + 0.058, top + gap + float(rng.uniform(0.3, 0.8)), style.round(r))
     parts = [Part(drain, "pipe", "pipe", "", "Pipe assembly"), Part(feed, "pipe", "pipe", "", "Pipe assembly")]
     x = 1.02 * wide + 0.002
     stays = [rod((s * x, 0, top - 0.03), (s * x, 0, top + gap + 0.012), 0.003, 8) for s in (-1, 1)]

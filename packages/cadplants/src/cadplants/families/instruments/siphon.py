@@ -20,7 +20,7 @@ from cadplants.families.instruments.kit import (
 )
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import along, around, box, cylinder, hexagon, rope, turned
 from cadplants.transforms import at, spun
 
@@ -45,10 +45,10 @@ def _joined(*pieces: Floats | list[tuple[float, float, float]]) -> Floats:
 
 
 def _fittings(
-    low: float, high: float, r: float, x: float, y: float, hand: Hand, rng: np.random.Generator
+    low: float, high: float, r: float, x: float, y: float, style: ModelingStyle, rng: np.random.Generator
 ) -> list[Solid]:
     """What is at the two ends of a siphon: hexagons, sleeves or nothing at the foot; a nut at the top [m]."""
-    n = fine_sides(r, hand)
+    n = fine_sides(r, style)
     kind, solids = int(rng.integers(4)), []
     if kind == 0:
         solids.append(hexagon(3.2 * r, low, low + 0.016))
@@ -63,22 +63,27 @@ def _fittings(
 
 
 def _topped(
-    path: Floats, r: float, hand: Hand, rng: np.random.Generator, more: list[Solid] | None = None, kind: str = ""
+    path: Floats,
+    r: float,
+    style: ModelingStyle,
+    rng: np.random.Generator,
+    more: list[Solid] | None = None,
+    kind: str = "",
 ) -> Model:
     """A siphon along a path that ends upwards, with a gauge, transmitter or switch on its end."""
     x, y, z = (float(v) for v in path[-1])
-    solids = [rope(path, r, fine_sides(r, hand, 12)), *_fittings(0.002, z, r, x, y, hand, rng), *(more or [])]
+    solids = [rope(path, r, fine_sides(r, style, 12)), *_fittings(0.002, z, r, x, y, style, rng), *(more or [])]
     parts = [piece(solids, _NAME, str(rng.choice(["trim", "pipe", "gauge"])))]
     draw = rng.random()
     if draw < 0.72:
-        parts += placed(standing(z, hand, rng), at(x, y))
+        parts += placed(standing(z, style, rng), at(x, y))
         return Model(parts, kind=kind or "pressure gauge")
     neck = cylinder(0.011, z - 0.002, z + 0.05, 12)
     if draw < 0.86:
-        head = merge([neck, hexagon(0.027, z + 0.004, z + 0.018), moved(housing(hand, rng), at(0, 0, z + 0.046))])
+        head = merge([neck, hexagon(0.027, z + 0.004, z + 0.018), moved(housing(style, rng), at(0, 0, z + 0.046))])
         parts.append(piece(moved(head, at(x, y)), "transmitter", "valve"))
         return Model(parts, kind="pressure transmitter")
-    case = upright(indicator(0.08, 0.1, 0.06, hand, rng), 0.1, z + 0.048)
+    case = upright(indicator(0.08, 0.1, 0.06, style, rng), 0.1, z + 0.048)
     parts += placed([piece(neck, STEM, "trim"), *case], at(x, y))
     return Model(parts, kind="pressure switch")
 
@@ -87,17 +92,17 @@ def _radius(rng: np.random.Generator) -> float:
     return float(rng.choice(_TUBES))
 
 
-def _pigtail(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _pigtail(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A pigtail: the pipe goes up, makes a ring or two about a level axis and goes on upwards (DIN 16282 form C)."""
     r, turns = _radius(rng), int(rng.choice([1, 1, 2]))
     reach = float(rng.uniform(3.6, 6.5)) * r
     low = reach + r + float(rng.uniform(0.015, 0.05))
     loop = _arc((reach, low), reach, np.pi, np.pi - 2 * np.pi * turns, 2.3 * r * turns)
     end = [(0.0, 2.3 * r * turns, low + reach + float(rng.uniform(0.04, 0.12)))]
-    return _topped(_joined([(0, 0, 0)], loop, end), r, hand, rng)
+    return _topped(_joined([(0, 0, 0)], loop, end), r, style, rng)
 
 
-def _u(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _u(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A U siphon: up, over, down and up again in one plane (DIN 16282 form A or B)."""
     r = _radius(rng)
     first, second = float(rng.uniform(3, 5)) * r, float(rng.uniform(3, 7)) * r
@@ -107,10 +112,10 @@ def _u(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     over = _arc((first, high), first, np.pi, 0.0)
     under = _arc((2 * first + second, low), second, np.pi, 2 * np.pi)
     end = [(2 * (first + second), 0.0, max(top, low + 0.07))]
-    return _topped(_joined([(0, 0, 0)], over, under, end), r, hand, rng)
+    return _topped(_joined([(0, 0, 0)], over, under, end), r, style, rng)
 
 
-def _trumpet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _trumpet(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A trumpet: the pipe leaves sideways, makes one and a quarter rings and ends upwards (DIN 16282 form D)."""
     r = _radius(rng)
     reach, bend = float(rng.uniform(3.6, 6)) * r, 3.2 * r
@@ -119,10 +124,10 @@ def _trumpet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     middle = (bend + out + reach * 0.2, low + bend + reach)
     loop = _arc(middle, reach, -np.pi / 2, 2 * np.pi, 2.6 * r)
     end = [(middle[0] + reach, 2.6 * r, middle[1] + float(rng.uniform(0.06, 0.12)))]
-    return _topped(_joined([(0, 0, 0)], turn, loop, end), r, hand, rng)
+    return _topped(_joined([(0, 0, 0)], turn, loop, end), r, style, rng)
 
 
-def _coil(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _coil(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A straight siphon with a cooling coil of several turns about its own upright axis."""
     r, turns = float(rng.choice(_TUBES[:3])), int(rng.integers(3, 7))
     reach, pitch = float(rng.uniform(3.0, 5.5)) * r, float(rng.uniform(2.1, 3.0)) * r
@@ -142,10 +147,10 @@ def _coil(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         (0, 0, high + 0.02 + r),
     ]
     top = [(0.0, 0.0, high + 0.02 + r + float(rng.uniform(0.04, 0.09)))]
-    return _topped(_joined(start, helix, end, top), r, hand, rng)
+    return _topped(_joined(start, helix, end, top), r, style, rng)
 
 
-def _finned(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _finned(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A cooling element: a straight pipe with round or square fins, or a finned sleeve, under a gauge."""
     r, count = _radius(rng), int(rng.integers(5, 14))
     low, pitch = float(rng.uniform(0.025, 0.05)), float(rng.uniform(0.005, 0.009))
@@ -158,12 +163,12 @@ def _finned(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         for k in range(count):
             z = low + k * pitch
             profile += [(1.3 * r, z), (wide, z), (wide, z + 0.45 * pitch), (1.3 * r, z + 0.45 * pitch)]
-        fins = [turned(profile, min(24, hand.round(wide)))]
+        fins = [turned(profile, min(24, style.round(wide)))]
     path = np.array([(0, 0, 0), (0, 0, high + float(rng.uniform(0.03, 0.07)))])
-    return _topped(path, r, hand, rng, fins)
+    return _topped(path, r, style, rng, fins)
 
 
-def _bent(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _bent(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A bent pipe: two elbows that set a gauge off to the side, or a swan neck with a small drop."""
     r, out = _radius(rng), float(rng.uniform(0.06, 0.2))
     low, rise = float(rng.uniform(0.05, 0.1)), float(rng.uniform(0.05, 0.14))
@@ -177,19 +182,19 @@ def _bent(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             more = [
                 moved(hexagon(3.4 * r, z - 0.01, z + 0.004), at(x)) for x, z in ((0, low), (out + bend, low + 2 * bend))
             ]
-        return _topped(path, r, hand, rng, more)
+        return _topped(path, r, style, rng, more)
     points = [(0, 0, 0), (0, 0, low + rise), (out, 0, low + rise), (out, 0, low), (1.6 * out, 0, low)]
     points.append((1.6 * out, 0, low + rise + 0.05))
-    solid = bent(points, r, hand)
+    solid = bent(points, r, style)
     straight = np.array([(1.6 * out, 0, low + rise), (1.6 * out, 0, low + rise + 0.05)])
-    return _topped(straight, r, hand, rng, [solid])
+    return _topped(straight, r, style, rng, [solid])
 
 
-def _capsule(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _capsule(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A compact siphon: a closed chamber with an inner pipe, a can, a ball or two welded cups between two nipples."""
     r, wide = _radius(rng), float(rng.uniform(0.018, 0.034))
     low, tall = float(rng.uniform(0.025, 0.045)), float(rng.uniform(0.05, 0.12))
-    n, kind = hand.round(wide), int(rng.integers(3))
+    n, kind = style.round(wide), int(rng.integers(3))
     if kind == 0:
         can = turned([(r, low), (wide, low + 0.3 * wide), (wide, low + tall), (r, low + tall + 0.3 * wide)], n)
     elif kind == 1:
@@ -200,10 +205,10 @@ def _capsule(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         can = merge([cylinder(wide, low, low + tall, n), cylinder(1.15 * wide, half - 0.004, half + 0.004, n)])
         can = merge([can, around(hexagon(0.01, half - 0.008, half + 0.008), 6, 1.02 * wide)])
     path = np.array([(0, 0, 0), (0, 0, low + tall + 0.3 * wide + float(rng.uniform(0.035, 0.06)))])
-    return _topped(path, r, hand, rng, [can])
+    return _topped(path, r, style, rng, [can])
 
 
-def _side(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _side(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A pigtail that lies on its side behind an elbow: its ring is level, the gauge rises from its far end."""
     r = float(rng.choice(_TUBES[:3]))
     reach, low = float(rng.uniform(4, 6)) * r, float(rng.uniform(0.05, 0.09))
@@ -216,10 +221,10 @@ def _side(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
     last = _arc((far + 0.03 + reach, z + 2.3 * r + bend), bend, -np.pi / 2, 0.0)
     end = [(far + 0.03 + reach + bend, 0.0, z + 2.3 * r + bend + float(rng.uniform(0.05, 0.1)))]
-    return _topped(_joined([(0, 0, 0)], first, ring_, last, end), r, hand, rng)
+    return _topped(_joined([(0, 0, 0)], first, ring_, last, end), r, style, rng)
 
 
-def _double(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _double(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A U siphon with a tee on top that carries a gauge and a test cock or a switch beside it."""
     r = _radius(rng)
     reach, high = float(rng.uniform(3.5, 5)) * r, float(rng.uniform(0.1, 0.16))
@@ -231,12 +236,12 @@ def _double(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         [(4 * reach, 0, high + 0.04)],
     )
     z, x, arm = high + 0.04, 4 * reach, float(rng.uniform(0.08, 0.13))
-    n = fine_sides(0.012, hand)
+    n = fine_sides(0.012, style)
     tee = merge(
         [cylinder(0.014, z - 0.01, z + 0.05, n), along("x", cylinder(0.011, -0.03, arm + 0.013, n), 0, 0, z + 0.02)]
     )
-    solids = [rope(path, r, fine_sides(r, hand, 12)), moved(tee, at(x))]
-    parts = [piece(solids, _NAME, "trim"), *placed(standing(z + 0.05, hand, rng), at(x))]
+    solids = [rope(path, r, fine_sides(r, style, 12)), moved(tee, at(x))]
+    parts = [piece(solids, _NAME, "trim"), *placed(standing(z + 0.05, style, rng), at(x))]
     side: list[Part]
     if rng.random() < 0.5:
         cock = merge(
@@ -244,7 +249,7 @@ def _double(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         )
         side = [piece(cock, STEM, "trim")]
     else:
-        side = [shank(-0.002, 0.05, hand, rng), *upright(indicator(0.06, 0.09, 0.05, hand, rng), 0.09, 0.048)]
+        side = [shank(-0.002, 0.05, style, rng), *upright(indicator(0.06, 0.09, 0.05, style, rng), 0.09, 0.048)]
         side = [p if p.name != CASE else piece(p.solid, CASE, "valve") for p in side]
     return Model([*parts, *placed(side, at(x + arm, 0, z + 0.028) @ spun("z", 0.0))], kind="pressure gauge")
 

@@ -19,7 +19,7 @@ from cadplants.families.machines.machinery import (
 from cadplants.families.machines.rotary import train
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, torus, turned
 from cadplants.standards import PIPES
@@ -30,9 +30,9 @@ __all__ = ["AIR"]
 _EQ = "Equipment"
 
 
-def _scroll(r: float, wide: float, hand: Hand, growth: float) -> Solid:
+def _scroll(r: float, wide: float, style: ModelingStyle, growth: float) -> Solid:
     """A sheet fan housing about z, blowing to +y on its +x side, rims at its cheeks."""
-    a = np.linspace(0, 1.5 * np.pi, max(12, hand.round(r)))
+    a = np.linspace(0, 1.5 * np.pi, max(12, style.round(r)))
     spiral = (r * (1 + growth * (1 - a / (1.5 * np.pi))))[:, None] * np.column_stack([np.cos(a), np.sin(a)])
     # From the cut-off over the back down to the mouth, which lies on the +x side.
     turned_ = spiral[::-1] * np.array([1.0, -1.0])
@@ -47,12 +47,12 @@ def _scroll(r: float, wide: float, hand: Hand, growth: float) -> Solid:
     return merge([extrude(outline, -wide / 2, wide / 2), *rims, lip])
 
 
-def _belt_fan(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _belt_fan(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A radial fan with a belt drive or on the motor's shaft: scroll with rims, inlet cone, pedestal, damped frame."""
     eq, r = "blower", float(rng.uniform(0.18, 0.4))
     wide, growth = float(rng.uniform(0.5, 1.1)) * r, float(rng.uniform(0.25, 0.55))
-    n, axis = hand.round(r), (1.25 + growth) * r + 0.2
-    house = _scroll(r, wide, hand, growth)
+    n, axis = style.round(r), (1.25 + growth) * r + 0.2
+    house = _scroll(r, wide, style, growth)
     quarter = int(rng.integers(3))
     stand = at(0, 0, axis) @ spun("x", np.pi / 2)
     house = moved(house, stand @ spun("z", -quarter * np.pi / 2))
@@ -116,20 +116,20 @@ def _belt_fan(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             Part(merge([table, *beams, *post]), eq, "steel", eq),
         ]
         pose = at(mx, far + 0.05, mz) @ spun("x", np.pi / 2) @ spun("z", np.pi / 2)
-        parts += foreign(placed(motor(m, min(2.8 * m, 0.7 * deep), hand, rng, mz - seat), pose))
+        parts += foreign(placed(motor(m, min(2.8 * m, 0.7 * deep), style, rng, mz - seat), pose))
         parts.append(Part(along("y", cylinder(0.15 * m, far, out, 10), mx, 0, mz), "shaft", "trim", "motor", PUMP))
         return Model(parts, kind="radial fan")
     block = box((2.2 * m, 0.8 * deep, axis - seat - 1.25 * m), (0, y0 + 0.45 * deep, (axis + seat - 1.25 * m) / 2))
     parts.append(Part(block, eq, "steel", eq))
     pose = at(0, y0 + 0.04, axis) @ spun("x", -np.pi / 2) @ spun("z", -np.pi / 2)
-    parts += foreign(placed(motor(m, 2.8 * m, hand, rng, 1.25 * m), pose))
+    parts += foreign(placed(motor(m, 2.8 * m, style, rng, 1.25 * m), pose))
     parts.append(
         Part(along("y", cylinder(0.15 * m, y0 - 0.03, y0 + 0.05, 10), 0, 0, axis), "shaft", "trim", "motor", PUMP)
     )
     return Model(parts, kind="radial fan")
 
 
-def _roots(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _roots(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A Roots blower: an oval ribbed casing with gear cases, silencers above and below or aside, filter, belt guard."""
     eq, s = "blower", 0.1 + 0.9 * PIPES[dn].radius
     seat = float(rng.uniform(0.3, 0.5)) + 1.2 * s
@@ -156,7 +156,7 @@ def _roots(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         box((0.2 * s, 1.6 * s, axis - seat - 0.5 * half), (x * 0.4 * long, 0, (seat + axis - 0.5 * half) / 2))
         for x in (-1, 1)
     ]
-    p, n = PIPES[dn].radius, hand.round(2.2 * p_(dn))
+    p, n = PIPES[dn].radius, style.round(2.2 * p_(dn))
     can = float(rng.uniform(2.0, 2.8)) * p
     tall = float(rng.uniform(5, 8)) * p + 0.1
     z = axis + half - 0.02
@@ -186,7 +186,7 @@ def _roots(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
     can_z = max(can + 0.02, low - can)
     drop = rod((0, 0, axis - 0.6 * half), (0, 0, can_z), p, n)
-    face, port = mouth(dn, hand, (-0.62 * long - dead_room(dn) - 0.05, 0, can_z), (-1, 0, 0), dead_room(dn) + 0.06)
+    face, port = mouth(dn, style, (-0.62 * long - dead_room(dn) - 0.05, 0, can_z), (-1, 0, 0), dead_room(dn) + 0.06)
     m = 1.05 * s
     gap = 2.4 * s
     frame = [box((long + 1.6 * s, 0.08, 0.1), (0, y, seat - 0.05)) for y in (-0.75 * s, 0.75 * s)]
@@ -215,7 +215,7 @@ def _roots(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
             along("x", cylinder(0.15 * s, drive_x, -length / 2 + 0.05, 12), 0, gap, mz), "shaft", "trim", "motor", PUMP
         ),
     ]
-    parts += foreign(placed(motor(m, length, hand, rng, mz - seat), at(-length / 2, gap, mz) @ LYING))
+    parts += foreign(placed(motor(m, length, style, rng, mz - seat), at(-length / 2, gap, mz) @ LYING))
     return Model(parts, ports=(port,), kind="Roots blower")
 
 
@@ -224,10 +224,10 @@ def p_(dn: int) -> float:
     return PIPES[dn].radius
 
 
-def _side_channel(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _side_channel(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A side channel blower: a flat ring housing with a fat rim, two silencer boxes to its foot, a motor."""
     eq, r = "blower", float(rng.uniform(0.14, 0.28))
-    n, axis = hand.round(r), 1.2 * r + 0.03
+    n, axis = style.round(r), 1.2 * r + 0.03
     a = np.linspace(-np.pi / 2, np.pi / 2, 7)
     rim = [(0.82 * r + 0.2 * r * np.cos(t), 0.2 * r * np.sin(t)) for t in a]
     stages = int(rng.integers(1, 3))
@@ -267,17 +267,17 @@ def _side_channel(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts = [Part(merge([house, *boxes, foot]), eq, "trim", eq)]
     parts += foreign(
         placed(
-            motor(m, float(rng.uniform(2.2, 3.0)) * m, hand, rng, 0.0, pick(rng, "cast", "square")),
+            motor(m, float(rng.uniform(2.2, 3.0)) * m, style, rng, 0.0, pick(rng, "cast", "square")),
             at(x - 0.01, 0, axis) @ LYING,
         )
     )
     return Model(parts, kind="side channel blower")
 
 
-def _axial(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _axial(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An axial duct fan: a flanged round casing with the motor on struts inside, blades, guard; on feet or hung."""
     eq, r = "blower", float(rng.uniform(0.2, 0.5))
-    n, long = hand.round(r), float(rng.uniform(0.8, 1.6)) * r
+    n, long = style.round(r), float(rng.uniform(0.8, 1.6)) * r
     hung = rng.random() < 0.35
     axis = 1.25 * r + 0.1 if not hung else float(rng.uniform(2.0, 2.6))
     case = [
@@ -298,7 +298,7 @@ def _axial(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     m = 0.34 * r
     parts += foreign(
         placed(
-            motor(m, 0.85 * long, hand, rng, 0.0, pick(rng, "cast", "smooth", "square"))[:2],
+            motor(m, 0.85 * long, style, rng, 0.0, pick(rng, "cast", "smooth", "square"))[:2],
             at(-0.25 * long, 0, axis) @ LYING,
         )
     )
@@ -348,7 +348,7 @@ def _axial(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="axial fan")
 
 
-def _geared_motor(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _geared_motor(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A motor that drives a gearbox through a guarded coupling, on a base frame: what a conveyor or mixer has."""
     r = float(rng.uniform(0.08, 0.25))
     seat, s = float(rng.uniform(0.06, 0.25)), float(rng.uniform(1.0, 1.5)) * r
@@ -358,12 +358,12 @@ def _geared_motor(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         box((1.9 * s, 1.9 * s, 0.14 * s), (0, 0, axis)),
     ]
     case += [moved(cylinder(0.3 * s, 0, 0.3 * s, 14), at(0.3 * s, 0, axis + 0.28 * s))]
-    bearing = along("x", cylinder(0.45 * s, 0.85 * s, 1.05 * s, hand.round(s)), 0, 0, axis)
+    bearing = along("x", cylinder(0.45 * s, 0.85 * s, 1.05 * s, style.round(s)), 0, 0, axis)
     slow = along(
         "-x",
         merge(
             [
-                cylinder(0.5 * s, 0.85 * s, 1.1 * s, hand.round(s)),
+                cylinder(0.5 * s, 0.85 * s, 1.1 * s, style.round(s)),
                 cylinder(0.2 * s, 1.0 * s, 2.2 * s, 14),
                 box((0.06 * s, 0.1 * s, 0.8 * s), (0.2 * s, 0, 1.7 * s)),
             ]
@@ -380,7 +380,7 @@ def _geared_motor(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         Part(along("x", cylinder(0.16 * r, 1.0 * s, start, 12), 0, 0, axis), "shaft", "trim", "motor"),
     ]
     more, far, seats = train(
-        start, axis, seat, r, hand, rng, pick(rng, "cast", "square", "drip", "ex", "smooth", "cooled")
+        start, axis, seat, r, style, rng, pick(rng, "cast", "square", "drip", "ex", "smooth", "cooled")
     )
     bed = base(pick(rng, *BASES), -1.1 * s, far, 2.5 * max(r, 0.8 * s), seat, [-0.5 * s, 0.5 * s, *seats], rng)
     return Model([*more, *parts, *bed], kind="motor")

@@ -9,7 +9,7 @@ from cadplants.families.machines.machinery import PUMP, base, dead_room, foreign
 from cadplants.families.machines.rotary import train
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rope, turned
 from cadplants.standards import PIPES
@@ -20,10 +20,10 @@ __all__ = ["COMPRESSORS"]
 _EQ = "Equipment"
 
 
-def _piston(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _piston(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A piston compressor (two cylinders in V or in line) with finned barrels, on a standing or lying tank."""
     eq, r = "compressor", float(rng.uniform(0.2, 0.3))
-    n, upright = hand.round(r), bool(rng.random() < 0.5)
+    n, upright = style.round(r), bool(rng.random() < 0.5)
     tall = float(rng.uniform(3.5, 5.0)) * r
     shell = merge(
         [
@@ -107,7 +107,7 @@ def _piston(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
     drive = foreign(
         placed(
-            motor(m, 1.15 * r, hand, rng, 1.2 * m),
+            motor(m, 1.15 * r, style, rng, 1.2 * m),
             at(mx, -my + 0.02 * c, mz) @ spun("x", -np.pi / 2) @ spun("z", -np.pi / 2),
         )
     )
@@ -127,7 +127,7 @@ def _piston(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="piston compressor")
 
 
-def _cabinet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _cabinet(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A screw compressor in its cabinet: doors with handles, louvres, exhaust hood, panel, skid."""
     eq = "compressor"
     w, d, h = (float(rng.uniform(*span)) for span in ((0.8, 2.6), (0.7, 1.3), (0.9, 1.9)))
@@ -155,9 +155,9 @@ def _cabinet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         ]
     elif roof == "fan":
         r = 0.35 * min(w, d)
-        extra = [moved(ring(0.94 * r, r, 0, 0.08, hand.round(r)), at(0.1 * w, 0, top))]
+        extra = [moved(ring(0.94 * r, r, 0, 0.08, style.round(r)), at(0.1 * w, 0, top))]
         extra += [
-            moved(ring(k * r - 0.005, k * r, 0.06, 0.066, hand.round(r)), at(0.1 * w, 0, top))
+            moved(ring(k * r - 0.005, k * r, 0.06, 0.066, style.round(r)), at(0.1 * w, 0, top))
             for k in (0.25, 0.5, 0.75)
         ]
         extra += [
@@ -185,7 +185,7 @@ def _cabinet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         Part(panel, "control panel", "rubber", "", "Electrical and safety"),
     ]
     reach = dead_room(50) + 0.06
-    stub, port = mouth(50, hand, (w / 2 + reach, 0.2 * d, low + 0.6 * h), (1, 0, 0), reach + 0.01)
+    stub, port = mouth(50, style, (w / 2 + reach, 0.2 * d, low + 0.6 * h), (1, 0, 0), reach + 0.01)
     parts[0] = Part(merge([case, *extra, stub]), eq, "motor", eq)
     return Model(parts, ports=(port,), kind="screw compressor")
 
@@ -288,18 +288,18 @@ def _semi_hermetic(eq: str, r: float, n: int, parts: list[Part], rng: np.random.
     )
 
 
-def _hermetic(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _hermetic(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Refrigerant compressors: hermetic pots (scroll or piston), or a semi-hermetic block with finned heads."""
     eq = "compressor"
     parts: list[Part] = []
     r = float(rng.uniform(0.07, 0.13))
-    n = hand.round(r)
+    n = style.round(r)
     if rng.random() < 0.6:
         return _pots(eq, r, n, parts, rng)
     return _semi_hermetic(eq, r, n, parts, rng)
 
 
-def _turbo(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _turbo(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A centrifugal compressor (API 617): one volute or two on an integral gear case, axial inlets, motor on a skid."""
     eq, r = "compressor", 0.12 + 1.8 * PIPES[dn].radius
     seat = float(rng.uniform(0.15, 0.3))
@@ -317,15 +317,15 @@ def _turbo(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     for k in range(int(rng.integers(1, 3))):
         y, sign = (0.95 * r, 1) if k else (0.0, -1)
         centre = sign * r
-        house = along("x", volute((0.8 if k else 1.0) * r, 0.36 * r, hand, 0.35), centre, y, axis)
+        house = along("x", volute((0.8 if k else 1.0) * r, 0.36 * r, style, 0.35), centre, y, axis)
         face = centre + sign * (0.5 * r + dead_room(dn) + 0.05)
         if k == 0:
-            inlet, port = mouth(dn, hand, (face, y, axis), (sign, 0, 0), abs(face - centre))
+            inlet, port = mouth(dn, style, (face, y, axis), (sign, 0, 0), abs(face - centre))
             volutes.append(inlet)
             ports.append(port)
         up = axis + 1.35 * r + dead_room(dn) + 0.03
         if k == 0:
-            out, port = mouth(dn, hand, (centre, y, up), (0, 0, 1), up - axis - 0.5 * r)
+            out, port = mouth(dn, style, (centre, y, up), (0, 0, 1), up - axis - 0.5 * r)
             volutes.append(out)
             ports.append(port)
         volutes.append(house)
@@ -334,7 +334,7 @@ def _turbo(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     start = 1.0 * r
     parts.append(Part(along("x", cylinder(0.14 * r, 0.6 * r, start, 12), 0, y_drive, axis), "shaft", "trim", eq, PUMP))
     more, far, seats = train(
-        start, axis, seat, min(1.1 * r, 0.9 * (axis - seat)), hand, rng, pick(rng, "cast", "cooled", "ex", "drip")
+        start, axis, seat, min(1.1 * r, 0.9 * (axis - seat)), style, rng, pick(rng, "cast", "cooled", "ex", "drip")
     )
     more = placed(foreign(more), at(0, y_drive))
     bed = base(pick(rng, "beams", "grid", "rim"), -1.2 * r, far, 3.6 * r, seat, [-0.3 * r, 0.3 * r, *seats], rng)

@@ -10,7 +10,7 @@ from cadplants.families.machines.rotary import train
 from cadplants.families.valves.valve import bolt_circle
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, ball, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned
 from cadplants.standards import FLANGES, PIPES, smaller
@@ -19,14 +19,14 @@ from cadplants.transforms import at, spun
 __all__ = ["DISPLACING"]
 
 
-def _cavity(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _cavity(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A progressive cavity pump: a long stator tube under tie rods, a suction chamber, lantern, gear motor, base."""
-    p, n = PIPES[dn].radius, hand.round(PIPES[dn].radius * 1.4)
+    p, n = PIPES[dn].radius, style.round(PIPES[dn].radius * 1.4)
     seat = float(rng.uniform(0.08, 0.16))
     axis = seat + FLANGES[dn].outer / 2 + 0.05
     tube_r, stator = 1.15 * p, float(rng.uniform(14, 26)) * p
     reach = dead_room(dn) + 0.03
-    end, first = mouth(dn, hand, (-reach, 0, axis), (-1, 0, 0), reach + 0.01)
+    end, first = mouth(dn, style, (-reach, 0, axis), (-1, 0, 0), reach + 0.01)
     clamps = [cylinder(1.4 * tube_r, z, z + 0.03, n) for z in (0.0, stator - 0.03)]
     barrel = along("x", merge([cylinder(tube_r, 0.0, stator, n), *clamps]), 0, 0, axis)
     ties = along(
@@ -39,7 +39,7 @@ def _cavity(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     ]
     x = stator + 0.55 * room
     up = axis + 1.35 * p + dead_room(dn) + 0.02
-    side, second = mouth(dn, hand, (x, 0, up), (0, 0, 1), up - axis - 0.6 * p)
+    side, second = mouth(dn, style, (x, 0, up), (0, 0, 1), up - axis - 0.6 * p)
     hopper = rng.random() < 0.25
     if hopper:
         wide = 2.4 * p
@@ -71,18 +71,18 @@ def _cavity(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     gear.append(box((1.2 * m, 1.9 * m, axis - seat), (box_x + 0.8 * m, 0, (seat + axis) / 2)))
     parts.append(Part(merge(gear), "motor", "motor", "motor"))
     length = float(rng.uniform(2.4, 3.2)) * m
-    parts += placed(motor(m, length, hand, rng), at(box_x + 1.4 * m, 0, axis) @ LYING)
+    parts += placed(motor(m, length, style, rng), at(box_x + 1.4 * m, 0, axis) @ LYING)
     stations = [0.25 * stator, 0.8 * stator, x, box_x + 0.8 * m]
     parts += base(pick(rng, *BASES), -0.05, box_x + 2.5 * m, 2.6 * m, seat, stations, rng)
     return Model(parts, ports=(first,) if hopper else (first, second), kind="progressive cavity pump")
 
 
-def _lobe(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _lobe(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A rotary lobe pump: an oval casing with a bolted or clamped front cover, gear case, motor behind."""
     s = 0.04 + 1.4 * PIPES[dn].radius
     seat = float(rng.uniform(0.06, 0.15))
     axis = seat + 2.0 * s
-    n = hand.round(s)
+    n = style.round(s)
     oval = rounded_rectangle(3.2 * s, 1.9 * s, 0.94 * s, max(4, n // 5))
     outline = oval if rng.random() < 0.5 else rounded_rectangle(1.9 * s, 3.2 * s, 0.94 * s, max(4, n // 5))
     upright = outline is not oval  # the sheet's first axis turns to z
@@ -104,7 +104,7 @@ def _lobe(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     wide = (1.6 if upright == level else 0.95) * s
     reach = wide + dead_room(dn) + 0.02
     ways = ((0, -1, 0), (0, 1, 0)) if level else ((0, 0, 1),)
-    mouths = [mouth(dn, hand, (0, reach * w[1], axis + reach * w[2]), w, reach - 0.5 * s) for w in ways]
+    mouths = [mouth(dn, style, (0, reach * w[1], axis + reach * w[2]), w, reach - 0.5 * s) for w in ways]
     case = moved(extrude(rounded_rectangle(1.8 * s, 2.6 * s, 0.2 * s, 3), seat, axis + 1.3 * s), at(1.9 * s))
     neck = box((0.9 * s, 1.8 * s, 2.2 * s), (0.8 * s, 0, axis))
     eye = moved(torus(0.16 * s, 0.05 * s, 12, 6), at(1.9 * s, 0, axis + 1.4 * s) @ spun("x", np.pi / 2))
@@ -118,15 +118,15 @@ def _lobe(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         Part(eye, "lifting lug", "fastener", CASING, "Tank", True),
         Part(along("x", cylinder(0.2 * s, 2.7 * s, start, 12), 0, offset, axis), "shaft", "trim", CASING),
     ]
-    more, far, seats = train(start, axis, seat, min(0.85 * (axis - seat), 1.4 * s), hand, rng)
+    more, far, seats = train(start, axis, seat, min(0.85 * (axis - seat), 1.4 * s), style, rng)
     bed = base(pick(rng, *BASES), 0.9 * s, far, 3.0 * s, seat, [1.9 * s, *seats], rng)
     return Model([*parts, *more, *bed], ports=tuple(p for _, p in mouths), kind="rotary lobe pump")
 
 
-def _hose_pump(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _hose_pump(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A peristaltic pump: a round housing with a bolted cover and window, both hose ends to one side, gear motor."""
     r = 0.1 + 4.0 * PIPES[dn].radius
-    n, wide, seat = hand.round(r), 0.06 + 1.5 * PIPES[dn].radius, 0.05
+    n, wide, seat = style.round(r), 0.06 + 1.5 * PIPES[dn].radius, 0.05
     axis = seat + 1.12 * r + 0.03
     house = [cylinder(1.05 * r, -wide, wide, n), cylinder(1.12 * r, -wide - 0.02, -wide, n)]
     cover = [
@@ -141,9 +141,9 @@ def _hose_pump(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     mouths = []
     for s in (-1, 1):
         if level:
-            mouths.append(mouth(dn, hand, (0, reach, axis + s * lever), (0, 1, 0), reach - 0.3 * r))
+            mouths.append(mouth(dn, style, (0, reach, axis + s * lever), (0, 1, 0), reach - 0.3 * r))
         else:
-            mouths.append(mouth(dn, hand, (0, s * lever, axis + reach), (0, 0, 1), reach - 0.3 * r))
+            mouths.append(mouth(dn, style, (0, s * lever, axis + reach), (0, 0, 1), reach - 0.3 * r))
     feet = [
         box((2.4 * wide, 0.12 * r + 0.02, axis - seat - 0.6 * r), (0, y * 0.7 * r, (seat + axis - 0.6 * r) / 2))
         for y in (-1, 1)
@@ -156,7 +156,7 @@ def _hose_pump(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         Part(moved(merge([*cover, spokes]), pose), CASING, "steel", CASING),
         Part(screws, "bolt", "fastener", CASING, "Connection assembly", True),
         Part(moved(gear, pose), "motor", "motor", "motor"),
-        *placed(motor(m, float(rng.uniform(2.4, 3.2)) * m, hand, rng), at(wide + 1.6 * m, 0, axis) @ LYING),
+        *placed(motor(m, float(rng.uniform(2.4, 3.2)) * m, style, rng), at(wide + 1.6 * m, 0, axis) @ LYING),
     ]
     stay = box((0.05, 0.9 * m, axis - seat - 0.9 * m), (wide + 0.9 * m, 0, (seat + axis - 0.9 * m) / 2))
     parts.append(Part(stay, "pump base", "steel"))
@@ -167,11 +167,11 @@ def _hose_pump(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, ports=tuple(p for _, p in mouths), kind="peristaltic pump")
 
 
-def _clamped_diaphragm(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _clamped_diaphragm(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An air-operated diaphragm pump with band clamps or tie bolts: domed chambers, elbows, centre block, muffler."""
     p = PIPES[dn].radius
     r = 2.2 * p + 0.06
-    n, gap = hand.round(r), float(rng.uniform(0.4, 0.6)) * r
+    n, gap = style.round(r), float(rng.uniform(0.4, 0.6)) * r
     axis = max(1.6 * r, 1.3 * r + FLANGES[dn].outer / 2) + 0.03
     bowl = dome(0.95 * r, float(rng.uniform(0.35, 0.6)) * r, gap, n)
     air = turned([(0.6 * r, 0.5 * gap), (0.95 * r, 0.9 * gap), (0.95 * r, gap)], n)
@@ -206,7 +206,7 @@ def _clamped_diaphragm(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
             for x in (-1, 1)
         ]
         manifolds += seats
-        stub, port = mouth(dn, hand, (0, -front, z), (0, -1, 0), front)
+        stub, port = mouth(dn, style, (0, -front, z), (0, -1, 0), front)
         manifolds.append(stub)
         ports.append(port)
     muffler = along(
@@ -241,7 +241,7 @@ def _clamped_diaphragm(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, ports=tuple(ports), kind="diaphragm pump")
 
 
-def _triplex(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _triplex(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A triplex plunger pump (API 674): crankcase, crosshead frame open above the plungers, fluid end, belt drive."""
     out = smaller(dn, 2)
     s = 0.09 + 1.6 * PIPES[dn].radius
@@ -279,14 +279,14 @@ def _triplex(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     ]
     caps = [along("-x", hexagon(0.4 * s, -0.02, 0.14 * s), -2.6 * s, k * pitch, axis) for k in (-1, 0, 1)]
     reach = 0.48 * wide + dead_room(dn) + 0.03
-    one, first = mouth(dn, hand, (-2.2 * s, -reach, axis - 0.4 * s), (0, -1, 0), dead_room(dn) + 0.06)
-    two, second = mouth(out, hand, (-2.2 * s, reach, axis + 0.3 * s), (0, 1, 0), reach - 0.4 * wide)
+    one, first = mouth(dn, style, (-2.2 * s, -reach, axis - 0.4 * s), (0, -1, 0), dead_room(dn) + 0.06)
+    two, second = mouth(out, style, (-2.2 * s, reach, axis + 0.3 * s), (0, 1, 0), reach - 0.4 * wide)
     damper = [
-        moved(ball(0.4 * s, hand.round(0.4 * s), 1.2), at(-2.2 * s, 0, axis + 1.2 * s)),
+        moved(ball(0.4 * s, style.round(0.4 * s), 1.2), at(-2.2 * s, 0, axis + 1.2 * s)),
         cylinder(0.14 * s, 0, 0.4 * s, 12),
     ]
     damper[1] = moved(damper[1], at(-2.2 * s, 0, axis + 0.5 * s))
-    sheave, n = 0.75 * s, hand.round(s)
+    sheave, n = 0.75 * s, style.round(s)
     y = wide / 2 + 0.2 * s
     m = 0.75 * s
     mx = 2.6 * s
@@ -314,7 +314,7 @@ def _triplex(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
     length = 2.6 * m
     drive = placed(
-        motor(m, length, hand, rng, axis - seat),
+        motor(m, length, style, rng, axis - seat),
         at(mx, y - 0.05 * s, axis) @ spun("x", np.pi / 2) @ spun("z", np.pi / 2),
     )
     parts = [

@@ -8,7 +8,7 @@ from cadplants.families.chance import pick
 from cadplants.families.machines.machinery import foreign, motor
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, rod, rope, turned
 from cadplants.transforms import at, spun
@@ -18,10 +18,10 @@ __all__ = ["FIRED"]
 _EQ = "Equipment"
 
 
-def _monobloc(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _monobloc(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A monobloc gas burner (EN 676) on a boiler front: oval fan housing with hinge, air inlet, motor, train, panel."""
     eq, r = "burner", float(rng.uniform(0.09, 0.25))
-    n, z = hand.round(r), float(rng.uniform(0.6, 1.1)) + 1.5 * r
+    n, z = style.round(r), float(rng.uniform(0.6, 1.1)) + 1.5 * r
     wall = box((0.12, 5 * r + 0.2, z + 3 * r), (-0.06 - 0.02, 0, (z + 3 * r) / 2))
     plate = along("x", extrude(rounded_rectangle(1.9 * r, 1.9 * r, 0.3 * r, 3), -0.02, 0.02), 0, 0, z)
     tube_ = along("x", cylinder(0.62 * r, -0.1, 0.3 * r, n), 0, 0, z)
@@ -39,7 +39,7 @@ def _monobloc(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     m = 0.5 * r
     side = -1 if rng.random() < 0.5 else 1
     pose = at(0.8 * r, side * 0.89 * r, z - 0.15 * r) @ spun("x", -side * np.pi / 2) @ spun("z", -side * np.pi / 2)
-    parts += foreign(placed(motor(m, 2.3 * m, hand, rng, 0.0, pick(rng, "cast", "smooth", "square")), pose))
+    parts += foreign(placed(motor(m, 2.3 * m, style, rng, 0.0, pick(rng, "cast", "smooth", "square")), pose))
     dn_r = 0.02 + 0.06 * r
     zt = z - 0.2 * r
     y0 = -side * 0.85 * r
@@ -66,7 +66,7 @@ def _monobloc(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="monobloc burner")
 
 
-def _in_duct(eq: str, hand: Hand, rng: np.random.Generator) -> Model:
+def _in_duct(eq: str, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Runners with mixing wings across a flanged rectangular duct."""
     w, h, z = float(rng.uniform(0.6, 1.2)), float(rng.uniform(0.5, 1.0)), float(rng.uniform(0.5, 1.0))
     t, long = 0.004, 0.5
@@ -104,7 +104,7 @@ def _in_duct(eq: str, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="duct burner")
 
 
-def _row(eq: str, hand: Hand, rng: np.random.Generator) -> Model:
+def _row(eq: str, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Slotted tubes with their injectors on one gas bar."""
     count, long, z = int(rng.integers(4, 12)), float(rng.uniform(0.3, 0.8)), float(rng.uniform(0.25, 0.7))
     pitch = 0.07
@@ -142,10 +142,10 @@ def _row(eq: str, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _nozzle_mix(eq: str, hand: Hand, rng: np.random.Generator) -> Model:
+def _nozzle_mix(eq: str, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A nozzle mixing burner on a furnace wall with pilot and scanner."""
     r, z = float(rng.uniform(0.05, 0.12)), float(rng.uniform(0.7, 1.3))
-    n = hand.round(r)
+    n = style.round(r)
     wall = box((0.15, 8 * r + 0.2, z + 5 * r), (-0.075, 0, (z + 5 * r) / 2))
     body = along(
         "x",
@@ -199,14 +199,14 @@ def _nozzle_mix(eq: str, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _duct(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _duct(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Burners without a fan of their own: a duct burner in a rectangular duct, a row of them, or pilots."""
     eq, kind = "burner", int(rng.integers(3))
     if kind == 0:
-        return _in_duct(eq, hand, rng)
+        return _in_duct(eq, style, rng)
     if kind == 1:
-        return _row(eq, hand, rng)
-    return _nozzle_mix(eq, hand, rng)
+        return _row(eq, style, rng)
+    return _nozzle_mix(eq, style, rng)
 
 
 FIRED: tuple[Family, ...] = (

@@ -13,7 +13,7 @@ from cadplants.families.valves.valve import disc_flange
 from cadplants.family import Part, Port
 from cadplants.flange import nut_room, plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle, section_channel, section_i
 from cadplants.primitives import (
     along,
@@ -65,10 +65,12 @@ def dead_room(dn: int) -> float:
     return plate_thickness(dn) + nut_room(dn) + 0.01
 
 
-def mouth(dn: int, hand: Hand, face: Sequence[float], way: Sequence[float], reach: float) -> tuple[Solid, Port]:
+def mouth(
+    dn: int, style: ModelingStyle, face: Sequence[float], way: Sequence[float], reach: float
+) -> tuple[Solid, Port]:
     """A flange at a point that looks some way, its neck ``reach`` [m] long behind it; and the port."""
     frame = looking(face, way)
-    return moved(disc_flange(dn, hand, reach), frame @ spun("y", -np.pi / 2)), Port(frame, dn)
+    return moved(disc_flange(dn, style, reach), frame @ spun("y", -np.pi / 2)), Port(frame, dn)
 
 
 def slab(outline: Floats, low: float, high: float) -> Solid:
@@ -76,9 +78,9 @@ def slab(outline: Floats, low: float, high: float) -> Solid:
     return about_x(extrude(outline, low, high))
 
 
-def volute(r: float, half: float, hand: Hand, growth: float = 0.35, hub: float = 0.6) -> Solid:
+def volute(r: float, half: float, style: ModelingStyle, growth: float = 0.35, hub: float = 0.6) -> Solid:
     """A spiral housing about z that widens by ``growth``, ``half`` of its width to each side [m]."""
-    a = np.linspace(0, 2 * np.pi, max(16, hand.round(r)), endpoint=False)
+    a = np.linspace(0, 2 * np.pi, max(16, style.round(r)), endpoint=False)
     unit = np.column_stack([np.cos(a), np.sin(a)])
     rim = (r * (1 + growth * a / (2 * np.pi)))[:, None]
     levels = [
@@ -109,9 +111,9 @@ def _parallel_fins(r: float, low: float, high: float, count: int) -> list[Solid]
     return fins
 
 
-def _frame(kind: str, r: float, length: float, hand: Hand, rng: np.random.Generator) -> Solid:
+def _frame(kind: str, r: float, length: float, style: ModelingStyle, rng: np.random.Generator) -> Solid:
     """The motor without cover and boxes, about z from 0 to 0.8 of its length."""
-    n, low, high = hand.round(r), 0.08 * length, 0.8 * length
+    n, low, high = style.round(r), 0.08 * length, 0.8 * length
     nose = turned([(0.45 * r, 0.0), (0.88 * r, 0.04 * length), (0.97 * r, 0.05 * length), (0.97 * r, low + 0.02)], n)
     if kind == "cast":
         fins = _parallel_fins(r, low, 0.95 * high, int(rng.choice([5, 7, 9])) if n >= 12 else 3)
@@ -140,9 +142,9 @@ def _frame(kind: str, r: float, length: float, hand: Hand, rng: np.random.Genera
     return merge([nose, cylinder(0.86 * r, low, high, n), ribs, *lips, heads])
 
 
-def _cover(kind: str, r: float, low: float, high: float, hand: Hand) -> Solid:
+def _cover(kind: str, r: float, low: float, high: float, style: ModelingStyle) -> Solid:
     """A fan cover about z: domed, meshed, slotted, stepped or under a rain hat."""
-    n = hand.round(r)
+    n = style.round(r)
     if kind == "domed":
         return turned(
             [(r, low), (r, high - 0.35 * r), (0.93 * r, high - 0.15 * r), (0.7 * r, high - 0.03 * r), (0.45 * r, high)],
@@ -171,7 +173,7 @@ def _cover(kind: str, r: float, low: float, high: float, hand: Hand) -> Solid:
     return merge([cup, floor, *slots, box((0.08 * r, 1.9 * r, 0.02 * r), (0, 0, high - 0.01 * r))])
 
 
-def _terminal(kind: str, r: float, length: float, hand: Hand, rng: np.random.Generator) -> Solid:
+def _terminal(kind: str, r: float, length: float, style: ModelingStyle, rng: np.random.Generator) -> Solid:
     """A terminal box on the +x side of a motor: with lid, inclined, round-lidded, or with glands."""
     z, wide, deep = (
         float(rng.uniform(0.25, 0.5)) * length,
@@ -189,7 +191,7 @@ def _terminal(kind: str, r: float, length: float, hand: Hand, rng: np.random.Gen
     if kind == "round":
         lid = along(
             "x",
-            turned([(0.42 * wide, 0), (0.45 * wide, 0.04 * r), (0.4 * wide, 0.22 * r)], hand.round(wide)),
+            turned([(0.42 * wide, 0), (0.45 * wide, 0.04 * r), (0.4 * wide, 0.22 * r)], style.round(wide)),
             top,
             0,
             z,
@@ -206,7 +208,7 @@ def _terminal(kind: str, r: float, length: float, hand: Hand, rng: np.random.Gen
     return merge([case, lid, *screws, *(glands if kind == "glands" else [])])
 
 
-def _servo(r: float, length: float, hand: Hand) -> list[Part]:
+def _servo(r: float, length: float, style: ModelingStyle) -> list[Part]:
     """A servo motor: a smooth square housing on a square flange, an encoder cap, two angle connectors."""
     body = extrude(rounded_rectangle(1.8 * r, 1.8 * r, 0.15 * r, 2), 0.06 * length, 0.8 * length)
     plate = extrude(rounded_rectangle(2.0 * r, 2.0 * r, 0.1 * r, 2), 0.0, 0.06 * length)
@@ -216,15 +218,15 @@ def _servo(r: float, length: float, hand: Hand) -> list[Part]:
     return [Part(merge([plate, body, *plugs]), "motor", "rubber", "motor"), Part(cap, "motor", "electrical", "motor")]
 
 
-def _cooled(r: float, length: float, rng: np.random.Generator, hand: Hand, feet: float) -> list[Part]:
+def _cooled(r: float, length: float, rng: np.random.Generator, style: ModelingStyle, feet: float) -> list[Part]:
     """A large motor (IC 611): a boxed frame with an air-to-air cooler on top and a big terminal box at its side."""
     frame = box((2 * r, 1.9 * r, 0.86 * length), (0, 0, 0.47 * length))
-    shields = [cylinder(0.8 * r, z, z + 0.05 * length, hand.round(r)) for z in (0.0, 0.9 * length)]
+    shields = [cylinder(0.8 * r, z, z + 0.05 * length, style.round(r)) for z in (0.0, 0.9 * length)]
     tall = float(rng.uniform(0.5, 0.9)) * r
     cooler = box((tall, 1.7 * r, 0.8 * length), (r + tall / 2, 0, 0.48 * length))
     ends = [box((tall, 1.6 * r, 0.06 * length), (r + tall / 2, 0, z * length)) for z in (0.05, 0.91)]
     ribs = [box((1.6 * r, 1.94 * r, 0.02 * length), (-0.1 * r, 0, z * length)) for z in (0.2, 0.47, 0.74)]
-    hood = merge([turned([(0.75 * r, 0.92 * length), (0.75 * r, length), (0.6 * r, 1.03 * length)], hand.round(r))])
+    hood = merge([turned([(0.75 * r, 0.92 * length), (0.75 * r, length), (0.6 * r, 1.03 * length)], style.round(r))])
     side = box((0.9 * r, 0.6 * r, 0.35 * length), (0.1 * r, 1.25 * r, 0.45 * length))
     lid = box((0.96 * r, 0.05 * r, 0.38 * length), (0.1 * r, 1.57 * r, 0.45 * length))
     feet_ = [box((feet - r, 0.4 * r, 0.8 * length), (-(feet + r) / 2, s * 0.85 * r, 0.47 * length)) for s in (-1, 1)]
@@ -237,14 +239,14 @@ def _cooled(r: float, length: float, rng: np.random.Generator, hand: Hand, feet:
 
 
 def motor(
-    r: float, length: float, hand: Hand, rng: np.random.Generator, feet: float = 0.0, kind: str = ""
+    r: float, length: float, style: ModelingStyle, rng: np.random.Generator, feet: float = 0.0, kind: str = ""
 ) -> list[Part]:
     """An electric motor (IEC 60072 and NEMA MG 1 proportions) about z from 0, its fan end up, its top towards +x.
 
     Args:
         r: radius over the fins [m].
         length: with the fan cover [m].
-        hand: that models it.
+        style: that models it.
         rng: frame, cover, terminal box.
         feet: height of the axis over its seat; 0 for one mounted by its flange [m].
         kind: of the frame; ``servo`` and ``cooled`` besides those of ``MOTORS``.
@@ -252,25 +254,25 @@ def motor(
     kind = kind or pick(rng, *MOTORS)
     shaft = Part(cylinder(0.15 * r, -0.3 * r, 0.04 * length, 12), "shaft", "trim", "motor")
     if kind == "servo":
-        return [*_servo(r, length, hand), shaft]
+        return [*_servo(r, length, style), shaft]
     if kind == "cooled":
-        return [*_cooled(r, length, rng, hand, feet), shaft]
+        return [*_cooled(r, length, rng, style, feet), shaft]
     cover = (
         pick(rng, "domed", "mesh", "flat", "stepped", "hat")
         if not feet
         else pick(rng, "domed", "mesh", "flat", "stepped")
     )
-    hood = _cover(cover, (1.02 if kind == "cast" else 1.0) * r, 0.8 * length, length, hand)
+    hood = _cover(cover, (1.02 if kind == "cast" else 1.0) * r, 0.8 * length, length, style)
     if kind == "square" and cover == "flat":
         hood = extrude(rounded_rectangle(1.9 * r, 1.9 * r, 0.3 * r, 3), 0.8 * length, 0.97 * length)
-        grill = [cylinder(k * r, 0.97 * length, (0.99 - 0.004 * k) * length, hand.round(r)) for k in (0.8, 0.5)]
+        grill = [cylinder(k * r, 0.97 * length, (0.99 - 0.004 * k) * length, style.round(r)) for k in (0.8, 0.5)]
         hood = merge([hood, *grill])
     turn = spun("z", float(rng.choice([0.0, 0.0, 0.0, 0.5, -0.5])) * np.pi)
     lid = "round" if kind == "ex" else pick(rng, "plain", "inclined", "glands", "round")
     parts = [
-        Part(_frame(kind, r, length, hand, rng), "motor", "motor", "motor"),
+        Part(_frame(kind, r, length, style, rng), "motor", "motor", "motor"),
         Part(hood, "motor fan cover", "motor", "motor"),
-        Part(moved(_terminal(lid, r, length, hand, rng), turn), "terminal box", "motor", "motor"),
+        Part(moved(_terminal(lid, r, length, style, rng), turn), "terminal box", "motor", "motor"),
         shaft,
     ]
     if feet:
@@ -306,9 +308,9 @@ def _feet(r: float, length: float, feet: float, rng: np.random.Generator) -> lis
 # --- between motor and machine ---
 
 
-def coupling(r: float, x0: float, x1: float, axis: float, hand: Hand) -> Part:
+def coupling(r: float, x0: float, x1: float, axis: float, style: ModelingStyle) -> Part:
     """A spacer coupling about the axis: two hubs with flanges, a tube between, bolts [m]."""
-    n, length = hand.round(r), x1 - x0
+    n, length = style.round(r), x1 - x0
     hubs = [(0.45 * r, 0.0), (0.45 * r, 0.2 * length), (r, 0.2 * length), (r, 0.34 * length), (0.5 * r, 0.34 * length)]
     whole = [*hubs, *[(a, length - b) for a, b in hubs[::-1]]]
     return Part(along("x", turned(whole, n), x0, 0, axis), "shaft", "trim", CASING)
@@ -320,10 +322,10 @@ def _arch(r: float, below: float, steps: int) -> Floats:
     return np.vstack([[(r, -below)], r * np.column_stack([np.cos(a), np.sin(a)]), [(-r, -below)]])
 
 
-def guard(kind: str, r: float, x0: float, x1: float, axis: float, seat: float, hand: Hand) -> Part:
+def guard(kind: str, r: float, x0: float, x1: float, axis: float, seat: float, style: ModelingStyle) -> Part:
     """A coupling guard (EN ISO 14120) from its seat over the shaft: hood, roof, box, mesh, slotted or tube."""
     below, thin, length = axis - seat, max(0.0015, 0.02 * r), x1 - x0
-    n = max(8, hand.round(r))
+    n = max(8, style.round(r))
     if kind == "hood":
         solid = moved(slab(np.vstack([_arch(r, below, n), _arch(r - thin, below, n)[::-1]]), x0, x1), at(0, 0, axis))
         feet = [box((length, 0.25 * r, thin), ((x0 + x1) / 2, s * 1.12 * r, seat + thin / 2)) for s in (-1, 1)]

@@ -23,7 +23,7 @@ from cadplants.families.machines.machinery import (
 from cadplants.families.valves.valve import bolt_circle, flanged_body
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, turned
 from cadplants.standards import FLANGES, PIPES, smaller
@@ -35,23 +35,23 @@ _BOLTS = "Connection assembly"
 
 
 def train(
-    x: float, axis: float, seat: float, r: float, hand: Hand, rng: np.random.Generator, kind: str = ""
+    x: float, axis: float, seat: float, r: float, style: ModelingStyle, rng: np.random.Generator, kind: str = ""
 ) -> tuple[list[Part], float, list[float]]:
     """Coupling, guard and motor behind a machine's shaft that ends at ``x``; where the motor ends; seats along x."""
     gap = float(rng.uniform(0.7, 1.4)) * r
     far, length = x + gap, float(rng.uniform(2.5, 3.6)) * r
-    parts = [coupling(0.42 * r, x + 0.02 * gap, far - 0.05 * gap, axis, hand)]
+    parts = [coupling(0.42 * r, x + 0.02 * gap, far - 0.05 * gap, axis, style)]
     if rng.random() < 0.85:
-        parts.append(guard(pick(rng, *GUARDS), 0.56 * r, x + 0.04 * gap, far - 0.04 * gap, axis, seat, hand))
-    parts += placed(motor(r, length, hand, rng, axis - seat, kind), at(far, 0, axis) @ LYING)
+        parts.append(guard(pick(rng, *GUARDS), 0.56 * r, x + 0.04 * gap, far - 0.04 * gap, axis, seat, style))
+    parts += placed(motor(r, length, style, rng, axis - seat, kind), at(far, 0, axis) @ LYING)
     return parts, far + length, [x + gap / 2, far + 0.2 * length, far + 0.66 * length]
 
 
-def _split_case(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _split_case(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A double-suction pump with axially split casing (API 610 BB1): mouths to both sides, a bearing at each end."""
     out = smaller(dn)
     s = 0.07 + 1.5 * PIPES[dn].radius
-    r, half, n = s * float(rng.uniform(1.0, 1.25)), 0.9 * s, hand.round(s)
+    r, half, n = s * float(rng.uniform(1.0, 1.25)), 0.9 * s, style.round(s)
     seat = float(rng.uniform(0.1, 0.22))
     axis = seat + 1.35 * r
     chambers = along(
@@ -73,8 +73,8 @@ def _split_case(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     ]
     drop = axis - float(rng.choice([0.0, 0.25])) * r
     reach = r + dead_room(dn) + 0.06
-    suction, first = mouth(dn, hand, (0, -reach, drop), (0, -1, 0), reach - 0.35 * r)
-    discharge, second = mouth(out, hand, (0, reach, drop), (0, 1, 0), reach - 0.35 * r)
+    suction, first = mouth(dn, style, (0, -reach, drop), (0, -1, 0), reach - 0.35 * r)
+    discharge, second = mouth(out, style, (0, reach, drop), (0, 1, 0), reach - 0.35 * r)
     feet = [
         box((0.4 * half, 1.5 * r, axis - seat - 0.5 * r), (s_ * 0.7 * half, 0, (seat + axis - 0.5 * r) / 2))
         for s_ in (-1, 1)
@@ -99,27 +99,27 @@ def _split_case(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         Part(along("x", cylinder(0.12 * r, -2.28 * half, end, 12), 0, 0, axis), "shaft", "trim", CASING),
     ]
     m = min(0.85 * (axis - seat), float(rng.uniform(0.8, 1.2)) * r)
-    more, far, seats = train(end, axis, seat, m, hand, rng, "cooled" if dn > 150 and rng.random() < 0.5 else "")
+    more, far, seats = train(end, axis, seat, m, style, rng, "cooled" if dn > 150 and rng.random() < 0.5 else "")
     wide = 2.5 * max(m, 0.8 * r)
     bed = base(pick(rng, *BASES), -2.0 * half, far, wide, seat, [-0.7 * half, 0.7 * half, *seats], rng)
     bolts = anchors([(x, y * 0.46 * wide) for x in (-1.7 * half, far - 0.1) for y in (-1, 1)], seat)
     return Model([*parts, *more, *bed, *bolts], ports=(first, second), kind="double-suction pump")
 
 
-def _back_pull_out(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _back_pull_out(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A standard pump (EN ISO 2858): spiral casing on feet, bearing bracket with oiler and foot, spacer, base frame."""
     out = smaller(dn, int(rng.integers(1, 3)))
     s = 0.06 + 1.3 * PIPES[dn].radius
-    r, half, n = s * float(rng.uniform(1.0, 1.5)), 0.5 * s + 0.3 * PIPES[out].outer, hand.round(s)
+    r, half, n = s * float(rng.uniform(1.0, 1.5)), 0.5 * s + 0.3 * PIPES[out].outer, style.round(s)
     seat, growth = float(rng.uniform(0.08, 0.2)), float(rng.uniform(0.2, 0.4))
     axis = seat + (1.08 + growth) * r + 0.02
     turn = float(rng.choice([0.0, np.pi]))
-    house = along("x", moved(volute(r, half, hand, growth), spun("z", turn)), 0, 0, axis)
+    house = along("x", moved(volute(r, half, style, growth), spun("z", turn)), 0, 0, axis)
     side = 0.0 if rng.random() < 0.5 else (0.75 * r if turn else -0.75 * r)
     rise = axis + (1 + growth) * r + dead_room(out) + 0.03
     front = half + dead_room(dn) + 0.03
-    suction, first = mouth(dn, hand, (-front, 0, axis), (-1, 0, 0), front - 0.4 * half)
-    top, second = mouth(out, hand, (0, side, rise), (0, 0, 1), rise - axis - 0.5 * r)
+    suction, first = mouth(dn, style, (-front, 0, axis), (-1, 0, 0), front - 0.4 * half)
+    top, second = mouth(out, style, (0, side, rise), (0, 0, 1), rise - axis - 0.5 * r)
     cover = along(
         "x",
         merge(
@@ -168,17 +168,17 @@ def _back_pull_out(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         ),
     ]
     m = min(0.85 * (axis - seat), float(rng.uniform(0.8, 1.3)) * r)
-    more, far, seats = train(back + 1.12 * long, axis, seat, m, hand, rng)
+    more, far, seats = train(back + 1.12 * long, axis, seat, m, style, rng)
     wide = 2.6 * max(m, 0.8 * r)
     bed = base(pick(rng, "grid", "grid", *BASES), -0.6 * half, far, wide, seat, [0.0, back + 0.85 * long, *seats], rng)
     return Model([*parts, *more, *bed], ports=(first, second), kind="centrifugal pump")
 
 
-def _block(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _block(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A close-coupled block pump (EN 733): motor on the casing's lantern, feet below."""
     out = smaller(dn)
     s = 0.05 + 1.2 * PIPES[dn].radius
-    r, half, n = s * float(rng.uniform(1.0, 1.3)), 0.35 * s + 0.35 * PIPES[out].outer, hand.round(s)
+    r, half, n = s * float(rng.uniform(1.0, 1.3)), 0.35 * s + 0.35 * PIPES[out].outer, style.round(s)
     axis = float(rng.uniform(1.35, 1.6)) * r + 0.02
     pressed = rng.random() < 0.4
     if pressed:
@@ -192,10 +192,10 @@ def _block(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         ]
         house = along("x", turned(shape, n), 0, 0, axis)
     else:
-        house = along("x", volute(0.95 * r, half, hand, 0.3), 0, 0, axis)
+        house = along("x", volute(0.95 * r, half, style, 0.3), 0, 0, axis)
     front, rise = half + dead_room(dn) + 0.02, axis + 1.3 * r + dead_room(out)
-    suction, first = mouth(dn, hand, (-front, 0, axis), (-1, 0, 0), front - 0.3 * half)
-    top, second = mouth(out, hand, (0, 0, rise), (0, 0, 1), rise - axis - 0.5 * r)
+    suction, first = mouth(dn, style, (-front, 0, axis), (-1, 0, 0), front - 0.3 * half)
+    top, second = mouth(out, style, (0, 0, rise), (0, 0, 1), rise - axis - 0.5 * r)
     m, back = float(rng.uniform(0.75, 1.05)) * r, half + 0.5 * r
     lantern = [cylinder(0.95 * r, 0.8 * half, half + 0.04 * r, n), cylinder(1.0 * m, back - 0.08 * r, back, n)]
     posts = around(box((0.22 * r, 0.4 * r, 0.5 * r), (0, 0, half + 0.22 * r)), 4, 0.66 * min(r, m), np.pi / 4)
@@ -205,7 +205,7 @@ def _block(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         Part(along("x", cylinder(0.14 * r, half - 0.05, back, 12), 0, 0, axis), "shaft", "trim", CASING),
     ]
     length = float(rng.uniform(2.3, 3.2)) * m
-    parts += placed(motor(m, length, hand, rng, 0.0), at(back, 0, axis) @ LYING)
+    parts += placed(motor(m, length, style, rng, 0.0), at(back, 0, axis) @ LYING)
     if rng.random() < 0.5:
         leg = box((0.3 * half + 0.03, 1.2 * r, axis - 0.75 * r), (0, 0, (axis - 0.75 * r) / 2))
         parts.append(
@@ -221,14 +221,14 @@ def _block(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, ports=(first, second), kind="block pump")
 
 
-def _vertical_inline(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _vertical_inline(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A vertical in-line pump (API 610 OH3/OH4): volute in the line, lantern with windows, coupling, motor on top."""
     radius = PIPES[dn].radius
     r = float(rng.uniform(1.8, 2.4)) * radius + 0.05
     length = round(2 * (0.8 * r + dead_room(dn) + 0.04), 6)
-    n, x, neck = hand.round(r), length / 2, 0.485 * FLANGES[dn].hub
-    body = flanged_body(dn, hand, length, [(neck, 0.3 * length), (neck, 0.7 * length)])
-    house = moved(volute(0.85 * r, radius + 0.02, hand, 0.3), at(x))
+    n, x, neck = style.round(r), length / 2, 0.485 * FLANGES[dn].hub
+    body = flanged_body(dn, style, length, [(neck, 0.3 * length), (neck, 0.7 * length)])
+    house = moved(volute(0.85 * r, radius + 0.02, style, 0.3), at(x))
     low = 1.05 * radius + 0.02
     lid = merge(
         [
@@ -261,19 +261,19 @@ def _vertical_inline(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         slots = around(box((0.02 * r, 0.1 * r, 0.6 * tall), (0.42 * r, 0, (z0 + z1) / 2)), 8)
         parts.append(Part(moved(merge([shell, slots]), at(x)), "coupling guard", "safety"))
     parts += placed(
-        motor(m, float(rng.uniform(2.4, 3.4)) * m, hand, rng),
+        motor(m, float(rng.uniform(2.4, 3.4)) * m, style, rng),
         at(x, 0, z1) @ spun("z", float(rng.integers(4)) * np.pi / 2),
     )
     return Model(parts, length, kind="in-line pump")
 
 
-def _barrel(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _barrel(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A barrel pump (API 610 BB5): a thick cylinder hung at its centreline, a studded end cover, both mouths up."""
     out = smaller(dn)
     r = 0.1 + 1.6 * PIPES[dn].radius
     half, n, seat = (
         float(rng.uniform(1.8, 2.8)) * r + FLANGES[dn].outer * 0.6,
-        hand.round(r),
+        style.round(r),
         float(rng.uniform(0.15, 0.3)),
     )
     axis = seat + 1.5 * r
@@ -284,8 +284,8 @@ def _barrel(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
     studs = bolt_circle(int(rng.choice([10, 12, 16])), 1.14 * r, 0.13 * r, 0.82 * half, half + 0.35 * r)
     rise = axis + r + dead_room(dn) + 0.03
-    first_face, first = mouth(dn, hand, (-0.55 * half, 0, rise), (0, 0, 1), rise - axis - 0.5 * r)
-    second_face, second = mouth(out, hand, (0.45 * half, 0, rise), (0, 0, 1), rise - axis - 0.5 * r)
+    first_face, first = mouth(dn, style, (-0.55 * half, 0, rise), (0, 0, 1), rise - axis - 0.5 * r)
+    second_face, second = mouth(out, style, (0.45 * half, 0, rise), (0, 0, 1), rise - axis - 0.5 * r)
     ears = [box((0.35 * half, 2.7 * r, 0.25 * r), (x * half, 0, axis - 0.12 * r)) for x in (-0.6, 0.5)]
     stands = [
         box((0.3 * half, 0.35 * r, axis - seat - 0.24 * r), (x * half, y * 1.15 * r, (seat + axis - 0.24 * r) / 2))
@@ -303,18 +303,18 @@ def _barrel(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         Part(along("x", cylinder(0.16 * r, half + 1.4 * r, start, 12), 0, 0, axis), "shaft", "trim", CASING),
         Part(merge(stands), "pump base", "steel"),
     ]
-    more, far, seats = train(start, axis, seat, 0.95 * r + 0.02, hand, rng, pick(rng, "cast", "cooled", "ex"))
+    more, far, seats = train(start, axis, seat, 0.95 * r + 0.02, style, rng, pick(rng, "cast", "cooled", "ex"))
     bed = base(
         pick(rng, "beams", "grid", "plinth", "rim"), -half, far, 3.0 * r, seat, [-0.6 * half, 0.5 * half, *seats], rng
     )
     return Model([*parts, *more, *bed], ports=(first, second), kind="barrel pump")
 
 
-def _ring_section(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _ring_section(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A ring-section multistage pump (ISO 5199): stages between two end casings under tie bolts, bearings outside."""
     out = smaller(dn)
     r = 0.06 + 1.5 * PIPES[dn].radius
-    n, seat, count = hand.round(r), float(rng.uniform(0.08, 0.2)), int(rng.integers(3, 9))
+    n, seat, count = style.round(r), float(rng.uniform(0.08, 0.2)), int(rng.integers(3, 9))
     axis = seat + 1.5 * r
     step, end = float(rng.uniform(0.3, 0.5)) * r, 0.55 * FLANGES[dn].outer + 0.02
     half = count * step / 2
@@ -331,11 +331,11 @@ def _ring_section(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     rise = 1.12 * r + dead_room(dn) + 0.02
     mid = half + end / 2
     one, first = (
-        mouth(dn, hand, (-mid, -rise, axis), (0, -1, 0), rise - 0.5 * r)
+        mouth(dn, style, (-mid, -rise, axis), (0, -1, 0), rise - 0.5 * r)
         if level
-        else mouth(dn, hand, (-mid, 0, axis + rise), (0, 0, 1), rise - 0.5 * r)
+        else mouth(dn, style, (-mid, 0, axis + rise), (0, 0, 1), rise - 0.5 * r)
     )
-    two, second = mouth(out, hand, (mid, 0, axis + rise), (0, 0, 1), rise - 0.5 * r)
+    two, second = mouth(out, style, (mid, 0, axis + rise), (0, 0, 1), rise - 0.5 * r)
     ties = around(
         rod((0, 0, -half - end - 0.03), (0, 0, half + end + 0.03), 0.045 * r + 0.003, 8), 8, 1.07 * r, np.pi / 8
     )
@@ -352,7 +352,7 @@ def _ring_section(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         Part(along("x", cylinder(0.13 * r, where, start, 12), 0, 0, axis), "shaft", "trim", CASING),
     ]
     m = min(0.9 * (axis - seat), float(rng.uniform(1.0, 1.35)) * r)
-    more, far, seats = train(start, axis, seat, m, hand, rng)
+    more, far, seats = train(start, axis, seat, m, style, rng)
     bed = base(pick(rng, *BASES), -where - 0.5 * r, far, 2.5 * m, seat, [-mid, mid, *seats], rng)
     return Model([*parts, *more, *bed], ports=(first, second), kind="multistage pump")
 

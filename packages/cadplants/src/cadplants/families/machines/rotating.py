@@ -9,7 +9,7 @@ from cadplants.families.valves.valve import disc_flange, flanged_body
 from cadplants.family import Family, Model, Part, Port
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle, section_channel
 from cadplants.primitives import along, around, ball, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned
 from cadplants.standards import FLANGES, PIPES, smaller
@@ -22,20 +22,20 @@ CASING = "pump casing"
 
 
 def motor_parts(
-    r: float, length: float, hand: Hand, rng: np.random.Generator, pose: Floats, feet: float = 0.0
+    r: float, length: float, style: ModelingStyle, rng: np.random.Generator, pose: Floats, feet: float = 0.0
 ) -> list[Part]:
     """An electric motor (IEC 60072 proportions) about z from 0, its fan end up, laid by a pose.
 
     Args:
         r: radius over the fins [m].
         length: with the fan cover [m].
-        hand: that models it.
+        style: that models it.
         rng: fins or smooth, where the terminal box sits, lifting eye.
         pose: of the shaft's end, z along the motor; its x axis is up where the motor lies.
         feet: height of the axis over the floor; 0 for a flange-mounted motor [m].
     """
-    n = hand.round(r)
-    fins = int(rng.choice([0, 16, 24, 36])) if hand.round(r) >= 12 else int(rng.choice([0, 0, 16]))
+    n = style.round(r)
+    fins = int(rng.choice([0, 16, 24, 36])) if style.round(r) >= 12 else int(rng.choice([0, 0, 16]))
     body_low, body_high = 0.10 * length, 0.78 * length
     core = cylinder(0.86 * r if fins else r, body_low, body_high, n)
     solids = [core, turned([(0.45 * r, 0.0), (0.95 * r, 0.03 * length), (0.95 * r, 0.11 * length)], n)]
@@ -46,7 +46,7 @@ def motor_parts(
         solids.append(around(fin, fins, 0.0, np.pi / fins))
     body = merge(solids)
     hood = turned([(1.0 * r, 0.765 * length), (1.0 * r, 0.95 * length), (0.85 * r, length)], n)
-    if rng.random() < 0.3 and hand.round(r) >= 12:
+    if rng.random() < 0.3 and style.round(r) >= 12:
         hood = merge([hood, *(torus(0.2 * k * r, 0.006 * r + 0.001, n, 4) for k in (1, 2, 3))])
         hood = merge(
             [
@@ -116,20 +116,20 @@ def _ports(
     return Port(looking(suction, way), dn), Port(looking(discharge, up), out)
 
 
-def _end_suction(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _end_suction(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A close-coupled or frame-mounted end-suction pump (EN 733): volute, discharge up, motor behind, guard."""
     out = smaller(dn)
     s = (PIPES[dn].outer / 0.0889) ** 0.6
     r, half = 0.13 * s * float(rng.uniform(0.85, 1.2)), 0.045 * s
     base = float(rng.choice([0.02, 0.08, 0.12]))
     axis = base + 0.17 * s
-    n = hand.round(r)
+    n = style.round(r)
     shape = [(0.7 * r, -half), (r, -0.6 * half), (r, 0.6 * half), (0.75 * r, half), (0.6 * r, 1.5 * half)]
     volute = along("x", turned(shape, n), 0, 0, axis)
     reach, rise = 0.11 * s + 0.03, 0.2 * s + 0.03
-    suction = moved(along("x", disc_flange(dn, hand, reach)), at(-reach, 0, axis))
+    suction = moved(along("x", disc_flange(dn, style, reach)), at(-reach, 0, axis))
     offset = float(rng.choice([0.0, 0.55])) * r
-    discharge = moved(along("-z", disc_flange(out, hand, rise - 0.3 * r)), at(0, offset, axis + rise))
+    discharge = moved(along("-z", disc_flange(out, style, rise - 0.3 * r)), at(0, offset, axis + rise))
     parts = [Part(merge([volute, suction, discharge]), CASING, "pump", CASING)]
     motor, length = 0.1 * s, 0.34 * s
     close = bool(rng.random() < 0.4)
@@ -193,7 +193,7 @@ def _end_suction(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         far = mid + 0.27 * length
     feet = axis - base
     pose = at(far, 0, axis) @ spun("y", np.pi / 2) @ spun("z", np.pi)
-    parts += motor_parts(motor, length, hand, rng, pose, feet)
+    parts += motor_parts(motor, length, style, rng, pose, feet)
     foot = box((1.2 * half, 1.1 * r, axis - base - 0.7 * r), (0, 0, base + (axis - base - 0.7 * r) / 2))
     if axis - base > 0.75 * r:
         parts.append(Part(foot, CASING, "pump", CASING))
@@ -219,14 +219,14 @@ def _end_suction(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _inline(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _inline(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An inline pump: flanges in one axis, the volute between them, the motor upright on a lantern."""
     radius = PIPES[dn].radius
     length = max(0.24, 5.0 * radius + 0.1)
     neck = 0.485 * FLANGES[dn].hub
-    body = flanged_body(dn, hand, length, [(neck, 0.3 * length), (neck, 0.7 * length)])
+    body = flanged_body(dn, style, length, [(neck, 0.3 * length), (neck, 0.7 * length)])
     x, r = length / 2, float(rng.uniform(1.5, 2.0)) * radius + 0.03
-    n = hand.round(r)
+    n = style.round(r)
     volute = turned(
         [
             (0.7 * r, -0.8 * radius - 0.01),
@@ -242,16 +242,16 @@ def _inline(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     motor = 0.8 * r + 0.01
     lantern = turned([(0.85 * r, z), (0.55 * r, z + 0.4 * r), (0.9 * motor, z + 0.9 * r)], n)
     parts.append(Part(moved(lantern, at(x, 0.15 * r)), CASING, "pump", CASING))
-    parts += motor_parts(motor, float(rng.uniform(2.4, 3.2)) * motor, hand, rng, at(x, 0.15 * r, z + 0.9 * r))
+    parts += motor_parts(motor, float(rng.uniform(2.4, 3.2)) * motor, style, rng, at(x, 0.15 * r, z + 0.9 * r))
     return Model(parts, round(length, 6), kind="inline pump")
 
 
-def _circulator(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _circulator(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A wet-rotor circulator: a small volute in the line, a round motor can to the side with a square control box."""
     radius = PIPES[dn].radius
     length = 0.13 + 2.5 * radius
     r = 0.035 + 1.1 * radius
-    n, x = hand.round(r), length / 2
+    n, x = style.round(r), length / 2
     pipe_ = along(
         "x",
         turned(
@@ -285,16 +285,16 @@ def _circulator(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _multistage(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _multistage(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A vertical multistage pump: a foot with two flanges in line, a slim barrel with tie rods, lantern, motor."""
     radius = PIPES[dn].radius
     r = 1.9 * radius + 0.04
-    n = hand.round(r)
+    n = style.round(r)
     tall = float(rng.uniform(0.3, 0.9))
     centre, reach = 0.06 + 1.2 * radius + 0.3 * FLANGES[dn].outer, 0.12 + 2.4 * radius
     body = moved(
         flanged_body(
-            dn, hand, 2 * reach, [(0.485 * FLANGES[dn].hub, 0.5 * reach), (0.485 * FLANGES[dn].hub, 1.5 * reach)]
+            dn, style, 2 * reach, [(0.485 * FLANGES[dn].hub, 0.5 * reach), (0.485 * FLANGES[dn].hub, 1.5 * reach)]
         ),
         at(-reach, 0, centre),
     )
@@ -323,7 +323,7 @@ def _multistage(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
             ]
         )
         parts.append(Part(moved(extrude(sheet, z + 0.1 * r, z + 0.8 * r), spun("z", 0.0)), "coupling guard", "safety"))
-    parts += motor_parts(motor, float(rng.uniform(2.2, 3.0)) * motor, hand, rng, at(0, 0, z + 0.9 * r + 0.013))
+    parts += motor_parts(motor, float(rng.uniform(2.2, 3.0)) * motor, style, rng, at(0, 0, z + 0.9 * r + 0.013))
     return Model(
         parts,
         ports=_ports((-reach, 0, centre), (-1, 0, 0), dn, (reach, 0, centre), (1, 0, 0), dn),
@@ -331,7 +331,7 @@ def _multistage(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _gear(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _gear(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A gear or lobe pump: an oblong block with ports on both sides, a shaft to a geared motor on a base."""
     radius = PIPES[dn].radius
     s, base = 1.6 * radius + 0.05, 0.08
@@ -341,8 +341,8 @@ def _gear(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     cover = along("x", extrude(0.9 * oval, -1.1 * s, 1.05 * s), 0, 0, axis)
     reach = 1.5 * s + 0.05
     heads = [
-        moved(along("y", disc_flange(dn, hand, reach)), at(0, -reach, axis)),
-        moved(along("-y", disc_flange(dn, hand, reach)), at(0, reach, axis)),
+        moved(along("y", disc_flange(dn, style, reach)), at(0, -reach, axis)),
+        moved(along("-y", disc_flange(dn, style, reach)), at(0, reach, axis)),
     ]
     bolts = along(
         "x",
@@ -374,7 +374,7 @@ def _gear(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         Part(merge([shaft, coupling]), "shaft", "trim", CASING),
         Part(gearbox, "motor", "motor", "motor"),
         *motor_parts(
-            motor, length, hand, rng, at(3.95 * s, 0, axis) @ spun("y", np.pi / 2) @ spun("z", np.pi), axis - base
+            motor, length, style, rng, at(3.95 * s, 0, axis) @ spun("y", np.pi / 2) @ spun("z", np.pi), axis - base
         ),
         Part(box((1.2 * s, 1.2 * s, axis - base - s), (0, 0, base + (axis - base - s) / 2)), "pump base", "steel"),
         Part(
@@ -389,11 +389,11 @@ def _gear(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _diaphragm(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _diaphragm(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An air-operated double-diaphragm pump: two round chambers, manifolds above and below, feet."""
     radius = PIPES[dn].radius
     r = 2.4 * radius + 0.06
-    n, gap = hand.round(r), 0.45 * r
+    n, gap = style.round(r), 0.45 * r
     axis = 1.35 * r + 0.04
     chamber = turned([(0.25 * r, 0.55 * r), (0.75 * r, 0.35 * r), (r, 0.12 * r), (r, 0.0)][::-1], n)
     sides = [along(a, moved(chamber, at(0, 0, gap)), 0, 0, axis) for a in ("x", "-x")]
@@ -410,7 +410,7 @@ def _diaphragm(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         pipes += [moved(ball(1.15 * radius, n), at(s * reach, 0, z)) for s in (-1, 1)]
     front = 0.6 * r + 0.05
     heads = [
-        moved(along("y", disc_flange(dn, hand, front)), at(0, -front, z)) for z in (axis - 1.15 * r, axis + 1.15 * r)
+        moved(along("y", disc_flange(dn, style, front)), at(0, -front, z)) for z in (axis - 1.15 * r, axis + 1.15 * r)
     ]
     feet = [box((0.25 * r, 0.9 * r, 0.03), (s * (gap + 0.2 * r), 0, 0.015)) for s in (-1, 1)]
     legs = [box((0.15 * r, 0.15 * r, axis - r), (s * (gap + 0.2 * r), 0, (axis - r) / 2)) for s in (-1, 1)]
@@ -431,7 +431,7 @@ def _diaphragm(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _dosing(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _dosing(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A dosing pump: a box with a keypad, a round head aside with small valves above and below, thin tubes."""
     s = float(rng.uniform(0.8, 1.3))
     case = extrude(rounded_rectangle(0.2 * s, 0.12 * s, 0.02, 3), 0.02, 0.17 * s)
@@ -440,7 +440,7 @@ def _dosing(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         "x",
         merge(
             [
-                cylinder(0.045 * s, 0.1 * s, 0.145 * s, hand.round(0.045)),
+                cylinder(0.045 * s, 0.1 * s, 0.145 * s, style.round(0.045)),
                 around(hexagon(0.012, 0.14 * s, 0.15 * s), 4, 0.035 * s, 0.78),
             ]
         ),
@@ -462,11 +462,11 @@ def _dosing(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _submersible(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _submersible(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A submersible pump: a volute on feet, the motor upright above, discharge elbow, handle, cable."""
     radius = PIPES[dn].radius
     r = 2.0 * radius + 0.05
-    n, tall = hand.round(r), float(rng.uniform(1.8, 3.0)) * r
+    n, tall = style.round(r), float(rng.uniform(1.8, 3.0)) * r
     feet = around(box((0.15 * r, 0.15 * r, 0.12 * r), (0, 0, 0.06 * r)), 3, 0.8 * r)
     volute = turned([(1.0 * r, 0.1 * r), (1.25 * r, 0.2 * r), (1.25 * r, 0.7 * r), (0.85 * r, 0.85 * r)], n)
     can = turned(
@@ -479,7 +479,7 @@ def _submersible(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         n,
     )
     top = 1.3 * r + plate_thickness(dn)
-    head = moved(disc_flange(dn, hand, plate_thickness(dn)), at(reach + 0.3 * r, 0, top) @ spun("x", np.pi))
+    head = moved(disc_flange(dn, style, plate_thickness(dn)), at(reach + 0.3 * r, 0, top) @ spun("x", np.pi))
     handle = rope(
         [
             (-0.4 * r, 0, 0.95 * r + tall),
@@ -501,10 +501,10 @@ def _submersible(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, ports=(Port(looking((reach + 0.3 * r, 0, top), (0, 0, 1)), dn),), kind="submersible pump")
 
 
-def _impeller(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _impeller(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An impeller laid out beside a pump: two shrouds or one, curved vanes, a hub; on a shaft."""
     r = float(rng.uniform(0.05, 0.2))
-    n = hand.round(r)
+    n = style.round(r)
     disc = ring(0.12 * r, r, 0.0, 0.05 * r, n)
     a = np.linspace(0, 1.2, 7)
     line = np.column_stack([(0.3 + 0.68 * a / 1.2) * r * np.cos(a), (0.3 + 0.68 * a / 1.2) * r * np.sin(a)])
@@ -530,12 +530,12 @@ def _impeller(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _compressor(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _compressor(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A piston compressor on its air receiver, or a screw compressor's cabinet with grilles."""
     eq = "compressor"
     if rng.random() < 0.55:
         r = float(rng.uniform(0.18, 0.32))
-        length, n = float(rng.uniform(3.0, 4.5)) * r, hand.round(r)
+        length, n = float(rng.uniform(3.0, 4.5)) * r, style.round(r)
         axis = r + 0.14
         vessel = along(
             "x",
@@ -582,7 +582,7 @@ def _compressor(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
             for p in motor_parts(
                 0.4 * r,
                 1.1 * r,
-                hand,
+                style,
                 rng,
                 at(0.25 * length, 0.3 * r, z + 0.4 * r) @ spun("x", np.pi / 2) @ spun("z", np.pi / 2),
             )
@@ -606,10 +606,10 @@ def _compressor(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _blower(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _blower(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A radial fan: a spiral housing with an inlet cone and a square outlet, its motor on a frame; or an axial fan."""
     eq, r = "blower", float(rng.uniform(0.2, 0.45))
-    n = hand.round(r)
+    n = style.round(r)
     wide = float(rng.uniform(0.35, 0.7)) * r
     axis = 1.45 * r + 0.05
     a = np.linspace(0, 2 * np.pi, max(14, n), endpoint=False)
@@ -636,7 +636,7 @@ def _blower(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     pose = at(0, 0.5 * wide + 0.02, axis) @ spun("x", -np.pi / 2) @ spun("z", -np.pi / 2)
     parts += [
         Part(p.solid, p.name, p.color, "motor", _GROUP if p.name != "lifting lug" else "Tank", p.fine)
-        for p in motor_parts(0.28 * r, 0.8 * r, hand, rng, pose)
+        for p in motor_parts(0.28 * r, 0.8 * r, style, rng, pose)
     ]
     return Model(parts, kind="blower")
 

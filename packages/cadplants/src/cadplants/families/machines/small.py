@@ -7,7 +7,7 @@ import numpy as np
 from cadplants.families.machines.machinery import CASING, LYING, PUMP, dead_room, motor, mouth
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, rope, torus, turned
 from cadplants.transforms import at, spun
@@ -15,10 +15,10 @@ from cadplants.transforms import at, spun
 __all__ = ["SMALL"]
 
 
-def _metering(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _metering(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A metering pump (API 675): upright motor on a worm gear case with a stroke knob, one or two liquid heads."""
     s = float(rng.uniform(0.07, 0.14))
-    n, seat = hand.round(s), 0.03
+    n, seat = style.round(s), 0.03
     axis = seat + 1.1 * s
     case = moved(extrude(rounded_rectangle(2.0 * s, 1.7 * s, 0.3 * s, 3), seat, seat + 2.2 * s), at())
     foot = extrude(rounded_rectangle(3.0 * s, 2.2 * s, 0.2 * s, 3), 0, seat)
@@ -64,7 +64,7 @@ def _metering(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
             )
             liquid.append(moved(stack, at(x, y)))
         face = axis + 1.9 * s + dead_room(dn)
-        stub, port = mouth(dn, hand, (x, y, face), (0, 0, 1), dead_room(dn) + 0.01)
+        stub, port = mouth(dn, style, (x, y, face), (0, 0, 1), dead_room(dn) + 0.01)
         ports.append(port)
         parts += [
             Part(along("x", lantern, 0.95 * s, y, axis), CASING, "pump", CASING),
@@ -78,11 +78,11 @@ def _metering(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
     parts.append(Part(bell, "motor", "motor", "motor"))
     turn = at(0, 0, top + 0.45 * s) @ spun("z", float(rng.choice([0.5, 1.0, 1.5])) * np.pi)
-    parts += placed(motor(m, float(rng.uniform(2.4, 3.2)) * m, hand, rng), turn)
+    parts += placed(motor(m, float(rng.uniform(2.4, 3.2)) * m, style, rng), turn)
     return Model(parts, ports=tuple(ports), kind="metering pump")
 
 
-def _wing(s: float, n: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _wing(s: float, n: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A wing pump on a wall with its rocking lever."""
     r, z = 0.1 * s, float(rng.uniform(0.8, 1.3))
     disc = along(
@@ -120,7 +120,7 @@ def _wing(s: float, n: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _pitcher(s: float, n: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _pitcher(s: float, n: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A pitcher pump with spout and lever on its suction pipe."""
     r, h = 0.055 * s, 0.35 * s
     low = float(rng.uniform(0.3, 0.7))
@@ -172,12 +172,12 @@ def _pitcher(s: float, n: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _barrel_pump(s: float, n: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _barrel_pump(s: float, n: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A rotary barrel pump screwed into a drum, with a crank."""
     drum = merge(
         [
-            cylinder(0.29, 0, 0.88, hand.round(0.29)),
-            *(moved(torus(0.29, 0.01, hand.round(0.29), 6), at(0, 0, z)) for z in (0.012, 0.3, 0.58, 0.868)),
+            cylinder(0.29, 0, 0.88, style.round(0.29)),
+            *(moved(torus(0.29, 0.01, style.round(0.29), 6), at(0, 0, z)) for z in (0.012, 0.3, 0.58, 0.868)),
         ]
     )
     z = 1.12
@@ -220,18 +220,18 @@ def _barrel_pump(s: float, n: int, hand: Hand, rng: np.random.Generator) -> Mode
     )
 
 
-def _hand_pump(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _hand_pump(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A hand pump: a wing pump on a wall, a pitcher pump with spout and lever, or a rotary barrel pump on a drum."""
     kind, s = int(rng.integers(3)), float(rng.uniform(0.8, 1.2))
-    n = hand.round(0.1 * s)
+    n = style.round(0.1 * s)
     if kind == 0:
-        return _wing(s, n, hand, rng)
+        return _wing(s, n, style, rng)
     if kind == 1:
-        return _pitcher(s, n, hand, rng)
-    return _barrel_pump(s, n, hand, rng)
+        return _pitcher(s, n, style, rng)
+    return _barrel_pump(s, n, style, rng)
 
 
-def _power_pack(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _power_pack(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A hydraulic power pack: oil tank with level glass, upright or lying motor, bell housing, manifold with valves."""
     w, d, h = float(rng.uniform(0.5, 1.1)), float(rng.uniform(0.4, 0.7)), float(rng.uniform(0.35, 0.6))
     low = 0.08
@@ -255,11 +255,11 @@ def _power_pack(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 (1.02 * m, z + 0.95 * m),
                 (1.02 * m, z + m),
             ],
-            hand.round(m),
+            style.round(m),
         )
         parts.append(Part(moved(bell, at(-0.2 * w)), CASING, "pump", CASING))
         parts += placed(
-            motor(m, 2.8 * m, hand, rng), at(-0.2 * w, 0, z + m) @ spun("z", float(rng.integers(4)) * np.pi / 2)
+            motor(m, 2.8 * m, style, rng), at(-0.2 * w, 0, z + m) @ spun("z", float(rng.integers(4)) * np.pi / 2)
         )
     else:
         axis = z + 1.2 * m
@@ -268,7 +268,7 @@ def _power_pack(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 box((0.7 * m, 1.0 * m, 1.0 * m), (-0.42 * w, 0, axis)),
                 along(
                     "x",
-                    turned([(0.5 * m, 0), (0.5 * m, 0.4 * m), (0.95 * m, 0.9 * m)], hand.round(m)),
+                    turned([(0.5 * m, 0), (0.5 * m, 0.4 * m), (0.95 * m, 0.9 * m)], style.round(m)),
                     -0.42 * w + 0.3 * m,
                     0,
                     axis,
@@ -276,7 +276,7 @@ def _power_pack(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             ]
         )
         parts.append(Part(block, CASING, "pump", CASING))
-        parts += placed(motor(m, min(3.0 * m, 0.6 * w), hand, rng, 1.2 * m), at(-0.42 * w + 1.2 * m, 0, axis) @ LYING)
+        parts += placed(motor(m, min(3.0 * m, 0.6 * w), style, rng, 1.2 * m), at(-0.42 * w + 1.2 * m, 0, axis) @ LYING)
         hose = [
             (-0.42 * w, 0.5 * m, axis),
             (-0.42 * w, 0.9 * m, axis),

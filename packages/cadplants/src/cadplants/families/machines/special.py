@@ -21,7 +21,7 @@ from cadplants.families.valves.valve import disc_flange, flanged_body
 from cadplants.family import Family, Model, Part, placed
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import extrude, merge, moved, tube
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, rope, torus, turned
 from cadplants.standards import ELBOW_LONG_RADIUS, FLANGES, PIPES, smaller
@@ -30,24 +30,24 @@ from cadplants.transforms import at, looking, spun
 __all__ = ["SPECIAL"]
 
 
-def _self_priming(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _self_priming(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A self-priming trash pump: a big chamber, suction high in front, discharge on top, a clean-out cover."""
     s = 0.12 + 2.2 * PIPES[dn].radius
     seat = float(rng.uniform(0.06, 0.15))
     w, d, h = 1.5 * s, 1.5 * s, float(rng.uniform(1.9, 2.3)) * s
     tub = moved(extrude(rounded_rectangle(w, d, 0.35 * s, 4), seat + 0.12 * s, seat + h), at(0, 0, 0))
     axis = seat + 0.85 * s
-    belly = along("x", volute(0.62 * s, 0.35 * s, hand, 0.3), 0.5 * w + 0.05 * s, 0, axis)
+    belly = along("x", volute(0.62 * s, 0.35 * s, style, 0.3), 0.5 * w + 0.05 * s, 0, axis)
     feet = [box((0.2 * s, d, 0.14 * s), (x * 0.5 * w, 0, seat + 0.07 * s)) for x in (-0.7, 0.7)]
     reach = dead_room(dn) + 0.05
-    one, first = mouth(dn, hand, (-w / 2 - reach, 0, seat + h - 0.3 * s - 0.02), (-1, 0, 0), reach + 0.1 * s)
-    two, second = mouth(dn, hand, (0.1 * w, 0, seat + h + reach), (0, 0, 1), reach + 0.05)
+    one, first = mouth(dn, style, (-w / 2 - reach, 0, seat + h - 0.3 * s - 0.02), (-1, 0, 0), reach + 0.1 * s)
+    two, second = mouth(dn, style, (0.1 * w, 0, seat + h + reach), (0, 0, 1), reach + 0.05)
     lid = along(
         "-x",
         merge(
             [
-                cylinder(0.4 * s, 0, 0.1 * s, hand.round(0.4 * s)),
-                cylinder(0.3 * s, 0.1 * s, 0.16 * s, hand.round(0.3 * s)),
+                cylinder(0.4 * s, 0, 0.1 * s, style.round(0.4 * s)),
+                cylinder(0.3 * s, 0.1 * s, 0.16 * s, style.round(0.3 * s)),
             ]
         ),
         -w / 2 + 0.01,
@@ -73,7 +73,7 @@ def _self_priming(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         at(-0.3 * w, 0.25 * d, seat + h - 0.005),
     )
     back = 0.5 * w + 0.38 * s
-    house = turned([(0.6 * s, 0), (0.35 * s, 0.2 * s), (0.3 * s, 0.9 * s), (0.22 * s, 0.95 * s)], hand.round(s))
+    house = turned([(0.6 * s, 0), (0.35 * s, 0.2 * s), (0.3 * s, 0.9 * s), (0.22 * s, 0.95 * s)], style.round(s))
     start = back + 1.2 * s
     parts = [
         Part(merge([tub, belly, *feet, one, two]), CASING, "pump", CASING),
@@ -82,14 +82,14 @@ def _self_priming(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         Part(along("x", house, back - 0.04 * s, 0, axis), CASING, "pump", CASING),
         Part(along("x", cylinder(0.1 * s, back, start, 12), 0, 0, axis), "shaft", "trim", CASING),
     ]
-    more, far, seats = train(start, axis, seat, min(0.8 * (axis - seat), 0.7 * s), hand, rng)
+    more, far, seats = train(start, axis, seat, min(0.8 * (axis - seat), 0.7 * s), style, rng)
     bed = base(pick(rng, *BASES), -0.55 * w, far, 1.7 * s, seat, [-0.35 * w, 0.35 * w, *seats], rng)
     return Model([*parts, *more, *bed], ports=(first, second), kind="self-priming pump")
 
 
-def _turbine(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _turbine(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A vertical turbine pump (API 610 VS1): bowls and column below a deck, discharge head and hollow-shaft motor."""
-    p, n = PIPES[dn].radius, hand.round(PIPES[dn].radius * 1.5)
+    p, n = PIPES[dn].radius, style.round(PIPES[dn].radius * 1.5)
     deck, half = float(rng.uniform(0.9, 1.8)), 0.25 + 2 * p
     plate = 0.03
     sole = box((3.4 * p + 0.1, 3.4 * p + 0.1, plate), (0, 0, deck + plate / 2))
@@ -118,7 +118,7 @@ def _turbine(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     head_high = float(rng.uniform(3.5, 5.0)) * p + 0.15
     head = turned([(1.4 * p, z), (1.4 * p, z + 0.03), (1.15 * p, z + 0.03), (1.15 * p, z + 0.6 * head_high)], n)
     face, level = 1.2 * p + dead_room(dn) + 0.06, z + max(0.35 * head_high, FLANGES[dn].outer / 2 + 0.04)
-    out, port = mouth(dn, hand, (face, 0, level), (1, 0, 0), face - 0.5 * p)
+    out, port = mouth(dn, style, (face, 0, level), (1, 0, 0), face - 0.5 * p)
     m = float(rng.uniform(1.2, 1.7)) * p + 0.04
     windows = around(box((0.2 * p, 0.7 * p, 0.42 * head_high), (0, 0, z + 0.79 * head_high)), 4, 0.95 * p, np.pi / 4)
     seat = merge([windows, cylinder(max(m, 1.2 * p), z + head_high - 0.025, z + head_high, n)])
@@ -134,7 +134,7 @@ def _turbine(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         Part(column, CASING, "pipe", CASING),
         Part(merge([shaft, gland]), "shaft", "trim", CASING),
         *placed(
-            motor(m, long, hand, rng, 0.0, pick(rng, "cast", "drip", "ex")),
+            motor(m, long, style, rng, 0.0, pick(rng, "cast", "drip", "ex")),
             at(0, 0, z + head_high) @ spun("z", float(rng.uniform(0, 6))),
         ),
         *(Part(x, "beam", "steel", "", "Structural element") for x in grid),
@@ -146,15 +146,15 @@ def _turbine(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, ports=(port,), kind="vertical turbine pump")
 
 
-def _magnetic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _magnetic(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A magnetic drive or canned motor pump (API 685, ISO 15783): a plastic or cast front, a canister, no seal."""
     out = smaller(dn)
     s = 0.05 + 1.0 * PIPES[dn].radius
-    r, half, n = 1.2 * s, 0.5 * s, hand.round(s)
+    r, half, n = 1.2 * s, 0.5 * s, style.round(s)
     axis = float(rng.uniform(1.4, 1.8)) * r
     front, rise = half + dead_room(dn) + 0.03, axis + 1.1 * r + dead_room(out)
-    suction, first = mouth(dn, hand, (-front, 0, axis), (-1, 0, 0), front)
-    top, second = mouth(out, hand, (0, 0, rise), (0, 0, 1), rise - axis)
+    suction, first = mouth(dn, style, (-front, 0, axis), (-1, 0, 0), front)
+    top, second = mouth(out, style, (0, 0, rise), (0, 0, 1), rise - axis)
     cup = [(0.6 * r, -half), (r, -0.7 * half), (r, 0.8 * half), (1.2 * r, 0.85 * half), (1.2 * r, half + 0.1 * r)]
     house = along("x", turned(cup, n), 0, 0, axis)
     ribs = along("x", around(box((0.5 * r, 0.06 * r, half), (0.95 * r, 0, 0)), 8), 0, 0, axis)
@@ -200,7 +200,7 @@ def _magnetic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
             (1.15 * m, 1.05 * r),
         ]
         parts.append(Part(along("x", turned(bell, n), back, 0, axis), CASING, "rubber", CASING))
-        parts += placed(motor(m, length, hand, rng), at(back + 1.05 * r, 0, axis) @ LYING)
+        parts += placed(motor(m, length, style, rng), at(back + 1.05 * r, 0, axis) @ LYING)
         far = back + 1.05 * r + 0.8 * length
     for x in (0.0, 0.75 * far):
         leg = box((0.25 * r, 1.5 * r, axis - 0.7 * r - seat), (x, 0, (seat + axis - 0.7 * r) / 2))
@@ -209,13 +209,13 @@ def _magnetic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, ports=(first, second), kind="magnetic drive pump")
 
 
-def _electronic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _electronic(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A circulator with a permanent magnet motor and its electronics in front (EN 16297), flanged, in the line."""
     radius = PIPES[dn].radius
     r = 0.05 + 1.3 * radius
     length = round(2 * (0.75 * r + dead_room(dn) + 0.02), 6)
-    n, x, neck = hand.round(r), length / 2, 0.485 * FLANGES[dn].hub
-    body = flanged_body(dn, hand, length, [(neck, 0.28 * length), (neck, 0.72 * length)])
+    n, x, neck = style.round(r), length / 2, 0.485 * FLANGES[dn].hub
+    body = flanged_body(dn, style, length, [(neck, 0.28 * length), (neck, 0.72 * length)])
     house = along(
         "y",
         turned([(0.6 * r, -0.75 * r), (0.95 * r, -0.5 * r), (r, 0.1 * r), (1.1 * r, 0.12 * r), (1.1 * r, 0.3 * r)], n),
@@ -244,14 +244,14 @@ def _electronic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, length, kind="circulator")
 
 
-def _duckfoot(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _duckfoot(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A sewage pump in a sump: coupled to a duckfoot bend by its claw, two guide rails, riser, chain, power cable."""
     radius = PIPES[dn].radius
     r = 1.9 * radius + 0.06
-    n, tall = hand.round(r), float(rng.uniform(2.2, 3.6)) * r
+    n, tall = style.round(r), float(rng.uniform(2.2, 3.6)) * r
     low = 0.25 * r + 0.05
     axis = low + 0.5 * r
-    house = moved(volute(0.95 * r, 0.5 * r, hand, 0.35), at(0, 0, axis))
+    house = moved(volute(0.95 * r, 0.5 * r, style, 0.35), at(0, 0, axis))
     mouth_ = turned([(0.75 * r, low - 0.25 * r), (0.55 * r, low + 0.1 * r)], n)
     can = turned(
         [
@@ -268,20 +268,22 @@ def _duckfoot(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     lift = moved(ring_, at(0, 0, axis + tall + 0.45 * r) @ spun("x", np.pi / 2))
     gland = [moved(cylinder(0.1 * r, axis + tall, axis + tall + 0.35 * r, 10), at(0.35 * r, 0.3 * r))]
     face = 1.4 * r + dead_room(dn)
-    stub, _ = mouth(dn, hand, (face, 0, axis), (1, 0, 0), face - 0.4 * r)
+    stub, _ = mouth(dn, style, (face, 0, axis), (1, 0, 0), face - 0.4 * r)
     claw = box((0.05, FLANGES[dn].outer + 0.1, 0.08), (face - 0.03, 0, axis + FLANGES[dn].outer / 2 + 0.02))
     bend = ELBOW_LONG_RADIUS[dn]
     t = np.linspace(0, np.pi / 2, 7)
     plate, mate = (
         plate_thickness(dn),
-        moved(disc_flange(dn, hand, plate_thickness(dn)), looking((face, 0, axis), (-1, 0, 0)) @ spun("y", -np.pi / 2)),
+        moved(
+            disc_flange(dn, style, plate_thickness(dn)), looking((face, 0, axis), (-1, 0, 0)) @ spun("y", -np.pi / 2)
+        ),
     )
     path = [
         (face + plate, 0, axis),
         *((face + plate + 0.01 + bend * np.sin(a), 0, axis + bend * (1 - np.cos(a))) for a in t),
     ]
     top = axis + bend + 0.02 + dead_room(dn)
-    up, port = mouth(dn, hand, (face + plate + 0.01 + bend, 0, top), (0, 0, 1), top - axis - bend + 0.004)
+    up, port = mouth(dn, style, (face + plate + 0.01 + bend, 0, top), (0, 0, 1), top - axis - bend + 0.004)
     x_foot = face + plate + 0.6 * bend
     foot = [
         box((1.6 * bend, 1.2 * FLANGES[dn].outer, 0.02), (x_foot, 0, 0.01)),

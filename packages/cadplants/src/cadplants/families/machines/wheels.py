@@ -8,16 +8,16 @@ from cadplants.families.chance import pick
 from cadplants.families.machines.machinery import CASING, PUMP, base, slab
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import along, around, box, cylinder, ring, turned
 from cadplants.transforms import at, spun
 
 __all__ = ["WHEELS"]
 
 
-def _wheel(kind: str, r: float, hand: Hand, rng: np.random.Generator) -> tuple[Solid, float]:
+def _wheel(kind: str, r: float, style: ModelingStyle, rng: np.random.Generator) -> tuple[Solid, float]:
     """An impeller about z, its hub from 0 up; and its height."""
-    n, count = hand.round(r), int(rng.integers(3, 9))
+    n, count = style.round(r), int(rng.integers(3, 9))
     wide = float(rng.uniform(0.18, 0.4)) * r
     wrap = float(rng.uniform(0.8, 1.9))
     a = np.linspace(0, 1, 9)
@@ -71,7 +71,7 @@ def _wheel(kind: str, r: float, hand: Hand, rng: np.random.Generator) -> tuple[S
     return merge([back, around(vane, count), hub]), wide + 0.15 * r
 
 
-def _wheels(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _wheels(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Impellers on arbors of a rack or lying on a table: open, closed, double, vortex, peripheral, propeller."""
     parts, x = [], 0.0
     level = float(rng.uniform(0.6, 1.0))
@@ -81,7 +81,7 @@ def _wheels(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     ]
     for kind in kinds:
         r = float(rng.uniform(0.06, 0.22))
-        wheel, tall = _wheel(kind, r, hand, rng)
+        wheel, tall = _wheel(kind, r, style, rng)
         x += r + 0.05
         lying = rng.random() < 0.5
         if lying:
@@ -109,11 +109,11 @@ def _wheels(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="impeller")
 
 
-def _cutaway(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _cutaway(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A cutaway pump for teaching: half of a casing round an open impeller on its shaft, bearing bracket, stand."""
     r, seat = float(rng.uniform(0.1, 0.2)), float(rng.choice([0.03, 0.08, 0.7]))
-    n, axis = hand.round(r), seat + 1.9 * r
-    wheel, tall = _wheel(pick(rng, "open", "closed", "vortex"), 0.85 * r, hand, rng)
+    n, axis = style.round(r), seat + 1.9 * r
+    wheel, tall = _wheel(pick(rng, "open", "closed", "vortex"), 0.85 * r, style, rng)
     half, t = tall / 2 + 0.06 * r, 0.08 * r
     a = np.linspace(np.pi, 2 * np.pi, max(9, n // 2))
     outer = np.column_stack([np.cos(a), np.sin(a)]) * (1.3 * r)

@@ -26,7 +26,7 @@ from cadplants.families.piping.shape import (
 from cadplants.family import Build, Family, Model, Part
 from cadplants.flange import nut_room, plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, loft, merge, moved, tube, weld
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import ball, cylinder, hexagon, ring, rope
 from cadplants.standards import FLANGES, PIPES, SIZES
 from cadplants.transforms import at, spun
@@ -47,36 +47,42 @@ def _smaller(dn: int, rng: np.random.Generator, most: int = 3) -> int:
     return int(rng.choice([size for size in SIZES if size <= dn][-most:]))
 
 
-def _reach(style: str, dn: int, slant: float = 0.0) -> float:
+def _reach(design: str, dn: int, slant: float = 0.0) -> float:
     """From the middle of a fitting to its mouth [m]; longer where branches lean."""
     r = PIPES[dn].radius
-    if style == "flanged":
+    if design == "flanged":
         return 0.5 * FLANGES[dn].outer + plate_thickness(dn) + nut_room(dn) + 0.01 + 1.6 * slant * r
     base = {"banded": 2.0 * r + 0.014, "socket": 1.9 * r + 0.016, "glued": 2.7 * r + 0.012, "grooved": 2.4 * r + 0.04}
-    return base.get(style, 2.1 * r + 0.012) + 1.4 * slant * r
+    return base.get(design, 2.1 * r + 0.012) + 1.4 * slant * r
 
 
 def _junction(
-    style: str, dn: int, hand: Hand, rng: np.random.Generator, turns: Sequence[float], name: str, other: int = 0
+    design: str,
+    dn: int,
+    style: ModelingStyle,
+    rng: np.random.Generator,
+    turns: Sequence[float],
+    name: str,
+    other: int = 0,
 ) -> Model:
     """A fitting with two mouths in the line and some branches, and pipes, lids or nothing on those.
 
     Args:
-        style: of all mouths, see ``mouth``.
+        design: of all mouths, see ``mouth``.
         dn: of the line.
-        hand: that models it.
+        style: that models it.
         rng: of what is left open.
         turns: directions of the branches from +x [rad].
         name: ``tee`` or ``cross``.
         other: size of the branches; 0 as the line.
     """
     other = other or dn
-    r, n = PIPES[dn].radius, hand.round(PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(PIPES[dn].radius)
     slant = 1.0 if any(abs(abs(turn) - np.pi / 2) > 0.1 for turn in turns) else 0.0
-    reach = _reach(style, dn)
-    behind = reach + (0.0 if not slant else 1.2 * r + (0.3 * FLANGES[dn].outer if style == "flanged" else 0.0))
-    heights = [_reach(style, other, slant) + (r - PIPES[other].radius) + (1.1 * r if slant else 0.0) for _ in turns]
-    if slant and style == "flanged":
+    reach = _reach(design, dn)
+    behind = reach + (0.0 if not slant else 1.2 * r + (0.3 * FLANGES[dn].outer if design == "flanged" else 0.0))
+    heights = [_reach(design, other, slant) + (r - PIPES[other].radius) + (1.1 * r if slant else 0.0) for _ in turns]
+    if slant and design == "flanged":
         heights = [h + 0.35 * FLANGES[dn].outer for h in heights]
     x = reach
     ends = [
@@ -84,130 +90,132 @@ def _junction(
         (x, 0.0, dn, behind),
         *((x, t, other, h) for t, h in zip(turns, heights, strict=True)),
     ]
-    pieces = [moved(mouth(style, size, hand, 0.0, far), _way(x, turn)) for x, turn, size, far in ends]
-    if style not in ("grooved", "plain"):
-        swell = 0.485 * FLANGES[dn].hub if style == "flanged" else 1.15 * r + 0.0015
+    pieces = [moved(mouth(design, size, style, 0.0, far), _way(x, turn)) for x, turn, size, far in ends]
+    if design not in ("grooved", "plain"):
+        swell = 0.485 * FLANGES[dn].hub if design == "flanged" else 1.15 * r + 0.0015
         pieces.append(moved(ball(1.02 * swell, n), at(x)))
-        if style == "flanged" and rng.random() < 0.5:
+        if design == "flanged" and rng.random() < 0.5:
             pieces[-1] = moved(ball(1.35 * swell, n), at(x))
-    color = {"glued": "handle", "flanged": "valve"}.get(style, "pipe")
+    color = {"glued": "handle", "flanged": "valve"}.get(design, "pipe")
     parts = [Part(merge(pieces), name, color)]
-    if style == "grooved":
-        parts += grooved(dn, hand, at(0)) + grooved(dn, hand, at(x + behind))
+    if design == "grooved":
+        parts += grooved(dn, style, at(0)) + grooved(dn, style, at(x + behind))
     for turn, far in zip(turns, heights, strict=True):
-        parts += _goes_on(style, other, hand, rng, _way(x, turn) @ at(far))
-    return Model(parts, round(x + behind, 9), "flanged" if style == "flanged" else "welded")
+        parts += _goes_on(design, other, style, rng, _way(x, turn) @ at(far))
+    return Model(parts, round(x + behind, 9), "flanged" if design == "flanged" else "welded")
 
 
-def _goes_on(style: str, dn: int, hand: Hand, rng: np.random.Generator, pose: Floats) -> list[Part]:
+def _goes_on(design: str, dn: int, style: ModelingStyle, rng: np.random.Generator, pose: Floats) -> list[Part]:
     """What is on a branch's mouth: nothing, a plug, or a joint of its kind and a pipe."""
     r = PIPES[dn].radius
-    if style == "flanged":
+    if design == "flanged":
         if rng.random() < 0.3:
             return []
-        parts, length = counter(dn, hand, pose)
-        return parts + tail(dn, hand, rng, pose @ at(length), "ocfb")
-    if style == "grooved":
-        return grooved(dn, hand, pose) + tail(dn, hand, rng, pose, "ocb")
-    if style in ("banded", "socket", "hex") and rng.random() < 0.3:
+        parts, length = counter(dn, style, pose)
+        return parts + tail(dn, style, rng, pose @ at(length), "ocfb")
+    if design == "grooved":
+        return grooved(dn, style, pose) + tail(dn, style, rng, pose, "ocb")
+    if design in ("banded", "socket", "hex") and rng.random() < 0.3:
         corners, flats = (4, 1.1 * r) if rng.random() < 0.5 else (6, 2.0 * r)
         long = 0.5 * r + 0.006
         head = merge(
-            [prism(flats, corners, 0.0, long), lathe([(0.95 * r, -0.6 * r), (0.95 * r, 0.001)], hand.round(r))]
+            [prism(flats, corners, 0.0, long), lathe([(0.95 * r, -0.6 * r), (0.95 * r, 0.001)], style.round(r))]
         )
         return [Part(moved(head, pose), "pipe cap", "pipe")]
-    return tail(dn, hand, rng, pose, "oocf") if rng.random() < 0.9 else []
+    return tail(dn, style, rng, pose, "oocf") if rng.random() < 0.9 else []
 
 
-def _tee_of(style: str, reduced: bool = False) -> Build:
-    def build(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _tee_of(design: str, reduced: bool = False) -> Build:
+    def build(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
         """A tee with mouths of one kind (EN 10242, ASME B16.11, EN ISO 1452-3, AWWA C606)."""
-        return _junction(style, dn, hand, rng, (np.pi / 2,), "tee", _smaller(dn, rng) if reduced else 0)
+        return _junction(design, dn, style, rng, (np.pi / 2,), "tee", _smaller(dn, rng) if reduced else 0)
 
     return build
 
 
-def _lateral_of(style: str) -> Build:
-    def build(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _lateral_of(design: str) -> Build:
+    def build(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
         """A lateral of 45 or 60 degrees, welded, glued or cast with flanges (ASME B16.1, EN 545)."""
-        return _junction(style, dn, hand, rng, (pick(rng, 0.25, 0.25, 1 / 3) * np.pi,), "tee", _smaller(dn, rng))
+        return _junction(design, dn, style, rng, (pick(rng, 0.25, 0.25, 1 / 3) * np.pi,), "tee", _smaller(dn, rng))
 
     return build
 
 
-def _cross_of(style: str, slant: bool = False) -> Build:
-    def build(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _cross_of(design: str, slant: bool = False) -> Build:
+    def build(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
         """A cross with mouths of one kind, straight across or as a double lateral."""
         turn = 0.25 * np.pi if slant else 0.5 * np.pi
-        return _junction(style, dn, hand, rng, (turn, -turn), "cross", _smaller(dn, rng, 2))
+        return _junction(design, dn, style, rng, (turn, -turn), "cross", _smaller(dn, rng, 2))
 
     return build
 
 
-def _sweep_tee(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _sweep_tee(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A sweep tee: its branch leaves the line in a curve (EN 10242 E1 or fabricated)."""
     other = _smaller(dn, rng)
-    r, small, n = PIPES[dn].radius, PIPES[other].radius, hand.round(PIPES[dn].radius)
+    r, small, n = PIPES[dn].radius, PIPES[other].radius, style.round(PIPES[dn].radius)
     radius = float(rng.uniform(1.6, 3.0)) * 2 * small + 0.5 * r
-    path, reach = bend_path(radius, np.pi / 2, hand.bend(radius + small))
+    path, reach = bend_path(radius, np.pi / 2, style.bend(radius + small))
     length = reach + 2.0 * r + 0.02
     begin = 0.6 * r + 0.01
-    branch = moved(tube(path, 0.985 * small, bore_of(other, hand), n), at(begin) @ spun("x", np.pi / 2))
+    branch = moved(tube(path, 0.985 * small, bore_of(other, style), n), at(begin) @ spun("x", np.pi / 2))
     thick = bool(rng.random() < 0.4)
-    run = pipe_x(dn, 0.0, length, hand)
+    run = pipe_x(dn, 0.0, length, style)
     pieces = [run, branch]
     if thick:
         band = 0.35 * r + 0.004
         for low in (0.0, length - band):
             pieces.append(lathe([(1.25 * r, low), (1.25 * r, low + band)], n, 0.99 * r))
     far = at(begin + reach, 0, reach) @ _UP
-    return Model([Part(merge(pieces), "tee", "pipe"), *tail(other, hand, rng, far, "ocfb")], round(length, 9), "welded")
+    return Model(
+        [Part(merge(pieces), "tee", "pipe"), *tail(other, style, rng, far, "ocfb")], round(length, 9), "welded"
+    )
 
 
-def _pulled_tee(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _pulled_tee(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A collar pulled out of the pipe itself, the branch welded on it; one to three in a row as in a header."""
     others = [size for size in SIZES if PIPES[size].radius < 0.72 * PIPES[dn].radius]
     other = int(rng.choice(others[-4:]))
-    r, small, n = PIPES[dn].radius, PIPES[other].radius, hand.round(PIPES[dn].radius)
+    r, small, n = PIPES[dn].radius, PIPES[other].radius, style.round(PIPES[dn].radius)
     count, pitch = int(rng.integers(1, 4)), 4.0 * small + float(rng.uniform(0.04, 0.25))
     length = pitch * count
     top = r + 0.35 * small + 0.006
     rise = [(1.3 * small, 0.0), (1.12 * small, r + 0.08 * small), (1.0 * small, 0.5 * (r + top)), (small, top)]
-    pieces = [pipe_x(dn, 0.0, length, hand)]
+    pieces = [pipe_x(dn, 0.0, length, style)]
     parts: list[Part] = []
     for k in range(count):
         place = at(pitch * (k + 0.5))
-        pieces.append(moved(seated(rise, r, n, bore_of(other, hand), 0.001), place))
-        parts += tail(other, hand, rng, place @ at(0, 0, top) @ _UP, "ocfb")
+        pieces.append(moved(seated(rise, r, n, bore_of(other, style), 0.001), place))
+        parts += tail(other, style, rng, place @ at(0, 0, top) @ _UP, "ocfb")
     return Model([Part(merge(pieces), "tee", "pipe"), *parts], round(length, 9), "welded")
 
 
-def _bull_head(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _bull_head(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A tee on a pipe's end: the line runs into its branch and leaves to both sides."""
-    style = str(rng.choice(["plain", "banded", "socket", "flanged", "glued", "grooved"]))
-    r, n, far = PIPES[dn].radius, hand.round(PIPES[dn].radius), _reach(style, dn)
+    design = str(rng.choice(["plain", "banded", "socket", "flanged", "glued", "grooved"]))
+    r, n, far = PIPES[dn].radius, style.round(PIPES[dn].radius), _reach(design, dn)
     begin = 0.0
     parts: list[Part] = []
-    if style == "flanged":
-        counted, begin = counter(dn, hand, spun("z", np.pi))
+    if design == "flanged":
+        counted, begin = counter(dn, style, spun("z", np.pi))
         parts = [Part(moved(p.solid, at(begin)), p.name, p.color, p.bundle, p.group, p.fine) for p in counted]
     x = begin + far
     ways = [at(x) @ spun("z", turn) for turn in (np.pi, 0.5 * np.pi, -0.5 * np.pi)]
-    pieces = [moved(mouth(style, dn, hand, 0.0, far), way) for way in ways]
-    pieces.append(moved(ball(1.0 * r if style in ("plain", "grooved") else 1.2 * r, n), at(x)))
+    pieces = [moved(mouth(design, dn, style, 0.0, far), way) for way in ways]
+    pieces.append(moved(ball(1.0 * r if design in ("plain", "grooved") else 1.2 * r, n), at(x)))
     parts.insert(0, Part(merge(pieces), "tee", "pipe"))
     for way in ways[1:]:
-        parts += _goes_on(style, dn, hand, rng, way @ at(far))
-    if style == "grooved":
-        parts += grooved(dn, hand, at(0))
+        parts += _goes_on(design, dn, style, rng, way @ at(far))
+    if design == "grooved":
+        parts += grooved(dn, style, at(0))
     roll = spun("x", pick(rng, 0.0, 0.5) * np.pi)
     return Model([Part(moved(p.solid, roll), p.name, p.color, p.bundle, p.group, p.fine) for p in parts])
 
 
-def _breeches(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _breeches(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A wye on a pipe's end: two legs of a smaller size that part at an angle, straight or bent back to parallel."""
     other = int(rng.choice([size for size in SIZES if size < dn][-2:]))
-    r, small, n = PIPES[dn].radius, PIPES[other].radius, hand.round(PIPES[dn].radius)
+    r, small, n = PIPES[dn].radius, PIPES[other].radius, style.round(PIPES[dn].radius)
     turn = float(rng.uniform(0.35, 0.8))
     begin, length = 1.2 * r, 2.2 * small / np.sin(turn) + 0.05
     pieces = [lathe([(r, 0.0), (r, begin), (0.8 * r, begin + 0.5 * r)], n)]
@@ -216,14 +224,14 @@ def _breeches(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     for side in (-1, 1):
         way = at(0.7 * begin) @ spun("z", side * turn)
         if back:
-            path, reach = bend_path(2.2 * small, turn, hand.bend(3 * small, turn), 0.4 * length)
+            path, reach = bend_path(2.2 * small, turn, style.bend(3 * small, turn), 0.4 * length)
             flip = np.diag([1.0, -side, 1.0, 1.0])
             pieces.append(moved(tube(path, small, 0.0, n), way @ flip))
             far = way @ at(reach) @ spun("z", -side * turn) @ at(reach)
         else:
             pieces.append(moved(lathe([(small, 0.0), (small, length)], n), way))
             far = way @ at(length)
-        parts += tail(other, hand, rng, far, "ocfb")
+        parts += tail(other, style, rng, far, "ocfb")
     roll = spun("x", pick(rng, 0.0, 0.5) * np.pi)
     parts = [Part(merge(pieces), "tee", "pipe"), *parts]
     return Model([Part(moved(p.solid, roll), p.name, p.color, p.bundle, p.group, p.fine) for p in parts])
@@ -232,10 +240,10 @@ def _breeches(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
 # --- branch outlets: a piece of the line and what is welded or clamped on it ---
 
 
-def _olet(kind: str, small: int, r: float, hand: Hand, rng: np.random.Generator) -> tuple[Solid, float]:
+def _olet(kind: str, small: int, r: float, style: ModelingStyle, rng: np.random.Generator) -> tuple[Solid, float]:
     """A forged outlet (MSS SP-97) over the line's axis, and where its mouth is [m]."""
-    q, bore = PIPES[small].radius, 0.9 * PIPES[small].radius if hand.hollow else 0.0
-    n = hand.round(1.5 * q)
+    q, bore = PIPES[small].radius, 0.9 * PIPES[small].radius if style.hollow else 0.0
+    n = style.round(1.5 * q)
     if kind == "weld":
         top = r + 0.9 * q + 0.012
         outline = [(1.75 * q, 0.002), (1.7 * q, r + 0.15 * q), (1.12 * q, top - 0.25 * q), (q, top)]
@@ -258,15 +266,15 @@ def _olet(kind: str, small: int, r: float, hand: Hand, rng: np.random.Generator)
 
 
 def _outlet_of(kind: str) -> Build:
-    def build(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+    def build(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
         """A piece of the line with one to three forged outlets (MSS SP-97 or half couplings, ASME B16.11) on it."""
         small = int(rng.choice([size for size in SIZES if PIPES[size].radius < 0.6 * PIPES[dn].radius][-4:]))
         r, q = PIPES[dn].radius, PIPES[small].radius
         count, pitch = int(rng.integers(1, 4)), 4 * q + float(rng.uniform(0.04, 0.3))
         length = pitch * count + 0.04
-        parts = [Part(pipe_x(dn, 0.0, length, hand), "pipe", "pipe")]
+        parts = [Part(pipe_x(dn, 0.0, length, style), "pipe", "pipe")]
         for k in range(count):
-            solid, top = _olet(kind, small, r, hand, rng)
+            solid, top = _olet(kind, small, r, style, rng)
             place = at(0.02 + pitch * (k + 0.5)) @ spun("x", pick(rng, 0.0, 0.0, 0.0, 0.5) * np.pi)
             parts.append(Part(moved(solid, place), "branch outlet", "pipe"))
             way = place @ at(0, 0, top) @ _UP
@@ -276,34 +284,34 @@ def _outlet_of(kind: str) -> Build:
                 )
                 parts.append(Part(moved(plug, way), "pipe cap", "pipe"))
             else:
-                parts += tail(small, hand, rng, way, "ocfb")
+                parts += tail(small, style, rng, way, "ocfb")
         return Model(parts, round(length, 9), "welded")
 
     return build
 
 
-def _latrolet(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _latrolet(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A slanting outlet of 45 degrees (MSS SP-97): a thick sleeve grown into the line, its nipple leaning."""
     small = int(rng.choice([size for size in SIZES if PIPES[size].radius < 0.5 * PIPES[dn].radius][-3:]))
     r, q = PIPES[dn].radius, PIPES[small].radius
-    n, length = hand.round(1.5 * q), 4.5 * r + 0.1
+    n, length = style.round(1.5 * q), 4.5 * r + 0.1
     way = _way(0.35 * length, 0.25 * np.pi)
     # It begins inside the wall of the line, where the whole of its slanting end is buried.
     low, top = 1.05 * r, 1.414 * r + 2.4 * q + 0.015
-    sleeve = lathe([(1.4 * q, low), (1.4 * q, top - 0.3 * q), (1.15 * q, top)], n, 0.9 * q if hand.hollow else 0.0)
+    sleeve = lathe([(1.4 * q, low), (1.4 * q, top - 0.3 * q), (1.15 * q, top)], n, 0.9 * q if style.hollow else 0.0)
     toe = ball(1.45 * q, n)
     root = moved(toe, way @ at(1.414 * r + 0.1 * q))
     parts = [
-        Part(pipe_x(dn, 0.0, length, hand), "pipe", "pipe"),
+        Part(pipe_x(dn, 0.0, length, style), "pipe", "pipe"),
         Part(merge([moved(sleeve, way), root]), "branch outlet", "pipe"),
     ]
-    return Model([*parts, *tail(small, hand, rng, way @ at(top), "ocfb")], round(length, 9), "welded")
+    return Model([*parts, *tail(small, style, rng, way @ at(top), "ocfb")], round(length, 9), "welded")
 
 
-def _padded(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _padded(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A branch set on the line with a reinforcing pad (ASME B31.3, 304.3.3): a curved collar with a tell-tale hole."""
     small = int(rng.choice([size for size in SIZES if PIPES[size].radius < 0.62 * PIPES[dn].radius][-3:]))
-    r, q, n = PIPES[dn].radius, PIPES[small].radius, hand.round(PIPES[small].radius)
+    r, q, n = PIPES[dn].radius, PIPES[small].radius, style.round(PIPES[small].radius)
     thick, wide = 0.004 + 0.05 * r, min(float(rng.uniform(1.5, 2.0)) * q, 0.96 * r)
     length = 2 * wide + float(rng.uniform(0.1, 0.4))
     place = at(0.5 * length)
@@ -317,11 +325,11 @@ def _padded(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     top = r + 1.2 * q + 0.02
     weld_bead = seated([(1.12 * q, thick), (1.0 * q + 0.001, r + thick + 0.25 * q)], r, n)
     parts = [
-        Part(pipe_x(dn, 0.0, length, hand), "pipe", "pipe"),
+        Part(pipe_x(dn, 0.0, length, style), "pipe", "pipe"),
         Part(moved(merge([pad, weld_bead]), place), "branch outlet", "pipe"),
-        Part(moved(seated([(q, 0.0), (q, top)], r, n, bore_of(small, hand)), place), "pipe", "pipe"),
+        Part(moved(seated([(q, 0.0), (q, top)], r, n, bore_of(small, style)), place), "pipe", "pipe"),
     ]
-    return Model([*parts, *tail(small, hand, rng, place @ at(0, 0, top) @ _UP, "ocfb")], round(length, 9), "welded")
+    return Model([*parts, *tail(small, style, rng, place @ at(0, 0, top) @ _UP, "ocfb")], round(length, 9), "welded")
 
 
 def _half_shell(inner: float, outer: float, width: float, sides: int) -> Solid:
@@ -330,19 +338,19 @@ def _half_shell(inner: float, outer: float, width: float, sides: int) -> Solid:
     return about_x(extrude(np.concatenate([outer * unit, inner * unit[::-1]]), -width / 2, width / 2))
 
 
-def _saddle(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _saddle(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A tapping saddle: a boss on a half shell, held by a second shell with bolts (plastic) or by U-bolts (cast)."""
     small = int(rng.choice([size for size in SIZES if PIPES[size].radius < 0.62 * PIPES[dn].radius][-3:]))
-    r, q, n = PIPES[dn].radius, PIPES[small].radius, hand.round(PIPES[dn].radius)
+    r, q, n = PIPES[dn].radius, PIPES[small].radius, style.round(PIPES[dn].radius)
     thick, width = 0.006 + 0.08 * r, 3.2 * q + 0.03
     length = width + float(rng.uniform(0.1, 0.3))
     place, outer = at(0.5 * length), r + thick
     top = outer + 1.1 * q + 0.008
-    boss = _upright([(1.45 * q, 0.8 * outer), (1.45 * q, top)], hand.round(1.5 * q), 0.0)
+    boss = _upright([(1.45 * q, 0.8 * outer), (1.45 * q, top)], style.round(1.5 * q), 0.0)
     ring_ = hexagon(3.1 * q, top - 0.4 * q, top) if rng.random() < 0.5 else cylinder(1.6 * q, top - 0.4 * q, top, n)
     upper = [_half_shell(r, outer, width, n), boss, ring_]
     color = str(rng.choice(["rubber", "handle", "valve", "trim"]))
-    parts = [Part(pipe_x(dn, 0.0, length, hand), "pipe", "pipe")]
+    parts = [Part(pipe_x(dn, 0.0, length, style), "pipe", "pipe")]
     if rng.random() < 0.5:
         ears = [moved(extrude(_rect(width, 0.03), 0.0005, 0.011), at(0, s * (outer + 0.012))) for s in (-1, 1)]
         lower = merge([_half_shell(r, outer, width, n), *ears])
@@ -351,7 +359,7 @@ def _saddle(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         for side in (-1, 1):
             for x in (-0.35 * width, 0.35 * width):
                 way = place @ at(x, side * (outer + 0.016)) @ _UP
-                parts += bolting(1, 0.0, 0.008, -0.011, 0.011, hand, "branch outlet", way)
+                parts += bolting(1, 0.0, 0.008, -0.011, 0.011, style, "branch outlet", way)
     else:
         ears = [moved(extrude(_rect(width, 0.03), 0.0, 0.012), at(0, s * (outer + 0.01))) for s in (-1, 1)]
         parts.append(Part(moved(merge([*upper, *ears]), place), "branch outlet", color, "branch outlet"))
@@ -363,7 +371,7 @@ def _saddle(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
             parts.append(Part(moved(rope(path, 0.006, 8), place @ at(x)), "u-bolt", "fastener", "", BOLTED))
             nuts = merge([moved(hexagon(0.019, 0.012, 0.022), at(0, s * leg)) for s in (-1, 1)])
             parts.append(Part(moved(nuts, place @ at(x)), "nut", "fastener", "", BOLTED, True))
-    return Model([*parts, *tail(small, hand, rng, place @ at(0, 0, top) @ _UP, "ocf")], round(length, 9), "welded")
+    return Model([*parts, *tail(small, style, rng, place @ at(0, 0, top) @ _UP, "ocf")], round(length, 9), "welded")
 
 
 def _upright(outline: list[tuple[float, float]], sides: int, bore: float) -> Solid:

@@ -21,7 +21,7 @@ from cadplants.families.piping.shape import (
 from cadplants.family import Family, Model, Part
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle
 from cadplants.primitives import box, cylinder, rod, torus
 from cadplants.standards import PIPES, SIZES
@@ -46,23 +46,23 @@ def half_band(inner: float, outer: float, low: float, high: float, sides: int, t
     return about_x(extrude(np.concatenate([outer * unit, inner * unit[::-1]]), low, high))
 
 
-def _ends(dn: int, hand: Hand, length: float, gap: float = 0.004) -> list[Part]:
+def _ends(dn: int, style: ModelingStyle, length: float, gap: float = 0.004) -> list[Part]:
     """Two pieces of pipe that nearly meet in the middle of a coupling."""
     half = 0.5 * length - 0.5 * gap
-    return [Part(pipe_x(dn, a, b, hand), "pipe", "pipe") for a, b in ((0.0, half), (length - half, length))]
+    return [Part(pipe_x(dn, a, b, style), "pipe", "pipe") for a, b in ((0.0, half), (length - half, length))]
 
 
-def _grooved(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _grooved(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A grooved coupling of two housings and two bolts over the ends of two pipes (AWWA C606)."""
     length = 0.1 + float(rng.uniform(0.5, 2.5)) * PIPES[dn].outer
-    parts = _ends(dn, hand, length)
+    parts = _ends(dn, style, length)
     pose = at(0.5 * length) @ spun("x", pick(rng, 0.0, 0.25, 0.5) * np.pi)
-    return Model([*parts, *grooved(dn, hand, pose, bool(rng.random() < 0.5))], round(length, 9), "welded")
+    return Model([*parts, *grooved(dn, style, pose, bool(rng.random() < 0.5))], round(length, 9), "welded")
 
 
-def _banded(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _banded(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A clamp-band coupling of stainless sheet with folded edges, closed by two screws in two bars (Straub type)."""
-    r, n = PIPES[dn].radius, hand.round(1.2 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.2 * PIPES[dn].radius)
     width, thick = float(rng.uniform(0.7, 1.1)) * r + 0.045, 0.002 + 0.02 * r
     outer = r + 0.006 + 0.06 * r
     length = width + float(rng.uniform(0.06, 0.3))
@@ -70,7 +70,7 @@ def _banded(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     bead = 0.12 * width
     shape = [(0.93 * outer, low), (outer, low + bead), (outer, high - bead), (0.93 * outer, high)]
     inner = r * 1.0005
-    parts = [*_ends(dn, hand, length, 0.01), _own(lathe(shape, n, inner))]
+    parts = [*_ends(dn, style, length, 0.01), _own(lathe(shape, n, inner))]
     wrap = [lathe([(outer + thick, low + bead), (outer + thick, high - bead)], n, outer - 0.0003)]
     bar, lift = 0.1 * r + 0.005, outer + thick + 0.05 * r + 0.004
     side = bar * 1.3 + 0.003
@@ -80,7 +80,7 @@ def _banded(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts.append(_own(moved(merge(wrap), roll)))
     for share in (-0.25, 0.25) if rng.random() < 0.8 else (0.0,):
         way = roll @ at(mid + share * width, 0, lift) @ spun("z", np.pi / 2)
-        parts += bolting(1, 0.0, 0.5 * bar + 0.003, -side - bar, side + bar, hand, _ME, way)
+        parts += bolting(1, 0.0, 0.5 * bar + 0.003, -side - bar, side + bar, style, _ME, way)
     return Model(parts, round(length, 9), "welded")
 
 
@@ -92,9 +92,9 @@ def _lobed(radius: float, ears: int, reach: float, wide: float, bore: float, low
     return about_x(extrude(np.column_stack([r * np.cos(angles), r * np.sin(angles)]), low, high, (circle(bore, n),)))
 
 
-def _sleeve_bolts(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _sleeve_bolts(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A bolted sleeve coupling (AWWA C219): a middle ring, two follower rings, long bolts from one to the other."""
-    r, n = PIPES[dn].radius, hand.round(1.3 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius)
     width, thick = float(rng.uniform(1.2, 2.2)) * r + 0.07, 0.01 + 0.06 * r
     length = width + float(rng.uniform(0.08, 0.3))
     count = int(rng.choice([2, 3, 4])) if dn <= 80 else int(rng.choice([4, 6, 8]))
@@ -107,24 +107,24 @@ def _sleeve_bolts(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         (sleeve, high - 2 * thick),
         (1.12 * sleeve, high - thick),
     ]
-    parts = [*_ends(dn, hand, length, 0.01), _own(lathe(shape, n, r), "valve")]
+    parts = [*_ends(dn, style, length, 0.01), _own(lathe(shape, n, r), "valve")]
     circle_ = 1.15 * sleeve + 1.1 * bolt
     for place in (low, high - thick):
         ring = _lobed(1.15 * sleeve, count, circle_ + 1.1 * bolt, 1.2 * bolt / circle_, r, place, place + thick, n)
         parts.append(_own(ring, "valve"))
-    parts += bolting(count, circle_, bolt, low, high, hand, _ME, IDENTITY, 0.0)
+    parts += bolting(count, circle_, bolt, low, high, style, _ME, IDENTITY, 0.0)
     return Model(parts, round(length, 9), "welded")
 
 
-def _cam(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _cam(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A cam and groove coupling (EN 14420-7): an adapter in a coupler with two cam levers and finger rings."""
-    r, n = PIPES[dn].radius, hand.round(1.4 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.4 * PIPES[dn].radius)
     end, cup, male = 0.9 * r + 0.012, 1.1 * r + 0.02, 0.7 * r + 0.012
     length = 2 * end + cup + male
-    style = int(rng.integers(2))
+    design = int(rng.integers(2))
     grip = (
         prism(2.7 * r + 0.004, int(rng.choice([6, 8])), 0.0, end)
-        if style
+        if design
         else lathe([(1.2 * r, 0.0), (1.25 * r, end)], n)
     )
     outer = 1.45 * r + 0.006
@@ -163,13 +163,13 @@ def _pin(radius: float, tall: float) -> Solid:
     return cylinder(radius, -0.5 * tall, 0.5 * tall, 10)
 
 
-def _storz(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _storz(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A claw coupling (DIN 14301 Storz, or with two claws): two alike halves, each with lugs round its ring."""
-    r, n = PIPES[dn].radius, hand.round(1.5 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.5 * PIPES[dn].radius)
     tail_, ring_ = float(rng.uniform(0.9, 1.8)) * r + 0.02, 0.45 * r + 0.014
     length, lugs = 2 * (tail_ + ring_), int(rng.choice([2, 2, 3, 4]))
     outer = 1.5 * r + 0.01
-    half = [lathe([(1.15 * r, 0.0), (1.1 * r, tail_), (outer, tail_), (outer, tail_ + ring_)], n, bore_of(dn, hand))]
+    half = [lathe([(1.15 * r, 0.0), (1.1 * r, tail_), (outer, tail_), (outer, tail_ + ring_)], n, bore_of(dn, style))]
     for k in range(lugs):
         lug = box((1.3 * ring_, 0.3 * r + 0.01, 0.8 * r), (tail_ + 0.75 * ring_, outer, 0))
         half.append(moved(lug, spun("x", 2 * np.pi * k / lugs)))
@@ -183,9 +183,9 @@ def _storz(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([_own(one), _own(moved(one, at(length) @ _BACK @ turn))], round(length, 9), "welded")
 
 
-def _quick(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _quick(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A quick coupling (ISO 7241): a plug in a socket with a sliding knurled sleeve, hexagons at both ends."""
-    r, n = PIPES[dn].radius, hand.round(1.5 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.5 * PIPES[dn].radius)
     hexa, body = 0.8 * r + 0.01, float(rng.uniform(2.2, 3.2)) * r + 0.02
     length = 2 * hexa + body + 0.6 * r
     split = hexa + 0.72 * body
@@ -216,9 +216,9 @@ def _quick(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([_own(socket), _own(sleeve), _own(male)], round(length, 9), "welded")
 
 
-def _adaptor(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _adaptor(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A flange adaptor (AWWA C219): a flanged sleeve over a plain pipe, pressed by a follower ring with bolts."""
-    r, n = PIPES[dn].radius, hand.round(1.3 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius)
     lead, plate = float(rng.uniform(0.05, 0.2)), plate_thickness(dn)
     body, thick = float(rng.uniform(0.7, 1.2)) * r + 0.05, 0.01 + 0.05 * r
     face = lead + thick + body
@@ -226,24 +226,24 @@ def _adaptor(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     solid = merge(
         [
             lathe([(1.15 * sleeve, lead + thick + 0.004), (sleeve, lead + 2 * thick), (sleeve, face - plate)], n, r),
-            flat_flange(dn, hand, face - plate, plate, r),
+            flat_flange(dn, style, face - plate, plate, r),
         ]
     )
     count, bolt = (4 if dn <= 100 else 6), 0.008 + 0.03 * r
     out = 1.15 * sleeve + 1.1 * bolt
     ring = _lobed(1.15 * sleeve, count, out + 1.1 * bolt, 1.2 * bolt / out, r, lead, lead + thick, n)
-    parts = [Part(pipe_x(dn, 0.0, face - 0.02, hand), "pipe", "pipe"), _own(solid, "valve"), _own(ring, "valve")]
-    parts += bolting(count, out, bolt, lead, min(face - plate, lead + 3 * thick), hand, _ME, IDENTITY, 0.0)
-    counted, more = counter(dn, hand, at(face))
+    parts = [Part(pipe_x(dn, 0.0, face - 0.02, style), "pipe", "pipe"), _own(solid, "valve"), _own(ring, "valve")]
+    parts += bolting(count, out, bolt, lead, min(face - plate, lead + 3 * thick), style, _ME, IDENTITY, 0.0)
+    counted, more = counter(dn, style, at(face))
     return Model([*parts, *counted], round(face + more, 9), "welded")
 
 
-def _hygienic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _hygienic(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A hygienic clamp joint (ISO 2852): two ferrules, a seal, a hinged clamp of two halves with a wing nut."""
-    r, n = PIPES[dn].radius, hand.round(1.4 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.4 * PIPES[dn].radius)
     long, rim = float(rng.uniform(0.6, 1.2)) * r + 0.012, 1.18 * r + 0.009
     length = 2 * long + 0.002
-    ferrule = lathe([(r, 0.0), (r, long - 0.006), (rim, long - 0.003), (rim, long)], n, bore_of(dn, hand))
+    ferrule = lathe([(r, 0.0), (r, long - 0.006), (rim, long - 0.003), (rim, long)], n, bore_of(dn, style))
     parts = [_own(ferrule), _own(moved(ferrule, at(length) @ _BACK))]
     parts.append(Part(lathe([(rim, long), (rim, long + 0.002)], n, r), "gasket", "gasket", _ME))
     wide, outer, mid = 0.016 + 0.06 * r, rim + 0.005 + 0.04 * r, 0.5 * length
@@ -267,15 +267,15 @@ def _hygienic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(length, 9), "welded")
 
 
-def _irrigation(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _irrigation(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A plastic compression fitting (ISO 17885): a barrel between two conical nuts with coarse ribs."""
-    r, n = PIPES[dn].radius, hand.round(1.6 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.6 * PIPES[dn].radius)
     nut, middle = float(rng.uniform(1.5, 2.2)) * r + 0.015, 0.8 * r + 0.01
     length, teeth = 2 * nut + middle, int(rng.integers(8, 15))
     one = merge(
         [
             lathe(
-                [(1.25 * r, 0.0), (1.5 * r + 0.003, 0.55 * nut), (1.6 * r + 0.003, nut)], n, r if hand.hollow else 0.0
+                [(1.25 * r, 0.0), (1.5 * r + 0.003, 0.55 * nut), (1.6 * r + 0.003, nut)], n, r if style.hollow else 0.0
             ),
             knurled(1.85 * r + 0.004, teeth, 0.22 * r, 0.5 * nut, nut, 1.3 * r, n),
         ]
@@ -298,23 +298,23 @@ def _irrigation(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _tube_fitting(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _tube_fitting(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A tube fitting (ISO 8434-1): a hexagon body and a hexagon nut with a chamfer on each side."""
-    r, n = PIPES[dn].radius, hand.round(1.4 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.4 * PIPES[dn].radius)
     nut, hexa, gap = 1.1 * r + 0.008, 0.5 * r + 0.004, 0.4 * r + 0.003
     length = 2 * (nut + gap) + hexa
     thread = lathe([(1.1 * r, 0.5 * nut), (1.1 * r, length - 0.5 * nut)], n)
     body = merge([thread, prism(2.5 * r + 0.005, 6, nut + gap, nut + gap + hexa)])
-    bored = 0.99 * r if hand.hollow else 0.0
+    bored = 0.99 * r if style.hollow else 0.0
     cone = lathe([(1.12 * r, 0.0), (1.3 * r, 0.25 * nut)], n, bored)
     one = merge([cone, prism(2.6 * r + 0.006, 6, 0.25 * nut, nut, bored, n)])
     ends = [moved(one, spun("x", float(rng.uniform(0, 1)))), moved(one, at(length) @ _BACK)]
     return Model([_own(body), *(Part(s, "nut", "trim", _ME, BOLTED) for s in ends)], round(length, 9), "welded")
 
 
-def _repair(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _repair(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A repair clamp: a stainless shell round the pipe, drawn together along a bar by a row of bolts."""
-    r, n = PIPES[dn].radius, hand.round(1.1 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.1 * PIPES[dn].radius)
     count = int(rng.integers(2, 6))
     width = 0.055 * count + 0.02
     length = width + float(rng.uniform(0.1, 0.4))
@@ -326,18 +326,18 @@ def _repair(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         for k in range(count)
         for s in (-1, 1)
     ]
-    parts = [Part(pipe_x(dn, 0.0, length, hand), "pipe", "pipe"), _own(shell), _own(merge([*bars, *webs]))]
+    parts = [Part(pipe_x(dn, 0.0, length, style), "pipe", "pipe"), _own(shell), _own(merge([*bars, *webs]))]
     for k in range(count):
         way = at(low + width * (k + 0.5) / count, 0, r + thick + 0.017) @ spun("z", np.pi / 2)
-        parts += bolting(1, 0.0, 0.01, -0.023, 0.023, hand, _ME, way)
+        parts += bolting(1, 0.0, 0.01, -0.023, 0.023, style, _ME, way)
     return Model(parts, round(length, 9), "welded")
 
 
-def _plastic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _plastic(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A plastic sleeve: glued with a lip at each end, or an electrofusion one with two terminals (ISO 4427-3)."""
-    r, n = PIPES[dn].radius, hand.round(1.2 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.2 * PIPES[dn].radius)
     length, outer = float(rng.uniform(2.2, 3.6)) * r + 0.02, 1.2 * r + 0.002
-    bore = bore_of(dn, hand)
+    bore = bore_of(dn, style)
     if rng.random() < 0.5:
         lip = 0.1 * length
         shape = [(1.08 * outer, 0.0), (1.08 * outer, lip), (outer, lip), (outer, length - lip)]

@@ -21,7 +21,7 @@ from cadplants.mesh_ops import (
     tube,
     weld,
 )
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, torus, turned, waves
 from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, REDUCER_LENGTH, SIZES, TEE_CENTER_TO_END
@@ -37,16 +37,16 @@ def _single(solid: Solid, name: str, length: float, dn: int = 0, joint: str = "w
     return Model([Part(solid, name, color)], round(length, 6), joint, dn=dn)
 
 
-def _coupling(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _coupling(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A threaded or socket coupling (ASME B16.11), plain or hexagonal; or a grooved one of two halves with bolts."""
-    radius, n = PIPES[dn].radius, hand.round(PIPES[dn].radius)
+    radius, n = PIPES[dn].radius, style.round(PIPES[dn].radius)
     length = 1.5 * radius + 0.025
     kind = int(rng.integers(4))
-    bore = bore_of(dn, hand)
+    bore = bore_of(dn, style)
     if kind == 0:
         return _single(along("x", ring(bore, 1.25 * radius + 0.002, 0, length, n)), "coupling", length)
     if kind == 1:
-        return _single(hex_end(dn, 0, length, hand, int(rng.choice([6, 8]))), "coupling", length)
+        return _single(hex_end(dn, 0, length, style, int(rng.choice([6, 8]))), "coupling", length)
     if kind == 2:
         big, wall = 1.25 * radius + 0.002, 0.15 * length
         shape = [
@@ -93,12 +93,12 @@ def _half_ring(inner: float, outer: float, width: float, sides: int) -> Solid:
     return extrude(np.concatenate([outer * unit, inner * unit[::-1]]), 0.0, width)
 
 
-def _union(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _union(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A union (ASME B16.11, EN 10242): two wrench ends and a big nut over the joint."""
     radius = PIPES[dn].radius
     length = 2.0 * radius + 0.035
     ends = merge(
-        [hex_end(dn, 0, 0.45 * length, hand, 8), hex_end(dn, 0.45 * length, length, hand, int(rng.choice([6, 8])))]
+        [hex_end(dn, 0, 0.45 * length, style, 8), hex_end(dn, 0.45 * length, length, style, int(rng.choice([6, 8])))]
     )
     flats = 3.1 * radius + 0.008
     nut = along("x", hexagon(flats, 0.3 * length, 0.66 * length, 1.2 * radius, 12))
@@ -107,10 +107,10 @@ def _union(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _nipple(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _nipple(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A hexagon nipple, or a barrel nipple between two couplings."""
-    radius, n = PIPES[dn].radius, hand.round(PIPES[dn].radius)
-    length, bore = 2.0 * radius + 0.03, bore_of(dn, hand)
+    radius, n = PIPES[dn].radius, style.round(PIPES[dn].radius)
+    length, bore = 2.0 * radius + 0.03, bore_of(dn, style)
     if rng.random() < 0.5:
         tube_ = ring(bore, 0.96 * radius, 0, length, n)
         hexa = hexagon(2.4 * radius + 0.004, 0.42 * length, 0.58 * length, 0.5 * radius)
@@ -128,7 +128,7 @@ def _nipple(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _bellows(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _bellows(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An expansion joint (EN 14917): waves between two flanges, plain or with tie rods; or one rubber arch."""
     size, radius = FLANGES[dn], PIPES[dn].radius
     thick, room = plate_thickness(dn), nut_room(dn)
@@ -138,7 +138,9 @@ def _bellows(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     low, high = thick + room, length - thick - room
     top = radius * (1.6 if rubber else 1.35) + 0.004
     profile = [(z, x) for z, x in waves(low, high, 1.02 * radius, top, count)]
-    body = flanged_body(dn, hand, length, [(1.02 * radius, low * 0.999), *profile[1:-1], (1.02 * radius, high * 1.001)])
+    body = flanged_body(
+        dn, style, length, [(1.02 * radius, low * 0.999), *profile[1:-1], (1.02 * radius, high * 1.001)]
+    )
     parts = [Part(body, "expansion joint", "rubber" if rubber else "trim", "expansion joint")]
     if rng.random() < 0.4:
         lug, count = 0.5 * size.outer + 0.02, int(rng.choice([2, 3, 4]))
@@ -161,26 +163,26 @@ def _bellows(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(length, 6))
 
 
-def _bellows_welded(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _bellows_welded(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Metal bellows or braided hose with plain ends for welding."""
-    radius, n = PIPES[dn].radius, hand.round(PIPES[dn].radius)
+    radius, n = PIPES[dn].radius, style.round(PIPES[dn].radius)
     count = int(rng.integers(4, 12))
     length = 0.3 * count * radius + 0.06
     swing = waves(0.03, length - 0.03, 1.0 * radius, 1.3 * radius + 0.003, count)
     outline = [(radius, 0.0), *swing, (radius, length)]
-    bore = bore_of(dn, hand)
+    bore = bore_of(dn, style)
     shell = weld([revolve([*outline, (bore, length), (bore, 0.0)], n, closed=True)]) if bore else turned(outline, n)
     return _single(about_x(shell), "expansion joint", length, color="trim")
 
 
-def _y_strainer(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _y_strainer(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A Y strainer, flanged: a slanting branch downward with a bolted or screwed cap."""
     length, radius = FACE_TO_FACE["globe"][dn], PIPES[dn].radius
     low, neck = plate_thickness(dn) + 0.1 * length, 0.485 * FLANGES[dn].hub
-    bulge, n = max(neck, 1.2 * radius + 0.004), hand.round(1.3 * radius)
+    bulge, n = max(neck, 1.2 * radius + 0.004), style.round(1.3 * radius)
     body = flanged_body(
         dn,
-        hand,
+        style,
         length,
         [(neck, low), (bulge, low + 0.1 * length), (bulge, length - low - 0.1 * length), (neck, length - low)],
     )
@@ -208,15 +210,15 @@ def _y_strainer(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _y_strainer_threaded(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _y_strainer_threaded(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A small Y strainer with hexagon ends and a hexagon plug."""
-    radius, n = PIPES[dn].radius, hand.round(1.3 * PIPES[dn].radius)
+    radius, n = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius)
     length, bulge = 4.2 * radius + 0.03, 1.25 * radius + 0.003
     body = merge(
         [
-            hex_end(dn, 0, 0.22 * length, hand),
+            hex_end(dn, 0, 0.22 * length, style),
             along("x", cylinder(bulge, 0.2 * length, 0.8 * length, n)),
-            hex_end(dn, 0.78 * length, length, hand),
+            hex_end(dn, 0.78 * length, length, style),
         ]
     )
     way = at(0.42 * length) @ spun("y", np.pi - 0.8)
@@ -228,13 +230,13 @@ def _y_strainer_threaded(dn: int, hand: Hand, rng: np.random.Generator) -> Model
     )
 
 
-def _basket(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _basket(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A basket strainer: an upright pot across the line, a lid on top with bolts or a clamp bar (T type)."""
     radius = PIPES[dn].radius
-    pot, n = 1.9 * radius + 0.02, hand.round(1.9 * radius)
+    pot, n = 1.9 * radius + 0.02, style.round(1.9 * radius)
     length = 2 * (pot + plate_thickness(dn) + nut_room(dn) + 0.01)
     neck = 0.485 * FLANGES[dn].hub
-    body = flanged_body(dn, hand, length, [(neck, 0.3 * length), (neck, 0.7 * length)])
+    body = flanged_body(dn, style, length, [(neck, 0.3 * length), (neck, 0.7 * length)])
     low, high = -2.2 * pot, max(1.1 * pot, 0.5 * FLANGES[dn].outer + 0.01)
     shell = turned(
         [
@@ -266,10 +268,10 @@ def _basket(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(length, 6))
 
 
-def _cross(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _cross(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A butt-welding cross (ASME B16.9), its side mouths of the same or a smaller size, closed by caps or open."""
     size, reach = PIPES[dn], TEE_CENTER_TO_END[dn]
-    n = hand.round(size.radius)
+    n = style.round(size.radius)
     foot = 0.93 * size.radius
     out = ((foot, size.radius + 0.5 * (reach - size.radius)), (foot, reach), (0.0, reach))
     if n >= 16 and n % 4 == 0:
@@ -284,9 +286,9 @@ def _cross(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return _single(merge([along("x", cylinder(size.radius, 0, 2 * reach, n)), side]), "cross", 2 * reach)
 
 
-def _arm(dn: int, hand: Hand, low: float, reach: float, n: int) -> Solid:
-    """A forged mouth about z from ``low`` to ``reach`` with a band at its end, bored where the hand models hollow."""
-    radius, bore = PIPES[dn].radius, bore_of(dn, hand)
+def _arm(dn: int, style: ModelingStyle, low: float, reach: float, n: int) -> Solid:
+    """A forged mouth about z from ``low`` to ``reach`` with a band at its end, bored where the style models hollow."""
+    radius, bore = PIPES[dn].radius, bore_of(dn, style)
     outline = [(1.15 * radius, low), (1.15 * radius, 0.6 * reach), (1.3 * radius, 0.65 * reach), (1.3 * radius, reach)]
     if low < 0:
         outline = [(1.3 * radius, low), (1.3 * radius, 0.65 * low), (1.15 * radius, 0.6 * low), *outline[1:]]
@@ -295,38 +297,38 @@ def _arm(dn: int, hand: Hand, low: float, reach: float, n: int) -> Solid:
     return weld([revolve([*outline, (bore, reach), (bore, low)], n, closed=True)])
 
 
-def _cross_forged(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _cross_forged(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A threaded or socket cross: a round body with bands at its four mouths (ASME B16.11)."""
-    radius, n = PIPES[dn].radius, hand.round(1.2 * PIPES[dn].radius)
+    radius, n = PIPES[dn].radius, style.round(1.2 * PIPES[dn].radius)
     reach = 1.6 * radius + 0.015
-    arm = _arm(dn, hand, -reach, reach, n)
+    arm = _arm(dn, style, -reach, reach, n)
     solid = merge([along("x", arm, reach), moved(arm, at(reach))])
     return _single(solid, "cross", 2 * reach)
 
 
-def _tee_forged(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _tee_forged(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A threaded or socket tee: three banded mouths."""
-    radius, n = PIPES[dn].radius, hand.round(1.2 * PIPES[dn].radius)
+    radius, n = PIPES[dn].radius, style.round(1.2 * PIPES[dn].radius)
     reach = 1.6 * radius + 0.015
-    arm = _arm(dn, hand, -reach, reach, n)
-    up = _arm(dn, hand, 0.0, reach, n)
+    arm = _arm(dn, style, -reach, reach, n)
+    up = _arm(dn, style, 0.0, reach, n)
     return _single(merge([along("x", arm, reach), moved(up, at(reach))]), "tee", 2 * reach)
 
 
-def _tee_flanged(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _tee_flanged(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A cast tee with flanges at all three mouths, the third closed by a blind flange or open."""
     reach = 0.5 * FLANGES[dn].outer + plate_thickness(dn) + nut_room(dn) + 0.02
     neck = 0.485 * FLANGES[dn].hub
-    body = flanged_body(dn, hand, 2 * reach, [(neck, 0.4 * reach), (neck, 1.6 * reach)])
-    branch = moved(moved(disc_flange(dn, hand, reach - 0.6 * neck), spun("x", np.pi)), at(reach, 0, reach))
+    body = flanged_body(dn, style, 2 * reach, [(neck, 0.4 * reach), (neck, 1.6 * reach)])
+    branch = moved(moved(disc_flange(dn, style, reach - 0.6 * neck), spun("x", np.pi)), at(reach, 0, reach))
     return Model([Part(merge([body, branch]), "tee", "pipe")], round(2 * reach, 6))
 
 
-def _eccentric(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _eccentric(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An eccentric reducer (ASME B16.9): flat on one side; the run goes on in its first size behind a second one."""
     other = int(rng.choice([size for size in SIZES if size < dn][-3:]))
     first, last = PIPES[dn], PIPES[other]
-    length, n = REDUCER_LENGTH[dn], hand.round(first.radius)
+    length, n = REDUCER_LENGTH[dn], style.round(first.radius)
     down = -(first.radius - last.radius)
     shares = np.array([0.0, 0.15, 0.4, 0.6, 0.85, 1.0])
     ease = 0.5 - 0.5 * np.cos(np.pi * shares)
@@ -360,10 +362,10 @@ def _loft_rounds(path: Floats, radii: list[float], sides: int) -> Solid:
     )
 
 
-def _swage(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _swage(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A conical reducer to a smaller size, a nipple, and a second cone back."""
     other = int(rng.choice([size for size in SIZES if size < dn][-3:]))
-    a, b, n = PIPES[dn].radius, PIPES[other].radius, hand.round(PIPES[dn].radius)
+    a, b, n = PIPES[dn].radius, PIPES[other].radius, style.round(PIPES[dn].radius)
     length = REDUCER_LENGTH[dn]
     cone = turned([(a, 0.0), (a, 0.15 * length), (b, 0.85 * length), (b, length)], n)
     whole = 2 * length + 0.08
@@ -379,10 +381,10 @@ def _swage(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _spectacle(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _spectacle(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A spectacle blind (ASME B16.48): a ring and a disc on one plate, or a spacer with a handle."""
     size, pipe = FLANGES[dn], PIPES[dn]
-    outer, thick, n = 0.49 * (size.circle - size.bolt), 0.006 + 0.06 * pipe.radius, hand.round(size.circle / 2)
+    outer, thick, n = 0.49 * (size.circle - size.bolt), 0.006 + 0.06 * pipe.radius, style.round(size.circle / 2)
     shift = size.circle + 0.01
     ring_ = ring(pipe.bore if rng.random() < 0.5 else 0.0, outer, 0, thick, n)
     web = box((shift, 0.5 * outer, thick), (shift / 2, 0, thick / 2))
@@ -403,28 +405,30 @@ def _clipped(_: Solid, low: float, high: float) -> Solid:
     return box((max(high - low, 0.0) + 0.02, 0.4 * thick, 0.008), ((low + high) / 2, 0, 0.006))
 
 
-def _hose(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _hose(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A hose hanging from a pipe's end: a collar, then a curve to the ground; smooth or corrugated."""
-    radius, n = PIPES[dn].radius, hand.round(PIPES[dn].radius)
+    radius, n = PIPES[dn].radius, style.round(PIPES[dn].radius)
     reach = float(rng.uniform(6, 14)) * radius + 0.1
     t = np.linspace(0, 1, 22)
     path = np.column_stack([0.03 + reach * t, 0.3 * reach * np.sin(2.5 * t) * t, -0.5 * reach * t**2])
     path = np.vstack([[0.0, 0.0, 0.0], path])
     collar = along(
         "x",
-        merge([ring(bore_of(dn, hand), 1.3 * radius, 0.0, 0.02, n), hexagon(2.7 * radius, 0.02, 0.035 + 0.2 * radius)]),
+        merge(
+            [ring(bore_of(dn, style), 1.3 * radius, 0.0, 0.02, n), hexagon(2.7 * radius, 0.02, 0.035 + 0.2 * radius)]
+        ),
     )
     return Model(
         [
-            Part(tube(path, 1.1 * radius, 0.85 * radius if hand.hollow else 0.0, n), "hose", "rubber"),
+            Part(tube(path, 1.1 * radius, 0.85 * radius if style.hollow else 0.0, n), "hose", "rubber"),
             Part(collar, "coupling", "trim"),
         ]
     )
 
 
-def _turn(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _turn(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An elbow on a pipe's end: 45, 90 or 180 degrees, short or long or 3D radius, or mitred; then a piece of pipe."""
-    size, n = PIPES[dn], hand.round(PIPES[dn].radius)
+    size, n = PIPES[dn], style.round(PIPES[dn].radius)
     radius = float(rng.choice([1.0, 1.0, 1.5, 3.0])) * size.outer
     turn = float(rng.choice([0.25, 0.5, 0.5, 1.0])) * np.pi
     roll = spun("x", float(rng.choice([0.0, 0.5, 1.0, 1.5])) * np.pi)
@@ -446,7 +450,7 @@ def _turn(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     points = np.column_stack([path, np.zeros(len(path))])
     out = np.array([np.cos(turn), np.sin(turn), 0.0])
     tail = points[-1] + out * float(rng.uniform(1, 5)) * size.outer
-    bore = bore_of(dn, hand)
+    bore = bore_of(dn, style)
     parts = [
         Part(moved(tube(points, size.radius, bore, n), roll), "elbow", "pipe"),
         Part(moved(tube(np.vstack([points[-1], tail]), size.radius, bore, n), roll), "pipe", "pipe"),
@@ -454,9 +458,9 @@ def _turn(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _elbow_forged(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _elbow_forged(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A threaded or socket elbow with banded mouths on a pipe's end (ASME B16.11), and a plug or a nipple in it."""
-    radius, n = PIPES[dn].radius, hand.round(1.2 * PIPES[dn].radius)
+    radius, n = PIPES[dn].radius, style.round(1.2 * PIPES[dn].radius)
     reach = 1.6 * radius + 0.015
     arm = turned(
         [
@@ -487,13 +491,13 @@ def _elbow_forged(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         ]
     )
     roll = spun("x", float(rng.choice([0.0, 0.5, 1.0, 1.5])) * np.pi)
-    tail = along("y", ring(bore_of(dn, hand), radius, reach, reach + 0.1 + 2 * radius, n), reach)
+    tail = along("y", ring(bore_of(dn, style), radius, reach, reach + 0.1 + 2 * radius, n), reach)
     return Model([Part(moved(body, roll), "elbow", "pipe"), Part(moved(tail, roll), "nipple", "pipe")])
 
 
-def _plug(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _plug(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A threaded cap: a round or hexagonal cup over a pipe's end."""
-    radius, n = PIPES[dn].radius, hand.round(1.2 * PIPES[dn].radius)
+    radius, n = PIPES[dn].radius, style.round(1.2 * PIPES[dn].radius)
     length = 1.0 * radius + 0.014
     if rng.random() < 0.5:
         return Model([Part(along("x", hexagon(2.5 * radius + 0.004, 0, length)), "pipe cap", "pipe")])
@@ -501,16 +505,16 @@ def _plug(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([Part(along("x", turned(outline, n)), "pipe cap", "pipe")])
 
 
-def _weldolet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _weldolet(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A branch outlet with a pipe: a forged olet's cone or a half coupling, a nipple, and a cap or flange on it."""
     dn = int(rng.choice([15, 20, 25]))
-    radius, n = PIPES[dn].radius, hand.round(PIPES[dn].radius)
+    radius, n = PIPES[dn].radius, style.round(PIPES[dn].radius)
     rise = 1.0 * radius + 0.012
     cone = turned([(1.5 * radius, -0.004), (1.5 * radius, 0.25 * rise), (1.05 * radius, rise)], n)
     tall = rise + float(rng.uniform(0.05, 0.2))
     parts = [
         Part(cone, "branch outlet", "pipe"),
-        Part(ring(bore_of(dn, hand), radius, rise, tall, n), "nipple", "pipe"),
+        Part(ring(bore_of(dn, style), radius, rise, tall, n), "nipple", "pipe"),
     ]
     kind = int(rng.integers(3))
     if kind == 0:
@@ -519,7 +523,7 @@ def _weldolet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts.append(
             Part(
                 moved(
-                    disc_flange(dn, hand, plate_thickness(dn) + 0.002),
+                    disc_flange(dn, style, plate_thickness(dn) + 0.002),
                     at(0, 0, tall + plate_thickness(dn) + 0.002) @ spun("x", np.pi),
                 ),
                 "flange",
@@ -529,13 +533,13 @@ def _weldolet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _blind(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _blind(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A blind flange: plain disc or drilled, sometimes with a lifting eye, on a flanged end."""
     size, thick = FLANGES[dn], plate_thickness(dn)
-    n = hand.round(size.outer / 2)
+    n = style.round(size.outer / 2)
     kind = rng.random()
     solid = (
-        disc_flange(dn, hand, thick)
+        disc_flange(dn, style, thick)
         if kind < 0.5
         else cylinder(size.outer / 2, 0.0, float(rng.uniform(0.8, 1.4)) * thick, n)
     )

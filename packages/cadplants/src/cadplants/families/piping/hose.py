@@ -10,7 +10,7 @@ from cadplants.families.piping.shape import STEEL, family, knurled, lathe, mirro
 from cadplants.family import Family, Model, Part
 from cadplants.flange import flange, flange_length
 from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle
 from cadplants.primitives import box, lofted, rod, rope, torus
 from cadplants.standards import PIPES, SIZES
@@ -41,16 +41,16 @@ def _skin(count: int, r: float, kind: int) -> Floats:
     return r * (1.0 + (0.05 if kind == 1 else 0.1) * np.where(np.arange(count) % 2 == 0, 1.0, -1.0))
 
 
-def _ferrule(dn: int, hand: Hand, rng: np.random.Generator, style: int) -> tuple[list[Part], float]:
+def _ferrule(dn: int, style: ModelingStyle, rng: np.random.Generator, design: int) -> tuple[list[Part], float]:
     """What a hose is held by from x = 0: a flange on a neck, a hexagon with a sleeve, or a cam lever half."""
-    r, n = PIPES[dn].radius, hand.round(1.3 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius)
     sleeve = 1.2 * r + 0.02
-    if style == 0:
-        neck = flange_length(dn, hand)
-        parts = parts_of(flange(dn, hand))
+    if design == 0:
+        neck = flange_length(dn, style)
+        parts = parts_of(flange(dn, style))
         parts.append(Part(lathe([(1.22 * r, neck), (1.22 * r, neck + sleeve)], n), "coupling", "trim"))
         return parts, neck + 0.5 * sleeve
-    if style == 1:
+    if design == 1:
         hexa = 0.7 * r + 0.01
         one = merge([prism(2.6 * r + 0.005, 6, 0.0, hexa), lathe([(1.05 * r, 0.9 * hexa), (1.05 * r, 1.4 * hexa)], n)])
         ring_ = [(1.3 * r, 1.3 * hexa), (1.3 * r, 1.3 * hexa + 0.3 * sleeve), (1.22 * r, 1.3 * hexa + 0.3 * sleeve)]
@@ -68,11 +68,16 @@ def _ferrule(dn: int, hand: Hand, rng: np.random.Generator, style: int) -> tuple
 
 
 def _between(
-    dn: int, hand: Hand, rng: np.random.Generator, styles: tuple[int, ...], sagging: float, kinds: tuple[int, ...]
+    dn: int,
+    style: ModelingStyle,
+    rng: np.random.Generator,
+    styles: tuple[int, ...],
+    sagging: float,
+    kinds: tuple[int, ...],
 ) -> Model:
     """A hose in a line between two like ends, sagging or straight."""
-    r, n = PIPES[dn].radius, hand.round(1.15 * PIPES[dn].radius)
-    ends, low = _ferrule(dn, hand, rng, int(rng.choice(styles)))
+    r, n = PIPES[dn].radius, style.round(1.15 * PIPES[dn].radius)
+    ends, low = _ferrule(dn, style, rng, int(rng.choice(styles)))
     span = float(rng.uniform(5, 16)) * r + 0.1
     length = 2 * low + span
     kind = int(rng.choice(kinds))
@@ -86,30 +91,30 @@ def _between(
     whole = [ends[0], *ends[1:], hose, *mirrored(ends, length)]
     if lead:
         whole = [Part(moved(p.solid, at(lead)), p.name, p.color, p.bundle, p.group, p.fine) for p in whole]
-        whole.insert(0, Part(pipe_x(dn, 0.0, lead, hand), "pipe", "pipe"))
-        whole.append(Part(pipe_x(dn, length + lead, length + 2 * lead, hand), "pipe", "pipe"))
+        whole.insert(0, Part(pipe_x(dn, 0.0, lead, style), "pipe", "pipe"))
+        whole.append(Part(pipe_x(dn, length + lead, length + 2 * lead, style), "pipe", "pipe"))
     return Model(whole, round(length + 2 * lead, 9), "flanged" if not lead and ends[0].name == "flange" else "welded")
 
 
-def _braided(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _braided(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A corrugated metal hose under braid with flanges or screwed ends (ISO 10380), straight as at a pump."""
-    return _between(dn, hand, rng, (1,), 0.0, (0, 1, 2))
+    return _between(dn, style, rng, (1,), 0.0, (0, 1, 2))
 
 
-def _flanged(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _flanged(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A metal or rubber hose with flanges (EN ISO 10380), straight or hanging through a little."""
-    return _between(dn, hand, rng, (0,), pick(rng, 0.0, 0.3), (0, 1, 2))
+    return _between(dn, style, rng, (0,), pick(rng, 0.0, 0.3), (0, 1, 2))
 
 
-def _slack(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _slack(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A rubber hose with cam lever or screwed ends that sags between two pipes."""
-    return _between(dn, hand, rng, (1, 2, 2), 1.0, (0, 0, 1))
+    return _between(dn, style, rng, (1, 2, 2), 1.0, (0, 0, 1))
 
 
-def _loading(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _loading(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A loading hose on a pipe's end: it hangs down in a U and comes up again to a mouth, or lies out on the ground."""
-    r, n = PIPES[dn].radius, hand.round(1.15 * PIPES[dn].radius)
-    ends, low = _ferrule(dn, hand, rng, int(rng.choice([1, 2])))
+    r, n = PIPES[dn].radius, style.round(1.15 * PIPES[dn].radius)
+    ends, low = _ferrule(dn, style, rng, int(rng.choice([1, 2])))
     bow, drop = float(rng.uniform(5, 9)) * r, float(rng.uniform(0.1, 0.5))
     a = np.linspace(0, np.pi / 2, 7)[1:]
     first = np.column_stack([low + bow * np.sin(a), 0 * a, -bow * (1 - np.cos(a))])
@@ -128,11 +133,11 @@ def _loading(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([*ends, hose, *more])
 
 
-def _coiled(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _coiled(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A spiral hose on a pipe's end, as for air: turns about the axis of the pipe, screwed ends."""
-    r, n = PIPES[dn].radius, max(8, min(12, hand.round(PIPES[dn].radius)))
+    r, n = PIPES[dn].radius, max(8, min(12, style.round(PIPES[dn].radius)))
     wide, turns, pitch = float(rng.uniform(3.5, 7)) * r, int(rng.integers(4, 10)), float(rng.uniform(2.2, 3.2)) * r
-    ends, low = _ferrule(dn, hand, rng, 1)
+    ends, low = _ferrule(dn, style, rng, 1)
     steps = 14 * turns
     a = np.linspace(0, 2 * np.pi * turns, steps)
     grow = np.minimum(1.0, np.minimum(a, a[-1] - a) / np.pi)
@@ -143,10 +148,10 @@ def _coiled(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([*ends, Part(rope(path, 1.0 * r, n), "hose", "handle"), *more])
 
 
-def _reel(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _reel(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A hose reel on a frame: a drum with two discs, wound hose, a crank, the free end hanging down to a nozzle."""
     r, drum, wide = float(rng.uniform(0.01, 0.02)), float(rng.uniform(0.1, 0.18)), float(rng.uniform(0.2, 0.4))
-    disc, n = drum + float(rng.uniform(0.1, 0.18)), hand.round(0.3)
+    disc, n = drum + float(rng.uniform(0.1, 0.18)), style.round(0.3)
     z = disc + 0.08
     lay = spun("z", np.pi / 2)
     place = at(0, 0, z) @ lay

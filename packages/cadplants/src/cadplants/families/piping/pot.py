@@ -19,7 +19,7 @@ from cadplants.families.piping.shape import (
 from cadplants.family import Family, Model, Part
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import around, box, cylinder, dome, hexagon, rod, torus
 from cadplants.standards import FLANGES, PIPES, SIZES
 from cadplants.transforms import at, spun
@@ -34,9 +34,9 @@ def _own(solid: Solid, color: str = "valve") -> Part:
     return Part(solid, _ME, color, _ME)
 
 
-def _tee_type(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _tee_type(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A T strainer: a welded or cast tee with flanges in the line, a lid with handles on its upright mouth."""
-    n, size = hand.round(PIPES[dn].radius), FLANGES[dn]
+    n, size = style.round(PIPES[dn].radius), FLANGES[dn]
     wide = float(rng.uniform(1.0, 1.5)) * 0.485 * size.hub
     length = max(size.outer, 2.6 * wide) + 2 * swell_room(dn)
     x, high = 0.5 * length, max(0.5 * size.outer, wide) + swell_room(dn) + 0.02
@@ -45,13 +45,13 @@ def _tee_type(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     pot = lathe_z(
         [(0.5 * wide, low - 0.3 * wide), (wide, low), (wide, high - plate), (collar, high - plate), (collar, high)], n
     )
-    parts = [_own(merge([*necks(dn, hand, length), moved(pot, at(x))]))]
+    parts = [_own(merge([*necks(dn, style, length), moved(pot, at(x))]))]
     way = at(x, 0, high) @ _UP
     count = 8 if dn > 80 else 6
     seal = moved(lathe([(0.75 * collar, 0.0), (0.75 * collar, 0.002)], n), way)
     parts.append(Part(seal, "gasket", "gasket", _ME))
     parts.append(_own(moved(lathe([(collar, 0.002), (collar, 0.002 + plate)], n), way)))
-    parts += bolting(count, 0.86 * collar, 0.06 * collar + 0.006, -plate, plate + 0.002, hand, _ME, way)
+    parts += bolting(count, 0.86 * collar, 0.06 * collar + 0.006, -plate, plate + 0.002, style, _ME, way)
     for side in (-1, 1):
         a = np.linspace(0, np.pi, 7)
         top = high + plate
@@ -63,17 +63,17 @@ def _tee_type(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([*parts, _own(drain), Part(plug, "pipe cap", "trim", _ME)], round(length, 9))
 
 
-def _quick_basket(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _quick_basket(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A basket strainer on three legs: a tall pot, a lid under swing bolts or a yoke with a hand screw."""
     r, size = PIPES[dn].radius, FLANGES[dn]
     pot = float(rng.uniform(1.8, 2.6)) * r + 0.03
-    n = hand.round(pot)
+    n = style.round(pot)
     length = 2 * pot + 2 * swell_room(dn) + 0.04
     x, high = 0.5 * length, max(1.4 * r, 0.5 * size.outer) + 0.04
     low, thick = -float(rng.uniform(2.2, 3.6)) * pot, 0.012 + 0.06 * pot
     shell = [(0.3 * pot, low - 0.3 * pot), (0.8 * pot, low - 0.18 * pot), (pot, low), (pot, high - thick)]
     shell += [(1.22 * pot, high - thick), (1.22 * pot, high)]
-    out = mouth("flanged", dn, hand, 0.4 * pot, 0.5 * length)
+    out = mouth("flanged", dn, style, 0.4 * pot, 0.5 * length)
     body = [moved(lathe_z(shell, n), at(x)), moved(out, at(x)), moved(out, at(x) @ spun("z", np.pi))]
     parts = [_own(merge(body), "tank")]
     lid = [lathe_z([(1.22 * pot, high), (1.22 * pot, high + thick)], n)]
@@ -117,15 +117,15 @@ def _quick_basket(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(length, 9))
 
 
-def _duplex(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _duplex(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A duplex strainer: two pots beside the line, a change-over valve with a lever, lids with T screws."""
     r = PIPES[dn].radius
     pot = float(rng.uniform(1.6, 2.1)) * r + 0.025
-    n = hand.round(pot)
+    n = style.round(pot)
     length = max(3.0 * pot, 2.6 * r + 0.06) + 2 * swell_room(dn)
     x, gap = 0.5 * length, 1.35 * pot + 1.1 * r
     high, low = 1.2 * r + 0.35 * pot + 0.02, -2.4 * pot
-    body = [*necks(dn, hand, length), lathe([(1.5 * r, x - 1.3 * r), (1.5 * r, x + 1.3 * r)], n)]
+    body = [*necks(dn, style, length), lathe([(1.5 * r, x - 1.3 * r), (1.5 * r, x + 1.3 * r)], n)]
     body[2] = moved(cylinder(1.6 * r + 0.01, -1.5 * r, high + 0.2 * pot, n), at(x))
     cross = moved(lathe([(1.1 * r, -gap), (1.1 * r, gap)], n), at(x) @ spun("z", np.pi / 2))
     parts = [_own(merge([*body, cross]))]
@@ -161,11 +161,11 @@ def _duplex(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(length, 9))
 
 
-def _separator(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _separator(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A dirt separator: an upright vessel with dished ends across the line, a drain cock, a vent or plug."""
     r, size = PIPES[dn].radius, FLANGES[dn]
     pot = float(rng.uniform(1.7, 2.3)) * r + 0.02
-    n = hand.round(pot)
+    n = style.round(pot)
     length = 2 * pot + 2 * swell_room(dn) + float(rng.uniform(0.02, 0.1))
     x, tall, deep = (
         0.5 * length,
@@ -175,12 +175,12 @@ def _separator(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     a = np.linspace(0, np.pi / 2, 6)
     bottom = [(max(0.05, np.sin(t)) * pot, -deep - 0.5 * pot * np.cos(t)) for t in a]
     top = [(max(0.05, np.cos(t)) * pot, tall + 0.5 * pot * np.sin(t)) for t in a]
-    parts = [_own(merge([*necks(dn, hand, length), moved(lathe_z([*bottom, *top], n), at(x))]), "tank")]
+    parts = [_own(merge([*necks(dn, style, length), moved(lathe_z([*bottom, *top], n), at(x))]), "tank")]
     if rng.random() < 0.5:
         collar = [lathe_z([(1.25 * pot, -deep * 0.6), (1.25 * pot, -deep * 0.6 + 0.03)], n)]
         parts[0] = _own(merge([parts[0].solid, moved(collar[0], at(x))]), "tank")
         way = at(x, 0, -deep * 0.6 + 0.015) @ _UP
-        parts += bolting(12, 1.17 * pot, 0.012, -0.015, 0.015, hand, _ME, way)
+        parts += bolting(12, 1.17 * pot, 0.012, -0.015, 0.015, style, _ME, way)
     low = -deep - 0.48 * pot
     drain = merge([cylinder(0.012, low - 0.05, low, 10), hexagon(0.03, low - 0.075, low - 0.045)])
     parts.append(Part(moved(drain, at(x)), "valve body", "trim", _ME, "Valve assembly"))
@@ -196,22 +196,22 @@ def _separator(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(length, 9))
 
 
-def _self_cleaning(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _self_cleaning(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A self-cleaning strainer: a housing with a bolted head, a gear motor on it and a flush outlet below."""
     r, size = PIPES[dn].radius, FLANGES[dn]
     pot = float(rng.uniform(1.9, 2.6)) * r + 0.04
-    n = hand.round(pot)
+    n = style.round(pot)
     length = 2 * pot + 2 * swell_room(dn) + 0.05
     x, plate = 0.5 * length, 0.018 + 0.05 * pot
     low, high = -float(rng.uniform(1.6, 2.6)) * pot, max(1.3 * r, 0.5 * size.outer) + 0.05
     cone = 0.7 * pot
     shell = [(0.25 * pot, low - cone - 0.08), (0.25 * pot, low - cone), (pot, low), (pot, high - plate)]
     shell += [(1.2 * pot, high - plate), (1.2 * pot, high)]
-    parts = [_own(merge([*necks(dn, hand, length), moved(lathe_z(shell, n), at(x))]), "tank")]
+    parts = [_own(merge([*necks(dn, style, length), moved(lathe_z(shell, n), at(x))]), "tank")]
     way = at(x, 0, high) @ _UP
     lid = lathe([(1.2 * pot, 0.0), (1.2 * pot, plate), (0.4 * pot, 1.4 * plate)], n)
     parts.append(_own(moved(lid, way), "tank"))
-    parts += bolting(12 if dn > 80 else 8, 1.1 * pot, 0.012 + 0.02 * pot, -plate, plate, hand, _ME, way)
+    parts += bolting(12 if dn > 80 else 8, 1.1 * pot, 0.012 + 0.02 * pot, -plate, plate, style, _ME, way)
     q, base = 0.35 * pot + 0.02, high + 1.4 * plate
     gear = merge(
         [cylinder(0.7 * q, base, base + 0.5 * q, 14), box((2.0 * q, 1.8 * q, 1.2 * q), (0, 0, base + 1.1 * q))]

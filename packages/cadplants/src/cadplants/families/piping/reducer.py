@@ -22,7 +22,7 @@ from cadplants.families.piping.shape import (
 from cadplants.family import Build, Family, Model, Part
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle
 from cadplants.primitives import box, lofted, rope
 from cadplants.standards import PIPES, SIZES
@@ -32,20 +32,20 @@ from cadplants.valve_body import bore_of
 __all__ = ["REDUCERS"]
 
 # From the larger size at x = 0 to the smaller one: its pieces, its length, and how far the axis has sunk.
-Taper = Callable[[int, int, Hand, np.random.Generator], tuple[list[Part], float, float]]
+Taper = Callable[[int, int, ModelingStyle, np.random.Generator], tuple[list[Part], float, float]]
 
 
 def _own(*solids: Solid, color: str = "pipe", name: str = "reducer") -> list[Part]:
     return [Part(merge(list(solids)), name, color)]
 
 
-def _bore(dn: int, other: int, hand: Hand) -> float:
-    return min(bore_of(dn, hand), bore_of(other, hand))
+def _bore(dn: int, other: int, style: ModelingStyle) -> float:
+    return min(bore_of(dn, style), bore_of(other, style))
 
 
-def _bell(dn: int, other: int, hand: Hand, rng: np.random.Generator) -> tuple[list[Part], float, float]:
+def _bell(dn: int, other: int, style: ModelingStyle, rng: np.random.Generator) -> tuple[list[Part], float, float]:
     """A malleable reducing socket (EN 10242 M2): a bell with a band at each mouth."""
-    a, b, n = PIPES[dn].radius, PIPES[other].radius, hand.round(1.3 * PIPES[dn].radius)
+    a, b, n = PIPES[dn].radius, PIPES[other].radius, style.round(1.3 * PIPES[dn].radius)
     first, mid, last = 0.8 * a + 0.012, 0.5 * a + 0.006, 0.8 * b + 0.012
     band = 0.25 * a + 0.003
     shape = [(1.34 * a + 0.003, 0.0), (1.34 * a + 0.003, band), (1.18 * a, 1.2 * band), (1.18 * a, first)]
@@ -57,12 +57,12 @@ def _bell(dn: int, other: int, hand: Hand, rng: np.random.Generator) -> tuple[li
         (1.36 * b + 0.002, length - end),
         (1.36 * b + 0.002, length),
     ]
-    return _own(lathe(shape, n, _bore(dn, other, hand))), length, 0.0
+    return _own(lathe(shape, n, _bore(dn, other, style))), length, 0.0
 
 
-def _taper(dn: int, other: int, hand: Hand, rng: np.random.Generator) -> tuple[list[Part], float, float]:
+def _taper(dn: int, other: int, style: ModelingStyle, rng: np.random.Generator) -> tuple[list[Part], float, float]:
     """A long cone of 7 to 15 degrees rolled of plate, its ends cut at the welds."""
-    a, b, n = PIPES[dn].radius, PIPES[other].radius, hand.round(PIPES[dn].radius)
+    a, b, n = PIPES[dn].radius, PIPES[other].radius, style.round(PIPES[dn].radius)
     length = (a - b) / np.tan(np.radians(float(rng.uniform(5.0, 12.0))))
     bead = 0.02 * a + 0.002
     shape = [
@@ -73,16 +73,16 @@ def _taper(dn: int, other: int, hand: Hand, rng: np.random.Generator) -> tuple[l
         (1.03 * b, length - bead),
         (1.03 * b, length),
     ]
-    return _own(lathe(shape, n, _bore(dn, other, hand))), float(length), 0.0
+    return _own(lathe(shape, n, _bore(dn, other, style))), float(length), 0.0
 
 
-def _cast(dn: int, other: int, hand: Hand, rng: np.random.Generator) -> tuple[list[Part], float, float]:
+def _cast(dn: int, other: int, style: ModelingStyle, rng: np.random.Generator) -> tuple[list[Part], float, float]:
     """A cast taper with flanges (ASME B16.1, EN 545), concentric, between its counter-flanges."""
-    a, b, n, bore = PIPES[dn].radius, PIPES[other].radius, hand.round(PIPES[dn].radius), _bore(dn, other, hand)
-    first, p, q = counter(dn, hand, spun("z", np.pi))[1], plate_thickness(dn), plate_thickness(other)
+    a, b, n, bore = PIPES[dn].radius, PIPES[other].radius, style.round(PIPES[dn].radius), _bore(dn, other, style)
+    first, p, q = counter(dn, style, spun("z", np.pi))[1], plate_thickness(dn), plate_thickness(other)
     length = 0.16 + 0.9 * a
     body = [
-        flat_flange(dn, hand, first, p, bore),
+        flat_flange(dn, style, first, p, bore),
         lathe(
             [
                 (1.15 * a, first + p),
@@ -93,21 +93,21 @@ def _cast(dn: int, other: int, hand: Hand, rng: np.random.Generator) -> tuple[li
             n,
             bore,
         ),
-        flat_flange(other, hand, first + length - q, q, bore),
+        flat_flange(other, style, first + length - q, q, bore),
     ]
     parts = _own(*body, color="valve")
-    parts += counter(dn, hand, at(first) @ spun("z", np.pi))[0]
-    more, last = counter(other, hand, at(first + length))
+    parts += counter(dn, style, at(first) @ spun("z", np.pi))[0]
+    more, last = counter(other, style, at(first + length))
     return parts + more, first + length + last, 0.0
 
 
-def _bushing(dn: int, other: int, hand: Hand, rng: np.random.Generator) -> tuple[list[Part], float, float]:
+def _bushing(dn: int, other: int, style: ModelingStyle, rng: np.random.Generator) -> tuple[list[Part], float, float]:
     """A hexagon bushing (ASME B16.14) screwed into a coupling on the larger pipe."""
-    a, n = PIPES[dn].radius, hand.round(1.3 * PIPES[dn].radius)
+    a, n = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius)
     sock, hexa = 1.0 * a + 0.014, 0.35 * a + 0.005
-    bore = 0.98 * PIPES[other].radius if hand.hollow else 0.0
+    bore = 0.98 * PIPES[other].radius if style.hollow else 0.0
     sleeve = Part(
-        lathe([(1.28 * a + 0.002, 0.0), (1.28 * a + 0.002, sock)], n, 0.97 * a if hand.hollow else 0.0),
+        lathe([(1.28 * a + 0.002, 0.0), (1.28 * a + 0.002, sock)], n, 0.97 * a if style.hollow else 0.0),
         "coupling",
         "pipe",
     )
@@ -116,9 +116,9 @@ def _bushing(dn: int, other: int, hand: Hand, rng: np.random.Generator) -> tuple
     return [sleeve, *_own(shank, head)], sock + hexa, 0.0
 
 
-def _stepped(dn: int, other: int, hand: Hand, rng: np.random.Generator) -> tuple[list[Part], float, float]:
+def _stepped(dn: int, other: int, style: ModelingStyle, rng: np.random.Generator) -> tuple[list[Part], float, float]:
     """A forged reducing coupling (ASME B16.11): one round or stepped piece, or a hexagon."""
-    a, b, n, bore = PIPES[dn].radius, PIPES[other].radius, hand.round(1.3 * PIPES[dn].radius), _bore(dn, other, hand)
+    a, b, n, bore = PIPES[dn].radius, PIPES[other].radius, style.round(1.3 * PIPES[dn].radius), _bore(dn, other, style)
     length, big = 1.5 * a + 0.025, 1.28 * a + 0.002
     kind = int(rng.integers(3))
     if kind == 0:
@@ -133,9 +133,9 @@ def _stepped(dn: int, other: int, hand: Hand, rng: np.random.Generator) -> tuple
     return _own(prism(2.0 * big, 6, 0.0, length, bore, n)), length, 0.0
 
 
-def _glued(dn: int, other: int, hand: Hand, rng: np.random.Generator) -> tuple[list[Part], float, float]:
+def _glued(dn: int, other: int, style: ModelingStyle, rng: np.random.Generator) -> tuple[list[Part], float, float]:
     """A plastic reducer (EN ISO 1452-3): a socket with a lip, a cone, a smaller socket; or a short stepped bush."""
-    a, b, n, bore = PIPES[dn].radius, PIPES[other].radius, hand.round(1.2 * PIPES[dn].radius), _bore(dn, other, hand)
+    a, b, n, bore = PIPES[dn].radius, PIPES[other].radius, style.round(1.2 * PIPES[dn].radius), _bore(dn, other, style)
     if rng.random() < 0.4:
         shape = [(1.2 * a, 0.0), (1.2 * a, 0.7 * a + 0.01), (1.25 * b, 0.7 * a + 0.01), (1.25 * b, 1.0 * a + 0.02)]
         return _own(lathe(shape, n, bore), color="handle"), 1.0 * a + 0.02, 0.0
@@ -146,9 +146,9 @@ def _glued(dn: int, other: int, hand: Hand, rng: np.random.Generator) -> tuple[l
     return _own(lathe(shape, n, bore), color="handle"), length, 0.0
 
 
-def _nipple(dn: int, other: int, hand: Hand, rng: np.random.Generator) -> tuple[list[Part], float, float]:
+def _nipple(dn: int, other: int, style: ModelingStyle, rng: np.random.Generator) -> tuple[list[Part], float, float]:
     """A swage nipple (MSS SP-95): two long straight ends and a short steep shoulder; welded or threaded."""
-    a, b, n, bore = PIPES[dn].radius, PIPES[other].radius, hand.round(PIPES[dn].radius), _bore(dn, other, hand)
+    a, b, n, bore = PIPES[dn].radius, PIPES[other].radius, style.round(PIPES[dn].radius), _bore(dn, other, style)
     length, first = 2.6 * a + 0.06, 1.1 * a + 0.02
     mid = float(rng.uniform(0.4, 0.8)) * a
     shape = [
@@ -162,40 +162,40 @@ def _nipple(dn: int, other: int, hand: Hand, rng: np.random.Generator) -> tuple[
     return _own(lathe(shape, n, bore)), length, 0.0
 
 
-def _grooved(dn: int, other: int, hand: Hand, rng: np.random.Generator) -> tuple[list[Part], float, float]:
+def _grooved(dn: int, other: int, style: ModelingStyle, rng: np.random.Generator) -> tuple[list[Part], float, float]:
     """A grooved reducer (AWWA C606): short, with a coupling at each end."""
-    a, b, n, bore = PIPES[dn].radius, PIPES[other].radius, hand.round(PIPES[dn].radius), _bore(dn, other, hand)
+    a, b, n, bore = PIPES[dn].radius, PIPES[other].radius, style.round(PIPES[dn].radius), _bore(dn, other, style)
     end = 0.035 + 0.08 * a
     length = 2 * end + float(rng.uniform(0.3, 1.0)) * a
     shape = [(a, 0.0), (a, end), (b, length - end), (b, length)]
     parts = _own(lathe(shape, n, bore))
-    return parts + grooved(dn, hand, at()) + grooved(other, hand, at(length)), length, 0.0
+    return parts + grooved(dn, style, at()) + grooved(other, style, at(length)), length, 0.0
 
 
-def _lofted(dn: int, other: int, hand: Hand, rng: np.random.Generator) -> tuple[list[Part], float, float]:
+def _lofted(dn: int, other: int, style: ModelingStyle, rng: np.random.Generator) -> tuple[list[Part], float, float]:
     """An eccentric cone with flat flanges, flat below or on top, between its counter-flanges."""
-    a, b, n = PIPES[dn].radius, PIPES[other].radius, hand.round(PIPES[dn].radius)
-    first, p, q = counter(dn, hand, spun("z", np.pi))[1], plate_thickness(dn), plate_thickness(other)
+    a, b, n = PIPES[dn].radius, PIPES[other].radius, style.round(PIPES[dn].radius)
+    first, p, q = counter(dn, style, spun("z", np.pi))[1], plate_thickness(dn), plate_thickness(other)
     length, drop = 0.16 + 1.2 * a, a - b
     ring_ = circle(1.0, n)
     loops = []
     for x, r, sunk in ((p, a, 0.0), (p + 0.15 * a, a, 0.0), (length - q - 0.15 * a, b, drop), (length - q, b, drop)):
         loops.append(np.column_stack([np.full(n, first + x), r * ring_[:, 0], r * ring_[:, 1] - sunk]))
     away = at(0, 0, -drop)
-    far = moved(flat_flange(other, hand, first + length - q, q, 0.0), away)
-    parts = _own(flat_flange(dn, hand, first, p, 0.0), lofted(loops), far)
-    parts += counter(dn, hand, at(first) @ spun("z", np.pi))[0]
-    more, last = counter(other, hand, away @ at(first + length))
+    far = moved(flat_flange(other, style, first + length - q, q, 0.0), away)
+    parts = _own(flat_flange(dn, style, first, p, 0.0), lofted(loops), far)
+    parts += counter(dn, style, at(first) @ spun("z", np.pi))[0]
+    more, last = counter(other, style, away @ at(first + length))
     return parts + more, first + length + last, drop
 
 
-def _hexagon(dn: int, other: int, hand: Hand, rng: np.random.Generator) -> tuple[list[Part], float, float]:
+def _hexagon(dn: int, other: int, style: ModelingStyle, rng: np.random.Generator) -> tuple[list[Part], float, float]:
     """A reducing hexagon nipple (EN 10242 N8) between two sockets."""
     a, b, n, bore = (
         PIPES[dn].radius,
         PIPES[other].radius,
-        hand.round(1.3 * PIPES[dn].radius),
-        0.9 * _bore(dn, other, hand),
+        style.round(1.3 * PIPES[dn].radius),
+        0.9 * _bore(dn, other, style),
     )
     one, hexa, two = 1.0 * a + 0.014, 0.45 * a + 0.006, 1.0 * b + 0.014
     length = one + hexa + two
@@ -217,19 +217,19 @@ def _hexagon(dn: int, other: int, hand: Hand, rng: np.random.Generator) -> tuple
 def _there_and_back(taper: Taper, wider: bool = True) -> Build:
     """A builder of a taper to another size, pipe of that size, and the same taper back."""
 
-    def build(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+    def build(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
         """Two reducers with a piece of pipe of another size between them, smaller or larger than the line."""
         k = SIZES.index(dn)
         up = wider and k + 1 < len(SIZES) and bool(k == 0 or rng.random() < 0.35)
         some = SIZES[k + 1 : k + 4] if up else SIZES[max(0, k - 3) : k]
         other = int(rng.choice(some))
         big, small = (other, dn) if up else (dn, other)
-        parts, long, drop = taper(big, small, hand, rng)
+        parts, long, drop = taper(big, small, style, rng)
         between = float(rng.uniform(0.04, 0.4))
         total = 2 * long + between
         flip = np.diag([-1.0, 1.0, 1.0, 1.0])
         there, back = (at(long, 0, drop) @ flip, at(long + between, 0, drop)) if up else (at(), at(total) @ flip)
-        middle = moved(pipe_x(other, long, long + between, hand), at(0, 0, drop if up else -drop))
+        middle = moved(pipe_x(other, long, long + between, style), at(0, 0, drop if up else -drop))
         whole = [Part(middle, "pipe", "pipe")]
         for pose in (there, back):
             whole += [Part(moved(p.solid, pose), p.name, p.color, p.bundle, p.group, p.fine) for p in parts]
@@ -238,21 +238,21 @@ def _there_and_back(taper: Taper, wider: bool = True) -> Build:
     return build
 
 
-def _at_end(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _at_end(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A reducer on a pipe's end, of any make, and what goes on from it."""
     other = int(rng.choice(SIZES[max(0, SIZES.index(dn) - 3) : SIZES.index(dn)]))
     makes: tuple[Taper, ...] = (_bell, _taper, _bushing, _stepped, _glued, _nipple)
-    parts, long, drop = makes[int(rng.integers(len(makes)))](dn, other, hand, rng)
-    return Model([*parts, *tail(other, hand, rng, at(long, 0, -drop), "ocfb")])
+    parts, long, drop = makes[int(rng.integers(len(makes)))](dn, other, style, rng)
+    return Model([*parts, *tail(other, style, rng, at(long, 0, -drop), "ocfb")])
 
 
 # --- pipes that are more than plain ones ---
 
 
-def _spigot(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _spigot(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Cast iron or concrete pipes with a bell at one end (EN 545), one in the other."""
-    r, n = PIPES[dn].radius, hand.round(1.3 * PIPES[dn].radius)
-    parts, x, bore = [], 0.0, bore_of(dn, hand)
+    r, n = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius)
+    parts, x, bore = [], 0.0, bore_of(dn, style)
     for _ in range(int(rng.integers(1, 4))):
         long, bell = float(rng.uniform(0.25, 0.8)), 0.8 * r + 0.04
         big = 1.3 * r + 0.008
@@ -268,13 +268,13 @@ def _spigot(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(x, 9), "welded")
 
 
-def _clad(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _clad(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An insulated pipe: sheet cladding in lengths with beads, bands and flat end rings round the pipe."""
-    r, n = PIPES[dn].radius, hand.round(1.8 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.8 * PIPES[dn].radius)
     thick, lead = float(rng.choice([0.02, 0.03, 0.05])), float(rng.uniform(0.04, 0.12))
     count, one = int(rng.integers(1, 4)), float(rng.uniform(0.25, 0.6))
     length, outer = 2 * lead + count * one, r + thick
-    parts = [Part(pipe_x(dn, 0.0, length, hand), "pipe", "pipe")]
+    parts = [Part(pipe_x(dn, 0.0, length, style), "pipe", "pipe")]
     for k in range(count):
         low, high = lead + k * one, lead + (k + 1) * one
         shape = [
@@ -294,12 +294,12 @@ def _clad(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(length, 9), "welded")
 
 
-def _jacketed(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _jacketed(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A jacketed or finned pipe: a wider one round it with coned ends and two small mouths; or discs in a row."""
-    r, n = PIPES[dn].radius, hand.round(1.5 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.5 * PIPES[dn].radius)
     lead, long = 0.3 * r + 0.03, float(rng.uniform(0.3, 0.9))
     length = 2 * lead + long
-    parts = [Part(pipe_x(dn, 0.0, length, hand), "pipe", "pipe")]
+    parts = [Part(pipe_x(dn, 0.0, length, style), "pipe", "pipe")]
     if rng.random() < 0.45:
         high, pitch = float(rng.uniform(1.5, 2.0)) * r, float(rng.uniform(0.012, 0.03))
         fins = [
@@ -328,11 +328,11 @@ def _jacketed(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _spiral(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _spiral(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A pipe with a spiral seam, a traced one with a small tube along it in straps, or a corrugated one."""
-    r, n = PIPES[dn].radius, hand.round(PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(PIPES[dn].radius)
     length, kind = float(rng.uniform(0.4, 1.2)), int(rng.integers(3))
-    body = pipe_x(dn, 0.0, length, hand)
+    body = pipe_x(dn, 0.0, length, style)
     if kind == 0:
         turns = max(1, int(length / (2.5 * r)))
         a = np.linspace(0, 2 * np.pi * turns, 16 * turns + 1)
@@ -356,7 +356,7 @@ def _spiral(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         step = (length - 0.04) / count
         shape += [(1.12 * r, x + 0.2 * step), (1.12 * r, x + 0.6 * step), (r, x + 0.8 * step)]
     return Model(
-        [Part(lathe([*shape, (r, length)], n, bore_of(dn, hand)), "pipe", "rubber")], round(length, 9), "welded"
+        [Part(lathe([*shape, (r, length)], n, bore_of(dn, style)), "pipe", "rubber")], round(length, 9), "welded"
     )
 
 

@@ -10,7 +10,7 @@ from cadgraph.model.scene import Floats
 from cadplants.family import Build, Family, Part, placed
 from cadplants.flange import bolts, flange, flange_length, gasket, nut_room, plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, loft, merge, moved, revolve, weld
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.piping import cap
 from cadplants.plant import Assembly
 from cadplants.polygon import circle, rounded_rectangle
@@ -79,9 +79,9 @@ def lathe(outline: Outline, sides: int, bore: float = 0.0) -> Solid:
     return about_x(lathe_z(outline, sides, bore))
 
 
-def pipe_x(dn: int, low: float, high: float, hand: Hand) -> Solid:
+def pipe_x(dn: int, low: float, high: float, style: ModelingStyle) -> Solid:
     """A piece of pipe along x [m]."""
-    return about_x(ring(bore_of(dn, hand), PIPES[dn].radius, low, high, hand.round(PIPES[dn].radius)))
+    return about_x(ring(bore_of(dn, style), PIPES[dn].radius, low, high, style.round(PIPES[dn].radius)))
 
 
 def prism(flats: float, corners: int, low: float, high: float, bore: float = 0.0, sides: int = 12) -> Solid:
@@ -91,7 +91,7 @@ def prism(flats: float, corners: int, low: float, high: float, bore: float = 0.0
 
 
 def knurled(radius: float, count: int, depth: float, low: float, high: float, bore: float, sides: int) -> Solid:
-    """A nut along x with a wavy rim for the hand [m]."""
+    """A nut along x with a wavy rim for the style [m]."""
     angles = np.linspace(0, 2 * np.pi, 4 * count, endpoint=False)
     reach = radius - depth / 2 + depth / 2 * np.cos(count * angles)
     outline = np.column_stack([reach * np.cos(angles), reach * np.sin(angles)])
@@ -114,22 +114,22 @@ def notched(
 
 
 def drilled(
-    outline: Floats, low: float, high: float, bore: float, spots: Floats, hole: float, hand: Hand, sides: int
+    outline: Floats, low: float, high: float, bore: float, spots: Floats, hole: float, style: ModelingStyle, sides: int
 ) -> Solid:
-    """A plate across x with a bore and bolt holes of radius ``hole`` at some spots, where the hand drills any [m]."""
+    """A plate across x with a bore and bolt holes of radius ``hole`` at some spots, where the style drills any [m]."""
     holes = [circle(bore, sides)] if bore else []
-    if hand.holes:
+    if style.holes:
         holes += [circle(hole, 8, (float(x), float(y))) for x, y in spots]
     return about_x(extrude(outline, low, high, tuple(holes)))
 
 
-def flat_flange(dn: int, hand: Hand, low: float, thick: float, bore: float) -> Solid:
+def flat_flange(dn: int, style: ModelingStyle, low: float, thick: float, bore: float) -> Solid:
     """A flat drilled disc with the rim and the bolt circle of a class 150 flange (ASME B16.5)."""
     size = FLANGES[dn]
-    n = hand.round(size.outer / 2)
+    n = style.round(size.outer / 2)
     turns = (2 * np.arange(size.n_bolts) + 1) * np.pi / size.n_bolts
     spots = size.circle / 2 * np.column_stack([np.cos(turns), np.sin(turns)])
-    return drilled(circle(size.outer / 2, n), low, low + thick, bore, spots, size.hole / 2, hand, n)
+    return drilled(circle(size.outer / 2, n), low, low + thick, bore, spots, size.hole / 2, style, n)
 
 
 def bolting(
@@ -138,21 +138,21 @@ def bolting(
     thread: float,
     low: float,
     high: float,
-    hand: Hand,
+    style: ModelingStyle,
     bundle: str = "",
     pose: Floats = IDENTITY,
     start: float | None = None,
 ) -> list[Part]:
-    """Bolts along x on a circle, clamping what lies between two places, in as many pieces as the hand makes [m]."""
+    """Bolts along x on a circle, clamping what lies between two places, in as many pieces as the style makes [m]."""
     thick, turn = 0.8 * thread, np.pi / count if start is None else start
     poses = [pose @ spun("x", turn + 2 * np.pi * k / count) @ at(0, radius, 0) for k in range(count)]
     nuts = [about_x(hexagon(1.6 * thread, a, b)) for a, b in ((low - thick, low), (high, high + thick))]
     shank = about_x(cylinder(thread / 2, low - 1.2 * thick, high + 1.4 * thick, 8))
-    if hand.fasteners == "pieces":
+    if style.fasteners == "pieces":
         named = [(shank, "stud"), (nuts[0], "nut"), (nuts[1], "nut")]
     else:
         named = [(merge([shank, *nuts]), "bolt")]
-    if hand.fasteners in ("set", "flange"):
+    if style.fasteners in ("set", "flange"):
         whole = merge([moved(named[0][0], one) for one in poses])
         return [Part(whole, "bolt", "fastener", bundle, BOLTED, True)]
     return [Part(moved(solid, one), name, "fastener", bundle, BOLTED, True) for one in poses for solid, name in named]
@@ -168,68 +168,70 @@ def parts_of(assembly: Assembly, pose: Floats = IDENTITY) -> list[Part]:
     return parts
 
 
-def joint(dn: int, hand: Hand, pose: Floats, blind: bool = False, open_: bool = False) -> tuple[list[Part], float]:
+def joint(
+    dn: int, style: ModelingStyle, pose: Floats, blind: bool = False, open_: bool = False
+) -> tuple[list[Part], float]:
     """Two flanges with gasket and bolts from the pose's origin along its x, and how long they are [m].
 
     Args:
         dn: nominal size.
-        hand: that models them.
+        style: that models them.
         pose: of the end of the pipe before them.
         blind: whether the second one is a lid.
         open_: whether there is no second one.
     """
-    neck, plate = flange_length(dn, hand), plate_thickness(dn)
+    neck, plate = flange_length(dn, style), plate_thickness(dn)
     back = at(neck) @ spun("z", np.pi)
-    pad = 0.002 if hand.gaskets else 0.0
-    parts = parts_of(flange(dn, hand, grip=0.0 if open_ else 2 * plate + pad), pose @ back)
+    pad = 0.002 if style.gaskets else 0.0
+    parts = parts_of(flange(dn, style, grip=0.0 if open_ else 2 * plate + pad), pose @ back)
     if open_:
         return parts, neck
-    parts += parts_of(gasket(dn, hand), pose @ at(neck))
-    parts += parts_of(flange(dn, hand, blind=blind), pose @ at(neck + pad))
-    parts += parts_of(bolts(dn, 2 * plate + pad, hand), pose @ at(neck - plate))
+    parts += parts_of(gasket(dn, style), pose @ at(neck))
+    parts += parts_of(flange(dn, style, blind=blind), pose @ at(neck + pad))
+    parts += parts_of(bolts(dn, 2 * plate + pad, style), pose @ at(neck - plate))
     return parts, neck + pad + (plate if blind else neck)
 
 
-def counter(dn: int, hand: Hand, pose: Floats) -> tuple[list[Part], float]:
+def counter(dn: int, style: ModelingStyle, pose: Floats) -> tuple[list[Part], float]:
     """Gasket, counter-flange and bolts at a flat face of a fitting, outward along x of the pose; and their length."""
-    neck, plate = flange_length(dn, hand), plate_thickness(dn)
-    pad = 0.002 if hand.gaskets else 0.0
-    parts = parts_of(gasket(dn, hand), pose)
-    parts += parts_of(flange(dn, hand, grip=2 * plate + pad), pose @ at(pad))
-    parts += parts_of(bolts(dn, 2 * plate + pad, hand), pose @ at(-plate))
+    neck, plate = flange_length(dn, style), plate_thickness(dn)
+    pad = 0.002 if style.gaskets else 0.0
+    parts = parts_of(gasket(dn, style), pose)
+    parts += parts_of(flange(dn, style, grip=2 * plate + pad), pose @ at(pad))
+    parts += parts_of(bolts(dn, 2 * plate + pad, style), pose @ at(-plate))
     return parts, pad + neck
 
 
-def mouth(style: str, dn: int, hand: Hand, low: float, high: float) -> Solid:
+def mouth(design: str, dn: int, style: ModelingStyle, low: float, high: float) -> Solid:
     """The end of a fitting along x, its face at ``high``: for a thread, a socket, glue, a groove, bolts or a weld [m].
 
     Args:
-        style: ``banded``, ``socket``, ``glued``, ``grooved``, ``flanged``, ``hex`` or ``plain``.
+        design: ``banded``, ``socket``, ``glued``, ``grooved``, ``flanged``, ``hex`` or ``plain``.
         dn: of the pipe in it.
-        hand: that models it.
+        style: that models it.
         low: where it begins inside the fitting.
         high: its face.
     """
-    r, bore, room = PIPES[dn].radius, bore_of(dn, hand), high - low
-    n = hand.round(1.2 * r)
-    if style == "banded":
+    r, bore, room = PIPES[dn].radius, bore_of(dn, style), high - low
+    n = style.round(1.2 * r)
+    if design == "banded":
         band, far = min(0.3 * r + 0.004, 0.4 * room), 1.32 * r + 0.003
         body = [(1.14 * r + 0.0015, low), (1.14 * r + 0.0015, high - 1.25 * band)]
         return lathe([*body, (far, high - band), (1.02 * far, high - 0.5 * band), (far, high)], n, bore)
-    if style == "socket":
+    if design == "socket":
         neck = low + 0.45 * room
         return lathe([(1.15 * r, low), (1.15 * r, neck), (1.36 * r + 0.002, neck), (1.36 * r + 0.002, high)], n, bore)
-    if style == "glued":
+    if design == "glued":
         lip = high - 0.12 * room - 0.002
         return lathe([(1.15 * r, low), (1.18 * r, lip), (1.26 * r, lip), (1.26 * r, high)], n, bore)
-    if style == "grooved":
+    if design == "grooved":
         a, b, deep = high - 0.024, high - 0.015, 0.965 * r
         return lathe([(r, low), (r, a), (deep, a), (deep, b), (r, b), (r, high)], n, min(bore, 0.93 * r))
-    if style == "hex":
-        return prism(2.3 * r + 0.006, 6, low, high, 0.98 * r if hand.hollow else 0.0, max(8, n))
-    if style == "flanged":
+    if design == "hex":
+        return prism(2.3 * r + 0.006, 6, low, high, 0.98 * r if style.hollow else 0.0, max(8, n))
+    if design == "flanged":
         thick, neck = plate_thickness(dn), 0.485 * FLANGES[dn].hub
-        plate = flat_flange(dn, hand, high - thick, thick, bore)
+        plate = flat_flange(dn, style, high - thick, thick, bore)
         return merge([plate, lathe([(neck, low), (neck, high - thick)], n, bore)])
     return lathe([(r, low), (r, high)], n, bore)
 
@@ -241,9 +243,9 @@ def _half_ring(inner: float, outer: float, width: float, sides: int) -> Solid:
     return about_x(extrude(np.concatenate([outer * unit, inner * unit[::-1]]), -width / 2, width / 2))
 
 
-def grooved(dn: int, hand: Hand, pose: Floats, ribbed: bool = False) -> list[Part]:
+def grooved(dn: int, style: ModelingStyle, pose: Floats, ribbed: bool = False) -> list[Part]:
     """A grooved coupling of two housings with bolts (AWWA C606) round the ends of two pipes, which meet in the pose."""
-    r, n = PIPES[dn].radius, hand.round(PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(PIPES[dn].radius)
     width, thick = 0.044 + 0.12 * r, 0.008 + 0.1 * r
     outer, lug = r + thick, 0.012 + 0.2 * r
     pieces = [_half_ring(r, outer, width, n)]
@@ -259,19 +261,19 @@ def grooved(dn: int, hand: Hand, pose: Floats, ribbed: bool = False) -> list[Par
     parts = [Part(moved(half, pose @ spun("x", turn)), "coupling", "handle", "coupling") for turn in (0.0, np.pi)]
     for side in (-1, 1):
         way = pose @ at(0, side * (outer + 0.35 * lug)) @ spun("y", -np.pi / 2)
-        parts += bolting(1, 0.0, 0.3 * lug + 0.004, -high, high, hand, "coupling", way)
+        parts += bolting(1, 0.0, 0.3 * lug + 0.004, -high, high, style, "coupling", way)
     return parts
 
 
-def tail(dn: int, hand: Hand, rng: np.random.Generator, pose: Floats, kinds: str = "ocfb") -> list[Part]:
+def tail(dn: int, style: ModelingStyle, rng: np.random.Generator, pose: Floats, kinds: str = "ocfb") -> list[Part]:
     """What goes on from a mouth along x of the pose: a piece of pipe, open or with a cap, a flange or a lid on it."""
     length = float(rng.uniform(0.04, 0.25)) + 1.5 * PIPES[dn].outer
-    parts = [Part(moved(pipe_x(dn, 0.0, length, hand), pose), "pipe", "pipe")]
+    parts = [Part(moved(pipe_x(dn, 0.0, length, style), pose), "pipe", "pipe")]
     end, kind = pose @ at(length), kinds[int(rng.integers(len(kinds)))]
     if kind == "c":
-        parts += parts_of(cap(dn, hand), end)
+        parts += parts_of(cap(dn, style), end)
     elif kind in "fb":
-        parts += joint(dn, hand, end, blind=kind == "b", open_=kind == "f")[0]
+        parts += joint(dn, style, end, blind=kind == "b", open_=kind == "f")[0]
     return parts
 
 
@@ -333,7 +335,7 @@ def swell_room(dn: int) -> float:
     return plate_thickness(dn) + nut_room(dn)
 
 
-def necks(dn: int, hand: Hand, length: float) -> list[Solid]:
+def necks(dn: int, style: ModelingStyle, length: float) -> list[Solid]:
     """The two flanged mouths of a body, up to its middle."""
-    one = mouth("flanged", dn, hand, 0.0, 0.5 * length)
+    one = mouth("flanged", dn, style, 0.0, 0.5 * length)
     return [moved(one, at(0.5 * length)), moved(one, at(0.5 * length) @ spun("z", np.pi))]

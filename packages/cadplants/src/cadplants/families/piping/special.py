@@ -24,7 +24,7 @@ from cadplants.families.piping.shape import (
 from cadplants.family import Build, Family, Model, Part
 from cadplants.flange import flange, flange_length, plate_thickness
 from cadplants.mesh_ops import Solid, merge, moved, tube
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import box, cylinder
 from cadplants.standards import FLANGES, PIPES, SIZES
@@ -37,13 +37,13 @@ __all__ = ["SPECIALS"]
 def _block(name: str, turns: Sequence[float]) -> Build:
     """A builder of tees and crosses cut of square bar, with tube nuts, hexagons or shoulders at their mouths."""
 
-    def build(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+    def build(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
         """A brass or steel block with mouths on its sides (ISO 8434-1, ASME B16.11 bar stock)."""
-        r, n = PIPES[dn].radius, hand.round(1.3 * PIPES[dn].radius)
+        r, n = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius)
         half, kind = float(rng.uniform(1.25, 1.6)) * r + 0.003, int(rng.integers(3))
         out = (1.0 * r + 0.008) if kind < 2 else 0.35 * r + 0.003
         reach = half + out
-        bored = 0.98 * r if hand.hollow else 0.0
+        bored = 0.98 * r if style.hollow else 0.0
         body = [box((2 * half, 2 * half, 2 * half), (reach, 0, 0))]
         nuts: list[Part] = []
         rest: list[Part] = []
@@ -58,16 +58,16 @@ def _block(name: str, turns: Sequence[float]) -> Build:
             else:
                 body.append(moved(lathe([(1.2 * r, half - 0.001), (1.15 * r, reach)], n), way))
             if turn in turns:
-                rest += tail(dn, hand, rng, way @ at(reach), "oc")
+                rest += tail(dn, style, rng, way @ at(reach), "oc")
         return Model([Part(merge(body), name, "trim"), *nuts, *rest], round(2 * reach, 9), "welded")
 
     return build
 
 
-def _split(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _split(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A split flange (ISO 6162): two clamp halves behind a collar, four bolts into a square port block."""
-    r, n = PIPES[dn].radius, hand.round(1.3 * PIPES[dn].radius)
-    lead, thick, bore = float(rng.uniform(0.05, 0.2)), 0.55 * r + 0.012, bore_of(dn, hand)
+    r, n = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius)
+    lead, thick, bore = float(rng.uniform(0.05, 0.2)), 0.55 * r + 0.012, bore_of(dn, style)
     collar, port = 0.3 * r + 0.005, 0.8 * r + 0.015
     tall, wide, bolt = 1.9 * r + 0.02, 1.5 * r + 0.014, 0.14 * r + 0.006
     face = lead + thick
@@ -79,29 +79,29 @@ def _split(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         [[wide, 0.0], [wide, 0.75 * tall], [0.8 * wide, tall], [-0.8 * wide, tall], [-wide, 0.75 * tall], [-wide, 0.0]]
     )
     outline = np.vstack([rim, arch]) + np.array([0.0, 0.0005])
-    half = drilled(outline, lead, face, 0.0, spots[spots[:, 1] > 0], 0.55 * bolt, hand, n)
+    half = drilled(outline, lead, face, 0.0, spots[spots[:, 1] > 0], 0.55 * bolt, style, n)
     block = drilled(
-        rounded_rectangle(2 * wide, 2 * tall, 0.15 * wide, 2), face, face + port, bore, spots, 0.5 * bolt, hand, n
+        rounded_rectangle(2 * wide, 2 * tall, 0.15 * wide, 2), face, face + port, bore, spots, 0.5 * bolt, style, n
     )
     total = face + port + lead
     parts = [Part(head, "flange", "flange", "flange")]
     parts += [Part(moved(half, spun("x", t)), "flange", "flange", "flange") for t in (0.0, np.pi)]
-    parts += [Part(block, "flange", "valve"), Part(pipe_x(dn, face + port, total, hand), "pipe", "pipe")]
+    parts += [Part(block, "flange", "valve"), Part(pipe_x(dn, face + port, total, style), "pipe", "pipe")]
     for y, z in spots:
-        parts += bolting(1, 0.0, bolt, lead, face + port, hand, "", at(0, float(y), float(z)))
+        parts += bolting(1, 0.0, bolt, lead, face + port, style, "", at(0, float(y), float(z)))
     return Model(parts, round(total, 9), "welded")
 
 
-def _insulated(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _insulated(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An insulating joint: a thick gasket, sleeves' ends and pairs of washers under every nut, between two flanges."""
-    size, plate, neck = FLANGES[dn], plate_thickness(dn), flange_length(dn, hand)
+    size, plate, neck = FLANGES[dn], plate_thickness(dn), flange_length(dn, style)
     gap, lead = pick(rng, 0.003, 0.0045, 0.006), float(rng.uniform(0.02, 0.1))
-    outer, n = pick(rng, 0.5 * (size.circle - size.bolt) - 0.001, 0.49 * size.raised), hand.round(size.circle / 2)
+    outer, n = pick(rng, 0.5 * (size.circle - size.bolt) - 0.001, 0.49 * size.raised), style.round(size.circle / 2)
     face, total = lead + neck, 2 * (lead + neck) + gap
-    parts = [Part(pipe_x(dn, 0.0, lead, hand), "pipe", "pipe")]
-    parts += parts_of(flange(dn, hand), at(face) @ spun("z", np.pi))
+    parts = [Part(pipe_x(dn, 0.0, lead, style), "pipe", "pipe")]
+    parts += parts_of(flange(dn, style), at(face) @ spun("z", np.pi))
     parts.append(Part(lathe([(outer, face), (outer, face + gap)], n, PIPES[dn].radius), "gasket", "handle"))
-    parts += parts_of(flange(dn, hand), at(face + gap))
+    parts += parts_of(flange(dn, style), at(face + gap))
     low, high = face - plate, face + gap + plate
     disc, thin = 1.05 * size.bolt, 0.003
     for k in range(size.n_bolts):
@@ -111,18 +111,18 @@ def _insulated(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
             for a in (low - 2 * thin, low - thin, high, high + thin)
         ]
         parts.append(Part(moved(merge(pair), way), "washer", "fastener", "", BOLTED, True))
-    parts += bolting(size.n_bolts, size.circle / 2, size.bolt, low - 2 * thin, high + 2 * thin, hand)
-    parts.append(Part(pipe_x(dn, total - lead, total, hand), "pipe", "pipe"))
+    parts += bolting(size.n_bolts, size.circle / 2, size.bolt, low - 2 * thin, high + 2 * thin, style)
+    parts.append(Part(pipe_x(dn, total - lead, total, style), "pipe", "pipe"))
     return Model(parts, round(total, 9), "welded")
 
 
-def _elbow_union(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _elbow_union(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A union elbow on a pipe's end (EN 10242 UA1): a banded or hexagon mouth, a bend, a big nut, a tail."""
-    r, n = PIPES[dn].radius, hand.round(1.3 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius)
     turn, body, deep = pick(rng, 0.5, 0.5, 0.25) * np.pi, 1.15 * r + 0.0015, 0.8 * r + 0.011
-    path, reach = bend_path(float(rng.uniform(1.25, 1.7)) * body, turn, hand.bend(2.5 * body, turn), 0.5 * deep)
+    path, reach = bend_path(float(rng.uniform(1.25, 1.7)) * body, turn, style.bend(2.5 * body, turn), 0.5 * deep)
     start = 0.5 * deep
-    end = prism(2.4 * r + 0.006, int(rng.choice([6, 8])), 0.0, deep, 0.98 * r if hand.hollow else 0.0, n)
+    end = prism(2.4 * r + 0.006, int(rng.choice([6, 8])), 0.0, deep, 0.98 * r if style.hollow else 0.0, n)
     far = at(start + reach) @ spun("z", turn) @ at(reach)
     nut, out = 0.8 * r + 0.01, 0.5 * r + 0.008
     seat = lathe([(1.3 * r, -0.3 * nut), (1.3 * r, 0.35 * nut)], n)
@@ -131,23 +131,23 @@ def _elbow_union(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     piece = lathe(
         [(1.25 * r, 0.35 * nut), (1.25 * r, nut), (1.08 * r, nut + 0.1 * r), (1.08 * r, nut + out)],
         n,
-        bore_of(dn, hand),
+        bore_of(dn, style),
     )
     parts = [
         Part(elbow_, "elbow", "trim"),
         Part(moved(ring_, far), "union", "trim"),
         Part(moved(piece, far), "union", "trim"),
     ]
-    parts += tail(dn, hand, rng, far @ at(nut + out), "ooc")
+    parts += tail(dn, style, rng, far @ at(nut + out), "ooc")
     roll = spun("x", pick(rng, 0.0, 0.5, 1.0, 1.5) * np.pi)
     return Model([Part(moved(p.solid, roll), p.name, p.color, p.bundle, p.group, p.fine) for p in parts])
 
 
-def _clamped_blank(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _clamped_blank(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A hygienic blank (ISO 2852): a ferrule on the pipe, a seal, a disc, a clamp of two halves with a wing nut."""
-    r, n = PIPES[dn].radius, hand.round(1.4 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.4 * PIPES[dn].radius)
     long, rim = float(rng.uniform(0.5, 1.0)) * r + 0.012, 1.18 * r + 0.009
-    ferrule = lathe([(r, 0.0), (r, long - 0.006), (rim, long - 0.003), (rim, long)], n, bore_of(dn, hand))
+    ferrule = lathe([(r, 0.0), (r, long - 0.006), (rim, long - 0.003), (rim, long)], n, bore_of(dn, style))
     seal = lathe([(rim, long), (rim, long + 0.002)], n, 0.9 * r)
     blank = lathe([(rim, long + 0.002), (rim, long + 0.005), (1.05 * r, long + 0.008)], n)
     wide, outer = 0.016 + 0.06 * r, rim + 0.005 + 0.04 * r

@@ -25,7 +25,7 @@ from cadplants.families.piping.shape import (
 from cadplants.family import Family, Model, Part
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved, revolve, weld
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import box, cylinder
 from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES
 from cadplants.transforms import at, spun
@@ -41,9 +41,11 @@ def _own(solid: Solid, color: str = "valve") -> Part:
     return Part(solid, _ME, color, _ME)
 
 
-def _lid(radius: float, thick: float, count: int, hand: Hand, rng: np.random.Generator, way: Floats) -> list[Part]:
+def _lid(
+    radius: float, thick: float, count: int, style: ModelingStyle, rng: np.random.Generator, way: Floats
+) -> list[Part]:
     """A bolted lid along x of a pose, its face at 0; plain, dished, with a plug, a ring or a handle on it."""
-    n, kind = hand.round(radius), int(rng.integers(4))
+    n, kind = style.round(radius), int(rng.integers(4))
     flat = [lathe([(radius, 0.0), (radius, thick)], n)]
     if kind == 1:
         flat.append(lathe([(0.55 * radius, 0.9 * thick), (0.45 * radius, 1.7 * thick)], n))
@@ -54,7 +56,7 @@ def _lid(radius: float, thick: float, count: int, hand: Hand, rng: np.random.Gen
         high = thick if kind == 0 else 1.7 * thick
         plug = merge([prism(0.4 * radius, _corners(rng), high, high + 0.2 * radius + 0.003)])
         parts.append(Part(moved(plug, way), "pipe cap", "trim", _ME))
-    parts += bolting(count, 0.83 * radius, 0.09 * radius + 0.004, -thick, thick, hand, _ME, way)
+    parts += bolting(count, 0.83 * radius, 0.09 * radius + 0.004, -thick, thick, style, _ME, way)
     return parts
 
 
@@ -63,14 +65,14 @@ def _corners(rng: np.random.Generator) -> int:
     return int(rng.choice([4, 6]))
 
 
-def _y_cast(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _y_cast(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A cast Y strainer (EN 558 series 1): a long leaning basket housing, ribs, a bolted lid with a plug."""
     length, r = FACE_TO_FACE["globe"][dn], PIPES[dn].radius
     neck = 0.485 * FLANGES[dn].hub
-    n, arm = hand.round(1.3 * r), max(neck, float(rng.uniform(1.15, 1.4)) * r + 0.004)
+    n, arm = style.round(1.3 * r), max(neck, float(rng.uniform(1.15, 1.4)) * r + 0.004)
     lean = float(rng.uniform(0.6, 1.0))
     swell = float(rng.uniform(1.0, 1.2)) * arm
-    body = necks(dn, hand, length)
+    body = necks(dn, style, length)
     low = swell_room(dn)
     body.append(lathe([(neck, low), (swell, 0.35 * length), (swell, 0.62 * length), (neck, length - low)], n))
     far = max(1.0 * length * float(rng.uniform(0.55, 0.75)), (0.5 * FLANGES[dn].outer + arm) / np.sin(lean))
@@ -84,13 +86,13 @@ def _y_cast(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     if rng.random() < 0.5:
         web = box((0.7 * far, 0.12 * r + 0.003, 2.3 * arm), (0.62 * far, 0, 0))
         body.append(moved(web, way))
-    parts = [_own(merge(body)), *_lid(collar, plate, 4 if dn < 80 else 8, hand, rng, way @ at(far))]
+    parts = [_own(merge(body)), *_lid(collar, plate, 4 if dn < 80 else 8, style, rng, way @ at(far))]
     return Model(parts, round(length, 9))
 
 
-def _y_fabricated(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _y_fabricated(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A Y strainer welded of pipe: a leg at 45 degrees with a flange, a blind flange and a drain."""
-    r, n = PIPES[dn].radius, hand.round(PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(PIPES[dn].radius)
     slope, plate = 0.25 * np.pi, plate_thickness(dn)
     far = 1.5 * r + 0.75 * FLANGES[dn].outer + 0.04
     begin = 2 * r + 0.02
@@ -98,9 +100,9 @@ def _y_fabricated(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     way = at(begin) @ spun("y", slope)
     leg = lathe([(0.985 * r, 0.0), (0.985 * r, far)], n)
     body = merge(
-        [pipe_x(dn, 0.0, length, hand), moved(leg, way), moved(flat_flange(dn, hand, far - plate, plate, 0.0), way)]
+        [pipe_x(dn, 0.0, length, style), moved(leg, way), moved(flat_flange(dn, style, far - plate, plate, 0.0), way)]
     )
-    blind = moved(flat_flange(dn, hand, far + 0.002, plate, 0.0), way)
+    blind = moved(flat_flange(dn, style, far + 0.002, plate, 0.0), way)
     seal = moved(lathe([(1.25 * r, far), (1.25 * r, far + 0.002)], n), way)
     drain = merge(
         [
@@ -111,13 +113,13 @@ def _y_fabricated(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     size = FLANGES[dn]
     parts = [_own(body, "pipe"), _own(blind, "pipe"), Part(seal, "gasket", "gasket", _ME)]
     parts.append(Part(moved(drain, way), "nipple", "pipe", _ME))
-    parts += bolting(size.n_bolts, size.circle / 2, size.bolt, far - plate, far + 0.002 + plate, hand, _ME, way)
+    parts += bolting(size.n_bolts, size.circle / 2, size.bolt, far - plate, far + 0.002 + plate, style, _ME, way)
     return Model(parts, round(length, 9), "welded")
 
 
-def _y_plastic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _y_plastic(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A plastic Y strainer: union nuts at both ends, a clear cylinder leaning down under a ribbed ring."""
-    r, n = PIPES[dn].radius, hand.round(1.3 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius)
     sock, nut = 1.1 * r + 0.012, 1.0 * r + 0.012
     length = 2 * (sock + nut) + 4.0 * r + 0.02
     teeth = int(rng.integers(8, 17))
@@ -125,7 +127,7 @@ def _y_plastic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     ends = []
     for side in (0, 1):
         pose = at(length) @ spun("z", np.pi) if side else at()
-        socket = moved(lathe([(1.22 * r, 0.0), (1.22 * r, sock)], n, bore_of(dn, hand)), pose)
+        socket = moved(lathe([(1.22 * r, 0.0), (1.22 * r, sock)], n, bore_of(dn, style)), pose)
         ring_ = moved(knurled(1.75 * r + 0.004, teeth, 0.12 * r, sock, sock + nut, 0.0, n), pose)
         ends += [Part(socket, "union", "handle", _ME), Part(ring_, "union", "handle", _ME)]
     way = at(0.42 * length) @ spun("y", pick(rng, 0.25, 0.3) * np.pi)
@@ -140,13 +142,13 @@ def _y_plastic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([*parts, *ends], round(length, 9), "welded")
 
 
-def _y_socket(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _y_socket(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A forged Y strainer (ASME B16.11 ends): a leg with a big hexagon cap and a small blow-off plug in it."""
-    r, n = PIPES[dn].radius, hand.round(1.3 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius)
     length = float(rng.uniform(4.4, 5.6)) * r + 0.04
-    style = str(rng.choice(["socket", "banded", "hex"]))
+    design = str(rng.choice(["socket", "banded", "hex"]))
     room = 0.32 * length
-    one = mouth(style, dn, hand, 0.0, room)
+    one = mouth(design, dn, style, 0.0, room)
     ends = [moved(one, at(length - room)), moved(one, at(room) @ spun("z", np.pi))]
     middle = lathe(
         [(1.2 * r, 0.2 * length), (1.35 * r, 0.4 * length), (1.35 * r, 0.6 * length), (1.2 * r, 0.8 * length)], n
@@ -162,19 +164,19 @@ def _y_socket(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(length, 9), "welded")
 
 
-def _conical(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _conical(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A temporary cone strainer between flanges (start-up): a ring with a tab, the cone in the pipe."""
     r, size = PIPES[dn].radius, FLANGES[dn]
     outer, thick = 0.49 * (size.circle - size.bolt), pick(rng, 0.003, 0.005, 0.008)
-    n = hand.round(outer)
+    n = style.round(outer)
     tab = float(rng.uniform(0.55, 0.8)) * size.outer
-    flat = lathe([(outer, 0.0), (outer, thick)], n, 0.9 * PIPES[dn].bore if hand.hollow else 0.0)
+    flat = lathe([(outer, 0.0), (outer, thick)], n, 0.9 * PIPES[dn].bore if style.hollow else 0.0)
     ear = extrude(np.array([[0.97 * outer, -0.02], [tab, -0.02], [tab, 0.02], [0.97 * outer, 0.02]]), 0.0, thick)
     ear = moved(ear, spun("y", np.pi / 2))
     ear = moved(ear, spun("x", pick(rng, 0.5, 1.0, 1.5) * np.pi))
     pieces = [flat, ear]
     long = float(rng.uniform(1.0, 2.4)) * r
-    if hand.hollow:
+    if style.hollow:
         a, b = 0.9 * PIPES[dn].bore, 0.9 * PIPES[dn].bore - 0.002
         tip = 0.05 * r if rng.random() < 0.6 else 0.45 * r
         cone = [(a, 0.3 * thick), (a, thick), (tip + 0.002, long), (tip, long), (b - 0.001, 0.3 * thick)]
@@ -182,9 +184,9 @@ def _conical(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([_own(merge(pieces), "trim")], round(thick, 9), "wafer")
 
 
-def _foot(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _foot(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A suction strainer on a pipe's end: a bell with ribs, a perforated can with hoops, or a dished basket of bars."""
-    r, n = PIPES[dn].radius, hand.round(2 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(2 * PIPES[dn].radius)
     wide, tall = float(rng.uniform(1.5, 2.2)) * r + 0.01, float(rng.uniform(2.0, 4.5)) * r + 0.03
     sock = 0.8 * r + 0.012
     kind = int(rng.integers(3))
@@ -223,9 +225,9 @@ def _foot(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(aim)
 
 
-def _bag(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _bag(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A wide inline strainer: a can of larger size between cones, a clamp ring or flanges round its middle."""
-    r, n = PIPES[dn].radius, hand.round(2 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(2 * PIPES[dn].radius)
     wide, cone = float(rng.uniform(1.7, 2.4)) * r + 0.006, float(rng.uniform(0.8, 2.0)) * r
     tall = float(rng.uniform(2.0, 4.5)) * r + 0.03
     neck, mid = 0.6 * r + 0.012, 0.5 * tall
@@ -237,7 +239,7 @@ def _bag(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     second = moved(first, at(length) @ spun("z", np.pi))
     parts = [_own(first, "trim"), _own(second, "trim")]
     if rng.random() < 0.6:
-        parts += bolting(8, 1.12 * wide, 0.005 + 0.05 * r, x - thick, x + thick, hand, _ME, at())
+        parts += bolting(8, 1.12 * wide, 0.005 + 0.05 * r, x - thick, x + thick, style, _ME, at())
     else:
         band = lathe([(1.3 * wide, x - 1.3 * thick), (1.3 * wide, x + 1.3 * thick)], n, 1.21 * wide)
         screw = merge([moved(box((0.02, 0.02, 0.05), (0, 0, 0)), at(x, 0, 1.3 * wide + 0.01))])
@@ -250,13 +252,13 @@ def _bag(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(length, 9), "welded")
 
 
-def _cartridge(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _cartridge(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A water strainer with a clear bowl: a head with two mouths, a hanging bowl under a ribbed ring, a drain."""
-    r, n = PIPES[dn].radius, hand.round(2 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(2 * PIPES[dn].radius)
     bowl, length = 2.0 * r + 0.02, 5.2 * r + 0.06
     x, tall = 0.5 * length, float(rng.uniform(3.0, 6.0)) * r + 0.06
     room = 0.35 * length
-    one = mouth(str(rng.choice(["hex", "banded"])), dn, hand, 0.0, room)
+    one = mouth(str(rng.choice(["hex", "banded"])), dn, style, 0.0, room)
     ends = [moved(one, at(length - room)), moved(one, at(room) @ spun("z", np.pi))]
     head = moved(cylinder(1.05 * bowl, -1.3 * r, 1.6 * r, n), at(x))
     parts = [_own(merge([*ends, head]), "trim")]

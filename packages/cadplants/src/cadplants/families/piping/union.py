@@ -20,7 +20,7 @@ from cadplants.families.piping.shape import (
 )
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import box, cylinder, rod, rope, torus
 from cadplants.standards import PIPES, SIZES
 from cadplants.transforms import at, spun
@@ -35,16 +35,16 @@ def _union(*solids: Solid, color: str = "trim") -> list[Part]:
     return [Part(solid, "union", color, "union") for solid in solids]
 
 
-def _malleable(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _malleable(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A malleable union (EN 10242 U1): two banded or octagon ends and an octagon or hexagon nut with a collar."""
-    r, n = PIPES[dn].radius, hand.round(1.5 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.5 * PIPES[dn].radius)
     end, nut = 0.9 * r + 0.014, 0.8 * r + 0.01
     length, corners = 2 * end + nut, int(rng.choice([6, 8, 8]))
-    style = str(rng.choice(["banded", "octagon"]))
-    bored = 0.98 * r if hand.hollow else 0.0
+    design = str(rng.choice(["banded", "octagon"]))
+    bored = 0.98 * r if style.hollow else 0.0
     one = (
-        mouth("banded", dn, hand, 0.0, 1.2 * end)
-        if style == "banded"
+        mouth("banded", dn, style, 0.0, 1.2 * end)
+        if design == "banded"
         else prism(2.4 * r + 0.008, 8, 0.0, 1.2 * end, bored, n)
     )
     first = moved(one, at(1.2 * end) @ _BACK)
@@ -55,11 +55,11 @@ def _malleable(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(_union(first, merge([ring, collar]), second), round(length, 9), "welded")
 
 
-def _forged(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _forged(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A forged union of class 3000 (MSS SP-83): round sockets with shoulders under a heavy hexagon nut."""
-    r, n = PIPES[dn].radius, hand.round(1.5 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.5 * PIPES[dn].radius)
     end, nut = float(rng.uniform(0.9, 1.4)) * r + 0.012, 0.9 * r + 0.012
-    length, bore = 2 * end + nut, bore_of(dn, hand)
+    length, bore = 2 * end + nut, bore_of(dn, style)
     sock = 1.36 * r + 0.003
     first = lathe(
         [(sock, 0.0), (sock, end - 0.1 * r), (1.5 * r + 0.004, end), (1.5 * r + 0.004, end + 0.4 * nut)], n, bore
@@ -70,11 +70,11 @@ def _forged(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(_union(first, merge([ring, lip]), second, color="pipe"), round(length, 9), "welded")
 
 
-def _plastic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
-    """A plastic union (EN ISO 1452-3): two glued sockets and a big nut with ribs or flats for the hand."""
-    r, n = PIPES[dn].radius, hand.round(1.6 * PIPES[dn].radius)
+def _plastic(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+    """A plastic union (EN ISO 1452-3): two glued sockets and a big nut with ribs or flats for the style."""
+    r, n = PIPES[dn].radius, style.round(1.6 * PIPES[dn].radius)
     end, nut = 1.1 * r + 0.012, float(rng.uniform(0.8, 1.2)) * r + 0.015
-    length, bore = 2 * end + nut, bore_of(dn, hand)
+    length, bore = 2 * end + nut, bore_of(dn, style)
     lip = pick(rng, 1.0, 1.06)
     first = lathe(
         [(1.22 * r * lip, 0.0), (1.22 * r * lip, 0.3 * end), (1.22 * r, 0.3 * end), (1.22 * r, end + 0.5 * nut)],
@@ -91,11 +91,11 @@ def _plastic(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(_union(first, ring, second, color="handle"), round(length, 9), "welded")
 
 
-def _dairy(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _dairy(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A dairy union (DIN 11851): a welded liner, a threaded part and a round nut with four or more slots."""
-    r, n = PIPES[dn].radius, hand.round(1.5 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.5 * PIPES[dn].radius)
     end, nut = float(rng.uniform(0.5, 1.0)) * r + 0.01, 0.45 * r + 0.014
-    length, bore = 2 * end + nut, bore_of(dn, hand)
+    length, bore = 2 * end + nut, bore_of(dn, style)
     first = lathe([(r, 0.0), (r, end - 0.3 * r), (1.2 * r, end), (1.2 * r, end + 0.5 * nut)], n, bore)
     second = lathe(
         [
@@ -114,11 +114,11 @@ def _dairy(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(_union(first, merge([slots, face]), second), round(length + 0.4 * nut, 9), "welded")
 
 
-def _hammer(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _hammer(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A hammer union (API 6A practice): a wing nut with three heavy lugs on a threaded sub."""
-    r, n = PIPES[dn].radius, hand.round(1.7 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.7 * PIPES[dn].radius)
     end, nut = 1.1 * r + 0.02, 0.9 * r + 0.02
-    length, bore = 2 * end + 1.4 * nut, bore_of(dn, hand)
+    length, bore = 2 * end + 1.4 * nut, bore_of(dn, style)
     first = lathe([(1.2 * r, 0.0), (1.2 * r, end), (1.45 * r, end + 0.3 * nut), (1.45 * r, end + 0.6 * nut)], n, bore)
     second = lathe(
         [(1.5 * r, end + 0.6 * nut), (1.5 * r, end + 1.25 * nut), (1.2 * r, end + 1.5 * nut), (1.2 * r, length)],
@@ -137,18 +137,18 @@ def _hammer(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(_union(first, merge(ring), second, color="valve"), round(length, 9), "welded")
 
 
-def _meter(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _meter(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A flat-faced union (ISO 228-1): a long tail with a flat under a thin nut, a seal, a hexagon male part."""
-    r, n = PIPES[dn].radius, hand.round(1.4 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.4 * PIPES[dn].radius)
     tail, nut, hexa = float(rng.uniform(1.0, 3.0)) * r + 0.015, 0.6 * r + 0.008, 0.5 * r + 0.006
-    length, bore = tail + nut + 2 * hexa + 0.01, bore_of(dn, hand)
+    length, bore = tail + nut + 2 * hexa + 0.01, bore_of(dn, style)
     first = lathe(
         [(1.04 * r, 0.0), (1.04 * r, tail), (1.25 * r, tail + 0.1 * nut), (1.25 * r, tail + 0.3 * nut)], n, bore
     )
     ring = prism(2.9 * r + 0.006, int(rng.choice([6, 6, 8])), tail, tail + nut, 1.1 * r, n)
     seal = lathe([(1.25 * r, tail + 0.3 * nut), (1.25 * r, tail + 0.4 * nut)], n, bore)
     thread = lathe([(1.28 * r, tail + 0.4 * nut), (1.28 * r, tail + nut + hexa)], n, bore)
-    flats = prism(2.7 * r + 0.006, 6, tail + nut + 0.003, tail + nut + hexa, 0.95 * r if hand.hollow else 0.0, n)
+    flats = prism(2.7 * r + 0.006, 6, tail + nut + 0.003, tail + nut + hexa, 0.95 * r if style.hollow else 0.0, n)
     out = lathe([(1.02 * r, tail + nut + hexa), (r, length)], n, bore)
     parts = _union(first, ring, merge([thread, flats, out]))
     parts.append(Part(seal, "gasket", "gasket", "union"))
@@ -167,9 +167,9 @@ def _threaded(low: float, high: float, radius: float, count: int, n: int, bore: 
     return lathe([*shape, (0.96 * radius, high)], n, bore)
 
 
-def _running(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _running(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A long screw: a nipple with threads at both ends, one running on, with a lock nut and a coupling on each side."""
-    r, n, bore = PIPES[dn].radius, hand.round(1.3 * PIPES[dn].radius), bore_of(dn, hand)
+    r, n, bore = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius), bore_of(dn, style)
     sock, bare = 1.1 * r + 0.014, float(rng.uniform(1.0, 5.0)) * r + 0.02
     thread, nut = 1.4 * r + 0.012, 0.45 * r + 0.006
     length = 2 * sock + 2 * thread + bare
@@ -191,13 +191,13 @@ def _running(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _close(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _close(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A close nipple, all thread, or a shoulder nipple between two fittings: banded, hexagon or forged sockets."""
-    r, n, bore = PIPES[dn].radius, hand.round(PIPES[dn].radius), min(bore_of(dn, hand), 0.9 * PIPES[dn].radius)
+    r, n, bore = PIPES[dn].radius, style.round(PIPES[dn].radius), min(bore_of(dn, style), 0.9 * PIPES[dn].radius)
     end, mid = 1.3 * r + 0.016, float(rng.uniform(0.5, 2.5)) * r + 0.01
     length = 2 * end + mid
-    style = str(rng.choice(["banded", "hex", "socket"]))
-    one = mouth(style, dn, hand, 0.0, end)
+    design = str(rng.choice(["banded", "hex", "socket"]))
+    one = mouth(design, dn, style, 0.0, end)
     screw = _threaded(end, end + mid, r, max(4, int(mid / (0.25 * r + 0.001)) % 12), n, bore)
     if rng.random() < 0.4:
         screw = merge([screw, lathe([(1.15 * r, end + 0.35 * mid), (1.15 * r, end + 0.65 * mid)], n, 0.95 * r)])
@@ -205,9 +205,9 @@ def _close(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([*parts, Part(moved(one, at(length - end)), "coupling", "pipe")], round(length, 9), "welded")
 
 
-def _barbed(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _barbed(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Two hose nipples with barbs and hexagons, and a short rubber hose between them under worm-drive clips."""
-    r, n = PIPES[dn].radius, hand.round(1.3 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius)
     hexa, barb = 0.6 * r + 0.008, float(rng.uniform(1.8, 3.0)) * r + 0.02
     gap = float(rng.uniform(0.05, 0.5))
     length = 2 * (2 * hexa + barb) + gap
@@ -246,9 +246,9 @@ def _cap(*solids: Solid, color: str = "pipe") -> list[Part]:
     return [Part(solid, "pipe cap", color, "pipe cap") for solid in solids]
 
 
-def _flat_plate(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _flat_plate(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A flat plate welded on, wider than the pipe or flush, with a fillet, maybe ribs crosswise or a drain boss."""
-    r, n = PIPES[dn].radius, hand.round(PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(PIPES[dn].radius)
     thick, wide = 0.005 + float(rng.uniform(0.05, 0.15)) * r, pick(rng, 1.0, 1.1, 1.25) * r
     pieces = [lathe([(wide, 0.0), (wide, thick)], n)]
     if rng.random() < 0.4:
@@ -265,13 +265,13 @@ def _flat_plate(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(_cap(merge(pieces)))
 
 
-def _head_plug(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _head_plug(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A threaded plug (ASME B16.11) with a square, hexagon or round head in a coupling on the pipe."""
-    r, n = PIPES[dn].radius, hand.round(1.3 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius)
     sock = float(rng.uniform(1.3, 2.2)) * r + 0.016
-    sleeve = lathe([(1.28 * r + 0.002, 0.0), (1.28 * r + 0.002, sock)], n, 0.97 * r if hand.hollow else 0.0)
+    sleeve = lathe([(1.28 * r + 0.002, 0.0), (1.28 * r + 0.002, sock)], n, 0.97 * r if style.hollow else 0.0)
     if rng.random() < 0.4:
-        sleeve = mouth("banded", dn, hand, 0.0, sock)
+        sleeve = mouth("banded", dn, style, 0.0, sock)
     kind, high = int(rng.integers(3)), 0.5 * r + 0.008
     shank = lathe([(0.95 * r, 0.6 * sock), (r, sock + 0.15 * r)], n)
     if kind == 0:
@@ -283,9 +283,9 @@ def _head_plug(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([Part(sleeve, "coupling", "pipe"), *_cap(merge([shank, head]))])
 
 
-def _plastic_cap(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
-    """A plastic cap: a glued cup with a flat or domed end, or a screwed one with ribs for the hand."""
-    r, n = PIPES[dn].radius, hand.round(1.2 * PIPES[dn].radius)
+def _plastic_cap(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+    """A plastic cap: a glued cup with a flat or domed end, or a screwed one with ribs for the style."""
+    r, n = PIPES[dn].radius, style.round(1.2 * PIPES[dn].radius)
     long, outer = float(rng.uniform(0.8, 1.6)) * r + 0.01, 1.2 * r + 0.002
     kind = int(rng.integers(3))
     if kind == 0:
@@ -306,20 +306,20 @@ def _plastic_cap(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(_cap(merge([nut, disc]), color="rubber"))
 
 
-def _grooved_cap(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _grooved_cap(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A grooved end cap (AWWA C606): a dished disc held by a coupling of two housings."""
-    r, n = PIPES[dn].radius, hand.round(PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(PIPES[dn].radius)
     long = 0.034 + 0.08 * r
     shape = [(r, 0.0), (r, 0.8 * long), (0.85 * r, long), (0.3 * r, long + 0.08 * r)]
     pieces = [lathe(shape, n)]
     if rng.random() < 0.5:
         pieces.append(prism(0.5 * r + 0.008, 4, long + 0.05 * r, long + 0.3 * r + 0.008))
-    return Model([*_cap(merge(pieces)), *grooved(dn, hand, at(), bool(rng.random() < 0.5))])
+    return Model([*_cap(merge(pieces)), *grooved(dn, style, at(), bool(rng.random() < 0.5))])
 
 
-def _malleable_cap(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _malleable_cap(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A malleable cap (EN 10242 T1): a rounded cup with a band, ribs along it or a hexagon on its top."""
-    r, n = PIPES[dn].radius, hand.round(1.3 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius)
     long, far = 0.9 * r + 0.012, 1.3 * r + 0.003
     shape = [
         (far, 0.0),
@@ -338,13 +338,13 @@ def _malleable_cap(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(_cap(merge(pieces)))
 
 
-def _closure(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _closure(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A quick-opening closure: a hub with a hinged door, held by a clamp of two halves or by swing bolts."""
-    r, n = PIPES[dn].radius, hand.round(1.3 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.3 * PIPES[dn].radius)
     hub, deep = 1.3 * r + 0.01, 0.5 * r + 0.03
     parts = [
         Part(
-            lathe([(1.02 * r, 0.0), (hub, 0.5 * deep), (hub, deep)], n, 0.9 * r if hand.hollow else 0.0),
+            lathe([(1.02 * r, 0.0), (hub, 0.5 * deep), (hub, deep)], n, 0.9 * r if style.hollow else 0.0),
             "flange",
             "flange",
         )
@@ -364,17 +364,17 @@ def _closure(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         half = half_band(hub, 1.12 * hub + 0.008, low, high, n, 0.92 * np.pi)
         parts += [Part(moved(half, spun("x", t)), "clamp", "clamp", "clamp", BOLTED) for t in (0.0, np.pi)]
         grip = at(deep, 1.1 * hub) @ spun("y", -np.pi / 2)
-        parts += bolting(1, 0.0, 0.012 + 0.03 * r, -0.3 * hub, 0.3 * hub, hand, "clamp", grip)
+        parts += bolting(1, 0.0, 0.012 + 0.03 * r, -0.3 * hub, 0.3 * hub, style, "clamp", grip)
     else:
         parts += bolting(
-            int(rng.choice([4, 6, 8])), hub + 0.01, 0.01 + 0.05 * r, 0.4 * deep, deep + thick, hand, "pipe cap"
+            int(rng.choice([4, 6, 8])), hub + 0.01, 0.01 + 0.05 * r, 0.4 * deep, deep + thick, style, "pipe cap"
         )
     return Model(parts)
 
 
-def _test_plug(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _test_plug(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An expanding plug: a rubber ring between two plates in the pipe's mouth, drawn together by a nut."""
-    r, n = PIPES[dn].radius, hand.round(PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(PIPES[dn].radius)
     thick = 0.006 + 0.06 * r
     rubber = lathe([(1.02 * r, 0.0), (1.1 * r, 0.6 * thick), (1.02 * r, 1.2 * thick)], n)
     plate = lathe([(0.95 * r, 1.2 * thick), (0.95 * r, 2 * thick)], n)
@@ -392,9 +392,9 @@ def _test_plug(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _dust_cap(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _dust_cap(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A cam lever dust cap on an adapter (EN 14420-7), with its two levers and a chain or wire to the pipe."""
-    r, n = PIPES[dn].radius, hand.round(1.4 * PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(1.4 * PIPES[dn].radius)
     long, cup, outer = 1.2 * r + 0.02, 1.0 * r + 0.015, 1.45 * r + 0.005
     adapter = lathe([(1.25 * r, 0.0), (1.25 * r, 0.5 * long), (1.12 * r, 0.55 * long), (1.12 * r, long)], n)
     lid = [lathe([(outer, long), (outer, long + cup), (0.8 * outer, long + 1.2 * cup)], n)]

@@ -29,7 +29,7 @@ from cadplants.families.steel.shape import (
 )
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import box
 from cadplants.transforms import at, spun
@@ -42,12 +42,12 @@ def _laid(parts: list[Part], top: float) -> list[Part]:
     return [Part(moved(p.solid, at(0, 0, top)), p.name, p.color, p.bundle, p.group, p.fine) for p in parts]
 
 
-def _on_props(parts: list[Part], length: float, wide: float, hand: Hand, rng: np.random.Generator) -> Model:
-    props, top = propped(length, wide, hand, rng)
+def _on_props(parts: list[Part], length: float, wide: float, style: ModelingStyle, rng: np.random.Generator) -> Model:
+    props, top = propped(length, wide, style, rng)
     return Model([*_laid(parts, top), *props])
 
 
-def _end_plates(length: float, one: Section, z: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _end_plates(length: float, one: Section, z: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """End plates, cleats or nothing at the ends of a beam along x."""
     x0, x1, y0, y1 = span_of(one)
     kind = int(rng.integers(3))
@@ -60,35 +60,37 @@ def _end_plates(length: float, one: Section, z: float, hand: Hand, rng: np.rando
             edge = [[x0 - 0.015, y0], [x1 + 0.015, y0], [x1 + 0.015, y1], [x0 - 0.015, y1]]
             outline = np.array(edge) + np.array([0, z])
             spots = [(float(outline[0, 0]) + u * w, z + y0 + v * h) for u in (0.15, 0.85) for v in (0.25, 0.75)]
-            holes = tuple(circle(0.008, 8, spot) for spot in spots) if hand.holes and h > 0.07 else ()
+            holes = tuple(circle(0.008, 8, spot) for spot in spots) if style.holes and h > 0.07 else ()
             parts.append(piece(slab_yz(outline, 0.012, x + s * 0.006, holes), "plate"))
         else:
             parts.append(piece(box((0.06, 0.01, 0.6 * h), (x + s * 0.03 - s * 0.02, x1 + 0.005, z)), "plate"))
     return parts
 
 
-def _plain_beam(_: int, hand: Hand, rng: np.random.Generator, kinds: tuple[str, ...], long: float = 6.0) -> Model:
+def _plain_beam(
+    _: int, style: ModelingStyle, rng: np.random.Generator, kinds: tuple[str, ...], long: float = 6.0
+) -> Model:
     """One to three sections side by side on props (EN 10365, EN 10210, EN 10162)."""
     length, parts = num(rng, 0.6, long), []
     size, count = num(rng, 0.08, 0.32), int(rng.integers(1, 4))
-    one = drawn(rng, hand, size, kinds)
+    one = drawn(rng, style, size, kinds)
     x0, x1, y0, _y1 = span_of(one)
     pitch = (x1 - x0) * num(rng, 1.0, 2.0) + 0.004
     for k in range(count):
         y = (k - (count - 1) / 2) * pitch
         parts.append(piece(bar((0, y, -y0), (length, y, -y0), one), "beam"))
     if count == 1:
-        parts += _end_plates(length, one, -y0, hand, rng)
-    return _on_props(parts, length, (count - 1) * pitch + x1 - x0, hand, rng)
+        parts += _end_plates(length, one, -y0, style, rng)
+    return _on_props(parts, length, (count - 1) * pitch + x1 - x0, style, rng)
 
 
-def _castellated(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _castellated(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A castellated or cellular beam: an I section whose web has hexagonal or round openings."""
     length, h = num(rng, 2.0, 6.0), num(rng, 0.25, 0.6)
     b, f, t = 0.45 * h, 0.05 * h, max(0.006, 0.025 * h)
     count = int(np.clip(length / (1.1 * h), 3, 12))
     xs = (np.arange(count) + 0.5) * length / count
-    n = 6 if chance(rng, 0.5) else few_sides(hand, 0.32 * h, 16)
+    n = 6 if chance(rng, 0.5) else few_sides(style, 0.32 * h, 16)
     holes = tuple(circle(0.31 * h, n, (float(x), h / 2)) for x in xs)
     web = slab_xz([(0, f), (length, f), (length, h - f), (0, h - f)], t, 0.0, holes)
     flanges = [box((length, b, f), (length / 2, 0, z)) for z in (f / 2, h - f / 2)]
@@ -96,10 +98,10 @@ def _castellated(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts = [piece(merge([web, *flanges]), "beam")]
     else:
         parts = [piece(one, "beam", bundle="beam") for one in (web, *flanges)]
-    return _on_props(parts, length, b, hand, rng)
+    return _on_props(parts, length, b, style, rng)
 
 
-def _girder(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _girder(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A welded plate girder, straight, haunched or tapered, with stiffeners; one web or a box of two."""
     length, h = num(rng, 1.5, 6.0), num(rng, 0.3, 0.9)
     b, f, t = num(rng, 0.35, 0.6) * h, 0.02, 0.01
@@ -127,14 +129,14 @@ def _girder(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             for s in (-1, 1)
         ]
         parts += [piece(rib, "plate", bundle="beam") for rib in ribs]
-    return _on_props(parts, length, b, hand, rng)
+    return _on_props(parts, length, b, style, rng)
 
 
-def _crane_runway(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _crane_runway(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A crane runway: an I or box girder on columns with brackets, a rail (DIN 536) with clips and an end stop."""
     length, h = num(rng, 2.5, 6.0), num(rng, 0.25, 0.5)
-    girder = drawn(rng, hand, h, ("H", "I", "RHS"))
-    rail = section(pick(rng, "rail", "rail", "square"), num(rng, 0.05, 0.12), hand)
+    girder = drawn(rng, style, h, ("H", "I", "RHS"))
+    rail = section(pick(rng, "rail", "rail", "square"), num(rng, 0.05, 0.12), style)
     _a, _b, r0, r1 = span_of(rail)
     parts = [piece(bar((0, 0, h / 2), (length, 0, h / 2), girder), "beam")]
     parts.append(piece(bar((0, 0, h - r0), (length, 0, h - r0), rail), "beam"))
@@ -143,16 +145,16 @@ def _crane_runway(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts += [piece(box((0.06, 0.05, 0.015), (x, s * (foot + 0.02), h + 0.0075)), "clamp") for s in (-1, 1)]
     if chance(rng, 0.7):
         parts.append(piece(box((0.02, 0.12, r1 - r0 + 0.15), (length - 0.01, 0, h + (r1 - r0 + 0.15) / 2)), "plate"))
-    return _on_props(parts, length, span_of(girder)[1] * 2, hand, rng)
+    return _on_props(parts, length, span_of(girder)[1] * 2, style, rng)
 
 
-def _cold_roof(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _cold_roof(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Cold-formed purlins (Z, lipped C, hat) bolted to cleats on two rafters on short columns."""
     length, depth = num(rng, 1.5, 4.0), num(rng, 1.0, 3.0)
-    rafter = drawn(rng, hand, num(rng, 0.12, 0.25), ("H", "I", "U", "RHS"))
-    purlin = drawn(rng, hand, num(rng, 0.12, 0.25), ("Z", "C", "Z"))
+    rafter = drawn(rng, style, num(rng, 0.12, 0.25), ("H", "I", "U", "RHS"))
+    purlin = drawn(rng, style, num(rng, 0.12, 0.25), ("Z", "C", "Z"))
     deep, (_a, _b, low, high) = span_of(rafter)[3], span_of(purlin)
-    props, top = propped(depth, 0.15, hand, rng)
+    props, top = propped(depth, 0.15, style, rng)
     parts: list[Part] = []
     for x in (0.15 * length, 0.85 * length):
         parts.append(piece(bar((x, 0, top + deep), (x, depth, top + deep), rafter), "beam"))
@@ -184,12 +186,12 @@ def _web_lines(kind: str, length: float, h: float, bays: int) -> list[tuple[Floa
     return lines
 
 
-def _truss(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _truss(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A lattice girder (Warren, Howe or Pratt) of angles, tees or tubes, with gusset plates or bare."""
     length, h = num(rng, 2.0, 6.0), num(rng, 0.3, 0.9)
     bays = int(np.clip(length / h, 3, 9))
-    chord = drawn(rng, hand, num(rng, 0.06, 0.12), ("SHS", "CHS", "T", "L", "U"))
-    web = drawn(rng, hand, num(rng, 0.035, 0.055), ("SHS", "CHS", "L", "flat", "round"))
+    chord = drawn(rng, style, num(rng, 0.06, 0.12), ("SHS", "CHS", "T", "L", "U"))
+    web = drawn(rng, style, num(rng, 0.035, 0.055), ("SHS", "CHS", "L", "flat", "round"))
     lines = _web_lines(pick(rng, "warren", "howe", "pratt"), length, h, bays)
     chords = [bar((0, 0, 0), (length, 0, 0), chord, (0, 0, -1)), bar((0, 0, h), (length, 0, h), chord)]
     ends = [bar((x, 0, 0), (x, 0, h), web, (0, 1, 0)) for x in (0.04, length - 0.04)]
@@ -206,15 +208,15 @@ def _truss(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             s = 1 if z == 0 else -1
             shape = [(x - g, z), (x + g, z), (x + 0.6 * g, z + s * g), (x - 0.6 * g, z + s * g)]
             parts.append(piece(slab_xz(shape if s > 0 else shape[::-1], 0.008), "gusset plate", bundle="beam"))
-    return _on_props(_laid(parts, span_of(chord)[3]), length, 0.12, hand, rng)
+    return _on_props(_laid(parts, span_of(chord)[3]), length, 0.12, style, rng)
 
 
-def _roof_truss(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _roof_truss(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A pitched truss of timber or angles: bottom chord, rafters, king post and struts, with nail or gusset plates."""
     length, timber = num(rng, 2.5, 6.0), chance(rng, 0.5)
     h = length * num(rng, 0.15, 0.35)
-    chord = section("timber" if timber else pick(rng, "L", "SHS", "T"), 0.12 if timber else 0.07, hand)
-    web = section("timber" if timber else "L", 0.09 if timber else 0.045, hand)
+    chord = section("timber" if timber else pick(rng, "L", "SHS", "T"), 0.12 if timber else 0.07, style)
+    web = section("timber" if timber else "L", 0.09 if timber else 0.045, style)
     feet = (np.array([0.0, 0, 0]), np.array([length, 0, 0]))
     ridge, middle = np.array([length / 2, 0, h]), np.array([length / 2, 0, 0.0])
     lines = [(feet[0], feet[1], "beam", chord), (feet[0], ridge, "beam", chord), (feet[1], ridge, "beam", chord)]
@@ -243,10 +245,10 @@ def _roof_truss(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             for p in (*feet, ridge)
             for s in (-1, 1)
         ]
-    return _on_props(_laid(parts, span_of(chord)[3]), length, 0.15, hand, rng)
+    return _on_props(_laid(parts, span_of(chord)[3]), length, 0.15, style, rng)
 
 
-def _heavy_beam(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _heavy_beam(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Concrete beams (rectangular, T, I with chamfers, L ledge) or sawn timbers, on props."""
     length, h = num(rng, 1.5, 5.0), num(rng, 0.15, 0.6)
     kind = int(rng.integers(5))
@@ -260,13 +262,13 @@ def _heavy_beam(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     ]
     solid = bar((0, 0, 0), (length, 0, 0), (shapes[kind], ()))
     parts = [piece(solid, "beam", "safety" if kind == 4 else "concrete")]
-    return _on_props(parts, length, float(np.ptp(shapes[kind][:, 0])), hand, rng)
+    return _on_props(parts, length, float(np.ptp(shapes[kind][:, 0])), style, rng)
 
 
-def _stack(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _stack(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A store of profiles: layers of beams or tubes between battens, or on a cantilever rack."""
     length, parts = num(rng, 1.0, 5.0), []
-    one = drawn(rng, hand, num(rng, 0.06, 0.2), (*ROLLED, "L", "T", "C", "strut"))
+    one = drawn(rng, style, num(rng, 0.06, 0.2), (*ROLLED, "L", "T", "C", "strut"))
     x0, x1, y0, y1 = span_of(one)
     wide, tall = x1 - x0 + 0.003, y1 - y0
     columns, layers, batten = int(rng.integers(2, 6)), int(rng.integers(1, 4)), pick(rng, 0.05, 0.08)
@@ -281,17 +283,17 @@ def _stack(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _cantilever(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _cantilever(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A beam cantilevered from a wall or column by an end plate, with a knee brace, a hoist eye or a trolley rail."""
     reach, z = num(rng, 0.5, 2.5), num(rng, 1.2, 2.8)
-    one = drawn(rng, hand, num(rng, 0.08, 0.2), ("H", "I", "IPN", "U", "SHS"))
+    one = drawn(rng, style, num(rng, 0.08, 0.2), ("H", "I", "IPN", "U", "SHS"))
     x0, x1, y0, y1 = span_of(one)
     parts: list[Part] = []
     if chance(rng, 0.5):
         parts.append(piece(box((0.2, 1.4, z + 0.8), (-0.1, 0, (z + 0.8) / 2)), "wall", "concrete"))
     else:
-        shaft = drawn(rng, hand, 0.2, ("H", "SHS"))
-        plates, low = base(-0.1, 0, (0.32, 0.32), hand, rng)
+        shaft = drawn(rng, style, 0.2, ("H", "SHS"))
+        plates, low = base(-0.1, 0, (0.32, 0.32), style, rng)
         parts += [*plates, piece(bar((-0.1, 0, low), (-0.1, 0, z + 0.5), shaft, (1, 0, 0)), "column")]
     w, h = x1 - x0 + 0.08, y1 - y0 + 0.1
     parts.append(piece(box((0.015, w, h), (0.0075, 0, z)), "plate"))
@@ -300,10 +302,10 @@ def _cantilever(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         for sy in (-1, 1)
         for sz in (-1, 1)
     ]
-    parts += bolted(spots, 0.014, hand, 0.015)
+    parts += bolted(spots, 0.014, style, 0.015)
     parts.append(piece(bar((0.015, 0, z), (reach, 0, z), one), "beam"))
     if chance(rng, 0.6):
-        knee, drop = drawn(rng, hand, 0.06, ("L", "SHS", "CHS", "flat")), min(0.6 * reach, 0.8)
+        knee, drop = drawn(rng, style, 0.06, ("L", "SHS", "CHS", "flat")), min(0.6 * reach, 0.8)
         parts.append(piece(bar((0.0, 0, z + y0 - drop), (drop, 0, z + y0), knee), "brace"))
     return Model(parts)
 

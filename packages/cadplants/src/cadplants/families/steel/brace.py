@@ -31,7 +31,7 @@ from cadplants.families.steel.shape import (
 )
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import box, cylinder, rod
 from cadplants.transforms import at, looking, spun
@@ -39,14 +39,14 @@ from cadplants.transforms import at, looking, spun
 __all__ = ["BRACES"]
 
 
-def _bay(w: float, h: float, hand: Hand, rng: np.random.Generator) -> tuple[list[Part], float, float]:
+def _bay(w: float, h: float, style: ModelingStyle, rng: np.random.Generator) -> tuple[list[Part], float, float]:
     """Two columns on base plates and a beam between or on them; half a column's width and the beam's underside."""
-    column = drawn(rng, hand, num(rng, 0.1, 0.2), ("H", "SHS", "I", "CHS"))
-    beam = drawn(rng, hand, num(rng, 0.1, 0.22), ("I", "H", "RHS", "U"))
+    column = drawn(rng, style, num(rng, 0.1, 0.2), ("H", "SHS", "I", "CHS"))
+    beam = drawn(rng, style, num(rng, 0.1, 0.22), ("I", "H", "RHS", "U"))
     half = float(column[0][:, 0].max())
     parts: list[Part] = []
     for x in (0.0, w):
-        plates, z = base(x, 0, (2 * half + 0.14, 2 * half + 0.14), hand, rng)
+        plates, z = base(x, 0, (2 * half + 0.14, 2 * half + 0.14), style, rng)
         parts += [*plates, piece(bar((x, 0, z), (x, 0, h), column, (0, 1, 0)), "column")]
     _x0, _x1, y0, y1 = span_of(beam)
     if chance(rng, 0.5):
@@ -68,7 +68,7 @@ def _corner(x: float, z: float, sx: int, sz: int, size: float, rng: np.random.Ge
     return moved(moved(one, np.diag([float(sx), 1.0, float(sz), 1.0])), at(x, 0, z))
 
 
-def _rod_brace(a: Floats, b: Floats, r: float, y: float, hand: Hand) -> list[Part]:
+def _rod_brace(a: Floats, b: Floats, r: float, y: float, style: ModelingStyle) -> list[Part]:
     """A tie rod with forks at its ends and a turnbuckle (EN 1090 practice)."""
     a, b = a + np.array([0, y, 0]), b + np.array([0, y, 0])
     x = (b - a) / np.linalg.norm(b - a)
@@ -76,7 +76,7 @@ def _rod_brace(a: Floats, b: Floats, r: float, y: float, hand: Hand) -> list[Par
     pose = looking(middle, x) @ spun("y", np.pi / 2)
     frame = [moved(box((1.6 * r, 1.2 * r, 12 * r)), at(s * 2.0 * r)) for s in (-1, 1)]
     frame += [moved(cylinder(2.2 * r, -2 * r, 2 * r, 8), at(0, 0, s * 6 * r)) for s in (-1, 1)]
-    parts = [piece(pipe(np.array([a + 3 * r * x, b - 3 * r * x]), r, hand), "brace")]
+    parts = [piece(pipe(np.array([a + 3 * r * x, b - 3 * r * x]), r, style), "brace")]
     parts.append(piece(moved(merge(frame), pose), "brace", "clamp"))
     for end, s in ((a, 1), (b, -1)):
         fork = looking(end + s * 3 * r * x, x) @ spun("y", np.pi / 2)
@@ -84,9 +84,9 @@ def _rod_brace(a: Floats, b: Floats, r: float, y: float, hand: Hand) -> list[Par
     return parts
 
 
-def _double_angle(a: Floats, b: Floats, leg: float, hand: Hand) -> list[Solid]:
+def _double_angle(a: Floats, b: Floats, leg: float, style: ModelingStyle) -> list[Solid]:
     """Two angles back to back with a gusset's thickness and packs between them."""
-    one = section("L", leg, hand)[0] + np.array([0.28 * leg, 0.0])
+    one = section("L", leg, style)[0] + np.array([0.28 * leg, 0.0])
     left = np.column_stack([-one[:, 0], one[:, 1]])[::-1]
     solids = [bar(a, b, (one + np.array([0.006, 0]), ())), bar(a, b, (left - np.array([0.006, 0]), ()))]
     for f in (0.3, 0.7):
@@ -95,10 +95,10 @@ def _double_angle(a: Floats, b: Floats, leg: float, hand: Hand) -> list[Solid]:
     return solids
 
 
-def _braced(_: int, hand: Hand, rng: np.random.Generator, layout: str) -> Model:
+def _braced(_: int, style: ModelingStyle, rng: np.random.Generator, layout: str) -> Model:
     """A braced bay (EN 1993-1-8 details): X, K, V, single or knee braces on gusset plates with bolts."""
     w, h = num(rng, 1.2, 3.2), num(rng, 1.6, 3.4)
-    parts, half, top = _bay(w, h, hand, rng)
+    parts, half, top = _bay(w, h, style, rng)
     g, low = num(rng, 0.14, 0.26), 0.05
     corners: list[tuple[float, float, int, int]] = []
     lines: list[tuple[Floats, Floats]] = []
@@ -136,13 +136,13 @@ def _braced(_: int, hand: Hand, rng: np.random.Generator, layout: str) -> Model:
     kind = (
         pick(rng, "rod", "angles", "tube", "flat", "angle") if layout != "knee" else pick(rng, "tube", "angle", "flat")
     )
-    one = section({"tube": pick(rng, "CHS", "SHS")}.get(kind, "L"), num(rng, 0.05, 0.09), hand)
+    one = section({"tube": pick(rng, "CHS", "SHS")}.get(kind, "L"), num(rng, 0.05, 0.09), style)
     for k, (a, b) in enumerate(lines):
         y = 0.012 * (-1) ** k if layout == "X" else 0.0
         if kind == "rod":
-            parts += _rod_brace(a, b, num(rng, 0.008, 0.014), 1.2 * y, hand)
+            parts += _rod_brace(a, b, num(rng, 0.008, 0.014), 1.2 * y, style)
         elif kind == "angles":
-            solids = _double_angle(a, b, num(rng, 0.05, 0.07), hand)
+            solids = _double_angle(a, b, num(rng, 0.05, 0.07), style)
             parts += [piece(s, "brace") for s in ([merge(solids)] if chance(rng, 0.4) else solids)]
         elif kind == "flat":
             parts.append(piece(moved(flat(a, b, 0.06, 0.008), at(0, 0.009 * (-1) ** k)), "brace"))
@@ -153,25 +153,25 @@ def _braced(_: int, hand: Hand, rng: np.random.Generator, layout: str) -> Model:
             parts.append(piece(bar(a, b, one), "brace"))
     if kind != "rod":
         spots = [at(x + sx * 0.3 * g, -0.005, z + sz * 0.3 * g) @ spun("x", np.pi / 2) for x, z, sx, sz in corners]
-        parts += bolted(spots, 0.014, hand, 0.012, True)
+        parts += bolted(spots, 0.014, style, 0.012, True)
     return Model(parts)
 
 
-def _rack(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _rack(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A bay of a pipe rack: two frames with tiers, cantilevers, struts, braces; some pipes on the tiers."""
     w, d, h = num(rng, 1.2, 3.0), num(rng, 1.2, 3.0), num(rng, 1.8, 3.8)
     column, beam = (
-        drawn(rng, hand, num(rng, 0.12, 0.2), ("H", "SHS")),
-        drawn(rng, hand, num(rng, 0.1, 0.2), ("H", "I", "U")),
+        drawn(rng, style, num(rng, 0.12, 0.2), ("H", "SHS")),
+        drawn(rng, style, num(rng, 0.1, 0.2), ("H", "I", "U")),
     )
-    strut = drawn(rng, hand, num(rng, 0.08, 0.14), ("SHS", "U", "I"))
+    strut = drawn(rng, style, num(rng, 0.08, 0.14), ("SHS", "U", "I"))
     half, y1 = float(column[0][:, 0].max()), span_of(beam)[3]
     levels = np.linspace(h, 0.45 * h, int(rng.integers(1, 4)))
     arm = pick(rng, 0.0, num(rng, 0.4, 0.8))
     parts: list[Part] = []
     for y in (0.0, d):
         for x in (0.0, w):
-            plates, z = base(x, y, (0.3, 0.3), hand, rng)
+            plates, z = base(x, y, (0.3, 0.3), style, rng)
             parts += [*plates, piece(bar((x, y, z), (x, y, h), column, (0, 1, 0)), "column")]
         for level in levels:
             parts.append(piece(bar((half, y, level - y1), (w - half, y, level - y1), beam), "beam"))
@@ -182,21 +182,21 @@ def _rack(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         z = 0.7 * h
         parts.append(piece(bar((x, back, z), (x, d - back, z), strut), "beam"))
         if chance(rng, 0.6):
-            thin = section(pick(rng, "L", "CHS", "flat"), 0.05, hand)
+            thin = section(pick(rng, "L", "CHS", "flat"), 0.05, style)
             parts.append(piece(bar((x, back, 0.15), (x, d - back, z - 0.06), thin), "brace"))
     for level in levels:
         for x in np.arange(0.3, w - 0.2, 0.4):
             if chance(rng, 0.5):
                 r = pick(rng, 0.03, 0.057, 0.084)
-                run = pipe([(x, -0.4, level + r), (x, d + 0.4, level + r)], r, hand, 0.0, 0.004)
+                run = pipe([(x, -0.4, level + r), (x, d + 0.4, level + r)], r, style, 0.0, 0.004)
                 parts.append(Part(run, "pipe", "pipe", "", "Pipe assembly"))
     return Model(parts)
 
 
-def _gantry(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _gantry(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A lifting gantry or tripod: splayed legs with ties, a runway beam with an eye or trolley, on casters or feet."""
     w, h, d = num(rng, 1.2, 3.0), num(rng, 1.6, 3.0), num(rng, 0.8, 1.4)
-    leg = drawn(rng, hand, num(rng, 0.06, 0.1), ("SHS", "CHS", "U", "L"))
+    leg = drawn(rng, style, num(rng, 0.06, 0.1), ("SHS", "CHS", "U", "L"))
     parts: list[Part] = []
     if chance(rng, 0.3):
         r = 0.4 * h
@@ -208,12 +208,12 @@ def _gantry(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             if chance(rng, 0.8):
                 parts.append(piece(rod((0.6 * x, 0.6 * y, 0.4 * h), (0.6 * x2, 0.6 * y2, 0.4 * h), 0.015, 10), "brace"))
         parts.append(piece(cylinder(0.16, h, h + 0.02, 20), "plate"))
-        parts.append(piece(moved(moved(lug(hand, 0.08, 0.015), spun("x", np.pi)), at(0, 0, h)), "lifting lug"))
+        parts.append(piece(moved(moved(lug(style, 0.08, 0.015), spun("x", np.pi)), at(0, 0, h)), "lifting lug"))
         return Model(parts)
     low = 0.01
     spots = [(x, s * d / 2) for x in (0.0, w) for s in (-1, 1)]
     if chance(rng, 0.6):
-        parts, low = wheeled(spots, (pick(rng, "swivel", "heavy", "braked"),), num(rng, 0.05, 0.09), hand, rng)
+        parts, low = wheeled(spots, (pick(rng, "swivel", "heavy", "braked"),), num(rng, 0.05, 0.09), style, rng)
     else:
         parts = [piece(box((0.2, 0.2, 0.01), (x, y, 0.005)), "base plate") for x, y in spots]
     deep = float(np.ptp(leg[0][:, 1])) / 2
@@ -222,12 +222,12 @@ def _gantry(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts += [piece(bar((x, s * d / 2, low + 2 * deep), (x, s * 0.06, h), leg), "column") for s in (-1, 1)]
         parts.append(piece(bar((x, -0.3 * d, 0.45 * h), (x, 0.3 * d, 0.45 * h), leg), pick(rng, "brace", "beam")))
         parts.append(piece(box((0.2, 0.3, 0.015), (x, 0, h + 0.0075)), "plate"))
-    one = drawn(rng, hand, num(rng, 0.12, 0.24), ("I", "IPN", "H"))
+    one = drawn(rng, style, num(rng, 0.12, 0.24), ("I", "IPN", "H"))
     z = h + 0.015 - span_of(one)[2]
     parts.append(piece(bar((-0.3, 0, z), (w + 0.3, 0, z), one), "beam"))
     if chance(rng, 0.6):
         parts.append(
-            piece(moved(moved(lug(hand, 0.08, 0.02), spun("x", np.pi)), at(w * 0.4, 0, h + 0.015)), "lifting lug")
+            piece(moved(moved(lug(style, 0.08, 0.02), spun("x", np.pi)), at(w * 0.4, 0, h + 0.015)), "lifting lug")
         )
     if chance(rng, 0.5):
         parts += [
@@ -235,7 +235,7 @@ def _gantry(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 bar(
                     (s * 0.0 if s > 0 else w, 0, h - 0.5),
                     (0.5 if s > 0 else w - 0.5, 0, h + 0.015),
-                    section("SHS", 0.05, hand),
+                    section("SHS", 0.05, style),
                 ),
                 "brace",
             )
@@ -244,19 +244,19 @@ def _gantry(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _small_frame(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _small_frame(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Small supports: T-posts, goalposts, wall brackets with braces, trapeze of strut channel on threaded rods."""
     kind, h, w = int(rng.integers(4)), num(rng, 0.4, 1.6), num(rng, 0.4, 1.4)
-    one: Section = drawn(rng, hand, num(rng, 0.05, 0.12), ("SHS", "U", "L", "strut", "H", "CHS"))
+    one: Section = drawn(rng, style, num(rng, 0.05, 0.12), ("SHS", "U", "L", "strut", "H", "CHS"))
     y0 = span_of(one)[2]
     parts: list[Part] = []
     if kind < 2:
         for x in (0.0,) if kind == 0 else (-0.42 * w, 0.42 * w):
-            plates, z = base(x, 0, (0.16, 0.16), hand, rng)
+            plates, z = base(x, 0, (0.16, 0.16), style, rng)
             parts += [*plates, piece(bar((x, 0, z), (x, 0, h), one, (0, 1, 0)), pick(rng, "column", "post"))]
         parts.append(piece(bar((-w / 2, 0, h - y0), (w / 2, 0, h - y0), one), "beam"))
         if kind == 0 and chance(rng, 0.6):
-            thin = section("L", 0.035, hand)
+            thin = section("L", 0.035, style)
             parts += [piece(bar((0, 0, h - 0.3 * w), (s * 0.35 * w, 0, h), thin), "brace") for s in (-1, 1)]
     elif kind == 2:
         parts.append(piece(box((1.2, 0.2, h + 0.8), (0, 0.1, (h + 0.8) / 2)), "wall", "concrete"))
@@ -266,17 +266,17 @@ def _small_frame(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             drop = min(0.6 * w, 0.7 * h)
             parts.append(
                 piece(
-                    bar((x, 0, h - drop), (x, -0.75 * w, h + y0), section(pick(rng, "L", "flat", "SHS"), 0.04, hand)),
+                    bar((x, 0, h - drop), (x, -0.75 * w, h + y0), section(pick(rng, "L", "flat", "SHS"), 0.04, style)),
                     "brace",
                 )
             )
             poses = [at(x + s * 0.045, -0.01, h + t) @ spun("x", np.pi / 2) for s in (-1, 1) for t in (-0.13, 0.03)]
-            parts += bolted(poses, 0.01, hand, 0.01)
+            parts += bolted(poses, 0.01, style, 0.01)
     else:
         top, n = h + 1.0, 8
-        over = drawn(rng, hand, 0.14, ("H", "I"))
+        over = drawn(rng, style, 0.14, ("H", "I"))
         parts += [
-            piece(bar((s * w, 0, 0), (s * w, 0, top - span_of(over)[3]), section("SHS", 0.08, hand)), "column")
+            piece(bar((s * w, 0, 0), (s * w, 0, top - span_of(over)[3]), section("SHS", 0.08, style)), "column")
             for s in (-1, 1)
         ]
         parts.append(piece(bar((-w, 0, top), (w, 0, top), over), "beam"))
@@ -292,7 +292,7 @@ def _small_frame(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _plates(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _plates(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Loose plates: blank, drilled, clipped, round, ribbed or bent; lying, stacked or on a wall."""
     parts: list[Part] = []
     for k in range(int(rng.integers(3, 7))):
@@ -313,7 +313,7 @@ def _plates(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 ]
             )
         elif kind == 2:
-            outline = circle(b / 2, few_sides(hand, b / 2, 40))
+            outline = circle(b / 2, few_sides(style, b / 2, 40))
         elif kind == 3:
             outline = np.array(
                 [[-a / 2, -b / 2], [a / 2, -b / 2], [a / 2, -0.1 * b], [-0.1 * a, b / 2], [-a / 2, b / 2]]

@@ -25,7 +25,7 @@ from cadplants.families.steel.shape import (
 )
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, box, cylinder, hexagon, ring, rod, turned
 from cadplants.transforms import at, spun
@@ -40,9 +40,9 @@ def _mirrored(half: list[tuple[float, float]]) -> list[tuple[float, float]]:
     return [*half, *((r, -y) for r, y in reversed(half))]
 
 
-def wheel(kind: str, r: float, w: float, hand: Hand) -> list[Colored]:
+def wheel(kind: str, r: float, w: float, style: ModelingStyle) -> list[Colored]:
     """A wheel about the y axis: of one piece, with a tread, spoked, with a tyre on a rim, with a groove or flange."""
-    n = few_sides(hand, r, 28)
+    n = few_sides(style, r, 28)
     h = w / 2
     if kind == "plain":
         made = [(turned([(0.92 * r, -h), (r, -0.7 * h), (r, 0.7 * h), (0.92 * r, h)], n), "rubber")]
@@ -98,10 +98,10 @@ def wheel(kind: str, r: float, w: float, hand: Hand) -> list[Colored]:
     return [(along("y", one), color) for one, color in made]
 
 
-def _plate(a: float, b: float, thick: float, hand: Hand) -> Solid:
+def _plate(a: float, b: float, thick: float, style: ModelingStyle) -> Solid:
     """A mounting plate under z = 0 with four slots or holes."""
     holes = tuple(circle(0.055 * b, 8, (sx * 0.38 * a, sy * 0.36 * b)) for sx in (-1, 1) for sy in (-1, 1))
-    return slab_xy(rounded_rectangle(a, b, 0.1 * b, 2), -thick, 0.0, holes if hand.holes else ())
+    return slab_xy(rounded_rectangle(a, b, 0.1 * b, 2), -thick, 0.0, holes if style.holes else ())
 
 
 def _sheet_fork(r: float, w: float, trail: float, high: float, t: float) -> Solid:
@@ -113,9 +113,9 @@ def _sheet_fork(r: float, w: float, trail: float, high: float, t: float) -> Soli
     return merge([*sides, box((r, 2 * g + 2 * t, t), (0, 0, top + t / 2))])
 
 
-def _axle(r: float, w: float, trail: float, high: float, hand: Hand) -> Solid:
+def _axle(r: float, w: float, trail: float, high: float, style: ModelingStyle) -> Solid:
     reach, d = 0.6 * w + 0.12 * r, 0.1 * r
-    n = few_sides(hand, d, 10)
+    n = few_sides(style, d, 10)
     pin = merge([cylinder(d, -reach, reach, n), hexagon(3.4 * d, reach - 0.02 * r, reach + 0.1 * r)])
     return along("y", pin, trail, 0, -high + r)
 
@@ -127,25 +127,25 @@ def _brake(r: float, w: float, high: float) -> Solid:
     return slab_xz(ribbon(line[::-1], 0.05 * r), 1.22 * w)
 
 
-def caster_parts(kind: str, r: float, hand: Hand, rng: np.random.Generator) -> tuple[list[Part], float]:
+def caster_parts(kind: str, r: float, style: ModelingStyle, rng: np.random.Generator) -> tuple[list[Part], float]:
     """A caster that hangs from z = 0 (EN 12532, EN 12533): its parts and its height.
 
     Args:
         kind: swivel, braked, fixed, heavy, stem, twin, levelling.
         r: radius of the wheel [m].
-        hand: that models it.
+        style: that models it.
         rng: draws its wheel and proportions.
     """
     w, t = num(rng, 0.45, 0.8) * r, 0.06 * r
     turning = kind != "fixed"
     trail = num(rng, 0.3, 0.7) * r if turning else 0.0
     high = num(rng, 2.45, 2.9) * r
-    n = few_sides(hand, 0.6 * r)
-    style = pick(rng, "solid", "tread", "plain", "tread") if kind != "heavy" else pick(rng, "solid", "spoked", "tread")
+    n = few_sides(style, 0.6 * r)
+    design = pick(rng, "solid", "tread", "plain", "tread") if kind != "heavy" else pick(rng, "solid", "spoked", "tread")
     metal: list[Solid] = []
     rest: list[Colored] = []
     if kind in ("swivel", "braked", "levelling"):
-        metal += [_plate(2.1 * r, 1.7 * r, t, hand), _sheet_fork(r, w, trail, high, t)]
+        metal += [_plate(2.1 * r, 1.7 * r, t, style), _sheet_fork(r, w, trail, high, t)]
         metal.append(turned([(0.5 * r, -0.3 * r), (0.62 * r, -0.2 * r), (0.62 * r, -0.12 * r), (0.4 * r, -t)], n))
         if kind == "braked":
             rest.append((_brake(r, w, high), "handle"))
@@ -159,9 +159,9 @@ def caster_parts(kind: str, r: float, hand: Hand, rng: np.random.Generator) -> t
         g = w / 2 + 0.1 * w + t / 2
         line = [(-g, -high + 0.82 * r), (-g, -t / 2), (g, -t / 2), (g, -high + 0.82 * r)]
         bow = along("x", _extruded(ribbon(line, t), 0.7 * r))
-        metal += [_plate(2.1 * r, 1.7 * r, t, hand), moved(bow, at(0, 0, -t))]
+        metal += [_plate(2.1 * r, 1.7 * r, t, style), moved(bow, at(0, 0, -t))]
     elif kind == "heavy":
-        metal += [_plate(2.4 * r, 2.0 * r, 2 * t, hand), _sheet_fork(r, w, trail, high, 2 * t)]
+        metal += [_plate(2.4 * r, 2.0 * r, 2 * t, style), _sheet_fork(r, w, trail, high, 2 * t)]
         metal.append(cylinder(0.7 * r, -0.3 * r, -2 * t, n))
         metal += [box((0.1 * r, w * 1.2 + 4 * t, 0.25 * r), (s * 0.35 * r, 0, -0.42 * r)) for s in (-1, 1)]
     elif kind == "stem":
@@ -175,9 +175,9 @@ def caster_parts(kind: str, r: float, hand: Hand, rng: np.random.Generator) -> t
         metal += [core, cylinder(0.3 * r, -high + 2.05 * r, 0.0, n), cylinder(0.15 * r, 0.0, 0.7 * r, 6)]
     wheels = [(0.0, w)] if kind != "twin" else [(-0.42 * r, 0.6 * r), (0.42 * r, 0.6 * r)]
     for y, wide in wheels:
-        for one, color in wheel(style if kind != "twin" else "plain", r, wide, hand):
+        for one, color in wheel(design if kind != "twin" else "plain", r, wide, style):
             rest.append((moved(one, at(trail, y, -high + r)), color))
-    axle = _axle(r, w if kind != "twin" else 1.4 * r, trail, high, hand)
+    axle = _axle(r, w if kind != "twin" else 1.4 * r, trail, high, style)
     if chance(rng, 0.45):
         return [piece(merge([*metal, *(one for one, _ in rest), axle]), "caster", "clamp")], high
     parts = [piece(merge(metal), "caster", "clamp"), *(piece(one, "caster", color) for one, color in rest)]
@@ -191,7 +191,7 @@ def _extruded(outline: Floats, long: float) -> Solid:
 
 
 def wheeled(
-    spots: list[tuple[float, float]], kinds: tuple[str, ...], r: float, hand: Hand, rng: np.random.Generator
+    spots: list[tuple[float, float]], kinds: tuple[str, ...], r: float, style: ModelingStyle, rng: np.random.Generator
 ) -> tuple[list[Part], float]:
     """Casters of one make under some points, each turned its own way; and the height of what they carry."""
     parts: list[Part] = []
@@ -199,7 +199,7 @@ def wheeled(
     for k, (x, y) in enumerate(spots):
         kind = kinds[k % len(kinds)]
         # Each is made from the same draws, so that the wheels of one cart are alike.
-        made, high_ = caster_parts(kind, r, hand, np.random.default_rng(seed))
+        made, high_ = caster_parts(kind, r, style, np.random.default_rng(seed))
         high = high or high_
         turn = 0.0 if kind == "fixed" else num(rng, 0, 6.28)
         parts += placed(made, at(x, y, high) @ spun("z", turn))
@@ -209,23 +209,23 @@ def wheeled(
                 for sx in (-1, 1)
                 for sy in (-1, 1)
             ]
-            parts += bolted(heads, 0.1 * r, hand, 0.006) if hand.fasteners != "pieces" else []
+            parts += bolted(heads, 0.1 * r, style, 0.006) if style.fasteners != "pieces" else []
     return parts, high
 
 
-def _dolly(_: int, hand: Hand, rng: np.random.Generator, kinds: tuple[str, ...]) -> Model:
+def _dolly(_: int, style: ModelingStyle, rng: np.random.Generator, kinds: tuple[str, ...]) -> Model:
     """A low dolly or a corner of a frame on plate casters: plate, tube or angle frame, maybe loaded."""
     r = num(rng, 0.03, 0.1)
     a, b = num(rng, 0.4, 1.2) + 4 * r, num(rng, 0.35, 0.8) + 3 * r
     spots = [(sx * (a / 2 - 1.3 * r), sy * (b / 2 - 1.2 * r)) for sx in (-1, 1) for sy in (-1, 1)]
-    parts, z = wheeled(spots, kinds, r, hand, rng)
+    parts, z = wheeled(spots, kinds, r, style, rng)
     deck = int(rng.integers(3))
     if deck == 0:
         parts.append(
             piece(slab_xy(rounded_rectangle(a, b, num(rng, 0, 0.06), 3), z, z + 0.01), pick(rng, "plate", "skid frame"))
         )
     elif deck == 1:
-        one = drawn(rng, hand, 2.0 * r, ("SHS", "U"))
+        one = drawn(rng, style, 2.0 * r, ("SHS", "U"))
         h = r
         parts += [
             piece(bar((-a / 2, s * (b / 2 - 1.2 * r), z + h), (a / 2, s * (b / 2 - 1.2 * r), z + h), one), "skid frame")
@@ -243,13 +243,13 @@ def _dolly(_: int, hand: Hand, rng: np.random.Generator, kinds: tuple[str, ...])
     return Model(parts)
 
 
-def _trolley(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _trolley(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A tube trolley on stem or twin-wheel casters: uprights with casters in their ends, shelves, a push handle."""
     r, a, b, h = num(rng, 0.025, 0.06), num(rng, 0.5, 1.1), num(rng, 0.4, 0.7), num(rng, 0.5, 1.0)
     spots = [(sx * a / 2, sy * b / 2) for sx in (-1, 1) for sy in (-1, 1)]
-    parts, z = wheeled(spots, (pick(rng, "stem", "twin"),), r, hand, rng)
+    parts, z = wheeled(spots, (pick(rng, "stem", "twin"),), r, style, rng)
     d = max(0.014, 0.4 * r)
-    parts += [piece(pipe([(x, y, z), (x, y, z + h)], d, hand), "post") for x, y in spots]
+    parts += [piece(pipe([(x, y, z), (x, y, z + h)], d, style), "post") for x, y in spots]
     for level in np.linspace(0.1, 1.0, int(rng.integers(2, 4))):
         solid = slab_xy(rounded_rectangle(a + 2 * d, b + 2 * d, 2 * d, 3), z + level * h - 0.012, z + level * h + 0.012)
         parts.append(piece(solid, "plate", "clamp"))
@@ -261,15 +261,15 @@ def _trolley(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             (x + 0.15, b / 2, z + h + 0.12),
             (x, b / 2, z + h),
         ]
-        parts.append(piece(pipe(path, d, hand, 0.05), "railing", "handle"))
+        parts.append(piece(pipe(path, d, style, 0.05), "railing", "handle"))
     return Model(parts)
 
 
-def _cart(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _cart(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A cart on big wheels: an axle with two or four rubber-tyred or spoked wheels, a frame, a drawbar or handles."""
     r, a, b = num(rng, 0.1, 0.25), num(rng, 0.8, 1.8), num(rng, 0.5, 0.9)
     w, kind = num(rng, 0.25, 0.45) * r, pick(rng, "tyre", "tyre", "spoked", "tread")
-    one = drawn(rng, hand, num(rng, 0.04, 0.08), ("SHS", "U", "CHS", "RHS"))
+    one = drawn(rng, style, num(rng, 0.04, 0.08), ("SHS", "U", "CHS", "RHS"))
     h = float(np.ptp(one[0][:, 1])) / 2
     z = r + 0.15 * r + h
     parts = [piece(bar((-a / 2, s * b / 2, z), (a / 2, s * b / 2, z), one), "skid frame") for s in (-1, 1)]
@@ -278,10 +278,10 @@ def _cart(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     for x in axles:
         y = b / 2 + 0.04 + 0.6 * w
         parts.append(
-            piece(rod((x, -y - w, r), (x, y + w, r), 0.14 * r, few_sides(hand, 0.14 * r, 12)), "caster", "trim")
+            piece(rod((x, -y - w, r), (x, y + w, r), 0.14 * r, few_sides(style, 0.14 * r, 12)), "caster", "trim")
         )
         for s in (-1, 1):
-            parts += [piece(moved(m, at(x, s * y, r)), "caster", c) for m, c in wheel(kind, r, w, hand)]
+            parts += [piece(moved(m, at(x, s * y, r)), "caster", c) for m, c in wheel(kind, r, w, style)]
             parts.append(piece(box((0.3 * r, 0.02, 0.3 * r), (x, s * b / 2, r + 0.1 * r)), "bracket"))
     if len(axles) == 1:
         parts += [piece(box((0.04, 0.04, z - h), (0.4 * a, s * b / 2, (z - h) / 2)), "post") for s in (-1, 1)]
@@ -293,14 +293,14 @@ def _cart(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                     (a / 2 + 0.55, s * b / 2, z + 0.2),
                 ],
                 0.016,
-                hand,
+                style,
                 0.08,
             )
             for s in (-1, 1)
         ]
         parts += [piece(grip, "railing", "handle") for grip in grips]
     else:
-        tie = pipe([(0.45 * a, 0, z), (a / 2 + 0.7, 0, 0.1)], 0.02, hand)
+        tie = pipe([(0.45 * a, 0, z), (a / 2 + 0.7, 0, 0.1)], 0.02, style)
         parts.append(piece(tie, "brace", "handle"))
         parts.append(
             piece(
@@ -314,13 +314,13 @@ def _cart(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _rail_wheels(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _rail_wheels(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A bogie or transfer car on grooved or flanged wheels that stand on angle, tube or flat-bottomed rails."""
     r, a, b = num(rng, 0.05, 0.14), num(rng, 0.6, 1.6), num(rng, 0.5, 1.2)
     kind = pick(rng, "groove", "flanged")
     w = num(rng, 0.5, 0.9) * r
     tread = 0.75 * r if kind == "groove" else 0.83 * r
-    rail = section("CHS", 0.5 * w, hand) if kind == "groove" else section(pick(rng, "rail", "square"), 0.7 * r, hand)
+    rail = section("CHS", 0.5 * w, style) if kind == "groove" else section(pick(rng, "rail", "square"), 0.7 * r, style)
     base_z = -float(rail[0][:, 1].min())
     top = base_z + float(rail[0][:, 1].max())
     z = top + tread - (0.12 * w if kind == "groove" else 0.0)
@@ -331,7 +331,7 @@ def _rail_wheels(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     box_h = num(rng, 1.2, 1.6) * r
     for x in (-0.38 * a, 0.38 * a):
         for s in (-1, 1):
-            made = wheel(kind, r, w, hand)
+            made = wheel(kind, r, w, style)
             turn = spun("z", 0.0 if s > 0 else np.pi)
             parts += [piece(moved(m, at(x, s * b / 2, z) @ turn), "caster", c) for m, c in made]
             cheeks = [
@@ -342,7 +342,7 @@ def _rail_wheels(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             parts.append(piece(merge(cheeks), "bracket", "clamp"))
             pin = along("y", cylinder(0.12 * r, -0.8 * w, 0.8 * w, 8), x, s * b / 2, z)
             parts.append(piece(pin, "bolt", "fastener", fine=True))
-    one = drawn(rng, hand, num(rng, 0.08, 0.16), ("U", "H", "RHS", "I"))
+    one = drawn(rng, style, num(rng, 0.08, 0.16), ("U", "H", "RHS", "I"))
     h = float(np.ptp(one[0][:, 1])) / 2
     level = z + box_h + h
     parts += [piece(bar((-a / 2, s * b / 2, level), (a / 2, s * b / 2, level), one), "skid frame") for s in (-1, 1)]
@@ -352,7 +352,7 @@ def _rail_wheels(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _skates(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _skates(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Machinery skates: boxes with rows of rollers and a swivel pad, under two beams of a load."""
     r, rows = num(rng, 0.03, 0.06), int(rng.integers(2, 5))
     long, wide = (2.2 * rows + 0.6) * r, num(rng, 3.0, 5.0) * r
@@ -365,14 +365,14 @@ def _skates(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             rollers = [
                 along(
                     "y",
-                    cylinder(r, -0.48 * wide, 0.48 * wide, few_sides(hand, r, 16)),
+                    cylinder(r, -0.48 * wide, 0.48 * wide, few_sides(style, r, 16)),
                     x + (k - (rows - 1) / 2) * 2.2 * r,
                     y,
                     r,
                 )
                 for k in range(rows)
             ]
-            pad = moved(cylinder(1.4 * r, 2.7 * r, high, few_sides(hand, r, 16)), at(x, y))
+            pad = moved(cylinder(1.4 * r, 2.7 * r, high, few_sides(style, r, 16)), at(x, y))
             if chance(rng, 0.5):
                 parts.append(piece(merge([*frame, *rollers, pad]), "caster", "handle"))
             else:
@@ -380,7 +380,7 @@ def _skates(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                     piece(merge([*frame, pad]), "caster", "handle"),
                     *(piece(one, "caster", "rubber") for one in rollers),
                 ]
-    one = drawn(rng, hand, num(rng, 0.1, 0.2), ("H", "RHS", "U"))
+    one = drawn(rng, style, num(rng, 0.1, 0.2), ("H", "RHS", "U"))
     h = float(np.ptp(one[0][:, 1])) / 2
     parts += [
         piece(bar((-a / 2 - 0.2, s * b / 2, high + h), (a / 2 + 0.2, s * b / 2, high + h), one), "beam")

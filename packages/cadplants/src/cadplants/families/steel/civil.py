@@ -24,7 +24,7 @@ from cadplants.families.steel.shape import (
 )
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, extrude, loft, merge, moved, weld
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle
 from cadplants.primitives import box, cylinder, ring, turned
 from cadplants.transforms import at, spun
@@ -39,7 +39,7 @@ def _frustum(low: Floats, high: Floats, z: tuple[float, float]) -> Solid:
     return weld([loft([ends[0], *loops, ends[1]])])
 
 
-def _plinth(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _plinth(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Equipment plinths: chamfered, battered, with a step or recess, round; with grout, sole plates and anchors."""
     a, b, h, kind = num(rng, 0.4, 2.4), num(rng, 0.3, 1.4), num(rng, 0.08, 0.8), int(rng.integers(5))
     chamfer = min(0.03, 0.3 * h)
@@ -56,7 +56,7 @@ def _plinth(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         solid = slab_xz([(-a / 2, 0), (a / 2, 0), (a / 2, h), (0, h), (0, 0.6 * h), (-a / 2, 0.6 * h)], b)
     elif kind == 3:
         r = a / 2
-        solid, b = turned([(r, 0), (r, h - chamfer), (r - chamfer, h)], few_sides(hand, r, 40)), a
+        solid, b = turned([(r, 0), (r, h - chamfer), (r - chamfer, h)], few_sides(style, r, 40)), a
     else:
         pit = (rect(0.5 * a, 0.4 * b),)
         solid = extrude(rect(a, b), 0, h, pit)
@@ -69,17 +69,17 @@ def _plinth(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     spots = [(shift + sx * 0.3 * a * (0.6 if kind == 2 else 1), sy * 0.32 * b) for sx in (-1, 1) for sy in (-1, 1)]
     top = int(rng.integers(4))
     if top == 0:
-        parts += bolted([at(x, y, h) for x, y in spots], pick(rng, 0.012, 0.016, 0.02), hand, 0.03)
+        parts += bolted([at(x, y, h) for x, y in spots], pick(rng, 0.012, 0.016, 0.02), style, 0.03)
     elif top == 1 and kind != 4:
         parts += [piece(box((0.16, 0.12, 0.02), (x, y, h + 0.01)), "base plate") for x, y in spots]
-        parts += bolted([at(x, y, h + 0.02) for x, y in spots], 0.014, hand, 0.02)
+        parts += bolted([at(x, y, h + 0.02) for x, y in spots], 0.014, style, 0.02)
     elif top == 2 and kind < 2:
         parts.append(piece(box((0.8 * a, 0.8 * b, 0.03), (0, 0, h + 0.015)), "foundation", "ground"))
         parts.append(piece(box((0.74 * a, 0.74 * b, 0.015), (0, 0, h + 0.0375)), "base plate"))
     return Model(parts)
 
 
-def _footing(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _footing(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Footings of columns: pad with pedestal, sloped pad, socket, pile cap on piles; a stub column with its plate."""
     a, kind = num(rng, 0.8, 2.0), int(rng.integers(4))
     p, deep = num(rng, 0.3, 0.5), num(rng, 0.25, 0.5)
@@ -92,7 +92,7 @@ def _footing(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             _frustum(rect(a, a), rect(1.2 * p, 1.2 * p), (0.6 * deep, deep)),
         ]
     if kind == 3:
-        n = few_sides(hand, 0.15, 24)
+        n = few_sides(style, 0.15, 24)
         parts = [
             piece(moved(cylinder(0.15, -1.0, 0.0, n), at(x * 0.3 * a, y * 0.3 * a)), "foundation", "concrete")
             for x in (-1, 1)
@@ -104,18 +104,18 @@ def _footing(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         top = parts[-1].solid.vertices
         top[:, 2] += deep - top[:, 2].min()
     else:
-        solids.append(extrude(pick(rng, rect(p, p), circle(p / 2, few_sides(hand, p / 2, 32))), deep, h))
-        one = drawn(rng, hand, 0.5 * p, ("H", "SHS", "CHS", "I"))
-        plates, z = base(0, 0, (0.8 * p, 0.8 * p), hand, rng, h)
+        solids.append(extrude(pick(rng, rect(p, p), circle(p / 2, few_sides(style, p / 2, 32))), deep, h))
+        one = drawn(rng, style, 0.5 * p, ("H", "SHS", "CHS", "I"))
+        plates, z = base(0, 0, (0.8 * p, 0.8 * p), style, rng, h)
         parts += [*plates, piece(bar((0, 0, z), (0, 0, z + num(rng, 0.3, 1.5)), one, (0, 1, 0)), "column")]
     made = [merge(solids)] if chance(rng, 0.5) else solids
     return Model([*(piece(one_, "foundation", "concrete") for one_ in made), *parts])
 
 
-def _ring_base(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _ring_base(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A tank's base: a ring wall with sand, an octagon or round slab, chairs and anchors round it (API 650)."""
     r, h, kind = num(rng, 0.6, 2.0), num(rng, 0.15, 0.6), int(rng.integers(3))
-    n = few_sides(hand, r, 48)
+    n = few_sides(style, r, 48)
     w = num(rng, 0.2, 0.4)
     if kind == 0:
         parts = [piece(ring(r - w / 2, r + w / 2, 0, h, n), "foundation", "concrete")]
@@ -136,11 +136,11 @@ def _ring_base(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         reach = r
         poses = [spun("z", float(t)) @ at(reach, 0, h) for t in angles]
         parts += [piece(moved(box((0.12, 0.12, 0.012), (0, 0, 0.006)), pose), "base plate") for pose in poses]
-        parts += bolted([pose @ at(0, 0, 0.012) for pose in poses], 0.02, hand, 0.012)
+        parts += bolted([pose @ at(0, 0, 0.012) for pose in poses], 0.02, style, 0.012)
     return Model(parts)
 
 
-def _strip(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _strip(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Sleepers and strips: a row of sleepers, an upturned T strip, a raft with ribs, precast blocks under a beam."""
     long, count, kind = num(rng, 0.6, 2.0), int(rng.integers(2, 5)), int(rng.integers(4))
     w, h, gap = num(rng, 0.15, 0.5), num(rng, 0.15, 0.5), num(rng, 0.8, 1.6)
@@ -173,7 +173,7 @@ def _strip(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             piece(box((count * gap, long + 0.2, 0.2), ((count - 1) * gap / 2, 0, -0.1)), "foundation", "concrete")
         )
     if kind in (2, 3):
-        one = drawn(rng, hand, num(rng, 0.1, 0.2), ("H", "U", "RHS"))
+        one = drawn(rng, style, num(rng, 0.1, 0.2), ("H", "U", "RHS"))
         z = h - float(one[0][:, 1].min())
         parts.append(piece(bar((-0.2, 0, z), ((count - 1) * gap + 0.2, 0, z), one), pick(rng, "beam", "skid frame")))
     return Model(parts)
@@ -182,7 +182,7 @@ def _strip(_: int, hand: Hand, rng: np.random.Generator) -> Model:
 # --- walls ---
 
 
-def _brick(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _brick(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Masonry: courses of blocks (one mesh or block by block) with pilasters and coping."""
     long, h, t = num(rng, 1.0, 3.5), num(rng, 0.5, 2.6), pick(rng, 0.115, 0.175, 0.24)
     block = (pick(rng, 0.4, 0.5), 0.2) if chance(rng, 0.7) else (0.25, 0.125)
@@ -204,17 +204,17 @@ def _brick(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _panel_wall(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _panel_wall(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A hall's wall: posts and rails clad with trapezoidal or sandwich sheet, upright or level, with door or window."""
     count, w, h = int(rng.integers(1, 4)), num(rng, 1.2, 2.4), num(rng, 2.0, 3.5)
     long = count * w
-    post = drawn(rng, hand, num(rng, 0.1, 0.2), ("H", "I", "SHS", "C"))
+    post = drawn(rng, style, num(rng, 0.1, 0.2), ("H", "I", "SHS", "C"))
     y = float(post[0][:, 1].min())
     parts: list[Part] = []
     for k in range(count + 1):
-        plates, z = base(k * w, 0, (0.25, 0.28), hand, rng)
+        plates, z = base(k * w, 0, (0.25, 0.28), style, rng)
         parts += [*plates, piece(bar((k * w, 0, z), (k * w, 0, h), post, (0, 1, 0)), "column")]
-    rail, deep = section(pick(rng, "C", "Z", "U"), 0.12, hand), 0.06
+    rail, deep = section(pick(rng, "C", "Z", "U"), 0.12, style), 0.06
     parts += [
         piece(bar((0, y - deep, z), (long, y - deep, z), rail, (0, 1, 0)), "beam", "clamp")
         for z in (0.3, h / 2, h - 0.15)
@@ -243,13 +243,13 @@ def _panel_wall(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _bund(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _bund(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A bund: low walls round a slab with a sump and a kerb or ramp, rectangular, L-shaped or round."""
     a, b, h, t = num(rng, 1.2, 4.0), num(rng, 1.0, 3.0), num(rng, 0.15, 1.0), num(rng, 0.1, 0.25)
     kind = int(rng.integers(3))
     if kind == 2:
         r = a / 2
-        n = few_sides(hand, r, 48)
+        n = few_sides(style, r, 48)
         parts = [
             piece(ring(r - t, r, 0, h, n), "wall", "concrete"),
             piece(cylinder(r + 0.1, -0.15, 0, n), "ground", "concrete"),
@@ -277,7 +277,7 @@ def _bund(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _retaining(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _retaining(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Concrete walls: L elements, battered, with buttresses, a corner, a pipe opening, a curved stretch."""
     long, h, t, kind = num(rng, 1.0, 3.0), num(rng, 0.6, 2.6), num(rng, 0.12, 0.3), int(rng.integers(4))
     parts: list[Part] = []
@@ -305,7 +305,7 @@ def _retaining(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         if chance(rng, 0.5):
             parts.append(piece(slab_xy(corner, 0, h), "wall", "concrete"))
         else:
-            n = few_sides(hand, 0.15, 24)
+            n = few_sides(style, 0.15, 24)
             hole = (circle(0.15, n, (0.5 * long, 0.5 * h)),)
             parts.append(piece(slab_xz(rect(long, h, long / 2, h / 2), t, t / 2, hole), "wall", "concrete"))
             parts.append(piece(box((t, 0.7 * long - t, h), (t / 2, 0.35 * long + t / 2, h / 2)), "wall", "concrete"))

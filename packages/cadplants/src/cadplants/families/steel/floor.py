@@ -25,7 +25,7 @@ from cadplants.families.steel.shape import (
 )
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, extrude, lattice, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle
 from cadplants.primitives import box, cylinder, ring
 from cadplants.transforms import at, spun
@@ -51,12 +51,12 @@ def _grid(
     return lattice(xs, ys, filled, 0.0, thick)
 
 
-def panel(kind: str, w: float, d: float, thick: float, hand: Hand, most: int = 18) -> Solid:
+def panel(kind: str, w: float, d: float, thick: float, style: ModelingStyle, most: int = 18) -> Solid:
     """A floor panel ``w`` by ``d`` about the origin on z = 0, with at most so many bars each way.
 
     Bars after DIN 24537 (33 mm pitch), planks after DIN 24539; ``fold`` is a tread of folded sheet.
     """
-    coarse = 2.0 if hand.sides[1] <= 12 else 1.0
+    coarse = 2.0 if style.sides[1] <= 12 else 1.0
     if kind == "bar":
         return _grid(w, d, thick, (0.04 * coarse, 0.1 * coarse), (0.004, 0.006), most)
     if kind == "pressed":
@@ -115,11 +115,11 @@ def _name(kind: str) -> str:
     return "plate" if kind == "sheet" else "grating"
 
 
-def _panels(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _panels(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Floor panels side by side on bearers, with clips; or a stack of them on battens."""
     kind, w, d = pick(rng, *PANELS), num(rng, 0.4, 1.2), num(rng, 0.4, 1.2)
     thick = pick(rng, 0.025, 0.03, 0.04)
-    solid = panel(kind, w, d, thick, hand, 12)
+    solid = panel(kind, w, d, thick, style, 12)
     if chance(rng, 0.3):
         parts = [piece(box((0.08, d, 0.08), (s * 0.3 * w, 0, 0.04)), "beam", "safety") for s in (-1, 1)]
         turns = [num(rng, -0.03, 0.03) for _ in range(int(rng.integers(2, 5)))]
@@ -134,7 +134,7 @@ def _panels(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             ]
         )
     count = int(rng.integers(1, 4))
-    one = drawn(rng, hand, num(rng, 0.06, 0.12), ("L", "U", "SHS", "I", "T"))
+    one = drawn(rng, style, num(rng, 0.06, 0.12), ("L", "U", "SHS", "I", "T"))
     high = float(np.ptp(one[0][:, 1]))
     parts = []
     for k in range(count):
@@ -152,7 +152,7 @@ def _panels(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _trench(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _trench(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A floor with a trench or sump under gratings in an angle frame, or a round cover; slab, walls of the trench."""
     kind, thick = pick(rng, "bar", "pressed", "perforated", "sheet"), 0.03
     a, b, t = num(rng, 0.8, 2.4), num(rng, 0.2, 0.6), num(rng, 0.1, 0.2)
@@ -167,7 +167,7 @@ def _trench(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
     if chance(rng, 0.3):
         r = 0.5 * b + 0.15
-        n = few_sides(hand, r, 32)
+        n = few_sides(style, r, 32)
         parts = [piece(slab_xy(big + np.sign(big) * 0.1, -t, 0, (circle(r, n),)), "ground", "concrete")]
         parts.append(piece(ring(r - 0.05, r, -t, -thick, n), "beam"))
         bars = [
@@ -189,24 +189,24 @@ def _trench(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts.append(piece(merge(angle), "beam"))
     count = int(rng.integers(1, 4))
     for k in range(count):
-        cover = panel(kind, a / count - 0.006, b - 0.012, thick, hand)
+        cover = panel(kind, a / count - 0.006, b - 0.012, thick, style)
         parts.append(piece(moved(cover, at(-a / 2 + (k + 0.5) * a / count, 0, -thick)), _name(kind), "clamp"))
     return Model(parts)
 
 
-def _bow(xs: tuple[float, float], y: float, z: float, hand: Hand) -> list[Part]:
+def _bow(xs: tuple[float, float], y: float, z: float, style: ModelingStyle) -> list[Part]:
     """A railing along x over a floor: two posts, a handrail and a knee rail."""
-    parts = [piece(pipe([(x, y, z), (x, y, z + 1.05)], 0.019, hand), "post", "safety", "platform") for x in xs]
-    rails = [pipe([(xs[0], y, z + h), (xs[1], y, z + h)], r, hand) for h, r in ((1.05, 0.021), (0.55, 0.015))]
+    parts = [piece(pipe([(x, y, z), (x, y, z + 1.05)], 0.019, style), "post", "safety", "platform") for x in xs]
+    rails = [pipe([(xs[0], y, z + h), (xs[1], y, z + h)], r, style) for h, r in ((1.05, 0.021), (0.55, 0.015))]
     return [*parts, *(piece(one, "railing", "safety", "platform") for one in rails)]
 
 
-def _ring_platform(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _ring_platform(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A platform round a silo, tank or chimney: sectors of plate or one ring on brackets, railing outside."""
     r, w, h = num(rng, 0.4, 1.2), num(rng, 0.6, 0.9), num(rng, 1.0, 2.5)
     turn = pick(rng, 2 * np.pi, num(rng, 1.5, 4.0))
     full = turn > 6
-    n = few_sides(hand, r, 40)
+    n = few_sides(style, r, 40)
     parts = [piece(cylinder(r, 0, h + num(rng, 0.2, 1.5), n), pick(rng, "wall", "column"), "concrete")]
     count = max(2, int(turn / 0.8))
     step = turn / count
@@ -224,15 +224,15 @@ def _ring_platform(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     for k in range(count + (0 if full else 1)):
         parts.append(piece(moved(slab_xz(shape, 0.012), spun("z", k * step)), "bracket"))
         x, y = (r + w - 0.03) * np.cos(k * step), (r + w - 0.03) * np.sin(k * step)
-        parts.append(piece(pipe([(x, y, h - 0.03), (x, y, h + 1.05)], 0.019, hand), "post", "safety", "platform"))
+        parts.append(piece(pipe([(x, y, h - 0.03), (x, y, h + 1.05)], 0.019, style), "post", "safety", "platform"))
     t = np.linspace(0, turn, 6 * count + 1)
     for z, thick in ((1.05, 0.021), (0.55, 0.015)):
         path = np.column_stack([(r + w - 0.03) * np.cos(t), (r + w - 0.03) * np.sin(t), np.full(len(t), h + z)])
-        parts.append(piece(pipe(path if not full else path[:-2], thick, hand), "railing", "safety", "platform"))
+        parts.append(piece(pipe(path if not full else path[:-2], thick, style), "railing", "safety", "platform"))
     return Model(parts)
 
 
-def _solid_platform(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _solid_platform(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A platform of one piece: folded plate, ribbed plate or slab; on legs, brackets or blocks."""
     w, d, h = num(rng, 0.8, 2.8), num(rng, 0.6, 1.6), num(rng, 0.15, 2.2)
     kind = int(rng.integers(3))
@@ -253,10 +253,10 @@ def _solid_platform(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     if foot == 0 or low < 0.15:
         parts += [piece(box((0.2, d, low), (s * 0.35 * w, 0, low / 2)), "foundation", "concrete") for s in (-1, 1)]
     elif foot == 1:
-        one = drawn(rng, hand, 0.07, ("SHS", "CHS", "L", "U"))
+        one = drawn(rng, style, 0.07, ("SHS", "CHS", "L", "U"))
         for sx in (-1, 1):
             for sy in (-1, 1):
-                plates, z = base(sx * (w / 2 - 0.08), sy * (d / 2 - 0.08), (0.15, 0.15), hand, rng)
+                plates, z = base(sx * (w / 2 - 0.08), sy * (d / 2 - 0.08), (0.15, 0.15), style, rng)
                 x, y = sx * (w / 2 - 0.08), sy * (d / 2 - 0.08)
                 parts += [*plates, piece(bar((x, y, z), (x, y, low), one), "column")]
     else:
@@ -264,23 +264,23 @@ def _solid_platform(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         shape = [(d / 2, low), (-d / 2 + 0.1, low), (-d / 2 + 0.1, low - 0.04), (d / 2, low - min(0.5, 0.8 * low))]
         parts += [piece(moved(slab_yz(shape, 0.012), at(x)), "bracket") for x in (-0.35 * w, 0.35 * w)]
     if h > 0.5 and chance(rng, 0.7):
-        parts += _bow((-w / 2 + 0.05, w / 2 - 0.05), -d / 2 + 0.05, h, hand)
+        parts += _bow((-w / 2 + 0.05, w / 2 - 0.05), -d / 2 + 0.05, h, style)
     return Model(parts)
 
 
-def _mezzanine(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _mezzanine(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A mezzanine bay: columns, girders, joists on or between them, panels or one floor, kick plate and railing."""
     w, d, h = num(rng, 2.0, 4.5), num(rng, 1.5, 3.0), num(rng, 2.0, 3.2)
     column, girder = (
-        drawn(rng, hand, num(rng, 0.1, 0.2), ("H", "SHS", "CHS")),
-        drawn(rng, hand, num(rng, 0.16, 0.28), ("I", "H", "U", "RHS")),
+        drawn(rng, style, num(rng, 0.1, 0.2), ("H", "SHS", "CHS")),
+        drawn(rng, style, num(rng, 0.16, 0.28), ("I", "H", "U", "RHS")),
     )
-    joist = drawn(rng, hand, num(rng, 0.1, 0.16), ("C", "Z", "I", "U"))
+    joist = drawn(rng, style, num(rng, 0.1, 0.16), ("C", "Z", "I", "U"))
     parts: list[Part] = []
     xs = np.linspace(0, w, int(rng.integers(2, 4)))
     for x in xs:
         for y in (0.0, d):
-            plates, z = base(float(x), y, (0.3, 0.3), hand, rng)
+            plates, z = base(float(x), y, (0.3, 0.3), style, rng)
             parts += [*plates, piece(bar((x, y, z), (x, y, h), column), "column")]
     g0, g1 = float(girder[0][:, 1].min()), float(girder[0][:, 1].max())
     parts += [piece(bar((-0.15, y, h - g0), (w + 0.15, y, h - g0), girder), "beam") for y in (0.0, d)]
@@ -296,37 +296,37 @@ def _mezzanine(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     else:
         kind, count = pick(rng, "bar", "sheet", "planks", "pressed"), int(rng.integers(2, 4))
         wide = (w + 0.3) / count
-        tile = panel(kind, wide - 0.004, d + 0.2, 0.03, hand, 11)
+        tile = panel(kind, wide - 0.004, d + 0.2, 0.03, style, 11)
         parts += [
             piece(moved(tile, at(-0.15 + (k + 0.5) * wide, d / 2, floor)), _name(kind), "clamp") for k in range(count)
         ]
-    parts += _bow((0.0, w), -0.05, floor + 0.03, hand)
+    parts += _bow((0.0, w), -0.05, floor + 0.03, style)
     if chance(rng, 0.5):
-        knee = section(pick(rng, "L", "SHS"), 0.06, hand)
+        knee = section(pick(rng, "L", "SHS"), 0.06, style)
         parts += [piece(bar((0, y, h - 0.6), (0.6, y, h), knee), "brace") for y in (0.0, d)]
     return Model(parts)
 
 
-def _tower(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _tower(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A mobile scaffold tower (EN 1004): ladder frames, diagonal braces, a deck with a rail, casters or foot plates."""
     a, b, h, r = num(rng, 1.2, 2.2), num(rng, 0.7, 1.3), num(rng, 1.6, 3.2), num(rng, 0.06, 0.09)
     parts: list[Part] = []
     spots = [(x, y) for x in (0.0, a) for y in (0.0, b)]
     if chance(rng, 0.7):
-        parts, low = wheeled(spots, ("stem",), r, hand, rng)
+        parts, low = wheeled(spots, ("stem",), r, style, rng)
     else:
         low = 0.012
         parts = [piece(box((0.15, 0.15, 0.012), (x, y, 0.006)), "base plate") for x, y in spots]
     for x in (0.0, a):
         parts += [
-            piece(pipe([(x, y, low), (x, y, h + 1.0)], 0.024, hand, 0, 0.003), "column", "clamp") for y in (0.0, b)
+            piece(pipe([(x, y, low), (x, y, h + 1.0)], 0.024, style, 0, 0.003), "column", "clamp") for y in (0.0, b)
         ]
-        rungs = [pipe([(x, 0, z), (x, b, z)], 0.019, hand) for z in np.arange(low + 0.3, h + 1.0, 0.5)]
+        rungs = [pipe([(x, 0, z), (x, b, z)], 0.019, style) for z in np.arange(low + 0.3, h + 1.0, 0.5)]
         parts += [piece(one, "ladder", "clamp") for one in ([merge(rungs)] if chance(rng, 0.5) else rungs)]
     for y, s in ((-0.03, 1), (b + 0.03, -1)):
         ends = (low + 0.2, h - 0.2) if s > 0 else (h - 0.2, low + 0.2)
-        parts.append(piece(pipe([(0, y, ends[0]), (a, y, ends[1])], 0.017, hand), "brace", "clamp"))
-        parts += [piece(pipe([(0, y, h + z), (a, y, h + z)], 0.017, hand), "railing", "clamp") for z in (0.5, 0.98)]
+        parts.append(piece(pipe([(0, y, ends[0]), (a, y, ends[1])], 0.017, style), "brace", "clamp"))
+        parts += [piece(pipe([(0, y, h + z), (a, y, h + z)], 0.017, style), "railing", "clamp") for z in (0.5, 0.98)]
     parts.append(piece(box((a, b - 0.05, 0.05), (a / 2, b / 2, h)), "platform", "safety"))
     return Model(parts)
 

@@ -7,7 +7,7 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, extrude, lattice, merge, moved, sweep
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
 from cadplants.primitives import along, ball, bar, box, cylinder, hexagon, rod, turned
 from cadplants.transforms import at, spun
@@ -17,7 +17,7 @@ __all__ = ["FRAMES", "profile"]
 _GROUP = "Structural element"
 
 
-def profile(rng: np.random.Generator, hand: Hand, big: float = 0.2) -> tuple[Floats, tuple[Floats, ...]]:
+def profile(rng: np.random.Generator, style: ModelingStyle, big: float = 0.2) -> tuple[Floats, tuple[Floats, ...]]:
     """The outline of a rolled or hollow section (proportions of EN 10365, EN 10056, EN 10210) and its hole."""
     h = float(rng.uniform(0.25, 1.0)) * big
     kind = int(rng.integers(6))
@@ -30,18 +30,18 @@ def profile(rng: np.random.Generator, hand: Hand, big: float = 0.2) -> tuple[Flo
     if kind == 3:
         return section_angle(0.6 * h, 0.06 * h) - 0.2 * h, ()
     if kind == 4:
-        inner = (rounded_rectangle(0.66 * h, 0.66 * h, 0.05 * h, 2),) if hand.hollow else ()
+        inner = (rounded_rectangle(0.66 * h, 0.66 * h, 0.05 * h, 2),) if style.hollow else ()
         return rounded_rectangle(0.75 * h, 0.75 * h, float(rng.choice([0.0, 0.08])) * h, 3), inner
-    n = hand.round(0.35 * h)
-    return circle(0.35 * h, n), ((circle(0.31 * h, n),) if hand.hollow else ())
+    n = style.round(0.35 * h)
+    return circle(0.35 * h, n), ((circle(0.31 * h, n),) if style.hollow else ())
 
 
-def _portal(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _portal(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A bay of a steel frame: columns on base plates, beams, braces (crossed, single, knee), gusset plates, anchors."""
     w, d, h = (float(rng.uniform(*span)) for span in ((1.2, 3.0), (1.0, 2.5), (1.8, 3.5)))
-    up, up_hole = profile(rng, hand, 0.22)
-    across, across_hole = profile(rng, hand, 0.2)
-    thin, thin_hole = profile(rng, hand, 0.1)
+    up, up_hole = profile(rng, style, 0.22)
+    across, across_hole = profile(rng, style, 0.2)
+    thin, thin_hole = profile(rng, style, 0.1)
     deep = float(np.ptp(across[:, 1])) / 2
     parts: list[Part] = []
     for x in (0.0, w):
@@ -119,10 +119,10 @@ def _portal(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _ladder(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _ladder(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A fixed ladder (ISO 14122-4): stiles, rungs every 250 to 300 mm, with a safety cage or without, wall brackets."""
     h, wide = float(rng.uniform(2.0, 4.5)), float(rng.uniform(0.35, 0.5))
-    n, pitch = max(6, min(12, hand.round(0.015))), float(rng.uniform(0.25, 0.3))
+    n, pitch = max(6, min(12, style.round(0.015))), float(rng.uniform(0.25, 0.3))
     flat = bool(rng.random() < 0.5)
     stiles = [
         box((0.012, 0.06, h), (s * wide / 2, 0, h / 2))
@@ -184,9 +184,9 @@ def grating(w: float, d: float, thick: float, rng: np.random.Generator) -> tuple
     return "plate", merge([box((w, d, 0.006), (0, 0, thick - 0.003)), lugs])
 
 
-def _rail(length: float, pose: Floats, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _rail(length: float, pose: Floats, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """A railing along x (ISO 14122-3): posts, top rail, knee rail, toe board; ball joints or mitred ends."""
-    n, h = max(6, min(16, hand.round(0.022))), float(rng.uniform(0.95, 1.15))
+    n, h = max(6, min(16, style.round(0.022))), float(rng.uniform(0.95, 1.15))
     square = bool(rng.random() < 0.3)
 
     def tube_of(a: tuple[float, float, float], b: tuple[float, float, float], r: float) -> Solid:
@@ -215,14 +215,14 @@ def _rail(length: float, pose: Floats, hand: Hand, rng: np.random.Generator) -> 
     return parts
 
 
-def _railing(_: int, hand: Hand, rng: np.random.Generator) -> Model:
-    parts = _rail(float(rng.uniform(1.0, 3.0)), np.eye(4), hand, rng)
+def _railing(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+    parts = _rail(float(rng.uniform(1.0, 3.0)), np.eye(4), style, rng)
     if rng.random() < 0.5:
-        parts += _rail(float(rng.uniform(0.8, 2.0)), spun("z", np.pi / 2), hand, rng)
+        parts += _rail(float(rng.uniform(0.8, 2.0)), spun("z", np.pi / 2), style, rng)
     return Model(parts)
 
 
-def _stairs(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _stairs(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A flight of stairs: two stringers of channel or flat, treads of grating, plate or chequer, a handrail."""
     rise, go, wide = float(rng.uniform(0.16, 0.21)), float(rng.uniform(0.21, 0.28)), float(rng.uniform(0.6, 1.0))
     count = int(rng.integers(4, 9))
@@ -254,7 +254,7 @@ def _stairs(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             )
         parts.append(Part(tread, "stair tread", "steel"))
     if rng.random() < 0.7:
-        n = max(6, hand.round(0.02))
+        n = max(6, style.round(0.02))
         for s in (-1, 1):
             y = s * wide / 2
             parts.append(Part(rod((0, y, 0.95), (run, y, height + 0.95), 0.02, n), "railing", "safety", "railing"))
@@ -268,11 +268,11 @@ def _stairs(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _platform(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _platform(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A platform: columns, edge beams, a floor of grating panels or plate, railings on some sides."""
     w, d, h = (float(rng.uniform(*span)) for span in ((1.2, 2.6), (0.9, 1.8), (0.4, 2.4)))
-    up, up_hole = profile(rng, hand, 0.16)
-    edge, edge_hole = profile(rng, hand, 0.16)
+    up, up_hole = profile(rng, style, 0.16)
+    edge, edge_hole = profile(rng, style, 0.16)
     deep = float(np.ptp(edge[:, 1]))
     parts = [
         Part(bar((sx * w / 2, sy * d / 2, 0.0), (sx * w / 2, sy * d / 2, h - deep), up, up_hole), "column", "steel")
@@ -294,13 +294,13 @@ def _platform(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         name, solid = grating(w / panels - 0.004, d, 0.03, rng)
         parts.append(Part(moved(solid, at(-w / 2 + (k + 0.5) * w / panels, 0, h)), name, "clamp"))
     if h > 0.5:
-        parts += _rail(w, at(-w / 2, d / 2, h + 0.03), hand, rng)
+        parts += _rail(w, at(-w / 2, d / 2, h + 0.03), style, rng)
         if rng.random() < 0.6:
-            parts += _rail(d, at(-w / 2, -d / 2, h + 0.03) @ spun("z", np.pi / 2), hand, rng)
+            parts += _rail(d, at(-w / 2, -d / 2, h + 0.03) @ spun("z", np.pi / 2), style, rng)
     return Model(parts)
 
 
-def _grating(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _grating(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Gratings on a low frame of angles."""
     w, d = float(rng.uniform(0.8, 2.0)), float(rng.uniform(0.5, 1.2))
     name, solid = grating(w, d, float(rng.choice([0.025, 0.03, 0.04])), rng)
@@ -321,10 +321,10 @@ def _grating(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _mesh_fence(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _mesh_fence(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A panel fence of welded wire, planks or sheet between posts, maybe with a gate leaf and its hinges."""
     length, h = float(rng.uniform(1.5, 2.6)), float(rng.uniform(1.0, 2.2))
-    n = max(6, min(12, hand.round(0.02)))
+    n = max(6, min(12, style.round(0.02)))
     posts = [
         Part(
             rod((x, 0, 0), (x, 0, h + 0.1), 0.03, n)
@@ -362,7 +362,7 @@ def _mesh_fence(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _civil(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _civil(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Concrete: a stepped foundation with anchor bolts, a wall (maybe with an opening), a kerb, a plinth."""
     kind = int(rng.integers(3))
     if kind == 0:
@@ -409,10 +409,10 @@ def _civil(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([Part(merge(kerbs), "wall", "concrete"), Part(slab, "foundation", "concrete")])
 
 
-def _skid(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _skid(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A skid frame of sections with lifting eyes or fork pockets, on casters or feet."""
     w, d = float(rng.uniform(1.2, 2.6)), float(rng.uniform(0.7, 1.4))
-    outline, holes = profile(rng, hand, 0.16)
+    outline, holes = profile(rng, style, 0.16)
     deep = float(np.ptp(outline[:, 1]))
     wheels = bool(rng.random() < 0.55)
     r = float(rng.uniform(0.04, 0.09))
@@ -434,7 +434,7 @@ def _skid(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             )
         )
     if wheels:
-        n = hand.round(r)
+        n = style.round(r)
         for sx in (-1, 1):
             for sy in (-1, 1):
                 x, y = sx * 0.4 * w, sy * d / 2
@@ -461,11 +461,11 @@ def _skid(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _stock(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _stock(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Sections of any length lying and standing, plates with holes and without."""
     parts = []
     for k in range(int(rng.integers(3, 7))):
-        outline, holes = profile(rng, hand, float(rng.uniform(0.08, 0.3)))
+        outline, holes = profile(rng, style, float(rng.uniform(0.08, 0.3)))
         length = float(np.exp(rng.uniform(np.log(0.3), np.log(5.0))))
         upright = rng.random() < 0.4
         name = "column" if upright else "beam"

@@ -18,7 +18,7 @@ from cadplants.families.steel.shape import (
 )
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle
 from cadplants.primitives import box, cylinder, turned
 from cadplants.transforms import at, spun
@@ -26,7 +26,7 @@ from cadplants.transforms import at, spun
 __all__ = ["GROUNDS"]
 
 
-def _slabs(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _slabs(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Ground in fields: slabs with joints, paving stones, falls to a gutter, a ramp, holes."""
     a, b, t, kind = num(rng, 1.5, 5.0), num(rng, 1.2, 4.0), pick(rng, 0.02, 0.1, 0.2, 0.4), int(rng.integers(5))
     parts: list[Part] = []
@@ -81,7 +81,7 @@ def _slabs(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts.append(piece(slab_xz(shape, 0.5 * b), "ground", "concrete"))
     else:
         outline = np.array([[0, 0], [a, 0], [a, 0.6 * b], [0.6 * a, 0.6 * b], [0.6 * a, b], [0, b]])
-        holes = (circle(0.12, few_sides(hand, 0.12, 24), (0.3 * a, 0.3 * b)), rect(0.3, 0.3, 0.4 * a, 0.75 * b))
+        holes = (circle(0.12, few_sides(style, 0.12, 24), (0.3 * a, 0.3 * b)), rect(0.3, 0.3, 0.4 * a, 0.75 * b))
         parts.append(piece(slab_xy(outline, -t, 0, holes if chance(rng, 0.6) else ()), "ground", "concrete"))
     if chance(rng, 0.4) and kind in (0, 3):
         size = num(rng, 0.3, 0.8)
@@ -89,7 +89,7 @@ def _slabs(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _grounds(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _grounds(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Ground with an edge or relief: gravel in kerbs, a grass mound, a round pad, a road, a terrain patch."""
     a, b, kind = num(rng, 1.5, 4.0), num(rng, 1.2, 3.0), int(rng.integers(4))
     parts: list[Part] = []
@@ -103,7 +103,7 @@ def _grounds(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         r = a / 2
         parts.append(
             piece(
-                turned([(r, -0.1), (r, 0.0), (0.9 * r, pick(rng, 0.0, 0.1))], few_sides(hand, r, 40)),
+                turned([(r, -0.1), (r, 0.0), (0.9 * r, pick(rng, 0.0, 0.1))], few_sides(style, r, 40)),
                 "ground",
                 "ground",
             )

@@ -24,7 +24,7 @@ from cadplants.families.steel.shape import (
 )
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, merge, moved, sweep
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, ball, box, cylinder, dome, ring, rod, torus, turned
 from cadplants.transforms import at, spun
@@ -52,7 +52,7 @@ def _kick(length: float, z: float, rng: np.random.Generator) -> list[Part]:
     return [piece(box((length, t, h), (length / 2, 0.025, z + 0.01 + h / 2)), "railing", "safety", "railing")]
 
 
-def _bay(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _bay(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Welded bays of bent tube: bows from foot to foot with rails in them, on base plates (ISO 14122-3)."""
     count, w = int(rng.integers(1, 4)), num(rng, 0.8, 2.0)
     h, r = num(rng, 0.9, 1.2), pick(rng, 0.017, 0.021, 0.024)
@@ -61,13 +61,13 @@ def _bay(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     joined, bend = chance(rng, 0.5), pick(rng, 0.0, 0.1, 0.2)
     for k in range(count):
         a, b = k * w + 0.04, (k + 1) * w - 0.04
-        plates, low = base(a, 0, (0.1, 0.08), hand, rng, z)
+        plates, low = base(a, 0, (0.1, 0.08), style, rng, z)
         parts += plates
         parts.append(piece(box((0.1, 0.08, low - z), (b, 0, (z + low) / 2)), "base plate"))
-        solids = [pipe([(a, 0, low), (a, 0, z + h), (b, 0, z + h), (b, 0, low)], r, hand, bend, 0.003)]
+        solids = [pipe([(a, 0, low), (a, 0, z + h), (b, 0, z + h), (b, 0, low)], r, style, bend, 0.003)]
         for j in range(rails):
             level = z + h * (j + 1) / (rails + 1)
-            solids.append(pipe([(a + r, 0, level), (b - r, 0, level)], 0.8 * r, hand))
+            solids.append(pipe([(a + r, 0, level), (b - r, 0, level)], 0.8 * r, style))
         if joined:
             parts.append(piece(merge(solids), "railing", "safety", "railing"))
         else:
@@ -75,10 +75,10 @@ def _bay(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([*parts, *_kick(count * w, z, rng)])
 
 
-def _side_fixed(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _side_fixed(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Posts of flat, angle, tube or channel bolted to the side of an edge beam, with rails through or before them."""
     length, h = num(rng, 1.2, 4.0), num(rng, 0.95, 1.15)
-    edge = drawn(rng, hand, num(rng, 0.14, 0.24), ("U", "RHS", "U", "H"))
+    edge = drawn(rng, style, num(rng, 0.14, 0.24), ("U", "RHS", "U", "H"))
     deep = float(np.ptp(edge[0][:, 1]))
     face = float(-edge[0][:, 0].min())
     z = num(rng, 0.0, 1.0) + 0.15
@@ -87,14 +87,14 @@ def _side_fixed(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         piece(box((0.12, 0.12, z), (x, 0, z / 2)), pick(rng, "column", "foundation")) for x in (0.1, length - 0.1)
     ]
     kind = pick(rng, "flat", "L", "SHS", "CHS", "U")
-    one, size = section(kind, 0.06, hand), 0.03
+    one, size = section(kind, 0.06, style), 0.03
     y = -face - size - 0.008
     for x in np.linspace(0.06, length - 0.06, max(2, int(length / 1.1) + 1)):
         parts.append(piece(bar((x, y, z + 0.03), (x, y, z + deep + h), one, (0, 1, 0)), "post", "safety", "railing"))
         parts.append(piece(box((0.08, 0.008, deep), (x, -face - 0.004, z + 0.5 * deep)), "plate"))
         turn = spun("x", np.pi / 2)
-        parts += bolted([at(x + s * 0.025, -face - 0.008, z + 0.5 * deep) @ turn for s in (-1, 1)], 0.012, hand, 0.01)
-    rail = section(pick(rng, "CHS", "SHS", "L", "flat"), 0.045, hand)
+        parts += bolted([at(x + s * 0.025, -face - 0.008, z + 0.5 * deep) @ turn for s in (-1, 1)], 0.012, style, 0.01)
+    rail = section(pick(rng, "CHS", "SHS", "L", "flat"), 0.045, style)
     top = z + deep + h
     for level in (top, *np.linspace(z + deep, top, int(rng.integers(3, 5)))[1:-1]):
         shift = 0.0 if level == top else pick(rng, size, 0.0)
@@ -107,10 +107,10 @@ def _side_fixed(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _fill(kind: str, w: float, h: float, hand: Hand) -> list[Solid]:
+def _fill(kind: str, w: float, h: float, style: ModelingStyle) -> list[Solid]:
     """What fills a frame of this width and height from the origin in x and z: bars, wires, sheet, glass, slats."""
     if kind == "bars":
-        return [rod((x, 0, 0), (x, 0, h), 0.006, few_sides(hand, 0.006, 8)) for x in np.arange(0.1, w - 0.05, 0.11)]
+        return [rod((x, 0, 0), (x, 0, h), 0.006, few_sides(style, 0.006, 8)) for x in np.arange(0.1, w - 0.05, 0.11)]
     if kind == "wires":
         return [rod((0, 0, z), (w, 0, z), 0.003, 6) for z in np.arange(0.1, h, 0.1)]
     if kind == "mesh":
@@ -127,7 +127,7 @@ def _fill(kind: str, w: float, h: float, hand: Hand) -> list[Solid]:
         holes = tuple(
             circle(0.012, 6, (x, z)) for x in np.arange(0.1, w - 0.08, 0.12) for z in np.arange(0.1, h - 0.08, 0.12)
         )
-        return [slab_xz([(0, 0), (w, 0), (w, h), (0, h)], 0.002, 0.0, holes if hand.holes else ())]
+        return [slab_xz([(0, 0), (w, 0), (w, h), (0, h)], 0.002, 0.0, holes if style.holes else ())]
     if kind == "glass":
         return [box((w - 0.04, 0.012, h - 0.02), (w / 2, 0, h / 2))]
     if kind == "cross":
@@ -135,17 +135,17 @@ def _fill(kind: str, w: float, h: float, hand: Hand) -> list[Solid]:
     return [box((w, 0.02, 0.09), (w / 2, 0, z)) for z in np.arange(0.08, h, 0.13)]
 
 
-def _infill(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _infill(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A balustrade: posts, top and bottom rail, filled with bars, wires, mesh, sheet, glass, slats or a cross."""
     count, w, h = int(rng.integers(1, 4)), num(rng, 0.8, 1.6), num(rng, 0.9, 1.2)
     floor, z = _floor(count * w, rng)
     kind = pick(rng, "bars", "bars", "wires", "mesh", "sheet", "glass", "slats", "cross")
-    post = drawn(rng, hand, num(rng, 0.035, 0.06), ("SHS", "CHS", "flat", "square"))
+    post = drawn(rng, style, num(rng, 0.035, 0.06), ("SHS", "CHS", "flat", "square"))
     half = float(np.ptp(post[0][:, 0])) / 2
-    parts, top = floor, section(pick(rng, "CHS", "SHS", "flat", "timber"), 0.045, hand)
+    parts, top = floor, section(pick(rng, "CHS", "SHS", "flat", "timber"), 0.045, style)
     lows = []
     for k in range(count + 1):
-        plates, low = base(k * w, 0, (0.11, 0.09), hand, rng, z)
+        plates, low = base(k * w, 0, (0.11, 0.09), style, rng, z)
         lows.append(low)
         parts += [*plates, piece(bar((k * w, 0, low), (k * w, 0, z + h), post, (0, 1, 0)), "post", "safety", "railing")]
     high = z + h + float(np.ptp(top[0][:, 1])) / 2
@@ -156,9 +156,9 @@ def _infill(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         frame = (
             []
             if kind in ("glass", "wires", "slats")
-            else [bar((a, 0, z + 0.1), (a + wide, 0, z + 0.1), section("SHS", 0.03, hand))]
+            else [bar((a, 0, z + 0.1), (a + wide, 0, z + 0.1), section("SHS", 0.03, style))]
         )
-        solids = [*frame, *(moved(one, at(a, 0, z + 0.1)) for one in _fill(kind, wide, h - 0.1, hand))]
+        solids = [*frame, *(moved(one, at(a, 0, z + 0.1)) for one in _fill(kind, wide, h - 0.1, style))]
         color = "dial" if kind == "glass" else "safety"
         made = [merge(solids)] if joined else solids
         parts += [piece(one, "railing", color, "railing") for one in made]
@@ -171,7 +171,7 @@ def _infill(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _links(a: Floats, b: Floats, sag: float, hand: Hand) -> Solid:
+def _links(a: Floats, b: Floats, sag: float, style: ModelingStyle) -> Solid:
     """A chain that hangs between two points, its links long rings turned by quarters."""
     count = max(8, int(np.linalg.norm(b - a) / 0.07))
     s = np.linspace(0, 1, count + 1)
@@ -189,11 +189,11 @@ def _links(a: Floats, b: Floats, sag: float, hand: Hand) -> Solid:
     return merge(links)
 
 
-def _chained(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _chained(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Posts with ball or flat tops on plates or weighted feet, joined by chains, ropes or a belt."""
     count, w, h = int(rng.integers(2, 5)), num(rng, 0.9, 1.8), num(rng, 0.8, 1.1)
     r, kind = num(rng, 0.02, 0.045), pick(rng, "chain", "chain", "rope", "belt")
-    n, top, parts = few_sides(hand, r, 16), int(rng.integers(3)), []
+    n, top, parts = few_sides(style, r, 16), int(rng.integers(3)), []
     weighted = chance(rng, 0.5)
     for k in range(count):
         x = k * w
@@ -202,7 +202,7 @@ def _chained(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             parts.append(piece(moved(foot, at(x)), "base plate", "rubber"))
             low = 0.06
         else:
-            plates, low = base(x, 0, (6 * r, 6 * r), hand, rng)
+            plates, low = base(x, 0, (6 * r, 6 * r), style, rng)
             parts += plates
         shaft = [cylinder(r, low, h, n)]
         shaft.append(
@@ -217,17 +217,17 @@ def _chained(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         for k in range(count - 1):
             a, b = np.array([k * w + r, 0, level]), np.array([(k + 1) * w - r, 0, level])
             if kind == "chain":
-                parts.append(piece(_links(a, b, 0.1 * w, hand), "railing", "safety"))
+                parts.append(piece(_links(a, b, 0.1 * w, style), "railing", "safety"))
             elif kind == "rope":
                 s = np.linspace(0, 1, 9)
                 path = a + s[:, None] * (b - a) - np.outer(0.4 * w * s * (1 - s), [0, 0, 1])
-                parts.append(piece(pipe(path, 0.012, hand), "railing", "safety"))
+                parts.append(piece(pipe(path, 0.012, style), "railing", "safety"))
             else:
                 parts.append(piece(box((w - 2 * r, 0.002, 0.05), ((a[0] + b[0]) / 2, 0, level)), "railing", "safety"))
     return Model(parts)
 
 
-def _curved(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _curved(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A railing on an arc, as round a tank's roof or a pit: rails swept round, posts radial, a bent toe plate."""
     radius, turn = num(rng, 0.8, 2.5), num(rng, 0.8, 4.5)
     h, r = num(rng, 0.95, 1.15), pick(rng, 0.017, 0.021, 0.024)
@@ -237,11 +237,11 @@ def _curved(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     def round_at(z: float, reach: float) -> Floats:
         return np.column_stack([reach * np.cos(a), reach * np.sin(a), np.full(len(a), z)])
 
-    parts = [piece(pipe(round_at(h, radius), r, hand, 0.0, 0.003), "railing", "safety", "railing")]
+    parts = [piece(pipe(round_at(h, radius), r, style, 0.0, 0.003), "railing", "safety", "railing")]
     for level in np.linspace(0, h, int(rng.integers(3, 5)))[1:-1]:
-        parts.append(piece(pipe(round_at(float(level), radius), 0.75 * r, hand), "railing", "safety", "railing"))
-    n = few_sides(hand, r, 14)
-    one = section(pick(rng, "CHS", "flat", "L"), 2 * r, hand)
+        parts.append(piece(pipe(round_at(float(level), radius), 0.75 * r, style), "railing", "safety", "railing"))
+    n = few_sides(style, r, 14)
+    one = section(pick(rng, "CHS", "flat", "L"), 2 * r, style)
     for angle in np.linspace(0, turn, max(3, int(radius * turn / 1.0) + 1)):
         x, y = radius * np.cos(angle), radius * np.sin(angle)
         parts.append(piece(bar((x, y, 0.008), (x, y, h - 0.5 * r), one, (-y, x, 0)), "post", "safety", "railing"))
@@ -257,10 +257,10 @@ def _curved(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _clamped(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _clamped(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A railing of tubes in cast clamps (key clamps): tees, crosses and feet with grub screws; corner or straight."""
     count, w, h, r = int(rng.integers(1, 4)), num(rng, 0.9, 1.6), num(rng, 0.9, 1.1), pick(rng, 0.017, 0.0212, 0.0242)
-    n, levels = few_sides(hand, r, 14), (0.5 * h, h)
+    n, levels = few_sides(style, r, 14), (0.5 * h, h)
     parts: list[Part] = []
     joined = chance(rng, 0.4)
     solids: list[Solid] = []
@@ -283,7 +283,7 @@ def _clamped(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _on_wall(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _on_wall(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A handrail on brackets on a wall, level or rising, its ends bent to the wall."""
     length, rise = num(rng, 1.0, 3.5), pick(rng, 0.0, 0.0, 0.4) * num(rng, 0.8, 1.2)
     r, y, z = pick(rng, 0.017, 0.021, 0.025), -0.09, num(rng, 0.85, 1.0)
@@ -297,20 +297,20 @@ def _on_wall(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     path = [(0, y, level(0)), (length, y, level(length))]
     if ends:
         path = [(0.0, 0.0, level(0)), *path, (length, 0.0, level(length))]
-    parts.append(piece(pipe(path, r, hand, 0.06, 0.003), "railing", "handle"))
+    parts.append(piece(pipe(path, r, style, 0.06, 0.003), "railing", "handle"))
     for x in np.linspace(0.15, length - 0.15, max(2, int(length / 0.9) + 1)):
         top = level(x) - r
-        arm = pipe([(x, 0, top - 0.06), (x, y, top - 0.06), (x, y, top + 0.3 * r)], 0.007, hand, 0.04)
+        arm = pipe([(x, 0, top - 0.06), (x, y, top - 0.06), (x, y, top + 0.3 * r)], 0.007, style, 0.04)
         parts.append(
             piece(
-                merge([arm, along("y", cylinder(0.03, -0.006, 0.0, few_sides(hand, 0.03, 14)), x, 0, top - 0.06)]),
+                merge([arm, along("y", cylinder(0.03, -0.006, 0.0, few_sides(style, 0.03, 14)), x, 0, top - 0.06)]),
                 "bracket",
             )
         )
     return Model(parts)
 
 
-def _barrier(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _barrier(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Impact protection: floor hoops of thick tube, a W-beam on posts (EN 1317), or plank rails between stout posts."""
     kind, count, w = int(rng.integers(3)), int(rng.integers(1, 4)), num(rng, 0.8, 2.0)
     parts: list[Part] = []
@@ -319,18 +319,18 @@ def _barrier(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         for k in range(count):
             a, b = k * (w + 0.3), k * (w + 0.3) + w
             for x in (a, b):
-                plates, low = base(x, 0, (5 * r, 5 * r), hand, rng)
+                plates, low = base(x, 0, (5 * r, 5 * r), style, rng)
                 parts += plates
-            solids = [pipe([(a, 0, 0.008), (a, 0, h), (b, 0, h), (b, 0, 0.008)], r, hand, 3 * r, 0.004)]
+            solids = [pipe([(a, 0, 0.008), (a, 0, h), (b, 0, h), (b, 0, 0.008)], r, style, 3 * r, 0.004)]
             if chance(rng, 0.5):
-                solids.append(pipe([(a, 0, 0.5 * h), (b, 0, 0.5 * h)], 0.8 * r, hand))
+                solids.append(pipe([(a, 0, 0.5 * h), (b, 0, 0.5 * h)], 0.8 * r, style))
             parts.append(piece(merge(solids), "railing", "safety"))
         return Model(parts)
     h, length = num(rng, 0.6, 0.9), count * w
-    stout = drawn(rng, hand, num(rng, 0.08, 0.14), ("U", "H", "SHS", "C"))
+    stout = drawn(rng, style, num(rng, 0.08, 0.14), ("U", "H", "SHS", "C"))
     face = float(-stout[0][:, 1].min())
     for k in range(count + 1):
-        plates, low = base(k * w, 0, (0.25, 0.25), hand, rng)
+        plates, low = base(k * w, 0, (0.25, 0.25), style, rng)
         parts += [*plates, piece(bar((k * w, 0, low), (k * w, 0, h), stout, (0, 1, 0)), "post", "safety")]
     if kind == 1:
         wave = [
@@ -353,7 +353,7 @@ def _barrier(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         )
         parts.append(piece(rail, "railing", "clamp"))
     else:
-        plank = section(pick(rng, "U", "RHS", "timber", "flat"), num(rng, 0.12, 0.25), hand)
+        plank = section(pick(rng, "U", "RHS", "timber", "flat"), num(rng, 0.12, 0.25), style)
         near = float(plank[0][:, 0].max())
         y = -face - near
         for z in np.linspace(0.2, h - 0.1, int(rng.integers(1, 4))):
@@ -361,17 +361,17 @@ def _barrier(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _bollards(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _bollards(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Bollards: steel tubes with dome, cap or concrete fill, on plates or cast in, with bands or hoops."""
     count, w, h, r = int(rng.integers(1, 5)), num(rng, 0.6, 1.5), num(rng, 0.5, 1.3), num(rng, 0.045, 0.11)
-    n, top, cast, parts = few_sides(hand, r, 24), int(rng.integers(4)), chance(rng, 0.4), []
+    n, top, cast, parts = few_sides(style, r, 24), int(rng.integers(4)), chance(rng, 0.4), []
     bands = chance(rng, 0.4)
     for k in range(count):
         low = 0.0
         if cast:
             parts.append(piece(box((5 * r, 5 * r, 0.2), (k * w, 0, -0.1)), "foundation", "concrete"))
         else:
-            plates, low = base(k * w, 0, (3.4 * r, 3.4 * r), hand, rng)
+            plates, low = base(k * w, 0, (3.4 * r, 3.4 * r), style, rng)
             parts += plates
         ends = {
             0: [(r, h - r), (0.7 * r, h - 0.3 * r), (0, h)],
@@ -388,16 +388,16 @@ def _bollards(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _posts(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _posts(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Lone posts of any section on plates, in sockets or on the side of a plinth, with caps, arms or a small panel."""
     parts: list[Part] = []
     for k in range(int(rng.integers(1, 4))):
         x, size, h = 0.9 * k, num(rng, 0.03, 0.1), num(rng, 0.4, 2.2)
         kind = pick(rng, "SHS", "RHS", "CHS", "L", "U", "flat", "strut", "round", "T", "timber")
-        one = section(kind, size, hand)
+        one = section(kind, size, style)
         low, foot = 0.0, int(rng.integers(3))
         if foot == 0:
-            plates, low = base(x, 0, (size + 0.08, size + 0.08), hand, rng)
+            plates, low = base(x, 0, (size + 0.08, size + 0.08), style, rng)
             parts += plates
         elif foot == 1:
             parts.append(piece(box((4 * size, 4 * size, 0.12), (x, 0, -0.06)), "foundation", "concrete"))

@@ -12,7 +12,7 @@ from cadgraph.model.scene import Floats
 from cadplants.families.chance import pick
 from cadplants.family import Family, Part
 from cadplants.mesh_ops import Solid, extrude, merge, moved, tube
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import box, cylinder, hexagon, rope
 from cadplants.transforms import at, looking, spun
@@ -80,9 +80,9 @@ def floor_family(name: str, build: object, weight: float = 1.0, grain: str = "st
     return Family(name, "floor", GROUP, label, build, (15,), grain, weight)  # type: ignore[arg-type]
 
 
-def few_sides(hand: Hand, radius: float, most: int = 20) -> int:
+def few_sides(style: ModelingStyle, radius: float, most: int = 20) -> int:
     """Sides of a round thing of which there are many [m]."""
-    return int(min(hand.round(radius), most))
+    return int(min(style.round(radius), most))
 
 
 def filleted(
@@ -177,24 +177,24 @@ def _open_section(kind: str, h: float, root: float, steps: int) -> Floats:
     return mirrored([*foot, (0.24 * h, 0.2 * h), (0.25 * h, 0.45 * h), (0.2 * h, y)])
 
 
-def section(kind: str, h: float, hand: Hand) -> Section:
+def section(kind: str, h: float, style: ModelingStyle) -> Section:
     """A section of this height [m] about the middle of its height: its outline and holes.
 
     Args:
-        kind: H, I, IPN, U, C (lipped), Z, strut, hat, L, LL, T, rail; RHS, SHS, CHS (hollow where the hand models
+        kind: H, I, IPN, U, C (lipped), Z, strut, hat, L, LL, T, rail; RHS, SHS, CHS (hollow where the style models
             that); flat, round, square, timber.
         h: height [m].
-        hand: how round and hollow it is.
+        style: how round and hollow it is.
     """
-    steps = 0 if hand.sides[1] <= 12 else 2 if hand.sides[1] <= 24 else 3
+    steps = 0 if style.sides[1] <= 12 else 2 if style.sides[1] <= 24 else 3
     if kind in ("RHS", "SHS"):
         b, t = (0.5 * h, 0.06 * h) if kind == "RHS" else (h, 0.06 * h)
         outer = rounded_rectangle(b, h, 0.09 * h if steps else 0.0, max(steps, 1))
         hole = rounded_rectangle(b - 2 * t, h - 2 * t, 0.04 * h if steps else 0.0, max(steps, 1))
-        return outer, (hole,) if hand.hollow else ()
+        return outer, (hole,) if style.hollow else ()
     if kind in ("CHS", "round"):
-        n = few_sides(hand, h / 2, 28)
-        hollow = hand.hollow and kind == "CHS"
+        n = few_sides(style, h / 2, 28)
+        hollow = style.hollow and kind == "CHS"
         return circle(h / 2, n), (circle(0.44 * h, n),) if hollow else ()
     if kind in ("flat", "square", "timber"):
         b = {"flat": max(0.1 * h, 0.004), "square": h, "timber": 0.6 * h}[kind]
@@ -202,9 +202,9 @@ def section(kind: str, h: float, hand: Hand) -> Section:
     return _open_section(kind, h, 0.1 * h, steps), ()
 
 
-def drawn(rng: np.random.Generator, hand: Hand, h: float, kinds: Sequence[str] = ROLLED) -> Section:
+def drawn(rng: np.random.Generator, style: ModelingStyle, h: float, kinds: Sequence[str] = ROLLED) -> Section:
     """A section of one of some kinds [m]."""
-    return section(kinds[int(rng.integers(len(kinds)))], h, hand)
+    return section(kinds[int(rng.integers(len(kinds)))], h, style)
 
 
 def span_of(one: Section) -> tuple[float, float, float, float]:
@@ -227,11 +227,11 @@ def flat(start: npt.ArrayLike, end: npt.ArrayLike, wide: float, thick: float, up
     return bar(start, end, (rounded_rectangle(thick, wide, 0.0), ()), up)
 
 
-def pipe(points: npt.ArrayLike, radius: float, hand: Hand, bend: float = 0.0, wall: float = 0.0) -> Solid:
-    """A round tube or bar along a polyline with bends of a radius; hollow where the hand models that [m]."""
-    path = filleted(points, bend, 4 if hand.sides[1] > 16 else 3, closed=False)
-    n = few_sides(hand, radius, 16)
-    if wall and hand.hollow:
+def pipe(points: npt.ArrayLike, radius: float, style: ModelingStyle, bend: float = 0.0, wall: float = 0.0) -> Solid:
+    """A round tube or bar along a polyline with bends of a radius; hollow where the style models that [m]."""
+    path = filleted(points, bend, 4 if style.sides[1] > 16 else 3, closed=False)
+    n = few_sides(style, radius, 16)
+    if wall and style.hollow:
         return tube(path, radius, radius - wall, n)
     return rope(path, radius, n)
 
@@ -253,47 +253,49 @@ def slab_yz(outline: npt.ArrayLike, thick: float, x: float = 0.0, holes: tuple[F
     return Solid(one.vertices[:, [2, 0, 1]] + (x, 0, 0), one.faces)
 
 
-def bolted(poses: Sequence[Floats], d: float, hand: Hand, grip: float = 0.02, through: bool = False) -> list[Part]:
+def bolted(
+    poses: Sequence[Floats], d: float, style: ModelingStyle, grip: float = 0.02, through: bool = False
+) -> list[Part]:
     """Bolts at faces that look along z of their poses: hex nut on a stud out of concrete, or right through [m]."""
-    n = 6 if hand.sides[1] <= 16 else 10
+    n = 6 if style.sides[1] <= 16 else 10
     shank = cylinder(0.5 * d, -grip - (0.9 * d if through else 1.5 * d), 1.4 * d, n)
     nut, washer = hexagon(1.5 * d, 0.15 * d, 0.95 * d), cylinder(d, 0.0, 0.15 * d, n)
     below = [hexagon(1.5 * d, -grip - 0.7 * d, -grip)] if through else []
-    if hand.fasteners == "pieces":
+    if style.fasteners == "pieces":
         kinds = [(shank, "stud" if not through else "bolt"), (nut, "nut"), (washer, "washer")]
         kinds += [(one, "nut") for one in below]
         return [piece(moved(one, pose), name, "fastener", fine=True) for pose in poses for one, name in kinds]
     one = merge([shank, nut, washer, *below])
     placed = [moved(one, pose) for pose in poses]
-    if hand.fasteners == "set" and placed:
+    if style.fasteners == "set" and placed:
         return [piece(merge(placed), "bolt", "fastener", fine=True)]
     return [piece(solid, "bolt", "fastener", fine=True) for solid in placed]
 
 
 def base(
-    x: float, y: float, size: tuple[float, float], hand: Hand, rng: np.random.Generator, z: float = 0.0
+    x: float, y: float, size: tuple[float, float], style: ModelingStyle, rng: np.random.Generator, z: float = 0.0
 ) -> tuple[list[Part], float]:
     """A base plate with its anchors (four, two or none), square, round or clipped; also the height of its top [m]."""
     a, b = size
     thick = pick(rng, 0.008, 0.012, 0.02)
     d = float(np.clip(0.1 * min(a, b), 0.008, 0.02))
-    style = int(rng.integers(4))
-    if style == 0:
-        outline = circle(0.55 * max(a, b), few_sides(hand, 0.55 * max(a, b), 32))
+    design = int(rng.integers(4))
+    if design == 0:
+        outline = circle(0.55 * max(a, b), few_sides(style, 0.55 * max(a, b), 32))
         spots = [(0.37 * max(a, b) * np.cos(w), 0.37 * max(a, b) * np.sin(w)) for w in np.arange(4) * 1.5708 + 0.7854]
     else:
-        cut = 1.2 * d if style == 1 else 0.0
-        outline = rounded_rectangle(a, b, cut, 1 if style == 1 and chance(rng, 0.5) else 3)
+        cut = 1.2 * d if design == 1 else 0.0
+        outline = rounded_rectangle(a, b, cut, 1 if design == 1 and chance(rng, 0.5) else 3)
         spots = [(sx * (a / 2 - 1.4 * d), sy * (b / 2 - 1.4 * d)) for sx in (-1, 1) for sy in (-1, 1)]
-        spots = spots if style != 3 else spots[::3]
-    holes = tuple(circle(0.58 * d, 8, (float(u), float(v))) for u, v in spots) if hand.holes else ()
+        spots = spots if design != 3 else spots[::3]
+    holes = tuple(circle(0.58 * d, 8, (float(u), float(v))) for u, v in spots) if style.holes else ()
     parts = [piece(moved(slab_xy(outline, z, z + thick, holes), at(x, y)), "base plate")]
     if chance(rng, 0.7):
-        parts += bolted([at(x + float(u), y + float(v), z + thick) for u, v in spots], d, hand, thick)
+        parts += bolted([at(x + float(u), y + float(v), z + thick) for u, v in spots], d, style, thick)
     return parts, z + thick
 
 
-def propped(length: float, wide: float, hand: Hand, rng: np.random.Generator) -> tuple[list[Part], float]:
+def propped(length: float, wide: float, style: ModelingStyle, rng: np.random.Generator) -> tuple[list[Part], float]:
     """What something long along x from 0 lies on: battens, trestles, columns, pedestals; and the height of its top."""
     kind = int(rng.integers(4))
     ends = (0.12 * length, 0.88 * length) if kind == 0 else (0.04 * length, 0.96 * length)
@@ -308,9 +310,9 @@ def propped(length: float, wide: float, hand: Hand, rng: np.random.Generator) ->
         return [piece(box((0.3, side, h), (x, 0, h / 2)), "foundation", "concrete") for x in ends], h
     size = float(np.clip(0.8 * wide, 0.08, 0.2))
     if kind == 1:
-        leg = section(pick(rng, "L", "SHS", "CHS"), 0.06, hand)
+        leg = section(pick(rng, "L", "SHS", "CHS"), 0.06, style)
         for x in ends:
-            top = section(pick(rng, "SHS", "U", "H"), 0.08, hand)
+            top = section(pick(rng, "SHS", "U", "H"), 0.08, style)
             parts.append(piece(bar((x, -wide / 2 - 0.15, h - 0.04), (x, wide / 2 + 0.15, h - 0.04), top), "beam"))
             parts += [
                 piece(bar((x + sx * 0.2, s * (wide / 2 + 0.1), 0), (x, s * (wide / 2 + 0.1), h - 0.08), leg), "post")
@@ -318,17 +320,17 @@ def propped(length: float, wide: float, hand: Hand, rng: np.random.Generator) ->
                 for sx in (-1, 1)
             ]
         return parts, h
-    one = drawn(rng, hand, size)
+    one = drawn(rng, style, size)
     for x in ends:
-        plates, low = base(x, 0, (size + 0.12, size + 0.12), hand, rng)
+        plates, low = base(x, 0, (size + 0.12, size + 0.12), style, rng)
         parts += [*plates, piece(bar((x, 0, low), (x, 0, h - 0.01), one), "column")]
         parts.append(piece(box((size + 0.04, max(size, wide) + 0.04, 0.01), (x, 0, h - 0.005)), "plate"))
     return parts, h
 
 
-def lug(hand: Hand, size: float, thick: float) -> Solid:
+def lug(style: ModelingStyle, size: float, thick: float) -> Solid:
     """A lifting eye: a plate in x and z with a round head and a hole, its foot on z = 0 [m]."""
-    n = max(8, few_sides(hand, size / 2, 16))
+    n = max(8, few_sides(style, size / 2, 16))
     a = np.linspace(-0.2, np.pi + 0.2, n // 2 + 2)
     head = np.column_stack([0.5 * size * np.cos(a), 0.65 * size + 0.5 * size * np.sin(a)])
     outline = np.vstack([[[-0.7 * size, 0.0], [0.7 * size, 0.0]], head])

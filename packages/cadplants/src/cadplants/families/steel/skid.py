@@ -26,7 +26,7 @@ from cadplants.families.steel.shape import (
 )
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, lattice, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, box, cylinder, ring, turned
 from cadplants.transforms import at, spun
@@ -47,7 +47,7 @@ def _frame(a: float, b: float, one: Section, ties: int, z: float) -> tuple[list[
     return runners, z + y1 - y0
 
 
-def _deck(a: float, b: float, z: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _deck(a: float, b: float, z: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """What lies on a frame: nothing, a plate, a plate with openings, a grating, a chequered plate."""
     kind = int(rng.integers(5))
     if kind == 0:
@@ -66,7 +66,7 @@ def _deck(a: float, b: float, z: float, hand: Hand, rng: np.random.Generator) ->
         filled[::2], filled[:, ::2] = True, True
         return [piece(lattice(xs, ys, filled, z, z + 0.03), "grating", "clamp")]
     holes = (
-        tuple(circle(num(rng, 0.03, 0.08), few_sides(hand, 0.08), (s * 0.25 * a, 0.0)) for s in (-1, 1))
+        tuple(circle(num(rng, 0.03, 0.08), few_sides(style, 0.08), (s * 0.25 * a, 0.0)) for s in (-1, 1))
         if kind == 2
         else ()
     )
@@ -81,7 +81,7 @@ def _deck(a: float, b: float, z: float, hand: Hand, rng: np.random.Generator) ->
     ]
 
 
-def _lugs(a: float, b: float, z: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _lugs(a: float, b: float, z: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """Lifting eyes on top of the corners, or trunnions of pipe at the sides, or none."""
     kind, size = int(rng.integers(3)), num(rng, 0.06, 0.11)
     corners = [(sx, sy) for sx in (-1, 1) for sy in (-1, 1)]
@@ -89,10 +89,10 @@ def _lugs(a: float, b: float, z: float, hand: Hand, rng: np.random.Generator) ->
         return []
     if kind == 1:
         return [
-            piece(moved(lug(hand, size, 0.015), at(sx * (a / 2 - 0.09), sy * b / 2, z)), "lifting lug")
+            piece(moved(lug(style, size, 0.015), at(sx * (a / 2 - 0.09), sy * b / 2, z)), "lifting lug")
             for sx, sy in corners
         ]
-    n = few_sides(hand, 0.04, 16)
+    n = few_sides(style, 0.04, 16)
     stub = merge([cylinder(0.04, 0, 0.1, n), ring(0.03, 0.06, 0.1, 0.112, n)])
     return [
         piece(along("y" if sy > 0 else "-y", stub, sx * 0.35 * a, sy * b / 2, z - 0.08), "lifting lug")
@@ -100,12 +100,14 @@ def _lugs(a: float, b: float, z: float, hand: Hand, rng: np.random.Generator) ->
     ]
 
 
-def _payload(a: float, b: float, z: float, hand: Hand, rng: np.random.Generator, decked: bool = True) -> list[Part]:
+def _payload(
+    a: float, b: float, z: float, style: ModelingStyle, rng: np.random.Generator, decked: bool = True
+) -> list[Part]:
     """Steel that stands on a skid: a panel stand, an upright frame, plinths, a railing bow; or nothing."""
     kind = int(rng.integers(5)) if decked else pick(rng, 0, 3)
     if kind == 0:
         return []
-    one = drawn(rng, hand, num(rng, 0.05, 0.08), ("SHS", "U", "L", "CHS", "strut"))
+    one = drawn(rng, style, num(rng, 0.05, 0.08), ("SHS", "U", "L", "CHS", "strut"))
     h = num(rng, 0.6, 1.8)
     if kind == 1:
         x = 0.35 * a
@@ -121,7 +123,7 @@ def _payload(a: float, b: float, z: float, hand: Hand, rng: np.random.Generator,
         parts += [piece(bar((xs[0], y, level), (xs[1], y, level), one), "beam") for y in ys]
         parts += [piece(bar((x, ys[0], level), (x, ys[1], level), one), "beam") for x in xs]
         if chance(rng, 0.5):
-            parts += [piece(bar((xs[0], y, z), (xs[1], y, z + h), section("L", 0.04, hand)), "brace") for y in ys]
+            parts += [piece(bar((xs[0], y, z), (xs[1], y, z + h), section("L", 0.04, style)), "brace") for y in ys]
         return parts
     if kind == 3:
         level, xs = z - span_of(one)[2], (-0.2 * a, 0.2 * a)
@@ -132,13 +134,13 @@ def _payload(a: float, b: float, z: float, hand: Hand, rng: np.random.Generator,
         (0.4 * a, -0.45 * b, z + h),
         (0.4 * a, -0.45 * b, z),
     ]
-    return [piece(pipe(path, 0.021, hand, 0.12), "railing", "safety")]
+    return [piece(pipe(path, 0.021, style, 0.12), "railing", "safety")]
 
 
-def _welded(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _welded(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A skid of welded I, channel or hollow sections with cross members and sledge ends (common package practice)."""
     a, b = num(rng, 1.0, 4.0), num(rng, 0.6, 2.0)
-    one = drawn(rng, hand, num(rng, 0.08, 0.22), ("H", "I", "U", "RHS", "SHS", "IPN"))
+    one = drawn(rng, style, num(rng, 0.08, 0.22), ("H", "I", "U", "RHS", "SHS", "IPN"))
     solids, top = _frame(a, b, one, int(rng.integers(2, 6)), 0.0)
     if chance(rng, 0.35):
         toe = [(0, 0.0), (0.25, 0.6 * top), (0.25, top), (0, top)]
@@ -150,23 +152,23 @@ def _welded(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts = [piece(merge(solids), "skid frame", bundle="skid frame")]
     else:
         parts = [piece(one_, "skid frame", bundle="skid frame") for one_ in solids]
-    deck = _deck(a, b, top, hand, rng)
+    deck = _deck(a, b, top, style, rng)
     high = max([top, *(float(p.solid.vertices[:, 2].max()) for p in deck)])
-    parts += [*deck, *_lugs(a, b, top, hand, rng), *_payload(a, b, high, hand, rng, bool(deck))]
+    parts += [*deck, *_lugs(a, b, top, style, rng), *_payload(a, b, high, style, rng, bool(deck))]
     if chance(rng, 0.4):
         spots = [
             at(sx * (a / 2 - 0.08), sy * (b / 2 + 0.06 - span_of(one)[0]), 0.012) for sx in (-1, 1) for sy in (-1, 1)
         ]
         parts += [piece(moved(box((0.12, 0.12, 0.012), (0, 0, -0.006)), spot), "base plate") for spot in spots]
-        parts += bolted(spots, 0.016, hand, 0.012)
+        parts += bolted(spots, 0.016, style, 0.012)
     return Model(parts)
 
 
-def _forked(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _forked(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A channel frame with forklift pockets (hollow sections through the runners) and a deck."""
     a, b = num(rng, 0.8, 2.4), num(rng, 0.7, 1.5)
     h = num(rng, 0.12, 0.2)
-    one = section(pick(rng, "U", "RHS"), h, hand)
+    one = section(pick(rng, "U", "RHS"), h, style)
     runners, top = _frame(a, b, one, 2, 0.0)
     pocket_h, pocket_w = 0.6 * h, pick(rng, 0.15, 0.2)
     pocket = rounded_rectangle(pocket_w, pocket_h, 0.0)
@@ -174,17 +176,17 @@ def _forked(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     reach, apart = b / 2 - span_of(one)[0] + 0.01, min(0.28 * a, 0.45)
     solids = [*runners, *(bar((x, -reach, h / 2), (x, reach, h / 2), (pocket, hole)) for x in (-apart, apart))]
     parts = [piece(one_, "skid frame", bundle="skid frame") for one_ in solids]
-    deck = _deck(a, b, top, hand, rng)
+    deck = _deck(a, b, top, style, rng)
     high = max([top, *(float(p.solid.vertices[:, 2].max()) for p in deck)])
-    return Model([*parts, *deck, *_payload(a, b, high, hand, rng, bool(deck))])
+    return Model([*parts, *deck, *_payload(a, b, high, style, rng, bool(deck))])
 
 
-def _cage(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _cage(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A frame of a box: base of tubes, corner columns, top rails, braces; or with ISO 1161 corners."""
     a, b, h = num(rng, 0.6, 3.0), num(rng, 0.5, 1.6), num(rng, 0.6, 2.2)
     iso = chance(rng, 0.4)
     size = num(rng, 0.06, 0.12)
-    one = drawn(rng, hand, size, ("SHS", "SHS", "L", "U") if not iso else ("SHS",))
+    one = drawn(rng, style, size, ("SHS", "SHS", "L", "U") if not iso else ("SHS",))
     half = size / 2
     c = 0.162 if iso else 0.0
     parts: list[Part] = []
@@ -206,7 +208,7 @@ def _cage(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     for x in np.linspace(xs[0], xs[1], int(rng.integers(2, 5)))[1:-1]:
         parts.append(piece(bar((x, ys[0] + half, low), (x, ys[1] - half, low), one), "skid frame"))
     if chance(rng, 0.5):
-        thin = section(pick(rng, "flat", "L", "CHS"), 0.04, hand)
+        thin = section(pick(rng, "flat", "L", "CHS"), 0.04, style)
         parts += [piece(bar((xs[0] + half, y, low + half), (xs[1] - half, y, high - half), thin), "brace") for y in ys]
     if chance(rng, 0.4):
         z = low + half
@@ -214,7 +216,7 @@ def _cage(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _tray(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _tray(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A drip tray as a base: a folded pan on feet or runners with a grating or bearers in it and a drain."""
     a, b, deep = num(rng, 0.6, 2.4), num(rng, 0.5, 1.4), num(rng, 0.06, 0.25)
     low, t = num(rng, 0.05, 0.15), 0.004
@@ -247,11 +249,11 @@ def _tray(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         piece(box((0.05, b - t, deep - 0.03), (x, 0, low + (deep - 0.03) / 2)), "beam")
         for x in np.linspace(-0.35 * a, 0.35 * a, 3)
     ]
-    parts += [p for p in _deck(a - 0.03, b - 0.03, low + deep - 0.03, hand, rng) if p.name != "skid frame"]
+    parts += [p for p in _deck(a - 0.03, b - 0.03, low + deep - 0.03, style, rng) if p.name != "skid frame"]
     return Model(parts)
 
 
-def _pallet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _pallet(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A pallet: timber (EN 13698-1), steel with a folded deck, or plastic with nine feet."""
     a, b = pick(rng, (1.2, 0.8), (1.2, 1.0), (0.8, 0.6), (1.1, 1.1))
     kind = int(rng.integers(3))
@@ -281,10 +283,10 @@ def _pallet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         if joined
         else [piece(s, "skid frame", color, "skid frame") for s in solids]
     )
-    return Model([*parts, *_payload(0.9 * a, 0.9 * b, top, hand, rng)])
+    return Model([*parts, *_payload(0.9 * a, 0.9 * b, top, style, rng)])
 
 
-def _folded(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _folded(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A base of one sheet: a bent channel plate with flanges, holes and slots, on rubber feet (small units)."""
     a, b, h, t = num(rng, 0.4, 1.6), num(rng, 0.25, 0.7), num(rng, 0.05, 0.12), num(rng, 0.003, 0.008)
     foot = num(rng, 0.02, 0.05)
@@ -304,14 +306,14 @@ def _folded(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     for sx in (-1, 1):
         for sy in (-1, 1):
             if low > 0.02:
-                puck = turned([(0.02, 0), (0.024, 0.3 * low), (0.016, low - t / 2)], few_sides(hand, 0.02, 14))
+                puck = turned([(0.02, 0), (0.024, 0.3 * low), (0.016, low - t / 2)], few_sides(style, 0.02, 14))
                 parts.append(piece(moved(puck, at(sx * 0.42 * a, sy * y)), "base plate", "rubber"))
     for x in (-0.25 * a, 0.2 * a):
         parts.append(piece(box((0.15 * a, 0.5 * b, 0.03), (x, 0, low + h + t / 2 + 0.015)), "plate", "steel"))
     return Model(parts)
 
 
-def _sledge(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _sledge(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A sledge: runners of pipe with mitred ends or of timber, cross pipes, a deck and a tow bar (field units)."""
     a, b, r = num(rng, 1.2, 4.0), num(rng, 0.8, 1.8), num(rng, 0.05, 0.11)
     parts: list[Part] = []
@@ -334,9 +336,9 @@ def _sledge(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 (a / 2, s * b / 2, r),
                 (a / 2 + 0.25, s * b / 2, r + 0.25),
             ]
-            runner = pipe(path, r, hand, 0.15, 0.1 * r)
+            runner = pipe(path, r, style, 0.15, 0.1 * r)
         parts.append(piece(runner, "skid frame", "safety" if timber else "steel", "skid frame"))
-    tie = section("timber" if timber else "CHS", 1.4 * r, hand)
+    tie = section("timber" if timber else "CHS", 1.4 * r, style)
     for x in np.linspace(-0.45 * a, 0.45 * a, int(rng.integers(3, 6))):
         z = 2 * r + 0.7 * r if timber else r
         reach = b / 2 + (0.1 if timber else -0.9 * r)
@@ -346,28 +348,28 @@ def _sledge(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     if not timber:
         parts.append(
             piece(
-                pipe([(a / 2 + 0.2, -b / 2, r + 0.2), (a / 2 + 0.2, b / 2, r + 0.2)], 0.7 * r, hand),
+                pipe([(a / 2 + 0.2, -b / 2, r + 0.2), (a / 2 + 0.2, b / 2, r + 0.2)], 0.7 * r, style),
                 "skid frame",
                 bundle="skid frame",
             )
         )
     top = 3.4 * r if timber else 2 * r
-    deck = _deck(0.95 * a, b, top, hand, rng)
+    deck = _deck(0.95 * a, b, top, style, rng)
     high = max([top, *(float(p.solid.vertices[:, 2].max()) for p in deck)])
-    return Model([*parts, *deck, *_payload(0.9 * a, b, high, hand, rng, bool(deck))])
+    return Model([*parts, *deck, *_payload(0.9 * a, b, high, style, rng, bool(deck))])
 
 
-def _table(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _table(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A small equipment frame or machine table: legs with feet, rails, a top plate, shelves, knee or cross braces."""
     a, b, h = num(rng, 0.35, 1.6), num(rng, 0.3, 0.9), num(rng, 0.3, 1.1)
-    one = drawn(rng, hand, num(rng, 0.03, 0.07), ("SHS", "SHS", "L", "CHS", "U"))
+    one = drawn(rng, style, num(rng, 0.03, 0.07), ("SHS", "SHS", "L", "CHS", "U"))
     half, foot = float(np.ptp(one[0][:, 1])) / 2, pick(rng, 0.0, 0.05)
     parts: list[Part] = []
     for sx in (-1, 1):
         for sy in (-1, 1):
             x, y = sx * a / 2, sy * b / 2
             parts.append(piece(bar((x, y, foot or 0.008), (x, y, h), one), "column"))
-            n = few_sides(hand, 0.03, 16)
+            n = few_sides(style, 0.03, 16)
             levelling = [(0.03, 0), (0.03, 0.008), (0.009, 0.016), (0.009, 0.042), (half, 0.042), (half, 0.05)]
             if foot:
                 parts.append(piece(moved(turned(levelling, n), at(x, y)), "base plate", "trim"))
@@ -386,7 +388,7 @@ def _table(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             for s in (-1, 1)
         ]
     if chance(rng, 0.4):
-        thin = section(pick(rng, "flat", "L", "round"), 0.03, hand)
+        thin = section(pick(rng, "flat", "L", "round"), 0.03, style)
         parts += [
             piece(bar((-a / 2, s * b / 2, 0.3 * h), (a / 2, s * b / 2, h - 2 * half), thin), "brace") for s in (-1, 1)
         ]
@@ -395,11 +397,11 @@ def _table(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _inertia(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _inertia(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A grouted skid: channels round a concrete fill on a plinth, bolted down, with sole plates; an inertia base."""
     a, b, h = num(rng, 0.8, 2.4), num(rng, 0.5, 1.3), num(rng, 0.1, 0.2)
     low = num(rng, 0.1, 0.4) if chance(rng, 0.7) else 0.06
-    one = section("U", h, hand)
+    one = section("U", h, style)
     solids, top = _frame(a, b, one, 2, low)
     parts = [piece(s, "skid frame", bundle="skid frame") for s in solids]
     parts.append(piece(box((a - 0.75 * h, b + 0.2 * h, 0.9 * h), (0, 0, low + 0.46 * h)), "foundation", "concrete"))

@@ -25,7 +25,7 @@ from cadplants.families.supports.shape import (
 from cadplants.families.supports.stand import tie
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import extrude, lattice, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle, section_i
 from cadplants.primitives import along, bar, box, cylinder, hexagon, ring, rod, turned
 from cadplants.standards import PIPES, SIZES
@@ -36,7 +36,9 @@ __all__ = ["ARMS"]
 _B = "bracket"
 
 
-def _backing(y: float, height: float, high: float, wide: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _backing(
+    y: float, height: float, high: float, wide: float, style: ModelingStyle, rng: np.random.Generator
+) -> list[Part]:
     """A wall or a column whose face stands at ``y`` beside the line [m]."""
     if rng.random() < 0.5:
         thick = float(rng.uniform(0.1, 0.25))
@@ -46,12 +48,12 @@ def _backing(y: float, height: float, high: float, wide: float, hand: Hand, rng:
         column = extrude(section_i(0.14, max(0.12, wide), 0.007, 0.01), -height, high)
         return [framed(moved(column, at(0, y + 0.07)), "column")]
     side = max(0.08, wide)
-    foot, top = footing(side + 0.12, side, hand, rng)
+    foot, top = footing(side + 0.12, side, style, rng)
     post = extrude(rounded_rectangle(side, side, 0.005, 2), top - height, high)
     return [framed(moved(post, at(0, y + side / 2)), "post"), *placed(foot, at(0, y + side / 2, -height))]
 
 
-def _strut_arm(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _strut_arm(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """A cantilever arm of slotted strut (41 mm) welded on a slotted back plate, maybe with a rib."""
     r, s = PIPES[dn].radius, float(rng.choice([0.021, 0.041, 0.041, 0.062]))
     reach, tip = r + float(rng.uniform(0.1, 0.35)), r + float(rng.uniform(0.06, 0.2))
@@ -61,7 +63,7 @@ def _strut_arm(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> 
     xs = np.array([-0.0205, -0.006, 0.006, 0.0205])
     edges = np.linspace(-tip, reach, 2 * count + 2)
     filled = np.ones((3, 2 * count + 1), bool)
-    filled[1, 1::2] = not (hand.holes and rng.random() < 0.7)
+    filled[1, 1::2] = not (style.holes and rng.random() < 0.7)
     back = lattice(xs, edges, filled, top - t, top)
     sides = [box((t, length, s), (q * (0.0205 - t / 2), (reach - tip) / 2, top - s / 2)) for q in (-1, 1)]
     lips = [box((0.009, length, t), (q * 0.016, (reach - tip) / 2, top - s + t / 2)) for q in (-1, 1)]
@@ -74,21 +76,21 @@ def _strut_arm(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> 
         rounded_rectangle(wide, tall, 0.005, 1) + np.array([0.0, mid]),
         reach,
         reach + 0.008,
-        tuple(slot + np.array(p) for p in spots) if hand.holes else (),
+        tuple(slot + np.array(p) for p in spots) if style.holes else (),
     )
     parts = [piece(merge([*arm, plate]), _B, _B, "clamp")]
     if rng.random() < 0.35:
         rib = slab_yz([[reach, top - s], [reach - 0.1, top - s], [reach, mid - tall / 2]], -0.003, 0.003)
         parts.append(piece(rib, "gusset plate", _B, "clamp"))
     for x, z in spots:
-        parts += bolt_parts(0.01, 0.008, at(x, reach + 0.008, z) @ spun("x", np.pi / 2), hand, _B, "none")
+        parts += bolt_parts(0.01, 0.008, at(x, reach + 0.008, z) @ spun("x", np.pi / 2), style, _B, "none")
     if rng.random() < 0.4:
         cap = box((0.043, 0.004, s + 0.002), (0, -tip - 0.002, top - s / 2))
         parts.append(piece(cap, _B, _B, "rubber", True))
-    return Model([*parts, *tie(dn, t, hand, rng), *_backing(reach + 0.008, height, 0.4, wide, hand, rng)])
+    return Model([*parts, *tie(dn, t, style, rng), *_backing(reach + 0.008, height, 0.4, wide, style, rng)])
 
 
-def _folded(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _folded(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """A support folded of sheet: a hat, a Z, a C or an inverted U with a notch, screwed on what is below."""
     r = PIPES[dn].radius
     t, wide = float(rng.choice([0.002, 0.003, 0.005])), 0.03 + 0.4 * r + float(rng.uniform(0, 0.04))
@@ -120,7 +122,7 @@ def _folded(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
     parts = [piece(sheet, _B, _B, "clamp")]
     for y in feet:
         for x in (-0.3 * wide, 0.3 * wide) if wide > 0.05 else (0.0,):
-            parts += bolt_parts(0.006, t, at(x, y, low), hand, _B, str(rng.choice(["none", "socket"])))
+            parts += bolt_parts(0.006, t, at(x, y, low), style, _B, str(rng.choice(["none", "socket"])))
     if rng.random() < 0.4:
         ribs = [
             slab_yz(
@@ -131,13 +133,13 @@ def _folded(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
             for x in (-0.35 * wide, 0.35 * wide)
         ]
         parts += [piece(q, "gusset plate", _B, "clamp") for q in ribs]
-    return Model([*parts, *tie(dn, t, hand, rng), *below(low, height, half + lip, hand, rng)])
+    return Model([*parts, *tie(dn, t, style, rng), *below(low, height, half + lip, style, rng)])
 
 
-def _tripod(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _tripod(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """A pipe stand on three or four splayed legs with a telescopic column and a V head, a roller head or a cradle."""
     r = PIPES[dn].radius
-    n = few(0.02, hand)
+    n = few(0.02, style)
     v = float(rng.uniform(0.6, 0.9))  # half the angle of the V
     t = 0.006 + 0.01 * r
     wide = 0.05
@@ -156,7 +158,9 @@ def _tripod(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
     inner, outer = 0.012 + 0.05 * r, 0.018 + 0.06 * r
     knee = -height + 0.7 * free
     parts.append(framed(cylinder(inner, knee - 0.1 * free, low + 0.002, n), "post"))
-    parts.append(framed(ring(0.9 * outer if hand.hollow else 0, outer, -height + 0.25 * free, knee, max(n, 8)), "post"))
+    parts.append(
+        framed(ring(0.9 * outer if style.hollow else 0, outer, -height + 0.25 * free, knee, max(n, 8)), "post")
+    )
     if rng.random() < 0.5:
         parts.append(piece(hexagon(3 * outer, knee, knee + 0.02), "nut", _B, "fastener"))
     else:
@@ -166,14 +170,14 @@ def _tripod(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
     leg_r = 0.45 * outer + 0.004
     for k in range(count):
         pose = spun("z", 2 * np.pi * k / count + 0.4)
-        leg = rod((outer * 0.9, 0, knee - 0.15 * free), (spread, 0, -height + 0.006), leg_r, few(leg_r, hand))
+        leg = rod((outer * 0.9, 0, knee - 0.15 * free), (spread, 0, -height + 0.006), leg_r, few(leg_r, style))
         brace = rod(
             (outer * 0.9, 0, -height + 0.27 * free),
             (spread * 0.75, 0, -height + 0.006 + (knee - 0.15 * free + height) * 0.25),
             0.6 * leg_r,
             6,
         )
-        shoe = cylinder(2.2 * leg_r, 0, 0.008, few(0.02, hand))
+        shoe = cylinder(2.2 * leg_r, 0, 0.008, few(0.02, style))
         parts += [
             framed(moved(leg, pose), "brace"),
             framed(moved(brace, pose), "brace"),
@@ -182,11 +186,11 @@ def _tripod(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
     return Model(parts)
 
 
-def _springy(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _springy(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """A variable spring base (MSS SP-58 type F): a can on a flange, a load column, a shoe on it."""
     r = PIPES[dn].radius
     can, tall = 0.045 + 0.4 * r, 0.1 + 0.6 * r + float(rng.uniform(0, 0.1))
-    n = max(12, hand.round(can))
+    n = max(12, style.round(can))
     shoe = float(rng.uniform(0.0, 0.08))
     parts: list[Part] = []
     top = -r - shoe
@@ -213,7 +217,7 @@ def _springy(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mo
     )
     out = float(rng.uniform(0.02, 0.08))
     lid = top - plate - out
-    parts.append(piece(cylinder(0.4 * can, lid - 0.02, top - plate, few(0.02, hand)), _B, _B, "trim"))
+    parts.append(piece(cylinder(0.4 * can, lid - 0.02, top - plate, few(0.02, style)), _B, _B, "trim"))
     foot = lid - tall
     shell = turned([(can, foot + 0.01), (can, lid - 0.008), (1.05 * can, lid - 0.008), (1.05 * can, lid)], n)
     solids = [shell]
@@ -227,11 +231,11 @@ def _springy(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mo
     q = side / 2 - 0.022
     for sx in (-1, 1):
         for sy in (-1, 1):
-            parts += bolt_parts(0.01, 0.01, at(sx * q * 0.9, sy * q * 0.9, foot), hand, _B, "none")
-    return Model([*parts, *below(foot, height, side / 2, hand, rng)])
+            parts += bolt_parts(0.01, 0.01, at(sx * q * 0.9, sy * q * 0.9, foot), style, _B, "none")
+    return Model([*parts, *below(foot, height, side / 2, style, rng)])
 
 
-def _cradled(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _cradled(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """A welded cradle: a wrapper plate on a web with ribs and a sole, a strap on studs over it."""
     r = PIPES[dn].radius
     open_, t = float(rng.uniform(0.28, 0.45)) * np.pi, 0.006
@@ -257,34 +261,34 @@ def _cradled(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mo
         parts.append(piece(rib, name, _B, "steel"))
     if rng.random() < 0.5:
         thick, ear = 0.005, 0.04
-        band = half_band(r, thick, 0.5 * wide, ear, hand, 0.01)
+        band = half_band(r, thick, 0.5 * wide, ear, style, 0.01)
         parts.append(piece(band, "clamp", _B))
         for s in (-1, 1):
             y = s * (r + thick + 0.55 * ear)
             z = low + 0.008
             parts.append(piece(moved(cylinder(0.005, z, 0.03, 8), at(0, y)), "stud", _B, "fastener"))
-            parts += placed(nut_parts([(0, -y, -0.011)], 0.01, hand, _B), spun("x", np.pi))
+            parts += placed(nut_parts([(0, -y, -0.011)], 0.01, style, _B), spun("x", np.pi))
         sole2 = box((0.5 * wide, 2 * (r + ear) + 0.05, 0.008), (0, 0, low - 0.004))
         parts.append(framed(sole2, "plate"))
         for s in (-1, 1):
             stub = box((0.02, 0.02, 0.008), (0, s * (r + thick + 0.55 * ear), low + 0.004))
             parts.append(piece(stub, "nut", _B, "fastener"))
-        return Model([*parts, *below(low - 0.008, height, foot + 0.04, hand, rng)])
+        return Model([*parts, *below(low - 0.008, height, foot + 0.04, style, rng)])
     for s in (-1, 1):
         for x in (-0.3, 0.3):
-            parts += bolt_parts(0.01, 0.008, at(x * wide, s * (foot + 0.012), low), hand, _B, "none")
-    return Model([*parts, *below(low, height, foot + 0.04, hand, rng)])
+            parts += bolt_parts(0.01, 0.008, at(x * wide, s * (foot + 0.012), low), style, _B, "none")
+    return Model([*parts, *below(low, height, foot + 0.04, style, rng)])
 
 
-def _ell(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _ell(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """An L or goal post of one bent or mitred profile on the floor with corner gussets, or a gallows over the line."""
     r = PIPES[dn].radius
     size = float(rng.choice([0.05, 0.06, 0.08]))
     out = r + float(rng.uniform(0.08, 0.3))
-    outline, holes = member(size, hand, rng, flat=True)
+    outline, holes = member(size, style, rng, flat=True)
     over = bool(rng.random() < 0.4)
     z = 1.3 * r + float(rng.uniform(0.14, 0.35)) if over else -r - size / 2
-    foot, top = footing(size + 0.12, size, hand, rng)
+    foot, top = footing(size + 0.12, size, style, rng)
     post = moved(extrude(outline, top - height, z + size / 2, holes), at(0, out))
     arm = bar((0, -r - 0.06, z), (0, out - float(outline[:, 1].max()), z), outline, holes)
     parts = [framed(post, "post"), framed(arm, "beam"), *placed(foot, at(0, out, -height))]
@@ -301,7 +305,7 @@ def _ell(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
         ]
     parts.append(piece(slab_yz(corner, -0.004, 0.004), "gusset plate", "", "steel"))
     if not over:
-        return Model([*parts, *tie(dn, 0.006, hand, rng)])
+        return Model([*parts, *tie(dn, 0.006, style, rng)])
     d = 0.01
     low, up = 1.25 * r + 0.01, z - size / 2
     bolt_top = up

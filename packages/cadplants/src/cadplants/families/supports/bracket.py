@@ -18,7 +18,7 @@ from cadplants.families.supports.shape import (
 )
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, box, cylinder, hexagon, ring, rod, rope, turned
 from cadplants.transforms import at
@@ -35,7 +35,7 @@ def _wall(rng: np.random.Generator, width: float, height: float, depth: float = 
     return framed(box((width, thick, height), (0, thick / 2, height / 2)), "wall", "concrete")
 
 
-def _shelf(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _shelf(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Shelf brackets on a wall: strip with a strut, rib, forged scroll, U with cheeks, tube arm."""
     count, gap = int(rng.integers(2, 5)), float(rng.uniform(0.35, 0.7))
     reach, drop = float(rng.uniform(0.15, 0.4)), float(rng.uniform(0.12, 0.35))
@@ -77,7 +77,7 @@ def _shelf(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         )
         solid = merge([ell, *(slab_yz(rim, s * 0.5 * wide - t / 2, s * 0.5 * wide + t / 2) for s in (-1, 1))])
     else:
-        n = few(0.012, hand)
+        n = few(0.012, style)
         solid = merge(
             [
                 box((0.06, 0.006, 0.1), (0, -0.003, -0.04)),
@@ -96,7 +96,7 @@ def _shelf(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                     float(x) + (0.3 * wide if kind in (1, 3) else 0.0) * (-1 if z > -0.05 else 1),
                     0.0,
                     level + z,
-                    hand,
+                    style,
                 )
     if rng.random() < 0.75:
         board = box((length, reach + float(rng.uniform(-0.02, 0.08)), 0.02), (0, -reach / 2 - 0.01, level + 0.01))
@@ -104,16 +104,16 @@ def _shelf(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _stanchion(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _stanchion(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An instrument stand: a 2 inch post on a foot, a bent plate on it with U-bolts, an instrument."""
     r, high = 0.0302, float(rng.uniform(1.0, 1.5))
-    foot, low = footing(float(rng.uniform(0.16, 0.25)), 2 * r, hand, rng)
+    foot, low = footing(float(rng.uniform(0.16, 0.25)), 2 * r, style, rng)
     square = bool(rng.random() < 0.25)
-    n = hand.round(r)
+    n = style.round(r)
     post = (
         extrude(rounded_rectangle(2 * r, 2 * r, 0.004, 2), low, high)
         if square
-        else ring(r - 0.004 if hand.hollow else 0, r, low, high, n)
+        else ring(r - 0.004 if style.hollow else 0, r, low, high, n)
     )
     parts = [framed(post, "post"), *foot]
     if rng.random() < 0.5:
@@ -143,9 +143,9 @@ def _stanchion(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                     [[-leg, front - 2.2 * d, z]],
                 ]
             )
-        parts.append(piece(rope(path, d / 2, few(d / 2, hand)), "u-bolt"))
+        parts.append(piece(rope(path, d / 2, few(d / 2, style)), "u-bolt"))
         # What presses down at z of the helper presses towards -y here.
-        nuts = nut_parts([(s * leg, z, front) for s in (-1, 1)], d, hand)
+        nuts = nut_parts([(s * leg, z, front) for s in (-1, 1)], d, style)
         parts += placed(nuts, np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, 1, 0, 0], [0, 0, 0, 1]]))
     body_y = front - (0.05 if shape == 2 else 0.0)
     kind = int(rng.integers(3))
@@ -161,21 +161,21 @@ def _stanchion(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts.append(Part(case, "junction box", "electrical", "", _SAFETY))
     elif kind == 1:
         q = 0.045
-        barrel = along("y", cylinder(q, -0.06, 0.06, hand.round(q)), 0, body_y - 0.06, level)
+        barrel = along("y", cylinder(q, -0.06, 0.06, style.round(q)), 0, body_y - 0.06, level)
         lids = [
-            along("y", cylinder(1.1 * q, -0.012, 0.012, hand.round(q)), 0, body_y - 0.06 + s * 0.05, level)
+            along("y", cylinder(1.1 * q, -0.012, 0.012, style.round(q)), 0, body_y - 0.06 + s * 0.05, level)
             for s in (-1, 1)
         ]
         neck = box((0.05, 0.04, 0.1), (0, body_y - 0.06, level - q - 0.03))
         parts.append(Part(merge([barrel, *lids, neck]), "transmitter", "gauge", "", "Gauge assembly"))
     else:
         q = 0.05
-        face = along("-y", cylinder(q, 0, 0.045, hand.round(q)), 0, body_y, level)
+        face = along("-y", cylinder(q, 0, 0.045, style.round(q)), 0, body_y, level)
         parts.append(Part(face, "gauge", "gauge", "", "Gauge assembly"))
     return Model(parts)
 
 
-def _slide(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _slide(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Motor slide rails (DIN 42923): two slotted rails on a base or a slab, tensioning screws, a motor on feet."""
     length, gap = float(rng.uniform(0.35, 0.7)), float(rng.uniform(0.2, 0.4))
     wide, high, d = float(rng.uniform(0.04, 0.07)), float(rng.uniform(0.025, 0.05)), float(rng.choice([0.01, 0.012]))
@@ -202,14 +202,14 @@ def _slide(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         stop = box((0.02, wide * 0.5, 0.035), (-0.44 * length, s * gap / 2, low + high + 0.0175))
         push = merge(
             [
-                along("x", cylinder(d / 2, -0.06, 0.08, few(d, hand)), -0.44 * length, s * gap / 2, low + high + 0.02),
+                along("x", cylinder(d / 2, -0.06, 0.08, few(d, style)), -0.44 * length, s * gap / 2, low + high + 0.02),
                 along("-x", hexagon(1.6 * d, 0.05, 0.05 + 0.7 * d), -0.44 * length, s * gap / 2, low + high + 0.02),
             ]
         )
         parts += [piece(stop, _B, "", "steel"), piece(push, "screw", "", "fastener")]
         for q in (-0.4, 0.4):
             if solid:
-                parts += bolt_parts(d, 0.004, at(q * length * 1.1, s * gap / 2, low + high - 0.004), hand, "", "none")
+                parts += bolt_parts(d, 0.004, at(q * length * 1.1, s * gap / 2, low + high - 0.004), style, "", "none")
     top_z = low + high
     r, foot_t = 0.32 * gap + 0.02, 0.012
     axis = top_z + r + 0.02
@@ -222,15 +222,15 @@ def _slide(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         )
         parts.append(piece(foot, _B, "", "steel"))
         for q in (-0.1, 0.1):
-            parts += bolt_parts(d, foot_t, at(0.02 + q * length, s * gap / 2, top_z), hand, "", "none")
+            parts += bolt_parts(d, foot_t, at(0.02 + q * length, s * gap / 2, top_z), style, "", "none")
     body = along(
         "x",
-        turned([(0.6 * r, 0), (r, 0.02), (r, 0.5 * length), (0.9 * r, 0.56 * length)], hand.round(r)),
+        turned([(0.6 * r, 0), (r, 0.02), (r, 0.5 * length), (0.9 * r, 0.56 * length)], style.round(r)),
         -0.24 * length,
         0,
         axis,
     )
-    shaft = along("x", cylinder(0.16 * r, 0, 0.18 * length, few(0.1 * r, hand)), 0.3 * length, 0, axis)
+    shaft = along("x", cylinder(0.16 * r, 0, 0.18 * length, few(0.1 * r, style)), 0.3 * length, 0, axis)
     parts += [Part(body, "motor", "motor", "", "Pump unit"), Part(shaft, "shaft", "trim", "", "Pump unit")]
     if r > gap / 2 - 0.3 * wide:
         return Model(parts)

@@ -7,7 +7,7 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, extrude, merge, moved, sweep
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
 from cadplants.primitives import along, box, cylinder, hexagon, ring, rod, turned
 from cadplants.standards import PIPES, SIZES
@@ -18,7 +18,7 @@ __all__ = ["CONNECTIONS"]
 _GROUP, _FRAME = "Connection assembly", "Structural element"
 
 
-def _beam_below(top: float, height: float, half: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _beam_below(top: float, height: float, half: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """What a support stands on: a column, a beam on posts, a concrete sleeper; from ``top`` to the floor [m]."""
     low = -height
     kind = int(rng.integers(4))
@@ -70,7 +70,7 @@ def _beam_below(top: float, height: float, half: float, hand: Hand, rng: np.rand
     return [Part(pillar, "foundation", "concrete", "", _FRAME)]
 
 
-def _u_bolt(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _u_bolt(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """A line on a beam or post, held by a U-bolt with nuts (DIN 3570)."""
     r = PIPES[dn].radius
     rod_, top = 0.004 + 0.03 * r, -r
@@ -80,7 +80,7 @@ def _u_bolt(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
     path = np.vstack([[0, leg, top - 0.03], bow, [0, -leg, top - 0.03]])
     u = sweep(path, circle(rod_, 10), up=(1.0, 0.0, 0.0))
     nuts = [moved(hexagon(3.4 * rod_, top - 0.0125 - 1.6 * rod_, top - 0.0125), at(0, s * leg)) for s in (-1, 1)]
-    support = _beam_below(top, height, leg + rod_, hand, rng)
+    support = _beam_below(top, height, leg + rod_, style, rng)
     nut_parts = [Part(n, "nut", "fastener", "u-bolt", "", True) for n in nuts]
     return Model([Part(u, "u-bolt", "clamp", "u-bolt"), *nut_parts, *support])
 
@@ -106,9 +106,9 @@ def _signed(outline: Floats) -> float:
     return float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
 
 
-def _clamp(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _clamp(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """A two-half pipe clamp (DIN 3567), with a rubber lining or without, bolted on a support or on a rod."""
-    r, n = PIPES[dn].radius, hand.round(PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(PIPES[dn].radius)
     lined = bool(rng.random() < 0.5)
     inner = r + (0.004 if lined else 0.0)
     thick, width, ear = 0.003 + 0.02 * r, 0.025 + 0.15 * r, 0.02 + 0.15 * r
@@ -127,7 +127,7 @@ def _clamp(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mode
     parts += [Part(moved(bolt, at(0, s * y)), "bolt", "fastener", "clamp", "", True) for s in (-1, 1)]
     top = -inner - thick
     if rng.random() < 0.5:
-        parts += _beam_below(top, height, inner + thick + ear, hand, rng)
+        parts += _beam_below(top, height, inner + thick + ear, style, rng)
     else:
         parts.append(Part(cylinder(0.006, -height + 0.008, top + 0.001, 8), "stud", "fastener"))
         parts.append(
@@ -142,7 +142,7 @@ def _clamp(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mode
     return Model(parts)
 
 
-def _shoe(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _shoe(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """A pipe shoe: a T or a saddle under the pipe, sliding on a beam; with gussets."""
     r = PIPES[dn].radius
     tall, length = 0.06 + 0.3 * r, 0.15 + 0.8 * r
@@ -156,12 +156,12 @@ def _shoe(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model
             for turn in (0.5, -0.5):
                 pose = at(x, 0, top + 0.008) @ spun("z", turn * np.pi) @ spun("x", np.pi / 2) @ at(0.004)
                 parts.append(Part(moved(triangle, pose), "gusset plate", "steel", "bracket"))
-    return Model([*parts, *_beam_below(top, height, 0.05 + 0.5 * r, hand, rng)])
+    return Model([*parts, *_beam_below(top, height, 0.05 + 0.5 * r, style, rng)])
 
 
-def _saddle(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _saddle(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """An adjustable pipe stand: a cradle on a threaded rod in a tube with a foot plate (MSS SP-58 type 38)."""
-    r, n = PIPES[dn].radius, hand.round(PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(PIPES[dn].radius)
     a = np.linspace(1.15 * np.pi, 1.85 * np.pi, 9)
     thick = 0.004 + 0.02 * r
     far = (r + thick) * np.column_stack([np.cos(a), np.sin(a)])
@@ -185,9 +185,9 @@ def _saddle(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
     )
 
 
-def _hanger(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _hanger(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """A clevis or ring hanger on a rod from a beam above (MSS SP-58 types 1 and 10)."""
-    r, n = PIPES[dn].radius, hand.round(PIPES[dn].radius)
+    r, n = PIPES[dn].radius, style.round(PIPES[dn].radius)
     wide, thick, drop = 0.02 + 0.1 * r, 0.003 + 0.01 * r, float(rng.uniform(0.25, 0.8))
     top = 1.5 * r + 0.03
     if rng.random() < 0.5:
@@ -243,7 +243,7 @@ def _hanger(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
     return Model(parts)
 
 
-def _wall_bracket(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _wall_bracket(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """A cantilever bracket with a brace on a wall or column beside the line."""
     r = PIPES[dn].radius
     reach = r + float(rng.uniform(0.15, 0.35))
@@ -281,10 +281,10 @@ def _wall_bracket(dn: int, hand: Hand, rng: np.random.Generator, height: float) 
 _M = (0.006, 0.008, 0.01, 0.012, 0.016, 0.02, 0.024, 0.03)  # m, ISO 261 coarse threads
 
 
-def _thread(d: float, low: float, high: float, hand: Hand) -> Solid:
-    """A shank, with ridges for a thread where the hand models every piece."""
-    if hand.fasteners != "pieces" or high - low < 3 * d * 0.3:
-        return cylinder(d / 2, low, high, max(6, min(16, hand.round(d))))
+def _thread(d: float, low: float, high: float, style: ModelingStyle) -> Solid:
+    """A shank, with ridges for a thread where the style models every piece."""
+    if style.fasteners != "pieces" or high - low < 3 * d * 0.3:
+        return cylinder(d / 2, low, high, max(6, min(16, style.round(d))))
     pitch = 0.15 * d
     count = int(min(24, (high - low) / pitch))
     profile = []
@@ -294,12 +294,12 @@ def _thread(d: float, low: float, high: float, hand: Hand) -> Solid:
     return turned([*profile, (0.43 * d, high)], 12)
 
 
-def _loose(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _loose(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Fasteners on a plate: bolts (ISO 4014), socket screws (ISO 4762), nuts (ISO 4032), washers, studs, eye bolts."""
     d = float(rng.choice(_M))
     parts: list[Part] = []
     x = 0.0
-    n = max(8, min(24, hand.round(d)))
+    n = max(8, min(24, style.round(d)))
     top = 0.02
     length = float(rng.uniform(2.0, 5.0)) * d
     makers = ["hex", "socket", "nut", "washer", "stud", "countersunk", "eye", "set", "flange nut"]
@@ -312,13 +312,13 @@ def _loose(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 [
                     hexagon(1.5 * d, 0.0, 0.65 * d),
                     cylinder(0.5 * d, 0.6 * d, 0.6 * d + 0.4 * length, n),
-                    _thread(d, 0.6 * d + 0.4 * length, 0.6 * d + length, hand),
+                    _thread(d, 0.6 * d + 0.4 * length, 0.6 * d + length, style),
                 ]
             )
             parts.append(Part(moved(bolt, pose), "bolt", "fastener"))
         elif kind == "socket":
             head = extrude(circle(0.75 * d, n), 0.5 * d, 1.0 * d, (circle(0.45 * d, 6),))
-            bolt = merge([head, cylinder(0.75 * d, 0.0, 0.5 * d, n), _thread(d, 0.95 * d, d + length, hand)])
+            bolt = merge([head, cylinder(0.75 * d, 0.0, 0.5 * d, n), _thread(d, 0.95 * d, d + length, style)])
             parts.append(Part(moved(moved(bolt, at()), pose), "screw", "fastener"))
         elif kind == "nut":
             parts.append(Part(moved(hexagon(1.5 * d, 0.0, 0.85 * d, 0.5 * d, n), pose), "nut", "fastener"))
@@ -328,9 +328,9 @@ def _loose(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         elif kind == "washer":
             parts.append(Part(moved(ring(0.54 * d, 1.0 * d, 0.0, 0.16 * d, n), pose), "washer", "fastener"))
         elif kind == "stud":
-            parts.append(Part(moved(_thread(d, 0.0, 1.6 * length, hand), pose), "stud", "fastener"))
+            parts.append(Part(moved(_thread(d, 0.0, 1.6 * length, style), pose), "stud", "fastener"))
         elif kind == "countersunk":
-            solid = merge([turned([(0.95 * d, 0.0), (0.5 * d, 0.5 * d)], n), _thread(d, 0.45 * d, length, hand)])
+            solid = merge([turned([(0.95 * d, 0.0), (0.5 * d, 0.5 * d)], n), _thread(d, 0.45 * d, length, style)])
             parts.append(Part(moved(solid, pose), "screw", "fastener"))
         elif kind == "eye":
             from cadplants.primitives import torus
@@ -338,18 +338,18 @@ def _loose(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             solid = merge(
                 [
                     moved(torus(0.8 * d, 0.3 * d, n, 8), at(0, 0, length + 0.9 * d) @ spun("x", np.pi / 2)),
-                    _thread(d, 0.0, length, hand),
+                    _thread(d, 0.0, length, style),
                     cylinder(0.8 * d, length - 0.2 * d, length, n),
                 ]
             )
             parts.append(Part(moved(solid, pose), "bolt", "fastener"))
         else:
-            parts.append(Part(moved(merge([_thread(0.9 * d, 0.0, length, hand)]), pose), "screw", "fastener"))
+            parts.append(Part(moved(merge([_thread(0.9 * d, 0.0, length, style)]), pose), "screw", "fastener"))
     plate = box((x + 0.05, 8 * d, top), (x / 2 - 1.6 * d, 0, top / 2))
     return Model([*parts, Part(plate, "plate", "steel", "", _FRAME)])
 
 
-def _joint(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _joint(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A bolted or welded steel joint: a column with a beam, an end plate or cleats, bolts, a gusset with a brace."""
     h, b, t, f = ((0.152, 0.160, 0.006, 0.009), (0.19, 0.2, 0.0065, 0.01), (0.2, 0.1, 0.0056, 0.0085))[
         int(rng.integers(3))
@@ -405,7 +405,7 @@ def _joint(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         brace = (
             sweep(np.array([start, end]), section_angle(leg, 0.006), up=(1.0, 0.0, 0.0))
             if rng.random() < 0.5
-            else rod(tuple(start), tuple(end), 0.03, max(8, hand.round(0.03)))
+            else rod(tuple(start), tuple(end), 0.03, max(8, style.round(0.03)))
         )
         parts.append(Part(brace, "brace", "steel", "", _FRAME))
     anchor = merge([cylinder(0.008, -0.02, 0.06, 8), hexagon(0.024, 0.02, 0.033), ring(0.009, 0.02, 0.018, 0.021, 10)])

@@ -18,7 +18,7 @@ from cadplants.families.supports.shape import (
 )
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, extrude, merge, moved, tube
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle, section_channel, section_i
 from cadplants.primitives import along, bar, box, cylinder, hexagon, ring
 from cadplants.standards import PIPES, SIZES
@@ -88,10 +88,10 @@ def _hose_clamp(kind: int, out: float, t: float, wide: float, n: int, twin: bool
     return solids
 
 
-def _hose(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _hose(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A hose pushed on the end of a pipe and held by clamps: worm drive (DIN 3017), trunnions, ears, wire."""
     r = PIPES[dn].radius
-    n, wall = hand.round(r), 0.003 + 0.08 * r
+    n, wall = style.round(r), 0.003 + 0.08 * r
     out, over, reach = r + wall, 1.2 * r + 0.03, float(rng.uniform(4, 12)) * r + 0.05
     swing = float(rng.uniform(0, 0.35)) * reach
     s = np.linspace(0, 1, 9)[1:]
@@ -101,7 +101,7 @@ def _hose(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
             np.column_stack([reach * s, np.zeros(8), -swing * (1 - np.cos(np.pi * s / 2)) * s]),
         ]
     )
-    hose = tube(path, out, r if hand.hollow else 0.0, n)
+    hose = tube(path, out, r if style.hollow else 0.0, n)
     parts = [Part(hose, "hose", "rubber", "", "Pipe assembly")]
     kind, t = int(rng.integers(4)), 0.0008 + 0.008 * r
     wide = 0.009 + 0.06 * r
@@ -115,10 +115,10 @@ def _hose(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _coupler(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _coupler(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A frame of tubes (48.3 mm) in right-angle, swivel and parallel couplers (EN 74)."""
     r = float(rng.choice([0.02415, 0.02415, 0.0169, 0.0213]))
-    n = hand.round(r)
+    n = style.round(r)
     high, span = float(rng.uniform(0.9, 1.8)), float(rng.uniform(0.7, 1.5))
     t, wide = 0.006, 1.6 * r
     gap = r + t
@@ -126,7 +126,7 @@ def _coupler(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     slope = float(rng.choice([0.0, 0.0, 0.5, -0.7]))
     slope = float(np.sign(slope)) * min(abs(slope), float(np.arctan(0.6 * high / span)))
     posts = [0.0, span]
-    wall = 0.0032 if hand.hollow else r
+    wall = 0.0032 if style.hollow else r
     for x in posts:
         parts.append(framed(moved(ring(r - wall, r, 0.006, high, n), at(x)), "post"))
         parts.append(framed(box((5 * r, 5 * r, 0.006), (x, 0, 0.003)), "base plate"))
@@ -160,7 +160,7 @@ def _coupler(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         )
         parts.append(
             framed(
-                bar(a, b, circle(r, n), (circle(r - wall, n),) if hand.hollow else ()),
+                bar(a, b, circle(r, n), (circle(r - wall, n),) if style.hollow else ()),
                 str(rng.choice(["beam", "railing"])) if not slope else "brace",
             )
         )
@@ -234,10 +234,10 @@ def _cleat_solids(kind: int, q: float, wide: float) -> tuple[list[Solid], list[f
     return solids, spots, grip
 
 
-def _cleat(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _cleat(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Cables in cleats (IEC 61914) on a ladder or struts: trefoil of sheet, blocks, straps."""
     q = float(rng.uniform(0.012, 0.032))
-    n = few(q, hand, 20)
+    n = few(q, style, 20)
     length, pitch, high = float(rng.uniform(1.0, 2.2)), float(rng.uniform(0.3, 0.5)), float(rng.uniform(0.3, 1.2))
     kind = int(rng.integers(3))
     parts: list[Part] = []
@@ -273,7 +273,7 @@ def _cleat(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                     )
                 )
             for y in spots:
-                parts += bolt_parts(0.006, grip, at(float(x), y0 + y, top), hand, "clamp", "none")
+                parts += bolt_parts(0.006, grip, at(float(x), y0 + y, top), style, "clamp", "none")
     for s in (-1, 1):
         rail = box((length, 0.004, 0.06), (0, middle + s * (half + 0.002), top - 0.02))
         parts.append(framed(rail, "beam", "clamp"))
@@ -284,7 +284,7 @@ def _cleat(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _girder(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _girder(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Two beams that cross, held by clamp jaws and bolts with a plate between them, nothing drilled or welded."""
     h, b = float(rng.choice([0.12, 0.16, 0.2])), float(rng.choice([0.1, 0.14]))
     web, f = 0.006, 0.01
@@ -335,7 +335,7 @@ def _girder(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 mirror = np.diag([1.0, 1.0, way, 1.0])
                 parts.append(piece(moved(jaw, at(sx * q, sy * q, level) @ turn @ mirror), "clamp", "clamp"))
             raise_ = {0: 0.8, 1: 0.5, 2: 0.7}[form] * d
-            parts += bolt_parts(d, grip + 2 * raise_, at(sx * q, sy * q, low - raise_), hand, "clamp")
+            parts += bolt_parts(d, grip + 2 * raise_, at(sx * q, sy * q, low - raise_), style, "clamp")
     for s in (-1, 1):
         x = s * (length / 2 - 0.08)
         parts.append(framed(box((0.1, b, z), (x, 0, z / 2)), str(rng.choice(["post", "column", "foundation"]))))

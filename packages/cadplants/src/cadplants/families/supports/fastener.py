@@ -10,7 +10,7 @@ from cadgraph.model.scene import Floats
 from cadplants.families.supports.shape import GROUP, eye, few, framed, piece, upright
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle, section_channel, section_i
 from cadplants.primitives import around, bar, box, cylinder, dome, hexagon, ring, rope, turned
 from cadplants.transforms import arc, at, spun
@@ -21,10 +21,10 @@ _D = (0.008, 0.01, 0.012, 0.016, 0.02, 0.024, 0.03)  # m, ISO 261 coarse threads
 _Named = tuple[str, Solid]
 
 
-def _shank(d: float, low: float, high: float, hand: Hand, rng: np.random.Generator) -> Solid:
-    """A plain shank, or one with ridges for a thread on its lower part where the hand models every piece."""
-    n = few(d / 2, hand)
-    ridged = hand.fasteners == "pieces" and rng.random() < 0.5
+def _shank(d: float, low: float, high: float, style: ModelingStyle, rng: np.random.Generator) -> Solid:
+    """A plain shank, or one with ridges for a thread on its lower part where the style models every piece."""
+    n = few(d / 2, style)
+    ridged = style.fasteners == "pieces" and rng.random() < 0.5
     if not ridged or high - low < 1.2 * d:
         return cylinder(d / 2, low, high, n)
     pitch, end = 0.16 * d, low + 0.7 * (high - low)
@@ -42,9 +42,9 @@ def _wings(d: float, low: float, span: float, high: float) -> Solid:
     return merge(ears)
 
 
-def nut_solid(kind: str, d: float, hand: Hand) -> Solid:
+def nut_solid(kind: str, d: float, style: ModelingStyle) -> Solid:
     """A nut on z = 0 with its thread about z [m]; proportions of ISO 4032, DIN 1587, 315, 557, 935, 6334, 466."""
-    n, bore = few(d / 2, hand), d / 2
+    n, bore = few(d / 2, style), d / 2
     if kind == "square":
         return extrude(rounded_rectangle(1.6 * d, 1.6 * d, 0), 0, 0.75 * d, (circle(bore, n),))
     if kind == "cap":
@@ -66,7 +66,7 @@ def nut_solid(kind: str, d: float, hand: Hand) -> Solid:
     if kind == "knurled":
         return merge([extrude(circle(1.3 * d, 20), 0.45 * d, 1.1 * d), cylinder(0.75 * d, 0, 0.5 * d, max(8, n))])
     if kind == "eye":
-        loop = moved(eye(1.1 * d, 0.35 * d, hand), at(0, 0, 1.9 * d))
+        loop = moved(eye(1.1 * d, 0.35 * d, style), at(0, 0, 1.9 * d))
         return merge([turned([(1.0 * d, 0), (0.9 * d, 0.5 * d), (0.6 * d, 0.9 * d)], max(8, n)), loop])
     if kind == "star":
         lobes = around(cylinder(0.55 * d, 0.5 * d, 1.4 * d, 8), 5, 1.1 * d)
@@ -77,9 +77,9 @@ def nut_solid(kind: str, d: float, hand: Hand) -> Solid:
 _NUTS = ("hex", "square", "cap", "wing", "castle", "lock", "jam", "flange", "coupling", "knurled", "eye", "star")
 
 
-def head_solid(kind: str, d: float, hand: Hand) -> Solid:
+def head_solid(kind: str, d: float, style: ModelingStyle) -> Solid:
     """A head on z = 0 over its shank [m] (ISO 4014, 4762, 7380, 10642, EN 1665, DIN 603, 261, 464, 444)."""
-    n = max(8, few(d / 2, hand))
+    n = max(8, few(d / 2, style))
     if kind == "square":
         return box((1.5 * d, 1.5 * d, 0.7 * d), (0, 0, 0.35 * d))
     if kind == "carriage":
@@ -111,7 +111,7 @@ def head_solid(kind: str, d: float, hand: Hand) -> Solid:
     if kind == "tee":
         return box((3.0 * d, 1.1 * d, 0.7 * d), (0, 0, 0.35 * d))
     if kind == "eye":
-        return merge([cylinder(0.9 * d, 0, 0.25 * d, n), moved(eye(1.0 * d, 0.35 * d, hand), at(0, 0, 1.45 * d))])
+        return merge([cylinder(0.9 * d, 0, 0.25 * d, n), moved(eye(1.0 * d, 0.35 * d, style), at(0, 0, 1.45 * d))])
     if kind == "ring":
         hole = circle(0.5 * d, n, (0, 1.0 * d))
         plate = upright(circle(1.0 * d, 2 * n, (0, 1.0 * d)), -0.45 * d, 0.45 * d, (hole,))
@@ -127,7 +127,7 @@ def _emit(named: Sequence[_Named], pose: Floats) -> list[Part]:
     return [piece(moved(solid, pose), name, "", "fastener") for name, solid in named]
 
 
-def _nuts(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _nuts(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Studs through a plate, a flat bar or a cover with all kinds of nuts on them, with washers or without."""
     d = float(rng.choice(_D))
     kinds = [str(k) for k in rng.permutation(_NUTS)[: int(rng.integers(4, 9))]]
@@ -139,11 +139,11 @@ def _nuts(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     for k, kind in enumerate(kinds):
         pose = at((k % columns) * pitch, (k // columns) * pitch, t + up) @ spun("z", float(rng.uniform(0, 6)))
         flat = 0.16 * d if rng.random() < 0.6 else 0.0
-        named: list[_Named] = [("nut", moved(nut_solid(kind, d, hand), at(0, 0, flat)))]
+        named: list[_Named] = [("nut", moved(nut_solid(kind, d, style), at(0, 0, flat)))]
         if flat:
-            named.append(("washer", ring(0.54 * d, d * float(rng.uniform(1.0, 1.6)), 0, flat, max(8, few(d, hand)))))
+            named.append(("washer", ring(0.54 * d, d * float(rng.uniform(1.0, 1.6)), 0, flat, max(8, few(d, style)))))
         over = {"coupling": 2.5 * d, "cap": 0.7 * d, "eye": 0.6 * d}.get(kind, d * float(rng.uniform(1.2, 3.5)))
-        named.append(("stud", _shank(d, -t - (0.9 * up), flat + over, hand, rng)))
+        named.append(("stud", _shank(d, -t - (0.9 * up), flat + over, style, rng)))
         parts += _emit(named, pose)
     size = ((columns + 0.0) * pitch, rows * pitch, t)
     middle = ((columns - 1) * pitch / 2, (rows - 1) * pitch / 2, up + t / 2)
@@ -157,7 +157,7 @@ def _nuts(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _screws(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _screws(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Screws and bolts with all kinds of heads in two plates that they join, some half screwed in, some lying by."""
     d = float(rng.choice(_D))
     heads = [*_SCREWS, *_BOLTS]
@@ -169,8 +169,8 @@ def _screws(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         name = "screw" if kind in _SCREWS else "bolt"
         out = float(rng.choice([0.0, 0.0, 1.2])) * d
         grip = float(rng.uniform(2.2, 4.0)) * d
-        shank = _shank(d, -grip, 0.0, hand, rng)
-        solid = merge([head_solid(kind, d, hand), shank])
+        shank = _shank(d, -grip, 0.0, style, rng)
+        solid = merge([head_solid(kind, d, style), shank])
         if rng.random() < 0.25:  # lies on the floor before the plates
             reach = max(1.5 * d, float(-solid.vertices[:, 0].min()))
             lying = moved(solid, at(k * pitch, -4.2 * d, reach) @ spun("x", 0.5 * np.pi))
@@ -180,7 +180,7 @@ def _screws(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             pose = at(k * pitch, 0, low + 2 * t + out) @ spun("z", float(rng.uniform(0, 6)))
             parts += _emit([(name, solid)], pose)
             if rng.random() < 0.4 and name == "bolt" and not out:
-                nut = moved(nut_solid(str(rng.choice(["hex", "square", "lock", "flange"])), d, hand), spun("x", np.pi))
+                nut = moved(nut_solid(str(rng.choice(["hex", "square", "lock", "flange"])), d, style), spun("x", np.pi))
                 parts += _emit([("nut", nut)], at(k * pitch, 0, low))
     n = len(kinds)
     for z in (low, low + t):
@@ -190,11 +190,11 @@ def _screws(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _washers(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _washers(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Bolts in the flange of a beam or channel over washers: flat, square, tapered, spring, toothed, cup, stacks."""
     d = float(rng.choice(_D[:5]))
     h = float(rng.uniform(7, 12)) * d
-    n = max(10, few(d, hand))
+    n = max(10, few(d, style))
     t = 0.8 * d
     span = 0.0
     parts: list[Part] = []
@@ -235,10 +235,10 @@ def _washers(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts += _emit([("washer", merge(solids))] if kind != "pack" else [("washer", s) for s in solids], pose)
         head = str(rng.choice(["hex", "hex", "square", "flange", "socket"]))
         name = "screw" if head == "socket" else "bolt"
-        shank = _shank(d, -t - 2.2 * d, high, hand, rng)
-        parts += _emit([(name, merge([shank, moved(head_solid(head, d, hand), at(0, 0, high))]))], pose)
+        shank = _shank(d, -t - 2.2 * d, high, style, rng)
+        parts += _emit([(name, merge([shank, moved(head_solid(head, d, style), at(0, 0, high))]))], pose)
         nut = moved(
-            nut_solid(str(rng.choice(["hex", "square", "lock", "jam"])), d, hand), at(0, 0, -t - w) @ spun("x", np.pi)
+            nut_solid(str(rng.choice(["hex", "square", "lock", "jam"])), d, style), at(0, 0, -t - w) @ spun("x", np.pi)
         )
         parts += _emit([("nut", nut), ("washer", ring(0.54 * d, d, -t - w, -t, n))], pose)
         span += 4.2 * d
@@ -253,9 +253,11 @@ def _washers(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _anchor(kind: int, d: float, deep: float, out: float, hand: Hand, rng: np.random.Generator) -> list[_Named]:
+def _anchor(
+    kind: int, d: float, deep: float, out: float, style: ModelingStyle, rng: np.random.Generator
+) -> list[_Named]:
     """An anchor about z: bent to a J or an L, with an end plate, glued in a sleeve, with a head at its foot [m]."""
-    n = few(d / 2, hand)
+    n = few(d / 2, style)
     bend = 2 * d
     if kind < 2:
         corner = arc((0, 0, bend), (0, 0, 0), (bend, 0, 0), 4)
@@ -271,11 +273,11 @@ def _anchor(kind: int, d: float, deep: float, out: float, hand: Hand, rng: np.ra
         solids = [
             ("bolt", cylinder(d / 2, 0, deep + out, n)),
             ("plate", plate),
-            ("nut", moved(nut_solid("hex", d, hand), at(0, 0, 0.5 * d))),
+            ("nut", moved(nut_solid("hex", d, style), at(0, 0, 0.5 * d))),
         ]
     elif kind == 3:
         solids = [
-            ("stud", _shank(d, 0.3 * deep, deep + out, hand, rng)),
+            ("stud", _shank(d, 0.3 * deep, deep + out, style, rng)),
             ("washer", ring(0.5 * d, 0.75 * d, 0.45 * deep, deep + 0.01 * d, n)),
         ]
     else:
@@ -283,7 +285,7 @@ def _anchor(kind: int, d: float, deep: float, out: float, hand: Hand, rng: np.ra
     return solids
 
 
-def _anchors(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _anchors(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Anchors in concrete: J, L, plate and U anchors, sleeve and chemical ones, with their nuts; some not yet cast."""
     d = float(rng.choice(_D[1:]))
     count, pitch = int(rng.integers(3, 6)), 9 * d
@@ -291,11 +293,11 @@ def _anchors(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     top = deep + 3 * d
     cast = bool(rng.random() < 0.55)
     parts: list[Part] = []
-    n = few(d / 2, hand)
+    n = few(d / 2, style)
     for k in range(count):
         kind = int(rng.integers(5))
         x = k * pitch
-        solids = _anchor(kind, d, deep, out, hand, rng)
+        solids = _anchor(kind, d, deep, out, style, rng)
         t = 0.2 * d
         flat = (
             box((2.6 * d, 2.6 * d, 0.4 * d), (0, 0, deep + t))
@@ -307,7 +309,7 @@ def _anchors(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             (
                 "nut",
                 moved(
-                    nut_solid(str(rng.choice(["hex", "hex", "square", "jam", "cap"])), d, hand), at(0, 0, deep + 2 * t)
+                    nut_solid(str(rng.choice(["hex", "hex", "square", "jam", "cap"])), d, style), at(0, 0, deep + 2 * t)
                 ),
             ),
         ]

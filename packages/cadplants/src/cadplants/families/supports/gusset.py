@@ -8,7 +8,7 @@ from cadgraph.model.scene import Floats
 from cadplants.families.supports.shape import GROUP, bolt_parts, framed, member, piece, slab_yz, upright
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
 from cadplants.primitives import bar, box, cylinder, hexagon, ring
 from cadplants.transforms import at, spun
@@ -37,7 +37,7 @@ def _hull(points: Floats) -> Floats:
     return np.array(chain(order) + chain(order[::-1]))
 
 
-def _node(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _node(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A truss node: a plate of many corners between double angles or on a tube, chord and two to four web members."""
     t, leg = float(rng.choice([0.008, 0.01, 0.012])), float(rng.choice([0.05, 0.06, 0.08]))
     high, span = float(rng.uniform(0.5, 1.2)), float(rng.uniform(0.7, 1.3))
@@ -61,7 +61,7 @@ def _node(_: int, hand: Hand, rng: np.random.Generator) -> Model:
 
     def pieces(a: Floats, b: Floats, name: str) -> None:
         if kind == 2:
-            thin, holes = circle(0.5 * leg, hand.round(0.5 * leg)), ()
+            thin, holes = circle(0.5 * leg, style.round(0.5 * leg)), ()
             parts.append(framed(bar(a, b, thin, holes), name))
             return
         for s in sides:
@@ -85,7 +85,7 @@ def _node(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 outer = t / 2 + 0.1 * leg
                 low = -outer if kind == 0 else -t / 2
                 pose = at(x, outer, z) @ spun("x", np.pi / 2)
-                parts += bolt_parts(d, outer - low, pose, hand, "", str(rng.choice(_HEADS)))
+                parts += bolt_parts(d, outer - low, pose, style, "", str(rng.choice(_HEADS)))
     plate = upright(_hull(np.array(corners)) + np.array([0.0, level]), -t / 2, t / 2)
     parts.insert(0, piece(plate, _G, "", "steel"))
     posts = [box((0.08, 0.08, level - 0.5 * leg), (s * 0.8 * span, 0, (level - 0.5 * leg) / 2)) for s in (-1, 1)]
@@ -93,7 +93,7 @@ def _node(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _corner(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _corner(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """The corner of a braced bay: column, beam, a gusset in between, a brace bolted on."""
     size = float(rng.choice([0.1, 0.14, 0.2]))
     tall, reach, t = (
@@ -103,7 +103,7 @@ def _corner(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
     column = extrude(section_i(size, size, 0.06 * size, 0.08 * size) @ np.array([[0.0, 1.0], [-1.0, 0.0]]), 0.02, tall)
     foot = box((size + 0.12, size + 0.12, 0.02), (0, 0, 0.01))
-    outline, holes = member(size, hand, rng, flat=True)
+    outline, holes = member(size, style, rng, flat=True)
     z = tall - size / 2 if rng.random() < 0.6 else 0.02 + size / 2
     up = 1.0 if z < 0.5 * tall else -1.0
     beam = bar((size / 2, 0, z), (reach, 0, z), outline, holes)
@@ -149,11 +149,11 @@ def _corner(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     low = -t / 2 - (0.01 if k == 2 else 0.0)
     for q in (0.02, 0.02 + 3 * d, 0.02 + 6 * d)[: int(rng.integers(2, 4))]:
         x, _, zz = mid + way * q
-        parts += bolt_parts(d, thick, at(x, low + thick, zz) @ spun("x", np.pi / 2), hand, "", str(rng.choice(_HEADS)))
+        parts += bolt_parts(d, thick, at(x, low + thick, zz) @ spun("x", np.pi / 2), style, "", str(rng.choice(_HEADS)))
     return Model(parts)
 
 
-def _haunch(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _haunch(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A moment joint: beam with a haunch, an end plate bolted to a column, web stiffeners in line with the flanges."""
     h = float(rng.choice([0.16, 0.2, 0.25]))
     b, web, f = float(rng.choice([0.5, 1.0])) * h, 0.04 * h, 0.06 * h
@@ -192,7 +192,7 @@ def _haunch(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     for q in np.linspace(low + 0.05, top - 0.045, count):
         for s in (-1, 1):
             pose = at(h / 2 - f, s * 0.3 * wide, float(q)) @ spun("y", np.pi / 2)
-            parts += bolt_parts(d, t + f, pose, hand, "", str(rng.choice(["hex", "flange"])))
+            parts += bolt_parts(d, t + f, pose, style, "", str(rng.choice(["hex", "flange"])))
     half = (max(b, 0.14) - web) / 2
     clip = 0.15 * half if rng.random() < 0.6 else 0.0
     w = (h - 2 * f) / 2
@@ -210,7 +210,7 @@ def _haunch(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _stiffened(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _stiffened(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A beam on two posts with web stiffeners: full, partial, clipped, triangular, over the posts and along it."""
     h = float(rng.choice([0.16, 0.2, 0.3]))
     b, web, f = float(rng.uniform(0.5, 0.9)) * h, 0.04 * h, 0.06 * h
@@ -241,7 +241,7 @@ def _stiffened(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         )
         parts.append(framed(box((size + 0.12, size + 0.12, 0.015), (x, 0, 0.0075)), "base plate"))
         for q in (-1, 1):
-            parts += bolt_parts(0.012, f + 0.012, at(x + q * (size / 2 + 0.012), q * 0.3 * b, top - h - 0.012), hand)
+            parts += bolt_parts(0.012, f + 0.012, at(x + q * (size / 2 + 0.012), q * 0.3 * b, top - h - 0.012), style)
     if rng.random() < 0.4:
         foot: list[list[float]] = [[0, 0], [0.05, 0], [0.0, 0.1]]
         for s in (-1, 1):
@@ -251,7 +251,7 @@ def _stiffened(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _splice(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _splice(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A beam or column splice: cover plates on flanges and web with rows of bolts, or end plates face to face."""
     h = float(rng.choice([0.16, 0.2, 0.25]))
     b, web, f = float(rng.uniform(0.6, 1.0)) * h, 0.04 * h, 0.06 * h
@@ -273,13 +273,13 @@ def _splice(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             for x in xs:
                 for y in (-0.32 * b, 0.32 * b):
                     pose = at(x, y, level + s * (h / 2 - f)) @ spun("x", 0.0 if s > 0 else np.pi)
-                    parts += bolt_parts(d, f + t, pose, hand, "", str(rng.choice(["hex", "flange"])))
+                    parts += bolt_parts(d, f + t, pose, style, "", str(rng.choice(["hex", "flange"])))
         tall = 0.7 * (h - 2 * f)
         for s in (-1, 1):
             parts.append(plate(box((long_ * 0.8, t, tall), (0, s * (web + t) / 2, level))))
         for x in xs[:: max(1, rows - 1)]:
             for z in (-0.3 * tall, 0.3 * tall):
-                parts += bolt_parts(d, web + 2 * t, at(x, web / 2 + t, level + z) @ spun("x", np.pi / 2), hand)
+                parts += bolt_parts(d, web + 2 * t, at(x, web / 2 + t, level + z) @ spun("x", np.pi / 2), style)
     else:
         thick = 0.016
         parts[0] = framed(bar((-half, 0, level), (-thick, 0, level), section), "beam")
@@ -287,7 +287,7 @@ def _splice(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts += [framed(box((thick, b + 0.02, h + 0.1), (s * thick / 2, 0, level)), "plate") for s in (-1, 1)]
         for y in (-0.32 * b, 0.32 * b):
             for z in (-h / 2 - 0.03, -h / 4, h / 4, h / 2 + 0.03):
-                parts += bolt_parts(d, 2 * thick, at(-thick, y, level + z) @ spun("y", np.pi / 2), hand)
+                parts += bolt_parts(d, 2 * thick, at(-thick, y, level + z) @ spun("y", np.pi / 2), style)
         for s in (-1, 1):
             for x in (-1, 1):
                 z0 = level + s * h / 2
@@ -299,10 +299,10 @@ def _splice(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _foot(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _foot(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A column foot: thick base plate on grout and a pedestal, ribs of many cuts, anchors with two nuts."""
     size, tall = float(rng.choice([0.1, 0.14, 0.2])), float(rng.uniform(0.7, 2.0))
-    outline, holes = member(size, hand, rng, flat=bool(rng.random() < 0.6))
+    outline, holes = member(size, style, rng, flat=bool(rng.random() < 0.6))
     side, t = size + float(rng.uniform(0.16, 0.3)), float(rng.choice([0.02, 0.03, 0.04]))
     low, grout = float(rng.choice([0.1, 0.2, 0.4])), float(rng.choice([0.0, 0.03, 0.05]))
     parts = [framed(box((side + 0.15, side + 0.15, low), (0, 0, low / 2)), "foundation", "concrete")]
@@ -362,7 +362,7 @@ def _foot(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 ("nut", hexagon(1.6 * d, 0.006, 0.006 + 0.85 * d, d / 2, 10)),
                 ("nut", hexagon(1.6 * d, 0.006 + 0.87 * d, 0.006 + 1.5 * d, d / 2, 10)),
             ]
-            if hand.fasteners != "pieces":
+            if style.fasteners != "pieces":
                 solids = [("bolt", merge([s for _, s in solids]))]
             parts += [piece(moved(s, pose), n, "", "fastener", True) for n, s in solids]
     return Model(parts)

@@ -8,7 +8,7 @@ from cadplants.families.supports.fastener import head_solid, nut_solid
 from cadplants.families.supports.shape import few, floor_family, framed, piece, strap, upright
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle, section_i
 from cadplants.primitives import along, bar, box, cylinder, dome, ring, rod
 from cadplants.transforms import at, spun
@@ -16,10 +16,10 @@ from cadplants.transforms import at, spun
 __all__ = ["JOINTS"]
 
 
-def _swing(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _swing(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A round cover on a neck held by swing bolts (DIN 444) in forked lugs, with wing, star, cap or hexagon nuts."""
     r, high = float(rng.uniform(0.1, 0.3)), float(rng.uniform(0.1, 0.4))
-    n = hand.round(r)
+    n = style.round(r)
     d, count = float(rng.choice([0.01, 0.012, 0.016])), int(rng.choice([4, 6, 8, 10]))
     t = 0.012
     neck = ring(r - 0.006, r, 0.0, high, n)
@@ -39,9 +39,9 @@ def _swing(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         forks = merge([box((2.4 * d + 0.022, 0.5 * d, 2.2 * d), (-0.011, s * 0.8 * d, low)) for s in (-1, 1)])
         ears = merge([box((2.2 * d, 0.5 * d, t), (-0.4 * d, s * 0.85 * d, high + t / 2)) for s in (-1, 1)])
         pin = along("y", cylinder(0.4 * d, -1.4 * d, 1.4 * d, 8), 0, 0, low)
-        head = moved(head_solid("ring", d, hand), at(0, 0, low - d))
+        head = moved(head_solid("ring", d, style), at(0, 0, low - d))
         shank = cylinder(
-            d / 2, low + 0.8 * d, high + t + 3.2 * d if nut not in ("cap",) else high + t + 0.8 * d, few(d / 2, hand)
+            d / 2, low + 0.8 * d, high + t + 3.2 * d if nut not in ("cap",) else high + t + 0.8 * d, few(d / 2, style)
         )
         parts += [
             piece(moved(forks, pose), "bracket", "", "steel"),
@@ -49,7 +49,7 @@ def _swing(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             piece(moved(pin, pose), "bolt", "", "fastener", True),
             piece(moved(merge([head, shank]), pose), "bolt", "", "fastener"),
             piece(
-                moved(nut_solid(nut, d, hand), pose @ at(0, 0, high + t + 0.002) @ spun("z", 0.3 * k)),
+                moved(nut_solid(nut, d, style), pose @ at(0, 0, high + t + 0.002) @ spun("z", 0.3 * k)),
                 "nut",
                 "",
                 "fastener",
@@ -59,7 +59,7 @@ def _swing(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(placed(parts, at(0, 0, 0.012)))
 
 
-def _slotted(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _slotted(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Struts with slots on a frame, plates and angles on them by hammer-head bolts, channel nuts and square washers."""
     s, t = 0.041, 0.0025
     length, count, d = float(rng.uniform(0.6, 1.6)), int(rng.integers(2, 5)), float(rng.choice([0.008, 0.01, 0.012]))
@@ -107,12 +107,12 @@ def _slotted(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 tee = merge(
                     [
                         box((0.5 * s, 2.2 * d, 0.6 * d), (0, 0, base - 0.3 * d)),
-                        cylinder(d / 2, base - 0.1 * d, high + ty + 2.4 * d, few(d / 2, hand)),
+                        cylinder(d / 2, base - 0.1 * d, high + ty + 2.4 * d, few(d / 2, style)),
                     ]
                 )
                 tee = moved(tee, spun("z", np.pi / 2))
                 nut = moved(
-                    nut_solid(str(rng.choice(["hex", "flange", "wing", "lock"])), d, hand), at(0, 0, high + ty + 0.002)
+                    nut_solid(str(rng.choice(["hex", "flange", "wing", "lock"])), d, style), at(0, 0, high + ty + 0.002)
                 )
                 named = [
                     ("bolt", tee),
@@ -126,10 +126,10 @@ def _slotted(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 bolt = merge(
                     [
                         moved(
-                            head_solid(str(rng.choice(["hex", "socket", "flange", "thumb"])), d, hand),
+                            head_solid(str(rng.choice(["hex", "socket", "flange", "thumb"])), d, style),
                             at(0, 0, high + ty),
                         ),
-                        cylinder(d / 2, base - 0.014, high + ty, few(d / 2, hand)),
+                        cylinder(d / 2, base - 0.014, high + ty, few(d / 2, style)),
                     ]
                 )
                 named = [("nut", moved(block, spun("z", np.pi / 2))), ("bolt", bolt)]
@@ -137,7 +137,7 @@ def _slotted(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(placed(parts, at(0, 0, 0.006)))
 
 
-def _tie_rods(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _tie_rods(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Crossed tension rods in a bay: fork ends with pins on gusset plates, turnbuckles or a ring where they meet."""
     w, h, size = float(rng.uniform(1.0, 2.4)), float(rng.uniform(1.0, 2.2)), float(rng.choice([0.1, 0.14]))
     d = float(rng.choice([0.012, 0.016, 0.02, 0.024]))
@@ -168,7 +168,7 @@ def _tie_rods(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 )
                 for q in (-1, 1)
             ]
-            neck = rod(hole + way * 2.4 * d, hole + way * 5.5 * d, 0.95 * d, few(d, hand))
+            neck = rod(hole + way * 2.4 * d, hole + way * 5.5 * d, 0.95 * d, few(d, style))
             parts.append(
                 piece(
                     merge([*cheeks, neck]),
@@ -178,11 +178,11 @@ def _tie_rods(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 )
             )
             pin = along(
-                "y", cylinder(0.5 * d, -t / 2 - 0.8 * d, t / 2 + 0.8 * d, few(d / 2, hand)), hole[0], 0, hole[2]
+                "y", cylinder(0.5 * d, -t / 2 - 0.8 * d, t / 2 + 0.8 * d, few(d / 2, style)), hole[0], 0, hole[2]
             )
             parts.append(piece(pin, "bolt", "", "fastener"))
             end = mid - way * ring_r
-            parts.append(framed(rod(hole + way * 5.0 * d, end, d / 2, few(d / 2, hand)), "brace"))
+            parts.append(framed(rod(hole + way * 5.0 * d, end, d / 2, few(d / 2, style)), "brace"))
             if ring_r:
                 parts.append(piece(rod(end + way * 1.2 * d, end - way * 0.4 * d, 0.95 * d, 6), "nut", "", "fastener"))
             elif rng.random() < 0.7 and sz < 0:
@@ -190,7 +190,7 @@ def _tie_rods(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 parts.append(piece(rod(a, a + way * 8 * d, 0.95 * d, 6), "nut", "", "fastener"))
     if ring_r:
         loop = along(
-            "y", ring(ring_r - 0.8 * d, ring_r, -0.9 * d, 0.9 * d, max(12, hand.round(ring_r))), mid[0], 0, mid[2]
+            "y", ring(ring_r - 0.8 * d, ring_r, -0.9 * d, 0.9 * d, max(12, style.round(ring_r))), mid[0], 0, mid[2]
         )
         parts.append(framed(loop, "plate"))
     return Model(parts)

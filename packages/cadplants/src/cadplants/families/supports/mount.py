@@ -18,7 +18,7 @@ from cadplants.families.supports.shape import (
 )
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import around, bar, box, cylinder, ring, turned
 from cadplants.transforms import at, spun
@@ -29,16 +29,16 @@ _B = "bracket"
 _SAFETY = "Electrical and safety"
 
 
-def _hinged(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _hinged(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Hinge brackets on a post, column or wall: leaf and strap hinges with pins, a door or gate."""
     high, wide = float(rng.uniform(0.8, 1.9)), float(rng.uniform(0.5, 1.0))
     pin, count = float(rng.choice([0.005, 0.008, 0.012])), int(rng.integers(2, 4))
-    n = few(pin, hand)
+    n = few(pin, style)
     size = float(rng.choice([0.06, 0.08, 0.1]))
     parts: list[Part] = []
     if rng.random() < 0.7:
-        foot, low = footing(size + 0.12, size, hand, rng)
-        outline, holes = member(size, hand, rng, flat=True)
+        foot, low = footing(size + 0.12, size, style, rng)
+        outline, holes = member(size, style, rng, flat=True)
         parts += [*foot, framed(extrude(outline, low, high + 0.15, holes), str(rng.choice(["post", "column"])))]
         edge = float(outline[:, 0].max())
     else:
@@ -76,7 +76,7 @@ def _hinged(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             piece(moved(bolt, at(x)), "bolt", "", "fastener", True),
         ]
         for q in (0.4, 0.85):
-            parts += screwed(0.006, t, x + 0.8 * knuckle + q * reach, t / 2, float(thirds[1]) + tall / 6, hand)
+            parts += screwed(0.006, t, x + 0.8 * knuckle + q * reach, t / 2, float(thirds[1]) + tall / 6, style)
     kind = int(rng.integers(3))
     z0, z1 = 0.08, high
     if kind == 0:
@@ -99,11 +99,11 @@ def _hinged(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _corner(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _corner(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A frame of square profiles with corner angles: cast with webs, bent plate, flat T and L plates, screwed on."""
     s = float(rng.choice([0.03, 0.04, 0.045, 0.06, 0.08]))
     w, h = float(rng.uniform(0.4, 1.0)), float(rng.uniform(0.4, 1.2))
-    hole = (circle(0.2 * s, 8),) if hand.holes else ()
+    hole = (circle(0.2 * s, 8),) if style.holes else ()
     square = rounded_rectangle(s, s, 0.08 * s, 1)
     parts: list[Part] = []
     feet = bool(rng.random() < 0.5)
@@ -138,19 +138,19 @@ def _corner(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             parts.append(piece(moved(solid, pose), _B, "", "clamp"))
             if kind < 2:
                 heads = [
-                    *bolt_parts(d, t, at(0.6 * leg, 0, 0), hand, "", "socket"),
-                    *bolt_parts(d, t, at(0, 0, 0.6 * leg) @ spun("y", np.pi / 2), hand, "", "socket"),
+                    *bolt_parts(d, t, at(0.6 * leg, 0, 0), style, "", "socket"),
+                    *bolt_parts(d, t, at(0, 0, 0.6 * leg) @ spun("y", np.pi / 2), style, "", "socket"),
                 ]
                 parts += placed([p for p in heads if p.name == "screw"], pose)
             elif kind == 3:
                 for q in ((0.65 * leg, -0.5 * s), (-0.5 * s, 0.65 * leg), (-0.5 * s, -0.5 * s)):
-                    one = bolt_parts(d, t, at(q[0], -s / 2, q[1]) @ spun("x", np.pi / 2), hand, "", "none")
+                    one = bolt_parts(d, t, at(q[0], -s / 2, q[1]) @ spun("x", np.pi / 2), style, "", "none")
                     parts += placed(one, pose)
     lift = 0.008 if feet else 0.0
     return Model(placed(parts, at(0, 0, lift)))
 
 
-def _feet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _feet(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Equipment on mounting feet: a vessel or a cabinet on angles, Z plates or rib feet."""
     size, high = float(rng.uniform(0.2, 0.6)), float(rng.uniform(0.3, 0.9))
     clear = float(rng.uniform(0.08, 0.4))
@@ -169,13 +169,13 @@ def _feet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     else:
         body = turned(
             [(0.3 * r, clear - 0.02), (r, clear + 0.08), (r, clear + high), (0.4 * r, clear + high + 0.4 * r)],
-            hand.round(r),
+            style.round(r),
         )
         parts.append(Part(body, str(rng.choice(["tank", "tank", "filter"])), "tank", "", "Tank"))
         if parts[-1].name == "filter":
             parts[-1] = Part(body, "filter", "tank", "", "Equipment")
         count = int(rng.integers(3, 5))
-        flat = r * float(np.cos(np.pi / hand.round(r)))  # the feet reach the sides of a coarse vessel too
+        flat = r * float(np.cos(np.pi / style.round(r)))  # the feet reach the sides of a coarse vessel too
         spots = [spun("z", 2 * np.pi * k / count) @ at(flat) for k in range(count)]
     tall = clear + float(rng.uniform(0.1, 0.25)) * high + 0.08
     form = int(rng.integers(3))
@@ -206,7 +206,7 @@ def _feet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     for pose in spots:
         parts.append(piece(moved(foot, pose), _B, "", "steel"))
         for q in (-0.25, 0.25) if form != 1 else (0.0,):
-            parts += placed(bolt_parts(0.01, t, at(far, q * wide, 0), hand, "", "none"), pose)
+            parts += placed(bolt_parts(0.01, t, at(far, q * wide, 0), style, "", "none"), pose)
     reach = 2 * (r + 2.2 * out) + 0.1
     if rng.random() < 0.5:
         slab = box((reach, reach, 0.1), (0, 0, -0.05))
@@ -214,16 +214,16 @@ def _feet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _lantern(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _lantern(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A mount between two flanged things: a bent plate with windows, a U of plate, four spacer posts, a cast cone."""
     r = float(rng.uniform(0.04, 0.12))
-    n = hand.round(r)
+    n = style.round(r)
     low, gap, t = float(rng.uniform(0.05, 0.2)), float(rng.uniform(1.0, 2.2)) * r, 0.06 * r + 0.003
     d = 0.12 * r + 0.002
     kind = int(rng.integers(4))
     base = [
         box((3.2 * r, 3.2 * r, low), (0, 0, low / 2)),
-        cylinder(0.3 * r, low - 0.001, low + gap, few(0.3 * r, hand)),
+        cylinder(0.3 * r, low - 0.001, low + gap, few(0.3 * r, style)),
     ]
     parts = [
         framed(base[0], str(rng.choice(["foundation", "plate"])), "concrete"),
@@ -274,7 +274,7 @@ def _lantern(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts.append(piece(solid, _B, "", "steel"))
     if kind in (0, 1):
         for x, y in spots if kind == 0 else [(0.0, 0.85 * r), (0.0, -0.85 * r), (0.85 * r, 0.0), (-0.85 * r, 0.0)]:
-            parts += bolt_parts(d, t, at(0.8 * x, 0.8 * y, z0), hand, "", "none")
+            parts += bolt_parts(d, t, at(0.8 * x, 0.8 * y, z0), style, "", "none")
     top = [
         turned([(1.05 * r, z1), (1.05 * r, z1 + 1.6 * r), (0.6 * r, z1 + 1.9 * r)], n),
         box((1.9 * r, 1.6 * r, 1.4 * r), (0, 0, z1 + 0.7 * r)),

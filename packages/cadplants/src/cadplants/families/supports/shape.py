@@ -9,7 +9,7 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.family import Build, Family, Part, placed
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved, sweep
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
 from cadplants.primitives import bar, box, cylinder, dome, hexagon, ring, rope, torus
 from cadplants.standards import SIZES
@@ -43,14 +43,14 @@ GROUP, FRAME = "Connection assembly", "Structural element"
 Point = Sequence[float]
 
 
-def coarse(hand: Hand) -> bool:
-    """Whether the hand makes one mesh of a support: then feet keep no bolts and ribs of their own."""
-    return hand.grain("structure") == "one"
+def coarse(style: ModelingStyle) -> bool:
+    """Whether the style makes one mesh of a support: then feet keep no bolts and ribs of their own."""
+    return style.grain("structure") == "one"
 
 
-def few(radius: float, hand: Hand, most: int = 12) -> int:
+def few(radius: float, style: ModelingStyle, most: int = 12) -> int:
     """Sides of a thin round bar."""
-    return int(np.clip(hand.round(radius), 6, most))
+    return int(np.clip(style.round(radius), 6, most))
 
 
 def piece(solid: Solid, name: str, bundle: str = "", color: str = "clamp", fine: bool = False) -> Part:
@@ -92,19 +92,19 @@ def arc_yz(radius: float, first: float, last: float, steps: int, y: float = 0.0,
     return np.column_stack([np.zeros(steps + 1), y + radius * np.cos(a), z + radius * np.sin(a)])
 
 
-def bow(leg: float, foot: float, thick: float, hand: Hand, other: float | None = None) -> Solid:
+def bow(leg: float, foot: float, thick: float, style: ModelingStyle, other: float | None = None) -> Solid:
     """A U of round bar over a line: half a circle of this radius and legs down to ``foot`` [m]."""
-    steps = max(6, few(leg, hand, 24) // 2)
+    steps = max(6, few(leg, style, 24) // 2)
     path = [[0, leg, foot], *arc_yz(leg, 0, np.pi, steps), [0, -leg, foot if other is None else other]]
-    return rope(path, thick, few(thick, hand))
+    return rope(path, thick, few(thick, style))
 
 
 def nut_parts(
-    spots: Sequence[Point], d: float, hand: Hand, bundle: str = "", washer: bool = True, twice: bool = False
+    spots: Sequence[Point], d: float, style: ModelingStyle, bundle: str = "", washer: bool = True, twice: bool = False
 ) -> list[Part]:
     """Nuts that press down from each spot: washer, nut (ISO 4032 proportions), maybe a lock nut behind it [m]."""
     parts = []
-    n = few(d, hand)
+    n = few(d, style)
     flat = 0.16 * d if washer else 0.0
     for spot in spots:
         pose = at(*spot) @ spun("x", np.pi)
@@ -120,7 +120,13 @@ def nut_parts(
 
 
 def bolt_parts(
-    d: float, grip: float, pose: Floats, hand: Hand, bundle: str = "", head: str = "hex", color: str = "fastener"
+    d: float,
+    grip: float,
+    pose: Floats,
+    style: ModelingStyle,
+    bundle: str = "",
+    head: str = "hex",
+    color: str = "fastener",
 ) -> list[Part]:
     """A bolt along z that clamps what lies between 0 and ``grip``; its head on top, its nut below [m].
 
@@ -128,13 +134,13 @@ def bolt_parts(
         d: diameter.
         grip: clamped thickness.
         pose: where z = 0 is its under side.
-        hand: one mesh, or bolt, nut, washers where it models every piece.
+        style: one mesh, or bolt, nut, washers where it models every piece.
         bundle: of the parts.
         head: ``hex`` (ISO 4014), ``stud``, ``socket`` (ISO 4762), ``carriage`` (ISO 8677), ``flange`` (EN 1665) or
             ``none`` (no nut either: a hex head only, screwed in).
         color: of the parts.
     """
-    n, flat = few(d, hand), 0.16 * d
+    n, flat = few(d, style), 0.16 * d
     shank = cylinder(d / 2, -1.35 * d if head != "none" else -0.2 * d, grip + 0.1 * d, n)
     nut = hexagon(1.55 * d, -flat - 0.85 * d, -flat, d / 2, n)
     tops = {
@@ -153,16 +159,18 @@ def bolt_parts(
         solids.append(("washer", ring(0.55 * d, d, grip, grip + flat, n)))
     if head == "stud":
         solids.append(("nut", hexagon(1.55 * d, grip + flat, grip + flat + 0.85 * d, d / 2, n)))
-    if hand.fasteners != "pieces":
+    if style.fasteners != "pieces":
         solids = [("bolt" if name == "stud" else name, merge([s for _, s in solids]))]
     return [Part(moved(s, pose), label, color, bundle, "", True) for label, s in solids]
 
 
-def member(size: float, hand: Hand, rng: np.random.Generator, flat: bool = False) -> tuple[Floats, tuple[Floats, ...]]:
+def member(
+    size: float, style: ModelingStyle, rng: np.random.Generator, flat: bool = False
+) -> tuple[Floats, tuple[Floats, ...]]:
     """The section of a bar this high (EN 10365, EN 10056, EN 10210 proportions), its top and bottom at +-size/2 [m]."""
     kind = int(rng.integers(4 if flat else 7))
     wall = 0.05 * size + 0.001
-    inner = (rounded_rectangle(size - 2 * wall, size - 2 * wall, wall, 2),) if hand.hollow else ()
+    inner = (rounded_rectangle(size - 2 * wall, size - 2 * wall, wall, 2),) if style.hollow else ()
     if kind == 0:
         return section_i(size, size, 0.05 * size, 0.08 * size), ()
     if kind == 1:
@@ -173,17 +181,17 @@ def member(size: float, hand: Hand, rng: np.random.Generator, flat: bool = False
         return rounded_rectangle(size, size, float(rng.choice([0.0, 2 * wall])), 3), inner
     if kind == 4:
         return np.array([1.0, -1.0]) * section_angle(size, 0.1 * size)[::-1] - (0.3 * size, -size / 2), ()
-    n = hand.round(size / 2)
+    n = style.round(size / 2)
     if kind == 5:
         # A corner on top, so that what lies on a coarse tube touches it.
-        bore = (circle(size / 2 - wall, n, phase=np.pi / 2),) if hand.hollow else ()
+        bore = (circle(size / 2 - wall, n, phase=np.pi / 2),) if style.hollow else ()
         return circle(size / 2, n, phase=np.pi / 2), bore
     strut = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (0.5 - 0.18, 0.5), (0.5 - 0.18, 0.32), (0.5 - 0.06, 0.32)]
     strut += [(0.44, -0.44), (-0.44, -0.44), (-0.44, 0.32), (-0.32, 0.32), (-0.32, 0.5), (-0.5, 0.5)]
     return size * np.array(strut), ()
 
 
-def footing(side: float, shaft: float, hand: Hand, rng: np.random.Generator) -> tuple[list[Part], float]:
+def footing(side: float, shaft: float, style: ModelingStyle, rng: np.random.Generator) -> tuple[list[Part], float]:
     """A base plate for a shaft of this width on z = 0, and its top [m]: square, round, slotted, stiffened, on grout."""
     parts: list[Part] = []
     thick = float(rng.choice([0.006, 0.01, 0.015, 0.02]))
@@ -194,20 +202,20 @@ def footing(side: float, shaft: float, hand: Hand, rng: np.random.Generator) -> 
     reach, hole = side / 2 - 0.02, float(rng.choice([0.006, 0.008, 0.01]))
     round_ = bool(rng.random() < 0.25)
     outline = (
-        circle(side / 2 * 1.1, max(12, hand.round(side / 2)))
+        circle(side / 2 * 1.1, max(12, style.round(side / 2)))
         if round_
         else rounded_rectangle(side, side, float(rng.choice([0.0, 0.01])), 3)
     )
     reach = 0.72 * reach if round_ else reach
     spots = [(sx * reach, sy * reach) for sx in (-1, 1) for sy in (-1, 1)]
     holes: tuple[Floats, ...] = ()
-    if hand.holes:
+    if style.holes:
         slot = rounded_rectangle(2 * hole, 3.4 * hole, 0.99 * hole, 3)
         oval = rng.random() < 0.3 and not round_
         holes = tuple(slot + s if oval else circle(hole, 8, s) for s in spots)
     parts.append(framed(extrude(outline, low, low + thick, holes), "base plate"))
     top = low + thick
-    if coarse(hand):
+    if coarse(style):
         return parts, top
     if rng.random() < 0.6:
         screw = merge([cylinder(0.9 * hole, -0.0, top + 3.2 * hole, 8), hexagon(3.0 * hole, top, top + 1.6 * hole)])
@@ -221,22 +229,24 @@ def footing(side: float, shaft: float, hand: Hand, rng: np.random.Generator) -> 
     return parts, top
 
 
-def _leg(x: float, y: float, low: float, high: float, size: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _leg(
+    x: float, y: float, low: float, high: float, size: float, style: ModelingStyle, rng: np.random.Generator
+) -> list[Part]:
     """A post or column between two heights with its foot."""
-    foot, top = footing(size + float(rng.uniform(0.06, 0.14)), size, hand, rng)
-    outline, holes = member(size, hand, rng, flat=bool(rng.random() < 0.7))
+    foot, top = footing(size + float(rng.uniform(0.06, 0.14)), size, style, rng)
+    outline, holes = member(size, style, rng, flat=bool(rng.random() < 0.7))
     shaft = moved(extrude(outline, low + top, high, holes), at(x, y))
     name = "column" if len(outline) == 12 else "post"
     return [framed(shaft, name), *placed(foot, at(x, y, low))]
 
 
-def _pair(y: float, low: float, high: float, size: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _pair(y: float, low: float, high: float, size: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """Two legs alike, left and right of the line."""
     seed = int(rng.integers(1 << 30))
-    return [p for s in (-1, 1) for p in _leg(0, s * y, low, high, size, hand, np.random.default_rng(seed))]
+    return [p for s in (-1, 1) for p in _leg(0, s * y, low, high, size, style, np.random.default_rng(seed))]
 
 
-def below(top: float, height: float, half: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def below(top: float, height: float, half: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """What a support stands on, from the floor at ``-height`` up to a level face at ``top``.
 
     A post with a head plate, a portal, a T, an arm off a column or a wall, a concrete block [m].
@@ -250,15 +260,15 @@ def below(top: float, height: float, half: float, hand: Hand, rng: np.random.Gen
     if kind == 1:
         thick = float(rng.choice([0.006, 0.01, 0.012]))
         head = box((max(0.1, size + 0.04), 2 * half + 0.06, thick), (0, 0, top - thick / 2))
-        return [framed(head, "plate"), *_leg(0, 0, low, top - thick, size, hand, rng)]
+        return [framed(head, "plate"), *_leg(0, 0, low, top - thick, size, style, rng)]
     span = half + float(rng.uniform(0.12, 0.5))
-    outline, holes = member(size, hand, rng)
+    outline, holes = member(size, style, rng)
     arm = bar((0, -span, top - size / 2), (0, span, top - size / 2), outline, holes)
     if kind == 2:
-        legs = _pair(span - size / 2, low, top - size, size, hand, rng)
+        legs = _pair(span - size / 2, low, top - size, size, style, rng)
         return [framed(arm, "beam"), *legs]
     if kind == 3:
-        return [framed(arm, "beam"), *_leg(0, 0, low, top - size, size, hand, rng)]
+        return [framed(arm, "beam"), *_leg(0, 0, low, top - size, size, style, rng)]
     y = span + 0.06
     if kind == 4:
         column = extrude(section_i(0.12, 0.12, 0.006, 0.009), low, top + float(rng.uniform(0.1, 0.8)))
@@ -271,26 +281,26 @@ def below(top: float, height: float, half: float, hand: Hand, rng: np.random.Gen
     return [framed(arm, "beam"), framed(plate, "plate"), framed(wall, "wall", "concrete")]
 
 
-def overhead(low: float, height: float, half: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def overhead(low: float, height: float, half: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """What a hanger hangs from: a beam with its under side at ``low``, along or across, alone or on legs [m]."""
     size = float(rng.choice([0.08, 0.1, 0.14, 0.18]))
-    outline, holes = member(size, hand, rng, flat=True)
+    outline, holes = member(size, style, rng, flat=True)
     span = half + float(rng.uniform(0.2, 0.6))
     along_ = rng.random() < 0.3 and half < 0.04
     a, b = ((-span, 0.0), (span, 0.0)) if along_ else ((0.0, -span), (0.0, span))
     parts = [framed(bar((*a, low + size / 2), (*b, low + size / 2), outline, holes), "beam")]
     kind = int(rng.integers(3)) if height < 3.0 else 0
     if kind == 1 and not along_:
-        parts += _pair(span - size / 2, -height, low, size, hand, rng)
+        parts += _pair(span - size / 2, -height, low, size, style, rng)
     elif kind == 2 and not along_:
         column = extrude(section_i(0.14, 0.14, 0.007, 0.01), -height, low + size + 0.02)
         parts.append(framed(moved(column, at(0, span + 0.07)), "column"))
     return parts
 
 
-def eye(radius: float, thick: float, hand: Hand) -> Solid:
+def eye(radius: float, thick: float, style: ModelingStyle) -> Solid:
     """A ring of round bar standing across y, about the origin [m]."""
-    return moved(torus(radius, thick, few(radius, hand, 20), few(thick, hand, 8)), spun("x", np.pi / 2))
+    return moved(torus(radius, thick, few(radius, style, 20), few(thick, style, 8)), spun("x", np.pi / 2))
 
 
 def carrier(name: str, build: object, sizes: tuple[int, ...] = SIZES, weight: float = 1.0) -> Family:
@@ -298,9 +308,11 @@ def carrier(name: str, build: object, sizes: tuple[int, ...] = SIZES, weight: fl
     return Family(name, "carrier", GROUP, name.split("/")[0], build, sizes, "structure", weight)  # type: ignore[arg-type]
 
 
-def screwed(d: float, grip: float, x: float, y: float, z: float, hand: Hand, head: str = "none") -> list[Part]:
+def screwed(
+    d: float, grip: float, x: float, y: float, z: float, style: ModelingStyle, head: str = "none"
+) -> list[Part]:
     """A bolt whose head shows towards -y, through a plate in front of ``y`` [m]."""
-    return bolt_parts(d, grip, at(x, y, z) @ spun("x", np.pi / 2), hand, "", head)
+    return bolt_parts(d, grip, at(x, y, z) @ spun("x", np.pi / 2), style, "", head)
 
 
 def floor_family(name: str, build: Build, whole: str, weight: float = 1.0) -> Family:

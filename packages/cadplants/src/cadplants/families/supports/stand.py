@@ -23,7 +23,7 @@ from cadplants.families.supports.shape import (
 )
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import section_i
 from cadplants.primitives import along, bar, box, cylinder, hexagon, ring, rope, turned
 from cadplants.standards import PIPES, SIZES
@@ -34,15 +34,15 @@ __all__ = ["STANDS", "tie"]
 _B = "bracket"
 
 
-def _cradle(r: float, thick: float, length: float, half_angle: float, hand: Hand) -> Solid:
+def _cradle(r: float, thick: float, length: float, half_angle: float, style: ModelingStyle) -> Solid:
     """A bent plate under a line, this far round on either side [m, rad]."""
-    steps = max(5, few(r, hand, 24) // 3)
+    steps = max(5, few(r, style, 24) // 3)
     a = np.linspace(1.5 * np.pi - half_angle, 1.5 * np.pi + half_angle, steps + 1)
     unit = np.column_stack([np.cos(a), np.sin(a)])
     return slab_yz(np.vstack([(r + thick) * unit, (r * unit)[::-1]]), -length / 2, length / 2)
 
 
-def tie(dn: int, grip: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def tie(dn: int, grip: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """What ties a line down on a level plate of this thickness under it: a U-bolt, a strap, nothing [m]."""
     r = PIPES[dn].radius
     kind = int(rng.integers(4))
@@ -53,28 +53,28 @@ def tie(dn: int, grip: float, hand: Hand, rng: np.random.Generator) -> list[Part
         leg = r + d / 2
         path = np.vstack([[[0, leg, -r - grip - 2.2 * d]], arc_yz(leg, 0, np.pi, 10), [[0, -leg, -r - grip - 2.2 * d]]])
         spots = [(0, s * leg, -r - grip) for s in (-1, 1)]
-        return [piece(rope(path, d / 2, few(d / 2, hand)), "u-bolt"), *nut_parts(spots, d, hand)]
+        return [piece(rope(path, d / 2, few(d / 2, style)), "u-bolt"), *nut_parts(spots, d, style)]
     t, ear = 0.003 + 0.01 * r, 0.03
     middle, floor = r + t / 2, -r + t / 2
     sides = [[0, middle + ear, floor], [0, middle, floor]]
     path = np.vstack([sides, arc_yz(middle, 0, np.pi, 10), [[0, -y, z] for _, y, z in sides[::-1]]])
     parts = [piece(strap(path, 0.03 + 0.1 * r, t), "clamp")]
     for s in (-1, 1):
-        parts += bolt_parts(0.008, t, at(0, s * (middle + 0.6 * ear), -r), hand, "", "none")
+        parts += bolt_parts(0.008, t, at(0, s * (middle + 0.6 * ear), -r), style, "", "none")
     return parts
 
 
-def _stanchion(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _stanchion(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """An adjustable pipe saddle (MSS SP-58 types 36 to 38): cradle, screw with nut, reducer, stanchion."""
     r = PIPES[dn].radius
-    n, thick, length = hand.round(r), 0.005 + 0.02 * r, 0.05 + 0.9 * r * float(rng.uniform(0.5, 1.2))
+    n, thick, length = style.round(r), 0.005 + 0.02 * r, 0.05 + 0.9 * r * float(rng.uniform(0.5, 1.2))
     low = -height
     free = height - r - thick
     stud, shaft = 0.010 + 0.1 * r, 0.022 + 0.2 * r
-    parts = [piece(_cradle(r, thick, length, float(rng.uniform(0.25, 0.5)) * np.pi, hand), _B, _B)]
+    parts = [piece(_cradle(r, thick, length, float(rng.uniform(0.25, 0.5)) * np.pi, style), _B, _B)]
     socket = turned(
         [(1.1 * stud, -r - thick - 2.2 * stud), (1.9 * stud, -r - thick - 2.2 * stud), (2.0 * stud, -r - 0.4 * thick)],
-        few(stud, hand),
+        few(stud, style),
     )
     parts.append(piece(socket, _B, _B))
     if rng.random() < 0.5:
@@ -82,16 +82,16 @@ def _stanchion(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> 
         leg = r + d / 2
         ends = -0.55 * r
         path = np.vstack([[[0, leg, ends - 2 * d]], arc_yz(leg, 0, np.pi, 10), [[0, -leg, ends - 2 * d]]])
-        parts.append(piece(rope(path, d / 2, few(d / 2, hand)), "u-bolt", _B))
+        parts.append(piece(rope(path, d / 2, few(d / 2, style)), "u-bolt", _B))
         lugs = [box((2.6 * d, 2.8 * d, 0.006), (0, s * (leg + 0.1 * d), ends - 0.003)) for s in (-1, 1)]
         parts.append(piece(merge(lugs), _B, _B))
-        parts += nut_parts([(0, s * leg, ends - 0.006) for s in (-1, 1)], d, hand, _B, False)
-    foot, top = footing(3.2 * shaft + 0.08, 2 * shaft, hand, rng)
+        parts += nut_parts([(0, s * leg, ends - 0.006) for s in (-1, 1)], d, style, _B, False)
+    foot, top = footing(3.2 * shaft + 0.08, 2 * shaft, style, rng)
     head = low + top + max(0.05, free * float(rng.uniform(0.4, 0.75)))
     neck = min(head + float(rng.uniform(0.02, 0.06)), -r - thick - 2.2 * stud)
-    parts.append(piece(cylinder(stud, head - 0.03, -r - thick - 1.5 * stud, few(stud, hand)), "stud", _B, "fastener"))
+    parts.append(piece(cylinder(stud, head - 0.03, -r - thick - 1.5 * stud, few(stud, style)), "stud", _B, "fastener"))
     parts.append(piece(hexagon(3.3 * stud, neck, neck + 1.2 * stud), "nut", _B, "fastener"))
-    tube = ring(0.85 * shaft if hand.hollow else 0.0, shaft, low + top, head, n)
+    tube = ring(0.85 * shaft if style.hollow else 0.0, shaft, low + top, head, n)
     collar = turned(
         [
             (1.0 * shaft, head - 0.3 * shaft),
@@ -105,7 +105,7 @@ def _stanchion(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> 
     return Model(parts)
 
 
-def _chair(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _chair(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """A roller chair (MSS SP-58 types 44 to 46): cheeks with an axle and one roll or two, on a plate or on studs."""
     r = PIPES[dn].radius
     waist, half = 0.014 + 0.2 * r, 0.75 * r + 0.006
@@ -116,7 +116,7 @@ def _chair(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mode
         q = (r + waist) * np.sqrt(0.5)
         z, length = -q, 2.5 * waist
         for s in (-1, 1):
-            roll = along("x", cylinder(waist, -length / 2, length / 2, hand.round(waist)), 0, s * q, z)
+            roll = along("x", cylinder(waist, -length / 2, length / 2, style.round(waist)), 0, s * q, z)
             pin = along(
                 "x", cylinder(0.3 * waist, -length / 2 - cheek - 0.006, length / 2 + cheek + 0.006, 8), 0, s * q, z
             )
@@ -134,7 +134,7 @@ def _chair(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mode
         side, deep = 2 * (q + 1.1 * waist), length + 2 * cheek
     else:
         z = -r - waist
-        parts.append(piece(moved(roller(half, r, waist, hand), at(0, 0, z)), _B, _B, "trim"))
+        parts.append(piece(moved(roller(half, r, waist, style), at(0, 0, z)), _B, _B, "trim"))
         out = half + 0.003
         pin = along("y", cylinder(0.35 * waist, -out - cheek - 0.008, out + cheek + 0.008, 8), 0, 0, z)
         parts.append(piece(pin, "bolt", _B, "fastener", True))
@@ -150,17 +150,17 @@ def _chair(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mode
     for x, y in spots:
         if gap:
             parts.append(piece(moved(cylinder(0.006, low - 0.01, floor + 0.015, 8), at(x, y)), "stud", _B, "fastener"))
-            parts += nut_parts([(x, y, floor - t)], 0.012, hand, _B, False)
-            parts += placed(nut_parts([(-x, y, -floor)], 0.012, hand, _B, False), spun("y", np.pi))
+            parts += nut_parts([(x, y, floor - t)], 0.012, style, _B, False)
+            parts += placed(nut_parts([(-x, y, -floor)], 0.012, style, _B, False), spun("y", np.pi))
         else:
-            parts += bolt_parts(0.01, t, at(x, y, floor - t), hand, _B, "none")
+            parts += bolt_parts(0.01, t, at(x, y, floor - t), style, _B, "none")
     if gap:
         parts.append(framed(box((deep + 0.04, side + 0.1, 0.01), (0, 0, low - 0.005)), "base plate"))
         low -= 0.01
-    return Model([*parts, *below(low, height, side / 2 + 0.05, hand, rng)])
+    return Model([*parts, *below(low, height, side / 2 + 0.05, style, rng)])
 
 
-def _guided(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _guided(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """A shoe of a split beam, a box or an H on a slide plate between guide angles with hold-down lips (EN 13480-3)."""
     r = PIPES[dn].radius
     tall, length, half = 0.06 + 0.35 * r, 0.15 + 0.7 * r, 0.035 + 0.55 * r
@@ -179,7 +179,7 @@ def _guided(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
         webs = [box((length, t, z - top), (0, s * 0.62 * r, (z + top) / 2)) for s in (-1, 1)]
         shoe = merge([*webs, box((length, 2 * half, t), (0, 0, top + t / 2))])
     else:  # an H with a bent pad
-        pad = _cradle(r, 0.006, length + 0.03, 0.3 * np.pi, hand)
+        pad = _cradle(r, 0.006, length + 0.03, 0.3 * np.pi, style)
         section = section_i(tall - 0.005, 2 * half, 0.006, t)
         web = bar((-length / 2, 0, top + (tall - 0.005) / 2), (length / 2, 0, top + (tall - 0.005) / 2), section)
         shoe = merge([web, pad])
@@ -206,27 +206,27 @@ def _guided(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
             solids.append(box((reach, 0.03, 0.008), (0, y - s * 0.007, base + slide + t + 0.008)))
         parts.append(piece(merge(solids), _B, "guide", "steel"))
         if rng.random() < 0.5:
-            parts += bolt_parts(0.01, 0.008 + thick, at(0, y + s * 0.035, base - thick), hand, "guide")
+            parts += bolt_parts(0.01, 0.008 + thick, at(0, y + s * 0.035, base - thick), style, "guide")
     parts = [p if p.bundle != "guide" else Part(p.solid, p.name, p.color, _B, "", p.fine) for p in parts]
-    return Model([*parts, *below(base - thick, height, side / 2, hand, rng)])
+    return Model([*parts, *below(base - thick, height, side / 2, style, rng)])
 
 
-def _trunnion(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _trunnion(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """A dummy leg: a stub of pipe or profile welded under the line, with a pad or ribs."""
     r = PIPES[dn].radius
     leg = r * float(rng.uniform(0.55, 0.85))
-    n = hand.round(leg)
-    foot, top = footing(2 * leg + 0.1, 2 * leg, hand, rng)
+    n = style.round(leg)
+    foot, top = footing(2 * leg + 0.1, 2 * leg, style, rng)
     low = -height + top
     up = -np.sqrt(r * r - leg * leg) * 0.98 - 0.002
     if rng.random() < 0.7:
-        stub = ring(0.88 * leg if hand.hollow else 0.0, leg, low, up, n)
+        stub = ring(0.88 * leg if style.hollow else 0.0, leg, low, up, n)
     else:
         stub = extrude(section_i(1.5 * leg, 1.5 * leg, 0.1 * leg, 0.14 * leg), low, -r + 0.004)
     parts = [framed(stub, str(rng.choice(["post", "post", "column"]))), *placed(foot, at(0, 0, -height))]
-    if coarse(hand) or rng.random() < 0.5:
+    if coarse(style) or rng.random() < 0.5:
         parts.append(
-            piece(_cradle(r, 0.005, 2.4 * leg + 0.03, 0.33 * np.pi, hand), str(rng.choice([_B, "clamp"])), "", "steel")
+            piece(_cradle(r, 0.005, 2.4 * leg + 0.03, 0.33 * np.pi, style), str(rng.choice([_B, "clamp"])), "", "steel")
         )
     if rng.random() < 0.4:
         t = 0.008
@@ -235,16 +235,16 @@ def _trunnion(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> M
     return Model(parts)
 
 
-def _knee(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _knee(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """A cantilever off a column with a knee brace or a web, end plates bolted on the flange."""
     r = PIPES[dn].radius
     size, depth = float(rng.choice([0.06, 0.08, 0.1])), 0.14
     reach = r + float(rng.uniform(0.12, 0.4))
     t = 0.01
-    outline, holes = member(size, hand, rng, flat=True)
+    outline, holes = member(size, style, rng, flat=True)
     z = -r - size / 2
     arm = bar((0, -r - 0.06, z), (0, reach, z), outline, holes)
-    parts: list[Part] = [piece(arm, _B, _B, "steel") if coarse(hand) or rng.random() < 0.6 else framed(arm, "beam")]
+    parts: list[Part] = [piece(arm, _B, _B, "steel") if coarse(style) or rng.random() < 0.6 else framed(arm, "beam")]
     tall = max(0.08, min(float(rng.uniform(0.15, 0.35)) + r, height - r - size - 0.06))
     low = -r - size - tall
     wide = 0.13
@@ -265,7 +265,7 @@ def _knee(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model
         web = slab_yz(shapes[int(rng.integers(3))], -0.005, 0.005)
         parts.append(piece(web, "gusset plate", _B, "steel"))
     else:
-        thin, gap = member(0.7 * size, hand, rng)
+        thin, gap = member(0.7 * size, style, rng)
         start, end = (0.0, reach + t, low + 0.35 * size), (0.0, -0.2 * r, -r - size - 0.2 * size)
         parts.append(framed(bar(start, end, thin, gap), "brace"))
     plates = [(-r + 0.03, -r - size - 0.03)] if rng.random() < 0.5 else [(-r + 0.03, low - 0.04)]
@@ -274,14 +274,14 @@ def _knee(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model
         for x in (-0.45, 0.45):
             for q in (high - 0.018, bottom + 0.018):
                 parts += bolt_parts(
-                    0.012, t + 0.01, at(x * (wide - 0.03), reach + t + 0.01, q) @ spun("x", np.pi / 2), hand, _B
+                    0.012, t + 0.01, at(x * (wide - 0.03), reach + t + 0.01, q) @ spun("x", np.pi / 2), style, _B
                 )
     column = extrude(section_i(depth, 0.15, 0.007, 0.01), -height, float(rng.uniform(0.1, 0.6)))
     parts.append(framed(moved(column, at(0, reach + t + depth / 2)), "column"))
-    return Model([*parts, *tie(dn, 0.008, hand, rng)])
+    return Model([*parts, *tie(dn, 0.008, style, rng)])
 
 
-def _ribbed(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _ribbed(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """An L of plate or casting with one or two triangular ribs, bolted on a wall or a column beside the line."""
     r = PIPES[dn].radius
     t, wide = float(rng.choice([0.006, 0.008, 0.012])), 0.05 + 0.4 * r + float(rng.uniform(0, 0.05))
@@ -313,14 +313,14 @@ def _ribbed(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
     for s in (-1, 1):
         for z in (top - t - 0.03, low + 0.025):
             x = s * 0.3 * wide if len(xs) == 1 else s * 0.22 * wide
-            parts += bolt_parts(d, t, at(x, reach, z) @ spun("x", np.pi / 2), hand, _B, "none")
+            parts += bolt_parts(d, t, at(x, reach, z) @ spun("x", np.pi / 2), style, _B, "none")
     if rng.random() < 0.5:
         wall = box((0.8, 0.2, height + 0.6), (0, reach + 0.1, (0.6 - height) / 2))
         parts.append(framed(wall, "wall", "concrete"))
     else:
         column = extrude(section_i(0.14, max(0.14, wide), 0.007, 0.01), -height, 0.4)
         parts.append(framed(moved(column, at(0, reach + 0.07)), "column"))
-    return Model([*parts, *tie(dn, t, hand, rng)])
+    return Model([*parts, *tie(dn, t, style, rng)])
 
 
 STANDS: tuple[Family, ...] = (

@@ -20,7 +20,7 @@ from cadplants.families.supports.shape import (
 )
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle, section_angle, section_channel, section_i
 from cadplants.primitives import along, bar, box, ring, rope
 from cadplants.standards import PIPES
@@ -36,7 +36,7 @@ def _rod(r: float, rng: np.random.Generator) -> float:
     return sizes[int(np.clip(k, 0, 6))]
 
 
-def _on_angle(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _on_angle(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """A round U-bolt (DIN 3570) through the level leg of an angle (EN 10056), with lock nuts above and below."""
     r = PIPES[dn].radius
     d = 2 * _rod(r, rng)
@@ -49,11 +49,11 @@ def _on_angle(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> M
     angle = angle[::-1] - (0.55 * side, 0)
     solid = bar((0, -reach, top), (0, reach, top), angle if rng.random() < 0.5 else (angle * (-1, 1))[::-1])
     foot = top - thick - d * float(rng.uniform(2.0, 4.0))
-    parts = [piece(bow(leg, foot, d / 2, hand), "u-bolt", "u-bolt")]
+    parts = [piece(bow(leg, foot, d / 2, style), "u-bolt", "u-bolt")]
     twice = bool(rng.random() < 0.4)
-    parts += nut_parts([(0, s * leg, top - thick) for s in (-1, 1)], d, hand, "u-bolt", rng.random() < 0.6, twice)
+    parts += nut_parts([(0, s * leg, top - thick) for s in (-1, 1)], d, style, "u-bolt", rng.random() < 0.6, twice)
     if rng.random() < 0.3:
-        upper = nut_parts([(0, s * leg, -top) for s in (-1, 1)], d, hand, "u-bolt", False)
+        upper = nut_parts([(0, s * leg, -top) for s in (-1, 1)], d, style, "u-bolt", False)
         parts += placed(upper, spun("x", np.pi))
     parts.append(framed(solid, str(rng.choice(["beam", "beam", "brace"]))))
     seed = int(rng.integers(1 << 30))
@@ -62,13 +62,13 @@ def _on_angle(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> M
         if s > 0 or rng.random() < 0.6:
             same = np.random.default_rng(seed)
             size = float(same.choice([0.05, 0.06, 0.08]))
-            foot_parts, up = footing(size + 0.08, size, hand, same)
+            foot_parts, up = footing(size + 0.08, size, style, same)
             post = extrude(rounded_rectangle(size, size, 0.004, 1), up - height, top - side)
             parts += [framed(moved(post, at(0.03, y)), "post"), *placed(foot_parts, at(0.03, y, -height))]
     return Model(parts)
 
 
-def _on_channel(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _on_channel(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """A U-bolt with four nuts over the back of a channel or through a strut, the line clear of it or on it."""
     r = PIPES[dn].radius
     d = 2 * _rod(r, rng)
@@ -77,16 +77,16 @@ def _on_channel(dn: int, hand: Hand, rng: np.random.Generator, height: float) ->
     wide = max(0.041, 3 * d)
     channel = section_channel(wide, deep, web, 0.006) @ np.array([[0.0, -1.0], [1.0, 0.0]])
     solid = bar((0, -reach, top), (0, reach, top), channel)
-    parts = [piece(bow(leg, top - web - 3.2 * d, d / 2, hand), "u-bolt", "u-bolt")]
-    parts += nut_parts([(0, s * leg, top - web) for s in (-1, 1)], d, hand, "u-bolt", True, rng.random() < 0.5)
+    parts = [piece(bow(leg, top - web - 3.2 * d, d / 2, style), "u-bolt", "u-bolt")]
+    parts += nut_parts([(0, s * leg, top - web) for s in (-1, 1)], d, style, "u-bolt", True, rng.random() < 0.5)
     if rng.random() < 0.6:
-        upper = nut_parts([(0, s * leg, -top) for s in (-1, 1)], d, hand, "u-bolt", False)
+        upper = nut_parts([(0, s * leg, -top) for s in (-1, 1)], d, style, "u-bolt", False)
         parts += placed(upper, spun("x", np.pi))
     parts.append(framed(solid, "beam"))
-    return Model([*parts, *below(top - deep, height, reach - 0.03, hand, rng)])
+    return Model([*parts, *below(top - deep, height, reach - 0.03, style, rng)])
 
 
-def _upright(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _upright(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """A U-bolt lying on its side that ties the line to a post, a column flange or a plate that stands beside it."""
     r = PIPES[dn].radius
     d = 2 * _rod(r, rng)
@@ -94,10 +94,10 @@ def _upright(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mo
     thick = float(rng.choice([0.006, 0.008, 0.01]))
     tall, wide = 2 * leg + 4 * d + float(rng.uniform(0.01, 0.08)), 0.05 + float(rng.uniform(0, 0.08))
     turn = spun("x", np.pi / 2)  # what hung down now points to +y
-    holes = tuple(circle(0.55 * d, 8, (0, s * leg)) for s in (-1, 1)) if hand.holes else ()
+    holes = tuple(circle(0.55 * d, 8, (0, s * leg)) for s in (-1, 1)) if style.holes else ()
     plate = extrude(rounded_rectangle(wide, tall, float(rng.choice([0.0, 0.01])), 2), -r - thick, -r, holes)
-    own = [piece(bow(leg, -r - thick - 2.5 * d, d / 2, hand), "u-bolt", "u-bolt")]
-    own += nut_parts([(0, s * leg, -r - thick) for s in (-1, 1)], d, hand, "u-bolt", rng.random() < 0.7)
+    own = [piece(bow(leg, -r - thick - 2.5 * d, d / 2, style), "u-bolt", "u-bolt")]
+    own += nut_parts([(0, s * leg, -r - thick) for s in (-1, 1)], d, style, "u-bolt", rng.random() < 0.7)
     kind = int(rng.integers(3))
     high = tall / 2 + float(rng.uniform(0.02, 0.6))
     size = 0.1
@@ -116,7 +116,7 @@ def _upright(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mo
     return Model([*parts, framed(wall, "wall", "concrete")])
 
 
-def _square(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _square(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """A square-bend U of round or flat bar as a guide over the line, with nuts or welded on, on a plate."""
     r = PIPES[dn].radius
     flat = bool(rng.random() < 0.4)
@@ -127,11 +127,11 @@ def _square(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
     foot = top if flat else top - thick - 2.5 * d
     corner = arc_yz(bend, 0, np.pi / 2, 3, leg - bend, crown - bend)
     path = np.vstack([[[0, leg, foot]], corner, (corner * (1, -1, 1))[::-1], [[0, -leg, foot]]])
-    body = strap(path, max(0.02, 2.5 * d), d) if flat else rope(path, d / 2, few(d / 2, hand))
+    body = strap(path, max(0.02, 2.5 * d), d) if flat else rope(path, d / 2, few(d / 2, style))
     side = 2 * leg + 5 * d + 0.02
     parts = [piece(body, "u-bolt", "u-bolt")]
     if not flat:
-        parts += nut_parts([(0, s * leg, top - thick) for s in (-1, 1)], d, hand, "u-bolt")
+        parts += nut_parts([(0, s * leg, top - thick) for s in (-1, 1)], d, style, "u-bolt")
     if rng.random() < 0.5:
         plate = box((max(0.06, 4 * d), side, thick), (0, 0, top - thick / 2))
         parts.append(framed(plate, "plate"))
@@ -139,15 +139,15 @@ def _square(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
         if gap:
             rib = [box((0.008, 2 * leg - 3 * d, gap), (x, 0, top - thick - gap / 2)) for x in (-0.015, 0.015)]
             parts.append(piece(merge(rib), "bracket", "u-bolt", "steel"))
-        return Model([*parts, *below(top - thick - gap, height, leg + 2 * d, hand, rng)])
+        return Model([*parts, *below(top - thick - gap, height, leg + 2 * d, style, rng)])
     size = 0.06 + 2 * d
     reach = leg + 0.1
     channel = section_channel(size, size, thick, 0.006) @ np.array([[0.0, -1.0], [1.0, 0.0]])
     parts.append(framed(bar((0, -reach, top), (0, reach, top), channel), "beam"))
-    return Model([*parts, *below(top - size, height, leg, hand, rng)])
+    return Model([*parts, *below(top - size, height, leg, style, rng)])
 
 
-def _saddled(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _saddled(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """An exhaust-type clamp: a U-bolt with a cast V or round saddle bridge that presses the line on a post or mast."""
     r = PIPES[dn].radius
     d = 2 * _rod(r, rng)
@@ -166,18 +166,18 @@ def _saddled(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mo
     outline = [[brim, z], *hollow, [-brim, z], *lower]
     saddle = slab_yz(outline, -wide / 2, wide / 2)
     parts = [
-        piece(bow(leg, floor - 2.5 * d, d / 2, hand), "u-bolt", "u-bolt"),
+        piece(bow(leg, floor - 2.5 * d, d / 2, style), "u-bolt", "u-bolt"),
         piece(saddle, "clamp", "u-bolt", "steel"),
-        *nut_parts([(0, s * leg, floor) for s in (-1, 1)], d, hand, "u-bolt", rng.random() < 0.5),
+        *nut_parts([(0, s * leg, floor) for s in (-1, 1)], d, style, "u-bolt", rng.random() < 0.5),
     ]
     # The bridge is welded on a short plate, or two masts cross.
     neck = deep
     plate = box((0.8 * wide, 2 * (leg - 1.2 * d), neck), (0, 0, floor - neck / 2))
     parts.append(framed(plate, "plate"))
-    return Model([*parts, *below(floor - neck, height, leg, hand, rng)])
+    return Model([*parts, *below(floor - neck, height, leg, style, rng)])
 
 
-def _lined(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _lined(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """A light U-bolt in a plastic sleeve with a plastic pad under the line (low friction, cold or galvanic lines)."""
     r = PIPES[dn].radius
     d = 2 * _rod(r, rng)
@@ -185,11 +185,11 @@ def _lined(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mode
     leg = r + coat + d / 2
     pad = float(rng.uniform(0.004, 0.012))
     top, thick = -r - pad, 0.008
-    sleeve = bow(leg, -0.6 * r, d / 2 + coat, hand)
+    sleeve = bow(leg, -0.6 * r, d / 2 + coat, style)
     parts = [
-        piece(bow(leg, top - thick - 3 * d, d / 2, hand), "u-bolt", "u-bolt"),
+        piece(bow(leg, top - thick - 3 * d, d / 2, style), "u-bolt", "u-bolt"),
         piece(sleeve, str(rng.choice(["u-bolt", "clamp"])), "u-bolt", "rubber"),
-        *nut_parts([(0, s * leg, top - thick) for s in (-1, 1)], d, hand, "u-bolt", True, rng.random() < 0.5),
+        *nut_parts([(0, s * leg, top - thick) for s in (-1, 1)], d, style, "u-bolt", True, rng.random() < 0.5),
     ]
     wide = max(0.04, 3 * d)
     if rng.random() < 0.5:
@@ -204,10 +204,10 @@ def _lined(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mode
     reach, size = leg + float(rng.uniform(0.06, 0.2)), float(rng.choice([0.06, 0.08, 0.1]))
     outline = section_i(size, max(0.06, 5 * d), 0.005, thick)
     parts.append(framed(bar((0, -reach, top - size / 2), (0, reach, top - size / 2), outline), "beam"))
-    return Model([*parts, *below(top - size, height, leg, hand, rng)])
+    return Model([*parts, *below(top - size, height, leg, style, rng)])
 
 
-def _v_bolt(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _v_bolt(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """A V-bolt: straight flanks that run together to a round crown, through a plate or the flange of a beam."""
     r = PIPES[dn].radius
     d = 2 * _rod(r, rng)
@@ -221,34 +221,34 @@ def _v_bolt(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
     foot = top - thick - 2.5 * d
     path = np.vstack([[[0, leg, foot], knee], crown, [knee * (1, -1, 1), [0, -leg, foot]]])
     parts = [
-        piece(rope(path, d / 2, few(d / 2, hand)), "u-bolt", "u-bolt"),
-        *nut_parts([(0, s * leg, top - thick) for s in (-1, 1)], d, hand, "u-bolt", rng.random() < 0.7),
+        piece(rope(path, d / 2, few(d / 2, style)), "u-bolt", "u-bolt"),
+        *nut_parts([(0, s * leg, top - thick) for s in (-1, 1)], d, style, "u-bolt", rng.random() < 0.7),
     ]
     wide, size = max(0.05, 4 * d), 0.05 + 3 * d
     if rng.random() < 0.5:
         parts.append(framed(box((wide, 2 * leg + 5 * d, thick), (0, 0, top - thick / 2)), "plate"))
         web = box((0.008, 2 * leg - 4 * d, size), (0, 0, top - thick - size / 2))
         parts.append(piece(web, "bracket", "", "steel"))
-        return Model([*parts, *below(top - thick - size, height, leg, hand, rng)])
+        return Model([*parts, *below(top - thick - size, height, leg, style, rng)])
     beam = bar((0, -leg - 0.15, top - size / 2), (0, leg + 0.15, top - size / 2), section_i(size, wide, 0.006, thick))
-    return Model([*parts, framed(beam, "beam"), *below(top - size, height, leg, hand, rng)])
+    return Model([*parts, framed(beam, "beam"), *below(top - size, height, leg, style, rng)])
 
 
-def _j_bolt(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _j_bolt(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """Hook bolts: one J that grips the line with one nut, or a pair of them opposite, on an angle or a plate."""
     r = PIPES[dn].radius
     d = 2 * _rod(r, rng)
     leg, top, thick = r + d / 2, -r, float(rng.choice([0.006, 0.008]))
-    steps = max(6, few(leg, hand, 20) // 2)
+    steps = max(6, few(leg, style, 20) // 2)
     over = float(rng.uniform(0.75, 1.1)) * np.pi
     path = np.vstack([[[0, leg, top - thick - 2.6 * d]], arc_yz(leg, 0, over, steps)])
-    hook = rope(path, d / 2, few(d / 2, hand))
+    hook = rope(path, d / 2, few(d / 2, style))
     pair = bool(rng.random() < 0.4)
     shift = 1.5 * d if pair else 0.0
     solids = [moved(hook, at(shift)), *([moved(hook, at(-shift) @ spun("z", np.pi))] if pair else [])]
     parts: list[Part] = [piece(s, "u-bolt", "u-bolt") for s in solids]
     spots = [(shift, leg, top - thick), *([(-shift, -leg, top - thick)] if pair else [])]
-    parts += nut_parts(spots, d, hand, "u-bolt", True, rng.random() < 0.4)
+    parts += nut_parts(spots, d, style, "u-bolt", True, rng.random() < 0.4)
     size = float(rng.choice([0.05, 0.06, 0.075])) + d
     reach = leg + 3 * d + float(rng.uniform(0.02, 0.2))
     angle = (section_angle(size + 2 * shift, thick) @ np.diag([1.0, -1.0]))[::-1] - (0.5 * size + shift, 0)
@@ -257,10 +257,10 @@ def _j_bolt(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Mod
     if rng.random() < 0.5:  # welded on the front of a column
         column = extrude(section_i(0.12, 0.12, 0.006, 0.009), -height, top + 0.3)
         return Model([*parts, framed(moved(column, at(0, reach + 0.06)), "column")])
-    return Model([*parts, *below(top - deep, height, reach - 0.03, hand, rng)])
+    return Model([*parts, *below(top - deep, height, reach - 0.03, style, rng)])
 
 
-def _hung(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model:
+def _hung(dn: int, style: ModelingStyle, rng: np.random.Generator, height: float) -> Model:
     """A long U-bolt as a hanger: its bow under the line, its legs up through an angle, a channel or a flange above."""
     r = PIPES[dn].radius
     d = 2 * _rod(r, rng)
@@ -270,13 +270,13 @@ def _hung(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model
     flip = spun("x", np.pi)
     parts = placed(
         [
-            piece(bow(leg, -high - thick - 2.5 * d, d / 2, hand), "u-bolt", "u-bolt"),
-            *nut_parts([(0, s * leg, -high - thick) for s in (-1, 1)], d, hand, "u-bolt", True, rng.random() < 0.5),
+            piece(bow(leg, -high - thick - 2.5 * d, d / 2, style), "u-bolt", "u-bolt"),
+            *nut_parts([(0, s * leg, -high - thick) for s in (-1, 1)], d, style, "u-bolt", True, rng.random() < 0.5),
         ],
         flip,
     )
     if rng.random() < 0.4:
-        parts.append(piece(along("x", ring(r, r + 0.0015, -2 * d, 2 * d, max(12, hand.round(r)))), "clamp", "u-bolt"))
+        parts.append(piece(along("x", ring(r, r + 0.0015, -2 * d, 2 * d, max(12, style.round(r)))), "clamp", "u-bolt"))
     reach, size = leg + float(rng.uniform(0.1, 0.35)), 0.05 + 3 * d
     kind = int(rng.integers(3))
     if kind == 0:
@@ -288,7 +288,7 @@ def _hung(dn: int, hand: Hand, rng: np.random.Generator, height: float) -> Model
     parts.append(framed(bar((0, -reach, high), (0, reach, high), outline), "beam"))
     deep = float(outline[:, 1].max())
     if rng.random() < 0.5:
-        return Model([*parts, *overhead(high + deep, height, reach - 0.1, hand, rng)])
+        return Model([*parts, *overhead(high + deep, height, reach - 0.1, style, rng)])
     posts = [
         moved(extrude(rounded_rectangle(0.06, 0.06, 0.005, 2), -height, high), at(0, s * (reach - 0.03)))
         for s in (-1, 1)

@@ -8,7 +8,7 @@ from cadplants.families.chance import pick
 from cadplants.families.utilities.kit import FRAME, GROUP, JOINT, h_column, wall
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, rope, torus, turned
 from cadplants.transforms import at, spun
@@ -18,18 +18,18 @@ __all__ = ["FIRE"]
 _E = "fire extinguisher"
 
 
-def _bottle(r: float, h: float, hand: Hand) -> Solid:
+def _bottle(r: float, h: float, style: ModelingStyle) -> Solid:
     """A pressure bottle about z from 0: round foot, shoulder, neck up to ``h + 0.9 r``."""
     a = (0.4, 0.8, 1.2)
     shoulder = [(r * np.cos(t), h + 0.75 * r * np.sin(t)) for t in a]
     return turned(
         [(0.85 * r, 0.0), (r, 0.12 * r), (r, h), *shoulder, (0.3 * r, h + 0.75 * r), (0.3 * r, h + 0.9 * r)],
-        hand.round(r),
+        style.round(r),
     )
 
 
-def _horned(r: float, h: float, hand: Hand, rng: np.random.Generator, kind: str) -> list[Part]:
-    """A hand extinguisher about z from 0: with a horn (CO2), a side cartridge, or a gauge."""
+def _horned(r: float, h: float, style: ModelingStyle, rng: np.random.Generator, kind: str) -> list[Part]:
+    """A style extinguisher about z from 0: with a horn (CO2), a side cartridge, or a gauge."""
     top = h + 0.88 * r
     levers = [
         box((1.6 * r, 0.28 * r, 0.08 * r), (0.5 * r, 0, top + 0.55 * r)),
@@ -43,19 +43,19 @@ def _horned(r: float, h: float, hand: Hand, rng: np.random.Generator, kind: str)
             *levers,
         ]
     )
-    parts = [Part(_bottle(r, h, hand), _E, "handle", _E), Part(valve, _E, "trim", _E)]
+    parts = [Part(_bottle(r, h, style), _E, "handle", _E), Part(valve, _E, "trim", _E)]
     if kind == "horn":
         arm = rope(
             [(-0.2 * r, 0, top + 0.3 * r), (-1.0 * r, 0, top + 0.35 * r), (-1.5 * r, 0, top - 0.4 * r)], 0.12 * r, 8
         )
         horn = moved(
-            turned([(0.75 * r, -3.2 * r), (0.3 * r, -0.6 * r), (0.3 * r, 0.0), (0.15 * r, 0.02 * r)], hand.round(r)),
+            turned([(0.75 * r, -3.2 * r), (0.3 * r, -0.6 * r), (0.3 * r, 0.0), (0.15 * r, 0.02 * r)], style.round(r)),
             at(-1.75 * r, 0, top - 0.3 * r),
         )
         horn = moved(horn, at(-1.75 * r, 0, top) @ spun("y", 0.12) @ at(1.75 * r, 0, -top))
         return [*parts, Part(merge([arm, horn]), _E, "rubber", _E)]
     if kind == "cartridge":
-        side = moved(_bottle(0.3 * r, 0.45 * h, hand), at(1.28 * r, 0, 0.3 * h))
+        side = moved(_bottle(0.3 * r, 0.45 * h, style), at(1.28 * r, 0, 0.3 * h))
         band = [box((0.5 * r, 0.3 * r, 0.06 * r), (1.05 * r, 0, 0.35 * h + q * 0.3 * h)) for q in (0, 1)]
         parts.append(Part(merge([side, *band]), _E, "trim", _E))
     else:
@@ -70,12 +70,12 @@ def _horned(r: float, h: float, hand: Hand, rng: np.random.Generator, kind: str)
     return [*parts, Part(merge([hose, tip, clip]), _E, "rubber", _E)]
 
 
-def _kept(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _kept(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Hand extinguishers (EN 3): on a wall bracket, on a stand with a sign, in a cabinet, on the floor."""
     kind, place = pick(rng, "horn", "cartridge", "gauge"), pick(rng, "wall", "stand", "cabinet", "floor")
     r, h = float(rng.uniform(0.055, 0.09)), 0.0
     h = float(rng.uniform(3.8, 6.5)) * r
-    unit = _horned(r, h, hand, rng, kind)
+    unit = _horned(r, h, style, rng, kind)
     full = h + 2.0 * r
 
     def lifted(x: float, y: float, z: float) -> list[Part]:
@@ -88,7 +88,7 @@ def _kept(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         z = float(rng.uniform(0.4, 0.9))
         strap = merge(
             [
-                moved(ring(r, r + 0.003, 0, 0.02, hand.round(r)), at(0, -r - 0.02, z + 0.6 * h)),
+                moved(ring(r, r + 0.003, 0, 0.02, style.round(r)), at(0, -r - 0.02, z + 0.6 * h)),
                 box((0.06, 0.022, 0.2), (0, -0.011, z + 0.6 * h)),
             ]
         )
@@ -110,7 +110,7 @@ def _kept(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             ]
         )
     if place == "stand":
-        foot, n = 0.18, hand.round(0.18)
+        foot, n = 0.18, style.round(0.18)
         post = box((0.05, 0.02, full + 0.7), (0, r + 0.035, (full + 0.7) / 2 + 0.01))
         plate = moved(
             extrude(rounded_rectangle(0.3, 0.3, 0.02, 2), 0, 0.003),
@@ -145,14 +145,14 @@ def _kept(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([*inner, case, *([Part(pane, _E, "dial", _E)] if closed else []), wall(-0.6, 0.6, z + tall + 0.4)])
 
 
-def _wheeled(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _wheeled(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A wheeled extinguisher (EN 1866): one big bottle or two slim ones on a cart, a coiled hose."""
     r, two = float(rng.uniform(0.11, 0.17)), bool(rng.random() < 0.35)
     if two:
         r *= 0.75
     h, low = float(rng.uniform(4.0, 6.0)) * r, 0.06
     spots = (-1.15 * r, 1.15 * r) if two else (0.0,)
-    bottles = [moved(_bottle(r, h, hand), at(0, y, low)) for y in spots]
+    bottles = [moved(_bottle(r, h, style), at(0, y, low)) for y in spots]
     top = low + h + 0.88 * r
     valves = [
         moved(

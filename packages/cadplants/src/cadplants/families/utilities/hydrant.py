@@ -7,7 +7,7 @@ import numpy as np
 from cadplants.families.utilities.kit import FRAME, GROUP, JOINT, wall
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, ball, box, cylinder, dome, hexagon, rod, rope, torus, turned
 from cadplants.transforms import at, spun
@@ -17,10 +17,10 @@ __all__ = ["HYDRANTS"]
 _H = "hydrant"
 
 
-def _us_pillar(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _us_pillar(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A dry barrel hydrant (AWWA C502): break flange, barrel, bonnet with its nut, capped nozzles, chains."""
     r = float(rng.uniform(0.08, 0.12))
-    n, h, low = hand.round(r), float(rng.uniform(0.5, 0.8)), 0.08
+    n, h, low = style.round(r), float(rng.uniform(0.5, 0.8)), 0.08
     foot = merge([cylinder(1.15 * r, 0, low, n), cylinder(1.75 * r, low, low + 0.025, n)])
     flutes = (
         around(box((0.1 * r, 0.18 * r, 0.55 * h), (r, 0, low + 0.05 + 0.3 * h)), int(rng.choice([8, 12])))
@@ -96,10 +96,10 @@ def _us_pillar(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _standpipe(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _standpipe(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A standpipe with a double head, handwheels and claw caps, in a street box or on a flange."""
     r = float(rng.uniform(0.035, 0.055))
-    n, h = hand.round(r), float(rng.uniform(0.8, 1.2))
+    n, h = style.round(r), float(rng.uniform(0.8, 1.2))
     tube = merge(
         [
             cylinder(r, 0.03, h, n),
@@ -157,7 +157,7 @@ def _standpipe(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _cabinet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _cabinet(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A wall hydrant (EN 671): a cabinet with a reel or a flaked hose, an angle valve."""
     w, h, d, z = (
         float(rng.uniform(0.55, 0.8)),
@@ -227,10 +227,10 @@ def _cabinet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _monitor(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _monitor(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A fire monitor on its hydrant riser: swivels, bends, water or foam barrel, tiller or wheel."""
     r = float(rng.uniform(0.04, 0.07))
-    n, h = hand.round(r), float(rng.uniform(0.6, 1.1))
+    n, h = style.round(r), float(rng.uniform(0.6, 1.1))
     stem = merge(
         [
             cylinder(2.0 * r, 0, 0.022, n),

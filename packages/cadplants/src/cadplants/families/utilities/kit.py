@@ -9,7 +9,7 @@ import numpy as np
 from cadplants.families.chance import pick
 from cadplants.family import Part
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import section_channel, section_i
 from cadplants.primitives import box, cylinder, hexagon, rod
 from cadplants.transforms import at, spun
@@ -31,12 +31,12 @@ def h_column(height: float, size: float = 0.16) -> Part:
     return Part(moved(section, at(0, size / 2)), "column", "steel", "", FRAME)
 
 
-def pole(height: float, radius: float, hand: Hand, square: bool = False) -> list[Part]:
+def pole(height: float, radius: float, style: ModelingStyle, square: bool = False) -> list[Part]:
     """A post on a base plate with anchors."""
     shaft = (
         box((2 * radius, 2 * radius, height - 0.012), (0, 0, (height + 0.012) / 2))
         if square
-        else cylinder(radius, 0.012, height, hand.round(radius))
+        else cylinder(radius, 0.012, height, style.round(radius))
     )
     foot = 2 * radius + 0.12
     bolts = [
@@ -83,7 +83,7 @@ def several(solids: Sequence[Solid], name: str, color: str, group: str = "") -> 
     return [Part(s, name, color, "", group) for s in solids]
 
 
-def back(height: float, hand: Hand, rng: np.random.Generator, wide: float = 0.5) -> list[Part]:
+def back(height: float, style: ModelingStyle, rng: np.random.Generator, wide: float = 0.5) -> list[Part]:
     """What a thing whose back is at y = 0 is fixed to: a wall, a column or a post."""
     kind = pick(rng, "wall", "wall", "column", "post")
     if kind == "wall":
@@ -91,4 +91,4 @@ def back(height: float, hand: Hand, rng: np.random.Generator, wide: float = 0.5)
     if kind == "column":
         return [h_column(height, 0.2)]
     r = float(rng.uniform(0.03, 0.05))
-    return [Part(moved(p.solid, at(0, r)), p.name, p.color, "", p.group, p.fine) for p in pole(height, r, hand, True)]
+    return [Part(moved(p.solid, at(0, r)), p.name, p.color, "", p.group, p.fine) for p in pole(height, r, style, True)]

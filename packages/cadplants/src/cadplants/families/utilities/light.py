@@ -8,7 +8,7 @@ from cadplants.families.chance import pick
 from cadplants.families.utilities.kit import GROUP, JOINT, back, beam_over, h_column, hanger, pole, wall
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import about_x, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, rod, rope, torus, turned
 from cadplants.transforms import at, spun
@@ -18,10 +18,10 @@ __all__ = ["LIGHTS"]
 _L = "lamp"
 
 
-def _linear(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _linear(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Linear luminaires (waterproof, 0.6 to 1.5 m) end to end under a beam on rods, or slanting on a post's bracket."""
     long, w, t = float(rng.choice([0.6, 1.2, 1.5])), float(rng.uniform(0.08, 0.18)), float(rng.uniform(0.05, 0.1))
-    n = max(3, hand.round(0.05) // 4)
+    n = max(3, style.round(0.05) // 4)
     body = about_x(extrude(rounded_rectangle(w, 0.5 * t, 0.2 * t, 2) + np.array((0.0, 0.25 * t)), -long / 2, long / 2))
     a = np.linspace(np.pi, 2 * np.pi, n + 2)
     cover = about_x(
@@ -65,10 +65,10 @@ def _linear(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     arm = rope([(0, 0, z - 0.3), (0, -0.1, z + 0.1), (0, float(seat[1]), float(seat[2]) + 0.012)], 0.016, 8)
     foot = moved(box((0.1, 0.06, 0.012)), pose @ at(0, 0, 0.5 * t + 0.005))
     parts.append(Part(merge([arm, foot]), "bracket", "clamp", "", JOINT))
-    return Model([*parts, *pole(z, r, hand)])
+    return Model([*parts, *pole(z, r, style)])
 
 
-def _flood(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _flood(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Floodlights with fins and a yoke, one to four on a mast's crossbar, or one on a wall."""
     count = int(rng.choice([1, 2, 2, 3, 4]))
     z = float(rng.uniform(2.5, 5.0)) if count > 1 else float(rng.uniform(1.8, 3.0))
@@ -96,18 +96,20 @@ def _flood(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             Part(merge([rope(bow, 0.008, 6), pad]), _L, "clamp", _L),
         ]
     if count == 1:
-        return Model([*parts, *back(z + 0.4, hand, rng, 0.4)])
+        return Model([*parts, *back(z + 0.4, style, rng, 0.4)])
     bar = box((count * pitch, 0.06, 0.06), (0, 0.03, z))
     r = 0.05
-    mast = [Part(moved(p.solid, at(0, 0.06 + r)), p.name, p.color, "", p.group, p.fine) for p in pole(z + 0.2, r, hand)]
+    mast = [
+        Part(moved(p.solid, at(0, 0.06 + r)), p.name, p.color, "", p.group, p.fine) for p in pole(z + 0.2, r, style)
+    ]
     return Model([*parts, Part(bar, "bracket", "steel", "", JOINT), *mast])
 
 
-def _bulkhead(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _bulkhead(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A bulkhead light on a wall: oval or round with a cage or a hood, or a well glass on a bracket; conduit to it."""
     kind, z = pick(rng, "oval", "round", "well glass", "hood"), float(rng.uniform(1.8, 2.4))
     s, front = float(rng.uniform(0.07, 0.13)), spun("x", np.pi / 2)
-    n = hand.round(s)
+    n = style.round(s)
     conduit = Part(rod((0, -0.02, z + 0.8 * s), (0, -0.02, z + 0.7), 0.0107, 8), "conduit", "clamp")
     if kind == "well glass":
         y = -0.25
@@ -138,7 +140,7 @@ def _bulkhead(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         if rng.random() < 0.5:
             shade = turned([(2.2 * s, -0.05), (2.25 * s, -0.045), (0.6 * s, 0.045)], n)
             parts.append(Part(moved(shade, place), _L, "electrical", _L))
-        return Model([*parts, *back(z + 0.8, hand, rng)])
+        return Model([*parts, *back(z + 0.8, style, rng)])
     stretch = 1.6 if kind == "oval" else 1.0
     scale = np.diag([1.0, 1.0, stretch, 1.0])
     base_ = moved(merge([cylinder(s, 0, 0.04, n), cylinder(1.06 * s, 0.035, 0.05, n)]), front)
@@ -172,12 +174,12 @@ def _bulkhead(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([*parts, conduit, *([wall(-0.5, 0.5, z + 0.8)] if rng.random() < 0.6 else [h_column(z + 0.8, 0.24)])])
 
 
-def _high_bay(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _high_bay(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """High bay lights: a bell reflector or a finned LED disc with its gear, hung from a beam."""
     parts, count, high = [], int(rng.integers(1, 4)), float(rng.uniform(3.0, 4.5))
     kind = pick(rng, "bell", "disc")
     r, drop = float(rng.uniform(0.15, 0.28)), float(rng.uniform(0.2, 0.8))
-    n = hand.round(r)
+    n = style.round(r)
     for k in range(count):
         if kind == "bell":
             gear = turned([(0.3 * r, 0), (0.42 * r, 0.1 * r), (0.42 * r, 0.9 * r), (0.2 * r, 1.05 * r)], n)
@@ -224,7 +226,7 @@ def _high_bay(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([*parts, *beam_over(-0.6, 1.2 * count - 0.6, high)])
 
 
-def _tower(s: float, n: int, z: float, hand: Hand, rng: np.random.Generator) -> Model:
+def _tower(s: float, n: int, z: float, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Coloured lamps in a stack on a cabinet."""
     r, count = 0.03 * s, int(rng.integers(2, 6))
     solids, q = [cylinder(1.1 * r, 0, 0.03, n)], 0.03
@@ -254,7 +256,7 @@ def _tower(s: float, n: int, z: float, hand: Hand, rng: np.random.Generator) -> 
     )
 
 
-def _exit_light(s: float, n: int, z: float, hand: Hand, rng: np.random.Generator) -> Model:
+def _exit_light(s: float, n: int, z: float, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An exit or emergency light on a wall, maybe with two heads."""
     w, h = 0.3 * s, 0.15 * s
     body, face = box((w, 0.05, h), (0, -0.025, z)), box((0.95 * w, 0.006, 0.9 * h), (0, -0.053, z))
@@ -275,7 +277,7 @@ def _exit_light(s: float, n: int, z: float, hand: Hand, rng: np.random.Generator
     )
 
 
-def _flashing(s: float, n: int, z: float, hand: Hand, rng: np.random.Generator) -> Model:
+def _flashing(s: float, n: int, z: float, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A caged beacon on a bracket, maybe with a horn below."""
     r = 0.06 * s
     base_ = merge(
@@ -314,18 +316,18 @@ def _flashing(s: float, n: int, z: float, hand: Hand, rng: np.random.Generator) 
     parts = [Part(base_, _L, "electrical", _L), Part(glass, _L, "handle", _L), Part(merge(cage), _L, "clamp", _L)]
     if rng.random() < 0.6:
         parts.append(Part(merge([horn, pad]), _L, "handle", _L))
-    return Model([*parts, *back(z + 0.6, hand, rng)])
+    return Model([*parts, *back(z + 0.6, style, rng)])
 
 
-def _beacon(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _beacon(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Signal lamps: a beacon with a horn on a wall, a stack of coloured lamps on a stem, a traffic or exit light."""
     kind, s = pick(rng, "beacon", "stack", "exit"), float(rng.uniform(0.8, 1.4))
-    n, z = hand.round(0.05), float(rng.uniform(1.6, 2.4))
+    n, z = style.round(0.05), float(rng.uniform(1.6, 2.4))
     if kind == "stack":
-        return _tower(s, n, z, hand, rng)
+        return _tower(s, n, z, style, rng)
     if kind == "exit":
-        return _exit_light(s, n, z, hand, rng)
-    return _flashing(s, n, z, hand, rng)
+        return _exit_light(s, n, z, style, rng)
+    return _flashing(s, n, z, style, rng)
 
 
 LIGHTS: tuple[Family, ...] = tuple(

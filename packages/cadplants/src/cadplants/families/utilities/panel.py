@@ -8,7 +8,7 @@ from cadplants.families.chance import pick
 from cadplants.families.utilities.kit import FRAME, GROUP, JOINT, gland, h_column, pole, wall
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, rod, rope, torus, turned
 from cadplants.transforms import at, spun
@@ -24,7 +24,7 @@ def _lights(x: float, y: float, z: float, count: int, pitch: float) -> list[Soli
     return [along("-y", one, x + (k - (count - 1) / 2) * pitch, y, z) for k in range(count)]
 
 
-def _suite(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _suite(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A suite of cubicles on a plinth (IEC 61439): doors with swing handles, meters, vents, a roof, lifting eyes."""
     count, w, d, h = (
         int(rng.integers(2, 6)),
@@ -89,7 +89,7 @@ def _suite(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _wall_box(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _wall_box(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A wall box, maybe with a rain roof: one or two doors, hinges, main switch, lamps, glands and conduits below."""
     w, h, d = float(rng.uniform(0.25, 0.9)), float(rng.uniform(0.3, 1.1)), float(rng.uniform(0.15, 0.3))
     z = float(rng.uniform(0.9, 1.3))
@@ -111,8 +111,8 @@ def _wall_box(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         for q in (0.15, 0.85)
     ]
     bits += _lights(0, front, z + 0.8 * h, int(rng.integers(1, 5)), 0.05)
-    style = int(rng.integers(3))
-    if style == 0:
+    design = int(rng.integers(3))
+    if design == 0:
         bits.append(
             merge(
                 [
@@ -122,7 +122,7 @@ def _wall_box(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 ]
             )
         )
-    elif style == 1:
+    elif design == 1:
         bits.append(box((0.45 * w, 0.008, 0.3 * h), (0, front - 0.004, z + 0.5 * h)))
     else:
         bits += [box((0.4 * w, 0.012, 0.008), (0, front - 0.004, z + 0.12 * h + 0.02 * q)) for q in range(6)]
@@ -165,10 +165,10 @@ def _wall_box(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _console(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _console(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A console: desk with sloping top and upright back in one to three bays, or a pedestal with a screen on an arm."""
     if rng.random() < 0.35:
-        w, z, n = float(rng.uniform(0.3, 0.6)), float(rng.uniform(1.0, 1.3)), hand.round(0.04)
+        w, z, n = float(rng.uniform(0.3, 0.6)), float(rng.uniform(1.0, 1.3)), style.round(0.04)
         tilt = float(rng.uniform(0.2, 0.7))
         head = merge(
             [
@@ -179,7 +179,7 @@ def _console(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         )
         mast = [
             cylinder(0.03, 0.02, z, n),
-            cylinder(0.2, 0, 0.02, hand.round(0.2)),
+            cylinder(0.2, 0, 0.02, style.round(0.2)),
             box((0.06, 0.08, 0.1), (0, -0.02, z + 0.03)),
         ]
         return Model(
@@ -226,7 +226,7 @@ def _console(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _buttons(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _buttons(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A local station: push buttons, an emergency stop, or an isolator with its handle; on a post or a wall."""
     kind, z = pick(rng, "buttons", "stop", "isolator", "pendant"), float(rng.uniform(1.0, 1.4))
     count = 1 if kind in ("stop", "isolator") else int(rng.integers(2, 5))
@@ -295,7 +295,7 @@ def _buttons(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 *parts,
                 *(
                     Part(moved(p.solid, at(0, 0.029)), p.name, p.color, "", p.group, p.fine)
-                    for p in pole(z + h, 0.025, hand, True)
+                    for p in pole(z + h, 0.025, style, True)
                 ),
             ]
         )
@@ -303,7 +303,7 @@ def _buttons(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([*parts, column])
 
 
-def _ex_box(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _ex_box(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Terminal boxes on a frame or wall: flameproof with a bolted lid, round with hubs, plastic with lid screws."""
     parts, x = [], 0.0
     z = float(rng.uniform(1.0, 1.5))
@@ -311,7 +311,7 @@ def _ex_box(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         kind, s = pick(rng, "flameproof", "hubs", "plastic", "pull", "dome"), float(rng.uniform(0.1, 0.26))
         deep = float(rng.uniform(0.5, 0.8)) * s
         x += s
-        parts += [Part(moved(p, at(x, -0.02, z)), _JB, c, _JB) for p, c in _box_of(kind, s, deep, hand, rng)]
+        parts += [Part(moved(p, at(x, -0.02, z)), _JB, c, _JB) for p, c in _box_of(kind, s, deep, style, rng)]
         feet = [
             box((0.03, 0.03, 0.02), (x + sx * 0.3 * s, -0.01, z + sz * 0.3 * s)) for sx in (-1, 1) for sz in (-1, 1)
         ]
@@ -331,9 +331,11 @@ def _ex_box(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([*parts, *posts, *rails])
 
 
-def _box_of(kind: str, s: float, deep: float, hand: Hand, rng: np.random.Generator) -> list[tuple[Solid, str]]:
+def _box_of(
+    kind: str, s: float, deep: float, style: ModelingStyle, rng: np.random.Generator
+) -> list[tuple[Solid, str]]:
     """A box about (x, z) whose back is at y = 0 and whose lid looks to -y; glands below or hubs around."""
-    front, n = spun("x", np.pi / 2), hand.round(s / 2)
+    front, n = spun("x", np.pi / 2), style.round(s / 2)
     g = moved(gland(0.045 * s), at(0, -deep / 2, -s / 2))
     if kind == "hubs":
         drum = turned(

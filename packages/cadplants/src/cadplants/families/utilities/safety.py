@@ -6,7 +6,7 @@ import numpy as np
 
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, extrude, lattice, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned
 from cadplants.transforms import at, spun
@@ -16,10 +16,10 @@ __all__ = ["SAFETY"]
 _GROUP = "Electrical and safety"
 
 
-def _post(h: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _post(h: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     r = float(rng.uniform(0.02, 0.04))
     pole = (
-        cylinder(r, 0.01, h, max(6, hand.round(r)))
+        cylinder(r, 0.01, h, max(6, style.round(r)))
         if rng.random() < 0.6
         else box((2 * r, 2 * r, h - 0.01), (0, 0, (h + 0.01) / 2))
     )
@@ -30,7 +30,7 @@ def _post(h: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
     ]
 
 
-def _tray(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _tray(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A cable tray (IEC 61537): ladder, perforated or wire basket, on posts, with cables in it."""
     length, w, side, z = (
         float(rng.uniform(1.5, 4.0)),
@@ -87,7 +87,7 @@ def _tray(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         r = float(rng.uniform(0.005, 0.016))
         y = float(rng.uniform(-0.4, 0.4)) * w
         path = [(f * length, y + 0.05 * w * np.sin(3 * f + k), z + 0.03 + r) for f in np.linspace(-0.05, 1.05, 7)]
-        parts.append(Part(rope(path, r, max(6, min(12, hand.round(r)))), "cable", "rubber"))
+        parts.append(Part(rope(path, r, max(6, min(12, style.round(r)))), "cable", "rubber"))
     for x in (0.15 * length, 0.85 * length):
         parts.append(
             Part(box((0.05, 0.05, z - 0.03), (x, 0, (z - 0.03) / 2)), "post", "steel", "", "Structural element")
@@ -96,10 +96,10 @@ def _tray(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _conduit(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _conduit(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Conduits on a wall with saddles, bends, junction boxes with covers and glands, a flexible tail."""
     r, h = float(rng.choice([0.008, 0.01, 0.0125, 0.016])), float(rng.uniform(1.0, 2.2))
-    n = max(6, min(12, hand.round(r)))
+    n = max(6, min(12, style.round(r)))
     wall = box((2.4, 0.15, h + 0.4), (1.0, 0.1, (h + 0.4) / 2))
     parts = [Part(wall, "wall", "concrete", "", "Structural element")]
     for k in range(int(rng.integers(1, 4))):
@@ -152,7 +152,7 @@ def _conduit(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _junction(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _junction(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A junction box or local control station on a post: lid with screws, glands below, buttons, cables."""
     h, s = float(rng.uniform(0.9, 1.5)), float(rng.uniform(0.08, 0.3))
     d = float(rng.uniform(0.4, 0.7)) * s
@@ -195,10 +195,10 @@ def _junction(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         for x in (-0.25, 0.25)
         if rng.random() < 0.7
     ]
-    return Model([*(Part(x, name, "electrical", name) for x in solids), *cables, *_post(h + 0.1, hand, rng)])
+    return Model([*(Part(x, name, "electrical", name) for x in solids), *cables, *_post(h + 0.1, style, rng)])
 
 
-def _panel(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _panel(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A control panel: a wall box on legs, a desk with a sloping top, or a row of doors with handles and lamps."""
     kind, name = int(rng.integers(3)), "control panel"
     w, d, h = float(rng.uniform(0.4, 1.0)), float(rng.uniform(0.2, 0.4)), float(rng.uniform(0.5, 1.1))
@@ -254,11 +254,11 @@ def _panel(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _lamp(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _lamp(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A lamp: a bulkhead light with a cage, a tube light, a floodlight or a bent-arm street lamp, on a post."""
-    kind, name, n = int(rng.integers(4)), "lamp", hand.round(0.08)
+    kind, name, n = int(rng.integers(4)), "lamp", style.round(0.08)
     h = float(rng.uniform(1.8, 3.5))
-    parts = _post(h, hand, rng)
+    parts = _post(h, style, rng)
     if kind == 0:
         base = turned([(0.09, 0), (0.09, 0.03), (0.07, 0.04)], n)
         glass = dome(0.065, 0.1, 0.04, n)
@@ -302,16 +302,16 @@ def _lamp(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts += [Part(merge([head, bow]), name, "rubber", name)]
     else:
         arm = rope(
-            [(0, 0, h - 0.05), (0, 0, h + 0.3), (0.1, 0, h + 0.45), (0.5, 0, h + 0.5)], 0.022, max(6, hand.round(0.02))
+            [(0, 0, h - 0.05), (0, 0, h + 0.3), (0.1, 0, h + 0.45), (0.5, 0, h + 0.5)], 0.022, max(6, style.round(0.02))
         )
         head = moved(turned([(0.05, 0.0), (0.17, -0.08), (0.17, -0.1)][::-1], n), at(0.55, 0, h + 0.52))
         parts += [Part(arm, name, "clamp", name), Part(head, name, "electrical", name)]
     return Model(parts)
 
 
-def _camera(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _camera(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A camera: a bullet in a hood, a dome, or a box, on an arm from a post."""
-    kind, name, n, h = int(rng.integers(3)), "camera", hand.round(0.04), float(rng.uniform(1.8, 3.0))
+    kind, name, n, h = int(rng.integers(3)), "camera", style.round(0.04), float(rng.uniform(1.8, 3.0))
     arm = rope([(0, 0, h - 0.05), (0, -0.16, h - 0.05), (0, -0.2, h)], 0.014, 8)
     if kind == 0:
         body = merge(
@@ -336,27 +336,27 @@ def _camera(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         body = moved(
             merge([box((0.08, 0.18, 0.08)), along("-y", cylinder(0.03, 0.085, 0.13, n))]), at(0, -0.22, h + 0.05)
         )
-    return Model([Part(body, name, "dial", name), Part(arm, name, "clamp", name), *_post(h, hand, rng)])
+    return Model([Part(body, name, "dial", name), Part(arm, name, "clamp", name), *_post(h, style, rng)])
 
 
-def _sign(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _sign(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A sign: square, round, triangular or octagonal plate, on a post or on four feet."""
     h, s = float(rng.uniform(1.0, 2.0)), float(rng.uniform(0.12, 0.35))
     kind = int(rng.integers(4))
     outline = (
         rounded_rectangle(2 * s, 1.4 * s, 0.1 * s, 3),
-        circle(s, max(12, hand.round(s))),
+        circle(s, max(12, style.round(s))),
         circle(s, 3, phase=np.pi / 2),
         circle(s, 8, phase=np.pi / 8),
     )[kind]
     plate = moved(extrude(outline, 0.0, 0.003), at(0, -0.042, h) @ spun("x", np.pi / 2))
-    return Model([Part(plate, "sign", "safety"), *_post(h + s, hand, rng)])
+    return Model([Part(plate, "sign", "safety"), *_post(h + s, style, rng)])
 
 
-def _extinguisher(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _extinguisher(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A fire extinguisher (EN 3): a bottle with a domed shoulder, valve, levers, hose; on the floor or on a wall."""
     name, r = "fire extinguisher", float(rng.uniform(0.05, 0.1))
-    n, h = hand.round(r), float(rng.uniform(4.0, 6.5)) * r
+    n, h = style.round(r), float(rng.uniform(4.0, 6.5)) * r
     low = float(rng.choice([0.0, 0.0, 0.6]))
     body = turned(
         [
@@ -402,10 +402,10 @@ def _extinguisher(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _hydrant(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _hydrant(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A pillar hydrant (EN 14384): a flanged barrel, a bonnet with a pentagon nut, two or three capped outlets."""
     name, r = "hydrant", float(rng.uniform(0.07, 0.12))
-    n, h = hand.round(r), float(rng.uniform(0.6, 1.0))
+    n, h = style.round(r), float(rng.uniform(0.6, 1.0))
     barrel = merge(
         [
             turned(
@@ -447,13 +447,13 @@ def _hydrant(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _shower(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _shower(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A fire hose reel or box: a cabinet with a round reel and a coiled hose."""
     name, r, z = "fire extinguisher", 0.26, 1.0
-    reel = [along("y", cylinder(r, y, y + 0.01, hand.round(r)), 0, 0, z) for y in (-0.12, 0.02)]
+    reel = [along("y", cylinder(r, y, y + 0.01, style.round(r)), 0, 0, z) for y in (-0.12, 0.02)]
     coil = [
         moved(
-            torus(0.8 * r - 0.02 * (k % 2), 0.015, max(12, hand.round(r)), 6),
+            torus(0.8 * r - 0.02 * (k % 2), 0.015, max(12, style.round(r)), 6),
             at(0, -0.1 + 0.03 * k, z) @ spun("x", np.pi / 2),
         )
         for k in range(4)

@@ -11,7 +11,7 @@ from cadplants.families.chance import pick
 from cadplants.families.utilities.kit import FRAME, GROUP, JOINT, beam_over, h_column, hanger, several, wall
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, extrude, lattice, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import box, rod, rope
 from cadplants.transforms import at, spun
 
@@ -160,7 +160,7 @@ def _cables(path: list[tuple[float, float, float]], w: float, rng: np.random.Gen
     return parts
 
 
-def _turning(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _turning(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A level run with a quarter bend, maybe a tee (IEC 61537), on trapezes under beams, couplers at the joints."""
     kind, w, side = (
         pick(rng, *_KINDS),
@@ -168,7 +168,7 @@ def _turning(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         float(rng.choice([0.035, 0.05, 0.06, 0.085, 0.11])),
     )
     a, b, z = float(rng.uniform(1.0, 2.5)), float(rng.uniform(0.8, 2.0)), float(rng.uniform(1.8, 2.8))
-    radius, steps = float(rng.choice([0.1, 0.3])), max(4, hand.round(0.3) // 4 + 1)
+    radius, steps = float(rng.choice([0.1, 0.3])), max(4, style.round(0.3) // 4 + 1)
     floor = 0.024 if kind == "ladder" else 0.005 if kind == "wire" else 0.0015
     pieces = [moved(_straight(kind, a, w, side), at(-a, 0, z)), moved(_bend(kind, w, side, radius, steps), at(0, 0, z))]
     turn = at(radius + w / 2, radius + w / 2, z) @ spun("z", np.pi / 2)
@@ -219,7 +219,7 @@ def _trapeze(x: float, w: float, z: float, rng: np.random.Generator) -> list[Par
     ]
 
 
-def _tiers(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _tiers(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Trays one over the other on cantilever arms from a wall, columns or stands, each with its cables."""
     length, count = float(rng.uniform(1.6, 3.5)), int(rng.integers(2, 5))
     w, pitch, low = (
@@ -269,7 +269,7 @@ def _tiers(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _trunking(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _trunking(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Covered trunking: a square sheet duct along a wall with a drop into a wall box, covers, straps."""
     s, z, length = (
         float(rng.choice([0.05, 0.075, 0.1, 0.15])),
@@ -302,7 +302,7 @@ def _trunking(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _riser(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _riser(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A level tray that turns up a wall in an inside bend, cables tied to the upright leg."""
     kind, w, side = (
         pick(rng, "solid", "perforated", "ladder"),

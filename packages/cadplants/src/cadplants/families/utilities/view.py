@@ -9,7 +9,7 @@ from cadplants.families.chance import pick
 from cadplants.families.utilities.kit import FRAME, GROUP, JOINT, back, beam_over, pole, wall
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, ball, box, cylinder, dome, ring, rod, rope, turned
 from cadplants.transforms import at, spun
@@ -19,9 +19,9 @@ __all__ = ["VIEWS"]
 _C, _S = "camera", "sign"
 
 
-def _cameras(_: int, hand: Hand, rng: np.random.Generator, kind: str) -> Model:
+def _cameras(_: int, style: ModelingStyle, rng: np.random.Generator, kind: str) -> Model:
     """A camera: bullet on a bracket, dome under an arm, swivelling on a gooseneck, or in a housing."""
-    z, s, n = float(rng.uniform(1.9, 3.2)), float(rng.uniform(0.8, 1.4)), hand.round(0.05)
+    z, s, n = float(rng.uniform(1.9, 3.2)), float(rng.uniform(0.8, 1.4)), style.round(0.05)
     parts: list[tuple[Solid, str]] = []
     if kind == "bullet":
         r, long, y = 0.032 * s, float(rng.uniform(0.12, 0.22)) * s, -0.14
@@ -100,40 +100,40 @@ def _cameras(_: int, hand: Hand, rng: np.random.Generator, kind: str) -> Model:
             Part(box_, "junction box", "electrical"),
             Part(rope([(0, -0.03, z - 0.4), (0, -0.03, z - 0.1)], 0.006, 6), "cable", "rubber"),
         ]
-    return Model([*(Part(x, _C, c, _C) for x, c in parts), *more, *back(z + 0.4, hand, rng)])
+    return Model([*(Part(x, _C, c, _C) for x, c in parts), *more, *back(z + 0.4, style, rng)])
 
 
-def _bullet(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _bullet(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A bullet camera on a bracket."""
-    return _cameras(dn, hand, rng, "bullet")
+    return _cameras(dn, style, rng, "bullet")
 
 
-def _dome_camera(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _dome_camera(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A dome camera under an arm."""
-    return _cameras(dn, hand, rng, "dome")
+    return _cameras(dn, style, rng, "dome")
 
 
-def _swivel(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _swivel(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A pan-tilt-zoom camera on a gooseneck."""
-    return _cameras(dn, hand, rng, "swivel")
+    return _cameras(dn, style, rng, "swivel")
 
 
-def _housed(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _housed(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A camera in a weatherproof housing with a sun roof."""
-    return _cameras(dn, hand, rng, "housing")
+    return _cameras(dn, style, rng, "housing")
 
 
 # --- signs ---
 
 
-def _plate(kind: str, s: float, hand: Hand) -> Floats:
+def _plate(kind: str, s: float, style: ModelingStyle) -> Floats:
     """The outline of a sign of a shape, about its middle."""
     if kind == "rectangle":
         return rounded_rectangle(2 * s, 1.4 * s, 0.1 * s, 3)
     if kind == "tall":
         return rounded_rectangle(1.2 * s, 1.8 * s, 0.08 * s, 3)
     if kind == "round":
-        return circle(s, max(12, hand.round(s)))
+        return circle(s, max(12, style.round(s)))
     if kind == "diamond":
         turned_: Floats = rounded_rectangle(1.5 * s, 1.5 * s, 0.1 * s, 3) @ np.array(
             [[0.7071, 0.7071], [-0.7071, 0.7071]]
@@ -144,7 +144,7 @@ def _plate(kind: str, s: float, hand: Hand) -> Floats:
     return circle(s, 3 if kind == "triangle" else 8, phase=np.pi / 2 if kind == "triangle" else np.pi / 8)
 
 
-def _mounted(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _mounted(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Safety signs (ISO 7010): on a wall, screwed; as a flag off it; hung from a beam on chains; between two posts."""
     kind, s, z = (
         pick(rng, "wall", "flag", "hung", "two posts"),
@@ -156,7 +156,7 @@ def _mounted(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     if kind == "wall":
         parts = []
         for k in range(int(rng.integers(1, 5))):
-            outline = _plate(pick(rng, "rectangle", "tall", "round", "triangle", "diamond", "arrow"), s, hand)
+            outline = _plate(pick(rng, "rectangle", "tall", "round", "triangle", "diamond", "arrow"), s, style)
             pose = at(k * 2.5 * s, -0.001, z) @ front
             parts.append(Part(moved(extrude(outline, 0, t), pose), _S, "safety", _S))
             if rng.random() < 0.4:
@@ -167,7 +167,7 @@ def _mounted(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         sheet = box((t, 2 * s, w), (0, -s - 0.02, z))
         fold = box((0.06, 0.004, w), (0.03, -0.002, z))
         neck = box((t, 0.02, w), (0, -0.01, z))
-        return Model([Part(merge([sheet, fold, neck]), _S, "safety", _S), *back(z + s + 0.3, hand, rng)])
+        return Model([Part(merge([sheet, fold, neck]), _S, "safety", _S), *back(z + s + 0.3, style, rng)])
     if kind == "hung":
         w, h = 2.6 * s, 1.0 * s
         drop = float(rng.uniform(0.2, 0.6))
@@ -191,22 +191,22 @@ def _mounted(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         r = 0.03
         posts += [
             Part(moved(p.solid, at(q * 0.36 * w, 0.03 + r)), p.name, p.color, "", p.group, p.fine)
-            for p in pole(z + 0.35 * w, r, hand)
+            for p in pole(z + 0.35 * w, r, style)
         ]
     return Model([Part(sheet, _S, "safety", _S), Part(merge(rails), "bracket", "clamp", "", JOINT), *posts])
 
 
-def _marker(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _marker(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Small plates: tags with arrows strapped to a pipe, a tag on a chain, name plates on legs, markers on stakes."""
     r, long, z = float(rng.uniform(0.03, 0.12)), float(rng.uniform(1.0, 2.0)), float(rng.uniform(0.6, 1.4))
     if rng.random() < 0.5:
-        n = hand.round(r)
+        n = style.round(r)
         parts = [Part(along("x", cylinder(r, -long / 2, long / 2, n), 0, 0, z), "pipe", "pipe", "", "Pipe assembly")]
         for k in range(int(rng.integers(1, 4))):
             x, w = (k - 1) * 0.3 * long, float(rng.uniform(0.12, 0.3))
             h = min(1.2 * r, 0.1)
             tag = moved(
-                extrude(_plate("arrow", w / 2, hand) * (1, 2.5 * h / w), 0, 0.002),
+                extrude(_plate("arrow", w / 2, style) * (1, 2.5 * h / w), 0, 0.002),
                 at(x, -r - 0.006, z) @ spun("x", np.pi / 2),
             )
             bands = [along("x", ring(r, r + 0.0015, -0.006, 0.006, n), x + q * 0.35 * w, 0, z) for q in (-1, 1)]

@@ -9,7 +9,7 @@ from cadplants.families.chance import pick
 from cadplants.families.utilities.kit import FRAME, GROUP, JOINT, beam_over, h_column, pole, strut, wall
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, box, cylinder, hexagon, ring, rod, rope, torus
 from cadplants.transforms import at, spun
@@ -49,10 +49,10 @@ def _coupling(r: float, x: float, y: float, z: float, axis: str) -> Solid:
     )
 
 
-def _on_struts(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _on_struts(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Parallel steel conduits clamped to strut channels on a wall or on columns, turning down in nested bends."""
     count, length, z = int(rng.integers(2, 7)), float(rng.uniform(1.4, 3.0)), float(rng.uniform(1.6, 2.4))
-    n = max(6, min(12, hand.round(0.02)))
+    n = max(6, min(12, style.round(0.02)))
     y, pitch, parts = -0.041, 0.085, []
     turn_down = rng.random() < 0.7
     xs = (0.2 * length, 0.6 * length)
@@ -89,10 +89,10 @@ def _on_struts(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _flexible(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _flexible(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A rigid conduit up from the floor into a box, and corrugated conduits in loops to devices on posts."""
     r, h = float(rng.choice(_SIZES[:4])), float(rng.uniform(0.5, 1.2))
-    n, s = max(6, min(12, hand.round(0.02))), float(rng.uniform(0.1, 0.2))
+    n, s = max(6, min(12, style.round(0.02))), float(rng.uniform(0.1, 0.2))
     case = [
         box((s, 0.6 * s, 1.3 * s), (0, 0, h + 0.65 * s)),
         box((0.95 * s, 0.08 * s, 1.22 * s), (0, -0.34 * s, h + 0.65 * s)),
@@ -147,10 +147,10 @@ def _flexible(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _bodies(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _bodies(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Thin conduit (EMT) over a wall through conduit bodies (LB, T, C), square boxes and a ceiling box with a lamp."""
     r, length, z = float(rng.choice(_SIZES[:3])), float(rng.uniform(1.6, 3.2)), float(rng.uniform(1.8, 2.6))
-    n, y = max(6, min(12, hand.round(0.02))), -0.02 - r
+    n, y = max(6, min(12, style.round(0.02))), -0.02 - r
     body = moved(extrude(rounded_rectangle(7 * r, 2.8 * r, 1.3 * r, 3), -1.3 * r, 1.3 * r), spun("x", np.pi / 2))
     lid = moved(extrude(rounded_rectangle(6.4 * r, 2.5 * r, 1.2 * r, 3), 1.3 * r, 1.6 * r), spun("x", np.pi / 2))
     one = merge([body, lid])
@@ -174,7 +174,7 @@ def _bodies(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         else:
             reach = 0.043
             drum = merge(
-                [cylinder(0.045, -0.025, 0.025, hand.round(0.05)), cylinder(0.048, 0.025, 0.031, hand.round(0.05))]
+                [cylinder(0.045, -0.025, 0.025, style.round(0.05)), cylinder(0.048, 0.025, 0.031, style.round(0.05))]
             )
             parts.append(Part(along("-y", drum, x, y, z), "junction box", "clamp"))
         parts.append(Part(rod((last, y, z), (x - reach + 0.003, y, z), r, n), "conduit", "clamp"))
@@ -185,7 +185,7 @@ def _bodies(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 0.049 if kind == "square" else 1.3 * r if kind == "body" else 0.043,
             )
             parts.append(Part(rod((x, y, z - drop), (x, y, low), r, n), "conduit", "clamp"))
-            parts.append(_outlet(x, low, y, hand, rng))
+            parts.append(_outlet(x, low, y, style, rng))
     parts.append(
         Part(rope(_bent([(last, y, z), (length, y, z), (length, y, z + 0.5)], 0.12), r, n), "conduit", "clamp")
     )
@@ -205,7 +205,7 @@ def _bodies(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _outlet(x: float, top: float, y: float, hand: Hand, rng: np.random.Generator) -> Part:
+def _outlet(x: float, top: float, y: float, style: ModelingStyle, rng: np.random.Generator) -> Part:
     """A surface box under a conduit's end: a switch, a flap socket or a round industrial socket (IEC 60309)."""
     kind, w = int(rng.integers(3)), 0.075
     back = 0.0
@@ -225,8 +225,8 @@ def _outlet(x: float, top: float, y: float, hand: Hand, rng: np.random.Generator
     else:
         plug = merge(
             [
-                cylinder(0.03, -0.02, 0.04, hand.round(0.03)),
-                cylinder(0.036, 0.04, 0.05, hand.round(0.03)),
+                cylinder(0.03, -0.02, 0.04, style.round(0.03)),
+                cylinder(0.036, 0.04, 0.05, style.round(0.03)),
                 box((0.03, 0.015, 0.02), (0, 0.036, 0.04)),
             ]
         )
@@ -234,13 +234,13 @@ def _outlet(x: float, top: float, y: float, hand: Hand, rng: np.random.Generator
     return Part(merge([case, *extra]), "junction box", "electrical")
 
 
-def _catenary(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _catenary(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Cables that hang: sagging from pole to pole on insulators, in loops from a rail's trolleys, or to a drop."""
     length, h, n = float(rng.uniform(2.0, 4.0)), float(rng.uniform(2.0, 3.5)), 8
     if rng.random() < 0.5:
         parts = []
         for x in (0.0, length):
-            for p in pole(h, 0.05, hand, bool(rng.random() < 0.3)):
+            for p in pole(h, 0.05, style, bool(rng.random() < 0.3)):
                 parts.append(Part(moved(p.solid, at(x)), p.name, p.color, "", p.group, p.fine))
             parts.append(Part(box((0.06, 0.7, 0.06), (x, 0, h + 0.03)), "bracket", "steel", "", JOINT))
         for y in (-0.28, 0.0, 0.28)[: int(rng.integers(2, 4))]:
@@ -272,12 +272,12 @@ def _catenary(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts)
 
 
-def _coiled(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _coiled(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Cable that waits: a coil on a wall hook or on the floor, or wound on a wooden or steel drum."""
     kind, r = int(rng.integers(3)), float(rng.uniform(0.006, 0.016))
     if kind == 2:
         big, wide = float(rng.uniform(0.3, 0.6)), float(rng.uniform(0.3, 0.6))
-        n, core = hand.round(big), 0.45 * big
+        n, core = style.round(big), 0.45 * big
         cheek = [cylinder(big, z, z + 0.03, n) for z in (-wide / 2 - 0.03, wide / 2)]
         hub = [cylinder(core, -wide / 2, wide / 2, n), cylinder(0.05, -wide / 2 - 0.035, wide / 2 + 0.035, 12)]
         cheek += [
@@ -310,7 +310,7 @@ def _coiled(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             ]
         )
     big = float(rng.uniform(0.15, 0.35))
-    n = max(12, min(28, hand.round(big)))
+    n = max(12, min(28, style.round(big)))
     rings = [torus(big + float(rng.uniform(-1.5, 1.5)) * r, r, n, 6) for _ in range(int(rng.integers(4, 9)))]
     if kind == 0:
         pile = [
@@ -346,7 +346,7 @@ def _coiled(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _cleated(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _cleated(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Cables in cleats up a column or along a wall: in trefoil, in a row, or strapped in a bundle, into a gland box."""
     h, r = float(rng.uniform(1.6, 2.8)), float(rng.uniform(0.009, 0.022))
     kind = pick(rng, "trefoil", "row", "bundle")
@@ -363,7 +363,7 @@ def _cleated(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     for x, y in spots:
         parts.append(
             Part(
-                rope([(x, y - gap, h), (x, y - gap, low + 0.02)], r, max(8, min(12, hand.round(r)))), "cable", "rubber"
+                rope([(x, y - gap, h), (x, y - gap, low + 0.02)], r, max(8, min(12, style.round(r)))), "cable", "rubber"
             )
         )
     for z in np.linspace(low + 0.3, h - 0.15, int(rng.integers(2, 5))):

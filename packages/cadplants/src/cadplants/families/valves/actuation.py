@@ -13,7 +13,7 @@ from cadplants.families.valves.actuation_hand import cylinder_at, slab, span
 from cadplants.families.valves.drive import BODY
 from cadplants.family import Part, placed
 from cadplants.mesh_ops import merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, box, cylinder, hexagon, rod, turned
 from cadplants.transforms import at, spun
@@ -21,7 +21,7 @@ from cadplants.transforms import at, spun
 __all__ = ["quarter_turn"]
 
 Rng = np.random.Generator
-Maker = Callable[[float, Hand, Rng], list[Part]]
+Maker = Callable[[float, ModelingStyle, Rng], list[Part]]
 
 
 # --- position indicators ---
@@ -45,7 +45,7 @@ def mount(half: float, tall: float, rng: Rng) -> Part:
 # --- quarter turn ---
 
 
-def _rack(radius: float, hand: Hand, rng: Rng) -> list[Part]:
+def _rack(radius: float, style: ModelingStyle, rng: Rng) -> list[Part]:
     """A rack-and-pinion actuator: an extruded profile with end caps, an air pad, stop screws, an indicator."""
     half = float(rng.uniform(0.85, 1.2)) * (0.028 + 0.36 * radius)
     reach, kind = float(rng.uniform(1.6, 3.0)) * half, int(rng.integers(3))
@@ -54,7 +54,7 @@ def _rack(radius: float, hand: Hand, rng: Rng) -> list[Part]:
     elif kind == 1:
         section = circle(1.15 * half, 8, phase=np.pi / 8)
     else:
-        section = circle(1.1 * half, max(16, hand.round(half)))
+        section = circle(1.1 * half, max(16, style.round(half)))
     tube_ = along("x", slab(section, -reach, reach), 0, 0, half)
     caps = [
         along("x", slab(section * f, *span(s * reach, s * (reach + w))), 0, 0, half)
@@ -74,7 +74,7 @@ def _rack(radius: float, hand: Hand, rng: Rng) -> list[Part]:
     crown = cylinder(0.3 * half, 1.9 * half, 2.25 * half, 12)
     parts.append(replace(parts[0], solid=crown))
     if rng.random() < 0.85:
-        parts += placed([indicator(0.5 * half, hand, rng)], at(0, 0, 2.25 * half))
+        parts += placed([indicator(0.5 * half, style, rng)], at(0, 0, 2.25 * half))
     if rng.random() < 0.4:
         coil = merge(
             [box((0.05, 0.05, 0.07), (0, 1.35 * half + 0.025, half)), cylinder_at(0.014, half + 0.03, half + 0.09, 0.0)]
@@ -82,15 +82,16 @@ def _rack(radius: float, hand: Hand, rng: Rng) -> list[Part]:
         parts.append(Part(coil, "actuator", "electrical", "actuator"))
     tall = float(rng.uniform(0.5, 1.6)) * half + 0.01
     return placed(
-        [mount(0.9 * half, tall, rng), shaft(0.0, tall, 0.2 * half, hand), *placed(parts, at(0, 0, tall))], quarter(rng)
+        [mount(0.9 * half, tall, rng), shaft(0.0, tall, 0.2 * half, style), *placed(parts, at(0, 0, tall))],
+        quarter(rng),
     )
 
 
-def _scotch(radius: float, hand: Hand, rng: Rng) -> list[Part]:
+def _scotch(radius: float, style: ModelingStyle, rng: Rng) -> list[Part]:
     """A scotch yoke actuator: a housing with a lid, a long pressure cylinder with tie rods, a spring can or none."""
     half = 0.05 + 0.55 * radius
     n, reach, wide = (
-        max(16, hand.round(half)),
+        max(16, style.round(half)),
         float(rng.uniform(2.0, 3.6)) * half,
         float(rng.uniform(0.6, 0.95)) * half,
     )
@@ -140,18 +141,18 @@ def _scotch(radius: float, hand: Hand, rng: Rng) -> list[Part]:
     tall = 0.5 * half
     parts = [
         Part(merge(solids), "actuator", "motor", "actuator"),
-        *placed([indicator(0.3 * half, hand, rng)], at(0, 0, 1.3 * half)),
+        *placed([indicator(0.3 * half, style, rng)], at(0, 0, 1.3 * half)),
     ]
     return placed(
-        [mount(0.9 * half, tall, rng), shaft(0.0, tall, 0.22 * half, hand), *placed(parts, at(0, 0, tall))],
+        [mount(0.9 * half, tall, rng), shaft(0.0, tall, 0.22 * half, style), *placed(parts, at(0, 0, tall))],
         quarter(rng),
     )
 
 
-def _vertical(radius: float, hand: Hand, rng: Rng) -> list[Part]:
+def _vertical(radius: float, style: ModelingStyle, rng: Rng) -> list[Part]:
     """A slim upright pneumatic cylinder, as on sanitary valves: polished, waisted, with an indicator on top."""
     half, tall = 0.022 + 0.45 * radius, 0.11 + 1.6 * radius
-    n = max(16, hand.round(half))
+    n = max(16, style.round(half))
     waist = float(rng.uniform(0.85, 1.0)) * half
     can = turned(
         [
@@ -178,12 +179,12 @@ def _vertical(radius: float, hand: Hand, rng: Rng) -> list[Part]:
     ]
     return [
         *parts,
-        shaft(0.0, low, 0.16 * half, hand),
-        *placed([indicator(0.45 * half, hand, rng)], at(0, 0, low + tall)),
+        shaft(0.0, low, 0.16 * half, style),
+        *placed([indicator(0.45 * half, style, rng)], at(0, 0, low + tall)),
     ]
 
 
-def _motor_box(radius: float, hand: Hand, rng: Rng) -> list[Part]:
+def _motor_box(radius: float, style: ModelingStyle, rng: Rng) -> list[Part]:
     """A quarter-turn electric actuator: a compact box with ribbed lid, glands, indicator glass, hand crank or wheel."""
     half = float(rng.uniform(0.85, 1.2)) * (0.05 + 0.32 * radius)
     deep, tall = float(rng.uniform(0.7, 1.0)) * half, float(rng.uniform(1.2, 2.0)) * half
@@ -200,17 +201,17 @@ def _motor_box(radius: float, hand: Hand, rng: Rng) -> list[Part]:
         along("-x", hexagon(0.022, 1.05 * half, 1.1 * half + 0.025), 0, s * 0.4 * deep, 0.45 * tall) for s in (-1, 1)
     ]
     parts = [Part(merge(solids), "actuator", "motor", "actuator")]
-    parts += placed([indicator(0.4 * half, hand, rng, 3)], at(0.3 * half, 0, tall + 0.15 * half))
+    parts += placed([indicator(0.4 * half, style, rng, 3)], at(0.3 * half, 0, tall + 0.15 * half))
     if rng.random() < 0.6:
-        side = [shaft(0.0, 0.3 * half, 0.08 * half, hand), hand_wheel(0.75 * half, 0.25 * half, hand, rng)]
+        side = [shaft(0.0, 0.3 * half, 0.08 * half, style), hand_wheel(0.75 * half, 0.25 * half, style, rng)]
         parts += placed(side, at(-0.3 * half, -1.0 * deep, 0.35 * tall) @ spun("x", np.pi / 2))
     return placed(parts, quarter(rng))
 
 
-def _multi_turn(radius: float, hand: Hand, rng: Rng) -> list[Part]:
+def _multi_turn(radius: float, style: ModelingStyle, rng: Rng) -> list[Part]:
     """A multi-turn electric actuator shaped like an elbow: gear case, motor to one side, controls to the other."""
     half = float(rng.uniform(0.9, 1.15)) * (0.06 + 0.4 * radius)
-    n, z = max(16, hand.round(half)), 0.9 * half
+    n, z = max(16, style.round(half)), 0.9 * half
     body = turned(
         [
             (0.95 * half, 0.0),
@@ -254,15 +255,15 @@ def _multi_turn(radius: float, hand: Hand, rng: Rng) -> list[Part]:
     )
     parts = [Part(merge([body, motor, *fins, control, cover]), "actuator", "motor", "actuator")]
     parts.append(Part(glass, "position indicator", "dial", "actuator"))
-    side = [shaft(0.0, 0.35 * half, 0.12 * half, hand), hand_wheel(0.9 * half, 0.3 * half, hand, rng)]
+    side = [shaft(0.0, 0.35 * half, 0.12 * half, style), hand_wheel(0.9 * half, 0.3 * half, style, rng)]
     parts += placed(side, at(0, -0.6 * half, z) @ spun("x", np.pi / 2))
     return placed(parts, quarter(rng))
 
 
-def _electrohydraulic(radius: float, hand: Hand, rng: Rng) -> list[Part]:
+def _electrohydraulic(radius: float, style: ModelingStyle, rng: Rng) -> list[Part]:
     """An electrohydraulic actuator: a box with a cylinder below, a motor and an oil bottle on it."""
     half = 0.06 + 0.4 * radius
-    n = max(16, hand.round(half))
+    n = max(16, style.round(half))
     base = along(
         "x",
         turned(
@@ -289,7 +290,8 @@ def _electrohydraulic(radius: float, hand: Hand, rng: Rng) -> list[Part]:
     parts = [Part(merge([base, block, cabin, door, bottle, stand]), "actuator", "motor", "actuator")]
     tall = 0.4 * half
     return placed(
-        [mount(0.7 * half, tall, rng), shaft(0.0, tall, 0.2 * half, hand), *placed(parts, at(0, 0, tall))], quarter(rng)
+        [mount(0.7 * half, tall, rng), shaft(0.0, tall, 0.2 * half, style), *placed(parts, at(0, 0, tall))],
+        quarter(rng),
     )
 
 
@@ -299,20 +301,22 @@ _QUARTERS: dict[str, Maker] = {
 }  # fmt: skip
 
 
-def quarter_turn(x: float, z: float, radius: float, hand: Hand, rng: Rng, kinds: tuple[str, ...] = ()) -> list[Part]:
+def quarter_turn(
+    x: float, z: float, radius: float, style: ModelingStyle, rng: Rng, kinds: tuple[str, ...] = ()
+) -> list[Part]:
     """One of some operators on a stem at ``x`` whose pad is on the height ``z``, scaled by the pipe's radius [m].
 
     Args:
         x: of the stem [m].
         z: of the pad [m].
         radius: of the pipe [m].
-        hand: that models it.
+        style: that models it.
         rng: of its proportions.
         kinds: to draw from: ``lever`` or those of actuators and gears; all by default.
     """
     kind = str(rng.choice(kinds or ("lever", "lever", *_QUARTERS)))
     if kind == "lever" or (radius < 0.022 and kind in ("worm", "bevel", "scotch", "multi-turn", "electrohydraulic")):
-        parts = [hand_lever(float(rng.uniform(0.9, 1.4)) * (0.09 + 2.2 * radius), 0.0, hand, rng)]
+        parts = [hand_lever(float(rng.uniform(0.9, 1.4)) * (0.09 + 2.2 * radius), 0.0, style, rng)]
     else:
-        parts = _QUARTERS[kind](radius, hand, rng)
+        parts = _QUARTERS[kind](radius, style, rng)
     return placed(parts, at(x, 0, z))

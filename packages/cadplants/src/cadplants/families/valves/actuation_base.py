@@ -9,7 +9,7 @@ from cadplants.families.valves.actuation_hand import lever_of, slab, wheel_of
 from cadplants.families.valves.drive import BODY
 from cadplants.family import Part
 from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, box, cylinder, dome, hexagon, turned
 from cadplants.transforms import at, spun
@@ -20,13 +20,13 @@ Rng = np.random.Generator
 
 
 def bolted(solid: Solid, bundle: str = BODY) -> Part:
-    """Bolts as one part, which hands without fasteners leave out."""
+    """Bolts as one part, which styles without fasteners leave out."""
     return Part(solid, "bolt", "fastener", bundle, "Connection assembly", True)
 
 
-def shaft(low: float, high: float, radius: float, hand: Hand, rng: Rng | None = None) -> Part:
+def shaft(low: float, high: float, radius: float, style: ModelingStyle, rng: Rng | None = None) -> Part:
     """A stem: plain, threaded (rings) or with two flats at its top [m]."""
-    n = max(8, min(hand.round(radius), 16))
+    n = max(8, min(style.round(radius), 16))
     kind = 0 if rng is None else int(rng.integers(4))
     if kind == 1 and high - low > 4 * radius:
         pitch = max(0.5 * radius, (high - low) / 24)
@@ -43,15 +43,15 @@ def shaft(low: float, high: float, radius: float, hand: Hand, rng: Rng | None = 
     return Part(solid, "valve stem", "trim", BODY)
 
 
-def hand_wheel(radius: float, z: float, hand: Hand, rng: Rng, kinds: tuple[str, ...] = ()) -> Part:
+def hand_wheel(radius: float, z: float, style: ModelingStyle, rng: Rng, kinds: tuple[str, ...] = ()) -> Part:
     """A handwheel with its hub on the height ``z`` [m]."""
-    solid = wheel_of(radius, hand, rng, kinds) if kinds else wheel_of(radius, hand, rng)
+    solid = wheel_of(radius, style, rng, kinds) if kinds else wheel_of(radius, style, rng)
     return Part(moved(solid, at(0, 0, z)), "handwheel", "handle")
 
 
-def hand_lever(length: float, z: float, hand: Hand, rng: Rng, kinds: tuple[str, ...] = ()) -> Part:
+def hand_lever(length: float, z: float, style: ModelingStyle, rng: Rng, kinds: tuple[str, ...] = ()) -> Part:
     """A lever with its eye on the height ``z`` [m]."""
-    solid = lever_of(length, hand, rng, kinds) if kinds else lever_of(length, hand, rng)
+    solid = lever_of(length, style, rng, kinds) if kinds else lever_of(length, style, rng)
     return Part(moved(solid, at(0, 0, z)), "lever", "handle")
 
 
@@ -60,9 +60,9 @@ def quarter(rng: Rng) -> Floats:
     return spun("z", float(rng.choice([0.0, 0.5, 1.0, 1.5])) * np.pi)
 
 
-def indicator(size: float, hand: Hand, rng: Rng, kinds: int = 5) -> Part:
+def indicator(size: float, style: ModelingStyle, rng: Rng, kinds: int = 5) -> Part:
     """What shows the position on top of a turning shaft: puck, dome, pointer over a scale, or a switch box."""
-    n, kind = max(12, hand.round(size)), int(rng.integers(kinds))
+    n, kind = max(12, style.round(size)), int(rng.integers(kinds))
     if kind == 0:
         solid = turned([(size, 0.0), (size, 0.5 * size), (0.8 * size, 0.7 * size)], n)
         solid = merge([solid, box((1.7 * size, 0.3 * size, 0.15 * size), (0, 0, 0.75 * size))])

@@ -10,7 +10,7 @@ from cadplants.families.valves.actuation_base import bolted, hand_wheel, indicat
 from cadplants.families.valves.actuation_hand import cylinder_at, slab
 from cadplants.family import Part, placed
 from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, rope, turned
 from cadplants.transforms import at, spun
@@ -20,14 +20,14 @@ __all__ = ["bevel", "worm"]
 Rng = np.random.Generator
 
 
-def _input(size: float, reach: float, hand: Hand, rng: Rng) -> list[Part]:
+def _input(size: float, reach: float, style: ModelingStyle, rng: Rng) -> list[Part]:
     """What turns a gear's input shaft, which leaves along +z: a wheel, a chainwheel and chain, a square, a crank."""
     kind = rng.random()
-    rod_ = shaft(-0.01, reach + 0.02, 0.08 * size + 0.003, hand)
+    rod_ = shaft(-0.01, reach + 0.02, 0.08 * size + 0.003, style)
     if kind < 0.6:
-        return [rod_, hand_wheel(size, reach, hand, rng)]
+        return [rod_, hand_wheel(size, reach, style, rng)]
     if kind < 0.8:
-        n = max(16, hand.round(size))
+        n = max(16, style.round(size))
         groove = ring(0.86 * size, 0.96 * size, reach, reach + 0.03, n)
         teeth = around(box((0.12 * size, 0.012, 0.05), (0, 0, reach + 0.015)), 10, size)
         web = around(
@@ -64,10 +64,10 @@ def _crank(size: float) -> Solid:
     )
 
 
-def worm(radius: float, hand: Hand, rng: Rng) -> list[Part]:
+def worm(radius: float, style: ModelingStyle, rng: Rng) -> list[Part]:
     """A worm gearbox: a round, pear-shaped or square case with a stop boss, its shaft to the side."""
     half = float(rng.uniform(0.85, 1.2)) * (0.04 + 0.34 * radius)
-    n, tall = max(16, hand.round(half)), float(rng.uniform(0.7, 1.1)) * half
+    n, tall = max(16, style.round(half)), float(rng.uniform(0.7, 1.1)) * half
     kind = int(rng.integers(3))
     if kind == 0:
         case = turned([(half, 0.0), (half, 0.6 * tall), (0.85 * half, 0.8 * tall), (0.5 * half, tall)], n)
@@ -91,17 +91,19 @@ def worm(radius: float, hand: Hand, rng: Rng) -> list[Part]:
     )
     screws = around(hexagon(0.012 + 0.05 * half, 0.6 * tall, tall), 4, 0.9 * half, 0.8)
     parts = [Part(merge([case, tunnel]), "gearbox", "valve", "gearbox"), bolted(screws, "gearbox")]
-    drive = _input(float(rng.uniform(0.8, 1.3)) * (0.05 + 0.8 * radius), float(rng.uniform(0.3, 1.4)) * half, hand, rng)
+    drive = _input(
+        float(rng.uniform(0.8, 1.3)) * (0.05 + 0.8 * radius), float(rng.uniform(0.3, 1.4)) * half, style, rng
+    )
     parts += placed(drive, at(x, -1.05 * half, z) @ spun("x", np.pi / 2) @ spun("z", np.pi / 2))
     if rng.random() < 0.75:
-        parts.append(replace(placed([indicator(0.4 * half, hand, rng)], at(0, 0, tall))[0], bundle="gearbox"))
+        parts.append(replace(placed([indicator(0.4 * half, style, rng)], at(0, 0, tall))[0], bundle="gearbox"))
     return placed(parts, quarter(rng))
 
 
-def bevel(radius: float, hand: Hand, rng: Rng) -> list[Part]:
+def bevel(radius: float, style: ModelingStyle, rng: Rng) -> list[Part]:
     """A bevel gearbox: a bell on the stem with a cone to the side, a stem cover pipe above."""
     half = 0.045 + 0.4 * radius
-    n = max(16, hand.round(half))
+    n = max(16, style.round(half))
     bell = turned(
         [
             (1.1 * half, 0.0),
@@ -134,7 +136,7 @@ def bevel(radius: float, hand: Hand, rng: Rng) -> list[Part]:
             12,
         )
         parts.append(Part(cover, "gearbox", "trim", "gearbox"))
-    drive = _input(0.06 + 0.9 * radius, 0.35 * half, hand, rng)
+    drive = _input(0.06 + 0.9 * radius, 0.35 * half, style, rng)
     return placed(
         [*parts, *placed(drive, at(0, -1.5 * half, 0.75 * half) @ spun("x", np.pi / 2) @ spun("z", np.pi / 2))],
         quarter(rng),

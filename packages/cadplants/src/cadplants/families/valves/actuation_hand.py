@@ -8,7 +8,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.mesh_ops import Solid, extrude, loft, merge, moved, revolve, sweep, weld
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, rod, rope, torus, turned
 from cadplants.transforms import at, spun
@@ -55,9 +55,9 @@ def _rim(radius: float, thick: float, n: int, kind: int) -> Solid:
     return weld([revolve(section, n, closed=True)])
 
 
-def _spoked(radius: float, hand: Hand, rng: Rng) -> Solid:
+def _spoked(radius: float, style: ModelingStyle, rng: Rng) -> Solid:
     """A cast wheel: two to six flat, round, tapered or bowed spokes to a rim above or level with its hub."""
-    n, count = max(16, hand.round(radius)), int(rng.integers(2, 7))
+    n, count = max(16, style.round(radius)), int(rng.integers(2, 7))
     thick = radius * float(rng.uniform(0.035, 0.10)) + 0.001
     hub, tall = radius * float(rng.uniform(0.12, 0.24)) + 0.003, 0.01 + radius * float(rng.uniform(0.10, 0.3))
     rise = float(rng.choice([0.0, 0.0, 0.15, 0.35, -0.1])) * radius + 0.5 * tall
@@ -89,7 +89,7 @@ def cylinder_at(radius: float, low: float, high: float, x: float) -> Solid:
     return moved(cylinder(radius, low, high, 10), at(x))
 
 
-def _wire(radius: float, hand: Hand, rng: Rng) -> Solid:
+def _wire(radius: float, style: ModelingStyle, rng: Rng) -> Solid:
     """A wheel of bent wire: a thin rim, pairs of thin spokes, a pressed hub plate."""
     thick, count = 0.002 + 0.025 * radius, int(rng.integers(2, 5))
     hub, tall = 0.22 * radius, 0.012 + 0.06 * radius
@@ -98,13 +98,13 @@ def _wire(radius: float, hand: Hand, rng: Rng) -> Solid:
         rod((0, s * 0.6 * hub, 0.5 * tall), (0.93 * radius, s * 0.12 * radius, 0.5 * tall + rise), 0.8 * thick, 6)
         for s in (-1, 1)
     ]
-    rim = moved(torus(radius - thick, thick, max(16, hand.round(radius)), 8), at(0, 0, 0.5 * tall + rise))
+    rim = moved(torus(radius - thick, thick, max(16, style.round(radius)), 8), at(0, 0, 0.5 * tall + rise))
     return merge([rim, around(merge(pair), count), cylinder(hub, 0, tall, 16)])
 
 
-def _disc(radius: float, hand: Hand, rng: Rng) -> Solid:
+def _disc(radius: float, style: ModelingStyle, rng: Rng) -> Solid:
     """A solid disc with round, slotted or no holes and a thick edge."""
-    n, count = max(16, hand.round(radius)), int(rng.integers(3, 9))
+    n, count = max(16, style.round(radius)), int(rng.integers(3, 9))
     thick = 0.004 + 0.05 * radius
     kind = int(rng.integers(3))
     turns = np.arange(count) * 2 * np.pi / count + 0.1
@@ -124,9 +124,9 @@ def _disc(radius: float, hand: Hand, rng: Rng) -> Solid:
     return merge([plate, edge, _hub(0.22 * radius + 0.002, 1.8 * thick + 0.15 * radius, rng)])
 
 
-def _dished(radius: float, hand: Hand, rng: Rng) -> Solid:
+def _dished(radius: float, style: ModelingStyle, rng: Rng) -> Solid:
     """A pressed sheet wheel: a cone or bowl with a rolled edge."""
-    n, t = max(16, hand.round(radius)), 0.0015 + 0.015 * radius
+    n, t = max(16, style.round(radius)), 0.0015 + 0.015 * radius
     deep, roll = float(rng.uniform(0.15, 0.45)) * radius, float(rng.uniform(0.05, 0.10)) * radius
     line = [
         (0.0, 0.0),
@@ -145,7 +145,7 @@ def _dished(radius: float, hand: Hand, rng: Rng) -> Solid:
     )
 
 
-def _lobed(radius: float, hand: Hand, rng: Rng) -> Solid:
+def _lobed(radius: float, style: ModelingStyle, rng: Rng) -> Solid:
     """A knob with a wavy, fluted or knurled edge, flat, domed or conical."""
     count = int(rng.integers(3, 13))
     wave = float(rng.uniform(0.04, 0.16)) if count > 4 else float(rng.uniform(0.12, 0.2))
@@ -164,7 +164,7 @@ def _lobed(radius: float, hand: Hand, rng: Rng) -> Solid:
     return weld([loft([np.zeros((1, 3)), *loops, np.array([[0.0, 0.0, tall]])])])
 
 
-def _star(radius: float, hand: Hand, rng: Rng) -> Solid:
+def _star(radius: float, style: ModelingStyle, rng: Rng) -> Solid:
     """A star grip: three to six short arms that end in balls or rounds; a cross handle where there are four."""
     count, knob = int(rng.integers(3, 7)), radius * float(rng.uniform(0.12, 0.2))
     slim = knob * float(rng.uniform(0.5, 0.9))
@@ -178,7 +178,7 @@ def _star(radius: float, hand: Hand, rng: Rng) -> Solid:
     )
 
 
-def _cross(radius: float, hand: Hand, rng: Rng) -> Solid:
+def _cross(radius: float, style: ModelingStyle, rng: Rng) -> Solid:
     """A cross handle, as of taps and capstans: four long tapered or square arms, maybe within a ring."""
     slim = 0.07 * radius + 0.002
     if rng.random() < 0.5:
@@ -193,11 +193,11 @@ def _cross(radius: float, hand: Hand, rng: Rng) -> Solid:
         arm = box((radius, 1.8 * slim, 1.8 * slim), (radius / 2, 0, 1.6 * slim))
     solids = [around(arm, 4), _hub(0.22 * radius, 3.2 * slim, rng)]
     if rng.random() < 0.25:
-        solids.append(moved(torus(0.75 * radius, 0.7 * slim, max(16, hand.round(radius)), 6), at(0, 0, 1.6 * slim)))
+        solids.append(moved(torus(0.75 * radius, 0.7 * slim, max(16, style.round(radius)), 6), at(0, 0, 1.6 * slim)))
     return merge(solids)
 
 
-def _tubular(radius: float, hand: Hand, rng: Rng) -> Solid:
+def _tubular(radius: float, style: ModelingStyle, rng: Rng) -> Solid:
     """A wheel of bent pipe on two to four flat bars, the rim well above the hub."""
     thick, count = 0.004 + 0.05 * radius, int(rng.integers(2, 5))
     deep = float(rng.uniform(0.2, 0.5)) * radius
@@ -206,20 +206,20 @@ def _tubular(radius: float, hand: Hand, rng: Rng) -> Solid:
         [(0.05 * radius, 0, 0.08 * radius), (0.45 * radius, 0, 0.08 * radius), (0.97 * radius - thick, 0, deep)]
     )
     bar = sweep(path, flat, up=(0.0, 1.0, 0.0))
-    rim = moved(torus(radius - thick, thick, max(16, hand.round(radius)), 8), at(0, 0, deep))
+    rim = moved(torus(radius - thick, thick, max(16, style.round(radius)), 8), at(0, 0, deep))
     return merge([rim, around(bar, count), cylinder(0.16 * radius + 0.003, 0.0, 0.16 * radius + 0.01, 12)])
 
 
-WHEELS: dict[str, Callable[[float, Hand, Rng], Solid]] = {
+WHEELS: dict[str, Callable[[float, ModelingStyle, Rng], Solid]] = {
     "spoked": _spoked, "wire": _wire, "disc": _disc, "dished": _dished, "lobed": _lobed, "star": _star,
     "cross": _cross, "tubular": _tubular,
 }  # fmt: skip
 _CAST = ("spoked", "spoked", "spoked", "disc", "dished", "tubular", "wire")
 
 
-def wheel_of(radius: float, hand: Hand, rng: Rng, kinds: tuple[str, ...] = _CAST) -> Solid:
+def wheel_of(radius: float, style: ModelingStyle, rng: Rng, kinds: tuple[str, ...] = _CAST) -> Solid:
     """A handwheel of one of some makes about z, its hub standing on z = 0 [m]."""
-    return moved(WHEELS[str(rng.choice(kinds))](radius, hand, rng), spun("z", float(rng.uniform(0, 6))))
+    return moved(WHEELS[str(rng.choice(kinds))](radius, style, rng), spun("z", float(rng.uniform(0, 6))))
 
 
 # --- levers, pointing along +x ---
@@ -239,7 +239,7 @@ def _sleeve(length: float, rise: float, half: float, thick: float, share: float)
     return outline
 
 
-def _sheet(length: float, hand: Hand, rng: Rng) -> Solid:
+def _sheet(length: float, style: ModelingStyle, rng: Rng) -> Solid:
     """A flat lever of sheet, bent up once or twice, with or without a plastic sleeve."""
     half, thick = 0.05 * length + 0.004, 0.002 + 0.012 * length
     rise = float(rng.uniform(-0.02, 0.28)) * length
@@ -259,7 +259,7 @@ def _sheet(length: float, hand: Hand, rng: Rng) -> Solid:
     return merge(solids)
 
 
-def _cast(length: float, hand: Hand, rng: Rng) -> Solid:
+def _cast(length: float, style: ModelingStyle, rng: Rng) -> Solid:
     """A cast lever: an eye on the stem, a web that narrows, a round end."""
     eye, neck, end = 0.11 * length, 0.04 * length, float(rng.uniform(0.04, 0.07)) * length
     turns = np.linspace(-np.pi / 2, np.pi / 2, 6)
@@ -271,7 +271,7 @@ def _cast(length: float, hand: Hand, rng: Rng) -> Solid:
     return merge([web, rib, cylinder(eye, 0.0, 2.4 * thick, 16), box((eye, eye, 0.8 * thick), (0, 0, 2.6 * thick))])
 
 
-def _bar(length: float, hand: Hand, rng: Rng) -> Solid:
+def _bar(length: float, style: ModelingStyle, rng: Rng) -> Solid:
     """A round bar through a socket on the stem: sloping, cranked or straight, with a ball, a grip or a bare end."""
     slim, socket = 0.022 * length + 0.003, 0.06 * length + 0.005
     tilt = float(rng.choice([0.0, 0.25, 0.6]))
@@ -291,7 +291,7 @@ def _bar(length: float, hand: Hand, rng: Rng) -> Solid:
     return merge(solids)
 
 
-def _loop(length: float, hand: Hand, rng: Rng) -> Solid:
+def _loop(length: float, style: ModelingStyle, rng: Rng) -> Solid:
     """An oval ring of bent wire, flat or rising: the stem sits in one end or in its middle."""
     slim, wide = 0.015 * length + 0.002, float(rng.uniform(0.14, 0.3)) * length
     turns = np.arange(16) * np.pi / 8
@@ -302,7 +302,7 @@ def _loop(length: float, hand: Hand, rng: Rng) -> Solid:
     return merge([wire, plate, cylinder(0.06 * length + 0.002, 0.0, 3.5 * slim, 12)])
 
 
-def _wing(length: float, hand: Hand, rng: Rng) -> Solid:
+def _wing(length: float, style: ModelingStyle, rng: Rng) -> Solid:
     """A butterfly handle: two wings up from the hub, plain or pierced."""
     reach, wide = 0.4 * length, 0.14 * length
     droop = float(rng.uniform(0.5, 1.1))
@@ -315,7 +315,7 @@ def _wing(length: float, hand: Hand, rng: Rng) -> Solid:
     return merge([blade, cylinder(0.6 * wide, 0.0, 1.3 * wide, 12)])
 
 
-def _tee(length: float, hand: Hand, rng: Rng) -> Solid:
+def _tee(length: float, style: ModelingStyle, rng: Rng) -> Solid:
     """A tee key: a socket and a cross bar, round, flat or moulded with fingers' hollows."""
     tall, slim = float(rng.uniform(0.12, 0.6)) * length, 0.035 * length + 0.002
     kind = int(rng.integers(3))
@@ -331,7 +331,7 @@ def _tee(length: float, hand: Hand, rng: Rng) -> Solid:
     return merge([top, cylinder(1.5 * slim, 0.0, tall, 12), cylinder(2.2 * slim, 0.0, 0.3 * tall, 12)])
 
 
-def _notched(length: float, hand: Hand, rng: Rng) -> Solid:
+def _notched(length: float, style: ModelingStyle, rng: Rng) -> Solid:
     """A ten-position lever of wafer butterfly valves: a grip with a spring trigger below it."""
     half, thick = 0.045 * length + 0.005, 0.02 * length + 0.003
     rise = 0.1 * length
@@ -346,7 +346,7 @@ def _notched(length: float, hand: Hand, rng: Rng) -> Solid:
     return merge([_strip(path, half, thick), trigger, pivot, *sides, cylinder(1.3 * half, -0.2 * thick, 2 * thick, 14)])
 
 
-def _spanner(length: float, hand: Hand, rng: Rng) -> Solid:
+def _spanner(length: float, style: ModelingStyle, rng: Rng) -> Solid:
     """A box wrench on the stem's square: a ring, a long I-shaped shank, a round or hollow end."""
     eye, thick = 0.09 * length + 0.004, 0.02 * length + 0.003
     shank = box((0.85 * length, 0.07 * length, thick), (0.5 * length, 0, thick))
@@ -365,14 +365,14 @@ def _spanner(length: float, hand: Hand, rng: Rng) -> Solid:
     )
 
 
-LEVERS: dict[str, Callable[[float, Hand, Rng], Solid]] = {
+LEVERS: dict[str, Callable[[float, ModelingStyle, Rng], Solid]] = {
     "sheet": _sheet, "cast": _cast, "bar": _bar, "loop": _loop, "wing": _wing, "tee": _tee, "notched": _notched,
     "spanner": _spanner,
 }  # fmt: skip
 _LONG = ("sheet", "sheet", "cast", "bar", "loop", "spanner")
 
 
-def lever_of(length: float, hand: Hand, rng: Rng, kinds: tuple[str, ...] = _LONG) -> Solid:
+def lever_of(length: float, style: ModelingStyle, rng: Rng, kinds: tuple[str, ...] = _LONG) -> Solid:
     """A lever of one of some makes on z = 0, along, across or against the run [m]."""
-    solid = LEVERS[str(rng.choice(kinds))](length, hand, rng)
+    solid = LEVERS[str(rng.choice(kinds))](length, style, rng)
     return moved(solid, spun("z", float(rng.choice([0.0, 0.0, 0.5, 1.0, -0.5])) * np.pi))

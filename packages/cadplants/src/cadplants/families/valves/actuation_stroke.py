@@ -12,7 +12,7 @@ from cadplants.families.valves.actuation_hand import slab
 from cadplants.families.valves.drive import BODY
 from cadplants.family import Part, placed
 from cadplants.mesh_ops import Solid, merge, moved, sweep
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
 from cadplants.transforms import at, spun
@@ -20,12 +20,12 @@ from cadplants.transforms import at, spun
 __all__ = ["LINEAR", "linear", "screwed_up", "yoke_arms"]
 
 Rng = np.random.Generator
-Maker = Callable[[float, float, Hand, Rng], list[Part]]
+Maker = Callable[[float, float, ModelingStyle, Rng], list[Part]]
 
 
-def yoke_arms(half: float, tall: float, hand: Hand, rng: Rng, bundle: str = BODY) -> Part:
+def yoke_arms(half: float, tall: float, style: ModelingStyle, rng: Rng, bundle: str = BODY) -> Part:
     """A yoke from z = 0 to ``tall``: arched, straight or waisted arms, pillars, a window frame, a slotted tube [m]."""
-    n, kind = max(12, hand.round(half)), int(rng.integers(6))
+    n, kind = max(12, style.round(half)), int(rng.integers(6))
     plate = max(0.006, 0.10 * half)
     crown = float(rng.uniform(0.45, 0.8)) * half
     top = cylinder(crown, tall - 1.6 * plate, tall, n)
@@ -87,16 +87,16 @@ def yoke_arms(half: float, tall: float, hand: Hand, rng: Rng, bundle: str = BODY
     return Part(merge(solids), "yoke", "valve", bundle)
 
 
-def screwed_up(half: float, tall: float, wheel: float, slim: float, hand: Hand, rng: Rng) -> list[Part]:
+def screwed_up(half: float, tall: float, wheel: float, slim: float, style: ModelingStyle, rng: Rng) -> list[Part]:
     """An outside screw and yoke: yoke, rising stem, yoke nut, and a wheel, a gear or a motor on top [m]."""
     nut = merge([cylinder(2.2 * slim, tall - 0.01, tall + 1.5 * slim, 12), hexagon(3.6 * slim, tall, tall + slim)])
-    parts = [yoke_arms(half, tall, hand, rng), Part(nut, "nut", "trim", BODY, "Connection assembly")]
+    parts = [yoke_arms(half, tall, style, rng), Part(nut, "nut", "trim", BODY, "Connection assembly")]
     kind = rng.random()
     if kind < 0.72 or wheel < 0.08:
         open_ = float(rng.uniform(0.0, 1.0)) * 0.8 * tall
         parts += [
-            shaft(-0.01, tall + 3 * slim + open_ + 0.02, slim, hand, rng),
-            hand_wheel(wheel, tall + 1.2 * slim, hand, rng),
+            shaft(-0.01, tall + 3 * slim + open_ + 0.02, slim, style, rng),
+            hand_wheel(wheel, tall + 1.2 * slim, style, rng),
         ]
         if open_ > 0.3 * tall and rng.random() < 0.3:
             parts.append(
@@ -108,9 +108,9 @@ def screwed_up(half: float, tall: float, wheel: float, slim: float, hand: Hand, 
                 )
             )
         return parts
-    parts.append(shaft(-0.01, tall + 2 * slim, slim, hand, rng))
+    parts.append(shaft(-0.01, tall + 2 * slim, slim, style, rng))
     driver = ("bevel",) if kind < 0.87 else ("multi-turn",)
-    return parts + quarter_turn(0.0, tall + 0.5 * slim, 0.6 * wheel, hand, rng, driver)
+    return parts + quarter_turn(0.0, tall + 0.5 * slim, 0.6 * wheel, style, rng, driver)
 
 
 def _rim_bolts(head: float, low: float, high: float, rng: Rng) -> Part:
@@ -119,10 +119,10 @@ def _rim_bolts(head: float, low: float, high: float, rng: Rng) -> Part:
     return bolted(around(one, count, 0.93 * head), "actuator")
 
 
-def _diaphragm(radius: float, tall: float, hand: Hand, rng: Rng) -> list[Part]:
+def _diaphragm(radius: float, tall: float, style: ModelingStyle, rng: Rng) -> list[Part]:
     """A spring diaphragm: dished pans, flat pans, a deep spring case above, or two storeys; with a vent and an eye."""
     head = float(rng.uniform(0.8, 1.4)) * (0.08 + 1.2 * radius)
-    n, kind = max(16, hand.round(head)), int(rng.integers(4))
+    n, kind = max(16, style.round(head)), int(rng.integers(4))
     lip = 0.012 + 0.03 * head
     lower = [
         (0.25 * head, 0.0),
@@ -175,19 +175,19 @@ def _diaphragm(radius: float, tall: float, hand: Hand, rng: Rng) -> list[Part]:
     parts = [Part(merge(pans), "actuator", "valve", "actuator"), _rim_bolts(head, 0.18 * head, seam + lip + 0.001, rng)]
     if rng.random() < 0.2:
         parts += [
-            shaft(high - 0.01, high + 0.25 * head, 0.05 * head, hand, rng),
-            hand_wheel(0.5 * head, high + 0.15 * head, hand, rng),
+            shaft(high - 0.01, high + 0.25 * head, 0.05 * head, style, rng),
+            hand_wheel(0.5 * head, high + 0.15 * head, style, rng),
         ]
     return placed(parts, at(0, 0, tall))
 
 
-def _piston(radius: float, tall: float, hand: Hand, rng: Rng) -> list[Part]:
+def _piston(radius: float, tall: float, style: ModelingStyle, rng: Rng) -> list[Part]:
     """A piston cylinder: end plates held by tie rods, or a smooth barrel with rolled covers, ports on one side."""
     half, long = (
         float(rng.uniform(0.8, 1.2)) * (0.03 + 0.7 * radius),
         float(rng.uniform(1.6, 3.0)) * (0.03 + 0.7 * radius),
     )
-    n = max(16, hand.round(half))
+    n = max(16, style.round(half))
     kind = int(rng.integers(3))
     if kind == 0:
         plate = (
@@ -245,10 +245,10 @@ def _piston(radius: float, tall: float, hand: Hand, rng: Rng) -> list[Part]:
     return placed(parts, at(0, 0, tall))
 
 
-def _ram(radius: float, tall: float, hand: Hand, rng: Rng) -> list[Part]:
+def _ram(radius: float, tall: float, style: ModelingStyle, rng: Rng) -> list[Part]:
     """A hydraulic cylinder: a thick tube between square heads, elbowed oil ports and their pipe."""
     half, long = 0.025 + 0.4 * radius, float(rng.uniform(3.0, 5.0)) * (0.025 + 0.4 * radius)
-    n = max(16, hand.round(half))
+    n = max(16, style.round(half))
     heads = [box((2.2 * half, 2.2 * half, 0.6 * half), (0, 0, z)) for z in (0.3 * half, long)]
     tube_ = cylinder(0.9 * half, 0.5 * half, long, n)
     ties = around(cylinder(0.1 * half, 0.0, long + 0.45 * half, 8), 4, 1.3 * half, np.pi / 4)
@@ -260,9 +260,9 @@ def _ram(radius: float, tall: float, hand: Hand, rng: Rng) -> list[Part]:
     return placed([Part(merge([*heads, tube_, ties, pipe]), "actuator", "motor", "actuator")], at(0, 0, tall))
 
 
-def _motor(radius: float, tall: float, hand: Hand, rng: Rng) -> list[Part]:
+def _motor(radius: float, tall: float, style: ModelingStyle, rng: Rng) -> list[Part]:
     """A linear electric actuator, as on heating valves: a moulded case, round or boxy, a cable gland, a knob."""
-    half, n = 0.035 + 0.4 * radius, max(16, hand.round(0.05))
+    half, n = 0.035 + 0.4 * radius, max(16, style.round(0.05))
     high = float(rng.uniform(1.6, 3.0)) * half
     if rng.random() < 0.5:
         case = slab(rounded_rectangle(2.4 * half, 1.7 * half, 0.4 * half, 3), 0.0, high)
@@ -284,8 +284,8 @@ def _motor(radius: float, tall: float, hand: Hand, rng: Rng) -> list[Part]:
     return placed(parts, at(0, 0, tall))
 
 
-def _turning(radius: float, tall: float, hand: Hand, rng: Rng) -> list[Part]:
-    return quarter_turn(0.0, tall, max(radius, 0.024), hand, rng, ("multi-turn", "electrohydraulic", "bevel"))
+def _turning(radius: float, tall: float, style: ModelingStyle, rng: Rng) -> list[Part]:
+    return quarter_turn(0.0, tall, max(radius, 0.024), style, rng, ("multi-turn", "electrohydraulic", "bevel"))
 
 
 LINEAR: dict[str, Maker] = {
@@ -322,14 +322,16 @@ def _scale(half: float, tall: float) -> Part:
     )
 
 
-def linear(x: float, z: float, radius: float, hand: Hand, rng: Rng, kinds: tuple[str, ...] = ()) -> list[Part]:
+def linear(
+    x: float, z: float, radius: float, style: ModelingStyle, rng: Rng, kinds: tuple[str, ...] = ()
+) -> list[Part]:
     """A yoke with one of some linear actuators on it, maybe a positioner and a travel scale.
 
     Args:
         x: of the stem [m].
         z: of the bonnet's top [m].
         radius: of the pipe, which everything is scaled by [m].
-        hand: that models it.
+        style: that models it.
         rng: of its proportions.
         kinds: of ``LINEAR`` to draw from; all by default.
     """
@@ -337,7 +339,7 @@ def linear(x: float, z: float, radius: float, hand: Hand, rng: Rng, kinds: tuple
     half, tall = 0.025 + 0.55 * radius, float(rng.uniform(0.8, 1.3)) * (0.07 + 1.3 * radius)
     slim = 0.004 + 0.07 * radius
     middle = 0.5 * tall
-    parts = [yoke_arms(half, tall, hand, rng, "actuator"), shaft(-0.01, tall + 0.01, slim, hand)]
+    parts = [yoke_arms(half, tall, style, rng, "actuator"), shaft(-0.01, tall + 0.01, slim, style)]
     coupling = merge(
         [
             box((3.0 * slim, 5.0 * slim, 4 * slim), (0, 0, middle)),
@@ -345,7 +347,7 @@ def linear(x: float, z: float, radius: float, hand: Hand, rng: Rng, kinds: tuple
         ]
     )
     parts.append(Part(coupling, "valve stem", "trim", BODY))
-    parts += LINEAR[kind](radius, tall, hand, rng)
+    parts += LINEAR[kind](radius, tall, style, rng)
     if kind in ("diaphragm", "piston") and rng.random() < 0.55:
         parts += _positioner(half, tall, rng)
     if rng.random() < 0.6:

@@ -24,7 +24,7 @@ from cadplants.families.valves.drive import BODY
 from cadplants.families.valves.valve import valve_family
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import Solid, about_x, merge, moved, revolve, weld
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, turned
 from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES
 from cadplants.transforms import at, spun
@@ -39,23 +39,25 @@ def some_turn(rng: Rng) -> float:
     return float(rng.choice([0.0, 0.0, 0.25, 0.5])) * np.pi
 
 
-def ball_inside(dn: int, x: float, hand: Hand, rng: Rng, trunnions: float = 0.0) -> list[Part]:
-    """The ball and its two seats, where a hand shows the inside at all."""
-    if not hand.hollow:
+def ball_inside(dn: int, x: float, style: ModelingStyle, rng: Rng, trunnions: float = 0.0) -> list[Part]:
+    """The ball and its two seats, where a style shows the inside at all."""
+    if not style.hollow:
         return []
     bore = 0.9 * PIPES[dn].bore
     big = bore * float(rng.uniform(1.4, 1.6))
-    seat = along("x", ring(1.03 * bore, 1.25 * bore, 0.0, 0.16 * bore, max(16, hand.round(bore))))
+    seat = along("x", ring(1.03 * bore, 1.25 * bore, 0.0, 0.16 * bore, max(16, style.round(bore))))
     far = np.sqrt(big**2 - (1.14 * bore) ** 2)
     seats = [moved(seat, at(x + far)), moved(seat, at(x - far - 0.16 * bore))]
-    parts = [trim(moved(valve_ball(big, bore, hand, some_turn(rng), trunnions), at(x)), "valve ball")]
+    parts = [trim(moved(valve_ball(big, bore, style, some_turn(rng), trunnions), at(x)), "valve ball")]
     return [*parts, *(Part(one, "gasket", "rubber", BODY, "Pipe assembly") for one in seats)]
 
 
-def stem_top(x: float, low: float, high: float, radius: float, hand: Hand, rng: Rng, pad: str = "") -> list[Part]:
+def stem_top(
+    x: float, low: float, high: float, radius: float, style: ModelingStyle, rng: Rng, pad: str = ""
+) -> list[Part]:
     """A stem neck with a mounting pad (ISO 5211) round, square or none, its gland and its stem up to ``high`` [m]."""
     boss = 0.4 * radius + 0.007
-    n, kind = max(12, hand.round(boss)), pad or str(rng.choice(["round", "square", "octagon", "none"]))
+    n, kind = max(12, style.round(boss)), pad or str(rng.choice(["round", "square", "octagon", "none"]))
     neck = cylinder(boss, low, high, n)
     solids = [neck]
     parts = []
@@ -64,7 +66,7 @@ def stem_top(x: float, low: float, high: float, radius: float, hand: Hand, rng: 
         solids.append(slab(outline, high - 0.004 - 0.06 * radius, high))
         parts.append(bolts_on(outline, 4, high - 0.004 - 0.06 * radius, high + 0.001, 0.004 + 0.03 * radius))
     slim = 0.5 * boss
-    parts += [metal(merge(solids)), shaft(high - 0.003, high + 0.5 * boss + 0.004, slim, hand)]
+    parts += [metal(merge(solids)), shaft(high - 0.003, high + 0.5 * boss + 0.004, slim, style)]
     parts.append(
         trim(
             cylinder(0.8 * boss, high, high + 0.25 * boss, n)
@@ -79,13 +81,13 @@ def stem_top(x: float, low: float, high: float, radius: float, hand: Hand, rng: 
 _HEAVY = ("worm", "worm", "scotch", "rack", "electrohydraulic", "multi-turn", "lever", "bevel")
 
 
-def _trunnion(dn: int, hand: Hand, rng: Rng) -> Model:
+def _trunnion(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A trunnion ball valve in three bolted pieces: barrel, two end adapters, trunnion cap, drain, vent (API 6D)."""
     radius, size = PIPES[dn].radius, FLANGES[dn]
     length = FACE_TO_FACE["ball"][dn] * float(rng.uniform(1.05, 1.25))
     neck, back = neck_of(dn)
     x, big = length / 2, max(1.75 * radius + 0.012, 0.5 * size.circle * 0.9)
-    n = max(16, min(48, hand.round(big)))
+    n = max(16, min(48, style.round(big)))
     half = min(1.3 * radius, x - back - 0.035)
     lip, split = float(rng.uniform(1.12, 1.28)) * big, 0.012 + 0.08 * radius
     middle = [
@@ -123,7 +125,7 @@ def _trunnion(dn: int, hand: Hand, rng: Rng) -> Model:
     bolts = bolted(about_x(around(one, count, 0.9 * lip)))
     cap = merge([cylinder(0.55 * big, -1.15 * big, -0.8 * big, n), cylinder(0.7 * big, -1.25 * big, -1.13 * big, n)])
     drains = merge([along("y", hexagon(0.024, 0.9 * big, 1.1 * big), 0, 0, s * 0.4 * big) for s in (-1, 1)])
-    solids = [ended(dn, hand, length, middle, "flanged"), moved(merge([cap, drains]), at(x)), about_x(merge(rims))]
+    solids = [ended(dn, style, length, middle, "flanged"), moved(merge([cap, drains]), at(x)), about_x(merge(rims))]
     if rng.random() < 0.4:
         solids += [box((0.4 * half, 1.5 * big, 0.5 * big), (x + s * 0.6 * half, 0, -1.15 * big)) for s in (-1, 1)]
     high = max(1.35 * big, 0.5 * size.outer) + 0.03
@@ -131,24 +133,24 @@ def _trunnion(dn: int, hand: Hand, rng: Rng) -> Model:
         metal(merge(solids)),
         metal(about_x(barrel)),
         bolts,
-        *stem_top(x, 0.8 * big, high, 1.4 * radius, hand, rng),
+        *stem_top(x, 0.8 * big, high, 1.4 * radius, style, rng),
     ]
-    parts += ball_inside(dn, x, hand, rng, 1.5 * radius)
+    parts += ball_inside(dn, x, style, rng, 1.5 * radius)
     if rng.random() < 0.5:
         cover = turned(
             [(0.6 * big, 0.9 * big), (0.6 * big, high - 0.02), (0.75 * big, high - 0.02), (0.75 * big, high - 0.001)], n
         )
         parts.append(trim(cover, "valve bonnet", x, "valve"))
-    parts += quarter_turn(x, high + 0.004 + 0.28 * radius, radius, hand, rng, _HEAVY)
+    parts += quarter_turn(x, high + 0.004 + 0.28 * radius, radius, style, rng, _HEAVY)
     return Model(parts, round(length, 6), kind="ball valve")
 
 
-def _top_entry(dn: int, hand: Hand, rng: Rng) -> Model:
+def _top_entry(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A top-entry ball valve: a one-piece cast body, the ball goes in from above under a large bolted bonnet."""
     radius, ends = PIPES[dn].radius, str(rng.choice(["flanged", "flanged", "butt"]))
     length = FACE_TO_FACE["ball"][dn] * (1.1 if ends == "flanged" else 1.0)
     x, big = length / 2, 1.6 * radius + 0.012
-    n = max(16, hand.round(big))
+    n = max(16, style.round(big))
     neck, back = neck_of(dn) if ends == "flanged" else (1.1 * radius, 0.1 * length)
     shares = np.linspace(-1, 1, 9)
     reach = 0.5 * length - back - 0.05 * length
@@ -156,7 +158,7 @@ def _top_entry(dn: int, hand: Hand, rng: Rng) -> Model:
     seat, plate = max(1.2 * big, 0.9 * room(dn) if ends == "flanged" else 0.0), 0.012 + 0.12 * radius
     half = float(rng.uniform(1.1, 1.3)) * big
     collar, lid, bolts = lid_joint(
-        str(rng.choice(["round", "round", "octagon", "square"])), half, half, seat, plate, hand, rng
+        str(rng.choice(["round", "round", "octagon", "square"])), half, half, seat, plate, style, rng
     )
     tower = turned([(0.9 * big, 0.0), (0.95 * big, seat - 0.003)], n)
     dome_ = turned(
@@ -164,22 +166,22 @@ def _top_entry(dn: int, hand: Hand, rng: Rng) -> Model:
     )
     high = seat + 2.6 * plate
     parts = [
-        metal(merge([ended(dn, hand, length, middle, ends), moved(merge([tower, collar]), at(x))])),
+        metal(merge([ended(dn, style, length, middle, ends), moved(merge([tower, collar]), at(x))])),
         trim(merge([lid, dome_]), "valve bonnet", x, "valve"),
         *placed([bolts], at(x)),
-        *stem_top(x, high - 0.01, high + 0.02 + 0.2 * radius, radius, hand, rng),
-        *ball_inside(dn, x, hand, rng),
-        *quarter_turn(x, high + 0.024 + 0.4 * radius, radius, hand, rng, _HEAVY),
+        *stem_top(x, high - 0.01, high + 0.02 + 0.2 * radius, radius, style, rng),
+        *ball_inside(dn, x, style, rng),
+        *quarter_turn(x, high + 0.024 + 0.4 * radius, radius, style, rng, _HEAVY),
     ]
     return Model(parts, round(length, 6), "flanged" if ends == "flanged" else "welded", "ball valve")
 
 
-def _welded(dn: int, hand: Hand, rng: Rng) -> Model:
+def _welded(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A fully welded pipeline ball valve: a sphere or drum with weld seams, extended stem, vent pipes (EN 14141)."""
     radius = PIPES[dn].radius
     x = 0.05 + 2.6 * radius
     length, big = 2 * x, float(rng.uniform(1.55, 1.9)) * radius + 0.006
-    n = max(16, hand.round(big))
+    n = max(16, style.round(big))
     if rng.random() < 0.5:
         shares = np.linspace(-0.86, 0.86, 11)
         middle = [(big * float(np.sqrt(1 - s * s)), x + big * float(s)) for s in shares]
@@ -209,7 +211,7 @@ def _welded(dn: int, hand: Hand, rng: Rng) -> Model:
         n,
     )
     parts = [
-        metal(merge([ended(dn, hand, length, middle, "butt"), about_x(merge(seams))])),
+        metal(merge([ended(dn, style, length, middle, "butt"), about_x(merge(seams))])),
         trim(tube_, "valve bonnet", x, "valve"),
     ]
     if reach > big + 0.2:
@@ -222,22 +224,22 @@ def _welded(dn: int, hand: Hand, rng: Rng) -> Model:
             )
         vents.append(box((2 * boss + 0.04, 0.012, 0.005), (0, 0, 0.5 * (big + reach))))
         parts.append(metal(merge(vents), x))
-    parts += [*placed([shaft(reach - 0.002, reach + 0.02, 0.4 * boss, hand)], at(x)), *ball_inside(dn, x, hand, rng)]
+    parts += [*placed([shaft(reach - 0.002, reach + 0.02, 0.4 * boss, style)], at(x)), *ball_inside(dn, x, style, rng)]
     kinds = ("lever", "worm", "bevel", "multi-turn", "scotch", "worm")
-    parts += quarter_turn(x, reach + 0.012, radius, hand, rng, kinds)
+    parts += quarter_turn(x, reach + 0.012, radius, style, rng, kinds)
     return Model(parts, round(length, 6), "welded", "ball valve")
 
 
-def _segment(dn: int, hand: Hand, rng: Rng) -> Model:
+def _segment(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A V-segment control ball valve: a short body, flangeless or flanged, shaft off the middle, an actuator."""
     radius, size = PIPES[dn].radius, FLANGES[dn]
     length = 0.095 + 0.75 * radius
     flanged = rng.random() < 0.4
     x, outer = 0.45 * length, 0.49 * (size.circle - size.bolt)
-    n = max(16, hand.round(outer))
+    n = max(16, style.round(outer))
     neck, back = neck_of(dn)
     if flanged and length > 2.6 * back + 0.03:
-        body = ended(dn, hand, length, [(neck, back), (1.15 * neck, x), (neck, length - back)], "flanged")
+        body = ended(dn, style, length, [(neck, back), (1.15 * neck, x), (neck, length - back)], "flanged")
     else:
         flanged = False
         waist = max(0.85 * outer, 1.25 * radius)
@@ -268,9 +270,9 @@ def _segment(dn: int, hand: Hand, rng: Rng) -> Model:
         ]
     )
     parts.append(trim(cover, "valve bonnet", x, "valve"))
-    gland, _ = packing(0.35 * boss, hand, rng, int(rng.choice([0, 2])))
-    parts += placed([*gland, shaft(-0.1 * radius, 0.05, 0.35 * boss, hand)], at(x, 0, high))
-    if hand.hollow:
+    gland, _ = packing(0.35 * boss, style, rng, int(rng.choice([0, 2])))
+    parts += placed([*gland, shaft(-0.1 * radius, 0.05, 0.35 * boss, style)], at(x, 0, high))
+    if style.hollow:
         big = 1.12 * PIPES[dn].bore
         arc_ = np.linspace(-0.75, 0.75, 9)
         shell = [(big * np.cos(t), big * np.sin(t)) for t in arc_] + [
@@ -280,7 +282,7 @@ def _segment(dn: int, hand: Hand, rng: Rng) -> Model:
         pins = merge([cylinder(0.3 * boss, *span(s * 0.55 * big, s * 1.05 * big), 10) for s in (-1, 1)])
         parts.append(trim(moved(merge([moved(cup, spun("z", some_turn(rng))), pins]), at(x)), "valve ball"))
     parts += quarter_turn(
-        x, high + 0.02, radius, hand, rng, ("rack", "scotch", "motor box", "electrohydraulic", "worm")
+        x, high + 0.02, radius, style, rng, ("rack", "scotch", "motor box", "electrohydraulic", "worm")
     )
     return Model(parts, round(length, 6), "flanged" if flanged else "wafer", "control valve")
 
@@ -290,12 +292,12 @@ def part_ring(profile: list[tuple[float, float]], n: int) -> Solid:
     return weld([revolve(profile, n, closed=True)])
 
 
-def _wafer(dn: int, hand: Hand, rng: Rng) -> Model:
+def _wafer(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A compact wafer ball valve between two flanges: a round or lugged disc barely longer than its ball (DIN 3357)."""
     radius, size = PIPES[dn].radius, FLANGES[dn]
     length = max(0.042, float(rng.uniform(1.5, 1.9)) * radius + 0.012)
     x, outer = length / 2, 0.49 * (size.circle - size.bolt)
-    bore, n = 0.95 * PIPES[dn].bore, max(16, hand.round(outer))
+    bore, n = 0.95 * PIPES[dn].bore, max(16, style.round(outer))
     kind = int(rng.integers(3))
     if kind == 0:
         shell = part_ring([(bore, 0.0), (outer, 0.0), (outer, length), (bore, length)], n)
@@ -327,16 +329,16 @@ def _wafer(dn: int, hand: Hand, rng: Rng) -> Model:
     )
     parts = [metal(about_x(shell)), metal(moved(about_x(insert), at(length - 0.004)), 0.0, "trim")]
     high = 0.5 * size.outer + 0.012
-    parts += [*stem_top(x, 0.95 * bore, high, 0.8 * radius, hand, rng), *ball_inside(dn, x, hand, rng)]
-    parts += quarter_turn(x, high + 0.004 + 0.16 * radius, radius, hand, rng, ("lever", "lever", "rack", "motor box"))
+    parts += [*stem_top(x, 0.95 * bore, high, 0.8 * radius, style, rng), *ball_inside(dn, x, style, rng)]
+    parts += quarter_turn(x, high + 0.004 + 0.16 * radius, radius, style, rng, ("lever", "lever", "rack", "motor box"))
     return Model(parts, round(length, 6), "wafer", "ball valve")
 
 
-def ferrule(dn: int, low: float, high: float, hand: Hand, face: bool) -> Solid:
+def ferrule(dn: int, low: float, high: float, style: ModelingStyle, face: bool) -> Solid:
     """A sanitary ferrule along x, its conical rim at ``low`` (``face``) or at ``high`` (ISO 2852)."""
     pipe = PIPES[dn]
-    n, rim = hand.round(pipe.radius), 1.25 * pipe.radius + 0.008
-    inner = pipe.bore if hand.hollow else 0.0
+    n, rim = style.round(pipe.radius), 1.25 * pipe.radius + 0.008
+    inner = pipe.bore if style.hollow else 0.0
     outline = (
         [(pipe.radius, low + 0.0065), (rim, low + 0.003), (rim, low)]
         if face
@@ -349,10 +351,10 @@ def ferrule(dn: int, low: float, high: float, hand: Hand, face: bool) -> Solid:
     return about_x(turned(outline, n))
 
 
-def _clamp_ring(dn: int, x: float, hand: Hand, rng: Rng) -> Part:
+def _clamp_ring(dn: int, x: float, style: ModelingStyle, rng: Rng) -> Part:
     """A clamp of two hinged halves round a pair of ferrules at ``x``, with its wing nut (ISO 2852)."""
     rim = 1.25 * PIPES[dn].radius + 0.008
-    n = max(16, hand.round(rim))
+    n = max(16, style.round(rim))
     hoop = part_ring(
         [
             (1.01 * rim, -0.004),
@@ -377,16 +379,16 @@ def _clamp_ring(dn: int, x: float, hand: Hand, rng: Rng) -> Part:
     return Part(moved(about_x(merge([hoop, bolt])), at(x) @ turn), "clamp", "clamp", "", "Connection assembly")
 
 
-def clamped_ends(dn: int, stub: float, length: float, hand: Hand, rng: Rng) -> list[Part]:
+def clamped_ends(dn: int, stub: float, length: float, style: ModelingStyle, rng: Rng) -> list[Part]:
     """The pipe's ferrules before and behind a sanitary valve whose own faces lie ``stub`` inward, with their clamps."""
-    low, high = ferrule(dn, 0.0, stub - 0.001, hand, False), ferrule(dn, length - stub + 0.001, length, hand, True)
+    low, high = ferrule(dn, 0.0, stub - 0.001, style, False), ferrule(dn, length - stub + 0.001, length, style, True)
     return [
         *(Part(one, "coupling", "pipe", "", "Pipe assembly") for one in (low, high)),
-        *(_clamp_ring(dn, z, hand, rng) for z in (stub, length - stub)),
+        *(_clamp_ring(dn, z, style, rng) for z in (stub, length - stub)),
     ]
 
 
-def _split(dn: int, hand: Hand, rng: Rng) -> Model:
+def _split(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A split-body floating ball valve: a long and a short half bolted off the middle, any joint (ISO 17292)."""
     radius, size = PIPES[dn].radius, FLANGES[dn]
     length = FACE_TO_FACE["ball"][dn]
@@ -404,25 +406,25 @@ def _split(dn: int, hand: Hand, rng: Rng) -> Model:
     ]
     kind = str(rng.choice(["round", "square", "octagon", "oval"]))
     outline = plate_outline(
-        kind, 1.25 * big + 0.008, (1.25 if kind != "oval" else 1.5) * big + 0.008, max(16, hand.round(big))
+        kind, 1.25 * big + 0.008, (1.25 if kind != "oval" else 1.5) * big + 0.008, max(16, style.round(big))
     )
     flanges = [along("x", slab(outline, z, z + thick)) for z in (joint - thick, joint)]
     bolts = bolts_on(outline, int(rng.choice([4, 6, 8])), joint - thick, joint + thick, 0.006 + 0.05 * radius)
     bolts = bolted(moved(bolts.solid, spun("y", np.pi / 2)))
     high = max(big + 0.01, 0.5 * size.outer * float(rng.uniform(0.8, 1.05))) + 0.012
-    whole = ended(dn, hand, length, middle, "flanged")
+    whole = ended(dn, style, length, middle, "flanged")
     parts = [
         metal(merge([whole, flanges[0]])),
         metal(flanges[1]),
         bolts,
-        *stem_top(x, 0.8 * big, high, radius, hand, rng),
-        *ball_inside(dn, x, hand, rng),
+        *stem_top(x, 0.8 * big, high, radius, style, rng),
+        *ball_inside(dn, x, style, rng),
     ]
     parts += quarter_turn(
         x,
         high + 0.004 + 0.2 * radius,
         radius,
-        hand,
+        style,
         rng,
         ("lever", "lever", "lever", "worm", "rack", "motor box", "scotch"),
     )

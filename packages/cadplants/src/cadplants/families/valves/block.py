@@ -22,7 +22,7 @@ from cadplants.families.valves.valve import disc_flange, flanged_body, valve_fam
 from cadplants.family import Family, Model, placed
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
 from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES
@@ -31,14 +31,14 @@ from cadplants.transforms import at, spun
 __all__ = ["BLOCKS"]
 
 
-def _block_bleed(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _block_bleed(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A double block and bleed valve in one flanged body (API 6D short): two levers, a bleed needle between."""
     r, thick = PIPES[dn].radius, plate_thickness(dn)
     length = round(float(rng.uniform(5.5, 7.5)) * r + 2 * thick + 0.08, 6)
     wide = max(1.5 * r + 0.012, 1.02 * hub_radius(dn))
     neck = hub_radius(dn)
     low, high = thick + 0.018 + 0.1 * r, length - thick - 0.018 - 0.1 * r
-    shell = flanged_body(dn, hand, length, [(neck, low), (wide, low), (wide, high), (neck, high)])
+    shell = flanged_body(dn, style, length, [(neck, low), (wide, low), (wide, high), (neck, high)])
     solids = [shell]
     if rng.random() < 0.5:
         solids.append(
@@ -51,8 +51,8 @@ def _block_bleed(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     boss, top = 0.5 * r + 0.006, face + 0.012 + 0.15 * r
     span = high - low
     for x in (low + 0.22 * span, high - 0.22 * span):
-        head = [body(cylinder(boss, 0.8 * face, top, 12)), stem(top - 0.001, top + 0.012, 0.5 * boss, hand)]
-        parts += placed([*head, *drive(0.0, top + 0.01, 0.7 * r, hand, rng, ("lever", "lever", "bar"))], at(x))
+        head = [body(cylinder(boss, 0.8 * face, top, 12)), stem(top - 0.001, top + 0.012, 0.5 * boss, style)]
+        parts += placed([*head, *drive(0.0, top + 0.01, 0.7 * r, style, rng, ("lever", "lever", "bar"))], at(x))
     b = 0.009 + 0.03 * r
     way = spun("x", float(rng.choice([-0.5, 0.5, 0.0])) * np.pi)
     mid = at(length / 2) @ way
@@ -63,24 +63,24 @@ def _block_bleed(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         ),
         piece("gland", hexagon(1.4 * b, face + 4.5 * b, face + 5.2 * b)),
         piece("valve stem", cylinder(0.35 * b, face + 5.1 * b, face + 7.2 * b, 8)),
-        *drive(0.0, face + 6.8 * b, b, hand, rng, ("bar",)),
+        *drive(0.0, face + 6.8 * b, b, style, rng, ("bar",)),
     ]
     return Model([*parts, *placed(bleed, mid)], length, kind="ball valve")
 
 
-def _balancing(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _balancing(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A flanged balancing valve (EN 558 series 1): slanting or upright bonnet, digit wheel, test points."""
     length, r = FACE_TO_FACE["globe"][dn], PIPES[dn].radius
     neck, thick = hub_radius(dn), plate_thickness(dn)
     wide = max(1.25 * r + 0.006, 1.04 * neck)
     shell = flanged_body(
         dn,
-        hand,
+        style,
         length,
         [(neck, thick + 0.05 * length), (wide, 0.4 * length), (wide, 0.6 * length), (neck, 0.95 * length - thick)],
     )
     tilt = float(rng.choice([0.0, 0.6, 0.75]))
-    n = hand.round(wide)
+    n = style.round(wide)
     rim = 1.1 * wide + 0.008
     clear = (0.5 * FLANGES[dn].outer + 0.012 + rim * np.sin(tilt)) / np.cos(
         tilt
@@ -91,11 +91,11 @@ def _balancing(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     top = seat + plate
     head = [
         body(cylinder(0.85 * wide, 0.2 * wide, seat - 0.003, n)),
-        *cover(rim, seat, plate, int(rng.choice([4, 6, 8])), hand),
+        *cover(rim, seat, plate, int(rng.choice([4, 6, 8])), style),
     ]
     tall, grip = 0.04 + 0.5 * r, 0.03 + 0.45 * r
     head.append(bonnet(turned([(0.6 * wide, top - 0.001), (0.4 * wide, top + tall)], n)))
-    m = max(10, hand.round(grip))
+    m = max(10, style.round(grip))
     knob = [
         turned(
             [
@@ -126,13 +126,13 @@ def _balancing(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, length, kind="globe valve")
 
 
-def _fusible(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _fusible(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A fire-safe emergency valve (UL 842): spring in its bonnet, a lever held open by a fusible link to a bracket."""
     r = PIPES[dn].radius
     length = float(rng.uniform(4.8, 6.2)) * r + 0.035
-    wide, n, x = 1.45 * r + 0.004, hand.round(1.45 * r), length / 2
+    wide, n, x = 1.45 * r + 0.004, style.round(1.45 * r), length / 2
     core = [(1.05 * r, 0.12 * length), (wide, 0.36 * length), (wide, 0.64 * length), (1.05 * r, 0.88 * length)]
-    parts = [body(screwed(dn, hand, length, core), moved(cylinder(0.85 * wide, 0.0, 1.4 * wide, n), at(x)))]
+    parts = [body(screwed(dn, style, length, core), moved(cylinder(0.85 * wide, 0.0, 1.4 * wide, n), at(x)))]
     low, tall = 1.4 * wide, float(rng.uniform(1.2, 2.2)) * wide
     hood = [
         hexagon(2.0 * wide, low - 0.002, low + 0.5 * wide),
@@ -169,18 +169,18 @@ def _fusible(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(length, 6), "welded", "shut-off valve")
 
 
-def _quick(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _quick(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A quick-opening gate or blow-off valve: sliding stem through a bonnet, a hand lever on links about a fulcrum."""
     length, r = FACE_TO_FACE["gate"][dn], PIPES[dn].radius
     neck, thick = hub_radius(dn), plate_thickness(dn)
     wide, x = max(1.2 * r + 0.006, 1.03 * neck), length / 2
     shell = flanged_body(
         dn,
-        hand,
+        style,
         length,
         [(neck, thick + 0.05 * length), (wide, 0.4 * length), (wide, 0.6 * length), (neck, 0.95 * length - thick)],
     )
-    n = hand.round(wide)
+    n = style.round(wide)
     seat, plate = max(2.0 * r + 0.02, 0.5 * FLANGES[dn].outer + 0.012), 0.009 + 0.08 * r
     flat = bool(rng.integers(2))
     chest = turned([(0.95 * wide, 0.0), (0.95 * wide, seat - 0.003)], n)
@@ -188,7 +188,7 @@ def _quick(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         chest = moved(extrude(rounded_rectangle(1.3 * wide, 2.1 * wide, 0.3 * wide, 3), 0.0, seat - 0.003), np.eye(4))
     parts = [
         body(shell, moved(chest, at(x))),
-        *placed(cover(1.2 * wide + 0.006, seat, plate, 8, hand, flat, 0.3 * r), at(x)),
+        *placed(cover(1.2 * wide + 0.006, seat, plate, 8, style, flat, 0.3 * r), at(x)),
     ]
     top = seat + plate + 0.3 * r
     box_ = turned([(0.45 * wide, top - 0.3 * r), (0.4 * wide, top + 0.9 * r)], n)
@@ -219,12 +219,12 @@ def _quick(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, length, kind="gate valve")
 
 
-def _landing(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _landing(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A fire landing valve (BS 5041-1): flanged inlet, oblique globe, instantaneous outlet, cap, wheel."""
     r, thick = PIPES[dn].radius, plate_thickness(dn)
-    n, wide = hand.round(1.5 * r), 1.45 * r + 0.006
+    n, wide = style.round(1.5 * r), 1.45 * r + 0.006
     center = thick + 0.02 + 1.5 * wide
-    neck = disc_flange(dn, hand, center - 0.4 * wide)
+    neck = disc_flange(dn, style, center - 0.4 * wide)
     parts = [body(neck, moved(ball(1.08 * wide, n), at(0, 0, center)))]
     lean = float(rng.choice([0.6, 0.785, np.pi / 2]))
     up = at(0, 0, center) @ spun("x", lean - 0.785 if lean > 1 else -0.15)
@@ -245,8 +245,8 @@ def _landing(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     ]
     head += [piece("gland", hexagon(0.8 * wide, top + 1.25 * wide, top + 1.6 * wide))]
     head += [
-        stem(top + 1.55 * wide, top + 2.8 * wide, 0.15 * wide, hand),
-        wheel(float(rng.uniform(1.4, 2.0)) * wide + 0.01, 0, top + 2.2 * wide, hand, rng),
+        stem(top + 1.55 * wide, top + 2.8 * wide, 0.15 * wide, style),
+        wheel(float(rng.uniform(1.4, 2.0)) * wide + 0.01, 0, top + 2.2 * wide, style, rng),
     ]
     parts += placed(head, up)
     mouth = at(0, 0, center) @ spun("x", -lean - 0.5)
@@ -267,22 +267,22 @@ def _landing(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(laid(parts), kind="globe valve")
 
 
-def _tank_bottom(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _tank_bottom(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A flush tank-bottom valve (DIN 28137 type): pad flange, disc in its mouth, slanting outlet, stem."""
     r, thick = PIPES[dn].radius, plate_thickness(dn)
-    n, wide = hand.round(1.4 * r), 1.35 * r + 0.006
+    n, wide = style.round(1.4 * r), 1.35 * r + 0.006
     center = thick + 0.3 * FLANGES[dn].outer + wide
     angle = float(rng.choice([0.785, 1.047]))
-    parts = [body(disc_flange(dn, hand, center), moved(ball(1.12 * wide, n), at(0, 0, center)))]
+    parts = [body(disc_flange(dn, style, center), moved(ball(1.12 * wide, n), at(0, 0, center)))]
     reach = 0.62 * FLANGES[dn].outer + 0.5 * wide + thick
-    outlet = moved(disc_flange(dn, hand, reach), at(0, 0, -reach))
+    outlet = moved(disc_flange(dn, style, reach), at(0, 0, -reach))
     parts.append(body(moved(outlet, at(0, 0, center) @ spun("x", np.pi - angle))))
     plug = turned([(0.8 * r, -0.0008), (0.95 * r, 0.006), (0.95 * r, 0.3 * r), (0.3 * r, 0.6 * r)], n)
     parts.append(piece("valve disc", plug))
     seat, plate = 1.6 * wide, 0.010 + 0.08 * r
     head = [
         body(cylinder(0.8 * wide, 0.4 * wide, seat - 0.003, n)),
-        *cover(1.15 * wide + 0.006, seat, plate, 4, hand, bool(rng.integers(2))),
+        *cover(1.15 * wide + 0.006, seat, plate, 4, style, bool(rng.integers(2))),
     ]
     top, tall = seat + plate, 0.06 + 1.4 * r
     if rng.random() < 0.7:
@@ -290,12 +290,12 @@ def _tank_bottom(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         head.append(piece("yoke", *arms, box((0.03 + 0.15 * r, 1.4 * wide, 0.012), (0, 0, top + tall)), color="valve"))
         head.append(piece("gland", cylinder(0.4 * wide, top - 0.001, top + 0.35 * tall, 12)))
         head += [
-            stem(top, top + tall + 0.05 + 0.5 * r, 0.005 + 0.1 * r, hand),
-            wheel(0.04 + 1.1 * r, 0, top + tall + 0.02, hand, rng),
+            stem(top, top + tall + 0.05 + 0.5 * r, 0.005 + 0.1 * r, style),
+            wheel(0.04 + 1.1 * r, 0, top + tall + 0.02, style, rng),
         ]
     else:
         can = 1.3 * wide + 0.01
-        m = hand.round(can)
+        m = style.round(can)
         head.append(piece("yoke", ring(0.5 * wide, 0.7 * wide, top - 0.001, top + 0.4 * tall, n), color="valve"))
         shape = [
             (can, top + 0.4 * tall),
@@ -311,11 +311,11 @@ def _tank_bottom(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(laid(parts), kind="tank valve")
 
 
-def _sampler(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _sampler(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A sampling valve between flanges (wafer): a thick ring, its neck with a needle head and a bent spout."""
     size, bore = FLANGES[dn], PIPES[dn].bore
     outer = 0.5 * (size.circle - size.bolt) - 0.0005
-    length, n = 0.03 + 0.15 * PIPES[dn].radius, hand.round(size.outer / 2)
+    length, n = 0.03 + 0.15 * PIPES[dn].radius, style.round(size.outer / 2)
     length = round(length, 6)
     r = float(rng.uniform(0.008, 0.011))
     stub = box(
@@ -329,8 +329,8 @@ def _sampler(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         piece("gland", hexagon(1.6 * r, top + 3.9 * r, top + 4.8 * r)),
     ]
     head.append(piece("valve stem", cylinder(0.35 * r, top + 4.7 * r, top + 7.5 * r, 8)))
-    head.append(wheel(0.012 + 2.0 * r, 0, top + 6.4 * r, hand, rng)) if rng.random() < 0.6 else head.extend(
-        drive(0, top + 7.0 * r, r, hand, rng, ("bar", "lever"))
+    head.append(wheel(0.012 + 2.0 * r, 0, top + 6.4 * r, style, rng)) if rng.random() < 0.6 else head.extend(
+        drive(0, top + 7.0 * r, r, style, rng, ("bar", "lever"))
     )
     parts += placed(head, at(length / 2))
     z = 0.5 * size.outer + 0.045

@@ -13,7 +13,7 @@ from cadplants.families.valves.valve import flanged_body
 from cadplants.family import Part
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, about_x, loft, merge, moved, reverse, revolve, volume, weld
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle, triangulate
 from cadplants.primitives import along, box, cylinder, dome, hexagon, lofted, rod, turned
 from cadplants.standards import FLANGES, PIPES
@@ -59,24 +59,24 @@ def room(dn: int) -> float:
     return 0.5 * FLANGES[dn].outer + 0.004
 
 
-def ended(dn: int, hand: Hand, length: float, middle: Middle, ends: str) -> Solid:
+def ended(dn: int, style: ModelingStyle, length: float, middle: Middle, ends: str) -> Solid:
     """A body of revolution along x between ``flanged``, ``butt`` (welded), ``socket``, ``hex`` or ``octagon`` ends.
 
     Args:
         dn: nominal size.
-        hand: decides on bore and roundness.
+        style: decides on bore and roundness.
         length: face to face [m].
         middle: radius and place between the ends [m].
         ends: their kind.
     """
     if ends == "flanged":
-        return flanged_body(dn, hand, length, middle)
-    radius, bore = PIPES[dn].radius, bore_of(dn, hand)
-    n = hand.round(max(r for r, _ in middle))
+        return flanged_body(dn, style, length, middle)
+    radius, bore = PIPES[dn].radius, bore_of(dn, style)
+    n = style.round(max(r for r, _ in middle))
     if ends in ("hex", "octagon"):
         end = min(middle[0][1], length - middle[-1][1]) + 0.002
         solids = [along("x", turned(middle, n))]
-        solids += [hex_end(dn, low, low + end, hand, 6 if ends == "hex" else 8) for low in (0.0, length - end)]
+        solids += [hex_end(dn, low, low + end, style, 6 if ends == "hex" else 8) for low in (0.0, length - end)]
         return merge(solids)
     end = 1.3 * radius + 0.003 if ends == "socket" else radius
     deep = 0.9 * middle[0][1]
@@ -140,20 +140,20 @@ def bolts_on(outline: Floats, count: int, low: float, high: float, thread: float
 
 
 def lid_joint(
-    kind: str, a: float, b: float, seat: float, plate: float, hand: Hand, rng: Rng
+    kind: str, a: float, b: float, seat: float, plate: float, style: ModelingStyle, rng: Rng
 ) -> tuple[Solid, Solid, Part]:
     """The body's collar below ``seat``, the lid's plate above it, and the bolts through both [m]."""
-    outline = plate_outline(kind, a, b, hand.round(b))
+    outline = plate_outline(kind, a, b, style.round(b))
     thread = float(np.clip(0.14 * min(a, b), 0.006, 0.02))
     count = max(4, 2 * int((a + b) / (3.2 * thread) / 2))
     bolts = bolts_on(outline, min(count, 16), seat - plate, seat + plate, thread)
     return slab(outline, seat - plate, seat), slab(outline, seat, seat + plate), bolts
 
 
-def packing(slim: float, hand: Hand, rng: Rng, kind: int = -1) -> tuple[list[Part], float]:
+def packing(slim: float, style: ModelingStyle, rng: Rng, kind: int = -1) -> tuple[list[Part], float]:
     """A gland on z = 0 about a stem: an oval or round follower with its bolts, a nut, or a lantern; and its height."""
     kind = int(rng.integers(4)) if kind < 0 else kind
-    n = max(12, hand.round(2 * slim))
+    n = max(12, style.round(2 * slim))
     if kind == 0:
         flat = oval(4.6 * slim, 2.0 * slim, 16)
         follower = merge([slab(flat, 0.9 * slim, 1.7 * slim), cylinder(1.5 * slim, 0.0, 2.1 * slim, n)])
@@ -184,10 +184,10 @@ def packing(slim: float, hand: Hand, rng: Rng, kind: int = -1) -> tuple[list[Par
     return [trim(follower, "gland"), bolted(merge([eyes, nuts]))], 2.9 * slim
 
 
-def wedge(dn: int, x: float, thick: float, rise: float, hand: Hand) -> Part:
+def wedge(dn: int, x: float, thick: float, rise: float, style: ModelingStyle) -> Part:
     """A gate, maybe with its guides, standing across the bore at ``x``, lifted by ``rise`` [m]."""
     bore = PIPES[dn].bore
-    n = hand.round(bore)
+    n = style.round(bore)
     slim = 0.42 * thick
     disc = turned(
         [
@@ -205,9 +205,9 @@ def wedge(dn: int, x: float, thick: float, rise: float, hand: Hand) -> Part:
     return trim(moved(merge([along("x", disc), head]), at(x, 0, rise)), "valve disc")
 
 
-def valve_ball(radius: float, bore: float, hand: Hand, turn: float, trunnions: float = 0.0) -> Solid:
+def valve_ball(radius: float, bore: float, style: ModelingStyle, turn: float, trunnions: float = 0.0) -> Solid:
     """A bored ball about the origin, turned about z, with a slot or stubs for its stem [m, rad]."""
-    n = max(16, hand.round(radius))
+    n = max(16, style.round(radius))
     edge = float(np.arccos(min(0.99, bore / radius)))
     angles = np.linspace(-edge, edge, max(7, n // 3))
     belt = [(radius * float(np.cos(a)), radius * float(np.sin(a))) for a in angles]
@@ -223,9 +223,9 @@ def neck_of(dn: int) -> tuple[float, float]:
     return 0.485 * FLANGES[dn].hub, plate_thickness(dn)
 
 
-def blade(radius: float, hand: Hand, rng: Rng) -> Solid:
+def blade(radius: float, style: ModelingStyle, rng: Rng) -> Solid:
     """A butterfly's disc across x at the origin, its shaft along z: lens, ribbed dish, offset plate or lattice [m]."""
-    n, kind = max(16, hand.round(radius)), int(rng.integers(5))
+    n, kind = max(16, style.round(radius)), int(rng.integers(5))
     rim = 0.985 * radius
     if kind == 0:
         plate = turned(
@@ -269,7 +269,7 @@ def blade(radius: float, hand: Hand, rng: Rng) -> Solid:
     return merge([*solids, stub])
 
 
-def turned_blade(radius: float, x: float, hand: Hand, rng: Rng) -> list[Part]:
+def turned_blade(radius: float, x: float, style: ModelingStyle, rng: Rng) -> list[Part]:
     """A butterfly's disc at ``x``, open, half open or shut [m]."""
     angle = float(rng.choice([0.0, 0.0, 0.5, 0.3, 0.15])) * np.pi
-    return [trim(moved(blade(radius, hand, rng), at(x) @ spun("z", angle)), "valve disc")]
+    return [trim(moved(blade(radius, style, rng), at(x) @ spun("z", angle)), "valve disc")]

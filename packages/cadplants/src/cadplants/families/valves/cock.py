@@ -24,7 +24,7 @@ from cadplants.families.valves.small import hex_end
 from cadplants.families.valves.valve import flanged_body, valve_family
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import Solid, extrude, merge, moved, tube
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
 from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES
@@ -33,17 +33,17 @@ from cadplants.transforms import at, spun
 __all__ = ["COCKS"]
 
 
-def _angle_seat(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _angle_seat(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An angle seat valve: a threaded or welded run, a slanting neck, a round piston actuator with a sight cap."""
     r = PIPES[dn].radius
     length = float(rng.uniform(4.6, 6.5)) * r + 0.035
     core = [(1.05 * r, 0.12 * length), (1.3 * r, 0.35 * length), (1.3 * r, 0.65 * length), (1.05 * r, 0.88 * length)]
     if rng.random() < 0.6:
-        run = screwed(dn, hand, length, core, int(rng.choice([6, 8])))
+        run = screwed(dn, style, length, core, int(rng.choice([6, 8])))
     else:
-        run = along("x", turned([(1.0 * r, 0.0), *core, (1.0 * r, length)], hand.round(1.3 * r)))
+        run = along("x", turned([(1.0 * r, 0.0), *core, (1.0 * r, length)], style.round(1.3 * r)))
     pose = at(0.5 * length) @ spun("y", float(rng.choice([-0.785, 0.785, 0.65])))
-    n, wide = hand.round(1.6 * r), 1.15 * r + 0.002
+    n, wide = style.round(1.6 * r), 1.15 * r + 0.002
     neck = turned([(wide, 0.0), (wide, 2.2 * r), (0.85 * wide, 2.4 * r)], n)
     parts = [body(run, moved(neck, pose))]
     low = 2.4 * r
@@ -58,7 +58,7 @@ def _angle_seat(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         float(rng.uniform(1.6, 2.4)) * r + 0.012,
         float(rng.uniform(2.6, 4.0)) * r + 0.03,
     )
-    m = hand.round(rim)
+    m = style.round(rim)
     can = [
         (0.7 * rim, base),
         (rim, base + 0.12 * high),
@@ -88,24 +88,24 @@ def _angle_seat(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(length, 6), "welded", "angle seat valve")
 
 
-def _solenoid(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _solenoid(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A flanged solenoid valve: globe body, square or round piston cover, coil with cable plug on or beside it."""
     length, r = FACE_TO_FACE["globe"][dn], PIPES[dn].radius
     wide, neck = 1.3 * r + 0.008, hub_radius(dn)
     wide = max(wide, 1.03 * neck)
-    shell = flanged_body(dn, hand, length, [(wide, 0.35 * length), (wide, 0.65 * length)])
-    x, n = length / 2, hand.round(wide)
+    shell = flanged_body(dn, style, length, [(wide, 0.35 * length), (wide, 0.65 * length)])
+    x, n = length / 2, style.round(wide)
     seat, plate = max(1.15 * wide, 0.45 * FLANGES[dn].outer), 0.012 + 0.15 * r
     chest = cylinder(0.9 * wide, 0.3 * wide, seat - 0.003, n)
     parts = [
         body(shell, moved(chest, at(x))),
-        *placed(cover(1.15 * wide + 0.006, seat, plate, 6, hand, bool(rng.integers(2))), at(x)),
+        *placed(cover(1.15 * wide + 0.006, seat, plate, 6, style, bool(rng.integers(2))), at(x)),
     ]
     top, size = seat + plate, float(rng.uniform(0.018, 0.03)) + 0.1 * r
     px = x if rng.random() < 0.6 else x + 0.5 * wide
     tube_ = cylinder(0.3 * size, top - 0.001, top + 2.4 * size, 12)
     if rng.random() < 0.5:
-        coil = cylinder(size, top + 0.4 * size, top + 2.1 * size, hand.round(size))
+        coil = cylinder(size, top + 0.4 * size, top + 2.1 * size, style.round(size))
     else:
         coil = square(0.95 * size, top + 0.4 * size, top + 2.0 * size)
     plug = [
@@ -134,12 +134,12 @@ def _solenoid(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, length, kind="solenoid valve")
 
 
-def _mini(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _mini(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A mini ball valve of hexagon or square bar with a one-sided plastic key, a screwdriver slot or a T key."""
     r = PIPES[dn].radius
     length, half = float(rng.uniform(3.0, 4.2)) * r + 0.018, 1.25 * r + 0.002
-    x, n = length / 2, hand.round(r)
-    holes = (circle(0.98 * r, max(8, n)),) if hand.hollow else ()
+    x, n = length / 2, style.round(r)
+    holes = (circle(0.98 * r, max(8, n)),) if style.hollow else ()
     kind = int(rng.integers(3))
     if kind == 0:
         bar = along("x", extrude(circle(half / np.cos(np.pi / 6), 6, phase=np.pi / 6), 0.0, length, holes))
@@ -148,23 +148,23 @@ def _mini(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     else:
         bar = merge(
             [
-                hex_end(dn, 0.0, 0.5 * length, hand),
-                along("x", ring(0.98 * r if hand.hollow else 0.0, 1.2 * half, 0.35 * length, 0.6 * length, n)),
-                along("x", ring(0.98 * r if hand.hollow else 0.0, 1.1 * r, 0.6 * length, length, n)),
+                hex_end(dn, 0.0, 0.5 * length, style),
+                along("x", ring(0.98 * r if style.hollow else 0.0, 1.2 * half, 0.35 * length, 0.6 * length, n)),
+                along("x", ring(0.98 * r if style.hollow else 0.0, 1.1 * r, 0.6 * length, length, n)),
             ]
         )
         x = 0.46 * length
     neck, top = 0.5 * r + 0.002, 1.25 * half + 0.003
     parts = [body(bar, moved(cylinder(neck, 0.9 * half if kind < 2 else half, top, 12), at(x)))]
     turn = at(x, 0, top) @ spun("z", float(rng.choice([0.0, 1.5708, 3.1416])))
-    style, long, key = int(rng.integers(3)), 1.8 * half + 0.012, 0.45 * half + 0.003
-    if style == 0:
+    design, long, key = int(rng.integers(3)), 1.8 * half + 0.012, 0.45 * half + 0.003
+    if design == 0:
         grip = [
             cylinder(1.1 * key, 0, 0.8 * key, 12),
             box((long, 1.3 * key, 0.7 * key), (0.4 * long, 0, 0.45 * key)),
             box((0.3 * long, 1.7 * key, 0.8 * key), (0.75 * long, 0, 0.45 * key)),
         ]
-    elif style == 1:
+    elif design == 1:
         grip = [cylinder(0.8 * key, 0, key, 12), box((0.5 * key, 1.6 * long, 1.8 * key), (0, 0, 1.6 * key))]
     else:
         grip = [cylinder(1.3 * key, 0, 0.5 * key, 12), box((0.3 * key, 2.2 * key, 0.7 * key), (0, 0, 0.5 * key))]
@@ -173,14 +173,14 @@ def _mini(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(length, 6), "welded", "ball valve")
 
 
-def _gas_cock(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _gas_cock(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A taper plug cock for gas (EN 331 forerunner): waisted body, plug through it, wing or square head, nut below."""
     r = PIPES[dn].radius
     length = float(rng.uniform(4.2, 5.4)) * r + 0.025
-    n, wide, x = hand.round(1.3 * r), 1.25 * r + 0.003, length / 2
+    n, wide, x = style.round(1.3 * r), 1.25 * r + 0.003, length / 2
     core = [(1.1 * r, 0.15 * length), (0.95 * r, 0.3 * length), (0.95 * r, 0.7 * length), (1.1 * r, 0.85 * length)]
     chest = turned([(0.9 * wide, -1.35 * wide), (1.12 * wide, 1.35 * wide)], n)
-    parts = [body(screwed(dn, hand, length, core), moved(chest, at(x)))]
+    parts = [body(screwed(dn, style, length, core), moved(chest, at(x)))]
     below = [
         cylinder(0.7 * wide, -1.45 * wide, -1.34 * wide, n),
         hexagon(0.9 * wide, -1.8 * wide, -1.44 * wide),
@@ -221,13 +221,13 @@ def _gas_cock(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(length, 6), "welded", "plug valve")
 
 
-def _stop_cock(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _stop_cock(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A stop cock (EN 1213): round body with compression nuts or wrench ends, headwork with crutch or cross head."""
     r = PIPES[dn].radius
     length = float(rng.uniform(4.6, 6.0)) * r + 0.03
-    n, wide, x = hand.round(1.4 * r), 1.4 * r + 0.003, length / 2
+    n, wide, x = style.round(1.4 * r), 1.4 * r + 0.003, length / 2
     core = [(1.05 * r, 0.12 * length), (wide, 0.4 * length), (wide, 0.6 * length), (1.05 * r, 0.88 * length)]
-    parts = [body(screwed(dn, hand, length, core, end=0.16 * length))]
+    parts = [body(screwed(dn, style, length, core, end=0.16 * length))]
     if rng.random() < 0.5:
         for low in (0.02 * length, 0.86 * length):
             nut = along("x", hexagon(3.0 * r + 0.004, low, low + 0.12 * length))
@@ -270,7 +270,7 @@ def _stop_cock(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(length, 6), "welded", "globe valve")
 
 
-def _drain(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _drain(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A boiler drain cock on an outlet: squat body, square key or lever, ribbed hose tail with a cap on a chain."""
     r, n = float(rng.uniform(0.009, 0.014)), 12
     low = 0.014
@@ -292,7 +292,7 @@ def _drain(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts.append(piece("valve stem", box((1.1 * r, 1.1 * r, 1.6 * r), (0, 0, top + 0.78 * r))))
     else:
         parts.append(piece("gland", hexagon(1.6 * r, top - 0.001, top + 0.8 * r)))
-        parts += drive(0.0, top + 0.8 * r, 0.8 * r, hand, rng, ("lever", "bar") if kind == 1 else ("wing",))
+        parts += drive(0.0, top + 0.8 * r, 0.8 * r, style, rng, ("lever", "bar") if kind == 1 else ("wing",))
     if rng.random() < 0.6:
         far = tail[-1][1]
         cap = moved(along("y", turned([(1.25 * r, far - 0.3 * r), (1.25 * r, far + 1.2 * r)], n)), at(0, 0, z) @ way)
@@ -301,7 +301,7 @@ def _drain(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="drain valve")
 
 
-def _gauge_valve(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _gauge_valve(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A gauge root valve on an outlet: a tall multiport bar with plugs, its bonnet aside with a T bar, a capped top."""
     r = float(rng.uniform(0.010, 0.015))
     tall = float(rng.uniform(7.0, 11.0)) * r
@@ -322,16 +322,16 @@ def _gauge_valve(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         piece("valve stem", moved(merge(stalk), pose)),
     ]
     grip = (
-        drive(0.0, 5.8 * r, r, hand, rng, ("bar",))
+        drive(0.0, 5.8 * r, r, style, rng, ("bar",))
         if rng.random() < 0.6
-        else [wheel(0.012 + 1.4 * r, 0, 5.6 * r, hand, rng)]
+        else [wheel(0.012 + 1.4 * r, 0, 5.6 * r, style, rng)]
     )
     parts += placed(grip, pose)
     parts.append(bonnet(hexagon(2.0 * r, top - 0.001, top + 0.9 * r), cylinder(1.0 * r, top, top + 1.2 * r, 12)))
     return Model(parts, kind="needle valve")
 
 
-def _needle_angle(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _needle_angle(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An angle needle valve on an outlet: a forged or bar elbow, bonnet upright, a tube from its side."""
     r = float(rng.uniform(0.008, 0.013))
     n, z = 12, 0.012 + 2.2 * r
@@ -339,7 +339,7 @@ def _needle_angle(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         core = box((2.4 * r, 2.4 * r, 3.6 * r), (0, 0, z))
     else:
         core = merge(
-            [cylinder(1.35 * r, 0.012, z + 1.8 * r, hand.round(1.35 * r)), moved(ball(1.6 * r, 12), at(0, 0, z))]
+            [cylinder(1.35 * r, 0.012, z + 1.8 * r, style.round(1.35 * r)), moved(ball(1.6 * r, 12), at(0, 0, z))]
         )
     side = along("y", merge([cylinder(0.9 * r, 0.8 * r, 2.2 * r, n), hexagon(2.1 * r, 2.0 * r, 3.4 * r)]), 0, 0, z)
     parts = [body(cylinder(0.85 * r, 0, 0.02, n), core, side)]
@@ -350,12 +350,12 @@ def _needle_angle(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts.append(piece("gland", hexagon(1.4 * r, top + 2.5 * r, top + 3.2 * r)))
     parts.append(piece("valve stem", cylinder(0.33 * r, top + 3.1 * r, top + 5.4 * r, 8)))
     if rng.random() < 0.5:
-        parts.append(wheel(0.012 + float(rng.uniform(1.4, 2.2)) * r, 0, top + 4.6 * r, hand, rng))
+        parts.append(wheel(0.012 + float(rng.uniform(1.4, 2.2)) * r, 0, top + 4.6 * r, style, rng))
     else:
-        parts += drive(0.0, top + 5.0 * r, r, hand, rng, ("bar",))
+        parts += drive(0.0, top + 5.0 * r, r, style, rng, ("bar",))
     far, rise = float(rng.uniform(0.08, 0.2)), float(rng.choice([-0.15, 0.15, 0.25]))
     path = bend([(0, 3.2 * r, z), (0, far, z), (0, far, z + rise), (far, far, z + rise)], 0.02)
-    parts.append(other("Pipe assembly", "pipe", "pipe", tube(path, 0.5 * r, 0.35 * r if hand.hollow else 0.0, n)))
+    parts.append(other("Pipe assembly", "pipe", "pipe", tube(path, 0.5 * r, 0.35 * r if style.hollow else 0.0, n)))
     return Model(parts, kind="needle valve")
 
 

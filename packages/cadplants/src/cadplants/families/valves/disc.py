@@ -22,7 +22,7 @@ from cadplants.families.valves.body import (
 from cadplants.family import Family, Model, Part, placed
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, about_x, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, turned
 from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES
@@ -33,9 +33,9 @@ __all__ = ["DISCS"]
 Rng = np.random.Generator
 
 
-def _neck(low: float, high: float, slim: float, hand: Hand, rng: Rng) -> tuple[Solid, Part]:
+def _neck(low: float, high: float, slim: float, style: ModelingStyle, rng: Rng) -> tuple[Solid, Part]:
     """A neck up to a mounting pad on ``high`` and the pad's bolts: slim, stout, oval or a two-storey yoke [m]."""
-    n = max(12, hand.round(slim))
+    n = max(12, style.round(slim))
     kind, t = int(rng.integers(3)), 0.008 + 0.1 * slim
     outline = plate_outline(str(rng.choice(["square", "round", "octagon"])), 2.2 * slim, 2.2 * slim, n)
     if kind == 0:
@@ -56,24 +56,24 @@ def _neck(low: float, high: float, slim: float, hand: Hand, rng: Rng) -> tuple[S
     )
 
 
-def _triple(dn: int, hand: Hand, rng: Rng) -> Model:
+def _triple(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A triple-offset butterfly valve: long double-flanged body (EN 558 series 14), bearing cover, gland, gear."""
     radius, size, bore = PIPES[dn].radius, FLANGES[dn], PIPES[dn].bore
     thick = plate_thickness(dn)
     length = float(rng.choice([0.127 + 0.2 * radius * 2, 0.15 + 0.9 * radius]))
-    x, n = 0.45 * length, max(16, hand.round(size.outer / 2))
+    x, n = 0.45 * length, max(16, style.round(size.outer / 2))
     wall = float(rng.uniform(1.12, 1.3)) * bore + 0.006
     neck, _ = neck_of(dn)
     wall = min(wall, 0.95 * neck + 0.01)
     body = ended(
         dn,
-        hand,
+        style,
         length,
         [(neck, thick), (wall, thick + 0.12 * length), (wall, length - thick - 0.12 * length), (neck, length - thick)],
         "flanged",
     )
     slim, high = 0.16 * radius + 0.012, 0.5 * size.outer + float(rng.uniform(0.03, 0.1)) + 0.2 * radius
-    tower, bolts = _neck(0.9 * wall, high, slim, hand, rng)
+    tower, bolts = _neck(0.9 * wall, high, slim, style, rng)
     bottom = 0.5 * size.outer * float(rng.uniform(0.85, 1.05))
     foot = [cylinder(1.2 * slim, -bottom, -0.9 * bore, 16), cylinder(1.8 * slim, -bottom - 0.012, -bottom, 16)]
     cover = merge(
@@ -87,10 +87,10 @@ def _triple(dn: int, hand: Hand, rng: Rng) -> Model:
         trim(cover, "valve bonnet", x, "valve"),
         *placed([bolts], at(x)),
     ]
-    gland, _ = packing(0.4 * slim, hand, rng)
-    parts += placed([*gland, shaft(0.0, 0.05 + 0.2 * radius, 0.4 * slim, hand)], at(x, 0, high))
-    if hand.hollow:
-        parts += turned_blade(bore, x, hand, rng)
+    gland, _ = packing(0.4 * slim, style, rng)
+    parts += placed([*gland, shaft(0.0, 0.05 + 0.2 * radius, 0.4 * slim, style)], at(x, 0, high))
+    if style.hollow:
+        parts += turned_blade(bore, x, style, rng)
         parts.append(trim(about_x(ring(0.94 * bore, 0.999 * bore, x - 0.06 * bore, x + 0.06 * bore, n)), "valve body"))
     if rng.random() < 0.4:
         parts.append(
@@ -104,22 +104,22 @@ def _triple(dn: int, hand: Hand, rng: Rng) -> Model:
             )
         )
     parts += quarter_turn(
-        x, high + 0.012, radius, hand, rng, ("worm", "worm", "scotch", "multi-turn", "electrohydraulic", "rack")
+        x, high + 0.012, radius, style, rng, ("worm", "worm", "scotch", "multi-turn", "electrohydraulic", "rack")
     )
     return Model(parts, round(length, 6), kind="butterfly valve")
 
 
-def _waterworks(dn: int, hand: Hand, rng: Rng) -> Model:
+def _waterworks(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A waterworks butterfly valve: ribbed double-flanged shell with bosses and feet, dished disc, gear (EN 593)."""
     radius, size, bore = PIPES[dn].radius, FLANGES[dn], PIPES[dn].bore
     length, thick = 0.13 + 0.45 * radius, plate_thickness(dn)
-    x, n = length / 2, max(16, hand.round(size.outer / 2))
+    x, n = length / 2, max(16, style.round(size.outer / 2))
     wall = 1.06 * bore + 0.008
     neck, _ = neck_of(dn)
     body = [
         ended(
             dn,
-            hand,
+            style,
             length,
             [(min(neck, 1.02 * wall), thick), (wall, 0.5 * length), (min(neck, 1.02 * wall), length - thick)],
             "flanged",
@@ -148,26 +148,29 @@ def _waterworks(dn: int, hand: Hand, rng: Rng) -> Model:
             box((0.02, 0.8 * size.outer * 0.7, 0.02), (sx, 0, -0.5 * size.outer + 0.01))
             for sx in (thick / 2 + 0.006, length - thick / 2 - 0.006)
         ]
-    rest = [shaft(0.0, 0.02, 0.5 * slim, hand), bolted(around(hexagon(0.016, 0.0, 0.01), 4, 1.6 * slim, 0.7))]
+    rest = [shaft(0.0, 0.02, 0.5 * slim, style), bolted(around(hexagon(0.016, 0.0, 0.01), 4, 1.6 * slim, 0.7))]
     upright = placed(
-        [*rest, *quarter_turn(0, 0.005, radius, hand, rng, ("worm", "worm", "bevel", "multi-turn", "scotch", "lever"))],
+        [
+            *rest,
+            *quarter_turn(0, 0.005, radius, style, rng, ("worm", "worm", "bevel", "multi-turn", "scotch", "lever")),
+        ],
         at(0, 0, high),
     )
     parts = [metal(merge(body)), *placed(upright, at(x) @ spun("x", side))]
-    if hand.hollow:
-        disc = moved(blade(bore, hand, rng), spun("z", float(rng.choice([0.0, 0.4, 0.5])) * np.pi))
+    if style.hollow:
+        disc = moved(blade(bore, style, rng), spun("z", float(rng.choice([0.0, 0.4, 0.5])) * np.pi))
         parts.append(trim(moved(disc, at(x) @ spun("x", side)), "valve disc"))
     return Model(parts, round(length, 6), kind="butterfly valve")
 
 
-def _mono(dn: int, hand: Hand, rng: Rng) -> Model:
+def _mono(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A mono-flange or U-section butterfly valve: one wide drilled plate round a rubber-lined ring (EN 593)."""
     radius, size, bore = PIPES[dn].radius, FLANGES[dn], PIPES[dn].bore
     length = FACE_TO_FACE["butterfly"][dn]
-    x, n = length / 2, max(16, hand.round(size.outer / 2))
+    x, n = length / 2, max(16, style.round(size.outer / 2))
     hole = (
         ()
-        if not hand.holes
+        if not style.holes
         else tuple(
             circle(0.55 * size.bolt, 8, (size.circle / 2 * np.cos(t), size.circle / 2 * np.sin(t)))
             for t in np.pi / size.n_bolts + np.arange(size.n_bolts) * 2 * np.pi / size.n_bolts
@@ -199,19 +202,19 @@ def _mono(dn: int, hand: Hand, rng: Rng) -> Model:
         )
     )
     slim, high = min(0.32 * length, 0.16 * radius + 0.012), 0.5 * size.outer + 0.035 + 0.3 * radius
-    tower, bolts = _neck(0.48 * size.outer, high, slim, hand, rng)
+    tower, bolts = _neck(0.48 * size.outer, high, slim, style, rng)
     parts = [
         metal(merge([*plates, hub, moved(tower, at(x))])),
         trim(liner, "valve body", 0.0, "rubber"),
         *placed([bolts], at(x)),
-        *turned_blade(bore, x, hand, rng),
-        *placed([shaft(0.0, 0.012, 0.45 * slim, hand)], at(x, 0, high)),
-        *quarter_turn(x, high + 0.006, radius, hand, rng, ("worm", "rack", "lever", "motor box", "scotch")),
+        *turned_blade(bore, x, style, rng),
+        *placed([shaft(0.0, 0.012, 0.45 * slim, style)], at(x, 0, high)),
+        *quarter_turn(x, high + 0.006, radius, style, rng, ("worm", "rack", "lever", "motor box", "scotch")),
     ]
     return Model(parts, length, "wafer", "butterfly valve")
 
 
-def _hygienic_drive(x: float, high: float, boss: float, radius: float, hand: Hand, rng: Rng) -> list[Part]:
+def _hygienic_drive(x: float, high: float, boss: float, radius: float, style: ModelingStyle, rng: Rng) -> list[Part]:
     """A squeeze lever over its index plate, or an actuator [m]."""
     parts: list[Part] = []
     pick = rng.random()
@@ -232,28 +235,28 @@ def _hygienic_drive(x: float, high: float, boss: float, radius: float, hand: Han
         )
         parts += [
             index,
-            *placed([hand_lever(reach, high + 0.008, hand, rng, ("notched", "notched", "sheet", "bar"))], at(x)),
+            *placed([hand_lever(reach, high + 0.008, style, rng, ("notched", "notched", "sheet", "bar"))], at(x)),
         ]
     else:
-        parts += quarter_turn(x, high + 0.002, radius, hand, rng, ("vertical", "vertical", "rack"))
+        parts += quarter_turn(x, high + 0.002, radius, style, rng, ("vertical", "vertical", "rack"))
     return parts
 
 
-def _hygienic(dn: int, hand: Hand, rng: Rng) -> Model:
+def _hygienic(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A hygienic butterfly valve: two polished halves, weld or clamp ends, a squeeze lever or a cylinder."""
     radius, bore = PIPES[dn].radius, PIPES[dn].bore
     clamped = rng.random() < 0.5
     stub = 0.03 if clamped else 0.0
     core = float(rng.choice([0.05, 0.075])) + 0.5 * radius
     length, x = core + 2 * stub, core / 2 + stub
-    half, n = 0.012 + 0.08 * radius, max(16, hand.round(1.4 * radius))
+    half, n = 0.012 + 0.08 * radius, max(16, style.round(1.4 * radius))
     big = 1.3 * radius + 0.009
     tube_ = []
     for low, high, face in ((stub, x, True), (x, length - stub, False)):
         if clamped:
-            tube_.append(ferrule(dn, low, high, hand, face))
+            tube_.append(ferrule(dn, low, high, style, face))
         else:
-            tube_.append(along("x", ring(bore if hand.hollow else 0.0, radius, low, high, n)))
+            tube_.append(along("x", ring(bore if style.hollow else 0.0, radius, low, high, n)))
     waist = about_x(
         part_ring(
             [
@@ -284,21 +287,21 @@ def _hygienic(dn: int, hand: Hand, rng: Rng) -> Model:
     parts = [
         metal(merge([*tube_, waist, moved(tower, at(x))]), 0.0, "clamp"),
         bolted(lugs),
-        *placed([shaft(high - 0.004, high + 0.012, 0.6 * boss, hand)], at(x)),
+        *placed([shaft(high - 0.004, high + 0.012, 0.6 * boss, style)], at(x)),
     ]
-    if hand.hollow:
-        parts += turned_blade(bore, x, hand, rng)
+    if style.hollow:
+        parts += turned_blade(bore, x, style, rng)
     if clamped:
-        parts += clamped_ends(dn, stub, length, hand, rng)
-    parts += _hygienic_drive(x, high, boss, radius, hand, rng)
+        parts += clamped_ends(dn, stub, length, style, rng)
+    parts += _hygienic_drive(x, high, boss, radius, style, rng)
     return Model(parts, round(length, 6), "welded", "butterfly valve")
 
 
-def _plastic(dn: int, hand: Hand, rng: Rng) -> Model:
+def _plastic(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A plastic wafer butterfly valve: a moulded ribbed body, a notched handle over a ratchet plate."""
     radius, size, bore = PIPES[dn].radius, FLANGES[dn], PIPES[dn].bore
     length = FACE_TO_FACE["butterfly"][dn]
-    x, n = length / 2, max(16, hand.round(size.outer / 2))
+    x, n = length / 2, max(16, style.round(size.outer / 2))
     outer = 0.5 * size.outer
     skin = about_x(
         part_ring(
@@ -344,22 +347,22 @@ def _plastic(dn: int, hand: Hand, rng: Rng) -> Model:
     parts = [
         metal(merge([skin, web, rim, *ribs, moved(tower, at(x))])),
         trim(ratchet, "position indicator", x),
-        *turned_blade(bore, x, hand, rng),
+        *turned_blade(bore, x, style, rng),
     ]
-    parts += placed([shaft(high - 0.01, high + 0.02, 0.4 * slim, hand)], at(x))
+    parts += placed([shaft(high - 0.01, high + 0.02, 0.4 * slim, style)], at(x))
     if rng.random() < 0.75:
         parts += placed(
-            [hand_lever(0.12 + 1.6 * radius, high + 0.01, hand, rng, ("notched", "notched", "cast"))], at(x)
+            [hand_lever(0.12 + 1.6 * radius, high + 0.01, style, rng, ("notched", "notched", "cast"))], at(x)
         )
     else:
-        parts += quarter_turn(x, high + 0.006, radius, hand, rng, ("worm", "rack", "motor box"))
+        parts += quarter_turn(x, high + 0.006, radius, style, rng, ("worm", "rack", "motor box"))
     return Model(parts, length, "wafer", "butterfly valve")
 
 
-def _damper(dn: int, hand: Hand, rng: Rng) -> Model:
+def _damper(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A single-blade damper in a short duct piece: bead ends, shaft right through, quadrant lever."""
     radius, bore = PIPES[dn].radius, PIPES[dn].bore
-    length, n = float(rng.uniform(1.2, 2.4)) * radius + 0.05, max(16, hand.round(radius))
+    length, n = float(rng.uniform(1.2, 2.4)) * radius + 0.05, max(16, style.round(radius))
     x = length / 2
     body = [about_x(ring(bore, radius, 0.0, length, n))]
     if rng.random() < 0.6:
@@ -379,21 +382,21 @@ def _damper(dn: int, hand: Hand, rng: Rng) -> Model:
     )
     parts = [
         metal(merge(body)),
-        *turned_blade(bore, x, hand, rng),
+        *turned_blade(bore, x, style, rng),
         trim(slab(plate, high, high + 0.003, (slot,)), "position indicator", x),
-        *placed([shaft(-radius - 0.03, high + 0.02, slim, hand)], at(x)),
+        *placed([shaft(-radius - 0.03, high + 0.02, slim, style)], at(x)),
     ]
     if rng.random() < 0.65:
         wing = merge([cylinder(0.004, high - 0.004, high + 0.02, 8), box((0.025, 0.004, 0.012), (0, 0, high + 0.02))])
         parts += placed(
             [
-                hand_lever(1.5 * reach + 0.03, high + 0.006, hand, rng, ("sheet", "bar", "sheet")),
+                hand_lever(1.5 * reach + 0.03, high + 0.006, style, rng, ("sheet", "bar", "sheet")),
                 bolted(moved(wing, at(0.78 * reach))),
             ],
             at(x),
         )
     else:
-        parts += quarter_turn(x, high + 0.006, 0.8 * radius, hand, rng, ("motor box", "rack"))
+        parts += quarter_turn(x, high + 0.006, 0.8 * radius, style, rng, ("motor box", "rack"))
     return Model(parts, round(length, 6), "welded", "butterfly valve")
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from cadplants.family import Part
 from cadplants.mesh_ops import Solid, extrude, merge, moved, sweep
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.operator import actuator_solids, handwheel, lever_solid, plate_wheel, solid_wheel
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, ball, box, cylinder, hexagon, rod, rope, torus, turned
@@ -19,9 +19,9 @@ __all__ = ["QUARTER", "diaphragm_head", "drive", "quarter", "stem", "wheel"]
 BODY = "valve body"
 
 
-def stem(low: float, high: float, radius: float, hand: Hand, x: float = 0.0) -> Part:
+def stem(low: float, high: float, radius: float, style: ModelingStyle, x: float = 0.0) -> Part:
     """A stem about z at ``x`` [m]."""
-    return Part(cylinder_at(radius, low, high, max(6, min(hand.round(radius), 16)), x), "valve stem", "trim", BODY)
+    return Part(cylinder_at(radius, low, high, max(6, min(style.round(radius), 16)), x), "valve stem", "trim", BODY)
 
 
 def cylinder_at(radius: float, low: float, high: float, sides: int, x: float = 0.0) -> Solid:
@@ -29,10 +29,10 @@ def cylinder_at(radius: float, low: float, high: float, sides: int, x: float = 0
     return moved(cylinder(radius, low, high, sides), at(x))
 
 
-def wheel(radius: float, x: float, z: float, hand: Hand, rng: np.random.Generator) -> Part:
+def wheel(radius: float, x: float, z: float, style: ModelingStyle, rng: np.random.Generator) -> Part:
     """A handwheel about z with its hub on the height ``z``: round rim, pressed plate, dished disc, or cast lobes."""
     spokes, hub, thick = int(rng.integers(2, 7)), 0.13 * radius + 0.008, 0.012 + 0.06 * radius
-    bore, sides = 0.3 * hub, max(12, hand.round(radius))
+    bore, sides = 0.3 * hub, max(12, style.round(radius))
     kind = rng.random()
     if kind < 0.55:
         rim = radius * float(rng.uniform(0.04, 0.10)) + 0.002
@@ -44,18 +44,18 @@ def wheel(radius: float, x: float, z: float, hand: Hand, rng: np.random.Generato
     elif kind < 0.85:
         solid = solid_wheel(round(radius, 6), round(hub, 6), round(thick, 6), round(bore, 6), sides)
     else:
-        solid = merge([_lobes(radius, max(4, spokes + 2), thick, hand), cylinder(hub, 0, 1.4 * thick, 12)])
+        solid = merge([_lobes(radius, max(4, spokes + 2), thick, style), cylinder(hub, 0, 1.4 * thick, 12)])
     return Part(moved(solid, at(x, 0, z) @ spun("z", float(rng.uniform(0, 6)))), "handwheel", "handle")
 
 
-def _lobes(radius: float, count: int, thick: float, hand: Hand) -> Solid:
+def _lobes(radius: float, count: int, thick: float, style: ModelingStyle) -> Solid:
     """A knob with a wavy edge, as on small valves."""
     angles = np.linspace(0, 2 * np.pi, 6 * count, endpoint=False)
     reach = radius * (0.92 + 0.08 * np.cos(count * angles))
     return extrude(np.column_stack([reach * np.cos(angles), reach * np.sin(angles)]), 0.2 * thick, thick)
 
 
-def _lever(x: float, z: float, radius: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _lever(x: float, z: float, radius: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """A flat lever: cranked, straight, or a sheet with a dipped grip; with or without a notch plate."""
     length = float(rng.uniform(0.9, 1.3)) * (0.10 + 2.2 * radius)
     turn = spun("z", float(rng.choice([0.0, 0.0, 0.5, 1.0])) * np.pi)
@@ -102,7 +102,7 @@ def _strip(path: Sequence[tuple[float, float, float]], half: float, thick: float
     return sweep(np.asarray(path, float), section, up=(0.0, 1.0, 0.0))
 
 
-def _wing(x: float, z: float, radius: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _wing(x: float, z: float, radius: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """A butterfly handle: two wings, as on small ball valves."""
     reach, wide = 0.018 + 0.9 * radius, 0.006 + 0.12 * radius
     outline = np.array(
@@ -122,7 +122,7 @@ def _wing(x: float, z: float, radius: float, hand: Hand, rng: np.random.Generato
     return [Part(moved(solid, at(x, 0, z) @ spun("z", float(rng.choice([0, 1.5708])))), "lever", "handle")]
 
 
-def _bar(x: float, z: float, radius: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _bar(x: float, z: float, radius: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """A T bar through the stem's head, as on needle valves."""
     reach, thick = 0.02 + 1.1 * radius, 0.003 + 0.06 * radius
     cross = rod((-reach, 0, thick), (reach, 0, thick), thick, 8)
@@ -130,16 +130,18 @@ def _bar(x: float, z: float, radius: float, hand: Hand, rng: np.random.Generator
     return [Part(moved(merge([cross, *knobs]), at(x, 0, z) @ spun("z", float(rng.uniform(0, 3)))), "lever", "handle")]
 
 
-def _gear(x: float, z: float, radius: float, hand: Hand, rng: np.random.Generator, chain: bool = False) -> list[Part]:
+def _gear(
+    x: float, z: float, radius: float, style: ModelingStyle, rng: np.random.Generator, chain: bool = False
+) -> list[Part]:
     """A worm gear with its shaft to the side and a handwheel or a chain wheel."""
     half = 0.035 + 0.3 * radius
     case = extrude(rounded_rectangle(2 * half, 1.7 * half, 0.35 * half, 4), 0.0, 0.8 * half)
-    lid = moved(cylinder(0.7 * half, 0.8 * half, 0.95 * half, hand.round(half)), at(0, 0, 0))
+    lid = moved(cylinder(0.7 * half, 0.8 * half, 0.95 * half, style.round(half)), at(0, 0, 0))
     tunnel = along("y", cylinder(0.32 * half, -0.9 * half, 0.9 * half, 12), 0.55 * half, 0, 0.4 * half)
     shaft = along("-y", cylinder(0.14 * half, 0.0, 2.0 * half, 10), 0.55 * half, 0, 0.4 * half)
     pose = at(x, 0, z)
     size = 0.05 + 0.9 * radius
-    rim = wheel(size, 0, 0, hand, rng).solid
+    rim = wheel(size, 0, 0, style, rng).solid
     rim = moved(rim, at(0.55 * half, -1.9 * half, 0.4 * half) @ spun("x", np.pi / 2))
     parts = [
         Part(moved(merge([case, lid, tunnel]), pose), "gearbox", "valve", "gearbox"),
@@ -150,7 +152,7 @@ def _gear(x: float, z: float, radius: float, hand: Hand, rng: np.random.Generato
         sheave = moved(
             merge(
                 [
-                    torus(size, 0.012, max(16, hand.round(size))),
+                    torus(size, 0.012, max(16, style.round(size))),
                     outer,
                     handwheel(round(size, 6), 0.01, 4, 0.02, 0.02, 0.006, 24),
                 ]
@@ -177,7 +179,7 @@ def _gear(x: float, z: float, radius: float, hand: Hand, rng: np.random.Generato
     return parts
 
 
-def _pneumatic(x: float, z: float, radius: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _pneumatic(x: float, z: float, radius: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """A rack-and-pinion actuator, or a scotch yoke between a cylinder and a spring can; with a switch box."""
     half = 0.028 + 0.45 * radius
     pose = at(x, 0, z + 0.5 * half) @ spun("z", float(rng.choice([0, 1.5708])))
@@ -188,7 +190,7 @@ def _pneumatic(x: float, z: float, radius: float, hand: Hand, rng: np.random.Gen
         top = 2 * half
         parts.append(Part(moved(block, pose), "actuator", "trim", "actuator"))
     else:
-        n, reach, top = hand.round(half), 0.08 + 2.0 * radius, 1.8 * half
+        n, reach, top = style.round(half), 0.08 + 2.0 * radius, 1.8 * half
         housing = box((2.2 * half, 1.6 * half, 1.8 * half), (0, 0, 0.9 * half))
         can = along(
             "x",
@@ -225,10 +227,10 @@ def _pneumatic(x: float, z: float, radius: float, hand: Hand, rng: np.random.Gen
     return parts
 
 
-def _electric(x: float, z: float, radius: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _electric(x: float, z: float, radius: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """An electric actuator: housing with a round lid, a motor can aside, a hand wheel, a cable gland."""
     half = 0.04 + 0.35 * radius
-    n = hand.round(half)
+    n = style.round(half)
     pose = at(x, 0, z) @ spun("z", float(rng.choice([0, 1.5708, 3.1416])))
     foot = cylinder(0.5 * half, 0.0, 0.5 * half, n)
     case = extrude(rounded_rectangle(2.6 * half, 1.8 * half, 0.4 * half, 3), 0.45 * half, 1.9 * half)
@@ -256,11 +258,11 @@ def _electric(x: float, z: float, radius: float, hand: Hand, rng: np.random.Gene
     return parts
 
 
-def diaphragm_head(x: float, z: float, radius: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def diaphragm_head(x: float, z: float, radius: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """A diaphragm actuator on a yoke (IEC 60534 control valves), maybe with a positioner and its air pipe."""
     head = float(rng.uniform(0.9, 1.3)) * (0.08 + 1.3 * radius)
     tall = 0.08 + 1.4 * radius
-    n, pose = hand.round(head), at(x, 0, z)
+    n, pose = style.round(head), at(x, 0, z)
     low = tall
     pan = turned(
         [(0.3 * head, low), (0.75 * head, low + 0.12 * head), (head, low + 0.2 * head), (head, low + 0.26 * head)], n
@@ -318,14 +320,17 @@ def diaphragm_head(x: float, z: float, radius: float, hand: Hand, rng: np.random
         parts.append(Part(moved(merge([case, tube]), pose), "actuator", "electrical", "actuator"))
     if rng.random() < 0.25:
         top = low + 0.6 * head
-        parts += [stem(z + top - 0.01, z + top + 0.05, 0.006, hand, x), wheel(0.5 * head, x, z + top + 0.04, hand, rng)]
+        parts += [
+            stem(z + top - 0.01, z + top + 0.05, 0.006, style, x),
+            wheel(0.5 * head, x, z + top + 0.04, style, rng),
+        ]
     return parts
 
 
 QUARTER = ("lever", "lever", "lever", "wing", "gear", "chain", "pneumatic", "electric")
 
 
-def quarter(kind: str, x: float, z: float, radius: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def quarter(kind: str, x: float, z: float, radius: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """What turns a valve by a quarter: ``lever``, ``wing``, ``bar``, ``gear``, ``chain``, ``pneumatic``, ``electric``.
 
     Args:
@@ -333,19 +338,19 @@ def quarter(kind: str, x: float, z: float, radius: float, hand: Hand, rng: np.ra
         x: of the stem [m].
         z: of the top of the stem's collar [m].
         radius: of the pipe, which everything is scaled by [m].
-        hand: that models it.
+        style: that models it.
         rng: of its proportions.
     """
     if kind == "gear":
-        return _gear(x, z, radius, hand, rng)
+        return _gear(x, z, radius, style, rng)
     if kind == "chain":
-        return _gear(x, z, radius, hand, rng, chain=True)
+        return _gear(x, z, radius, style, rng, chain=True)
     makers = {"lever": _lever, "wing": _wing, "bar": _bar, "pneumatic": _pneumatic, "electric": _electric}
-    return makers[kind](x, z, radius, hand, rng)
+    return makers[kind](x, z, radius, style, rng)
 
 
 def drive(
-    x: float, z: float, radius: float, hand: Hand, rng: np.random.Generator, kinds: tuple[str, ...] = QUARTER
+    x: float, z: float, radius: float, style: ModelingStyle, rng: np.random.Generator, kinds: tuple[str, ...] = QUARTER
 ) -> list[Part]:
     """One of some drives at random; small pipes have no gears."""
     kind = str(rng.choice(kinds))
@@ -353,4 +358,4 @@ def drive(
         kind = "lever"
     if radius > 0.05 and kind == "wing":
         kind = "lever"
-    return quarter(kind, x, z, radius, hand, rng)
+    return quarter(kind, x, z, radius, style, rng)

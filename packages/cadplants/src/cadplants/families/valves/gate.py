@@ -24,7 +24,7 @@ from cadplants.families.valves.drive import BODY
 from cadplants.families.valves.valve import valve_family
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, lofted, ring, turned
 from cadplants.standards import FACE_TO_FACE, PIPES, SIZES
@@ -53,12 +53,12 @@ def _hood(outline_a: float, outline_b: float, throat: float, low: float, high: f
     return lofted([np.column_stack([oval(a, b, n), np.full(n, z)]) for a, b, z in loops])
 
 
-def _cast(dn: int, hand: Hand, rng: Rng) -> Model:
+def _cast(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A cast wedge gate valve, bolted bonnet round, oval or square, ribs, outside screw and yoke (API 600, EN 1984)."""
     radius, ends = PIPES[dn].radius, str(rng.choice(["flanged", "flanged", "butt"]))
     length = FACE_TO_FACE["gate"][dn] * (1.0 if ends == "flanged" else 1.15)
     neck, back = neck_of(dn)
-    x, n = length / 2, max(16, hand.round(1.5 * radius))
+    x, n = length / 2, max(16, style.round(1.5 * radius))
     a, b = float(rng.uniform(0.62, 0.95)) * radius + 0.012, float(rng.uniform(1.35, 1.6)) * radius + 0.012
     a = min(a, 0.4 * length)
     barrel = [
@@ -71,13 +71,13 @@ def _cast(dn: int, hand: Hand, rng: Rng) -> Model:
     seat *= float(rng.uniform(1.0, 1.15))
     plate, kind = 0.009 + 0.09 * radius, str(rng.choice(["round", "oval", "oval", "square"]))
     pa, pb = (b * 1.25,) * 2 if kind == "round" else (a + 0.014 + 0.25 * radius, b * 1.22 + 0.008)
-    collar, lid, bolts = lid_joint(kind, pa, pb, seat, plate, hand, rng)
+    collar, lid, bolts = lid_joint(kind, pa, pb, seat, plate, style, rng)
     hollow = chest(-1.35 * radius - 0.01, seat - 0.5 * plate, a, b, n, 1.6 * radius, float(rng.uniform(0.9, 1.05)))
     slim, top = 0.006 + 0.075 * radius, seat + plate + float(rng.uniform(0.5, 1.1)) * radius + 0.02
     hood = merge([lid, _hood(0.9 * a, 0.85 * b, 2.6 * slim, seat + 0.5 * plate, top, n)])
     if rng.random() < 0.5:
         hood = merge([hood, _ribs(rng, 4, 0.9 * pa, 1.5 * slim, seat + plate, top - 0.01, 0.006 + 0.05 * radius)])
-    body = [ended(dn, hand, length, barrel, ends), moved(merge([hollow, collar]), at(x))]
+    body = [ended(dn, style, length, barrel, ends), moved(merge([hollow, collar]), at(x))]
     if rng.random() < 0.4:
         body.append(
             moved(
@@ -85,30 +85,30 @@ def _cast(dn: int, hand: Hand, rng: Rng) -> Model:
                 at(x),
             )
         )
-    gland, tall = packing(slim, hand, rng)
+    gland, tall = packing(slim, style, rng)
     rise = float(rng.choice([0.0, 1.1, 2.1])) * PIPES[dn].bore
     parts = [metal(merge(body)), trim(hood, "valve bonnet", x, "valve"), *placed([bolts], at(x))]
-    if hand.hollow:
-        parts.append(wedge(dn, x, 0.5 * length - back, rise, hand))
+    if style.hollow:
+        parts.append(wedge(dn, x, 0.5 * length - back, rise, style))
     yoke = float(rng.uniform(1.5, 2.4)) * radius + 0.06 + tall
     wheel = float(rng.uniform(0.9, 1.3)) * (0.05 + 1.15 * radius)
     if rng.random() < 0.75:
-        parts += placed(screwed_up(max(3.4 * slim, 0.6 * b), yoke, wheel, slim, hand, rng), at(x, 0, top))
+        parts += placed(screwed_up(max(3.4 * slim, 0.6 * b), yoke, wheel, slim, style, rng), at(x, 0, top))
         parts += placed(gland, at(x, 0, top + 0.004))
     else:
         parts += placed(
-            [*gland, shaft(-0.3 * radius, tall + 0.06, slim, hand, rng), hand_wheel(wheel, tall + 0.02, hand, rng)],
+            [*gland, shaft(-0.3 * radius, tall + 0.06, slim, style, rng), hand_wheel(wheel, tall + 0.02, style, rng)],
             at(x, 0, top),
         )
     return Model(parts, length, "flanged" if ends == "flanged" else "welded", "gate valve")
 
 
-def _pressure_seal(dn: int, hand: Hand, rng: Rng) -> Model:
+def _pressure_seal(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A high-pressure gate valve with a pressure-seal bonnet: a thick round bottle, welded ends, a yoke clamped on."""
     radius = PIPES[dn].radius
     length = FACE_TO_FACE["gate"][dn] * float(rng.uniform(1.2, 1.5))
     x, big = length / 2, 1.55 * radius + 0.015
-    n = hand.round(big)
+    n = style.round(big)
     barrel = [
         (1.1 * radius, 0.12 * length),
         (1.35 * radius + 0.004, 0.25 * length),
@@ -142,10 +142,10 @@ def _pressure_seal(dn: int, hand: Hand, rng: Rng) -> Model:
     slim, top = 0.007 + 0.09 * radius, high + 0.9 * radius
     studs = bolts_on(circle(0.95 * big, n), 6, high, high + 0.014 + 0.06 * radius, 0.008 + 0.05 * radius)
     parts = [
-        metal(merge([ended(dn, hand, length, barrel, "butt"), moved(bottle, at(x))])),
+        metal(merge([ended(dn, style, length, barrel, "butt"), moved(bottle, at(x))])),
         *placed([trim(merge([cap, ring_]), "valve bonnet", 0.0, "valve"), studs], at(x)),
     ]
-    gland, tall = packing(slim, hand, rng, int(rng.choice([0, 2, 3])))
+    gland, tall = packing(slim, style, rng, int(rng.choice([0, 2, 3])))
     clamp = merge(
         [
             cylinder(1.2 * big, high - 0.3 * radius, high - 0.08 * radius, n),
@@ -155,15 +155,15 @@ def _pressure_seal(dn: int, hand: Hand, rng: Rng) -> Model:
     parts += placed(gland, at(x, 0, top))
     yoke = top - high + tall + 1.6 * radius + 0.08
     parts.append(trim(clamp, "yoke", x, "valve"))
-    parts += placed(screwed_up(1.12 * big, yoke, 0.07 + 1.5 * radius, slim, hand, rng), at(x, 0, high))
-    if hand.hollow:
-        parts.append(wedge(dn, x, 0.3 * length, float(rng.choice([0.0, 1.8])) * PIPES[dn].bore, hand))
+    parts += placed(screwed_up(1.12 * big, yoke, 0.07 + 1.5 * radius, slim, style, rng), at(x, 0, high))
+    if style.hollow:
+        parts.append(wedge(dn, x, 0.3 * length, float(rng.choice([0.0, 1.8])) * PIPES[dn].bore, style))
     return Model(parts, round(length, 6), "welded", "gate valve")
 
 
-def _spindle(radius: float, slim: float, hand: Hand, rng: Rng) -> list[Part]:
+def _spindle(radius: float, slim: float, style: ModelingStyle, rng: Rng) -> list[Part]:
     """What works a waterworks valve: a square cap, a handwheel or an extension with its cap [m]."""
-    rest = [shaft(-slim, 4.0 * slim, slim, hand)]
+    rest = [shaft(-slim, 4.0 * slim, slim, style)]
     kind_ = rng.random()
     square = merge(
         [
@@ -179,7 +179,7 @@ def _spindle(radius: float, slim: float, hand: Hand, rng: Rng) -> list[Part]:
     if kind_ < 0.4:
         rest.append(Part(square, "valve stem", "trim", BODY))
     elif kind_ < 0.8:
-        rest.append(hand_wheel(0.06 + 1.1 * radius, 1.5 * slim, hand, rng, ("spoked", "spoked", "dished", "disc")))
+        rest.append(hand_wheel(0.06 + 1.1 * radius, 1.5 * slim, style, rng, ("spoked", "spoked", "dished", "disc")))
     else:
         reach = float(rng.uniform(0.4, 0.9))
         tube = merge([cylinder(1.8 * slim, slim, slim + reach, 12), cylinder(2.6 * slim, 0.5 * slim, 6 * slim, 12)])
@@ -191,13 +191,13 @@ def _spindle(radius: float, slim: float, hand: Hand, rng: Rng) -> list[Part]:
     return rest
 
 
-def resilient(dn: int, hand: Hand, rng: Rng) -> Model:
+def resilient(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A resilient-seated waterworks gate valve: smooth body, oval bonnet, square cap, wheel or spindle (EN 1171)."""
     radius = PIPES[dn].radius
     length = 0.15 + 0.0008 * dn * float(rng.choice([1.0, 1.9]))  # EN 558 series 14 and 15
     length = max(length, 0.14 + 0.1 * radius)
     neck, back = neck_of(dn)
-    x, n = length / 2, max(16, hand.round(1.5 * radius))
+    x, n = length / 2, max(16, style.round(1.5 * radius))
     a, b = min(0.30 * length, 0.8 * radius + 0.02), 1.3 * radius + 0.016
     seat = max(room(dn), 1.45 * radius + 0.03)
     barrel = [
@@ -208,7 +208,7 @@ def resilient(dn: int, hand: Hand, rng: Rng) -> Model:
     ]
     hollow = chest(-1.2 * radius - 0.008, seat, a, b, n, 1.4 * radius)
     kind, plate = str(rng.choice(["oval", "square", "octagon"])), 0.010 + 0.07 * radius
-    collar, lid, bolts = lid_joint(kind, a + 0.012 + 0.12 * radius, b + 0.012 + 0.1 * radius, seat, plate, hand, rng)
+    collar, lid, bolts = lid_joint(kind, a + 0.012 + 0.12 * radius, b + 0.012 + 0.1 * radius, seat, plate, style, rng)
     high = seat + plate + 0.9 * radius + 0.02
     loops = [
         (0.95 * a, 0.95 * b, seat + 0.5 * plate),
@@ -230,17 +230,17 @@ def resilient(dn: int, hand: Hand, rng: Rng) -> Model:
     top = high + 3.0 * slim
     foot = box((0.8 * length - 2 * back, 0.8 * radius, 0.02), (x, 0, -1.25 * radius)) if rng.random() < 0.5 else None
     pieces = [
-        ended(dn, hand, length, barrel, "flanged"),
+        ended(dn, style, length, barrel, "flanged"),
         moved(merge([hollow, collar]), at(x)),
         *([foot] if foot else []),
     ]
     parts = [metal(merge(pieces)), trim(merge([lid, hood, box_]), "valve bonnet", x, "valve"), *placed([bolts], at(x))]
     if rng.random() < 0.5:
         parts.append(trim(merge([cylinder(2.6 * slim, top, top + 0.8 * slim, n)]), "gland", x))
-    rest = _spindle(radius, slim, hand, rng)
+    rest = _spindle(radius, slim, style, rng)
     parts += placed(rest, at(x, 0, top))
-    if hand.hollow:
-        parts.append(wedge(dn, x, 0.9 * a, float(rng.choice([0.0, 1.0])) * radius, hand))
+    if style.hollow:
+        parts.append(wedge(dn, x, 0.9 * a, float(rng.choice([0.0, 1.0])) * radius, style))
     return Model(parts, round(length, 6), kind="gate valve")
 
 
@@ -258,7 +258,7 @@ def _girdles(half_x: float, half_y: float, down: float, up: float, radius: float
     return solids
 
 
-def _conduit(dn: int, hand: Hand, rng: Rng) -> Model:
+def _conduit(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A slab or through-conduit gate valve: a tall flat chest above and below the bore, covers bolted on (API 6D)."""
     radius = PIPES[dn].radius
     length = FACE_TO_FACE["gate"][dn] * 1.2
@@ -278,13 +278,13 @@ def _conduit(dn: int, hand: Hand, rng: Rng) -> Model:
         half_y + 0.014 + 0.18 * radius,
         up,
         plate,
-        hand,
+        style,
         rng,
     )
     solids = [
         ended(
             dn,
-            hand,
+            style,
             length,
             [
                 (neck, back),
@@ -302,17 +302,17 @@ def _conduit(dn: int, hand: Hand, rng: Rng) -> Model:
         [(0.5 * half_y, top - 0.002), (0.35 * half_y, top + 0.3 * radius), (2.6 * slim, top + 0.6 * radius + 0.01)], 20
     )
     parts = [metal(merge(solids)), trim(merge([lid, crown]), "valve bonnet", x, "valve"), *placed([bolts], at(x))]
-    gland, tall = packing(slim, hand, rng)
+    gland, tall = packing(slim, style, rng)
     high = top + 0.6 * radius + 0.01
     if rng.random() < 0.7:
         parts += placed(gland, at(x, 0, high))
         parts += placed(
-            screwed_up(3.6 * slim + 0.3 * radius, tall + 2.0 * radius + 0.08, 0.08 + 1.4 * radius, slim, hand, rng),
+            screwed_up(3.6 * slim + 0.3 * radius, tall + 2.0 * radius + 0.08, 0.08 + 1.4 * radius, slim, style, rng),
             at(x, 0, high),
         )
     else:
-        parts += linear(x, high, radius, hand, rng, ("piston", "ram", "turning"))
-    if hand.hollow:
+        parts += linear(x, high, radius, style, rng, ("piston", "ram", "turning"))
+    if style.hollow:
         gate = box((0.5 * half_x, 1.8 * half_y, 2.4 * radius), (x, 0, float(rng.choice([0.0, 1.0])) * 1.1 * radius))
         parts.append(trim(gate, "valve disc"))
     return Model(parts, round(length, 6), kind="gate valve")
@@ -335,12 +335,12 @@ def _welded_cap(big: float, seat: float, high: float, radius: float, n: int, rng
     return cap
 
 
-def _forged(dn: int, hand: Hand, rng: Rng) -> Model:
+def _forged(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A compact forged gate or globe valve, bolted or welded bonnet, socket, threaded or butt ends (API 602)."""
     radius = PIPES[dn].radius
     length, ends = 0.055 + 3.2 * radius, str(rng.choice(["socket", "socket", "hex", "octagon", "butt"]))
     x, big = length / 2, 1.35 * radius + 0.006
-    n = hand.round(big)
+    n = style.round(big)
     barrel = [(1.2 * radius, 0.2 * length), (big, 0.36 * length), (big, 0.64 * length), (1.2 * radius, 0.8 * length)]
     seat = 1.9 * radius + 0.02
     chest_ = slab(
@@ -349,10 +349,10 @@ def _forged(dn: int, hand: Hand, rng: Rng) -> Model:
         seat,
     )
     slim, plate = 0.004 + 0.09 * radius, 0.008 + 0.1 * radius
-    solids, parts = [ended(dn, hand, length, barrel, ends), moved(chest_, at(x))], []
+    solids, parts = [ended(dn, style, length, barrel, ends), moved(chest_, at(x))], []
     if rng.random() < 0.6:
         kind = str(rng.choice(["round", "square"]))
-        collar, lid, bolts = lid_joint(kind, 1.55 * big, 1.55 * big, seat, plate, hand, rng)
+        collar, lid, bolts = lid_joint(kind, 1.55 * big, 1.55 * big, seat, plate, style, rng)
         solids.append(moved(collar, at(x)))
         cap = merge(
             [
@@ -373,14 +373,14 @@ def _forged(dn: int, hand: Hand, rng: Rng) -> Model:
         high = seat + 1.3 * radius + 0.012
         cap = _welded_cap(big, seat, high, radius, n, rng)
     parts = [metal(merge(solids)), trim(cap, "valve bonnet", x, "valve"), *parts]
-    gland, tall = packing(slim, hand, rng)
+    gland, tall = packing(slim, style, rng)
     parts += placed(gland, at(x, 0, high))
     wheel, yoke = float(rng.uniform(0.85, 1.2)) * (0.035 + 1.6 * radius), tall + 0.05 + 1.3 * radius
-    parts += placed(screwed_up(max(3.6 * slim, 0.8 * big), yoke, min(wheel, 0.079), slim, hand, rng), at(x, 0, high))
-    if hand.hollow:
+    parts += placed(screwed_up(max(3.6 * slim, 0.8 * big), yoke, min(wheel, 0.079), slim, style, rng), at(x, 0, high))
+    if style.hollow:
         plug = rng.random() < 0.5 and ends in ("socket", "butt")
         inside = (
-            wedge(dn, x, 0.8 * radius, 0.0, hand)
+            wedge(dn, x, 0.8 * radius, 0.0, style)
             if plug
             else trim(
                 turned(

@@ -24,7 +24,7 @@ from cadplants.families.valves.small import hex_end
 from cadplants.families.valves.valve import valve_family
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import Solid, about_x, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle
 from cadplants.primitives import (
     along,
@@ -46,7 +46,7 @@ __all__ = ["GLOBES", "globe_body", "globe_plug"]
 Rng = np.random.Generator
 
 
-def globe_body(dn: int, hand: Hand, rng: Rng, length: float, ends: str, seat: float, throat: float) -> Solid:
+def globe_body(dn: int, style: ModelingStyle, rng: Rng, length: float, ends: str, seat: float, throat: float) -> Solid:
     """A globe's body up to the height ``seat``: a bowl, a barrel or a box with a waist below its collar [m]."""
     radius, (neck, back) = PIPES[dn].radius, neck_of(dn)
     low = back if ends == "flanged" else 0.12 * length
@@ -58,7 +58,7 @@ def globe_body(dn: int, hand: Hand, rng: Rng, length: float, ends: str, seat: fl
         (1.15 * radius + 0.003, 0.72 * length),
         (neck, length - low),
     ]
-    n, kind = max(16, hand.round(belly)), int(rng.integers(4))
+    n, kind = max(16, style.round(belly)), int(rng.integers(4))
     if kind == 0:
         bowl = moved(ball(belly, n, float(rng.uniform(0.9, 1.2))), at(0, 0, float(rng.uniform(-0.25, 0.1)) * belly))
     elif kind == 1:
@@ -83,12 +83,12 @@ def globe_body(dn: int, hand: Hand, rng: Rng, length: float, ends: str, seat: fl
     if rng.random() < 0.25:
         drain = merge([cylinder(0.25 * belly, -1.4 * belly, 0.0, 10), hexagon(0.4 * belly, -1.6 * belly, -1.4 * belly)])
         bowl = merge([bowl, drain])
-    return merge([ended(dn, hand, length, middle, ends), moved(merge([bowl, tower]), at(length / 2))])
+    return merge([ended(dn, style, length, middle, ends), moved(merge([bowl, tower]), at(length / 2))])
 
 
-def globe_plug(radius: float, shape: int, hand: Hand, lift: float) -> Solid:
+def globe_plug(radius: float, shape: int, style: ModelingStyle, lift: float) -> Solid:
     """A globe's plug on its seat at z = 0: flat disc, cone, parabolic body or a cage's piston [m]."""
-    n = max(12, hand.round(radius))
+    n = max(12, style.round(radius))
     if shape == 0:
         profile = [
             (0.7 * radius, 0.0),
@@ -117,15 +117,15 @@ def globe_plug(radius: float, shape: int, hand: Hand, lift: float) -> Solid:
     return moved(turned(profile, n), at(0, 0, lift))
 
 
-def _bellows(dn: int, hand: Hand, rng: Rng) -> Model:
+def _bellows(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A bellows-sealed globe valve: long bonnet or open bellows in a yoke (EN 13709, EN 558 series 1)."""
     radius = PIPES[dn].radius
     length = {True: FACE_TO_FACE["globe"][dn], False: 0.12 + 2.2 * radius * 2}[bool(rng.random() < 0.6)]
     x, throat = length / 2, 1.25 * radius + 0.006
     seat = max(room(dn) + 0.005, 2.0 * radius + 0.02)
     plate, half = 0.009 + 0.08 * radius, throat * 1.4 + 0.006
-    collar, lid, bolts = lid_joint(str(rng.choice(["round", "round", "square"])), half, half, seat, plate, hand, rng)
-    n, slim = max(16, hand.round(throat)), 0.005 + 0.085 * radius
+    collar, lid, bolts = lid_joint(str(rng.choice(["round", "round", "square"])), half, half, seat, plate, style, rng)
+    n, slim = max(16, style.round(throat)), 0.005 + 0.085 * radius
     top, high = seat + plate, seat + plate + float(rng.uniform(1.6, 3.0)) * radius + 0.04
     open_ = rng.random() < 0.4
     bell = waves(top + 0.01, high - 0.01, 0.45 * throat, 0.62 * throat, 7)
@@ -156,21 +156,21 @@ def _bellows(dn: int, hand: Hand, rng: Rng) -> Model:
                 ),
             ]
         )
-    body = merge([globe_body(dn, hand, rng, length, "flanged", seat, throat), moved(collar, at(x))])
+    body = merge([globe_body(dn, style, rng, length, "flanged", seat, throat), moved(collar, at(x))])
     parts = [metal(body), trim(hood, "valve bonnet", x, "valve"), *placed([bolts], at(x))]
-    if open_ or hand.hollow:
+    if open_ or style.hollow:
         parts.append(trim(turned(bell, max(12, n // 2)), "valve stem", x))
-    gland, tall = packing(slim, hand, rng)
+    gland, tall = packing(slim, style, rng)
     wheel = 0.04 + 1.25 * radius
     parts += placed(gland, at(x, 0, high + 0.004))
     if rng.random() < 0.5:
         parts += placed(
-            screwed_up(max(0.8 * throat, 3.5 * slim), tall + 0.04 + radius, wheel, slim, hand, rng),
+            screwed_up(max(0.8 * throat, 3.5 * slim), tall + 0.04 + radius, wheel, slim, style, rng),
             at(x, 0, high + 0.004),
         )
     else:
         parts += placed(
-            [shaft(-0.02, tall + 0.05, slim, hand, rng), hand_wheel(wheel, tall + 0.008, hand, rng)],
+            [shaft(-0.02, tall + 0.05, slim, style, rng), hand_wheel(wheel, tall + 0.008, style, rng)],
             at(x, 0, high + 0.004),
         )
         parts += placed(
@@ -187,12 +187,12 @@ def _bellows(dn: int, hand: Hand, rng: Rng) -> Model:
             ],
             at(x, 0, high + 0.004),
         )
-    if hand.hollow:
-        parts.append(trim(globe_plug(0.9 * PIPES[dn].bore, int(rng.integers(3)), hand, 0.1 * radius), "valve disc", x))
+    if style.hollow:
+        parts.append(trim(globe_plug(0.9 * PIPES[dn].bore, int(rng.integers(3)), style, 0.1 * radius), "valve disc", x))
     return Model(parts, round(length, 6), kind="globe valve")
 
 
-def _needle(dn: int, hand: Hand, rng: Rng) -> Model:
+def _needle(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A needle valve from bar stock: a hexagon, square, round or forged tee body, screwed bonnet, tee bar or knob."""
     radius = PIPES[dn].radius
     length, kind = 0.03 + 3.2 * radius, int(rng.integers(4))
@@ -213,8 +213,8 @@ def _needle(dn: int, hand: Hand, rng: Rng) -> Model:
     else:
         body = merge(
             [
-                hex_end(dn, 0.0, 0.3 * length, hand),
-                hex_end(dn, 0.7 * length, length, hand),
+                hex_end(dn, 0.0, 0.3 * length, style),
+                hex_end(dn, 0.7 * length, length, style),
                 along("x", cylinder(0.85 * big, 0.25 * length, 0.75 * length, n)),
                 moved(cylinder(0.9 * big, -0.6 * big, 1.3 * big, n), at(x)),
             ]
@@ -225,18 +225,18 @@ def _needle(dn: int, hand: Hand, rng: Rng) -> Model:
     column = cylinder(0.5 * big, top, top + 1.7 * big, 12)
     slim, z = 0.0025 + 0.1 * radius, top + 1.7 * big
     parts = [metal(body), trim(merge([hex_, column]), "valve bonnet", x, "valve"), trim(nut, "gland", x)]
-    rest = [shaft(-0.6 * big, 0.03 + radius, slim, hand, rng)]
+    rest = [shaft(-0.6 * big, 0.03 + radius, slim, style, rng)]
     pick = rng.random()
     if pick < 0.4:
-        rest.append(hand_lever(0.03 + 2.0 * radius, 0.01, hand, rng, ("tee",)))
+        rest.append(hand_lever(0.03 + 2.0 * radius, 0.01, style, rng, ("tee",)))
     elif pick < 0.85:
         rest.append(
-            hand_wheel(0.011 + 0.8 * radius, 0.008, hand, rng, ("lobed", "lobed", "star", "disc", "cross", "spoked"))
+            hand_wheel(0.011 + 0.8 * radius, 0.008, style, rng, ("lobed", "lobed", "star", "disc", "cross", "spoked"))
         )
     else:
         rest += [
             Part(torus(0.6 * big, 0.12 * big, 16, 6), "handwheel", "handle"),
-            hand_wheel(0.02 + radius, 0.015, hand, rng, ("spoked",)),
+            hand_wheel(0.02 + radius, 0.015, style, rng, ("spoked",)),
         ]
         rest.pop(1)
     parts += placed(rest, at(x, 0, z))
@@ -246,14 +246,14 @@ def _needle(dn: int, hand: Hand, rng: Rng) -> Model:
     return Model(parts, round(length, 6), "welded", "needle valve")
 
 
-def _cryogenic(dn: int, hand: Hand, rng: Rng) -> Model:
+def _cryogenic(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A cryogenic globe valve: a slender body, a very long bonnet pipe with a drip plate, a yoke far above."""
     radius = PIPES[dn].radius
     length = 0.07 + 4.2 * radius
     x, throat = length / 2, 0.95 * radius + 0.004
-    n, slim = max(16, hand.round(throat)), 0.004 + 0.08 * radius
+    n, slim = max(16, style.round(throat)), 0.004 + 0.08 * radius
     seat = 1.7 * radius + 0.02
-    body = globe_body(dn, hand, rng, length, str(rng.choice(["butt", "socket"])), seat, throat)
+    body = globe_body(dn, style, rng, length, str(rng.choice(["butt", "socket"])), seat, throat)
     reach = seat + float(rng.uniform(0.2, 0.45))
     tube = [
         turned(
@@ -277,8 +277,8 @@ def _cryogenic(dn: int, hand: Hand, rng: Rng) -> Model:
                 n,
             )
         )
-    gland, tall = packing(slim, hand, rng)
-    rest = [*gland, *screwed_up(1.1 * throat, tall + 0.04 + 1.2 * radius, 0.035 + 1.2 * radius, slim, hand, rng)]
+    gland, tall = packing(slim, style, rng)
+    rest = [*gland, *screwed_up(1.1 * throat, tall + 0.04 + 1.2 * radius, 0.035 + 1.2 * radius, slim, style, rng)]
     bolts = bolts_on(circle(1.2 * throat, n), 6, seat - 0.008, seat + 0.012, 0.006)
     flange_ = cylinder(1.25 * throat, seat - 0.01, seat, n)
     parts = [
@@ -290,12 +290,12 @@ def _cryogenic(dn: int, hand: Hand, rng: Rng) -> Model:
     return Model(parts, round(length, 6), "welded", "globe valve")
 
 
-def _cut_open(dn: int, hand: Hand, rng: Rng) -> Model:
+def _cut_open(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A globe valve cut open for show: a quarter of body and bonnet away, plug, seat ring and stem in sight."""
     radius, bore = PIPES[dn].radius, PIPES[dn].bore
     length = FACE_TO_FACE["globe"][dn]
     x, big = length / 2, 1.6 * radius + 0.008
-    n, size = max(6, hand.round(big) * 3 // 4), FLANGES[dn]
+    n, size = max(6, style.round(big) * 3 // 4), FLANGES[dn]
     neck, back = neck_of(dn)
     outer = [
         (size.outer / 2, 0.0),
@@ -342,11 +342,11 @@ def _cut_open(dn: int, hand: Hand, rng: Rng) -> Model:
     high = seat + 0.06 + radius
     rest = [
         trim(bonnet, "valve bonnet", 0.0, "valve"),
-        trim(globe_plug(0.9 * bore, int(rng.integers(3)), hand, 0.05 * radius), "valve disc"),
+        trim(globe_plug(0.9 * bore, int(rng.integers(3)), style, 0.05 * radius), "valve disc"),
         trim(ring(0.6 * bore, 1.0 * bore, -0.25 * bore, 0.0, n), "valve body"),
-        shaft(0.3 * bore, high + 0.06 + radius, slim, hand, rng),
-        *placed(packing(slim, hand, rng)[0], at(0, 0, high)),
-        hand_wheel(0.04 + 1.2 * radius, high + 0.03 + 0.6 * radius, hand, rng),
+        shaft(0.3 * bore, high + 0.06 + radius, slim, style, rng),
+        *placed(packing(slim, style, rng)[0], at(0, 0, high)),
+        hand_wheel(0.04 + 1.2 * radius, high + 0.03 + 0.6 * radius, style, rng),
     ]
     return Model([metal(shell), *placed(rest, at(x))], length, kind="globe valve")
 

@@ -20,7 +20,7 @@ from cadplants.families.valves.parts import (
 from cadplants.families.valves.valve import valve_family
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import extrude, merge, moved, tube
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, rod, turned
 from cadplants.standards import PIPES, SIZES
@@ -31,15 +31,15 @@ __all__ = ["HEATING"]
 _FRAME, _PIPE, _FIX = "Structural element", "Pipe assembly", "Connection assembly"
 
 
-def _rotary(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _rotary(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A rotary three- or four-way heating mixer: flat round chest, screwed cover, knob or servomotor."""
     r = PIPES[dn].radius
     length = float(rng.uniform(5.2, 6.4)) * r + 0.025
     x, wide, deep = length / 2, 1.9 * r + 0.006, 1.25 * r + 0.004
-    n = hand.round(wide)
+    n = style.round(wide)
     core = [(1.15 * r, 0.12 * length), (1.15 * r, 0.88 * length)]
     chest = along("y", cylinder(wide, -deep, deep, n), x)
-    solids = [screwed(dn, hand, length, core, end=0.16 * length), chest]
+    solids = [screwed(dn, style, length, core, end=0.16 * length), chest]
     ways = ["-z"] if rng.random() < 0.6 else ["-z", "z"]
     for way in ways:
         solids.append(
@@ -57,7 +57,7 @@ def _rotary(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts = [body(*solids)]
     for way in ways:
         tail = ring(
-            0.85 * r if hand.hollow else 0.0, r, 0.5 * length - 0.001, 0.5 * length + float(rng.uniform(0.08, 0.3)), n
+            0.85 * r if style.hollow else 0.0, r, 0.5 * length - 0.001, 0.5 * length + float(rng.uniform(0.08, 0.3)), n
         )
         parts.append(other(_PIPE, "pipe", "pipe", along(way, tail, x)))
     lid = cylinder(0.95 * wide, deep, deep + 0.006, n)
@@ -90,14 +90,14 @@ def _rotary(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(length, 6), "welded", "mixing valve")
 
 
-def _zone(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _zone(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A motorised zone valve: brass body with wrench ends, a motor box with a manual lever, a cable."""
     r = PIPES[dn].radius
     length = float(rng.uniform(4.8, 6.2)) * r + 0.03
-    x, wide, n = length / 2, 1.45 * r + 0.003, hand.round(1.4 * r)
+    x, wide, n = length / 2, 1.45 * r + 0.003, style.round(1.4 * r)
     core = [(1.1 * r, 0.14 * length), (wide, 0.34 * length), (wide, 0.66 * length), (1.1 * r, 0.86 * length)]
     low = 1.35 * wide
-    parts = [body(screwed(dn, hand, length, core), moved(cylinder(0.8 * wide, 0.0, low, n), at(x)))]
+    parts = [body(screwed(dn, style, length, core), moved(cylinder(0.8 * wide, 0.0, low, n), at(x)))]
     plate = box((0.07, 0.062, 0.002), (x, 0, low + 0.001))
     w, d, h = float(rng.uniform(0.08, 0.11)), float(rng.uniform(0.06, 0.075)), float(rng.uniform(0.045, 0.085))
     box_ = moved(
@@ -106,7 +106,7 @@ def _zone(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
     parts += [bonnet(plate), piece("actuator", box_, color="clamp", bundle="actuator")]
     if rng.random() < 0.5:
-        can = along("y", cylinder(0.024, 0.0, d / 2 + 0.02, hand.round(0.024)), x, 0, low + 0.5 * h)
+        can = along("y", cylinder(0.024, 0.0, d / 2 + 0.02, style.round(0.024)), x, 0, low + 0.5 * h)
         parts.append(piece("actuator", can, bundle="actuator"))
     slot = merge(
         [
@@ -125,13 +125,13 @@ def _zone(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(length, 6), "welded", "control valve")
 
 
-def _gas_block(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _gas_block(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A gas valve block of a burner train (EN 161): square end plates, a cast block, coils, a governor."""
     r = PIPES[dn].radius
     half, plate = 1.7 * r + 0.012, 0.010 + 0.05 * r
     length = round(float(rng.uniform(6.0, 8.0)) * r + 0.09, 6)
-    bore = 0.9 * r if hand.hollow else 0.0
-    ends = [along("x", square(half, z, z + plate, bore, hand)) for z in (0.0, length - plate)]
+    bore = 0.9 * r if style.hollow else 0.0
+    ends = [along("x", square(half, z, z + plate, bore, style)) for z in (0.0, length - plate)]
     tall = 1.9 * half
     core = box((length - 2 * plate + 0.002, 1.5 * half, tall), (length / 2, 0, 0.1 * half))
     parts = [body(*ends, core)]
@@ -148,7 +148,7 @@ def _gas_block(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
                     (0.45 * size, top + 3 * size),
                     (0.3 * size, top + 3.2 * size),
                 ],
-                hand.round(size),
+                style.round(size),
             )
             parts.append(bonnet(moved(pan, at(x))))
             continue
@@ -158,7 +158,7 @@ def _gas_block(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         else:
             coil = merge(
                 [
-                    cylinder(0.95 * size, top, top + high, hand.round(size)),
+                    cylinder(0.95 * size, top, top + high, style.round(size)),
                     cylinder(0.6 * size, top + high - 0.001, top + high + 0.2 * size, 12),
                 ]
             )
@@ -184,11 +184,11 @@ def _gas_block(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, length, "welded", "solenoid valve")
 
 
-def _distributor(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _distributor(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A floor-heating distributor: a bar on brackets at a wall, valves with caps or thermal heads, loops."""
     count, high = int(rng.integers(3, 8)), float(rng.uniform(0.5, 0.9))
     pitch, r = 0.05, float(rng.choice([0.0167, 0.021]))
-    wide, n = count * pitch + 0.06, hand.round(0.02)
+    wide, n = count * pitch + 0.06, style.round(0.02)
     wall = box((wide + 0.4, 0.1, high + 0.5), (wide / 2, 0.11, (high + 0.5) / 2))
     parts = [other(_FRAME, "wall", "concrete", wall)]
     kind = int(rng.integers(3))
@@ -211,7 +211,7 @@ def _distributor(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             shape = [(0.016, r + 0.013), (0.016, r + 0.028), (0.010, r + 0.031)]
         heads.append(moved(turned(shape, 12), at(x, y, z)))
         loop = np.array([[x, y, z - r - 0.04], [x, y, 0.0]])
-        parts.append(other(_PIPE, "pipe", "pipe", tube(loop, 0.008, 0.006 if hand.hollow else 0.0, 8)))
+        parts.append(other(_PIPE, "pipe", "pipe", tube(loop, 0.008, 0.006 if style.hollow else 0.0, 8)))
     name = "actuator" if row and kind < 2 else "handwheel" if row or kind == 2 else "valve bonnet"
     parts.append(body(*stubs))
     parts += [piece(name, head, color="dial", bundle=bundles[name]) for head in heads]
@@ -226,7 +226,7 @@ def _distributor(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     lead = tube(
         np.array([[-0.033, y, z], [-0.033 - float(rng.uniform(0.1, 0.3)), y, z]]),
         0.9 * r,
-        0.8 * r if hand.hollow else 0.0,
+        0.8 * r if style.hollow else 0.0,
         n,
     )
     parts.append(other(_PIPE, "pipe", "pipe", lead))
@@ -237,11 +237,11 @@ def _distributor(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(fronted(parts), kind="control valve")
 
 
-def _cistern(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _cistern(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A cistern with a float valve (BS 1212): shank through its wall, arm and ball inside, supply pipe outside."""
     wide, deep, tall = float(rng.uniform(0.5, 0.9)), float(rng.uniform(0.35, 0.6)), float(rng.uniform(0.35, 0.6))
     base, t = float(rng.choice([0.0, 0.3, 0.8])), 0.006
-    r, n = float(rng.choice([0.0107, 0.0134])), hand.round(0.02)
+    r, n = float(rng.choice([0.0107, 0.0134])), style.round(0.02)
     z = base + tall - 0.07
     sides = [
         box((wide, deep, t), (0, 0, base + t / 2)),
@@ -272,7 +272,7 @@ def _cistern(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     tilt, size = float(rng.uniform(0.1, 0.5)), float(rng.uniform(0.045, 0.06))
     pose = at(x + 0.115, 0, z + 0.006) @ spun("y", tilt)
     arm = rod((-0.02, 0, 0), (long, 0, 0), 0.0035, 8)
-    float_ = moved(ball(size, hand.round(size), float(rng.choice([1.0, 1.0, 0.7]))), at(long + 0.9 * size))
+    float_ = moved(ball(size, style.round(size), float(rng.choice([1.0, 1.0, 0.7]))), at(long + 0.9 * size))
     parts += [
         piece("valve stem", pin),
         piece("lever", moved(arm, pose), bundle=""),
@@ -281,12 +281,12 @@ def _cistern(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     path = bend([(x - 0.03, 0, z), (x - 0.1, 0, z), (x - 0.1, 0, 0.0)], 0.03)
     parts += [
         other(_PIPE, "union", "trim", along("-x", hexagon(2.7 * r, 0.028, 0.048), x, 0, z)),
-        other(_PIPE, "pipe", "pipe", tube(path, 0.9 * r, 0.75 * r if hand.hollow else 0.0, n)),
+        other(_PIPE, "pipe", "pipe", tube(path, 0.9 * r, 0.75 * r if style.hollow else 0.0, n)),
     ]
     return Model(fronted(parts), kind="float valve")
 
 
-def _bleed(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _bleed(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A bleed valve on an outlet: one hexagon, a screw down its top with a T or wing, a barbed tube aside."""
     r = float(rng.uniform(0.007, 0.012))
     tall = float(rng.uniform(3.0, 5.0)) * r
@@ -329,7 +329,7 @@ def _bleed(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         )
         parts.append(piece("lever", wing, color="handle", bundle=""))
     else:
-        parts.append(wheel(0.014 + 1.3 * r, 0, z, hand, rng))
+        parts.append(wheel(0.014 + 1.3 * r, 0, z, style, rng))
     return Model(parts, kind="bleed valve")
 
 

@@ -24,7 +24,7 @@ from cadplants.families.valves.valve import valve_family
 from cadplants.family import Family, Model, Part, placed
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, about_x, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, box, cylinder, hexagon, lofted, ring, rod, turned, waves
 from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES
@@ -35,16 +35,16 @@ __all__ = ["LININGS"]
 Rng = np.random.Generator
 
 
-def _straight(dn: int, hand: Hand, rng: Rng) -> Model:
+def _straight(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A straight-through diaphragm valve: full bore, a long oval joint, a tall bonnet (EN 13397)."""
     radius = PIPES[dn].radius
     length = FACE_TO_FACE["gate"][dn] * 1.1
     neck, back = neck_of(dn)
-    x, n = length / 2, max(16, hand.round(1.6 * radius))
+    x, n = length / 2, max(16, style.round(1.6 * radius))
     half_x, half_y = min(0.42 * length, 1.7 * radius + 0.012), 1.25 * radius + 0.014
     seat, plate = max(1.25 * radius + 0.006, 0.0), 0.009 + 0.07 * radius
     kind = str(rng.choice(["oval", "square", "oval", "octagon"]))
-    collar, lid, bolts = lid_joint(kind, half_x, half_y, seat, plate, hand, rng)
+    collar, lid, bolts = lid_joint(kind, half_x, half_y, seat, plate, style, rng)
     tray = lofted(
         [
             np.column_stack([oval(half_x * s, half_y * t, n), np.full(n, z)])
@@ -72,7 +72,7 @@ def _straight(dn: int, hand: Hand, rng: Rng) -> Model:
                 [
                     ended(
                         dn,
-                        hand,
+                        style,
                         length,
                         [
                             (neck, back),
@@ -93,8 +93,8 @@ def _straight(dn: int, hand: Hand, rng: Rng) -> Model:
     if rng.random() < 0.65:
         parts += placed(
             [
-                shaft(-0.01, 0.05 + radius, slim, hand, rng),
-                hand_wheel(0.04 + 1.2 * radius, 0.012, hand, rng, ("spoked", "spoked", "lobed", "dished", "disc")),
+                shaft(-0.01, 0.05 + radius, slim, style, rng),
+                hand_wheel(0.04 + 1.2 * radius, 0.012, style, rng, ("spoked", "spoked", "lobed", "dished", "disc")),
             ],
             at(x, 0, high),
         )
@@ -102,22 +102,22 @@ def _straight(dn: int, hand: Hand, rng: Rng) -> Model:
             trim(cylinder(0.8 * slim, high + 0.04 + radius, high + 0.08 + 1.3 * radius, 10), "position indicator", x)
         )
     else:
-        parts += placed(LINEAR[str(rng.choice(["piston", "diaphragm"]))](radius, high - 0.002, hand, rng), at(x))
+        parts += placed(LINEAR[str(rng.choice(["piston", "diaphragm"]))](radius, high - 0.002, style, rng), at(x))
     return Model(parts, length, kind="diaphragm valve")
 
 
-def _aseptic(dn: int, hand: Hand, rng: Rng) -> Model:
+def _aseptic(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """An aseptic or plastic diaphragm valve: block body, square joint, clamp, weld or socket ends (EN 13397)."""
     radius, ends = PIPES[dn].radius, str(rng.choice(["clamp", "butt", "socket"]))
     stub = 0.025 if ends == "clamp" else 0.0
     core = 0.06 + 3.2 * radius
     length, x = core + 2 * stub, core / 2 + stub
-    half, n = 1.55 * radius + 0.010, max(16, hand.round(1.5 * radius))
+    half, n = 1.55 * radius + 0.010, max(16, style.round(1.5 * radius))
     if ends == "clamp":
-        arms = [ferrule(dn, stub, x, hand, True), ferrule(dn, x, length - stub, hand, False)]
+        arms = [ferrule(dn, stub, x, style, True), ferrule(dn, x, length - stub, style, False)]
     else:
         end = radius if ends == "butt" else 1.3 * radius
-        bore = PIPES[dn].bore if hand.hollow else 0.0
+        bore = PIPES[dn].bore if style.hollow else 0.0
         arms = [along("x", ring(bore, end, 0.0, length, n))]
     seat = 1.1 * radius + 0.006
     outline = rounded_rectangle(2 * half, 2 * half, float(rng.uniform(0.15, 0.6)) * half, 4)
@@ -145,13 +145,13 @@ def _aseptic(dn: int, hand: Hand, rng: Rng) -> Model:
         *placed([bolts], at(x)),
     ]
     if ends == "clamp":
-        parts += clamped_ends(dn, stub, length, hand, rng)
+        parts += clamped_ends(dn, stub, length, style, rng)
     if rng.random() < 0.65:
         size = 0.85 * half + 0.008
         parts += placed(
             [
-                shaft(-0.004, 0.02 + radius, 0.15 * half, hand),
-                hand_wheel(size, 0.001, hand, rng, ("lobed", "lobed", "spoked", "dished")),
+                shaft(-0.004, 0.02 + radius, 0.15 * half, style),
+                hand_wheel(size, 0.001, style, rng, ("lobed", "lobed", "spoked", "dished")),
             ],
             at(x, 0, high),
         )
@@ -159,9 +159,9 @@ def _aseptic(dn: int, hand: Hand, rng: Rng) -> Model:
         parts.append(trim(sight, "position indicator", x, "safety"))
     else:
         parts += (
-            quarter_turn(x, high, radius, hand, rng, ("vertical",))
+            quarter_turn(x, high, radius, style, rng, ("vertical",))
             if rng.random() < 0.5
-            else placed(LINEAR["piston"](radius, high - 0.001, hand, rng), at(x))
+            else placed(LINEAR["piston"](radius, high - 0.001, style, rng), at(x))
         )
     return Model(parts, round(length, 6), "welded", "diaphragm valve")
 
@@ -186,15 +186,15 @@ def _sleeve(length: float, thick: float, sleeve_out: float, flat: float, n: int)
     )
 
 
-def _pinch_open(dn: int, hand: Hand, rng: Rng) -> Model:
+def _pinch_open(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """An open-frame pinch valve: a rubber sleeve between two flanges, squeezed by bars in an open yoke."""
     radius = PIPES[dn].radius
     size, thick = FLANGES[dn], plate_thickness(dn)
     length = 0.12 + 4.4 * radius
-    x, n = length / 2, max(16, hand.round(radius))
+    x, n = length / 2, max(16, style.round(radius))
     sleeve_out, bore = 1.25 * radius + 0.006, PIPES[dn].bore
     flat = float(rng.uniform(0.3, 1.0))
-    inner = bore if hand.hollow else 0.0
+    inner = bore if style.hollow else 0.0
     ends = [along("x", ring(inner, size.outer / 2, z, z + thick, n)) for z in (0.0, length - thick)]
     tube_ = _sleeve(length, thick, sleeve_out, flat, n)
     bar = 0.05 * length + 0.01
@@ -234,12 +234,12 @@ def _pinch_open(dn: int, hand: Hand, rng: Rng) -> Model:
     ]
     if rng.random() < 0.6:
         parts += placed(
-            [shaft(low, up + 0.08 + radius, slim, hand, rng), hand_wheel(0.06 + 1.2 * radius, up + 0.012, hand, rng)],
+            [shaft(low, up + 0.08 + radius, slim, style, rng), hand_wheel(0.06 + 1.2 * radius, up + 0.012, style, rng)],
             at(x),
         )
     else:
         kind = str(rng.choice(["piston", "ram", "turning"]))
-        parts += placed([shaft(low, up + 0.012, slim, hand), *LINEAR[kind](radius, up + 0.009, hand, rng)], at(x))
+        parts += placed([shaft(low, up + 0.012, slim, style), *LINEAR[kind](radius, up + 0.009, style, rng)], at(x))
     return Model(parts, round(length, 6), kind="pinch valve")
 
 
@@ -276,27 +276,27 @@ def _casing(length: float, neck: float, back: float, big: float, rng: Rng) -> li
         ]
 
 
-def _squeezer(half: float, radius: float, hand: Hand, rng: Rng) -> list[Part]:
+def _squeezer(half: float, radius: float, style: ModelingStyle, rng: Rng) -> list[Part]:
     """What presses an enclosed sleeve together: a wheel on a yoke, a piston or a ram [m]."""
     tall, slim = 0.05 + 0.9 * radius, 0.006 + 0.06 * radius
     if rng.random() < 0.4:
-        return LINEAR[str(rng.choice(["piston", "ram"]))](radius, 0.0, hand, rng)
+        return LINEAR[str(rng.choice(["piston", "ram"]))](radius, 0.0, style, rng)
     return [
-        yoke_arms(1.3 * half, tall, hand, rng),
-        shaft(-0.02, tall + 0.06 + 0.5 * radius, slim, hand, rng),
-        hand_wheel(0.05 + 1.2 * radius, tall + 0.002, hand, rng),
+        yoke_arms(1.3 * half, tall, style, rng),
+        shaft(-0.02, tall + 0.06 + 0.5 * radius, slim, style, rng),
+        hand_wheel(0.05 + 1.2 * radius, tall + 0.002, style, rng),
     ]
 
 
-def _pinch_closed(dn: int, hand: Hand, rng: Rng) -> Model:
+def _pinch_closed(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """An enclosed pinch valve: two cast halves bolted along the middle, air-operated or with a wheel above."""
     radius = PIPES[dn].radius
     length = 0.08 + 3.6 * radius
     neck, back = neck_of(dn)
     x, big = length / 2, 1.55 * radius + 0.012
-    n = max(16, hand.round(big))
+    n = max(16, style.round(big))
     middle = _casing(length, neck, back, big, rng)
-    body = [ended(dn, hand, length, middle, "flanged")]
+    body = [ended(dn, style, length, middle, "flanged")]
     flange_ = (
         slab(rounded_rectangle(length - 2 * back - 0.012, 2 * big + 0.05, 0.02, 3), -0.010, 0.010)
         if rng.random() < 0.7
@@ -327,8 +327,8 @@ def _pinch_closed(dn: int, hand: Hand, rng: Rng) -> Model:
         seat, half = max(high, 0.5 * FLANGES[dn].outer), 0.55 * big
         tower = merge([cylinder(half, 0.7 * big, seat, n), cylinder(1.4 * half, seat - 0.012, seat, n)])
         parts.insert(0, metal(merge([*body, moved(tower, at(x))])))
-        parts += placed(_squeezer(half, radius, hand, rng), at(x, 0, seat))
-    if hand.hollow:
+        parts += placed(_squeezer(half, radius, style, rng), at(x, 0, seat))
+    if style.hollow:
         bore = PIPES[dn].bore
         liner = about_x(
             part_ring([(0.86 * bore, 0.0), (0.985 * bore, 0.0), (0.985 * bore, length), (0.86 * bore, length)], n)

@@ -11,7 +11,7 @@ from cadplants.families.valves.small import hex_end
 from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.family import Part
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, rope, torus, turned
 from cadplants.standards import FLANGES, PIPES, SIZES
@@ -70,7 +70,7 @@ def bolting(solid: Solid) -> Part:
 
 
 def other(group: str, name: str, color: str, *solids: Solid, own: bool = False) -> Part:
-    """A part of another group; one with the valve's mesh where the hand makes it whole if it is its ``own``."""
+    """A part of another group; one with the valve's mesh where the style makes it whole if it is its ``own``."""
     return Part(merge(list(solids)), name, color, BODY if own else "", group)
 
 
@@ -84,23 +84,23 @@ def fronted(parts: Sequence[Part]) -> list[Part]:
     return sorted(parts, key=lambda p: p.name != BODY)
 
 
-def branch(dn: int, hand: Hand, reach: float, way: str, center: Sequence[float] = (0.0, 0.0, 0.0)) -> Solid:
+def branch(dn: int, style: ModelingStyle, reach: float, way: str, center: Sequence[float] = (0.0, 0.0, 0.0)) -> Solid:
     """A flange on a neck out of a centre, its face this far along an axis (``"-y"``) [m]."""
-    stub = moved(disc_flange(dn, hand, reach), at(0, 0, -reach))
+    stub = moved(disc_flange(dn, style, reach), at(0, 0, -reach))
     return along(_BACK[way], stub, *center)
 
 
-def square(half: float, low: float, high: float, bore: float = 0.0, hand: Hand | None = None) -> Solid:
+def square(half: float, low: float, high: float, bore: float = 0.0, style: ModelingStyle | None = None) -> Solid:
     """A plate with round corners about z, with a hole where ``bore`` is its radius [m]."""
-    holes = (circle(bore, hand.round(bore) if hand else 12),) if bore else ()
+    holes = (circle(bore, style.round(bore) if style else 12),) if bore else ()
     return extrude(rounded_rectangle(2 * half, 2 * half, 0.3 * half, 3), low, high, holes)
 
 
 def cover(
-    radius: float, seat: float, plate: float, count: int, hand: Hand, corners: bool = False, hood: float = 0.0
+    radius: float, seat: float, plate: float, count: int, style: ModelingStyle, corners: bool = False, hood: float = 0.0
 ) -> list[Part]:
     """A body's collar up to ``seat``, a round or square cover on it, maybe domed by ``hood``, and its bolts [m]."""
-    n, thread = hand.round(radius), max(0.005, min(0.016, 0.14 * radius))
+    n, thread = style.round(radius), max(0.005, min(0.016, 0.14 * radius))
     if corners:
         low, lid = square(radius, seat - plate, seat), square(radius, seat, seat + plate)
         spread = 1.05 * radius
@@ -124,26 +124,31 @@ def cover(
 
 
 def screwed(
-    dn: int, hand: Hand, length: float, core: Sequence[tuple[float, float]], corners: int = 6, end: float = 0.0
+    dn: int,
+    style: ModelingStyle,
+    length: float,
+    core: Sequence[tuple[float, float]],
+    corners: int = 6,
+    end: float = 0.0,
 ) -> Solid:
     """A threaded body along x: two wrench ends and a turned core, its outline as radius and place [m]."""
     end = end or 0.24 * length
-    middle = along("x", turned(core, hand.round(max(r for r, _ in core))))
-    return merge([hex_end(dn, 0.0, end, hand, corners), middle, hex_end(dn, length - end, length, hand, corners)])
+    middle = along("x", turned(core, style.round(max(r for r, _ in core))))
+    return merge([hex_end(dn, 0.0, end, style, corners), middle, hex_end(dn, length - end, length, style, corners)])
 
 
-def spring(radius: float, wire: float, low: float, high: float, turns: int, hand: Hand) -> Solid:
+def spring(radius: float, wire: float, low: float, high: float, turns: int, style: ModelingStyle) -> Solid:
     """A coil about z, its ends pressed into what it stands between [m]."""
-    steps = turns * max(6, min(12, hand.round(radius))) + 1
+    steps = turns * max(6, min(12, style.round(radius))) + 1
     angles = np.linspace(0, 2 * np.pi * turns, steps)
     heights = np.linspace(low + 0.5 * wire, high - 0.5 * wire, steps)
     return rope(np.column_stack([radius * np.cos(angles), radius * np.sin(angles), heights]), wire, 6)
 
 
-def cage(radius: float, low: float, high: float, bars: int, hoops: int, hand: Hand) -> Solid:
+def cage(radius: float, low: float, high: float, bars: int, hoops: int, style: ModelingStyle) -> Solid:
     """A basket of bars and hoops about z with a closed end at the top [m]."""
     wide = max(0.002, 0.05 * radius)
-    sides = max(12, hand.round(radius))
+    sides = max(12, style.round(radius))
     solids = [around(box((wide, wide, high - low), (0, 0, (low + high) / 2)), bars, radius - wide / 2)]
     for z in np.linspace(low + wide, high - wide, hoops):
         solids.append(moved(torus(radius - wide / 2, 0.7 * wide, sides, 5), at(0, 0, float(z))))
@@ -171,11 +176,11 @@ def chain(start: Sequence[float], end: Sequence[float], sag: float, wire: float)
     return rope(path, wire, 6)
 
 
-def thread_nut(flats: float, low: float, high: float, hand: Hand, ribs: int = 0) -> Solid:
+def thread_nut(flats: float, low: float, high: float, style: ModelingStyle, ribs: int = 0) -> Solid:
     """A union nut about z: a hexagon, or round with ribs as on plastic fittings [m]."""
     if not ribs:
         return hexagon(flats, low, high)
-    n = max(12, hand.round(flats / 2))
+    n = max(12, style.round(flats / 2))
     rib = box((0.06 * flats, 0.08 * flats, 0.9 * (high - low)), (0, 0, (low + high) / 2))
     return merge([cylinder(flats / 2, low, high, n), around(rib, ribs, flats / 2)])
 

@@ -21,7 +21,7 @@ from cadplants.families.valves.drive import BODY
 from cadplants.families.valves.valve import disc_flange, valve_family
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, box, cylinder, dome, hexagon, lofted, rod, turned
 from cadplants.standards import FACE_TO_FACE, PIPES, SIZES
@@ -39,13 +39,13 @@ def _taper(radius: float, low: float, high: float, port: float, n: int) -> Solid
     )
 
 
-def _lubricated(dn: int, hand: Hand, rng: Rng) -> Model:
+def _lubricated(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A lubricated plug valve: a tapered chest, bolted gland plate, grease fitting in the square head (API 599)."""
     radius = PIPES[dn].radius
     length = FACE_TO_FACE["gate"][dn] * float(rng.uniform(1.0, 1.3))
     neck, back = neck_of(dn)
     x, big = length / 2, 1.3 * radius + 0.010
-    n = max(16, hand.round(big))
+    n = max(16, style.round(big))
     middle = [
         (neck, back),
         (1.05 * radius + 0.006, back + 0.15 * length),
@@ -68,12 +68,12 @@ def _lubricated(dn: int, hand: Hand, rng: Rng) -> Model:
         )
     plate = 0.010 + 0.07 * radius
     collar, lid, bolts = lid_joint(
-        str(rng.choice(["round", "oval", "square", "octagon"])), 1.1 * big, 1.3 * big, high, plate, hand, rng
+        str(rng.choice(["round", "oval", "square", "octagon"])), 1.1 * big, 1.3 * big, high, plate, style, rng
     )
     top, half = high + plate, 0.3 * radius + 0.006
-    body = merge([ended(dn, hand, length, middle, "flanged"), moved(merge([chest, collar]), at(x))])
+    body = merge([ended(dn, style, length, middle, "flanged"), moved(merge([chest, collar]), at(x))])
     parts = [metal(body), trim(lid, "valve bonnet", x, "valve"), *placed([bolts], at(x))]
-    gland, _ = packing(0.8 * half, hand, rng, int(rng.choice([0, 2])))
+    gland, _ = packing(0.8 * half, style, rng, int(rng.choice([0, 2])))
     head = merge([cylinder(half, -0.01, 2.2 * half, 12), box((1.7 * half, 1.7 * half, 2.2 * half), (0, 0, 3.2 * half))])
     grease = merge(
         [
@@ -86,10 +86,10 @@ def _lubricated(dn: int, hand: Hand, rng: Rng) -> Model:
     pick = rng.random()
     if pick < 0.55:
         parts += placed(
-            [hand_lever(0.14 + 2.8 * radius, 2.3 * half, hand, rng, ("spanner", "bar", "cast"))], at(x, 0, top)
+            [hand_lever(0.14 + 2.8 * radius, 2.3 * half, style, rng, ("spanner", "bar", "cast"))], at(x, 0, top)
         )
     elif pick < 0.9:
-        parts += quarter_turn(x, top + 2.2 * half, radius, hand, rng, ("worm", "worm", "scotch", "rack"))
+        parts += quarter_turn(x, top + 2.2 * half, radius, style, rng, ("worm", "worm", "scotch", "rack"))
     if rng.random() < 0.4:
         parts.append(
             trim(
@@ -101,24 +101,24 @@ def _lubricated(dn: int, hand: Hand, rng: Rng) -> Model:
                 "valve",
             )
         )
-    if hand.hollow:
+    if style.hollow:
         parts.append(trim(_taper(0.95 * radius, -1.1 * radius, 1.1 * radius, radius, n), "valve disc", x))
     return Model(parts, round(length, 6), kind="plug valve")
 
 
-def _eccentric(dn: int, hand: Hand, rng: Rng) -> Model:
+def _eccentric(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """An eccentric plug valve for sewage: bulging half-round body, bolted cover with a bearing hub."""
     radius = PIPES[dn].radius
     length = 0.09 + 2.0 * radius
     neck, back = neck_of(dn)
     x, big = length / 2, 1.35 * radius + 0.012
-    n = max(16, hand.round(big))
-    body = [ended(dn, hand, length, [(neck, back), (1.1 * radius + 0.005, x), (neck, length - back)], "flanged")]
+    n = max(16, style.round(big))
+    body = [ended(dn, style, length, [(neck, back), (1.1 * radius + 0.005, x), (neck, length - back)], "flanged")]
     hump = merge([cylinder(min(big, 0.47 * length), -1.1 * radius - 0.01, 1.15 * radius + 0.012, n)])
     body.append(moved(hump, at(x, 0.35 * radius)))
     seat, plate = 1.15 * radius + 0.016, 0.012 + 0.06 * radius
     wide = min(big, 0.47 * length) * 1.12
-    collar, lid, bolts = lid_joint("round", wide, wide, seat + plate, plate, hand, rng)
+    collar, lid, bolts = lid_joint("round", wide, wide, seat + plate, plate, style, rng)
     body.append(moved(collar, at(x, 0.35 * radius)))
     hub = 0.22 * radius + 0.014
     high = max(seat + 2 * plate + 0.02, room(dn))
@@ -143,18 +143,18 @@ def _eccentric(dn: int, hand: Hand, rng: Rng) -> Model:
         trim(moved(cover, at(0, 0.35 * radius)), "valve bonnet", x, "valve"),
         *placed([bolts], at(x, 0.35 * radius)),
     ]
-    parts += placed([shaft(-0.02, 0.04, 0.5 * hub, hand)], pose)
+    parts += placed([shaft(-0.02, 0.04, 0.5 * hub, style)], pose)
     pick = rng.random()
     if pick < 0.3:
         nut = box((0.05, 0.05, 0.05), (0, 0, 0.06))
         parts += placed([Part(nut, "valve stem", "trim", BODY)], pose)
     elif pick < 0.5:
-        parts += placed([hand_lever(0.12 + 2.4 * radius, 0.01, hand, rng, ("bar", "cast", "spanner"))], pose)
+        parts += placed([hand_lever(0.12 + 2.4 * radius, 0.01, style, rng, ("bar", "cast", "spanner"))], pose)
     else:
         parts += placed(
-            quarter_turn(0, 0.004, radius, hand, rng, ("worm", "worm", "bevel", "multi-turn", "scotch")), pose
+            quarter_turn(0, 0.004, radius, style, rng, ("worm", "worm", "bevel", "multi-turn", "scotch")), pose
         )
-    if hand.hollow:
+    if style.hollow:
         plug = np.array(
             [(1.05 * radius * np.cos(t), 1.05 * radius * np.sin(t)) for t in np.linspace(0.25, 2.9, 12)]
             + [(0.5 * radius * np.cos(t), 0.6 * radius * np.sin(t)) for t in np.linspace(2.9, 0.25, 6)]
@@ -164,19 +164,19 @@ def _eccentric(dn: int, hand: Hand, rng: Rng) -> Model:
     return Model(parts, round(length, 6), kind="plug valve")
 
 
-def _multi_plug(dn: int, hand: Hand, rng: Rng) -> Model:
+def _multi_plug(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A sleeved multi-port plug valve: flanges at three or four sides of a round chest, a square top cover, wrench."""
     radius = PIPES[dn].radius
     length = FACE_TO_FACE["gate"][dn] * 1.25
     neck, back = neck_of(dn)
     x, big = length / 2, 1.35 * radius + 0.012
-    n = max(16, hand.round(big))
+    n = max(16, style.round(big))
     low, high = -1.3 * radius - 0.01, 1.4 * radius + 0.012
     chest = turned([(0.85 * big, low), (0.9 * big, 0.8 * low), (big, high)], n)
     body = [
         ended(
             dn,
-            hand,
+            style,
             length,
             [
                 (neck, back),
@@ -189,10 +189,10 @@ def _multi_plug(dn: int, hand: Hand, rng: Rng) -> Model:
         moved(chest, at(x)),
     ]
     for way in ("y", "-y") if rng.random() < 0.3 else ("y",):
-        side = moved(disc_flange(dn, hand, x - 0.7 * radius), at(0, 0, -x))
+        side = moved(disc_flange(dn, style, x - 0.7 * radius), at(0, 0, -x))
         body.append(moved(along("-y" if way == "y" else "y", side), at(x)))
     plate = 0.012 + 0.06 * radius
-    collar, lid, bolts = lid_joint(str(rng.choice(["square", "round"])), 1.2 * big, 1.2 * big, high, plate, hand, rng)
+    collar, lid, bolts = lid_joint(str(rng.choice(["square", "round"])), 1.2 * big, 1.2 * big, high, plate, style, rng)
     top, slim = high + plate, 0.25 * radius + 0.006
     adjust = merge(
         [
@@ -203,7 +203,7 @@ def _multi_plug(dn: int, hand: Hand, rng: Rng) -> Model:
     parts = [
         metal(merge([*body, moved(collar, at(x))])),
         trim(lid, "valve bonnet", x, "valve"),
-        *placed([bolts, bolted(adjust), shaft(-0.2 * radius, top + 2.5 * slim, slim, hand)], at(x)),
+        *placed([bolts, bolted(adjust), shaft(-0.2 * radius, top + 2.5 * slim, slim, style)], at(x)),
     ]
     stop = merge(
         [
@@ -214,17 +214,17 @@ def _multi_plug(dn: int, hand: Hand, rng: Rng) -> Model:
     parts.append(trim(stop, "position indicator", x))
     if rng.random() < 0.6:
         parts += placed(
-            [hand_lever(0.12 + 2.2 * radius, top + 0.012, hand, rng, ("spanner", "bar", "sheet", "cast"))], at(x)
+            [hand_lever(0.12 + 2.2 * radius, top + 0.012, style, rng, ("spanner", "bar", "sheet", "cast"))], at(x)
         )
     else:
-        parts += quarter_turn(x, top + 0.012, radius, hand, rng, ("worm", "rack", "motor box", "scotch"))
+        parts += quarter_turn(x, top + 0.012, radius, style, rng, ("worm", "rack", "motor box", "scotch"))
     return Model(parts, round(length, 6), kind="plug valve")
 
 
-def _tap(dn: int, hand: Hand, rng: Rng) -> Model:
+def _tap(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A bib cock on a pipe's end: a turned body, a downward spout with a hose thread, a lever, cross, tee or wing."""
     radius = PIPES[dn].radius
-    reach, big, n = 0.05 + 2.2 * radius, 1.2 * radius + 0.003, max(12, hand.round(radius))
+    reach, big, n = 0.05 + 2.2 * radius, 1.2 * radius + 0.003, max(12, style.round(radius))
     nut = along("x", hexagon(2.5 * radius + 0.004, 0.0, 0.014))
     tube_ = along(
         "x",
@@ -262,11 +262,11 @@ def _tap(dn: int, hand: Hand, rng: Rng) -> Model:
     )
     parts.append(trim(cap, "valve bonnet", x, "valve"))
     top = high + 0.9 * radius
-    rest = [shaft(-0.004, 0.012, 0.2 * radius + 0.001, hand)]
+    rest = [shaft(-0.004, 0.012, 0.2 * radius + 0.001, style)]
     if rng.random() < 0.5:
-        rest.append(hand_lever(0.04 + 2.0 * radius, 0.002, hand, rng, ("wing", "sheet", "tee", "loop", "bar")))
+        rest.append(hand_lever(0.04 + 2.0 * radius, 0.002, style, rng, ("wing", "sheet", "tee", "loop", "bar")))
     else:
-        rest.append(hand_wheel(0.016 + 0.9 * radius, 0.003, hand, rng, ("cross", "lobed", "star", "spoked", "disc")))
+        rest.append(hand_wheel(0.016 + 0.9 * radius, 0.003, style, rng, ("cross", "lobed", "star", "spoked", "disc")))
     return Model([*parts, *placed(rest, at(x, 0, top))], kind="tap")
 
 

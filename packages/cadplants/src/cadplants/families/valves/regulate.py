@@ -23,7 +23,7 @@ from cadplants.families.valves.valve import bolt_circle, disc_flange, flanged_bo
 from cadplants.family import Family, Model, placed
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, rod, rope, turned
 from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES
 from cadplants.transforms import at, spun
@@ -33,7 +33,7 @@ __all__ = ["REGULATORS"]
 _REDUCING = "pressure reducing valve"
 
 
-def _globe(dn: int, hand: Hand, swell: float, rng: np.random.Generator) -> tuple[Solid, float, float]:
+def _globe(dn: int, style: ModelingStyle, swell: float, rng: np.random.Generator) -> tuple[Solid, float, float]:
     """A flanged globe body (EN 558 series 1 lengths), its length and the radius of its middle [m]."""
     length, r = FACE_TO_FACE["globe"][dn], PIPES[dn].radius
     wide, thick, neck = max(swell * r + 0.006, 1.05 * hub_radius(dn)), plate_thickness(dn), hub_radius(dn)
@@ -48,17 +48,17 @@ def _globe(dn: int, hand: Hand, swell: float, rng: np.random.Generator) -> tuple
             (wide, 0.62 * length),
             (neck, 0.94 * length - thick),
         ]
-    return flanged_body(dn, hand, length, middle), length, wide
+    return flanged_body(dn, style, length, middle), length, wide
 
 
-def _filter_bowl(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _filter_bowl(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A domestic pressure reducer (EN 1567): threaded body, tapered spring hood, knob, clear bowl below."""
     r = PIPES[dn].radius
     length = float(rng.uniform(4.6, 6.5)) * r + 0.04
-    n, wide, x = hand.round(1.6 * r), 1.45 * r + 0.006, length / 2
+    n, wide, x = style.round(1.6 * r), 1.45 * r + 0.006, length / 2
     core = [(1.1 * r, 0.15 * length), (wide, 0.32 * length), (wide, 0.68 * length), (1.1 * r, 0.85 * length)]
     chest = cylinder(1.05 * wide, -1.25 * wide, 1.25 * wide, n)
-    parts = [body(screwed(dn, hand, length, core), moved(chest, at(x)))]
+    parts = [body(screwed(dn, style, length, core), moved(chest, at(x)))]
     low, tall = 1.25 * wide, float(rng.uniform(1.6, 3.2)) * wide
     kind = int(rng.integers(3))
     hood = [
@@ -104,13 +104,13 @@ def _filter_bowl(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(length, 6), "welded", _REDUCING)
 
 
-def _dome_loaded(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _dome_loaded(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A dome-loaded regulator: thick discs bolted above a flanged globe, loading tube."""
-    shell, length, wide = _globe(dn, hand, 1.3, rng)
+    shell, length, wide = _globe(dn, style, 1.3, rng)
     r, x = PIPES[dn].radius, length / 2
     rim = float(rng.uniform(1.5, 2.2)) * wide + 0.015
     low = max(1.15 * wide, 0.5 * FLANGES[dn].outer + 0.008)
-    n, thick = hand.round(rim), 0.014 + 0.22 * r
+    n, thick = style.round(rim), 0.014 + 0.22 * r
     neck = cylinder(0.8 * wide, 0.3 * wide, low + 0.002, n)
     lower = cylinder(rim, low, low + thick, n)
     upper = turned(
@@ -138,23 +138,23 @@ def _dome_loaded(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, length, kind=_REDUCING)
 
 
-def _gas(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _gas(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A gas regulator (EN 334): flat wide diaphragm housing, upright or aside, tower, vent, slam-shut."""
     r = PIPES[dn].radius
     flanged = dn > 50 or bool(rng.random() < 0.4)
     if flanged:
-        shell, length, wide = _globe(dn, hand, 1.35, rng)
+        shell, length, wide = _globe(dn, style, 1.35, rng)
     else:
         length, wide = 4.4 * r + 0.05, 1.45 * r + 0.004
         shell = screwed(
             dn,
-            hand,
+            style,
             length,
             [(1.1 * r, 0.15 * length), (wide, 0.35 * length), (wide, 0.65 * length), (1.1 * r, 0.85 * length)],
         )
     rim = float(rng.uniform(1.8, 2.9)) * wide + 0.03
     side = bool(rng.random() < 0.35)
-    n, low = hand.round(rim), max(1.25 * wide, (0.5 * FLANGES[dn].outer + 0.01) if flanged else 0.0)
+    n, low = style.round(rim), max(1.25 * wide, (0.5 * FLANGES[dn].outer + 0.01) if flanged else 0.0)
     neck = cylinder(0.75 * wide, 0.3 * wide, low + 0.003, n)
     flat = 0.12 * rim
     lower = turned([(0.5 * rim, low), (0.93 * rim, low + flat), (rim, low + flat), (rim, low + 1.3 * flat)], n)
@@ -204,15 +204,15 @@ def _gas(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(length, 6), "flanged" if flanged else "welded", _REDUCING)
 
 
-def _pilot_globe(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _pilot_globe(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A pilot-operated diaphragm control valve (waterworks type): globe, domed cover, pilot loop aside."""
-    shell, length, wide = _globe(dn, hand, 1.4, rng)
+    shell, length, wide = _globe(dn, style, 1.4, rng)
     r, x = PIPES[dn].radius, length / 2
     seat, rim, plate = max(1.25 * wide, 0.52 * FLANGES[dn].outer), 1.45 * wide + 0.01, 0.008 + 0.08 * r
-    n = hand.round(rim)
+    n = style.round(rim)
     neck = turned([(0.9 * wide, 0.3 * wide), (rim, seat - plate - 0.15 * wide), (rim, seat - plate + 0.001)], n)
     parts = [body(shell, moved(neck, at(x)))]
-    parts += placed(cover(rim, seat, plate, int(rng.choice([8, 10, 12])), hand, False, 0.45 * wide), at(x))
+    parts += placed(cover(rim, seat, plate, int(rng.choice([8, 10, 12])), style, False, 0.45 * wide), at(x))
     top = seat + plate + 0.45 * wide
     if rng.random() < 0.5:
         rodlet = cylinder(0.006 + 0.02 * r, top - 0.003, top + 0.06 + 0.3 * r, 8)
@@ -259,17 +259,17 @@ def _pilot_globe(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, length, kind="control valve")
 
 
-def _self_acting(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _self_acting(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A self-operated reducing valve: a globe whose springs stand on columns below, over a hanging diaphragm can."""
-    shell, length, wide = _globe(dn, hand, 1.35, rng)
-    r, x, n = PIPES[dn].radius, length / 2, hand.round(wide)
+    shell, length, wide = _globe(dn, style, 1.35, rng)
+    r, x, n = PIPES[dn].radius, length / 2, style.round(wide)
     seat = max(1.2 * wide, 0.5 * FLANGES[dn].outer + 0.01)
     parts = [
         body(shell),
         *placed(
             [
                 body(cylinder(0.85 * wide, 0, seat - 0.002, n)),
-                *cover(1.15 * wide + 0.006, seat, 0.01 + 0.06 * r, 4, hand),
+                *cover(1.15 * wide + 0.006, seat, 0.01 + 0.06 * r, 4, style),
             ],
             at(x),
         ),
@@ -283,16 +283,16 @@ def _self_acting(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     low.append(piece("yoke", stay))
     low.append(piece("valve stem", cylinder(0.1 * wide, down, down + tall + 0.005, 10)))
     if rng.random() < 0.5:
-        coils = [spring(0.45 * wide, 0.07 * wide, down + 0.012, down + 0.75 * tall, 6, hand)]
+        coils = [spring(0.45 * wide, 0.07 * wide, down + 0.012, down + 0.75 * tall, 6, style)]
     else:
         coils = [
-            moved(spring(0.2 * wide, 0.05 * wide, down + 0.012, down + 0.75 * tall, 8, hand), at(s * 0.38 * wide, 0))
+            moved(spring(0.2 * wide, 0.05 * wide, down + 0.012, down + 0.75 * tall, 8, style), at(s * 0.38 * wide, 0))
             for s in (-1, 1)
         ]
     plate = box((1.9 * wide, 0.5 * wide, 0.1 * wide + 0.004), (0, 0, down + 0.75 * tall + 0.05 * wide))
     low.append(piece("valve stem", *coils, plate))
     rim, z = float(rng.uniform(1.3, 2.3)) * wide + 0.03, down + tall
-    m = hand.round(rim)
+    m = style.round(rim)
     pans = [
         turned([(0.95 * wide, z), (0.9 * rim, z + 0.12 * rim), (rim, z + 0.14 * rim), (rim, z + 0.2 * rim)], m),
         turned(
@@ -322,10 +322,10 @@ def _self_acting(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, length, kind=_REDUCING)
 
 
-def _float(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _float(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A float valve at the end of a line: angle or balanced body, links, a long arm, a ball or a flat float."""
     r, thick = PIPES[dn].radius, plate_thickness(dn)
-    n, wide = hand.round(1.5 * r), 1.35 * r + 0.008
+    n, wide = style.round(1.5 * r), 1.35 * r + 0.008
     center = thick + 0.03 + 1.2 * wide
     chest = turned(
         [
@@ -336,8 +336,8 @@ def _float(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         ],
         n,
     )
-    spout = along("y", ring(0.7 * wide if hand.hollow else 0, 0.85 * wide, 0.75 * wide, 1.9 * wide, n), 0, 0, center)
-    parts = [body(disc_flange(dn, hand, thick + 0.012), chest, spout)]
+    spout = along("y", ring(0.7 * wide if style.hollow else 0, 0.85 * wide, 0.75 * wide, 1.9 * wide, n), 0, 0, center)
+    parts = [body(disc_flange(dn, style, thick + 0.012), chest, spout)]
     lid = cylinder(1.1 * wide, center + 1.0 * wide, center + 1.15 * wide, n)
     parts.append(bonnet(lid))
     pin_z, base = center + 1.55 * wide, center + 1.14 * wide
@@ -354,7 +354,7 @@ def _float(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         arm = box((long + 0.7 * wide, 1.1 * half, 3 * half), ((long - 0.7 * wide) / 2, 0, 0))
     size = 0.04 + 0.9 * r
     kind = int(rng.integers(3))
-    m = hand.round(size)
+    m = style.round(size)
     if kind == 0:
         bob = moved(ball(size, m), at(long + 0.9 * size))
     elif kind == 1:
@@ -371,14 +371,14 @@ def _float(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(laid(parts), kind="float valve")
 
 
-def _mixing(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _mixing(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A thermostatic mixing valve: a threaded tee with unions, a knob or a capped adjuster over the mixed branch."""
     r = PIPES[dn].radius
     length = float(rng.uniform(5.5, 7.0)) * r + 0.03
-    n, wide, x = hand.round(1.5 * r), 1.5 * r + 0.003, length / 2
+    n, wide, x = style.round(1.5 * r), 1.5 * r + 0.003, length / 2
     core = [(1.05 * r, 0.12 * length), (1.25 * r, 0.3 * length), (1.25 * r, 0.7 * length), (1.05 * r, 0.88 * length)]
     barrel = turned([(0.9 * wide, -1.2 * wide), (wide, -0.8 * wide), (wide, 1.4 * wide)], n)
-    parts = [body(screwed(dn, hand, length, core, end=0.15 * length), moved(barrel, at(x)))]
+    parts = [body(screwed(dn, style, length, core, end=0.15 * length), moved(barrel, at(x)))]
     if rng.random() < 0.6:
         for low in (0.15 * length, 0.75 * length):
             parts.append(
@@ -387,11 +387,11 @@ def _mixing(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
                 )
             )
     reach = 0.42 * length + 0.6 * wide
-    stub = ring(0.9 * r if hand.hollow else 0.0, 1.1 * r, 0.8 * wide, reach, n)
+    stub = ring(0.9 * r if style.hollow else 0.0, 1.1 * r, 0.8 * wide, reach, n)
     nut = hexagon(3.0 * r, 1.2 * wide, 1.2 * wide + 0.12 * length)
     parts += [body(along("-z", stub, x)), other("Pipe assembly", "union", "valve", along("-z", nut, x), own=True)]
     drop = float(rng.uniform(0.06, 0.25))
-    tail = ring(0.85 * r if hand.hollow else 0.0, r, reach, reach + drop, n)
+    tail = ring(0.85 * r if style.hollow else 0.0, r, reach, reach + drop, n)
     parts.append(other("Pipe assembly", "pipe", "pipe", along("-z", tail, x)))
     top = 1.4 * wide
     if rng.random() < 0.6:

@@ -19,7 +19,7 @@ from cadplants.families.valves.valve import disc_flange, valve_family
 from cadplants.family import Family, Model, Part, placed
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import merge, moved, tube
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rope, turned
 from cadplants.standards import FLANGES, PIPES, SIZES
 from cadplants.transforms import at, spun
@@ -27,13 +27,13 @@ from cadplants.transforms import at, spun
 __all__ = ["RELIEFS"]
 
 
-def _angle_body(dn: int, out: int, hand: Hand, rng: np.random.Generator) -> tuple[list[Part], float, float]:
+def _angle_body(dn: int, out: int, style: ModelingStyle, rng: np.random.Generator) -> tuple[list[Part], float, float]:
     """A safety valve's body upon its inlet flange: chest, outlet to +y, bonnet seat; also seat and chest radius [m]."""
-    r, n = PIPES[dn].radius, hand.round(1.7 * PIPES[out].radius)
+    r, n = PIPES[dn].radius, style.round(1.7 * PIPES[out].radius)
     wide = max(1.05 * PIPES[out].radius, 1.4 * r) + 0.006
     center = 0.5 * FLANGES[out].outer + plate_thickness(dn) + 0.015 + 0.3 * r
     reach = center * float(rng.uniform(0.85, 1.05)) + 0.3 * wide
-    neck = disc_flange(dn, hand, center - 0.7 * wide)
+    neck = disc_flange(dn, style, center - 0.7 * wide)
     seat = center + wide * float(rng.uniform(0.95, 1.25))
     low = (0.9 * hub_radius(dn), center - 1.15 * wide)
     if rng.random() < 0.5:
@@ -43,7 +43,7 @@ def _angle_body(dn: int, out: int, hand: Hand, rng: np.random.Generator) -> tupl
         shell = turned(
             [low, (1.1 * wide, center - 0.2 * wide), (1.1 * wide, center + 0.2 * wide), (0.8 * wide, seat - 0.003)], n
         )
-    solids = [neck, shell, branch(out, hand, reach, "y", (0, 0, center))]
+    solids = [neck, shell, branch(out, style, reach, "y", (0, 0, center))]
     if rng.random() < 0.5:
         solids.append(box((0.012 + 0.1 * r, 0.6 * reach, 0.7 * wide), (0, 0.45 * reach, center - 0.95 * wide)))
     if rng.random() < 0.3:
@@ -55,9 +55,9 @@ def _sizes(dn: int, rng: np.random.Generator) -> int:
     return SIZES[min(SIZES.index(dn) + int(rng.integers(1, 3)), len(SIZES) - 1)]
 
 
-def _cap(top: float, wide: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _cap(top: float, wide: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """A safety valve's cap upon a height: closed, open lever in a fork, or packed lever on a shaft."""
-    n, tall = hand.round(0.5 * wide), 1.1 * wide
+    n, tall = style.round(0.5 * wide), 1.1 * wide
     kind = int(rng.integers(3))
     if kind == 0:
         return [
@@ -98,11 +98,11 @@ def _cap(top: float, wide: float, hand: Hand, rng: np.random.Generator) -> list[
     ]
 
 
-def _full_lift(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _full_lift(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A full-lift safety valve (EN ISO 4126-1) with a closed bonnet, ribbed body and a cap of three kinds."""
-    parts, seat, wide = _angle_body(dn, _sizes(dn, rng), hand, rng)
-    plate, n = 0.01 + 0.1 * wide, hand.round(wide)
-    parts += cover(1.35 * wide + 0.008, seat, plate, int(rng.choice([4, 6, 8])), hand, bool(rng.random() < 0.3))
+    parts, seat, wide = _angle_body(dn, _sizes(dn, rng), style, rng)
+    plate, n = 0.01 + 0.1 * wide, style.round(wide)
+    parts += cover(1.35 * wide + 0.008, seat, plate, int(rng.choice([4, 6, 8])), style, bool(rng.random() < 0.3))
     low, tall = seat + plate, float(rng.uniform(2.2, 4.2)) * wide
     slim = float(rng.uniform(0.62, 0.9)) * wide
     hood = [
@@ -115,15 +115,15 @@ def _full_lift(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     solids = [turned(hood, n)]
     if rng.random() < 0.35:
         solids.append(around(box((0.5 * slim, 0.12 * slim, 0.5 * tall), (slim, 0, low + 0.45 * tall)), 4))
-    parts += [bonnet(*solids), *_cap(low + tall, wide, hand, rng)]
+    parts += [bonnet(*solids), *_cap(low + tall, wide, style, rng)]
     return Model(laid(parts), kind="relief valve")
 
 
-def _open_bonnet(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _open_bonnet(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A steam safety valve with an open bonnet: a frame of two or four arms about its visible spring, lever."""
-    parts, seat, wide = _angle_body(dn, _sizes(dn, rng), hand, rng)
-    plate, n = 0.01 + 0.1 * wide, hand.round(wide)
-    parts += cover(1.3 * wide + 0.008, seat, plate, 4, hand)
+    parts, seat, wide = _angle_body(dn, _sizes(dn, rng), style, rng)
+    plate, n = 0.01 + 0.1 * wide, style.round(wide)
+    parts += cover(1.3 * wide + 0.008, seat, plate, 4, style)
     low, tall = seat + plate, float(rng.uniform(2.4, 3.8)) * wide
     slim = 0.95 * wide
     count = int(rng.choice([2, 4]))
@@ -132,19 +132,19 @@ def _open_bonnet(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         [(1.1 * slim, low + tall - 0.2 * wide), (1.1 * slim, low + tall), (0.6 * wide, low + tall + 0.2 * wide)], n
     )
     parts.append(piece("yoke", around(arm, count, 0.0, float(rng.choice([0, 0.785]))), head, color="valve"))
-    coil = spring(0.55 * wide, 0.1 * wide, low + 0.15 * wide, low + tall - 0.3 * wide, int(rng.integers(4, 7)), hand)
+    coil = spring(0.55 * wide, 0.1 * wide, low + 0.15 * wide, low + tall - 0.3 * wide, int(rng.integers(4, 7)), style)
     washers = [cylinder(0.7 * wide, z, z + 0.12 * wide, n) for z in (low + 0.05 * wide, low + tall - 0.32 * wide)]
     stem = cylinder(0.14 * wide, seat, low + tall + 0.5 * wide, 10)
-    parts += [piece("valve stem", coil, *washers, stem), *_cap(low + tall + 0.2 * wide, wide, hand, rng)]
+    parts += [piece("valve stem", coil, *washers, stem), *_cap(low + tall + 0.2 * wide, wide, style, rng)]
     return Model(laid(parts), kind="relief valve")
 
 
-def _pilot(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _pilot(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A pilot-operated safety valve (API 526 ends): flat cap, a pilot with its own spring case aside, sense lines."""
-    parts, seat, wide = _angle_body(dn, _sizes(dn, rng), hand, rng)
+    parts, seat, wide = _angle_body(dn, _sizes(dn, rng), style, rng)
     plate = 0.02 + 0.2 * wide
     rim = 1.3 * wide + 0.008
-    parts += cover(rim, seat, plate, int(rng.choice([6, 8, 12])), hand)
+    parts += cover(rim, seat, plate, int(rng.choice([6, 8, 12])), style)
     top, size = seat + plate, 0.018 + 0.16 * wide
     side = float(rng.choice([-1, 1]))
     if rng.random() < 0.5:
@@ -157,7 +157,7 @@ def _pilot(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         )
         z = seat - size
     block = box((2 * size, 1.8 * size, 2.4 * size), (x, y, z + 2.0 * size))
-    n = hand.round(size)
+    n = style.round(size)
     case = turned(
         [
             (0.9 * size, z + 3.2 * size),
@@ -188,10 +188,10 @@ def _pilot(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(laid(parts), kind="relief valve")
 
 
-def _thermal(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _thermal(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A thermal relief valve on an outlet: hexagon body, threaded side outlet with a bent tail pipe, sealed cap."""
     r = float(rng.uniform(0.009, 0.014))
-    n, tall = hand.round(1.4 * r), float(rng.uniform(3.0, 6.0)) * r
+    n, tall = style.round(1.4 * r), float(rng.uniform(3.0, 6.0)) * r
     low = 0.012 + 1.2 * r
     chest = [
         cylinder(0.85 * r, 0.0, 0.02, n),
@@ -209,7 +209,7 @@ def _thermal(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     if rng.random() < 0.6:
         drop = float(rng.uniform(0.1, 0.35))
         path = [(0, 2.5 * r, low + 1.4 * r), (0, 5 * r, low + 1.4 * r), (0, 5 * r, low - drop)]
-        hollow = 0.75 * r if hand.hollow else 0.0
+        hollow = 0.75 * r if style.hollow else 0.0
         parts.append(other("Pipe assembly", "pipe", "pipe", tube(bend(path, 1.6 * r), 0.9 * r, hollow, n)))
     if rng.random() < 0.4:
         loop = rope([(1.0 * r, 0, top + 0.5 * tall), (2.0 * r, 0, top + 0.3 * tall), (1.1 * r, 0, top)], 0.0012, 5)
@@ -223,10 +223,10 @@ def _thermal(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="relief valve")
 
 
-def _heater(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _heater(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A temperature-and-pressure valve of a water heater: brass body, spout aside, spring dome, test flap on top."""
     r = float(rng.uniform(0.010, 0.015))
-    n = hand.round(1.5 * r)
+    n = style.round(1.5 * r)
     solids = [cylinder(0.9 * r, 0.0, 0.022, n), hexagon(2.7 * r, 0.018, 0.018 + 1.2 * r)]
     low = 0.018 + 1.1 * r
     solids.append(
@@ -270,11 +270,11 @@ def _heater(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _spring_lever(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _spring_lever(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A weight-loaded safety valve as on old boilers: a long lever across the seat with a sliding weight, a guide."""
-    parts, seat, wide = _angle_body(dn, _sizes(dn, rng), hand, rng)
+    parts, seat, wide = _angle_body(dn, _sizes(dn, rng), style, rng)
     plate = 0.01 + 0.08 * wide
-    parts += cover(1.3 * wide + 0.006, seat, plate, 4, hand)
+    parts += cover(1.3 * wide + 0.006, seat, plate, 4, style)
     top, long = seat + plate, float(rng.uniform(7.0, 11.0)) * wide
     height = top + 1.1 * wide
     way = float(rng.choice([0.0, 1.5708, 3.1416]))
@@ -288,13 +288,13 @@ def _spring_lever(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     bar = box((long, 0.26 * wide, 0.4 * wide), (long / 2 - 1.2 * wide, 0, height))
     place = long * float(rng.uniform(0.55, 0.8)) - 1.2 * wide
     size = float(rng.uniform(0.9, 1.4)) * wide
-    load = along("y", cylinder(size, -0.5 * wide, 0.5 * wide, hand.round(size)), place, 0, height - 0.3 * wide)
+    load = along("y", cylinder(size, -0.5 * wide, 0.5 * wide, style.round(size)), place, 0, height - 0.3 * wide)
     if rng.random() < 0.5:
         load = merge(
             [
                 box((0.2 * wide, 0.5 * wide, 0.6 * wide), (place, 0, height)),
                 moved(
-                    turned([(0.4 * size, 0.0), (size, 0.4 * size), (size, 1.8 * size)], hand.round(size)),
+                    turned([(0.4 * size, 0.0), (size, 0.4 * size), (size, 1.8 * size)], style.round(size)),
                     at(place, 0, height - 0.2 * wide) @ spun("x", np.pi),
                 ),
             ]
@@ -309,10 +309,10 @@ def _spring_lever(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(laid([*parts, *placed(top_parts, spun("z", way))]), kind="relief valve")
 
 
-def _rupture(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _rupture(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A rupture disc in its holder (EN ISO 4126-2): two rings between flanges, domed disc, hook, tag, cap screws."""
     size, bore = FLANGES[dn], PIPES[dn].bore
-    outer, n = 0.5 * (size.circle - size.bolt) - 0.0005, hand.round(size.outer / 2)
+    outer, n = 0.5 * (size.circle - size.bolt) - 0.0005, style.round(size.outer / 2)
     low, high = 0.02 + 0.08 * PIPES[dn].outer, 0.016 + 0.06 * PIPES[dn].outer
     length = round(low + high + 0.001, 6)
     rings = [along("x", ring(bore, outer, 0.0, low, n)), along("x", ring(bore, outer, low + 0.001, length, n))]

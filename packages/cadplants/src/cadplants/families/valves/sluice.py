@@ -16,7 +16,7 @@ from cadplants.families.valves.gate import resilient
 from cadplants.families.valves.valve import valve_family
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, turned
 from cadplants.standards import FLANGES, PIPES, SIZES
@@ -27,12 +27,12 @@ __all__ = ["SLUICES"]
 Rng = np.random.Generator
 
 
-def _slide(dn: int, hand: Hand, rng: Rng) -> Model:
+def _slide(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A slide gate for bulk solids: a flat frame between round flanges, its blade drawn out to the side."""
     size, radius = FLANGES[dn], PIPES[dn].radius
     length = 0.06 + 0.1 * radius
     half, thick = 0.5 * size.outer, 0.012
-    n = hand.round(half)
+    n = style.round(half)
     plates = [ring(PIPES[dn].bore, half, z, z + thick, n) for z in (0.0, length - thick)]
     throat = ring(PIPES[dn].bore, radius * 1.06, 0.0, length, n)
     reach = 2.4 * half
@@ -52,10 +52,10 @@ def _slide(dn: int, hand: Hand, rng: Rng) -> Model:
         trim(cross, "yoke", 0.0, "steel"),
     ]
     parts.append(trim(clevis, "valve disc"))
-    rest = [shaft(open_ + half + radius - reach, 0.12, slim, hand, rng)]
+    rest = [shaft(open_ + half + radius - reach, 0.12, slim, style, rng)]
     kind = rng.random()
     if kind < 0.4:
-        rest.append(hand_wheel(0.06 + 0.8 * radius, 0.03, hand, rng))
+        rest.append(hand_wheel(0.06 + 0.8 * radius, 0.03, style, rng))
         rest.append(Part(ring(slim, 2.5 * slim, 0.014, 0.032, 12), "gland", "trim", BODY))
         parts += placed(rest, at(x, 0, reach))
     elif kind < 0.75:
@@ -68,7 +68,7 @@ def _slide(dn: int, hand: Hand, rng: Rng) -> Model:
             [
                 *ends,
                 rods,
-                cylinder(0.95 * bore, 0.02, long, hand.round(bore)),
+                cylinder(0.95 * bore, 0.02, long, style.round(bore)),
                 *(
                     along("y", hexagon(0.02, bore, 1.3 * bore), 0, 0, z)
                     for z in (0.12 * bore + 0.02, long + 0.1 * bore)
@@ -77,11 +77,13 @@ def _slide(dn: int, hand: Hand, rng: Rng) -> Model:
         )
         parts += placed([rest[0], Part(can, "actuator", "clamp", "actuator")], at(x, 0, reach))
     else:
-        parts += placed([rest[0], *quarter_turn(0, 0.015, radius, hand, rng, ("bevel", "multi-turn"))], at(x, 0, reach))
+        parts += placed(
+            [rest[0], *quarter_turn(0, 0.015, radius, style, rng, ("bevel", "multi-turn"))], at(x, 0, reach)
+        )
     return Model(parts, round(length, 6), "wafer", "slide gate valve")
 
 
-def _sluice(dn: int, hand: Hand, rng: Rng) -> Model:
+def _sluice(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A sluice gate on a wall: a frame of channels round an opening, a ribbed door, a spindle up to a headstock."""
     wide = float(rng.uniform(0.4, 0.9))
     high, lift = wide * float(rng.uniform(0.8, 1.4)), float(rng.uniform(0.2, 1.0)) * wide
@@ -120,7 +122,7 @@ def _sluice(dn: int, hand: Hand, rng: Rng) -> Model:
         Part(frame, BODY, "steel", BODY),
         trim(merge(door), "valve disc"),
         Part(wall, "wall", "concrete", "", "Structural element"),
-        *placed([shaft(low, tall + 0.35 + lift, slim, hand, rng)], at(0.045)),
+        *placed([shaft(low, tall + 0.35 + lift, slim, style, rng)], at(0.045)),
     ]
     anchors = merge(
         [
@@ -133,22 +135,22 @@ def _sluice(dn: int, hand: Hand, rng: Rng) -> Model:
     if rng.random() < 0.55:
         stand = turned([(0.13, 0.0), (0.13, 0.02), (0.06, 0.06), (0.05, 0.2), (0.08, 0.25), (0.08, 0.28)], 20)
         parts += placed(
-            [Part(stand, "yoke", "valve", BODY), hand_wheel(float(rng.uniform(0.18, 0.32)), 0.28, hand, rng)],
+            [Part(stand, "yoke", "valve", BODY), hand_wheel(float(rng.uniform(0.18, 0.32)), 0.28, style, rng)],
             at(0.045, 0, tall + 0.04),
         )
     else:
-        parts += quarter_turn(0.045, tall + 0.04, 0.12, hand, rng, ("bevel", "bevel", "multi-turn"))
+        parts += quarter_turn(0.045, tall + 0.04, 0.12, style, rng, ("bevel", "bevel", "multi-turn"))
     return Model(parts, kind="sluice gate")
 
 
-def _pillar(dn: int, hand: Hand, rng: Rng) -> Model:
+def _pillar(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A gate valve whose spindle goes up by an extension to a pedestal on the floor above (EN 1074 fittings)."""
-    model = resilient(dn, hand, np.random.default_rng(int(rng.integers(1 << 30))))
+    model = resilient(dn, style, np.random.default_rng(int(rng.integers(1 << 30))))
     kept = [p for p in model.parts if p.name not in ("handwheel",)]
     top = max(float(p.solid.vertices[:, 2].max()) for p in kept if p.name in ("valve bonnet", "gland", "valve stem"))
     x, reach, slim = model.length / 2, float(rng.uniform(0.35, 0.8)), 0.012
     half = float(rng.uniform(0.08, 0.13))
-    n = hand.round(half)
+    n = style.round(half)
     joint = merge([cylinder(2.2 * slim, -0.03, 0.06, 12), cylinder(1.3 * slim, 0.05, reach + 0.05, 12)])
     deck = box((6 * half, 6 * half, 0.012), (0, 0, reach - 0.006))
     tall = float(rng.uniform(0.5, 0.8))
@@ -168,11 +170,11 @@ def _pillar(dn: int, hand: Hand, rng: Rng) -> Model:
     stand = [Part(pedestal, "yoke", "valve", BODY), trim(scale, "position indicator"), bolted(bolts)]
     if rng.random() < 0.7:
         stand += [
-            shaft(tall - 0.02, tall + 0.1, slim, hand),
-            hand_wheel(0.11 + 0.8 * PIPES[dn].radius, tall + 0.01, hand, rng),
+            shaft(tall - 0.02, tall + 0.1, slim, style),
+            hand_wheel(0.11 + 0.8 * PIPES[dn].radius, tall + 0.01, style, rng),
         ]
     else:
-        stand += quarter_turn(0, tall, 0.08, hand, rng, ("bevel", "multi-turn"))
+        stand += quarter_turn(0, tall, 0.08, style, rng, ("bevel", "multi-turn"))
     rest = [
         Part(joint, "valve stem", "trim", BODY),
         Part(deck, "plate", "steel", "", "Structural element"),

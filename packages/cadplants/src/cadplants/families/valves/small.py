@@ -7,7 +7,7 @@ import numpy as np
 from cadplants.families.valves.drive import BODY, drive, stem, wheel
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, ball, box, cylinder, hexagon, ring, rod, turned
 from cadplants.standards import PIPES, SIZES
@@ -16,21 +16,23 @@ from cadplants.transforms import at, spun
 __all__ = ["SMALL_VALVES", "hex_end"]
 
 
-def hex_end(dn: int, low: float, high: float, hand: Hand, corners: int = 6) -> Solid:
+def hex_end(dn: int, low: float, high: float, style: ModelingStyle, corners: int = 6) -> Solid:
     """The wrench end of a threaded fitting along x: six or eight flats (ISO 7-1 thread inside where it is hollow)."""
     radius = PIPES[dn].radius
     flats = 2 * (1.12 * radius + 0.003)
     outline = circle(flats / 2 / np.cos(np.pi / corners), corners, phase=np.pi / corners)
-    holes = (circle(radius * 0.98, max(8, hand.round(radius))),) if hand.hollow else ()
+    holes = (circle(radius * 0.98, max(8, style.round(radius))),) if style.hollow else ()
     return along("x", extrude(outline, low, high, holes))
 
 
-def _threaded(dn: int, hand: Hand, rng: np.random.Generator, length: float, swell: float) -> tuple[list[Part], float]:
+def _threaded(
+    dn: int, style: ModelingStyle, rng: np.random.Generator, length: float, swell: float
+) -> tuple[list[Part], float]:
     """Two wrench ends and a middle between them; also the middle's radius [m]."""
     radius = PIPES[dn].radius
     end, bulge = 0.24 * length, swell * radius + 0.004
     corners = int(rng.choice([6, 6, 8]))
-    n = hand.round(bulge)
+    n = style.round(bulge)
     kind = int(rng.integers(3))
     if kind == 0:
         profile = [
@@ -52,23 +54,23 @@ def _threaded(dn: int, hand: Hand, rng: np.random.Generator, length: float, swel
             (0.95 * bulge, length - 0.9 * end),
         ]
     middle = along("x", turned(profile, n))
-    solid = merge([hex_end(dn, 0.0, end, hand, corners), middle, hex_end(dn, length - end, length, hand, corners)])
+    solid = merge([hex_end(dn, 0.0, end, style, corners), middle, hex_end(dn, length - end, length, style, corners)])
     return [Part(solid, BODY, "valve", BODY)], bulge
 
 
-def _ball(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _ball(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A two-piece threaded ball valve with a lever, a wing or a small actuator, maybe a mounting pad (ISO 5211)."""
     radius = PIPES[dn].radius
     length = float(rng.uniform(3.4, 4.6)) * radius + 0.025
-    parts, bulge = _threaded(dn, hand, rng, length, 1.3)
+    parts, bulge = _threaded(dn, style, rng, length, 1.3)
     x, boss, top = length / 2, 0.45 * radius + 0.003, bulge + 0.25 * radius + 0.004
-    parts.append(Part(moved(cylinder(boss, 0.6 * bulge, top, hand.round(boss)), at(x)), BODY, "valve", BODY))
+    parts.append(Part(moved(cylinder(boss, 0.6 * bulge, top, style.round(boss)), at(x)), BODY, "valve", BODY))
     if rng.random() < 0.4:
         half = 1.5 * boss
         holes = tuple(circle(0.15 * half, 8, (sx * 0.7 * half, sy * 0.7 * half)) for sx in (-1, 1) for sy in (-1, 1))
         pad = extrude(rounded_rectangle(2 * half, 2 * half, 0.3 * half, 3), top - 0.004, top, holes)
         parts.append(Part(moved(pad, at(x)), BODY, "valve", BODY))
-    parts.append(stem(top, top + 0.008, 0.5 * boss, hand, x))
+    parts.append(stem(top, top + 0.008, 0.5 * boss, style, x))
     nut = Part(
         moved(hexagon(1.3 * boss, top + 0.008, top + 0.013), at(x)),
         "nut",
@@ -79,30 +81,32 @@ def _ball(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
     parts += [
         nut,
-        *drive(x, top + 0.006, radius, hand, rng, ("lever", "lever", "lever", "wing", "wing", "pneumatic", "electric")),
+        *drive(
+            x, top + 0.006, radius, style, rng, ("lever", "lever", "lever", "wing", "wing", "pneumatic", "electric")
+        ),
     ]
     return Model(parts, round(length, 6), "welded", "ball valve")
 
 
-def _three_piece(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _three_piece(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A three-piece ball valve: two ends and a middle block between square plates held by four bolts."""
     radius = PIPES[dn].radius
     length, half = 5.0 * radius + 0.03, 1.55 * radius + 0.006
     plate = 0.2 * radius + 0.006
     mid = 0.7 * radius + 0.006
-    x, n = length / 2, hand.round(radius)
+    x, n = length / 2, style.round(radius)
     square = rounded_rectangle(2 * half, 2 * half, 0.35 * half, 3)
-    bore = (circle(0.9 * radius, n),) if hand.hollow else ()
+    bore = (circle(0.9 * radius, n),) if style.hollow else ()
     ends = []
     for sign in (-1, 1):
         low = x + sign * mid
         flat = extrude(square, min(low, low + sign * plate), max(low, low + sign * plate), bore)
         far = low + sign * plate
         neck = ring(
-            0.9 * radius if hand.hollow else 0.0, 1.25 * radius, min(far, x + sign * x), max(far, x + sign * x), n
+            0.9 * radius if style.hollow else 0.0, 1.25 * radius, min(far, x + sign * x), max(far, x + sign * x), n
         )
         ends.append(along("x", merge([flat, neck])))
-    core = along("x", ring(0.9 * radius if hand.hollow else 0.0, 1.35 * radius, x - mid, x + mid, n))
+    core = along("x", ring(0.9 * radius if style.hollow else 0.0, 1.35 * radius, x - mid, x + mid, n))
     one = merge(
         [
             cylinder(0.1 * radius + 0.002, x - mid - plate - 0.008, x + mid + plate + 0.008, 8),
@@ -116,18 +120,18 @@ def _three_piece(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         *(Part(end, BODY, "valve", BODY) for end in ends),
         Part(moved(cylinder(boss, 1.1 * radius, top, 12), at(x)), BODY, "valve", BODY),
         Part(bolts, "bolt", "fastener", BODY, "Connection assembly", True),
-        stem(top, top + 0.01, 0.5 * boss, hand, x),
-        *drive(x, top + 0.008, radius, hand, rng, ("lever", "lever", "pneumatic", "electric")),
+        stem(top, top + 0.01, 0.5 * boss, style, x),
+        *drive(x, top + 0.008, radius, style, rng, ("lever", "lever", "pneumatic", "electric")),
     ]
     return Model(parts, round(length, 6), "welded", "ball valve")
 
 
-def _bronze(dn: int, hand: Hand, rng: np.random.Generator, tall: float, kind: str) -> Model:
+def _bronze(dn: int, style: ModelingStyle, rng: np.random.Generator, tall: float, kind: str) -> Model:
     """A threaded bronze gate or globe valve: union bonnet, packing nut, wheel."""
     radius = PIPES[dn].radius
     length = float(rng.uniform(3.2, 4.4)) * radius + 0.025
-    parts, bulge = _threaded(dn, hand, rng, length, 1.35)
-    x, n = length / 2, hand.round(bulge)
+    parts, bulge = _threaded(dn, style, rng, length, 1.35)
+    x, n = length / 2, style.round(bulge)
     rise = bulge + tall * radius
     neck = turned([(0.85 * bulge, 0.4 * bulge), (0.8 * bulge, rise)], n)
     nut = merge(
@@ -139,21 +143,21 @@ def _bronze(dn: int, hand: Hand, rng: np.random.Generator, tall: float, kind: st
         Part(moved(neck, at(x)), BODY, "valve", BODY),
         Part(moved(nut, at(x)), "valve bonnet", "valve", BODY),
         Part(moved(gland, at(x)), "gland", "trim", BODY),
-        stem(top, top + 0.02 + 1.2 * radius, 0.003 + 0.12 * radius, hand, x),
-        wheel(0.02 + 1.3 * radius, x, top + 0.01 + 0.8 * radius, hand, rng),
+        stem(top, top + 0.02 + 1.2 * radius, 0.003 + 0.12 * radius, style, x),
+        wheel(0.02 + 1.3 * radius, x, top + 0.01 + 0.8 * radius, style, rng),
     ]
     return Model(parts, round(length, 6), "welded", kind)
 
 
-def _gate(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
-    return _bronze(dn, hand, rng, 1.2, "gate valve")
+def _gate(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+    return _bronze(dn, style, rng, 1.2, "gate valve")
 
 
-def _globe(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
-    return _bronze(dn, hand, rng, 0.3, "globe valve")
+def _globe(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+    return _bronze(dn, style, rng, 0.3, "globe valve")
 
 
-def _needle(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _needle(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A needle valve: a block of bar or a hexagon, a bonnet nut, a T bar or a knob."""
     radius = PIPES[dn].radius
     length, half = 4.0 * radius + 0.03, 1.2 * radius + 0.003
@@ -170,25 +174,25 @@ def _needle(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         Part(body, BODY, "valve", BODY),
         Part(moved(bonnet, at(x)), "valve bonnet", "trim", BODY),
         Part(moved(packing, at(x)), "gland", "trim", BODY),
-        stem(3.5 * half, 5.2 * half, 0.28 * half, hand, x),
+        stem(3.5 * half, 5.2 * half, 0.28 * half, style, x),
     ]
     if rng.random() < 0.6:
-        parts += drive(x, 4.8 * half, radius, hand, rng, ("bar",))
+        parts += drive(x, 4.8 * half, radius, style, rng, ("bar",))
     else:
-        parts.append(wheel(1.5 * half + 0.005, x, 4.6 * half, hand, rng))
+        parts.append(wheel(1.5 * half + 0.005, x, 4.6 * half, style, rng))
     return Model(parts, round(length, 6), "welded", "needle valve")
 
 
-def _check(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _check(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A threaded check valve: spring type in a cylinder, or swing type with a screwed cap."""
     radius = PIPES[dn].radius
     length = 3.6 * radius + 0.03
-    parts, bulge = _threaded(dn, hand, rng, length, 1.3)
+    parts, bulge = _threaded(dn, style, rng, length, 1.3)
     if rng.random() < 0.5:
         tilt = float(rng.choice([0.0, 0.5]))
         cap_ = merge(
             [
-                cylinder(0.8 * bulge, 0.3 * bulge, 1.35 * bulge, hand.round(bulge)),
+                cylinder(0.8 * bulge, 0.3 * bulge, 1.35 * bulge, style.round(bulge)),
                 hexagon(1.2 * bulge, 1.35 * bulge, 1.65 * bulge),
             ]
         )
@@ -196,11 +200,11 @@ def _check(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(length, 6), "welded", "check valve")
 
 
-def _solenoid(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _solenoid(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A solenoid valve: a threaded body with a coil on a tube and a plug with its cable gland."""
     radius = PIPES[dn].radius
     length = 3.6 * radius + 0.03
-    parts, bulge = _threaded(dn, hand, rng, length, 1.3)
+    parts, bulge = _threaded(dn, style, rng, length, 1.3)
     x, side = length / 2, 0.03 + 0.35 * radius
     flat = box((1.9 * bulge, 1.9 * bulge, 0.25 * bulge), (x, 0, 1.0 * bulge))
     low = 1.1 * bulge
@@ -224,13 +228,13 @@ def _solenoid(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(length, 6), "welded", "solenoid valve")
 
 
-def _y_small(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _y_small(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A balancing valve: threaded, slanting bonnet, a big plastic knob, two test points."""
     radius = PIPES[dn].radius
     length = 4.6 * radius + 0.035
-    parts, bulge = _threaded(dn, hand, rng, length, 1.25)
+    parts, bulge = _threaded(dn, style, rng, length, 1.25)
     way = at(0.5 * length) @ spun("y", 0.78)
-    neck = turned([(0.8 * bulge, 0.0), (0.75 * bulge, 2.2 * bulge), (0.6 * bulge, 2.3 * bulge)], hand.round(bulge))
+    neck = turned([(0.8 * bulge, 0.0), (0.75 * bulge, 2.2 * bulge), (0.6 * bulge, 2.3 * bulge)], style.round(bulge))
     knob = turned(
         [
             (1.1 * bulge, 2.3 * bulge),
@@ -238,7 +242,7 @@ def _y_small(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
             (1.2 * bulge, 3.6 * bulge),
             (1.0 * bulge, 3.8 * bulge),
         ],
-        max(10, hand.round(bulge)),
+        max(10, style.round(bulge)),
     )
     tests = [
         rod((length * s, 0.3 * bulge, 0.5 * bulge), (length * s, 1.6 * bulge, 1.2 * bulge), 0.16 * bulge, 8)
@@ -252,10 +256,10 @@ def _y_small(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, round(length, 6), "welded", "globe valve")
 
 
-def _relief(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _relief(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A threaded safety valve upright on a tap or a pipe's end: along x from its inlet, outlet aside, cap or knob."""
     radius = PIPES[dn].radius
-    n, bulge = hand.round(1.4 * radius), 1.4 * radius + 0.004
+    n, bulge = style.round(1.4 * radius), 1.4 * radius + 0.004
     inlet = merge([cylinder(0.9 * radius, 0.0, 0.015, n), hexagon(2.3 * radius + 0.004, 0.012, 0.026 + 0.3 * radius)])
     low = 0.024 + 0.3 * radius
     chamber = turned([(0.9 * bulge, low), (bulge, low + 0.5 * bulge), (bulge, low + 2.0 * bulge)], n)
@@ -287,13 +291,13 @@ def _relief(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="relief valve")
 
 
-def _relief_tap(_: int, hand: Hand, rng: np.random.Generator) -> Model:
-    return _relief(int(rng.choice([15, 20, 25])), hand, rng)
+def _relief_tap(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+    return _relief(int(rng.choice([15, 20, 25])), style, rng)
 
 
-def _vent(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _vent(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An automatic air vent: a float chamber on a nipple with a small cap."""
-    r, n = float(rng.uniform(0.018, 0.04)), hand.round(0.03)
+    r, n = float(rng.uniform(0.018, 0.04)), style.round(0.03)
     body = turned(
         [
             (0.009, 0.0),
@@ -312,14 +316,14 @@ def _vent(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _cock(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _cock(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A drain or sampling cock on an outlet: hexagon body, spout aside, a wing or lever."""
     r, n = float(rng.uniform(0.008, 0.014)), 12
     body = merge(
         [cylinder(0.8 * r, 0.0, 0.02, n), hexagon(2.4 * r, 0.015, 0.015 + 1.6 * r), cylinder(r, 0.015, 0.03 + 4 * r, n)]
     )
     spout = merge([rod((0, 0, 0.02 + 2.2 * r), (0, 4 * r, 0.02 + 1.4 * r), 0.7 * r, n), ball(0.5 * r, 6)][:1])
-    head = drive(0.0, 0.03 + 4 * r, r, hand, rng, ("wing", "lever", "bar"))
+    head = drive(0.0, 0.03 + 4 * r, r, style, rng, ("wing", "lever", "bar"))
     return Model([Part(merge([body, spout]), BODY, "trim", BODY), *head], kind="sampling valve")
 
 

@@ -9,7 +9,7 @@ from cadplants.families.valves.parts import SMALL, bend, body, bonnet, chain, fr
 from cadplants.families.valves.valve import valve_family
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import Solid, merge, moved, tube
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, rope, turned
 from cadplants.standards import PIPES
 from cadplants.transforms import at, spun
@@ -31,10 +31,10 @@ def _foot(x: float, y: float, high: float, half: float, rng: np.random.Generator
     ]
 
 
-def _riser(dn: int, high: float, hand: Hand, rng: np.random.Generator) -> tuple[list[Part], float]:
+def _riser(dn: int, high: float, style: ModelingStyle, rng: np.random.Generator) -> tuple[list[Part], float]:
     """A wall with a rosette, or a pipe clamped to a post; also where a tap upon it begins along y [m]."""
-    r, inner = PIPES[dn].radius, PIPES[dn].bore if hand.hollow else 0.0
-    n = hand.round(r)
+    r, inner = PIPES[dn].radius, PIPES[dn].bore if style.hollow else 0.0
+    n = style.round(r)
     if rng.random() < 0.4:
         wall = box((0.8, 0.12, high + 0.5), (0, -0.06, (high + 0.5) / 2))
         plate = turned([(2.2 * r, 0.0), (2.0 * r, 0.006), (1.2 * r, 0.01)], n)
@@ -50,12 +50,12 @@ def _riser(dn: int, high: float, hand: Hand, rng: np.random.Generator) -> tuple[
     return parts, 2.2 * r - 0.001
 
 
-def _bibb(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _bibb(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A hose tap (EN 200) with a bent spout on a riser clamped to a post or led through a wall; wheel, lever or T."""
     dn = int(rng.choice([15, 20, 25]))
     r = PIPES[dn].radius
-    n, high = hand.round(r), float(rng.uniform(0.5, 1.1))
-    parts, start = _riser(dn, high, hand, rng)
+    n, high = style.round(r), float(rng.uniform(0.5, 1.1))
+    parts, start = _riser(dn, high, style, rng)
     y = start + 2.6 * r
     shank = along(
         "y", merge([cylinder(0.95 * r, start, y, n), hexagon(2.6 * r, start + 0.2 * r, start + 1.4 * r)]), 0, 0, high
@@ -90,14 +90,14 @@ def _bibb(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts.append(moved_one(piece("gland", hexagon(1.3 * r, top + 1.7 * r, top + 2.4 * r)), at(0, y)))
         parts += placed(
             [
-                stem(top + 2.3 * r, top + 4.2 * r, 0.3 * r, hand),
-                wheel(0.012 + float(rng.uniform(1.2, 2.0)) * r, 0, top + 3.4 * r, hand, rng),
+                stem(top + 2.3 * r, top + 4.2 * r, 0.3 * r, style),
+                wheel(0.012 + float(rng.uniform(1.2, 2.0)) * r, 0, top + 3.4 * r, style, rng),
             ],
             at(0, y),
         )
     else:
         parts.append(moved_one(piece("valve stem", cylinder(0.5 * r, top - 0.002, top + 0.6 * r, 10)), at(0, y)))
-        parts += placed(drive(0.0, top + 0.5 * r, r, hand, rng, ("lever", "wing", "bar")), at(0, y))
+        parts += placed(drive(0.0, top + 0.5 * r, r, style, rng, ("lever", "wing", "bar")), at(0, y))
     return Model(fronted(parts), kind="ball valve")
 
 
@@ -106,7 +106,7 @@ def moved_one(part: Part, pose: np.ndarray) -> Part:
     return placed([part], pose)[0]
 
 
-def _needles(x: float, z: float, r: float, hand: Hand, rng: np.random.Generator, knob: int) -> list[Part]:
+def _needles(x: float, z: float, r: float, style: ModelingStyle, rng: np.random.Generator, knob: int) -> list[Part]:
     """A valve's headwork along z on a block: bonnet, gland, stem, T bar, knob or wheel."""
     parts = [
         bonnet(hexagon(2.2 * r, -0.001, 1.6 * r), cylinder(0.8 * r, 1.5 * r, 3.2 * r, 12)),
@@ -114,19 +114,21 @@ def _needles(x: float, z: float, r: float, hand: Hand, rng: np.random.Generator,
         piece("valve stem", cylinder(0.35 * r, 3.9 * r, 6.6 * r, 8)),
     ]
     if knob == 0:
-        parts += drive(0.0, 6.0 * r, r, hand, rng, ("bar",))
+        parts += drive(0.0, 6.0 * r, r, style, rng, ("bar",))
     elif knob == 1:
         grip = turned([(1.2 * r, 5.4 * r), (1.6 * r, 5.8 * r), (1.6 * r, 7.2 * r), (1.2 * r, 7.5 * r)], 10)
         parts.append(piece("handwheel", grip, color="handle", bundle=""))
     else:
-        parts.append(wheel(0.012 + 1.5 * r, 0, 5.8 * r, hand, rng))
+        parts.append(wheel(0.012 + 1.5 * r, 0, 5.8 * r, style, rng))
     return placed(parts, at(x, 0, z))
 
 
-def _pipe_post(wide: float, tall: float, deep: float, high: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _pipe_post(
+    wide: float, tall: float, deep: float, high: float, style: ModelingStyle, rng: np.random.Generator
+) -> list[Part]:
     """A pipe post behind a block, with a bracket between them held by u-bolts."""
     pipe = float(rng.choice([0.0302, 0.024]))
-    parts = [other(_FRAME, "post", "steel", moved(cylinder(pipe, 0.01, high + 0.2, hand.round(pipe)), at(0, 0.12)))]
+    parts = [other(_FRAME, "post", "steel", moved(cylinder(pipe, 0.01, high + 0.2, style.round(pipe)), at(0, 0.12)))]
     parts.append(other(_FRAME, "base plate", "steel", box((0.2, 0.2, 0.01), (0, 0.12, 0.005))))
     back = 0.12 - pipe
     gap = back - deep / 2
@@ -152,7 +154,7 @@ def _pipe_post(wide: float, tall: float, deep: float, high: float, hand: Hand, r
     return parts
 
 
-def _manifold(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _manifold(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An instrument manifold (IEC 61518 spacing) of two, three or five valves on a pipe post, with impulse tubes."""
     count, r = int(rng.choice([2, 3, 5])), float(rng.uniform(0.008, 0.011))
     high, knob = float(rng.uniform(0.9, 1.5)), int(rng.integers(3))
@@ -180,8 +182,8 @@ def _manifold(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             pose = at(np.sign(x) * wide / 2, 0, high + z) @ spun("y", float(np.sign(x)) * np.pi / 2)
         else:
             pose = at(x, -deep / 2, high + z) @ outward
-        parts += placed(_needles(0.0, 0.0, r, hand, rng, 1 if count == 5 else knob), pose)
-    parts += _pipe_post(wide, tall, deep, high, hand, rng)
+        parts += placed(_needles(0.0, 0.0, r, style, rng, 1 if count == 5 else knob), pose)
+    parts += _pipe_post(wide, tall, deep, high, style, rng)
     for x in (-0.027, 0.027):
         fit = along(
             "-z",
@@ -192,11 +194,11 @@ def _manifold(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         )
         foot = float(rng.uniform(0.1, 0.5))
         path = bend([(x, 0, high - tall / 2 - 0.03), (x, 0, foot), (x, -0.5, foot)], 0.04)
-        parts += [body(fit), other(_PIPE, "pipe", "pipe", tube(path, 0.006, 0.0045 if hand.hollow else 0.0, 8))]
+        parts += [body(fit), other(_PIPE, "pipe", "pipe", tube(path, 0.006, 0.0045 if style.hollow else 0.0, 8))]
     return Model(fronted(parts), kind="needle valve")
 
 
-def _panel(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _panel(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Needle valves in a panel: a sheet between posts, nuts and knobs before it, bodies and tubes behind."""
     count, high = int(rng.integers(1, 4)), float(rng.uniform(1.0, 1.4))
     wide, tall = 0.16 * count + 0.1, float(rng.uniform(0.25, 0.5))
@@ -213,7 +215,7 @@ def _panel(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         along(way, merge([hexagon(1.8 * r, 0.0, 3.0 * r), cylinder(0.8 * r, 0, 4 * r, 10)]), x, 0.024, high)
         for way in ("z", "-z")
     ]
-    front = placed(_needles(0.0, 0.0, r, hand, rng, knob), at(x, -0.0085, high) @ spun("x", np.pi / 2))
+    front = placed(_needles(0.0, 0.0, r, style, rng, knob), at(x, -0.0085, high) @ spun("x", np.pi / 2))
     nut = along("-y", hexagon(3.0 * r, 0.0018, 0.009), x, 0, high)
     parts += [body(core, *ends), piece("gland", nut), *front]
     for way in (1, -1):
@@ -225,13 +227,13 @@ def _panel(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             ],
             0.02,
         )
-        parts.append(other(_PIPE, "pipe", "pipe", tube(path, 0.6 * r, 0.45 * r if hand.hollow else 0.0, 8)))
+        parts.append(other(_PIPE, "pipe", "pipe", tube(path, 0.6 * r, 0.45 * r if style.hollow else 0.0, 8)))
     label = box((0.08, 0.001, 0.025), (x, -0.0025, high + 0.07))
     parts.append(other("Electrical and safety", "sign", "dial", label))
     return Model(fronted(parts), kind="needle valve")
 
 
-def _radiator(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _radiator(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A thermostatic valve (EN 215) at a radiator on feet: angle body, union, ribbed head, pipe to the floor."""
     wide, tall, deep = float(rng.uniform(0.5, 1.4)), float(rng.uniform(0.35, 0.75)), float(rng.uniform(0.05, 0.11))
     low = float(rng.uniform(0.1, 0.18))
@@ -247,7 +249,7 @@ def _radiator(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts.append(other(_FIX, "bracket", "steel", feet))
     upper = bool(rng.integers(2))
     z, r, x = (low + tall - 0.05 if upper else low + 0.05), 0.0107, wide / 2
-    n = hand.round(1.5 * r)
+    n = style.round(1.5 * r)
     nut = along("x", merge([hexagon(0.030, 0.012, 0.030), cylinder(0.011, -0.02, 0.03, n)]), x, 0, z)
     parts.append(other(_PIPE, "union", "trim", nut, own=True))
     cx = x + 0.05
@@ -281,25 +283,25 @@ def _radiator(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         piece("gland", moved(collar, pose)),
         piece("actuator", moved(merge(head), pose), color="dial", bundle="actuator"),
     ]
-    drop = tube(np.array([[cx, 0, z - 0.038], [cx, 0, 0.0]]), 0.009, 0.0075 if hand.hollow else 0.0, n)
+    drop = tube(np.array([[cx, 0, z - 0.038], [cx, 0, 0.0]]), 0.009, 0.0075 if style.hollow else 0.0, n)
     parts.append(other(_PIPE, "pipe", "pipe", drop))
     other_end = -wide / 2
     back = bend(
         [(other_end + 0.025, 0, low + 0.05), (other_end - 0.05, 0, low + 0.05), (other_end - 0.05, 0, 0.0)], 0.015
     )
-    parts.append(other(_PIPE, "pipe", "pipe", tube(back, 0.009, 0.0075 if hand.hollow else 0.0, n)))
+    parts.append(other(_PIPE, "pipe", "pipe", tube(back, 0.009, 0.0075 if style.hollow else 0.0, n)))
     return Model(fronted(parts), kind="thermostatic valve")
 
 
-def _hose_valve(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _hose_valve(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A fire hose valve (BS 5041 or NFPA practice) on a standpipe: square or oblique, wheel, cap on a chain."""
     dn, high = int(rng.choice([50, 65])), float(rng.uniform(0.8, 1.2))
     r, main = PIPES[dn].radius, PIPES[int(rng.choice([80, 100]))].radius
-    n, m = hand.round(1.4 * r), hand.round(main)
-    inner = main - 0.006 if hand.hollow else 0.0
+    n, m = style.round(1.4 * r), style.round(main)
+    inner = main - 0.006 if style.hollow else 0.0
     parts = [other(_PIPE, "pipe", "pipe", ring(inner, main, 0.0, high + float(rng.uniform(0.4, 1.2)), m))]
     wide = 1.35 * r
-    stub = along("-y", ring(0.8 * r if hand.hollow else 0.0, r, 0.97 * main, main + 0.1, n), 0, 0, high)
+    stub = along("-y", ring(0.8 * r if style.hollow else 0.0, r, 0.97 * main, main + 0.1, n), 0, 0, high)
     parts.append(other(_PIPE, "nipple", "pipe", stub))
     y = -main - 0.09 - 1.8 * wide
     inlet = along(
@@ -345,8 +347,8 @@ def _hose_valve(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         piece("gland", hexagon(0.8 * wide, top + 1.15 * wide, top + 1.5 * wide)),
     ]
     head += [
-        stem(top + 1.45 * wide, top + 2.6 * wide, 0.16 * wide, hand),
-        wheel(float(rng.uniform(1.5, 2.2)) * wide, 0, top + 2.1 * wide, hand, rng),
+        stem(top + 1.45 * wide, top + 2.6 * wide, 0.16 * wide, style),
+        wheel(float(rng.uniform(1.5, 2.2)) * wide, 0, top + 2.1 * wide, style, rng),
     ]
     parts += placed(head, at(0, y, high))
     return Model(fronted(parts), kind="globe valve")

@@ -21,7 +21,7 @@ from cadplants.families.valves.small import hex_end
 from cadplants.families.valves.valve import valve_family
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import Solid, about_x, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, turned
 from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES
@@ -32,16 +32,16 @@ __all__ = ["UNIONS"]
 Rng = np.random.Generator
 
 
-def _sanitary(dn: int, hand: Hand, rng: Rng) -> Model:
+def _sanitary(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A sanitary three-piece ball valve with clamp ends, ferrules of the pipe and their clamps; a lever or actuator."""
     radius = PIPES[dn].radius
     stub, core = 0.03, 3.6 * radius + 0.06
     length, x = core + 2 * stub, core / 2 + stub
     big, half = 1.55 * radius + 0.008, 0.9 * radius + 0.008
-    n = max(16, hand.round(big))
-    ends = [ferrule(dn, stub, x - half, hand, True), ferrule(dn, x + half, length - stub, hand, False)]
+    n = max(16, style.round(big))
+    ends = [ferrule(dn, stub, x - half, style, True), ferrule(dn, x + half, length - stub, style, False)]
     outline = rounded_rectangle(2 * big, 2 * big, 0.4 * big, 4) if rng.random() < 0.5 else circle(1.15 * big, n)
-    hole = (circle(0.95 * radius, n),) if hand.hollow else ()
+    hole = (circle(0.95 * radius, n),) if style.hollow else ()
     plates = [along("x", slab(outline, *span(x + s * (half - 0.012), x + s * (half + 0.002)), hole)) for s in (-1, 1)]
     block = along("x", slab(circle(1.3 * radius + 0.006, n), x - half + 0.01, x + half - 0.01, hole))
     rods = about_x(
@@ -60,17 +60,17 @@ def _sanitary(dn: int, hand: Hand, rng: Rng) -> Model:
     parts = [
         metal(merge([*ends, *plates, block]), 0.0, "clamp"),
         bolted(rods),
-        *clamped_ends(dn, stub, length, hand, rng),
-        *stem_top(x, 1.1 * radius, 1.3 * big + 0.01, radius, hand, rng),
-        *ball_inside(dn, x, hand, rng),
+        *clamped_ends(dn, stub, length, style, rng),
+        *stem_top(x, 1.1 * radius, 1.3 * big + 0.01, radius, style, rng),
+        *ball_inside(dn, x, style, rng),
         *quarter_turn(
-            x, 1.3 * big + 0.014 + 0.2 * radius, radius, hand, rng, ("lever", "lever", "vertical", "rack", "motor box")
+            x, 1.3 * big + 0.014 + 0.2 * radius, radius, style, rng, ("lever", "lever", "vertical", "rack", "motor box")
         ),
     ]
     return Model(parts, round(length, 6), "welded", "ball valve")
 
 
-def _union_nut(radius: float, low: float, high: float, hand: Hand, rng: Rng, inner: float) -> Solid:
+def _union_nut(radius: float, low: float, high: float, style: ModelingStyle, rng: Rng, inner: float) -> Solid:
     """A plastic union nut along x with fluted or ribbed sides [m]."""
     count = int(rng.choice([8, 12, 16]))
     turns = np.arange(4 * count) * 2 * np.pi / (4 * count)
@@ -80,13 +80,13 @@ def _union_nut(radius: float, low: float, high: float, hand: Hand, rng: Rng, inn
     return along("x", slab(outline, low, high, holes))
 
 
-def _true_union(dn: int, hand: Hand, rng: Rng) -> Model:
+def _true_union(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A plastic true-union ball valve: socket ends, two union nuts, a tee or wing handle, maybe feet (EN ISO 16135)."""
     radius = PIPES[dn].radius
     x = 2.3 * radius + 0.035
     length, big = 2 * x, 1.55 * radius + 0.010
-    n = max(16, hand.round(big))
-    inner = radius if hand.hollow else 0.0
+    n = max(16, style.round(big))
+    inner = radius if style.hollow else 0.0
     nut = float(rng.uniform(0.8, 1.1)) * radius + 0.012
     parts = []
     for s in (-1, 1):
@@ -96,7 +96,7 @@ def _true_union(dn: int, hand: Hand, rng: Rng) -> Model:
         far = start + s * nut
         parts.append(
             Part(
-                _union_nut(1.22 * big, *span(start, far), hand, rng, 1.3 * radius + 0.002),
+                _union_nut(1.22 * big, *span(start, far), style, rng, 1.3 * radius + 0.002),
                 "union",
                 "valve",
                 BODY,
@@ -109,27 +109,27 @@ def _true_union(dn: int, hand: Hand, rng: Rng) -> Model:
     solids = [barrel, moved(neck, at(x))]
     if rng.random() < 0.4:
         solids.append(box((1.4 * radius, 1.2 * big, 0.3 * big), (x, 0, -1.05 * big)))
-    parts = [metal(merge(solids)), *parts, *ball_inside(dn, x, hand, rng)]
-    rest = [shaft(-0.01, 0.012, 0.6 * tower, hand)]
+    parts = [metal(merge(solids)), *parts, *ball_inside(dn, x, style, rng)]
+    rest = [shaft(-0.01, 0.012, 0.6 * tower, style)]
     pick = rng.random()
     if pick < 0.75:
-        rest.append(hand_lever(0.05 + 2.2 * radius, 0.003, hand, rng, ("tee", "tee", "wing", "notched")))
+        rest.append(hand_lever(0.05 + 2.2 * radius, 0.003, style, rng, ("tee", "tee", "wing", "notched")))
         parts += placed(rest, at(x, 0, high))
     else:
         parts += placed(rest, at(x, 0, high))
-        parts += quarter_turn(x, high + 0.006, radius, hand, rng, ("rack", "motor box"))
+        parts += quarter_turn(x, high + 0.006, radius, style, rng, ("rack", "motor box"))
     return Model(parts, round(length, 6), "welded", "ball valve")
 
 
-def _multi_port(dn: int, hand: Hand, rng: Rng) -> Model:
+def _multi_port(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A three- or four-way threaded ball valve (L or T bore): a cube or barrel with hexagon ends, lever above."""
     radius = PIPES[dn].radius
     length = 0.04 + 4.0 * radius
     x, big = length / 2, 1.4 * radius + 0.008
-    n, end = max(16, hand.round(big)), 0.24 * length
-    side = moved(hex_end(dn, 0.0, 1.05 * end + 0.3 * big, hand), at(-x))
+    n, end = max(16, style.round(big)), 0.24 * length
+    side = moved(hex_end(dn, 0.0, 1.05 * end + 0.3 * big, style), at(-x))
     ways = [0.5] if rng.random() < 0.5 else ([0.5, -0.5] if rng.random() < 0.4 else [-0.5])
-    solids = [hex_end(dn, 0.0, end + 0.2 * big, hand), hex_end(dn, length - end - 0.2 * big, length, hand)]
+    solids = [hex_end(dn, 0.0, end + 0.2 * big, style), hex_end(dn, length - end - 0.2 * big, length, style)]
     solids += [moved(moved(side, spun("z", np.pi + w * np.pi)), at(x)) for w in ways]
     middle = (
         slab(rounded_rectangle(2 * big, 2 * big, 0.25 * big, 3), -big, big)
@@ -146,17 +146,17 @@ def _multi_port(dn: int, hand: Hand, rng: Rng) -> Model:
             ),
         ]
     high = 1.25 * big + 0.008
-    parts = [metal(merge(solids)), *stem_top(x, 0.9 * big, high, radius, hand, rng)]
-    parts += quarter_turn(x, high + 0.004 + 0.2 * radius, radius, hand, rng, ("lever", "lever", "rack", "motor box"))
+    parts = [metal(merge(solids)), *stem_top(x, 0.9 * big, high, radius, style, rng)]
+    parts += quarter_turn(x, high + 0.004 + 0.2 * radius, radius, style, rng, ("lever", "lever", "rack", "motor box"))
     return Model(parts, round(length, 6), "welded", "three-way valve")
 
 
-def _cut_open(dn: int, hand: Hand, rng: Rng) -> Model:
+def _cut_open(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A ball valve cut open for show: part of the body away, polished ball, seats, stem and lever in sight."""
     radius, bore, size = PIPES[dn].radius, PIPES[dn].bore, FLANGES[dn]
     length = FACE_TO_FACE["ball"][dn]
     x, big = length / 2, 1.75 * radius + 0.01
-    n = max(8, hand.round(big) * 3 // 4)
+    n = max(8, style.round(big) * 3 // 4)
     neck, back = neck_of(dn)
     lip = float(rng.uniform(1.0, 1.2)) * big
     outer = [
@@ -190,22 +190,22 @@ def _cut_open(dn: int, hand: Hand, rng: Rng) -> Model:
     boss = 0.35 * radius + 0.008
     rest: list[Part] = [
         metal(ring(0.5 * boss, boss, 0.93 * big, high, 16)),
-        shaft(0.95 * ball_, high + 0.015, 0.45 * boss, hand),
-        *placed(packing(0.45 * boss, hand, rng, 1)[0], at(0, 0, high - 0.001)),
-        trim(valve_ball(ball_, bore, hand, turn), "valve ball"),
+        shaft(0.95 * ball_, high + 0.015, 0.45 * boss, style),
+        *placed(packing(0.45 * boss, style, rng, 1)[0], at(0, 0, high - 0.001)),
+        trim(valve_ball(ball_, bore, style, turn), "valve ball"),
         *(Part(moved(seat, at(s)), "gasket", "rubber", BODY, "Pipe assembly") for s in (far, -far - 0.15 * bore)),
     ]
     drive = (
-        [hand_lever(0.1 + 2.2 * radius, 0.0, hand, rng)]
+        [hand_lever(0.1 + 2.2 * radius, 0.0, style, rng)]
         if rng.random() < 0.8
-        else [hand_wheel(0.05 + radius, 0.0, hand, rng)]
+        else [hand_wheel(0.05 + radius, 0.0, style, rng)]
     )
     return Model(
         [metal(shell), *placed([*rest, *placed(drive, at(0, 0, high + 1.2 * boss))], at(x))], length, kind="ball valve"
     )
 
 
-def _blocked(dn: int, hand: Hand, rng: Rng) -> Model:
+def _blocked(dn: int, style: ModelingStyle, rng: Rng) -> Model:
     """A high-pressure block ball valve of hydraulics: a square steel block, screwed-in hexagon ends, a bent lever."""
     radius = PIPES[dn].radius
     block, end = 2.4 * radius + 0.02, 1.1 * radius + 0.012
@@ -228,12 +228,12 @@ def _blocked(dn: int, hand: Hand, rng: Rng) -> Model:
     parts = [metal(merge([core, *ends, holes])), trim(hexagon(1.0 * half, half - 0.001, half + 0.006), "gland", x)]
     stop = cylinder(0.004, half, half + 0.012, 8)
     rest = [
-        shaft(half - 0.01, half + 0.02, 0.3 * half, hand),
-        hand_lever(0.09 + 2.4 * radius, half + 0.007, hand, rng, ("bar", "sheet", "tee", "sheet")),
+        shaft(half - 0.01, half + 0.02, 0.3 * half, style),
+        hand_lever(0.09 + 2.4 * radius, half + 0.007, style, rng, ("bar", "sheet", "tee", "sheet")),
         metal(moved(stop, at(0.7 * half, 0.5 * half))),
     ]
     return Model(
-        [*parts, *placed(rest, at(x)), *ball_inside(dn, x, hand, rng)], round(length, 6), "welded", "ball valve"
+        [*parts, *placed(rest, at(x)), *ball_inside(dn, x, style, rng)], round(length, 6), "welded", "ball valve"
     )
 
 

@@ -8,7 +8,7 @@ from cadplants.families.valves.drive import BODY, diaphragm_head, drive, stem, w
 from cadplants.family import Build, Family, Model, Part
 from cadplants.flange import face_shell, nut_room, plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved, revolve, weld
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, ball, box, cylinder, dome, hexagon, ring, rod, turned
 from cadplants.standards import FACE_TO_FACE, FLANGES, PIPES, SIZES
@@ -20,18 +20,18 @@ __all__ = ["VALVE_FAMILIES", "bolt_circle", "disc_flange", "flanged_body", "valv
 Middle = list[tuple[float, float]]
 
 
-def flanged_body(dn: int, hand: Hand, length: float, middle: Middle) -> Solid:
+def flanged_body(dn: int, style: ModelingStyle, length: float, middle: Middle) -> Solid:
     """A body of revolution along x with a flange at each end.
 
     Args:
         dn: nominal size.
-        hand: decides on bore and bolt holes.
+        style: decides on bore and bolt holes.
         length: face to face [m].
         middle: radius and place of what lies between the flanges' backs [m]; ends get the flanges' thickness added.
     """
-    size, thick, bore = FLANGES[dn], plate_thickness(dn), bore_of(dn, hand)
-    sides, neck = hand.round(size.outer / 2), 0.485 * size.hub
-    head = face_shell(dn, sides, neck, bore, hand.holes)
+    size, thick, bore = FLANGES[dn], plate_thickness(dn), bore_of(dn, style)
+    sides, neck = style.round(size.outer / 2), 0.485 * size.hub
+    head = face_shell(dn, sides, neck, bore, style.holes)
     outside = [(neck, thick), *middle, (neck, length - thick)]
     shells = [head, flipped(head, length), revolve(outside, sides)]
     if bore:
@@ -39,11 +39,11 @@ def flanged_body(dn: int, hand: Hand, length: float, middle: Middle) -> Solid:
     return about_x(weld(shells))
 
 
-def disc_flange(dn: int, hand: Hand, reach: float) -> Solid:
+def disc_flange(dn: int, style: ModelingStyle, reach: float) -> Solid:
     """A flange about z with its face at 0 looking down, on a neck up to ``reach`` [m]."""
     size, thick = FLANGES[dn], plate_thickness(dn)
-    sides, neck = hand.round(size.outer / 2), 0.485 * size.hub
-    head = face_shell(dn, sides, neck, 0.0, hand.holes)
+    sides, neck = style.round(size.outer / 2), 0.485 * size.hub
+    head = face_shell(dn, sides, neck, 0.0, style.holes)
     return weld([head, revolve([(neck, thick), (neck, reach), (0.0, reach)], sides)])
 
 
@@ -74,17 +74,21 @@ def _swelling(dn: int, length: float, bulge: float, kind: int) -> Middle:
     return [(neck, low), (bulge, low), (bulge, length - low), (neck, length - low)]
 
 
-def _body(dn: int, hand: Hand, rng: np.random.Generator, length: float, swell: float = 1.4) -> tuple[Part, float]:
+def _body(
+    dn: int, style: ModelingStyle, rng: np.random.Generator, length: float, swell: float = 1.4
+) -> tuple[Part, float]:
     """A swollen flanged body and the radius of its swelling [m]."""
     bulge = float(rng.uniform(0.92, 1.1)) * (swell * PIPES[dn].radius + 0.007)
     bulge = max(bulge, 0.5 * FLANGES[dn].hub)
     middle = _swelling(dn, length, bulge, int(rng.integers(4)))
-    return Part(flanged_body(dn, hand, length, middle), BODY, "valve", BODY), bulge
+    return Part(flanged_body(dn, style, length, middle), BODY, "valve", BODY), bulge
 
 
-def _bonnet(x: float, low: float, seat: float, throat: float, collar: float, plate: float, hand: Hand) -> list[Part]:
+def _bonnet(
+    x: float, low: float, seat: float, throat: float, collar: float, plate: float, style: ModelingStyle
+) -> list[Part]:
     """A neck out of the body with a flange, the bonnet's flange on it, and its bolts."""
-    n = hand.round(collar)
+    n = style.round(collar)
     neck = turned([(throat, low), (throat, seat - plate), (collar, seat - plate), (collar, seat)], n)
     lid = cylinder(collar, seat, seat + plate, n)
     bolts = bolt_circle(
@@ -102,87 +106,87 @@ def _length(dn: int, kind: str) -> float:
     return FACE_TO_FACE[kind][dn]
 
 
-def _control(dn: int, hand: Hand, rng: np.random.Generator, head: str) -> Model:
+def _control(dn: int, style: ModelingStyle, rng: np.random.Generator, head: str) -> Model:
     length, radius = _length(dn, "globe"), PIPES[dn].radius
-    body, bulge = _body(dn, hand, rng, length, 1.5)
+    body, bulge = _body(dn, style, rng, length, 1.5)
     collar, plate = 0.9 * bulge + 0.01, 0.010 + 0.08 * radius
     seat = max(bulge + 0.6 * radius, 0.5 * FLANGES[dn].outer + plate)
-    parts = [body, *_bonnet(length / 2, 0.75 * bulge, seat, 0.7 * bulge, collar, plate, hand)]
+    parts = [body, *_bonnet(length / 2, 0.75 * bulge, seat, 0.7 * bulge, collar, plate, style)]
     top = seat + plate
-    packing = turned([(0.45 * bulge, top), (0.35 * bulge, top + 0.5 * radius + 0.01)], hand.round(bulge))
+    packing = turned([(0.45 * bulge, top), (0.35 * bulge, top + 0.5 * radius + 0.01)], style.round(bulge))
     parts.append(Part(moved(packing, at(length / 2)), "valve bonnet", "valve", BODY))
     z = top + 0.5 * radius + 0.01
     if head == "diaphragm":
-        parts += diaphragm_head(length / 2, z, radius, hand, rng)
+        parts += diaphragm_head(length / 2, z, radius, style, rng)
     else:
-        parts += [stem(z, z + 0.02, 0.005 + 0.1 * radius, hand, length / 2)]
-        parts += drive(length / 2, z + 0.02, radius, hand, rng, (head,))
+        parts += [stem(z, z + 0.02, 0.005 + 0.1 * radius, style, length / 2)]
+        parts += drive(length / 2, z + 0.02, radius, style, rng, (head,))
     return Model(parts, length, kind="control valve")
 
 
-def _control_diaphragm(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
-    return _control(dn, hand, rng, "diaphragm")
+def _control_diaphragm(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+    return _control(dn, style, rng, "diaphragm")
 
 
-def _control_electric(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
-    return _control(dn, hand, rng, "electric")
+def _control_electric(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+    return _control(dn, style, rng, "electric")
 
 
-def _ball_driven(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _ball_driven(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A flanged ball valve of any body with any drive."""
     length, radius = _length(dn, "ball"), PIPES[dn].radius
-    body, bulge = _body(dn, hand, rng, length, 1.5)
+    body, bulge = _body(dn, style, rng, length, 1.5)
     x = length * float(rng.choice([0.5, 0.5, 0.42]))
     boss, top = 0.45 * radius + 0.008, bulge + 0.2 * radius + 0.008
-    neck = cylinder(boss, 0.7 * bulge, top, hand.round(boss))
+    neck = cylinder(boss, 0.7 * bulge, top, style.round(boss))
     pad = box((2.2 * boss, 2.2 * boss, 0.006), (0, 0, top))
     parts = [body, Part(moved(merge([neck, pad]), at(x)), BODY, "valve", BODY)]
     if rng.random() < 0.5:
         split = along(
-            "x", cylinder(bulge * 1.12, 0.60 * length, 0.60 * length + 0.02 + 0.1 * radius, hand.round(bulge))
+            "x", cylinder(bulge * 1.12, 0.60 * length, 0.60 * length + 0.02 + 0.1 * radius, style.round(bulge))
         )
         parts.append(Part(split, BODY, "valve", BODY))
-    if hand.hollow:
-        parts.append(_valve_ball(dn, x, hand))
-    parts.append(stem(top, top + 0.012 + 0.2 * radius, 0.004 + 0.14 * radius, hand, x))
-    parts += drive(x, top + 0.012 + 0.2 * radius, radius, hand, rng)
+    if style.hollow:
+        parts.append(_valve_ball(dn, x, style))
+    parts.append(stem(top, top + 0.012 + 0.2 * radius, 0.004 + 0.14 * radius, style, x))
+    parts += drive(x, top + 0.012 + 0.2 * radius, radius, style, rng)
     return Model(parts, length, kind="ball valve")
 
 
-def _valve_ball(dn: int, x: float, hand: Hand) -> Part:
+def _valve_ball(dn: int, x: float, style: ModelingStyle) -> Part:
     """The bored ball of a ball valve, open: a belt of a sphere along the run."""
     bore = 0.85 * PIPES[dn].bore
     angles = np.linspace(-0.9, 0.9, 9)
     reach = bore / np.cos(0.9) * 0.97
     belt = [(max(reach * float(np.cos(a)), bore * 1.01), reach * float(np.sin(a))) for a in angles]
     low, high = belt[0][1], belt[-1][1]
-    solid = weld([revolve([*belt, (bore, high), (bore, low)], hand.round(reach), closed=True)])
+    solid = weld([revolve([*belt, (bore, high), (bore, low)], style.round(reach), closed=True)])
     return Part(moved(about_x(solid), at(x)), "valve ball", "trim", BODY)
 
 
-def _ball_compact(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _ball_compact(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A compact flanged ball valve: a square block with four lobes for its bolts, its lever up one side."""
     size, radius = FLANGES[dn], PIPES[dn].radius
     length = max(0.055, 1.9 * radius)
     half = 0.36 * size.circle
     lobe = along("x", around(ring(0.5 * size.bolt, 0.95 * size.bolt, 0.0, length, 12), 4, size.circle / 2, np.pi / 4))
     block = extrude(
-        rounded_rectangle(2 * half, 2 * half, 0.35 * half, 4), 0.0, length, (circle(radius * 0.9, hand.round(radius)),)
+        rounded_rectangle(2 * half, 2 * half, 0.35 * half, 4), 0.0, length, (circle(radius * 0.9, style.round(radius)),)
     )
     boss = along("z", cylinder(0.4 * radius + 0.006, 0.9 * half, half + 0.01, 12), length / 2)
     parts = [
         Part(merge([along("x", block), lobe, boss]), BODY, "valve", BODY),
-        stem(half + 0.01, half + 0.022, 0.006 + 0.1 * radius, hand, length / 2),
-        *drive(length / 2, half + 0.022, radius, hand, rng, ("lever", "lever", "pneumatic", "electric")),
+        stem(half + 0.01, half + 0.022, 0.006 + 0.1 * radius, style, length / 2),
+        *drive(length / 2, half + 0.022, radius, style, rng, ("lever", "lever", "pneumatic", "electric")),
     ]
     return Model(parts, length, "wafer", "ball valve")
 
 
-def _plug(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _plug(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A lubricated or lined plug valve: a tapered chest through the body, a wrench square on top."""
     length, radius = _length(dn, "gate"), PIPES[dn].radius
-    body, bulge = _body(dn, hand, rng, length, 1.2)
-    n, x = hand.round(bulge), length / 2
+    body, bulge = _body(dn, style, rng, length, 1.2)
+    n, x = style.round(bulge), length / 2
     chest = turned(
         [
             (0.8 * bulge, -1.25 * bulge),
@@ -203,11 +207,11 @@ def _plug(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         Part(moved(bolts, at(x)), "bolt", "fastener", BODY, "Connection assembly", True),
     ]
     if rng.random() < 0.8:
-        parts += drive(x, 1.95 * bulge, radius, hand, rng, ("lever", "gear", "pneumatic", "bar"))
+        parts += drive(x, 1.95 * bulge, radius, style, rng, ("lever", "gear", "pneumatic", "bar"))
     return Model(parts, length, kind="plug valve")
 
 
-def _weir(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _weir(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A weir diaphragm valve: a waisted body with a wide square or round collar, a domed bonnet, a wheel (EN 13397)."""
     length, radius = _length(dn, "gate") * 1.1, PIPES[dn].radius
     neck = 0.485 * FLANGES[dn].hub
@@ -224,30 +228,30 @@ def _weir(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         collar = extrude(rounded_rectangle(2 * half, 2.2 * half, 0.3 * half, 4), 0.55 * neck, z)
         lid = extrude(rounded_rectangle(2 * half, 2.2 * half, 0.3 * half, 4), z + 0.003, z + 0.014)
     else:
-        collar = turned([(0.6 * half, 0.55 * neck), (half, 0.8 * z), (half, z)], hand.round(half))
-        lid = cylinder(half, z + 0.003, z + 0.014, hand.round(half))
-    hood = dome(0.85 * half, 0.8 * half, z + 0.014, hand.round(half))
-    seal = cylinder(0.95 * half, z, z + 0.003, hand.round(half))
+        collar = turned([(0.6 * half, 0.55 * neck), (half, 0.8 * z), (half, z)], style.round(half))
+        lid = cylinder(half, z + 0.003, z + 0.014, style.round(half))
+    hood = dome(0.85 * half, 0.8 * half, z + 0.014, style.round(half))
+    seal = cylinder(0.95 * half, z, z + 0.003, style.round(half))
     top = z + 0.014 + 0.75 * half
     bolts = bolt_circle(4, 1.15 * half if half else 0.02, 0.008 + 0.06 * radius, z - 0.01, z + 0.014)
     parts = [
-        Part(flanged_body(dn, hand, length, middle), BODY, "valve", BODY),
+        Part(flanged_body(dn, style, length, middle), BODY, "valve", BODY),
         Part(moved(collar, at(x)), BODY, "valve", BODY),
         Part(moved(seal, at(x)), "gasket", "rubber", BODY, "Pipe assembly"),
         Part(moved(merge([lid, hood]), at(x)), "valve bonnet", "valve", BODY),
         Part(moved(bolts, at(x)), "bolt", "fastener", BODY, "Connection assembly", True),
-        stem(top, top + 0.03 + 0.5 * radius, 0.004 + 0.1 * radius, hand, x),
-        wheel(0.03 + 1.2 * radius, x, top + 0.015 + 0.3 * radius, hand, rng),
+        stem(top, top + 0.03 + 0.5 * radius, 0.004 + 0.1 * radius, style, x),
+        wheel(0.03 + 1.2 * radius, x, top + 0.015 + 0.3 * radius, style, rng),
     ]
     return Model(parts, length, kind="diaphragm valve")
 
 
-def _butterfly(dn: int, hand: Hand, rng: np.random.Generator, lugs: str) -> Model:
+def _butterfly(dn: int, style: ModelingStyle, rng: np.random.Generator, lugs: str) -> Model:
     """A butterfly valve body: wafer ring, ring with lugs, or double flanged; disc; long neck with a mounting pad."""
     size, pipe = FLANGES[dn], PIPES[dn]
     length = FACE_TO_FACE["butterfly"][dn] * (2.2 if lugs == "flanged" else 1.0)
     outer = 0.49 * (size.circle - size.bolt)
-    n = hand.round(outer)
+    n = style.round(outer)
     bore = pipe.bore
     shell = ring(bore, outer, 0.0, length, n)
     if lugs == "lug":
@@ -272,9 +276,9 @@ def _butterfly(dn: int, hand: Hand, rng: np.random.Generator, lugs: str) -> Mode
         )
     body = about_x(shell)
     neck, top = min(0.38 * length, 0.3 * outer) + 0.004, 0.5 * size.outer + 0.02 + 0.3 * pipe.radius
-    post = cylinder(neck, 0.95 * bore + 0.03 * outer, top - 0.008, max(8, hand.round(neck)))
+    post = cylinder(neck, 0.95 * bore + 0.03 * outer, top - 0.008, max(8, style.round(neck)))
     pad = extrude(rounded_rectangle(3.2 * neck, 3.2 * neck, 0.4 * neck, 3), top - 0.01, top)
-    boss = along("-z", cylinder(0.8 * neck, 0.99 * bore, outer + 0.3 * neck, max(8, hand.round(neck))))
+    boss = along("-z", cylinder(0.8 * neck, 0.99 * bore, outer + 0.3 * neck, max(8, style.round(neck))))
     x = length / 2
     blade = turned(
         [(0.3 * bore, -0.1 * bore), (0.985 * bore, -0.004), (0.985 * bore, 0.004), (0.3 * bore, 0.1 * bore)], n
@@ -284,30 +288,30 @@ def _butterfly(dn: int, hand: Hand, rng: np.random.Generator, lugs: str) -> Mode
     parts = [
         Part(merge([body, moved(merge([post, pad, boss]), at(x))]), BODY, "valve", BODY),
         Part(blade, "valve disc", "trim", BODY),
-        stem(top, top + 0.02, 0.35 * neck + 0.003, hand, x),
-        *drive(x, top + 0.02, pipe.radius, hand, rng, ("lever", "lever", "gear", "pneumatic", "electric", "chain")),
+        stem(top, top + 0.02, 0.35 * neck + 0.003, style, x),
+        *drive(x, top + 0.02, pipe.radius, style, rng, ("lever", "lever", "gear", "pneumatic", "electric", "chain")),
     ]
     joint = "flanged" if lugs == "flanged" else "wafer"
     return Model(parts, length, joint, "butterfly valve")
 
 
-def _butterfly_wafer(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
-    return _butterfly(dn, hand, rng, "wafer")
+def _butterfly_wafer(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+    return _butterfly(dn, style, rng, "wafer")
 
 
-def _butterfly_lug(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
-    return _butterfly(dn, hand, rng, "lug")
+def _butterfly_lug(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+    return _butterfly(dn, style, rng, "lug")
 
 
-def _butterfly_flanged(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
-    return _butterfly(dn, hand, rng, "flanged")
+def _butterfly_flanged(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
+    return _butterfly(dn, style, rng, "flanged")
 
 
-def _knife(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _knife(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A knife gate valve: a thin body with lugs, a flat chest, a blade, a tall frame (MSS SP-81)."""
     size, radius = FLANGES[dn], PIPES[dn].radius
     length = FACE_TO_FACE["butterfly"][dn] * 1.05
-    n, bore, outer = hand.round(size.outer / 2), PIPES[dn].bore, 0.49 * size.outer
+    n, bore, outer = style.round(size.outer / 2), PIPES[dn].bore, 0.49 * size.outer
     shell = about_x(ring(bore, outer, 0.0, length, n))
     x, chest = length / 2, 1.25 * radius + 0.01
     rise = outer + 1.6 * radius + 0.03
@@ -322,10 +326,10 @@ def _knife(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         Part(collar, "gland", "trim", BODY),
         Part(blade, "valve disc", "trim", BODY),
         Part(merge([*frame, cross]), "yoke", "steel", BODY),
-        stem(rise + 1.4 * radius, tall + 0.05, 0.008 + 0.06 * radius, hand, x),
+        stem(rise + 1.4 * radius, tall + 0.05, 0.008 + 0.06 * radius, style, x),
     ]
     if rng.random() < 0.75:
-        parts.append(wheel(0.05 + 1.1 * radius, x, tall + 0.015, hand, rng))
+        parts.append(wheel(0.05 + 1.1 * radius, x, tall + 0.015, style, rng))
     else:
         tank_ = turned(
             [
@@ -342,11 +346,11 @@ def _knife(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, length, "wafer", "knife gate valve")
 
 
-def _wafer_check(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _wafer_check(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A wafer check valve: a short ring with a shoulder, a disc or two plates inside (API 594)."""
     size, bore = FLANGES[dn], PIPES[dn].bore
     outer = 0.49 * (size.circle - size.bolt)
-    n, length = hand.round(outer), max(0.02, float(rng.choice([0.25, 0.4, 0.8])) * PIPES[dn].outer)
+    n, length = style.round(outer), max(0.02, float(rng.choice([0.25, 0.4, 0.8])) * PIPES[dn].outer)
     if rng.random() < 0.5:
         inner, waist = 1.02 * bore, float(rng.uniform(0.75, 0.98)) * outer
         lip = 0.18 * length
@@ -382,12 +386,12 @@ def _wafer_check(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([Part(shell, BODY, "valve", BODY), *inside], round(length, 6), "wafer", "check valve")
 
 
-def _ball_check(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _ball_check(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A ball check valve: a body with a slanting chamber and a bolted cap."""
     length = _length(dn, "check")
-    body, bulge = _body(dn, hand, rng, length, 1.3)
+    body, bulge = _body(dn, style, rng, length, 1.3)
     tilt, x = float(rng.uniform(0.5, 0.9)), 0.55 * length
-    n = hand.round(bulge)
+    n = style.round(bulge)
     reach = max(2.4 * bulge, 0.6 * FLANGES[dn].outer)
     way = at(x, 0, 0.2 * bulge) @ spun("y", tilt)
     arm = turned([(0.95 * bulge, 0.0), (0.95 * bulge, reach), (1.2 * bulge, reach), (1.2 * bulge, reach + 0.012)], n)
@@ -408,15 +412,15 @@ def _ball_check(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, length, kind="check valve")
 
 
-def _nozzle_check(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _nozzle_check(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An axial check valve: nothing but a swollen body; or a lift check with a screwed cap."""
     length = _length(dn, "check")
-    body, bulge = _body(dn, hand, rng, length, 1.6)
+    body, bulge = _body(dn, style, rng, length, 1.6)
     parts = [body]
     if rng.random() < 0.5:
         cap_ = merge(
             [
-                cylinder(0.7 * bulge, 0.6 * bulge, 1.35 * bulge, hand.round(bulge)),
+                cylinder(0.7 * bulge, 0.6 * bulge, 1.35 * bulge, style.round(bulge)),
                 hexagon(0.9 * bulge, 1.35 * bulge, 1.6 * bulge),
             ]
         )
@@ -424,37 +428,37 @@ def _nozzle_check(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, length, kind="check valve")
 
 
-def _three_way(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _three_way(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A three-way valve: a third flange downward or to the side, closed by a blind flange or open."""
     length, radius = _length(dn, "globe"), PIPES[dn].radius
-    body, bulge = _body(dn, hand, rng, length, 1.5)
+    body, bulge = _body(dn, style, rng, length, 1.5)
     x, reach = length / 2, length / 2
     side = str(rng.choice(["-z", "y", "-y"]))
-    branch = moved(disc_flange(dn, hand, reach - 0.6 * bulge), at(0, 0, -reach))
+    branch = moved(disc_flange(dn, style, reach - 0.6 * bulge), at(0, 0, -reach))
     branch = moved(along({"-z": "z", "y": "-y", "-y": "y"}[side], branch), at(x))
     parts = [body, Part(branch, BODY, "valve", BODY)]
     top = bulge + 0.3 * radius + 0.01
     parts.append(
         Part(
-            moved(turned([(0.6 * bulge, 0.7 * bulge), (0.6 * bulge, top)], hand.round(bulge)), at(x)),
+            moved(turned([(0.6 * bulge, 0.7 * bulge), (0.6 * bulge, top)], style.round(bulge)), at(x)),
             "valve bonnet",
             "valve",
             BODY,
         )
     )
-    parts.append(stem(top, top + 0.03, 0.005 + 0.1 * radius, hand, x))
+    parts.append(stem(top, top + 0.03, 0.005 + 0.1 * radius, style, x))
     if rng.random() < 0.35:
-        parts += diaphragm_head(x, top + 0.01, radius, hand, rng)
+        parts += diaphragm_head(x, top + 0.01, radius, style, rng)
     else:
-        parts += drive(x, top + 0.03, radius, hand, rng, ("lever", "pneumatic", "electric"))
+        parts += drive(x, top + 0.03, radius, style, rng, ("lever", "pneumatic", "electric"))
     return Model(parts, length, kind="three-way valve")
 
 
-def _y_globe(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _y_globe(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A Y-pattern globe valve, its bonnet slanting; a wheel on its stem."""
     length, radius = _length(dn, "globe"), PIPES[dn].radius
-    body, bulge = _body(dn, hand, rng, length, 1.2)
-    tilt, n = float(rng.uniform(0.6, 0.85)), hand.round(bulge)
+    body, bulge = _body(dn, style, rng, length, 1.2)
+    tilt, n = float(rng.uniform(0.6, 0.85)), style.round(bulge)
     way = at(0.48 * length, 0, 0.1 * bulge) @ spun("y", tilt)
     reach = max(2.2 * bulge, 0.65 * FLANGES[dn].outer)
     neck = turned([(0.85 * bulge, 0.0), (0.85 * bulge, reach), (1.15 * bulge, reach), (1.15 * bulge, reach + 0.012)], n)
@@ -469,8 +473,8 @@ def _y_globe(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
     high = reach + 0.06 + radius
     rest = [
-        stem(high, high + 0.04 + 0.8 * radius, 0.005 + 0.1 * radius, hand),
-        wheel(0.04 + 1.3 * radius, 0, high + 0.02 + 0.6 * radius, hand, rng),
+        stem(high, high + 0.04 + 0.8 * radius, 0.005 + 0.1 * radius, style),
+        wheel(0.04 + 1.3 * radius, 0, high + 0.02 + 0.6 * radius, style, rng),
     ]
     parts = [
         body,
@@ -481,11 +485,11 @@ def _y_globe(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, length, kind="globe valve")
 
 
-def _reducing(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _reducing(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A pressure reducing valve: a globe body with a spring or pilot housing above and maybe a closed can below."""
     length = _length(dn, "globe")
-    body, bulge = _body(dn, hand, rng, length, 1.4)
-    x, n = length / 2, hand.round(2 * bulge)
+    body, bulge = _body(dn, style, rng, length, 1.4)
+    x, n = length / 2, style.round(2 * bulge)
     z = max(1.2 * bulge, 0.5 * FLANGES[dn].outer)
     pan = turned(
         [(0.7 * bulge, 0.6 * bulge), (0.7 * bulge, z), (1.7 * bulge, z + 0.2 * bulge), (1.7 * bulge, z + 0.35 * bulge)],
@@ -529,13 +533,13 @@ def _reducing(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, length, kind="pressure reducing valve")
 
 
-def _relief(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _relief(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A spring relief valve: inlet below (x = 0), outlet to the side, a tall bonnet with a cap or a lifting lever."""
     radius, size = PIPES[dn].radius, FLANGES[dn]
     out = SIZES[min(SIZES.index(dn) + 1, len(SIZES) - 1)]
     centre = 0.6 * size.outer + 0.03  # API 526 proportions: centre to inlet face about the flange's radius and more
-    bulge, n = 1.6 * radius + 0.010, hand.round(size.outer / 2)
-    inlet = about_x(disc_flange(dn, hand, centre))
+    bulge, n = 1.6 * radius + 0.010, style.round(size.outer / 2)
+    inlet = about_x(disc_flange(dn, style, centre))
     ball_ = about_x(
         turned(
             [
@@ -549,7 +553,7 @@ def _relief(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         )
     )
     reach = 0.6 * FLANGES[out].outer + 0.03
-    outlet = moved(along("y", moved(disc_flange(out, hand, reach), at(0, 0, -reach))), at(centre))
+    outlet = moved(along("y", moved(disc_flange(out, style, reach), at(0, 0, -reach))), at(centre))
     tall = float(rng.uniform(3.5, 5.0)) * bulge
     low = centre + 0.95 * bulge
     bonnet = about_x(
@@ -591,12 +595,12 @@ def _relief(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="relief valve")
 
 
-def _angle(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _angle(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An angle globe valve: inlet from below, outlet to the side, wheel on top."""
     radius, size = PIPES[dn].radius, FLANGES[dn]
     centre, bulge = 0.6 * size.outer + 0.04, 1.5 * radius + 0.01
-    n = hand.round(size.outer / 2)
-    outlet = moved(along("y", moved(disc_flange(dn, hand, centre), at(0, 0, -centre))), at(centre))
+    n = style.round(size.outer / 2)
+    outlet = moved(along("y", moved(disc_flange(dn, style, centre), at(0, 0, -centre))), at(centre))
     middle = moved(ball(bulge, n), at(centre))
     high = centre + max(bulge, 0.52 * size.outer)
     neck = about_x(
@@ -614,11 +618,11 @@ def _angle(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
     top = high + 0.05 + 1.2 * radius
     rest = [
-        stem(top, top + 0.05 + radius, 0.005 + 0.1 * radius, hand),
-        wheel(0.04 + 1.3 * radius, 0, top + 0.03 + 0.7 * radius, hand, rng),
+        stem(top, top + 0.05 + radius, 0.005 + 0.1 * radius, style),
+        wheel(0.04 + 1.3 * radius, 0, top + 0.03 + 0.7 * radius, style, rng),
     ]
     parts = [
-        Part(merge([about_x(disc_flange(dn, hand, centre)), middle, outlet]), BODY, "valve", BODY),
+        Part(merge([about_x(disc_flange(dn, style, centre)), middle, outlet]), BODY, "valve", BODY),
         Part(neck, "valve bonnet", "valve", BODY),
         *(Part(about_x(p.solid), p.name, p.color, p.bundle) for p in rest),
     ]

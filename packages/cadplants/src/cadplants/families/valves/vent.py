@@ -23,7 +23,7 @@ from cadplants.families.valves.valve import bolt_circle, disc_flange, flanged_bo
 from cadplants.family import Family, Model, Part, placed
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, rope, turned
 from cadplants.standards import PIPES, SIZES
 from cadplants.transforms import at, spun
@@ -31,7 +31,9 @@ from cadplants.transforms import at, spun
 __all__ = ["VENTS"]
 
 
-def _test_cocks(places: list[tuple[float, float]], r: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _test_cocks(
+    places: list[tuple[float, float]], r: float, style: ModelingStyle, rng: np.random.Generator
+) -> list[Part]:
     """Small ball cocks upon a body for testing, each at a place and height."""
     parts: list[Part] = []
     for x, z in places:
@@ -48,7 +50,7 @@ def _test_cocks(places: list[tuple[float, float]], r: float, hand: Hand, rng: np
     return parts
 
 
-def _backflow(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _backflow(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A reduced-pressure backflow preventer (EN 12729): two check chests with covers, a relief valve hung between."""
     r = PIPES[dn].radius
     length = float(rng.uniform(5.0, 6.5)) * PIPES[dn].outer + 0.12
@@ -57,15 +59,15 @@ def _backflow(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     middle = [(neck, thick + 0.04 * length), (wide, 0.18 * length), (wide, 0.36 * length),
               (0.85 * wide, 0.42 * length), (0.85 * wide, 0.52 * length), (wide, 0.6 * length), (wide, 0.8 * length),
               (neck, length - thick - 0.04 * length)]  # fmt: skip
-    parts = [body(flanged_body(dn, hand, length, middle))]
+    parts = [body(flanged_body(dn, style, length, middle))]
     tilt = float(rng.choice([0.0, 0.0, 0.6]))
-    corners, n = bool(rng.integers(2)), hand.round(wide)
+    corners, n = bool(rng.integers(2)), style.round(wide)
     seat = (1.35 if tilt == 0 else 1.7) * wide
     for x in (0.27 * length, 0.7 * length):
         pose = at(x) @ spun("y", tilt)
         chest = cylinder(0.92 * wide, 0.0, seat - 0.003, n)
         parts += placed(
-            [body(chest), *cover(1.15 * wide + 0.006, seat, 0.008 + 0.1 * r, 8, hand, corners, 0.2 * r)], pose
+            [body(chest), *cover(1.15 * wide + 0.006, seat, 0.008 + 0.1 * r, 8, style, corners, 0.2 * r)], pose
         )
     x = 0.47 * length
     drop = [
@@ -91,18 +93,18 @@ def _backflow(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         )
         parts.append(other("Pipe assembly", "pipe", "pipe", rope(sense, 0.006, 8), own=True))
     parts += _test_cocks(
-        [(0.12 * length, 0.98 * neck), (0.47 * length, 0.85 * wide), (0.88 * length, 0.98 * neck)], r, hand, rng
+        [(0.12 * length, 0.98 * neck), (0.47 * length, 0.85 * wide), (0.88 * length, 0.98 * neck)], r, style, rng
     )
     return Model(parts, round(length, 6), kind="backflow preventer")
 
 
-def _backflow_small(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _backflow_small(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A threaded backflow preventer (EN 14367 type CA or BA): union ends, slanting or upright caps, a tundish below."""
     r = PIPES[dn].radius
     length = float(rng.uniform(6.0, 8.5)) * r + 0.06
-    n, wide = hand.round(1.5 * r), 1.45 * r + 0.004
+    n, wide = style.round(1.5 * r), 1.45 * r + 0.004
     core = [(1.1 * r, 0.12 * length), (wide, 0.28 * length), (wide, 0.74 * length), (1.1 * r, 0.88 * length)]
-    parts = [body(screwed(dn, hand, length, core, end=0.14 * length))]
+    parts = [body(screwed(dn, style, length, core, end=0.14 * length))]
     for x in (0.15 * length, 0.8 * length):
         nut = along("x", hexagon(3.4 * r + 0.006, x, x + 0.07 * length))
         parts.append(other("Pipe assembly", "union", "valve", nut, own=True))
@@ -120,23 +122,23 @@ def _backflow_small(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         body(along("-z", merge([funnel, legs, box((1.7 * wide, 0.3 * wide, 0.12 * wide), (0, 0, wide))]), mid)),
     ]
     places = [(0.25 * length, 1.0 * r), (mid, 0.95 * wide)][: int(rng.integers(1, 3))]
-    parts += _test_cocks(places, r, hand, rng)
+    parts += _test_cocks(places, r, style, rng)
     return Model(parts, round(length, 6), "welded", "backflow preventer")
 
 
-def _bowl(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _bowl(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An air and vacuum valve (EN 1074-4): a bowl on a flange, a bolted cover, a cowl, elbow or screen on top."""
     r, thick = PIPES[dn].radius, plate_thickness(dn)
     wide, tall = float(rng.uniform(1.5, 2.3)) * r + 0.025, float(rng.uniform(1.6, 3.2)) * r + 0.05
-    n, low = hand.round(wide), thick + 0.015 + 0.2 * r
+    n, low = style.round(wide), thick + 0.015 + 0.2 * r
     if rng.random() < 0.5:
         shell = [(0.9 * hub_radius(dn), low - 0.01), (wide, low + 0.7 * wide), (wide, low + tall)]
     else:
         shell = [(0.6 * wide, low), (wide, low + 0.02), (wide, low + tall)]
     seat = low + tall + 0.003
     plate = 0.01 + 0.05 * wide
-    parts = [body(disc_flange(dn, hand, low + 0.01), turned(shell, n))]
-    parts += cover(1.22 * wide + 0.008, seat, plate, int(rng.choice([4, 6, 8])), hand, bool(rng.random() < 0.3))
+    parts = [body(disc_flange(dn, style, low + 0.01), turned(shell, n))]
+    parts += cover(1.22 * wide + 0.008, seat, plate, int(rng.choice([4, 6, 8])), style, bool(rng.random() < 0.3))
     top, kind, gap = seat + plate, int(rng.integers(4)), 0.25 * r + 0.008
     if kind == 0:
         legs = around(cylinder(0.005, top - 0.001, top + gap + 0.001, 8), 4, 0.7 * wide)
@@ -175,22 +177,22 @@ def _bowl(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(laid(parts), kind="air valve")
 
 
-def _double(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _double(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A double-orifice air valve: a big and a small chamber side by side on one base, covers, an isolating wheel."""
     r, thick = PIPES[dn].radius, plate_thickness(dn)
     big, small = 1.7 * r + 0.022, float(rng.uniform(0.9, 1.7)) * r + 0.02
     low = thick + 0.02 + 1.1 * r
-    n = hand.round(big)
+    n = style.round(big)
     parts = [
         body(
-            disc_flange(dn, hand, low),
+            disc_flange(dn, style, low),
             along("x", cylinder(0.9 * r + 0.01, -big - 0.3 * r, small + 0.3 * r, n), 0, 0, low - 0.2 * r),
         )
     ]
     for x, wide, tall in ((-0.98 * big, big, 2.2 * big), (0.98 * small, small, float(rng.uniform(1.4, 2.2)) * small)):
         shell = turned([(0.6 * wide, low - 0.5 * r), (wide, low + 0.4 * wide), (wide, low + tall - 0.003)], n)
         plate = 0.008 + 0.05 * wide
-        one = [body(shell), *cover(1.2 * wide + 0.007, low + tall, plate, 6, hand)]
+        one = [body(shell), *cover(1.2 * wide + 0.007, low + tall, plate, 6, style)]
         top = low + tall + plate
         if wide == big:
             one.append(
@@ -219,15 +221,15 @@ def _double(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
         reach = 0.9 * r + 0.01
         shaft = along("-y", cylinder(0.006 + 0.06 * r, 0.0, reach + 0.07 + 0.5 * r, 10), 0, 0, z)
         gland = along("-y", hexagon(0.03 + 0.3 * r, 0.8 * reach, reach + 0.02), 0, 0, z)
-        rim = placed([wheel(0.03 + 0.8 * r, 0, reach + 0.05 + 0.4 * r, hand, rng)], at(0, 0, z) @ spun("x", np.pi / 2))
+        rim = placed([wheel(0.03 + 0.8 * r, 0, reach + 0.05 + 0.4 * r, style, rng)], at(0, 0, z) @ spun("x", np.pi / 2))
         parts += [piece("valve stem", shaft), piece("gland", gland), *rim]
     return Model(laid(parts), kind="air valve")
 
 
-def _plastic_air(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _plastic_air(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A plastic combination air valve on an outlet: hexagon base, ribbed barrel, screwed dome, drain elbow."""
     r = float(rng.uniform(0.025, 0.05))
-    n, tall = hand.round(r), float(rng.uniform(1.5, 3.0)) * r
+    n, tall = style.round(r), float(rng.uniform(1.5, 3.0)) * r
     base = [
         cylinder(0.009, 0.0, 0.02, n),
         hexagon(0.034, 0.014, 0.034),
@@ -259,10 +261,10 @@ def _plastic_air(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([body(*base), bonnet(*crown, side)], kind="air valve")
 
 
-def _vacuum(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _vacuum(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A vacuum breaker on an outlet: hexagon body, slotted cowl or mushroom cap with a disc beneath."""
     r = float(rng.uniform(0.010, 0.018))
-    n, low = hand.round(2 * r), 0.018 + 1.4 * r
+    n, low = style.round(2 * r), 0.018 + 1.4 * r
     stem = [cylinder(0.9 * r, 0.0, 0.024, n), hexagon(2.8 * r, 0.016, low)]
     stem.append(turned([(1.1 * r, low - 0.001), (1.9 * r, low + 1.0 * r), (1.9 * r, low + 1.4 * r)], n))
     top, gap = low + 1.4 * r, float(rng.uniform(0.4, 1.0)) * r
@@ -290,13 +292,13 @@ def _pallet_hood(wide: float, high: float, n: int, rng: np.random.Generator) -> 
     return [bonnet(cylinder(1.1 * wide, high - 0.001, high + 0.08 * wide, n), grip), bolting(screws)]
 
 
-def _breather(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _breather(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A pressure and vacuum vent on a tank's nozzle (API 2000): two pallet chambers under hoods on a flanged chest."""
     r, thick = PIPES[dn].radius, plate_thickness(dn)
-    wide, n = 1.5 * r + 0.02, hand.round(1.5 * r)
+    wide, n = 1.5 * r + 0.02, style.round(1.5 * r)
     low = thick + 0.02 + 0.3 * r
     span = 1.35 * wide
-    chest = [disc_flange(dn, hand, low + 0.3 * r)]
+    chest = [disc_flange(dn, style, low + 0.3 * r)]
     boxy = rng.random() < 0.5
     if boxy:
         chest.append(box((2 * span + 2.0 * wide, 2.0 * wide, 1.3 * wide), (0, 0, low + 0.65 * wide)))
@@ -331,13 +333,13 @@ def _breather(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(laid(parts), kind="breather valve")
 
 
-def _end_of_line(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _end_of_line(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An end-of-line vent with a flame arrester (EN ISO 16852): a wide housing of rings, stay bolts, a weather hood."""
     r, thick = PIPES[dn].radius, plate_thickness(dn)
-    wide, n = float(rng.uniform(1.6, 2.2)) * r + 0.02, hand.round(1.8 * r)
+    wide, n = float(rng.uniform(1.6, 2.2)) * r + 0.02, style.round(1.8 * r)
     low = thick + 0.02 + 0.9 * r
     cone = turned([(hub_radius(dn), thick + 0.01), (wide, low), (1.15 * wide, low), (1.15 * wide, low + 0.014)], n)
-    parts = [body(disc_flange(dn, hand, thick + 0.015), cone)]
+    parts = [body(disc_flange(dn, style, thick + 0.015), cone)]
     z, bank = low + 0.014, float(rng.uniform(0.02, 0.04))
     for _k in range(int(rng.integers(1, 4))):
         parts.append(body(cylinder(1.02 * wide, z, z + bank, n)))
@@ -371,10 +373,10 @@ def _end_of_line(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(laid(parts), kind="breather valve")
 
 
-def _hatch(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _hatch(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An emergency relief hatch on a tank's nozzle (API 2000): a wide seat, a lid on a hinge, a bale handle."""
     r, thick = PIPES[dn].radius, plate_thickness(dn)
-    wide, n = float(rng.uniform(1.15, 1.6)) * r + 0.01, hand.round(1.3 * r)
+    wide, n = float(rng.uniform(1.15, 1.6)) * r + 0.01, style.round(1.3 * r)
     low = thick + 0.02 + 0.4 * r
     neck = turned([(1.03 * r, thick + 0.005), (1.03 * r, low - 0.01), (wide, low), (wide, low + 0.012)], n)
     seat, t = low + 0.012, 0.01 + 0.05 * r
@@ -399,7 +401,7 @@ def _hatch(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     ]
     pin = along("y", cylinder(0.3 * t, -0.35 * wide, 0.35 * wide, 8), *hinge)
     parts = [
-        body(disc_flange(dn, hand, thick + 0.01), neck, *ears),
+        body(disc_flange(dn, style, thick + 0.01), neck, *ears),
         piece("valve disc", moved(merge([*lid, arm]), turn), color="valve"),
         piece("valve stem", pin),
         piece("lever", moved(rope(bow, 0.005 + 0.03 * wide, 8), turn), color="handle", bundle=""),

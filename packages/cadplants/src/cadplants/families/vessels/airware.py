@@ -8,7 +8,7 @@ from cadplants.families.vessels.heatware import equipment_family, equipment_mout
 from cadplants.families.vessels.vesselware import sides
 from cadplants.family import Family, Model, Part, Port
 from cadplants.mesh_ops import extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import (
     along,
     around,
@@ -33,7 +33,7 @@ _NAME, _FRAME, _JOINT, _PIPE, _VALVE = (
 )
 
 
-def _air_box(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _air_box(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An air filter box in a duct: a sheet case with a door and clasps, a pleated face, round or square collars."""
     w, h, d = (float(rng.uniform(*span)) for span in ((0.4, 1.0), (0.4, 1.0), (0.3, 0.7)))
     low, name = float(rng.uniform(0.1, 0.8)), _NAME
@@ -58,8 +58,8 @@ def _air_box(_: int, hand: Hand, rng: np.random.Generator) -> Model:
                 "x" if s > 0 else "-x",
                 merge(
                     [
-                        cylinder(r, d / 2 - 0.005, d / 2 + 0.12, hand.round(r)),
-                        cylinder(1.08 * r, d / 2 + 0.05, d / 2 + 0.06, hand.round(r)),
+                        cylinder(r, d / 2 - 0.005, d / 2 + 0.12, style.round(r)),
+                        cylinder(1.08 * r, d / 2 + 0.05, d / 2 + 0.06, style.round(r)),
                     ]
                 ),
                 0,
@@ -86,10 +86,10 @@ def _air_box(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="air filter")
 
 
-def _oil_can(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _oil_can(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Spin-on oil or fuel filters: one to three cans with a fluted end under a cast head, on a bracket on a post."""
     count, r = int(rng.integers(1, 4)), float(rng.uniform(0.035, 0.065))
-    tall, n, z, pitch = r * float(rng.uniform(2.4, 4.5)), sides(hand, r), float(rng.uniform(0.7, 1.2)), 2.4 * r
+    tall, n, z, pitch = r * float(rng.uniform(2.4, 4.5)), sides(style, r), float(rng.uniform(0.7, 1.2)), 2.4 * r
     xs = (np.arange(count) - (count - 1) / 2) * pitch
     can = turned(
         [
@@ -127,7 +127,7 @@ def _oil_can(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="oil filter")
 
 
-def _press(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _press(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A filter press: a stack of square plates with handles between two heads on side bars, a hydraulic ram, legs."""
     w, z = float(rng.uniform(0.35, 0.7)), float(rng.uniform(0.6, 0.8))
     count = int(rng.integers(8, 24))
@@ -171,7 +171,7 @@ def _press(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     ports: list[Port] = []
     for y, f in ((0.0, 0.0), (0.3 * w, 0.3 * w)):
         dn = 25 if FLANGES[40].outer > 0.4 * w else 40
-        some, port = equipment_mouth(_NAME, dn, at(0, y, z + f) @ spun("y", -np.pi / 2), hand)
+        some, port = equipment_mouth(_NAME, dn, at(0, y, z + f) @ spun("y", -np.pi / 2), style)
         parts += some
         ports += port
     return Model(parts, ports=tuple(ports), kind="filter press")

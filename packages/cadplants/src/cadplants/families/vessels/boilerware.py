@@ -9,7 +9,7 @@ from cadplants.families.vessels.vesselware import head, sides
 from cadplants.families.vessels.warmware import wall_behind
 from cadplants.family import Family, Model, Part, Port
 from cadplants.mesh_ops import extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
 from cadplants.transforms import at, spun
@@ -30,10 +30,10 @@ def _walkway(r: float, length: float, z: float) -> list[Part]:
     return [grate, Part(merge(rails), "railing", "safety", "", _FRAME)]
 
 
-def _fire_tube(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _fire_tube(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A shell boiler (EN 12953): a clad drum on a base frame, front door with peephole, smoke box, stack, walkway."""
     r = float(rng.uniform(0.5, 1.0))
-    n, length = sides(hand, r), r * float(rng.uniform(2.4, 3.6))
+    n, length = sides(style, r), r * float(rng.uniform(2.4, 3.6))
     axis, name = r + float(rng.uniform(0.2, 0.35)), _BOIL
     drum = along("x", cylinder(r, -length / 2, length / 2, n), 0, 0, axis)
     bands = [
@@ -60,7 +60,7 @@ def _fire_tube(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
     stack_r = 0.2 * r
     stack = moved(
-        cylinder(stack_r, axis, axis + r + float(rng.uniform(0.5, 1.6)), hand.round(stack_r)),
+        cylinder(stack_r, axis, axis + r + float(rng.uniform(0.5, 1.6)), style.round(stack_r)),
         at(length / 2 + 0.02 - 0.1 * r),
     )
     parts = [
@@ -79,7 +79,7 @@ def _fire_tube(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts.append(Part(merge([*base, *props]), "skid frame", "steel", "", _FRAME))
     ports: list[Port] = []
     for x, dn in ((-0.3, 80), (-0.05, 50), (0.15, 40)):
-        some, port = equipment_mouth(name, dn, at(x * length, 0, axis + r), hand, r, r * (1 - np.cos(np.pi / n)))
+        some, port = equipment_mouth(name, dn, at(x * length, 0, axis + r), style, r, r * (1 - np.cos(np.pi / n)))
         parts += some
         ports += port
     if rng.random() < 0.6:
@@ -90,7 +90,7 @@ def _fire_tube(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, ports=tuple(ports), kind="fire-tube boiler")
 
 
-def _wall_hung(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _wall_hung(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A wall-hung boiler: a cabinet with a display, a coaxial flue bent into the wall, five pipes with cocks below."""
     w, h, d = float(rng.uniform(0.38, 0.5)), float(rng.uniform(0.65, 0.9)), float(rng.uniform(0.28, 0.45))
     z, name = float(rng.uniform(1.1, 1.3)), _BOIL
@@ -99,7 +99,7 @@ def _wall_hung(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     knobs = [along("-y", cylinder(0.02, d / 2, d / 2 + 0.025, 16), x, 0, z + 0.12) for x in (-0.12, 0.12)]
     flue_r, top = 0.05, z + h
     rise = float(rng.uniform(0.1, 0.3))
-    flue = rope([(0, 0, top - 0.01), (0, 0, top + rise), (0, d / 2 + 0.1, top + rise)], flue_r, hand.round(flue_r))
+    flue = rope([(0, 0, top - 0.01), (0, 0, top + rise), (0, d / 2 + 0.1, top + rise)], flue_r, style.round(flue_r))
     rose = along("y", cylinder(1.8 * flue_r, d / 2 - 0.012, d / 2, 20), 0, 0, top + rise)
     parts = [
         Part(case, name, "dial", name),
@@ -118,10 +118,10 @@ def _wall_hung(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="wall-hung boiler")
 
 
-def _vertical(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _vertical(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A vertical boiler or bath heater: an upright drum on feet, a fire door and ash door, a hood with the stack."""
     r = float(rng.uniform(0.25, 0.6))
-    n, h, low, name = sides(hand, r), r * float(rng.uniform(2.6, 4.0)), 0.12, _BOIL
+    n, h, low, name = sides(style, r), r * float(rng.uniform(2.6, 4.0)), 0.12, _BOIL
     shell = cylinder(r, low, low + h, n)
     top = (
         dome(r, 0.35 * r, low + h - 0.001, n)
@@ -129,7 +129,7 @@ def _vertical(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         else turned([(r, low + h), (0.35 * r, low + h + 0.45 * r)], n)
     )
     stack = cylinder(
-        0.26 * r, low + h + 0.2 * r, low + h + 0.35 * r + float(rng.uniform(0.5, 1.3)), hand.round(0.26 * r)
+        0.26 * r, low + h + 0.2 * r, low + h + 0.35 * r + float(rng.uniform(0.5, 1.3)), style.round(0.26 * r)
     )
     foot = (
         ring(0.8 * r, 1.06 * r, 0.0, low + 0.01, n)
@@ -153,23 +153,23 @@ def _vertical(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     ports: list[Port] = []
     for z, a in ((0.85, 1.0), (0.3, 2.6)):
         pose = spun("z", a) @ at(r, 0, low + z * h) @ spun("y", np.pi / 2)
-        some, port = equipment_mouth(name, 40 if r > 0.35 else 25, pose, hand, r, r * (1 - np.cos(np.pi / n)))
+        some, port = equipment_mouth(name, 40 if r > 0.35 else 25, pose, style, r, r * (1 - np.cos(np.pi / n)))
         parts += some
         ports += port
     return Model(parts, ports=tuple(ports), kind="vertical boiler")
 
 
-def _water_tube(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _water_tube(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A water-tube boiler (D type, EN 12952): a steam drum over a mud drum, banks of tubes, a buckstayed casing."""
     w, h, d = float(rng.uniform(1.6, 2.6)), float(rng.uniform(1.4, 2.2)), float(rng.uniform(1.0, 1.6))
     rs, rm, name = 0.2 * h, 0.13 * h, _BOIL
-    n = sides(hand, rs)
+    n = sides(style, rs)
     low, y = 0.25, 0.22 * d
     zm, zs = low + rm, low + h
     drums = []
     for r, z, reach in ((rs, zs, w + 0.3), (rm, zm, w + 0.2)):
         body = along("x", cylinder(r, -reach / 2, reach / 2, n), 0, y, z)
-        caps = [moved(head("2:1", r, hand, n), at(s * reach / 2, y, z) @ spun("y", s * np.pi / 2)) for s in (-1, 1)]
+        caps = [moved(head("2:1", r, style, n), at(s * reach / 2, y, z) @ spun("y", s * np.pi / 2)) for s in (-1, 1)]
         drums.append(merge([body, *caps]))
     tubes = []
     for x in np.linspace(-0.46, 0.46, int(rng.integers(10, 18))) * w:
@@ -191,7 +191,7 @@ def _water_tube(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts += [Part(merge(feet), name, "steel", name), *(Part(p, "column", "steel", "", _FRAME) for p in posts)]
     ports: list[Port] = []
     for x, dn in ((-0.25, 80), (0.0, 50), (0.25, 50)):
-        some, port = equipment_mouth(name, dn, at(x * w, y, zs + rs), hand, rs, 0.02)
+        some, port = equipment_mouth(name, dn, at(x * w, y, zs + rs), style, rs, 0.02)
         parts += some
         ports += port
     return Model(parts, ports=tuple(ports), kind="water-tube boiler")

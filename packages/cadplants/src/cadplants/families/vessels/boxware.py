@@ -12,7 +12,7 @@ from cadplants.families.vessels.vesselware import head, head_height, lug, manway
 from cadplants.family import Family, Model, Part, Port, placed
 from cadplants.mesh_ops import Solid, extrude, merge, moved, weld
 from cadplants.mesh_ops import loft as skin
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle, section_angle, section_channel, section_i
 from cadplants.primitives import along, box, cylinder, hexagon, lofted, ring, rod, rope, turned
 from cadplants.transforms import at, spun
@@ -28,7 +28,7 @@ def _loop(w: float, d: float, z: float) -> Floats:
     return np.column_stack([_SQUARE * (w, d), np.full(4, z)])
 
 
-def _bucket(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _bucket(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A bin or bucket hopper: a box or none over a pyramid, open or lidded, on a frame, a gate below."""
     w, d = float(rng.uniform(0.7, 1.8)), float(rng.uniform(0.7, 1.5))
     out, cone, tall = float(rng.uniform(0.2, 0.35)), float(rng.uniform(0.6, 1.2)), float(rng.choice([0.06, 0.4, 0.8]))
@@ -44,7 +44,7 @@ def _bucket(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     if rng.random() < 0.5:
         lid = box((w + 0.1, d + 0.1, 0.006), (0, 0, top + 0.003))
         parts.append(Part(lid, "shell", "tank", "tank"))
-        parts += placed(manway("hatch", 0.2, hand, rng), at(0.2 * w, 0, top + 0.006))
+        parts += placed(manway("hatch", 0.2, style, rng), at(0.2 * w, 0, top + 0.006))
     flange = extrude(_SQUARE * (out + 0.12, out + 0.12), low - 0.012, low, (_SQUARE * (out - 2 * t, out - 2 * t),))
     gate = merge(
         [
@@ -68,7 +68,7 @@ def _bucket(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="hopper")
 
 
-def _braced(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _braced(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A rectangular tank of corrugated or stiffened plate: wall ribs or waves, a rim, tie bars."""
     w, d, h = (float(rng.uniform(*span)) for span in ((1.2, 3.2), (0.9, 1.8), (0.8, 1.8)))
     base, t = float(rng.choice([0.12, 0.2])), 0.01
@@ -102,20 +102,20 @@ def _braced(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     if rng.random() < 0.5:
         lid = box((w + 0.1, d + 0.1, 0.005), (0, 0, base + h + 0.0125))
         parts.append(Part(lid, "shell", "tank", "tank"))
-        parts += placed(manway("hatch", 0.25, hand, rng), at(0.25 * w, 0, base + h + 0.015))
+        parts += placed(manway("hatch", 0.25, style, rng), at(0.25 * w, 0, base + h + 0.015))
     ports: list[Port] = []
     for s, f in ((-1, 0.2), (1, 0.75)):
         some, port = outlet(
             "plain",
             int(rng.choice([40, 50, 80])),
             at(s * w / 2, 0, base + max(0.13, f * h)) @ spun("y", s * np.pi / 2),
-            hand,
+            style,
         )
         parts += some
         ports += port
     if base + h > 1.5:
         parts += placed(
-            ladder(0.0, 0.0, base + h + 0.6, hand, False, 0.12), at(-0.2 * w, -d / 2 - 0.17, 0) @ spun("z", -np.pi / 2)
+            ladder(0.0, 0.0, base + h + 0.6, style, False, 0.12), at(-0.2 * w, -d / 2 - 0.17, 0) @ spun("z", -np.pi / 2)
         )
     return Model(parts, ports=tuple(ports), kind="rectangular tank")
 
@@ -127,7 +127,7 @@ def _panel(w: float, h: float) -> Solid:
     return moved(solid, spun("x", np.pi / 2))
 
 
-def _sectional(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _sectional(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A sectional water tank of pressed panels (BS 7491): bolted seams, a roof of panels, beams on dwarf walls."""
     cols, deep, rows = int(rng.integers(2, 5)), int(rng.integers(1, 4)), int(rng.integers(1, 3))
     p = float(rng.choice([0.5, 1.0])) if cols + deep > 5 else 1.0
@@ -165,20 +165,20 @@ def _sectional(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts.append(Part(solid, "beam", "steel", "", _FRAME))
     piers = np.linspace(-d / 2, d / 2, max(2, deep))
     parts += [Part(box((w + 0.2, 0.2, dwarf), (0, y, dwarf / 2)), "foundation", "concrete", "", _FRAME) for y in piers]
-    parts += placed(manway("hatch", 0.25, hand, rng), at(w / 2 - p / 2, d / 2 - p / 2, base + h + 0.05))
-    some, ports = outlet("plain", 80, at(w / 2 + 0.05, -d / 2 + p / 2, base + 0.5 * p) @ spun("y", np.pi / 2), hand)
+    parts += placed(manway("hatch", 0.25, style, rng), at(w / 2 - p / 2, d / 2 - p / 2, base + h + 0.05))
+    some, ports = outlet("plain", 80, at(w / 2 + 0.05, -d / 2 + p / 2, base + 0.5 * p) @ spun("y", np.pi / 2), style)
     gap = 0.15
     parts += placed(
-        ladder(0.0, 0.0, base + h + 0.7, hand, False, gap),
+        ladder(0.0, 0.0, base + h + 0.7, style, False, gap),
         at(-w / 2 + p / 2, -d / 2 - gap - 0.02, 0) @ spun("z", -np.pi / 2),
     )
     return Model([*parts, *some], ports=tuple(ports), kind="sectional tank")
 
 
-def _drum(hand: Hand, rng: np.random.Generator, kind: int) -> list[Part]:
+def _drum(style: ModelingStyle, rng: np.random.Generator, kind: int) -> list[Part]:
     """A 200 l drum (ISO 15750): steel with rolling hoops and bungs, open-head with a ring, or of plastic."""
     r, h = 0.292, 0.88
-    n = sides(hand, r)
+    n = sides(style, r)
     if kind == 2:
         outline = [
             (0.9 * r, 0.0),
@@ -212,13 +212,13 @@ def _drum(hand: Hand, rng: np.random.Generator, kind: int) -> list[Part]:
     return parts
 
 
-def _drums(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _drums(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """One to four drums on a pallet or a bunded pallet, or on the bare floor; one with a tap lies on a cradle."""
     kind = int(rng.integers(3))
     parts: list[Part] = []
     if rng.random() < 0.25:
         axis = 0.65
-        parts += placed(_drum(hand, rng, kind), at(-0.44, 0, axis) @ spun("y", np.pi / 2))
+        parts += placed(_drum(style, rng, kind), at(-0.44, 0, axis) @ spun("y", np.pi / 2))
         for x in (-0.25, 0.25):
             rails = [
                 bar((x, s * 0.3, 0.01), (x, s * 0.16, axis - 0.245), rounded_rectangle(0.04, 0.04, 0.0), (1, 0, 0))
@@ -238,7 +238,7 @@ def _drums(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     base = float(rng.choice([0.0, 0.144, 0.3]))
     spots = [(-0.31, -0.31), (0.31, 0.31), (0.31, -0.31), (-0.31, 0.31)][:count]
     for x, y in spots:
-        parts += placed(_drum(hand, rng, kind), at(x, y, base) @ spun("z", float(rng.uniform(0, 6))))
+        parts += placed(_drum(style, rng, kind), at(x, y, base) @ spun("z", float(rng.uniform(0, 6))))
     if base == 0.3:
         w = 1.3
         tub = box((w, w, 0.26), (0, 0, 0.15))
@@ -255,13 +255,13 @@ def _drums(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="drum")
 
 
-def _fuel(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _fuel(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A fuel tank with flat flanged ends (DIN 6608 in small): in a bund tray or not, fill cap, vent, gauge."""
     r = float(rng.uniform(0.35, 0.7))
-    n, length = sides(hand, r), r * float(rng.uniform(2.2, 4.0))
+    n, length = sides(style, r), r * float(rng.uniform(2.2, 4.0))
     tray = bool(rng.random() < 0.5)
     axis = r + (0.22 if tray else 0.12)
-    body = along("x", ring(0.985 * r if hand.hollow else 0.0, r, -length / 2, length / 2, n), 0, 0, axis)
+    body = along("x", ring(0.985 * r if style.hollow else 0.0, r, -length / 2, length / 2, n), 0, 0, axis)
     ends = [
         along(
             "x" if s > 0 else "-x",
@@ -307,19 +307,19 @@ def _fuel(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts.append(Part(moved(dial, at(-0.05 * length)), "level gauge", "dial", "", "Gauge assembly"))
     if r > 0.5:
         parts += placed(
-            manway("hinged", 0.24, hand, rng, r, 0.02),
+            manway("hinged", 0.24, style, rng, r, 0.02),
             at(0.02 * length + 0.3, 0, axis + r) @ spun("z", np.pi / 2) @ spun("z", -np.pi / 2),
         )
     for s in (-1, 1):
         pose = at(s * 0.42 * length, 0, axis + r)
-        parts += placed(lug("plate", 0.09, hand, r, 0.01), pose)
+        parts += placed(lug("plate", 0.09, style, r, 0.01), pose)
     return Model(parts, kind="fuel tank")
 
 
-def _buried(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _buried(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An underground tank as delivered: a ribbed shell on a bed or with strap anchors, a manhole tower with its lid."""
     r = float(rng.uniform(0.5, 1.1))
-    n, length = sides(hand, r), min(r * float(rng.uniform(2.4, 4.5)), 4.0)
+    n, length = sides(style, r), min(r * float(rng.uniform(2.4, 4.5)), 4.0)
     bed = float(rng.uniform(0.12, 0.3))
     axis = bed + r - 0.02
     ribs = int(rng.integers(4, 10))
@@ -337,8 +337,8 @@ def _buried(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     lay = at(-length / 2, 0, axis) @ spun("y", np.pi / 2)
     kind = str(rng.choice(["torispherical", "shallow", "2:1"]))
     ends = [
-        moved(head(kind, 0.97 * r, hand, n), at(0, 0, length - 0.002)),
-        moved(head(kind, 0.97 * r, hand, n), at(0, 0, 0.002) @ spun("x", np.pi)),
+        moved(head(kind, 0.97 * r, style, n), at(0, 0, length - 0.002)),
+        moved(head(kind, 0.97 * r, style, n), at(0, 0, 0.002) @ spun("x", np.pi)),
     ]
     parts = [Part(moved(turned(outline, n), lay), "shell", "dial", "tank")]
     parts += [Part(moved(e, lay), "dished head", "dial", "tank") for e in ends]
@@ -350,7 +350,7 @@ def _buried(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts.append(Part(merge([strap, *anchors]), "clamp", "clamp", "", _JOINT))
     for x in ((0.0,), (-0.28, 0.28))[int(rng.integers(2)) if length > 2 else 0]:
         neck, tall = float(rng.uniform(0.3, 0.36)), float(rng.uniform(0.3, 0.9))
-        k = hand.round(neck)
+        k = style.round(neck)
         tower = merge(
             [
                 ring(0.94 * neck, neck, axis + 0.8 * r, axis + r + tall, k),
@@ -373,7 +373,7 @@ def _buried(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     apex = head_height(kind, 0.97 * r)
     for s in (-1, 1):
         pose = at(s * (length / 2 + 0.75 * apex), 0, axis + 0.55 * r) @ spun("y", s * np.pi / 2)
-        parts += placed(mouth("fitting", 100, 0.2, hand, 0.0, 0.3 * r), pose)
+        parts += placed(mouth("fitting", 100, 0.2, style, 0.0, 0.3 * r), pose)
     return Model(parts, kind="buried tank")
 
 

@@ -8,7 +8,7 @@ from cadplants.families.valves.valve import bolt_circle
 from cadplants.families.vessels.vessel import head_profile, nozzle
 from cadplants.family import Family, Model, Part, Port
 from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, rope, torus, turned
 from cadplants.standards import FLANGES, PIPES, SIZES
@@ -19,10 +19,10 @@ __all__ = ["EQUIPMENT"]
 _GROUP = "Equipment"
 
 
-def _shell_tube(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _shell_tube(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A shell-and-tube exchanger (TEMA): a shell with two nozzles, channel and cover flanges, saddles."""
     name, r = "heat exchanger", float(rng.uniform(0.12, 0.4))
-    n, length = hand.round(r), float(rng.uniform(5, 10)) * r
+    n, length = style.round(r), float(rng.uniform(5, 10)) * r
     axis = r + float(rng.uniform(0.25, 0.5))
     collar, plate = 1.2 * r + 0.02, 0.03 + 0.05 * r
     half = length / 2
@@ -61,7 +61,7 @@ def _shell_tube(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     mouths, ports = [], []
     for x, s in spots:
         pose = at(x, 0, axis + s * r) @ spun("x", 0.0 if s > 0 else np.pi)
-        mouths += [moved(p.solid, pose) for p in nozzle(dn, reach, hand)]
+        mouths += [moved(p.solid, pose) for p in nozzle(dn, reach, style)]
         if s > 0:
             ports.append(Port(looking((x, 0, axis + r + reach), (0, 0, 1)), dn))
     feet = [
@@ -82,7 +82,7 @@ def _shell_tube(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, ports=tuple(ports), kind="shell-and-tube heat exchanger")
 
 
-def _plate(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _plate(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A gasketed plate exchanger: a fixed plate, a stack of thin ones, a pressure plate, carrying bars, tie bolts."""
     name = "heat exchanger"
     wide, tall = float(rng.uniform(0.25, 0.6)), float(rng.uniform(0.7, 1.6))
@@ -115,7 +115,7 @@ def _plate(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     for s in (-1, 1):
         for f in (0.14, 0.86):
             pose = at(-thick / 2, s * 0.28 * wide, low + f * tall) @ spun("y", -np.pi / 2)
-            mouths += [moved(p.solid, pose) for p in nozzle(dn if FLANGES[dn].outer < 0.55 * wide else 25, 0.12, hand)]
+            mouths += [moved(p.solid, pose) for p in nozzle(dn if FLANGES[dn].outer < 0.55 * wide else 25, 0.12, style)]
         ports.append(
             Port(
                 looking((-thick / 2 - 0.12, s * 0.28 * wide, low + 0.86 * tall), (-1, 0, 0)),
@@ -132,7 +132,7 @@ def _plate(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, ports=tuple(ports), kind="plate heat exchanger")
 
 
-def _brazed(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _brazed(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A brazed plate exchanger: a small ribbed brick with four threaded stubs, on a bracket."""
     name, wide, tall = "heat exchanger", float(rng.uniform(0.08, 0.2)), float(rng.uniform(0.2, 0.5))
     deep = float(rng.uniform(0.05, 0.25))
@@ -166,7 +166,7 @@ def _brazed(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _air_cooled(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _air_cooled(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A finned cooler: a bundle of thin fins between headers, a round fan shroud on top or in front, legs."""
     name = "heat exchanger"
     w, d, h = float(rng.uniform(0.8, 1.8)), float(rng.uniform(0.6, 1.2)), float(rng.uniform(0.12, 0.25))
@@ -176,7 +176,7 @@ def _air_cooled(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     hood = merge(
         [
             box((w, d, 0.1), (0, 0, low + h + 0.05)),
-            moved(ring(0.38 * min(w, d), 0.42 * min(w, d), low + h + 0.1, low + h + 0.25, hand.round(0.4)), at()),
+            moved(ring(0.38 * min(w, d), 0.42 * min(w, d), low + h + 0.1, low + h + 0.25, style.round(0.4)), at()),
         ]
     )
     blades = moved(around(box((0.3 * min(w, d), 0.08, 0.006), (0.2 * min(w, d), 0, 0)), 5), at(0, 0, low + h + 0.2))
@@ -190,7 +190,7 @@ def _air_cooled(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     mouths = [
         moved(p.solid, at(-w / 2 - 0.06, y, low + h / 2) @ spun("y", -np.pi / 2))
         for y in (-0.3 * d, 0.3 * d)
-        for p in nozzle(40, 0.1, hand)
+        for p in nozzle(40, 0.1, style)
     ]
     return Model(
         [
@@ -203,7 +203,7 @@ def _air_cooled(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _panel_radiator(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _panel_radiator(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A panel radiator (EN 442): one or two ribbed plates with convector fins between, a grille and side covers."""
     name = "radiator"
     w, h = float(rng.choice([0.6, 0.8, 1.0, 1.4, 1.8])), float(rng.choice([0.3, 0.5, 0.6, 0.9]))
@@ -255,10 +255,10 @@ def _panel_radiator(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="radiator")
 
 
-def _column_radiator(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _column_radiator(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A column radiator: sections of two to four upright tubes between hubs, with feet; or a towel ladder."""
     name = "radiator"
-    n = max(6, min(12, hand.round(0.0125)))
+    n = max(6, min(12, style.round(0.0125)))
     h = float(rng.choice([0.5, 0.6, 0.9, 1.5, 1.8]))
     low = 0.1
     if rng.random() < 0.7:
@@ -294,12 +294,12 @@ def _column_radiator(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _boiler(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _boiler(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A fire-tube boiler with a burner, or a cabinet boiler with a flue."""
     name = "boiler"
     if rng.random() < 0.5:
         r = float(rng.uniform(0.4, 0.8))
-        n, length = hand.round(r), float(rng.uniform(2.2, 3.2)) * r
+        n, length = style.round(r), float(rng.uniform(2.2, 3.2)) * r
         axis = r + 0.25
         drum = along("x", cylinder(r, -length / 2, length / 2, n), 0, 0, axis)
         fronts = [along("x", cylinder(1.06 * r, x - 0.06, x + 0.06, n), 0, 0, axis) for x in (-length / 2, length / 2)]
@@ -308,13 +308,13 @@ def _boiler(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         skid = [box((0.9 * length, 0.12, 0.26 + 0.3 * r), (0, s * 0.5 * r, (0.26 + 0.3 * r) / 2)) for s in (-1, 1)]
         deck = box((0.7 * length, 0.5 * r, 0.02), (0, 0, axis + 1.02 * r))
         mouths = [
-            moved(p.solid, at(x, 0, axis + r)) for x in (-0.2 * length, 0.05 * length) for p in nozzle(80, 0.2, hand)
+            moved(p.solid, at(x, 0, axis + r)) for x in (-0.2 * length, 0.05 * length) for p in nozzle(80, 0.2, style)
         ]
         parts = [
             Part(merge([drum, *fronts, door, flue, *mouths]), name, "tank", name),
             Part(merge([*skid, deck]), name, "steel", name),
         ]
-        for p in _burner_parts(0.32 * r, hand, rng):
+        for p in _burner_parts(0.32 * r, style, rng):
             parts.append(
                 Part(
                     moved(p.solid, at(-length / 2 - 0.05, 0, axis) @ spun("z", np.pi)),
@@ -332,7 +332,7 @@ def _boiler(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     plinth = box((0.9 * w, 0.9 * d, 0.06), (0, 0, 0.03))
     door = box((0.85 * w, 0.02, 0.5 * h), (0, -d / 2 - 0.01, 0.4 * h))
     panel = box((0.8 * w, 0.03, 0.15 * h), (0, -d / 2 - 0.015, 0.82 * h))
-    flue = moved(cylinder(0.07, h - 0.01, h + 0.6, hand.round(0.07)), at(0.2 * w, 0.2 * d))
+    flue = moved(cylinder(0.07, h - 0.01, h + 0.6, style.round(0.07)), at(0.2 * w, 0.2 * d))
     stubs = [moved(cylinder(0.021, h - 0.01, h + 0.08, 12), at(x * w, 0.25 * d)) for x in (-0.35, -0.2, -0.05)]
     return Model(
         [
@@ -343,9 +343,9 @@ def _boiler(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _burner_parts(r: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _burner_parts(r: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """A forced-draught burner about x, its flange at 0 and its head towards -x... the fan housing towards +x."""
-    name, n = "burner", hand.round(r)
+    name, n = "burner", style.round(r)
     flange = along("x", cylinder(1.1 * r, 0.0, 0.02, n))
     snout = along("-x", cylinder(0.6 * r, 0.0, 0.8 * r, n))
     house = box((1.6 * r, 1.5 * r, 1.7 * r), (0.85 * r, 0, 0))
@@ -362,9 +362,9 @@ def _burner_parts(r: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
     ]
 
 
-def _burner(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _burner(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     r = float(rng.uniform(0.1, 0.25))
-    parts = _burner_parts(r, hand, rng)
+    parts = _burner_parts(r, style, rng)
     lift = 1.8 * r + 0.3
     stand = merge(
         [
@@ -376,9 +376,9 @@ def _burner(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model([*moved_, Part(stand, "bracket", "steel", "", "Connection assembly")], kind="burner")
 
 
-def _housing(hand: Hand, rng: np.random.Generator, r: float, tall: float, bag: bool) -> list[Part]:
+def _housing(style: ModelingStyle, rng: np.random.Generator, r: float, tall: float, bag: bool) -> list[Part]:
     """A filter housing about z from its legs up: bowl, swing-bolt or band closure, lid with a vent."""
-    name, n = "filter", hand.round(r)
+    name, n = "filter", style.round(r)
     low = 0.3 + 0.5 * r
     bowl = turned(
         [
@@ -423,30 +423,30 @@ def _housing(hand: Hand, rng: np.random.Generator, r: float, tall: float, bag: b
     ]
 
 
-def _bag_filter(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _bag_filter(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     r, tall = float(rng.uniform(0.1, 0.3)), float(rng.uniform(0.4, 1.0))
     bag = bool(rng.random() < 0.6)
-    parts = _housing(hand, rng, r, tall, bag)
+    parts = _housing(style, rng, r, tall, bag)
     dn = 50 if r > 0.15 else 25
     low = 0.3 + 0.5 * r
     reach, ports = 0.12, []
     for angle, z in ((0.0, low + 0.85 * tall), (np.pi, low + 0.2 * tall)):
         pose = spun("z", angle) @ at(r, 0, z) @ spun("y", np.pi / 2)
-        parts += [Part(moved(p.solid, pose), "filter", "trim", "filter") for p in nozzle(dn, reach, hand)]
+        parts += [Part(moved(p.solid, pose), "filter", "trim", "filter") for p in nozzle(dn, reach, style)]
         way = np.array([np.cos(angle), np.sin(angle), 0])
         ports.append(Port(looking(way * (r + reach) + (0, 0, z), way), dn))
     return Model(parts, ports=tuple(ports), kind="bag filter" if bag else "cartridge filter")
 
 
-def _small_filter(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _small_filter(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A small cartridge or air filter in a line: a head with two ends and a bowl below, maybe a gauge cap above."""
     radius = PIPES[dn].radius
     length, r = 0.09 + 3 * radius, 0.035 + 1.1 * radius
-    n, x, name = hand.round(r), 0.0, "filter"
+    n, x, name = style.round(r), 0.0, "filter"
     x = length / 2
     head = merge(
         [
-            along("x", cylinder(1.3 * radius, 0, length, hand.round(radius))),
+            along("x", cylinder(1.3 * radius, 0, length, style.round(radius))),
             moved(turned([(r, -0.4 * r), (1.08 * r, -0.3 * r), (1.08 * r, 0.7 * r), (0.9 * r, 0.9 * r)], n), at(x)),
         ]
     )
@@ -465,10 +465,10 @@ def _small_filter(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _cyclone(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _cyclone(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A cyclone: a cylinder over a long cone, a tangential inlet, a pipe out of the top, legs."""
     name, r = "separator", float(rng.uniform(0.15, 0.5))
-    n, low = hand.round(r), float(rng.uniform(0.3, 0.6))
+    n, low = style.round(r), float(rng.uniform(0.3, 0.6))
     cone, tall = 2.4 * r, 1.4 * r
     body = turned([(0.2 * r, low), (0.25 * r, low + 0.05), (r, low + cone), (r, low + cone + tall)], n)
     top = turned(
@@ -506,17 +506,17 @@ def _cyclone(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _separator(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _separator(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An in-line air or steam separator: an upright bulb across the line with a vent above and a drain below."""
     name, radius = "separator", PIPES[dn].radius
     r = 1.7 * radius + 0.03
-    n = hand.round(r)
+    n = style.round(r)
     from cadplants.families.valves.valve import flanged_body
     from cadplants.flange import nut_room, plate_thickness
 
     length = 2 * (r + plate_thickness(dn) + nut_room(dn) + 0.01)
     neck = 0.485 * FLANGES[dn].hub
-    body = flanged_body(dn, hand, length, [(neck, 0.3 * length), (neck, 0.7 * length)])
+    body = flanged_body(dn, style, length, [(neck, 0.3 * length), (neck, 0.7 * length)])
     up, down = float(rng.uniform(1.2, 2.5)) * r, float(rng.uniform(1.2, 3.0)) * r
     bulb = turned(
         [

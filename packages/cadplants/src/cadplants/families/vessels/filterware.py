@@ -10,7 +10,7 @@ from cadplants.families.vessels.vesselfeet import legs, skirt
 from cadplants.families.vessels.vesselware import Drum, head, head_height, manway, mouth, renamed, sides
 from cadplants.family import Family, Model, Part, Port, placed
 from cadplants.mesh_ops import Solid, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import (
     along,
     around,
@@ -38,15 +38,15 @@ _NAME, _FRAME, _JOINT, _PIPE, _VALVE = (
 )
 
 
-def _swing_lid(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _swing_lid(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A bag filter with a lid on a davit or hinge: three or four eye nuts, side inlet, bottom outlet, tripod legs."""
     r, tall = float(rng.uniform(0.11, 0.3)), float(rng.uniform(0.5, 1.0))
-    n = sides(hand, r)
+    n = sides(style, r)
     low = 0.35 + float(rng.uniform(0.1, 0.3)) + head_height("2:1", r)
     drum = Drum(r, low, low + tall, n)
     high = drum.high
     rim = ring(0.97 * r, 1.3 * r, high - 0.03, high, n)
-    bowl = merge([drum.solid(hand), moved(head("2:1", r, hand, n), at(0, 0, low) @ spun("x", np.pi)), rim])
+    bowl = merge([drum.solid(style), moved(head("2:1", r, style, n), at(0, 0, low) @ spun("x", np.pi)), rim])
     top = [
         (1.3 * r, high),
         (1.3 * r, high + 0.03),
@@ -81,23 +81,23 @@ def _swing_lid(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         Part(around(eye, int(rng.choice([3, 4, 6])), 1.2 * r, 0.5), "bolt", "fastener", _NAME, _JOINT, True),
         Part(hinge, _NAME, "trim", _NAME),
     ]
-    parts += feet_of(legs(str(rng.choice(["pipe", "tripod", "angle"])), drum, hand, rng), _NAME)
+    parts += feet_of(legs(str(rng.choice(["pipe", "tripod", "angle"])), drum, style, rng), _NAME)
     dn = 50 if r > 0.16 else 25
-    some, ports = equipment_mouth(_NAME, dn, drum.side(np.pi, low + 0.8 * tall), hand, r, drum.dip)
+    some, ports = equipment_mouth(_NAME, dn, drum.side(np.pi, low + 0.8 * tall), style, r, drum.dip)
     bottom = low - head_height("2:1", r)
     if rng.random() < 0.5:
-        below = mouth("plain", dn, 0.15, hand, 0.0, 0.02)
+        below = mouth("plain", dn, 0.15, style, 0.0, 0.02)
         parts += placed(renamed(below, _NAME), at(0, 0, bottom) @ spun("x", np.pi))
     else:
-        more, port = equipment_mouth(_NAME, dn, drum.side(0.0, low + 0.12 * tall), hand, r, drum.dip)
+        more, port = equipment_mouth(_NAME, dn, drum.side(0.0, low + 0.12 * tall), style, r, drum.dip)
         some, ports = some + more, ports + port
     return Model([*parts, *some], ports=tuple(ports), kind="bag filter")
 
 
-def _multi_round(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _multi_round(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A multi-cartridge housing: a polished hood on a base pan with a V-clamp or wing nuts, mouths below."""
     r, tall = float(rng.uniform(0.09, 0.25)), float(rng.choice([0.3, 0.55, 0.8, 1.05]))
-    n, low = sides(hand, r), float(rng.uniform(0.25, 0.45))
+    n, low = sides(style, r), float(rng.uniform(0.25, 0.45))
     seam = low + 0.12
     pan = turned([(0.6 * r, low), (r, low + 0.06), (r, seam - 0.012), (1.08 * r, seam - 0.01), (1.08 * r, seam)], n)
     crown = float(rng.uniform(0.25, 0.6)) * r
@@ -140,7 +140,7 @@ def _multi_round(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     ports: list[Port] = []
     for a in (0.0, np.pi):
         pose = spun("z", a) @ at(0.92 * r, 0, low + 0.05) @ spun("y", np.pi / 2)
-        some, port = equipment_mouth(_NAME, dn, pose, hand, 0.0, 0.2 * r)
+        some, port = equipment_mouth(_NAME, dn, pose, style, 0.0, 0.2 * r)
         parts += some
         ports += port
     foot = merge([rod((0, 0, 0), (0, 0, low + 0.05), 0.014, 8), cylinder(0.035, 0, 0.008, 12)])
@@ -148,10 +148,10 @@ def _multi_round(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, ports=tuple(ports), kind="cartridge filter")
 
 
-def _sand(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _sand(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A sand filter as pools have it: a plastic ball on a plinth, a six-way valve beside or on top."""
     r, name = float(rng.uniform(0.2, 0.5)), _NAME
-    n, stretch, low = sides(hand, r), float(rng.uniform(0.9, 1.3)), 0.12
+    n, stretch, low = sides(style, r), float(rng.uniform(0.9, 1.3)), 0.12
     z = low + stretch * r
     a = np.linspace(-np.pi / 2, np.pi / 2, 15)
     outline = [(r * np.cos(t), z + stretch * r * np.sin(t)) for t in a]
@@ -197,30 +197,30 @@ def _sand(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="sand filter")
 
 
-def _media(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _media(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A pressure media filter (sand, carbon, softener): a dished vessel with face piping of five valves in front."""
     r = float(rng.uniform(0.3, 0.7))
-    n, height = sides(hand, r), r * float(rng.uniform(1.4, 2.8))
+    n, height = sides(style, r), r * float(rng.uniform(1.4, 2.8))
     low = head_height("torispherical", r) + 0.3
     drum = Drum(r, low, low + height, n)
     body = merge(
         [
-            drum.solid(hand),
-            moved(head("torispherical", r, hand, n), at(0, 0, drum.high)),
-            moved(head("torispherical", r, hand, n), at(0, 0, low) @ spun("x", np.pi)),
+            drum.solid(style),
+            moved(head("torispherical", r, style, n), at(0, 0, drum.high)),
+            moved(head("torispherical", r, style, n), at(0, 0, low) @ spun("x", np.pi)),
         ]
     )
     parts = [Part(body, _NAME, "tank", _NAME)]
     parts += feet_of(
-        legs(str(rng.choice(["pipe", "angle"])), drum, hand, rng)
+        legs(str(rng.choice(["pipe", "angle"])), drum, style, rng)
         if rng.random() < 0.7
-        else skirt("open", drum, hand, rng),
+        else skirt("open", drum, style, rng),
         _NAME,
     )
     size = 0.14 if r < 0.5 else 0.2
     parts += renamed(
         placed(
-            manway("swing" if rng.random() < 0.5 else "oval", size, hand, rng, r, drum.dip),
+            manway("swing" if rng.random() < 0.5 else "oval", size, style, rng, r, drum.dip),
             drum.side(1.9, low + 0.75 * height),
         ),
         _NAME,
@@ -230,7 +230,7 @@ def _media(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     top, bottom = drum.high + head_height("torispherical", r), low - head_height("torispherical", r)
     upper = [(0, 0, top - 0.03), (0, 0, top + 0.16), (x, 0, top + 0.16), (x, 0, 0.5 * (low + drum.high))]
     lower = [(0, 0, bottom + 0.03), (0, 0, bottom - 0.12), (x, 0, bottom - 0.12), (x, 0, 0.5 * (low + drum.high))]
-    k = hand.round(pr)
+    k = style.round(pr)
     parts += [Part(rope(path, pr, k), "pipe", "pipe", "", _PIPE) for path in (upper, lower)]
     for z in np.linspace(low + 0.1 * height, drum.high - 0.1 * height, int(rng.integers(2, 5))):
         branch = rod((x, 0, z), (x, 0.55, z), pr, k)
@@ -258,12 +258,12 @@ def _pot(r: float, low: float, tall: float, n: int) -> tuple[Solid, Solid]:
     return merge([pot, drain]), merge([cover, rope(grip, 0.006, 6)])
 
 
-def _duplex(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _duplex(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A duplex filter: two pots with bolted lids, change-over valves between them on one lever or wheel."""
     dn = int(rng.choice([25, 40, 50, 80]))
     pr = PIPES[dn].radius
     r = 1.6 * pr + float(rng.uniform(0.04, 0.09))
-    tall, n, gap = r * float(rng.uniform(2.2, 4.0)), sides(hand, r), 1.25 * r + pr + 0.03
+    tall, n, gap = r * float(rng.uniform(2.2, 4.0)), sides(style, r), 1.25 * r + pr + 0.03
     low = 0.25
     pots, lids = [], []
     count = int(rng.choice([4, 6, 8]))
@@ -277,7 +277,7 @@ def _duplex(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts.append(Part(merge(bolts), "bolt", "fastener", _NAME, _JOINT, True))
     ports: list[Port] = []
     spindle = []
-    k = hand.round(pr)
+    k = style.round(pr)
     for z, s in ((low + 0.25 * tall, -1), (low + 0.72 * tall, 1)):
         cock = merge(
             [
@@ -286,7 +286,7 @@ def _duplex(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             ]
         )
         parts.append(Part(cock, _NAME, "valve", _NAME))
-        some, port = equipment_mouth(_NAME, dn, at(s * 1.3 * pr, 0, z) @ spun("y", s * np.pi / 2), hand, 0.0, 0.2 * pr)
+        some, port = equipment_mouth(_NAME, dn, at(s * 1.3 * pr, 0, z) @ spun("y", s * np.pi / 2), style, 0.0, 0.2 * pr)
         parts += some
         ports += port
         spindle.append(cylinder(0.012 + 0.1 * pr, z, low + tall + 0.12, 10))
@@ -314,12 +314,12 @@ def _duplex(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, ports=tuple(ports), kind="duplex filter")
 
 
-def _backwash(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _backwash(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A battery of disc filters that backwash: plastic bells with clamps between two manifolds, valves below."""
     count, r = int(rng.integers(2, 6)), float(rng.choice([0.1, 0.13]))
-    dn, n = int(rng.choice([80, 100, 150])), sides(hand, 0.12)
+    dn, n = int(rng.choice([80, 100, 150])), sides(style, 0.12)
     pr, pitch = PIPES[dn].radius, 2 * r + float(rng.uniform(0.08, 0.16))
-    low, tall, k = 0.45 + pr, float(rng.uniform(0.35, 0.6)), hand.round(PIPES[dn].radius)
+    low, tall, k = 0.45 + pr, float(rng.uniform(0.35, 0.6)), style.round(PIPES[dn].radius)
     span, off = (count - 1) * pitch, r + pr
     bell = turned(
         [
@@ -352,7 +352,7 @@ def _backwash(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     for s in (-1, 1):
         main = along("x", cylinder(pr, -span / 2 - 0.25, span / 2 + 0.25, k), 0, s * off, low)
         parts.append(Part(main, "pipe", "pipe", "", _PIPE))
-        some, port = equipment_mouth(_NAME, dn, at(-span / 2 - 0.24, s * off, low) @ spun("y", -np.pi / 2), hand)
+        some, port = equipment_mouth(_NAME, dn, at(-span / 2 - 0.24, s * off, low) @ spun("y", -np.pi / 2), style)
         parts += [Part(p.solid, "flange" if i else "pipe", "flange", "", _PIPE) for i, p in enumerate(some)]
         ports += port
     for x in (-0.35 * span - 0.1, 0.35 * span + 0.1):

@@ -11,7 +11,7 @@ from cadplants.families.vessels.vesselfeet import saddle
 from cadplants.families.vessels.vesselware import head, renamed, sides
 from cadplants.family import Build, Family, Model, Part, Port, placed
 from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import along, around, box, cylinder, hexagon, lofted, ring, rod, rope, turned
 from cadplants.standards import FLANGES, PIPES
 from cadplants.transforms import at, spun
@@ -27,10 +27,10 @@ def equipment_family(name: str, build: Build, weight: float = 0.8) -> Family:
 
 
 def equipment_mouth(
-    name: str, dn: int, pose: Floats, hand: Hand, r: float = 0.0, dip: float = 0.0
+    name: str, dn: int, pose: Floats, style: ModelingStyle, r: float = 0.0, dip: float = 0.0
 ) -> tuple[list[Part], list[Port]]:
     """A flanged mouth that belongs to a piece of equipment of this name, and its port."""
-    parts, ports = outlet("plain", dn, pose, hand, r, dip)
+    parts, ports = outlet("plain", dn, pose, style, r, dip)
     return renamed(parts, name), ports
 
 
@@ -61,10 +61,10 @@ def _girth(r: float, thick: float, x: float, n: int) -> tuple[list[Solid], Solid
     return pair, along("x", bolts, x)
 
 
-def _kettle(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _kettle(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A kettle reboiler (TEMA K): a wide shell with a sloping cone down to the bundle's flange, a channel, saddles."""
     r = float(rng.uniform(0.3, 0.7))
-    small, n = r * float(rng.uniform(0.5, 0.7)), sides(hand, r)
+    small, n = r * float(rng.uniform(0.5, 0.7)), sides(style, r)
     length, cone = r * float(rng.uniform(2.5, 4.0)), 0.9 * (r - 0.5 * r) + 0.1
     axis = r + float(rng.uniform(0.3, 0.5))
     low = axis - r + small  # the bundle's axis: both shells lie flush below
@@ -76,7 +76,7 @@ def _kettle(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         r * ringed + (length / 2, 0, axis),
     ]
     shell = lofted(loops)
-    cap = moved(head("2:1", r, hand, n), at(length / 2, 0, axis) @ spun("y", np.pi / 2))
+    cap = moved(head("2:1", r, style, n), at(length / 2, 0, axis) @ spun("y", np.pi / 2))
     thick, x = 0.02 + 0.05 * small, -length / 2 - cone - 0.04
     neck = along("x", cylinder(small, x - 0.005, x + 0.045, n), 0, 0, low)
     pair, bolts = _girth(small, thick, x, n)
@@ -96,21 +96,21 @@ def _kettle(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     spots += [(x - 0.5 * deep, low + small, 0.0, small), (x - 0.5 * deep, low - small, np.pi, small)]
     for px, pz, turn, curve in spots:
         dn = int(rng.choice([40, 50, 80])) if curve == r else 40
-        some, port = equipment_mouth(_NAME, dn, at(px, 0, pz) @ spun("x", turn), hand, curve, drum_dip)
+        some, port = equipment_mouth(_NAME, dn, at(px, 0, pz) @ spun("x", turn), style, curve, drum_dip)
         parts += some
         ports += port if turn == 0.0 else []
     for px in (-0.3 * length, 0.3 * length):
-        parts += feet_of(placed(saddle("ribbed", r, axis, hand, rng), at(px)), _NAME)
+        parts += feet_of(placed(saddle("ribbed", r, axis, style, rng), at(px)), _NAME)
     return Model(parts, ports=tuple(ports), kind="kettle reboiler")
 
 
-def _u_tube(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _u_tube(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A U-tube exchanger on a wall frame or on feet: a slim shell, a square or round channel box, a dished far end."""
     r = float(rng.uniform(0.06, 0.16))
-    n, length = sides(hand, r), float(rng.uniform(7, 14)) * r
+    n, length = sides(style, r), float(rng.uniform(7, 14)) * r
     axis, thick = float(rng.uniform(0.5, 1.0)), 0.02
     body = along("x", cylinder(r, -length / 2, length / 2, n), 0, 0, axis)
-    cap = moved(head("torispherical", r, hand, n), at(length / 2, 0, axis) @ spun("y", np.pi / 2))
+    cap = moved(head("torispherical", r, style, n), at(length / 2, 0, axis) @ spun("y", np.pi / 2))
     pair, bolts = _girth(r, thick, -length / 2, n)
     deep = 2.2 * r + 0.05
     square = bool(rng.random() < 0.5)
@@ -136,7 +136,7 @@ def _u_tube(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     reach = 1.2 * r if square else r
     for px, s, out in ((x, 1, reach), (x, -1, reach), (-0.32 * length, 1, r), (0.38 * length, 1, r)):
         pose = at(px, 0, axis + s * out) @ spun("x", 0.0 if s > 0 else np.pi)
-        some, port = equipment_mouth(_NAME, dn, pose, hand, 0.0 if out != r else r, 0.01)
+        some, port = equipment_mouth(_NAME, dn, pose, style, 0.0 if out != r else r, 0.01)
         parts += some
         ports += port if s > 0 else []
     for px in (-0.25 * length, 0.3 * length):
@@ -152,12 +152,12 @@ def _u_tube(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, ports=tuple(ports), kind="U-tube heat exchanger")
 
 
-def _hairpin(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _hairpin(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A double-pipe exchanger: jacketed pipes above each other, return bends of the inner pipe, jumpers, a frame."""
     outer, inner = ((80, 50), (65, 40), (50, 25), (100, 65))[int(rng.integers(4))]
     ro, ri = PIPES[outer].radius, PIPES[inner].radius
     rows, length = int(rng.choice([2, 2, 4, 6])), float(rng.uniform(1.4, 3.2))
-    pitch, n, base = max(4.4 * ri, 2.6 * ro), hand.round(ro), float(rng.uniform(0.3, 0.6))
+    pitch, n, base = max(4.4 * ri, 2.6 * ro), style.round(ro), float(rng.uniform(0.3, 0.6))
     zs = base + pitch * np.arange(rows)
     jackets = []
     for z in zs:
@@ -181,11 +181,11 @@ def _hairpin(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     ports: list[Port] = []
     for z, way in ((zs[0], -1), (zs[-1], -1 if rows % 2 == 0 else 1)):
         pose = at(way * (length / 2 + 0.4 * ro), 0, z) @ spun("y", way * np.pi / 2)
-        some, port = equipment_mouth(_NAME, inner, pose, hand)
+        some, port = equipment_mouth(_NAME, inner, pose, style)
         parts += some
         ports += port
     top = at(0.42 * length * (1 if rows % 2 == 0 else -1), 0, zs[-1] + ro)
-    some, port = equipment_mouth(_NAME, inner, top, hand, ro, 0.0)
+    some, port = equipment_mouth(_NAME, inner, top, style, ro, 0.0)
     parts += some
     for x in (-0.3 * length, 0.3 * length):
         high = zs[-1] + ro + 0.05
@@ -195,10 +195,10 @@ def _hairpin(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, ports=(*ports, *port), kind="double-pipe heat exchanger")
 
 
-def _spiral(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _spiral(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A spiral exchanger: a short wide drum between two covers with hook bolts all round, on two trunnion stands."""
     r = float(rng.uniform(0.3, 0.65))
-    n, deep = sides(hand, r), r * float(rng.uniform(0.7, 1.5))
+    n, deep = sides(style, r), r * float(rng.uniform(0.7, 1.5))
     axis, thick = r + float(rng.uniform(0.3, 0.5)), 0.03
     body = along("x", cylinder(r, -deep / 2, deep / 2, n), 0, 0, axis)
     rims = [
@@ -241,7 +241,7 @@ def _spiral(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         (at(gap, 0, axis) @ spun("y", np.pi / 2), 0.0),
         (at(-gap, 0, axis) @ spun("y", -np.pi / 2), 0.0),
     ):
-        some, port = equipment_mouth(_NAME, dn, pose, hand, curve, 0.01)
+        some, port = equipment_mouth(_NAME, dn, pose, style, curve, 0.01)
         parts += some
         ports += port
     for s in (-1, 1):
@@ -260,7 +260,7 @@ def _spiral(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, ports=tuple(ports), kind="spiral heat exchanger")
 
 
-def _long_plate(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _long_plate(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A gasketed plate exchanger with a half-empty carrying bar: thin plates with cut corners, all mouths in front."""
     wide, tall = float(rng.uniform(0.3, 0.7)), float(rng.uniform(1.0, 2.0))
     rail, thick = float(rng.uniform(1.2, 2.6)), 0.04
@@ -315,14 +315,14 @@ def _long_plate(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     for s in (-1, 1):
         for f in (0.12, 0.88):
             some, port = equipment_mouth(
-                _NAME, dn, at(0, s * 0.27 * wide, low + f * tall) @ spun("y", -np.pi / 2), hand
+                _NAME, dn, at(0, s * 0.27 * wide, low + f * tall) @ spun("y", -np.pi / 2), style
             )
             parts += some
             ports += port
     return Model(parts, ports=tuple(ports), kind="plate heat exchanger")
 
 
-def _fin_fan(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _fin_fan(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A dry cooler of A or V shape (EN 1048): two sloped finned bundles, fans between their tops, headers, a frame."""
     w, d, h = float(rng.uniform(1.6, 3.2)), float(rng.uniform(0.9, 1.4)), float(rng.uniform(0.9, 1.5))
     low, thick, vee = float(rng.uniform(0.3, 1.2)), 0.12, bool(rng.random() < 0.5)
@@ -341,7 +341,7 @@ def _fin_fan(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     deck = box((w + 0.12, 1.1 * d, 0.06), (0, 0, top - 0.03))
     fans = int(rng.choice([1, 2, 3]))
     r = 0.4 * min(w / fans, d)
-    n = hand.round(r)
+    n = style.round(r)
     shrouds, guards = [], []
     for x in (np.arange(fans) - (fans - 1) / 2) * w / fans:
         shrouds.append(moved(ring(r, 1.05 * r, top, top + 0.14, n), at(x)))
@@ -388,7 +388,7 @@ def _fin_fan(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             @ at(0, s * (0.27 + (0.15 if vee else -0.15)) * d, low + 0.85 * h)
             @ spun("y", -np.pi / 2)
         )
-        some, port = equipment_mouth(_NAME, dn, pose, hand)
+        some, port = equipment_mouth(_NAME, dn, pose, style)
         parts += some
         ports += port
     return Model(parts, ports=tuple(ports), kind="dry cooler")

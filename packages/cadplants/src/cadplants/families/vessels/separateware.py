@@ -11,7 +11,7 @@ from cadplants.families.vessels.vesselware import Drum, head, head_height, manwa
 from cadplants.family import Family, Model, Part, Port, placed
 from cadplants.flange import nut_room, plate_thickness
 from cadplants.mesh_ops import extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, lofted, ring, rod, rope, turned
 from cadplants.standards import FLANGES, PIPES, SIZES
@@ -22,17 +22,17 @@ __all__ = ["SEPARATEWARE"]
 _NAME, _FRAME, _JOINT = "separator", "Structural element", "Connection assembly"
 
 
-def _knock_out(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _knock_out(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A vertical knock-out drum: a girth flange at its demister, a side inlet, gas out on top, liquid out below."""
     r = float(rng.uniform(0.18, 0.55))
-    n, height = sides(hand, r), r * float(rng.uniform(2.6, 5.0))
+    n, height = sides(style, r), r * float(rng.uniform(2.6, 5.0))
     low = head_height("2:1", r) + 0.35 + 0.3 * r
     drum = Drum(r, low, low + height, n)
     seam, thick, wide = low + height * float(rng.uniform(0.65, 0.85)), 0.02 + 0.03 * r, 1.14 * r + 0.03
     solids = [
-        drum.solid(hand),
-        moved(head("2:1", r, hand, n), at(0, 0, drum.high)),
-        moved(head("2:1", r, hand, n), at(0, 0, low) @ spun("x", np.pi)),
+        drum.solid(style),
+        moved(head("2:1", r, style, n), at(0, 0, drum.high)),
+        moved(head("2:1", r, style, n), at(0, 0, low) @ spun("x", np.pi)),
     ]
     rims = [ring(0.98 * r, wide, seam - thick, seam, n), ring(0.98 * r, wide, seam + 0.003, seam + thick, n)]
     bolts = bolt_circle(int(np.clip(45 * r, 12, 28)), 0.5 * (r + wide) + 0.003, 0.014, seam - thick, seam + thick)
@@ -42,7 +42,7 @@ def _knock_out(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         Part(bolts, "bolt", "fastener", _NAME, _JOINT, True),
     ]
     feet = str(rng.choice(["chairs", "open", "angle", "beam"]))
-    parts += feet_of((skirt if feet in ("chairs", "open") else legs)(feet, drum, hand, rng), _NAME)
+    parts += feet_of((skirt if feet in ("chairs", "open") else legs)(feet, drum, style, rng), _NAME)
     ports: list[Port] = []
     dn = int(rng.choice([dn for dn in (40, 50, 80, 100, 150) if FLANGES[dn].outer < 0.9 * r] or [25]))
     for pose, curve in (
@@ -50,28 +50,28 @@ def _knock_out(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         (at(0, 0, drum.high + head_height("2:1", r)), 0.0),
         (drum.side(2.4, low + 0.12 * height), r),
     ):
-        some, port = equipment_mouth(_NAME, dn, pose, hand, curve, drum.dip + 0.02 * r)
+        some, port = equipment_mouth(_NAME, dn, pose, style, curve, drum.dip + 0.02 * r)
         parts += some
         ports += port
     if r > 0.3:
         pose = drum.side(4.6, low + 0.3 * height)
-        parts += renamed(placed(manway("oval", 0.12, hand, rng, r, drum.dip), pose), _NAME)
+        parts += renamed(placed(manway("oval", 0.12, style, rng, r, drum.dip), pose), _NAME)
     return Model(parts, ports=tuple(ports), kind="knock-out drum")
 
 
-def _three_phase(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _three_phase(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A lying separator: dished ends, an inlet at one end, a gas dome, a water boot below, two saddles."""
     r = float(rng.uniform(0.25, 0.7))
-    n, length = sides(hand, r), r * float(rng.uniform(3.4, 5.5))
+    n, length = sides(style, r), r * float(rng.uniform(3.4, 5.5))
     boot, deep = 0.4 * r, r * float(rng.uniform(0.7, 1.1))
     axis = r + deep + 0.25
     lay = at(-length / 2, 0, axis) @ spun("y", np.pi / 2)
     body = [
         cylinder(r, 0.0, length, n),
-        moved(head("2:1", r, hand, n), at(0, 0, length)),
-        moved(head("2:1", r, hand, n), spun("x", np.pi)),
+        moved(head("2:1", r, style, n), at(0, 0, length)),
+        moved(head("2:1", r, style, n), spun("x", np.pi)),
     ]
-    k = sides(hand, boot)
+    k = sides(style, boot)
     pot = turned([(0.3 * boot, axis - r - deep), (boot, axis - r - deep + 0.4 * boot), (boot, axis - 0.8 * r)], k)
     parts = [
         Part(moved(merge(body), lay), _NAME, "tank", _NAME),
@@ -84,7 +84,7 @@ def _three_phase(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     else:
         top = axis + r
     for x in (-0.3 * length, 0.38 * length):
-        parts += feet_of(placed(saddle("ribbed", r, axis, hand, rng), at(x)), _NAME)
+        parts += feet_of(placed(saddle("ribbed", r, axis, style, rng), at(x)), _NAME)
     dn = int(rng.choice([dn for dn in (40, 50, 80, 100) if FLANGES[dn].outer < 0.8 * r] or [25]))
     ports: list[Port] = []
     dip = r * (1 - np.cos(np.pi / n))
@@ -94,15 +94,15 @@ def _three_phase(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         at(0.25 * length, 0, top),
         at(-0.3 * length, 0, axis + r),
     ):
-        some, port = equipment_mouth(_NAME, dn, pose, hand, 0.0, dip + 0.03 * r)
+        some, port = equipment_mouth(_NAME, dn, pose, style, 0.0, dip + 0.03 * r)
         parts += some
         ports += port
-    drain = renamed(mouth("plain", 25, 0.13, hand, 0.0, 0.02), _NAME)
+    drain = renamed(mouth("plain", 25, 0.13, style, 0.0, 0.02), _NAME)
     parts += placed(drain, at(0.2 * length, 0, axis - r - deep) @ spun("x", np.pi))
     return Model(parts, ports=tuple(ports), kind="three-phase separator")
 
 
-def _plate_pack(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _plate_pack(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A lamella separator: a box over a hopper, an inclined pack of plates between its walls, weirs, braced legs."""
     w, d, h = (float(rng.uniform(*span)) for span in ((1.2, 2.2), (0.7, 1.2), (0.8, 1.4)))
     low, cone, t = float(rng.uniform(0.35, 0.6)), float(rng.uniform(0.4, 0.8)), 0.008
@@ -133,15 +133,15 @@ def _plate_pack(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     dn = int(rng.choice([65, 80, 100]))
     for s, level in ((-1, 0.35), (1, 0.75)):
         pose = at(s * w / 2, 0, z + level * h) @ spun("y", s * np.pi / 2)
-        some, port = equipment_mouth(_NAME, dn, pose, hand)
+        some, port = equipment_mouth(_NAME, dn, pose, style)
         parts += some
         ports += port
-    sludge = renamed(mouth("plain", 80, min(0.25, 0.8 * low), hand, 0.0, 0.01), _NAME)
+    sludge = renamed(mouth("plain", 80, min(0.25, 0.8 * low), style, 0.0, 0.01), _NAME)
     parts += placed(sludge, at(0, 0, low) @ spun("x", np.pi))
     return Model(parts, ports=tuple(ports), kind="lamella separator")
 
 
-def _oil_box(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _oil_box(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An oil-water box: a rectangular tank with chambers, lids with handles, a skimmer pipe, two mouths."""
     w, d, h = (float(rng.uniform(*span)) for span in ((0.8, 2.0), (0.5, 1.0), (0.5, 1.0)))
     base, r = 0.1, float(rng.uniform(0.005, 0.05))
@@ -168,7 +168,7 @@ def _oil_box(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     ports: list[Port] = []
     dn = int(rng.choice([50, 80, 100])) if h > 0.6 else 40
     for s, f in ((-1, 0.78), (1, 0.7)):
-        some, port = equipment_mouth(_NAME, dn, at(s * w / 2, 0, base + f * h) @ spun("y", s * np.pi / 2), hand)
+        some, port = equipment_mouth(_NAME, dn, at(s * w / 2, 0, base + f * h) @ spun("y", s * np.pi / 2), style)
         parts += some
         ports += port
     oil = [
@@ -183,10 +183,10 @@ def _oil_box(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, ports=tuple(ports), kind="oil separator")
 
 
-def _centrifuge(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _centrifuge(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A disc-stack centrifuge: a bowl hood with clamps over a cast frame, a motor on its side, feed on top."""
     r = float(rng.uniform(0.2, 0.4))
-    n, low = sides(hand, r), 0.08
+    n, low = sides(style, r), 0.08
     mid = low + 1.9 * r
     frame = turned(
         [
@@ -250,10 +250,10 @@ def _centrifuge(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="centrifuge")
 
 
-def _decanter(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _decanter(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A decanter centrifuge: a long casing with a split flange over a base, bearings, belt guard, a motor alongside."""
     r, length = float(rng.uniform(0.16, 0.3)), float(rng.uniform(1.4, 2.4))
-    n, z = sides(hand, r), 0.35 + r
+    n, z = sides(style, r), 0.35 + r
     lower = box((length, 2 * r, r), (0, 0, z - r / 2))
     upper = along("x", cylinder(r, -length / 2, length / 2, n), 0, 0, z)
     flange = box((length + 0.04, 2 * r + 0.12, 0.03), (0, 0, z))
@@ -287,10 +287,10 @@ def _decanter(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="decanter centrifuge")
 
 
-def _hydrocyclones(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _hydrocyclones(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Hydrocyclones or multicyclones: slim cones round a distributor or in a row over a trough, on a frame."""
     count, r = int(rng.integers(2, 7)), float(rng.uniform(0.05, 0.12))
-    tall, n = r * float(rng.uniform(6, 10)), sides(hand, r)
+    tall, n = r * float(rng.uniform(6, 10)), sides(style, r)
     low = float(rng.uniform(0.4, 0.7))
     cone = turned([(0.25 * r, low), (0.3 * r, low + 0.06), (r, low + 0.75 * tall), (r, low + tall)], n)
     cap = merge(
@@ -334,14 +334,14 @@ def _hydrocyclones(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="hydrocyclone")
 
 
-def _air_pot(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _air_pot(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An air and dirt separator in a line: a pot offset up or down from it with a vent valve, a drain cock, a split."""
     radius = PIPES[dn].radius
     r = 1.8 * radius + float(rng.uniform(0.02, 0.05))
-    n, name = hand.round(r), _NAME
+    n, name = style.round(r), _NAME
     length = round(2 * (r + plate_thickness(dn) + nut_room(dn) + 0.02), 6)
     neck = 0.485 * FLANGES[dn].hub
-    body = flanged_body(dn, hand, length, [(neck, 0.25 * length), (neck, 0.75 * length)])
+    body = flanged_body(dn, style, length, [(neck, 0.25 * length), (neck, 0.75 * length)])
     up, down = float(rng.uniform(1.0, 3.0)) * r, float(rng.uniform(0.9, 3.5)) * r
     pot = turned(
         [
@@ -390,14 +390,14 @@ def _air_pot(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, length, kind="air separator")
 
 
-def _vane(dn: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _vane(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A steam or gas separator in a line: a barrel of one size more under it, with a flanged lid and drip leg."""
     radius = PIPES[dn].radius
     r = 1.5 * radius + 0.02
-    n, name = hand.round(r), _NAME
+    n, name = style.round(r), _NAME
     length = round(2 * (1.6 * r + plate_thickness(dn) + nut_room(dn) + 0.02), 6)
     neck = 0.485 * FLANGES[dn].hub
-    body = flanged_body(dn, hand, length, [(neck, 0.2 * length), (neck, 0.8 * length)])
+    body = flanged_body(dn, style, length, [(neck, 0.2 * length), (neck, 0.8 * length)])
     lying = along("x", turned([(neck, -1.6 * r), (r, -1.1 * r), (r, 1.1 * r), (neck, 1.6 * r)], n), length / 2)
     leg, deep = 0.7 * r, float(rng.uniform(1.6, 3.2)) * r
     pot = turned([(0.4 * leg, -deep - 0.25 * leg), (leg, -deep), (leg, -0.5 * r)], n)

@@ -8,7 +8,7 @@ from cadplants.families.vessels.vesselbuild import closed_vessel, tank_family
 from cadplants.families.vessels.vesselware import Drum, head_height, sides
 from cadplants.family import Family, Model, Part, Port, placed
 from cadplants.mesh_ops import Solid, merge, moved, sweep
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rope, turned
 from cadplants.transforms import at, spun
@@ -29,10 +29,10 @@ def _bladder(r: float, tall: float, n: int, z: float) -> Solid:
     return moved(turned(outline, n), at(0, 0, z))
 
 
-def _expansion_feet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _expansion_feet(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A membrane expansion vessel (EN 13831) on three bent feet or a ring, its connection below, gas valve on top."""
     r = float(rng.uniform(0.18, 0.5))
-    tall, n = r * float(rng.uniform(1.8, 4.0)), sides(hand, r)
+    tall, n = r * float(rng.uniform(1.8, 4.0)), sides(style, r)
     clear = float(rng.uniform(0.12, 0.25))
     z = clear + tall / 2
     parts = [Part(_bladder(r, tall, n, z), "shell", "handle" if rng.random() < 0.5 else "tank", "tank")]
@@ -61,11 +61,11 @@ def _expansion_feet(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="expansion vessel")
 
 
-def _expansion_wall(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _expansion_wall(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A small expansion vessel on a wall: upright or flat, held by a bracket with a strap, a hose or pipe below."""
     r = float(rng.uniform(0.12, 0.24))
     flat = bool(rng.random() < 0.35)
-    tall, n = (0.7 * r if flat else r * float(rng.uniform(1.6, 2.6))), sides(hand, r)
+    tall, n = (0.7 * r if flat else r * float(rng.uniform(1.6, 2.6))), sides(style, r)
     z, gap = float(rng.uniform(1.2, 1.7)), 0.05
     wall = box((1.4, 0.12, 2.2), (0, r + gap + 0.06, 1.1))
     if flat:
@@ -105,14 +105,14 @@ def _expansion_wall(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _hydrophore(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _hydrophore(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A domestic pressure tank lying on two bent feet, with a jet pump on a bracket on its back and a hose."""
     r = float(rng.uniform(0.15, 0.27))
-    length, n = r * float(rng.uniform(1.6, 3.0)), sides(hand, r)
+    length, n = r * float(rng.uniform(1.6, 3.0)), sides(style, r)
     axis = r + 0.09
     lay = at(-length / 2, 0, axis) @ spun("y", np.pi / 2)
     drum = Drum(r, 0.0, length, n)
-    parts = placed(closed_vessel(drum, "torispherical", "torispherical", hand), lay)
+    parts = placed(closed_vessel(drum, "torispherical", "torispherical", style), lay)
     for x in (-0.28 * length, 0.28 * length):
         foot = [
             (x, -0.9 * r, 0.003),
@@ -164,10 +164,10 @@ def _hydrophore(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="pressure tank")
 
 
-def _buffer(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _buffer(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """An insulated buffer or hot-water cylinder: a foam jacket with a seam strip, a lid, rosettes, sleeves, a hatch."""
     r = float(rng.uniform(0.28, 0.6))
-    tall, n = float(rng.uniform(1.1, 2.1)), sides(hand, r)
+    tall, n = float(rng.uniform(1.1, 2.1)), sides(style, r)
     foot = float(rng.choice([0.0, 0.05, 0.1]))
     jacket = [Part(cylinder(r, foot, foot + tall, n), "shell", "dial", "tank")]
     lid = (
@@ -205,9 +205,9 @@ def _buffer(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(jacket, ports=tuple(ports), kind="buffer tank")
 
 
-def _bottle(r: float, tall: float, hand: Hand, cap: bool) -> list[Part]:
+def _bottle(r: float, tall: float, style: ModelingStyle, cap: bool) -> list[Part]:
     """A gas bottle (EN ISO 9809) about z: round shoulder, collar, a valve or a valve cap, a concave foot."""
-    n, neck = max(12, hand.round(r)), 0.028 + 0.06 * r
+    n, neck = max(12, style.round(r)), 0.028 + 0.06 * r
     a = np.linspace(0, np.pi / 2, 6)
     body = [(0.94 * r, 0.0), (r, 0.03)] + [(neck + (r - neck) * np.cos(t), tall - r + 0.8 * r * np.sin(t)) for t in a]
     top = tall - 0.2 * r
@@ -231,7 +231,7 @@ def _bottle(r: float, tall: float, hand: Hand, cap: bool) -> list[Part]:
     return parts
 
 
-def _bottles(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _bottles(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Gas bottles (10 to 50 l) in a rack: a frame with chains, or on a wall with clamps; a manifold above some."""
     r, tall = ((0.115, 1.6), (0.102, 1.0), (0.07, 0.9), (0.15, 0.6))[int(rng.integers(4))]
     count, rows = int(rng.integers(1, 6)), int(rng.choice([1, 1, 2]))
@@ -239,7 +239,7 @@ def _bottles(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     parts: list[Part] = []
     xs = (np.arange(count) - (count - 1) / 2) * pitch
     base = float(rng.choice([0.0, 0.06]))
-    one = _bottle(r, tall, hand, cap)
+    one = _bottle(r, tall, style, cap)
     for row in range(rows):
         for x in xs:
             parts += placed(one, at(float(x), -row * pitch, base) @ spun("z", -np.pi / 2))

@@ -9,7 +9,7 @@ from cadplants.families.valves.valve import bolt_circle, disc_flange
 from cadplants.family import Family, Model, Part, Port
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, extrude, merge, moved, revolve, weld
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, ball, box, cylinder, hexagon, ring, rod, turned
 from cadplants.standards import FLANGES, PIPES
@@ -38,12 +38,12 @@ def head_profile(kind: str, r: float, steps: int = 10) -> list[tuple[float, floa
     return [(r * np.cos(t), 0.5 * r * np.sin(t)) for t in a[:-1]] + [(0.0, 0.5 * r)]
 
 
-def _head(kind: str, r: float, hand: Hand, n: int) -> Solid:
-    """A head about z, its rim at 0, its apex up; a sheet where the hand models hollow."""
+def _head(kind: str, r: float, style: ModelingStyle, n: int) -> Solid:
+    """A head about z, its rim at 0, its apex up; a sheet where the style models hollow."""
     profile = head_profile(kind, r)
     skirt = 0.06 * r
     outside = [(r, 0.0), *((x, z + skirt) for x, z in profile)]
-    if not hand.hollow:
+    if not style.hollow:
         return turned(outside, n)
     wall = max(0.003, 0.012 * r)
     share = 1 - wall / r
@@ -54,18 +54,18 @@ def _head(kind: str, r: float, hand: Hand, n: int) -> Solid:
     )
 
 
-def _shell(r: float, height: float, hand: Hand, n: int) -> Solid:
-    return ring(r - max(0.003, 0.012 * r) if hand.hollow else 0.0, r, 0.0, height, n)
+def _shell(r: float, height: float, style: ModelingStyle, n: int) -> Solid:
+    return ring(r - max(0.003, 0.012 * r) if style.hollow else 0.0, r, 0.0, height, n)
 
 
-def nozzle(dn: int, reach: float, hand: Hand, name: str = "nozzle") -> list[Part]:
+def nozzle(dn: int, reach: float, style: ModelingStyle, name: str = "nozzle") -> list[Part]:
     """A nozzle about z from -0.03 up to its flange's face at ``reach`` [m]; a lid, bolts and a hinge on a manway."""
-    n, thick = hand.round(PIPES[dn].radius), plate_thickness(dn)
-    tube = ring(PIPES[dn].bore if hand.hollow else 0.0, PIPES[dn].radius, -0.03, reach - 0.5 * thick, n)
-    plate = moved(disc_flange(dn, hand, thick), at(0, 0, reach) @ spun("x", np.pi))
+    n, thick = style.round(PIPES[dn].radius), plate_thickness(dn)
+    tube = ring(PIPES[dn].bore if style.hollow else 0.0, PIPES[dn].radius, -0.03, reach - 0.5 * thick, n)
+    plate = moved(disc_flange(dn, style, thick), at(0, 0, reach) @ spun("x", np.pi))
     parts = [Part(tube, name, "tank", name), Part(plate, name, "flange", name)]
     if name == "manway":
-        lid = moved(disc_flange(dn, hand, thick), at(0, 0, reach + 0.002))
+        lid = moved(disc_flange(dn, style, thick), at(0, 0, reach + 0.002))
         parts.append(Part(lid, name, "tank", name))
         size = FLANGES[dn]
         parts.append(
@@ -96,7 +96,9 @@ def _on_side(parts: list[Part], r: float, z: float, angle: float) -> list[Part]:
     return [Part(moved(p.solid, pose), p.name, p.color, p.bundle, p.group, p.fine) for p in parts]
 
 
-def level_gauge(r: float, low: float, high: float, angle: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def level_gauge(
+    r: float, low: float, high: float, angle: float, style: ModelingStyle, rng: np.random.Generator
+) -> list[Part]:
     """A sight-glass column between two cocks, or a magnetic level indicator with its flap rail, on an upright shell."""
     group, out = "Gauge assembly", r + float(rng.uniform(0.1, 0.2))
     column = 0.012 if (glass := bool(rng.random() < 0.5)) else 0.03
@@ -107,7 +109,7 @@ def level_gauge(r: float, low: float, high: float, angle: float, hand: Hand, rng
             along("x", merge([hexagon(0.045, -0.02, 0.02), ring(0.011, 0.03, -0.05, -0.04, 12)]), (r + out) / 2, 0, z)
         )
         caps.append(rod(((r + out) / 2, -0.03, z), ((r + out) / 2, -0.09, z), 0.005, 8))
-    tube = cylinder(column, low - 0.06, high + 0.06, hand.round(column))
+    tube = cylinder(column, low - 0.06, high + 0.06, style.round(column))
     parts = [
         Part(merge(arms), "gauge stem", "trim", "level gauge", group),
         Part(merge(caps), "gauge stem", "trim", "level gauge", group),
@@ -127,7 +129,7 @@ def level_gauge(r: float, low: float, high: float, angle: float, hand: Hand, rng
                 for z in np.linspace(low + 0.02, high - 0.02, 16)
             ]
         )
-        ends = [moved(cylinder(0.05, z, z + 0.015, hand.round(0.05)), at(out)) for z in (low - 0.06, high + 0.045)]
+        ends = [moved(cylinder(0.05, z, z + 0.015, style.round(0.05)), at(out)) for z in (low - 0.06, high + 0.045)]
         parts += [
             Part(merge([moved(tube, at(out)), *ends]), "level gauge", "trim", "level gauge", group),
             Part(rail, "level gauge", "electrical", "level gauge", group),
@@ -136,7 +138,7 @@ def level_gauge(r: float, low: float, high: float, angle: float, hand: Hand, rng
     return [Part(moved(p.solid, spun("z", angle)), p.name, p.color, p.bundle, p.group, p.fine) for p in parts]
 
 
-def _feet(r: float, low: float, kind: str, hand: Hand, rng: np.random.Generator, n: int) -> list[Part]:
+def _feet(r: float, low: float, kind: str, style: ModelingStyle, rng: np.random.Generator, n: int) -> list[Part]:
     """Legs of pipe, angle or square tube with base plates, or a skirt; ``low`` is the shell's rim [m]."""
     if kind == "skirt":
         wall = max(0.004, 0.012 * r)
@@ -147,7 +149,7 @@ def _feet(r: float, low: float, kind: str, hand: Hand, rng: np.random.Generator,
     count, side = int(rng.choice([3, 4])), 0.05 + 0.05 * r
     shape = int(rng.integers(3))
     if shape == 0:
-        leg = ring(0.4 * side if hand.hollow else 0.0, 0.5 * side, 0.0, low + 0.25 * r, hand.round(side))
+        leg = ring(0.4 * side if style.hollow else 0.0, 0.5 * side, 0.0, low + 0.25 * r, style.round(side))
     elif shape == 1:
         leg = extrude(
             np.array([[0, 0], [side, 0], [side, 0.1 * side], [0.1 * side, 0.1 * side], [0.1 * side, side], [0, side]])
@@ -166,18 +168,20 @@ def _feet(r: float, low: float, kind: str, hand: Hand, rng: np.random.Generator,
     return parts
 
 
-def _upright(hand: Hand, rng: np.random.Generator, heads: tuple[str, str], feet: str, r: float, height: float) -> Model:
-    n = hand.round(r) if hand.round(r) < 24 else max(32, hand.round(r))
+def _upright(
+    style: ModelingStyle, rng: np.random.Generator, heads: tuple[str, str], feet: str, r: float, height: float
+) -> Model:
+    n = style.round(r) if style.round(r) < 24 else max(32, style.round(r))
     bottom = head_profile(heads[0], r)[-1][1] + 0.06 * r
     low = 0.0 if heads[0] == "flat" and feet == "none" else bottom + float(rng.uniform(0.15, 0.5))
     base = 0.02 + 0.06 * r if feet == "none" else low
     parts = [
-        Part(moved(_shell(r, height, hand, n), at(0, 0, base)), "shell", "tank", "tank"),
-        Part(moved(_head(heads[1], r, hand, n), at(0, 0, base + height)), "dished head", "tank", "tank"),
-        Part(moved(_head(heads[0], r, hand, n), at(0, 0, base) @ spun("x", np.pi)), "dished head", "tank", "tank"),
+        Part(moved(_shell(r, height, style, n), at(0, 0, base)), "shell", "tank", "tank"),
+        Part(moved(_head(heads[1], r, style, n), at(0, 0, base + height)), "dished head", "tank", "tank"),
+        Part(moved(_head(heads[0], r, style, n), at(0, 0, base) @ spun("x", np.pi)), "dished head", "tank", "tank"),
     ]
     if feet != "none":
-        parts += _feet(r, base, feet, hand, rng, n)
+        parts += _feet(r, base, feet, style, rng, n)
     ports = []
     for k in range(int(rng.integers(1, 4))):
         dn = int(rng.choice([25, 40, 50, 80, 100]))
@@ -188,7 +192,7 @@ def _upright(hand: Hand, rng: np.random.Generator, heads: tuple[str, str], feet:
             base + height * float(rng.uniform(0.15, 0.85)),
             0.08 + PIPES[dn].radius,
         )
-        parts += _on_side(nozzle(dn, reach, hand), r, z, angle)
+        parts += _on_side(nozzle(dn, reach, style), r, z, angle)
         way = np.array([np.cos(angle), np.sin(angle), 0.0])
         if z > 0.6:
             ports.append(Port(looking(way * (r + reach) + (0, 0, z), way), dn))
@@ -197,11 +201,11 @@ def _upright(hand: Hand, rng: np.random.Generator, heads: tuple[str, str], feet:
         dn = 50 if r < 0.6 else 80
         parts += [
             Part(moved(p.solid, at(0, 0, top)), p.name, p.color, p.bundle, p.group, p.fine)
-            for p in nozzle(dn, 0.1, hand)
+            for p in nozzle(dn, 0.1, style)
         ]
         ports.append(Port(looking((0, 0, top + 0.1), (0, 0, 1)), dn))
     if r > 0.5 and rng.random() < 0.6:
-        parts += _on_side(nozzle(300, 0.18, hand, "manway"), r, base + 0.5 * height, 5.2)
+        parts += _on_side(nozzle(300, 0.18, style, "manway"), r, base + 0.5 * height, 5.2)
     if rng.random() < 0.5:
         ear = extrude(
             np.array([[-0.05, 0], [0.05, 0], [0.05, 0.06], [0.02, 0.1], [-0.02, 0.1], [-0.05, 0.06]]),
@@ -213,22 +217,22 @@ def _upright(hand: Hand, rng: np.random.Generator, heads: tuple[str, str], feet:
             pose = spun("z", angle) @ at(0.98 * r, 0, base + height) @ spun("z", np.pi / 2) @ spun("x", np.pi / 2)
             parts.append(Part(moved(ear, pose), "lifting lug", "tank", "tank"))
     if height > 0.6 and rng.random() < 0.5:
-        parts += level_gauge(r, base + 0.2 * height, base + 0.75 * height, 4.2, hand, rng)
+        parts += level_gauge(r, base + 0.2 * height, base + 0.75 * height, 4.2, style, rng)
     return Model(parts, ports=tuple(ports[:3]), kind="tank")
 
 
-def _dished(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _dished(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     r = float(rng.uniform(0.25, 1.0))
     kinds = ("2:1", "torispherical", "hemispherical")
     heads = (str(rng.choice([*kinds, "conical"])), str(rng.choice([*kinds, "flat"])))
-    return _upright(hand, rng, heads, str(rng.choice(["legs", "legs", "skirt"])), r, float(rng.uniform(1.0, 3.5)) * r)
+    return _upright(style, rng, heads, str(rng.choice(["legs", "legs", "skirt"])), r, float(rng.uniform(1.0, 3.5)) * r)
 
 
-def _flat(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _flat(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A flat-bottom tank (API 650 in small) with a conical or flat or dished roof, straight on the ground."""
     r = float(rng.uniform(0.4, 1.4))
     return _upright(
-        hand,
+        style,
         rng,
         ("flat", str(rng.choice(["flat", "conical", "torispherical"]))),
         "none",
@@ -237,23 +241,23 @@ def _flat(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _column(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _column(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A slim column or an expansion vessel."""
     r = float(rng.uniform(0.12, 0.4))
-    return _upright(hand, rng, ("2:1", "2:1"), str(rng.choice(["skirt", "legs"])), r, float(rng.uniform(4, 9)) * r)
+    return _upright(style, rng, ("2:1", "2:1"), str(rng.choice(["skirt", "legs"])), r, float(rng.uniform(4, 9)) * r)
 
 
-def _lying(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _lying(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A horizontal vessel on two saddles, with nozzles on top and at the ends, maybe a manway."""
     r = float(rng.uniform(0.25, 0.8))
-    length, n = float(rng.uniform(2.5, 5.0)) * r, hand.round(r)
+    length, n = float(rng.uniform(2.5, 5.0)) * r, style.round(r)
     axis = r + float(rng.uniform(0.2, 0.5))
     kind = str(rng.choice(["2:1", "torispherical", "hemispherical", "flat"]))
     lay = at(-length / 2, 0, axis) @ spun("y", np.pi / 2)
-    parts = [Part(moved(_shell(r, length, hand, n), lay), "shell", "tank", "tank")]
+    parts = [Part(moved(_shell(r, length, style, n), lay), "shell", "tank", "tank")]
     for s in (1, -1):
         end = at(s * length / 2, 0, axis) @ spun("y", s * np.pi / 2)
-        parts.append(Part(moved(_head(kind, r, hand, n), end), "dished head", "tank", "tank"))
+        parts.append(Part(moved(_head(kind, r, style, n), end), "dished head", "tank", "tank"))
     a = np.linspace(np.pi + 0.5, 2 * np.pi - 0.5, 9)
     cradle = np.vstack(
         [
@@ -284,7 +288,7 @@ def _lying(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         reach = 0.12
         parts += [
             Part(moved(p.solid, at(x, 0, axis + r)), p.name, p.color, p.bundle, p.group, p.fine)
-            for p in nozzle(dn, reach, hand, name)
+            for p in nozzle(dn, reach, style, name)
         ]
         if name == "nozzle":
             ports.append(Port(looking((x, 0, axis + r + reach), (0, 0, 1)), dn))
@@ -296,12 +300,12 @@ def _area(outline: Floats) -> float:
     return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
 
 
-def _box_tank(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _box_tank(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A rectangular tank or an IBC: a box with a cap, stiffeners or a cage, on a pallet."""
     w, d, h = (float(rng.uniform(*span)) for span in ((0.6, 1.6), (0.6, 1.1), (0.6, 1.3)))
     base = 0.14
     body = moved(extrude(rounded_rectangle(w, d, 0.06, 4), base, base + h), at())
-    lid = moved(cylinder(0.09, base + h, base + h + 0.04, hand.round(0.09)), at(0.1 * w, 0))
+    lid = moved(cylinder(0.09, base + h, base + h + 0.04, style.round(0.09)), at(0.1 * w, 0))
     parts = [Part(body, "shell", "tank", "tank"), Part(lid, "manway", "rubber", "tank")]
     if rng.random() < 0.5:
         posts = [
@@ -327,16 +331,16 @@ def _box_tank(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         parts.append(Part(merge(ribs), "shell", "tank", "tank"))
     skids = [box((w, 0.1, base), (0, y, base / 2)) for y in (-0.4 * d, 0, 0.4 * d)]
     parts.append(Part(merge(skids), "tank leg", "steel"))
-    spout = nozzle(50, 0.1, hand)
+    spout = nozzle(50, 0.1, style)
     pose = at(0, -d / 2, base + 0.12) @ spun("x", np.pi / 2)
     parts += [Part(moved(p.solid, pose), p.name, p.color, p.bundle, p.group, p.fine) for p in spout]
     return Model(parts, kind="tank")
 
 
-def _sphere(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _sphere(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A spherical vessel or an expansion tank on legs."""
     r = float(rng.uniform(0.2, 0.6))
-    n, axis = hand.round(r), r + float(rng.uniform(0.2, 0.4))
+    n, axis = style.round(r), r + float(rng.uniform(0.2, 0.4))
     parts = [Part(moved(ball(r, n, float(rng.choice([1.0, 0.8, 1.3]))), at(0, 0, axis)), "shell", "tank", "tank")]
     if rng.random() < 0.5:
         parts.append(Part(ring(0.99 * r, 1.03 * r, axis - 0.02, axis + 0.02, n), "shell", "tank", "tank"))

@@ -10,7 +10,7 @@ from cadgraph.model.scene import Floats
 from cadplants.families.vessels.vesselware import Drum, wrapped
 from cadplants.family import Part
 from cadplants.mesh_ops import Solid, extrude, merge, moved, revolve, sweep, weld
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle, section_angle, section_channel, section_i
 from cadplants.primitives import around, box, cylinder, hexagon, ring, rod, torus
 from cadplants.transforms import at, spun
@@ -49,7 +49,7 @@ def anchors(points: list[tuple[float, float]], thread: float, grip: float) -> Pa
 # --- saddles, for a vessel along x with its axis at a height ---
 
 
-def saddle(kind: str, r: float, axis: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def saddle(kind: str, r: float, axis: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """One saddle across x = 0 (DIN 28080, or built as small makers do), the vessel's axis at ``axis`` over the floor.
 
     ``ribbed`` (wear plate, web, ribs, base), ``block`` (timber or plastic), ``sheet`` (bent sheet), ``concrete`` (a
@@ -57,26 +57,26 @@ def saddle(kind: str, r: float, axis: float, hand: Hand, rng: np.random.Generato
     """
     half = float(rng.uniform(0.85, 1.1))
     if kind == "frame":
-        return _frame_saddle(r, axis, hand, rng)
+        return _frame_saddle(r, axis, style, rng)
     if kind == "concrete":
         wide = float(rng.uniform(0.2, 0.4))
-        pier = _cradle(r, axis, 1.15 * r + 0.04, wide, hand, 1.1)
+        pier = _cradle(r, axis, 1.15 * r + 0.04, wide, style, 1.1)
         parts = [Part(pier, "saddle", "concrete", "saddle")]
         if rng.random() < 0.5:
-            strap = _across(wrapped(r, -0.45, np.pi + 0.9, -0.03, 0.03, 0.006, hand), axis)
+            strap = _across(wrapped(r, -0.45, np.pi + 0.9, -0.03, 0.03, 0.006, style), axis)
             parts.append(Part(strap, "clamp", "steel", "", _JOINT))
         return parts
     if kind == "block":
         wide = float(rng.uniform(0.08, 0.2))
         parts = [
-            Part(_cradle(r, axis, float(rng.uniform(0.65, 0.95)) * r, wide, hand, 0.75), "saddle", "rubber", "saddle")
+            Part(_cradle(r, axis, float(rng.uniform(0.65, 0.95)) * r, wide, style, 0.75), "saddle", "rubber", "saddle")
         ]
         return parts
     if kind == "sheet":
-        return _sheet_saddle(r, axis, hand, rng)
+        return _sheet_saddle(r, axis, style, rng)
     wide, thick = 0.10 + 0.1 * r, 0.008 + 0.006 * r
-    wear = _across(wrapped(r - 0.002, -np.pi / 2 - half, 2 * half, -0.6 * wide, 0.6 * wide, thick, hand), axis)
-    web = _cradle(r, axis, 0.9 * r, thick, hand, 0.9 * half, 0.5 * thick)
+    wear = _across(wrapped(r - 0.002, -np.pi / 2 - half, 2 * half, -0.6 * wide, 0.6 * wide, thick, style), axis)
+    web = _cradle(r, axis, 0.9 * r, thick, style, 0.9 * half, 0.5 * thick)
     ribs = []
     for y in np.linspace(-0.8, 0.8, int(rng.integers(2, 5))) * r:
         top = axis - np.sqrt(r * r - y * y) - 0.3 * thick
@@ -96,10 +96,12 @@ def _across(solid: Solid, axis: float) -> Solid:
     return moved(solid, at(0, 0, axis) @ spun("z", np.pi / 2) @ spun("x", np.pi / 2))
 
 
-def _cradle(r: float, axis: float, reach: float, wide: float, hand: Hand, half: float, lift: float = -0.002) -> Solid:
+def _cradle(
+    r: float, axis: float, reach: float, wide: float, style: ModelingStyle, half: float, lift: float = -0.002
+) -> Solid:
     """A plate or block across x with a round seat for the vessel, from the floor up."""
     half = min(half, float(np.arcsin(min(0.99, reach / r))) if reach < r else half)
-    a = np.linspace(-np.pi / 2 - half, -np.pi / 2 + half, max(5, hand.round(r) // 3))
+    a = np.linspace(-np.pi / 2 - half, -np.pi / 2 + half, max(5, style.round(r) // 3))
     seat = (r + lift) * np.column_stack([np.cos(a), np.sin(a)])
     edge = max(reach, float(seat[:, 0].max()) + 0.001)
     foot = -axis
@@ -107,10 +109,10 @@ def _cradle(r: float, axis: float, reach: float, wide: float, hand: Hand, half: 
     return _across(extrude(np.vstack([seat, corners])[::-1], -wide / 2, wide / 2), axis)
 
 
-def _sheet_saddle(r: float, axis: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _sheet_saddle(r: float, axis: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """A saddle folded from one sheet: a box without ribs, its sides flared to the feet, with bent-out flanges."""
     wide, thick, half = 0.08 + 0.12 * r, 0.004, float(rng.uniform(0.6, 0.9))
-    seat = _across(wrapped(r - 0.001, -np.pi / 2 - half, 2 * half, -wide / 2, wide / 2, thick, hand), axis)
+    seat = _across(wrapped(r - 0.001, -np.pi / 2 - half, 2 * half, -wide / 2, wide / 2, thick, style), axis)
     y, z = r * np.sin(half), axis - r * np.cos(half)
     spread = float(rng.uniform(1.0, 1.35)) * y
     walls = []
@@ -124,11 +126,11 @@ def _sheet_saddle(r: float, axis: float, hand: Hand, rng: np.random.Generator) -
     return [Part(merge([seat, *walls]), "saddle", "steel"), anchors(spots, 0.012, thick)]
 
 
-def _frame_saddle(r: float, axis: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _frame_saddle(r: float, axis: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """Two legs of angle, channel or tube with a cross bar and a cradle of flat bar."""
     side, half = 0.05 + 0.05 * r, float(rng.uniform(0.7, 1.0))
     wide = 1.4 * side
-    strip = _across(wrapped(r - 0.001, -np.pi / 2 - half, 2 * half, -wide / 2, wide / 2, 0.01, hand), axis)
+    strip = _across(wrapped(r - 0.001, -np.pi / 2 - half, 2 * half, -wide / 2, wide / 2, 0.01, style), axis)
     y, top = r * np.sin(0.8 * half), axis - r * np.cos(0.8 * half)
     shapes = (
         section_angle(side, 0.1 * side) - 0.4 * side,
@@ -150,7 +152,7 @@ def _frame_saddle(r: float, axis: float, hand: Hand, rng: np.random.Generator) -
 # --- skirts and legs, under an upright drum ---
 
 
-def skirt(kind: str, drum: Drum, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def skirt(kind: str, drum: Drum, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """A skirt under a drum (DIN 28082): ``open`` (doorways), ``flared`` or ``chairs`` (bolt chairs)."""
     r, low, name = drum.r, drum.low, "skirt"
     wall, thick = max(0.006, 0.012 * r), 0.012 + 0.01 * r
@@ -171,7 +173,7 @@ def skirt(kind: str, drum: Drum, hand: Hand, rng: np.random.Generator) -> list[P
     inner = r - drum.dip - 0.001
     base = ring(0.85 * r, 1.16 * r + 0.03, 0.0, thick, drum.n)
     if kind == "open":
-        return [*_open_skirt(inner, low, lap, wall, thick, drum, hand, rng), Part(base, name, "tank", name)]
+        return [*_open_skirt(inner, low, lap, wall, thick, drum, style, rng), Part(base, name, "tank", name)]
     tube = ring(inner, r + wall, thick, low + lap, drum.n)
     count, tall = int(rng.choice([8, 12, 16])), float(rng.uniform(0.1, 0.2))
     reach = 0.13 * r + 0.03
@@ -194,7 +196,14 @@ def skirt(kind: str, drum: Drum, hand: Hand, rng: np.random.Generator) -> list[P
 
 
 def _open_skirt(
-    inner: float, low: float, lap: float, wall: float, thick: float, drum: Drum, hand: Hand, rng: np.random.Generator
+    inner: float,
+    low: float,
+    lap: float,
+    wall: float,
+    thick: float,
+    drum: Drum,
+    style: ModelingStyle,
+    rng: np.random.Generator,
 ) -> list[Part]:
     """A cylindrical skirt with doorways, and pipe sleeves or vents near its top."""
     sill, head = thick + 0.12 * low, thick + 0.6 * low
@@ -205,7 +214,7 @@ def _open_skirt(
     for k in range(count):
         start = 2 * np.pi * k / count + door / 2
         turn = 2 * np.pi / count - door
-        solids.append(wrapped(inner, start, turn, sill, head, full, hand))
+        solids.append(wrapped(inner, start, turn, sill, head, full, style))
         for a in (start, start + turn):
             frames.append(moved(box((0.05, 0.012, head - sill), (drum.r, 0, (head + sill) / 2)), spun("z", a)))
     vents = [
@@ -217,7 +226,7 @@ def _open_skirt(
     return [Part(merge(solids), "skirt", "tank", "skirt"), Part(merge([*frames, *vents]), "skirt", "tank", "skirt")]
 
 
-def legs(kind: str, drum: Drum, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def legs(kind: str, drum: Drum, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """Legs under a drum (DIN 28081): ``angle``, ``pipe`` (slanted or upright, on round feet), ``beam`` (braced rolled).
 
     Also ``bracket`` (lugs that rest on a frame), ``pads`` (short feet under the head) and ``tripod`` (bent flat bars).
@@ -239,9 +248,9 @@ def legs(kind: str, drum: Drum, hand: Hand, rng: np.random.Generator) -> list[Pa
             )
             solid = merge([solid, box((0.02, 1.6 * side, 1.3 * lap), (out + 0.008, 0, low + 0.65 * lap))])
         elif kind == "pads":
-            solid = _short_foot(r, low, side, hand)
+            solid = _short_foot(r, low, side, style)
         elif kind == "pipe":
-            solid = rod((out + 0.45 * side, 0, 0.01), (out + 0.45 * side, 0, low + lap), 0.5 * side, hand.round(side))
+            solid = rod((out + 0.45 * side, 0, 0.01), (out + 0.45 * side, 0, low + lap), 0.5 * side, style.round(side))
         elif kind == "tripod":
             path = np.array(
                 [(out + 0.004, 0, low + lap), (out + 0.004, 0, low), (1.15 * r, 0, 0.06), (1.15 * r + 0.08, 0, 0.006)]
@@ -262,10 +271,10 @@ def legs(kind: str, drum: Drum, hand: Hand, rng: np.random.Generator) -> list[Pa
     return parts
 
 
-def _short_foot(r: float, low: float, side: float, hand: Hand) -> Solid:
+def _short_foot(r: float, low: float, side: float, style: ModelingStyle) -> Solid:
     """A stub under the head with a levelling pad."""
     x = 0.68 * r
-    stub = cylinder(0.45 * side, 0.03, low + 0.02, hand.round(side))
+    stub = cylinder(0.45 * side, 0.03, low + 0.02, style.round(side))
     pad = merge([cylinder(0.2 * side, 0.01, 0.04, 10), cylinder(0.8 * side, 0, 0.015, 16)])
     return moved(merge([stub, pad]), at(x))
 
@@ -312,9 +321,9 @@ def _bracketed(drum: Drum, rng: np.random.Generator) -> list[Part]:
 # --- access ---
 
 
-def ladder(x: float, low: float, high: float, hand: Hand, caged: bool, spacers: float) -> list[Part]:
+def ladder(x: float, low: float, high: float, style: ModelingStyle, caged: bool, spacers: float) -> list[Part]:
     """A ladder beside a shell (ISO 14122-4) at ``x`` from the axis, its spacers reaching back this far [m]."""
-    n, wide = max(6, min(10, hand.round(0.02))), 0.4
+    n, wide = max(6, min(10, style.round(0.02))), 0.4
     solids = [rod((x, s * wide / 2, low), (x, s * wide / 2, high), 0.02, n) for s in (-1, 1)]
     solids += [rod((x, -wide / 2, z), (x, wide / 2, z), 0.011, 6) for z in np.arange(low + 0.25, high - 0.05, 0.28)]
     for z in np.arange(low + 0.4, high - 0.9, 1.5):

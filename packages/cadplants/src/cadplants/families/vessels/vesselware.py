@@ -13,7 +13,7 @@ from cadplants.families.vessels.vessel import head_profile
 from cadplants.family import Part
 from cadplants.flange import nut_room, plate_thickness
 from cadplants.mesh_ops import Solid, extrude, merge, moved, revolve, weld
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, rope, torus, turned
 from cadplants.standards import FLANGES, PIPES
@@ -38,10 +38,10 @@ __all__ = [
 _JOINT = "Connection assembly"
 
 
-def sides(hand: Hand, radius: float) -> int:
+def sides(style: ModelingStyle, radius: float) -> int:
     """Sides of a vessel's circle: what is large is drawn neither as coarse as a pipe nor finer than needed [m]."""
     least = 8 if radius < 0.15 else 12 if radius < 0.6 else 16
-    return min(max(hand.round(radius), least), 52)
+    return min(max(style.round(radius), least), 52)
 
 
 def renamed(parts: Sequence[Part], name: str) -> list[Part]:
@@ -74,9 +74,9 @@ class Drum:
         """A frame on its surface with z outward and x downward."""
         return spun("z", angle) @ at(self.r, 0, z) @ spun("y", np.pi / 2)
 
-    def solid(self, hand: Hand) -> Solid:
-        """The sheet, or a full cylinder where the hand models no insides."""
-        return ring(self.r - max(0.003, 0.012 * self.r) if hand.hollow else 0.0, self.r, self.low, self.high, self.n)
+    def solid(self, style: ModelingStyle) -> Solid:
+        """The sheet, or a full cylinder where the style models no insides."""
+        return ring(self.r - max(0.003, 0.012 * self.r) if style.hollow else 0.0, self.r, self.low, self.high, self.n)
 
 
 def head_outline(kind: str, r: float) -> list[tuple[float, float]]:
@@ -98,15 +98,15 @@ def head_height(kind: str, r: float) -> float:
     return head_outline(kind, r)[-1][1]
 
 
-def head(kind: str, r: float, hand: Hand, n: int) -> Solid:
-    """A head about z, rim at 0, apex up; a sheet where the hand models hollow."""
-    return capped(head_outline(kind, r), hand, n)
+def head(kind: str, r: float, style: ModelingStyle, n: int) -> Solid:
+    """A head about z, rim at 0, apex up; a sheet where the style models hollow."""
+    return capped(head_outline(kind, r), style, n)
 
 
-def capped(outside: list[tuple[float, float]], hand: Hand, n: int) -> Solid:
-    """A round lid from the outline of its outside, rim (r, 0) to apex (0, h); a sheet where the hand models hollow."""
+def capped(outside: list[tuple[float, float]], style: ModelingStyle, n: int) -> Solid:
+    """A round lid from the outline of its outside, rim (r, 0) to apex (0, h); a sheet where the style models hollow."""
     r = outside[0][0]
-    if not hand.hollow:
+    if not style.hollow:
         return turned(outside, n)
     wall = min(max(0.003, 0.012 * r), 0.5 * outside[-1][1])
     x_share, z_share = 1 - wall / r, 1 - wall / outside[-1][1]
@@ -129,9 +129,9 @@ def bent(solid: Solid, r: float) -> Solid:
     return Solid(vertices, solid.faces)
 
 
-def wrapped(r: float, start: float, turn: float, low: float, high: float, thick: float, hand: Hand) -> Solid:
+def wrapped(r: float, start: float, turn: float, low: float, high: float, thick: float, style: ModelingStyle) -> Solid:
     """A sheet bent round z over an angle from ``start`` [rad], its inside on the radius ``r`` [m]."""
-    a = start + np.linspace(0, turn, max(3, int(np.ceil(hand.round(r) * turn / (2 * np.pi)))) + 1)
+    a = start + np.linspace(0, turn, max(3, int(np.ceil(style.round(r) * turn / (2 * np.pi)))) + 1)
     way = np.column_stack([np.cos(a), np.sin(a)])
     return extrude(np.vstack([(r + thick) * way, r * way[::-1]]), low, high)
 
@@ -144,16 +144,16 @@ def mouth_reach(dn: int, spare: float = 0.03) -> float:
     return plate_thickness(dn) + nut_room(dn) + spare
 
 
-def mouth(kind: str, dn: int, reach: float, hand: Hand, r: float = 0.0, dip: float = 0.0) -> list[Part]:
+def mouth(kind: str, dn: int, reach: float, style: ModelingStyle, r: float = 0.0, dip: float = 0.0) -> list[Part]:
     """A nozzle about z on a surface of radius ``r``, its face at ``reach``; flanges after ASME B16.5 class 150.
 
     ``plain``, ``pad`` (reinforced), ``heavy`` (long welding neck, self-reinforced), ``blind`` (closed), ``vent`` (a
     gooseneck), ``half`` (threaded half coupling), ``ferrule`` (hygienic clamp) or ``fitting`` (with a nut).
     """
     radius, name = PIPES[dn].radius, "nozzle"
-    n, thick = hand.round(radius), plate_thickness(dn)
+    n, thick = style.round(radius), plate_thickness(dn)
     low = -dip - fall(r, 1.3 * radius) - 0.012
-    bore = PIPES[dn].bore if hand.hollow else 0.0
+    bore = PIPES[dn].bore if style.hollow else 0.0
     if kind == "half":
         return [Part(ring(0.7 * radius, 1.35 * radius, low, 0.015 + 0.8 * radius, n), name, "trim")]
     if kind == "ferrule":
@@ -165,9 +165,9 @@ def mouth(kind: str, dn: int, reach: float, hand: Hand, r: float = 0.0, dip: flo
         collar = cylinder(2.1 * radius, low, 0.006, n)
         return [Part(merge([collar, nut, ring(bore, 1.15 * radius, low, reach, n)]), name, "rubber")]
     if kind == "vent":
-        return _gooseneck(radius, bore, low, reach, hand)
+        return _gooseneck(radius, bore, low, reach, style)
     parts = []
-    plate = moved(disc_flange(dn, hand, thick), at(0, 0, reach) @ spun("x", np.pi))
+    plate = moved(disc_flange(dn, style, thick), at(0, 0, reach) @ spun("x", np.pi))
     neck = 0.485 * FLANGES[dn].hub if kind == "heavy" else radius
     tube = ring(bore, neck, low, reach - 0.5 * thick, n)
     if kind == "heavy":
@@ -178,7 +178,7 @@ def mouth(kind: str, dn: int, reach: float, hand: Hand, r: float = 0.0, dip: flo
         pad = bent(ring(1.0 * radius, 1.9 * radius + 0.01, -dip - 0.003, 0.008, max(16, n)), r)
         parts.append(Part(pad, name, "tank", name))
     if kind == "blind":
-        lid = moved(disc_flange(dn, hand, thick), at(0, 0, reach))
+        lid = moved(disc_flange(dn, style, thick), at(0, 0, reach))
         parts.append(Part(lid, "blind flange", "flange", name, "Pipe assembly"))
         size = FLANGES[dn]
         bolts = bolt_circle(size.n_bolts, size.circle / 2, size.bolt, reach - thick, reach + thick)
@@ -186,9 +186,9 @@ def mouth(kind: str, dn: int, reach: float, hand: Hand, r: float = 0.0, dip: flo
     return parts
 
 
-def _gooseneck(radius: float, bore: float, low: float, reach: float, hand: Hand) -> list[Part]:
+def _gooseneck(radius: float, bore: float, low: float, reach: float, style: ModelingStyle) -> list[Part]:
     """A vent: a stub with a return bend on it."""
-    n, wide = hand.round(radius), 3.0 * radius
+    n, wide = style.round(radius), 3.0 * radius
     a = np.linspace(0, np.pi, 9)
     path = np.column_stack([wide - wide * np.cos(a), np.zeros(9), reach + wide * np.sin(a)])
     path = np.vstack([path, [(2 * wide, 0, reach - 1.5 * radius)]])
@@ -202,14 +202,14 @@ def _gooseneck(radius: float, bore: float, low: float, reach: float, hand: Hand)
 
 
 def manway(
-    kind: str, size: float, hand: Hand, rng: np.random.Generator, r: float = 0.0, dip: float = 0.0
+    kind: str, size: float, style: ModelingStyle, rng: np.random.Generator, r: float = 0.0, dip: float = 0.0
 ) -> list[Part]:
     """A manway about z (after API 650, or makers): ``hinged``, ``davit``, ``swing``, ``hatch``, ``oval``, ``lid``.
 
     Args:
         kind: its closure; ``swing`` has swing bolts round a dished lid, ``lid`` is a screwed or clamped plastic lid.
         size: radius of its neck [m].
-        hand: that models it.
+        style: that models it.
         rng: of its proportions.
         r: radius of the shell it sits on [m], 0 where that is flat.
         dip: how far the shell's flats lie inside its circle [m].
@@ -218,14 +218,14 @@ def manway(
     if kind == "hatch":
         return _hatch(size, low, rng)
     if kind == "oval":
-        return _oval(size, low, hand)
+        return _oval(size, low, style)
     if kind == "lid":
-        return _screw_lid(size, low, hand, rng)
+        return _screw_lid(size, low, style, rng)
     if kind == "swing":
-        return _swing(size, low, hand, rng)
-    n, name = hand.round(size), "manway"
+        return _swing(size, low, style, rng)
+    n, name = style.round(size), "manway"
     tall, thick, wide = float(rng.uniform(0.10, 0.25)), 0.012 + 0.05 * size, 1.25 * size + 0.02
-    neck = ring(0.96 * size if hand.hollow else 0.0, size, low, tall, n)
+    neck = ring(0.96 * size if style.hollow else 0.0, size, low, tall, n)
     rim = ring(0.96 * size, wide, tall - thick, tall, n)
     top = tall + thick
     lid = dome(wide, 0.25 * size, top, n) if rng.random() < 0.25 else cylinder(wide, tall, top, n)
@@ -237,18 +237,18 @@ def manway(
     parts.append(Part(bolts, "bolt", "fastener", name, _JOINT, True))
     if rng.random() < 0.5:
         parts.append(Part(bent(ring(size, 1.7 * size, -dip - 0.004, 0.008, n), r), name, "tank", name))
-    arm = _davit(wide, tall, top, hand) if kind == "davit" else _hinge(wide, tall, top)
+    arm = _davit(wide, tall, top, style) if kind == "davit" else _hinge(wide, tall, top)
     return [*parts, Part(arm, name, "steel", name)]
 
 
-def _davit(wide: float, tall: float, top: float, hand: Hand) -> Solid:
+def _davit(wide: float, tall: float, top: float, style: ModelingStyle) -> Solid:
     """A post in a sleeve beside the flange with an arm over the lid and a hook bolt."""
     x = wide + 0.03
     path = [(x, 0, tall - 0.12), (x, 0, top + 0.16), (0.85 * x, 0, top + 0.2), (0.0, 0, top + 0.2)]
     sleeve = moved(cylinder(0.03, tall - 0.1, tall - 0.01, 10), at(x))
     web = box((0.06, 0.012, 0.07), (wide + 0.005, 0, tall - 0.055))
     return merge(
-        [rope(path, 0.018, min(12, hand.round(0.018))), sleeve, web, rod((0, 0, top), (0, 0, top + 0.2), 0.01, 8)]
+        [rope(path, 0.018, min(12, style.round(0.018))), sleeve, web, rod((0, 0, top), (0, 0, top + 0.2), 0.01, 8)]
     )
 
 
@@ -261,9 +261,9 @@ def _hinge(wide: float, tall: float, top: float) -> Solid:
     return merge([*leaves, pin, rope(grip, 0.009, 8)])
 
 
-def _swing(size: float, low: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _swing(size: float, low: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """A quick-opening manway: a dished lid under swing bolts with wing nuts in slotted ears."""
-    n, tall, name = hand.round(size), float(rng.uniform(0.06, 0.16)), "manway"
+    n, tall, name = style.round(size), float(rng.uniform(0.06, 0.16)), "manway"
     neck = turned([(size, low), (size, tall - 0.02), (1.08 * size, tall - 0.02), (1.08 * size, tall)], n)
     lid = turned(
         [
@@ -313,9 +313,9 @@ def _hems(w: float, d: float, tall: float) -> list[Solid]:
     return along_x + [box((0.004, d, 0.04), (s * (w / 2 - 0.002), 0, tall - 0.016)) for s in (-1, 1)]
 
 
-def _oval(size: float, low: float, hand: Hand) -> list[Part]:
+def _oval(size: float, low: float, style: ModelingStyle) -> list[Part]:
     """An oval inspection opening (handhole) with its inside cover pulled up by one or two bridges."""
-    n, name = hand.round(size), "manway"
+    n, name = style.round(size), "manway"
     squeeze = np.diag([1.0, 0.72, 1.0, 1.0])
     rim = moved(ring(0.85 * size, size, low, 0.04, n), squeeze)
     cover = moved(cylinder(0.84 * size, 0.0, 0.022, n), squeeze)
@@ -338,9 +338,9 @@ def _oval(size: float, low: float, hand: Hand) -> list[Part]:
     ]
 
 
-def _screw_lid(size: float, low: float, hand: Hand, rng: np.random.Generator) -> list[Part]:
+def _screw_lid(size: float, low: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
     """A screwed plastic lid with grips round its edge, on a short neck."""
-    n, name = hand.round(size), "manway"
+    n, name = style.round(size), "manway"
     neck = cylinder(0.94 * size, low, 0.03, n)
     lid = turned([(size, 0.012), (size, 0.06), (0.9 * size, 0.075), (0.3 * size, 0.085), (0.0, 0.085)], n)
     grips = around(box((0.02, 0.03, 0.05), (0, 0, 0.037)), int(rng.choice([8, 12, 16])), size)
@@ -350,7 +350,7 @@ def _screw_lid(size: float, low: float, hand: Hand, rng: np.random.Generator) ->
 # --- lifting lugs ---
 
 
-def lug(kind: str, size: float, hand: Hand, r: float = 0.0, dip: float = 0.0) -> list[Part]:
+def lug(kind: str, size: float, style: ModelingStyle, r: float = 0.0, dip: float = 0.0) -> list[Part]:
     """A lifting lug about z, its pull along -x (upward on an upright shell); ``size`` is its width [m].
 
     ``plate``, ``pad`` (on a doubler), ``trunnion``, ``eyebolt`` (DIN 580), ``ring`` (a bent bar) or ``cheeks`` (two
@@ -358,7 +358,7 @@ def lug(kind: str, size: float, hand: Hand, r: float = 0.0, dip: float = 0.0) ->
     """
     name, s, low = "lifting lug", size, -dip - 0.01
     if kind == "trunnion":
-        n = hand.round(0.4 * s)
+        n = style.round(0.4 * s)
         pad = bent(ring(0.0, 0.95 * s, -dip - 0.004, 0.01, max(16, n)), r)
         pipe = cylinder(0.4 * s, low - fall(r, 0.4 * s), 1.1 * s, n)
         return [Part(merge([pad, pipe, cylinder(0.6 * s, 1.1 * s, 1.1 * s + 0.015, n)]), name, "tank")]

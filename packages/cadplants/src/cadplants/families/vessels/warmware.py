@@ -8,7 +8,7 @@ from cadplants.families.vessels.heatware import equipment_family, equipment_mout
 from cadplants.families.vessels.vesselware import sides
 from cadplants.family import Family, Model, Part, Port, placed
 from cadplants.mesh_ops import Solid, extrude, merge, moved
-from cadplants.modeling_style import Hand
+from cadplants.modeling_style import ModelingStyle
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, lofted, ring, rod, rope, turned
 from cadplants.transforms import at, spun
@@ -37,10 +37,10 @@ def _valve(x: float, y: float, z: float, s: int) -> list[Part]:
     ]
 
 
-def _towel(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _towel(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A towel rail (EN 442): round, D or flat bars in groups between two rails, on wall brackets, valves below."""
     w, h, low = float(rng.choice([0.4, 0.5, 0.6])), float(rng.choice([0.8, 1.2, 1.5, 1.8])), 0.25
-    n, groups, kind = max(6, min(12, hand.round(0.015))), int(rng.integers(2, 5)), int(rng.integers(3))
+    n, groups, kind = max(6, min(12, style.round(0.015))), int(rng.integers(2, 5)), int(rng.integers(3))
     rails = [rod((x, 0, low), (x, 0, low + h), 0.019, n) for x in (-w / 2, w / 2)]
     if rng.random() < 0.4:
         rails = [box((0.04, 0.03, h), (x, 0, low + h / 2)) for x in (-w / 2, w / 2)]
@@ -70,7 +70,7 @@ def _towel(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="towel radiator")
 
 
-def _convector(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _convector(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A convector: a sheet case with a louvred outlet above, a finned tube inside, on feet or a wall."""
     w, h, d = float(rng.uniform(0.6, 1.8)), float(rng.uniform(0.2, 0.7)), float(rng.uniform(0.08, 0.2))
     low, t = float(rng.uniform(0.06, 0.12)), 0.003
@@ -104,18 +104,18 @@ def _convector(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="convector")
 
 
-def _finned_tube(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _finned_tube(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """Finned tubes as heaters of halls: one to four rows with round or square fins, return bends, on wall brackets."""
     length, rows = float(rng.uniform(1.0, 3.0)), int(rng.integers(1, 5))
     r, fin = float(rng.choice([0.017, 0.024, 0.03])), float(rng.uniform(0.045, 0.075))
-    pitch, low, n = 2.5 * fin, float(rng.uniform(0.25, 0.5)), hand.round(fin)
+    pitch, low, n = 2.5 * fin, float(rng.uniform(0.25, 0.5)), style.round(fin)
     square, count = bool(rng.random() < 0.5), int(np.clip(length / 0.02, 30, 90))
     zs = low + pitch * np.arange(rows)
     one = box((0.0015, 1.9 * fin, 1.9 * fin)) if square else along("x", cylinder(fin, -0.001, 0.001, min(n, 16)))
     row = merge([moved(one, at(x)) for x in np.linspace(-0.46, 0.46, count) * length])
     parts = []
     for z in zs:
-        tube = rod((-length / 2 - 0.02, 0, z), (length / 2 + 0.02, 0, z), r, hand.round(r))
+        tube = rod((-length / 2 - 0.02, 0, z), (length / 2 + 0.02, 0, z), r, style.round(r))
         parts.append(Part(merge([moved(row, at(0, 0, z)), tube]), _RAD, "steel", _RAD))
     a = np.linspace(-np.pi / 2, np.pi / 2, 9)
     for k in range(rows - 1):
@@ -123,7 +123,7 @@ def _finned_tube(_: int, hand: Hand, rng: np.random.Generator) -> Model:
             [length / 2 + 0.02 + pitch / 2 * np.cos(a), np.zeros(9), (zs[k] + zs[k + 1]) / 2 + pitch / 2 * np.sin(a)]
         )
         path[:, 0] *= (1, -1)[k % 2]
-        parts.append(Part(rope(path, r, hand.round(r)), "elbow", "pipe", "", _PIPE))
+        parts.append(Part(rope(path, r, style.round(r)), "elbow", "pipe", "", _PIPE))
     wall, holders = fin + 0.05, []
     for x in (-0.485 * length, 0.485 * length):
         holders.append(box((0.03, 0.006, zs[-1] - zs[0] + 0.16), (x, wall - 0.003, (zs[0] + zs[-1]) / 2)))
@@ -132,7 +132,7 @@ def _finned_tube(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="finned tube heater")
 
 
-def _cast(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _cast(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A cast-iron radiator: rounded sections of two to six columns with waists, cast feet on the end ones, plugs."""
     count, columns = int(rng.integers(4, 14)), int(rng.choice([2, 3, 4, 6]))
     h, pitch, gap = (
@@ -140,7 +140,7 @@ def _cast(_: int, hand: Hand, rng: np.random.Generator) -> Model:
         float(rng.uniform(0.05, 0.07)),
         float(rng.uniform(0.036, 0.05)),
     )
-    n, low, deep = max(8, min(12, hand.round(0.02))), 0.09, (columns - 1) * gap
+    n, low, deep = max(8, min(12, style.round(0.02))), 0.09, (columns - 1) * gap
     wide = 0.42 * pitch
     shaft = turned(
         [
@@ -189,7 +189,7 @@ def _cast(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     return Model(parts, kind="cast radiator")
 
 
-def _plinth(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _plinth(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A skirting or bench radiator: long flat or round tubes on edge, on consoles, maybe a grille."""
     w, rows, cols = float(rng.uniform(0.8, 2.4)), int(rng.choice([1, 2, 3])), int(rng.integers(2, 5))
     low, gap = 0.1, 0.035
@@ -242,7 +242,7 @@ def _plinth(_: int, hand: Hand, rng: np.random.Generator) -> Model:
 # --- air and water ---
 
 
-def _duct_coil(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _duct_coil(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A finned coil for a duct: a flanged sheet frame, fins across many rows, return bends at one end, two headers."""
     w, h, rows = float(rng.uniform(0.5, 1.4)), float(rng.uniform(0.4, 1.0)), int(rng.choice([2, 3, 4, 6]))
     deep, low = 0.05 + 0.033 * rows, float(rng.uniform(0.08, 0.4))
@@ -262,9 +262,9 @@ def _duct_coil(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     heads, stubs = [], []
     for s in (-1, 1):
         y = s * (deep / 2 + r + 0.005)
-        heads.append(rod((-w / 2 - 0.05, y, low + 0.04), (-w / 2 - 0.05, y, low + h - 0.04), r, hand.round(r)))
+        heads.append(rod((-w / 2 - 0.05, y, low + 0.04), (-w / 2 - 0.05, y, low + h - 0.04), r, style.round(r)))
         z = low + (0.1 if s > 0 else h - 0.1)
-        stubs.append(rod((-w / 2 - 0.05, y, z), (-w / 2 - 0.2, y, z), 0.8 * r, hand.round(r)))
+        stubs.append(rod((-w / 2 - 0.05, y, z), (-w / 2 - 0.2, y, z), 0.8 * r, style.round(r)))
         stubs += [
             rod((-w / 2 + 0.002, s * 0.3 * deep, z), (-w / 2 - 0.05, y, z), 0.006, 6)
             for z in np.arange(low + 0.06, low + h - 0.05, 0.08)
@@ -282,10 +282,10 @@ def _duct_coil(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     )
 
 
-def _cooling_tower(_: int, hand: Hand, rng: np.random.Generator) -> Model:
+def _cooling_tower(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A cooling tower: round (bottle) or square, a basin, louvres, a casing, a fan ring on top, an inlet."""
     r, name = float(rng.uniform(0.6, 1.3)), _HEX
-    h, low, n = r * float(rng.uniform(1.4, 2.2)), float(rng.uniform(0.2, 0.5)), sides(hand, r)
+    h, low, n = r * float(rng.uniform(1.4, 2.2)), float(rng.uniform(0.2, 0.5)), sides(style, r)
     round_one = bool(rng.random() < 0.5)
     fan = 0.5 * r
     solids: list[Solid] = []
@@ -345,7 +345,9 @@ def _cooling_tower(_: int, hand: Hand, rng: np.random.Generator) -> Model:
     for z, a in ((low + 0.7 * h, 0.0), (low + 0.2, np.pi / 2)):
         reach = (0.93 * r if round_one else r) if z > low + 0.5 else (1.04 if round_one else 1.05) * r
         pose = spun("z", a) @ at(reach, 0, z) @ spun("y", np.pi / 2)
-        some, port = equipment_mouth(name, int(rng.choice([50, 65, 80])), pose, hand, r if round_one else 0.0, 0.05 * r)
+        some, port = equipment_mouth(
+            name, int(rng.choice([50, 65, 80])), pose, style, r if round_one else 0.0, 0.05 * r
+        )
         parts += some
         ports += port
     return Model(parts, ports=tuple(ports), kind="cooling tower")
