@@ -19,7 +19,7 @@ from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary
 from cadgraph.stages.adjacency import find_near_meshes, join_contacts
 from cadgraph.stages.assemble import Results, assemble_graph
-from cadgraph.stages.bridge import cut_bridges, find_weak_bridges, tell_bridges
+from cadgraph.stages.bridge import cut_bridges, find_weak_bridges, report_bridges
 from cadgraph.stages.cluster import cluster_parts
 from cadgraph.stages.ground import find_ground
 from cadgraph.stages.group import group_meshes
@@ -108,7 +108,7 @@ def analyse(scene: Scene, config: Config | None = None, progress: Progress = qui
     contacts = join_contacts(near, parts.part_of_mesh, config.cluster.eps)
     progress("cluster", 0)
     bridges = find_weak_bridges(parts.n_parts, contacts, parts.ground, config.cluster)
-    from_bridges = tell_bridges(bridges, contacts, parts, config.cluster.cut_bridges)
+    from_bridges = report_bridges(bridges, contacts, parts, config.cluster.cut_bridges)
     contacts = cut_bridges(contacts, bridges) if config.cluster.cut_bridges else contacts
     cluster = cluster_parts(parts.n_parts, contacts, parts.ground, config.cluster.min_samples)
     cluster = join_enclosed(cluster, parts)

@@ -112,8 +112,8 @@ def read_bytes_within(path: str | Path, limit: Limit, error: type[Exception], re
         if source.is_char_device() or source.is_block_device():
             raise error(f"{path}: a device; {remedy}")
         with source.open("rb") as file:
-            told = source.stat()
-            size = told.st_size if stat.S_ISREG(told.st_mode) else 0
+            status = source.stat()
+            size = status.st_size if stat.S_ISREG(status.st_mode) else 0
             content = file.read(limit.most + 1) if size <= limit.most else b""
     except OSError as failure:
         raise error(f"{path}: can't be read ({failure.strerror}); {remedy}") from failure

@@ -63,15 +63,15 @@ def apply_catalogs(
         labels: of each part so far.
         catalogs: the first that knows a shape counts.
         parts: with their geometry.
-        vocabulary: entries with labels outside are left out, and told.
+        vocabulary: entries with labels outside are left out, and reported.
 
     Returns:
-        The labels of each part, and what is to be told.
+        The labels of each part, and what is to be reported.
     """
     if not catalogs:
         return tuple(labels), ()
     whole, files, foreign = _gathered(catalogs, vocabulary)
-    told = [
+    diagnostics = [
         Diagnostic(
             "catalog-outside-vocabulary",
             f"entries with labels that the vocabulary lacks are not used: {', '.join(foreign)}; add them to the "
@@ -87,14 +87,14 @@ def apply_catalogs(
             result[part] = _label(whole.entries[match.entry], files[match.entry], match)
     if torn:
         heads = tuple(parts.scene.paths[int(rows[row])] for row in torn)
-        told.append(
+        diagnostics.append(
             Diagnostic(
                 "catalog-ambiguous",
                 f"{len(torn)} shapes fit entries of different labels about equally well, so no catalogue decides",
                 heads,
             )
         )
-    return tuple(result), tuple(told)
+    return tuple(result), tuple(diagnostics)
 
 
 def find_matches(

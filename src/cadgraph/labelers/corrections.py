@@ -54,7 +54,7 @@ def apply_corrections(
         contacts: pairs of parts that are adjacent.
 
     Returns:
-        The labels of each part, and what is to be told.
+        The labels of each part, and what is to be reported.
     """
     if not corrections:
         return tuple(labels), ()

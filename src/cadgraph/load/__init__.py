@@ -121,9 +121,9 @@ def _check_file(file: Path, given: str) -> None:
     try:
         if file.is_dir():
             raise LoadError(f"{given}: a folder; give one of the files in it ({_known_suffixes()})")
-        told = file.stat()
-        if not stat.S_ISREG(told.st_mode):
-            raise LoadError(f"{given}: not a regular file but {kind_of(told.st_mode)}; give a file on a disk")
+        status = file.stat()
+        if not stat.S_ISREG(status.st_mode):
+            raise LoadError(f"{given}: not a regular file but {kind_of(status.st_mode)}; give a file on a disk")
         with file.open("rb"):
             pass
     except FileNotFoundError:
@@ -131,7 +131,7 @@ def _check_file(file: Path, given: str) -> None:
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
         raise LoadError(f"{given}: can't be opened ({reason}); check the path and its permissions") from None
-    if told.st_size == 0:
+    if status.st_size == 0:
         raise LoadError(f"{given}: the file is empty; export it again")
 
 

@@ -96,7 +96,7 @@ def pack(
     Mirrored pieces get their triangles turned, so that these still face outward. A piece without area is left out
     (``degenerate-mesh``), and so is one with a placement that isn't finite (``invalid-transform``) or that reaches
     farther than a million kilometres from the origin (``too-far``). A scene smaller than a millimetre or larger than
-    100 km is told (``unusual-size``).
+    100 km is reported (``unusual-size``).
 
     Args:
         pieces: in any order.
@@ -115,7 +115,7 @@ def pack(
         kept, vertices = _placed(ordered, matrices, origin, notes)
         mirrored = np.linalg.det(matrices[kept, :3, :3]) < 0
     ordered = [ordered[i] for i in kept]
-    _tell_size(vertices, source, notes)
+    _note_size(vertices, source, notes)
     faces = [p.faces[:, ::-1] if turned else p.faces for p, turned in zip(ordered, mirrored.tolist(), strict=True)]
     taken: set[str] = set()
     paths = tuple(unique_name(piece.path, taken) for piece in ordered)
@@ -174,7 +174,7 @@ def _placed(pieces: Sequence[Piece], matrices: Floats, origin: Floats, notes: No
     return kept, vertices
 
 
-def _tell_size(vertices: Floats, source: Source, notes: Notes) -> None:
+def _note_size(vertices: Floats, source: Source, notes: Notes) -> None:
     if not len(vertices):
         return
     size = float((vertices.max(axis=0) - vertices.min(axis=0)).max())

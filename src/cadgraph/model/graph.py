@@ -71,8 +71,8 @@ class SceneGraph:
         always = {"part": layers["part"], "cluster": layers["cluster"], "unit": layers["unit"]}
         others = {"mesh": self.source.n_meshes, **{name: layers[name] for name in ("junction", "terminal", "system")}}
         others |= {"contact": kinds["adjacent"], "connection": kinds["connected"], "relation": kinds["related"]}
-        told = [_count(n, noun) for noun, n in (always | {name: n for name, n in others.items() if n}).items()]
-        return f"<SceneGraph of {self.source.path!r}: {', '.join(told)}>"
+        words = [_count(n, noun) for noun, n in (always | {name: n for name, n in others.items() if n}).items()]
+        return f"<SceneGraph of {self.source.path!r}: {', '.join(words)}>"
 
     # What is in the graph
 
@@ -386,8 +386,8 @@ class SceneGraph:
     def _unit_types(self) -> set[str]:
         """Those in the graph, and those of the vocabulary's groups."""
         trees = [tree for tree in self.document.vocabulary.values() if isinstance(tree, Mapping)]
-        told = {str(tree["unit"]) for tree in trees if tree.get("unit")}
-        return told | {unit.unit_type for unit in self.of_layer(Unit)}
+        types = {str(tree["unit"]) for tree in trees if tree.get("unit")}
+        return types | {unit.unit_type for unit in self.of_layer(Unit)}
 
     def _check_label(self, group: str | None, name: str | None) -> None:
         """A group or name that can't be in the graph is a mistake, not an empty answer."""

@@ -85,9 +85,9 @@ class Scene:
 
     def __repr__(self) -> str:
         counts = ((self.n_meshes, "mesh", "es"), (self.n_triangles, "triangle", "s"))
-        told = [f"{n:,} {noun}{'' if n == 1 else plural}" for n, noun, plural in counts]
-        told += [f"{len(self.diagnostics):,} diagnostics"] if self.diagnostics else []
-        return f"<Scene of {self.source.path!r}: {', '.join(told)}>"
+        words = [f"{n:,} {noun}{'' if n == 1 else plural}" for n, noun, plural in counts]
+        words += [f"{len(self.diagnostics):,} diagnostics"] if self.diagnostics else []
+        return f"<Scene of {self.source.path!r}: {', '.join(words)}>"
 
     @classmethod
     def from_meshes(

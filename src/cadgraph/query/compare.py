@@ -138,7 +138,7 @@ class Comparison:
     orders: tuple[OtherOrder, ...]
     directions: tuple[OtherDirection, ...]
     kinds: tuple[Difference, ...]
-    told: tuple[str, ...]
+    skipped: tuple[str, ...]
 
     @property
     def agrees(self) -> bool:
@@ -191,7 +191,7 @@ def compare(
         orders=orders,
         directions=_directions(names, regions),
         kinds=_kinds(networks, matching.pairs),
-        told=tuple(finding.message for finding in plan.diagnostics),
+        skipped=tuple(finding.message for finding in plan.diagnostics),
     )
 
 
@@ -329,13 +329,13 @@ def _row(names: _Names, line: Line, side: int) -> list[str]:
 def _directions(names: _Names, regions: tuple[list[Region], list[Region]]) -> tuple[OtherDirection, ...]:
     """Where the flow goes the other way, in the pieces of pipe that join the same units in both."""
     built, drawn = (_by_ends(names, found, side) for side, found in enumerate(regions))
-    told = []
+    skipped = []
     for ends, own in built.items():
         others = drawn.get(ends, [])
         # Of two pipes between the same two units nobody knows which is which.
         if len(own) == len(others) == 1:
-            told += _against(ends, _flows(names, own[0], 0), _flows(names, others[0], 1))
-    return tuple(told)
+            skipped += _against(ends, _flows(names, own[0], 0), _flows(names, others[0], 1))
+    return tuple(skipped)
 
 
 def _by_ends(names: _Names, regions: Iterable[Region], side: int) -> dict[tuple[str, ...], list[Region]]:

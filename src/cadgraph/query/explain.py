@@ -84,8 +84,8 @@ class Explanation:
         ]
         before = self.evidence.before
         if before is not None:
-            told = [_percent(before.confidence), *([before.source] if before.source else [])]
-            rows.append(("before", f"{spell_label(before.group, before.name)} ({', '.join(told)})"))
+            said = [_percent(before.confidence), *([before.source] if before.source else [])]
+            rows.append(("before", f"{spell_label(before.group, before.name)} ({', '.join(said)})"))
         if self.guesses:
             rows.append(("guesses", ", ".join(f"{name} {p:.0%}" for name, p in self.guesses)))
         rows.append(("touches", _some([f"{n.label or 'unlabelled'} ({n.part})" for n in self.neighbors]) or "nothing"))

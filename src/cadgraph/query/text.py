@@ -222,7 +222,7 @@ def comparison_lines(found: Comparison, *, most: int = 20) -> list[str]:
         *_listed([_way(way.at, way.to, way.plant, way.plan) for way in found.directions], most),
         f"kinds          {len(found.kinds)} differ",
         *_listed(aligned([(*k.where, f"{k.plant} in the plant,", f"{k.plan} in the plan") for k in found.kinds]), most),
-        *(f"note: {remark}" for remark in found.told),
+        *(f"note: {remark}" for remark in found.skipped),
         "",
         "the plant and the plan agree" if found.agrees else "the plant and the plan differ",
     ]
@@ -280,7 +280,7 @@ def comparison_values(found: Comparison) -> dict[str, Any]:
         "orders": {"agree": list(found.lines), "differ": [dataclasses.asdict(order) for order in found.orders]},
         "directions": [dataclasses.asdict(way) for way in found.directions],
         "kinds": [dataclasses.asdict(kind) for kind in found.kinds],
-        "notes": list(found.told),
+        "notes": list(found.skipped),
     }
 
 

@@ -14,7 +14,7 @@ from cadgraph.config import ClusterConfig
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.parts import Bools, Contacts, Parts
 
-__all__ = ["Bridge", "cut_bridges", "find_weak_bridges", "tell_bridges"]
+__all__ = ["Bridge", "cut_bridges", "find_weak_bridges", "report_bridges"]
 
 
 @dataclass(frozen=True)
@@ -105,9 +105,9 @@ def cut_bridges(contacts: Contacts, bridges: Sequence[Bridge]) -> Contacts:
     return Contacts(contacts.pairs[keep], contacts.distance[keep], contacts.points[keep])
 
 
-def tell_bridges(bridges: Sequence[Bridge], contacts: Contacts, parts: Parts, cut: bool) -> tuple[Diagnostic, ...]:
+def report_bridges(bridges: Sequence[Bridge], contacts: Contacts, parts: Parts, cut: bool) -> tuple[Diagnostic, ...]:
     """One diagnostic for each bridge: the gap, the number of parts on either side, and the two parts."""
-    told = []
+    diagnostics = []
     for bridge in bridges:
         heads = tuple(parts.scene.paths[part] for part in contacts.pairs[bridge.contact])
         gap = 1000 * contacts.distance[bridge.contact]
@@ -115,5 +115,5 @@ def tell_bridges(bridges: Sequence[Bridge], contacts: Contacts, parts: Parts, cu
             f"a single contact over a gap of {gap:.1f} mm {'joined' if cut else 'joins'} "
             f"{bridge.sizes[0]} parts and {bridge.sizes[1]} parts{', and was cut' if cut else ''}"
         )
-        told.append(Diagnostic("weak-bridge", message, heads))
-    return tuple(told)
+        diagnostics.append(Diagnostic("weak-bridge", message, heads))
+    return tuple(diagnostics)

@@ -36,17 +36,17 @@ def inspect_meshes(
     """
     duplicates = find_duplicates(scene, properties) if config.duplicates else None
     visible = find_visible(scene, properties) if config.hidden else None
-    told = list(findings(scene, properties, duplicates, visible))
+    diagnostics = list(findings(scene, properties, duplicates, visible))
     out = np.zeros(scene.n_meshes, np.bool_)
     if "duplicate" in config.exclude and duplicates is not None:
         out |= duplicates.exact
     if "hidden" in config.exclude and visible is not None:
         out |= ~visible & (properties.area > 0)
     if not out.any():
-        return scene, properties, tuple(told)
+        return scene, properties, tuple(diagnostics)
     paths = tuple(scene.paths[i] for i in np.flatnonzero(out))
     message = f"{len(paths)} meshes left out, as set (inspect.exclude = {list(config.exclude)})"
-    told.append(Diagnostic("excluded", message, paths))
+    diagnostics.append(Diagnostic("excluded", message, paths))
     keep = np.flatnonzero(~out)
     kept = {field.name: getattr(properties, field.name)[keep] for field in dataclasses.fields(properties)}
-    return scene.select(keep), Properties(**kept), tuple(told)
+    return scene.select(keep), Properties(**kept), tuple(diagnostics)

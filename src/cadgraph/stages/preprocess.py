@@ -31,19 +31,19 @@ def prepare_scene(scene: Scene) -> tuple[Scene, tuple[Diagnostic, ...]]:
     if bad.any():
         path = scene.paths[int(mesh_of_face(scene)[bad][0])]
         raise ValueError(f"{path}: a face refers to a vertex that the mesh doesn't have")
-    told: list[Diagnostic] = []
+    diagnostics: list[Diagnostic] = []
     finite = np.asarray(np.isfinite(scene.vertices).all(axis=1))
     if not finite.all():
         broken = np.unique(mesh_of_vertex(scene)[~finite])
         message = "vertices that are not finite, and the faces that use them, were left out"
-        told.append(Diagnostic("nonfinite-vertices", message, tuple(scene.paths[i] for i in broken)))
+        diagnostics.append(Diagnostic("nonfinite-vertices", message, tuple(scene.paths[i] for i in broken)))
         scene = _keep_vertices(scene, finite)
     empty = np.diff(scene.vertex_offsets) == 0
     if empty.any():
         paths = tuple(scene.paths[i] for i in np.flatnonzero(empty))
-        told.append(Diagnostic("empty-mesh", "meshes without a finite vertex were left out", paths))
+        diagnostics.append(Diagnostic("empty-mesh", "meshes without a finite vertex were left out", paths))
         scene = scene.select(np.flatnonzero(~empty))
-    return scene, tuple(told)
+    return scene, tuple(diagnostics)
 
 
 def _keep_vertices(scene: Scene, keep: Bools) -> Scene:

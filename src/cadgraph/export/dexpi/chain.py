@@ -159,7 +159,7 @@ def _merged(one: Connected, other: Connected, item: str) -> Connected:
     after = other if other.source == item else _turned(other)
     kept = [size for edge in (before, after) for size in (edge.sizes or (edge.size,)) if size is not None]
     longer = before if (before.length or 0.0) >= (after.length or 0.0) else after
-    told = before if before.direction != "unknown" else after
+    known = before if before.direction != "unknown" else after
     unknown = before.length is None and after.length is None
     return before.model_copy(
         update={
@@ -169,8 +169,8 @@ def _merged(one: Connected, other: Connected, item: str) -> Connected:
             "size": longer.size,
             "diameter": longer.diameter,
             "sizes": tuple(size for i, size in enumerate(kept) if i == 0 or size != kept[i - 1]),
-            "direction": told.direction,
-            "reason": told.reason,
+            "direction": known.direction,
+            "reason": known.reason,
         }
     )
 

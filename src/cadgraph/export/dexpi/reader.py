@@ -60,8 +60,8 @@ def read_dexpi(path: str | Path) -> SceneGraph:
 
     What cadgraph wrote comes back as it was, without parts and geometry. In files of other tools a segment is taken to
     flow from its source to its target, as DEXPI has it; lengths are then unknown, flanges and other fittings that only
-    join pipes are passed over. What can't be understood is skipped and told as a finding of the graph. A document type
-    is refused, so that no entity is ever expanded or fetched.
+    join pipes are passed over. What can't be understood is skipped and reported in the graph's diagnostics. A document
+    type is refused, so that no entity is ever expanded or fetched.
 
     Args:
         path: the file.

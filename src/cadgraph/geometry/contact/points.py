@@ -85,7 +85,7 @@ def find_point_contacts(surface: SurfacePoints, limit: float, progress: Progress
     Args:
         surface: the points of all meshes.
         limit: greatest distance [m].
-        progress: told how far it is.
+        progress: called with the name of a stage and the share of it that is done.
 
     Returns:
         The pairs with the distance of their closest points and these points.

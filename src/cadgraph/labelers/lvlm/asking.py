@@ -97,7 +97,7 @@ class Asking:
         size: side of a picture [px].
         n_pictures: of a question.
         keep: where questions and replies are kept for audit, or None.
-        note: told after each answer.
+        note: called after each answer.
     """
 
     answerer: Answerer

@@ -101,7 +101,7 @@ def grow(
         start: the tree so far; an empty one lets the model begin from nothing, as the paper does.
         asking: who is asked.
         count: pictures.
-        progress: told how far it is.
+        progress: called with the name of a stage and the share of it that is done.
     """
     tree = start
     merged: list[Merged] = []

@@ -199,24 +199,24 @@ class LvlmLabeler:
     ) -> tuple[Diagnostic, ...]:
         """What has no answer, and what was proposed; the files of the run are written."""
         paths = round_.parts.scene.paths
-        told = []
+        diagnostics = []
         by_reason: dict[str, list[str]] = {}
         for reason, kind in round_.unanswered:
             by_reason.setdefault(reason, []).extend(paths[part] for part in kind.parts)
         for reason, meshes in sorted(by_reason.items()):
             message = f"{len(meshes)} parts have no answer of the vision-language model: {reason}"
-            told.append(Diagnostic("lvlm-unanswered", message[:_MESSAGE], tuple(meshes)))
+            diagnostics.append(Diagnostic("lvlm-unanswered", message[:_MESSAGE], tuple(meshes)))
         rest = [paths[part] for kind in kinds[n_asked:] for part in kind.parts]
         if rest:
             message = f"{len(rest)} parts were not asked about: the budget was used where it helps more"
-            told.append(Diagnostic("lvlm-budget", message, tuple(rest)))
+            diagnostics.append(Diagnostic("lvlm-budget", message, tuple(rest)))
         if self.proposals:
             shown = ", ".join(f"{g}: {n}" for g, n, _ in sorted(self.proposals, key=str)[:5])
             message = f"{len(self.proposals)} labels outside the vocabulary were proposed ({shown}...)"
-            told.append(Diagnostic("lvlm-proposals", message[:_MESSAGE]))
+            diagnostics.append(Diagnostic("lvlm-proposals", message[:_MESSAGE]))
         if self._folder is not None:
             self._write(round_, polls)
-        return tuple(told)
+        return tuple(diagnostics)
 
     def _write(self, round_: _Round, polls: Mapping[int, _Settled]) -> None:
         if self._folder is None or self.estimate is None:

@@ -38,7 +38,7 @@ class Run:
         results: files of the provider's batch results to read first.
         keep_renders: whether questions and replies are kept as files.
         confirm: shown the estimate before the first question.
-        note: told after each answer.
+        note: called after each answer.
     """
 
     mode: Literal["ask", "dry", "batch", "folder"] = "ask"

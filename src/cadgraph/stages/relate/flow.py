@@ -71,7 +71,7 @@ def direct_flow(
                 direction_confidence=round(best.confidence, 3),
             )
         )
-    told = []
+    diagnostics = []
     if against:
         paths = parts.scene.paths
         lines = [
@@ -80,10 +80,10 @@ def direct_flow(
             for a, b in against
         ]
         meshes = tuple(paths[part] for a, _ in against for part in network.links[a.link].via[:1])
-        told.append(
+        diagnostics.append(
             Diagnostic("flow-contradiction", "reasons disagree which way it flows; " + "; ".join(lines), meshes)
         )
-    return replace(network, links=tuple(links)), tuple(told)
+    return replace(network, links=tuple(links)), tuple(diagnostics)
 
 
 def stated_flow(network: Network, statements: Sequence[str]) -> list[_Evidence]:

@@ -58,7 +58,7 @@ def reproduce(
         seed: of all plants.
         quick: only the riser, as whole plant and as the one structure of Table I, with small pictures; for tests.
         labelings: where labels come from; the first must be the true ones.
-        progress: told how far it is.
+        progress: called with the name of a stage and the share of it that is done.
 
     Returns:
         The page.
