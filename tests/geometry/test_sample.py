@@ -32,3 +32,10 @@ def test_what_has_no_area_is_at_the_origin():
     assert not spread_points(SQUARE[:0], np.array([0, 0]), 5).points.any()
     assert spread_points(flat, np.array([0]), 5).points.shape == (0, 5, 3)
     assert spread_points(SQUARE, np.array([0, 2]), 0).points.shape == (1, 0, 3)
+
+
+def test_what_the_labeler_sees_starts_in_the_corner_without_the_corner_itself():
+    samples = spread_points(SQUARE[:1], np.array([0, 1]), 1, seed=0.0)
+    # The first multiple of the two steps, folded into the triangle.
+    u, v = 1 - 0.7548776662466927, 1 - 0.5698402909980532
+    assert samples.points[0, 0].tolist() == pytest.approx([u + v, v, 0], abs=1e-15)

@@ -28,22 +28,24 @@ class Samples:
 
 
 def sample_surfaces(scene: Scene, count: int) -> Samples:
-    """Spreads points over each mesh in proportion to area, without chance; see ``spread_points``.
+    """Spreads points over each mesh, as the embedded labeler has learnt to see them; see ``spread_points``.
 
     Args:
         scene: any.
         count: points on each mesh.
     """
-    return spread_points(scene.triangles(), scene.face_offsets, count)
+    return spread_points(scene.triangles(), scene.face_offsets, count, seed=0.0)
 
 
-def spread_points(triangles: Floats, offsets: Ints, count: int) -> Samples:
+def spread_points(triangles: Floats, offsets: Ints, count: int, seed: float = 0.5) -> Samples:
     """Spreads points over sets of triangles in proportion to area, without chance.
 
     Args:
         triangles: ``(n_triangles, 3, 3)`` corners [m].
         offsets: ``(n_sets + 1,)``; set ``i`` owns ``triangles[offsets[i]:offsets[i + 1]]``.
         count: points on each set.
+        seed: where in the unit square the sequence starts; of one that starts in the corner, at 0, the first point is
+            left out.
 
     Returns:
         Their points; all at the origin, with a normal of zero, where a set has no area. A triangle with a corner that
@@ -67,8 +69,8 @@ def spread_points(triangles: Floats, offsets: Ints, count: int) -> Samples:
     face = np.clip(np.searchsorted(within, wanted), first, np.maximum(last, first))
     some = np.repeat(total > 0, count)
     face = np.where(some, face, 0)
-    k = np.tile(np.arange(1, count + 1), n)
-    u, v = (k * _STEP[0]) % 1.0, (k * _STEP[1]) % 1.0
+    k = np.tile(np.arange(count) + (seed == 0), n)
+    u, v = (seed + k * _STEP[0]) % 1.0, (seed + k * _STEP[1]) % 1.0
     over = u + v > 1
     u, v = np.where(over, 1 - u, u), np.where(over, 1 - v, v)
     corners = triangles[face]
