@@ -17,7 +17,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 from cadgraph.labelers.lvlm.gallery import Gallery
 from cadgraph.labelers.lvlm.prompt import size_text
-from cadgraph.labelers.lvlm.question_groups import find_kinds
+from cadgraph.labelers.lvlm.question_groups import find_question_groups
 from cadgraph.model.parts import Parts
 from cadgraph.pipeline import analyse
 from cadplants import make
@@ -33,7 +33,7 @@ def chosen(parts: Parts, names: Sequence[str], count: int) -> list[tuple[int, in
     """Parts of as many names as possible, each with how many there are of it."""
     first: dict[str, tuple[int, int]] = {}
     rest: list[tuple[int, int]] = []
-    for kind in sorted(find_kinds(parts), key=lambda kind: -len(kind.parts)):
+    for kind in sorted(find_question_groups(parts), key=lambda kind: -len(kind.parts)):
         part = kind.parts[len(kind.parts) // 2]
         if names[part] in first:
             rest.append((part, len(kind.parts)))

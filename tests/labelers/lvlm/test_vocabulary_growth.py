@@ -10,7 +10,7 @@ from cadgraph.labelers.lvlm.asking import Asking, Budget
 from cadgraph.labelers.lvlm.cache import Cache
 from cadgraph.labelers.lvlm.growth import grow, overviews
 from cadgraph.labelers.lvlm.merging import Wish, findings, merge, merge_vocabularies, read_wishes, to_yaml
-from cadgraph.labelers.lvlm.normalize import clean_label, fold_group, fold_name, folded
+from cadgraph.labelers.lvlm.normalize import clean_label, fold_group, fold_name, normalized
 from cadgraph.model.vocabulary import Group, Vocabulary, default_vocabulary, read_vocabulary
 
 TREE = default_vocabulary()
@@ -28,7 +28,7 @@ words = st.text(st.characters(codec="utf-8", exclude_categories=("Cs",)), max_si
     ],
 )
 def test_spellings_fold_into_one(one, other):
-    assert folded(one) == folded(other)
+    assert normalized(one) == normalized(other)
 
 
 @pytest.mark.parametrize(

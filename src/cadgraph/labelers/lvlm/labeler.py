@@ -20,7 +20,7 @@ from cadgraph.labelers.lvlm.hint import Hints, neighbors_of
 from cadgraph.labelers.lvlm.poll import Poll, poll
 from cadgraph.labelers.lvlm.price import Estimate
 from cadgraph.labelers.lvlm.prompt import Wording, label_text, system_text, version
-from cadgraph.labelers.lvlm.question_groups import Kind, find_kinds
+from cadgraph.labelers.lvlm.question_groups import QuestionGroup, find_question_groups
 from cadgraph.labelers.lvlm.repair import repair
 from cadgraph.labelers.lvlm.reply import Question
 from cadgraph.model.diagnostic import Diagnostic
@@ -106,7 +106,7 @@ class LvlmLabeler:
         if self.embedded is not None:
             base = list(self.embedded.label(parts, contacts, vocabulary).answers)
         round_ = _Round(self, parts, contacts, vocabulary, base)
-        kinds = self._chosen(find_kinds(parts, self.way.per), base, parts)
+        kinds = self._chosen(find_question_groups(parts, self.way.per), base, parts)
         planned = [round_.questions(kind) for kind in kinds]
         kept, left_out = self._paid(planned)
         self.estimate = self.asking.estimate([q for questions in kept for q in questions], left_out=left_out)
@@ -122,10 +122,12 @@ class LvlmLabeler:
             labels = repair(labels, parts, round_.near, vocabulary)
         return Labeling.judge(labels, diagnostics=self._report(round_, kinds, len(kept), first))
 
-    def _chosen(self, kinds: Sequence[Kind], base: Sequence[Label | None], parts: Parts) -> list[Kind]:
+    def _chosen(
+        self, kinds: Sequence[QuestionGroup], base: Sequence[Label | None], parts: Parts
+    ) -> list[QuestionGroup]:
         """The kinds to ask about, those first where an answer is worth most: many parts, little known."""
 
-        def doubt(kind: Kind) -> float:
+        def doubt(kind: QuestionGroup) -> float:
             if self.way.ask == "all":
                 return float(len(kind.parts))
             # The ground is found by its place, not by labels.
@@ -195,7 +197,7 @@ class LvlmLabeler:
         return labels
 
     def _report(
-        self, round_: _Round, kinds: Sequence[Kind], n_asked: int, polls: Mapping[int, _Settled]
+        self, round_: _Round, kinds: Sequence[QuestionGroup], n_asked: int, polls: Mapping[int, _Settled]
     ) -> tuple[Diagnostic, ...]:
         """What has no answer, and what was proposed; the files of the run are written."""
         paths = round_.parts.scene.paths
@@ -254,7 +256,7 @@ class LvlmLabeler:
 
 @dataclass(frozen=True)
 class _Settled:
-    kind: Kind
+    kind: QuestionGroup
     poll: Poll
     question: Question
     seen: str
@@ -270,14 +272,14 @@ class _Round:
     ) -> None:  # fmt: skip
         self.parts, self.vocabulary, self.base = parts, vocabulary, base
         self.near = neighbors_of(parts, contacts)
-        self.unanswered: list[tuple[str, Kind]] = []
+        self.unanswered: list[tuple[str, QuestionGroup]] = []
         self._labeler = labeler
         self._gallery = labeler._gallery(parts)
         self._hints = Hints(parts, self.near)
         self._schema = answer_schema(vocabulary)
         self._wordings: dict[str, Wording] = {}
 
-    def questions(self, kind: Kind) -> list[Question]:
+    def questions(self, kind: QuestionGroup) -> list[Question]:
         """About the members that are voted on."""
         way = self._labeler.way
         found = []
@@ -293,7 +295,7 @@ class _Round:
         wording = self._wording(part, self._hints.lines(part, len(settled.kind.parts), labels))
         return self._question(part, replace(wording, before=before))
 
-    def ask(self, kinds: Sequence[Kind], planned: Sequence[list[Question]]) -> dict[int, _Settled]:
+    def ask(self, kinds: Sequence[QuestionGroup], planned: Sequence[list[Question]]) -> dict[int, _Settled]:
         """What the model says of each kind."""
         outcomes = iter(self.send([question for questions in planned for question in questions]))
         settled: dict[int, _Settled] = {}

@@ -1,4 +1,4 @@
-"""Growing the label tree: new labels merged in, spellings folded, nothing lost."""
+"""Growing the label tree: new labels merged in, spellings normalized, nothing lost."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import yaml
 
 from cadgraph._io.limits import PROPOSALS, read_text_within
 from cadgraph.errors import LabelError
-from cadgraph.labelers.lvlm.normalize import clean_label, fold_group, fold_name, folded
+from cadgraph.labelers.lvlm.normalize import clean_label, fold_group, fold_name, normalized
 from cadgraph.model.vocabulary import Group, Vocabulary, read_vocabulary
 
 __all__ = ["Merged", "Wish", "findings", "merge", "merge_vocabularies", "read_wishes", "to_yaml"]
@@ -112,7 +112,7 @@ def _merged(tree: Vocabulary, wish: Wish) -> tuple[Vocabulary, Merged]:
 def _one(name: str) -> str:
     """The last word in the singular, the rest as written."""
     *first, last = name.split(" ")
-    return " ".join([*first, folded(last)]) if "-" not in last else name
+    return " ".join([*first, normalized(last)]) if "-" not in last else name
 
 
 def read_wishes(path: str | Path) -> tuple[Wish, ...]:
@@ -153,12 +153,12 @@ def findings(tree: Vocabulary) -> list[str]:
         if not content.names:
             found.append(f"group {group!r} has no names")
         for name in content.names:
-            places.setdefault(folded(name).replace(" ", ""), []).append(f"{group}: {name}")
+            places.setdefault(normalized(name).replace(" ", ""), []).append(f"{group}: {name}")
     found += [f"one label in several places: {', '.join(each)}" for each in places.values() if len(each) > 1]
     for group, content in tree.groups.items():
         for name in content.names:
             other = next((p for p in [fold_name(name, _without(tree, group, name))] if p is not None), None)
-            if other is not None and folded(other[1]) != folded(name):
+            if other is not None and normalized(other[1]) != normalized(name):
                 found.append(f"{group}: {name} is also called {other[1]!r}, which is in {other[0]!r}")
     if not any(content.connector for content in tree.groups.values()):
         found.append("no group is a connector: no relations will be found along pipes")

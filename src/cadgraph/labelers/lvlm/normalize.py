@@ -12,7 +12,7 @@ import yaml
 from cadgraph._io.text import printable
 from cadgraph.model.vocabulary import Vocabulary
 
-__all__ = ["clean_label", "fold_group", "fold_name", "folded"]
+__all__ = ["clean_label", "fold_group", "fold_name", "normalized"]
 
 MAX_LABEL = 60
 """Characters of a label that somebody proposes; longer is a sentence."""
@@ -36,7 +36,7 @@ def clean_label(text: str, *, lower: bool = True) -> str | None:
     return plain.lower() if lower else plain[0].upper() + plain[1:]
 
 
-def folded(text: str) -> str:
+def normalized(text: str) -> str:
     """What equal labels have in common: lower case, one space for hyphens, the last word in the singular."""
     words = _SPACES.sub(" ", unicodedata.normalize("NFKC", text).casefold()).strip().split(" ")
     # Once more until nothing changes, so that what was folded folds to itself.
@@ -49,8 +49,8 @@ def fold_group(text: str, vocabulary: Vocabulary) -> str | None:
     """The group of the vocabulary that is meant, or None."""
     if text in vocabulary.groups:
         return text
-    wanted = folded(text)
-    return next((group for group in vocabulary.groups if folded(group) == wanted), None)
+    wanted = normalized(text)
+    return next((group for group in vocabulary.groups if normalized(group) == wanted), None)
 
 
 def fold_name(text: str, vocabulary: Vocabulary, group: str | None = None) -> tuple[str, str] | None:
@@ -61,8 +61,8 @@ def fold_name(text: str, vocabulary: Vocabulary, group: str | None = None) -> tu
         vocabulary: the tree.
         group: that it should be in; if None, any, as long as there is only one.
     """
-    wanted = {folded(text)}
-    wanted |= {folded(synonym) for synonym in [_synonyms().get(folded(text))] if synonym}
+    wanted = {normalized(text)}
+    wanted |= {normalized(synonym) for synonym in [_synonyms().get(normalized(text))] if synonym}
     joined = {word.replace(" ", "") for word in wanted}
     groups = [group] if group is not None else list(vocabulary.groups)
     found = [
@@ -70,7 +70,7 @@ def fold_name(text: str, vocabulary: Vocabulary, group: str | None = None) -> tu
         for each in groups
         if each in vocabulary.groups
         for name in vocabulary.groups[each].names
-        if folded(name) in wanted or folded(name).replace(" ", "") in joined
+        if normalized(name) in wanted or normalized(name).replace(" ", "") in joined
     ]
     return found[0] if len(found) == 1 or (found and group is not None) else None
 
@@ -88,4 +88,4 @@ def _singular(word: str) -> str:
 @functools.cache
 def _synonyms() -> dict[str, str]:
     text = resources.files("cadgraph.labelers.lvlm").joinpath("synonyms.yaml").read_text(encoding="utf-8")
-    return {folded(str(key)): str(value) for key, value in yaml.safe_load(text).items()}
+    return {normalized(str(key)): str(value) for key, value in yaml.safe_load(text).items()}

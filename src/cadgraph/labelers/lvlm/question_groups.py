@@ -10,7 +10,7 @@ import numpy as np
 
 from cadgraph.model.parts import Parts
 
-__all__ = ["Kind", "find_kinds"]
+__all__ = ["QuestionGroup", "find_question_groups"]
 
 _SLENDER = 2.0  # from this ratio of the two longest extents on, a part has a long axis that can stand or lie
 _UPRIGHT, _LEVEL = math.cos(math.radians(20)), math.cos(math.radians(70))
@@ -18,7 +18,7 @@ _COLOR_STEPS = 15  # of a channel: two paints that differ by less look alike
 
 
 @dataclass(frozen=True)
-class Kind:
+class QuestionGroup:
     """Parts of the same shape, attitude and colour.
 
     The same bar is a column where it stands and a beam where it lies; the same ring is a nozzle's flange in the paint
@@ -38,7 +38,7 @@ class Kind:
         return tuple(self.parts[place] for place in sorted(places))
 
 
-def find_kinds(parts: Parts, per: Literal["shape", "part"] = "shape") -> tuple[Kind, ...]:
+def find_question_groups(parts: Parts, per: Literal["shape", "part"] = "shape") -> tuple[QuestionGroup, ...]:
     """Groups parts by what one question can settle.
 
     Args:
@@ -50,7 +50,7 @@ def find_kinds(parts: Parts, per: Literal["shape", "part"] = "shape") -> tuple[K
     """
     drawn = np.diff(parts.scene.face_offsets) > 0
     if per == "part":
-        return tuple(Kind((i,)) for i in range(parts.n_parts) if drawn[i])
+        return tuple(QuestionGroup((i,)) for i in range(parts.n_parts) if drawn[i])
     extents, axes = parts.properties.obb_extents, parts.properties.obb_axes
     steep = np.abs(axes[:, 0, 2])
     attitude = np.where(steep > _UPRIGHT, 1, np.where(steep < _LEVEL, 2, 3))
@@ -60,4 +60,4 @@ def find_kinds(parts: Parts, per: Literal["shape", "part"] = "shape") -> tuple[K
     for i in range(parts.n_parts):
         if drawn[i]:
             found.setdefault((int(parts.shape[i]), int(attitude[i]), *colors[i].tolist()), []).append(i)
-    return tuple(Kind(tuple(members)) for members in found.values())
+    return tuple(QuestionGroup(tuple(members)) for members in found.values())

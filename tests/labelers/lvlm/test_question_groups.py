@@ -2,7 +2,7 @@ import numpy as np
 
 import plates
 import shapes
-from cadgraph.labelers.lvlm.question_groups import Kind, find_kinds
+from cadgraph.labelers.lvlm.question_groups import QuestionGroup, find_question_groups
 from cadgraph.model.scene import Scene
 
 UP = np.eye(3)
@@ -10,11 +10,14 @@ LYING = np.array([[0, 0, 1], [0, 1, 0], [-1, 0, 0]], float)
 
 
 def kinds_of(*meshes, colors=None):
-    return find_kinds(plates.parts_of(Scene.from_meshes(meshes, colors=colors)))
+    return find_question_groups(plates.parts_of(Scene.from_meshes(meshes, colors=colors)))
 
 
 def test_equal_shapes_are_one_kind():
-    assert kinds_of(shapes.box(), shapes.box(center=(3, 0, 0)), shapes.sphere()) == (Kind((0, 1)), Kind((2,)))
+    assert kinds_of(shapes.box(), shapes.box(center=(3, 0, 0)), shapes.sphere()) == (
+        QuestionGroup((0, 1)),
+        QuestionGroup((2,)),
+    )
 
 
 def test_a_bar_that_stands_is_another_kind_than_one_that_lies():
@@ -37,12 +40,12 @@ def test_another_paint_is_another_kind():
 def test_every_part_is_in_one_kind_but_those_without_triangles():
     scene = Scene.from_meshes([shapes.box(), ([[0, 0, 0]], np.zeros((0, 3), int)), shapes.box()])
     parts = plates.parts_of(scene)
-    assert sorted(part for kind in find_kinds(parts) for part in kind.parts) == [0, 2]
-    assert [kind.parts for kind in find_kinds(parts, "part")] == [(0,), (2,)]
+    assert sorted(part for kind in find_question_groups(parts) for part in kind.parts) == [0, 2]
+    assert [kind.parts for kind in find_question_groups(parts, "part")] == [(0,), (2,)]
 
 
 def test_members_are_spread_over_all():
-    kind = Kind(tuple(range(10, 20)))
+    kind = QuestionGroup(tuple(range(10, 20)))
     assert kind.members(1) == (10,)
     assert kind.members(3) == (10, 14, 19)
     assert kind.members(99) == kind.parts
