@@ -1,0 +1,325 @@
+"""From surfaces and light to colours: shading, the thin dark lines at edges, and layers put over the background."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from cadgraph.draw.render.color import Colors, from_hex, to_linear, to_srgb
+from cadgraph.draw.render.light import Lamps, Light
+from cadgraph.draw.render.surface import Surfaces, Viewport, in_chunks, step_between
+from cadgraph.geometry.kernels.parallel import compiled
+
+__all__ = ["Haze", "Layer", "background", "compose", "shade"]
+
+Singles = npt.NDArray[np.float32]
+Bools = npt.NDArray[np.bool_]
+Bytes = npt.NDArray[np.uint8]
+
+_SHARP = 0.8191520442889918  # cosine of 35 degrees: surfaces that meet at a greater angle show a line
+_STEP = 2.5  # [px] surfaces that lie further apart are one behind the other
+_OUTLINE, _SEAM, _CREASE = 1.0, 0.62, 0.42  # line strengths: against what lies behind, between meshes, within one
+_CROWD = 4  # [px] each way, over whose square the edges are counted
+_CALM, _CROWDED = 0.45, 0.95  # share of pixels at edges up to which lines are drawn in full, and from which faintly
+_BOTH_SIDES = 3  # samples a side from which on a line takes one of them on each side: it is about 0.6 px wide
+_HATCH_PERIOD = 10.0  # [px]
+_GHOST, _GHOST_OVER = 0.5, 0.13  # share that ghosts take over the background, and over what they stand in front of
+_LEVELS = 4096  # of linear light in the table of sRGB bytes
+_UNSEEN = (0.75, 0.8)  # sky and sun of a sample that none of the pixels round it tells about
+
+
+class Haze(NamedTuple):
+    """Fades what is far into the background.
+
+    Args:
+        near: depth from which on [m].
+        far: depth where it is full [m].
+        share: of the background, there.
+    """
+
+    near: float = 0.0
+    far: float = 1.0
+    share: float = 0.0
+
+
+class Layer(NamedTuple):
+    """Some meshes of a picture, shaded, before anything lies behind; arguments of compiled kernels.
+
+    Args:
+        color: ``(n_paints, n, 3)`` linear, already multiplied by ``cover``.
+        cover: ``(n,)`` share of the pixel that surfaces and lines take.
+        depth: ``(n,)`` of the nearest surface [m], infinite where there is none.
+        floor: ``(n,)`` light on the floor behind, 1 where there is no shadow.
+    """
+
+    color: Singles
+    cover: Singles
+    depth: Singles
+    floor: Singles
+
+
+def background(height: int, top: str, bottom: str) -> Singles:
+    """``(height, 3)`` linear light behind everything, row by row; blended as the eye sees it."""
+    share = ((np.arange(height) + 0.5) / height)[:, None]
+    return to_linear(to_srgb(from_hex(top)) * (1 - share) + to_srgb(from_hex(bottom)) * share)
+
+
+def shade(
+    port: Viewport, surfaces: Surfaces, seen: Light, lights: Lamps, albedo: Colors, hatched: Bools, left_out: Bools,
+    samples: int, lines: float, haze: Haze, behind: Singles, threads: int,
+) -> Layer:  # fmt: skip
+    """Shades what the rays of a picture met, for several pictures that differ in colours only.
+
+    Args:
+        port: what is looked at.
+        surfaces: what the rays met.
+        seen: the light that each pixel sees.
+        lights: the lamps.
+        albedo: ``(n_paints, n_meshes, 3)`` linear.
+        hatched: ``(n_paints, n_meshes)`` whether a mesh is striped.
+        left_out: ``(n_meshes,)`` meshes that hide what is behind them without being drawn.
+        samples: rays along each side of a pixel at edges.
+        lines: strength of the thin dark lines, 0..1.
+        haze: over what is far.
+        behind: ``(height, 3)`` linear, what the haze fades into.
+        threads: that share the work.
+    """
+    n = port.width * port.height
+    layer = Layer(
+        np.empty((len(albedo), n, 3), np.float32), np.empty(n, np.float32), np.empty(n, np.float32),
+        np.ones(n, np.float32),
+    )  # fmt: skip
+    fewer = min(1.0, samples / 3 + 0.2) if samples != 2 else 1.0
+    in_chunks(
+        n,
+        lambda first, last: _shade(
+            port.view, port.width, port.height, first, last, surfaces, seen, lights, albedo, hatched, left_out,
+            samples, lines * fewer, haze, behind, layer,
+        ),
+        threads,
+    )  # fmt: skip
+    return layer
+
+
+def compose(port: Viewport, solid: Layer, ghost: Layer | None, behind: Singles, threads: int) -> Bytes:
+    """Lays layers over the background.
+
+    Args:
+        port: what is looked at.
+        solid: what is drawn in full.
+        ghost: what is only hinted at.
+        behind: ``(height, 3)`` linear.
+        threads: that share the work.
+
+    Returns:
+        sRGB ``(n_paints, height, width, 3)``.
+    """
+    n = port.width * port.height
+    images = np.empty((len(solid.color), n, 3), np.uint8)
+    over = ghost or solid
+    in_chunks(
+        n,
+        lambda first, last: _compose(port.width, first, last, solid, over, ghost is not None, behind, _TABLE, images),
+        threads,
+    )
+    return images.reshape(-1, port.height, port.width, 3)
+
+
+_TABLE = np.round(to_srgb(np.linspace(0, 1, _LEVELS)) * 255).astype(np.uint8)
+
+
+@compiled
+def _shade(
+    view: Any, width: int, height: int, first: int, last: int, surfaces: Any, seen: Any, lights: Any, albedo: Any,
+    hatched: Any, left_out: Any, samples: int, lines: float, haze: Any, behind: Any, layer: Any,
+) -> None:  # fmt: skip
+    each = samples * samples
+    for p in range(first, last):
+        row, column = p // width, p % width
+        for i in range(len(albedo)):
+            for j in range(3):
+                layer.color[i, p, j] = 0.0
+        if seen.fade[p] > 0:
+            shadow = 1.0 - (0.4 + 0.6 * seen.sky[p]) * (0.7 + 0.3 * seen.sun[p])
+            layer.floor[p] = 1.0 - shadow * seen.fade[p]
+        slot = surfaces.slot[p]
+        if slot < 0:
+            layer.depth[p], layer.cover[p] = np.inf, 0.0
+            mesh = surfaces.mesh[p]
+            if mesh >= 0 and not left_out[mesh]:
+                x, y = (column + 0.5 - view[0]) * view[2], (view[1] - row - 0.5) * view[2]
+                layer.depth[p], layer.cover[p] = surfaces.depth[p], 1.0
+                _add(surfaces.normal, p, mesh, x, y, column + 0.5, row + 0.5, surfaces.depth[p], seen.sky[p],
+                     seen.sun[p], lights, albedo, hatched, 1.0, haze, behind, row, layer.color, p)  # fmt: skip
+            continue
+        strength = lines * _thinning(width, height, row, column, surfaces.slot) if lines > 0 else 0.0
+        nearest, cover = np.inf, 0.0
+        for s in range(each):
+            k = slot * each + s
+            mesh = surfaces.grid_mesh[k]
+            dark = 0.0
+            if strength > 0:
+                dark = strength * _line(view, width, height, row, column, s, samples, surfaces, left_out)
+            if mesh < 0 or left_out[mesh]:
+                cover += dark
+                continue
+            cover += 1.0
+            nearest = min(nearest, surfaces.grid_depth[k])
+            sky, sun = _nearby(width, height, row, column, k, surfaces, seen)
+            c, r = column + (s % samples + 0.5) / samples, row + (s // samples + 0.5) / samples
+            x, y = (c - view[0]) * view[2], (view[1] - r) * view[2]
+            _add(surfaces.grid_normal, k, mesh, x, y, c, r, surfaces.grid_depth[k], sky, sun, lights, albedo, hatched,
+                 (1.0 - dark) / each, haze, behind, row, layer.color, p)  # fmt: skip
+        layer.depth[p], layer.cover[p] = nearest, cover / each
+
+
+@compiled
+def _add(
+    normal: Any, k: int, mesh: int, x: float, y: float, across: float, down: float, depth: float, sky: float,
+    sun: float, lights: Any, albedo: Any, hatched: Any, share: float, haze: Any, behind: Any, row: int, color: Any,
+    p: int,
+) -> None:  # fmt: skip
+    """Adds the colour of a sample to its pixel, in all paints."""
+    nx, ny, nz = normal[k, 0], normal[k, 1], normal[k, 2]
+    long = 1.0 / np.sqrt(1.0 + x * x + y * y)
+    vx, vy, vz = -x * long, -y * long, -long
+    key = lights.key
+    to_key = nx * key[0] + ny * key[1] + nz * key[2]
+    to_fill = nx * lights.fill[0] + ny * lights.fill[1] + nz * lights.fill[2]
+    upwards = nx * lights.up[0] + ny * lights.up[1] + nz * lights.up[2]
+    facing = nx * vx + ny * vy + nz * vz
+    ambient = (0.47 + 0.13 * upwards) * (0.25 + 0.75 * sky)
+    diffuse = ambient + 0.5 * max(to_key, 0.0) * (0.35 + 0.65 * sun) + 0.06 * facing
+    diffuse += 0.13 * max(0.7 * to_fill + 0.3, 0.0) * (0.5 + 0.5 * sky)
+    hx, hy, hz = key[0] + vx, key[1] + vy, key[2] + vz
+    gloss = max((nx * hx + ny * hy + nz * hz) / max(np.sqrt(hx * hx + hy * hy + hz * hz), 1e-6), 0.0)
+    # The 32nd power, by squaring.
+    for _ in range(5):
+        gloss = gloss * gloss
+    gloss *= 0.09 * sun
+    mist = haze.share * min(1.0, max(0.0, (depth - haze.near) / max(haze.far - haze.near, 1e-9)))
+    phase = ((across + down) / _HATCH_PERIOD) % 1.0
+    stripe = 0.3 * min(1.0, max(0.0, (abs(phase - 0.5) - 0.32) * _HATCH_PERIOD))
+    for i in range(len(albedo)):
+        tone = diffuse * (1.0 - stripe) if hatched[i, mesh] else diffuse
+        for j in range(3):
+            lit = (albedo[i, mesh, j] * tone + gloss) * share
+            color[i, p, j] += lit * (1.0 - mist) + behind[row, j] * mist * share
+
+
+@compiled
+def _nearby(width: int, height: int, row: int, column: int, k: int, surfaces: Any, seen: Any) -> tuple[float, float]:
+    """Sky and sun for a sample: from the pixel near by that shows the same mesh from the most similar side."""
+    mesh = surfaces.grid_mesh[k]
+    nx, ny, nz = surfaces.grid_normal[k, 0], surfaces.grid_normal[k, 1], surfaces.grid_normal[k, 2]
+    best, sky, sun = -2.0, _UNSEEN[0], _UNSEEN[1]
+    for around in range(9):
+        # The pixel itself first: of equals the first wins.
+        r = row + (0 if around < 3 else -1 if around < 6 else 1)
+        c = column + (0 if around % 3 == 0 else -1 if around % 3 == 1 else 1)
+        if r < 0 or r >= height or c < 0 or c >= width:
+            continue
+        q = r * width + c
+        if surfaces.mesh[q] != mesh:
+            continue
+        match = nx * surfaces.normal[q, 0] + ny * surfaces.normal[q, 1] + nz * surfaces.normal[q, 2]
+        if match > best + 0.02:
+            best, sky, sun = match, seen.sky[q], seen.sun[q]
+    return sky, sun
+
+
+@compiled
+def _thinning(width: int, height: int, row: int, column: int, slot: Any) -> float:
+    """Factor on the lines: fainter where they crowd, so that dense places don't turn black."""
+    edges, count = 0, 0
+    for r in range(max(0, row - _CROWD), min(height, row + _CROWD + 1)):
+        for c in range(max(0, column - _CROWD), min(width, column + _CROWD + 1)):
+            edges += slot[r * width + c] >= 0
+            count += 1
+    return 1.0 - 0.8 * min(1.0, max(0.0, (edges / count - _CALM) / (_CROWDED - _CALM)))
+
+
+@compiled
+def _line(
+    view: Any, width: int, height: int, row: int, column: int, s: int, samples: int, surfaces: Any, left_out: Any
+) -> float:
+    """How dark the line at a sample is, 0..1, by its four neighbours."""
+    own = surfaces.slot[row * width + column] * samples * samples + s
+    down, across = s // samples, s % samples
+    x = (column + (across + 0.5) / samples - view[0]) * view[2]
+    y = (view[1] - row - (down + 0.5) / samples) * view[2]
+    dark = 0.0
+    for side in range(4):
+        r, c = down + (side == 0) - (side == 1), across + (side == 2) - (side == 3)
+        to_row = row + (1 if r == samples else -1 if r < 0 else 0)
+        to_column = column + (1 if c == samples else -1 if c < 0 else 0)
+        if to_row < 0 or to_row >= height or to_column < 0 or to_column >= width:
+            continue
+        r, c = r % samples, c % samples
+        pixel = to_row * width + to_column
+        slot = surfaces.slot[pixel]
+        if slot >= 0:
+            nx = (to_column + (c + 0.5) / samples - view[0]) * view[2]
+            ny = (view[1] - to_row - (r + 0.5) / samples) * view[2]
+            k = slot * samples * samples + r * samples + c
+            found = _between(view[2], samples, surfaces, own, x, y, surfaces.grid_mesh, surfaces.grid_normal,
+                             surfaces.grid_depth, k, nx, ny, left_out)  # fmt: skip
+        else:
+            # A pixel without a grid has one ray.
+            nx, ny = (to_column + 0.5 - view[0]) * view[2], (view[1] - to_row - 0.5) * view[2]
+            found = _between(view[2], samples, surfaces, own, x, y, surfaces.mesh, surfaces.normal, surfaces.depth,
+                             pixel, nx, ny, left_out)  # fmt: skip
+        dark = max(dark, found)
+    return dark
+
+
+@compiled
+def _between(
+    pixel: float, samples: int, surfaces: Any, own: int, x: float, y: float, mesh: Any, normal: Any, depth: Any,
+    other: int, to_x: float, to_y: float, left_out: Any,
+) -> float:  # fmt: skip
+    """How dark the line between a sample and a neighbour is on the side of the sample."""
+    here, there = surfaces.grid_mesh[own], mesh[other]
+    if here < 0 and there < 0:
+        return 0.0
+    if here < 0:
+        return _OUTLINE if samples >= _BOTH_SIDES and not left_out[there] else 0.0
+    if there < 0:
+        return 0.0 if left_out[here] else _OUTLINE
+    own_normal = surfaces.grid_normal
+    near, far = surfaces.grid_depth[own], depth[other]
+    step = step_between(own_normal, own, x, y, near, normal, other, to_x, to_y, far)
+    if step > _STEP * pixel * min(near, far):
+        if left_out[here if near < far else there]:
+            return 0.0
+        return _OUTLINE if near < far or samples >= _BOTH_SIDES else 0.0
+    if left_out[here] or left_out[there]:
+        return 0.0
+    if here != there:
+        return _SEAM
+    turn = 0.0
+    for i in range(3):
+        turn += own_normal[own, i] * normal[other, i]
+    return _CREASE if turn < _SHARP else 0.0
+
+
+@compiled
+def _compose(
+    width: int, first: int, last: int, solid: Any, ghost: Any, ghosted: bool, behind: Any, table: Any, images: Any
+) -> None:
+    top = len(table) - 1
+    for p in range(first, last):
+        row = p // width
+        cover = solid.cover[p]
+        left = solid.floor[p] * (1.0 - cover)
+        taken = 0.0
+        if ghosted:
+            taken = _GHOST * (1.0 - cover) + (_GHOST_OVER * cover if ghost.depth[p] < solid.depth[p] else 0.0)
+        for i in range(len(images)):
+            for j in range(3):
+                level = behind[row, j] * left + solid.color[i, p, j]
+                if ghosted:
+                    level = level * (1.0 - taken * ghost.cover[p]) + ghost.color[i, p, j] * taken
+                images[i, p, j] = table[int(min(1.0, max(0.0, level)) * top + 0.5)]
