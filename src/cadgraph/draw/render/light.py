@@ -61,8 +61,6 @@ class Light(NamedTuple):
     fade: Singles
 
 
-
-
 def lamps(camera: Camera) -> Lamps:
     """Lamps that go with the camera: the key from above on the left, never below the horizon, the fill opposite."""
     axes = np.stack([camera.right, camera.up, camera.forward])

@@ -27,6 +27,7 @@ _BOTH_SIDES = 3  # samples a side from which on a line takes one of them on each
 _HATCH_PERIOD = 10.0  # [px]
 _GHOST, _GHOST_OVER = 0.5, 0.13  # share that ghosts take over the background, and over what they stand in front of
 _LEVELS = 4096  # of linear light in the table of sRGB bytes
+_BETTER = 0.02  # by so much the side that another pixel shows must be more similar to take its light instead
 _UNSEEN = (0.75, 0.8)  # sky and sun of a sample that none of the pixels round it tells about
 
 
@@ -219,14 +220,14 @@ def _nearby(width: int, height: int, row: int, column: int, k: int, surfaces: An
         # The pixel itself first: of equals the first wins.
         r = row + (0 if around < 3 else -1 if around < 6 else 1)
         c = column + (0 if around % 3 == 0 else -1 if around % 3 == 1 else 1)
-        if r < 0 or r >= height or c < 0 or c >= width:
-            continue
         q = r * width + c
-        if surfaces.mesh[q] != mesh:
+        if r < 0 or r >= height or c < 0 or c >= width or surfaces.mesh[q] != mesh:
             continue
         match = nx * surfaces.normal[q, 0] + ny * surfaces.normal[q, 1] + nz * surfaces.normal[q, 2]
-        if match > best + 0.02:
+        if match > best + _BETTER:
             best, sky, sun = match, seen.sky[q], seen.sun[q]
+            if best > 1.0 - _BETTER:
+                break
     return sky, sun
 
 
@@ -253,11 +254,17 @@ def _line(
     dark = 0.0
     for side in range(4):
         r, c = down + (side == 0) - (side == 1), across + (side == 2) - (side == 3)
-        to_row = row + (1 if r == samples else -1 if r < 0 else 0)
-        to_column = column + (1 if c == samples else -1 if c < 0 else 0)
+        to_row, to_column = row, column
+        if r == samples:
+            r, to_row = 0, row + 1
+        elif r < 0:
+            r, to_row = samples - 1, row - 1
+        if c == samples:
+            c, to_column = 0, column + 1
+        elif c < 0:
+            c, to_column = samples - 1, column - 1
         if to_row < 0 or to_row >= height or to_column < 0 or to_column >= width:
             continue
-        r, c = r % samples, c % samples
         pixel = to_row * width + to_column
         slot = surfaces.slot[pixel]
         if slot >= 0:
@@ -272,6 +279,8 @@ def _line(
             found = _between(view[2], samples, surfaces, own, x, y, surfaces.mesh, surfaces.normal, surfaces.depth,
                              pixel, nx, ny, left_out)  # fmt: skip
         dark = max(dark, found)
+        if dark >= _OUTLINE:
+            break
     return dark
 
 
