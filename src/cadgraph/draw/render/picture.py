@@ -28,6 +28,7 @@ Singles = npt.NDArray[np.float32]
 
 _KEPT_CASTERS = 4
 _MOST_THREADS = 16
+_GHOST_SAMPLES = 2  # nobody looks closely at what is only hinted at
 
 
 @dataclass(frozen=True)
@@ -181,14 +182,15 @@ class Renderer:
         self, port: Viewport, lights: Lamps, colors: Colors, left_out: Bools, look: Look, behind: Singles
     ) -> Layer:
         """The meshes that are only hinted at, as far as none of the others stands before them."""
-        surfaces = self.surfaces(port, self.caster(), look.samples)
+        samples = min(look.samples, _GHOST_SAMPLES)
+        surfaces = self.surfaces(port, self.caster(), samples)
         grey = colors.mean(axis=2, keepdims=True)
         # Half way to grey, then most of the way to white: still a hint of what it is.
         pale = (0.72 + 0.2 * (colors + grey) / 2).astype(np.float32)
         plain = np.zeros((len(colors), self.scene.n_meshes), bool)
         return shade(
-            port, surfaces, open_air(port.width * port.height), lights, pale, plain, left_out, look.samples,
-            look.lines, Haze(), behind, self.threads,
+            port, surfaces, open_air(port.width * port.height), lights, pale, plain, left_out, samples, look.lines,
+            Haze(), behind, self.threads,
         )  # fmt: skip
 
 

@@ -28,6 +28,7 @@ _HATCH_PERIOD = 10.0  # [px]
 _GHOST, _GHOST_OVER = 0.5, 0.13  # share that ghosts take over the background, and over what they stand in front of
 _LEVELS = 4096  # of linear light in the table of sRGB bytes
 _BETTER = 0.02  # by so much the side that another pixel shows must be more similar to take its light instead
+_SAME = 0.9995  # cosine of normals (2 degrees) from which on neighbouring samples share one calculation
 _UNSEEN = (0.75, 0.8)  # sky and sun of a sample that none of the pixels round it tells about
 
 
@@ -136,7 +137,7 @@ def _shade(
     view: Any, width: int, height: int, first: int, last: int, surfaces: Any, seen: Any, lights: Any, albedo: Any,
     hatched: Any, left_out: Any, samples: int, lines: float, haze: Any, behind: Any, layer: Any,
 ) -> None:  # fmt: skip
-    each = samples * samples
+    dark = np.zeros(samples * samples)
     for p in range(first, last):
         row, column = p // width, p % width
         for i in range(len(albedo)):
@@ -145,51 +146,69 @@ def _shade(
         if seen.fade[p] > 0:
             shadow = 1.0 - (0.4 + 0.6 * seen.sky[p]) * (0.7 + 0.3 * seen.sun[p])
             layer.floor[p] = 1.0 - shadow * seen.fade[p]
-        slot = surfaces.slot[p]
-        if slot < 0:
-            layer.depth[p], layer.cover[p] = np.inf, 0.0
-            mesh = surfaces.mesh[p]
-            if mesh >= 0 and not left_out[mesh]:
-                x, y = (column + 0.5 - view[0]) * view[2], (view[1] - row - 0.5) * view[2]
-                layer.depth[p], layer.cover[p] = surfaces.depth[p], 1.0
-                _add(surfaces.normal, p, mesh, x, y, column + 0.5, row + 0.5, surfaces.depth[p], seen.sky[p],
-                     seen.sun[p], lights, albedo, hatched, 1.0, haze, behind, row, layer.color, p)  # fmt: skip
-            continue
-        strength = lines * _thinning(width, height, row, column, surfaces.slot) if lines > 0 else 0.0
-        nearest, cover = np.inf, 0.0
-        for s in range(each):
-            k = slot * each + s
-            mesh = surfaces.grid_mesh[k]
-            dark = 0.0
+        layer.depth[p], layer.cover[p] = np.inf, 0.0
+        if surfaces.slot[p] >= 0:
+            strength = lines * _thinning(width, height, row, column, surfaces.slot) if lines > 0 else 0.0
             if strength > 0:
-                dark = strength * _line(view, width, height, row, column, s, samples, surfaces, left_out)
-            if mesh < 0 or left_out[mesh]:
-                cover += dark
-                continue
-            cover += 1.0
-            nearest = min(nearest, surfaces.grid_depth[k])
-            sky, sun = _nearby(width, height, row, column, k, surfaces, seen)
-            c, r = column + (s % samples + 0.5) / samples, row + (s // samples + 0.5) / samples
-            x, y = (c - view[0]) * view[2], (view[1] - r) * view[2]
-            _add(surfaces.grid_normal, k, mesh, x, y, c, r, surfaces.grid_depth[k], sky, sun, lights, albedo, hatched,
-                 (1.0 - dark) / each, haze, behind, row, layer.color, p)  # fmt: skip
-        layer.depth[p], layer.cover[p] = nearest, cover / each
+                _lines(view, width, height, row, column, samples, surfaces, left_out, dark)
+            _shade_grid(view, width, height, p, surfaces, seen, lights, albedo, hatched, left_out, samples, strength,
+                        dark, haze, behind, layer)  # fmt: skip
+            continue
+        mesh = surfaces.mesh[p]
+        if mesh >= 0 and not left_out[mesh]:
+            x, y = (column + 0.5 - view[0]) * view[2], (view[1] - row - 0.5) * view[2]
+            layer.depth[p], layer.cover[p] = surfaces.depth[p], 1.0
+            diffuse, gloss = _tone(surfaces.normal, p, x, y, seen.sky[p], seen.sun[p], lights)
+            _add(albedo, hatched, mesh, diffuse, gloss, column + 0.5, row + 0.5, 1.0, surfaces.depth[p], haze, behind,
+                 row, layer.color, p)  # fmt: skip
 
 
 @compiled
-def _add(
-    normal: Any, k: int, mesh: int, x: float, y: float, across: float, down: float, depth: float, sky: float,
-    sun: float, lights: Any, albedo: Any, hatched: Any, share: float, haze: Any, behind: Any, row: int, color: Any,
-    p: int,
+def _shade_grid(
+    view: Any, width: int, height: int, p: int, surfaces: Any, seen: Any, lights: Any, albedo: Any, hatched: Any,
+    left_out: Any, samples: int, strength: float, dark: Any, haze: Any, behind: Any, layer: Any,
 ) -> None:  # fmt: skip
-    """Adds the colour of a sample to its pixel, in all paints."""
+    """Shades a pixel that has a grid of samples."""
+    row, column, each = p // width, p % width, samples * samples
+    nearest, cover, before = np.inf, 0.0, -1
+    diffuse, gloss = 0.0, 0.0
+    normal = surfaces.grid_normal
+    for s in range(each):
+        k = surfaces.slot[p] * each + s
+        mesh, depth = surfaces.grid_mesh[k], surfaces.grid_depth[k]
+        line = strength * dark[s]
+        if mesh < 0 or left_out[mesh]:
+            cover += line
+            continue
+        cover += 1.0
+        nearest = min(nearest, depth)
+        across, down = column + (s % samples + 0.5) / samples, row + (s // samples + 0.5) / samples
+        alike = before >= 0 and surfaces.grid_mesh[before] == mesh
+        if alike:
+            turn = 0.0
+            for i in range(3):
+                turn += normal[k, i] * normal[before, i]
+            alike = turn > _SAME
+        if not alike:
+            before = k
+            sky, sun = _nearby(width, height, row, column, k, surfaces, seen)
+            x, y = (across - view[0]) * view[2], (view[1] - down) * view[2]
+            diffuse, gloss = _tone(normal, k, x, y, sky, sun, lights)
+        _add(albedo, hatched, mesh, diffuse, gloss, across, down, (1.0 - line) / each, depth, haze, behind, row,
+             layer.color, p)  # fmt: skip
+    layer.depth[p], layer.cover[p] = nearest, cover / each
+
+
+@compiled
+def _tone(normal: Any, k: int, x: float, y: float, sky: float, sun: float, lights: Any) -> tuple[float, float]:
+    """Diffuse and glossy light at a sample: its colour is ``albedo * diffuse + gloss``."""
     nx, ny, nz = normal[k, 0], normal[k, 1], normal[k, 2]
+    key, fill, up = lights.key, lights.fill, lights.up
     long = 1.0 / np.sqrt(1.0 + x * x + y * y)
     vx, vy, vz = -x * long, -y * long, -long
-    key = lights.key
     to_key = nx * key[0] + ny * key[1] + nz * key[2]
-    to_fill = nx * lights.fill[0] + ny * lights.fill[1] + nz * lights.fill[2]
-    upwards = nx * lights.up[0] + ny * lights.up[1] + nz * lights.up[2]
+    to_fill = nx * fill[0] + ny * fill[1] + nz * fill[2]
+    upwards = nx * up[0] + ny * up[1] + nz * up[2]
     facing = nx * vx + ny * vy + nz * vz
     ambient = (0.47 + 0.13 * upwards) * (0.25 + 0.75 * sky)
     diffuse = ambient + 0.5 * max(to_key, 0.0) * (0.35 + 0.65 * sun) + 0.06 * facing
@@ -199,15 +218,28 @@ def _add(
     # The 32nd power, by squaring.
     for _ in range(5):
         gloss = gloss * gloss
-    gloss *= 0.09 * sun
-    mist = haze.share * min(1.0, max(0.0, (depth - haze.near) / max(haze.far - haze.near, 1e-9)))
-    phase = ((across + down) / _HATCH_PERIOD) % 1.0
-    stripe = 0.3 * min(1.0, max(0.0, (abs(phase - 0.5) - 0.32) * _HATCH_PERIOD))
+    return diffuse, 0.09 * gloss * sun
+
+
+@compiled
+def _add(
+    albedo: Any, hatched: Any, mesh: int, diffuse: float, gloss: float, across: float, down: float, share: float,
+    depth: float, haze: Any, behind: Any, row: int, color: Any, p: int,
+) -> None:  # fmt: skip
+    """Adds a sample to its pixel, in all paints."""
+    mist, stripe = 0.0, -1.0
+    if haze.share > 0:
+        mist = haze.share * min(1.0, max(0.0, (depth - haze.near) / max(haze.far - haze.near, 1e-9)))
     for i in range(len(albedo)):
-        tone = diffuse * (1.0 - stripe) if hatched[i, mesh] else diffuse
+        tone = diffuse
+        if hatched[i, mesh]:
+            if stripe < 0:
+                phase = ((across + down) / _HATCH_PERIOD) % 1.0
+                stripe = 0.3 * min(1.0, max(0.0, (abs(phase - 0.5) - 0.32) * _HATCH_PERIOD))
+            tone = diffuse * (1.0 - stripe)
         for j in range(3):
-            lit = (albedo[i, mesh, j] * tone + gloss) * share
-            color[i, p, j] += lit * (1.0 - mist) + behind[row, j] * mist * share
+            lit = albedo[i, mesh, j] * tone + gloss
+            color[i, p, j] += share * (lit * (1.0 - mist) + behind[row, j] * mist)
 
 
 @compiled
@@ -243,75 +275,81 @@ def _thinning(width: int, height: int, row: int, column: int, slot: Any) -> floa
 
 
 @compiled
-def _line(
-    view: Any, width: int, height: int, row: int, column: int, s: int, samples: int, surfaces: Any, left_out: Any
-) -> float:
-    """How dark the line at a sample is, 0..1, by its four neighbours."""
-    own = surfaces.slot[row * width + column] * samples * samples + s
-    down, across = s // samples, s % samples
-    x = (column + (across + 0.5) / samples - view[0]) * view[2]
-    y = (view[1] - row - (down + 0.5) / samples) * view[2]
-    dark = 0.0
+def _lines(
+    view: Any, width: int, height: int, row: int, column: int, samples: int, surfaces: Any, left_out: Any, dark: Any
+) -> None:
+    """How dark the line is at each sample of a pixel, 0..1, by its neighbours within the pixel and beyond."""
+    pixel = row * width + column
+    base = surfaces.slot[pixel] * samples * samples
+    step = view[2] / samples
+    left, top = (column - view[0]) * view[2] + 0.5 * step, (view[1] - row) * view[2] - 0.5 * step
+    for s in range(samples * samples):
+        dark[s] = 0.0
+    mesh, normal, depth = surfaces.grid_mesh, surfaces.grid_normal, surfaces.grid_depth
+    for s in range(samples * samples):
+        r, c = s // samples, s % samples
+        x, y = left + c * step, top - r * step
+        if c + 1 < samples:
+            here, there = _between(view[2], samples, surfaces, base + s, x, y, mesh, normal, depth, base + s + 1,
+                                   x + step, y, left_out)  # fmt: skip
+            dark[s], dark[s + 1] = max(dark[s], here), max(dark[s + 1], there)
+        if r + 1 < samples:
+            here, there = _between(view[2], samples, surfaces, base + s, x, y, mesh, normal, depth,
+                                   base + s + samples, x, y - step, left_out)  # fmt: skip
+            dark[s], dark[s + samples] = max(dark[s], here), max(dark[s + samples], there)
     for side in range(4):
-        r, c = down + (side == 0) - (side == 1), across + (side == 2) - (side == 3)
-        to_row, to_column = row, column
-        if r == samples:
-            r, to_row = 0, row + 1
-        elif r < 0:
-            r, to_row = samples - 1, row - 1
-        if c == samples:
-            c, to_column = 0, column + 1
-        elif c < 0:
-            c, to_column = samples - 1, column - 1
-        if to_row < 0 or to_row >= height or to_column < 0 or to_column >= width:
+        across, down = (side == 0) - (side == 1), (side == 2) - (side == 3)
+        if not (0 <= row + down < height and 0 <= column + across < width):
             continue
-        pixel = to_row * width + to_column
-        slot = surfaces.slot[pixel]
-        if slot >= 0:
-            nx = (to_column + (c + 0.5) / samples - view[0]) * view[2]
-            ny = (view[1] - to_row - (r + 0.5) / samples) * view[2]
-            k = slot * samples * samples + r * samples + c
-            found = _between(view[2], samples, surfaces, own, x, y, surfaces.grid_mesh, surfaces.grid_normal,
-                             surfaces.grid_depth, k, nx, ny, left_out)  # fmt: skip
-        else:
-            # A pixel without a grid has one ray.
-            nx, ny = (to_column + 0.5 - view[0]) * view[2], (view[1] - to_row - 0.5) * view[2]
-            found = _between(view[2], samples, surfaces, own, x, y, surfaces.mesh, surfaces.normal, surfaces.depth,
-                             pixel, nx, ny, left_out)  # fmt: skip
-        dark = max(dark, found)
-        if dark >= _OUTLINE:
-            break
-    return dark
+        other = pixel + down * width + across
+        slot = surfaces.slot[other]
+        for k in range(samples):
+            # The sample at this side, and the one of the neighbour that faces it.
+            r, c = (k, (samples - 1) * (across > 0)) if across else ((samples - 1) * (down > 0), k)
+            s = r * samples + c
+            x, y = left + c * step, top - r * step
+            if slot >= 0:
+                facing = slot * samples * samples
+                facing += r * samples + samples - 1 - c if across else (samples - 1 - r) * samples + c
+                here, _ = _between(view[2], samples, surfaces, base + s, x, y, mesh, normal, depth, facing,
+                                   x + across * step, y - down * step, left_out)  # fmt: skip
+            else:
+                # A pixel without a grid has one ray.
+                to_x = (column + across + 0.5 - view[0]) * view[2]
+                to_y = (view[1] - row - down - 0.5) * view[2]
+                here, _ = _between(view[2], samples, surfaces, base + s, x, y, surfaces.mesh, surfaces.normal,
+                                   surfaces.depth, other, to_x, to_y, left_out)  # fmt: skip
+            dark[s] = max(dark[s], here)
 
 
 @compiled
 def _between(
     pixel: float, samples: int, surfaces: Any, own: int, x: float, y: float, mesh: Any, normal: Any, depth: Any,
     other: int, to_x: float, to_y: float, left_out: Any,
-) -> float:  # fmt: skip
-    """How dark the line between a sample and a neighbour is on the side of the sample."""
+) -> tuple[float, float]:  # fmt: skip
+    """How dark the line between a sample and a neighbour is, on the side of each."""
     here, there = surfaces.grid_mesh[own], mesh[other]
     if here < 0 and there < 0:
-        return 0.0
-    if here < 0:
-        return _OUTLINE if samples >= _BOTH_SIDES and not left_out[there] else 0.0
-    if there < 0:
-        return 0.0 if left_out[here] else _OUTLINE
-    own_normal = surfaces.grid_normal
+        return 0.0, 0.0
     near, far = surfaces.grid_depth[own], depth[other]
-    step = step_between(own_normal, own, x, y, near, normal, other, to_x, to_y, far)
-    if step > _STEP * pixel * min(near, far):
+    outlined = here < 0 or there < 0
+    if not outlined:
+        step = step_between(surfaces.grid_normal, own, x, y, near, normal, other, to_x, to_y, far)
+        outlined = step > _STEP * pixel * min(near, far)
+    if outlined:
         if left_out[here if near < far else there]:
-            return 0.0
-        return _OUTLINE if near < far or samples >= _BOTH_SIDES else 0.0
+            return 0.0, 0.0
+        behind = _OUTLINE if samples >= _BOTH_SIDES else 0.0
+        return (_OUTLINE, behind) if near < far else (behind, _OUTLINE)
     if left_out[here] or left_out[there]:
-        return 0.0
+        return 0.0, 0.0
     if here != there:
-        return _SEAM
+        return _SEAM, _SEAM
     turn = 0.0
     for i in range(3):
-        turn += own_normal[own, i] * normal[other, i]
-    return _CREASE if turn < _SHARP else 0.0
+        turn += surfaces.grid_normal[own, i] * normal[other, i]
+    strength = _CREASE if turn < _SHARP else 0.0
+    return strength, strength
 
 
 @compiled

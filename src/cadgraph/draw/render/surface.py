@@ -24,7 +24,7 @@ __all__ = ["Surfaces", "Viewport", "covered", "in_chunks", "meet", "step_between
 Singles = npt.NDArray[np.float32]
 Indices = npt.NDArray[np.int32]
 
-_CHUNK = 65_536  # rays or pixels that a thread works on at a time
+_CHUNK = 32_768  # rays or pixels that a thread works on at a time
 _ROUNDS = 3  # of following edges into pixels whose own ray missed them
 _TURNED = 0.9  # neighbours whose normals differ more (26 degrees) get a grid of rays
 _STEP = 2.0  # [px] neighbours that lie further apart across their surface get one, too
@@ -90,7 +90,7 @@ class Viewport:
 
 
 def in_chunks(count: int, act: Callable[[int, int], object], threads: int) -> None:
-    """Calls ``act(first, last)`` on ranges that cover ``range(count)``, the same ones whatever the number of threads."""
+    """Calls ``act(first, last)`` on ranges that cover ``range(count)``, the same whatever the number of threads."""
     bounds = [(first, min(first + _CHUNK, count)) for first in range(0, count, _CHUNK)]
     if threads == 1 or len(bounds) < 2:
         for first, last in bounds:
@@ -126,7 +126,7 @@ def meet(
             towards = np.empty(((last - first) * each, 3), np.float32)
             _aim(axes, view, pixels[first:last], width, side, towards)
             hits = cast(towards)
-            corners = normals(np.unique(mesh_of_face[hits.face[hits.face >= 0]]))
+            corners = normals(mesh_of_face[hits.face[hits.face >= 0]])
             cut = slice(first * each, last * each)
             _resolve(axes, towards, *hits, mesh_of_face, corners, mesh[cut], normal[cut], depth[cut], flat[cut])
 
@@ -240,7 +240,9 @@ def step_between(
 
 
 @compiled
-def _differ(view: Any, width: int, mesh: Any, normal: Any, depth: Any, a: int, b: int) -> bool:
+def _differ(
+    pixel: float, mesh: Any, normal: Any, depth: Any, a: int, ax: float, ay: float, b: int, bx: float, by: float
+) -> bool:
     """Whether two pixels show different surfaces, or one at a sharp turn."""
     if mesh[a] != mesh[b]:
         return True
@@ -248,25 +250,27 @@ def _differ(view: Any, width: int, mesh: Any, normal: Any, depth: Any, a: int, b
         return False
     if normal[a, 0] * normal[b, 0] + normal[a, 1] * normal[b, 1] + normal[a, 2] * normal[b, 2] < _TURNED:
         return True
-    ax, ay = (a % width + 0.5 - view[0]) * view[2], (view[1] - a // width - 0.5) * view[2]
-    bx, by = (b % width + 0.5 - view[0]) * view[2], (view[1] - b // width - 0.5) * view[2]
     step = step_between(normal, a, ax, ay, depth[a], normal, b, bx, by, depth[b])
-    return bool(step > _STEP * view[2] * max(depth[a], depth[b]))
+    return bool(step > _STEP * pixel * max(depth[a], depth[b]))
 
 
 @compiled
-def _find_edges(
-    view: Any, width: int, first: int, last: int, mesh: Any, normal: Any, depth: Any, edge: Any
-) -> None:  # fmt: skip
+def _find_edges(view: Any, width: int, first: int, last: int, mesh: Any, normal: Any, depth: Any, edge: Any) -> None:
     """Marks the pixels that differ from one of their four neighbours.
 
     Ranges may be worked on at the same time: where one marks a pixel of the next, both only ever write 1.
     """
+    row, column = first // width, first % width
+    pixel = view[2]
     for a in range(first, last):
-        if a % width + 1 < width and _differ(view, width, mesh, normal, depth, a, a + 1):
+        x, y = (column + 0.5 - view[0]) * pixel, (view[1] - row - 0.5) * pixel
+        if column + 1 < width and _differ(pixel, mesh, normal, depth, a, x, y, a + 1, x + pixel, y):
             edge[a], edge[a + 1] = 1, 1
-        if a + width < len(mesh) and _differ(view, width, mesh, normal, depth, a, a + width):
+        if a + width < len(mesh) and _differ(pixel, mesh, normal, depth, a, x, y, a + width, x, y - pixel):
             edge[a], edge[a + width] = 1, 1
+        column += 1
+        if column == width:
+            row, column = row + 1, 0
 
 
 @compiled
@@ -291,14 +295,13 @@ def _follow_edges(
         for i in range(side):
             if column > 0 and slot[pixels[k] - 1] < 0 and grid_mesh[base + i * side] != mesh[pixels[k] - 1]:
                 edge[pixels[k] - 1] = 1
-            if column + 1 < width and slot[pixels[k] + 1] < 0:
-                if grid_mesh[base + i * side + side - 1] != mesh[pixels[k] + 1]:
-                    edge[pixels[k] + 1] = 1
+            right, bottom = base + i * side + side - 1, base + (side - 1) * side + i
+            if column + 1 < width and slot[pixels[k] + 1] < 0 and grid_mesh[right] != mesh[pixels[k] + 1]:
+                edge[pixels[k] + 1] = 1
             if row > 0 and slot[pixels[k] - width] < 0 and grid_mesh[base + i] != mesh[pixels[k] - width]:
                 edge[pixels[k] - width] = 1
-            if row + 1 < height and slot[pixels[k] + width] < 0:
-                if grid_mesh[base + (side - 1) * side + i] != mesh[pixels[k] + width]:
-                    edge[pixels[k] + width] = 1
+            if row + 1 < height and slot[pixels[k] + width] < 0 and grid_mesh[bottom] != mesh[pixels[k] + width]:
+                edge[pixels[k] + width] = 1
 
 
 @compiled

@@ -22,7 +22,7 @@ _TURNS = np.radians([-35, 35, -55, 55, 145, 215, 125, 235])  # from the normal o
 _LENGTHWISE = 0.75  # looking more along the longer side than at it foreshortens it: the score counts so much less
 _FRONT_BONUS = 1.06  # a view from -Y wins unless another shows clearly more
 _REPEAT_MALUS = 0.1  # a side that was shown already is shown again only if the others show nothing
-_TRIAL_POINTS = 50_000
+_TRIAL_POINTS = 12_000
 _TRIAL_HEIGHT = 128  # [px] of the trial pictures
 
 

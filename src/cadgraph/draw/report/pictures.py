@@ -30,7 +30,7 @@ __all__ = ["Picture", "cluster_colors", "draw_pictures", "functional_edges", "la
 Bools = npt.NDArray[np.bool_]
 
 _CROWDED = 48  # units from which on lines and balls are thinner, and only tags that stand clear are shown
-_CLUTTER = 5.0  # of a tag in a crowded picture, see annotate
+_CLUTTER = 3.0  # of a tag in a crowded picture, see annotate
 _AT_ONCE = 2  # pictures of systems: while one is drawn, another is annotated
 _LEGEND_CLUSTERS = 10
 _MARGIN = 0.07
@@ -225,21 +225,22 @@ def _system(ready: _Ready, cluster: Cluster, title: str, overview: Camera, size:
     image = renderer.picture(camera, Paint(paint, hatched, ghosted=~inside), _grounded(ready, meshes))
     open_ends = [end for end in ends if isinstance(end, Terminal) and end.kind != "blind"]
     image, tagged = _related(ready, image, camera, units, edges, size, open_ends)
+    untagged = _untagged(len(units) + len(open_ends), tagged)
     types = [unit.unit_type for unit in units]
     counts = [_counted(types.count(name), name) for name in dict.fromkeys(types)]
     contents = ", ".join([_counted(cluster.n_parts, "part"), *counts, _counted(len(edges), "relation")])
     extent = " × ".join(f"{high - low:.2f}" for low, high in zip(*cluster.aabb, strict=True))
     return Picture(
-        f"system-{cluster.id}", title, f"{contents}; {extent} m. {_untagged(len(units) + len(open_ends), tagged)}".strip(),
+        f"system-{cluster.id}", title, f"{contents}; {extent} m. {untagged}".strip(),
         f"Pipe system {cluster.id} coloured by group, all else faint: {contents}.", image, legend, camera,
     )  # fmt: skip
 
 
 def _grounded(ready: _Ready, meshes: Ints) -> Look:
     """A floor only where the system stands on the same ground as the scene: else its shadow would hang in the air."""
-    everything, system = ready.renderer.points(), ready.renderer.points(meshes)
-    height = everything[:, 2].max() - everything[:, 2].min()
-    return replace(ready.look, floor=bool(system[:, 2].min() - everything[:, 2].min() < 0.1 * height))
+    everything, system = ready.renderer.caster(), ready.renderer.caster(meshes)
+    height = everything.high[2] - everything.low[2]
+    return replace(ready.look, floor=bool(system.low[2] - everything.low[2] < 0.1 * height))
 
 
 def _group_paint(

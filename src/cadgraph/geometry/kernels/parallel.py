@@ -60,6 +60,9 @@ def readable(values: NDArray[Any], dtype: type[_T]) -> NDArray[_T]:
     return array
 
 
+_KERNELS = r"^from (cadgraph\.(?:geometry|draw)[\w.]+) import"  # modules that hold any
+
+
 @cache
 def _stamp(module: str) -> str:
     """A digest of the source of a module and of all modules of this package that it imports."""
