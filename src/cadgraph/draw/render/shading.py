@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from cadgraph.draw.render.color import Colors, from_hex, to_linear, to_srgb
 from cadgraph.draw.render.light import Lamps, Light
-from cadgraph.draw.render.surface import Surfaces, Viewport, in_chunks, step_between
+from cadgraph.draw.render.surface import Surfaces, Viewport, in_chunks
 from cadgraph.geometry.kernels.parallel import compiled
 
 __all__ = ["Haze", "Layer", "background", "compose", "shade"]
@@ -23,6 +23,7 @@ _STEP = 2.5  # [px] surfaces that lie further apart are one behind the other
 _OUTLINE, _SEAM, _CREASE = 1.0, 0.62, 0.42  # line strengths: against what lies behind, between meshes, within one
 _CROWD = 4  # [px] each way, over whose square the edges are counted
 _CALM, _CROWDED = 0.45, 0.95  # share of pixels at edges up to which lines are drawn in full, and from which faintly
+_OUTSIDE = -2.0  # in place of a mesh: beyond the picture
 _BOTH_SIDES = 3  # samples a side from which on a line takes one of them on each side: it is about 0.6 px wide
 _HATCH_PERIOD = 10.0  # [px]
 _GHOST, _GHOST_OVER = 0.5, 0.13  # share that ghosts take over the background, and over what they stand in front of
@@ -137,7 +138,7 @@ def _shade(
     view: Any, width: int, height: int, first: int, last: int, surfaces: Any, seen: Any, lights: Any, albedo: Any,
     hatched: Any, left_out: Any, samples: int, lines: float, haze: Any, behind: Any, layer: Any,
 ) -> None:  # fmt: skip
-    dark = np.zeros(samples * samples)
+    dark, near = np.zeros((samples + 2) ** 2), np.zeros(((samples + 2) ** 2, 8))
     for p in range(first, last):
         row, column = p // width, p % width
         for i in range(len(albedo)):
@@ -150,7 +151,7 @@ def _shade(
         if surfaces.slot[p] >= 0:
             strength = lines * _thinning(width, height, row, column, surfaces.slot) if lines > 0 else 0.0
             if strength > 0:
-                _lines(view, width, height, row, column, samples, surfaces, left_out, dark)
+                _lines(view, width, height, row, column, samples, surfaces, left_out, near, dark)
             _shade_grid(view, width, height, p, surfaces, seen, lights, albedo, hatched, left_out, samples, strength,
                         dark, haze, behind, layer)  # fmt: skip
             continue
@@ -176,7 +177,7 @@ def _shade_grid(
     for s in range(each):
         k = surfaces.slot[p] * each + s
         mesh, depth = surfaces.grid_mesh[k], surfaces.grid_depth[k]
-        line = strength * dark[s]
+        line = strength * dark[(s // samples + 1) * (samples + 2) + s % samples + 1] if strength > 0 else 0.0
         if mesh < 0 or left_out[mesh]:
             cover += line
             continue
@@ -276,80 +277,103 @@ def _thinning(width: int, height: int, row: int, column: int, slot: Any) -> floa
 
 @compiled
 def _lines(
-    view: Any, width: int, height: int, row: int, column: int, samples: int, surfaces: Any, left_out: Any, dark: Any
-) -> None:
-    """How dark the line is at each sample of a pixel, 0..1, by its neighbours within the pixel and beyond."""
-    pixel = row * width + column
-    base = surfaces.slot[pixel] * samples * samples
-    step = view[2] / samples
-    left, top = (column - view[0]) * view[2] + 0.5 * step, (view[1] - row) * view[2] - 0.5 * step
-    for s in range(samples * samples):
-        dark[s] = 0.0
-    mesh, normal, depth = surfaces.grid_mesh, surfaces.grid_normal, surfaces.grid_depth
-    for s in range(samples * samples):
-        r, c = s // samples, s % samples
-        x, y = left + c * step, top - r * step
-        if c + 1 < samples:
-            here, there = _between(view[2], samples, surfaces, base + s, x, y, mesh, normal, depth, base + s + 1,
-                                   x + step, y, left_out)  # fmt: skip
-            dark[s], dark[s + 1] = max(dark[s], here), max(dark[s + 1], there)
-        if r + 1 < samples:
-            here, there = _between(view[2], samples, surfaces, base + s, x, y, mesh, normal, depth,
-                                   base + s + samples, x, y - step, left_out)  # fmt: skip
-            dark[s], dark[s + samples] = max(dark[s], here), max(dark[s + samples], there)
-    for side in range(4):
-        across, down = (side == 0) - (side == 1), (side == 2) - (side == 3)
-        if not (0 <= row + down < height and 0 <= column + across < width):
-            continue
-        other = pixel + down * width + across
-        slot = surfaces.slot[other]
-        for k in range(samples):
-            # The sample at this side, and the one of the neighbour that faces it.
-            r, c = (k, (samples - 1) * (across > 0)) if across else ((samples - 1) * (down > 0), k)
-            s = r * samples + c
-            x, y = left + c * step, top - r * step
-            if slot >= 0:
-                facing = slot * samples * samples
-                facing += r * samples + samples - 1 - c if across else (samples - 1 - r) * samples + c
-                here, _ = _between(view[2], samples, surfaces, base + s, x, y, mesh, normal, depth, facing,
-                                   x + across * step, y - down * step, left_out)  # fmt: skip
+    view: Any, width: int, height: int, row: int, column: int, samples: int, surfaces: Any, left_out: Any, near: Any,
+    dark: Any,
+) -> None:  # fmt: skip
+    """How dark the line is at each sample of a pixel, 0..1, by its neighbours within the pixel and beyond.
+
+    Args:
+        view: of the picture.
+        width: of the picture [px].
+        height: of the picture [px].
+        row: of the pixel.
+        column: of the pixel.
+        samples: along each side of a pixel.
+        surfaces: what the rays met.
+        left_out: ``(n_meshes,)``.
+        near: ``((samples + 2) ** 2, 8)`` room for the samples of the pixel and those that border on it.
+        dark: ``((samples + 2) ** 2,)`` the outcome, for the same samples.
+    """
+    across, at = samples + 2, -1
+    for down in range(-1, samples + 1):
+        r, to_row = down, row
+        if down < 0:
+            r, to_row = samples - 1, row - 1
+        elif down == samples:
+            r, to_row = 0, row + 1
+        for right in range(-1, samples + 1):
+            at += 1
+            dark[at] = 0.0
+            c, to_column = right, column
+            if right < 0:
+                c, to_column = samples - 1, column - 1
+            elif right == samples:
+                c, to_column = 0, column + 1
+            if to_row != row and to_column != column:
+                continue
+            if to_row < 0 or to_row >= height or to_column < 0 or to_column >= width:
+                near[at, 0] = _OUTSIDE
+                continue
+            pixel = to_row * width + to_column
+            if surfaces.slot[pixel] >= 0:
+                x = (column + (right + 0.5) / samples - view[0]) * view[2]
+                y = (view[1] - row - (down + 0.5) / samples) * view[2]
+                k = (surfaces.slot[pixel] * samples + r) * samples + c
+                _note(near, at, surfaces.grid_mesh, surfaces.grid_normal, surfaces.grid_depth, k, x, y, left_out)
             else:
                 # A pixel without a grid has one ray.
-                to_x = (column + across + 0.5 - view[0]) * view[2]
-                to_y = (view[1] - row - down - 0.5) * view[2]
-                here, _ = _between(view[2], samples, surfaces, base + s, x, y, surfaces.mesh, surfaces.normal,
-                                   surfaces.depth, other, to_x, to_y, left_out)  # fmt: skip
-            dark[s] = max(dark[s], here)
+                x, y = (to_column + 0.5 - view[0]) * view[2], (view[1] - to_row - 0.5) * view[2]
+                _note(near, at, surfaces.mesh, surfaces.normal, surfaces.depth, pixel, x, y, left_out)
+    both = samples >= _BOTH_SIDES
+    for r in range(samples + 1):
+        for c in range(samples + 1):
+            at = r * across + c
+            if r > 0:
+                _draw_line(near, at, at + 1, _STEP * view[2], both, dark)
+            if c > 0:
+                _draw_line(near, at, at + across, _STEP * view[2], both, dark)
 
 
 @compiled
-def _between(
-    pixel: float, samples: int, surfaces: Any, own: int, x: float, y: float, mesh: Any, normal: Any, depth: Any,
-    other: int, to_x: float, to_y: float, left_out: Any,
-) -> tuple[float, float]:  # fmt: skip
-    """How dark the line between a sample and a neighbour is, on the side of each."""
-    here, there = surfaces.grid_mesh[own], mesh[other]
-    if here < 0 and there < 0:
-        return 0.0, 0.0
-    near, far = surfaces.grid_depth[own], depth[other]
-    outlined = here < 0 or there < 0
-    if not outlined:
-        step = step_between(surfaces.grid_normal, own, x, y, near, normal, other, to_x, to_y, far)
-        outlined = step > _STEP * pixel * min(near, far)
-    if outlined:
-        if left_out[here if near < far else there]:
-            return 0.0, 0.0
-        behind = _OUTLINE if samples >= _BOTH_SIDES else 0.0
-        return (_OUTLINE, behind) if near < far else (behind, _OUTLINE)
-    if left_out[here] or left_out[there]:
-        return 0.0, 0.0
-    if here != there:
-        return _SEAM, _SEAM
-    turn = 0.0
+def _note(near: Any, at: int, mesh: Any, normal: Any, depth: Any, k: int, x: float, y: float, left_out: Any) -> None:
+    """Writes down a sample: mesh, normal, position, whether it is drawn."""
+    near[at, 0] = mesh[k]
+    if mesh[k] < 0:
+        near[at, 6], near[at, 7] = np.inf, 1.0
+        return
     for i in range(3):
-        turn += surfaces.grid_normal[own, i] * normal[other, i]
-    strength = _CREASE if turn < _SHARP else 0.0
-    return strength, strength
+        near[at, 1 + i] = normal[k, i]
+    z = depth[k]
+    near[at, 4], near[at, 5], near[at, 6] = x * z, y * z, z
+    near[at, 7] = 0.0 if left_out[mesh[k]] else 1.0
+
+
+@compiled
+def _draw_line(near: Any, a: int, b: int, limit: float, both: bool, dark: Any) -> None:
+    """The line between two neighbouring samples; against what lies behind, on the nearer side alone or on both."""
+    if near[a, 0] == _OUTSIDE or near[b, 0] == _OUTSIDE or (near[a, 0] < 0 and near[b, 0] < 0):
+        return
+    turn = 1.0
+    outlined = near[a, 0] < 0 or near[b, 0] < 0
+    if not outlined:
+        first, second, turn = 0.0, 0.0, 0.0
+        for i in range(1, 4):
+            away = near[b, 3 + i] - near[a, 3 + i]
+            first += away * near[a, i]
+            second += away * near[b, i]
+            turn += near[a, i] * near[b, i]
+        outlined = min(abs(first), abs(second)) > limit * min(near[a, 6], near[b, 6])
+    before = a if near[a, 6] < near[b, 6] else b
+    if outlined:
+        # What is not drawn has no outline.
+        strength = _OUTLINE * near[before, 7]
+    else:
+        strength = _SEAM if near[a, 0] != near[b, 0] else _CREASE if turn < _SHARP else 0.0
+        strength *= near[a, 7] * near[b, 7]
+    if both or not outlined or before == a:
+        dark[a] = max(dark[a], strength)
+    if both or not outlined or before == b:
+        dark[b] = max(dark[b], strength)
 
 
 @compiled

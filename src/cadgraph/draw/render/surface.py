@@ -19,7 +19,7 @@ from cadgraph.draw.render.camera import Camera
 from cadgraph.draw.render.caster import Hits
 from cadgraph.geometry.kernels.parallel import compiled
 
-__all__ = ["Surfaces", "Viewport", "covered", "in_chunks", "meet", "step_between"]
+__all__ = ["Surfaces", "Viewport", "covered", "in_chunks", "meet"]
 
 Singles = npt.NDArray[np.float32]
 Indices = npt.NDArray[np.int32]
@@ -216,30 +216,6 @@ def _resolve(
 
 
 @compiled
-def step_between(
-    normal: Any, a: int, ax: float, ay: float, az: float, other: Any, b: int, bx: float, by: float, bz: float
-) -> float:
-    """How far two surface points lie apart across their surfaces, the lesser of both ways [m].
-
-    Args:
-        normal: ``(n, 3)`` of the first.
-        a: its row.
-        ax: its place to the right, at a depth of 1.
-        ay: its place upwards.
-        az: its depth [m].
-        other: ``(m, 3)`` of the second.
-        b: its row.
-        bx: its place to the right.
-        by: its place upwards.
-        bz: its depth [m].
-    """
-    x, y, z = bx * bz - ax * az, by * bz - ay * az, bz - az
-    first = abs(x * normal[a, 0] + y * normal[a, 1] + z * normal[a, 2])
-    second = abs(x * other[b, 0] + y * other[b, 1] + z * other[b, 2])
-    return min(first, second)
-
-
-@compiled
 def _differ(
     pixel: float, mesh: Any, normal: Any, depth: Any, a: int, ax: float, ay: float, b: int, bx: float, by: float
 ) -> bool:
@@ -250,8 +226,10 @@ def _differ(
         return False
     if normal[a, 0] * normal[b, 0] + normal[a, 1] * normal[b, 1] + normal[a, 2] * normal[b, 2] < _TURNED:
         return True
-    step = step_between(normal, a, ax, ay, depth[a], normal, b, bx, by, depth[b])
-    return bool(step > _STEP * pixel * max(depth[a], depth[b]))
+    x, y, z = bx * depth[b] - ax * depth[a], by * depth[b] - ay * depth[a], depth[b] - depth[a]
+    first = abs(x * normal[a, 0] + y * normal[a, 1] + z * normal[a, 2])
+    second = abs(x * normal[b, 0] + y * normal[b, 1] + z * normal[b, 2])
+    return bool(min(first, second) > _STEP * pixel * max(depth[a], depth[b]))
 
 
 @compiled
