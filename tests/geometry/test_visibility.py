@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 import shapes
-from cadgraph.geometry.visibility import outside as visibility
 from cadgraph.geometry.mesh.properties import measure
+from cadgraph.geometry.visibility import outside as visibility
 from cadgraph.geometry.visibility.outside import find_visible, visible_share
 from cadgraph.model.scene import Scene
 
