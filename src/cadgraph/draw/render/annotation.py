@@ -204,7 +204,7 @@ def _placed_tags(
         most=clutter,
     )  # fmt: skip
     found = np.flatnonzero(np.isfinite(boxes).all(axis=1))
-    return [_Placed(tags[i], anchors[i], boxes[i]) for i in found]
+    return [_Placed(tags[i], anchors[i], boxes[i]) for i in found.tolist()]
 
 
 def _draw_tags(draw: ImageDraw.ImageDraw, placed: Sequence[_Placed], unit: float, zoom: int) -> None:

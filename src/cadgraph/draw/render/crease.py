@@ -108,7 +108,7 @@ def _places(bits: Any, place: Any) -> int:
     while size < 2 * len(bits):
         size *= 2
     table = np.full(size, -1, np.int32)
-    count = ZERO
+    count: int = ZERO
     for v in range(len(bits)):
         key = np.uint64(0)
         for i in range(3):

@@ -111,7 +111,7 @@ def light(
             _ORDER, floor, found, starts, towards, reach, owner, kind,
         )  # fmt: skip
         blocked = caster.blocked(starts[:used], towards[:used], reach[:used])
-        _gather(blocked, owner, kind, np.float32(sky_rays), found)
+        _gather(blocked, owner, kind, float(sky_rays), found)
 
     in_chunks(n, cast, threads)
     smooth = Light(np.ones(n, np.float32), np.ones(n, np.float32), found.fade)
@@ -188,7 +188,7 @@ def _fade(axes: Any, eye: Any, ground: Any, x: float, y: float, depth: float) ->
         place = eye[i] + depth * (axes[2, i] + x * axes[0, i] + y * axes[1, i])
         out = max(abs(place) - ground[1 + i], 0.0)
         beyond += out * out
-    return 1.0 - np.sqrt(beyond) / ground[3]
+    return float(1.0 - np.sqrt(beyond) / ground[3])
 
 
 @compiled
@@ -276,7 +276,8 @@ def _lamp(key: Floats) -> Singles:
     index = np.arange(_PATTERN * _PATTERN * _SUN_RAYS)
     radius, turn = np.sqrt((index + 0.5) / len(index)) * _SOFTNESS, index * np.pi * (3 - np.sqrt(5))
     targets = key + (radius * np.cos(turn))[:, None] * basis[0] + (radius * np.sin(turn))[:, None] * basis[1]
-    return (targets / np.linalg.norm(targets, axis=1, keepdims=True)).astype(np.float32)
+    towards: Singles = (targets / np.linalg.norm(targets, axis=1, keepdims=True)).astype(np.float32)
+    return towards
 
 
 def _radical_inverse(index: int, base: int) -> float:

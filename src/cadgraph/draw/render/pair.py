@@ -113,7 +113,8 @@ class PairRenderer:
             alone[at] = self._drawn(window, surfaces, self._colors, Haze())
             shape[at] = covered(window, surfaces, _LOOK.samples, -1)
         if not self.plain:
-            _outline(seen, shape, _OUTLINE, np.round(to_srgb(self._mark) * 255).astype(np.float64), context)
+            color = np.round(to_srgb(self._mark) * 255).astype(np.float64)
+            _outline(seen, shape, _room(window, int(_OUTLINE) + 2), _OUTLINE, color, context)
         images = [Image.fromarray(context), Image.fromarray(alone)]
         bar = 0.0
         if not self.plain:
@@ -143,7 +144,8 @@ class PairRenderer:
             port, surfaces, open_air(port.width * port.height), lamps(camera), colors[None], none, none[0],
             _LOOK.samples, _LOOK.lines, haze, behind, 1,
         )  # fmt: skip
-        return compose(port, layer, None, behind, 1)[0]
+        drawn: Bytes = compose(port, layer, None, behind, 1)[0]
+        return drawn
 
     def _cut_away(self, camera: Camera, towards: Singles, left_out: Bools, single: Caster) -> Hits:
         """What rays meet when they pass through the meshes that are left out.
@@ -161,7 +163,8 @@ class PairRenderer:
                 break
             reached[through] = found.distance[through] + step
             behind = self.caster.first(eye + towards[through] * reached[through, None], towards[through])
-            _replace(found, through, behind, reached[through])
+            _replace(found, through, np.arange(len(through)), behind)
+            found.distance[through] = np.where(behind.face >= 0, behind.distance + reached[through], np.inf)
             through = self._on(found.face, left_out, through)
         found.face[through] = -1
         if len(first):
@@ -170,13 +173,15 @@ class PairRenderer:
             )  # fmt: skip
             nearer = (found.face[first] < 0) | (own.distance < found.distance[first] * (1 + _SLACK))
             wins = np.flatnonzero((own.face >= 0) & nearer)
-            _replace(found, first[wins], Hits(*(values[wins] for values in own)), np.float32(0))
+            found.distance[first[wins]] = own.distance[wins]
+            _replace(found, first[wins], wins, own)
         return found
 
     def _on(self, face: npt.NDArray[np.int32], left_out: Bools, rays: npt.NDArray[Any]) -> npt.NDArray[Any]:
         """Those of some rays that met a mesh that is left out."""
         met = rays[face[rays] >= 0]
-        return met[left_out[self.mesh_of_face[face[met]]]]
+        there: npt.NDArray[Any] = met[left_out[self.mesh_of_face[face[met]]]]
+        return there
 
     def _single(self, target: int) -> Caster:
         kept: dict[int, Caster] = self._local.__dict__.setdefault("single", {})
@@ -206,27 +211,37 @@ class PairRenderer:
         return middle, _HAZED * middle
 
 
-def _replace(found: Hits, rays: npt.NDArray[Any], by: Hits, further: Any) -> None:
-    for values, others in zip(found, by, strict=True):
-        values[rays] = others
-    found.distance[rays] = np.where(by.face >= 0, by.distance + further, np.float32(np.inf))
+def _replace(found: Hits, rays: npt.NDArray[Any], rows: npt.NDArray[Any], by: Hits) -> None:
+    """Lets some rays have met something else; their distances aside."""
+    for values, others in ((found.face, by.face), (found.u, by.u), (found.v, by.v), (found.normal, by.normal)):
+        values[rays] = others[rows]
+
+
+def _room(window: Viewport, margin: int) -> npt.NDArray[np.int64]:
+    """First and last row, first and last column of a window and a margin round it."""
+    bottom, right = window.top + window.height + margin, window.left + window.width + margin
+    return np.array([
+        max(0, window.top - margin), min(window.camera.height, bottom),
+        max(0, window.left - margin), min(window.camera.width, right),
+    ])  # fmt: skip
 
 
 @compiled
-def _outline(seen: Any, whole: Any, radius: float, color: Any, image: Any) -> None:
+def _outline(seen: Any, whole: Any, room: Any, radius: float, color: Any, image: Any) -> None:
     """Draws a line round what is seen of the target, dotted where it goes on behind others.
 
     Args:
         seen: ``(height, width)`` quarters of each pixel that show the target.
         whole: ``(height, width)`` quarters that would show it if it were alone.
+        room: ``(4,)`` first and last row, first and last column that may hold the target or its line.
         radius: width of the line [px].
         color: ``(3,)`` sRGB bytes.
         image: ``(height, width, 3)`` that is drawn on.
     """
     height, width = seen.shape
     reach = int(radius) + 1
-    for row in range(height):
-        for column in range(width):
+    for row in range(room[0], room[1]):
+        for column in range(room[2], room[3]):
             own = seen[row, column]
             if own == 4:
                 continue

@@ -116,16 +116,16 @@ def _cost(
             cost += _LEADER_COST
     for k in range(len(spots)):
         if cost > least:
-            return cost
+            break
         cost += _POINT_COST * _overlap(box, spots[k, 0], spots[k, 1], spots[k, 0], spots[k, 1], _POINT_ROOM * high)
     for k in range(len(lines)):
         if cost > least:
-            return cost
+            break
         for step in range(9):
             at_x = lines[k, 0] + (lines[k, 2] - lines[k, 0]) * step / 8
             at_y = lines[k, 1] + (lines[k, 3] - lines[k, 1]) * step / 8
             cost += _SEGMENT_COST / 4 * _overlap(box, at_x, at_y, at_x, at_y, _SEGMENT_ROOM * high)
-    return cost
+    return float(cost)
 
 
 @compiled
