@@ -130,11 +130,9 @@ def annotate(
     layer = Image.new("RGBA", (width * zoom, height * zoom), (255, 255, 255, 0))
     draw = ImageDraw.Draw(layer)
     for segment, line in sorted(zip(segments, lines, strict=True), key=lambda pair: pair[0].color):
-        if np.isfinite(line).all():
-            _draw_line(draw, line * zoom, segment.color, segment.width * scale * zoom)
+        _draw_line(draw, line * zoom, segment.color, segment.width * scale * zoom)
     for i in np.argsort(-depths, kind="stable"):
-        if np.isfinite(places[i]).all():
-            _draw_ball(draw, places[i] * zoom, marks[i].color, marks[i].radius * scale * zoom)
+        _draw_ball(draw, places[i] * zoom, marks[i].color, marks[i].radius * scale * zoom)
     _draw_tags(draw, placed, scale * zoom, zoom)
     # Downscaling needs colours weighted by their cover, or white would creep into the edges.
     shrunk = layer.convert("RGBa").reduce(zoom).convert("RGBA")
@@ -162,6 +160,8 @@ def _drawn_lines(camera: Camera, segments: Sequence[Segment]) -> Floats:
 
 
 def _draw_line(draw: ImageDraw.ImageDraw, line: Floats, color: str, width: float) -> None:
+    if not np.isfinite(line).all():
+        return
     x0, y0, x1, y1 = (float(c) for c in line)
     rgb = _rgb(color)
     for share, tone in ((1.0, _mixed(rgb, (0, 0, 0), 0.45)), (0.66, rgb), (0.2, _mixed(rgb, (255, 255, 255), 0.35))):
@@ -172,6 +172,8 @@ def _draw_line(draw: ImageDraw.ImageDraw, line: Floats, color: str, width: float
 
 
 def _draw_ball(draw: ImageDraw.ImageDraw, place: Floats, color: str, radius: float) -> None:
+    if not np.isfinite(place).all():
+        return
     x, y = (float(c) for c in place)
     rgb = _rgb(color)
     steps = 7

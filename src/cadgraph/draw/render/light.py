@@ -129,66 +129,81 @@ def _send(
 ) -> int:  # fmt: skip
     """Prepares the rays of some pixels, and what is known without any; says how many rays there are."""
     k = 0
-    up, n = np.empty((3, 3)), np.empty(3)
+    basis, point = np.empty((3, 3)), np.empty(3)
     for pixel in range(first, last):
         row, column = pixel // width, pixel % width
         x, y = (column + 0.5 - view[0]) * view[2], (view[1] - row - 0.5) * view[2]
-        depth = surfaces.depth[pixel]
-        cell = order[row % _PATTERN, column % _PATTERN]
-        down = axes[2, 2] + x * axes[0, 2] + y * axes[1, 2]
-        fade, lift = 1.0, 0.05 * view[2] * depth
+        depth, fade, lift = surfaces.depth[pixel], 1.0, sizes[1] + 0.05 * view[2] * surfaces.depth[pixel]
         if surfaces.mesh[pixel] < 0:
-            depth, lift = ground[0] / down, 0.0
-            if not floor or down > -1e-3 or depth <= 0:
-                continue
-            fade = _fade(axes, eye, ground, x, y, depth)
+            depth, fade = _on_floor(axes, eye, ground, x, y) if floor else (0.0, 0.0)
             if fade <= 0:
                 continue
             found.fade[pixel] = fade
+            lift = sizes[1]
         for i in range(3):
-            n[i] = axes[i, 2] if surfaces.mesh[pixel] < 0 else surfaces.flat[pixel, i]
-        facing, smooth = 0.0, 0.0
-        for i in range(3):
-            facing += n[i] * key[i]
-            smooth += key[i] * (n[i] if surfaces.mesh[pixel] < 0 else surfaces.normal[pixel, i])
-        for i in range(3):
-            up[2, i] = n[0] * axes[0, i] + n[1] * axes[1, i] + n[2] * axes[2, i]
-        _tangents(up)
-        lift += sizes[1]
+            point[i] = eye[i] + depth * (axes[2, i] + x * axes[0, i] + y * axes[1, i])
+        facing, smooth = _upright(axes, surfaces, pixel, key, basis)
+        cell = order[row % _PATTERN, column % _PATTERN]
         # Nothing hides the sky from floor that is further away than ambient occlusion reaches.
         if fade > ground[4]:
             found.sky[pixel] = 0.0
             for ray in range(hemisphere.shape[1]):
                 for i in range(3):
-                    place = depth * (axes[2, i] + x * axes[0, i] + y * axes[1, i])
-                    starts[k, i] = eye[i] + place + lift * up[2, i]
-                    towards[k, i] = (hemisphere[cell, ray, 0] * up[0, i] + hemisphere[cell, ray, 1] * up[1, i]
-                                     + hemisphere[cell, ray, 2] * up[2, i])  # fmt: skip
+                    starts[k, i] = point[i] + lift * basis[2, i]
+                    towards[k, i] = (hemisphere[cell, ray, 0] * basis[0, i] + hemisphere[cell, ray, 1] * basis[1, i]
+                                     + hemisphere[cell, ray, 2] * basis[2, i])  # fmt: skip
                 reach[k], owner[k], kind[k] = lengths[cell, ray] * sizes[0], pixel, _SKY
                 k += 1
         # A flat face that turns from (a part of) the lamp while the curve it stands for is lit is not in shadow: its
         # outline would show.
         found.sun[pixel] = 1.0 if smooth > 0 and facing <= _SOFTNESS else 0.0
-        if facing > _SOFTNESS:
-            for ray in range(_SUN_RAYS):
-                for i in range(3):
-                    place = depth * (axes[2, i] + x * axes[0, i] + y * axes[1, i])
-                    starts[k, i] = eye[i] + place + sizes[2] * up[2, i]
-                    towards[k, i] = lamp[cell + ray * _PATTERN * _PATTERN, i]
-                reach[k], owner[k], kind[k] = sizes[3], pixel, _SUN
-                k += 1
+        for ray in range(_SUN_RAYS if facing > _SOFTNESS else 0):
+            for i in range(3):
+                starts[k, i] = point[i] + sizes[2] * basis[2, i]
+                towards[k, i] = lamp[cell + ray * _PATTERN * _PATTERN, i]
+            reach[k], owner[k], kind[k] = sizes[3], pixel, _SUN
+            k += 1
     return k
 
 
 @compiled
-def _fade(axes: Any, eye: Any, ground: Any, x: float, y: float, depth: float) -> float:
-    """How strongly shadows show on the floor at a depth: 1 below what stands on it, 0 far beside."""
+def _upright(axes: Any, surfaces: Any, pixel: int, key: Any, basis: Any) -> tuple[float, float]:
+    """A basis, in the world's axes, on the surface or floor at a pixel; says how much it faces the lamp.
+
+    Returns:
+        The cosine of the angle between the lamp and the triangle, and between the lamp and the smooth surface.
+    """
+    facing, smooth = 0.0, 0.0
+    for i in range(3):
+        basis[2, i] = 0.0
+    for i in range(3):
+        flat, rounded = axes[i, 2], axes[i, 2]
+        if surfaces.mesh[pixel] >= 0:
+            flat, rounded = surfaces.flat[pixel, i], surfaces.normal[pixel, i]
+        facing += flat * key[i]
+        smooth += rounded * key[i]
+        for j in range(3):
+            basis[2, j] += flat * axes[i, j]
+    _tangents(basis)
+    return facing, smooth
+
+
+@compiled
+def _on_floor(axes: Any, eye: Any, ground: Any, x: float, y: float) -> tuple[float, float]:
+    """The depth at which a ray meets the floor, and how strongly shadows show there.
+
+    The strength is 1 below what stands on the floor, and falls to 0 where the floor ends or none is met.
+    """
+    down = axes[2, 2] + x * axes[0, 2] + y * axes[1, 2]
+    depth = ground[0] / down
+    if down > -1e-3 or depth <= 0:
+        return 0.0, 0.0
     beyond = 0.0
     for i in range(2):
         place = eye[i] + depth * (axes[2, i] + x * axes[0, i] + y * axes[1, i])
         out = max(abs(place) - ground[1 + i], 0.0)
         beyond += out * out
-    return float(1.0 - np.sqrt(beyond) / ground[3])
+    return depth, 1.0 - np.sqrt(beyond) / ground[3]
 
 
 @compiled

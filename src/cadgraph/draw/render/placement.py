@@ -75,28 +75,32 @@ def _place(
         least, x, y = most, anchors[n, 0], anchors[n, 1]
         if not (np.isfinite(x) and np.isfinite(y)):
             continue
-        wide, high = sizes[n, 0], sizes[n, 1]
-        for ring in rings:
-            for way in range(len(ways)):
-                box[0] = x + ways[way, 0] * (wide / 2 + ring * high) - wide / 2
-                box[1] = y + ways[way, 1] * (high / 2 + ring * high) - high / 2
-                box[2], box[3] = box[0] + wide, box[1] + high
-                if box[0] < area[0] or box[1] < area[1] or box[2] > area[2] or box[3] > area[3]:
-                    continue
-                free = True
-                for k in range(n_taken + n):
-                    free &= not _overlap(box, boxes[k, 0], boxes[k, 1], boxes[k, 2], boxes[k, 3], gap)
-                if not free:
-                    continue
-                cost = _cost(box, x, y, n, n_taken, spots, lines, boxes, leaders, least)
-                if cost < least - 1e-6:
-                    least = cost
-                    for i in range(4):
-                        boxes[n_taken + n, i] = box[i]
-        if boxes[n_taken + n, 0] == boxes[n_taken + n, 0]:
-            leaders[n, 0], leaders[n, 1] = x, y
-            leaders[n, 2] = min(max(x, boxes[n_taken + n, 0]), boxes[n_taken + n, 2])
-            leaders[n, 3] = min(max(y, boxes[n_taken + n, 1]), boxes[n_taken + n, 3])
+        wide, high, placed = sizes[n, 0], sizes[n, 1], n_taken + n
+        for place in range(len(rings) * len(ways)):
+            ring, way = rings[place // len(ways)], place % len(ways)
+            box[0] = x + ways[way, 0] * (wide / 2 + ring * high) - wide / 2
+            box[1] = y + ways[way, 1] * (high / 2 + ring * high) - high / 2
+            box[2], box[3] = box[0] + wide, box[1] + high
+            if not _is_free(box, area, boxes, placed, gap):
+                continue
+            cost = _cost(box, x, y, n, n_taken, spots, lines, boxes, leaders, least)
+            if cost < least - 1e-6:
+                least = cost
+                for i in range(4):
+                    boxes[placed, i] = box[i]
+                leaders[n, 0], leaders[n, 1] = x, y
+                leaders[n, 2], leaders[n, 3] = min(max(x, box[0]), box[2]), min(max(y, box[1]), box[3])
+
+
+@compiled
+def _is_free(box: Any, area: Any, boxes: Any, placed: int, gap: float) -> bool:
+    """Whether a box lies within the area and off those that are placed."""
+    if box[0] < area[0] or box[1] < area[1] or box[2] > area[2] or box[3] > area[3]:
+        return False
+    free = True
+    for k in range(placed):
+        free &= not _overlap(box, boxes[k, 0], boxes[k, 1], boxes[k, 2], boxes[k, 3], gap)
+    return free
 
 
 @compiled

@@ -296,22 +296,15 @@ def _lines(
     """
     across, at = samples + 2, -1
     for down in range(-1, samples + 1):
-        r, to_row = down, row
-        if down < 0:
-            r, to_row = samples - 1, row - 1
-        elif down == samples:
-            r, to_row = 0, row + 1
+        r, beyond = _wrapped(down, samples)
         for right in range(-1, samples + 1):
+            c, beside = _wrapped(right, samples)
             at += 1
             dark[at] = 0.0
-            c, to_column = right, column
-            if right < 0:
-                c, to_column = samples - 1, column - 1
-            elif right == samples:
-                c, to_column = 0, column + 1
-            if to_row != row and to_column != column:
+            to_row, to_column = row + beyond, column + beside
+            if beyond and beside:
                 continue
-            if to_row < 0 or to_row >= height or to_column < 0 or to_column >= width:
+            if not (0 <= to_row < height and 0 <= to_column < width):
                 near[at, 0] = _OUTSIDE
                 continue
             pixel = to_row * width + to_column
@@ -349,31 +342,46 @@ def _note(near: Any, at: int, mesh: Any, normal: Any, depth: Any, k: int, x: flo
 
 
 @compiled
+def _wrapped(place: int, samples: int) -> tuple[int, int]:
+    """The row or column of a sample within its own pixel, and how many pixels away that is."""
+    if place < 0:
+        return samples - 1, -1
+    if place == samples:
+        return 0, 1
+    return place, 0
+
+
+@compiled
 def _draw_line(near: Any, a: int, b: int, limit: float, both: bool, dark: Any) -> None:
     """The line between two neighbouring samples; against what lies behind, on the nearer side alone or on both."""
     if near[a, 0] == _OUTSIDE or near[b, 0] == _OUTSIDE or (near[a, 0] < 0 and near[b, 0] < 0):
         return
-    turn = 1.0
-    outlined = near[a, 0] < 0 or near[b, 0] < 0
-    if not outlined:
-        first, second, turn = 0.0, 0.0, 0.0
-        for i in range(1, 4):
-            away = near[b, 3 + i] - near[a, 3 + i]
-            first += away * near[a, i]
-            second += away * near[b, i]
-            turn += near[a, i] * near[b, i]
-        outlined = min(abs(first), abs(second)) > limit * min(near[a, 6], near[b, 6])
-    before = a if near[a, 6] < near[b, 6] else b
-    if outlined:
+    step, turn = _apart(near, a, b)
+    before, behind = (a, b) if near[a, 6] < near[b, 6] else (b, a)
+    if step > limit * near[before, 6]:
         # What is not drawn has no outline.
         strength = _OUTLINE * near[before, 7]
-    else:
-        strength = _SEAM if near[a, 0] != near[b, 0] else _CREASE if turn < _SHARP else 0.0
-        strength *= near[a, 7] * near[b, 7]
-    if both or not outlined or before == a:
-        dark[a] = max(dark[a], strength)
-    if both or not outlined or before == b:
-        dark[b] = max(dark[b], strength)
+        dark[before] = max(dark[before], strength)
+        if both:
+            dark[behind] = max(dark[behind], strength)
+        return
+    strength = _SEAM if near[a, 0] != near[b, 0] else _CREASE if turn < _SHARP else 0.0
+    strength *= near[a, 7] * near[b, 7]
+    dark[a], dark[b] = max(dark[a], strength), max(dark[b], strength)
+
+
+@compiled
+def _apart(near: Any, a: int, b: int) -> tuple[float, float]:
+    """How far two samples lie apart across their surfaces [m], and the cosine between their normals."""
+    if near[a, 0] < 0 or near[b, 0] < 0:
+        return np.inf, 1.0
+    first, second, turn = 0.0, 0.0, 0.0
+    for i in range(1, 4):
+        away = near[b, 3 + i] - near[a, 3 + i]
+        first += away * near[a, i]
+        second += away * near[b, i]
+        turn += near[a, i] * near[b, i]
+    return min(abs(first), abs(second)), turn
 
 
 @compiled

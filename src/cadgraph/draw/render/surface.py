@@ -269,17 +269,22 @@ def _follow_edges(
     """
     for k in range(len(pixels)):
         row, column = pixels[k] // width, pixels[k] % width
-        base = k * side * side
+        first, last = k * side * side, (k + 1) * side * side - side
         for i in range(side):
-            if column > 0 and slot[pixels[k] - 1] < 0 and grid_mesh[base + i * side] != mesh[pixels[k] - 1]:
-                edge[pixels[k] - 1] = 1
-            right, bottom = base + i * side + side - 1, base + (side - 1) * side + i
-            if column + 1 < width and slot[pixels[k] + 1] < 0 and grid_mesh[right] != mesh[pixels[k] + 1]:
-                edge[pixels[k] + 1] = 1
-            if row > 0 and slot[pixels[k] - width] < 0 and grid_mesh[base + i] != mesh[pixels[k] - width]:
-                edge[pixels[k] - width] = 1
-            if row + 1 < height and slot[pixels[k] + width] < 0 and grid_mesh[bottom] != mesh[pixels[k] + width]:
-                edge[pixels[k] + width] = 1
+            if column > 0:
+                _mark(grid_mesh[first + i * side], pixels[k] - 1, mesh, slot, edge)
+            if column + 1 < width:
+                _mark(grid_mesh[first + i * side + side - 1], pixels[k] + 1, mesh, slot, edge)
+            if row > 0:
+                _mark(grid_mesh[first + i], pixels[k] - width, mesh, slot, edge)
+            if row + 1 < height:
+                _mark(grid_mesh[last + i], pixels[k] + width, mesh, slot, edge)
+
+
+@compiled
+def _mark(found: int, pixel: int, mesh: Any, slot: Any, edge: Any) -> None:
+    if slot[pixel] < 0 and mesh[pixel] != found:
+        edge[pixel] = 1
 
 
 @compiled

@@ -213,27 +213,31 @@ def _system(ready: _Ready, cluster: Cluster, title: str, overview: Camera, size:
         return None
     paint, hatched, legend = _group_paint(ready, inside)
     units = [unit for unit in graph.units() if members.intersection(unit.parts)]
-    names = {unit.id for unit in units}
-    ends: list[Junction | Terminal] = [*graph.of_layer(Junction), *graph.of_layer(Terminal)]
-    ends = [end for end in ends if members.intersection(end.parts)]
-    names |= {end.id for end in ends}
+    ends = [end for end in graph.of_layer(Terminal) if members.intersection(end.parts)]
+    junctions = [junction for junction in graph.of_layer(Junction) if members.intersection(junction.parts)]
+    names = {*(unit.id for unit in units), *(end.id for end in ends), *(junction.id for junction in junctions)}
     edges = [edge for edge in _drawn_edges(graph) if edge.source in names and edge.target in names]
     # A system that is nearly everything would look as in the overview: it is shown from the other side.
     unlike = -overview.forward if len(meshes) > _NEARLY_ALL * ready.scene.n_meshes else None
     aspect = ready.config.width / ready.config.height
     camera = _camera(ready, meshes, three_quarter_view(renderer, meshes, alone=True, aspect=aspect, unlike=unlike))
     image = renderer.picture(camera, Paint(paint, hatched, ghosted=~inside), _grounded(ready, meshes))
-    open_ends = [end for end in ends if isinstance(end, Terminal) and end.kind != "blind"]
+    open_ends = [end for end in ends if end.kind != "blind"]
     image, tagged = _related(ready, image, camera, units, edges, size, open_ends)
     untagged = _untagged(len(units) + len(open_ends), tagged)
-    types = [unit.unit_type for unit in units]
-    counts = [_counted(types.count(name), name) for name in dict.fromkeys(types)]
-    contents = ", ".join([_counted(cluster.n_parts, "part"), *counts, _counted(len(edges), "relation")])
+    contents = _contents(cluster, units, len(edges))
     extent = " × ".join(f"{high - low:.2f}" for low, high in zip(*cluster.aabb, strict=True))
     return Picture(
         f"system-{cluster.id}", title, f"{contents}; {extent} m. {untagged}".strip(),
         f"Pipe system {cluster.id} coloured by group, all else faint: {contents}.", image, legend, camera,
     )  # fmt: skip
+
+
+def _contents(cluster: Cluster, units: Sequence[Unit], n_relations: int) -> str:
+    """How many of what a system holds, as text."""
+    types = Counter(unit.unit_type for unit in units)
+    counts = [_counted(count, name) for name, count in types.items()]
+    return ", ".join([_counted(cluster.n_parts, "part"), *counts, _counted(n_relations, "relation")])
 
 
 def _grounded(ready: _Ready, meshes: Ints) -> Look:
@@ -282,7 +286,7 @@ def _related(
     segments = _lines(ready, edges, 3.0 if crowded else 4.5)
     marks = [Mark(_local(ready, unit.centroid), RELATION, 4.5 if crowded else 7.0) for unit in units]
     ends = {name for pair in pairs for name in pair if not isinstance(ready.graph.nodes[name], Unit)}
-    ends |= {end.id for end in open_ends}
+    ends.update(end.id for end in open_ends)
     marks += [Mark(_place(ready, name), _END, 4.5) for name in sorted(ends)]
     # What there are few of is what people look for first.
     count = Counter(unit.unit_type for unit in units)
