@@ -134,7 +134,7 @@ class PairRenderer:
         def cast(towards: Singles) -> Hits:
             return self._cut_away(port.camera, towards, left_out, single)
 
-        return meet(port, cast, self.mesh_of_face, self._renderer.normals.ready, _LOOK.samples, 1)
+        return meet(port, cast, self.mesh_of_face, self._renderer.normals.ready, _LOOK.samples, False, 1)
 
     def _drawn(self, port: Viewport, surfaces: Surfaces, colors: Singles, haze: Haze) -> Bytes:
         none = np.zeros((1, self.scene.n_meshes), bool)

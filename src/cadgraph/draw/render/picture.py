@@ -45,7 +45,7 @@ class Look:
     """
 
     samples: int = 3
-    sky_rays: int = 4
+    sky_rays: int = 3
     lines: float = 0.6
     floor: bool = True
     top: str = "#fafbfd"
@@ -157,7 +157,7 @@ class Renderer:
         none = np.zeros(self.scene.n_meshes, bool)
         hatched = np.array([none if paint.hatched is None else paint.hatched for paint in paints])
         caster = self.caster(np.flatnonzero(~ghosted & drawn) if ghosts else None)
-        surfaces = self.surfaces(port, caster, look.samples)
+        surfaces = self.surfaces(port, caster, look.samples, lit=look.sky_rays > 0)
         seen = open_air(port.width * port.height)
         if look.sky_rays:
             seen = light(port, surfaces, caster, lights, look.sky_rays, look.floor, self.threads)
@@ -169,14 +169,14 @@ class Renderer:
         images = compose(port, solid, over, behind, self.threads)
         return [Image.fromarray(image) for image in images]
 
-    def surfaces(self, port: Viewport, caster: Caster, samples: int) -> Surfaces:
+    def surfaces(self, port: Viewport, caster: Caster, samples: int, *, lit: bool = False) -> Surfaces:
         """What the rays of a picture meet among a caster's meshes."""
         eye = caster.local(port.camera.eye[None])[0]
 
         def cast(towards: Singles) -> Hits:
             return caster.first(np.broadcast_to(eye, towards.shape), towards)
 
-        return meet(port, cast, self.mesh_of_face, self.normals.ready, samples, self.threads)
+        return meet(port, cast, self.mesh_of_face, self.normals.ready, samples, lit, self.threads)
 
     def _ghosts(
         self, port: Viewport, lights: Lamps, colors: Colors, left_out: Bools, look: Look, behind: Singles

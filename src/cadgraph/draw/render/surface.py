@@ -36,7 +36,7 @@ class Surfaces(NamedTuple):
     Args:
         mesh: ``(n,)`` int32 of the ray through the middle of each pixel, -1 where it met nothing.
         normal: ``(n, 3)`` float32 unit, on the viewer's side.
-        flat: ``(n, 3)`` as ``normal``, of the triangle itself.
+        flat: ``(n, 3)`` as ``normal``, of the triangle itself; empty unless it is wanted.
         depth: ``(n,)`` float32 along the viewing direction [m], infinite where nothing was met.
         slot: ``(n,)`` int32 place of the pixel's grid among all grids, -1 where it has none.
         grid_mesh: ``(n_grids * samples ** 2,)`` as ``mesh``, row by row within each pixel.
@@ -89,9 +89,9 @@ class Viewport:
         return np.array([*middle, self.camera.pixel_size])
 
 
-def in_chunks(count: int, act: Callable[[int, int], object], threads: int) -> None:
+def in_chunks(count: int, act: Callable[[int, int], object], threads: int, chunk: int = _CHUNK) -> None:
     """Calls ``act(first, last)`` on ranges that cover ``range(count)``, the same whatever the number of threads."""
-    bounds = [(first, min(first + _CHUNK, count)) for first in range(0, count, _CHUNK)]
+    bounds = [(first, min(first + chunk, count)) for first in range(0, count, chunk)]
     if threads == 1 or len(bounds) < 2:
         for first, last in bounds:
             act(first, last)
@@ -102,7 +102,7 @@ def in_chunks(count: int, act: Callable[[int, int], object], threads: int) -> No
 
 def meet(
     port: Viewport, cast: Callable[[Singles], Hits], mesh_of_face: Indices,
-    normals: Callable[[Indices], Singles], samples: int, threads: int,
+    normals: Callable[[Indices], Singles], samples: int, lit: bool, threads: int,
 ) -> Surfaces:  # fmt: skip
     """Finds what the rays of a picture meet.
 
@@ -112,6 +112,7 @@ def meet(
         mesh_of_face: ``(n_faces,)`` mesh of each of the scene's faces.
         normals: gives the corner normals ``(n_faces, 3, 3)``, worked out at least for the meshes that it is handed.
         samples: rays along each side of a pixel where neighbours differ.
+        lit: whether the normals of the triangles themselves are wanted, to cast rays to the light from.
         threads: that share the work.
     """
     axes, view, width, height = port.axes, port.view, port.width, port.height
@@ -130,10 +131,10 @@ def meet(
             cut = slice(first * each, last * each)
             _resolve(axes, towards, *hits, mesh_of_face, corners, mesh[cut], normal[cut], depth[cut], flat[cut])
 
-        in_chunks(len(pixels), some, threads)
+        in_chunks(len(pixels), some, threads, _CHUNK // each)
         return mesh, normal, depth
 
-    flat = np.empty((n, 3), np.float32)
+    flat = np.empty((n if lit else 0, 3), np.float32)
     mesh, normal, depth = shoot(np.arange(n), 1, flat)
     edge, slot = np.zeros(n, np.uint8), np.full(n, -1, np.int32)
     in_chunks(n, lambda first, last: _find_edges(view, width, first, last, mesh, normal, depth, edge), threads)

@@ -23,7 +23,7 @@ _LENGTHWISE = 0.75  # looking more along the longer side than at it foreshortens
 _FRONT_BONUS = 1.06  # a view from -Y wins unless another shows clearly more
 _REPEAT_MALUS = 0.1  # a side that was shown already is shown again only if the others show nothing
 _TRIAL_POINTS = 12_000
-_TRIAL_HEIGHT = 128  # [px] of the trial pictures
+_TRIAL_HEIGHT = 96  # [px] of the trial pictures
 
 
 def three_quarter_view(
