@@ -1,4 +1,4 @@
-"""Pictures per second: ``python benchmarks/render.py [--scale N] [--size WIDTHxHEIGHT]``.
+"""Pictures per second: ``python benchmarks/render.py [--size WIDTHxHEIGHT] [--pairs] [--report PRESET]``.
 
 Draws a generated plant of pipes, flanges, bolts and tanks, from a few hundred meshes up to millions of triangles, and
 prints a table in Markdown with a description of the machine.
@@ -13,6 +13,7 @@ import os
 import platform
 import statistics
 import sys
+import tempfile
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -27,7 +28,10 @@ from cadgraph.draw.render.color import distinct_colors
 from cadgraph.draw.render.pair import PairRenderer
 from cadgraph.draw.render.picture import Look, Paint, Renderer
 from cadgraph.draw.render.views import Target, View, choose_views, three_quarter_view
+from cadgraph.draw.report import write_report
 from cadgraph.model.scene import Scene
+from cadgraph.pipeline import build
+from cadplants import make
 
 Mesh = tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]
 
@@ -158,9 +162,18 @@ def measure_pairs(lines: int, sides: int, threads: int) -> str:
         pairs = spent(draw)
         some *= 4
         sustained = spent(draw)
-    slow = spent(lambda: Renderer(scene, threads=threads).picture(some[0][1].camera))
-    cells = [f"{scene.n_meshes:,}", f"{scene.n_triangles:,}", chosen_in, pairs, sustained, slow, beside(scene, some)]
+    cells = [f"{scene.n_meshes:,}", f"{scene.n_triangles:,}", chosen_in, pairs, sustained, beside(scene, some)]
     return "| " + " | ".join([*cells, f"{peak_memory():.2f}"]) + " |"
+
+
+def measure_report(preset: str, repeats: int) -> str:
+    """The report of a generated plant: all pictures and the page."""
+    scene = make(preset).scene()
+    graph = build(scene)
+    with tempfile.TemporaryDirectory() as folder:
+        write_report(scene, graph, folder)
+        report = timed(lambda: write_report(scene, graph, folder), repeats)
+    return f"| {preset} | {scene.n_meshes:,} | {scene.n_triangles:,} | {report} | {peak_memory():.2f} |"
 
 
 def beside(scene: Scene, looks: list[tuple[int, View]]) -> str:
@@ -191,11 +204,16 @@ def main() -> None:
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--huge", action="store_true", help="also a scene of about 7 million triangles")
     parser.add_argument("--pairs", action="store_true", help="only the pictures for a vision-language model")
+    parser.add_argument("--report", default="", metavar="PRESET", help="only the report of a generated plant")
     parser.add_argument("--threads", type=int, default=os.cpu_count() or 1, help="that draw pairs")
     options = parser.parse_args()
     width, height = (int(side) for side in options.size.split("x"))
     print(f"{platform.platform()}, {os.cpu_count()} processors, Python {platform.python_version()}")
-    print(f"\nWall / processor seconds, median of {options.repeats}; {width}x{height}, 3x3 samples, 4 sky rays.\n")
+    if options.report:
+        print("\n| plant | meshes | triangles | report, wall / processor s | peak GB |\n|---|---:|---:|---:|---:|")
+        print(measure_report(options.report, options.repeats))
+        return
+    print(f"\nWall / processor seconds, median of {options.repeats}; {width}x{height}, 3x3 samples, 3 sky rays.\n")
     titles = ["meshes", "triangles", "tree", "view", "first", "picture", "3 colourings", "no light", "notes"]
     titles.append("512x512 plain")
     print("| " + " | ".join([*titles, "peak GB"]) + " |")
@@ -211,7 +229,6 @@ def main() -> None:
         "views of 2,000",
         "25 pairs",
         "100 pairs",
-        "1 full picture",
         "pyvista, 50 pictures",
     ]
     print("| " + " | ".join([*titles, "peak GB"]) + " |")

@@ -11,28 +11,25 @@ CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], flo
 angles = st.tuples(st.floats(-3.1, 3.1), st.floats(-1.5, 1.5))
 
 
-@pytest.mark.parametrize("projection", ["perspective", "orthographic"])
 @given(points=st.lists(st.tuples(*[st.floats(-100, 100)] * 3), min_size=2, max_size=12), angle=angles)
-def test_all_points_lie_within_the_margins(projection, points, angle):
-    camera = frame(points, direction_from_angles(*angle), (300, 200), projection=projection, margin=0.1)
+def test_all_points_lie_within_the_margins(points, angle):
+    camera = frame(points, direction_from_angles(*angle), (300, 200), margin=0.1)
     places, depth = camera.project(points)
     assert (depth > 0).all()
     assert (places >= np.array([30, 20]) - 1e-6).all()
     assert (places <= np.array([270, 180]) + 1e-6).all()
 
 
-@pytest.mark.parametrize("projection", ["perspective", "orthographic"])
-def test_points_reach_the_margins_and_are_centred(projection):
-    camera = frame(CUBE, direction_from_angles(-1, 0.5), (300, 200), projection=projection, margin=0.1)
+def test_points_reach_the_margins_and_are_centred():
+    camera = frame(CUBE, direction_from_angles(-1, 0.5), (300, 200), margin=0.1)
     places, _ = camera.project(CUBE)
     low, high = places.min(axis=0), places.max(axis=0)
     np.testing.assert_allclose(low + high, (300, 200), atol=1e-6)
     assert np.isclose(low[1], 20) or np.isclose(low[0], 30)
 
 
-@pytest.mark.parametrize("projection", ["perspective", "orthographic"])
-def test_ray_through_a_projected_point_meets_it(projection):
-    camera = frame(CUBE, (1, -2, 1), (640, 400), projection=projection)
+def test_ray_through_a_projected_point_meets_it():
+    camera = frame(CUBE, (1, -2, 1), (640, 400))
     places, _ = camera.project(CUBE)
     origins, directions = camera.rays(places[:, 0], places[:, 1])
     away = CUBE - origins
@@ -53,7 +50,7 @@ def test_straight_from_above_the_top_is_plus_y():
     assert places[0, 1] < places[1, 1]
 
 
-def test_point_behind_a_perspective_camera_has_no_place():
+def test_point_behind_the_camera_has_no_place():
     camera = frame(CUBE, (0, -1, 0), (100, 100))
     places, depth = camera.project([camera.eye - camera.forward])
     assert np.isnan(places).all()

@@ -3,6 +3,8 @@ import numpy as np
 from cadgraph.config import ReportConfig
 from cadgraph.draw.report.colors import RELATION, group_colors
 from cadgraph.draw.report.pictures import cluster_colors, draw_pictures, functional_edges, largest_first
+from cadgraph.model.graph import SceneGraph
+from cadgraph.model.records import Terminal
 
 CONFIG = ReportConfig(width=240, height=150, samples=1)
 
@@ -51,3 +53,33 @@ def test_group_outside_the_vocabulary_gets_a_colour_of_its_own(build_graph):
     assert next(iter(colors)) == "Rotor"
     assert colors["Tank"] != colors["Rotor"]
     assert len(set(colors.values())) == len(colors)
+
+
+def _crowd(build_graph, count):
+    """The little plant's graph with more gauges than one picture has room for."""
+    graph = build_graph()
+    (x, y, z) = graph.unit("G-001").centroid
+    more = tuple(
+        graph.unit("G-001").model_copy(
+            update={"id": f"unit-X-{i:03d}", "tag": f"X-{i:03d}", "centroid": (x - 0.01 * i, y, z)}
+        )
+        for i in range(count)
+    )
+    return SceneGraph(graph.document.model_copy(update={"nodes": (*graph.document.nodes, *more)}))
+
+
+def test_caption_says_how_many_tags_found_no_room(scene, graph, build_graph):
+    assert "left out" not in draw_pictures(scene, graph, CONFIG)[0].caption
+    assert "tags are left out for lack of room" in draw_pictures(scene, _crowd(build_graph, 80), CONFIG)[0].caption
+
+
+def test_open_ends_are_tagged_in_the_picture_of_their_system(scene, build_graph):
+    graph = build_graph()
+    end = Terminal(id="terminal-000", kind="open", point=(1.0, 0.0, 0.0), parts=("part-00000",))
+
+    def system(more):
+        document = graph.document.model_copy(update={"nodes": (*graph.document.nodes, *more)})
+        return np.asarray(draw_pictures(scene, SceneGraph(document), CONFIG)[3].image).astype(int)
+
+    changed = np.abs(system([end]) - system([end.model_copy(update={"kind": "blind"})])).sum(axis=2) > 60
+    assert changed.sum() > 100

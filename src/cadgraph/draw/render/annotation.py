@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
@@ -13,7 +15,7 @@ from cadgraph.draw.render.camera import Camera
 from cadgraph.draw.render.placement import place_boxes
 from cadgraph.model.scene import Floats
 
-__all__ = ["LegendEntry", "Mark", "Segment", "Tag", "annotate"]
+__all__ = ["Annotated", "LegendEntry", "Mark", "Segment", "Tag", "annotate"]
 
 Position = tuple[float, float, float]
 _Rgb = tuple[int, int, int]
@@ -22,6 +24,7 @@ _DRAWN_FOR = 800  # [px] height of the picture that the sizes below are meant fo
 _MOST_PIXELS = 40_000_000  # of the enlarged layer that lines are drawn on
 _FONT = 14
 _INK: _Rgb = (28, 33, 40)
+_Box = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True)
@@ -74,6 +77,18 @@ class LegendEntry:
     hatched: bool = False
 
 
+class Annotated(NamedTuple):
+    """A picture with what was drawn over it.
+
+    Args:
+        image: RGB.
+        tagged: how many of the tags found room.
+    """
+
+    image: Image.Image
+    tagged: int
+
+
 def annotate(
     image: Image.Image,
     camera: Camera,
@@ -83,8 +98,9 @@ def annotate(
     tags: Sequence[Tag] = (),
     legend: Sequence[LegendEntry] = (),
     size: float = 1.0,
-) -> Image.Image:
-    """Draws over a picture, in the order lines, balls, legend, tags; what lies behind the camera is left out.
+    clutter: float = math.inf,
+) -> Annotated:
+    """Draws lines, balls, tags and a legend over a picture; what lies behind the camera is left out.
 
     Tags never overlap; one that finds no room is left out.
 
@@ -93,33 +109,47 @@ def annotate(
         camera: that it was taken with.
         segments: lines between points.
         marks: balls at points.
-        tags: labels beside points.
+        tags: labels beside points, the most important first.
         legend: in the lower left corner.
         size: of letters, lines and balls; more than 1 for a picture that will be shown small.
+        clutter: how much a tag may stand away from its point and in the way of others, in its height, see
+            :func:`~cadgraph.draw.render.placement.place_boxes`; what would be worse is left out.
 
     Returns:
-        A new RGB image of the same size.
+        A new image of the same size, and the number of tags in it.
     """
+    if not (segments or marks or tags or legend):
+        return Annotated(image.convert("RGB"), 0)
     width, height = image.size
     scale = max(0.5, height / _DRAWN_FOR) * size
     zoom = 3 if width * height * 9 <= _MOST_PIXELS else 2 if width * height * 4 <= _MOST_PIXELS else 1
-    layer = Image.new("RGBA", (width * zoom, height * zoom), (255, 255, 255, 0))
-    draw = ImageDraw.Draw(layer)
     lines = _drawn_lines(camera, segments)
     places, depths = camera.project([m.point for m in marks]) if marks else (np.zeros((0, 2)), np.zeros(0))
+    taken = _legend_box(legend, height, scale) if legend else None
+    placed = _placed_tags(image.size, camera, tags, places, lines, taken, scale, clutter)
+    layer = Image.new("RGBA", (width * zoom, height * zoom), (255, 255, 255, 0))
+    draw = ImageDraw.Draw(layer)
     for segment, line in sorted(zip(segments, lines, strict=True), key=lambda pair: pair[0].color):
-        if np.isfinite(line).all():
-            _draw_line(draw, line * zoom, segment.color, segment.width * scale * zoom)
+        _draw_line(draw, line * zoom, segment.color, segment.width * scale * zoom)
     for i in np.argsort(-depths, kind="stable"):
-        if np.isfinite(places[i]).all():
-            _draw_ball(draw, places[i] * zoom, marks[i].color, marks[i].radius * scale * zoom)
+        _draw_ball(draw, places[i] * zoom, marks[i].color, marks[i].radius * scale * zoom)
+    _draw_tags(draw, placed, scale * zoom, zoom)
     # Downscaling needs colours weighted by their cover, or white would creep into the edges.
     shrunk = layer.convert("RGBa").reduce(zoom).convert("RGBA")
     result = Image.alpha_composite(image.convert("RGBA"), shrunk)
-    taken = _draw_legend(result, legend, scale) if legend else None
-    if tags:
-        result = _draw_tags(result, camera, tags, places, lines, taken, scale)
-    return result.convert("RGB")
+    _write_tags(result, placed, scale)
+    if taken is not None:
+        _draw_legend(result, legend, taken, scale)
+    return Annotated(result.convert("RGB"), len(placed))
+
+
+@dataclass(frozen=True)
+class _Placed:
+    """A tag that found room: its point and its box [px]."""
+
+    tag: Tag
+    anchor: Floats
+    box: Floats
 
 
 def _drawn_lines(camera: Camera, segments: Sequence[Segment]) -> Floats:
@@ -130,6 +160,8 @@ def _drawn_lines(camera: Camera, segments: Sequence[Segment]) -> Floats:
 
 
 def _draw_line(draw: ImageDraw.ImageDraw, line: Floats, color: str, width: float) -> None:
+    if not np.isfinite(line).all():
+        return
     x0, y0, x1, y1 = (float(c) for c in line)
     rgb = _rgb(color)
     for share, tone in ((1.0, _mixed(rgb, (0, 0, 0), 0.45)), (0.66, rgb), (0.2, _mixed(rgb, (255, 255, 255), 0.35))):
@@ -140,6 +172,8 @@ def _draw_line(draw: ImageDraw.ImageDraw, line: Floats, color: str, width: float
 
 
 def _draw_ball(draw: ImageDraw.ImageDraw, place: Floats, color: str, radius: float) -> None:
+    if not np.isfinite(place).all():
+        return
     x, y = (float(c) for c in place)
     rgb = _rgb(color)
     steps = 7
@@ -154,68 +188,68 @@ def _draw_ball(draw: ImageDraw.ImageDraw, place: Floats, color: str, radius: flo
         draw.ellipse((x - shift - r, y - shift - r, x - shift + r, y - shift + r), fill=(*tone, 255))
 
 
-def _draw_tags(
-    image: Image.Image,
-    camera: Camera,
-    tags: Sequence[Tag],
-    marks: Floats,
-    lines: Floats,
-    taken: tuple[float, float, float, float] | None,
-    scale: float,
-) -> Image.Image:
+def _placed_tags(
+    size: tuple[int, int], camera: Camera, tags: Sequence[Tag], marks: Floats, lines: Floats, taken: _Box | None,
+    scale: float, clutter: float,
+) -> list[_Placed]:  # fmt: skip
+    if not tags:
+        return []
     font = _font(round(_FONT * scale))
     anchors, _ = camera.project([tag.point for tag in tags])
-    inside = (anchors >= 0).all(axis=1) & (anchors <= image.size).all(axis=1)
-    anchors[~inside] = np.nan
+    anchors[~((anchors >= 0).all(axis=1) & (anchors <= size).all(axis=1))] = np.nan
     padding = 5 * scale
     extents = [font.getbbox(tag.text) for tag in tags]
     sizes = [(b[2] - b[0] + 2.6 * padding, _line_height(font) + padding) for b in extents]
-    area = (4.0, 4.0, image.width - 4.0, image.height - 4.0)
-    seen = marks[np.isfinite(marks).all(axis=1)]
-    drawn = lines[np.isfinite(lines).all(axis=1)]
     boxes = place_boxes(
-        anchors, sizes, area, taken=() if taken is None else [taken], points=seen, segments=drawn, gap=3 * scale
-    )
-    zoom = 3 if image.width * image.height * 9 <= _MOST_PIXELS else 1
-    layer = Image.new("RGBA", (image.width * zoom, image.height * zoom), (255, 255, 255, 0))
-    draw = ImageDraw.Draw(layer)
-    placed = [i for i in range(len(tags)) if np.isfinite(boxes[i]).all()]
-    for i in placed:
-        near = np.clip(anchors[i], boxes[i, :2], boxes[i, 2:])
-        ends = tuple(float(c) * zoom for c in (*anchors[i], *near))
-        draw.line(ends, fill=(255, 255, 255, 230), width=round(3.2 * scale * zoom))
-        draw.line(ends, fill=(*_INK, 255), width=max(1, round(1.2 * scale * zoom)))
-    for i in placed:
-        left, top, right, bottom = (float(c) * zoom for c in boxes[i])
-        edge = max(1, round(1.2 * scale * zoom))
-        draw.rounded_rectangle(
-            (left, top, right, bottom), 4 * scale * zoom, (255, 255, 255, 240), (*_rgb(tags[i].color), 255), edge
-        )
-        draw.rounded_rectangle(
-            (left, top, left + 4.5 * scale * zoom, bottom), 2 * scale * zoom, (*_rgb(tags[i].color), 255)
-        )
-    shrunk = layer.convert("RGBa").reduce(zoom).convert("RGBA")
-    result = Image.alpha_composite(image, shrunk)
-    write = ImageDraw.Draw(result)
-    for i in placed:
-        x, y = boxes[i, 0] + 1.55 * padding - extents[i][0], boxes[i, 1] + padding / 2
-        write.text((float(round(x)), float(round(y))), tags[i].text, font=font, fill=(*_INK, 255))
-    return result
+        anchors, sizes, (4.0, 4.0, size[0] - 4.0, size[1] - 4.0), taken=() if taken is None else [taken],
+        points=marks[np.isfinite(marks).all(axis=1)], segments=lines[np.isfinite(lines).all(axis=1)], gap=3 * scale,
+        most=clutter,
+    )  # fmt: skip
+    found = np.flatnonzero(np.isfinite(boxes).all(axis=1))
+    return [_Placed(tags[i], anchors[i], boxes[i]) for i in found.tolist()]
 
 
-def _draw_legend(image: Image.Image, entries: Sequence[LegendEntry], scale: float) -> tuple[float, float, float, float]:
-    """Draws into the image; returns the box that it takes."""
+def _draw_tags(draw: ImageDraw.ImageDraw, placed: Sequence[_Placed], unit: float, zoom: int) -> None:
+    """Leader lines, then the labels without their text."""
+    for one in placed:
+        near = np.clip(one.anchor, one.box[:2], one.box[2:])
+        ends = tuple(float(c) * zoom for c in (*one.anchor, *near))
+        draw.line(ends, fill=(255, 255, 255, 230), width=round(3.2 * unit))
+        draw.line(ends, fill=(*_INK, 255), width=max(1, round(1.2 * unit)))
+    for one in placed:
+        left, top, right, bottom = (float(c) * zoom for c in one.box)
+        color = (*_rgb(one.tag.color), 255)
+        draw.rounded_rectangle(
+            (left, top, right, bottom), 4 * unit, (255, 255, 255, 240), color, max(1, round(1.2 * unit))
+        )
+        draw.rounded_rectangle((left, top, left + 4.5 * unit, bottom), 2 * unit, color)
+
+
+def _write_tags(image: Image.Image, placed: Sequence[_Placed], scale: float) -> None:
+    font, padding = _font(round(_FONT * scale)), 5 * scale
+    write = ImageDraw.Draw(image)
+    for one in placed:
+        x, y = one.box[0] + 1.55 * padding - font.getbbox(one.tag.text)[0], one.box[1] + padding / 2
+        write.text((float(round(x)), float(round(y))), one.tag.text, font=font, fill=(*_INK, 255))
+
+
+def _legend_box(entries: Sequence[LegendEntry], height: int, scale: float) -> _Box:
+    """The box that a legend takes in the lower left corner."""
+    font = _font(round(_FONT * scale))
+    wide = max(font.getlength(entry.text) for entry in entries) + (15 + 3.2 * 10) * scale
+    tall = _line_height(font) * 1.3 * len(entries) + 14 * scale
+    left, bottom = 12 * scale, height - 12 * scale
+    return left, bottom - tall, left + wide, bottom
+
+
+def _draw_legend(image: Image.Image, entries: Sequence[LegendEntry], box: _Box, scale: float) -> None:
     font = _font(round(_FONT * scale))
     line, swatch, pad = _line_height(font) * 1.3, 15 * scale, 10 * scale
-    wide = max(font.getlength(entry.text) for entry in entries) + swatch + 3.2 * pad
-    tall = line * len(entries) + 1.4 * pad
-    left, bottom = 12 * scale, image.height - 12 * scale
-    box = (left, bottom - tall, left + wide, bottom)
     layer = Image.new("RGBA", image.size, (255, 255, 255, 0))
     draw = ImageDraw.Draw(layer)
     draw.rounded_rectangle(box, 6 * scale, (255, 255, 255, 222), (200, 206, 214, 255), 1)
     for i, entry in enumerate(entries):
-        x, y = left + pad, box[1] + 0.7 * pad + i * line
+        x, y = box[0] + pad, box[1] + 0.7 * pad + i * line
         middle = y + line / 2
         place = (x, middle - swatch / 2, x + swatch, middle + swatch / 2)
         rgb = _rgb(entry.color)
@@ -225,10 +259,9 @@ def _draw_legend(image: Image.Image, entries: Sequence[LegendEntry], scale: floa
         draw.rectangle(place, None, (*_mixed(rgb, (0, 0, 0), 0.35), 255), 1)
         draw.text((x + swatch + 0.8 * pad, middle), entry.text, font=font, fill=(*_INK, 255), anchor="lm")
     image.alpha_composite(layer)
-    return box
 
 
-def _hatch(draw: ImageDraw.ImageDraw, box: tuple[float, float, float, float], color: _Rgb, scale: float) -> None:
+def _hatch(draw: ImageDraw.ImageDraw, box: _Box, color: _Rgb, scale: float) -> None:
     left, top, right, _ = box
     side, step = right - left, 4 * scale
     for k in range(1, int(2 * side / step) + 1):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -13,10 +12,8 @@ from cadgraph.model.scene import Floats
 
 __all__ = ["Camera", "direction_from_angles", "frame"]
 
-Projection = Literal["perspective", "orthographic"]
-
 FIELD_OF_VIEW = math.radians(26.0)
-"""Vertical opening of the perspective cameras: about an 80 mm lens, which keeps parallel pipes nearly parallel."""
+"""Vertical opening of the cameras: about an 80 mm lens, which keeps parallel pipes nearly parallel."""
 
 _LEAST_SIZE = 1e-6
 _MOST_STEPS = 30
@@ -33,9 +30,7 @@ class Camera:
         forward: ``(3,)`` unit vector into the picture.
         width: of the picture [px].
         height: of the picture [px].
-        half_height: half the height of the view: [m] for an orthographic camera, tangent of half the vertical
-            field of view for a perspective one.
-        projection: perspective or orthographic.
+        half_height: tangent of half the vertical field of view.
     """
 
     eye: Floats
@@ -45,11 +40,10 @@ class Camera:
     width: int
     height: int
     half_height: float
-    projection: Projection = "perspective"
 
     @property
     def pixel_size(self) -> float:
-        """Size of a pixel: [m] for an orthographic camera, for a perspective one [m] at a depth of 1 m."""
+        """Size of a pixel at a depth of 1 m [m]."""
         return 2 * self.half_height / self.height
 
     def rays(self, columns: npt.ArrayLike, rows: npt.ArrayLike) -> tuple[Floats, Floats]:
@@ -65,8 +59,6 @@ class Camera:
         x = (np.asarray(columns, np.float64) - self.width / 2) * self.pixel_size
         y = (self.height / 2 - np.asarray(rows, np.float64)) * self.pixel_size
         sideways = x[:, None] * self.right + y[:, None] * self.up
-        if self.projection == "orthographic":
-            return self.eye + sideways, np.broadcast_to(self.forward, sideways.shape)
         directions = sideways + self.forward
         directions /= np.linalg.norm(directions, axis=1, keepdims=True)
         return np.broadcast_to(self.eye, sideways.shape), directions
@@ -79,13 +71,11 @@ class Camera:
 
         Returns:
             ``(n, 2)`` column and row [px], and ``(n,)`` depth along the viewing direction [m]; NaN for points that
-            lie behind a perspective camera.
+            lie behind the camera.
         """
         relative = np.asarray(points, np.float64).reshape(-1, 3) - self.eye
         depth = relative @ self.forward
-        scale = np.full(len(relative), self.pixel_size)
-        if self.projection == "perspective":
-            scale = np.where(depth > 0, depth, np.nan) * self.pixel_size
+        scale = np.where(depth > 0, depth, np.nan) * self.pixel_size
         column = self.width / 2 + (relative @ self.right) / scale
         row = self.height / 2 - (relative @ self.up) / scale
         return np.stack([column, row], axis=1), depth
@@ -107,7 +97,6 @@ def frame(
     direction: npt.ArrayLike,
     size: tuple[int, int],
     *,
-    projection: Projection = "perspective",
     margin: float = 0.06,
     field_of_view: float = FIELD_OF_VIEW,
 ) -> Camera:
@@ -117,9 +106,8 @@ def frame(
         points: ``(n, 3)`` what has to be seen [m], usually the vertices.
         direction: ``(3,)`` from the points towards the camera, any length.
         size: width and height of the picture [px].
-        projection: perspective or orthographic.
         margin: what stays free at each side, as share of the picture.
-        field_of_view: vertical opening of a perspective camera [rad].
+        field_of_view: vertical opening [rad].
 
     Raises:
         ValueError: there are no points, a point is not finite, or the direction is null.
@@ -136,11 +124,6 @@ def frame(
     x, y, z = ((p - center) @ axis for axis in (right, up, forward))
     least = max(float(np.linalg.norm(high - low)) * 1e-3, _LEAST_SIZE)
     use = 1 - 2 * margin
-    if projection == "orthographic":
-        half = max((y.max() - y.min()) / 2, (x.max() - x.min()) / 2 * height / width, least) / use
-        eye = center + right * (x.max() + x.min()) / 2 + up * (y.max() + y.min()) / 2
-        eye = eye + forward * (z.min() - max(z.max() - z.min(), 2 * half))
-        return Camera(eye, right, up, forward, width, height, float(half), projection)
     tangent = math.tan(field_of_view / 2)
     across, along = tangent * width / height * use, tangent * use
     # Each side of the view is a plane that all points must be within; the eye is where these planes meet.
@@ -149,7 +132,7 @@ def frame(
     back = min(-(to_right + to_left) / (2 * across), -(to_top + to_bottom) / (2 * along), z.min() - least)
     depth = z - back
     eye = center + right * _middle(x, depth) + up * _middle(y, depth) + forward * back
-    return Camera(eye, right, up, forward, width, height, tangent, projection)
+    return Camera(eye, right, up, forward, width, height, tangent)
 
 
 def _middle(sideways: Floats, depth: Floats) -> float:

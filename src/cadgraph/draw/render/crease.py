@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 import threading
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from cadgraph.draw.render.vector import dot
+from cadgraph.geometry.kernels.parallel import ZERO, compiled, readable
 from cadgraph.model.scene import Scene
 
 __all__ = ["CREASE_ANGLE", "CornerNormals", "corner_normals"]
@@ -21,12 +22,10 @@ CREASE_ANGLE = math.radians(42.0)
 chamfer (45 degrees) and a hexagon (60 degrees) keep their edges."""
 
 _MOST_PARTNERS = 24  # beyond so many faces on either side of a corner, more of them no longer change its normal
-_FACES_AT_ONCE = 400_000
+_FACES_AT_ONCE = 50_000  # of one task: many small meshes go to a thread together
 
 
-def corner_normals(
-    vertices: npt.ArrayLike, faces: npt.ArrayLike, owner: npt.ArrayLike | None = None, angle: float = CREASE_ANGLE
-) -> Singles:
+def corner_normals(vertices: npt.ArrayLike, faces: npt.ArrayLike, angle: float = CREASE_ANGLE) -> Singles:
     """A unit normal for each corner of each face: the mean of the faces round it that meet at less than an angle.
 
     Corners at the same place belong together, whether they share a vertex or not (STEP surfaces don't). Faces are
@@ -34,67 +33,123 @@ def corner_normals(
     A neighbour with its sides swapped counts with its normal turned round.
 
     Args:
-        vertices: ``(n, 3)`` [m].
+        vertices: ``(n, 3)`` of one mesh [m].
         faces: ``(m, 3)`` indices.
-        owner: ``(m,)`` the mesh of each face; corners of different meshes don't mix. All one mesh by default.
         angle: greatest angle between faces that are shaded as one [rad].
 
     Returns:
         ``(m, 3, 3)`` float32, each on the side of its face's own normal; of a degenerate face zero.
     """
-    f = np.asarray(faces, np.int64).reshape(-1, 3)
-    p = np.asarray(vertices, np.float64).reshape(-1, 3)
-    if not len(f):
-        return np.zeros((0, 3, 3), np.float32)
-    corners = (p[f] - p[f[0, 0]]).astype(np.float32)
-    flat, weights = _face_normals(corners)
-    place = _places(corners.reshape(-1, 3), np.zeros(len(f), np.int64) if owner is None else np.asarray(owner))
-    order = np.argsort(place, kind="stable")
-    place = place[order]
-    normals, weights = flat[order // 3], weights.reshape(-1)[order]
-    total = normals * weights[:, None]
-    limit = math.cos(angle)
-    for step in range(1, min(_MOST_PARTNERS, len(place) - 1) + 1):
-        first = np.flatnonzero(place[:-step] == place[step:])
-        if not len(first):
-            break
-        second = first + step
-        cosine = dot(normals[first], normals[second])
-        smooth = np.abs(cosine) > limit
-        first, second, sign = first[smooth], second[smooth], np.sign(cosine[smooth])
-        total[first] += normals[second] * (sign * weights[second])[:, None]
-        total[second] += normals[first] * (sign * weights[first])[:, None]
-    length = np.sqrt(dot(total, total))
-    sound = length > 1e-12
-    total = np.where(sound[:, None], total / np.where(sound, length, 1)[:, None], normals)
-    result = np.empty_like(total)
-    result[order] = total
-    return result.reshape(-1, 3, 3)
+    p = readable(np.asarray(vertices, np.float64).reshape(-1, 3), np.float64)
+    f = readable(np.asarray(faces, np.int32).reshape(-1, 3), np.int32)
+    result = np.zeros((len(f), 3, 3), np.float32)
+    if len(f):
+        # Adding zero turns -0 into 0.
+        places = (p - p[0]).astype(np.float32) + np.float32(0)
+        _corner_normals(p, places.view(np.uint32), f, math.cos(angle), result)
+    return result
 
 
-def _face_normals(corners: Singles) -> tuple[Singles, Singles]:
-    """Unit normals ``(m, 3)`` and area-times-angle weights ``(m, 3)`` of triangles ``(m, 3, 3)``."""
-    sides = np.roll(corners, -1, axis=1) - corners
-    normal = np.cross(sides[:, 0], sides[:, 1])
-    twice_area = np.sqrt(dot(normal, normal))
-    unit = normal / np.where(twice_area > 0, twice_area, 1)[:, None]
-    length = np.sqrt(dot(sides, sides))
-    back = np.roll(sides, 1, axis=1)
-    cosine = -dot(sides, back) / np.maximum(length * np.roll(length, 1, axis=1), 1e-30)
-    angle = np.arccos(np.clip(cosine, -1, 1))
-    # Scaled to about one, so that float32 sums neither vanish nor overflow for the size of a bolt or of a site.
-    mean_area = max(float(twice_area.mean()), 1e-30)
-    return unit.astype(np.float32), (angle * (twice_area / mean_area)[:, None]).astype(np.float32)
+@compiled
+def _corner_normals(vertices: Any, bits: Any, faces: Any, limit: float, result: Any) -> None:
+    n = 3 * len(faces)
+    normal, weight = np.zeros((len(faces), 3)), np.zeros((len(faces), 3))
+    _face_normals(vertices, faces, normal, weight)
+    place = np.empty(len(vertices), np.int32)
+    n_places = _places(bits, place)
+    # The corners at each place, one place after the other, each in the order of the faces.
+    start = np.zeros(n_places + 1, np.int32)
+    for k in range(n):
+        start[place[faces[k // 3, k % 3]] + 1] += 1
+    for i in range(n_places):
+        start[i + 1] += start[i]
+    corners, filled = np.empty(n, np.int32), start.copy()
+    for k in range(n):
+        at = place[faces[k // 3, k % 3]]
+        corners[filled[at]] = k
+        filled[at] += 1
+    for i in range(n_places):
+        first, last = start[i], start[i + 1]
+        for a in range(first, last):
+            _mean_normal(corners, a, max(first, a - _MOST_PARTNERS), min(last, a + _MOST_PARTNERS + 1), normal, weight,
+                         limit, result)  # fmt: skip
 
 
-def _places(corners: Singles, owner: npt.NDArray[np.int64]) -> npt.NDArray[np.uint64]:
-    """A number for each corner, equal for corners of one mesh at one place (a 64-bit hash)."""
-    bits = (corners + np.float32(0)).view(np.uint32).astype(np.uint64)
-    place = np.repeat(owner.astype(np.uint64), 3) * np.uint64(0x9E3779B97F4A7C15)
-    for axis in range(3):
-        place = (place ^ bits[:, axis]) * np.uint64(0xBF58476D1CE4E5B9)
-        place ^= place >> np.uint64(29)
-    return place
+@compiled
+def _face_normals(vertices: Any, faces: Any, normal: Any, weight: Any) -> None:
+    """Unit normals, and the weight of each corner: area times angle."""
+    side, length = np.zeros((3, 3)), np.zeros(3)
+    for f in range(len(faces)):
+        for c in range(3):
+            total = 0.0
+            for i in range(3):
+                step = vertices[faces[f, (c + 1) % 3], i] - vertices[faces[f, c], i]
+                side[c, i] = step
+                total += step * step
+            length[c] = np.sqrt(total)
+        x = side[0, 1] * side[1, 2] - side[0, 2] * side[1, 1]
+        y = side[0, 2] * side[1, 0] - side[0, 0] * side[1, 2]
+        z = side[0, 0] * side[1, 1] - side[0, 1] * side[1, 0]
+        area = np.sqrt(x * x + y * y + z * z)
+        if not (0.0 < area < np.inf):
+            continue
+        normal[f, 0], normal[f, 1], normal[f, 2] = x / area, y / area, z / area
+        for c in range(3):
+            b = (c + 2) % 3
+            dot = side[c, 0] * side[b, 0] + side[c, 1] * side[b, 1] + side[c, 2] * side[b, 2]
+            cosine = -dot / max(length[c] * length[b], 1e-300)
+            weight[f, c] = area * np.arccos(min(1.0, max(-1.0, cosine)))
+
+
+@compiled
+def _places(bits: Any, place: Any) -> int:
+    """Numbers the vertices so that those of the same bits get the same number; says how many numbers there are."""
+    size = 4
+    while size < 2 * len(bits):
+        size *= 2
+    table = np.full(size, -1, np.int32)
+    count: int = ZERO
+    for v in range(len(bits)):
+        key = np.uint64(0)
+        for i in range(3):
+            key = (key ^ np.uint64(bits[v, i])) * np.uint64(0x9E3779B97F4A7C15)
+            key ^= key >> np.uint64(29)
+        at = np.int64(key & np.uint64(size - 1))
+        while table[at] >= 0:
+            other = table[at]
+            if bits[other, 0] == bits[v, 0] and bits[other, 1] == bits[v, 1] and bits[other, 2] == bits[v, 2]:
+                break
+            at = (at + 1) & (size - 1)
+        if table[at] < 0:
+            table[at] = v
+            place[v] = count
+            count += 1
+        else:
+            place[v] = place[table[at]]
+    return count
+
+
+@compiled
+def _mean_normal(
+    corners: Any, at: int, first: int, last: int, normal: Any, weight: Any, limit: float, result: Any
+) -> None:
+    corner = corners[at]
+    own = corner // 3
+    x, y, z = 0.0, 0.0, 0.0
+    for k in range(first, last):
+        face, c = corners[k] // 3, corners[k] % 3
+        cosine = normal[own, 0] * normal[face, 0] + normal[own, 1] * normal[face, 1] + normal[own, 2] * normal[face, 2]
+        if k == at:
+            cosine = 1.0
+        if abs(cosine) > limit:
+            w = weight[face, c] if cosine > 0 else -weight[face, c]
+            x, y, z = x + w * normal[face, 0], y + w * normal[face, 1], z + w * normal[face, 2]
+    long = np.sqrt(x * x + y * y + z * z)
+    if long > 0.0:
+        x, y, z = x / long, y / long, z / long
+    else:
+        x, y, z = normal[own, 0], normal[own, 1], normal[own, 2]
+    result[own, corner % 3, 0], result[own, corner % 3, 1], result[own, corner % 3, 2] = x, y, z
 
 
 class CornerNormals:
@@ -102,29 +157,15 @@ class CornerNormals:
 
     Args:
         scene: the scene.
-        angle: crease angle [rad].
+        threads: that work them out.
     """
 
-    def __init__(self, scene: Scene, angle: float = CREASE_ANGLE) -> None:
+    def __init__(self, scene: Scene, threads: int = 1) -> None:
         self._scene = scene
-        self._angle = angle
+        self._threads = threads
         self._ready = np.zeros(scene.n_meshes, bool)
-        self._normals = np.empty((scene.n_triangles, 3, 3), np.float32)
+        self._normals = np.zeros((scene.n_triangles, 3, 3), np.float32)
         self._lock = threading.Lock()
-
-    def at(self, faces: npt.NDArray[np.int32], meshes: npt.NDArray[np.int32], u: Singles, v: Singles) -> Singles:
-        """Interpolated normals ``(n, 3)``, not of unit length.
-
-        Args:
-            faces: ``(n,)`` indices into the scene's faces.
-            meshes: ``(n,)`` the meshes that own them.
-            u: ``(n,)`` barycentric weight of the second corner.
-            v: ``(n,)`` barycentric weight of the third corner.
-        """
-        corners = self.ready(meshes)[faces]
-        w = (1 - u - v)[:, None]
-        normals: Singles = corners[:, 0] * w + corners[:, 1] * u[:, None] + corners[:, 2] * v[:, None]
-        return normals
 
     def ready(self, meshes: npt.NDArray[np.integer[Any]]) -> Singles:
         """``(n_faces, 3, 3)`` the normals of the whole scene, worked out for these meshes at least; not to be changed.
@@ -141,13 +182,17 @@ class CornerNormals:
 
     def _work_out(self, meshes: npt.NDArray[np.int64]) -> None:
         counts = np.diff(self._scene.face_offsets)[meshes]
-        batch = np.cumsum(counts) // _FACES_AT_ONCE
-        for number in np.unique(batch):
-            chosen = meshes[batch == number]
-            scene = self._scene.select(chosen)
-            owner = np.repeat(np.arange(len(chosen)), np.diff(scene.face_offsets))
-            normals = corner_normals(scene.vertices, scene.global_faces(), owner, self._angle)
-            for i, mesh in enumerate(chosen):
+        tasks = np.split(meshes, np.flatnonzero(np.diff(np.cumsum(counts) // _FACES_AT_ONCE)) + 1)
+
+        def work_out(chosen: npt.NDArray[np.int64]) -> None:
+            for mesh in chosen.tolist():
                 first, last = self._scene.face_offsets[mesh : mesh + 2]
-                self._normals[first:last] = normals[scene.face_offsets[i] : scene.face_offsets[i + 1]]
-            self._ready[chosen] = True
+                self._normals[first:last] = corner_normals(*self._scene.mesh(mesh))
+
+        if self._threads == 1 or len(tasks) == 1:
+            for task in tasks:
+                work_out(task)
+        else:
+            with ThreadPoolExecutor(self._threads) as pool:
+                list(pool.map(work_out, tasks))
+        self._ready[meshes] = True

@@ -5,30 +5,30 @@ from __future__ import annotations
 import os
 import threading
 from collections import OrderedDict
-from collections.abc import Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
-from cadgraph.draw.render.band import Band, Setting, draw_band
 from cadgraph.draw.render.camera import Camera
-from cadgraph.draw.render.caster import Caster
-from cadgraph.draw.render.color import Colors, from_hex, source_colors, to_linear, to_srgb
-from cadgraph.draw.render.crease import CREASE_ANGLE, CornerNormals
-from cadgraph.draw.render.light import lamps
-from cadgraph.model.scene import Floats, Scene, mesh_of_vertex
+from cadgraph.draw.render.caster import Caster, Hits
+from cadgraph.draw.render.color import Colors, source_colors
+from cadgraph.draw.render.crease import CornerNormals
+from cadgraph.draw.render.light import Lamps, lamps, light, open_air
+from cadgraph.draw.render.shading import Haze, Layer, background, compose, shade
+from cadgraph.draw.render.surface import Surfaces, Viewport, meet
+from cadgraph.model.scene import Floats, Scene, mesh_of_face, mesh_of_vertex
 
 __all__ = ["Look", "Paint", "Renderer"]
 
 Bools = npt.NDArray[np.bool_]
 Singles = npt.NDArray[np.float32]
 
-_SAMPLES_AT_ONCE = 600_000  # of one band, if every pixel lay at an edge: bounds the memory of a thread
 _KEPT_CASTERS = 4
 _MOST_THREADS = 16
+_GHOST_SAMPLES = 2  # nobody looks closely at what is only hinted at
 
 
 @dataclass(frozen=True)
@@ -40,39 +40,31 @@ class Look:
         sky_rays: rays of each pixel to the sky, for ambient occlusion and shadows; 0 draws without either.
         lines: strength of the thin dark lines at outlines, seams and sharp edges, 0..1.
         floor: whether a floor below everything takes the shadows.
-        reach: how far ambient occlusion reaches, as share of the scene's diagonal.
         top: background colour at the top.
         bottom: background colour at the bottom.
-        ghost: share that ghosted meshes take over the background.
-        ghost_over: share that they take over what they stand in front of.
     """
 
     samples: int = 3
-    sky_rays: int = 4
+    sky_rays: int = 3
     lines: float = 0.6
     floor: bool = True
-    reach: float = 0.16
     top: str = "#fafbfd"
     bottom: str = "#e1e6ed"
-    ghost: float = 0.5
-    ghost_over: float = 0.13
 
 
 @dataclass(frozen=True)
 class Paint:
-    """What is drawn, and in which colours.
+    """The colours of a picture.
 
     Args:
         colors: ``(n_meshes, 3)`` linear RGB.
         hatched: ``(n_meshes,)`` whether a mesh is striped; none by default.
         ghosted: ``(n_meshes,)`` whether a mesh is only hinted at, so that the others show through it.
-        hidden: ``(n_meshes,)`` whether a mesh is left out.
     """
 
     colors: Colors
     hatched: Bools | None = field(default=None)
     ghosted: Bools | None = field(default=None)
-    hidden: Bools | None = field(default=None)
 
 
 class Renderer:
@@ -82,21 +74,22 @@ class Renderer:
 
     Args:
         scene: the scene.
-        threads: as many as processors by default.
-        crease_angle: faces that meet at a lesser angle are shaded as one surface [rad].
+        threads: that share the work on a picture; as many as processors by default.
 
     Raises:
-        ValueError: the scene has no triangle.
+        ValueError: the scene has no finite triangle.
     """
 
-    def __init__(self, scene: Scene, threads: int | None = None, crease_angle: float = CREASE_ANGLE) -> None:
+    def __init__(self, scene: Scene, threads: int | None = None) -> None:
         if not scene.n_triangles:
             raise ValueError("no picture of an empty scene: it has no triangles")
         self.scene = scene
         self.threads = threads or min(_MOST_THREADS, os.cpu_count() or 1)
-        self._normals = CornerNormals(scene, crease_angle)
+        self.mesh_of_face = mesh_of_face(scene).astype(np.int32)
+        self.normals = CornerNormals(scene, self.threads)
         self._casters: OrderedDict[bytes, Caster] = OrderedDict()
         self._lock = threading.Lock()
+        self._everything: Caster | None = None
 
     def caster(self, meshes: npt.ArrayLike | None = None) -> Caster:
         """What casts rays at these meshes (all by default); the last few are kept.
@@ -104,9 +97,12 @@ class Renderer:
         Raises:
             ValueError: they have no finite triangle.
         """
-        chosen = np.arange(self.scene.n_meshes) if meshes is None else np.unique(np.asarray(meshes, np.int64))
-        key = chosen.tobytes()
         with self._lock:
+            chosen = None if meshes is None else np.unique(np.asarray(meshes, np.int64))
+            if chosen is None or len(chosen) == self.scene.n_meshes:
+                self._everything = self._everything or Caster(self.scene)
+                return self._everything
+            key = chosen.tobytes()
             found = self._casters.pop(key, None) or Caster(self.scene, chosen)
             self._casters[key] = found
             while len(self._casters) > _KEPT_CASTERS:
@@ -128,14 +124,11 @@ class Renderer:
 
         Args:
             camera: where from, and how large.
-            paint: what, in which colours; everything in the source's colours by default.
+            paint: the colours; those of the source by default.
             look: how.
 
         Returns:
             An RGB image.
-
-        Raises:
-            ValueError: nothing is left to draw.
         """
         return self.pictures(camera, [paint or Paint(source_colors(self.scene))], look)[0]
 
@@ -144,99 +137,72 @@ class Renderer:
 
         Args:
             camera: where from, and how large.
-            paints: one for each picture; what is ghosted or hidden in the first is so in all.
+            paints: one for each picture; what is ghosted in the first is so in all.
             look: how.
 
         Returns:
             RGB images in the order of the paints.
 
         Raises:
-            ValueError: nothing is left to draw, or the paints don't agree on what is drawn.
+            ValueError: the paints don't agree on what is ghosted.
         """
         look = look or Look()
-        hidden, ghosted = _left_out(self.scene.n_meshes, paints)
-        layers = [
-            self._setting(camera, paints, look, meshes, ghost=ghost)
-            for meshes, ghost in ((~hidden & ~ghosted, False), (ghosted, True))
-            if np.diff(self.scene.face_offsets)[meshes].any()
-        ]
-        if not layers:
-            raise ValueError("no picture: every mesh with triangles is hidden")
-        images = np.empty((len(paints), camera.height, camera.width, 3), np.uint8)
-
-        def draw(rows: tuple[int, int]) -> None:
-            bands = [(draw_band(layer, *rows), layer.ghost) for layer in layers]
-            images[:, rows[0] : rows[1]] = _composed(bands, rows, camera.height, look)
-
-        with ThreadPoolExecutor(self.threads) as pool:
-            for _ in pool.map(draw, _bands(camera, look.samples)):
-                pass
+        ghosted = _ghosted(self.scene.n_meshes, paints)
+        drawn = np.diff(self.scene.face_offsets) > 0
+        ghosts = bool((ghosted & drawn).any() and (~ghosted & drawn).any())
+        port = Viewport.whole(camera)
+        lights = lamps(camera)
+        behind = background(camera.height, look.top, look.bottom)
+        colors = np.array([paint.colors for paint in paints], np.float32)
+        none = np.zeros(self.scene.n_meshes, bool)
+        hatched = np.array([none if paint.hatched is None else paint.hatched for paint in paints])
+        caster = self.caster(np.flatnonzero(~ghosted & drawn) if ghosts else None)
+        surfaces = self.surfaces(port, caster, look.samples, lit=look.sky_rays > 0)
+        seen = open_air(port.width * port.height)
+        if look.sky_rays:
+            seen = light(port, surfaces, caster, lights, look.sky_rays, look.floor, self.threads)
+        solid = shade(
+            port, surfaces, seen, lights, colors, hatched, none, look.samples, look.lines, Haze(), behind,
+            self.threads,
+        )  # fmt: skip
+        over = self._ghosts(port, lights, colors, ~ghosted, look, behind) if ghosts else None
+        images = compose(port, solid, over, behind, self.threads)
         return [Image.fromarray(image) for image in images]
 
-    def _setting(self, camera: Camera, paints: Sequence[Paint], look: Look, meshes: Bools, *, ghost: bool) -> Setting:
-        caster = self.caster(np.flatnonzero(meshes))
-        none = np.zeros(self.scene.n_meshes, bool)
-        hatched = np.array([none if paint.hatched is None or ghost else paint.hatched for paint in paints])
-        colors = np.array([paint.colors for paint in paints], np.float32)
-        if ghost:
-            # Half way to grey, then most of the way to white: still a hint of what it is.
-            grey = colors.mean(axis=2, keepdims=True)
-            colors = (0.72 + 0.2 * (colors + grey) / 2).astype(np.float32)
-        return Setting(
-            caster=caster,
-            normals=self._normals,
-            face_offsets=self.scene.face_offsets,
-            camera=camera,
-            lights=lamps(camera.right, camera.up, camera.forward),
-            albedo=colors,
-            hatched=hatched,
-            samples=look.samples,
-            sky_rays=0 if ghost else look.sky_rays,
-            lines=look.lines,
-            floor=float(caster.low[2] - caster.center[2]) if look.floor and not ghost else None,
-            reach=look.reach * caster.diagonal,
-            ghost=ghost,
-        )
+    def surfaces(self, port: Viewport, caster: Caster, samples: int, *, lit: bool = False) -> Surfaces:
+        """What the rays of a picture meet among a caster's meshes."""
+        eye = caster.local(port.camera.eye[None])[0]
+
+        def cast(towards: Singles) -> Hits:
+            return caster.first(np.broadcast_to(eye, towards.shape), towards)
+
+        return meet(port, cast, self.mesh_of_face, self.normals.ready, samples, lit, self.threads)
+
+    def _ghosts(
+        self, port: Viewport, lights: Lamps, colors: Colors, left_out: Bools, look: Look, behind: Singles
+    ) -> Layer:
+        """The meshes that are only hinted at, as far as none of the others stands before them."""
+        samples = min(look.samples, _GHOST_SAMPLES)
+        surfaces = self.surfaces(port, self.caster(), samples)
+        grey = colors.mean(axis=2, keepdims=True)
+        # Half way to grey, then most of the way to white: still a hint of what it is.
+        pale = (0.72 + 0.2 * (colors + grey) / 2).astype(np.float32)
+        plain = np.zeros((len(colors), self.scene.n_meshes), bool)
+        return shade(
+            port, surfaces, open_air(port.width * port.height), lights, pale, plain, left_out, samples, look.lines,
+            Haze(), behind, self.threads,
+        )  # fmt: skip
 
 
-def _bands(camera: Camera, samples: int) -> Iterator[tuple[int, int]]:
-    """Rows of each band; they depend on the picture only, so that every machine divides it alike."""
-    height = max(8, min(128, _SAMPLES_AT_ONCE // (camera.width * samples * samples)))
-    for top in range(0, camera.height, height):
-        yield top, min(top + height, camera.height)
-
-
-def _left_out(n_meshes: int, paints: Sequence[Paint]) -> tuple[Bools, Bools]:
-    """Which meshes are hidden and which are ghosted, the same for all paints."""
+def _ghosted(n_meshes: int, paints: Sequence[Paint]) -> Bools:
+    """Which meshes are ghosted, the same for all paints."""
     none = np.zeros(n_meshes, bool)
-    masks = []
+    if not paints:
+        raise ValueError("no picture: give at least one paint")
     for paint in paints:
         if len(paint.colors) != n_meshes:
             raise ValueError(f"a scene of {n_meshes} meshes needs as many colours, got {len(paint.colors)}")
-        hidden = none if paint.hidden is None else np.asarray(paint.hidden, bool)
-        ghosted = none if paint.ghosted is None else np.asarray(paint.ghosted, bool) & ~hidden
-        masks.append((hidden, ghosted))
-    if not masks:
-        raise ValueError("no picture: give at least one paint")
-    if any((mask[0] != masks[0][0]).any() or (mask[1] != masks[0][1]).any() for mask in masks):
-        raise ValueError("pictures drawn together must hide and ghost the same meshes; draw them one by one")
+    masks = [none if paint.ghosted is None else np.asarray(paint.ghosted, bool) for paint in paints]
+    if any((mask != masks[0]).any() for mask in masks):
+        raise ValueError("pictures drawn together must ghost the same meshes; draw them one by one")
     return masks[0]
-
-
-def _composed(bands: list[tuple[Band, bool]], rows: tuple[int, int], height: int, look: Look) -> npt.NDArray[np.uint8]:
-    """The layers, each with whether it is ghosted, over the background: sRGB ``(n_paints, n_rows, width, 3)``."""
-    share = ((np.arange(*rows) + 0.5) / height)[:, None, None]
-    # Blended as the eye sees it, not as light adds up.
-    background = to_linear(to_srgb(from_hex(look.top)) * (1 - share) + to_srgb(from_hex(look.bottom)) * share)
-    color = np.broadcast_to(background, bands[0][0].color.shape).astype(np.float32)
-    depth = np.full(bands[0][0].cover.shape, np.inf, np.float32)
-    solid = np.zeros(depth.shape, np.float32)
-    for band, ghost in bands:
-        if not ghost:
-            color = color * (band.floor * (1 - band.cover))[..., None] + band.color
-            depth, solid = band.depth, band.cover
-            continue
-        over = np.where(band.depth < depth, look.ghost_over, 0) * solid
-        taken = (look.ghost * (1 - solid) + over).astype(np.float32)
-        color = color * (1 - taken * band.cover)[..., None] + band.color * taken[..., None]
-    return (to_srgb(color) * 255 + 0.5).astype(np.uint8)

@@ -183,7 +183,6 @@ class _Sight:
     def __init__(self, caster: Caster, mesh_of_face: npt.NDArray[np.int32], target: Target) -> None:
         self.caster, self.target = caster, target
         self._mesh_of_face = mesh_of_face
-        self._faces = caster.faces
 
     def eyes(self, shown: Floats, directions: Floats, fill: float) -> Floats:
         """``(n, 3)`` where cameras would stand that show some points in so large a share of the picture."""
@@ -219,9 +218,9 @@ class _Sight:
         reached = np.zeros(len(towards), np.float32)
         step = np.float32(max(2e-6 * self.caster.diagonal, 1e-5))
         for _ in range(_MOST_LAYERS):
-            found = self.caster.trace(start[active] + towards[active] * reached[active, None], towards[active])
-            reached[active] += found["tfar"] + step
-            mesh = self._meshes(found["primID"])
+            found = self.caster.first(start[active] + towards[active] * reached[active, None], towards[active])
+            reached[active] += found.distance + step
+            mesh = self._meshes(found.face)
             going = (mesh >= 0) & (mesh != self.target.mesh) & (reached[active] < length[active])
             active = active[going]
             if not len(active):
@@ -238,29 +237,27 @@ class _Sight:
         start = np.repeat(self.caster.local(eyes), len(self.target.points), axis=0)
         return start, towards.reshape(-1, 3).astype(np.float32), length.reshape(-1)
 
-    def _meshes(self, primitive: npt.NDArray[np.int32]) -> npt.NDArray[np.int32]:
-        mesh: npt.NDArray[np.int32] = np.where(
-            primitive >= 0, self._mesh_of_face[self._faces[primitive]], np.int32(-1)
-        ).astype(np.int32)
+    def _meshes(self, face: npt.NDArray[np.int32]) -> npt.NDArray[np.int32]:
+        mesh: npt.NDArray[np.int32] = np.where(face >= 0, self._mesh_of_face[face], np.int32(-1))
         return mesh
 
     def _first(
         self, start: npt.NDArray[np.float32], towards: npt.NDArray[np.float32], hidden: Ints
     ) -> npt.NDArray[np.int32]:
-        found = self.caster.trace(start, towards)
-        met = self._meshes(found["primID"])
+        found = self.caster.first(start, towards)
+        met = self._meshes(found.face)
         if not len(hidden):
             return met
         step = np.float32(max(2e-6 * self.caster.diagonal, 1e-5))
-        reached = found["tfar"].copy()
+        reached = found.distance.copy()
         for _ in range(_MOST_LAYERS):
             through = np.flatnonzero(np.isin(met, hidden))
             if not len(through):
                 break
             reached[through] += step
-            found = self.caster.trace(start[through] + towards[through] * reached[through, None], towards[through])
-            reached[through] += found["tfar"]
-            met[through] = self._meshes(found["primID"])
+            found = self.caster.first(start[through] + towards[through] * reached[through, None], towards[through])
+            reached[through] += found.distance
+            met[through] = self._meshes(found.face)
         return met
 
 

@@ -11,7 +11,7 @@ from cadgraph.draw.render.camera import Camera, direction_from_angles, frame
 from cadgraph.draw.render.caster import Caster
 from cadgraph.draw.render.picture import Renderer
 from cadgraph.draw.render.target import Target, View, choose_views
-from cadgraph.model.scene import Floats, Ints
+from cadgraph.model.scene import Floats
 
 __all__ = ["Target", "View", "choose_views", "three_quarter_view"]
 
@@ -22,8 +22,8 @@ _TURNS = np.radians([-35, 35, -55, 55, 145, 215, 125, 235])  # from the normal o
 _LENGTHWISE = 0.75  # looking more along the longer side than at it foreshortens it: the score counts so much less
 _FRONT_BONUS = 1.06  # a view from -Y wins unless another shows clearly more
 _REPEAT_MALUS = 0.1  # a side that was shown already is shown again only if the others show nothing
-_TRIAL_POINTS = 200_000
-_TRIAL_HEIGHT = 128  # [px] of the trial pictures
+_TRIAL_POINTS = 12_000
+_TRIAL_HEIGHT = 96  # [px] of the trial pictures
 
 
 def three_quarter_view(
@@ -62,7 +62,7 @@ def three_quarter_view(
     best, chosen = -1.0, direction_from_angles(-math.pi / 3, elevation)
     for turn in _TURNS:
         direction = direction_from_angles(start + turn, elevation)
-        score = _shown(caster, frame(points, direction, size, margin=0.0), renderer.scene.face_offsets, wanted)
+        score = _shown(caster, frame(points, direction, size, margin=0.0), renderer.mesh_of_face, wanted)
         if abs(math.cos(turn)) < math.sqrt(0.5):
             score *= _LENGTHWISE
         if direction[1] < 0:
@@ -74,13 +74,12 @@ def three_quarter_view(
     return chosen
 
 
-def _shown(caster: Caster, camera: Camera, face_offsets: Ints, wanted: npt.NDArray[np.bool_]) -> float:
+def _shown(caster: Caster, camera: Camera, mesh_of_face: npt.NDArray[np.int32], wanted: npt.NDArray[np.bool_]) -> float:
     """Sum over the wanted meshes of the root of the share of the picture that each fills."""
     rows, columns = np.divmod(np.arange(camera.width * camera.height), camera.width)
     origins, directions = camera.rays(columns + 0.5, rows + 0.5)
     face = caster.first(caster.local(origins), directions.astype(np.float32)).face
-    owner = np.searchsorted(face_offsets, face[face >= 0], side="right") - 1
-    seen = np.bincount(owner, minlength=len(wanted))
+    seen = np.bincount(mesh_of_face[face[face >= 0]], minlength=len(wanted))
     return float(np.sqrt(seen[wanted]).sum())
 
 

@@ -154,7 +154,7 @@ def _schematic(graph: SceneGraph) -> str:
 def _png(picture: Picture) -> bytes:
     from cadgraph.draw.render.annotation import annotate
 
-    image = annotate(picture.image, picture.camera, legend=picture.legend) if picture.legend else picture.image
+    image = annotate(picture.image, picture.camera, legend=picture.legend).image
     buffer = io.BytesIO()
     image.save(buffer, "PNG", compress_level=6)
     return buffer.getvalue()

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
+from collections import Counter
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -12,7 +15,7 @@ from PIL import Image
 
 from cadgraph._io.progress import Progress, quiet
 from cadgraph.config import ReportConfig
-from cadgraph.draw.render.annotation import LegendEntry, Mark, Segment, Tag, annotate
+from cadgraph.draw.render.annotation import Annotated, LegendEntry, Mark, Segment, Tag, annotate
 from cadgraph.draw.render.camera import Camera, frame
 from cadgraph.draw.render.color import distinct_colors, from_hex, source_colors, to_hex
 from cadgraph.draw.render.picture import Look, Paint, Renderer
@@ -26,9 +29,12 @@ __all__ = ["Picture", "cluster_colors", "draw_pictures", "functional_edges", "la
 
 Bools = npt.NDArray[np.bool_]
 
-_MOST_TAGS = 48  # more tags in one picture hide what they speak of
+_CROWDED = 48  # units from which on lines and balls are thinner, and only tags that stand clear are shown
+_CLUTTER = 3.0  # of a tag in a crowded picture, see annotate
+_AT_ONCE = 2  # pictures of systems: while one is drawn, another is annotated
 _LEGEND_CLUSTERS = 10
 _MARGIN = 0.07
+_END = "#5b6470"  # of junctions and ends of runs
 _NEARLY_ALL = 0.7
 _LEAD = 0.45  # of a line's width: from a line to the ball of what stands at it
 _SIDE_BY_SIDE = 1.6  # letters of pictures that the page shows at about half their size
@@ -106,11 +112,16 @@ def draw_pictures(scene: Scene, graph: SceneGraph, config: ReportConfig, progres
     systems = largest_first(graph.clusters("pipe system"))[: config.max_systems]
     # The page shows a single system over its whole width, several side by side.
     size = 1.0 if len(systems) == 1 else _SIDE_BY_SIDE
-    for number, cluster in enumerate(systems, 1):
-        progress("draw report", number / (len(systems) + 1))
-        picture = _system(ready, cluster, f"Pipe system {number}: {cluster.id}", camera, size)
-        if picture is not None:
-            pictures.append(picture)
+
+    def draw(number: int) -> Picture | None:
+        cluster = systems[number]
+        return _system(ready, cluster, f"Pipe system {number + 1}: {cluster.id}", camera, size)
+
+    with ThreadPoolExecutor(_AT_ONCE) as pool:
+        for number, picture in enumerate(pool.map(draw, range(len(systems))), 1):
+            progress("draw report", number / (len(systems) + 1))
+            if picture is not None:
+                pictures.append(picture)
     return pictures
 
 
@@ -138,14 +149,15 @@ def _drawn_edges(graph: SceneGraph) -> list[Edge]:
 
 def _by_group(ready: _Ready, camera: Camera, image: Image.Image, legend: tuple[LegendEntry, ...]) -> Picture:
     units, edges = ready.graph.units(), _drawn_edges(ready.graph)
-    image = _related(ready, image, camera, units, edges)
+    image, tagged = _related(ready, image, camera, units, edges)
     told = "Every part in the colour of its group. "
     if any(isinstance(edge, Connected) for edge in edges):
-        told += "Red lines are the connections along the pipes; red balls are units, grey ones junctions and ends."
+        told += "Red lines are the connections along the pipes; red balls are units, grey ones junctions and ends. "
     elif edges:
-        told += "Red lines are the functional relations between units, whose balls stand at their centroids."
+        told += "Red lines are the functional relations between units, whose balls stand at their centroids. "
     elif units:
-        told += "Red balls stand at the centroids of the functional units."
+        told += "Red balls stand at the centroids of the functional units. "
+    told += _untagged(len(units), tagged)
     groups = ", ".join(entry.text for entry in legend) or "none"
     return Picture(
         "groups", "By group, with relations", told.strip(),
@@ -201,31 +213,38 @@ def _system(ready: _Ready, cluster: Cluster, title: str, overview: Camera, size:
         return None
     paint, hatched, legend = _group_paint(ready, inside)
     units = [unit for unit in graph.units() if members.intersection(unit.parts)]
-    names = {unit.id for unit in units}
-    ends: list[Junction | Terminal] = [*graph.of_layer(Junction), *graph.of_layer(Terminal)]
-    names |= {end.id for end in ends if members.intersection(end.parts)}
+    ends = [end for end in graph.of_layer(Terminal) if members.intersection(end.parts)]
+    junctions = [junction for junction in graph.of_layer(Junction) if members.intersection(junction.parts)]
+    names = {*(unit.id for unit in units), *(end.id for end in ends), *(junction.id for junction in junctions)}
     edges = [edge for edge in _drawn_edges(graph) if edge.source in names and edge.target in names]
     # A system that is nearly everything would look as in the overview: it is shown from the other side.
     unlike = -overview.forward if len(meshes) > _NEARLY_ALL * ready.scene.n_meshes else None
     aspect = ready.config.width / ready.config.height
     camera = _camera(ready, meshes, three_quarter_view(renderer, meshes, alone=True, aspect=aspect, unlike=unlike))
     image = renderer.picture(camera, Paint(paint, hatched, ghosted=~inside), _grounded(ready, meshes))
-    image = _related(ready, image, camera, units, edges, size)
-    types = [unit.unit_type for unit in units]
-    counts = [_counted(types.count(name), name) for name in dict.fromkeys(types)]
-    contents = ", ".join([_counted(cluster.n_parts, "part"), *counts, _counted(len(edges), "relation")])
+    open_ends = [end for end in ends if end.kind != "blind"]
+    image, tagged = _related(ready, image, camera, units, edges, size, open_ends)
+    untagged = _untagged(len(units) + len(open_ends), tagged)
+    contents = _contents(cluster, units, len(edges))
     extent = " × ".join(f"{high - low:.2f}" for low, high in zip(*cluster.aabb, strict=True))
     return Picture(
-        f"system-{cluster.id}", title, f"{contents}; {extent} m.",
+        f"system-{cluster.id}", title, f"{contents}; {extent} m. {untagged}".strip(),
         f"Pipe system {cluster.id} coloured by group, all else faint: {contents}.", image, legend, camera,
     )  # fmt: skip
 
 
+def _contents(cluster: Cluster, units: Sequence[Unit], n_relations: int) -> str:
+    """How many of what a system holds, as text."""
+    types = Counter(unit.unit_type for unit in units)
+    counts = [_counted(count, name) for name, count in types.items()]
+    return ", ".join([_counted(cluster.n_parts, "part"), *counts, _counted(n_relations, "relation")])
+
+
 def _grounded(ready: _Ready, meshes: Ints) -> Look:
     """A floor only where the system stands on the same ground as the scene: else its shadow would hang in the air."""
-    everything, system = ready.renderer.points(), ready.renderer.points(meshes)
-    height = everything[:, 2].max() - everything[:, 2].min()
-    return replace(ready.look, floor=bool(system[:, 2].min() - everything[:, 2].min() < 0.1 * height))
+    everything, system = ready.renderer.caster(), ready.renderer.caster(meshes)
+    height = everything.high[2] - everything.low[2]
+    return replace(ready.look, floor=bool(system.low[2] - everything.low[2] < 0.1 * height))
 
 
 def _group_paint(
@@ -252,20 +271,33 @@ def _group_paint(
     return paint, hatched, tuple(legend)
 
 
+def _untagged(wanted: int, tagged: int) -> str:
+    """What a caption says about tags that found no room."""
+    return f"{wanted - tagged} of {wanted} tags are left out for lack of room." if tagged < wanted else ""
+
+
 def _related(
-    ready: _Ready, image: Image.Image, camera: Camera, units: Sequence[Unit], edges: Sequence[Edge], size: float = 1.0
-) -> Image.Image:
-    """Draws units and relations over a picture."""
-    crowded = len(units) > _MOST_TAGS
+    ready: _Ready, image: Image.Image, camera: Camera, units: Sequence[Unit], edges: Sequence[Edge],
+    size: float = 1.0, open_ends: Sequence[Terminal] = (),
+) -> Annotated:  # fmt: skip
+    """Draws units, relations and open ends over a picture."""
+    crowded = len(units) > _CROWDED
     pairs = sorted({(min(e.source, e.target), max(e.source, e.target)) for e in edges})
     segments = _lines(ready, edges, 3.0 if crowded else 4.5)
     marks = [Mark(_local(ready, unit.centroid), RELATION, 4.5 if crowded else 7.0) for unit in units]
     ends = {name for pair in pairs for name in pair if not isinstance(ready.graph.nodes[name], Unit)}
-    marks += [Mark(_place(ready, name), "#5b6470", 4.5) for name in sorted(ends)]
+    ends.update(end.id for end in open_ends)
+    marks += [Mark(_place(ready, name), _END, 4.5) for name in sorted(ends)]
+    # What there are few of is what people look for first.
+    count = Counter(unit.unit_type for unit in units)
     tags = [
-        Tag(_local(ready, unit.centroid), unit.tag, ready.unit_colors.get(unit.unit_type, "#5b6470")) for unit in units
+        Tag(_local(ready, unit.centroid), unit.tag, ready.unit_colors.get(unit.unit_type, _END))
+        for unit in sorted(units, key=lambda unit: count[unit.unit_type])
     ]
-    return annotate(image, camera, segments=segments, marks=marks, tags=() if crowded else tags, size=size)
+    tags += [Tag(_local(ready, end.point), end.id, _END) for end in open_ends]
+    return annotate(
+        image, camera, segments=segments, marks=marks, tags=tags, size=size, clutter=_CLUTTER if crowded else math.inf
+    )
 
 
 def _lines(ready: _Ready, edges: Sequence[Edge], width: float) -> list[Segment]:

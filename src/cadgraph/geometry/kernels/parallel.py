@@ -60,6 +60,9 @@ def readable(values: NDArray[Any], dtype: type[_T]) -> NDArray[_T]:
     return array
 
 
+_KERNELS = r"^from (cadgraph\.(?:geometry|draw)[\w.]+) import"  # modules that hold any
+
+
 @cache
 def _stamp(module: str) -> str:
     """A digest of the source of a module and of all modules of this package that it imports."""
@@ -69,7 +72,9 @@ def _stamp(module: str) -> str:
         path = here.joinpath(*name.split(".")[1:]).with_suffix(".py")
         if name not in sources and path.is_file():
             sources[name] = path.read_bytes()
-            waiting += re.findall(r"^from (cadgraph\.geometry[\w.]+) import", sources[name].decode(), re.MULTILINE)
+            waiting += re.findall(
+                r"^from (cadgraph\.(?:geometry|draw)[\w.]+) import", sources[name].decode(), re.MULTILINE
+            )
     return hashlib.sha256(b"".join(sources[name] for name in sorted(sources))).hexdigest()
 
 

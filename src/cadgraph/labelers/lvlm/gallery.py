@@ -14,13 +14,13 @@ import numpy as np
 from PIL import Image
 
 from cadgraph.draw.render.camera import direction_from_angles, frame
-from cadgraph.draw.render.pair import PairLook, PairRenderer
+from cadgraph.draw.render.pair import PairRenderer
 from cadgraph.draw.render.target import Target, View, choose_views
 from cadgraph.model.scene import Scene
 
 __all__ = ["PICTURES", "Gallery", "Picture", "digest_of_scene"]
 
-PICTURES = 1
+PICTURES = 2
 """Version of how pictures are drawn. It is part of what a question is known by in the cache: raise it when pictures
 change so that an answer could, too."""
 
@@ -115,8 +115,7 @@ class Gallery:
     def _ready(self) -> PairRenderer:
         with self._lock:
             if self._renderer is None:
-                look = PairLook(mark=False, scale_bar=False) if self._paper else PairLook()
-                self._renderer = PairRenderer(self._scene, look)
+                self._renderer = PairRenderer(self._scene, plain=self._paper)
             return self._renderer
 
 

@@ -34,7 +34,7 @@ def draw_trial(trial: Trial, config: ReportConfig, name: str, *, paper_only: boo
     graph = _without_connected(trial.graph) if paper_only else trial.graph
     pictures = draw_pictures(trial.subject.scene, graph, config.model_copy(update={"max_systems": 0}))
     picture = next(picture for picture in pictures if picture.name == name)
-    return annotate(picture.image, picture.camera, legend=picture.legend)
+    return annotate(picture.image, picture.camera, legend=picture.legend).image
 
 
 def side_by_side(images: Sequence[tuple[str, Image.Image]]) -> Image.Image:
