@@ -212,11 +212,7 @@ def _system(ready: _Ready, cluster: Cluster, title: str, overview: Camera, size:
     if not len(ready.renderer.points(meshes)):
         return None
     paint, hatched, legend = _group_paint(ready, inside)
-    units = [unit for unit in graph.units() if members.intersection(unit.parts)]
-    ends = [end for end in graph.of_layer(Terminal) if members.intersection(end.parts)]
-    junctions = [junction for junction in graph.of_layer(Junction) if members.intersection(junction.parts)]
-    names = {*(unit.id for unit in units), *(end.id for end in ends), *(junction.id for junction in junctions)}
-    edges = [edge for edge in _drawn_edges(graph) if edge.source in names and edge.target in names]
+    units, ends, edges = _functions_of(graph, members)
     # A system that is nearly everything would look as in the overview: it is shown from the other side.
     unlike = -overview.forward if len(meshes) > _NEARLY_ALL * ready.scene.n_meshes else None
     aspect = ready.config.width / ready.config.height
@@ -231,6 +227,15 @@ def _system(ready: _Ready, cluster: Cluster, title: str, overview: Camera, size:
         f"system-{cluster.id}", title, f"{contents}; {extent} m. {untagged}".strip(),
         f"Pipe system {cluster.id} coloured by group, all else faint: {contents}.", image, legend, camera,
     )  # fmt: skip
+
+
+def _functions_of(graph: SceneGraph, members: set[str]) -> tuple[list[Unit], list[Terminal], list[Edge]]:
+    """The units, ends of runs and relations of some parts."""
+    units = [unit for unit in graph.units() if members.intersection(unit.parts)]
+    ends = [end for end in graph.of_layer(Terminal) if members.intersection(end.parts)]
+    junctions = [junction for junction in graph.of_layer(Junction) if members.intersection(junction.parts)]
+    names = {node.id for node in (*units, *ends, *junctions)}
+    return units, ends, [edge for edge in _drawn_edges(graph) if edge.source in names and edge.target in names]
 
 
 def _contents(cluster: Cluster, units: Sequence[Unit], n_relations: int) -> str:
