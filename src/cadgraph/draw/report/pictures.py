@@ -234,7 +234,7 @@ def _functions_of(graph: SceneGraph, members: set[str]) -> tuple[list[Unit], lis
     units = [unit for unit in graph.units() if members.intersection(unit.parts)]
     ends = [end for end in graph.of_layer(Terminal) if members.intersection(end.parts)]
     junctions = [junction for junction in graph.of_layer(Junction) if members.intersection(junction.parts)]
-    names = {node.id for node in (*units, *ends, *junctions)}
+    names = {*(unit.id for unit in units), *(end.id for end in ends), *(junction.id for junction in junctions)}
     return units, ends, [edge for edge in _drawn_edges(graph) if edge.source in names and edge.target in names]
 
 
