@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import sys
 
+from cadgraph.draw.render.annotation import Tag, annotate
 from cadgraph.draw.render.camera import frame
 from cadgraph.draw.render.pair import PairRenderer
+from cadgraph.draw.render.picture import Renderer
 from cadgraph.load import load
 from cadgraph.pipeline import build
 from cadgraph.session.demo import DEMO_SCENE
@@ -21,8 +23,10 @@ def warm_up() -> None:
     """Builds the graph of the demo scene, by which every kernel that a plant needs is compiled."""
     scene = load(DEMO_SCENE)
     build(scene)
-    renderer = PairRenderer(scene)
-    renderer.pair(0, frame(scene.mesh(0)[0], (1, -2, 1), (64, 64), margin=0.3), [1])
+    camera = frame(scene.mesh(0)[0], (1, -2, 1), (64, 64), margin=0.3)
+    PairRenderer(scene).pair(0, camera, [1])
+    picture = Renderer(scene).picture(camera)
+    annotate(picture, camera, tags=[Tag((0.0, 0.0, 0.0), "")])
 
 
 if __name__ == "__main__":
