@@ -4,10 +4,10 @@ import pytest
 import shapes
 from cadgraph.geometry.mesh.properties import measure
 from cadgraph.geometry.mesh.sample import sample_surfaces
+from cadgraph.geometry.shape.analysis import measure_shapes
 from cadgraph.labelers.embedded.descriptor import FORMS, SIZES, describe_shapes
 from cadgraph.labelers.embedded.edges import edge_features
 from cadgraph.labelers.embedded.sample import ray_gaps
-from cadgraph.labelers.embedded.shape_facts import find_facts
 from cadgraph.model.parts import Parts
 from cadgraph.model.scene import Scene
 
@@ -22,7 +22,7 @@ def parts_of(*meshes):
 
 def described(*meshes):
     parts = parts_of(*meshes)
-    return describe_shapes(parts.scene, parts.properties, find_facts(parts))
+    return describe_shapes(parts.scene, parts.properties, measure_shapes(parts.scene, parts.properties))
 
 
 def turned(mesh, seed=0):

@@ -1,7 +1,7 @@
-"""Centrelines and fits of simple solids: ``python benchmarks/centrelines.py [--parts N]``.
+"""Centrelines and the analysis of shapes: ``python benchmarks/centrelines.py [--parts N]``.
 
-Nobody ships a peer: trimesh fits a least cylinder around a mesh, which is timed beside the fits on a few parts and
-extrapolated. The error of each kind of tube is that of the length along its centreline.
+Nobody ships a peer: trimesh fits a least cylinder around a mesh, which is timed beside the analysis on a few parts
+and extrapolated. The error of each kind of tube is that of the length along its centreline.
 """
 
 from __future__ import annotations
@@ -14,9 +14,11 @@ import trimesh
 from _timing import machine, once, timed
 from scipy.spatial.transform import Rotation
 
-from cadgraph.geometry.line.centreline import Centreline, trace_centrelines
+from cadgraph.geometry.line.centreline import Centreline
+from cadgraph.geometry.line.trace import trace_centrelines
 from cadgraph.geometry.mesh.properties import measure
-from cadgraph.geometry.shape.primitive import fit_primitives
+from cadgraph.geometry.shape.analysis import measure_shapes
+from cadgraph.geometry.shape.solid import name_solid
 from cadgraph.model.scene import Scene
 from cadlab.markdown import table
 
@@ -50,7 +52,7 @@ def main() -> None:
     theirs = scene.n_meshes / part.n_meshes * once(lambda: [mesh.bounding_cylinder for mesh in bounds])
     rows: list[list[object]] = []
     for name, act, other in (
-        ("fits of simple solids", lambda: fit_primitives(scene, properties), theirs),
+        ("analysis of each shape", lambda: measure_shapes(scene, properties), theirs),
         ("centrelines", lambda: trace_centrelines(scene, properties), None),
     ):
         wall, spent = timed(act)
@@ -61,17 +63,17 @@ def main() -> None:
         sep="\n",
     )
 
-    lines, fits = trace_centrelines(scene, properties), fit_primitives(scene, properties)
+    lines, shapes = trace_centrelines(scene, properties), measure_shapes(scene, properties)
     rows = []
     for k, (name, mesh, length) in enumerate(KINDS):
         found = [line for line in lines[k :: len(KINDS)] if isinstance(line, Centreline)]
         worst = max((abs(line.length / length - 1) for line in found), default=np.nan) if length else np.nan
         tubes = f"{len(found)} of {len(lines[k :: len(KINDS)])}"
-        kinds = ", ".join(sorted({str(fits.name(i)) for i in range(k, scene.n_meshes, len(KINDS))}))
+        kinds = ", ".join(sorted({str(name_solid(shapes[i])) for i in range(k, scene.n_meshes, len(KINDS))}))
         rows.append([name, f"{len(mesh[1]):,}", tubes, f"{worst:.1e}" if length else "", kinds])
     print(
         "",
-        *table(["part", "triangles", "has a centreline", "worst error of length", "fits as"], rows, numbers=True),
+        *table(["part", "triangles", "has a centreline", "worst error of length", "is a"], rows, numbers=True),
         sep="\n",
     )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Literal
 
 import numpy as np
@@ -54,6 +54,11 @@ class Properties:
         """``(n,)`` volume of the oriented box [m3]."""
         volume: Floats = np.prod(self.obb_extents, axis=1)
         return volume
+
+    def select(self, rows: npt.ArrayLike) -> Properties:
+        """The properties of some of the meshes, in the order given."""
+        index = np.asarray(rows, np.int64)
+        return Properties(**{column.name: getattr(self, column.name)[index] for column in fields(self)})
 
 
 @dataclass(frozen=True, eq=False)

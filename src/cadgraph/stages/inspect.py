@@ -6,8 +6,6 @@ a challenge of CAD (section V-A). Here they are found, kept and reported; a sett
 
 from __future__ import annotations
 
-import dataclasses
-
 import numpy as np
 
 from cadgraph.config import InspectConfig
@@ -48,5 +46,4 @@ def inspect_meshes(
     message = f"{len(paths)} meshes left out, as set (inspect.exclude = {list(config.exclude)})"
     diagnostics.append(Diagnostic("excluded", message, paths))
     keep = np.flatnonzero(~out)
-    kept = {field.name: getattr(properties, field.name)[keep] for field in dataclasses.fields(properties)}
-    return scene.select(keep), Properties(**kept), tuple(diagnostics)
+    return scene.select(keep), properties.select(keep), tuple(diagnostics)

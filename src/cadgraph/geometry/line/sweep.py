@@ -1,19 +1,17 @@
-"""Follows tubes through a triangle soup by planes that stay perpendicular to the way they go."""
+"""Finds every tube of a triangle soup: starts on its largest faces, and follows each both ways."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from cadgraph.geometry.kernels.parallel import compiled
-from cadgraph.geometry.line.section import MAX_RINGS, ROUND, cut, find_rings, plane_axes
-from cadgraph.geometry.mesh.box import principal_axes
+from cadgraph.geometry.line.march import NODE, march, note, settle
+from cadgraph.geometry.line.section import MAX_RINGS, cut, plane_axes
 from cadgraph.model.parts import Bools
 from cadgraph.model.scene import Floats, Ints
 
-__all__ = ["NODE", "essential_nodes", "trace_pieces"]
+__all__ = ["essential_nodes", "trace_pieces"]
 
-# Columns of a node: position, outer radius, bore radius (NaN without inner wall), radius followed, direction.
-NODE = 9
 _MAX_NODES = 8192
 _MAX_PIECES = 32
 # Faces tried as starts: before giving up on finding a first tube, and in all.
@@ -27,218 +25,6 @@ _N_TURNS = 8
 _FLAT_NORMALS = 0.03
 # No more is looked for when less than this share of the area is left.
 _DONE = 0.03
-# Steps, as share of the radius: past the next change of the wall, up to just before it, the least one, and how far
-# to go on through a side opening.
-_PAST, _BEFORE, _LEAST, _COAST = 0.1, 0.02, 0.01, 3.0
-# Share of the rays that must still meet the wall to go on through a side opening: an opening as wide as the tube
-# leaves half of it.
-_HALF = 0.5
-# Greatest change of the radius from one section to the next, as a factor: pipe to flange.
-_MAX_JUMP = 4.0
-# Share of a ring's length whose faces must look the same way to say which way it looks.
-_AGREED = 0.5
-# A second wall within this factor of the first one's radius is its jacket.
-_JACKET = 1.3
-# Greatest turn from one section to the next (cosine of 35 degrees).
-_MAX_TURN = 0.82
-
-
-@compiled
-def _settle(
-    corners: Floats, normals: Floats, center: Floats, axis: Floats, expected: float, limit: float,
-    segments: Floats, owners: Ints, ring_of: Ints, rings: Floats,
-) -> tuple[int, float, int, float]:  # fmt: skip
-    """Moves a section to the middle of its innermost ring and turns it perpendicular to the wall.
-
-    Returns the number of rings, the support at the expected radius, the number of segments, and how flat the
-    normals are along the axis.
-    """
-    u, w, moments = np.empty(3), np.empty(3), np.empty((3, 3))
-    axes, values = np.empty((3, 3)), np.empty(3)
-    n = n_rings = 0
-    support, flatness = 0.0, 1.0
-    for turn in range(4):
-        plane_axes(axis, u, w)
-        n = cut(corners, center, axis, u, w, limit, segments, owners)
-        n_rings, met = find_rings(segments, owners, n, normals, axis, u, w, expected, rings, moments, ring_of)
-        if turn == 0:
-            support = met
-        if n_rings == 0:
-            break
-        for c in range(3):
-            center[c] += rings[0, 0] * u[c] + rings[0, 1] * w[c]
-        principal_axes(moments, axes, values)
-        flatness = values[2] / values[0] if values[0] > 0.0 else 1.0
-        # Where the normals do not say which way the wall runs, the old direction stays.
-        if values[2] > 0.2 * values[1]:
-            break
-        cosine = axes[2, 0] * axis[0] + axes[2, 1] * axis[1] + axes[2, 2] * axis[2]
-        if abs(cosine) < 0.5:
-            break
-        moved = np.hypot(rings[0, 0], rings[0, 1])
-        turned = 1.0 - abs(cosine)
-        for c in range(3):
-            axis[c] = axes[2, c] if cosine > 0.0 else -axes[2, c]
-        if turned < 1e-14 and moved < 1e-9 * rings[0, 2]:
-            break
-    return n_rings, support, n, flatness
-
-
-@compiled
-def _ahead(
-    corners: Floats, center: Floats, axis: Floats, segments: Floats, owners: Ints, ring_of: Ints, n: int,
-    mean_normal: Floats,
-) -> tuple[float, float]:  # fmt: skip
-    """How far the wall runs on: to its nearest vertex, and along the axis to the end of its faces.
-
-    Also writes the normal of the plane through the far vertices.
-    """
-    nearest, total, weight = np.inf, 0.0, 0.0
-    points = np.zeros((3, 3))
-    middle = np.zeros(3)
-    for s in range(n):
-        if ring_of[s] < 0:
-            continue
-        t = corners[owners[s]]
-        farthest, at = 0.0, 0
-        for v in range(0, 9, 3):
-            d = (t[v] - center[0]) * axis[0] + (t[v + 1] - center[1]) * axis[1] + (t[v + 2] - center[2]) * axis[2]
-            if d > 0.0:
-                nearest = min(nearest, d)
-                if d > farthest:
-                    farthest, at = d, v
-        length = np.hypot(segments[s, 2] - segments[s, 0], segments[s, 3] - segments[s, 1])
-        total += length * farthest
-        weight += length
-        for r in range(3):
-            p = t[at + r] - center[r]
-            middle[r] += length * p
-            for c in range(3):
-                points[r, c] += length * p * (t[at + c] - center[c])
-    if weight == 0.0:
-        return 0.0, 0.0
-    for r in range(3):
-        for c in range(3):
-            points[r, c] = points[r, c] / weight - middle[r] * middle[c] / (weight * weight)
-    axes, values = np.empty((3, 3)), np.empty(3)
-    principal_axes(points, axes, values)
-    cosine = axes[2, 0] * axis[0] + axes[2, 1] * axis[1] + axes[2, 2] * axis[2]
-    # Only a plane, and one that is crossed, says which way the end looks.
-    good = values[2] < 1e-4 * values[1] and abs(cosine) > 0.9
-    reach = 0.0
-    for c in range(3):
-        mean_normal[c] = (axes[2, c] if cosine > 0.0 else -axes[2, c]) if good else axis[c]
-        reach += middle[c] / weight * mean_normal[c]
-    # Where the axis meets that plane.
-    return nearest, reach / abs(cosine) if good else total / weight
-
-
-@compiled
-def _note(node: Floats, center: Floats, axis: Floats, rings: Floats, n_rings: int) -> None:
-    """Writes a node.
-
-    A wall that looks inward is the bore, and the next ring the outside; one that looks outward is the outside of a
-    solid, and what lies around it is something else. Where faces disagree, an even number of rings has a bore.
-    """
-    for c in range(3):
-        node[c] = center[c]
-        node[6 + c] = axis[c]
-    hollow = n_rings % 2 == 0
-    outer = n_rings - 1
-    if abs(rings[0, 3]) > _AGREED:
-        hollow = rings[0, 3] < 0.0 and n_rings > 1
-        outer = 1 if hollow else 0
-        # A lining or jacket close around belongs to the tube.
-        if hollow and n_rings == 4 and rings[2, 2] < _JACKET * rings[1, 2]:
-            outer = 3
-    node[3] = rings[outer, 2]
-    node[4] = rings[0, 2] if hollow else np.nan
-    node[5] = rings[0, 2]
-
-
-@compiled
-def _march(
-    corners: Floats, normals: Floats, start: Floats, nodes: Floats, end: Floats,
-    segments: Floats, owners: Ints, ring_of: Ints,
-) -> tuple[int, bool]:  # fmt: skip
-    """Follows a tube from a node until it ends; writes nodes behind the start and (extension, direction) of the end.
-
-    Returns how many nodes there are, and whether the tube came back to its start.
-    """
-    center, axis = start[:3].copy(), start[6:9].copy()
-    radius, outer = start[5], start[3]
-    rings = np.empty((MAX_RINGS, 4))
-    probe, heading = np.empty(3), np.empty(3)
-    walked = coasted = 0.0
-    base, ahead = center.copy(), axis.copy()
-    n_nodes = 0
-    n_rings, _, n, _ = _settle(corners, normals, center, axis, radius, 6.0 * outer, segments, owners, ring_of, rings)
-    gap, extension = _ahead(corners, center, axis, segments, owners, ring_of, n, end[1:4])
-    while n_nodes < len(nodes):
-        step = gap - _BEFORE * radius if gap > (_PAST + 2 * _BEFORE) * radius else gap + _PAST * radius
-        if coasted > 0.0 or not np.isfinite(step):
-            step = _PAST * radius
-        done = True
-        while step >= _LEAST * radius:
-            for c in range(3):
-                probe[c] = center[c] + step * axis[c]
-                heading[c] = axis[c]
-            n_rings, support, n, _ = _settle(
-                corners, normals, probe, heading, radius, 6.0 * max(outer, radius), segments, owners, ring_of, rings
-            )
-            forward = sideways = cosine = 0.0
-            for c in range(3):
-                forward += (probe[c] - center[c]) * axis[c]
-                cosine += heading[c] * axis[c]
-            for c in range(3):
-                sideways += (probe[c] - center[c] - forward * axis[c]) ** 2
-            sideways = np.sqrt(sideways)
-            whole = n_rings > 0 and cosine > _MAX_TURN and forward > 0.2 * step
-            whole = whole and sideways <= 0.25 * radius + 0.5 * step * np.sqrt(max(0.0, 1.0 - cosine * cosine))
-            whole = whole and radius / _MAX_JUMP < rings[0, 2] < radius * _MAX_JUMP
-            if whole and coasted > 0.0:
-                whole = sideways <= 0.1 * radius and abs(rings[0, 2] - radius) <= ROUND * radius
-            if whole:
-                done = False
-                break
-            if support >= _HALF and step <= 1.01 * _PAST * radius and coasted < _COAST * radius:
-                done = False
-                break
-            step = 0.5 * step
-        if done:
-            break
-        if not whole:
-            coasted += step
-            for c in range(3):
-                center[c] += step * axis[c]
-            continue
-        coasted = 0.0
-        walked += np.sqrt(((probe - base) ** 2).sum())
-        center[:], axis[:] = probe, heading
-        base[:], ahead[:] = probe, heading
-        _note(nodes[n_nodes], center, axis, rings, n_rings)
-        n_nodes += 1
-        radius, outer = rings[0, 2], nodes[n_nodes - 1, 3]
-        gap, extension = _ahead(corners, center, axis, segments, owners, ring_of, n, end[1:4])
-        if n_nodes > 2 and walked > 4.0 * radius and _came_back(center, axis, start, nodes, n_nodes, radius):
-            return n_nodes - 1, True
-    end[0] = extension
-    if n_nodes == len(nodes):
-        end[0] = 0.0
-    return n_nodes, False
-
-
-@compiled
-def _came_back(center: Floats, axis: Floats, start: Floats, nodes: Floats, n_nodes: int, radius: float) -> bool:
-    """Whether the last step led through the section where the walk started."""
-    before = now = cosine = away = 0.0
-    for c in range(3):
-        before += (nodes[n_nodes - 2, c] - start[c]) * start[6 + c]
-        now += (center[c] - start[c]) * start[6 + c]
-        cosine += axis[c] * start[6 + c]
-        away += (center[c] - start[c]) ** 2
-    step = now - before
-    return bool(before < 0.0 and now >= 0.0 and cosine > 0.5 and np.sqrt(away) < 0.5 * radius + step)
 
 
 @compiled
@@ -272,13 +58,13 @@ def _seed(
                 center[c] = middle[c] - 0.5 * across[a] * normal[c]
             heading = axis.copy()
             radius = 0.5 * abs(across[a])
-            n_rings, _, _, flatness = _settle(
+            n_rings, _, _, flatness = settle(
                 corners, normals, center, heading, 0.0, 6.0 * radius, segments, owners, ring_of, rings
             )
             if n_rings == 0 or flatness >= best:
                 continue
             best = flatness
-            _note(node, center, heading, rings, n_rings)
+            note(node, center, heading, rings, n_rings)
         if best < 1e-6:
             break
     return best < _FLAT_NORMALS
@@ -449,7 +235,7 @@ def _trace_both(
     back = np.empty((room, NODE))
     node = node.copy()
     node[6:9] = -node[6:9]
-    n_back, closed = _march(corners, normals, node, back, ends[0], segments, owners, ring_of)
+    n_back, closed = march(corners, normals, node, back, ends[0], segments, owners, ring_of)
     node[6:9] = -node[6:9]
     at = first
     for k in range(n_back - 1, -1, -1):
@@ -462,7 +248,7 @@ def _trace_both(
         nodes[at] = nodes[first]
         ends[:] = np.nan
         return at + 1
-    n_on, closed = _march(corners, normals, node, nodes[at : at + room], ends[1], segments, owners, ring_of)
+    n_on, closed = march(corners, normals, node, nodes[at : at + room], ends[1], segments, owners, ring_of)
     if closed:
         # This way round was free, so where the other way stuck doesn't matter.
         for k in range(n_on):

@@ -6,6 +6,7 @@ scaled; ``FORMS`` are ratios, shares and counts that stay.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,9 +14,9 @@ import numpy as np
 from cadgraph.geometry.mesh.sample import sample_surfaces
 from cadgraph.labelers.embedded.edges import EDGE_FEATURES, edge_features
 from cadgraph.labelers.embedded.sample import ray_gaps
-from cadgraph.labelers.embedded.shape_facts import Disc, Facts
 from cadgraph.model.parts import Bools, Properties
 from cadgraph.model.scene import Floats, Ints, Scene
+from cadgraph.model.shapes import Disc, Facts
 
 __all__ = ["FORMS", "SIZES", "Descriptors", "describe_shapes"]
 
@@ -61,7 +62,7 @@ class Descriptors:
     length: Floats
 
 
-def describe_shapes(scene: Scene, properties: Properties, facts: list[Facts]) -> Descriptors:
+def describe_shapes(scene: Scene, properties: Properties, facts: Sequence[Facts]) -> Descriptors:
     """Describes each mesh of a scene.
 
     Args:
@@ -82,7 +83,7 @@ def describe_shapes(scene: Scene, properties: Properties, facts: list[Facts]) ->
     )
 
 
-def _describe(scene: Scene, properties: Properties, facts: list[Facts], rows: Ints) -> tuple[Floats, Floats]:
+def _describe(scene: Scene, properties: Properties, facts: Sequence[Facts], rows: Ints) -> tuple[Floats, Floats]:
     some = scene.select(rows)
     samples = sample_surfaces(some, _POINTS)
     chosen = [facts[i] for i in rows.tolist()]
@@ -180,7 +181,7 @@ def _joint(t: Floats, r: Floats) -> Floats:
     return shares
 
 
-def _profiles(facts: list[Facts], turn: Bools, radius: Floats) -> Floats:
+def _profiles(facts: Sequence[Facts], turn: Bools, radius: Floats) -> Floats:
     """Outer and inner radius along the axis, over the greatest."""
     outer = np.array([f.outer for f in facts]).reshape(len(facts), _BINS, -1)
     inner = np.array([f.inner for f in facts]).reshape(len(facts), _BINS, -1)
@@ -259,7 +260,7 @@ def _gap_shares(gaps: Floats, diagonal: Floats) -> tuple[Floats, Floats, Floats]
     return quantiles[..., 0], quantiles[..., 1], shares
 
 
-def _facts(facts: list[Facts]) -> Floats:
+def _facts(facts: Sequence[Facts]) -> Floats:
     rows = []
     for f in facts:
         wide = sorted(f.ports, key=lambda p: -p.outer)

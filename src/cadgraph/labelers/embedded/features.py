@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-import numpy as np
-
+from cadgraph.geometry.shape.analysis import shapes_of
 from cadgraph.labelers.embedded.descriptor import Descriptors, describe_shapes
-from cadgraph.labelers.embedded.shape_facts import Facts, find_facts
 from cadgraph.labelers.embedded.surroundings import Surroundings, find_surroundings
 from cadgraph.model.derived import kept_with
-from cadgraph.model.parts import Contacts, Parts, Properties
-from cadgraph.model.scene import Floats, Ints
+from cadgraph.model.parts import Contacts, Parts
+from cadgraph.model.scene import Ints
+from cadgraph.model.shapes import Facts
 
 __all__ = ["Observation", "observe"]
 
@@ -41,25 +40,10 @@ def observe(parts: Parts, contacts: Contacts) -> Observation:
         parts: with their geometry.
         contacts: pairs of parts that are adjacent.
     """
-    _, first, shape_of_part = np.unique(parts.shape, return_index=True, return_inverse=True)
-    some = _only(parts, first.astype(np.int64))
-    facts = find_facts(some)
+    known = shapes_of(parts)
     return Observation(
-        tuple(facts),
-        describe_shapes(some.scene, some.properties, facts),
-        shape_of_part.reshape(-1).astype(np.int64),
+        known.facts,
+        describe_shapes(parts.scene.select(known.first), parts.properties.select(known.first), known.facts),
+        known.shape,
         find_surroundings(parts, contacts),
-    )
-
-
-def _only(parts: Parts, rows: Ints) -> Parts:
-    """Some of the parts."""
-    chosen: dict[str, Floats] = {name: getattr(parts.properties, name)[rows] for name in Properties.__annotations__}
-    return replace(
-        parts,
-        scene=parts.scene.select(rows),
-        meshes=tuple(parts.meshes[i] for i in rows.tolist()),
-        properties=Properties(**chosen),  # type: ignore[arg-type]
-        shape=parts.shape[rows],
-        ground=parts.ground[rows],
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
-from cadgraph.labelers.embedded.shape_facts import Facts
+from cadgraph.model.shapes import Facts
 
 __all__ = ["describe_company", "describe_form"]
 

@@ -4,27 +4,30 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import fields, replace
 
-import numpy as np
-
-from cadgraph.geometry.shape.primitive import KINDS, Primitives, fit_primitives
+from cadgraph.geometry.shape.analysis import shapes_of
+from cadgraph.geometry.shape.solid import Solid, name_solid
 from cadgraph.labelers.lvlm.prompt import size_text
 from cadgraph.model.labels import Label
-from cadgraph.model.parts import Contacts, Parts, Properties
+from cadgraph.model.parts import Contacts, Parts
+from cadgraph.model.shapes import Facts
 
 __all__ = ["Hints", "neighbors_of"]
 
 _MOST_NEIGHBORS = 8
-_FORMS = {
-    "plane": "a sheet without thickness",
-    "box": "a box",
-    "sphere": "a sphere",
+_FLAT = 0.25  # a cylinder that is shorter than this share of its diameter is a disc, or a ring
+_FORMS: Mapping[Solid, str] = {
+    "sheet": "a sheet without thickness",
+    "wheel": "a ring with {spokes} spokes",
+    "hexagon": "a six-sided prism",
+    "bent tube": "a bent tube of one round section",
     "cylinder": "a cylinder",
-    "cone": "a cone",
+    "sphere": "a sphere",
     "torus": "a torus",
-    "extrusion": "a constant section along an axis",
+    "cone": "a cone",
     "revolved": "a body of revolution",
+    "box": "a box",
+    "extrusion": "one cross-section all along an axis",
 }
 
 
@@ -48,7 +51,6 @@ class Hints:
 
     def __init__(self, parts: Parts, near: Mapping[int, tuple[int, ...]]) -> None:
         self._parts, self._near = parts, near
-        self._fits: dict[int, Primitives] = {}
 
     def lines(self, part: int, repeats: int, labels: Sequence[Label | None]) -> tuple[str, ...]:
         """What is known about a part.
@@ -58,7 +60,8 @@ class Hints:
             repeats: how many parts are of this shape, in this role.
             labels: of all parts as far as they are known.
         """
-        found = [self._form(part)]
+        known = shapes_of(self._parts)
+        found = [_form(known.facts[int(known.shape[part])])]
         found.append(f"it is there {repeats} times in the plant" if repeats > 1 else "there is only one of it")
         neighbors = self._near.get(part, ())
         if not neighbors:
@@ -72,27 +75,33 @@ class Hints:
         )
         return tuple(found)
 
-    def _form(self, part: int) -> str:
-        if part not in self._fits:
-            scene = self._parts.scene.select([part])
-            self._fits[part] = fit_primitives(scene, _row(self._parts, part), 1)
-        fit = self._fits[part]
-        kind = int(fit.kind[0])
-        if kind < 0:
-            return "its form is none of the simple solids"
-        words = f"its form is {_FORMS[KINDS[kind]]}"
-        if KINDS[kind] in ("cylinder", "cone", "torus", "revolved"):
-            words += f", outer diameter {size_text(2 * float(fit.radius[0]))}, {size_text(float(fit.height[0]))} long"
-            bore = float(fit.bore[0])
-            words += f", open along its axis with a bore of {size_text(2 * bore)}" if bore > 0 else ", without a bore"
-        return words
+
+def _form(facts: Facts) -> str:
+    """Which simple solid a shape is, with its sizes."""
+    solid = name_solid(facts)
+    if solid is None:
+        ways = sum(port.outer > 0.2 * facts.radius for port in facts.ports)
+        return "its form is none of the simple solids" + (f", with {ways} round ends" if ways >= 2 else "")
+    form = _FORMS[solid].format(spokes=facts.spokes)
+    if solid == "cylinder" and facts.length < 2 * _FLAT * facts.radius:
+        form = "a flat ring" if facts.bore > 0 else "a flat disc"
+    return ", ".join((f"its form is {form}", *_sizes(solid, facts)))
+
+
+def _sizes(solid: Solid, facts: Facts) -> tuple[str, ...]:
+    """Those that tell more than the oriented box, which every question states."""
+    across = f"outer diameter {size_text(2 * facts.radius)}"
+    if solid in ("sphere", "wheel"):
+        return (across,)
+    if solid == "bent tube":
+        return f"outer diameter {size_text(2 * facts.ports[0].outer)}", f"{size_text(facts.tube)} along its middle"
+    if solid == "extrusion":
+        return (f"{size_text(float(facts.section[facts.extruded]))} long",)
+    if solid in ("sheet", "box"):
+        return ()
+    bore = f"open along its axis with a bore of {size_text(2 * facts.bore)}" if facts.bore > 0 else "without a bore"
+    return across, f"{size_text(facts.length)} long", bore
 
 
 def _named(label: Label | None) -> str:
     return "unknown" if label is None else label.name or label.group
-
-
-def _row(parts: Parts, part: int) -> Properties:
-    measured = parts.properties
-    rows = {field.name: np.asarray(getattr(measured, field.name))[[part]] for field in fields(measured)}
-    return replace(measured, **rows)

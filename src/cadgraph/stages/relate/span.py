@@ -11,6 +11,8 @@ from cadgraph.model.scene import Floats
 
 __all__ = ["Net", "Span", "join_spans"]
 
+_SAME_PLACE = 1e-6  # points nearer to each other are one [m]
+
 
 @dataclass(frozen=True, eq=False)
 class Span:
@@ -70,9 +72,12 @@ def join_spans(first: Span, second: Span) -> Span:
 
 
 def _heading(points: Floats) -> Floats | None:
-    step = points[-1] - points[0] if len(points) < 3 else points[-1] - points[-2]
-    length = float(np.linalg.norm(step))
-    return step / length if length > 0 else None
+    """Where a span heads at its end; None where all of it is in one place."""
+    steps = points[-1] - points[:-1]
+    lengths = np.linalg.norm(steps, axis=1)
+    # Between points that only rounding keeps apart any direction would come out.
+    apart = np.flatnonzero(lengths > _SAME_PLACE)
+    return steps[apart[-1]] / lengths[apart[-1]] if len(apart) else None
 
 
 @dataclass

@@ -9,10 +9,11 @@ from dataclasses import replace
 import numpy as np
 
 from cadgraph.geometry.line.centreline import Centreline
+from cadgraph.geometry.line.part_lines import find_lines
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.stages.relate.attach import Attachments
 from cadgraph.stages.relate.joint import face_ends, gather_ends
-from cadgraph.stages.relate.line import find_lines, is_disc, is_plain_tube
+from cadgraph.stages.relate.line import is_disc, is_plain_tube
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
 from cadgraph.stages.relate.role import Roles, likely_lines
 from cadgraph.stages.relate.unit import connected_groups
@@ -62,10 +63,7 @@ def _parts_of(groups: Iterable[Group]) -> frozenset[int]:
 
 def _distinct_lines(given: RelateInput, candidates: Sequence[int]) -> tuple[dict[int, Centreline], set[int]]:
     """The line of each part that has one, and the parts that are mere copies of another one, without theirs."""
-    # What is too small for a part of its own (a flange's nuts) would blur the shape of the mesh that it joined.
-    heads = {given.parts.meshes[part][0]: part for part in candidates}
-    found = find_lines(given.analysis.scene, given.analysis.properties, list(heads))
-    traced = {heads[mesh]: line for mesh, line in found.items()}
+    traced = find_lines(given.analysis.scene, given.analysis.properties, given.parts, candidates)
     copies = _repeated(given.parts, given.contacts, traced)
     return {part: line for part, line in traced.items() if part not in copies}, copies
 

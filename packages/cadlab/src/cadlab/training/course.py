@@ -49,9 +49,10 @@ NEW_PRECISION = 0.85
 _MAKERS = (
     (cadplants, "**/*.py"),
     (cadgraph, "geometry/**/*.py"), (cadgraph, "model/scene.py"), (cadgraph, "model/parts.py"),
+    (cadgraph, "model/shapes.py"),
     *((cadgraph, f"stages/{name}.py") for name in ("adjacency", "ground", "group", "parts", "preprocess")),
     *((cadgraph, f"labelers/embedded/{name}.py") for name in (
-        "descriptor", "edges", "features", "sample", "shape_facts", "surroundings")),
+        "descriptor", "edges", "features", "sample", "surroundings")),
     *((cadlab, f"training/{name}.py") for name in ("distractors", "example", "fastener", "oddities", "samples")),
 )  # fmt: skip
 """What makes plants, and what the labeler sees of them."""

@@ -6,7 +6,8 @@ from scipy.spatial.transform import Rotation
 
 import shapes
 import tubes
-from cadgraph.geometry.line.centreline import Centreline, NotTube, trace_centrelines
+from cadgraph.geometry.line.centreline import Centreline, NotTube
+from cadgraph.geometry.line.trace import trace_centrelines
 from cadgraph.geometry.mesh.properties import measure
 from cadgraph.model.scene import Scene
 

@@ -1,0 +1,144 @@
+"""The line that a part would carry: its centreline, or the axis of a disc (flange, gasket, coupling)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from cadgraph.geometry.line.centreline import Branch, Centreline, End
+from cadgraph.geometry.line.trace import trace_centrelines
+from cadgraph.geometry.shape.analysis import analyse_shapes, shapes_of
+from cadgraph.geometry.shape.round_faces import same_line
+from cadgraph.model.derived import store_of
+from cadgraph.model.parts import Parts, Properties
+from cadgraph.model.scene import Scene
+from cadgraph.model.shapes import Facts, ShapeAnalysis
+
+__all__ = ["axis_line", "find_lines"]
+
+# A round part whose thickness is below this share of its breadth needs no tracing.
+_FLAT = 0.9
+# Faces of an axis have their middle within this share of the radius from it.
+_CENTRED = 0.1
+# What lies before a face belongs to the axis where it comes within this factor of the face's hole, or this share of the
+# greatest radius; bolts do not.
+_AT_BORE, _CORE = 1.3, 0.3
+# A hole below this share of the face's radius, or above the other, is none that tells a bore.
+_LEAST_BORE, _MOST_BORE = 0.15, 0.97
+_FACING = 0.99  # cosine
+# Share of the area that turns, and corners around: flanges that hold their bolts, or have ribs, keep as much; bodies
+# with branches have wide gaps around.
+_TURNED, _SIDES = 0.7, 5
+
+
+def find_lines(
+    scene: Scene, properties: Properties, parts: Parts, chosen: Sequence[int], workers: int | None = None
+) -> dict[int, Centreline]:
+    """The lines of some parts; each distinct shape is traced once for the same parts, when first asked for.
+
+    They follow from geometry alone, so they outlive any change of labels.
+
+    Args:
+        scene: the source meshes.
+        properties: of the source meshes.
+        parts: made from them.
+        chosen: part indices.
+        workers: threads; all processors by default. The outcome does not depend on it.
+
+    Returns:
+        For each part that has one its line, in the order asked for: the centreline of a tube, or for what is flat and
+        round the axis from face to face. A part of several meshes has the line of the first of them: what is too small
+        for a part of its own (a flange's nuts) would blur its shape.
+    """
+    found: dict[int, Centreline | None] = store_of(parts, "lines")
+    new = [part for part in dict.fromkeys(chosen) if part not in found]
+    several = [part for part in new if len(parts.meshes[part]) > 1]
+    single = [part for part in new if len(parts.meshes[part]) == 1]
+    if single:
+        found |= _lines_of_shapes(parts, single, workers)
+    if several:
+        found |= _lines_of_heads(scene, properties, parts, several, workers)
+    return {part: line for part in chosen if (line := found[part]) is not None}
+
+
+def _lines_of_shapes(parts: Parts, chosen: Sequence[int], workers: int | None) -> dict[int, Centreline | None]:
+    """Of parts of one mesh each: the shapes of parts are those of their meshes."""
+    known, traced = shapes_of(parts), store_of(parts, "lines of shapes")
+    shapes = [shape for shape in dict.fromkeys(known.shape[list(chosen)].tolist()) if shape not in traced]
+    traced |= _trace(parts.scene, parts.properties, known, shapes, workers)
+    return {part: _placed(traced, known, part) for part in chosen}
+
+
+def _lines_of_heads(
+    scene: Scene, properties: Properties, parts: Parts, chosen: Sequence[int], workers: int | None
+) -> dict[int, Centreline | None]:
+    """Of the first mesh of each part."""
+    heads = [parts.meshes[part][0] for part in chosen]
+    scene, properties = scene.select(heads), properties.select(heads)
+    known = analyse_shapes(scene, properties)
+    traced = _trace(scene, properties, known, range(len(known.facts)), workers)
+    return {part: _placed(traced, known, row) for row, part in enumerate(chosen)}
+
+
+def _placed(lines: dict[int, Centreline | None], known: ShapeAnalysis, mesh: int) -> Centreline | None:
+    line = lines[int(known.shape[mesh])]
+    return None if line is None else line.placed(known.turn[mesh], known.shift[mesh])
+
+
+def _trace(
+    scene: Scene, properties: Properties, known: ShapeAnalysis, shapes: Sequence[int], workers: int | None
+) -> dict[int, Centreline | None]:
+    """The lines of distinct shapes, where each occurs first."""
+    breadth = properties.obb_extents[known.first[list(shapes)]]
+    lines: dict[int, Centreline | None] = {
+        shape: axis_line(known.facts[shape]) if flat else None
+        for shape, flat in zip(shapes, (breadth[:, 2] < _FLAT * breadth[:, 1]).tolist(), strict=True)
+    }
+    rest = [shape for shape, line in lines.items() if line is None]
+    if rest:
+        meshes = known.first[rest]
+        found = trace_centrelines(scene.select(meshes), properties.select(meshes), workers)
+        for shape, traced in zip(rest, found, strict=True):
+            lines[shape] = traced if isinstance(traced, Centreline) and traced.ends else axis_line(known.facts[shape])
+    return lines
+
+
+def axis_line(facts: Facts) -> Centreline | None:
+    """The axis of what is round from face to face; None where a shape isn't, or has no length."""
+    if facts.turned < _TURNED or facts.sides < _SIDES:
+        return None
+    (low, low_radius, low_bore), (high, high_radius, high_bore) = _face(facts, -1.0), _face(facts, 1.0)
+    if not high > low:
+        return None
+    points = facts.center + np.outer([low, high], facts.axis)
+    return Centreline(
+        (Branch(points, np.array([low_radius, high_radius]), np.array([low_bore, high_bore])),),
+        (End(points[0], -facts.axis, low_radius, low_bore, 0), End(points[1], facts.axis, high_radius, high_bore, 0)),
+        (),
+        1.0,
+    )
+
+
+def _face(facts: Facts, sense: float) -> tuple[float, float, float]:
+    """Where the axis ends in one sense, the outer radius of the face there, and that of its hole (NaN without one)."""
+    faces = [
+        (float((port.center - facts.center) @ facts.axis), port)
+        for port in facts.ports
+        if sense * float(port.normal @ facts.axis) > _FACING
+        and same_line(facts.center, facts.axis, port.center, port.normal, _CENTRED * facts.radius)
+    ]
+    for at, port in sorted(faces, key=lambda row: -sense * row[0]):
+        if _is_last(facts, sense, at, max(_AT_BORE * port.inner, _CORE * facts.radius)):
+            has_bore = _LEAST_BORE * port.outer < port.inner < _MOST_BORE * port.outer
+            return at, port.outer, port.inner if has_bore else float("nan")
+    at, radius = (facts.high, facts.outer[-1]) if sense > 0 else (facts.low, facts.outer[0])
+    return at, float(radius), float("nan")
+
+
+def _is_last(facts: Facts, sense: float, at: float, core: float) -> bool:
+    """Whether nothing comes within a radius of the axis beyond a height: bolts stand around."""
+    n = len(facts.inner)
+    height = facts.low + (np.arange(n) + 0.5) * facts.length / n
+    ahead = facts.inner[(sense * (height - at) > 0) & (facts.outer > 0)]
+    return bool(np.all(ahead > core))

@@ -1,0 +1,150 @@
+"""The faces of each mesh, joined into flat patches and open rims."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from cadgraph.model.parts import Properties
+from cadgraph.model.scene import Floats, Ints, Scene, mesh_of_face
+
+__all__ = ["LEVELS", "Level", "Surface", "equal_values", "find_surfaces"]
+
+_WELD = 1e-6  # corners closer than this are one [m]
+_THIN = 1e-9
+
+
+@dataclass(frozen=True)
+class Level:
+    """How exact round faces must be.
+
+    Args:
+        parallel: faces whose normals have at least this cosine share a plane.
+        rim: corners at this share of the greatest radius lie on the rim.
+        bulge: no corner leaves the plane by more than this share of the radius.
+        gap: greatest angle between neighbouring rim corners [rad].
+    """
+
+    parallel: float
+    rim: float
+    bulge: float
+    gap: float
+
+
+# A 128-sided pipe turns by 2.8 degrees a side, a 20-sided one by 18; six sides are 60 degrees apart. Parts without a
+# round face get the second chance: scans and rough remeshing move corners by a millimetre; six sides could be a square
+# there.
+LEVELS = (
+    Level(np.cos(np.radians(1.0)), 0.97, 0.02, np.radians(75.0)),
+    Level(np.cos(np.radians(12.0)), 0.93, 0.08, np.radians(50.0)),
+)
+"""The strictest first."""
+
+
+@dataclass(frozen=True)
+class Surface:
+    """The faces of one mesh.
+
+    Args:
+        triangles: ``(n, 3, 3)`` corners [m].
+        normals: ``(n, 3)`` unit, outward where the mesh is closed.
+        areas: ``(n,)`` [m2].
+        patches: ``(len(LEVELS), n)`` the flat patch of each face.
+        rims: its open rims, each as edges ``(m, 2, 3)`` [m].
+    """
+
+    triangles: Floats
+    normals: Floats
+    areas: Floats
+    patches: Ints
+    rims: list[Floats]
+
+
+def find_surfaces(scene: Scene, properties: Properties) -> list[Surface]:
+    """The surface of each mesh of a scene.
+
+    Args:
+        scene: any; faces that are not finite are left out.
+        properties: of its meshes.
+    """
+    triangles, owner = scene.triangles() + 0.0, mesh_of_face(scene)
+    finite = np.isfinite(triangles).all(axis=(1, 2))
+    triangles, owner = triangles[finite], owner[finite]
+    cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    double = np.linalg.norm(cross, axis=1)
+    normals = cross / np.maximum(double, _THIN**2)[:, None]
+    patches, rims = _flat_patches(triangles, normals, owner)
+    offsets = np.searchsorted(owner, np.arange(scene.n_meshes + 1)).tolist()
+    surfaces = []
+    for mesh in range(scene.n_meshes):
+        faces = slice(offsets[mesh], offsets[mesh + 1])
+        inward = -1.0 if properties.closed[mesh] and properties.volume[mesh] < 0 else 1.0
+        surfaces.append(
+            Surface(triangles[faces], normals[faces] * inward, double[faces] / 2, patches[:, faces], rims.get(mesh, []))
+        )
+    return surfaces
+
+
+def _flat_patches(triangles: Floats, normals: Floats, owner: Ints) -> tuple[Ints, dict[int, list[Floats]]]:
+    """Joins faces that share an edge and a plane, and edges without a partner into rims.
+
+    Returns:
+        The patch ``(n_levels, n_faces)`` of each face; and for each mesh its rims, each ``(n, 2, 3)`` edges.
+    """
+    n = len(triangles)
+    if n == 0:
+        return np.zeros((len(LEVELS), 0), np.int64), {}
+    corner = _weld(triangles, owner)
+    ends = np.sort(corner[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    edge = ends[:, 0] * (corner.max() + 1) + ends[:, 1]
+    order = np.argsort(edge, kind="stable")
+    same = edge[order][1:] == edge[order][:-1]
+    a, b = order[:-1][same] // 3, order[1:][same] // 3
+    cosine = np.abs(np.einsum("ij,ij->i", normals[a], normals[b]))
+    patches = np.empty((len(LEVELS), n), np.int64)
+    for row, level in enumerate(LEVELS):
+        flat = cosine > level.parallel
+        links = coo_array((np.ones(int(flat.sum()), np.int8), (a[flat], b[flat])), shape=(n, n))
+        patches[row] = connected_components(links, directed=False)[1]
+    alone = np.ones(len(order), np.bool_)
+    alone[1:] &= ~same
+    alone[:-1] &= ~same
+    free = order[alone & (ends[order, 0] != ends[order, 1])]
+    return patches, _find_rims(triangles, owner, ends, free)
+
+
+def _weld(triangles: Floats, owner: Ints) -> Ints:
+    """``(n, 3)`` the same number for corners of one mesh that lie in one place."""
+    grid = np.round(triangles.reshape(-1, 3) / _WELD).astype(np.int64).view(np.uint64)
+    key = np.repeat(owner, 3).astype(np.uint64)
+    for column in grid.T:  # a number for each place; two places share one with a chance of 1e-8 in a million
+        key = (key ^ column) * np.uint64(0x9E3779B97F4A7C15)
+        key ^= key >> np.uint64(29)
+    return np.unique(key, return_inverse=True)[1].reshape(len(triangles), 3).astype(np.int64)
+
+
+def _find_rims(triangles: Floats, owner: Ints, ends: Ints, free: Ints) -> dict[int, list[Floats]]:
+    """For each mesh its loops of at least five edges without a partner, each ``(m, 2, 3)``."""
+    rims: dict[int, list[Floats]] = {}
+    if not len(free):
+        return rims
+    points, inverse = np.unique(ends[free], return_inverse=True)
+    inverse = inverse.reshape(-1, 2)
+    loops = coo_array((np.ones(len(free), np.int8), (inverse[:, 0], inverse[:, 1])), shape=(len(points),) * 2)
+    loop = connected_components(loops, directed=False)[1].astype(np.int64)[inverse[:, 0]]
+    tail, head = free // 3, free % 3
+    for edges in equal_values(loop, 5):
+        f, k = tail[edges], head[edges]
+        lines = np.stack([triangles[f, k], triangles[f, (k + 1) % 3]], axis=1)
+        rims.setdefault(int(owner[f[0]]), []).append(lines)
+    return rims
+
+
+def equal_values(values: Ints, least: int) -> list[Ints]:
+    """The positions of each distinct value that occurs at least so often, ascending."""
+    order = np.argsort(values, kind="stable")
+    starts = np.concatenate([[0], np.nonzero(np.diff(values[order]))[0] + 1, [len(values)]])
+    return [order[i:j] for i, j in zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True) if j - i >= least]
