@@ -31,6 +31,9 @@ _FACING = 0.99  # cosine
 # with branches have wide gaps around.
 _TURNED, _SIDES = 0.7, 5
 
+# A part is wider than its faces from this ratio of radii on: more than rounding and coarse polygons make.
+_WIDER = 1.06
+
 
 def find_lines(
     scene: Scene, properties: Properties, parts: Parts, chosen: Sequence[int], workers: int | None = None
@@ -111,10 +114,15 @@ def axis_line(facts: Facts) -> Centreline | None:
     (low, low_radius, low_bore), (high, high_radius, high_bore) = _face(facts, -1.0), _face(facts, 1.0)
     if not high > low:
         return None
-    points = facts.center + np.outer([low, high], facts.axis)
+    stations = [(low, low_radius, low_bore), (high, high_radius, high_bore)]
+    if facts.radius > _WIDER * max(low_radius, high_radius):
+        # A body between raised faces: it is no plain tube, nor as thin as these.
+        stations.insert(1, ((low + high) / 2, facts.radius, float("nan")))
+    along, radius, bore = np.array(stations).T
+    points = facts.center + np.outer(along, facts.axis)
     return Centreline(
-        (Branch(points, np.array([low_radius, high_radius]), np.array([low_bore, high_bore])),),
-        (End(points[0], -facts.axis, low_radius, low_bore, 0), End(points[1], facts.axis, high_radius, high_bore, 0)),
+        (Branch(points, radius, bore),),
+        (End(points[0], -facts.axis, low_radius, low_bore, 0), End(points[-1], facts.axis, high_radius, high_bore, 0)),
         (),
         1.0,
     )
