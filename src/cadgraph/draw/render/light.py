@@ -142,7 +142,7 @@ def _send(
             lift = sizes[1]
         for i in range(3):
             point[i] = eye[i] + depth * (axes[2, i] + x * axes[0, i] + y * axes[1, i])
-        facing, smooth = _upright(axes, surfaces, pixel, key, basis)
+        facing, smooth = _upright(axes, surfaces.mesh, surfaces.flat, surfaces.normal, pixel, key, basis)
         cell = order[row % _PATTERN, column % _PATTERN]
         # Nothing hides the sky from floor that is further away than ambient occlusion reaches.
         if fade > ground[4]:
@@ -167,7 +167,7 @@ def _send(
 
 
 @compiled
-def _upright(axes: Any, surfaces: Any, pixel: int, key: Any, basis: Any) -> tuple[float, float]:
+def _upright(axes: Any, mesh: Any, triangle: Any, normal: Any, pixel: int, key: Any, basis: Any) -> tuple[float, float]:
     """A basis, in the world's axes, on the surface or floor at a pixel; says how much it faces the lamp.
 
     Returns:
@@ -178,8 +178,8 @@ def _upright(axes: Any, surfaces: Any, pixel: int, key: Any, basis: Any) -> tupl
         basis[2, i] = 0.0
     for i in range(3):
         flat, rounded = axes[i, 2], axes[i, 2]
-        if surfaces.mesh[pixel] >= 0:
-            flat, rounded = surfaces.flat[pixel, i], surfaces.normal[pixel, i]
+        if mesh[pixel] >= 0:
+            flat, rounded = triangle[pixel, i], normal[pixel, i]
         facing += flat * key[i]
         smooth += rounded * key[i]
         for j in range(3):
@@ -230,35 +230,37 @@ def _gather(blocked: Any, owner: Any, kind: Any, sky_rays: float, found: Any) ->
 @compiled
 def _smooth(view: Any, width: int, height: int, first: int, last: int, surfaces: Any, found: Any, smooth: Any) -> None:
     """Averages over a block of pixels, but not across edges."""
+    mesh_of, normal, depth = surfaces.mesh, surfaces.normal, surfaces.depth
+    sky_seen, sun_seen, fade = found.sky, found.sun, found.fade
     half = _PATTERN // 2
     for p in range(first, last):
-        mesh = surfaces.mesh[p]
-        if mesh < 0 and found.fade[p] <= 0:
+        mesh = mesh_of[p]
+        if mesh < 0 and fade[p] <= 0:
             continue
         row, column = p // width, p % width
         px, py = (column + 0.5 - view[0]) * view[2], (view[1] - row - 0.5) * view[2]
-        pz = surfaces.depth[p]
-        nx, ny, nz = surfaces.normal[p, 0], surfaces.normal[p, 1], surfaces.normal[p, 2]
+        pz = depth[p]
+        nx, ny, nz = normal[p, 0], normal[p, 1], normal[p, 2]
         across = px * nx + py * ny + nz
         limit = _FLAT * view[2]
         sky, sun, count = 0.0, 0.0, 0
         for r in range(max(0, row - half), min(height, row + half)):
             for c in range(max(0, column - half), min(width, column + half)):
                 q = r * width + c
-                if surfaces.mesh[q] != mesh:
+                if mesh_of[q] != mesh:
                     continue
                 if mesh < 0:
-                    if found.fade[q] <= 0:
+                    if fade[q] <= 0:
                         continue
                 else:
-                    turn = nx * surfaces.normal[q, 0] + ny * surfaces.normal[q, 1] + nz * surfaces.normal[q, 2]
+                    turn = nx * normal[q, 0] + ny * normal[q, 1] + nz * normal[q, 2]
                     # Distance from the tangent plane, in units of the depth.
                     qx, qy = px + (c - column) * view[2], py - (r - row) * view[2]
-                    away = (qx * nx + qy * ny + nz) * (surfaces.depth[q] / pz) - across
+                    away = (qx * nx + qy * ny + nz) * (depth[q] / pz) - across
                     if turn < _ALIKE or abs(away) > limit:
                         continue
-                sky += found.sky[q]
-                sun += found.sun[q]
+                sky += sky_seen[q]
+                sun += sun_seen[q]
                 count += 1
         smooth.sky[p] = sky / count
         smooth.sun[p] = sun / count

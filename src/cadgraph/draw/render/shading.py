@@ -138,6 +138,11 @@ def _shade(
     view: Any, width: int, height: int, first: int, last: int, surfaces: Any, seen: Any, lights: Any, albedo: Any,
     hatched: Any, left_out: Any, samples: int, lines: float, haze: Any, behind: Any, layer: Any,
 ) -> None:  # fmt: skip
+    # Single arrays from here on: the compiler counts the references to each array of a tuple at every call.
+    mesh_of, normal, depth, slot = surfaces.mesh, surfaces.normal, surfaces.depth, surfaces.slot
+    grid_mesh, grid_normal, grid_depth = surfaces.grid_mesh, surfaces.grid_normal, surfaces.grid_depth
+    sky_seen, sun_seen = seen.sky, seen.sun
+    key, fill, up = lights.key, lights.fill, lights.up
     dark, near = np.zeros((samples + 2) ** 2), np.zeros(((samples + 2) ** 2, 8))
     for p in range(first, last):
         row, column = p // width, p % width
@@ -145,38 +150,45 @@ def _shade(
             for j in range(3):
                 layer.color[i, p, j] = 0.0
         if seen.fade[p] > 0:
-            shadow = 1.0 - (0.4 + 0.6 * seen.sky[p]) * (0.7 + 0.3 * seen.sun[p])
+            shadow = 1.0 - (0.4 + 0.6 * sky_seen[p]) * (0.7 + 0.3 * sun_seen[p])
             layer.floor[p] = 1.0 - shadow * seen.fade[p]
         layer.depth[p], layer.cover[p] = np.inf, 0.0
-        if surfaces.slot[p] >= 0:
-            strength = lines * _thinning(width, height, row, column, surfaces.slot) if lines > 0 else 0.0
+        if slot[p] >= 0:
+            strength = lines * _thinning(width, height, row, column, slot) if lines > 0 else 0.0
             if strength > 0:
-                _lines(view, width, height, row, column, samples, surfaces, left_out, near, dark)
-            _shade_grid(view, width, height, p, surfaces, seen, lights, albedo, hatched, left_out, samples, strength,
-                        dark, haze, behind, layer)  # fmt: skip
+                _lines(view, width, height, row, column, samples, mesh_of, normal, depth, slot, grid_mesh,
+                       grid_normal, grid_depth, left_out, near, dark)  # fmt: skip
+            layer.depth[p], layer.cover[p] = _shade_grid(
+                view, width, height, p, mesh_of, normal, slot[p], grid_mesh, grid_normal, grid_depth, sky_seen,
+                sun_seen, key, fill, up, albedo, hatched, left_out, samples, strength, dark, haze, behind, layer.color,
+            )  # fmt: skip
             continue
-        mesh = surfaces.mesh[p]
+        mesh = mesh_of[p]
         if mesh >= 0 and not left_out[mesh]:
             x, y = (column + 0.5 - view[0]) * view[2], (view[1] - row - 0.5) * view[2]
-            layer.depth[p], layer.cover[p] = surfaces.depth[p], 1.0
-            diffuse, gloss = _tone(surfaces.normal, p, x, y, seen.sky[p], seen.sun[p], lights)
-            _add(albedo, hatched, mesh, diffuse, gloss, column + 0.5, row + 0.5, 1.0, surfaces.depth[p], haze, behind,
-                 row, layer.color, p)  # fmt: skip
+            layer.depth[p], layer.cover[p] = depth[p], 1.0
+            diffuse, gloss = _tone(normal, p, x, y, sky_seen[p], sun_seen[p], key, fill, up)
+            _add(albedo, hatched, mesh, diffuse, gloss, column + 0.5, row + 0.5, 1.0, depth[p], haze, behind, row,
+                 layer.color, p)  # fmt: skip
 
 
 @compiled
 def _shade_grid(
-    view: Any, width: int, height: int, p: int, surfaces: Any, seen: Any, lights: Any, albedo: Any, hatched: Any,
-    left_out: Any, samples: int, strength: float, dark: Any, haze: Any, behind: Any, layer: Any,
-) -> None:  # fmt: skip
-    """Shades a pixel that has a grid of samples."""
+    view: Any, width: int, height: int, p: int, mesh_of: Any, normal: Any, slot: int, grid_mesh: Any,
+    grid_normal: Any, grid_depth: Any, sky_seen: Any, sun_seen: Any, key: Any, fill: Any, up: Any, albedo: Any,
+    hatched: Any, left_out: Any, samples: int, strength: float, dark: Any, haze: Any, behind: Any, color: Any,
+) -> tuple[float, float]:  # fmt: skip
+    """Shades a pixel that has a grid of samples.
+
+    Returns:
+        The depth of its nearest surface [m], and the share of the pixel that surfaces and lines take.
+    """
     row, column, each = p // width, p % width, samples * samples
     nearest, cover, before = np.inf, 0.0, -1
     diffuse, gloss = 0.0, 0.0
-    normal = surfaces.grid_normal
     for s in range(each):
-        k = surfaces.slot[p] * each + s
-        mesh, depth = surfaces.grid_mesh[k], surfaces.grid_depth[k]
+        k = slot * each + s
+        mesh, depth = grid_mesh[k], grid_depth[k]
         line = strength * dark[(s // samples + 1) * (samples + 2) + s % samples + 1] if strength > 0 else 0.0
         if mesh < 0 or left_out[mesh]:
             cover += line
@@ -184,27 +196,29 @@ def _shade_grid(
         cover += 1.0
         nearest = min(nearest, depth)
         across, down = column + (s % samples + 0.5) / samples, row + (s // samples + 0.5) / samples
-        alike = before >= 0 and surfaces.grid_mesh[before] == mesh
+        alike = before >= 0 and grid_mesh[before] == mesh
         if alike:
             turn = 0.0
             for i in range(3):
-                turn += normal[k, i] * normal[before, i]
+                turn += grid_normal[k, i] * grid_normal[before, i]
             alike = turn > _SAME
         if not alike:
             before = k
-            sky, sun = _nearby(width, height, row, column, k, surfaces, seen)
+            sky, sun = _nearby(width, height, row, column, k, mesh_of, normal, grid_mesh, grid_normal, sky_seen,
+                               sun_seen)  # fmt: skip
             x, y = (across - view[0]) * view[2], (view[1] - down) * view[2]
-            diffuse, gloss = _tone(normal, k, x, y, sky, sun, lights)
+            diffuse, gloss = _tone(grid_normal, k, x, y, sky, sun, key, fill, up)
         _add(albedo, hatched, mesh, diffuse, gloss, across, down, (1.0 - line) / each, depth, haze, behind, row,
-             layer.color, p)  # fmt: skip
-    layer.depth[p], layer.cover[p] = nearest, cover / each
+             color, p)  # fmt: skip
+    return nearest, cover / each
 
 
 @compiled
-def _tone(normal: Any, k: int, x: float, y: float, sky: float, sun: float, lights: Any) -> tuple[float, float]:
+def _tone(
+    normal: Any, k: int, x: float, y: float, sky: float, sun: float, key: Any, fill: Any, up: Any
+) -> tuple[float, float]:
     """Diffuse and glossy light at a sample: its colour is ``albedo * diffuse + gloss``."""
     nx, ny, nz = normal[k, 0], normal[k, 1], normal[k, 2]
-    key, fill, up = lights.key, lights.fill, lights.up
     long = 1.0 / np.sqrt(1.0 + x * x + y * y)
     vx, vy, vz = -x * long, -y * long, -long
     to_key = nx * key[0] + ny * key[1] + nz * key[2]
@@ -244,21 +258,24 @@ def _add(
 
 
 @compiled
-def _nearby(width: int, height: int, row: int, column: int, k: int, surfaces: Any, seen: Any) -> tuple[float, float]:
+def _nearby(
+    width: int, height: int, row: int, column: int, k: int, mesh_of: Any, normal: Any, grid_mesh: Any,
+    grid_normal: Any, sky_seen: Any, sun_seen: Any,
+) -> tuple[float, float]:  # fmt: skip
     """Sky and sun for a sample: from the pixel near by that shows the same mesh from the most similar side."""
-    mesh = surfaces.grid_mesh[k]
-    nx, ny, nz = surfaces.grid_normal[k, 0], surfaces.grid_normal[k, 1], surfaces.grid_normal[k, 2]
+    mesh = grid_mesh[k]
+    nx, ny, nz = grid_normal[k, 0], grid_normal[k, 1], grid_normal[k, 2]
     best, sky, sun = -2.0, _UNSEEN[0], _UNSEEN[1]
     for around in range(9):
         # The pixel itself first: of equals the first wins.
         r = row + (0 if around < 3 else -1 if around < 6 else 1)
         c = column + (0 if around % 3 == 0 else -1 if around % 3 == 1 else 1)
         q = r * width + c
-        if r < 0 or r >= height or c < 0 or c >= width or surfaces.mesh[q] != mesh:
+        if r < 0 or r >= height or c < 0 or c >= width or mesh_of[q] != mesh:
             continue
-        match = nx * surfaces.normal[q, 0] + ny * surfaces.normal[q, 1] + nz * surfaces.normal[q, 2]
+        match = nx * normal[q, 0] + ny * normal[q, 1] + nz * normal[q, 2]
         if match > best + _BETTER:
-            best, sky, sun = match, seen.sky[q], seen.sun[q]
+            best, sky, sun = match, sky_seen[q], sun_seen[q]
             if best > 1.0 - _BETTER:
                 break
     return sky, sun
@@ -277,8 +294,8 @@ def _thinning(width: int, height: int, row: int, column: int, slot: Any) -> floa
 
 @compiled
 def _lines(
-    view: Any, width: int, height: int, row: int, column: int, samples: int, surfaces: Any, left_out: Any, near: Any,
-    dark: Any,
+    view: Any, width: int, height: int, row: int, column: int, samples: int, mesh: Any, normal: Any, depth: Any,
+    slot: Any, grid_mesh: Any, grid_normal: Any, grid_depth: Any, left_out: Any, near: Any, dark: Any,
 ) -> None:  # fmt: skip
     """How dark the line is at each sample of a pixel, 0..1, by its neighbours within the pixel and beyond.
 
@@ -289,7 +306,13 @@ def _lines(
         row: of the pixel.
         column: of the pixel.
         samples: along each side of a pixel.
-        surfaces: what the rays met.
+        mesh: what the rays met, see Surfaces; likewise the six that follow.
+        normal: see there.
+        depth: see there.
+        slot: see there.
+        grid_mesh: see there.
+        grid_normal: see there.
+        grid_depth: see there.
         left_out: ``(n_meshes,)``.
         near: ``((samples + 2) ** 2, 8)`` room for the samples of the pixel and those that border on it.
         dark: ``((samples + 2) ** 2,)`` the outcome, for the same samples.
@@ -308,15 +331,15 @@ def _lines(
                 near[at, 0] = _OUTSIDE
                 continue
             pixel = to_row * width + to_column
-            if surfaces.slot[pixel] >= 0:
+            if slot[pixel] >= 0:
                 x = (column + (right + 0.5) / samples - view[0]) * view[2]
                 y = (view[1] - row - (down + 0.5) / samples) * view[2]
-                k = (surfaces.slot[pixel] * samples + r) * samples + c
-                _note(near, at, surfaces.grid_mesh, surfaces.grid_normal, surfaces.grid_depth, k, x, y, left_out)
+                k = (slot[pixel] * samples + r) * samples + c
+                _note(near, at, grid_mesh, grid_normal, grid_depth, k, x, y, left_out)
             else:
                 # A pixel without a grid has one ray.
                 x, y = (to_column + 0.5 - view[0]) * view[2], (view[1] - to_row - 0.5) * view[2]
-                _note(near, at, surfaces.mesh, surfaces.normal, surfaces.depth, pixel, x, y, left_out)
+                _note(near, at, mesh, normal, depth, pixel, x, y, left_out)
     both = samples >= _BOTH_SIDES
     for r in range(samples + 1):
         for c in range(samples + 1):

@@ -72,9 +72,7 @@ def _stamp(module: str) -> str:
         path = here.joinpath(*name.split(".")[1:]).with_suffix(".py")
         if name not in sources and path.is_file():
             sources[name] = path.read_bytes()
-            waiting += re.findall(
-                r"^from (cadgraph\.(?:geometry|draw)[\w.]+) import", sources[name].decode(), re.MULTILINE
-            )
+            waiting += re.findall(_KERNELS, sources[name].decode(), re.MULTILINE)
     return hashlib.sha256(b"".join(sources[name] for name in sorted(sources))).hexdigest()
 
 
