@@ -13,7 +13,7 @@ from cadgraph.geometry.shape.round_faces import same_line
 from cadgraph.model.derived import store_of
 from cadgraph.model.parts import Parts, Properties
 from cadgraph.model.scene import Scene
-from cadgraph.model.shapes import Facts, ShapeAnalysis
+from cadgraph.model.shapes import Disc, Facts, ShapeAnalysis
 
 __all__ = ["axis_line", "find_lines"]
 
@@ -24,15 +24,14 @@ _CENTRED = 0.1
 # What lies before a face belongs to the axis where it comes within this factor of the face's hole, or this share of the
 # greatest radius; bolts do not.
 _AT_BORE, _CORE = 1.3, 0.3
+# Faces this near to the last one, as share of the length or [m], are one with it: a raised face and its flange.
+_FACE, _NEAR = 0.02, 1e-4
 # A hole below this share of the face's radius, or above the other, is none that tells a bore.
 _LEAST_BORE, _MOST_BORE = 0.15, 0.97
 _FACING = 0.99  # cosine
 # Share of the area that turns, and corners around: flanges that hold their bolts, or have ribs, keep as much; bodies
 # with branches have wide gaps around.
 _TURNED, _SIDES = 0.7, 5
-
-# A part is wider than its faces from this ratio of radii on: more than rounding and coarse polygons make.
-_WIDER = 1.06
 
 
 def find_lines(
@@ -56,12 +55,10 @@ def find_lines(
     """
     found: dict[int, Centreline | None] = store_of(parts, "lines")
     new = [part for part in dict.fromkeys(chosen) if part not in found]
-    several = [part for part in new if len(parts.meshes[part]) > 1]
-    single = [part for part in new if len(parts.meshes[part]) == 1]
-    if single:
-        found |= _lines_of_shapes(parts, single, workers)
-    if several:
-        found |= _lines_of_heads(scene, properties, parts, several, workers)
+    if new:
+        found |= _lines_of_shapes(parts, [part for part in new if len(parts.meshes[part]) == 1], workers)
+        several = [part for part in new if len(parts.meshes[part]) > 1]
+        found |= _lines_of_heads(scene, properties, parts, several, workers) if several else {}
     return {part: line for part in chosen if (line := found[part]) is not None}
 
 
@@ -114,15 +111,10 @@ def axis_line(facts: Facts) -> Centreline | None:
     (low, low_radius, low_bore), (high, high_radius, high_bore) = _face(facts, -1.0), _face(facts, 1.0)
     if not high > low:
         return None
-    stations = [(low, low_radius, low_bore), (high, high_radius, high_bore)]
-    if facts.radius > _WIDER * max(low_radius, high_radius):
-        # A body between raised faces: it is no plain tube, nor as thin as these.
-        stations.insert(1, ((low + high) / 2, facts.radius, float("nan")))
-    along, radius, bore = np.array(stations).T
-    points = facts.center + np.outer(along, facts.axis)
+    points = facts.center + np.outer([low, high], facts.axis)
     return Centreline(
-        (Branch(points, radius, bore),),
-        (End(points[0], -facts.axis, low_radius, low_bore, 0), End(points[-1], facts.axis, high_radius, high_bore, 0)),
+        (Branch(points, np.array([low_radius, high_radius]), np.array([low_bore, high_bore])),),
+        (End(points[0], -facts.axis, low_radius, low_bore, 0), End(points[1], facts.axis, high_radius, high_bore, 0)),
         (),
         1.0,
     )
@@ -130,18 +122,26 @@ def axis_line(facts: Facts) -> Centreline | None:
 
 def _face(facts: Facts, sense: float) -> tuple[float, float, float]:
     """Where the axis ends in one sense, the outer radius of the face there, and that of its hole (NaN without one)."""
+    faces = _axis_faces(facts, sense)
+    for end, disc in faces:
+        if _is_last(facts, sense, end, max(_AT_BORE * disc.inner, _CORE * facts.radius)):
+            slack = max(_FACE * facts.length, _NEAR)
+            there = [disc for at, disc in faces if abs(at - end) <= slack]
+            outer, inner = max(disc.outer for disc in there), min(disc.inner for disc in there)
+            return end, outer, inner if _LEAST_BORE * outer < inner < _MOST_BORE * outer else float("nan")
+    end, radius = (facts.high, facts.outer[-1]) if sense > 0 else (facts.low, facts.outer[0])
+    return end, float(radius), float("nan")
+
+
+def _axis_faces(facts: Facts, sense: float) -> list[tuple[float, Disc]]:
+    """The round faces about the axis that look in one sense, with their place along it, the outermost first."""
     faces = [
-        (float((port.center - facts.center) @ facts.axis), port)
-        for port in facts.ports
-        if sense * float(port.normal @ facts.axis) > _FACING
-        and same_line(facts.center, facts.axis, port.center, port.normal, _CENTRED * facts.radius)
+        (float((disc.center - facts.center) @ facts.axis), disc)
+        for disc in facts.discs
+        if sense * float(disc.normal @ facts.axis) > _FACING
+        and same_line(facts.center, facts.axis, disc.center, disc.normal, _CENTRED * facts.radius)
     ]
-    for at, port in sorted(faces, key=lambda row: -sense * row[0]):
-        if _is_last(facts, sense, at, max(_AT_BORE * port.inner, _CORE * facts.radius)):
-            has_bore = _LEAST_BORE * port.outer < port.inner < _MOST_BORE * port.outer
-            return at, port.outer, port.inner if has_bore else float("nan")
-    at, radius = (facts.high, facts.outer[-1]) if sense > 0 else (facts.low, facts.outer[0])
-    return at, float(radius), float("nan")
+    return sorted(faces, key=lambda row: -sense * row[0])
 
 
 def _is_last(facts: Facts, sense: float, at: float, core: float) -> bool:
