@@ -44,8 +44,9 @@ def flaws(family, style, dn, seed):
             yield f"{where}: {component.name} is not closed, or inside out"
 
 
-def test_every_family_is_closed_and_labelled():
-    turns = zip(FAMILIES.values(), cycle(STYLES), strict=False)
+def test_one_family_of_each_kind_is_closed_and_labelled():
+    kinds = {family.name.split("/")[0]: family for family in FAMILIES.values()}
+    turns = zip(kinds.values(), cycle(STYLES), strict=False)
     assert [flaw for family, style in turns for flaw in flaws(family, style, sizes(family)[0], 0)] == []
 
 
