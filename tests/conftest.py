@@ -19,7 +19,7 @@ def pytest_addoption(parser):
 
 @pytest.fixture(scope="session")
 def demo(tmp_path_factory):
-    """A folder in which ``cadgraph demo`` was run, and what it printed in ``said.txt``; for reading only."""
+    """A folder in which ``cadgraph demo`` was run, small pictures, and what it printed in ``said.txt``; for reading."""
     from cadgraph.cli import main
 
     folder = tmp_path_factory.mktemp("demo")
@@ -29,6 +29,6 @@ def demo(tmp_path_factory):
         contextlib.redirect_stdout(said),
         pytest.raises(SystemExit) as end,
     ):
-        main(["demo"])
+        main(["demo", "--set", "report.samples=1", "--set", "report.width=320", "--set", "report.height=200"])
     assert not end.value.code
     return folder

@@ -140,6 +140,7 @@ def place_of(path):
     return path.parts[:-1] if path.name == "__init__.py" else path.with_suffix("").parts
 
 
+@pytest.mark.slow
 def test_no_function_is_too_complex():
     root = Path(__file__).parents[1]
     found = {

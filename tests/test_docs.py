@@ -18,6 +18,7 @@ def test_generated_documents_are_up_to_date(write_docs):
     assert write_docs.stale(write_docs.DOCS) == [], "run: python tools/write_docs.py"
 
 
+@pytest.mark.slow
 def test_missing_and_changed_documents_are_stale_until_written(write_docs, tmp_path, capsys):
     assert write_docs.main(["--check"], tmp_path) == 1
     assert "graph.schema.json is out of date" in capsys.readouterr().out

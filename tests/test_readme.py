@@ -92,10 +92,12 @@ def test_the_commands_of_the_readme_work_on_the_demo(folder):
     assert (folder / "demo" / "dexpi.xml").is_file()
 
 
-@pytest.mark.parametrize("path", [README, GUIDE], ids=lambda path: path.name)
+@pytest.mark.parametrize("path", [README, pytest.param(GUIDE, marks=pytest.mark.slow)], ids=["README", "guide"])
 def test_the_python_of_both_runs(path, folder, capsys):
-    (block,) = [block for block in blocks(path) if block.language == "python"]
-    exec(compile("\n".join(block.lines), path.name, "exec"), {})
+    names = {}
+    for block in blocks(path):
+        if block.language == "python":
+            exec(compile("\n".join(block.lines), path.name, "exec"), names)
     assert SceneGraph.load(folder / "out").units("pump")
     if path == README:
         assert "V-008 check valve" in capsys.readouterr().out

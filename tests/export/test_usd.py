@@ -446,6 +446,7 @@ def test_a_usdz_package_can_be_the_source(tmp_path):
     assert UsdGeom.Mesh(stage.GetPrimAtPath("/World/mesh_1")).GetPointsAttr().Get()
 
 
+@pytest.mark.slow
 def test_eight_thousand_meshes_are_all_labelled(tmp_path):
     source = line_of_meshes(tmp_path, 8000)
     scene = graphs.boxes(world_meshes(8000))

@@ -143,6 +143,7 @@ def plant():
     return prepare_scene(scene)[0], parts, contacts, labels
 
 
+@pytest.mark.slow
 def test_three_corrections_change_a_family_that_the_model_does_not_know_and_little_else(plant):
     scene, parts, contacts, before = plant
     part_of = {path: i for i, path in enumerate(parts.scene.paths)}

@@ -40,6 +40,7 @@ def said(scene):
     return dict(zip(parts.scene.paths, EmbeddedLabeler().label(parts, contacts, VOCABULARY).answers, strict=True))
 
 
+@pytest.mark.slow
 def test_order_and_pose_of_meshes_change_no_label(riser):
     scene = riser.scene()
     q, _ = np.linalg.qr(np.random.default_rng(5).normal(size=(3, 3)))
@@ -62,6 +63,7 @@ def test_order_and_pose_of_meshes_change_no_label(riser):
     assert np.quantile(moves, 0.95) < 0.04
 
 
+@pytest.mark.slow
 def test_the_model_reproduces_its_recorded_figures():
     trial = default_model().card["fixed trial"]
     for row in trial:

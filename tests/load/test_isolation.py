@@ -86,6 +86,7 @@ def test_crate_cut_but_named_usd_is_an_error(tmp_path, crate):
         assert isinstance(outcome(path), str)
 
 
+@pytest.mark.slow
 def test_flipped_bytes_never_take_the_caller_down(tmp_path, crate):
     rng = np.random.default_rng(1)
     paths = []

@@ -122,6 +122,7 @@ def test_isolated_reading_goes_without_trimesh(tmp_path, monkeypatch):
     assert load(one_box().write(tmp_path / "a.step")).n_meshes == 1
 
 
+@pytest.mark.slow
 def test_damaged_files_are_one_line_errors(tmp_path):
     path = one_box().write(tmp_path / "a.step")
     text = path.read_bytes()

@@ -459,6 +459,7 @@ def test_a_file_that_is_there_but_no_usd_is_not_called_missing(stage, tmp_path):
     assert told["/bare",] == "'bare.usda' names no defaultPrim; set it there, or name a prim in the reference"
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
 @pytest.mark.parametrize(
     "text",

@@ -8,6 +8,8 @@ from cadplants import STYLES, make
 from cadplants.assortment import FAMILIES, draw_modeling_style, make_assortment
 from cadplants.truth_writer import truth_of
 
+pytestmark = pytest.mark.slow
+
 # Exact and whole, so that nothing but the layout is looked at.
 PLAIN = replace(STYLES["bim"], name="plain", gap=(0.0, 0.0))
 

@@ -22,6 +22,8 @@ from cadplants.valve import VALVES, valve_length
 from cadplants.vessel import Nozzle, tank
 from plants.solids import is_closed, least_edge, shell_volumes, touching
 
+pytestmark = pytest.mark.slow
+
 SOME = (15, 25, 50, 80, 150, 300)
 
 
@@ -75,6 +77,7 @@ def yard(style):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("style", STYLES.values(), ids=STYLES)
 @pytest.mark.parametrize("dn", SOME)
 def test_every_component_is_a_closed_solid_that_looks_outward(style, dn):
@@ -91,6 +94,7 @@ MAKES = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", MAKES)
 @pytest.mark.parametrize("dn", [15, 50, 200])
 def test_devices_of_every_make_touch_their_joints_and_nothing_else(make, dn):

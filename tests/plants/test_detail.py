@@ -16,6 +16,8 @@ from cadplants.truth_check import prove
 from cadplants.truth_writer import truth_of
 from plants.solids import is_closed, shell_volumes
 
+pytestmark = pytest.mark.slow
+
 HAND = STYLES["plant-design"]
 
 
@@ -72,6 +74,7 @@ def test_structures_of_the_paper_have_about_its_parts(preset, parts):
     assert abs(plant.n_meshes - joined - parts) <= 0.15 * parts
 
 
+@pytest.mark.slow
 def test_the_field_is_like_the_papers_plant():
     plant = make_field(0)
     joined = {i for part in find_parts(plant) for i in part[1:]}
@@ -85,6 +88,7 @@ def test_the_field_is_like_the_papers_plant():
     assert sum(not name.startswith(("fence", "pillar")) for name in clusters) == 15
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("preset", ["skid", "riser", "tank", "pumps", "rack"])
 def test_seeds_change_the_whole_layout(preset):
     sizes = []

@@ -1,10 +1,13 @@
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from cadplants.mesh_ops import Solid, box, extrude, merge, revolve, tube, weld
 from cadplants.polygon import circle, section_i
 from cadplants.tessellate import facets
+
+pytestmark = pytest.mark.slow
 
 
 def polygons(solid):

@@ -14,7 +14,7 @@ from cadplants.primitives import box
 from plants.solids import is_closed, shell_volumes
 
 # Every style, but none finer than 16 sides, so that hundreds of builds stay quick.
-STYLES = [
+IN_STYLES = [
     replace(style, sides=(min(style.sides[0], 12), min(style.sides[1], 16)))
     for style in (*STYLES.values(), *(draw_modeling_style(np.random.default_rng(seed)) for seed in range(2)))
 ]
@@ -44,8 +44,9 @@ def flaws(family, style, dn, seed):
             yield f"{where}: {component.name} is not closed, or inside out"
 
 
-def test_every_family_is_closed_and_labelled():
-    turns = zip(FAMILIES.values(), cycle(STYLES), strict=False)
+def test_one_family_of_each_kind_is_closed_and_labelled():
+    kinds = {family.name.split("/")[0]: family for family in FAMILIES.values()}
+    turns = zip(kinds.values(), cycle(IN_STYLES), strict=False)
     assert [flaw for family, style in turns for flaw in flaws(family, style, sizes(family)[0], 0)] == []
 
 
@@ -54,7 +55,7 @@ def test_every_family_is_closed_and_labelled_in_every_hand():
     assert [
         flaw
         for family in FAMILIES.values()
-        for seed, (style, dn) in enumerate(zip(STYLES, cycle(sizes(family)), strict=False))
+        for seed, (style, dn) in enumerate(zip(IN_STYLES, cycle(sizes(family)), strict=False))
         for flaw in flaws(family, style, dn, seed)
     ] == []
 

@@ -81,6 +81,7 @@ def test_each_plant_is_one_cluster_that_hangs_together(plant):
     assert len({c.cluster for c in plant.components if c.name != "ground"}) == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("preset", "style"),
     [(preset, EXACT[k % len(EXACT)]) for k, preset in enumerate(SMALL)]
@@ -93,6 +94,7 @@ def test_exactly_the_designed_pairs_touch(preset, style):
     assert {tuple(sorted(pair)) for pair in plant.contacts} == set(touching(plant))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("preset", SMALL)
 @pytest.mark.parametrize("style", LOOSE)
 def test_loose_hands_leave_no_more_than_their_looseness(preset, style):
@@ -109,6 +111,7 @@ def test_structures_of_the_paper_have_its_valves_and_gauges(preset, valves, gaug
     assert (count["valve"], count["gauge"]) == (valves, gauges)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("preset", SMALL)
 def test_same_seed_same_plant_and_another_seed_another(preset):
     one, again, other = make(preset, 4), make(preset, 4), make(preset, 5)
@@ -117,6 +120,7 @@ def test_same_seed_same_plant_and_another_seed_another(preset):
     assert not np.array_equal(one.scene().vertices, other.scene().vertices)
 
 
+@pytest.mark.slow
 def test_hands_differ_in_what_they_model():
     count = {name: make("skid", 0, name).n_meshes for name in STYLES}
     assert len(STYLES) >= 6
@@ -164,6 +168,7 @@ def test_no_sins_change_nothing():
     assert truth_of(degrade(clean, Defects())) == truth_of(clean)
 
 
+@pytest.mark.slow
 def test_field_holds_all_of_them_apart():
     plant = make("field", 0)
     clusters = Counter(c.cluster for c in plant.components)

@@ -33,6 +33,7 @@ def codes(proof):
     return {finding.code for finding in proof.findings}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("preset", SMALL)
 def test_the_truth_of_every_preset_holds(preset):
     proof = proof_of(make(preset, 7))
@@ -53,6 +54,7 @@ def test_fifty_seeds_hold(preset):
         assert proof_of(make(preset, seed)).lines() == (), seed
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, 1, 4])
 def test_the_truth_of_a_spoilt_file_holds(seed, tmp_path):
     plant = make("riser", seed, defects=draw_defects(seed))

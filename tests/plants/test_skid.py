@@ -10,6 +10,8 @@ from cadplants import STYLES, UsdStyle, make_skid, truth_path, write_usd
 from cadplants.truth_writer import truth_of
 from plants.solids import touching
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def skid():

@@ -42,6 +42,7 @@ def test_only_the_joint_on_the_border_falls_apart():
     assert max(gaps[1:]) < VOXEL / 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gap", [0.0101, 0.012, 0.016, 0.0199])
 def test_paper_mode_joins_the_platform_to_the_tanks_and_exact_mode_does_not(gap):
     plant = make_platform_and_tanks(gap)
@@ -49,6 +50,7 @@ def test_paper_mode_joins_the_platform_to_the_tanks_and_exact_mode_does_not(gap)
     assert clusters(plant, "exact") == [["platform"], ["tanks"]]
 
 
+@pytest.mark.slow
 def test_both_modes_agree_beyond_two_voxels_and_within_one():
     apart, near = make_platform_and_tanks(0.0201), make_platform_and_tanks(0.0099)
     for method in ("paper", "exact"):

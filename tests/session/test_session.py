@@ -24,6 +24,7 @@ def test_a_session_gives_the_graph_that_build_gives(scene, session):
     assert session.graph is session.graph
 
 
+@pytest.mark.slow
 def test_a_corrected_session_gives_the_graph_of_a_build_with_the_corrections(scene, session):
     session.correct(first(session.graph, "elbow").id, "Valve assembly/valve body")
     change = session.correct(first(session.graph, "gasket").meshes[0], "gauge face", this_only=True)
@@ -33,6 +34,7 @@ def test_a_corrected_session_gives_the_graph_of_a_build_with_the_corrections(sce
     assert session.graph.to_json() == built.to_json()
 
 
+@pytest.mark.slow
 def test_repeats_follow_and_are_named(session):
     elbow = first(session.graph, "elbow")
     repeats = {part.id for part in session.graph.parts() if part.shape == elbow.shape}
@@ -40,6 +42,7 @@ def test_repeats_follow_and_are_named(session):
     assert repeats <= {part.id for part in change.changed}
 
 
+@pytest.mark.slow
 def test_undo_and_redo_go_back_and_forth(session):
     states = [session.graph.to_json()]
     for name, label in (("elbow", "tee"), ("flange", "gasket")):
@@ -57,6 +60,7 @@ def test_undo_and_redo_go_back_and_forth(session):
         session.redo()
 
 
+@pytest.mark.slow
 def test_a_new_correction_forgets_what_was_undone(session):
     session.correct(first(session.graph, "elbow").id, "tee")
     session.undo()
@@ -89,6 +93,7 @@ def test_what_can_not_be_corrected_changes_nothing(session):
         session.undo()
 
 
+@pytest.mark.slow
 def test_another_labeler_keeps_the_corrections(session):
     elbow = first(session.graph, "elbow")
     session.correct(elbow.id, "tee", this_only=True)
@@ -98,6 +103,7 @@ def test_another_labeler_keeps_the_corrections(session):
     assert labels[elbow.id].source == "human"
 
 
+@pytest.mark.slow
 def test_the_analysis_is_known_by_scene_and_settings(scene, session):
     again = cadgraph.analyse(scene)
     assert again.digest == session.analysis.digest

@@ -55,6 +55,7 @@ def test_a_perfect_graph_of_a_whole_plant_scores_one_everywhere(seed):
     assert evaluation.total.connected.edges.n_true == 21
 
 
+@pytest.mark.slow
 def test_shuffled_labels_are_right_about_as_often_as_by_chance():
     truth = Truth.from_json(truth_of(make_skid()))
     rows = list(truth.meshes)
@@ -273,6 +274,7 @@ def skid(tmp_path_factory):
     return cadgraph.load(path), truth
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["exact", "paper"])
 def test_the_skid_with_its_true_labels(skid, method):
     scene, truth = skid

@@ -79,6 +79,7 @@ def test_units_of_the_same_name_get_ids_of_their_own(tmp_path):
     assert [u.id for u in truth_from_usd(written(tmp_path, text)).units] == ["V", "V-2"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "style", [UsdStyle(), UsdStyle(meters_per_unit=0.01, up_axis="Y", instances="native", nested=1)]
 )

@@ -114,6 +114,7 @@ def test_a_dry_run_can_be_answered_by_hand(capsys, scene_file, tmp_path):
     assert "no JSON object" in err
 
 
+@pytest.mark.slow
 def test_batch_requests_are_written_and_results_read_back(capsys, scene_file, tmp_path):
     out = tmp_path / "out"
     assert run(capsys, "build", scene_file, "-o", out, "--labeler", "lvlm", "--batch", *SMALL)[0] == 0
@@ -175,6 +176,7 @@ def test_words_of_a_model_do_nothing_on_the_terminal(capsys, scene_file, tmp_pat
     assert "<script>" not in (tmp_path / "out" / "graph.json").read_text()
 
 
+@pytest.mark.slow
 def test_vocabulary_grows_with_the_source_of_each_addition(capsys, scene_file, tmp_path):
     def answer(text):
         return {

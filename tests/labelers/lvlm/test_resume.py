@@ -26,6 +26,7 @@ print(sum(each is not None for each in labels))
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="no kill -9 on Windows")
 def test_after_kill_nothing_that_was_answered_is_asked_again(tmp_path):
     server = ChatServer(plates.oracle(plates.parts_of(plates.scene_of(14, 1))), delay=0.08)
