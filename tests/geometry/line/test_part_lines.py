@@ -41,6 +41,14 @@ def test_each_end_of_a_disc_has_the_radius_of_its_face():
     assert all(np.isnan(end.bore) for end in line.ends)
 
 
+def test_a_low_raised_face_is_one_with_its_flange():
+    outline = [(0.026, -0.02), (0.046, -0.02), (0.046, -0.0195), (0.075, -0.0195), (0.075, 0.0195), (0.046, 0.0195),
+               (0.046, 0.02), (0.026, 0.02)]  # fmt: skip
+    (line,) = lines_of(shapes.lathe(outline, 48, closed=True)).values()
+    assert line.length == pytest.approx(0.04)
+    assert [(end.radius, end.bore) for end in line.ends] == [(pytest.approx(0.075), pytest.approx(0.026))] * 2
+
+
 def test_bolts_that_stand_out_do_not_move_the_faces():
     bolts = [
         shapes.moved(shapes.cylinder(0.008, 0.06, 12), translation=(0.08 * np.cos(a), 0.08 * np.sin(a), 0))
