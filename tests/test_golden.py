@@ -30,6 +30,11 @@ def families(request):
     return Records("families", request.config.getoption("--renew-golden"))
 
 
+@pytest.fixture(scope="module")
+def presets(request):
+    return Records("presets", request.config.getoption("--renew-golden"))
+
+
 def build(source, name, graphs):
     outcome = run(source, "out", report=False)
     graphs.check(name, of_graph(outcome.files["graph"], outcome.files["labels"]))
@@ -68,6 +73,13 @@ def family_digest(family):
 @pytest.mark.slow
 def test_shapes_of_families_stay_as_they_are(families):
     families.check_all({family.name: family_digest(family) for family in FAMILIES.values()})
+
+
+@pytest.mark.slow
+def test_shapes_of_presets_in_their_own_style_stay_as_they_are(presets):
+    presets.check_all(
+        {f"{name} {seed}": of_components(make(name, seed).components) for name in PRESETS for seed in (0, 3)}
+    )
 
 
 def test_every_record_still_has_its_test(graphs, families):

@@ -61,28 +61,28 @@ def make_field(seed: int = 0, style: ModelingStyle | None = None) -> Plant:
     used: list[ModelingStyle] = []
     for k, (build, wishes, name, (x, y), turns, bolts) in enumerate(_PLACES):
         modeller = STYLES[("plant-design", "mechanical")[int(rng.random() < 0.35)]]
-        style = style or replace(modeller, **{**_FINE, "fasteners": bolts})
-        used.append(style)
-        one = build(1000 * seed + k + 1, style, marks="all", **wishes).prefixed(name)
+        own = style or replace(modeller, **{**_FINE, "fasteners": bolts})
+        used.append(own)
+        one = build(1000 * seed + k + 1, own, marks="all", **wishes).prefixed(name)
         turned = turns + (2 if flips[0] < 0 else 0)
         shift = rng.uniform(-0.1, 0.1, 2)
         pose = at(flips[0] * x + float(shift[0]), flips[1] * y + float(shift[1]), 0) @ spun("z", turned * np.pi / 2)
         parts.append(one.placed(pose))
-    style = style or replace(STYLES["plant-design"], **_FINE)
-    parts += [part.marked(style=style.name) for part in (*_inside(style, flips, rng), *_yard(style, flips))]
+    main = style or replace(STYLES["plant-design"], **_FINE)
+    parts += [part.marked(style=main.name) for part in (*_inside(main, flips, rng), *_yard(main, flips))]
     whole = gather(parts)
     standing = [i for i, c in enumerate(whole.components) if abs(float(c.vertices[:, 2].min())) < 1e-9]
     slab = Component(
         box((2 * _HALF[0] + 6, 2 * _HALF[1] + 6, 0.2), (0, 0, -0.1)),
         "Structural element",
         "ground",
-        style.color("ground"),
+        main.color("ground"),
         cluster="",
-        style=style.name,
+        style=main.name,
     )
     count = len(whole.components)
     whole = gather([whole, Assembly((slab,))], [(i, count) for i in standing])
-    styles = tuple(dict.fromkeys([*used, style]))
+    styles = tuple(dict.fromkeys([*used, main]))
     return Plant(
         whole.components,
         whole.contacts,
