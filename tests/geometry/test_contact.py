@@ -176,6 +176,7 @@ class TestPeers:
         assert pairs_of(found) == list(near)
         np.testing.assert_allclose(found.distance, list(near.values()), atol=1e-9)
 
+    @pytest.mark.slow
     def test_small_scene_has_the_pairs_and_distances_of_brute_force(self):
         meshes = mixed_meshes(11, 9, size=0.5)
         expected = [peers.brute_force(meshes[i], meshes[j]) for i, j in combinations(range(9), 2)]
@@ -203,6 +204,7 @@ class TestSameOutput:
         for name in ("pairs", "distance", "points"):
             assert getattr(found, name).tobytes() == getattr(reference, name).tobytes()
 
+    @pytest.mark.slow
     def test_input_is_unmodified_and_may_be_read_only(self):
         scene = scene_of(*mixed_meshes(2, 10))
         before = find_contacts(scene)

@@ -81,6 +81,7 @@ CLASSES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", CLASSES)
 def test_distance_agrees_with_oracle(kind):
     first, second = CLASSES[kind](np.random.default_rng(len(kind)), N)

@@ -45,6 +45,7 @@ def test_a_perfect_graph_scores_one_everywhere():
     assert_perfect(evaluate(agreeing(line()), line()))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(2))
 def test_a_perfect_graph_of_a_whole_plant_scores_one_everywhere(seed):
     # The agreeing graph has a part for each mesh.
@@ -72,6 +73,7 @@ def test_shuffled_labels_are_right_about_as_often_as_by_chance():
     assert sum(accuracies) / len(accuracies) == pytest.approx(chance, abs=0.03)
 
 
+@pytest.mark.slow
 def test_shuffled_structure_scores_near_chance():
     truth = Truth.from_json(truth_of(make_skid()))
     data = truth.to_json()
