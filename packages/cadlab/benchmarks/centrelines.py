@@ -1,4 +1,4 @@
-"""Centrelines and the analysis of shapes: ``python benchmarks/centrelines.py [--parts N]``.
+"""Centrelines and the analysis of shapes: ``python packages/cadlab/benchmarks/centrelines.py [--parts N]``.
 
 Nobody ships a peer: trimesh fits a least cylinder around a mesh, which is timed beside the analysis on a few parts
 and extrapolated. The error of each kind of tube is that of the length along its centreline.

@@ -1,6 +1,6 @@
 """Contact search side by side: ours, coal, python-fcl, trimesh, KD-trees on samples, the paper's matrix.
 
-    python benchmarks/contacts.py [--quick] [--million] > contacts.md
+    python packages/cadlab/benchmarks/contacts.py [--quick] [--million] > contacts.md
 
 Every candidate runs in a process of its own, one after the other, so that its peak memory is its own. Times are CPU
 seconds of the thread for what runs on one thread, since they stay meaningful on a machine that others use too, and

@@ -1,4 +1,4 @@
-"""What a correction costs beside a full build: ``python benchmarks/correction.py [--field]``.
+"""What a correction costs beside a full build: ``python packages/cadlab/benchmarks/correction.py [--field]``.
 
 Prints a Markdown table of processor seconds until the new graph is there, files and report apart: of a build, and in a
 session of single corrections of parts with different labels (median and greatest), and of taking them back.

@@ -1,4 +1,4 @@
-"""How long labelling takes: ``python benchmarks/label.py [--field]``.
+"""How long labelling takes: ``python packages/cadlab/benchmarks/label.py [--field]``.
 
 Prints a Markdown table: for generated plants of growing size, processor seconds for the features of shapes, for those
 of contacts and for the network, and per distinct shape; repeats of one plant show that shapes count, not parts.

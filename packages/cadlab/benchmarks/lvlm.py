@@ -1,4 +1,4 @@
-"""What asking costs and what it brings: ``python benchmarks/lvlm.py [--preset field] [--seeds 8]``.
+"""What asking costs and what it brings: ``python packages/cadlab/benchmarks/lvlm.py [--preset field] [--seeds 8]``.
 
 Asks a simulated model about a generated plant in the ways that the package knows, and prints a table in Markdown:
 questions, tokens and the price at gpt-4o's list price, and how many parts get the right name and group.

@@ -1,4 +1,4 @@
-"""Functional relations on generated plants: ``python benchmarks/relate.py [--seeds 7] [--write]``.
+"""Functional relations on generated plants: ``python packages/cadlab/benchmarks/relate.py [--seeds 7] [--write]``.
 
 Every preset by every modelling style, with its true labels, with those of the embedded labeler, and with a fifth of the
 labels wrong at random. Algorithm 1 of the paper runs on the same labels, contacts and units. ``--write`` puts the table
@@ -22,7 +22,7 @@ from cadlab.markdown import table
 from cadplants import PRESETS, STYLES, Defects, Plant, make
 from cadplants.truth_writer import truth_of
 
-PAGE = Path(__file__).parent.parent / "docs" / "functional.md"
+PAGE = Path(__file__).parents[3] / "docs" / "functional.md"
 BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
 WRONG = 0.2
 SINS = Defects(duplicates=0.02, hidden=0.02, flipped=0.1, soup=0.1, degenerate=0.1)

@@ -1,4 +1,4 @@
-"""Repeated shapes of a scene: ``python benchmarks/shapes.py [--scale S]``.
+"""Repeated shapes of a scene: ``python packages/cadlab/benchmarks/shapes.py [--scale S]``.
 
 As exported, in random poses, and with vertices in any order and every fifth part mirrored. Beside it, what a user would
 pick instead: trimesh's ``identifier_hash``, on a part of the scene and extrapolated, with the shapes that it splits.

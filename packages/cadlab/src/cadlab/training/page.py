@@ -89,7 +89,8 @@ By name: parts, share found and share right of what is called so, in the new sty
 
 ## Speed
 
-`python benchmarks/label.py --field`, processor seconds with everything warm, features included: the skid (197 parts,
+`python packages/cadlab/benchmarks/label.py --field`,
+processor seconds with everything warm, features included: the skid (197 parts,
 51 shapes) 0.5 s; sixteen skids side by side (3,152 parts, the same 51 shapes) 1.4 s; the `field` plant (8,243 meshes,
 2,203 parts, 382 shapes) 3.9 s. Distinct shapes count more than parts.
 
