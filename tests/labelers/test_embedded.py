@@ -7,7 +7,7 @@ import pytest
 import shapes
 from cadgraph.errors import LabelError
 from cadgraph.geometry.mesh.properties import measure
-from cadgraph.labelers.embedded.classifier import Network, aggregate
+from cadgraph.labelers.embedded.classifier import Classifier, aggregate
 from cadgraph.labelers.embedded.features import observe
 from cadgraph.labelers.embedded.labeler import EmbeddedLabeler, judge, spread
 from cadgraph.labelers.embedded.model import STRANGE, Model, default_model, read_model, write_model
@@ -135,7 +135,7 @@ def small_network(rounds=1):
         "b1": (5,), "give0": (5, 6), "side0": (2, 6), "take0": (5, 6), "talk_b0": (6,), "join0": (17, 5),
         "join_b0": (5,), "out": (5, 3), "out_b": (3,),
     }  # fmt: skip
-    return Network({name: rng.uniform(0.5, 1.5, size) for name, size in shape.items()}, rounds)
+    return Classifier({name: rng.uniform(0.5, 1.5, size) for name, size in shape.items()}, rounds)
 
 
 def test_without_neighbours_a_part_hears_nothing():

@@ -6,7 +6,7 @@ import plates
 import shapes
 import tubes
 from cadgraph.geometry.line import part_lines
-from cadgraph.geometry.line.part_lines import find_lines
+from cadgraph.geometry.line.part_lines import lines_of_parts
 from cadgraph.geometry.mesh.properties import measure
 from cadgraph.model.scene import Scene
 from cadgraph.stages.parts import make_parts
@@ -18,7 +18,7 @@ STEPPED = shapes.lathe([(0, 0), (0.1, 0), (0.1, 0.02), (0.06, 0.02), (0.06, 0.03
 
 def lines_of(*meshes):
     parts = plates.parts_of(Scene.from_meshes(meshes))
-    return find_lines(parts.scene, parts.properties, parts, range(len(meshes)))
+    return lines_of_parts(parts.scene, parts.properties, parts, range(len(meshes)))
 
 
 def spread(line):
@@ -91,10 +91,10 @@ def test_repeats_have_the_line_of_the_first_moved_to_their_place(monkeypatch):
 
 def test_what_was_traced_before_is_not_traced_again(monkeypatch):
     parts = plates.parts_of(Scene.from_meshes([ELBOW, FLANGE]))
-    first = find_lines(parts.scene, parts.properties, parts, [1, 0])
+    first = lines_of_parts(parts.scene, parts.properties, parts, [1, 0])
     assert list(first) == [1, 0]
     monkeypatch.setattr(part_lines, "trace_centrelines", lambda *_: pytest.fail("traced again"))
-    assert find_lines(parts.scene, parts.properties, parts, [0, 1])[0] is first[0]
+    assert lines_of_parts(parts.scene, parts.properties, parts, [0, 1])[0] is first[0]
 
 
 def test_a_part_of_several_meshes_has_the_line_of_the_first():
@@ -102,7 +102,7 @@ def test_a_part_of_several_meshes_has_the_line_of_the_first():
     scene = Scene.from_meshes([nut, FLANGE, shapes.moved(FLANGE, translation=(1, 0, 0))])
     properties = measure(scene)
     parts = make_parts(scene, properties, np.array([1, 1, 2]), np.zeros(3, np.bool_))
-    lines = find_lines(scene, properties, parts, [0, 1])
+    lines = lines_of_parts(scene, properties, parts, [0, 1])
     assert lines[0].length == pytest.approx(0.02)
     assert lines[0].ends[0].radius == pytest.approx(0.1)
     assert lines[1].ends[0].point[0] == pytest.approx(1.0)

@@ -15,7 +15,7 @@ from cadgraph.model.parts import Parts, Properties
 from cadgraph.model.scene import Scene
 from cadgraph.model.shapes import Disc, Facts, ShapeAnalysis
 
-__all__ = ["axis_line", "find_lines"]
+__all__ = ["axis_line", "lines_of_parts"]
 
 # A round part whose thickness is below this share of its breadth needs no tracing.
 _FLAT = 0.9
@@ -34,7 +34,7 @@ _FACING = 0.99  # cosine
 _TURNED, _SIDES = 0.7, 5
 
 
-def find_lines(
+def lines_of_parts(
     scene: Scene, properties: Properties, parts: Parts, chosen: Sequence[int], workers: int | None = None
 ) -> dict[int, Centreline]:
     """The lines of some parts; each distinct shape is traced once for the same parts, when first asked for.

@@ -12,14 +12,14 @@ import numpy as np
 
 from cadgraph.model.scene import Floats, Ints
 
-__all__ = ["LIMIT", "Network", "aggregate"]
+__all__ = ["LIMIT", "Classifier", "aggregate"]
 
 LIMIT = 6.0
 """Standardised inputs are cut off here: what lies farther out was never seen in training."""
 
 
 @dataclass(frozen=True)
-class Network:
+class Classifier:
     """Weights of one network.
 
     Args:

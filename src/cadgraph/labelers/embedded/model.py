@@ -17,7 +17,7 @@ import numpy as np
 from cadgraph._io.arrays import read_arrays
 from cadgraph._io.limits import MODEL, read_bytes_within
 from cadgraph.errors import LabelError
-from cadgraph.labelers.embedded.classifier import Network
+from cadgraph.labelers.embedded.classifier import Classifier
 from cadgraph.labelers.embedded.descriptor import FORMS, SIZES
 from cadgraph.labelers.embedded.features import Observation
 from cadgraph.labelers.embedded.surroundings import PLACE_FEATURES, SIDE_FEATURES
@@ -46,7 +46,7 @@ class Model:
         card: how it was made: seeds, settings, figures.
     """
 
-    members: tuple[Network, ...]
+    members: tuple[Classifier, ...]
     classes: tuple[str, ...]
     temperature: float
     threshold: float
@@ -131,7 +131,7 @@ def _parse(content: bytes, name: str) -> Model:
         )
     try:
         members = tuple(
-            Network(
+            Classifier(
                 {
                     key.split("/", 1)[1]: values.astype(np.float64)
                     for key, values in arrays.items()

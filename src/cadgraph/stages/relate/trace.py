@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from cadgraph.geometry.line.centreline import Centreline
-from cadgraph.geometry.line.part_lines import find_lines
+from cadgraph.geometry.line.part_lines import lines_of_parts
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.stages.relate.attach import Attachments
 from cadgraph.stages.relate.joint import face_ends, gather_ends
@@ -63,7 +63,7 @@ def _parts_of(groups: Iterable[Group]) -> frozenset[int]:
 
 def _distinct_lines(given: RelateInput, candidates: Sequence[int]) -> tuple[dict[int, Centreline], set[int]]:
     """The line of each part that has one, and the parts that are mere copies of another one, without theirs."""
-    traced = find_lines(given.analysis.scene, given.analysis.properties, given.parts, candidates)
+    traced = lines_of_parts(given.analysis.scene, given.analysis.properties, given.parts, candidates)
     copies = _repeated(given.parts, given.contacts, traced)
     return {part: line for part, line in traced.items() if part not in copies}, copies
 

@@ -17,7 +17,7 @@ import torch
 import cadgraph
 import cadlab
 import cadplants
-from cadgraph.labelers.embedded.classifier import Network
+from cadgraph.labelers.embedded.classifier import Classifier
 from cadgraph.labelers.embedded.labeler import EmbeddedLabeler
 from cadgraph.labelers.embedded.model import STRANGE, Model
 from cadgraph.model.vocabulary import default_vocabulary
@@ -227,7 +227,7 @@ class _Trial:
     left: frozenset[str]
 
 
-def _train(jobs: Sequence[_Job], workers: int, told: Callable[[str], None]) -> list[Network]:
+def _train(jobs: Sequence[_Job], workers: int, told: Callable[[str], None]) -> list[Classifier]:
     networks = []
     # Spawned, not forked: torch's threads don't survive a fork.
     with ProcessPoolExecutor(workers, get_context("spawn")) as pool:
@@ -237,7 +237,7 @@ def _train(jobs: Sequence[_Job], workers: int, told: Callable[[str], None]) -> l
     return networks
 
 
-def _trained(job: _Job) -> Network:
+def _trained(job: _Job) -> Classifier:
     """Trains one network, or reads it where it was trained before."""
     text = repr((job.samples, job.classes, job.recipe, job.seed, sorted(job.out))) + Path(fit_file).read_text("utf-8")
     text += repr(job.more) if job.more else ""
@@ -253,7 +253,7 @@ def _trained(job: _Job) -> Network:
             np.savez(file, allow_pickle=False, **network.weights)
         beside.replace(path)
     with np.load(path, allow_pickle=False) as file:
-        return Network({name: file[name] for name in file.files}, job.recipe.rounds)
+        return Classifier({name: file[name] for name in file.files}, job.recipe.rounds)
 
 
 def _left(examples: Sequence[Example], out: frozenset[str]) -> frozenset[str]:

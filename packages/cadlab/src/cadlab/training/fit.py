@@ -9,7 +9,7 @@ import numpy as np
 import torch
 from torch import nn
 
-from cadgraph.labelers.embedded.classifier import LIMIT, Network
+from cadgraph.labelers.embedded.classifier import LIMIT, Classifier
 from cadgraph.model.scene import Floats, Ints
 from cadlab.training.example import Example
 
@@ -93,7 +93,7 @@ def fit(
     recipe: Recipe,
     seed: int,
     told: Callable[[str], None] = lambda _: None,
-) -> Network:
+) -> Classifier:
     """Trains one network.
 
     Args:
@@ -139,7 +139,7 @@ def fit(
             schedule.step()
             losses.append(total.item())
         told(f"epoch {epoch + 1} of {recipe.epochs}: loss {np.mean(losses):.3f}")
-    return Network(
+    return Classifier(
         {"mean": mean, "spread": spread, "side_mean": side_mean, "side_spread": side_spread, **_arrays(net)},
         recipe.rounds,
     )
