@@ -12,6 +12,7 @@ import pytest
 
 from cadgraph import SceneGraph
 from cadgraph.cli import main
+from cadgraph.export.dexpi import write_dexpi
 
 ROOT = Path(__file__).parents[1]
 README, GUIDE = ROOT / "README.md", ROOT / "docs" / "guide.md"
@@ -54,6 +55,7 @@ def folder(demo, tmp_path, monkeypatch):
     part = SceneGraph.load(demo / "demo").unit("V-008").parts[0]
     mesh = SceneGraph.load(demo / "demo").part(part).meshes[0]
     (tmp_path / "labels.csv").write_text(f"mesh,group,name\n{mesh},Valve assembly,valve\n")
+    write_dexpi(SceneGraph.load(demo / "demo"), tmp_path / "plan.xml")
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
