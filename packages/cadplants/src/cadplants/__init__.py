@@ -1,16 +1,18 @@
 """Generated industrial plants with their ground truth: an open benchmark for whoever reads CAD."""
 
 import warnings
-from typing import Any
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
-from cadplants.defects import Defects, degrade, draw_defects
-from cadplants.modeling_style import STYLES, ModelingStyle
-from cadplants.plant import Component, Plant
-from cadplants.preset import PRESETS, make
-from cadplants.riser import make_riser
-from cadplants.skid import make_skid
-from cadplants.tank import make_tank
-from cadplants.usd import UsdStyle, draw_style, truth_path, write_usd
+if TYPE_CHECKING:
+    from cadplants.defects import Defects, degrade, draw_defects
+    from cadplants.modeling_style import STYLES, ModelingStyle
+    from cadplants.plant import Component, Plant
+    from cadplants.preset import PRESETS, make
+    from cadplants.riser import make_riser
+    from cadplants.skid import make_skid
+    from cadplants.tank import make_tank
+    from cadplants.usd import UsdStyle, draw_style, truth_path, write_usd
 
 __version__ = "0.1.0"
 
@@ -33,6 +35,25 @@ __all__ = [
     "write_usd",
 ]
 
+# The families of devices are many modules; a command line that only lists this package's commands needs none of them.
+_LATER = {
+    "Component": "cadplants.plant",
+    "Defects": "cadplants.defects",
+    "ModelingStyle": "cadplants.modeling_style",
+    "PRESETS": "cadplants.preset",
+    "Plant": "cadplants.plant",
+    "STYLES": "cadplants.modeling_style",
+    "UsdStyle": "cadplants.usd",
+    "degrade": "cadplants.defects",
+    "draw_defects": "cadplants.defects",
+    "draw_style": "cadplants.usd",
+    "make": "cadplants.preset",
+    "make_riser": "cadplants.riser",
+    "make_skid": "cadplants.skid",
+    "make_tank": "cadplants.tank",
+    "truth_path": "cadplants.usd",
+    "write_usd": "cadplants.usd",
+}
 _OLD = {"HANDS": "STYLES", "Hand": "ModelingStyle", "Sins": "Defects", "draw_sins": "draw_defects", "spoil": "degrade"}
 
 
@@ -40,5 +61,7 @@ def __getattr__(name: str) -> Any:
     # Names of version 0.1.0, kept for one more.
     if name in _OLD:
         warnings.warn(f"cadplants.{name} is now cadplants.{_OLD[name]}", DeprecationWarning, stacklevel=2)
-        return globals()[_OLD[name]]
+        name = _OLD[name]
+    if name in _LATER:
+        return getattr(import_module(_LATER[name]), name)
     raise AttributeError(f"module 'cadplants' has no attribute {name!r}")
