@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from cadgraph.model.scene import Floats, Ints, Scene
 
-__all__ = ["Contacts", "Link", "Network", "Opening", "Parts", "Place", "Properties", "UnitParts"]
+__all__ = ["Contacts", "Joint", "Link", "Network", "Opening", "Parts", "Place", "Properties", "UnitParts"]
 
 Bools = npt.NDArray[np.bool_]
 
@@ -193,6 +193,32 @@ class Link:
 
 
 @dataclass(frozen=True)
+class Joint:
+    """A place where two parts join, or might have.
+
+    Args:
+        first: part that carries the line that ends there, or a solid.
+        second: the other part.
+        kind: ``face`` (end to end), ``corner`` (likewise, at an angle), ``tap`` (an end on the side of a line),
+            ``mount`` (an end at a solid), ``side`` (a solid on the side of a line) or ``flange`` (solid to solid).
+        point: ``(x, y, z)`` [m], relative to the scene's origin.
+        gap: between the two [m], negative where one lies in the other.
+        score: how sure it is that they join, 0..1.
+        made: whether the network joins them.
+        reasons: what speaks for and against it, in words.
+    """
+
+    first: int
+    second: int
+    kind: Literal["face", "corner", "tap", "mount", "side", "flange"]
+    point: tuple[float, float, float]
+    gap: float
+    score: float
+    made: bool
+    reasons: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
 class Network:
     """The functional network.
 
@@ -201,9 +227,11 @@ class Network:
         places: junctions and terminals.
         links: between units and places.
         systems: for each connected network its nodes, ascending; units that nothing joins are in none.
+        joints: where lines and units join, and the likeliest places where ends that stayed free might have.
     """
 
     units: tuple[UnitParts, ...] = ()
     places: tuple[Place, ...] = ()
     links: tuple[Link, ...] = ()
     systems: tuple[tuple[int, ...], ...] = ()
+    joints: tuple[Joint, ...] = ()
