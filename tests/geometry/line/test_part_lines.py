@@ -74,13 +74,11 @@ def test_boxes_and_balls_have_no_line():
 
 def test_repeats_have_the_line_of_the_first_moved_to_their_place(monkeypatch):
     turn = Rotation.random(random_state=5).as_matrix()
-    traced = []
-    trace = part_lines.trace_centrelines
-    monkeypatch.setattr(
-        part_lines, "trace_centrelines", lambda scene, *rest: traced.append(scene.n_meshes) or trace(scene, *rest)
-    )
+    joined = []
+    join = part_lines.join_mouths
+    monkeypatch.setattr(part_lines, "join_mouths", lambda *given: joined.append(given) or join(*given))
     lines = lines_of(ELBOW, FLANGE, shapes.moved(ELBOW, turn, (4, 5, 6)))
-    assert traced == [1]
+    assert len(joined) == 1
     assert lines[2].length == pytest.approx(lines[0].length)
     np.testing.assert_allclose(
         [turn @ end.point + [4, 5, 6] for end in lines[0].ends], [end.point for end in lines[2].ends], atol=1e-6
@@ -93,7 +91,7 @@ def test_what_was_traced_before_is_not_traced_again(monkeypatch):
     parts = plates.parts_of(Scene.from_meshes([ELBOW, FLANGE]))
     first = lines_of_parts(parts.scene, parts.properties, parts, [1, 0])
     assert list(first) == [1, 0]
-    monkeypatch.setattr(part_lines, "trace_centrelines", lambda *_: pytest.fail("traced again"))
+    monkeypatch.setattr(part_lines, "join_mouths", lambda *_: pytest.fail("traced again"))
     assert lines_of_parts(parts.scene, parts.properties, parts, [0, 1])[0] is first[0]
 
 

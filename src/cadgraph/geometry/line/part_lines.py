@@ -6,7 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from cadgraph.geometry.line.centreline import Branch, Centreline, End
+from cadgraph.geometry.line.centreline import Branch, Centreline, End, NotTube
+from cadgraph.geometry.line.fit import fit_ends
+from cadgraph.geometry.line.mouths import are_on_one_axis, join_mouths, mouths_of, run_inward
 from cadgraph.geometry.line.trace import trace_centrelines
 from cadgraph.geometry.shape.analysis import analyse_shapes, shapes_of
 from cadgraph.geometry.shape.round_faces import same_line
@@ -92,7 +94,7 @@ def _trace(
     """The lines of distinct shapes, where each occurs first."""
     breadth = properties.obb_extents[known.first[list(shapes)]]
     lines: dict[int, Centreline | None] = {
-        shape: axis_line(known.facts[shape]) if flat else None
+        shape: _explained(known.facts[shape], flat, _triangles(scene, known, shape))
         for shape, flat in zip(shapes, (breadth[:, 2] < _FLAT * breadth[:, 1]).tolist(), strict=True)
     }
     rest = [shape for shape, line in lines.items() if line is None]
@@ -100,8 +102,34 @@ def _trace(
         meshes = known.first[rest]
         found = trace_centrelines(scene.select(meshes), properties.select(meshes), workers)
         for shape, traced in zip(rest, found, strict=True):
-            lines[shape] = traced if isinstance(traced, Centreline) and traced.ends else axis_line(known.facts[shape])
+            lines[shape] = _fitted(known.facts[shape], traced, _triangles(scene, known, shape))
     return lines
+
+
+def _explained(facts: Facts, flat: bool, triangles: Floats) -> Centreline | None:
+    """The line of what is flat and round, and of what its mouths explain."""
+    mouths = mouths_of(facts.ports)
+    line = None
+    if flat and (len(mouths) < 2 or are_on_one_axis(mouths)):
+        line = axis_line(facts)
+    return line or join_mouths(mouths, triangles)
+
+
+def _triangles(scene: Scene, known: ShapeAnalysis, shape: int) -> Floats:
+    """``(n, 3, 3)`` of a shape, those that are finite [m]."""
+    vertices, faces = scene.mesh(int(known.first[shape]))
+    corners: Floats = vertices[faces[np.all((faces >= 0) & (faces < len(vertices)), axis=1)]]
+    return corners[np.isfinite(corners).all(axis=(1, 2))]
+
+
+def _fitted(facts: Facts, traced: Centreline | NotTube, triangles: Floats) -> Centreline | None:
+    """A swept line that ends at the mouths; of what can't be swept the axis from face to face."""
+    mouths = mouths_of(facts.ports)
+    if isinstance(traced, Centreline) and traced.ends:
+        fitted = fit_ends(traced, mouths, triangles)
+        if fitted is not None:
+            return fitted
+    return axis_line(facts) or (run_inward(mouths[0], triangles) if len(mouths) == 1 else None)
 
 
 def axis_line(facts: Facts) -> Centreline | None:
