@@ -6,7 +6,7 @@ Mouths are found from flat patches, which no way of cutting a shape into triangl
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from cadgraph.geometry.line.centreline import Branch, Centreline, End, Junction
 from cadgraph.model.scene import Floats
 from cadgraph.model.shapes import Disc
 
-__all__ = ["Mouth", "are_on_one_axis", "join_mouths", "mouths_of", "run_inward"]
+__all__ = ["Mouth", "are_on_one_axis", "join_mouths", "mouths_of", "run_inward", "turned_outward"]
 
 # A hole below this share of the face's radius, or above the other, is none that tells a bore.
 _LEAST_BORE, _MOST_BORE = 0.15, 0.97
@@ -27,6 +27,8 @@ _ECCENTRIC = 0.85
 _ONE_FOOT = 0.25
 # Axes of mouths of which no two are opposite meet within this share of the least radius.
 _MEET = 0.5
+# Corners within this share of a face's radius from its plane are its own.
+_LEVEL = 0.03
 # Steps of a bend: a chord leaves the arc by less than 0.5 % of the bend's radius.
 _BEND_STEP = np.radians(11.25)
 # Share of the surface that must lie within this factor of the radius about the line.
@@ -36,6 +38,7 @@ _COVERED, _WITHIN = 0.9, 1.15
 _RIM, _RIM_DEPTH = 1.08, 0.6
 # The middle of the surface behind an only mouth lies within this share of its radius from its axis.
 _OFF_MIDDLE = 0.2
+_LEAST_WAY = 1e-5  # from mouth to mouth or junction [m]
 # Faces look away from the line, as those of an outer wall do (cosine).
 _AWAY = 0.5
 
@@ -55,6 +58,28 @@ class Mouth:
     direction: Floats
     radius: float
     bore: float
+
+
+def turned_outward(discs: Sequence[Disc], triangles: Floats) -> tuple[Disc, ...]:
+    """Discs whose normals look away from their part, whichever way its triangles are wound.
+
+    A face with surface before it and none behind it looks the other way; where both or neither are, it stays.
+
+    Args:
+        discs: round flat faces and rims of one shape.
+        triangles: ``(n, 3, 3)`` of the shape [m].
+    """
+    corners = triangles.reshape(-1, 3)
+    turned = []
+    for disc in discs:
+        offset = corners - disc.center
+        height = offset @ disc.normal
+        off = np.linalg.norm(offset - height[:, None] * disc.normal, axis=1)
+        near = off <= _WITHIN * disc.outer
+        slack = _LEVEL * disc.outer + 1e-5
+        inward = bool(np.any(near & (height > slack))) and not np.any(near & (height < -slack))
+        turned.append(replace(disc, normal=-disc.normal) if inward else disc)
+    return tuple(turned)
 
 
 def mouths_of(ports: Sequence[Disc]) -> list[Mouth]:
@@ -135,7 +160,7 @@ def join_mouths(mouths: Sequence[Mouth], triangles: Floats) -> Centreline | None
     if len(mouths) < 2:
         return None
     paths = _two(mouths[0], mouths[1]) if len(mouths) == 2 else _many(mouths)
-    if paths is None:
+    if paths is None or any(np.linalg.norm(path.points[-1] - path.points[0]) < _LEAST_WAY for path in paths):
         return None
     middles, areas, normals = _measure(triangles)
     bodies, covered = _walls(paths, mouths, middles, normals, areas)
@@ -273,7 +298,7 @@ def _run_with_branches(mouths: Sequence[Mouth], first: int, last: int) -> list[_
     along = (b.point - a.point) / length
     feet = []
     for k, mouth in enumerate(mouths):
-        if k in (first, last):
+        if k in (first, last) or _is_within(mouth, a, b):
             continue
         foot = _foot(mouth, a.point, along, length, max(a.radius, b.radius))
         if foot is None:
@@ -293,6 +318,16 @@ def _run_with_branches(mouths: Sequence[Mouth], first: int, last: int) -> list[_
         for stop, (_, members) in zip(stops[1:-1], merged, strict=True)
         for k in members
     ]
+
+
+def _is_within(mouth: Mouth, a: Mouth, b: Mouth) -> bool:
+    """Whether a face lies within the run between two mouths: the inner end of a branch that was merely stuck in."""
+    length = float(np.linalg.norm(b.point - a.point))
+    along = (b.point - a.point) / length
+    s = float((mouth.point - a.point) @ along)
+    off = float(np.linalg.norm(mouth.point - a.point - s * along))
+    inner = min(a.radius, b.radius)
+    return bool(_LEVEL * inner < s < length - _LEVEL * inner and off < (1 - _LEVEL) * inner)
 
 
 def _foot(mouth: Mouth, start: Floats, along: Floats, length: float, radius: float) -> float | None:

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from cadgraph.geometry.line.centreline import Branch, Centreline, End, NotTube
 from cadgraph.geometry.line.fit import fit_ends
-from cadgraph.geometry.line.mouths import are_on_one_axis, join_mouths, mouths_of, run_inward
+from cadgraph.geometry.line.mouths import are_on_one_axis, join_mouths, mouths_of, run_inward, turned_outward
 from cadgraph.geometry.line.trace import trace_centrelines
 from cadgraph.geometry.shape.analysis import analyse_shapes, shapes_of
-from cadgraph.geometry.shape.round_faces import same_line
+from cadgraph.geometry.shape.round_faces import find_ports, same_line
 from cadgraph.model.derived import store_of
 from cadgraph.model.parts import Parts, Properties
-from cadgraph.model.scene import Scene
+from cadgraph.model.scene import Floats, Scene
 from cadgraph.model.shapes import Disc, Facts, ShapeAnalysis
 
 __all__ = ["axis_line", "lines_of_parts"]
@@ -94,7 +95,7 @@ def _trace(
     """The lines of distinct shapes, where each occurs first."""
     breadth = properties.obb_extents[known.first[list(shapes)]]
     lines: dict[int, Centreline | None] = {
-        shape: _explained(known.facts[shape], flat, _triangles(scene, known, shape))
+        shape: _explained(_outward(scene, known, shape), flat, _triangles(scene, known, shape))
         for shape, flat in zip(shapes, (breadth[:, 2] < _FLAT * breadth[:, 1]).tolist(), strict=True)
     }
     rest = [shape for shape, line in lines.items() if line is None]
@@ -102,8 +103,17 @@ def _trace(
         meshes = known.first[rest]
         found = trace_centrelines(scene.select(meshes), properties.select(meshes), workers)
         for shape, traced in zip(rest, found, strict=True):
-            lines[shape] = _fitted(known.facts[shape], traced, _triangles(scene, known, shape))
+            lines[shape] = _fitted(_outward(scene, known, shape), traced, _triangles(scene, known, shape))
     return lines
+
+
+def _outward(scene: Scene, known: ShapeAnalysis, shape: int) -> Facts:
+    """What is known of a shape, with every face looking outward."""
+    facts = known.facts[shape]
+    discs = turned_outward(facts.discs, _triangles(scene, known, shape))
+    if all(new is old for new, old in zip(discs, facts.discs, strict=True)):
+        return facts
+    return replace(facts, discs=discs, ports=tuple(find_ports(list(discs))[0]))
 
 
 def _explained(facts: Facts, flat: bool, triangles: Floats) -> Centreline | None:
