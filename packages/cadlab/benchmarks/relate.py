@@ -217,6 +217,9 @@ def main() -> None:
     parser.add_argument("--edges", action="store_true", help="list each wrong edge")
     parser.add_argument("--write", action="store_true", help="put the table into docs/functional.md")
     options = parser.parse_args()
+    unknown = set(options.defects) - set(ALL_DEFECTS)
+    if unknown:
+        parser.error(f"unknown defects {', '.join(sorted(unknown))}; there are {', '.join(ALL_DEFECTS)}")
     sums = {
         (mode, defect, style): case(options.presets, options.seeds, style, defect, mode)
         for mode, defect, style in product(options.modes, options.defects or ALL_DEFECTS, options.styles)

@@ -86,7 +86,8 @@ def cut(plant: Plant, share: float, rng: np.random.Generator) -> Plant:
 
 
 def _straight(pipe: Tube) -> bool:
-    return bool(np.abs(pipe.axis.way(pipe.low + 1e-6) @ pipe.axis.way(pipe.high - 1e-6) - 1) < 1e-9)
+    chord = np.linalg.norm(pipe.axis.point(pipe.high) - pipe.axis.point(pipe.low))
+    return bool(pipe.length - chord < 1e-6)
 
 
 def _piece(component: Component, low: float, high: float) -> Component:

@@ -36,8 +36,8 @@ def make(preset: str, seed: int = 0, style: str | None = None, defects: Defects 
     Args:
         preset: a key of ``PRESETS``.
         seed: of everything that varies.
-        style: a key of ``STYLES``; the preset's own choice by default, but plant-design CAD where the defects are a matter
-            of style.
+        style: a key of ``STYLES``; the preset's own choice by default, but plant-design CAD where defects are a
+            matter of style.
         defects: what is spoilt; nothing by default.
 
     Raises:

@@ -93,7 +93,7 @@ def _outside(point: Floats, low: Floats, high: Floats) -> float:
 
 
 def trimmed(component: Component, tube: Tube, first: float, last: float) -> Component:
-    """The pipe with so much taken off its ends, or put on where that is negative [m]; as it is where nothing is left."""
+    """The pipe with so much taken off its ends, or put on where negative [m]; as it is where nothing would be left."""
     if tube.length - first - last < _AT_END or tube.length < 2 * _AT_END:
         return component
     places = component.vertices
