@@ -15,6 +15,7 @@ from cadplants.gauge import pressure_gauge, side_gauge
 from cadplants.instrument import valve_at
 from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Assembly, Device
+from cadplants.primitive_devices import in_primitives
 from cadplants.run import Inline, Tap
 
 __all__ = ["Choice"]
@@ -79,6 +80,8 @@ class Choice:
             def draw(number: int) -> Device:
                 return as_device(family, family.build(dn, style, np.random.default_rng([seed, number])), style, unit)
 
+            if style.devices == "primitives":
+                return in_primitives(draw(0), dn, style)
             made = whole(lambda number: draw(number).assembly)
             return replace(draw(0), assembly=made)
 
@@ -146,4 +149,5 @@ class Choice:
         return Tap(s, build, unit, roll)
 
     def _marks(self, style: ModelingStyle) -> Marks:
-        return self.marks if style.sag <= _FINE and not style.wobble else "none"
+        fine = style.sag <= _FINE and not style.wobble and style.devices == "built"
+        return self.marks if fine else "none"

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from cadgraph.model.scene import Floats, Scene
+from cadplants.body_defects import cut, incomplete, insulated
+from cadplants.joint_gaps import Span, open_joints
 from cadplants.mesh_ops import Solid, box
 from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Assembly, Component, Plant
+from cadplants.retessellate import doubled, quartered, shuffled
 from cadplants.transforms import at
 
-__all__ = ["Defects", "degrade", "draw_defects", "loosen"]
+__all__ = ["DEFECTS", "Defects", "degrade", "draw_defects", "loosen"]
 
 _LEAST_SCALE = 0.6  # thin parts (gaskets, washers) keep this share of their thickness
 
@@ -81,6 +84,21 @@ class Defects:
         gaps: meshes that no longer reach their neighbours, or run into them.
         gap: least and greatest gap of these, half of it on each side; negative: overlap [m].
         colors: ``own`` leaves them, ``gray`` gives all meshes one, ``random`` each its own.
+        joints: how far the ends of pipes, the faces of flanges and the feet of branch outlets stay from what they meet,
+            all over; negative: they run into it [m].
+        faces: how far the faces of flanged joints are apart, which then have no gaskets [m].
+        setback: how far behind its flange's face a pipe ends [m].
+        screwed: how far instruments stand over what they are screwed into [m].
+        doubled: meshes that have all their triangles twice.
+        insulation: lines whose pipes have a larger hollow body around them, of which the truth says no label.
+        cut: straight pipes that are of several pieces.
+        incomplete: devices of several pieces that lack one.
+        split: how often each triangle is cut into four.
+        shuffled: whether the triangles of each mesh, and its corners, come in another order.
+        mirrored: whether the plant is its own mirror image.
+        solid: whether pipes and bodies have no bore.
+        fittings: ``own`` or ``long``, see ``ModelingStyle``.
+        devices: ``own``, ``one`` (valves, gauges and pumps are one mesh) or ``primitives``, see ``ModelingStyle``.
     """
 
     duplicates: float = 0.0
@@ -91,6 +109,67 @@ class Defects:
     gaps: float = 0.0
     gap: tuple[float, float] = (-0.001, 0.004)
     colors: Literal["own", "gray", "random"] = "own"
+    joints: Span | None = None
+    faces: Span | None = None
+    setback: Span | None = None
+    screwed: Span | None = None
+    doubled: float = 0.0
+    insulation: float = 0.0
+    cut: float = 0.0
+    incomplete: float = 0.0
+    split: int = 0
+    shuffled: bool = False
+    mirrored: bool = False
+    solid: bool = False
+    fittings: Literal["own", "long"] = "own"
+    devices: Literal["own", "one", "primitives"] = "own"
+
+    def of_style(self, style: ModelingStyle) -> ModelingStyle:
+        """The style with those defects that are a matter of how somebody models."""
+        changes: dict[str, Any] = {}
+        if self.solid:
+            changes["hollow"] = False
+        if self.fittings == "long":
+            changes["fittings"] = "long"
+        if self.devices == "one":
+            changes |= {"valve": "one", "gauge": "one", "pump": "one"}
+        elif self.devices == "primitives":
+            changes |= {"devices": "primitives", "hollow": False, "flange": "ring", "holes": False}
+            changes |= {"fasteners": "none", "gaskets": False, "spool": "segments"}
+        return replace(style, **changes) if changes else style
+
+
+DEFECTS: dict[str, Defects] = {
+    "gaps": Defects(joints=(0.0005, 0.005)),
+    "overlaps": Defects(joints=(-0.003, -0.0005)),
+    "setback": Defects(setback=(0.003, 0.008)),
+    "clearance": Defects(screwed=(0.0001, 0.0006)),
+    "gauges": Defects(screwed=(0.0005, 0.0005)),
+    "gaskets": Defects(faces=(0.0015, 0.0045)),
+    "doubled": Defects(doubled=0.3),
+    "insulation": Defects(insulation=0.5),
+    "cut": Defects(cut=0.6),
+    "incomplete": Defects(incomplete=0.3),
+    "solid": Defects(solid=True),
+    "long": Defects(fittings="long"),
+    "one": Defects(devices="one"),
+    "primitives": Defects(devices="primitives", faces=(0.0015, 0.0045)),
+    "split": Defects(split=1),
+    "shuffled": Defects(shuffled=True),
+    "mirrored": Defects(mirrored=True),
+    "all": Defects(
+        joints=(0.0005, 0.003),
+        setback=(0.003, 0.008),
+        screwed=(0.0001, 0.0006),
+        doubled=0.1,
+        insulation=0.3,
+        cut=0.4,
+        incomplete=0.2,
+        shuffled=True,
+        fittings="long",
+    ),
+}
+"""The defects of plants that others drew, each by its name, and ``all`` that a single plant can have."""
 
 
 def draw_defects(seed: int, most: float = 0.1) -> Defects:
@@ -112,6 +191,7 @@ def degrade(plant: Plant, defects: Defects, seed: int = 0) -> Plant:
         defects: how much of each.
         seed: which meshes.
     """
+    plant = _redrawn(plant, defects, seed)
     rng = np.random.default_rng([seed, 9])
     n = len(plant.components)
 
@@ -120,6 +200,7 @@ def degrade(plant: Plant, defects: Defects, seed: int = 0) -> Plant:
 
     if defects.gaps:
         plant = _parted(plant, some(defects.gaps), defects.gap, np.random.default_rng([seed, 13]))
+    plant = _told_otherwise(plant, defects, seed)
     components = list(plant.components)
     flaws: tuple[tuple[str, float, Callable[[Solid], Solid]], ...] = (
         ("flipped", defects.flipped, _flipped),
@@ -151,6 +232,48 @@ def degrade(plant: Plant, defects: Defects, seed: int = 0) -> Plant:
         hidden=tuple(hidden),
         colors=defects.colors if defects.colors != "own" else plant.colors,
     )
+
+
+def _redrawn(plant: Plant, defects: Defects, seed: int) -> Plant:
+    """The plant with its bodies and joints as others draw them, and what that does to its contacts."""
+    drawn = plant
+    if defects.incomplete:
+        drawn = incomplete(drawn, defects.incomplete, np.random.default_rng([seed, 20]))
+    if defects.cut:
+        drawn = cut(drawn, defects.cut, np.random.default_rng([seed, 21]))
+    if defects.joints or defects.faces or defects.setback or defects.screwed:
+        rng = np.random.default_rng([seed, 22])
+        drawn = open_joints(drawn, rng, defects.joints, defects.faces, defects.setback, defects.screwed)
+    if defects.insulation:
+        drawn = insulated(drawn, defects.insulation, np.random.default_rng([seed, 23]))
+    if drawn is not plant:
+        drawn = replace(drawn, contacts=(*drawn.contacts, *_met(drawn)))
+        drawn = replace(drawn, looseness=max(drawn.looseness, _widest(drawn)))
+    return drawn.placed(_MIRROR) if defects.mirrored else drawn
+
+
+_MIRROR = np.diag([-1.0, 1.0, 1.0, 1.0])
+
+
+def _widest(plant: Plant) -> float:
+    """The greatest distance of two components that are said to touch, rounded up to a micrometre [m]."""
+    from cadgraph.geometry.contact.pairs import distances
+
+    scene = Scene.from_meshes([(c.vertices, c.faces) for c in plant.components])
+    found, _ = distances(scene, np.array(plant.contacts, np.int64).reshape(-1, 2))
+    return float(np.ceil(found.max() * 1e6) / 1e6) if len(found) else 0.0
+
+
+def _told_otherwise(plant: Plant, defects: Defects, seed: int) -> Plant:
+    """The same shapes in other triangles."""
+    components = list(plant.components)
+    for _ in range(defects.split):
+        components = quartered(components)
+    if defects.shuffled:
+        components = shuffled(components, np.random.default_rng([seed, 24]))
+    if defects.doubled:
+        components = doubled(components, defects.doubled, np.random.default_rng([seed, 25]))
+    return replace(plant, components=tuple(components))
 
 
 def _parted(plant: Plant, chosen: list[int], sizes: tuple[float, float], rng: np.random.Generator) -> Plant:

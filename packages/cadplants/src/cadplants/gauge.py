@@ -10,6 +10,7 @@ from cadplants.mesh_ops import Solid, extrude, merge, moved, revolve, stack, tub
 from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Assembly, Component, Unit, gather
 from cadplants.polygon import circle
+from cadplants.primitive_devices import gauge_of_primitives
 from cadplants.standards import GAUGES
 from cadplants.transforms import IDENTITY, arc, at, spun
 
@@ -99,6 +100,10 @@ def pressure_gauge(
         Stem, case, dial and needle; or stem and case; or all as one mesh.
     """
     gauge = GAUGES[size]
+    if style.devices == "primitives":
+        drawn = gauge_of_primitives(unit, style, size, height, _BITE)
+        units = (Unit(unit, "gauge", "pressure gauge"),)
+        return Assembly(drawn, ((0, 1),) if len(drawn) > 1 else (), units).placed(spun("z", turn))
     stem = _stem_solid(size, round(height + _BITE, 9), style)
     stand = at(0, gauge.depth / 2, height + gauge.case / 2) @ spun("x", np.pi / 2)
     case, dial, pointer = _case_solids(size, round(needle, 3), style)

@@ -15,6 +15,7 @@ from cadplants.meter import flow_meter, strainer
 from cadplants.modeling_style import ModelingStyle
 from cadplants.piping import reducer, tee
 from cadplants.plant import Assembly, Device
+from cadplants.primitive_devices import in_primitives
 from cadplants.valve import VALVES
 
 __all__ = ["gauge_tap", "meter_at", "reducer_at", "side_gauge_tap", "strainer_at", "tee_at", "valve_at"]
@@ -97,7 +98,8 @@ def side_gauge_tap(
 
 
 def _valve(style: ModelingStyle, kind: str, unit: str, dn: int, options: Mapping[str, Any]) -> Device:
-    return VALVES[kind](unit, dn, style, **options)
+    built = VALVES[kind](unit, dn, style, **options)
+    return in_primitives(built, dn, style) if style.devices == "primitives" else built
 
 
 def _meter(style: ModelingStyle, unit: str, dn: int) -> Device:

@@ -320,7 +320,7 @@ class Branch:
 
 
 def branched(
-    profile: npt.ArrayLike, sides: int, branches: Sequence[Branch], rings: int = 2
+    profile: npt.ArrayLike, sides: int, branches: Sequence[Branch], rings: int = 2, long: bool = False
 ) -> tuple[Shell, list[Floats]]:
     """A surface of revolution with branches that grow out of it without inner faces.
 
@@ -329,6 +329,7 @@ def branched(
         sides: corners of a ring, a multiple of 4.
         branches: apart from each other.
         rings: loops between the cut in the main grid and the branch.
+        long: whether each side of the main surface, which must be a cylinder, goes from end to end in long triangles.
 
     Returns:
         The shell, and each branch's last loop ``(k, 3)``.
@@ -358,11 +359,32 @@ def branched(
         [points[:, :1] * np.cos(angles), points[:, :1] * np.sin(angles), np.repeat(points[:, 1:], sides, axis=1)],
         axis=2,
     )
-    row, column = np.nonzero(~cut)
-    a, b = row * sides + column, row * sides + (column + 1) % sides
-    faces = np.concatenate([np.column_stack([a, b, b + sides]), np.column_stack([a, b + sides, a + sides])])
+    if long:
+        faces = _long_columns(cut)
+    else:
+        row, column = np.nonzero(~cut)
+        a, b = row * sides + column, row * sides + (column + 1) % sides
+        faces = np.concatenate([np.column_stack([a, b, b + sides]), np.column_stack([a, b + sides, a + sides])])
     used, faces = np.unique(faces, return_inverse=True)
     return weld([_shell(grid.reshape(-1, 3)[used], faces), *shells]), ends
+
+
+def _long_columns(cut: npt.NDArray[np.bool_]) -> npt.NDArray[np.int64]:
+    """The cells of a grid that are not cut out, a column's as few triangles; corners only where a cut needs them."""
+    sides = cut.shape[1]
+    faces = []
+    for column in range(sides):
+        whole = np.flatnonzero(~cut[:, column])
+        for some in np.split(whole, np.flatnonzero(np.diff(whole) > 1) + 1):
+            low, high = int(some[0]), int(some[-1]) + 1
+            edges = []
+            for corner, beside in ((column, column - 1), ((column + 1) % sides, (column + 1) % sides)):
+                inner = [r for r in range(low + 1, high) if cut[r - 1, beside] or cut[r, beside]]
+                edges.append([r * sides + corner for r in (low, *inner, high)])
+            left, right = edges
+            faces += [(left[k], right[0], left[k + 1]) for k in range(len(left) - 1)]
+            faces += [(left[-1], right[k], right[k + 1]) for k in range(len(right) - 1)]
+    return np.array(faces, np.int64)
 
 
 def _with_height(points: Floats, height: float) -> Floats:

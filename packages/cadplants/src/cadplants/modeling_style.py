@@ -13,6 +13,8 @@ __all__ = ["RGB", "STYLES", "Grain", "ModelingStyle"]
 RGB = tuple[float, float, float]
 Grain = Literal["one", "few", "pieces"]
 
+_LONG_BEND = 4  # pieces of a bend of long triangles
+
 _REALISTIC: dict[str, RGB] = {
     "pipe": (0.36, 0.40, 0.44),
     "flange": (0.42, 0.45, 0.48),
@@ -68,6 +70,10 @@ class ModelingStyle:
         cracks: share of meshes that lack some triangles or have some twice (likewise).
         gap: least and greatest gap left between what should touch, negative for overlaps [m].
         wobble: greatest unevenness of surfaces [m].
+        fittings: ``smooth``, or ``long``: elbows, tees and reducers of few long triangles, as boundary representations
+            are meshed; a reducer is a cone between two short spigots, its ends of different numbers of sides.
+        devices: ``built`` (valves and pumps with the shapes of their pieces) or ``primitives`` (of cones, cylinders and
+            boxes, as plant-design systems draw them).
         palette: colour by kind of material.
     """
 
@@ -94,6 +100,8 @@ class ModelingStyle:
     cracks: float = 0.0
     gap: tuple[float, float] = (0.0, 0.0)
     wobble: float = 0.0
+    fittings: Literal["smooth", "long"] = "smooth"
+    devices: Literal["built", "primitives"] = "built"
     palette: Mapping[str, RGB] = field(default_factory=lambda: _REALISTIC, compare=False)
 
     @property
@@ -121,7 +129,12 @@ class ModelingStyle:
 
     def bend(self, radius: float, turn: float = np.pi / 2) -> int:
         """Pieces of a bend of this radius [m] and turn [rad]."""
-        return max(2, round(self.round(radius) * turn / (2 * np.pi)))
+        pieces = round(self.round(radius) * turn / (2 * np.pi))
+        return max(2, min(pieces, _LONG_BEND) if self.fittings == "long" else pieces)
+
+    def round_fitting(self, radius: float) -> int:
+        """Sides of a fitting of this radius [m]: as of any circle, or 8 to 16 where fittings are of long triangles."""
+        return int(np.clip(self.round(radius), 8, 16)) if self.fittings == "long" else self.round(radius)
 
     def color(self, kind: str) -> RGB:
         """The colour of a kind of material."""

@@ -7,6 +7,7 @@ from functools import cache
 import numpy as np
 
 from cadgraph.model.scene import Floats
+from cadplants.long_fittings import long_reducer
 from cadplants.mesh_ops import (
     Branch,
     Solid,
@@ -52,7 +53,7 @@ def _elbow_solid(dn: int, turn: float, style: ModelingStyle) -> Solid:
     reach = radius * np.tan(turn / 2)
     end = np.array([reach + reach * np.cos(turn), reach * np.sin(turn), 0.0])
     path = arc((0.0, 0.0, 0.0), (reach, 0.0, 0.0), end, style.bend(radius + size.radius, turn))
-    return tube(path, size.radius, size.bore if style.hollow else 0.0, style.round(size.radius))
+    return tube(path, size.radius, size.bore if style.hollow else 0.0, style.round_fitting(size.radius))
 
 
 def elbow(dn: int, turn: float, style: ModelingStyle) -> Assembly:
@@ -95,7 +96,7 @@ def outlet(dn: int, style: ModelingStyle, foot: float = 0.012, top: float = 0.00
 @cache
 def _tee_solid(dn: int, branch: int, style: ModelingStyle) -> Solid:
     size, small, reach = PIPES[dn], PIPES[branch], TEE_CENTER_TO_END[dn]
-    sides = style.round(size.radius)
+    sides, long = style.round_fitting(size.radius), style.fittings == "long"
     # A branch of the same size is a hair narrower, so that its foot does not reach round to the other side.
     foot = min(small.radius, 0.985 * size.radius)
     shells = []
@@ -108,7 +109,7 @@ def _tee_solid(dn: int, branch: int, style: ModelingStyle) -> Solid:
             continue
         profile = [(radius, 0.0), (radius, 2 * reach)]
         out = ((end, 0.6 * (reach - size.radius) + size.radius), (end, reach))
-        shell, (rim,) = branched(profile, sides, [Branch(reach, np.pi / 2, narrow, out)])
+        shell, (rim,) = branched(profile, sides, [Branch(reach, np.pi / 2, narrow, out)], 1 if long else 2, long)
         shells.append(shell if radius == size.radius else reverse(shell))
         rims.append(rim)
     if not style.hollow:
@@ -134,6 +135,8 @@ def tee(dn: int, branch: int, style: ModelingStyle) -> Device:
 
 @cache
 def _reducer_solid(dn: int, other: int, style: ModelingStyle) -> Solid:
+    if style.fittings == "long":
+        return long_reducer(dn, other, style)
     first, last = PIPES[dn], PIPES[other]
     length = REDUCER_LENGTH[max(dn, other)]
     shares = (0.0, 0.12, 0.3, 0.5, 0.7, 0.88, 1.0)

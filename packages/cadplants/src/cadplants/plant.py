@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -282,4 +283,27 @@ class Plant(Assembly):
         """The plant's meshes as a scene, in metres and Z up, in component order."""
         return Scene.from_meshes(
             [(c.vertices, c.faces) for c in self.components], self.paths(), [c.color for c in self.components]
+        )
+
+    def without(self, gone: Collection[int], bridged: bool = True) -> Plant:
+        """The plant without some components.
+
+        Args:
+            gone: their indices.
+            bridged: whether what touched one of them then counts as touching each other: a gap is left in a joint.
+        """
+        if not gone:
+            return self
+        kept = [i for i in range(self.n_meshes) if i not in gone]
+        place = {old: new for new, old in enumerate(kept)}
+        pairs = list(self.contacts)
+        for one in sorted(gone) if bridged else ():
+            beside = sorted({b if a == one else a for a, b in self.contacts if one in (a, b)})
+            pairs += combinations(beside, 2)
+        return replace(
+            self,
+            components=tuple(self.components[i] for i in kept),
+            contacts=tuple((place[a], place[b]) for a, b in dict.fromkeys(pairs) if a in place and b in place),
+            duplicates=tuple((place[a], place[b]) for a, b in self.duplicates if a in place and b in place),
+            hidden=tuple(place[i] for i in self.hidden if i in place),
         )

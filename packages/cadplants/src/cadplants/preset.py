@@ -36,7 +36,8 @@ def make(preset: str, seed: int = 0, style: str | None = None, defects: Defects 
     Args:
         preset: a key of ``PRESETS``.
         seed: of everything that varies.
-        style: a key of ``STYLES``; the preset's own choice by default.
+        style: a key of ``STYLES``; the preset's own choice by default, but plant-design CAD where defects are a
+            matter of style.
         defects: what is spoilt; nothing by default.
 
     Raises:
@@ -46,5 +47,8 @@ def make(preset: str, seed: int = 0, style: str | None = None, defects: Defects 
         raise ValueError(f"unknown preset {preset!r}; there are {', '.join(PRESETS)}")
     if style is not None and style not in STYLES:
         raise ValueError(f"unknown style {style!r}; there are {', '.join(STYLES)}")
-    plant = PRESETS[preset](seed, STYLES[style] if style is not None else None)
+    chosen = STYLES[style] if style is not None else None
+    if defects is not None and defects.of_style(STYLES["plant-design"]) != STYLES["plant-design"]:
+        chosen = defects.of_style(chosen or STYLES["plant-design"])
+    plant = PRESETS[preset](seed, chosen)
     return degrade(plant, defects, seed) if defects is not None else plant

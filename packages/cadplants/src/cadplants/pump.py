@@ -8,11 +8,13 @@ from functools import cache
 import numpy as np
 
 from cadgraph.model.scene import Floats
+from cadplants.contacts import met
 from cadplants.flange import face_shell, plate_thickness
 from cadplants.mesh_ops import Branch, Solid, about_x, box, branched, extrude, merge, moved, revolve, weld
 from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Assembly, Component, Unit
 from cadplants.polygon import circle, rounded_rectangle
+from cadplants.primitive_devices import pump_of_primitives
 from cadplants.standards import FLANGES, PIPES
 from cadplants.transforms import at, looking, spun
 
@@ -164,6 +166,11 @@ def pump(unit: str, dn: int, out: int, style: ModelingStyle) -> Pump:
         Component(motor_feet, group, "motor", color("motor")),
     ]
     contacts: tuple[tuple[int, int], ...] = ((0, 1), (2, 4), (4, 5), (4, 6), (3, 7), (7, 8), (0, 8), (7, 9), (4, 9))
+    if style.devices == "primitives":
+        lengths = (size.reach, size.rise, size.volute, radius, length)
+        some = pump_of_primitives(dn, out, lengths, axis, style)
+        whole = [Component(solid, group, name, color("pump")) for solid, name in some]
+        contacts = met(Assembly(tuple(whole))).contacts
     if style.valve == "one":
         solid = merge([moved(c.solid, c.pose) for c in whole])
         whole, contacts = [Component(solid, group, "pump", color("pump"))], ()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +13,7 @@ from cadplants.mesh_ops import Solid
 from cadplants.modeling_style import ModelingStyle
 from cadplants.plant import Assembly, Component
 
-__all__ = ["broken", "fanned", "in_rows", "retold", "uncapped"]
+__all__ = ["broken", "doubled", "fanned", "in_rows", "quartered", "retold", "shuffled", "uncapped"]
 
 _MOST_TRIANGLES = 20_000  # of one mesh in rows; beyond it the rows stay wider
 _PIPES = ("pipe", "elbow", "hose", "conduit", "cable")
@@ -184,3 +185,55 @@ def broken(solid: Solid, rng: np.random.Generator) -> Solid:
     flip = rng.random(len(faces)) < rng.choice([0.0, 0.02])
     faces = np.where(flip[:, None], faces[:, ::-1], faces)
     return _compact(solid.vertices, np.concatenate([faces, twice]).astype(np.int32))
+
+
+def quartered(components: Sequence[Component]) -> list[Component]:
+    """The components with each triangle cut into four at the middles of its edges; repeats still share their shape."""
+    made: dict[int, Solid] = {}
+    for component in components:
+        solid = component.solid
+        if id(solid) not in made:
+            made[id(solid)] = _in_four(solid)
+    return [replace(component, solid=made[id(component.solid)]) for component in components]
+
+
+def _in_four(solid: Solid) -> Solid:
+    faces = solid.faces.astype(np.int64)
+    edges = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], axis=2), axis=2)
+    pairs, which = np.unique(edges.reshape(-1, 2), axis=0, return_inverse=True)
+    vertices = np.concatenate([solid.vertices, solid.vertices[pairs].mean(axis=1)])
+    middle = len(solid.vertices) + which.reshape(-1, 3)
+    return Solid(vertices, _split(faces, middle).astype(np.int32))
+
+
+def shuffled(components: Sequence[Component], rng: np.random.Generator) -> list[Component]:
+    """The components with their corners and triangles in another order; repeats still share their shape."""
+    made: dict[int, Solid] = {}
+    for component in components:
+        solid = component.solid
+        if id(solid) not in made:
+            order = rng.permutation(len(solid.vertices))
+            place = np.empty_like(order)
+            place[order] = np.arange(len(order))
+            faces = place[solid.faces[rng.permutation(len(solid.faces))]]
+            turn = (rng.integers(3, size=len(faces))[:, None] + np.arange(3)) % 3
+            made[id(solid)] = Solid(solid.vertices[order], np.take_along_axis(faces, turn, 1).astype(np.int32))
+    return [replace(component, solid=made[id(component.solid)]) for component in components]
+
+
+def doubled(components: Sequence[Component], share: float, rng: np.random.Generator) -> list[Component]:
+    """The components, some of which have all their triangles twice, on corners of their own every other time.
+
+    Args:
+        components: in order.
+        share: of them.
+        rng: of which.
+    """
+    changed = list(components)
+    for k, i in enumerate(np.sort(rng.permutation(len(changed))[: round(share * len(changed))])):
+        one = changed[i]
+        vertices, faces = one.solid.vertices, one.solid.faces
+        again = faces + np.int32(len(vertices) * (k % 2))
+        solid = Solid(np.concatenate([vertices] * (1 + k % 2)), np.concatenate([faces, again]))
+        changed[i] = replace(one, solid=solid, flaws=(*one.flaws, "doubled"))
+    return changed

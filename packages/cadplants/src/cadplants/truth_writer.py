@@ -85,7 +85,7 @@ def _named_pairs(pairs: Sequence[tuple[int, int]], names: Sequence[str]) -> list
     return [[names[a], names[b]] for a, b in pairs]
 
 
-def _mesh(path: str, component: Component) -> dict[str, str]:
+def _mesh(path: str, component: Component) -> dict[str, str | None]:
     family, _, build = (component.family or component.name).partition("/")
     said = {
         "line": component.line,
@@ -95,7 +95,7 @@ def _mesh(path: str, component: Component) -> dict[str, str]:
         "hand": component.style,
     }
     known = {key: value for key, value in said.items() if value}
-    return {"mesh": path, "group": component.group, "name": component.name, **known}
+    return {"mesh": path, "group": component.group or None, "name": component.name or None, **known}
 
 
 def _connection(connection: Connection) -> dict[str, Any]:
