@@ -12,18 +12,11 @@ from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.derived import store_of
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.scene import Floats, Ints
-from cadgraph.stages.relate.joint import (
-    Ends,
-    Facing,
-    Tap,
-    face_ends,
-    find_tap,
-    gather_ends,
-    nearest_on,
-    same_place,
-)
+from cadgraph.stages.relate.decide import decide_joints, settle_faces
+from cadgraph.stages.relate.joint import Ends, Facing, Tap, gather_ends, nearest_on, same_place
+from cadgraph.stages.relate.offer import Offer, Surroundings, offer_faces, offer_mount, offer_taps
 
-__all__ = ["Attachments", "Mount", "Side", "attach_lines", "flat_contacts", "regions_of"]
+__all__ = ["Attachments", "Mount", "Side", "Tapped", "attach_lines", "facings_of", "flat_contacts", "regions_of"]
 
 # The middle of a contact lies before an end, or behind it by at most this many radii or this much [m]: a nozzle that
 # runs into a shell.
@@ -37,6 +30,10 @@ _TIGHT = 0.001
 # Two solids are flanged to each other where they meet in a flat round area: normals this parallel, extents this alike,
 # and at least this large against the lesser solid.
 _FACE_FLAT, _FACE_ROUND, _FACE_SHARE = 0.9, 0.72, 0.25
+# An end within this much [m], or this share of its radius, of another one that looks the same way is its twin, where
+# the two lines run beside each other by at least this much [m] or this share of the shorter: a pipe in its flange, but
+# not a gasket behind it.
+_TWIN, _TWIN_SHARE, _BESIDE, _BESIDE_SHARE = 0.5, 0.2, 0.002, 0.3
 
 
 @dataclass(frozen=True)
@@ -47,11 +44,30 @@ class Mount:
         row: row of the end.
         part: the solid part.
         gap: distance between the two [m].
+        score: how sure that is, 0..1.
     """
 
     row: int
     part: int
     gap: float
+    score: float = 1.0
+
+
+@dataclass(frozen=True)
+class Tapped:
+    """An end that sits on the side of a line.
+
+    Args:
+        row: row of the end.
+        part: the part that carries the line.
+        tap: the place.
+        score: how sure that is, 0..1.
+    """
+
+    row: int
+    part: int
+    tap: Tap
+    score: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -77,17 +93,21 @@ class Attachments:
         ends: the free ends of all lines.
         facings: ends that face each other.
         doubled: pairs of ends in one place that look the same way: a slip-on flange and its pipe.
-        taps: rows of ends that sit on the side of a line, the part that carries it, and the place.
+        taps: ends that sit on the side of a line.
         mounts: ends at solids.
         sides: solids that touch the sides of lines.
+        made: of each end that joins something the offer that was taken.
+        refused: of each end that joins nothing the best offer there was.
     """
 
     ends: Ends
     facings: tuple[Facing, ...]
     doubled: tuple[tuple[int, int], ...]
-    taps: tuple[tuple[int, int, Tap], ...]
+    taps: tuple[Tapped, ...]
     mounts: tuple[Mount, ...]
     sides: tuple[Side, ...]
+    made: Mapping[int, Offer]
+    refused: Mapping[int, Offer]
 
 
 def attach_lines(
@@ -97,6 +117,7 @@ def attach_lines(
     solids: Collection[int],
     feet: Collection[int],
     bridge: float,
+    bolted: Collection[tuple[int, int]] = (),
 ) -> Attachments:
     """Finds for each end of a line what it joins.
 
@@ -106,56 +127,97 @@ def attach_lines(
         lines: centreline of each part that carries one.
         solids: parts without a line that lines may end at: those of units, and connectors of odd shape.
         feet: solids that may sit on the side of a line: parts of gauges.
-        bridge: greatest gap between ends that face each other [m].
+        bridge: gap up to which ends that face each other join without other evidence [m].
+        bolted: pairs of parts that one fastener touches both of.
     """
     ends = gather_ends(lines)
     solid = set(solids)
-    facings = face_ends(ends, contacts, bridge, _shut(contacts, lines, solid))
-    partner = {facing.first: facing.second for facing in facings} | {f.second: f.first for f in facings}
-    neighbors = _neighbors(contacts, lines)
-    taps = []
-    loose = [row for row in range(len(ends.part)) if row not in partner]
-    doubled = _double(ends, loose, partner, neighbors, bridge)
-    loose = sorted(set(loose) - {row for row, _ in doubled})
-    mounts, sides = _mount(parts, contacts, lines, solid, set(feet), ends, set(loose))
-    held = {mount.row: mount.gap for mount in mounts}
-    for row in loose:
-        options = [
-            (tap.gap, other, tap)
-            for other, gap in neighbors.get(int(ends.part[row]), ())
-            if (tap := find_tap(ends, row, lines[other], gap + bridge)) is not None
+    faces = offer_faces(ends, Surroundings(contacts, bridge, set(_shut(contacts, lines, solid)), bolted))
+    settled = settle_faces(faces)
+    loose = {row for row in range(len(ends.part)) if row not in settled}
+    mounts, sides = _mounts(parts, contacts, lines, solid, set(feet), ends, loose)
+    near = _neighbors(contacts, lines)
+    singles = {
+        row: [
+            *mounts.get(row, ()),
+            *offer_taps(ends, row, lines, near.get(int(ends.part[row]), ()), bridge),
         ]
-        if options and row not in held:
-            _, other, tap = min(options, key=lambda option: (option[2].sleeve, round(option[0], 6), option[1]))
-            taps.append((row, other, tap))
-    return Attachments(ends, tuple(facings), tuple(doubled), tuple(taps), mounts, sides)
+        for row in sorted(loose)
+    }
+    decision = decide_joints(faces, singles, settled)
+    made = dict(decision.joined)
+    doubled = _double(ends, made, near, bridge)
+    for row, _ in doubled:
+        made.pop(row, None)
+    return Attachments(
+        ends=ends,
+        facings=facings_of(made),
+        doubled=tuple(doubled),
+        taps=tuple(
+            Tapped(row, offer.other, offer.tap, offer.score)
+            for row, offer in sorted(made.items())
+            if offer.tap is not None
+        ),
+        mounts=tuple(
+            Mount(row, offer.other, offer.gap, offer.score)
+            for row, offer in sorted(made.items())
+            if offer.kind == "mount"
+        ),
+        sides=sides,
+        made=made,
+        refused={row: offer for row, offer in decision.refused.items() if row not in dict(doubled)},
+    )
+
+
+def facings_of(made: Mapping[int, Offer]) -> tuple[Facing, ...]:
+    """The joints between two ends, the surest first."""
+    faces = {(offer.row, offer.other): offer for offer in made.values() if offer.kind in ("face", "corner")}
+    ordered = sorted(faces.values(), key=lambda offer: (-round(offer.odds, 6), offer.row, offer.other))
+    return tuple(Facing(o.row, o.other, o.gap, o.kind == "corner", o.score) for o in ordered)
 
 
 def _double(
-    ends: Ends,
-    loose: Sequence[int],
-    partner: Mapping[int, int],
-    neighbors: Mapping[int, Sequence[tuple[int, float]]],
-    bridge: float,
+    ends: Ends, made: Mapping[int, Offer], near: Mapping[int, Sequence[tuple[int, float]]], bridge: float
 ) -> list[tuple[int, int]]:
-    """Loose ends that lie where another end lies which looks the same way, and that one."""
+    """Ends without an own partner that lie where another end lies which looks the same way, and that one."""
     doubled: list[tuple[int, int]] = []
     gone: set[int] = set()
-    for row in loose:
-        part = int(ends.part[row])
+    for row in range(len(ends.part)):
+        offer = made.get(row)
+        if offer is not None and offer.kind in ("face", "corner"):
+            continue
         there = [
             r
-            for other, _ in neighbors.get(part, ())
+            for other, _ in near.get(int(ends.part[row]), ())
             for r in ends.of_part[other]
-            # The end that the other side of this part faces looks the same way too.
-            if r not in gone and (r not in partner or int(ends.part[partner[r]]) != part)
+            if r not in gone and _run_beside(ends, row, r)
         ]
-        twin = same_place(ends, row, there, max(0.5 * bridge, 0.2 * float(ends.radius[row])))
-        # Of two loose ends the one that is not too long to be a flange goes; of equal ones the later.
-        if twin is not None and (twin in partner or (ends.length[row], row) <= (ends.length[twin], twin)):
+        twin = same_place(ends, row, there, max(_TWIN * bridge, _TWIN_SHARE * float(ends.radius[row])))
+        if twin is not None and _yields(ends, made, row, twin):
             doubled.append((row, twin))
             gone.add(row)
     return doubled
+
+
+def _run_beside(ends: Ends, row: int, other: int) -> bool:
+    """Whether the lines of two ends that look the same way run beside each other behind them."""
+    ahead = float((ends.point[other] - ends.point[row]) @ ends.direction[row])
+    shared = min(float(ends.length[row]), float(ends.length[other]) - ahead, float(ends.length[row]) + ahead)
+    shared = min(shared, float(ends.length[other]))
+    shorter = float(min(ends.length[row], ends.length[other]))
+    return shared >= min(_BESIDE, _BESIDE_SHARE * shorter) and shared >= _BESIDE_SHARE * min(shorter, _BESIDE)
+
+
+def _yields(ends: Ends, made: Mapping[int, Offer], row: int, twin: int) -> bool:
+    """Whether of two ends in one place the first gives way: to one that joins another end, or is surer; of two that
+    join nothing the one that is not too long to be a flange goes, of equal ones the later.
+    """
+    mine, theirs = made.get(row), made.get(twin)
+    if theirs is None:
+        return mine is None and (ends.length[row], row) <= (ends.length[twin], twin)
+    if mine is None or theirs.kind in ("face", "corner"):
+        return True
+    return (round(mine.odds, 6), -row) < (round(theirs.odds, 6), -twin)
 
 
 def _neighbors(contacts: Contacts, lines: Mapping[int, Centreline]) -> dict[int, list[tuple[int, float]]]:
@@ -212,7 +274,7 @@ class _Touch:
     gap: float
 
 
-def _mount(
+def _mounts(
     parts: Parts,
     contacts: Contacts,
     lines: Mapping[int, Centreline],
@@ -220,8 +282,8 @@ def _mount(
     feet: set[int],
     ends: Ends,
     loose: set[int],
-) -> tuple[tuple[Mount, ...], tuple[Side, ...]]:
-    """Ends at solids: each at the nearest; and solids at the sides of lines."""
+) -> tuple[dict[int, list[Offer]], tuple[Side, ...]]:
+    """The solids that each loose end may be at; and solids at the sides of lines."""
     tight: list[int] = []
     wide: list[int] = []
     sides = []
@@ -233,21 +295,18 @@ def _mount(
             (tight if gap <= _TIGHT else wide).append(row)
         else:
             sides.append(_side(lines[line], line, solid, contacts.points[row].mean(axis=0), gap))
-    best: dict[int, tuple[float, float, int]] = {}
+    offers: dict[int, list[Offer]] = {}
     for touch in (
         *_touches(parts, contacts, lines, tight, 2 * _TIGHT),
         *_touches(parts, contacts, lines, wide, float(contacts.distance.max(initial=0.0)) + _TIGHT),
     ):
-        misses = [
-            (end, miss) for end in ends.of_part.get(touch.part, ()) if (miss := _miss(ends, end, touch)) is not None
-        ]
-        if not misses:
+        found = [offer for end in ends.of_part.get(touch.part, ()) if (offer := _offer(ends, end, touch)) is not None]
+        if not found:
             sides.append(_side(lines[touch.part], touch.part, touch.solid, touch.place, touch.gap))
-        for end, miss in misses:
-            offer = (miss, touch.gap, touch.solid)
-            best[end] = min(best.get(end, offer), offer)
-    mounts = tuple(Mount(end, solid, gap) for end, (_, gap, solid) in sorted(best.items()) if end in loose)
-    return mounts, tuple(sides)
+        for offer in found:
+            if offer.row in loose:
+                offers.setdefault(offer.row, []).append(offer)
+    return offers, tuple(sides)
 
 
 def _meetings(contacts: Contacts, lines: Collection[int], solids: Collection[int]) -> Iterator[tuple[int, int, int]]:
@@ -288,11 +347,11 @@ def _side(line: Centreline, part: int, solid: int, place: Floats, gap: float) ->
     number, near = min(
         enumerate(nearest_on(branch, place) for branch in line.branches), key=lambda option: option[1][4]
     )
-    return Side(solid, part, Tap(number, near[0], near[1], gap))
+    return Side(solid, part, Tap(number, near[0], near[1], gap, near[3]))
 
 
-def _miss(ends: Ends, row: int, touch: _Touch) -> float | None:
-    """How far the middle of a contact is from an end [m]; None where it is not at that end."""
+def _offer(ends: Ends, row: int, touch: _Touch) -> Offer | None:
+    """An end at a solid where the middle of their contact is; None where that is not at the end."""
     direction, radius = ends.direction[row], float(ends.radius[row])
     offset = touch.place - ends.point[row]
     along = float(offset @ direction)
@@ -300,9 +359,10 @@ def _miss(ends: Ends, row: int, touch: _Touch) -> float | None:
     depth = min(max(_DEPTH * radius, _LEAST_DEPTH), 0.5 * float(ends.length[row]))
     if not -depth - 0.001 <= along <= touch.gap + 0.5 * radius + 0.005 or off > _OFF * radius + touch.gap:
         return None
-    if touch.normal is not None and float(touch.normal @ direction) < _AGREES:
+    facing = None if touch.normal is None else float(touch.normal @ direction)
+    if facing is not None and facing < _AGREES:
         return None
-    return abs(along) + 0.5 * off
+    return offer_mount(row, touch.solid, touch.gap, along, off, facing, radius)
 
 
 def flat_contacts(

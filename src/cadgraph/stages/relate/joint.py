@@ -2,34 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from cadgraph.geometry.line.centreline import Branch, Centreline
-from cadgraph.model.parts import Contacts
 from cadgraph.model.scene import Floats, Ints
 
-__all__ = ["Ends", "Facing", "Tap", "face_ends", "find_tap", "gather_ends", "nearest_on", "same_place"]
+__all__ = ["Ends", "Facing", "Tap", "find_tap", "gather_ends", "nearest_on", "same_place"]
 
-# Ends face each other where their directions are opposed (a coarse elbow's end is up to 15 degrees off) ...
-_OPPOSED = -0.85
-# ... and their axes apart by at most this share of the lesser radius, or this much [m] where that is more.
-_OFFSET, _LEAST_OFFSET = 0.35, 0.003
-# One may lie within the other: a pipe in a socket or slip-on flange, as deep as that is long, and a weld's overlap [m].
-_SINK, _OVERLAP = 0.95, 0.004
-# A gap is never bridged that is wider than this share of the lesser radius.
-_WIDEST = 1.0
-# Two straight pipes may meet in a corner without an elbow: their axes pass each other this near, as share of the lesser
-# radius, and both ends lie within this many greater radii of that corner.
-_CORNER, _CORNER_REACH = 0.4, 1.5
+# Two ends in one place look the same way (cosine), and their axes are apart by at most this share of the lesser radius,
+# or this much [m] where that is more.
+_ALIKE, _OFFSET, _LEAST_OFFSET = 0.85, 0.35, 0.003
 # A branch meets the wall at this angle at least (cosine) and runs into the axis within this share of the radius.
 _SLANT, _ECCENTRIC = 0.86, 0.85
-_EQUAL_SIZE = 0.9
-# Where a solid is near both, a wider gap [m] may be its own place: no wafer valve is thinner.
-_BESIDE = 0.006
 
 
 @dataclass(frozen=True)
@@ -66,12 +53,14 @@ class Facing:
         second: row of the other.
         gap: distance from the first to the second along their axis [m]; negative where one lies in the other.
         corner: whether they meet at an angle.
+        score: how sure that is, 0..1.
     """
 
     first: int
     second: int
     gap: float
     corner: bool = False
+    score: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -83,6 +72,7 @@ class Tap:
         s: position along the branch [m].
         point: ``(3,)`` the point there, on the axis [m].
         gap: distance from the end to the wall [m]; negative where it lies within.
+        wall: radius of the branch there [m].
         sleeve: whether it lies along the line rather than across: a coupling over a pipe, a pipe in a socket.
     """
 
@@ -90,6 +80,7 @@ class Tap:
     s: float
     point: Floats
     gap: float
+    wall: float
     sleeve: bool = False
 
 
@@ -111,95 +102,6 @@ def gather_ends(lines: Mapping[int, Centreline]) -> Ends:
     )
 
 
-def face_ends(ends: Ends, contacts: Contacts, bridge: float, blocked: Iterable[tuple[int, int]] = ()) -> list[Facing]:
-    """The ends that face each other, each at most once, the closest first.
-
-    Args:
-        ends: of all lines.
-        contacts: pairs of parts that are near.
-        bridge: greatest gap [m].
-        blocked: pairs of parts with something between them: only ends that touch count.
-
-    Returns:
-        In the order in which they were chosen.
-    """
-    pairs = _candidates(ends, contacts, bridge)
-    if not len(pairs):
-        return []
-    i, j = pairs[:, 0], pairs[:, 1]
-    between = ends.point[j] - ends.point[i]
-    di, dj = ends.direction[i], ends.direction[j]
-    cosine = np.einsum("ij,ij->i", di, dj)
-    axis = di - dj
-    axis /= np.maximum(np.linalg.norm(axis, axis=1, keepdims=True), 1e-12)
-    gap = np.einsum("ij,ij->i", between, axis)
-    offset = np.linalg.norm(between - gap[:, None] * axis, axis=1)
-    lesser = np.minimum(ends.radius[i], ends.radius[j])
-    greater = np.maximum(ends.radius[i], ends.radius[j])
-    sink = np.minimum(_SINK * np.minimum(ends.length[i], ends.length[j]), 2 * greater)
-    shut = set(blocked)
-    apart = np.array([(int(a), int(b)) in shut for a, b in np.sort(ends.part[pairs], axis=1)]) if shut else False
-    widest = np.minimum(np.where(apart, min(bridge, _BESIDE), bridge), _WIDEST * lesser)
-    straight = (
-        (cosine <= _OPPOSED)
-        & (offset <= np.maximum(_OFFSET * lesser, _LEAST_OFFSET))
-        & (gap <= widest + 1e-9)
-        & (gap >= -(sink + _OVERLAP))
-    )
-    corner = ~straight & _corners(ends, i, j, cosine, bridge)
-    sizes = lesser / greater
-    # Overlaps deeper than a weld's cost more than gaps: behind a slip-on flange lies the gasket that it faces.
-    cost = np.abs(gap) + 0.5 * offset + 0.002 * (1 - sizes) + np.where(corner, 1.0, 0.0)
-    cost = np.round(cost, 7)
-    good = np.flatnonzero(straight | corner)
-    taken: set[int] = set()
-    found = []
-    for k in good[np.lexsort((j[good], i[good], cost[good]))]:
-        a, b = int(i[k]), int(j[k])
-        if a not in taken and b not in taken:
-            taken |= {a, b}
-            found.append(Facing(a, b, float(gap[k]) if straight[k] else 0.0, bool(corner[k])))
-    return found
-
-
-def _candidates(ends: Ends, contacts: Contacts, bridge: float) -> Ints:
-    """Pairs of ends of parts that are near each other, or that are near each other themselves."""
-    if not len(ends.part):
-        return np.zeros((0, 2), np.int64)
-    found = {
-        (p, q) if p < q else (q, p)
-        for a, b in contacts.pairs.tolist()
-        if a in ends.of_part and b in ends.of_part
-        for p in ends.of_part[a]
-        for q in ends.of_part[b]
-    }
-    near = cKDTree(ends.point).query_pairs(1.5 * bridge, output_type="ndarray")
-    found.update((p, q) for p, q in near.tolist() if ends.part[p] != ends.part[q])
-    return np.array(sorted(found), np.int64).reshape(-1, 2)
-
-
-def _corners(ends: Ends, i: Ints, j: Ints, cosine: Floats, bridge: float) -> np.typing.NDArray[np.bool_]:
-    """Whether two ends of one size meet at an angle: mitred or simply run into each other."""
-    between = ends.point[j] - ends.point[i]
-    di, dj = ends.direction[i], ends.direction[j]
-    det = np.maximum(1 - cosine**2, 1e-9)
-    # Where the two axes are nearest to each other, counted from both ends.
-    s = (np.einsum("ij,ij->i", between, di) - cosine * np.einsum("ij,ij->i", between, dj)) / det
-    t = (cosine * np.einsum("ij,ij->i", between, di) - np.einsum("ij,ij->i", between, dj)) / det
-    offset = np.linalg.norm(between + t[:, None] * dj - s[:, None] * di, axis=1)
-    greater, lesser = np.maximum(ends.radius[i], ends.radius[j]), np.minimum(ends.radius[i], ends.radius[j])
-    reach = _CORNER_REACH * greater + bridge
-    return np.asarray(
-        (cosine > _OPPOSED)
-        & (cosine < 0.5)
-        & (offset <= _CORNER * lesser)
-        & (np.abs(s) <= reach)
-        & (np.abs(t) <= reach)
-        & (lesser >= _EQUAL_SIZE * greater)
-        & (np.minimum(ends.length[i], ends.length[j]) > 2 * greater)
-    )
-
-
 def same_place(ends: Ends, row: int, others: Sequence[int], reach: float) -> int | None:
     """The nearest of other ends that lies where this one does and looks the same way; None if there is none."""
     best: tuple[float, int] | None = None
@@ -209,7 +111,7 @@ def same_place(ends: Ends, row: int, others: Sequence[int], reach: float) -> int
         offset = float(np.linalg.norm(between - along * ends.direction[row]))
         lesser = float(min(ends.radius[row], ends.radius[other]))
         if (
-            float(ends.direction[row] @ ends.direction[other]) > -_OPPOSED
+            float(ends.direction[row] @ ends.direction[other]) > _ALIKE
             and offset <= max(_OFFSET * lesser, _LEAST_OFFSET)
             and abs(along) <= reach
             and (best is None or abs(along) < best[0])
@@ -262,9 +164,9 @@ def find_tap(ends: Ends, row: int, line: Centreline, reach: float) -> Tap | None
             miss = float(np.linalg.norm(ahead - inward * direction))
             gap = apart - wall
             if inward > -0.5 * wall and miss <= _ECCENTRIC * wall and -1.05 * wall <= gap <= reach:
-                tap = Tap(number, s, foot, gap)
+                tap = Tap(number, s, foot, gap, wall)
         elif across >= _SLANT and apart <= max(_OFFSET * min(radius, wall), _LEAST_OFFSET) and 0 < s < branch.length:
-            tap = Tap(number, s, foot, 0.0, sleeve=True)
+            tap = Tap(number, s, foot, 0.0, wall, sleeve=True)
         if tap is not None and (best is None or tap.gap < best.gap):
             best = tap
     return best

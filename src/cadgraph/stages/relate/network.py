@@ -17,8 +17,8 @@ from cadgraph.stages.relate.span import Net, Span
 
 __all__ = ["Drawing", "draw_network"]
 
-# How sure a joint is (ours): touching ends, bridged ones, corners without elbow, ends on sides, solids.
-_TOUCH, _BRIDGED, _CORNERED, _TAPPED, _MOUNTED, _BESIDE = 0.99, 0.9, 0.85, 0.95, 0.97, 0.85
+# How sure a joint is that no offer tells (ours): ends in one place, flanged solids, gauges on the sides of lines.
+_TOUCH, _MOUNTED, _BESIDE = 0.99, 0.97, 0.85
 _TOUCHING = 0.001  # ends this near touch [m]
 _SAME_PLACE = 1e-6  # positions on a branch closer than this are one [m]
 
@@ -116,8 +116,7 @@ def _join_ends(draft: _Draft) -> None:
     for facing in draft.found.facings:
         if facing.first in nodes and facing.second in nodes:
             gapped = facing.gap > _TOUCHING
-            kind = _CORNERED if facing.corner else _BRIDGED if gapped else _TOUCH
-            draft.join(nodes[facing.first], nodes[facing.second], kind)
+            draft.join(nodes[facing.first], nodes[facing.second], facing.score)
             if gapped:
                 draft.bridged.append((int(ends.part[facing.first]), int(ends.part[facing.second]), facing.gap))
     for row, twin in draft.found.doubled:
@@ -127,11 +126,11 @@ def _join_ends(draft: _Draft) -> None:
 
 def _place_taps(draft: _Draft) -> None:
     """The nodes on each branch between its ends."""
-    for row, part, tap in draft.found.taps:
-        if row in draft.node_of_end and part in draft.lines:
-            here = draft.new()
-            draft.join(here, draft.node_of_end[row], _TAPPED)
-            draft.places.setdefault((part, tap.branch), []).append((tap.s, here, tap.point))
+    for tapped in draft.found.taps:
+        if tapped.row in draft.node_of_end and tapped.part in draft.lines:
+            here, tap = draft.new(), tapped.tap
+            draft.join(here, draft.node_of_end[tapped.row], tapped.score)
+            draft.places.setdefault((tapped.part, tap.branch), []).append((tap.s, here, tap.point))
             draft.taps.append(here)
 
 
@@ -224,7 +223,7 @@ def _draw_mounts(draft: _Draft) -> None:
         if here is None:
             continue
         point, diameter = ends.point[mount.row], 2 * float(ends.radius[mount.row])
-        sure = _MOUNTED if mount.gap <= _TOUCHING else _BRIDGED
+        sure = mount.score
         if mount.part in draft.owner:
             unit = draft.owner[mount.part]
             port = draft.open(unit, point, -ends.direction[mount.row], diameter)

@@ -18,7 +18,12 @@ from cadgraph.model.vocabulary import Vocabulary
 from cadgraph.stages.relate.attach import Attachments, attach_lines
 from cadgraph.stages.relate.role import Roles
 
-__all__ = ["Group", "Piping", "RelateInput"]
+__all__ = ["FASTENERS", "Group", "Piping", "RelateInput"]
+
+FASTENERS = frozenset({"bolt", "nut", "washer", "stud", "screw"})
+"""Names of what holds a joint together."""
+
+_MOST_HELD = 6  # lines at one fastener: two flanges, their gaskets, pipes; more are a set of bolts in one mesh
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +115,19 @@ class Piping:
         """What every end of a line joins; it follows from the lines and from what they may end at."""
         given = self.given
         solids = self.members.union(self.lineless)
-        return attach_lines(given.parts, given.contacts, self.lines, solids, self.feet, given.config.relate.bridge)
+        return attach_lines(
+            given.parts, given.contacts, self.lines, solids, self.feet, given.config.relate.bridge, self.bolted
+        )
+
+    @cached_property
+    def bolted(self) -> frozenset[tuple[int, int]]:
+        """Pairs of parts with lines that one fastener touches both of."""
+        held = [
+            [other for other in self.given.neighbors.get(part, ()) if other in self.lines]
+            for part, name in enumerate(self.roles.names)
+            if name in FASTENERS and part not in self.lines
+        ]
+        return frozenset((a, b) for near in held if len(near) <= _MOST_HELD for a in near for b in near if a < b)
 
     @cached_property
     def mounted(self) -> Mapping[int, set[int]]:
@@ -124,7 +141,7 @@ class Piping:
     def apart(self) -> frozenset[int]:
         """Parts that no unit takes in: the ground, and those whose line is joined to another one."""
         rows = {row for facing in self.joints.facings for row in (facing.first, facing.second)}
-        rows |= {row for row, _, tap in self.joints.taps if not tap.sleeve}
+        rows |= {tapped.row for tapped in self.joints.taps if not tapped.tap.sleeve}
         ground = np.flatnonzero(self.given.parts.ground).tolist()
         return frozenset({int(self.joints.ends.part[row]) for row in rows} | set(ground))
 

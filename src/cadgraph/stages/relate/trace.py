@@ -11,9 +11,11 @@ import numpy as np
 from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.geometry.line.part_lines import lines_of_parts
 from cadgraph.model.parts import Contacts, Parts
-from cadgraph.stages.relate.attach import Attachments
-from cadgraph.stages.relate.joint import face_ends, gather_ends
+from cadgraph.stages.relate.attach import Attachments, facings_of
+from cadgraph.stages.relate.decide import decide_joints
+from cadgraph.stages.relate.joint import gather_ends
 from cadgraph.stages.relate.line import is_disc, is_plain_tube
+from cadgraph.stages.relate.offer import Surroundings, offer_faces
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
 from cadgraph.stages.relate.role import Roles, likely_lines
 from cadgraph.stages.relate.unit import connected_groups
@@ -144,7 +146,7 @@ def _facing_parts(
     ends = gather_ends(lines)
     steps: dict[int, list[int]] = {}
     weak: dict[int, list[int]] = {}
-    for facing in face_ends(ends, contacts, bridge):
+    for facing in facings_of(decide_joints(offer_faces(ends, Surroundings(contacts, bridge)), {}, {}).joined):
         if facing.corner:
             continue
         a, b = int(ends.part[facing.first]), int(ends.part[facing.second])
@@ -188,7 +190,7 @@ def _joined_ends(found: Attachments) -> set[int]:
     return (
         {row for facing in found.facings for row in (facing.first, facing.second)}
         | {row for row, _ in found.doubled}
-        | {row for row, _, tap in found.taps if not tap.sleeve}
+        | {tapped.row for tapped in found.taps if not tapped.tap.sleeve}
         | {mount.row for mount in found.mounts}
     )
 

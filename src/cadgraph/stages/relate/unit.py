@@ -12,7 +12,7 @@ import numpy as np
 from cadgraph.geometry.components import connected_sets
 from cadgraph.model.parts import Parts
 from cadgraph.stages.relate.attach import Attachments, flat_contacts
-from cadgraph.stages.relate.piping import Group, Piping, RelateInput
+from cadgraph.stages.relate.piping import FASTENERS, Group, Piping, RelateInput
 from cadgraph.stages.relate.role import Roles
 
 __all__ = ["connected_groups", "is_loose_operator", "mend_units", "split_groups", "take_in_enclosed"]
@@ -20,7 +20,7 @@ __all__ = ["connected_groups", "is_loose_operator", "mend_units", "split_groups"
 # A body stands out from the line's axis this many times farther on one side than on the other where it carries its own
 # operator: one mesh for a whole valve.
 _LOPSIDED = 1.5
-_FASTENERS = frozenset({"bolt", "nut", "washer", "stud", "screw", "gasket"})
+_FASTENERS = FASTENERS | {"gasket"}
 _OPERATORS = frozenset(
     {"valve stem", "handwheel", "lever", "yoke", "gland", "gearbox", "actuator", "position indicator"}
 )

@@ -1,0 +1,261 @@
+"""Joints that may be made: every end of a line with each end, side of a line and solid that it may belong to."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from cadgraph.geometry.line.centreline import Centreline
+from cadgraph.model.parts import Bools, Contacts
+from cadgraph.model.scene import Floats, Ints
+from cadgraph.stages.relate.evidence import CURVES, FLAGS, add_up, score_of, tell
+from cadgraph.stages.relate.joint import Ends, Tap, find_tap
+
+__all__ = ["Offer", "Surroundings", "offer_faces", "offer_mount", "offer_taps"]
+
+# Ends that face each other look against each other at least so (cosine), and their axes are apart by at most this share
+# of the lesser radius, or this much [m] where that is more.
+_OPPOSED, _OFFSET, _LEAST_OFFSET = -0.85, 0.5, 0.003
+# Overlaps as deep as a weld's count as touching [m]; one end lies within the other by at most so many greater radii.
+_OVERLAP, _DEEPEST = 0.004, 2.0
+# Gaps are looked at up to this many times the setting: beyond it only with other evidence.
+_REACH = 2.0
+# Two straight pipes may meet in a corner without an elbow: their axes pass each other this near, as share of the lesser
+# radius, and both ends lie within this many greater radii of that corner.
+_CORNER, _CORNER_REACH, _EQUAL_SIZE = 0.4, 1.5, 0.9
+# Where a solid is near both, a wider gap [m] may be its own place: no wafer valve is thinner.
+_BESIDE = 0.006
+# A line shorter than this many of its radii is that of a flange, a gasket or the like.
+_DISC = 1.6
+# Gaps within this much of each other are alike [m]; so many make a habit, and none that is narrower is one.
+_ALIKE, _HABIT, _LEAST_HABIT = 0.0004, 5, 0.001
+
+Kind = Literal["face", "corner", "mount", "tap", "sleeve"]
+
+
+@dataclass(frozen=True)
+class Offer:
+    """A joint that may be made.
+
+    Args:
+        kind: ``face`` (end to end), ``corner`` (likewise, at an angle), ``mount`` (an end at a solid), ``tap`` (an end
+            on the side of a line) or ``sleeve`` (an end along the side of a line).
+        row: the end.
+        other: the other end, or the part.
+        gap: between the two [m], negative where one lies in the other.
+        odds: the log-odds that they join.
+        measured: the quantities that speak for or against it.
+        flags: what else does.
+        tap: the place, for taps and sleeves.
+    """
+
+    kind: Kind
+    row: int
+    other: int
+    gap: float
+    odds: float
+    measured: Mapping[str, float] = field(default_factory=dict)
+    flags: tuple[str, ...] = ()
+    tap: Tap | None = None
+
+    @property
+    def score(self) -> float:
+        """How sure it is, 0..1."""
+        return score_of(self.odds)
+
+    @property
+    def reasons(self) -> tuple[str, ...]:
+        """What speaks for and against it, in words."""
+        return tell(self.measured, self.flags)
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """What lies around the lines.
+
+    Args:
+        contacts: pairs of parts that are near.
+        bridge: gap up to which ends join without other evidence [m].
+        blocked: pairs of parts with a solid near both.
+        bolted: pairs of parts that one fastener touches both of.
+    """
+
+    contacts: Contacts
+    bridge: float
+    blocked: Collection[tuple[int, int]] = ()
+    bolted: Collection[tuple[int, int]] = ()
+
+
+def offer_faces(ends: Ends, around: Surroundings) -> list[Offer]:
+    """The pairs of ends that may face each other, those that more speaks for than against."""
+    pairs = _candidates(ends, around)
+    if not len(pairs):
+        return []
+    i, j = pairs[:, 0], pairs[:, 1]
+    cosine = np.einsum("ij,ij->i", ends.direction[i], ends.direction[j])
+    measured, gap, straight = _measure(ends, i, j, cosine)
+    parts = [(int(a), int(b)) for a, b in np.sort(ends.part[pairs], axis=1).tolist()]
+    flags = {
+        "disc": _is_disc(ends, i) | _is_disc(ends, j),
+        "blocked": np.array([pair in around.blocked for pair in parts], np.bool_) & (gap > min(_BESIDE, around.bridge)),
+        "over": gap > around.bridge + 1e-9,
+        "bolted": np.array([pair in around.bolted for pair in parts], np.bool_) & (gap > _OVERLAP),
+    }
+    # The width of a flange says nothing of its pipe's.
+    measured["size"] = np.where(flags["disc"], np.nan, measured["size"])
+    odds = add_up("face", measured, {name: holds.astype(float) for name, holds in flags.items()})
+    flags["habit"] = _habitual(gap, straight & (odds > 1.0))
+    odds = odds + flags["habit"] * FLAGS["habit"][0]
+    found = [_face(k, pairs, gap, odds, measured, flags) for k in np.flatnonzero(straight & (odds > 0)).tolist()]
+    corners = _corners(ends, i, j, cosine, around.bridge) & ~straight
+    return found + [_corner(pairs, k, measured) for k in np.flatnonzero(corners).tolist()]
+
+
+def _face(
+    k: int,
+    pairs: Ints,
+    gap: Floats,
+    odds: Floats,
+    measured: Mapping[str, Floats],
+    flags: Mapping[str, Bools],
+) -> Offer:
+    return Offer(
+        "face", int(pairs[k, 0]), int(pairs[k, 1]), float(gap[k]), float(odds[k]),
+        {name: float(values[k]) for name, values in measured.items()},
+        tuple(name for name, holds in flags.items() if holds[k]),
+    )  # fmt: skip
+
+
+def _corner(pairs: Ints, k: int, measured: Mapping[str, Floats]) -> Offer:
+    known = {"size": float(measured["size"][k])}
+    odds = float(add_up("corner", {"size": measured["size"][k : k + 1]})[0]) + float(CURVES["gap"](0.0))
+    return Offer("corner", int(pairs[k, 0]), int(pairs[k, 1]), 0.0, odds, known)
+
+
+def _measure(ends: Ends, i: Ints, j: Ints, cosine: Floats) -> tuple[dict[str, Floats], Floats, Bools]:
+    """The quantities of pairs of ends, the gap from the first to the second [m], and whether they face at all."""
+    between = ends.point[j] - ends.point[i]
+    axis = ends.direction[i] - ends.direction[j]
+    axis /= np.maximum(np.linalg.norm(axis, axis=1, keepdims=True), 1e-12)
+    gap = np.einsum("ij,ij->i", between, axis)
+    off = np.linalg.norm(between - gap[:, None] * axis, axis=1)
+    lesser, greater = np.minimum(ends.radius[i], ends.radius[j]), np.maximum(ends.radius[i], ends.radius[j])
+    shorter = np.minimum(ends.length[i], ends.length[j])
+    inside = -gap > _OVERLAP
+    # What is a few millimetres off a small axis is drawn so, not meant.
+    share = np.where(off <= _LEAST_OFFSET, np.minimum(off / lesser, 0.3), off / lesser)
+    measured = {
+        "gap": np.where(inside, np.nan, np.maximum(gap, 0.0)),
+        "wide": np.where(gap > 0, gap / lesser, np.nan),
+        "depth": np.where(inside, (-gap - _OVERLAP) / shorter, np.nan),
+        "angle": np.degrees(np.arccos(np.clip(-cosine, -1, 1))),
+        "offset": share,
+        "size": lesser / greater,
+    }
+    faces = (cosine <= _OPPOSED) & (off <= np.maximum(_OFFSET * lesser, _LEAST_OFFSET))
+    return measured, gap, faces & (-gap <= _OVERLAP + np.minimum(1.03 * shorter, _DEEPEST * greater))
+
+
+def _is_disc(ends: Ends, rows: Ints) -> Bools:
+    return ends.length[rows] < _DISC * ends.radius[rows]
+
+
+def _habitual(gap: Floats, likely: Bools) -> Bools:
+    """Which gaps recur among the likely joints: what a plant repeats, it means."""
+    known = np.sort(gap[likely & (gap > _LEAST_HABIT)])
+    count = np.searchsorted(known, gap + _ALIKE) - np.searchsorted(known, gap - _ALIKE)
+    return np.asarray((gap > _LEAST_HABIT) & (count >= _HABIT))
+
+
+def _candidates(ends: Ends, around: Surroundings) -> Ints:
+    """Pairs of ends of parts that are near each other, or that are near each other themselves."""
+    if not len(ends.part):
+        return np.zeros((0, 2), np.int64)
+    found = {
+        (p, q) if p < q else (q, p)
+        for a, b in around.contacts.pairs.tolist()
+        if a in ends.of_part and b in ends.of_part
+        for p in ends.of_part[a]
+        for q in ends.of_part[b]
+    }
+    near = cKDTree(ends.point).query_pairs(_REACH * around.bridge, output_type="ndarray")
+    found.update((p, q) for p, q in near.tolist() if ends.part[p] != ends.part[q])
+    return np.array(sorted(found), np.int64).reshape(-1, 2)
+
+
+def _corners(ends: Ends, i: Ints, j: Ints, cosine: Floats, bridge: float) -> Bools:
+    """Whether two ends of one size meet at an angle: mitred or simply run into each other."""
+    between = ends.point[j] - ends.point[i]
+    di, dj = ends.direction[i], ends.direction[j]
+    det = np.maximum(1 - cosine**2, 1e-9)
+    # Where the two axes are nearest to each other, counted from both ends.
+    s = (np.einsum("ij,ij->i", between, di) - cosine * np.einsum("ij,ij->i", between, dj)) / det
+    t = (cosine * np.einsum("ij,ij->i", between, di) - np.einsum("ij,ij->i", between, dj)) / det
+    offset = np.linalg.norm(between + t[:, None] * dj - s[:, None] * di, axis=1)
+    greater, lesser = np.maximum(ends.radius[i], ends.radius[j]), np.minimum(ends.radius[i], ends.radius[j])
+    reach = _CORNER_REACH * greater + bridge
+    return np.asarray(
+        (cosine > _OPPOSED)
+        & (cosine < 0.5)
+        & (offset <= _CORNER * lesser)
+        & (np.abs(s) <= reach)
+        & (np.abs(t) <= reach)
+        & (lesser >= _EQUAL_SIZE * greater)
+        & (np.minimum(ends.length[i], ends.length[j]) > 2 * greater)
+    )
+
+
+def offer_mount(
+    row: int, solid: int, gap: float, along: float, off: float, facing: float | None, radius: float
+) -> Offer:
+    """An end at a solid.
+
+    Args:
+        row: the end.
+        solid: the part.
+        gap: distance between the surfaces [m].
+        along: of the middle of the contact from the end, outward along the axis [m].
+        off: of that middle from the axis [m].
+        facing: cosine between the direction of the end and the normal of the contact; None where it is not sure.
+        radius: of the end [m].
+    """
+    measured = {
+        "gap": gap,
+        "wide": gap / radius,
+        "off": max(0.0, off - gap) / radius,
+        "behind": abs(along) / max(radius, 0.02),
+        "facing": float("nan") if facing is None else facing,
+    }
+    odds = float(add_up("mount", {name: np.array([value]) for name, value in measured.items()})[0])
+    return Offer("mount", row, solid, gap, odds, measured)
+
+
+def offer_taps(
+    ends: Ends, row: int, lines: Mapping[int, Centreline], near: Sequence[tuple[int, float]], bridge: float
+) -> list[Offer]:
+    """The sides of lines that an end may sit on."""
+    found = []
+    for part, gap in near:
+        tap = find_tap(ends, row, lines[part], gap + bridge)
+        if tap is not None:
+            found.append(_tap_offer(ends, row, part, tap, lines[part]))
+    return found
+
+
+def _tap_offer(ends: Ends, row: int, part: int, tap: Tap, line: Centreline) -> Offer:
+    branch = line.branches[tap.branch]
+    offset = tap.point - ends.point[row]
+    direction = ends.direction[row]
+    miss = float(np.linalg.norm(offset - float(offset @ direction) * direction))
+    wall = max(tap.wall, 1e-6)
+    to_end = float("inf") if branch.closed else min(tap.s, branch.length - tap.s)
+    measured = {"miss": miss / wall, "gap": max(0.0, tap.gap), "wide": max(0.0, tap.gap) / float(ends.radius[row])}
+    if not tap.sleeve:
+        measured["near end"] = min(to_end / wall, 9.0)
+    kind: Kind = "sleeve" if tap.sleeve else "tap"
+    odds = float(add_up(kind, {name: np.array([value]) for name, value in measured.items()})[0])
+    return Offer(kind, row, part, tap.gap, odds, measured, (), tap)
