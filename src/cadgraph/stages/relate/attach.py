@@ -14,7 +14,17 @@ from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.scene import Floats, Ints
 from cadgraph.stages.relate.decide import decide_joints, settle_faces
 from cadgraph.stages.relate.joint import Ends, Facing, Tap, gather_ends, nearest_on, same_place
-from cadgraph.stages.relate.offer import Offer, Surroundings, offer_faces, offer_mount, offer_taps
+from cadgraph.stages.relate.offer import (
+    Ahead,
+    Offer,
+    Surroundings,
+    find_ahead,
+    is_hidden,
+    near_ends,
+    offer_faces,
+    offer_mount,
+    offer_taps,
+)
 
 __all__ = ["Attachments", "Mount", "Side", "Tapped", "attach_lines", "facings_of", "flat_contacts", "regions_of"]
 
@@ -132,10 +142,12 @@ def attach_lines(
     """
     ends = gather_ends(lines)
     solid = set(solids)
-    faces = offer_faces(ends, Surroundings(contacts, bridge, set(_shut(contacts, lines, solid)), bolted))
+    around = Surroundings(contacts, bridge, set(_shut(contacts, lines, solid)), bolted)
+    ahead = find_ahead(ends, near_ends(ends, around))
+    faces = offer_faces(ends, around, ahead)
     settled = settle_faces(faces)
     loose = {row for row in range(len(ends.part)) if row not in settled}
-    mounts, sides = _mounts(parts, contacts, lines, solid, set(feet), ends, loose)
+    mounts, sides = _mounts(parts, contacts, lines, solid, set(feet), ends, loose, ahead)
     near = _neighbors(contacts, lines)
     singles = {
         row: [
@@ -190,13 +202,21 @@ def _double(
             r
             for other, _ in near.get(int(ends.part[row]), ())
             for r in ends.of_part[other]
-            if r not in gone and _run_beside(ends, row, r)
+            # The end that the other side of this part faces looks the same way too.
+            if r not in gone and _run_beside(ends, row, r) and not _is_partner(ends, made.get(r), row)
         ]
         twin = same_place(ends, row, there, max(_TWIN * bridge, _TWIN_SHARE * float(ends.radius[row])))
         if twin is not None and _yields(ends, made, row, twin):
             doubled.append((row, twin))
             gone.add(row)
     return doubled
+
+
+def _is_partner(ends: Ends, offer: Offer | None, row: int) -> bool:
+    """Whether a made joint is one with the other end of the part that an end belongs to."""
+    if offer is None or offer.kind not in ("face", "corner"):
+        return False
+    return int(ends.part[row]) in (int(ends.part[offer.row]), int(ends.part[offer.other]))
 
 
 def _run_beside(ends: Ends, row: int, other: int) -> bool:
@@ -282,6 +302,7 @@ def _mounts(
     feet: set[int],
     ends: Ends,
     loose: set[int],
+    ahead: Mapping[int, Sequence[Ahead]],
 ) -> tuple[dict[int, list[Offer]], tuple[Side, ...]]:
     """The solids that each loose end may be at; and solids at the sides of lines."""
     tight: list[int] = []
@@ -300,7 +321,8 @@ def _mounts(
         *_touches(parts, contacts, lines, tight, 2 * _TIGHT),
         *_touches(parts, contacts, lines, wide, float(contacts.distance.max(initial=0.0)) + _TIGHT),
     ):
-        found = [offer for end in ends.of_part.get(touch.part, ()) if (offer := _offer(ends, end, touch)) is not None]
+        rows = ends.of_part.get(touch.part, ())
+        found = [offer for end in rows if (offer := _offer(ends, end, touch, ahead.get(end, ()))) is not None]
         if not found:
             sides.append(_side(lines[touch.part], touch.part, touch.solid, touch.place, touch.gap))
         for offer in found:
@@ -350,7 +372,7 @@ def _side(line: Centreline, part: int, solid: int, place: Floats, gap: float) ->
     return Side(solid, part, Tap(number, near[0], near[1], gap, near[3]))
 
 
-def _offer(ends: Ends, row: int, touch: _Touch) -> Offer | None:
+def _offer(ends: Ends, row: int, touch: _Touch, ahead: Sequence[Ahead]) -> Offer | None:
     """An end at a solid where the middle of their contact is; None where that is not at the end."""
     direction, radius = ends.direction[row], float(ends.radius[row])
     offset = touch.place - ends.point[row]
@@ -362,7 +384,8 @@ def _offer(ends: Ends, row: int, touch: _Touch) -> Offer | None:
     facing = None if touch.normal is None else float(touch.normal @ direction)
     if facing is not None and facing < _AGREES:
         return None
-    return offer_mount(row, touch.solid, touch.gap, along, off, facing, radius)
+    hidden = touch.gap > _TIGHT and is_hidden(ahead, touch.gap, (touch.part,))
+    return offer_mount(row, touch.solid, touch.gap, along, off, facing, radius, hidden)
 
 
 def flat_contacts(

@@ -55,12 +55,13 @@ CURVES: Mapping[str, Curve] = {
 }
 """The contributions of what is measured."""
 
-BASE: Mapping[str, float] = {"face": -0.5, "corner": -1.0, "mount": 0.5, "tap": 0.0, "sleeve": -0.5, "twin": 0.0}
+BASE: Mapping[str, float] = {"face": -0.5, "corner": -1.0, "mount": 0.5, "tap": 0.0, "sleeve": -2.5, "twin": 0.0}
 """The log-odds that each kind of joint starts from."""
 
 FLAGS: Mapping[str, tuple[float, str]] = {
     "habit": (2.0, "a gap that this plant's other joints have, too"),
     "bolted": (2.5, "fasteners hold both"),
+    "hidden": (-3.0, "another part's end lies between"),
     "over": (-4.0, "a gap wider than relate.bridge"),
     "blocked": (-3.0, "something else lies near both, so that the gap may be its place"),
     "disc": (0.5, "one of them is a flange, gasket or the like"),

@@ -17,6 +17,7 @@ __all__ = ["Ends", "Facing", "Tap", "find_tap", "gather_ends", "nearest_on", "sa
 _ALIKE, _OFFSET, _LEAST_OFFSET = 0.85, 0.35, 0.003
 # A branch meets the wall at this angle at least (cosine) and runs into the axis within this share of the radius.
 _SLANT, _ECCENTRIC = 0.86, 0.85
+_SEATED = 5e-4  # what lies along a line lies this far from its ends [m]
 
 
 @dataclass(frozen=True)
@@ -165,7 +166,11 @@ def find_tap(ends: Ends, row: int, line: Centreline, reach: float) -> Tap | None
             gap = apart - wall
             if inward > -0.5 * wall and miss <= _ECCENTRIC * wall and -1.05 * wall <= gap <= reach:
                 tap = Tap(number, s, foot, gap, wall)
-        elif across >= _SLANT and apart <= max(_OFFSET * min(radius, wall), _LEAST_OFFSET) and 0 < s < branch.length:
+        elif (
+            across >= _SLANT
+            and apart <= max(_OFFSET * min(radius, wall), _LEAST_OFFSET)
+            and _SEATED < s < branch.length - _SEATED
+        ):
             tap = Tap(number, s, foot, 0.0, wall, sleeve=True)
         if tap is not None and (best is None or tap.gap < best.gap):
             best = tap

@@ -15,7 +15,17 @@ from cadgraph.model.scene import Floats, Ints
 from cadgraph.stages.relate.evidence import CURVES, FLAGS, add_up, score_of, tell
 from cadgraph.stages.relate.joint import Ends, Tap, find_tap
 
-__all__ = ["Offer", "Surroundings", "offer_faces", "offer_mount", "offer_taps"]
+__all__ = [
+    "Ahead",
+    "Offer",
+    "Surroundings",
+    "find_ahead",
+    "is_hidden",
+    "near_ends",
+    "offer_faces",
+    "offer_mount",
+    "offer_taps",
+]
 
 # Ends that face each other look against each other at least so (cosine), and their axes are apart by at most this share
 # of the lesser radius, or this much [m] where that is more.
@@ -29,6 +39,9 @@ _REACH = 2.0
 _CORNER, _CORNER_REACH, _EQUAL_SIZE = 0.4, 1.5, 0.9
 # Where a solid is near both, a wider gap [m] may be its own place: no wafer valve is thinner.
 _BESIDE = 0.006
+# Ends are beside each other on one axis where these are apart by at most this share of the lesser radius, and one lies
+# before another from this distance on [m].
+_ON_AXIS, _BEFORE = 0.5, 3e-4
 # A line shorter than this many of its radii is that of a flange, a gasket or the like.
 _DISC = 1.6
 # Gaps within this much of each other are alike [m]; so many make a habit, and none that is narrower is one.
@@ -90,16 +103,69 @@ class Surroundings:
     bolted: Collection[tuple[int, int]] = ()
 
 
-def offer_faces(ends: Ends, around: Surroundings) -> list[Offer]:
-    """The pairs of ends that may face each other, those that more speaks for than against."""
-    pairs = _candidates(ends, around)
+@dataclass(frozen=True)
+class Ahead:
+    """An end that lies on the axis of another one, beside or before it.
+
+    Args:
+        row: of the end.
+        part: that carries its line.
+        distance: along the axis [m].
+        alike: whether it looks the same way.
+    """
+
+    row: int
+    part: int
+    distance: float
+    alike: bool
+
+
+def find_ahead(ends: Ends, pairs: Ints) -> dict[int, list[Ahead]]:
+    """For each end those of near ends that lie on its axis, not behind it."""
+    found: dict[int, list[Ahead]] = {}
+    for i, j in ((pairs[:, 0], pairs[:, 1]), (pairs[:, 1], pairs[:, 0])):
+        between = ends.point[j] - ends.point[i]
+        distance = np.einsum("ij,ij->i", between, ends.direction[i])
+        off = np.linalg.norm(between - distance[:, None] * ends.direction[i], axis=1)
+        cosine = np.einsum("ij,ij->i", ends.direction[i], ends.direction[j])
+        lesser = np.minimum(ends.radius[i], ends.radius[j])
+        near = (np.abs(cosine) >= -_OPPOSED) & (off <= _ON_AXIS * lesser) & (distance > -_BEFORE)
+        for k in np.flatnonzero(near).tolist():
+            one = Ahead(int(j[k]), int(ends.part[j[k]]), float(distance[k]), bool(cosine[k] > 0))
+            found.setdefault(int(i[k]), []).append(one)
+    return found
+
+
+def is_hidden(ahead: Sequence[Ahead], gap: float, own: Collection[int]) -> bool:
+    """Whether the end of another part lies in a gap: one before this end, or before what it would join."""
+    return any(
+        one.part not in own and (_BEFORE < one.distance <= gap + _BEFORE if one.alike else one.distance < gap - _BEFORE)
+        for one in ahead
+    )
+
+
+def offer_faces(ends: Ends, around: Surroundings, ahead: Mapping[int, Sequence[Ahead]] | None = None) -> list[Offer]:
+    """The pairs of ends that may face each other, those that more speaks for than against.
+
+    Args:
+        ends: of all lines.
+        around: what lies around them.
+        ahead: what lies on the axis of each end, as ``find_ahead`` finds it; found here if None.
+    """
+    pairs = near_ends(ends, around)
     if not len(pairs):
         return []
+    ahead = find_ahead(ends, pairs) if ahead is None else ahead
     i, j = pairs[:, 0], pairs[:, 1]
     cosine = np.einsum("ij,ij->i", ends.direction[i], ends.direction[j])
     measured, gap, straight = _measure(ends, i, j, cosine)
     parts = [(int(a), int(b)) for a, b in np.sort(ends.part[pairs], axis=1).tolist()]
+    hidden = np.zeros(len(pairs), np.bool_)
+    for k in np.flatnonzero(straight & (gap > 2 * _BEFORE)).tolist():
+        own = (int(ends.part[i[k]]), int(ends.part[j[k]]))
+        hidden[k] = any(is_hidden(ahead.get(int(row), ()), float(gap[k]), own) for row in pairs[k])
     flags = {
+        "hidden": hidden,
         "disc": _is_disc(ends, i) | _is_disc(ends, j),
         "blocked": np.array([pair in around.blocked for pair in parts], np.bool_) & (gap > min(_BESIDE, around.bridge)),
         "over": gap > around.bridge + 1e-9,
@@ -171,7 +237,7 @@ def _habitual(gap: Floats, likely: Bools) -> Bools:
     return np.asarray((gap > _LEAST_HABIT) & (count >= _HABIT))
 
 
-def _candidates(ends: Ends, around: Surroundings) -> Ints:
+def near_ends(ends: Ends, around: Surroundings) -> Ints:
     """Pairs of ends of parts that are near each other, or that are near each other themselves."""
     if not len(ends.part):
         return np.zeros((0, 2), np.int64)
@@ -210,7 +276,7 @@ def _corners(ends: Ends, i: Ints, j: Ints, cosine: Floats, bridge: float) -> Boo
 
 
 def offer_mount(
-    row: int, solid: int, gap: float, along: float, off: float, facing: float | None, radius: float
+    row: int, solid: int, gap: float, along: float, off: float, facing: float | None, radius: float, hidden: bool
 ) -> Offer:
     """An end at a solid.
 
@@ -222,6 +288,7 @@ def offer_mount(
         off: of that middle from the axis [m].
         facing: cosine between the direction of the end and the normal of the contact; None where it is not sure.
         radius: of the end [m].
+        hidden: whether the end of another part lies between.
     """
     measured = {
         "gap": gap,
@@ -230,8 +297,9 @@ def offer_mount(
         "behind": abs(along) / max(radius, 0.02),
         "facing": float("nan") if facing is None else facing,
     }
+    flags = ("hidden",) if hidden else ()
     odds = float(add_up("mount", {name: np.array([value]) for name, value in measured.items()})[0])
-    return Offer("mount", row, solid, gap, odds, measured)
+    return Offer("mount", row, solid, gap, odds + sum(FLAGS[name][0] for name in flags), measured, flags)
 
 
 def offer_taps(

@@ -25,6 +25,9 @@ __all__ = ["drop_shapeless", "trace_lines"]
 # A part that only its shape calls a pipe must face one of about its size: this ratio of radii, that of a reducing
 # flange; one that its label calls a device must face one of its own size.
 _RATIO, _OWN_RATIO = 0.3, 0.9
+# A device drawn as a mere cylinder is straight (cosine between its ends) and at most so many radii long: a DN 15 gate
+# valve has ten.
+_STRAIGHT, _LONGEST_DEVICE = -0.996, 12.0
 _SAME_PLACE = 1e-4  # copies of a part lie this near to each other [m]
 
 
@@ -97,14 +100,23 @@ def _least_ratios(
     """
     ratios = {part: _RATIO for part in others if part in traced}
     for part in singles:
-        # The labeler is no second opinion on what it said itself.
-        if part not in traced or (part in roles.backed and given.labels[part] is not given.opinions[part]):
+        label = given.labels[part]
+        # The labeler is no second opinion on what it said itself; and whoever else says that a mere cylinder is a
+        # valve may mean it, unless labels are doubtful.
+        said = label is not None and label is not given.opinions[part]
+        if part not in traced or (said and (part in roles.backed or _may_be_device(traced[part], roles.doubtful))):
             continue
         if is_plain_tube(traced[part]):
             ratios[part] = _RATIO if roles.doubtful else _OWN_RATIO
         elif roles.doubtful and is_disc(traced[part]):
             ratios[part] = _RATIO
     return ratios
+
+
+def _may_be_device(line: Centreline, doubtful: bool) -> bool:
+    """Whether a tube may be all that is drawn of a valve: a straight, short one."""
+    straight = len(line.ends) == 2 and float(line.ends[0].direction @ line.ends[1].direction) < _STRAIGHT
+    return not doubtful and straight and line.length <= _LONGEST_DEVICE * float(line.branches[0].radius.max())
 
 
 def _continued(
