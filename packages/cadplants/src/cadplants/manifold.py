@@ -145,7 +145,7 @@ def _header(work: _Work, tag: str, dn: int, y: float, z: float) -> Placed:
 
 def _tree(work: _Work, k: int) -> Placed:
     """The well-head: up through a master valve, past the wing's tee, through a swab valve to a lid."""
-    plan, x, dn = work.plan, work.plan.xs[k], work.plan.flow
+    x, dn = work.plan.xs[k], work.plan.flow
     low, wing = 0.14, work.plan.wing
     route = Route(np.array([(x, 0.0, low), (x, 0.0, wing + 0.80)]))
     inline = (

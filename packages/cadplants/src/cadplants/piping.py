@@ -176,7 +176,7 @@ def _eccentric_solid(dn: int, other: int, style: ModelingStyle) -> Solid:
 
 
 def eccentric_reducer(dn: int, other: int, style: ModelingStyle) -> Device:
-    """A reducer along x with a flat top, as before pumps: the axis of its other end lies higher by what radii differ."""
+    """A reducer along x with a flat top, as before pumps: the axis of its other end lies higher."""
     component = Component(_eccentric_solid(dn, other, style), "Pipe assembly", "reducer", style.color("pipe"))
     return Device(Assembly((component,)), REDUCER_LENGTH[max(dn, other)])
 
