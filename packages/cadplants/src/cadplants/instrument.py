@@ -13,12 +13,12 @@ from cadplants.gauge import pressure_gauge, side_gauge
 from cadplants.layout import Inline, Tap
 from cadplants.meter import flow_meter, strainer
 from cadplants.modeling_style import ModelingStyle
-from cadplants.piping import reducer, tee
+from cadplants.piping import eccentric_reducer, reducer, tee
 from cadplants.plant import Assembly, Device
 from cadplants.primitive_devices import in_primitives
 from cadplants.valve import VALVES
 
-__all__ = ["gauge_tap", "meter_at", "reducer_at", "side_gauge_tap", "strainer_at", "tee_at", "valve_at"]
+__all__ = ["eccentric_at", "gauge_tap", "meter_at", "reducer_at", "side_gauge_tap", "strainer_at", "tee_at", "valve_at"]
 
 _REVERSED = np.diag([-1.0, -1.0, 1.0, 1.0])
 
@@ -74,6 +74,11 @@ def reducer_at(s: float, dn: int, other: int) -> Inline:
     return Inline(s, partial(_reducer, dn=dn, other=other), welded=True, dn=other)
 
 
+def eccentric_at(s: float, dn: int, other: int) -> Inline:
+    """A reducer with a flat top, its middle at a chainage [m]; the run's route goes on higher, see ``Route.jog``."""
+    return Inline(s, partial(_eccentric, dn=dn, other=other), welded=True, dn=other)
+
+
 def gauge_tap(s: float, unit: str, rng: np.random.Generator, size: int = 63, turn: float = 0.0) -> Tap:
     """A pressure gauge upright on a level pipe; ``turn`` of its dial [rad]."""
     build: Callable[[ModelingStyle], Assembly] = partial(
@@ -116,6 +121,10 @@ def _tee(style: ModelingStyle, dn: int, branch: int) -> Device:
 
 def _reducer(style: ModelingStyle, dn: int, other: int) -> Device:
     return reducer(dn, other, style)
+
+
+def _eccentric(style: ModelingStyle, dn: int, other: int) -> Device:
+    return eccentric_reducer(dn, other, style)
 
 
 def _gauge(style: ModelingStyle, unit: str, size: int, turn: float, needle: float, height: float) -> Assembly:

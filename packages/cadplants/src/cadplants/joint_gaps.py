@@ -115,7 +115,7 @@ def _set_back(pulled: _Pulled, setback: Span) -> None:
     """Pipes run into their flanges and end behind their faces."""
     for flange in _flanges(pulled):
         component, joint = pulled.plant.components[flange], pulled.pipe_of(flange)
-        if joint is None or component.name != "flange" or component.gap:
+        if joint is None or component.name != "flange":
             continue
         solid = slipped_on(component.solid)
         if solid is None:

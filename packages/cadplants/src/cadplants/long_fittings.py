@@ -18,10 +18,10 @@ _SPIGOT = 0.09  # share of the length that is cylindrical at each end
 _OTHER = 4  # corners that the narrow end has less than the wide one
 
 
-def ring(x: float, radius: float, sides: int, drop: float = 0.0) -> Floats:
-    """``(sides, 3)`` a circle about the x axis, its centre ``drop`` below it [m]."""
+def ring(x: float, radius: float, sides: int, rise: float = 0.0) -> Floats:
+    """``(sides, 3)`` a circle across the x axis, its centre ``rise`` over it [m]."""
     angles = np.arange(sides) * 2 * np.pi / sides
-    return np.column_stack([np.full(sides, x), radius * np.cos(angles), radius * np.sin(angles) - drop])
+    return np.column_stack([np.full(sides, x), radius * np.cos(angles), radius * np.sin(angles) + rise])
 
 
 def strip(first: Floats, second: Floats) -> Shell:
@@ -58,18 +58,18 @@ def long_reducer(dn: int, other: int, style: ModelingStyle, eccentric: bool = Fa
         dn: nominal size at x = 0.
         other: at its other end.
         style: that models it; decides on the bore and the sides.
-        eccentric: whether its bottom is flat, so that the axis of the narrow end lies lower.
+        eccentric: whether its top is flat, so that the axis of the narrow end lies higher.
     """
     wide = style.round_fitting(PIPES[max(dn, other)].radius)
     narrow = max(8, wide - _OTHER)
     length = REDUCER_LENGTH[max(dn, other)]
-    drop = PIPES[dn].radius - PIPES[other].radius if eccentric else 0.0
+    rise = PIPES[dn].radius - PIPES[other].radius if eccentric else 0.0
     sides = (wide, narrow) if dn >= other else (narrow, wide)
-    skins = [_skin(length, (PIPES[dn].radius, PIPES[other].radius), sides, drop)]
+    skins = [_skin(length, (PIPES[dn].radius, PIPES[other].radius), sides, rise)]
     if not style.hollow:
         outer = skins[0]
         return weld([*_skin_shells(outer), _disc(outer[0], False), _disc(outer[-1], True)])
-    skins.append(_skin(length, (PIPES[dn].bore, PIPES[other].bore), sides, drop))
+    skins.append(_skin(length, (PIPES[dn].bore, PIPES[other].bore), sides, rise))
     outside, inside = skins
     return weld(
         [
@@ -81,10 +81,10 @@ def long_reducer(dn: int, other: int, style: ModelingStyle, eccentric: bool = Fa
     )
 
 
-def _skin(length: float, radii: tuple[float, float], sides: tuple[int, int], drop: float) -> list[Floats]:
+def _skin(length: float, radii: tuple[float, float], sides: tuple[int, int], rise: float) -> list[Floats]:
     spigot = _SPIGOT * length
-    places = ((0.0, 0, 0.0), (spigot, 0, 0.0), (length - spigot, 1, drop), (length, 1, drop))
-    return [ring(x, radii[end], sides[end], low) for x, end, low in places]
+    places = ((0.0, 0, 0.0), (spigot, 0, 0.0), (length - spigot, 1, rise), (length, 1, rise))
+    return [ring(x, radii[end], sides[end], over) for x, end, over in places]
 
 
 def _skin_shells(loops: list[Floats]) -> list[Shell]:

@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.long_fittings import long_reducer
+from cadplants.long_fittings import long_reducer, ring
 from cadplants.mesh_ops import (
     Branch,
     Solid,
@@ -25,7 +25,7 @@ from cadplants.plant import Assembly, Component, Device
 from cadplants.standards import ELBOW_LONG_RADIUS, PIPES, REDUCER_LENGTH, TEE_CENTER_TO_END
 from cadplants.transforms import arc
 
-__all__ = ["bend_tangent", "cap", "elbow", "outlet", "pipe", "reducer", "spool", "stub", "tee"]
+__all__ = ["bend_tangent", "cap", "eccentric_reducer", "elbow", "outlet", "pipe", "reducer", "spool", "stub", "tee"]
 
 
 @cache
@@ -152,6 +152,32 @@ def _reducer_solid(dn: int, other: int, style: ModelingStyle) -> Solid:
 def reducer(dn: int, other: int, style: ModelingStyle) -> Device:
     """A concentric butt-welding reducer along x from one size to another."""
     component = Component(_reducer_solid(dn, other, style), "Pipe assembly", "reducer", style.color("pipe"))
+    return Device(Assembly((component,)), REDUCER_LENGTH[max(dn, other)])
+
+
+@cache
+def _eccentric_solid(dn: int, other: int, style: ModelingStyle) -> Solid:
+    if style.fittings == "long":
+        return long_reducer(dn, other, style, eccentric=True)
+    first, last, length = PIPES[dn], PIPES[other], REDUCER_LENGTH[max(dn, other)]
+    sides = style.round(max(first.radius, last.radius))
+    shares = (0.0, 0.12, 0.3, 0.5, 0.7, 0.88, 1.0)
+    ease = [0.5 - 0.5 * np.cos(np.pi * min(max((s - 0.12) / 0.76, 0.0), 1.0)) for s in shares]
+    rise = first.radius - last.radius
+
+    def skin(start: float, end: float) -> list[Floats]:
+        return [ring(s * length, start + e * (end - start), sides, e * rise) for e, s in zip(ease, shares, strict=True)]
+
+    outside = skin(first.radius, last.radius)
+    if style.hollow:
+        return weld([loft([*outside, *skin(first.bore, last.bore)[::-1]], closed=True)])
+    poles = [np.array([[0.0, 0.0, 0.0]]), np.array([[length, 0.0, rise]])]
+    return weld([loft([poles[0], *outside, poles[1]])])
+
+
+def eccentric_reducer(dn: int, other: int, style: ModelingStyle) -> Device:
+    """A reducer along x with a flat top, as before pumps: the axis of its other end lies higher."""
+    component = Component(_eccentric_solid(dn, other, style), "Pipe assembly", "reducer", style.color("pipe"))
     return Device(Assembly((component,)), REDUCER_LENGTH[max(dn, other)])
 
 

@@ -7,6 +7,8 @@ from collections.abc import Callable
 from cadplants.assortment import make_assortment
 from cadplants.defects import Defects, degrade
 from cadplants.field import make_field
+from cadplants.loop import make_loop
+from cadplants.manifold import make_manifold
 from cadplants.modeling_style import STYLES, ModelingStyle
 from cadplants.plant import Plant
 from cadplants.pumps import make_pumps
@@ -21,6 +23,8 @@ __all__ = ["PRESETS", "make"]
 PRESETS: dict[str, Callable[[int, ModelingStyle | None], Plant]] = {
     "assortment": make_assortment,
     "field": make_field,
+    "loop": make_loop,
+    "manifold": make_manifold,
     "pumps": make_pumps,
     "rack": make_rack,
     "riser": make_riser,

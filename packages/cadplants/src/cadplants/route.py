@@ -18,9 +18,12 @@ class Route:
 
     Args:
         points: ``(n, 3)`` [m], at least two, no leg of length 0.
+        jog: from which to which chainage on the last leg the axis moves aside (an eccentric reducer), and by what
+            ``(3,)`` [m].
     """
 
     points: Floats
+    jog: tuple[float, float, tuple[float, float, float]] | None = None
 
     @property
     def starts(self) -> Floats:
@@ -48,6 +51,9 @@ class Route:
         """The point ``(3,)`` at a chainage [m]."""
         leg = self.leg(s)
         result: Floats = self.points[leg] + (s - self.starts[leg]) * self.directions[leg]
+        if self.jog is not None:
+            low, high, aside = self.jog
+            result = result + np.clip((s - low) / (high - low), 0.0, 1.0) * np.array(aside)
         return result
 
     def frame(self, s: float, roll: float = 0.0) -> Floats:

@@ -36,7 +36,7 @@ def course(run: Run, one_way: Mapping[str, bool]) -> Assembly:
         if not node:
             node = f"{run.tag}/{name}"
             blind = run.ends[end] in ("blind", "plate")
-            points.append(_point(node, "terminal", run.route.points[-end], "blind" if blind else "open"))
+            points.append(_point(node, "terminal", run.route.point(s), "blind" if blind else "open"))
         nodes.append((s, node))
     nodes.sort()
     pairs = list(zip(nodes[:-1], nodes[1:], strict=True))
@@ -87,7 +87,9 @@ def centreline(run: Run) -> Floats:
         chords = max(2, round(_CHORDS * turn / (np.pi / 2)))
         for angle in np.linspace(0, turn, chords + 1):
             path.append(start + radius * (np.sin(angle) * before + (1 - np.cos(angle)) * inward))
-    path.append(points[-1] + run.arms[1] * ways[-1])
+    if run.route.jog is not None:
+        path += [run.route.point(s) for s in run.route.jog[:2]]
+    path.append(run.route.point(run.route.length) + run.arms[1] * ways[-1])
     return np.array(path)
 
 

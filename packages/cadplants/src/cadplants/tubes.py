@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
+import numpy.typing as npt
 
 from cadgraph.model.scene import Floats
 from cadplants.chainage import Axis
@@ -27,13 +28,17 @@ class Tube:
         axis: of its line.
         low: chainage of its first end [m].
         high: of its other end.
-        radius: greatest distance of its skin from its axis at the ends [m].
+        radius: greatest distance of its skin from its axis at the first end [m].
+        corners: indices of the vertices at its first and at its other end.
+        ways: unit directions ``(3,)`` of the line at both.
     """
 
     axis: Axis
     low: float
     high: float
     radius: float
+    corners: tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]
+    ways: tuple[Floats, Floats]
 
     @property
     def length(self) -> float:
@@ -57,19 +62,39 @@ class Joint:
 
 
 def find_tubes(plant: Plant) -> dict[int, Tube]:
-    """The pipes that lie on a line, by component; not those whose mesh is torn into loose triangles."""
+    """The pipes that lie on a line, by component."""
     axes = {line.id: Axis(line.points) for line in plant.lines}
-    tubes = {}
-    for i, component in enumerate(plant.components):
-        if component.name == "pipe" and component.line in axes:
-            axis = axes[component.line]
-            places = component.vertices
-            s = axis.along(places)
-            low, high = float(s.min()), float(s.max())
-            at_low = places[s < low + _AT_END]
-            radius = float(np.linalg.norm(at_low - axis.point(low), axis=1).max())
-            tubes[i] = Tube(axis, low, high, radius)
-    return tubes
+    outer = {line.id: line.outer for line in plant.lines}
+    return {
+        i: _straight(component, axes[component.line], outer[component.line]) or _bent(component, axes[component.line])
+        for i, component in enumerate(plant.components)
+        if component.name == "pipe" and component.line in axes
+    }
+
+
+def _straight(component: Component, axis: Axis, outer: float) -> Tube | None:
+    """A pipe along its own x axis; None where it is bent."""
+    x, across = component.solid.vertices[:, 0], np.hypot(*component.solid.vertices[:, 1:].T)
+    if across.max() > 0.55 * outer + _AT_END:
+        return None
+    ends = [component.pose[:3, :3] @ (end, 0.0, 0.0) + component.pose[:3, 3] for end in (x.min(), x.max())]
+    corners = [np.flatnonzero(x < x.min() + _AT_END), np.flatnonzero(x > x.max() - _AT_END)]
+    s = axis.along(np.array(ends))
+    if s[0] > s[1]:
+        ends, corners, s = ends[::-1], corners[::-1], s[::-1]
+    way = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
+    low, high = float(s[0]), float(s[1])
+    return Tube(axis, low, high, float(across.max()), (corners[0], corners[1]), (way, way))
+
+
+def _bent(component: Component, axis: Axis) -> Tube:
+    """A pipe with bends, which end some way before its ends."""
+    places = component.vertices
+    s = axis.along(places)
+    low, high = float(s.min()), float(s.max())
+    first, last = np.flatnonzero(s < low + _AT_END), np.flatnonzero(s > high - _AT_END)
+    radius = float(np.linalg.norm(places[first] - axis.point(low), axis=1).max())
+    return Tube(axis, low, high, radius, (first, last), (axis.way(low + 1e-6), axis.way(high - 1e-6)))
 
 
 def find_joints(plant: Plant, tubes: Mapping[int, Tube]) -> list[Joint]:
@@ -97,8 +122,7 @@ def trimmed(component: Component, tube: Tube, first: float, last: float) -> Comp
     if tube.length - first - last < _AT_END or tube.length < 2 * _AT_END:
         return component
     places = component.vertices
-    s = tube.axis.along(places)
-    places[s < tube.low + _AT_END] += first * tube.axis.way(tube.low + 1e-6)
-    places[s > tube.high - _AT_END] -= last * tube.axis.way(tube.high - 1e-6)
+    places[tube.corners[0]] += first * tube.ways[0]
+    places[tube.corners[1]] -= last * tube.ways[1]
     back = np.linalg.inv(component.pose)
     return replace(component, solid=Solid(places @ back[:3, :3].T + back[:3, 3], component.solid.faces))
