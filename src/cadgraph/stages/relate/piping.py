@@ -100,6 +100,7 @@ class Piping:
         groups: connected parts of one functional group, as labels have them.
         members: parts of groups that lines may end at.
         feet: parts of gauges, which may sit on the side of a line.
+        jackets: bodies around lines, insulation above all, which are neither line nor unit.
     """
 
     given: RelateInput
@@ -109,6 +110,7 @@ class Piping:
     groups: tuple[Group, ...]
     members: frozenset[int]
     feet: frozenset[int]
+    jackets: frozenset[int] = frozenset()
 
     @cached_property
     def joints(self) -> Attachments:
@@ -139,11 +141,11 @@ class Piping:
 
     @cached_property
     def apart(self) -> frozenset[int]:
-        """Parts that no unit takes in: the ground, and those whose line is joined to another one."""
+        """Parts that no unit takes in: the ground, jackets, and those whose line is joined to another one."""
         rows = {row for facing in self.joints.facings for row in (facing.first, facing.second)}
         rows |= {tapped.row for tapped in self.joints.taps if not tapped.tap.sleeve}
         ground = np.flatnonzero(self.given.parts.ground).tolist()
-        return frozenset({int(self.joints.ends.part[row]) for row in rows} | set(ground))
+        return self.jackets | {int(self.joints.ends.part[row]) for row in rows} | set(ground)
 
     @cached_property
     def unsupported(self) -> frozenset[int]:

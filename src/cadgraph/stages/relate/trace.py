@@ -10,10 +10,12 @@ import numpy as np
 
 from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.geometry.line.part_lines import lines_of_parts
+from cadgraph.geometry.shape.analysis import shapes_of
 from cadgraph.model.parts import Contacts, Parts
+from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.attach import Attachments, facings_of
 from cadgraph.stages.relate.decide import decide_joints
-from cadgraph.stages.relate.joint import gather_ends
+from cadgraph.stages.relate.joint import gather_ends, nearest_on
 from cadgraph.stages.relate.line import is_disc, is_plain_tube
 from cadgraph.stages.relate.offer import Surroundings, offer_faces
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
@@ -28,6 +30,9 @@ _RATIO, _OWN_RATIO = 0.3, 0.9
 # A device drawn as a mere cylinder is straight (cosine between its ends) and at most so many radii long: a DN 15 gate
 # valve has ten.
 _STRAIGHT, _LONGEST_DEVICE = -0.996, 12.0
+# A jacket has thinner lines (share of its radius) in its middle (likewise) at this share of so many places along it.
+# It is at least so many radii long: couplings are shorter.
+_THINNER, _OFF_MIDDLE, _JACKET, _SAMPLES, _LEAST_JACKET = 0.97, 0.25, 0.7, 9, 4.0
 _SAME_PLACE = 1e-4  # copies of a part lie this near to each other [m]
 
 
@@ -44,13 +49,22 @@ def trace_lines(given: RelateInput, roles: Roles) -> Piping:
     connectors = [part for part, group in enumerate(roles.groups) if group in given.vocabulary.connector_groups]
     others = likely_lines(roles, given.opinions, given.contacts, given.vocabulary, given.parts.ground.tolist())
     singles = [group.parts[0] for group in connected_groups(given, roles) if len(group.parts) == 1]
-    traced, copies = _distinct_lines(given, [*connectors, *others, *singles])
+    wrapped = _tubes_of_units(given, roles)
+    traced, copies = _distinct_lines(given, [*connectors, *others, *singles, *wrapped])
     lines = {part: traced[part] for part in connectors if part in traced}
+    jackets = {
+        part
+        for part, line in traced.items()
+        if given.labels[part] is given.opinions[part] and _is_jacket(part, line, lines, given.neighbors)
+    }
+    lines = {part: line for part, line in lines.items() if part not in jackets}
+    copies |= jackets
     ratios = _least_ratios(given, roles, others, singles, traced)
+    ratios = {part: ratio for part, ratio in ratios.items() if part not in jackets}
     if ratios:
         lines = _continued(lines, ratios, traced, given.contacts, given.config.relate.bridge)
     lineless = [part for part in connectors if part not in lines and part not in copies and given.cluster[part] >= 0]
-    groups = connected_groups(given, roles, lines)
+    groups = connected_groups(given, roles, lines.keys() | jackets)
     return Piping(
         given=given,
         roles=roles,
@@ -59,7 +73,20 @@ def trace_lines(given: RelateInput, roles: Roles) -> Piping:
         groups=tuple(groups),
         members=_parts_of(groups),
         feet=_parts_of(group for group in groups if group.unit_type == "gauge"),
+        jackets=frozenset(jackets),
     )
+
+
+def _tubes_of_units(given: RelateInput, roles: Roles) -> list[int]:
+    """Tubes that the labeler alone takes for pieces of devices."""
+    unit_of_group, known = given.vocabulary.unit_of_group, shapes_of(given.parts)
+    return [
+        part
+        for part, group in enumerate(roles.groups)
+        if group in unit_of_group
+        and given.labels[part] is given.opinions[part]
+        and known.facts[int(known.shape[part])].tube
+    ]
 
 
 def _parts_of(groups: Iterable[Group]) -> frozenset[int]:
@@ -111,6 +138,31 @@ def _least_ratios(
         elif roles.doubtful and is_disc(traced[part]):
             ratios[part] = _RATIO
     return ratios
+
+
+def _is_jacket(part: int, line: Centreline, sure: Mapping[int, Centreline], near: Mapping[int, Sequence[int]]) -> bool:
+    """Whether a line runs around lines that are sure, along most of its length: insulation."""
+    if line.length < _LEAST_JACKET * float(line.branches[0].radius.max()):
+        return False
+    around = [sure[other] for other in near.get(part, ()) if other in sure and other != part]
+    shared = total = 0
+    for branch in line.branches:
+        walked = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(branch.points, axis=0), axis=1))])
+        for s in np.linspace(0.0, walked[-1], _SAMPLES):
+            point = np.array([np.interp(s, walked, branch.points[:, c]) for c in range(3)])
+            total += 1
+            shared += _runs_within(point, float(np.interp(s, walked, branch.radius)), around)
+    return shared >= _JACKET * total
+
+
+def _runs_within(point: Floats, radius: float, lines: Sequence[Centreline]) -> bool:
+    """Whether one of some lines passes the middle of a wider section."""
+    for line in lines:
+        for branch in line.branches:
+            _, _, _, wall, apart = nearest_on(branch, point)
+            if apart <= _OFF_MIDDLE * radius and wall <= _THINNER * radius:
+                return True
+    return False
 
 
 def _may_be_device(line: Centreline, doubtful: bool) -> bool:
