@@ -10,6 +10,7 @@ from cadgraph.model.records import (
     Connected,
     Contains,
     GraphDocument,
+    Joint,
     Junction,
     Port,
     Site,
@@ -74,7 +75,11 @@ def chain(text, size=80, length=1.0, direction="forward", **more):
     return edges
 
 
-def network(nodes, edges, path="plant.usd", systems=True):
+def joint(first, second, gap=0.0, score=0.9, made=True, kind="face", reasons=("axes aligned",), at=(0.0, 0.0, 0.0)):
+    return Joint(first=first, second=second, kind=kind, point=at, gap=gap, score=score, made=made, reasons=reasons)
+
+
+def network(nodes, edges, path="plant.usd", systems=True, joints=()):
     """A graph of nodes and edges; one system of all that has an edge."""
     used = {end for edge in edges for end in (edge.source, edge.target)}
     if systems and used:
@@ -88,7 +93,9 @@ def network(nodes, edges, path="plant.usd", systems=True):
         nodes = [*nodes, system]
         edges = [*edges, *(Contains(source=system.id, target=member) for member in members[0])]
     return SceneGraph(
-        GraphDocument(nodes=(Site(id="site"), *nodes), edges=tuple(edges), source=SourceRecord(path=path))
+        GraphDocument(
+            nodes=(Site(id="site"), *nodes), edges=tuple(edges), source=SourceRecord(path=path), joints=tuple(joints)
+        )
     )
 
 
