@@ -269,7 +269,6 @@ def test_a_graph_without_joints_says_nothing_of_them(graph, tmp_path):
     [
         ({"first": "part-9"}, "'face' joint of 'part-9' and 'part-2' names 'part-9', but no part has that id"),
         ({"second": "unit-V-001"}, "names 'unit-V-001', but no part has that id"),
-        ({"second": "part-0"}, "joins a part with itself"),
         ({"score": 1.5}, r"joint 'face' of 'part-0' and 'part-2' \(joints.0.score\)"),
         ({"kind": "glue"}, r"joint 'glue' of 'part-0' and 'part-2' \(joints.0.kind\)"),
         ({"gap": "wide"}, "joints.0.gap"),

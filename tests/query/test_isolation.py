@@ -136,9 +136,7 @@ def test_a_dead_end_needs_nothing():
 
 
 def test_a_unit_without_a_line_gets_no_answer():
-    with pytest.raises(
-        Unconnected, match="no line was found at P-001; can't say what isolates it.*explain FOLDER P-001"
-    ):
+    with pytest.raises(Unconnected, match=r"no line was found at P-001; can't say what isolates it: .*explain"):
         find_isolation(network([unit("P-001")], []), "P-001")
 
 
@@ -184,7 +182,7 @@ def test_a_relief_valve_that_blows_into_the_open_is_no_doubt():
 
 
 def jointed(*joints):
-    """T-001 - V-001 - P-001 - V-002 - T-002, with one part for each unit and pipe: unit parts t1 v1 p1 v2 t2, pipe p1v2."""
+    """T-001 - V-001 - P-001 - V-002 - T-002, of parts t1, v1, p1, v2, t2 and a pipe; E-001 apart, of part e1."""
     names = {"T-001": "t1", "V-001": "v1", "P-001": "p1", "V-002": "v2", "T-002": "t2", "E-001": "e1"}
     nodes = [graphs.part(k, f"/{name}", id=name) for k, name in enumerate([*names.values(), "pipe", "far"])]
     nodes += [unit(tag).model_copy(update={"parts": (part,)}) for tag, part in names.items()]

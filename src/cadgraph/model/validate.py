@@ -77,8 +77,8 @@ def check_document(document: GraphDocument) -> None:
 
     Raises:
         FormatError: a node id, a mesh, a tag, a contact or a relation is there twice; an edge or node names what isn't
-            there or is of the wrong layer; a contact has the wrong order or a distance below zero; a joint joins a part
-            with itself; there isn't exactly one site.
+            there or is of the wrong layer; a contact has the wrong order or a distance below zero; there isn't exactly
+            one site.
     """
     nodes = check_names(document)
     _check_edges(document.edges, nodes)
@@ -150,9 +150,8 @@ def _check_nodes(listed: Iterable[Node], nodes: Mapping[str, Node]) -> None:
 def _check_joints(joints: Iterable[Joint], nodes: Mapping[str, Node]) -> None:
     for joint in joints:
         here = f"the {joint.kind!r} joint of {joint.first!r} and {joint.second!r}"
+        # A part may join itself: what a mesh holds may be several pieces of pipe.
         _check_known((joint.first, joint.second), Part, nodes, here)
-        if joint.first == joint.second:
-            raise FormatError(f"{here} joins a part with itself")
 
 
 def _check_known(names: Iterable[str], layer: type[Any], nodes: Mapping[str, Node], here: str) -> None:

@@ -58,7 +58,7 @@ def open_sides(network: Network, places: Collection[str], about: About = "follow
 
 
 def few_ports(network: Network, place: str) -> tuple[int, int] | None:
-    """How many ports of a unit have a line, and how many its kind needs; None where that is enough, or it is no unit."""
+    """How many ports of a unit have a line and how many its kind needs; None where that is enough, or it is no unit."""
     node = network.places[place]
     if not isinstance(node, Unit):
         return None

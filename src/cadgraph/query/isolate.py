@@ -115,9 +115,9 @@ def find_isolation(
     """The valves that isolate a unit, on every one of its ports.
 
     By default the nearest valve on every way out, so that as little as possible is shut off with it; a valve behind
-    which nothing can flow (a blind end, an instrument) need not be closed, one of which only one side is known must. Control valves never count as isolating,
-    relief valves are taken for closed and never asked to be blocked. A tank is a source: the section ends there, valve
-    or not.
+    which nothing can flow (a blind end, an instrument) need not be closed, one of which only one side is known must.
+    Control valves never count as isolating, relief valves are taken for closed and never asked to be blocked. A tank is
+    a source: the section ends there, valve or not.
 
     Args:
         graph: the finished graph, or its network.
