@@ -81,12 +81,13 @@ def joint(first, second, gap=0.0, score=0.9, made=True, kind="face", reasons=("a
 
 def network(nodes, edges, path="plant.usd", systems=True, joints=()):
     """A graph of nodes and edges; one system of all that has an edge."""
-    used = {end for edge in edges for end in (edge.source, edge.target)}
+    pipes = [edge for edge in edges if isinstance(edge, Connected)]
+    used = {end for edge in pipes for end in (edge.source, edge.target)}
     if systems and used:
         kinds = (Unit, Junction, Terminal)
         members = [tuple(n.id for n in nodes if isinstance(n, kind) and n.id in used) for kind in kinds]
-        length = sum(edge.length or 0 for edge in edges)
-        sizes = tuple(sorted({edge.size for edge in edges if edge.size}))
+        length = sum(edge.length or 0 for edge in pipes)
+        sizes = tuple(sorted({edge.size for edge in pipes if edge.size}))
         system = System(
             id="system-001", units=members[0], junctions=members[1], terminals=members[2], length=length, sizes=sizes
         )

@@ -9,10 +9,12 @@ from typing import Any
 
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import Evidence, GivenEvidence
-from cadgraph.model.records import Adjacent, Part
+from cadgraph.model.records import Adjacent, Junction, Part, Terminal, Unit
 from cadgraph.model.vocabulary import spell_label
+from cadgraph.query.explain_connection import ConnectionExplanation, explain_connection
+from cadgraph.query.explain_unit import UnitExplanation, explain_unit
 
-__all__ = ["Explanation", "Neighbor", "explain"]
+__all__ = ["Explanation", "Neighbor", "explain", "explain_any"]
 
 _MOST_TOLD = 12  # of neighbours and repeats, in words
 
@@ -133,6 +135,26 @@ def explain(graph: SceneGraph, which: str) -> Explanation:
         cluster=None if cluster is None else cluster.id,
         inside=part.inside,
     )
+
+
+def explain_any(
+    graph: SceneGraph, which: str, other: str | None = None
+) -> Explanation | UnitExplanation | ConnectionExplanation:
+    """Explains whatever is called so: a part's label, a unit's lines, or what connects two units.
+
+    Args:
+        graph: finished.
+        which: id of a part, source path of a mesh, tag of a unit, id of a junction or of an end.
+        other: of what else, where the connection of the two is asked for; a part then stands for its unit.
+
+    Raises:
+        UnknownNode: the graph has nothing of that name.
+        ValueError: both are the same.
+    """
+    if other is not None:
+        return explain_connection(graph, which, other)
+    node = graph.find(which, Part, Unit, Junction, Terminal)
+    return explain(graph, node.id) if isinstance(node, Part) else explain_unit(graph, node.id)
 
 
 def _why(part: Part) -> str:
