@@ -66,8 +66,8 @@ def test_a_unit_that_lacks_lines_says_how_many_and_what_is_near():
     assert (found.used, found.least, found.missing, found.ports) == (0, 2, 2, ())
     rows = found.lines()
     assert ("missing", "none of 2 nozzles with a line: 2 more would make a whole pump") in rows
-    assert ("not joined", "p (unlabelled of P-001) - b (unlabelled of terminal-001), an end at a body, gap 3.0 mm, 31%: "
-            "axes aligned") in rows  # fmt: skip
+    near = "p (unlabelled of P-001) - b (unlabelled of terminal-001), an end at a body, gap 3.0 mm, 31%: axes aligned"
+    assert ("not joined", near) in rows
     assert any("2.0 mm into each other" in text for _, text in rows)
 
 

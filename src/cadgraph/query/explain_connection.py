@@ -201,7 +201,7 @@ class _Search:
         return set(self._network.places[place].parts)
 
     def _chain(self, here: set[str], there: set[str], within: set[str] | None, most: int = _MOST_STEPS) -> list[Joint]:
-        """The fewest joints that lead from some parts to others, over some parts or over any; none if there are none."""
+        """The fewest joints that lead from some parts to others, over some parts or over any; empty if none do."""
         came: dict[str, tuple[str, Joint] | None] = dict.fromkeys(sorted(here))
         queue = deque((part, 0) for part in came)
         while queue:
@@ -328,4 +328,5 @@ def _said_nearest(nearest: Nearest | None) -> str:
     if nearest.touching:
         apart = f"{1000 * nearest.distance:.1f} mm apart" if nearest.distance > 0 else "touching"
         return f"nothing was found that joins them; nearest are {first} and {last}, {apart}, which carry no common line"
-    return f"nothing was found between them; nearest are {first} and {last}, whose boxes are {nearest.distance:.2f} m apart"
+    apart = f"{nearest.distance:.2f} m apart"
+    return f"nothing was found between them; nearest are {first} and {last}, whose boxes are {apart}"
