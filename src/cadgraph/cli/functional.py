@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from rich.console import Console
 from rich.markup import escape
 
 from cadgraph.cli.application import app
@@ -48,16 +50,23 @@ def lines(
     if as_csv:
         _deliver(table_bytes(line_rows(found)), file, len(found))
     elif as_json:
-        rows = json.dumps([line_values(line) for line in found], ensure_ascii=False, indent=1)
-        _deliver((rows + "\n").encode(), file, len(found))
+        _deliver(_json_bytes([line_values(line) for line in found]), file, len(found))
     else:
-        for text in line_table(found):
-            out.print(escape(text))
-    # Beside the list, so that what reads it as CSV or JSON meets nothing else.
-    for text in gap_lines(network) if of is None else ():
-        (err if as_csv or as_json else out).print(f"note: {escape(text)}")
+        _print(out, line_table(found))
+    if of is None:
+        # Beside the list, so that what reads it as CSV or JSON meets nothing else.
+        _print(err if as_csv or as_json else out, (f"note: {text}" for text in gap_lines(network)))
     if not found and network.graph.units():
         raise typer.Exit(1)
+
+
+def _json_bytes(values: Any) -> bytes:
+    return (json.dumps(values, ensure_ascii=False, indent=1) + "\n").encode()
+
+
+def _print(screen: Console, texts: Iterable[str]) -> None:
+    for text in texts:
+        screen.print(escape(text))
 
 
 def _deliver(content: bytes, file: Path | None, n_lines: int) -> None:
@@ -206,5 +215,4 @@ def _show(text: list[str], values: dict[str, Any], as_json: bool) -> None:
     if as_json:
         typer.echo(json.dumps(values, ensure_ascii=False, indent=1))
         return
-    for line in text:
-        out.print(escape(line))
+    _print(out, text)

@@ -28,8 +28,9 @@ def write_tables(graph: SceneGraph, folder: str | Path) -> list[Path]:
     """Writes a CSV file for each kind of node and edge of a graph.
 
     They are ``parts.csv``, ``units.csv``, ``connections.csv``, ``junctions.csv``, ``ends.csv``, ``systems.csv``,
-    ``joints.csv``, ``clusters.csv``, ``contacts.csv``, ``meshes.csv`` and, for the relations of the paper's Algorithm 1,
-    ``related.csv``. ``between`` in the connections says whether one joins two units, a junction, or leads to an end.
+    ``joints.csv``, ``clusters.csv``, ``contacts.csv``, ``meshes.csv``, and ``related.csv`` for the relations of the
+    paper's Algorithm 1. ``between`` in the connections says whether one joins two units, a junction, or leads to an
+    end.
 
     UTF-8 with a byte order mark, by which Excel knows it. Units are in the column names. Text that a spreadsheet would
     run as a formula gets an apostrophe in front.
@@ -78,7 +79,8 @@ def _parts(graph: SceneGraph) -> Iterator[Row]:
 
 def _units(graph: SceneGraph) -> Iterator[Row]:
     yield (
-        "tag", "type", "kind", "n_parts", "n_ports", "system", "cluster", *_PLACE, "connected_to", "related_to", "parts",
+        "tag", "type", "kind", "n_parts", "n_ports", "system", "cluster", *_PLACE, "connected_to", "related_to",
+        "parts",
     )  # fmt: skip
     system_of = {node: system.id for system in graph.systems() for node in system.units}
     for unit in graph.of_layer(Unit):

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.records import Adjacent, Joint, Junction, Part, Terminal, Unit
+from cadgraph.model.records import Adjacent, Joint, Part, Unit
 from cadgraph.query.network import Arc, Network
 from cadgraph.query.told_joint import ToldJoint, name_part, say_joint, tell_joint
 
@@ -224,13 +224,12 @@ class _Search:
 
         network = self._network
         held: networkx.Graph[str] = networkx.Graph()
-        held.add_nodes_from(node.id for node in network.graph.document.nodes if isinstance(node, _STANDING))
-        for place, node in network.places.items():
-            held.add_edges_from((place, part) for part in node.parts)
-        for edge in network.edges:
-            held.add_edges_from((edge.source, end) for end in (*edge.via, edge.target))
-        held.add_edges_from((joint.first, joint.second) for joint in network.graph.document.joints if joint.made)
-        return {name: k for k, names in enumerate(networkx.connected_components(held)) for name in names}
+        held.add_nodes_from(part.id for part in network.graph.parts())
+        held.add_nodes_from(network.places)
+        held.add_edges_from((place, part) for place, node in network.places.items() for part in node.parts)
+        held.add_edges_from((edge.source, end) for edge in network.edges for end in (*edge.via, edge.target))
+        held.add_edges_from((joint.first, joint.second) for joint in network.graph.joints(made=True))
+        return _numbered(networkx.connected_components(held))
 
     def between(self, blank: ConnectionExplanation, first: str, last: str) -> ConnectionExplanation:
         """The explanation with what is missing between two nodes that no way joins."""
@@ -276,31 +275,34 @@ class _Search:
     def _nearest(self, first: int, last: int) -> Nearest | None:
         """The parts of two pieces that touch, else those whose boxes are nearest to each other."""
         graph = self._network.graph
-        sides = [[part for part in graph.parts() if self._pieces[part.id] == piece] for piece in (first, last)]
-        if not all(sides):
-            return None
-        touching = [e for e in graph.of_kind(Adjacent) if self._joins(e, first, last)]
+        touching = [edge for edge in graph.of_kind(Adjacent) if self._joins(edge, first, last)]
         if touching:
             edge = min(touching, key=lambda e: (e.distance, e.source, e.target))
             ends = graph.part(edge.source), graph.part(edge.target)
             a, b = ends if self._pieces[edge.source] == first else ends[::-1]
             return _nearest_of(a, b, edge.distance, True)
-        boxes = np.array([part.aabb for part in sides[1]])
-        best: tuple[float, Part, Part] | None = None
-        for part in sides[0]:
-            low, high = np.array(part.aabb)
-            gaps = np.maximum(0.0, np.maximum(boxes[:, 0] - high, low - boxes[:, 1]))
-            distances = np.linalg.norm(gaps, axis=1)
-            k = int(distances.argmin())
-            if best is None or distances[k] < best[0]:
-                best = float(distances[k]), part, sides[1][k]
-        return None if best is None else _nearest_of(best[1], best[2], best[0], False)
+        sides = [[part for part in graph.parts() if self._pieces[part.id] == piece] for piece in (first, last)]
+        return _nearest_boxes(*sides) if all(sides) else None
 
     def _joins(self, edge: Adjacent, first: int, last: int) -> bool:
         return {self._pieces[edge.source], self._pieces[edge.target]} == {first, last}
 
 
-_STANDING = Unit | Junction | Terminal | Part
+def _nearest_boxes(first: Sequence[Part], last: Sequence[Part]) -> Nearest:
+    """The two parts, one of each list, whose boxes are nearest to each other; the first of several."""
+    boxes = np.array([part.aabb for part in last])
+    found: list[tuple[float, int, int]] = []
+    for row, part in enumerate(first):
+        low, high = np.array(part.aabb)
+        gaps = np.maximum(0.0, np.maximum(boxes[:, 0] - high, low - boxes[:, 1]))
+        distances = np.linalg.norm(gaps, axis=1)
+        found.append((float(distances.min()), row, int(distances.argmin())))
+    distance, row, column = min(found)
+    return _nearest_of(first[row], last[column], distance, False)
+
+
+def _numbered(pieces: Iterable[Iterable[str]]) -> dict[str, int]:
+    return {name: number for number, names in enumerate(pieces) for name in names}
 
 
 def _back(came: Mapping[str, tuple[str, Joint] | None], part: str) -> list[Joint]:

@@ -9,7 +9,7 @@ from typing import Any
 
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.ports import least_ports, port_word
-from cadgraph.model.records import Joint, Point, Unit
+from cadgraph.model.records import Part, Point, Unit
 from cadgraph.query.network import Arc, Network
 from cadgraph.query.told_joint import ToldJoint, name_part, say_joint, tell_joint
 
@@ -105,8 +105,13 @@ class UnitExplanation:
             rows.append((f"{self._word} {port.port}" if port.port else self._word, _said_port(port)))
             rows += [("", say_joint(joint)) for joint in port.joints]
         rows += [("joined", say_joint(joint)) for joint in self.joints]
+        return rows + self._lacking_rows()
+
+    def _lacking_rows(self) -> list[tuple[str, str]]:
+        """What is missing for its kind, and what might be joined to it."""
+        rows = []
         if self.missing:
-            has = f"{self.used} of {self.least} {self._word}s" if self.used else f"none of {self.least} {self._word}s"
+            has = f"{self.used or 'none'} of {self.least} {self._word}s"
             rows.append(("missing", f"{has} with a line: {self.missing} more would make a whole {self.what}"))
         rows += [("not joined", say_joint(joint)) for joint in self.open_joints[:_MOST_JOINTS]]
         more = len(self.open_joints) - _MOST_JOINTS
@@ -135,76 +140,97 @@ def explain_unit(graph: SceneGraph | Network, which: str) -> UnitExplanation:
     network = graph if isinstance(graph, Network) else Network(graph)
     place = network.find(which)
     node = network.places[place]
-    own = frozenset(node.parts)
-    across = [joint for joint in network.graph.document.joints if (joint.first in own) != (joint.second in own)]
-    made = sorted((joint for joint in across if joint.made), key=_surest)
-    ways = _ways(network, place)
-    by_way = _at_ways(ways, made, {} if not isinstance(node, Unit) else {p.name: p.point for p in node.ports})
-    told = {id(joint): tell_joint(network, joint, own) for joint in across}
-    ports = tuple(
-        PortInUse(
-            port=port,
-            to=tuple(network.name(arc.end) for arc in arcs),
-            lengths=tuple(arc.length for arc in arcs),
-            sizes=tuple(arc.sizes[0] if arc.sizes else None for arc in arcs),
-            confidences=tuple(arc.edge.confidence for arc in arcs),
-            joints=tuple(told[id(joint)] for joint in by_way[k]),
-        )
-        for k, (port, arcs) in enumerate(ways)
-    )
-    at_ports = {id(joint) for joints in by_way for joint in joints}
-    parts = [network.graph.part(part) for part in node.parts]
+    told = _told(network, frozenset(node.parts))
+    ports, elsewhere = _ports(network, place, [joint for joint in told if joint.made])
     return UnitExplanation(
         place=place,
         name=network.name(place),
         what=network.what(place),
         unit_type=network.unit_type(place),
-        parts=tuple(UnitPart(part.id, part.meshes[0], name_part(part)) for part in parts),
+        parts=tuple(_part(network.graph.part(part)) for part in node.parts),
         system=network.system(place),
         ports=ports,
         least=least_ports(node.unit_type, node.kind) if isinstance(node, Unit) else None,
         used=network.ports_in_use(place),
-        joints=tuple(told[id(joint)] for joint in made if id(joint) not in at_ports),
-        open_joints=tuple(told[id(joint)] for joint in sorted(across, key=_surest) if not joint.made),
+        joints=elsewhere,
+        open_joints=tuple(joint for joint in told if not joint.made),
         recorded=bool(network.graph.document.joints),
     )
 
 
-def _surest(joint: Joint) -> tuple[object, ...]:
-    return -joint.score, joint.first, joint.second, joint.point
+def _told(network: Network, own: frozenset[str]) -> list[ToldJoint]:
+    """The joints between some parts and others, the surest first."""
+    joints = [joint for joint in network.graph.document.joints if (joint.first in own) != (joint.second in own)]
+    joints.sort(key=lambda joint: (-joint.score, joint.first, joint.second, joint.point))
+    return [tell_joint(network, joint, own) for joint in joints]
 
 
-def _ways(network: Network, place: str) -> list[tuple[str | None, tuple[Arc, ...]]]:
-    """The ports of a unit with the connections there, then each connection that names no port."""
-    node, arcs = network.places[place], network.arcs(place)
-    names = [port.name for port in node.ports] if isinstance(node, Unit) else []
-    names += [name for name in dict.fromkeys(arc.start_port for arc in arcs) if name is not None and name not in names]
-    ways: list[tuple[str | None, tuple[Arc, ...]]] = [
-        (name, tuple(arc for arc in arcs if arc.start_port == name)) for name in names
-    ]
-    return [*ways, *((None, (arc,)) for arc in arcs if arc.start_port is None)]
+def _part(part: Part) -> UnitPart:
+    return UnitPart(part.id, part.meshes[0], name_part(part))
 
 
-def _at_ways(
-    ways: Sequence[tuple[str | None, tuple[Arc, ...]]], made: Sequence[Joint], points: dict[str, Point]
-) -> list[list[Joint]]:
-    """Of each way out the joints there: with the first part on the way, else at the nearest port."""
-    found: list[list[Joint]] = [[] for _ in ways]
+@dataclass(frozen=True)
+class _Way:
+    """A port with the connections there, or a connection that names no port."""
+
+    port: str | None
+    point: Point | None
+    arcs: tuple[Arc, ...]
+
+    def leads_over(self, part: str) -> bool:
+        """Whether a connection here begins with a part."""
+        return any(arc.via[:1] == (part,) for arc in self.arcs)
+
+    def away(self, point: Point) -> float:
+        """How far a point is from where it begins [m]."""
+        starts = [self.point] if self.point is not None else [arc.path[0] for arc in self.arcs if arc.path]
+        return min((math.dist(point, start) for start in starts), default=math.inf)
+
+
+def _ports(
+    network: Network, place: str, made: Sequence[ToldJoint]
+) -> tuple[tuple[PortInUse, ...], tuple[ToldJoint, ...]]:
+    """The ways out of a node with the joints at each, and the joints that are at none of them."""
+    ways = _ways(network, place)
+    at: dict[int, list[ToldJoint]] = {}
     for joint in made:
-        ends = {joint.first, joint.second}
-        fits = [k for k, (_, arcs) in enumerate(ways) if any(arc.via and arc.via[0] in ends for arc in arcs)]
-        placed = [k for k, (port, _) in enumerate(ways) if port in points]
-        among = fits or placed
-        if not among:
-            continue
-        found[min(among, key=lambda k: _away(joint, ways[k], points))].append(joint)
-    return found
+        at.setdefault(_way_of(joint, ways), []).append(joint)
+    ports = tuple(
+        PortInUse(
+            port=way.port,
+            to=tuple(network.name(arc.end) for arc in way.arcs),
+            lengths=tuple(arc.length for arc in way.arcs),
+            sizes=tuple(arc.sizes[0] if arc.sizes else None for arc in way.arcs),
+            confidences=tuple(arc.edge.confidence for arc in way.arcs),
+            joints=tuple(at.get(k, ())),
+        )
+        for k, way in enumerate(ways)
+    )
+    return ports, tuple(at.get(_NOWHERE, ()))
 
 
-def _away(joint: Joint, way: tuple[str | None, tuple[Arc, ...]], points: dict[str, Point]) -> float:
-    port, arcs = way
-    ends = [points[port]] if port in points else [arc.path[0] for arc in arcs if arc.path]
-    return min((math.dist(joint.point, end) for end in ends), default=math.inf)
+_NOWHERE = -1
+
+
+def _ways(network: Network, place: str) -> list[_Way]:
+    """The ports of a unit with the connections there, then each connection that names no port."""
+    node = network.places[place]
+    points = {port.name: port.point for port in node.ports} if isinstance(node, Unit) else {}
+    named: dict[str, list[Arc]] = {name: [] for name in points}
+    unnamed: list[_Way] = []
+    for arc in network.arcs(place):
+        if arc.start_port is None:
+            unnamed.append(_Way(None, None, (arc,)))
+        else:
+            named.setdefault(arc.start_port, []).append(arc)
+    return [*(_Way(name, points.get(name), tuple(arcs)) for name, arcs in named.items()), *unnamed]
+
+
+def _way_of(joint: ToldJoint, ways: Sequence[_Way]) -> int:
+    """The number of the way that a joint is on: that over its other part, else the nearest port; -1 for none."""
+    among = [k for k, way in enumerate(ways) if way.leads_over(joint.far)]
+    among = among or [k for k, way in enumerate(ways) if way.leads_over(joint.near) or way.point is not None]
+    return min(among, key=lambda k: ways[k].away(joint.point), default=_NOWHERE)
 
 
 def _said_parts(parts: Sequence[UnitPart]) -> str:

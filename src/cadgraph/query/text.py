@@ -186,32 +186,33 @@ def trace_values(found: Trace) -> dict[str, Any]:
 
 
 def isolation_lines(found: Isolation) -> list[str]:
-    """What to close, what can't be isolated, what else is shut off."""
+    """What can't be isolated, what makes that doubtful, what to close, what else is shut off."""
     told = []
-    by_hand = [valve for valve in found.valves if not valve.automatic]
     if found.openings:
         told.append(f"{found.name} can't be isolated wholly:")
         open_rows = [(f"{o.name} ({o.what})", _by(o.port), _metres(o.distance), o.why) for o in found.openings]
         told += [f"  {row}" for row in aligned(open_rows, right=(2,))]
     if found.doubts:
-        told += _doubt_lines(
-            f"these valves may not isolate {found.name} wholly:"
-            if found.valves
-            else f"nobody can tell what isolates {found.name} wholly:",
-            found.doubts,
-        )
-    if found.valves:
-        told.append(f"to isolate {found.name}, close {len(by_hand)} valve{'s' * (len(by_hand) != 1)}:")
-        rows = [
-            (v.name, v.what, _by(v.port), _metres(v.distance), v.line or "", "closes by itself" if v.automatic else "")
-            for v in found.valves
-        ]
-        told += [f"  {row}" for row in aligned(rows, right=(3,))]
-    elif found.isolated:
+        heading = "these valves may not isolate" if found.valves else "nobody can tell what isolates"
+        told += _doubt_lines(f"{heading} {found.name} wholly:", found.doubts)
+    if found.isolated and not found.valves:
         told.append(f"no valve has to be closed to isolate {found.name}: nothing can flow to it")
     shut = ", ".join(found.shut_off_names) or "nothing else"
-    told.append(f"shut off with it: {shut}" + (f" (lines {', '.join(found.lines)})" if found.lines else ""))
-    return told + [f"note: {remark}" for remark in found.remarks]
+    lines = f" (lines {', '.join(found.lines)})" if found.lines else ""
+    return [*told, *_closing_lines(found), f"shut off with it: {shut}{lines}", *(f"note: {r}" for r in found.remarks)]
+
+
+def _closing_lines(found: Isolation) -> list[str]:
+    """The valves to close, if any."""
+    if not found.valves:
+        return []
+    count = sum(not valve.automatic for valve in found.valves)
+    rows = [
+        (v.name, v.what, _by(v.port), _metres(v.distance), v.line or "", "closes by itself" if v.automatic else "")
+        for v in found.valves
+    ]
+    heading = f"to isolate {found.name}, close {count} valve{'s' * (count != 1)}:"
+    return [heading, *(f"  {row}" for row in aligned(rows, right=(3,)))]
 
 
 def isolation_values(found: Isolation) -> dict[str, Any]:

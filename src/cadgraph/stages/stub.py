@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import replace
 
-from cadgraph.model.parts import Link, Network
+from cadgraph.model.parts import Link, Network, UnitParts
 
 __all__ = ["drop_stubs"]
 
@@ -35,41 +35,60 @@ def drop_stubs(network: Network) -> Network:
 
 def _without(network: Network, stubs: list[Link]) -> Network:
     """The network without some links, and without what only they used."""
-    n_units = len(network.units)
     links = [link for link in network.links if link not in stubs]
-    used = {node for link in links for node in (link.source, link.target)}
-    gone = {node for link in stubs for node in (link.source, link.target)} - used
-    kept = [k for k in range(n_units + len(network.places)) if k < n_units or k not in gone]
-    number = {node: k for k, node in enumerate(kept)}
-    ports = _ports(network, links, stubs)
-    units = tuple(
-        replace(unit, openings=tuple(unit.openings[port] for port in ports[k])) for k, unit in enumerate(network.units)
+    gone = _nodes(stubs) - _nodes(links)
+    first_place = len(network.units)
+    stays = [*range(first_place), *(k for k in range(first_place, first_place + len(network.places)) if k not in gone)]
+    number = {node: k for k, node in enumerate(stays)}
+    ports = [_ports(k, len(unit.openings), links, stubs) for k, unit in enumerate(network.units)]
+    return replace(
+        network,
+        units=tuple(map(_with_ports, network.units, ports)),
+        places=tuple(network.places[node - first_place] for node in stays[first_place:]),
+        links=tuple(_renumbered(link, number, ports) for link in links),
+        systems=_systems(network, gone, number),
     )
-    port_number = {(unit, port): new for unit, old in ports.items() for new, port in enumerate(old)}
-    moved = tuple(
-        replace(
-            link,
-            source=number[link.source],
-            target=number[link.target],
-            source_port=port_number.get((link.source, link.source_port), -1),
-            target_port=port_number.get((link.target, link.target_port), -1),
-        )
-        for link in links
-    )
-    systems = (tuple(number[node] for node in members if node not in gone) for members in network.systems)
-    places = tuple(place for k, place in enumerate(network.places, n_units) if k not in gone)
-    return replace(network, units=units, places=places, links=moved, systems=tuple(s for s in systems if s))
 
 
-def _ports(network: Network, links: list[Link], stubs: list[Link]) -> dict[int, list[int]]:
-    """Of each unit the openings that stay: all but those that only stubs use."""
+def _systems(network: Network, gone: set[int], number: dict[int, int]) -> tuple[tuple[int, ...], ...]:
+    """The connected networks that have anything left."""
+    left = (tuple(number[node] for node in members if node not in gone) for members in network.systems)
+    return tuple(members for members in left if members)
 
-    def named(those: list[Link]) -> set[tuple[int, int]]:
-        ends = [((link.source, link.source_port), (link.target, link.target_port)) for link in those]
-        return {end for pair in ends for end in pair}
 
-    dropped = named(stubs) - named(links)
+def _with_ports(unit: UnitParts, ports: list[int]) -> UnitParts:
+    return replace(unit, openings=tuple(unit.openings[port] for port in ports))
+
+
+def _nodes(links: list[Link]) -> set[int]:
+    return {node for link in links for node in (link.source, link.target)}
+
+
+def _ports(unit: int, n_openings: int, links: list[Link], stubs: list[Link]) -> list[int]:
+    """The openings of a unit that stay: all but those that only stubs use."""
+    gone = _used(unit, stubs) - _used(unit, links)
+    return [port for port in range(n_openings) if port not in gone]
+
+
+def _used(unit: int, links: list[Link]) -> set[int]:
     return {
-        k: [port for port in range(len(unit.openings)) if (k, port) not in dropped]
-        for k, unit in enumerate(network.units)
+        port
+        for link in links
+        for node, port in ((link.source, link.source_port), (link.target, link.target_port))
+        if node == unit
     }
+
+
+def _renumbered(link: Link, number: dict[int, int], ports: list[list[int]]) -> Link:
+    """A link between the same things, by their new numbers."""
+
+    def port_of(node: int, port: int) -> int:
+        return ports[node].index(port) if port >= 0 else -1
+
+    return replace(
+        link,
+        source=number[link.source],
+        target=number[link.target],
+        source_port=port_of(link.source, link.source_port),
+        target_port=port_of(link.target, link.target_port),
+    )

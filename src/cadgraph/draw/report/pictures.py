@@ -155,9 +155,7 @@ def _by_group(ready: _Ready, camera: Camera, image: Image.Image, legend: tuple[L
     if any(isinstance(edge, Connected) for edge in edges):
         told += "Red lines are the connections along the pipes; red balls are units, grey ones junctions and ends. "
     elif edges:
-        told += (
-            "Red lines are the relations of the paper's Algorithm 1 between units, whose balls are at their centroids. "
-        )
+        told += "Red lines are the relations of the paper's Algorithm 1 between units, with balls at their centroids. "
     elif units:
         told += "Red balls stand at the centroids of the functional units. "
     told += _untagged(len(units), tagged)
@@ -255,7 +253,7 @@ def _edge_word(edges: Sequence[Edge]) -> str:
 
 
 def _grounded(ready: _Ready, meshes: Ints) -> Look:
-    """A floor only where the structure stands on the same ground as the scene: else its shadow would hang in the air."""
+    """A floor only where the structure stands on the scene's own ground: else its shadow would hang in the air."""
     everything, structure = ready.renderer.caster(), ready.renderer.caster(meshes)
     height = everything.high[2] - everything.low[2]
     return replace(ready.look, floor=bool(structure.low[2] - everything.low[2] < 0.1 * height))
