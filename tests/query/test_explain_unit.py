@@ -6,6 +6,7 @@ import graphs
 from cadgraph.errors import UnknownNode
 from cadgraph.model.records import Port
 from cadgraph.query import explain_unit
+from cadgraph.query.explain import explain
 from networks import chain, joint, network, terminal, unit
 
 
@@ -91,6 +92,12 @@ def test_an_end_of_a_line_can_be_asked_about(which):
     found = explain_unit(plant(*JOINTS), which)
     assert (found.what, found.least, found.missing) == ("open end", None, 0)
     assert [joint.far for joint in found.open_joints] == ["p", "w"]
+
+
+def test_a_part_says_where_it_is_joined_made_ones_first():
+    found = explain(plant(*JOINTS), "b")
+    assert [(joint.far, joint.made) for joint in found.joints] == [("v", True), ("p", False), ("w", False)]
+    assert [heading for heading, _ in found.lines()][-3:] == ["joined", "not joined", "not joined"]
 
 
 def test_a_graph_that_names_no_joints_says_so():

@@ -144,6 +144,13 @@ def test_a_pump_with_one_line_may_have_more_downstream():
     assert trace_values(found)["doubts"][0]["at"] == "P-001"
 
 
+def test_a_flow_meter_on_a_tap_of_its_run_has_enough_lines_and_one_at_the_end_of_a_line_too_few():
+    nodes = [unit("T-001"), unit("G-001", "flow meter", ports=("N1",)), unit("T-002")]
+    through = trace(network(nodes, chain("T-001 G-001.N1 T-002")), "T-001")
+    assert through.doubts == ()
+    assert [doubt.name for doubt in trace(network(nodes, chain("T-001 G-001.N1")), "T-001").doubts] == ["G-001"]
+
+
 def test_where_no_way_is_found_what_may_be_missing_on_both_sides_is_told():
     nodes = [*(unit(tag) for tag in ("T-001", "P-001", "V-001", "V-002", "T-002"))]
     graph = network(nodes, chain("T-001 V-001 P-001") + chain("V-002 T-002"))

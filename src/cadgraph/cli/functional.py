@@ -41,10 +41,7 @@ def lines(
     from cadgraph.query import Network, find_lines
     from cadgraph.query.text import gap_lines, line_rows, line_table, line_values
 
-    if as_csv and as_json:
-        raise ValueError("--csv and --json: give one of them")
-    if file is not None and not (as_csv or as_json):
-        raise ValueError(f"{file}: say --csv or --json to write a file")
+    _check_form(file, as_csv, as_json)
     network = Network(SceneGraph.load(graph))
     found = find_lines(network, of)
     if as_csv:
@@ -58,6 +55,13 @@ def lines(
         _print(err if as_csv or as_json else out, (f"note: {text}" for text in gap_lines(network)))
     if not found and network.graph.units():
         raise typer.Exit(1)
+
+
+def _check_form(file: Path | None, as_csv: bool, as_json: bool) -> None:
+    if as_csv and as_json:
+        raise ValueError("--csv and --json: give one of them")
+    if file is not None and not (as_csv or as_json):
+        raise ValueError(f"{file}: say --csv or --json to write a file")
 
 
 def _json_bytes(values: Any) -> bytes:

@@ -261,8 +261,13 @@ class Pipework:
         return found
 
     def ports_in_use(self, place: str) -> int:
-        """How many ports of a unit have a line; a connection that names no port counts as a port of its own."""
+        """How many ports of a unit have a line; a connection that names no port counts as a port of its own.
+
+        A gauge that sits on a tap of a run stands in it by one port with two connections, which count each.
+        """
         arcs = self.arcs(place)
+        if self.is_gauge(place):
+            return len(arcs)
         named = {arc.start_port for arc in arcs if arc.start_port is not None}
         return len(named) + sum(arc.start_port is None for arc in arcs)
 

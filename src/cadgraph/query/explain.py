@@ -13,6 +13,8 @@ from cadgraph.model.records import Adjacent, Junction, Part, Terminal, Unit
 from cadgraph.model.vocabulary import spell_label
 from cadgraph.query.explain_connection import ConnectionExplanation, explain_connection
 from cadgraph.query.explain_unit import UnitExplanation, explain_unit
+from cadgraph.query.network import Network
+from cadgraph.query.told_joint import ToldJoint, say_joint, tell_joint
 
 __all__ = ["Explanation", "Neighbor", "explain", "explain_any"]
 
@@ -55,6 +57,7 @@ class Explanation:
         unit: tag of its functional unit, or None.
         cluster: id of its structure, or None.
         inside: id of the part that encloses it on all sides, or None.
+        joints: where lines join at it, made or not, the surest first.
     """
 
     part: str
@@ -71,6 +74,7 @@ class Explanation:
     unit: str | None = None
     cluster: str | None = None
     inside: str | None = None
+    joints: tuple[ToldJoint, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         """As plain values."""
@@ -97,6 +101,7 @@ class Explanation:
         rows.append(("same shape", alike or "no other part"))
         rows.append(("unit", self.unit or "none"))
         rows.append(("structure", self.cluster or "none"))
+        rows += [("joined" if joint.made else "not joined", say_joint(joint)) for joint in self.joints[:_MOST_TOLD]]
         return rows
 
 
@@ -134,7 +139,14 @@ def explain(graph: SceneGraph, which: str) -> Explanation:
         unit=None if unit is None else unit.tag,
         cluster=None if cluster is None else cluster.id,
         inside=part.inside,
+        joints=_joints(graph, part),
     )
+
+
+def _joints(graph: SceneGraph, part: Part) -> tuple[ToldJoint, ...]:
+    found = sorted(graph.joints(part), key=lambda joint: (not joint.made, -joint.score, joint.first, joint.second))
+    network = Network(graph)
+    return tuple(tell_joint(network, joint, (part.id,)) for joint in found)
 
 
 def explain_any(

@@ -143,7 +143,7 @@ def trace(
         ends = not met and not _goes_on(network, place, arcs, follows)
         steps.append(_step(network, place, arcs, distances[place], line_of, ends))
     returns = tuple(_returns(network, order, arcs_to, follows))
-    return Trace(first, direction, tuple(steps), tuple(halts), returns, _doubts(network, order))
+    return Trace(first, direction, tuple(steps), tuple(halts), returns, open_sides(network, order))
 
 
 def _returns(
@@ -158,10 +158,6 @@ def _returns(
         behind = {order[0], *(arc.end for arc in arcs_to[place])}
         for arc in back.values():
             yield Return(network.name(place), network.name(arc.end), arc.end in behind)
-
-
-def _doubts(network: Network, reached: Sequence[str]) -> tuple[Doubt, ...]:
-    return tuple(doubt for doubt in open_sides(network, reached) if not network.is_gauge(doubt.place))
 
 
 def _is_doubtful(network: Network, arc: Arc, arcs: Sequence[Arc]) -> bool:
@@ -199,7 +195,7 @@ def find_way(graph: SceneGraph | Network, start: str, end: str, direction: Direc
     distances, arcs_to = network.shortest(first, network.follower(direction))
     if last not in arcs_to:
         others, _ = network.shortest(last, network.follower(None))
-        return Trace(first, direction, (), doubts=_doubts(network, [*distances, *others]))
+        return Trace(first, direction, (), doubts=open_sides(network, [*distances, *others]))
     line_of = _line_of(network)
     arcs = arcs_to[last]
     steps = [_step(network, first, (), 0.0, line_of, first == last)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -165,7 +166,7 @@ def related_table(graph: SceneGraph) -> Table:
     for edge in graph.related():
         ends = [graph.nodes[edge.source], graph.nodes[edge.target]]
         middles = [end.centroid for end in ends if isinstance(end, Unit)]
-        apart = _length(float(np.linalg.norm(np.subtract(*middles)))) if len(middles) == 2 else _blank()
+        apart = _length(math.dist(*middles)) if len(middles) == 2 else _blank()
         rows.append((Cell(_title(ends[0])), Cell(_title(ends[1])), apart))
     return _table("related", [Column("Unit"), Column("Other unit"), Column("Apart [m]", True)], rows)
 
