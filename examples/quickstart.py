@@ -15,10 +15,10 @@ from cadgraph.session.demo import DEMO_SCENE
 def main(path: Path = DEMO_SCENE) -> cadgraph.SceneGraph:
     graph = cadgraph.build(cadgraph.load(path))
 
-    for system in graph.clusters("pipe system"):
-        print(f"{system.id}: {system.n_parts} parts")
+    for system in graph.systems():
+        print(f"{system.id}: {len(system.units)} units on {system.length:.1f} m of pipe")
     for valve in graph.units("valve"):
-        print(valve.tag, "is related to", [unit.tag for unit in graph.neighbors(valve)])
+        print(valve.tag, "is connected to", [unit.tag for unit in graph.neighbors(valve)])
     flanges = graph.parts(group="Pipe assembly", name="flange")
     print(f"{len(flanges)} flanges, of {len({part.shape for part in flanges})} shapes")
     return graph

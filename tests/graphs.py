@@ -13,6 +13,7 @@ from cadgraph.model.records import (
     Connected,
     Contains,
     GraphDocument,
+    Joint,
     OrientedBox,
     Part,
     Related,
@@ -76,7 +77,12 @@ def labelled(scene_or_paths, group="Pipe assembly", name="pipe"):
     return graph(part(i, path, label=label(group, name)) for i, path in enumerate(paths))
 
 
-def valve_line():
+def joint(first="part-0", second="part-2", **more):
+    values = {"kind": "face", "point": ORIGIN, "gap": 0.004, "score": 0.875, "made": True, "reasons": ("axes aligned",)}
+    return Joint(first=first, second=second, **{**values, **more})
+
+
+def valve_line(**more):
     """valve V-001 - pipe - valve V-002, with a gauge apart; meshes /mesh_0 to /mesh_4."""
     nodes = [
         cluster(0, 4, "pipe system"),
@@ -109,7 +115,7 @@ def valve_line():
         ),
         Connected(source="unit-V-002", target="end-0", direction="unknown"),
     ]
-    return graph(nodes, edges)
+    return graph(nodes, edges, **more)
 
 
 def boxes(paths, spacing=2.0, **source):

@@ -10,6 +10,7 @@ from cadgraph.model.records import (
     Connected,
     Contains,
     GraphDocument,
+    Joint,
     Junction,
     Port,
     Site,
@@ -74,21 +75,28 @@ def chain(text, size=80, length=1.0, direction="forward", **more):
     return edges
 
 
-def network(nodes, edges, path="plant.usd", systems=True):
+def joint(first, second, gap=0.0, score=0.9, made=True, kind="face", reasons=("axes aligned",), at=(0.0, 0.0, 0.0)):
+    return Joint(first=first, second=second, kind=kind, point=at, gap=gap, score=score, made=made, reasons=reasons)
+
+
+def network(nodes, edges, path="plant.usd", systems=True, joints=()):
     """A graph of nodes and edges; one system of all that has an edge."""
-    used = {end for edge in edges for end in (edge.source, edge.target)}
+    pipes = [edge for edge in edges if isinstance(edge, Connected)]
+    used = {end for edge in pipes for end in (edge.source, edge.target)}
     if systems and used:
         kinds = (Unit, Junction, Terminal)
         members = [tuple(n.id for n in nodes if isinstance(n, kind) and n.id in used) for kind in kinds]
-        length = sum(edge.length or 0 for edge in edges)
-        sizes = tuple(sorted({edge.size for edge in edges if edge.size}))
+        length = sum(edge.length or 0 for edge in pipes)
+        sizes = tuple(sorted({edge.size for edge in pipes if edge.size}))
         system = System(
             id="system-001", units=members[0], junctions=members[1], terminals=members[2], length=length, sizes=sizes
         )
         nodes = [*nodes, system]
         edges = [*edges, *(Contains(source=system.id, target=member) for member in members[0])]
     return SceneGraph(
-        GraphDocument(nodes=(Site(id="site"), *nodes), edges=tuple(edges), source=SourceRecord(path=path))
+        GraphDocument(
+            nodes=(Site(id="site"), *nodes), edges=tuple(edges), source=SourceRecord(path=path), joints=tuple(joints)
+        )
     )
 
 

@@ -18,13 +18,36 @@ from typing import TYPE_CHECKING, Any
 
 from cadgraph._io.moved import keep_old_names
 from cadgraph.config import Config, read_config
-from cadgraph.errors import CadGraphError, FormatError, LabelError, LoadError, MissingExtra, MissingPackage, OutputError
+from cadgraph.errors import (
+    CadGraphError,
+    FormatError,
+    LabelError,
+    LoadError,
+    MissingExtra,
+    MissingPackage,
+    OutputError,
+    Unconnected,
+    UnknownNode,
+)
 from cadgraph.load import load
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.given_labels import GivenLabel, read_labels
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import Guess, Label
-from cadgraph.model.records import Adjacent, Cluster, Connected, Contains, Part, Related, Site, System, Terminal, Unit
+from cadgraph.model.records import (
+    Adjacent,
+    Cluster,
+    Connected,
+    Contains,
+    Joint,
+    Junction,
+    Part,
+    Related,
+    Site,
+    System,
+    Terminal,
+    Unit,
+)
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary, read_vocabulary
 
@@ -47,6 +70,8 @@ __all__ = [
     "FormatError",
     "GivenLabel",
     "Guess",
+    "Joint",
+    "Junction",
     "Label",
     "LabelError",
     "Labeling",
@@ -62,7 +87,9 @@ __all__ = [
     "Site",
     "System",
     "Terminal",
+    "Unconnected",
     "Unit",
+    "UnknownNode",
     "Vocabulary",
     "analyse",
     "build",

@@ -9,7 +9,8 @@
     ├── OutputError    a result can't be written
     ├── MissingExtra   a command needs an optional dependency that isn't installed
     ├── MissingPackage a command comes with a package that isn't installed
-    └── UnknownNode    nothing in a graph is called so; also a ``KeyError`` and a ``ValueError``
+    ├── UnknownNode    nothing in a graph is called so; also a ``KeyError`` and a ``ValueError``
+    └── Unconnected    no line was found at a unit that a question about lines is asked of; also a ``ValueError``
 
 Bad arguments raise ``ValueError``. What is merely skipped, repaired or guessed is no error: it is listed in the
 graph's ``diagnostics``.
@@ -25,6 +26,7 @@ __all__ = [
     "MissingExtra",
     "MissingPackage",
     "OutputError",
+    "Unconnected",
     "UnknownNode",
 ]
 
@@ -82,3 +84,21 @@ class UnknownNode(CadGraphError, KeyError, ValueError):
     """
 
     __str__ = Exception.__str__  # that of KeyError would put the message in quotes
+
+
+class Unconnected(CadGraphError, ValueError):
+    """A question about lines can't be answered, as no line was found at the unit that it is asked of.
+
+    That no line was found doesn't say that there is none: an answer as "nothing flows to it" would be wrong.
+
+    Args:
+        name: tag of the unit.
+        asked: what can't be said, as a person would say it (``"what isolates it"``).
+    """
+
+    def __init__(self, name: str, asked: str) -> None:
+        self.name = name
+        super().__init__(
+            f"no line was found at {name}; can't say {asked}: 'cadgraph explain FOLDER {name}' says what is near it, "
+            "'cadgraph relabel' corrects a label"
+        )

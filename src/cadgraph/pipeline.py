@@ -28,6 +28,7 @@ from cadgraph.stages.inspect import inspect_meshes
 from cadgraph.stages.parts import make_parts
 from cadgraph.stages.preprocess import prepare_scene
 from cadgraph.stages.relate import RelateInput, connect_units, pipe_systems, relate_units
+from cadgraph.stages.stub import drop_stubs
 
 __all__ = ["ANALYSIS_SETTINGS", "STAGES", "analyse", "build", "interpret"]
 
@@ -137,6 +138,7 @@ def interpret(
     parts, contacts, cluster = analysis.parts, analysis.contacts, analysis.cluster
     progress("relate", 0)
     network, from_lines = connect_units(RelateInput(analysis, labels.labels, labels.opinions, vocabulary, config))
+    network = drop_stubs(network)
     related = relate_units(network.units, labels.labels, contacts, cluster, vocabulary)
     progress("assemble", 0)
     results = Results(

@@ -46,7 +46,7 @@ def test_build_writes_everything_and_says_what_to_open(capsys, scene_file, tmp_p
 def test_show_prints_a_summary_or_json(capsys, scene_file, tmp_path):
     run(capsys, "build", scene_file, "-o", tmp_path / "out", "--no-report", "--set", "label.labeler=none")
     shown = run(capsys, "show", tmp_path / "out")[1]
-    for words in ("1 mesh, 12 triangles", "1, not labelled", "1, no pipe system", "0 pairs of parts"):
+    for words in ("1 mesh, 12 triangles", "1, not labelled", "1, without pipes", "0 pairs of parts"):
         assert words in shown
     assert json.loads(run(capsys, "show", tmp_path / "out", "--json")[1])["n_parts"] == 1
 

@@ -1,9 +1,12 @@
 import csv
+from collections import Counter
 
 import pytest
 
 import graphs
+import networks
 from cadgraph.export.tables import write_tables
+from cadgraph.query.summary import summarize
 
 
 def read(graph, folder):
@@ -15,9 +18,10 @@ def read(graph, folder):
 
 
 def test_every_table_has_its_rows(tmp_path):
-    tables = read(graphs.valve_line(), tmp_path / "new")
+    tables = read(graphs.valve_line(joints=(graphs.joint(),)), tmp_path / "new")
     assert {name: len(rows) for name, rows in tables.items()} == {
-        "parts": 5, "units": 3, "relations": 3, "clusters": 2, "contacts": 3, "meshes": 5,
+        "parts": 5, "units": 3, "connections": 2, "junctions": 0, "ends": 1, "systems": 1, "related": 1, "joints": 1,
+        "clusters": 2, "contacts": 3, "meshes": 5,
     }  # fmt: skip
 
 
@@ -35,16 +39,47 @@ def test_what_is_unknown_stays_empty(tmp_path):
     assert (row["group"], row["confidence"], row["volume_m3"]) == ("", "", "")
 
 
-def test_units_and_relations_go_by_their_tags(tmp_path):
+def test_units_and_what_joins_them_go_by_their_tags(tmp_path):
     tables = read(graphs.valve_line(), tmp_path)
     valve, _, gauge = tables["units"]
-    assert (valve["tag"], valve["kind"], valve["related_to"], valve["cluster"]) == (
-        "V-001", "ball valve", "V-002", "cluster-0",
+    assert (valve["tag"], valve["kind"], valve["connected_to"], valve["related_to"], valve["cluster"]) == (
+        "V-001", "ball valve", "V-002", "V-002", "cluster-0",
     )  # fmt: skip
-    assert gauge["related_to"] == ""
-    run = tables["relations"][0]
+    assert (valve["system"], gauge["system"]) == ("system-0", "")
+    assert (gauge["connected_to"], gauge["related_to"]) == ("", "")
+    run, end = tables["connections"]
     assert (run["from"], run["to"], run["direction"], run["length_m"]) == ("V-002", "V-001", "backward", "1.5")
+    assert (run["between"], end["between"]) == ("units", "end")
+    assert (tables["related"][0]["unit"], tables["related"][0]["other_unit"]) == ("V-001", "V-002")
     assert tables["clusters"][0]["n_units"] == "2"
+
+
+def test_ends_systems_and_joints_say_what_the_graph_says(tmp_path):
+    joints = (graphs.joint(), graphs.joint("part-2", "part-3", made=False, reasons=("gap of 4 mm", "sizes alike")))
+    tables = read(graphs.valve_line(joints=joints), tmp_path)
+    assert (tables["ends"][0]["end"], tables["ends"][0]["kind"], tables["ends"][0]["z_m"]) == (
+        "end-0",
+        "unknown",
+        "3.0",
+    )
+    system = tables["systems"][0]
+    assert (system["system"], system["n_units"], system["length_m"], system["units"]) == (
+        "system-0", "2", "1.5", "V-001 V-002",
+    )  # fmt: skip
+    assert [(row["made"], row["gap_m"], row["score"]) for row in tables["joints"]] == [
+        ("yes", "0.004", "0.875"),
+        ("no", "0.004", "0.875"),
+    ]
+    assert tables["joints"][1]["reasons"] == "gap of 4 mm; sizes alike"
+
+
+def test_tables_count_what_the_summary_counts(tmp_path):
+    graph = networks.pumping()
+    tables, summary = read(graph, tmp_path), summarize(graph)
+    assert len(tables["connections"]) == summary.n_connected == 40
+    assert Counter(row["between"] for row in tables["connections"]) == summary.between
+    assert Counter(row["kind"] for row in tables["ends"]) == summary.ends
+    assert (len(tables["junctions"]), len(tables["systems"])) == (summary.n_junctions, summary.n_systems)
 
 
 @pytest.mark.parametrize(

@@ -7,9 +7,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import graphs
+import networks
 from cadgraph.errors import FormatError, OutputError
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Adjacent, Cluster, Connected, Part, Related, Site, Terminal, Unit
+from cadgraph.query import find_way, trace
 
 
 @pytest.fixture
@@ -82,8 +84,7 @@ def test_the_functional_layers_have_typed_access(graph):
 
 def test_a_graph_shows_what_it_holds_in_one_line(graph):
     assert repr(graph) == (
-        "<SceneGraph of 'plant.usd': 5 parts, 2 clusters, 3 units, 1 terminal, 1 system, 3 contacts, 2 connections, "
-        "1 relation>"
+        "<SceneGraph of 'plant.usd': 5 parts, 2 clusters, 3 units, 3 contacts, 2 connections, 1 end, 1 system>"
     )
 
 
@@ -147,9 +148,137 @@ def test_neighbors_of_nothing_is_a_type_error(graph, what):
         graph.neighbors(what)
 
 
-def test_neighbors_of_a_unit_are_the_units_related_or_connected(graph):
+def test_neighbors_of_a_unit_are_the_units_next_to_it_along_the_pipes(graph):
     assert [unit.tag for unit in graph.neighbors(graph.unit("V-002"))] == ["V-001"]
     assert [unit.tag for unit in graph.neighbors("V-001")] == ["V-002"]
+
+
+def branched():
+    """T-001 -> V-001 -> J1 -> V-002 -> X1, J1 - V-003 -> X2 of unknown direction, G-001 on J1; the paper: V-001, X."""
+    nodes = [networks.unit(tag) for tag in ("T-001", "V-001", "V-002", "V-003", "G-001")]
+    nodes += [networks.junction(1), networks.terminal(1), networks.terminal(2)]
+    edges = [
+        *networks.chain("T-001 V-001 J1 V-002 X1"),
+        *networks.chain("J1 V-003 X2 ", direction="unknown"),
+        *networks.chain("J1 G-001", 15, 0.2, "unknown"),
+        Related(source="unit-V-003", target="unit-T-001"),
+        Related(source="unit-G-001", target="unit-V-003"),
+    ]
+    return networks.network(nodes, edges, systems=False)
+
+
+def tags(nodes):
+    return [getattr(node, "tag", node.id) for node in nodes]
+
+
+def test_neighbors_are_found_through_junctions_and_not_through_units():
+    assert tags(branched().neighbors("V-001")) == ["T-001", "V-002", "V-003", "G-001"]
+    assert tags(branched().neighbors("T-001")) == ["V-001"]
+    assert tags(branched().neighbors("junction-001")) == ["V-001", "V-002", "V-003", "G-001"]
+
+
+def test_neighbors_one_way_are_those_of_a_known_direction_and_the_instruments_on_the_way():
+    assert tags(branched().neighbors("V-001", "downstream")) == ["V-002", "G-001"]
+    assert tags(branched().neighbors("V-002", "upstream")) == ["V-001", "G-001"]
+    assert tags(branched().neighbors("V-003", "upstream")) == []
+
+
+def test_neighbors_one_way_are_steps_of_a_trace():
+    graph = networks.pumping()
+    for unit in graph.units():
+        for direction in ("downstream", "upstream"):
+            steps = {step.place for step in trace(graph, unit.tag, direction).steps}
+            assert {other.id for other in graph.neighbors(unit, direction)} <= steps
+
+
+@pytest.mark.parametrize(
+    "ask", [lambda g: g.neighbors("V-001", "down"), lambda g: g.path("V-001", "V-002", "sideways")]
+)
+def test_a_direction_that_is_none_is_a_mistake(ask):
+    with pytest.raises(ValueError, match="give 'downstream', 'upstream', or None"):
+        ask(branched())
+
+
+def test_parts_have_no_direction(graph):
+    with pytest.raises(ValueError, match="parts that touch have no direction"):
+        graph.neighbors("part-0", "downstream")
+    with pytest.raises(ValueError, match="parts that touch have no direction"):
+        graph.path("part-0", "part-3", "downstream")
+
+
+def test_a_path_between_units_goes_along_the_pipes_and_not_over_relations():
+    graph = branched()
+    assert tags(graph.path("T-001", "V-003")) == ["T-001", "V-001", "junction-001", "V-003"]
+    assert tags(graph.path("T-001", "V-002", "downstream")) == ["T-001", "V-001", "junction-001", "V-002"]
+    assert tags(graph.path("V-002", "T-001", "upstream")) == ["V-002", "junction-001", "V-001", "T-001"]
+    assert graph.path("V-002", "T-001", "downstream") == graph.path("T-001", "V-003", "downstream") == []
+
+
+def test_a_path_is_the_shortest_along_the_centrelines_as_a_trace_finds_it():
+    graph = networks.pumping()
+    way = find_way(graph, "V-003", "G-007")
+    assert [node.id for node in graph.path("V-003", "G-007")] == [step.place for step in way.steps]
+
+
+def test_the_relation_of_the_paper_is_asked_for_by_name():
+    graph = branched()
+    assert tags(graph.related("V-003")) == ["T-001", "G-001"]
+    assert graph.related(graph.unit("V-001")) == []
+    assert [(edge.source, edge.target) for edge in graph.related()] == [
+        ("unit-V-003", "unit-T-001"),
+        ("unit-G-001", "unit-V-003"),
+    ]
+    with pytest.raises(ValueError, match="Algorithm 1 relates units, but 'junction-001' is a junction"):
+        graph.related("junction-001")
+    with pytest.raises(KeyError, match="V-9"):
+        graph.related("V-9")
+
+
+def test_a_part_stands_for_its_unit_where_the_relation_is_asked_for(graph):
+    assert tags(graph.related("part-0")) == ["V-002"]
+    with pytest.raises(ValueError, match="is a part"):
+        graph.related("part-2")
+
+
+def test_joints_are_found_by_what_they_are_at_and_whether_they_were_made():
+    joints = (graphs.joint(), graphs.joint("part-2", "part-3", made=False, score=0.25))
+    graph = graphs.valve_line(joints=joints)
+    assert graph.joints() == list(joints)
+    assert graph.joints(made=False) == [joints[1]]
+    assert graph.joints("V-001") == graph.joints("part-0") == [joints[0]]
+    assert graph.joints("part-2") == graph.joints("end-0") == list(joints)
+    assert graph.joints("part-2", made=True) == [joints[0]]
+    with pytest.raises(KeyError):
+        graph.joints("part-9")
+
+
+def test_joints_come_back_as_they_were_each_on_a_line_of_its_own(tmp_path):
+    joints = (graphs.joint(), graphs.joint("part-2", "part-3", made=False, gap=-0.001, reasons=()))
+    path = graphs.valve_line(joints=joints).save(tmp_path)
+    assert tuple(SceneGraph.load(path).joints()) == joints
+    assert sum('"made":' in line for line in path.read_text().splitlines()) == 2
+
+
+def test_a_graph_without_joints_says_nothing_of_them(graph, tmp_path):
+    assert '"joints"' not in graph.save(tmp_path).read_text()
+    assert SceneGraph.load(tmp_path).joints() == []
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        ({"first": "part-9"}, "'face' joint of 'part-9' and 'part-2' names 'part-9', but no part has that id"),
+        ({"second": "unit-V-001"}, "names 'unit-V-001', but no part has that id"),
+        ({"score": 1.5}, r"joint 'face' of 'part-0' and 'part-2' \(joints.0.score\)"),
+        ({"kind": "glue"}, r"joint 'glue' of 'part-0' and 'part-2' \(joints.0.kind\)"),
+        ({"gap": "wide"}, "joints.0.gap"),
+    ],
+)
+def test_a_joint_off_the_format_is_an_error_that_names_its_parts(change, says):
+    data = graphs.valve_line(joints=(graphs.joint(),)).to_json()
+    data["joints"][0].update(change)
+    with pytest.raises(FormatError, match=says):
+        SceneGraph.from_json(data)
 
 
 def test_a_path_is_the_shortest_way_with_both_ends(graph):

@@ -9,7 +9,16 @@ from cadgraph.draw.schematic import draw_diagram
 from cadgraph.draw.schematic.layout import lay_out
 from cadgraph.draw.schematic.plan import plan_systems
 from cadgraph.export.dexpi import read_dexpi, write_dexpi
-from cadgraph.query import Arc, Network, find_isolation, find_lines, trace
+from cadgraph.query import (
+    Arc,
+    Network,
+    explain_connection,
+    explain_unit,
+    find_isolation,
+    find_lines,
+    find_way,
+    trace,
+)
 from cadgraph.query.text import isolation_lines, trace_lines
 from networks import chain, id_of, junction, network, terminal, unit
 
@@ -62,6 +71,24 @@ def test_every_question_has_an_answer(graph, check_valves):
             found = find_isolation(view, place, check_valves=check_valves, fewest=fewest)
             assert isolation_lines(found)
             assert not {valve.place for valve in found.valves} & set(found.shut_off)
+
+
+@settings(max_examples=15, deadline=None)
+@given(networks)
+def test_neighbours_paths_and_explanations_agree(graph):
+    view = Network(graph)
+    for a in view.places:
+        for b in graph.neighbors(a):
+            assert a in {other.id for other in graph.neighbors(b)} or not a.startswith("unit")
+        for b in view.places:
+            way = [node.id for node in graph.path(a, b)]
+            assert way == [step.place for step in find_way(view, a, b).steps]
+            if a != b:
+                found = explain_connection(view, a, b)
+                assert found.connected == bool(way)
+                assert found.lines()
+    for place in view.places:
+        assert explain_unit(view, place).lines()
 
 
 @settings(max_examples=15, deadline=None)

@@ -70,6 +70,91 @@ def test_bad_questions_end_with_one_line(folder, capsys, arguments, says):
     assert says in " ".join(err.split())
 
 
+def apart(folder):
+    """T-001 - V-001 - P-001 and a pump and a gauge without a line."""
+    nodes = [unit(tag) for tag in ("T-001", "V-001", "P-001", "P-002", "G-001")]
+    network(nodes, chain("T-001 V-001 P-001")).save(folder)
+    return folder
+
+
+@pytest.mark.parametrize(
+    "question",
+    [
+        ("isolate", "P-002"),
+        ("isolate", "P-002", "--json"),
+        ("trace", "P-002"),
+        ("trace", "P-002", "--upstream", "--unknown"),
+        ("trace", "P-002", "--to", "T-001"),
+        ("trace", "T-001", "--to", "P-002"),
+        ("lines", "--of", "P-002"),
+    ],
+)
+def test_a_unit_without_a_line_gets_no_answer_but_one_line_with_the_remedy(tmp_path, capsys, question):
+    code, out, err = run(capsys, question[0], apart(tmp_path), *question[1:])
+    assert (code, out) == (2, "")
+    assert len(err.splitlines()) == 1
+    assert err.startswith("error: no line was found at P-002; can't say ")
+    assert "'cadgraph explain FOLDER P-002' says what is near it" in err
+
+
+def test_isolate_says_what_makes_the_answer_doubtful_and_is_strict_when_asked(tmp_path, capsys):
+    apart(tmp_path)
+    code, out, _ = run(capsys, "isolate", tmp_path, "P-001")
+    assert code == 0
+    assert out.startswith("these valves may not isolate P-001 wholly:\n  P-001: only one of its two nozzles has a line")
+    code, out, _ = run(capsys, "isolate", tmp_path, "P-001", "--strict", "--json")
+    assert (code, json.loads(out)["isolated"]) == (1, None)
+    assert json.loads(out)["doubts"][0]["at"] == "P-001"
+
+
+def test_isolate_ends_well_when_strict_only_where_it_is_sure(folder, tmp_path_factory, capsys):
+    assert run(capsys, "isolate", folder, "P-001", "--strict")[0] == 0
+    other = tmp_path_factory.mktemp("other")
+    network([unit("T-001"), unit("P-001"), unit("T-002")], chain("T-001 P-001 T-002")).save(other)
+    assert run(capsys, "isolate", other, "P-001", "--strict")[0] == 1
+
+
+def test_the_line_list_names_what_it_lacks(tmp_path, capsys):
+    code, out, _ = run(capsys, "lines", apart(tmp_path))
+    assert code == 0
+    assert out.splitlines()[-3:] == [
+        "note: no line was found at P-002, G-001",
+        "note: fewer lines than its kind needs has P-001 (1 of 2)",
+        "note: 'cadgraph explain FOLDER TAG' says what is near a unit or an end",
+    ]
+    _, out, err = run(capsys, "lines", tmp_path, "--json")
+    assert len(json.loads(out)) == 1
+    assert "no line was found at P-002" in err
+
+
+def test_a_plant_of_units_without_any_line_is_no_success(tmp_path, capsys):
+    network([unit("P-001")], []).save(tmp_path)
+    code, out, _ = run(capsys, "lines", tmp_path)
+    assert code == 1
+    assert "note: no line was found at P-001" in out
+    network([], []).save(tmp_path)
+    assert run(capsys, "lines", tmp_path)[0] == 0
+
+
+def test_the_lines_at_a_unit_are_those_that_end_there_or_run_through(folder, capsys):
+    rows = json.loads(run(capsys, "lines", folder, "--of", "P-001", "--json")[1])
+    assert [(row["from"], row["to"]) for row in rows] == [("junction-001", "P-001"), ("P-001", "junction-003")]
+    rows = json.loads(run(capsys, "lines", folder, "--of", "v2", "--json")[1])
+    assert [row["through"] for row in rows] == [["V-002", "G-001"]]
+    # A gauge on a tap beside a line, behind its root valve.
+    rows = json.loads(run(capsys, "lines", folder, "--of", "G-007", "--json")[1])
+    assert [row["through"] for row in rows] == [["V-009", "G-005", "V-014", "G-007"]]
+
+
+def test_explain_tells_of_units_and_of_what_connects_two(folder, capsys):
+    assert "V-003, gate valve (valve)" in run(capsys, "explain", folder, "v3")[1]
+    assert "P-001 - V-005" in run(capsys, "explain", folder, "P-001", "V-005")[1]
+    assert json.loads(run(capsys, "explain", folder, "P-001", "--json")[1])["least"] == 2
+    code, _, err = run(capsys, "explain", folder, "P-001", "P-001")
+    assert code == 2
+    assert "give two different ones" in err
+
+
 def test_tags_are_not_read_as_markup(tmp_path, capsys):
     nodes = [unit("[red]T", unit_type="tank"), unit("P-001")]
     edge = chain("T-001 P-001")[0].model_copy(update={"source": "unit-[red]T"})

@@ -1,8 +1,10 @@
 import pytest
 
+import graphs
+from cadgraph.errors import Unconnected
 from cadgraph.query import find_isolation
 from cadgraph.query.text import isolation_lines
-from networks import chain, junction, network, pumping, terminal, unit
+from networks import chain, joint, junction, network, pumping, terminal, unit
 
 
 def closed(found):
@@ -128,13 +130,92 @@ def test_fewest_works_beside_a_tank_that_has_no_valve():
 
 
 def test_a_dead_end_needs_nothing():
-    found = find_isolation(pump("X1 P-001", kinds=[("X1", "blind")]), "P-001")
+    found = find_isolation(pump("X1 P-001 X2", kinds=[("X1", "blind"), ("X2", "blind")]), "P-001")
     assert found.valves == found.openings == ()
     assert isolation_lines(found)[0].startswith("no valve has to be closed")
 
 
-def test_a_unit_without_connections_is_told():
-    assert find_isolation(network([unit("P-001")], []), "P-001").remarks == ("P-001 is connected to nothing",)
+def test_a_unit_without_a_line_gets_no_answer():
+    with pytest.raises(Unconnected, match=r"no line was found at P-001; can't say what isolates it: .*explain"):
+        find_isolation(network([unit("P-001")], []), "P-001")
+
+
+def test_a_pump_with_one_line_gets_an_answer_that_says_it_may_be_incomplete():
+    found = find_isolation(pump("T-001 V-001 P-001.N1"), "P-001")
+    assert closed(found) == ["V-001"]
+    assert found.isolated is None
+    assert [doubt.name for doubt in found.doubts] == ["P-001"]
+    assert isolation_lines(found)[:2] == [
+        "these valves may not isolate P-001 wholly:",
+        "  P-001: only one of its two nozzles has a line: what feeds the other can't be told",
+    ]
+
+
+def test_a_dead_end_at_one_nozzle_is_no_reason_to_close_nothing():
+    told = isolation_lines(find_isolation(pump("X1 P-001", kinds=[("X1", "blind")]), "P-001"))
+    assert told[0] == "nobody can tell what isolates P-001 wholly:"
+    assert not any("has to be closed" in line for line in told)
+
+
+def test_another_unit_of_the_section_with_too_few_lines_is_a_doubt():
+    found = find_isolation(pump("T-001 V-001 P-001 V-002", kinds=[("V-002", "check valve")]), "P-001")
+    assert [doubt.name for doubt in found.doubts] == ["V-002"]
+
+
+def test_a_valve_of_which_one_side_is_known_is_closed():
+    graph = pump("T-001 V-001 J1 P-001 V-003 T-002", "J1 V-002")
+    for fewest in (False, True):
+        found = find_isolation(graph, "P-001", fewest=fewest)
+        assert closed(found) == ["V-001", "V-002", "V-003"]
+        assert found.isolated
+    assert "V-002 has a line on one side only: what lies behind it is not known" in found.remarks
+
+
+def test_what_lies_behind_a_valve_is_fed_where_a_unit_there_has_too_few_lines():
+    graph = pump("T-001 V-001 J1 P-001 V-003 T-002", "J1 V-002 V-004")
+    assert closed(find_isolation(graph, "P-001")) == ["V-001", "V-002", "V-003"]
+
+
+def test_a_relief_valve_that_blows_into_the_open_is_no_doubt():
+    graph = pump("T-001 V-001 J1 P-001 V-003 T-002", "J1 V-002", kinds=[("V-002", "relief valve")])
+    assert find_isolation(graph, "P-001").doubts == ()
+
+
+def jointed(*joints):
+    """T-001 - V-001 - P-001 - V-002 - T-002, of parts t1, v1, p1, v2, t2 and a pipe; E-001 apart, of part e1."""
+    names = {"T-001": "t1", "V-001": "v1", "P-001": "p1", "V-002": "v2", "T-002": "t2", "E-001": "e1"}
+    nodes = [graphs.part(k, f"/{name}", id=name) for k, name in enumerate([*names.values(), "pipe", "far"])]
+    nodes += [unit(tag).model_copy(update={"parts": (part,)}) for tag, part in names.items()]
+    edges = chain("T-001 V-001 P-001") + chain("P-001 V-002", via=("pipe",)) + chain("V-002 T-002")
+    return network(nodes, edges, joints=[joint(*row) for row in joints])
+
+
+def test_a_likely_joint_at_the_section_that_was_not_made_is_a_doubt():
+    found = find_isolation(jointed(("pipe", "e1", 0.003, 0.4, False)), "P-001")
+    assert [(d.name, d.parts, d.gap, d.score) for d in found.doubts] == [("P-001", ("pipe", "e1"), 0.003, 0.4)]
+    assert found.doubts[0].text == (
+        "pipe lies 3.0 mm from E-001 (e1) and is not joined to it (40% sure that it is): what feeds it there can't be "
+        "told"
+    )
+    assert found.isolated is None
+
+
+@pytest.mark.parametrize(
+    "joint",
+    [
+        ("pipe", "e1", 0.003, 0.09, False),  # unlikely
+        ("pipe", "v2", 0.0, 0.9, True),  # made
+        ("t2", "e1", 0.003, 0.4, False),  # behind the valves
+        ("pipe", "p1", 0.0, 0.4, False),  # within the section
+    ],
+)
+def test_other_joints_are_no_doubts(joint):
+    assert find_isolation(jointed(joint), "P-001").isolated
+
+
+def test_the_likeliest_joint_comes_first():
+    graph = jointed(("pipe", "e1", 0.003, 0.2, False), ("far", "p1", 0.009, 0.3, False))
+    assert [doubt.score for doubt in find_isolation(graph, "P-001").doubts] == [0.3, 0.2]
 
 
 def test_a_valve_itself_can_be_isolated():

@@ -1,7 +1,8 @@
 import pytest
 
+from cadgraph.errors import Unconnected
 from cadgraph.query import find_way, trace
-from cadgraph.query.text import trace_lines, way_lines
+from cadgraph.query.text import trace_lines, trace_values, way_lines
 from networks import chain, junction, network, pumping, terminal, unit
 
 
@@ -121,7 +122,46 @@ def test_the_way_against_the_flow_is_told_as_such():
 def test_a_way_only_downstream_may_not_exist():
     found = find_way(series(), "V-002", "T-001", "downstream")
     assert found.steps == ()
-    assert way_lines(found, "V-002", "T-001") == ["no way downstream along the pipes from V-002 to T-001"]
+    assert way_lines(found, "V-002", "T-001") == ["no way downstream along the pipes from V-002 to T-001 was found"]
+
+
+def test_a_unit_without_a_line_gets_no_answer():
+    graph = network([*(unit(tag) for tag in ("P-001", "T-001", "V-001"))], chain("T-001 V-001"))
+    with pytest.raises(Unconnected, match="no line was found at P-001; can't say what lies upstream of it"):
+        trace(graph, "P-001", "upstream")
+    for way in (("P-001", "T-001"), ("T-001", "P-001")):
+        with pytest.raises(Unconnected, match=r"no line was found at P-001; can't say how .* are connected"):
+            find_way(graph, *way)
+
+
+def test_a_pump_with_one_line_may_have_more_downstream():
+    graph = network([unit("T-001"), unit("V-001"), unit("P-001")], chain("T-001 V-001 P-001"))
+    found = trace(graph, "T-001")
+    assert [(doubt.place, doubt.text) for doubt in found.doubts] == [
+        ("unit-P-001", "only one of its two nozzles has a line: where the other leads can't be told")
+    ]
+    assert "this may not be all:" in trace_lines(found)
+    assert trace_values(found)["doubts"][0]["at"] == "P-001"
+
+
+def test_a_flow_meter_on_a_tap_of_its_run_has_enough_lines_and_one_at_the_end_of_a_line_too_few():
+    nodes = [unit("T-001"), unit("G-001", "flow meter", ports=("N1",)), unit("T-002")]
+    through = trace(network(nodes, chain("T-001 G-001.N1 T-002")), "T-001")
+    assert through.doubts == ()
+    assert [doubt.name for doubt in trace(network(nodes, chain("T-001 G-001.N1")), "T-001").doubts] == ["G-001"]
+
+
+def test_where_no_way_is_found_what_may_be_missing_on_both_sides_is_told():
+    nodes = [*(unit(tag) for tag in ("T-001", "P-001", "V-001", "V-002", "T-002"))]
+    graph = network(nodes, chain("T-001 V-001 P-001") + chain("V-002 T-002"))
+    found = find_way(graph, "T-001", "T-002")
+    assert [doubt.name for doubt in found.doubts] == ["P-001", "V-002"]
+    assert way_lines(found, "T-001", "T-002")[1] == "there may be one all the same:"
+
+
+def test_a_direction_that_is_none_is_refused():
+    with pytest.raises(ValueError, match="give 'downstream', 'upstream'"):
+        trace(series(), "V-001", "sideways")
 
 
 def test_the_way_to_itself_has_one_step():

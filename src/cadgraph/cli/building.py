@@ -102,9 +102,10 @@ def _questions(graph: SceneGraph, folder: Path) -> list[str]:
     """Commands to try on a graph, with tags that are in it."""
     from cadgraph.query import trace
 
+    pumps = [pump for pump in graph.units("pump") if graph.connections(pump)]
     commands = [f"cadgraph lines {folder}"]
     valves = {unit.tag for unit in graph.units("valve")}
-    for pump in graph.units("pump")[:1]:
+    for pump in pumps[:1]:
         feeding = [step.name for step in trace(graph, pump.tag, "upstream").steps if step.name in valves]
         commands += [f"cadgraph trace {folder} {valve} --downstream" for valve in feeding[-1:]]
         commands.append(f"cadgraph isolate {folder} {pump.tag}")

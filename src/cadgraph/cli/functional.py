@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from rich.console import Console
 from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.options import GraphArgument
-from cadgraph.cli.screen import out
+from cadgraph.cli.screen import err, out
 
 JsonOption = Annotated[bool, typer.Option("--json", help="Print as JSON.")]
 
@@ -20,6 +22,9 @@ JsonOption = Annotated[bool, typer.Option("--json", help="Print as JSON.")]
 def lines(
     graph: GraphArgument,
     file: Annotated[Path | None, typer.Argument(metavar="[FILE]", help="With --csv or --json: write there.")] = None,
+    of: Annotated[
+        str | None, typer.Option("--of", metavar="TAG", help="Only the lines at this unit, e.g. P-001.")
+    ] = None,
     as_csv: Annotated[bool, typer.Option("--csv", help="As CSV, for a spreadsheet.")] = False,
     as_json: JsonOption = False,
 ) -> None:
@@ -27,31 +32,56 @@ def lines(
 
     A line runs on through valves, gauges and the taps of gauges; it ends at junctions, open or blind ends, tanks,
     pumps and other equipment. Its number is made from what it joins, so that a line added elsewhere renumbers nothing.
+
+    Units at which no line was found are named below the list, and so are those with fewer lines than their kind needs.
+    Ends with 1 where no line was found at any unit.
     """
-    from cadgraph._io.atomic import write_atomically
     from cadgraph.export.tables import table_bytes
     from cadgraph.model.graph import SceneGraph
-    from cadgraph.query import find_lines
-    from cadgraph.query.text import line_rows, line_table, line_values
+    from cadgraph.query import Network, find_lines
+    from cadgraph.query.text import gap_lines, line_rows, line_table, line_values
 
+    _check_form(file, as_csv, as_json)
+    network = Network(SceneGraph.load(graph))
+    found = find_lines(network, of)
+    if as_csv:
+        _deliver(table_bytes(line_rows(found)), file, len(found))
+    elif as_json:
+        _deliver(_json_bytes([line_values(line) for line in found]), file, len(found))
+    else:
+        _print(out, line_table(found))
+    if of is None:
+        # Beside the list, so that what reads it as CSV or JSON meets nothing else.
+        _print(err if as_csv or as_json else out, (f"note: {text}" for text in gap_lines(network)))
+    if not found and network.graph.units():
+        raise typer.Exit(1)
+
+
+def _check_form(file: Path | None, as_csv: bool, as_json: bool) -> None:
     if as_csv and as_json:
         raise ValueError("--csv and --json: give one of them")
     if file is not None and not (as_csv or as_json):
         raise ValueError(f"{file}: say --csv or --json to write a file")
-    found = find_lines(SceneGraph.load(graph))
-    if as_csv:
-        content = table_bytes(line_rows(found))
-    elif as_json:
-        content = (json.dumps([line_values(line) for line in found], ensure_ascii=False, indent=1) + "\n").encode()
-    else:
-        for text in line_table(found):
-            out.print(escape(text))
-        return
+
+
+def _json_bytes(values: Any) -> bytes:
+    return (json.dumps(values, ensure_ascii=False, indent=1) + "\n").encode()
+
+
+def _print(screen: Console, texts: Iterable[str]) -> None:
+    for text in texts:
+        screen.print(escape(text))
+
+
+def _deliver(content: bytes, file: Path | None, n_lines: int) -> None:
+    """Writes a line list to a file, or prints it."""
+    from cadgraph._io.atomic import write_atomically
+
     if file is None:
         typer.echo(content.decode("utf-8-sig").replace("\r\n", "\n"), nl=False)
         return
     write_atomically(file, content)
-    out.print(f"wrote {escape(str(file))}: {len(found):,} lines")
+    out.print(f"wrote {escape(str(file))}: {n_lines:,} lines")
 
 
 @app.command()
@@ -69,7 +99,8 @@ def trace(
     """Say what lies downstream or upstream of a unit, or on the way to another, in order with distances.
 
     A way to another unit goes along the pipes whichever way they flow; with --downstream or --upstream only with or
-    against the flow.
+    against the flow. A unit at which no line was found gets no answer (exit status 2), and what may have been missed on
+    the way is told.
     """
     from cadgraph.model.graph import SceneGraph
     from cadgraph.query import Network, find_way
@@ -100,15 +131,24 @@ def isolate(
     fewest: Annotated[
         bool, typer.Option("--fewest", help="The fewest valves, even if more is shut off; by default the nearest.")
     ] = False,
+    strict: Annotated[
+        bool, typer.Option("--strict", help="End with 1 where the unit can't be isolated for sure.")
+    ] = False,
     as_json: JsonOption = False,
 ) -> None:
-    """List the valves that isolate a unit on every port, what can't be isolated, and what is shut off with it."""
+    """List the valves that isolate a unit on every port, what can't be isolated, and what is shut off with it.
+
+    What may feed the unit without having been found is told: ports without a line, and joints that were not made. A
+    unit at which no line was found gets no answer (exit status 2).
+    """
     from cadgraph.model.graph import SceneGraph
     from cadgraph.query import find_isolation
     from cadgraph.query.text import isolation_lines, isolation_values
 
     found = find_isolation(SceneGraph.load(graph), tag, check_valves=check_valves, fewest=fewest)
     _show(isolation_lines(found), isolation_values(found), as_json)
+    if strict and not found.isolated:
+        raise typer.Exit(1)
 
 
 @app.command()
@@ -179,5 +219,4 @@ def _show(text: list[str], values: dict[str, Any], as_json: bool) -> None:
     if as_json:
         typer.echo(json.dumps(values, ensure_ascii=False, indent=1))
         return
-    for line in text:
-        out.print(escape(line))
+    _print(out, text)

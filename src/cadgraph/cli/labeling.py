@@ -33,12 +33,29 @@ _JsonOption = Annotated[bool, typer.Option("--json", help="Print as JSON.")]
 
 
 @app.command()
-def explain(graph: GraphArgument, part: _PartArgument, as_json: _JsonOption = False) -> None:
-    """Say why a part has its label: evidence, best guesses, neighbours, repeats, unit."""
-    from cadgraph.model.graph import SceneGraph
-    from cadgraph.query.explain import explain as explain_part
+def explain(
+    graph: GraphArgument,
+    which: Annotated[
+        str,
+        typer.Argument(
+            metavar="WHICH", help="Id of a part (part-00012) or path of one of its meshes; or tag of a unit (V-003)."
+        ),
+    ],
+    other: Annotated[
+        str | None, typer.Argument(metavar="[OTHER]", help="Another unit: say why the two are connected, or not.")
+    ] = None,
+    as_json: _JsonOption = False,
+) -> None:
+    """Say why a part has its label, what a unit is joined to, or why two units are connected or not.
 
-    told = explain_part(SceneGraph.load(graph), part)
+    Of a part: evidence, best guesses, neighbours, repeats, unit. Of a unit (or a junction or end of a line): its ports,
+    what each is joined to, how sure that is and why, what it lacks for its kind, and the likeliest joints that were not
+    made. Of two: the joints on the way between them in order and the weakest of these, or what is missing for a way.
+    """
+    from cadgraph.model.graph import SceneGraph
+    from cadgraph.query.explain import explain_any
+
+    told = explain_any(SceneGraph.load(graph), which, other)
     if as_json:
         print(json.dumps(told.to_json(), ensure_ascii=False, indent=1))  # noqa: T201
         return

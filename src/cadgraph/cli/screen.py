@@ -14,6 +14,8 @@ from cadgraph._io.progress import quiet
 
 __all__ = ["bars", "err", "out", "summary_lines", "tell", "tell_next"]
 
+_MOST_NAMES = 12  # units that are named on one line
+
 out = Console(highlight=False, soft_wrap=True)
 err = Console(stderr=True, highlight=False, soft_wrap=True)
 
@@ -70,11 +72,12 @@ def tell_next(commands: Sequence[str]) -> None:
 
 
 def summary_lines(summary: Any) -> list[str]:
-    """A summary in about ten lines of console markup."""
+    """A summary in about a dozen lines of console markup."""
+    from cadgraph.query.summary import connection_words, end_words
+
     groups = ", ".join(f"{escape(group)} {n}" for group, n in summary.groups.items()) or "none"
     units = ", ".join(f"{len(tags)} {escape(kind)}{'s' * (len(tags) != 1)}" for kind, tags in summary.units.items())
     found = ", ".join(f"{escape(code)} {n}" for code, n in summary.diagnostics.items()) or "none"
-    along = f"{_count(summary.n_connected, 'connection')} along the pipes"
     rows = (
         (
             "source",
@@ -85,15 +88,24 @@ def summary_lines(summary: Any) -> list[str]:
         ("labels", groups),
         (
             "structures",
-            _of_them(summary.n_clusters, summary.n_pipe_systems, "pipe systems", "a pipe system", "no pipe system"),
+            _of_them(summary.n_clusters, summary.n_with_pipes, "with pipes", "with pipes", "without pipes"),
         ),
         ("touching", f"{_count(summary.n_adjacent, 'pair')} of parts"),
         ("units", units or "none"),
-        ("relations", f"{along}; {summary.n_related:,} by the algorithm of the paper"),
+        *((("no line at", _some(summary.without_line)),) if summary.without_line else ()),
+        ("connections", connection_words(summary)),
+        ("ends", end_words(summary)),
+        ("systems", f"{_count(summary.n_systems, 'connected network')} of pipes"),
+        *((("the paper", f"{_count(summary.n_related, 'relation')} by Algorithm 1"),) if summary.n_related else ()),
         ("diagnostics", found),
         *(("mind", escape(warning)) for warning in summary.warnings),
     )
     return [f"[dim]{name:<15}[/]{text}" for name, text in rows]
+
+
+def _some(names: Sequence[str]) -> str:
+    more = len(names) - _MOST_NAMES
+    return escape(", ".join(names[:_MOST_NAMES])) + (f" and {more} more" if more > 0 else "")
 
 
 def _count(n: int, noun: str, plural: str = "s") -> str:

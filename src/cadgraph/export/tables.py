@@ -1,4 +1,4 @@
-"""The graph as CSV tables: one file for parts, units, relations, clusters, contacts and meshes each."""
+"""The graph as CSV tables: a file for each kind of node and edge, and for joints and meshes."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ from typing import Any
 
 from cadgraph._io.atomic import write_atomically
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.records import Adjacent, Box, Cluster, Connected, Part, Related, Unit
+from cadgraph.model.records import Adjacent, Box, Cluster, Part, Unit
+from cadgraph.query.summary import connection_between
 
 __all__ = ["table_bytes", "write_tables"]
 
@@ -24,7 +25,12 @@ Row = Sequence[Any]
 
 
 def write_tables(graph: SceneGraph, folder: str | Path) -> list[Path]:
-    """Writes ``parts.csv``, ``units.csv``, ``relations.csv``, ``clusters.csv``, ``contacts.csv`` and ``meshes.csv``.
+    """Writes a CSV file for each kind of node and edge of a graph.
+
+    They are ``parts.csv``, ``units.csv``, ``connections.csv``, ``junctions.csv``, ``ends.csv``, ``systems.csv``,
+    ``joints.csv``, ``clusters.csv``, ``contacts.csv``, ``meshes.csv``, and ``related.csv`` for the relations of the
+    paper's Algorithm 1. ``between`` in the connections says whether one joins two units, a junction, or leads to an
+    end.
 
     UTF-8 with a byte order mark, by which Excel knows it. Units are in the column names. Text that a spreadsheet would
     run as a formula gets an apostrophe in front.
@@ -42,7 +48,12 @@ def write_tables(graph: SceneGraph, folder: str | Path) -> list[Path]:
     tables = {
         "parts": _parts(graph),
         "units": _units(graph),
-        "relations": _relations(graph),
+        "connections": _connections(graph),
+        "junctions": _junctions(graph),
+        "ends": _ends(graph),
+        "systems": _systems(graph),
+        "related": _related(graph),
+        "joints": _joints(graph),
         "clusters": _clusters(graph),
         "contacts": _contacts(graph),
         "meshes": _meshes(graph),
@@ -67,29 +78,68 @@ def _parts(graph: SceneGraph) -> Iterator[Row]:
 
 
 def _units(graph: SceneGraph) -> Iterator[Row]:
-    yield "tag", "type", "kind", "n_parts", "cluster", *_PLACE, "related_to", "parts"
-    others: dict[str, list[str]] = {}
-    for edge in graph.of_kind(Related):
-        others.setdefault(edge.source, []).append(edge.target)
-        others.setdefault(edge.target, []).append(edge.source)
+    yield (
+        "tag", "type", "kind", "n_parts", "n_ports", "system", "cluster", *_PLACE, "connected_to", "related_to",
+        "parts",
+    )  # fmt: skip
+    system_of = {node: system.id for system in graph.systems() for node in system.units}
     for unit in graph.of_layer(Unit):
         cluster = graph.cluster_of(unit.parts[0]) if unit.parts else None
         yield (
-            unit.tag, unit.unit_type, unit.kind, len(unit.parts), cluster.id if cluster else None,
-            *unit.centroid, *_extents(unit.aabb),
-            " ".join(dict.fromkeys(_name(graph, other) for other in others.get(unit.id, ()))), " ".join(unit.parts),
+            unit.tag, unit.unit_type, unit.kind, len(unit.parts), len(unit.ports), system_of.get(unit.id),
+            cluster.id if cluster else None, *unit.centroid, *_extents(unit.aabb),
+            " ".join(other.tag for other in graph.neighbors(unit)),
+            " ".join(other.tag for other in graph.related(unit)), " ".join(unit.parts),
         )  # fmt: skip
 
 
-def _relations(graph: SceneGraph) -> Iterator[Row]:
-    yield "from", "to", "kind", "direction", "length_m", "diameter_m", "reason", "via_parts"
-    for edge in graph.of_kind(Connected):
+def _connections(graph: SceneGraph) -> Iterator[Row]:
+    yield (
+        "from", "from_port", "to", "to_port", "between", "direction", "reason", "length_m", "diameter_m", "dn",
+        "confidence", "via_parts",
+    )  # fmt: skip
+    for edge in graph.connections():
         yield (
-            _name(graph, edge.source), _name(graph, edge.target), edge.kind, edge.direction,
-            edge.length, edge.diameter, edge.reason, " ".join(edge.via),
+            _name(graph, edge.source), edge.source_port, _name(graph, edge.target), edge.target_port,
+            connection_between(graph, edge), edge.direction, edge.reason, edge.length, edge.diameter,
+            "/".join(map(str, edge.sizes)) or edge.size, edge.confidence, " ".join(edge.via),
         )  # fmt: skip
-    for related in graph.of_kind(Related):
-        yield _name(graph, related.source), _name(graph, related.target), related.kind, None, None, None, None, None
+
+
+def _junctions(graph: SceneGraph) -> Iterator[Row]:
+    yield "junction", "x_m", "y_m", "z_m", "parts"
+    for junction in graph.junctions():
+        yield junction.id, *junction.point, " ".join(junction.parts)
+
+
+def _ends(graph: SceneGraph) -> Iterator[Row]:
+    yield "end", "kind", "x_m", "y_m", "z_m", "parts"
+    for end in graph.terminals():
+        yield end.id, end.kind, *end.point, " ".join(end.parts)
+
+
+def _systems(graph: SceneGraph) -> Iterator[Row]:
+    yield "system", "n_units", "n_junctions", "n_ends", "length_m", "dn", "units"
+    for system in graph.systems():
+        yield (
+            system.id, len(system.units), len(system.junctions), len(system.terminals), system.length,
+            "/".join(map(str, system.sizes)), " ".join(_name(graph, unit) for unit in system.units),
+        )  # fmt: skip
+
+
+def _related(graph: SceneGraph) -> Iterator[Row]:
+    yield "unit", "other_unit"
+    for edge in graph.related():
+        yield _name(graph, edge.source), _name(graph, edge.target)
+
+
+def _joints(graph: SceneGraph) -> Iterator[Row]:
+    yield "part", "other_part", "kind", "made", "score", "gap_m", "x_m", "y_m", "z_m", "reasons"
+    for joint in graph.joints():
+        made = "yes" if joint.made else "no"
+        yield (
+            joint.first, joint.second, joint.kind, made, joint.score, joint.gap, *joint.point, "; ".join(joint.reasons)
+        )  # fmt: skip
 
 
 def _clusters(graph: SceneGraph) -> Iterator[Row]:

@@ -17,27 +17,30 @@ from pydantic import ValidationError
 
 from cadgraph._io.json_rows import write_json_rows
 from cadgraph._io.limits import GRAPH, read_text_within
-from cadgraph._io.validation_messages import expectation
 from cadgraph.errors import FormatError, UnknownNode
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.names import Names
+from cadgraph.model.pipework import Direction, Pipework, check_direction
 from cadgraph.model.records import (
+    Adjacent,
     AnyEdge,
     AnyNode,
     Cluster,
     Connected,
     Contains,
     GraphDocument,
+    Joint,
     Junction,
     Node,
     Part,
+    Related,
     Site,
     SourceRecord,
     System,
     Terminal,
     Unit,
 )
-from cadgraph.model.validate import check_document, check_names
+from cadgraph.model.validate import check_document, check_names, what_is_wrong
 
 if TYPE_CHECKING:
     import networkx
@@ -69,8 +72,8 @@ class SceneGraph:
         layers = Counter(node.layer for node in self.document.nodes)
         kinds = Counter(edge.kind for edge in self.document.edges)
         always = {"part": layers["part"], "cluster": layers["cluster"], "unit": layers["unit"]}
-        others = {"mesh": self.source.n_meshes, **{name: layers[name] for name in ("junction", "terminal", "system")}}
-        others |= {"contact": kinds["adjacent"], "connection": kinds["connected"], "relation": kinds["related"]}
+        others = {"mesh": self.source.n_meshes, "contact": kinds["adjacent"], "connection": kinds["connected"]}
+        others |= {"junction": layers["junction"], "end": layers["terminal"], "system": layers["system"]}
         words = [_count(n, noun) for noun, n in (always | {name: n for name, n in others.items() if n}).items()]
         return f"<SceneGraph of {self.source.path!r}: {', '.join(words)}>"
 
@@ -215,37 +218,54 @@ class SceneGraph:
     # How things hang together
 
     @overload
-    def neighbors(self, node: Part) -> list[Part]: ...
+    def neighbors(self, node: Part, direction: None = None) -> list[Part]: ...
     @overload
-    def neighbors(self, node: Unit) -> list[Unit]: ...
+    def neighbors(self, node: Unit | Junction | Terminal, direction: Direction | None = None) -> list[Unit]: ...
     @overload
-    def neighbors(self, node: str | Junction | Terminal) -> list[Part] | list[Unit]: ...
-    def neighbors(self, node: Part | Functional | str) -> list[Part] | list[Unit]:
-        """The parts adjacent to a part, or the units related or connected to a unit, in the order of the file.
+    def neighbors(self, node: str, direction: Direction | None = None) -> list[Part] | list[Unit]: ...
+    def neighbors(self, node: Part | Functional | str, direction: Direction | None = None) -> list[Part] | list[Unit]:
+        """The parts that touch a part, or the units next to a unit along the pipes, in the order of the file.
 
-        Of a junction or terminal: the units connected to it.
+        Along the pipes means over connections with no other unit between; junctions are walked through. Of a junction
+        or terminal: the units next to it. What Algorithm 1 of the paper relates is :meth:`related`.
+
+        Args:
+            node: a part or unit by itself, its id, tag or path of a mesh; or a junction or terminal.
+            direction: only what is known to lie ``downstream`` or ``upstream``, and the instruments on the way.
 
         Raises:
             KeyError: it is not in the graph.
-            ValueError: it has no neighbours by its nature, as a cluster.
+            ValueError: it has no neighbours by its nature, as a cluster; no such direction, or one of a part.
         """
         here = self._resolve(node)
-        if not isinstance(here, Part | Unit | Junction | Terminal):
-            raise ValueError(f"parts and units have neighbours, but {here.id!r} is a {here.layer}")
-        found = [self.nodes[i] for i in sorted(self._links[here.id], key=self._rank.__getitem__)]
+        _check_way(here, direction)
         if isinstance(here, Part):
+            found = [self.nodes[i] for i in sorted(self._touching[here.id], key=self._rank.__getitem__)]
             return [other for other in found if isinstance(other, Part)]
-        return [other for other in found if isinstance(other, Unit)]
+        if not isinstance(here, Unit | Junction | Terminal):
+            raise ValueError(f"parts and units have neighbours, but {here.id!r} is a {here.layer}")
+        around = self._pipework.units_around(here.id, self._pipework.follower(direction))
+        return [unit for unit in self.of_layer(Unit) if unit.id in around]
 
-    def path(self, start: Part | Functional | str, end: Part | Functional | str) -> list[Node]:
-        """A shortest way from one part to another over adjacent parts, or from one unit to another over relations.
+    def path(
+        self, start: Part | Functional | str, end: Part | Functional | str, direction: Direction | None = None
+    ) -> list[Node]:
+        """A shortest way from one part to another over parts that touch, or from one unit to another along the pipes.
+
+        Of parts the way with the fewest of them, of units the shortest along the centrelines, as ``cadgraph trace``
+        finds it, with the junctions that it runs through.
+
+        Args:
+            start: where it begins.
+            end: where it leads.
+            direction: go only with the flow (``downstream``) or only against it (``upstream``); None goes both ways.
 
         Returns:
-            The nodes on the way, both ends included; empty if there is no way.
+            The nodes on the way, both ends included; empty if no way is known.
 
         Raises:
             KeyError: an end is not in the graph.
-            ValueError: the ends are not two parts, nor two units.
+            ValueError: the ends are not two parts, nor two units; no such direction, or one of parts.
         """
         first, last = self._resolve(start), self._resolve(end)
         kinds = {"part" if isinstance(node, Part) else node.layer for node in (first, last)}
@@ -253,20 +273,56 @@ class SceneGraph:
             raise ValueError(
                 f"a path joins two parts or two units, not {first.id!r} ({first.layer}) and {last.id!r} ({last.layer})"
             )
-        came_from: dict[str, str] = {first.id: first.id}
-        queue = deque([first.id])
-        while queue and last.id not in came_from:
-            here = queue.popleft()
-            for there in sorted(self._links[here], key=self._rank.__getitem__):
-                if there not in came_from:
-                    came_from[there] = here
-                    queue.append(there)
-        if last.id not in came_from:
+        _check_way(first, direction)
+        if kinds == {"part"}:
+            return [self.nodes[step] for step in self._over_parts(first.id, last.id)]
+        _, ways = self._pipework.shortest(first.id, self._pipework.follower(direction))
+        if last.id not in ways:
             return []
-        way = [last.id]
-        while way[-1] != first.id:
-            way.append(came_from[way[-1]])
-        return [self.nodes[step] for step in reversed(way)]
+        return [first, *(self.nodes[arc.end] for arc in ways[last.id])]
+
+    @overload
+    def related(self, node: None = None) -> list[Related]: ...
+    @overload
+    def related(self, node: Unit | str) -> list[Unit]: ...
+    def related(self, node: Unit | str | None = None) -> list[Unit] | list[Related]:
+        """The units that Algorithm 1 of the paper relates to a unit, or without one all of its relations.
+
+        The paper's relation says that two units are near each other along connector parts that touch. What follows
+        what along the pipes is :meth:`neighbors` and :meth:`connections`.
+
+        Args:
+            node: a unit by itself, its tag or id; None for all relations.
+
+        Raises:
+            KeyError: it is not in the graph.
+            ValueError: it is no unit.
+        """
+        if node is None:
+            return self.of_kind(Related)
+        here = self._resolve(node)
+        here = (self.unit_of(here) or here) if isinstance(here, Part) else here
+        if not isinstance(here, Unit):
+            raise ValueError(f"Algorithm 1 relates units, but {here.id!r} is a {here.layer}")
+        others = {(e.target if e.source == here.id else e.source) for e in self._related_at(here.id)}
+        return [unit for unit in self.of_layer(Unit) if unit.id in others]
+
+    def joints(self, node: Part | Functional | str | None = None, made: bool | None = None) -> list[Joint]:
+        """The joints that connections are made of, and the likeliest ones that were not made, in the order of the file.
+
+        Args:
+            node: only those at this part, or at a part of this unit, junction or terminal.
+            made: only those that were made, or only those that were not.
+
+        Raises:
+            KeyError: it is not in the graph.
+        """
+        found = [joint for joint in self.document.joints if made is None or joint.made == made]
+        if node is None:
+            return found
+        here = self._resolve(node)
+        parts = set(here.parts) if isinstance(here, Unit | Junction | Terminal) else {here.id}
+        return [joint for joint in found if joint.first in parts or joint.second in parts]
 
     def to_networkx(self) -> networkx.MultiDiGraph[str]:
         """The graph for networkx: node and edge attributes as in ``graph.json``, edge keys 0, 1... per pair."""
@@ -303,7 +359,7 @@ class SceneGraph:
             check_document(document)
             return cls(document)
         except ValidationError as error:
-            raise FormatError(f"{where}: {_what_is_wrong(error, data)}; build the graph anew") from None
+            raise FormatError(f"{where}: {what_is_wrong(error, data)}; build the graph anew") from None
         except FormatError as error:
             raise FormatError(f"{where}: {error}; build the graph anew") from None
 
@@ -321,7 +377,7 @@ class SceneGraph:
         """
         target = Path(path)
         target = target / "graph.json" if target.suffix != ".json" else target
-        write_json_rows(target, self.to_json(), rows=("nodes", "edges", "diagnostics"))
+        write_json_rows(target, self.to_json(), rows=("nodes", "edges", "joints", "diagnostics"))
         return target
 
     @classmethod
@@ -347,13 +403,36 @@ class SceneGraph:
         return {node.id: i for i, node in enumerate(self.document.nodes)}
 
     @cached_property
-    def _links(self) -> dict[str, set[str]]:
-        links: dict[str, set[str]] = {node: set() for node in self.nodes}
-        for edge in self.document.edges:
-            if not isinstance(edge, Contains):
-                links[edge.source].add(edge.target)
-                links[edge.target].add(edge.source)
-        return links
+    def _touching(self) -> dict[str, set[str]]:
+        touching: dict[str, set[str]] = {node: set() for node in self.nodes}
+        for edge in self.of_kind(Adjacent):
+            touching[edge.source].add(edge.target)
+            touching[edge.target].add(edge.source)
+        return touching
+
+    @cached_property
+    def _pipework(self) -> Pipework:
+        return Pipework(self.document.nodes, self.of_kind(Connected))
+
+    def _related_at(self, unit: str) -> list[Related]:
+        return [edge for edge in self.of_kind(Related) if unit in (edge.source, edge.target)]
+
+    def _over_parts(self, first: str, last: str) -> list[str]:
+        """Ids of the fewest parts from one to another over parts that touch."""
+        came_from: dict[str, str] = {first: first}
+        queue = deque([first])
+        while queue and last not in came_from:
+            here = queue.popleft()
+            for there in sorted(self._touching[here], key=self._rank.__getitem__):
+                if there not in came_from:
+                    came_from[there] = here
+                    queue.append(there)
+        if last not in came_from:
+            return []
+        way = [last]
+        while way[-1] != first:
+            way.append(came_from[way[-1]])
+        return way[::-1]
 
     @cached_property
     def _members(self) -> dict[str, set[str]]:
@@ -406,20 +485,10 @@ class SceneGraph:
             raise ValueError(f"{where} has no name {name!r}; it has {', '.join(map(str, names))}")
 
 
-def _what_is_wrong(error: ValidationError, data: Mapping[str, Any]) -> str:
-    """The first fault, with the id of its node or the ends of its edge."""
-    fault = error.errors()[0]
-    steps = list(fault["loc"])
-    place = ".".join(str(step) for step in steps)
-    if len(steps) < 2 or steps[0] not in ("nodes", "edges") or not isinstance(steps[1], int):
-        return f"{place} {expectation(fault)}"
-    row = data[str(steps[0])][steps[1]]
-    names = [row.get(key) for key in ("id", "kind", "source", "target")] if isinstance(row, Mapping) else []
-    if steps[0] == "nodes" and names and names[0] is not None:
-        place = f"node {reprlib.repr(names[0])} ({place})"
-    elif names and names[2] is not None:
-        place = f"edge {reprlib.repr(names[1])} from {reprlib.repr(names[2])} to {reprlib.repr(names[3])} ({place})"
-    return f"{place} {expectation(fault)}"
+def _check_way(node: Node, direction: str | None) -> None:
+    check_direction(direction)
+    if direction is not None and isinstance(node, Part):
+        raise ValueError(f"parts that touch have no direction of flow, but {node.id!r} is a part; ask its unit")
 
 
 def _count(n: int, noun: str) -> str:

@@ -25,6 +25,7 @@ __all__ = [
     "Contains",
     "Edge",
     "GraphDocument",
+    "Joint",
     "Junction",
     "Node",
     "OrientedBox",
@@ -217,6 +218,22 @@ class Related(Record):
     kind: Literal["related"] = "related"
 
 
+class Joint(Record):
+    """A place where two parts join along the pipes, or might have: what the connections are decided from."""
+
+    first: str = Field(description="id of the part that carries the line that ends there, or of a solid")
+    second: str = Field(description="id of the other part")
+    kind: Literal["face", "corner", "tap", "mount", "side", "flange"] = Field(
+        description="'face': end to end; 'corner': likewise at an angle; 'tap': an end on the side of a line; "
+        "'mount': an end at a solid; 'side': a solid on the side of a line; 'flange': solid to solid"
+    )
+    point: Point
+    gap: float = Field(description="between the two [m]; negative where one lies in the other")
+    score: float = Field(ge=0, le=1, description="how sure it is that they join")
+    made: bool = Field(description="whether the network joins them")
+    reasons: tuple[str, ...] = Field(default=(), description="what speaks for and against it, in words")
+
+
 Node = Site | Cluster | Part | Unit | Junction | Terminal | System
 Edge = Contains | Adjacent | Connected | Related
 _NodeField = Annotated[Node, Field(discriminator="layer")]
@@ -238,6 +255,11 @@ class GraphDocument(Record):
     config: dict[str, Any] = Field(default_factory=dict)
     nodes: tuple[_NodeField, ...]
     edges: tuple[_EdgeField, ...]
+    joints: tuple[Joint, ...] = Field(
+        default=(),
+        exclude_if=lambda joints: not joints,
+        description="what the connections are made of, and the likeliest joints that were not made; absent where none",
+    )
     diagnostics: tuple[Diagnostic, ...] = ()
 
 

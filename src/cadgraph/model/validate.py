@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import reprlib
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from pydantic import ValidationError
+
 from cadgraph._io.text import natural_key
+from cadgraph._io.validation_messages import expectation
 from cadgraph.errors import FormatError
 from cadgraph.model.records import (
     Adjacent,
@@ -14,6 +18,7 @@ from cadgraph.model.records import (
     Contains,
     Edge,
     GraphDocument,
+    Joint,
     Junction,
     Node,
     Part,
@@ -24,7 +29,7 @@ from cadgraph.model.records import (
     Unit,
 )
 
-__all__ = ["check_document", "check_names"]
+__all__ = ["check_document", "check_names", "what_is_wrong"]
 
 # Which layers an edge may join: (source, target).
 _JOINS: dict[str, tuple[tuple[tuple[type[Any], ...], tuple[type[Any], ...]], ...]] = {
@@ -78,6 +83,7 @@ def check_document(document: GraphDocument) -> None:
     nodes = check_names(document)
     _check_edges(document.edges, nodes)
     _check_nodes(document.nodes, nodes)
+    _check_joints(document.joints, nodes)
 
 
 def _check_edges(edges: Iterable[Edge], nodes: Mapping[str, Node]) -> None:
@@ -141,6 +147,13 @@ def _check_nodes(listed: Iterable[Node], nodes: Mapping[str, Node]) -> None:
             _check_known(node.terminals, Terminal, nodes, here)
 
 
+def _check_joints(joints: Iterable[Joint], nodes: Mapping[str, Node]) -> None:
+    for joint in joints:
+        here = f"the {joint.kind!r} joint of {joint.first!r} and {joint.second!r}"
+        # A part may join itself: what a mesh holds may be several pieces of pipe.
+        _check_known((joint.first, joint.second), Part, nodes, here)
+
+
 def _check_known(names: Iterable[str], layer: type[Any], nodes: Mapping[str, Node], here: str) -> None:
     for name in names:
         if not isinstance(nodes.get(name), layer):
@@ -154,3 +167,35 @@ def _first_repeat(names: Iterable[str]) -> str:
             return name
         seen.add(name)
     return ""
+
+
+def what_is_wrong(error: ValidationError, data: Mapping[str, Any]) -> str:
+    """The first fault of a document, with the id of its node, the ends of its edge or the parts of its joint.
+
+    Args:
+        error: of reading the document.
+        data: the document as it was read.
+    """
+    fault = error.errors()[0]
+    steps = list(fault["loc"])
+    place = ".".join(str(step) for step in steps)
+    if len(steps) < 2 or steps[0] not in ("nodes", "edges", "joints") or not isinstance(steps[1], int):
+        return f"{place} {expectation(fault)}"
+    called = _called(str(steps[0]), data[str(steps[0])][steps[1]])
+    return f"{f'{called} ({place})' if called else place} {expectation(fault)}"
+
+
+def _called(key: str, row: object) -> str:
+    """What a row of a document is called by, as far as it says."""
+    if not isinstance(row, Mapping):
+        return ""
+    told = {name: reprlib.repr(value) for name, value in row.items()}
+    if key == "nodes":
+        return f"node {told['id']}" if row.get("id") is not None else ""
+    ends = ("source", "target") if key == "edges" else ("first", "second")
+    if row.get(ends[0]) is None:
+        return ""
+    names = [told.get(name, "None") for name in ("kind", *ends)]
+    if key == "edges":
+        return f"edge {names[0]} from {names[1]} to {names[2]}"
+    return f"joint {names[0]} of {names[1]} and {names[2]}"

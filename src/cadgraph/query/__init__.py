@@ -6,6 +6,9 @@ All functions are pure: a finished :class:`~cadgraph.model.graph.SceneGraph` in,
 from __future__ import annotations
 
 from cadgraph.query.compare import Comparison, compare
+from cadgraph.query.doubt import Doubt
+from cadgraph.query.explain_connection import ConnectionExplanation, explain_connection
+from cadgraph.query.explain_unit import UnitExplanation, explain_unit
 from cadgraph.query.isolate import Closing, Isolation, Opening, find_isolation
 from cadgraph.query.lines import Line, find_lines
 from cadgraph.query.network import Arc, Network
@@ -15,6 +18,8 @@ __all__ = [
     "Arc",
     "Closing",
     "Comparison",
+    "ConnectionExplanation",
+    "Doubt",
     "Halt",
     "Isolation",
     "Line",
@@ -23,7 +28,10 @@ __all__ = [
     "Return",
     "Step",
     "Trace",
+    "UnitExplanation",
     "compare",
+    "explain_connection",
+    "explain_unit",
     "find_isolation",
     "find_lines",
     "find_way",

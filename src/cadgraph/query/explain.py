@@ -9,10 +9,14 @@ from typing import Any
 
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import Evidence, GivenEvidence
-from cadgraph.model.records import Adjacent, Part
+from cadgraph.model.records import Adjacent, Junction, Part, Terminal, Unit
 from cadgraph.model.vocabulary import spell_label
+from cadgraph.query.explain_connection import ConnectionExplanation, explain_connection
+from cadgraph.query.explain_unit import UnitExplanation, explain_unit
+from cadgraph.query.network import Network
+from cadgraph.query.told_joint import ToldJoint, say_joint, tell_joint
 
-__all__ = ["Explanation", "Neighbor", "explain"]
+__all__ = ["Explanation", "Neighbor", "explain", "explain_any"]
 
 _MOST_TOLD = 12  # of neighbours and repeats, in words
 
@@ -53,6 +57,7 @@ class Explanation:
         unit: tag of its functional unit, or None.
         cluster: id of its structure, or None.
         inside: id of the part that encloses it on all sides, or None.
+        joints: where lines join at it, made or not, the surest first.
     """
 
     part: str
@@ -69,6 +74,7 @@ class Explanation:
     unit: str | None = None
     cluster: str | None = None
     inside: str | None = None
+    joints: tuple[ToldJoint, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         """As plain values."""
@@ -95,6 +101,7 @@ class Explanation:
         rows.append(("same shape", alike or "no other part"))
         rows.append(("unit", self.unit or "none"))
         rows.append(("structure", self.cluster or "none"))
+        rows += [("joined" if joint.made else "not joined", say_joint(joint)) for joint in self.joints[:_MOST_TOLD]]
         return rows
 
 
@@ -132,7 +139,34 @@ def explain(graph: SceneGraph, which: str) -> Explanation:
         unit=None if unit is None else unit.tag,
         cluster=None if cluster is None else cluster.id,
         inside=part.inside,
+        joints=_joints(graph, part),
     )
+
+
+def _joints(graph: SceneGraph, part: Part) -> tuple[ToldJoint, ...]:
+    found = sorted(graph.joints(part), key=lambda joint: (not joint.made, -joint.score, joint.first, joint.second))
+    network = Network(graph)
+    return tuple(tell_joint(network, joint, (part.id,)) for joint in found)
+
+
+def explain_any(
+    graph: SceneGraph, which: str, other: str | None = None
+) -> Explanation | UnitExplanation | ConnectionExplanation:
+    """Explains whatever is called so: a part's label, a unit's lines, or what connects two units.
+
+    Args:
+        graph: finished.
+        which: id of a part, source path of a mesh, tag of a unit, id of a junction or of an end.
+        other: of what else, where the connection of the two is asked for; a part then stands for its unit.
+
+    Raises:
+        UnknownNode: the graph has nothing of that name.
+        ValueError: both are the same.
+    """
+    if other is not None:
+        return explain_connection(graph, which, other)
+    node = graph.find(which, Part, Unit, Junction, Terminal)
+    return explain(graph, node.id) if isinstance(node, Part) else explain_unit(graph, node.id)
 
 
 def _why(part: Part) -> str:

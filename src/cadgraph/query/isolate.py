@@ -7,8 +7,10 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
 from cadgraph._io.text import tag_key
+from cadgraph.errors import Unconnected
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Terminal
+from cadgraph.query.doubt import Doubt, few_ports, open_sides
 from cadgraph.query.lines import find_lines
 from cadgraph.query.network import Arc, Network
 
@@ -73,7 +75,9 @@ class Isolation:
         target: id of what is to be isolated.
         name: its tag.
         valves: to close, the nearest first.
-        openings: what can't be isolated; empty where the unit can be.
+        openings: what can't be isolated.
+        doubts: what may feed the unit without having been found: units of the section with fewer lines than their kind
+            needs, and joints at it that were not made although much speaks for them.
         shut_off: ids of the units that lie in the isolated section too, the nearest first.
         shut_off_names: their tags.
         lines: tags of the lines in the section, wholly or in part.
@@ -84,10 +88,18 @@ class Isolation:
     name: str
     valves: tuple[Closing, ...]
     openings: tuple[Opening, ...]
+    doubts: tuple[Doubt, ...]
     shut_off: tuple[str, ...]
     shut_off_names: tuple[str, ...]
     lines: tuple[str, ...]
     remarks: tuple[str, ...]
+
+    @property
+    def isolated(self) -> bool | None:
+        """Whether the valves isolate the unit wholly; None where nobody can tell."""
+        if self.openings:
+            return False
+        return None if self.doubts else True
 
 
 @dataclass(frozen=True)
@@ -103,9 +115,9 @@ def find_isolation(
     """The valves that isolate a unit, on every one of its ports.
 
     By default the nearest valve on every way out, so that as little as possible is shut off with it; a valve behind
-    which nothing can flow (a blind end, an instrument) need not be closed. Control valves never count as isolating,
-    relief valves are taken for closed and never asked to be blocked. A tank is a source: the section ends there, valve
-    or not.
+    which nothing can flow (a blind end, an instrument) need not be closed, one of which only one side is known must.
+    Control valves never count as isolating, relief valves are taken for closed and never asked to be blocked. A tank is
+    a source: the section ends there, valve or not.
 
     Args:
         graph: the finished graph, or its network.
@@ -115,10 +127,14 @@ def find_isolation(
             the nearest of those, although it may shut off more.
 
     Raises:
+        Unconnected: no line was found at the unit, which is a ``ValueError``: that doesn't say that nothing feeds it.
         ValueError: nothing is called so.
     """
     network = graph if isinstance(graph, Network) else Network(graph)
-    section = _close_off(network, network.find(target), check_valves, fewest)
+    start = network.find(target)
+    if not network.arcs(start):
+        raise Unconnected(network.name(start), "what isolates it")
+    section = _close_off(network, start, check_valves, fewest)
     line_of = {arc.index: line.tag for line in find_lines(network) for arc in line.arcs}
     inside = [place for place in section.inside() if network.unit_type(place) not in (None, "tank")]
     return Isolation(
@@ -134,6 +150,7 @@ def find_isolation(
             for place in section.inside()
             if (opening := _opening(network, place, section.reached[place])) is not None
         ),
+        doubts=open_sides(network, _own(network, section), "feeds"),
         shut_off=tuple(inside),
         shut_off_names=tuple(network.name(place) for place in inside),
         lines=_lines(network, section, line_of),
@@ -178,15 +195,15 @@ def _close_off(network: Network, start: str, check_valves: bool, fewest: bool) -
     return _Section(start, reached, tuple(nearest), frozenset(walls), frozenset(region), tuple(needed))
 
 
+def _own(network: Network, section: _Section) -> list[str]:
+    """The nodes of a section, the start first, without tanks beside it, whose other lines don't belong to it."""
+    return [section.start, *(place for place in section.inside() if network.unit_type(place) != "tank")]
+
+
 def _lines(network: Network, section: _Section, line_of: Mapping[int, str]) -> tuple[str, ...]:
     """The tags of the lines of a section; the pipes at a tank beside it don't belong to it."""
-    tags = {
-        line_of[arc.index]
-        for place in section.region
-        if place == section.start or network.unit_type(place) != "tank"
-        for arc in network.arcs(place)
-        if arc.index in line_of
-    }
+    own = _own(network, section)
+    tags = {line_of[arc.index] for place in own for arc in network.arcs(place) if arc.index in line_of}
     return tuple(sorted(tags, key=tag_key))
 
 
@@ -242,7 +259,12 @@ def _flood(
 
 
 def _is_fed(network: Network, wall: str, region: Collection[str], walls: Collection[str]) -> bool:
-    """Whether anything behind a valve could flow to it: an end that isn't blind, a tank, a pump, other equipment."""
+    """Whether anything behind a valve could flow to it: an end that isn't blind, a tank, a pump, other equipment.
+
+    What lies behind a valve of which only one side is known, nobody knows.
+    """
+    if few_ports(network, wall) is not None:
+        return True
     seen, stack = {wall}, [arc.end for arc in network.arcs(wall)]
     while stack:
         place = stack.pop()
@@ -254,7 +276,7 @@ def _is_fed(network: Network, wall: str, region: Collection[str], walls: Collect
             if node.kind != "blind":
                 return True
             continue
-        if network.unit_type(place) not in (None, "valve", "gauge"):
+        if network.unit_type(place) not in (None, "valve", "gauge") or few_ports(network, place) is not None:
             return True
         stack += [arc.end for arc in network.arcs(place)]
     return False
@@ -265,7 +287,9 @@ def _smallest(network: Network, start: str, barriers: set[str], check_valves: bo
     import networkx
 
     reached, _ = _flood(network, start, barriers, check_valves)
-    sources = [p for p in network.places if p != start and _is_source(network, p) and (p not in reached)]
+    sources = [(p, "out") for p in network.places if p != start and _is_source(network, p) and p not in reached]
+    # A valve of which only one side is known keeps off what may lie behind it.
+    sources += [(p, "in") for p in network.places if p in barriers and few_ports(network, p) is not None]
     flow: networkx.DiGraph[tuple[str, str]] = networkx.DiGraph()
     origin, sink = ("", "all sources"), (start, "in")
     flow.add_nodes_from((origin, sink))
@@ -278,8 +302,7 @@ def _smallest(network: Network, start: str, barriers: set[str], check_valves: bo
             # What flows to the unit walks the arc's way; a check valve lets it out only the way it opens.
             if not (check_valves and _holds_back(network, arc.back)):
                 flow.add_edge((arc.start, "out"), (arc.end, "in"))
-    for place in sources:
-        flow.add_edge(origin, (place, "out"))
+    flow.add_edges_from((origin, source) for source in sources)
     # Seen from the unit, so that of equally small sets the nearest one is found.
     # The set is small where there is one, which this algorithm is quick at.
     augment = networkx.algorithms.flow.shortest_augmenting_path
@@ -327,8 +350,6 @@ def _remarks(network: Network, section: _Section, check_valves: bool) -> tuple[s
     guessed = sorted((network.name(p) for p in section.needed if network.what(p) == "valve"), key=tag_key)
     if guessed:
         told.append(f"{', '.join(guessed)}: kind not known, taken for shut-off valves")
-    if not network.arcs(section.start):
-        told.append(f"{network.name(section.start)} is connected to nothing")
     return tuple(told)
 
 
@@ -338,6 +359,8 @@ def _remark(network: Network, section: _Section, place: str, check_valves: bool)
     if place in section.walls:
         if _is_relief(network, place):
             return "is a relief valve: taken for closed, not to be blocked"
+        if few_ports(network, place) is not None:
+            return "has a line on one side only: what lies behind it is not known"
         needless = place not in section.needed and not network.is_tap(arc)
         return "need not be closed: nothing can flow from behind it" if needless else None
     if _CHECK in kind and not check_valves:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeVar
 
 from cadgraph._io.text import tag_key
+from cadgraph.errors import Unconnected
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Unit
 from cadgraph.query.network import Arc, Flow, Network
@@ -71,8 +72,8 @@ class Line:
         return "/".join(str(size) for size in self.sizes)
 
 
-def find_lines(graph: SceneGraph | Network) -> list[Line]:
-    """All lines of a graph.
+def find_lines(graph: SceneGraph | Network, at: str | None = None) -> list[Line]:
+    """All lines of a graph, or those at one of its units.
 
     A line runs on through valves, gauges and the junctions of instrument taps. It ends at everything else: a junction
     of three or more pipes, a terminal, a tank, pump or other equipment, and a valve with other than two connections. A
@@ -80,11 +81,42 @@ def find_lines(graph: SceneGraph | Network) -> list[Line]:
 
     Args:
         graph: the finished graph, or its network.
+        at: tag or id of a unit, junction or terminal that the lines begin at, end at or run through; of an instrument
+            on a tap those that it is tapped from.
 
     Returns:
         The lines by system, start and end.
+
+    Raises:
+        Unconnected: no line was found at that unit, which is a ``ValueError``: that is no answer.
+        ValueError: nothing is called so.
     """
     network = graph if isinstance(graph, Network) else Network(graph)
+    if at is None:
+        return _all_lines(network)
+    place = network.find(at)
+    if not network.arcs(place):
+        raise Unconnected(network.name(place), "which lines it is in")
+    lines = _all_lines(network)
+    own = [line for line in lines if place in (line.start, line.end, *line.through)]
+    foot = _foot(network, place)
+    return own or [line for line in lines if foot in (line.start, line.end, *(arc.end for arc in line.arcs))]
+
+
+def _foot(network: Network, place: str) -> str:
+    """Where the tap that a node hangs on branches off."""
+    seen = {place}
+    onward = [arc for arc in network.arcs(place) if network.is_tap(arc)]
+    while onward:
+        place = onward[0].end
+        seen.add(place)
+        if not network.is_gauge(place) and not network.is_valve(place):
+            break
+        onward = [arc for arc in network.arcs(place) if network.is_tap(arc) and arc.end not in seen]
+    return place
+
+
+def _all_lines(network: Network) -> list[Line]:
     used: set[int] = set()
     runs: list[list[Arc]] = []
     # First from what divides, then the rings that hold nothing of the kind.

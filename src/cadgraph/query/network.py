@@ -1,90 +1,17 @@
-"""The functional network: units, junctions and terminals, and the connections between them, ready to be walked."""
+"""The functional network of a graph: its pipework, with systems and what hangs at each node."""
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
-from typing import Literal
 
-from cadgraph._io.text import tag_key
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.records import Connected, Junction, Point, System, Terminal, Unit
+from cadgraph.model.pipework import Arc, Flow, Pipework, Place
+from cadgraph.model.records import Connected, Joint, Junction, System, Terminal, Unit
 
 __all__ = ["Arc", "Flow", "Network", "Place"]
 
-Flow = Literal["along", "against", "unknown"]
-Place = Unit | Junction | Terminal
 
-
-@dataclass(frozen=True)
-class Arc:
-    """One connection, walked one way.
-
-    Args:
-        index: of the connection, among all of the network.
-        edge: the connection.
-        forward: whether it is walked from its source to its target.
-    """
-
-    index: int
-    edge: Connected
-    forward: bool
-
-    @property
-    def start(self) -> str:
-        """Id of the node that is left."""
-        return self.edge.source if self.forward else self.edge.target
-
-    @property
-    def end(self) -> str:
-        """Id of the node that is reached."""
-        return self.edge.target if self.forward else self.edge.source
-
-    @property
-    def start_port(self) -> str | None:
-        """The port that is left by."""
-        return self.edge.source_port if self.forward else self.edge.target_port
-
-    @property
-    def end_port(self) -> str | None:
-        """The port that is entered by."""
-        return self.edge.target_port if self.forward else self.edge.source_port
-
-    @property
-    def flow(self) -> Flow:
-        """Whether the flow goes the way that is walked."""
-        if self.edge.direction == "unknown":
-            return "unknown"
-        return "along" if (self.edge.direction == "forward") == self.forward else "against"
-
-    @property
-    def path(self) -> tuple[Point, ...]:
-        """The centreline in the order that it is walked."""
-        return self.edge.path if self.forward else self.edge.path[::-1]
-
-    @property
-    def sizes(self) -> tuple[int, ...]:
-        """Nominal sizes (DN) in the order that it is walked, each change once; empty where none is known."""
-        found = self.edge.sizes or ((self.edge.size,) if self.edge.size is not None else ())
-        return found if self.forward else found[::-1]
-
-    @property
-    def length(self) -> float | None:
-        """Along the centreline [m]; of the polyline where no length is given, None where that is missing too."""
-        if self.edge.length is not None:
-            return self.edge.length
-        steps = pairwise(self.edge.path)
-        return sum(math.dist(a, b) for a, b in steps) if len(self.edge.path) > 1 else None
-
-    @property
-    def back(self) -> Arc:
-        """The same connection, walked the other way."""
-        return Arc(self.index, self.edge, not self.forward)
-
-
-class Network:
+class Network(Pipework):
     """All ``connected`` edges of a graph with their nodes.
 
     Args:
@@ -92,55 +19,8 @@ class Network:
     """
 
     def __init__(self, graph: SceneGraph) -> None:
+        super().__init__(graph.document.nodes, graph.of_kind(Connected))
         self.graph = graph
-        self.edges: tuple[Connected, ...] = tuple(graph.of_kind(Connected))
-
-    @cached_property
-    def places(self) -> dict[str, Place]:
-        """Everything that can stand in a line: all units, junctions and terminals by id, in the order of the file."""
-        return {node.id: node for node in self.graph.document.nodes if isinstance(node, Unit | Junction | Terminal)}
-
-    @cached_property
-    def _arcs(self) -> dict[str, tuple[Arc, ...]]:
-        found: dict[str, list[Arc]] = {place: [] for place in self.places}
-        for index, edge in enumerate(self.edges):
-            for arc in (Arc(index, edge, True), Arc(index, edge, False)):
-                found[arc.start].append(arc)
-        return {place: tuple(sorted(arcs, key=self._order)) for place, arcs in found.items()}
-
-    def arcs(self, place: str) -> tuple[Arc, ...]:
-        """The connections that leave a node, in the natural order of what they lead to.
-
-        A connection from a node to itself is there twice, once each way.
-        """
-        return self._arcs[place]
-
-    def name(self, place: str) -> str:
-        """What people call a node: the tag of a unit, else the id."""
-        node = self.places[place]
-        return node.tag if isinstance(node, Unit) else node.id
-
-    def what(self, place: str) -> str:
-        """What a node is, in words: its kind where that is known, else its type."""
-        node = self.places[place]
-        if isinstance(node, Unit):
-            return node.kind or node.unit_type
-        if isinstance(node, Terminal):
-            return {"open": "open end", "blind": "blind end", "unknown": "end of pipe"}[node.kind]
-        return node.layer
-
-    def unit_type(self, place: str) -> str | None:
-        """The type of a unit; None for junctions and terminals."""
-        node = self.places[place]
-        return node.unit_type if isinstance(node, Unit) else None
-
-    def is_gauge(self, place: str) -> bool:
-        """Whether a node is an instrument, which hangs at its line and carries no flow."""
-        return self.unit_type(place) == "gauge"
-
-    def is_valve(self, place: str) -> bool:
-        """Whether a node is a valve of any kind."""
-        return self.unit_type(place) == "valve"
 
     def find(self, which: str) -> str:
         """The id of the unit, junction or terminal with this tag or id, or that a part with this id or mesh belongs to.
@@ -149,6 +29,24 @@ class Network:
             UnknownNode: there is none, which is a ``ValueError``; the message names the nearest tags.
         """
         return self.graph.find(which, Unit, Junction, Terminal).id
+
+    @cached_property
+    def open_joints(self) -> tuple[Joint, ...]:
+        """The joints that were not made, in the order of the file."""
+        return tuple(joint for joint in self.graph.document.joints if not joint.made)
+
+    @cached_property
+    def _owner_of_part(self) -> dict[str, str]:
+        ordered = sorted(self.places.items(), key=lambda item: not isinstance(item[1], Unit))
+        owner: dict[str, str] = {}
+        for place, node in ordered:
+            for part in node.parts:
+                owner.setdefault(part, place)
+        return owner
+
+    def owner_of_part(self, part: str) -> str | None:
+        """The id of the unit, else of the junction or terminal that a part belongs to."""
+        return self._owner_of_part.get(part)
 
     @cached_property
     def _system_of(self) -> dict[str, str]:
@@ -161,57 +59,6 @@ class Network:
     def system(self, place: str) -> str | None:
         """The id of the system that a node belongs to."""
         return self._system_of.get(place)
-
-    @cached_property
-    def _taps(self) -> frozenset[int]:
-        return frozenset(
-            index
-            for place in self.places
-            if self.is_gauge(place) and len(self.arcs(place)) == 1
-            for index in self._tap_from(self.arcs(place)[0])
-        )
-
-    def is_tap(self, arc: Arc) -> bool:
-        """Whether a connection leads to nothing but an instrument.
-
-        It carries no flow: its direction means nothing, and it doesn't divide the line that it branches
-        from. That is a gauge at the end of a branch, with the valves and gauges between it and the branching.
-        """
-        return arc.index in self._taps
-
-    @cached_property
-    def _dead(self) -> frozenset[int]:
-        found: set[int] = set()
-        for place, node in self.places.items():
-            if isinstance(node, Terminal) and node.kind == "blind" and len(self.arcs(place)) == 1:
-                found.update(arc.index for arc in self._back_from(self.arcs(place)[0]))
-        return frozenset(found)
-
-    def is_dead(self, arc: Arc) -> bool:
-        """Whether a connection leads to nothing but a blind end, so that nothing flows there."""
-        return arc.index in self._dead
-
-    def _back_from(self, arc: Arc) -> list[Arc]:
-        """From an end back over valves and gauges to where the line branches off."""
-        way = [arc]
-        while (self.is_valve(arc.end) or self.is_gauge(arc.end)) and len(self.arcs(arc.end)) == 2:
-            onward = [other for other in self.arcs(arc.end) if other.index != arc.index]
-            if not onward:
-                break
-            arc = onward[0]
-            way.append(arc)
-        return way
-
-    def _tap_from(self, arc: Arc) -> list[int]:
-        """The connections from a gauge at an end back to where it branches off."""
-        way = self._back_from(arc)
-        last = way[-1].end
-        # A run that ends in a gauge without having branched off anything is a line of its own, not a tap.
-        branches_off = isinstance(self.places[last], Junction) or self._is_vessel(last)
-        return [step.index for step in way] if branches_off else []
-
-    def _is_vessel(self, place: str) -> bool:
-        return isinstance(self.places[place], Unit) and not self.is_valve(place) and not self.is_gauge(place)
 
     def main_arcs(self, place: str) -> tuple[Arc, ...]:
         """The connections of a node without those that only lead to an instrument."""
@@ -234,6 +81,3 @@ class Network:
     def instruments(self, place: str) -> tuple[str, ...]:
         """All that hangs at a node on taps."""
         return tuple(name for chain in self.tap_chains(place) for name in chain)
-
-    def _order(self, arc: Arc) -> tuple[object, ...]:
-        return tag_key(self.name(arc.end)), tag_key(arc.start_port or ""), arc.index, arc.forward

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass
+from typing import Literal
 
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.records import Adjacent, Connected, Related
+from cadgraph.model.records import Adjacent, Connected, Junction, Terminal
+from cadgraph.query.doubt import unconnected
+from cadgraph.query.network import Network
 
-__all__ = ["Summary", "summarize"]
+__all__ = ["Summary", "connection_between", "connection_words", "end_words", "summarize"]
 
 _GRAVE = frozenset({"invalid-units", "invalid-up-axis", "unusual-size", "vocabulary-unknown-to-model"})
 """Codes of findings that are said aloud: with the wrong scale or vocabulary hardly any label can be right."""
@@ -24,13 +27,18 @@ class Summary:
         n_triangles: in them.
         n_parts: after grouping.
         n_clusters: connected structures.
-        n_pipe_systems: those that hold a connector part.
+        n_with_pipes: those that hold a connector part.
         n_labelled: parts with a label.
         groups: number of parts by group, the commonest first.
         units: tags by unit type.
         n_adjacent: pairs of parts that touch.
-        n_related: pairs of units that Algorithm 1 relates.
-        n_connected: connections along pipes.
+        n_connected: connections along the pipes.
+        between: how many of them join two ``units``, how many a ``junction``, and how many lead to an ``end``.
+        n_junctions: where three or more lines meet.
+        ends: number of ends of lines by kind (``open``, ``blind``, ``unknown``).
+        n_systems: connected networks of pipes.
+        without_line: tags of the units at which no line was found.
+        n_related: pairs of units that Algorithm 1 of the paper relates.
         diagnostics: number of findings' meshes (or findings, where they name none) by code.
         warnings: what may spoil the whole result, in words.
     """
@@ -40,15 +48,28 @@ class Summary:
     n_triangles: int
     n_parts: int
     n_clusters: int
-    n_pipe_systems: int
+    n_with_pipes: int
     n_labelled: int
     groups: dict[str, int]
     units: dict[str, tuple[str, ...]]
     n_adjacent: int
-    n_related: int
     n_connected: int
+    between: dict[str, int]
+    n_junctions: int
+    ends: dict[str, int]
+    n_systems: int
+    without_line: tuple[str, ...]
+    n_related: int
     diagnostics: dict[str, int]
     warnings: tuple[str, ...]
+
+
+def connection_between(graph: SceneGraph, edge: Connected) -> Literal["units", "junction", "end"]:
+    """What a connection joins: two units, or at least one junction; or it leads to an end, whatever the other side."""
+    nodes = graph.nodes[edge.source], graph.nodes[edge.target]
+    if any(isinstance(node, Terminal) for node in nodes):
+        return "end"
+    return "junction" if any(isinstance(node, Junction) for node in nodes) else "units"
 
 
 def summarize(graph: SceneGraph) -> Summary:
@@ -67,13 +88,31 @@ def summarize(graph: SceneGraph) -> Summary:
         n_triangles=graph.source.n_triangles,
         n_parts=len(parts),
         n_clusters=len(graph.clusters()),
-        n_pipe_systems=len(graph.clusters("pipe system")),
+        n_with_pipes=len(graph.clusters("pipe system")),
         n_labelled=sum(part.label is not None for part in parts),
         groups=dict(sorted(groups.items(), key=lambda item: (-item[1], item[0]))),
         units={unit_type: tuple(tags) for unit_type, tags in units.items()},
         n_adjacent=len(graph.of_kind(Adjacent)),
-        n_related=len(graph.of_kind(Related)),
-        n_connected=len(graph.of_kind(Connected)),
+        n_connected=len(graph.connections()),
+        between=dict(Counter(connection_between(graph, edge) for edge in graph.connections())),
+        n_junctions=len(graph.junctions()),
+        ends=dict(sorted(Counter(end.kind for end in graph.terminals()).items())),
+        n_systems=len(graph.systems()),
+        without_line=tuple(unconnected(Network(graph))) if graph.connections() else (),
+        n_related=len(graph.related()),
         diagnostics=dict(sorted(findings.items())),
         warnings=tuple(finding.message for finding in graph.diagnostics if finding.code in _GRAVE),
     )
+
+
+def connection_words(summary: Summary) -> str:
+    """How many connections there are and what they join: "33: 20 between units, 11 at junctions, 2 to ends"."""
+    manners = (("units", "between units"), ("junction", "at junctions"), ("end", "to ends"))
+    told = [f"{summary.between[key]:,} {words}" for key, words in manners if summary.between.get(key)]
+    return f"{summary.n_connected:,}{': ' if told else ''}{', '.join(told)}"
+
+
+def end_words(summary: Summary) -> str:
+    """How many ends of lines there are of which kind: "3: 2 open, 1 blind"."""
+    told = [f"{summary.ends[kind]:,} {kind}" for kind in ("open", "blind", "unknown") if summary.ends.get(kind)]
+    return f"{sum(summary.ends.values()):,}{': ' if told else ''}{', '.join(told)}"

@@ -8,8 +8,10 @@ from collections.abc import Sequence
 from typing import Any
 
 from cadgraph.query.compare import Comparison, Missing
+from cadgraph.query.doubt import Doubt, few_ports, likely_joints, unconnected
 from cadgraph.query.isolate import Isolation
 from cadgraph.query.lines import Line
+from cadgraph.query.network import Network
 from cadgraph.query.trace import Step, Trace
 
 __all__ = [
@@ -17,6 +19,7 @@ __all__ = [
     "aligned",
     "comparison_lines",
     "comparison_values",
+    "gap_lines",
     "isolation_lines",
     "isolation_values",
     "line_rows",
@@ -31,6 +34,7 @@ LINE_COLUMNS = (
     "line", "from", "from_port", "to", "to_port", "through", "length_m", "length_complete", "dn", "flow", "reason",
     "confidence", "system",
 )  # fmt: skip
+_MOST_NAMES = 12
 _FLOWS = {"forward": "->", "backward": "<-", "none": "--", "unknown": "?", "contradictory": "><"}
 _FLOW_WORDS = {"along": "with the flow", "against": "against the flow", "unknown": "direction unknown"}
 
@@ -67,6 +71,26 @@ def line_table(lines: Sequence[Line]) -> list[str]:
     told += [f"direction unknown (?) in {unknown}"] * bool(unknown)
     told += [f"contradictory (><) in {contradictory}"] * bool(contradictory)
     return [*aligned(rows, right=(4, 5)), "", ", ".join(told)]
+
+
+def gap_lines(network: Network) -> list[str]:
+    """What a line list may lack: units without a line or with too few, and joints that were not made."""
+    without = unconnected(network)
+    short = [
+        f"{network.name(place)} ({few[0]} of {few[1]})"
+        for place in network.places
+        if network.arcs(place) and (few := few_ports(network, place)) is not None
+    ]
+    n_joints = len(likely_joints(network))
+    told = []
+    if without:
+        told.append(f"no line was found at {_some(without)}")
+    if short:
+        told.append(f"fewer lines than its kind needs has {_some(short)}")
+    if n_joints:
+        are, they = ("joint was", "it") if n_joints == 1 else ("joints were", "they")
+        told.append(f"{n_joints} {are} not made although {they} may be there")
+    return [*told, "'cadgraph explain FOLDER TAG' says what is near a unit or an end"] if told else []
 
 
 def line_values(line: Line) -> dict[str, Any]:
@@ -115,14 +139,15 @@ def trace_lines(found: Trace) -> list[str]:
     meets = [f"{r.after} -> {r.to}" for r in found.returns if not r.loop]
     told += ["", f"comes round in a loop: {', '.join(loops)}"] if loops else []
     told += ["", f"branches meet again: {', '.join(meets)}"] if meets else []
-    return told
+    return told + (["", *_doubt_lines("this may not be all:", found.doubts)] if found.doubts else [])
 
 
 def way_lines(found: Trace, start: str, end: str) -> list[str]:
     """A way from one node to another in order, or that there is none."""
     manner = f" {found.direction}" if found.direction else ""
     if not found.steps:
-        return [f"no way{manner} along the pipes from {start} to {end}"]
+        told = [f"no way{manner} along the pipes from {start} to {end} was found"]
+        return told + (_doubt_lines("there may be one all the same:", found.doubts) if found.doubts else [])
     rows = [("distance", "", "", "line", "")]
     for step in found.steps:
         flow = _FLOW_WORDS[step.flow] if step.after and not step.tap else ""
@@ -156,36 +181,45 @@ def trace_values(found: Trace) -> dict[str, Any]:
         ],
         "halts": [{**dataclasses.asdict(halt), "distance": round(halt.distance, 6)} for halt in found.halts],
         "returns": [dataclasses.asdict(back) for back in found.returns],
+        "doubts": [_doubt_values(doubt) for doubt in found.doubts],
     }
 
 
 def isolation_lines(found: Isolation) -> list[str]:
-    """What to close, what can't be isolated, what else is shut off."""
+    """What can't be isolated, what makes that doubtful, what to close, what else is shut off."""
     told = []
-    by_hand = [valve for valve in found.valves if not valve.automatic]
     if found.openings:
         told.append(f"{found.name} can't be isolated wholly:")
         open_rows = [(f"{o.name} ({o.what})", _by(o.port), _metres(o.distance), o.why) for o in found.openings]
         told += [f"  {row}" for row in aligned(open_rows, right=(2,))]
-    if found.valves:
-        told.append(f"to isolate {found.name}, close {len(by_hand)} valve{'s' * (len(by_hand) != 1)}:")
-        rows = [
-            (v.name, v.what, _by(v.port), _metres(v.distance), v.line or "", "closes by itself" if v.automatic else "")
-            for v in found.valves
-        ]
-        told += [f"  {row}" for row in aligned(rows, right=(3,))]
-    elif not found.openings:
+    if found.doubts:
+        heading = "these valves may not isolate" if found.valves else "nobody can tell what isolates"
+        told += _doubt_lines(f"{heading} {found.name} wholly:", found.doubts)
+    if found.isolated and not found.valves:
         told.append(f"no valve has to be closed to isolate {found.name}: nothing can flow to it")
     shut = ", ".join(found.shut_off_names) or "nothing else"
-    told.append(f"shut off with it: {shut}" + (f" (lines {', '.join(found.lines)})" if found.lines else ""))
-    return told + [f"note: {remark}" for remark in found.remarks]
+    lines = f" (lines {', '.join(found.lines)})" if found.lines else ""
+    return [*told, *_closing_lines(found), f"shut off with it: {shut}{lines}", *(f"note: {r}" for r in found.remarks)]
+
+
+def _closing_lines(found: Isolation) -> list[str]:
+    """The valves to close, if any."""
+    if not found.valves:
+        return []
+    count = sum(not valve.automatic for valve in found.valves)
+    rows = [
+        (v.name, v.what, _by(v.port), _metres(v.distance), v.line or "", "closes by itself" if v.automatic else "")
+        for v in found.valves
+    ]
+    heading = f"to isolate {found.name}, close {count} valve{'s' * (count != 1)}:"
+    return [heading, *(f"  {row}" for row in aligned(rows, right=(3,)))]
 
 
 def isolation_values(found: Isolation) -> dict[str, Any]:
     """An isolation as plain values; distances in metres."""
     return {
         "target": found.name,
-        "isolated": not found.openings,
+        "isolated": found.isolated,
         "valves": [
             {
                 "tag": v.name,
@@ -201,6 +235,7 @@ def isolation_values(found: Isolation) -> dict[str, Any]:
             {"to": o.name, "what": o.what, "port": o.port, "distance_m": round(o.distance, 6), "why": o.why}
             for o in found.openings
         ],
+        "doubts": [_doubt_values(doubt) for doubt in found.doubts],
         "shut_off": list(found.shut_off_names),
         "lines": list(found.lines),
         "remarks": list(found.remarks),
@@ -284,12 +319,26 @@ def comparison_values(found: Comparison) -> dict[str, Any]:
     }
 
 
+def _doubt_lines(heading: str, doubts: Sequence[Doubt]) -> list[str]:
+    return [heading, *(f"  {doubt.name}: {doubt.text}" for doubt in doubts)]
+
+
+def _doubt_values(doubt: Doubt) -> dict[str, Any]:
+    values = {"at": doubt.name, "text": doubt.text}
+    return {**values, "parts": list(doubt.parts), "gap_m": doubt.gap, "score": doubt.score}
+
+
 def _listed(rows: Sequence[str], most: int) -> list[str]:
     return [f"  {row}" for row in rows[:most]] + _more(len(rows) - most)
 
 
 def _more(count: int) -> list[str]:
     return [f"  and {count} more; --json has them all"] if count > 0 else []
+
+
+def _some(names: Sequence[str]) -> str:
+    more = len(names) - _MOST_NAMES
+    return ", ".join(names[:_MOST_NAMES]) + (f" and {more} more" if more > 0 else "")
 
 
 def _either(plant: Sequence[str], plan: Sequence[str]) -> str:

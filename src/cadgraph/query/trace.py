@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
-from typing import TYPE_CHECKING, Literal, cast
 
 from cadgraph._io.text import tag_key
+from cadgraph.errors import Unconnected
 from cadgraph.model.graph import SceneGraph
+from cadgraph.model.pipework import Direction, Follow, check_direction
 from cadgraph.model.records import Terminal
+from cadgraph.query.doubt import Doubt, open_sides
 from cadgraph.query.lines import find_lines
 from cadgraph.query.network import Arc, Flow, Network
 
-if TYPE_CHECKING:
-    import networkx
-
 __all__ = ["Direction", "Halt", "Return", "Step", "Trace", "find_way", "trace"]
-
-Direction = Literal["downstream", "upstream"]
 
 
 @dataclass(frozen=True)
@@ -95,6 +91,8 @@ class Trace:
             where there is no such way.
         halts: where the direction is unknown.
         returns: loops, and branches that meet again.
+        doubts: where more may follow than was found: units with fewer lines than their kind needs, and joints on the
+            way that were not made although much speaks for them. Empty where the answer is whole.
     """
 
     start: str
@@ -102,6 +100,7 @@ class Trace:
     steps: tuple[Step, ...]
     halts: tuple[Halt, ...] = ()
     returns: tuple[Return, ...] = ()
+    doubts: tuple[Doubt, ...] = ()
 
 
 def trace(
@@ -119,41 +118,46 @@ def trace(
         through_unknown: whether to follow connections of unknown direction.
 
     Raises:
-        ValueError: nothing is called so.
+        Unconnected: no line was found at the node, which is a ``ValueError``: that is no answer.
+        ValueError: nothing is called so, or no such direction.
     """
     network = graph if isinstance(graph, Network) else Network(graph)
+    check_direction(direction)
     first = network.find(start)
-    follows = _follower(network, direction, through_unknown)
-    walkable = _walkable(network, follows)
-    distances, ways = _shortest(walkable, first)
-    arcs_to = {p: [walkable.edges[a, b]["arc"] for a, b in pairwise(way)] for p, way in ways.items()}
-    walked = {arcs[-1].index for arcs in arcs_to.values() if arcs}
+    if not network.arcs(first):
+        raise Unconnected(network.name(first), f"what lies {direction} of it")
+    follows = network.follower(direction, through_unknown)
+    distances, arcs_to = network.shortest(first, follows)
     line_of = _line_of(network)
-    order = sorted(distances, key=lambda p: (distances[p], len(ways[p]), tag_key(network.name(p))))
+    order = sorted(distances, key=lambda p: (distances[p], len(arcs_to[p]), tag_key(network.name(p))))
     steps: list[Step] = []
     halts: list[Halt] = []
-    returns: list[Return] = []
     for place in order:
-        arcs, name = arcs_to[place], network.name(place)
+        arcs = arcs_to[place]
         met = [
-            Halt(name, network.name(arc.end), line_of.get(arc.index), distances[place])
+            Halt(network.name(place), network.name(arc.end), line_of.get(arc.index), distances[place])
             for arc in network.arcs(place)
             if not follows(arc) and _is_doubtful(network, arc, arcs)
         ]
-        # By its number, for a connection from a node to itself leaves it twice.
-        back = {arc.index: arc for arc in network.arcs(place) if follows(arc) and arc.index not in walked}
-        walked.update(back)
-        returns += [Return(name, network.name(arc.end), arc.end in ways[place]) for arc in back.values()]
         halts += met
         ends = not met and not _goes_on(network, place, arcs, follows)
         steps.append(_step(network, place, arcs, distances[place], line_of, ends))
-    return Trace(first, direction, tuple(steps), tuple(halts), tuple(returns))
+    returns = tuple(_returns(network, order, arcs_to, follows))
+    return Trace(first, direction, tuple(steps), tuple(halts), returns, open_sides(network, order))
 
 
-def _follower(network: Network, direction: Direction, through_unknown: bool) -> Callable[[Arc], bool]:
-    """Whether a connection is walked: with the flow, or against it; those of instruments either way."""
-    wanted = {"along" if direction == "downstream" else "against", *(("unknown",) if through_unknown else ())}
-    return lambda arc: network.is_tap(arc) or arc.flow in wanted
+def _returns(
+    network: Network, order: Sequence[str], arcs_to: dict[str, tuple[Arc, ...]], follows: Follow
+) -> Iterator[Return]:
+    """Loops, and branches that meet again, in order of distance."""
+    walked = {arcs[-1].index for arcs in arcs_to.values() if arcs}
+    for place in order:
+        # By its number, for a connection from a node to itself leaves it twice.
+        back = {arc.index: arc for arc in network.arcs(place) if follows(arc) and arc.index not in walked}
+        walked.update(back)
+        behind = {order[0], *(arc.end for arc in arcs_to[place])}
+        for arc in back.values():
+            yield Return(network.name(place), network.name(arc.end), arc.end in behind)
 
 
 def _is_doubtful(network: Network, arc: Arc, arcs: Sequence[Arc]) -> bool:
@@ -161,7 +165,7 @@ def _is_doubtful(network: Network, arc: Arc, arcs: Sequence[Arc]) -> bool:
     return arc.flow == "unknown" and not network.is_dead(arc) and arc.index not in {one.index for one in arcs}
 
 
-def _goes_on(network: Network, place: str, arcs: Sequence[Arc], follows: Callable[[Arc], bool]) -> bool:
+def _goes_on(network: Network, place: str, arcs: Sequence[Arc], follows: Follow) -> bool:
     """Whether the way goes on from a node, not back where it came from."""
     return any(follows(arc) and (not arcs or arc.index != arcs[-1].index) for arc in network.main_arcs(place))
 
@@ -176,56 +180,34 @@ def find_way(graph: SceneGraph | Network, start: str, end: str, direction: Direc
         direction: go only with the flow (``downstream``) or only against it; None goes both ways.
 
     Returns:
-        The way; without steps where there is none.
+        The way; without steps where none is known, with what makes that doubtful.
 
     Raises:
-        ValueError: nothing is called so.
+        Unconnected: no line was found at one of the two, which is a ``ValueError``: that is no answer.
+        ValueError: nothing is called so, or no such direction.
     """
-    import networkx
-
     network = graph if isinstance(graph, Network) else Network(graph)
+    check_direction(direction)
     first, last = network.find(start), network.find(end)
-    wanted = {"downstream": "along", "upstream": "against"}.get(direction or "")
-    walkable = _walkable(network, lambda arc: wanted is None or arc.flow == wanted or network.is_tap(arc))
-    try:
-        way: list[str] = networkx.dijkstra_path(walkable, first, last, weight="weight")
-    except networkx.NetworkXNoPath:
-        return Trace(first, direction, ())
+    for place in (first, last):
+        if not network.arcs(place) and first != last:
+            raise Unconnected(network.name(place), f"how {network.name(first)} and {network.name(last)} are connected")
+    distances, arcs_to = network.shortest(first, network.follower(direction))
+    if last not in arcs_to:
+        others, _ = network.shortest(last, network.follower(None))
+        return Trace(first, direction, (), doubts=open_sides(network, [*distances, *others]))
     line_of = _line_of(network)
-    steps, gone = [_step(network, first, [], 0.0, line_of, first == last)], 0.0
-    arcs: list[Arc] = []
-    for a, b in pairwise(way):
-        arcs.append(walkable.edges[a, b]["arc"])
-        gone += arcs[-1].length or 0.0
-        steps.append(_step(network, b, arcs, gone, line_of, b == last))
+    arcs = arcs_to[last]
+    steps = [_step(network, first, (), 0.0, line_of, first == last)]
+    for number, arc in enumerate(arcs, 1):
+        gone = steps[-1].distance + (arc.length or 0.0)
+        steps.append(_step(network, arc.end, arcs[:number], gone, line_of, arc.end == last))
     return Trace(first, direction, tuple(steps))
 
 
-def _walkable(network: Network, follows: Callable[[Arc], bool]) -> networkx.DiGraph[str]:
-    """What may be walked, with the shortest of parallel connections; an unknown length counts as none."""
-    import networkx
-
-    walkable: networkx.DiGraph[str] = networkx.DiGraph()
-    walkable.add_nodes_from(network.places)
-    for place in network.places:
-        for arc in network.arcs(place):
-            if not follows(arc):
-                continue
-            weight = arc.length or 0.0
-            if not walkable.has_edge(arc.start, arc.end) or walkable.edges[arc.start, arc.end]["weight"] > weight:
-                walkable.add_edge(arc.start, arc.end, weight=weight, arc=arc)
-    return walkable
-
-
-def _shortest(walkable: networkx.DiGraph[str], start: str) -> tuple[dict[str, float], dict[str, list[str]]]:
-    """Distance [m] of and way to everything that can be reached."""
-    import networkx
-
-    found = networkx.single_source_dijkstra(walkable, start, weight="weight")
-    return cast("tuple[dict[str, float], dict[str, list[str]]]", found)
-
-
-def _step(network: Network, place: str, arcs: list[Arc], distance: float, line_of: dict[int, str], ends: bool) -> Step:
+def _step(
+    network: Network, place: str, arcs: Sequence[Arc], distance: float, line_of: dict[int, str], ends: bool
+) -> Step:
     last = arcs[-1] if arcs else None
     return Step(
         place=place,

@@ -20,6 +20,7 @@ from cadgraph.model.records import (
     Contains,
     Edge,
     GraphDocument,
+    Joint,
     Junction,
     Node,
     OrientedBox,
@@ -116,6 +117,7 @@ def assemble_graph(results: Results, vocabulary: Vocabulary, config: dict[str, o
             config=config,
             nodes=nodes,
             edges=tuple(edges),
+            joints=tuple(_joints(results, part_ids)),
             diagnostics=tuple(_findings(results)),
         )
     )
@@ -260,6 +262,25 @@ def _systems(results: Results, ends: Sequence[str]) -> list[System]:
         )
         for k, members in enumerate(network.systems)
     ]
+
+
+def _joints(results: Results, part_ids: Sequence[str]) -> list[Joint]:
+    """What the connections are made of and what they might have been, by the parts that join and the place."""
+    origin = results.scene.origin
+    found = [
+        Joint(
+            first=part_ids[joint.first],
+            second=part_ids[joint.second],
+            kind=joint.kind,
+            point=_point(joint.point, origin),
+            gap=_rounded(joint.gap),
+            score=round(joint.score, 6),
+            made=joint.made,
+            reasons=joint.reasons,
+        )
+        for joint in results.network.joints
+    ]
+    return sorted(found, key=lambda joint: (joint.first, joint.second, joint.point, joint.kind, not joint.made))
 
 
 def _is(network: Network, node: int, junction: bool) -> bool:

@@ -11,6 +11,8 @@ from PIL import Image
 from cadgraph.config import ReportConfig
 from cadgraph.draw.report import write_report
 from cadgraph.errors import OutputError
+from cadgraph.model.records import Connected, Terminal
+from cadgraph.query.summary import connection_words, end_words, summarize
 
 SMALL = ReportConfig(width=160, height=100, samples=1)
 VOID = {"meta", "img", "link", "br", "hr", "input"}
@@ -137,7 +139,31 @@ def test_nothing_at_all(build_scene, build_graph, tmp_path):
     assert not (tmp_path / "picture.png").exists()
 
 
-def test_number_of_systems_is_limited(scene, graph, tmp_path):
+def test_the_page_counts_what_the_summary_counts(scene, graph, build_graph, tmp_path):
+    connected = Connected(source="unit-V-001", target="unit-G-001")
+    end = Terminal(id="terminal-1", point=(0.0, 0.0, 0.0), parts=("part-00000",))
+    leading = Connected(source="unit-G-001", target="terminal-1")
+    document = graph.document
+    more = build_graph(nodes=(*document.nodes, end), edges=(*document.edges, connected, leading))
+    text = write_report(scene, more, tmp_path, SMALL).read_text("utf-8")
+    tiles = dict(re.findall(r"<dt>(\w+)</dt><dd>([^<]+)</dd>", text))
+    summary = summarize(more)
+    assert (tiles["Connections"], tiles["Ends"], tiles["Systems"]) == ("2", "1", "0")
+    assert (summary.n_connected, sum(summary.ends.values()), summary.n_systems) == (2, 1, 0)
+    assert connection_words(summary) in text
+    assert end_words(summary) in text
+    assert "Relations of Algorithm 1" in text
+
+
+def test_a_unit_without_a_line_is_named_at_the_head_of_the_page(scene, graph, build_graph, tmp_path):
+    end = Terminal(id="terminal-1", point=(0.0, 0.0, 0.0), parts=("part-00000",))
+    document = graph.document
+    edge = Connected(source="unit-V-001", target="terminal-1")
+    more = build_graph(nodes=(*document.nodes, end), edges=(*document.edges, edge))
+    assert "No line was found at G-001." in write_report(scene, more, tmp_path, SMALL).read_text("utf-8")
+
+
+def test_number_of_pictures_of_structures_is_limited(scene, graph, tmp_path):
     config = SMALL.model_copy(update={"max_systems": 0})
     assert len(Page(write_report(scene, graph, tmp_path, config).read_text("utf-8")).all("img")) == 3
 

@@ -2,16 +2,16 @@ import numpy as np
 
 from cadgraph.config import ReportConfig
 from cadgraph.draw.report.colors import RELATION, group_colors
-from cadgraph.draw.report.pictures import cluster_colors, draw_pictures, functional_edges, largest_first
+from cadgraph.draw.report.pictures import cluster_colors, draw_pictures, largest_first
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Terminal
 
 CONFIG = ReportConfig(width=240, height=150, samples=1)
 
 
-def test_overviews_come_first_then_the_systems(scene, graph):
+def test_overviews_come_first_then_the_structures_with_pipes(scene, graph):
     pictures = draw_pictures(scene, graph, CONFIG)
-    assert [p.name for p in pictures] == ["groups", "source", "clusters", "system-cluster-000"]
+    assert [p.name for p in pictures] == ["groups", "source", "clusters", "structure-cluster-000"]
 
 
 def test_legend_names_the_groups_in_use_and_the_unlabelled(scene, graph):
@@ -44,10 +44,6 @@ def test_largest_cluster_comes_first(graph):
     assert len(set(cluster_colors(graph).values())) == 3
 
 
-def test_functional_edges_leave_out_adjacency(graph):
-    assert [edge.kind for edge in functional_edges(graph)] == ["related"]
-
-
 def test_group_outside_the_vocabulary_gets_a_colour_of_its_own(build_graph):
     colors = group_colors(build_graph(vocabulary={"Rotor": {"names": ["blade"]}}))
     assert next(iter(colors)) == "Rotor"
@@ -73,13 +69,13 @@ def test_caption_says_how_many_tags_found_no_room(scene, graph, build_graph):
     assert "tags are left out for lack of room" in draw_pictures(scene, _crowd(build_graph, 80), CONFIG)[0].caption
 
 
-def test_open_ends_are_tagged_in_the_picture_of_their_system(scene, build_graph):
+def test_open_ends_are_tagged_in_the_picture_of_their_structure(scene, build_graph):
     graph = build_graph()
     end = Terminal(id="terminal-000", kind="open", point=(1.0, 0.0, 0.0), parts=("part-00000",))
 
-    def system(more):
+    def picture(more):
         document = graph.document.model_copy(update={"nodes": (*graph.document.nodes, *more)})
         return np.asarray(draw_pictures(scene, SceneGraph(document), CONFIG)[3].image).astype(int)
 
-    changed = np.abs(system([end]) - system([end.model_copy(update={"kind": "blind"})])).sum(axis=2) > 60
+    changed = np.abs(picture([end]) - picture([end.model_copy(update={"kind": "blind"})])).sum(axis=2) > 60
     assert changed.sum() > 100

@@ -48,11 +48,11 @@ def test_connections_are_drawn_along_their_path(scene, connected):
 
 
 def test_relations_are_drawn_in_paper_mode_and_where_nothing_is_connected(scene, graph, connected):
-    assert "functional relations" in draw_pictures(scene, graph, CONFIG)[0].caption
+    assert "relations of the paper's Algorithm 1" in draw_pictures(scene, graph, CONFIG)[0].caption
     paper = {**connected.document.config, "method": "paper"}
     alike = type(graph)(connected.document.model_copy(update={"config": paper}))
     by_group = draw_pictures(scene, alike, CONFIG)[0]
-    assert "functional relations" in by_group.caption
+    assert "relations of the paper's Algorithm 1" in by_group.caption
     assert redness(by_group, middle(alike.unit("V-001").centroid, CORNER)) < 60
 
 

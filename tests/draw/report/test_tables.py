@@ -19,28 +19,29 @@ def test_units_with_place_confidence_and_mesh(graph):
     assert valve["x [m]"].text == "0.000"
 
 
-def test_relations_of_paper_mode_have_no_empty_columns(graph):
-    table = tables.relation_table(graph)
-    assert [column.title for column in table.columns] == ["From", "To", "Kind", "Apart [m]"]
-    assert texts(table)[0][:3] == ["V-001", "G-001", "related"]
+def test_relations_of_algorithm_1_have_a_table_of_their_own(graph):
+    table = tables.related_table(graph)
+    assert [column.title for column in table.columns] == ["Unit", "Other unit", "Apart [m]"]
+    assert texts(table)[0][:2] == ["V-001", "G-001"]
+    assert tables.connection_table(graph).rows == ()
 
 
 def test_connection_along_a_pipe_shows_what_is_known(graph, build_graph):
     end = Terminal(id="terminal-1", point=(1.0, 0.0, 0.0), parts=("part-00000",))
     edge = Connected(
         source="unit-G-001", target="terminal-1", via=("part-00000",), length=0.4, diameter=0.1, direction="forward",
-        reason="check valve",
+        reason="check valve", confidence=0.9,
     )  # fmt: skip
     document = graph.document
     more = build_graph(nodes=(*document.nodes, end), edges=(*document.edges, edge))
-    row = texts(tables.relation_table(more))[1]
-    assert row[:3] == ["G-001", "terminal-1", "connected"]
-    assert row[4:] == ["0.400", "100", "1", "→", "check valve"]
+    assert texts(tables.connection_table(more)) == [
+        ["G-001", "terminal-1", "an end", "0.400", "100", "1", "→", "check valve", "90 %"]
+    ]
 
 
 def test_clusters_largest_first_with_unit_counts(graph):
     rows = texts(tables.cluster_table(graph))
-    assert rows[0][:5] == ["cluster-000", "pipe system", "4", "4", "2"]
+    assert rows[0][:5] == ["cluster-000", "pipes", "4", "4", "2"]
     assert rows[2][1] == "unlabelled"
 
 
@@ -76,7 +77,7 @@ def test_unknown_setting_has_no_meaning_but_is_shown(build_graph):
 
 
 def test_more_rows_than_fit_are_counted(build_graph, graph):
-    edges = (*graph.document.edges, *(graph.document.edges[-1] for _ in range(500)))
-    table = tables.relation_table(build_graph(edges=edges))
+    more = Connected(source="unit-V-001", target="unit-G-001")
+    table = tables.connection_table(build_graph(edges=(*graph.document.edges, *(more for _ in range(501)))))
     assert len(table.rows) == 400
     assert table.more == 101

@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import hashlib
 import io
-from collections import Counter
 from importlib import resources
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any
@@ -16,6 +15,7 @@ from cadgraph.config import ReportConfig
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Connected
 from cadgraph.model.scene import Scene
+from cadgraph.query.summary import connection_words, end_words, summarize
 
 if TYPE_CHECKING:
     from cadgraph.draw.report.pictures import Picture
@@ -85,14 +85,15 @@ def _page(graph: SceneGraph, pictures: list[Picture]) -> str:
         source=graph.source,
         facts=_facts(graph),
         overview=[_shown(picture) for picture in pictures[:3]],
-        systems=[_shown(picture) for picture in pictures[3:]],
-        n_systems=len(graph.clusters("pipe system")),
+        structures=[_shown(picture) for picture in pictures[3:]],
+        n_structures=len(graph.clusters("pipe system")),
         schematic=_schematic(graph),
         lines=tables.line_table(graph),
         chart=draw_bars(tables.label_bars(graph, colors)),
         labels=tables.label_table(graph, colors),
         units=tables.unit_table(graph, color_of_unit_type(graph, colors)),
-        relations=tables.relation_table(graph),
+        connections=tables.connection_table(graph),
+        related=tables.related_table(graph),
         clusters=tables.cluster_table(graph),
         findings=tables.findings(graph),
         settings=tables.setting_table(graph),
@@ -101,25 +102,27 @@ def _page(graph: SceneGraph, pictures: list[Picture]) -> str:
 
 def _facts(graph: SceneGraph) -> dict[str, Any]:
     """What the head of the page says."""
-    from cadgraph.draw.report.pictures import functional_edges
-
-    parts, clusters = graph.parts(), graph.clusters()
+    summary = summarize(graph)
+    parts = graph.parts()
     lows = [part.aabb[0] for part in parts if not part.ground] or [part.aabb[0] for part in parts]
     highs = [part.aabb[1] for part in parts if not part.ground] or [part.aabb[1] for part in parts]
     extent = [max(h[i] for h in highs) - min(low[i] for low in lows) for i in range(3)] if parts else []
-    units = Counter(unit.unit_type for unit in graph.units())
-    labelled = sum(part.label is not None for part in parts)
     return {
-        "meshes": graph.source.n_meshes,
-        "triangles": graph.source.n_triangles,
-        "parts": len(parts),
-        "clusters": len(clusters),
-        "systems": len(graph.clusters("pipe system")),
+        "meshes": summary.n_meshes,
+        "triangles": summary.n_triangles,
+        "parts": summary.n_parts,
+        "clusters": summary.n_clusters,
+        "with_pipes": summary.n_with_pipes,
         "extent": " × ".join(f"{length:.2f}" for length in extent),
-        "labelled": labelled / len(parts) if parts else 0.0,
-        "units": sum(units.values()),
-        "unit_types": [_plural(count, name) for name, count in units.items()],
-        "relations": len({frozenset((e.source, e.target)) for e in functional_edges(graph)}),
+        "labelled": summary.n_labelled / len(parts) if parts else 0.0,
+        "units": sum(len(tags) for tags in summary.units.values()),
+        "unit_types": [_plural(len(tags), name) for name, tags in summary.units.items()],
+        "without_line": summary.without_line,
+        "connections": summary.n_connected,
+        "connection_words": connection_words(summary),
+        "ends": sum(summary.ends.values()),
+        "end_words": end_words(summary),
+        "systems": summary.n_systems,
     }
 
 

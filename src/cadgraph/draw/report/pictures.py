@@ -1,4 +1,4 @@
-"""The pictures of a finished graph: as it is, by cluster, by group, and system by system."""
+"""The pictures of a finished graph: as it is, by cluster, by group, and structure by structure."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Cluster, Connected, Edge, Junction, Part, Point, Related, Terminal, Unit
 from cadgraph.model.scene import Ints, Scene
 
-__all__ = ["Picture", "cluster_colors", "draw_pictures", "functional_edges", "largest_first"]
+__all__ = ["Picture", "cluster_colors", "draw_pictures", "kind_words", "largest_first"]
 
 Bools = npt.NDArray[np.bool_]
 
 _CROWDED = 48  # units from which on lines and balls are thinner, and only tags that stand clear are shown
 _CLUTTER = 3.0  # of a tag in a crowded picture, see annotate
-_AT_ONCE = 2  # pictures of systems: while one is drawn, another is annotated
+_AT_ONCE = 2  # pictures of structures: while one is drawn, another is annotated
 _LEGEND_CLUSTERS = 10
 _MARGIN = 0.07
 _END = "#5b6470"  # of junctions and ends of runs
@@ -87,7 +87,8 @@ def draw_pictures(scene: Scene, graph: SceneGraph, config: ReportConfig, progres
         progress: told how many of the pictures are drawn.
 
     Returns:
-        The pictures by group (with relations), as it is, by cluster; then the pipe systems, the largest first.
+        The pictures by group (with connections), as it is, by structure; then the structures with pipes, the largest
+        first.
         None at all if the scene has nothing to draw.
     """
     if not scene.n_triangles or not np.isfinite(scene.vertices).all(axis=1).any():
@@ -109,17 +110,17 @@ def draw_pictures(scene: Scene, graph: SceneGraph, config: ReportConfig, progres
         _as_it_is(ready, camera, images[1]),
         _by_cluster(ready, camera, images[2], bool((clusters == from_hex(BACKDROP)).all(axis=1).any())),
     ]
-    systems = largest_first(graph.clusters("pipe system"))[: config.max_systems]
-    # The page shows a single system over its whole width, several side by side.
-    size = 1.0 if len(systems) == 1 else _SIDE_BY_SIDE
+    structures = largest_first(graph.clusters("pipe system"))[: config.max_systems]
+    # The page shows a single one over its whole width, several side by side.
+    size = 1.0 if len(structures) == 1 else _SIDE_BY_SIDE
 
     def draw(number: int) -> Picture | None:
-        cluster = systems[number]
-        return _system(ready, cluster, f"Pipe system {number + 1}: {cluster.id}", camera, size)
+        cluster = structures[number]
+        return _structure(ready, cluster, f"Structure {number + 1}: {cluster.id}", camera, size)
 
     with ThreadPoolExecutor(_AT_ONCE) as pool:
-        for number, picture in enumerate(pool.map(draw, range(len(systems))), 1):
-            progress("draw report", number / (len(systems) + 1))
+        for number, picture in enumerate(pool.map(draw, range(len(structures))), 1):
+            progress("draw report", number / (len(structures) + 1))
             if picture is not None:
                 pictures.append(picture)
     return pictures
@@ -130,15 +131,15 @@ def largest_first(clusters: Sequence[Cluster]) -> list[Cluster]:
     return sorted(clusters, key=lambda cluster: (-cluster.n_parts, cluster.id))
 
 
+def kind_words(cluster: Cluster) -> str:
+    """What a structure is, in words; a system is something else, so that "pipe system" is not among them."""
+    return {"pipe system": "pipes", None: "unlabelled"}.get(cluster.kind, cluster.kind or "")
+
+
 def cluster_colors(graph: SceneGraph) -> dict[str, str]:
     """``"#rrggbb"`` by cluster id, the largest cluster first."""
     clusters = largest_first(graph.clusters())
     return {c.id: to_hex(color) for c, color in zip(clusters, distinct_colors(len(clusters)), strict=True)}
-
-
-def functional_edges(graph: SceneGraph) -> list[Edge]:
-    """Relations of Algorithm 1 and connections along pipes, in the order of the file."""
-    return [edge for edge in graph.document.edges if isinstance(edge, Related | Connected)]
 
 
 def _drawn_edges(graph: SceneGraph) -> list[Edge]:
@@ -154,14 +155,15 @@ def _by_group(ready: _Ready, camera: Camera, image: Image.Image, legend: tuple[L
     if any(isinstance(edge, Connected) for edge in edges):
         told += "Red lines are the connections along the pipes; red balls are units, grey ones junctions and ends. "
     elif edges:
-        told += "Red lines are the functional relations between units, whose balls stand at their centroids. "
+        told += "Red lines are the relations of the paper's Algorithm 1 between units, with balls at their centroids. "
     elif units:
         told += "Red balls stand at the centroids of the functional units. "
     told += _untagged(len(units), tagged)
     groups = ", ".join(entry.text for entry in legend) or "none"
     return Picture(
-        "groups", "By group, with relations", told.strip(),
-        f"The scene, coloured by group ({groups}), with {len(units)} functional units and {len(edges)} relations.",
+        "groups", f"By group, with {_edge_word(edges)}s", told.strip(),
+        f"The scene, coloured by group ({groups}), with {_counted(len(units), 'unit')} and "
+        f"{_counted(len(edges), _edge_word(edges))}.",
         image, legend, camera,
     )  # fmt: skip
 
@@ -190,7 +192,7 @@ def _by_cluster(ready: _Ready, camera: Camera, image: Image.Image, others: bool)
     colors = cluster_colors(ready.graph)
     clusters = largest_first(ready.graph.clusters())
     legend = [
-        LegendEntry(colors[c.id], f"{c.id}: {c.kind or 'unlabelled'}, {_counted(c.n_parts, 'part')}")
+        LegendEntry(colors[c.id], f"{c.id}: {kind_words(c)}, {_counted(c.n_parts, 'part')}")
         for c in clusters[:_LEGEND_CLUSTERS]
     ]
     more = len(clusters) - len(legend)
@@ -204,7 +206,7 @@ def _by_cluster(ready: _Ready, camera: Camera, image: Image.Image, others: bool)
     )  # fmt: skip
 
 
-def _system(ready: _Ready, cluster: Cluster, title: str, overview: Camera, size: float) -> Picture | None:
+def _structure(ready: _Ready, cluster: Cluster, title: str, overview: Camera, size: float) -> Picture | None:
     graph, renderer = ready.graph, ready.renderer
     members = {part.id for part in graph.parts(cluster=cluster.id)}
     inside = np.array([part is not None and part.id in members for part in ready.part_of_mesh])
@@ -213,7 +215,7 @@ def _system(ready: _Ready, cluster: Cluster, title: str, overview: Camera, size:
         return None
     paint, hatched, legend = _group_paint(ready, inside)
     units, ends, edges = _functions_of(graph, members)
-    # A system that is nearly everything would look as in the overview: it is shown from the other side.
+    # A structure that is nearly everything would look as in the overview: it is shown from the other side.
     unlike = -overview.forward if len(meshes) > _NEARLY_ALL * ready.scene.n_meshes else None
     aspect = ready.config.width / ready.config.height
     camera = _camera(ready, meshes, three_quarter_view(renderer, meshes, alone=True, aspect=aspect, unlike=unlike))
@@ -221,16 +223,16 @@ def _system(ready: _Ready, cluster: Cluster, title: str, overview: Camera, size:
     open_ends = [end for end in ends if end.kind != "blind"]
     image, tagged = _related(ready, image, camera, units, edges, size, open_ends)
     untagged = _untagged(len(units) + len(open_ends), tagged)
-    contents = _contents(cluster, units, len(edges))
+    contents = _contents(cluster, units, edges)
     extent = " × ".join(f"{high - low:.2f}" for low, high in zip(*cluster.aabb, strict=True))
     return Picture(
-        f"system-{cluster.id}", title, f"{contents}; {extent} m. {untagged}".strip(),
-        f"Pipe system {cluster.id} coloured by group, all else faint: {contents}.", image, legend, camera,
+        f"structure-{cluster.id}", title, f"{contents}; {extent} m. {untagged}".strip(),
+        f"Structure {cluster.id} coloured by group, all else faint: {contents}.", image, legend, camera,
     )  # fmt: skip
 
 
 def _functions_of(graph: SceneGraph, members: set[str]) -> tuple[list[Unit], list[Terminal], list[Edge]]:
-    """The units, ends of runs and relations of some parts."""
+    """The units, ends of lines and drawn edges of some parts."""
     units = [unit for unit in graph.units() if members.intersection(unit.parts)]
     ends = [end for end in graph.of_layer(Terminal) if members.intersection(end.parts)]
     junctions = [junction for junction in graph.of_layer(Junction) if members.intersection(junction.parts)]
@@ -238,18 +240,23 @@ def _functions_of(graph: SceneGraph, members: set[str]) -> tuple[list[Unit], lis
     return units, ends, [edge for edge in _drawn_edges(graph) if edge.source in names and edge.target in names]
 
 
-def _contents(cluster: Cluster, units: Sequence[Unit], n_relations: int) -> str:
-    """How many of what a system holds, as text."""
+def _contents(cluster: Cluster, units: Sequence[Unit], edges: Sequence[Edge]) -> str:
+    """How many of what a structure holds, as text."""
     types = Counter(unit.unit_type for unit in units)
     counts = [_counted(count, name) for name, count in types.items()]
-    return ", ".join([_counted(cluster.n_parts, "part"), *counts, _counted(n_relations, "relation")])
+    return ", ".join([_counted(cluster.n_parts, "part"), *counts, _counted(len(edges), _edge_word(edges))])
+
+
+def _edge_word(edges: Sequence[Edge]) -> str:
+    """What drawn edges are called: relations where they are those of Algorithm 1."""
+    return "relation" if any(isinstance(edge, Related) for edge in edges) else "connection"
 
 
 def _grounded(ready: _Ready, meshes: Ints) -> Look:
-    """A floor only where the system stands on the same ground as the scene: else its shadow would hang in the air."""
-    everything, system = ready.renderer.caster(), ready.renderer.caster(meshes)
+    """A floor only where the structure stands on the scene's own ground: else its shadow would hang in the air."""
+    everything, structure = ready.renderer.caster(), ready.renderer.caster(meshes)
     height = everything.high[2] - everything.low[2]
-    return replace(ready.look, floor=bool(system.low[2] - everything.low[2] < 0.1 * height))
+    return replace(ready.look, floor=bool(structure.low[2] - everything.low[2] < 0.1 * height))
 
 
 def _group_paint(
@@ -285,7 +292,7 @@ def _related(
     ready: _Ready, image: Image.Image, camera: Camera, units: Sequence[Unit], edges: Sequence[Edge],
     size: float = 1.0, open_ends: Sequence[Terminal] = (),
 ) -> Annotated:  # fmt: skip
-    """Draws units, relations and open ends over a picture."""
+    """Draws units, connections and open ends over a picture."""
     crowded = len(units) > _CROWDED
     pairs = sorted({(min(e.source, e.target), max(e.source, e.target)) for e in edges})
     segments = _lines(ready, edges, 3.0 if crowded else 4.5)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -13,10 +14,11 @@ import numpy as np
 from cadgraph.config import Config, describe
 from cadgraph.draw.report.chart import Bar
 from cadgraph.draw.report.colors import UNLABELLED
-from cadgraph.draw.report.pictures import cluster_colors, functional_edges, largest_first
+from cadgraph.draw.report.pictures import cluster_colors, kind_words, largest_first
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.records import Connected, Edge, Junction, Node, Part, Terminal, Unit
+from cadgraph.model.records import Node, Part, Unit
 from cadgraph.query.lines import find_lines
+from cadgraph.query.summary import connection_between
 
 __all__ = [
     "Cell",
@@ -24,11 +26,12 @@ __all__ = [
     "Findings",
     "Table",
     "cluster_table",
+    "connection_table",
     "findings",
     "label_bars",
     "label_table",
     "line_table",
-    "relation_table",
+    "related_table",
     "setting_table",
     "unit_table",
 ]
@@ -135,34 +138,37 @@ def unit_table(graph: SceneGraph, colors: Mapping[str, str]) -> Table:
     return _table("units", columns, rows, drop=() if with_kind else ("Kind",))
 
 
-def relation_table(graph: SceneGraph) -> Table:
-    """All relations and connections between units, junctions and terminals."""
-    edges = functional_edges(graph)
-    connected = [edge for edge in edges if isinstance(edge, Connected)]
+def connection_table(graph: SceneGraph) -> Table:
+    """All connections along the pipes: between two units, at a junction, or to an end."""
+    flows = {"forward": "→", "backward": "←", "unknown": "unknown"}
+    between = {"units": "units", "junction": "a junction", "end": "an end"}
     columns = [
-        Column("From"), Column("To"), Column("Kind"), Column("Apart [m]", True), Column("Along the pipe [m]", True),
-        Column("Bore [mm]", True), Column("Parts between", True), Column("Flow"), Column("Reason"),
+        Column("From"), Column("To"), Column("Joins"), Column("Along the pipe [m]", True), Column("Bore [mm]", True),
+        Column("Parts between", True), Column("Flow"), Column("Reason"), Column("Confidence", True),
     ]  # fmt: skip
-    rows = [_relation(graph, edge) for edge in edges]
-    drop = () if connected else ("Along the pipe [m]", "Bore [mm]", "Parts between", "Flow", "Reason")
-    return _table("relations", columns, rows, drop=drop)
+    rows = [
+        (
+            Cell(_title(graph.nodes[edge.source])), Cell(_title(graph.nodes[edge.target])),
+            Cell(between[connection_between(graph, edge)]),
+            _blank() if edge.length is None else _length(edge.length),
+            _blank() if edge.diameter is None else Cell(f"{edge.diameter * 1000:.0f}", str(edge.diameter)),
+            _number(len(edge.via)), Cell(flows[edge.direction]), Cell(edge.reason or ""),
+            _blank() if edge.confidence is None else _share(edge.confidence),
+        )
+        for edge in graph.connections()
+    ]  # fmt: skip
+    return _table("connections", columns, rows)
 
 
-def _relation(graph: SceneGraph, edge: Edge) -> tuple[Cell, ...]:
-    ends = [graph.nodes[edge.source], graph.nodes[edge.target]]
-    start, end = (_place(node) for node in ends)
-    apart = _blank() if start is None or end is None else _length(float(np.linalg.norm(np.subtract(end, start))))
-    along, bore, between, flow, reason = _blank(), _blank(), _blank(), "", ""
-    if isinstance(edge, Connected):
-        along = _blank() if edge.length is None else _length(edge.length)
-        bore = _blank() if edge.diameter is None else Cell(f"{edge.diameter * 1000:.0f}", str(edge.diameter))
-        between = _number(len(edge.via))
-        flow = {"forward": "→", "backward": "←", "unknown": "unknown"}[edge.direction]
-        reason = edge.reason or ""
-    return (
-        Cell(_title(ends[0])), Cell(_title(ends[1])), Cell(edge.kind), apart, along, bore, between, Cell(flow),
-        Cell(reason),
-    )  # fmt: skip
+def related_table(graph: SceneGraph) -> Table:
+    """The pairs of units that Algorithm 1 of the paper relates, with the distance between their middles."""
+    rows = []
+    for edge in graph.related():
+        ends = [graph.nodes[edge.source], graph.nodes[edge.target]]
+        middles = [end.centroid for end in ends if isinstance(end, Unit)]
+        apart = _length(math.dist(*middles)) if len(middles) == 2 else _blank()
+        rows.append((Cell(_title(ends[0])), Cell(_title(ends[1])), apart))
+    return _table("related", [Column("Unit"), Column("Other unit"), Column("Apart [m]", True)], rows)
 
 
 def line_table(graph: SceneGraph) -> Table:
@@ -210,7 +216,7 @@ def cluster_table(graph: SceneGraph) -> Table:
         rows.append(
             (
                 Cell(cluster.id, color=colors[cluster.id]),
-                Cell(cluster.kind or "unlabelled"),
+                Cell(kind_words(cluster)),
                 _number(cluster.n_parts),
                 _number(meshes[cluster.id]),
                 _number(units[cluster.id]),
@@ -325,12 +331,6 @@ def _table(name: str, columns: list[Column], rows: Sequence[tuple[Cell, ...]], d
 
 def _title(node: Node) -> str:
     return node.tag if isinstance(node, Unit) else node.id
-
-
-def _place(node: Node) -> tuple[float, float, float] | None:
-    if isinstance(node, Unit):
-        return node.centroid
-    return node.point if isinstance(node, Junction | Terminal) else None
 
 
 def _number(count: int) -> Cell:

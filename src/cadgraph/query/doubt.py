@@ -1,0 +1,124 @@
+"""What an answer about lines can't be sure of: lines that a unit should have, and joints that were not made."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from cadgraph.model.ports import least_ports, port_word
+from cadgraph.model.records import Joint, Unit
+from cadgraph.query.network import Network
+
+__all__ = ["Doubt", "few_ports", "likely_joints", "open_sides", "unconnected"]
+
+# From this score on a joint that was not made makes an answer doubtful (ours): one in ten of such joins after all,
+# which is too much to open a pump on.
+_LIKELY = 0.1
+_NUMBERS = ("no", "one", "two", "three")
+
+About = Literal["feeds", "follows"]
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """Something that would change an answer if it were so.
+
+    Args:
+        place: id of the unit, junction or terminal that it is at, or that the line there starts from.
+        name: its tag.
+        text: what it is, in words.
+        parts: ids of the two parts of a joint that was not made; empty for a unit that has too few lines.
+        gap: between these [m], or None.
+        score: how sure it is that they join, or None.
+    """
+
+    place: str
+    name: str
+    text: str
+    parts: tuple[str, ...] = ()
+    gap: float | None = None
+    score: float | None = None
+
+
+def open_sides(network: Network, places: Collection[str], about: About = "follows") -> tuple[Doubt, ...]:
+    """What may lead out of a piece of a network without having been found.
+
+    Args:
+        network: of a finished graph.
+        places: ids of the nodes of the piece; the connections at them belong to it.
+        about: whether the answer is about what ``feeds`` them or what ``follows``.
+
+    Returns:
+        Units that have fewer lines than their kind needs, in the order of the places; then joints that were not made
+        although they are likely, between a part of the piece and one outside, the likeliest first.
+    """
+    short = [doubt for place in places if (doubt := _short(network, place, about)) is not None]
+    return (*short, *_unjoined(network, places, about))
+
+
+def few_ports(network: Network, place: str) -> tuple[int, int] | None:
+    """How many ports of a unit have a line and how many its kind needs; None where that is enough, or it is no unit."""
+    node = network.places[place]
+    if not isinstance(node, Unit):
+        return None
+    used, least = network.ports_in_use(place), least_ports(node.unit_type, node.kind)
+    return (used, least) if used < least else None
+
+
+def unconnected(network: Network) -> list[str]:
+    """Tags of the units at which no line was found, in the order of the file."""
+    return [network.name(p) for p, node in network.places.items() if isinstance(node, Unit) and not network.arcs(p)]
+
+
+def likely_joints(network: Network) -> list[Joint]:
+    """The joints that were not made although they are likely, the likeliest first."""
+    found = [joint for joint in network.open_joints if joint.score >= _LIKELY]
+    return sorted(found, key=lambda joint: (-joint.score, joint.first, joint.second, joint.point))
+
+
+def _short(network: Network, place: str, about: About) -> Doubt | None:
+    few, node = few_ports(network, place), network.places[place]
+    if few is None or not isinstance(node, Unit):
+        return None
+    used, least = few
+    noun, others = port_word(node.unit_type), "the other" if least - used == 1 else "the others"
+    has = "has a line" if used == 1 else "have a line"
+    unsaid = f"what feeds {others}" if about == "feeds" else f"where {others} {_lead(least - used)}"
+    only = "none" if used == 0 else f"only {_NUMBERS[used]}"
+    return Doubt(place, node.tag, f"{only} of its {_NUMBERS[least]} {noun}s {has}: {unsaid} can't be told")
+
+
+def _lead(count: int) -> str:
+    return "leads" if count == 1 else "lead"
+
+
+def _unjoined(network: Network, places: Collection[str], about: About) -> Iterator[Doubt]:
+    home = _home_of_parts(network, places)
+    for joint in likely_joints(network):
+        if (joint.first in home) == (joint.second in home):
+            continue
+        inner, outer = (joint.first, joint.second) if joint.first in home else (joint.second, joint.first)
+        place = home[inner]
+        unsaid = "what feeds it there" if about == "feeds" else "what follows there"
+        text = f"{_faces(network, joint, inner, outer)}: {unsaid} can't be told"
+        yield Doubt(place, network.name(place), text, (inner, outer), joint.gap, joint.score)
+
+
+def _faces(network: Network, joint: Joint, inner: str, outer: str) -> str:
+    beyond = network.owner_of_part(outer)
+    where = f"{network.name(beyond)} ({outer})" if beyond is not None else outer
+    apart = f"{1000 * joint.gap:.1f} mm from" if joint.gap > 0 else "against"
+    return f"{inner} lies {apart} {where} and is not joined to it ({joint.score:.0%} sure that it is)"
+
+
+def _home_of_parts(network: Network, places: Iterable[str]) -> Mapping[str, str]:
+    """Of each part of a piece of a network, the node that it belongs to or that its line starts from."""
+    home: dict[str, str] = {}
+    for place in places:
+        for arc in network.arcs(place):
+            for part in arc.via:
+                home.setdefault(part, place)
+    for place in places:
+        home.update(dict.fromkeys(network.places[place].parts, place))
+    return home
