@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from cadgraph.geometry.line.centreline import Centreline
+from cadgraph.geometry.line.centreline import Branch, Centreline
 from cadgraph.geometry.line.part_lines import lines_of_parts
 from cadgraph.geometry.shape.analysis import shapes_of
 from cadgraph.model.parts import Contacts, Parts
@@ -31,8 +31,8 @@ _RATIO, _OWN_RATIO = 0.3, 0.9
 # valve has ten.
 _STRAIGHT, _LONGEST_DEVICE = -0.996, 12.0
 # A jacket has thinner lines (share of its radius) in its middle (likewise) at this share of so many places along it.
-# It is at least so many radii long: couplings are shorter.
-_THINNER, _OFF_MIDDLE, _JACKET, _SAMPLES, _LEAST_JACKET = 0.97, 0.25, 0.7, 9, 4.0
+# It is at least so many radii long, as couplings are not; or one line runs on beyond it by so many radii.
+_THINNER, _OFF_MIDDLE, _JACKET, _SAMPLES, _LEAST_JACKET, _BEYOND = 0.97, 0.25, 0.7, 9, 4.0, 0.25
 _SAME_PLACE = 1e-4  # copies of a part lie this near to each other [m]
 
 
@@ -52,11 +52,7 @@ def trace_lines(given: RelateInput, roles: Roles) -> Piping:
     wrapped = _tubes_of_units(given, roles)
     traced, copies = _distinct_lines(given, [*connectors, *others, *singles, *wrapped])
     lines = {part: traced[part] for part in connectors if part in traced}
-    jackets = {
-        part
-        for part, line in traced.items()
-        if given.labels[part] is given.opinions[part] and _is_jacket(part, line, lines, given.neighbors)
-    }
+    jackets = _jackets(given, traced, lines)
     lines = {part: line for part, line in lines.items() if part not in jackets}
     copies |= jackets
     ratios = _least_ratios(given, roles, others, singles, traced)
@@ -140,28 +136,43 @@ def _least_ratios(
     return ratios
 
 
-def _is_jacket(part: int, line: Centreline, sure: Mapping[int, Centreline], near: Mapping[int, Sequence[int]]) -> bool:
-    """Whether a line runs around lines that are sure, along most of its length: insulation."""
-    if line.length < _LEAST_JACKET * float(line.branches[0].radius.max()):
+def _jackets(given: RelateInput, traced: Mapping[int, Centreline], sure: Mapping[int, Centreline]) -> set[int]:
+    """Parts that nobody but the labeler has named and that run around lines that are sure: insulation."""
+    return {
+        part
+        for part, line in traced.items()
+        if given.labels[part] is given.opinions[part]
+        and _is_jacket(line, [sure[other] for other in given.neighbors.get(part, ()) if other in sure])
+    }
+
+
+def _is_jacket(line: Centreline, around: Sequence[Centreline]) -> bool:
+    """Whether thinner lines run in the middle of a long one, or a single one right through a short one."""
+    radius = float(line.branches[0].radius.max())
+    points = np.concatenate([_along(branch) for branch in line.branches])
+    beyond = np.array([end.point + _BEYOND * radius * end.direction for end in line.ends])
+    inner = [np.array([_runs_within(point, radius, one) for point in (*points, *beyond)]) for one in around]
+    if not inner:
         return False
-    around = [sure[other] for other in near.get(part, ()) if other in sure and other != part]
-    shared = total = 0
+    if line.length >= radius and any(one.all() for one in inner):
+        return True
+    within = np.any(inner, axis=0)[: len(points)]
+    return bool(line.length >= _LEAST_JACKET * radius and within.mean() >= _JACKET)
+
+
+def _along(branch: Branch) -> Floats:
+    """``(n, 3)`` places along a branch at equal steps [m]."""
+    walked = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(branch.points, axis=0), axis=1))])
+    steps = np.linspace(0.0, walked[-1], _SAMPLES)
+    return np.stack([np.interp(steps, walked, branch.points[:, c]) for c in range(3)], axis=1)
+
+
+def _runs_within(point: Floats, radius: float, line: Centreline) -> bool:
+    """Whether a line passes the middle of a wider section."""
     for branch in line.branches:
-        walked = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(branch.points, axis=0), axis=1))])
-        for s in np.linspace(0.0, walked[-1], _SAMPLES):
-            point = np.array([np.interp(s, walked, branch.points[:, c]) for c in range(3)])
-            total += 1
-            shared += _runs_within(point, float(np.interp(s, walked, branch.radius)), around)
-    return shared >= _JACKET * total
-
-
-def _runs_within(point: Floats, radius: float, lines: Sequence[Centreline]) -> bool:
-    """Whether one of some lines passes the middle of a wider section."""
-    for line in lines:
-        for branch in line.branches:
-            _, _, _, wall, apart = nearest_on(branch, point)
-            if apart <= _OFF_MIDDLE * radius and wall <= _THINNER * radius:
-                return True
+        _, _, _, wall, apart = nearest_on(branch, point)
+        if apart <= _OFF_MIDDLE * radius and wall <= _THINNER * radius:
+            return True
     return False
 
 
