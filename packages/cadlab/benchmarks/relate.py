@@ -183,6 +183,13 @@ def told(sums: dict[tuple[str, str, str], Sum]) -> list[str]:
         for key in ((mode, "**all**", "**all**"), (mode, defect, "**all**"), (mode, "**all**", style)):
             whole[key] = whole.get(key, Sum())
             whole[key] += found
+    # Of one defect or one style alone the sum over it says nothing new.
+    n_defects, n_styles = (len({key[k] for key in sums}) for k in (1, 2))
+    whole = {
+        key: found
+        for key, found in whole.items()
+        if (key[1] == "**all**" or n_styles > 1) and (key[2] == "**all**" or n_defects > 1)
+    }
     order = {key: (key[1] != "**all**", key[2] != "**all**") for key in whole}
     rows = {key: whole[key] for key in sorted(whole, key=lambda key: order[key])} | sums
     return table(HEADS, [found.row(MODES[mode], defect, style) for (mode, defect, style), found in rows.items()], True)
