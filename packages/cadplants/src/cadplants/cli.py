@@ -20,7 +20,9 @@ plants = typer.Typer(no_args_is_help=True, help="Generated test plants with thei
 @plants.command("make")
 def make_plant(
     output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The scene, e.g. field.usdc.")],
-    preset: Annotated[str, typer.Option(help="skid, riser, tank, pumps, station, rack or field.")] = "skid",
+    preset: Annotated[
+        str, typer.Option(help="skid, riser, tank, pumps, loop, manifold, station, rack or field.")
+    ] = "skid",
     seed: Annotated[int, typer.Option(min=0, help="Of everything that varies.")] = 0,
     style: Annotated[
         str | None, typer.Option(help="In whose style it is modelled; the preset's own by default.")
@@ -36,6 +38,10 @@ def make_plant(
             help="Draw all defects by the seed: those of --defective, unit, up axis, instances, frames, polygons.",
         ),
     ] = False,
+    drawn: Annotated[
+        str | None,
+        typer.Option(help="Draw it as others do: gaps, setback, gaskets, insulation, primitives... or all."),
+    ] = None,
     unit: Annotated[float | None, typer.Option(help="Metres in one authored unit; 0.001 by default.")] = None,
     up: Annotated[str | None, typer.Option(help="Authored up axis, Y or Z; Z by default.")] = None,
     instances: Annotated[
@@ -50,6 +56,7 @@ def make_plant(
 ) -> None:
     """Generate a plant as USD with meaningless names, and its ground truth beside it."""
     from cadplants import Defects, UsdStyle, draw_defects, draw_style, make, write_usd
+    from cadplants.defects import DEFECTS
 
     renamed = {"--hand": ("--style", hand), "--spoilt": ("--defective", spoilt), "--sins": ("--defects", sins)}
     for old, (new, given_so) in renamed.items():
@@ -68,8 +75,14 @@ def make_plant(
     if unit is not None and not 1e-6 <= unit <= 1e3:
         raise ValueError(f"--unit {unit:g}: give the length of one authored unit in metres, from 1e-06 to 1000")
     authoring = replace(authoring, **{key: value for key, value in given.items() if value is not None})
-    share = Defects(defective, defective, defective, defective, defective, defective) if defective else None
-    plant = make(preset, seed, style, draw_defects(seed) if defects else share)
+    if drawn is not None and drawn not in DEFECTS:
+        raise ValueError(f"--drawn {drawn}: give one of {', '.join(DEFECTS)}")
+    chosen = draw_defects(seed) if defects else DEFECTS[drawn] if drawn else None
+    if defective and not defects:
+        spoilt_by = ("duplicates", "hidden", "flipped", "soup", "degenerate", "gaps")
+        shares: dict[str, Any] = dict.fromkeys(spoilt_by, defective)
+        chosen = replace(chosen or Defects(), **shares)
+    plant = make(preset, seed, style, chosen)
     truth = write_usd(plant, output, authoring)
     out.print(f"wrote {escape(str(output))} and {escape(str(truth))}")
 
