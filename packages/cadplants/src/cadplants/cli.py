@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.markup import escape
 
 from cadgraph.cli.screen import err, out
 from cadgraph.errors import FormatError
+
+if TYPE_CHECKING:
+    from cadplants.defects import Defects
 
 __all__ = ["plants"]
 
@@ -55,8 +58,7 @@ def make_plant(
     sins: Annotated[bool, typer.Option("--sins", hidden=True)] = False,
 ) -> None:
     """Generate a plant as USD with meaningless names, and its ground truth beside it."""
-    from cadplants import Defects, UsdStyle, draw_defects, draw_style, make, write_usd
-    from cadplants.defects import DEFECTS
+    from cadplants import UsdStyle, draw_defects, draw_style, make, write_usd
 
     renamed = {"--hand": ("--style", hand), "--spoilt": ("--defective", spoilt), "--sins": ("--defects", sins)}
     for old, (new, given_so) in renamed.items():
@@ -75,16 +77,22 @@ def make_plant(
     if unit is not None and not 1e-6 <= unit <= 1e3:
         raise ValueError(f"--unit {unit:g}: give the length of one authored unit in metres, from 1e-06 to 1000")
     authoring = replace(authoring, **{key: value for key, value in given.items() if value is not None})
-    if drawn is not None and drawn not in DEFECTS:
-        raise ValueError(f"--drawn {drawn}: give one of {', '.join(DEFECTS)}")
-    chosen = draw_defects(seed) if defects else DEFECTS[drawn] if drawn else None
-    if defective and not defects:
-        spoilt_by = ("duplicates", "hidden", "flipped", "soup", "degenerate", "gaps")
-        shares: dict[str, Any] = dict.fromkeys(spoilt_by, defective)
-        chosen = replace(chosen or Defects(), **shares)
-    plant = make(preset, seed, style, chosen)
+    plant = make(preset, seed, style, draw_defects(seed) if defects else _asked_for(drawn, defective))
     truth = write_usd(plant, output, authoring)
     out.print(f"wrote {escape(str(output))} and {escape(str(truth))}")
+
+
+def _asked_for(drawn: str | None, defective: float) -> Defects | None:
+    """The defects of a name and of a share of all meshes; None where neither is given."""
+    from cadplants.defects import DEFECTS, Defects
+
+    if drawn is not None and drawn not in DEFECTS:
+        raise ValueError(f"--drawn {drawn}: give one of {', '.join(DEFECTS)}")
+    if not defective:
+        return DEFECTS[drawn] if drawn else None
+    spoilt = ("duplicates", "hidden", "flipped", "soup", "degenerate", "gaps")
+    shares: dict[str, Any] = dict.fromkeys(spoilt, defective)
+    return replace(DEFECTS[drawn] if drawn else Defects(), **shares)
 
 
 @plants.command("check")
