@@ -242,6 +242,13 @@ def test_a_plant_in_an_impossible_unit_is_refused(capsys, tmp_path, unit):
     assert not (tmp_path / "a.usdc").exists()
 
 
+def test_a_plant_is_drawn_as_others_draw_it(capsys, tmp_path):
+    assert "gaps, overlaps" in refused(capsys, "environment", "make", "-o", tmp_path / "a.usdc", "--drawn", "badly")
+    code, _, _ = run(capsys, "environment", "make", "--preset", "riser", "-o", tmp_path / "a.usdc", "--drawn", "gaps")
+    assert code == 0
+    assert json.loads((tmp_path / "a.truth.json").read_text())["looseness"] > 0.003
+
+
 def test_want_of_memory_is_one_line(capsys, monkeypatch, tmp_path):
     def greedy(*_, **__):
         raise MemoryError

@@ -177,15 +177,23 @@ def case(presets: Sequence[str], seeds: Sequence[int], style: str, defect: str, 
 
 
 def told(sums: dict[tuple[str, str, str], Sum]) -> list[str]:
-    """The table: all of a mode, each defect, each style, then every case."""
+    """The table: all of a mode, each style, each defect, then every case."""
+    over = [name for k, name in ((1, "defect"), (2, "style")) if len({key[k] for key in sums}) > 1]
+    rows = summed(sums, *over) if len(over) > 1 else {}
+    for name in over:
+        rows |= summed(sums, name)
+    rows |= sums
+    return table(HEADS, [found.row(MODES[mode], defect, style) for (mode, defect, style), found in rows.items()], True)
+
+
+def summed(sums: dict[tuple[str, str, str], Sum], *over: str) -> dict[tuple[str, str, str], Sum]:
+    """The sums over all styles, all defects or both."""
     whole: dict[tuple[str, str, str], Sum] = {}
     for (mode, defect, style), found in sums.items():
-        for key in ((mode, "**all**", "**all**"), (mode, defect, "**all**"), (mode, "**all**", style)):
-            whole[key] = whole.get(key, Sum())
-            whole[key] += found
-    order = {key: (key[1] != "**all**", key[2] != "**all**") for key in whole}
-    rows = {key: whole[key] for key in sorted(whole, key=lambda key: order[key])} | sums
-    return table(HEADS, [found.row(MODES[mode], defect, style) for (mode, defect, style), found in rows.items()], True)
+        key = (mode, "**all**" if "defect" in over else defect, "**all**" if "style" in over else style)
+        total = whole.setdefault(key, Sum())
+        total += found
+    return whole
 
 
 def causes(sums: dict[tuple[str, str, str], Sum], edges: bool) -> list[str]:

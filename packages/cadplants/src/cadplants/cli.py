@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.markup import escape
 
 from cadgraph.cli.screen import err, out
 from cadgraph.errors import FormatError
+
+if TYPE_CHECKING:
+    from cadplants.defects import Defects
 
 __all__ = ["plants"]
 
@@ -20,7 +23,9 @@ plants = typer.Typer(no_args_is_help=True, help="Generated test plants with thei
 @plants.command("make")
 def make_plant(
     output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The scene, e.g. field.usdc.")],
-    preset: Annotated[str, typer.Option(help="skid, riser, tank, pumps, station, rack or field.")] = "skid",
+    preset: Annotated[
+        str, typer.Option(help="skid, riser, tank, pumps, loop, manifold, station, rack or field.")
+    ] = "skid",
     seed: Annotated[int, typer.Option(min=0, help="Of everything that varies.")] = 0,
     style: Annotated[
         str | None, typer.Option(help="In whose style it is modelled; the preset's own by default.")
@@ -36,6 +41,10 @@ def make_plant(
             help="Draw all defects by the seed: those of --defective, unit, up axis, instances, frames, polygons.",
         ),
     ] = False,
+    drawn: Annotated[
+        str | None,
+        typer.Option(help="Draw it as others do: gaps, setback, gaskets, insulation, primitives... or all."),
+    ] = None,
     unit: Annotated[float | None, typer.Option(help="Metres in one authored unit; 0.001 by default.")] = None,
     up: Annotated[str | None, typer.Option(help="Authored up axis, Y or Z; Z by default.")] = None,
     instances: Annotated[
@@ -49,7 +58,7 @@ def make_plant(
     sins: Annotated[bool, typer.Option("--sins", hidden=True)] = False,
 ) -> None:
     """Generate a plant as USD with meaningless names, and its ground truth beside it."""
-    from cadplants import Defects, UsdStyle, draw_defects, draw_style, make, write_usd
+    from cadplants import UsdStyle, draw_defects, draw_style, make, write_usd
 
     renamed = {"--hand": ("--style", hand), "--spoilt": ("--defective", spoilt), "--sins": ("--defects", sins)}
     for old, (new, given_so) in renamed.items():
@@ -68,10 +77,22 @@ def make_plant(
     if unit is not None and not 1e-6 <= unit <= 1e3:
         raise ValueError(f"--unit {unit:g}: give the length of one authored unit in metres, from 1e-06 to 1000")
     authoring = replace(authoring, **{key: value for key, value in given.items() if value is not None})
-    share = Defects(defective, defective, defective, defective, defective, defective) if defective else None
-    plant = make(preset, seed, style, draw_defects(seed) if defects else share)
+    plant = make(preset, seed, style, draw_defects(seed) if defects else _asked_for(drawn, defective))
     truth = write_usd(plant, output, authoring)
     out.print(f"wrote {escape(str(output))} and {escape(str(truth))}")
+
+
+def _asked_for(drawn: str | None, defective: float) -> Defects | None:
+    """The defects of a name and of a share of all meshes; None where neither is given."""
+    from cadplants.defects import DEFECTS, Defects
+
+    if drawn is not None and drawn not in DEFECTS:
+        raise ValueError(f"--drawn {drawn}: give one of {', '.join(DEFECTS)}")
+    if not defective:
+        return DEFECTS[drawn] if drawn else None
+    spoilt = ("duplicates", "hidden", "flipped", "soup", "degenerate", "gaps")
+    shares: dict[str, Any] = dict.fromkeys(spoilt, defective)
+    return replace(DEFECTS[drawn] if drawn else Defects(), **shares)
 
 
 @plants.command("check")

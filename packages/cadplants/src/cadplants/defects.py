@@ -249,7 +249,10 @@ def _redrawn(plant: Plant, defects: Defects, seed: int) -> Plant:
     if drawn is not plant:
         drawn = replace(drawn, contacts=(*drawn.contacts, *_met(drawn)))
         drawn = replace(drawn, looseness=max(drawn.looseness, _widest(drawn)))
-    return drawn.placed(_MIRROR) if defects.mirrored else drawn
+    if not defects.mirrored:
+        return drawn
+    mirrored = drawn.placed(_MIRROR)
+    return replace(drawn, components=mirrored.components, points=mirrored.points, lines=mirrored.lines)
 
 
 _MIRROR = np.diag([-1.0, 1.0, 1.0, 1.0])

@@ -57,13 +57,18 @@ class _Pulled:
         """The pipe that ends in a flange."""
         return next((joint for joint in self.joints if joint.partner == flange), None)
 
+    def shift(self, some: Iterable[int], step: Floats) -> None:
+        """Moves components by a step ``(3,)`` [m]."""
+        for i in some:
+            self.moved[i] = self.moved[i] + step
+
     def draw_back(self, flange: int, gap: float) -> bool:
         """Moves a flange away from its face, and the end of its pipe with it; whether it could."""
         component, joint = self.plant.components[flange], self.pipe_of(flange)
         if component.name == "flange" and joint is None:
             return False
         away = component.pose[:3, 0] / np.linalg.norm(component.pose[:3, 0])
-        self.moved[flange] = self.moved[flange] + gap * away
+        self.shift([flange], gap * away)
         if joint is not None:
             self.off[joint.pipe, joint.end] += gap
         return True
@@ -130,18 +135,23 @@ def _set_back(pulled: _Pulled, setback: Span) -> None:
 
 def _beyond(pulled: _Pulled, flange: int) -> tuple[int, int] | None:
     """What a flange presses on, and the gasket in between (-1: none); None where its face is open."""
-    components = pulled.plant.components
-    inward = np.linalg.inv(components[flange].pose)
+    near = [i for i in _beside(pulled, flange) if i not in pulled.tubes and _in_front(pulled, flange, i)]
+    pad = next((i for i in near if pulled.plant.components[i].name == "gasket"), -1)
+    if pad >= 0:
+        near = [i for i in _beside(pulled, pad) if i != flange]
+    return (near[0], pad) if near else None
 
-    def in_front(i: int) -> bool:
-        places = components[i].vertices @ inward[:3, :3].T + inward[:3, 3]
-        return bool(places[:, 0].min() < -0.001 and places[:, 0].max() < 0.01 + 0.5 * np.ptp(places[:, 0]))
 
-    near = [i for i in pulled.beside[flange] if _in_line(components[i]) and i not in pulled.tubes and in_front(i)]
-    for pad in (i for i in near if components[i].name == "gasket"):
-        far = [i for i in pulled.beside[pad] if i != flange and _in_line(components[i])]
-        return (far[0], pad) if far else None
-    return (near[0], -1) if near else None
+def _beside(pulled: _Pulled, i: int) -> list[int]:
+    """What a component touches in its line."""
+    return [other for other in pulled.beside[i] if _in_line(pulled.plant.components[other])]
+
+
+def _in_front(pulled: _Pulled, flange: int, other: int) -> bool:
+    """Whether a component lies before a flange's face, but for what reaches over it."""
+    inward = np.linalg.inv(pulled.plant.components[flange].pose)
+    x = (pulled.plant.components[other].vertices @ inward[:3, :3].T + inward[:3, 3])[:, 0]
+    return bool(x.min() < -0.001 and x.max() < 0.01 + 0.5 * np.ptp(x))
 
 
 def _in_line(component: Component) -> bool:
@@ -181,9 +191,7 @@ def _pull_apart(pulled: _Pulled, gaps: Span, shut: bool) -> None:
                 done.add(frozenset((flange, found[0])))
                 pulled.draw_back(flange, pulled.draw(gaps))
     for outlet, unit in _taps(pulled):
-        step = pulled.draw(gaps) * pulled.plant.components[outlet].pose[:3, 2]
-        for i in (outlet, *unit):
-            pulled.moved[i] = pulled.moved[i] + step
+        pulled.shift([outlet, *unit], pulled.draw(gaps) * pulled.plant.components[outlet].pose[:3, 2])
 
 
 def _taps(pulled: _Pulled) -> Iterable[tuple[int, list[int]]]:
@@ -199,16 +207,12 @@ def _unscrew(pulled: _Pulled, screwed: Span) -> None:
     """Instruments stand a little over their outlets, stems a little over their siphons."""
     components = pulled.plant.components
     for outlet, unit in _taps(pulled):
-        step = pulled.draw(screwed) * components[outlet].pose[:3, 2]
-        for i in unit:
-            pulled.moved[i] = pulled.moved[i] + step
+        pulled.shift(unit, pulled.draw(screwed) * components[outlet].pose[:3, 2])
         stems = [i for i in unit if components[i].name == "gauge stem"]
         siphons = {i for i in unit if components[i].name == "siphon"}
         if stems and siphons:
             rise = pulled.draw(screwed) * components[stems[0]].pose[:3, 2]
-            for i in unit:
-                if i not in siphons:
-                    pulled.moved[i] = pulled.moved[i] + rise
+            pulled.shift([i for i in unit if i not in siphons], rise)
 
 
 def _redrawn(pulled: _Pulled) -> Plant:

@@ -46,13 +46,13 @@ class _Sizes:
     supply: int = 80
     back: int = 100
     suction: int = 80
-    inlet: int = 65
-    outlet: int = 40
+    inlet: int = 50
+    outlet: int = 32
     discharge: int = 65
     consumer: int = 50
 
 
-_SIZES = (_Sizes(), _Sizes(65, 80, 65, 50, 32, 50, 40), _Sizes(100, 125, 100, 80, 50, 80, 65))
+_SIZES = (_Sizes(), _Sizes(65, 80, 65, 40, 25, 50, 40), _Sizes(100, 125, 100, 65, 40, 80, 65))
 _DRAIN, _VENT, _STRANGER = 25, 20, 50  # nominal sizes
 
 

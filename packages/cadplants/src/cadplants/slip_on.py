@@ -18,6 +18,7 @@ CLEARANCE = 0.0005
 0.4 to 0.8 mm for DN 15 to 100."""
 
 _SAME = 0.0005  # m; a rim this near to a standard's is of that size
+_EXACT = 1e-9  # m; rounding
 
 
 def slipped_on(flange: Solid) -> Solid | None:
@@ -33,7 +34,8 @@ def slipped_on(flange: Solid) -> Solid | None:
     rim, x = float(radii.max()), flange.vertices[:, 0]
     dn = next((dn for dn, size in FLANGES.items() if abs(size.outer / 2 - rim) < _SAME), 0)
     length = float(x.max())
-    if not dn or x.min() < -_SAME or length < FLANGES[dn].thickness / 2:
+    # Bolts stand out before the face; an uneven face is not at 0.
+    if not dn or abs(x.min()) > _EXACT or length < FLANGES[dn].thickness / 2:
         return None
     at_rim = radii > rim - _SAME / 10
     # The rim has a ring of corners at its front and one at its back.
