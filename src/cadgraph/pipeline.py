@@ -137,21 +137,22 @@ def interpret(
     config = config or Config()
     parts, contacts, cluster = analysis.parts, analysis.contacts, analysis.cluster
     progress("relate", 0)
-    network, from_lines = connect_units(RelateInput(analysis, labels.labels, labels.opinions, vocabulary, config))
-    network = drop_stubs(network)
-    related = relate_units(network.units, labels.labels, contacts, cluster, vocabulary)
+    given = RelateInput(analysis, labels.labels, labels.opinions, vocabulary, config, labels.probabilities)
+    connected = connect_units(given)
+    network = drop_stubs(connected.network)
+    related = relate_units(network.units, connected.labels, contacts, cluster, vocabulary)
     progress("assemble", 0)
     results = Results(
         scene=analysis.scene,
         parts=parts,
         contacts=contacts,
         cluster=cluster,
-        pipe_systems=pipe_systems(labels.labels, cluster, vocabulary),
-        labels=labels.labels,
+        pipe_systems=pipe_systems(connected.labels, cluster, vocabulary),
+        labels=connected.labels,
         guesses=labels.guesses,
         network=network,
         related=related,
-        diagnostics=(*analysis.diagnostics, *labels.diagnostics, *from_lines),
+        diagnostics=(*analysis.diagnostics, *labels.diagnostics, *connected.diagnostics),
     )
     graph = assemble_graph(results, vocabulary, config.model_dump(mode="json"))
     progress("assemble", 1)

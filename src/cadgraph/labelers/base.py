@@ -13,26 +13,13 @@ from cadgraph.labelers.name_hints import weigh_names
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.labels import Guess, Label
 from cadgraph.model.parts import Contacts, Parts
-from cadgraph.model.scene import Floats
+from cadgraph.model.probabilities import Probabilities
 from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["LEAST_CONFIDENCE", "Labeler", "Labeling", "Probabilities", "label_parts"]
 
 LEAST_CONFIDENCE = 0.5
 """Of a label, where neither the settings nor the labeler say."""
-
-
-@dataclass(frozen=True, eq=False)
-class Probabilities:
-    """How likely each name is for each part.
-
-    Args:
-        classes: group and name of each column.
-        values: ``(n_parts, n_classes)``; what is missing to 1 in a row belongs to no name of the vocabulary.
-    """
-
-    classes: tuple[tuple[str, str], ...]
-    values: Floats
 
 
 @dataclass(frozen=True, eq=False)

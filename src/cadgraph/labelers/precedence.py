@@ -16,6 +16,7 @@ from cadgraph.model.corrections import Correction
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.labels import CorrectedEvidence, Guess, Label
+from cadgraph.model.probabilities import Probabilities
 from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["SettledLabels", "lay_corrections", "lay_known", "settle_labels"]
@@ -30,12 +31,14 @@ class SettledLabels:
         guesses: of each part that nobody is sure about, the likeliest first.
         opinions: what the labeler alone says, but for parts that the user knows: a second opinion on the rest.
         diagnostics: what is to be reported.
+        probabilities: what the labeler holds for possible, where it knows.
     """
 
     labels: tuple[Label | None, ...]
     guesses: tuple[tuple[Guess, ...], ...]
     opinions: tuple[Label | None, ...]
     diagnostics: tuple[Diagnostic, ...] = ()
+    probabilities: Probabilities | None = None
 
 
 def settle_labels(
@@ -78,7 +81,8 @@ def lay_known(
     known, from_catalogs = apply_catalogs(labeling.labels, catalogs, analysis.parts, vocabulary)
     named, from_outside = apply_given(known, given, analysis.scene, analysis.parts, config)
     diagnostics = (*labeling.diagnostics, *from_catalogs, *from_outside)
-    return SettledLabels(named, labeling.guesses, _opinions(named, labeling), diagnostics)
+    opinions = _opinions(named, labeling)
+    return SettledLabels(named, labeling.guesses, opinions, diagnostics, labeling.probabilities)
 
 
 def lay_corrections(
@@ -86,7 +90,8 @@ def lay_corrections(
 ) -> SettledLabels:
     """The labels with corrections over what ``lay_known`` returned."""
     labels, found = apply_corrections(known.labels, corrections, analysis.scene, analysis.parts, analysis.contacts)
-    return SettledLabels(labels, known.guesses, _opinions(labels, labeling), (*known.diagnostics, *found))
+    opinions = _opinions(labels, labeling)
+    return SettledLabels(labels, known.guesses, opinions, (*known.diagnostics, *found), labeling.probabilities)
 
 
 def _opinions(labels: Sequence[Label | None], labeling: Labeling) -> tuple[Label | None, ...]:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.labels import Label
 from cadgraph.model.parts import Network, Parts, UnitParts
 from cadgraph.stages.relate.algorithm import find_units
 from cadgraph.stages.relate.attach import flat_contacts
@@ -17,20 +19,37 @@ from cadgraph.stages.relate.kind import name_kinds
 from cadgraph.stages.relate.line import is_disc
 from cadgraph.stages.relate.network import Drawing, draw_network
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
+from cadgraph.stages.relate.recover import recover_units
+from cadgraph.stages.relate.relabel import relabel_parts
 from cadgraph.stages.relate.role import Roles, find_roles
 from cadgraph.stages.relate.run import make_network
 from cadgraph.stages.relate.tag import tag_units
 from cadgraph.stages.relate.trace import drop_shapeless, trace_lines
 from cadgraph.stages.relate.unit import is_loose_operator, mend_units, split_groups
 
-__all__ = ["connect_units"]
+__all__ = ["Connected", "connect_units"]
 
 _BY_SHAPE = 0.8  # how sure it is that a part that only its shape calls one is a connector
 _ON_LINES = frozenset({None, "pipe", "flange", "blind flange", "gasket", "coupling", "union", "nipple", "pipe cap"})
 _CLOSED = {"blind flange": "blind", "pipe cap": "blind"}
 
 
-def connect_units(given: RelateInput) -> tuple[Network, tuple[Diagnostic, ...]]:
+@dataclass(frozen=True, eq=False)
+class Connected:
+    """What follows from lines.
+
+    Args:
+        network: units and what joins them.
+        labels: of each part, as the network has it.
+        diagnostics: what the user should know about it.
+    """
+
+    network: Network
+    labels: tuple[Label | None, ...]
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+
+def connect_units(given: RelateInput) -> Connected:
     """Finds the units and what follows what along the lines between them.
 
     Args:
@@ -38,27 +57,31 @@ def connect_units(given: RelateInput) -> tuple[Network, tuple[Diagnostic, ...]]:
             is no network of lines.
 
     Returns:
-        The network, and what the user should know about it.
+        The network, the labels that agree with it, and what the user should know.
     """
     if given.config.method == "paper":
-        return Network(find_units(given.labels, given.contacts, given.cluster, given.vocabulary)), ()
+        units = find_units(given.labels, given.contacts, given.cluster, given.vocabulary)
+        return Connected(Network(units), tuple(given.labels))
     roles = find_roles(given.parts, given.labels, given.opinions)
     piping = trace_lines(given, roles)
-    piping = drop_shapeless(piping)
+    piping = recover_units(drop_shapeless(piping))
     piping, groups = mend_units(piping)
     groups, loose = _decide(piping, groups)
+    labels = relabel_parts(piping, groups)
+    names = [label.name if label is not None else None for label in labels]
     units = tag_units(given.parts, groups)
     drawing = _draw(piping, units)
     network = _contract(piping, units, drawing)
-    network = name_kinds(network, roles.names, given.parts)
+    network = name_kinds(network, names, given.parts)
     stated = stated_flow(network, given.config.relate.flow)
-    network, contradictions = direct_flow(network, given.parts, roles.names, stated)
-    return network, (
+    network, contradictions = direct_flow(network, given.parts, names, stated)
+    diagnostics = (
         *_bridged_gaps(given.parts, drawing),
         *_doubted_labels(given.parts, roles),
         *_loose_operators(given.parts, loose),
         *contradictions,
     )
+    return Connected(network, labels, diagnostics)
 
 
 def _decide(piping: Piping, groups: Sequence[Group]) -> tuple[list[Group], list[Group]]:

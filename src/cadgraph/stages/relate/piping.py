@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -13,6 +13,7 @@ from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.analysis import Analysis
 from cadgraph.model.labels import Label
 from cadgraph.model.parts import Contacts, Parts
+from cadgraph.model.probabilities import Probabilities
 from cadgraph.model.scene import Ints
 from cadgraph.model.vocabulary import Vocabulary
 from cadgraph.stages.relate.attach import Attachments, attach_lines
@@ -36,6 +37,7 @@ class RelateInput:
         opinions: label that the embedded labeler alone gives each part, None where it gives none; a second opinion.
         vocabulary: label tree, with the groups that are connectors and those that form units.
         config: settings.
+        probabilities: what the labeler holds for possible, where it knows.
     """
 
     analysis: Analysis
@@ -43,6 +45,7 @@ class RelateInput:
     opinions: Sequence[Label | None]
     vocabulary: Vocabulary
     config: Config
+    probabilities: Probabilities | None = None
 
     @property
     def parts(self) -> Parts:
@@ -101,6 +104,7 @@ class Piping:
         members: parts of groups that lines may end at.
         feet: parts of gauges, which may sit on the side of a line.
         jackets: bodies around lines, insulation above all, which are neither line nor unit.
+        recovered: parts that lie where a device or a fitting must be, and how sure that is, 0..1.
     """
 
     given: RelateInput
@@ -111,6 +115,7 @@ class Piping:
     members: frozenset[int]
     feet: frozenset[int]
     jackets: frozenset[int] = frozenset()
+    recovered: Mapping[int, float] = field(default_factory=dict)
 
     @cached_property
     def joints(self) -> Attachments:

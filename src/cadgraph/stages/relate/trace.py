@@ -27,6 +27,8 @@ __all__ = ["drop_shapeless", "trace_lines"]
 # A part that only its shape calls a pipe must face one of about its size: this ratio of radii, that of a reducing
 # flange; one that its label calls a device must face one of its own size.
 _RATIO, _OWN_RATIO = 0.3, 0.9
+# What the labeler alone takes for steelwork is a pipe only where lines go on at both of its ends: no ratio is enough.
+_BOTH_ENDS, _LEAST_LINES = 2.0, 2
 # A device drawn as a mere cylinder is straight (cosine between its ends) and at most so many radii long: a DN 15 gate
 # valve has ten.
 _STRAIGHT, _LONGEST_DEVICE = -0.996, 12.0
@@ -50,12 +52,14 @@ def trace_lines(given: RelateInput, roles: Roles) -> Piping:
     others = likely_lines(roles, given.opinions, given.contacts, given.vocabulary, given.parts.ground.tolist())
     singles = [group.parts[0] for group in connected_groups(given, roles) if len(group.parts) == 1]
     wrapped = _tubes_of_units(given, roles)
-    traced, copies = _distinct_lines(given, [*connectors, *others, *singles, *wrapped])
+    between = _tubes_between(given, roles)
+    traced, copies = _distinct_lines(given, [*connectors, *others, *singles, *wrapped, *between])
     lines = {part: traced[part] for part in connectors if part in traced}
     jackets = _jackets(given, traced, lines)
     lines = {part: line for part, line in lines.items() if part not in jackets}
     copies |= jackets
     ratios = _least_ratios(given, roles, others, singles, traced)
+    ratios |= {part: _BOTH_ENDS for part in between if part in traced and is_plain_tube(traced[part])}
     ratios = {part: ratio for part, ratio in ratios.items() if part not in jackets}
     if ratios:
         lines = _continued(lines, ratios, traced, given.contacts, given.config.relate.bridge)
@@ -82,6 +86,22 @@ def _tubes_of_units(given: RelateInput, roles: Roles) -> list[int]:
         if group in unit_of_group
         and given.labels[part] is given.opinions[part]
         and known.facts[int(known.shape[part])].tube
+    ]
+
+
+def _tubes_between(given: RelateInput, roles: Roles) -> list[int]:
+    """Tubes that the labeler alone takes for steelwork or the like, and that touch two lines at least."""
+    vocabulary, known = given.vocabulary, shapes_of(given.parts)
+    functional = vocabulary.connector_groups | vocabulary.unit_of_group.keys()
+    lines = {part for part, group in enumerate(roles.groups) if group in vocabulary.connector_groups}
+    return [
+        part
+        for part, group in enumerate(roles.groups)
+        if group is not None
+        and group not in functional
+        and given.labels[part] is given.opinions[part]
+        and known.facts[int(known.shape[part])].tube
+        and len(lines.intersection(given.neighbors.get(part, ()))) >= _LEAST_LINES
     ]
 
 

@@ -1,0 +1,69 @@
+"""What each part may be, for the decisions of the network: the labeler's probabilities rather than its answers."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from cadgraph.model.labels import Label
+from cadgraph.model.parts import Bools
+from cadgraph.model.probabilities import Probabilities
+from cadgraph.model.scene import Floats
+from cadgraph.model.vocabulary import Vocabulary
+
+__all__ = ["Beliefs", "beliefs_of"]
+
+# Who can't be overruled by what lies around a part: the user, and the file where it is asked.
+_KNOWN = frozenset({"human", "repeat", "catalog", "author", "file"})
+
+
+@dataclass(frozen=True, eq=False)
+class Beliefs:
+    """How likely each name is for each part, and whose word may be doubted.
+
+    Args:
+        classes: group and name of each column; the name is None for what is only known by group.
+        values: ``(n_parts, n_classes)``; what is missing to 1 in a row is nothing that the vocabulary knows.
+        open: ``(n_parts,)`` whether nobody but the labeler says what the part is.
+    """
+
+    classes: tuple[tuple[str, str | None], ...]
+    values: Floats
+    open: Bools
+
+    def of_groups(self, groups: Collection[str], without: Collection[str | None] = ()) -> Floats:
+        """``(n_parts,)`` how likely each part is of some groups, names that are left out not counted."""
+        columns = [k for k, (group, name) in enumerate(self.classes) if group in groups and name not in without]
+        total: Floats = self.values[:, columns].sum(axis=1)
+        return total
+
+
+def beliefs_of(labels: Sequence[Label | None], probabilities: Probabilities | None, vocabulary: Vocabulary) -> Beliefs:
+    """What the labeler holds for possible, and for certain what others say.
+
+    Args:
+        labels: of each part, None where it has none.
+        probabilities: of the labeler; without them labels and their guesses have to do.
+        vocabulary: the tree of labels.
+    """
+    classes: list[tuple[str, str | None]] = [(g, n) for g, held in vocabulary.groups.items() for n in held.names]
+    classes += [(group, None) for group in vocabulary.groups]
+    column = {said: k for k, said in enumerate(classes)}
+    values = np.zeros((len(labels), len(classes)))
+    if probabilities is not None:
+        known = [k for k, said in enumerate(probabilities.classes) if said in column]
+        values[:, [column[probabilities.classes[k]] for k in known]] = probabilities.values[:, known]
+    is_open = np.array([label is None or label.source not in _KNOWN for label in labels], np.bool_)
+    for part, label in enumerate(labels):
+        # A vision-language model's answer, too, counts by its confidence where the network is asked.
+        if label is None or (is_open[part] and label.source == "geometry" and probabilities is not None):
+            continue
+        values[part] = 0.0
+        sure = label.confidence if is_open[part] else 1.0
+        said = [(guess.said, guess.confidence) for guess in label.guesses] or [(label.said, sure)]
+        for one, confidence in said if is_open[part] else [(label.said, 1.0)]:
+            if one in column:
+                values[part, column[one]] += confidence
+    return Beliefs(tuple(classes), values, is_open)

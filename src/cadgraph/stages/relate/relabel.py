@@ -1,0 +1,110 @@
+"""What the network learns flows back: the labels of parts that lines run through, and of parts of units."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from cadgraph.geometry.line.centreline import Centreline
+from cadgraph.model.labels import FormerLabel, Label, NetworkEvidence
+from cadgraph.stages.relate.belief import Beliefs, beliefs_of
+from cadgraph.stages.relate.line import is_plain_tube
+from cadgraph.stages.relate.piping import Group, Piping
+
+__all__ = ["relabel_parts"]
+
+# How sure a label is that follows from a line through the part, from its unit, or from most of its repeats (ours).
+_ON_LINE, _IN_UNIT, _OUTVOTED = 0.8, 0.7, 0.7
+_NAMED = 0.5  # least share of a name among those of its group
+_STRAIGHT = -0.996  # cosine between the ends of a straight pipe
+
+
+def relabel_parts(piping: Piping, groups: Sequence[Group]) -> tuple[Label | None, ...]:
+    """Labels that agree with the network, in place of those that it contradicts.
+
+    What a user said of a part stays, unless so many labels from outside are wrong that none is followed alone.
+
+    Args:
+        piping: with the lines.
+        groups: the parts of each unit.
+
+    Returns:
+        A label for each part; those from here have the source ``network`` and hold what they were before.
+    """
+    given, roles = piping.given, piping.roles
+    beliefs = beliefs_of(given.labels, given.probabilities, given.vocabulary)
+    connectors = given.vocabulary.connector_groups
+    labels = list(given.labels)
+    for part in roles.doubted:
+        group = roles.groups[part]
+        if group is not None:
+            labels[part] = _label(
+                labels[part], group, roles.names[part], _OUTVOTED, "most of its repeats, or its shape"
+            )
+    for part in (*piping.lines, *piping.lineless):
+        if not _says(labels[part], connectors) and _may_change(piping, beliefs, part):
+            group, name = _connector(piping, beliefs, part)
+            sure = piping.recovered.get(part, _ON_LINE)
+            labels[part] = _label(labels[part], group, name, sure, "a line runs through it")
+    for unit in groups:
+        _relabel_unit(piping, beliefs, unit, labels)
+    return tuple(labels)
+
+
+def _relabel_unit(piping: Piping, beliefs: Beliefs, group: Group, labels: list[Label | None]) -> None:
+    """Labels of a unit's parts that are of its own group; what holds it together keeps its label."""
+    vocabulary = piping.given.vocabulary
+    own = sorted(name for name, unit in vocabulary.unit_of_group.items() if unit == group.unit_type)
+    foreign = vocabulary.connector_groups | (vocabulary.unit_of_group.keys() - set(own))
+    for part in group.parts:
+        strange = labels[part] is None or _says(labels[part], foreign) or part in piping.recovered
+        if not own or not strange or _says(labels[part], own) or not _may_change(piping, beliefs, part):
+            continue
+        single = len(group.parts) == 1
+        said = _likeliest(beliefs, part, own)
+        name = vocabulary.groups[own[0]].names[0] if single and len(own) == 1 else said[1]
+        sure = piping.recovered.get(part, _IN_UNIT)
+        labels[part] = _label(labels[part], said[0], name, sure, f"it is part of a {group.unit_type} in the network")
+
+
+def _says(label: Label | None, groups: Sequence[str] | frozenset[str] | set[str]) -> bool:
+    return label is not None and label.group in groups
+
+
+def _may_change(piping: Piping, beliefs: Beliefs, part: int) -> bool:
+    """Whether nobody but the labeler says what a part is, or labels are doubtful and no person has corrected it."""
+    label = piping.given.labels[part]
+    if label is not None and label.source in ("human", "repeat", "catalog"):
+        return False
+    return bool(beliefs.open[part]) or piping.roles.doubtful
+
+
+def _connector(piping: Piping, beliefs: Beliefs, part: int) -> tuple[str, str | None]:
+    """The group and name of a part that a line runs through."""
+    group, name = _likeliest(beliefs, part, sorted(piping.given.vocabulary.connector_groups))
+    line = piping.lines.get(part)
+    held = piping.given.vocabulary.groups[group].names
+    if line is not None and is_plain_tube(line):
+        by_shape = "pipe" if _is_straight(line) else "elbow"
+        return group, by_shape if by_shape in held else name
+    return group, name
+
+
+def _is_straight(line: Centreline) -> bool:
+    return len(line.ends) == 2 and float(line.ends[0].direction @ line.ends[1].direction) < _STRAIGHT
+
+
+def _likeliest(beliefs: Beliefs, part: int, groups: Sequence[str]) -> tuple[str, str | None]:
+    """Of some groups the likeliest one, and a name in it where one is likelier than all others together."""
+    share = dict.fromkeys(groups, 0.0)
+    said = [(float(beliefs.values[part, k]), g, n) for k, (g, n) in enumerate(beliefs.classes) if g in share]
+    for sure, group, _ in said:
+        share[group] += sure
+    best = max(groups, key=lambda group: (share[group], group))
+    names = [(sure, name) for sure, group, name in said if group == best and name]
+    sure, name = max(names, default=(0.0, None))
+    return best, name if share[best] > 0 and sure >= _NAMED * share[best] else None
+
+
+def _label(before: Label | None, group: str, name: str | None, sure: float, why: str) -> Label:
+    evidence = NetworkEvidence(why=why, before=FormerLabel.of(before))
+    return Label(group, name, round(sure, 6), "network", evidence)
