@@ -13,6 +13,7 @@ from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.attach import Attachments, Mount, attach_lines
 from cadgraph.stages.relate.belief import Beliefs, beliefs_of
 from cadgraph.stages.relate.evidence import Curve
+from cadgraph.stages.relate.inline import recover_inline
 from cadgraph.stages.relate.joint import Ends
 from cadgraph.stages.relate.line import is_disc
 from cadgraph.stages.relate.piping import FASTENERS, Group, Piping
@@ -59,6 +60,7 @@ _WIDEST_GAUGE = 0.4  # m
 # Names of connectors that two ends on one axis of a body contradict: each would have a line of its own there.
 _LEAST_PIPE = 0.3  # a line that the labeler finds less likely than this leads to two things at least, a disc sooner
 _LEADS = 2
+_LID = 4.0  # radii that a bonnet or a cover is long at most
 _FEW = 3  # parts of a group that may be a piece of something else
 _LIKELY = 0.7  # from this probability on something is taken for a line, or a piece of a unit, without more
 _BENT = frozenset({"cross", "tee", "elbow", "pipe cap", "blind flange"})
@@ -90,8 +92,10 @@ def recover_units(piping: Piping) -> Piping:
     given = piping.given
     beliefs = beliefs_of(given.labels, given.probabilities, given.vocabulary)
     piping = _without_stubs(_without_rings(piping, beliefs), beliefs)
+    if float(beliefs.open.mean()) >= _MOSTLY_NAMED:
+        piping = recover_inline(piping, beliefs, LABELLED)
     ends, mounts = _loose_mounts(piping, _candidates(piping, beliefs))
-    for body in _bodies(piping, beliefs, mounts):
+    for body in _bodies(piping, beliefs, mounts, ends):
         piping = _taken(piping, body, *_type_of(piping, beliefs, body, ends))
     return piping
 
@@ -207,7 +211,21 @@ def _weak_members(piping: Piping, beliefs: Beliefs) -> frozenset[int]:
     return frozenset(weak)
 
 
-def _bodies(piping: Piping, beliefs: Beliefs, mounts: Sequence[Mount]) -> list[_Body]:
+def _lids(piping: Piping, beliefs: Beliefs, mounts: Sequence[Mount], ends: Ends) -> set[int]:
+    """Short parts with a line that lead from a body to nothing: its bonnet, its cover."""
+    found = piping.joints
+    busy = Counter(int(found.ends.part[row]) for row in {*found.made, *(mount.row for mount in mounts)})
+    tapped = {tapped.part for tapped in found.taps}
+    return {
+        part
+        for part in {int(ends.part[mount.row]) for mount in mounts} - tapped
+        if beliefs.open[part]
+        and busy[part] == 1
+        and piping.lines[part].length <= _LID * float(piping.lines[part].branches[0].radius.max())
+    }
+
+
+def _bodies(piping: Piping, beliefs: Beliefs, mounts: Sequence[Mount], ends: Ends) -> list[_Body]:
     """The parts at ends, with what else there is of each body."""
     given = piping.given
     others = _other_groups(piping, beliefs)
@@ -218,9 +236,13 @@ def _bodies(piping: Piping, beliefs: Beliefs, mounts: Sequence[Mount]) -> list[_
     # What hangs on the side of a line holds it.
     pool -= {part for part in pool if part not in seeds and part in beside}
     pairs = [(a, b) for a, b in given.contacts.pairs.tolist() if a in pool and b in pool]
+    lids = _lids(piping, beliefs, mounts, ends)
     bodies = []
     for parts in connected_sets(sorted(pool), pairs):
-        held = tuple(mount for mount in mounts if mount.part in parts)
+        at = [mount for mount in mounts if mount.part in parts]
+        closing = {int(ends.part[mount.row]) for mount in at} & lids
+        held = tuple(mount for mount in at if int(ends.part[mount.row]) not in closing)
+        parts = tuple(sorted(closing.union(parts)))
         if not held or len(parts) > _MOST:
             continue
         near = {o for part in parts for o in given.neighbors.get(part, ()) if o in piping.members - pool}
@@ -315,6 +337,7 @@ def _taken(piping: Piping, body: _Body, kind: str, sure: float) -> Piping:
     groups = [group for group in piping.groups if group not in joined and inside.isdisjoint(group.parts)]
     return replace(
         piping,
+        lines={part: line for part, line in piping.lines.items() if part not in inside},
         lineless=tuple(part for part in piping.lineless if part not in inside),
         groups=(*groups, Group(kind, tuple(sorted(parts)))),
         members=piping.members | inside,

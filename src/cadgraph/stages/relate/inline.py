@@ -1,0 +1,172 @@
+"""Valves drawn so simply that lines run through them: two cones, a cylinder with a stem."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cadgraph.geometry.line.centreline import Centreline
+from cadgraph.model.scene import Floats
+from cadgraph.stages.relate.belief import Beliefs
+from cadgraph.stages.relate.evidence import Curve, score_of
+from cadgraph.stages.relate.piping import Group, Piping
+
+__all__ = ["INLINE", "WAIST", "recover_inline"]
+
+WAIST = Curve((0.0, 0.55, 0.8, 0.92), (3.5, 3.5, 2.5, 0.0), "narrows to {:.0%}")
+"""The narrowest radius of a piece as share of that at its ends, in log-odds that it is a valve: two cones in a plant
+model stand for one, and no fitting is narrower in its middle."""
+
+INLINE: Mapping[str, float] = {"base": -2.0, "stem": 2.5}
+"""The log-odds that a straight piece in a line is a valve, and what a stem that leads nowhere adds."""
+
+_SURE = 0.6  # least probability of what is taken for a valve
+_LEAST = 1e-3  # no probability counts for less
+_LONGEST = 14.0  # radii that a valve is long at most
+_ON_AXIS, _ALIGNED = 0.35, -0.95  # as share of the radius; cosine between the outward directions
+_NARROW = 0.7  # the ends of two cones that meet are narrower than their other ends by this factor
+_THIN = 0.7  # a stem is thinner than the body by this factor
+
+
+@dataclass(frozen=True)
+class _Piece:
+    """A straight piece of a line.
+
+    Args:
+        parts: that carry it, one or two cones.
+        rows: of its two outer ends.
+        waist: its narrowest radius as share of that at its ends.
+    """
+
+    parts: tuple[int, ...]
+    rows: tuple[int, int]
+    waist: float
+
+
+def recover_inline(piping: Piping, beliefs: Beliefs, likelihood: Curve) -> Piping:
+    """Makes valves of pieces that narrow in the middle or carry a stem, where enough speaks for it.
+
+    Args:
+        piping: with all lines.
+        beliefs: what each part may be.
+        likelihood: what the logarithm of the labeler's probability adds.
+    """
+    own = sorted(name for name, unit in piping.given.vocabulary.unit_of_group.items() if unit == "valve")
+    if not own:
+        return piping
+    valves = beliefs.of_groups(own)
+    taken: set[int] = set()
+    groups: list[Group] = []
+    recovered = dict(piping.recovered)
+    for piece in _pieces(piping, beliefs):
+        stems = _stems(piping, beliefs, piece)
+        said = max(float(valves[list(piece.parts)].mean()), _LEAST)
+        odds = INLINE["base"] + float(WAIST(piece.waist)) + float(likelihood(np.log(said)))
+        sure = score_of(odds + (INLINE["stem"] if stems else 0.0))
+        if sure < _SURE or not taken.isdisjoint(piece.parts):
+            continue
+        parts = tuple(sorted({*piece.parts, *stems} - taken))
+        taken.update(parts)
+        groups.append(Group("valve", parts))
+        recovered |= dict.fromkeys(parts, sure)
+    if not groups:
+        return piping
+    return replace(
+        piping,
+        lines={part: line for part, line in piping.lines.items() if part not in taken},
+        lineless=tuple(part for part in piping.lineless if part not in taken),
+        groups=(*(group for group in piping.groups if taken.isdisjoint(group.parts)), *groups),
+        members=piping.members | taken,
+        recovered=recovered,
+    )
+
+
+def _pieces(piping: Piping, beliefs: Beliefs) -> list[_Piece]:
+    """Straight pieces both of whose ends join others: pairs of cones, then single parts."""
+    single = [
+        piece
+        for part, line in sorted(piping.lines.items())
+        if beliefs.open[part] and (piece := _straight(piping, part, line)) is not None
+    ]
+    return [*_cones(piping, beliefs), *single]
+
+
+def _straight(piping: Piping, part: int, line: Centreline) -> _Piece | None:
+    """A part whose two joined ends lie on one axis, no farther apart than those of a valve."""
+    found = piping.joints
+    rows = [row for row in found.ends.of_part.get(part, ()) if row in found.made and found.made[row].kind != "sleeve"]
+    if len(rows) != 2:
+        return None
+    return _piece(piping, (part,), (rows[0], rows[1]), _narrowest(line, piping, rows))
+
+
+def _cones(piping: Piping, beliefs: Beliefs) -> list[_Piece]:
+    """Pairs of parts whose narrow ends meet."""
+    found, ends = piping.joints, piping.joints.ends
+    pieces = []
+    for facing in found.facings:
+        parts = (int(ends.part[facing.first]), int(ends.part[facing.second]))
+        if not all(beliefs.open[part] for part in parts):
+            continue
+        others = [[row for row in ends.of_part[part] if row not in (facing.first, facing.second)] for part in parts]
+        if any(len(rows) != 1 or rows[0] not in found.made for rows in others):
+            continue
+        outer = (others[0][0], others[1][0])
+        inner = max(float(ends.radius[facing.first]), float(ends.radius[facing.second]))
+        waist = inner / min(float(ends.radius[row]) for row in outer)
+        piece = _piece(piping, parts, outer, waist) if waist <= _NARROW else None
+        if piece is not None:
+            pieces.append(piece)
+    return pieces
+
+
+def _piece(piping: Piping, parts: tuple[int, ...], rows: tuple[int, int], waist: float) -> _Piece | None:
+    ends = piping.joints.ends
+    a, b = rows
+    between = ends.point[b] - ends.point[a]
+    radius = float(max(ends.radius[a], ends.radius[b]))
+    off = float(np.linalg.norm(between - (between @ ends.direction[a]) * ends.direction[a]))
+    straight = float(ends.direction[a] @ ends.direction[b]) <= _ALIGNED and off <= _ON_AXIS * radius
+    return _Piece(parts, rows, waist) if straight and float(np.linalg.norm(between)) <= _LONGEST * radius else None
+
+
+def _narrowest(line: Centreline, piping: Piping, rows: Sequence[int]) -> float:
+    """The least radius on the axis between two ends of a part, as share of the lesser of theirs."""
+    ends = piping.joints.ends
+    axis = ends.direction[rows[0]]
+    points = np.concatenate([branch.points for branch in line.branches])
+    radii = np.concatenate([branch.radius for branch in line.branches])
+    offset = points - ends.point[rows[0]]
+    lesser = float(min(ends.radius[row] for row in rows))
+    # Where a branch leads off the points of the run are those on its axis, and a branch's first point lies there, too:
+    # it is thinner than the run, but not the run.
+    run = np.concatenate([np.full(len(branch.points), _along(branch.points, axis)) for branch in line.branches])
+    on_axis = (np.linalg.norm(offset - (offset @ axis)[:, None] * axis, axis=1) <= _ON_AXIS * lesser) & run
+    return float(radii[on_axis].min()) / lesser if on_axis.any() else 1.0
+
+
+def _along(points: Floats, axis: Floats) -> bool:
+    """Whether a branch runs along an axis."""
+    chord = points[-1] - points[0]
+    return bool(abs(float(chord @ axis)) >= -_ALIGNED * float(np.linalg.norm(chord)))
+
+
+def _stems(piping: Piping, beliefs: Beliefs, piece: _Piece) -> set[int]:
+    """Parts that stand on a piece and lead nowhere; the piece itself where one is of its own mesh."""
+    found, ends = piping.joints, piping.joints.ends
+    thin = _THIN * float(min(ends.radius[row] for row in piece.rows))
+    stems = {
+        part
+        for part in piece.parts
+        for row in ends.of_part[part]
+        if row not in piece.rows and row not in found.made and float(ends.radius[row]) <= thin
+    }
+    for part in {other for own in piece.parts for other in piping.given.neighbors.get(own, ())} - set(piece.parts):
+        rows = ends.of_part.get(part, ())
+        leads = [row for row in rows if row in found.made]
+        on_piece = all(found.made[row].kind == "tap" and found.made[row].other in piece.parts for row in leads)
+        if rows and beliefs.open[part] and on_piece and all(float(ends.radius[row]) <= thin for row in rows):
+            stems.add(part)
+    return stems
