@@ -22,7 +22,7 @@ __all__ = ["ARRANGEMENT", "FITTING", "LABELLED", "SIZE", "recover_units"]
 
 FITTING = "fitting"
 """What only passes a line on, beside the types of units and ``nothing``."""
-_NOTHING = "nothing"
+_NOTHING, _STEELWORK = "nothing", "steelwork"
 
 # How the ends of lines meet a body, in log-odds for each type.
 ARRANGEMENT: Mapping[str, Mapping[str, float]] = {
@@ -55,6 +55,7 @@ _LEAST = 1e-3  # no probability counts for less
 _ALIGNED, _SQUARE, _ON_AXIS = 0.95, 0.35, 0.35
 _LIKELY_OTHER = 0.5  # above this probability a part is of steelwork, a support or the like
 _MOSTLY_NAMED = 0.5  # below this share of parts that only the labeler has named what has no name is no device
+_STANDING = 0.5  # log-odds that what has the ends of lines at it carries them
 _MOST = 40  # parts of a device that labels missed
 _WIDEST_GAUGE = 0.4  # m
 # Names of connectors that two ends on one axis of a body contradict: each would have a line of its own there.
@@ -230,7 +231,7 @@ def _bodies(piping: Piping, beliefs: Beliefs, mounts: Sequence[Mount], ends: End
     given = piping.given
     others = _other_groups(piping, beliefs)
     seeds = {mount.part for mount in mounts}
-    pool = {part for part in _candidates(piping, beliefs) if part in seeds or others[part] < _LIKELY_OTHER}
+    pool = {part for part in _candidates(piping, beliefs) if others[part] < _LIKELY_OTHER}
     pool |= _weak_members(piping, beliefs)
     beside = {side.solid for side in piping.joints.sides}
     # What hangs on the side of a line holds it.
@@ -264,6 +265,8 @@ def _type_of(piping: Piping, beliefs: Beliefs, body: _Body, ends: Ends) -> tuple
     longest = _longest(piping, body.parts)
     length = longest / (2 * float(ends.radius[rows].max()))
     odds = {_NOTHING: 0.0}
+    other = float(_other_groups(piping, beliefs)[list(body.parts)].mean())
+    odds[_STEELWORK] = _STANDING + float(LABELLED(np.log(max(other, _LEAST))))
     for unit_type, effect in ARRANGEMENT[_arrangement(ends, rows)].items():
         groups = _groups_of(piping, unit_type)
         if not groups or (unit_type == "gauge" and longest > _WIDEST_GAUGE):
@@ -279,7 +282,7 @@ def _type_of(piping: Piping, beliefs: Beliefs, body: _Body, ends: Ends) -> tuple
     weights = {name: float(np.exp(value)) for name, value in odds.items()}
     best = max(weights, key=lambda name: (weights[name], name))
     share = weights[best] / sum(weights.values())
-    return (best, share) if share >= _SURE else (_NOTHING, share)
+    return (best, share) if share >= _SURE and best != _STEELWORK else (_NOTHING, share)
 
 
 def _touched(piping: Piping, body: _Body, unit_type: str) -> list[Group]:

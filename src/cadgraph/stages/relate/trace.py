@@ -50,6 +50,7 @@ def trace_lines(given: RelateInput, roles: Roles) -> Piping:
     """
     connectors = [part for part, group in enumerate(roles.groups) if group in given.vocabulary.connector_groups]
     others = likely_lines(roles, given.opinions, given.contacts, given.vocabulary, given.parts.ground.tolist())
+    others = _with_further_tubes(given, roles, others)
     singles = [group.parts[0] for group in connected_groups(given, roles) if len(group.parts) == 1]
     wrapped = _tubes_of_units(given, roles)
     between = _tubes_between(given, roles)
@@ -87,6 +88,19 @@ def _tubes_of_units(given: RelateInput, roles: Roles) -> list[int]:
         and given.labels[part] is given.opinions[part]
         and known.facts[int(known.shape[part])].tube
     ]
+
+
+def _with_further_tubes(given: RelateInput, roles: Roles, others: Sequence[int]) -> list[int]:
+    """Some parts of unknown function, and the tubes of unknown function that go on from them: a pipe in pieces."""
+    known = shapes_of(given.parts)
+    found, front = set(others), [part for part in others if known.facts[int(known.shape[part])].tube]
+    while front:
+        for part in given.neighbors.get(front.pop(), ()):
+            fits = roles.groups[part] is None and known.facts[int(known.shape[part])].tube
+            if fits and part not in found and not given.parts.ground[part]:
+                found.add(part)
+                front.append(part)
+    return sorted(found)
 
 
 def _tubes_between(given: RelateInput, roles: Roles) -> list[int]:
