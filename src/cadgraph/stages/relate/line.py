@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cadgraph.geometry.line.centreline import Centreline
 
-__all__ = ["is_disc", "is_plain_tube"]
+__all__ = ["is_disc", "is_plain_tube", "is_steady"]
 
 # The radius of a plain tube changes by less than this share.
 _STEADY = 0.06
@@ -18,7 +18,12 @@ def is_disc(line: Centreline) -> bool:
 
 def is_plain_tube(line: Centreline) -> bool:
     """Whether a line is that of a pipe or bend: one run of steady radius, longer than it is wide, with two ends."""
+    return is_steady(line) and line.length >= 3.0 * float(line.branches[0].radius.max())
+
+
+def is_steady(line: Centreline) -> bool:
+    """Whether a line is one run of steady radius with two ends, however short."""
     if len(line.branches) != 1 or len(line.ends) != 2:
         return False
     radius = line.branches[0].radius
-    return bool(radius.max() <= (1 + _STEADY) * radius.min() and line.length >= 3.0 * radius.max() and line.share > 0.9)
+    return bool(radius.max() <= (1 + _STEADY) * radius.min() and line.share > 0.9)

@@ -122,7 +122,7 @@ def _without_rings(piping: Piping, beliefs: Beliefs) -> Piping:
 
 def _without_stubs(piping: Piping, beliefs: Beliefs) -> Piping:
     """Takes away lines that the labeler holds for something else and that don't run between two likely things."""
-    likely = _likely_things(piping, beliefs)
+    likely = _likely_solids(piping, beliefs)
     connectors = beliefs.of_groups(piping.given.vocabulary.connector_groups)
     doubtful = {
         part
@@ -130,7 +130,9 @@ def _without_stubs(piping: Piping, beliefs: Beliefs) -> Piping:
         if beliefs.open[part] and connectors[part] < (_LIKELY if is_disc(line) else _LEAST_PIPE)
     }
     while doubtful:
-        leads = Counter(part for part, other in _joined_parts(piping.joints) if other in likely or other in doubtful)
+        leads = Counter(
+            part for part, other in _joined_parts(piping.joints) if other in likely or other in piping.lines
+        )
         stubs = {part for part in doubtful if leads[part] < _LEADS}
         if not stubs:
             break
@@ -139,17 +141,14 @@ def _without_stubs(piping: Piping, beliefs: Beliefs) -> Piping:
     return piping
 
 
-def _likely_things(piping: Piping, beliefs: Beliefs) -> set[int]:
-    """Lines and parts of units that others say are such, or that the labeler finds likely."""
-    vocabulary = piping.given.vocabulary
-    lines = beliefs.of_groups(vocabulary.connector_groups)
-    units = beliefs.of_groups(vocabulary.unit_of_group.keys())
-    return {
-        part
-        for parts, likely in ((piping.lines, lines), (piping.lineless, lines), (piping.members, units))
-        for part in parts
-        if not beliefs.open[part] or likely[part] >= _LIKELY
-    }
+def _likely_solids(piping: Piping, beliefs: Beliefs) -> set[int]:
+    """Connectors without a line, and parts of units one of whose parts others call so or the labeler finds likely."""
+    units = beliefs.of_groups(piping.given.vocabulary.unit_of_group.keys())
+    likely = set(piping.lineless)
+    for group in piping.groups:
+        if any(not beliefs.open[part] or units[part] >= _LIKELY for part in group.parts):
+            likely.update(group.parts)
+    return likely
 
 
 def _joined_parts(found: Attachments) -> Iterator[tuple[int, int]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -15,8 +15,8 @@ from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.attach import Attachments, facings_of
 from cadgraph.stages.relate.decide import decide_joints
-from cadgraph.stages.relate.joint import gather_ends, nearest_on
-from cadgraph.stages.relate.line import is_disc, is_plain_tube
+from cadgraph.stages.relate.joint import Ends, find_tap, gather_ends, nearest_on
+from cadgraph.stages.relate.line import is_disc, is_plain_tube, is_steady
 from cadgraph.stages.relate.offer import Surroundings, offer_faces
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
 from cadgraph.stages.relate.role import Roles, likely_lines
@@ -27,6 +27,8 @@ __all__ = ["drop_shapeless", "trace_lines"]
 # A part that only its shape calls a pipe must face one of about its size: this ratio of radii, that of a reducing
 # flange; one that its label calls a device must face one of its own size.
 _RATIO, _OWN_RATIO = 0.3, 0.9
+# A short cylinder of a pipe's own size is a piece of it where the labeler is less sure than this of the device.
+_SAME_RATIO, _UNSURE = 0.97, 0.9
 # What the labeler alone takes for steelwork is a pipe only where lines go on at both of its ends: no ratio is enough.
 _BOTH_ENDS, _LEAST_LINES = 2.0, 2
 # A device drawn as a mere cylinder is straight (cosine between its ends) and at most so many radii long: a DN 15 gate
@@ -53,13 +55,15 @@ def trace_lines(given: RelateInput, roles: Roles) -> Piping:
     others = _with_further_tubes(given, roles, others)
     singles = [group.parts[0] for group in connected_groups(given, roles) if len(group.parts) == 1]
     wrapped = _tubes_of_units(given, roles)
-    between = _tubes_between(given, roles)
-    traced, copies = _distinct_lines(given, [*connectors, *others, *singles, *wrapped, *between])
+    between, unsure = _tubes_between(given, roles), _unsure_valves(given)
+    traced, copies = _distinct_lines(given, [*connectors, *others, *singles, *wrapped, *between, *unsure])
     lines = {part: traced[part] for part in connectors if part in traced}
     jackets = _jackets(given, traced, lines)
     lines = {part: line for part, line in lines.items() if part not in jackets}
     copies |= jackets
     ratios = _least_ratios(given, roles, others, singles, traced)
+    pieces = {part for part in unsure if part in traced and is_steady(traced[part])}
+    ratios |= dict.fromkeys(pieces - ratios.keys(), _SAME_RATIO)
     ratios |= {part: _BOTH_ENDS for part in between if part in traced and is_plain_tube(traced[part])}
     ratios = {part: ratio for part, ratio in ratios.items() if part not in jackets}
     if ratios:
@@ -87,6 +91,19 @@ def _tubes_of_units(given: RelateInput, roles: Roles) -> list[int]:
         if group in unit_of_group
         and given.labels[part] is given.opinions[part]
         and known.facts[int(known.shape[part])].tube
+    ]
+
+
+def _unsure_valves(given: RelateInput) -> list[int]:
+    """Parts that the labeler alone takes for pieces of valves without being sure."""
+    unit_of_group = given.vocabulary.unit_of_group
+    return [
+        part
+        for part, label in enumerate(given.labels)
+        if label is not None
+        and label is given.opinions[part]
+        and unit_of_group.get(label.group) == "valve"
+        and label.confidence < _UNSURE
     ]
 
 
@@ -265,7 +282,26 @@ def _facing_parts(
                 steps.setdefault(other, []).append(part)
             elif lesser >= _RATIO * greater:
                 weak.setdefault(part, []).append(other)
+    for part, other in _branches(ends, lines, ratios, contacts, bridge):
+        weak.setdefault(part, []).append(other)
     return steps, weak
+
+
+def _branches(
+    ends: Ends,
+    lines: Mapping[int, Centreline],
+    ratios: Mapping[int, float],
+    contacts: Contacts,
+    bridge: float,
+) -> Iterator[tuple[int, int]]:
+    """The parts that nothing but their joints can make pipes, each with a line that branches off its side."""
+    for a, b in contacts.pairs.tolist():
+        for part, other in ((a, b), (b, a)):
+            if part not in lines or ratios.get(part) != _BOTH_ENDS or other in ratios:
+                continue
+            taps = [find_tap(ends, row, lines[part], bridge) for row in ends.of_part.get(other, ())]
+            if any(tap is not None and not tap.sleeve for tap in taps):
+                yield part, other
 
 
 def drop_shapeless(piping: Piping) -> Piping:
