@@ -28,7 +28,6 @@ from cadgraph.stages.inspect import inspect_meshes
 from cadgraph.stages.parts import make_parts
 from cadgraph.stages.preprocess import prepare_scene
 from cadgraph.stages.relate import RelateInput, connect_units, pipe_systems, relate_units
-from cadgraph.stages.stub import drop_stubs
 
 __all__ = ["ANALYSIS_SETTINGS", "STAGES", "analyse", "build", "interpret"]
 
@@ -139,7 +138,7 @@ def interpret(
     progress("relate", 0)
     given = RelateInput(analysis, labels.labels, labels.opinions, vocabulary, config, labels.probabilities)
     connected = connect_units(given)
-    network = drop_stubs(connected.network)
+    network = connected.network
     related = relate_units(network.units, connected.labels, contacts, cluster, vocabulary)
     progress("assemble", 0)
     results = Results(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,10 +19,13 @@ from cadgraph.stages.relate.kind import name_kinds
 from cadgraph.stages.relate.line import is_disc
 from cadgraph.stages.relate.network import Drawing, draw_network
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
+from cadgraph.stages.relate.record import record_joints
 from cadgraph.stages.relate.recover import recover_units
 from cadgraph.stages.relate.relabel import relabel_parts
 from cadgraph.stages.relate.role import Roles, find_roles
 from cadgraph.stages.relate.run import make_network
+from cadgraph.stages.relate.shortfall import find_shortfalls
+from cadgraph.stages.relate.stub import drop_stubs
 from cadgraph.stages.relate.tag import tag_units
 from cadgraph.stages.relate.trace import drop_shapeless, trace_lines
 from cadgraph.stages.relate.unit import is_loose_operator, mend_units, split_groups
@@ -71,11 +74,13 @@ def connect_units(given: RelateInput) -> Connected:
     names = [label.name if label is not None else None for label in labels]
     units = tag_units(given.parts, groups)
     drawing = _draw(piping, units)
-    network = _contract(piping, units, drawing)
+    network = replace(_contract(piping, units, drawing), joints=record_joints(piping, units, drawing.flanged))
     network = name_kinds(network, names, given.parts)
     stated = stated_flow(network, given.config.relate.flow)
     network, contradictions = direct_flow(network, given.parts, names, stated)
+    network = drop_stubs(network)
     diagnostics = (
+        *find_shortfalls(piping, network),
         *_bridged_gaps(given.parts, drawing),
         *_doubted_labels(given.parts, roles),
         *_loose_operators(given.parts, loose),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -15,10 +15,10 @@ from cadgraph.stages.relate.attach import Attachments, Side
 from cadgraph.stages.relate.line import is_disc
 from cadgraph.stages.relate.span import Net, Span
 
-__all__ = ["Drawing", "draw_network"]
+__all__ = ["FLANGED_SCORE", "SIDE_SCORE", "TWIN_SCORE", "Drawing", "draw_network", "gauge_sides"]
 
-# How sure a joint is that no offer tells (ours): ends in one place, flanged solids, gauges on the sides of lines.
-_TOUCH, _MOUNTED, _BESIDE = 0.99, 0.97, 0.85
+TWIN_SCORE, FLANGED_SCORE, SIDE_SCORE = 0.99, 0.97, 0.85
+"""How sure a joint is that no offer tells (ours): ends in one place, flanged solids, gauges on the sides of lines."""
 _TOUCHING = 0.001  # ends this near touch [m]
 _SAME_PLACE = 1e-6  # positions on a branch closer than this are one [m]
 
@@ -34,6 +34,7 @@ class Drawing:
         taps: nodes where something sits on the side of a line.
         solids: nodes that are a connector without a line, and which part.
         bridged: parts on both sides of each bridged gap, and the gap [m].
+        flanged: pairs of solids that are flanged to each other, and where [m].
     """
 
     net: Net
@@ -42,6 +43,7 @@ class Drawing:
     taps: frozenset[int]
     solids: Mapping[int, int]
     bridged: tuple[tuple[int, int, float], ...]
+    flanged: Mapping[tuple[int, int], Floats] = field(default_factory=dict)
 
 
 @dataclass
@@ -108,7 +110,7 @@ def draw_network(
         _draw_line(draft, part, sure(part))
     _draw_mounts(draft)
     _draw_flanged(draft, flanged)
-    return _finish(draft)
+    return replace(_finish(draft), flanged=flanged)
 
 
 def _join_ends(draft: _Draft) -> None:
@@ -121,7 +123,7 @@ def _join_ends(draft: _Draft) -> None:
                 draft.bridged.append((int(ends.part[facing.first]), int(ends.part[facing.second]), facing.gap))
     for row, twin in draft.found.doubled:
         if row in nodes and twin in nodes:
-            draft.join(nodes[row], nodes[twin], _TOUCH)
+            draft.join(nodes[row], nodes[twin], TWIN_SCORE)
 
 
 def _place_taps(draft: _Draft) -> None:
@@ -134,22 +136,37 @@ def _place_taps(draft: _Draft) -> None:
             draft.taps.append(here)
 
 
-def _place_gauges(draft: _Draft, units: Sequence[UnitParts]) -> None:
-    """A gauge that no end leads to hangs on the side of the line that it touches best."""
-    mounted = {draft.owner.get(mount.part) for mount in draft.found.mounts}
+def gauge_sides(found: Attachments, units: Sequence[UnitParts], lines: Collection[int]) -> dict[int, Side]:
+    """The place on the side of a line of each gauge that no end leads to: the one that it touches best.
+
+    Args:
+        found: what joins what.
+        units: in order.
+        lines: parts that carry one.
+
+    Returns:
+        Places by number of the unit, ascending.
+    """
+    owner = {part: number for number, unit in enumerate(units) for part in unit.parts}
+    mounted = {owner.get(mount.part) for mount in found.mounts}
     best: dict[int, Side] = {}
-    for side in draft.found.sides:
-        unit = draft.owner.get(side.solid)
-        if unit is None or unit in mounted or units[unit].unit_type != "gauge" or side.part not in draft.lines:
+    for side in found.sides:
+        unit = owner.get(side.solid)
+        if unit is None or unit in mounted or units[unit].unit_type != "gauge" or side.part not in lines:
             continue
         if unit not in best or (side.tap.gap, side.part) < (best[unit].tap.gap, best[unit].part):
             best[unit] = side
-    for unit, side in sorted(best.items()):
+    return dict(sorted(best.items()))
+
+
+def _place_gauges(draft: _Draft, units: Sequence[UnitParts]) -> None:
+    """A gauge that no end leads to hangs on the side of a line."""
+    for unit, side in gauge_sides(draft.found, units, draft.lines).items():
         here = draft.new()
         draft.places.setdefault((side.part, side.tap.branch), []).append((side.tap.s, here, side.tap.point))
         draft.taps.append(here)
         port = draft.open(unit, side.tap.point, None, None)
-        draft.spans.append(Span(here, unit, (), side.tap.point[None], 0.0, (), _BESIDE, -1, port))
+        draft.spans.append(Span(here, unit, (), side.tap.point[None], 0.0, (), SIDE_SCORE, -1, port))
 
 
 def _draw_line(draft: _Draft, part: int, sure: float) -> None:
@@ -244,7 +261,7 @@ def _draw_flanged(draft: _Draft, flanged: Mapping[tuple[int, int], Floats]) -> N
             draft.open(node, point, None, None) if part in draft.owner else -1
             for part, node in ((a, first), (b, second))
         ]
-        draft.spans.append(Span(first, second, (), point[None], 0.0, (), _MOUNTED, ports[0], ports[1]))
+        draft.spans.append(Span(first, second, (), point[None], 0.0, (), FLANGED_SCORE, ports[0], ports[1]))
 
 
 def _finish(draft: _Draft) -> Drawing:

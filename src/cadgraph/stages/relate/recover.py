@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cadgraph.geometry.components import connected_sets
-from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.attach import Attachments, Mount, attach_lines
 from cadgraph.stages.relate.belief import Beliefs, beliefs_of
 from cadgraph.stages.relate.evidence import Curve
@@ -228,7 +227,7 @@ def _lids(piping: Piping, beliefs: Beliefs, mounts: Sequence[Mount], ends: Ends)
 def _bodies(piping: Piping, beliefs: Beliefs, mounts: Sequence[Mount], ends: Ends) -> list[_Body]:
     """The parts at ends, with what else there is of each body."""
     given = piping.given
-    others = _other_groups(piping, beliefs)
+    others = beliefs.of_groups(_other_groups(piping))
     seeds = {mount.part for mount in mounts}
     pool = {part for part in _candidates(piping, beliefs) if others[part] < _LIKELY_OTHER}
     pool |= _weak_members(piping, beliefs)
@@ -250,38 +249,51 @@ def _bodies(piping: Piping, beliefs: Beliefs, mounts: Sequence[Mount], ends: End
     return bodies
 
 
-def _other_groups(piping: Piping, beliefs: Beliefs) -> Floats:
-    """``(n_parts,)`` how likely each part is of a group that is neither of lines nor of units."""
+def _other_groups(piping: Piping) -> frozenset[str]:
+    """The groups that are neither of lines nor of units."""
     vocabulary = piping.given.vocabulary
-    functional = vocabulary.connector_groups | vocabulary.unit_of_group.keys()
-    return beliefs.of_groups(vocabulary.groups.keys() - functional)
+    return frozenset(vocabulary.groups.keys() - vocabulary.connector_groups - vocabulary.unit_of_group.keys())
 
 
 def _type_of(piping: Piping, beliefs: Beliefs, body: _Body, ends: Ends) -> tuple[str, float]:
     """What a body is: a type of unit, a fitting, or nothing that enough speaks for; and how sure that is."""
-    named = float(beliefs.open.mean()) < _MOSTLY_NAMED
+    weights = {name: float(np.exp(value)) for name, value in _odds(piping, beliefs, body, ends).items()}
+    best = max(weights, key=lambda name: (weights[name], name))
+    share = weights[best] / sum(weights.values())
+    if share < _SURE or best in (_NOTHING, _STEELWORK):
+        return _NOTHING, share
+    if float(beliefs.open.mean()) < _MOSTLY_NAMED and not _touched(piping, body, best):
+        # Where people have named nearly everything, what they left without a name is no device of theirs; a line that
+        # ends on both sides of it passes through all the same.
+        passes = _arrangement(ends, [mount.row for mount in body.mounts]) == "aligned"
+        return (FITTING if passes else _NOTHING), share
+    return best, share
+
+
+def _odds(piping: Piping, beliefs: Beliefs, body: _Body, ends: Ends) -> dict[str, float]:
+    """The log-odds of everything that a body may be."""
     rows = [mount.row for mount in body.mounts]
     longest = _longest(piping, body.parts)
     length = longest / (2 * float(ends.radius[rows].max()))
-    odds = {_NOTHING: 0.0}
-    other = float(_other_groups(piping, beliefs)[list(body.parts)].mean())
-    odds[_STEELWORK] = _STANDING + float(LABELLED(np.log(max(other, _LEAST))))
+
+    def labelled(groups: Collection[str]) -> float:
+        said = float(beliefs.of_groups(groups, _BENT)[list(body.parts)].mean())
+        return float(LABELLED(np.log(max(said, _LEAST))))
+
+    odds = {_NOTHING: 0.0, _STEELWORK: _STANDING + labelled(_other_groups(piping))}
     for unit_type, effect in ARRANGEMENT[_arrangement(ends, rows)].items():
         groups = _groups_of(piping, unit_type)
-        if not groups or (unit_type == "gauge" and longest > _WIDEST_GAUGE):
-            continue
-        touched = _touched(piping, body, unit_type)
-        if named and not touched and unit_type != FITTING:
-            continue
-        said = float(beliefs.of_groups(groups, _BENT)[list(body.parts)].mean())
-        bonus = 0.0
-        if touched:
-            bonus = _PIECE if any(piping.mounted.keys() & set(group.parts) for group in touched) else _BODY
-        odds[unit_type] = effect + float(SIZE[unit_type](length)) + float(LABELLED(np.log(max(said, _LEAST)))) + bonus
-    weights = {name: float(np.exp(value)) for name, value in odds.items()}
-    best = max(weights, key=lambda name: (weights[name], name))
-    share = weights[best] / sum(weights.values())
-    return (best, share) if share >= _SURE and best != _STEELWORK else (_NOTHING, share)
+        if groups and (unit_type != "gauge" or longest <= _WIDEST_GAUGE):
+            odds[unit_type] = effect + float(SIZE[unit_type](length)) + labelled(groups)
+            odds[unit_type] += _support(piping, _touched(piping, body, unit_type))
+    return odds
+
+
+def _support(piping: Piping, touched: Sequence[Group]) -> float:
+    """What it adds that a body touches units of a type."""
+    if not touched:
+        return 0.0
+    return _PIECE if any(piping.mounted.keys() & set(group.parts) for group in touched) else _BODY
 
 
 def _touched(piping: Piping, body: _Body, unit_type: str) -> list[Group]:

@@ -1,7 +1,7 @@
 import pytest
 
 from cadgraph.model.parts import Link, Network, Opening, Place, UnitParts
-from cadgraph.stages.stub import drop_stubs
+from cadgraph.stages.relate.stub import drop_stubs
 
 AT = ((0.0, 0.0, 0.0),)
 LONG = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))

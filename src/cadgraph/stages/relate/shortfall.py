@@ -1,0 +1,192 @@
+"""What a network lacks, said out loud: units without lines, ends before something, pieces that hang together."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+
+import numpy as np
+
+from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.parts import Network, Parts
+from cadgraph.model.ports import least_ports, port_word
+from cadgraph.stages.relate.piping import Piping
+
+__all__ = ["find_shortfalls"]
+
+# An end is before what lies within this much of its face [m], off its axis by at most so many radii.
+_BEFORE, _OFF = 0.010, 1.1
+_NUMBERS = ("no line", "one line", "two lines", "three lines")
+_REMEDY = "correct a label there, or widen relate.bridge if this gap is meant"
+
+
+def find_shortfalls(piping: Piping, network: Network) -> tuple[Diagnostic, ...]:
+    """What should be joined by what its units are, or by where its ends lie, and isn't.
+
+    Args:
+        piping: what joins what.
+        network: that was made of it.
+
+    Returns:
+        Units with fewer lines than their kind needs, free ends that lie before something, units that touch without
+        being joined though one of them lacks a line, structures whose lines fall into several networks, and connectors
+        that no line could be traced through.
+    """
+    short = _short_units(network)
+    return (
+        *_few_lines(piping, network, short),
+        *_ends_before(piping),
+        *_units_touching(piping, network, short),
+        *_in_pieces(piping, network),
+        *_untraced(piping),
+    )
+
+
+def _paths(parts: Parts, numbers: Collection[int]) -> tuple[str, ...]:
+    return tuple(parts.scene.paths[part] for part in numbers)
+
+
+def _short_units(network: Network) -> frozenset[int]:
+    """Units with fewer lines than their kind needs."""
+    return frozenset(
+        number
+        for number, unit in enumerate(network.units)
+        if len(unit.openings) < least_ports(unit.unit_type, unit.kind)
+    )
+
+
+def _few_lines(piping: Piping, network: Network, short: Collection[int]) -> Iterator[Diagnostic]:
+    best = _best_refused(piping)
+    for number in sorted(short):
+        unit = network.units[number]
+        used, least = len(unit.openings), least_ports(unit.unit_type, unit.kind)
+        needs = f"{least} {port_word(unit.unit_type)}s" if least > 1 else f"one {port_word(unit.unit_type)}"
+        near = [best[part] for part in unit.parts if part in best]
+        nearest = min(near, default=None)
+        told = f"; the nearest end stops {1000 * nearest[0]:.1f} mm from it" if nearest is not None else ""
+        what = unit.kind or unit.unit_type
+        message = f"{unit.tag} ({what}) has {_NUMBERS[min(used, 3)]} and needs {needs}{told}: {_REMEDY}"
+        meshes = _paths(piping.given.parts, unit.parts[:1] + ((nearest[1],) if nearest is not None else ()))
+        yield Diagnostic("unit-short-of-lines", message, meshes)
+
+
+def _best_refused(piping: Piping) -> dict[int, tuple[float, int]]:
+    """For each solid the least gap of a joint with an end that was not made, and the part that ends there."""
+    found = piping.joints
+    best: dict[int, tuple[float, int]] = {}
+    for row, offer in found.refused.items():
+        if offer.kind == "mount":
+            here = (max(0.0, offer.gap), int(found.ends.part[row]))
+            best[offer.other] = min(best.get(offer.other, here), here)
+    return best
+
+
+def _ends_before(piping: Piping) -> Iterator[Diagnostic]:
+    """Free ends with something before their face."""
+    found, scene = piping.joints, piping.given.parts.scene
+    for row, (gap, other) in sorted(_before(piping).items()):
+        part = int(found.ends.part[row])
+        role = _role(piping, other)
+        message = (
+            f"{scene.paths[part]} ends {1000 * gap:.1f} mm before {scene.paths[other]} ({role}) and joins nothing: "
+            f"{_REMEDY}"
+        )
+        yield Diagnostic("end-before-part", message, (scene.paths[part], scene.paths[other]))
+
+
+def _role(piping: Piping, part: int) -> str:
+    name = piping.roles.names[part] or piping.roles.groups[part]
+    return name or "without a label"
+
+
+def _before(piping: Piping) -> dict[int, tuple[float, int]]:
+    """For each free end that something lies before the gap [m] and that part."""
+    found, contacts = piping.joints, piping.given.contacts
+    ends = found.ends
+    taken = found.made.keys() | {row for pair in found.doubled for row in pair}
+    free: Mapping[int, Sequence[int]] = {
+        part: [row for row in rows if row not in taken] for part, rows in ends.of_part.items()
+    }
+    with_own = {tuple(sorted(pair)) for pair in _joined_pairs(piping)}
+    best: dict[int, tuple[float, int]] = {}
+    for (a, b), points, gap in zip(contacts.pairs.tolist(), contacts.points, contacts.distance.tolist(), strict=True):
+        if gap > _BEFORE or (a, b) in with_own:
+            continue
+        place = points.mean(axis=0)
+        for part, other in ((a, b), (b, a)):
+            for row in free.get(part, ()):
+                offset = place - ends.point[row]
+                along = float(offset @ ends.direction[row])
+                off = float(np.linalg.norm(offset - along * ends.direction[row]))
+                if abs(along) <= _BEFORE and off <= _OFF * float(ends.radius[row]) and not _is_aside(piping, other):
+                    best[row] = min(best.get(row, (gap, other)), (gap, other))
+    return best
+
+
+def _is_aside(piping: Piping, part: int) -> bool:
+    """Whether a part is nothing that a line could join: steelwork, supports, fasteners, the ground."""
+    vocabulary = piping.given.vocabulary
+    group = piping.roles.groups[part]
+    functional = group is None or group in vocabulary.connector_groups or group in vocabulary.unit_of_group
+    return not functional or part in piping.jackets or bool(piping.given.parts.ground[part])
+
+
+def _joined_pairs(piping: Piping) -> Iterator[tuple[int, int]]:
+    """Pairs of parts that join in one way or another."""
+    found = piping.joints
+    for row, offer in found.made.items():
+        other = int(found.ends.part[offer.other]) if offer.kind in ("face", "corner") else offer.other
+        yield int(found.ends.part[row]), other
+    for row, twin in found.doubled:
+        yield int(found.ends.part[row]), int(found.ends.part[twin])
+    for side in found.sides:
+        yield side.solid, side.part
+
+
+def _units_touching(piping: Piping, network: Network, short: Collection[int]) -> Iterator[Diagnostic]:
+    """Units that touch and are not joined though one of them lacks a line."""
+    owner = {part: number for number, unit in enumerate(network.units) for part in unit.parts}
+    linked = {(link.source, link.target) for link in network.links}
+    contacts, scene = piping.given.contacts, piping.given.parts.scene
+    told: set[tuple[int, int]] = set()
+    for (a, b), gap in zip(contacts.pairs.tolist(), contacts.distance.tolist(), strict=True):
+        first, second = sorted((owner.get(a, -1), owner.get(b, -1)))
+        lacking = first in short or second in short
+        if first < 0 or first == second or not lacking or (first, second) in linked or (first, second) in told:
+            continue
+        told.add((first, second))
+        tags = f"{network.units[first].tag} and {network.units[second].tag}"
+        message = f"{tags} are {1000 * gap:.1f} mm apart and not joined though one of them lacks a line: {_REMEDY}"
+        yield Diagnostic("units-touch-unjoined", message, (scene.paths[a], scene.paths[b]))
+
+
+def _in_pieces(piping: Piping, network: Network) -> Iterator[Diagnostic]:
+    """Structures whose lines fall into several networks with units."""
+    n_units, cluster = len(network.units), piping.given.cluster
+    of_structure: dict[int, list[tuple[int, ...]]] = {}
+    for members in network.systems:
+        units = tuple(node for node in members if node < n_units)
+        structures = {int(cluster[part]) for node in units for part in network.units[node].parts} - {-1}
+        for structure in structures:
+            of_structure.setdefault(structure, []).append(units)
+    for structure, pieces in sorted(of_structure.items()):
+        if len(pieces) < 2:
+            continue
+        told = "; ".join(", ".join(network.units[node].tag for node in units[:4]) for units in pieces[:4])
+        more = "; ..." if len(pieces) > 4 else ""
+        message = (
+            f"structure {structure} holds {len(pieces)} networks that nothing joins ({told}{more}): see the free ends, "
+            "or 'cadgraph explain OUT A B' for what is missing between two units"
+        )
+        heads = [network.units[units[0]].parts[0] for units in pieces]
+        yield Diagnostic("network-in-pieces", message, _paths(piping.given.parts, heads))
+
+
+def _untraced(piping: Piping) -> Iterator[Diagnostic]:
+    """Connectors that no line could be traced through, and at which no line ends."""
+    lost = [part for part in piping.lineless if part not in piping.mounted and part not in piping.recovered]
+    if lost:
+        message = (
+            f"{len(lost)} connectors have a shape that no line could be traced through, and no line ends at them: "
+            "runs stop there; correct their label if they are none"
+        )
+        yield Diagnostic("line-untraced", message, _paths(piping.given.parts, lost))
