@@ -121,23 +121,29 @@ def _without_rings(piping: Piping, beliefs: Beliefs) -> Piping:
 
 def _without_stubs(piping: Piping, beliefs: Beliefs) -> Piping:
     """Takes away lines that the labeler holds for something else and that don't run between two likely things."""
-    likely = _likely_solids(piping, beliefs)
-    connectors = beliefs.of_groups(piping.given.vocabulary.connector_groups)
-    doubtful = {
-        part
-        for part, line in piping.lines.items()
-        if beliefs.open[part] and connectors[part] < (_LIKELY if is_disc(line) else _LEAST_PIPE)
-    }
+    likely, doubtful = _likely_solids(piping, beliefs), _doubtful_lines(piping, beliefs)
     while doubtful:
-        leads = Counter(
-            part for part, other in _joined_parts(piping.joints) if other in likely or other in piping.lines
-        )
+        joined = _joined_parts(piping.joints)
+        leads = Counter(part for part, other in joined if other in likely or other in piping.lines)
         stubs = {part for part in doubtful if leads[part] < _LEADS}
         if not stubs:
             break
         piping = replace(piping, lines={part: line for part, line in piping.lines.items() if part not in stubs})
         doubtful -= stubs
     return piping
+
+
+def _doubtful_lines(piping: Piping, beliefs: Beliefs) -> set[int]:
+    """Lines that the labeler finds unlikely; discs sooner, for the line of one is soon found, but not those at the end
+    of a run, which touch nothing but what they close.
+    """
+    connectors = beliefs.of_groups(piping.given.vocabulary.connector_groups)
+
+    def least(part: int) -> float:
+        amid = is_disc(piping.lines[part]) and len(piping.given.neighbors.get(part, ())) > 1
+        return _LIKELY if amid else _LEAST_PIPE
+
+    return {part for part in piping.lines if beliefs.open[part] and connectors[part] < least(part)}
 
 
 def _likely_solids(piping: Piping, beliefs: Beliefs) -> set[int]:
@@ -211,17 +217,24 @@ def _weak_members(piping: Piping, beliefs: Beliefs) -> frozenset[int]:
 
 
 def _lids(piping: Piping, beliefs: Beliefs, mounts: Sequence[Mount], ends: Ends) -> set[int]:
-    """Short parts with a line that lead from a body to nothing: its bonnet, its cover."""
+    """Short parts with a line that lead from a body to nothing, and that no line goes on from on its other side: its
+    bonnet, its cover.
+    """
     found = piping.joints
     busy = Counter(int(found.ends.part[row]) for row in {*found.made, *(mount.row for mount in mounts)})
     tapped = {tapped.part for tapped in found.taps}
-    return {
-        part
-        for part in {int(ends.part[mount.row]) for mount in mounts} - tapped
-        if beliefs.open[part]
-        and busy[part] == 1
-        and piping.lines[part].length <= _LID * float(piping.lines[part].branches[0].radius.max())
-    }
+    rows: dict[int, list[int]] = {}
+    for mount in mounts:
+        rows.setdefault(mount.part, []).append(mount.row)
+    lids = set()
+    for mount in mounts:
+        part = int(ends.part[mount.row])
+        line = piping.lines[part]
+        short = line.length <= _LID * float(line.branches[0].radius.max())
+        passes = any(_arrangement(ends, [mount.row, row]) == "aligned" for row in rows[mount.part] if row != mount.row)
+        if short and not passes and beliefs.open[part] and busy[part] == 1 and part not in tapped:
+            lids.add(part)
+    return lids
 
 
 def _bodies(piping: Piping, beliefs: Beliefs, mounts: Sequence[Mount], ends: Ends) -> list[_Body]:
