@@ -19,8 +19,8 @@ def built_with(monkeypatch):
         found = pipeline.connect_units
 
         def connect(given):
-            network, diagnostics = found(given)
-            return replace(network, joints=joints), diagnostics
+            connected = found(given)
+            return replace(connected, network=replace(connected.network, joints=joints))
 
         monkeypatch.setattr(pipeline, "connect_units", connect)
         meshes = [shapes.box(center=(FAR[0] + 2.0 * k, *FAR[1:])) for k in range(3)]

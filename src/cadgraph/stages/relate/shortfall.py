@@ -15,7 +15,7 @@ __all__ = ["find_shortfalls"]
 
 # An end is before what lies within this much of its face [m], off its axis by at most so many radii.
 _BEFORE, _OFF = 0.010, 1.1
-_NUMBERS = ("no line", "one line", "two lines", "three lines")
+_WORDS = ("no", "one", "two", "three")
 _REMEDY = "correct a label there, or widen relate.bridge if this gap is meant"
 
 
@@ -31,7 +31,7 @@ def find_shortfalls(piping: Piping, network: Network) -> tuple[Diagnostic, ...]:
         being joined though one of them lacks a line, structures whose lines fall into several networks, and connectors
         that no line could be traced through.
     """
-    short = _short_units(network)
+    short = _short_units(network) - _hung_on(piping, network)
     return (
         *_few_lines(piping, network, short),
         *_ends_before(piping),
@@ -54,17 +54,31 @@ def _short_units(network: Network) -> frozenset[int]:
     )
 
 
+def _hung_on(piping: Piping, network: Network) -> frozenset[int]:
+    """Gauges that touch another unit: these sit on it, without any line."""
+    owner = {part: number for number, unit in enumerate(network.units) for part in unit.parts}
+    pairs = [(owner.get(a), owner.get(b)) for a, b in piping.given.contacts.pairs.tolist()]
+    return frozenset(
+        unit
+        for pair in pairs
+        for unit, other in (pair, pair[::-1])
+        if unit is not None and other is not None and other != unit and network.units[unit].unit_type == "gauge"
+    )
+
+
 def _few_lines(piping: Piping, network: Network, short: Collection[int]) -> Iterator[Diagnostic]:
     best = _best_refused(piping)
     for number in sorted(short):
         unit = network.units[number]
         used, least = len(unit.openings), least_ports(unit.unit_type, unit.kind)
-        needs = f"{least} {port_word(unit.unit_type)}s" if least > 1 else f"one {port_word(unit.unit_type)}"
+        needs = f"{_WORDS[least]} {port_word(unit.unit_type)}{'s' * (least > 1)}"
         near = [best[part] for part in unit.parts if part in best]
         nearest = min(near, default=None)
         told = f"; the nearest end stops {1000 * nearest[0]:.1f} mm from it" if nearest is not None else ""
         what = unit.kind or unit.unit_type
-        message = f"{unit.tag} ({what}) has {_NUMBERS[min(used, 3)]} and needs {needs}{told}: {_REMEDY}"
+        message = (
+            f"{unit.tag} ({what}) has {_WORDS[min(used, 3)]} line{'s' * (used != 1)} and needs {needs}{told}: {_REMEDY}"
+        )
         meshes = _paths(piping.given.parts, unit.parts[:1] + ((nearest[1],) if nearest is not None else ()))
         yield Diagnostic("unit-short-of-lines", message, meshes)
 

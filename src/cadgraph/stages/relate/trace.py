@@ -29,6 +29,7 @@ __all__ = ["drop_shapeless", "trace_lines"]
 _RATIO, _OWN_RATIO = 0.3, 0.9
 # A short cylinder of a pipe's own size is a piece of it where the labeler is less sure than this of the device.
 _SAME_RATIO, _UNSURE = 0.97, 0.9
+_PLATES = frozenset({"flange", "blind flange", "gasket"})
 # What the labeler alone takes for steelwork is a pipe only where lines go on at both of its ends: no ratio is enough.
 _BOTH_ENDS, _LEAST_LINES = 2.0, 2
 # A device drawn as a mere cylinder is straight (cosine between its ends) and at most so many radii long: a DN 15 gate
@@ -62,7 +63,7 @@ def trace_lines(given: RelateInput, roles: Roles) -> Piping:
     lines = {part: line for part, line in lines.items() if part not in jackets}
     copies |= jackets
     ratios = _least_ratios(given, roles, others, singles, traced)
-    pieces = {part for part in unsure if part in traced and is_steady(traced[part])}
+    pieces = {part for part in unsure if part in traced and is_steady(traced[part]) and not _is_flanged(given, part)}
     ratios |= dict.fromkeys(pieces - ratios.keys(), _SAME_RATIO)
     ratios |= {part: _BOTH_ENDS for part in between if part in traced and is_plain_tube(traced[part])}
     ratios = {part: ratio for part, ratio in ratios.items() if part not in jackets}
@@ -105,6 +106,19 @@ def _unsure_valves(given: RelateInput) -> list[int]:
         and unit_of_group.get(label.group) == "valve"
         and label.confidence < _UNSURE
     ]
+
+
+def _is_flanged(given: RelateInput, part: int) -> bool:
+    """Whether flanges or gaskets lie on both sides of a part, which are as wide as a valve between them."""
+    middles = given.parts.properties.centroid
+    offsets = np.array(
+        [
+            middles[other] - middles[part]
+            for other in given.neighbors.get(part, ())
+            if (label := given.labels[other]) is not None and label.name in _PLATES
+        ]
+    ).reshape(-1, 3)
+    return bool((offsets @ offsets.T < 0).any())
 
 
 def _with_further_tubes(given: RelateInput, roles: Roles, others: Sequence[int]) -> list[int]:
