@@ -21,6 +21,8 @@ _LEAST_BORE, _MOST_BORE = 0.15, 0.97
 # Mouths are opposite each other on one axis where their normals are this parallel (cosine of 5 degrees) and their
 # centres off the axis by at most this share of the lesser radius.
 _PARALLEL, _OFF_AXIS = 0.996, 0.12
+# They share an axis, so that one line stands for both, within this share: an eccentric reducer's do not.
+_ONE_AXIS = 0.04
 # A branch's axis passes the run's within this share of the run's radius: olets may sit off the middle.
 _ECCENTRIC = 0.85
 # Feet of branches this near to each other on a run, as share of its radius, are one: a cross.
@@ -63,7 +65,8 @@ class Mouth:
 def turned_outward(discs: Sequence[Disc], triangles: Floats) -> tuple[Disc, ...]:
     """Discs whose normals look away from their part, whichever way its triangles are wound.
 
-    A face with surface before it and none behind it looks the other way; where both or neither are, it stays.
+    A face with surface before it and none behind it looks the other way; where both are, it stays. What counts is the
+    surface nearest to its axis: of a steep cone of long triangles no corner lies behind the narrow face.
 
     Args:
         discs: round flat faces and rims of one shape.
@@ -75,9 +78,9 @@ def turned_outward(discs: Sequence[Disc], triangles: Floats) -> tuple[Disc, ...]
         offset = corners - disc.center
         height = offset @ disc.normal
         off = np.linalg.norm(offset - height[:, None] * disc.normal, axis=1)
-        near = off <= _WITHIN * disc.outer
-        slack = _LEVEL * disc.outer + 1e-5
-        inward = bool(np.any(near & (height > slack))) and not np.any(near & (height < -slack))
+        away = np.abs(height) > _LEVEL * disc.outer + 1e-5
+        near = away & (off <= _WITHIN * max(disc.outer, float(off[away].min(initial=np.inf))))
+        inward = bool(near.any()) and bool(np.all(height[near] > 0))
         turned.append(replace(disc, normal=-disc.normal) if inward else disc)
     return tuple(turned)
 
@@ -112,7 +115,7 @@ def _stands_around(mouth: Mouth, mouths: Sequence[Mouth]) -> bool:
 
 def are_on_one_axis(mouths: Sequence[Mouth]) -> bool:
     """Whether all mouths lie on the axis of the widest one."""
-    return all(_off_axis(mouths[0], mouth) <= _OFF_AXIS * mouth.radius + 1e-4 for mouth in mouths[1:])
+    return all(_off_axis(mouths[0], mouth) <= _ONE_AXIS * mouth.radius + 1e-5 for mouth in mouths[1:])
 
 
 def _off_axis(one: Mouth, other: Mouth) -> float:
