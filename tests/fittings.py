@@ -374,6 +374,4 @@ def decimated(mesh, random, share=0.05):
     return vertices, faces
 
 
-MESHERS = {
-    f.__name__: f for f in (plain, quartered, shuffled, soup, inside_out, unwound, rounded, flipped, decimated)
-}
+MESHERS = {f.__name__: f for f in (plain, quartered, shuffled, soup, inside_out, unwound, rounded, flipped, decimated)}

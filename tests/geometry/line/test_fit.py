@@ -16,9 +16,7 @@ def swept(low=0.0, high=1.0, radius=0.05):
     """A straight line along x from one place to the other."""
     points = np.array([[low, 0, 0], [high, 0, 0]])
     branch = Branch(points, np.full(2, radius), np.full(2, NAN))
-    return Centreline(
-        (branch,), (End(points[0], -X, radius, NAN, 0), End(points[1], X, radius, NAN, 0)), (), 0.9
-    )
+    return Centreline((branch,), (End(points[0], -X, radius, NAN, 0), End(points[1], X, radius, NAN, 0)), (), 0.9)
 
 
 def mouth(x, sense, radius=0.05, off=0.0, bore=NAN):
