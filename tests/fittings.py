@@ -173,10 +173,9 @@ class Outlet:
 
 def branched(run, length, outlets, sides, wall=None, caps="fan", rings=0):
     """A run from 0 to ``length`` with branches that open into it; ``rings`` circles between its ends."""
-    skins, rims = zip(
-        *[_branched_skin(run, length, outlets, sides, share, rings) for share in ([1.0] if wall is None else [1.0, 1 - wall])],
-        strict=True,
-    )  # fmt: skip
+    shares = [1.0] if wall is None else [1.0, 1 - wall]
+    walls = [_branched_skin(run, length, outlets, sides, share, rings) for share in shares]
+    skins, rims = zip(*walls, strict=True)
     if wall is None:
         lids = [disc(rim, caps) for rim in rims[0]]
         lids[0] = reverse(lids[0])
@@ -199,7 +198,7 @@ def _branched_skin(run, length, outlets, sides, share, rings):
     rims = []
     for foot in feet:
         flat = np.column_stack([foot[:, 0], radius * np.unwrap(np.arctan2(foot[:, 2], foot[:, 1]))])
-        rims += [flat + [0, k * 2 * np.pi * radius] for k in (-2, -1, 0, 1, 2)]
+        rims += [flat + np.array([0, k * 2 * np.pi * radius]) for k in (-2, -1, 0, 1, 2)]
     stations = np.linspace(0.0, length, rings + 2)
     grid = np.stack(np.meshgrid(stations, angles * radius, indexing="ij"), -1).reshape(-1, 2)
     inside = (grid[:, 0] > 0) & (grid[:, 0] < length)

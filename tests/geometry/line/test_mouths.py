@@ -1,9 +1,13 @@
 """Every mouth of a fitting has an end of its line, however it was cut into triangles.
 
-Not covered: elbows with straight legs, whose ends are right, but whose line may be up to 6 % short, since the bend is
-taken to fill the shorter leg; bends of so few segments that these leave the arc by more than a quarter of the pipe's
-radius (a return bend of twelve diameters in four pieces): the sweep finds ends between the segments; faces that are rounded so coarsely that neighbouring triangles of a flat face turn by more
-than a degree (0.1 mm at 64 sides of DN 80), as these are no flat faces any more.
+Not covered:
+
+- elbows with straight legs, whose ends are right, but whose line may be up to 6 % short, since the bend is taken to
+  fill the shorter leg;
+- bends of so few segments that these leave the arc by more than a quarter of the pipe's radius (a return bend of twelve
+  diameters in four pieces): the sweep finds ends between the segments;
+- faces that are rounded so coarsely that neighbouring triangles of a flat face turn by more than a degree (0.1 mm at 64
+  sides of DN 80), as these are no flat faces any more.
 """
 
 import numpy as np
@@ -200,7 +204,7 @@ def test_three_bolts_alike_around_a_face_are_no_mouths(bolts, left):
 
 @pytest.mark.parametrize(("off", "expected"), [(0.0019, True), (0.0021, False)])
 def test_mouths_are_on_one_axis_up_to_a_share_of_the_radius(off, expected):
-    one, other = Mouth(0 * X, -X, 0.06, NAN), Mouth(X + [0, off, 0], X, 0.05, NAN)
+    one, other = Mouth(0 * X, -X, 0.06, NAN), Mouth(np.array([1.0, off, 0]), X, 0.05, NAN)
     assert are_on_one_axis([one, other]) is expected
 
 
