@@ -307,12 +307,7 @@ def _run_with_branches(mouths: Sequence[Mouth], first: int, last: int) -> list[_
         if foot is None:
             return None
         feet.append((foot, k))
-    merged: list[tuple[float, list[int]]] = []
-    for foot, k in sorted(feet):
-        if merged and foot - merged[-1][0] <= _ONE_FOOT * min(a.radius, b.radius):
-            merged[-1][1].append(k)
-        else:
-            merged.append((foot, [k]))
+    merged = _merged_feet(feet, _ONE_FOOT * min(a.radius, b.radius))
     stops = [a.point, *(a.point + foot * along for foot, _ in merged), b.point]
     names = [first, *([-1] * len(merged)), last]
     paths = [_Path(np.stack([p, q]), m, n) for p, q, m, n in zip(stops, stops[1:], names, names[1:], strict=False)]
@@ -321,6 +316,17 @@ def _run_with_branches(mouths: Sequence[Mouth], first: int, last: int) -> list[_
         for stop, (_, members) in zip(stops[1:-1], merged, strict=True)
         for k in members
     ]
+
+
+def _merged_feet(feet: Sequence[tuple[float, int]], reach: float) -> list[tuple[float, list[int]]]:
+    """The places of branches along a run with the mouths at each; what is within reach of the first is one [m]."""
+    merged: list[tuple[float, list[int]]] = []
+    for foot, k in sorted(feet):
+        if merged and foot - merged[-1][0] <= reach:
+            merged[-1][1].append(k)
+        else:
+            merged.append((foot, [k]))
+    return merged
 
 
 def _is_within(mouth: Mouth, a: Mouth, b: Mouth) -> bool:
@@ -407,10 +413,7 @@ def _assemble(paths: Sequence[_Path], bodies: Sequence[float], mouths: Sequence[
 def _branch(path: _Path, body: float, mouths: Sequence[Mouth]) -> Branch:
     """A way with its radius: at its mouths theirs, between them the body's."""
     first, last = (mouths[m] if m >= 0 else None for m in (path.first, path.last))
-    start = first.radius if first is not None else min(body, last.radius if last is not None else body)
-    stop = last.radius if last is not None else min(body, start)
-    if first is not None and last is None and start <= _RIM * body:
-        stop = start
+    start, stop = _radii(first, last, body)
     points, n = path.points, len(path.points)
     walked = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
     share = walked / walked[-1]
@@ -422,6 +425,15 @@ def _branch(path: _Path, body: float, mouths: Sequence[Mouth]) -> Branch:
     if min(start, stop) > _RIM * body / 0.86:
         return _flanged(points, walked, radius, bore, body)
     return Branch(points.copy(), radius, bore)
+
+
+def _radii(first: Mouth | None, last: Mouth | None, body: float) -> tuple[float, float]:
+    """The radii of a way at both ends [m]; at a junction (None) the body's, or that of its mouth if it is less."""
+    if first is None:
+        return (body, body) if last is None else (min(body, last.radius), last.radius)
+    if last is not None:
+        return first.radius, last.radius
+    return first.radius, first.radius if first.radius <= _RIM * body else min(body, first.radius)
 
 
 def _flanged(points: Floats, walked: Floats, radius: Floats, bore: Floats, body: float) -> Branch:

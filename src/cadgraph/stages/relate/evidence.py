@@ -35,7 +35,7 @@ class Curve:
 
     def __call__(self, value: Floats | float) -> Floats:
         """The contribution at a value, or at each of several; 0 where it is not known (NaN)."""
-        return np.nan_to_num(np.interp(value, self.at, self.gives), nan=0.0)
+        return np.asarray(np.nan_to_num(np.interp(value, self.at, self.gives), nan=0.0), np.float64)
 
 
 # Gaps of real plants: 1.5-4.5 mm between flanges without gasket, 3-8 mm behind the face of a slip-on flange, 0.1-0.6 mm
