@@ -10,6 +10,8 @@ Not covered:
   sides of DN 80), as these are no flat faces any more.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -30,6 +32,9 @@ from cadgraph.geometry.line.mouths import (
 from cadgraph.geometry.line.part_lines import lines_of_parts
 from cadgraph.model.scene import Scene
 from cadgraph.model.shapes import Disc
+from cadplants import STYLES
+from cadplants.piping import tee
+from cadplants.standards import PIPES, TEE_CENTER_TO_END
 from fittings import CAPS, MESHERS, Fitting, Outlet, X
 
 NAN = float("nan")
@@ -147,6 +152,33 @@ def test_every_mouth_has_its_end_wherever_the_fitting_lies(family, data, seed, m
     for name in names[:2]:
         mesh = MESHERS[name](mesh, random)
     assert faults(there, line_of(mesh)) == []
+
+
+@pytest.mark.parametrize("mesher", MESHERS)
+@pytest.mark.parametrize("n", [6, 8])
+@pytest.mark.parametrize("rise", [0.0, 0.0254], ids=["concentric", "eccentric"])
+def test_a_cone_as_long_as_it_is_wide_ends_at_both_its_faces(rise, n, mesher):
+    # Six sides make it look like a flange, and no corner lies behind the middle of its narrow face.
+    cone = fittings.straight([0 * X, np.array([0.5, 0, rise])], [0.25, 0.2246 if rise else 0.125], n)
+    for seed in range(4):
+        assert faults(cone, line_of(MESHERS[mesher](cone.mesh, np.random.default_rng(seed)))) == []
+
+
+@pytest.mark.parametrize("mesher", MESHERS)
+@pytest.mark.parametrize("hollow", [True, False], ids=["hollow", "solid"])
+@pytest.mark.parametrize(("dn", "branch"), [(100, 80), (100, 100), (80, 25)])
+def test_a_coarse_tee_of_the_generator_has_three_ends(dn, branch, hollow, mesher):
+    style = replace(STYLES["bim"], fittings="long", hollow=hollow)
+    (component,) = tee(dn, branch, style).assembly.components
+    reach, run, side = TEE_CENTER_TO_END[dn], PIPES[dn].radius, PIPES[branch].radius
+    mouths = (
+        fittings.Mouth(0 * X, -X, run),
+        fittings.Mouth(2 * reach * X, X, run),
+        fittings.Mouth(np.array([reach, 0, reach]), np.array([0, 0, 1.0]), side),
+    )
+    mesh = component.solid.vertices, component.solid.faces
+    fitting = Fitting(mesh, mouths, 3 * reach)
+    assert faults(fitting, line_of(MESHERS[mesher](mesh, np.random.default_rng(0)))) == []
 
 
 @pytest.mark.parametrize("mesher", MESHERS)
