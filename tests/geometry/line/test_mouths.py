@@ -249,6 +249,12 @@ def test_faces_that_look_into_their_part_are_turned():
     assert [disc.normal[2] for disc in turned] == [-1.0, 1.0, 1.0]
 
 
+def test_the_narrow_face_of_a_steep_cone_is_turned_by_what_is_nearest_to_its_axis():
+    vertices, faces = fittings.straight([0 * X, 0.5 * X], [0.25, 0.125], 6, caps="corner").mesh
+    (turned,) = turned_outward([Disc(0.5 * X, -X, 0.125, 0.0, 6, 1.0)], vertices[faces])
+    assert turned.normal[0] == 1.0
+
+
 def test_fewer_than_two_mouths_can_not_be_joined():
     triangles = (lambda mesh: mesh[0][mesh[1]])(shapes.cylinder())
     assert join_mouths([], triangles) is None
