@@ -21,6 +21,8 @@ _LEAST_BORE, _MOST_BORE = 0.15, 0.97
 # Mouths are opposite each other on one axis where their normals are this parallel (cosine of 5 degrees) and their
 # centres off the axis by at most this share of the lesser radius.
 _PARALLEL, _OFF_AXIS = 0.996, 0.12
+# They share an axis, so that one line stands for both, within this share: an eccentric reducer's do not.
+_ONE_AXIS = 0.04
 # A branch's axis passes the run's within this share of the run's radius: olets may sit off the middle.
 _ECCENTRIC = 0.85
 # Feet of branches this near to each other on a run, as share of its radius, are one: a cross.
@@ -63,7 +65,8 @@ class Mouth:
 def turned_outward(discs: Sequence[Disc], triangles: Floats) -> tuple[Disc, ...]:
     """Discs whose normals look away from their part, whichever way its triangles are wound.
 
-    A face with surface before it and none behind it looks the other way; where both or neither are, it stays.
+    A face with surface before it and none behind it looks the other way; where both are, it stays. What counts is the
+    surface nearest to its axis: of a steep cone of long triangles no corner lies behind the narrow face.
 
     Args:
         discs: round flat faces and rims of one shape.
@@ -75,9 +78,9 @@ def turned_outward(discs: Sequence[Disc], triangles: Floats) -> tuple[Disc, ...]
         offset = corners - disc.center
         height = offset @ disc.normal
         off = np.linalg.norm(offset - height[:, None] * disc.normal, axis=1)
-        near = off <= _WITHIN * disc.outer
-        slack = _LEVEL * disc.outer + 1e-5
-        inward = bool(np.any(near & (height > slack))) and not np.any(near & (height < -slack))
+        away = np.abs(height) > _LEVEL * disc.outer + 1e-5
+        near = away & (off <= _WITHIN * max(disc.outer, float(off[away].min(initial=np.inf))))
+        inward = bool(near.any()) and bool(np.all(height[near] > 0))
         turned.append(replace(disc, normal=-disc.normal) if inward else disc)
     return tuple(turned)
 
@@ -112,7 +115,7 @@ def _stands_around(mouth: Mouth, mouths: Sequence[Mouth]) -> bool:
 
 def are_on_one_axis(mouths: Sequence[Mouth]) -> bool:
     """Whether all mouths lie on the axis of the widest one."""
-    return all(_off_axis(mouths[0], mouth) <= _OFF_AXIS * mouth.radius + 1e-4 for mouth in mouths[1:])
+    return all(_off_axis(mouths[0], mouth) <= _ONE_AXIS * mouth.radius + 1e-5 for mouth in mouths[1:])
 
 
 def _off_axis(one: Mouth, other: Mouth) -> float:
@@ -304,12 +307,7 @@ def _run_with_branches(mouths: Sequence[Mouth], first: int, last: int) -> list[_
         if foot is None:
             return None
         feet.append((foot, k))
-    merged: list[tuple[float, list[int]]] = []
-    for foot, k in sorted(feet):
-        if merged and foot - merged[-1][0] <= _ONE_FOOT * min(a.radius, b.radius):
-            merged[-1][1].append(k)
-        else:
-            merged.append((foot, [k]))
+    merged = _merged_feet(feet, _ONE_FOOT * min(a.radius, b.radius))
     stops = [a.point, *(a.point + foot * along for foot, _ in merged), b.point]
     names = [first, *([-1] * len(merged)), last]
     paths = [_Path(np.stack([p, q]), m, n) for p, q, m, n in zip(stops, stops[1:], names, names[1:], strict=False)]
@@ -318,6 +316,17 @@ def _run_with_branches(mouths: Sequence[Mouth], first: int, last: int) -> list[_
         for stop, (_, members) in zip(stops[1:-1], merged, strict=True)
         for k in members
     ]
+
+
+def _merged_feet(feet: Sequence[tuple[float, int]], reach: float) -> list[tuple[float, list[int]]]:
+    """The places of branches along a run with the mouths at each; what is within reach of the first is one [m]."""
+    merged: list[tuple[float, list[int]]] = []
+    for foot, k in sorted(feet):
+        if merged and foot - merged[-1][0] <= reach:
+            merged[-1][1].append(k)
+        else:
+            merged.append((foot, [k]))
+    return merged
 
 
 def _is_within(mouth: Mouth, a: Mouth, b: Mouth) -> bool:
@@ -404,10 +413,7 @@ def _assemble(paths: Sequence[_Path], bodies: Sequence[float], mouths: Sequence[
 def _branch(path: _Path, body: float, mouths: Sequence[Mouth]) -> Branch:
     """A way with its radius: at its mouths theirs, between them the body's."""
     first, last = (mouths[m] if m >= 0 else None for m in (path.first, path.last))
-    start = first.radius if first is not None else min(body, last.radius if last is not None else body)
-    stop = last.radius if last is not None else min(body, start)
-    if first is not None and last is None and start <= _RIM * body:
-        stop = start
+    start, stop = _radii(first, last, body)
     points, n = path.points, len(path.points)
     walked = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
     share = walked / walked[-1]
@@ -419,6 +425,15 @@ def _branch(path: _Path, body: float, mouths: Sequence[Mouth]) -> Branch:
     if min(start, stop) > _RIM * body / 0.86:
         return _flanged(points, walked, radius, bore, body)
     return Branch(points.copy(), radius, bore)
+
+
+def _radii(first: Mouth | None, last: Mouth | None, body: float) -> tuple[float, float]:
+    """The radii of a way at both ends [m]; at a junction (None) the body's, or that of its mouth if it is less."""
+    if first is None:
+        return (body, body) if last is None else (min(body, last.radius), last.radius)
+    if last is not None:
+        return first.radius, last.radius
+    return first.radius, first.radius if first.radius <= _RIM * body else min(body, first.radius)
 
 
 def _flanged(points: Floats, walked: Floats, radius: Floats, bore: Floats, body: float) -> Branch:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from dataclasses import replace
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -119,14 +119,30 @@ def _drop_stubs(net: Net, n_units: int, drawing: Drawing, covers: frozenset[int]
     for number, span in sorted(net.spans.items()):
         for tip, foot in ((span.a, span.b), (span.b, span.a)):
             free = number in net.spans and tip >= n_units and net.degree(tip) == 1 and tip not in drawing.solids
-            if not free or net.degree(foot) < 3:
-                continue
-            wide = max(_width(net.spans[other]) for other in net.at[foot])
-            pocket = not covers.isdisjoint(span.via) and span.length <= max(_STUB, _POCKET * wide)
-            if pocket or (not span.pieces and span.length <= _STUB):
+            if free and net.degree(foot) >= 3 and _is_stub(net, span, foot, covers):
                 net.remove(number)
                 dropped = True
     return dropped
+
+
+def _is_stub(net: Net, span: Span, foot: int, covers: frozenset[int]) -> bool:
+    """Whether a span that hangs at a joint is no pipe: a flange or gasket, or the lid of a fitting."""
+    wide = max(_width(net.spans[other]) for other in net.at[foot])
+    pocket = not covers.isdisjoint(span.via) and span.length <= max(_STUB, _POCKET * wide)
+    return pocket or (not span.pieces and span.length <= _STUB)
+
+
+@dataclass(frozen=True)
+class _Tap:
+    """What meets at a joint at which gauges hang.
+
+    Args:
+        legs: number of each gauge, and of its span with that span as it leaves the joint, in order.
+        others: numbers of the other spans.
+    """
+
+    legs: Sequence[tuple[int, int, Span]]
+    others: Sequence[int]
 
 
 def _fold(net: Net, gauge: int, taps: Collection[int], gauges: Collection[int], n_units: int, leg: float) -> None:
@@ -137,6 +153,21 @@ def _fold(net: Net, gauge: int, taps: Collection[int], gauges: Collection[int], 
     joint = own.b
     if joint < n_units or own.length > leg:
         return
+    there = _at_joint(net, joint, gauges, leg)
+    if len(there.others) != 2 or there.others[0] == there.others[1]:
+        return
+    if joint in taps or _is_narrow(net, there):
+        _put_in_run(net, joint, there, own)
+
+
+def _is_narrow(net: Net, there: _Tap) -> bool:
+    """Whether the legs of a joint are so narrow against the run that they stand in it."""
+    narrow = min(_width(net.spans[number]) for number in there.others)
+    return all(_width(span) <= _NARROW * narrow for _, _, span in there.legs)
+
+
+def _at_joint(net: Net, joint: int, gauges: Collection[int], leg: float) -> _Tap:
+    """The legs to gauges, and the other spans, of a joint."""
     legs: list[tuple[int, int, Span]] = []
     others: list[int] = []
     for number, span in net.leaving(joint):
@@ -144,19 +175,18 @@ def _fold(net: Net, gauge: int, taps: Collection[int], gauges: Collection[int], 
             legs.append((span.b, number, span))
         else:
             others.append(number)
-    if len(others) != 2 or others[0] == others[1]:
-        return
-    narrow = min(_width(net.spans[number]) for number in others)
-    if joint not in taps and any(_width(span) > _NARROW * narrow for _, _, span in legs):
-        return
-    legs.sort()
+    return _Tap(sorted(legs, key=lambda row: row[:2]), others)
+
+
+def _put_in_run(net: Net, joint: int, there: _Tap, own: Span) -> None:
+    """Lets the two other spans of a joint end at its gauges, which follow each other there."""
     ports = []
-    for _, number, span in legs:
+    for _, number, span in there.legs:
         net.remove(number)
         ports.append(span.port_b)
-    chain = [unit for unit, _, _ in legs]
+    chain = [unit for unit, _, _ in there.legs]
     point = own.points[-1][None]
-    for number, unit, port in ((others[0], chain[0], ports[0]), (others[1], chain[-1], ports[-1])):
+    for number, unit, port in ((there.others[0], chain[0], ports[0]), (there.others[1], chain[-1], ports[-1])):
         span = net.remove(number)
         net.add(replace(span, a=unit, port_a=port) if span.a == joint else replace(span, b=unit, port_b=port))
     for k in range(len(chain) - 1):

@@ -6,6 +6,8 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from cadgraph.model.labels import Label
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.vocabulary import Vocabulary
@@ -54,22 +56,42 @@ def find_roles(parts: Parts, labels: Sequence[Label | None], guessed: Sequence[L
         labels: label of each part, None where it has none.
         guessed: label that the embedded labeler alone gives each part.
     """
-    groups = [label.group if label is not None else None for label in labels]
-    names = [label.name if label is not None else None for label in labels]
+    said = [_said(label) for label in labels]
     majority = _majorities(parts, labels)
-    if not _are_doubtful(labels, guessed):
-        return Roles(tuple(groups), tuple(names), (), False, _backed(parts, groups, guessed, majority))
-    for part, (label, guess) in enumerate(zip(labels, guessed, strict=True)):
-        if label is not None and label.source == "human":
-            continue
-        # Wrong labels at random hardly ever agree with each other; the labeler is wrong alike about all repeats.
-        better = majority.get(int(parts.shape[part]))
-        if better is None and guess is not None and guess.confidence >= _CONFIDENT and not _allows(guess, label):
-            better = guess.group, guess.name
-        if better is not None and (label is None or better[0] != label.group):
-            groups[part], names[part] = better
+    doubtful = _are_doubtful(labels, guessed)
+    if doubtful:
+        said = [
+            _weighed(label, guess, majority.get(int(parts.shape[part])))
+            for part, (label, guess) in enumerate(zip(labels, guessed, strict=True))
+        ]
+    groups, names = tuple(group for group, _ in said), tuple(name for _, name in said)
     doubted = tuple(part for part, label in enumerate(labels) if label is not None and groups[part] != label.group)
-    return Roles(tuple(groups), tuple(names), doubted, True, _backed(parts, groups, guessed, majority))
+    return Roles(groups, names, doubted, doubtful, _backed(parts, groups, guessed, majority))
+
+
+def _said(label: Label | None) -> tuple[str | None, str | None]:
+    """The group and name that a label gives."""
+    return (None, None) if label is None else (label.group, label.name)
+
+
+def _weighed(
+    label: Label | None, guess: Label | None, most: tuple[str, str | None] | None
+) -> tuple[str | None, str | None]:
+    """The group and name of a part whose label may be wrong.
+
+    Args:
+        label: what is given.
+        guess: the second opinion.
+        most: what most of its repeats are said to be.
+    """
+    said = _said(label)
+    if label is not None and label.source == "human":
+        return said
+    # Wrong labels at random hardly ever agree with each other; the labeler is wrong alike about all repeats.
+    better = most
+    if better is None and guess is not None and guess.confidence >= _CONFIDENT and not _allows(guess, label):
+        better = guess.group, guess.name
+    return said if better is None or better[0] == said[0] else better
 
 
 def _backed(
@@ -132,13 +154,10 @@ def likely_lines(
     """
     connectors, unit_of = vocabulary.connector_groups, vocabulary.unit_of_group
     functional = [group in connectors or group in unit_of for group in roles.groups]
-    found = set()
-    for a, b in contacts.pairs.tolist():
-        for part, other in ((a, b), (b, a)):
-            if functional[part] or not functional[other] or ground[part]:
-                continue
-            guess = guessed[part]
-            # Two say that it is something else: then it is.
-            if guess is None or guess.group in connectors:
-                found.add(part)
-    return sorted(found)
+    # Two say that it is something else: then it is.
+    connecting = [guess is None or guess.group in connectors for guess in guessed]
+    possible = np.array(connecting, np.bool_) & ~np.array(functional, np.bool_) & ~np.array(ground, np.bool_)
+    pairs = np.concatenate([contacts.pairs, contacts.pairs[:, ::-1]])
+    near = possible[pairs[:, 0]] & np.array(functional, np.bool_)[pairs[:, 1]]
+    found: list[int] = np.unique(pairs[near, 0]).tolist()
+    return found
