@@ -153,8 +153,7 @@ def test_an_end_that_is_left_open_costs_so_much(more, made, monkeypatch):
 def test_every_row_has_its_scenes():
     assert CURVE_SCENES.keys() == CURVES.keys()
     assert FLAG_SCENES.keys() | {"disc"} == FLAGS.keys()
-    # A twin has no score of its own yet.
-    assert BASE_SCENES.keys() == BASE.keys() - {"twin"}
+    assert BASE_SCENES.keys() == BASE.keys()
     assert OPEN_END > 0
 
 

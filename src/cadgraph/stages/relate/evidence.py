@@ -55,7 +55,7 @@ CURVES: Mapping[str, Curve] = {
 }
 """The contributions of what is measured."""
 
-BASE: Mapping[str, float] = {"face": -0.5, "corner": -1.0, "mount": 0.5, "tap": 0.0, "sleeve": -2.5, "twin": 0.0}
+BASE: Mapping[str, float] = {"face": -0.5, "corner": -1.0, "mount": 0.5, "tap": 0.0, "sleeve": -2.5}
 """The log-odds that each kind of joint starts from."""
 
 FLAGS: Mapping[str, tuple[float, str]] = {

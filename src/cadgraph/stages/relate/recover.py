@@ -92,12 +92,17 @@ def recover_units(piping: Piping) -> Piping:
     given = piping.given
     beliefs = beliefs_of(given.labels, given.probabilities, given.vocabulary)
     piping = _without_stubs(_without_rings(piping, beliefs), beliefs)
-    if float(beliefs.open.mean()) >= _MOSTLY_NAMED:
+    if not _is_named(beliefs):
         piping = recover_inline(piping, beliefs, LABELLED)
     ends, mounts = _loose_mounts(piping, _candidates(piping, beliefs))
     for body in _bodies(piping, beliefs, mounts, ends):
         piping = _taken(piping, body, *_type_of(piping, beliefs, body, ends))
     return piping
+
+
+def _is_named(beliefs: Beliefs) -> bool:
+    """Whether people have named most of the parts."""
+    return int(beliefs.open.sum()) < _MOSTLY_NAMED * len(beliefs.open)
 
 
 def _without_rings(piping: Piping, beliefs: Beliefs) -> Piping:
@@ -275,7 +280,7 @@ def _type_of(piping: Piping, beliefs: Beliefs, body: _Body, ends: Ends) -> tuple
     share = weights[best] / sum(weights.values())
     if share < _SURE or best in (_NOTHING, _STEELWORK):
         return _NOTHING, share
-    if float(beliefs.open.mean()) < _MOSTLY_NAMED and not _touched(piping, body, best):
+    if _is_named(beliefs) and not _touched(piping, body, best):
         # Where people have named nearly everything, what they left without a name is no device of theirs; a line that
         # ends on both sides of it passes through all the same.
         passes = _arrangement(ends, [mount.row for mount in body.mounts]) == "aligned"

@@ -56,7 +56,7 @@ def _relabel_unit(piping: Piping, beliefs: Beliefs, group: Group, labels: list[L
     own = sorted(name for name, unit in vocabulary.unit_of_group.items() if unit == group.unit_type)
     foreign = vocabulary.connector_groups | (vocabulary.unit_of_group.keys() - set(own))
     for part in group.parts:
-        strange = labels[part] is None or _says(labels[part], foreign) or part in piping.recovered
+        strange = _says(labels[part], foreign) or part in piping.recovered
         if not own or not strange or _says(labels[part], own) or not _may_change(piping, beliefs, part):
             continue
         single = len(group.parts) == 1
