@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -29,9 +29,11 @@ __all__ = ["drop_shapeless", "trace_lines"]
 _RATIO, _OWN_RATIO = 0.3, 0.9
 # A short cylinder of a pipe's own size is a piece of it where the labeler is less sure than this of the device.
 _SAME_RATIO, _UNSURE = 0.97, 0.9
+_WITH_PIPES = frozenset({"valve", "pump"})
 _PLATES = frozenset({"flange", "blind flange", "gasket"})
 # What the labeler alone takes for steelwork is a pipe only where lines go on at both of its ends: no ratio is enough.
-_BOTH_ENDS, _LEAST_LINES = 2.0, 2
+_BOTH_ENDS, _LEAST_LINES, _MOST_LINES = 2.0, 2, 6
+_ROUND = 0.12  # sides of a box that differ by less than this share are those of something round
 # A device drawn as a mere cylinder is straight (cosine between its ends) and at most so many radii long: a DN 15 gate
 # valve has ten.
 _STRAIGHT, _LONGEST_DEVICE = -0.996, 12.0
@@ -53,10 +55,10 @@ def trace_lines(given: RelateInput, roles: Roles) -> Piping:
     """
     connectors = [part for part, group in enumerate(roles.groups) if group in given.vocabulary.connector_groups]
     others = likely_lines(roles, given.opinions, given.contacts, given.vocabulary, given.parts.ground.tolist())
-    others = _with_further_tubes(given, roles, others)
+    others = _with_further_pieces(given, roles, others)
     singles = [group.parts[0] for group in connected_groups(given, roles) if len(group.parts) == 1]
     wrapped = _tubes_of_units(given, roles)
-    between, unsure = _tubes_between(given, roles), _unsure_valves(given)
+    between, unsure = _likely_between(given, roles, others), _unsure_pieces(given)
     traced, copies = _distinct_lines(given, [*connectors, *others, *singles, *wrapped, *between, *unsure])
     lines = {part: traced[part] for part in connectors if part in traced}
     jackets = _jackets(given, traced, lines)
@@ -95,15 +97,15 @@ def _tubes_of_units(given: RelateInput, roles: Roles) -> list[int]:
     ]
 
 
-def _unsure_valves(given: RelateInput) -> list[int]:
-    """Parts that the labeler alone takes for pieces of valves without being sure."""
+def _unsure_pieces(given: RelateInput) -> list[int]:
+    """Parts that the labeler alone takes for pieces of valves or pumps without being sure."""
     unit_of_group = given.vocabulary.unit_of_group
     return [
         part
         for part, label in enumerate(given.labels)
         if label is not None
         and label is given.opinions[part]
-        and unit_of_group.get(label.group) == "valve"
+        and unit_of_group.get(label.group) in _WITH_PIPES
         and label.confidence < _UNSURE
     ]
 
@@ -121,32 +123,48 @@ def _is_flanged(given: RelateInput, part: int) -> bool:
     return bool((offsets @ offsets.T < 0).any())
 
 
-def _with_further_tubes(given: RelateInput, roles: Roles, others: Sequence[int]) -> list[int]:
-    """Some parts of unknown function, and the tubes of unknown function that go on from them: a pipe in pieces."""
-    known = shapes_of(given.parts)
-    found, front = set(others), [part for part in others if known.facts[int(known.shape[part])].tube]
+def _with_further_pieces(given: RelateInput, roles: Roles, others: Sequence[int]) -> list[int]:
+    """Some parts of unknown function, and those that go on from them as wide and as round as they are: a pipe cut into
+    pieces.
+    """
+    widths = _widths(given.parts)
+    found, front = set(others), [part for part in others if np.isfinite(widths[part]).any()]
     while front:
-        for part in given.neighbors.get(front.pop(), ()):
-            fits = roles.groups[part] is None and known.facts[int(known.shape[part])].tube
-            if fits and part not in found and not given.parts.ground[part]:
+        here = front.pop()
+        for part in given.neighbors.get(here, ()):
+            unknown = roles.groups[part] is None and part not in found and not given.parts.ground[part]
+            if unknown and _are_alike(widths[here], widths[part]):
                 found.add(part)
                 front.append(part)
     return sorted(found)
 
 
-def _tubes_between(given: RelateInput, roles: Roles) -> list[int]:
-    """Tubes that the labeler alone takes for steelwork or the like, and that touch two lines at least."""
-    vocabulary, known = given.vocabulary, shapes_of(given.parts)
+def _widths(parts: Parts) -> Floats:
+    """``(n_parts, 2)`` widths of each part as a round one: two sides of its box that are alike [m]; else NaN."""
+    sides = np.sort(parts.properties.obb_extents, axis=1)
+    pairs = np.stack([sides[:, :2], sides[:, 1:]], axis=1)
+    alike = pairs[:, :, 1] <= (1 + _ROUND) * pairs[:, :, 0]
+    return np.where(alike, pairs.mean(axis=2), np.nan)
+
+
+def _are_alike(first: Floats, second: Floats) -> bool:
+    """Whether two parts have a width in common."""
+    lesser, greater = np.minimum(first[:, None], second), np.maximum(first[:, None], second)
+    return bool((greater <= (1 + _ROUND) * lesser).any())
+
+
+def _likely_between(given: RelateInput, roles: Roles, others: Collection[int]) -> list[int]:
+    """Parts that the labeler alone takes for steelwork or the like, and that touch two lines at least."""
+    vocabulary = given.vocabulary
     functional = vocabulary.connector_groups | vocabulary.unit_of_group.keys()
-    lines = {part for part, group in enumerate(roles.groups) if group in vocabulary.connector_groups}
+    lines = {part for part, group in enumerate(roles.groups) if group in vocabulary.connector_groups}.union(others)
     return [
         part
         for part, group in enumerate(roles.groups)
         if group is not None
         and group not in functional
         and given.labels[part] is given.opinions[part]
-        and known.facts[int(known.shape[part])].tube
-        and len(lines.intersection(given.neighbors.get(part, ()))) >= _LEAST_LINES
+        and _LEAST_LINES <= len(lines.intersection(given.neighbors.get(part, ()))) <= _MOST_LINES
     ]
 
 
