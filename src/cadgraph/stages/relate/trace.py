@@ -284,17 +284,22 @@ def _continued(
     possible = {part: line for part, line in traced.items() if part in sure or part in ratios}
     steps, weak = _facing_parts(possible, ratios, contacts, bridge)
     lines = dict(sure)
-    # What has a flange at either end is no less a pipe.
-    for part, others in sorted(weak.items()):
-        if len(others) >= 2 and all(other in lines for other in others):
-            lines[part] = traced[part]
     front = list(lines)
     while front:
-        for part in steps.get(front.pop(), ()):
-            if part in ratios and part not in lines:
-                lines[part] = traced[part]
-                front.append(part)
+        while front:
+            for part in steps.get(front.pop(), ()):
+                if part in ratios and part not in lines:
+                    lines[part] = traced[part]
+                    front.append(part)
+        # What has a flange at either end is no less a pipe.
+        between = [part for part, others in sorted(weak.items()) if part not in lines and _lie_on(others, lines)]
+        lines |= {part: traced[part] for part in between}
+        front += between
     return lines
+
+
+def _lie_on(others: Sequence[int], lines: Collection[int]) -> bool:
+    return len(others) >= 2 and all(other in lines for other in others)
 
 
 def _facing_parts(
