@@ -1,0 +1,175 @@
+"""Bodies at the ends of lines: parts that no label makes a line or a sure piece of a device."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from cadgraph.geometry.components import connected_sets
+from cadgraph.stages.relate.attach import Mount, attach_lines
+from cadgraph.stages.relate.belief import Beliefs
+from cadgraph.stages.relate.joint import Ends
+from cadgraph.stages.relate.piping import FASTENERS, Group, Piping
+
+__all__ = ["Body", "arrangement_of", "find_bodies", "other_groups"]
+
+# Two ends are aligned, or square, by the cosine between them, and on one axis within this share of the lesser radius.
+_ALIGNED, _SQUARE, _ON_AXIS = 0.95, 0.35, 0.35
+_LIKELY_OTHER = 0.5  # above this probability a part is of steelwork, a support or the like
+_MOST = 40  # parts of a device that labels missed
+_LID = 4.0  # radii that a bonnet or a cover is long at most
+# A unit of so few parts, none of which the labeler finds likelier than this to be such a piece, may be another one.
+_FEW, _UNSURE = 3, 0.8
+
+Arrangement = Literal["one", "aligned", "square", "two", "many"]
+
+
+@dataclass(frozen=True)
+class Body:
+    """Parts at the ends of lines that may be a device.
+
+    Args:
+        parts: ascending.
+        mounts: ends of lines at them.
+        near: parts of units that they touch, ascending.
+        unit_type: what labels make of it without being sure; None where they make nothing.
+    """
+
+    parts: tuple[int, ...]
+    mounts: tuple[Mount, ...]
+    near: tuple[int, ...]
+    unit_type: str | None = None
+
+
+def find_bodies(piping: Piping, beliefs: Beliefs) -> tuple[Ends, list[Body]]:
+    """Finds what stands at the ends of lines without being sure to be anything.
+
+    Args:
+        piping: with its lines and units so far.
+        beliefs: what each part may be.
+
+    Returns:
+        The ends of all lines, and the bodies at them, by their first part.
+    """
+    given = piping.given
+    weak = {part: group for group in _weak_groups(piping, beliefs) for part in group.parts}
+    likely_other = beliefs.of_groups(other_groups(piping)) >= _LIKELY_OTHER
+    pool = {part for part in _candidates(piping, beliefs) if not likely_other[part]} | weak.keys()
+    ends, mounts = _loose_mounts(piping, pool)
+    seeds = {mount.part for mount in mounts}
+    # What hangs on the side of a line holds it.
+    pool -= {side.solid for side in piping.joints.sides} - seeds
+    pairs = [(a, b) for a, b in given.contacts.pairs.tolist() if a in pool and b in pool]
+    lids = _lids(piping, beliefs, mounts, ends)
+    bodies = []
+    for parts in connected_sets(sorted(pool), pairs):
+        body = _body(piping, parts, mounts, ends, lids, pool)
+        if body.mounts and len(body.parts) <= _MOST:
+            held = {weak[part] for part in body.parts if part in weak}
+            mounted = [group for group in held if piping.mounted.keys() & set(group.parts)]
+            bodies.append(Body(body.parts, body.mounts, body.near, mounted[0].unit_type if len(mounted) == 1 else None))
+    return ends, bodies
+
+
+def other_groups(piping: Piping) -> frozenset[str]:
+    """The groups of the vocabulary that are neither of lines nor of units."""
+    vocabulary = piping.given.vocabulary
+    return frozenset(vocabulary.groups.keys() - vocabulary.connector_groups - vocabulary.unit_of_group.keys())
+
+
+def arrangement_of(ends: Ends, rows: Sequence[int]) -> Arrangement:
+    """How the ends of lines meet a body: one, two on one axis, two square to each other, two otherwise, or more."""
+    if len(rows) == 1:
+        return "one"
+    if len(rows) > 2:
+        return "many"
+    a, b = rows
+    cosine = float(ends.direction[a] @ ends.direction[b])
+    if abs(cosine) <= _SQUARE:
+        return "square"
+    between = ends.point[b] - ends.point[a]
+    off = float(np.linalg.norm(between - (between @ ends.direction[a]) * ends.direction[a]))
+    if cosine <= -_ALIGNED and off <= _ON_AXIS * float(min(ends.radius[a], ends.radius[b])):
+        return "aligned"
+    return "two"
+
+
+def _body(
+    piping: Piping,
+    parts: Sequence[int],
+    mounts: Sequence[Mount],
+    ends: Ends,
+    lids: Collection[int],
+    pool: Collection[int],
+) -> Body:
+    """A body of some parts, with what closes it among its parts and not among the lines at it."""
+    at = [mount for mount in mounts if mount.part in parts]
+    closing = {int(ends.part[mount.row]) for mount in at}.intersection(lids)
+    held = tuple(mount for mount in at if int(ends.part[mount.row]) not in closing)
+    around = {other for part in parts for other in piping.given.neighbors.get(part, ())}
+    return Body(tuple(sorted(closing.union(parts))), held, tuple(sorted(around & piping.members - set(pool))))
+
+
+def _candidates(piping: Piping, beliefs: Beliefs) -> Iterator[int]:
+    """Parts of no line and no unit that nobody but the labeler has named, fasteners and the ground left out."""
+    given = piping.given
+    others = frozenset(name for _, name in beliefs.classes) - FASTENERS
+    fasteners = beliefs.of_groups(given.vocabulary.groups, others) >= _LIKELY_OTHER
+    shut = piping.members.union(piping.lines, piping.jackets)
+    free = beliefs.open & ~fasteners & ~given.parts.ground & (given.cluster >= 0)
+    return (part for part in np.flatnonzero(free).tolist() if part not in shut)
+
+
+def _weak_groups(piping: Piping, beliefs: Beliefs) -> Iterator[Group]:
+    """Small units of which the labeler is not sure, and nobody else says anything: they may be others, or pieces."""
+    unit_of_group = piping.given.vocabulary.unit_of_group
+    for group in piping.groups:
+        own = [name for name, unit in unit_of_group.items() if unit == group.unit_type]
+        likely = beliefs.of_groups(own)[list(group.parts)]
+        doubted = bool((likely < _UNSURE).all()) and bool(beliefs.open[list(group.parts)].all())
+        if doubted and len(group.parts) <= _FEW:
+            yield group
+
+
+def _loose_mounts(piping: Piping, pool: Collection[int]) -> tuple[Ends, list[Mount]]:
+    """The parts of a pool at ends that join nothing else."""
+    given, known = piping.given, piping.joints
+    free = {
+        row
+        for row in range(len(known.ends.part))
+        if row not in known.made or (known.made[row].kind == "mount" and known.made[row].other in pool)
+    } - {row for row, _ in known.doubled}
+    if not free or not pool:
+        return known.ends, []
+    solids = piping.members.union(piping.lineless, pool)
+    found = attach_lines(
+        given.parts, given.contacts, piping.lines, solids, piping.feet, given.config.relate.bridge, piping.bolted
+    )
+    return found.ends, [mount for mount in found.mounts if mount.row in free and mount.part in pool]
+
+
+def _lids(piping: Piping, beliefs: Beliefs, mounts: Sequence[Mount], ends: Ends) -> set[int]:
+    """Short parts with a line that lead from a body to nothing, and that no line goes on from on its other side: its
+    bonnet, its cover.
+    """
+    found = piping.joints
+    busy = Counter(int(found.ends.part[row]) for row in {*found.made, *(mount.row for mount in mounts)})
+    tapped = {tapped.part for tapped in found.taps}
+    rows: dict[int, list[int]] = {}
+    for mount in mounts:
+        rows.setdefault(mount.part, []).append(mount.row)
+    lids = set()
+    for mount in mounts:
+        part = int(ends.part[mount.row])
+        line = piping.lines[part]
+        short = line.length <= _LID * float(line.branches[0].radius.max())
+        passes = any(
+            arrangement_of(ends, [mount.row, row]) == "aligned" for row in rows[mount.part] if row != mount.row
+        )
+        if short and not passes and beliefs.open[part] and busy[part] == 1 and part not in tapped:
+            lids.add(part)
+    return lids
