@@ -11,6 +11,7 @@ from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.belief import Beliefs
 from cadgraph.stages.relate.evidence import Curve, score_of
+from cadgraph.stages.relate.line import is_disc
 from cadgraph.stages.relate.piping import Group, Piping
 
 __all__ = ["INLINE", "WAIST", "recover_inline"]
@@ -18,6 +19,10 @@ __all__ = ["INLINE", "WAIST", "recover_inline"]
 WAIST = Curve((0.0, 0.55, 0.8, 0.92), (3.5, 3.5, 2.5, 0.0), "narrows to {:.0%}")
 """The narrowest radius of a piece as share of that at its ends, in log-odds that it is a valve: two cones in a plant
 model stand for one, and no fitting is narrower in its middle."""
+
+THICKER = Curve((1.1, 1.2, 1.4), (0.0, 5.5, 6.5), "{:.2f} times as wide as the pipes beyond its flanges")
+"""The radius of a straight piece between two flanges over that of the pipes beyond, in log-odds that it is a valve: no
+pipe is wider for the length of a valve. Labels hardly help here: a cylinder looks like a pipe."""
 
 INLINE: Mapping[str, float] = {"base": -2.0, "stem": 2.5}
 """The log-odds that a straight piece in a line is a valve, and what a stem that leads nowhere adds."""
@@ -27,6 +32,7 @@ _LEAST = 1e-3  # no probability counts for less
 _LONGEST = 14.0  # radii that a valve is long at most
 _ON_AXIS, _ALIGNED = 0.35, -0.95  # as share of the radius; cosine between the outward directions
 _NARROW = 0.7  # the ends of two cones that meet are narrower than their other ends by this factor
+_MOST_PLATES = 5  # flanges and gaskets at an end
 _THIN = 0.7  # a stem is thinner than the body by this factor
 
 
@@ -38,11 +44,13 @@ class _Piece:
         parts: that carry it, one or two cones.
         rows: of its two outer ends.
         waist: its narrowest radius as share of that at its ends.
+        thicker: its radius over that of the pipes beyond its flanges; 1 where it has none.
     """
 
     parts: tuple[int, ...]
     rows: tuple[int, int]
     waist: float
+    thicker: float = 1.0
 
 
 def recover_inline(piping: Piping, beliefs: Beliefs, likelihood: Curve) -> Piping:
@@ -63,7 +71,8 @@ def recover_inline(piping: Piping, beliefs: Beliefs, likelihood: Curve) -> Pipin
     for piece in _pieces(piping, beliefs):
         stems = _stems(piping, beliefs, piece)
         said = max(float(valves[list(piece.parts)].mean()), _LEAST)
-        odds = INLINE["base"] + float(WAIST(piece.waist)) + float(likelihood(np.log(said)))
+        shape = float(WAIST(piece.waist)) + float(THICKER(piece.thicker))
+        odds = INLINE["base"] + shape + float(likelihood(np.log(said)))
         sure = score_of(odds + (INLINE["stem"] if stems else 0.0))
         if sure < _SURE or not taken.isdisjoint(piece.parts):
             continue
@@ -99,7 +108,32 @@ def _straight(piping: Piping, part: int, line: Centreline) -> _Piece | None:
     rows = [row for row in found.ends.of_part.get(part, ()) if row in found.made and found.made[row].kind != "sleeve"]
     if len(rows) != 2:
         return None
-    return _piece(piping, (part,), (rows[0], rows[1]), _narrowest(line, piping, rows))
+    piece = _piece(piping, (part,), (rows[0], rows[1]), _narrowest(line, piping, rows))
+    return piece if piece is None or is_disc(line) else replace(piece, thicker=_thicker(piping, piece))
+
+
+def _thicker(piping: Piping, piece: _Piece) -> float:
+    """The radius of a piece over that of the wider pipe beyond its flanges; 1 where one has no flange or no pipe."""
+    beyond = [_beyond_flange(piping, row) for row in piece.rows]
+    widest = max((radius for radius in beyond if radius is not None), default=0.0)
+    own = float(min(piping.joints.ends.radius[row] for row in piece.rows))
+    return own / widest if None not in beyond and widest > 0 else 1.0
+
+
+def _beyond_flange(piping: Piping, row: int) -> float | None:
+    """The radius of the pipe behind the flanges and gaskets that an end faces; None where there is none of these."""
+    found, ends = piping.joints, piping.joints.ends
+    for passed in range(_MOST_PLATES):
+        offer = found.made.get(row)
+        if offer is None or offer.kind != "face":
+            return None
+        there = offer.other if offer.row == row else offer.row
+        line = piping.lines[int(ends.part[there])]
+        opposite = [other for other in ends.of_part[int(ends.part[there])] if other != there]
+        if not is_disc(line) or len(opposite) != 1:
+            return float(ends.radius[there]) if passed else None
+        row = opposite[0]
+    return None
 
 
 def _cones(piping: Piping, beliefs: Beliefs) -> list[_Piece]:
