@@ -11,11 +11,11 @@ import numpy as np
 from cadgraph.geometry.line.centreline import Branch, Centreline
 from cadgraph.geometry.line.part_lines import lines_of_parts
 from cadgraph.geometry.shape.analysis import shapes_of
-from cadgraph.model.parts import Contacts, Parts
+from cadgraph.model.parts import Bools, Contacts, Parts
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.attach import Attachments, facings_of
 from cadgraph.stages.relate.decide import decide_joints
-from cadgraph.stages.relate.joint import Ends, find_tap, gather_ends, nearest_on
+from cadgraph.stages.relate.joint import Ends, find_tap, gather_ends
 from cadgraph.stages.relate.line import is_disc, is_plain_tube, is_steady
 from cadgraph.stages.relate.offer import Surroundings, offer_faces
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
@@ -232,11 +232,12 @@ def _jackets(given: RelateInput, traced: Mapping[int, Centreline], sure: Mapping
 def _is_jacket(line: Centreline, around: Sequence[Centreline]) -> bool:
     """Whether thinner lines run in the middle of a long one, or a single one right through a short one."""
     radius = float(line.branches[0].radius.max())
-    points = np.concatenate([_along(branch) for branch in line.branches])
-    beyond = np.array([end.point + _BEYOND * radius * end.direction for end in line.ends])
-    inner = [np.array([_runs_within(point, radius, one) for point in (*points, *beyond)]) for one in around]
-    if not inner:
+    thinner = [one for one in around if min(float(b.radius.min()) for b in one.branches) <= _THINNER * radius]
+    if not thinner:
         return False
+    points = np.concatenate([_along(branch) for branch in line.branches])
+    beyond = np.array([end.point + _BEYOND * radius * end.direction for end in line.ends]).reshape(-1, 3)
+    inner = [_runs_within(np.concatenate([points, beyond]), radius, one) for one in thinner]
     if line.length >= radius and any(one.all() for one in inner):
         return True
     within = np.any(inner, axis=0)[: len(points)]
@@ -250,13 +251,19 @@ def _along(branch: Branch) -> Floats:
     return np.stack([np.interp(steps, walked, branch.points[:, c]) for c in range(3)], axis=1)
 
 
-def _runs_within(point: Floats, radius: float, line: Centreline) -> bool:
-    """Whether a line passes the middle of a wider section."""
+def _runs_within(points: Floats, radius: float, line: Centreline) -> Bools:
+    """``(n,)`` whether a line passes the middle of a wider section at each of some places."""
+    found = np.zeros(len(points), np.bool_)
     for branch in line.branches:
-        _, _, _, wall, apart = nearest_on(branch, point)
-        if apart <= _OFF_MIDDLE * radius and wall <= _THINNER * radius:
-            return True
-    return False
+        steps = np.diff(branch.points, axis=0)
+        offset = points[:, None] - branch.points[None, :-1]
+        share = np.clip((offset * steps).sum(axis=2) / np.maximum((steps**2).sum(axis=1), 1e-300), 0.0, 1.0)
+        apart = np.linalg.norm(offset - share[:, :, None] * steps, axis=2)
+        wall = branch.radius[:-1] + share * np.diff(branch.radius)
+        nearest = np.argmin(apart, axis=1)
+        row = np.arange(len(points))
+        found |= (apart[row, nearest] <= _OFF_MIDDLE * radius) & (wall[row, nearest] <= _THINNER * radius)
+    return found
 
 
 def _may_be_device(line: Centreline, doubtful: bool) -> bool:
