@@ -7,17 +7,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cadgraph.model.parts import Opening, Parts, UnitParts
+from cadgraph.model.parts import Opening, Parts
 from cadgraph.model.scene import Floats
 
 __all__ = ["Surface", "lean", "line_through", "surface_about"]
 
-# A neck leans where its middle moves by at least this share of its height (21 degrees), in about equal steps: no step
-# is more than this many times another. What moves in one step is a lever on an upright neck.
-_LEANS, _STEADY = 0.38, 3.0
-_THIRDS = 3
-# A neck rises over the ends of its body by this factor at least; else there is none to look at.
-_RISES = 1.15
+# A neck leans at least and at most as far (slopes of 20 and 65 degrees), and is upright up to a slope of 10 degrees.
+_LEANS, _LIES, _UPRIGHT = 0.36, 2.14, 0.18
+# What leans stands beside the middle of the body by at least this share of its length, on the side that it leans to.
+_BESIDE = 0.03
+# A neck is round: its surface looks as much along the body as across it, within this share.
+_ROUND = 0.45
+# What rises over the ends of a body by this factor stands out of it; it is a neck where it rises to the second.
+_OVER, _RISES = 1.02, 1.1
 # What lies within this angle of the way a neck points belongs to it (cosine).
 _ASIDE = 0.6
 
@@ -29,6 +31,7 @@ class Surface:
     Args:
         along: ``(n,)`` along the axis, from -0.5 at its start to 0.5 at its end, beyond for what lies beyond.
         out: ``(n, 2)`` away from the axis, in a frame across it [m].
+        normal: ``(n, 3)`` unit normals, along the axis and in the frame across it, of either sign.
         area: ``(n,)`` [m2].
         length: of the axis [m].
         across: ``(2, 3)`` unit vectors of the frame.
@@ -36,6 +39,7 @@ class Surface:
 
     along: Floats
     out: Floats
+    normal: Floats
     area: Floats
     length: float
     across: Floats
@@ -78,8 +82,10 @@ def surface_about(parts: Parts, some: Collection[int], start: Floats, end: Float
     first /= np.linalg.norm(first)
     across = np.array([first, np.cross(axis, first)])
     corners = np.concatenate([_triangles(parts, part) for part in sorted(some)]) - (start + end) / 2
-    middles, area = _split(corners, length / 12)
-    return Surface(middles @ axis / length, middles @ across.T, area, length, across)
+    middles, vectors = _split(corners, length / 12)
+    twice = np.linalg.norm(vectors, axis=1)
+    normal = vectors / np.maximum(twice, 1e-300)[:, None] @ np.vstack([axis, across]).T
+    return Surface(middles @ axis / length, middles @ across.T, normal, twice / 2, length, across)
 
 
 def _triangles(parts: Parts, part: int) -> Floats:
@@ -91,14 +97,14 @@ def _triangles(parts: Parts, part: int) -> Floats:
 
 
 def _split(corners: Floats, longest: float) -> tuple[Floats, Floats]:
-    """Middles and areas of triangles, long ones cut at the middle of their longest edge until they are short."""
-    middles, areas = [], []
+    """Middles of triangles and normals as long as twice their area, long ones cut in halves until they are short."""
+    middles, vectors = [], []
     for _ in range(12):
         edges = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2)
         long = edges.max(axis=1) > longest if len(corners) < 200_000 else np.zeros(len(corners), bool)
         done = corners[~long]
         middles.append(done.mean(axis=1))
-        areas.append(0.5 * np.linalg.norm(np.cross(done[:, 1] - done[:, 0], done[:, 2] - done[:, 0]), axis=1))
+        vectors.append(np.cross(done[:, 1] - done[:, 0], done[:, 2] - done[:, 0]))
         if not long.any():
             break
         left, which = corners[long], edges[long].argmax(axis=1)
@@ -106,46 +112,53 @@ def _split(corners: Floats, longest: float) -> tuple[Floats, Floats]:
         a, b, c = (left[rows, (which + k) % 3] for k in range(3))
         half = (a + b) / 2
         corners = np.concatenate([np.stack([a, half, c], axis=1), np.stack([half, b, c], axis=1)])
-    return np.concatenate(middles), np.concatenate(areas)
+    return np.concatenate(middles), np.concatenate(vectors)
 
 
 def lean(surface: Surface) -> float | None:
-    """How far what stands out of a body leans towards the end of its axis: the slope of its middle [m/m].
+    """How far the round neck that stands out of a body leans towards the end of its axis.
+
+    Args:
+        surface: about the line through the body.
 
     Returns:
-        0 for an upright neck; None where nothing stands out, or what does is no straight neck.
+        The slope of the neck's own axis [m/m]; 0 for an upright neck; None where nothing stands out, or what does is no
+        round neck.
     """
     height = surface.height
-    ends = np.abs(surface.along) > 0.4
-    rim = float(height[ends & (np.abs(surface.along) <= 0.55)].max(initial=0.0))
-    top = float(height.max(initial=0.0))
-    if rim <= 0.0 or top < _RISES * rim:
+    ends = (np.abs(surface.along) > 0.4) & (np.abs(surface.along) <= 0.55)
+    rim = float(height[ends].max(initial=0.0))
+    outer = height > _OVER * rim
+    if rim <= 0.0 or float(height[outer].max(initial=0.0)) < _RISES * rim:
         return None
-    outer = height > rim
     way = (surface.area[outer, None] * surface.out[outer]).sum(axis=0)
     norm = float(np.linalg.norm(way))
     if norm <= 0.0:
         return None
-    rise = surface.out @ (way / norm)
-    neck = (rise > 0.55 * rim) & (rise > _ASIDE * height)
-    low, high = 0.55 * rim, float(rise[neck].max(initial=0.0))
-    borders = np.linspace(low, high, _THIRDS + 1)
-    steps = []
-    for a, b in zip(borders[:-1], borders[1:], strict=True):
-        row = neck & (rise >= a) & (rise <= b)
-        weight = float(surface.area[row].sum())
-        if weight <= 0.0:
-            return None
-        steps.append(float((surface.area[row] * surface.along[row]).sum()) / weight * surface.length)
-    return _slope(steps, (high - low) / _THIRDS)
+    up = way / norm
+    neck = outer & (surface.out @ up > _ASIDE * height)
+    side = np.array([-up[1], up[0]])
+    normal = np.column_stack([surface.normal[neck, 0], surface.normal[neck, 1:] @ up, surface.normal[neck, 1:] @ side])
+    slope = _slope((surface.area[neck, None] * normal).T @ normal)
+    # A neck that leans from the middle of its body ends up on that side.
+    aside = float(surface.area[neck] @ surface.along[neck]) / float(surface.area[neck].sum())
+    return slope if not slope or aside * np.sign(slope) >= _BESIDE else None
 
 
-def _slope(steps: Sequence[float], apart: float) -> float | None:
-    """The slope of a middle that moves in equal steps; 0 where it stays."""
-    moves = np.diff(steps) / apart
-    if np.abs(moves).max() < _LEANS / 2:
-        return 0.0
-    least, most = float(np.abs(moves).min()), float(np.abs(moves).max())
-    if np.any(moves * moves[0] <= 0) or most > _STEADY * least or float(np.abs(moves.mean())) < _LEANS:
+def _slope(looks: Floats) -> float | None:
+    """The slope of the axis of a round body.
+
+    Args:
+        looks: ``(3, 3)`` how much of its surface looks where: along the line, up, across; for a body of revolution the
+            same in all directions across its axis.
+    """
+    moments, ways = np.linalg.eigh(looks[:2, :2])
+    across = float(looks[2, 2])
+    k = int(np.abs(moments - across).argmax())
+    if across <= 0.0 or abs(float(moments[1 - k]) - across) > _ROUND * across:
         return None
-    return float(moves.mean())
+    along, up = (float(x) for x in ways[:, k])
+    if abs(along) <= _UPRIGHT * abs(up):
+        return 0.0
+    slope = along / up if up else np.inf
+    return slope if _LEANS <= abs(slope) <= _LIES else None

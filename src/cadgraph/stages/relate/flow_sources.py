@@ -200,10 +200,9 @@ def _is_axial(opening: Opening, shaft: Floats | None) -> bool:
 
 def _level_and_up(a: Opening, b: Opening) -> int | None:
     """Which of two nozzles looks sideways while the other looks up."""
-    for k, (level, up) in enumerate(((a, b), (b, a))):
-        if level.direction is not None and up.direction is not None:
-            if abs(level.direction[2]) <= _LEVEL and up.direction[2] >= _UP:
-                return k
+    for k, (level, up) in enumerate(((a.direction, b.direction), (b.direction, a.direction))):
+        if level is not None and up is not None and abs(level[2]) <= _LEVEL and up[2] >= _UP:
+            return k
     return None
 
 
