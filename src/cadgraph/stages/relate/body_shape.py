@@ -126,17 +126,18 @@ def lean(surface: Surface) -> float | None:
         round neck.
     """
     height = surface.height
-    ends = (np.abs(surface.along) > 0.4) & (np.abs(surface.along) <= 0.55)
-    rim = float(height[ends].max(initial=0.0))
-    outer = height > _OVER * rim
-    if rim <= 0.0 or float(height[outer].max(initial=0.0)) < _RISES * rim:
-        return None
-    way = (surface.area[outer, None] * surface.out[outer]).sum(axis=0)
-    norm = float(np.linalg.norm(way))
+    pull = (surface.area * height) @ surface.out
+    norm = float(np.linalg.norm(pull))
     if norm <= 0.0:
         return None
-    up = way / norm
-    neck = outer & (surface.out @ up > _ASIDE * height)
+    up = pull / norm
+    rise = surface.out @ up
+    # The ends are round, so that the side without a neck tells how high they are.
+    ends = (np.abs(surface.along) > 0.4) & (np.abs(surface.along) <= 0.55) & (rise <= 0.0)
+    rim = float(height[ends].max(initial=0.0))
+    neck = (height > _OVER * rim) & (rise > _ASIDE * height)
+    if rim <= 0.0 or float(rise[neck].max(initial=0.0)) < _RISES * rim:
+        return None
     side = np.array([-up[1], up[0]])
     normal = np.column_stack([surface.normal[neck, 0], surface.normal[neck, 1:] @ up, surface.normal[neck, 1:] @ side])
     slope = _slope((surface.area[neck, None] * normal).T @ normal)
