@@ -79,8 +79,8 @@ def _parts(graph: SceneGraph) -> Iterator[Row]:
 
 def _units(graph: SceneGraph) -> Iterator[Row]:
     yield (
-        "tag", "type", "kind", "kind_guesses", "n_parts", "n_ports", "system", "cluster", *_PLACE, "connected_to", "related_to",
-        "parts",
+        "tag", "type", "kind", "kind_guesses", "n_parts", "n_ports", "system", "cluster", *_PLACE,
+        "connected_to", "related_to", "parts",
     )  # fmt: skip
     system_of = {node: system.id for system in graph.systems() for node in system.units}
     for unit in graph.of_layer(Unit):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import heapq
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -74,22 +74,29 @@ def stated_flow(network: Network, statements: Sequence[str]) -> list[Evidence]:
         ValueError: a statement is malformed, names no unit, or nothing joins the two.
     """
     number = {unit.tag: k for k, unit in enumerate(network.units)}
-    evidence = []
-    for statement in statements:
-        ends = [word.strip() for word in statement.split("->")]
-        if len(ends) != 2 or not all(ends):
-            raise ValueError(f"relate.flow: {statement!r} is no flow; write 'P-001 -> T-001'")
-        for tag in ends:
-            if tag not in number:
-                raise ValueError(f"relate.flow: {statement!r}: no unit is called {tag!r}; see 'cadgraph lines'")
-        way = _shortest(network, number[ends[0]], number[ends[1]], frozenset())
-        if way is None:
-            raise ValueError(f"relate.flow: {statement!r}: no line joins {ends[0]} and {ends[1]}")
-        for link, forward in way:
-            only = _shortest(network, number[ends[0]], number[ends[1]], frozenset([link])) is None
-            sure = _STATED if only else _STATED_MAYBE
-            evidence.append(Evidence(link, forward, sure, f"stated: {ends[0]} -> {ends[1]}"))
-    return evidence
+    return [one for statement in statements for one in _stated(network, *_ends(statement, number))]
+
+
+def _ends(statement: str, number: Mapping[str, int]) -> tuple[int, int]:
+    """The two units that a statement names."""
+    ends = [word.strip() for word in statement.split("->")]
+    if len(ends) != 2 or not all(ends):
+        raise ValueError(f"relate.flow: {statement!r} is no flow; write 'P-001 -> T-001'")
+    for tag in ends:
+        if tag not in number:
+            raise ValueError(f"relate.flow: {statement!r}: no unit is called {tag!r}; see 'cadgraph lines'")
+    return number[ends[0]], number[ends[1]]
+
+
+def _stated(network: Network, start: int, goal: int) -> Iterator[Evidence]:
+    """The shortest way from one unit to another, surest where no other way leads there."""
+    first, last = network.units[start].tag, network.units[goal].tag
+    way = _shortest(network, start, goal, frozenset())
+    if way is None:
+        raise ValueError(f"relate.flow: '{first} -> {last}': no line joins {first} and {last}")
+    for link, forward in way:
+        only = _shortest(network, start, goal, frozenset([link])) is None
+        yield Evidence(link, forward, _STATED if only else _STATED_MAYBE, f"stated: {first} -> {last}")
 
 
 def _name(network: Network, node: int) -> str:

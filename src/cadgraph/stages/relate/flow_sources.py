@@ -101,6 +101,21 @@ class Sight:
         """The node that a link leads to."""
         return self.network.links[number].target if forward else self.network.links[number].source
 
+    def line(self, start: int, number: int, forward: bool) -> Iterator[tuple[int, bool, int]]:
+        """The links of a line without a branch from a node on, with their sense and the node that each leads to."""
+        seen = {start}
+        while True:
+            node = self.there(number, forward)
+            if node in seen:
+                return
+            seen.add(node)
+            yield number, forward, node
+            passes = node < len(self.network.units) and self.network.units[node].unit_type in ("valve", "gauge")
+            ahead = [(k, f) for k, f in self.at[node] if k != number] if passes else []
+            if len(ahead) != 1:
+                return
+            number, forward = ahead[0]
+
     def named(self, unit: UnitParts, names: Collection[str]) -> list[int]:
         """The parts of a unit that have one of some names."""
         return [part for part in unit.parts if self.names[part] in names]
@@ -155,24 +170,25 @@ def _suction(unit: UnitParts, shaft: Floats | None) -> tuple[int, int, str, str]
     wide = sorted(range(len(unit.openings)), key=lambda k: (-(unit.openings[k].diameter or 0.0), k))[:2]
     ports = sorted(wide)
     a, b = (unit.openings[port] for port in ports)
-    wider = _wider(a, b)
     eye = _axial(a, b, shaft)
-    if eye is not None:
-        if wider is not None and wider != eye:
-            return None
-        sure, why = (
-            ("pump, shaft", "along the shaft")
-            if wider is None
-            else ("pump, shaft and widths", "along the shaft, the wider one")
-        )
-        return ports[eye], ports[1 - eye], sure, why
-    if wider is None or _is_axial(a, shaft) or _is_axial(b, shaft):
+    found = _by_shaft(eye, _wider(a, b)) if eye is not None else _by_width(a, b, shaft)
+    return None if found is None else (ports[found[0]], ports[1 - found[0]], *found[1:])
+
+
+def _by_shaft(eye: int, wider: int | None) -> tuple[int, str, str] | None:
+    if wider is None:
+        return eye, "pump, shaft", "along the shaft"
+    return (eye, "pump, shaft and widths", "along the shaft, the wider one") if wider == eye else None
+
+
+def _by_width(a: Opening, b: Opening, shaft: Floats | None) -> tuple[int, str, str] | None:
+    wider = _wider(a, b)
+    if wider is None or _share(a, shaft) >= _AXIAL or _share(b, shaft) >= _AXIAL:
         return None
     level = _level_and_up(a, b)
-    if level is not None and level != wider:
-        return None
-    sure, why = ("pump, widths", "the wider nozzle") if level is None else ("pump, up and widths", "level and wider")
-    return ports[wider], ports[1 - wider], sure, why
+    if level is None:
+        return wider, "pump, widths", "the wider nozzle"
+    return (wider, "pump, up and widths", "level and wider") if level == wider else None
 
 
 def _wider(a: Opening, b: Opening) -> int | None:
@@ -183,19 +199,23 @@ def _wider(a: Opening, b: Opening) -> int | None:
 
 def _axial(a: Opening, b: Opening, shaft: Floats | None) -> int | None:
     """Which of two nozzles lies along the shaft while the other lies across, near it."""
-    if shaft is None or a.direction is None or b.direction is None:
+    if shaft is None:
         return None
-    along = [abs(float(np.dot(opening.direction, shaft))) for opening in (a, b) if opening.direction is not None]
-    eyes = [k for k, share in enumerate(along) if share >= _AXIAL]
-    if len(eyes) != 1 or along[1 - eyes[0]] > _RADIAL:
+    along = [_share(a, shaft), _share(b, shaft)]
+    eye = int(np.argmax(along))
+    # Which way a nozzle without a direction looks is not known: it neither lies along the shaft nor across.
+    if along[eye] < _AXIAL or not 0.0 <= along[1 - eye] <= _RADIAL:
         return None
     reach = abs(float(np.dot(np.subtract(a.point, b.point), shaft)))
     width = max(a.diameter or 0.0, b.diameter or 0.0)
-    return eyes[0] if not width or reach <= _SHORT * width else None
+    return eye if not width or reach <= _SHORT * width else None
 
 
-def _is_axial(opening: Opening, shaft: Floats | None) -> bool:
-    return shaft is not None and opening.direction is not None and abs(float(opening.direction @ shaft)) >= _AXIAL
+def _share(opening: Opening, shaft: Floats | None) -> float:
+    """How far a nozzle lies along the shaft (cosine); -1 where that is not known."""
+    if shaft is None or opening.direction is None:
+        return -1.0
+    return abs(float(np.dot(opening.direction, shaft)))
 
 
 def _level_and_up(a: Opening, b: Opening) -> int | None:
@@ -338,7 +358,7 @@ def tanks(sight: Sight) -> Iterator[Evidence]:
         for port, opening in enumerate(unit.openings):
             for link, forward in sight.at_port(number, port):
                 end = _free_end(sight, number, link, forward)
-                sure = None if end is None else _runs_out(opening, low, high, *end)
+                sure = None if end is None else _runs_out(opening, low, high, end)
                 if sure is not None:
                     yield Evidence(link, forward, SURE[sure], f"{sure.split(', ')[1]} of {unit.tag}")
 
@@ -350,46 +370,43 @@ def _filled(sight: Sight, unit: UnitParts) -> tuple[float, float]:
     return float(box[:, 0, 2].min()), float(box[:, 1, 2].max())
 
 
-def _runs_out(opening: Opening, low: float, high: float, end: float, down: float, valves: int) -> str | None:
-    """What the line from a nozzle to an open end is.
+@dataclass(frozen=True)
+class _End:
+    """The open end of a line: its height [m], the vertical part of the way it looks, and how many valves are before."""
 
-    Args:
-        opening: of the tank.
-        low: lowest point of the tank [m].
-        high: highest [m].
-        end: height of the open end [m].
-        down: vertical part of the way that the end looks.
-        valves: how many are on the way.
-    """
+    height: float
+    looks: float
+    valves: int
+
+
+def _runs_out(opening: Opening, low: float, high: float, end: _End) -> str | None:
+    """What the line from a nozzle of a tank, between its lowest and highest point [m], to an open end is."""
     height = opening.point[2]
+    share = (height - low) / max(high - low, 1e-9)
     upward = opening.direction is not None and opening.direction[2] > 0.5
-    if not upward and height <= low + _LOW * (high - low):
-        if end <= height - _BELOW and down <= _DOWN:
-            return "tank, drain"
-        return "tank, outlet" if end <= height + _BELOW else None
-    over = height >= low + _HIGH * (high - low) and end <= height - max(_FAR_BELOW, 0.5 * (high - low))
-    return "tank, overflow" if over and down <= _DOWN and not valves else None
+    if share <= _LOW and not upward:
+        return _drains(height, end)
+    far = max(_FAR_BELOW, 0.5 * (high - low))
+    over = share >= _HIGH and end.height <= height - far
+    return "tank, overflow" if over and end.looks <= _DOWN and not end.valves else None
 
 
-def _free_end(sight: Sight, start: int, number: int, forward: bool) -> tuple[float, float, int] | None:
-    """Height of the open end that a line leads to without a branch, the way it looks, and the valves on the way."""
-    count, valves, seen = len(sight.network.units), 0, {start}
-    while True:
-        node = sight.there(number, forward)
-        if node in seen:
-            return None
-        seen.add(node)
+def _drains(height: float, end: _End) -> str | None:
+    if end.height <= height - _BELOW and end.looks <= _DOWN:
+        return "tank, drain"
+    return "tank, outlet" if end.height <= height + _BELOW else None
+
+
+def _free_end(sight: Sight, start: int, number: int, forward: bool) -> _End | None:
+    """The open end that a line leads to without a branch."""
+    count, valves = len(sight.network.units), 0
+    for last, onward, node in sight.line(start, number, forward):
         if node >= count and sight.network.places[node - count].kind in ("open", "unknown"):
-            path = np.asarray(sight.network.links[number].path)[:: 1 if forward else -1]
-            last = path[-1] - path[-2] if len(path) > 1 else np.zeros(3)
-            return float(path[-1, 2]), float(last[2] / max(float(np.linalg.norm(last)), 1e-12)), valves
-        if node >= count or sight.network.units[node].unit_type not in ("valve", "gauge"):
-            return None
-        valves += sight.network.units[node].unit_type == "valve"
-        ahead = [(k, f) for k, f in sight.at[node] if k != number]
-        if len(ahead) != 1:
-            return None
-        number, forward = ahead[0]
+            path = np.asarray(sight.network.links[last].path)[:: 1 if onward else -1]
+            way = path[-1] - path[-2] if len(path) > 1 else np.zeros(3)
+            return _End(float(path[-1, 2]), float(way[2] / max(float(np.linalg.norm(way)), 1e-12)), valves)
+        valves += node < count and sight.network.units[node].unit_type == "valve"
+    return None
 
 
 # --- usual practice ---
@@ -411,18 +428,14 @@ def _leads_to_check(sight: Sight, pump: int, port: int) -> bool:
     links = sight.at_port(pump, port)
     if len(links) != 1:
         return False
-    (number, forward), passed = links[0], 0
-    while passed < 2:
-        node = sight.there(number, forward)
-        if node >= len(sight.network.units) or sight.network.units[node].unit_type not in ("valve", "gauge"):
+    passed = 0
+    for _, _, node in sight.line(pump, *links[0]):
+        unit = sight.network.units[node] if node < len(sight.network.units) else None
+        if unit is None or passed == 2:
             return False
-        if sight.network.units[node].kind == "check valve":
+        if unit.kind == "check valve":
             return True
-        passed += sight.network.units[node].unit_type == "valve"
-        ahead = [(k, f) for k, f in sight.at[node] if k != number]
-        if len(ahead) != 1:
-            return False
-        number, forward = ahead[0]
+        passed += unit.unit_type == "valve"
     return False
 
 

@@ -89,6 +89,12 @@ class _Ways:
         some = [(link, forward) for link, forward in self.at[node] if link not in self.idle.dead]
         return [(link, forward) for link, forward in some if link not in self.idle.spurs] or some
 
+    def told(self, flows: Flows, node: int) -> tuple[list[tuple[Evidence, bool]], list[tuple[int, bool]]]:
+        """What is known of the live links at a node, and which of them are open still."""
+        live = self.live(node)
+        known = [(flows.chosen[link], forward) for link, forward in live if link in flows.chosen]
+        return known, [(link, forward) for link, forward in live if link not in flows.chosen]
+
     def taking_part(self) -> list[int]:
         """The links that are neither dead nor spurs."""
         count = range(len(self.network.links))
@@ -163,13 +169,9 @@ def _last_open(ways: _Ways, flows: Flows, node: int) -> Evidence | None:
     """Where all but one of the live links at a node flow in, the last one flows out; and the other way round."""
     if ways.is_border(node):
         return None
-    live = ways.live(node)
-    left = [(link, forward) for link, forward in live if link not in flows.chosen]
-    if len(left) != 1 or len(live) < 2:
-        return None
-    known = [(flows.chosen[link], forward) for link, forward in live if link in flows.chosen]
+    known, left = ways.told(flows, node)
     senses = {one.forward == forward for one, forward in known}
-    if len(senses) != 1:
+    if len(left) != 1 or len(senses) != 1:
         return None
     (leaving,) = senses
     surest = min((one for one, _ in known), key=lambda one: (one.confidence, one.link))
@@ -193,17 +195,12 @@ def _settle(ways: _Ways, flows: Flows) -> None:
 
 def _collisions(ways: _Ways, flows: Flows) -> Iterator[tuple[Evidence, Evidence]]:
     """The reasons that let everything flow into a node, or out of it, the surest first."""
-    for node in sorted(ways.at):
-        if ways.is_border(node):
+    for node in sorted(node for node in ways.at if not ways.is_border(node)):
+        known, left = ways.told(flows, node)
+        if left or len(known) < 2 or len({one.forward == forward for one, forward in known}) != 1:
             continue
-        live = ways.live(node)
-        known = [(flows.chosen[link], forward) for link, forward in live if link in flows.chosen]
-        if len(known) < len(live) or len(live) < 2 or len({one.forward == forward for one, forward in known}) != 1:
-            continue
-        ones = sorted((one for one, _ in known), key=lambda one: (-one.confidence, one.link))
-        other = next((one for one in ones[1:] if one.reason != ones[0].reason), None)
-        if other is not None:
-            yield ones[0], other
+        first, *others = sorted((one for one, _ in known), key=lambda one: (-one.confidence, one.link))
+        yield from [(first, other) for other in others if other.reason != first.reason][:1]
 
 
 # --- what takes no part ---
@@ -218,24 +215,21 @@ def idle_links(network: Network) -> Idle:
     at = around(network)
     dead: set[int] = set()
     spurs: set[int] = set()
+
+    def alive(node: int) -> list[tuple[int, bool]]:
+        return [(link, forward) for link, forward in at[node] if link not in dead and link not in spurs]
+
     front = sorted(node for node, links in at.items() if len(links) == 1)
     while front:
         node = front.pop()
-        alive = [(link, forward) for link, forward in at[node] if link not in dead and link not in spurs]
-        if len(alive) != 1:
+        left = alive(node)
+        if len(left) != 1:
             continue
-        branch = _spur(network, at, node)
-        link, forward = alive[0]
-        there = network.links[link].target if forward else network.links[link].source
-        if _is_closed(network, at, node):
-            dead.add(link)
-        elif branch:
-            spurs.update(branch)
-            there = _foot(network, node, branch)
-        else:
-            continue
-        if sum(other not in dead and other not in spurs for other, _ in at[there]) == 1:
-            front.append(there)
+        branch = [left[0][0]] if _is_closed(network, at, node) else _spur(network, at, node)
+        (dead if _is_closed(network, at, node) else spurs).update(branch)
+        foot = _foot(network, node, branch)
+        if branch and len(alive(foot)) == 1:
+            front.append(foot)
     return Idle(frozenset(dead), frozenset(spurs - dead))
 
 
@@ -249,21 +243,26 @@ def _is_closed(network: Network, at: Mapping[int, Sequence[tuple[int, bool]]], n
 
 def _spur(network: Network, at: Mapping[int, Sequence[tuple[int, bool]]], node: int) -> list[int]:
     """The links of the branch by which a free end, or a valve there, hangs on a much wider run; none where it isn't."""
-    if node < len(network.units) and network.units[node].unit_type != "valve":
-        return []
     branch: list[int] = []
-    while True:
-        ahead = [(number, forward) for number, forward in at[node] if number not in branch]
-        if len(ahead) != 1:
-            break
+    ahead = list(at[node]) if node >= len(network.units) or network.units[node].unit_type == "valve" else []
+    while len(ahead) == 1:
         number, forward = ahead[0]
         branch.append(number)
         node = network.links[number].target if forward else network.links[number].source
-        if node < len(network.units) and network.units[node].unit_type not in ("valve", "gauge"):
-            return []
-    own = network.links[branch[-1]].diameter if branch else None
-    widths = [width for number, _ in ahead if (width := network.links[number].diameter) is not None]
-    return branch if own is not None and widths and own <= _SPUR * max(widths) else []
+        ahead = [link for link in at[node] if link[0] not in branch] if _passes(network, node) else []
+    return branch if ahead and _is_narrow(network, branch[-1], [number for number, _ in ahead]) else []
+
+
+def _passes(network: Network, node: int) -> bool:
+    """Whether a line may go on at a node, or branch there."""
+    return node >= len(network.units) or network.units[node].unit_type in ("valve", "gauge")
+
+
+def _is_narrow(network: Network, branch: int, run: Sequence[int]) -> bool:
+    """Whether a link is narrow against the widest of some others."""
+    own = network.links[branch].diameter
+    widths = [width for number in run if (width := network.links[number].diameter) is not None]
+    return own is not None and bool(widths) and own <= _SPUR * max(widths)
 
 
 def _foot(network: Network, tip: int, branch: Sequence[int]) -> int:
@@ -280,19 +279,28 @@ def _foot(network: Network, tip: int, branch: Sequence[int]) -> int:
 
 def _around_loops(ways: _Ways, flows: Flows) -> list[Evidence]:
     """What ways through loops say of links that are open still."""
-    graph: nx.Graph[_Node] = nx.Graph()
-    for number in ways.taking_part() if flows.chosen else ():
-        near, middle, far = _corners(ways, number)
-        graph.add_edge(near, middle)
-        graph.add_edge(middle, far)
     found: list[Evidence] = []
-    for block in nx.biconnected_components(graph):
-        members = sorted(number for number in {-1 - a for a, _ in block if a < 0} if _lies_in(ways, number, block))
+    for members in _loops(ways) if flows.chosen else ():
         left = [number for number in members if number not in flows.chosen]
         known = _reasons(ways, flows, members) if left else []
         if known:
             found += _through(ways, flows, frozenset(members), left, known)
     return sorted(found, key=lambda one: one.link)
+
+
+def _loops(ways: _Ways) -> Iterator[list[int]]:
+    """The links of each part of the network that hangs together even without any one of its nodes."""
+    graph: nx.Graph[_Node] = nx.Graph()
+    for number in ways.taking_part():
+        near, middle, far = _corners(ways, number)
+        graph.add_edge(near, middle)
+        graph.add_edge(middle, far)
+    for block in nx.biconnected_components(graph):
+        nodes = set(block)
+        # A link that is no part of a loop is two blocks, each of one half.
+        members = sorted(-1 - node for node, _ in nodes if node < 0 and _lies_in(ways, -1 - node, nodes))
+        if members:
+            yield members
 
 
 def _corners(ways: _Ways, number: int) -> tuple[_Node, _Node, _Node]:
@@ -359,19 +367,22 @@ def _steps(ways: _Ways, flows: Flows, members: Iterable[int]) -> dict[_Node, lis
 def _reached(ways: _Ways, flows: Flows, without: Collection[int], backward: bool) -> set[_Node]:
     """Nodes that flow from outside some links can come to, or can go outside from."""
     every = ways.taking_part()
-    live = [number for number in every if number not in without]
     follow: dict[_Node, list[_Node]] = {}
-    for start, steps in _steps(ways, flows, live).items():
+    for start, steps in _steps(ways, flows, [number for number in every if number not in without]).items():
         for _, _, end in steps:
             first, last = (end, start) if backward else (start, end)
             follow.setdefault(first, []).append(last)
-    borders = {node for number in every for node in _corners(ways, number)[::2] if node[1] >= 0}
-    seen, front = set(borders), sorted(borders)
+    return _closure({node for number in every for node in _corners(ways, number)[::2] if node[1] >= 0}, follow)
+
+
+def _closure(start: Collection[_Node], follow: Mapping[_Node, Sequence[_Node]]) -> set[_Node]:
+    """What can be reached from some nodes, themselves included."""
+    seen = set(start)
+    front = sorted(start)
     while front:
-        for node in follow.get(front.pop(), ()):
-            if node not in seen:
-                seen.add(node)
-                front.append(node)
+        new = [node for node in follow.get(front.pop(), ()) if node not in seen]
+        seen.update(new)
+        front += new
     return seen
 
 

@@ -49,20 +49,26 @@ def _named(unit: UnitParts, names: Sequence[str | None], sizes: Sequence[int], p
 
 def _kind(unit: UnitParts, names: Collection[str], parts: Parts) -> str | None:
     if unit.unit_type == "gauge":
-        for name in _GAUGES:
-            if name in names:
-                return name if name != "transmitter" or len(unit.openings) < 2 else "flow meter"
-        if len(unit.openings) > 1 and "gauge face" not in names:
-            return "flow meter"
-        return "pressure gauge"
+        return _gauge(unit, names)
     if unit.unit_type == "pump":
         return "centrifugal pump" if _has_crossed_nozzles(unit) else None
     if unit.unit_type == "tank":
-        low = parts.properties.aabb[list(unit.parts), 0].min(axis=0)
-        wide, deep, high = parts.properties.aabb[list(unit.parts), 1].max(axis=0) - low
-        lies = max(wide, deep) > _LYING * high and max(wide, deep) > _LYING * min(wide, deep)
-        return "horizontal tank" if lies else "tank"
+        return _tank(unit, parts)
     return next((name for name in sorted(names) if unit.unit_type == "equipment"), None)
+
+
+def _gauge(unit: UnitParts, names: Collection[str]) -> str:
+    for name in _GAUGES:
+        if name in names:
+            return name if name != "transmitter" or len(unit.openings) < 2 else "flow meter"
+    return "flow meter" if len(unit.openings) > 1 and "gauge face" not in names else "pressure gauge"
+
+
+def _tank(unit: UnitParts, parts: Parts) -> str:
+    low = parts.properties.aabb[list(unit.parts), 0].min(axis=0)
+    wide, deep, high = parts.properties.aabb[list(unit.parts), 1].max(axis=0) - low
+    lies = max(wide, deep) > _LYING * high and max(wide, deep) > _LYING * min(wide, deep)
+    return "horizontal tank" if lies else "tank"
 
 
 def _has_crossed_nozzles(unit: UnitParts) -> bool:

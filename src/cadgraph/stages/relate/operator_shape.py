@@ -35,7 +35,7 @@ _STANDS = 1.1
 
 @dataclass(frozen=True)
 class _Slice:
-    """What lies in a slice across the way that something stands: height, and extents along and across the body, in rims."""
+    """A slice across the way that something stands: its height, and its extents along and across the body, in rims."""
 
     high: float
     long: float
@@ -52,6 +52,11 @@ class _Slice:
     def least(self) -> float:
         """The lesser extent."""
         return min(self.long, self.wide)
+
+    @property
+    def is_wheel(self) -> bool:
+        """Whether it is as wide as long, and wide."""
+        return self.most >= _WIDE and self.least >= _ROUND * self.most
 
 
 def standing_on(surface: Surface) -> Operator | None:
@@ -102,43 +107,37 @@ def _sliced(places: Floats, rise: Floats, area: Floats, borders: Floats, rim: fl
         middle = (least + most) / 2
         out = np.linalg.norm(some - middle, axis=1)
         far = float(weight @ out) / max(float(weight.sum()) * float(out.max(initial=0.0)), 1e-12)
-        found.append(
-            _Slice(
-                float(high - low) / rim, *(float(x) for x in most - least), (float(middle[0]), float(middle[1])), far
-            )
-        )
+        long, wide = (float(x) for x in most - least)
+        found.append(_Slice(float(high - low) / rim, long, wide, (float(middle[0]), float(middle[1])), far))
     return found
 
 
 def _has_wheel(slices: list[_Slice]) -> bool:
-    wheels = [
-        k
-        for k, one in enumerate(slices)
-        if one.most >= _WIDE
-        and one.least >= _ROUND * one.most
-        and one.most >= _OVERHANGS * min((below.most for below in slices[:k]), default=np.inf)
-    ]
+    wheels = [k for k in _overhanging(slices) if slices[k].is_wheel]
     if not wheels or wheels[0] < _UPPER * len(slices):
         return False
-    widest = max(slices[k].most for k in wheels)
-    flat = sum(slices[k].high for k in range(wheels[0] + 1, wheels[-1] + 1)) <= _FLAT * widest
-    alone = all(one.most <= _ABOVE * widest for one in slices[wheels[-1] + 1 :])
-    return flat and alone and max(slices[k].far for k in wheels) >= _RIM
+    first, last = wheels[0], wheels[-1]
+    widest = max(one.most for one in slices[first : last + 1])
+    flat = sum(one.high for one in slices[first + 1 : last + 1]) <= _FLAT * widest
+    alone = max((one.most for one in slices[last + 1 :]), default=0.0) <= _ABOVE * widest
+    return flat and alone and max(one.far for one in slices[first : last + 1]) >= _RIM
+
+
+def _overhanging(slices: list[_Slice]) -> list[int]:
+    """The slices that are wider than what carries them."""
+    least = [min((below.most for below in slices[:k]), default=np.inf) for k in range(len(slices))]
+    return [k for k, one in enumerate(slices) if one.most >= _OVERHANGS * least[k]]
 
 
 def _has_lever(slices: list[_Slice]) -> bool:
     levers = [
-        k
-        for k, one in enumerate(slices)
-        if one.most >= _LONG
-        and one.least <= _SLENDER * one.most
-        and one.most >= _OVERHANGS * min((below.most for below in slices[:k]), default=np.inf)
+        k for k in _overhanging(slices) if slices[k].most >= _LONG and slices[k].least <= _SLENDER * slices[k].most
     ]
     if not levers or len(levers) > _THIN * len(slices):
         return False
-    carrier = min(slices[: levers[0]], key=lambda one: one.most, default=None)
+    carrier = min(slices[: levers[0]], key=lambda one: one.most)
     longest = max((slices[k] for k in levers), key=lambda one: one.most)
-    if carrier is None or any(one.least > _SLENDER * longest.most for one in slices[levers[0] :]):
+    if max(one.least for one in slices[levers[0] :]) > _SLENDER * longest.most:
         return False
     return float(np.linalg.norm(np.subtract(longest.middle, carrier.middle))) >= _ONE_SIDED * longest.most
 

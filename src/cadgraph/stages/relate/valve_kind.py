@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 import numpy as np
@@ -122,6 +122,13 @@ class _Look:
     sprung: bool | None
     ball: bool
 
+    @property
+    def says_something(self) -> bool:
+        """Whether there is anything to tell kinds by: a length alone is that of several, but for wafers."""
+        if self.turned or self.shape or self.covered or self.ball or self.sprung:
+            return True
+        return self.length is not None and self.size is not None and _is_wafer(self.length, self.size)
+
 
 def valve_kinds(
     unit: UnitParts, names: Sequence[str | None], sizes: Sequence[int], parts: Parts
@@ -138,9 +145,8 @@ def valve_kinds(
         ``("gate valve", 0.95)``... of those with rules; nothing where nothing can be seen.
     """
     look = _look(unit, names, sizes, parts)
-    if look.turned is None and look.shape is None and not look.covered and not look.ball and not look.sprung:
-        if look.length is None or look.size is None or not _is_wafer(look.length, look.size):
-            return ()
+    if not look.says_something:
+        return ()
     weight = {kind: share * _likelihood(kind, look) for kind, share in _PRIOR.items()}
     total = sum(weight.values())
     found = ((f"{kind} valve", value / total) for kind, value in weight.items() if kind != "other")
@@ -193,21 +199,26 @@ def _look(unit: UnitParts, names: Sequence[str | None], sizes: Sequence[int], pa
     own = {name for part in unit.parts if (name := names[part])}
     line = line_through(unit.openings)
     turned = next((operator for name, operator in _NAMED.items() if name in own), None)
-    place = 0 if line is not None else 1 if len(unit.openings) > 1 else 2
-    return _Look(
+    look = _Look(
         turned=turned,
-        shape=standing_on(surface_about(parts, unit.parts, *line)) if line is not None else None,
-        covered="valve bonnet" in own and not own & _TURNING and turned is None,
-        place=place,
-        length=float(np.linalg.norm(line[1] - line[0])) if line is not None else None,
-        size=min(sizes) if sizes else None,
-        sprung=_is_sprung(unit, own, names, parts) if len(unit.openings) == 1 else None,
+        shape=None,
+        covered=turned is None and "valve bonnet" in own and not own & _TURNING,
+        place=1 if len(unit.openings) > 1 else 2,
+        length=None,
+        size=min(sizes, default=None),
+        sprung=_is_sprung(unit, names, parts),
         ball="valve ball" in own,
     )
+    if line is None:
+        return look
+    shape = standing_on(surface_about(parts, unit.parts, *line))
+    return replace(look, shape=shape, place=0, length=float(np.linalg.norm(line[1] - line[0])))
 
 
-def _is_sprung(unit: UnitParts, own: Collection[str], names: Sequence[str | None], parts: Parts) -> bool | None:
-    """Whether a valve at the end of a line is slender above a snout that reaches out on one side."""
+def _is_sprung(unit: UnitParts, names: Sequence[str | None], parts: Parts) -> bool | None:
+    """Whether a valve at the end of a line is slender above a snout on one side; None where it ends no line."""
+    if len(unit.openings) != 1:
+        return None
     opening = unit.openings[0]
     body = [part for part in unit.parts if names[part] not in ("lever", "handwheel")]
     if opening.direction is None or not body:
