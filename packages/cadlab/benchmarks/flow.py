@@ -159,11 +159,13 @@ def main() -> None:
     rows = [found.row(LABELS[mode], defect, style) for (mode, defect, style), found in sums.items()]
     print("\n".join(table(HEADS, rows, True)))
     if options.reasons:
-        for mode in options.labels:
-            for reason, count in sums[mode, "**all**", "**all**"].missed.most_common():
-                print(
-                    f"- {LABELS[mode]}: {count} not found, {reason}" if count else f"- {LABELS[mode]}: all of {reason}"
-                )
+        print("\n".join(line for mode in options.labels for line in told_reasons(mode, sums)))
+
+
+def told_reasons(mode: str, sums: dict[tuple[str, str, str], Sum]) -> list[str]:
+    """What fixes the directions that are certain, and how many of them are not found."""
+    missed = sums[mode, "**all**", "**all**"].missed.most_common()
+    return [f"- {LABELS[mode]}: {f'{n} not found, ' if n else 'all of '}{reason}" for reason, n in missed]
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ import heapq
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
+from typing import cast
 
 import networkx as nx
 
@@ -195,12 +196,19 @@ def _settle(ways: _Ways, flows: Flows) -> None:
 
 def _collisions(ways: _Ways, flows: Flows) -> Iterator[tuple[Evidence, Evidence]]:
     """The reasons that let everything flow into a node, or out of it, the surest first."""
-    for node in sorted(node for node in ways.at if not ways.is_border(node)):
-        known, left = ways.told(flows, node)
-        if left or len(known) < 2 or len({one.forward == forward for one, forward in known}) != 1:
-            continue
-        first, *others = sorted((one for one, _ in known), key=lambda one: (-one.confidence, one.link))
-        yield from [(first, other) for other in others if other.reason != first.reason][:1]
+    for node in sorted(ways.at):
+        ones = [] if ways.is_border(node) else _all_one_way(ways, flows, node)
+        other = next((one for one in ones[1:] if one.reason != ones[0].reason), None)
+        if other is not None:
+            yield ones[0], other
+
+
+def _all_one_way(ways: _Ways, flows: Flows, node: int) -> list[Evidence]:
+    """What is known of the links at a node where all of them flow in, or all out, the surest first."""
+    known, left = ways.told(flows, node)
+    if left or len({one.forward == forward for one, forward in known}) != 1:
+        return []
+    return sorted((one for one, _ in known), key=lambda one: (-one.confidence, one.link))
 
 
 # --- what takes no part ---
@@ -244,13 +252,22 @@ def _is_closed(network: Network, at: Mapping[int, Sequence[tuple[int, bool]]], n
 def _spur(network: Network, at: Mapping[int, Sequence[tuple[int, bool]]], node: int) -> list[int]:
     """The links of the branch by which a free end, or a valve there, hangs on a much wider run; none where it isn't."""
     branch: list[int] = []
-    ahead = list(at[node]) if node >= len(network.units) or network.units[node].unit_type == "valve" else []
+    ahead = list(at[node]) if _is_free(network, node) else []
     while len(ahead) == 1:
         number, forward = ahead[0]
         branch.append(number)
-        node = network.links[number].target if forward else network.links[number].source
+        node = _there(network, number, forward)
         ahead = [link for link in at[node] if link[0] not in branch] if _passes(network, node) else []
     return branch if ahead and _is_narrow(network, branch[-1], [number for number, _ in ahead]) else []
+
+
+def _there(network: Network, number: int, forward: bool) -> int:
+    return network.links[number].target if forward else network.links[number].source
+
+
+def _is_free(network: Network, node: int) -> bool:
+    """Whether a node is no unit, or a valve, behind which nothing follows."""
+    return node >= len(network.units) or network.units[node].unit_type == "valve"
 
 
 def _passes(network: Network, node: int) -> bool:
@@ -295,8 +312,8 @@ def _loops(ways: _Ways) -> Iterator[list[int]]:
         near, middle, far = _corners(ways, number)
         graph.add_edge(near, middle)
         graph.add_edge(middle, far)
-    for block in nx.biconnected_components(graph):
-        nodes = set(block)
+    blocks = cast("Iterator[set[_Node]]", nx.biconnected_components(graph))
+    for nodes in blocks:
         # A link that is no part of a loop is two blocks, each of one half.
         members = sorted(-1 - node for node, _ in nodes if node < 0 and _lies_in(ways, -1 - node, nodes))
         if members:

@@ -116,11 +116,15 @@ def _has_wheel(slices: list[_Slice]) -> bool:
     wheels = [k for k in _overhanging(slices) if slices[k].is_wheel]
     if not wheels or wheels[0] < _UPPER * len(slices):
         return False
-    first, last = wheels[0], wheels[-1]
-    widest = max(one.most for one in slices[first : last + 1])
-    flat = sum(one.high for one in slices[first + 1 : last + 1]) <= _FLAT * widest
-    alone = max((one.most for one in slices[last + 1 :]), default=0.0) <= _ABOVE * widest
-    return flat and alone and max(one.far for one in slices[first : last + 1]) >= _RIM
+    return _is_flat_ring(slices[wheels[0] : wheels[-1] + 1], slices[wheels[-1] + 1 :])
+
+
+def _is_flat_ring(wheel: list[_Slice], above: list[_Slice]) -> bool:
+    """Whether some slices are flat, and most of them far from their middle, with nothing wide above them."""
+    widest = max(one.most for one in wheel)
+    flat = sum(one.high for one in wheel[1:]) <= _FLAT * widest
+    alone = max((one.most for one in above), default=0.0) <= _ABOVE * widest
+    return flat and alone and max(one.far for one in wheel) >= _RIM
 
 
 def _overhanging(slices: list[_Slice]) -> list[int]:
