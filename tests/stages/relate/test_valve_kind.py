@@ -203,3 +203,20 @@ def test_lengths_come_from_asme_and_en(kind, size, length):
     assert length in lengths_of(kind, size)
     assert list(lengths_of(kind, size)) == sorted(set(lengths_of(kind, size)))
     assert lengths_of(kind, 7) == ()
+
+
+@pytest.mark.parametrize(
+    ("girth", "top", "stated"), [(0.035, 0.0, True), (0.033, 0.0, False), (0.04, 0.081, True), (0.04, 0.084, False)]
+)
+def test_a_body_that_swells_and_carries_nothing_is_a_check_valve(girth, top, stated):
+    length = 0.203
+    parts = [
+        turned(shapes.cylinder(0.03, length), (length / 2, 0, 0), X),
+        turned(shapes.cylinder(girth, 0.1), (length / 2, 0, 0), X),
+        *(turned(shapes.cylinder(0.08, 0.02), (end, 0, 0), X) for end in (0.01, length - 0.01)),
+    ]
+    if top:
+        parts.append(turned(shapes.cylinder(0.01, top), (length / 2, 0, top / 2), UP))
+    found = kinds([merged(*parts)], ["valve body"], length, 50)
+    assert (bool(found) and found[0][0] == "check valve" and found[0][1] >= SURE_FROM) is stated
+    assert kinds([merged(*parts)], ["valve"], length, 50) == ()

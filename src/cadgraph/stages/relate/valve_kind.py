@@ -55,6 +55,9 @@ _MISNAMED, _AGREED = 0.005, 0.001
 _NAMED = MappingProxyType({"gearbox": "gearbox", "actuator": "actuator", "handwheel": "wheel", "lever": "lever"})
 # Parts without which a cover is that of a check valve.
 _TURNING = frozenset({"valve stem", "yoke", "gland", "position indicator"})
+# A body without a cover is that of a check valve where it swells to this many nominal sizes, as cones point to point
+# don't, and rises no more over its ends than this.
+_SWELLS, _BARE = 1.35, 1.03
 
 # How often a valve of a kind has a length of its tables, is as short as a wafer, or has any other length.
 _LENGTH = MappingProxyType(
@@ -105,7 +108,7 @@ class _Look:
     Args:
         turned: what turns it, by the names of its parts, or None.
         shape: what stands on it, by its shape, or None.
-        covered: whether it has a cover, and nothing that could be turned, by the names of its parts.
+        covered: whether it has a cover, or swells without one, and nothing that could be turned.
         place: 0 in a straight line, 1 in a corner, 2 at an end.
         length: from face to face [m], or None.
         size: nominal (DN), or None.
@@ -211,8 +214,24 @@ def _look(unit: UnitParts, names: Sequence[str | None], sizes: Sequence[int], pa
     )
     if line is None:
         return look
-    shape = standing_on(surface_about(parts, unit.parts, *line))
-    return replace(look, shape=shape, place=0, length=float(np.linalg.norm(line[1] - line[0])))
+    surface = surface_about(parts, unit.parts, *line)
+    shape = standing_on(surface)
+    closed = turned is None and shape is None and "valve body" in own and not own & _TURNING
+    return replace(
+        look,
+        shape=shape,
+        covered=look.covered or (closed and look.size is not None and _is_bare(surface, look.size)),
+        place=0,
+        length=surface.length,
+    )
+
+
+def _is_bare(surface: Surface, size: int) -> bool:
+    """Whether a body swells between its ends, and nothing stands out of it that could be turned."""
+    height = surface.height
+    ends = float(height[(np.abs(surface.along) > 0.4) & (np.abs(surface.along) <= 0.55)].max(initial=0.0))
+    girth = float(height[np.abs(surface.along) < 0.15].max(initial=0.0))
+    return _SWELLS * size / 2000 <= girth and float(height.max(initial=0.0)) <= _BARE * ends
 
 
 def _is_sprung(unit: UnitParts, names: Sequence[str | None], parts: Parts) -> bool | None:
