@@ -56,8 +56,8 @@ _NAMED = MappingProxyType({"gearbox": "gearbox", "actuator": "actuator", "handwh
 # Parts without which a cover is that of a check valve.
 _TURNING = frozenset({"valve stem", "yoke", "gland", "position indicator"})
 # A body without a cover is that of a check valve where it swells to this many nominal sizes, as cones point to point
-# don't, and rises no more over its ends than this.
-_SWELLS, _BARE = 1.35, 1.03
+# don't, rises no more over its ends than this, and no more to one side than this against the other.
+_SWELLS, _BARE, _EVEN = 1.35, 1.03, 1.1
 
 # How often a valve of a kind has a length of its tables, is as short as a wafer, or has any other length.
 _LENGTH = MappingProxyType(
@@ -229,9 +229,14 @@ def _look(unit: UnitParts, names: Sequence[str | None], sizes: Sequence[int], pa
 def _is_bare(surface: Surface, size: int) -> bool:
     """Whether a body swells between its ends, and nothing stands out of it that could be turned."""
     height = surface.height
+    middle = np.abs(surface.along) < 0.35
     ends = float(height[(np.abs(surface.along) > 0.4) & (np.abs(surface.along) <= 0.55)].max(initial=0.0))
-    girth = float(height[np.abs(surface.along) < 0.15].max(initial=0.0))
-    return _SWELLS * size / 2000 <= girth and float(height.max(initial=0.0)) <= _BARE * ends
+    pull = (surface.area * height) @ surface.out
+    rise = surface.out[middle] @ pull / max(float(np.linalg.norm(pull)), 1e-12)
+    girth = float(-rise.min(initial=0.0))
+    if float(height.max(initial=0.0)) > _BARE * ends or float(rise.max(initial=0.0)) > _EVEN * girth:
+        return False
+    return girth >= _SWELLS * size / 2000
 
 
 def _is_sprung(unit: UnitParts, names: Sequence[str | None], parts: Parts) -> bool | None:
