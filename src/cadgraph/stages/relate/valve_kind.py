@@ -200,30 +200,29 @@ def _is_one_of(length: float, table: str, size: int, near: float) -> bool:
 
 def _look(unit: UnitParts, names: Sequence[str | None], sizes: Sequence[int], parts: Parts) -> _Look:
     own = {name for part in unit.parts if (name := names[part])}
-    line = line_through(unit.openings)
     turned = next((operator for name, operator in _NAMED.items() if name in own), None)
+    still = turned is None and not own & _TURNING
     look = _Look(
         turned=turned,
         shape=None,
-        covered=turned is None and "valve bonnet" in own and not own & _TURNING,
+        covered=still and "valve bonnet" in own,
         place=1 if len(unit.openings) > 1 else 2,
         length=None,
         size=min(sizes, default=None),
         sprung=_is_sprung(unit, names, parts),
         ball="valve ball" in own,
     )
-    if line is None:
-        return look
-    surface = surface_about(parts, unit.parts, *line)
-    shape = standing_on(surface)
-    closed = turned is None and shape is None and "valve body" in own and not own & _TURNING
-    return replace(
-        look,
-        shape=shape,
-        covered=look.covered or (closed and look.size is not None and _is_bare(surface, look.size)),
-        place=0,
-        length=surface.length,
+    line = line_through(unit.openings)
+    return (
+        look if line is None else _in_line(look, surface_about(parts, unit.parts, *line), still and "valve body" in own)
     )
+
+
+def _in_line(look: _Look, surface: Surface, closed: bool) -> _Look:
+    """What the surface of a valve in a straight line adds; ``closed`` where no part of it could be turned."""
+    shape = standing_on(surface)
+    bare = closed and shape is None and look.size is not None and _is_bare(surface, look.size)
+    return replace(look, shape=shape, covered=look.covered or bare, place=0, length=surface.length)
 
 
 def _is_bare(surface: Surface, size: int) -> bool:
