@@ -199,7 +199,7 @@ def _is_one_of(length: float, table: str, size: int, near: float) -> bool:
 
 
 def _look(unit: UnitParts, names: Sequence[str | None], sizes: Sequence[int], parts: Parts) -> _Look:
-    own = {name for part in unit.parts if (name := names[part])}
+    own = {names[part] for part in unit.parts}
     turned = next((operator for name, operator in _NAMED.items() if name in own), None)
     still = turned is None and not own & _TURNING
     look = _Look(
