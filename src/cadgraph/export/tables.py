@@ -79,14 +79,15 @@ def _parts(graph: SceneGraph) -> Iterator[Row]:
 
 def _units(graph: SceneGraph) -> Iterator[Row]:
     yield (
-        "tag", "type", "kind", "n_parts", "n_ports", "system", "cluster", *_PLACE, "connected_to", "related_to",
-        "parts",
+        "tag", "type", "kind", "kind_guesses", "n_parts", "n_ports", "system", "cluster", *_PLACE,
+        "connected_to", "related_to", "parts",
     )  # fmt: skip
     system_of = {node: system.id for system in graph.systems() for node in system.units}
     for unit in graph.of_layer(Unit):
         cluster = graph.cluster_of(unit.parts[0]) if unit.parts else None
         yield (
-            unit.tag, unit.unit_type, unit.kind, len(unit.parts), len(unit.ports), system_of.get(unit.id),
+            unit.tag, unit.unit_type, unit.kind, "; ".join(f"{kind} {sure:g}" for kind, sure in unit.kind_guesses),
+            len(unit.parts), len(unit.ports), system_of.get(unit.id),
             cluster.id if cluster else None, *unit.centroid, *_extents(unit.aabb),
             " ".join(other.tag for other in graph.neighbors(unit)),
             " ".join(other.tag for other in graph.related(unit)), " ".join(unit.parts),

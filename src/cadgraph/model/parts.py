@@ -114,6 +114,7 @@ class UnitParts:
         parts: part indices, ascending.
         kind: ``"ball valve"``, ``"pressure gauge"``...; None where unknown.
         openings: where lines join it.
+        kind_guesses: the likeliest kinds with their confidences where ``kind`` is open.
     """
 
     unit_type: str
@@ -121,6 +122,7 @@ class UnitParts:
     parts: tuple[int, ...]
     kind: str | None = None
     openings: tuple[Opening, ...] = ()
+    kind_guesses: tuple[tuple[str, float], ...] = ()
 
 
 @dataclass(frozen=True)

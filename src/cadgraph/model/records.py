@@ -127,6 +127,11 @@ class Unit(Record):
     unit_type: str
     tag: str
     kind: str | None = Field(default=None, description="ball valve, check valve, pressure gauge... where it is known")
+    kind_guesses: tuple[tuple[str, float], ...] = Field(
+        default=(),
+        exclude_if=lambda guesses: not guesses,
+        description="the likeliest kinds with their confidences where the kind is open; absent otherwise",
+    )
     parts: tuple[str, ...]
     ports: tuple[Port, ...] = ()
     centroid: Point

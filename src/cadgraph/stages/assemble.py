@@ -184,6 +184,7 @@ def _units(results: Results, part_ids: Sequence[str]) -> list[Unit]:
                 unit_type=unit.unit_type,
                 tag=unit.tag,
                 kind=unit.kind,
+                kind_guesses=unit.kind_guesses,
                 parts=tuple(part_ids[part] for part in unit.parts),
                 ports=_ports(unit, results.scene.origin),
                 centroid=centroid,

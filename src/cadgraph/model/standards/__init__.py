@@ -1,15 +1,16 @@
 """Tables of the standards of piping, as CSV files beside this module: lengths in mm, a column ``source`` in each.
 
-=================  ===========================================================================================
-``pipes``          outer diameters by nominal size (DN), and the wall where the size is built by the generator
-``flanges``        class 150
-``face_to_face``   lengths of valves from flange face to flange face, class 150
-``fittings``       lengths of elbows, tees and reducers
-``nuts``           by the diameter of their bolt
-``washers``        by the diameter of their bolt
-``gauges``         pressure gauges by the diameter of their case
-``sections``       steel sections
-=================  ===========================================================================================
+======================  ============================================================================================
+``pipes``               outer diameters by nominal size (DN), and the wall where the size is built by the generator
+``flanges``             class 150
+``face_to_face``        lengths of valves from flange face to flange face, class 150 (ASME B16.10)
+``face_to_face_en558``  the same after EN 558, by basic series
+``fittings``            lengths of elbows, tees and reducers
+``nuts``                by the diameter of their bolt
+``washers``             by the diameter of their bolt
+``gauges``              pressure gauges by the diameter of their case
+``sections``            steel sections
+======================  ============================================================================================
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from functools import cache
 from importlib import resources
 from types import MappingProxyType
 
-__all__ = ["by_size", "outer_diameters", "read_table"]
+__all__ = ["by_size", "lengths_of", "outer_diameters", "read_table"]
 
 
 @cache
@@ -54,3 +55,16 @@ def by_size(table: str, column: str, kind: str) -> Mapping[int, float]:
     """
     rows = (row for row in read_table(table) if row[column] == kind)
     return MappingProxyType({int(row["dn"]): float(row["length_mm"]) / 1000 for row in rows})
+
+
+@cache
+def lengths_of(valve: str, size: int) -> tuple[float, ...]:
+    """Lengths from face to face of a kind of valve at a nominal size, by ASME B16.10 and EN 558, ascending [m].
+
+    Args:
+        valve: ``gate``, ``globe``, ``ball``, ``check``, ``wafer check``, ``butterfly`` or ``diaphragm``.
+        size: nominal (DN).
+    """
+    rows = (*read_table("face_to_face"), *read_table("face_to_face_en558"))
+    found = {float(row["length_mm"]) / 1000 for row in rows if row["valve"] == valve and int(row["dn"]) == size}
+    return tuple(sorted(found))

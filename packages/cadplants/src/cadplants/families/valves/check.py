@@ -358,8 +358,9 @@ def _ball_y(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     r = PIPES[dn].radius
     length = float(rng.uniform(4.4, 5.4)) * r + 0.035
     core = [(1.05 * r, 0.15 * length), (1.35 * r, 0.35 * length), (1.35 * r, 0.65 * length), (1.05 * r, 0.85 * length)]
-    tilt = float(rng.uniform(-0.9, -0.55))
-    pose = at(0.6 * length) @ spun("y", tilt)
+    # Flow pushes the ball off its seat into the branch, which leans downstream therefore.
+    tilt = -float(rng.uniform(-0.9, -0.55))
+    pose = at(0.4 * length) @ spun("y", tilt)
     wide, reach, n = 1.5 * r + 0.003, 2.7 * r + 0.008, style.round(1.5 * r)
     arm = turned([(0.9 * wide, 0.0), (wide, 0.4 * reach), (wide, reach - 0.003)], n)
     parts = [body(screwed(dn, style, length, core), moved(arm, pose))]

@@ -1,0 +1,271 @@
+"""Which kind of valve a unit is: what turns it, how long it is, how it lies in the line, weighed together."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+
+import numpy as np
+
+from cadgraph.model.parts import Parts, UnitParts
+from cadgraph.model.scene import Floats
+from cadgraph.model.standards import lengths_of
+from cadgraph.stages.relate.body_shape import Surface, line_through, surface_about
+from cadgraph.stages.relate.operator_shape import standing_on
+
+__all__ = ["SURE_FROM", "valve_kinds"]
+
+SURE_FROM = 0.85
+"""A kind is stated from this confidence on."""
+
+# How common kinds are in piping of plants and buildings (ours); "other" stands for all that have no rule here: knife
+# gates, solenoid, pressure reducing, three-way and needle valves...
+_PRIOR = MappingProxyType(
+    {
+        "ball": 0.3, "gate": 0.2, "globe": 0.15, "butterfly": 0.1, "check": 0.12, "plug": 0.01, "diaphragm": 0.008,
+        "relief": 0.04, "control": 0.05, "other": 0.06,
+    }
+)  # fmt: skip
+# What turns a valve of each kind; a dome is the actuator with a diaphragm, wide and flat.
+_TURNED = MappingProxyType(
+    {
+        "ball": {"lever": 0.75, "actuator": 0.2, "gearbox": 0.03, "wheel": 0.01, "none": 0.003},
+        "gate": {"wheel": 0.9, "actuator": 0.06, "gearbox": 0.03, "lever": 0.003, "none": 0.003},
+        "globe": {"wheel": 0.95, "actuator": 0.03, "gearbox": 0.005, "lever": 0.001, "none": 0.003},
+        "butterfly": {"lever": 0.5, "gearbox": 0.3, "actuator": 0.18, "wheel": 0.02, "none": 0.003},
+        "check": {"none": 0.97, "lever": 0.02, "wheel": 0.001, "actuator": 0.001, "gearbox": 0.001},
+        "plug": {"lever": 0.6, "gearbox": 0.15, "actuator": 0.15, "wheel": 0.02, "none": 0.05},
+        "diaphragm": {"wheel": 0.85, "dome": 0.05, "actuator": 0.05, "lever": 0.01, "none": 0.01, "gearbox": 0.001},
+        "relief": {"none": 0.5, "lever": 0.35, "wheel": 0.15, "actuator": 0.001, "gearbox": 0.001},
+        "control": {"dome": 0.6, "actuator": 0.35, "wheel": 0.03, "none": 0.01, "lever": 0.001, "gearbox": 0.001},
+        "other": {"actuator": 0.3, "dome": 0.1, "wheel": 0.25, "none": 0.2, "lever": 0.15, "gearbox": 0.02},
+    }
+)
+# What is seen of what turns a valve, by its shape alone: measured on valves of the generator in one mesh.
+_SEEN = MappingProxyType(
+    {
+        "wheel": {"wheel": 0.5, "dome": 0.01, "actuator": 0.006, "gearbox": 0.01, "lever": 0.002, "none": 0.003},
+        "lever": {"lever": 0.35, "wheel": 0.02, "dome": 0.005, "actuator": 0.02, "gearbox": 0.1, "none": 0.01},
+        "lid": {"none": 0.3, "dome": 0.002, "actuator": 0.006, "wheel": 0.002, "lever": 0.003, "gearbox": 0.002},
+    }
+)
+# A name says what it is, but for these shares of names that are wrong: of any, and of those that the shape agrees with.
+_MISNAMED, _AGREED = 0.005, 0.001
+_NAMED = MappingProxyType({"gearbox": "gearbox", "actuator": "actuator", "handwheel": "wheel", "lever": "lever"})
+# Parts without which a cover is that of a check valve.
+_TURNING = frozenset({"valve stem", "yoke", "gland", "position indicator"})
+# A body without a cover is that of a check valve where it swells to this many nominal sizes, as cones point to point
+# don't, rises no more over its ends than this, and no more to one side than this against the other.
+_SWELLS, _BARE, _EVEN = 1.35, 1.03, 1.1
+
+# How often a valve of a kind has a length of its tables, is as short as a wafer, or has any other length.
+_LENGTH = MappingProxyType(
+    {
+        "ball": (0.5, 0.01, 0.25), "gate": (0.6, 0.03, 0.02), "globe": (0.6, 0.001, 0.02),
+        "butterfly": (0.6, 0.3, 0.02), "check": (0.5, 0.3, 0.15), "plug": (0.3, 0.002, 0.2),
+        "diaphragm": (0.5, 0.002, 0.1), "relief": (0.1, 0.001, 0.9), "control": (0.5, 0.02, 0.3),
+        "other": (0.15, 0.1, 0.75),
+    }
+)  # fmt: skip
+# Whose lengths a kind has, where not its own.
+_TABLES = MappingProxyType(
+    {
+        "plug": ("gate", "ball"),
+        "control": ("globe",),
+        "check": ("check", "wafer check"),
+        "relief": ("globe",),
+        "other": ("gate", "globe", "ball", "check"),
+    }
+)
+# Two lengths are one within this [m], gaskets and the gaps instead of them included; of wafers, whose lengths are less
+# far apart, within this. A wafer is shorter than this share of its nominal size, or than this one with a length of the
+# tables of wafers.
+_FACE, _WAFER_FACE, _WAFER, _WAFER_AT_MOST = 0.010, 0.006, 0.8, 0.95
+
+# How often a valve of a kind lies in a straight line, turns it, or ends it.
+_PLACE = MappingProxyType(
+    {
+        "ball": (0.9, 0.005, 0.1), "gate": (0.97, 0.002, 0.03), "globe": (0.93, 0.05, 0.03),
+        "butterfly": (0.98, 0.001, 0.02), "check": (0.97, 0.02, 0.005), "plug": (0.97, 0.01, 0.03),
+        "diaphragm": (0.97, 0.01, 0.02), "relief": (0.03, 0.4, 0.57), "control": (0.93, 0.06, 0.005),
+        "other": (0.7, 0.2, 0.1),
+    }
+)  # fmt: skip
+# A spring housing over the inlet and a snout aside: of relief valves, of others.
+_SPRUNG, _UNSPRUNG = (0.6, 0.01), (0.4, 0.99)
+# A relief valve is slender over its snout; the snout is low, reaches over the housing on one side, but not as far as a
+# lever does; and it ends otherwise than it begins (radii).
+_SLENDER, _REACH, _ALONE, _UNLIKE, _TALL = 0.8, 3.2, 0.75, 0.12, 1.6
+# A ball among the parts is that of a ball valve, but for check valves with a ball.
+_HOLDS_BALL = MappingProxyType({"ball": 1.0, "check": 0.02, "plug": 0.02})
+
+
+@dataclass(frozen=True)
+class _Look:
+    """What there is to see of a valve.
+
+    Args:
+        turned: what turns it, by the names of its parts, or None.
+        shape: what stands on it, by its shape, or None.
+        covered: whether it has a cover, or swells without one, and nothing that could be turned.
+        place: 0 in a straight line, 1 in a corner, 2 at an end.
+        length: from face to face [m], or None.
+        size: nominal (DN), or None.
+        sprung: whether it looks like a spring housing with a snout; None where that can't be said.
+        ball: whether there is a ball among its parts.
+    """
+
+    turned: str | None
+    shape: str | None
+    covered: bool
+    place: int
+    length: float | None
+    size: int | None
+    sprung: bool | None
+    ball: bool
+
+    @property
+    def says_something(self) -> bool:
+        """Whether there is anything to tell kinds by: a length alone is that of several, but for wafers."""
+        if self.turned or self.shape or self.covered or self.ball or self.sprung:
+            return True
+        return self.length is not None and self.size is not None and _is_wafer(self.length, self.size)
+
+
+def valve_kinds(
+    unit: UnitParts, names: Sequence[str | None], sizes: Sequence[int], parts: Parts
+) -> tuple[tuple[str, float], ...]:
+    """The kinds that a valve may be of, with their confidences, the likeliest first.
+
+    Args:
+        unit: a valve, with its openings.
+        names: of each part of the scene.
+        sizes: nominal sizes (DN) of the lines that join it.
+        parts: of the scene.
+
+    Returns:
+        ``("gate valve", 0.95)``... of those with rules; nothing where nothing can be seen.
+    """
+    look = _look(unit, names, sizes, parts)
+    if not look.says_something:
+        return ()
+    weight = {kind: share * _likelihood(kind, look) for kind, share in _PRIOR.items()}
+    total = sum(weight.values())
+    found = ((f"{kind} valve", value / total) for kind, value in weight.items() if kind != "other")
+    return tuple(sorted(found, key=lambda one: (-one[1], one[0])))
+
+
+def _likelihood(kind: str, look: _Look) -> float:
+    share = _by_operator(kind, look) * _by_length(kind, look.length, look.size) * _PLACE[kind][look.place]
+    if look.sprung is not None:
+        share *= (_SPRUNG if look.sprung else _UNSPRUNG)[kind != "relief"]
+    return share * (_HOLDS_BALL.get(kind, 0.002) if look.ball else 1.0)
+
+
+def _by_operator(kind: str, look: _Look) -> float:
+    turned = _TURNED[kind]
+    share = 1.0
+    if look.turned is not None:
+        often = turned[look.turned] + (turned.get("dome", 0.0) if look.turned == "actuator" else 0.0)
+        share *= often + (_AGREED if look.shape == look.turned else _MISNAMED)
+    elif look.covered:
+        share *= turned["none"] + _MISNAMED
+    if look.shape is not None and look.shape != look.turned:
+        share *= sum(_SEEN[look.shape][real] * often for real, often in turned.items())
+    return share
+
+
+def _by_length(kind: str, length: float | None, size: int | None) -> float:
+    if length is None or size is None:
+        return 1.0
+    alike, wafer, other = _LENGTH[kind]
+    short = _is_wafer(length, size)
+    near = _WAFER_FACE if short else _FACE
+    if any(_is_one_of(length, table, size, near) for table in _TABLES.get(kind, (kind,))):
+        return alike
+    return wafer if short else other
+
+
+def _is_wafer(length: float, size: int) -> bool:
+    """Whether a valve is so short that it has no flanges of its own."""
+    if length <= _WAFER_AT_MOST * size / 1000 and _is_one_of(length, "butterfly", size, _WAFER_FACE):
+        return True
+    return length <= _WAFER * size / 1000
+
+
+def _is_one_of(length: float, table: str, size: int, near: float) -> bool:
+    return any(abs(length - known) <= near for known in lengths_of(table, size))
+
+
+def _look(unit: UnitParts, names: Sequence[str | None], sizes: Sequence[int], parts: Parts) -> _Look:
+    own = {names[part] for part in unit.parts}
+    turned = next((operator for name, operator in _NAMED.items() if name in own), None)
+    still = turned is None and not own & _TURNING
+    look = _Look(
+        turned=turned,
+        shape=None,
+        covered=still and "valve bonnet" in own,
+        place=1 if len(unit.openings) > 1 else 2,
+        length=None,
+        size=min(sizes, default=None),
+        sprung=_is_sprung(unit, names, parts),
+        ball="valve ball" in own,
+    )
+    line = line_through(unit.openings)
+    return (
+        look if line is None else _in_line(look, surface_about(parts, unit.parts, *line), still and "valve body" in own)
+    )
+
+
+def _in_line(look: _Look, surface: Surface, closed: bool) -> _Look:
+    """What the surface of a valve in a straight line adds; ``closed`` where no part of it could be turned."""
+    shape = standing_on(surface)
+    bare = closed and shape is None and look.size is not None and _is_bare(surface, look.size)
+    return replace(look, shape=shape, covered=look.covered or bare, place=0, length=surface.length)
+
+
+def _is_bare(surface: Surface, size: int) -> bool:
+    """Whether a body swells between its ends, and nothing stands out of it that could be turned."""
+    height = surface.height
+    middle = np.abs(surface.along) < 0.35
+    ends = float(height[(np.abs(surface.along) > 0.4) & (np.abs(surface.along) <= 0.55)].max(initial=0.0))
+    pull = (surface.area * height) @ surface.out
+    rise = surface.out[middle] @ pull / max(float(np.linalg.norm(pull)), 1e-12)
+    girth = float(-rise.min(initial=0.0))
+    if float(height.max(initial=0.0)) > _BARE * ends or float(rise.max(initial=0.0)) > _EVEN * girth:
+        return False
+    return girth >= _SWELLS * size / 2000
+
+
+def _is_sprung(unit: UnitParts, names: Sequence[str | None], parts: Parts) -> bool | None:
+    """Whether a valve at the end of a line is slender above a snout on one side; None where it ends no line."""
+    if len(unit.openings) != 1:
+        return None
+    opening = unit.openings[0]
+    body = [part for part in unit.parts if names[part] not in ("lever", "handwheel")]
+    if opening.direction is None or not body:
+        return None
+    start, way = np.asarray(opening.point), -np.asarray(opening.direction)
+    boxes = parts.properties.aabb[body]
+    reach = float(np.where(way > 0, boxes[:, 1].max(axis=0), boxes[:, 0].min(axis=0)) @ way - start @ way)
+    return _spring_housing(surface_about(parts, body, start, start + reach * way)) if reach > 1e-3 else None
+
+
+def _spring_housing(surface: Surface) -> bool:
+    height = surface.height
+    low, high = surface.along < 0.0, surface.along > 0.1
+    snout, housing = (float(height[row].max(initial=0.0)) for row in (low, high))
+    if not 0.0 < housing <= _SLENDER * snout or snout > _REACH * housing or surface.length < _TALL * snout:
+        return False
+    far = low & (height > 0.8 * snout)
+    out = surface.out[far] / height[far, None]
+    alone = float(np.linalg.norm(surface.area[far] @ out)) / float(surface.area[far].sum())
+    return alone >= _ALONE and _unlike(surface.along, height)
+
+
+def _unlike(along: Floats, height: Floats) -> bool:
+    """Whether a body ends otherwise than it begins, unlike one with two flanges."""
+    first = float(height[along < -0.42].max(initial=0.0))
+    last = float(height[along > 0.42].max(initial=0.0))
+    return abs(last - first) > _UNLIKE * max(first, last)
