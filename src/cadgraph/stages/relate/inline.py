@@ -14,7 +14,7 @@ from cadgraph.stages.relate.evidence import Curve, score_of
 from cadgraph.stages.relate.line import is_disc
 from cadgraph.stages.relate.piping import Group, Piping
 
-__all__ = ["INLINE", "WAIST", "recover_inline"]
+__all__ = ["INLINE", "THICKER", "WAIST", "pipe_radius", "recover_inline"]
 
 WAIST = Curve((0.0, 0.55, 0.8, 0.92), (3.5, 3.5, 2.5, 0.0), "narrows to {:.0%}")
 """The narrowest radius of a piece as share of that at its ends, in log-odds that it is a valve: two cones in a plant
@@ -122,17 +122,28 @@ def _thicker(piping: Piping, piece: _Piece) -> float:
 
 def _beyond_flange(piping: Piping, row: int) -> float | None:
     """The radius of the pipe behind the flanges and gaskets that an end faces; None where there is none of these."""
+    offer = piping.joints.made.get(row)
+    if offer is None or offer.kind != "face":
+        return None
+    there = offer.other if offer.row == row else offer.row
+    line = piping.lines[int(piping.joints.ends.part[there])]
+    return pipe_radius(piping, there) if is_disc(line) else None
+
+
+def pipe_radius(piping: Piping, row: int) -> float | None:
+    """The radius of the pipe that an end is of, or that stands behind the flanges and gaskets that it is of [m]; None
+    where no pipe is found behind them.
+    """
     found, ends = piping.joints, piping.joints.ends
-    for passed in range(_MOST_PLATES):
-        offer = found.made.get(row)
+    for _ in range(_MOST_PLATES):
+        part = int(ends.part[row])
+        if not is_disc(piping.lines[part]):
+            return float(ends.radius[row])
+        opposite = [other for other in ends.of_part[part] if other != row]
+        offer = found.made.get(opposite[0]) if len(opposite) == 1 else None
         if offer is None or offer.kind != "face":
             return None
-        there = offer.other if offer.row == row else offer.row
-        line = piping.lines[int(ends.part[there])]
-        opposite = [other for other in ends.of_part[int(ends.part[there])] if other != there]
-        if not is_disc(line) or len(opposite) != 1:
-            return float(ends.radius[there]) if passed else None
-        row = opposite[0]
+        row = offer.other if offer.row == opposite[0] else offer.row
     return None
 
 

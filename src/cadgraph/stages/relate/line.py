@@ -6,8 +6,9 @@ from cadgraph.geometry.line.centreline import Centreline
 
 __all__ = ["is_disc", "is_plain_tube", "is_steady"]
 
-# The radius of a plain tube changes by less than this share.
-_STEADY = 0.06
+# The radius of a plain tube is as much at both of its ends within this share, and changes by less than the other one
+# between them: bends of few sides are narrower at their mitres.
+_STEADY, _UNEVEN = 0.06, 0.12
 
 
 def is_disc(line: Centreline) -> bool:
@@ -26,4 +27,6 @@ def is_steady(line: Centreline) -> bool:
     if len(line.branches) != 1 or len(line.ends) != 2:
         return False
     radius = line.branches[0].radius
-    return bool(radius.max() <= (1 + _STEADY) * radius.min() and line.share > 0.9)
+    first, last = sorted((float(line.ends[0].radius), float(line.ends[1].radius)))
+    even = radius.max() <= (1 + _UNEVEN) * radius.min() and last <= (1 + _STEADY) * first
+    return bool(even and line.share > 0.9)

@@ -10,12 +10,12 @@ import numpy as np
 from cadgraph.stages.relate.belief import Beliefs, beliefs_of
 from cadgraph.stages.relate.body import Body, arrangement_of, find_bodies, other_groups
 from cadgraph.stages.relate.evidence import Curve
-from cadgraph.stages.relate.inline import recover_inline
+from cadgraph.stages.relate.inline import pipe_radius, recover_inline
 from cadgraph.stages.relate.joint import Ends
 from cadgraph.stages.relate.piping import Group, Piping
 from cadgraph.stages.relate.prune import prune_lines
 
-__all__ = ["ARRANGEMENT", "FITTING", "LABELLED", "SIZE", "recover_units"]
+__all__ = ["ARRANGEMENT", "FITTING", "LABELLED", "SIZE", "SLIM", "recover_units"]
 
 FITTING = "fitting"
 """What only passes a line on, beside the types of units and ``nothing``."""
@@ -24,7 +24,7 @@ _NOTHING, _STEELWORK = "nothing", "steelwork"
 # How the ends of lines meet a body, in log-odds for each type.
 ARRANGEMENT: Mapping[str, Mapping[str, float]] = {
     "one": {"valve": -2.0, "gauge": 1.5, "pump": -3.0, "tank": 1.0, "equipment": 0.0, FITTING: -9.0},
-    "aligned": {"valve": 2.0, "gauge": -0.5, "pump": -1.5, "tank": -3.0, "equipment": -1.0, FITTING: 0.0},
+    "aligned": {"valve": 2.0, "gauge": 1.0, "pump": -1.5, "tank": -3.0, "equipment": -1.0, FITTING: 0.0},
     "square": {"valve": -0.5, "gauge": -3.0, "pump": 2.5, "tank": -0.5, "equipment": 0.0, FITTING: -1.0},
     "two": {"valve": -2.0, "gauge": -3.0, "pump": 0.0, "tank": 1.0, "equipment": 1.0, FITTING: -1.0},
     "many": {"valve": -1.0, "gauge": -4.0, "pump": -2.0, "tank": 2.0, "equipment": 1.5, FITTING: -1.0},
@@ -41,12 +41,17 @@ SIZE: Mapping[str, Curve] = {
 }
 """The longest side of a body as diameters of the widest line at it, in log-odds for each type."""
 
+SLIM = Curve((1.1, 1.25), (3.0, 0.0), "{:.2f} times as wide as the pipe")
+"""How far a body on one axis with both ends reaches from it, as share of the pipe's radius: what is no wider is a piece
+of pipe. It adds to a fitting, and is taken from everything else."""
+
 LABELLED = Curve((-7.0, -2.3, 0.0), (-3.3, 0.0, 1.6), "labelled so by {:.1f} (logarithm)")
 """The logarithm of the labeler's mean probability of a type: it is often wrong about shapes that it hasn't learnt."""
 
 # What touches parts of a unit that no line leads to is likely its body, and what touches another one a piece of it.
 _BODY, _PIECE = 2.5, 1.5
-_SURE = 0.6  # least probability of what is taken for a device
+# Least probability of what is taken for a device, and of a device that labels take for another one without being sure.
+_SURE, _OTHER = 0.6, 0.8
 _LEAST = 1e-3  # no probability counts for less
 _MOSTLY_NAMED = 0.5  # below this share of parts that only the labeler has named what has no name is no device
 _STANDING = 0.5  # log-odds that what has the ends of lines at it carries them
@@ -84,7 +89,8 @@ def _type_of(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends) -> tuple[
     weights = {name: float(np.exp(value)) for name, value in _odds(piping, beliefs, body, ends).items()}
     best = max(weights, key=lambda name: (weights[name], name))
     share = weights[best] / sum(weights.values())
-    if share < _SURE or best in (_NOTHING, _STEELWORK, body.unit_type):
+    sure = _SURE if body.unit_type is None else _OTHER
+    if share < sure or best in (_NOTHING, _STEELWORK, body.unit_type):
         return _NOTHING, share
     if _is_named(beliefs) and not _touched(piping, body, best):
         # Where people have named nearly everything, what they left without a name is no device of theirs; a line that
@@ -104,6 +110,7 @@ def _odds(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends) -> dict[str,
         said = float(beliefs.of_groups(groups, _BENT)[list(body.parts)].mean())
         return float(LABELLED(np.log(max(said, _LEAST))))
 
+    slim = _slimness(piping, body, ends, rows)
     odds = {_NOTHING: 0.0, _STEELWORK: _STANDING + labelled(other_groups(piping))}
     if body.unit_type is not None:
         # That it is a device is not in doubt, only which.
@@ -113,7 +120,19 @@ def _odds(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends) -> dict[str,
         if groups and (unit_type != "gauge" or longest <= _WIDEST_GAUGE):
             odds[unit_type] = effect + float(SIZE[unit_type](length)) + labelled(groups)
             odds[unit_type] += _support(piping, _touched(piping, body, unit_type))
+            odds[unit_type] += slim if unit_type == FITTING else -slim
     return odds
+
+
+def _slimness(piping: Piping, body: Body, ends: Ends, rows: Sequence[int]) -> float:
+    """What it adds that a body between two ends on one axis is no wider than their pipe."""
+    pipes = [radius for row in rows if (radius := pipe_radius(piping, row)) is not None]
+    if arrangement_of(ends, rows) != "aligned" or not pipes:
+        return 0.0
+    point, axis = ends.point[rows[0]], ends.direction[rows[0]]
+    offset = np.concatenate([piping.given.parts.scene.mesh(part)[0] for part in body.parts]) - point
+    reach = float(np.linalg.norm(offset - (offset @ axis)[:, None] * axis, axis=1).max(initial=0.0))
+    return float(SLIM(reach / max(pipes)))
 
 
 def _support(piping: Piping, touched: Sequence[Group]) -> float:
