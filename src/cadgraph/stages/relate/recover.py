@@ -10,6 +10,7 @@ import numpy as np
 from cadgraph.stages.relate.belief import Beliefs, beliefs_of
 from cadgraph.stages.relate.body import Body, arrangement_of, find_bodies, other_groups
 from cadgraph.stages.relate.evidence import Curve
+from cadgraph.stages.relate.foot import take_feet
 from cadgraph.stages.relate.inline import pipe_radius, recover_inline
 from cadgraph.stages.relate.joint import Ends
 from cadgraph.stages.relate.piping import Group, Piping
@@ -76,7 +77,7 @@ def recover_units(piping: Piping) -> Piping:
     ends, bodies = find_bodies(piping, beliefs)
     for body in bodies:
         piping = _taken(piping, body, *_type_of(piping, beliefs, body, ends))
-    return piping
+    return take_feet(piping, beliefs)
 
 
 def _is_named(beliefs: Beliefs) -> bool:
