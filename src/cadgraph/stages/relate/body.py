@@ -131,7 +131,7 @@ def _weak_groups(piping: Piping, beliefs: Beliefs) -> Iterator[Group]:
         own = [name for name, unit in unit_of_group.items() if unit == group.unit_type]
         likely = beliefs.of_groups(own)[list(group.parts)]
         doubted = bool((likely < _UNSURE).all()) and bool(beliefs.open[list(group.parts)].all())
-        if doubted and len(group.parts) <= _FEW:
+        if doubted and len(group.parts) <= _FEW and not piping.recovered.keys() & set(group.parts):
             yield group
 
 

@@ -171,9 +171,14 @@ def _taken(piping: Piping, body: Body, kind: str, sure: float) -> Piping:
     if kind == _NOTHING:
         return piping
     if kind == FITTING:
+        # What it was part of before is no unit any longer.
+        gone = {part for group in piping.groups if not inside.isdisjoint(group.parts) for part in group.parts}
         return replace(
             piping,
             lineless=tuple(sorted(seeds.union(piping.lineless))),
+            groups=tuple(group for group in piping.groups if inside.isdisjoint(group.parts)),
+            members=piping.members - gone,
+            feet=piping.feet - gone,
             recovered={**piping.recovered, **dict.fromkeys(seeds, sure)},
         )
     joined = _touched(piping, body, kind)
