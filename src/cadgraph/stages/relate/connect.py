@@ -74,7 +74,7 @@ def connect_units(given: RelateInput) -> Connected:
     names = [label.name if label is not None else None for label in labels]
     units = tag_units(given.parts, groups)
     drawing = _draw(piping, units)
-    network = replace(_contract(piping, units, drawing), joints=record_joints(piping, units, drawing.flanged))
+    network = replace(_contract(piping, units, drawing, names), joints=record_joints(piping, units, drawing.flanged))
     network = name_kinds(network, names, given.parts)
     stated = stated_flow(network, given.config.relate.flow)
     network, contradictions = direct_flow(network, given.parts, names, stated)
@@ -125,9 +125,9 @@ def _between(piping: Piping, units: Sequence[UnitParts]) -> list[tuple[int, int]
     ]
 
 
-def _contract(piping: Piping, units: Sequence[UnitParts], drawing: Drawing) -> Network:
+def _contract(piping: Piping, units: Sequence[UnitParts], drawing: Drawing, names: Sequence[str | None]) -> Network:
     """The runs between units, junctions and terminals."""
-    given, names = piping.given, piping.roles.names
+    given = piping.given
     tapped = {number for number, unit in enumerate(units) if unit.unit_type in ("gauge", "valve")}
     covers = frozenset(part for part, line in piping.lines.items() if _is_cover(line, names[part]))
     net = simplify(drawing, tapped, covers, len(units), given.config.relate.leg)

@@ -46,6 +46,9 @@ SLIM = Curve((1.1, 1.25), (3.0, 0.0), "{:.2f} times as wide as the pipe")
 """How far a body on one axis with both ends reaches from it, as share of the pipe's radius: what is no wider is a piece
 of pipe. It adds to a fitting, and is taken from everything else."""
 
+LID = 12.0
+"""What it adds to a fitting that the only thing at the end of a line is a disc as wide as that end: a lid on a flange."""
+
 LABELLED = Curve((-7.0, -2.3, 0.0), (-3.3, 0.0, 1.6), "labelled so by {:.1f} (logarithm)")
 """The logarithm of the labeler's mean probability of a type: it is often wrong about shapes that it hasn't learnt."""
 
@@ -57,6 +60,7 @@ _LEAST = 1e-3  # no probability counts for less
 _MOSTLY_NAMED = 0.5  # below this share of parts that only the labeler has named what has no name is no device
 _STANDING = 0.5  # log-odds that what has the ends of lines at it carries them
 _WIDEST_GAUGE = 0.4  # m
+_FLAT, _AS_WIDE = 0.6, 0.85  # a lid's thickness as share of its radius, and its radius as share of the end's
 # Names of connectors that two ends on one axis of a body contradict: each would have a line of its own there.
 _BENT = frozenset({"cross", "tee", "elbow", "pipe cap", "blind flange"})
 
@@ -112,6 +116,7 @@ def _odds(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends) -> dict[str,
         return float(LABELLED(np.log(max(said, _LEAST))))
 
     slim = _slimness(piping, body, ends, rows)
+    closes = _is_lid(piping, body, ends, rows)
     odds = {_NOTHING: 0.0, _STEELWORK: _STANDING + labelled(other_groups(piping))}
     if body.unit_type is not None:
         # That it is a device is not in doubt, only which.
@@ -122,7 +127,27 @@ def _odds(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends) -> dict[str,
             odds[unit_type] = effect + float(SIZE[unit_type](length)) + labelled(groups)
             odds[unit_type] += _support(piping, _touched(piping, body, unit_type))
             odds[unit_type] += slim if unit_type == FITTING else -slim
+    if closes and FITTING in odds:
+        odds[FITTING] += LID
     return odds
+
+
+def _is_lid(piping: Piping, body: Body, ends: Ends, rows: Sequence[int]) -> bool:
+    """Whether a body is a flat disc on the end of a line, and as wide."""
+    if len(rows) != 1 or len(body.parts) != 1:
+        return False
+    along, reach = _extent(piping, body, ends, rows[0])
+    lesser, greater = sorted((reach, float(ends.radius[rows[0]])))
+    return along <= _FLAT * reach and lesser >= _AS_WIDE * greater
+
+
+def _extent(piping: Piping, body: Body, ends: Ends, row: int) -> tuple[float, float]:
+    """How long a body is along the axis of an end, and how far it reaches from it [m]."""
+    point, axis = ends.point[row], ends.direction[row]
+    offset = np.concatenate([piping.given.parts.scene.mesh(part)[0] for part in body.parts]) - point
+    along = offset @ axis
+    across = np.linalg.norm(offset - along[:, None] * axis, axis=1)
+    return float(np.ptp(along)) if len(along) else 0.0, float(across.max(initial=0.0))
 
 
 def _slimness(piping: Piping, body: Body, ends: Ends, rows: Sequence[int]) -> float:
@@ -130,9 +155,7 @@ def _slimness(piping: Piping, body: Body, ends: Ends, rows: Sequence[int]) -> fl
     pipes = [radius for row in rows if (radius := pipe_radius(piping, row)) is not None]
     if arrangement_of(ends, rows) != "aligned" or not pipes:
         return 0.0
-    point, axis = ends.point[rows[0]], ends.direction[rows[0]]
-    offset = np.concatenate([piping.given.parts.scene.mesh(part)[0] for part in body.parts]) - point
-    reach = float(np.linalg.norm(offset - (offset @ axis)[:, None] * axis, axis=1).max(initial=0.0))
+    _, reach = _extent(piping, body, ends, rows[0])
     return float(SLIM(reach / max(pipes)))
 
 
