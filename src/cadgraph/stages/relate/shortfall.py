@@ -31,7 +31,8 @@ def find_shortfalls(piping: Piping, network: Network) -> tuple[Diagnostic, ...]:
         being joined though one of them lacks a line, structures whose lines fall into several networks, and connectors
         that no line could be traced through.
     """
-    short = _short_units(network) - _hung_on(piping, network)
+    # A device that stands in a file of its own lacks nothing.
+    short = _short_units(network) - _hung_on(piping, network) if piping.lines else frozenset[int]()
     return (
         *_few_lines(piping, network, short),
         *_ends_before(piping),
