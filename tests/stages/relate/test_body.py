@@ -22,7 +22,8 @@ def meeting(turn, aside=0.0):
     """Two ends that meet a body at the origin: the second is turned from straight on, and beside it."""
     turn = np.radians(turn)
     way = np.array([np.cos(turn), np.sin(turn), 0.0])
-    ends = gather_ends({0: run((-1, 0, 0), (-0.05, 0, 0)), 1: run(way + (0, aside, 0), way / 20 + (0, aside, 0))})
+    beside = np.array([0.0, aside, 0.0])
+    ends = gather_ends({0: run((-1, 0, 0), (-0.05, 0, 0)), 1: run(way + beside, way / 20 + beside)})
     return arrangement_of(ends, [1, 3])
 
 

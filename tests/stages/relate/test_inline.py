@@ -14,7 +14,7 @@ from cadgraph.stages.relate.inline import INLINE, THICKER, WAIST, recover_inline
 from cadgraph.stages.relate.piping import Group
 from cadgraph.stages.relate.recover import LABELLED
 from piping import PIPE, VALVE, R, ring, turned
-from sketch import VOCABULARY, X, Sketch
+from sketch import VOCABULARY, Sketch, X
 
 SAID = {(PIPE, "pipe"): 0.6, (VALVE, "valve"): 0.1}
 
@@ -58,7 +58,9 @@ def test_a_piece_that_narrows_is_a_valve(waist, found):
 
 def test_a_mesh_that_narrows_is_a_valve():
     stations = np.linspace((0, 0, 0), (0.2, 0, 0), 9)
-    assert valves(between(tubes.pipe(stations, R * (0.5 + np.abs(stations[:, 0] - 0.1) / 0.2), 24, caps=True))) == [(0,)]
+    assert valves(between(tubes.pipe(stations, R * (0.5 + np.abs(stations[:, 0] - 0.1) / 0.2), 24, caps=True))) == [
+        (0,)
+    ]
 
 
 @pytest.mark.parametrize(("valve", "found"), [(0.1, [(0,)]), (0.005, [])])
@@ -152,7 +154,9 @@ def test_what_anybody_named_pipe_is_pipe(source):
 
 def test_a_valve_carries_no_line_any_more():
     piping = recovered(narrow(0.2, 0.5))
-    assert sorted(piping.lines) == [1, 2] and piping.members == {0} and piping.groups == (Group("valve", (0,)),)
+    assert sorted(piping.lines) == [1, 2]
+    assert piping.members == {0}
+    assert piping.groups == (Group("valve", (0,)),)
     assert 0.6 < piping.recovered[0] < 1.0
 
 
@@ -166,5 +170,6 @@ def test_a_vocabulary_without_valves_has_none():
 
 def test_the_curves_are_in_order():
     assert all(list(curve.at) == sorted(curve.at) for curve in (WAIST, THICKER))
-    assert list(WAIST.gives) == sorted(WAIST.gives, reverse=True) and list(THICKER.gives) == sorted(THICKER.gives)
+    assert list(WAIST.gives) == sorted(WAIST.gives, reverse=True)
+    assert list(THICKER.gives) == sorted(THICKER.gives)
     assert INLINE["base"] < 0 < INLINE["base"] + INLINE["stem"]

@@ -7,7 +7,7 @@ import shapes
 from cadgraph.stages.relate.belief import beliefs_of
 from cadgraph.stages.relate.prune import prune_lines
 from piping import PIPE, STEEL, VALVE, R, bend, plate, ring, turned
-from sketch import VOCABULARY, X, Sketch, block
+from sketch import VOCABULARY, Sketch, X, block
 
 
 def left(sketch):

@@ -1,4 +1,4 @@
-"""Devices that labels missed: how lines meet a body, how large it is, and what it is likely labelled decide together."""
+"""Devices that labels missed: how lines meet a body, its size and what it is likely labelled decide."""
 
 import numpy as np
 import pytest
@@ -92,7 +92,8 @@ def test_what_the_labeler_holds_for_possible_tells_a_type(kind):
 def test_every_type_has_its_place_in_each_table():
     types = {*VOCABULARY.unit_of_group.values(), FITTING}
     assert set(ARRANGEMENT) == set(SIDES)
-    assert all(set(row) == types for row in ARRANGEMENT.values()) and set(SIZE) == types
+    assert all(set(row) == types for row in ARRANGEMENT.values())
+    assert set(SIZE) == types
     assert all(list(curve.at) == sorted(curve.at) for curve in (*SIZE.values(), LABELLED))
 
 
@@ -111,7 +112,9 @@ def test_names_of_what_is_bent_say_nothing_of_a_body(name):
     assert recovered(FITTING, "aligned", 2.0, 0.9, likely={(PIPE, name): 0.9}) is None
 
 
-@pytest.mark.parametrize(("name", "likely", "kind"), [("valve", {}, "gauge"), ("gauge", {NAMES["gauge"]: 0.7}, "gauge")])
+@pytest.mark.parametrize(
+    ("name", "likely", "kind"), [("valve", {}, "gauge"), ("gauge", {NAMES["gauge"]: 0.7}, "gauge")]
+)
 def test_a_doubted_device_stays_one_but_may_be_another(name, likely, kind):
     # The labeler says so without being sure; one line leads to it.
     said = {"group": NAMES[name][0], "name": NAMES[name][1], "sure": 0.7, "likely": likely or {NAMES["gauge"]: 0.4}}
@@ -158,7 +161,9 @@ def test_what_anybody_named_stays_what_it_is(source, sides):
 
 def test_a_gauge_that_is_found_may_sit_on_a_line():
     piping = recover_units(around(0.24, "one", likely={NAMES["gauge"]: 0.3}).piping())
-    assert piping.feet == {0} and piping.members == {0} and set(piping.recovered) == {0}
+    assert piping.feet == {0}
+    assert piping.members == {0}
+    assert set(piping.recovered) == {0}
 
 
 def test_how_sure_a_device_is_follows_from_what_speaks_for_it():

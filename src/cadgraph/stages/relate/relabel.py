@@ -9,6 +9,7 @@ from cadgraph.model.labels import FormerLabel, Label, NetworkEvidence
 from cadgraph.stages.relate.belief import Beliefs, beliefs_of
 from cadgraph.stages.relate.line import is_plain_tube
 from cadgraph.stages.relate.piping import Group, Piping
+from cadgraph.stages.relate.role import USERS
 
 __all__ = ["relabel_parts"]
 
@@ -21,7 +22,8 @@ _STRAIGHT = -0.996  # cosine between the ends of a straight pipe
 def relabel_parts(piping: Piping, groups: Sequence[Group]) -> tuple[Label | None, ...]:
     """Labels that agree with the network, in place of those that it contradicts.
 
-    What a user said of a part stays, unless so many labels from outside are wrong that none is followed alone.
+    What a user said of a part stays; what others said does, unless so many labels from outside are wrong that none is
+    followed alone.
 
     Args:
         piping: with the lines.
@@ -73,7 +75,7 @@ def _says(label: Label | None, groups: Sequence[str] | frozenset[str] | set[str]
 def _may_change(piping: Piping, beliefs: Beliefs, part: int) -> bool:
     """Whether nobody but the labeler says what a part is, or labels are doubtful and no person has corrected it."""
     label = piping.given.labels[part]
-    if label is not None and label.source in ("human", "repeat", "catalog"):
+    if label is not None and label.source in USERS:
         return False
     return bool(beliefs.open[part]) or piping.roles.doubtful
 
