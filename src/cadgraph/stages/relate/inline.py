@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,6 +11,7 @@ from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.belief import Beliefs
 from cadgraph.stages.relate.evidence import Curve, score_of
+from cadgraph.stages.relate.joint import Facing
 from cadgraph.stages.relate.line import is_disc
 from cadgraph.stages.relate.piping import Group, Piping
 
@@ -61,33 +62,44 @@ def recover_inline(piping: Piping, beliefs: Beliefs, likelihood: Curve) -> Pipin
         beliefs: what each part may be.
         likelihood: what the logarithm of the labeler's probability adds.
     """
-    own = sorted(name for name, unit in piping.given.vocabulary.unit_of_group.items() if unit == "valve")
-    if not own:
+    valves = {name for name, unit in piping.given.vocabulary.unit_of_group.items() if unit == "valve"}
+    if not valves:
         return piping
-    valves = beliefs.of_groups(own)
+    likely = beliefs.of_groups(valves)
     taken: set[int] = set()
     groups: list[Group] = []
     recovered = dict(piping.recovered)
     for piece in _pieces(piping, beliefs):
         stems = _stems(piping, beliefs, piece)
-        said = max(float(valves[list(piece.parts)].mean()), _LEAST)
-        shape = float(WAIST(piece.waist)) + float(THICKER(piece.thicker))
-        odds = INLINE["base"] + shape + float(likelihood(np.log(said)))
-        sure = score_of(odds + (INLINE["stem"] if stems else 0.0))
+        said = max(float(likely[list(piece.parts)].mean()), _LEAST)
+        sure = _how_sure(piece, bool(stems), float(likelihood(np.log(said))))
         if sure < _SURE or not taken.isdisjoint(piece.parts):
             continue
         parts = tuple(sorted({*piece.parts, *stems} - taken))
         taken.update(parts)
         groups.append(Group("valve", parts))
         recovered |= dict.fromkeys(parts, sure)
-    if not groups:
-        return piping
+    return _with_valves(piping, groups, taken, recovered) if groups else piping
+
+
+def _how_sure(piece: _Piece, has_stem: bool, said: float) -> float:
+    """How sure it is that a piece is a valve, by its shape and by what the labeler says of it in log-odds."""
+    shape = float(WAIST(piece.waist)) + float(THICKER(piece.thicker))
+    odds = INLINE["base"] + shape + said
+    return score_of(odds + (INLINE["stem"] if has_stem else 0.0))
+
+
+def _with_valves(
+    piping: Piping, groups: Sequence[Group], taken: Collection[int], recovered: Mapping[int, float]
+) -> Piping:
+    """The piping with further groups, whose parts carry no line any more."""
+    others = [group for group in piping.groups if not set(group.parts).intersection(taken)]
     return replace(
         piping,
         lines={part: line for part, line in piping.lines.items() if part not in taken},
         lineless=tuple(part for part in piping.lineless if part not in taken),
-        groups=(*(group for group in piping.groups if taken.isdisjoint(group.parts)), *groups),
-        members=piping.members | taken,
+        groups=(*others, *groups),
+        members=piping.members.union(taken),
         recovered=recovered,
     )
 
@@ -138,22 +150,22 @@ def _beyond_flange(piping: Piping, row: int) -> float | None:
 
 def _cones(piping: Piping, beliefs: Beliefs) -> list[_Piece]:
     """Pairs of parts whose narrow ends meet."""
+    pairs = [_cone_pair(piping, facing) for facing in piping.joints.facings]
+    return [piece for piece in pairs if piece is not None and all(beliefs.open[part] for part in piece.parts)]
+
+
+def _cone_pair(piping: Piping, facing: Facing) -> _Piece | None:
+    """Two parts whose ends meet, if these are their narrow ones and their others are joined."""
     found, ends = piping.joints, piping.joints.ends
-    pieces = []
-    for facing in found.facings:
-        parts = (int(ends.part[facing.first]), int(ends.part[facing.second]))
-        if not all(beliefs.open[part] for part in parts):
-            continue
-        others = [[row for row in ends.of_part[part] if row not in (facing.first, facing.second)] for part in parts]
-        if any(len(rows) != 1 or rows[0] not in found.made for rows in others):
-            continue
-        outer = (others[0][0], others[1][0])
-        inner = max(float(ends.radius[facing.first]), float(ends.radius[facing.second]))
-        waist = inner / min(float(ends.radius[row]) for row in outer)
-        piece = _piece(piping, parts, outer, waist) if waist <= _NARROW else None
-        if piece is not None:
-            pieces.append(piece)
-    return pieces
+    inner = (facing.first, facing.second)
+    parts = (int(ends.part[facing.first]), int(ends.part[facing.second]))
+    others = [[row for row in ends.of_part[part] if row not in inner] for part in parts]
+    if any(len(rows) != 1 or rows[0] not in found.made for rows in others):
+        return None
+    outer = (others[0][0], others[1][0])
+    narrow = max(float(ends.radius[row]) for row in inner)
+    waist = narrow / min(float(ends.radius[row]) for row in outer)
+    return _piece(piping, parts, outer, waist) if waist <= _NARROW else None
 
 
 def _piece(piping: Piping, parts: tuple[int, ...], rows: tuple[int, int], waist: float) -> _Piece | None:
@@ -189,18 +201,24 @@ def _along(points: Floats, axis: Floats) -> bool:
 
 def _stems(piping: Piping, beliefs: Beliefs, piece: _Piece) -> set[int]:
     """Parts that stand on a piece and lead nowhere; the piece itself where one is of its own mesh."""
-    found, ends = piping.joints, piping.joints.ends
+    ends = piping.joints.ends
     thin = _THIN * float(min(ends.radius[row] for row in piece.rows))
-    stems = {
-        part
-        for part in piece.parts
-        for row in ends.of_part[part]
-        if row not in piece.rows and row not in found.made and float(ends.radius[row]) <= thin
-    }
-    for part in {other for own in piece.parts for other in piping.given.neighbors.get(own, ())} - set(piece.parts):
-        rows = ends.of_part.get(part, ())
-        leads = [row for row in rows if row in found.made]
-        on_piece = all(found.made[row].kind == "tap" and found.made[row].other in piece.parts for row in leads)
-        if rows and beliefs.open[part] and on_piece and all(float(ends.radius[row]) <= thin for row in rows):
-            stems.add(part)
-    return stems
+    around = {other for own in piece.parts for other in piping.given.neighbors.get(own, ())} - set(piece.parts)
+    stems = {part for part in around if beliefs.open[part] and _is_stem(piping, piece, part, thin)}
+    return stems | {part for part in piece.parts if _has_stem(piping, piece, part, thin)}
+
+
+def _is_stem(piping: Piping, piece: _Piece, part: int, thin: float) -> bool:
+    """Whether a part with a line is thin at all its ends, and joins nothing but the side of a piece."""
+    found, ends = piping.joints, piping.joints.ends
+    rows = ends.of_part.get(part, ())
+    leads = [found.made[row] for row in rows if row in found.made]
+    on_piece = all(offer.kind == "tap" and offer.other in piece.parts for offer in leads)
+    return bool(rows) and on_piece and all(float(ends.radius[row]) <= thin for row in rows)
+
+
+def _has_stem(piping: Piping, piece: _Piece, part: int, thin: float) -> bool:
+    """Whether a part of a piece has a thin end beside those of the line, which joins nothing."""
+    found, ends = piping.joints, piping.joints.ends
+    beside = [row for row in ends.of_part[part] if row not in piece.rows and row not in found.made]
+    return any(float(ends.radius[row]) <= thin for row in beside)

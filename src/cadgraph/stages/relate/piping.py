@@ -129,12 +129,17 @@ class Piping:
     @cached_property
     def bolted(self) -> frozenset[tuple[int, int]]:
         """Pairs of parts with lines that one fastener touches both of."""
-        held = [
-            [other for other in self.given.neighbors.get(part, ()) if other in self.lines]
-            for part, name in enumerate(self.roles.names)
-            if name in FASTENERS and part not in self.lines
-        ]
-        return frozenset((a, b) for near in held if len(near) <= _MOST_HELD for a in near for b in near if a < b)
+        held = [near for part in self._fasteners if len(near := self._lines_near(part)) <= _MOST_HELD]
+        return frozenset((a, b) for near in held for a in near for b in near if a < b)
+
+    @property
+    def _fasteners(self) -> list[int]:
+        """Fasteners by name that carry no line."""
+        return [part for part, name in enumerate(self.roles.names) if name in FASTENERS and part not in self.lines]
+
+    def _lines_near(self, part: int) -> list[int]:
+        """The parts with a line near one."""
+        return [other for other in self.given.neighbors.get(part, ()) if other in self.lines]
 
     @cached_property
     def mounted(self) -> Mapping[int, set[int]]:

@@ -146,25 +146,33 @@ def _longest(piping: Piping, parts: Sequence[int]) -> float:
 
 def _taken(piping: Piping, body: Body, kind: str, sure: float) -> Piping:
     """The piping with a body as what it is."""
-    inside = set(body.parts)
-    seeds = {mount.part for mount in body.mounts}
     if kind == _NOTHING:
         return piping
-    if kind == FITTING:
-        return replace(
-            piping,
-            lineless=tuple(sorted(seeds.union(piping.lineless))),
-            recovered={**piping.recovered, **dict.fromkeys(seeds, sure)},
-        )
-    joined = _touched(piping, body, kind)
+    return _with_fitting(piping, body, sure) if kind == FITTING else _with_unit(piping, body, kind, sure)
+
+
+def _with_fitting(piping: Piping, body: Body, sure: float) -> Piping:
+    """The piping in which a body only passes a line on."""
+    seeds = {mount.part for mount in body.mounts}
+    return replace(
+        piping,
+        lineless=tuple(sorted(seeds.union(piping.lineless))),
+        recovered={**piping.recovered, **dict.fromkeys(seeds, sure)},
+    )
+
+
+def _with_unit(piping: Piping, body: Body, unit_type: str, sure: float) -> Piping:
+    """The piping in which a body is a unit, with the groups of that type that it touches."""
+    inside = set(body.parts)
+    joined = _touched(piping, body, unit_type)
     parts = inside.union(*(group.parts for group in joined))
     groups = [group for group in piping.groups if group not in joined and inside.isdisjoint(group.parts)]
     return replace(
         piping,
         lines={part: line for part, line in piping.lines.items() if part not in inside},
         lineless=tuple(part for part in piping.lineless if part not in inside),
-        groups=(*groups, Group(kind, tuple(sorted(parts)))),
+        groups=(*groups, Group(unit_type, tuple(sorted(parts)))),
         members=piping.members | inside,
-        feet=piping.feet | inside if kind == "gauge" else piping.feet,
+        feet=piping.feet | inside if unit_type == "gauge" else piping.feet,
         recovered={**piping.recovered, **dict.fromkeys(body.parts, sure)},
     )
