@@ -33,13 +33,12 @@ def _without_rings(piping: Piping, beliefs: Beliefs) -> Piping:
     """Takes away lines that only lead into each other: pieces of a volute, a coil, a handle."""
     found = piping.joints
     pairs = [(int(found.ends.part[f.first]), int(found.ends.part[f.second])) for f in found.facings]
-    closed = _closed_lines(found)
-    tapped = {tapped.part for tapped in found.taps if not tapped.tap.sleeve}
-    free = {part for part in piping.lines if beliefs.open[part] and part not in tapped}
-    rings = [ring for ring in connected_sets(sorted(piping.lines), pairs) if closed.intersection(free).issuperset(ring)]
+    possible = _closed_lines(found) - {tapped.part for tapped in found.taps if not tapped.tap.sleeve}
+    possible = {part for part in possible if beliefs.open[part]}
+    rings = [ring for ring in connected_sets(sorted(piping.lines), pairs) if possible.issuperset(ring)]
     if not rings:
         return piping
-    gone = {part for ring in rings for part in ring}
+    gone = set().union(*rings)
     return replace(piping, lines={part: line for part, line in piping.lines.items() if part not in gone})
 
 

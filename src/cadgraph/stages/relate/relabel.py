@@ -54,18 +54,22 @@ def relabel_parts(piping: Piping, groups: Sequence[Group]) -> tuple[Label | None
 
 def _relabel_unit(piping: Piping, beliefs: Beliefs, group: Group, labels: list[Label | None]) -> None:
     """Labels of a unit's parts that are of its own group; what holds it together keeps its label."""
+    own = sorted(name for name, unit in piping.given.vocabulary.unit_of_group.items() if unit == group.unit_type)
+    for part in group.parts if own else ():
+        if _is_strange(piping, labels[part], part, own) and _may_change(piping, beliefs, part):
+            said, name = _likeliest(beliefs, part, own)
+            if len(group.parts) == len(own) == 1:
+                # What stands for the whole is called so.
+                name = piping.given.vocabulary.groups[said].names[0]
+            sure = piping.recovered.get(part, _IN_UNIT)
+            labels[part] = _label(labels[part], said, name, sure, f"it is part of a {group.unit_type} in the network")
+
+
+def _is_strange(piping: Piping, label: Label | None, part: int, own: Sequence[str]) -> bool:
+    """Whether a part's label is that of a line or of another type of unit, or says nothing of a part that was found."""
     vocabulary = piping.given.vocabulary
-    own = sorted(name for name, unit in vocabulary.unit_of_group.items() if unit == group.unit_type)
     foreign = vocabulary.connector_groups | (vocabulary.unit_of_group.keys() - set(own))
-    for part in group.parts:
-        strange = _says(labels[part], foreign) or part in piping.recovered
-        if not own or not strange or _says(labels[part], own) or not _may_change(piping, beliefs, part):
-            continue
-        single = len(group.parts) == 1
-        said = _likeliest(beliefs, part, own)
-        name = vocabulary.groups[own[0]].names[0] if single and len(own) == 1 else said[1]
-        sure = piping.recovered.get(part, _IN_UNIT)
-        labels[part] = _label(labels[part], said[0], name, sure, f"it is part of a {group.unit_type} in the network")
+    return (_says(label, foreign) or part in piping.recovered) and not _says(label, own)
 
 
 def _says(label: Label | None, groups: Sequence[str] | frozenset[str] | set[str]) -> bool:

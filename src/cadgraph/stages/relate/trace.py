@@ -428,10 +428,9 @@ def _shapeless(piping: Piping) -> set[int]:
     loose = {part: [row for row in rows if row not in joined] for part, rows in found.ends.of_part.items()}
     idle = {part for part, rows in loose.items() if len(rows) == len(found.ends.of_part[part])}
     count: Counter[int] = Counter()
-    for a, b in piping.given.contacts.pairs.tolist():
-        for part, other in ((a, b), (b, a)):
-            if part in idle and other not in idle and other in lines:
-                count[part] += _loose_at(piping, loose[other], part)
+    for part in idle:
+        others = [other for other in piping.given.neighbors.get(part, ()) if other in lines and other not in idle]
+        count[part] = sum(_loose_at(piping, loose[other], part) for other in others)
     return {part for part, rows in count.items() if rows >= 2}
 
 
