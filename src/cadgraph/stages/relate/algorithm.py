@@ -78,14 +78,40 @@ def relate_units(
     Returns:
         Pairs of unit indices, first < second, ascending.
     """
-    systems = pipe_systems(labels, cluster, vocabulary)
+    inside = _pairs_in_systems(labels, contacts, cluster, vocabulary)
     connectors = vocabulary.connector_groups
     connector = [label is not None and label.group in connectors for label in labels]
-    inside = [(a, b) for a, b in contacts.pairs.tolist() if cluster[a] == cluster[b] and int(cluster[a]) in systems]
-    neighbors: dict[int, list[int]] = {}
-    for a, b in inside:
-        neighbors.setdefault(a, []).append(b)
-        neighbors.setdefault(b, []).append(a)
+    owner = _territories(units, _neighbors(inside), connector)
+    related = {
+        (min(owner[a], owner[b]), max(owner[a], owner[b]))
+        for a, b in inside
+        if a in owner and b in owner and owner[a] != owner[b]
+    }
+    return tuple(sorted(related))
+
+
+def _pairs_in_systems(
+    labels: Sequence[Label | None], contacts: Contacts, cluster: Ints, vocabulary: Vocabulary
+) -> list[tuple[int, int]]:
+    """The contacts within clusters that hold a connector."""
+    systems = pipe_systems(labels, cluster, vocabulary)
+    pairs = contacts.pairs.tolist()
+    return [(a, b) for a, b in pairs if cluster[a] == cluster[b] and int(cluster[a]) in systems]
+
+
+def _neighbors(pairs: Sequence[tuple[int, int]]) -> dict[int, list[int]]:
+    """The parts that each one is paired with."""
+    found: dict[int, list[int]] = {}
+    for a, b in pairs:
+        found.setdefault(a, []).append(b)
+        found.setdefault(b, []).append(a)
+    return found
+
+
+def _territories(
+    units: Sequence[UnitParts], neighbors: Mapping[int, Sequence[int]], connector: Sequence[bool]
+) -> dict[int, int]:
+    """The unit that each part belongs to after all have grown."""
     owner = {part: i for i, unit in enumerate(units) for part in unit.parts}
     fronts = [list(unit.parts) for unit in units]
     while any(fronts):
@@ -93,12 +119,7 @@ def relate_units(
             won = _unclaimed(front, neighbors, connector, owner)
             owner.update(dict.fromkeys(won, i))
             fronts[i] = won
-    related = {
-        (min(owner[a], owner[b]), max(owner[a], owner[b]))
-        for a, b in inside
-        if a in owner and b in owner and owner[a] != owner[b]
-    }
-    return tuple(sorted(related))
+    return owner
 
 
 def _unclaimed(

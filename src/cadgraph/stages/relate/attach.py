@@ -12,7 +12,7 @@ from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.derived import store_of
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.scene import Floats, Ints
-from cadgraph.stages.relate.decide import decide_joints, settle_faces
+from cadgraph.stages.relate.decide import Decision, decide_joints, settle_faces
 from cadgraph.stages.relate.joint import Ends, Facing, Tap, gather_ends, nearest_on, same_place
 from cadgraph.stages.relate.offer import (
     Ahead,
@@ -157,27 +157,26 @@ def attach_lines(
         for row in sorted(loose)
     }
     decision = decide_joints(faces, singles, settled)
-    made = dict(decision.joined)
-    doubled = _double(ends, made, near, bridge)
-    for row, _ in doubled:
-        made.pop(row, None)
+    doubled = _double(ends, decision.joined, near, bridge)
+    return _attached(ends, decision, doubled, sides)
+
+
+def _attached(
+    ends: Ends, decision: Decision, doubled: Sequence[tuple[int, int]], sides: tuple[Side, ...]
+) -> Attachments:
+    """What joins what, by kind of joint; ends that have a twin join nothing of their own."""
+    twins = dict(doubled)
+    made = {row: offer for row, offer in decision.joined.items() if row not in twins}
+    ordered = sorted(made.items(), key=lambda item: item[0])
     return Attachments(
         ends=ends,
         facings=facings_of(made),
         doubled=tuple(doubled),
-        taps=tuple(
-            Tapped(row, offer.other, offer.tap, offer.score)
-            for row, offer in sorted(made.items())
-            if offer.tap is not None
-        ),
-        mounts=tuple(
-            Mount(row, offer.other, offer.gap, offer.score)
-            for row, offer in sorted(made.items())
-            if offer.kind == "mount"
-        ),
+        taps=tuple(Tapped(row, o.other, o.tap, o.score) for row, o in ordered if o.tap is not None),
+        mounts=tuple(Mount(row, o.other, o.gap, o.score) for row, o in ordered if o.kind == "mount"),
         sides=sides,
         made=made,
-        refused={row: offer for row, offer in decision.refused.items() if row not in dict(doubled)},
+        refused={row: offer for row, offer in decision.refused.items() if row not in twins},
     )
 
 
@@ -195,16 +194,9 @@ def _double(
     doubled: list[tuple[int, int]] = []
     gone: set[int] = set()
     for row in range(len(ends.part)):
-        offer = made.get(row)
-        if offer is not None and offer.kind in ("face", "corner"):
+        if _is_face(made.get(row)):
             continue
-        there = [
-            r
-            for other, _ in near.get(int(ends.part[row]), ())
-            for r in ends.of_part[other]
-            # The end that the other side of this part faces looks the same way too.
-            if r not in gone and _run_beside(ends, row, r) and not _is_partner(ends, made.get(r), row)
-        ]
+        there = [r for r in _beside(ends, row, near) if r not in gone and not _is_partner(ends, made.get(r), row)]
         twin = same_place(ends, row, there, max(_TWIN * bridge, _TWIN_SHARE * float(ends.radius[row])))
         if twin is not None and _yields(ends, made, row, twin):
             doubled.append((row, twin))
@@ -212,9 +204,20 @@ def _double(
     return doubled
 
 
+def _is_face(offer: Offer | None) -> bool:
+    """Whether a made joint is one of two ends."""
+    return offer is not None and offer.kind in ("face", "corner")
+
+
+def _beside(ends: Ends, row: int, near: Mapping[int, Sequence[tuple[int, float]]]) -> list[int]:
+    """The ends of near parts whose lines run beside that of an end."""
+    others = [r for other, _ in near.get(int(ends.part[row]), ()) for r in ends.of_part[other]]
+    return [r for r in others if _run_beside(ends, row, r)]
+
+
 def _is_partner(ends: Ends, offer: Offer | None, row: int) -> bool:
-    """Whether a made joint is one with the other end of the part that an end belongs to."""
-    if offer is None or offer.kind not in ("face", "corner"):
+    """Whether a made joint is one with the other end of the part that an end belongs to, which looks the same way."""
+    if offer is None or not _is_face(offer):
         return False
     return int(ends.part[row]) in (int(ends.part[offer.row]), int(ends.part[offer.other]))
 
@@ -253,11 +256,8 @@ def _neighbors(contacts: Contacts, lines: Mapping[int, Centreline]) -> dict[int,
 def _shut(contacts: Contacts, lines: Mapping[int, Centreline], solids: set[int]) -> list[tuple[int, int]]:
     """Pairs of lines that are near one and the same solid: it may lie between them."""
     at_solid: dict[int, list[int]] = {}
-    for a, b in contacts.pairs.tolist():
-        if a in lines and b in solids:
-            at_solid.setdefault(b, []).append(a)
-        elif b in lines and a in solids:
-            at_solid.setdefault(a, []).append(b)
+    for _, line, solid in _meetings(contacts, lines, solids):
+        at_solid.setdefault(solid, []).append(line)
     return [(p, q) for near in at_solid.values() if len(near) < 32 for p in near for q in near if p < q]
 
 
@@ -308,27 +308,42 @@ def _mounts(
     tight: list[int] = []
     wide: list[int] = []
     sides = []
+
+    def may_join(line: int, solid: int) -> bool:
+        return solid in feet or any(
+            end in loose and _is_near(parts, ends, end, solid) for end in ends.of_part.get(line, ())
+        )
+
     for row, line, solid in _meetings(contacts, lines, solids):
         gap = float(contacts.distance[row])
-        if solid in feet or any(
-            end in loose and _is_near(parts, ends, end, solid) for end in ends.of_part.get(line, ())
-        ):
+        if may_join(line, solid):
             (tight if gap <= _TIGHT else wide).append(row)
         else:
             sides.append(_side(lines[line], line, solid, contacts.points[row].mean(axis=0), gap))
-    offers: dict[int, list[Offer]] = {}
-    for touch in (
+    touches = [
         *_touches(parts, contacts, lines, tight, 2 * _TIGHT),
         *_touches(parts, contacts, lines, wide, float(contacts.distance.max(initial=0.0)) + _TIGHT),
-    ):
+    ]
+    offers, beside = _offers_at(touches, ends, loose, ahead)
+    sides += [_side(lines[one.part], one.part, one.solid, one.place, one.gap) for one in beside]
+    return offers, tuple(sides)
+
+
+def _offers_at(
+    touches: Sequence[_Touch], ends: Ends, loose: Collection[int], ahead: Mapping[int, Sequence[Ahead]]
+) -> tuple[dict[int, list[Offer]], list[_Touch]]:
+    """The offers of loose ends at solids, and where lines touch solids without an end there."""
+    offers: dict[int, list[Offer]] = {}
+    beside = []
+    for touch in touches:
         rows = ends.of_part.get(touch.part, ())
         found = [offer for end in rows if (offer := _offer(ends, end, touch, ahead.get(end, ()))) is not None]
         if not found:
-            sides.append(_side(lines[touch.part], touch.part, touch.solid, touch.place, touch.gap))
+            beside.append(touch)
         for offer in found:
             if offer.row in loose:
                 offers.setdefault(offer.row, []).append(offer)
-    return offers, tuple(sides)
+    return offers, beside
 
 
 def _meetings(contacts: Contacts, lines: Collection[int], solids: Collection[int]) -> Iterator[tuple[int, int, int]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -48,22 +48,46 @@ def beliefs_of(labels: Sequence[Label | None], probabilities: Probabilities | No
         probabilities: of the labeler; without them labels and their guesses have to do.
         vocabulary: the tree of labels.
     """
-    classes: list[tuple[str, str | None]] = [(g, n) for g, held in vocabulary.groups.items() for n in held.names]
-    classes += [(group, None) for group in vocabulary.groups]
+    classes = _classes_of(vocabulary)
     column = {said: k for k, said in enumerate(classes)}
-    values = np.zeros((len(labels), len(classes)))
-    if probabilities is not None:
-        known = [k for k, said in enumerate(probabilities.classes) if said in column]
-        values[:, [column[probabilities.classes[k]] for k in known]] = probabilities.values[:, known]
+    values = _values_of(probabilities, len(labels), column)
     is_open = np.array([label is None or label.source not in _KNOWN for label in labels], np.bool_)
     for part, label in enumerate(labels):
         # A vision-language model's answer, too, counts by its confidence where the network is asked.
         if label is None or (is_open[part] and label.source == "geometry" and probabilities is not None):
             continue
-        values[part] = 0.0
-        sure = label.confidence if is_open[part] else 1.0
-        said = [(guess.said, guess.confidence) for guess in label.guesses] or [(label.said, sure)]
-        for one, confidence in said if is_open[part] else [(label.said, 1.0)]:
-            if one in column:
-                values[part, column[one]] += confidence
-    return Beliefs(tuple(classes), values, is_open)
+        values[part] = _row_of(_said(label) if is_open[part] else [(label.said, 1.0)], column)
+    return Beliefs(classes, values, is_open)
+
+
+def _row_of(
+    said: Sequence[tuple[tuple[str, str | None], float]], column: Mapping[tuple[str, str | None], int]
+) -> Floats:
+    """``(n_classes,)`` how sure each class is; what the vocabulary doesn't know is left out."""
+    row = np.zeros(len(column))
+    for one, confidence in said:
+        if one in column:
+            row[column[one]] += confidence
+    return row
+
+
+def _classes_of(vocabulary: Vocabulary) -> tuple[tuple[str, str | None], ...]:
+    """Every name of the vocabulary with its group, then the groups without a name."""
+    named: list[tuple[str, str | None]] = [(g, n) for g, held in vocabulary.groups.items() for n in held.names]
+    return (*named, *((group, None) for group in vocabulary.groups))
+
+
+def _values_of(
+    probabilities: Probabilities | None, n_parts: int, column: Mapping[tuple[str, str | None], int]
+) -> Floats:
+    """``(n_parts, n_classes)`` the labeler's probabilities; what the vocabulary doesn't know is left out."""
+    values = np.zeros((n_parts, len(column)))
+    if probabilities is not None:
+        known = [k for k, said in enumerate(probabilities.classes) if said in column]
+        values[:, [column[probabilities.classes[k]] for k in known]] = probabilities.values[:, known]
+    return values
+
+
+def _said(label: Label) -> list[tuple[tuple[str, str | None], float]]:
+    """What a label guesses and how sure it is of each; itself where it guesses nothing."""
+    return [(guess.said, guess.confidence) for guess in label.guesses] or [(label.said, label.confidence)]

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
 from cadgraph.geometry.components import connected_sets
-from cadgraph.stages.relate.attach import Mount, attach_lines
+from cadgraph.geometry.line.centreline import Centreline
+from cadgraph.stages.relate.attach import Attachments, Mount, attach_lines
 from cadgraph.stages.relate.belief import Beliefs
 from cadgraph.stages.relate.joint import Ends
 from cadgraph.stages.relate.piping import FASTENERS, Group, Piping
 
-__all__ = ["Body", "arrangement_of", "find_bodies", "other_groups"]
+__all__ = ["Arrangement", "Body", "arrangement_of", "find_bodies", "other_groups"]
 
 # Two ends are aligned, or square, by the cosine between them, and on one axis within this share of the lesser radius.
 _ALIGNED, _SQUARE, _ON_AXIS = 0.95, 0.35, 0.35
@@ -55,24 +56,28 @@ def find_bodies(piping: Piping, beliefs: Beliefs) -> tuple[Ends, list[Body]]:
     Returns:
         The ends of all lines, and the bodies at them, by their first part.
     """
-    given = piping.given
     weak = {part: group for group in _weak_groups(piping, beliefs) for part in group.parts}
-    likely_other = beliefs.of_groups(other_groups(piping)) >= _LIKELY_OTHER
-    pool = {part for part in _candidates(piping, beliefs) if not likely_other[part]} | weak.keys()
+    pool = weak.keys() | _candidates(piping, beliefs)
     ends, mounts = _loose_mounts(piping, pool)
-    seeds = {mount.part for mount in mounts}
     # What hangs on the side of a line holds it.
-    pool -= {side.solid for side in piping.joints.sides} - seeds
-    pairs = [(a, b) for a, b in given.contacts.pairs.tolist() if a in pool and b in pool]
+    pool -= {side.solid for side in piping.joints.sides} - {mount.part for mount in mounts}
     lids = _lids(piping, beliefs, mounts, ends)
-    bodies = []
-    for parts in connected_sets(sorted(pool), pairs):
-        body = _body(piping, parts, mounts, ends, lids, pool)
-        if body.mounts and len(body.parts) <= _MOST:
-            held = {weak[part] for part in body.parts if part in weak}
-            mounted = [group for group in held if piping.mounted.keys() & set(group.parts)]
-            bodies.append(Body(body.parts, body.mounts, body.near, mounted[0].unit_type if len(mounted) == 1 else None))
-    return ends, bodies
+    bodies = [_body(piping, parts, mounts, ends, lids, pool) for parts in _connected(piping, pool)]
+    likely = [body for body in bodies if body.mounts and len(body.parts) <= _MOST]
+    return ends, [replace(body, unit_type=_weak_type(piping, body, weak)) for body in likely]
+
+
+def _connected(piping: Piping, pool: Collection[int]) -> list[tuple[int, ...]]:
+    """The parts of a pool that hang together."""
+    pairs = [(a, b) for a, b in piping.given.contacts.pairs.tolist() if a in pool and b in pool]
+    return connected_sets(sorted(pool), pairs)
+
+
+def _weak_type(piping: Piping, body: Body, weak: Mapping[int, Group]) -> str | None:
+    """The type of the only unit that a body holds and that a line leads to, if there is one."""
+    held = {weak[part] for part in body.parts if part in weak}
+    mounted = [group for group in held if piping.mounted.keys() & set(group.parts)]
+    return mounted[0].unit_type if len(mounted) == 1 else None
 
 
 def other_groups(piping: Piping) -> frozenset[str]:
@@ -114,14 +119,17 @@ def _body(
     return Body(tuple(sorted(closing.union(parts))), held, tuple(sorted(around & piping.members - set(pool))))
 
 
-def _candidates(piping: Piping, beliefs: Beliefs) -> Iterator[int]:
-    """Parts of no line and no unit that nobody but the labeler has named, fasteners and the ground left out."""
+def _candidates(piping: Piping, beliefs: Beliefs) -> set[int]:
+    """Parts of no line and no unit that nobody but the labeler has named; the ground, fasteners and what is likely
+    steelwork or a support are left out.
+    """
     given = piping.given
     others = frozenset(name for _, name in beliefs.classes) - FASTENERS
     fasteners = beliefs.of_groups(given.vocabulary.groups, others) >= _LIKELY_OTHER
+    steelwork = beliefs.of_groups(other_groups(piping)) >= _LIKELY_OTHER
     shut = piping.members.union(piping.lines, piping.jackets)
-    free = beliefs.open & ~fasteners & ~given.parts.ground & (given.cluster >= 0)
-    return (part for part in np.flatnonzero(free).tolist() if part not in shut)
+    free = beliefs.open & ~fasteners & ~steelwork & ~given.parts.ground & (given.cluster >= 0)
+    return set(np.flatnonzero(free).tolist()) - shut
 
 
 def _weak_groups(piping: Piping, beliefs: Beliefs) -> Iterator[Group]:
@@ -138,11 +146,7 @@ def _weak_groups(piping: Piping, beliefs: Beliefs) -> Iterator[Group]:
 def _loose_mounts(piping: Piping, pool: Collection[int]) -> tuple[Ends, list[Mount]]:
     """The parts of a pool at ends that join nothing else."""
     given, known = piping.given, piping.joints
-    free = {
-        row
-        for row in range(len(known.ends.part))
-        if row not in known.made or (known.made[row].kind == "mount" and known.made[row].other in pool)
-    } - {row for row, _ in known.doubled}
+    free = _loose_rows(known, pool)
     if not free or not pool:
         return known.ends, []
     solids = piping.members.union(piping.lineless, pool)
@@ -150,6 +154,16 @@ def _loose_mounts(piping: Piping, pool: Collection[int]) -> tuple[Ends, list[Mou
         given.parts, given.contacts, piping.lines, solids, piping.feet, given.config.relate.bridge, piping.bolted
     )
     return found.ends, [mount for mount in found.mounts if mount.row in free and mount.part in pool]
+
+
+def _loose_rows(known: Attachments, pool: Collection[int]) -> set[int]:
+    """The ends that join nothing but parts of a pool."""
+
+    def is_loose(row: int) -> bool:
+        offer = known.made.get(row)
+        return offer is None or (offer.kind == "mount" and offer.other in pool)
+
+    return {row for row in range(len(known.ends.part)) if is_loose(row)} - {row for row, _ in known.doubled}
 
 
 def _lids(piping: Piping, beliefs: Beliefs, mounts: Sequence[Mount], ends: Ends) -> set[int]:
@@ -162,14 +176,20 @@ def _lids(piping: Piping, beliefs: Beliefs, mounts: Sequence[Mount], ends: Ends)
     rows: dict[int, list[int]] = {}
     for mount in mounts:
         rows.setdefault(mount.part, []).append(mount.row)
-    lids = set()
-    for mount in mounts:
+
+    def is_lid(mount: Mount) -> bool:
         part = int(ends.part[mount.row])
-        line = piping.lines[part]
-        short = line.length <= _LID * float(line.branches[0].radius.max())
-        passes = any(
-            arrangement_of(ends, [mount.row, row]) == "aligned" for row in rows[mount.part] if row != mount.row
-        )
-        if short and not passes and beliefs.open[part] and busy[part] == 1 and part not in tapped:
-            lids.add(part)
-    return lids
+        leads_nowhere = bool(beliefs.open[part]) and busy[part] == 1 and part not in tapped
+        return leads_nowhere and _is_short(piping.lines[part]) and not _passes(ends, mount.row, rows[mount.part])
+
+    return {int(ends.part[mount.row]) for mount in mounts if is_lid(mount)}
+
+
+def _is_short(line: Centreline) -> bool:
+    """Whether a line is no longer than that of a bonnet or a cover."""
+    return line.length <= _LID * float(line.branches[0].radius.max())
+
+
+def _passes(ends: Ends, row: int, others: Sequence[int]) -> bool:
+    """Whether another end at the same body lies in line with one."""
+    return any(arrangement_of(ends, [row, other]) == "aligned" for other in others if other != row)

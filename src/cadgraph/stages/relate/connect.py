@@ -96,12 +96,17 @@ def _decide(piping: Piping, groups: Sequence[Group]) -> tuple[list[Group], list[
     held = [
         group for group in groups if not piping.unsupported.issuperset(group.parts) or reached.intersection(group.parts)
     ]
-    likeliest = [
+    likeliest = _likeliest_names(piping)
+    loose = [group for group in held if is_loose_operator(group, likeliest, reached)]
+    return split_groups(piping, [group for group in held if group not in loose]), loose
+
+
+def _likeliest_names(piping: Piping) -> list[str | None]:
+    """The name of each part, or the first guess of its label where it has none."""
+    return [
         name or (label.guesses[0].name if label is not None and label.guesses else None)
         for name, label in zip(piping.roles.names, piping.given.labels, strict=True)
     ]
-    loose = [group for group in held if is_loose_operator(group, likeliest, reached)]
-    return split_groups(piping, [group for group in held if group not in loose]), loose
 
 
 def _draw(piping: Piping, units: Sequence[UnitParts]) -> Drawing:

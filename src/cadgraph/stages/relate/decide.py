@@ -65,21 +65,30 @@ def decide_joints(
         singles: for each end its offers at solids and on the sides of lines.
         settled: joints that are made already.
     """
-    joined = dict(settled)
     open_faces = [
         offer for offer in faces if offer.row not in settled and offer.other not in settled and offer.odds > 0
     ]
-    single = {
-        row: best for row, offers in singles.items() if row not in settled and (best := _best(offers)) is not None
-    }
-    rows = sorted({row for offer in open_faces for row in (offer.row, offer.other)} | set(single))
-    pairs = [(offer.row, offer.other) for offer in open_faces]
-    of_row: dict[int, list[Offer]] = {}
-    for offer in open_faces:
-        of_row.setdefault(offer.row, []).append(offer)
-    for group in connected_sets(rows, pairs):
-        joined |= _match(group, [offer for row in group for offer in of_row.get(row, ())], single)
+    best = {row: _best(offers) for row, offers in singles.items() if row not in settled}
+    single = {row: offer for row, offer in best.items() if offer is not None}
+    joined = {**settled, **_decided(open_faces, single)}
     return Decision(joined, _refused(faces, singles, joined))
+
+
+def _decided(faces: Sequence[Offer], single: Mapping[int, Offer]) -> dict[int, Offer]:
+    """The joints of ends that are still open, each group that offers hang together decided by itself.
+
+    Args:
+        faces: offers between two ends.
+        single: for each end the best of its others.
+    """
+    rows = sorted({row for offer in faces for row in (offer.row, offer.other)} | set(single))
+    of_row: dict[int, list[Offer]] = {}
+    for offer in faces:
+        of_row.setdefault(offer.row, []).append(offer)
+    joined: dict[int, Offer] = {}
+    for group in connected_sets(rows, [(offer.row, offer.other) for offer in faces]):
+        joined |= _match(group, [offer for row in group for offer in of_row.get(row, ())], single)
+    return joined
 
 
 def _best(offers: Sequence[Offer]) -> Offer | None:
@@ -93,23 +102,30 @@ def _best(offers: Sequence[Offer]) -> Offer | None:
 def _match(group: Sequence[int], faces: Sequence[Offer], single: Mapping[int, Offer]) -> dict[int, Offer]:
     if not faces:
         return {row: single[row] for row in group if row in single}
-    graph: networkx.Graph[tuple[str, int]] = networkx.Graph()
     by_pair: dict[tuple[int, int], Offer] = {}
     for offer in sorted(faces, key=lambda offer: (-offer.odds, offer.row, offer.other)):
         by_pair.setdefault((offer.row, offer.other), offer)
-    for (row, other), offer in by_pair.items():
-        graph.add_edge(("end", row), ("end", other), weight=round(_SCALE * (offer.odds + 2 * OPEN_END)))
-    for row in group:
-        if row in single:
-            graph.add_edge(("end", row), ("self", row), weight=round(_SCALE * (single[row].odds + OPEN_END)))
     made: dict[int, Offer] = {}
-    for (kind, a), (other_kind, b) in networkx.max_weight_matching(graph):
+    for (kind, a), (other_kind, b) in networkx.max_weight_matching(_graph_of(group, by_pair, single)):
         if kind == other_kind == "end":
             offer = by_pair[(a, b) if (a, b) in by_pair else (b, a)]
             made[a] = made[b] = offer
         else:
             made[a] = single[a]
     return made
+
+
+def _graph_of(
+    group: Sequence[int], by_pair: Mapping[tuple[int, int], Offer], single: Mapping[int, Offer]
+) -> networkx.Graph[tuple[str, int]]:
+    """What can be matched: pairs of ends, and each end with itself for its best other offer."""
+    graph: networkx.Graph[tuple[str, int]] = networkx.Graph()
+    for (row, other), offer in by_pair.items():
+        graph.add_edge(("end", row), ("end", other), weight=round(_SCALE * (offer.odds + 2 * OPEN_END)))
+    for row in group:
+        if row in single:
+            graph.add_edge(("end", row), ("self", row), weight=round(_SCALE * (single[row].odds + OPEN_END)))
+    return graph
 
 
 def _refused(

@@ -9,12 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
 from cadgraph.model.scene import Floats
 
-__all__ = ["BASE", "CURVES", "FLAGS", "OPEN_END", "Curve", "add_up", "score_of", "tell"]
+__all__ = ["BASE", "CURVES", "FLAGS", "OPEN_END", "Curve", "Term", "add_up", "score_of", "tell", "tell_terms"]
+
+
+Term: TypeAlias = tuple[str, float]
+"""What speaks for or against something, in words, and its log-odds."""
 
 
 @dataclass(frozen=True)
@@ -93,10 +98,16 @@ def score_of(odds: float) -> float:
 
 def tell(measured: Mapping[str, float], flags: Sequence[str] = ()) -> tuple[str, ...]:
     """What speaks for and against a joint, in words, the weightiest first; each with its log-odds."""
-    rows = [
-        (float(CURVES[name](value)), CURVES[name].says.format(CURVES[name].scale * value))
+    terms = [
+        (CURVES[name].says.format(CURVES[name].scale * value), float(CURVES[name](value)))
         for name, value in measured.items()
         if np.isfinite(value)
     ]
-    rows += [FLAGS[name] for name in flags]
-    return tuple(f"{words} ({odds:+.1f})" for odds, words in sorted(rows, key=lambda row: (-abs(row[0]), row[1])))
+    terms += [(words, odds) for odds, words in (FLAGS[name] for name in flags)]
+    return tell_terms(terms)
+
+
+def tell_terms(terms: Sequence[Term]) -> tuple[str, ...]:
+    """Terms in words, the weightiest first; each with its log-odds."""
+    ordered = sorted(terms, key=lambda term: (-abs(term[1]), term[0]))
+    return tuple(f"{words} ({odds:+.1f})" for words, odds in ordered)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from cadgraph.stages.relate.belief import Beliefs
-from cadgraph.stages.relate.piping import Group, Piping
+from cadgraph.stages.relate.piping import Group, Piping, Recovered
 
 __all__ = ["BESIDE", "take_feet"]
 
@@ -14,6 +14,7 @@ BESIDE = 3.0
 """By how much a gauge or a tank at its end makes it likelier that a piece without a label is one of its own."""
 
 _WITH_FEET = frozenset({"gauge", "tank"})
+_WHY = "it stands at a {} and looks as much like a piece of it as like pipe"
 _MOST = 3  # pieces between a gauge and its line
 _LONGEST = {"gauge": 0.4, "tank": 0.6}  # m
 
@@ -30,7 +31,9 @@ def take_feet(piping: Piping, beliefs: Beliefs) -> Piping:
         if not found:
             break
         taken = {part: number for part, number, _ in found}
-        shares = {part: share for part, _, share in found}
+        shares = {
+            part: Recovered(share, (_WHY.format(piping.groups[number].unit_type),)) for part, number, share in found
+        }
         groups = [
             Group(group.unit_type, tuple(sorted({*group.parts, *(p for p, k in taken.items() if k == number)})))
             for number, group in enumerate(piping.groups)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,17 +10,18 @@ import numpy as np
 from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.belief import Beliefs
-from cadgraph.stages.relate.evidence import Curve, score_of
+from cadgraph.stages.relate.evidence import Curve, Term, score_of, tell_terms
+from cadgraph.stages.relate.joint import Facing
 from cadgraph.stages.relate.line import is_disc
-from cadgraph.stages.relate.piping import Group, Piping
+from cadgraph.stages.relate.piping import Group, Piping, Recovered
 
 __all__ = ["INLINE", "THICKER", "WAIST", "pipe_radius", "recover_inline"]
 
-WAIST = Curve((0.0, 0.55, 0.8, 0.92), (3.5, 3.5, 2.5, 0.0), "narrows to {:.0%}")
+WAIST = Curve((0.0, 0.55, 0.8, 0.92), (3.5, 3.5, 2.5, 0.0), "it narrows to {:.0%} in its middle")
 """The narrowest radius of a piece as share of that at its ends, in log-odds that it is a valve: two cones in a plant
 model stand for one, and no fitting is narrower in its middle."""
 
-THICKER = Curve((1.1, 1.2, 1.4), (0.0, 5.5, 6.5), "{:.2f} times as wide as the pipes beyond its flanges")
+THICKER = Curve((1.1, 1.2, 1.4), (0.0, 5.5, 6.5), "it is {:.2f} times as wide as the pipes beyond its flanges")
 """The radius of a straight piece between two flanges over that of the pipes beyond, in log-odds that it is a valve: no
 pipe is wider for the length of a valve. Labels hardly help here: a cylinder looks like a pipe."""
 
@@ -61,33 +62,47 @@ def recover_inline(piping: Piping, beliefs: Beliefs, likelihood: Curve) -> Pipin
         beliefs: what each part may be.
         likelihood: what the logarithm of the labeler's probability adds.
     """
-    own = sorted(name for name, unit in piping.given.vocabulary.unit_of_group.items() if unit == "valve")
-    if not own:
+    valves = {name for name, unit in piping.given.vocabulary.unit_of_group.items() if unit == "valve"}
+    if not valves:
         return piping
-    valves = beliefs.of_groups(own)
+    likely = beliefs.of_groups(valves)
     taken: set[int] = set()
     groups: list[Group] = []
     recovered = dict(piping.recovered)
     for piece in _pieces(piping, beliefs):
         stems = _stems(piping, beliefs, piece)
-        said = max(float(valves[list(piece.parts)].mean()), _LEAST)
-        shape = float(WAIST(piece.waist)) + float(THICKER(piece.thicker))
-        odds = INLINE["base"] + shape + float(likelihood(np.log(said)))
-        sure = score_of(odds + (INLINE["stem"] if stems else 0.0))
-        if sure < _SURE or not taken.isdisjoint(piece.parts):
+        said = max(float(likely[list(piece.parts)].mean()), _LEAST)
+        found = _judged(piece, bool(stems), (f"the labeler gives it {said:.0%}", float(likelihood(np.log(said)))))
+        if found.sure < _SURE or not taken.isdisjoint(piece.parts):
             continue
         parts = tuple(sorted({*piece.parts, *stems} - taken))
         taken.update(parts)
         groups.append(Group("valve", parts))
-        recovered |= dict.fromkeys(parts, sure)
-    if not groups:
-        return piping
+        recovered |= dict.fromkeys(parts, found)
+    return _with_valves(piping, groups, taken, recovered) if groups else piping
+
+
+def _judged(piece: _Piece, has_stem: bool, said: Term) -> Recovered:
+    """How sure it is that a piece is a valve, by its shape and by what the labeler says of it, and why."""
+    terms = [("a straight piece of a line", INLINE["base"]), said]
+    for curve, value in ((WAIST, piece.waist), (THICKER, piece.thicker)):
+        terms += [(curve.says.format(value), float(curve(value)))] if float(curve(value)) else []
+    if has_stem:
+        terms.append(("a stem on it leads nowhere", INLINE["stem"]))
+    return Recovered(score_of(sum(odds for _, odds in terms)), tell_terms(terms))
+
+
+def _with_valves(
+    piping: Piping, groups: Sequence[Group], taken: Collection[int], recovered: Mapping[int, Recovered]
+) -> Piping:
+    """The piping with further groups, whose parts carry no line any more."""
+    others = [group for group in piping.groups if not set(group.parts).intersection(taken)]
     return replace(
         piping,
         lines={part: line for part, line in piping.lines.items() if part not in taken},
         lineless=tuple(part for part in piping.lineless if part not in taken),
-        groups=(*(group for group in piping.groups if taken.isdisjoint(group.parts)), *groups),
-        members=piping.members | taken,
+        groups=(*others, *groups),
+        members=piping.members.union(taken),
         recovered=recovered,
     )
 
@@ -149,22 +164,22 @@ def pipe_radius(piping: Piping, row: int) -> float | None:
 
 def _cones(piping: Piping, beliefs: Beliefs) -> list[_Piece]:
     """Pairs of parts whose narrow ends meet."""
+    pairs = [_cone_pair(piping, facing) for facing in piping.joints.facings]
+    return [piece for piece in pairs if piece is not None and all(beliefs.open[part] for part in piece.parts)]
+
+
+def _cone_pair(piping: Piping, facing: Facing) -> _Piece | None:
+    """Two parts whose ends meet, if these are their narrow ones and their others are joined."""
     found, ends = piping.joints, piping.joints.ends
-    pieces = []
-    for facing in found.facings:
-        parts = (int(ends.part[facing.first]), int(ends.part[facing.second]))
-        if not all(beliefs.open[part] for part in parts):
-            continue
-        others = [[row for row in ends.of_part[part] if row not in (facing.first, facing.second)] for part in parts]
-        if any(len(rows) != 1 or rows[0] not in found.made for rows in others):
-            continue
-        outer = (others[0][0], others[1][0])
-        inner = max(float(ends.radius[facing.first]), float(ends.radius[facing.second]))
-        waist = inner / min(float(ends.radius[row]) for row in outer)
-        piece = _piece(piping, parts, outer, waist) if waist <= _NARROW else None
-        if piece is not None:
-            pieces.append(piece)
-    return pieces
+    inner = (facing.first, facing.second)
+    parts = (int(ends.part[facing.first]), int(ends.part[facing.second]))
+    others = [[row for row in ends.of_part[part] if row not in inner] for part in parts]
+    if any(len(rows) != 1 or rows[0] not in found.made for rows in others):
+        return None
+    outer = (others[0][0], others[1][0])
+    narrow = max(float(ends.radius[row]) for row in inner)
+    waist = narrow / min(float(ends.radius[row]) for row in outer)
+    return _piece(piping, parts, outer, waist) if waist <= _NARROW else None
 
 
 def _piece(piping: Piping, parts: tuple[int, ...], rows: tuple[int, int], waist: float) -> _Piece | None:
@@ -200,18 +215,24 @@ def _along(points: Floats, axis: Floats) -> bool:
 
 def _stems(piping: Piping, beliefs: Beliefs, piece: _Piece) -> set[int]:
     """Parts that stand on a piece and lead nowhere; the piece itself where one is of its own mesh."""
-    found, ends = piping.joints, piping.joints.ends
+    ends = piping.joints.ends
     thin = _THIN * float(min(ends.radius[row] for row in piece.rows))
-    stems = {
-        part
-        for part in piece.parts
-        for row in ends.of_part[part]
-        if row not in piece.rows and row not in found.made and float(ends.radius[row]) <= thin
-    }
-    for part in {other for own in piece.parts for other in piping.given.neighbors.get(own, ())} - set(piece.parts):
-        rows = ends.of_part.get(part, ())
-        leads = [row for row in rows if row in found.made]
-        on_piece = all(found.made[row].kind == "tap" and found.made[row].other in piece.parts for row in leads)
-        if rows and beliefs.open[part] and on_piece and all(float(ends.radius[row]) <= thin for row in rows):
-            stems.add(part)
-    return stems
+    around = {other for own in piece.parts for other in piping.given.neighbors.get(own, ())} - set(piece.parts)
+    stems = {part for part in around if beliefs.open[part] and _is_stem(piping, piece, part, thin)}
+    return stems | {part for part in piece.parts if _has_stem(piping, piece, part, thin)}
+
+
+def _is_stem(piping: Piping, piece: _Piece, part: int, thin: float) -> bool:
+    """Whether a part with a line is thin at all its ends, and joins nothing but the side of a piece."""
+    found, ends = piping.joints, piping.joints.ends
+    rows = ends.of_part.get(part, ())
+    leads = [found.made[row] for row in rows if row in found.made]
+    on_piece = all(offer.kind == "tap" and offer.other in piece.parts for offer in leads)
+    return bool(rows) and on_piece and all(float(ends.radius[row]) <= thin for row in rows)
+
+
+def _has_stem(piping: Piping, piece: _Piece, part: int, thin: float) -> bool:
+    """Whether a part of a piece has a thin end beside those of the line, which joins nothing."""
+    found, ends = piping.joints, piping.joints.ends
+    beside = [row for row in ends.of_part[part] if row not in piece.rows and row not in found.made]
+    return any(float(ends.radius[row]) <= thin for row in beside)

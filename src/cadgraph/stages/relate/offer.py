@@ -159,18 +159,7 @@ def offer_faces(ends: Ends, around: Surroundings, ahead: Mapping[int, Sequence[A
     i, j = pairs[:, 0], pairs[:, 1]
     cosine = np.einsum("ij,ij->i", ends.direction[i], ends.direction[j])
     measured, gap, straight = _measure(ends, i, j, cosine)
-    parts = [(int(a), int(b)) for a, b in np.sort(ends.part[pairs], axis=1).tolist()]
-    hidden = np.zeros(len(pairs), np.bool_)
-    for k in np.flatnonzero(straight & (gap > 2 * _BEFORE)).tolist():
-        own = (int(ends.part[i[k]]), int(ends.part[j[k]]))
-        hidden[k] = any(is_hidden(ahead.get(int(row), ()), float(gap[k]), own) for row in pairs[k])
-    flags = {
-        "hidden": hidden,
-        "disc": _is_disc(ends, i) | _is_disc(ends, j),
-        "blocked": np.array([pair in around.blocked for pair in parts], np.bool_) & (gap > min(_BESIDE, around.bridge)),
-        "over": gap > around.bridge + 1e-9,
-        "bolted": np.array([pair in around.bolted for pair in parts], np.bool_) & (gap > _OVERLAP),
-    }
+    flags = _flags(ends, pairs, gap, straight, around, ahead)
     # The width of a flange says nothing of its pipe's.
     measured["size"] = np.where(flags["disc"], np.nan, measured["size"])
     odds = add_up("face", measured, {name: holds.astype(float) for name, holds in flags.items()})
@@ -179,6 +168,34 @@ def offer_faces(ends: Ends, around: Surroundings, ahead: Mapping[int, Sequence[A
     found = [_face(k, pairs, gap, odds, measured, flags) for k in np.flatnonzero(straight & (odds > 0)).tolist()]
     corners = _corners(ends, i, j, cosine, around.bridge) & ~straight
     return found + [_corner(pairs, k, measured) for k in np.flatnonzero(corners).tolist()]
+
+
+def _flags(
+    ends: Ends, pairs: Ints, gap: Floats, straight: Bools, around: Surroundings, ahead: Mapping[int, Sequence[Ahead]]
+) -> dict[str, Bools]:
+    """What holds of each pair of ends, but for habit.
+
+    Args:
+        ends: of all lines.
+        pairs: ``(n, 2)`` rows.
+        gap: ``(n,)`` [m].
+        straight: ``(n,)`` whether they face.
+        around: what lies around them.
+        ahead: what lies on the axis of each end.
+    """
+    i, j = pairs[:, 0], pairs[:, 1]
+    parts = [(int(a), int(b)) for a, b in np.sort(ends.part[pairs], axis=1).tolist()]
+    hidden = np.zeros(len(pairs), np.bool_)
+    for k in np.flatnonzero(straight & (gap > 2 * _BEFORE)).tolist():
+        own = (int(ends.part[i[k]]), int(ends.part[j[k]]))
+        hidden[k] = any(is_hidden(ahead.get(int(row), ()), float(gap[k]), own) for row in pairs[k])
+    return {
+        "hidden": hidden,
+        "disc": _is_disc(ends, i) | _is_disc(ends, j),
+        "blocked": np.array([pair in around.blocked for pair in parts], np.bool_) & (gap > min(_BESIDE, around.bridge)),
+        "over": gap > around.bridge + 1e-9,
+        "bolted": np.array([pair in around.bolted for pair in parts], np.bool_) & (gap > _OVERLAP),
+    }
 
 
 def _face(

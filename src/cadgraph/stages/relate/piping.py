@@ -19,7 +19,7 @@ from cadgraph.model.vocabulary import Vocabulary
 from cadgraph.stages.relate.attach import Attachments, attach_lines
 from cadgraph.stages.relate.role import Roles
 
-__all__ = ["FASTENERS", "Group", "Piping", "RelateInput"]
+__all__ = ["FASTENERS", "Group", "Piping", "Recovered", "RelateInput"]
 
 FASTENERS = frozenset({"bolt", "nut", "washer", "stud", "screw"})
 """Names of what holds a joint together."""
@@ -91,6 +91,19 @@ class Group:
     parts: tuple[int, ...]
 
 
+@dataclass(frozen=True)
+class Recovered:
+    """Why a part is taken for something that its label doesn't say.
+
+    Args:
+        sure: how sure that is, 0..1.
+        reasons: what speaks for and against it, in words, the weightiest first.
+    """
+
+    sure: float
+    reasons: tuple[str, ...] = ()
+
+
 @dataclass(frozen=True, eq=False)
 class Piping:
     """Lines, what they may end at, and what joins what; a pass returns a new one.
@@ -104,7 +117,7 @@ class Piping:
         members: parts of groups that lines may end at.
         feet: parts of gauges, which may sit on the side of a line.
         jackets: bodies around lines, insulation above all, which are neither line nor unit.
-        recovered: parts that lie where a device or a fitting must be, and how sure that is, 0..1.
+        recovered: parts that lie where a device or a fitting must be.
     """
 
     given: RelateInput
@@ -115,7 +128,7 @@ class Piping:
     members: frozenset[int]
     feet: frozenset[int]
     jackets: frozenset[int] = frozenset()
-    recovered: Mapping[int, float] = field(default_factory=dict)
+    recovered: Mapping[int, Recovered] = field(default_factory=dict)
 
     @cached_property
     def joints(self) -> Attachments:
@@ -129,12 +142,17 @@ class Piping:
     @cached_property
     def bolted(self) -> frozenset[tuple[int, int]]:
         """Pairs of parts with lines that one fastener touches both of."""
-        held = [
-            [other for other in self.given.neighbors.get(part, ()) if other in self.lines]
-            for part, name in enumerate(self.roles.names)
-            if name in FASTENERS and part not in self.lines
-        ]
-        return frozenset((a, b) for near in held if len(near) <= _MOST_HELD for a in near for b in near if a < b)
+        held = [near for part in self._fasteners if len(near := self._lines_near(part)) <= _MOST_HELD]
+        return frozenset((a, b) for near in held for a in near for b in near if a < b)
+
+    @property
+    def _fasteners(self) -> list[int]:
+        """Fasteners by name that carry no line."""
+        return [part for part, name in enumerate(self.roles.names) if name in FASTENERS and part not in self.lines]
+
+    def _lines_near(self, part: int) -> list[int]:
+        """The parts with a line near one."""
+        return [other for other in self.given.neighbors.get(part, ()) if other in self.lines]
 
     @cached_property
     def mounted(self) -> Mapping[int, set[int]]:

@@ -33,19 +33,19 @@ def _without_rings(piping: Piping, beliefs: Beliefs) -> Piping:
     """Takes away lines that only lead into each other: pieces of a volute, a coil, a handle."""
     found = piping.joints
     pairs = [(int(found.ends.part[f.first]), int(found.ends.part[f.second])) for f in found.facings]
-    joined = {row for facing in found.facings for row in (facing.first, facing.second)}
-    tapped = {tapped.part for tapped in found.taps if not tapped.tap.sleeve}
-    rings = {
-        part
-        for ring in connected_sets(sorted(piping.lines), pairs)
-        if all(beliefs.open[part] and part not in tapped for part in ring)
-        and all(row in joined for part in ring for row in found.ends.of_part.get(part, ()))
-        and any(found.ends.of_part.get(part) for part in ring)
-        for part in ring
-    }
+    possible = _closed_lines(found) - {tapped.part for tapped in found.taps if not tapped.tap.sleeve}
+    possible = {part for part in possible if beliefs.open[part]}
+    rings = [ring for ring in connected_sets(sorted(piping.lines), pairs) if possible.issuperset(ring)]
     if not rings:
         return piping
-    return replace(piping, lines={part: line for part, line in piping.lines.items() if part not in rings})
+    gone = set().union(*rings)
+    return replace(piping, lines={part: line for part, line in piping.lines.items() if part not in gone})
+
+
+def _closed_lines(found: Attachments) -> set[int]:
+    """The parts with ends all of which face another one."""
+    joined = {row for facing in found.facings for row in (facing.first, facing.second)}
+    return {part for part, rows in found.ends.of_part.items() if joined.issuperset(rows)}
 
 
 def _without_stubs(piping: Piping, beliefs: Beliefs) -> Piping:

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from cadgraph.stages.relate.belief import Beliefs, beliefs_of
-from cadgraph.stages.relate.body import Body, arrangement_of, find_bodies, other_groups
-from cadgraph.stages.relate.evidence import Curve
+from cadgraph.stages.relate.body import Arrangement, Body, arrangement_of, find_bodies, other_groups
+from cadgraph.stages.relate.evidence import Curve, Term, tell_terms
 from cadgraph.stages.relate.foot import take_feet
 from cadgraph.stages.relate.inline import pipe_radius, recover_inline
 from cadgraph.stages.relate.joint import Ends
-from cadgraph.stages.relate.piping import Group, Piping
+from cadgraph.stages.relate.piping import Group, Piping, Recovered
 from cadgraph.stages.relate.prune import prune_lines
 
 __all__ = ["ARRANGEMENT", "FITTING", "LABELLED", "SIZE", "SLIM", "recover_units"]
@@ -33,16 +33,16 @@ ARRANGEMENT: Mapping[str, Mapping[str, float]] = {
 """The ends of lines at a body: one, two on one axis, two square to each other, two otherwise, three or more."""
 
 SIZE: Mapping[str, Curve] = {
-    "valve": Curve((0.5, 1.5, 6.0, 12.0, 25.0), (-2.0, 0.5, 0.5, -2.0, -5.0), "{:.1f} pipes long"),
-    "gauge": Curve((1.0, 6.0, 12.0, 25.0), (0.0, 0.5, -1.0, -4.0), "{:.1f} pipes long"),
-    "pump": Curve((2.0, 4.0, 8.0), (-3.0, 0.0, 1.0), "{:.1f} pipes long"),
-    "tank": Curve((2.0, 5.0, 12.0), (-5.0, -1.0, 1.5), "{:.1f} pipes long"),
-    "equipment": Curve((2.0, 5.0, 12.0), (-3.0, 0.0, 0.5), "{:.1f} pipes long"),
-    FITTING: Curve((0.5, 2.0, 4.0, 8.0), (0.0, 0.5, -0.5, -3.0), "{:.1f} pipes long"),
+    "valve": Curve((0.5, 1.5, 6.0, 12.0, 25.0), (-2.0, 0.5, 0.5, -2.0, -5.0), "it is {:.1f} pipe diameters long"),
+    "gauge": Curve((1.0, 6.0, 12.0, 25.0), (0.0, 0.5, -1.0, -4.0), "it is {:.1f} pipe diameters long"),
+    "pump": Curve((2.0, 4.0, 8.0), (-3.0, 0.0, 1.0), "it is {:.1f} pipe diameters long"),
+    "tank": Curve((2.0, 5.0, 12.0), (-5.0, -1.0, 1.5), "it is {:.1f} pipe diameters long"),
+    "equipment": Curve((2.0, 5.0, 12.0), (-3.0, 0.0, 0.5), "it is {:.1f} pipe diameters long"),
+    FITTING: Curve((0.5, 2.0, 4.0, 8.0), (0.0, 0.5, -0.5, -3.0), "it is {:.1f} pipe diameters long"),
 }
 """The longest side of a body as diameters of the widest line at it, in log-odds for each type."""
 
-SLIM = Curve((1.1, 1.25), (3.0, 0.0), "{:.2f} times as wide as the pipe")
+SLIM = Curve((1.1, 1.25), (3.0, 0.0), "it is {:.2f} times as wide as its pipe")
 """How far a body on one axis with both ends reaches from it, as share of the pipe's radius: what is no wider is a piece
 of pipe. It adds to a fitting, and is taken from everything else."""
 
@@ -51,6 +51,14 @@ LID = 12.0
 
 LABELLED = Curve((-7.0, -2.3, 0.0), (-3.3, 0.0, 1.6), "labelled so by {:.1f} (logarithm)")
 """The logarithm of the labeler's mean probability of a type: it is often wrong about shapes that it hasn't learnt."""
+
+_ENDS: Mapping[str, str] = {
+    "one": "one line ends at it",
+    "aligned": "two lines end at it on one axis",
+    "square": "two lines end at it square to each other",
+    "two": "two lines end at it",
+    "many": "several lines end at it",
+}
 
 # What touches parts of a unit that no line leads to is likely its body, and what touches another one a piece of it.
 _BODY, _PIECE = 2.5, 1.5
@@ -79,8 +87,9 @@ def recover_units(piping: Piping) -> Piping:
     if not _is_named(beliefs):
         piping = recover_inline(piping, beliefs, LABELLED)
     ends, bodies = find_bodies(piping, beliefs)
+    mounted = frozenset(piping.mounted)
     for body in bodies:
-        piping = _taken(piping, body, *_type_of(piping, beliefs, body, ends))
+        piping = _taken(piping, body, *_type_of(piping, beliefs, _look_at(piping, body, ends, mounted)))
     return take_feet(piping, beliefs)
 
 
@@ -89,47 +98,96 @@ def _is_named(beliefs: Beliefs) -> bool:
     return int(beliefs.open.sum()) < _MOSTLY_NAMED * len(beliefs.open)
 
 
-def _type_of(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends) -> tuple[str, float]:
-    """What a body is: a type of unit, a fitting, or nothing that enough speaks for; and how sure that is."""
-    weights = {name: float(np.exp(value)) for name, value in _odds(piping, beliefs, body, ends).items()}
+@dataclass(frozen=True)
+class _Sight:
+    """What is to be seen of a body.
+
+    Args:
+        body: its parts and the ends at them.
+        arrangement: of these ends.
+        length: its longest side [m].
+        pipes: the same as diameters of the widest line at it.
+        slim: its reach from the axis as share of the pipe's radius; None where no pipe tells.
+        closes: whether it is a disc on a single end, and as wide.
+        mounted: parts at which lines end.
+    """
+
+    body: Body
+    arrangement: Arrangement
+    length: float
+    pipes: float
+    slim: float | None
+    closes: bool
+    mounted: Collection[int]
+
+
+def _look_at(piping: Piping, body: Body, ends: Ends, mounted: Collection[int]) -> _Sight:
+    rows = [mount.row for mount in body.mounts]
+    length = _longest(piping, body.parts)
+    return _Sight(
+        body=body,
+        arrangement=arrangement_of(ends, rows),
+        length=length,
+        pipes=length / (2 * float(ends.radius[rows].max())),
+        slim=_slimness(piping, body, ends, rows),
+        closes=_is_lid(piping, body, ends, rows),
+        mounted=mounted,
+    )
+
+
+def _type_of(piping: Piping, beliefs: Beliefs, sight: _Sight) -> tuple[str, Recovered]:
+    """What a body is: a type of unit, a fitting, or nothing that enough speaks for; how sure that is, and why."""
+    terms = _terms(piping, beliefs, sight)
+    weights = {name: float(np.exp(sum(odds for _, odds in said))) for name, said in terms.items()}
     best = max(weights, key=lambda name: (weights[name], name))
     share = weights[best] / sum(weights.values())
+    found = Recovered(share, tell_terms(terms[best]))
+    body = sight.body
     sure = _SURE if body.unit_type is None else _OTHER
     if share < sure or best in (_NOTHING, _STEELWORK, body.unit_type):
-        return _NOTHING, share
+        return _NOTHING, found
     if _is_named(beliefs) and not _touched(piping, body, best):
         # Where people have named nearly everything, what they left without a name is no device of theirs; a line that
         # ends on both sides of it passes through all the same.
-        passes = arrangement_of(ends, [mount.row for mount in body.mounts]) == "aligned"
-        return (FITTING if passes else _NOTHING), share
-    return best, share
+        return (FITTING if sight.arrangement == "aligned" else _NOTHING), found
+    return best, found
 
 
-def _odds(piping: Piping, beliefs: Beliefs, body: Body, ends: Ends) -> dict[str, float]:
-    """The log-odds of everything that a body may be."""
-    rows = [mount.row for mount in body.mounts]
-    longest = _longest(piping, body.parts)
-    length = longest / (2 * float(ends.radius[rows].max()))
+def _terms(piping: Piping, beliefs: Beliefs, sight: _Sight) -> dict[str, list[Term]]:
+    """What speaks for and against everything that a body may be, in words and log-odds."""
 
-    def labelled(groups: Collection[str]) -> float:
-        said = float(beliefs.of_groups(groups, _BENT)[list(body.parts)].mean())
-        return float(LABELLED(np.log(max(said, _LEAST))))
+    def labelled(groups: Collection[str]) -> Term:
+        said = float(beliefs.of_groups(groups, _BENT)[list(sight.body.parts)].mean())
+        return f"the labeler gives it {said:.0%}", float(LABELLED(np.log(max(said, _LEAST))))
 
-    slim = _slimness(piping, body, ends, rows)
-    closes = _is_lid(piping, body, ends, rows)
-    odds = {_NOTHING: 0.0, _STEELWORK: _STANDING + labelled(other_groups(piping))}
-    if body.unit_type is not None:
-        # That it is a device is not in doubt, only which.
-        odds = {}
-    for unit_type, effect in ARRANGEMENT[arrangement_of(ends, rows)].items():
-        groups = _groups_of(piping, unit_type)
-        if groups and (unit_type != "gauge" or longest <= _WIDEST_GAUGE):
-            odds[unit_type] = effect + float(SIZE[unit_type](length)) + labelled(groups)
-            odds[unit_type] += _support(piping, _touched(piping, body, unit_type))
-            odds[unit_type] += slim if unit_type == FITTING else -slim
-    if closes and FITTING in odds:
-        odds[FITTING] += LID
-    return odds
+    terms: dict[str, list[Term]] = {}
+    if sight.body.unit_type is None:
+        # Else that it is a device is not in doubt, only which.
+        terms[_NOTHING] = [("nothing speaks for it", 0.0)]
+        terms[_STEELWORK] = [("it may carry them", _STANDING), labelled(other_groups(piping))]
+    for kind, effect in ARRANGEMENT[sight.arrangement].items():
+        groups = _groups_of(piping, kind)
+        if groups and (kind != "gauge" or sight.length <= _WIDEST_GAUGE):
+            terms[kind] = [
+                (_ENDS[sight.arrangement], effect),
+                (SIZE[kind].says.format(sight.pipes), float(SIZE[kind](sight.pipes))),
+                labelled(groups),
+                *_further(piping, sight, kind),
+            ]
+    return terms
+
+
+def _further(piping: Piping, sight: _Sight, kind: str) -> Iterator[Term]:
+    """What speaks for and against a type where it applies: slim bodies, lids, units that a body touches."""
+    if sight.slim is not None:
+        odds = float(SLIM(sight.slim))
+        yield SLIM.says.format(sight.slim), odds if kind == FITTING else -odds
+    if sight.closes and kind == FITTING:
+        yield "it closes the end", LID
+    touched = _touched(piping, sight.body, kind)
+    if touched:
+        on_line = any(part in sight.mounted for group in touched for part in group.parts)
+        yield f"it touches a {kind}", _PIECE if on_line else _BODY
 
 
 def _is_lid(piping: Piping, body: Body, ends: Ends, rows: Sequence[int]) -> bool:
@@ -150,20 +208,15 @@ def _extent(piping: Piping, body: Body, ends: Ends, row: int) -> tuple[float, fl
     return float(np.ptp(along)) if len(along) else 0.0, float(across.max(initial=0.0))
 
 
-def _slimness(piping: Piping, body: Body, ends: Ends, rows: Sequence[int]) -> float:
-    """What it adds that a body between two ends on one axis is no wider than their pipe."""
+def _slimness(piping: Piping, body: Body, ends: Ends, rows: Sequence[int]) -> float | None:
+    """How far a body between two ends on one axis reaches from it, as share of their pipe's radius; None where it
+    isn't, or no pipe is found.
+    """
     pipes = [radius for row in rows if (radius := pipe_radius(piping, row)) is not None]
     if arrangement_of(ends, rows) != "aligned" or not pipes:
-        return 0.0
+        return None
     _, reach = _extent(piping, body, ends, rows[0])
-    return float(SLIM(reach / max(pipes)))
-
-
-def _support(piping: Piping, touched: Sequence[Group]) -> float:
-    """What it adds that a body touches units of a type."""
-    if not touched:
-        return 0.0
-    return _PIECE if any(piping.mounted.keys() & set(group.parts) for group in touched) else _BODY
+    return reach / max(pipes)
 
 
 def _touched(piping: Piping, body: Body, unit_type: str) -> list[Group]:
@@ -187,32 +240,39 @@ def _longest(piping: Piping, parts: Sequence[int]) -> float:
     return float((boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)).max())
 
 
-def _taken(piping: Piping, body: Body, kind: str, sure: float) -> Piping:
+def _taken(piping: Piping, body: Body, kind: str, found: Recovered) -> Piping:
     """The piping with a body as what it is."""
-    inside = set(body.parts)
-    seeds = {mount.part for mount in body.mounts}
     if kind == _NOTHING:
         return piping
-    if kind == FITTING:
-        # What it was part of before is no unit any longer.
-        gone = {part for group in piping.groups if not inside.isdisjoint(group.parts) for part in group.parts}
-        return replace(
-            piping,
-            lineless=tuple(sorted(seeds.union(piping.lineless))),
-            groups=tuple(group for group in piping.groups if inside.isdisjoint(group.parts)),
-            members=piping.members - gone,
-            feet=piping.feet - gone,
-            recovered={**piping.recovered, **dict.fromkeys(seeds, sure)},
-        )
-    joined = _touched(piping, body, kind)
+    return _with_fitting(piping, body, found) if kind == FITTING else _with_unit(piping, body, kind, found)
+
+
+def _with_fitting(piping: Piping, body: Body, found: Recovered) -> Piping:
+    """The piping in which a body only passes a line on; what it was part of before is no unit any longer."""
+    inside, seeds = set(body.parts), {mount.part for mount in body.mounts}
+    gone = {part for group in piping.groups if not inside.isdisjoint(group.parts) for part in group.parts}
+    return replace(
+        piping,
+        lineless=tuple(sorted(seeds.union(piping.lineless))),
+        groups=tuple(group for group in piping.groups if inside.isdisjoint(group.parts)),
+        members=piping.members - gone,
+        feet=piping.feet - gone,
+        recovered={**piping.recovered, **dict.fromkeys(seeds, found)},
+    )
+
+
+def _with_unit(piping: Piping, body: Body, unit_type: str, found: Recovered) -> Piping:
+    """The piping in which a body is a unit, with the groups of that type that it touches."""
+    inside = set(body.parts)
+    joined = _touched(piping, body, unit_type)
     parts = inside.union(*(group.parts for group in joined))
     groups = [group for group in piping.groups if group not in joined and inside.isdisjoint(group.parts)]
     return replace(
         piping,
         lines={part: line for part, line in piping.lines.items() if part not in inside},
         lineless=tuple(part for part in piping.lineless if part not in inside),
-        groups=(*groups, Group(kind, tuple(sorted(parts)))),
+        groups=(*groups, Group(unit_type, tuple(sorted(parts)))),
         members=piping.members | inside,
-        feet=piping.feet | inside if kind == "gauge" else piping.feet,
-        recovered={**piping.recovered, **dict.fromkeys(body.parts, sure)},
+        feet=piping.feet | inside if unit_type == "gauge" else piping.feet,
+        recovered={**piping.recovered, **dict.fromkeys(body.parts, found)},
     )

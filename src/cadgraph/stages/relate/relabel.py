@@ -9,11 +9,13 @@ from cadgraph.model.labels import FormerLabel, Label, NetworkEvidence
 from cadgraph.stages.relate.belief import Beliefs, beliefs_of
 from cadgraph.stages.relate.line import is_plain_tube
 from cadgraph.stages.relate.piping import Group, Piping
+from cadgraph.stages.relate.role import USERS
 
 __all__ = ["relabel_parts"]
 
 # How sure a label is that follows from a line through the part, from its unit, or from most of its repeats (ours).
 _ON_LINE, _IN_UNIT, _OUTVOTED = 0.8, 0.7, 0.7
+_LEAST = 0.1  # below this probability of a group its names are no better than chance
 _NAMED = 0.5  # least share of a name among those of its group
 _STRAIGHT = -0.996  # cosine between the ends of a straight pipe
 
@@ -21,7 +23,8 @@ _STRAIGHT = -0.996  # cosine between the ends of a straight pipe
 def relabel_parts(piping: Piping, groups: Sequence[Group]) -> tuple[Label | None, ...]:
     """Labels that agree with the network, in place of those that it contradicts.
 
-    What a user said of a part stays, unless so many labels from outside are wrong that none is followed alone.
+    What a user said of a part stays; what others said does, unless so many labels from outside are wrong that none is
+    followed alone.
 
     Args:
         piping: with the lines.
@@ -43,8 +46,8 @@ def relabel_parts(piping: Piping, groups: Sequence[Group]) -> tuple[Label | None
     for part in (*piping.lines, *piping.lineless):
         if not _says(labels[part], connectors) and _may_change(piping, beliefs, part):
             group, name = _connector(piping, beliefs, part)
-            sure = piping.recovered.get(part, _ON_LINE)
-            labels[part] = _label(labels[part], group, name, sure, "a line runs through it")
+            sure, why = _found(piping, part, _ON_LINE, "a line runs through it")
+            labels[part] = _label(labels[part], group, name, sure, why)
     for unit in groups:
         _relabel_unit(piping, beliefs, unit, labels)
     return tuple(labels)
@@ -52,18 +55,30 @@ def relabel_parts(piping: Piping, groups: Sequence[Group]) -> tuple[Label | None
 
 def _relabel_unit(piping: Piping, beliefs: Beliefs, group: Group, labels: list[Label | None]) -> None:
     """Labels of a unit's parts that are of its own group; what holds it together keeps its label."""
+    own = sorted(name for name, unit in piping.given.vocabulary.unit_of_group.items() if unit == group.unit_type)
+    for part in group.parts if own else ():
+        if _is_strange(piping, labels[part], part, own) and _may_change(piping, beliefs, part):
+            said, name = _likeliest(beliefs, part, own)
+            if len(group.parts) == len(own) == 1:
+                # What stands for the whole is called so.
+                name = piping.given.vocabulary.groups[said].names[0]
+            sure, why = _found(piping, part, _IN_UNIT, f"it is part of a {group.unit_type} in the network")
+            labels[part] = _label(labels[part], said, name, sure, why)
+
+
+def _is_strange(piping: Piping, label: Label | None, part: int, own: Sequence[str]) -> bool:
+    """Whether a part's label is that of a line or of another type of unit, or says nothing of a part that was found."""
     vocabulary = piping.given.vocabulary
-    own = sorted(name for name, unit in vocabulary.unit_of_group.items() if unit == group.unit_type)
     foreign = vocabulary.connector_groups | (vocabulary.unit_of_group.keys() - set(own))
-    for part in group.parts:
-        strange = _says(labels[part], foreign) or part in piping.recovered
-        if not own or not strange or _says(labels[part], own) or not _may_change(piping, beliefs, part):
-            continue
-        single = len(group.parts) == 1
-        said = _likeliest(beliefs, part, own)
-        name = vocabulary.groups[own[0]].names[0] if single and len(own) == 1 else said[1]
-        sure = piping.recovered.get(part, _IN_UNIT)
-        labels[part] = _label(labels[part], said[0], name, sure, f"it is part of a {group.unit_type} in the network")
+    return (_says(label, foreign) or part in piping.recovered) and not _says(label, own)
+
+
+def _found(piping: Piping, part: int, sure: float, why: str) -> tuple[float, str]:
+    """How sure a label from the network is, and why: with what spoke for it where that was weighed."""
+    found = piping.recovered.get(part)
+    if found is None:
+        return sure, why
+    return found.sure, f"{why}: {'; '.join(found.reasons)}"
 
 
 def _says(label: Label | None, groups: Sequence[str] | frozenset[str] | set[str]) -> bool:
@@ -73,7 +88,7 @@ def _says(label: Label | None, groups: Sequence[str] | frozenset[str] | set[str]
 def _may_change(piping: Piping, beliefs: Beliefs, part: int) -> bool:
     """Whether nobody but the labeler says what a part is, or labels are doubtful and no person has corrected it."""
     label = piping.given.labels[part]
-    if label is not None and label.source in ("human", "repeat", "catalog"):
+    if label is not None and label.source in USERS:
         return False
     return bool(beliefs.open[part]) or piping.roles.doubtful
 
@@ -102,7 +117,7 @@ def _likeliest(beliefs: Beliefs, part: int, groups: Sequence[str]) -> tuple[str,
     best = max(groups, key=lambda group: (share[group], group))
     names = [(sure, name) for sure, group, name in said if group == best and name]
     sure, name = max(names, default=(0.0, None))
-    return best, name if share[best] > 0 and sure >= _NAMED * share[best] else None
+    return best, name if share[best] >= _LEAST and sure >= _NAMED * share[best] else None
 
 
 def _label(before: Label | None, group: str, name: str | None, sure: float, why: str) -> Label:

@@ -12,7 +12,11 @@ from cadgraph.model.labels import Label
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.vocabulary import Vocabulary
 
-__all__ = ["Roles", "find_roles", "likely_lines"]
+__all__ = ["USERS", "Roles", "find_roles", "likely_lines"]
+
+USERS = frozenset({"human", "repeat", "catalog"})
+"""Sources of labels that are a user's own word, which nothing overrules: corrections, the same at repeats of what was
+corrected, and catalogues."""
 
 # A second opinion counts from this confidence on.
 _CONFIDENT = 0.55
@@ -85,7 +89,7 @@ def _weighed(
         most: what most of its repeats are said to be.
     """
     said = _said(label)
-    if label is not None and label.source == "human":
+    if label is not None and label.source in USERS:
         return said
     # Wrong labels at random hardly ever agree with each other; the labeler is wrong alike about all repeats.
     better = most

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
 import numpy as np
 
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.parts import Network, Parts
 from cadgraph.model.ports import least_ports, port_word
+from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.piping import Piping
 
 __all__ = ["find_shortfalls"]
@@ -115,26 +116,36 @@ def _role(piping: Piping, part: int) -> str:
 
 def _before(piping: Piping) -> dict[int, tuple[float, int]]:
     """For each free end that something lies before the gap [m] and that part."""
-    found, contacts = piping.joints, piping.given.contacts
-    ends = found.ends
-    taken = found.made.keys() | {row for pair in found.doubled for row in pair}
-    free: Mapping[int, Sequence[int]] = {
-        part: [row for row in rows if row not in taken] for part, rows in ends.of_part.items()
-    }
+    contacts = piping.given.contacts
+    free = _free_ends(piping)
     with_own = {tuple(sorted(pair)) for pair in _joined_pairs(piping)}
     best: dict[int, tuple[float, int]] = {}
     for (a, b), points, gap in zip(contacts.pairs.tolist(), contacts.points, contacts.distance.tolist(), strict=True):
         if gap > _BEFORE or (a, b) in with_own:
             continue
-        place = points.mean(axis=0)
         for part, other in ((a, b), (b, a)):
-            for row in free.get(part, ()):
-                offset = place - ends.point[row]
-                along = float(offset @ ends.direction[row])
-                off = float(np.linalg.norm(offset - along * ends.direction[row]))
-                if abs(along) <= _BEFORE and off <= _OFF * float(ends.radius[row]) and not _is_aside(piping, other):
+            if part in free and not _is_aside(piping, other):
+                for row in _rows_facing(piping, free[part], points.mean(axis=0)):
                     best[row] = min(best.get(row, (gap, other)), (gap, other))
     return best
+
+
+def _free_ends(piping: Piping) -> dict[int, list[int]]:
+    """The ends of each part that join nothing."""
+    found = piping.joints
+    taken = found.made.keys() | {row for pair in found.doubled for row in pair}
+    return {part: [row for row in rows if row not in taken] for part, rows in found.ends.of_part.items()}
+
+
+def _rows_facing(piping: Piping, rows: Sequence[int], place: Floats) -> Iterator[int]:
+    """Those ends that have a place before their face."""
+    ends = piping.joints.ends
+    for row in rows:
+        offset = place - ends.point[row]
+        along = float(offset @ ends.direction[row])
+        off = float(np.linalg.norm(offset - along * ends.direction[row]))
+        if abs(along) <= _BEFORE and off <= _OFF * float(ends.radius[row]):
+            yield row
 
 
 def _is_aside(piping: Piping, part: int) -> bool:
@@ -160,15 +171,14 @@ def _joined_pairs(piping: Piping) -> Iterator[tuple[int, int]]:
 def _units_touching(piping: Piping, network: Network, short: Collection[int]) -> Iterator[Diagnostic]:
     """Units that touch and are not joined though one of them lacks a line."""
     owner = {part: number for number, unit in enumerate(network.units) for part in unit.parts}
-    linked = {(link.source, link.target) for link in network.links}
+    # A pair that is joined, or told already, is not told.
+    shut = {(link.source, link.target) for link in network.links}
     contacts, scene = piping.given.contacts, piping.given.parts.scene
-    told: set[tuple[int, int]] = set()
     for (a, b), gap in zip(contacts.pairs.tolist(), contacts.distance.tolist(), strict=True):
         first, second = sorted((owner.get(a, -1), owner.get(b, -1)))
-        lacking = first in short or second in short
-        if first < 0 or first == second or not lacking or (first, second) in linked or (first, second) in told:
+        if first < 0 or first == second or (first, second) in shut or not {first, second}.intersection(short):
             continue
-        told.add((first, second))
+        shut.add((first, second))
         tags = f"{network.units[first].tag} and {network.units[second].tag}"
         message = f"{tags} are {1000 * gap:.1f} mm apart and not joined though one of them lacks a line: {_REMEDY}"
         yield Diagnostic("units-touch-unjoined", message, (scene.paths[a], scene.paths[b]))
@@ -176,14 +186,7 @@ def _units_touching(piping: Piping, network: Network, short: Collection[int]) ->
 
 def _in_pieces(piping: Piping, network: Network) -> Iterator[Diagnostic]:
     """Structures whose lines fall into several networks with units."""
-    n_units, cluster = len(network.units), piping.given.cluster
-    of_structure: dict[int, list[tuple[int, ...]]] = {}
-    for members in network.systems:
-        units = tuple(node for node in members if node < n_units)
-        structures = {int(cluster[part]) for node in units for part in network.units[node].parts} - {-1}
-        for structure in structures:
-            of_structure.setdefault(structure, []).append(units)
-    for structure, pieces in sorted(of_structure.items()):
+    for structure, pieces in sorted(_pieces_of_structures(piping, network).items()):
         if len(pieces) < 2:
             continue
         told = "; ".join(", ".join(network.units[node].tag for node in units[:4]) for units in pieces[:4])
@@ -194,6 +197,18 @@ def _in_pieces(piping: Piping, network: Network) -> Iterator[Diagnostic]:
         )
         heads = [network.units[units[0]].parts[0] for units in pieces]
         yield Diagnostic("network-in-pieces", message, _paths(piping.given.parts, heads))
+
+
+def _pieces_of_structures(piping: Piping, network: Network) -> dict[int, list[tuple[int, ...]]]:
+    """For each structure the units of each network in it."""
+    cluster = piping.given.cluster
+    found: dict[int, list[tuple[int, ...]]] = {}
+    for members in network.systems:
+        units = tuple(node for node in members if node < len(network.units))
+        structures = {int(cluster[part]) for node in units for part in network.units[node].parts} - {-1}
+        for structure in structures:
+            found.setdefault(structure, []).append(units)
+    return found
 
 
 def _untraced(piping: Piping) -> Iterator[Diagnostic]:

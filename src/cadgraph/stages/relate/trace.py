@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 
@@ -23,6 +24,8 @@ from cadgraph.stages.relate.role import Roles, likely_lines
 from cadgraph.stages.relate.unit import connected_groups
 
 __all__ = ["drop_shapeless", "trace_lines"]
+
+_Value = TypeVar("_Value")
 
 # A part that only its shape calls a pipe must face one of about its size: this ratio of radii, that of a reducing
 # flange; one that its label calls a device must face one of its own size.
@@ -53,25 +56,16 @@ def trace_lines(given: RelateInput, roles: Roles) -> Piping:
     Returns:
         The piping; a connector whose shape is no line's is among its lineless ones.
     """
-    connectors = [part for part, group in enumerate(roles.groups) if group in given.vocabulary.connector_groups]
+    connectors = _connectors(given, roles)
     others = likely_lines(roles, given.opinions, given.contacts, given.vocabulary, given.parts.ground.tolist())
-    others = _with_further_pieces(given, roles, others)
-    singles = [group.parts[0] for group in connected_groups(given, roles) if len(group.parts) == 1]
-    wrapped = _tubes_of_units(given, roles)
-    between, unsure = _likely_between(given, roles, others), _unsure_pieces(given)
-    traced, copies = _distinct_lines(given, [*connectors, *others, *singles, *wrapped, *between, *unsure])
-    lines = {part: traced[part] for part in connectors if part in traced}
-    jackets = _jackets(given, traced, lines)
-    lines = {part: line for part, line in lines.items() if part not in jackets}
-    copies |= jackets
-    ratios = _least_ratios(given, roles, others, singles, traced)
-    pieces = {part for part in unsure if part in traced and is_steady(traced[part]) and not _is_flanged(given, part)}
-    ratios |= dict.fromkeys(pieces - ratios.keys(), _SAME_RATIO)
-    ratios |= {part: _BOTH_ENDS for part in between if part in traced and is_plain_tube(traced[part])}
-    ratios = {part: ratio for part, ratio in ratios.items() if part not in jackets}
-    if ratios:
-        lines = _continued(lines, ratios, traced, given.contacts, given.config.relate.bridge)
-    lineless = [part for part in connectors if part not in lines and part not in copies and given.cluster[part] >= 0]
+    possible = _possible_lines(given, roles, _with_further_pieces(given, roles, others))
+    traced, copies = _distinct_lines(given, [*connectors, *possible.candidates(), *_tubes_of_units(given, roles)])
+    sure = {part: traced[part] for part in connectors if part in traced}
+    jackets = _jackets(given, traced, sure)
+    ratios = _without(_least_ratios(given, roles, possible, traced), jackets)
+    lines = _continued(_without(sure, jackets), ratios, traced, given.contacts, given.config.relate.bridge)
+    apart = copies | jackets | lines.keys()
+    lineless = [part for part in connectors if part not in apart and given.cluster[part] >= 0]
     groups = connected_groups(given, roles, lines.keys() | jackets)
     return Piping(
         given=given,
@@ -83,6 +77,43 @@ def trace_lines(given: RelateInput, roles: Roles) -> Piping:
         feet=_parts_of(group for group in groups if group.unit_type == "gauge"),
         jackets=frozenset(jackets),
     )
+
+
+def _connectors(given: RelateInput, roles: Roles) -> list[int]:
+    """The parts whose role is that of a connector."""
+    return [part for part, group in enumerate(roles.groups) if group in given.vocabulary.connector_groups]
+
+
+def _without(values: Mapping[int, _Value], some: Collection[int]) -> dict[int, _Value]:
+    """What is known of parts, some of them left out."""
+    return {part: value for part, value in values.items() if part not in some}
+
+
+@dataclass(frozen=True)
+class _Possible:
+    """Parts that are no connectors by label but may carry a line.
+
+    Args:
+        others: parts of unknown function.
+        singles: parts that stand alone as a unit.
+        between: what the labeler takes for steelwork or the like between two lines.
+        unsure: what the labeler takes for a piece of a device without being sure.
+    """
+
+    others: Sequence[int]
+    singles: Sequence[int]
+    between: Sequence[int]
+    unsure: Sequence[int]
+
+    def candidates(self) -> list[int]:
+        """All of them."""
+        return [*self.others, *self.singles, *self.between, *self.unsure]
+
+
+def _possible_lines(given: RelateInput, roles: Roles, others: Sequence[int]) -> _Possible:
+    """The parts that may continue a line, and what speaks for each of them."""
+    singles = [group.parts[0] for group in connected_groups(given, roles) if len(group.parts) == 1]
+    return _Possible(others, singles, _likely_between(given, roles, others), _unsure_pieces(given))
 
 
 def _tubes_of_units(given: RelateInput, roles: Roles) -> list[int]:
@@ -157,7 +188,7 @@ def _likely_between(given: RelateInput, roles: Roles, others: Collection[int]) -
     """Parts that the labeler alone takes for steelwork or the like, and that touch two lines at least."""
     vocabulary = given.vocabulary
     functional = vocabulary.connector_groups | vocabulary.unit_of_group.keys()
-    lines = {part for part, group in enumerate(roles.groups) if group in vocabulary.connector_groups}.union(others)
+    lines = {*_connectors(given, roles), *others}
     return [
         part
         for part, group in enumerate(roles.groups)
@@ -193,30 +224,46 @@ def _repeated(parts: Parts, contacts: Contacts, lines: Mapping[int, Centreline])
 
 
 def _least_ratios(
-    given: RelateInput, roles: Roles, others: list[int], singles: list[int], traced: Mapping[int, Centreline]
+    given: RelateInput, roles: Roles, possible: _Possible, traced: Mapping[int, Centreline]
 ) -> dict[int, float]:
     """Parts that are no connectors by label but may continue a line, and the least ratio of radii for each.
 
     Args:
         given: what everything is found from.
         roles: what each part does.
-        others: parts of unknown function.
-        singles: parts that stand alone as a unit.
+        possible: parts that may carry a line.
         traced: line of each part.
     """
-    ratios = {part: _RATIO for part in others if part in traced}
-    for part in singles:
-        label = given.labels[part]
-        # The labeler is no second opinion on what it said itself; and whoever else says that a mere cylinder is a
-        # valve may mean it, unless labels are doubtful.
-        said = label is not None and label is not given.opinions[part]
-        if part not in traced or (said and (part in roles.backed or _may_be_device(traced[part], roles.doubtful))):
-            continue
-        if is_plain_tube(traced[part]):
-            ratios[part] = _RATIO if roles.doubtful else _OWN_RATIO
-        elif roles.doubtful and is_disc(traced[part]):
-            ratios[part] = _RATIO
-    return ratios
+    ratios = {part: _RATIO for part in possible.others if part in traced}
+    for part in possible.singles:
+        ratio = _single_ratio(given, roles, part, traced[part]) if part in traced else None
+        if ratio is not None:
+            ratios[part] = ratio
+    ratios |= dict.fromkeys(_steady_pieces(given, possible.unsure, traced) - ratios.keys(), _SAME_RATIO)
+    return ratios | dict.fromkeys(_plain_tubes(possible.between, traced), _BOTH_ENDS)
+
+
+def _steady_pieces(given: RelateInput, parts: Sequence[int], traced: Mapping[int, Centreline]) -> set[int]:
+    """Those parts that run on as wide as they begin and don't lie between flanges."""
+    steady = [part for part in parts if part in traced and is_steady(traced[part])]
+    return {part for part in steady if not _is_flanged(given, part)}
+
+
+def _plain_tubes(parts: Sequence[int], traced: Mapping[int, Centreline]) -> list[int]:
+    return [part for part in parts if part in traced and is_plain_tube(traced[part])]
+
+
+def _single_ratio(given: RelateInput, roles: Roles, part: int, line: Centreline) -> float | None:
+    """The least ratio of radii for a part that stands alone as a unit; None where it is no line."""
+    label = given.labels[part]
+    # The labeler is no second opinion on what it said itself; and whoever else says that a mere cylinder is a
+    # valve may mean it, unless labels are doubtful.
+    said = label is not None and label is not given.opinions[part]
+    if said and (part in roles.backed or _may_be_device(line, roles.doubtful)):
+        return None
+    if is_plain_tube(line):
+        return _RATIO if roles.doubtful else _OWN_RATIO
+    return _RATIO if roles.doubtful and is_disc(line) else None
 
 
 def _jackets(given: RelateInput, traced: Mapping[int, Centreline], sure: Mapping[int, Centreline]) -> set[int]:
@@ -232,16 +279,19 @@ def _jackets(given: RelateInput, traced: Mapping[int, Centreline], sure: Mapping
 def _is_jacket(line: Centreline, around: Sequence[Centreline]) -> bool:
     """Whether thinner lines run in the middle of a long one, or a single one right through a short one."""
     radius = float(line.branches[0].radius.max())
-    thinner = [one for one in around if min(float(b.radius.min()) for b in one.branches) <= _THINNER * radius]
+    thinner = [one for one in around if _least_radius(one) <= _THINNER * radius]
     if not thinner:
         return False
     points = np.concatenate([_along(branch) for branch in line.branches])
     beyond = np.array([end.point + _BEYOND * radius * end.direction for end in line.ends]).reshape(-1, 3)
     inner = [_runs_within(np.concatenate([points, beyond]), radius, one) for one in thinner]
-    if line.length >= radius and any(one.all() for one in inner):
-        return True
-    within = np.any(inner, axis=0)[: len(points)]
-    return bool(line.length >= _LEAST_JACKET * radius and within.mean() >= _JACKET)
+    through = bool(np.all(inner, axis=1).any())
+    share = float(np.any(inner, axis=0)[: len(points)].mean())
+    return (line.length >= radius and through) or (line.length >= _LEAST_JACKET * radius and share >= _JACKET)
+
+
+def _least_radius(line: Centreline) -> float:
+    return min(float(branch.radius.min()) for branch in line.branches)
 
 
 def _along(branch: Branch) -> Floats:
@@ -288,21 +338,32 @@ def _continued(
         contacts: pairs of parts that are near.
         bridge: greatest gap between ends that face each other [m].
     """
+    if not ratios:
+        return dict(sure)
     possible = {part: line for part, line in traced.items() if part in sure or part in ratios}
     steps, weak = _facing_parts(possible, ratios, contacts, bridge)
     lines = dict(sure)
     front = list(lines)
     while front:
-        while front:
-            for part in steps.get(front.pop(), ()):
-                if part in ratios and part not in lines:
-                    lines[part] = traced[part]
-                    front.append(part)
+        lines |= {part: traced[part] for part in _reached(steps, front, lines)}
         # What has a flange at either end is no less a pipe.
-        between = [part for part, others in sorted(weak.items()) if part not in lines and _lie_on(others, lines)]
-        lines |= {part: traced[part] for part in between}
-        front += between
+        front = [part for part, others in sorted(_without(weak, lines).items()) if _lie_on(others, lines)]
+        lines |= {part: traced[part] for part in front}
     return lines
+
+
+def _reached(steps: Mapping[int, Sequence[int]], start: Sequence[int], known: Collection[int]) -> list[int]:
+    """The parts that some others lead to step by step and that are not known yet, in the order in which they are
+    found.
+    """
+    found: dict[int, None] = {}
+    front = list(start)
+    while front:
+        for part in steps.get(front.pop(), ()):
+            if part not in known and part not in found:
+                found[part] = None
+                front.append(part)
+    return list(found)
 
 
 def _lie_on(others: Sequence[int], lines: Collection[int]) -> bool:
@@ -362,16 +423,20 @@ def drop_shapeless(piping: Piping) -> Piping:
 
 def _shapeless(piping: Piping) -> set[int]:
     """Parts with a line of their own that joins nothing, at which two or more loose ends of other lines lie."""
-    found = piping.joints
+    found, lines = piping.joints, piping.lines
     joined = _joined_ends(found)
-    idle = {part for part, rows in found.ends.of_part.items() if not joined.intersection(rows)}
-    loose: Counter[int] = Counter()
-    for a, b in piping.given.contacts.pairs.tolist():
-        for part, other in ((a, b), (b, a)):
-            if part in idle and other in piping.lines and other not in idle:
-                rows = [row for row in found.ends.of_part[other] if row not in joined]
-                loose[part] += sum(_lies_at(piping, row, part) for row in rows)
-    return {part for part, count in loose.items() if count >= 2}
+    loose = {part: [row for row in rows if row not in joined] for part, rows in found.ends.of_part.items()}
+    idle = {part for part, rows in loose.items() if len(rows) == len(found.ends.of_part[part])}
+    count: Counter[int] = Counter()
+    for part in idle:
+        others = [other for other in piping.given.neighbors.get(part, ()) if other in lines and other not in idle]
+        count[part] = sum(_loose_at(piping, loose[other], part) for other in others)
+    return {part for part, rows in count.items() if rows >= 2}
+
+
+def _loose_at(piping: Piping, rows: Sequence[int], part: int) -> int:
+    """How many of some ends lie at a part."""
+    return sum(_lies_at(piping, row, part) for row in rows)
 
 
 def _joined_ends(found: Attachments) -> set[int]:

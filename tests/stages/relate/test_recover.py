@@ -1,0 +1,173 @@
+"""Devices that labels missed: how lines meet a body, its size and what it is likely labelled decide."""
+
+import numpy as np
+import pytest
+
+from cadgraph.stages.relate.piping import Group
+from cadgraph.stages.relate.recover import ARRANGEMENT, FITTING, LABELLED, SIZE, recover_units
+from piping import GAUGE, PIPE, PUMP, STEEL, TANK, VALVE, R
+from sketch import SIDES, VOCABULARY, around, block
+
+EQUIPMENT = "Equipment"
+WIDE = 2 * R  # diameter of the pipes [m]
+NAMES = {
+    "valve": (VALVE, "valve"), "gauge": (GAUGE, "gauge"), "pump": (PUMP, "pump"), "tank": (TANK, "tank"),
+    "equipment": (EQUIPMENT, "boiler"), FITTING: (PIPE, "reducer"),
+}  # fmt: skip
+
+
+def found(sketch):
+    """What the first mesh is taken for, None where it stays what it was."""
+    before = sketch.piping()
+    piping = recover_units(before)
+    groups = [group.unit_type for group in piping.groups if 0 in group.parts]
+    assert len(groups) <= 1
+    if 0 in piping.recovered and not groups:
+        assert 0 in piping.lineless
+        return FITTING
+    return groups[0] if groups else None
+
+
+def recovered(kind, sides, pipes, sure, **more):
+    """What a body is taken for that is likely of a kind and so many pipes long."""
+    size = np.full(3, min(pipes * WIDE, 3.5 * WIDE))
+    size[1] = pipes * WIDE
+    return found(around(size, sides, **{"likely": {NAMES[kind]: sure}, **more}))
+
+
+# For each type where lines meet it as they meet one, and where they don't; all else is the same.
+MEETS = {
+    "valve": ("aligned", "two", 4.0, 0.1),
+    "gauge": ("one", "two", 5.0, 0.1),
+    "pump": ("square", "aligned", 8.0, 0.1),
+    "tank": ("many", "aligned", 12.0, 0.1),
+    "equipment": ("two", "aligned", 12.0, 0.2),
+    FITTING: ("aligned", "one", 2.0, 0.9),
+}
+
+
+@pytest.mark.parametrize("kind", MEETS)
+def test_how_lines_meet_a_body_tells_its_type(kind):
+    usual, odd, pipes, sure = MEETS[kind]
+    assert recovered(kind, usual, pipes, sure) == kind
+    assert recovered(kind, odd, pipes, sure) is None
+
+
+# For each type a way of meeting with a size that it has, and one that it hasn't; all else is the same.
+SIZES = {
+    "valve": ("aligned", 4.0, 20.0, 0.1),
+    "gauge": ("one", 4.0, 1.0, 0.02),
+    "pump": ("square", 8.0, 2.5, 0.05),
+    "tank": ("many", 12.0, 4.0, 0.3),
+    "equipment": ("two", 12.0, 3.5, 0.3),
+    FITTING: ("aligned", 2.0, 8.0, 0.9),
+}
+
+
+@pytest.mark.parametrize("kind", SIZES)
+def test_the_size_of_a_body_tells_its_type(kind):
+    sides, usual, odd, sure = SIZES[kind]
+    assert recovered(kind, sides, usual, sure) == kind
+    assert recovered(kind, sides, odd, sure) is None
+
+
+# For each type a body that lines meet as they meet one: how likely its label must be.
+LABELS = {
+    "valve": ("aligned", 4.0, 0.02, 0.005),
+    "gauge": ("one", 5.0, 0.05, 0.003),
+    "pump": ("square", 8.0, 0.01, 0.001),
+    "tank": ("many", 12.0, 0.01, 0.001),
+    "equipment": ("many", 12.0, 0.05, 0.005),
+    FITTING: ("aligned", 2.0, 0.5, 0.05),
+}
+
+
+@pytest.mark.parametrize("kind", LABELS)
+def test_what_the_labeler_holds_for_possible_tells_a_type(kind):
+    sides, pipes, likely, unlikely = LABELS[kind]
+    assert recovered(kind, sides, pipes, likely) == kind
+    assert recovered(kind, sides, pipes, unlikely) != kind
+
+
+def test_every_type_has_its_place_in_each_table():
+    types = {*VOCABULARY.unit_of_group.values(), FITTING}
+    assert set(ARRANGEMENT) == set(SIDES)
+    assert all(set(row) == types for row in ARRANGEMENT.values())
+    assert set(SIZE) == types
+    assert all(list(curve.at) == sorted(curve.at) for curve in (*SIZE.values(), LABELLED))
+
+
+@pytest.mark.parametrize(("beam", "kind"), [(0.02, "valve"), (0.45, None)])
+def test_what_may_be_steelwork_needs_more(beam, kind):
+    assert recovered("valve", "aligned", 4.0, 0.05, likely={NAMES["valve"]: 0.05, (STEEL, "plate"): beam}) == kind
+
+
+@pytest.mark.parametrize(("wide", "kind"), [(0.38, "gauge"), (0.42, None)])
+def test_no_gauge_is_wider_than_an_arm(wide, kind):
+    assert found(around((0.2, wide, 0.2), "one", radius=0.08, likely={NAMES["gauge"]: 0.4})) == kind
+
+
+@pytest.mark.parametrize("name", ["cross", "tee", "elbow", "pipe cap", "blind flange"])
+def test_names_of_what_is_bent_say_nothing_of_a_body(name):
+    assert recovered(FITTING, "aligned", 2.0, 0.9, likely={(PIPE, name): 0.9}) is None
+
+
+@pytest.mark.parametrize(
+    ("name", "likely", "kind"), [("valve", {}, "gauge"), ("gauge", {NAMES["gauge"]: 0.7}, "gauge")]
+)
+def test_a_doubted_device_stays_one_but_may_be_another(name, likely, kind):
+    # The labeler says so without being sure; one line leads to it.
+    said = {"group": NAMES[name][0], "name": NAMES[name][1], "sure": 0.7, "likely": likely or {NAMES["gauge"]: 0.4}}
+    assert found(around(0.24, "one", **said)) == kind
+
+
+@pytest.mark.parametrize(("wheel", "kind"), [(True, "valve"), (False, None)])
+def test_what_touches_a_unit_that_no_line_leads_to_is_its_body(wheel, kind):
+    sketch = around(0.24, "square", likely={NAMES["valve"]: 0.1})
+    if wheel:
+        sketch.add(block((0, 0.14, 0), (0.2, 0.04, 0.2)), VALVE, "handwheel", likely={(VALVE, "handwheel"): 0.9})
+    assert found(sketch) == kind
+    if wheel:
+        assert Group("valve", (0, 3)) in recover_units(sketch.piping()).groups
+
+
+@pytest.mark.parametrize(("source", "kind"), [("geometry", "valve"), ("author", FITTING), ("human", FITTING)])
+def test_where_people_named_nearly_everything_what_they_left_out_only_passes_a_line_on(source, kind):
+    assert recovered("valve", "aligned", 4.0, 0.1, named_by=source) == kind
+
+
+def test_where_people_named_nearly_everything_what_lines_only_end_at_is_nothing():
+    assert recovered("gauge", "one", 5.0, 0.1) == "gauge"
+    sketch = around(0.24, "one", named_by="author", likely={NAMES["gauge"]: 0.1})
+    sketch.pipe((5, 0, 0), (6, 0, 0), source="author")
+    assert found(sketch) is None
+
+
+def test_where_people_named_nearly_everything_a_body_still_joins_the_unit_that_it_touches():
+    sketch = around(0.24, "aligned", named_by="author", likely={NAMES["valve"]: 0.1})
+    sketch.add(block((0, 0.14, 0), (0.2, 0.04, 0.2)), VALVE, "handwheel", source="author")
+    assert recover_units(sketch.piping()).groups == (Group("valve", (0, 3)),)
+
+
+@pytest.mark.parametrize("source", ["author", "human", "catalog", "repeat", "file"])
+@pytest.mark.parametrize("sides", SIDES)
+def test_what_anybody_named_stays_what_it_is(source, sides):
+    sketch = around(0.24, sides, group=STEEL, name="plate", source=source, likely={NAMES["valve"]: 0.9})
+    before = sketch.piping()
+    after = recover_units(before)
+    assert (after.groups, after.lineless, after.recovered) == ((), (), {})
+    assert sketch.connected().labels[0] is sketch.labels[0]
+
+
+def test_a_gauge_that_is_found_may_sit_on_a_line():
+    piping = recover_units(around(0.24, "one", likely={NAMES["gauge"]: 0.3}).piping())
+    assert piping.feet == {0}
+    assert piping.members == {0}
+    assert set(piping.recovered) == {0}
+
+
+def test_how_sure_a_device_is_follows_from_what_speaks_for_it():
+    def sure(likely):
+        return recover_units(around(0.24, "aligned", likely={NAMES["valve"]: likely}).piping()).recovered[0]
+
+    assert 0.6 < sure(0.03) < sure(0.1) < sure(0.5) < 1.0
