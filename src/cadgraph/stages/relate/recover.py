@@ -88,8 +88,9 @@ def recover_units(piping: Piping) -> Piping:
         piping = recover_inline(piping, beliefs, LABELLED)
     ends, bodies = find_bodies(piping, beliefs)
     mounted = frozenset(piping.mounted)
-    for body in bodies:
-        piping = _taken(piping, body, *_type_of(piping, beliefs, _look_at(piping, body, ends, mounted)))
+    # Rows of ends hold for the piping that they were found in: all is looked at before anything changes.
+    for sight in [_look_at(piping, body, ends, mounted) for body in bodies]:
+        piping = _taken(piping, sight.body, *_type_of(piping, beliefs, sight))
     return take_feet(piping, beliefs)
 
 

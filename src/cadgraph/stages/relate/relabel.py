@@ -15,7 +15,6 @@ __all__ = ["relabel_parts"]
 
 # How sure a label is that follows from a line through the part, from its unit, or from most of its repeats (ours).
 _ON_LINE, _IN_UNIT, _OUTVOTED = 0.8, 0.7, 0.7
-_LEAST = 0.1  # below this probability of a group its names are no better than chance
 _NAMED = 0.5  # least share of a name among those of its group
 _STRAIGHT = -0.996  # cosine between the ends of a straight pipe
 
@@ -117,7 +116,7 @@ def _likeliest(beliefs: Beliefs, part: int, groups: Sequence[str]) -> tuple[str,
     best = max(groups, key=lambda group: (share[group], group))
     names = [(sure, name) for sure, group, name in said if group == best and name]
     sure, name = max(names, default=(0.0, None))
-    return best, name if share[best] >= _LEAST and sure >= _NAMED * share[best] else None
+    return best, name if share[best] > 0 and sure >= _NAMED * share[best] else None
 
 
 def _label(before: Label | None, group: str, name: str | None, sure: float, why: str) -> Label:
