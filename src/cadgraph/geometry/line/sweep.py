@@ -289,30 +289,30 @@ def essential_nodes(values: Floats, tolerance: float) -> Ints:
     keep[0] = 0
     n_kept, start = 1, 0
     for stop in range(2, n):
-        length2 = 0.0
-        for c in range(3):
-            length2 += (values[stop, c] - values[start, c]) ** 2
         limit = tolerance * values[start, 3]
-        bends = False
         for k in range(start + 1, stop):
-            share = 0.0
-            for c in range(3):
-                share += (values[k, c] - values[start, c]) * (values[stop, c] - values[start, c])
-            share = min(1.0, max(0.0, share / length2)) if length2 > 0.0 else 0.0
-            for c in range(5):
-                a, b, v = values[start, c], values[stop, c], values[k, c]
-                if c == 4 and np.isnan(a) and np.isnan(b) and np.isnan(v):
-                    continue
-                if not abs(v - a - share * (b - a)) <= limit:
-                    bends = True
-                    break
-            if bends:
+            if not _is_between(values, start, stop, k, limit):
+                start = stop - 1
+                keep[n_kept] = start
+                n_kept += 1
                 break
-        if bends:
-            start = stop - 1
-            keep[n_kept] = start
-            n_kept += 1
     if n > 1:
         keep[n_kept] = n - 1
         n_kept += 1
     return keep[:n_kept]
+
+
+@compiled
+def _is_between(values: Floats, start: int, stop: int, k: int, limit: float) -> bool:
+    """Whether a node lies within a limit [m] of the line from one node to another, its radii too."""
+    length2 = share = 0.0
+    for c in range(3):
+        length2 += (values[stop, c] - values[start, c]) ** 2
+        share += (values[k, c] - values[start, c]) * (values[stop, c] - values[start, c])
+    share = min(1.0, max(0.0, share / length2)) if length2 > 0.0 else 0.0
+    for c in range(5):
+        a, b, v = values[start, c], values[stop, c], values[k, c]
+        without = c == 4 and np.isnan(a) and np.isnan(b) and np.isnan(v)
+        if not without and not abs(v - a - share * (b - a)) <= limit:
+            return False
+    return True
