@@ -123,16 +123,22 @@ def _cast(segments: Floats, n: int, x: float, y: float, hits: Floats, counts: In
             t = cross / slope
             if not t > 0.0:
                 continue
-            row = hits[k % N_RAYS]
-            at = 0
-            while at < MAX_RINGS and row[at] < t * (1.0 - _DOUBLE):
-                at += 1
-            if at == MAX_RINGS or row[at] <= t * (1.0 + _DOUBLE):
-                continue
-            for m in range(MAX_RINGS - 1, at, -1):
-                row[m] = row[m - 1]
-            row[at] = t
-            counts[k % N_RAYS] = min(counts[k % N_RAYS] + 1, MAX_RINGS)
+            if _insert(hits[k % N_RAYS], t):
+                counts[k % N_RAYS] = min(counts[k % N_RAYS] + 1, MAX_RINGS)
+
+
+@compiled
+def _insert(row: Floats, t: float) -> bool:
+    """Puts a distance into an ascending row that keeps the least few; not if it is there already, or too great."""
+    at = 0
+    while at < MAX_RINGS and row[at] < t * (1.0 - _DOUBLE):
+        at += 1
+    if at == MAX_RINGS or row[at] <= t * (1.0 + _DOUBLE):
+        return False
+    for m in range(MAX_RINGS - 1, at, -1):
+        row[m] = row[m - 1]
+    row[at] = t
+    return True
 
 
 @compiled
