@@ -58,16 +58,23 @@ def settle(
         # Where the normals do not say which way the wall runs, the old direction stays.
         if values[2] > 0.2 * values[1]:
             break
-        cosine = axes[2, 0] * axis[0] + axes[2, 1] * axis[1] + axes[2, 2] * axis[2]
-        if abs(cosine) < 0.5:
-            break
+        turned = _turn_to(axis, axes[2])
         moved = np.hypot(rings[0, 0], rings[0, 1])
-        turned = 1.0 - abs(cosine)
-        for c in range(3):
-            axis[c] = axes[2, c] if cosine > 0.0 else -axes[2, c]
-        if turned < 1e-14 and moved < 1e-9 * rings[0, 2]:
+        if turned > 0.5 or (turned < 1e-14 and moved < 1e-9 * rings[0, 2]):
             break
     return n_rings, support, n, flatness
+
+
+@compiled
+def _turn_to(axis: Floats, other: Floats) -> float:
+    """Turns an axis to another one of either sense, and returns by how much: 1 less the cosine; not by more than a half
+    of that.
+    """
+    cosine = other[0] * axis[0] + other[1] * axis[1] + other[2] * axis[2]
+    if abs(cosine) >= 0.5:
+        for c in range(3):
+            axis[c] = other[c] if cosine > 0.0 else -other[c]
+    return float(1.0 - abs(cosine))
 
 
 @compiled
@@ -86,13 +93,8 @@ def _ahead(
         if ring_of[s] < 0:
             continue
         t = corners[owners[s]]
-        farthest, at = 0.0, 0
-        for v in range(0, 9, 3):
-            d = (t[v] - center[0]) * axis[0] + (t[v + 1] - center[1]) * axis[1] + (t[v + 2] - center[2]) * axis[2]
-            if d > 0.0:
-                nearest = min(nearest, d)
-                if d > farthest:
-                    farthest, at = d, v
+        near, farthest, at = _corners_ahead(t, center, axis)
+        nearest = min(nearest, near)
         length = np.hypot(segments[s, 2] - segments[s, 0], segments[s, 3] - segments[s, 1])
         total += length * farthest
         weight += length
@@ -103,6 +105,26 @@ def _ahead(
                 points[r, c] += length * p * (t[at + c] - center[c])
     if weight == 0.0:
         return 0.0, 0.0
+    reach = _reach_of_plane(points, middle, weight, axis, mean_normal)
+    return nearest, total / weight if np.isnan(reach) else reach
+
+
+@compiled
+def _corners_ahead(t: Floats, center: Floats, axis: Floats) -> tuple[float, float, int]:
+    """Of a triangle's corners that lie ahead how far the nearest and the farthest are, and which that is."""
+    nearest, farthest, at = np.inf, 0.0, 0
+    for v in range(0, 9, 3):
+        d = (t[v] - center[0]) * axis[0] + (t[v + 1] - center[1]) * axis[1] + (t[v + 2] - center[2]) * axis[2]
+        if d > 0.0:
+            nearest = min(nearest, d)
+            if d > farthest:
+                farthest, at = d, v
+    return nearest, farthest, at
+
+
+@compiled
+def _reach_of_plane(points: Floats, middle: Floats, weight: float, axis: Floats, mean_normal: Floats) -> float:
+    """How far along the axis the plane through some points lies, whose normal it writes; NaN where they are in none."""
     for r in range(3):
         for c in range(3):
             points[r, c] = points[r, c] / weight - middle[r] * middle[c] / (weight * weight)
@@ -116,7 +138,7 @@ def _ahead(
         mean_normal[c] = (axes[2, c] if cosine > 0.0 else -axes[2, c]) if good else axis[c]
         reach += middle[c] / weight * mean_normal[c]
     # Where the axis meets that plane.
-    return nearest, reach / abs(cosine) if good else total / weight
+    return float(reach / abs(cosine)) if good else np.nan
 
 
 @compiled
@@ -173,9 +195,7 @@ def _advance(
     Returns the step that was taken, 0 where the tube ends; the number of rings, 0 where it only coasts through a side
     opening; and the number of segments.
     """
-    step = gap - _BEFORE * radius if gap > (_PAST + 2 * _BEFORE) * radius else gap + _PAST * radius
-    if coasted > 0.0 or not np.isfinite(step):
-        step = _PAST * radius
+    step = _first_step(gap, radius, coasted)
     while step >= _LEAST * radius:
         for c in range(3):
             probe[c] = center[c] + step * axis[c]
@@ -189,6 +209,13 @@ def _advance(
             return step, 0, n
         step = 0.5 * step
     return 0.0, 0, 0
+
+
+@compiled
+def _first_step(gap: float, radius: float, coasted: float) -> float:
+    """How far ahead the next section is looked for first [m]: before the wall's next corners, or just past them."""
+    step = gap - _BEFORE * radius if gap > (_PAST + 2 * _BEFORE) * radius else gap + _PAST * radius
+    return step if coasted <= 0.0 and np.isfinite(step) else _PAST * radius
 
 
 @compiled

@@ -58,11 +58,18 @@ def lines_of_parts(
     """
     found: dict[int, Centreline | None] = store_of(parts, "lines")
     new = [part for part in dict.fromkeys(chosen) if part not in found]
-    if new:
-        found |= _lines_of_shapes(parts, [part for part in new if len(parts.meshes[part]) == 1], workers)
-        several = [part for part in new if len(parts.meshes[part]) > 1]
-        found |= _lines_of_heads(scene, properties, parts, several, workers) if several else {}
+    found |= _find_lines(scene, properties, parts, new, workers)
     return {part: line for part in chosen if (line := found[part]) is not None}
+
+
+def _find_lines(
+    scene: Scene, properties: Properties, parts: Parts, chosen: Sequence[int], workers: int | None
+) -> dict[int, Centreline | None]:
+    """The lines of parts that none is known of yet, None for those that have none."""
+    single = [part for part in chosen if len(parts.meshes[part]) == 1]
+    several = [part for part in chosen if len(parts.meshes[part]) > 1]
+    found = _lines_of_shapes(parts, single, workers) if single else {}
+    return {**found, **(_lines_of_heads(scene, properties, parts, several, workers) if several else {})}
 
 
 def _lines_of_shapes(parts: Parts, chosen: Sequence[int], workers: int | None) -> dict[int, Centreline | None]:

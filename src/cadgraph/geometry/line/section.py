@@ -123,16 +123,22 @@ def _cast(segments: Floats, n: int, x: float, y: float, hits: Floats, counts: In
             t = cross / slope
             if not t > 0.0:
                 continue
-            row = hits[k % N_RAYS]
-            at = 0
-            while at < MAX_RINGS and row[at] < t * (1.0 - _DOUBLE):
-                at += 1
-            if at == MAX_RINGS or row[at] <= t * (1.0 + _DOUBLE):
-                continue
-            for m in range(MAX_RINGS - 1, at, -1):
-                row[m] = row[m - 1]
-            row[at] = t
-            counts[k % N_RAYS] = min(counts[k % N_RAYS] + 1, MAX_RINGS)
+            if _insert(hits[k % N_RAYS], t):
+                counts[k % N_RAYS] = min(counts[k % N_RAYS] + 1, MAX_RINGS)
+
+
+@compiled
+def _insert(row: Floats, t: float) -> bool:
+    """Puts a distance into an ascending row that keeps the least few; not if it is there already, or too great."""
+    at = 0
+    while at < MAX_RINGS and row[at] < t * (1.0 - _DOUBLE):
+        at += 1
+    if at == MAX_RINGS or row[at] <= t * (1.0 + _DOUBLE):
+        return False
+    for m in range(MAX_RINGS - 1, at, -1):
+        row[m] = row[m - 1]
+    row[at] = t
+    return True
 
 
 @compiled
@@ -206,25 +212,14 @@ def find_rings(
     hits = np.empty((N_RAYS, MAX_RINGS))
     counts = np.empty(N_RAYS, np.int64)
     _cast(segments, n, 0.0, 0.0, hits, counts)
-    support = 0
-    if expected > 0.0:
-        for k in range(N_RAYS):
-            for level in range(counts[k]):
-                if abs(hits[k, level] - expected) <= ROUND * expected:
-                    support += 1
-                    break
+    support = _count_support(hits, counts, expected) if expected > 0.0 else 0
     n_rings = 0
     circle = np.empty(3)
     for level in range(MAX_RINGS):
-        n_hits = 0
-        for k in range(N_RAYS):
-            n_hits += counts[k] > level
-        if n_hits < _WHOLE * N_RAYS or _fit_circle(hits, level, circle) > ROUND:
+        if (counts > level).sum() < _WHOLE * N_RAYS or _fit_circle(hits, level, circle) > ROUND:
             break
-        if level > 0:
-            off = np.hypot(circle[0] - rings[0, 0], circle[1] - rings[0, 1])
-            if off > _CONCENTRIC * rings[0, 2]:
-                break
+        if level > 0 and np.hypot(circle[0] - rings[0, 0], circle[1] - rings[0, 1]) > _CONCENTRIC * rings[0, 2]:
+            break
         rings[level, :3] = circle
         n_rings += 1
     ring_of[:n] = -1
@@ -232,6 +227,18 @@ def find_rings(
         _assign(segments, n, hits, counts, n_rings, ring_of)
         _measure_rings(segments, owners, n, normals, u, w, n_rings, rings, moments, ring_of)
     return n_rings, support / N_RAYS
+
+
+@compiled
+def _count_support(hits: Floats, counts: Ints, expected: float) -> int:
+    """How many rays meet something at an expected radius [m]."""
+    support = 0
+    for k in range(N_RAYS):
+        for level in range(counts[k]):
+            if abs(hits[k, level] - expected) <= ROUND * expected:
+                support += 1
+                break
+    return support
 
 
 @compiled
@@ -256,15 +263,7 @@ def _measure_rings(
     rings: Floats, moments: Floats, ring_of: Ints,
 ) -> None:  # fmt: skip
     """Centre of each ring as the centroid of its outline, radius as that of its farthest corner."""
-    sums = np.zeros((n_rings, 3))
-    for s in range(n):
-        level = ring_of[s]
-        if level < 0:
-            continue
-        length = np.hypot(segments[s, 2] - segments[s, 0], segments[s, 3] - segments[s, 1])
-        sums[level, 0] += length
-        sums[level, 1] += length * 0.5 * (segments[s, 0] + segments[s, 2])
-        sums[level, 2] += length * 0.5 * (segments[s, 1] + segments[s, 3])
+    sums = _outlines(segments, n, n_rings, ring_of)
     for level in range(n_rings):
         if sums[level, 0] > 0.0:
             rings[level, 0] = sums[level, 1] / sums[level, 0]
@@ -282,22 +281,48 @@ def _measure_rings(
             away = np.hypot(segments[s, end] - rings[level, 0], segments[s, end + 1] - rings[level, 1])
             rings[level, 2] = max(rings[level, 2], away)
         length = np.hypot(segments[s, 2] - segments[s, 0], segments[s, 3] - segments[s, 1])
-        x = 0.5 * (segments[s, 0] + segments[s, 2]) - rings[level, 0]
-        y = 0.5 * (segments[s, 1] + segments[s, 3]) - rings[level, 1]
         normal = normals[owners[s]]
-        outward = 0.0
-        for c in range(3):
-            outward += normal[c] * (x * u[c] + y * w[c])
-        sense = 1.0 if outward >= 0.0 else -1.0
+        sense = _sense(segments[s], rings[level], normal, u, w)
         rings[level, 3] += sense * length / sums[level, 0]
-        if level > 0:
-            continue
-        total += length
-        for r in range(3):
-            mean[r] += length * sense * normal[r]
-            for c in range(3):
-                moments[r, c] += length * normal[r] * normal[c]
+        if level == 0:
+            total += length
+            for r in range(3):
+                mean[r] += length * sense * normal[r]
+                for c in range(3):
+                    moments[r, c] += length * normal[r] * normal[c]
     if total > 0.0:
-        for r in range(3):
-            for c in range(3):
-                moments[r, c] = moments[r, c] / total - mean[r] * mean[c] / (total * total)
+        _center(moments, mean, total)
+
+
+@compiled
+def _outlines(segments: Floats, n: int, n_rings: int, ring_of: Ints) -> Floats:
+    """``(n_rings, 3)`` length of each ring [m] and its middle in the plane times that."""
+    sums = np.zeros((n_rings, 3))
+    for s in range(n):
+        level = ring_of[s]
+        if level < 0:
+            continue
+        length = np.hypot(segments[s, 2] - segments[s, 0], segments[s, 3] - segments[s, 1])
+        sums[level, 0] += length
+        sums[level, 1] += length * 0.5 * (segments[s, 0] + segments[s, 2])
+        sums[level, 2] += length * 0.5 * (segments[s, 1] + segments[s, 3])
+    return sums
+
+
+@compiled
+def _sense(segment: Floats, ring: Floats, normal: Floats, u: Floats, w: Floats) -> float:
+    """Whether a wall looks away from the middle of its ring, 1, or towards it, -1."""
+    x = 0.5 * (segment[0] + segment[2]) - ring[0]
+    y = 0.5 * (segment[1] + segment[3]) - ring[1]
+    outward = 0.0
+    for c in range(3):
+        outward += normal[c] * (x * u[c] + y * w[c])
+    return 1.0 if outward >= 0.0 else -1.0
+
+
+@compiled
+def _center(moments: Floats, mean: Floats, total: float) -> None:
+    """Turns weighted sums of products into a covariance."""
+    for r in range(3):
+        for c in range(3):
+            moments[r, c] = moments[r, c] / total - mean[r] * mean[c] / (total * total)

@@ -38,20 +38,10 @@ def _seed(
     u, w, axis, center = np.empty(3), np.empty(3), np.empty(3), np.empty(3)
     rings, across = np.empty((MAX_RINGS, 4)), np.empty(8)
     plane_axes(normal, u, w)
-    sides = np.array([0, 3, 3, 6, 6, 0])
     best = _FLAT_NORMALS
     for k in range(3 + _N_TURNS):
-        if k < 3:
-            for c in range(3):
-                axis[c] = t[sides[2 * k] + c] - t[sides[2 * k + 1] + c]
-            length = np.sqrt((axis**2).sum())
-            if not length > 1e-9 * size:
-                continue
-            axis /= length
-        else:
-            angle = np.pi * (k - 3) / _N_TURNS
-            for c in range(3):
-                axis[c] = np.cos(angle) * u[c] + np.sin(angle) * w[c]
+        if not _set_axis(axis, k, t, u, w, size):
+            continue
         n_across = _cross(corners, middle, axis, normal, size, segments, owners, across)
         for a in range(n_across):
             for c in range(3):
@@ -68,6 +58,23 @@ def _seed(
         if best < 1e-6:
             break
     return best < _FLAT_NORMALS
+
+
+@compiled
+def _set_axis(axis: Floats, k: int, t: Floats, u: Floats, w: Floats, size: float) -> bool:
+    """Writes the direction that is tried at a number: the sides of a face, then turns in its plane; False for none."""
+    if k >= 3:
+        angle = np.pi * (k - 3) / _N_TURNS
+        for c in range(3):
+            axis[c] = np.cos(angle) * u[c] + np.sin(angle) * w[c]
+        return True
+    for c in range(3):
+        axis[c] = t[3 * k + c] - t[3 * ((k + 1) % 3) + c]
+    length = np.sqrt((axis**2).sum())
+    if not length > 1e-9 * size:
+        return False
+    axis /= length
+    return True
 
 
 @compiled
@@ -166,10 +173,7 @@ def trace_pieces(corners: Floats, normals: Floats, areas: Floats, size: float) -
     """
     m = len(corners)
     segments, owners, ring_of = np.empty((m, 4)), np.empty(m, np.int64), np.empty(m, np.int64)
-    middles = np.empty((m, 3))
-    for f in range(m):
-        for c in range(3):
-            middles[f, c] = (corners[f, c] + corners[f, 3 + c] + corners[f, 6 + c]) / 3.0
+    middles = (corners[:, :3] + corners[:, 3:6] + corners[:, 6:]) / 3.0
     nodes = np.empty((_MAX_NODES, NODE))
     starts = np.zeros(_MAX_PIECES + 1, np.int64)
     ends = np.zeros((_MAX_PIECES, 2, 4))
@@ -179,9 +183,7 @@ def trace_pieces(corners: Floats, normals: Floats, areas: Floats, size: float) -
     total, left = areas.sum(), areas.sum()
     node = np.empty(NODE)
     n_pieces = n_tries = 0
-    while n_pieces < _MAX_PIECES and n_tries < (_FIRST_TRIES if n_pieces == 0 else _MAX_TRIES):
-        if left <= _DONE * total or _MAX_NODES - starts[n_pieces] < 16:
-            break
+    while left > _DONE * total and _has_room(n_pieces, n_tries, starts[n_pieces]):
         face = _next_seed(by_area, normals, covered, failed, n_failed)
         if face < 0:
             break
@@ -198,12 +200,26 @@ def trace_pieces(corners: Floats, normals: Floats, areas: Floats, size: float) -
         n_failed -= 1
         starts[n_pieces] = last
         _cover(middles, nodes, first, last, covered)
-        left = 0.0
-        for f in range(m):
-            if not covered[f]:
-                left += areas[f]
+        left = _area_left(areas, covered)
     share = 1.0 - left / total if total > 0.0 else 0.0
     return nodes[: starts[n_pieces]].copy(), starts[: n_pieces + 1].copy(), ends[:n_pieces].copy(), share
+
+
+@compiled
+def _has_room(n_pieces: int, n_tries: int, n_nodes: int) -> bool:
+    """Whether another piece may be looked for."""
+    tries = _FIRST_TRIES if n_pieces == 0 else _MAX_TRIES
+    return n_pieces < _MAX_PIECES and n_tries < tries and _MAX_NODES - n_nodes >= 16
+
+
+@compiled
+def _area_left(areas: Floats, covered: Bools) -> float:
+    """The area of the faces that no piece covers [m2]."""
+    left = 0.0
+    for f in range(len(areas)):
+        if not covered[f]:
+            left += areas[f]
+    return left
 
 
 @compiled
@@ -289,30 +305,30 @@ def essential_nodes(values: Floats, tolerance: float) -> Ints:
     keep[0] = 0
     n_kept, start = 1, 0
     for stop in range(2, n):
-        length2 = 0.0
-        for c in range(3):
-            length2 += (values[stop, c] - values[start, c]) ** 2
         limit = tolerance * values[start, 3]
-        bends = False
         for k in range(start + 1, stop):
-            share = 0.0
-            for c in range(3):
-                share += (values[k, c] - values[start, c]) * (values[stop, c] - values[start, c])
-            share = min(1.0, max(0.0, share / length2)) if length2 > 0.0 else 0.0
-            for c in range(5):
-                a, b, v = values[start, c], values[stop, c], values[k, c]
-                if c == 4 and np.isnan(a) and np.isnan(b) and np.isnan(v):
-                    continue
-                if not abs(v - a - share * (b - a)) <= limit:
-                    bends = True
-                    break
-            if bends:
+            if not _is_between(values, start, stop, k, limit):
+                start = stop - 1
+                keep[n_kept] = start
+                n_kept += 1
                 break
-        if bends:
-            start = stop - 1
-            keep[n_kept] = start
-            n_kept += 1
     if n > 1:
         keep[n_kept] = n - 1
         n_kept += 1
     return keep[:n_kept]
+
+
+@compiled
+def _is_between(values: Floats, start: int, stop: int, k: int, limit: float) -> bool:
+    """Whether a node lies within a limit [m] of the line from one node to another, its radii too."""
+    length2 = share = 0.0
+    for c in range(3):
+        length2 += (values[stop, c] - values[start, c]) ** 2
+        share += (values[k, c] - values[start, c]) * (values[stop, c] - values[start, c])
+    share = min(1.0, max(0.0, share / length2)) if length2 > 0.0 else 0.0
+    for c in range(5):
+        a, b, v = values[start, c], values[stop, c], values[k, c]
+        without = c == 4 and np.isnan(a) and np.isnan(b) and np.isnan(v)
+        if not without and not abs(v - a - share * (b - a)) <= limit:
+            return False
+    return True

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cadgraph.geometry.line.centreline import Branch, Centreline
+from cadgraph.geometry.line.centreline import Branch, Centreline, End
 from cadgraph.model.scene import Floats, Ints
 
 __all__ = ["Ends", "Facing", "Tap", "find_tap", "gather_ends", "nearest_on", "same_place"]
@@ -87,20 +87,26 @@ class Tap:
 
 def gather_ends(lines: Mapping[int, Centreline]) -> Ends:
     """The free ends of lines, by part."""
-    rows = [(part, k, end, line) for part, line in sorted(lines.items()) for k, end in enumerate(line.ends)]
+    rows = [(part, k, end) for part, line in sorted(lines.items()) for k, end in enumerate(line.ends)]
+    ends = [end for _, _, end in rows]
     of_part: dict[int, list[int]] = {}
-    for row, (part, _, _, _) in enumerate(rows):
+    for row, (part, _, _) in enumerate(rows):
         of_part.setdefault(part, []).append(row)
     return Ends(
-        part=np.array([part for part, _, _, _ in rows], np.int64),
-        index=np.array([k for _, k, _, _ in rows], np.int64),
-        point=np.array([end.point for _, _, end, _ in rows], np.float64).reshape(-1, 3),
-        direction=np.array([end.direction for _, _, end, _ in rows], np.float64).reshape(-1, 3),
-        radius=np.array([end.radius for _, _, end, _ in rows], np.float64),
-        bore=np.array([end.bore for _, _, end, _ in rows], np.float64),
-        length=np.array([line.branches[end.branch].length for _, _, end, line in rows], np.float64),
+        part=np.array([part for part, _, _ in rows], np.int64),
+        index=np.array([k for _, k, _ in rows], np.int64),
+        point=_column(ends, "point").reshape(-1, 3),
+        direction=_column(ends, "direction").reshape(-1, 3),
+        radius=_column(ends, "radius"),
+        bore=_column(ends, "bore"),
+        length=np.array([lines[part].branches[end.branch].length for part, _, end in rows], np.float64),
         of_part={part: tuple(found) for part, found in of_part.items()},
     )
+
+
+def _column(ends: Sequence[End], name: str) -> Floats:
+    """One property of all ends."""
+    return np.array([getattr(end, name) for end in ends], np.float64)
 
 
 def same_place(ends: Ends, row: int, others: Sequence[int], reach: float) -> int | None:
@@ -152,26 +158,26 @@ def find_tap(ends: Ends, row: int, line: Centreline, reach: float) -> Tap | None
     Returns:
         The place with the least gap, or None.
     """
-    point, direction, radius = ends.point[row], ends.direction[row], float(ends.radius[row])
     best: Tap | None = None
     for number, branch in enumerate(line.branches):
-        s, foot, tangent, wall, apart = nearest_on(branch, point)
-        across = abs(float(tangent @ direction))
-        tap: Tap | None = None
-        if across < _SLANT and radius <= 1.25 * wall:
-            # Ahead of the end its axis passes the branch's; how far off tells a branch from a pipe that only touches.
-            ahead = foot - point
-            inward = float(ahead @ direction)
-            miss = float(np.linalg.norm(ahead - inward * direction))
-            gap = apart - wall
-            if inward > -0.5 * wall and miss <= _ECCENTRIC * wall and -1.05 * wall <= gap <= reach:
-                tap = Tap(number, s, foot, gap, wall)
-        elif (
-            across >= _SLANT
-            and apart <= max(_OFFSET * min(radius, wall), _LEAST_OFFSET)
-            and _SEATED < s < branch.length - _SEATED
-        ):
-            tap = Tap(number, s, foot, 0.0, wall, sleeve=True)
+        tap = _tap_on(ends, row, number, branch, reach)
         if tap is not None and (best is None or tap.gap < best.gap):
             best = tap
     return best
+
+
+def _tap_on(ends: Ends, row: int, number: int, branch: Branch, reach: float) -> Tap | None:
+    """Where an end runs into the side of one branch, or lies along it."""
+    point, direction, radius = ends.point[row], ends.direction[row], float(ends.radius[row])
+    s, foot, tangent, wall, apart = nearest_on(branch, point)
+    if abs(float(tangent @ direction)) >= _SLANT:
+        on_axis = apart <= max(_OFFSET * min(radius, wall), _LEAST_OFFSET)
+        seated = _SEATED < s < branch.length - _SEATED
+        return Tap(number, s, foot, 0.0, wall, sleeve=True) if on_axis and seated else None
+    # Ahead of the end its axis passes the branch's; how far off tells a branch from a pipe that only touches.
+    ahead = foot - point
+    inward = float(ahead @ direction)
+    miss = float(np.linalg.norm(ahead - inward * direction))
+    gap = apart - wall
+    meets = radius <= 1.25 * wall and inward > -0.5 * wall and miss <= _ECCENTRIC * wall
+    return Tap(number, s, foot, gap, wall) if meets and -1.05 * wall <= gap <= reach else None

@@ -147,15 +147,13 @@ def gauge_sides(found: Attachments, units: Sequence[UnitParts], lines: Collectio
     Returns:
         Places by number of the unit, ascending.
     """
-    owner = {part: number for number, unit in enumerate(units) for part in unit.parts}
+    owner = {part: k for k, unit in enumerate(units) for part in unit.parts if unit.unit_type == "gauge"}
     mounted = {owner.get(mount.part) for mount in found.mounts}
     best: dict[int, Side] = {}
-    for side in found.sides:
+    for side in sorted(found.sides, key=lambda side: (side.tap.gap, side.part)):
         unit = owner.get(side.solid)
-        if unit is None or unit in mounted or units[unit].unit_type != "gauge" or side.part not in lines:
-            continue
-        if unit not in best or (side.tap.gap, side.part) < (best[unit].tap.gap, best[unit].part):
-            best[unit] = side
+        if unit is not None and unit not in mounted and side.part in lines:
+            best.setdefault(unit, side)
     return dict(sorted(best.items()))
 
 
@@ -267,6 +265,21 @@ def _draw_flanged(draft: _Draft, flanged: Mapping[tuple[int, int], Floats]) -> N
 def _finish(draft: _Draft) -> Drawing:
     """The network with every joint as one node."""
     node_of = first_of_component(draft.n_nodes, [(a, b) for a, b, _ in draft.joints]).tolist()
+    ends: dict[int, list[int]] = {}
+    for row, node in sorted(draft.node_of_end.items()):
+        ends.setdefault(node_of[node], []).append(row)
+    return Drawing(
+        net=_net_of(draft, node_of),
+        openings=tuple(tuple(found) for found in draft.openings),
+        ends={node: tuple(rows) for node, rows in ends.items()},
+        taps=frozenset(node_of[node] for node in draft.taps),
+        solids={node_of[node]: part for part, node in draft.node_of_solid.items()},
+        bridged=tuple(draft.bridged),
+    )
+
+
+def _net_of(draft: _Draft, node_of: Sequence[int]) -> Net:
+    """The spans between joints, each no surer than what joins them."""
     sure_of = [1.0] * draft.n_nodes
     for a, _, confidence in draft.joints:
         sure_of[node_of[a]] = min(sure_of[node_of[a]], confidence)
@@ -276,14 +289,4 @@ def _finish(draft: _Draft) -> Drawing:
         sure = min(span.confidence, sure_of[a], sure_of[b])
         if a != b or span.length > 0.05:
             net.add(replace(span, a=a, b=b, confidence=sure))
-    ends: dict[int, list[int]] = {}
-    for row, node in sorted(draft.node_of_end.items()):
-        ends.setdefault(node_of[node], []).append(row)
-    return Drawing(
-        net=net,
-        openings=tuple(tuple(found) for found in draft.openings),
-        ends={node: tuple(rows) for node, rows in ends.items()},
-        taps=frozenset(node_of[node] for node in draft.taps),
-        solids={node_of[node]: part for part, node in draft.node_of_solid.items()},
-        bridged=tuple(draft.bridged),
-    )
+    return net

@@ -31,21 +31,26 @@ def prune_lines(piping: Piping, beliefs: Beliefs) -> Piping:
 
 def _without_rings(piping: Piping, beliefs: Beliefs) -> Piping:
     """Takes away lines that only lead into each other: pieces of a volute, a coil, a handle."""
-    found = piping.joints
-    pairs = [(int(found.ends.part[f.first]), int(found.ends.part[f.second])) for f in found.facings]
-    possible = _closed_lines(found) - {tapped.part for tapped in found.taps if not tapped.tap.sleeve}
-    possible = {part for part in possible if beliefs.open[part]}
-    rings = [ring for ring in connected_sets(sorted(piping.lines), pairs) if possible.issuperset(ring)]
+    possible = {part for part in _closed_lines(piping.joints) if beliefs.open[part]}
+    connected = connected_sets(sorted(piping.lines), _facing_parts(piping.joints))
+    rings = [ring for ring in connected if possible.issuperset(ring)]
     if not rings:
         return piping
-    gone = set().union(*rings)
+    gone = {part for ring in rings for part in ring}
     return replace(piping, lines={part: line for part, line in piping.lines.items() if part not in gone})
 
 
+def _facing_parts(found: Attachments) -> list[tuple[int, int]]:
+    """The pairs of parts whose ends face each other."""
+    part = found.ends.part
+    return [(int(part[facing.first]), int(part[facing.second])) for facing in found.facings]
+
+
 def _closed_lines(found: Attachments) -> set[int]:
-    """The parts with ends all of which face another one."""
+    """The parts with ends, all of which face another one, that nothing is tapped into."""
     joined = {row for facing in found.facings for row in (facing.first, facing.second)}
-    return {part for part, rows in found.ends.of_part.items() if joined.issuperset(rows)}
+    tapped = {tapped.part for tapped in found.taps if not tapped.tap.sleeve}
+    return {part for part, rows in found.ends.of_part.items() if joined.issuperset(rows)} - tapped
 
 
 def _without_stubs(piping: Piping, beliefs: Beliefs) -> Piping:

@@ -47,31 +47,47 @@ def make_network(
         sure: whether a part is a connector by its label.
     """
     spans = _kept(net, len(units), sure)
-    nodes = sorted({node for span in spans for node in (span.a, span.b) if node >= len(units)}, key=_by_place(spans))
-    number = {node: len(units) + k for k, node in enumerate(nodes)}
-    number.update({k: k for k in range(len(units))})
+    nodes = _places_of(spans, len(units))
+    number = {**{k: k for k in range(len(units))}, **{node: len(units) + k for k, node in enumerate(nodes)}}
     places = tuple(_place(node, spans, drawing, lines, found, ending) for node in nodes)
-    openings = [list(found) for found in drawing.openings]
+    opened, renumbered = _used_openings(spans, units, drawing)
+    directed = [span if number[span.a] <= number[span.b] else span.reversed() for span in spans]
+    links = [_link(span, number, opened, renumbered) for span in directed]
+    links.sort(key=lambda link: (link.source, link.target, link.length, link.via, link.path))
+    return Network(opened, places, tuple(links), _systems(links))
+
+
+def _places_of(spans: Sequence[Span], n_units: int) -> list[int]:
+    """The nodes that are no units, by place."""
+    return sorted({node for span in spans for node in (span.a, span.b) if node >= n_units}, key=_by_place(spans))
+
+
+def _used_openings(
+    spans: Sequence[Span], units: Sequence[UnitParts], drawing: Drawing
+) -> tuple[tuple[UnitParts, ...], list[dict[int, int]]]:
+    """The units with those of their openings that a span uses, by place, and the new number of each."""
     used = _used_ports(spans, len(units))
     renumbered: list[dict[int, int]] = []
-    final = []
-    for unit, opened in enumerate(openings):
-        kept = sorted(used.get(unit, ()), key=lambda port: _port_key(opened[port]))
+    outcome = []
+    for number, (unit, opened) in enumerate(zip(units, drawing.openings, strict=True)):
+        kept = sorted(used.get(number, ()), key=[_port_key(opening) for opening in opened].__getitem__)
         renumbered.append({port: k for k, port in enumerate(kept)})
-        final.append(tuple(_sized(opened[port]) for port in kept))
-    outcome = tuple(replace(unit, openings=ports) for unit, ports in zip(units, final, strict=True))
-    links = []
-    for span in spans:
-        one = span
-        if number[span.a] > number[span.b]:
-            one = span.reversed()
-        links.append(_link(one, number, outcome, renumbered))
-    links.sort(key=lambda link: (link.source, link.target, link.length, link.via, link.path))
-    return Network(outcome, places, tuple(links), _systems(links))
+        outcome.append(replace(unit, openings=tuple(opened[port] for port in kept)))
+    return tuple(outcome), renumbered
 
 
 def _kept(net: Net, n_units: int, sure: Callable[[int], bool]) -> list[Span]:
     """The spans of networks that hold a unit, or a run of pipe whose label says so."""
+    group = _network_of(net)
+    of_group: dict[int, list[Span]] = {}
+    for _, span in sorted(net.spans.items()):
+        of_group.setdefault(group[span.a], []).append(span)
+    counted = [members for _, members in sorted(of_group.items()) if _counts(members, n_units, sure)]
+    return [span for members in counted for span in members]
+
+
+def _network_of(net: Net) -> dict[int, int]:
+    """The least node of the network that each node belongs to."""
     group: dict[int, int] = {}
     for start in sorted(net.at):
         if start in group:
@@ -82,16 +98,15 @@ def _kept(net: Net, n_units: int, sure: Callable[[int], bool]) -> list[Span]:
                 if span.b not in group:
                     group[span.b] = start
                     front.append(span.b)
-    of_group: dict[int, list[Span]] = {}
-    for _, span in sorted(net.spans.items()):
-        of_group.setdefault(group[span.a], []).append(span)
-    kept = []
-    for _, members in sorted(of_group.items()):
-        held = any(node < n_units for span in members for node in (span.a, span.b))
-        long = sum(span.length for span in members) >= _LEAST_RUN and any(span.pieces for span in members)
-        if held or (long and any(sure(part) for span in members for part in span.via)):
-            kept += members
-    return kept
+    return group
+
+
+def _counts(spans: Sequence[Span], n_units: int, sure: Callable[[int], bool]) -> bool:
+    """Whether the spans of a network are told: they hold a unit, or are a run of pipe by its label."""
+    if any(min(span.a, span.b) < n_units for span in spans):
+        return True
+    long = sum(span.length for span in spans) >= _LEAST_RUN and any(span.pieces for span in spans)
+    return long and any(sure(part) for span in spans for part in span.via)
 
 
 def _by_place(spans: Sequence[Span]) -> Callable[[int], tuple[float, ...]]:
@@ -116,9 +131,14 @@ def _place(
     x, y, z = (float(v) for v in np.mean([point for point, _ in meeting], axis=0))
     kind = "junction"
     if len(meeting) == 1:
-        (span,) = (span for span in spans if node in (span.a, span.b))
-        kind = _ending(span if span.b == node else span.reversed(), node, drawing, lines, found, ending)
+        kind = _ending(_only_span(node, spans), node, drawing, lines, found, ending)
     return Place(kind, (x, y, z), parts)
+
+
+def _only_span(node: int, spans: Sequence[Span]) -> Span:
+    """The span that ends at a node, as it comes there."""
+    (span,) = (span for span in spans if node in (span.a, span.b))
+    return span if span.b == node else span.reversed()
 
 
 def _ending(
@@ -141,15 +161,20 @@ def _ending(
         return "unknown"
     if np.isfinite(found.ends.bore[rows[0]]):
         return "open"
-    # Two discs at the end, the last one without a hole: a flange and its lid.
-    before = span.via[-2] if len(span.via) > 1 else None
-    radius = max(float(branch.radius.max()) for branch in lines[last].branches)
-    if before is not None and before in lines and lines[last].length < radius:
-        other = lines[before].branches
-        wide = max(float(branch.radius.max()) for branch in other)
-        if lines[before].length < 1.6 * wide and radius >= 0.9 * wide:
-            return "blind"
-    return "open"
+    return "blind" if len(span.via) > 1 and _is_lid(lines, span.via[-2], last) else "open"
+
+
+def _is_lid(lines: Mapping[int, Centreline], before: int, last: int) -> bool:
+    """Whether two discs end a run, of which the last one, without a hole, covers the other: a flange and its lid."""
+    if before not in lines:
+        return False
+    radius, wide = _widest(lines[last]), _widest(lines[before])
+    short = lines[last].length < radius and lines[before].length < 1.6 * wide
+    return short and radius >= 0.9 * wide
+
+
+def _widest(line: Centreline) -> float:
+    return max(float(branch.radius.max()) for branch in line.branches)
 
 
 def _used_ports(spans: Sequence[Span], n_units: int) -> dict[int, set[int]]:
@@ -165,11 +190,6 @@ def _port_key(opening: Opening) -> tuple[float, ...]:
     return tuple(round(x, 3) for x in opening.point) + opening.point
 
 
-def _sized(opening: Opening) -> Opening:
-    """The opening with the nominal bore where its line has one; its face may be that of a flange."""
-    return opening
-
-
 def _link(
     span: Span, number: Mapping[int, int], units: Sequence[UnitParts], renumbered: Sequence[Mapping[int, int]]
 ) -> Link:
@@ -178,13 +198,7 @@ def _link(
         renumbered[node].get(port, -1) if node < len(units) else -1
         for node, port in ((source, span.port_a), (target, span.port_b))
     ]
-    points, length = span.points, span.length
-    for at_end, (node, port) in enumerate(zip((source, target), ports, strict=True)):
-        half = _half(units[node], port) if node < len(units) else None
-        if half is not None:
-            tip = points[-1] if at_end else points[0]
-            length += float(np.linalg.norm(half - tip))
-            points = np.concatenate([points, half[None]] if at_end else [half[None], points])
+    points, length = _to_middles(span, (source, target), ports, units)
     sizes = sizes_along([piece[:2] for piece in span.pieces])
     size, bore = _main_size(span)
     diameter = size / 1000 if size is not None else bore
@@ -202,6 +216,20 @@ def _link(
         target_port=ports[1],
         confidence=span.confidence,
     )
+
+
+def _to_middles(
+    span: Span, nodes: tuple[int, int], ports: Sequence[int], units: Sequence[UnitParts]
+) -> tuple[Floats, float]:
+    """The points and the length of a span, from and to the middles of the units that lines pass through."""
+    points, length = span.points, span.length
+    for at_end, (node, port) in enumerate(zip(nodes, ports, strict=True)):
+        half = _half(units[node], port) if node < len(units) else None
+        if half is not None:
+            tip = points[-1] if at_end else points[0]
+            length += float(np.linalg.norm(half - tip))
+            points = np.concatenate([points, half[None]] if at_end else [half[None], points])
+    return points, length
 
 
 def _half(unit: UnitParts, port: int) -> Floats | None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeVar
@@ -423,19 +422,16 @@ def drop_shapeless(piping: Piping) -> Piping:
 
 def _shapeless(piping: Piping) -> set[int]:
     """Parts with a line of their own that joins nothing, at which two or more loose ends of other lines lie."""
-    found, lines = piping.joints, piping.lines
-    joined = _joined_ends(found)
-    loose = {part: [row for row in rows if row not in joined] for part, rows in found.ends.of_part.items()}
-    idle = {part for part, rows in loose.items() if len(rows) == len(found.ends.of_part[part])}
-    count: Counter[int] = Counter()
-    for part in idle:
-        others = [other for other in piping.given.neighbors.get(part, ()) if other in lines and other not in idle]
-        count[part] = sum(_loose_at(piping, loose[other], part) for other in others)
-    return {part for part, rows in count.items() if rows >= 2}
+    joined, of_part = _joined_ends(piping.joints), piping.joints.ends.of_part
+    loose = {part: [row for row in rows if row not in joined] for part, rows in of_part.items()}
+    idle = {part for part, rows in loose.items() if len(rows) == len(of_part[part])}
+    busy = _without(loose, idle)
+    return {part for part in idle if _count_at(piping, part, busy) >= 2}
 
 
-def _loose_at(piping: Piping, rows: Sequence[int], part: int) -> int:
-    """How many of some ends lie at a part."""
+def _count_at(piping: Piping, part: int, loose: Mapping[int, Sequence[int]]) -> int:
+    """How many loose ends of the lines near a part lie at it."""
+    rows = [row for other in piping.given.neighbors.get(part, ()) for row in loose.get(other, ())]
     return sum(_lies_at(piping, row, part) for row in rows)
 
 

@@ -35,15 +35,21 @@ def connected_groups(given: RelateInput, roles: Roles, skip: Collection[int] = (
         roles: what each part does.
         skip: parts that are left out.
     """
-    unit_of_group, cluster = given.vocabulary.unit_of_group, given.cluster
+    unit_of_group = given.vocabulary.unit_of_group
     types = [unit_of_group.get(group) if group is not None else None for group in roles.groups]
     members = [part for part, unit in enumerate(types) if unit is not None and part not in skip]
-    pairs = [
+    pairs = _pairs_of_one_type(given, types)
+    return [Group(str(types[parts[0]]), parts) for parts in connected_sets(members, pairs)]
+
+
+def _pairs_of_one_type(given: RelateInput, types: Sequence[str | None]) -> list[tuple[int, int]]:
+    """The contacts within one structure between parts of one type of unit."""
+    cluster = given.cluster
+    return [
         (a, b)
         for a, b in given.contacts.pairs.tolist()
         if types[a] is not None and types[a] == types[b] and cluster[a] == cluster[b] >= 0
     ]
-    return [Group(str(types[parts[0]]), parts) for parts in connected_sets(members, pairs)]
 
 
 def is_loose_operator(group: Group, names: Sequence[str | None], reached: Collection[int]) -> bool:
@@ -90,9 +96,7 @@ def mend_units(piping: Piping) -> tuple[Piping, list[Group]]:
         The piping, in which what was taken in carries no line, and the groups.
     """
     given = piping.given
-    unit_types = given.vocabulary.unit_of_group
-    types = [None if group is None else unit_types.get(group, "") for group in piping.roles.groups]
-    groups = take_in_enclosed(_mended(piping), given.parts.inside, types, given.neighbors, piping.lines)
+    groups = take_in_enclosed(_mended(piping), given.parts.inside, _types_of(piping), given.neighbors, piping.lines)
     taken_in = {part for group in groups for part in group.parts} - piping.members
     if all(_is_mere_fastener(piping, part) for part in taken_in):
         return piping, groups
@@ -103,6 +107,12 @@ def mend_units(piping: Piping) -> tuple[Piping, list[Group]]:
         lineless=tuple(part for part in piping.lineless if part not in members),
         members=members,
     ), groups
+
+
+def _types_of(piping: Piping) -> list[str | None]:
+    """The unit type of each part, None for parts without a group, ``""`` for groups that form no unit."""
+    unit_types = piping.given.vocabulary.unit_of_group
+    return [None if group is None else unit_types.get(group, "") for group in piping.roles.groups]
 
 
 def _is_mere_fastener(piping: Piping, part: int) -> bool:
@@ -151,18 +161,28 @@ def _takers(work: _Work, piece: int, piping: Piping) -> list[int]:
     Such a piece is a fastener all of whose neighbours are one unit, or it joins groups of which one at most is on a
     line.
     """
-    near, names = piping.given.neighbors[piece], piping.roles.names
-    touched = sorted({work.of_part[other] for other in near if other in work.of_part})
+    touched = _touched(work, piping.given.neighbors[piece])
     clamped = _is_clamped(work, piece, piping)
     for unit_type in sorted({work.types[k] for k in touched}):
         same = [k for k in touched if work.types[k] == unit_type]
         standing = [k for k in same if _stands(work.parts[k], piping.mounted, piece)]
         others = sorted(set(same).difference(standing))
-        # A nipple between two valves is no piece of theirs; what holds a mere operator is.
-        fits = piece not in piping.lines or all(_is_operator(work.parts[k], names) for k in others)
-        if fits and (clamped or len(same) > 1 >= len(standing)):
+        joins = clamped or len(same) > 1 >= len(standing)
+        if joins and _may_hold(work, piece, others, piping):
             return standing + others
     return []
+
+
+def _touched(work: _Work, near: Sequence[int]) -> list[int]:
+    """The groups of some parts, ascending."""
+    return sorted({work.of_part[other] for other in near if other in work.of_part})
+
+
+def _may_hold(work: _Work, piece: int, groups: Sequence[int], piping: Piping) -> bool:
+    """Whether a piece may be one of groups that are on no line: a nipple between two valves is none of theirs, but what
+    holds a mere operator is.
+    """
+    return piece not in piping.lines or all(_is_operator(work.parts[k], piping.roles.names) for k in groups)
 
 
 def _is_clamped(work: _Work, piece: int, piping: Piping) -> bool:
@@ -173,21 +193,24 @@ def _is_clamped(work: _Work, piece: int, piping: Piping) -> bool:
 
 def _join_odd(work: _Work, piping: Piping) -> bool:
     """A single part of another type whose label nothing supports, next to pieces of one type only."""
-    near, mounted = piping.given.neighbors, piping.mounted
     changed = False
     for k in sorted(work.parts):
         if k not in work.parts or len(work.parts[k]) != 1:
             continue
         (piece,) = work.parts[k]
-        if piece not in piping.unsupported:
-            continue
-        touched = sorted({work.of_part[other] for other in near.get(piece, ()) if other in work.of_part} - {k})
-        types = {work.types[other] for other in touched}
-        standing = [other for other in touched if _stands(work.parts[other], mounted)]
-        if len(types) == 1 and len(standing) + (piece in mounted) <= 1:
-            work.merge(touched[0], [*touched[1:], k], None)
+        takers = _takers_of_odd(work, k, piece, piping) if piece in piping.unsupported else []
+        if takers:
+            work.merge(takers[0], [*takers[1:], k], None)
             changed = True
     return changed
+
+
+def _takers_of_odd(work: _Work, k: int, piece: int, piping: Piping) -> list[int]:
+    """The groups that a single part is next to, if they are of one type and one of all these at most is on a line."""
+    touched = [other for other in _touched(work, piping.given.neighbors.get(piece, ())) if other != k]
+    standing = [other for other in touched if _stands(work.parts[other], piping.mounted)]
+    alike = len({work.types[other] for other in touched}) == 1
+    return touched if alike and len(standing) + (piece in piping.mounted) <= 1 else []
 
 
 def take_in_enclosed(
@@ -225,21 +248,28 @@ def _homes(
 ) -> dict[int, int]:
     """The group that each part goes to that lies within one, fits it, and touches nothing outside of it."""
     owner = {part: k for k, group in enumerate(groups) for part in group.parts}
-    around = {part: _unit_around(part, inside, owner) for part in inside}
-    within = {part: k for part, k in around.items() if k is not None}
+    within = _units_around(inside, owner)
 
     def fits(part: int, k: int) -> bool:
         return owner.get(part) != k and part not in lines and types[part] in (None, groups[k].unit_type)
 
     home = {part: k for part, k in within.items() if fits(part, k)}
-
-    def reaches_out(part: int) -> bool:
-        return any(home.get(o, owner.get(o, within.get(o))) != home[part] for o in near.get(part, ()))
-
-    while loose := [part for part in home if reaches_out(part)]:
+    known = {**within, **owner}
+    while loose := [part for part in home if _reaches_out(part, near.get(part, ()), home, known)]:
         for part in loose:
             del home[part]
     return home
+
+
+def _reaches_out(part: int, near: Sequence[int], home: Mapping[int, int], known: Mapping[int, int]) -> bool:
+    """Whether a part touches anything outside the group that it would go to."""
+    return any(home.get(other, known.get(other)) != home[part] for other in near)
+
+
+def _units_around(inside: Mapping[int, int], owner: Mapping[int, int]) -> dict[int, int]:
+    """For each part that lies within a group the one that it lies in."""
+    around = {part: _unit_around(part, inside, owner) for part in inside}
+    return {part: k for part, k in around.items() if k is not None}
 
 
 def _unit_around(part: int, inside: Mapping[int, int], owner: Mapping[int, int]) -> int | None:
@@ -286,15 +316,16 @@ def _cores(piping: Piping, group: Group, bodies: Sequence[int], mounts: Mapping[
 
     def is_core(body: int) -> bool:
         n_open = len(mounts[body]) + sum(body in pair for pair in flanged)
-        return n_open >= 2 and (
-            body in holders or len(mounts[body]) >= 2 or _stands_out(given.parts, body, mounts[body], found)
-        )
+        alone = body in holders or len(mounts[body]) >= 2
+        return n_open >= 2 and (alone or _stands_out(given.parts, body, mounts[body], found))
 
     cores = [body for body in bodies if is_core(body)]
-    if group.unit_type == "gauge" and not cores:
-        # A gauge has one foot; two feet are two gauges.
-        return [body for body in bodies if body in holders or len(group.parts) == len(bodies)]
-    return cores
+    return cores if cores or group.unit_type != "gauge" else _feet(group, bodies, holders)
+
+
+def _feet(group: Group, bodies: Sequence[int], holders: Collection[int]) -> list[int]:
+    """The feet of gauges: each has one, so that two feet are two gauges."""
+    return [body for body in bodies if body in holders or len(group.parts) == len(bodies)]
 
 
 def _pairs_within(parts: Sequence[int], near: Mapping[int, Sequence[int]]) -> list[tuple[int, int]]:
