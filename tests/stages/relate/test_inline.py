@@ -157,7 +157,8 @@ def test_a_valve_carries_no_line_any_more():
     assert sorted(piping.lines) == [1, 2]
     assert piping.members == {0}
     assert piping.groups == (Group("valve", (0,)),)
-    assert 0.6 < piping.recovered[0] < 1.0
+    assert 0.6 < piping.recovered[0].sure < 1.0
+    assert piping.recovered[0].reasons[0].startswith("it narrows to 50% in its middle")
 
 
 def test_a_vocabulary_without_valves_has_none():

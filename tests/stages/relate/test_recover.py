@@ -5,8 +5,8 @@ import pytest
 
 from cadgraph.stages.relate.piping import Group
 from cadgraph.stages.relate.recover import ARRANGEMENT, FITTING, LABELLED, SIZE, recover_units
-from piping import GAUGE, PIPE, PUMP, STEEL, TANK, VALVE, R
-from sketch import SIDES, VOCABULARY, around, block
+from piping import GAUGE, PIPE, PUMP, STEEL, TANK, VALVE, R, pipe
+from sketch import SIDES, VOCABULARY, Sketch, around, block
 
 EQUIPMENT = "Equipment"
 WIDE = 2 * R  # diameter of the pipes [m]
@@ -168,6 +168,20 @@ def test_a_gauge_that_is_found_may_sit_on_a_line():
 
 def test_how_sure_a_device_is_follows_from_what_speaks_for_it():
     def sure(likely):
-        return recover_units(around(0.24, "aligned", likely={NAMES["valve"]: likely}).piping()).recovered[0]
+        return recover_units(around(0.24, "aligned", likely={NAMES["valve"]: likely}).piping()).recovered[0].sure
 
     assert 0.6 < sure(0.03) < sure(0.1) < sure(0.5) < 1.0
+
+
+def test_a_disc_on_the_end_of_a_line_closes_it():
+    def taken(thick, wide):
+        sketch = Sketch()
+        sketch.pipe((-1, 0, 0), (0, 0, 0), source="author")
+        sketch.add(pipe((0, 0, 0), (thick, 0, 0), wide, None), likely={NAMES["tank"]: 0.3, NAMES["equipment"]: 0.3})
+        piping = sketch.piping()
+        after = recover_units(piping)
+        return 1 in after.lineless
+
+    assert taken(0.4 * R, R)
+    assert not taken(0.8 * R, R)
+    assert not taken(0.4 * R, 1.4 * R)

@@ -41,6 +41,8 @@ def test_a_tank_needs_a_nozzle():
     assert told(alone, "unit-short-of-lines") == []
     sketch = Sketch()
     sketch.add(block((0, 0, 0), 1.0), TANK, "tank", source="author")
+    assert told(sketch, "unit-short-of-lines") == []  # all that is in its file
+    sketch.pipe((5, 0, 0), (6, 0, 0), source="author")
     ((message, _),) = told(sketch, "unit-short-of-lines")
     assert "T-001 (tank) has no lines and needs one nozzle" in message
 

@@ -47,6 +47,8 @@ _DISC = 1.6
 # Gaps within this much of each other are alike [m]; so many make a habit, and none that is narrower is one.
 _ALIKE, _HABIT, _LEAST_HABIT = 0.0004, 5, 0.001
 
+_THINKABLE = -4.0  # log-odds below which nobody would ask why a joint was not made
+
 Kind = Literal["face", "corner", "mount", "tap", "sleeve"]
 
 
@@ -145,7 +147,8 @@ def is_hidden(ahead: Sequence[Ahead], gap: float, own: Collection[int]) -> bool:
 
 
 def offer_faces(ends: Ends, around: Surroundings, ahead: Mapping[int, Sequence[Ahead]] | None = None) -> list[Offer]:
-    """The pairs of ends that may face each other, those that more speaks for than against.
+    """The pairs of ends that may face each other; also some that more speaks against than for, which are never made but
+    say why.
 
     Args:
         ends: of all lines.
@@ -165,7 +168,8 @@ def offer_faces(ends: Ends, around: Surroundings, ahead: Mapping[int, Sequence[A
     odds = add_up("face", measured, {name: holds.astype(float) for name, holds in flags.items()})
     flags["habit"] = _habitual(gap, straight & (odds > 1.0))
     odds = odds + flags["habit"] * FLAGS["habit"][0]
-    found = [_face(k, pairs, gap, odds, measured, flags) for k in np.flatnonzero(straight & (odds > 0)).tolist()]
+    thinkable = straight & (odds > _THINKABLE)
+    found = [_face(k, pairs, gap, odds, measured, flags) for k in np.flatnonzero(thinkable).tolist()]
     corners = _corners(ends, i, j, cosine, around.bridge) & ~straight
     return found + [_corner(pairs, k, measured) for k in np.flatnonzero(corners).tolist()]
 

@@ -1,0 +1,49 @@
+"""Stems of gauges and nozzles of tanks that look like pipe: each limit on both sides."""
+
+import pytest
+
+from cadgraph.stages.relate.foot import BESIDE
+from cadgraph.stages.relate.recover import recover_units
+from piping import GAUGE, PIPE, TANK, gauge_mesh, pipe
+from sketch import Sketch
+
+STEM = 0.1  # m
+THIN = {"radius": 0.01, "bore": None}  # m
+
+
+def stands(length=STEM, likely=None, group=None, name=None, source="geometry", gauge="author"):
+    """Whether the piece between a pipe and a gauge becomes the gauge's."""
+    sketch = Sketch()
+    run = sketch.pipe((0, 0, -1), (0, 0, 0), source="author", **THIN)
+    said = {(GAUGE, "gauge stem"): 0.2, (PIPE, "nipple"): 0.3} if likely is None else likely
+    stem = sketch.add(pipe((0, 0, 0), (0, 0, length), **THIN), group, name, source=source, likely=said)
+    sketch.add(gauge_mesh((0, 0, length)), GAUGE, "gauge", source=gauge)
+    piping = recover_units(sketch.piping())
+    assert run in piping.lines
+    return stem not in piping.lines and any(stem in group.parts for group in piping.groups)
+
+
+def test_a_piece_of_unknown_name_at_a_gauge_is_its_stem():
+    assert stands()
+
+
+@pytest.mark.parametrize(("stem", "found"), [(1.05, True), (0.95, False)])
+def test_it_looks_enough_like_one(stem, found):
+    assert stands(likely={(GAUGE, "gauge stem"): stem * 0.3 / BESIDE, (PIPE, "nipple"): 0.3}) is found
+
+
+def test_a_long_piece_is_pipe():
+    assert not stands(length=0.5)
+
+
+def test_what_a_label_calls_a_connector_stays_one():
+    assert not stands(group=PIPE, name="nipple", likely={(GAUGE, "gauge stem"): 0.2, (PIPE, "nipple"): 0.6})
+    assert not stands(group=PIPE, name="nipple", source="author")
+
+
+def test_only_gauges_and_tanks_have_feet():
+    sketch = Sketch()
+    sketch.pipe((0, 0, -1), (0, 0, 0), source="author", **THIN)
+    piece = sketch.add(pipe((0, 0, 0), (0, 0, STEM), **THIN), likely={(TANK, "nozzle"): 0.2, (PIPE, "nipple"): 0.3})
+    sketch.add(gauge_mesh((0, 0, STEM)), "Valve assembly", "valve", source="author")
+    assert piece in recover_units(sketch.piping()).lines
