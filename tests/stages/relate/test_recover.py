@@ -177,10 +177,9 @@ def test_a_disc_on_the_end_of_a_line_closes_it():
     def taken(thick, wide):
         sketch = Sketch()
         sketch.pipe((-1, 0, 0), (0, 0, 0), source="author")
-        sketch.add(pipe((0, 0, 0), (thick, 0, 0), wide, None), likely={NAMES["tank"]: 0.3, NAMES["equipment"]: 0.3})
-        piping = sketch.piping()
-        after = recover_units(piping)
-        return 1 in after.lineless
+        disc = pipe((0, 0, 0), (thick, 0, 0), wide, None)
+        sketch.add(disc, TANK, "nozzle", sure=0.3, likely={NAMES["tank"]: 0.3})
+        return 1 in recover_units(sketch.piping()).lineless
 
     assert taken(0.4 * R, R)
     assert not taken(0.8 * R, R)
