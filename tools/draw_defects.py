@@ -313,7 +313,9 @@ def overlay(graph: SceneGraph, spot: Spot, origin: Floats) -> tuple[list[Segment
         for a, b in zip(path[:-1], path[1:], strict=True):
             steps = np.linspace(0, 1, 2 + int(20 * np.linalg.norm(b - a) / spot.width))[:, None]
             points = a + steps * (b - a)
-            held = np.all(np.abs(points - spot.point) < 0.6 * spot.width, axis=1)
+            ahead = (points - spot.point) @ spot.axis
+            aside = np.linalg.norm(points - spot.point - ahead[:, None] * spot.axis, axis=1)
+            held = (np.abs(ahead) < 1.3 * spot.width) & (aside < 0.6 * spot.width)
             shown = [(p, q) for p, q, i, j in zip(points[:-1], points[1:], held[:-1], held[1:], strict=True) if i and j]
             segments += [Segment(p - origin, q - origin, LINE, 3.0) for p, q in shown]
     inside = [j for j in graph.joints() if np.all(np.abs(np.array(j.point) - spot.point) < 0.6 * spot.width)]

@@ -87,16 +87,16 @@ def measured() -> str:
 
 def flagged() -> str:
     """What is there or not at a joint, where each kind starts, and what an open end costs."""
-    rows = [(words, f"{odds:+.1f}") for odds, words in sorted(FLAGS.values(), key=lambda row: -row[0])]
-    rows += [(f"the joint is a `{kind}`", f"{odds:+.1f}") for kind, odds in BASE.items()]
-    rows.append(("an end that joins nothing", f"{-OPEN_END:+.1f}"))
+    rows = [(words, _odds(odds)) for odds, words in sorted(FLAGS.values(), key=lambda row: -row[0])]
+    rows += [(f"the joint is a `{kind}`", _odds(odds)) for kind, odds in BASE.items()]
+    rows.append(("an end that joins nothing", _odds(-OPEN_END)))
     return "\n".join(table(("what", "log-odds"), rows, True))
 
 
 def arrangement() -> str:
     """How ends of lines meet a body, in log-odds for each type."""
     types = list(next(iter(ARRANGEMENT.values())))
-    rows = [(_ARRANGED[name], *(f"{effect[one]:+.1f}" for one in types)) for name, effect in ARRANGEMENT.items()]
+    rows = [(_ARRANGED[name], *(_odds(effect[one]) for one in types)) for name, effect in ARRANGEMENT.items()]
     return "\n".join(table(("ends at the body", *types), rows, True))
 
 
@@ -109,8 +109,8 @@ def sizes() -> str:
 def inline() -> str:
     """What makes a valve of a straight piece in a line."""
     rows = [_row("waist", WAIST), _row("thicker", THICKER)]
-    rows += [("base", "any straight piece between two joints", f"{INLINE['base']:+.1f}")]
-    rows += [("stem", "a thin piece stands on it and leads nowhere", f"{INLINE['stem']:+.1f}")]
+    rows += [("base", "any straight piece between two joints", _odds(INLINE["base"]))]
+    rows += [("stem", "a thin piece stands on it and leads nowhere", _odds(INLINE["stem"]))]
     return "\n".join(table(("name", "what", "value: log-odds"), rows))
 
 
@@ -123,9 +123,13 @@ def _row(name: str, curve: Curve) -> tuple[str, str, str]:
     """A curve's name, its words without the value, and its contribution at each of its values."""
     spec = _SPEC.findall(curve.says)[0]
     values = [
-        f"{spec.format(curve.scale * value)}: {odds:+.1f}" for value, odds in zip(curve.at, curve.gives, strict=True)
+        f"{spec.format(curve.scale * value)}: {_odds(odds)}" for value, odds in zip(curve.at, curve.gives, strict=True)
     ]
     return name, _SPEC.sub("...", curve.says), ", ".join(values)
+
+
+def _odds(value: float) -> str:
+    return f"{value:+.1f}" if value else "0"
 
 
 PAGES: dict[str, Callable[[], str]] = {
