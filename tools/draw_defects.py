@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 import io
 import sys
-from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +16,7 @@ from PIL import Image, ImageDraw, ImageFont
 from cadgraph._io.atomic import write_atomically
 from cadgraph.draw.render.annotation import Mark, Segment, Tag, annotate
 from cadgraph.draw.render.camera import Camera, frame
-from cadgraph.draw.render.color import from_hex
+from cadgraph.draw.render.color import Colors, from_hex
 from cadgraph.draw.render.picture import Look, Paint, Renderer
 from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.graph import SceneGraph
@@ -169,22 +169,13 @@ def _middle(component: Component) -> tuple[float, ...]:
     return tuple(component.vertices.mean(axis=0).round(5).tolist())
 
 
-def _pieces(plant: Plant, unit: str) -> int:
-    return sum(c.unit == unit for c in plant.components)
-
-
 def at_lack(plant: Plant, graph: SceneGraph) -> Spot:
     """A valve that lacks a piece which the plant had before."""
-    whole = make(PRESET, SEED, STYLE)
-    held = Counter(c.unit for c in plant.components)
     valves = {unit.id for unit in plant.units if unit.type == "valve"}
-    lacking = [c for c in whole.components if c.unit in valves and held[c.unit] < _pieces(whole, c.unit)]
-    gone = {c.unit: 0.0 for c in lacking}
-    kept = {_middle(c) for c in plant.components}
-    for component in lacking:
-        if _middle(component) not in kept:
-            gone[component.unit] = float(np.ptp(component.vertices, axis=0).max())
-    return around(plant, graph, max(sorted(gone), key=gone.__getitem__))
+    kept = {_middle(component) for component in plant.components}
+    whole = make(PRESET, SEED, STYLE).components
+    gone = [component for component in whole if component.unit in valves and _middle(component) not in kept]
+    return around(plant, graph, max(gone, key=lambda c: float(np.ptp(c.vertices, axis=0).max())).unit)
 
 
 CASES: dict[str, Case] = {
@@ -263,50 +254,73 @@ def near(component: Component, spot: Spot) -> bool:
 
 def picture(plant: Plant, graph: SceneGraph, case: Case, spot: Spot) -> Image.Image:
     """One spot with the units in colour, the lines, and the joints as balls."""
-    level = np.array([-spot.axis[1], spot.axis[0], 0.0])
-    level = level / np.linalg.norm(level) if np.linalg.norm(level) > 0.2 else np.array([0.0, -1.0, 0.0])
-    if level[1] > 0:
-        level = -level
-    towards = level + [0, 0, 0.42] + 0.35 * np.abs(spot.axis)
-    types = {mesh: unit.unit_type for unit in graph.units() for part in unit.parts for mesh in graph.part(part).meshes}
-    meshes, colors = [], []
+    level = beside(spot.axis)
+    meshes, colors = shown(plant, graph, case, spot, level)
+    gone = lacking_pieces(plant, spot) if case.find is at_lack else []
+    meshes += [(component.vertices, component.faces) for component in gone]
+    colors += [from_hex(LINE)] * len(gone)
+    ghosted = np.arange(len(meshes)) >= len(meshes) - len(gone)
+    scene = Scene.from_meshes(meshes)
+    corners = np.array(list(product((-1, 1), repeat=3)))
+    box = spot.point - scene.origin + 0.31 * spot.width * corners
+    camera = frame(box, level + [0, 0, 0.42] + 0.35 * np.abs(spot.axis), CELL, margin=0.0)
+    paint = Paint(np.array(colors, np.float32), ghosted=ghosted)
+    image = Renderer(scene).picture(camera, paint, Look(samples=4, floor=False))
+    if case.edges:
+        image = with_edges(image, camera, meshes, scene.origin)
+    segments, marks = found_lines(graph, spot, scene.origin), found_joints(graph, spot, scene.origin)
+    inside = [u for u in graph.units() if within(u.centroid, spot, 0.5)]
+    tags = [Tag(place(u.centroid, scene.origin), u.tag, UNITS.get(u.unit_type, OTHER)) for u in inside]
+    return annotate(image, camera, segments=segments, marks=marks, tags=tags, size=2.6).image
+
+
+def beside(axis: Floats) -> Floats:
+    """The level direction from which a pipe along an axis is looked at, from the front."""
+    level = np.array([-axis[1], axis[0], 0.0])
+    long = float(np.linalg.norm(level))
+    if long <= 0.2:
+        return np.array([0.0, -1.0, 0.0])
+    return np.asarray(-level / long if level[1] > 0 else level / long)
+
+
+def shown(
+    plant: Plant, graph: SceneGraph, case: Case, spot: Spot, level: Floats
+) -> tuple[list[tuple[Floats, np.ndarray]], list[Colors]]:
+    """The meshes of a picture with their colours; what would stand before its matter is left out."""
+    types = unit_types(graph)
+    meshes: list[tuple[Floats, np.ndarray]] = []
+    colors = []
     for path, component in zip(plant.paths(), plant.components, strict=True):
-        if not near(component, spot):
-            continue
         vertices, faces = component.vertices, component.faces
-        if ((vertices - spot.point) @ level).min() > 0.3 * spot.width:
-            continue  # it would stand before what the picture is about
+        if not near(component, spot) or ((vertices - spot.point) @ level).min() > 0.3 * spot.width:
+            continue
         if case.cut:
             vertices, faces = halved(vertices, faces, spot.point, level)
         if len(faces):
             meshes.append((vertices, faces))
             color = color_of(component, types.get(path))
             colors.append(from_hex(SECOND if case.pieces and color == PIPE and len(meshes) % 2 else color))
-    gone = lacking_pieces(plant, spot) if case.find is at_lack else []
-    meshes += [(component.vertices, component.faces) for component in gone]
-    colors += [from_hex(LINE)] * len(gone)
-    ghosted = np.arange(len(meshes)) >= len(meshes) - len(gone)
-    scene = Scene.from_meshes(meshes)
-    half = spot.width / 2 * np.array([1, 1, 1])
-    box = (
-        spot.point
-        - scene.origin
-        + half * np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * 0.62
-    )
-    camera = frame(box, towards, CELL, margin=0.0)
-    image = Renderer(scene).picture(
-        camera, Paint(np.array(colors, np.float32), ghosted=ghosted), Look(samples=4, floor=False)
-    )
-    if case.edges:
-        image = with_edges(image, camera, meshes, scene.origin)
-    segments, marks = overlay(graph, spot, scene.origin)
-    inside = [u for u in graph.units() if np.all(np.abs(np.array(u.centroid) - spot.point) < 0.5 * spot.width)]
-    tags = [Tag(np.array(unit.centroid) - scene.origin, unit.tag, UNITS.get(unit.unit_type, OTHER)) for unit in inside]
-    return annotate(image, camera, segments=segments, marks=marks, tags=tags, size=2.6).image
+    return meshes, colors
 
 
-def overlay(graph: SceneGraph, spot: Spot, origin: Floats) -> tuple[list[Segment], list[Mark]]:
-    """The lines and joints that are found, as far as the picture reaches."""
+def unit_types(graph: SceneGraph) -> dict[str, str]:
+    """The type of the unit that each mesh was found in, by path."""
+    return {mesh: unit.unit_type for unit in graph.units() for part in unit.parts for mesh in graph.part(part).meshes}
+
+
+def within(point: Sequence[float], spot: Spot, share: float) -> bool:
+    """Whether a point lies in the cube about a spot, of this share of its width to each side."""
+    return bool(np.all(np.abs(np.array(point) - spot.point) < share * spot.width))
+
+
+def place(point: Sequence[float] | Floats, origin: Floats) -> tuple[float, float, float]:
+    """A point relative to the origin of a scene."""
+    x, y, z = (float(value) for value in np.asarray(point) - origin)
+    return x, y, z
+
+
+def found_lines(graph: SceneGraph, spot: Spot, origin: Floats) -> list[Segment]:
+    """The lines between units, as far as the picture reaches along its pipe."""
     segments = []
     for edge in graph.connections():
         path = np.array(edge.path)
@@ -316,11 +330,15 @@ def overlay(graph: SceneGraph, spot: Spot, origin: Floats) -> tuple[list[Segment
             ahead = (points - spot.point) @ spot.axis
             aside = np.linalg.norm(points - spot.point - ahead[:, None] * spot.axis, axis=1)
             held = (np.abs(ahead) < 1.3 * spot.width) & (aside < 0.6 * spot.width)
-            shown = [(p, q) for p, q, i, j in zip(points[:-1], points[1:], held[:-1], held[1:], strict=True) if i and j]
-            segments += [Segment(p - origin, q - origin, LINE, 3.0) for p, q in shown]
-    inside = [j for j in graph.joints() if np.all(np.abs(np.array(j.point) - spot.point) < 0.6 * spot.width)]
-    marks = [Mark(np.array(j.point) - origin, MADE if j.made else FREE, 3.5) for j in inside if j.made or j.score > 0.1]
-    return segments, marks
+            for k in np.flatnonzero(held[:-1] & held[1:]).tolist():
+                segments.append(Segment(place(points[k], origin), place(points[k + 1], origin), LINE, 3.0))
+    return segments
+
+
+def found_joints(graph: SceneGraph, spot: Spot, origin: Floats) -> list[Mark]:
+    """The joints near a spot that were made, and those that were not though not unlikely."""
+    joints = [j for j in graph.joints() if within(j.point, spot, 0.6) and (j.made or j.score > 0.1)]
+    return [Mark(place(j.point, origin), MADE if j.made else FREE, 3.5) for j in joints]
 
 
 def with_edges(
