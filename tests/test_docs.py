@@ -27,3 +27,11 @@ def test_missing_and_changed_documents_are_stale_until_written(write_docs, tmp_p
     assert write_docs.main(["--check"], tmp_path) == 0
     (tmp_path / "graph.schema.json").write_text("{}", encoding="utf-8")
     assert write_docs.main(["--check"], tmp_path) == 1
+
+
+def test_a_page_by_hand_is_stale_when_a_table_of_it_is_and_keeps_its_own_text(write_docs, tmp_path):
+    page = (write_docs.DOCS / "functional.md").read_text(encoding="utf-8")
+    (tmp_path / "functional.md").write_text(page.replace("| gap | a gap of", "| gap | a hole of"), encoding="utf-8")
+    assert "functional.md" in write_docs.stale(tmp_path)
+    assert write_docs.main([], tmp_path) == 0
+    assert (tmp_path / "functional.md").read_text(encoding="utf-8") == page

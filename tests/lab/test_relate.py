@@ -14,10 +14,11 @@ def told(monkeypatch, capsys, *arguments):
 
 
 def test_the_benchmark_of_relations_runs_on_a_slice(monkeypatch, capsys):
-    slice_ = ("--presets", "riser", "--styles", "bim", "--modes", "true", "--defects", "none", "gaskets")
+    slice_ = ("--presets", "riser", "--styles", "bim", "--modes", "true", "--defects", "none", "gaskets", "--cases")
     lines = told(monkeypatch, capsys, *slice_).splitlines()
-    heads = [line.split(" | ")[1:3] for line in lines if line.startswith("| true")]
-    assert heads == [["**all**", "bim"], ["none", "bim"], ["gaskets", "bim"]]
+    cells = [line.strip("| ").split(" | ") for line in lines if line.startswith("| ")]
+    assert [row[0] for row in cells] == ["labels", "true", "defect", "none", "gaskets", "labels", "true", "true"]
+    assert [row[1:3] for row in cells[-2:]] == [["none", "bim"], ["gaskets", "bim"]]
 
 
 def test_an_unknown_defect_is_refused_with_those_there_are(monkeypatch, capsys):

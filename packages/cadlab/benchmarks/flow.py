@@ -6,7 +6,8 @@ right. Valves in one mesh, and a plant that has all defects of drawing:
 
     flow.py --defects one all --styles plant-design bim
 
-``--reasons`` lists what fixes the directions that are not found.
+``--reasons`` lists what fixes the directions that are not found. ``--write`` puts a table of each way of labelling and
+each way of drawing, over all styles, into ``docs/flow.md``.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from itertools import product
+from pathlib import Path
 
 from _timing import machine
 
@@ -26,11 +28,12 @@ from cadgraph.model.records import Unit
 from cadgraph.model.truth import Truth
 from cadgraph.pipeline import build
 from cadlab.evaluate.evaluation import Evaluation, evaluate
-from cadlab.markdown import table
+from cadlab.markdown import put, table
 from cadplants import PRESETS, STYLES, Defects, Plant, make
 from cadplants.defects import DEFECTS
 from cadplants.truth_writer import truth_of
 
+PAGE = Path(__file__).parents[3] / "docs" / "flow.md"
 LABELS = {"true": "true", "embedded": "embedded labeler"}
 HEADS = [
     "labels", "drawn", "style", "meshes", "directions certain", "found", "share", "wrong", "said of others", "valves",
@@ -98,6 +101,27 @@ class Sum:
         ]  # fmt: skip
 
 
+SHORT_HEADS = [
+    "labels", "drawn", "directions certain", "found", "wrong", "valves", "kinds stated", "right", "precision", "recall",
+]  # fmt: skip
+
+
+def short_rows(sums: dict[tuple[str, str, str], Sum]) -> list[list[object]]:
+    """A row for each way of labelling and each defect, over all styles."""
+    whole: dict[tuple[str, str], Sum] = {}
+    for (mode, defect, style), found in sums.items():
+        if style != "**all**":
+            total = whole.setdefault((mode, defect), Sum())
+            total += found
+    return [
+        [
+            LABELS[mode], defect, one.known, one.found, one.found - one.right, one.valves, one.stated, one.named,
+            share(one.named, one.stated), share(one.named, one.valves),
+        ]
+        for (mode, defect), one in whole.items()
+    ]  # fmt: skip
+
+
 def share(some: int, of: int) -> str:
     """A share in per cent, empty where there is nothing to share."""
     return f"{100 * some / of:.0f} %" if of else ""
@@ -145,6 +169,7 @@ def main() -> None:
     parser.add_argument("--labels", nargs="+", default=list(LABELS), choices=list(LABELS))
     parser.add_argument("--defects", nargs="+", default=["none"], choices=["none", *DEFECTS])
     parser.add_argument("--reasons", action="store_true", help="list what fixes the directions that are not found")
+    parser.add_argument("--write", action="store_true", help="put a table over all styles into docs/flow.md")
     options = parser.parse_args()
     began = time.perf_counter()
     sums: dict[tuple[str, str, str], Sum] = {}
@@ -158,6 +183,10 @@ def main() -> None:
     print(f"{machine()}\n\nPresets {', '.join(options.presets)}; seed {seeds}; {time.perf_counter() - began:.0f} s.\n")
     rows = [found.row(LABELS[mode], defect, style) for (mode, defect, style), found in sums.items()]
     print("\n".join(table(HEADS, rows, True)))
+    if options.write:
+        head = f"Presets {', '.join(options.presets)}; styles {', '.join(options.styles)}; seed {seeds}."
+        text = "\n".join([head, "", *table(SHORT_HEADS, short_rows(sums), True)])
+        PAGE.write_text(put(PAGE.read_text(encoding="utf-8"), "figures", text), encoding="utf-8")
     if options.reasons:
         print("\n".join(line for mode in options.labels for line in told_reasons(mode, sums)))
 

@@ -17,12 +17,11 @@ import numpy as np
 from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.graph import SceneGraph
 from cadgraph.pipeline import build
-from cadlab.markdown import table
+from cadlab.markdown import put, table
 from cadplants import PRESETS, STYLES, Plant, make
 from cadplants.defects import DEFECTS
 
 PAGE = Path(__file__).parents[3] / "docs" / "functional.md"
-BEGIN, END = "<!-- joints: begin -->", "<!-- joints: end -->"
 BINS = (0.0, 0.1, 0.5, 0.7, 0.9, 0.97, 0.99, 1.0 + 1e-9)
 
 
@@ -77,12 +76,13 @@ def main() -> None:
     options = parser.parse_args()
     found = measure(options.presets, options.seeds, options.styles, options.defects)
     heads = ["joint", "score", "joints", "mean score", "meet in truth"]
-    text = "\n".join(table(heads, rows(found), True))
+    seeds = ", ".join(str(seed) for seed in options.seeds)
+    head = f"Presets {', '.join(options.presets)}; styles {', '.join(options.styles)}; seed {seeds}."
+    drawn = f"Drawn with {', '.join(options.defects)}."
+    text = "\n".join([head, drawn, "", *table(heads, rows(found), True)])
     print(text)
     if options.write:
-        before, _, rest = PAGE.read_text(encoding="utf-8").partition(BEGIN)
-        _, _, after = rest.partition(END)
-        PAGE.write_text(f"{before}{BEGIN}\n{text}\n{END}{after}", encoding="utf-8")
+        PAGE.write_text(put(PAGE.read_text(encoding="utf-8"), "joints", text), encoding="utf-8")
 
 
 if __name__ == "__main__":

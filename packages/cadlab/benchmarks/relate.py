@@ -7,7 +7,8 @@ runs on the same labels, contacts and units. A few cases take seconds:
     relate.py --presets skid --styles plant-design --modes true --defects gaps setback
 
 ``--defects`` alone takes each defect; ``all`` is the plant that has them together. ``--edges`` lists the wrong edges by
-cause. ``--write`` puts the table into ``docs/functional.md``.
+cause. ``--write`` puts tables of the ways of labelling, the styles and the defects into ``docs/functional.md``;
+``--cases`` prints a row for every case as well.
 """
 
 from __future__ import annotations
@@ -17,23 +18,24 @@ import random
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from itertools import product
 from pathlib import Path
 
 from cadgraph.config import Config
 from cadgraph.model.given_labels import GivenLabel
+from cadgraph.model.scene import Scene
 from cadgraph.model.truth import Truth
 from cadgraph.model.vocabulary import default_vocabulary
 from cadgraph.pipeline import build
 from cadlab.evaluate.evaluation import Evaluation, evaluate
 from cadlab.evaluate.relations import EdgeVerdict, RelationScores
-from cadlab.markdown import table
+from cadlab.markdown import put, table
 from cadplants import PRESETS, STYLES, Defects, Plant, make
 from cadplants.defects import DEFECTS
 from cadplants.truth_writer import truth_of
 
 PAGE = Path(__file__).parents[3] / "docs" / "functional.md"
-BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
 WRONG = 0.2
 ALL_DEFECTS = {
     "none": Defects(),
@@ -46,6 +48,8 @@ MODES = {
     "open": "embedded labeler, no threshold",
     "wrong": "20 % wrong at random",
 }
+Case = tuple[str, str, str]
+"""A way of labelling, a defect, a style."""
 UNTHRESHOLDED = Config().replace({"label.min_confidence": 0.0})
 
 
@@ -123,11 +127,16 @@ class Sum:
         """One line of the table."""
         known, decided, right = self.flow
         return [
-            *heads, self.plants, self.edges[0], f"{self.edges[2] / max(1, self.edges[1]):.3f}",
+            *heads, self.plants, self.edges[0], precision(self.edges),
             f"{self.edges[2] / max(1, self.edges[0]):.3f}", f1(self.edges), f1(self.paper),
             f"{self.taps[1]}/{self.taps[0]}", f1(self.ends),
             f"{decided}/{known}" if known else "", decided - right,
         ]  # fmt: skip
+
+
+def precision(counts: list[int]) -> str:
+    """The share of the predicted ones that are correct."""
+    return f"{counts[2] / max(1, counts[1]):.3f}"
 
 
 def f1(counts: list[int]) -> str:
@@ -136,8 +145,8 @@ def f1(counts: list[int]) -> str:
 
 
 HEADS = [
-    "labels", "defect", "style", "plants", "true edges", "precision", "recall", "F1 connected", "F1 Algorithm 1",
-    "taps in order", "F1 open ends", "directions decided", "wrong",
+    "plants", "true edges", "precision", "recall", "F1 connected", "F1 Algorithm 1", "taps in order", "F1 open ends",
+    "directions decided", "wrong",
 ]  # fmt: skip
 
 
@@ -164,39 +173,61 @@ def ends_of(edge: EdgeVerdict) -> str:
     return " - ".join(told)
 
 
+@lru_cache(maxsize=8)
+def drawn(preset: str, seed: int, style: str, defect: str) -> tuple[Plant, Scene, Truth]:
+    """A plant with its scene and truth, the same for each way of labelling it."""
+    plant = make(preset, seed, style, ALL_DEFECTS[defect])
+    return plant, plant.scene(), Truth.from_json(truth_of(plant))
+
+
 def case(presets: Sequence[str], seeds: Sequence[int], style: str, defect: str, mode: str) -> Sum:
     """The sums over some plants, drawn in one style with one defect."""
     total = Sum()
     for preset, seed in product(presets, seeds):
-        plant = make(preset, seed, style, ALL_DEFECTS[defect])
+        plant, scene, truth = drawn(preset, seed, style, defect)
         config = UNTHRESHOLDED if mode == "open" else None
-        graph = build(plant.scene(), config, labels=labels_of(plant, mode, seed))
-        truth = Truth.from_json(truth_of(plant))
+        graph = build(scene, config, labels=labels_of(plant, mode, seed))
         total.add(f"{preset} {seed} {style} {defect} {mode}", truth, evaluate(graph, truth))
     return total
 
 
-def told(sums: dict[tuple[str, str, str], Sum]) -> list[str]:
-    """The table: all of a mode, each style, each defect, then every case."""
-    over = [name for k, name in ((1, "defect"), (2, "style")) if len({key[k] for key in sums}) > 1]
-    rows = summed(sums, *over) if len(over) > 1 else {}
-    for name in over:
-        rows |= summed(sums, name)
-    rows |= sums
-    return table(HEADS, [found.row(MODES[mode], defect, style) for (mode, defect, style), found in rows.items()], True)
+def told(sums: dict[Case, Sum]) -> list[str]:
+    """A table of the ways of labelling with all that is counted, then F1 of each style and of each defect."""
+    lines = table(["labels", *HEADS], [found.row(MODES[mode]) for mode, found in summed(sums, 0).items()], True)
+    for k, name in ((2, "style"), (1, "defect")):
+        if len({key[k] for key in sums}) > 1:
+            lines += ["", *compared(sums, k, name)]
+    return lines
 
 
-def summed(sums: dict[tuple[str, str, str], Sum], *over: str) -> dict[tuple[str, str, str], Sum]:
-    """The sums over all styles, all defects or both."""
-    whole: dict[tuple[str, str, str], Sum] = {}
-    for (mode, defect, style), found in sums.items():
-        key = (mode, "**all**" if "defect" in over else defect, "**all**" if "style" in over else style)
-        total = whole.setdefault(key, Sum())
+def compared(sums: dict[Case, Sum], k: int, name: str) -> list[str]:
+    """F1 and precision of each style or defect, with a column for each way of labelling."""
+    modes = list(dict.fromkeys(mode for mode, _, _ in sums))
+    heads = [name, *(f"F1 (precision), {MODES[mode]}" for mode in modes), f"F1 Algorithm 1, {MODES[modes[0]]}"]
+    whole = {mode: summed({key: found for key, found in sums.items() if key[0] == mode}, k) for mode in modes}
+    rows = []
+    for value, first in whole[modes[0]].items():
+        edges = [whole[mode][value].edges for mode in modes]
+        rows.append([value, *(f"{f1(one)} ({precision(one)})" for one in edges), f1(first.paper)])
+    return table(heads, rows, True)
+
+
+def cases(sums: dict[Case, Sum]) -> list[str]:
+    """A table with a row for every case."""
+    rows = [found.row(MODES[mode], defect, style) for (mode, defect, style), found in sums.items()]
+    return table(["labels", "defect", "style", *HEADS], rows, True)
+
+
+def summed(sums: dict[Case, Sum], k: int) -> dict[str, Sum]:
+    """The sums over all cases with the same way of labelling (0), defect (1) or style (2)."""
+    whole: dict[str, Sum] = {}
+    for key, found in sums.items():
+        total = whole.setdefault(key[k], Sum())
         total += found
     return whole
 
 
-def causes(sums: dict[tuple[str, str, str], Sum], edges: bool) -> list[str]:
+def causes(sums: dict[Case, Sum], edges: bool) -> list[str]:
     """How many edges are wrong for which cause; with ``edges`` each of them."""
     wrong = [one for found in sums.values() for one in found.wrong]
     lines = []
@@ -223,23 +254,28 @@ def main() -> None:
         help="every one where none is named",
     )
     parser.add_argument("--edges", action="store_true", help="list each wrong edge")
-    parser.add_argument("--write", action="store_true", help="put the table into docs/functional.md")
+    parser.add_argument("--cases", action="store_true", help="print a row for every case as well")
+    parser.add_argument("--write", action="store_true", help="put the tables into docs/functional.md")
     options = parser.parse_args()
     unknown = set(options.defects) - set(ALL_DEFECTS)
     if unknown:
         parser.error(f"unknown defects {', '.join(sorted(unknown))}; there are {', '.join(ALL_DEFECTS)}")
+    chosen = product(options.defects or ALL_DEFECTS, options.styles, options.modes)
     sums = {
         (mode, defect, style): case(options.presets, options.seeds, style, defect, mode)
-        for mode, defect, style in product(options.modes, options.defects or ALL_DEFECTS, options.styles)
+        for defect, style, mode in chosen
     }
     seeds = ", ".join(str(seed) for seed in options.seeds)
-    head = f"Presets {', '.join(options.presets)}; seed {seeds}."
-    text = "\n".join([head, "", *told(sums), "", "Wrong edges by cause:", "", *causes(sums, options.edges)])
-    print(text)
+    head = f"Presets {', '.join(options.presets)}; styles {', '.join(options.styles)}; seed {seeds}."
+
+    def text(edges: bool) -> str:
+        return "\n".join([head, "", *told(sums), "", "Wrong edges by cause:", "", *causes(sums, edges)])
+
+    print(text(options.edges))
+    if options.cases:
+        print("\n".join(["", *cases(sums)]))
     if options.write:
-        before, _, rest = PAGE.read_text(encoding="utf-8").partition(BEGIN)
-        _, _, after = rest.partition(END)
-        PAGE.write_text(f"{before}{BEGIN}\n{text}\n{END}{after}", encoding="utf-8")
+        PAGE.write_text(put(PAGE.read_text(encoding="utf-8"), "figures", text(edges=False)), encoding="utf-8")
 
 
 if __name__ == "__main__":
