@@ -35,19 +35,22 @@ def take_feet(piping: Piping, beliefs: Beliefs) -> Piping:
 
 def _with_feet(piping: Piping, found: Sequence[tuple[int, int, float]]) -> Piping:
     """The piping in which some parts are of groups, by their number."""
-    taken = {part: number for part, number, _ in found}
     types = [group.unit_type for group in piping.groups]
     groups = [set(group.parts) for group in piping.groups]
-    for part, number in taken.items():
+    feet, recovered = set(piping.feet), dict(piping.recovered)
+    for part, number, share in found:
         groups[number].add(part)
-    shares = {part: Recovered(share, (_WHY.format(types[number]),)) for part, number, share in found}
+        recovered[part] = Recovered(share, (_WHY.format(types[number]),))
+        if types[number] == "gauge":
+            feet.add(part)
+    taken = {part for part, _, _ in found}
     return replace(
         piping,
         lines={part: line for part, line in piping.lines.items() if part not in taken},
         groups=tuple(Group(kind, tuple(sorted(parts))) for kind, parts in zip(types, groups, strict=True)),
-        members=piping.members | taken.keys(),
-        feet=piping.feet | {part for part, number in taken.items() if types[number] == "gauge"},
-        recovered={**piping.recovered, **shares},
+        members=piping.members | taken,
+        feet=frozenset(feet),
+        recovered=recovered,
     )
 
 
@@ -55,23 +58,24 @@ def _feet(piping: Piping, beliefs: Beliefs) -> Iterator[tuple[int, int, float]]:
     """Parts with a line that end at a gauge or tank and look as much like a piece of it, the number of its group, and
     how sure that is.
     """
-    vocabulary = piping.given.vocabulary
     owner = {part: number for number, group in enumerate(piping.groups) for part in group.parts}
-    lines = beliefs.of_groups(vocabulary.connector_groups)
-    units = vocabulary.unit_of_group
-    own = {kind: beliefs.of_groups([name for name, unit in units.items() if unit == kind]) for kind in _LONGEST}
-    for mount in piping.joints.mounts:
-        part, number = int(piping.joints.ends.part[mount.row]), owner.get(mount.part)
-        kind = piping.groups[number].unit_type if number is not None else ""
-        if number is None or kind not in _LONGEST or not _may_be_foot(piping, beliefs, part, kind):
+    lines = beliefs.of_groups(piping.given.vocabulary.connector_groups)
+    own = {kind: beliefs.of_groups(_groups_of(piping, kind)) for kind in _LONGEST}
+    at = [(int(piping.joints.ends.part[mount.row]), owner.get(mount.part)) for mount in piping.joints.mounts]
+    for part, number in at:
+        if number is None or not _may_be_foot(piping, beliefs, part, piping.groups[number].unit_type):
             continue
-        likely, against = BESIDE * float(own[kind][part]), float(lines[part])
+        likely, against = BESIDE * float(own[piping.groups[number].unit_type][part]), float(lines[part])
         if likely > 0 and likely >= against:
             yield part, number, likely / (likely + against)
 
 
+def _groups_of(piping: Piping, unit_type: str) -> list[str]:
+    return [name for name, unit in piping.given.vocabulary.unit_of_group.items() if unit == unit_type]
+
+
 def _may_be_foot(piping: Piping, beliefs: Beliefs, part: int, kind: str) -> bool:
-    """Whether a part is short enough, and neither a user nor any label calls it a connector."""
+    """Whether a part at a gauge or tank is short enough, and neither a user nor any label calls it a connector."""
     label = piping.given.labels[part]
     called = label is not None and label.group in piping.given.vocabulary.connector_groups
-    return bool(beliefs.open[part]) and not called and piping.lines[part].length <= _LONGEST[kind]
+    return bool(beliefs.open[part]) and not called and piping.lines[part].length <= _LONGEST.get(kind, 0.0)
