@@ -73,6 +73,8 @@ FLAGS: Mapping[str, tuple[float, str]] = {
 }
 """The contributions of what is there or not, in words."""
 
+_NOTHING = 0.05  # log-odds that are 0.0 in words
+
 OPEN_END = 1.5
 """What an end that joins nothing costs, in log-odds: pipes end at something."""
 
@@ -108,6 +110,6 @@ def tell(measured: Mapping[str, float], flags: Sequence[str] = ()) -> tuple[str,
 
 
 def tell_terms(terms: Sequence[Term]) -> tuple[str, ...]:
-    """Terms in words, the weightiest first; each with its log-odds."""
-    ordered = sorted(terms, key=lambda term: (-abs(term[1]), term[0]))
+    """Terms in words, the weightiest first; each with its log-odds, without those that weigh nothing."""
+    ordered = sorted((term for term in terms if abs(term[1]) >= _NOTHING), key=lambda term: (-abs(term[1]), term[0]))
     return tuple(f"{words} ({odds:+.1f})" for words, odds in ordered)

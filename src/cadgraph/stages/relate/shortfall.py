@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator, Sequence
 import numpy as np
 
 from cadgraph.model.diagnostic import Diagnostic
-from cadgraph.model.parts import Network, Parts
+from cadgraph.model.parts import Network, Parts, UnitParts
 from cadgraph.model.ports import least_ports, port_word
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.piping import Piping
@@ -49,11 +49,13 @@ def _paths(parts: Parts, numbers: Collection[int]) -> tuple[str, ...]:
 
 def _short_units(network: Network) -> frozenset[int]:
     """Units with fewer lines than their kind needs."""
-    return frozenset(
-        number
-        for number, unit in enumerate(network.units)
-        if len(unit.openings) < least_ports(unit.unit_type, unit.kind)
-    )
+    return frozenset(number for number, unit in enumerate(network.units) if len(unit.openings) < _least(unit))
+
+
+def _least(unit: UnitParts) -> int:
+    """The fewest lines that a unit needs, whichever of the kinds it is that it may be."""
+    kinds = [unit.kind, *(kind for kind, _ in unit.kind_guesses)]
+    return min(least_ports(unit.unit_type, kind) for kind in kinds)
 
 
 def _hung_on(piping: Piping, network: Network) -> frozenset[int]:
@@ -72,7 +74,7 @@ def _few_lines(piping: Piping, network: Network, short: Collection[int]) -> Iter
     best = _best_refused(piping)
     for number in sorted(short):
         unit = network.units[number]
-        used, least = len(unit.openings), least_ports(unit.unit_type, unit.kind)
+        used, least = len(unit.openings), _least(unit)
         needs = f"{_WORDS[least]} {port_word(unit.unit_type)}{'s' * (least > 1)}"
         near = [best[part] for part in unit.parts if part in best]
         nearest = min(near, default=None)
