@@ -21,7 +21,7 @@ from cadgraph.config import Config, describe
 from cadgraph.model.records import document_schema
 from cadgraph.stages.relate.evidence import BASE, CURVES, FLAGS, OPEN_END, Curve
 from cadgraph.stages.relate.inline import INLINE, THICKER, WAIST
-from cadgraph.stages.relate.recover import ARRANGEMENT, LABELLED, SIZE
+from cadgraph.stages.relate.recover import ARRANGEMENT, LABELLED, SIZE, SLIM
 from cadlab.markdown import put, table
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
@@ -103,7 +103,8 @@ def arrangement() -> str:
 def sizes() -> str:
     """How long a body is, in log-odds for each type, and what the labeler's probability adds."""
     likely = Curve(LABELLED.at, LABELLED.gives, "labeler's mean probability of the type, as natural logarithm: {:.1f}")
-    return _told([*SIZE.items(), ("any", likely)], "type")
+    slim = ("fitting; taken from all others", SLIM)
+    return _told([*SIZE.items(), slim, ("any", likely)], "type")
 
 
 def inline() -> str:
