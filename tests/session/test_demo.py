@@ -44,8 +44,7 @@ def test_every_unit_is_found_named_and_connected(demo, made):
     units, connected = total.units.total, total.connected
     assert (units.n_true, units.n_predicted, units.matched, units.spurious) == (24, 24, 24, 0)
     assert (units.split, units.merged) == (0, 0)
-    # Only what the relief valve is stays open.
-    assert (units.kinds_decided, units.kinds_right) == (23, 23)
+    assert (units.kinds_decided, units.kinds_right) == (24, 24)
     assert connected.missing == connected.extra == ()
     assert connected.direction.n_known == connected.direction.n_right == 22
     assert connected.direction.n_invented == 0

@@ -15,6 +15,7 @@ from cadgraph.stages.relate.piping import Piping
 __all__ = ["prune_lines"]
 
 _LEAST_PIPE = 0.3  # a line that the labeler finds less likely than this leads to two things at least, a disc sooner
+_LEAST_END = 0.5  # likewise a disc that touches one thing only: the flange at the end of a run
 _LEADS = 2
 _LIKELY = 0.7  # from this probability on something is taken for a line, or a piece of a unit, without more
 
@@ -74,8 +75,9 @@ def _doubtful_lines(piping: Piping, beliefs: Beliefs) -> set[int]:
     connectors = beliefs.of_groups(piping.given.vocabulary.connector_groups)
 
     def least(part: int) -> float:
-        amid = is_disc(piping.lines[part]) and len(piping.given.neighbors.get(part, ())) > 1
-        return _LIKELY if amid else _LEAST_PIPE
+        if not is_disc(piping.lines[part]):
+            return _LEAST_PIPE
+        return _LIKELY if len(piping.given.neighbors.get(part, ())) > 1 else _LEAST_END
 
     return {part for part in piping.lines if beliefs.open[part] and connectors[part] < least(part)}
 

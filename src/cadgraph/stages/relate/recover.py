@@ -24,7 +24,7 @@ _NOTHING, _STEELWORK = "nothing", "steelwork"
 
 # How the ends of lines meet a body, in log-odds for each type.
 ARRANGEMENT: Mapping[str, Mapping[str, float]] = {
-    "one": {"valve": -2.0, "gauge": 1.5, "pump": -3.0, "tank": 1.0, "equipment": 0.0, FITTING: -9.0},
+    "one": {"valve": -3.0, "gauge": 1.5, "pump": -3.0, "tank": 1.0, "equipment": 0.0, FITTING: -9.0},
     "aligned": {"valve": 2.0, "gauge": 1.0, "pump": -1.5, "tank": -3.0, "equipment": -1.0, FITTING: 0.0},
     "square": {"valve": -0.5, "gauge": -3.0, "pump": 2.5, "tank": -0.5, "equipment": 0.0, FITTING: -1.0},
     "two": {"valve": -2.0, "gauge": -3.0, "pump": 0.0, "tank": 1.0, "equipment": 1.0, FITTING: -1.0},
@@ -62,8 +62,9 @@ _ENDS: Mapping[str, str] = {
 
 # What touches parts of a unit that no line leads to is likely its body, and what touches another one a piece of it.
 _BODY, _PIECE = 2.5, 1.5
-# Least probability of what is taken for a device, and of a device that labels take for another one without being sure.
-_SURE, _OTHER = 0.6, 0.8
+# Least probability of what is taken for a device, and of a device that the labeler finds likely to be another one, at
+# least so likely.
+_SURE, _OTHER, _LIKELY = 0.6, 0.8, 0.5
 _LEAST = 1e-3  # no probability counts for less
 _MOSTLY_NAMED = 0.5  # below this share of parts that only the labeler has named what has no name is no device
 _STANDING = 0.5  # log-odds that what has the ends of lines at it carries them
@@ -144,14 +145,21 @@ def _type_of(piping: Piping, beliefs: Beliefs, sight: _Sight) -> tuple[str, Reco
     share = weights[best] / sum(weights.values())
     found = Recovered(share, tell_terms(terms[best]))
     body = sight.body
-    sure = _SURE if body.unit_type is None else _OTHER
-    if share < sure or best in (_NOTHING, _STEELWORK, body.unit_type):
+    if share < _least(piping, beliefs, body) or best in (_NOTHING, _STEELWORK, body.unit_type):
         return _NOTHING, found
     if _is_named(beliefs) and not _touched(piping, body, best):
         # Where people have named nearly everything, what they left without a name is no device of theirs; a line that
         # ends on both sides of it passes through all the same.
         return (FITTING if sight.arrangement == "aligned" else _NOTHING), found
     return best, found
+
+
+def _least(piping: Piping, beliefs: Beliefs, body: Body) -> float:
+    """How sure it must be what a body is, by how likely what labels make of it is."""
+    if body.unit_type is None:
+        return _SURE
+    said = float(beliefs.of_groups(_groups_of(piping, body.unit_type))[list(body.parts)].mean())
+    return _OTHER if said >= _LIKELY else _SURE
 
 
 def _terms(piping: Piping, beliefs: Beliefs, sight: _Sight) -> dict[str, list[Term]]:
