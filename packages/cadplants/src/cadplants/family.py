@@ -14,6 +14,7 @@ from cadplants.transforms import IDENTITY
 
 __all__ = ["UNIT", "Build", "Family", "Model", "Part", "Port", "as_assembly", "as_device", "placed"]
 
+_EXACT = 1e-9  # m; rounding
 _UNITS = {
     "Valve assembly": "valve",
     "Gauge assembly": "gauge",
@@ -71,6 +72,7 @@ class Model:
         kind: of the functional unit, ``"relief valve"``.
         ports: faces that lines can be joined to.
         dn: nominal size behind a reducer; 0 as before.
+        split: whether the outlet's face of a device in a line may be on another part than the inlet's.
     """
 
     parts: Sequence[Part]
@@ -79,6 +81,7 @@ class Model:
     kind: str = ""
     ports: tuple[Port, ...] = ()
     dn: int = 0
+    split: bool = False
 
 
 # Nominal size, style, generator (and what a carrier is asked for besides); a builder may also return finished
@@ -189,13 +192,20 @@ def _in_few(parts: list[Part]) -> list[Part]:
 
 
 def as_device(family: Family, model: Model | Device | Assembly, style: ModelingStyle, unit: str = "") -> Device:
-    """The device for a line; the first component of a model has both faces."""
+    """The device for a line; the first component of a model has its inlet's face, and its outlet's unless it is split."""
     assembly = as_assembly(family, model, style, unit)
     if isinstance(model, Device):
         return replace(model, assembly=assembly)
     if isinstance(model, Assembly):
         raise ValueError(f"{family.name} is no device for a line")
-    return Device(assembly, model.length, 0, 0, model.joint == "wafer")
+    outlet = _at_end(assembly, model.length) if model.split else 0
+    return Device(assembly, model.length, 0, outlet, model.joint == "wafer")
+
+
+def _at_end(assembly: Assembly, length: float) -> int:
+    """Index of the first component that reaches the end of a device; the first where none does."""
+    ends = [float(component.solid.vertices[:, 0].max()) for component in assembly.components]
+    return next((k for k, end in enumerate(ends) if abs(end - length) < _EXACT), 0)
 
 
 def _stamped(assembly: Assembly, family: str, grain: str) -> Assembly:

@@ -1,0 +1,1 @@
+"""Families whose parts are easily taken for those of other families."""

@@ -1,0 +1,1 @@
+"""Devices and structures of primitives, as plant-design systems draw them."""

@@ -1,0 +1,26 @@
+"""All families of devices and structures of primitives."""
+
+from __future__ import annotations
+
+from cadplants.families.primitive.fittings import PRIMITIVE_FITTINGS
+from cadplants.families.primitive.instruments import PRIMITIVE_INSTRUMENTS
+from cadplants.families.primitive.machines import PRIMITIVE_MACHINES
+from cadplants.families.primitive.steel import PRIMITIVE_STEEL
+from cadplants.families.primitive.utilities import PRIMITIVE_UTILITIES
+from cadplants.families.primitive.valves import PRIMITIVE_VALVES
+from cadplants.family import Family
+
+__all__ = ["PRIMITIVES"]
+
+PRIMITIVES: dict[str, Family] = {
+    family.name: family
+    for family in (
+        *PRIMITIVE_VALVES,
+        *PRIMITIVE_FITTINGS,
+        *PRIMITIVE_INSTRUMENTS,
+        *PRIMITIVE_MACHINES,
+        *PRIMITIVE_STEEL,
+        *PRIMITIVE_UTILITIES,
+    )
+}
+"""By name, none of which is one of the other families'."""

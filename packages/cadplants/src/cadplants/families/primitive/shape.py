@@ -1,0 +1,137 @@
+"""What devices of primitives are put together from: cones, cylinders, dishes, boxes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from cadgraph.model.scene import Floats
+from cadplants.families.chance import pick
+from cadplants.family import Build, Family, Part
+from cadplants.mesh_ops import Solid, about_x, merge, moved, revolve, tube, weld
+from cadplants.modeling_style import ModelingStyle
+from cadplants.primitives import cylinder, ring, torus, turned
+from cadplants.standards import FLANGES, PIPES, SIZES
+from cadplants.transforms import at
+
+__all__ = [
+    "FRAME",
+    "chance",
+    "cone",
+    "disc",
+    "dish",
+    "family",
+    "lying",
+    "num",
+    "part",
+    "pipe_piece",
+    "sized",
+    "sleeve",
+    "snout",
+    "spoked",
+    "torus_piece",
+    "vessel",
+]
+
+FRAME = "Structural element"
+
+
+def num(rng: np.random.Generator, low: float, high: float) -> float:
+    """A number between two."""
+    return float(rng.uniform(low, high))
+
+
+def chance(rng: np.random.Generator, share: float) -> bool:
+    """Whether something happens that happens this often."""
+    return bool(rng.random() < share)
+
+
+def part(name: str, *solids: Solid, color: str = "valve", bundle: str = "", group: str = "") -> Part:
+    """Solids as one part."""
+    return Part(merge(list(solids)), name, color, bundle, group)
+
+
+def family(
+    name: str,
+    place: str,
+    group: str,
+    build: Build,
+    whole: str = "",
+    sizes: tuple[int, ...] = SIZES,
+    weight: float = 1.0,
+    grain: str = "",
+) -> Family:
+    """A family, its device in one mesh called as its kind by default."""
+    return Family(name, place, group, whole or name.split("/")[0], build, sizes, grain, weight)
+
+
+def sized(low: int, high: int) -> tuple[int, ...]:
+    """The nominal sizes between two."""
+    return tuple(dn for dn in SIZES if low <= dn <= high)
+
+
+def cone(first: float, last: float, low: float, high: float, style: ModelingStyle) -> Solid:
+    """A solid cone about z from one radius to another between two heights; a radius of 0 is a point [m]."""
+    return turned([(first, low), (last, high)], style.round(max(first, last)))
+
+
+def disc(radius: float, low: float, high: float, style: ModelingStyle) -> Solid:
+    """A cylinder about z between two heights [m]."""
+    return cylinder(radius, low, high, style.round(radius))
+
+
+def lying(solid: Solid, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Solid:
+    """What was built about z laid along x, then shifted [m]."""
+    return moved(about_x(solid), at(x, y, z))
+
+
+def dish(radius: float, depth: float, low: float, style: ModelingStyle) -> Solid:
+    """A dish about z on the height ``low``, of three or four rings as coarse programs make it [m]."""
+    angles = np.linspace(0, np.pi / 2, int(np.clip(style.round(radius) // 5, 3, 8)) + 1)
+    outline = [(radius * float(np.cos(a)), low + depth * float(np.sin(a))) for a in angles[:-1]]
+    return turned([*outline, (0.0, low + depth)], style.round(radius))
+
+
+def vessel(radius: float, low: float, high: float, depth: float, style: ModelingStyle) -> Solid:
+    """A cylinder about z with a dish at both ends, one closed body; ``depth`` of the dishes [m]."""
+    angles = np.linspace(0, np.pi / 2, int(np.clip(style.round(radius) // 5, 3, 8)) + 1)[1:-1]
+    upper = [(radius * float(np.cos(a)), high + depth * float(np.sin(a))) for a in angles]
+    lower = [(r, low - (z - high)) for r, z in upper[::-1]]
+    outline = [(0.0, low - depth), *lower, (radius, low), (radius, high), *upper, (0.0, high + depth)]
+    return weld([revolve(outline, style.round(radius))])
+
+
+def sleeve(inner: float, outer: float, low: float, high: float, style: ModelingStyle) -> Solid:
+    """A ring about z, solid where the style models no bores [m]."""
+    return ring(inner if style.hollow else 0.0, outer, low, high, style.round(outer))
+
+
+def pipe_piece(dn: int, low: float, high: float, style: ModelingStyle) -> Solid:
+    """A piece of pipe about z of a nominal size between two heights [m]."""
+    return sleeve(PIPES[dn].bore, PIPES[dn].radius, low, high, style)
+
+
+def snout(dn: int, low: float, face: float, style: ModelingStyle, rng: np.random.Generator) -> Solid:
+    """A nozzle about z: a cylinder with or without a disc at its end, at height ``face`` [m]."""
+    neck = pipe_piece(dn, low, face, style)
+    if chance(rng, 0.2):
+        return neck
+    thick = min(pick(rng, 0.012, 0.02, FLANGES[dn].thickness), 0.5 * abs(face - low))
+    return merge([neck, disc(FLANGES[dn].outer / 2, face - thick, face, style)])
+
+
+def spoked(radius: float, thick: float, count: int, style: ModelingStyle) -> list[Solid]:
+    """A wheel about z in the plane z = 0: its ring, its spokes as bars [m]."""
+    sides = int(min(style.round(radius), 24))
+    wheel = [torus(radius, thick, sides, 6)]
+    for k in range(count):
+        turn = 2 * np.pi * k / count
+        out = (radius * float(np.cos(turn)), radius * float(np.sin(turn)), 0.0)
+        wheel.append(torus_piece([(0.0, 0.0, 0.0), out], 0.6 * thick, 6))
+    return wheel
+
+
+def torus_piece(path: Floats | Sequence[Sequence[float]], radius: float, sides: int, bore: float = 0.0) -> Solid:
+    """A round bar or pipe along ``(n, 3)`` points [m]."""
+    return tube(np.asarray(path, float), radius, bore, sides)
