@@ -30,6 +30,7 @@ from cadplants.primitives import box
 from cadplants.retessellate import retold
 from cadplants.route import Route
 from cadplants.standards import ELBOW_LONG_RADIUS, PIPES, SIZES
+from cadplants.taste import ALL_FAMILIES, OF_PRIMITIVES, Taste
 from cadplants.transforms import at, looking, spun
 
 __all__ = ["FAMILIES", "draw_modeling_style", "make_assortment"]
@@ -40,18 +41,26 @@ _LANE = 1.8  # m between two lines
 _LOWEST, _HIGHEST = 0.45, 3.2  # m, of a line's axis
 _ROOM = 8.0  # m between things on the floor: their lines stay clear of each other
 _MESHES, _MOST = (90, 280), 24  # a plant is full at a number of meshes without fasteners, or has so many things
+_STYLES = 3  # at most, of a plant whose taste is given
 _FASTENERS = ("bolt", "nut", "washer", "stud", "screw")
 _GROUND = 0.3  # share of plants that stand on a slab
 _DN_WEIGHTS = np.array([2, 2, 3, 2, 3, 4, 2, 3, 3, 1, 2, 2, 1, 1], float)  # of DN15..DN300
 
 
-def make_assortment(seed: int = 0, style: ModelingStyle | None = None, without: frozenset[str] = frozenset()) -> Plant:
+def make_assortment(
+    seed: int = 0,
+    style: ModelingStyle | None = None,
+    without: frozenset[str] = frozenset(),
+    taste: Taste | None = None,
+) -> Plant:
     """Builds a random assortment of lines, devices and structures, about 100 to 500 meshes and their fasteners.
 
     Args:
         seed: of everything.
         style: how everything is modelled; else styles are drawn, one for the plant and others for some of its parts.
-        without: names of families that are left out (keys of ``FAMILIES``), or what comes before their slash.
+        without: names of families that are left out (keys of ``ALL_FAMILIES``), or what comes before their slash.
+        taste: what is drawn how often; else all of ``FAMILIES``, or families of primitives where the style's devices
+            are.
 
     Returns:
         The plant with its labels and families. Contacts are recorded along the lines only.
@@ -61,9 +70,11 @@ def make_assortment(seed: int = 0, style: ModelingStyle | None = None, without: 
     """
     _check_names(without)
     rng = np.random.default_rng([seed, 20])
-    work = _Draw(rng, style, draw_modeling_style(rng, "drawn-1") if style is None else style, without)
+    if taste is None and style is not None and style.devices == "primitives":
+        taste = OF_PRIMITIVES
+    work = _Draw(rng, style, draw_modeling_style(rng, "drawn-1") if style is None else style, without, taste)
     parts: list[Assembly] = []
-    budget = int(rng.integers(*_MESHES))
+    budget = int(rng.integers(*(_MESHES if taste is None else taste.meshes)))
     lines = 0
     for k in range(_MOST):
         style = work.style()
@@ -91,22 +102,27 @@ def make_assortment(seed: int = 0, style: ModelingStyle | None = None, without: 
 
 
 def _check_names(without: frozenset[str]) -> None:
-    known = set(FAMILIES) | {name.split("/")[0] for name in FAMILIES}
+    known = set(ALL_FAMILIES) | {name.split("/")[0] for name in ALL_FAMILIES}
     for name in sorted(without - known):
-        raise ValueError(f"there is no family {name!r}; see FAMILIES for their names")
+        raise ValueError(f"there is no family {name!r}; see ALL_FAMILIES for their names")
 
 
 class _Draw:
     """Draws families, sizes and styles for one plant."""
 
     def __init__(
-        self, rng: np.random.Generator, fixed: ModelingStyle | None, style: ModelingStyle, without: frozenset[str]
+        self,
+        rng: np.random.Generator,
+        fixed: ModelingStyle | None,
+        style: ModelingStyle,
+        without: frozenset[str],
+        taste: Taste | None,
     ) -> None:
-        self.rng, self.fixed, self.main = rng, fixed, style
+        self.rng, self.fixed, self.main, self.taste = rng, fixed, style, taste
         self.used = [style]
         self.count = 0
         self.families: dict[str, list[Family]] = {}
-        for family in FAMILIES.values():
+        for family in (FAMILIES if taste is None else ALL_FAMILIES).values():
             if family.name not in without and family.name.split("/")[0] not in without:
                 self.families.setdefault(family.place, []).append(family)
 
@@ -119,18 +135,31 @@ class _Draw:
 
     def grained(self, style: ModelingStyle) -> ModelingStyle:
         """The style with a granularity of its own for one device; a given style keeps its own."""
-        if self.fixed is not None or self.rng.random() < 0.5:
+        if self.taste is not None:
+            if self.rng.random() < self.taste.foreign:
+                return self._foreign()
+            if self.rng.random() >= self.taste.mixed:
+                return style
+        elif self.fixed is not None or self.rng.random() < 0.5:
             return style
         grains: tuple[Grain, ...] = ("one", "few", "pieces")
         grain = grains[int(self.rng.integers(3))]
         return replace(style, valve=grain, gauge=grain, pump=grain, tank=grain, equipment=grain, structure=grain)
+
+    def _foreign(self) -> ModelingStyle:
+        """Another style, of which a plant has two at most."""
+        if len(self.used) < _STYLES:
+            self.used.append(draw_modeling_style(self.rng, f"drawn-{len(self.used) + 1}"))
+        return self.used[int(self.rng.integers(1, len(self.used)))]
 
     def family(self, place: str, dn: int = 0) -> Family | None:
         """One family for a place, made in this size; None where all are left out."""
         some = [f for f in self.families.get(place, []) if not dn or dn in f.sizes]
         if not some:
             return None
-        weights = np.array([f.weight for f in some])
+        weights = np.array([f.weight for f in some]) if self.taste is None else self.taste.weights(some)
+        if not weights.sum():
+            return None
         return some[int(self.rng.choice(len(some), p=weights / weights.sum()))]
 
     def unit(self, family: Family) -> str:
@@ -140,7 +169,11 @@ class _Draw:
 
     def dn(self) -> int:
         """A nominal size, small ones more often."""
-        return int(self.rng.choice(SIZES, p=_DN_WEIGHTS / _DN_WEIGHTS.sum()))
+        weights = _DN_WEIGHTS
+        if self.taste is not None:
+            least, most = self.taste.sizes
+            weights = weights * [least <= size <= most for size in SIZES]
+        return int(self.rng.choice(SIZES, p=weights / weights.sum()))
 
 
 def _finished(assembly: Assembly, style: ModelingStyle, seed: int) -> Assembly:
@@ -346,7 +379,7 @@ _SPOOL = ("pipe", "elbow", "flange")
 
 def _spooled(whole: Assembly) -> Assembly:
     """Pipes, elbows and flanges that are welded to each other as one mesh called pipe; flanges stay apart."""
-    names = [c.name if c.group == "Pipe assembly" and c.family not in FAMILIES else "" for c in whole.components]
+    names = [c.name if c.group == "Pipe assembly" and c.family not in ALL_FAMILIES else "" for c in whole.components]
     joined = [
         (a, b)
         for a, b in whole.contacts

@@ -192,7 +192,7 @@ def _in_few(parts: list[Part]) -> list[Part]:
 
 
 def as_device(family: Family, model: Model | Device | Assembly, style: ModelingStyle, unit: str = "") -> Device:
-    """The device for a line; the first component of a model has its inlet's face, and its outlet's unless it is split."""
+    """The device for a line; the first component of a model has both faces, or its inlet's where it is split."""
     assembly = as_assembly(family, model, style, unit)
     if isinstance(model, Device):
         return replace(model, assembly=assembly)

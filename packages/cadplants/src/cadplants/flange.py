@@ -94,8 +94,8 @@ def _flange_solid(dn: int, style: ModelingStyle) -> Solid:
     sides = style.round(size.outer / 2)
     length = flange_length(dn, style)
     bore = pipe.bore if style.hollow else 0.0
-    if style.flange == "ring":
-        profile = [(bore, 0.0), (size.outer / 2, 0.0), (size.outer / 2, length), (bore, length)]
+    if style.flange == "ring" or style.devices == "primitives":
+        profile = [(bore, 0.0), (size.outer / 2, 0.0), *_plain_back(dn, length, style), (bore, length)]
         return about_x(weld([revolve(profile, sides, closed=style.hollow)]))
     back = size.hub / 2
     head = face_shell(dn, sides, back, bore, style.holes)
@@ -106,6 +106,16 @@ def _flange_solid(dn: int, style: ModelingStyle) -> Solid:
         outside = [(back, plate_thickness(dn)), (back, length)]
     inside = [(bore, length), (bore, 0.0)] if style.hollow else [(0.0, length)]
     return about_x(weld([head, revolve([*outside, *inside], sides)]))
+
+
+def _plain_back(dn: int, length: float, style: ModelingStyle) -> list[tuple[float, float]]:
+    """The outline ``(radius, height)`` of the back of a plain disc: nothing, a cone or a cylinder for its hub [m]."""
+    size, thick = FLANGES[dn], plate_thickness(dn)
+    if style.flange == "ring":
+        return [(size.outer / 2, length)]
+    hub = max(size.hub / 2, 1.05 * PIPES[dn].radius)
+    end = PIPES[dn].radius if style.flange == "neck" else hub
+    return [(size.outer / 2, thick), (hub, thick), (end, length)]
 
 
 def flange(dn: int, style: ModelingStyle, blind: bool = False, grip: float = 0.0) -> Assembly:
@@ -139,6 +149,9 @@ def _bolted_solid(dn: int, grip: float, style: ModelingStyle) -> Solid:
 def _blind_solid(dn: int, style: ModelingStyle) -> Solid:
     size = FLANGES[dn]
     sides = style.round(size.outer / 2)
+    if style.devices == "primitives":
+        profile = [(0.0, 0.0), (size.outer / 2, 0.0), (size.outer / 2, plate_thickness(dn)), (0.0, plate_thickness(dn))]
+        return about_x(weld([revolve(profile, sides)]))
     back = size.hub / 2
     head = face_shell(dn, sides, back, 0.0, style.holes)
     return about_x(weld([head, revolve([(back, plate_thickness(dn)), (0.0, plate_thickness(dn))], sides)]))

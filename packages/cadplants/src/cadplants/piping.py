@@ -74,6 +74,8 @@ def _outlet_solid(dn: int, foot: float, top: float, height: float, style: Modeli
     radius = PIPES[dn].radius
     sides = style.round(radius)
     foot = min(foot, 0.85 * radius)
+    if style.devices == "primitives":
+        return _snout(radius, foot, top, height, style)
     sunk = radius * (1 - np.cos(np.pi / sides)) + 0.0001
     angles = np.arange(24) * 2 * np.pi / 24
     x, y = foot * np.cos(angles), foot * np.sin(angles)
@@ -82,6 +84,22 @@ def _outlet_solid(dn: int, foot: float, top: float, height: float, style: Modeli
     ring = np.column_stack([top * np.cos(angles), top * np.sin(angles), np.full(24, radius + height)])
     poles = [np.array([[0.0, 0.0, radius - sunk]]), np.array([[0.0, 0.0, radius + height]])]
     return weld([loft([poles[0], saddle, collar, ring, poles[1]])])
+
+
+def _snout(radius: float, foot: float, top: float, height: float, style: ModelingStyle) -> Solid:
+    """An outlet as a bare cone, a bare cylinder or a cylinder with a flared foot, which runs into its pipe; how coarse
+    the style is decides which [m].
+    """
+    low, high, sides = 0.5 * radius, radius + height, style.round(foot)
+    kind = (style.sides[0] // 2 + style.sides[1] // 2 + round(style.sag * 1e7)) % 3
+    if kind == 0:
+        outline = [(0.0, low), (foot, low), (top, high), (0.0, high)]
+    elif kind == 1:
+        outline = [(0.0, low), (top, low), (top, high), (0.0, high)]
+    else:
+        flare = radius + 0.4 * height
+        outline = [(0.0, low), (1.4 * foot, low), (1.4 * foot, radius), (top, flare), (top, high), (0.0, high)]
+    return weld([revolve(outline, sides)])
 
 
 def outlet(dn: int, style: ModelingStyle, foot: float = 0.012, top: float = 0.0095, height: float = 0.024) -> Assembly:
