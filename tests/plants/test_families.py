@@ -6,11 +6,11 @@ import pytest
 
 from cadgraph.model.vocabulary import default_vocabulary
 from cadplants.drawn_styles import draw_modeling_style
-from cadplants.families import FAMILIES
 from cadplants.family import UNIT, Family, Model, Part, as_assembly, as_device
 from cadplants.modeling_style import STYLES
 from cadplants.plant import Device
 from cadplants.primitives import box
+from cadplants.taste import ALL_FAMILIES
 from plants.solids import is_closed, shell_volumes
 
 # Every style, but none finer than 16 sides, so that hundreds of builds stay quick.
@@ -45,7 +45,7 @@ def flaws(family, style, dn, seed):
 
 
 def test_one_family_of_each_kind_is_closed_and_labelled():
-    kinds = {family.name.split("/")[0]: family for family in FAMILIES.values()}
+    kinds = {family.name.split("/")[0]: family for family in ALL_FAMILIES.values()}
     turns = zip(kinds.values(), cycle(IN_STYLES), strict=False)
     assert [flaw for family, style in turns for flaw in flaws(family, style, sizes(family)[0], 0)] == []
 
@@ -54,7 +54,7 @@ def test_one_family_of_each_kind_is_closed_and_labelled():
 def test_every_family_is_closed_and_labelled_in_every_hand():
     assert [
         flaw
-        for family in FAMILIES.values()
+        for family in ALL_FAMILIES.values()
         for seed, (style, dn) in enumerate(zip(IN_STYLES, cycle(sizes(family)), strict=False))
         for flaw in flaws(family, style, dn, seed)
     ] == []
@@ -71,7 +71,7 @@ def vertices_of(family):
 def test_the_same_seed_builds_the_same_shape():
     assert [
         family.name
-        for family in FAMILIES.values()
+        for family in ALL_FAMILIES.values()
         for first, second in zip(vertices_of(family), vertices_of(family), strict=True)
         if first[0] != second[0] or not np.array_equal(first[1], second[1])
     ] == []
@@ -89,19 +89,19 @@ def reaches_from_end_to_end(family):
 
 @pytest.mark.slow
 def test_what_sits_in_a_line_reaches_from_one_end_to_the_other():
-    inline = [family for family in FAMILIES.values() if family.place == "inline"]
+    inline = [family for family in ALL_FAMILIES.values() if family.place == "inline"]
     assert inline
     assert [family.name for family in inline if not reaches_from_end_to_end(family)] == []
 
 
 def test_units_belong_to_the_group_of_their_type():
     of_group = default_vocabulary().unit_of_group
-    for family in FAMILIES.values():
+    for family in ALL_FAMILIES.values():
         assert (family.unit or None) == of_group.get(family.group)
 
 
 def test_names_say_kind_and_build():
-    assert all(name.count("/") == 1 and name == family.name for name, family in FAMILIES.items())
+    assert all(name.count("/") == 1 and name == family.name for name, family in ALL_FAMILIES.items())
 
 
 PARTS = (
@@ -133,7 +133,7 @@ def test_a_hand_joins_parts_as_finely_as_it_models(grain, fasteners, names):
 
 
 def test_finished_devices_take_the_id_of_their_unit():
-    family = FAMILIES["check valve/swing"]
+    family = ALL_FAMILIES["check valve/swing"]
     device = as_device(family, built(family, 50, STYLES["bim"], 0), STYLES["bim"], "V-7")
     assert isinstance(device, Device)
     assert {c.unit for c in device.assembly.components} == {"V-7"}
@@ -142,6 +142,6 @@ def test_finished_devices_take_the_id_of_their_unit():
 
 
 def test_what_stands_on_the_floor_does_not_fit_a_line():
-    family = FAMILIES["tank/dished on legs"]
+    family = ALL_FAMILIES["tank/dished on legs"]
     with pytest.raises(ValueError, match="no device for a line"):
         as_device(family, built(family, 15, STYLES["bim"], 0), STYLES["bim"])

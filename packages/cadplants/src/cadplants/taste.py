@@ -1,4 +1,4 @@
-"""What an assortment is drawn from: which families, how often each, in which sizes, and how much of it in other styles."""
+"""What an assortment is drawn from: which families, how often each, in which sizes, how much in other styles."""
 
 from __future__ import annotations
 

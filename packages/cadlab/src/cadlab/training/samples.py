@@ -15,6 +15,7 @@ from cadlab.training.distractors import UNSEEN_FROM, make_distractors, visited
 from cadlab.training.example import Example, make_example, read_examples, write_examples
 from cadlab.training.fastener import make_fasteners
 from cadplants.assortment import FAMILIES, make_assortment
+from cadplants.authoring_systems import make_in_system
 from cadplants.defects import Defects, degrade
 from cadplants.drawn_styles import draw_modeling_style
 from cadplants.modeling_style import STYLES, ModelingStyle
@@ -60,6 +61,7 @@ class Sample:
         sin: a key of ``SINS``, ``some`` for a few of each, or empty.
         sides: factor of the number of sides of everything round.
         guests: whether distractors lean on its parts.
+        system: of an assortment, the system that draws it (a key of ``SYSTEMS``), with a style of its own; or empty.
     """
 
     kind: str
@@ -68,6 +70,7 @@ class Sample:
     sin: str = ""
     sides: float = 1.0
     guests: bool = False
+    system: str = ""
 
     def plant(self) -> Plant:
         """Builds the plant."""
@@ -83,7 +86,12 @@ class Sample:
         if self.kind in _LOOSE:
             return _LOOSE[self.kind](self.seed)
         style = _retold(STYLES[self.style], self.sides) if self.style else None
-        plant = make_assortment(self.seed, style) if self.kind == "assortment" else PRESETS[self.kind](self.seed, style)
+        if self.kind == "assortment" and self.system:
+            plant = make_in_system(self.seed, self.system)
+        elif self.kind == "assortment":
+            plant = make_assortment(self.seed, style)
+        else:
+            plant = PRESETS[self.kind](self.seed, style)
         if self.sin == "some":
             share = _SHARE
             defects = Defects(duplicates=share / 3, flipped=share, soup=share, degenerate=share)

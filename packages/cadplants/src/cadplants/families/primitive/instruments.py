@@ -87,7 +87,7 @@ def _gauge(_: int, style: ModelingStyle, rng: np.random.Generator, ringed: bool 
     case = _upright(
         case_parts(radius, style, rng, ringed, ringed or chance(rng, 0.5)), rise + radius, 0.3 * radius, rng
     )
-    return Model([case[0], _stem(rise + 0.1 * radius, style, rng), *case[1:]], kind="pressure gauge")
+    return Model([_stem(rise + 0.1 * radius, style, rng), *case], kind="pressure gauge")
 
 
 def _path(kind: str, reach: float, high: float) -> Floats:
@@ -131,7 +131,7 @@ def _transmitter(_: int, style: ModelingStyle, rng: np.random.Generator) -> Mode
     whole = merge([head, box((1.6 * size, 1.2 * size, 0.5 * rise), (0, 0, 0.6 * rise))]) if chance(rng, 0.4) else head
     name = "transmitter"
     rod = _stem(rise + 0.2 * size, style, rng)
-    return Model([part(name, whole, color="gauge", bundle=name), rod], kind="pressure transmitter")
+    return Model([rod, part(name, whole, color="gauge", bundle=name)], kind="pressure transmitter")
 
 
 def _thermowell(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
