@@ -187,7 +187,7 @@ def degrade(plant: Plant, defects: Defects, seed: int = 0) -> Plant:
     """The plant with defects, all of them recorded in its truth.
 
     Args:
-        plant: clean.
+        plant: clean, or spoilt before: what is recorded of that stays.
         defects: how much of each.
         seed: which meshes.
     """
@@ -228,8 +228,8 @@ def degrade(plant: Plant, defects: Defects, seed: int = 0) -> Plant:
     return replace(
         plant,
         components=tuple(components),
-        duplicates=tuple(duplicates),
-        hidden=tuple(hidden),
+        duplicates=(*plant.duplicates, *duplicates),
+        hidden=(*plant.hidden, *hidden),
         colors=defects.colors if defects.colors != "own" else plant.colors,
     )
 

@@ -177,9 +177,8 @@ def _quarter(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     )
     parts = [part(_BODY, *body, bundle=_BODY), part("valve stem", stem, color="trim", bundle=_BODY)]
     if chance(rng, 0.4):
-        knob = moved(
-            rod((0, 0, -0.03), (0, 0, 0.03), 0.012, 8), at(length / 2, 0, top) @ spun("z", turn) @ at(0.9 * reach)
-        )
+        turned_bar = at(length / 2, 0, top) @ spun("z", turn) @ spun("y", -tilt)
+        knob = moved(rod((0, 0, -0.03), (0, 0, 0.03), 0.012, 8), turned_bar @ at(0.9 * reach))
         return Model([*parts, part("lever", bar, knob, color="handle", bundle="lever")], length, "welded", "ball valve")
     return Model([*parts, part("lever", bar, color="handle", bundle="lever")], length, "welded", "ball valve")
 

@@ -149,6 +149,8 @@ def _upright(_: int, style: ModelingStyle, rng: np.random.Generator, kind: str =
     thin = kind != "tank"
     radius = num(rng, 0.12, 0.4) if thin else num(rng, 0.35, 1.3)
     high, depth = radius * num(rng, 1.6, 4.0), radius * pick(rng, 0.25, 0.5, 1.0, 0.0)
+    if kind == "separator":
+        high, depth = radius * num(rng, 4.0, 8.0), max(depth, 0.25 * radius)
     low = depth + num(rng, 0.2, 0.7)
     name = kind if thin else "shell"
     group = _EQUIPMENT if thin else _TANK
@@ -160,6 +162,9 @@ def _upright(_: int, style: ModelingStyle, rng: np.random.Generator, kind: str =
     else:
         solid = vessel(radius, low, low + high, depth, style) if depth else disc(radius, low, low + high, style)
         parts = [part(name, solid, color="tank", bundle=name)]
+    if kind == "filter":
+        lids = [disc(1.3 * radius, z, z + 0.12 * radius, style) for z in (low + 0.8 * high, low + 0.93 * high)]
+        parts = [part(name, *(p.solid for p in parts), *lids, color="tank", bundle=name)]
     parts += _stands(radius, low, style, rng, thin)
     ports = []
     for k in range(int(rng.integers(1, 4))):
@@ -286,18 +291,20 @@ def _cased(_: int, style: ModelingStyle, rng: np.random.Generator, kind: str) ->
         solids = [box((0.8 * a / 10, b, c), (x, 0, low + c / 2)) for x in np.linspace(-0.45, 0.45, 10) * a] + [
             box((a, 0.3 * b, 0.1 * c), (0, 0, low + z * c)) for z in (0.1, 0.9)
         ]
-    if kind in ("boiler", "burner"):
+    if kind == "burner":
+        r = 0.25 * c
+        solids = [lying(disc(r, -0.3 * a, 0.3 * a, style), 0, 0, low + 2 * r)]
+        solids.append(lying(disc(0.55 * r, 0.3 * a, 0.7 * a, style), 0, 0, low + 2 * r))
+        solids += [
+            box((0.35 * a, 1.2 * r, r), (0, 0, low + 3.2 * r)),
+            box((0.1 * a, 0.1 * a, 1.2 * r), (0, 0, low + 0.6 * r)),
+        ]
+    elif kind == "boiler":
         solids.append(disc(0.2 * b, low + 0.9 * c, low + c + num(rng, 0.1, 0.5), style))
         if chance(rng, 0.4):
             solids.append(lying(disc(0.25 * b, a / 2, a / 2 + 0.3, style), 0, 0, low + 0.4 * c))
     elif kind in ("compressor", "blower"):
-        r = 0.3 * c
-        solids = [
-            box((a, b, 0.2 * c), (0, 0, low + 0.1 * c)),
-            lying(disc(r, -0.45 * a, 0.1 * a, style), 0, 0, low + 0.2 * c + r),
-            lying(disc(0.7 * r, 0.1 * a, 0.45 * a, style), 0, 0, low + 0.2 * c + r),
-        ]
-        solids.append(disc(0.4 * r, low + 0.2 * c + r, low + 0.3 * c + 2.4 * r, style))
+        solids = _compressor(a, b, c, low, style) if kind == "compressor" else _blower(a, b, c, low, style)
     parts = [part(kind, *solids, color="tank", bundle=kind)]
     if low and kind != "radiator":
         parts.append(part("foundation", box((a + 0.2, b + 0.2, low), (0, 0, low / 2)), color="concrete", group=FRAME))
@@ -309,6 +316,35 @@ def _cased(_: int, style: ModelingStyle, rng: np.random.Generator, kind: str) ->
         parts[0] = part(kind, parts[0].solid, stub, color="tank", bundle=kind)
         ports.append(Port(pose, dn, 0))
     return Model(parts, ports=tuple(ports), kind=kind)
+
+
+def _compressor(a: float, b: float, c: float, low: float, style: ModelingStyle) -> list[Solid]:
+    """A lying vessel on two feet with a box, a drum and a motor on it [m]."""
+    r = 0.4 * b
+    axis = low + 0.15 + r
+    solids = [lying(vessel(r, -0.45 * a, 0.45 * a, 0.4 * r, style), 0, 0, axis)]
+    solids += [box((0.08 * a, 1.2 * r, axis - low), (x, 0, (axis + low) / 2)) for x in (-0.3 * a, 0.3 * a)]
+    top = axis + 0.95 * r
+    solids += [
+        box((0.8 * a, 1.4 * r, 0.04), (0, 0, top)),
+        box((0.25 * a, 0.9 * r, 0.4 * c), (-0.2 * a, 0, top + 0.2 * c)),
+    ]
+    solids.append(lying(disc(0.45 * r, 0.0, 0.35 * a, style), 0, 0, top + 0.5 * r))
+    return solids
+
+
+def _blower(a: float, b: float, c: float, low: float, style: ModelingStyle) -> list[Solid]:
+    """A flat drum across, its square mouth upward, with a motor and a cone for its inlet [m]."""
+    r = 0.4 * c
+    axis = low + 1.2 * r
+    return [
+        box((a, b, 0.1 * c), (0, 0, low + 0.05 * c)),
+        lying(disc(r, -0.3 * b, 0.3 * b, style), 0, 0, axis),
+        box((0.6 * b, 0.6 * r, 1.4 * r), (0, 0.7 * r, axis + 0.7 * r)),
+        lying(cone(0.5 * r, 0.7 * r, 0.3 * b, 0.6 * b, style), 0, 0, axis),
+        lying(disc(0.4 * r, -0.9 * b, -0.3 * b, style), 0, 0, axis),
+        box((0.5 * b, 0.7 * r, axis - low), (-0.6 * b, 0, (axis + low) / 2)),
+    ]
 
 
 def _inline_pot(dn: int, style: ModelingStyle, rng: np.random.Generator, kind: str = "filter") -> Model:

@@ -99,9 +99,16 @@ def _loose_beam(_: int, style: ModelingStyle, rng: np.random.Generator, name: st
 
 
 def _deck(_: int, style: ModelingStyle, rng: np.random.Generator, name: str = "platform") -> Model:
-    """A flat box as a platform or a grating on beams and columns, with a railing of single bars at times."""
+    """A flat box as a platform, or crossed bars as a grating, on beams and columns, with single bars as a railing."""
     a, b, high, thick = num(rng, 1.0, 4.0), num(rng, 0.8, 2.0), num(rng, 0.4, 3.0), num(rng, 0.02, 0.06)
-    parts = [_steel(name, box((a, b, thick), (a / 2, 0, high + thick / 2)), bundle=name)]
+    slabs = [box((a, b, thick), (a / 2, 0, high + thick / 2))]
+    if name == "grating":
+        gap = pick(rng, 0.04, 0.06, 0.1)
+        slabs = [box((a, 0.006, thick), (a / 2, float(y), high + thick / 2)) for y in np.arange(-b / 2, b / 2, gap)]
+        slabs += [
+            box((0.008, b, 0.4 * thick), (float(x), 0, high + 0.8 * thick)) for x in np.arange(0.05, a, 2.5 * gap)
+        ]
+    parts = [_steel(name, *slabs, bundle=name)]
     size = num(rng, 0.05, 0.14)
     for y in (-b / 2 + size, b / 2 - size):
         parts.append(_steel("beam", box((a, 0.6 * size, size), (a / 2, y, high - size / 2))))
@@ -319,7 +326,7 @@ PRIMITIVE_STEEL: tuple[Family, ...] = (
     family("beam/on posts", "floor", FRAME, _loose_beam, "beam", (15,)),
     family("column/sharp section", "floor", FRAME, partial(_loose_beam, name="column"), "column", (15,)),
     *(
-        family(f"{name}/flat box", "floor", FRAME, partial(_deck, name=name), name, (15,), grain="fitting")
+        family(f"{name}/on columns", "floor", FRAME, partial(_deck, name=name), name, (15,), grain="fitting")
         for name in _NAMES
     ),
     family("railing/single bars", "floor", FRAME, _railing, "railing", (15,), 1.5),

@@ -69,15 +69,25 @@ def _tray(_: int, style: ModelingStyle, rng: np.random.Generator, kind: str = "d
 
 
 def _conduit(_: int, style: ModelingStyle, rng: np.random.Generator, name: str = "conduit") -> Model:
-    """Thin round bars side by side along a route of one or two turns, between boxes or bare."""
-    r, count = num(rng, 0.006, 0.025), int(rng.integers(1, 5))
+    """Round bars side by side up and along, with sleeves on them at times; thin and uneven ones as cables."""
+    cable = name == "cable"
+    r, count = (
+        (num(rng, 0.003, 0.009), int(rng.integers(2, 8))) if cable else (num(rng, 0.01, 0.025), int(rng.integers(1, 5)))
+    )
     length, rise = num(rng, 0.8, 5.0), num(rng, 0.4, 2.5)
     n = min(style.round(r), 12)
     parts = []
     for k in range(count):
         y = 3 * r * k
-        path = [(0, y, 0), (0, y, rise), (length, y, rise)]
-        parts.append(part(name, torus_piece(path, r, n), color="electrical", bundle=name))
+        path = [(0.0, y, 0.0), (0.0, y, rise), (length, y, rise)]
+        if cable:
+            x = np.linspace(0.2, length, 8)
+            loose = [(float(one), y + num(rng, -2, 2) * r, rise + num(rng, 0, 1) * r) for one in x]
+            path = [(0.0, y, 0.0), (0.0, y, rise - 0.2), (0.06, y, rise - 0.05), *loose]
+        solids = [torus_piece(path, r, n)]
+        if not cable and chance(rng, 0.5):
+            solids += [lying(cylinder(1.25 * r, 0.0, 4 * r, n), s * length, y, rise) for s in (0.3, 0.7)]
+        parts.append(part(name, *solids, color="electrical", bundle=name))
     if chance(rng, 0.6):
         deep = 3 * r * count + 0.08
         cabinet = box((0.12, deep, 0.2), (0, 1.5 * r * (count - 1), -0.1))
