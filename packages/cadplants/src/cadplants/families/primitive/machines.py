@@ -372,7 +372,7 @@ PRIMITIVE_MACHINES: tuple[Family, ...] = (
     family("separator/upright of primitives", "floor", _EQUIPMENT, partial(_upright, kind="separator")),
     family("filter/pot on line", "inline", _EQUIPMENT, _inline_pot, weight=0.5),
     *(
-        family(f"{kind}/plain box", "floor", _EQUIPMENT, partial(_cased, kind=kind), weight=0.7)
+        family(f"{kind}/of boxes and cylinders", "floor", _EQUIPMENT, partial(_cased, kind=kind), weight=0.7)
         for kind in ("boiler", "compressor", "blower", "radiator", "burner")
     ),
 )
