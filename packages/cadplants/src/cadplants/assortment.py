@@ -41,6 +41,7 @@ _LANE = 1.8  # m between two lines
 _LOWEST, _HIGHEST = 0.45, 3.2  # m, of a line's axis
 _ROOM = 8.0  # m between things on the floor: their lines stay clear of each other
 _MESHES, _MOST = (90, 280), 24  # a plant is full at a number of meshes without fasteners, or has so many things
+_NARROWING = ("reducer/bare cone",)  # families of single reducers whose two ends are on one axis
 _STYLES = 3  # at most, of a plant whose taste is given
 _FASTENERS = ("bolt", "nut", "washer", "stud", "screw")
 _GROUND = 0.3  # share of plants that stand on a slab
@@ -276,6 +277,10 @@ def _leg(work: _Draw, style: ModelingStyle, dn: int, start: float, level: bool) 
         item, length = _item(work, style, dn, start + x)
         items.append(item)
         x += length
+        if item.dn:
+            narrow, length = _narrowed(work, style, dn, item, start + x, length)
+            items += narrow
+            x += length
     return _Leg(tuple(items), tuple(taps), x + float(rng.uniform(0.15, 0.9)))
 
 
@@ -307,7 +312,25 @@ def _item(work: _Draw, style: ModelingStyle, dn: int, low: float) -> tuple[Inlin
     length = device.length + (0.0 if welded else 2 * (neck + pad))
     roll = float(rng.choice([0.0, 0.0, 0.0, 0.5, -0.5, 1.0])) * np.pi
     build: Callable[[ModelingStyle], Device] = partial(_given, device)
-    return Inline(low + length / 2, build, unit, roll, welded=welded), length
+    # A line of the default taste goes on as wide as before: its plants stay as they are.
+    behind = model.dn if isinstance(model, Model) and work.taste is not None and family.name in _NARROWING else 0
+    return Inline(low + length / 2, build, unit, roll, welded=welded, dn=behind), length
+
+
+def _narrowed(
+    work: _Draw, style: ModelingStyle, dn: int, reducer: Inline, low: float, length: float
+) -> tuple[list[Inline], float]:
+    """What follows a reducer: narrow pipe, at times with a device in it, and the same reducer the other way round; and
+    how long that is [m].
+    """
+    rng, items = work.rng, []
+    x = float(rng.uniform(0.15, 0.5))
+    if rng.random() < 0.6:
+        item, more = _item(work, style, reducer.dn, low + x)
+        items.append(replace(item, dn=0))
+        x += more + float(rng.uniform(0.15, 0.5))
+    back = Inline(low + x + length / 2, reducer.build, reverse=True, welded=True, dn=dn)
+    return [*items, back], x + length
 
 
 def _endings(work: _Draw, style: ModelingStyle, run: Run) -> list[Assembly]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -56,7 +57,7 @@ def _reducer(dn: int, style: ModelingStyle, rng: np.random.Generator, eccentric:
     else:
         middles = [ring.mean(axis=0, keepdims=True) for ring in ends]
         solid = weld([loft([middles[0], *ends, middles[1]])])
-    return _one("reducer", length, solid)
+    return replace(_one("reducer", length, solid), dn=0 if eccentric else other)
 
 
 def _tee(dn: int, style: ModelingStyle, rng: np.random.Generator, arms: int = 1) -> Model:
