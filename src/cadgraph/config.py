@@ -145,6 +145,13 @@ class LabelConfig(Section):
         ge=0,
         le=1,
     )
+    sure_confidence: float | None = _setting(
+        None,
+        "a label below this confidence is marked as likely, not sure; none: the labeler's own threshold",
+        "ours: docs/labeler.md",
+        ge=0,
+        le=1,
+    )
     overrule: bool = _setting(True, "labels from outside replace those of the labeler; off: they only fill gaps")
     catalogs: tuple[str, ...] = _setting(
         (), "catalogues of your own parts, made by 'cadgraph catalog add'; the first that knows a shape counts"

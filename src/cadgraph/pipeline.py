@@ -15,6 +15,7 @@ from cadgraph.model.catalog import read_catalog
 from cadgraph.model.corrections import Correction
 from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.graph import SceneGraph
+from cadgraph.model.labels import Label
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary
 from cadgraph.stages.adjacency import find_near_meshes, join_contacts
@@ -31,6 +32,7 @@ from cadgraph.stages.relate import RelateInput, connect_units, pipe_systems, rel
 
 __all__ = ["ANALYSIS_SETTINGS", "STAGES", "analyse", "build", "interpret"]
 
+_WEAK = 0.4  # a likely label below this confidence is no label for the relations
 STAGES = ("measure", "contacts", "group", "cluster", "label", "relate", "assemble")
 """The names that ``build`` gives to its progress, in order."""
 
@@ -117,6 +119,10 @@ def analyse(scene: Scene, config: Config | None = None, progress: Progress = qui
     return Analysis(scene, properties, parts, contacts, cluster, found, settings)
 
 
+def _without(labels: Sequence[Label | None], weak: Sequence[bool]) -> tuple[Label | None, ...]:
+    return tuple(None if out else label for label, out in zip(labels, weak, strict=True))
+
+
 def interpret(
     analysis: Analysis,
     labels: SettledLabels,
@@ -136,18 +142,24 @@ def interpret(
     config = config or Config()
     parts, contacts, cluster = analysis.parts, analysis.contacts, analysis.cluster
     progress("relate", 0)
-    given = RelateInput(analysis, labels.labels, labels.opinions, vocabulary, config, labels.probabilities)
+    # What is rather wrong than right counts by its probabilities, beside those of the other names.
+    weak = [label is not None and label.likely and label.confidence < _WEAK for label in labels.labels]
+    firm, opinions = _without(labels.labels, weak), _without(labels.opinions, weak)
+    given = RelateInput(analysis, firm, opinions, vocabulary, config, labels.probabilities)
     connected = connect_units(given)
     network = connected.network
-    related = relate_units(network.units, connected.labels, contacts, cluster, vocabulary)
+    named = tuple(
+        before if after is None else after for before, after in zip(labels.labels, connected.labels, strict=True)
+    )
+    related = relate_units(network.units, named, contacts, cluster, vocabulary)
     progress("assemble", 0)
     results = Results(
         scene=analysis.scene,
         parts=parts,
         contacts=contacts,
         cluster=cluster,
-        pipe_systems=pipe_systems(connected.labels, cluster, vocabulary),
-        labels=connected.labels,
+        pipe_systems=pipe_systems(named, cluster, vocabulary),
+        labels=named,
         guesses=labels.guesses,
         network=network,
         related=related,

@@ -79,6 +79,22 @@ def test_without_a_setting_the_labelers_own_threshold_counts():
     assert label_parts(strict, parts, NO_CONTACTS, VOCABULARY, LabelConfig(min_confidence=0.6)).labels[0] is not None
 
 
+def test_a_label_that_is_not_sure_is_marked_as_likely():
+    parts = parts_of(scene_of(3), (0,), (1,), (2,))
+    answers = [sure(0.9), sure(0.6), sure(0.3)]
+
+    class Unsure:
+        def label(self, parts, contacts, vocabulary):
+            return Labeling.judge(answers, 0.4, sure=0.8)
+
+    labels = label_parts(Unsure(), parts, NO_CONTACTS, VOCABULARY, LabelConfig()).labels
+    assert [label and label.likely for label in labels] == [False, True, None]
+    stricter = label_parts(Unsure(), parts, NO_CONTACTS, VOCABULARY, LabelConfig(sure_confidence=0.95)).labels
+    assert [label and label.likely for label in stricter] == [True, True, None]
+    assert "likely" not in labels[0].model_dump(mode="json")
+    assert labels[1].model_dump(mode="json")["likely"] is True
+
+
 @pytest.mark.parametrize("unknown", [("Spaceship", None), ("Pipe assembly", "warp core")])
 def test_label_outside_the_vocabulary_is_dropped(unknown):
     parts = parts_of(scene_of(2), (0,), (1,))

@@ -1,8 +1,10 @@
 import json
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 import shapes
 from cadgraph.errors import LabelError
@@ -12,11 +14,13 @@ from cadgraph.labelers.embedded.features import observe
 from cadgraph.labelers.embedded.labeler import EmbeddedLabeler, judge, spread
 from cadgraph.labelers.embedded.model import STRANGE, Model, default_model, read_model, write_model
 from cadgraph.labelers.embedded.wording import describe_company, describe_form
+from cadgraph.load import load
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import default_vocabulary
 from cadlab.training.example import make_parts_from
 from cadplants import make
+from fittings import MESHERS
 
 VOCABULARY = default_vocabulary()
 NO_CONTACTS = Contacts(np.zeros((0, 2), np.int64), np.zeros(0), np.zeros((0, 2, 3)))
@@ -40,11 +44,57 @@ def said(scene):
     return dict(zip(parts.scene.paths, EmbeddedLabeler().label(parts, contacts, VOCABULARY).answers, strict=True))
 
 
+def changed(scene, how):
+    """The same scene told otherwise."""
+    random = np.random.default_rng(5)
+    turn = Rotation.from_euler("z", 37, degrees=True).as_matrix()
+    changes = {
+        "moved by 1 km": lambda mesh: shapes.moved(mesh, translation=(1000.0, 0.0, 0.0)),
+        "turned": lambda mesh: shapes.moved(mesh, turn),
+        "mirrored": lambda mesh: (mesh[0] * [-1, 1, 1], mesh[1][:, ::-1]),
+        "quartered": lambda mesh: MESHERS["quartered"](mesh, random),
+        "shuffled": lambda mesh: MESHERS["shuffled"](mesh, random),
+    }
+    meshes = [changes[how](scene.mesh(i)) for i in range(scene.n_meshes)]
+    return Scene.from_meshes(meshes, scene.paths)
+
+
+CHANGES = ("moved by 1 km", "turned", "mirrored", "quartered", "shuffled")
+SAME = 0.995
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("how", CHANGES)
+def test_labels_follow_the_shapes_and_not_their_triangles_or_pose(riser, how):
+    scene = riser.scene()
+    first, second = said(scene), said(changed(scene, how))
+    same = [(one.group, one.name) == (second[path].group, second[path].name) for path, one in first.items()]
+    assert np.mean(same) >= SAME
+
+
+NEARLY = {"moved by 1 km": 0.97, "turned": 0.97, "mirrored": 0.97, "quartered": 0.9, "shuffled": 0.94}
+"""On plants of few parts, and of shapes that nearly repeat each other: which of them count as repeats still depends a
+little on their triangles."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("plant", ["plm", "wells", "pipeline"])
+def test_labels_of_real_plants_follow_the_shapes_as_well(plant):
+    path = Path(__file__).parents[3] / "shared/data/real" / plant / "scene.usdc"
+    if not path.is_file():
+        pytest.skip("no real plants here")
+    scene = load(path)
+    first = said(scene)
+    for how in CHANGES:
+        second = said(changed(scene, how))
+        same = [(one.group, one.name) == (second[path].group, second[path].name) for path, one in first.items() if one]
+        assert np.mean(same) >= NEARLY[how], how
+
+
 @pytest.mark.slow
 def test_order_and_pose_of_meshes_change_no_label(riser):
     scene = riser.scene()
-    q, _ = np.linalg.qr(np.random.default_rng(5).normal(size=(3, 3)))
-    q *= np.sign(np.linalg.det(q))
+    q = Rotation.from_euler("z", 2.0).as_matrix()
     meshes = [scene.mesh(i) for i in range(scene.n_meshes)]
     moved = Scene.from_meshes(
         [(v @ q.T + [10.0, 5.0, -3.0], f) for v, f in reversed(meshes)], tuple(reversed(scene.paths))
@@ -150,18 +200,18 @@ def test_without_neighbours_a_part_hears_nothing():
 
 
 def test_model_files_come_back_as_they_were(tmp_path):
-    model = Model((small_network(),), ("Tank/tank", STRANGE), 1.5, 0.7, {"seeds": [0, 9]})
+    model = Model((small_network(),), ("Tank/tank", STRANGE), 1.5, 0.4, 0.6, 0.7, {"seeds": [0, 9]})
     write_model(model, tmp_path / "m.npz")
     again = read_model(tmp_path / "m.npz")
-    assert (again.classes, again.temperature, again.threshold, again.card) == (
-        model.classes, model.temperature, model.threshold, model.card
+    assert (again.classes, again.temperature, again.threshold, again.alone, again.sure, again.card) == (
+        model.classes, model.temperature, model.threshold, model.alone, model.sure, model.card
     )  # fmt: skip
     np.testing.assert_allclose(again.members[0].weights["w0"], model.members[0].weights["w0"], rtol=1e-3)
 
 
 def test_damaged_or_foreign_model_files_end_in_one_clear_line(tmp_path):
     path = tmp_path / "m.npz"
-    write_model(Model((small_network(),), ("Tank/tank",), 1.0, 0.5), path)
+    write_model(Model((small_network(),), ("Tank/tank",), 1.0, 0.5, 0.5, 0.8), path)
     whole = path.read_bytes()
     for content in (b"", b"not a model", whole[: len(whole) // 2], b"PK\x03\x04" + bytes(50)):
         path.write_bytes(content)
@@ -186,8 +236,18 @@ def test_pickles_are_never_loaded(tmp_path):
         read_model(path)
 
 
+def test_every_part_has_its_five_likeliest_names(riser):
+    parts, contacts = make_parts_from(riser.scene())
+    answers = EmbeddedLabeler().label(parts, contacts, VOCABULARY).answers
+    for answer in answers:
+        chances = [guess.confidence for guess in answer.guesses]
+        assert chances == sorted(chances, reverse=True)
+        assert len(chances) == 5 or sum(chances) > 0.99
+
+
 def test_the_model_in_the_package_is_small_and_knows_the_vocabulary():
     model = default_model()
+    assert model.threshold <= min(model.alone, model.sure)
     assert {c for c in model.classes if c != STRANGE} == {
         f"{group}/{name}" for group, content in VOCABULARY.to_json().items() for name in content["names"]
     }

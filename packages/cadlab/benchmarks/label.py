@@ -20,6 +20,7 @@ from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import default_vocabulary
 from cadlab.markdown import table
+from cadlab.training.distractors import UNSEEN_FROM, make_distractors
 from cadlab.training.example import make_parts_from
 from cadplants import make
 
@@ -34,6 +35,23 @@ def tiled(scene: Scene, times: int) -> Scene:
             meshes.append((vertices + np.array([k * width, 0, 0]), faces))
             paths.append(f"/tile_{k}{scene.paths[i]}")
     return Scene.from_meshes(meshes, paths)
+
+
+def strangers(count: int, distinct: bool) -> Scene:
+    """Jugs, boats and the like of a few thousand triangles in a row: all different, or one of them again and again.
+
+    Args:
+        count: how many.
+        distinct: whether each is stretched in a way of its own.
+    """
+    rng = np.random.default_rng(7)
+    one = max(make_distractors(UNSEEN_FROM, 30).components, key=lambda c: len(c.faces))
+    vertices = one.vertices / np.ptp(one.vertices, axis=0).max()
+    meshes = []
+    for k in range(count):
+        factors = rng.uniform(0.6, 1.6, 3) if distinct else np.ones(3)
+        meshes.append((vertices * factors + np.array([3.0 * (k % 40), 3.0 * (k // 40), 0]), one.faces))
+    return Scene.from_meshes(meshes)
 
 
 def row(name: str, parts: Parts, contacts: Contacts) -> list[Any]:
@@ -62,6 +80,8 @@ def main() -> None:
         rows.append(row(f"{times} x skid", *make_parts_from(tiled(skid, times))))
     for preset in ("tank", "rack", *(("field",) if parser.parse_args().field else ())):
         rows.append(row(preset, *make_parts_from(make(preset).scene())))
+    rows.append(row("1,000 times one stranger", *make_parts_from(strangers(1000, distinct=False))))
+    rows.append(row("1,000 strangers", *make_parts_from(strangers(1000, distinct=True))))
     print(machine() + "\n")
     titles = [
         "plant",

@@ -63,15 +63,16 @@ def write_tables(graph: SceneGraph, folder: str | Path) -> list[Path]:
 
 def _parts(graph: SceneGraph) -> Iterator[Row]:
     yield (
-        "part", "group", "name", "confidence", "label_source", "unit", "cluster", *_PLACE, "area_m2", "volume_m3",
-        "n_meshes", "n_triangles", "shape", "ground", "largest_mesh", "inside",
+        "part", "group", "name", "confidence", "label_state", "label_source", "unit", "cluster", *_PLACE, "area_m2",
+        "volume_m3", "n_meshes", "n_triangles", "shape", "ground", "largest_mesh", "inside",
     )  # fmt: skip
     for part in graph.of_layer(Part):
         label, unit, cluster = part.label, graph.unit_of(part), graph.cluster_of(part)
-        says = (label.group, label.name, label.confidence, label.source) if label else (None, None, None, None)
+        state = "open" if label is None else "likely" if label.likely else "sure"
+        says = (label.group, label.name, label.confidence) if label else (None, None, None)
         yield (
-            part.id, *says, unit.tag if unit else None, cluster.id if cluster else None,
-            *part.centroid, *_extents(part.aabb), part.area, part.volume,
+            part.id, *says, state, label.source if label else None, unit.tag if unit else None,
+            cluster.id if cluster else None, *part.centroid, *_extents(part.aabb), part.area, part.volume,
             len(part.meshes), part.n_triangles, part.shape, "yes" if part.ground else "no", part.meshes[0],
             part.inside,
         )  # fmt: skip

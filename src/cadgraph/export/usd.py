@@ -273,6 +273,8 @@ def _label_part(prim: Any, part: Part) -> None:
     if label is None:
         return
     trace = {"confidence": float(label.confidence), "source": _text(label.source), "part": _text(part.id)}
+    if label.likely:
+        trace["likely"] = True
     _apply(prim, f"SemanticsLabelsAPI:{CLASS}", f"SemanticsLabelsAPI:{GROUP}")
     _labels(prim, CLASS, _token(label.name or label.group), trace)
     _labels(prim, GROUP, _token(label.group), trace)

@@ -30,7 +30,8 @@ class Labeling:
         labels: of each part, None where it isn't sure enough.
         guesses: of each part that has no label for that reason what it may be, the likeliest first.
         answers: of each part the likeliest label, however unsure; ``labels`` are those that are sure enough.
-        threshold: least confidence of a label.
+        threshold: least confidence of a label: of all, or of each part.
+        sure: least confidence of one that is sure; those below are marked as likely.
         probabilities: of all names, where the labeler knows them.
         diagnostics: what is to be reported about it.
     """
@@ -38,39 +39,52 @@ class Labeling:
     labels: tuple[Label | None, ...]
     guesses: tuple[tuple[Guess, ...], ...]
     answers: tuple[Label | None, ...]
-    threshold: float = LEAST_CONFIDENCE
+    threshold: float | tuple[float, ...] = LEAST_CONFIDENCE
     probabilities: Probabilities | None = None
     diagnostics: tuple[Diagnostic, ...] = ()
+    sure: float = 0.0
 
     @classmethod
     def judge(
         cls,
         answers: Sequence[Label | None],
-        threshold: float = LEAST_CONFIDENCE,
+        threshold: float | Sequence[float] = LEAST_CONFIDENCE,
         probabilities: Probabilities | None = None,
         diagnostics: Sequence[Diagnostic] = (),
+        sure: float = 0.0,
     ) -> Labeling:
-        """Tells labels from guesses by their confidence.
+        """Tells sure labels, likely ones and mere guesses by their confidence.
 
         Args:
             answers: of each part the likeliest label, None where there is none.
-            threshold: least confidence of a label.
+            threshold: least confidence of a label: of all, or of each part.
             probabilities: of all names, where they are known.
             diagnostics: what is to be reported.
+            sure: least confidence of a label that is sure.
         """
-        labels = tuple(a if a is not None and a.confidence >= threshold else None for a in answers)
+        least = tuple(threshold) if isinstance(threshold, Sequence) else (threshold,) * len(answers)
+        labels = tuple(
+            _marked(a, sure) if a is not None and a.confidence >= limit else None
+            for a, limit in zip(answers, least, strict=True)
+        )
         guesses = tuple(
             (answer.guesses or (Guess(answer.group, answer.name, answer.confidence),))
             if answer is not None and label is None
             else ()
             for answer, label in zip(answers, labels, strict=True)
         )
-        return cls(labels, guesses, tuple(answers), threshold, probabilities, tuple(diagnostics))
+        kept = threshold if isinstance(threshold, float) else least
+        return cls(labels, guesses, tuple(answers), kept, probabilities, tuple(diagnostics), sure)
 
     @classmethod
     def empty(cls, n_parts: int) -> Labeling:
         """Nobody says anything about any of ``n_parts`` parts."""
         return cls.judge([None] * n_parts)
+
+
+def _marked(label: Label, sure: float) -> Label:
+    likely = label.confidence < sure
+    return label if label.likely == likely else label.model_copy(update={"likely": likely})
 
 
 class Labeler(Protocol):
@@ -114,7 +128,8 @@ def label_parts(
     if config.use_names:
         held = list(weigh_names(held, parts, vocabulary))
     least = said.threshold if config.min_confidence is None else config.min_confidence
-    judged = Labeling.judge(held, least, said.probabilities, said.diagnostics)
+    sure = said.sure if config.sure_confidence is None else config.sure_confidence
+    judged = Labeling.judge(held, least, said.probabilities, said.diagnostics, sure)
     # What a labeler holds for possible without an answer of its own stays.
     guesses = tuple(
         known if answer is None else mine

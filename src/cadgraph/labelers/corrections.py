@@ -207,7 +207,8 @@ class _Spread:
             source, near = self._sources[int(far.argmin())], float(far.min())
             wrong = confused[source.group, source.name]
             old = self.before[part]
-            label = (old.group, old.name) if old is not None else None
+            # What is only likely is as open to a correction as what has no label.
+            label = (old.group, old.name) if old is not None and not old.likely else None
             if label == (source.group, source.name):
                 continue
             widest = reaches[source.group, source.name]
@@ -242,7 +243,7 @@ class _Spread:
         return float(np.linalg.norm(space[others] - space[part], axis=1).min()) if others.any() else np.inf
 
     def _rivals(self) -> _Rivals:
-        said = [None if label is None else label.said for label in self.labels]
+        said = [None if label is None or label.likely else label.said for label in self.labels]
         number = {label: k for k, label in enumerate(dict.fromkeys(label for label in said if label is not None))}
         return _Rivals(
             number,

@@ -285,6 +285,7 @@ class Label(Record):
         evidence: what the source's word rests on; plain values become the kind that goes with the source.
         guesses: what the part may be, the likeliest first, the label itself among them; in a graph they stand beside
             the label, not in it.
+        likely: whether it is the likeliest label, but not sure; left out of the file where it is sure.
     """
 
     group: str
@@ -295,6 +296,11 @@ class Label(Record):
         default_factory=Evidence, description="what the source needs to be traced"
     )
     guesses: tuple[Guess, ...] = Field(default=(), exclude=True, repr=False)
+    likely: bool = Field(
+        default=False,
+        exclude_if=lambda value: not value,
+        description="the likeliest label, but not sure; absent where it is sure",
+    )
 
     def __init__(
         self,

@@ -52,6 +52,7 @@ class Explanation:
         why: in words.
         evidence: as the graph holds it.
         guesses: what it might be, ``group/name`` and probability, the likeliest first.
+        likely: whether the label is likely, but not sure.
         neighbors: that touch it, the nearest first.
         repeats: other parts of its shape: how many have each label ("" for none).
         unit: tag of its functional unit, or None.
@@ -69,6 +70,7 @@ class Explanation:
     why: str
     evidence: Evidence = field(default_factory=Evidence)
     guesses: tuple[tuple[str, float], ...] = ()
+    likely: bool = False
     neighbors: tuple[Neighbor, ...] = ()
     repeats: Mapping[str, int] = field(default_factory=dict)
     unit: str | None = None
@@ -82,10 +84,11 @@ class Explanation:
 
     def lines(self) -> list[tuple[str, str]]:
         """The explanation as pairs of a heading and a text."""
+        sure = "likely " if self.likely else ""
         rows = [
             ("part", f"{self.part}, {' x '.join(_length(x) for x in self.size)}"),
             ("mesh", self.meshes[0] + (f" and {len(self.meshes) - 1} more" if len(self.meshes) > 1 else "")),
-            ("label", f"{self.label} ({self.confidence:.0%}, {self.source})" if self.label else "none"),
+            ("label", f"{sure}{self.label} ({self.confidence:.0%}, {self.source})" if self.label else "none"),
             ("why", self.why),
         ]
         before = self.evidence.before
@@ -130,6 +133,7 @@ def explain(graph: SceneGraph, which: str) -> Explanation:
         size=part.obb.extents,
         label=_name(part),
         confidence=None if label is None else label.confidence,
+        likely=label is not None and label.likely,
         source=None if label is None else label.source,
         why=_why(part),
         evidence=Evidence() if label is None else label.evidence,

@@ -314,9 +314,11 @@ def _findings(results: Results) -> list[Diagnostic]:
     found = list(results.diagnostics)
     noise = [i for i in range(parts.n_parts) if results.cluster[i] < 0 and not parts.ground[i]]
     unlabelled = [i for i, label in enumerate(results.labels) if label is None and not parts.ground[i]]
+    likely = [i for i, label in enumerate(results.labels) if label is not None and label.likely]
     for code, message, members in (
         ("noise", "parts with too few neighbours to belong to a cluster", noise),
-        ("unlabelled", "parts that no labeler is sure enough about", unlabelled),
+        ("unlabelled", "parts that no labeler has a likely name for", unlabelled),
+        ("likely", "parts with a likely label that is not sure", likely),
     ):
         if members:
             heads = tuple(paths[parts.meshes[i][0]] for i in members)

@@ -47,7 +47,7 @@ def test_clusters_largest_first_with_unit_counts(graph):
 
 def test_labels_count_parts_and_the_unlabelled(graph):
     rows = texts(tables.label_table(graph, group_colors(graph)))
-    assert ["Valve assembly", "(group only)", "1", "14 %", "1", "80 %", "geometry 1"] in rows
+    assert ["Valve assembly", "(group only)", "1", "14 %", "1", "80 %", "0", "geometry 1"] in rows
     assert rows[-1][:3] == ["unlabelled", "", "2"]
 
 

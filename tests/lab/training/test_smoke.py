@@ -62,7 +62,7 @@ def test_two_plants_are_learnt_and_labelled_by_the_file_that_was_written(example
     losses = []
     network = fit(examples, classes, recipe, 0, losses.append)
     assert len(losses) == recipe.epochs
-    write_model(Model((network,), tuple(classes), 1.0, 0.3, {"plants": 2}), tmp_path / "model.npz")
+    write_model(Model((network,), tuple(classes), 1.0, 0.3, 0.3, 0.6, {"plants": 2}), tmp_path / "model.npz")
     model = read_model(tmp_path / "model.npz")
     assert model.classes == tuple(classes)
     assert score(answer(model, examples), model.threshold).name > 0.8

@@ -26,7 +26,7 @@ def test_what_is_kept_for_the_trial_is_never_learnt_from():
     unseen = {name[1:] for name in UNSEEN}
     assert not kinds(make_distractors(0)) & unseen
     assert kinds(make_distractors(UNSEEN_FROM)) <= unseen
-    learnt = {(sample.kind, sample.seed) for sample in training_samples(40, 4)}
+    learnt = {(sample.kind, sample.seed) for sample in training_samples(40, 8, 4)}
     tried = {(sample.kind, sample.seed) for some in held_out_lessons(1).values() for sample in some}
     assert not learnt & tried
 
@@ -44,6 +44,6 @@ def test_guests_touch_their_hosts_and_change_nothing_else():
 
 
 def test_lessons_with_guests_hold_strangers():
-    sample = next(sample for sample in training_samples(8, 0) if sample.guests)
+    sample = next(sample for sample in training_samples(8, 0, 0) if sample.guests)
     assert kinds(sample.plant())
     assert not kinds(Sample(sample.kind, sample.seed).plant())

@@ -228,7 +228,7 @@ def cluster_table(graph: SceneGraph) -> Table:
 
 
 def label_table(graph: SceneGraph, colors: Mapping[str, str]) -> Table:
-    """How often each label was given, how sure it was, and by whom.
+    """How often each label was given, how sure it was, how many of them are likely only, and by whom.
 
     Args:
         graph: the finished graph.
@@ -252,16 +252,26 @@ def label_table(graph: SceneGraph, colors: Mapping[str, str]) -> Table:
                 _share(len(labels) / total),
                 _number(sum(len(part.meshes) for part in by_label[group, name])),
                 _share(float(np.mean([label.confidence for label in labels]))),
+                _number(sum(label.likely for label in labels)),
                 Cell(", ".join(f"{source} {count}" for source, count in sorted(sources.items()))),
             )
         )
     without = [part for part in graph.parts() if part.label is None]
     if without:
         counts = (_number(len(without)), _share(len(without) / total), _number(sum(len(p.meshes) for p in without)))
-        rows.append((Cell("unlabelled", color=UNLABELLED, hatched=True), Cell(""), *counts, Cell("", "-1"), Cell("")))
+        rows.append(
+            (
+                Cell("unlabelled", color=UNLABELLED, hatched=True),
+                Cell(""),
+                *counts,
+                Cell("", "-1"),
+                _number(0),
+                Cell(""),
+            )
+        )
     columns = [
         Column("Group"), Column("Name"), Column("Parts", True), Column("Share", True), Column("Meshes", True),
-        Column("Confidence", True), Column("Source"),
+        Column("Confidence", True), Column("Likely, not sure", True), Column("Source"),
     ]  # fmt: skip
     return _table("labels", columns, rows)
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cadgraph.model.scene import Floats, Ints, Scene
+from cadgraph.model.scene import Floats, Ints
 
-__all__ = ["Samples", "sample_surfaces", "spread_points"]
+__all__ = ["Samples", "spread_points"]
 
 # The golden ratio's relatives: successive multiples spread evenly over the unit square (R2 sequence, Roberts 2018).
 _STEP = (0.7548776662466927, 0.5698402909980532)
@@ -25,16 +25,6 @@ class Samples:
 
     points: Floats
     normals: Floats
-
-
-def sample_surfaces(scene: Scene, count: int) -> Samples:
-    """Spreads points over each mesh, as the embedded labeler has learnt to see them; see ``spread_points``.
-
-    Args:
-        scene: any.
-        count: points on each mesh.
-    """
-    return spread_points(scene.triangles(), scene.face_offsets, count, seed=0.0)
 
 
 def spread_points(triangles: Floats, offsets: Ints, count: int, seed: float = 0.5) -> Samples:

@@ -7,6 +7,7 @@ from itertools import islice
 import numpy as np
 
 from cadgraph.geometry.shape.surface import Level, Surface, equal_values
+from cadgraph.model.parts import Bools
 from cadgraph.model.scene import Floats, Ints
 from cadgraph.model.shapes import PARALLEL, Disc
 
@@ -37,21 +38,24 @@ def find_discs(surface: Surface, patches: Ints, middle: Floats, level: Level) ->
         normal = (areas * senses) @ surface.normals[faces]
         found.append(
             _disc(
-                surface.triangles[faces].reshape(-1, 3), center, normal / np.linalg.norm(normal), float(areas.sum()),
-                level,
+                surface.triangles[faces].reshape(-1, 3), surface.corners[faces].reshape(-1), center,
+                normal / np.linalg.norm(normal), float(areas.sum()), level,
             )
         )  # fmt: skip
-    for lines in surface.rims[:_MAX_PATCHES]:
+    for lines, meant in islice(zip(surface.rims, surface.rim_corners, strict=True), _MAX_PATCHES):
         size = np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1)
         center = (size[:, None] * lines.mean(axis=1)).sum(axis=0) / size.sum()
         normal = np.linalg.svd(lines.reshape(-1, 3) - center, full_matrices=False)[2][2]
         normal = normal * (1.0 if normal @ (center - middle) >= 0 else -1.0)
-        found.append(_disc(lines.reshape(-1, 3), center, normal, 0.0, level))
+        found.append(_disc(lines.reshape(-1, 3), meant.reshape(-1), center, normal, 0.0, level))
     return sorted((disc for disc in found if disc is not None), key=lambda disc: -disc.outer)
 
 
-def _disc(points: Floats, center: Floats, normal: Floats, area: float, level: Level) -> Disc | None:
-    """A disc if the outermost points lie evenly on a circle about the centre."""
+def _disc(points: Floats, meant: Bools, center: Floats, normal: Floats, area: float, level: Level) -> Disc | None:
+    """A disc if the outermost of the points that are corners of the shape lie evenly on a circle about the centre."""
+    points = points[meant]
+    if len(points) < 5:
+        return None
     apart = points - center
     height = apart @ normal
     radii = np.linalg.norm(apart - height[:, None] * normal, axis=1)

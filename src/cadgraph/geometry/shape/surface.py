@@ -8,13 +8,15 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from cadgraph.model.parts import Properties
+from cadgraph.model.parts import Bools, Properties
 from cadgraph.model.scene import Floats, Ints, Scene, mesh_of_face
 
 __all__ = ["LEVELS", "Level", "Surface", "equal_values", "find_surfaces"]
 
 _WELD = 1e-6  # corners closer than this are one [m]
 _THIN = 1e-9
+_MOST_AT_EDGE = 8
+_STRAIGHT = 2e-5  # creases that turn by less than a third of a degree are one
 
 
 @dataclass(frozen=True)
@@ -53,14 +55,19 @@ class Surface:
         normals: ``(n, 3)`` unit, outward where the mesh is closed.
         areas: ``(n,)`` [m2].
         patches: ``(len(LEVELS), n)`` the flat patch of each face.
+        corners: ``(n, 3)`` whether each corner of a face is one of the shape: not where a plane or a straight edge is
+            merely cut up.
         rims: its open rims, each as edges ``(m, 2, 3)`` [m].
+        rim_corners: of each of these ``(m, 2)`` whether its ends are corners of the shape.
     """
 
     triangles: Floats
     normals: Floats
     areas: Floats
     patches: Ints
+    corners: Bools
     rims: list[Floats]
+    rim_corners: list[Bools]
 
 
 def find_surfaces(scene: Scene, properties: Properties) -> list[Surface]:
@@ -76,33 +83,43 @@ def find_surfaces(scene: Scene, properties: Properties) -> list[Surface]:
     cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     double = np.linalg.norm(cross, axis=1)
     normals = cross / np.maximum(double, _THIN**2)[:, None]
-    patches, rims = _flat_patches(triangles, normals, owner)
+    patches, corners, rims = _flat_patches(triangles, normals, owner)
     offsets = np.searchsorted(owner, np.arange(scene.n_meshes + 1)).tolist()
     surfaces = []
     for mesh in range(scene.n_meshes):
         faces = slice(offsets[mesh], offsets[mesh + 1])
         inward = -1.0 if properties.closed[mesh] and properties.volume[mesh] < 0 else 1.0
+        loops = rims.get(mesh, [])
         surfaces.append(
-            Surface(triangles[faces], normals[faces] * inward, double[faces] / 2, patches[:, faces], rims.get(mesh, []))
-        )
+            Surface(
+                triangles[faces], normals[faces] * inward, double[faces] / 2, patches[:, faces], corners[faces],
+                [lines for lines, _ in loops], [ends for _, ends in loops],
+            )
+        )  # fmt: skip
     return surfaces
 
 
-def _flat_patches(triangles: Floats, normals: Floats, owner: Ints) -> tuple[Ints, dict[int, list[Floats]]]:
+_Rims = dict[int, list[tuple[Floats, Bools]]]
+
+
+def _flat_patches(triangles: Floats, normals: Floats, owner: Ints) -> tuple[Ints, Bools, _Rims]:
     """Joins faces that share an edge and a plane, and edges without a partner into rims.
 
     Returns:
-        The patch ``(n_levels, n_faces)`` of each face; and for each mesh its rims, each ``(n, 2, 3)`` edges.
+        The patch ``(n_levels, n_faces)`` of each face; which of its corners ``(n_faces, 3)`` are corners of the shape;
+        and for each mesh its rims, each ``(n, 2, 3)`` edges and which of their ends are corners.
     """
     n = len(triangles)
     if n == 0:
-        return np.zeros((len(LEVELS), 0), np.int64), {}
+        return np.zeros((len(LEVELS), 0), np.int64), np.zeros((0, 3), np.bool_), {}
     corner = _weld(triangles, owner)
     ends = np.sort(corner[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
     edge = ends[:, 0] * (corner.max() + 1) + ends[:, 1]
     order = np.argsort(edge, kind="stable")
     same = edge[order][1:] == edge[order][:-1]
-    a, b = order[:-1][same] // 3, order[1:][same] // 3
+    first, second = _meeting(edge[order])
+    first, second = order[first], order[second]
+    a, b = first // 3, second // 3
     cosine = np.abs(np.einsum("ij,ij->i", normals[a], normals[b]))
     patches = np.empty((len(LEVELS), n), np.int64)
     for row, level in enumerate(LEVELS):
@@ -113,7 +130,53 @@ def _flat_patches(triangles: Floats, normals: Floats, owner: Ints) -> tuple[Ints
     alone[1:] &= ~same
     alone[:-1] &= ~same
     free = order[alone & (ends[order, 0] != ends[order, 1])]
-    return patches, _find_rims(triangles, owner, ends, free)
+    sharp = cosine <= LEVELS[0].parallel
+    corners = _find_corners(triangles, corner, np.concatenate([first[sharp], free]))
+    return patches, corners, _find_rims(triangles, owner, ends, free, corners)
+
+
+def _meeting(edge: Ints) -> tuple[Ints, Ints]:
+    """Which rows have an edge in common: each with each, so that the order of the faces at an edge doesn't matter.
+
+    Args:
+        edge: ``(n,)`` numbers of edges, ascending.
+
+    Returns:
+        Two rows of each pair. Of edges of more than ``_MOST_AT_EDGE`` faces only nearer rows are paired.
+    """
+    pairs = []
+    for apart in range(1, _MOST_AT_EDGE):
+        rows = np.flatnonzero(edge[apart:] == edge[:-apart])
+        if not len(rows):
+            break
+        pairs.append((rows, rows + apart))
+    if not pairs:
+        return np.zeros(0, np.int64), np.zeros(0, np.int64)
+    return np.concatenate([p for p, _ in pairs]), np.concatenate([q for _, q in pairs])
+
+
+def _find_corners(triangles: Floats, corner: Ints, creases: Ints) -> Bools:
+    """Which corners of faces ``(n, 3)`` are ends of creases in more than one direction.
+
+    Args:
+        triangles: ``(n, 3, 3)`` [m].
+        corner: ``(n, 3)`` the place of each.
+        creases: edges, numbered by face and corner, where the surface turns or ends.
+    """
+    face, k = creases // 3, creases % 3
+    way = triangles[face, (k + 1) % 3] - triangles[face, k]
+    way = way / np.maximum(np.linalg.norm(way, axis=1), _THIN**2)[:, None]
+    products = (way[:, :, None] * way[:, None, :]).reshape(-1, 9)
+    n_places = int(corner.max()) + 1
+    tail, head = corner[face, k], corner[face, (k + 1) % 3]
+    both = np.concatenate([tail, head])
+    count, squares = np.bincount(both, minlength=n_places), np.zeros(n_places)
+    for column in range(9):
+        total = np.bincount(both, weights=np.tile(products[:, column], 2), minlength=n_places)
+        squares += total * total
+    # The squares of all cosines between the creases that meet add up to count squared where all run along one line.
+    found: Bools = (count > 0) & ((count == 1) | (squares < (1 - _STRAIGHT) * count.astype(np.float64) ** 2))
+    return found[corner]
 
 
 def _weld(triangles: Floats, owner: Ints) -> Ints:
@@ -126,9 +189,9 @@ def _weld(triangles: Floats, owner: Ints) -> Ints:
     return np.unique(key, return_inverse=True)[1].reshape(len(triangles), 3).astype(np.int64)
 
 
-def _find_rims(triangles: Floats, owner: Ints, ends: Ints, free: Ints) -> dict[int, list[Floats]]:
-    """For each mesh its loops of at least five edges without a partner, each ``(m, 2, 3)``."""
-    rims: dict[int, list[Floats]] = {}
+def _find_rims(triangles: Floats, owner: Ints, ends: Ints, free: Ints, corners: Bools) -> _Rims:
+    """For each mesh its loops of at least five edges without a partner, each ``(m, 2, 3)``, and their corners."""
+    rims: _Rims = {}
     if not len(free):
         return rims
     points, inverse = np.unique(ends[free], return_inverse=True)
@@ -139,7 +202,8 @@ def _find_rims(triangles: Floats, owner: Ints, ends: Ints, free: Ints) -> dict[i
     for edges in equal_values(loop, 5):
         f, k = tail[edges], head[edges]
         lines = np.stack([triangles[f, k], triangles[f, (k + 1) % 3]], axis=1)
-        rims.setdefault(int(owner[f[0]]), []).append(lines)
+        meant = np.stack([corners[f, k], corners[f, (k + 1) % 3]], axis=1)
+        rims.setdefault(int(owner[f[0]]), []).append((lines, meant))
     return rims
 
 

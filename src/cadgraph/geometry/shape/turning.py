@@ -13,6 +13,7 @@ __all__ = ["N_SLICES", "find_profile", "find_wheel", "look_along"]
 N_SLICES = 24  # of a profile: the plate of a flange (a third of its length or more) still gets several
 _TURNED = 0.36  # greatest tangential share of a normal on a surface of revolution; 6 sides: sin(60 degrees) / 3 = 0.29
 _THIN = 1e-9
+_PLANE = 0.9998  # of a flat face the mean normal is as long; of one that bends by 2 degrees it is shorter
 
 
 def look_along(surface: Surface, center: Floats, axis: Floats, level: Level) -> tuple[float, int, float, Floats]:
@@ -34,12 +35,30 @@ def look_along(surface: Surface, center: Floats, axis: Floats, level: Level) -> 
     along = apart @ axis
     across = apart - along[..., None] * axis
     radii = np.linalg.norm(across, axis=2)
-    spoke = across.mean(axis=1)
+    spoke = _middles(surface) - center
+    spoke = spoke - (spoke @ axis)[:, None] * axis
     around = np.cross(axis, spoke / np.maximum(np.linalg.norm(spoke, axis=1), _THIN)[:, None])
     turned = np.abs(np.einsum("ij,ij->i", surface.normals, around)) < _TURNED
     radius = float(radii.max())
-    sides = count_corners(across[radii >= level.rim * radius], axis, level.gap)[0]
+    rim = (radii >= level.rim * radius) & surface.corners
+    sides = count_corners(across[rim], axis, level.gap)[0] if rim.any() else 0
     return float(surface.areas[turned].sum() / max(surface.areas.sum(), _THIN**2)), sides, radius, along
+
+
+def _middles(surface: Surface) -> Floats:
+    """The middle of the flat face that each triangle is of ``(n, 3)`` [m]: the same however that is cut up."""
+    patch = np.unique(surface.patches[0], return_inverse=True)[1].reshape(-1)
+    n = int(patch.max()) + 1
+    own = surface.triangles.mean(axis=1)
+    area = np.bincount(patch, weights=surface.areas, minlength=n)
+    whole = np.maximum(area, _THIN**2)[:, None]
+    middle = np.stack([np.bincount(patch, weights=surface.areas * own[:, d], minlength=n) for d in range(3)], axis=1)
+    normal = np.stack(
+        [np.bincount(patch, weights=surface.areas * surface.normals[:, d], minlength=n) for d in range(3)], axis=1
+    )
+    # Faces that turn little by little are joined, too: their triangles speak for themselves.
+    flat = np.linalg.norm(normal / whole, axis=1) > _PLANE
+    return np.where(flat[patch][:, None], (middle / whole)[patch], own)
 
 
 def find_profile(

@@ -41,9 +41,6 @@ def observe(parts: Parts, contacts: Contacts) -> Observation:
         contacts: pairs of parts that are adjacent.
     """
     known = shapes_of(parts)
-    return Observation(
-        known.facts,
-        describe_shapes(parts.scene.select(known.first), parts.properties.select(known.first), known.facts),
-        known.shape,
-        find_surroundings(parts, contacts),
-    )
+    shapes = describe_shapes(parts.scene.select(known.first), parts.properties.select(known.first), known.facts)
+    around = find_surroundings(parts, contacts, known, shapes.points)
+    return Observation(known.facts, shapes, known.shape, around)

@@ -18,8 +18,8 @@ from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["EmbeddedLabeler", "Verdicts", "judge", "spread"]
 
-_GUESSES = 3
-_LEAST_GUESS = 0.02
+_GUESSES = 5
+_LEAST_GUESS = 0.0005
 _SHARED = 0.5  # greatest weight of what all repeats of a shape say together
 
 
@@ -53,8 +53,13 @@ class EmbeddedLabeler:
 
     @property
     def threshold(self) -> float:
-        """Least confidence of a label: set on families of parts that were held out of training."""
+        """Least confidence of the label of a part that touches others: set on what was held out of training."""
         return self._model.threshold
+
+    @property
+    def sure(self) -> float:
+        """Least confidence of a label that is sure: likewise."""
+        return self._model.sure
 
     @property
     def learnt(self) -> frozenset[tuple[str, str]]:
@@ -68,17 +73,23 @@ class EmbeddedLabeler:
         verdicts = judge(self._model, seen, vocabulary)
         probabilities = Probabilities(verdicts.classes, verdicts.names)
         unlearnt = find_unlearnt(self.learnt, vocabulary)
-        return Labeling.judge(self._answers(parts, seen, verdicts), self.threshold, probabilities, unlearnt)
+        least = self._least(parts.n_parts, seen)
+        answers = self._answers(parts, seen, verdicts, least)
+        return Labeling.judge(answers, least.tolist(), probabilities, unlearnt, self.sure)
 
-    def _answers(self, parts: Parts, seen: Observation, verdicts: Verdicts) -> list[Label | None]:
+    def _least(self, n_parts: int, seen: Observation) -> Floats:
+        """The least confidence of each part's label: a higher one where it touches nothing."""
+        touches = np.bincount(seen.surroundings.here, minlength=n_parts) > 0
+        return np.where(touches, self._model.threshold, self._model.alone)
+
+    def _answers(self, parts: Parts, seen: Observation, verdicts: Verdicts, least: Floats) -> list[Label | None]:
         """The likeliest label of each part, and why."""
-        least = self.threshold
         best = verdicts.names.argmax(axis=1) if len(verdicts.classes) else np.zeros(parts.n_parts, np.int64)
         around = seen.surroundings
         starts = np.searchsorted(around.here, np.arange(parts.n_parts + 1))
         said = [
-            verdicts.classes[k][1] if len(p) and p[k] >= least else None
-            for k, p in zip(best.tolist(), verdicts.names, strict=True)
+            verdicts.classes[k][1] if len(p) and p[k] >= limit else None
+            for k, p, limit in zip(best.tolist(), verdicts.names, least.tolist(), strict=True)
         ]
         alike = np.expm1(around.places[:, 1]).round().astype(np.int64)
         answers: list[Label | None] = []
@@ -89,7 +100,7 @@ class EmbeddedLabeler:
             near = [said[j] for j in around.there[starts[part] : starts[part + 1]].tolist()]
             form = describe_form(seen.facts[int(seen.shape_of_part[part])])
             why = f"{form}; {describe_company(near, int(alike[part]))}"
-            answers.append(_answer(verdicts, part, int(best[part]), least, why))
+            answers.append(_answer(verdicts, part, int(best[part]), float(least[part]), why))
         return answers
 
 

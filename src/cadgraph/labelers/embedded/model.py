@@ -25,7 +25,7 @@ from cadgraph.model.scene import Floats
 
 __all__ = ["STRANGE", "VERSION", "Model", "default_model", "inputs_of", "read_model", "write_model"]
 
-VERSION = 1
+VERSION = 2
 STRANGE = "strange/strange"
 """The class of what belongs to no plant; it is never given as a label."""
 
@@ -42,7 +42,9 @@ class Model:
         members: networks whose answers are averaged.
         classes: ``group/name``, and ``STRANGE``.
         temperature: the scores are divided by it, so that confidence means frequency.
-        threshold: least confidence of a label.
+        threshold: least confidence of a label of a part that touches others.
+        alone: of one that touches nothing: most things that stand by themselves belong to no plant.
+        sure: least confidence of a label that is called sure.
         card: how it was made: seeds, settings, figures.
     """
 
@@ -50,6 +52,8 @@ class Model:
     classes: tuple[str, ...]
     temperature: float
     threshold: float
+    alone: float
+    sure: float
     card: Mapping[str, Any] = field(default_factory=dict)
 
     def probabilities(self, seen: Observation) -> Floats:
@@ -98,6 +102,8 @@ def write_model(model: Model, path: str | Path) -> None:
         "classes": list(model.classes),
         "temperature": model.temperature,
         "threshold": model.threshold,
+        "alone": model.alone,
+        "sure": model.sure,
         "rounds": [member.rounds for member in model.members],
         "inputs": _digest(_INPUTS),
         "sides": _digest(SIDE_FEATURES),
@@ -143,7 +149,7 @@ def _parse(content: bytes, name: str) -> Model:
         )
         return Model(
             members, tuple(map(str, head["classes"])), float(head["temperature"]), float(head["threshold"]),
-            head["card"],
+            float(head["alone"]), float(head["sure"]), head["card"],
         )  # fmt: skip
     except (KeyError, ValueError, TypeError) as error:
         raise LabelError(f"{name}: the labeler's model is damaged; {_REMEDY}") from error

@@ -1,4 +1,4 @@
-"""The whole course: build the plants, try held-out families, train, calibrate, and write the model."""
+"""The whole course: build the plants, try held-out systems, train, calibrate, and write the model."""
 
 from __future__ import annotations
 
@@ -22,29 +22,27 @@ from cadgraph.labelers.embedded.labeler import EmbeddedLabeler
 from cadgraph.labelers.embedded.model import STRANGE, Model
 from cadgraph.model.vocabulary import default_vocabulary
 from cadlab.training.example import Example, Texts, make_parts_from
-from cadlab.training.figure import Answers, Scores, answer, least_confidence, score, temperature
+from cadlab.training.figure import Answers, Scores, answer, joined, least_confidence, score, temperature
 from cadlab.training.fit import Recipe, fit
 from cadlab.training.fit import __file__ as fit_file
-from cadlab.training.samples import (
-    TRIED_FROM,
-    Sample,
-    bolted_lessons,
-    build_samples,
-    held_out_lessons,
-    training_samples,
-)
-from cadplants.assortment import FAMILIES
+from cadlab.training.real import RealPart, RealPlant, side_by_side
+from cadlab.training.samples import TRIED_FROM, Sample, build_samples, held_out_lessons, training_samples
+from cadplants.authoring_systems import SYSTEMS
 from cadplants.preset import make
+from cadplants.taste import ALL_FAMILIES
 
-__all__ = ["Course", "Trials", "run_course"]
+__all__ = ["ALONE", "PRECISION", "SURE", "Course", "Trials", "run_course"]
 
 FIXED = (("riser", 3, "vendor"), ("tank", 2, "bim"))
 """Small plants by which the model in the package is known again: preset, seed, style."""
 
-PRECISION = 0.95
-"""Of the names above the threshold, on plants of which some families were held out."""
-NEW_PRECISION = 0.85
-"""Of the names above the threshold, on the parts of held-out families alone."""
+PRECISION = 0.87
+"""Of the groups of parts that get a label at all, in plants of held-out systems, on parts of held-out families."""
+ALONE = 0.95
+"""Of the groups of single parts that get a label, of held-out makers; and of the strangers among them nine of ten stay
+open."""
+SURE = 0.95
+"""Of the groups of parts that are called sure, of held-out families and makers together."""
 
 _MAKERS = (
     (cadplants, "**/*.py"),
@@ -52,10 +50,20 @@ _MAKERS = (
     (cadgraph, "model/shapes.py"),
     *((cadgraph, f"stages/{name}.py") for name in ("adjacency", "ground", "group", "parts", "preprocess")),
     *((cadgraph, f"labelers/embedded/{name}.py") for name in (
-        "descriptor", "edges", "features", "sample", "surroundings")),
+        "descriptor", "edges", "features", "integrals", "surroundings")),
     *((cadlab, f"training/{name}.py") for name in ("distractors", "example", "fastener", "oddities", "samples")),
 )  # fmt: skip
 """What makes plants, and what the labeler sees of them."""
+
+_OPEN = 0.9  # share of the strangers that stay open
+_TOGETHER = 24  # single real parts that are shown as one scene
+_COPIES = 2  # times that each of these is shown while a plant is shown once
+
+ABLATIONS: dict[str, dict[str, Any]] = {
+    "without what is up": {"blind": ("up",)},
+    "without the scene as a whole": {"blind": ("scene",)},
+}
+"""Networks that lack something, against those of the first fold that have all: changes of the recipe."""
 
 
 @dataclass(frozen=True)
@@ -63,24 +71,24 @@ class Course:
     """The settings of a training run; they are written into the model.
 
     Args:
-        plants: how many are learnt from.
-        distractors: scenes of shapes that belong to no plant, and as many of loose fasteners and of rare things.
-        bolted: plants whose flanges hold their bolts in one mesh: half of the networks that are kept learn from these
-            as well, those of the trials do not.
-        members: pairs of networks whose answers are averaged.
-        folds: parts that the families are dealt into; each is held out once.
-        kind_folds: likewise for whole kinds of families.
+        plants: how many are learnt from that are drawn as the authoring systems draw, as many of each.
+        drawn: in styles drawn at random.
+        others: scenes of shapes that belong to no plant, and as many of rare things; two thirds as many of loose
+            fasteners.
+        members: networks whose answers are averaged.
+        folds: each holds out some of the authoring systems, of the families of devices and of the makers of real parts.
         seeds: plants of each kind that the networks are tried on.
+        ablations: whether networks that lack something are trained for comparison.
         recipe: of each network.
     """
 
-    plants: int = 800
-    distractors: int = 60
-    bolted: int = 80
-    members: int = 2
-    folds: int = 6
-    kind_folds: int = 2
+    plants: int = 640
+    drawn: int = 80
+    others: int = 48
+    members: int = 3
+    folds: int = 4
     seeds: int = 1
+    ablations: bool = True
     recipe: Recipe = field(default_factory=Recipe)
 
 
@@ -90,72 +98,113 @@ class Trials:
 
     Args:
         model: that was trained.
-        mixed: answers about all parts of plants, by networks that never saw some of the families in them.
-        families: those about parts of families that were held out.
-        kinds: likewise where all families of a kind were held out.
-        unlearnable: likewise about those whose name nothing else has: no answer can be right.
+        systems: answers about all parts of plants of systems that were held out.
+        families: of these, about parts of families that were held out as well.
+        makers: about single real parts whose makers were held out.
+        ablations: answers about the held-out systems of the first fold, as it is and without something.
+        real: of the model in the end about real plants, by their names.
         plants: what the model is tried on, by the name of the trial.
     """
 
     model: Model
-    mixed: Answers
+    systems: Answers
     families: Answers
-    kinds: Answers
-    unlearnable: Answers
+    makers: Answers
+    ablations: dict[str, tuple[Answers, Answers]]
+    real: dict[str, Answers]
     plants: dict[str, list[Example]]
 
 
-def run_course(course: Course, folder: Path, workers: int = 2, told: Callable[[str], None] = lambda _: None) -> Trials:
+@dataclass(frozen=True)
+class Fold:
+    """What one network never saw.
+
+    Args:
+        systems: of authoring.
+        families: of devices.
+        makers: of single real parts.
+    """
+
+    systems: frozenset[str] = frozenset()
+    families: frozenset[str] = frozenset()
+    makers: frozenset[str] = frozenset()
+
+
+def run_course(
+    course: Course,
+    folder: Path,
+    plants: Sequence[RealPlant] = (),
+    parts: Sequence[RealPart] = (),
+    workers: int = 2,
+    told: Callable[[str], None] = lambda _: None,
+) -> Trials:
     """Trains the model.
 
     Args:
         course: the settings.
         folder: keeps plants and networks: a run that was broken off goes on where it stopped.
+        plants: real ones to report on; nothing is learnt from them.
+        parts: single real ones, learnt from where their licences permit.
         workers: processes that build and train.
         told: how far it is.
     """
     folder = folder / source_digest()
-    samples = training_samples(course.plants, course.distractors)
+    samples = training_samples(course.plants, course.drawn, course.others)
     examples = build_samples(samples, folder, workers, told)
-    plants = {
+    tried = {
         name: build_samples(some, folder, workers, lambda text, name=name: told(f"{name}: {text}"))  # type: ignore[misc]
         for name, some in held_out_lessons(course.seeds).items()
     }
     classes = known_classes()
-    build_folds = deal_families(examples, course.folds)
-    kind_folds = deal_families(examples, course.kind_folds, whole=True)
-    outs = [*build_folds, *kind_folds]
-    bolted = tuple(bolted_lessons(course.bolted))
-    examples += build_samples(bolted, folder, workers, told)
-    job = _Job(tuple(samples), (), folder, tuple(classes), course.recipe, 0, frozenset())
+    folds = deal_folds(examples, parts, course.folds)
+    outs = [*folds, *[Fold()] * course.members]
+    job = _Job(tuple(samples), folder, tuple(classes), course.recipe, 0, Fold(), tuple(parts))
     jobs = [replace(job, seed=seed, out=out) for seed, out in enumerate(outs)]
-    for seed in range(len(outs), len(outs) + course.members):
-        jobs += [replace(job, seed=seed), replace(job, seed=seed, more=bolted)]
+    lacking = ABLATIONS if course.ablations else {}
+    jobs += [replace(jobs[0], recipe=replace(course.recipe, **change)) for change in lacking.values()]
+    if lacking:
+        jobs += [replace(jobs[0], parts=())]
     networks = _train(jobs, workers, told)
-    trials = [
-        _Trial(Model((network,), tuple(classes), 1.0, 0.5), plants["new seeds"], out, _left(examples, out))
-        for network, out in zip(networks, outs, strict=False)
-    ]
-    builds, kinds = trials[: course.folds], trials[course.folds : course.folds + course.kind_folds]
-    members = networks[len(outs) :]
-    # Calibrated on whole plants of which some families are new: known things and unknown ones, as in life.
-    best = temperature(lambda value: _asked(builds, value, None))
-    mixed, families, unlearnable = (_asked(builds, best, learnable) for learnable in (None, True, False))
-    threshold = max(least_confidence(mixed, PRECISION), least_confidence(families, NEW_PRECISION))
+    members, others = networks[len(folds) : len(outs)], networks[len(outs) :]
+    trials = [_Trial(network, fold, tried, parts) for network, fold in zip(networks, folds, strict=False)]
+
+    def asked(value: float, which: str) -> Answers:
+        return joined(*(getattr(trial, which)(classes, value) for trial in trials))
+
+    best = temperature(lambda value: joined(asked(value, "families"), asked(value, "makers")))
+    systems, families, makers = (asked(best, which) for which in ("systems", "families", "makers"))
+    new = joined(families, makers)
+    least = least_confidence(families, PRECISION, by_group=True)
+    alone = max(
+        least,
+        least_confidence(makers.where(~makers.strange), ALONE, by_group=True),
+        float(np.quantile(makers.sureness[makers.strange], _OPEN)) if makers.strange.any() else 0.0,
+    )
+    sure = max(least, least_confidence(new, SURE, by_group=True))
+    names = (*lacking, *(["without single real parts"] if lacking else []))
+    ablations = {
+        name: (trial.systems(classes, best), trial.makers(classes, best))
+        for name, trial in zip(
+            ("as it is", *names),
+            (trials[0], *(replace(trials[0], network=network) for network in others)),
+            strict=False,
+        )
+    }
     card = {
-        "plants": course.plants, "strangers": course.distractors, "bolted": course.bolted,
-        "seeds": [0, course.plants - 1],
-        "tried from": TRIED_FROM,
+        "plants": course.plants, "plants in drawn styles": course.drawn, "scenes of others": course.others,
+        "systems": list(SYSTEMS), "tried from": TRIED_FROM,
         "parts": int(sum(len(e.label) for e in examples)), "recipe": asdict(course.recipe), "folds": course.folds,
         "generator": folder.name,
-        "some of the families new": _card(score(mixed, threshold)),
-        "held-out families": _card(score(families, threshold)),
-        "held-out kinds": _card(score(_asked(kinds, best), threshold)),
-        "held-out families, unlearnable": {"parts": len(unlearnable.truth)},
+        "held-out systems": _card(score(systems, least)),
+        "held-out systems and families": _card(score(families, least)),
+        "held-out makers": _card(score(makers, alone)),
+        "learnt real parts": sum(part.open for part in parts),
+        "their makers": sorted({part.maker for part in parts if part.open}),
     }  # fmt: skip
-    model = Model(tuple(members), tuple(classes), best, threshold, card)
+    model = Model(tuple(members), tuple(classes), best, least, alone, sure, card)
     model = replace(model, card=card | {"fixed trial": [_fixed_trial(model, *trial) for trial in FIXED]})
-    return Trials(model, mixed, families, _asked(kinds, best), _both(unlearnable, _asked(kinds, best, False)), plants)
+    real = {plant.name: answer(model, [plant.example]) for plant in plants}
+    return Trials(model, systems, families, makers, ablations, real, tried)
 
 
 def _fixed_trial(model: Model, preset: str, seed: int, style: str) -> dict[str, Any]:
@@ -179,20 +228,31 @@ def known_classes() -> list[str]:
     return [f"{group}/{name}" for group, content in tree.items() for name in content["names"]] + [STRANGE]
 
 
-def deal_families(examples: Sequence[Example], folds: int, whole: bool = False) -> list[frozenset[str]]:
-    """Families of devices dealt into folds of about as many each.
+def deal_folds(examples: Sequence[Example], parts: Sequence[RealPart], folds: int) -> list[Fold]:
+    """Deals systems, families and makers into folds of about as many each.
 
     Args:
-        examples: that hold them.
+        examples: plants that hold the families.
+        parts: of the makers.
         folds: how many.
-        whole: whether all families of a kind (``ball valve/...``) go together.
     """
     # Pipe, elbows and plain flanges are in every plant and of no family of devices.
-    names = {str(name) for e in examples for name in np.unique(e.family)} & set(FAMILIES)
-    kinds = sorted({name.split("/")[0] for name in names} if whole else names)
-    order = np.random.default_rng(43).permutation(len(kinds))
-    dealt = [{kinds[i] for i in order[k::folds]} for k in range(folds)]
-    return [frozenset(name for name in names if name in out or name.split("/")[0] in out) for out in dealt]
+    families = {str(name) for e in examples for name in np.unique(e.family)} & set(ALL_FAMILIES)
+    return [
+        Fold(*sets)
+        for sets in zip(
+            _dealt(set(SYSTEMS), folds),
+            _dealt(families, folds),
+            _dealt({part.maker for part in parts}, folds),
+            strict=True,
+        )
+    ]
+
+
+def _dealt(names: set[str], folds: int) -> list[frozenset[str]]:
+    ordered = sorted(names)
+    order = np.random.default_rng(43).permutation(len(ordered))
+    return [frozenset(ordered[i] for i in order[k::folds]) for k in range(folds)]
 
 
 def source_digest() -> str:
@@ -209,22 +269,37 @@ class _Job:
     """One network to train, in a process of its own: it reads the plants itself."""
 
     samples: tuple[Sample, ...]
-    more: tuple[Sample, ...]
     folder: Path
     classes: tuple[str, ...]
     recipe: Recipe
     seed: int
-    out: frozenset[str]
+    out: Fold
+    parts: tuple[RealPart, ...]
 
 
 @dataclass(frozen=True)
 class _Trial:
-    """A network that never saw some families, what it is tried on, and the names that it could learn."""
+    """A network that never saw some things, and what it is tried on."""
 
-    model: Model
-    tried: Sequence[Example]
-    out: frozenset[str]
-    left: frozenset[str]
+    network: Classifier
+    out: Fold
+    tried: dict[str, list[Example]]
+    parts: Sequence[RealPart]
+
+    def systems(self, classes: Sequence[str], value: float) -> Answers:
+        """About all parts of plants of the systems that were held out."""
+        model = Model((self.network,), tuple(classes), value, 0.5, 0.5, 0.5)
+        return answer(model, [e for system in sorted(self.out.systems) for e in self.tried[f"system: {system}"]])
+
+    def families(self, classes: Sequence[str], value: float) -> Answers:
+        """Of these, about parts of held-out families."""
+        told = self.systems(classes, value)
+        return told.where(_within(told.family, self.out.families))
+
+    def makers(self, classes: Sequence[str], value: float) -> Answers:
+        """About single real parts of held-out makers."""
+        model = Model((self.network,), tuple(classes), value, 0.5, 0.5, 0.5)
+        return answer(model, [part.examples[0] for part in self.parts if part.maker in self.out.makers])
 
 
 def _train(jobs: Sequence[_Job], workers: int, told: Callable[[str], None]) -> list[Classifier]:
@@ -239,15 +314,13 @@ def _train(jobs: Sequence[_Job], workers: int, told: Callable[[str], None]) -> l
 
 def _trained(job: _Job) -> Classifier:
     """Trains one network, or reads it where it was trained before."""
-    text = repr((job.samples, job.classes, job.recipe, job.seed, sorted(job.out))) + Path(fit_file).read_text("utf-8")
-    text += repr(job.more) if job.more else ""
+    text = repr((job.samples, job.classes, job.recipe, job.seed, _listed(job.out)))
+    text += repr([part.maker for part in job.parts]) + Path(fit_file).read_text("utf-8")
     path = job.folder / f"network-{sha256(text.encode()).hexdigest()[:12]}.npz"
     if not path.is_file():
         # One thread each: the same sums in the same order on every machine, and no waiting for each other.
         torch.set_num_threads(1)
-        examples = [*build_samples(job.samples, job.folder), *build_samples(job.more, job.folder)]
-        rest = [replace(e, label=np.where(_within(e.family, job.out), "", e.label)) for e in examples]
-        network = fit(rest, job.classes, job.recipe, job.seed)
+        network = fit(_lessons(job), job.classes, job.recipe, job.seed)
         beside = path.with_suffix(".part")
         with beside.open("wb") as file:
             np.savez(file, allow_pickle=False, **network.weights)
@@ -256,9 +329,20 @@ def _trained(job: _Job) -> Classifier:
         return Classifier({name: file[name] for name in file.files}, job.recipe.rounds)
 
 
-def _left(examples: Sequence[Example], out: frozenset[str]) -> frozenset[str]:
-    """The labels that something outside of some families has."""
-    return frozenset(str(name) for e in examples for name in np.unique(e.label[~_within(e.family, out)]))
+def _listed(out: Fold) -> tuple[list[str], ...]:
+    return tuple(sorted(names) for names in (out.systems, out.families, out.makers))
+
+
+def _lessons(job: _Job) -> list[Example]:
+    """What a network learns from: nothing of what it must not see."""
+    built = build_samples(job.samples, job.folder)
+    seen = [e for e, sample in zip(built, job.samples, strict=True) if sample.system not in job.out.systems]
+    lessons = [replace(e, label=np.where(_within(e.family, job.out.families), "", e.label)) for e in seen]
+    versions = [e for part in job.parts if part.open and part.maker not in job.out.makers for e in part.examples]
+    order = np.random.default_rng(47).permutation(len(versions))
+    shuffled = [versions[i] for i in order]
+    scenes = [side_by_side(shuffled[k : k + _TOGETHER]) for k in range(0, len(shuffled), _TOGETHER)]
+    return lessons + scenes * _COPIES
 
 
 def _within(family: Texts, out: frozenset[str]) -> npt.NDArray[np.bool_]:
@@ -266,20 +350,5 @@ def _within(family: Texts, out: frozenset[str]) -> npt.NDArray[np.bool_]:
     return np.array([str(name) in out for name in family], np.bool_)
 
 
-def _asked(trials: Sequence[_Trial], value: float, learnable: bool | None = True) -> Answers:
-    """What the networks of all folds say of the families that each never saw; of all parts if ``learnable`` is None."""
-    found = []
-    for trial in trials:
-        told = answer(replace(trial.model, temperature=value), trial.tried)
-        mine = _within(told.family, trial.out)
-        can = np.array([str(name) in trial.left for name in told.truth], np.bool_)
-        found.append(told if learnable is None else told.where(mine & (can == learnable)))
-    return _both(*found)
-
-
-def _both(*answers: Answers) -> Answers:
-    return Answers(**{key: np.concatenate([getattr(a, key) for a in answers]) for key in Answers.__annotations__})
-
-
 def _card(scores: Scores) -> dict[str, float]:
-    return {key: round(value, 4) for key, value in asdict(scores).items()}
+    return {name: round(value, 4) for name, value in asdict(scores).items()}

@@ -14,9 +14,10 @@ from cadgraph.labelers.embedded.model import STRANGE, Model, softmax
 from cadgraph.model.scene import Floats, Ints
 from cadlab.training.example import Example, Texts
 
-__all__ = ["Answers", "Scores", "answer", "calibration_error", "least_confidence", "score", "temperature"]
+__all__ = ["Answers", "Scores", "answer", "calibration_error", "joined", "least_confidence", "score", "temperature"]
 
 _BINS = 15
+_NO_LABEL = ("", "/")  # of what the truth doesn't name, such as insulation
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,17 @@ class Answers:
         return Answers(**{key: getattr(self, key)[chosen] for key in Answers.__annotations__})
 
     @property
+    def strange(self) -> npt.NDArray[np.bool_]:
+        """``(n,)`` whether each part belongs to no plant, so that it is to stay open."""
+        found: npt.NDArray[np.bool_] = self.truth == STRANGE
+        return found
+
+    @property
+    def sureness(self) -> Floats:
+        """``(n,)`` by which it is decided whether a part gets a label: the confidence of its name, or of its group."""
+        return np.maximum(self.confidence, self.group_confidence)
+
+    @property
     def true_group(self) -> Texts:
         """``(n,)`` group of what each part is."""
         return np.array([str(text).split("/")[0] for text in self.truth], np.str_)
@@ -61,8 +73,8 @@ class Scores:
         group: share put into the right group.
         macro: mean F1 over the names that occur.
         ece: expected calibration error of the names' confidence.
-        kept: share above the model's threshold.
-        precision: share named right of these.
+        kept: share that gets a label at the model's threshold.
+        precision: share of these that are put into the right group.
     """
 
     parts: int
@@ -104,7 +116,7 @@ def answer(
         told = p.copy()
         told[:, classes == STRANGE] = 0.0  # never an answer, but it takes its share of the confidence
         by_group = told @ belongs
-        kept = ~e.ground
+        kept = ~e.ground & ~np.isin(e.label, _NO_LABEL)
         rows.append(
             tuple(
                 values[kept]
@@ -119,16 +131,17 @@ def answer(
 
 
 def score(answers: Answers, threshold: float) -> Scores:
-    """Figures over some parts."""
+    """Figures over some parts, strangers left out."""
+    answers = answers.where(~answers.strange)
     n = len(answers.truth)
     if not n:
         return Scores(0, *[float("nan")] * 6)
     right = answers.name == answers.truth
-    kept = answers.confidence >= threshold
+    kept = answers.sureness >= threshold
     return Scores(
         n, float(right.mean()), float((answers.group == answers.true_group).mean()), _macro(answers),
         calibration_error(answers.confidence, right), float(kept.mean()),
-        float(right[kept].mean()) if kept.any() else float("nan"),
+        float((answers.group == answers.true_group)[kept].mean()) if kept.any() else float("nan"),
     )  # fmt: skip
 
 
@@ -149,13 +162,25 @@ def calibration_error(confidence: Floats, right: npt.NDArray[np.bool_]) -> float
     return float(gap.sum() / max(count.sum(), 1))
 
 
-def least_confidence(answers: Answers, precision: float) -> float:
-    """The least threshold above which at least this share of the names is right; just below 1 if there is none."""
-    order = np.argsort(-answers.confidence, kind="stable")
-    right = (answers.name == answers.truth)[order]
+def least_confidence(answers: Answers, precision: float, by_group: bool = False) -> float:
+    """The least threshold above which at least this share of the answers is right; just below 1 if there is none.
+
+    Args:
+        answers: about any parts; strangers are never right.
+        precision: 0..1.
+        by_group: whether the group counts, and its confidence, in place of the name.
+    """
+    confidence = answers.group_confidence if by_group else answers.confidence
+    order = np.argsort(-confidence, kind="stable")
+    right = (answers.group == answers.true_group if by_group else answers.name == answers.truth)[order]
     share = np.cumsum(right) / np.arange(1, len(right) + 1)
     good = np.nonzero(share >= precision)[0]
-    return float(answers.confidence[order[good[-1]]]) if len(good) else 0.999
+    return float(confidence[order[good[-1]]]) if len(good) else 0.999
+
+
+def joined(*answers: Answers) -> Answers:
+    """Several answers as one."""
+    return Answers(**{name: np.concatenate([getattr(a, name) for a in answers]) for name in Answers.__annotations__})
 
 
 def temperature(ask: Callable[[float], Answers]) -> float:

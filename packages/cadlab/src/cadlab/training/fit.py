@@ -10,10 +10,20 @@ import torch
 from torch import nn
 
 from cadgraph.labelers.embedded.classifier import LIMIT, Classifier
+from cadgraph.labelers.embedded.surroundings import (
+    PLACE_FEATURES,
+    SCENE_FEATURES,
+    SIDE_FEATURES,
+    UP_FEATURES,
+    UP_SIDES,
+)
 from cadgraph.model.scene import Floats, Ints
 from cadlab.training.example import Example
 
 __all__ = ["Recipe", "fit"]
+
+_NEAR = ("neighbors", "alike around one", "held most", "alike touching", "borne")
+"""What parts without neighbours have none of."""
 
 
 @dataclass(frozen=True)
@@ -36,6 +46,9 @@ class Recipe:
         deaf: share of the contacts that are left out.
         scale: spread of the logarithm of a random scale for each plant.
         sizeless: share of the plants that are shown without absolute sizes.
+        upless: share of the plants that are shown without what depends on where up is.
+        sceneless: share of the plants that are shown without what is known of the scene as a whole.
+        blind: what is never shown: ``up`` or ``scene``; for comparison.
         smoothing: of the labels.
         balance: exponent of the frequency by which rare names weigh more.
     """
@@ -55,6 +68,9 @@ class Recipe:
     deaf: float = 0.15
     scale: float = 0.15
     sizeless: float = 0.15
+    upless: float = 0.15
+    sceneless: float = 0.25
+    blind: tuple[str, ...] = ()
     smoothing: float = 0.03
     balance: float = 0.5
 
@@ -108,8 +124,7 @@ def fit(
     rank = {name: i for i, name in enumerate(classes)}
     targets = [np.array([rank.get(str(name), -1) for name in e.label]) for e in examples]
     weights = _weights(examples, targets, len(classes), recipe.balance)
-    n_sizes = examples[0].sizes.shape[1]
-    n_forms = examples[0].forms.shape[1]
+    columns = _Columns.of(examples[0])
     mean, spread = _moments(np.vstack([_inputs(e) for e in examples]))
     side_mean, side_spread = _moments(np.vstack([e.sides for e in examples]))
     net = _Net(len(mean), len(side_mean), len(classes), recipe)
@@ -126,7 +141,7 @@ def fit(
                 [targets[i] for i in order[start : start + recipe.batch]],
                 [weights[i] for i in order[start : start + recipe.batch]],
                 (mean, spread, side_mean, side_spread),
-                slice(n_forms, n_forms + n_sizes), recipe, rng,
+                columns, recipe, rng,
             )  # fmt: skip
             joint, alone = net(x, s, here, there)
             known = y >= 0
@@ -143,6 +158,29 @@ def fit(
         {"mean": mean, "spread": spread, "side_mean": side_mean, "side_spread": side_spread, **_arrays(net)},
         recipe.rounds,
     )
+
+
+@dataclass(frozen=True)
+class _Columns:
+    """Where some inputs stand among those of parts, and of sides."""
+
+    sizes: slice
+    near: Ints
+    up: Ints
+    scene: Ints
+    up_sides: Ints
+
+    @classmethod
+    def of(cls, e: Example) -> _Columns:
+        first = e.forms.shape[1] + e.sizes.shape[1]
+
+        def places(names: Sequence[str]) -> Ints:
+            return np.array([first + PLACE_FEATURES.index(name) for name in names], np.int64)
+
+        return cls(
+            slice(e.forms.shape[1], first), places(_NEAR), places(UP_FEATURES), places(SCENE_FEATURES),
+            np.array([SIDE_FEATURES.index(name) for name in UP_SIDES], np.int64),
+        )  # fmt: skip
 
 
 def _inputs(e: Example) -> Floats:
@@ -173,7 +211,7 @@ def _batch(
     targets: Sequence[Ints],
     weights: Sequence[Floats],
     moments: tuple[Floats, Floats, Floats, Floats],
-    size_columns: slice,
+    columns: _Columns,
     recipe: Recipe,
     rng: np.random.Generator,
 ) -> tuple[torch.Tensor, ...]:
@@ -182,17 +220,26 @@ def _batch(
     xs, ss, heres, theres, shift = [], [], [], [], 0
     for e in examples:
         x = _inputs(e)
-        x[:, size_columns] += rng.normal(0, recipe.scale)
+        x[:, columns.sizes] += rng.normal(0, recipe.scale)
+        alone = rng.random(len(x)) < recipe.alone
+        scattered = rng.random() < recipe.scattered
+        if scattered:
+            alone[:] = True
+        x[np.ix_(alone, columns.near)] = 0.0
         x = np.clip((x - mean) / spread, -LIMIT, LIMIT) + rng.normal(0, recipe.noise, x.shape)
         if rng.random() < recipe.sizeless:
-            x[:, size_columns] = 0.0
-        alone = rng.random(len(x)) < recipe.alone
-        if rng.random() < recipe.scattered:
-            alone[:] = True
-        x[alone, size_columns.stop :] = -mean[size_columns.stop :] / spread[size_columns.stop :]
+            x[:, columns.sizes] = 0.0
+        upless = rng.random() < recipe.upless or "up" in recipe.blind
+        if upless:
+            x[:, columns.up] = 0.0
+        if scattered or rng.random() < recipe.sceneless or "scene" in recipe.blind:
+            x[:, columns.scene] = 0.0
         kept = ~alone[e.here] & ~alone[e.there] & (rng.random(len(e.here)) > recipe.deaf)
         s = np.clip((e.sides[kept] - side_mean) / side_spread, -LIMIT, LIMIT)
-        ss.append(s + rng.normal(0, recipe.noise, s.shape))
+        s = s + rng.normal(0, recipe.noise, s.shape)
+        if upless:
+            s[:, columns.up_sides] = 0.0
+        ss.append(s)
         xs.append(x)
         heres.append(e.here[kept] + shift)
         theres.append(e.there[kept] + shift)

@@ -1,73 +1,145 @@
-"""Real parts by other hands, to try the network on; nothing is ever learnt from them."""
+"""Real plants and single real parts by other hands: to try the network on, and parts of open licences to learn from."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import csv
+import json
+from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
-from cadgraph.errors import CadGraphError
 from cadgraph.labelers.embedded.features import observe
+from cadgraph.labelers.embedded.model import STRANGE
 from cadgraph.load import load
-from cadlab.training.example import Example, make_parts_from
+from cadgraph.model.parts import Parts
+from cadgraph.model.scene import Floats, Scene
+from cadlab.training.example import Example, Texts, make_parts_from, read_examples, write_examples
 
-__all__ = ["KINDS", "RealPart", "read_real_parts"]
+__all__ = ["OPEN_LICENCES", "RealPart", "RealPlant", "read_real_parts", "read_real_plants", "side_by_side"]
 
-KINDS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
-    ("valves/", "Valve assembly", ()),
-    ("Bolts & Screws/", "Connection assembly", ("bolt", "screw", "stud")),
-    ("Nuts/", "Connection assembly", ("nut",)),
-    ("Washers/", "Connection assembly", ("washer",)),
-    ("Piping/DN15_FIG_130", "Pipe assembly", ("tee",)),
-    ("Piping/DN15_Stamped_Flange", "Pipe assembly", ("flange",)),
-    ("Bearings/", "", ()),
-    ("Pulleys/", "", ()),
-)
-"""What the parts of a file are, by a piece of its path: group, and the names that count as right (any if empty).
+OPEN_LICENCES = ("Apache-2.0", "BSD", "CC-BY-3.0", "CC-BY-4.0", "CC0", "MIT")
+"""How the licences start of what may be learnt from; copyleft and share-alike ones are only tried."""
 
-Things without a group are none of a plant's: right is to leave them open.
-"""
+_STRETCHED = 3  # versions of a part to learn from: as it is, and stretched
+_STRETCH = 0.12  # spread of the logarithm of the factors along the three sides of its box
+
+
+@dataclass(frozen=True)
+class RealPlant:
+    """A plant that somebody else drew; never learnt from.
+
+    Args:
+        name: of its folder.
+        example: what the network sees; parts that the truth doesn't name have no label.
+        scene: the geometry of its parts.
+    """
+
+    name: str
+    example: Example
+    scene: Scene
 
 
 @dataclass(frozen=True)
 class RealPart:
-    """One part of a real file.
+    """A file of a part or a few, by one maker.
 
     Args:
-        file: its path below the folder.
-        group: that is right; empty if none is.
-        names: that are right; any of the group if empty.
-        example: what the network sees of the file.
-        index: of the part in it.
+        maker: where it is from.
+        open: whether its licence lets it be learnt from.
+        examples: as it is, and stretched a little along the sides of its box; strangers have the label ``STRANGE``.
     """
 
-    file: str
-    group: str
-    names: tuple[str, ...]
-    example: Example
-    index: int
+    maker: str
+    open: bool
+    examples: tuple[Example, ...]
 
 
-def read_real_parts(folder: Path) -> list[RealPart]:
-    """The parts of all STEP files below a folder whose kind is known; files that can't be read are left out."""
+def read_real_plants(folder: Path) -> list[RealPlant]:
+    """Reads the plants in the folders below one: each a ``scene.usdc`` with its ``scene.truth.json``."""
     found = []
-    for path in sorted((*folder.rglob("*.st?p"), *folder.rglob("*.stp"))):
-        name = path.relative_to(folder).as_posix()
-        kind = next(((group, names) for piece, group, names in KINDS if piece in name), None)
-        if kind is None:
-            continue
-        try:
-            parts, contacts = make_parts_from(load(path))
-        except CadGraphError:
-            continue
-        seen = observe(parts, contacts)
-        around, n = seen.surroundings, parts.n_parts
-        empty = np.full(n, "", dtype="<U1")
-        example = Example(
-            seen.shapes.sizes, seen.shapes.forms, seen.shape_of_part, around.places, around.here, around.there,
-            around.sides, np.full(n, f"{kind[0]}/{kind[1][0] if kind[1] else ''}"), empty, empty, np.full(n, "real"),
-            parts.ground,
-        )  # fmt: skip
-        found += [RealPart(name, *kind, example, index) for index in range(n)]
+    for truth in sorted(folder.glob("*/scene.truth.json")):
+        known = json.loads(truth.read_text(encoding="utf-8"))["meshes"]
+        labels = {row["mesh"]: f"{row['group']}/{row['name']}" for row in known if row.get("name")}
+        scene = load(truth.with_name("scene.usdc"))
+        example, parts = _example(scene, labels, truth.parent.name)
+        found.append(RealPlant(truth.parent.name, example, parts))
     return found
+
+
+def read_real_parts(folder: Path, keep: Path, workers: int = 2) -> list[RealPart]:
+    """Reads single parts: files named in ``labels.csv`` with the label of each mesh, its source and licence.
+
+    Args:
+        folder: that holds ``labels.csv``.
+        keep: folder that keeps what was read.
+        workers: processes.
+    """
+    table = folder / "labels.csv"
+    if not table.is_file():
+        return []
+    by_file: dict[str, list[dict[str, str]]] = {}
+    with table.open(encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            by_file.setdefault(row["file"], []).append(row)
+    kept = keep / "real-parts.npz"
+    if not kept.is_file():
+        keep.mkdir(parents=True, exist_ok=True)
+        beside = kept.with_suffix(".part")
+        with ProcessPoolExecutor(workers) as pool:
+            jobs = [(folder, k, name, rows) for k, (name, rows) in enumerate(sorted(by_file.items()))]
+            write_examples([e for found in pool.map(_versions, jobs, chunksize=8) for e in found], beside)
+        beside.replace(kept)
+    examples = read_examples(kept)
+    found = []
+    for k, (name, rows) in enumerate(sorted(by_file.items())):
+        may = all(row["licence"].startswith(OPEN_LICENCES) and "SA" not in row["licence"] for row in rows)
+        mine = tuple(examples[k * _STRETCHED : (k + 1) * _STRETCHED])
+        found.append(RealPart(name.split("/")[0], may, mine))
+    return found
+
+
+def _versions(job: tuple[Path, int, str, list[dict[str, str]]]) -> list[Example]:
+    """One file as it is, and stretched."""
+    folder, k, name, rows = job
+    labels = {row["mesh"]: STRANGE if row["group"] == "none" else f"{row['group']}/{row['name']}" for row in rows}
+    scene = load(folder / name)
+    rng = np.random.default_rng([k, 91])
+    factors = [np.ones(3), *(np.exp(rng.normal(0, _STRETCH, 3)) for _ in range(_STRETCHED - 1))]
+    return [_example(_stretched(scene, factor), labels, name.split("/")[0])[0] for factor in factors]
+
+
+def _stretched(scene: Scene, factors: Floats) -> Scene:
+    return replace(scene, vertices=scene.vertices * factors)
+
+
+def _example(scene: Scene, labels: dict[str, str], source: str) -> tuple[Example, Scene]:
+    parts, contacts = make_parts_from(scene)
+    seen = observe(parts, contacts)
+    around, n = seen.surroundings, parts.n_parts
+    example = Example(
+        seen.shapes.sizes.astype(np.float32), seen.shapes.forms.astype(np.float32), seen.shape_of_part,
+        around.places.astype(np.float32), around.here, around.there, around.sides.astype(np.float32),
+        _labels(scene, parts, labels), np.full(n, source),
+        np.full(n, ""), np.full(n, source), parts.ground,
+    )  # fmt: skip
+    return example, parts.scene
+
+
+def _labels(scene: Scene, parts: Parts, labels: dict[str, str]) -> Texts:
+    """Of each part the label of the first of its meshes that has one."""
+    known = [[labels.get(scene.paths[mesh], "") for mesh in meshes] for meshes in parts.meshes]
+    return np.array([next((label for label in some if label), "") for some in known], np.str_)
+
+
+def side_by_side(examples: Sequence[Example]) -> Example:
+    """Several scenes as one, each with its own neighbours and places."""
+    shapes = np.cumsum([0, *(len(e.forms) for e in examples)])
+    parts = np.cumsum([0, *(len(e.label) for e in examples)])
+    moved = [
+        replace(e, shape=e.shape + shapes[k], here=e.here + parts[k], there=e.there + parts[k])
+        for k, e in enumerate(examples)
+    ]
+    return Example(**{name: np.concatenate([getattr(e, name) for e in moved]) for name in Example.__annotations__})

@@ -15,14 +15,16 @@ from cadlab.training.distractors import UNSEEN_FROM, make_distractors, visited
 from cadlab.training.example import Example, make_example, read_examples, write_examples
 from cadlab.training.fastener import make_fasteners
 from cadplants.assortment import FAMILIES, make_assortment
-from cadplants.authoring_systems import make_in_system
-from cadplants.defects import Defects, degrade
+from cadplants.authoring_systems import SYSTEMS, draw_system, make_in_system
+from cadplants.defects import DEFECTS, Defects, degrade
 from cadplants.drawn_styles import draw_modeling_style
 from cadplants.modeling_style import STYLES, ModelingStyle
+from cadplants.omissions import omitted
 from cadplants.plant import Plant
-from cadplants.preset import PRESETS
+from cadplants.preset import PRESETS, make
+from cadplants.transforms import spun
 
-__all__ = ["SINS", "Sample", "bolted_lessons", "build_samples", "held_out_lessons", "training_samples"]
+__all__ = ["SINS", "Sample", "build_samples", "held_out_lessons", "training_samples"]
 
 SINS: dict[str, Defects] = {
     "duplicates": Defects(duplicates=0.3),
@@ -32,7 +34,10 @@ SINS: dict[str, Defects] = {
     "degenerate": Defects(degenerate=1.0),
 }
 _PLANTS = ("skid", "riser", "tank", "pumps", "rack")
-_SPOILT_EVERY, _VISITED_EVERY = 3, 6
+_SPOILT_EVERY, _VISITED_EVERY, _BOLTED_EVERY, _FALLEN_EVERY, _LAID_OUT_EVERY = 3, 6, 5, 11, 5
+_LAYOUTS, _TRIED_LAYOUTS = ("loop", "manifold"), ("skid", "tank")
+_WITHOUT = ("fasteners", "gaskets", "structure", "gauge glasses")
+_SPOILT = ("one", "primitives", "gaps", "setback", "long", "split", "shuffled", "mirrored", "all")
 _SHARE = 0.15
 # Kinds of families with names that other plants hold too few of to learn from.
 _RARE = frozenset({
@@ -61,7 +66,10 @@ class Sample:
         sin: a key of ``SINS``, ``some`` for a few of each, or empty.
         sides: factor of the number of sides of everything round.
         guests: whether distractors lean on its parts.
-        system: of an assortment, the system that draws it (a key of ``SYSTEMS``), with a style of its own; or empty.
+        system: the system that draws it (a key of ``SYSTEMS``), with a style of its own; or empty.
+        fallen: whether it lies on its side, as where the axis that is up was declared wrongly.
+        without: a key of ``OMISSIONS``: what it lacks; or empty.
+        spoilt: a key of ``DEFECTS``, as others draw; or empty.
     """
 
     kind: str
@@ -71,11 +79,20 @@ class Sample:
     sides: float = 1.0
     guests: bool = False
     system: str = ""
+    fallen: bool = False
+    without: str = ""
+    spoilt: str = ""
 
     def plant(self) -> Plant:
         """Builds the plant."""
         plant = self._plant()
-        return visited(plant, self.seed) if self.guests else plant
+        if self.without:
+            plant = omitted(plant, frozenset({self.without}))
+        if self.guests:
+            plant = visited(plant, self.seed)
+        if self.fallen:
+            plant = replace(plant, components=plant.placed(spun("x", np.pi / 2)).components)
+        return plant
 
     def _plant(self) -> Plant:
         if self.kind == "rare":
@@ -86,8 +103,14 @@ class Sample:
         if self.kind in _LOOSE:
             return _LOOSE[self.kind](self.seed)
         style = _retold(STYLES[self.style], self.sides) if self.style else None
+        if self.spoilt:
+            return make(self.kind, self.seed, self.style, DEFECTS[self.spoilt])
         if self.kind == "assortment" and self.system:
             plant = make_in_system(self.seed, self.system)
+        elif self.system:
+            manner = draw_system(np.random.default_rng([self.seed, 27]), self.system)
+            plant = PRESETS[self.kind](self.seed, manner.defects.of_style(manner.style))
+            plant = degrade(omitted(plant, manner.omissions), manner.defects, self.seed)
         elif self.kind == "assortment":
             plant = make_assortment(self.seed, style)
         else:
@@ -114,41 +137,60 @@ def _retold(style: ModelingStyle, factor: float) -> ModelingStyle:
     return replace(style, sides=(least, most), sag=style.sag / factor**2)
 
 
-def training_samples(count: int, distractors: int) -> list[Sample]:
-    """Assortments in drawn styles, a third of them with defects, a sixth among distractors; rare things; loose
-    fasteners; what belongs to no plant.
+def training_samples(systems: int, drawn: int, others: int) -> list[Sample]:
+    """Plants as the authoring systems draw them (assortments and two layouts, some of them on their side); assortments
+    in drawn styles, a third with defects, some with their bolts melted into flanges; a sixth of all among distractors;
+    rare things; loose fasteners; what belongs to no plant.
+
+    Args:
+        systems: plants of all systems together.
+        drawn: assortments in drawn styles.
+        others: scenes of rare things, and as many of what belongs to no plant; two thirds as many of fasteners.
     """
-    plants = [
-        Sample("assortment", seed, sin="some" if seed % _SPOILT_EVERY == 0 else "", guests=seed % _VISITED_EVERY == 1)
-        for seed in range(count)
-    ]
-    return plants + [Sample(kind, seed) for kind in ("rare", *_LOOSE) for seed in range(distractors)]
+    names, plants = list(SYSTEMS), []
+    for seed in range(systems):
+        turn = seed // len(names)
+        kind = _LAYOUTS[turn % len(_LAYOUTS)] if turn % _LAID_OUT_EVERY == 0 else "assortment"
+        plants.append(Sample(
+            kind, seed, guests=seed % _VISITED_EVERY == 1, system=names[seed % len(names)],
+            fallen=seed % _FALLEN_EVERY == 2,
+        ))  # fmt: skip
+    for seed in range(drawn):
+        sin = "some" if seed % _SPOILT_EVERY == 0 else ""
+        kind = "bolted" if seed % _BOLTED_EVERY == 2 else "assortment"
+        plants.append(Sample(kind, seed, sin="" if kind == "bolted" else sin, guests=seed % _VISITED_EVERY == 1))
+    loose = [Sample(kind, seed) for kind, n in (("rare", others), ("strangers", others), ("fasteners", 2 * others // 3))
+             for seed in range(n)]  # fmt: skip
+    return plants + loose
 
 
-def bolted_lessons(count: int) -> list[Sample]:
-    """Assortments whose flanges are of one mesh with the bolts of their joint."""
-    return [Sample("bolted", seed) for seed in range(count)]
+def held_out_lessons(seeds: int = 1) -> dict[str, list[Sample]]:
+    """What the networks are tried on, by the name of the trial.
 
-
-def held_out_lessons(seeds: int = 2) -> dict[str, list[Sample]]:
-    """What the network is tried on, by the name of the trial.
-
-    ``new seeds``: assortments in drawn styles. ``new styles``: the presets, whose layouts were never learnt from, and
-    assortments, both in the six published styles, which were never learnt from either; then each of these again for
-    each sin, with half and double the sides, and distractors.
+    ``system: NAME``: assortments and a layout as this system draws them. ``published styles``: layouts that are not
+    learnt from, in the six published styles, which are not either; then some of these again for each sin, with half and
+    double the sides, without some class of parts, with the defects of plants that others drew; and strangers.
     """
     tried = range(TRIED_FROM, TRIED_FROM + seeds)
-    styles = [Sample(kind, seed, style) for style in STYLES for kind in (*_PLANTS, "assortment") for seed in tried]
-    few = [Sample(kind, TRIED_FROM, style) for style in STYLES for kind in ("riser", "tank")]
+    styles = [Sample(kind, seed, style) for style in STYLES for kind in _PLANTS for seed in tried]
+    few = [Sample(kind, TRIED_FROM, style) for style in ("mechanical", "vendor") for kind in ("riser", "pumps")]
     return {
-        "new seeds": [Sample("assortment", seed) for seed in range(TRIED_FROM, TRIED_FROM + 48 * seeds)],
-        "new styles": styles,
-        **{f"sin: {sin}": [replace(sample, sin=sin) for sample in few] for sin in SINS},
+        **{
+            f"system: {name}": [
+                Sample("assortment", seed, system=name) for seed in range(TRIED_FROM, TRIED_FROM + 6 * seeds)
+            ] + [Sample(kind, seed, system=name) for kind in _TRIED_LAYOUTS for seed in tried]
+            for name in SYSTEMS
+        },
+        "published styles": styles,
+        "the next four as they are": few,
+        **{f"no {name}": [replace(sample, without=name) for sample in few] for name in _WITHOUT},
+        **{f"defect: {name}": [replace(sample, spoilt=name) for sample in few] for name in _SPOILT},
+        **{f"mesh fault: {name}": [replace(sample, sin=name) for sample in few] for name in SINS},
         "half the sides": [replace(sample, sides=0.5) for sample in few],
-        "twice the sides": [replace(sample, sides=2.0) for sample in few],
+        "on its side": [replace(sample, fallen=True) for sample in few],
         "strangers": [Sample("strangers", seed) for seed in range(TRIED_FROM, TRIED_FROM + 5 * seeds)],
         "unseen strangers": [Sample("strangers", seed) for seed in range(UNSEEN_FROM, UNSEEN_FROM + 5 * seeds)],
-    }
+    }  # fmt: skip
 
 
 def build_samples(
@@ -180,9 +222,15 @@ def _built(samples: Iterable[Sample], folder: Path) -> Path:
     path = folder / f"{name}.npz"
     if not path.is_file():
         beside = path.with_suffix(".part")
-        write_examples([make_example(sample.plant(), sample.style or "drawn") for sample in batch], beside)
+        write_examples([_example(sample) for sample in batch], beside)
         beside.replace(path)
     return path
+
+
+def _example(sample: Sample) -> Example:
+    """What is seen of a plant; each part is of the plant's system, where it has one."""
+    made = make_example(sample.plant(), sample.style or "drawn")
+    return replace(made, style=np.full(len(made.label), sample.system)) if sample.system else made
 
 
 def _hash_of(text: str) -> int:
