@@ -32,7 +32,7 @@ from cadgraph.stages.relate import RelateInput, connect_units, pipe_systems, rel
 
 __all__ = ["ANALYSIS_SETTINGS", "STAGES", "analyse", "build", "interpret"]
 
-_WEAK = 0.4  # a likely label below this confidence is no label for the relations
+_WEAK = 0.46  # a likely label below this confidence is no label for the relations
 STAGES = ("measure", "contacts", "group", "cluster", "label", "relate", "assemble")
 """The names that ``build`` gives to its progress, in order."""
 

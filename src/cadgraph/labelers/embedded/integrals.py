@@ -173,6 +173,38 @@ def _way(gap: float, diagonal: float) -> float:
 
 
 @compiled
+def _settle(
+    m: int,
+    zones: Floats,
+    steep: float,
+    real: Floats,
+    imaginary: Floats,
+    along: Floats,
+    outer: Floats,
+    inner: Floats,
+    harmonics: Floats,
+    gaps: Floats,
+    long: Floats,
+    wide: Floats,
+) -> None:
+    """Makes strengths, power means and shares of what was added up."""
+    for z in range(3):
+        # A zone of hardly any area has no symmetry to speak of.
+        for o in range(harmonics.shape[2]):
+            strength = np.sqrt(real[z, o] ** 2 + imaginary[z, o] ** 2) / max(zones[z], 1e-12)
+            harmonics[m, z, o] = strength * min(1.0, zones[z] / 0.03)
+    for k in range(BINS):
+        outer[m, k] = (outer[m, k] / max(along[m, k], 1e-9)) ** 0.125
+        wide[m, k] = (wide[m, k] / max(long[m, k], 1e-9)) ** 0.125
+        if along[m, k] > 1e-9:
+            inner[m, k] = max((inner[m, k] / along[m, k]) ** -0.125 - _OFF, 0.0)
+    if steep > 0:
+        for k in range(GAPS + 1):
+            gaps[m, 0, k] /= steep
+            gaps[m, 1, k] /= steep
+
+
+@compiled
 def _sum(
     first: int,
     last: int,
@@ -304,20 +336,7 @@ def _sum(
             moments[m, 2] += w * (t - 0.5) * r
             moments[m, 3] += w * (q - 0.5) * aside
         rim[m] = zones[1]
-        for z in range(3):
-            # A zone of hardly any area has no symmetry to speak of.
-            for o in range(n_orders):
-                strength = np.sqrt(real[z, o] ** 2 + imaginary[z, o] ** 2) / max(zones[z], 1e-12)
-                harmonics[m, z, o] = strength * min(1.0, zones[z] / 0.03)
-        for k in range(BINS):
-            outer[m, k] = (outer[m, k] / max(along[m, k], 1e-9)) ** 0.125
-            wide[m, k] = (wide[m, k] / max(long[m, k], 1e-9)) ** 0.125
-            if along[m, k] > 1e-9:
-                inner[m, k] = max((inner[m, k] / along[m, k]) ** -0.125 - _OFF, 0.0)
-        if steep > 0:
-            for k in range(GAPS + 1):
-                gaps[m, 0, k] /= steep
-                gaps[m, 1, k] /= steep
+        _settle(m, zones, steep, real, imaginary, along, outer, inner, harmonics, gaps, long, wide)
 
 
 def sum_pairs(points: Piercings, properties: Properties) -> Floats:

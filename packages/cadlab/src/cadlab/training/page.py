@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
+from cadgraph.labelers.embedded.model import Model
 from cadlab.markdown import table
 from cadlab.training.course import ALONE, PRECISION, SURE, Trials
 from cadlab.training.figure import Answers, Scores, answer, score
@@ -164,20 +165,18 @@ def write_page(trials: Trials, parts: Sequence[RealPart], size: int, families: i
     model, least, alone = trials.model, trials.model.threshold, trials.model.alone
     told = {name: answer(model, plants) for name, plants in trials.plants.items()}
     real = {name: _without_fasteners(a) for name, a in trials.real.items()}
-    wrong = [a.group_confidence[a.group != a.true_group] for a in real.values()]
-    sure_wrong = float((np.concatenate(wrong) > 0.9).mean()) if wrong and len(np.concatenate(wrong)) else 0.0
     systems = sorted(set(trials.systems.style.tolist()))
     return _TEXT.format(
         members=_WORDS[len(model.members)], weights=sum(int(v.size) for m in model.members for v in m.weights.values()),
-        and_parts=f" and {model.card['learnt real parts']} files of real parts" if parts else "",
+        and_parts=_and_parts(model, parts),
         size=size / 1e6, forms=len(FORMS), sizes=len(SIZES), sides=len(SIDE_FEATURES), places=len(PLACE_FEATURES),
         threshold=least, alone=alone, sure=model.sure, alone_precision=ALONE, precision=PRECISION,
         sure_precision=SURE, families=families,
         others=model.card["scenes of others"], n_systems=len(model.card["systems"]),
         systems=", ".join(model.card["systems"]), folds=model.card["folds"],
         rounds=_WORDS[model.members[0].rounds],
-        real=_table((name, score(a, least)) for name, a in real.items()) if real else "(not measured)",
-        sheet=f"The mistakes that it is surest of:\n\n![mistakes on real plants]({sheet})" if sheet else "",
+        real=_table((name, score(a, least)) for name, a in real.items()),
+        sheet=_sheet(sheet),
         held_out=_table(
             (name, score(a, limit))
             for name, limit, a in (
@@ -194,10 +193,7 @@ def write_page(trials: Trials, parts: Sequence[RealPart], size: int, families: i
             for name, a in told.items()
             if not name.startswith("system") and "stranger" not in name
         ),
-        by_maker=_table(
-            (maker, score(trials.makers.where(trials.makers.style == maker), alone))
-            for maker in sorted(set(trials.makers.style[~trials.makers.strange].tolist()))
-        ) if parts else "(not measured)",
+        by_maker=_by_maker(trials.makers, alone),
         strange=_strange(told, trials.makers, alone),
         alike=_alike(trials.systems, trials.families),
         confusions=_confusions(trials.systems),
@@ -206,11 +202,30 @@ def write_page(trials: Trials, parts: Sequence[RealPart], size: int, families: i
             for name, pair in trials.ablations.items()
             for what, limit, a in zip(("held-out systems", "held-out makers"), (least, alone), pair, strict=True)
         ),
-        not_kept=_NOT_KEPT, names=_names(trials.systems), sure_wrong=sure_wrong,
+        not_kept=_NOT_KEPT, names=_names(trials.systems), sure_wrong=_sure_though_wrong(real.values()),
         card="\n".join(f"- {key}: {value}" for key, value in model.card.items())
         + f"\n- temperature: {model.temperature:.3f}; threshold: {least:.3f}; alone: {alone:.3f}; "
         f"sure: {model.sure:.3f}",
     )  # fmt: skip
+
+
+def _and_parts(model: Model, parts: Sequence[RealPart]) -> str:
+    return f" and {model.card['learnt real parts']} files of real parts" if parts else ""
+
+
+def _sheet(name: str) -> str:
+    return f"The mistakes that it is surest of:\n\n![mistakes on real plants]({name})" if name else ""
+
+
+def _by_maker(makers: Answers, least: float) -> str:
+    names = sorted(set(makers.style[~makers.strange].tolist()))
+    return _table((name, score(makers.where(makers.style == name), least)) for name in names)
+
+
+def _sure_though_wrong(answers: Iterable[Answers]) -> float:
+    """The share of the wrong groups that are said with more than 0.9."""
+    wrong = [confidence for a in answers for confidence in a.group_confidence[a.group != a.true_group].tolist()]
+    return float(np.mean(np.array(wrong) > 0.9)) if wrong else 0.0
 
 
 def _without_fasteners(a: Answers) -> Answers:
@@ -223,6 +238,8 @@ def _table(rows: Iterable[tuple[str, Scores]]) -> str:
         if s.parts:
             shares = f"{s.group:.1%}", f"{s.name:.1%}", f"{s.macro:.2f}", f"{s.ece:.3f}", f"{s.kept:.1%}"
             lines.append((name, f"{s.parts:,}", *shares, f"{s.precision:.1%}" if s.kept else ""))
+    if not lines:
+        return "(not measured)"
     return "\n".join(table(("", "parts", "group", "name", "macro F1", "ECE", "labelled", "right of these"), lines))
 
 
