@@ -30,7 +30,7 @@ class Labeling:
         labels: of each part, None where it isn't sure enough.
         guesses: of each part that has no label for that reason what it may be, the likeliest first.
         answers: of each part the likeliest label, however unsure; ``labels`` are those that are sure enough.
-        threshold: least confidence of a label: of all, or of each part.
+        thresholds: least confidence of a label of each part.
         sure: least confidence of one that is sure; those below are marked as likely.
         probabilities: of all names, where the labeler knows them.
         diagnostics: what is to be reported about it.
@@ -39,7 +39,7 @@ class Labeling:
     labels: tuple[Label | None, ...]
     guesses: tuple[tuple[Guess, ...], ...]
     answers: tuple[Label | None, ...]
-    threshold: float | tuple[float, ...] = LEAST_CONFIDENCE
+    thresholds: tuple[float, ...]
     probabilities: Probabilities | None = None
     diagnostics: tuple[Diagnostic, ...] = ()
     sure: float = 0.0
@@ -73,8 +73,7 @@ class Labeling:
             else ()
             for answer, label in zip(answers, labels, strict=True)
         )
-        kept = threshold if isinstance(threshold, float) else least
-        return cls(labels, guesses, tuple(answers), kept, probabilities, tuple(diagnostics), sure)
+        return cls(labels, guesses, tuple(answers), least, probabilities, tuple(diagnostics), sure)
 
     @classmethod
     def empty(cls, n_parts: int) -> Labeling:
@@ -127,7 +126,7 @@ def label_parts(
     held = [answer if answer is not None and vocabulary.holds(*answer.said) else None for answer in said.answers]
     if config.use_names:
         held = list(weigh_names(held, parts, vocabulary))
-    least = said.threshold if config.min_confidence is None else config.min_confidence
+    least = said.thresholds if config.min_confidence is None else config.min_confidence
     sure = said.sure if config.sure_confidence is None else config.sure_confidence
     judged = Labeling.judge(held, least, said.probabilities, said.diagnostics, sure)
     # What a labeler holds for possible without an answer of its own stays.

@@ -159,7 +159,7 @@ class FormerLabeler:
             part.guesses if part is not None and label is None else ()
             for part, label in zip(former, labels, strict=True)
         )
-        return Labeling(labels, guesses, labels, 0.0)
+        return Labeling(labels, guesses, labels, (0.0,) * len(labels))
 
 
 def _former_label(part: Part | None) -> Label | None:

@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 
+from cadplants.families.chance import chance, num
 from cadplants.modeling_style import ModelingStyle
 
 __all__ = [
     "Changes",
     "building_defects",
     "building_style",
-    "chance",
     "game_defects",
     "game_style",
     "hobby_defects",
@@ -33,15 +33,6 @@ Changes = dict[str, Any]
 """Arguments of ``ModelingStyle`` or of ``Defects``."""
 
 
-def chance(rng: np.random.Generator, share: float) -> bool:
-    """Whether something happens that happens this often."""
-    return bool(rng.random() < share)
-
-
-def _num(rng: np.random.Generator, low: float, high: float) -> float:
-    return float(rng.uniform(low, high))
-
-
 def _one_of(rng: np.random.Generator, **shares: float) -> str:
     """One of some names, each as likely as its share says."""
     total = sum(shares.values())
@@ -50,8 +41,8 @@ def _one_of(rng: np.random.Generator, **shares: float) -> str:
 
 def _span(rng: np.random.Generator, low: float, high: float) -> tuple[float, float]:
     """A range within another, at least a tenth of it wide."""
-    first = _num(rng, low, high - 0.1 * (high - low))
-    return first, _num(rng, first + 0.1 * (high - low), high)
+    first = num(rng, low, high - 0.1 * (high - low))
+    return first, num(rng, first + 0.1 * (high - low), high)
 
 
 def _round(rng: np.random.Generator, *counts: int, by_size: float = 0.3) -> Changes:
@@ -97,10 +88,10 @@ def plant_design_defects(rng: np.random.Generator, _: ModelingStyle) -> Changes:
     return {
         "faces": _span(rng, 0.0015, 0.0045) if chance(rng, 0.85) else None,
         "joints": _span(rng, 0.0, 0.002) if chance(rng, 0.25) else None,
-        "insulation": _num(rng, 0.1, 0.6) if chance(rng, 0.25) else 0.0,
-        "doubled": _num(rng, 0.05, 0.5) if chance(rng, 0.3) else 0.0,
-        "cut": _num(rng, 0.1, 0.5) if chance(rng, 0.2) else 0.0,
-        "flipped": _num(rng, 0.1, 1.0) if chance(rng, 0.1) else 0.0,
+        "insulation": num(rng, 0.1, 0.6) if chance(rng, 0.25) else 0.0,
+        "doubled": num(rng, 0.05, 0.5) if chance(rng, 0.3) else 0.0,
+        "cut": num(rng, 0.1, 0.5) if chance(rng, 0.2) else 0.0,
+        "flipped": num(rng, 0.1, 1.0) if chance(rng, 0.1) else 0.0,
         "mirrored": chance(rng, 0.1),
     }
 
@@ -110,7 +101,7 @@ def plant_design_defects(rng: np.random.Generator, _: ModelingStyle) -> Changes:
 
 def building_style(rng: np.random.Generator) -> Changes:
     """What building systems change about a modelling style."""
-    gap = (0.0, _num(rng, 0.001, 0.0045)) if chance(rng, 0.5) else (-_num(rng, 0.0005, 0.003), _num(rng, 0.0, 0.002))
+    gap = (0.0, num(rng, 0.001, 0.0045)) if chance(rng, 0.5) else (-num(rng, 0.0005, 0.003), num(rng, 0.0, 0.002))
     return {
         **_round(rng, 8, 8, 10, 12, 12, 16, by_size=0.15),
         **_bare(),
@@ -129,9 +120,9 @@ def building_defects(rng: np.random.Generator, _: ModelingStyle) -> Changes:
     """The defects of a plant that building systems draw in a style."""
     return {
         "joints": _span(rng, -0.003, 0.0045) if chance(rng, 0.35) else None,
-        "insulation": _num(rng, 0.1, 0.6) if chance(rng, 0.3) else 0.0,
-        "cut": _num(rng, 0.1, 0.4) if chance(rng, 0.15) else 0.0,
-        "duplicates": _num(rng, 0.0, 0.05) if chance(rng, 0.15) else 0.0,
+        "insulation": num(rng, 0.1, 0.6) if chance(rng, 0.3) else 0.0,
+        "cut": num(rng, 0.1, 0.4) if chance(rng, 0.15) else 0.0,
+        "duplicates": num(rng, 0.0, 0.05) if chance(rng, 0.15) else 0.0,
     }
 
 
@@ -152,7 +143,7 @@ def mechanical_style(rng: np.random.Generator) -> Changes:
         "gaskets": chance(rng, 0.7),
         "fittings": _one_of(rng, long=0.6, smooth=0.4),
         "spool": _one_of(rng, segments=0.7, bent=0.3),
-        "gap": (0.0, _num(rng, 0.0001, 0.0006)) if chance(rng, 0.3) else (0.0, 0.0),
+        "gap": (0.0, num(rng, 0.0001, 0.0006)) if chance(rng, 0.3) else (0.0, 0.0),
     }
 
 
@@ -162,8 +153,8 @@ def mechanical_defects(rng: np.random.Generator, style: ModelingStyle) -> Change
         "setback": _span(rng, 0.003, 0.008) if style.hollow and chance(rng, 0.6) else None,
         "screwed": _span(rng, 0.0001, 0.0006) if chance(rng, 0.6) else None,
         "faces": _span(rng, 0.0015, 0.0025) if chance(rng, 0.15) else None,
-        "incomplete": _num(rng, 0.05, 0.3) if chance(rng, 0.3) else 0.0,
-        "hidden": _num(rng, 0.0, 0.05) if chance(rng, 0.2) else 0.0,
+        "incomplete": num(rng, 0.05, 0.3) if chance(rng, 0.3) else 0.0,
+        "hidden": num(rng, 0.0, 0.05) if chance(rng, 0.2) else 0.0,
         "mirrored": chance(rng, 0.2),
     }
 
@@ -184,7 +175,7 @@ def skid_style(rng: np.random.Generator) -> Changes:
         "spool": _one_of(rng, segments=0.75, bent=0.25),
         "merged": chance(rng, 0.15),
         "fittings": _one_of(rng, long=0.25, smooth=0.75),
-        "gap": (0.0, _num(rng, 0.0003, 0.002)) if chance(rng, 0.25) else (0.0, 0.0),
+        "gap": (0.0, num(rng, 0.0003, 0.002)) if chance(rng, 0.25) else (0.0, 0.0),
         "devices": _one_of(rng, primitives=0.25, built=0.75),
     }
 
@@ -194,9 +185,9 @@ def skid_defects(rng: np.random.Generator, style: ModelingStyle) -> Changes:
     return {
         "faces": _span(rng, 0.0005, 0.0035) if not style.gaskets and chance(rng, 0.4) else None,
         "joints": _span(rng, -0.001, 0.002) if chance(rng, 0.3) else None,
-        "cut": _num(rng, 0.1, 0.5) if chance(rng, 0.3) else 0.0,
-        "insulation": _num(rng, 0.1, 0.4) if chance(rng, 0.15) else 0.0,
-        "duplicates": _num(rng, 0.0, 0.05) if chance(rng, 0.15) else 0.0,
+        "cut": num(rng, 0.1, 0.5) if chance(rng, 0.3) else 0.0,
+        "insulation": num(rng, 0.1, 0.4) if chance(rng, 0.15) else 0.0,
+        "duplicates": num(rng, 0.0, 0.05) if chance(rng, 0.15) else 0.0,
     }
 
 
@@ -205,7 +196,7 @@ def skid_defects(rng: np.random.Generator, style: ModelingStyle) -> Changes:
 
 def robot_world_style(rng: np.random.Generator) -> Changes:
     """What robot world systems change about a modelling style."""
-    gap = (-_num(rng, 0.0005, 0.003), _num(rng, 0.0, 0.002)) if chance(rng, 0.35) else (0.0, 0.0)
+    gap = (-num(rng, 0.0005, 0.003), num(rng, 0.0, 0.002)) if chance(rng, 0.35) else (0.0, 0.0)
     return {
         **_round(rng, 8, 12, 12, 16, 20, 24, 32),
         **_bare(),
@@ -224,8 +215,8 @@ def robot_world_defects(rng: np.random.Generator, _: ModelingStyle) -> Changes:
     """The defects of a plant that robot world systems draw in a style."""
     return {
         "joints": _span(rng, -0.004, 0.002) if chance(rng, 0.4) else None,
-        "flipped": _num(rng, 0.05, 0.5) if chance(rng, 0.15) else 0.0,
-        "degenerate": _num(rng, 0.05, 0.3) if chance(rng, 0.15) else 0.0,
+        "flipped": num(rng, 0.05, 0.5) if chance(rng, 0.15) else 0.0,
+        "degenerate": num(rng, 0.05, 0.3) if chance(rng, 0.15) else 0.0,
     }
 
 
@@ -246,7 +237,7 @@ def game_style(rng: np.random.Generator) -> Changes:
         "capped": chance(rng, 0.5),
         "soup": float(rng.choice([0.0, 0.0, 0.5, 1.0])),
         "cracks": float(rng.choice([0.0, 0.0, 0.1, 0.3])),
-        "gap": (-_num(rng, 0.0005, 0.004), 0.0) if chance(rng, 0.4) else (0.0, 0.0),
+        "gap": (-num(rng, 0.0005, 0.004), 0.0) if chance(rng, 0.4) else (0.0, 0.0),
         "devices": _one_of(rng, primitives=0.55, built=0.45),
     }
 
@@ -255,8 +246,8 @@ def game_defects(rng: np.random.Generator, _: ModelingStyle) -> Changes:
     """The defects of a plant that game systems draw in a style."""
     return {
         "joints": _span(rng, -0.005, 0.001) if chance(rng, 0.4) else None,
-        "flipped": _num(rng, 0.02, 0.2) if chance(rng, 0.2) else 0.0,
-        "duplicates": _num(rng, 0.0, 0.05) if chance(rng, 0.15) else 0.0,
+        "flipped": num(rng, 0.02, 0.2) if chance(rng, 0.2) else 0.0,
+        "duplicates": num(rng, 0.0, 0.05) if chance(rng, 0.15) else 0.0,
         "mirrored": chance(rng, 0.3),
     }
 
@@ -272,10 +263,10 @@ def scan_style(rng: np.random.Generator) -> Changes:
         **_grains(rng, 0.5, 0.35, 0.15),
         "hollow": False,
         "flange": _one_of(rng, ring=0.6, slip=0.3, neck=0.1),
-        "wobble": _num(rng, 0.0003, 0.002) if chance(rng, 0.8) else 0.0,
-        "gap": (-_num(rng, 0.0005, 0.004), _num(rng, 0.0, 0.003)),
+        "wobble": num(rng, 0.0003, 0.002) if chance(rng, 0.8) else 0.0,
+        "gap": (-num(rng, 0.0005, 0.004), num(rng, 0.0, 0.003)),
         "merged": chance(rng, 0.15),
-        "rows": _num(rng, 0.03, 0.2) if chance(rng, 0.2) else 0.0,
+        "rows": num(rng, 0.03, 0.2) if chance(rng, 0.2) else 0.0,
         "cracks": float(rng.choice([0.0, 0.0, 0.1])),
         "devices": _one_of(rng, primitives=0.45, built=0.55),
     }
@@ -284,9 +275,9 @@ def scan_style(rng: np.random.Generator) -> Changes:
 def scan_defects(rng: np.random.Generator, _: ModelingStyle) -> Changes:
     """The defects of a plant that scan systems draw in a style."""
     return {
-        "cut": _num(rng, 0.1, 0.5) if chance(rng, 0.4) else 0.0,
-        "incomplete": _num(rng, 0.05, 0.3) if chance(rng, 0.4) else 0.0,
-        "insulation": _num(rng, 0.1, 0.4) if chance(rng, 0.2) else 0.0,
+        "cut": num(rng, 0.1, 0.5) if chance(rng, 0.4) else 0.0,
+        "incomplete": num(rng, 0.05, 0.3) if chance(rng, 0.4) else 0.0,
+        "insulation": num(rng, 0.1, 0.4) if chance(rng, 0.2) else 0.0,
     }
 
 
@@ -306,7 +297,7 @@ def hobby_style(rng: np.random.Generator) -> Changes:
         "gaskets": chance(rng, 0.3),
         "spool": _one_of(rng, segments=0.75, bent=0.25),
         "fittings": _one_of(rng, long=0.35, smooth=0.65),
-        "rows": _num(rng, 0.04, 0.15) if chance(rng, 0.08) else 0.0,
+        "rows": num(rng, 0.04, 0.15) if chance(rng, 0.08) else 0.0,
         "devices": _one_of(rng, primitives=0.4, built=0.6),
     }
 

@@ -15,7 +15,6 @@ from cadplants.authoring_styles import (
     Changes,
     building_defects,
     building_style,
-    chance,
     game_defects,
     game_style,
     hobby_defects,
@@ -33,6 +32,7 @@ from cadplants.authoring_styles import (
 )
 from cadplants.defects import Defects, degrade
 from cadplants.drawn_styles import draw_modeling_style
+from cadplants.families.chance import chance
 from cadplants.modeling_style import ModelingStyle
 from cadplants.omissions import OMISSIONS, omitted
 from cadplants.plant import Plant

@@ -9,6 +9,7 @@ another order leaves every point where it was.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -58,76 +59,71 @@ def pierce(scene: Scene, properties: Properties, lines: int) -> Piercings:
     Returns:
         The points, ordered by line and then along it.
     """
-    n = scene.n_meshes
-    vertices = readable(scene.vertices, np.float64)
-    faces, starts = readable(scene.global_faces(), np.int32), readable(scene.face_offsets, np.int64)
-    center, axes = readable(properties.obb_center, np.float64), readable(properties.obb_axes, np.float64)
     extents = np.maximum(properties.obb_extents, _FLAT * properties.obb_extents[:, :1])
-    extents = readable(np.where(np.isfinite(extents), extents, 0.0), np.float64)
+    meshes = _Meshes(
+        readable(scene.vertices, np.float64), readable(scene.global_faces(), np.int32),
+        readable(scene.face_offsets, np.int64), readable(properties.obb_center, np.float64),
+        readable(properties.obb_axes, np.float64),
+        readable(np.where(np.isfinite(extents), extents, 0.0), np.float64),
+    )  # fmt: skip
 
     def kernel(first: int, last: int) -> tuple[Floats, Ints]:
         room = np.zeros(last - first, np.int64)
-        _count(first, last, vertices, faces, starts, center, axes, extents, lines, room)
+        _count(first, last, meshes, lines, room)
         rows = np.empty((int(room.sum()), 10))
         kept = np.zeros(last - first, np.int64)
         if len(rows):
             spare = np.empty((int(room.max()), 2))
             found = np.empty((int(room.max()), 2))
-            _fill(first, last, vertices, faces, starts, center, axes, extents, lines, found, spare, rows, kept)
+            _fill(first, last, meshes, lines, found, spare, rows, kept)
         return rows[: int(kept.sum())], kept
 
-    ranges = gather(kernel, np.diff(starts) + 1)
+    ranges = gather(kernel, np.diff(meshes.starts) + 1)
     rows = np.concatenate([r for r, _ in ranges]) if ranges else np.zeros((0, 10))
-    counts = np.concatenate([k for _, k in ranges]) if ranges else np.zeros(n, np.int64)
+    counts = np.concatenate([k for _, k in ranges]) if ranges else np.zeros(scene.n_meshes, np.int64)
     offsets = np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
     return Piercings(rows[:, 0:3], rows[:, 3:6], rows[:, 6], rows[:, 7:9], rows[:, 9], offsets)
 
 
+class _Meshes(NamedTuple):
+    """Triangles, those of mesh ``i`` from ``starts[i]`` on, and the box that carries each mesh's grid."""
+
+    vertices: Floats
+    faces: Faces
+    starts: Ints
+    center: Floats
+    axes: Floats
+    extents: Floats
+
+
 @compiled
-def _corner(vertices: Floats, vertex: int, center: Floats, axes: Floats, extents: Floats, mesh: int, k: int) -> float:
+def _corner(meshes: _Meshes, vertex: int, mesh: int, k: int) -> float:
     """A coordinate of a vertex along a side of the box, 0 to 1 across it."""
-    x = vertices[vertex, 0] - center[mesh, 0]
-    y = vertices[vertex, 1] - center[mesh, 1]
-    z = vertices[vertex, 2] - center[mesh, 2]
-    place: float = (x * axes[mesh, k, 0] + y * axes[mesh, k, 1] + z * axes[mesh, k, 2]) / extents[mesh, k] + 0.5
+    x = meshes.vertices[vertex, 0] - meshes.center[mesh, 0]
+    y = meshes.vertices[vertex, 1] - meshes.center[mesh, 1]
+    z = meshes.vertices[vertex, 2] - meshes.center[mesh, 2]
+    along = x * meshes.axes[mesh, k, 0] + y * meshes.axes[mesh, k, 1] + z * meshes.axes[mesh, k, 2]
+    place: float = along / meshes.extents[mesh, k] + 0.5
     return place
 
 
 @compiled
-def _cross(
-    vertices: Floats,
-    faces: Faces,
-    face: int,
-    mesh: int,
-    center: Floats,
-    axes: Floats,
-    extents: Floats,
-    lines: int,
-    k: int,
-    found: Floats,
-    at: int,
-    least: int,
-    most: int,
-) -> int:
-    """Writes the points of one triangle on the lines ``least`` to ``most`` along side ``k``; their number.
+def _cross(meshes: _Meshes, face: int, mesh: int, lines: int, k: int, found: Floats, at: int) -> int:
+    """Writes the points of one triangle on the lines along side ``k``; their number.
 
-    ``found`` gets line and place along it; with no room at all, the points are only counted.
+    ``found`` gets the place along the line, and triangle and line in one number; with no room at all, the points are
+    only counted.
     """
     i, j = (k + 1) % 3, (k + 2) % 3
-    a, b, c = faces[face, 0], faces[face, 1], faces[face, 2]
-    x0 = _corner(vertices, a, center, axes, extents, mesh, i)
-    y0 = _corner(vertices, a, center, axes, extents, mesh, j)
-    x1 = _corner(vertices, b, center, axes, extents, mesh, i)
-    y1 = _corner(vertices, b, center, axes, extents, mesh, j)
-    x2 = _corner(vertices, c, center, axes, extents, mesh, i)
-    y2 = _corner(vertices, c, center, axes, extents, mesh, j)
+    a, b, c = meshes.faces[face, 0], meshes.faces[face, 1], meshes.faces[face, 2]
+    x0, y0 = _corner(meshes, a, mesh, i), _corner(meshes, a, mesh, j)
+    x1, y1 = _corner(meshes, b, mesh, i), _corner(meshes, b, mesh, j)
+    x2, y2 = _corner(meshes, c, mesh, i), _corner(meshes, c, mesh, j)
     double = (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)
     # Written so that what is not finite is left out.
     if not (abs(double) > 1e-13 and abs(double) < 1e13):
         return 0
-    z0 = _corner(vertices, a, center, axes, extents, mesh, k)
-    z1 = _corner(vertices, b, center, axes, extents, mesh, k)
-    z2 = _corner(vertices, c, center, axes, extents, mesh, k)
+    z0, z1, z2 = _corner(meshes, a, mesh, k), _corner(meshes, b, mesh, k), _corner(meshes, c, mesh, k)
     low_x, high_x = min(x0, min(x1, x2)), max(x0, max(x1, x2))
     low_y, high_y = min(y0, min(y1, y2)), max(y0, max(y1, y2))
     first_x, last_x = max(0, int(low_x * lines - 0.5)), min(lines - 1, int(high_x * lines - 0.5 + 1e-6))
@@ -141,7 +137,7 @@ def _cross(
             v = ((x1 - x0) * (y - y0) - (x - x0) * (y1 - y0)) / double
             if u < -1e-9 or v < -1e-9 or u + v > 1 + 1e-9:
                 continue
-            if most > 0:
+            if len(found) > 0:
                 found[at + count, 0] = z0 + u * (z1 - z0) + v * (z2 - z0)
                 found[at + count, 1] = float(face) * (lines * lines) + float(p * lines + q)
             count += 1
@@ -149,120 +145,68 @@ def _cross(
 
 
 @compiled
-def _count(
-    first: int,
-    last: int,
-    vertices: Floats,
-    faces: Faces,
-    starts: Ints,
-    center: Floats,
-    axes: Floats,
-    extents: Floats,
-    lines: int,
-    room: Ints,
-) -> None:
+def _count(first: int, last: int, meshes: _Meshes, lines: int, room: Ints) -> None:
     """How many points each mesh has, doubled ones included."""
-    nothing = np.empty((1, 2))
+    nothing = np.empty((0, 2))
     for mesh in range(first, last):
-        if not extents[mesh, 0] > 0:
-            continue
-        for face in range(starts[mesh], starts[mesh + 1]):
-            for k in range(3):
-                room[mesh - first] += _cross(
-                    vertices, faces, face, mesh, center, axes, extents, lines, k, nothing, 0, 0, 0
-                )
+        if meshes.extents[mesh, 0] > 0:
+            for face in range(meshes.starts[mesh], meshes.starts[mesh + 1]):
+                for k in range(3):
+                    room[mesh - first] += _cross(meshes, face, mesh, lines, k, nothing, 0)
 
 
 @compiled
 def _fill(
-    first: int,
-    last: int,
-    vertices: Floats,
-    faces: Faces,
-    starts: Ints,
-    center: Floats,
-    axes: Floats,
-    extents: Floats,
-    lines: int,
-    found: Floats,
-    spare: Floats,
-    rows: Floats,
-    kept: Ints,
+    first: int, last: int, meshes: _Meshes, lines: int, found: Floats, spare: Floats, rows: Floats, kept: Ints
 ) -> None:
     """Writes the points of each mesh, ordered by line and along it, doubled ones once."""
     at = 0
-    cells = lines * lines
-    heads = np.zeros(cells + 1, np.int64)
+    heads = np.zeros(lines * lines + 1, np.int64)
     for mesh in range(first, last):
-        if not extents[mesh, 0] > 0:
+        if not meshes.extents[mesh, 0] > 0:
             continue
         begin = at
-        diagonal = np.sqrt(extents[mesh, 0] ** 2 + extents[mesh, 1] ** 2 + extents[mesh, 2] ** 2)
         for k in range(3):
-            i, j = (k + 1) % 3, (k + 2) % 3
             n = 0
-            for face in range(starts[mesh], starts[mesh + 1]):
-                n += _cross(vertices, faces, face, mesh, center, axes, extents, lines, k, found, n, 0, 1)
-            # By line: a counting sort into the spare rows; then along each line.
-            for c in range(cells + 1):
-                heads[c] = 0
-            for r in range(n):
-                heads[int(found[r, 1] % cells) + 1] += 1
-            for c in range(cells):
-                heads[c + 1] += heads[c]
-            for r in range(n):
-                c = int(found[r, 1] % cells)
-                spare[heads[c], 0], spare[heads[c], 1] = found[r, 0], found[r, 1]
-                heads[c] += 1
-            cell = extents[mesh, i] * extents[mesh, j] / cells
+            for face in range(meshes.starts[mesh], meshes.starts[mesh + 1]):
+                n += _cross(meshes, face, mesh, lines, k, found, n)
+            _by_line(found, n, heads, spare)
             low = 0
-            for c in range(cells):
-                high = heads[c]
+            for line in range(lines * lines):
+                high = heads[line]
                 if high > low:
                     sort_rows(spare, low, high, found)
-                    at = _write_line(
-                        low,
-                        high,
-                        spare,
-                        cells,
-                        k,
-                        mesh,
-                        vertices,
-                        faces,
-                        center,
-                        axes,
-                        extents,
-                        lines,
-                        cell,
-                        diagonal,
-                        rows,
-                        at,
-                    )
+                    at = _write_line(meshes, mesh, lines, k, spare, low, high, rows, at)
                 low = high
         kept[mesh - first] = at - begin
 
 
 @compiled
+def _by_line(found: Floats, n: int, heads: Ints, spare: Floats) -> None:
+    """Copies ``n`` points line by line, those of line ``i`` up to the row ``heads[i]``: a counting sort."""
+    cells = len(heads) - 1
+    for c in range(cells + 1):
+        heads[c] = 0
+    for r in range(n):
+        heads[int(found[r, 1] % cells) + 1] += 1
+    for c in range(cells):
+        heads[c + 1] += heads[c]
+    for r in range(n):
+        c = int(found[r, 1] % cells)
+        spare[heads[c], 0], spare[heads[c], 1] = found[r, 0], found[r, 1]
+        heads[c] += 1
+
+
+@compiled
 def _write_line(
-    low: int,
-    high: int,
-    spare: Floats,
-    cells: int,
-    k: int,
-    mesh: int,
-    vertices: Floats,
-    faces: Faces,
-    center: Floats,
-    axes: Floats,
-    extents: Floats,
-    lines: int,
-    cell: float,
-    diagonal: float,
-    rows: Floats,
-    at: int,
+    meshes: _Meshes, mesh: int, lines: int, k: int, spare: Floats, low: int, high: int, rows: Floats, at: int
 ) -> int:
     """Writes the points of one line; the next free row."""
     i, j = (k + 1) % 3, (k + 2) % 3
+    vertices, faces, axes, extents = meshes.vertices, meshes.faces, meshes.axes, meshes.extents
+    cells = lines * lines
+    cell = extents[mesh, i] * extents[mesh, j] / cells
+    diagonal = np.sqrt(extents[mesh, 0] ** 2 + extents[mesh, 1] ** 2 + extents[mesh, 2] ** 2)
     begin = at
     for r in range(low, high):
         place = spare[r, 0]
@@ -291,7 +235,7 @@ def _write_line(
             place = rows[at, 7]
         for d in range(3):
             rows[at, d] = (
-                center[mesh, d]
+                meshes.center[mesh, d]
                 + x * extents[mesh, i] * axes[mesh, i, d]
                 + y * extents[mesh, j] * axes[mesh, j, d]
                 + (place - 0.5) * extents[mesh, k] * axes[mesh, k, d]

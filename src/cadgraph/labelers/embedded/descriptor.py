@@ -82,16 +82,15 @@ def describe_shapes(scene: Scene, properties: Properties, facts: Sequence[Facts]
     few = pierce(scene, properties, _FEW_LINES)
     if not n:
         return Descriptors(np.zeros((0, len(SIZES))), np.zeros((0, len(FORMS))), few)
-    frames = _frames(facts)
+    frames, pairs = _frames(facts), sum_pairs(few, properties)
     blocks = []
     for start in range(0, n, _CHUNK):
         rows = np.arange(start, min(start + _CHUNK, n))
         some = properties.select(rows)
         points = pierce(scene.select(rows), some, _LINES)
-        blocks.append(_describe(points, Frames(*(getattr(frames, k)[rows] for k in Frames.__annotations__)), some,
-                                [facts[i] for i in rows.tolist()]))  # fmt: skip
+        about = Frames(*(values[rows] for values in frames))
+        blocks.append(_describe(points, about, some, pairs[rows], [facts[i] for i in rows.tolist()]))
     sizes, forms = np.concatenate([b[0] for b in blocks]), np.concatenate([b[1] for b in blocks])
-    forms = _with_pairs(forms, sum_pairs(few, properties) * FINE)
     forms = np.clip(np.nan_to_num(np.hstack([forms, edge_features(scene, properties)]), posinf=10, neginf=-10), -10, 10)
     return Descriptors(sizes, forms, few)
 
@@ -108,7 +107,9 @@ def _frames(facts: Sequence[Facts]) -> Frames:
     )
 
 
-def _describe(points: Piercings, frames: Frames, properties: Properties, facts: list[Facts]) -> tuple[Floats, Floats]:
+def _describe(
+    points: Piercings, frames: Frames, properties: Properties, pairs: Floats, facts: list[Facts]
+) -> tuple[Floats, Floats]:
     sums = sum_points(points, frames, properties)
     extents = np.maximum(properties.obb_extents, _LEAST / 10)
     diagonal = np.linalg.norm(properties.obb_extents, axis=1)
@@ -123,7 +124,7 @@ def _describe(points: Piercings, frames: Frames, properties: Properties, facts: 
         np.minimum(_ordered(sums.both, turn).reshape(n, -1) * ROUGH * ROUGH, 10),
         _ordered(sums.outer, turn), _ordered(sums.inner, turn),
         sums.axial * FINE, sums.around * ROUGH, sums.harmonics.reshape(n, -1),
-        np.zeros((n, FINE)), _sorted(sums.flat[:, 0]), _sorted(sums.flat[:, 1]),
+        pairs * FINE, _sorted(sums.flat[:, 0]), _sorted(sums.flat[:, 1]),
         _ordered(sums.long, turned_box) * BINS, _ordered(sums.wide, turned_box),
         sums.gaps[:, 0] * GAPS, sums.gaps[:, 1] * GAPS, sums.rim[:, None],
         _facts(facts),
@@ -201,12 +202,6 @@ def _shares(axis: Floats, box: Floats, extents: Floats) -> Floats:
     return even_sides(squares, extents)
 
 
-def _with_pairs(forms: Floats, pairs: Floats) -> Floats:
-    start = FORMS.index("pairs 0")
-    forms[:, start : start + FINE] = pairs
-    return forms
-
-
 def _widest_pair(wide: list[Disc]) -> tuple[Disc | None, Disc | None]:
     """The two widest ports; of several that are as wide, those that look away from each other most, and farthest apart.
 
@@ -246,7 +241,7 @@ def _facts(facts: Sequence[Facts]) -> Floats:
             # Corners of a nut or a bar are few and meant; those of a circle are as many as somebody liked.
             float(f.sides == 4), float(f.sides in (5, 6)), float(f.sides in (7, 8)), float(f.sides > 8),
             widest / max(f.radius, 1e-9), (wide[1].outer / widest) if len(wide) > 1 else 0.0,
-            (wide[2].outer / widest) if len(wide) > 2 else 0.0, between, np.log1p(apart / width), *bores[:2],
+            (wide[2].outer / widest) if len(wide) > 2 else 0.0, between, np.log1p(apart / width), *bores,
             sum(1 for p in f.ports if p.outer > 0.7 * widest) / 3,
             float(sum(abs(p.normal @ f.axis) > 0.95 for p in f.ports)) / 3,
             np.log(max(f.length, 1e-5) / max(f.radius, 1e-5)),

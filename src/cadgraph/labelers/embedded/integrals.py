@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 
@@ -41,8 +40,7 @@ _OFF = 0.05  # of the radius: so that a point on the axis is not all that counts
 _STEEP = 0.6  # cosine between line and normal from which a way counts
 
 
-@dataclass(frozen=True)
-class Frames:
+class Frames(NamedTuple):
     """The main axis of each shape.
 
     Args:
@@ -60,8 +58,7 @@ class Frames:
     radius: Floats
 
 
-@dataclass(frozen=True)
-class Sums:
+class Sums(NamedTuple):
     """Of each shape, as shares of its area where nothing else is said; one row each.
 
     Args:
@@ -116,20 +113,40 @@ def sum_points(points: Piercings, frames: Frames, properties: Properties) -> Sum
         np.zeros(n), np.zeros((n, 2, GAPS + 1)), np.zeros((n, WALLS)), np.zeros((n, 2, 3)), np.zeros((n, BINS)),
         np.zeros((n, BINS)), np.zeros((n, 4)),
     )  # fmt: skip
-    given: Any = tuple(readable(values, np.float64) for values in (
-        points.points, points.normals, points.weights, points.gaps, points.slant, frames.center, frames.axis,
-        frames.low, frames.length, frames.radius, properties.obb_center, properties.obb_axes, properties.obb_extents,
-    ))  # fmt: skip
-    offsets = readable(points.offsets, np.int64)
-    add: Any = _sum
+    seen = _points(points)
+    about = Frames(*(readable(values, np.float64) for values in frames))
+    boxes = _Boxes(*(readable(values, np.float64) for values in (
+        properties.obb_center, properties.obb_axes, properties.obb_extents)))  # fmt: skip
 
     def kernel(first: int, last: int) -> None:
-        add(first, last, offsets, *given, _ORDERS, sums.along, sums.radial, sums.both, sums.outer, sums.inner,
-             sums.axial, sums.around, sums.harmonics, sums.rim, sums.gaps, sums.walls, sums.flat, sums.long,
-             sums.wide, sums.moments)  # fmt: skip
+        _sum(first, last, seen, about, boxes, _ORDERS, sums)
 
     for_ranges(kernel, np.diff(points.offsets) + 1)
     return sums
+
+
+class _Points(NamedTuple):
+    """``Piercings`` as kernels take them."""
+
+    offsets: Ints
+    points: Floats
+    normals: Floats
+    weights: Floats
+    gaps: Floats
+    slant: Floats
+
+
+class _Boxes(NamedTuple):
+    """Oriented boxes as kernels take them."""
+
+    center: Floats
+    axes: Floats
+    extents: Floats
+
+
+def _points(points: Piercings) -> _Points:
+    given = (points.points, points.normals, points.weights, points.gaps, points.slant)
+    return _Points(readable(points.offsets, np.int64), *(readable(values, np.float64) for values in given))
 
 
 def wall_of(walls: Floats) -> Floats:
@@ -173,81 +190,35 @@ def _way(gap: float, diagonal: float) -> float:
 
 
 @compiled
-def _settle(
-    m: int,
-    zones: Floats,
-    steep: float,
-    real: Floats,
-    imaginary: Floats,
-    along: Floats,
-    outer: Floats,
-    inner: Floats,
-    harmonics: Floats,
-    gaps: Floats,
-    long: Floats,
-    wide: Floats,
-) -> None:
+def _settle(m: int, zones: Floats, steep: float, real: Floats, imaginary: Floats, sums: Sums) -> None:
     """Makes strengths, power means and shares of what was added up."""
     for z in range(3):
         # A zone of hardly any area has no symmetry to speak of.
-        for o in range(harmonics.shape[2]):
+        for o in range(sums.harmonics.shape[2]):
             strength = np.sqrt(real[z, o] ** 2 + imaginary[z, o] ** 2) / max(zones[z], 1e-12)
-            harmonics[m, z, o] = strength * min(1.0, zones[z] / 0.03)
+            sums.harmonics[m, z, o] = strength * min(1.0, zones[z] / 0.03)
     for k in range(BINS):
-        outer[m, k] = (outer[m, k] / max(along[m, k], 1e-9)) ** 0.125
-        wide[m, k] = (wide[m, k] / max(long[m, k], 1e-9)) ** 0.125
-        if along[m, k] > 1e-9:
-            inner[m, k] = max((inner[m, k] / along[m, k]) ** -0.125 - _OFF, 0.0)
+        sums.outer[m, k] = (sums.outer[m, k] / max(sums.along[m, k], 1e-9)) ** 0.125
+        sums.wide[m, k] = (sums.wide[m, k] / max(sums.long[m, k], 1e-9)) ** 0.125
+        if sums.along[m, k] > 1e-9:
+            sums.inner[m, k] = max((sums.inner[m, k] / sums.along[m, k]) ** -0.125 - _OFF, 0.0)
     if steep > 0:
         for k in range(GAPS + 1):
-            gaps[m, 0, k] /= steep
-            gaps[m, 1, k] /= steep
+            sums.gaps[m, 0, k] /= steep
+            sums.gaps[m, 1, k] /= steep
 
 
 @compiled
-def _sum(
-    first: int,
-    last: int,
-    offsets: Ints,
-    points: Floats,
-    normals: Floats,
-    weights: Floats,
-    ways: Floats,
-    slants: Floats,
-    center: Floats,
-    axes: Floats,
-    low: Floats,
-    length: Floats,
-    radius: Floats,
-    middle: Floats,
-    sides: Floats,
-    extents: Floats,
-    orders: Ints,
-    along: Floats,
-    radial: Floats,
-    both: Floats,
-    outer: Floats,
-    inner: Floats,
-    axial: Floats,
-    around: Floats,
-    harmonics: Floats,
-    rim: Floats,
-    gaps: Floats,
-    walls: Floats,
-    flat: Floats,
-    long: Floats,
-    wide: Floats,
-    moments: Floats,
-) -> None:
+def _sum(first: int, last: int, seen: _Points, frames: Frames, boxes: _Boxes, orders: Ints, sums: Sums) -> None:
     n_orders = len(orders)
     real, imaginary = np.zeros((3, n_orders)), np.zeros((3, n_orders))
     for m in range(first, last):
         whole = 0.0
-        for p in range(offsets[m], offsets[m + 1]):
-            whole += weights[p]
+        for p in range(seen.offsets[m], seen.offsets[m + 1]):
+            whole += seen.weights[p]
         if not whole > 0:
             continue
-        ax, ay, az = axes[m, 0], axes[m, 1], axes[m, 2]
+        ax, ay, az = frames.axis[m, 0], frames.axis[m, 1], frames.axis[m, 2]
         # Any direction across the axis: orders of symmetry don't depend on where the angle starts.
         if abs(ax) <= abs(ay) and abs(ax) <= abs(az):
             ux, uy, uz = 0.0, -az, ay
@@ -258,38 +229,39 @@ def _sum(
         size = np.sqrt(ux * ux + uy * uy + uz * uz)
         ux, uy, uz = ux / size, uy / size, uz / size
         vx, vy, vz = ay * uz - az * uy, az * ux - ax * uz, ax * uy - ay * ux
-        diagonal = np.sqrt(extents[m, 0] ** 2 + extents[m, 1] ** 2 + extents[m, 2] ** 2)
-        end = max(np.sqrt(extents[m, 1] ** 2 + extents[m, 2] ** 2) / 2, 1e-9)
+        diagonal = np.sqrt(boxes.extents[m, 0] ** 2 + boxes.extents[m, 1] ** 2 + boxes.extents[m, 2] ** 2)
+        end = max(np.sqrt(boxes.extents[m, 1] ** 2 + boxes.extents[m, 2] ** 2) / 2, 1e-9)
         zones = np.zeros(3)
         for z in range(3):
             for k in range(n_orders):
                 real[z, k], imaginary[z, k] = 0.0, 0.0
         steep = 0.0
-        for p in range(offsets[m], offsets[m + 1]):
-            w = weights[p] / whole
-            dx, dy, dz = points[p, 0] - center[m, 0], points[p, 1] - center[m, 1], points[p, 2] - center[m, 2]
+        for p in range(seen.offsets[m], seen.offsets[m + 1]):
+            w = seen.weights[p] / whole
+            px, py, pz = seen.points[p, 0], seen.points[p, 1], seen.points[p, 2]
+            dx, dy, dz = px - frames.center[m, 0], py - frames.center[m, 1], pz - frames.center[m, 2]
             height = dx * ax + dy * ay + dz * az
             x, y = dx * ux + dy * uy + dz * uz, dx * vx + dy * vy + dz * vz
             out = np.sqrt(x * x + y * y)
-            t = min(max((height - low[m]) / length[m], 0.0), 1.0)
-            r = out / radius[m]
-            _put(along[m], t, BINS, w)
-            _put(radial[m], r, BINS, w)
+            t = min(max((height - frames.low[m]) / frames.length[m], 0.0), 1.0)
+            r = out / frames.radius[m]
+            _put(sums.along[m], t, BINS, w)
+            _put(sums.radial[m], r, BINS, w)
             tp, rp = min(max(t * ROUGH - 0.5, 0.0), ROUGH - 1.0), min(max(r * ROUGH - 0.5, 0.0), ROUGH - 1.0)
             ti, ri = min(int(tp), ROUGH - 2), min(int(rp), ROUGH - 2)
             ts, rs = tp - ti, rp - ri
-            both[m, ti, ri] += w * (1 - ts) * (1 - rs)
-            both[m, ti + 1, ri] += w * ts * (1 - rs)
-            both[m, ti, ri + 1] += w * (1 - ts) * rs
-            both[m, ti + 1, ri + 1] += w * ts * rs
-            _put(outer[m], t, BINS, w * r**8)
-            _put(inner[m], t, BINS, w * (r + _OFF) ** -8)
-            nx, ny, nz = normals[p, 0], normals[p, 1], normals[p, 2]
-            _put(axial[m], abs(nx * ax + ny * ay + nz * az), FINE, w)
-            if out > 1e-9 * radius[m]:
+            sums.both[m, ti, ri] += w * (1 - ts) * (1 - rs)
+            sums.both[m, ti + 1, ri] += w * ts * (1 - rs)
+            sums.both[m, ti, ri + 1] += w * (1 - ts) * rs
+            sums.both[m, ti + 1, ri + 1] += w * ts * rs
+            _put(sums.outer[m], t, BINS, w * r**8)
+            _put(sums.inner[m], t, BINS, w * (r + _OFF) ** -8)
+            nx, ny, nz = seen.normals[p, 0], seen.normals[p, 1], seen.normals[p, 2]
+            _put(sums.axial[m], abs(nx * ax + ny * ay + nz * az), FINE, w)
+            if out > 1e-9 * frames.radius[m]:
                 c, s = x / out, y / out
                 nu, nv = nx * ux + ny * uy + nz * uz, nx * vx + ny * vy + nz * vz
-                _put(around[m], abs(nv * c - nu * s), ROUGH, w)
+                _put(sums.around[m], abs(nv * c - nu * s), ROUGH, w)
                 share0 = w * _ramp(r, 0.0, 0.04)
                 share1 = w * _ramp(r, 0.68, 0.76)
                 share2 = w * _ramp(r, 0.32, 0.40) * (1 - _ramp(r, 0.64, 0.72))
@@ -308,35 +280,35 @@ def _sum(
                     imaginary[1, o] += share1 * sk
                     real[2, o] += share2 * ck
                     imaginary[2, o] += share2 * sk
-            if slants[p] > _STEEP:
-                v = w * _ramp(slants[p], _STEEP, 0.9)
+            if seen.slant[p] > _STEEP:
+                v = w * _ramp(seen.slant[p], _STEEP, 0.9)
                 steep += v
-                if ways[p, 0] < np.inf:
-                    place = _way(ways[p, 0], diagonal)
-                    _put(gaps[m, 0], place * GAPS / (GAPS + 1.0), GAPS + 1, v)
-                    _put(walls[m], place, WALLS, v)
+                if seen.gaps[p, 0] < np.inf:
+                    place = _way(seen.gaps[p, 0], diagonal)
+                    _put(sums.gaps[m, 0], place * GAPS / (GAPS + 1.0), GAPS + 1, v)
+                    _put(sums.walls[m], place, WALLS, v)
                 else:
-                    gaps[m, 0, GAPS] += v
-                if ways[p, 1] < np.inf:
-                    _put(gaps[m, 1], _way(ways[p, 1], diagonal) * GAPS / (GAPS + 1.0), GAPS + 1, v)
+                    sums.gaps[m, 0, GAPS] += v
+                if seen.gaps[p, 1] < np.inf:
+                    _put(sums.gaps[m, 1], _way(seen.gaps[p, 1], diagonal) * GAPS / (GAPS + 1.0), GAPS + 1, v)
                 else:
-                    gaps[m, 1, GAPS] += v
-            bx, by, bz = points[p, 0] - middle[m, 0], points[p, 1] - middle[m, 1], points[p, 2] - middle[m, 2]
+                    sums.gaps[m, 1, GAPS] += v
+            bx, by, bz = px - boxes.center[m, 0], py - boxes.center[m, 1], pz - boxes.center[m, 2]
             for d in range(3):
-                cosine = abs(nx * sides[m, d, 0] + ny * sides[m, d, 1] + nz * sides[m, d, 2])
-                flat[m, 0, d] += w * _ramp(cosine, 0.9975, 0.9985)
-                flat[m, 1, d] += w * _ramp(cosine, 0.86, 0.94)
-            ahead = bx * sides[m, 0, 0] + by * sides[m, 0, 1] + bz * sides[m, 0, 2]
-            q = min(max(ahead / max(extents[m, 0], 1e-9) + 0.5, 0.0), 1.0)
-            _put(long[m], q, BINS, w)
+                cosine = abs(nx * boxes.axes[m, d, 0] + ny * boxes.axes[m, d, 1] + nz * boxes.axes[m, d, 2])
+                sums.flat[m, 0, d] += w * _ramp(cosine, 0.9975, 0.9985)
+                sums.flat[m, 1, d] += w * _ramp(cosine, 0.86, 0.94)
+            ahead = bx * boxes.axes[m, 0, 0] + by * boxes.axes[m, 0, 1] + bz * boxes.axes[m, 0, 2]
+            q = min(max(ahead / max(boxes.extents[m, 0], 1e-9) + 0.5, 0.0), 1.0)
+            _put(sums.long[m], q, BINS, w)
             aside = np.sqrt(max(bx * bx + by * by + bz * bz - ahead * ahead, 0.0)) / end
-            _put(wide[m], q, BINS, w * aside**8)
-            moments[m, 0] += w * t
-            moments[m, 1] += w * q
-            moments[m, 2] += w * (t - 0.5) * r
-            moments[m, 3] += w * (q - 0.5) * aside
-        rim[m] = zones[1]
-        _settle(m, zones, steep, real, imaginary, along, outer, inner, harmonics, gaps, long, wide)
+            _put(sums.wide[m], q, BINS, w * aside**8)
+            sums.moments[m, 0] += w * t
+            sums.moments[m, 1] += w * q
+            sums.moments[m, 2] += w * (t - 0.5) * r
+            sums.moments[m, 3] += w * (q - 0.5) * aside
+        sums.rim[m] = zones[1]
+        _settle(m, zones, steep, real, imaginary, sums)
 
 
 def sum_pairs(points: Piercings, properties: Properties) -> Floats:
@@ -350,24 +322,21 @@ def sum_pairs(points: Piercings, properties: Properties) -> Floats:
         ``(n_shapes, FINE)`` shares.
     """
     found = np.zeros((len(points.offsets) - 1, FINE))
-    given: Any = tuple(readable(values, np.float64) for values in (
-        points.points, points.weights, np.maximum(np.linalg.norm(properties.obb_extents, axis=1), 1e-12)))  # fmt: skip
-    offsets = readable(points.offsets, np.int64)
-    add: Any = _pairs
+    seen = _points(points)
+    diagonal = readable(np.maximum(np.linalg.norm(properties.obb_extents, axis=1), 1e-12), np.float64)
 
     def kernel(first: int, last: int) -> None:
-        add(first, last, offsets, *given, found)
+        _pairs(first, last, seen, diagonal, found)
 
     for_ranges(kernel, np.minimum(np.diff(points.offsets), _MOST) ** 2 + 1)
     return found
 
 
 @compiled
-def _pairs(
-    first: int, last: int, offsets: Ints, points: Floats, weights: Floats, diagonal: Floats, found: Floats
-) -> None:
+def _pairs(first: int, last: int, seen: _Points, diagonal: Floats, found: Floats) -> None:
+    points, weights = seen.points, seen.weights
     for m in range(first, last):
-        low, high = offsets[m], offsets[m + 1]
+        low, high = seen.offsets[m], seen.offsets[m + 1]
         step = 1 + (high - low) // _MOST
         whole = 0.0
         for p in range(low, high, step):

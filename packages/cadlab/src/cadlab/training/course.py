@@ -160,11 +160,11 @@ def run_course(
     outs = [*folds, *[Fold()] * course.members]
     job = _Job(tuple(samples), folder, tuple(classes), course.recipe, 0, Fold(), tuple(parts))
     jobs = [replace(job, seed=seed, out=out) for seed, out in enumerate(outs)]
-    lacking = ABLATIONS if course.ablations else {}
-    jobs += [replace(jobs[0], recipe=replace(course.recipe, **change)) for change in lacking.values()]
-    if lacking:
-        jobs += [replace(jobs[0], parts=())]
-    networks = _train(jobs, workers, told)
+    lacking = {name: replace(jobs[0], recipe=replace(course.recipe, **change)) for name, change in ABLATIONS.items()}
+    lacking["without single real parts"] = replace(jobs[0], parts=())
+    if not course.ablations:
+        lacking = {}
+    networks = _train([*jobs, *lacking.values()], workers, told)
     members, others = networks[len(folds) : len(outs)], networks[len(outs) :]
     trials = [_Trial(network, fold, tried, parts) for network, fold in zip(networks, folds, strict=False)]
 
@@ -173,23 +173,10 @@ def run_course(
 
     best = temperature(lambda value: joined(asked(value, "families"), asked(value, "makers")))
     systems, families, makers = (asked(best, which) for which in ("systems", "families", "makers"))
-    new = joined(families, makers)
-    least = least_confidence(families, PRECISION, by_group=True)
-    alone = max(
-        least,
-        least_confidence(makers.where(~makers.strange), ALONE, by_group=True),
-        float(np.quantile(makers.sureness[makers.strange], _OPEN)) if makers.strange.any() else 0.0,
-    )
-    sure = max(least, least_confidence(new, SURE, by_group=True))
-    names = (*lacking, *(["without single real parts"] if lacking else []))
-    ablations = {
-        name: (trial.systems(classes, best), trial.makers(classes, best))
-        for name, trial in zip(
-            ("as it is", *names),
-            (trials[0], *(replace(trials[0], network=network) for network in others)),
-            strict=False,
-        )
-    }
+    least, alone, sure = _thresholds(families, makers)
+    without = [(name, replace(trials[0], network=network)) for name, network in zip(lacking, others, strict=True)]
+    compared = [("as it is", trials[0]), *without] if lacking else []
+    ablations = {name: (trial.systems(classes, best), trial.makers(classes, best)) for name, trial in compared}
     card = {
         "plants": course.plants, "plants in drawn styles": course.drawn, "scenes of others": course.others,
         "systems": list(SYSTEMS), "tried from": TRIED_FROM,
@@ -205,6 +192,22 @@ def run_course(
     model = replace(model, card=card | {"fixed trial": [_fixed_trial(model, *trial) for trial in FIXED]})
     real = {plant.name: answer(model, [plant.example]) for plant in plants}
     return Trials(model, systems, families, makers, ablations, real, tried)
+
+
+def _thresholds(families: Answers, makers: Answers) -> tuple[float, float, float]:
+    """From where on a label is given, also to a part that touches nothing, and from where on it is sure.
+
+    Args:
+        families: answers about held-out families in held-out systems.
+        makers: about single real parts of held-out makers.
+    """
+    least = least_confidence(families, PRECISION, by_group=True)
+    alone = max(
+        least,
+        least_confidence(makers.where(~makers.strange), ALONE, by_group=True),
+        float(np.quantile(makers.sureness[makers.strange], _OPEN)) if makers.strange.any() else 0.0,
+    )
+    return least, alone, max(least, least_confidence(joined(families, makers), SURE, by_group=True))
 
 
 def _fixed_trial(model: Model, preset: str, seed: int, style: str) -> dict[str, Any]:

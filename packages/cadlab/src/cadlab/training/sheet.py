@@ -13,6 +13,7 @@ from cadgraph._io.atomic import write_atomically
 from cadgraph.draw.render.camera import frame
 from cadgraph.draw.render.color import from_hex
 from cadgraph.draw.render.picture import Look, Paint, Renderer
+from cadgraph.model.scene import Floats
 from cadlab.training.figure import Answers
 from cadlab.training.real import RealPlant
 
@@ -21,6 +22,7 @@ __all__ = ["draw_mistakes"]
 _CELL, _CAPTION, _COLUMNS, _ROWS = (300, 220), 50, 5, 4  # px
 _MOST = 6  # of one plant
 _WRONG, _REST = "#e2211c", "#c3cbd5"
+_LARGE = 12  # of what is shown around a part: larger meshes are left out
 _AROUND = 1.2  # of the part's size: what is shown on each side of it
 
 
@@ -66,17 +68,20 @@ def _picture(renderer: Renderer, part: int) -> Image.Image:
     room = _AROUND * float(np.linalg.norm(high - low))
     colors = np.tile(from_hex(_REST), (scene.n_meshes, 1)).astype(np.float32)
     colors[part] = from_hex(_WRONG)
-    near = np.array([
-        bool(len(p) and (p.max(axis=0) > low - room).all() and (p.min(axis=0) < high + room).all()
-             and np.linalg.norm(p.max(axis=0) - p.min(axis=0)) < 12 * room)
-        for p in (renderer.points([k]) for k in range(scene.n_meshes))
-    ])  # fmt: skip
-    hidden = ~near
-    hidden[part] = False
-    kept = np.flatnonzero(~hidden)
+    kept = np.array([k == part or _is_near(renderer.points([k]), low, high, room) for k in range(scene.n_meshes)])
+    kept = np.flatnonzero(kept)
     some = Renderer(scene.select(kept))
     ghosted = kept != part
     corners = np.array(np.meshgrid(*zip(low, high, strict=True))).reshape(3, -1).T
     middle = (low + high) / 2
     camera = frame(middle + (corners - middle) * 1.6, np.array([-0.6, -0.9, 0.55]), _CELL)
     return some.picture(camera, Paint(colors[kept], ghosted=ghosted), Look(samples=3, floor=False))
+
+
+def _is_near(points: Floats, low: Floats, high: Floats, room: float) -> bool:
+    """Whether a mesh comes close to a box, and is not so large that it hides it."""
+    if not len(points):
+        return False
+    least, most = points.min(axis=0), points.max(axis=0)
+    beside = (most > low - room).all() and (least < high + room).all()
+    return bool(beside and np.linalg.norm(most - least) < _LARGE * room)

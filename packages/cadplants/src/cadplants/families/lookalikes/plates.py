@@ -7,8 +7,8 @@ from functools import partial
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.families.chance import pick
-from cadplants.families.primitive.shape import FRAME, chance, disc, family, lying, num, part, vessel
+from cadplants.families.chance import chance, num, pick
+from cadplants.families.primitive.shape import FRAME, disc, family, lying, part, vessel
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle

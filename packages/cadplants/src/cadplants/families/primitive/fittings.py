@@ -8,15 +8,13 @@ from functools import partial
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.families.chance import pick
+from cadplants.families.chance import chance, num, pick
 from cadplants.families.primitive.shape import (
-    chance,
     cone,
     disc,
     dish,
     family,
     lying,
-    num,
     part,
     pipe_piece,
     sized,
@@ -30,9 +28,10 @@ from cadplants.primitives import ball, cylinder, torus
 from cadplants.standards import ELBOW_LONG_RADIUS, FLANGES, PIPES, REDUCER_LENGTH, TEE_CENTER_TO_END, smaller
 from cadplants.transforms import arc, at, spun
 
-__all__ = ["PRIMITIVE_FITTINGS", "snout_solid"]
+__all__ = ["PRIMITIVE_FITTINGS"]
 
 _PIPE = "Pipe assembly"
+_TAP_RADIUS = 0.03  # m: of a small pipe; outlets sink into it as far as their foot needs
 
 
 def _one(name: str, length: float, *solids: Solid, joint: str = "welded", color: str = "pipe") -> Model:
@@ -166,10 +165,10 @@ def _bellows(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     return _one("expansion joint", length, core, *(lying(one) for one in rings), joint="flanged")
 
 
-def snout_solid(radius: float, style: ModelingStyle, rng: np.random.Generator) -> tuple[Solid, float]:
+def _snout(style: ModelingStyle, rng: np.random.Generator) -> tuple[Solid, float]:
     """A branch outlet on z = 0, sunk a little, and its height [m]: a cone, a cylinder or one with a flared foot."""
-    foot = min(num(rng, 0.010, 0.03), 0.85 * radius)
-    high, sunk, kind = num(rng, 0.015, 0.06), 0.6 * foot**2 / radius + 0.0005, int(rng.integers(3))
+    foot = min(num(rng, 0.010, 0.03), 0.85 * _TAP_RADIUS)
+    high, sunk, kind = num(rng, 0.015, 0.06), 0.6 * foot**2 / _TAP_RADIUS + 0.0005, int(rng.integers(3))
     top = foot * num(rng, 0.5, 0.9)
     if kind == 0:
         return cone(foot, top, -sunk, high, style), high
@@ -181,7 +180,7 @@ def snout_solid(radius: float, style: ModelingStyle, rng: np.random.Generator) -
 
 def _outlet(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A snout on an outlet, with a plug, a piece of pipe or a blank disc on it."""
-    solid, high = snout_solid(0.03, style, rng)
+    solid, high = _snout(style, rng)
     top = float(np.hypot(*solid.vertices[solid.vertices[:, 2] > high - 1e-9][:, :2].T).max())
     parts = [part("branch outlet", solid, color="pipe", bundle="branch outlet")]
     kind = int(rng.integers(4))

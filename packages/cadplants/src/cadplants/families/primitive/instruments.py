@@ -7,8 +7,8 @@ from functools import partial
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.families.chance import pick
-from cadplants.families.primitive.shape import chance, disc, family, lying, num, part, sized, torus_piece
+from cadplants.families.chance import chance, num, pick
+from cadplants.families.primitive.shape import disc, family, lying, part, sized, torus_piece
 from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import merge, moved
 from cadplants.modeling_style import ModelingStyle

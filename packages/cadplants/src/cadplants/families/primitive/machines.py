@@ -7,16 +7,14 @@ from functools import partial
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.families.chance import pick
+from cadplants.families.chance import chance, num, pick
 from cadplants.families.primitive.shape import (
     FRAME,
-    chance,
     cone,
     disc,
     dish,
     family,
     lying,
-    num,
     part,
     pipe_piece,
     sized,

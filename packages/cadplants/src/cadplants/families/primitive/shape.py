@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.families.chance import pick
+from cadplants.families.chance import chance, pick
 from cadplants.family import Build, Family, Part
 from cadplants.mesh_ops import Solid, about_x, merge, moved, revolve, tube, weld
 from cadplants.modeling_style import ModelingStyle
@@ -17,13 +17,11 @@ from cadplants.transforms import at
 
 __all__ = [
     "FRAME",
-    "chance",
     "cone",
     "disc",
     "dish",
     "family",
     "lying",
-    "num",
     "part",
     "pipe_piece",
     "sized",
@@ -35,16 +33,6 @@ __all__ = [
 ]
 
 FRAME = "Structural element"
-
-
-def num(rng: np.random.Generator, low: float, high: float) -> float:
-    """A number between two."""
-    return float(rng.uniform(low, high))
-
-
-def chance(rng: np.random.Generator, share: float) -> bool:
-    """Whether something happens that happens this often."""
-    return bool(rng.random() < share)
 
 
 def part(name: str, *solids: Solid, color: str = "valve", bundle: str = "", group: str = "") -> Part:
@@ -88,18 +76,22 @@ def lying(solid: Solid, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Solid
 
 def dish(radius: float, depth: float, low: float, style: ModelingStyle) -> Solid:
     """A dish about z on the height ``low``, of three or four rings as coarse programs make it [m]."""
-    angles = np.linspace(0, np.pi / 2, int(np.clip(style.round(radius) // 5, 3, 8)) + 1)
-    outline = [(radius * float(np.cos(a)), low + depth * float(np.sin(a))) for a in angles[:-1]]
-    return turned([*outline, (0.0, low + depth)], style.round(radius))
+    outline = [(r, low + z) for r, z in _dished(radius, depth, style)]
+    return turned([(radius, low), *outline, (0.0, low + depth)], style.round(radius))
 
 
 def vessel(radius: float, low: float, high: float, depth: float, style: ModelingStyle) -> Solid:
     """A cylinder about z with a dish at both ends, one closed body; ``depth`` of the dishes [m]."""
-    angles = np.linspace(0, np.pi / 2, int(np.clip(style.round(radius) // 5, 3, 8)) + 1)[1:-1]
-    upper = [(radius * float(np.cos(a)), high + depth * float(np.sin(a))) for a in angles]
+    upper = [(r, high + z) for r, z in _dished(radius, depth, style)]
     lower = [(r, low - (z - high)) for r, z in upper[::-1]]
     outline = [(0.0, low - depth), *lower, (radius, low), (radius, high), *upper, (0.0, high + depth)]
     return weld([revolve(outline, style.round(radius))])
+
+
+def _dished(radius: float, depth: float, style: ModelingStyle) -> list[tuple[float, float]]:
+    """Radius and height of the rings of a dish between its rim and its top [m]."""
+    angles = np.linspace(0, np.pi / 2, int(np.clip(style.round(radius) // 5, 3, 8)) + 1)[1:-1]
+    return [(radius * float(np.cos(a)), depth * float(np.sin(a))) for a in angles]
 
 
 def sleeve(inner: float, outer: float, low: float, high: float, style: ModelingStyle) -> Solid:

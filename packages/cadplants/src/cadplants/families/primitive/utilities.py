@@ -6,8 +6,8 @@ from functools import partial
 
 import numpy as np
 
-from cadplants.families.chance import pick
-from cadplants.families.primitive.shape import FRAME, chance, cone, disc, family, lying, num, part, torus_piece
+from cadplants.families.chance import chance, num, pick
+from cadplants.families.primitive.shape import FRAME, cone, disc, family, lying, part, torus_piece
 from cadplants.family import Family, Model, Part
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
