@@ -70,6 +70,38 @@ def test_same_part_in_another_vertex_order_has_the_same_shape(name):
     assert result.shape.tolist() == [0] * 5
 
 
+def cut(diagonals):
+    """A box whose faces are cut along one diagonal or the other."""
+    vertices, _ = shapes.box((1.0, 2.0, 0.3))
+    random, faces = np.random.default_rng(diagonals), []
+    for axis in range(3):
+        for side in (-1, 1):
+            quad = np.flatnonzero(np.sign(vertices[:, axis]) == side)
+            out = vertices[quad] - vertices[quad].mean(axis=0)
+            order = quad[np.argsort(np.arctan2(out[:, (axis + 2) % 3], out[:, (axis + 1) % 3]))][::side]
+            a, b, c, d = np.roll(order, random.integers(2))
+            faces += [(a, b, c), (a, c, d)]
+    return vertices, np.array(faces)
+
+
+def test_diagonals_of_flat_faces_are_no_part_of_the_shape():
+    parts = [scrambled(shapes.moved(cut(k), *pose(k)), k) for k in range(12)]
+    assert found(*parts).n_shapes == 1
+
+
+def test_positions_that_rounding_keeps_apart_are_one():
+    """Copies of a soup far from the origin in float32: corners in one place are off by a rounding each."""
+    random = np.random.default_rng(3)
+    parts = []
+    for k in range(12):
+        vertices, faces = soup(
+            shapes.moved(shapes.cylinder(), Rotation.random(random_state=k).as_matrix(), (40, 40, 2))
+        )
+        noise = random.uniform(-1, 1, vertices.shape) * np.spacing(np.float32(40.0)) / 2
+        parts.append(scrambled((vertices + noise, faces), k))
+    assert found(*parts).n_shapes == 1
+
+
 @pytest.mark.parametrize("name", PARTS)
 def test_soup_has_the_shape_of_the_indexed_mesh(name):
     assert found(PARTS[name], shapes.moved(soup(PARTS[name]), *pose(1))).n_shapes == 1

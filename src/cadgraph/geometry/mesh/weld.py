@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from math import atan2, nan, sqrt
+from math import atan2, floor, nan, sqrt
 
 import numpy as np
 
-from cadgraph.geometry.kernels.key import Keys, key_position
+from cadgraph.geometry.kernels.key import key_position
 from cadgraph.geometry.kernels.parallel import compiled, readable
 from cadgraph.model.scene import Faces, Floats, Ints
 
@@ -14,19 +14,20 @@ __all__ = ["weld", "weld_range"]
 
 # Faces lower than so many times the tolerance say nothing about normals.
 _MIN_HEIGHT = 30.0
+# Positions are looked up in cells so many times the tolerance wide: most lie well within one.
+_CELL = 8.0
 
 
 @compiled
 def _weld(
-    vertices: Floats, bits: Keys, v0: int, n: int, faces: Faces, f0: int, f1: int,
+    vertices: Floats, v0: int, n: int, faces: Faces, f0: int, f1: int,
     x0: float, y0: float, z0: float, tolerance: float, spot_of: Ints, table: Ints,
     spots: Floats, normals: Floats, reach: Floats,
 ) -> int:  # fmt: skip
-    """Merges equal positions that faces use, and describes each by what any motion leaves as it is.
+    """Merges positions of faces that rounding alone keeps apart; describes each by what any motion leaves as it is.
 
     Args:
         vertices: ``(n_vertices, 3)`` [m].
-        bits: the same numbers as unsigned integers.
         v0: the first vertex of the mesh.
         n: how many vertices it has.
         faces: ``(n_faces, 3)`` vertices, counted from the mesh's first.
@@ -62,25 +63,27 @@ def _weld(
     for k in range(n):
         if spot_of[k] < 0:
             continue
-        v = v0 + k
-        x, y, z = vertices[v, 0], vertices[v, 1], vertices[v, 2]
-        slot = int(np.int64(key_position(bits[v, 0], bits[v, 1], bits[v, 2]) & np.uint64(capacity - 1)))
-        while True:
-            other = table[slot]
-            if other < 0:
-                table[slot] = v
-                spot_of[k] = end
-                x, y, z = x - x0, y - y0, z - z0
-                spots[end, 0], spots[end, 1], spots[end, 2] = x, y, z
-                reach[end, 0], reach[end, 1] = sqrt(x * x + y * y + z * z), 0.0
-                for c in range(3):
-                    normals[end, c] = 0.0
-                end += 1
-                break
-            if vertices[other, 0] == x and vertices[other, 1] == y and vertices[other, 2] == z:
-                spot_of[k] = spot_of[other - v0]
-                break
-            slot = (slot + 1) & (capacity - 1)
+        x, y, z = vertices[v0 + k, 0] - x0, vertices[v0 + k, 1] - y0, vertices[v0 + k, 2] - z0
+        spot = _spot_near(x, y, z, vertices, x0, y0, z0, tolerance, table, capacity)
+        if spot < 0:
+            table[-1 - spot] = v0 + k
+            spot = end
+            for c in range(3):
+                spots[end, c], normals[end, c] = 0.0, 0.0
+            reach[end, 0], reach[end, 1] = 0.0, 0.0
+            end += 1
+        else:
+            spot = spot_of[spot - v0]
+        spot_of[k] = spot
+        spots[spot, 0] += x
+        spots[spot, 1] += y
+        spots[spot, 2] += z
+        reach[spot, 0] += 1.0
+    for spot in range(v0, end):
+        # The mean, which no order of the vertices changes.
+        for c in range(3):
+            spots[spot, c] /= reach[spot, 0]
+        reach[spot, 0] = sqrt(spots[spot, 0] ** 2 + spots[spot, 1] ** 2 + spots[spot, 2] ** 2)
     for f in range(f0, f1):
         if _is_whole(faces, f, n):
             _add_corners(vertices, v0, faces, f, spot_of, tolerance, normals, reach)
@@ -88,15 +91,38 @@ def _weld(
 
 
 @compiled
+def _spot_near(
+    x: float, y: float, z: float, vertices: Floats, x0: float, y0: float, z0: float, tolerance: float,
+    table: Ints, capacity: int,
+) -> int:  # fmt: skip
+    """The vertex in a table of cells that a position coincides with; else -1 less the slot where it belongs."""
+    cell = _CELL * tolerance
+    home = -1
+    for i in range(floor((x - tolerance) / cell), floor((x + tolerance) / cell) + 1):
+        for j in range(floor((y - tolerance) / cell), floor((y + tolerance) / cell) + 1):
+            for m in range(floor((z - tolerance) / cell), floor((z + tolerance) / cell) + 1):
+                key = key_position(np.uint64(i), np.uint64(j), np.uint64(m))
+                slot = int(np.int64(key & np.uint64(capacity - 1)))
+                while table[slot] >= 0:
+                    other = table[slot]
+                    u, v, w = vertices[other, 0] - x0 - x, vertices[other, 1] - y0 - y, vertices[other, 2] - z0 - z
+                    if u * u + v * v + w * w <= tolerance * tolerance:
+                        return int(other)
+                    slot = (slot + 1) & (capacity - 1)
+                if i == floor(x / cell) and j == floor(y / cell) and m == floor(z / cell):
+                    home = slot
+    return -1 - home
+
+
+@compiled
 def weld_range(
-    vertices: Floats, bits: Keys, faces: Faces, v_offsets: Ints, f_offsets: Ints, centroid: Floats, tolerance: Floats,
+    vertices: Floats, faces: Faces, v_offsets: Ints, f_offsets: Ints, centroid: Floats, tolerance: Floats,
     meshes: Ints, low: int, high: int, spots: Floats, normals: Floats, reach: Floats, n_spots: Ints,
 ) -> None:  # fmt: skip
     """Welds those of a range of meshes, each into rows of its own vertices.
 
     Args:
         vertices: ``(n_vertices, 3)`` of all meshes [m].
-        bits: the same numbers as unsigned integers.
         faces: ``(n_faces, 3)`` vertices, counted from the mesh's first.
         v_offsets: ``(n + 1,)`` where the vertices of each mesh start.
         f_offsets: ``(n + 1,)`` where the faces of each mesh start.
@@ -119,7 +145,7 @@ def weld_range(
         i = meshes[k]
         v0 = v_offsets[i]
         n_spots[i] = _weld(
-            vertices, bits, v0, v_offsets[i + 1] - v0, faces, f_offsets[i], f_offsets[i + 1],
+            vertices, v0, v_offsets[i + 1] - v0, faces, f_offsets[i], f_offsets[i + 1],
             centroid[i, 0], centroid[i, 1], centroid[i, 2], tolerance[i], spot_of, table, spots, normals, reach,
         )  # fmt: skip
 
@@ -131,7 +157,7 @@ def weld(
     vertices, n_spots = readable(points, np.float64), np.zeros(1, np.int64)
     ends = [readable(np.array([0, len(rows)]), np.int64) for rows in (points, faces)]
     weld_range(
-        vertices, vertices.view(np.uint64), readable(faces, np.int32), ends[0], ends[1],
+        vertices, readable(faces, np.int32), ends[0], ends[1],
         readable(centroid[None], np.float64), readable(np.array([tolerance]), np.float64),
         np.zeros(1, np.int64), 0, 1, spots, normals, reach, n_spots,
     )  # fmt: skip

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 
+from cadgraph.geometry.kernels.gather import gather_chunks
 from cadgraph.geometry.shape.repeats import Shapes, find_shapes
 from cadgraph.geometry.shape.round_faces import find_discs, find_ports, same_line
 from cadgraph.geometry.shape.surface import LEVELS, Surface, find_surfaces
 from cadgraph.geometry.shape.turning import find_profile, find_wheel, look_along
 from cadgraph.model.derived import kept_with
 from cadgraph.model.parts import Parts, Properties
-from cadgraph.model.scene import Floats, Scene
+from cadgraph.model.scene import Floats, Ints, Scene
 from cadgraph.model.shapes import Disc, Facts, ShapeAnalysis, is_round
 
 __all__ = ["analyse_shapes", "measure_shapes", "shapes_of"]
 
+_CHUNK = 32  # shapes that a thread takes at a time
 _TUBE_ERROR = 0.12  # a tube's volume, area and end faces agree this well; mitred bends are a few per cent off
 # Faces run along a side of the box, or across it, where their normals are off by less than this. Of a constant section
 # nearly all of the area does one of the two, and what lies across is at either end, within this share of the length.
@@ -47,6 +49,14 @@ def measure_shapes(scene: Scene, properties: Properties) -> list[Facts]:
         scene: one mesh for each shape.
         properties: of its meshes.
     """
+
+    def measure(rows: Ints) -> list[Facts]:
+        return _measure_some(scene.select(rows), properties.select(rows))
+
+    return [facts for some in gather_chunks(measure, np.diff(scene.face_offsets), _CHUNK) for facts in some]
+
+
+def _measure_some(scene: Scene, properties: Properties) -> list[Facts]:
     facts = []
     for mesh, surface in enumerate(find_surfaces(scene, properties)):
         volume = abs(float(properties.volume[mesh])) if properties.closed[mesh] else 0.0

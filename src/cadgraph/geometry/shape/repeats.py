@@ -155,7 +155,6 @@ class _Kernels:
 
     def __init__(self, scene: Scene, properties: Properties, tolerance: Floats, workers: int | None) -> None:
         self.vertices, self.faces = readable(scene.vertices, np.float64), readable(scene.faces, np.int32)
-        self.bits = self.vertices.view(np.uint64)
         self.v_offsets, self.f_offsets = (
             readable(scene.vertex_offsets, np.int64),
             readable(scene.face_offsets, np.int64),
@@ -210,7 +209,7 @@ class _Kernels:
 
         def weld_these(low: int, high: int) -> None:
             weld_range(
-                self.vertices, self.bits, self.faces, self.v_offsets, self.f_offsets, self.centroid, self.tolerance,
+                self.vertices, self.faces, self.v_offsets, self.f_offsets, self.centroid, self.tolerance,
                 meshes, low, high, self.spots, self.normals, self.reach, self.n_spots,
             )  # fmt: skip
 
@@ -257,27 +256,20 @@ def _set_range(
         k = left[at]
         i, j = pairs[k, 0], pairs[k, 1]
         n = n_spots[i]
-        # First as it is, then its mirror image. The mirror image of a part that is its own mirror image is that part,
-        # whatever its diagonals: so then as it is again, less strictly.
-        found, is_mirror = 0, sense[k] == -1
-        for attempt in range(3):
-            if n == 0 or n != n_spots[j]:
-                found = -1 if is_mirror else 0
-                break
-            if attempt == 1 and is_mirror:
-                continue
-            if align_sets(
-                spots, normals, reach, v_offsets[i], v_offsets[j], n, max(tolerance[i], tolerance[j]),
-                -1 if attempt == 1 else 1, attempt < 2,
-                rows, spare, work, starts, frame_a, frame_b, grid, turn[k],
-            ):  # fmt: skip
-                is_mirror = attempt == 1
-                if not is_mirror:
-                    found = 1
+        # As it is, then its mirror image; each by vertices with faces of like areas around them, which is fast, then by
+        # all that are as far from the middle: diagonals of flat faces are no part of the shape.
+        found = sense[k]
+        if n > 0 and n == n_spots[j]:
+            for attempt in range(4):
+                if attempt == 2 and found == -1:
                     break
-            elif attempt > 0:
-                found = -1 if is_mirror else 0
-                break
+                if align_sets(
+                    spots, normals, reach, v_offsets[i], v_offsets[j], n, max(tolerance[i], tolerance[j]),
+                    1 if attempt < 2 else -1, attempt % 2 == 0,
+                    rows, spare, work, starts, frame_a, frame_b, grid, turn[k],
+                ):  # fmt: skip
+                    found = 1 if attempt < 2 else -1
+                    break
         sense[k] = found
         for r in range(3):
             shift[k, r] = centroid[j, r]

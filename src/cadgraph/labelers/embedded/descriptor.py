@@ -12,6 +12,7 @@ from itertools import combinations
 
 import numpy as np
 
+from cadgraph.geometry.kernels.gather import gather_chunks
 from cadgraph.geometry.mesh.pierce import Piercings, pierce
 from cadgraph.labelers.embedded.edges import EDGE_FEATURES, edge_features
 from cadgraph.labelers.embedded.integrals import (
@@ -26,13 +27,13 @@ from cadgraph.labelers.embedded.integrals import (
     wall_of,
 )
 from cadgraph.model.parts import Bools, Properties
-from cadgraph.model.scene import Floats, Scene
+from cadgraph.model.scene import Floats, Ints, Scene
 from cadgraph.model.shapes import Disc, Facts
 
 __all__ = ["FORMS", "SIZES", "Descriptors", "describe_shapes", "even_sides"]
 
 _LINES, _FEW_LINES = 24, 8  # across each side of the box: for integrals, and for distances of all pairs
-_CHUNK = 256  # shapes at a time: bounds the memory for their points
+_CHUNK = 32  # shapes at a time: bounds the memory for their points
 
 SIZES = ("long", "middle", "short", "radius", "length", "thickness", "wall", "area", "port0", "port1", "bore0", "bore1")
 """Names of the absolute sizes, each ``log`` of metres; the area's square root; 0 sizes count as 0.1 mm."""
@@ -83,16 +84,15 @@ def describe_shapes(scene: Scene, properties: Properties, facts: Sequence[Facts]
     if not n:
         return Descriptors(np.zeros((0, len(SIZES))), np.zeros((0, len(FORMS))), few)
     frames, pairs = _frames(facts), sum_pairs(few, properties)
-    blocks = []
-    for start in range(0, n, _CHUNK):
-        rows = np.arange(start, min(start + _CHUNK, n))
-        some = properties.select(rows)
-        points = pierce(scene.select(rows), some, _LINES)
+
+    def describe(rows: Ints) -> tuple[Floats, Floats]:
+        some = [facts[i] for i in rows.tolist()]
         about = Frames(*(values[rows] for values in frames))
-        blocks.append(_describe(points, about, some, pairs[rows], [facts[i] for i in rows.tolist()]))
+        return _describe(scene.select(rows), properties.select(rows), about, pairs[rows], some)
+
+    blocks = gather_chunks(describe, np.diff(scene.face_offsets), _CHUNK)
     sizes, forms = np.concatenate([b[0] for b in blocks]), np.concatenate([b[1] for b in blocks])
-    forms = np.clip(np.nan_to_num(np.hstack([forms, edge_features(scene, properties)]), posinf=10, neginf=-10), -10, 10)
-    return Descriptors(sizes, forms, few)
+    return Descriptors(sizes, np.clip(np.nan_to_num(forms, posinf=10, neginf=-10), -10, 10), few)
 
 
 def _frames(facts: Sequence[Facts]) -> Frames:
@@ -108,9 +108,9 @@ def _frames(facts: Sequence[Facts]) -> Frames:
 
 
 def _describe(
-    points: Piercings, frames: Frames, properties: Properties, pairs: Floats, facts: list[Facts]
+    scene: Scene, properties: Properties, frames: Frames, pairs: Floats, facts: list[Facts]
 ) -> tuple[Floats, Floats]:
-    sums = sum_points(points, frames, properties)
+    sums = sum_points(pierce(scene, properties, _LINES), frames, properties)
     extents = np.maximum(properties.obb_extents, _LEAST / 10)
     diagonal = np.linalg.norm(properties.obb_extents, axis=1)
     n = len(facts)
@@ -127,7 +127,7 @@ def _describe(
         pairs * FINE, _sorted(sums.flat[:, 0]), _sorted(sums.flat[:, 1]),
         _ordered(sums.long, turned_box) * BINS, _ordered(sums.wide, turned_box),
         sums.gaps[:, 0] * GAPS, sums.gaps[:, 1] * GAPS, sums.rim[:, None],
-        _facts(facts),
+        _facts(facts), edge_features(scene, properties),
     ])  # fmt: skip
     wall = wall_of(sums.walls) * diagonal
     area, volume = properties.area, np.abs(properties.volume)
