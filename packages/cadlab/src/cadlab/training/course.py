@@ -85,7 +85,7 @@ class Course:
     plants: int = 640
     drawn: int = 80
     others: int = 48
-    members: int = 3
+    members: int = 5
     folds: int = 4
     seeds: int = 1
     ablations: bool = True
