@@ -177,6 +177,7 @@ class LvlmConfig(Section):
     )
     votes: int = _setting(1, "members of a kind that are asked about; the majority counts", ge=1, le=15)
     hints: bool = _setting(False, "tell it what geometry knows: form, repeats, labels of neighbours")
+    context: bool = _setting(True, "ask about small parts after large ones, with the labels of what they touch")
     below: float = _setting(0.8, "ask = 'unsure': where the embedded labeler's confidence is below", ge=0, le=1)
     again_below: float = _setting(
         0.5, "answers below this confidence are asked again with what geometry knows; 0: never", ge=0, le=1
@@ -188,6 +189,7 @@ class LvlmConfig(Section):
     max_questions: int | None = _setting(None, "at most so many questions in a run, those that help most", ge=0)
     max_cost: float | None = _setting(None, "at most so many US dollars in a run, by the price table", ge=0)
     prices: str = _setting("", "price table (YAML); empty: the built-in one", max_length=4096)
+    accuracy: str = _setting("", "how often models are right (YAML); empty: the built-in table", max_length=4096)
     cache: str = _setting(
         "", "file of answers that were given; empty: lvlm/answers.sqlite in the output folder", max_length=4096
     )

@@ -16,6 +16,7 @@ from cadgraph.model.corrections import Correction
 from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import Label
+from cadgraph.model.probabilities import Probabilities
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary
 from cadgraph.stages.adjacency import find_near_meshes, join_contacts
@@ -30,7 +31,7 @@ from cadgraph.stages.parts import make_parts
 from cadgraph.stages.preprocess import prepare_scene
 from cadgraph.stages.relate import RelateInput, connect_units, pipe_systems, relate_units
 
-__all__ = ["ANALYSIS_SETTINGS", "STAGES", "analyse", "build", "interpret"]
+__all__ = ["ANALYSIS_SETTINGS", "STAGES", "analyse", "build", "contradicted", "interpret"]
 
 _WEAK = 0.46  # a likely label below this confidence is no label for the relations
 STAGES = ("measure", "contacts", "group", "cluster", "label", "relate", "assemble")
@@ -168,3 +169,28 @@ def interpret(
     graph = assemble_graph(results, vocabulary, config.model_dump(mode="json"))
     progress("assemble", 1)
     return graph
+
+
+_CONTRADICTIONS = frozenset({"unit-short-of-lines", "end-before-part", "units-touch-unjoined", "line-untraced"})
+
+
+def contradicted(
+    analysis: Analysis,
+    vocabulary: Vocabulary,
+    config: Config,
+    labels: Sequence[Label | None],
+    probabilities: Probabilities | None,
+) -> frozenset[int]:
+    """The parts at which the network that follows from labels does not add up: devices short of a line, gaps in lines.
+
+    Args:
+        analysis: of the scene.
+        vocabulary: the tree that the labels are from.
+        config: all settings.
+        labels: of each part.
+        probabilities: what a labeler holds for possible; None where none is known.
+    """
+    given = RelateInput(analysis, tuple(labels), tuple(labels), vocabulary, config, probabilities)
+    number = {path: part for part, path in enumerate(analysis.parts.scene.paths)}
+    found = (one for one in connect_units(given).diagnostics if one.code in _CONTRADICTIONS)
+    return frozenset(number[mesh] for one in found for mesh in one.meshes if mesh in number)

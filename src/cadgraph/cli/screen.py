@@ -59,6 +59,8 @@ def tell(outcome: Any) -> None:
 
     for line in summary_lines(summarize(outcome.graph)):
         out.print(line)
+    if not outcome.files:
+        out.print("[dim]as it was      [/]nothing was asked that could be answered in this run; no result was changed")
     names = {"report": "look at", "picture": "picture", "graph": "the graph", "labels": "in a simulator"}
     for purpose, words in names.items():
         if purpose in outcome.files:

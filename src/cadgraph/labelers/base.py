@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from cadgraph.config import LabelConfig
 from cadgraph.errors import LabelError
@@ -16,7 +16,7 @@ from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.probabilities import Probabilities
 from cadgraph.model.vocabulary import Vocabulary
 
-__all__ = ["LEAST_CONFIDENCE", "Labeler", "Labeling", "Probabilities", "label_parts"]
+__all__ = ["LEAST_CONFIDENCE", "AskingLabeler", "Labeler", "Labeling", "Probabilities", "label_parts"]
 
 LEAST_CONFIDENCE = 0.5
 """Of a label, where neither the settings nor the labeler say."""
@@ -101,6 +101,21 @@ class Labeler(Protocol):
             What it says of each part; ``Labeling.judge`` makes it of the likeliest labels.
         """
         ...
+
+
+@runtime_checkable
+class AskingLabeler(Labeler, Protocol):
+    """One that asks somebody else, who may not answer.
+
+    Attributes:
+        only_asks: whether no answer can come in this run, so that no result follows from it.
+        former: gives the labels of a finished graph, which parts without an answer keep.
+        contradictions: says at which parts the network contradicts labels.
+    """
+
+    only_asks: bool
+    former: Labeler | None
+    contradictions: Callable[[Sequence[Label | None], Probabilities], Collection[int]] | None
 
 
 def label_parts(

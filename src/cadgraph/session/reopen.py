@@ -10,7 +10,7 @@ from cadgraph._io.progress import Progress, quiet
 from cadgraph._io.run_folder import results_folder
 from cadgraph.config import Config
 from cadgraph.errors import FormatError, LabelError
-from cadgraph.labelers.base import Labeler, Labeling
+from cadgraph.labelers.base import AskingLabeler, Labeler, Labeling
 from cadgraph.load import load
 from cadgraph.model.corrections import read_corrections
 from cadgraph.model.given_labels import GivenLabel
@@ -36,6 +36,9 @@ def relabel(
 ) -> Outcome:
     """Builds the graph in a folder again with another labeler; labels that were given from outside are kept.
 
+    Parts that a model was asked about without an answer keep the labels they had. Where no answer can come in this run
+    (a dry run, requests for a batch) the folder's results stay as they are.
+
     Args:
         folder: what ``cadgraph build`` wrote; written over.
         config: all settings, :func:`config_of` the folder with changes.
@@ -52,7 +55,11 @@ def relabel(
     with results_folder(folder) as target:
         graph = SceneGraph.load(target)
         source = find_source(graph, target, scene)
+        if isinstance(labeler, AskingLabeler):
+            labeler.former = FormerLabeler(graph)
         session = reopen(graph, target, source, config, labeler, clock)
+        if isinstance(labeler, AskingLabeler) and labeler.only_asks:
+            return Outcome(graph, {}, clock.seconds)
         return write_results(session, source, target, report, clock)
 
 

@@ -12,7 +12,7 @@ from cadgraph._io.atomic import write_atomically
 from cadgraph._io.progress import Progress, quiet
 from cadgraph._io.run_folder import clear_results, refuse_to_overwrite, results_folder
 from cadgraph.config import Config
-from cadgraph.labelers.base import Labeler
+from cadgraph.labelers.base import AskingLabeler, Labeler
 from cadgraph.load import load
 from cadgraph.model.corrections import read_corrections
 from cadgraph.model.given_labels import GivenLabel, read_labels
@@ -56,7 +56,9 @@ def run(
     """Reads a scene, builds its graph, and writes ``graph.json``, ``semantics.usda``, ``report.html`` and pictures.
 
     Each file is written whole or not at all; the folder is tried before the work begins, and results of an earlier run
-    in it are removed before the first new one is written. Corrections that lie in the folder are applied again.
+    in it are removed before the first new one is written. Corrections that lie in the folder are applied again. Where
+    a model is only to be asked in this run and answers later (a dry run, requests for a batch), a graph that is there
+    already stays as it is.
 
     Args:
         source: the scene's file.
@@ -86,6 +88,8 @@ def run(
         session = Session.start(
             scene, config, labels=given, vocabulary=tree, labeler=labeler, corrections=corrections, progress=clock
         )
+        if isinstance(labeler, AskingLabeler) and labeler.only_asks and (target / "graph.json").exists():
+            return Outcome(SceneGraph.load(target), {}, clock.seconds)
         return write_results(session, source, target, report, clock)
 
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from cadgraph._io.progress import Progress, quiet
 from cadgraph.config import Config
-from cadgraph.labelers.base import Labeler, Labeling, label_parts
+from cadgraph.labelers.base import AskingLabeler, Labeler, Labeling, label_parts
 from cadgraph.labelers.precedence import SettledLabels, lay_corrections, lay_known
 from cadgraph.labelers.registry import labeler_of
 from cadgraph.model.analysis import Analysis
@@ -19,7 +20,7 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Part
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary
-from cadgraph.pipeline import analyse, interpret
+from cadgraph.pipeline import analyse, contradicted, interpret
 
 __all__ = ["Change", "Session"]
 
@@ -94,6 +95,8 @@ class Session:
         analysis = analyse(scene, config, progress)
         progress("label", 0)
         labeler = labeler or labeler_of(config.label)
+        if isinstance(labeler, AskingLabeler):
+            labeler.contradictions = partial(contradicted, analysis, tree, config)
         labeling = label_parts(labeler, analysis.parts, analysis.contacts, tree, config.label)
         return cls(analysis, labeling, config, vocabulary=tree, given=labels, corrections=corrections, graph=graph)
 

@@ -50,9 +50,9 @@ def test_labels_can_be_traced():
     labeler, told = labeler_of(plates.oracle(PARTS))
     first = label(labeler)[0]
     assert first.source == "lvlm"
-    assert first.confidence == pytest.approx(0.9)
+    assert first.confidence == pytest.approx(0.877, abs=1e-3)
     assert first.evidence.model == "told"
-    assert first.evidence.prompt.startswith("label-1-")
+    assert first.evidence.prompt.startswith("label-2-")
     assert first.evidence.question in {question.id for question in told.asked}
     assert first.evidence.asked == "/plant/mesh_0"
     assert first.evidence.repeats == 2
@@ -64,7 +64,7 @@ def test_per_part_asks_about_every_part():
     assert len(told.asked) == PARTS.n_parts
 
 
-def test_votes_ask_several_members_and_their_agreement_is_the_confidence():
+def test_votes_ask_several_members_and_what_most_say_counts():
     scene = plates.scene_of(1, 3)
     parts = plates.parts_of(scene)
     names = iter(["flange", "flange", "gasket"])
@@ -76,7 +76,7 @@ def test_votes_ask_several_members_and_their_agreement_is_the_confidence():
     labels = label(labeler, parts)
     assert len(told.asked) == 3
     assert {each.name for each in labels} == {"flange"}
-    assert labels[0].confidence == pytest.approx(2 / 3)
+    assert 0.5 < labels[0].confidence < 0.95
 
 
 def test_unsure_answers_are_asked_again_with_what_geometry_knows():
@@ -119,7 +119,7 @@ def test_unsure_is_below_a_limit(confidence, asked):
     labels = label(labeler)
     assert len(told.asked) == asked
     assert labels[0].source == ("lvlm" if asked else "geometry")
-    assert labels[1] == known[1]
+    assert [(each.group, each.name) for each in labels[1:]] == TRUTH[1:]
 
 
 def test_the_budget_goes_where_most_is_unknown():
@@ -204,23 +204,23 @@ def test_an_answer_outside_the_vocabulary_gives_the_reason():
 
 def test_malformed_answers_are_asked_once_more_then_unlabelled_with_the_reason():
     labeler, told = labeler_of(lambda text: "certainly! it is a flange")
-    assert set(label(labeler)) == {None}
+    with pytest.raises(LabelError, match=r"no answer to any of the 6 questions \(.*no JSON object"):
+        label(labeler)
     assert len(told.asked) == 12
     assert sum("could not be used" in question.text for question in told.asked) == 6
-    assert "no JSON object" in labeler.said.diagnostics[0].message
 
 
 def test_refusals_are_told():
     labeler, _ = labeler_of(lambda text: Reply(None, "I can't help with that", 900, 5))
-    assert set(label(labeler)) == {None}
-    assert "refused" in labeler.said.diagnostics[0].message
+    with pytest.raises(LabelError, match="refused"):
+        label(labeler)
 
 
 def test_errors_of_the_server_are_told_and_not_kept():
     cache = Cache(":memory:")
     failing, _ = labeler_of(lambda text: Reply(None, error="the server answered 500 to every try"), cache=cache)
-    assert set(label(failing)) == {None}
-    assert "500" in failing.said.diagnostics[0].message
+    with pytest.raises(LabelError, match="answered 500"):
+        label(failing)
     working, told = labeler_of(plates.oracle(PARTS), cache=cache)
     assert [(each.group, each.name) for each in label(working)] == TRUTH
     assert len(told.asked) == 6
@@ -287,10 +287,92 @@ def test_input_is_not_changed():
 
 
 def test_second_tries_stay_within_the_budget():
-    labeler, told = labeler_of(lambda text: "no JSON", budget=Budget(questions=6))
-    assert set(label(labeler)) == {None}
+    answers = iter([{"group": "Tank", "name": "shell", "confidence": 0.9}])
+    labeler, told = labeler_of(lambda text: next(answers, "no JSON"), budget=Budget(questions=6))
+    labeler.asking.concurrency = 1
+    assert sum(each is not None for each in label(labeler)) == 2
     assert len(told.asked) == 6
     assert any("budget" in finding.message for finding in labeler.said.diagnostics)
+
+
+FORMER = [Label("Valve assembly", "valve", 0.61, "lvlm", {"model": "m"}) for _ in TRUTH]
+
+
+def test_parts_without_an_answer_keep_the_label_they_had():
+    good = plates.oracle(PARTS)
+    silent = plates.box_of(PARTS, 0)
+    labeler, _ = labeler_of(lambda text: Reply(None, error="down") if silent in text else good(text))
+    labeler.former = Known(FORMER)
+    labels = label(labeler)
+    assert [each.said for each in labels[:2]] == [("Valve assembly", "valve")] * 2
+    assert [each.said for each in labels[2:]] == TRUTH[2:]
+    assert [each is not None for each in labeler.said.labels] == [True] * len(TRUTH)
+    assert "down" in labeler.said.diagnostics[0].message
+
+
+def test_parts_that_the_budget_leaves_out_keep_the_label_they_had():
+    labeler, told = labeler_of(plates.oracle(PARTS), budget=Budget(questions=2))
+    labeler.former = Known(FORMER)
+    labels = label(labeler)
+    assert len(told.asked) == 2
+    assert sum(each.said == ("Valve assembly", "valve") for each in labels) == 8
+
+
+def test_an_older_answer_outlives_the_embedded_labeler_where_nobody_answers_now():
+    known = [Label("Tank", "skirt", 0.3, "geometry") for _ in TRUTH]
+    good = plates.oracle(PARTS)
+    silent = plates.box_of(PARTS, 0)
+    labeler, _ = labeler_of(
+        lambda text: Reply(None, error="down") if silent in text else good(text),
+        Way(ask="unsure"),
+        embedded=Known(known),
+    )
+    labeler.former = Known(FORMER)
+    assert label(labeler)[0].said == ("Valve assembly", "valve")
+
+
+def test_what_cannot_be_answered_in_this_run_is_no_error():
+    labeler, told = labeler_of(lambda text: Reply(None, waiting=True), only_asks=True)
+    assert set(label(labeler)) == {None}
+    assert len(told.asked) == 6
+
+
+def test_places_where_the_network_does_not_add_up_are_asked_about():
+    known = [Label(*truth, 0.95, "geometry") for truth in TRUTH]
+    known[4], known[5] = None, None
+    labeler, told = labeler_of(plates.oracle(PARTS), Way(ask="unsure"), embedded=Known(known))
+    seen = []
+
+    def contradictions(labels, probabilities):
+        seen.append([None if each is None else each.said for each in labels])
+        return {2}
+
+    labeler.contradictions = contradictions
+    labels = label(labeler)
+    assert seen == [TRUTH]
+    assert [question.part for question in told.asked] == [4, 2]
+    assert labels[2].source == "lvlm"
+    assert "What geometry knows" in told.asked[1].text
+
+
+def test_small_parts_are_asked_about_with_the_labels_of_large_ones():
+    contacts = Contacts(np.array([[0, 10], [1, 11]]), np.zeros(2), np.zeros((2, 2, 3)))
+    labeler, told = labeler_of(plates.oracle(PARTS, confidence=0.95))
+    label(labeler, contacts=contacts)
+    small = next(question.text for question in told.asked if question.part == 0)
+    assert f"1 x {TRUTH[10][1]} (" in small
+    assert [question.part for question in told.asked].index(10) < [question.part for question in told.asked].index(0)
+    plain, told = labeler_of(plates.oracle(PARTS), Way(context=False))
+    label(plain, contacts=contacts)
+    assert not any(f"1 x {TRUTH[10][1]}" in question.text for question in told.asked)
+
+
+def test_relations_get_what_is_believed():
+    labeler, _ = labeler_of(plates.oracle(PARTS))
+    label(labeler)
+    known = labeler.said.probabilities
+    best = [known.classes[k] for k in known.values.argmax(axis=1)]
+    assert best == TRUTH
 
 
 def test_the_ground_is_not_asked_about_where_the_embedded_labeler_is_used():

@@ -2,8 +2,6 @@ import pytest
 
 import plates
 import shapes
-from cadgraph.labelers.lvlm.answer import Verdict
-from cadgraph.labelers.lvlm.poll import poll
 from cadgraph.labelers.lvlm.repair import repair
 from cadgraph.model.labels import Label
 from cadgraph.model.scene import Scene
@@ -45,20 +43,3 @@ def test_what_was_changed_says_why_and_what_it_was():
 
 def test_labels_of_others_are_left_alone():
     assert repaired(0.02, "gasket", source="geometry").name == "gasket"
-
-
-def test_majority_of_groups_first_then_of_names():
-    votes = [Verdict("Tank", "shell", 0.9), Verdict("Tank", "skirt", 0.2), Verdict("Equipment", "boiler", 1.0)]
-    result = poll(votes)
-    assert (result.group, result.name, result.confidence) == ("Tank", None, pytest.approx(2 / 3))
-    assert poll([*votes, Verdict("Tank", "shell", 0.5)]).name == "shell"
-
-
-def test_those_without_an_answer_agree_with_nobody():
-    assert poll([Verdict("Tank", "shell", 0.9)] * 2, 4).confidence == pytest.approx(0.5)
-
-
-def test_nothing_to_count():
-    assert poll([]).group is None
-    assert poll([Verdict(None, None, 0.0)]).group is None
-    assert poll([Verdict("Tank", "shell", 0.3)]).confidence == pytest.approx(0.3)

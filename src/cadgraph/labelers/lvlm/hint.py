@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Mapping, Sequence
 
 from cadgraph.geometry.shape.analysis import shapes_of
@@ -15,6 +14,7 @@ from cadgraph.model.shapes import Facts
 __all__ = ["Hints", "neighbors_of"]
 
 _MOST_NEIGHBORS = 8
+_KNOWN = 0.8  # confidence from which a label of a neighbour helps more than it misleads
 _FLAT = 0.25  # a cylinder that is shorter than this share of its diameter is a disc, or a ring
 _FORMS: Mapping[Solid, str] = {
     "sheet": "a sheet without thickness",
@@ -23,9 +23,10 @@ _FORMS: Mapping[Solid, str] = {
     "bent tube": "a bent tube of one round section",
     "cylinder": "a cylinder",
     "sphere": "a sphere",
-    "torus": "a torus",
+    # What only looks like a torus (a nut with its chamfers) is called by what is sure.
+    "torus": "round about one axis",
     "cone": "a cone",
-    "revolved": "a body of revolution",
+    "revolved": "round about one axis",
     "box": "a box",
     "extrusion": "one cross-section all along an axis",
 }
@@ -63,17 +64,28 @@ class Hints:
         known = shapes_of(self._parts)
         found = [_form(known.facts[int(known.shape[part])])]
         found.append(f"it is there {repeats} times in the plant" if repeats > 1 else "there is only one of it")
+        if not self._near.get(part):
+            return (*found, "it touches no other part")
+        return (*found, *self.around(part, labels))
+
+    def around(self, part: int, labels: Sequence[Label | None]) -> tuple[str, ...]:
+        """What a part touches, as far as that is known well enough to help; nothing where none of it is.
+
+        Args:
+            part: which.
+            labels: of all parts as far as they are known.
+        """
         neighbors = self._near.get(part, ())
-        if not neighbors:
-            found.append("it touches no other part")
-            return tuple(found)
-        named = Counter(_named(labels[other]) for other in neighbors)
-        most = sorted(named.items(), key=lambda row: (-row[1], row[0]))[:_MOST_NEIGHBORS]
-        found.append(
-            f"it touches {len(neighbors)} part{'s' * (len(neighbors) != 1)}, which were taken for: "
-            + ", ".join(f"{count} x {name}" for name, count in most)
-        )
-        return tuple(found)
+        known = [label for other in neighbors if (label := labels[other]) is not None and label.confidence >= _KNOWN]
+        if not known:
+            return ()
+        named: dict[str, list[float]] = {}
+        for label in known:
+            named.setdefault(label.name or label.group, []).append(label.confidence)
+        most = sorted(named.items(), key=lambda row: (-len(row[1]), row[0]))[:_MOST_NEIGHBORS]
+        words = ", ".join(f"{len(sure)} x {name} ({min(sure):.0%} sure)" for name, sure in most)
+        count = f"{len(neighbors)} part{'s' * (len(neighbors) != 1)}"
+        return (f"it touches {count}, {len(known)} of which are known: {words}",)
 
 
 def _form(facts: Facts) -> str:
@@ -101,7 +113,3 @@ def _sizes(solid: Solid, facts: Facts) -> tuple[str, ...]:
         return ()
     bore = f"open along its axis with a bore of {size_text(2 * facts.bore)}" if facts.bore > 0 else "without a bore"
     return across, f"{size_text(facts.length)} long", bore
-
-
-def _named(label: Label | None) -> str:
-    return "unknown" if label is None else label.name or label.group

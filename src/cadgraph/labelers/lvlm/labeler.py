@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
 from cadgraph._io.atomic import write_atomically
 from cadgraph.errors import LabelError
-from cadgraph.labelers.base import Labeler, Labeling
+from cadgraph.labelers.base import LEAST_CONFIDENCE, Labeler, Labeling
 from cadgraph.labelers.lvlm.answer import Answer, Proposal, Verdict, answer_schema, settle
 from cadgraph.labelers.lvlm.asking import Asking, Outcome, Tally
+from cadgraph.labelers.lvlm.choosing import choose, in_stages
 from cadgraph.labelers.lvlm.folder import write_index
 from cadgraph.labelers.lvlm.gallery import Gallery
 from cadgraph.labelers.lvlm.hint import Hints, neighbors_of
-from cadgraph.labelers.lvlm.poll import Poll, poll
+from cadgraph.labelers.lvlm.joining import Accuracy, Beliefs
 from cadgraph.labelers.lvlm.price import Estimate
 from cadgraph.labelers.lvlm.prompt import Wording, label_text, system_text, version
 from cadgraph.labelers.lvlm.question_groups import QuestionGroup, find_question_groups
@@ -26,11 +27,11 @@ from cadgraph.labelers.lvlm.reply import Question
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.labels import Label, LvlmEvidence
 from cadgraph.model.parts import Contacts, Parts
+from cadgraph.model.probabilities import Probabilities
 from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["LvlmLabeler", "Way"]
 
-_AGAIN_FACTOR = 1.05  # a second answer with more context wins unless the first was clearly surer
 _MESSAGE = 160
 
 
@@ -43,6 +44,7 @@ class Way:
         per: one question for each ``shape`` and role, or for each ``part``.
         votes: members of a kind that are asked about.
         hints: whether prompts say what geometry knows.
+        context: whether small parts are asked about after large ones, with the labels of what they touch.
         below: ``unsure`` asks where the embedded labeler's confidence is below.
         again_below: answers below this confidence are asked again with what geometry knows; 0: never.
         repair: whether sizes correct gaskets and flanges.
@@ -53,6 +55,7 @@ class Way:
     per: Literal["shape", "part"] = "shape"
     votes: int = 1
     hints: bool = False
+    context: bool = True
     below: float = 0.8
     again_below: float = 0.5
     repair: bool = True
@@ -69,8 +72,12 @@ class LvlmLabeler:
         confirm: shown the estimate before the first question; the run stops where it says no.
         folder: where ``run.json``, ``proposals.json`` and the dry run's index go; None writes nothing.
         gallery: draws the pictures of a scene.
+        accuracy: how often the answers are right; what is usual if None.
+        only_asks: whether no answer can come in this run: a dry run, or requests for a batch.
 
     Attributes:
+        former: gives the labels of a finished graph, which parts without an answer keep; None for none.
+        contradictions: says at which parts the network contradicts labels; None for nobody.
         proposals: labels that the vocabulary doesn't hold, with how often.
         estimate: of the first round.
     """
@@ -84,10 +91,15 @@ class LvlmLabeler:
         confirm: Callable[[Estimate], bool] = lambda _: True,
         folder: Path | None = None,
         gallery: Callable[[Parts], Gallery] | None = None,
+        accuracy: Accuracy | None = None,
+        only_asks: bool = False,
     ) -> None:
         self.asking, self.way, self.embedded = asking, way or Way(), embedded
         self.proposals: Counter[tuple[str, str | None, str]] = Counter()
         self.estimate: Estimate | None = None
+        self.accuracy, self.only_asks = accuracy or Accuracy(), only_asks
+        self.former: Labeler | None = None
+        self.contradictions: Callable[[Sequence[Label | None], Probabilities], Collection[int]] | None = None
         self._confirm, self._folder = confirm, folder
         self._gallery = gallery or (lambda parts: Gallery(parts.scene, paper=self.way.paper, size=asking.size))
 
@@ -100,44 +112,40 @@ class LvlmLabeler:
         """Labels parts (see :class:`~cadgraph.labelers.base.Labeler`).
 
         Raises:
-            LabelError: the estimate was declined, or nobody can be asked.
+            LabelError: the estimate was declined, nobody can be asked, or no question has an answer.
         """
-        base: list[Label | None] = [None] * parts.n_parts
-        if self.embedded is not None:
-            base = list(self.embedded.label(parts, contacts, vocabulary).answers)
-        round_ = _Round(self, parts, contacts, vocabulary, base)
-        kinds = self._chosen(find_question_groups(parts, self.way.per), base, parts)
-        planned = [round_.questions(kind) for kind in kinds]
-        kept, left_out = self._paid(planned)
+        said = None if self.embedded is None else self.embedded.label(parts, contacts, vocabulary)
+        former = None if self.former is None else self.former.label(parts, contacts, vocabulary)
+        round_ = _Round(self, parts, contacts, vocabulary, said)
+        below = None if self.way.ask == "all" else self.way.below
+        kinds = choose(find_question_groups(parts, self.way.per), round_.base, parts, round_.near, vocabulary, below)
+        first = [round_.questions(kind) for kind in kinds]
+        kept, left_out = self._paid(first)
         self.estimate = self.asking.estimate([q for questions in kept for q in questions], left_out=left_out)
         if not self._confirm(self.estimate):
             raise LabelError("nothing was asked: the estimate was not confirmed")
         try:
-            first = round_.ask(kinds[: len(kept)], kept)
-            self._again(round_, first)
+            settled = self._ask(round_, kinds[: len(kept)])
+            self._again(round_, settled)
+            self._doubted(round_, settled)
         finally:
             self.asking.answerer.close()
-        labels = self._labels(round_, first, base)
+        self._refuse_silence(round_, settled)
+        labels = round_.labels(settled, former)
         if self.way.repair:
             labels = repair(labels, parts, round_.near, vocabulary)
-        return Labeling.judge(labels, diagnostics=self._report(round_, kinds, len(kept), first))
+        diagnostics = self._report(round_, kinds, len(kept), settled)
+        thresholds = round_.thresholds(labels, settled)
+        sure = 0.0 if said is None else said.sure
+        return Labeling.judge(labels, thresholds, round_.beliefs.probabilities(), diagnostics, sure)
 
-    def _chosen(
-        self, kinds: Sequence[QuestionGroup], base: Sequence[Label | None], parts: Parts
-    ) -> list[QuestionGroup]:
-        """The kinds to ask about, those first where an answer is worth most: many parts, little known."""
-
-        def doubt(kind: QuestionGroup) -> float:
-            if self.way.ask == "all":
-                return float(len(kind.parts))
-            # The ground is found by its place, not by labels.
-            own = [part for part in kind.parts if not parts.ground[part]]
-            known = [label.confidence if (label := base[part]) is not None else 0.0 for part in own]
-            return sum(1 - c for c in known if c < self.way.below)
-
-        worth = [(doubt(kind), kind) for kind in kinds]
-        wanted = [(gain, kind) for gain, kind in worth if gain > 0]
-        return [kind for _, kind in sorted(wanted, key=lambda row: (-round(row[0], 9), row[1].parts[0]))]
+    def _ask(self, round_: _Round, kinds: Sequence[QuestionGroup]) -> dict[QuestionGroup, _Settled]:
+        """Large parts first; small ones then, with the labels of what they touch."""
+        if not (self.way.context and self.asking.answerer.again):
+            return round_.ask(kinds)
+        large, small = in_stages(kinds, round_.parts)
+        settled = round_.ask(large)
+        return settled | round_.ask(small, round_.labels(settled, None))
 
     def _paid(self, planned: Sequence[list[Question]]) -> tuple[list[list[Question]], int]:
         """Whole kinds that the budget pays for, and how many questions it leaves out."""
@@ -152,52 +160,68 @@ class LvlmLabeler:
             used += len(questions)
         return kept, len(flat) - used
 
-    def _again(self, round_: _Round, polls: dict[int, _Settled]) -> None:
-        """Asks again about kinds whose answer is unsure, with what geometry and the first answers know."""
+    def _again(self, round_: _Round, settled: dict[QuestionGroup, _Settled]) -> None:
+        """Asks again about kinds whose label is unsure, with what geometry and the first answers know."""
         if not self.asking.answerer.again or self.way.again_below <= 0:
             return
-        unsure = [i for i, each in polls.items() if each.poll.votes and each.poll.confidence < self.way.again_below]
-        if not unsure:
-            return
-        labels = self._labels(round_, polls, round_.base)
-        unsure.sort(key=lambda i: (-len(polls[i].kind.parts), polls[i].kind.parts[0]))
-        questions = [round_.again(polls[i], labels) for i in unsure]
-        paid = self.asking.within_budget(questions)
-        for i, outcome in zip(unsure, round_.send(paid), strict=False):
-            round_.note(outcome)
-            if outcome.answer is None:
-                continue
-            verdict = settle(outcome.answer, round_.vocabulary)
-            before = polls[i]
-            if verdict.group is not None and verdict.confidence * _AGAIN_FACTOR >= before.poll.confidence:
-                votes = (*before.poll.votes, f"{verdict.group}: {verdict.name or '?'}")
-                settled = Poll(verdict.group, verdict.name, verdict.confidence, votes)
-                polls[i] = _Settled(before.kind, settled, outcome.question, verdict.seen, again=True)
+        unsure = [each for each in settled.values() if each.verdicts and self._is_unsure(round_, each)]
+        unsure.sort(key=lambda each: (-len(each.kind.parts), each.kind.parts[0]))
+        labels = round_.labels(settled, None)
+        self._more(round_, settled, [(each, round_.again(each, labels)) for each in unsure])
 
-    def _labels(
-        self, round_: _Round, polls: Mapping[int, _Settled], base: Sequence[Label | None]
-    ) -> list[Label | None]:
-        labels = list(base)
-        for each in polls.values():
-            if each.poll.group is None:
+    def _is_unsure(self, round_: _Round, settled: _Settled) -> bool:
+        """Whether the label of a kind is, or the model itself is and nobody else knows better."""
+        sureness = round_.sureness(settled)
+        own = max(verdict.confidence for verdict in settled.verdicts)
+        return sureness < self.way.again_below or (own < self.way.again_below and sureness < self.way.below)
+
+    def _doubted(self, round_: _Round, settled: dict[QuestionGroup, _Settled]) -> None:
+        """Asks about parts at places where the network contradicts the labels: those that nobody was asked about."""
+        if self.contradictions is None or not self.asking.answerer.again or self.way.ask == "all":
+            return
+        labels = round_.labels(settled, None)
+        doubts = self.contradictions(labels, round_.beliefs.probabilities())
+        asked = {part for kind in settled for part in kind.parts}
+        kinds = [
+            kind
+            for kind in find_question_groups(round_.parts, self.way.per)
+            if any(part in doubts for part in kind.parts) and not asked & set(kind.parts)
+        ]
+        kinds.sort(key=lambda kind: (-sum(part in doubts for part in kind.parts), kind.parts[0]))
+        planned = [(kind, round_.about(kind, labels)) for kind in kinds]
+        self._more(round_, settled, [(_Settled(kind, question), question) for kind, question in planned])
+
+    def _more(
+        self, round_: _Round, settled: dict[QuestionGroup, _Settled], planned: Sequence[tuple[_Settled, Question]]
+    ) -> None:
+        paid = self.asking.within_budget([question for _, question in planned])
+        for (before, _), outcome in zip(planned, round_.send(paid), strict=False):
+            verdict = round_.note(outcome)
+            if verdict is None:
                 continue
-            evidence = LvlmEvidence(
-                model=self.asking.answerer.name,
-                prompt=each.question.prompt,
-                question=each.question.id,
-                asked=round_.parts.scene.paths[each.question.part],
-                repeats=len(each.kind.parts),
-                votes=each.poll.votes,
-                seen=each.seen,
-                again=True if each.again else None,
+            again = bool(before.verdicts)
+            round_.beliefs.believe(before.kind.parts, [verdict])
+            settled[before.kind] = replace(
+                before, question=outcome.question, verdicts=(*before.verdicts, verdict), again=again
             )
-            label = Label(each.poll.group, each.poll.name, each.poll.confidence, "lvlm", evidence)
-            for part in each.kind.parts:
-                labels[part] = _joined(base[part], label, self.way)
-        return labels
+
+    def _refuse_silence(self, round_: _Round, settled: Mapping[QuestionGroup, _Settled]) -> None:
+        """A run without any answer must not pass for one.
+
+        Raises:
+            LabelError: questions were asked, none was answered, and none can be any more.
+        """
+        if self.only_asks or not settled or any(each.verdicts for each in settled.values()):
+            return
+        reasons = Counter(reason for reason, _ in round_.unanswered)
+        reason = reasons.most_common(1)[0][0] if reasons else "none came"
+        count = "the question" if len(settled) == 1 else f"any of the {len(settled):,} questions"
+        raise LabelError(
+            f"no answer to {count} ({reason}); nothing was changed; see to the answers or the server and run it again"
+        )
 
     def _report(
-        self, round_: _Round, kinds: Sequence[QuestionGroup], n_asked: int, polls: Mapping[int, _Settled]
+        self, round_: _Round, kinds: Sequence[QuestionGroup], n_asked: int, settled: Mapping[QuestionGroup, _Settled]
     ) -> tuple[Diagnostic, ...]:
         """What has no answer, and what was proposed; the files of the run are written."""
         paths = round_.parts.scene.paths
@@ -217,17 +241,17 @@ class LvlmLabeler:
             message = f"{len(self.proposals)} labels outside the vocabulary were proposed ({shown}...)"
             diagnostics.append(Diagnostic("lvlm-proposals", message[:_MESSAGE]))
         if self._folder is not None:
-            self._write(round_, polls)
+            self._write(round_, settled)
         return tuple(diagnostics)
 
-    def _write(self, round_: _Round, polls: Mapping[int, _Settled]) -> None:
+    def _write(self, round_: _Round, settled: Mapping[QuestionGroup, _Settled]) -> None:
         if self._folder is None or self.estimate is None:
             return
         tally = self.tally
         record = {
             "model": self.asking.answerer.name,
             "prompt": version("label"),
-            "kinds": len(polls),
+            "kinds": len(settled),
             "asked": tally.asked,
             "from_cache": tally.known,
             "asked_again_for_form": tally.again,
@@ -246,31 +270,42 @@ class LvlmLabeler:
         if rows:
             content = {"format": "cadgraph-proposals", "version": 1, "labels": rows}
             write_atomically(self._folder / "proposals.json", json.dumps(content, ensure_ascii=False, indent=1) + "\n")
-        if not self.asking.answerer.keeps and self.asking.answerer.name != "folder":
+        if self.only_asks and not self.asking.answerer.keeps:
             paths = round_.parts.scene.paths
             write_index(
                 self._folder / "questions",
-                [(each.question.id, [paths[part] for part in each.kind.parts]) for each in polls.values()],
+                [(each.question.id, [paths[part] for part in each.kind.parts]) for each in settled.values()],
             )
 
 
 @dataclass(frozen=True)
 class _Settled:
     kind: QuestionGroup
-    poll: Poll
     question: Question
-    seen: str
+    verdicts: tuple[Verdict, ...] = ()
     again: bool = False
+
+    @property
+    def votes(self) -> tuple[str, ...]:
+        """What each answer says."""
+        return tuple(f"{v.group or '?'}: {v.name or '?'}" for v in self.verdicts)
+
+    def seen(self, said: tuple[str, str | None]) -> str | None:
+        """What an answer of this label saw; None where no answer says so."""
+        alike = (v.seen for v in self.verdicts if v.group == said[0] and (said[1] is None or v.name in (said[1], None)))
+        return next(alike, None)
 
 
 class _Round:
-    """What the questions about one scene have in common."""
+    """What the questions about one scene have in common, and what is believed so far."""
 
     def __init__(
-        self, labeler: LvlmLabeler, parts: Parts, contacts: Contacts, vocabulary: Vocabulary,
-        base: Sequence[Label | None],
-    ) -> None:  # fmt: skip
-        self.parts, self.vocabulary, self.base = parts, vocabulary, base
+        self, labeler: LvlmLabeler, parts: Parts, contacts: Contacts, vocabulary: Vocabulary, said: Labeling | None
+    ) -> None:
+        self.parts, self.vocabulary = parts, vocabulary
+        self.base: Sequence[Label | None] = [None] * parts.n_parts if said is None else said.answers
+        self._least = (LEAST_CONFIDENCE,) * parts.n_parts if said is None else said.thresholds
+        self.beliefs = Beliefs(vocabulary, said, parts.n_parts, labeler.accuracy)
         self.near = neighbors_of(parts, contacts)
         self.unanswered: list[tuple[str, QuestionGroup]] = []
         self._labeler = labeler
@@ -279,61 +314,124 @@ class _Round:
         self._schema = answer_schema(vocabulary)
         self._wordings: dict[str, Wording] = {}
 
-    def questions(self, kind: QuestionGroup) -> list[Question]:
-        """About the members that are voted on."""
+    def questions(self, kind: QuestionGroup, labels: Sequence[Label | None] | None = None) -> list[Question]:
+        """About the members that are voted on; with labels, with those of what they touch."""
         way = self._labeler.way
         found = []
         for part in kind.members(way.votes):
             hints = self._hints.lines(part, len(kind.parts), self.base) if way.hints else ()
+            if labels is not None and not hints:
+                hints = self._hints.around(part, labels)
             found.append(self._question(part, self._wording(part, hints)))
         return found
 
     def again(self, settled: _Settled, labels: Sequence[Label | None]) -> Question:
         """With more context."""
         part = settled.question.part
-        before = settled.poll.name or settled.poll.group
+        label = labels[part]
+        before = None if label is None else label.name or label.group
         wording = self._wording(part, self._hints.lines(part, len(settled.kind.parts), labels))
         return self._question(part, replace(wording, before=before))
 
-    def ask(self, kinds: Sequence[QuestionGroup], planned: Sequence[list[Question]]) -> dict[int, _Settled]:
-        """What the model says of each kind."""
+    def about(self, kind: QuestionGroup, labels: Sequence[Label | None]) -> Question:
+        """About a part where the network does not add up."""
+        part = kind.parts[0]
+        return self._question(part, self._wording(part, self._hints.lines(part, len(kind.parts), labels)))
+
+    def ask(
+        self, kinds: Sequence[QuestionGroup], labels: Sequence[Label | None] | None = None
+    ) -> dict[QuestionGroup, _Settled]:
+        """What the model says of each kind; what follows from it is believed."""
+        planned = [self.questions(kind, labels) for kind in kinds]
         outcomes = iter(self.send([question for questions in planned for question in questions]))
-        settled: dict[int, _Settled] = {}
-        for i, (kind, questions) in enumerate(zip(kinds, planned, strict=True)):
+        settled: dict[QuestionGroup, _Settled] = {}
+        for kind, questions in zip(kinds, planned, strict=True):
             verdicts: list[Verdict] = []
             asked, reason = questions[0], "it was not asked"
             for _ in questions:
                 outcome = next(outcomes)
-                self.note(outcome)
-                if outcome.answer is not None:
+                verdict = self.note(outcome)
+                if verdict is not None:
                     asked = outcome.question if not verdicts else asked
-                    verdicts.append(settle(outcome.answer, self.vocabulary))
+                    verdicts.append(verdict)
                 else:
                     reason = outcome.reason or reason
             if not verdicts:
                 self.unanswered.append((reason, kind))
-            result = poll(verdicts, len(questions))
-            if verdicts and result.group is None:
+            elif all(verdict.group is None for verdict in verdicts):
                 self.unanswered.append(("it named no label of the vocabulary", kind))
-            seen = next((v.seen for v in verdicts if (v.group, v.name) == (result.group, result.name)), "")
-            settled[i] = _Settled(kind, result, asked, seen)
+            self.beliefs.believe(kind.parts, verdicts)
+            settled[kind] = _Settled(kind, asked, tuple(verdicts))
         return settled
+
+    def sureness(self, settled: _Settled) -> float:
+        """How sure the name of a kind is, after its answers."""
+        return float(self.beliefs.likeliest()[list(settled.kind.parts)].mean())
+
+    def labels(self, settled: Mapping[QuestionGroup, _Settled], former: Labeling | None) -> list[Label | None]:
+        """The label of each part: what is believed of it where there is an answer; else as it was.
+
+        Args:
+            settled: what was asked and answered.
+            former: the labels of a finished graph, for parts without an answer; or None.
+        """
+        labels = list(self.base)
+        if former is not None:
+            answered = {part for each in settled.values() if each.votes for part in each.kind.parts}
+            for part, label in enumerate(former.labels):
+                # What was paid for once, and what nobody knows better, stays.
+                if part not in answered and label is not None and (labels[part] is None or _asked_for(label)):
+                    labels[part] = label
+        for each in settled.values():
+            if any(verdict.group is not None for verdict in each.verdicts):
+                for part in each.kind.parts:
+                    labels[part] = self._label(part, each)
+        return labels
+
+    def _label(self, part: int, settled: _Settled) -> Label:
+        said, confidence, guesses = self.beliefs.label_of(part, self._least[part])
+        seen, before = settled.seen(said), self.base[part]
+        if seen is None and before is not None and before.said == said:
+            # The answer was outweighed.
+            return before.model_copy(update={"confidence": confidence, "guesses": guesses})
+        evidence = LvlmEvidence(
+            model=self._labeler.asking.answerer.name,
+            prompt=settled.question.prompt,
+            question=settled.question.id,
+            asked=self.parts.scene.paths[settled.question.part],
+            repeats=len(settled.kind.parts),
+            votes=settled.votes,
+            seen=seen or "",
+            again=True if settled.again else None,
+        )
+        return Label(*said, confidence, "lvlm", evidence, guesses)
+
+    def thresholds(self, labels: Sequence[Label | None], settled: Mapping[QuestionGroup, _Settled]) -> list[float]:
+        """The least confidence of each label: none for what stays from a finished graph."""
+        least = list(self._least)
+        answered = {part for each in settled.values() if each.votes for part in each.kind.parts}
+        for part, label in enumerate(labels):
+            if label is not None and part not in answered and label is not self.base[part]:
+                least[part] = 0.0
+        return least
 
     def send(self, questions: Sequence[Question]) -> list[Outcome[Answer]]:
         """Asks."""
         return self._labeler.asking.ask_all(questions, Answer, self._reworded)
 
-    def note(self, outcome: Outcome[Answer]) -> None:
-        """Keeps what an answer proposes."""
+    def note(self, outcome: Outcome[Answer]) -> Verdict | None:
+        """An answer in the terms of the vocabulary; what it proposes is kept."""
         if outcome.answer is None:
-            return
-        proposal: Proposal | None = settle(outcome.answer, self.vocabulary).proposal
+            return None
+        verdict = settle(outcome.answer, self.vocabulary)
+        proposal: Proposal | None = verdict.proposal
         if proposal is not None:
             known = next(
                 (key for key in self._labeler.proposals if key[:2] == (proposal.group, proposal.name)),
                 (proposal.group, proposal.name, proposal.reason),
             )
             self._labeler.proposals[known] += 1
+        return verdict
 
     def _wording(self, part: int, hints: Sequence[str]) -> Wording:
         measured = self.parts.properties
@@ -359,14 +457,6 @@ class _Round:
         return self._question(question.part, replace(self._wordings[question.id], again=reason), 1)
 
 
-def _joined(base: Label | None, answer: Label, way: Way) -> Label:
-    """The surer of two labels; where both agree on the group only, the group stays and the surer name."""
-    if base is None or way.ask == "all":
-        return answer
-    if base.confidence >= way.below:
-        return base
-    if base.group == answer.group and (answer.name is None or base.name == answer.name):
-        # Two that come to the same by different means are surer than either.
-        together = 1 - (1 - base.confidence) * (1 - answer.confidence)
-        return answer.model_copy(update={"name": base.name or answer.name, "confidence": min(together, 0.99)})
-    return answer if answer.confidence > base.confidence else base
+def _asked_for(label: Label) -> bool:
+    """Whether a label came from a model, as it is or mended by sizes."""
+    return label.source in ("lvlm", "context")

@@ -13,8 +13,27 @@ from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["Wording", "grow_text", "label_text", "size_text", "system_text", "version"]
 
-VERSION = 1
+VERSION = 2
 """Of the templates; raise it with every change of meaning."""
+
+_FASTENERS = ("bolt", "nut", "stud", "washer", "screw")
+_DEFINITIONS: tuple[tuple[tuple[str, ...], str], ...] = (
+    (
+        ("gasket", "flange"),
+        "A gasket is a ring or sheet of a few millimetres between flanges; a flange is a thick disc.",
+    ),
+    (
+        ("plate", "bracket"),
+        "A plate is flat and of one piece; a bracket is bent or put together and carries something.",
+    ),
+    (("pipe", "nipple"), "A nipple is a short piece of pipe, hardly longer than wide, between two fittings."),
+    (("railing", "fence"), "Whatever fills a railing (knee rails, posts, toe boards, bars) is railing too."),
+    (("gauge case", "gauge face"), "The bezel and the back of a gauge are gauge case; the face is the dial alone."),
+    (("gland", "lever"), "The small nut or collar round the stem under a lever or handwheel is the gland."),
+    (("base plate", "flange"), "A plate under a column or post is its base plate, also if it is round and drilled."),
+    (("nozzle", "flange"), "The neck and the flange that are made in one with a tank are its nozzle."),
+)
+"""What is mistaken, a line each: said where the vocabulary has all of these names."""
 
 
 @dataclass(frozen=True)
@@ -54,6 +73,7 @@ def label_text(wording: Wording) -> str:
         height=size_text(wording.height),
         hints=[_one_line(hint) for hint in wording.hints],
         before=wording.before and _one_line(wording.before),
+        definitions=_definitions(wording.vocabulary),
         vocabulary=_listed(wording.vocabulary),
         again=wording.again and _one_line(wording.again),
     )
@@ -75,6 +95,23 @@ def size_text(length: float) -> str:
     if length >= 1:
         return f"{length:.3g} m"
     return f"{length * 1000:.3g} mm"
+
+
+def _definitions(vocabulary: Vocabulary) -> list[str]:
+    """What tells names apart that are mistaken for each other, of those that are to choose from."""
+    places = {name: group for group, content in vocabulary.groups.items() for name in content.names}
+    lines = [line for names, line in _DEFINITIONS if all(name in places for name in names)]
+    fasteners = [name for name in _FASTENERS if name in places]
+    if fasteners:
+        groups = list(dict.fromkeys(places[name] for name in fasteners))
+        names = " and ".join(filter(None, (", ".join(_many(name) for name in fasteners[:-1]), _many(fasteners[-1]))))
+        whose = "wherever they are: on a flange, a valve, a pump or a gauge"
+        lines.insert(0, f"{names[0].upper()}{names[1:]} always belong to {' or '.join(groups)}, {whose}.")
+    return [_one_line(line) for line in lines]
+
+
+def _many(name: str) -> str:
+    return f"{name}s"
 
 
 def _listed(vocabulary: Vocabulary) -> str:

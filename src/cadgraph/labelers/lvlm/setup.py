@@ -16,6 +16,7 @@ from cadgraph.labelers.lvlm.batch import BatchWriter, read_results
 from cadgraph.labelers.lvlm.cache import Cache
 from cadgraph.labelers.lvlm.client import Client
 from cadgraph.labelers.lvlm.folder import DryRun, FolderAnswers
+from cadgraph.labelers.lvlm.joining import read_accuracy
 from cadgraph.labelers.lvlm.labeler import LvlmLabeler, Way
 from cadgraph.labelers.lvlm.price import Estimate, read_price
 from cadgraph.labelers.lvlm.reply import Answerer, Question
@@ -68,6 +69,7 @@ def make_labeler(config: Config, output: Path, run: Run | None = None) -> LvlmLa
         per=settings.per,
         votes=settings.votes,
         hints=settings.hints,
+        context=settings.context,
         below=settings.below,
         again_below=settings.again_below,
         repair=settings.repair,
@@ -76,7 +78,13 @@ def make_labeler(config: Config, output: Path, run: Run | None = None) -> LvlmLa
     embedded = labeler_of(config.label) if settings.ask == "unsure" or settings.hints else None
     asking = make_asking(settings, output / FOLDER, run)
     return LvlmLabeler(
-        asking, way, embedded=embedded, folder=output / FOLDER, confirm=_no_cost if run.mode != "ask" else run.confirm
+        asking,
+        way,
+        embedded=embedded,
+        folder=output / FOLDER,
+        confirm=_no_cost if run.mode != "ask" else run.confirm,
+        accuracy=read_accuracy(settings.model, settings.accuracy, paper=settings.paper_views),
+        only_asks=run.mode == "dry" or (run.mode == "batch" and not run.results),
     )
 
 
