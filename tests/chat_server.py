@@ -22,7 +22,7 @@ from starlette.routing import Route
 class ChatServer:
     """Answers from a function of the question's text; ``orders`` say how each request in turn goes wrong.
 
-    Orders: ``ok``, ``429``, ``500``, ``slow``, ``drop``, ``broken``, ``wrong``, ``refuse``, ``huge``, ``empty``.
+    Orders: ``ok``, ``400``, ``429``, ``500``, ``slow``, ``drop``, ``broken``, ``wrong``, ``refuse``, ``huge``, ``empty``.
     """
 
     def __init__(self, answer, orders=(), delay=0.0, accepts=("json_schema", "json_object", "none")):
@@ -49,6 +49,8 @@ class ChatServer:
             await asyncio.sleep(self.delay)
         if order == "429":
             return self._error(429, "slow down", {"retry-after-ms": "20", "retry-after": "0.02"})
+        if order == "400":
+            return self._error(400, "the picture can't be decoded")
         if order == "500":
             return self._error(500, "oops", {"retry-after-ms": "20"})
         if order == "slow":

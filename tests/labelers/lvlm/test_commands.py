@@ -114,6 +114,66 @@ def test_a_dry_run_can_be_answered_by_hand(capsys, scene_file, tmp_path):
     assert "no JSON object" in err
 
 
+@pytest.fixture
+def labelled(capsys, scene_file, tmp_path):
+    """A folder whose graph a server has labelled, and its bytes."""
+    out = tmp_path / "out"
+    with ChatServer(plates.oracle(parts_in(scene_file))).running() as address:
+        arguments = ("build", scene_file, "-o", out, "--labeler", "lvlm", "--base-url", address, "--yes")
+        assert run(capsys, *arguments, *SMALL)[0] == 0
+    (out / "lvlm" / "answers.sqlite").unlink()
+    return out, (out / "graph.json").read_bytes()
+
+
+@pytest.mark.parametrize("arguments", [("--dry-run",), ("--batch",)])
+def test_asking_without_answers_changes_no_result(capsys, labelled, arguments):
+    out, before = labelled
+    code, printed, _ = run(capsys, "label", out, "--labeler", "lvlm", *arguments, "--no-report")
+    assert code == 0
+    assert "no result was changed" in printed
+    assert (out / "graph.json").read_bytes() == before
+    assert any((out / "lvlm").glob("questions/q-*" if "--dry-run" in arguments else "batch-001.jsonl"))
+
+
+def test_building_anew_without_answers_changes_no_result(capsys, labelled, scene_file):
+    out, before = labelled
+    assert run(capsys, "build", scene_file, "-o", out, "--labeler", "lvlm", "--dry-run", *SMALL)[0] == 0
+    assert (out / "graph.json").read_bytes() == before
+
+
+def test_an_empty_folder_of_answers_is_an_error(capsys, labelled, tmp_path):
+    out, before = labelled
+    (tmp_path / "nothing").mkdir()
+    code, _, err = run(capsys, "label", out, "--labeler", "lvlm", "--from-folder", tmp_path / "nothing", "--no-report")
+    assert code == 2
+    assert "no answer to any of the 3 questions" in err
+    assert (out / "graph.json").read_bytes() == before
+
+
+@pytest.mark.parametrize("order", ["400", "500"])
+def test_a_server_that_only_fails_is_an_error_with_its_reason(capsys, labelled, scene_file, order):
+    out, before = labelled
+    server = ChatServer(plates.oracle(parts_in(scene_file)), [order] * 99)
+    with server.running() as address:
+        asked = ("--labeler", "lvlm", "--base-url", address, "--yes", "--set", "lvlm.retries=0", "--no-report")
+        code, _, err = run(capsys, "label", out, *asked)
+    assert code == 2
+    assert f"answered {order}" in " ".join(err.split())
+    assert (out / "graph.json").read_bytes() == before
+
+
+def test_parts_without_an_answer_keep_their_labels_and_are_counted(capsys, labelled, scene_file):
+    out, _ = labelled
+    before = labels_in(out)
+    server = ChatServer(plates.oracle(parts_in(scene_file)), ["500"])
+    with server.running() as address:
+        asked = ("--labeler", "lvlm", "--base-url", address, "--yes", "--set", "lvlm.retries=0", "--no-report")
+        code, _, err = run(capsys, "label", out, *asked)
+    assert code == 0
+    assert labels_in(out) == before
+    assert "2 parts have no answer" in err
+
+
 @pytest.mark.slow
 def test_batch_requests_are_written_and_results_read_back(capsys, scene_file, tmp_path):
     out = tmp_path / "out"
