@@ -1,9 +1,9 @@
-"""How often a model is right about parts that are known: ``python packages/cadlab/benchmarks/lvlm_accuracy.py --model M``.
+"""How often a model is right: ``python packages/cadlab/benchmarks/lvlm_accuracy.py --model M``.
 
 Asks a model about every kind of part of generated plants, in styles that the embedded labeler has not learnt either,
 and writes an entry for the table of accuracies by which its answers are joined with the labeler's:
 
-    OPENAI_API_KEY=... python packages/cadlab/benchmarks/lvlm_accuracy.py --model gpt-4o --max-questions 200 -o mine.yaml
+    python packages/cadlab/benchmarks/lvlm_accuracy.py --model gpt-4o --max-questions 200 -o mine.yaml
     cadgraph build plant.usd -o out --labeler embedded+lvlm --set lvlm.accuracy=mine.yaml
 
 Answers are kept in a cache beside the table, so that a run that was broken off goes on. Shares are those of right

@@ -147,7 +147,8 @@ _NOT_KEPT = """Not kept, since they change where only triangles do: numbers of p
 plants are full of faces that meet along a line without common corners), lengths of edges by angle, points sampled per
 triangle, and the number of corners around a circle, which is somebody's setting.
 
-Tried on the folds, with plants of an earlier generator, and left out (group / name; *new*: parts of held-out families, *makers*: single real parts):
+Tried on the folds, with plants of an earlier generator, and left out (group / name; *new*: parts of held-out families,
+*makers*: single real parts):
 
 | tried | systems | new | makers |
 |:---|:---|:---|:---|
