@@ -33,6 +33,7 @@ from cadgraph.model.vocabulary import Vocabulary
 __all__ = ["LvlmLabeler", "Way"]
 
 _MESSAGE = 160
+_SURE = 0.8  # a label is sure from this confidence on, where no labeler says its own
 
 
 @dataclass(frozen=True)
@@ -136,7 +137,7 @@ class LvlmLabeler:
             labels = repair(labels, parts, round_.near, vocabulary)
         diagnostics = self._report(round_, kinds, len(kept), settled)
         thresholds = round_.thresholds(labels, settled)
-        sure = 0.0 if said is None else said.sure
+        sure = _SURE if said is None else said.sure
         return Labeling.judge(labels, thresholds, round_.beliefs.probabilities(), diagnostics, sure)
 
     def _ask(self, round_: _Round, kinds: Sequence[QuestionGroup]) -> dict[QuestionGroup, _Settled]:
