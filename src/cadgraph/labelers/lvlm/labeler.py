@@ -216,6 +216,7 @@ class LvlmLabeler:
             shown = ", ".join(f"{g}: {n}" for g, n, _ in sorted(self.proposals, key=str)[:5])
             message = f"{len(self.proposals)} labels outside the vocabulary were proposed ({shown}...)"
             diagnostics.append(Diagnostic("lvlm-proposals", message[:_MESSAGE]))
+        diagnostics += self.asking.findings()
         if self._folder is not None:
             self._write(round_, polls)
         return tuple(diagnostics)
@@ -237,6 +238,7 @@ class LvlmLabeler:
             "cost_usd": round(tally.cost, 6) if self.asking.price else None,
             "spent_now_usd": round(tally.spent, 6) if self.asking.price else None,
             "estimated_usd": self.estimate.cost,
+            **self.asking.record(),
         }
         write_atomically(self._folder / "run.json", json.dumps(record, indent=1) + "\n")
         rows = [
@@ -249,7 +251,7 @@ class LvlmLabeler:
         if not self.asking.answerer.keeps and self.asking.answerer.name != "folder":
             paths = round_.parts.scene.paths
             write_index(
-                self._folder / "questions",
+                getattr(self.asking.answerer, "folder", self._folder / "questions"),
                 [(each.question.id, [paths[part] for part in each.kind.parts]) for each in polls.values()],
             )
 
@@ -351,6 +353,7 @@ class _Round:
             prompt=version("label"),
             part=part,
             attempt=attempt,
+            about=self.parts.scene.paths[part],
         )
         self._wordings[question.id] = wording
         return question
