@@ -310,7 +310,8 @@ class Client:
         if isinstance(error, self._openai.APIConnectionError) and not isinstance(error.__cause__, ValueError):
             cause = self._first("connection", self._cause(error))
             return f"the connection to the server failed at every try ({cause})"
-        first = printable(self._scrub(str(error.__cause__ or error)), "")
+        wrapped = error.__cause__ if isinstance(error, self._openai.OpenAIError) else None
+        first = printable(self._scrub(str(wrapped or error)), "")
         return f"the server's reply can't be used: {' '.join(first.split())[:_SAID] or type(error).__name__}"
 
     def _cause(self, error: BaseException) -> str:

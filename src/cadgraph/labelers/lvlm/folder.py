@@ -112,12 +112,14 @@ class FolderAnswers:
         rows = (
             ("lvlm-answers-unread", "can't be read", sorted(self._unreadable)),
             ("lvlm-answers-unasked", "to no question of this run: other settings, scene or vocabulary", strays.unasked),
-            ("lvlm-answers-stray", "no answers; write answer.json into the folder of the question", strays.others),
+            (
+                "lvlm-answers-stray",
+                "no answers, in the folder of answers; write answer.json into the folder of the question",
+                strays.others,
+            ),
         )
         return tuple(
-            Diagnostic(
-                code, f"{self.folder}: {len(names)} {_nouns(code, len(names))} {words}: {some(names)}"[:_MESSAGE]
-            )
+            Diagnostic(code, f"{len(names)} {_nouns(code, len(names))} {words}: {some(names)}"[:_MESSAGE])
             for code, words, names in rows
             if names
         )

@@ -122,7 +122,9 @@ def _remarks(text: str, answer: Answer, vocabulary: Vocabulary) -> list[str]:
     """What becomes of an answer that counts, where that isn't what it says."""
     content = json.loads(text[text.find("{") : text.rfind("}") + 1])
     unknown = sorted(set(content) - set(Answer.model_fields))
+    missing = [name for name in Answer.model_fields if name not in content]
     told = [f"keys that nobody reads: {some(unknown)}"] if unknown else []
+    told += [f"keys that are missing, taken as their defaults: {some(missing)}"] if missing else []
     verdict = settle(answer, vocabulary)
     if verdict.group is None:
         told.append("its group and name are not in the list: the part gets no label")

@@ -12,8 +12,8 @@ from cadgraph._io.limits import REPLY, size_text
 
 __all__ = ["ENCODINGS", "TooMuch", "capped"]
 
-ENCODINGS = "gzip, deflate"
-"""What a server may pack a reply in: both can be unpacked piece by piece within a limit."""
+ENCODINGS = "gzip"
+"""What a server may pack a reply in: it can be unpacked piece by piece within a limit."""
 
 _PIECE = 1 << 16  # of what is unpacked at a time
 
