@@ -112,6 +112,7 @@ class Client:
         """Closes the connections; the next question opens new ones."""
         with self._lock:
             client, self._client = self._client, None
+        self._patience.calm()
         if client is not None:
             client.close()
 

@@ -61,6 +61,10 @@ class Patience:
         """Ends every wait: somebody pressed Ctrl-C."""
         self._stop.set()
 
+    def calm(self) -> None:
+        """Allows waits again."""
+        self._stop.clear()
+
     def ready(self) -> None:
         """Waits until the server may be asked.
 
@@ -191,7 +195,8 @@ def resolves(address: str, seconds: float = CONNECT) -> bool:
     """
     parts = urlsplit(address)
     host = parts.hostname or ""
-    if parts.scheme in urllib.request.getproxies() and not urllib.request.proxy_bypass(host):
+    proxies = urllib.request.getproxies()
+    if (parts.scheme in proxies or "all" in proxies) and not urllib.request.proxy_bypass(host):
         return True
     found: list[bool] = []
 
