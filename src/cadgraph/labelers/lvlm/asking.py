@@ -282,7 +282,7 @@ class Asking:
             by_reason.setdefault(reason, set()).add(question.called)
         found = []
         for reason, names in sorted(by_reason.items()):
-            few = some(sorted(names))
+            few = some(sorted(names), 3)
             n = len(names)
             found.append(Diagnostic("lvlm-failed", f"{n} question{'s' * (n != 1)} failed, {reason}: {few}"[:_MESSAGE]))
         if isinstance(self.answerer, Watchful):
