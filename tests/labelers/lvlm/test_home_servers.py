@@ -190,6 +190,18 @@ def test_llama_cpp_that_cannot_make_a_grammar_of_the_schema_gets_an_object():
     assert [form_of(body) for body in server.bodies] == ["json_schema", "json_object", "json_object"]
 
 
+def test_the_page_of_a_gateway_that_is_out_of_order_changes_nothing():
+    page = b"<html><body>502 Bad Gateway " + b"schema.org temperature system message " * 50 + b"</body></html>"
+
+    def reply(body, server):
+        return (502, page, {"retry-after": "0"}) if len(server.bodies) == 1 else (200, said())
+
+    answer, server = ask(reply, retries=1)
+    assert flange(answer)
+    assert {form_of(body) for body in server.bodies} == {"json_schema"}
+    assert all(len(body["messages"]) == 2 and "temperature" in body for body in server.bodies)
+
+
 @pytest.mark.parametrize(
     "message",
     [

@@ -27,6 +27,7 @@ __all__ = ["Client"]
 
 _WAYS = 12  # of asking that are tried for one question
 _SAID = 120  # characters of a server's own words in a message
+_PAGE = 500  # characters from which an error is a page of a gateway, whose words mean nothing
 _KINDS = {429: "too many requests", 500: "server error", 503: "server overloaded"}
 
 
@@ -217,7 +218,7 @@ class Client:
             raise LabelError(f"the server refuses the key ({status}); check it and the model") from error
         if status == 404:
             raise LabelError(f"the server has no model {self.name!r} (404); check --model and --base-url") from error
-        if status in (400, 413, 415, 422) or (status >= 500 and adapted(manner, said, True) is not None):
+        if status in (400, 413, 415, 422) or (status >= 500 and len(said) < _PAGE and adapted(manner, said, True)):
             raise _Refused(said, status) from error
         if status not in (408, 409, 429) and status < 500:
             raise error
