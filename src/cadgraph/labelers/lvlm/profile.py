@@ -72,6 +72,9 @@ class _Model(_Server):
     temperature: bool = True
 
 
+_UNKNOWN, _NOWHERE = _Model(name="", match=("",)), _Server(name="")
+
+
 class _Table(_Strict):
     models: tuple[_Model, ...] = ()
     servers: dict[int, _Server] = {}
@@ -169,24 +172,22 @@ def read_profile(
     """
     table = _read(file)
     name = model.rpartition("/")[2].partition(":")[0].lower()
-    known = next((row for row in table.models if any(fnmatch.fnmatchcase(name, each) for each in row.match)), None)
-    server = table.servers.get(_port(address) or -1)
-    sources = [row for row in (server, known) if row is not None]
-    contexts = [row.context for row in sources if row.context is not None]
-    form = next((row.schema_ for row in sources if row.schema_ is not None), "json_schema")
-    limit = next((row.limit for row in sources if row.limit is not None), "max_completion_tokens")
+    known = next((row for row in table.models if any(fnmatch.fnmatchcase(name, each) for each in row.match)), _UNKNOWN)
+    server = table.servers.get(_port(address) or -1, _NOWHERE)
+    contexts = [row.context for row in (server, known) if row.context is not None]
+    form = server.schema_ or known.schema_ or "json_schema"
     return Profile(
-        model=known.name if known else "",
-        server=server.name if server else "",
+        model=known.name,
+        server=server.name,
         context=context or min(contexts, default=None),
-        tokens=known.tokens if known else None,
+        tokens=known.tokens,
         manner=Manner(
             schema=form if schema == "auto" else schema,
-            limit=limit,
-            temperature=known.temperature if known else True,
-            system=known.system if known else True,
-            pictures=pictures or (known.pictures if known else None),
-            side=known.side if known else None,
+            limit=server.limit or known.limit or "max_completion_tokens",
+            temperature=known.temperature,
+            system=known.system,
+            pictures=pictures or known.pictures,
+            side=known.side,
         ),
     )
 
