@@ -2,6 +2,7 @@
 
 import json
 import os
+from pathlib import Path
 
 import pytest
 
@@ -100,6 +101,23 @@ def test_answers_that_cannot_be_read_are_told(questions, way):
     assert path.parent.name in told["lvlm-failed"]
     checked = check_answers(questions, plates.VOCABULARY)
     assert [name for name, _ in checked.malformed] == [path.parent.name]
+
+
+def test_a_folder_that_nobody_may_read_is_told_and_ends_nothing(questions, monkeypatch):
+    answer_all(questions)
+    closed = questions / f"q-{next(iter(read_index(questions)))}"
+    is_dir, iterdir = Path.is_dir, Path.iterdir
+
+    def refuse(path, inner):
+        if path == inner:
+            raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "is_dir", lambda path: refuse(path, closed / "answer.json") or is_dir(path))
+    monkeypatch.setattr(Path, "iterdir", lambda path: refuse(path, closed) or iterdir(path))
+    told = codes(labelled(FolderAnswers(questions), None))
+    assert told["lvlm-answers-unread"] == f"1 answer can't be read: {closed.name}"
+    assert "Permission denied" in told["lvlm-failed"]
+    assert f"{closed.name}/(can't be listed)" in told["lvlm-answers-stray"]
 
 
 def test_settings_beside_questions_are_read_back(tmp_path):

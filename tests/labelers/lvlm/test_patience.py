@@ -144,6 +144,19 @@ def test_a_server_that_takes_questions_and_never_answers_ends_by_the_timeout():
     assert len(server.bodies) <= 8
 
 
+def test_a_server_that_loads_its_model_for_longer_than_one_timeout_is_waited_for():
+    def reply(body, server):
+        if len(server.bodies) <= 4:
+            time.sleep(0.7)
+            return None
+        return 200, said()
+
+    server = HomeServer(reply)
+    with server.running() as address:
+        outcomes, _ = ask_all(address, 8, timeout=0.5, retries=2)
+    assert all(each.answer is not None for each in outcomes)
+
+
 def test_a_server_that_comes_back_is_asked_on():
     def reply(body, server):
         return None if len(server.bodies) in (2, 3) else (200, said())

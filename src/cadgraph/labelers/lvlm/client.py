@@ -200,7 +200,7 @@ class Client:
         if _unreachable(error):
             self._patience.unreachable(started, "no connection in time" if late else self._cause(error))
         elif late:
-            self._patience.silent()
+            self._patience.silent(started)
 
     def _mind(self, error: Any, manner: Manner, last: bool) -> None:
         """What an error that the server told means: another way of asking, an end, or another try.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -156,7 +157,7 @@ def find_strays(folder: Path, asked: set[str]) -> Strays:
     for _, path in zip(range(_MOST), sorted(folder.iterdir()), strict=False):
         question, answer = _QUESTION.fullmatch(path.name), _ANSWER.fullmatch(path.name)
         if question is not None and path.is_dir():
-            if question.group(1) not in asked and (path / ANSWER_FILE).exists():
+            if question.group(1) not in asked and os.path.lexists(path / ANSWER_FILE):
                 unasked.append(path.name)
             others += [f"{path.name}/{inner}" for inner in _foreign(path)]
         elif answer is not None and path.is_file():
@@ -168,7 +169,10 @@ def find_strays(folder: Path, asked: set[str]) -> Strays:
 
 def _foreign(folder: Path) -> list[str]:
     """What no question brings, and no answer is called."""
-    names = [path.name for _, path in zip(range(_MOST), sorted(folder.iterdir()), strict=False)]
+    try:
+        names = [path.name for _, path in zip(range(_MOST), sorted(folder.iterdir()), strict=False)]
+    except OSError:
+        return ["(can't be listed)"]
     return [name for name in names if not _OURS.fullmatch(name)]
 
 
@@ -183,10 +187,13 @@ def read_answer(folder: Path, question: str) -> str | None:
         LabelError: it can't be read.
     """
     for path in (folder / f"q-{question}" / ANSWER_FILE, folder / f"{question}.json"):
-        if path.is_dir():
-            raise LabelError(f"{path}: a folder; write the answer as a file of this name")
-        if path.is_file() or path.is_symlink():
-            return read_text_within(path, ANSWER, LabelError, "write the answer alone")
+        try:
+            if path.is_dir():
+                raise LabelError(f"{path}: a folder; write the answer as a file of this name")
+            if path.is_file() or path.is_symlink():
+                return read_text_within(path, ANSWER, LabelError, "write the answer alone")
+        except OSError as error:
+            raise LabelError(f"{path}: can't be read ({error.strerror}); change its permissions") from error
     return None
 
 

@@ -19,7 +19,7 @@ CONNECT = 5.0
 
 _UNREACHABLE = 4.0  # s that connections may fail, one after the other, before the server counts as down
 _IN_A_ROW = 12  # questions that fail one after the other, none answered between them: the server is gone
-_SILENT = 2  # tries that end by the timeout before anything was ever answered
+_SILENT = 1.5  # timeouts that a server may say nothing from the first question on: the second try of the first is over
 _FIRST, _LONGEST = 0.5, 8.0  # s between two tries where the server doesn't say
 
 
@@ -49,8 +49,9 @@ class Patience:
         self._over: str | None = None
         self._until = 0.0
         self._down_since: float | None = None
+        self._silent_since: float | None = None
         self._answered = False
-        self._failed = self._silent = 0
+        self._failed = 0
 
     @property
     def over(self) -> str | None:
@@ -91,7 +92,7 @@ class Patience:
         """It gave an answer."""
         with self._lock:
             self._answered, self._down_since = True, None
-            self._failed = self._silent = 0
+            self._failed = 0
 
     def heard(self) -> None:
         """It said something, be it an error."""
@@ -136,18 +137,21 @@ class Patience:
             if time.monotonic() - self._down_since >= _UNREACHABLE:
                 self.end(f"the server at {self._where} can't be reached ({why}); is it running?")
 
-    def silent(self) -> None:
-        """It took a question and did not answer in time.
+    def silent(self, since: float) -> None:
+        """It took a question and did not answer in time: it may be loading its model, so a second try is fine.
+
+        Args:
+            since: when the question was sent.
 
         Raises:
-            Gone: it never answered anything.
+            Gone: it never answered anything, for two tries.
         """
         with self._lock:
-            self._silent += 1
-            if not self._answered and self._silent >= _SILENT:
+            self._silent_since = since if self._silent_since is None else min(self._silent_since, since)
+            if not self._answered and time.monotonic() - self._silent_since >= _SILENT * self._timeout:
                 self.end(
                     f"the server at {self._where} takes questions but answered none within {self._timeout:g} s "
-                    "(lvlm.timeout)"
+                    "(lvlm.timeout), twice"
                 )
 
     def end(self, why: str) -> None:
