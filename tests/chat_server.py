@@ -22,7 +22,8 @@ from starlette.routing import Route
 class ChatServer:
     """Answers from a function of the question's text; ``orders`` say how each request in turn goes wrong.
 
-    Orders: ``ok``, ``400``, ``429``, ``500``, ``slow``, ``drop``, ``broken``, ``wrong``, ``refuse``, ``huge``, ``empty``.
+    Orders: ``ok``, ``400``, ``429``, ``500``, ``slow``, ``drop``, ``broken``, ``wrong``, ``refuse``, ``huge``,
+    ``empty``.
     """
 
     def __init__(self, answer, orders=(), delay=0.0, accepts=("json_schema", "json_object", "none")):

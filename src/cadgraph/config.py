@@ -177,7 +177,7 @@ class LvlmConfig(Section):
     )
     votes: int = _setting(1, "members of a kind that are asked about; the majority counts", ge=1, le=15)
     hints: bool = _setting(False, "tell it what geometry knows: form, repeats, labels of neighbours")
-    context: bool = _setting(True, "ask about small parts after large ones, with the labels of what they touch")
+    staged: bool = _setting(True, "ask about small parts after large ones, with the labels of what they touch")
     below: float = _setting(0.8, "ask = 'unsure': where the embedded labeler's confidence is below", ge=0, le=1)
     again_below: float = _setting(
         0.5, "answers below this confidence are asked again with what geometry knows; 0: never", ge=0, le=1
@@ -190,11 +190,28 @@ class LvlmConfig(Section):
     max_cost: float | None = _setting(None, "at most so many US dollars in a run, by the price table", ge=0)
     prices: str = _setting("", "price table (YAML); empty: the built-in one", max_length=4096)
     accuracy: str = _setting("", "how often models are right (YAML); empty: the built-in table", max_length=4096)
+    profiles: str = _setting(
+        "", "table of what models and servers understand (YAML); empty: the built-in one", max_length=4096
+    )
+    context: int | None = _setting(
+        None, "tokens that the server leaves to a question with its answer; none: by the table of profiles", ge=256
+    )
+    pictures: int | None = _setting(
+        None,
+        "pictures of a message at most, the rest is tiled into sheets; none: by the table of profiles",
+        ge=1,
+        le=64,
+    )
     cache: str = _setting(
         "", "file of answers that were given; empty: lvlm/answers.sqlite in the output folder", max_length=4096
     )
     concurrency: int = _setting(8, "questions at a time", ge=1, le=256)
-    timeout: float = _setting(120.0, "give up on one try after this long [s]", gt=0)
+    timeout: float = _setting(
+        120.0, "give up on one try after this long [s], on a server that answers nothing after twice that", gt=0
+    )
+    wait: float = _setting(
+        300.0, "the longest that is waited where a server asks for it [s]; for longer, the run ends and says so", ge=0
+    )
     retries: int = _setting(5, "further tries after 429, 5xx, a timeout or a broken connection", ge=0, le=20)
     max_answer_tokens: int = _setting(600, "greatest length of an answer [tokens]", ge=50, le=20000)
     temperature: float | None = _setting(0.0, "of the model; none: its own", ge=0, le=2)

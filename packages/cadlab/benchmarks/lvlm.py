@@ -143,7 +143,7 @@ def read_case(preset: str, style: str, seed: int) -> Case:
 
 def ways(kinds: int) -> Mapping[str, tuple[Way, Budget]]:
     return {
-        "per part (paper)": (Way(per="part", again_below=0, repair=False, context=False), Budget()),
+        "per part (paper)": (Way(per="part", again_below=0, repair=False, staged=False), Budget()),
         "per shape": (Way(), Budget()),
         "embedded+lvlm": (Way(ask="unsure"), Budget()),
         f"embedded+lvlm, at most {kinds // 4}": (Way(ask="unsure"), Budget(questions=kinds // 4)),

@@ -65,7 +65,7 @@ def main() -> None:
     options = parser.parse_args()
     config = Config().replace({
         "lvlm.ask": "all", "lvlm.model": options.model, "lvlm.base_url": options.base_url, "lvlm.again_below": 0.0,
-        "lvlm.repair": False, "lvlm.context": False, "lvlm.max_questions": options.max_questions,
+        "lvlm.repair": False, "lvlm.staged": False, "lvlm.max_questions": options.max_questions,
         "lvlm.cache": str(options.output.with_suffix(".sqlite")),
     })  # fmt: skip
     answers: list[tuple[Pair, Pair]] = []

@@ -23,11 +23,13 @@ __all__ = [
     "EXCHANGE_HEAD",
     "FLOWS",
     "GRAPH",
+    "INDEX",
     "LABELS",
     "MAPPING",
     "MODEL",
     "NOTE",
     "PRICES",
+    "PROFILES",
     "PROPOSALS",
     "REPLY",
     "TRUTH",
@@ -77,6 +79,10 @@ MAPPING = Limit(16 * _MB, "a table of tags")
 """A line takes 20 bytes."""
 PRICES = Limit(_MB, "a price table")
 """The built-in one takes 2 kB."""
+PROFILES = Limit(_MB, "a table of profiles")
+"""The built-in one takes 4 kB."""
+INDEX = Limit(256 * _MB, "an index of questions")
+"""A question takes 40 bytes and about 60 for each part that it stands for: four million parts."""
 PROPOSALS = Limit(4 * _MB, "a list of proposals")
 """A proposal takes about 300 bytes."""
 ANSWER = Limit(200 * _KB, "an answer")

@@ -14,7 +14,7 @@ from typing import Annotated, Any, TypeVar, get_type_hints
 import typer
 from rich.markup import escape
 
-from cadgraph.cli.screen import err
+from cadgraph.cli.screen import err, out
 from cadgraph.config import Config
 from cadgraph.model.graph import SceneGraph
 
@@ -84,6 +84,18 @@ class AskingOptions:
         changes |= {f"lvlm.{name}": value for name, value in given.items() if value is not None}
         return config.replace(changes) if changes else config
 
+    def stored(self, config: Config, before: Config) -> Config:
+        """The settings that go into the results: the limits of a run that asks nobody are none of the next one's.
+
+        Args:
+            config: all settings.
+            before: what they were without the options.
+        """
+        if not (self.dry_run or self.batch):
+            return config
+        limits = {"lvlm.max_questions": before.lvlm.max_questions, "lvlm.max_cost": before.lvlm.max_cost}
+        return config.replace(limits)
+
     def labeler(self, config: Config, output: Path, progress: Any, **more: Any) -> Any:
         """The labeler that the settings ask for; None where no model is asked.
 
@@ -107,7 +119,12 @@ class AskingOptions:
 
         mode = "dry" if self.dry_run else "batch" if self.batch else "ask"
         values = {"mode": mode, "keep_renders": self.keep_renders, "note": _Note(), **more}
-        return Run(confirm=functools.partial(_confirmed, progress, self.yes), **values)
+        if values["mode"] == "ask":
+            confirm: Callable[[Any], bool] = functools.partial(_confirmed, progress, self.yes)
+        else:
+            # Whoever answers files in place is no model with a price.
+            confirm = (lambda _: True) if "questions" in more else _estimated
+        return Run(confirm=confirm, **values)
 
     def tell(self, labeler: Any, graph: SceneGraph) -> None:
         """Says what asking came to.
@@ -124,6 +141,15 @@ class AskingOptions:
         err.print(f"[dim]questions      [/]{counts}{cost}")
         for finding in (one for one in graph.diagnostics if one.code.startswith("lvlm-")):
             err.print(f"[dim]{'':<15}[/]{escape(finding.message)}")
+
+    def tell_written(self, labeler: Any) -> None:
+        """Says what a run that asks nobody wrote, and what to do with it."""
+        answerer = labeler.asking.answerer
+        files = [str(path) for path in getattr(answerer, "files", ())]
+        where = ", ".join(files) if self.batch else str(answerer.folder)
+        way = "--batch-results FILE" if self.batch else f"--from-folder {where}"
+        out.print(f"wrote {labeler.estimate.questions:,} questions: {escape(where)}; no result was touched")
+        out.print(f"[dim]with answers:[/] cadgraph label FOLDER {escape(way)}")
 
 
 def asks(command: _F) -> _F:
@@ -173,18 +199,8 @@ class _Note:
 
 
 def _confirmed(progress: Any, yes: bool, estimate: Any) -> bool:
-    cost = "no price is known for this model" if estimate.cost is None else f"about ${estimate.cost:.2f}"
-    lines = [
-        f"[bold]{estimate.questions:,} questions[/] to {escape(estimate.model)}: about {estimate.prompt_tokens:,} + "
-        f"{estimate.answer_tokens:,} tokens, {cost}"
-    ]
-    if estimate.known:
-        lines.append(f"{estimate.known:,} more are answered by the cache")
-    if estimate.left_out:
-        lines.append(f"{estimate.left_out:,} are left out: the budget ends there")
-    lines.append("answers that can't be used or are unsure are asked again once, within the budget")
-    for line in lines:
-        err.print(line)
+    _tell_estimate(estimate)
+    err.print("answers that can't be used or are unsure are asked again once, within the budget")
     if yes or not estimate.questions:
         return True
     if not sys.stdin.isatty():
@@ -192,3 +208,28 @@ def _confirmed(progress: Any, yes: bool, estimate: Any) -> bool:
         return False
     with progress.paused():
         return typer.confirm("Ask them?", err=True)
+
+
+def _estimated(estimate: Any) -> bool:
+    _tell_estimate(estimate)
+    err.print("nobody is asked now")
+    return True
+
+
+def _tell_estimate(estimate: Any) -> None:
+    cost = "no price is known for this model" if estimate.cost is None else f"about ${estimate.cost:.2f}"
+    err.print(
+        f"[bold]{estimate.questions:,} questions[/] to {escape(estimate.model)}: about {estimate.prompt_tokens:,} + "
+        f"{estimate.answer_tokens:,} tokens, {cost}"
+    )
+    if estimate.profile:
+        err.print(escape(estimate.profile))
+    if estimate.resumed:
+        err.print(
+            f"{estimate.resumed:,} of them were sent before, and run or connection ended before an answer came; "
+            "they are sent again with the same ids, and may be paid twice"
+        )
+    if estimate.known:
+        err.print(f"{estimate.known:,} more are answered by the cache")
+    if estimate.left_out:
+        err.print(f"{estimate.left_out:,} are left out: the budget ends there")

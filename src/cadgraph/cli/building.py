@@ -61,13 +61,13 @@ def build(
         chosen = chosen.replace({"relate.flow": (*chosen.relate.flow, *read_flows(flow))})
     if catalog:
         chosen = chosen.replace({"label.catalogs": [str(file) for file in catalog]})
-    chosen = asking.settings(chosen)
+    before, chosen = chosen, asking.settings(chosen)
     with bars() as progress:
         labeler = asking.labeler(chosen, output, progress)
         outcome = run(
             scene,
             output,
-            chosen,
+            asking.stored(chosen, before),
             labels=labels,
             vocabulary=vocabulary,
             labeler=labeler,

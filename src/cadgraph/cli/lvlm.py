@@ -1,4 +1,4 @@
-"""Labels by a vision-language model: label, and the vocabulary: grow, show, check, merge."""
+"""Labels by a vision-language model: label, ask-folder, and the vocabulary: grow, show, check, merge."""
 
 from __future__ import annotations
 
@@ -42,19 +42,82 @@ def label(
     report: Annotated[bool, typer.Option("--report/--no-report", help="Draw pictures and write report.html.")] = True,
 ) -> None:
     """Label a graph anew: by a model, by answers in a folder, or by the results of a batch."""
-    from cadgraph.session.reopen import config_of, relabel
+    from cadgraph.labelers.lvlm.setup import settings_of_questions
+    from cadgraph.session.reopen import ask_only, config_of, relabel
 
-    chosen = asking.settings(config_of(folder).replace(values_of(settings or [])))
+    given = values_of(settings or [])
     more: dict[str, object] = {}
     if from_folder is not None:
         more = {"mode": "folder", "answers": from_folder}
+        given = settings_of_questions(from_folder) | given
     elif batch_results:
         more = {"mode": "batch", "results": tuple(batch_results)}
+    chosen = asking.settings(config_of(folder).replace(given))
     with bars() as progress:
+        if not more and (asking.dry_run or asking.batch):
+            labeler = asking.labeler(chosen, folder, progress)
+            ask_only(folder, chosen, labeler, scene=scene, progress=progress)
+            asking.tell_written(labeler)
+            return
         labeler = asking.labeler(chosen, folder, progress, **more)
         outcome = relabel(folder, chosen, labeler, scene=scene, report=report, progress=progress)
     tell(outcome)
     asking.tell(labeler, outcome.graph)
+
+
+@app.command("ask-folder")
+def ask_folder(
+    folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="What 'cadgraph build' wrote.")],
+    to: Annotated[
+        Path | None,
+        typer.Option("--to", metavar="F", help="Of the questions; FOLDER/lvlm/questions if left out."),
+    ] = None,
+    check: Annotated[
+        bool, typer.Option("--check", help="Write nothing new: say what is answered, open, malformed or astray.")
+    ] = False,
+    everything: Annotated[
+        bool, typer.Option("--all", help="Ask about all parts, not only where the embedded labeler is unsure.")
+    ] = False,
+    hints: Annotated[
+        bool, typer.Option("--hints", help="Tell what geometry knows: form, repeats, neighbours.")
+    ] = False,
+    max_questions: Annotated[
+        int | None, typer.Option("--max-questions", min=0, help="At most so many questions, those that help most.")
+    ] = None,
+    scene: Annotated[
+        Path | None, typer.Option("--scene", metavar="FILE", help="The scene, if it has been moved.")
+    ] = None,
+    settings: SetOption = None,
+) -> None:
+    """Write questions as files that a person or a coding agent with eyes answers in place, or check their answers.
+
+    The folder holds a SKILL.md that says how. Apply the answers with 'cadgraph label FOLDER --from-folder F'. With
+    --check the exit status is 1 where an answer can't be used or is to no question.
+    """
+    from cadgraph.labelers.lvlm.setup import FOLDER, QUESTIONS
+    from cadgraph.labelers.lvlm.skill import check_answers, write_skill
+    from cadgraph.session.reopen import ask_only, config_of, vocabulary_of
+
+    questions = to or folder / FOLDER / QUESTIONS
+    if check:
+        found = check_answers(questions, vocabulary_of(folder))
+        for line in found.lines():
+            out.print(escape(line))
+        if not found.sound:
+            raise typer.Exit(1)
+        return
+    asking = AskingOptions(
+        labeler_="lvlm" if everything else "embedded+lvlm", hints=hints, max_questions=max_questions, dry_run=True
+    )
+    chosen = asking.settings(config_of(folder).replace(values_of(settings or [])))
+    with bars() as progress:
+        labeler = asking.labeler(chosen, folder, progress, questions=questions)
+        ask_only(folder, chosen, labeler, scene=scene, progress=progress)
+    write_skill(questions, folder)
+    found = check_answers(questions, vocabulary_of(folder))
+    out.print(
+        f"wrote {escape(str(questions))}: {found.counts}; {escape(str(questions / 'SKILL.md'))} says how to answer"
+    )
 
 
 @vocabularies.command("grow")

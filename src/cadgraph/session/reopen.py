@@ -22,7 +22,7 @@ from cadgraph.model.vocabulary import Vocabulary
 from cadgraph.session.run import Clock, Outcome, check_layers, check_target, write_results
 from cadgraph.session.session import Session
 
-__all__ = ["FormerLabeler", "config_of", "find_source", "relabel", "reopen"]
+__all__ = ["FormerLabeler", "ask_only", "config_of", "find_source", "relabel", "reopen", "vocabulary_of"]
 
 
 def relabel(
@@ -61,6 +61,25 @@ def relabel(
         if isinstance(labeler, AskingLabeler) and labeler.only_asks:
             return Outcome(graph, {}, clock.seconds)
         return write_results(session, source, target, report, clock)
+
+
+def ask_only(
+    folder: str | Path,
+    config: Config,
+    labeler: Labeler,
+    *,
+    scene: str | Path | None = None,
+    progress: Progress = quiet,
+) -> None:
+    """Lets a labeler that answers nothing yet look at the scene of a finished graph; no result is touched.
+
+    Args and errors are those of :func:`relabel`.
+    """
+    clock = Clock(progress)
+    with results_folder(folder) as target:
+        graph = SceneGraph.load(target)
+        reopen(graph, target, find_source(graph, target, scene), config, labeler, clock)
+        clock("", 1)
 
 
 def reopen(
@@ -126,6 +145,15 @@ def config_of(folder: str | Path) -> Config:
         return Config().replace(flat)
     except ValueError as error:
         raise FormatError(f"{folder}: its settings can't be used any more ({error}); build the graph anew") from error
+
+
+def vocabulary_of(folder: str | Path) -> Vocabulary:
+    """The label tree that the graph in a folder was built with.
+
+    Raises:
+        FormatError: the folder holds no graph.
+    """
+    return Vocabulary.from_json(SceneGraph.load(folder).document.vocabulary, f"{folder}: vocabulary of the graph")
 
 
 def find_source(graph: SceneGraph, folder: Path, scene: str | Path | None) -> Path:

@@ -23,9 +23,9 @@ def _no_settings_from_outside(monkeypatch):
     monkeypatch.setenv("OPENAI_API_KEY", "right")
 
 
-def labelled(server, *, way=None, timeout=10.0, retries=3, concurrency=1, size=SIZE, structured="auto"):
+def labelled(server, *, way=None, timeout=10.0, retries=3, concurrency=1, size=SIZE):
     with server.running() as address:
-        client = Client("gpt-4o", base_url=address, timeout=timeout, retries=retries, structured=structured)
+        client = Client("gpt-4o", base_url=address, timeout=timeout, retries=retries)
         asking = Asking(client, Cache(":memory:"), read_price("gpt-4o"), concurrency=concurrency, size=size)
         labeler = LvlmLabeler(asking, way or Way(again_below=0))
         labeler.said = labeler.label(PARTS, plates.NO_CONTACTS, plates.VOCABULARY)
@@ -179,7 +179,13 @@ def test_addresses_that_are_none_or_hold_a_secret_are_refused(address):
         ("http://172.32.0.9/v1", False),
         ("http://172.200.0.9/v1", False),
         ("http://8.8.8.8/v1", False),
-        ("http://server.lan/v1", True),
+        ("http://172.217.4.4/v1", False),
+        ("http://172.15.255.255/v1", False),
+        ("http://172.31.255.255/v1", True),
+        ("http://169.254.1.1/v1", True),
+        ("http://workstation.local:1234/v1", True),
+        ("http://server.lan/v1", False),
+        ("http://gateway.internal/v1", False),
         ("http://lan/v1", False),
         ("http://2130706433/v1", False),
         ("http://localhost@example.com/v1", False),

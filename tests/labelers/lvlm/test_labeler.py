@@ -362,7 +362,7 @@ def test_small_parts_are_asked_about_with_the_labels_of_large_ones():
     small = next(question.text for question in told.asked if question.part == 0)
     assert f"1 x {TRUTH[10][1]} (" in small
     assert [question.part for question in told.asked].index(10) < [question.part for question in told.asked].index(0)
-    plain, told = labeler_of(plates.oracle(PARTS), Way(context=False))
+    plain, told = labeler_of(plates.oracle(PARTS), Way(staged=False))
     label(plain, contacts=contacts)
     assert not any(f"1 x {TRUTH[10][1]}" in question.text for question in told.asked)
 

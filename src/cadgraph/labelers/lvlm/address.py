@@ -20,8 +20,9 @@ _OWN = tuple(
         "::1/128", "fc00::/7", "fe80::/10", "::/128",
     )
 )  # fmt: skip
-# Names that never leave a machine (RFC 6761) or a local network (RFC 6762, ICANN's .internal, home routers' .lan).
-_OWN_NAMES = (".localhost", ".local", ".internal", ".lan")
+# Names that never leave a machine (RFC 6761) or the own cable (RFC 6762). Others, .lan and .internal among them, are
+# whatever the nearest name server says, be it a company's gateway that bills.
+_OWN_NAMES = (".localhost", ".local")
 # What ends in a number is no name (WHATWG URL, 3.5); some libraries take 2130706433, 0x7f.1 or 127.1 for 127.0.0.1.
 _NUMBER = re.compile(r"(?:[0-9]+|0[xX][0-9a-fA-F]*)\Z")
 # Libraries disagree about where a host ends before one of these.

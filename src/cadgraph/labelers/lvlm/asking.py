@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
+import math
 import os
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -16,13 +15,17 @@ from pydantic import BaseModel
 
 from cadgraph.labelers.lvlm.answer import Malformed, plain_words, read
 from cadgraph.labelers.lvlm.cache import Cache
-from cadgraph.labelers.lvlm.folder import write_question
-from cadgraph.labelers.lvlm.price import ANSWER_TOKENS, Estimate, Price, text_tokens
-from cadgraph.labelers.lvlm.reply import Answerer, Question, Reply
+from cadgraph.labelers.lvlm.folder import some, write_question
+from cadgraph.labelers.lvlm.manner import LEVELS
+from cadgraph.labelers.lvlm.price import ANSWER_TOKENS, Estimate, Price, question_tokens
+from cadgraph.labelers.lvlm.profile import Profile
+from cadgraph.labelers.lvlm.reply import Answerer, Hasty, Question, Reply, Watchful, key_of
+from cadgraph.model.diagnostic import Diagnostic
 
 __all__ = ["Asking", "Budget", "Outcome", "Tally", "key_of"]
 
 _Model = TypeVar("_Model", bound=BaseModel)
+_MESSAGE = 400  # characters of a finding
 _DRAWING = max(1, min(8, os.cpu_count() or 1))  # pictures drawn at a time: more would only fill memory
 
 
@@ -53,6 +56,7 @@ class Tally:
         cost: of all, in US dollars; 0 without a price.
         spent: of those sent in this run.
         total: questions planned.
+        resumed: of all, those that an earlier run had sent without hearing of them again.
     """
 
     asked: int = 0
@@ -64,6 +68,7 @@ class Tally:
     cost: float = 0.0
     spent: float = 0.0
     total: int = 0
+    resumed: int = 0
 
 
 @dataclass(frozen=True)
@@ -98,6 +103,9 @@ class Asking:
         n_pictures: of a question.
         keep: where questions and replies are kept for audit, or None.
         note: called after each answer.
+        model: whose answers the estimate counts on; the answerer's own name if empty.
+        profile: what is known of the model and its server, for the estimate and the record of the run.
+        answer: tokens that an answer may have.
     """
 
     answerer: Answerer
@@ -110,6 +118,9 @@ class Asking:
     n_pictures: int = 6
     keep: Path | None = None
     note: Callable[[Tally], None] | None = None
+    model: str = ""
+    profile: Profile | None = None
+    answer: int = 600
     tally: Tally = field(default_factory=Tally)
 
     def __post_init__(self) -> None:
@@ -118,18 +129,43 @@ class Asking:
         self._tokens: dict[str, int] = {}
         self._used_questions = self._on_the_way = 0
         self._promised = 0.0
+        self._failures: list[tuple[str, Question]] = []
 
     def tokens(self, question: Question) -> int:
         """About how many tokens a question takes."""
         known = self._tokens.get(question.id)
         if known is not None:
             return known
-        pictures = self.n_pictures * (self.price.image_tokens(self.size, self.size, self.detail) if self.price else 0.0)
-        captions = 10 * self.n_pictures
-        schema = text_tokens(json.dumps(question.schema)) // 2
-        words = text_tokens(question.system) + text_tokens(question.text)
-        self._tokens[question.id] = total = int(pictures + captions + words + schema)
+        self._tokens[question.id] = total = self._words(question) + int(self._picture_tokens(question))
         return total
+
+    def _words(self, question: Question) -> int:
+        return question_tokens(question.system, question.text, question.schema, self.n_pictures)
+
+    def _picture_tokens(self, question: Question) -> float:
+        """As the profile counts them, where it does, or the price table."""
+        if self.profile is not None and self.profile.tokens is not None:
+            manner = replace(self.profile.manner, level=self._level(question))
+            return self.profile.picture_tokens(self.n_pictures, self.size, manner)
+        return self.n_pictures * (self.price.image_tokens(self.size, self.size, self.detail) if self.price else 0.0)
+
+    def _level(self, question: Question) -> int:
+        """How much smaller the pictures of a question are sent than they are drawn; see ``manner.LEVELS``."""
+        if self.profile is None:
+            return 0
+        return self.profile.level(self._words(question), self.n_pictures, self.size, self.answer)
+
+    def _shrunk(self, questions: Iterable[Question]) -> str:
+        """What a small context costs, in words; empty where all pictures are sent as they are drawn."""
+        level = max((self._level(question) for question in questions), default=0)
+        if not level:
+            return ""
+        side, share = LEVELS[level]
+        shown = max(1, math.ceil(share * self.n_pictures))
+        return (
+            f"; its context has room for {shown} of {self.n_pictures} pictures at {side} px only: "
+            "say how large it is with --set lvlm.context=N"
+        )
 
     def cost(self, question: Question) -> float:
         """About what a question costs, in US dollars; 0 without a price."""
@@ -150,15 +186,22 @@ class Asking:
 
     def estimate(self, questions: Sequence[Question], *, left_out: int = 0) -> Estimate:
         """What these questions will need; those that the cache answers cost nothing."""
-        new = [
-            question
-            for question in questions
-            if self.cache.get(key_of(question, self.answerer.name, self.detail)) is None
-        ]
-        tokens = [self.tokens(question) for question in new]
+        model = self.model or self.answerer.name
+        keys = {key_of(question, model, self.detail): question for question in questions}
+        known = self.cache.known(keys)
+        tokens = [self.tokens(question) for key, question in keys.items() if key not in known]
         total, answers = sum(tokens), ANSWER_TOKENS * len(tokens)
-        cost = self.price.cost(total, answers) if self.price else None
-        return Estimate(len(new), len(questions) - len(new), total, answers, cost, self.answerer.name, left_out)
+        return Estimate(
+            questions=len(tokens),
+            known=len(questions) - len(tokens),
+            prompt_tokens=total,
+            answer_tokens=answers,
+            cost=self.price.cost(total, answers) if self.price else None,
+            model=model,
+            left_out=left_out,
+            resumed=len(self.cache.on_the_way(keys)),
+            profile=self.profile.told + self._shrunk(keys.values()) if self.profile else "",
+        )
 
     def ask_all(
         self, questions: Sequence[Question], model: type[_Model], again: Callable[[Question, str], Question]
@@ -185,6 +228,10 @@ class Asking:
                     self._collect(pending, outcomes)
             while pending:
                 self._collect(pending, outcomes)
+        except BaseException:
+            if isinstance(self.answerer, Hasty):
+                self.answerer.hurry()
+            raise
         finally:
             # On Ctrl-C, or where it makes no sense to go on: what waits is dropped, what is kept stays kept.
             pool.shutdown(wait=True, cancel_futures=True)
@@ -225,7 +272,30 @@ class Asking:
     def _failed(self, question: Question, reason: str) -> Outcome[_Model]:
         with self._lock:
             self.tally.failed += 1
+            self._failures.append((reason, question))
         return Outcome(question, None, reason)
+
+    def findings(self) -> tuple[Diagnostic, ...]:
+        """What became of questions that failed, by name, and what whoever answers them has to say beside."""
+        by_reason: dict[str, set[str]] = {}
+        for reason, question in self._failures:
+            by_reason.setdefault(reason, set()).add(question.called)
+        found = []
+        for reason, names in sorted(by_reason.items()):
+            few = some(sorted(names), 3)
+            n = len(names)
+            found.append(Diagnostic("lvlm-failed", f"{n} question{'s' * (n != 1)} failed, {reason}: {few}"[:_MESSAGE]))
+        if isinstance(self.answerer, Watchful):
+            found += self.answerer.findings()
+        return tuple(found)
+
+    def record(self) -> dict[str, object]:
+        """What a run's record says beside its questions: who was asked in which way."""
+        return {
+            "profile": self.profile.to_json() if self.profile else None,
+            "manner": self.answerer.told() if isinstance(self.answerer, Hasty) else None,
+            "sent_before_without_an_answer": self.tally.resumed,
+        }
 
     def _asked(self, question: Question) -> Reply:
         """Asks unless the budget is used up: an estimate may have been too low, and second tries come on top."""
@@ -242,13 +312,29 @@ class Asking:
             self._promised += cost
         reply: Reply | None = None
         try:
-            reply = self.answerer.ask(question)
+            reply = self._sent(question) if self.answerer.keeps else self.answerer.ask(question)
         finally:
             # In one step, or another question slips in between what is on the way and what is used.
             with self._lock:
                 self._on_the_way -= 1
                 self._promised -= cost
                 self._used_questions += reply is not None and reply.error is None
+        return reply
+
+    def _sent(self, question: Question) -> Reply:
+        """Asks, with a note in the cache from before the question leaves until its answer is kept."""
+        key, name = key_of(question, self.answerer.name, self.detail), self.answerer.name
+        with self._lock:
+            self.tally.resumed += bool(self.cache.on_the_way([key]))
+        self.cache.sending(key, name)
+        reply: Reply | None = None
+        try:
+            reply = self.answerer.ask(question)
+        finally:
+            if reply is None or (reply.error is not None and not reply.lost):
+                self.cache.settled(key)
+        if reply.error is None and not reply.waiting:
+            self.cache.put(key, name, reply)
         return reply
 
     def _cached(self, question: Question) -> Reply | None:
@@ -264,8 +350,6 @@ class Asking:
                 with self._drawing:
                     drawn = _drawn(question)
             reply = self._asked(drawn)
-            if self.answerer.keeps and reply.error is None and not reply.waiting:
-                self.cache.put(key_of(question, self.answerer.name, self.detail), self.answerer.name, reply)
             if self.keep is not None:
                 write_question(self.keep, drawn, reply=reply)
         cost = self.price.cost(reply.prompt_tokens, reply.answer_tokens, batch=reply.batch) if self.price else 0.0
@@ -278,11 +362,6 @@ class Asking:
             self.tally.cost += cost
             self.tally.spent += 0.0 if known else cost
         return reply
-
-
-def key_of(question: Question, model: str, detail: str) -> str:
-    """What the answer to a question is known by: its content, the model, and how closely it looks."""
-    return hashlib.sha256(json.dumps([question.id, model, detail]).encode()).hexdigest()
 
 
 def _drawn(question: Question) -> Question:

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import json
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import IO, Any
 
 from cadgraph._io.limits import BATCH, REPLY, lines_within
 from cadgraph.errors import LabelError, OutputError
 from cadgraph.labelers.lvlm.cache import Cache
-from cadgraph.labelers.lvlm.client import Manner, body_of, encoded
-from cadgraph.labelers.lvlm.reply import Question, Reply
+from cadgraph.labelers.lvlm.manner import Manner, body_of, encoded
+from cadgraph.labelers.lvlm.reply import Question, Reply, spoken
 
 __all__ = ["BatchWriter", "read_results"]
 
@@ -33,7 +33,7 @@ class BatchWriter:
         detail: of the pictures.
         max_tokens: of an answer.
         temperature: None leaves it to the server.
-        schema: how the server is held to a form.
+        manner: what the server understands.
     """
 
     looks = True
@@ -42,13 +42,13 @@ class BatchWriter:
 
     def __init__(
         self, folder: Path, model: str, key_of: Any, *, detail: str, max_tokens: int, temperature: float | None,
-        schema: str = "json_schema",
+        manner: Manner | None = None,
     ) -> None:  # fmt: skip
         self.name = model
         self.files: list[Path] = []
         self._folder, self._key_of = folder, key_of
         self._detail, self._max_tokens, self._temperature = detail, max_tokens, temperature
-        self._manner = Manner(schema=schema)
+        self._manner = manner or Manner()
         self._lock = threading.Lock()
         self._open: IO[str] | None = None
         self._requests = self._bytes = 0
@@ -61,7 +61,7 @@ class BatchWriter:
 
     def ask(self, question: Question) -> Reply:
         """Writes it as a line."""
-        pictures = encoded(question, self._detail)
+        pictures = encoded(question, self._detail, self._manner)
         body = body_of(question, pictures, self.name, self._manner, self._max_tokens, self._temperature)
         line = json.dumps(
             {"custom_id": self._key_of(question), "method": "POST", "url": "/v1/chat/completions", "body": body}
@@ -85,8 +85,16 @@ class BatchWriter:
             self._open = None
 
 
-def read_results(path: Path, cache: Cache, model: str) -> tuple[int, int]:
+def read_results(
+    path: Path, cache: Cache, model: str, scrub: Callable[[str], str] = lambda text: text
+) -> tuple[int, int]:
     """Reads a file of results (or of errors) that the provider made of a batch into the cache.
+
+    Args:
+        path: the file.
+        cache: of answers.
+        model: that answered.
+        scrub: takes secrets out of a text.
 
     Returns:
         How many answers it held, and how many requests failed; the latter will be in the next batch.
@@ -96,7 +104,7 @@ def read_results(path: Path, cache: Cache, model: str) -> tuple[int, int]:
     """
     answered = failed = 0
     for row in _rows(path):
-        key, reply = row.get("custom_id"), _reply(row)
+        key, reply = row.get("custom_id"), _reply(row, scrub)
         if not isinstance(key, str) or not 0 < len(key) <= 64:
             raise LabelError(f"{path}: a line has no custom_id; give the file of results that the provider made")
         if reply is None:
@@ -132,7 +140,7 @@ def _rows(path: Path) -> Iterator[dict[str, Any]]:
         ) from error
 
 
-def _reply(row: dict[str, Any]) -> Reply | None:
+def _reply(row: dict[str, Any], scrub: Callable[[str], str]) -> Reply | None:
     response = row.get("response")
     if row.get("error") or not isinstance(response, dict) or response.get("status_code") != 200:
         return None
@@ -147,8 +155,8 @@ def _reply(row: dict[str, Any]) -> Reply | None:
     text, refusal = message.get("content"), message.get("refusal")
     tokens = usage if isinstance(usage, dict) else {}
     return Reply(
-        text if isinstance(text, str) else None,
-        refusal[:300] if isinstance(refusal, str) else None,
+        spoken(scrub(text)) if isinstance(text, str) else None,
+        scrub(refusal)[:300] if isinstance(refusal, str) else None,
         _count(tokens.get("prompt_tokens")),
         _count(tokens.get("completion_tokens")),
         batch=True,

@@ -23,11 +23,17 @@ CREATE TABLE IF NOT EXISTS answers (
 ) WITHOUT ROWID
 """
 
+# Questions on their way. A file of an older version gets the table as well; older versions don't mind it.
+_SENT = "CREATE TABLE IF NOT EXISTS sent (key TEXT PRIMARY KEY, model TEXT NOT NULL, since REAL NOT NULL) WITHOUT ROWID"
+
+_FORGET = "DELETE FROM sent WHERE key = ?"
+
 
 class Cache:
     """Answers by the content of their questions. Safe for threads, for several processes, and for being killed.
 
-    Each answer is committed as it comes. In write-ahead mode a process that is killed loses nothing committed.
+    Each answer is committed as it comes. In write-ahead mode a process that is killed loses nothing committed. A
+    question is noted as sent before it is: what a killed process had on its way can be told afterwards.
 
     Args:
         path: of the file; made if missing. ``":memory:"`` keeps nothing.
@@ -53,6 +59,7 @@ class Cache:
             if version != _SCHEMA and (version or tables):
                 raise LabelError(f"{path}: not a cache of answers of this version; name another with lvlm.cache")
             self._base.execute(_TABLE)
+            self._base.execute(_SENT)
             self._base.execute(f"PRAGMA user_version={_SCHEMA}")
         except sqlite3.DatabaseError as error:
             if isinstance(error, sqlite3.OperationalError):
@@ -78,9 +85,34 @@ class Cache:
         """Keeps an answer; a first one stays."""
         used = reply.prompt_tokens, reply.answer_tokens, int(reply.batch)
         row = key, model, reply.text, reply.refusal, *used, time.time()
+        self._write(("INSERT OR IGNORE INTO answers VALUES (?, ?, ?, ?, ?, ?, ?, ?)", row), (_FORGET, (key,)))
+
+    def sending(self, key: str, model: str) -> None:
+        """Notes that a question is about to be sent; :meth:`put` or :meth:`settled` take that back."""
+        self._write(("INSERT OR REPLACE INTO sent VALUES (?, ?, ?)", (key, model, time.time())))
+
+    def settled(self, key: str) -> None:
+        """Notes that a question that was sent is known to have brought no answer."""
+        self._write((_FORGET, (key,)))
+
+    def on_the_way(self, keys: Iterable[str]) -> set[str]:
+        """Which of these questions were sent and never heard of again: the process was killed, or the line broke."""
+        with self._lock:
+            sent = {row[0] for row in self._base.execute("SELECT key FROM sent")}
+        return sent.intersection(keys)
+
+    def _write(self, *changes: tuple[str, tuple[object, ...]]) -> None:
+        """Makes all changes or none."""
         try:
             with self._lock:
-                self._base.execute("INSERT OR IGNORE INTO answers VALUES (?, ?, ?, ?, ?, ?, ?, ?)", row)
+                self._base.execute("BEGIN IMMEDIATE")
+                try:
+                    for change, values in changes:
+                        self._base.execute(change, values)
+                except BaseException:
+                    self._base.execute("ROLLBACK")
+                    raise
+                self._base.execute("COMMIT")
         except sqlite3.OperationalError as error:
             raise OutputError(f"{self.path}: the answer can't be kept ({error}); is the disk full?") from error
 

@@ -45,7 +45,7 @@ class Way:
         per: one question for each ``shape`` and role, or for each ``part``.
         votes: members of a kind that are asked about.
         hints: whether prompts say what geometry knows.
-        context: whether small parts are asked about after large ones, with the labels of what they touch.
+        staged: whether small parts are asked about after large ones, with the labels of what they touch.
         below: ``unsure`` asks where the embedded labeler's confidence is below.
         again_below: answers below this confidence are asked again with what geometry knows; 0: never.
         repair: whether sizes correct gaskets and flanges.
@@ -56,7 +56,7 @@ class Way:
     per: Literal["shape", "part"] = "shape"
     votes: int = 1
     hints: bool = False
-    context: bool = True
+    staged: bool = True
     below: float = 0.8
     again_below: float = 0.5
     repair: bool = True
@@ -142,7 +142,7 @@ class LvlmLabeler:
 
     def _ask(self, round_: _Round, kinds: Sequence[QuestionGroup]) -> dict[QuestionGroup, _Settled]:
         """Large parts first; small ones then, with the labels of what they touch."""
-        if not (self.way.context and self.asking.answerer.again):
+        if not (self.way.staged and self.asking.answerer.again):
             return round_.ask(kinds)
         large, small = in_stages(kinds, round_.parts)
         settled = round_.ask(large)
@@ -241,6 +241,7 @@ class LvlmLabeler:
             shown = ", ".join(f"{g}: {n}" for g, n, _ in sorted(self.proposals, key=str)[:5])
             message = f"{len(self.proposals)} labels outside the vocabulary were proposed ({shown}...)"
             diagnostics.append(Diagnostic("lvlm-proposals", message[:_MESSAGE]))
+        diagnostics += self.asking.findings()
         if self._folder is not None:
             self._write(round_, settled)
         return tuple(diagnostics)
@@ -262,6 +263,7 @@ class LvlmLabeler:
             "cost_usd": round(tally.cost, 6) if self.asking.price else None,
             "spent_now_usd": round(tally.spent, 6) if self.asking.price else None,
             "estimated_usd": self.estimate.cost,
+            **self.asking.record(),
         }
         write_atomically(self._folder / "run.json", json.dumps(record, indent=1) + "\n")
         rows = [
@@ -274,7 +276,7 @@ class LvlmLabeler:
         if self.only_asks and not self.asking.answerer.keeps:
             paths = round_.parts.scene.paths
             write_index(
-                self._folder / "questions",
+                getattr(self.asking.answerer, "folder", self._folder / "questions"),
                 [(each.question.id, [paths[part] for part in each.kind.parts]) for each in settled.values()],
             )
 
@@ -450,6 +452,7 @@ class _Round:
             prompt=version("label"),
             part=part,
             attempt=attempt,
+            about=self.parts.scene.paths[part],
         )
         self._wordings[question.id] = wording
         return question

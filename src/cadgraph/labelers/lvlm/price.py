@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import json
 import math
 import re
 from collections.abc import Mapping
@@ -17,7 +18,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from cadgraph._io.limits import PRICES, read_text_within
 from cadgraph.errors import LabelError
 
-__all__ = ["ANSWER_TOKENS", "Estimate", "Price", "read_price", "text_tokens"]
+__all__ = ["ANSWER_TOKENS", "Estimate", "Price", "question_tokens", "read_price", "text_tokens"]
 
 ANSWER_TOKENS = 95
 """Tokens of an answer as asked for: seven keys, 25 words."""
@@ -90,6 +91,8 @@ class Estimate:
         cost: in US dollars, or None where the model has no price.
         model: that is asked.
         left_out: questions that the budget leaves out.
+        resumed: of those that would be sent, how many an earlier run had sent without hearing of them again.
+        profile: what is known of the model and its server, in words.
     """
 
     questions: int
@@ -99,12 +102,19 @@ class Estimate:
     cost: float | None
     model: str
     left_out: int = 0
+    resumed: int = 0
+    profile: str = ""
 
 
 @functools.lru_cache(256)
 def text_tokens(text: str) -> int:
     """About how many tokens a text is: long words are several, short ones and runs of marks one."""
     return _MESSAGE_TOKENS + len(_PIECES.findall(text))
+
+
+def question_tokens(system: str, text: str, schema: Mapping[str, Any], n_pictures: int) -> int:
+    """About how many tokens a question takes without its pictures: texts, captions, and the schema, compressed."""
+    return text_tokens(system) + text_tokens(text) + text_tokens(json.dumps(schema)) // 2 + 10 * n_pictures
 
 
 def read_price(model: str, file: str | Path = "", *, local: bool = False) -> Price | None:

@@ -5,13 +5,19 @@ from __future__ import annotations
 import functools
 import hashlib
 import json
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 from cadgraph.labelers.lvlm.gallery import Picture
 
-__all__ = ["Answerer", "Question", "Reply"]
+if TYPE_CHECKING:
+    from cadgraph.model.diagnostic import Diagnostic
+
+__all__ = ["Answerer", "Hasty", "Question", "Reply", "Watchful", "key_of", "spoken"]
+
+_THOUGHT = re.compile(r"\A.*</think(?:ing)?>", re.DOTALL | re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -27,6 +33,7 @@ class Question:
         prompt: name and version of the template.
         part: that it is about, or -1.
         attempt: 0, or 1 where the first answer could not be used.
+        about: what the part is called, for messages.
     """
 
     system: str
@@ -37,12 +44,19 @@ class Question:
     prompt: str
     part: int = -1
     attempt: int = 0
+    about: str = ""
 
     @functools.cached_property
     def id(self) -> str:
         """Sixteen hexadecimal digits by its content: the same question has the same id, whoever is asked."""
         content = [self.system, self.text, self.schema, self.recipe, self.attempt]
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:16]
+
+    @property
+    def called(self) -> str:
+        """How messages name it: the folder of its files, and what it is about."""
+        about = self.about or (f"part {self.part}" if self.part >= 0 else "")
+        return f"q-{self.id}" + (f" about {about}" if about else "")
 
 
 @dataclass(frozen=True)
@@ -57,6 +71,7 @@ class Reply:
         error: why there is no answer, or None. Such replies are not kept: the same command asks again.
         waiting: whether the answer will come another way (a batch, a folder).
         batch: whether it came by the batch interface.
+        lost: whether the server may have answered all the same, so that it may be paid for.
     """
 
     text: str | None
@@ -66,6 +81,7 @@ class Reply:
     error: str | None = None
     waiting: bool = False
     batch: bool = False
+    lost: bool = False
 
 
 class Answerer(Protocol):
@@ -94,3 +110,35 @@ class Answerer(Protocol):
     def close(self) -> None:
         """Lets go of files and connections; it may be asked again later."""
         ...
+
+
+@runtime_checkable
+class Hasty(Protocol):
+    """An answerer that may wait long for somebody."""
+
+    def hurry(self) -> None:
+        """Ends what waits; what was sent is waited for."""
+        ...
+
+    def told(self) -> dict[str, Any]:
+        """In which way it asks, for the record of the run."""
+        ...
+
+
+@runtime_checkable
+class Watchful(Protocol):
+    """An answerer that sees what is wrong beside single questions."""
+
+    def findings(self) -> Sequence[Diagnostic]:
+        """What is wrong, after all questions were asked."""
+        ...
+
+
+def key_of(question: Question, model: str, detail: str) -> str:
+    """What the answer to a question is known by: its content, the model, and how closely it looks."""
+    return hashlib.sha256(json.dumps([question.id, model, detail]).encode()).hexdigest()
+
+
+def spoken(text: str) -> str:
+    """An answer without what a model thought aloud before it; some servers leave that in, with or without its start."""
+    return _THOUGHT.sub("", text)

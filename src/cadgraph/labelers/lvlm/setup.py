@@ -6,26 +6,33 @@ import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from cadgraph.config import Config, LvlmConfig
 from cadgraph.errors import LabelError
 from cadgraph.labelers.lvlm.address import check_address, is_local
-from cadgraph.labelers.lvlm.asking import Asking, Budget, Tally, key_of
+from cadgraph.labelers.lvlm.asking import Asking, Budget, Tally
 from cadgraph.labelers.lvlm.batch import BatchWriter, read_results
 from cadgraph.labelers.lvlm.cache import Cache
 from cadgraph.labelers.lvlm.client import Client
-from cadgraph.labelers.lvlm.folder import DryRun, FolderAnswers
+from cadgraph.labelers.lvlm.folder import DryRun, FolderAnswers, read_settings, some, write_settings
 from cadgraph.labelers.lvlm.joining import read_accuracy
 from cadgraph.labelers.lvlm.labeler import LvlmLabeler, Way
 from cadgraph.labelers.lvlm.price import Estimate, read_price
-from cadgraph.labelers.lvlm.reply import Answerer, Question
+from cadgraph.labelers.lvlm.profile import Profile, read_profile
+from cadgraph.labelers.lvlm.reply import Answerer, Question, key_of
+from cadgraph.labelers.lvlm.secret import scrubber
 from cadgraph.labelers.registry import labeler_of
 
-__all__ = ["Run", "make_asking", "make_labeler"]
+__all__ = ["FOLDER", "QUESTIONS", "Run", "make_asking", "make_labeler", "profile_of", "settings_of_questions"]
 
 FOLDER = "lvlm"
 """What a run keeps, within the output folder: cache, proposals, questions."""
+
+QUESTIONS = "questions"
+"""Where a dry run writes its questions, within that."""
+
+_SHAPING = ("ask", "per", "votes", "hints", "below", "paper_views", "size")  # settings that questions follow from
 
 
 @dataclass(frozen=True)
@@ -36,6 +43,7 @@ class Run:
         mode: ``ask`` a server; ``dry`` writes the questions; ``batch`` writes them for the provider's batch
             interface; ``folder`` reads answers from files.
         answers: the folder to read answers from, for ``folder``.
+        questions: where ``dry`` writes them; beside the results if None.
         results: files of the provider's batch results to read first.
         keep_renders: whether questions and replies are kept as files.
         confirm: shown the estimate before the first question.
@@ -44,6 +52,7 @@ class Run:
 
     mode: Literal["ask", "dry", "batch", "folder"] = "ask"
     answers: Path | None = None
+    questions: Path | None = None
     results: tuple[Path, ...] = ()
     keep_renders: bool = False
     confirm: Callable[[Estimate], bool] = lambda _: True
@@ -69,7 +78,7 @@ def make_labeler(config: Config, output: Path, run: Run | None = None) -> LvlmLa
         per=settings.per,
         votes=settings.votes,
         hints=settings.hints,
-        context=settings.context,
+        staged=settings.staged,
         below=settings.below,
         again_below=settings.again_below,
         repair=settings.repair,
@@ -82,7 +91,7 @@ def make_labeler(config: Config, output: Path, run: Run | None = None) -> LvlmLa
         way,
         embedded=embedded,
         folder=output / FOLDER,
-        confirm=_no_cost if run.mode != "ask" else run.confirm,
+        confirm=run.confirm if run.mode != "folder" else _free,
         accuracy=read_accuracy(settings.model, settings.accuracy, paper=settings.paper_views),
         only_asks=run.mode == "dry" or (run.mode == "batch" and not run.results),
     )
@@ -97,6 +106,7 @@ def make_asking(settings: LvlmConfig, folder: Path, run: Run) -> Asking:
     """
     address = settings.base_url or os.environ.get("OPENAI_BASE_URL", "")
     check_address(address)
+    profile = profile_of(settings)
     price = read_price(settings.model, settings.prices, local=is_local(address))
     if price is None and settings.max_cost is not None:
         raise LabelError(
@@ -105,9 +115,9 @@ def make_asking(settings: LvlmConfig, folder: Path, run: Run) -> Asking:
         )
     cache = Cache(settings.cache or folder / "answers.sqlite")
     for path in run.results:
-        read_results(path, cache, settings.model)
+        read_results(path, cache, settings.model, scrubber(settings.key_variable, "OPENAI_API_KEY"))
     return Asking(
-        answerer=_answerer(settings, folder, run),
+        answerer=_answerer(settings, folder, run, profile),
         cache=cache,
         price=price,
         budget=Budget(settings.max_questions, settings.max_cost),
@@ -116,25 +126,58 @@ def make_asking(settings: LvlmConfig, folder: Path, run: Run) -> Asking:
         size=settings.size,
         keep=folder / "renders" if run.keep_renders else None,
         note=run.note,
+        model=settings.model,
+        profile=profile,
+        answer=settings.max_answer_tokens,
     )
 
 
-def _answerer(settings: LvlmConfig, folder: Path, run: Run) -> Answerer:
+def settings_of_questions(folder: Path) -> dict[str, Any]:
+    """The settings that the questions in a folder were made with, for ``Config.replace``.
+
+    Raises:
+        LabelError: the file beside them can't be read, or holds other settings.
+    """
+    found = read_settings(folder)
+    unknown = sorted(set(found) - {f"lvlm.{name}" for name in _SHAPING})
+    if unknown:
+        raise LabelError(f"{folder}: {some(unknown)} are no settings of questions; write the questions anew")
+    return found
+
+
+def profile_of(settings: LvlmConfig) -> Profile:
+    """What is known of the model and the server that the settings name.
+
+    Raises:
+        LabelError: the table of profiles can't be used.
+    """
+    return read_profile(
+        settings.model,
+        settings.base_url or os.environ.get("OPENAI_BASE_URL", ""),
+        settings.profiles,
+        context=settings.context,
+        pictures=settings.pictures,
+        schema=settings.structured,
+    )
+
+
+def _answerer(settings: LvlmConfig, folder: Path, run: Run, profile: Profile) -> Answerer:
     if run.mode == "dry":
-        return DryRun(folder / "questions")
+        questions = run.questions or folder / QUESTIONS
+        write_settings(questions, {f"lvlm.{name}": getattr(settings, name) for name in _SHAPING})
+        return DryRun(questions)
     if run.mode == "folder":
         if run.answers is None:
             raise LabelError("no folder of answers: give --from-folder")
         return FolderAnswers(run.answers)
     if run.mode == "batch":
-        schema = "json_schema" if settings.structured == "auto" else settings.structured
 
         def key(question: Question) -> str:
             return key_of(question, settings.model, settings.detail)
 
         return BatchWriter(
             folder, settings.model, key, detail=settings.detail, max_tokens=settings.max_answer_tokens,
-            temperature=settings.temperature, schema=schema,
+            temperature=settings.temperature, manner=profile.manner,
         )  # fmt: skip
     return Client(
         settings.model,
@@ -142,12 +185,14 @@ def _answerer(settings: LvlmConfig, folder: Path, run: Run) -> Answerer:
         key_variable=settings.key_variable,
         timeout=settings.timeout,
         retries=settings.retries,
+        wait=settings.wait,
         detail=settings.detail,
         max_tokens=settings.max_answer_tokens,
         temperature=settings.temperature,
-        structured=settings.structured,
+        profile=profile,
+        fixed=settings.structured != "auto",
     )
 
 
-def _no_cost(_: Estimate) -> bool:
+def _free(_: Estimate) -> bool:
     return True
