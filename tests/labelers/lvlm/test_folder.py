@@ -74,12 +74,16 @@ def test_files_and_folders_that_are_no_answers_are_told(questions):
     assert sorted(strays.others) == sorted(
         ["notes.txt", "q-12/", f"{first.name}/Answer.JSON.txt", f"{second.name}/answers", f"{third.name}/thoughts.md"]
     )
+    with pytest.raises(LabelError, match="5 files or folders are no answers"):
+        labelled(FolderAnswers(questions), None)
+    (questions / f"{next(iter(read_index(questions)))}.json").write_text(json.dumps(ANSWER))
     told = codes(labelled(FolderAnswers(questions), None))["lvlm-answers-stray"]
     assert told.startswith("5 files or folders are no answers")
 
 
 def test_names_of_strays_do_nothing_on_a_terminal(questions):
     (questions / "\x1b[31mred\n.txt").write_text("x")
+    answer_all(questions)
     told = codes(labelled(FolderAnswers(questions), None))["lvlm-answers-stray"]
     assert "\x1b" not in told
     assert "\n" not in told

@@ -217,8 +217,10 @@ class LvlmLabeler:
         reasons = Counter(reason for reason, _ in round_.unanswered)
         reason = reasons.most_common(1)[0][0] if reasons else "none came"
         count = "the question" if len(settled) == 1 else f"any of the {len(settled):,} questions"
+        strays = "".join(f"; {finding.message}" for finding in self.asking.findings())
         raise LabelError(
-            f"no answer to {count} ({reason}); nothing was changed; see to the answers or the server and run it again"
+            f"no answer to {count} ({reason}){strays}; nothing was changed; see to the answers or the server and run it "
+            "again"
         )
 
     def _report(
