@@ -339,7 +339,8 @@ class _Round:
         measured = self.parts.properties
         long, mid, thin = (float(x) for x in measured.obb_extents[part])
         height = float(measured.aabb[part, 1, 2] - measured.aabb[part, 0, 2])
-        return Wording((long, mid, thin), height, self.vocabulary, self._labeler.way.paper, hints)
+        mark = self._gallery.mark.name
+        return Wording((long, mid, thin), height, self.vocabulary, self._labeler.way.paper, hints, mark=mark)
 
     def _question(self, part: int, wording: Wording, attempt: int = 0) -> Question:
         question = Question(
