@@ -211,81 +211,22 @@ def _fill(
         within: ``(n_samples,)`` winding number, or number of surfaces, beyond the plane; empty where nothing is cut.
     """
     across, down = width * side, height * side
-    step = view[2] / side
-    offset = 0.5 * step - view[0] * view[2]
-    t = np.empty((3, 3))
+    corner, edge, scale = np.empty((3, 3)), np.empty((3, 3)), np.empty(4)
+    scale[0] = view[2] / side
+    scale[1], scale[2] = 0.5 * scale[0] - view[0] * view[2], view[1] * view[2] - 0.5 * scale[0]
     for f in range(len(faces)):
         mesh = mesh_of_face[f]
-        if skip[mesh]:
+        if skip[mesh] or not _turn(axes, eye, vertices, faces, f, corner):
             continue
-        nearest = np.inf
-        for c in range(3):
-            v = faces[f, c]
-            x, y, z = vertices[v, 0] - eye[0], vertices[v, 1] - eye[1], vertices[v, 2] - eye[2]
-            for i in range(3):
-                t[c, i] = axes[i, 0] * x + axes[i, 1] * y + axes[i, 2] * z
-            nearest = min(nearest, t[c, 2])
-        left, right, top, bottom = 0.0, across - 1.0, 0.0, down - 1.0
-        if nearest > _NEAR:
-            left, right, top, bottom = 1e18, -1e18, 1e18, -1e18
-            for c in range(3):
-                x = (t[c, 0] / t[c, 2] / view[2] + view[0]) * side - 0.5
-                y = (view[1] - t[c, 1] / t[c, 2] / view[2]) * side - 0.5
-                left, right, top, bottom = min(left, x), max(right, x), min(top, y), max(bottom, y)
-            left, right = max(0.0, np.ceil(left - 1e-6)), min(across - 1.0, np.floor(right + 1e-6))
-            top, bottom = max(0.0, np.ceil(top - 1e-6)), min(down - 1.0, np.floor(bottom + 1e-6))
-        elif max(t[0, 2], t[1, 2], t[2, 2]) <= _NEAR:
-            continue
+        left, right, top, bottom = _bounds(view, side, across, down, corner)
         if not (left <= right and top <= bottom):
             continue
-        ax = t[1, 1] * t[2, 2] - t[1, 2] * t[2, 1]
-        ay = t[1, 2] * t[2, 0] - t[1, 0] * t[2, 2]
-        az = t[1, 0] * t[2, 1] - t[1, 1] * t[2, 0]
-        bx = t[2, 1] * t[0, 2] - t[2, 2] * t[0, 1]
-        by_ = t[2, 2] * t[0, 0] - t[2, 0] * t[0, 2]
-        bz = t[2, 0] * t[0, 1] - t[2, 1] * t[0, 0]
-        cx = t[0, 1] * t[1, 2] - t[0, 2] * t[1, 1]
-        cy = t[0, 2] * t[1, 0] - t[0, 0] * t[1, 2]
-        cz = t[0, 0] * t[1, 1] - t[0, 1] * t[1, 0]
-        volume = t[0, 0] * ax + t[0, 1] * ay + t[0, 2] * az
+        volume = _edges(corner, edge)
         if volume == 0.0 or not np.isfinite(volume):
             continue
-        turn = 1.0 if volume > 0 else -1.0
-        nearer = by if mesh == favoured else 0.0
-        for row in range(int(top), int(bottom) + 1):
-            y = view[1] * view[2] - (row + 0.5) * step
-            # Where along the row each edge function is not negative, and one sample more for what rounding takes away.
-            low, high = _span(ax, ay * y + az, turn, left, right, step, offset)
-            low, high = _span(bx, by_ * y + bz, turn, low, high, step, offset)
-            low, high = _span(cx, cy * y + cz, turn, low, high, step, offset)
-            if not low <= high:
-                continue
-            for column in range(int(low), int(high) + 1):
-                x = column * step + offset
-                first = (ax * x + ay * y + az) * turn
-                second = (bx * x + by_ * y + bz) * turn
-                third = (cx * x + cy * y + cz) * turn
-                if first < 0 or second < 0 or third < 0:
-                    continue
-                total = first + second + third
-                if not total > 0:
-                    continue
-                z = volume * turn / total
-                k = row * across + column
-                if len(within):
-                    if (plane[0] * x + plane[1] * y + plane[2]) * z > plane[3]:
-                        continue
-                    if solid[mesh] == 1:
-                        within[k] += 2 * int(turn)
-                    elif solid[mesh] == 2:
-                        within[k] ^= 1
-                z -= nearer
-                if z <= 0:
-                    continue
-                before = face[k]
-                least = tie if before >= 0 and mesh_of_face[before] != mesh else 0.0
-                if z < depth[k] - least:
-                    face[k], depth[k] = f, z
+        scale[3] = by if mesh == favoured else 0.0
+        _samples(f, mesh, abs(volume), 1 if volume > 0 else -1, int(left), int(right), int(top), int(bottom), across,
+                 scale, edge, mesh_of_face, tie, plane, solid[mesh], face, depth, within)  # fmt: skip
     if by > 0:
         for k in range(len(face)):
             if face[k] >= 0 and mesh_of_face[face[k]] == favoured:
@@ -293,13 +234,127 @@ def _fill(
 
 
 @compiled
-def _span(slope: float, rest: float, turn: float, low: float, high: float, step: float, offset: float) -> Any:
-    """First and last column up to which ``turn * (slope * x + rest)`` isn't negative, of those given."""
-    slope, rest = slope * turn, rest * turn
+def _turn(axes: Any, eye: Any, vertices: Any, faces: Any, f: int, corner: Any) -> bool:
+    """Writes the corners of a face in the camera's axes; says whether any of them lies before the eye."""
+    ahead = False
+    for c in range(3):
+        v = faces[f, c]
+        x, y, z = vertices[v, 0] - eye[0], vertices[v, 1] - eye[1], vertices[v, 2] - eye[2]
+        for i in range(3):
+            corner[c, i] = axes[i, 0] * x + axes[i, 1] * y + axes[i, 2] * z
+        ahead |= corner[c, 2] > _NEAR
+    return ahead
+
+
+@compiled
+def _bounds(view: Any, side: int, across: int, down: int, corner: Any) -> tuple[float, float, float, float]:
+    """First and last column, first and last row of the samples that a triangle may cover."""
+    left, right, top, bottom = 0.0, across - 1.0, 0.0, down - 1.0
+    if min(corner[0, 2], corner[1, 2], corner[2, 2]) <= _NEAR:
+        return left, right, top, bottom
+    low, high, first, last = 1e18, -1e18, 1e18, -1e18
+    for c in range(3):
+        x = (corner[c, 0] / corner[c, 2] / view[2] + view[0]) * side - 0.5
+        y = (view[1] - corner[c, 1] / corner[c, 2] / view[2]) * side - 0.5
+        low, high, first, last = min(low, x), max(high, x), min(first, y), max(last, y)
+    return (
+        max(left, np.ceil(low - 1e-6)), min(right, np.floor(high + 1e-6)),
+        max(top, np.ceil(first - 1e-6)), min(bottom, np.floor(last + 1e-6)),
+    )  # fmt: skip
+
+
+@compiled
+def _edges(corner: Any, edge: Any) -> float:
+    """Writes the edge functions of a triangle, positive inside; says what volume it spans with the eye."""
+    volume = 0.0
+    for c in range(3):
+        a, b = (c + 1) % 3, (c + 2) % 3
+        for i in range(3):
+            j, k = (i + 1) % 3, (i + 2) % 3
+            edge[c, i] = corner[a, j] * corner[b, k] - corner[a, k] * corner[b, j]
+    for i in range(3):
+        volume += corner[0, i] * edge[0, i]
+    if volume < 0:
+        for c in range(3):
+            for i in range(3):
+                edge[c, i] = -edge[c, i]
+    return volume
+
+
+@compiled
+def _samples(
+    f: int, mesh: int, volume: float, turn: int, left: int, right: int, top: int, bottom: int, across: int, scale: Any,
+    edge: Any, mesh_of_face: Any, tie: float, plane: Any, solid: int, face: Any, depth: Any, within: Any,
+) -> None:  # fmt: skip
+    """Draws one triangle.
+
+    Args:
+        f: the face.
+        mesh: whose it is.
+        volume: that it spans with the eye, positive.
+        turn: 1 or -1, which side of it is seen.
+        left: first column.
+        right: last column.
+        top: first row.
+        bottom: last row.
+        across: samples in a row.
+        scale: ``(4,)`` distance between samples at a depth of 1, place of the first, and by how much the mesh counts
+            as nearer.
+        edge: ``(3, 3)`` edge functions.
+        mesh_of_face: see ``_fill``.
+        tie: see there.
+        plane: see there.
+        solid: of the mesh, see there.
+        face: see there.
+        depth: see there.
+        within: see there.
+    """
+    ax, ay, az = edge[0, 0], edge[0, 1], edge[0, 2]
+    bx, by, bz = edge[1, 0], edge[1, 1], edge[1, 2]
+    cx, cy, cz = edge[2, 0], edge[2, 1], edge[2, 2]
+    step, start, nearer, cutting = scale[0], scale[1], scale[3], len(within) > 0
+    for row in range(top, bottom + 1):
+        y = scale[2] - row * step
+        # Where along the row each edge function is not negative, and one sample more for what rounding takes away.
+        low, high = _span(ax, ay * y + az, float(left), float(right), step, start)
+        low, high = _span(bx, by * y + bz, low, high, step, start)
+        low, high = _span(cx, cy * y + cz, low, high, step, start)
+        if not low <= high:
+            continue
+        for column in range(int(low), int(high) + 1):
+            x = column * step + start
+            first, second, third = ax * x + ay * y + az, bx * x + by * y + bz, cx * x + cy * y + cz
+            total = first + second + third
+            if first < 0 or second < 0 or third < 0 or not total > 0:
+                continue
+            z = volume / total
+            k = row * across + column
+            if cutting:
+                if (plane[0] * x + plane[1] * y + plane[2]) * z > plane[3]:
+                    continue
+                within[k] = _counted(within[k], solid, turn)
+            z -= nearer
+            before = face[k]
+            least = tie if before >= 0 and mesh_of_face[before] != mesh else 0.0
+            if 0.0 < z < depth[k] - least:
+                face[k], depth[k] = f, z
+
+
+@compiled
+def _counted(within: int, solid: int, turn: int) -> int:
+    """Winding number, twice, or whether the number of surfaces is odd, with one surface more."""
+    if solid == 1:
+        return within + 2 * turn
+    return within ^ 1 if solid == 2 else 0
+
+
+@compiled
+def _span(slope: float, rest: float, low: float, high: float, step: float, start: float) -> tuple[float, float]:
+    """First and last column, of those given, between which ``slope * x + rest`` isn't negative."""
     if slope > 0:
-        low = max(low, np.floor((-rest / slope - offset) / step))
+        low = max(low, np.floor((-rest / slope - start) / step))
     elif slope < 0:
-        high = min(high, np.ceil((-rest / slope - offset) / step))
+        high = min(high, np.ceil((-rest / slope - start) / step))
     elif rest < 0:
         high = low - 1.0
     return low, high

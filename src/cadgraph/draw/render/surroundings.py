@@ -111,7 +111,7 @@ class Surroundings:
         finite = np.asarray(np.isfinite(part.vertices).all(axis=1))
         if finite.all():
             return part.faces
-        sound = finite[part.global_faces()].all(axis=1)
+        sound = np.asarray(finite[part.global_faces()].all(axis=1))
         return np.where(sound[:, None], part.faces, np.int32(0))
 
     def _members(self, mesh: int) -> tuple[Ints, Ints]:
@@ -159,6 +159,10 @@ def _rounded(scene: Scene) -> _Rounded:
             size[mesh] = -(-steps[np.unique(sound)].max(axis=0).astype(np.int64) // round(_PLACE / _SHAPE))
             h.update(steps.tobytes())
             h.update(np.int64(len(steps)).tobytes())
-            h.update(np.ascontiguousarray(np.where(finite[faces].all(axis=1)[:, None], faces, np.int32(0))).tobytes())
+            h.update(
+                np.ascontiguousarray(
+                    np.where(np.asarray(finite[faces].all(axis=1))[:, None], faces, np.int32(0))
+                ).tobytes()
+            )
         digest.append(h.digest()[:16])
     return _Rounded(low, shape, size, color, tuple(digest))

@@ -119,7 +119,7 @@ class Target:
         t = corners[face]
         points = t[:, 0] + u * (t[:, 1] - t[:, 0]) + v * (t[:, 2] - t[:, 0])
         used = vertices[np.unique(faces[area > 0])]
-        axes, extents = _principal(points, used)
+        axes, extents = _principal(corners[area > 0], area[area > 0], used)
         if n_points < _DENSER * _N_POINTS and is_slender(extents):
             return cls.of(scene, mesh, _DENSER * n_points)
         return cls(mesh, points, double[face] / area[face, None], _outer(used), axes, extents)
@@ -415,13 +415,29 @@ def _spread(score: Floats, given: list[int] | None = None) -> list[int]:
     return best
 
 
-def _principal(points: Floats, vertices: Floats) -> tuple[Floats, Floats]:
-    """Principal axes of the surface, and the extents of the vertices along them, descending."""
-    centered = points - points.mean(axis=0)
-    axes = np.linalg.eigh(centered.T @ centered)[1].T
+def _principal(corners: Floats, area: Floats, vertices: Floats) -> tuple[Floats, Floats]:
+    """Principal axes of the surface, and the extents of the vertices along them, descending.
+
+    Args:
+        corners: ``(n, 3, 3)`` of the triangles [m].
+        area: ``(n,)`` theirs, not 0.
+        vertices: ``(m, 3)`` [m].
+    """
+    share = area / area.sum()
+    about = corners - (share[:, None] * corners.mean(axis=1)).sum(axis=0)
+    whole = about.sum(axis=1)
+    # Second moments of a triangle: of its corners and of their sum, each with a twelfth of the area.
+    moments = np.array([
+        [
+            (share * ((about[:, :, i] * about[:, :, j]).sum(axis=1) + whole[:, i] * whole[:, j])).sum() / 12
+            for j in range(3)
+        ]
+        for i in range(3)
+    ])  # fmt: skip
+    axes = np.linalg.eigh(np.round(moments / moments.trace(), 12))[1].T
     along = vertices @ axes.T
     extents = along.max(axis=0) - along.min(axis=0)
-    order = np.argsort(-extents, kind="stable")
+    order = np.argsort(-np.round(extents, 6), kind="stable")
     return axes[order], extents[order]
 
 
