@@ -9,7 +9,7 @@ import numpy as np
 
 from cadgraph.draw.render.camera import Camera, frame
 from cadgraph.draw.render.pair import PairRenderer
-from cadgraph.draw.render.target import Target, end_box, is_slender, steady
+from cadgraph.draw.render.target import Target, end_box, steady
 from cadgraph.model.scene import Floats
 
 __all__ = ["Detail", "find_detail"]
@@ -17,11 +17,12 @@ __all__ = ["Detail", "find_detail"]
 _MARGIN = 0.1
 _TRIAL = 96  # [px] of the pictures by which it is judged whether a cut tells anything
 _SOLID = 0.82  # share of the closed face in what a cut shows from which on there is nothing inside
+_MISSED = 0.02  # and up to which the cut goes between the pieces of what it should show
 _ROUND = 0.08  # extents that differ less are those of something round, whose axes lie anywhere
 _FLAT, _SHEET = 0.35, 0.08  # thickness over width of what is flat, and of what has no inside at all
 _OFF = 0.0137  # share of the extent by which a cut lies beside the middle, where faces may lie
 _UPWARDS, _SIDEWAYS = 0.34, 0.22  # how far a view is turned out of the normal of what it looks at
-_END_WIDTHS = 1.6
+_LONG, _END_WIDTHS = 5.0, 2.2  # lengths over width from which on the end is shown close up, and so many widths of it
 
 
 @dataclass(frozen=True)
@@ -30,12 +31,14 @@ class Detail:
 
     Args:
         camera: where from.
+        depth: of what it is to show, along the viewing direction [m].
         kind: cut open, on the end of its longest axis, or square on its broad side.
         cut: ``(4,)`` the plane: what lies at ``normal . x > offset`` is taken away; None where nothing is cut.
         closed: whether the cut shows material; thin sheets have none.
     """
 
     camera: Camera
+    depth: float
     kind: Literal["cut", "end", "side"]
     cut: Floats | None = None
     closed: bool = False
@@ -53,28 +56,31 @@ def find_detail(renderer: PairRenderer, target: Target, like: Floats, size: tupl
         size: width and height of the picture [px].
     """
     thick, wide = float(target.extents[2]), max(float(target.extents[1]), 1e-9)
-    if is_slender(target.extents):
+    if target.extents[0] >= _LONG * wide:
         sign = 1 if target.axes[0] @ like >= 0 else -1
         direction = _oblique(sign * target.axes[0], like)
-        return Detail(_framed(end_box(target, sign, _END_WIDTHS), direction, size), "end")
+        return Detail(*_framed(end_box(target, sign, _END_WIDTHS), direction, size), "end")
     if thick >= _SHEET * wide:
         normal = _across(target, like)
         along = target.vertices @ normal
         low, high = float(along.min()), float(along.max())
         cut = np.round([*normal, (low + high) / 2 + _OFF * (high - low)], 6)
         kept = target.vertices - np.maximum(along - cut[3], 0.0)[:, None] * normal
-        trial = _framed(kept, normal, (_TRIAL, _TRIAL))
+        trial, _ = _framed(kept, normal, (_TRIAL, _TRIAL))
         share, closed = renderer.share_of_cut(target.mesh, trial, cut)
-        if not closed or share < _SOLID:
-            return Detail(_framed(kept, _oblique(normal, like), size), "cut", cut, closed)
+        if not closed or _MISSED < share < _SOLID:
+            return Detail(*_framed(kept, _oblique(normal, like), size), "cut", cut, closed)
     flat = thick < _FLAT * wide
-    axis = target.axes[2 if flat else 0]
+    # Of what is round like a thick disc the ends are its two faces.
+    axis = target.axes[2 if flat or wide > (1 - _ROUND) * target.extents[0] else 0]
     axis = axis if axis @ like >= 0 else -axis
-    return Detail(_framed(target.vertices, _oblique(axis, like, 0.6 if flat else 1.3), size), "side" if flat else "end")
+    framed = _framed(target.vertices, _oblique(axis, like, 0.6 if flat else 1.3), size)
+    return Detail(*framed, "side" if flat else "end")
 
 
-def _framed(points: Floats, direction: Floats, size: tuple[int, int]) -> Camera:
-    return steady(frame(points, np.round(direction, 9), size, margin=_MARGIN))
+def _framed(points: Floats, direction: Floats, size: tuple[int, int]) -> tuple[Camera, float]:
+    camera = steady(frame(points, np.round(direction, 9), size, margin=_MARGIN))
+    return camera, float(((points.min(axis=0) + points.max(axis=0)) / 2 - camera.eye) @ camera.forward)
 
 
 def _across(target: Target, like: Floats) -> Floats:
@@ -89,7 +95,7 @@ def _across(target: Target, like: Floats) -> Floats:
     elif b > (1 - _ROUND) * a:
         normal = _perpendicular(like, axes[2], axes[1])
     else:
-        normal = axes[1] if c < 0.5 * b else axes[2]
+        normal = axes[2]
     return normal if normal @ like >= 0 else -normal
 
 

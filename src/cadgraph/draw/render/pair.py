@@ -22,7 +22,7 @@ from cadgraph.draw.render.color import Colors, from_hex, source_colors, to_srgb
 from cadgraph.draw.render.crease import CornerNormals
 from cadgraph.draw.render.light import lamps, open_air
 from cadgraph.draw.render.picture import Look
-from cadgraph.draw.render.raster import Facets, Favour, favour, see
+from cadgraph.draw.render.raster import Facets, Favour, favour, see, solidity
 from cadgraph.draw.render.scalebar import draw_scale_bar
 from cadgraph.draw.render.shading import Haze, background, compose, shade
 from cadgraph.draw.render.surface import Surfaces, Viewport, covered, meet
@@ -109,39 +109,54 @@ class PairRenderer:
             ValueError: the target has no finite triangle.
         """
         single = self._alone(target)
-        near, _ = self._distances(target, camera)
+        near = self._depth(target, camera)
         alone = single.surfaces(camera)
-        context, visible, pixels = self._context(target, camera, hidden, alone)
+        context, visible, pixels = self._context(target, camera, hidden, alone, near)
         images = [Image.fromarray(context), Image.fromarray(self._drawn(camera, alone, single.colors))]
         bar = self._bars(images, camera, near)
         return Pair(images[0], images[1], visible, pixels, bar)
 
-    def context(self, target: int, camera: Camera, hidden: Sequence[int] = ()) -> Image.Image:
-        """The first picture of a pair only; arguments and errors as of :meth:`pair`."""
-        near, _ = self._distances(target, camera)
-        context, _, _ = self._context(target, camera, hidden, self._alone(target).surfaces(camera))
+    def context(
+        self, target: int, camera: Camera, hidden: Sequence[int] = (), *, depth: float | None = None
+    ) -> Image.Image:
+        """The first picture of a pair only.
+
+        Args:
+            target: the mesh.
+            camera: where from.
+            hidden: meshes that are cut away; ghosts of them stay.
+            depth: along the viewing direction at which the scale bar counts [m]; the middle of the target by default.
+
+        Raises:
+            ValueError: the target has no finite triangle.
+        """
+        near = self._depth(target, camera) if depth is None else depth
+        context, _, _ = self._context(target, camera, hidden, self._alone(target).surfaces(camera), near)
         image = Image.fromarray(context)
         self._bars([image], camera, near)
         return image
 
-    def alone(self, target: int, camera: Camera, cut: Floats | None = None) -> Image.Image:
+    def alone(
+        self, target: int, camera: Camera, cut: Floats | None = None, *, depth: float | None = None
+    ) -> Image.Image:
         """The second picture of a pair only, cut open if wanted.
 
         Args:
             target: the mesh.
             camera: where from.
             cut: ``(4,)`` a plane: what lies at ``normal . x > offset`` is taken away, and solids show a hatched face.
+            depth: as of :meth:`context`.
 
         Raises:
             ValueError: the target has no finite triangle.
         """
         single = self._alone(target)
         image = Image.fromarray(self._drawn(camera, single.surfaces(camera, cut), single.colors, hatched=1))
-        self._bars([image], camera, self._distances(target, camera)[0])
+        self._bars([image], camera, self._depth(target, camera) if depth is None else depth)
         return image
 
     def share_of_cut(self, target: int, camera: Camera, cut: Floats) -> tuple[float, bool]:
-        """How much of what is left of a target shows as a closed face of the cut, 0..1, and whether any does at all.
+        """How much of what is left of a target shows as cut material, 0..1, and whether it is a solid that can show any.
 
         Args:
             target: the mesh.
@@ -153,9 +168,11 @@ class PairRenderer:
         seen, _ = see(port, single.facets, 1, np.zeros(1, bool), Favour(), cut)
         shown = int((seen.face >= 0).sum())
         closed = int((seen.face == len(single.facets.faces)).sum())
-        return closed / max(shown, 1), closed > 0
+        return closed / max(shown, 1), bool(solidity(single.facets, np.zeros(1, bool))[0])
 
-    def _context(self, target: int, camera: Camera, hidden: Sequence[int], alone: Surfaces) -> tuple[Bytes, float, int]:
+    def _context(
+        self, target: int, camera: Camera, hidden: Sequence[int], alone: Surfaces, near: float
+    ) -> tuple[Bytes, float, int]:
         port = Viewport.whole(camera)
         nearer = Favour(target, favour(self._vertices(target)))
         left_out = np.zeros(self.scene.n_meshes, bool)
@@ -166,8 +183,7 @@ class PairRenderer:
         # Grey is mixed in, not the target's own colour: the hue has to be that which the prompt names.
         grey = float((own * _LUMINANCE).sum())
         colors[target] = own if self.plain else grey * (1 - _TINT) + self._mark * _TINT
-        near, far = self._distances(target, camera)
-        context = self._drawn(camera, surfaces, colors, Haze(near, far, _HAZE))
+        context = self._drawn(camera, surfaces, colors, Haze(near, _HAZED * near, _HAZE))
         if left_out.any():
             everything = self._surfaces(port, np.zeros(self.scene.n_meshes, bool), nearer)
             _ghost(everything, left_out, port.width, port.height, context)
@@ -214,12 +230,11 @@ class PairRenderer:
         vertices = self.scene.mesh(target)[0]
         return vertices[np.isfinite(vertices).all(axis=1)]
 
-    def _distances(self, target: int, camera: Camera) -> tuple[float, float]:
-        """Depth of the middle of what the target has before the camera, and from where on haze is full [m]."""
+    def _depth(self, target: int, camera: Camera) -> float:
+        """Of the middle of what the target has before the camera [m]."""
         depth = (self._vertices(target) - camera.eye) @ camera.forward
         ahead = depth[depth > 0]
-        middle = float(ahead.min() + ahead.max()) / 2 if len(ahead) else 1.0
-        return middle, _HAZED * middle
+        return float(ahead.min() + ahead.max()) / 2 if len(ahead) else 1.0
 
 
 class _Alone:

@@ -21,7 +21,7 @@ from cadgraph.draw.render.surface import Viewport
 from cadgraph.geometry.kernels.parallel import compiled, readable
 from cadgraph.model.scene import Floats, Scene, mesh_of_face
 
-__all__ = ["Facets", "Favour", "Seen", "favour", "see"]
+__all__ = ["Facets", "Favour", "Seen", "favour", "see", "solidity"]
 
 Bools = npt.NDArray[np.bool_]
 
@@ -147,7 +147,7 @@ def see(
         eye, axes = port.camera.eye, port.axes
         plane[:3] = [(axes[i] * cut[:3]).sum() for i in range(3)]
         plane[3] = cut[3] - (cut[:3] * eye).sum()
-        solid = _solidity(facets, skip)
+        solid = solidity(facets, skip)
     within = np.zeros(n if cut is not None else 0, np.int16)
     _fill(
         port.axes, port.camera.eye, port.view, port.width, port.height, side, facets.vertices, facets.faces,
@@ -158,11 +158,17 @@ def see(
     return Seen(port, side, face, depth), np.zeros(3) if cut is None else cut[:3]
 
 
-def _solidity(facets: Facets, skip: Bools) -> npt.NDArray[np.int8]:
-    """``(n_meshes,)`` 1 where every edge is run through as often either way, 2 where it is by an even number of faces.
+def solidity(facets: Facets, skip: Bools) -> npt.NDArray[np.int8]:
+    """How it is found out what lies inside the meshes.
 
-    Of the first a sample's depth within the mesh is its winding number, of the second only whether it is odd; of
-    others (0) nobody can say what is inside.
+    Args:
+        facets: the triangles.
+        skip: ``(n_meshes,)`` what isn't looked at.
+
+    Returns:
+        ``(n_meshes,)`` 1 where every edge is run through as often either way: the winding number says how deep inside
+        a place is. 2 where an even number of faces meets at every edge: only whether a place is. 0 where nobody can
+        say.
     """
     kinds = np.zeros(facets.n_meshes, np.int8)
     for mesh in np.flatnonzero(~skip):
@@ -205,7 +211,7 @@ def _fill(
         by: see Favour.
         tie: see Favour.
         plane: ``(4,)`` in the camera's axes; a null normal cuts nothing.
-        solid: ``(n_meshes,)`` see ``_solidity``.
+        solid: ``(n_meshes,)`` see :func:`solidity`.
         face: ``(n_samples,)`` the outcome.
         depth: likewise; it counts ``by`` less where the favoured mesh is seen until all is drawn.
         within: ``(n_samples,)`` winding number, or number of surfaces, beyond the plane; empty where nothing is cut.

@@ -18,7 +18,7 @@ from cadgraph.draw.render.caster import Caster
 from cadgraph.draw.render.raster import favour
 from cadgraph.model.scene import Floats, Ints, Scene, mesh_of_face, mesh_of_vertex
 
-__all__ = ["APART", "Target", "View", "choose_views", "end_box", "is_slender", "steady"]
+__all__ = ["APART", "Target", "View", "choose_views", "end_box", "steady"]
 
 Bools = npt.NDArray[np.bool_]
 
@@ -67,6 +67,11 @@ class View:
     section: bool = False
     span: float = 0.0
     end: bool = False
+
+    @property
+    def depth(self) -> float:
+        """Of what it is to show, along the viewing direction [m]."""
+        return self.span / (self.camera.pixel_size * self.camera.width)
 
     @property
     def direction(self) -> Floats:
@@ -120,7 +125,7 @@ class Target:
         points = t[:, 0] + u * (t[:, 1] - t[:, 0]) + v * (t[:, 2] - t[:, 0])
         used = vertices[np.unique(faces[area > 0])]
         axes, extents = _principal(corners[area > 0], area[area > 0], used)
-        if n_points < _DENSER * _N_POINTS and is_slender(extents):
+        if n_points < _DENSER * _N_POINTS and _is_slender(extents):
             return cls.of(scene, mesh, _DENSER * n_points)
         return cls(mesh, points, double[face] / area[face, None], _outer(used), axes, extents)
 
@@ -143,7 +148,7 @@ def choose_views(scene: Scene, target: Target, size: tuple[int, int] = (512, 512
     directions = _DIRECTIONS
     whole = target.vertices
     sight = far = _Sight(_Obstacles(scene, target), target)
-    near, section = whole, is_slender(target.extents)
+    near, section = whole, _is_slender(target.extents)
     outward: Floats | None = None
     if section:
         far = _Sight(sight.obstacles, target.only(slice(None, None, _DENSER)))
@@ -311,7 +316,7 @@ def steady(camera: Camera) -> Camera:
     )
 
 
-def is_slender(extents: Floats) -> bool:
+def _is_slender(extents: Floats) -> bool:
     """Whether a mesh of these extents is so long that a picture of all of it shows little more than a line."""
     return bool(extents[0] >= _SLENDER * max(float(extents[1]), 1e-6))
 

@@ -147,10 +147,11 @@ class _Drawing:
         """One of the pictures as JPEG."""
         shown = self.views[view]
         if not alone:
-            return _jpeg(self._renderer.context(0, shown.camera, shown.hidden))
+            return _jpeg(self._renderer.context(0, shown.camera, shown.hidden, depth=shown.depth or None))
         if view == 2 and self.detail is not None:
-            return _jpeg(self._renderer.alone(0, self.detail.camera, self.detail.cut))
-        return _jpeg(self._renderer.alone(0, shown.camera))
+            detail = self.detail
+            return _jpeg(self._renderer.alone(0, detail.camera, detail.cut, depth=detail.depth))
+        return _jpeg(self._renderer.alone(0, shown.camera, depth=shown.depth or None))
 
 
 class _Once:
@@ -180,7 +181,7 @@ def _caption(index: int, view: View, drawing: _Drawing) -> str:
     words = [f"View {index + 1} of 3, about {_length(view.span)} wide at the part"]
     if view.wide:
         words.append(
-            f"from further back, to show what it belongs to: all that comes within {_length(drawing.reach)} of it"
+            f"from further back, with all that comes within {_length(drawing.reach)} of it, to show what it belongs to"
         )
     if view.section:
         words.append("only one end of this long part is shown" if view.end else "only a section of this long part")
