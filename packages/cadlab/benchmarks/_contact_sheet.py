@@ -56,10 +56,8 @@ def question(gallery: Gallery, parts: Parts, kind: QuestionGroup, truth: tuple[s
         left = i * (SIDE + GAP)
         with Image.open(io.BytesIO(picture.draw())) as shown:
             image.paste(shown.resize((SIDE, SIDE), Image.Resampling.LANCZOS), (left, HEAD))
-        lines = textwrap.wrap(picture.caption.rstrip(":"), 41)
-        draw.text(
-            (left + 2, HEAD + SIDE + 2), "\n".join(lines[:4]), font=ImageFont.load_default(11), fill=INK, spacing=1
-        )
+        caption = "\n".join(textwrap.wrap(picture.caption.rstrip(":"), 41)[:4])
+        draw.text((left + 2, HEAD + SIDE + 2), caption, font=ImageFont.load_default(11), fill=INK, spacing=1)
     draw.line((0, image.height - 1, image.width, image.height - 1), fill=RULE)
     return image
 

@@ -55,3 +55,26 @@ def test_the_picture_is_not_empty():
         detail, scene = detail_of(mesh)
         image = np.asarray(PairRenderer(scene, plain=True).alone(0, detail.camera, detail.cut)).astype(int)
         assert (np.abs(image - image[:, :1]).max(axis=2) > 20).mean() > 0.1
+
+
+def test_a_cut_between_the_pieces_of_a_part_is_none():
+    pieces = [shapes.moved(shapes.cylinder(0.01, 0.1), translation=(x, y, 0)) for x in (-0.1, 0.1) for y in (-0.1, 0.1)]
+    vertices = np.concatenate([v for v, _ in pieces])
+    faces = np.concatenate([np.asarray(f) + i * len(pieces[0][0]) for i, (_, f) in enumerate(pieces)])
+    detail, _ = detail_of((vertices, faces))
+    assert detail.kind != "cut"
+
+
+def test_a_bent_tube_is_cut_along_its_bend():
+    leg = shapes.tube(0.02, 0.015, 0.3)
+    across = shapes.moved(leg, np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]]), (0.15, 0, 0.15))
+    mesh = np.concatenate([leg[0], across[0]]), np.concatenate([leg[1], np.asarray(across[1]) + len(leg[0])])
+    detail, _ = detail_of(mesh)
+    assert detail.kind == "cut"
+    assert abs(detail.cut[1]) > 0.99
+
+
+def test_the_depth_is_that_of_what_is_shown():
+    detail, scene = detail_of(shapes.box((6, 0.1, 0.05)))
+    end = scene.vertices[np.sign(scene.vertices[:, 0]) == np.sign(-detail.camera.forward[0])]
+    assert abs(((end - detail.camera.eye) @ detail.camera.forward).mean() - detail.depth) < 0.2

@@ -139,7 +139,7 @@ def test_a_cut_through_an_open_sheet_has_no_material():
     vertices, faces = shapes.box((0.2, 0.2, 0.2))
     scene = Scene.from_meshes([(vertices, faces[:-2])])
     camera = frame(scene.mesh(0)[0], (0, -1, 0.001), SIZE)
-    assert PairRenderer(scene).share_of_cut(0, camera, np.array([0.0, -1.0, 0.0, 0.0])) == (0.0, False)
+    assert PairRenderer(scene).share_of_cut(0, camera, np.array([0.0, -1.0, 0.0, 0.001])) == (0.0, False)
 
 
 def test_a_target_outside_the_picture_is_not_drawn():

@@ -156,7 +156,7 @@ class PairRenderer:
         return image
 
     def share_of_cut(self, target: int, camera: Camera, cut: Floats) -> tuple[float, bool]:
-        """How much of what is left of a target shows as cut material, 0..1, and whether it is a solid that can show any.
+        """How much of what is left of a target shows as cut material, 0..1, and whether it is a solid that has any.
 
         Args:
             target: the mesh.
