@@ -122,3 +122,8 @@ def test_sample_points_are_spread_by_area():
     points = Target.of(scene, 0).points
     assert (np.abs(np.abs(points[:, 2]) - 0.0005) < 1e-9).mean() > 0.95
     assert abs(points[:, 0].mean()) < 0.05
+
+
+def test_what_is_round_is_not_shown_from_the_same_height_twice():
+    close, other, _ = views_of(scene_of(shapes.tube(0.1, 0.05, 0.07)))
+    assert abs(close.direction[2] - other.direction[2]) > 0.3

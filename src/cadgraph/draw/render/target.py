@@ -36,6 +36,8 @@ _END = 5.0  # widths of the end of a slender mesh that close views show
 _END_SEEN = 1.2  # of three directions, the share of an end that has to be seen; below, a section is sought
 _END_TURN = (0.25, 0.85)  # cosine between the view and the axis of a slender mesh: the end's face and its sides show
 _END_BONUS = 1.6
+_ROUND = 0.08  # extents that differ less are those of something round
+_SAME_TURN, _REPEATED = 0.3, 0.7  # cosines to the axis of what is round that differ less show the same: worth less
 _HAIR = 6e-5  # [m]
 _EDGE_ON = 0.5  # of the greatest area that it could show: if no view shows more, one is a cutaway that does
 _NEARER = 0.75  # of the supposed distance: nearer than that, a camera may see what the rays did not
@@ -161,7 +163,9 @@ def choose_views(scene: Scene, target: Target, size: tuple[int, int] = (512, 512
         worth = worth * np.where((turned > _END_TURN[0]) & (turned < _END_TURN[1]), _END_BONUS, 1.0)
     open_air = ~sight.covered(near, directions, _FILL)
     score = np.where(share >= _LEAST_SHARE, share * worth * np.where(open_air, 1.0, 0.8), 0.0)
-    chosen = _spread(score)
+    axis = None if section else _round_axis(target)
+    along = None if axis is None else np.round(directions @ axis, 9)
+    chosen = _spread(score, along=along)
     hidden: dict[int, tuple[int, ...]] = {}
     if len(chosen) == 3 and not section and ahead[chosen].max() < _EDGE_ON * ahead.max():
         # A gasket between its flanges shows its rim from everywhere; one look at its face is worth a cutaway.
@@ -169,7 +173,7 @@ def choose_views(scene: Scene, target: Target, size: tuple[int, int] = (512, 512
     if len(chosen) < 3:
         blockers = sight.blockers(sight.eyes(near, directions, _FILL))
         fewer = worth**2 / (1 + 0.2 * np.array([len(b) for b in blockers]))
-        for direction in _spread(fewer, chosen)[len(chosen) :]:
+        for direction in _spread(fewer, chosen, along)[len(chosen) :]:
             chosen.append(direction)
             hidden[direction] = blockers[direction]
     order = _wide_last(far, chosen, directions, share, hidden)
@@ -400,8 +404,14 @@ def _wide_last(
     return [*sorted(order, key=lambda d: (d in hidden, -round(float(share[d]), 6), d)), chosen[best]]
 
 
-def _spread(score: Floats, given: list[int] | None = None) -> list[int]:
-    """Up to three directions of a positive score, pairwise far enough apart, of the greatest sum; ``given`` first."""
+def _spread(score: Floats, given: list[int] | None = None, along: Floats | None = None) -> list[int]:
+    """Up to three directions of a positive score, pairwise far enough apart, of the greatest sum; ``given`` first.
+
+    Args:
+        score: ``(n_directions,)``.
+        given: directions that are taken in any case.
+        along: ``(n_directions,)`` cosines to the axis of what is round: two of about the same show the same.
+    """
     rounded = np.round(score, 9)
     order = [int(i) for i in np.argsort(-rounded, kind="stable") if rounded[i] > 0]
     fixed = list(given or [])
@@ -409,15 +419,30 @@ def _spread(score: Floats, given: list[int] | None = None) -> list[int]:
     greatest = -1.0
     for first in order[:_FIRST_CHOICES] if not fixed else [-1]:
         picked = [*fixed] if first < 0 else [first]
-        for other in order:
-            if len(picked) == 3:
-                break
-            if all(_CLOSE[other, one] == 0 for one in picked):
-                picked.append(other)
         total = len(picked) * 10 + float(rounded[picked].sum())
+        while len(picked) < 3:
+            gain = np.where((_CLOSE[:, picked] == 0).all(axis=1), rounded, 0.0)
+            if along is not None:
+                same = (np.abs(along[:, None] - along[picked]) < _SAME_TURN).any(axis=1)
+                gain = np.round(gain * np.where(same, _REPEATED, 1.0), 9)
+            other = int(np.argmax(gain))
+            if not gain[other] > 0:
+                break
+            picked.append(other)
+            total += 10 + float(gain[other])
         if total > greatest + 1e-9:
             best, greatest = picked, total
     return best
+
+
+def _round_axis(target: Target) -> Floats | None:
+    """``(3,)`` the axis of a mesh two of whose extents are equal, as those of a flange or a pipe are."""
+    a, b, c = (float(e) for e in target.extents)
+    flat, long = b > (1 - _ROUND) * a, c > (1 - _ROUND) * b
+    if flat == long:
+        return None
+    axis: Floats = target.axes[2 if flat else 0]
+    return axis
 
 
 def _principal(corners: Floats, area: Floats, vertices: Floats) -> tuple[Floats, Floats]:
