@@ -184,7 +184,7 @@ def _caption(index: int, view: View, drawing: _Drawing) -> str:
             f"from further back, with all that comes within {_length(drawing.reach)} of it, to show what it belongs to"
         )
     if view.section:
-        words.append("only one end of this long part is shown" if view.end else "only a section of this long part")
+        words.append(f"only {'one end' if view.end else 'a section'} of this long part is shown")
     if view.hidden:
         n = len(view.hidden)
         words.append(f"a cutaway: {n} other part{'s' * (n != 1)} before it {'are' if n != 1 else 'is'} left as a ghost")
