@@ -25,8 +25,9 @@ import numpy.typing as npt
 from cadgraph.draw.render.annotation import Mark, Segment, Tag, annotate
 from cadgraph.draw.render.camera import frame
 from cadgraph.draw.render.color import distinct_colors
-from cadgraph.draw.render.pair import PairRenderer
+from cadgraph.draw.render.pair import Pair, PairRenderer
 from cadgraph.draw.render.picture import Look, Paint, Renderer
+from cadgraph.draw.render.surroundings import Surroundings
 from cadgraph.draw.render.views import Target, View, choose_views, three_quarter_view
 from cadgraph.draw.report import write_report
 from cadgraph.model.scene import Scene
@@ -142,12 +143,15 @@ def spent(act: Callable[[], object]) -> str:
 def measure_pairs(lines: int, sides: int, threads: int) -> str:
     """Views of 2,000 meshes, and 25 pairs of pictures as a vision-language model is shown them."""
     scene = plant(lines, sides)
-    renderer = PairRenderer(scene)
+    about = Surroundings(scene)
     chosen = np.linspace(0, scene.n_meshes - 1, 2000).round().astype(int).tolist()
 
     def views_of(mesh: int) -> list[tuple[int, View]]:
-        found = choose_views(renderer.caster, renderer.mesh_of_face, Target.of(scene, mesh))
-        return [(mesh, view) for view in found]
+        cutout = about.cutout(mesh)
+        return [(mesh, view) for view in choose_views(cutout, Target.of(cutout, 0))]
+
+    def pair_of(look: tuple[int, View]) -> Pair:
+        return PairRenderer(about.cutout(look[0])).pair(0, look[1].camera, look[1].hidden)
 
     with ThreadPoolExecutor(threads) as pool:
         looks: list[tuple[int, View]] = []
@@ -155,13 +159,14 @@ def measure_pairs(lines: int, sides: int, threads: int) -> str:
         some = looks[:: len(looks) // 25][:25]
 
         def draw() -> None:
-            for _ in pool.map(lambda look: renderer.pair(look[0], look[1].camera, look[1].hidden), some):
+            for _ in pool.map(pair_of, some):
                 pass
 
         draw()
         pairs = spent(draw)
         some *= 4
         sustained = spent(draw)
+
     cells = [f"{scene.n_meshes:,}", f"{scene.n_triangles:,}", chosen_in, pairs, sustained, beside(scene, some)]
     return "| " + " | ".join([*cells, f"{peak_memory():.2f}"]) + " |"
 
@@ -188,8 +193,10 @@ def beside(scene: Scene, looks: list[tuple[int, View]]) -> str:
     plotter.enable_anti_aliasing("ssaa")
 
     def draw() -> None:
-        for _, view in looks:
-            eye, ahead = view.camera.eye, view.camera.eye + view.camera.forward
+        for mesh, view in looks:
+            # Cameras are relative to the lowest corner of their mesh.
+            eye = view.camera.eye + scene.mesh(mesh)[0].min(axis=0)
+            ahead = eye + view.camera.forward
             plotter.camera_position = [tuple(eye), tuple(ahead), tuple(view.camera.up)]
             plotter.screenshot(return_img=True)
             plotter.screenshot(return_img=True)

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import sys
 
+import numpy as np
+
 from cadgraph.draw.render.annotation import Tag, annotate
 from cadgraph.draw.render.camera import frame
 from cadgraph.draw.render.pair import PairRenderer
@@ -24,7 +26,9 @@ def warm_up() -> None:
     scene = load(DEMO_SCENE)
     build(scene)
     camera = frame(scene.mesh(0)[0], (1, -2, 1), (64, 64), margin=0.3)
-    PairRenderer(scene).pair(0, camera, [1])
+    renderer = PairRenderer(scene)
+    renderer.pair(0, camera, [1])
+    renderer.alone(0, camera, np.array([0.0, -1.0, 0.0, 0.0]))
     picture = Renderer(scene).picture(camera)
     annotate(picture, camera, tags=[Tag((0.0, 0.0, 0.0), "")])
 

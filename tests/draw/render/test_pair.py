@@ -82,6 +82,66 @@ def test_edges_are_anti_aliased():
     assert sharp > 20
 
 
+def test_the_mark_has_the_colour_that_was_chosen_and_the_others_lose_theirs():
+    image = pixels(PairRenderer(SCENE, mark="#ff7a00").pair(0, camera_of()).context).reshape(-1, 3)
+    red, green, blue = image.T
+    assert ((red > green + 60) & (green > blue + 40)).sum() > 300
+    plain = pixels(PairRenderer(SCENE, plain=True).pair(0, camera_of()).context).reshape(-1, 3)
+    assert (plain[:, 1] - plain[:, 0]).max() > 60
+    others = image[red <= green + 20]
+    assert (others[:, 1] - others[:, 0]).max() < 30
+
+
+def test_what_is_cut_away_is_left_as_a_ghost():
+    camera = camera_of()
+    renderer = PairRenderer(SCENE)
+    without = PairRenderer(SCENE.select([0, 2])).pair(0, camera).context
+    ghosted = renderer.pair(0, camera, [1])
+    changed = np.abs(pixels(ghosted.context) - pixels(without)).max(axis=2)
+    assert ghosted.visible > 0.95
+    assert (changed > 40).sum() > 50
+    assert (changed > 40).mean() < 0.1
+
+
+def test_coincident_faces_show_the_target_without_speckles():
+    scene = Scene.from_meshes(
+        [shapes.box((0.2, 0.2, 0.2)), shapes.box((0.3, 0.2, 0.2), (0.05, 0, 0))], colors=[[0.9, 0, 0], [0, 0, 0.9]]
+    )
+    for target in (0, 1):
+        pair = PairRenderer(scene).pair(target, frame(scene.mesh(target)[0], (0.1, -1, 0.2), SIZE, margin=0.2))
+        assert pair.visible == 1.0
+
+
+def test_of_other_coincident_faces_one_mesh_wins():
+    scene = Scene.from_meshes(
+        [shapes.box((0.1, 0.1, 0.1), (0, 0, -5)), shapes.box((0.2, 0.2, 0.2)), shapes.box((0.2, 0.2, 0.2))],
+        colors=[[0.5, 0.5, 0.5], [0.9, 0, 0], [0, 0, 0.9]],
+    )
+    camera = frame(scene.mesh(1)[0], (0.1, -1, 0.2), SIZE, margin=0.2)
+    red, _, blue = pixels(PairRenderer(scene, plain=True).pair(0, camera).context).reshape(-1, 3).T
+    assert (red > blue + 60).sum() > 500
+    assert (blue > red + 60).sum() == 0
+
+
+def test_a_cut_shows_the_material_of_a_solid_and_the_bore_of_a_tube():
+    plane = np.array([0.0, -1.0, 0.0, 0.001])
+    for shape, least, most in ((shapes.cylinder(0.1, 0.3), 0.95, 1.0), (shapes.tube(0.1, 0.08, 0.3), 0.1, 0.4)):
+        scene = Scene.from_meshes([shape])
+        renderer = PairRenderer(scene)
+        camera = frame(scene.mesh(0)[0], (0, -1, 0.001), SIZE, margin=0.1)
+        share, closed = renderer.share_of_cut(0, camera, plane)
+        assert closed
+        assert least <= share <= most
+        assert renderer.alone(0, camera, plane).tobytes() != renderer.alone(0, camera).tobytes()
+
+
+def test_a_cut_through_an_open_sheet_has_no_material():
+    vertices, faces = shapes.box((0.2, 0.2, 0.2))
+    scene = Scene.from_meshes([(vertices, faces[:-2])])
+    camera = frame(scene.mesh(0)[0], (0, -1, 0.001), SIZE)
+    assert PairRenderer(scene).share_of_cut(0, camera, np.array([0.0, -1.0, 0.0, 0.001])) == (0.0, False)
+
+
 def test_a_target_outside_the_picture_is_not_drawn():
     camera = frame(SCENE.mesh(0)[0] + (0, 0, 5), (0, -1, 0), SIZE)
     assert PairRenderer(SCENE).pair(0, camera).pixels == 0

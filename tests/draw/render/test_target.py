@@ -2,7 +2,6 @@ import numpy as np
 import pytest
 
 import shapes
-from cadgraph.draw.render.pair import PairRenderer
 from cadgraph.draw.render.target import APART, Target, choose_views
 from cadgraph.model.scene import Scene
 
@@ -12,8 +11,7 @@ def scene_of(*meshes):
 
 
 def views_of(scene, mesh=0):
-    renderer = PairRenderer(scene)
-    return choose_views(renderer.caster, renderer.mesh_of_face, Target.of(scene, mesh))
+    return choose_views(scene, Target.of(scene, mesh))
 
 
 def angles(views):
@@ -49,7 +47,7 @@ def test_views_avoid_the_side_that_is_hidden():
 
 
 def test_a_mesh_inside_a_closed_box_gets_cutaways():
-    scene = scene_of(shapes.sphere(0.1), shapes.box((1, 1, 1)), shapes.box((1.2, 1.2, 1.2)))
+    scene = scene_of(shapes.sphere(0.1), shapes.box((0.3, 0.3, 0.3)), shapes.box((0.4, 0.4, 0.4)))
     views = views_of(scene)
     assert min(angles(views)) >= APART - 1e-9
     for view in views:
@@ -67,14 +65,39 @@ def test_a_ring_between_two_discs_is_seen_from_its_rim_and_once_cut_free():
     assert any(view.hidden and abs(view.direction[2]) > 0.7 for view in views)
 
 
-def test_close_views_of_a_slender_mesh_show_a_section():
+def test_close_views_of_a_slender_mesh_show_an_end_of_it():
     scene = scene_of(shapes.box((12, 0.05, 0.05)))
     close, other, wide = views_of(scene)
-    assert close.section
-    assert other.section
-    assert not wide.section
+    assert [view.section for view in (close, other, wide)] == [view.end for view in (close, other, wide)]
+    assert [view.section for view in (close, other, wide)] == [True, True, False]
     assert close.span < 2
     assert wide.span > 12
+    for view in (close, other):
+        corners = view.camera.project(scene.vertices[np.abs(scene.vertices[:, 0]) > 5.9])[0]
+        assert ((corners > 0) & (corners < 512)).all(axis=1).sum() == 4
+    # The face of the end itself shows in one of them at least.
+    assert max(abs(view.direction[0]) for view in (close, other)) > 0.25
+
+
+def test_a_slender_mesh_whose_ends_are_hidden_shows_a_section():
+    ends = [shapes.box((2, 0.4, 0.4), (x, 0, 0)) for x in (-5.5, 5.5)]
+    close, other, _ = views_of(scene_of(shapes.box((12, 0.05, 0.05)), *ends))
+    assert close.section
+    assert other.section
+    assert not close.end
+
+
+def test_the_target_fills_three_quarters_of_the_close_pictures():
+    for view in views_of(FREE)[:2]:
+        places = view.camera.project(FREE.mesh(0)[0])[0]
+        assert np.ptp(places, axis=0).max() == pytest.approx(0.75 * 512, rel=0.02)
+
+
+def test_a_face_that_coincides_with_another_counts_as_seen():
+    board = shapes.box((0.2, 0.2, 0.02))
+    for view in views_of(scene_of(board, shapes.box((0.2, 0.2, 0.02)))):
+        assert view.visible > 0.95
+        assert view.hidden == ()
 
 
 def test_views_do_not_change_from_run_to_run():
@@ -99,3 +122,8 @@ def test_sample_points_are_spread_by_area():
     points = Target.of(scene, 0).points
     assert (np.abs(np.abs(points[:, 2]) - 0.0005) < 1e-9).mean() > 0.95
     assert abs(points[:, 0].mean()) < 0.05
+
+
+def test_what_is_round_is_not_shown_from_the_same_height_twice():
+    close, other, _ = views_of(scene_of(shapes.tube(0.1, 0.05, 0.07)))
+    assert abs(close.direction[2] - other.direction[2]) > 0.3

@@ -382,3 +382,23 @@ def test_the_ground_is_not_asked_about_where_the_embedded_labeler_is_used():
     label(labeler, parts)
     assert 0 not in {question.part for question in told.asked}
     assert len(told.asked) == 5
+
+
+def test_what_is_asked_twice_in_the_same_words_and_pictures_is_asked_once():
+    class Same:
+        """A gallery of the same pictures for all."""
+
+        mark = type("Mark", (), {"name": "magenta"})
+
+        def recipe(self, part):
+            return "the same"
+
+        def pictures(self, part):
+            return ()
+
+    parts = plates.parts_of(plates.scene_of(1, 3))
+    labeler, told = labeler_of(plates.oracle(parts), Way(per="part"), gallery=lambda _: Same())
+    labels = label(labeler, parts)
+    assert len(told.asked) == 1
+    assert labeler.tally.total == 1
+    assert [each.said for each in labels] == plates.truth_of(parts)

@@ -1,10 +1,12 @@
-"""Pairs of pictures of one mesh: among all the others, and alone, from the same camera (paper, section III-B 4).
+"""Pairs of pictures of one mesh: among all the others, and alone (paper, section III-B 4).
 
-Drawn without shadows and with fewer rays at edges than pictures for people: some ten pairs a second on a processor.
+Drawn without shadows and with fewer samples at edges than pictures for people. The mesh is tinted and outlined in a
+colour of its own, the others are muted; what is cut away for a better look stays as a ghost.
 """
 
 from __future__ import annotations
 
+import functools
 import threading
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,15 +17,17 @@ import numpy.typing as npt
 from PIL import Image
 
 from cadgraph.draw.render.camera import Camera
-from cadgraph.draw.render.caster import Caster, Hits
-from cadgraph.draw.render.color import from_hex, source_colors, to_srgb
+from cadgraph.draw.render.caster import Hits
+from cadgraph.draw.render.color import Colors, from_hex, source_colors, to_srgb
+from cadgraph.draw.render.crease import CornerNormals
 from cadgraph.draw.render.light import lamps, open_air
-from cadgraph.draw.render.picture import Look, Renderer
+from cadgraph.draw.render.picture import Look
+from cadgraph.draw.render.raster import Facets, Favour, favour, see, solidity
 from cadgraph.draw.render.scalebar import draw_scale_bar
 from cadgraph.draw.render.shading import Haze, background, compose, shade
 from cadgraph.draw.render.surface import Surfaces, Viewport, covered, meet
 from cadgraph.geometry.kernels.parallel import compiled
-from cadgraph.model.scene import Scene
+from cadgraph.model.scene import Floats, Scene
 
 __all__ = ["MARK", "Pair", "PairRenderer"]
 
@@ -32,15 +36,20 @@ Bytes = npt.NDArray[np.uint8]
 Singles = npt.NDArray[np.float32]
 
 MARK = "#ff00aa"
-"""What marks the target: a magenta that no paint of a plant has (RAL's nearest, 4010, is duller)."""
+"""What marks the target where nobody chose a colour (see ``mark``)."""
 
 _LOOK = Look(samples=2, sky_rays=0)
-_TINT = 0.22  # share of the mark's colour in the target's, in the first picture
+_TINT = 0.75  # share of the mark's colour in the target's, in the first picture
+_COLOR_LEFT = 0.35  # share of their colour that the others keep beside grey
+_PALE, _DEEP = 0.62, 0.24  # linear light of what was white and of what was black
+_LUMINANCE = np.array([0.2126, 0.7152, 0.0722], np.float32)  # of linear sRGB (IEC 61966-2-1)
 _OUTLINE = 2.5  # width of the line round the target [px]
 _HAZE = 0.45  # share of the background that what lies far behind the target fades into
 _HAZED = 5.0  # times the target's distance at which haze is full
-_MOST_LAYERS = 12  # of meshes that a cutaway looks through, one behind the other
-_SLACK = 2e-3  # share of the distance by which the target may lie behind what a cutaway came to
+_VEIL, _GHOST_LINE, _GHOST_CREASE = 0.16, 0.5, 0.25  # shares that a ghost, its outline and its edges take
+_VEIL_LEVEL, _GHOST_LEVEL = 235.0, 70.0  # sRGB bytes of both
+_GHOST_SHARP = 0.8  # cosine between neighbouring pixels' normals: a ghost's sharp edges
+_CUT = 0.55  # grey of the hatched face where the target is cut
 
 
 @dataclass(frozen=True)
@@ -68,20 +77,25 @@ class PairRenderer:
     Args:
         scene: the scene.
         plain: whether the target goes unmarked and the pictures without a scale bar, as in the paper.
+        mark: colour of the target, ``"#rrggbb"``.
 
     Raises:
         ValueError: the scene has no finite triangle.
     """
 
-    def __init__(self, scene: Scene, *, plain: bool = False) -> None:
+    def __init__(self, scene: Scene, *, plain: bool = False, mark: str = MARK) -> None:
+        if not np.isfinite(scene.vertices[scene.global_faces()]).all(axis=(1, 2)).any():
+            raise ValueError("no picture of an empty scene: none of its meshes has a triangle with finite corners")
         self.scene = scene
         self.plain = plain
-        self._renderer = Renderer(scene, threads=1)
-        self.caster = self._renderer.caster()
-        self.mesh_of_face = self._renderer.mesh_of_face
-        self._colors = source_colors(scene).astype(np.float32)
-        self._mark = from_hex(MARK)
-        self._local = threading.local()
+        self._facets = Facets.of(scene)
+        self._normals = CornerNormals(scene)
+        own = source_colors(scene)
+        self._own = np.concatenate([own, np.full((1, 3), _CUT, np.float32)])
+        self._others = self._own if plain else np.concatenate([_muted(own), self._own[-1:]])
+        self._mark = from_hex(mark)
+        self._lock = threading.Lock()
+        self._kept: tuple[int, _Alone] | None = None
 
     def pair(self, target: int, camera: Camera, hidden: Sequence[int] = ()) -> Pair:
         """Draws one pair.
@@ -89,141 +103,231 @@ class PairRenderer:
         Args:
             target: the mesh.
             camera: where from.
-            hidden: meshes that are left out of the first picture.
+            hidden: meshes that are cut away in the first picture; ghosts of them stay.
 
         Raises:
             ValueError: the target has no finite triangle.
         """
-        single, window = self._single(target), self._window(target, camera)
-        near, far = self._distances(target, camera)
-        whole = Viewport.whole(camera)
-        everything = self._everything(whole, hidden, single)
-        colors = self._colors
-        if not self.plain:
-            colors = colors.copy()
-            colors[target] = colors[target] * (1 - _TINT) + self._mark * _TINT
-        context = self._drawn(whole, everything, colors, Haze(near, far, _HAZE))
-        sky = np.round(to_srgb(background(camera.height, _LOOK.top, _LOOK.bottom)) * 255).astype(np.uint8)
-        alone = np.repeat(sky[:, None], camera.width, axis=1)
-        seen = covered(whole, everything, _LOOK.samples, target)
-        shape = np.zeros_like(seen)
-        if window.height and window.width:
-            surfaces = self._renderer.surfaces(window, single, _LOOK.samples)
-            at = slice(window.top, window.top + window.height), slice(window.left, window.left + window.width)
-            alone[at] = self._drawn(window, surfaces, self._colors, Haze())
-            shape[at] = covered(window, surfaces, _LOOK.samples, -1)
-        if not self.plain:
-            color = np.round(to_srgb(self._mark) * 255).astype(np.float64)
-            _outline(seen, shape, _room(window, int(_OUTLINE) + 2), _OUTLINE, color, context)
-        images = [Image.fromarray(context), Image.fromarray(alone)]
-        bar = 0.0
-        if not self.plain:
-            for image in images:
-                bar = draw_scale_bar(image, camera.pixel_size * near)
-        parts = int(shape.sum())
-        visible = float(np.minimum(seen, shape).sum()) / max(parts, 1)
-        return Pair(images[0], images[1], visible, parts // _LOOK.samples**2, bar)
+        single = self._alone(target)
+        near = self._depth(target, camera)
+        alone = single.surfaces(camera)
+        context, visible, pixels = self._context(target, camera, hidden, alone, near)
+        images = [Image.fromarray(context), Image.fromarray(self._drawn(camera, alone, single.colors))]
+        bar = self._bars(images, camera, near)
+        return Pair(images[0], images[1], visible, pixels, bar)
 
-    def _everything(self, port: Viewport, hidden: Sequence[int], single: Caster) -> Surfaces:
-        """What the first picture shows."""
-        if not len(hidden):
-            return self._renderer.surfaces(port, self.caster, _LOOK.samples)
+    def context(
+        self, target: int, camera: Camera, hidden: Sequence[int] = (), *, depth: float | None = None
+    ) -> Image.Image:
+        """The first picture of a pair only.
+
+        Args:
+            target: the mesh.
+            camera: where from.
+            hidden: meshes that are cut away; ghosts of them stay.
+            depth: along the viewing direction at which the scale bar counts [m]; the middle of the target by default.
+
+        Raises:
+            ValueError: the target has no finite triangle.
+        """
+        near = self._depth(target, camera) if depth is None else depth
+        context, _, _ = self._context(target, camera, hidden, self._alone(target).surfaces(camera), near)
+        image = Image.fromarray(context)
+        self._bars([image], camera, near)
+        return image
+
+    def alone(
+        self, target: int, camera: Camera, cut: Floats | None = None, *, depth: float | None = None
+    ) -> Image.Image:
+        """The second picture of a pair only, cut open if wanted.
+
+        Args:
+            target: the mesh.
+            camera: where from.
+            cut: ``(4,)`` a plane: what lies at ``normal . x > offset`` is taken away, and solids show a hatched face.
+            depth: as of :meth:`context`.
+
+        Raises:
+            ValueError: the target has no finite triangle.
+        """
+        single = self._alone(target)
+        image = Image.fromarray(self._drawn(camera, single.surfaces(camera, cut), single.colors, hatched=1))
+        self._bars([image], camera, self._depth(target, camera) if depth is None else depth)
+        return image
+
+    def share_of_cut(self, target: int, camera: Camera, cut: Floats) -> tuple[float, bool]:
+        """How much of what is left of a target shows as cut material, 0..1, and whether it is a solid that has any.
+
+        Args:
+            target: the mesh.
+            camera: where from.
+            cut: see :meth:`alone`.
+        """
+        single = self._alone(target)
+        port = Viewport.whole(camera)
+        seen, _ = see(port, single.facets, 1, np.zeros(1, bool), Favour(), cut)
+        shown = int((seen.face >= 0).sum())
+        closed = int((seen.face == len(single.facets.faces)).sum())
+        return closed / max(shown, 1), bool(solidity(single.facets, np.zeros(1, bool))[0])
+
+    def _context(
+        self, target: int, camera: Camera, hidden: Sequence[int], alone: Surfaces, near: float
+    ) -> tuple[Bytes, float, int]:
+        port = Viewport.whole(camera)
+        nearer = Favour(target, favour(self._vertices(target)))
         left_out = np.zeros(self.scene.n_meshes, bool)
         left_out[list(hidden)] = True
+        surfaces = self._surfaces(port, left_out, nearer)
+        colors = self._others.copy()
+        own = self._own[target]
+        # Grey is mixed in, not the target's own colour: the hue has to be that which the prompt names.
+        grey = float((own * _LUMINANCE).sum())
+        colors[target] = own if self.plain else grey * (1 - _TINT) + self._mark * _TINT
+        context = self._drawn(camera, surfaces, colors, Haze(near, _HAZED * near, _HAZE))
+        if left_out.any():
+            everything = self._surfaces(port, np.zeros(self.scene.n_meshes, bool), nearer)
+            _ghost(everything, left_out, port.width, port.height, context)
+        seen = covered(port, surfaces, _LOOK.samples, target)
+        shape = covered(port, alone, _LOOK.samples, -1)
+        if not self.plain:
+            color = np.round(to_srgb(self._mark) * 255).astype(np.float64)
+            _outline(seen, shape, _room(shape, int(_OUTLINE) + 2), _OUTLINE, color, context)
+        parts = int(shape.sum())
+        visible = float(np.minimum(seen, shape).sum()) / max(parts, 1)
+        return context, visible, parts // _LOOK.samples**2
 
-        def cast(towards: Singles) -> Hits:
-            return self._cut_away(port.camera, towards, left_out, single)
+    def _surfaces(self, port: Viewport, left_out: Bools, nearer: Favour) -> Surfaces:
+        return _surfaces(port, self._facets, self._normals.ready, left_out, nearer, None)
 
-        return meet(port, cast, self.mesh_of_face, self._renderer.normals.ready, _LOOK.samples, False, 1)
-
-    def _drawn(self, port: Viewport, surfaces: Surfaces, colors: Singles, haze: Haze) -> Bytes:
-        none = np.zeros((1, self.scene.n_meshes), bool)
-        camera = port.camera
-        behind = background(camera.height, _LOOK.top, _LOOK.bottom)[port.top : port.top + port.height]
+    def _drawn(
+        self, camera: Camera, surfaces: Surfaces, colors: Colors, haze: Haze | None = None, *, hatched: int = -1
+    ) -> Bytes:
+        port, n = Viewport.whole(camera), len(colors)
+        striped = np.zeros((1, n), bool)
+        striped[0, n if hatched < 0 else hatched :] = True
+        behind = background(camera.height, _LOOK.top, _LOOK.bottom)
         layer = shade(
-            port, surfaces, open_air(port.width * port.height), lamps(camera), colors[None], none, none[0],
-            _LOOK.samples, _LOOK.lines, haze, behind, 1,
+            port, surfaces, open_air(port.width * port.height), lamps(camera), colors[None], striped,
+            np.zeros(n, bool), _LOOK.samples, _LOOK.lines, haze or Haze(), behind, 1,
         )  # fmt: skip
         drawn: Bytes = compose(port, layer, None, behind, 1)[0]
         return drawn
 
-    def _cut_away(self, camera: Camera, towards: Singles, left_out: Bools, single: Caster) -> Hits:
-        """What rays meet when they pass through the meshes that are left out.
+    def _bars(self, images: Sequence[Image.Image], camera: Camera, near: float) -> float:
+        bar = 0.0
+        if not self.plain:
+            for image in images:
+                bar = draw_scale_bar(image, camera.pixel_size * near)
+        return bar
 
-        Behind a mesh that is cut away rays start a little further on, and would miss a target that lies right on it:
-        so they are cast at the target alone, too.
-        """
-        eye = self.caster.local(camera.eye[None])[0]
-        found = self.caster.first(np.broadcast_to(eye, towards.shape), towards)
-        step = np.float32(max(2e-6 * self.caster.diagonal, 1e-5))
-        through = first = self._on(found.face, left_out, np.flatnonzero(found.face >= 0))
-        reached = np.zeros(len(towards), np.float32)
-        for _ in range(_MOST_LAYERS):
-            if not len(through):
-                break
-            reached[through] = found.distance[through] + step
-            behind = self.caster.first(eye + towards[through] * reached[through, None], towards[through])
-            _replace(found, through, np.arange(len(through)), behind)
-            found.distance[through] = np.where(behind.face >= 0, behind.distance + reached[through], np.inf)
-            through = self._on(found.face, left_out, through)
-        found.face[through] = -1
-        if len(first):
-            own = single.first(
-                np.broadcast_to(single.local(camera.eye[None])[0], (len(first), 3)), towards[first]
-            )  # fmt: skip
-            nearer = (found.face[first] < 0) | (own.distance < found.distance[first] * (1 + _SLACK))
-            wins = np.flatnonzero((own.face >= 0) & nearer)
-            found.distance[first[wins]] = own.distance[wins]
-            _replace(found, first[wins], wins, own)
+    def _alone(self, target: int) -> _Alone:
+        with self._lock:
+            if self._kept is None or self._kept[0] != target:
+                self._kept = target, _Alone(self.scene.select([target]), self._own[[target, -1]])
+            return self._kept[1]
+
+    def _vertices(self, target: int) -> Floats:
+        vertices = self.scene.mesh(target)[0]
+        return vertices[np.isfinite(vertices).all(axis=1)]
+
+    def _depth(self, target: int, camera: Camera) -> float:
+        """Of the middle of what the target has before the camera [m]."""
+        depth = (self._vertices(target) - camera.eye) @ camera.forward
+        ahead = depth[depth > 0]
+        return float(ahead.min() + ahead.max()) / 2 if len(ahead) else 1.0
+
+
+class _Alone:
+    """A target without the others; its second colour is that of the cut."""
+
+    def __init__(self, scene: Scene, colors: Colors) -> None:
+        if not np.isfinite(scene.vertices[scene.global_faces()]).all(axis=(1, 2)).any():
+            raise ValueError(f"no picture of {scene.paths[0]}: none of its triangles has finite corners")
+        self.facets = Facets.of(scene)
+        self.colors = colors
+        self._normals = CornerNormals(scene)
+
+    def surfaces(self, camera: Camera, cut: Floats | None = None) -> Surfaces:
+        normals = self._normals.ready(np.zeros(1, np.int64))
+        if cut is not None:
+            face = np.broadcast_to(np.asarray(cut[:3], np.float32), (1, 3, 3))
+            normals = np.concatenate([normals, face])
+        return _surfaces(Viewport.whole(camera), self.facets, lambda _: normals, np.zeros(1, bool), Favour(), cut)
+
+
+def _surfaces(
+    port: Viewport, facets: Facets, normals: Any, left_out: Bools, nearer: Favour, cut: Floats | None
+) -> Surfaces:
+    mesh_of_face = facets.mesh_of_face
+    if cut is not None:
+        mesh_of_face = np.append(mesh_of_face, np.int32(facets.n_meshes))
+
+    @functools.cache
+    def drawn(side: int) -> Any:
+        return see(port, facets, side, left_out, nearer, cut)
+
+    def cast(towards: Singles, pixels: npt.NDArray[np.int64], side: int) -> Hits:
+        seen, normal = drawn(side)
+        found: Hits = seen.hits(facets, towards, pixels, normal)
         return found
 
-    def _on(self, face: npt.NDArray[np.int32], left_out: Bools, rays: npt.NDArray[Any]) -> npt.NDArray[Any]:
-        """Those of some rays that met a mesh that is left out."""
-        met = rays[face[rays] >= 0]
-        there: npt.NDArray[Any] = met[left_out[self.mesh_of_face[face[met]]]]
-        return there
-
-    def _single(self, target: int) -> Caster:
-        kept: dict[int, Caster] = self._local.__dict__.setdefault("single", {})
-        if target not in kept:
-            kept.clear()
-            kept[target] = Caster(self.scene, [target])
-        return kept[target]
-
-    def _window(self, target: int, camera: Camera) -> Viewport:
-        """Where the target's vertices project into; the whole picture where one lies behind the eye."""
-        vertices = self.scene.mesh(target)[0]
-        places, depth = camera.project(vertices[np.isfinite(vertices).all(axis=1)])
-        if not len(places) or not (depth > 0).all():
-            return Viewport.whole(camera)
-        low = np.floor(places.min(axis=0)) - 1
-        high = np.ceil(places.max(axis=0)) + 1
-        left, top = (int(x) for x in np.clip(low, 0, (camera.width, camera.height)))
-        right, bottom = (int(x) for x in np.clip(high, 0, (camera.width, camera.height)))
-        return Viewport(camera, top, left, bottom - top, right - left)
-
-    def _distances(self, target: int, camera: Camera) -> tuple[float, float]:
-        """Depth of the middle of what the target has before the camera, and from where on haze is full [m]."""
-        vertices = self.scene.mesh(target)[0]
-        depth = (vertices[np.isfinite(vertices).all(axis=1)] - camera.eye) @ camera.forward
-        ahead = depth[depth > 0]
-        middle = float(ahead.min() + ahead.max()) / 2 if len(ahead) else 1.0
-        return middle, _HAZED * middle
+    return meet(port, cast, mesh_of_face, normals, _LOOK.samples, False, 1)
 
 
-def _replace(found: Hits, rays: npt.NDArray[Any], rows: npt.NDArray[Any], by: Hits) -> None:
-    """Lets some rays have met something else; their distances aside."""
-    for values, others in ((found.face, by.face), (found.u, by.u), (found.v, by.v), (found.normal, by.normal)):
-        values[rays] = others[rows]
+def _muted(colors: Colors) -> Colors:
+    """Nearly grey, and neither light nor dark: a hint of what they were, beside which a strong colour stands out."""
+    grey = (colors * _LUMINANCE).sum(axis=1, keepdims=True)
+    mixed = colors * _COLOR_LEFT + grey * (1 - _COLOR_LEFT)
+    muted: Colors = (_DEEP + (_PALE - _DEEP) * np.sqrt(np.clip(mixed, 0, 1))).astype(np.float32)
+    return muted
 
 
-def _room(window: Viewport, margin: int) -> npt.NDArray[np.int64]:
-    """First and last row, first and last column of a window and a margin round it."""
-    bottom, right = window.top + window.height + margin, window.left + window.width + margin
+def _room(shape: npt.NDArray[np.uint8], margin: int) -> npt.NDArray[np.int64]:
+    """First and last row, first and last column that hold a shape and a margin round it."""
+    rows, columns = np.flatnonzero(shape.any(axis=1)), np.flatnonzero(shape.any(axis=0))
+    if not len(rows):
+        return np.zeros(4, np.int64)
+    height, width = shape.shape
     return np.array([
-        max(0, window.top - margin), min(window.camera.height, bottom),
-        max(0, window.left - margin), min(window.camera.width, right),
-    ])  # fmt: skip
+        max(0, rows[0] - margin), min(height, rows[-1] + 1 + margin),
+        max(0, columns[0] - margin), min(width, columns[-1] + 1 + margin),
+    ], np.int64)  # fmt: skip
+
+
+@compiled
+def _ghost(everything: Any, hidden: Any, width: int, height: int, image: Any) -> None:
+    """Hints at meshes that were left out: a thin veil with their outlines and sharp edges.
+
+    Args:
+        everything: what the picture would show with them, see Surfaces.
+        hidden: ``(n_meshes,)`` which they are.
+        width: [px].
+        height: [px].
+        image: ``(height, width, 3)`` that is drawn on.
+    """
+    mesh, normal = everything.mesh, everything.normal
+    for row in range(height):
+        for column in range(width):
+            p = row * width + column
+            own = mesh[p] >= 0 and hidden[mesh[p]]
+            line = 0.0
+            for side in range(2):
+                q = p + (1 if side == 0 else width)
+                if (column + 1 == width) if side == 0 else (row + 1 == height):
+                    continue
+                if mesh[p] != mesh[q]:
+                    if own or (mesh[q] >= 0 and hidden[mesh[q]]):
+                        line = _GHOST_LINE
+                elif own:
+                    turn = 0.0
+                    for i in range(3):
+                        turn += normal[p, i] * normal[q, i]
+                    if turn < _GHOST_SHARP:
+                        line = max(line, _GHOST_CREASE)
+            veil = _VEIL if own else 0.0
+            for i in range(3):
+                level = image[row, column, i] * (1.0 - veil) + _VEIL_LEVEL * veil
+                image[row, column, i] = int(level * (1.0 - line) + _GHOST_LEVEL * line + 0.5)
 
 
 @compiled

@@ -173,7 +173,7 @@ class Renderer:
         """What the rays of a picture meet among a caster's meshes."""
         eye = caster.local(port.camera.eye[None])[0]
 
-        def cast(towards: Singles) -> Hits:
+        def cast(towards: Singles, _pixels: npt.NDArray[np.int64], _side: int) -> Hits:
             return caster.first(np.broadcast_to(eye, towards.shape), towards)
 
         return meet(port, cast, self.mesh_of_face, self.normals.ready, samples, lit, self.threads)

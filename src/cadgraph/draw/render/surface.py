@@ -101,14 +101,15 @@ def in_chunks(count: int, act: Callable[[int, int], object], threads: int, chunk
 
 
 def meet(
-    port: Viewport, cast: Callable[[Singles], Hits], mesh_of_face: Indices,
+    port: Viewport, cast: Callable[[Singles, npt.NDArray[np.int64], int], Hits], mesh_of_face: Indices,
     normals: Callable[[Indices], Singles], samples: int, lit: bool, threads: int,
 ) -> Surfaces:  # fmt: skip
     """Finds what the rays of a picture meet.
 
     Args:
         port: what is looked at.
-        cast: what rays from the eye in given unit directions ``(n, 3)`` meet.
+        cast: what rays from the eye in given unit directions ``(n, 3)`` meet; handed besides the pixels ``(k,)`` that
+            they go through, and how many along each side of one.
         mesh_of_face: ``(n_faces,)`` mesh of each of the scene's faces.
         normals: gives the corner normals ``(n_faces, 3, 3)``, worked out at least for the meshes that it is handed.
         samples: rays along each side of a pixel where neighbours differ.
@@ -126,7 +127,7 @@ def meet(
         def some(first: int, last: int) -> None:
             towards = np.empty(((last - first) * each, 3), np.float32)
             _aim(axes, view, pixels[first:last], width, side, towards)
-            hits = cast(towards)
+            hits = cast(towards, pixels[first:last], side)
             corners = normals(mesh_of_face[hits.face[hits.face >= 0]])
             cut = slice(first * each, last * each)
             _resolve(axes, towards, *hits, mesh_of_face, corners, mesh[cut], normal[cut], depth[cut], flat[cut])

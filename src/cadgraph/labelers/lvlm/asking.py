@@ -175,12 +175,15 @@ class Asking:
         """The first of these questions that what is left of the budget pays for."""
         cost = self.tally.cost
         kept: list[Question] = []
+        ids: set[str] = set()
         for question in questions:
-            cost += self.cost(question)
-            if self.budget.cost is not None and cost > self.budget.cost:
-                break
-            if self.budget.questions is not None and self._used_questions + len(kept) >= self.budget.questions:
-                break
+            if question.id not in ids:
+                cost += self.cost(question)
+                if self.budget.cost is not None and cost > self.budget.cost:
+                    break
+                if self.budget.questions is not None and self._used_questions + len(ids) >= self.budget.questions:
+                    break
+                ids.add(question.id)
             kept.append(question)
         return kept
 
@@ -193,7 +196,7 @@ class Asking:
         total, answers = sum(tokens), ANSWER_TOKENS * len(tokens)
         return Estimate(
             questions=len(tokens),
-            known=len(questions) - len(tokens),
+            known=len(keys) - len(tokens),
             prompt_tokens=total,
             answer_tokens=answers,
             cost=self.price.cost(total, answers) if self.price else None,
@@ -206,7 +209,7 @@ class Asking:
     def ask_all(
         self, questions: Sequence[Question], model: type[_Model], again: Callable[[Question, str], Question]
     ) -> list[Outcome[_Model]]:
-        """Asks, several at a time.
+        """Asks, several at a time; what is asked twice in the same words and pictures is asked once.
 
         Args:
             questions: within the budget.
@@ -216,6 +219,11 @@ class Asking:
         Returns:
             Their outcomes, in the order of the questions.
         """
+        once = {question.id: question for question in reversed(questions)}
+        if len(once) < len(questions):
+            first = list(dict.fromkeys(question.id for question in questions))
+            found = dict(zip(first, self.ask_all([once[each] for each in first], model, again), strict=True))
+            return [found[question.id] for question in questions]
         self.tally.total += len(questions)
         outcomes: list[Outcome[_Model] | None] = [None] * len(questions)
         pool = ThreadPoolExecutor(max(1, self.concurrency))

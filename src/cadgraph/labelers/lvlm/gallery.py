@@ -14,18 +14,21 @@ import numpy as np
 from PIL import Image
 
 from cadgraph.draw.render.camera import direction_from_angles, frame
+from cadgraph.draw.render.detail import Detail, find_detail
+from cadgraph.draw.render.mark import Mark, choose_mark
 from cadgraph.draw.render.pair import PairRenderer
-from cadgraph.draw.render.target import Target, View, choose_views
+from cadgraph.draw.render.surroundings import Surroundings, reach
+from cadgraph.draw.render.target import Target, View, choose_views, steady
 from cadgraph.model.scene import Scene
 
 __all__ = ["PICTURES", "Gallery", "Picture", "digest_of_scene"]
 
-PICTURES = 2
+PICTURES = 3
 """Version of how pictures are drawn. It is part of what a question is known by in the cache: raise it when pictures
 change so that an answer could, too."""
 
 _QUALITY = 90  # of JPEG: 25 kB each, no artefacts beside lines that a model could see
-_KEPT_VIEWS = 4096
+_KEPT = 8  # parts whose pictures may be asked for again before others
 _AROUND = (-60.0, 60.0, 180.0)  # azimuths of the paper's three views; it doesn't say which, so: evenly around
 _ELEVATION = 25.0
 
@@ -48,6 +51,8 @@ class Picture:
 class Gallery:
     """Draws the pictures of the parts of one scene, only when somebody needs them. Safe for threads.
 
+    Pictures of a part are drawn of what lies about it only, so that they follow from that alone.
+
     Args:
         scene: one mesh for each part.
         paper: plain pictures from three sides around, as in the paper, instead of marked ones from where it is seen.
@@ -56,10 +61,10 @@ class Gallery:
 
     def __init__(self, scene: Scene, *, paper: bool = False, size: int = 512) -> None:
         self._scene, self._paper, self._size = scene, paper, size
-        self._digest = digest_of_scene(scene)
+        self._mark = choose_mark(scene)
         self._lock = threading.Lock()
-        self._renderer: PairRenderer | None = None
-        self._views: OrderedDict[int, tuple[View, ...]] = OrderedDict()
+        self._surroundings: Surroundings | None = None
+        self._kept: OrderedDict[int, _Drawing] = OrderedDict()
 
     @property
     def n_pictures(self) -> int:
@@ -71,72 +76,95 @@ class Gallery:
         """Side of a picture [px]."""
         return self._size
 
+    @property
+    def mark(self) -> Mark:
+        """What the part in question is marked with."""
+        return self._mark
+
     def recipe(self, part: int) -> str:
         """What the pictures of a part follow from: equal recipes give equal pictures."""
-        return f"pictures-{PICTURES} {'paper' if self._paper else 'seen'} {self._size} {self._digest} {part}"
+        way = "paper" if self._paper else f"seen {self._mark.name} {self._mark.color}"
+        return f"pictures-{PICTURES} {way} {self._size} {self._about().recipe(part)}"
 
     def views(self, part: int) -> tuple[View, ...]:
-        """The three views of a part."""
-        with self._lock:
-            if part in self._views:
-                return self._views[part]
-        renderer = self._ready()
-        size = (self._size, self._size)
-        views: tuple[View, ...]
-        if self._paper:
-            vertices = Target.of(self._scene, part).vertices
-            views = tuple(
-                View(
-                    frame(
-                        vertices, direction_from_angles(math.radians(a), math.radians(_ELEVATION)), size, margin=0.25
-                    ),
-                    math.nan,
-                )
-                for a in _AROUND
-            )
-        else:
-            views = choose_views(renderer.caster, renderer.mesh_of_face, Target.of(self._scene, part), size)
-        with self._lock:
-            self._views[part] = views
-            while len(self._views) > _KEPT_VIEWS:
-                self._views.popitem(last=False)
-        return views
+        """The three views of a part; positions are relative to the lowest corner of its box."""
+        return self._drawing(part).views
 
     def pictures(self, part: int) -> tuple[Picture, ...]:
-        """Three pairs: with everything, and with the part alone."""
+        """Three pairs: with what is round it, and with the part alone; the last of all is cut open where it helps."""
+        drawing = self._drawing(part)
         pictures = []
-        for i, view in enumerate(self.views(part)):
-            drawn = _Pair(self._ready(), part, view)
-            caption = f"View {i + 1} of 3, with everything around it:" if self._paper else _caption(i, view)
-            pictures.append(Picture(f"view{i + 1}-all", caption, drawn.context))
-            pictures.append(Picture(f"view{i + 1}-alone", f"View {i + 1}, the part alone:", drawn.alone))
+        for i, view in enumerate(drawing.views):
+            caption = f"View {i + 1} of 3, with everything around it:" if self._paper else _caption(i, view, drawing)
+            pictures.append(Picture(f"view{i + 1}-all", caption, _Once(drawing, i, alone=False)))
+            own = f"View {i + 1}, the part alone:"
+            if i == 2 and drawing.detail is not None:
+                own = _detail_caption(drawing.detail)
+            pictures.append(Picture(f"view{i + 1}-alone", own, _Once(drawing, i, alone=True)))
         return tuple(pictures)
 
-    def _ready(self) -> PairRenderer:
+    def _about(self) -> Surroundings:
         with self._lock:
-            if self._renderer is None:
-                self._renderer = PairRenderer(self._scene, plain=self._paper)
-            return self._renderer
+            if self._surroundings is None:
+                self._surroundings = Surroundings(self._scene)
+            return self._surroundings
+
+    def _drawing(self, part: int) -> _Drawing:
+        with self._lock:
+            if part in self._kept:
+                self._kept.move_to_end(part)
+                return self._kept[part]
+        drawing = _Drawing(self._about().cutout(part), self._paper, self._mark, self._size)
+        with self._lock:
+            self._kept[part] = drawing
+            while len(self._kept) > _KEPT:
+                self._kept.popitem(last=False)
+        return drawing
 
 
-class _Pair:
-    """Two pictures that are drawn together when the first of them is asked for."""
+class _Drawing:
+    """The pictures of one part, of a scene that holds it first and what lies about it."""
 
-    def __init__(self, renderer: PairRenderer, part: int, view: View) -> None:
-        self._renderer, self._part, self._view = renderer, part, view
-        self._drawn: tuple[bytes, bytes] | None = None
+    def __init__(self, scene: Scene, paper: bool, mark: Mark, size: int) -> None:
+        self._renderer = PairRenderer(scene, plain=paper, mark=mark.color)
+        self._side = size, size
+        target = Target.of(scene, 0)
+        extents = np.ptp(target.vertices, axis=0)
+        self.reach = reach(float(extents.max()))
+        self.detail: Detail | None = None
+        self.views: tuple[View, ...]
+        if paper:
+            self.views = tuple(self._around(target, azimuth) for azimuth in _AROUND)
+        else:
+            self.views = choose_views(scene, target, self._side)
+            self.detail = find_detail(self._renderer, target, self.views[2].direction, self._side)
 
-    def context(self) -> bytes:
-        return self._both()[0]
+    def _around(self, target: Target, azimuth: float) -> View:
+        direction = direction_from_angles(math.radians(azimuth), math.radians(_ELEVATION))
+        return View(steady(frame(target.vertices, direction, self._side, margin=0.25)), math.nan)
 
-    def alone(self) -> bytes:
-        return self._both()[1]
+    def draw(self, view: int, *, alone: bool) -> bytes:
+        """One of the pictures as JPEG."""
+        shown = self.views[view]
+        if not alone:
+            return _jpeg(self._renderer.context(0, shown.camera, shown.hidden, depth=shown.depth or None))
+        if view == 2 and self.detail is not None:
+            detail = self.detail
+            return _jpeg(self._renderer.alone(0, detail.camera, detail.cut, depth=detail.depth))
+        return _jpeg(self._renderer.alone(0, shown.camera, depth=shown.depth or None))
 
-    def _both(self) -> tuple[bytes, bytes]:
-        if self._drawn is None:
-            pair = self._renderer.pair(self._part, self._view.camera, self._view.hidden)
-            self._drawn = _jpeg(pair.context), _jpeg(pair.alone)
-        return self._drawn
+
+class _Once:
+    """Draws a picture when it is first asked for."""
+
+    def __init__(self, drawing: _Drawing, view: int, *, alone: bool) -> None:
+        self._drawing, self._view, self._alone = drawing, view, alone
+        self._made: bytes | None = None
+
+    def __call__(self) -> bytes:
+        if self._made is None:
+            self._made = self._drawing.draw(self._view, alone=self._alone)
+        return self._made
 
 
 def _jpeg(image: Image.Image) -> bytes:
@@ -145,21 +173,33 @@ def _jpeg(image: Image.Image) -> bytes:
     return buffer.getvalue()
 
 
-def _caption(index: int, view: View) -> str:
-    span = f"{view.span:.2g} m" if view.span >= 1 else f"{view.span * 100:.2g} cm"
-    words = [f"View {index + 1} of 3, with everything around it, about {span} wide at the part"]
+def _length(length: float) -> str:
+    return f"{length:.2g} m" if length >= 1 else f"{length * 100:.2g} cm"
+
+
+def _caption(index: int, view: View, drawing: _Drawing) -> str:
+    words = [f"View {index + 1} of 3, about {_length(view.span)} wide at the part"]
     if view.wide:
-        words.append("from further back, to show what it belongs to")
+        words.append(
+            f"from further back, with all that comes within {_length(drawing.reach)} of it, to show what it belongs to"
+        )
     if view.section:
-        words.append("only a section of this long part is shown")
+        words.append(f"only {'one end' if view.end else 'a section'} of this long part is shown")
     if view.hidden:
         n = len(view.hidden)
-        words.append(
-            f"a cutaway: {n} other part{'s' * (n != 1)} that stand before it {'are' if n != 1 else 'is'} left out"
-        )
+        words.append(f"a cutaway: {n} other part{'s' * (n != 1)} before it {'are' if n != 1 else 'is'} left as a ghost")
     elif view.visible < 0.6:
         words.append("other parts hide some of it")
     return "; ".join(words) + ":"
+
+
+def _detail_caption(detail: Detail) -> str:
+    if detail.kind == "cut":
+        closed = "; hatched is its material where it is cut" if detail.closed else ", to look inside"
+        return f"The part alone, cut open through the middle{closed}:"
+    if detail.kind == "end":
+        return "The part alone, looking at its end:"
+    return "The part alone, looking at its broad side:"
 
 
 def digest_of_scene(scene: Scene) -> str:

@@ -219,8 +219,8 @@ class LvlmLabeler:
         count = "the question" if len(settled) == 1 else f"any of the {len(settled):,} questions"
         strays = "".join(f"; {finding.message}" for finding in self.asking.findings())
         raise LabelError(
-            f"no answer to {count} ({reason}){strays}; nothing was changed; see to the answers or the server and run it "
-            "again"
+            f"no answer to {count} ({reason}){strays}; nothing was changed; see to the answers or the server and run it"
+            " again"
         )
 
     def _report(
@@ -442,7 +442,8 @@ class _Round:
         measured = self.parts.properties
         long, mid, thin = (float(x) for x in measured.obb_extents[part])
         height = float(measured.aabb[part, 1, 2] - measured.aabb[part, 0, 2])
-        return Wording((long, mid, thin), height, self.vocabulary, self._labeler.way.paper, hints)
+        mark = self._gallery.mark.name
+        return Wording((long, mid, thin), height, self.vocabulary, self._labeler.way.paper, hints, mark=mark)
 
     def _question(self, part: int, wording: Wording, attempt: int = 0) -> Question:
         question = Question(

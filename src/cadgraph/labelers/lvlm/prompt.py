@@ -48,6 +48,7 @@ class Wording:
         hints: what geometry knows, a line each; made by us, never from the scene's own words.
         before: a label given before, or None.
         again: why the last answer could not be used, or None.
+        mark: the word for the colour that marks the part.
     """
 
     box: tuple[float, float, float]
@@ -57,6 +58,7 @@ class Wording:
     hints: Sequence[str] = ()
     before: str | None = None
     again: str | None = None
+    mark: str = "magenta"
 
 
 def system_text() -> str:
@@ -69,6 +71,7 @@ def label_text(wording: Wording) -> str:
     return _filled(
         "label",
         paper=wording.paper,
+        mark=wording.mark,
         box=" x ".join(size_text(e) for e in wording.box),
         height=size_text(wording.height),
         hints=[_one_line(hint) for hint in wording.hints],
