@@ -20,6 +20,7 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 from _timing import machine
@@ -41,10 +42,11 @@ from cadgraph.model.vocabulary import Vocabulary, default_vocabulary
 from cadgraph.pipeline import analyse, contradicted
 from cadgraph.session.session import Session
 from cadlab.evaluate.evaluation import evaluate
-from cadlab.markdown import table
+from cadlab.markdown import put, table
 from cadplants import make
 from cadplants.truth_writer import truth_of
 
+PAGE = Path(__file__).parents[3] / "docs" / "lvlm.md"
 Pair = tuple[str, str]
 ACCURACIES = (1.0, 0.98, 0.9, 0.8)
 CONFUSED, ELSEWHERE = 0.5, 1 / 3
@@ -163,7 +165,8 @@ def asked(case: Case, way: Way, budget: Budget, accuracy: float, seed: int) -> t
     return labeler.label(parts, case.analysis.contacts, vocabulary), asking
 
 
-def show(case: Case, seeds: int) -> None:
+def rows_of(case: Case, seeds: int) -> list[str]:
+    """The table of a plant."""
     kinds = len(find_question_groups(case.analysis.parts))
     titles = ["way", "questions", "US$"]
     for accuracy in ACCURACIES:
@@ -182,7 +185,7 @@ def show(case: Case, seeds: int) -> None:
             cells += [f"{names:.1%}", f"{groups:.1%}", f"{f1:.3f}"]
         if first is not None:
             rows.append([title, f"{first.asked:,}", f"{first.cost:.2f}", *cells])
-    print(*table(titles, rows, numbers=True), sep="\n", flush=True)
+    return table(titles, rows, numbers=True)
 
 
 def main() -> None:
@@ -190,13 +193,19 @@ def main() -> None:
     parser.add_argument("--plants", nargs="+", default=["field", "riser/vendor", "tank/bim"], metavar="PRESET[/STYLE]")
     parser.add_argument("--seed", type=int, default=5, help="of the plants")
     parser.add_argument("--seeds", type=int, default=4, help="of the simulated models, averaged")
+    parser.add_argument("--write", action="store_true", help=f"put the tables into {PAGE.name}")
     options = parser.parse_args()
-    print(machine())
+    lines = []
     for which in options.plants:
         preset, _, style = which.partition("/")
         case = read_case(preset, style, options.seed)
-        print(f"\n{which}: {case.analysis.parts.n_parts:,} parts.\n")
-        show(case, options.seeds)
+        drawn = f" in the style `{style}`" if style else ""
+        found = [f"`{preset}`{drawn}, {case.analysis.parts.n_parts:,} parts:", "", *rows_of(case, options.seeds), ""]
+        print(*found, sep="\n", flush=True)
+        lines += found
+    if options.write:
+        text = "\n".join([*lines, f"({machine()}.)"])
+        PAGE.write_text(put(PAGE.read_text(encoding="utf-8"), "simulated", text), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -397,7 +397,7 @@ def test_what_is_asked_twice_in_the_same_words_and_pictures_is_asked_once():
             return ()
 
     parts = plates.parts_of(plates.scene_of(1, 3))
-    labeler, told = labeler_of(plates.oracle(parts), Way(per="part"), gallery=lambda _: Same())
+    labeler, told = labeler_of(plates.oracle(parts), Way(per="part", staged=False), gallery=lambda _: Same())
     labels = label(labeler, parts)
     assert len(told.asked) == 1
     assert labeler.tally.total == 1
