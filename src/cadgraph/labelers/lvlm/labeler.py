@@ -201,6 +201,7 @@ class LvlmLabeler:
             if verdict is None:
                 continue
             again = bool(before.verdicts)
+            # It was asked with more to go by: it counts in full beside the first.
             round_.beliefs.believe(before.kind.parts, [verdict])
             settled[before.kind] = replace(
                 before, question=outcome.question, verdicts=(*before.verdicts, verdict), again=again
