@@ -192,7 +192,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--plants", nargs="+", default=["field", "riser/vendor", "tank/bim"], metavar="PRESET[/STYLE]")
     parser.add_argument("--seed", type=int, default=5, help="of the plants")
-    parser.add_argument("--seeds", type=int, default=4, help="of the simulated models, averaged")
+    parser.add_argument("--seeds", type=int, default=2, help="of the simulated models, averaged")
     parser.add_argument("--write", action="store_true", help=f"put the tables into {PAGE.name}")
     options = parser.parse_args()
     lines = []

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cached_property
 
 from cadgraph.errors import UnknownNode
 from cadgraph.model.records import Junction, Node, Part, Terminal, Unit
@@ -48,15 +49,20 @@ class Names:
         """
         exact = (self._nodes.get(which), self._by_tag.get(which), self._part_of_mesh.get(which))
         called = [node for node in exact if node is not None]
-        for found in (called, self._owners(called), self._loosely(which, layers)):
-            for node in found:
-                if isinstance(node, layers):
-                    return node
+        for node in self._meant(which, called, layers):
+            if isinstance(node, layers):
+                return node
         hint = self._hint(which, layers)
         if called:
             wanted = " or ".join(layer.__name__.lower() for layer in layers)
             raise UnknownNode(f"{which!r} is a {called[0].layer}, not a {wanted}; {hint}")
         raise UnknownNode(f"{'no part' if layers == (Part,) else 'nothing in the graph'} is called {which!r}; {hint}")
+
+    def _meant(self, which: str, called: list[Node], layers: tuple[type[Node], ...]) -> Iterator[Node]:
+        """What may be meant, the surest first, looked for only as far as it is asked for."""
+        yield from called
+        yield from self._owners(called)
+        yield from self._loosely(which, layers)
 
     def _owners(self, parts: Iterable[Node]) -> Iterable[Node]:
         """What parts are a part of."""
@@ -66,9 +72,15 @@ class Names:
     def _loosely(self, which: str, layers: tuple[type[Node], ...]) -> list[Node]:
         """The one node whose tag or id differs from this only in capitals, separators and leading zeros."""
         loose = loose_tag(which)
-        names = (*self._nodes.items(), *self._by_tag.items())
-        found = {node.id: node for name, node in names if isinstance(node, layers) and loose_tag(name) == loose}
+        found = {node.id: node for node in self._by_loose_name.get(loose, ()) if isinstance(node, layers)}
         return list(found.values()) if loose and len(found) == 1 else []
+
+    @cached_property
+    def _by_loose_name(self) -> Mapping[str, list[Node]]:
+        named: dict[str, list[Node]] = {}
+        for name, node in (*self._nodes.items(), *self._by_tag.items()):
+            named.setdefault(loose_tag(name), []).append(node)
+        return named
 
     def _hint(self, which: str, layers: tuple[type[Node], ...]) -> str:
         """What may have been meant, else what there is."""
