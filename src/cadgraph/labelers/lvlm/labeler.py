@@ -218,7 +218,8 @@ class LvlmLabeler:
         reasons = Counter(reason for reason, _ in round_.unanswered)
         reason = reasons.most_common(1)[0][0] if reasons else "none came"
         count = "the question" if len(settled) == 1 else f"any of the {len(settled):,} questions"
-        strays = "".join(f"; {finding.message}" for finding in self.asking.findings())
+        findings = (one for one in self.asking.findings() if one.code.startswith("lvlm-answers"))
+        strays = "".join(f"; {finding.message}" for finding in findings)
         raise LabelError(
             f"no answer to {count} ({reason}){strays}; nothing was changed; see to the answers or the server and run it"
             " again"
