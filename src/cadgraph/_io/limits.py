@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import IO
 
 __all__ = [
+    "ACCURACIES",
     "ANSWER",
     "BATCH",
     "CATALOG",
@@ -77,6 +78,8 @@ FLOWS = Limit(16 * _MB, "a file of flows")
 """A line takes 20 bytes."""
 MAPPING = Limit(16 * _MB, "a table of tags")
 """A line takes 20 bytes."""
+ACCURACIES = Limit(_MB, "a table of accuracies")
+"""The built-in one takes 2 kB."""
 PRICES = Limit(_MB, "a price table")
 """The built-in one takes 2 kB."""
 PROFILES = Limit(_MB, "a table of profiles")

@@ -5,18 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from importlib import resources
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-import yaml
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field
 
-from cadgraph._io.limits import PRICES, read_text_within
+from cadgraph._io.limits import ACCURACIES
 from cadgraph.errors import LabelError
 from cadgraph.labelers.base import Labeling
 from cadgraph.labelers.lvlm.answer import Verdict
+from cadgraph.labelers.lvlm.tables import checked, read_table, where_of
 from cadgraph.model.labels import Guess
 from cadgraph.model.probabilities import Probabilities
 from cadgraph.model.scene import Floats
@@ -81,25 +79,12 @@ def read_accuracy(model: str, file: str | Path = "", *, paper: bool = False) -> 
     Raises:
         LabelError: the table can't be read or is malformed.
     """
-    where = str(file) or "the built-in table of accuracies"
-    text = (
-        read_text_within(file, PRICES, LabelError, "give a YAML file like the built-in one")
-        if str(file)
-        else resources.files("cadgraph.labelers.lvlm").joinpath("accuracy.yaml").read_text(encoding="utf-8")
-    )
-    try:
-        table: Any = yaml.safe_load(text)
-    except (yaml.YAMLError, ValueError, RecursionError) as error:
-        raise LabelError(f"{where}: not YAML ({str(error).splitlines()[0]})") from error
+    where, table = where_of(file, ACCURACIES), read_table(file, "accuracy.yaml", ACCURACIES)
     if not isinstance(table, Mapping) or "default" not in table:
         raise LabelError(f"{where}: no entry 'default'; see the built-in one for its layout")
     keys = [k for k in table if isinstance(k, str) and k not in ("default", "confused", "paper")]
     key = max((k for k in keys if model.startswith(k)), key=len, default="paper" if paper else "default")
-    try:
-        shares = _Shares.model_validate(table.get(key, table["default"]))
-    except ValidationError as error:
-        wrong = error.errors(include_url=False)[0]
-        raise LabelError(f"{where}: {'.'.join(map(str, (key, *wrong['loc'])))}: {wrong['msg']}") from None
+    shares = checked(_Shares, table.get(key, table["default"]), where, key)
     pairs = table.get("confused") or []
     if not isinstance(pairs, list) or not all(isinstance(p, list) and len(p) == 2 for p in pairs):
         raise LabelError(f"{where}: confused: give pairs of names")

@@ -8,15 +8,14 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
-import yaml
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field
 
-from cadgraph._io.limits import PRICES, read_text_within
+from cadgraph._io.limits import PRICES
 from cadgraph.errors import LabelError
+from cadgraph.labelers.lvlm.tables import checked, read_table, where_of
 
 __all__ = ["ANSWER_TOKENS", "Estimate", "Price", "question_tokens", "read_price", "text_tokens"]
 
@@ -131,25 +130,11 @@ def read_price(model: str, file: str | Path = "", *, local: bool = False) -> Pri
     Raises:
         LabelError: the table can't be read or is malformed.
     """
-    where = str(file) or "the built-in price table"
-    text = (
-        read_text_within(file, PRICES, LabelError, "give a YAML file like the built-in one")
-        if str(file)
-        else resources.files("cadgraph.labelers.lvlm").joinpath("prices.yaml").read_text(encoding="utf-8")
-    )
-    try:
-        table: Any = yaml.safe_load(text)
-    except (yaml.YAMLError, ValueError, RecursionError) as error:
-        raise LabelError(f"{where}: not YAML ({str(error).splitlines()[0]})") from error
+    where, table = where_of(file, PRICES), read_table(file, "prices.yaml", PRICES)
     if not isinstance(table, Mapping):
         raise LabelError(f"{where}: not a table of models; see the built-in one for its layout")
     keys = [key for key in table if isinstance(key, str) and key != "local" and model.startswith(key)]
     key = max(keys, key=len, default="local" if local and "local" in table else None)
     if key is None:
         return None
-    try:
-        return Price.model_validate(table[key])
-    except ValidationError as error:
-        wrong = error.errors(include_url=False)[0]
-        place = ".".join(str(step) for step in (key, *wrong["loc"]))
-        raise LabelError(f"{where}: {place}: {wrong['msg']}") from None
+    return checked(Price, table[key], where, key)

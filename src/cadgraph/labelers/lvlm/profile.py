@@ -5,17 +5,15 @@ from __future__ import annotations
 import fnmatch
 import math
 from dataclasses import replace
-from importlib import resources
 from pathlib import Path
 from typing import Any, Literal
 from urllib.parse import urlsplit
 
-import yaml
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from cadgraph._io.limits import PROFILES, read_text_within
-from cadgraph.errors import LabelError
+from cadgraph._io.limits import PROFILES
 from cadgraph.labelers.lvlm.manner import LEVELS, Manner
+from cadgraph.labelers.lvlm.tables import checked, read_table, where_of
 
 __all__ = ["Profile", "read_profile"]
 
@@ -193,19 +191,7 @@ def read_profile(
 
 
 def _read(file: str | Path) -> _Table:
-    where = str(file) or "the built-in table of profiles"
-    text = (
-        read_text_within(file, PROFILES, LabelError, "give a YAML file like the built-in one")
-        if str(file)
-        else resources.files("cadgraph.labelers.lvlm").joinpath("profiles.yaml").read_text(encoding="utf-8")
-    )
-    try:
-        return _Table.model_validate(yaml.safe_load(text))
-    except (yaml.YAMLError, RecursionError) as error:
-        raise LabelError(f"{where}: not YAML ({str(error).splitlines()[0]})") from error
-    except ValidationError as error:
-        wrong = error.errors(include_url=False)[0]
-        raise LabelError(f"{where}: {'.'.join(str(step) for step in wrong['loc'])}: {wrong['msg']}") from None
+    return checked(_Table, read_table(file, "profiles.yaml", PROFILES), where_of(file, PROFILES))
 
 
 def _port(address: str) -> int | None:
