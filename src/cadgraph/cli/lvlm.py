@@ -43,7 +43,7 @@ def label(
 ) -> None:
     """Label a graph anew: by a model, by answers in a folder, or by the results of a batch."""
     from cadgraph.labelers.lvlm.setup import settings_of_questions
-    from cadgraph.session.reopen import ask_only, config_of, relabel
+    from cadgraph.session.reopen import config_of, relabel
 
     given = values_of(settings or [])
     more: dict[str, object] = {}
@@ -54,13 +54,11 @@ def label(
         more = {"mode": "batch", "results": tuple(batch_results)}
     chosen = asking.settings(config_of(folder).replace(given))
     with bars() as progress:
-        if not more and (asking.dry_run or asking.batch):
-            labeler = asking.labeler(chosen, folder, progress)
-            ask_only(folder, chosen, labeler, scene=scene, progress=progress)
-            asking.tell_written(labeler)
-            return
         labeler = asking.labeler(chosen, folder, progress, **more)
         outcome = relabel(folder, chosen, labeler, scene=scene, report=report, progress=progress)
+    if labeler is not None and labeler.only_asks:
+        asking.tell_written(labeler)
+        return
     tell(outcome)
     asking.tell(labeler, outcome.graph)
 
@@ -96,7 +94,7 @@ def ask_folder(
     """
     from cadgraph.labelers.lvlm.setup import FOLDER, QUESTIONS
     from cadgraph.labelers.lvlm.skill import check_answers, write_skill
-    from cadgraph.session.reopen import ask_only, config_of, vocabulary_of
+    from cadgraph.session.reopen import config_of, relabel, vocabulary_of
 
     questions = to or folder / FOLDER / QUESTIONS
     if check:
@@ -112,7 +110,7 @@ def ask_folder(
     chosen = asking.settings(config_of(folder).replace(values_of(settings or [])))
     with bars() as progress:
         labeler = asking.labeler(chosen, folder, progress, questions=questions)
-        ask_only(folder, chosen, labeler, scene=scene, progress=progress)
+        relabel(folder, chosen, labeler, scene=scene, progress=progress)
     write_skill(questions, folder)
     found = check_answers(questions, vocabulary_of(folder))
     out.print(

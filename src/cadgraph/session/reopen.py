@@ -22,7 +22,7 @@ from cadgraph.model.vocabulary import Vocabulary
 from cadgraph.session.run import Clock, Outcome, check_layers, check_target, write_results
 from cadgraph.session.session import Session
 
-__all__ = ["FormerLabeler", "ask_only", "config_of", "find_source", "relabel", "reopen", "vocabulary_of"]
+__all__ = ["FormerLabeler", "config_of", "find_source", "relabel", "reopen", "vocabulary_of"]
 
 
 def relabel(
@@ -59,27 +59,9 @@ def relabel(
             labeler.former = FormerLabeler(graph)
         session = reopen(graph, target, source, config, labeler, clock)
         if isinstance(labeler, AskingLabeler) and labeler.only_asks:
+            clock("", 1)
             return Outcome(graph, {}, clock.seconds)
         return write_results(session, source, target, report, clock)
-
-
-def ask_only(
-    folder: str | Path,
-    config: Config,
-    labeler: Labeler,
-    *,
-    scene: str | Path | None = None,
-    progress: Progress = quiet,
-) -> None:
-    """Lets a labeler that answers nothing yet look at the scene of a finished graph; no result is touched.
-
-    Args and errors are those of :func:`relabel`.
-    """
-    clock = Clock(progress)
-    with results_folder(folder) as target:
-        graph = SceneGraph.load(target)
-        reopen(graph, target, find_source(graph, target, scene), config, labeler, clock)
-        clock("", 1)
 
 
 def reopen(

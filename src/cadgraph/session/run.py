@@ -89,6 +89,7 @@ def run(
             scene, config, labels=given, vocabulary=tree, labeler=labeler, corrections=corrections, progress=clock
         )
         if isinstance(labeler, AskingLabeler) and labeler.only_asks and (target / "graph.json").exists():
+            clock("", 1)
             return Outcome(SceneGraph.load(target), {}, clock.seconds)
         return write_results(session, source, target, report, clock)
 

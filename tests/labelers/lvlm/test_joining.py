@@ -23,8 +23,8 @@ def begun(*rows, accuracy=None, labels=None):
 
 
 def said(beliefs, part=0, least=0.5):
-    label, confidence, _ = beliefs.label_of(part, least)
-    return label, confidence
+    found = beliefs.label_of(part, least)
+    return found.said, found.confidence
 
 
 def test_without_a_labeler_an_answer_is_believed_as_often_as_the_model_is_right():

@@ -109,10 +109,7 @@ class Surroundings:
     def _faces(self, members: Ints, part: Scene) -> npt.NDArray[np.int32]:
         """Those with a corner that isn't finite shrink to a point."""
         finite = np.asarray(np.isfinite(part.vertices).all(axis=1))
-        if finite.all():
-            return part.faces
-        sound = np.asarray(finite[part.global_faces()].all(axis=1))
-        return np.where(sound[:, None], part.faces, np.int32(0))
+        return _shrunk(part.faces, np.asarray(finite[part.global_faces()].all(axis=1)))
 
     def _members(self, mesh: int) -> tuple[Ints, Ints]:
         """The mesh and what lies about it, in an order that follows from shapes and places, and their places."""
@@ -133,6 +130,11 @@ class Surroundings:
         return members, place[members]
 
 
+def _shrunk(faces: npt.NDArray[np.int32], sound: Bools) -> npt.NDArray[np.int32]:
+    """Faces, those that aren't sound as a point."""
+    return np.where(sound[:, None], faces, np.int32(0))
+
+
 def _rounded(scene: Scene) -> _Rounded:
     n = scene.n_meshes
     low = np.full((n, 3), np.nan)
@@ -146,23 +148,19 @@ def _rounded(scene: Scene) -> _Rounded:
     for mesh in range(n):
         vertices, faces = scene.mesh(mesh)
         finite = np.asarray(np.isfinite(vertices).all(axis=1))
-        sound = faces if finite.all() else faces[finite[faces].all(axis=1)]
+        sound = np.asarray(finite[faces].all(axis=1))
+        corners = np.unique(faces[sound])
         h = hashlib.sha256(color[mesh].tobytes())
-        if len(sound):
-            used = vertices[np.unique(sound)]
-            low[mesh] = used.min(axis=0)
+        if len(corners):
+            low[mesh] = vertices[corners].min(axis=0)
             steps = np.zeros(vertices.shape, np.int32)
             steps[finite] = np.floor(
                 np.clip((vertices[finite] - low[mesh]) / _SHAPE + _UNEVEN, -2e9, 2e9)
             ).astype(np.int32)  # fmt: skip
             shape[scene.vertex_offsets[mesh] : scene.vertex_offsets[mesh + 1]] = steps
-            size[mesh] = -(-steps[np.unique(sound)].max(axis=0).astype(np.int64) // round(_PLACE / _SHAPE))
+            size[mesh] = -(-steps[corners].max(axis=0).astype(np.int64) // round(_PLACE / _SHAPE))
             h.update(steps.tobytes())
             h.update(np.int64(len(steps)).tobytes())
-            h.update(
-                np.ascontiguousarray(
-                    np.where(np.asarray(finite[faces].all(axis=1))[:, None], faces, np.int32(0))
-                ).tobytes()
-            )
+            h.update(_shrunk(faces, sound).tobytes())
         digest.append(h.digest()[:16])
     return _Rounded(low, shape, size, color, tuple(digest))

@@ -11,15 +11,14 @@ from cadgraph.labelers.coverage import find_unlearnt
 from cadgraph.labelers.embedded.features import Observation, observe
 from cadgraph.labelers.embedded.model import STRANGE, Model, default_model
 from cadgraph.labelers.embedded.wording import describe_company, describe_form
-from cadgraph.model.labels import GeometryEvidence, Guess, Label
+from cadgraph.labelers.likeliest import likeliest
+from cadgraph.model.labels import GeometryEvidence, Label
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.scene import Floats, Ints
 from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["EmbeddedLabeler", "Verdicts", "judge", "spread"]
 
-_GUESSES = 5
-_LEAST_GUESS = 0.0005
 _SHARED = 0.5  # greatest weight of what all repeats of a shape say together
 
 
@@ -100,7 +99,11 @@ class EmbeddedLabeler:
             near = [said[j] for j in around.there[starts[part] : starts[part + 1]].tolist()]
             form = describe_form(seen.facts[int(seen.shape_of_part[part])])
             why = f"{form}; {describe_company(near, int(alike[part]))}"
-            answers.append(_answer(verdicts, part, int(best[part]), float(least[part]), why))
+            found = likeliest(
+                verdicts.classes, verdicts.names[part], verdicts.group_names, verdicts.groups[part], float(least[part])
+            )
+            evidence = GeometryEvidence(why=why)
+            answers.append(Label(found.group, found.name, found.confidence, "geometry", evidence, found.guesses))
         return answers
 
 
@@ -145,22 +148,3 @@ def spread(probabilities: Floats, shape: Ints) -> Floats:
     weight = _SHARED * agreement * (count[shape] > 1)
     mixed: Floats = (1 - weight[:, None]) * probabilities + weight[:, None] * common
     return mixed
-
-
-def _answer(verdicts: Verdicts, part: int, best: int, least: float, why: str) -> Label:
-    """The likeliest name; only its group where no name is likely enough but the group is."""
-    p = verdicts.names[part]
-    order = np.argsort(-p, kind="stable")[:_GUESSES]
-    guesses = tuple(
-        Guess(verdicts.classes[k][0], verdicts.classes[k][1], round(float(p[k]), 4))
-        for k in order.tolist()
-        if k == best or p[k] >= _LEAST_GUESS
-    )
-    group, name = verdicts.classes[best]
-    k = int(np.argmax(verdicts.groups[part]))
-    evidence = GeometryEvidence(why=why)
-    if p[best] < least <= verdicts.groups[part, k]:
-        return Label(
-            verdicts.group_names[k], None, min(1.0, float(verdicts.groups[part, k])), "geometry", evidence, guesses
-        )
-    return Label(group, name, min(1.0, float(p[best])), "geometry", evidence, guesses)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 import threading
 from collections.abc import Callable, Iterable, Sequence
@@ -16,13 +15,13 @@ from pydantic import BaseModel
 from cadgraph.labelers.lvlm.answer import Malformed, plain_words, read
 from cadgraph.labelers.lvlm.cache import Cache
 from cadgraph.labelers.lvlm.folder import some, write_question
-from cadgraph.labelers.lvlm.manner import LEVELS
+from cadgraph.labelers.lvlm.manner import sent
 from cadgraph.labelers.lvlm.price import ANSWER_TOKENS, Estimate, Price, question_tokens
 from cadgraph.labelers.lvlm.profile import Profile
 from cadgraph.labelers.lvlm.reply import Answerer, Hasty, Question, Reply, Watchful, key_of
 from cadgraph.model.diagnostic import Diagnostic
 
-__all__ = ["Asking", "Budget", "Outcome", "Tally", "key_of"]
+__all__ = ["Asking", "Budget", "Outcome", "Tally"]
 
 _Model = TypeVar("_Model", bound=BaseModel)
 _MESSAGE = 400  # characters of a finding
@@ -160,8 +159,7 @@ class Asking:
         level = max((self._level(question) for question in questions), default=0)
         if not level:
             return ""
-        side, share = LEVELS[level]
-        shown = max(1, math.ceil(share * self.n_pictures))
+        side, shown = sent(level, self.n_pictures)
         return (
             f"; its context has room for {shown} of {self.n_pictures} pictures at {side} px only: "
             "say how large it is with --set lvlm.context=N"

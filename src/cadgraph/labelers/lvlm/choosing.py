@@ -92,5 +92,4 @@ def in_stages(kinds: Sequence[QuestionGroup], parts: Parts) -> tuple[list[Questi
     others = size[~parts.ground]
     limit = float(np.quantile(others, _BIG)) if len(others) else 0.0
     large = [kind for kind in kinds if size[kind.parts[0]] >= limit]
-    known = {kind.parts for kind in large}
-    return large, [kind for kind in kinds if kind.parts not in known]
+    return large, [kind for kind in kinds if size[kind.parts[0]] < limit]

@@ -226,11 +226,14 @@ def write_question(folder: Path, question: Question, *, reply: Reply | None = No
 
 
 def write_index(folder: Path, rows: Sequence[tuple[str, Sequence[str]]]) -> None:
-    """Says which parts each question stands for: ``index.json``, question by source paths."""
-    write_atomically(
-        folder / INDEX_FILE,
-        json.dumps({f"q-{q}": list(paths) for q, paths in rows}, ensure_ascii=False, indent=1) + "\n",
-    )
+    """Says which parts each question stands for: ``index.json``, question by source paths.
+
+    Parts that look alike among neighbours that do may have one question though they are of several kinds.
+    """
+    index: dict[str, list[str]] = {}
+    for question, paths in rows:
+        index.setdefault(f"q-{question}", []).extend(paths)
+    write_atomically(folder / INDEX_FILE, json.dumps(index, ensure_ascii=False, indent=1) + "\n")
 
 
 def read_index(folder: Path) -> dict[str, list[str]]:

@@ -21,7 +21,7 @@ from cadgraph.draw.render.surroundings import Surroundings, reach
 from cadgraph.draw.render.target import Target, View, choose_views, steady
 from cadgraph.model.scene import Scene
 
-__all__ = ["PICTURES", "Gallery", "Picture", "digest_of_scene"]
+__all__ = ["PICTURES", "Gallery", "Picture", "digest_of_scene", "to_jpeg"]
 
 PICTURES = 3
 """Version of how pictures are drawn. It is part of what a question is known by in the cache: raise it when pictures
@@ -147,11 +147,11 @@ class _Drawing:
         """One of the pictures as JPEG."""
         shown = self.views[view]
         if not alone:
-            return _jpeg(self._renderer.context(0, shown.camera, shown.hidden, depth=shown.depth or None))
+            return to_jpeg(self._renderer.context(0, shown.camera, shown.hidden, depth=shown.depth or None))
         if view == 2 and self.detail is not None:
             detail = self.detail
-            return _jpeg(self._renderer.alone(0, detail.camera, detail.cut, depth=detail.depth))
-        return _jpeg(self._renderer.alone(0, shown.camera, depth=shown.depth or None))
+            return to_jpeg(self._renderer.alone(0, detail.camera, detail.cut, depth=detail.depth))
+        return to_jpeg(self._renderer.alone(0, shown.camera, depth=shown.depth or None))
 
 
 class _Once:
@@ -167,7 +167,8 @@ class _Once:
         return self._made
 
 
-def _jpeg(image: Image.Image) -> bytes:
+def to_jpeg(image: Image.Image) -> bytes:
+    """A picture as it is sent."""
     buffer = io.BytesIO()
     image.save(buffer, "JPEG", quality=_QUALITY, subsampling=0)
     return buffer.getvalue()

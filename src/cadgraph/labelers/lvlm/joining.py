@@ -13,6 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from cadgraph._io.limits import ACCURACIES
 from cadgraph.errors import LabelError
 from cadgraph.labelers.base import Labeling
+from cadgraph.labelers.likeliest import Likeliest, likeliest
 from cadgraph.labelers.lvlm.answer import Verdict
 from cadgraph.labelers.lvlm.tables import checked, read_table, where_of
 from cadgraph.model.labels import Guess
@@ -22,8 +23,6 @@ from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["Accuracy", "Beliefs", "read_accuracy"]
 
-_GUESSES = 5
-_LEAST_GUESS = 0.0005
 _LOST = 0.05  # share of a labeler's probabilities that goes to all names alike: it may be out of its depth
 _TYPICAL, _SLOPE = 0.85, 0.5  # what models usually say of themselves; how much of another odds is believed
 _LEAST, _MOST = 0.02, 0.98
@@ -106,6 +105,8 @@ class Beliefs:
         self.classes = tuple((group, name) for group, content in vocabulary.groups.items() for name in content.names)
         self._rank = {pair: k for k, pair in enumerate(self.classes)}
         self._group = np.array([group for group, _ in self.classes], np.str_)
+        self._groups = tuple(dict.fromkeys(group for group, _ in self.classes))
+        self._belongs = (self._group[:, None] == np.array(self._groups, np.str_)).astype(np.float64)
         self._accuracy = accuracy
         self.values = np.full((n_parts, len(self.classes)), 1 / max(len(self.classes), 1))
         self.known = np.zeros(n_parts, np.bool_)
@@ -183,32 +184,19 @@ class Beliefs:
         odd[self._rank[group, verdict.name]] = name
         return odd
 
-    def label_of(self, part: int, least: float) -> tuple[tuple[str, str | None], float, tuple[Guess, ...]]:
-        """The likeliest label of a part, how likely it is, and the likeliest few; the group alone where only that is
-        likely enough.
+    def label_of(self, part: int, least: float) -> Likeliest:
+        """The likeliest label of a part, the group alone where only that is likely enough.
 
         Args:
             part: which; it is known.
             least: confidence of a label.
         """
         row = self.values[part]
-        order = np.argsort(-row, kind="stable")[:_GUESSES]
-        guesses = tuple(
-            Guess(self.classes[k][0], self.classes[k][1], round(float(row[k]), 4))
-            for n, k in enumerate(order.tolist())
-            if n == 0 or row[k] >= _LEAST_GUESS
-        )
-        best = int(order[0])
-        groups = {group: float(row[self._group == group].sum()) for group in dict.fromkeys(self._group.tolist())}
-        group = max(groups, key=lambda each: groups[each])
-        if row[best] < least <= groups[group]:
-            return (group, None), min(1.0, groups[group]), guesses
-        return self.classes[best], min(1.0, float(row[best])), guesses
+        return likeliest(self.classes, row, self._groups, row @ self._belongs, least)
 
-    def likeliest(self) -> Floats:
-        """How likely the likeliest name of each part is, ``(n_parts,)``."""
-        likeliest: Floats = self.values.max(axis=1, initial=0.0)
-        return likeliest
+    def sureness(self, parts: Sequence[int]) -> float:
+        """How likely the likeliest names of some parts are, on average."""
+        return float(self.values[np.asarray(parts, np.int64)].max(axis=1, initial=0.0).mean())
 
     def probabilities(self) -> Probabilities:
         """For the relations; rows of which nothing is known are 0."""

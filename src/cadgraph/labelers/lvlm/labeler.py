@@ -32,6 +32,9 @@ from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["LvlmLabeler", "Way"]
 
+_Planned = Mapping[QuestionGroup, list[Question]]
+"""What is to be asked about each kind, in this order."""
+
 _MESSAGE = 160
 _SURE = 0.8  # a label is sure from this confidence on, where no labeler says its own
 
@@ -120,13 +123,12 @@ class LvlmLabeler:
         round_ = _Round(self, parts, contacts, vocabulary, said)
         below = None if self.way.ask == "all" else self.way.below
         kinds = choose(find_question_groups(parts, self.way.per), round_.base, parts, round_.near, vocabulary, below)
-        first = [round_.questions(kind) for kind in kinds]
-        kept, left_out = self._paid(first)
-        self.estimate = self.asking.estimate([q for questions in kept for q in questions], left_out=left_out)
+        planned, left_out = self._paid({kind: round_.questions(kind) for kind in kinds})
+        self.estimate = self.asking.estimate([q for each in planned.values() for q in each], left_out=left_out)
         if not self._confirm(self.estimate):
             raise LabelError("nothing was asked: the estimate was not confirmed")
         try:
-            settled = self._ask(round_, kinds[: len(kept)])
+            settled = self._ask(round_, planned)
             self._again(round_, settled)
             self._doubted(round_, settled)
         finally:
@@ -135,29 +137,30 @@ class LvlmLabeler:
         labels = round_.labels(settled, former)
         if self.way.repair:
             labels = repair(labels, parts, round_.near, vocabulary)
-        diagnostics = self._report(round_, kinds, len(kept), settled)
+        diagnostics = self._report(round_, kinds[len(planned) :], settled)
         thresholds = round_.thresholds(labels, settled)
         sure = _SURE if said is None else said.sure
         return Labeling.judge(labels, thresholds, round_.beliefs.probabilities(), diagnostics, sure)
 
-    def _ask(self, round_: _Round, kinds: Sequence[QuestionGroup]) -> dict[QuestionGroup, _Settled]:
+    def _ask(self, round_: _Round, planned: _Planned) -> dict[QuestionGroup, _Settled]:
         """Large parts first; small ones then, with the labels of what they touch."""
         if not (self.way.staged and self.asking.answerer.again):
-            return round_.ask(kinds)
-        large, small = in_stages(kinds, round_.parts)
-        settled = round_.ask(large)
-        return settled | round_.ask(small, round_.labels(settled, None))
+            return round_.ask(planned)
+        large, small = in_stages(list(planned), round_.parts)
+        settled = round_.ask({kind: planned[kind] for kind in large})
+        labels = round_.labels(settled, None)
+        return settled | round_.ask({kind: round_.questions(kind, labels) for kind in small})
 
-    def _paid(self, planned: Sequence[list[Question]]) -> tuple[list[list[Question]], int]:
+    def _paid(self, planned: _Planned) -> tuple[_Planned, int]:
         """Whole kinds that the budget pays for, and how many questions it leaves out."""
-        flat = [question for questions in planned for question in questions]
+        flat = [question for questions in planned.values() for question in questions]
         room = len(self.asking.within_budget(flat))
-        kept: list[list[Question]] = []
+        kept: dict[QuestionGroup, list[Question]] = {}
         used = 0
-        for questions in planned:
+        for kind, questions in planned.items():
             if used + len(questions) > room:
                 break
-            kept.append(questions)
+            kept[kind] = questions
             used += len(questions)
         return kept, len(flat) - used
 
@@ -172,7 +175,7 @@ class LvlmLabeler:
 
     def _is_unsure(self, round_: _Round, settled: _Settled) -> bool:
         """Whether the label of a kind is, or the model itself is and nobody else knows better."""
-        sureness = round_.sureness(settled)
+        sureness = round_.beliefs.sureness(settled.kind.parts)
         own = max(verdict.confidence for verdict in settled.verdicts)
         return sureness < self.way.again_below or (own < self.way.again_below and sureness < self.way.below)
 
@@ -226,7 +229,7 @@ class LvlmLabeler:
         )
 
     def _report(
-        self, round_: _Round, kinds: Sequence[QuestionGroup], n_asked: int, settled: Mapping[QuestionGroup, _Settled]
+        self, round_: _Round, left_out: Sequence[QuestionGroup], settled: Mapping[QuestionGroup, _Settled]
     ) -> tuple[Diagnostic, ...]:
         """What has no answer, and what was proposed; the files of the run are written."""
         paths = round_.parts.scene.paths
@@ -237,7 +240,7 @@ class LvlmLabeler:
         for reason, meshes in sorted(by_reason.items()):
             message = f"{len(meshes)} parts have no answer of the vision-language model: {reason}"
             diagnostics.append(Diagnostic("lvlm-unanswered", message[:_MESSAGE], tuple(meshes)))
-        rest = [paths[part] for kind in kinds[n_asked:] for part in kind.parts]
+        rest = [paths[part] for kind in left_out for part in kind.parts]
         if rest:
             message = f"{len(rest)} parts were not asked about: the budget was used where it helps more"
             diagnostics.append(Diagnostic("lvlm-budget", message, tuple(rest)))
@@ -345,14 +348,11 @@ class _Round:
         part = kind.parts[0]
         return self._question(part, self._wording(part, self._hints.lines(part, len(kind.parts), labels)))
 
-    def ask(
-        self, kinds: Sequence[QuestionGroup], labels: Sequence[Label | None] | None = None
-    ) -> dict[QuestionGroup, _Settled]:
+    def ask(self, planned: _Planned) -> dict[QuestionGroup, _Settled]:
         """What the model says of each kind; what follows from it is believed."""
-        planned = [self.questions(kind, labels) for kind in kinds]
-        outcomes = iter(self.send([question for questions in planned for question in questions]))
+        outcomes = iter(self.send([question for questions in planned.values() for question in questions]))
         settled: dict[QuestionGroup, _Settled] = {}
-        for kind, questions in zip(kinds, planned, strict=True):
+        for kind, questions in planned.items():
             verdicts: list[Verdict] = []
             asked, reason = questions[0], "it was not asked"
             for _ in questions:
@@ -371,10 +371,6 @@ class _Round:
             settled[kind] = _Settled(kind, asked, tuple(verdicts))
         return settled
 
-    def sureness(self, settled: _Settled) -> float:
-        """How sure the name of a kind is, after its answers."""
-        return float(self.beliefs.likeliest()[list(settled.kind.parts)].mean())
-
     def labels(self, settled: Mapping[QuestionGroup, _Settled], former: Labeling | None) -> list[Label | None]:
         """The label of each part: what is believed of it where there is an answer; else as it was.
 
@@ -384,7 +380,7 @@ class _Round:
         """
         labels = list(self.base)
         if former is not None:
-            answered = {part for each in settled.values() if each.votes for part in each.kind.parts}
+            answered = _answered(settled)
             for part, label in enumerate(former.labels):
                 # What was paid for once, and what nobody knows better, stays.
                 if part not in answered and label is not None and (labels[part] is None or _asked_for(label)):
@@ -396,11 +392,11 @@ class _Round:
         return labels
 
     def _label(self, part: int, settled: _Settled) -> Label:
-        said, confidence, guesses = self.beliefs.label_of(part, self._least[part])
-        seen, before = settled.seen(said), self.base[part]
-        if seen is None and before is not None and before.said == said:
+        found = self.beliefs.label_of(part, self._least[part])
+        seen, before = settled.seen(found.said), self.base[part]
+        if seen is None and before is not None and before.said == found.said:
             # The answer was outweighed.
-            return before.model_copy(update={"confidence": confidence, "guesses": guesses})
+            return before.model_copy(update={"confidence": found.confidence, "guesses": found.guesses})
         evidence = LvlmEvidence(
             model=self._labeler.asking.answerer.name,
             prompt=settled.question.prompt,
@@ -411,12 +407,12 @@ class _Round:
             seen=seen or "",
             again=True if settled.again else None,
         )
-        return Label(*said, confidence, "lvlm", evidence, guesses)
+        return Label(found.group, found.name, found.confidence, "lvlm", evidence, found.guesses)
 
     def thresholds(self, labels: Sequence[Label | None], settled: Mapping[QuestionGroup, _Settled]) -> list[float]:
         """The least confidence of each label: none for what stays from a finished graph."""
         least = list(self._least)
-        answered = {part for each in settled.values() if each.votes for part in each.kind.parts}
+        answered = _answered(settled)
         for part, label in enumerate(labels):
             if label is not None and part not in answered and label is not self.base[part]:
                 least[part] = 0.0
@@ -464,6 +460,11 @@ class _Round:
 
     def _reworded(self, question: Question, reason: str) -> Question:
         return self._question(question.part, replace(self._wordings[question.id], again=reason), 1)
+
+
+def _answered(settled: Mapping[QuestionGroup, _Settled]) -> set[int]:
+    """The parts with an answer."""
+    return {part for each in settled.values() if each.verdicts for part in each.kind.parts}
 
 
 def _asked_for(label: Label) -> bool:

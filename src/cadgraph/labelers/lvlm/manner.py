@@ -10,17 +10,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from cadgraph.labelers.lvlm.gallery import Picture
+from cadgraph.labelers.lvlm.gallery import Picture, to_jpeg
 from cadgraph.labelers.lvlm.reply import Question
 
-__all__ = ["LEVELS", "Manner", "adapted", "blind", "body_of", "encoded", "too_long"]
+__all__ = ["GAP", "LEVELS", "Manner", "adapted", "blind", "body_of", "encoded", "sent", "too_long"]
 
 LEVELS: tuple[tuple[int | None, float], ...] = ((None, 1.0), (384, 1.0), (256, 1.0), (256, 0.5), (256, 0.0))
 """What is sent where a context is too small, one after the other: greatest side of a picture [px], and the share of the
 pictures, the first ones; at least one."""
 
-_QUALITY = 90  # of JPEG, as the gallery's
-_GAP = 6  # px between the pictures of a sheet
+GAP = 6
+"""Between the pictures of a sheet [px]."""
 
 
 @dataclass(frozen=True)
@@ -60,6 +60,12 @@ _MANY = re.compile(
 )
 _SYSTEM = re.compile(r"system.{0,12}(role|message|prompt)|roles? .{0,20}system|roles must alternate")
 _FORM = re.compile(r"response_format|json_schema|json_object|schema|structured|guided|grammar")
+
+
+def sent(level: int, n: int) -> tuple[int | None, int]:
+    """Greatest side of the pictures that are sent at a level [px], None for any, and how many of ``n`` they are."""
+    side, share = LEVELS[level]
+    return side, max(1, math.ceil(share * n))
 
 
 def blind(message: str) -> bool:
@@ -130,9 +136,9 @@ def encoded(question: Question, detail: str, manner: Manner | None = None) -> li
     """The pictures of a question, each after its caption, as parts of a message."""
     manner = manner or Manner()
     pictures = question.pictures()
-    side, share = LEVELS[manner.level]
+    side, n_sent = sent(manner.level, len(pictures))
     side = min((limit for limit in (side, manner.side) if limit is not None), default=None)
-    shown = pictures[: max(1, math.ceil(share * len(pictures)))]
+    shown = pictures[:n_sent]
     parts: list[dict[str, Any]] = []
     if len(shown) < len(pictures):
         parts.append({"type": "text", "text": f"Only the first {len(shown)} of {len(pictures)} pictures follow."})
@@ -164,7 +170,7 @@ def _shrunk(jpeg: bytes, side: int | None) -> bytes:
         if max(image.size) <= side:
             return jpeg
         image.thumbnail((side, side), Image.Resampling.LANCZOS)
-        return _jpeg(image)
+        return to_jpeg(image)
 
 
 def _sheet(pictures: Sequence[Picture], first: int, side: int | None, most: int | None) -> bytes:
@@ -183,9 +189,9 @@ def _sheet(pictures: Sequence[Picture], first: int, side: int | None, most: int 
     rows = math.ceil(len(drawn) / columns)
     tile = max(max(image.size) for image in drawn)
     tile = tile if side is None else min(tile, side)
-    tile = tile if most is None else min(tile, (most - (columns - 1) * _GAP) // columns)
-    step = tile + _GAP
-    sheet = Image.new("RGB", (columns * step - _GAP, rows * step - _GAP), "white")
+    tile = tile if most is None else min(tile, (most - (columns - 1) * GAP) // columns)
+    step = tile + GAP
+    sheet = Image.new("RGB", (columns * step - GAP, rows * step - GAP), "white")
     pen, font = ImageDraw.Draw(sheet), ImageFont.load_default(max(14, tile // 12))
     for i, image in enumerate(drawn):
         image.thumbnail((tile, tile), Image.Resampling.LANCZOS)
@@ -194,10 +200,4 @@ def _sheet(pictures: Sequence[Picture], first: int, side: int | None, most: int 
         box = pen.textbbox((corner[0] + 6, corner[1] + 4), str(first + i), font=font)
         pen.rectangle((box[0] - 5, box[1] - 4, box[2] + 5, box[3] + 4), fill="white", outline="black")
         pen.text((corner[0] + 6, corner[1] + 4), str(first + i), fill="black", font=font)
-    return _jpeg(sheet)
-
-
-def _jpeg(image: Any) -> bytes:
-    buffer = io.BytesIO()
-    image.save(buffer, "JPEG", quality=_QUALITY, subsampling=0)
-    return buffer.getvalue()
+    return to_jpeg(sheet)

@@ -12,13 +12,12 @@ from urllib.parse import urlsplit
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from cadgraph._io.limits import PROFILES
-from cadgraph.labelers.lvlm.manner import LEVELS, Manner
+from cadgraph.labelers.lvlm.manner import GAP, LEVELS, Manner, sent
 from cadgraph.labelers.lvlm.tables import checked, read_table, where_of
 
 __all__ = ["Profile", "read_profile"]
 
 _SAFE = 0.95  # of a context is filled by our estimate, which may be too low
-_SHEET_GAP = 6
 
 
 class _Strict(BaseModel):
@@ -122,13 +121,12 @@ class Profile(_Strict):
         if self.tokens is None:
             return 0
         manner = manner or self.manner
-        side, share = LEVELS[manner.level]
+        side, shown = sent(manner.level, n)
         side = min(limit for limit in (size, side, manner.side) if limit is not None)
-        shown = max(1, math.ceil(share * n))
         if manner.pictures is None or shown <= manner.pictures:
             return shown * self.tokens.of(side, side)
         columns = math.ceil(math.sqrt(math.ceil(shown / manner.pictures)))
-        whole = columns * (side + _SHEET_GAP)
+        whole = columns * (side + GAP)
         whole = whole if manner.side is None else min(whole, manner.side)
         return manner.pictures * self.tokens.of(whole, whole)
 

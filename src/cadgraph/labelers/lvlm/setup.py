@@ -104,7 +104,7 @@ def make_asking(settings: LvlmConfig, folder: Path, run: Run) -> Asking:
         LabelError: a setting can't be used, or a cost limit is set for a model without a price.
         MissingExtra: the client library isn't installed.
     """
-    address = settings.base_url or os.environ.get("OPENAI_BASE_URL", "")
+    address = _address(settings)
     check_address(address)
     profile = profile_of(settings)
     price = read_price(settings.model, settings.prices, local=is_local(address))
@@ -153,12 +153,17 @@ def profile_of(settings: LvlmConfig) -> Profile:
     """
     return read_profile(
         settings.model,
-        settings.base_url or os.environ.get("OPENAI_BASE_URL", ""),
+        _address(settings),
         settings.profiles,
         context=settings.context,
         pictures=settings.pictures,
         schema=settings.structured,
     )
+
+
+def _address(settings: LvlmConfig) -> str:
+    """Of the server; empty for OpenAI's own."""
+    return settings.base_url or os.environ.get("OPENAI_BASE_URL", "")
 
 
 def _answerer(settings: LvlmConfig, folder: Path, run: Run, profile: Profile) -> Answerer:
