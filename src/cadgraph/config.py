@@ -58,20 +58,36 @@ class LoadConfig(Section):
     invisible: bool = _setting(False, "also load what the file hides")
     split_subsets: bool = _setting(False, "split a USD mesh into one mesh for each material subset")
     time: float | None = _setting(None, "USD time code to read; none: the default time, else the first sample")
-    isolate: bool = _setting(True, "read USD in a process of its own, so that a damaged file can't crash the caller")
+    isolate: bool = _setting(True, "read files in a process of its own, so that a damaged file can't crash the caller")
     timeout: float = _setting(600.0, "give up on reading a file after this long [s]", gt=0, le=604_800)
     max_gap: float = _setting(
         0.0005,
-        "greatest gap between a curved STEP surface and its triangles [m]",
+        "greatest gap between a curved STEP, IFC or RVM surface and its triangles [m]",
         "ours: bolts stay round",
         ge=1e-6,
         le=1,
     )
     max_angle: float = _setting(
-        0.35, "greatest angle between neighbouring STEP triangles on a curve [rad]", ge=0.01, le=1.6
+        0.35, "greatest angle between neighbouring triangles on a curve of STEP, IFC or RVM [rad]", ge=0.01, le=1.6
     )
     sides: int = _setting(
         32, "sides of a round USD primitive (Cylinder, Sphere...) when turned into triangles", ge=6, le=512
+    )
+    unit: Literal["m", "cm", "mm", "dm", "km", "in", "ft"] | None = _setting(
+        None, "unit of the file's lengths, whatever it says itself; none: its own, or by what its pipes measure"
+    )
+    up: Literal["X", "Y", "Z"] | None = _setting(None, "up axis of the file, whatever it says itself; none: its own")
+    granularity: Literal["auto", "node", "primitive"] = _setting(
+        "auto",
+        "what is one mesh of an RVM file: a node, each primitive, or a primitive only where its node has others below",
+    )
+    insulation: bool = _setting(False, "also load the insulation and obstruction volumes of an RVM file")
+    split: bool = _setting(True, "split one mesh that holds a whole plant into its separate solids")
+    max_triangles: int = _setting(
+        50_000_000, "cut curved RVM surfaces coarser where the scene would have more triangles", ge=1000
+    )
+    metadata: Literal["off", "keep"] = _setting(
+        "keep", "what the file says of its parts (types, tags, systems): leave it, or keep it beside the geometry"
     )
 
 

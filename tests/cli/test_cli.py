@@ -313,12 +313,14 @@ def test_what_may_spoil_everything_is_said_in_words(capsys, tmp_path):
     assert "metersPerUnit = 0 is impossible; taken as centimetres" in out
 
 
-@pytest.mark.parametrize("name", ["plant.ifc", "plant.dae", "plant.OBJ"])
-def test_formats_that_others_turn_into_usd_are_named_as_such(capsys, tmp_path, name):
-    (tmp_path / name).write_text("ISO-10303-21;\nHEADER;\n")
-    assert "files are not read; export it as USD or STEP" in refused(
-        capsys, "build", tmp_path / name, "-o", tmp_path / "out"
-    )
+@pytest.mark.parametrize(
+    ("name", "remedy"),
+    [("plant.fbx", "export it as USD or glTF"), ("plant.JT", "export it as STEP"), ("plant.dwg", "export it as IFC")],
+)
+def test_formats_that_others_turn_into_readable_ones_are_named_as_such(capsys, tmp_path, name, remedy):
+    (tmp_path / name).write_text("anything")
+    said = refused(capsys, "build", tmp_path / name, "-o", tmp_path / "out")
+    assert f"{Path(name).suffix.lower()} files are not read; {remedy}" in said
 
 
 def test_relabel_says_what_the_others_became(capsys, tmp_path):

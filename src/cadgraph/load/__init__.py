@@ -33,7 +33,7 @@ class Format:
         title: what people call it.
         suffixes: of its files, lower case with the dot.
         module: holds ``read(path, config) -> Scene``.
-        library: the third-party package that it needs.
+        library: the third-party package that it needs, if any.
         extra: the optional dependency of cadgraph that brings this package; none: always installed.
     """
 
@@ -41,18 +41,36 @@ class Format:
     title: str
     suffixes: tuple[str, ...]
     module: str
-    library: str
+    library: str | None = None
     extra: str | None = None
 
-
-_NOT_YET = (".ifc", ".ifczip", ".dae", ".obj", ".stl", ".glb", ".gltf", ".fbx", ".dwg", ".dgn", ".rvm", ".jt")
-"""Formats of scenes that other programs turn into USD or STEP."""
 
 _FORMATS = (
     Format("usd", "OpenUSD", (".usd", ".usda", ".usdc", ".usdz"), "cadgraph.load.usd", "pxr"),
     Format("step", "STEP", (".step", ".stp"), "cadgraph.load.step", "cascadio", "cad"),
     Format("iges", "IGES", (".iges", ".igs"), "cadgraph.load.step", "cascadio", "cad"),
+    Format("ifc", "IFC", (".ifc", ".ifczip"), "cadgraph.load.ifc", "ifcopenshell", "ifc"),
+    Format("rvm", "AVEVA RVM", (".rvm", ".rev"), "cadgraph.load.rvm"),
+    Format("gltf", "glTF", (".glb", ".gltf"), "cadgraph.load.gltf"),
+    Format("obj", "OBJ", (".obj",), "cadgraph.load.obj"),
+    Format("stl", "STL", (".stl",), "cadgraph.load.stl"),
+    Format("ply", "PLY", (".ply",), "cadgraph.load.mesh", "trimesh", "mesh"),
+    Format("3mf", "3MF", (".3mf",), "cadgraph.load.mesh", "trimesh", "mesh"),
+    Format("collada", "COLLADA", (".dae",), "cadgraph.load.mesh", "trimesh", "mesh"),
 )
+
+_INSTEAD = {
+    (".fbx", ".blend", ".max", ".3ds", ".ma", ".mb", ".c4d"): "export it as USD or glTF",
+    (".jt",): "export it as STEP (AP242)",
+    (".dwg", ".dxf", ".rvt", ".skp", ".pln"): "export it as IFC or STEP",
+    (".dgn",): "export it as IFC, from OpenPlant or MicroStation",
+    (".nwd", ".nwc", ".nwf"): "export the models that it was made from, as IFC or STEP",
+    (".vue",): "export it as IFC or STEP from Smart 3D or SmartPlant Review",
+    (".sldprt", ".sldasm", ".catpart", ".catproduct", ".ipt", ".iam", ".prt", ".asm", ".par", ".x_t", ".x_b",
+     ".xmt_txt", ".sat", ".sab", ".3dm", ".3dxml", ".cgr", ".f3d", ".fcstd", ".brep"): "export it as STEP (AP214 or AP242)",
+    (".e57", ".las", ".laz", ".pts", ".rcp", ".pcd", ".xyz"): "that is a point cloud; model its surfaces first",
+}  # fmt: skip
+"""Formats that other programs turn into ones that are read, with what to export."""
 
 
 def formats() -> tuple[Format, ...]:
@@ -89,7 +107,7 @@ def load(path: str | os.PathLike[str], config: LoadConfig | None = None) -> Scen
     given = os.fspath(path)
     _check_file(file, given)
     form = _format_of(file, given)
-    if importlib.util.find_spec(form.library) is None:
+    if form.library is not None and importlib.util.find_spec(form.library) is None:
         if form.extra is None:
             raise LoadError(f"{given}: reading {form.title} needs the package that brings {form.library!r}; reinstall")
         raise MissingExtra(f"reading {form.title} files", form.extra)
@@ -140,8 +158,9 @@ def _format_of(file: Path, given: str) -> Format:
     for form in _FORMATS:
         if suffix in form.suffixes:
             return form
-    if suffix in _NOT_YET:
-        raise LoadError(f"{given}: {suffix} files are not read; export it as USD or STEP")
+    for suffixes, remedy in _INSTEAD.items():
+        if suffix in suffixes:
+            raise LoadError(f"{given}: {suffix} files are not read; {remedy}")
     content = name_content(file)
     for form in _FORMATS:
         if form.name == content:

@@ -10,9 +10,17 @@ import numpy.typing as npt
 
 from cadgraph._io.text import natural_key
 from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.facts import Fact, StatedLink
 from cadgraph.model.scene import Faces, Floats, Ints, Scene, Source
 
-__all__ = ["Notes", "Piece", "pack", "unique_name"]
+__all__ = ["Z_UP_FROM", "Notes", "Piece", "metres_z_up", "pack", "pack_placed", "unique_name"]
+
+Z_UP_FROM = {
+    "X": np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]], float),
+    "Y": np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]], float),
+    "Z": np.eye(3),
+}
+"""Cyclic swaps, for row vectors: what pointed along the up axis points along Z, and no handedness changes."""
 
 _FAR = 10_000.0  # [m] beyond this a scene gets an origin of its own; ours: float32 renders still resolve 1 mm
 _ORIGIN_STEP = 100.0  # [m] origins are whole multiples, so that they are exact and stable under small edits
@@ -78,6 +86,18 @@ class Notes:
         return tuple(notes)
 
 
+def metres_z_up(meters_per_unit: float, up_axis: str) -> Floats:
+    """The ``(4, 4)`` matrix for row vectors from a source's world to metres and Z up.
+
+    Args:
+        meters_per_unit: length of one of its units [m].
+        up_axis: ``"X"``, ``"Y"`` or ``"Z"``.
+    """
+    matrix = np.eye(4)
+    matrix[:3, :3] = Z_UP_FROM[up_axis] * meters_per_unit
+    return matrix
+
+
 def unique_name(name: str, taken: set[str]) -> str:
     """The name, or the first of ``name_1``, ``name_2``... that isn't taken; it is taken afterwards."""
     candidate, i = name, 0
@@ -89,7 +109,13 @@ def unique_name(name: str, taken: set[str]) -> str:
 
 
 def pack(
-    pieces: Sequence[Piece], source: Source, world_from_source: Floats, notes: Notes, abridged: Iterable[str] = ()
+    pieces: Sequence[Piece],
+    source: Source,
+    world_from_source: Floats,
+    notes: Notes,
+    abridged: Iterable[str] = (),
+    facts: Iterable[Fact] = (),
+    links: Iterable[StatedLink] = (),
 ) -> Scene:
     """Places all pieces, in metres and Z up, and joins them into one scene.
 
@@ -104,6 +130,8 @@ def pack(
         world_from_source: ``(4, 4)`` for row vectors, from the source's world to metres and Z up.
         notes: gets what was left out.
         abridged: codes of notes whose paths are cut short.
+        facts: what the source says of its parts.
+        links: what it says is joined to what.
 
     Returns:
         The scene, sorted by path.
@@ -132,10 +160,50 @@ def pack(
         origin=origin,
         anchors=anchors if anchors != paths else (),
         diagnostics=notes.diagnostics(abridged),
+        facts=tuple(facts),
+        links=tuple(links),
     )
 
 
 _NO_COLOR = np.full(3, np.nan)
+
+
+def pack_placed(
+    shapes: Sequence[tuple[npt.NDArray[np.floating], Faces]],
+    shape_of_mesh: Ints,
+    matrices: Floats,
+    paths: Sequence[str],
+    colors: npt.NDArray[np.floating],
+    source: Source,
+    world_from_source: Floats,
+    notes: Notes,
+    abridged: Iterable[str] = (),
+    facts: Iterable[Fact] = (),
+    links: Iterable[StatedLink] = (),
+) -> Scene:
+    """Like ``pack``, of shapes that are placed many times each.
+
+    Args:
+        shapes: points ``(n, 3)`` and triangles ``(m, 3)`` int32 of each distinct shape, as those of a ``Piece``.
+        shape_of_mesh: ``(n_meshes,)``.
+        matrices: ``(n_meshes, 4, 4)`` for row vectors, from the shape to the source's world.
+        paths: ``(n_meshes,)``.
+        colors: ``(n_meshes, 3)`` linear RGB, NaN where there is none.
+        source: for the scene.
+        world_from_source: ``(4, 4)`` for row vectors, from the source's world to metres and Z up.
+        notes: gets what was left out.
+        abridged: codes of notes whose paths are cut short.
+        facts: what the source says of its parts.
+        links: what it says is joined to what.
+
+    Returns:
+        The scene, sorted by path.
+    """
+    pieces = [
+        Piece(path, shapes[shape][0], shapes[shape][1], matrix, None if np.isnan(color).any() else color)
+        for path, shape, matrix, color in zip(paths, shape_of_mesh.tolist(), matrices, colors, strict=True)
+    ]
+    return pack(pieces, source, world_from_source, notes, abridged, facts, links)
 
 
 def _placed(pieces: Sequence[Piece], matrices: Floats, origin: Floats, notes: Notes) -> tuple[list[int], Floats]:

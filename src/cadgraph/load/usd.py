@@ -26,7 +26,7 @@ from pxr import Tf, Usd, UsdGeom, UsdUtils
 
 from cadgraph._io.text import printable
 from cadgraph.errors import LoadError
-from cadgraph.load.packing import Notes, Piece, pack
+from cadgraph.load.packing import Z_UP_FROM, Notes, Piece, metres_z_up, pack
 from cadgraph.load.usd_assets import is_there, open_layers
 from cadgraph.load.usd_color import Materials, mean_display_color
 from cadgraph.load.usd_mesh import CutMesh, RawMesh, cut_meshes
@@ -40,12 +40,6 @@ __all__ = ["read"]
 
 Color = npt.NDArray[np.float64]
 
-# Cyclic swaps, for row vectors: what pointed along the up axis points along Z, and no handedness changes.
-_Z_UP_FROM = {
-    "X": np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]], float),
-    "Y": np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]], float),
-    "Z": np.eye(3),
-}
 # Of notes on meshes that were loaded all the same, some examples are enough.
 _ABRIDGED = (
     "control-cage",
@@ -120,14 +114,12 @@ def _units(stage: Any, notes: Notes) -> tuple[Source, Floats]:
         notes.add("invalid-units", f"metersPerUnit = {meters:g} is impossible; taken as centimetres (0.01)")
         meters = 0.01
     axis = str(UsdGeom.GetStageUpAxis(stage))
-    if axis not in _Z_UP_FROM:
+    if axis not in Z_UP_FROM:
         notes.add("invalid-up-axis", f"upAxis = {axis!r} is impossible; taken as USD's default 'Y'")
         axis = "Y"
     elif not stage.HasAuthoredMetadata("upAxis"):
         notes.add("missing-up-axis", f"the file names no upAxis; taken as USD's default {axis!r}")
-    matrix = np.eye(4)
-    matrix[:3, :3] = _Z_UP_FROM[axis] * meters
-    return Source(meters_per_unit=float(meters), up_axis=axis, format="usd"), matrix
+    return Source(meters_per_unit=float(meters), up_axis=axis, format="usd"), metres_z_up(float(meters), axis)
 
 
 def _pieces(

@@ -10,8 +10,9 @@ import numpy.typing as npt
 
 from cadgraph._io.text import natural_key
 from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.facts import Fact, StatedLink
 
-__all__ = ["Diagnostic", "Floats", "Ints", "Scene", "Source", "mesh_of_face", "mesh_of_vertex"]
+__all__ = ["Diagnostic", "Fact", "Floats", "Ints", "Scene", "Source", "StatedLink", "mesh_of_face", "mesh_of_vertex"]
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
@@ -29,6 +30,9 @@ class Source:
         meters_per_unit: length of one authored unit [m].
         up_axis: ``"X"``, ``"Y"`` or ``"Z"``, as authored.
         format: short name of the loader that read it (``"usd"``, ``"step"``).
+        unit_stated: whether the file itself names its unit; where not, it is found by what the parts measure.
+        up_stated: likewise of the up axis.
+        metadata: what else the file says of itself as a whole (project, author's program, georeference), by name.
     """
 
     path: str = ""
@@ -36,6 +40,9 @@ class Source:
     meters_per_unit: float = 1.0
     up_axis: str = "Z"
     format: str = ""
+    unit_stated: bool = True
+    up_stated: bool = True
+    metadata: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -58,6 +65,8 @@ class Scene:
         anchors: ``(n_meshes,)`` the path in the source that can carry an opinion on this mesh: the path itself, or
             the root of the instance that it belongs to. Empty: the paths themselves.
         diagnostics: what the loader skipped, repaired or guessed.
+        facts: what the source says of its parts, sorted as its reader found it.
+        links: what it says is joined to what.
     """
 
     vertices: Floats
@@ -70,6 +79,8 @@ class Scene:
     origin: Floats = field(default_factory=lambda: np.zeros(3))
     anchors: tuple[str, ...] = ()
     diagnostics: tuple[Diagnostic, ...] = ()
+    facts: tuple[Fact, ...] = ()
+    links: tuple[StatedLink, ...] = ()
 
     def __post_init__(self) -> None:
         n = len(self.paths)
@@ -163,6 +174,8 @@ class Scene:
             origin=self.origin,
             anchors=tuple(self.anchors[i] for i in order) if self.anchors else (),
             diagnostics=self.diagnostics,
+            facts=self.facts,
+            links=self.links,
         )
 
     def in_path_order(self) -> Scene:
@@ -198,6 +211,8 @@ class Scene:
             origin=self.origin,
             anchors=tuple(self.anchors[i] for i in heads) if self.anchors else (),
             diagnostics=self.diagnostics,
+            facts=self.facts,
+            links=self.links,
         )
 
 

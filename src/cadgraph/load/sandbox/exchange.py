@@ -12,6 +12,7 @@ import numpy as np
 from cadgraph._io.arrays import check_array
 from cadgraph._io.limits import EXCHANGE_HEAD, read_text_within
 from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.facts import Fact, StatedLink
 from cadgraph.model.scene import Scene, Source
 
 __all__ = ["read_scene", "write_scene"]
@@ -27,6 +28,8 @@ def write_scene(scene: Scene, folder: Path) -> None:
         "paths": scene.paths,
         "anchors": scene.anchors,
         "source": asdict(scene.source),
+        "facts": scene.facts,
+        "links": scene.links,
         "diagnostics": [note.model_dump() for note in scene.diagnostics],
     }
     (folder / "scene.json").write_text(json.dumps(rest), encoding="utf-8")
@@ -44,11 +47,17 @@ def read_scene(folder: Path) -> Scene:
         **arrays,
         paths=tuple(rest["paths"]),
         anchors=tuple(rest["anchors"]),
-        source=Source(**rest["source"]),
+        source=_source(rest["source"]),
         diagnostics=tuple(
             Diagnostic(note["code"], note["message"], tuple(note["meshes"])) for note in rest["diagnostics"]
         ),
+        facts=tuple(Fact(*row) for row in rest["facts"]),
+        links=tuple(StatedLink(*row) for row in rest["links"]),
     )
+
+
+def _source(values: dict[str, Any]) -> Source:
+    return Source(**{**values, "metadata": tuple((name, value) for name, value in values["metadata"])})
 
 
 def _array(path: Path) -> Any:
