@@ -67,7 +67,7 @@ _INSTEAD = {
     (".nwd", ".nwc", ".nwf"): "export the models that it was made from, as IFC or STEP",
     (".vue",): "export it as IFC or STEP from Smart 3D or SmartPlant Review",
     (".sldprt", ".sldasm", ".catpart", ".catproduct", ".ipt", ".iam", ".prt", ".asm", ".par", ".x_t",
-     ".x_b", ".xmt_txt", ".sat", ".sab", ".3dm", ".3dxml", ".cgr", ".f3d", ".fcstd", ".brep"): "export it as STEP (AP214 or AP242)",
+     ".x_b", ".xmt_txt", ".sat", ".sab", ".3dm", ".3dxml", ".cgr", ".f3d", ".fcstd", ".brep"): "export it as STEP",
     (".e57", ".las", ".laz", ".pts", ".rcp", ".pcd", ".xyz"): "that is a point cloud; model its surfaces first",
 }  # fmt: skip
 """Formats that other programs turn into ones that are read, with what to export."""
