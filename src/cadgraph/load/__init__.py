@@ -68,7 +68,7 @@ _INSTEAD = {
     (".vue",): "export it as IFC or STEP from Smart 3D or SmartPlant Review",
     (".sldprt", ".sldasm", ".catpart", ".catproduct", ".ipt", ".iam", ".prt", ".asm", ".par", ".x_t",
      ".x_b", ".xmt_txt", ".sat", ".sab", ".3dm", ".3dxml", ".cgr", ".f3d", ".fcstd", ".brep"): "export it as STEP",
-    (".e57", ".las", ".laz", ".pts", ".rcp", ".pcd", ".xyz"): "that is a point cloud; model its surfaces first",
+    (".e57", ".las", ".laz", ".pts", ".rcp", ".pcd", ".xyz"): "they hold points; make a mesh of them first",
 }  # fmt: skip
 """Formats that other programs turn into ones that are read, with what to export."""
 
@@ -125,7 +125,9 @@ def load(path: str | os.PathLike[str], config: LoadConfig | None = None) -> Scen
             scene = read_isolated(form.module, file, given, config)
             digest = hashing.result()
     else:
-        scene = importlib.import_module(form.module).read(file, config)
+        from cadgraph.load.finish import finish
+
+        scene = finish(importlib.import_module(form.module).read(file, config), config, file)
         digest = _digest(file)
     return replace(scene, source=replace(scene.source, path=given, sha256=digest, format=form.name))
 

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, cast
 
 from cadgraph._io.limits import NOTE, read_text_within
 from cadgraph.errors import LoadError
+from cadgraph.load.finish import finish
 from cadgraph.load.sandbox.exchange import write_scene
 
 if TYPE_CHECKING:
@@ -39,8 +40,9 @@ def main(folder: Path) -> None:
     request = json.loads(read_text_within(folder / "request.json", NOTE, LoadError, "read the file again"))
     # The caller has checked these settings; importing pydantic only to check them again would cost a fifth of a start.
     config = cast("LoadConfig", SimpleNamespace(**request["config"]))
+    path = Path(request["path"])
     try:
-        scene = importlib.import_module(request["module"]).read(Path(request["path"]), config)
+        scene = finish(importlib.import_module(request["module"]).read(path, config), config, path)
     except LoadError as error:
         (folder / "error.json").write_text(json.dumps(str(error)), encoding="utf-8")
         return
