@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import numpy.typing as npt
 
-from cadgraph._io.text import natural_key
+from cadgraph._io.text import natural_key, natural_order
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.facts import Fact, StatedLink
 from cadgraph.model.scene import Faces, Floats, Ints, MeshArrays, Placement, Scene, Source
@@ -193,7 +193,7 @@ def pack_placed(
     Returns:
         The scene, sorted by path.
     """
-    order = np.array(sorted(range(len(paths)), key=lambda i: natural_key(paths[i])), np.int64)
+    order = np.array(natural_order(paths), np.int64)
     with np.errstate(over="ignore", invalid="ignore"):
         world = matrices[order] @ world_from_source
         placed = _Placed.of(shapes, shape_of_mesh[order], world)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from cadgraph._io.text import natural_key
+from cadgraph._io.text import natural_order
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.facts import Fact, StatedLink
 
@@ -314,7 +314,7 @@ class Scene:
 
     def in_path_order(self) -> Scene:
         """The same scene with its meshes in the natural order of their paths (``pipe_2`` before ``pipe_10``)."""
-        order = sorted(range(self.n_meshes), key=lambda i: natural_key(self.paths[i]))
+        order = natural_order(self.paths)
         return self if order == list(range(self.n_meshes)) else self.select(order)
 
     def merge(self, part_of_mesh: npt.ArrayLike, head_of_part: npt.ArrayLike) -> Scene:
