@@ -263,4 +263,5 @@ def _number(value: object) -> str:
     if isinstance(value, tuple | list) and 3 <= len(value) <= 4:
         scales = (1, 60, 3600, 3.6e9)
         value = round(sum(float(part) / scale for part, scale in zip(value, scales, strict=False)), 9)
-    return f"{value:.12g}" if isinstance(value, int | float) else ""
+    # + 0.0: minus zero becomes zero.
+    return f"{value + 0.0:.12g}" if isinstance(value, int | float) else ""

@@ -113,8 +113,10 @@ def _shape(geometry: Any) -> _Shape:
     faces = np.frombuffer(geometry.faces_buffer, np.int32).reshape(-1, 3).copy()
     materials = np.frombuffer(geometry.material_ids_buffer, np.int32)
     a, b, c = faces.T
-    whole = np.asarray((a != b) & (b != c) & (c != a) & ((faces >= 0) & (faces < len(points))).all(axis=1))
-    whole[whole] = np.isfinite(points).all(axis=1)[faces[whole]].all(axis=1)
+    whole = (a != b) & (b != c) & (c != a) & (faces.min(axis=1, initial=0) >= 0)
+    whole &= faces.max(axis=1, initial=0) < len(points)
+    finite = np.asarray(np.isfinite(points).all(axis=1))
+    whole[whole] = finite[faces[whole]].all(axis=1)
     color = _main_color(points, faces[whole], materials[whole], geometry.materials) if len(materials) else None
     return _Shape(points, faces[whole], color)
 
