@@ -342,8 +342,19 @@ def test_a_line_that_can_not_be_read_is_told(tmp_path):
 def test_broken_syntax_is_one_line(tmp_path):
     file = ifc_files.pump_line().write(tmp_path / "plant.ifc")
     data = file.read_bytes()
-    file.write_bytes(data.replace(b"IFCPIPESEGMENT(", b"((((?'", 1))
+    middle = len(data) // 2
+    file.write_bytes(data[:middle] + b"?" * 60 + data[middle + 60 :])
     assert "not readable as IFC" in error_of(file)
+
+
+def test_a_chain_of_wholes_of_any_length_ends(tmp_path):
+    plant = ifc_files.IfcPlant()
+    pipe = plant.element("IfcPipeSegment", plant.body(plant.cylinder(50, 500)))
+    chain = [plant.element("IfcElementAssembly", within=False) for _ in range(300)]
+    for whole, member in zip(chain, [*chain[1:], pipe], strict=True):
+        plant.root("IfcRelAggregates", RelatingObject=whole, RelatedObjects=[member])
+    (path,) = loaded(plant, tmp_path).paths
+    assert path.count("/") <= 102
 
 
 def test_a_file_without_products_is_one_line(tmp_path):

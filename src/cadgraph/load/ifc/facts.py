@@ -227,7 +227,7 @@ def length_unit(model: Model) -> tuple[float, bool]:
         for unit in entities(assigned, "Units")
     )
     scale = float(ifcopenshell.util.unit.calculate_unit_scale(model)) if stated else 1.0
-    return (scale, True) if scale > 0 else (1.0, False)
+    return (scale, stated) if scale > 0 else (1.0, False)
 
 
 def file_metadata(model: Model) -> tuple[tuple[str, str], ...]:

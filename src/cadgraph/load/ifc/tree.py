@@ -39,12 +39,14 @@ class Tree:
 def plant_tree(model: Model, notes: Notes) -> Tree:
     """The tree of a model.
 
-    What stands in no storey, or in a circle of wholes and members, stands directly below the project.
+    What stands in no storey stands directly below the project. Where wholes and members form a circle, the relation
+    that closes it is taken out of the model: the geometry library would follow it without end.
 
     Args:
         model: an open file.
         notes: gets ``bad-guid`` for elements that no GlobalId tells apart, ``bad-structure`` for circles.
     """
+    _open_circles(model, notes)
     above: dict[int, Entity] = {}
     for relation, whole, members in _RELATIONS:
         for each in of_type(model, relation):
@@ -56,12 +58,15 @@ def plant_tree(model: Model, notes: Notes) -> Tree:
     nodes = {i: node for i, node in sorted(nodes.items()) if _stands(node)}
     names = _Names(list(nodes.values()))
     home = projects[0].id() if projects else 0
-    paths: dict[int, str] = {0: ""}
+    paths, depths = {0: ""}, {0: 0}
     taken: dict[str, set[str]] = {}
     for i in nodes:
-        for below, node in _unnamed(i, nodes, above, home, paths, notes):
+        for below, node in _unnamed(i, nodes, above, home, paths):
+            # A chain of any length must not make paths of any length.
+            below = below if depths[below] < _MAX_DEPTH else home
             at = paths[below]
             paths[node.id()] = f"{at}/{unique_name(names.of(node), taken.setdefault(at, set()))}"
+            depths[node.id()] = depths[below] + 1
     del paths[0]
     wrong = [paths[node.id()] for node in nodes.values() if names.lacks_guid(node)]
     for path in wrong:
@@ -70,22 +75,48 @@ def plant_tree(model: Model, notes: Notes) -> Tree:
     return Tree(paths, tuple(nodes.values()), parents)
 
 
+def _open_circles(model: Model, notes: Notes) -> None:
+    owners: dict[int, list[tuple[int, int]]] = {}
+    for relation, whole, members in _RELATIONS:
+        for each in of_type(model, relation):
+            for owner in entities(each, whole):
+                for member in entities(each, members):
+                    owners.setdefault(member.id(), []).append((owner.id(), each.id()))
+    done: set[int] = set()
+    closing: dict[int, None] = {}
+    for start in sorted(owners):
+        way, on_way = [(start, iter(owners[start]))], {start}
+        while way:
+            node, rest = way[-1]
+            for owner_id, relation_id in rest:
+                if owner_id in on_way:
+                    closing[relation_id] = None
+                elif owner_id not in done:
+                    on_way.add(owner_id)
+                    way.append((owner_id, iter(owners.get(owner_id, ()))))
+                    break
+            else:
+                way.pop()
+                on_way.discard(node)
+                done.add(node)
+    for relation_id in closing:
+        model.remove(model.by_id(relation_id))
+        notes.add(
+            "bad-structure", f"wholes and members form a circle; line #{relation_id}, which closes it, is left out"
+        )
+
+
 def _unnamed(
-    start: int, nodes: dict[int, Entity], above: dict[int, Entity], home: int, paths: dict[int, str], notes: Notes
+    start: int, nodes: dict[int, Entity], above: dict[int, Entity], home: int, paths: dict[int, str]
 ) -> list[tuple[int, Entity]]:
     """The nodes from the first without a path down to this one, each with the number of the one above it."""
     way: list[tuple[int, Entity]] = []
-    at, seen = start, {start}
+    at = start
     while at not in paths:
         owner = above.get(at)
         higher = owner.id() if owner is not None and owner.id() in nodes else home
-        if higher == at:
-            higher = 0
-        elif higher in seen or len(seen) > _MAX_DEPTH:
-            notes.add("bad-structure", "wholes and members form a circle or a chain of over 100; set below the project")
-            higher = home if home not in seen else 0
+        higher = 0 if at == home else higher
         way.append((higher, nodes[at]))
-        seen.add(higher)
         at = higher
     return way[::-1]
 
