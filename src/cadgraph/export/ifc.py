@@ -262,7 +262,8 @@ class _Writer:
         classification = self._model.create_entity(
             "IfcClassification", Source=IFC_MARK, Edition=_EDITION, Name=IFC_MARK
         )
-        if self._project is not None:
+        # Before IFC4 only notations and references can be associated.
+        if self._project is not None and not old:
             self._associate("classification", [self._project], classification)
         for group, name in sorted(products, key=lambda said: (said[0], said[1] or "")):
             code = f"{group}/{name}" if name else group
