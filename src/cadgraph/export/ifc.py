@@ -155,28 +155,22 @@ def _remove_own(model: _Model) -> None:
     sets = [each for each in model.by_type("IfcPropertySet") if each.Name in (LABEL_SET, UNIT_SET)]
     groups = [each for each in model.by_type("IfcGroup") if each.ObjectType == IFC_MARK]
     systems = [each for each in model.by_type("IfcClassification") if each.Name == IFC_MARK]
-    systems_ids = {each.id() for each in systems}
-    codes = [
-        each
-        for each in model.by_type("IfcClassificationReference")
-        if each.ReferencedSource is not None and each.ReferencedSource.id() in systems_ids
+    codes = _referring(model, "IfcClassificationReference", "ReferencedSource", systems)
+    relations = [
+        *_referring(model, "IfcRelDefinesByProperties", "RelatingPropertyDefinition", sets),
+        *_referring(model, "IfcRelAssignsToGroup", "RelatingGroup", groups),
+        *_referring(model, "IfcRelAssociatesClassification", "RelatingClassification", [*codes, *systems]),
     ]
-    relating = {
-        "IfcRelDefinesByProperties": ("RelatingPropertyDefinition", sets),
-        "IfcRelAssignsToGroup": ("RelatingGroup", groups),
-        "IfcRelAssociatesClassification": ("RelatingClassification", [*codes, *systems]),
-    }
-    relations: list[_Entity] = []
-    for name, (attribute, ours) in relating.items():
-        own = {each.id() for each in ours}
-        relations += [each for each in model.by_type(name) if _id(getattr(each, attribute)) in own] if own else []
     properties = {each.id(): each for one in sets for each in one.HasProperties or () if _uses(model, each) == 1}
     for each in (*relations, *groups, *sets, *properties.values(), *codes, *systems):
         model.remove(each)
 
 
-def _id(entity: _Entity | None) -> int:
-    return int(entity.id()) if entity is not None else 0
+def _referring(model: _Model, kind: str, attribute: str, to: list[_Entity]) -> list[_Entity]:
+    """The entities of a class whose attribute is one of these."""
+    numbers = {each.id() for each in to}
+    values = ((each, getattr(each, attribute)) for each in (model.by_type(kind) if numbers else ()))
+    return [each for each, value in values if value is not None and value.id() in numbers]
 
 
 def _uses(model: _Model, entity: _Entity) -> int:
