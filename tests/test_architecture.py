@@ -50,7 +50,20 @@ SPLIT = ("draw",)  # rooms whose folders are rooms of their own
 # No stage and no labeler may ever see the truth.
 MAY_SEE_THE_TRUTH = {"cli", "model", "session"}
 MAY_USE_USD = {"load", "export"}
-HEAVY = {"PIL", "cascadio", "embreex", "graphlay", "jinja2", "networkx", "numba", "openai", "pxr", "scipy", "trimesh"}
+HEAVY = {
+    "PIL",
+    "cascadio",
+    "embreex",
+    "graphlay",
+    "ifcopenshell",
+    "jinja2",
+    "networkx",
+    "numba",
+    "openai",
+    "pxr",
+    "scipy",
+    "trimesh",
+}
 MOST_COMPLEX = 20  # cyclomatic complexity of a function ...
 MOST_COMPLEX_IN = {"src/cadgraph/geometry/line": 10, "src/cadgraph/stages/relate": 10}  # ... and of one in these
 VAGUE = {"manager", "managers", "helper", "helpers", "util", "utils", "common", "misc"}

@@ -63,6 +63,7 @@ _INSTEAD = {
     (".fbx", ".blend", ".max", ".3ds", ".ma", ".mb", ".c4d"): "export it as USD or glTF",
     (".jt",): "export it as STEP (AP242)",
     (".dwg", ".dxf", ".rvt", ".skp", ".pln"): "export it as IFC or STEP",
+    (".ifcxml", ".ifcjson"): "export it as a STEP physical file (.ifc)",
     (".dgn",): "export it as IFC, from OpenPlant or MicroStation",
     (".nwd", ".nwc", ".nwf"): "export the models that it was made from, as IFC or STEP",
     (".vue",): "export it as IFC or STEP from Smart 3D or SmartPlant Review",

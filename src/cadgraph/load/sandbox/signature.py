@@ -6,6 +6,8 @@ import stat
 import zipfile
 from pathlib import Path
 
+from cadgraph._io.spf import HEAD, find_ifc_damage, is_spf, schema_of
+
 __all__ = ["find_damage", "kind_of", "name_content"]
 
 _CRATE = b"PXR-USDC"
@@ -19,12 +21,12 @@ def kind_of(mode: int) -> str:
 
 
 def name_content(path: Path) -> str | None:
-    """The format that a file's content shows (``"usd"``, ``"step"``), or None."""
+    """The format that a file's content shows (``"usd"``, ``"step"``, ``"ifc"``), or None."""
     head = _head(path, 512)
     if head.startswith((_CRATE, b"#usda ")):
         return "usd"
-    if head.lstrip().startswith(b"ISO-10303-21"):
-        return "step"
+    if is_spf(head):
+        return "ifc" if (schema_of(_head(path, HEAD)) or "").startswith("IFC") else "step"
     return None
 
 
@@ -40,8 +42,20 @@ def find_damage(path: Path, form: str) -> str | None:
     """
     if form == "usd":
         return _usd_damage(path)
-    if form == "step" and b"ISO-10303-21" not in _head(path, 4096):
+    if form == "ifc":
+        return find_ifc_damage(path)
+    if form == "step":
+        return _step_damage(path)
+    return None
+
+
+def _step_damage(path: Path) -> str | None:
+    head = _head(path, HEAD)
+    if b"ISO-10303-21" not in head[:4096]:
         return "no STEP file (ISO-10303-21 is missing at its start); export it again"
+    schema = schema_of(head)
+    if schema is not None and schema.startswith("IFC"):
+        return f"an IFC file by its schema ({schema}); rename it to end in .ifc"
     return None
 
 
