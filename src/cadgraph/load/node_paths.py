@@ -16,11 +16,13 @@ MOST_DEEP = 200
 """Levels of a tree that are walked; ours, far beyond any real assembly."""
 
 _ODD = re.compile(r"[^\w.-]+")
+_LONGEST = 200  # characters of a step; ours: names in plants have up to some 80
 
 
 def path_name(*names: str) -> str:
     """The first of several names that says anything, with ``_`` for all but letters, digits, ``.``, ``-`` and ``_``."""
-    return next((clean for name in names if (clean := _ODD.sub("_", name).strip("_."))), "part")
+    cleaned = (_ODD.sub("_", name[: 2 * _LONGEST]).strip("_.")[:_LONGEST] for name in names)
+    return next((name for name in cleaned if name), "part")
 
 
 def node_paths(
