@@ -60,6 +60,8 @@ _VALVES = {
     "safety valve": "VR**",
     "pressure reducing valve": "VX**",
 }
+_DIRECTIONS = (("EAST", "WEST"), ("NORTH", "SOUTH"), ("UP", "DOWN"))  # along +x and -x, y, z
+_MAIN = 0.98  # ours: share of a direction that lies along an axis
 _CONTROL = ("control valve", "CV**")
 _ASSUMED = {
     "elbow": "butt-welding ends (ELBW)",
@@ -86,8 +88,9 @@ def write_pcf(graph: SceneGraph, folder: str | Path) -> tuple[tuple[Path, ...], 
     Returns:
         The files in the order of the line list, and notes: ``no-centreline`` and ``no-component`` (a line that could
         not be written), ``missing-joint``, ``measured-bore``, ``unknown-bore``, ``assumed-ends`` (what a symbol key
-        says that the graph doesn't know), ``unknown-symbol`` (written without a key), ``tap-not-written`` (a valve or
-        other device that sits on a tap).
+        says that the graph doesn't know), ``unknown-symbol`` (written without a key), ``unknown-flat`` (of an eccentric
+        reducer), ``no-branch``, ``no-turn`` (a tee, an elbow that the graph shows otherwise; a ``MISC-COMPONENT``),
+        ``tap-not-written`` (a valve or other device that sits on a tap).
 
     Raises:
         OutputError: a file can't be written.
@@ -135,6 +138,12 @@ def _lines(line: PipedLine, notes: _Notes) -> Iterator[str]:
     for component in line.components:
         yield from _component(component, materials, notes)
     yield from _end(line.end)
+    for component in line.components:
+        for branch in component.branches:
+            if branch.goes_on:
+                yield from _end(LineEnd("pipeline", branch.point, branch.line))
+    for outlet in line.outlets:
+        yield from _component(outlet, materials, notes)
     yield from _taps(line, materials, notes)
     yield "MATERIALS"
     for code, description in sorted(materials.items()):
@@ -173,11 +182,21 @@ def _component(component: Component, materials: dict[str, str], notes: _Notes) -
         yield f"    SKEY {skey}"
     if keyword in ("ELBOW", "BEND"):
         yield f"    ANGLE {round(math.degrees(component.angle) * 100)}"
-    if keyword == "REDUCER-ECCENTRIC":
-        notes.add("unknown-flat", "eccentric reducers are written without the side that is flat", component.parts)
+    if component.offset is not None:
+        yield from _flat(component, notes)
     if component.tag is not None:
         yield f"    TAG {_field(component.tag)}"
     yield from _tail(component, bores, keyword, materials)
+
+
+def _flat(component: Component, notes: _Notes) -> Iterator[str]:
+    """The flat side of an eccentric reducer: that to which its smaller end lies off."""
+    offset = component.offset or (0.0, 0.0, 0.0)
+    axis = max(range(3), key=lambda k: abs(offset[k]))
+    if abs(offset[axis]) < _MAIN * math.hypot(*offset):
+        notes.add("unknown-flat", "eccentric reducers whose flat side looks in no main direction", component.parts)
+        return
+    yield f"    FLAT-DIRECTION {_DIRECTIONS[axis][offset[axis] < 0]}"
 
 
 def _tail(component: Component, bores: tuple[str, str], keyword: str, materials: dict[str, str]) -> Iterator[str]:
@@ -193,7 +212,7 @@ def _symbol(component: Component, notes: _Notes) -> tuple[str, str | None]:
     keyword, skey = _KEYWORDS.get(component.kind, _OTHER)
     if component.kind == "valve":
         keyword, skey = _valve(component)
-    elif component.kind == "reducer" and component.eccentric:
+    elif component.kind == "reducer" and component.offset is not None:
         keyword, skey = "REDUCER-ECCENTRIC", "REBW"
     elif component.kind in ("tee", "cross") and not component.branches:
         notes.add("no-branch", f"{component.kind}s whose branches the graph doesn't have", component.parts)

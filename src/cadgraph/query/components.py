@@ -21,7 +21,10 @@ __all__ = ["Branch", "Component", "LineEnd", "PipedLine", "find_components"]
 
 _FITTINGS = ("tee", "cross", "branch outlet")
 _TURN = 0.05  # rad; ours: what turns by less runs straight through
+_LEG = 1e-3  # m; ours: legs of a bend differ by less than what a centreline found in triangles wavers
+_NEAR = 5e-3  # m; ours: a tap and what sits on it have one axis
 _LEAST = 1e-4  # m; ours: a shorter piece is none, a gasket is some millimetres
+_MOST_TURN = math.radians(100)  # ours: elbows turn by 90 degrees at most, and are built a little askew
 _OFFSET = 0.02  # ours: of the larger size; a concentric reducer's ends lie on one axis
 
 EndKind = Literal["equipment", "pipeline", "open", "closed", "unknown"]
@@ -35,13 +38,15 @@ class Branch:
         point: end of the branch, where the next piece begins.
         size: nominal size of it (DN), or None.
         diameter: bore [m], or None.
-        line: tag of the line that goes on there, or of the instrument.
+        line: tag of the line that goes on there, or of the instrument; empty where nothing does.
+        goes_on: whether it is a line.
     """
 
     point: Point
     size: int | None
     diameter: float | None
     line: str
+    goes_on: bool = False
 
 
 @dataclass(frozen=True)
@@ -64,7 +69,7 @@ class Component:
         tag: of the unit, or None.
         flanged: whether flanges, gaskets or faces stand at its start and its end.
         split: whether it is one of several pieces of one part.
-        eccentric: whether the ends of a reducer lie on different axes.
+        offset: from the axis of its larger end to that of its smaller one [m], of an eccentric reducer; None of others.
     """
 
     kind: str
@@ -81,7 +86,7 @@ class Component:
     tag: str | None = None
     flanged: tuple[bool, bool] = (False, False)
     split: bool = False
-    eccentric: bool = False
+    offset: Point | None = None
 
 
 @dataclass(frozen=True)
@@ -110,6 +115,7 @@ class PipedLine:
         components: in order from its start.
         start: how it begins.
         end: how it ends.
+        outlets: branch outlets that instruments sit on, each at its place.
         instruments: what sits on taps of it: tag, kind and place on the line.
         notes: what was missing or guessed.
     """
@@ -118,6 +124,7 @@ class PipedLine:
     components: tuple[Component, ...]
     start: LineEnd
     end: LineEnd
+    outlets: tuple[Component, ...] = ()
     instruments: tuple[tuple[str, str | None, Point], ...] = ()
     notes: tuple[Diagnostic, ...] = ()
 
@@ -296,7 +303,7 @@ class _Plant:
         if not run.bounds:
             nowhere = (0.0, 0.0, 0.0)
             none = LineEnd("unknown", nowhere)
-            return PipedLine(run.line, (), none, none, (), notes)
+            return PipedLine(run.line, (), none, none, notes=notes)
         low, high = 0, len(run.items)
         if self._leaves_out(run, False):
             low = 1
@@ -305,14 +312,15 @@ class _Plant:
         components: list[Component] = []
         for i in range(low, high):
             components.extend(self._pieces(run, i))
-        start = run.centreline.at(run.bounds[low])
-        end = run.centreline.at(run.bounds[high])
+        start = components[0].start if components else run.centreline.at(run.bounds[low])
+        end = components[-1].end if components else run.centreline.at(run.bounds[high])
         components = [*self._set_on(run, False), *components, *self._set_on(run, True)]
         return PipedLine(
             run.line,
             tuple(_with_flanges(components)),
             self._end(run, False, start),
             self._end(run, True, end),
+            tuple(self._outlets(run)),
             tuple(self._instruments(run)),
             notes,
         )
@@ -364,12 +372,11 @@ class _Plant:
         if junction is not None and (name in _FITTINGS or self._is_fitting(junction)):
             yield self._fitting(run, i, junction, base)
         elif name == "elbow":
-            turned = self._bend(run, start, end, base)
-            yield replace(turned, kind="elbow", what=name) if turned.centre is not None else replace(base, what=name)
+            yield from self._elbow(run, i, base)
         elif name in (None, "pipe", "nipple") or self._group(item) != "Pipe assembly":
             yield from self._pipes(run, i, base, name)
         elif name == "reducer":
-            yield replace(base, kind=name, what=name, eccentric=self._is_eccentric(run, start, end, base))
+            yield replace(base, kind=name, what=name, offset=self._offset(run, start, end, base))
         else:
             yield replace(base, kind=name, what=name)
 
@@ -398,7 +405,7 @@ class _Plant:
     def _end_valve(self, run: _Run, node: Unit, found: Component) -> Component:
         """A valve that its line ends at: its other ends are where other lines begin, or another of its ports."""
         others = [
-            Branch(*self._meeting(other, last), line=other.line.tag)
+            Branch(*self._meeting(other, last), line=other.line.tag, goes_on=True)
             for other, last in self.meets[node.id]
             if other is not run and other.bounds
         ]
@@ -412,8 +419,8 @@ class _Plant:
         way = unit(minus(node.centroid, here))
         others.sort(key=lambda branch: -dot(unit(minus(branch.point, here)), way))
         through = others[0].point
-        ends = {"start": through} if node.id == run.line.start else {"end": through}
-        return replace(found, **ends, centre=node.centroid, branches=tuple(others[1:]))
+        found = replace(found, centre=node.centroid, branches=tuple(others[1:]))
+        return replace(found, start=through) if node.id == run.line.start else replace(found, end=through)
 
     def _meeting(self, run: _Run, last: bool) -> tuple[Point, int | None, float | None]:
         """Where the first item of a line that belongs to another one ends, with its size."""
@@ -443,8 +450,8 @@ class _Plant:
         )
         at_end = (place == run.line.start and i == 0, place == run.line.end and i == len(run.items) - 1)
         if not any(at_end):
-            branches = [self._tap_branch(arc) for arc in self.network.arcs(place) if self.network.is_tap(arc)]
-            return replace(found, branches=tuple(b for b in branches if b is not None))
+            tapped = [self._tap_branch(arc) for arc in self.network.arcs(place) if self.network.is_tap(arc)]
+            return replace(found, branches=tuple(branch for branch in tapped if branch is not None))
         here = found.end if at_end[0] else found.start
         others = [
             (self._meeting(other, last), other.line.tag)
@@ -456,7 +463,7 @@ class _Plant:
         if not others:
             return found
         (through, size, diameter), _ = others[0]
-        branches = tuple(Branch(*meeting, line=tag) for meeting, tag in others[1:])
+        branches = tuple(Branch(*meeting, line=tag, goes_on=True) for meeting, tag in others[1:])
         if at_end[0]:
             return replace(
                 found,
@@ -503,7 +510,7 @@ class _Plant:
                 start=point,
                 end=point,
                 centre=point,
-                branches=(Branch(*self._meeting(other, end), line=other.line.tag),),
+                branches=(Branch(*self._meeting(other, end), line=other.line.tag, goes_on=True),),
                 sizes=(item.sizes[side], item.sizes[side]),
                 diameters=(item.diameters[side], item.diameters[side]),
                 parts=item.parts,
@@ -524,10 +531,21 @@ class _Plant:
                 continue
             ends = [stretch.start, *(cut for cut in cuts if stretch.start < cut < stretch.end), stretch.end]
             found.extend(self._piece(run, a, b, base) for a, b in zip(ends, ends[1:], strict=False))
+        found = list(_trimmed(found))
         known = self._group(run.items[i]) == "Pipe assembly" or name is None
         for piece in found:
             kind = piece.kind if known else "other"
             yield replace(piece, kind=kind, what=name, split=len(found) > 1)
+
+    def _elbow(self, run: _Run, i: int, base: Component) -> Iterator[Component]:
+        """An elbow; one that turns by more than elbows do, as a return bend, in pieces."""
+        turned = self._bend(run, run.bounds[i], run.bounds[i + 1], base)
+        if turned.centre is not None and turned.angle < _MOST_TURN:
+            yield replace(turned, kind="elbow", what="elbow")
+            return
+        pieces = list(self._pipes(run, i, base, "elbow"))
+        bends = any(piece.kind == "bend" for piece in pieces)
+        yield from pieces if bends else [replace(base, what="elbow")]
 
     def _piece(self, run: _Run, start: float, end: float, base: Component) -> Component:
         at = run.centreline.at
@@ -558,13 +576,15 @@ class _Plant:
         inner = [station for station in line.stations if start < station < end]
         return min(inner, key=lambda station: abs(station - middle), default=middle)
 
-    def _is_eccentric(self, run: _Run, start: float, end: float, base: Component) -> bool:
-        way = run.centreline.direction(start - 0.05, start) if start > 0.05 else None
-        way = way or run.centreline.direction(end, end + 0.05)
+    def _offset(self, run: _Run, start: float, end: float, base: Component) -> Point | None:
+        line = run.centreline
+        way = line.direction(start - 0.05, start) if start > 0.05 else line.direction(end, end + 0.05)
         across = minus(base.end, base.start)
-        off = dot(across, across) - dot(across, way) ** 2
-        largest = max((size for size in base.sizes if size), default=0) / 1000
-        return off > 0 and off**0.5 > max(_OFFSET * largest, 1e-3)
+        off = minus(across, times(way, dot(across, way)))
+        first, last = (size or 0 for size in base.sizes)
+        if math.hypot(*off) <= max(_OFFSET * max(first, last) / 1000, 1e-3):
+            return None
+        return off if first >= last else times(off, -1)
 
     # What they are
 
@@ -605,10 +625,42 @@ class _Plant:
         if isinstance(node, Terminal):
             kinds: dict[str, EndKind] = {"open": "open", "blind": "closed"}
             return LineEnd(kinds.get(node.kind, "unknown"), point)
-        others = [other.line.tag for other, end in self.meets[place] if not (other is run and end == last)]
         owner = self._owner(place)
-        name = owner.line.tag if owner is not None and owner is not run else min(others, default=None)
-        return LineEnd("pipeline" if name else "unknown", point, name)
+        if owner is not None and owner is not run:
+            return LineEnd("pipeline", point, owner.line.tag)
+        others = [
+            (math.dist(self._meeting(other, end)[0], point), other.line.tag)
+            for other, end in self.meets[place]
+            if not (other is run and end == last) and other.bounds
+        ]
+        return LineEnd("pipeline", point, min(others)[1]) if others else LineEnd("unknown", point)
+
+    def _outlets(self, run: _Run) -> Iterator[Component]:
+        for station, place in run.taps:
+            node = self.network.places[place]
+            host = next((i for i, end in enumerate(run.bounds[1:]) if station <= end + _LEAST), None)
+            if host is None or not isinstance(node, Unit):
+                continue
+            item = run.items[host]
+            for joint in self.joints.get(item.parts[0], ()):
+                if joint.kind != "tap" or joint.second != item.parts[0]:
+                    continue
+                outlet = _Item((joint.first,), None, 0.0, 0.0)
+                away = [j for j in self._between(outlet, _Item(node.parts, None, 0.0, 0.0)) if j is not joint]
+                at = run.centreline.nearest(joint.point, run.bounds[host], run.bounds[host + 1])[0]
+                if self._name(outlet) != "branch outlet" or not away or abs(at - station) > _NEAR:
+                    continue
+                yield Component(
+                    kind="branch outlet",
+                    what="branch outlet",
+                    start=run.centreline.at(station),
+                    end=run.centreline.at(station),
+                    centre=run.centreline.at(station),
+                    branches=(Branch(away[0].point, None, None, node.tag),),
+                    sizes=item.sizes,
+                    diameters=item.diameters,
+                    parts=outlet.parts,
+                )
 
     def _instruments(self, run: _Run) -> Iterator[tuple[str, str | None, Point]]:
         for station, place in run.taps:
@@ -630,6 +682,46 @@ class _Plant:
 
 def _first(component: Component) -> tuple[int | None, float | None]:
     return component.sizes[0] or component.sizes[1], component.diameters[0] or component.diameters[1]
+
+
+def _trimmed(pieces: Sequence[Component]) -> Iterator[Component]:
+    """Pipes and bends, each bend without the straight by which one of its legs is longer than the other."""
+    last: Component | None = None
+    for piece in pieces:
+        for each in _legs(piece):
+            added = each.kind == "pipe" and piece.kind == "bend"
+            joined = last is not None and last.kind == "pipe" and (added or (last.split and each.kind == "pipe"))
+            if last is not None and joined:
+                last = replace(last, end=each.end, length=last.length + each.length, split=False)
+                continue
+            if last is not None:
+                yield last
+            # Marks what was cut off a bend, so that the pipe that follows takes it in.
+            last = replace(each, split=added)
+    if last is not None:
+        yield last
+
+
+def _legs(piece: Component) -> Iterator[Component]:
+    """A bend as it is where its legs are equal, else with the rest of the longer one as a pipe."""
+    if piece.kind != "bend" or piece.centre is None:
+        yield piece
+        return
+    first, last = math.dist(piece.start, piece.centre), math.dist(piece.centre, piece.end)
+    leg, rest = min(first, last), abs(first - last)
+    if rest < _LEG:
+        yield piece
+        return
+    bend = replace(piece, length=piece.length - rest)
+    straight = replace(piece, kind="pipe", centre=None, angle=0.0, length=rest)
+    if first > last:
+        cut = add(piece.centre, times(unit(minus(piece.start, piece.centre)), leg))
+        yield replace(straight, end=cut)
+        yield replace(bend, start=cut)
+    else:
+        cut = add(piece.centre, times(unit(minus(piece.end, piece.centre)), leg))
+        yield replace(bend, end=cut)
+        yield replace(straight, start=cut)
 
 
 def _arc_tangents(start: Point, middle: Point, end: Point) -> tuple[Point, Point] | None:

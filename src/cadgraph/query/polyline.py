@@ -169,7 +169,7 @@ class Polyline:
             end: where it ends [m].
             diameter: of the pipe [m]; what is shorter between two turns belongs to the bend.
         """
-        piece = Polyline.through(_simple(self.between(start, end), max(3e-4, 0.002 * diameter)))
+        piece = Polyline.through(_simple(self.between(start, end), max(1e-4, 5e-4 * diameter)))
         if len(piece.points) < 3:
             return (Stretch(start, end, False),)
         # The simplified line is a little shorter; stations are those of the line itself.
