@@ -21,7 +21,8 @@ __all__ = ["Branch", "Component", "LineEnd", "PipedLine", "find_components"]
 
 _FITTINGS = ("tee", "cross", "branch outlet")
 _TURN = 0.05  # rad; ours: what turns by less runs straight through
-_LEG = 1e-3  # m; ours: legs of a bend differ by less than what a centreline found in triangles wavers
+_FAR, _CLOSE = 0.05, 0.005  # m; ours: over which a straight beside a bend is measured, if need be over less
+_LEG = 1e-3  # m; ours: what is less of a pipe beside a bend is none: a centreline found in triangles wavers as much
 _NEAR = 5e-3  # m; ours: a tap and what sits on it have one axis
 _LEAST = 1e-4  # m; ours: a shorter piece is none, a gasket is some millimetres
 _MOST_TURN = math.radians(100)  # ours: elbows turn by 90 degrees at most, and are built a little askew
@@ -524,14 +525,17 @@ class _Plant:
         start, end = run.bounds[i], run.bounds[i + 1]
         cuts = [station for station, place in run.taps if start + _LEAST < station < end - _LEAST]
         stretches = run.centreline.stretches(start, end, self._outer(run.items[i]))
-        found = []
+        found: list[Component] = []
+        radii: list[float | None] = []
         for stretch in stretches:
             if stretch.turns:
                 found.append(self._bend(run, stretch.start, stretch.end, base))
+                radii.append(_radius(run.centreline, stretch.start, stretch.end, found[-1]))
                 continue
             ends = [stretch.start, *(cut for cut in cuts if stretch.start < cut < stretch.end), stretch.end]
             found.extend(self._piece(run, a, b, base) for a, b in zip(ends, ends[1:], strict=False))
-        found = list(_trimmed(found))
+            radii.extend(None for _ in ends[1:])
+        found = list(_fitted(found, radii))
         known = self._group(run.items[i]) == "Pipe assembly" or name is None
         for piece in found:
             kind = piece.kind if known else "other"
@@ -555,13 +559,11 @@ class _Plant:
         """A piece that turns, with the point where its tangents meet; a straight one where there is no such point."""
         piece = self._piece(run, start, end, base)
         line = run.centreline
-        reach = min(0.05, (end - start) / 2)
+        before, after = _tangent(line, start, -1), _tangent(line, end, 1)
         tangents = [
-            (line.direction(start - reach, start), line.direction(end, end + reach)),
+            (before, after) if before is not None and after is not None else None,
             _arc_tangents(piece.start, line.at(self._vertex(line, start, end)), piece.end),
         ]
-        if start - reach < 0 or end + reach > line.length:
-            tangents.reverse()
         for ways in tangents:
             if ways is None:
                 continue
@@ -684,44 +686,82 @@ def _first(component: Component) -> tuple[int | None, float | None]:
     return component.sizes[0] or component.sizes[1], component.diameters[0] or component.diameters[1]
 
 
-def _trimmed(pieces: Sequence[Component]) -> Iterator[Component]:
-    """Pipes and bends, each bend without the straight by which one of its legs is longer than the other."""
-    last: Component | None = None
-    for piece in pieces:
-        for each in _legs(piece):
-            added = each.kind == "pipe" and piece.kind == "bend"
-            joined = last is not None and last.kind == "pipe" and (added or (last.split and each.kind == "pipe"))
-            if last is not None and joined:
-                last = replace(last, end=each.end, length=last.length + each.length, split=False)
-                continue
-            if last is not None:
-                yield last
-            # Marks what was cut off a bend, so that the pipe that follows takes it in.
-            last = replace(each, split=added)
-    if last is not None:
-        yield last
+def _fitted(pieces: Sequence[Component], radii: Sequence[float | None]) -> Iterator[Component]:
+    """Pipes and bends, each bend from tangent point to tangent point.
+
+    Where a centreline begins to turn is seen late, as it turns little at first; how far its middle stays off the corner
+    tells the radius, and with it where the bend begins and ends. What that moves, the pipes beside it give or take.
+
+    Args:
+        pieces: in order, each beginning where the one before ends.
+        radii: of each piece that is a bend [m], else None.
+    """
+    found: list[Component] = []
+    for i, (piece, radius) in enumerate(zip(pieces, radii, strict=True)):
+        onward = pieces[i + 1] if i + 1 < len(pieces) else None
+        if piece.centre is None or radius is None:
+            # What the bend before it took or left.
+            start = found[-1].end if found else piece.start
+            found.append(replace(piece, start=start, length=math.dist(start, piece.end)))
+            continue
+        before, after = minus(piece.start, piece.centre), minus(piece.end, piece.centre)
+        room = [math.hypot(*before), math.hypot(*after)]
+        if found and found[-1].kind == "pipe":
+            room[0] += max(0.0, found[-1].length - _LEG)
+        if onward is not None and onward.kind == "pipe":
+            room[1] += max(0.0, onward.length - _LEG)
+        leg = min(radius * math.tan(piece.angle / 2), *room)
+        start = add(piece.centre, times(unit(before), leg))
+        end = add(piece.centre, times(unit(after), leg))
+        if found and found[-1].kind == "pipe":
+            found[-1] = replace(found[-1], end=start, length=math.dist(found[-1].start, start))
+        elif math.hypot(*before) - leg > _LEG:
+            found.append(_straight(piece, piece.start, start))
+        else:
+            start = piece.start
+        found.append(replace(piece, start=start, end=end, length=leg / math.tan(piece.angle / 2) * piece.angle))
+        if onward is None or onward.kind != "pipe":
+            if math.hypot(*after) - leg > _LEG:
+                found.append(_straight(piece, end, piece.end))
+            else:
+                found[-1] = replace(found[-1], end=piece.end)
+    yield from found
 
 
-def _legs(piece: Component) -> Iterator[Component]:
-    """A bend as it is where its legs are equal, else with the rest of the longer one as a pipe."""
-    if piece.kind != "bend" or piece.centre is None:
-        yield piece
-        return
-    first, last = math.dist(piece.start, piece.centre), math.dist(piece.centre, piece.end)
-    leg, rest = min(first, last), abs(first - last)
-    if rest < _LEG:
-        yield piece
-        return
-    bend = replace(piece, length=piece.length - rest)
-    straight = replace(piece, kind="pipe", centre=None, angle=0.0, length=rest)
-    if first > last:
-        cut = add(piece.centre, times(unit(minus(piece.start, piece.centre)), leg))
-        yield replace(straight, end=cut)
-        yield replace(bend, start=cut)
-    else:
-        cut = add(piece.centre, times(unit(minus(piece.end, piece.centre)), leg))
-        yield replace(bend, end=cut)
-        yield replace(straight, start=cut)
+def _radius(line: Polyline, start: float, end: float, bend: Component) -> float | None:
+    """Radius of a bend by how far its corner lies off the centreline [m]; None of what isn't one."""
+    if bend.centre is None:
+        return None
+    _, distance = line.nearest(bend.centre, start, end)
+    return distance / (1 / math.cos(bend.angle / 2) - 1)
+
+
+def _straight(piece: Component, start: Point, end: Point) -> Component:
+    return replace(piece, kind="pipe", start=start, end=end, centre=None, angle=0.0, length=math.dist(start, end))
+
+
+def _tangent(line: Polyline, station: float, side: int) -> Point | None:
+    """The direction of a line beside a bend, forward; None where it isn't straight there.
+
+    Args:
+        line: the centreline.
+        station: where the bend begins or ends [m].
+        side: -1 for what comes before it, 1 for what comes after it.
+    """
+
+    def way(reach: float, which: int = side) -> Point | None:
+        other = min(max(station + which * reach, 0.0), line.length)
+        if abs(other - station) < reach / 2:
+            return None
+        return line.direction(min(station, other), max(station, other))
+
+    far, near, across = way(_FAR), way(_CLOSE), way(_CLOSE, -side)
+    if near is None:
+        return None
+    if far is not None and angle(far, near) < _TURN / 2:
+        return far
+    # A short straight between two bends, which were divided in the midst of it.
+    return near if across is not None and angle(near, across) < _TURN / 2 else None
 
 
 def _arc_tangents(start: Point, middle: Point, end: Point) -> tuple[Point, Point] | None:
