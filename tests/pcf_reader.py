@@ -15,8 +15,8 @@ ENDS = {
 SET_ON = {"TEE-SET-ON", "OLET"}
 OFF_LINE = {"INSTRUMENT-DIAL", "SUPPORT"}
 IN_LINE = {
-    "PIPE", "BEND", "ELBOW", "TEE", "CROSS", "REDUCER-CONCENTRIC", "REDUCER-ECCENTRIC", "FLANGE", "FLANGE-BLIND", "GASKET",
-    "COUPLING", "UNION", "CAP", "FILTER", "MISC-COMPONENT", "INSTRUMENT", "VALVE", "VALVE-ANGLE", "VALVE-3WAY",
+    "PIPE", "BEND", "ELBOW", "TEE", "CROSS", "REDUCER-CONCENTRIC", "REDUCER-ECCENTRIC", "FLANGE", "FLANGE-BLIND",
+    "GASKET", "COUPLING", "UNION", "CAP", "FILTER", "MISC-COMPONENT", "INSTRUMENT", "VALVE", "VALVE-ANGLE", "VALVE-3WAY",
     "VALVE-MULTIWAY",
 }  # fmt: skip
 HEAD = ["ISOGEN-FILES", "UNITS-BORE", "UNITS-CO-ORDS", "UNITS-WEIGHT", "PIPELINE-REFERENCE"]
@@ -95,7 +95,8 @@ class Pcf:
         for line in lines:
             keyword, _, value = line.strip().partition(" ")
             if line.startswith(" "):
-                assert line.startswith("    ") and line[4] != " ", line
+                assert line[:4].isspace(), line
+                assert line[4] != " ", line
                 assert value, f"{line!r} says nothing"
                 if inside:
                     assert keyword == "DESCRIPTION"
@@ -105,7 +106,8 @@ class Pcf:
                 else:
                     self.head[keyword] = value
             elif inside:
-                assert keyword == "ITEM-CODE" and value not in self.materials, line
+                assert keyword == "ITEM-CODE", line
+                assert value not in self.materials, line
                 current = value
             elif keyword == "MATERIALS":
                 inside = True

@@ -17,7 +17,7 @@ from cadgraph._io.text import natural_key
 from cadgraph.errors import LoadError
 from cadgraph.export.labels import MeshLabel, mesh_labels
 from cadgraph.export.source import refuse_source
-from cadgraph.load.node_paths import node_paths, path_name
+from cadgraph.load.gltf_paths import node_paths
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
 
@@ -59,7 +59,7 @@ def write_gltf(graph: SceneGraph, source: str | Path, path: str | Path) -> tuple
     except OSError as error:
         raise LoadError(f"{origin}: can't be read ({error.strerror}); check the path") from error
     tree = _parsed(read_bytes_within(origin, GRAPH, LoadError, "export it as .glb"), origin)
-    notes = _annotate(tree, graph, origin)
+    notes = _annotate(tree, graph)
     _move_references(tree, origin, target)
     write_atomically(target, _json_bytes(tree))
     return target, notes
@@ -78,7 +78,7 @@ def _write_binary(graph: SceneGraph, origin: Path, file: IO[bytes], target: Path
     if length > GRAPH.most:
         raise LoadError(f"{origin}: {size_text(length)} of JSON, and at most {size_text(GRAPH.most)} are read")
     tree = _parsed(file.read(length), origin)
-    notes = _annotate(tree, graph, origin)
+    notes = _annotate(tree, graph)
     _move_references(tree, origin, target)
     text = _json_bytes(tree)
     text += b" " * (-len(text) % 4)
@@ -102,12 +102,9 @@ def _parsed(data: bytes, origin: Path) -> dict[str, Any]:
     return tree
 
 
-def _annotate(tree: dict[str, Any], graph: SceneGraph, origin: Path) -> tuple[Diagnostic, ...]:
+def _annotate(tree: dict[str, Any], graph: SceneGraph) -> tuple[Diagnostic, ...]:
     """Puts the labels into the nodes of a parsed file."""
-    try:
-        paths = _paths(tree)
-    except (ValueError, KeyError, IndexError, TypeError, AttributeError) as error:
-        raise LoadError(f"{origin}: its tree of nodes is damaged ({error}); export it again") from None
+    paths = dict(node_paths(tree))
     labels = {label.mesh: label for label in mesh_labels(graph)}
     at_node: dict[int, list[tuple[str, MeshLabel]]] = {}
     lost = []
@@ -135,20 +132,6 @@ def _annotate(tree: dict[str, Any], graph: SceneGraph, origin: Path) -> tuple[Di
     return (Diagnostic("unmatched-mesh", "labelled meshes that no node of the file was found for", tuple(lost)),)
 
 
-def _paths(tree: Mapping[str, Any]) -> dict[str, int]:
-    """The numbers of the nodes by their path, as the reader names them."""
-    nodes, meshes = tree.get("nodes", []), tree.get("meshes", [])
-    names = []
-    for node in nodes:
-        mesh = node.get("mesh")
-        names.append(
-            path_name(str(node.get("name", "")), str(meshes[mesh].get("name", "")) if mesh is not None else "")
-        )
-    scenes = tree.get("scenes", [])
-    roots = scenes[tree.get("scene", 0)].get("nodes", []) if scenes else []
-    return {path: number for path, number, _ in node_paths(names, [node.get("children", ()) for node in nodes], roots)}
-
-
 def _owner(mesh: str, paths: Mapping[str, int]) -> str | None:
     """The longest of the paths that a mesh's path is or lies below."""
     while mesh:
@@ -172,7 +155,8 @@ def _move_references(tree: dict[str, Any], origin: Path, target: Path) -> None:
     here, there = origin.resolve().parent, target.resolve().parent
     if here == there:
         return
-    for item in (*tree.get("buffers", ()), *tree.get("images", ())):
+    lists = [tree.get(name) for name in ("buffers", "images")]
+    for item in (item for rows in lists if isinstance(rows, list) for item in rows):
         uri = item.get("uri") if isinstance(item, dict) else None
         if not isinstance(uri, str) or urlsplit(uri).scheme or uri.startswith("/"):
             continue

@@ -23,8 +23,7 @@ from cadgraph.errors import LoadError
 from cadgraph.geometry.mesh.merge import weld_points
 from cadgraph.load.bodies import split_bodies
 from cadgraph.load.glb import GlbMesh, GlbNode, read_glb
-from cadgraph.load.node_paths import node_paths, path_name
-from cadgraph.load.packing import Notes, Piece, pack
+from cadgraph.load.packing import Notes, Piece, pack, unique_name
 from cadgraph.model.scene import Faces, Floats, Scene, Source
 
 if TYPE_CHECKING:
@@ -32,6 +31,7 @@ if TYPE_CHECKING:
 
 __all__ = ["read"]
 
+_MAX_DEPTH = 200  # of an assembly tree; ours, far beyond any real one
 _ABRIDGED = ("several-bodies",)
 _STEP_UNITS = {b".KILO.": 1000.0, b"$": 1.0, b".DECI.": 0.1, b".CENTI.": 0.01, b".MILLI.": 0.001, b".MICRO.": 1e-6}
 _IGES_UNITS = {
@@ -95,17 +95,27 @@ def _occurrences(
     nodes: list[GlbNode], roots: list[int], meshes: list[GlbMesh]
 ) -> Iterator[tuple[str, Floats, GlbNode]]:
     """Every node with its path and its matrix to the world, parents first."""
-    names = [_name(node, meshes) for node in nodes]
-    matrices: dict[int | None, Floats] = {None: np.eye(4)}
-    for path, number, above in node_paths(names, [node.children for node in nodes], roots):
-        matrices[number] = nodes[number].matrix @ matrices[above]
-        yield path, matrices[number], nodes[number]
+    stack: list[tuple[int, str, Floats, int]] = []
+
+    def enter(numbers: list[int], path: str, matrix: Floats, depth: int) -> None:
+        taken: set[str] = set()
+        named = [(number, f"{path}/{unique_name(_name(nodes[number], meshes), taken)}") for number in numbers]
+        stack.extend((number, at, nodes[number].matrix @ matrix, depth) for number, at in reversed(named))
+
+    enter(roots, "", np.eye(4), 0)
+    while stack:
+        number, path, matrix, depth = stack.pop()
+        yield path, matrix, nodes[number]
+        if depth < _MAX_DEPTH:
+            enter(list(nodes[number].children), path, matrix, depth + 1)
 
 
 def _name(node: GlbNode, meshes: list[GlbMesh]) -> str:
     # "=>[0:1:1:2]" is how OpenCASCADE calls an occurrence without a name of its own: the part's name says more.
     name = "" if node.name.startswith("=>[") else node.name
-    return path_name(name or (meshes[node.mesh].name if node.mesh is not None else ""))
+    if not name and node.mesh is not None:
+        name = meshes[node.mesh].name
+    return re.sub(r"[^\w.-]+", "_", name).strip("_.") or "part"
 
 
 def _bodies(mesh: GlbMesh) -> list[_Body]:
