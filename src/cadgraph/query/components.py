@@ -630,12 +630,12 @@ class _Plant:
         owner = self._owner(place)
         if owner is not None and owner is not run:
             return LineEnd("pipeline", point, owner.line.tag)
-        others = [
+        onward = [
             (math.dist(self._meeting(other, end)[0], point), other.line.tag)
             for other, end in self.meets[place]
             if not (other is run and end == last) and other.bounds
         ]
-        return LineEnd("pipeline", point, min(others)[1]) if others else LineEnd("unknown", point)
+        return LineEnd("pipeline", point, min(onward)[1]) if onward else LineEnd("unknown", point)
 
     def _outlets(self, run: _Run) -> Iterator[Component]:
         for station, place in run.taps:
