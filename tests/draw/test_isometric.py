@@ -66,6 +66,15 @@ def test_all_of_it_lies_on_the_sheet():
     assert all(0 <= float(t.get("y")) <= high for t in root.findall(f"{SVG}text"))
 
 
+@pytest.mark.parametrize("hosted", [False, True])
+def test_the_line_that_a_branch_leaves_names_the_other(hosted):
+    sheets = drawn(branching(hosted=hosted))
+    tags = {line.line.tag for line, _, _ in sheets}
+    named = {line.line.tag: tags & set(words(root)) for line, root, _ in sheets}
+    (owner,) = (tag for tag, others in named.items() if others)
+    assert named[owner] < tags - {owner}
+
+
 def test_axes_are_at_thirty_degrees():
     ((_, root, _),) = drawn(valve_line())
     paths = [e.get("d") for e in root.iter(f"{SVG}path") if e.get("class") == "p"]

@@ -248,6 +248,16 @@ def test_what_the_graph_lacks_is_told_and_leaves_no_gap(tmp_path):
     assert codes == {"missing-joint", "measured-bore", "no-centreline"}
 
 
+def test_a_graph_without_parts_is_pipes_between_what_it_has(tmp_path):
+    graph = networks.pumping()
+    pcfs, codes = written(graph, tmp_path)
+    assert [fault for pcf in pcfs for fault in pcf.faults()] == []
+    assert "no-part" in codes
+    lines = find_lines(graph)
+    assert len(pcfs) == len(lines)
+    assert sum(pcf.length for pcf in pcfs) == pytest.approx(1000 * sum(line.length for line in lines), rel=0.02)
+
+
 def test_text_of_a_graph_stays_on_its_line(tmp_path):
     graph = valve_line()
     nodes = [

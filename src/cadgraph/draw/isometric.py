@@ -19,7 +19,7 @@ from cadgraph.draw.svg import Svg, element, joined
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Point
-from cadgraph.query.components import Component, LineEnd, PipedLine, find_components
+from cadgraph.query.components import Branch, Component, LineEnd, PipedLine, find_components
 
 __all__ = ["Box", "Isometric", "draw_isometric", "write_isometrics"]
 
@@ -36,6 +36,7 @@ _LONGEST = 48  # letters of a text on the sheet
 _MOST_TURNS = 400  # tries to find a place for a text
 # Drawn lengths: a component always has the same, a pipe's grows with the logarithm of its length.
 _LENGTHS = {"flange": 7.0, "gasket": 3.0, "blind flange": 7.0, "valve": 30.0, "reducer": 24.0, "instrument": 30.0}
+_BOXES = ("instrument", "other", "strainer", "hose", "expansion joint")  # drawn as a box in the line
 _CLOSE = 12.0  # legs that come nearer than this are drawn apart
 _LEG, _OTHER = 16.0, 24.0
 _STYLE = (
@@ -244,36 +245,58 @@ def _project(vector: Sequence[float]) -> Spot:
 
 def _pipes(sheet: Isometric, line: PipedLine, legs: Sequence[_Leg], spots: Sequence[Spot]) -> None:
     for i, (leg, a, b) in enumerate(zip(legs, spots, spots[1:], strict=False)):
-        kind, across = leg.component.kind, _across(leg, a, b)
-        if kind == "valve":
-            _valve(sheet, a, b, across)
-        elif kind in ("flange", "blind flange"):
-            for share in (0.15, 0.85):
-                at = _between(a, b, share)
-                sheet.line([_off(at, across, -8), _off(at, across, 8)], "p" if kind == "blind flange" else "d")
-            sheet.line([a, b], "p")
-        elif kind == "reducer":
-            first, last = _widths(leg.component)
-            sheet.area([_off(a, across, -first), _off(b, across, -last), _off(b, across, last), _off(a, across, first)])
-        elif kind in ("instrument", "other") or leg.component.kind in ("strainer", "hose", "expansion joint"):
-            sheet.area([_off(a, across, -7), _off(b, across, -7), _off(b, across, 7), _off(a, across, 7)])
-        elif kind != "gasket":
-            sheet.line([a, b], "p")
-        for branch in leg.component.branches if leg.half == 2 or kind == "tap" else ():
-            way = _project(tuple(p - c for p, c in zip(branch.point, leg.start, strict=True)))
-            size = math.hypot(*way) or 1.0
-            tip = (a[0] + way[0] / size * 26, a[1] + way[1] / size * 26)
-            sheet.line([a, tip], "p")
-            sheet.text(tip, [branch.line], way)
+        _symbol(sheet, leg, a, b)
+        # Of what turns or branches the second half begins at its middle.
+        for branch in leg.component.branches if leg.half != 1 else ():
+            _branch(sheet, branch, a if leg.half else _between(a, b, 0.5), leg.start)
         if i and _welded(legs[i - 1], leg):
             sheet.dot(a, 3.0, "w")
+    for each in line.components:
+        if each.kind == "tap":
+            at = spots[min(range(len(spots)), key=lambda i: math.dist(_corner(legs, i), each.start))]
+            for branch in each.branches:
+                _branch(sheet, branch, at, each.start)
     if line.line.flow == "forward":
-        pipes = [(b, a) for leg, a, b in zip(legs, spots, spots[1:], strict=False) if leg.component.kind == "pipe"]
-        for b, a in pipes[:1]:
-            way = ((b[0] - a[0]) / math.dist(a, b), (b[1] - a[1]) / math.dist(a, b))
-            tip, side = _between(a, b, 0.5), (-way[1], way[0])
-            back = (tip[0] - way[0] * 12, tip[1] - way[1] * 12)
-            sheet.area([tip, _off(back, side, 5), _off(back, side, -5)], "w")
+        _flow(sheet, legs, spots)
+
+
+def _branch(sheet: Isometric, branch: Branch, at: Spot, start: Point) -> None:
+    """A short piece of a branch with what goes on there."""
+    way = _project(tuple(p - c for p, c in zip(branch.point, start, strict=True)))
+    size = math.hypot(*way) or 1.0
+    tip = (at[0] + way[0] / size * 26, at[1] + way[1] / size * 26)
+    sheet.line([at, tip], "p")
+    if branch.line:
+        sheet.text(tip, [branch.line], way)
+
+
+def _symbol(sheet: Isometric, leg: _Leg, a: Spot, b: Spot) -> None:
+    """What a leg looks like between two places on the sheet."""
+    kind, across = leg.component.kind, _across(leg, a, b)
+    if kind == "valve":
+        _valve(sheet, a, b, across)
+    elif kind in ("flange", "blind flange"):
+        for share in (0.15, 0.85):
+            at = _between(a, b, share)
+            sheet.line([_off(at, across, -8), _off(at, across, 8)], "p" if kind == "blind flange" else "d")
+        sheet.line([a, b], "p")
+    elif kind == "reducer":
+        first, last = _widths(leg.component)
+        sheet.area([_off(a, across, -first), _off(b, across, -last), _off(b, across, last), _off(a, across, first)])
+    elif kind in _BOXES:
+        sheet.area([_off(a, across, -7), _off(b, across, -7), _off(b, across, 7), _off(a, across, 7)])
+    elif kind != "gasket":
+        sheet.line([a, b], "p")
+
+
+def _flow(sheet: Isometric, legs: Sequence[_Leg], spots: Sequence[Spot]) -> None:
+    """An arrow with the flow, on the first pipe."""
+    pipes = [(a, b) for leg, a, b in zip(legs, spots, spots[1:], strict=False) if leg.component.kind == "pipe"]
+    for a, b in pipes[:1]:
+        way = ((b[0] - a[0]) / math.dist(a, b), (b[1] - a[1]) / math.dist(a, b))
+        tip, side = _between(a, b, 0.5), (-way[1], way[0])
+        back = (tip[0] - way[0] * 12, tip[1] - way[1] * 12)
+        sheet.area([tip, _off(back, side, 5), _off(back, side, -5)], "w")
 
 
 def _valve(sheet: Isometric, a: Spot, b: Spot, across: Spot) -> None:

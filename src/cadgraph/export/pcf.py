@@ -87,10 +87,10 @@ def write_pcf(graph: SceneGraph, folder: str | Path) -> tuple[tuple[Path, ...], 
 
     Returns:
         The files in the order of the line list, and notes: ``no-centreline`` and ``no-component`` (a line that could
-        not be written), ``missing-joint``, ``measured-bore``, ``unknown-bore``, ``assumed-ends`` (what a symbol key
-        says that the graph doesn't know), ``unknown-symbol`` (written without a key), ``unknown-flat`` (of an eccentric
-        reducer), ``no-branch``, ``no-turn`` (a tee, an elbow that the graph shows otherwise; a ``MISC-COMPONENT``),
-        ``tap-not-written`` (a valve or other device that sits on a tap).
+        not be written), ``missing-joint``, ``no-part`` (a connection that the graph has no part of), ``measured-bore``,
+        ``unknown-bore``, ``assumed-ends`` (what a symbol key says that the graph doesn't know), ``unknown-symbol``
+        (written without a key), ``unknown-flat`` (of an eccentric reducer), ``no-branch`` and ``no-turn`` (a tee, an
+        elbow that the graph shows otherwise; a ``MISC-COMPONENT``), ``tap-not-written`` (a valve that sits on a tap).
 
     Raises:
         OutputError: a file can't be written.
@@ -205,7 +205,8 @@ def _tail(component: Component, bores: tuple[str, str], keyword: str, materials:
     what = _DESCRIPTIONS.get(component.kind) or component.what or component.kind
     materials[code] = f"{_field(what)} {size}"
     yield f"    ITEM-CODE {code}"
-    yield f"    COMPONENT-ATTRIBUTE1 {_field(' '.join(component.parts))}"
+    if component.parts:
+        yield f"    COMPONENT-ATTRIBUTE1 {_field(' '.join(component.parts))}"
 
 
 def _symbol(component: Component, notes: _Notes) -> tuple[str, str | None]:

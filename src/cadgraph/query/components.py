@@ -24,6 +24,7 @@ _TURN = 0.05  # rad; ours: what turns by less runs straight through
 _FAR, _CLOSE = 0.05, 0.005  # m; ours: over which a straight beside a bend is measured, if need be over less
 _LEG = 1e-3  # m; ours: what is less of a pipe beside a bend is none: a centreline found in triangles wavers as much
 _NEAR = 5e-3  # m; ours: a tap and what sits on it have one axis
+_PIPE = 0.05  # m; ours: a diameter where none is known, to tell bends from straights
 _LEAST = 1e-4  # m; ours: a shorter piece is none, a gasket is some millimetres
 _MOST_TURN = math.radians(100)  # ours: elbows turn by 90 degrees at most, and are built a little askew
 _OFFSET = 0.02  # ours: of the larger size; a concentric reducer's ends lie on one axis
@@ -138,7 +139,7 @@ class _Item:
     place: str | None  # id of the node, where it is a unit
     low: float  # stations of the arcs that it belongs to: its ends lie between
     high: float
-    ports: tuple[Point, ...] = ()
+    ports: tuple[Point | None, Point | None] = (None, None)  # of a unit: where the line enters and leaves it
     sizes: tuple[int | None, int | None] = (None, None)
     diameters: tuple[float | None, float | None] = (None, None)
 
@@ -220,6 +221,8 @@ class _Plant:
                     last.high = stations[i + 1]
                     continue
                 run.items.append(_Item((part,), None, stations[i], stations[i + 1]))
+            if not arc.via and stations[i + 1] - stations[i] > _LEAST and not self._touch(arc):
+                run.items.append(_Item((), None, stations[i], stations[i + 1]))
             if i + 1 == len(arcs):
                 break
             onward = arcs[i + 1]
@@ -229,13 +232,19 @@ class _Plant:
                 self._add_unit(run, arc.end, stations[i], stations[i + 2], (arc, onward))
         self._add_unit(run, run.line.end, run.centreline.length, run.centreline.length, (arcs[-1], None))
 
+    def _touch(self, arc: Arc) -> bool:
+        """Whether the units at both ends of a connection join each other, without a pipe between."""
+        nodes = [self.network.places[place] for place in (arc.start, arc.end)]
+        one, other = (_Item(node.parts, None, 0.0, 0.0) for node in nodes)
+        return bool(self._between(one, other))
+
     def _add_unit(self, run: _Run, place: str, low: float, high: float, arcs: tuple[Arc | None, Arc | None]) -> None:
         node = self.network.places[place]
         if not isinstance(node, Unit):
             return
         points = {port.name: port.point for port in node.ports}
-        named = (arcs[0].end_port if arcs[0] else None, arcs[1].start_port if arcs[1] else None)
-        run.items.append(_Item(node.parts, place, low, high, tuple(points[n] for n in named if n in points)))
+        enters, leaves = (arcs[0].end_port if arcs[0] else None, arcs[1].start_port if arcs[1] else None)
+        run.items.append(_Item(node.parts, place, low, high, (points.get(enters or ""), points.get(leaves or ""))))
 
     def _size(self, run: _Run) -> None:
         """The sizes at both ends of each item; they change at reducers, else where connections meet."""
@@ -269,9 +278,9 @@ class _Plant:
     def _joint_station(self, run: _Run, before: _Item, after: _Item, start: float) -> float | None:
         low, high = max(start, min(before.low, after.low)), max(before.high, after.high)
         found = [run.centreline.nearest(joint.point, low, high) for joint in self._between(before, after)]
-        for item in (before, after):
-            if not found:
-                found = [run.centreline.nearest(point, low, high) for point in item.ports]
+        for point in (before.ports[1], after.ports[0]):
+            if not found and point is not None:
+                found = [run.centreline.nearest(point, low, high)]
         return min((distance, station) for station, distance in found)[1] if found else None
 
     def _between(self, one: _Item, other: _Item) -> list[Joint]:
@@ -280,12 +289,16 @@ class _Plant:
 
     def _guess(self, run: _Run, before: _Item, after: _Item, start: float) -> float:
         """Halfway between the middles of two parts, where the graph has no joint of them."""
-        middles = [run.centreline.nearest(self._middle(item), start)[0] for item in (before, after)]
-        return sum(middles) / 2
+        return max(start, sum(self._middle(run, item) for item in (before, after)) / 2)
 
-    def _middle(self, item: _Item) -> Point:
-        node = self.graph.nodes[item.parts[0]]
-        return node.obb.center if isinstance(node, Part) else (0.0, 0.0, 0.0)
+    def _middle(self, run: _Run, item: _Item) -> float:
+        """Station of the middle of an item [m]."""
+        node = self.graph.nodes[item.place or item.parts[0]] if item.place or item.parts else None
+        if isinstance(node, Unit):
+            return run.centreline.nearest(node.centroid, item.low, item.high)[0]
+        if isinstance(node, Part):
+            return run.centreline.nearest(node.obb.center, item.low, item.high)[0]
+        return (item.low + item.high) / 2
 
     def _is_host(self, run: _Run, last: bool) -> bool:
         """Whether a line is set on what it begins at, as a branch on the side of a pipe."""
@@ -334,13 +347,14 @@ class _Plant:
         item = run.items[-1 if last else 0]
         if item.place is not None:
             return item.place == place and (not self.network.is_valve(place) or self._owner(place) is not run)
-        if not isinstance(self.network.places[place], Junction):
-            return False
         if run.hosted[last]:
             return True
-        if self._is_fitting(place):
-            return self._owner(place) is not run
-        return False
+        return self._stands_at(run, last) and self._is_fitting(place) and self._owner(place) is not run
+
+    def _stands_at(self, run: _Run, last: bool) -> bool:
+        """Whether the first or last item of a line is what the junction there is made of."""
+        node = self.network.places[run.line.end if last else run.line.start]
+        return isinstance(node, Junction) and bool(set(run.items[-1 if last else 0].parts) & set(node.parts))
 
     def _is_fitting(self, place: str) -> bool:
         """Whether the lines at a junction meet in a fitting, not on the side of a pipe."""
@@ -427,6 +441,9 @@ class _Plant:
         """Where the first item of a line that belongs to another one ends, with its size."""
         item, station = (run.items[-1], run.bounds[-2]) if last else (run.items[0], run.bounds[1])
         side = 0 if last else 1
+        if item.place is None and not run.hosted[last] and not self._stands_at(run, last):
+            # The graph has nothing of the junction: the lines meet in its point.
+            station, side = (run.centreline.length, 1) if last else (0.0, 0)
         return run.centreline.at(station), item.sizes[side], item.diameters[side]
 
     def _junction_of(self, run: _Run, i: int) -> str | None:
@@ -536,7 +553,7 @@ class _Plant:
             found.extend(self._piece(run, a, b, base) for a, b in zip(ends, ends[1:], strict=False))
             radii.extend(None for _ in ends[1:])
         found = list(_fitted(found, radii))
-        known = self._group(run.items[i]) == "Pipe assembly" or name is None
+        known = self._group(run.items[i]) in ("Pipe assembly", None)
         for piece in found:
             kind = piece.kind if known else "other"
             yield replace(piece, kind=kind, what=name, split=len(found) > 1)
@@ -602,8 +619,8 @@ class _Plant:
 
     def _outer(self, item: _Item) -> float:
         known = [diameter for diameter in item.diameters if diameter]
-        node = self.graph.nodes[item.parts[0]]
-        return known[0] if known else sorted(node.obb.extents)[0] if isinstance(node, Part) else 0.05
+        node = self.graph.nodes[item.parts[0]] if item.parts else None
+        return known[0] if known else sorted(node.obb.extents)[0] if isinstance(node, Part) else _PIPE
 
     def _meshes(self, items: Iterable[_Item]) -> list[str]:
         found = []
@@ -644,7 +661,7 @@ class _Plant:
             if host is None or not isinstance(node, Unit):
                 continue
             item = run.items[host]
-            for joint in self.joints.get(item.parts[0], ()):
+            for joint in self.joints.get(item.parts[0] if item.parts else "", ()):
                 if joint.kind != "tap" or joint.second != item.parts[0]:
                     continue
                 outlet = _Item((joint.first,), None, 0.0, 0.0)
@@ -676,10 +693,13 @@ class _Plant:
         tag = run.line.tag
         if not run.bounds:
             return (Diagnostic("no-centreline", f"{tag}: the graph has no centreline of it; nothing is written"),)
+        found = []
+        if any(not item.parts and item.place is None for item in run.items):
+            found.append(Diagnostic("no-part", f"{tag}: connections without a part between are taken for pipes"))
         if run.missing:
             message = f"{tag}: no joint between parts that follow each other; they are made to meet halfway"
-            return (Diagnostic("missing-joint", message, tuple(dict.fromkeys(run.missing))),)
-        return ()
+            found.append(Diagnostic("missing-joint", message, tuple(dict.fromkeys(run.missing))))
+        return tuple(found)
 
 
 def _first(component: Component) -> tuple[int | None, float | None]:
