@@ -32,7 +32,8 @@ MAY_IMPORT = {
     "draw.svg": {"_io"},
     "draw.schematic": {"_io", "draw.svg", "errors", "model", "query"},
     "draw.report": {"_io", "config", "draw.render", "draw.schematic", "draw.svg", "errors", "model", "query"},
-    "export": {"_io", "config", "draw.schematic", "errors", "model", "query"},
+    "draw.isometric": {"_io", "draw.svg", "errors", "model", "query"},
+    "export": {"_io", "config", "draw.isometric", "draw.schematic", "errors", "load", "model", "query"},
     "session": {
         *("_io", "config", "errors", "geometry", "labelers", "load", "model", "pipeline", "query", "stages"),
         *("draw.report", "export"),
