@@ -234,13 +234,20 @@ def test_a_shape_that_cannot_be_made_is_named(tmp_path):
     assert len(codes(scene)["unreadable"].meshes) == 1
 
 
-@pytest.mark.parametrize(("unit", "metres", "stated"), [("", 1.0, True), ("CENTI", 0.01, True), (None, 1.0, False)])
-def test_units(tmp_path, unit, metres, stated):
+@pytest.mark.parametrize(("unit", "metres"), [("", 1.0), ("CENTI", 0.01)])
+def test_units(tmp_path, unit, metres):
     plant = ifc_files.IfcPlant(unit=unit)
     plant.element("IfcPipeSegment", plant.body(plant.cylinder(1, 7)))
     scene = loaded(plant, tmp_path)
-    assert (scene.source.meters_per_unit, scene.source.unit_stated) == (metres, stated)
+    assert (scene.source.meters_per_unit, scene.source.unit_stated) == (metres, True)
     assert np.ptp(scene.vertices, axis=0).max() == pytest.approx(7 * metres)
+
+
+def test_a_file_without_a_unit_needs_one(tmp_path):
+    plant = ifc_files.IfcPlant(unit=None)
+    plant.element("IfcPipeSegment", plant.body(plant.cylinder(1, 7)))
+    with pytest.raises(LoadError, match="names no unit of length"):
+        loaded(plant, tmp_path)
 
 
 def test_two_elements_of_one_global_id_are_told_by_their_lines(tmp_path):

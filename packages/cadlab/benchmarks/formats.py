@@ -1,8 +1,8 @@
 """One plant through every format: ``python packages/cadlab/benchmarks/formats.py [--presets station] [--write]``.
 
 A generated plant is written as each system would export it, read, and its graph compared with the truth: by geometry
-alone, and with what the file says of its parts (``--use-metadata``), of which in RVM and IFC a tenth is wrong and a tenth
-missing. Names in the other formats say nothing. ``--write`` puts the table into ``docs/formats.md``.
+alone, and with what the file says of its parts (``--use-metadata``), of which in RVM and IFC a tenth is wrong and a
+tenth missing. Names in the other formats say nothing. ``--write`` puts the table into ``docs/formats.md``.
 """
 
 from __future__ import annotations
@@ -14,6 +14,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from _timing import machine
+from cadplants.matching import truth_for
+from cadplants.writers import write_plant
+from cadplants.writers.metadata import Metadata
+from cadplants.writers.plant_file import FileStyle
 
 from cadgraph.config import Config
 from cadgraph.load import load
@@ -22,10 +26,6 @@ from cadgraph.pipeline import build
 from cadlab.evaluate.evaluation import StructureScores, evaluate
 from cadlab.markdown import put, table
 from cadplants import make
-from cadplants.matching import truth_for
-from cadplants.writers import write_plant
-from cadplants.writers.metadata import Metadata
-from cadplants.writers.plant_file import FileStyle
 
 PAGE = Path(__file__).parents[3] / "docs" / "formats.md"
 SPOILT = FileStyle(metadata=Metadata(wrong_classes=0.1, missing_names=0.1))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import importlib.util
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -87,8 +86,9 @@ def _write_ifc(graph: SceneGraph, source: Path, path: Path) -> Written:
     if importlib.util.find_spec("ifcopenshell") is None:
         raise MissingExtra("writing IFC files", "ifc")
     refuse_source(source, path)
-    module = importlib.import_module("cadgraph.export.ifc")
-    return Written((module.write_ifc(graph, source, path),))
+    from cadgraph.export.ifc import write_ifc
+
+    return Written((write_ifc(graph, source, path),))
 
 
 def _write_pcf(graph: SceneGraph, path: Path) -> Written:
