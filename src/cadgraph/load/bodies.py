@@ -11,7 +11,7 @@ from cadgraph.model.scene import Faces, Ints
 __all__ = ["split_bodies"]
 
 
-def split_bodies(points: npt.NDArray[np.float32], faces: Faces) -> list[Ints]:
+def split_bodies(points: npt.NDArray[np.floating], faces: Faces) -> list[Ints]:
     """The triangles of each solid.
 
     Two solids of one product are told apart where each is closed and faces outward. Where solids touch along an edge,
