@@ -9,7 +9,7 @@ from cadgraph.geometry.mesh.merge import weld_points
 from cadgraph.load.packing import Notes
 from cadgraph.model.scene import Faces, Floats, Ints
 
-__all__ = ["MAX_TRIANGLES", "clean_triangles", "main_color"]
+__all__ = ["MAX_TRIANGLES", "clean_triangles", "linear", "main_color"]
 
 MAX_TRIANGLES = 200_000_000
 """So many are placed at most, from whatever few bytes: about 20 GB. Ours; large plants have a tenth of that."""
@@ -84,3 +84,9 @@ def main_color(points: npt.NDArray[np.floating], faces: Faces, palette: Floats, 
         areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
         main: Floats = different[np.argmax(np.bincount(of_face[colored], areas, len(different)))]
     return main
+
+
+def linear(color: Floats) -> Floats:
+    """Linear RGB of colours as screens take them (IEC 61966-2-1, sRGB), in 0..1."""
+    found: Floats = np.where(color <= 0.04045, color / 12.92, ((np.maximum(color, 0) + 0.055) / 1.055) ** 2.4)
+    return found
