@@ -177,7 +177,11 @@ class _Reading:
                 self.notes.add("empty-mesh", "left out: it has no triangle", path)
                 continue
             self._triangles += len(shape.faces)
-            own = path if path in taken else unique_name(f"{path}/{path_step(geometry.name or geometry.id, 'part')}", taken)
+            own = (
+                path
+                if path in taken
+                else unique_name(f"{path}/{path_step(geometry.name or geometry.id, 'part')}", taken)
+            )
             taken.discard(path)
             materials = {entry.symbol: entry.target for entry in child.materials}
             used = [materials.get(symbol) for symbol in shape.symbols]
