@@ -179,8 +179,7 @@ def _draco(gltf: Gltf, extension: Mapping[str, Any]) -> tuple[npt.NDArray[np.flo
     try:
         mesh = DracoPy.decode(data)
         points, faces = np.asarray(mesh.points, np.float64), np.asarray(mesh.faces, np.int64)
-    # The library tells of damage in errors of its own, which derive from these.
-    except (*BROKEN, RuntimeError, MemoryError, OSError) as error:
+    except (*BROKEN, DracoPy.FileTypeException, RuntimeError, MemoryError) as error:
         raise ValueError(f"Draco: {error or type(error).__name__}") from None
     return points.reshape(-1, 3), faces.reshape(-1, 3)
 
