@@ -124,7 +124,7 @@ def test_lines_and_broken_parts_are_told(tmp_path):
     scene = loaded(tmp_path, document(triangles() + lines))
     assert codes(scene) == ["no-surface"]
     broken = triangles().replace("#v", "#gone")
-    with pytest.raises(LoadError, match="holds no triangle .*something that can't be read"):
+    with pytest.raises(LoadError, match=r"holds no triangle .*something that can't be read"):
         loaded(tmp_path, document(broken))
 
 
@@ -142,7 +142,7 @@ def test_nodes_that_multiply_are_refused(tmp_path, monkeypatch):
     nodes = '<node id="n0" name="n">{}</node>' + "".join(
         f'<node id="n{i}">' + f'<instance_node url="#n{i - 1}"/>' * 10 + "</node>" for i in range(1, 6)
     )
-    with pytest.raises(LoadError, match="more than 1,000 nodes .*split the scene"):
+    with pytest.raises(LoadError, match=r"more than 1,000 nodes .*split the scene"):
         loaded(tmp_path, document(triangles(), nodes))
 
 

@@ -61,7 +61,7 @@ def test_pictures_are_not_opened_and_nothing_is_printed(tmp_path, capfd):
 
 
 @pytest.mark.parametrize(("change", "reason"), [
-    (("ply", "plx"), "no PLY file"), (("element vertex 8", "element vertex 9999"), "not readable as PLY|used"),
+    (("ply", "plx"), "no PLY file"), (("element vertex 8", "element vertex 9999"), "none of its 12 faces"),
     (("format ascii", "format binary_little_endian"), "not readable as PLY"), (("end_header", "end"), "not readable"),
     (("0.5", "oops"), "not readable as PLY"),
 ])  # fmt: skip
@@ -69,6 +69,11 @@ def test_damaged_files_end_in_one_line(tmp_path, change, reason):
     with pytest.raises(LoadError, match=reason) as caught:
         loaded(tmp_path, text().replace(*change, 1))
     assert "\n" not in str(caught.value)
+
+
+def test_a_cut_text_is_told(tmp_path):
+    scene = loaded(tmp_path, text().rsplit("\n", 3)[0])
+    assert (scene.n_triangles, [note.code for note in scene.diagnostics]) == (10, ["cut-short"])
 
 
 def test_wrong_numbers_cost_their_faces(tmp_path):

@@ -1,11 +1,12 @@
 """PLY to a scene, through ``trimesh``: one mesh. Neither unit nor up axis belongs to the format.
 
-Notes in ``Scene.diagnostics``: ``invalid-indices``, ``invalid-points``, and those of ``pack``.
+Notes in ``Scene.diagnostics``: ``invalid-indices``, ``invalid-points``, ``cut-short``, and those of ``pack``.
 """
 
 from __future__ import annotations
 
 import logging
+import re
 import struct
 import warnings
 from collections.abc import Iterator
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 
 __all__ = ["read"]
 
+_HEADER = 1 << 16  # bytes in which a header says how many faces there are; ours
 # What the library ends in on damaged files; it has no errors of its own.
 _DAMAGE = (
     *(ArithmeticError, AssertionError, AttributeError, EOFError, LookupError, MemoryError, OSError, RuntimeError),
@@ -50,16 +52,28 @@ def read(path: Path, config: LoadConfig) -> Scene:
     notes = Notes()
     mesh = _loaded(path)
     faces = np.asarray(getattr(mesh, "faces", np.zeros((0, 3))))
+    promised = _promised_faces(path)
+    if promised and not len(faces):
+        raise LoadError(f"{path}: none of its {promised:,} faces is there; copy or export it again")
     if not len(faces):
         raise LoadError(f"{path}: a point cloud, without any face; model its surfaces first")
     at = f"/{path_step(path.stem, 'part')}"
     points, faces, _ = clean_triangles(np.asarray(mesh.vertices, np.float64), faces, at, notes)
+    if len(mesh.faces) < promised:
+        message = f"{len(mesh.faces):,} of {promised:,} faces are there: the file is likely cut short"
+        notes.add("cut-short", message + "; compare it with its source")
     pieces = [Piece(at, points, faces, np.eye(4), _color(mesh))] if len(faces) else []
     source = Source(meters_per_unit=1.0, up_axis="Z", format="ply", unit_stated=False, up_stated=False)
     scene = pack(pieces, source, np.eye(4), notes)
     if not scene.n_meshes:
         raise LoadError(f"{path}: none of its faces can be used; export it again")
     return scene
+
+
+def _promised_faces(path: Path) -> int:
+    with path.open("rb") as file:
+        found = re.search(rb"^element face (\d{1,12})\s*$", file.read(_HEADER), re.MULTILINE)
+    return int(found[1]) if found else 0
 
 
 def _loaded(path: Path) -> Any:
