@@ -14,6 +14,7 @@ import shapes
 from cadgraph.config import LoadConfig
 from cadgraph.errors import LoadError, MissingExtra
 from cadgraph.load import load
+from cadgraph.load.packing import Z_UP_FROM
 from cadgraph.model.facts import Fact
 from load.gltf_files import GltfFile
 
@@ -419,6 +420,64 @@ def test_real_files_have_the_boxes_that_trimesh_finds(name, n):
     assert scene.n_meshes == n
     np.testing.assert_allclose(scene.vertices.min(axis=0), [x0, -z1, y0], rtol=1e-6, atol=1e-6)
     np.testing.assert_allclose(scene.vertices.max(axis=0), [x1, -z0, y1], rtol=1e-6, atol=1e-6)
+
+
+def twin(scene, how):
+    """The meshes of a scene anew, a node each, or one node with all its instances for those of one shape."""
+    file = GltfFile()
+    alike = {}
+    for i, path in enumerate(scene.paths):
+        points, faces = scene.mesh(i)
+        # Back to Y up, about the first point, so that instances are the same to the micrometre.
+        points = points @ Z_UP_FROM["Y"].T
+        start = points[0].copy()
+        key = (np.round(points - start, 5).tobytes(), faces.tobytes()) if how == "instanced" else i
+        alike.setdefault(key, (path, points - start, faces, []))[3].append(start)
+    for path, points, faces, starts in alike.values():
+        mesh = file.add("meshes", primitives=[{"indices": file.accessor(np.ravel(faces), "u4")}])
+        primitive = file.tree["meshes"][mesh]["primitives"][0]
+        scale = 1.0
+        if how == "quantized":
+            scale = float(np.abs(points).max())
+            primitive["attributes"] = {
+                "POSITION": file.accessor(np.rint(points / scale * 32767), "i2", normalized=True)
+            }
+        else:
+            primitive["attributes"] = {"POSITION": file.accessor(points)}
+        if how == "draco":
+            import DracoPy
+
+            packed = DracoPy.encode(points.astype(np.float32), faces.astype(np.uint32), quantization_bits=20)
+            extension = {"bufferView": file.view(packed), "attributes": {"POSITION": 0}}
+            primitive["extensions"] = {"KHR_draco_mesh_compression": extension}
+        if how == "instanced":
+            attributes = {"TRANSLATION": file.accessor(starts)}
+            extensions = {"EXT_mesh_gpu_instancing": {"attributes": attributes}}
+            file.node(name=path, mesh=mesh, extensions=extensions)
+        else:
+            file.node(name=path, mesh=mesh, translation=starts[0].tolist(), scale=[scale] * 3)
+    return file
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not DATA.is_dir(), reason="no real files here")
+@pytest.mark.parametrize("how", ["plain", "quantized", "draco", "instanced"])
+def test_twins_of_a_real_file_have_the_same_boxes(tmp_path, how):
+    if how == "draco":
+        pytest.importorskip("DracoPy")
+    scene = load(DATA / "engine.glb", IN_PROCESS)
+    file = twin(scene, how)
+    assert (len(file.tree["nodes"]) < 67) == (how == "instanced")
+    other = load(file.gltf(tmp_path / "a.gltf"), IN_PROCESS)
+    assert other.n_meshes == scene.n_meshes == 67
+
+    def boxes(of):
+        found = [np.concatenate([p.min(axis=0), p.max(axis=0)]) for p, _ in (of.mesh(i) for i in range(of.n_meshes))]
+        # Sorted, as instances have other names; rounded, so that noise does not change the order.
+        return np.array(sorted(found, key=lambda box: np.round(box, 1).tolist()))
+
+    size = np.ptp(scene.vertices, axis=0).max()
+    np.testing.assert_allclose(boxes(other), boxes(scene), atol=size * 2e-5)
 
 
 def test_the_json_of_a_written_file_is_what_it_says(tmp_path):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import stat
 import zipfile
 from pathlib import Path
@@ -117,11 +118,11 @@ def _obj_damage(path: Path) -> str | None:
 
 
 def _collada_damage(path: Path) -> str | None:
-    if b"<COLLADA" not in _head(path, 4096):
+    if not re.search(rb"<(\w+:)?COLLADA[\s>]", _head(path, 4096)):
         return "no COLLADA file (<COLLADA is missing at its start); export it again"
     with path.open("rb") as file:
         file.seek(max(0, path.stat().st_size - 512))
-        if b"COLLADA>" not in file.read():
+        if not re.search(rb"</(\w+:)?COLLADA\s*>", file.read()):
             return "the file is cut short (</COLLADA> is missing at its end); copy or export it again"
     return None
 
