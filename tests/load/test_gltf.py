@@ -186,6 +186,25 @@ def test_meshes_that_share_all_points_keep_their_own(tmp_path):
     assert [np.ptp(scene.mesh(i)[0], axis=0).tolist() for i in range(2)] == [SIZES, SIZES]
 
 
+def test_primitives_that_share_all_points_take_them_once(tmp_path):
+    file = GltfFile()
+    points = file.accessor(np.concatenate([BOX[0], BOX[0] + 100]))
+    primitives = [
+        {"attributes": {"POSITION": points}, "indices": file.accessor(np.ravel(BOX[1]) + 8 * i, "u4")} for i in (0, 1)
+    ]
+    file.node(name="boxes", mesh=file.add("meshes", primitives=primitives))
+    scene = loaded(file.glb(tmp_path / "a.glb"))
+    assert (len(scene.vertices), scene.n_triangles, volume(scene)) == (16, 24, pytest.approx(12, rel=1e-4))
+
+
+def test_primitives_without_bound_are_left_out(tmp_path, monkeypatch):
+    monkeypatch.setattr(importlib.import_module("cadgraph.load.gltf_mesh"), "MAX_TRIANGLES", 100)
+    file = plain()
+    file.node(name="many", mesh=file.add("meshes", primitives=file.tree["meshes"][0]["primitives"] * 9))
+    scene = loaded(file.glb(tmp_path / "a.glb"))
+    assert (scene.paths, codes(scene)) == (("/box",), ["broken-mesh", "empty-mesh"])
+
+
 def test_gpu_instances_are_meshes_of_their_own(tmp_path):
     file = plain(name="bolt", translation=[0, 0, 100])
     attributes = {

@@ -15,7 +15,7 @@ import numpy.typing as npt
 from cadgraph.errors import MissingExtra
 from cadgraph.load.gltf_file import BROKEN, Gltf
 from cadgraph.load.packing import Notes
-from cadgraph.load.triangles import clean_triangles
+from cadgraph.load.triangles import MAX_TRIANGLES, clean_triangles
 from cadgraph.model.scene import Faces, Floats, Ints
 
 __all__ = ["GltfMesh", "read_mesh", "values_of"]
@@ -54,6 +54,7 @@ class _Primitive:
     corners: npt.NDArray[np.integer]
     color: Floats
     grid: float
+    source: int  # the number of its points' accessor; a negative one of its own where they come from elsewhere
 
 
 def read_mesh(gltf: Gltf, number: int, path: str, notes: Notes) -> GltfMesh:
@@ -74,6 +75,7 @@ def read_mesh(gltf: Gltf, number: int, path: str, notes: Notes) -> GltfMesh:
     primitives = mesh.get("primitives", [])
     found: list[_Primitive] = []
     materials: dict[str, None] = {}
+    total = 0
     for row in primitives if isinstance(primitives, list) else []:
         try:
             primitive = _primitive(gltf, row, path, notes)
@@ -82,6 +84,9 @@ def read_mesh(gltf: Gltf, number: int, path: str, notes: Notes) -> GltfMesh:
             continue
         if primitive is not None:
             found.append(primitive)
+            total += len(primitive.corners)
+            if total > MAX_TRIANGLES:
+                break  # told when they are joined
             name = _material(gltf, row).get("name")
             if isinstance(name, str) and name.strip():
                 materials[name] = None
@@ -92,17 +97,23 @@ def _joined(found: list[_Primitive], materials: tuple[str, ...], path: str, note
     if not found:
         return GltfMesh(np.zeros((0, 3), np.float32), np.zeros((0, 3), np.int32), np.zeros((0, 3)), np.zeros(0, int))
     colors = np.repeat(np.arange(len(found)), [len(primitive.corners) for primitive in found])
-    shared = all(primitive.points is found[0].points for primitive in found)
-    shifts = np.cumsum([0, *(0 if shared else len(primitive.points) for primitive in found[:-1])])
+    # Primitives often share their points: those are taken once.
+    distinct = {primitive.source: primitive.points for primitive in found}
+    starts = np.cumsum([0, *(len(points) for points in distinct.values())]).tolist()
+    shift = dict(zip(distinct, starts[:-1], strict=True))
+    if starts[-1] > 3 * MAX_TRIANGLES or len(colors) > MAX_TRIANGLES:
+        notes.add("broken-mesh", f"left out: it would have more than {MAX_TRIANGLES:,} triangles", path)
+        return _joined([], (), path, notes)
     corners = np.concatenate(
         [
             # Beyond its own points a corner must not reach those of the next primitive.
-            np.where((own := primitive.corners.astype(np.int64)) < len(primitive.points), own + shift, -1)
-            for primitive, shift in zip(found, shifts.tolist(), strict=True)
+            np.where(
+                (own := primitive.corners.astype(np.int64)) < len(primitive.points), own + shift[primitive.source], -1
+            )
+            for primitive in found
         ]
     )
-    points = found[0].points if shared else np.concatenate([primitive.points for primitive in found])
-    points, faces, kept = clean_triangles(points, corners, path, notes)
+    points, faces, kept = clean_triangles(np.concatenate([*distinct.values()]), corners, path, notes)
     palette = np.array([primitive.color for primitive in found])
     return GltfMesh(points, faces, palette, colors[kept], materials, max(primitive.grid for primitive in found))
 
@@ -120,7 +131,7 @@ def _primitive(gltf: Gltf, row: Mapping[str, Any], path: str, notes: Notes) -> _
     color = _color(gltf, row)
     if _DRACO in extensions:
         points, corners = _draco(gltf, extensions[_DRACO])
-        return _Primitive(points, corners, color, 0.0)
+        return _Primitive(points, corners, color, 0.0, -1 - id(points))
     stored = gltf.accessor(attributes["POSITION"])
     if stored.shape[1] != 3:
         raise ValueError("its points don't have three coordinates")
@@ -136,7 +147,7 @@ def _primitive(gltf: Gltf, row: Mapping[str, Any], path: str, notes: Notes) -> _
     if "COLOR_0" in attributes:
         color = color * _mean_color(gltf, attributes["COLOR_0"])
     points = stored if not grid else _floating(stored, normalized)
-    return _Primitive(points, _triangles(indices, mode), color, grid)
+    return _Primitive(points, _triangles(indices, mode), color, grid, attributes["POSITION"])
 
 
 def _triangles(indices: npt.NDArray[np.integer], mode: int) -> npt.NDArray[np.integer]:
