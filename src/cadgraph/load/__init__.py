@@ -54,9 +54,9 @@ _FORMATS = (
     Format("gltf", "glTF", (".glb", ".gltf"), "cadgraph.load.gltf"),
     Format("obj", "OBJ", (".obj",), "cadgraph.load.obj"),
     Format("stl", "STL", (".stl",), "cadgraph.load.stl"),
-    Format("ply", "PLY", (".ply",), "cadgraph.load.mesh", "trimesh", "mesh"),
-    Format("3mf", "3MF", (".3mf",), "cadgraph.load.mesh", "trimesh", "mesh"),
-    Format("collada", "COLLADA", (".dae",), "cadgraph.load.mesh", "trimesh", "mesh"),
+    Format("ply", "PLY", (".ply",), "cadgraph.load.ply", "trimesh", "mesh"),
+    Format("3mf", "3MF", (".3mf",), "cadgraph.load.threemf"),
+    Format("collada", "COLLADA", (".dae",), "cadgraph.load.collada", "collada", "mesh"),
 )
 
 _INSTEAD = {
