@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from cadgraph.load.rvm.placing import Meshes
     from cadgraph.load.rvm.primitives import Primitives
     from cadgraph.load.rvm.tree import Names, Tree
+    from cadgraph.model.facts import Fact, StatedLink
     from cadgraph.model.scene import Ints, Scene
 
 __all__ = ["read"]
@@ -79,7 +80,8 @@ def read(path: Path, config: LoadConfig) -> Scene:
     paths = _paths(meshes, primitives, chunks, tree, taken)
     node = primitives.node[meshes.first]
     material = np.where(node >= 0, tree.material[node], 0) if len(tree.material) else np.zeros(len(node), np.int64)
-    facts, links = [], ()
+    facts: list[Fact] = []
+    links: tuple[StatedLink, ...] = ()
     if config.metadata == "keep":
         beside = find_attributes(path)
         told = read_attributes(beside, notes) if beside else {}
@@ -129,9 +131,7 @@ def _paths(meshes: Meshes, primitives: Primitives, chunks: Chunks, tree: Tree, t
     place = _places(chunks)
     paths = []
     numbers = place[primitives.chunk[meshes.first]].tolist()
-    for whole, node, number in zip(
-        meshes.whole.tolist(), primitives.node[meshes.first].tolist(), numbers, strict=True
-    ):
+    for whole, node, number in zip(meshes.whole.tolist(), primitives.node[meshes.first].tolist(), numbers, strict=True):
         above = tree.paths[node] if node >= 0 else ""
         paths.append(above if whole else taken.take(f"{above}/primitive_{number}"))
     return paths

@@ -19,9 +19,9 @@ __all__ = ["Attributes", "find_attributes", "read_attributes"]
 Attributes = dict[str, dict[str, str]]
 
 _KEPT = frozenset(
-    "NAME TYPE REF REFNO SPREF DESC DESCRIPTION DTXR BORE HBOR HBORE ABOR ABORE LBOR LBORE HREF TREF CREF GTYP GTYPE "
-    "STYP STYPE FUNC FUNCTION".split()
-)
+    ("NAME", "TYPE", "REF", "REFNO", "SPREF", "DESC", "DESCRIPTION", "DTXR", "BORE", "HBOR", "HBORE", "ABOR", "ABORE",
+     "LBOR", "LBORE", "HREF", "TREF", "CREF", "GTYP", "GTYPE", "STYP", "STYPE", "FUNC", "FUNCTION")
+)  # fmt: skip
 _UNSET = frozenset(("", "unset", "=0/0", "nulref", "none"))
 _TOKENS = {"start": "NEW", "end": "END", "name_end": ":=", "sep": "&end&"}
 _MOST_LINE = 100_000  # characters; ours: real ones have some hundreds

@@ -32,8 +32,9 @@ class _Polygon(NamedTuple):
 def triangles_of(words: Words) -> tuple[Floats, Faces]:
     """The triangles of one group.
 
-    Polygons are cut in their own plane, turned so that they agree with the normals, and joined where their corners
-    coincide.
+    Polygons are cut in their own plane and joined where their corners coincide. Where these then close a solid, they
+    are right as they are wound, but for turning it inside out; else each is turned so that it agrees with its normals,
+    which real files also hold the wrong way round.
 
     Args:
         words: of the group, from the number of its polygons on.
@@ -52,10 +53,12 @@ def triangles_of(words: Words) -> tuple[Floats, Faces]:
     if not (np.abs(points) < _BEYOND).all():
         raise ValueError("a point is not finite")
     first, place = weld_points(points, _WELD)
-    faces = _cut(points, np.where(np.isfinite(normals), normals, 0), polygons)
-    faces = place[faces]
-    a, b, c = faces.T
-    faces = faces[(a != b) & (b != c) & (c != a)]
+    cut, owner = _cut(points, polygons)
+    faces = _whole(place[cut])
+    if _is_closed(faces, len(first)):
+        faces = faces[:, ::-1] if _volume(points[first], faces) < 0 else faces
+    else:
+        faces = _whole(place[_agreeing(points, np.where(np.isfinite(normals), normals, 0), cut, owner)])
     used, renumbered = np.unique(faces, return_inverse=True)
     return points[first[used]], renumbered.reshape(-1, 3).astype(np.int32)
 
@@ -90,29 +93,45 @@ def _polygons(words: Words) -> tuple[list[_Polygon], Ints]:
     return polygons, np.concatenate(corners).astype(np.int64) if corners else np.zeros(0, np.int64)
 
 
-def _cut(points: Floats, normals: Floats, polygons: list[_Polygon]) -> Ints:
-    """Triangles of all polygons, ``(m, 3)`` corner numbers."""
-    simple = [p for p in polygons if len(p.ends) == 1 and 3 <= p.ends[0] <= _FAN_CORNERS]
-    counts = np.array([p.ends[0] for p in simple], np.int64)
+def _cut(points: Floats, polygons: list[_Polygon]) -> tuple[Ints, Ints]:
+    """Triangles of all polygons, ``(m, 3)`` corner numbers wound as in the file, and the polygon of each."""
+    sizes = np.array([polygon.ends[0] if len(polygon.ends) == 1 else 0 for polygon in polygons], np.int64)
+    simple = np.flatnonzero((sizes >= 3) & (sizes <= _FAN_CORNERS))
+    counts = sizes[simple]
     starts = np.cumsum(counts) - counts
-    corners = np.concatenate([p.first + np.arange(p.ends[0]) for p in simple]) if simple else np.zeros(0, np.int64)
-    made = triangulate(points, counts, starts, corners, np.arange(len(simple)))
-    ears = [made.corners.astype(np.int64).reshape(-1, 3)]
-    ears += [_ears(points, p) for p in polygons if len(p.ends) > 1 or (p.ends and p.ends[0] > _FAN_CORNERS)]
-    owners = [p.first for p in simple]
-    owner = np.array(owners, np.int64)[made.polygon] if simple else np.zeros(0, np.int64)
-    rest = [p.first for p in polygons if len(p.ends) > 1 or (p.ends and p.ends[0] > _FAN_CORNERS)]
-    owner = np.concatenate([owner, *(np.full(len(e), at) for e, at in zip(ears[1:], rest, strict=True))])
-    faces = np.concatenate(ears)
-    return _agreeing(points, normals, faces, owner)
+    firsts = np.array([polygon.first for polygon in polygons], np.int64)
+    corners = np.repeat(firsts[simple] - starts, counts) + np.arange(int(counts.sum()))
+    made = triangulate(points, counts, starts, corners, simple)
+    triangles, owner = [made.corners.astype(np.int64).reshape(-1, 3)], [made.polygon]
+    for number, polygon in enumerate(polygons):
+        if len(polygon.ends) > 1 or (polygon.ends and polygon.ends[0] > _FAN_CORNERS):
+            triangles.append(_ears(points, polygon))
+            owner.append(np.full(len(triangles[-1]), number))
+    return np.concatenate(triangles), np.concatenate(owner).astype(np.int64)
+
+
+def _whole(faces: Ints) -> Ints:
+    """The triangles with three different corners."""
+    a, b, c = faces.T
+    return faces[(a != b) & (b != c) & (c != a)]
+
+
+def _is_closed(faces: Ints, n_points: int) -> bool:
+    """Whether every edge is used as often one way as the other."""
+    start, end = faces[:, [0, 1, 2]].reshape(-1), faces[:, [1, 2, 0]].reshape(-1)
+    return bool(np.array_equal(np.sort(start * n_points + end), np.sort(end * n_points + start)))
+
+
+def _volume(points: Floats, faces: Ints) -> float:
+    a, b, c = (points[faces[:, i]] - points[0] for i in range(3))
+    return float(np.einsum("ij,ij->", np.cross(a, b), c)) / 6
 
 
 def _agreeing(points: Floats, normals: Floats, faces: Ints, owner: Ints) -> Ints:
     """The triangles, those of a polygon turned over together where it looks against its normals."""
     a, b, c = (points[faces[:, i]] for i in range(3))
     against = np.einsum("ij,ij->i", np.cross(b - a, c - a), normals[faces].sum(axis=1))
-    _, which = np.unique(owner, return_inverse=True)
-    turned = np.bincount(which.reshape(-1), against)[which.reshape(-1)] < 0 if len(faces) else np.zeros(0, bool)
+    turned = np.bincount(owner, against)[owner] < 0 if len(faces) else np.zeros(0, bool)
     out: Ints = np.where(turned[:, None], faces[:, ::-1], faces)
     return out
 

@@ -13,7 +13,7 @@ from cadgraph.load.packing import Notes
 from cadgraph.load.rvm.chunks import Words
 from cadgraph.load.rvm.facets import triangles_of
 from cadgraph.load.rvm.primitives import FACETS, Primitives
-from cadgraph.load.rvm.shapes import Fineness, coarser, cut, lay_out, layouts
+from cadgraph.load.rvm.shapes import Fineness, Layout, coarser, cut, lay_out, layouts
 from cadgraph.model.scene import Faces, Floats, Ints
 
 __all__ = ["Meshes", "Shape", "cut_shapes", "place"]
@@ -154,9 +154,7 @@ def place(primitives: Primitives, shapes: list[Shape | None], shape: Ints, joine
     return Meshes(final, own_shape.reshape(-1), matrix, first, joined[first])
 
 
-def _relative(
-    primitives: Primitives, shape: Ints, kept: Ints, starts: Ints, ends: Ints
-) -> tuple[Ints, Floats, Floats]:
+def _relative(primitives: Primitives, shape: Ints, kept: Ints, starts: Ints, ends: Ints) -> tuple[Ints, Floats, Floats]:
     """Shape and rounded placement of primitives, seen from the first one of each group; and both unrounded."""
     counts = ends - starts
     inside = np.repeat(starts - (np.cumsum(counts) - counts), counts) + np.arange(int(counts.sum()))
@@ -190,7 +188,7 @@ def _facet_shape(words: Words, primitives: Primitives, one: int) -> Shape | None
 
 def _plan(
     primitives: Primitives, first: Ints, users: Ints, fineness: Fineness, room: int, notes: Notes
-) -> list[tuple[object, Ints]]:
+) -> list[tuple[Layout, Ints]]:
     """The layouts of all shapes, as fine as there is room for."""
     scale = np.linalg.norm(primitives.stretches, 2, axis=(1, 2))[primitives.stretch[first]]
     sizes = primitives.sizes[first].astype(np.float64)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -77,7 +77,7 @@ def read_primitives(
         insulation: also read insulation and obstruction volumes.
         skew: so far a placement may be from a rotation and still count as one that is written coarsely.
     """
-    at, tilt = chunks.of("PRIM"), np.zeros(0, np.int64)
+    at, no_ints = chunks.of("PRIM"), np.zeros(0, np.int64)
     extra = np.concatenate([chunks.of("OBST"), chunks.of("INSU")])
     if len(extra) and insulation:
         at = np.concatenate([at, extra])
@@ -92,18 +92,19 @@ def read_primitives(
         _block(words, chunks, at[i : i + _BLOCK], tilt[i : i + _BLOCK], name_of, notes)
         for i in range(0, len(at), _BLOCK)
     ]
-    kept, kind, sizes, matrix = (_joined([part[i] for part in parts], shape) for i, shape in enumerate(_SHAPES))
-    kept, kind = kept.astype(np.int64), kind.astype(np.int64)
+    kept, kinds = (np.concatenate([no_ints, *(part[i] for part in parts)]) for i in (0, 1))
+    sizes = np.concatenate([np.zeros((0, 9), np.float32), *(part[2] for part in parts)])
+    matrix = np.concatenate([np.zeros((0, 12), np.float32), *(part[3] for part in parts)])
     turn, stretch, stretches, good = _rigid(matrix[:, :9].reshape(-1, 3, 3), skew)
     for chunk in kept[~good].tolist():
         notes.add(_BROKEN, "left out: its placement makes nothing of it", name_of(int(chunks.node[chunk])))
-    kept, kind, sizes, stretch = kept[good], kind[good], sizes[good], stretch[good]
-    content, groups = _contents(words, chunks, kept, kind, np.isin(kept, extra))
+    kept, kinds, sizes, stretch = kept[good], kinds[good], sizes[good], stretch[good]
+    content, groups = _contents(words, chunks, kept, kinds, np.isin(kept, extra))
     return Primitives(
         chunk=kept,
         node=chunks.node[kept],
-        kind=kind,
-        sizes=sizes.astype(np.float32),
+        kind=kinds,
+        sizes=sizes,
         turn=turn[good],
         shift=matrix[good, 9:].astype(np.float64),
         stretch=stretch,
@@ -111,14 +112,6 @@ def read_primitives(
         content=content,
         groups=groups,
     )
-
-
-_SHAPES = ((0,), (0,), (0, 9), (0, 12))
-
-
-def _joined(parts: Sequence[npt.NDArray[np.generic]], shape: tuple[int, ...]) -> npt.NDArray[np.float32]:
-    joined: npt.NDArray[np.float32] = np.concatenate(parts) if parts else np.zeros(shape, np.float32)
-    return joined
 
 
 def _block(
@@ -162,7 +155,8 @@ def _block(
 
 
 def _numbers(words: Words, start: Ints, n: int) -> npt.NDArray[np.float32]:
-    return words[start[:, None] + np.arange(n)].view(">f4").astype(np.float32)
+    numbers: npt.NDArray[np.float32] = words[start[:, None] + np.arange(n)].view(">f4").astype(np.float32)
+    return numbers
 
 
 def _is_turn(matrix: npt.NDArray[np.float32]) -> npt.NDArray[np.bool_]:
@@ -203,9 +197,7 @@ def _rigid(rows: npt.NDArray[np.float32], skew: float) -> tuple[Floats, Ints, Fl
     return turn, stretch, stretches, good
 
 
-def _contents(
-    words: Words, chunks: Chunks, at: Ints, kind: Ints, volume: npt.NDArray[np.bool_]
-) -> tuple[Ints, Ints]:
+def _contents(words: Words, chunks: Chunks, at: Ints, kind: Ints, volume: npt.NDArray[np.bool_]) -> tuple[Ints, Ints]:
     """A number for each different content of facet groups, and where the first with it stands."""
     content = np.full(len(at), -1, np.int64)
     groups: list[tuple[int, int]] = []

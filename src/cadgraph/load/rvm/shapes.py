@@ -93,8 +93,8 @@ def cut(layout: Layout, sizes: Floats) -> tuple[Floats, Faces]:
     points, faces = _CUTS[layout.kind](layout, sizes)
     used, renumbered = np.unique(faces, return_inverse=True)
     if len(used) < points.shape[1]:
-        points, faces = points[:, used], renumbered.reshape(-1, 3)
-    return points, np.ascontiguousarray(faces, np.int32)
+        points, faces = points[:, used], renumbered.reshape(-1, 3).astype(np.int32)
+    return points, np.ascontiguousarray(faces)
 
 
 class _Curves(NamedTuple):
@@ -105,7 +105,8 @@ class _Curves(NamedTuple):
         """Greatest angle of a chord of arcs with these radii [rad]."""
         reach = np.maximum(radius * self.scale, 1e-9)
         by_gap = 2 * np.arccos(np.clip(1 - self.fineness.gap / reach, -1, 1))
-        return np.clip(np.minimum(by_gap, self.fineness.angle), 2 * np.pi / _MOST_SIDES, np.pi / 2)
+        step: Floats = np.clip(np.minimum(by_gap, self.fineness.angle), 2 * np.pi / _MOST_SIDES, np.pi / 2)
+        return step
 
     def sides(self, radius: Floats) -> Ints:
         """Corners of whole circles: a multiple of four, so that they reach as far as the circle along both axes."""
@@ -253,9 +254,7 @@ def _rectangular_torus(layout: Layout, sizes: Floats) -> tuple[Floats, Faces]:
     return points, faces
 
 
-def _swept(
-    out: Floats, up: Floats, angle: Floats, middle: Floats, layout: Layout, ends: str
-) -> tuple[Floats, Faces]:
+def _swept(out: Floats, up: Floats, angle: Floats, middle: Floats, layout: Layout, ends: str) -> tuple[Floats, Faces]:
     """A profile ``(k, n)`` turned about z from the x axis on; ``middle``: distance of its centre from the axis."""
     whole = bool(layout.pattern & 1)
     n = layout.steps if whole else layout.steps + 1
@@ -324,7 +323,8 @@ def _collapsed(faces: Faces, one: Ints) -> Faces:
     """The triangles that remain when some points are one."""
     moved = one[faces]
     a, b, c = moved.T
-    return moved[(a != b) & (b != c) & (c != a)].astype(np.int32)
+    kept: Faces = moved[(a != b) & (b != c) & (c != a)].astype(np.int32)
+    return kept
 
 
 def _rectangle(x: Floats, y: Floats, z: Floats | float = 0.0) -> Floats:

@@ -18,9 +18,10 @@ __all__ = ["Owner", "find_facts", "find_links"]
 _BRANCHES = ("BRAN", "BRANCH")
 _SYSTEMS = ("PIPE", "ZONE")  # the nearest one above counts, a pipe before the zone that holds it
 _TAGGED = frozenset(
-    "EQUI EQUIPMENT INST INSTRUMENT VALV VALVE VTWA VFWA VENT PCOM FILT FILTER TRAP DAMP DAMPER".split()
-)
-_NO_MEMBER = frozenset("ATTA ATTACHMENT WELD".split())  # of a pipe: symbols and seams, through which nothing goes
+    ("EQUI", "EQUIPMENT", "INST", "INSTRUMENT", "VALV", "VALVE", "VTWA", "VFWA", "VENT", "PCOM", "FILT", "FILTER",
+     "TRAP", "DAMP", "DAMPER")
+)  # fmt: skip
+_NO_MEMBER = frozenset(("ATTA", "ATTACHMENT", "WELD"))  # of a pipe: symbols and seams, through which nothing goes
 _TUBE = "TUBI"  # what PDMS calls the straight pipe that it draws on a branch between its members
 _ATTRIBUTES: tuple[tuple[FactKey, tuple[str, ...]], ...] = (
     ("spec", ("SPREF",)),

@@ -84,8 +84,8 @@ def _payload(tag: str, lines: list[str]) -> bytes:
         place = [float(value) for value in lines[2].split()]
         return _ints(version) + _text(lines[1]) + _floats(place[:3]) + _ints(int(lines[3].split()[0]))
     if tag == "COLR":
-        values = [int(value) for line in lines[1:] for value in line.split()]
-        return _ints(values[0], values[1]) + bytes(values[2:5]) + b"\0"
+        color = [int(value) for line in lines[1:] for value in line.split()]
+        return _ints(color[0], color[1]) + bytes(color[2:5]) + b"\0"
     if tag in ("CNTE", "END:"):
         return _ints(version)
     values = [value for line in lines[1:] for value in line.split()]
