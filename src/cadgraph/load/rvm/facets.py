@@ -113,7 +113,8 @@ def _cut(points: Floats, polygons: list[_Polygon]) -> tuple[Ints, Ints]:
 def _whole(faces: Ints) -> Ints:
     """The triangles with three different corners."""
     a, b, c = faces.T
-    return faces[(a != b) & (b != c) & (c != a)]
+    kept: Ints = faces[(a != b) & (b != c) & (c != a)]
+    return kept
 
 
 def _is_closed(faces: Ints, n_points: int) -> bool:

@@ -144,8 +144,9 @@ def _block(
         matrix[late] = _numbers(words, start[late] + 3, 12)
     beyond = _LENGTHS[kind][:, None] <= np.arange(9)
     where = np.minimum((start + _HEAD + tilt)[:, None] + np.arange(9), len(words) - 1)
-    sizes = words[where].view(">f4").astype(np.float32) + np.float32(0)
+    sizes = words[where].view(">f4").astype(np.float32)
     sizes[beyond] = np.nan
+    sizes[sizes == 0] = 0  # -0 becomes 0
     placed = np.asarray(np.isfinite(matrix).all(axis=1))
     leave_out(~placed, "invalid-transform", "left out: its placement is not finite")
     sized = (beyond | (np.abs(sizes) < 1e12)).all(axis=1)
@@ -174,7 +175,7 @@ def _rigid(rows: npt.NDArray[np.float32], skew: float) -> tuple[Floats, Ints, Fl
     odd = np.zeros(len(rows), bool)
     for i in range(0, len(rows), _BLOCK):
         block = rows[i : i + _BLOCK].astype(np.float64) * _UNIT
-        with np.errstate(all="ignore"):
+        with np.errstate(over="ignore", invalid="ignore"):
             away = np.abs(np.einsum("nij,nkj->nik", block, block) - np.eye(3)).max(axis=(1, 2))
             odd[i : i + _BLOCK] = ~(away <= skew) | (np.linalg.det(block) <= 0)
             # Newton's way to the nearest rotation (Higham 1986); it starts near enough for its error to square.

@@ -375,6 +375,8 @@ _CUTS: dict[int, Callable[[Layout, Floats], tuple[Floats, Faces]]] = {
 
 def layouts(rows: Ints) -> Iterator[tuple[Layout, npt.NDArray[np.int64]]]:
     """Each different layout with the numbers of the rows that have it."""
+    if not len(rows):
+        return
     different, which = np.unique(rows, axis=0, return_inverse=True)
     order = np.argsort(which.reshape(-1), kind="stable")
     ends = np.cumsum(np.bincount(which.reshape(-1), minlength=len(different)))
