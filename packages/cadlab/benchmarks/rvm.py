@@ -199,7 +199,7 @@ def outcome(path: Path) -> str:
         scene = load(path, IN_PROCESS)
     except LoadError as error:
         return "LoadError" if "\n" not in str(error) else "DEFECT: an error of several lines"
-    except Exception as error:
+    except (ArithmeticError, LookupError, TypeError, ValueError, AttributeError, RuntimeError, OSError) as error:
         return f"DEFECT: {type(error).__name__}: {error}"[:150]
     if not np.isfinite(scene.vertices).all():
         return "DEFECT: a point is not finite"

@@ -176,11 +176,11 @@ def _rigid(rows: npt.NDArray[np.float32], skew: float) -> tuple[Floats, Ints, Fl
     for i in range(0, len(rows), _BLOCK):
         block = rows[i : i + _BLOCK].astype(np.float64) * _UNIT
         with np.errstate(over="ignore", invalid="ignore"):
-            away = np.abs(np.einsum("nij,nkj->nik", block, block) - np.eye(3)).max(axis=(1, 2))
+            away = np.abs(block @ block.transpose(0, 2, 1) - np.eye(3)).max(axis=(1, 2))
             odd[i : i + _BLOCK] = ~(away <= skew) | (np.linalg.det(block) <= 0)
             # Newton's way to the nearest rotation (Higham 1986); it starts near enough for its error to square.
             for _ in range(3):
-                block = 1.5 * block - 0.5 * np.einsum("nij,nkj,nkl->nil", block, block, block)
+                block = 1.5 * block - 0.5 * (block @ block.transpose(0, 2, 1) @ block)
         turn[i : i + _BLOCK] = block
     good = np.ones(len(rows), bool)
     stretch, stretches = np.zeros(len(rows), np.int64), np.eye(3)[None]

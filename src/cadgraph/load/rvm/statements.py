@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
@@ -35,6 +35,7 @@ _ATTRIBUTES: tuple[tuple[FactKey, tuple[str, ...]], ...] = (
     ("size", ("ABOR", "ABORE")),
     ("size", ("LBOR", "LBORE")),
 )
+_NOTHING: dict[str, str] = {}
 _NO_SIZE = frozenset(("0", "0mm", "0in", "0.0"))
 
 
@@ -57,16 +58,23 @@ class Owner:
     chunk: Ints
     whole: Sequence[bool]
     attributes: Attributes
+    _types: list[str] = field(init=False)
+
+    def __post_init__(self) -> None:
+        tree = self.tree
+        types = [
+            self.attributes.get(name, _NOTHING).get("TYPE") or word
+            for name, word in zip(tree.names, tree.words, strict=True)
+        ]
+        object.__setattr__(self, "_types", types if self.attributes else tree.words)
 
     def told(self, node: int) -> dict[str, str]:
         """The attributes of a node."""
-        return self.attributes.get(self.tree.names[node], {}) if node >= 0 else {}
+        return self.attributes.get(self.tree.names[node], _NOTHING)
 
     def type_of(self, node: int) -> str:
         """The type of a node, empty where nothing tells it."""
-        if node < 0:
-            return ""
-        return self.told(node).get("TYPE") or self.tree.words[node]
+        return self._types[node]
 
     def used(self) -> list[int]:
         """All nodes with a mesh in or below them, ascending."""
@@ -86,8 +94,9 @@ def find_facts(owner: Owner) -> Iterator[Fact]:
     for mesh, node in enumerate(owner.node.tolist()):
         meshes.setdefault(node, []).append(mesh)
     system: dict[int, tuple[str, str]] = {}
+    parent = tree.parent.tolist()
     for node in owner.used():
-        above = int(tree.parent[node])
+        above = parent[node]
         kind = owner.type_of(node)
         if above in system:
             system[node] = system[above]
@@ -116,7 +125,7 @@ def _facts_of(owner: Owner, node: int, kind: str) -> Iterator[Fact]:
         yield Fact(path, "tag", name[1:], "name")
     if named and path.rpartition("/")[2] != name[1:]:
         yield Fact(path, "name", name, "name")
-    for key, attributes in _ATTRIBUTES:
+    for key, attributes in _ATTRIBUTES if told else ():
         for attribute in attributes:
             value = told.get(attribute, "")
             if value and not (key == "size" and value in _NO_SIZE):
@@ -149,14 +158,16 @@ def _members(owner: Owner, used: Iterable[int]) -> dict[int, list[str]]:
     tree = owner.tree
     branches = {node for node in used if owner.type_of(node) in _BRANCHES}
     along: dict[int, list[tuple[int, str]]] = {node: [] for node in branches}
+    parent, chunk = tree.parent.tolist(), tree.chunk.tolist()
     for node in used:
-        above = int(tree.parent[node])
-        if above in branches and owner.type_of(node) not in _NO_MEMBER:
-            along[above].append((int(tree.chunk[node]), tree.paths[node]))
-    for mesh, node in enumerate(owner.node.tolist()):
+        if parent[node] in branches and owner.type_of(node) not in _NO_MEMBER:
+            along[parent[node]].append((chunk[node], tree.paths[node]))
+    merged = set()
+    for node, at, path, whole in zip(owner.node.tolist(), owner.chunk.tolist(), owner.paths, owner.whole, strict=True):
         if node in branches:
-            along[node].append((int(owner.chunk[mesh]), owner.paths[mesh]))
-    merged = {node for mesh, node in enumerate(owner.node.tolist()) if node in branches and owner.whole[mesh]}
+            along[node].append((at, path))
+            if whole:
+                merged.add(node)
     # Where all tubes of a branch are one mesh, nothing comes after anything.
     return {node: [path for _, path in sorted(rows)] for node, rows in along.items() if rows and node not in merged}
 

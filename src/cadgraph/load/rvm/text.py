@@ -85,7 +85,7 @@ def _payload(tag: str, lines: list[str]) -> bytes:
         return _ints(version) + _text(lines[1]) + _floats(place[:3]) + _ints(int(lines[3].split()[0]))
     if tag == "COLR":
         color = [int(value) for line in lines[1:] for value in line.split()]
-        return _ints(color[0], color[1]) + bytes(color[2:5]) + b"\0"
+        return _ints(version, color[0]) + bytes(color[1:4]) + b"\0"
     if tag in ("CNTE", "END:"):
         return _ints(version)
     values = [value for line in lines[1:] for value in line.split()]

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from cadgraph.errors import LoadError
 from cadgraph.load.packing import Notes
-from cadgraph.load.rvm.chunks import Chunks, Words, read_text
+from cadgraph.load.rvm.chunks import Chunks, Words
 from cadgraph.model.scene import Ints
 
 __all__ = ["NO_PLANT", "Names", "Tree", "decode", "read_tree"]
@@ -92,21 +92,21 @@ def read_tree(words: Words, chunks: Chunks, where: str, notes: Notes) -> tuple[T
         LoadError: all paths together would fill the memory.
     """
     at = chunks.of("CNTB")
-    names: list[str] = []
+    start, end = chunks.start[at] + 1, chunks.end[at]
+    stop = np.where(start < end, start + 1 + words[np.minimum(start, len(words) - 1)], end + 1)
+    broken = np.flatnonzero(stop > end)
+    # After the name come three numbers of a place that nothing refers to.
+    colored = np.flatnonzero(stop + 3 < end)
     material = np.zeros(len(at), np.int64)
-    broken: list[int] = []
+    material[colored] = words[stop[colored] + 3]
+    stop[broken] = start[broken] + 1
+    names: list[str] = []
     guessed = False
-    for i, (start, end) in enumerate(zip(chunks.start[at].tolist(), chunks.end[at].tolist(), strict=True)):
-        try:
-            raw, stop = read_text(words, start + 1, end)
-        except ValueError:
-            raw, stop = b"", end
-            broken.append(i)
-        name, was_guessed = decode(raw)
+    raw = words.view(np.uint8).data
+    for first, last in zip((4 * start + 4).tolist(), (4 * stop).tolist(), strict=True):
+        name, was_guessed = decode(bytes(raw[first:last]).partition(b"\0")[0])
         guessed |= was_guessed
         names.append(name)
-        # Before it, the three numbers of a place that nothing refers to.
-        material[i] = words[stop + 3] if stop + 3 < end else 0
     if guessed:
         notes.add("encoding-guessed", "some names are no UTF-8; read as Windows-1252")
     parent = chunks.node[at]
@@ -119,7 +119,7 @@ def read_tree(words: Words, chunks: Chunks, where: str, notes: Notes) -> tuple[T
             kinds[above], below[above] = match[3], True
     steps = [_step(name, match) for name, match in zip(names, told, strict=True)]
     paths, taken = _paths(steps, parent, where)
-    for i in broken:
+    for i in broken.tolist():
         notes.add("broken-node", "its name is damaged; it got another one", paths[i])
     left_out = np.array([kind in NO_PLANT and not inferred for kind, inferred in zip(kinds, below, strict=True)], bool)
     for i, above in enumerate(parent.tolist()):
