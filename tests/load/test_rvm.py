@@ -161,6 +161,15 @@ def test_default_names_give_classes_order_and_systems(tmp_path):
     assert ("name", "/100-B-1/B1") in {(fact.key, fact.value) for fact in scene.facts if fact.path == B1}
 
 
+def test_primitives_between_two_members_are_one_straight_piece(tmp_path):
+    rvm = Rvm().open("/B").primitive(2, 100, 4, 900).primitive(2, 4, 50, 900).primitive(2, 4, 50, 900)
+    rvm.open("BEND 1 of BRANCH /B").primitive(2, 9, 9, 9).close().primitive(2, 100, 4, 900)
+    rvm.open("GASKET 1 of BRANCH /B").close().primitive(2, 100, 4, 900).close().end()
+    links = read(tmp_path, rvm.bytes).links
+    order = ["/B/primitive_1", "/B/BEND_1", "/B/primitive_4", "/B/primitive_5"]
+    assert [(link.first, link.second) for link in links] == list(zip(order, order[1:], strict=False))
+
+
 def test_metadata_off_changes_nothing_but_facts_and_links(tmp_path):
     (tmp_path / "a.att").write_text(ATT, encoding="utf-8")
     kept = read(tmp_path, branch().bytes)

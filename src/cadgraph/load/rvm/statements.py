@@ -154,22 +154,40 @@ def find_links(owner: Owner) -> tuple[StatedLink, ...]:
 
 
 def _members(owner: Owner, used: Iterable[int]) -> dict[int, list[str]]:
-    """Of each branch the paths of what is along it, from head to tail."""
+    """Of each branch the paths of what is along it, from head to tail.
+
+    Primitives of the branch itself that follow each other, with nothing between, are one straight piece of several
+    plates (a cable tray); the first one stands for it.
+    """
     tree = owner.tree
     branches = {node for node in used if owner.type_of(node) in _BRANCHES}
-    along: dict[int, list[tuple[int, str]]] = {node: [] for node in branches}
+    along: dict[int, list[tuple[int, str, bool]]] = {node: [] for node in branches}
     parent, chunk = tree.parent.tolist(), tree.chunk.tolist()
+    for node, above in enumerate(parent):
+        if above in branches:
+            along[above].append((chunk[node], "", False))
     for node in used:
         if parent[node] in branches and owner.type_of(node) not in _NO_MEMBER:
-            along[parent[node]].append((chunk[node], tree.paths[node]))
+            along[parent[node]].append((chunk[node], tree.paths[node], False))
     merged = set()
     for node, at, path, whole in zip(owner.node.tolist(), owner.chunk.tolist(), owner.paths, owner.whole, strict=True):
         if node in branches:
-            along[node].append((at, path))
+            along[node].append((at, path, True))
             if whole:
                 merged.add(node)
     # Where all tubes of a branch are one mesh, nothing comes after anything.
-    return {node: [path for _, path in sorted(rows)] for node, rows in along.items() if rows and node not in merged}
+    members = {node: _leading(sorted(rows)) for node, rows in along.items() if node not in merged}
+    return {node: paths for node, paths in members.items() if paths}
+
+
+def _leading(rows: list[tuple[int, str, bool]]) -> list[str]:
+    """The paths of those that are no primitives directly behind another one; without a path: only in between."""
+    paths, behind = [], False
+    for _, path, primitive in rows:
+        if path and not (primitive and behind):
+            paths.append(path)
+        behind = primitive
+    return paths
 
 
 def _order(paths: list[str]) -> Iterator[StatedLink]:
