@@ -10,7 +10,7 @@ import pytest
 from cadgraph.config import LoadConfig
 from cadgraph.errors import LoadError
 from cadgraph.load import load
-from rvm_files import Rvm, cube, placed, turned
+from rvm_files import SIZES, Rvm, cube, placed, turned
 
 IN_PROCESS = LoadConfig(isolate=False)
 FINE = LoadConfig(isolate=False, max_gap=1e-5, max_angle=0.05)
@@ -326,6 +326,13 @@ def test_lines_flat_solids_frames_and_welds_are_left_out_with_a_note(tmp_path):
     assert codes(scene) == {"left-out-lines", "flat-primitive", "left-out-type"}
     (note,) = (note for note in scene.diagnostics if note.code == "left-out-type")
     assert note.meshes == ("/B/DRAWING_1", "/B/WELD_1")
+
+
+@pytest.mark.parametrize("kind", sorted(SIZES.keys() - {10}))
+def test_primitives_without_any_size_are_left_out(tmp_path, kind):
+    scene = read(tmp_path, one((2, (10, 20, 30)), (kind, (0,) * SIZES[kind])))
+    assert volume(scene) == pytest.approx(6e-6)
+    assert codes(scene) == {"flat-primitive"}
 
 
 def test_equal_names_and_odd_ones_still_make_unique_paths(tmp_path):

@@ -92,6 +92,9 @@ def cut_shapes(
     flat = 0
     for layout, own in plan:
         points, faces = cut(layout, primitives.sizes[first[solid[own]]].astype(np.float64))
+        if not len(faces):
+            flat += int(users[solid[own]].sum())
+            continue
         stretch = primitives.stretches[primitives.stretch[first[solid[own]]]]
         points = np.einsum("kni,kij->knj", points, stretch)
         fit = np.abs(points).max(axis=(1, 2)) < 1e12
