@@ -253,7 +253,9 @@ class Stated(Record):
     flow: Literal["forward", "backward", "unknown"] = Field(
         default="unknown", description="what the source says of the flow; forward is from first to second"
     )
-    where: str = Field(default="", description="by what the source says so: 'IfcRelConnectsPorts', 'order in branch'...")
+    where: str = Field(
+        default="", description="by what the source says so: 'IfcRelConnectsPorts', 'order in branch'..."
+    )
 
 
 Node = Site | Cluster | Part | Unit | Junction | Terminal | System

@@ -25,6 +25,7 @@ from cadgraph.stages.relate.relabel import relabel_parts
 from cadgraph.stages.relate.role import Roles, find_roles
 from cadgraph.stages.relate.run import make_network
 from cadgraph.stages.relate.shortfall import find_shortfalls
+from cadgraph.stages.relate.stated import report_unplaced
 from cadgraph.stages.relate.stub import drop_stubs
 from cadgraph.stages.relate.tag import tag_units
 from cadgraph.stages.relate.trace import drop_shapeless, trace_lines
@@ -76,12 +77,14 @@ def connect_units(given: RelateInput) -> Connected:
     drawing = _draw(piping, units)
     network = replace(_contract(piping, units, drawing, names), joints=record_joints(piping, units, drawing.flanged))
     network = name_kinds(network, names, given.parts)
-    stated = stated_flow(network, given.config.relate.flow)
-    network, contradictions = direct_flow(network, given.parts, names, stated)
+    by_user = stated_flow(network, given.config.relate.flow)
+    network, contradictions = direct_flow(network, given.parts, names, by_user, given.stated)
     network = drop_stubs(network)
     diagnostics = (
         *find_shortfalls(piping, network),
         *_bridged_gaps(given.parts, drawing),
+        *_stated_gaps(piping),
+        *report_unplaced(given.stated),
         *_doubted_labels(given.parts, roles),
         *_loose_operators(given.parts, loose),
         *contradictions,
@@ -163,6 +166,23 @@ def _bridged_gaps(parts: Parts, drawing: Drawing) -> tuple[Diagnostic, ...]:
         f"{1000 * widest:.1f} mm (relate.bridge); each pair of meshes is listed in turn"
     )
     return (Diagnostic("bridged-gap", message, heads),)
+
+
+def _stated_gaps(piping: Piping) -> tuple[Diagnostic, ...]:
+    """The joints across gaps that geometry alone would not bridge."""
+    found, limit = piping.joints, piping.given.config.relate.bridge
+    far = [offer for row, offer in sorted(found.made.items()) if row == offer.row and offer.said and offer.gap > limit]
+    if not far:
+        return ()
+    paths, part_of = piping.given.parts.scene.paths, found.ends.part
+    pairs = [
+        (part_of[offer.row], part_of[offer.other] if offer.kind in ("face", "corner") else offer.other) for offer in far
+    ]
+    message = (
+        f"{len(far)} joints are made across gaps wider than relate.bridge because the file says so, the widest "
+        f"{1000 * max(offer.gap for offer in far):.1f} mm; each pair of meshes is listed in turn"
+    )
+    return (Diagnostic("stated-gap", message, tuple(paths[int(part)] for pair in pairs for part in pair)),)
 
 
 def _doubted_labels(parts: Parts, roles: Roles) -> tuple[Diagnostic, ...]:
