@@ -168,7 +168,7 @@ def test_links_that_say_nothing_are_told():
 
 @pytest.mark.parametrize(("distance", "met"), [(0.1, True), (REACH + 0.01, False), (-0.01, False)])
 def test_a_wall_is_met_within_reach_before_a_mouth(distance, met):
-    vertices, faces = shapes.moved(shapes.box(0.4, 0.4, 0.02), np.eye(3), (0, 0, distance + 0.01))
+    vertices, faces = shapes.moved(shapes.box((0.4, 0.4, 0.02)), np.eye(3), (0, 0, distance + 0.01))
     if distance < 0:
         vertices = vertices - [0, 0, 0.5]
     found = mouth_gap(vertices[faces], np.zeros(3), np.array([0.0, 0.0, 1.0]), 0.05)
@@ -178,7 +178,7 @@ def test_a_wall_is_met_within_reach_before_a_mouth(distance, met):
 
 
 def test_a_wall_that_covers_a_third_of_a_mouth_is_not_before_it():
-    vertices, faces = shapes.moved(shapes.box(0.1, 0.4, 0.02), np.eye(3), (0.07, 0, 0.05))
+    vertices, faces = shapes.moved(shapes.box((0.1, 0.4, 0.02)), np.eye(3), (0.07, 0, 0.05))
     assert mouth_gap(vertices[faces], np.zeros(3), np.array([0.0, 0.0, 1.0]), 0.05) is None
 
 
@@ -257,7 +257,10 @@ def test_one_statement_speaks_for_the_link_that_both_its_ends_are_on():
     units = tuple(UnitParts("tank", f"T-{k}", (k,)) for k in range(3))
     pipes = tuple(Link(k, 3, (10 + k,), ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0)), 1.0) for k in range(3))
     network = Network(units, (tee,), pipes)
-    assert [(one.link, one.forward) for one in filed(network, (11, 20, ORDER), (20, 12, ORDER))] == [(1, True), (2, False)]
+    assert [(one.link, one.forward) for one in filed(network, (11, 20, ORDER), (20, 12, ORDER))] == [
+        (1, True),
+        (2, False),
+    ]
     assert filed(network, (10, 11, ORDER)) == []
 
 
