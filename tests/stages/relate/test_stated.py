@@ -16,7 +16,7 @@ from cadgraph.pipeline import build
 from cadgraph.stages.relate.flow_file import file_flow, weigh_flow
 from cadgraph.stages.relate.flow_spread import Evidence
 from cadgraph.stages.relate.stated import REACH, Stated, mouth_gap
-from piping import GAUGE, PIPE, VALVE, Plant, R, connections, gauge_mesh, links, pipe, ring, valve_mesh
+from piping import PIPE, VALVE, Plant, R, connections, links, pipe, valve_mesh
 
 PORTS, ORDER = "IfcRelConnectsPorts", "order in branch"
 
