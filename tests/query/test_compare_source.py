@@ -118,6 +118,16 @@ def test_gauges_stand_aside_wherever_a_side_has_them():
     assert [(way.first, way.second) for way in found.flows] == [("V-001", "V-002")]
 
 
+def test_a_valve_tapped_into_a_run_stands_aside():
+    edges = [*via("V-001 V-003.N1", "a"), *via("V-003.N1 V-002", "a")]
+    found = compare_source(plant(edges, [*ways("V-001 a V-002"), *ways("V-003 a")], "V-001 V-002 V-003", "a"))
+    assert pairs(found.agreeing) == [("V-001", "V-002"), ("V-001", "V-003"), ("V-002", "V-003")]
+    assert found.agrees
+    passed = [*via("V-001 V-003.N1", "a"), *via("V-003.N2 V-002", "a")]
+    other = compare_source(plant(passed, [*ways("V-001 a V-002"), *ways("V-003 a")], "V-001 V-002 V-003", "a"))
+    assert pairs(other.only_theirs) == [("V-001", "V-002")]
+
+
 def test_two_pipes_between_the_same_two_are_counted_and_their_flow_is_not_compared():
     edges = [*via("V-001 V-002", "a"), *via("V-001 V-002", "b")]
     found = compare_source(plant(edges, [*ways("V-001 a V-002"), *ways("V-001 b V-002")]))

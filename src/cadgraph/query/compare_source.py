@@ -1,7 +1,8 @@
 """A graph's connections beside those that its source states: which agree, and which only one of both has.
 
-Both are contracted in the same way: what follows along pipes without another device in between is joined, gauges stand
-aside. Everything is taken from the graph, whose ``stated`` keeps what the source says.
+Both are contracted in the same way: what follows along pipes without another device in between is joined; gauges, and
+valves that a run only passes at a tap of theirs, stand aside. Everything is taken from the graph, whose ``stated`` keeps
+what the source says.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from cadgraph.model.records import Part, Stated, Unit
 from cadgraph.query.network import Network
 from cadgraph.query.regions import Region, find_regions
 
-__all__ = ["Claim", "SourceComparison", "Uncompared", "Verdict", "WayOfFlow", "compare_source"]
+__all__ = ["Claim", "SourceComparison", "Uncompared", "Verdict", "WayOfFlow", "compare_source", "standing_aside"]
 
 Verdict = Literal["agree", "differ", "ours", "theirs", "open"]
 """On whose flow both agree or differ, of which only one side says one, or neither."""
@@ -148,7 +149,7 @@ def compare_source(graph: SceneGraph) -> SourceComparison:
         both = min(len(mine), len(said))
         for kind, via, paths in _matched(ours.ways(pair), theirs.ways(pair), theirs):
             found[kind].append(_claim(pair, tags, via, paths, theirs))
-        if both and not any(network.is_gauge(name) for name in pair):
+        if both and ours.aside.isdisjoint(pair):
             if len(mine) == len(said) == 1:
                 flows.append(WayOfFlow(*tags, ours.flow(pair, mine[0]), theirs.flow(pair, said[0])))
             else:
@@ -165,6 +166,17 @@ def compare_source(graph: SceneGraph) -> SourceComparison:
         silent=theirs.silent(),
         uncompared=theirs.uncompared,
     )
+
+
+def standing_aside(network: Network) -> frozenset[str]:
+    """Ids of gauges, and of the units that stand in a run by one port alone, at which they are tapped into it."""
+
+    def is_tapped(name: str) -> bool:
+        arcs = network.arcs(name)
+        ports = {arc.start_port for arc in arcs}
+        return len(arcs) > 1 and len(ports) == 1 and None not in ports and network.is_valve(name)
+
+    return frozenset(name for name in network.places if network.is_gauge(name) or is_tapped(name))
 
 
 def _was_used(graph: SceneGraph) -> bool:
@@ -198,6 +210,7 @@ class _Side(ABC):
 
     def __init__(self, network: Network) -> None:
         self.network = network
+        self.aside = standing_aside(network)
         self._trees: dict[tuple[str, int], Mapping[str, tuple[str, _Step]]] = {}
 
     @property
@@ -211,13 +224,13 @@ class _Side(ABC):
 
     @cached_property
     def joined(self) -> Mapping[tuple[str, str], list[Region]]:
-        """For each pair of units that are joined the regions that do it; gauges only with dividing units."""
+        """For each pair of units that are joined the regions that do it; what stands aside only with what divides."""
         found: dict[tuple[str, str], list[Region]] = {}
         for region in self.regions:
             ends = sorted(region.ends, key=self._order)
-            gauges = [name for name in region.inside if name in self.network.places and self.network.is_gauge(name)]
+            aside = sorted(region.inside & self.aside, key=self._order)
             pairs = [(a, b) for i, a in enumerate(ends) for b in ends[i + 1 :]]
-            pairs += [(min(a, b, key=self._order), max(a, b, key=self._order)) for a in gauges for b in ends]
+            pairs += [(min(a, b, key=self._order), max(a, b, key=self._order)) for a in aside for b in ends]
             for pair in pairs:
                 found.setdefault(pair, []).append(region)
         return found
@@ -293,9 +306,8 @@ class _Ours(_Side):
     def regions(self) -> Sequence[Region]:
         """Pieces of pipe between dividing units."""
         network = self.network
-        dividing = {
-            name for name, node in network.places.items() if isinstance(node, Unit) and not network.is_gauge(name)
-        }
+        units = {name for name, node in network.places.items() if isinstance(node, Unit)}
+        dividing = units - self.aside
         return find_regions(network, dividing)
 
     def steps(self, place: str) -> Iterable[_Step]:
@@ -408,7 +420,7 @@ class _Theirs(_Side):
         return self._at.get(place, ())
 
     def _divides(self, place: str) -> bool:
-        return place in self.network.places and not self.network.is_gauge(place)
+        return place in self.network.places and place not in self.aside
 
     @cached_property
     def regions(self) -> Sequence[Region]:

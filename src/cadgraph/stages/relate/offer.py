@@ -333,12 +333,14 @@ def near_ends(ends: Ends, around: Surroundings) -> Ints:
     tree = cKDTree(ends.point)
     near = tree.query_pairs(_REACH * around.bridge, output_type="ndarray")
     found.update((p, q) for p, q in near.tolist() if ends.part[p] != ends.part[q])
-    found.update(_near_stated(ends, tree, around.stated) if around.stated else ())
+    found |= _near_stated(ends, tree, around.stated)
     return np.array(sorted(found), np.int64).reshape(-1, 2)
 
 
 def _near_stated(ends: Ends, tree: cKDTree, stated: Stated) -> set[tuple[int, int]]:
     """Pairs of ends that a link of the file reaches."""
+    if not stated:
+        return set()
     pairs = tree.query_pairs(REACH, output_type="ndarray")
     return {(p, q) for p, q in pairs.tolist() if stated.by(int(ends.part[p]), int(ends.part[q])) is not None}
 
