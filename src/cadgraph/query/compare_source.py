@@ -1,8 +1,8 @@
 """A graph's connections beside those that its source states: which agree, and which only one of both has.
 
 Both are contracted in the same way: what follows along pipes without another device in between is joined; gauges, and
-valves that a run only passes at a tap of theirs, stand aside. Everything is taken from the graph, whose ``stated`` keeps
-what the source says.
+valves that a run only passes at a tap of theirs, stand aside. Everything is taken from the graph, whose ``stated``
+keeps what the source says.
 """
 
 from __future__ import annotations

@@ -18,6 +18,7 @@ from cadgraph.stages.relate.flow import direct_flow, stated_flow
 from cadgraph.stages.relate.kind import name_kinds
 from cadgraph.stages.relate.line import is_disc
 from cadgraph.stages.relate.network import Drawing, draw_network
+from cadgraph.stages.relate.offer import Offer
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
 from cadgraph.stages.relate.record import record_joints
 from cadgraph.stages.relate.recover import recover_units
@@ -170,19 +171,23 @@ def _bridged_gaps(parts: Parts, drawing: Drawing) -> tuple[Diagnostic, ...]:
 
 def _stated_gaps(piping: Piping) -> tuple[Diagnostic, ...]:
     """The joints across gaps that geometry alone would not bridge."""
-    found, limit = piping.joints, piping.given.config.relate.bridge
-    far = [offer for row, offer in sorted(found.made.items()) if row == offer.row and offer.said and offer.gap > limit]
+    far = _far_joints(piping)
     if not far:
         return ()
-    paths, part_of = piping.given.parts.scene.paths, found.ends.part
-    pairs = [
-        (part_of[offer.row], part_of[offer.other] if offer.kind in ("face", "corner") else offer.other) for offer in far
-    ]
+    paths, ends = piping.given.parts.scene.paths, piping.joints.ends
+    pairs = [(int(ends.part[offer.row]), offer.part(ends)) for offer in far]
     message = (
         f"{len(far)} joints are made across gaps wider than relate.bridge because the file says so, the widest "
         f"{1000 * max(offer.gap for offer in far):.1f} mm; each pair of meshes is listed in turn"
     )
-    return (Diagnostic("stated-gap", message, tuple(paths[int(part)] for pair in pairs for part in pair)),)
+    return (Diagnostic("stated-gap", message, tuple(paths[part] for pair in pairs for part in pair)),)
+
+
+def _far_joints(piping: Piping) -> list[Offer]:
+    """The joints that are made because the file says so across a gap wider than geometry alone would bridge."""
+    limit = piping.given.config.relate.bridge
+    made = sorted(piping.joints.made.items())
+    return [offer for row, offer in made if row == offer.row and offer.said and offer.gap > limit]
 
 
 def _doubted_labels(parts: Parts, roles: Roles) -> tuple[Diagnostic, ...]:

@@ -56,36 +56,39 @@ def file_flow(network: Network, stated: Stated) -> tuple[list[Evidence], list[_D
     Returns:
         The evidence, and pairs that contradict each other along one link.
     """
-    places = _Places(network)
-    votes: dict[int, list[tuple[bool, StatedLink]]] = {}
-    for join in stated.usable:
-        if join.link.flow == "unknown":
-            continue
-        onward = join.link.flow == "forward"
-        ends = (join.first, join.second) if onward else (join.second, join.first)
-        for number, forward in places.senses(*ends):
-            votes.setdefault(number, []).append((forward, join.link))
     found: list[Evidence] = []
     doubts: list[_Doubt] = []
-    for number, cast in sorted(votes.items()):
-        ones = [
-            _evidence(number, sense, [link for way, link in cast if way == sense], len(cast)) for sense in (True, False)
-        ]
-        said = sorted((one for one in ones if one is not None), key=lambda one: -one.confidence)
+    for number, cast in sorted(_votes(network, stated).items()):
+        said = [one for sense in (True, False) for one in _evidence(number, sense, cast)]
+        said.sort(key=lambda one: -one.confidence)
         doubts += [(said[0], said[1])] if len(said) == 2 else []
-        found += [one for one in said[:1] if sum(way == one.forward for way, _ in cast) >= _MAJORITY * len(cast)]
+        agreeing = sum(way == said[0].forward for way, _ in cast)
+        found += said[:1] if agreeing >= _MAJORITY * len(cast) else []
     return found, doubts
 
 
-def _evidence(number: int, forward: bool, links: Sequence[StatedLink], of: int) -> Evidence | None:
-    """What some of the file's links along one link of the network say together."""
+def _votes(network: Network, stated: Stated) -> dict[int, list[tuple[bool, StatedLink]]]:
+    """For each link of the network what the file's links along it say: whether it flows forward."""
+    places = _Places(network)
+    votes: dict[int, list[tuple[bool, StatedLink]]] = {}
+    for join in stated.usable:
+        if join.link.flow != "unknown":
+            ends = (join.first, join.second) if join.link.flow == "forward" else (join.second, join.first)
+            for number, forward in places.senses(*ends):
+                votes.setdefault(number, []).append((forward, join.link))
+    return votes
+
+
+def _evidence(number: int, forward: bool, cast: Sequence[tuple[bool, StatedLink]]) -> Iterator[Evidence]:
+    """What those of the file's links along one link of the network say together that say one sense; nothing of none."""
+    links = [link for way, link in cast if way == forward]
     if not links:
-        return None
+        return
     first = max(links, key=_trust)
     ends = (first.first, first.second) if first.flow == "forward" else (first.second, first.first)
     more = f", and {len(links) - 1} more" if len(links) > 1 else ""
     reason = f"{_PREFIX}{ends[0]} -> {ends[1]} ({first.where or 'a link'}{more})"
-    return Evidence(number, forward, _trust(first) * len(links) / of, reason)
+    yield Evidence(number, forward, _trust(first) * len(links) / len(cast), reason)
 
 
 def _trust(link: StatedLink) -> float:
@@ -158,19 +161,18 @@ def weigh_flow(
         return Weighed(spread(network, [*given, *shown]))
     firm = [*given, *(one for one in shown if one.confidence >= _CONSTRUCTION)]
     agreeing, first = _without_doubted(network, firm, filed)
-    known = spread(network, [*firm, *agreeing]).chosen
-    overruled = [
-        (known[one.link], one)
-        for one in shown
-        if one.confidence < _CONSTRUCTION
-        and one.link in known
-        and is_of_file(known[one.link])
-        and known[one.link].forward != one.forward
-    ]
+    overruled = _overruled(shown, spread(network, [*firm, *agreeing]))
     dropped = {id(one) for _, one in overruled}
     held = [*given, *(one for one in shown if id(one) not in dropped)]
     agreeing, second = _without_doubted(network, held, agreeing)
     return Weighed(spread(network, [*held, *agreeing]), (*first, *overruled, *second))
+
+
+def _overruled(shown: Sequence[Evidence], known: Flows) -> list[_Doubt]:
+    """The guesses of geometry that contradict what follows from the file."""
+    guesses = [one for one in shown if one.confidence < _CONSTRUCTION and one.link in known.chosen]
+    pairs = [(known.chosen[one.link], one) for one in guesses]
+    return [(held, one) for held, one in pairs if is_of_file(held) and held.forward != one.forward]
 
 
 def _without_doubted(

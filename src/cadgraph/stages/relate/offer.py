@@ -51,6 +51,7 @@ _DISC = 1.6
 # Gaps within this much of each other are alike [m]; so many make a habit, and none that is narrower is one.
 _ALIKE, _HABIT, _LEAST_HABIT = 0.0004, 5, 0.001
 
+_OF_GAP = ("gap", "wide")  # what is measured of a gap
 _THINKABLE = -4.0  # log-odds below which nobody would ask why a joint was not made
 
 Kind = Literal["face", "corner", "mount", "tap", "sleeve"]
@@ -87,6 +88,10 @@ class Offer:
     def score(self) -> float:
         """How sure it is, 0..1."""
         return score_of(self.odds)
+
+    def part(self, ends: Ends) -> int:
+        """The part that the end would join."""
+        return int(ends.part[self.other]) if self.kind in ("face", "corner") else self.other
 
     @property
     def reasons(self) -> tuple[str, ...]:
@@ -222,15 +227,12 @@ def bear_witness(offer: Offer, ends: Ends, other: int, stated: Stated) -> Offer:
 def _across(offer: Offer) -> Offer:
     """An offer in whose gap the file's word counts where it explains more of it than geometry alone does."""
     gap = offer.measured.get("gap", float("nan"))
-    if not gap > 0:
+    # "over" tells of the gap too, though it is a flag.
+    terms = [float(CURVES[name](offer.measured.get(name, float("nan")))) for name in _OF_GAP]
+    gain = float(CURVES["far"](gap)) - sum(terms) - FLAGS["over"][0] * ("over" in offer.flags)
+    if not gap > 0 or gain <= 0:
         return offer
-    names = [name for name in ("gap", "wide") if name in offer.measured]
-    alone = sum(float(CURVES[name](offer.measured[name])) for name in names)
-    alone += sum(FLAGS[name][0] for name in offer.flags if name == "over")
-    gain = float(CURVES["far"](gap)) - alone
-    if gain <= 0:
-        return offer
-    left = {name: value for name, value in offer.measured.items() if name not in names}
+    left = {name: value for name, value in offer.measured.items() if name not in _OF_GAP}
     flags = tuple(name for name in offer.flags if name != "over")
     return replace(offer, odds=offer.odds + gain, measured={"far": gap, **left}, flags=flags)
 
