@@ -4,7 +4,7 @@ Generated plants whose file says what is joined, as the ports of an IFC or the b
 parts that were made to meet, with the flow of the true connections. All links right, and a tenth of them wrong (half by
 one place, half anywhere, a half of these with the flow turned) and another tenth missing. For each the connections and
 directions that are found without and with ``relate.use_metadata``, and what ``compare --source`` says of the graph that
-was made without.
+was made without. ``--write`` puts the table into ``docs/functional.md``.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import product
+from pathlib import Path
 from typing import Literal
 
 import numpy as np
@@ -29,10 +30,11 @@ from cadgraph.model.vocabulary import default_vocabulary
 from cadgraph.pipeline import build
 from cadgraph.query.compare_source import compare_source
 from cadlab.evaluate.evaluation import evaluate
-from cadlab.markdown import table
+from cadlab.markdown import put, table
 from cadplants import PRESETS, STYLES, Defects, Plant, make
 from cadplants.truth_writer import truth_of
 
+PAGE = Path(__file__).parents[3] / "docs" / "functional.md"
 WRONG, MISSING = 0.1, 0.1
 DRAWN = {
     "as meant": Defects(),
@@ -193,6 +195,7 @@ def main() -> None:
     parser.add_argument("--styles", nargs="+", default=["plant-design"], choices=list(STYLES))
     parser.add_argument("--labels", nargs="+", default=["true", "wrong"], choices=list(LABELS))
     parser.add_argument("--drawn", nargs="+", default=list(DRAWN), choices=list(DRAWN))
+    parser.add_argument("--write", action="store_true", help="put the table into docs/functional.md")
     options = parser.parse_args()
     plants = list(product(options.presets, options.seeds, options.styles))
     rows = [
@@ -200,8 +203,11 @@ def main() -> None:
         for mode, how, file in product(options.labels, options.drawn, FILES)
     ]
     seeds = ", ".join(str(seed) for seed in options.seeds)
-    print(f"Presets {', '.join(options.presets)}; styles {', '.join(options.styles)}; seed {seeds}.\n")
-    print("\n".join(table(HEADS, rows, True)))
+    head = f"Presets {', '.join(options.presets)}; styles {', '.join(options.styles)}; seed {seeds}."
+    text = "\n".join([head, "", *table(HEADS, rows, True)])
+    print(text)
+    if options.write:
+        PAGE.write_text(put(PAGE.read_text(encoding="utf-8"), "stated", text), encoding="utf-8")
 
 
 if __name__ == "__main__":
