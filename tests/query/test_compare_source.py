@@ -165,7 +165,7 @@ def test_what_cannot_be_compared_is_listed_and_never_dropped():
     several = Stated(
         first=("part-V-001", "part-V-002"), second=("part-a",), first_path="/p", second_path="/p/a", where="order"
     )
-    above = Stated(first=("part-a", "part-b"), second=("part-V-001",), first_path="/q", second_path="/p/V-001")
+    above = Stated(first=("part-a", "part-z"), second=("part-V-001",), first_path="/q", second_path="/p/V-001")
     wide = Stated(first=(), second=("part-a",), first_path="/p/V-001/", second_path="/p/a")
     lost = [said("V-001", "x", lost="x"), said("x", "V-002", lost="x")]
     graph = plant(via("V-001 V-002", "a"), [*lost, several, above, *ways("a b"), *ways("V-001 z")], pipes="a b z")
@@ -194,6 +194,16 @@ def test_a_node_and_a_mesh_below_it_are_one_place():
     node = Stated(first=("part-a", "part-b"), second=("part-V-002",), first_path="/node", second_path="/p/V-002")
     found = compare_source(plant(STRAIGHT, [said("V-001", "a"), node]))
     assert pairs(found.agreeing) == [("V-001", "V-002")]
+
+
+@pytest.mark.parametrize("joined", [True, False])
+def test_a_branch_is_a_place_where_its_elements_hang_together(joined):
+    ends = ("part-a", "part-b"), ("part-V-001",)
+    branch = Stated(first=ends[0], second=ends[1], first_path="/branch", second_path="/p/V-001", where="att HREF")
+    rest = ways("a b V-002") if joined else [*ways("b V-002"), *ways("a c")]
+    found = compare_source(plant(via("V-001 V-002", "a", "b", "c"), [branch, *rest], pipes="a b c"))
+    assert pairs(found.agreeing) == ([("V-001", "V-002")] if joined else [])
+    assert [one.path for one in found.uncompared] == ([] if joined else ["/branch"])
 
 
 def test_links_within_one_device_are_counted():

@@ -327,8 +327,11 @@ class _Theirs(_Side):
             for path, parts in ((link.first_path, link.first), (link.second_path, link.second))
         }
         self._unit_of = {part: unit.id for unit in self._units for part in unit.parts}
+        self._above: dict[str, set[str]] = {}
         self._why, self._place = self._placed()
         self._at, self.within = self._stepped()
+        if self._place_branches():
+            self._at, self.within = self._stepped()
 
     @cached_property
     def _units(self) -> tuple[Unit, ...]:
@@ -355,12 +358,28 @@ class _Theirs(_Side):
                 why[path], place = f"it is several units: {self._named(units)}", None
             elif not units and len(others) > 1:
                 why[path], place = "it is a node above several elements that the source joins", None
+                self._above[path] = others
             elif not units and self._on_lines.isdisjoint(parts):
                 why[path] = "no line of the graph leads through it"
             place_of[path] = place
             for part in parts if place is not None and not units else ():
                 taken.setdefault(part, place or "")
         return why, place_of
+
+    def _place_branches(self) -> bool:
+        """Gives a node above several elements the place of one of them where a device divides none of them off.
+
+        A branch that another one refers to is one piece of pipe then, whichever end is meant. Returns whether there is
+        such a node.
+        """
+        found = False
+        for path, others in self._above.items():
+            first = min(others)
+            if others <= self._inside(first):
+                self._place[path] = first
+                del self._why[path]
+                found = True
+        return found
 
     def _missing(self, path: str) -> tuple[str, str | None]:
         node = path.rstrip("/") + "/"
@@ -444,7 +463,7 @@ class _Theirs(_Side):
         """All that hangs together with a place that doesn't divide."""
         inside, waiting = {start}, [start]
         while waiting:
-            for step in self._at[waiting.pop()]:
+            for step in self.steps(waiting.pop()):
                 if step.there not in inside and not self._divides(step.there):
                     inside.add(step.there)
                     waiting.append(step.there)

@@ -72,11 +72,12 @@ class Stated:
 
     @cached_property
     def _degree(self) -> Mapping[int, int]:
-        """To how many others the file joins each part."""
+        """To how many others the file joins each part that is an element by itself."""
         others: dict[int, set[str]] = {}
-        for part, at in self._ends_at.items():
-            links = ((self.usable[number].link, side) for number, side in at.items())
-            others[part] = {link.second if side else link.first for link, side in links}
+        for join in self.usable:
+            for own, path in ((join.first, join.link.second), (join.second, join.link.first)):
+                if len(own) == 1:
+                    others.setdefault(own[0], set()).add(path)
         return {part: len(paths) for part, paths in others.items()}
 
 
