@@ -22,7 +22,7 @@ def parse_yaml(text: str, where: str, error: type[Exception]) -> Any:
         error: it isn't.
     """
     try:
-        return yaml.load(text, Loader=_StrictLoader)  # noqa: S506 - a SafeLoader
+        return yaml.load(text, Loader=_StrictLoader)
     except (yaml.YAMLError, ValueError, RecursionError) as failure:
         raise error(f"{where}: not YAML ({_what(failure)})") from failure
 

@@ -9,7 +9,15 @@ import typer
 
 from cadgraph.cli.application import app
 from cadgraph.cli.asking import AskingOptions, asks
-from cadgraph.cli.options import ConfigOption, MethodOption, SetOption, read_flows, settings_of
+from cadgraph.cli.options import (
+    USE_METADATA,
+    ConfigOption,
+    MetadataOption,
+    MethodOption,
+    SetOption,
+    read_flows,
+    settings_of,
+)
 from cadgraph.cli.screen import bars, tell, tell_next
 
 if TYPE_CHECKING:
@@ -44,6 +52,7 @@ def build(
             help="What flows where, as 'P-001 -> T-001', or a file of such lines. May be repeated.",
         ),
     ] = None,
+    use_metadata: MetadataOption = False,
     method: MethodOption = None,
     config: ConfigOption = None,
     settings: SetOption = None,
@@ -61,6 +70,8 @@ def build(
         chosen = chosen.replace({"relate.flow": (*chosen.relate.flow, *read_flows(flow))})
     if catalog:
         chosen = chosen.replace({"label.catalogs": [str(file) for file in catalog]})
+    if use_metadata:
+        chosen = chosen.replace(USE_METADATA)
     before, chosen = chosen, asking.settings(chosen)
     with bars() as progress:
         labeler = asking.labeler(chosen, output, progress)

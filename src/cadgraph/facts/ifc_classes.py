@@ -53,9 +53,7 @@ _VALVE_KINDS = MappingProxyType(
 
 _CLASSES: Mapping[str, IfcClass] = MappingProxyType(
     {
-        "PIPESEGMENT": IfcClass(
-            (_PIPE, "pipe"), {"FLEXIBLESEGMENT": (_PIPE, "hose"), "GUTTER": None, "CULVERT": None}
-        ),
+        "PIPESEGMENT": IfcClass((_PIPE, "pipe"), {"FLEXIBLESEGMENT": (_PIPE, "hose"), "GUTTER": None, "CULVERT": None}),
         "PIPEFITTING": IfcClass(
             (_PIPE, None),
             {"BEND": (_PIPE, "elbow"), "JUNCTION": (_PIPE, "tee"), "TRANSITION": (_PIPE, "reducer")},
@@ -81,14 +79,14 @@ _CLASSES: Mapping[str, IfcClass] = MappingProxyType(
         "MECHANICALFASTENER": IfcClass(
             (_JOIN, None),
             {
-                "BOLT": (_JOIN, "bolt"), "ANCHORBOLT": (_JOIN, "bolt"), "SCREW": (_JOIN, "screw"),
+                "BOLT": (_JOIN, "bolt"),
+                "ANCHORBOLT": (_JOIN, "bolt"),
+                "SCREW": (_JOIN, "screw"),
                 "STUDSHEARCONNECTOR": (_JOIN, "stud"),
             },  # fmt: skip
         ),
         "DISCRETEACCESSORY": IfcClass(None, {"BRACKET": (_JOIN, "bracket"), "ANCHORPLATE": (_STEEL, "base plate")}),
-        "RAILING": IfcClass(
-            (_STEEL, "railing"), {"FENCE": (_STEEL, "fence"), "BALUSTRADE": (_STEEL, "railing")}
-        ),
+        "RAILING": IfcClass((_STEEL, "railing"), {"FENCE": (_STEEL, "fence"), "BALUSTRADE": (_STEEL, "railing")}),
         "BEAM": IfcClass((_STEEL, "beam")),
         "COLUMN": IfcClass((_STEEL, "column")),
         "WALL": IfcClass((_STEEL, "wall")),

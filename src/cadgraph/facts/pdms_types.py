@@ -54,7 +54,22 @@ _TYPES: Mapping[str, Said] = MappingProxyType(
 SILENT_TYPES = frozenset(
     {
         *("INST", "PCOM", "ATTA", "EQUI", "SUBE", "BRAN", "PIPE", "ZONE", "SITE", "WORL", "STRU", "FRMW", "SBFR"),
-        *("BOX", "CYLI", "CONE", "DISH", "PYRA", "RTOR", "CTOR", "SNOU", "SLCY", "EXTR", "REVO", "POHE", "TMPL", "HANG"),
+        *(
+            "BOX",
+            "CYLI",
+            "CONE",
+            "DISH",
+            "PYRA",
+            "RTOR",
+            "CTOR",
+            "SNOU",
+            "SLCY",
+            "EXTR",
+            "REVO",
+            "POHE",
+            "TMPL",
+            "HANG",
+        ),
         *("DRAW", "WELD", "DUCT", "HVAC", "SUPPO", "PLOO", "EQUIPMENT", "SUBEQUIPMENT", "BRANCH", "STRUCTURE"),
         *("FRAMEWORK", "SUBFRAMEWORK", "INSTRUMENT", "PCOMPONENT", "ATTACHMENT", "CYLINDER", "PYRAMID", "EXTRUSION"),
     }

@@ -15,8 +15,8 @@ __all__ = ["SPEAKING", "Claim", "Family", "claims_of", "path_name", "strongest"]
 
 Family = Literal["class", "type", "name", "layer"]
 
-# How much what a fact says is trusted, first to last; proposals of ours. Beside them: on a real heating plant the class gave
-# the right group for 205 of 219 elements, and the right name for 123 of the 123 that it names.
+# How much what a fact says is trusted, first to last; proposals of ours. Beside them: on a real heating plant the class
+# gave the right group for 205 of 219 elements, and the right name for 123 of the 123 that it names.
 _OUR_LABEL = 0.95  # the file carries a label of our own vocabulary
 _CODE = 0.9  # type of an RVM element, enumeration of IFC, Isogen's symbol key
 _CLASS = 0.8  # class of IFC

@@ -101,12 +101,14 @@ class Words:
     """A list of phrases, and what a text says by them.
 
     Args:
-        phrases: by their words; later ones take the place of equal ones before.
+        phrases: of equal ones the first counts.
         cut: words after which a text names something else.
     """
 
     def __init__(self, phrases: Iterable[_Phrase], cut: Iterable[str] = ()) -> None:
-        listed = {phrase.words: phrase for phrase in phrases}
+        listed: dict[tuple[str, ...], _Phrase] = {}
+        for phrase in phrases:
+            listed.setdefault(phrase.words, phrase)
         self.n_phrases = len(listed)
         self._cut = frozenset(cut)
         self._by_first: dict[str, list[_Phrase]] = {}
@@ -189,12 +191,14 @@ def read_words(path: str | Path = "") -> Words:
     if not str(path):
         return _built_in_words()
     where = str(path)
-    phrases, cut, dropped = _parsed(parse_yaml(read_text_within(path, WORDS, LabelError, _REMEDY), where, LabelError), where)
+    phrases, cut, dropped = _parsed(
+        parse_yaml(read_text_within(path, WORDS, LabelError, _REMEDY), where, LabelError), where
+    )
     known, known_cut = _built_in()
     unknown = dropped - {phrase.words for phrase in known}
     if unknown:
         raise LabelError(f"{where}: drop: {' '.join(min(unknown))!r} isn't in the built-in list; remove it")
-    return Words([*(phrase for phrase in known if phrase.words not in dropped), *phrases], known_cut | cut)
+    return Words([*phrases, *(phrase for phrase in known if phrase.words not in dropped)], known_cut | cut)
 
 
 _Parsed = tuple[tuple[_Phrase, ...], frozenset[str], frozenset[tuple[str, ...]]]
