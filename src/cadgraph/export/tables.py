@@ -29,8 +29,8 @@ def write_tables(graph: SceneGraph, folder: str | Path) -> list[Path]:
 
     They are ``parts.csv``, ``units.csv``, ``connections.csv``, ``junctions.csv``, ``ends.csv``, ``systems.csv``,
     ``joints.csv``, ``clusters.csv``, ``contacts.csv``, ``meshes.csv``, ``facts.csv`` for what the source file says of
-    them, and ``related.csv`` for the relations of the paper's Algorithm 1. ``between`` in the connections says whether one joins two units, a junction, or leads to an
-    end.
+    them, and ``related.csv`` for the relations of the paper's Algorithm 1. ``between`` in the connections says whether
+    one joins two units, a junction, or leads to an end.
 
     UTF-8 with a byte order mark, by which Excel knows it. Units are in the column names. Text that a spreadsheet would
     run as a formula gets an apostrophe in front.

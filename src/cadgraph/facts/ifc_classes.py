@@ -83,7 +83,7 @@ _CLASSES: Mapping[str, IfcClass] = MappingProxyType(
                 "ANCHORBOLT": (_JOIN, "bolt"),
                 "SCREW": (_JOIN, "screw"),
                 "STUDSHEARCONNECTOR": (_JOIN, "stud"),
-            },  # fmt: skip
+            },
         ),
         "DISCRETEACCESSORY": IfcClass(None, {"BRACKET": (_JOIN, "bracket"), "ANCHORPLATE": (_STEEL, "base plate")}),
         "RAILING": IfcClass((_STEEL, "railing"), {"FENCE": (_STEEL, "fence"), "BALUSTRADE": (_STEEL, "railing")}),

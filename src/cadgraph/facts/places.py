@@ -97,8 +97,8 @@ class Places:
     def of_units(self, units: Sequence[Sequence[int]]) -> tuple[tuple[NodeFacts, ...], ...]:
         """What is said of the nodes above several parts that stand for units.
 
-        A node stands for a unit if nine tenths of the meshes below it belong to that. Where no such node holds most of a
-        unit, the lowest one does that holds most of it, and little else.
+        A node stands for a unit if nine tenths of the meshes below it belong to that. Where no such node holds most of
+        a unit, the lowest one does that holds most of it, and little else.
 
         Args:
             units: parts of each unit.

@@ -24,6 +24,7 @@ from cadgraph.model.vocabulary import Vocabulary, spell_label
 __all__ = ["lay_file"]
 
 _SETTLES = 0.75  # a claim that is trusted so much says the name where geometry sees the same group
+_WHOLE = 2 / 3  # share of the parts that a file calls a valve or a pump that are one, and no piece of one (ours)
 _MOST_TOLD = 30  # labels that one note names
 _LONGEST = 400  # characters of what stands in the file that a label keeps
 
@@ -35,7 +36,8 @@ def lay_file(labeling: Labeling, analysis: Analysis, vocabulary: Vocabulary, con
 
     Each kind of fact is a witness that is right as often as it is trusted, and the labeler's probabilities are what is
     known before. Facts that say the same share most of their mistakes, so each counts for less. The group is the more
-    probable one. Within it the file names the part where its claim is trusted by three quarters.
+    probable one. Within it the file names the part where its claim is trusted by three quarters; but a valve, gauge, pump
+    or tank may be drawn in pieces that are all filed as that, so which piece a part is, is left to both.
 
     Args:
         labeling: of the labeler.
@@ -61,7 +63,7 @@ def lay_file(labeling: Labeling, analysis: Analysis, vocabulary: Vocabulary, con
         # A label that is the file's already comes from a finished graph.
         if not claims or parts.ground[part] or (before is not None and before.source == "file"):
             continue
-        _weigh(beliefs, part, claims)
+        _weigh(beliefs, part, claims, vocabulary)
         found = beliefs.label_of(part, labeling.thresholds[part])
         answers[part] = _joined(before, found, claims)
         told[part] = next((claim for claim in claims if not claim.is_prior), claims[0])
@@ -84,19 +86,27 @@ def _of(told: Collection[int], joined: Sequence[_T], alone: Sequence[_T]) -> tup
     return tuple(joined[part] if part in told else one for part, one in enumerate(alone))
 
 
-def _weigh(beliefs: LabelBeliefs, part: int, claims: Sequence[Claim]) -> None:
+def _weigh(beliefs: LabelBeliefs, part: int, claims: Sequence[Claim], vocabulary: Vocabulary) -> None:
     """Takes the claims about a part into account."""
     logs = np.zeros(len(beliefs.classes))
     for claim in claims:
         alike = sum(claim.group == other.group for other in claims)
         # A wrong name is mostly one of the same group.
         grouped = claim.trust if claim.is_prior else (1 + claim.trust) / 2
-        logs += shared_weight(alike) * np.log(beliefs.likelihood(*claim.said, claim.trust, grouped))
+        named = claim.trust * (_WHOLE if _is_device(claim, vocabulary) else 1)
+        logs += shared_weight(alike) * np.log(beliefs.likelihood(*claim.said, named, grouped))
     beliefs.weigh(np.array([part], np.int64), logs)
     group = beliefs.group_of(part)
-    settled = next((c for c in claims if c.name is not None and c.trust >= _SETTLES and c.group == group), None)
-    if settled is not None:
-        beliefs.name_within(part, group, str(settled.name), settled.trust)
+    for claim in claims:
+        if claim.name is not None and claim.trust >= _SETTLES and claim.group == group:
+            if not _is_device(claim, vocabulary):
+                beliefs.name_within(part, group, claim.name, claim.trust)
+            return
+
+
+def _is_device(claim: Claim, vocabulary: Vocabulary) -> bool:
+    """Whether a claim speaks of a whole device, a valve or a pump, of which the part may be a piece."""
+    return claim.name is not None and claim.name == vocabulary.groups[claim.group].unit
 
 
 def _joined(before: Label | None, found: Likeliest, claims: Sequence[Claim]) -> Label:
