@@ -51,11 +51,23 @@ def test_trust_follows_the_kind_of_fact(rows, name, trust):
 @pytest.mark.parametrize(
     "row",
     [
-        ("class", "IfcBuildingElementProxy"), ("class", "IfcDoor"), ("class", "IfcFlowFitting"), ("class", "INST"),
-        ("class", "EQUI"), ("class", "BRANCH"), ("class", "BOX"), ("spec", "SGFL"), ("spec", "12345"), ("tag", "PUMP-1"),
-        ("system", "pump circuit"), ("size", "50"), ("predefined", "NOTDEFINED"), ("name", ""), ("class", "IfcSlab"),
+        ("class", "IfcBuildingElementProxy"),
+        ("class", "IfcDoor"),
+        ("class", "IfcFlowFitting"),
+        ("class", "INST"),
+        ("class", "EQUI"),
+        ("class", "BRANCH"),
+        ("class", "BOX"),
+        ("spec", "SGFL"),
+        ("spec", "12345"),
+        ("tag", "PUMP-1"),
+        ("system", "pump circuit"),
+        ("size", "50"),
+        ("predefined", "NOTDEFINED"),
+        ("name", ""),
+        ("class", "IfcSlab"),
     ],
-)  # fmt: skip
+)
 def test_what_says_nothing_makes_no_claim(row):
     assert claims(row) == [None]
 
@@ -79,10 +91,16 @@ def test_a_generic_class_only_leans():
 @pytest.mark.parametrize(
     ("key", "name", "kind"),
     [
-        ("CKFL", "valve", "check valve"), ("V3FL", "valve", None), ("vgfl", "valve", None), ("FLWN", "flange", None),
-        ("FLBL", "blind flange", None), ("ELBW", "elbow", None), ("RCBW", "reducer", None), ("WTBW", "branch outlet", None),
+        ("CKFL", "valve", "check valve"),
+        ("V3FL", "valve", None),
+        ("vgfl", "valve", None),
+        ("FLWN", "flange", None),
+        ("FLBL", "blind flange", None),
+        ("ELBW", "elbow", None),
+        ("RCBW", "reducer", None),
+        ("WTBW", "branch outlet", None),
     ],
-)  # fmt: skip
+)
 def test_symbol_keys(key, name, kind):
     assert isogen_label(key)[1:] == (name, kind)
 

@@ -99,11 +99,21 @@ def test_a_tag_of_a_piece_counts_less_than_that_of_the_whole():
 @pytest.mark.parametrize(
     ("value", "tag"),
     [
-        ("/P-101", "P-101"), ("10 PAC01 AP001", "10-PAC01-AP001"), ("V_12.a", "V_12.a"), ("316289", None), ("Pump", None),
-        ("", None), ("P-101 -> T-1", None), ("part-00012", None), ("Unit 3", None), ("P" * 60 + "1", None), ("[red]P1", None),
-        ("P-1\n", "P-1"), ("Ü-1", None),
+        ("/P-101", "P-101"),
+        ("10 PAC01 AP001", "10-PAC01-AP001"),
+        ("V_12.a", "V_12.a"),
+        ("316289", None),
+        ("Pump", None),
+        ("", None),
+        ("P-101 -> T-1", None),
+        ("part-00012", None),
+        ("Unit 3", None),
+        ("P" * 60 + "1", None),
+        ("[red]P1", None),
+        ("P-1\n", "P-1"),
+        ("Ü-1", None),
     ],
-)  # fmt: skip
+)
 def test_what_can_be_a_tag(value, tag):
     assert usable_tag(value) == tag
 

@@ -35,17 +35,42 @@ def test_the_list_speaks_ten_languages():
 @pytest.mark.parametrize(
     ("text", "name"),
     [
-        ("Gate valve DN50", "valve"), ("Absperrklappe", "valve"), ("vanne papillon", "valve"), ("valvola a sfera", "valve"),
-        ("Válvula de retenção", "valve"), ("válvula de bola", "valve"), ("kogelkraan", "valve"), ("zawór kulowy", "valve"),
-        ("backventil", "valve"), ("клапан обратный", "valve"), ("Kreiselpumpe 3", "pump"), ("pompe centrifuge", "pump"),
-        ("циркуляционный насос", "pump"), ("Blindflansch DN80", "blind flange"), ("bride", "flange"), ("kołnierz", "flange"),
-        ("Rohrbogen 90°", "elbow"), ("COUDE 3D", "elbow"), ("gomito", "elbow"), ("отвод 90", "elbow"),
-        ("Reduzierstück", "reducer"), ("Dichtung", "gasket"), ("прокладка", "gasket"), ("uszczelka", "gasket"),
-        ("Wärmetauscher", "heat exchanger"), ("Heizkörper", "radiator"), ("Handrad", "handwheel"),
-        ("hand-wheel", "handwheel"), ("PUMPCasing2", "pump casing"), ("/HANDRAIL-12", "railing"), ("levers", "lever"),
-        ("Ausdehnungsgefäß", "tank"), ("Sechskantmutter", "nut"), ("Rørledning", "Pipe assembly"),
+        ("Gate valve DN50", "valve"),
+        ("Absperrklappe", "valve"),
+        ("vanne papillon", "valve"),
+        ("valvola a sfera", "valve"),
+        ("Válvula de retenção", "valve"),
+        ("válvula de bola", "valve"),
+        ("kogelkraan", "valve"),
+        ("zawór kulowy", "valve"),
+        ("backventil", "valve"),
+        ("клапан обратный", "valve"),
+        ("Kreiselpumpe 3", "pump"),
+        ("pompe centrifuge", "pump"),
+        ("циркуляционный насос", "pump"),
+        ("Blindflansch DN80", "blind flange"),
+        ("bride", "flange"),
+        ("kołnierz", "flange"),
+        ("Rohrbogen 90°", "elbow"),
+        ("COUDE 3D", "elbow"),
+        ("gomito", "elbow"),
+        ("отвод 90", "elbow"),
+        ("Reduzierstück", "reducer"),
+        ("Dichtung", "gasket"),
+        ("прокладка", "gasket"),
+        ("uszczelka", "gasket"),
+        ("Wärmetauscher", "heat exchanger"),
+        ("Heizkörper", "radiator"),
+        ("Handrad", "handwheel"),
+        ("hand-wheel", "handwheel"),
+        ("PUMPCasing2", "pump casing"),
+        ("/HANDRAIL-12", "railing"),
+        ("levers", "lever"),
+        ("Ausdehnungsgefäß", "tank"),
+        ("Sechskantmutter", "nut"),
+        ("Rørledning", "Pipe assembly"),
     ],
-)  # fmt: skip
+)
 def test_names_in_ten_languages_are_known(text, name):
     assert said(text) == name
 
@@ -53,22 +78,52 @@ def test_names_in_ten_languages_are_known(text, name):
 @pytest.mark.parametrize(
     ("text", "name"),
     [
-        ("Ventilator 2", "blower"), ("Ventilation", None), ("Lüftung_Ventilationskanal", None), ("steel", None),
-        ("Steel beam", "beam"), ("committee", None), ("Pumpensumpf", None), ("pump room", None), ("M16 Bolzen",
-        "Connection assembly"), ("Verschraubung", "union"), ("gasket for valve", "gasket"), ("Dichtung für Pumpe", "gasket"),
-        ("Flanged valve", "valve"), ("tank farm", None), ("valve body", "valve body"), ("pipe clamp", "clamp"),
-        ("Ventilgehäuse", "valve body"), ("shell and tube", "heat exchanger"), ("вентиляция", None), ("вентилятор", "blower"),
+        ("Ventilator 2", "blower"),
+        ("Ventilation", None),
+        ("Lüftung_Ventilationskanal", None),
+        ("steel", None),
+        ("Steel beam", "beam"),
+        ("committee", None),
+        ("Pumpensumpf", None),
+        ("pump room", None),
+        ("M16 Bolzen", "Connection assembly"),
+        ("Verschraubung", "union"),
+        ("gasket for valve", "gasket"),
+        ("Dichtung für Pumpe", "gasket"),
+        ("Flanged valve", "valve"),
+        ("tank farm", None),
+        ("valve body", "valve body"),
+        ("pipe clamp", "clamp"),
+        ("Ventilgehäuse", "valve body"),
+        ("shell and tube", "heat exchanger"),
+        ("вентиляция", None),
+        ("вентилятор", "blower"),
     ],
-)  # fmt: skip
+)
 def test_traps(text, name):
     assert said(text) == name
 
 
 @pytest.mark.parametrize(
     "text",
-    ["mesh_12", "Body", "Solid", "Part1", "Geo_00012", "NAUO12", "Boss-Extrude1", "4711-0815", "", "___", "Component4",
-     "=>[1:1:1:2]", "GLTF_17", "Cube.003", "DN80 PN16"],
-)  # fmt: skip
+    [
+        "mesh_12",
+        "Body",
+        "Solid",
+        "Part1",
+        "Geo_00012",
+        "NAUO12",
+        "Boss-Extrude1",
+        "4711-0815",
+        "",
+        "___",
+        "Component4",
+        "=>[1:1:1:2]",
+        "GLTF_17",
+        "Cube.003",
+        "DN80 PN16",
+    ],
+)
 def test_names_without_meaning_match_nothing(text):
     assert WORDS.read(text) is None
 
@@ -82,10 +137,16 @@ def test_kinds_of_units_are_told():
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("GateValve_012", ("gate", "valve")), ("PUMPCasing2", ("pump", "casing")), ("hand-wheel", ("hand", "wheel")),
-        ("Größe", ("grosse",)), ("zawór", ("zawor",)), ("rør", ("ror",)), ("/123/_4", ()), ("PSVs", ("psvs",)),
+        ("GateValve_012", ("gate", "valve")),
+        ("PUMPCasing2", ("pump", "casing")),
+        ("hand-wheel", ("hand", "wheel")),
+        ("Größe", ("grosse",)),
+        ("zawór", ("zawor",)),
+        ("rør", ("ror",)),
+        ("/123/_4", ()),
+        ("PSVs", ("psvs",)),
     ],
-)  # fmt: skip
+)
 def test_words_of_a_name(text, words):
     assert words_of(text) == words
 

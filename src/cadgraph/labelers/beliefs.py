@@ -77,7 +77,9 @@ class LabelBeliefs:
         elif (self._group == guess.group).any():
             row[self._group == guess.group] += guess.confidence / (self._group == guess.group).sum()
 
-    def likelihood(self, group: str, name: str | None, named: float, grouped: float) -> Floats:
+    def likelihood(
+        self, group: str, name: str | None, named: float, grouped: float, astray: float | None = None
+    ) -> Floats:
         """``(n_classes,)`` how likely a statement is made, for each label that may be the true one.
 
         Args:
@@ -85,13 +87,15 @@ class LabelBeliefs:
             name: that it says; None where it says the group alone.
             named: how often such a statement has the right name.
             grouped: how often it has the right group.
+            astray: how often a statement with a wrong group says just this; None: as often as any other label.
         """
         inside = self._group == group
-        n_inside, n_outside = max(int(inside.sum()), 1), max(int((~inside).sum()), 1)
+        n_inside = max(int(inside.sum()), 1)
+        outside = (1 - grouped) * (1 / max(int((~inside).sum()), 1) if astray is None else astray)
         if name is None:
-            return np.asarray(np.where(inside, grouped / n_inside, (1 - grouped) / n_outside), np.float64)
+            return np.asarray(np.where(inside, grouped / n_inside, outside), np.float64)
         # Of the wrong ones some fall on the same group, the rest on all others.
-        odd: Floats = np.where(inside, max(grouped - named, 1e-3) / max(n_inside - 1, 1), (1 - grouped) / n_outside)
+        odd: Floats = np.where(inside, max(grouped - named, 1e-3) / max(n_inside - 1, 1), outside)
         odd[self._rank[group, name]] = named
         return odd
 

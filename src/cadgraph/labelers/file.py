@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TypeVar
@@ -36,8 +37,8 @@ def lay_file(labeling: Labeling, analysis: Analysis, vocabulary: Vocabulary, con
 
     Each kind of fact is a witness that is right as often as it is trusted, and the labeler's probabilities are what is
     known before. Facts that say the same share most of their mistakes, so each counts for less. The group is the more
-    probable one. Within it the file names the part where its claim is trusted by three quarters; but a valve, gauge, pump
-    or tank may be drawn in pieces that are all filed as that, so which piece a part is, is left to both.
+    probable one. Within it the file names the part where its claim is trusted by three quarters; but a valve, gauge,
+    pump or tank may be drawn in pieces that are all filed as that, so which piece a part is, is left to both.
 
     Args:
         labeling: of the labeler.
@@ -58,12 +59,13 @@ def lay_file(labeling: Labeling, analysis: Analysis, vocabulary: Vocabulary, con
     parts, answers = analysis.parts, list(labeling.answers)
     beliefs = LabelBeliefs(vocabulary, labeling, parts.n_parts)
     told: dict[int, Claim] = {}
+    often = _Often(statements, len(beliefs.classes))
     for part, claims in enumerate(statements.of_parts):
         before = answers[part]
         # A label that is the file's already comes from a finished graph.
         if not claims or parts.ground[part] or (before is not None and before.source == "file"):
             continue
-        _weigh(beliefs, part, claims, vocabulary)
+        _weigh(beliefs, part, claims, vocabulary, often if beliefs.known[part] else None)
         found = beliefs.label_of(part, labeling.thresholds[part])
         answers[part] = _joined(before, found, claims)
         told[part] = next((claim for claim in claims if not claim.is_prior), claims[0])
@@ -86,15 +88,35 @@ def _of(told: Collection[int], joined: Sequence[_T], alone: Sequence[_T]) -> tup
     return tuple(joined[part] if part in told else one for part, one in enumerate(alone))
 
 
-def _weigh(beliefs: LabelBeliefs, part: int, claims: Sequence[Claim], vocabulary: Vocabulary) -> None:
-    """Takes the claims about a part into account."""
+class _Often:
+    """How often a file says each label: what it says wrongly is mostly what it says often.
+
+    Args:
+        statements: of all parts.
+        n_labels: of the vocabulary; each is taken to be said once more than it is.
+    """
+
+    def __init__(self, statements: Statements, n_labels: int) -> None:
+        self._counts = Counter(claim.said for claims in statements.of_parts for claim in claims)
+        self._total = self._counts.total() + n_labels
+
+    def share(self, claim: Claim) -> float:
+        """Of all that is said, 0..1."""
+        return (self._counts[claim.said] + 1) / self._total
+
+
+def _weigh(
+    beliefs: LabelBeliefs, part: int, claims: Sequence[Claim], vocabulary: Vocabulary, often: _Often | None
+) -> None:
+    """Takes the claims about a part into account; without ``often`` nothing is known of it but them."""
     logs = np.zeros(len(beliefs.classes))
     for claim in claims:
         alike = sum(claim.group == other.group for other in claims)
         # A wrong name is mostly one of the same group.
         grouped = claim.trust if claim.is_prior else (1 + claim.trust) / 2
+        astray = None if often is None else often.share(claim)
         named = claim.trust * (_WHOLE if _is_device(claim, vocabulary) else 1)
-        logs += shared_weight(alike) * np.log(beliefs.likelihood(*claim.said, named, grouped))
+        logs += shared_weight(alike) * np.log(beliefs.likelihood(*claim.said, named, grouped, astray))
     beliefs.weigh(np.array([part], np.int64), logs)
     group = beliefs.group_of(part)
     for claim in claims:

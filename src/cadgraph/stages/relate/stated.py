@@ -65,14 +65,7 @@ def tag_as_stated(
     """
     if stated is None:
         return Named(tuple(units))
-    places = _places_of_names(vocabulary)
-    areas = parts.properties.area
-
-    def rank(part: int) -> tuple[int, float, int]:
-        label = labels[part]
-        return (_NO_PLACE if label is None else places.get(label.said, _NO_PLACE)), -float(areas[part]), part
-
-    said = stated.of_units([sorted(unit.parts, key=rank) for unit in units])
+    said = stated.of_units(_by_rank(units, parts, labels, vocabulary))
     wanted = [next((tag for value in one.tags if (tag := usable_tag(value))), None) for one in said]
     claimed = Counter(loose_tag(tag) for tag in wanted if tag)
     tags = [tag if tag and claimed[loose_tag(tag)] == 1 else None for tag in wanted]
@@ -85,9 +78,20 @@ def tag_as_stated(
     )
 
 
-def _places_of_names(vocabulary: Vocabulary) -> dict[tuple[str, str | None], int]:
+def _by_rank(
+    units: Sequence[UnitParts], parts: Parts, labels: Sequence[Label | None], vocabulary: Vocabulary
+) -> list[list[int]]:
+    """The parts of each unit, those that stand for the whole first: by their names, then by their surfaces."""
     groups = vocabulary.groups.items()
-    return {(group, name): k for group, content in groups for k, name in enumerate(content.names)}
+    places = {(group, name): k for group, content in groups for k, name in enumerate(content.names)}
+    areas = parts.properties.area
+
+    def rank(part: int) -> tuple[int, float, int]:
+        label = labels[part]
+        place = _NO_PLACE if label is None or label.name is None else places.get((label.group, label.name), _NO_PLACE)
+        return place, -float(areas[part]), part
+
+    return [sorted(unit.parts, key=rank) for unit in units]
 
 
 def _renumbered(units: Sequence[UnitParts], tags: Sequence[str | None]) -> list[str]:
