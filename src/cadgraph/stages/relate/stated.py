@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from cadgraph._io.text import natural_key
@@ -67,15 +67,19 @@ def tag_as_stated(
         return Named(tuple(units))
     said = stated.of_units(_by_rank(units, parts, labels, vocabulary))
     wanted = [next((tag for value in one.tags if (tag := usable_tag(value))), None) for one in said]
-    claimed = Counter(loose_tag(tag) for tag in wanted if tag)
-    tags = [tag if tag and claimed[loose_tag(tag)] == 1 else None for tag in wanted]
-    renamed = _renumbered(units, tags)
+    renamed = _renumbered(units, _claimed_once(wanted))
     order = sorted(range(len(units)), key=lambda k: natural_key(renamed[k]))
     return Named(
         tuple(replace(units[k], tag=renamed[k]) for k in order),
         tuple(said[k] for k in order),
-        tuple(_tag_notes(units, said, wanted, claimed, parts)),
+        tuple(_tag_notes(units, said, wanted, parts)),
     )
+
+
+def _claimed_once(wanted: Sequence[str | None]) -> list[str | None]:
+    """The tags that no other unit claims, however it spells them."""
+    claimed = Counter(loose_tag(tag) for tag in wanted if tag)
+    return [tag if tag and claimed[loose_tag(tag)] == 1 else None for tag in wanted]
 
 
 def _by_rank(
@@ -119,17 +123,16 @@ def _tag_notes(
     units: Sequence[UnitParts],
     said: Sequence[UnitStatement],
     wanted: Sequence[str | None],
-    claimed: Mapping[str, int],
     parts: Parts,
 ) -> Iterator[Diagnostic]:
     twice: dict[str, list[int]] = {}
     unusable = []
     for number, (tag, one) in enumerate(zip(wanted, said, strict=True)):
-        if tag and claimed[loose_tag(tag)] > 1:
+        if tag:
             twice.setdefault(loose_tag(tag), []).append(number)
         if one.tags and not tag:
             unusable.append(number)
-    for numbers in twice.values():
+    for numbers in (numbers for numbers in twice.values() if len(numbers) > 1):
         message = f"{len(numbers)} units that the file calls {wanted[numbers[0]]}; they keep their numbers"
         yield Diagnostic("tag-twice", message, _heads(units, numbers, parts))
     if unusable:
