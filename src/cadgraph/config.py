@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import json
 import tomllib
+import warnings
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from cadgraph._io.limits import CONFIG, read_text_within
 from cadgraph._io.validation_messages import expectation
@@ -172,9 +173,26 @@ class LabelConfig(Section):
     catalogs: tuple[str, ...] = _setting(
         (), "catalogues of your own parts, made by 'cadgraph catalog add'; the first that knows a shape counts"
     )
-    use_names: bool = _setting(
-        False, "words in the source's names of meshes speak for a label that the labeler thinks possible"
+    use_metadata: bool = _setting(
+        False, "what the file says of its parts (classes, types, names) counts beside geometry, each by its trust"
     )
+    words: str = _setting(
+        "", "words in names and their labels (YAML), beside the built-in ones; empty: these alone", max_length=4096
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _read_use_names(cls, values: Any) -> Any:
+        # Until facts were read, names alone could count.
+        if not isinstance(values, Mapping) or "use_names" not in values:
+            return values
+        rest = {name: value for name, value in values.items() if name != "use_names"}
+        if values["use_names"] is False:
+            return rest
+        if values["use_names"] is True:
+            warnings.warn("label.use_names is now label.use_metadata; taken as that", DeprecationWarning, stacklevel=2)
+            return {**rest, "use_metadata": True}
+        return {**rest, "use_metadata": values["use_names"]}
 
 
 class LvlmConfig(Section):

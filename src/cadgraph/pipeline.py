@@ -6,6 +6,8 @@ from collections.abc import Sequence
 
 from cadgraph._io.progress import Progress, quiet
 from cadgraph.config import Config
+from cadgraph.facts.statements import Statements, places_of
+from cadgraph.facts.words import read_words
 from cadgraph.geometry.mesh.properties import measure
 from cadgraph.labelers.base import Labeler, label_parts
 from cadgraph.labelers.precedence import SettledLabels, settle_labels
@@ -146,7 +148,8 @@ def interpret(
     # What is rather wrong than right counts by its probabilities, beside those of the other names.
     weak = [label is not None and label.likely and label.confidence < _WEAK for label in labels.labels]
     firm, opinions = _without(labels.labels, weak), _without(labels.opinions, weak)
-    given = RelateInput(analysis, firm, opinions, vocabulary, config, labels.probabilities)
+    statements = Statements(analysis, read_words(config.label.words), vocabulary) if config.label.use_metadata else None
+    given = RelateInput(analysis, firm, opinions, vocabulary, config, labels.probabilities, statements)
     connected = connect_units(given)
     network = connected.network
     named = tuple(
@@ -165,6 +168,7 @@ def interpret(
         network=network,
         related=related,
         diagnostics=(*analysis.diagnostics, *labels.diagnostics, *connected.diagnostics),
+        places=places_of(analysis) if analysis.scene.facts else None,
     )
     graph = assemble_graph(results, vocabulary, config.model_dump(mode="json"))
     progress("assemble", 1)

@@ -6,6 +6,7 @@ import pytest
 import graphs
 import networks
 from cadgraph.export.tables import write_tables
+from cadgraph.model.graph import SceneGraph
 from cadgraph.query.summary import summarize
 
 
@@ -21,8 +22,17 @@ def test_every_table_has_its_rows(tmp_path):
     tables = read(graphs.valve_line(joints=(graphs.joint(),)), tmp_path / "new")
     assert {name: len(rows) for name, rows in tables.items()} == {
         "parts": 5, "units": 3, "connections": 2, "junctions": 0, "ends": 1, "systems": 1, "related": 1, "joints": 1,
-        "clusters": 2, "contacts": 3, "meshes": 5,
+        "clusters": 2, "contacts": 3, "meshes": 5, "facts": 0,
     }  # fmt: skip
+
+
+def test_facts_name_their_node_and_no_formula_is_run(tmp_path):
+    graph = graphs.valve_line()
+    data = graph.to_json()
+    part = next(node for node in data["nodes"] if node["layer"] == "part")
+    part["facts"] = [{"key": "name", "value": "=1+1", "where": "att NAME"}]
+    (row,) = read(SceneGraph.from_json(data), tmp_path)["facts"]
+    assert (row["node"], row["key"], row["value"], row["where"]) == (part["id"], "name", "'=1+1", "att NAME")
 
 
 def test_a_part_says_what_it_is_and_where_it_belongs(tmp_path):

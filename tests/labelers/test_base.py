@@ -124,7 +124,7 @@ def test_guesses_without_an_answer_are_kept():
     guess = Guess("Tank", "shell", 0.2)
     labeler = Says(None)
     labeler.labeling = Labeling((None,), ((guess,),), (None,), (0.0,))
-    said = label_parts(labeler, parts, NO_CONTACTS, VOCABULARY, LabelConfig(use_names=True, min_confidence=0.1))
+    said = label_parts(labeler, parts, NO_CONTACTS, VOCABULARY, LabelConfig(min_confidence=0.1))
     assert (said.labels, said.guesses) == ((None,), ((guess,),))
 
 

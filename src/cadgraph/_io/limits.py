@@ -35,6 +35,7 @@ __all__ = [
     "REPLY",
     "TRUTH",
     "VOCABULARY",
+    "WORDS",
     "Limit",
     "lines_within",
     "read_bytes_within",
@@ -68,6 +69,8 @@ CORRECTIONS = Limit(64 * _MB, "a file of corrections")
 """A row takes about 400 bytes, and a hundred thousand rows are the most that is read."""
 VOCABULARY = Limit(4 * _MB, "a vocabulary")
 """The built-in one takes 4 kB."""
+WORDS = Limit(4 * _MB, "a list of words")
+"""The built-in one takes 20 kB."""
 CATALOG = Limit(1024 * _MB, "a catalogue")
 """Of the file, and of what it holds unpacked: a thousand times what a maker's catalogue takes."""
 MODEL = Limit(256 * _MB, "a labeler's model")

@@ -9,7 +9,17 @@ import typer
 
 from cadgraph.cli.application import app
 from cadgraph.cli.asking import AskingOptions, asks
-from cadgraph.cli.options import ConfigOption, MethodOption, SetOption, UnitOption, UpOption, read_flows, settings_of
+from cadgraph.cli.options import (
+    USE_METADATA,
+    ConfigOption,
+    MetadataOption,
+    MethodOption,
+    SetOption,
+    UnitOption,
+    UpOption,
+    read_flows,
+    settings_of,
+)
 from cadgraph.cli.screen import bars, tell, tell_next
 
 if TYPE_CHECKING:
@@ -46,6 +56,7 @@ def build(
     ] = None,
     unit: UnitOption = None,
     up: UpOption = None,
+    use_metadata: MetadataOption = False,
     method: MethodOption = None,
     config: ConfigOption = None,
     settings: SetOption = None,
@@ -63,6 +74,8 @@ def build(
         chosen = chosen.replace({"relate.flow": (*chosen.relate.flow, *read_flows(flow))})
     if catalog:
         chosen = chosen.replace({"label.catalogs": [str(file) for file in catalog]})
+    if use_metadata:
+        chosen = chosen.replace(USE_METADATA)
     before, chosen = chosen, asking.settings(chosen)
     with bars() as progress:
         labeler = asking.labeler(chosen, output, progress)

@@ -11,7 +11,7 @@ from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.asking import AskingOptions, asks
-from cadgraph.cli.options import ConfigOption, SetOption, settings_of, values_of
+from cadgraph.cli.options import USE_METADATA, ConfigOption, MetadataOption, SetOption, settings_of, values_of
 from cadgraph.cli.screen import bars, err, out, tell
 
 vocabularies = typer.Typer(no_args_is_help=True, help="The tree of labels: grow, show, check, merge.")
@@ -38,6 +38,7 @@ def label(
     scene: Annotated[
         Path | None, typer.Option("--scene", metavar="FILE", help="The scene, if it has been moved.")
     ] = None,
+    use_metadata: MetadataOption = False,
     settings: SetOption = None,
     report: Annotated[bool, typer.Option("--report/--no-report", help="Draw pictures and write report.html.")] = True,
 ) -> None:
@@ -52,6 +53,7 @@ def label(
         given = settings_of_questions(from_folder) | given
     elif batch_results:
         more = {"mode": "batch", "results": tuple(batch_results)}
+    given |= USE_METADATA if use_metadata else {}
     chosen = asking.settings(config_of(folder).replace(given))
     with bars() as progress:
         labeler = asking.labeler(chosen, folder, progress, **more)

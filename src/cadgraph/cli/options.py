@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 import tomllib
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from rich.markup import escape
 
 from cadgraph._io.limits import FLOWS, read_text_within
+from cadgraph.cli.screen import err
 from cadgraph.config import Config, read_config
 
 __all__ = [
+    "USE_METADATA",
     "ConfigOption",
     "GraphArgument",
+    "MetadataOption",
     "MethodOption",
     "SetOption",
     "UnitOption",
@@ -31,6 +36,12 @@ SetOption = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="NAME=VALUE", help="Change one setting, e.g. cluster.eps=0.02. May be repeated."),
 ]
+MetadataOption = Annotated[
+    bool,
+    typer.Option(
+        "--use-metadata", help="Let what the file says of its parts count beside geometry: classes, names, joints."
+    ),
+]
 MethodOption = Annotated[str | None, typer.Option("--method", help="How to decide what touches: exact or paper.")]
 UnitOption = Annotated[
     str | None,
@@ -42,15 +53,24 @@ UpOption = Annotated[
 GraphArgument = Annotated[Path, typer.Argument(metavar="FOLDER", help="What 'cadgraph build' wrote, or a graph.json.")]
 
 
+USE_METADATA = {"label.use_metadata": True, "relate.use_metadata": True}
+"""The settings that ``--use-metadata`` makes."""
+
+
 def settings_of(
     file: Path | None, changes: Sequence[str], method: str | None, unit: str | None = None, up: str | None = None
 ) -> Config:
-    """Defaults, then the file, then flags."""
-    chosen = read_config(file) if file else Config()
+    """Defaults, then the file, then flags; a setting of an earlier version is told."""
     values = values_of(changes)
     flags = {"method": method, "load.unit": unit, "load.up": up.upper() if up else None}
     values |= {name: value for name, value in flags.items() if value is not None}
-    return chosen.replace(values) if values else chosen
+    with warnings.catch_warnings(record=True) as old:
+        warnings.simplefilter("always", DeprecationWarning)
+        chosen = read_config(file) if file else Config()
+        chosen = chosen.replace(values) if values else chosen
+    for note in dict.fromkeys(str(one.message) for one in old):
+        err.print(f"[dim]{escape(note)}[/]")
+    return chosen
 
 
 def values_of(changes: Sequence[str]) -> dict[str, Any]:

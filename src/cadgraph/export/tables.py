@@ -11,7 +11,7 @@ from typing import Any
 
 from cadgraph._io.atomic import write_atomically
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.records import Adjacent, Box, Cluster, Part, Unit
+from cadgraph.model.records import Adjacent, Box, Cluster, Part, Site, Unit
 from cadgraph.query.summary import connection_between
 
 __all__ = ["Row", "table_bytes", "table_cell", "write_tables"]
@@ -28,9 +28,9 @@ def write_tables(graph: SceneGraph, folder: str | Path) -> list[Path]:
     """Writes a CSV file for each kind of node and edge of a graph.
 
     They are ``parts.csv``, ``units.csv``, ``connections.csv``, ``junctions.csv``, ``ends.csv``, ``systems.csv``,
-    ``joints.csv``, ``clusters.csv``, ``contacts.csv``, ``meshes.csv``, and ``related.csv`` for the relations of the
-    paper's Algorithm 1. ``between`` in the connections says whether one joins two units, a junction, or leads to an
-    end.
+    ``joints.csv``, ``clusters.csv``, ``contacts.csv``, ``meshes.csv``, ``facts.csv`` for what the source file says of
+    them, and ``related.csv`` for the relations of the paper's Algorithm 1. ``between`` in the connections says whether
+    one joins two units, a junction, or leads to an end.
 
     UTF-8 with a byte order mark, by which Excel knows it. Units are in the column names. Text that a spreadsheet would
     run as a formula gets an apostrophe in front.
@@ -57,6 +57,7 @@ def write_tables(graph: SceneGraph, folder: str | Path) -> list[Path]:
         "clusters": _clusters(graph),
         "contacts": _contacts(graph),
         "meshes": _meshes(graph),
+        "facts": _facts(graph),
     }
     return [_write(Path(folder) / f"{name}.csv", rows) for name, rows in tables.items()]
 
@@ -168,6 +169,14 @@ def _meshes(graph: SceneGraph) -> Iterator[Row]:
     for part in graph.of_layer(Part):
         for mesh in part.meshes:
             yield mesh, part.id
+
+
+def _facts(graph: SceneGraph) -> Iterator[Row]:
+    yield "node", "key", "value", "where", "path"
+    for node in graph.nodes.values():
+        if isinstance(node, Part | Unit | Site):
+            for fact in node.facts:
+                yield node.id, fact.key, fact.value, fact.where, fact.path
 
 
 def _name(graph: SceneGraph, node: str) -> str:

@@ -9,7 +9,6 @@ from typing import Protocol, runtime_checkable
 
 from cadgraph.config import LabelConfig
 from cadgraph.errors import LabelError
-from cadgraph.labelers.name_hints import weigh_names
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.labels import Guess, Label
 from cadgraph.model.parts import Contacts, Parts
@@ -128,7 +127,7 @@ def label_parts(
         parts: with their geometry.
         contacts: pairs of parts that are adjacent.
         vocabulary: the labels to choose from.
-        config: the least confidence, in place of the labeler's own, and whether names in the source count.
+        config: the least confidence, in place of the labeler's own.
 
     Raises:
         LabelError: the labeler answers for another number of parts.
@@ -139,8 +138,6 @@ def label_parts(
     if len(said.labels) != parts.n_parts:
         raise LabelError(f"the labeler gave {len(said.labels)} answers for {parts.n_parts} parts")
     held = [answer if answer is not None and vocabulary.holds(*answer.said) else None for answer in said.answers]
-    if config.use_names:
-        held = list(weigh_names(held, parts, vocabulary))
     least = said.thresholds if config.min_confidence is None else config.min_confidence
     sure = said.sure if config.sure_confidence is None else config.sure_confidence
     judged = Labeling.judge(held, least, said.probabilities, said.diagnostics, sure)

@@ -1,4 +1,4 @@
-"""Who has the last word: catalogues over the labeler, given labels over these, a user's corrections over all."""
+"""Who has the last word: catalogues over the labeler and the file, given labels over these, corrections over all."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from cadgraph.config import LabelConfig
 from cadgraph.labelers.base import Labeling
 from cadgraph.labelers.catalog import apply_catalogs
 from cadgraph.labelers.corrections import apply_corrections
+from cadgraph.labelers.file import lay_file
 from cadgraph.labelers.given import apply_given
 from cadgraph.model.analysis import Analysis
 from cadgraph.model.catalog import Catalog
@@ -78,11 +79,12 @@ def lay_known(
     given: Sequence[GivenLabel],
 ) -> SettledLabels:
     """The labels before any correction; see ``settle_labels``."""
-    known, from_catalogs = apply_catalogs(labeling.labels, catalogs, analysis.parts, vocabulary)
+    told = lay_file(labeling, analysis, vocabulary, config)
+    known, from_catalogs = apply_catalogs(told.labels, catalogs, analysis.parts, vocabulary)
     named, from_outside = apply_given(known, given, analysis.scene, analysis.parts, config)
-    diagnostics = (*labeling.diagnostics, *from_catalogs, *from_outside)
+    diagnostics = (*told.diagnostics, *from_catalogs, *from_outside)
     opinions = _opinions(named, labeling)
-    return SettledLabels(named, labeling.guesses, opinions, diagnostics, labeling.probabilities)
+    return SettledLabels(named, told.guesses, opinions, diagnostics, told.probabilities)
 
 
 def lay_corrections(
@@ -91,7 +93,7 @@ def lay_corrections(
     """The labels with corrections over what ``lay_known`` returned."""
     labels, found = apply_corrections(known.labels, corrections, analysis.scene, analysis.parts, analysis.contacts)
     opinions = _opinions(labels, labeling)
-    return SettledLabels(labels, known.guesses, opinions, (*known.diagnostics, *found), labeling.probabilities)
+    return SettledLabels(labels, known.guesses, opinions, (*known.diagnostics, *found), known.probabilities)
 
 
 def _opinions(labels: Sequence[Label | None], labeling: Labeling) -> tuple[Label | None, ...]:

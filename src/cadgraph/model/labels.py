@@ -25,13 +25,13 @@ __all__ = [
     "CorrectedEvidence",
     "Evidence",
     "FileEvidence",
+    "FileSupport",
     "FormerLabel",
     "GeometryEvidence",
     "GivenEvidence",
     "Guess",
     "Label",
     "LvlmEvidence",
-    "NameHint",
     "NetworkEvidence",
 ]
 
@@ -132,17 +132,19 @@ class Evidence(Record):
         return self.to_json().get(key, default)
 
 
-class NameHint(Record):
-    """A word in the source's name of a mesh that spoke for a label.
+class FileSupport(Record):
+    """What the source file says that agrees with a label.
 
     Args:
-        word: as it stands in the name.
-        speaks_for: the name of the vocabulary that it means.
-        without: confidence by geometry alone, 0..1.
+        key: kind of fact (``"class"``, ``"name"``).
+        text: what stands in the file.
+        rule: by which that is read, in words.
+        without: confidence without it, 0..1.
     """
 
-    word: str
-    speaks_for: str
+    key: str
+    text: str
+    rule: str
     without: float
 
 
@@ -150,12 +152,12 @@ class GeometryEvidence(Evidence):
     """Shape and surroundings.
 
     Args:
-        name: the word that made the label surer, where names in the source count (``label.use_names``).
+        file: what the file says that made the label surer, where it counts (``label.use_metadata``).
     """
 
     sources = ("geometry",)
 
-    name: NameHint | None = _absent()
+    file: FileSupport | None = _absent()
 
 
 class LvlmEvidence(Evidence):
@@ -239,17 +241,19 @@ class CorrectedEvidence(Evidence):
 
 
 class FileEvidence(Evidence):
-    """What the source file says of the mesh by itself: a name, a type, an attribute.
+    """What the source file says of the mesh by itself: a class, a type, a name.
 
     Args:
-        key: where it stands in the file (``"name"``, ``"TYPE"``).
-        text: what stands there.
+        key: kind of fact (``"class"``, ``"name"``).
+        text: what stands in the file.
+        rule: by which that is read, in words.
     """
 
     sources = ("file",)
 
     key: str | None = _absent()
     text: str | None = _absent()
+    rule: str | None = _absent()
 
 
 class NetworkEvidence(Evidence):

@@ -34,6 +34,7 @@ __all__ = [
     "Port",
     "Related",
     "Site",
+    "SourceFact",
     "SourceRecord",
     "Stated",
     "System",
@@ -66,11 +67,29 @@ class OrientedBox(Record):
     extents: Point = Field(description="full side lengths along the axes [m]")
 
 
+class SourceFact(Record):
+    """One thing that the source file says of a part, a unit, or the whole; without influence unless it is asked for."""
+
+    key: str = Field(description="class, predefined, type, name, spec, system, size, tag, description or layer")
+    value: str = Field(description="as it stands in the file")
+    where: str = Field(description="the place of it in the file: 'IfcValve.PredefinedType', 'att TYPE'")
+    path: str | None = Field(
+        default=None,
+        exclude_if=lambda path: path is None,
+        description="node of the source that it is said of; absent where that is a mesh of the part itself",
+    )
+
+
+def _facts(what: str) -> Any:
+    return Field(default=(), exclude_if=lambda facts: not facts, description=f"{what}; absent where nothing")
+
+
 class Site(Record):
     """The root; exactly one."""
 
     id: str
     layer: Literal["site"] = "site"
+    facts: tuple[SourceFact, ...] = _facts("what the file says of nodes that are no part and no unit here")
 
 
 class Cluster(Record):
@@ -107,6 +126,7 @@ class Part(Record):
         exclude_if=lambda part: part is None,
         description="id of the innermost part that encloses it on all sides; absent where none does",
     )
+    facts: tuple[SourceFact, ...] = _facts("what the file says of its meshes")
 
 
 class Port(Record):
@@ -137,6 +157,7 @@ class Unit(Record):
     ports: tuple[Port, ...] = ()
     centroid: Point
     aabb: Box
+    facts: tuple[SourceFact, ...] = _facts("what the file says of nodes above several of its parts")
 
 
 class Junction(Record):

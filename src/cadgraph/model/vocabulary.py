@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import re
 import reprlib
-from collections.abc import Hashable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
@@ -14,6 +14,7 @@ from typing import Any
 import yaml
 
 from cadgraph._io.limits import VOCABULARY, read_text_within
+from cadgraph._io.strict_yaml import parse_yaml
 from cadgraph.errors import LabelError
 
 __all__ = ["Group", "Vocabulary", "default_vocabulary", "read_vocabulary", "spell_label"]
@@ -154,10 +155,7 @@ def read_vocabulary(path: str | Path) -> Vocabulary:
         LabelError: the file can't be read or is malformed.
     """
     text = read_text_within(path, VOCABULARY, LabelError, "give a YAML vocabulary")
-    try:
-        content = yaml.load(text, Loader=_StrictLoader)
-    except (yaml.YAMLError, ValueError, RecursionError) as error:
-        raise LabelError(f"{path}: not YAML ({_what(error)})") from error
+    content = parse_yaml(text, str(path), LabelError)
     groups = content
     if isinstance(content, Mapping) and isinstance(content.get("groups"), Mapping):
         groups = content["groups"]
@@ -173,30 +171,6 @@ def _refuse_unknown(content: Mapping[Any, Any], known: tuple[str, ...], where: s
     for key in content:
         if key not in known:
             raise LabelError(f"{where}: unknown key {reprlib.repr(key)}; known are {', '.join(known)}")
-
-
-class _StrictLoader(yaml.SafeLoader):
-    """Plain values only, like its base, but no key twice: of two groups of one name the first would be lost."""
-
-    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Hashable, Any]:
-        """A mapping whose keys are all there once."""
-        seen: set[Any] = set()
-        for key_node, _ in node.value:
-            if key_node.tag == "tag:yaml.org,2002:merge":
-                continue
-            key = self.construct_object(key_node, deep=True)
-            if isinstance(key, Hashable) and key in seen:
-                raise yaml.constructor.ConstructorError(None, None, f"{key!r} is there twice", key_node.start_mark)
-            seen.add(key)
-        return super().construct_mapping(node, deep)
-
-
-def _what(error: Exception) -> str:
-    """What is wrong and in which line, on one line."""
-    mark, problem = getattr(error, "problem_mark", None), getattr(error, "problem", None)
-    if mark is None or not problem:
-        return str(error).splitlines()[0] if str(error) else type(error).__name__
-    return f"{problem} in line {mark.line + 1}"
 
 
 def spell_label(group: str, name: str | None) -> str:

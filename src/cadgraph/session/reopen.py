@@ -15,7 +15,7 @@ from cadgraph.load import load
 from cadgraph.model.corrections import read_corrections
 from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.labels import CorrectedEvidence, GivenEvidence, Label
+from cadgraph.model.labels import CorrectedEvidence, FileEvidence, GeometryEvidence, GivenEvidence, Label
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.records import Part
 from cadgraph.model.vocabulary import Vocabulary
@@ -184,10 +184,15 @@ def _former_label(part: Part | None) -> Label | None:
     label = part.label if part is not None else None
     if label is None or label.source in ("author", "catalog"):
         return None
-    if not isinstance(label.evidence, CorrectedEvidence):
+    evidence = label.evidence
+    if isinstance(evidence, GeometryEvidence) and evidence.file is not None:
+        # The file has its say anew.
+        without = {"confidence": evidence.file.without, "evidence": evidence.model_copy(update={"file": None})}
+        return label.model_copy(update=without)
+    if not isinstance(evidence, CorrectedEvidence | FileEvidence):
         return label.model_copy(update={"guesses": part.guesses if part is not None else ()})
-    old = label.evidence.before
+    old = evidence.before
     if old is None:
         return None
-    evidence = {} if old.why is None else {"why": old.why}
-    return Label(old.group, old.name, 0.0 if old.confidence is None else old.confidence, old.source or "", evidence)
+    kept = {} if old.why is None else {"why": old.why}
+    return Label(old.group, old.name, 0.0 if old.confidence is None else old.confidence, old.source or "", kept)

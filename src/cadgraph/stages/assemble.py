@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
+from cadgraph.facts.places import NodeFacts, Places
 from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.facts import Fact
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import Guess, Label
 from cadgraph.model.parts import Contacts, Link, Network, Parts, UnitParts
@@ -29,6 +31,7 @@ from cadgraph.model.records import (
     Port,
     Related,
     Site,
+    SourceFact,
     SourceRecord,
     Stated,
     System,
@@ -43,6 +46,7 @@ from cadgraph.model.vocabulary import Vocabulary
 __all__ = ["Results", "assemble_graph"]
 
 PIPE_SYSTEM = "pipe system"
+_LONGEST_FACT = 1000  # characters of a value that are kept; a file may hold anything
 _ENDINGS: dict[str, Literal["open", "blind"]] = {"open": "open", "blind": "blind"}
 
 
@@ -61,6 +65,7 @@ class Results:
         network: functional units, and what follows what along the lines between them.
         related: pairs of unit indices.
         diagnostics: of all stages.
+        places: where what the file says of its parts stands; None where it says nothing.
     """
 
     scene: Scene
@@ -73,6 +78,7 @@ class Results:
     network: Network
     related: Sequence[tuple[int, int]]
     diagnostics: Sequence[Diagnostic]
+    places: Places | None = None
 
 
 def assemble_graph(results: Results, vocabulary: Vocabulary, config: dict[str, object]) -> SceneGraph:
@@ -88,9 +94,10 @@ def assemble_graph(results: Results, vocabulary: Vocabulary, config: dict[str, o
     part_ids = [f"part-{i:0{width}d}" for i in range(parts.n_parts)]
     n_clusters = int(results.cluster.max(initial=-1)) + 1
     cluster_ids = [f"cluster-{i:0{max(3, len(str(n_clusters)))}d}" for i in range(n_clusters)]
-    site = Site(id="site")
+    above = results.places.of_units([unit.parts for unit in results.network.units]) if results.places else ()
+    site = Site(id="site", facts=_facts(results.places.left_over(above) if results.places else ()))
     clusters = _clusters(results, cluster_ids)
-    units = _units(results, part_ids)
+    units = _units(results, part_ids, above)
     edges: list[Edge] = [Contains(source=site.id, target=cluster.id) for cluster in clusters]
     edges += [
         Contains(source=cluster_ids[c] if c >= 0 else site.id, target=part_ids[i])
@@ -150,9 +157,22 @@ def _parts(results: Results, ids: Sequence[str]) -> list[Part]:
             shape=f"shape-{parts.shape[i]:05d}",
             ground=bool(parts.ground[i]),
             inside=ids[parts.inside[i]] if i in parts.inside else None,
+            facts=_facts_of_part(results, i),
         )
         for i in range(parts.n_parts)
     ]
+
+
+def _facts_of_part(results: Results, part: int) -> tuple[SourceFact, ...]:
+    if results.places is None:
+        return ()
+    return _facts(results.places.of_part(part), {results.scene.paths[mesh] for mesh in results.parts.meshes[part]})
+
+
+def _facts(facts: Sequence[Fact], own: Collection[str] = ()) -> tuple[SourceFact, ...]:
+    """Facts as records, each once; ``own`` are the paths that need not be told."""
+    rows = ((f.key, f.value[:_LONGEST_FACT], f.where, None if f.path in own else f.path) for f in facts)
+    return tuple(SourceFact(key=k, value=v, where=w, path=p) for k, v, w, p in dict.fromkeys(rows))
 
 
 def _clusters(results: Results, ids: Sequence[str]) -> list[Cluster]:
@@ -177,9 +197,9 @@ def _clusters(results: Results, ids: Sequence[str]) -> list[Cluster]:
     return nodes
 
 
-def _units(results: Results, part_ids: Sequence[str]) -> list[Unit]:
+def _units(results: Results, part_ids: Sequence[str], above: Sequence[Sequence[NodeFacts]]) -> list[Unit]:
     nodes = []
-    for unit in results.network.units:
+    for number, unit in enumerate(results.network.units):
         centroid, low, high = _extent(results, unit.parts)
         nodes.append(
             Unit(
@@ -192,6 +212,7 @@ def _units(results: Results, part_ids: Sequence[str]) -> list[Unit]:
                 ports=_ports(unit, results.scene.origin),
                 centroid=centroid,
                 aabb=(low, high),
+                facts=_facts([fact for node in above[number] for fact in node.facts] if above else ()),
             )
         )
     return nodes

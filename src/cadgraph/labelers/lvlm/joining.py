@@ -13,20 +13,16 @@ from pydantic import BaseModel, ConfigDict, Field
 from cadgraph._io.limits import ACCURACIES
 from cadgraph.errors import LabelError
 from cadgraph.labelers.base import Labeling
-from cadgraph.labelers.likeliest import Likeliest, likeliest
+from cadgraph.labelers.beliefs import LabelBeliefs, shared_weight
 from cadgraph.labelers.lvlm.answer import Verdict
 from cadgraph.labelers.lvlm.tables import checked, read_table, where_of
-from cadgraph.model.labels import Guess
-from cadgraph.model.probabilities import Probabilities
 from cadgraph.model.scene import Floats
 from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["Accuracy", "Beliefs", "read_accuracy"]
 
-_LOST = 0.05  # share of a labeler's probabilities that goes to all names alike: it may be out of its depth
 _TYPICAL, _SLOPE = 0.85, 0.5  # what models usually say of themselves; how much of another odds is believed
 _LEAST, _MOST = 0.02, 0.98
-_ALIKE = 0.6  # how much of several answers about one kind is the same: a mistake is mostly made of the shape
 
 
 class _Strict(BaseModel):
@@ -91,8 +87,8 @@ def read_accuracy(model: str, file: str | Path = "", *, paper: bool = False) -> 
     return Accuracy(shares.name, shares.group, groups, tuple((str(a), str(b)) for a, b in pairs), key)
 
 
-class Beliefs:
-    """How likely each label of a vocabulary is for each part of a scene, as far as is known.
+class Beliefs(LabelBeliefs):
+    """How likely each label of a vocabulary is for each part of a scene, by a labeler and a model's answers.
 
     Args:
         vocabulary: the labels.
@@ -102,44 +98,8 @@ class Beliefs:
     """
 
     def __init__(self, vocabulary: Vocabulary, said: Labeling | None, n_parts: int, accuracy: Accuracy) -> None:
-        self.classes = tuple((group, name) for group, content in vocabulary.groups.items() for name in content.names)
-        self._rank = {pair: k for k, pair in enumerate(self.classes)}
-        self._group = np.array([group for group, _ in self.classes], np.str_)
-        self._groups = tuple(dict.fromkeys(group for group, _ in self.classes))
-        self._belongs = (self._group[:, None] == np.array(self._groups, np.str_)).astype(np.float64)
+        super().__init__(vocabulary, said, n_parts)
         self._accuracy = accuracy
-        self.values = np.full((n_parts, len(self.classes)), 1 / max(len(self.classes), 1))
-        self.known = np.zeros(n_parts, np.bool_)
-        if said is not None and self.classes:
-            self._begin(said)
-
-    def _begin(self, said: Labeling) -> None:
-        """The labeler's probabilities; where it tells none, its label and guesses."""
-        mine = np.zeros_like(self.values)
-        if said.probabilities is not None:
-            for column, pair in enumerate(said.probabilities.classes):
-                if pair in self._rank:
-                    mine[:, self._rank[pair]] = said.probabilities.values[:, column]
-            self.known[:] = mine.sum(axis=1) > 0
-        for part in np.flatnonzero(~self.known).tolist():
-            answer = said.answers[part]
-            if answer is None:
-                continue
-            for guess in answer.guesses or (Guess(answer.group, answer.name, answer.confidence),):
-                self._add(mine[part], guess)
-            self.known[part] = True
-        total = mine.sum(axis=1, keepdims=True)
-        # What belongs to no name may be any of them.
-        mine = mine / np.maximum(total, 1.0)
-        mine += (1 - np.minimum(total, 1.0)) / len(self.classes)
-        self.values = np.where(self.known[:, None], (1 - _LOST) * mine + _LOST / len(self.classes), self.values)
-
-    def _add(self, row: Floats, guess: Guess) -> None:
-        if guess.name is not None:
-            if (guess.group, guess.name) in self._rank:
-                row[self._rank[guess.group, guess.name]] += guess.confidence
-        elif (self._group == guess.group).any():
-            row[self._group == guess.group] += guess.confidence / (self._group == guess.group).sum()
 
     def believe(self, parts: Sequence[int], verdicts: Sequence[Verdict]) -> None:
         """Takes the answers about a kind into account.
@@ -154,53 +114,29 @@ class Beliefs:
         told = [verdict for verdict in verdicts if verdict.group is not None]
         if not told or not self.classes:
             return
-        weight = 1 / (1 + _ALIKE * (len(told) - 1))
+        weight = shared_weight(len(told))
         logs = np.zeros(len(self.classes))
         for verdict in told:
             logs += weight * np.log(self._likelihood(verdict))
-        rows = np.asarray(parts, np.int64)
-        joint = np.log(np.maximum(self.values[rows], 1e-12)) + logs
-        joint = np.exp(joint - joint.max(axis=1, keepdims=True))
-        self.values[rows] = joint / joint.sum(axis=1, keepdims=True)
-        self.known[rows] = True
+        self.weigh(np.asarray(parts, np.int64), logs)
 
     def _likelihood(self, verdict: Verdict) -> Floats:
         """How likely an answer is to be given, for each label that may be the true one."""
         group = verdict.group or ""
         name, in_group = self._accuracy.of(group)
         name, in_group = _believed(name, verdict.confidence), _believed(in_group, verdict.confidence)
-        inside = self._group == group
-        n_inside, n_outside = max(int(inside.sum()), 1), max(int((~inside).sum()), 1)
+        odd = self.likelihood(group, verdict.name, name, in_group)
         if verdict.name is None:
-            return np.asarray(np.where(inside, in_group / n_inside, (1 - in_group) / n_outside), np.float64)
-        # Of the wrong ones some fall on names that are often confused; the rest on the same group, and on all others.
-        odd: Floats = np.where(inside, max(in_group - name, 1e-3) / max(n_inside - 1, 1), (1 - in_group) / n_outside)
+            return odd
+        # Of the wrong ones half fall on names that are often confused.
         rivals = {b for a, b in self._accuracy.confused if a == verdict.name}
         rivals |= {a for a, b in self._accuracy.confused if b == verdict.name}
         near = [k for k, (_, each) in enumerate(self.classes) if each in rivals]
         if near:
             odd = odd / 2
             odd[near] += (1 - name) / 2 / len(near)
-        odd[self._rank[group, verdict.name]] = name
+            odd[self._rank[group, verdict.name]] = name
         return odd
-
-    def label_of(self, part: int, least: float) -> Likeliest:
-        """The likeliest label of a part, the group alone where only that is likely enough.
-
-        Args:
-            part: which; it is known.
-            least: confidence of a label.
-        """
-        row = self.values[part]
-        return likeliest(self.classes, row, self._groups, row @ self._belongs, least)
-
-    def sureness(self, parts: Sequence[int]) -> float:
-        """How likely the likeliest names of some parts are, on average."""
-        return float(self.values[np.asarray(parts, np.int64)].max(axis=1, initial=0.0).mean())
-
-    def probabilities(self) -> Probabilities:
-        """For the relations; rows of which nothing is known are 0."""
-        return Probabilities(self.classes, np.where(self.known[:, None], self.values, 0.0))
 
 
 def _believed(share: float, confidence: float) -> float:

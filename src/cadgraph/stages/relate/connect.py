@@ -27,6 +27,7 @@ from cadgraph.stages.relate.role import Roles, find_roles
 from cadgraph.stages.relate.run import make_network
 from cadgraph.stages.relate.shortfall import find_shortfalls
 from cadgraph.stages.relate.stated import report_unplaced
+from cadgraph.stages.relate.stated_names import name_as_stated, tag_as_stated
 from cadgraph.stages.relate.stub import drop_stubs
 from cadgraph.stages.relate.tag import tag_units
 from cadgraph.stages.relate.trace import drop_shapeless, trace_lines
@@ -66,7 +67,9 @@ def connect_units(given: RelateInput) -> Connected:
     """
     if given.config.method == "paper":
         units = find_units(given.labels, given.contacts, given.cluster, given.vocabulary)
-        return Connected(Network(units), tuple(given.labels))
+        named = tag_as_stated(units, given.statements, given.parts, given.labels, given.vocabulary)
+        network, told = name_as_stated(Network(named.units), named, given.parts, given.vocabulary)
+        return Connected(network, tuple(given.labels), (*named.diagnostics, *told))
     roles = find_roles(given.parts, given.labels, given.opinions)
     piping = trace_lines(given, roles)
     piping = recover_units(drop_shapeless(piping))
@@ -74,10 +77,12 @@ def connect_units(given: RelateInput) -> Connected:
     groups, loose = _decide(piping, groups)
     labels = relabel_parts(piping, groups)
     names = [label.name if label is not None else None for label in labels]
-    units = tag_units(given.parts, groups)
+    named = tag_as_stated(tag_units(given.parts, groups), given.statements, given.parts, labels, given.vocabulary)
+    units = named.units
     drawing = _draw(piping, units)
     network = replace(_contract(piping, units, drawing, names), joints=record_joints(piping, units, drawing.flanged))
     network = name_kinds(network, names, given.parts)
+    network, told = name_as_stated(network, named, given.parts, given.vocabulary)
     by_user = stated_flow(network, given.config.relate.flow)
     network, contradictions = direct_flow(network, given.parts, names, by_user, given.stated)
     network = drop_stubs(network)
@@ -89,6 +94,8 @@ def connect_units(given: RelateInput) -> Connected:
         *_doubted_labels(given.parts, roles),
         *_loose_operators(given.parts, loose),
         *contradictions,
+        *named.diagnostics,
+        *told,
     )
     return Connected(network, labels, diagnostics)
 

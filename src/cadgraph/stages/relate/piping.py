@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from cadgraph.config import Config
+from cadgraph.facts.statements import Statements
 from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.analysis import Analysis
 from cadgraph.model.labels import Label
@@ -40,6 +41,7 @@ class RelateInput:
         vocabulary: label tree, with the groups that are connectors and those that form units.
         config: settings.
         probabilities: what the labeler holds for possible, where it knows.
+        statements: what the file says of parts and units, where that counts.
     """
 
     analysis: Analysis
@@ -48,6 +50,7 @@ class RelateInput:
     vocabulary: Vocabulary
     config: Config
     probabilities: Probabilities | None = None
+    statements: Statements | None = None
 
     @property
     def parts(self) -> Parts:
