@@ -1,0 +1,99 @@
+"""What every format needs of a plant: shapes that are shared, placed without mirroring, in a unit and up axis."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cadgraph.geometry.components import first_of_component
+from cadgraph.model.scene import Floats
+from cadplants.mesh_ops import Solid, moved
+from cadplants.plant import Plant
+
+__all__ = ["Frame", "Placed", "centroid", "is_closed", "place", "shells"]
+
+_TO_Y = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, -1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
+
+
+@dataclass(frozen=True)
+class Frame:
+    """The coordinates of a file.
+
+    Args:
+        meters_per_unit: length of one of its units [m].
+        up_axis: ``"Y"`` or ``"Z"``.
+    """
+
+    meters_per_unit: float
+    up_axis: str
+
+    def pose(self, pose: Floats) -> Floats:
+        """A rigid pose of the plant in this unit and up axis; it stays rigid."""
+        result = pose.copy()
+        result[:3, 3] /= self.meters_per_unit
+        return np.asarray(_TO_Y @ result if self.up_axis == "Y" else result, np.float64)
+
+    def points(self, solid: Solid) -> Floats:
+        """The corners of a shape in this unit, in its own axes."""
+        return np.asarray(solid.vertices / self.meters_per_unit, np.float64)
+
+
+@dataclass(frozen=True, eq=False)
+class Placed:
+    """A component as most formats know it.
+
+    Args:
+        solid: its shape [m]; components of one shape share it, mirrored ones share another.
+        shape: number of that shape, from 0.
+        pose: ``(4, 4)`` world from local coordinates, rigid and right-handed.
+    """
+
+    solid: Solid
+    shape: int
+    pose: Floats
+
+
+def place(plant: Plant) -> list[Placed]:
+    """The components of a plant in their order; what is mirrored gets a mirrored shape."""
+    flip = np.diag([-1.0, 1.0, 1.0, 1.0])
+    shapes: dict[tuple[int, bool], tuple[int, Solid]] = {}
+    placed = []
+    for component in plant.components:
+        mirrored = bool(np.linalg.det(component.pose[:3, :3]) < 0)
+        key = (id(component.solid), mirrored)
+        if key not in shapes:
+            shapes[key] = (len(shapes), moved(component.solid, flip) if mirrored else component.solid)
+        number, solid = shapes[key]
+        placed.append(Placed(solid, number, component.pose @ flip if mirrored else component.pose))
+    return placed
+
+
+def shells(solid: Solid) -> list[Solid]:
+    """The connected pieces of a mesh, joined by shared corners, in the order of their first triangles."""
+    faces = solid.faces.astype(np.int64)
+    links = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]]])
+    piece = first_of_component(len(solid.vertices), links)[faces[:, 0]]
+    wholes = []
+    for one in dict.fromkeys(piece.tolist()):
+        used, corners = np.unique(faces[piece == one], return_inverse=True)
+        wholes.append(Solid(solid.vertices[used], corners.reshape(-1, 3).astype(np.int32)))
+    return wholes
+
+
+def is_closed(solid: Solid) -> bool:
+    """Whether every edge is there once in each sense."""
+    faces = solid.faces.astype(np.int64)
+    edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    n = len(solid.vertices)
+    forth, back = edges[:, 0] * n + edges[:, 1], edges[:, 1] * n + edges[:, 0]
+    return len(np.unique(forth)) == len(forth) and bool(np.array_equal(np.sort(forth), np.sort(back)))
+
+
+def centroid(vertices: Floats, faces: np.typing.NDArray[np.int32]) -> Floats:
+    """``(3,)`` the centre of a surface by area; the corners' mean where it has none."""
+    corners = vertices[faces]
+    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    if not areas.sum() > 0:
+        return np.asarray(vertices.mean(axis=0), np.float64)
+    return np.asarray(np.average(corners.mean(axis=1), axis=0, weights=areas), np.float64)
