@@ -72,6 +72,7 @@ class Inventory:
         joints: in order along the runs.
         ends: ids of the items that a run begins and ends at, or None, by its tag.
         bores: nominal bore of each run [m].
+        mouths: numbers of items whose far side joins nothing, with the place of that end [m].
     """
 
     items: tuple[Item, ...]
@@ -79,6 +80,7 @@ class Inventory:
     joints: tuple[Joint, ...] = ()
     ends: dict[str, tuple[int | None, int | None]] = field(default_factory=dict)
     bores: dict[str, float] = field(default_factory=dict)
+    mouths: tuple[tuple[int, tuple[float, float, float]], ...] = ()
 
 
 def take(plant: Plant) -> Inventory:
@@ -96,7 +98,20 @@ def take(plant: Plant) -> Inventory:
         bores.setdefault(connection.line, connection.diameter)
     ends = {tag: _ends(plant, tag, items, boxes) for tag in lines}
     joints = [joint for tag in lines if tag in courses for joint in _joints(plant, tag, lines[tag], courses[tag], ends[tag])]
-    return Inventory(tuple(items), lines, tuple(joints), ends, bores)
+    mouths = [mouth for tag in lines if tag in courses for mouth in _mouths(lines[tag], courses[tag], ends[tag])]
+    return Inventory(tuple(items), lines, tuple(joints), ends, bores, tuple(mouths))
+
+
+def _mouths(
+    items: Sequence[Item], points: Floats, ends: tuple[int | None, int | None]
+) -> list[tuple[int, tuple[float, float, float]]]:
+    """The open ends of a run: its first and last item, where nothing is beyond."""
+    chain = [item for item in items if item.span]
+    length = float(_chainages(points)[-1])
+    outer = ((0, 0.0), (-1, length))
+    return [
+        (chain[k].number, _point_at(points, s)) for (k, s), end in zip(outer, ends, strict=True) if chain and end is None
+    ]
 
 
 def _items(plant: Plant) -> list[Item]:
