@@ -7,12 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from cadgraph.geometry.components import first_of_component
-from cadgraph.model.scene import Floats
+from cadgraph.geometry.mesh.merge import weld_points
+from cadgraph.model.scene import Faces, Floats
 from cadplants.mesh_ops import Solid, moved
 from cadplants.plant import Plant
 
 __all__ = ["Frame", "Placed", "centroid", "is_closed", "place", "shells"]
 
+_WELD = 1e-9  # m; corners closer than this are in one place
 _TO_Y = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, -1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
 
 
@@ -70,7 +72,14 @@ def place(plant: Plant) -> list[Placed]:
 
 
 def shells(solid: Solid) -> list[Solid]:
-    """The connected pieces of a mesh, joined by shared corners, in the order of their first triangles."""
+    """The connected pieces of a mesh, in the order of their first triangles.
+
+    They are joined by the corners that they share; by those in one place only where the mesh is not closed as it is,
+    since closed pieces that touch are pieces all the same.
+    """
+    if not is_closed(solid):
+        first, corner_of = weld_points(solid.vertices, _WELD)
+        solid = Solid(solid.vertices[first], corner_of[solid.faces].astype(np.int32))
     faces = solid.faces.astype(np.int64)
     links = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]]])
     piece = first_of_component(len(solid.vertices), links)[faces[:, 0]]
@@ -90,7 +99,7 @@ def is_closed(solid: Solid) -> bool:
     return len(np.unique(forth)) == len(forth) and bool(np.array_equal(np.sort(forth), np.sort(back)))
 
 
-def centroid(vertices: Floats, faces: np.typing.NDArray[np.int32]) -> Floats:
+def centroid(vertices: Floats, faces: Faces) -> Floats:
     """``(3,)`` the centre of a surface by area; the corners' mean where it has none."""
     corners = vertices[faces]
     areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)

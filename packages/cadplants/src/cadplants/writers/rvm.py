@@ -10,7 +10,6 @@ import re
 
 import numpy as np
 
-from cadgraph.geometry.mesh.merge import weld_points
 from cadgraph.model.scene import Floats
 from cadplants.mesh_ops import Solid, merge
 from cadplants.plant import RGB, Plant
@@ -27,7 +26,6 @@ __all__ = ["write"]
 _PROGRAM = "cadplants, after PDMS Design"
 _DATE = "Thu Jan 1 00:00:00 2026"  # fixed, so that the same plant gives the same bytes
 _MOST_PIECES = 400  # of one mesh that are looked at one by one; ours: soups have as many as triangles
-_WELD = 1e-9  # m
 
 
 def write(plant: Plant, style: FileStyle) -> Written:
@@ -68,12 +66,10 @@ class _Shape:
     """The bodies of a mesh, each with its pose in the mesh's coordinates."""
 
     def __init__(self, solid: Solid) -> None:
-        first, corner_of = weld_points(solid.vertices, _WELD)
-        pieces = shells(Solid(solid.vertices[first], corner_of[solid.faces].astype(np.int32)))
+        pieces = shells(solid)
         fitted = [fit(piece) for piece in pieces] if len(pieces) <= _MOST_PIECES else [None] * len(pieces)
         self._forms: list[Primitive] = [form for form in fitted if form is not None]
         rest = [piece for piece, form in zip(pieces, fitted, strict=True) if form is None]
-        # Bends are recognised by the order of their corners, which welding keeps for a mesh in one piece.
         self.bodies: list[tuple[Body, Floats]] = [(primitive(form), form.pose) for form in self._forms]
         self._angular = merge(rest) if rest else None
         if self._angular is not None:

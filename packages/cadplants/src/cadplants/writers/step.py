@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from cadgraph.geometry.mesh.merge import weld_points
 from cadgraph.model.scene import Floats
 from cadplants.mesh_ops import Solid
 from cadplants.plant import RGB, Plant
@@ -18,7 +17,6 @@ from cadplants.writers.plant_file import FileStyle, Written
 __all__ = ["write"]
 
 _PREFIXES = {1.0: "$", 0.1: ".DECI.", 0.01: ".CENTI.", 0.001: ".MILLI."}
-_WELD = 1e-9  # m
 _HEADER = """ISO-10303-21;
 HEADER;
 FILE_DESCRIPTION(('generated plant'),'2;1');
@@ -101,9 +99,7 @@ class _Step:
 
     def part(self, name: str, solid: Solid, color: RGB) -> _Part:
         """A part of as many bodies as the mesh has shells."""
-        first, corner_of = weld_points(solid.vertices, _WELD)
-        whole = Solid(solid.vertices[first], corner_of[solid.faces].astype(np.int32))
-        pieces = shells(whole)
+        pieces = shells(solid)
         closed = all(is_closed(piece) for piece in pieces)
         axes = self._axes(np.eye(4))
         bodies = [self._body(piece, closed) for piece in pieces]
