@@ -21,16 +21,17 @@ _FLOAT, _UINT = 5126, 5125
 _JSON, _BIN = 0x4E4F534A, 0x004E4942
 
 
-def write(plant: Plant, style: FileStyle) -> Written:
+def write(plant: Plant, style: FileStyle, stem: str) -> Written:
     """Writes a plant as GLB.
 
     Args:
         plant: what to write.
         style: metres and Y up by default, as glTF wants; another unit is not recorded, as exporters that ignore the
             standard do it. With ``merged`` everything of a colour is one mesh, in the order of the components.
+        stem: name of the scene.
     """
     frame = Frame(style.meters_per_unit or 1.0, style.up_axis or "Y")
-    file = _Glb()
+    file = _Glb(stem)
     paths = _merged(file, plant, frame) if style.layout == "merged" else _nodes(file, plant, frame)
     extra: dict[str, object] = {"layout": style.layout}
     return Written({".glb": file.data()}, tuple(paths), frame.meters_per_unit, frame.up_axis, {}, extra)
@@ -76,7 +77,8 @@ def _merged(file: _Glb, plant: Plant, frame: Frame) -> list[str]:
 class _Glb:
     """A file in the making, all below one node ``World``."""
 
-    def __init__(self) -> None:
+    def __init__(self, scene: str) -> None:
+        self._scene = scene
         self._data = bytearray()
         self._materials: dict[RGB, int] = {}
         self._meshes: list[dict[str, Any]] = []
@@ -124,7 +126,7 @@ class _Glb:
         content = {
             "asset": {"version": "2.0", "generator": "cadplants"},
             "scene": 0,
-            "scenes": [{"name": "Scene", "nodes": [0]}],
+            "scenes": [{"name": self._scene, "nodes": [0]}],
             "nodes": [root, *self._nodes],
             "meshes": self._meshes,
             "materials": materials,

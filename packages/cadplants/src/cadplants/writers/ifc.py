@@ -26,12 +26,13 @@ _PREFIXES = {1.0: None, 0.1: "DECI", 0.01: "CENTI", 0.001: "MILLI"}
 _NAMED_UNITS = {0.0254: "INCH", 0.3048: "FOOT"}
 
 
-def write(plant: Plant, style: FileStyle) -> Written:
+def write(plant: Plant, style: FileStyle, stem: str) -> Written:
     """Writes a plant as IFC4.
 
     Args:
         plant: what to write.
         style: millimetres by default; IFC is Z up always.
+        stem: name of the file without its suffix.
 
     Raises:
         ValueError: another up axis is asked for.
@@ -47,7 +48,7 @@ def write(plant: Plant, style: FileStyle) -> Written:
         "missing_names": [writer.paths[i] for i, c in enumerate(claims.components) if c is None],
     }
     extra = {key: value for key, value in spoilt.items() if value}
-    return Written({".ifc": writer.data()}, tuple(writer.paths), unit, "Z", {}, extra)
+    return Written({".ifc": writer.data(stem)}, tuple(writer.paths), unit, "Z", {}, extra)
 
 
 class _Writer:
@@ -71,10 +72,10 @@ class _Writer:
         for kind, members in self._types.values():
             self._rooted("IfcRelDefinesByType", f"of {kind.GlobalId}", RelatedObjects=members, RelatingType=kind)
 
-    def data(self) -> bytes:
+    def data(self, stem: str) -> bytes:
         """The whole file."""
         name = self._file.header.file_name
-        name.name, name.time_stamp = f"{self._plant.name or 'plant'}.ifc", _TIME
+        name.name, name.time_stamp = f"{stem}.ifc", _TIME
         name.preprocessor_version, name.originating_system = "cadplants", "cadplants"
         return str(self._file.to_string()).encode("utf-8")
 

@@ -11,18 +11,18 @@ from cadplants.writers.plant_file import FileStyle, Written
 __all__ = ["write"]
 
 
-def write(plant: Plant, style: FileStyle) -> Written:
+def write(plant: Plant, style: FileStyle, stem: str) -> Written:
     """Writes a plant as OBJ and MTL.
 
     Args:
         plant: what to write.
         style: millimetres and Z up by default; the file tells neither.
+        stem: name of the file without its suffix, which the material file shares.
     """
     frame = Frame(style.meters_per_unit or 0.001, style.up_axis or "Z")
     numbers = np.random.default_rng([plant.seed, 7]).permutation(max(10 * plant.n_meshes, 10))[: plant.n_meshes]
     materials: dict[RGB, str] = {}
-    name = f"{plant.name or 'plant'}.mtl"
-    blocks, paths, first = [f"mtllib {name}"], [], 1
+    blocks, paths, first = [f"mtllib {stem}.mtl"], [], 1
     for one, component, number in zip(place(plant), plant.components, numbers.tolist(), strict=True):
         pose = frame.pose(one.pose)
         points = frame.points(one.solid) @ pose[:3, :3].T + pose[:3, 3] + 0.0
@@ -41,4 +41,4 @@ def write(plant: Plant, style: FileStyle) -> Written:
 
 
 def _text(lines: list[str]) -> bytes:
-    return ("\n".join(lines) + "\n").encode("ascii")
+    return ("\n".join(lines) + "\n").encode("utf-8")

@@ -33,12 +33,13 @@ class Written:
     """A file's content, and where each component is in it.
 
     Args:
-        files: bytes by suffix: that of the target, and of what lies beside it.
+        files: bytes by suffix, the first those of the target, the others of what lies beside it.
         paths: of each component as a reader of the format most likely calls it, unique.
         meters_per_unit: of the file [m].
         up_axis: of the file.
         boxes: ``(2, 3)`` of each component that is written as another shape than its mesh, by index [m].
         extra: further entries of the truth.
+        painted: whether the format has colours.
     """
 
     files: dict[str, bytes]
@@ -47,3 +48,4 @@ class Written:
     up_axis: str
     boxes: dict[int, Floats] = field(default_factory=dict)
     extra: dict[str, object] = field(default_factory=dict)
+    painted: bool = True

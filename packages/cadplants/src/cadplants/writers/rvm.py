@@ -28,12 +28,13 @@ _DATE = "Thu Jan 1 00:00:00 2026"  # fixed, so that the same plant gives the sam
 _MOST_PIECES = 400  # of one mesh that are looked at one by one; ours: soups have as many as triangles
 
 
-def write(plant: Plant, style: FileStyle) -> Written:
+def write(plant: Plant, style: FileStyle, stem: str) -> Written:
     """Writes a plant as binary RVM with its attributes.
 
     Args:
         plant: what to write.
         style: millimetres and Z up, as all such files are.
+        stem: name of the file without its suffix, noted in it.
 
     Raises:
         ValueError: another unit or up axis is asked for.
@@ -51,7 +52,7 @@ def write(plant: Plant, style: FileStyle) -> Written:
         i for i, c in enumerate(plant.components) if c.name == "pipe" and len(shapes[placed[i].shape].bodies) == 1
     )
     site = grow(plant, inventory, claims, tubes)
-    writer = _Writer(plant, placed, shapes)
+    writer = _Writer(plant, placed, shapes, stem)
     writer.fill(site)
     spoilt = {
         "wrong_classes": [writer.paths[i] for i, c in enumerate(claims.components) if c is not None and not c.true],
@@ -87,11 +88,11 @@ class _Shape:
 class _Writer:
     """Fills a file with a tree; ``paths`` has each component's then."""
 
-    def __init__(self, plant: Plant, placed: list[Placed], shapes: dict[int, _Shape]) -> None:
+    def __init__(self, plant: Plant, placed: list[Placed], shapes: dict[int, _Shape], note: str) -> None:
         self._plant, self._placed, self._shapes = plant, placed, shapes
         colors = dict.fromkeys(component.color for component in plant.components)
         self._materials: dict[RGB, int] = {color: k + 1 for k, color in enumerate(colors)}
-        self._file = RvmFile((_PROGRAM, "", _DATE, "cadplants"), ("PLANT", (plant.name or "plant").upper()))
+        self._file = RvmFile((_PROGRAM, note, _DATE, "cadplants"), ("PLANT", (plant.name or "plant").upper()))
         self.paths = [""] * plant.n_meshes
         self.data = b""
 

@@ -5,6 +5,8 @@ Written by hand after ISO 10303-42 (geometry), -43 (assemblies) and -46 (colours
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 
 from cadgraph.model.scene import Floats
@@ -27,7 +29,7 @@ DATA;
 """
 
 
-def write(plant: Plant, style: FileStyle) -> Written:
+def write(plant: Plant, style: FileStyle, stem: str) -> Written:
     """Writes a plant as STEP.
 
     A mesh of several closed shells becomes a part of as many solids, an open one a surface model.
@@ -35,6 +37,7 @@ def write(plant: Plant, style: FileStyle) -> Written:
     Args:
         plant: what to write.
         style: millimetres and Z up by default.
+        stem: name of the file without its suffix.
 
     Raises:
         ValueError: a unit that is no metre, decimetre, centimetre or millimetre, or Y up.
@@ -54,7 +57,7 @@ def write(plant: Plant, style: FileStyle) -> Written:
         occurrences.append((name, parts[key], one.pose))
         paths.append(f"/Assembly/{name}")
     file.assembly("Assembly", occurrences)
-    header = _HEADER.format(name=f"{plant.name or 'plant'}.step")
+    header = _HEADER.format(name=re.sub(r"[^\w.-]", "_", stem, flags=re.ASCII) + ".step")
     data = header + "\n".join(file.lines) + "\nENDSEC;\nEND-ISO-10303-21;\n"
     return Written({".step": data.encode("ascii")}, tuple(paths), unit, "Z")
 

@@ -11,15 +11,14 @@ from cadplants.writers.plant_file import FileStyle, Written
 __all__ = ["write"]
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("spare", "<u2")])
-_HEADER = b"cadplants: one bag of triangles"  # must not begin with "solid", as text files do
 
-
-def write(plant: Plant, style: FileStyle) -> Written:
+def write(plant: Plant, style: FileStyle, stem: str) -> Written:
     """Writes a plant as STL, component after component; nothing in the file says where one ends.
 
     Args:
         plant: what to write.
         style: millimetres and Z up by default; the file tells neither.
+        stem: said in the header.
     """
     frame = Frame(style.meters_per_unit or 0.001, style.up_axis or "Z")
     corners = []
@@ -35,6 +34,8 @@ def write(plant: Plant, style: FileStyle) -> Written:
     records = np.zeros(len(triangles), _RECORD)
     records["normal"] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
     records["corners"] = triangles
-    data = _HEADER.ljust(80, b"\0") + np.array([len(records)], "<u4").tobytes() + records.tobytes()
+    # It must not begin with "solid", as text files do.
+    header = f"cadplants: {stem}".encode("ascii", "replace")[:80].ljust(80, b"\0")
+    data = header + np.array([len(records)], "<u4").tobytes() + records.tobytes()
     paths = tuple(f"/region_{index}" for index in range(plant.n_meshes))
-    return Written({".stl": data}, paths, frame.meters_per_unit, frame.up_axis)
+    return Written({".stl": data}, paths, frame.meters_per_unit, frame.up_axis, painted=False)
