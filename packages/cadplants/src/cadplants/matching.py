@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
-from cadgraph.model.scene import Floats, Scene
+from cadgraph.model.scene import Floats, Ints, Scene
 from cadgraph.model.truth import Truth, TruthMesh
 from cadplants.writers.placing import centroid
 
@@ -167,14 +167,14 @@ def _of_scene(scene: Scene) -> tuple[Floats, Floats]:
 
 
 def _pairs(
-    wanted: Floats, middles: Floats, boxes: Floats, centers: Floats, free: Any, tolerance: float
+    wanted: Floats, middles: Floats, boxes: Floats, centers: Floats, free: Ints, tolerance: float
 ) -> dict[int, int]:
     """What is nearest to what, each once: number of a mesh of the scene by number of what is wanted."""
     if not len(wanted) or not len(free):
         return {}
-    tree = cKDTree(boxes[free])
+    close: list[list[int]] = cKDTree(boxes[free]).query_ball_point(wanted, tolerance, p=np.inf).tolist()
     cases = []
-    for k, near in enumerate(tree.query_ball_point(wanted, tolerance, p=np.inf)):
+    for k, near in enumerate(close):
         for j in near:
             i = int(free[j])
             apart = float(np.abs(boxes[i] - wanted[k]).max() + np.linalg.norm(centers[i] - middles[k]))
@@ -189,7 +189,7 @@ def _pairs(
 
 
 def _pieces(
-    rows: Sequence[_Row], left: Sequence[int], boxes: Floats, centers: Floats, free: Any, tolerance: float
+    rows: Sequence[_Row], left: Sequence[int], boxes: Floats, centers: Floats, free: Ints, tolerance: float
 ) -> dict[int, list[int]]:
     """Meshes of the scene that are pieces of one of the truth, by its number."""
     owners = [k for k in left for _ in rows[k].pieces]
@@ -210,7 +210,7 @@ def _pieces(
 
 
 def _unions(
-    rows: Sequence[_Row], left: Sequence[int], boxes: Floats, free: Any, tolerance: float
+    rows: Sequence[_Row], left: Sequence[int], boxes: Floats, free: Ints, tolerance: float
 ) -> dict[int, list[int]]:
     """Meshes of the truth that are one of the scene together, by its number."""
     sizes = np.linalg.norm(boxes[:, 3:] - boxes[:, :3], axis=1)
@@ -238,12 +238,12 @@ def _labels(scene: Scene, rows: list[dict[str, Any]], now: _Now) -> list[dict[st
     made = []
     for path in scene.paths:
         some = of.get(path, [])
-        row: dict[str, Any] = {"mesh": path, "group": None, "name": None}
+        label: dict[str, Any] = {"mesh": path, "group": None, "name": None}
         for key in ("group", "name", "line", "family", "build", "granularity", "hand"):
             values = {one.get(key) for one in some}
             if len(values) == 1 and (value := values.pop()) is not None:
-                row[key] = value
-        made.append(row)
+                label[key] = value
+        made.append(label)
     return made
 
 

@@ -115,7 +115,9 @@ def write_plant(
         raise ValueError(f"layout {style.layout!r} is one of glb; leave it out for {form.name}")
     spoilt = style.metadata.wrong_classes or style.metadata.missing_names
     if spoilt and form.name not in ("rvm", "ifc"):
-        raise ValueError(f"{form.name} files have no classes; wrong classes and missing names are settings of rvm and ifc")
+        raise ValueError(
+            f"{form.name} files have no classes; wrong classes and missing names are settings of rvm and ifc"
+        )
     if form.library and importlib.util.find_spec(form.library) is None:
         raise MissingExtra(f"writing {form.name.upper()} files", form.extra)
     target = Path(path)

@@ -35,10 +35,10 @@ class Primitive:
     Args:
         kind: which.
         sizes: of a ``box`` its edges; ``cylinder`` radius, height; ``ring`` inner and outer radius, height; ``torus``
-            radius of its middle line and of its section, angle from +x about z; ``dish`` radius of its base, height (half
-            an ellipsoid on z = 0); ``sphere`` radius; ``snout`` lower and upper radius, height, offset of its top in
-            x and y; ``pyramid`` lower x and y, upper x and y, offset in x and y, height [m, rad]. All but the dish are
-            centred.
+            radius of its middle line and of its section, angle from +x about z; ``dish`` radius of its base, height
+            (half an ellipsoid on z = 0); ``sphere`` radius; ``snout`` lower and upper radius, height, offset of its
+            top in x and y; ``pyramid`` lower x and y, upper x and y, offset in x and y, height [m, rad]. All but the
+            dish are centred.
         pose: ``(4, 4)`` rigid, outer from local coordinates.
     """
 
@@ -346,7 +346,10 @@ def _dish(levels: list[list[_Ring]], content: float) -> _Found | None:
         return None
     heights = [abs(float(ring.center[2] - base.center[2])) for ring in rings]
     height = heights[-1]
-    on = [abs(r.radius - base.radius * np.sqrt(max(0.0, 1 - (h / height) ** 2))) for r, h in zip(rings, heights, strict=True)]
+    on = [
+        abs(r.radius - base.radius * np.sqrt(max(0.0, 1 - (h / height) ** 2)))
+        for r, h in zip(rings, heights, strict=True)
+    ]
     if max(on) > _EXACT or len(rings) < 3:
         return None
     if not _close(_revolved([(r.radius, h) for r, h in zip(rings, heights, strict=True)], base.sides), content):
@@ -393,8 +396,9 @@ def _sphere(points: Floats, content: float) -> Primitive | None:
 
 
 def _bend(solid: Solid, content: float) -> Primitive | None:
-    """A round bar along an arc, as ``mesh_ops.tube`` along ``transforms.arc`` makes it: loops between two poles, each leg
-    a tangent to the arc.
+    """A round bar along an arc, as ``mesh_ops.tube`` along ``transforms.arc`` makes it.
+
+    It has loops between two poles, and each leg is a tangent to the arc.
     """
     points = solid.vertices
     reach = np.linalg.norm(points - points[0], axis=1)

@@ -1,4 +1,4 @@
-"""Plants as IFC4: products with types, triangulated shapes that repeats share, ports along the lines, systems, colours."""
+"""Plants as IFC4: typed products, triangulated shapes that repeats share, ports along the lines, systems, colours."""
 
 from __future__ import annotations
 
@@ -43,11 +43,11 @@ def write(plant: Plant, style: FileStyle, stem: str) -> Written:
     inventory = take(plant)
     claims = claim(plant, inventory, style.metadata)
     writer = _Writer(plant, inventory, claims, Frame(unit, "Z"))
-    spoilt = {
+    spoilt: dict[str, list[str]] = {
         "wrong_classes": [writer.paths[i] for i, c in enumerate(claims.components) if c is not None and not c.true],
         "missing_names": [writer.paths[i] for i, c in enumerate(claims.components) if c is None],
     }
-    extra = {key: value for key, value in spoilt.items() if value}
+    extra: dict[str, object] = {key: value for key, value in spoilt.items() if value}
     return Written({".ifc": writer.data(stem)}, tuple(writer.paths), unit, "Z", {}, extra)
 
 
@@ -151,9 +151,7 @@ class _Writer:
         self._rooted("IfcRelAggregates", f"item {item.number}", RelatingObject=whole, RelatedObjects=below)
         return whole
 
-    def _element(
-        self, key: str, said: Claim | None, tag: str, bore: float, component: int | None, above: str
-    ) -> Any:
+    def _element(self, key: str, said: Claim | None, tag: str, bore: float, component: int | None, above: str) -> Any:
         number = key.split()[-1]
         words = f"{said.words} DN{bore:.0f}" if said and bore else said.words if said else ""
         kind, predefined = ifc_class(said.group, said.name, said.words) if said else PROXY

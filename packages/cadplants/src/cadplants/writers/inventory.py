@@ -1,4 +1,4 @@
-"""What the author of a plant model knows of it: devices along each line in order, what joins what, and which way it flows."""
+"""What the author of a plant knows of it: devices along each line in order, what joins what, which way it flows."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadplants.plant import Component, Plant, Unit
+from cadplants.plant import Plant, Unit
 
 __all__ = ["Inventory", "Item", "Joint", "take"]
 
@@ -93,11 +93,13 @@ def take(plant: Plant) -> Inventory:
         if item.line:
             by_line[item.line].append(item)
     lines = {tag: tuple(sorted(some, key=lambda item: (item.at, item.number))) for tag, some in by_line.items()}
-    bores = {}
+    bores: dict[str, float] = {}
     for connection in plant.connections:
         bores.setdefault(connection.line, connection.diameter)
     ends = {tag: _ends(plant, tag, items, boxes) for tag in lines}
-    joints = [joint for tag in lines if tag in courses for joint in _joints(plant, tag, lines[tag], courses[tag], ends[tag])]
+    joints = [
+        joint for tag in lines if tag in courses for joint in _joints(plant, tag, lines[tag], courses[tag], ends[tag])
+    ]
     mouths = [mouth for tag in lines if tag in courses for mouth in _mouths(lines[tag], courses[tag], ends[tag])]
     return Inventory(tuple(items), lines, tuple(joints), ends, bores, tuple(mouths))
 
@@ -110,7 +112,9 @@ def _mouths(
     length = float(_chainages(points)[-1])
     outer = ((0, 0.0), (-1, length))
     return [
-        (chain[k].number, _point_at(points, s)) for (k, s), end in zip(outer, ends, strict=True) if chain and end is None
+        (chain[k].number, _point_at(points, s))
+        for (k, s), end in zip(outer, ends, strict=True)
+        if chain and end is None
     ]
 
 
@@ -119,7 +123,7 @@ def _items(plant: Plant) -> list[Item]:
     members: dict[str, list[int]] = {}
     for index, component in enumerate(plant.components):
         members.setdefault(component.unit or f"\0{index}", []).append(index)
-    items = []
+    items: list[Item] = []
     for key, some in members.items():
         first = plant.components[some[0]]
         line = next((plant.components[i].line for i in some if plant.components[i].line), "")
@@ -195,9 +199,7 @@ def _point_at(points: Floats, chainage: float) -> tuple[float, float, float]:
     return x, y, z
 
 
-def _ends(
-    plant: Plant, tag: str, items: Sequence[Item], boxes: Sequence[_Box]
-) -> tuple[int | None, int | None]:
+def _ends(plant: Plant, tag: str, items: Sequence[Item], boxes: Sequence[_Box]) -> tuple[int | None, int | None]:
     """The items of other lines or none that a run begins and ends at."""
     own = [c for c in plant.connections if c.line == tag]
     if not own:
@@ -252,4 +254,3 @@ def _joints(
         flow = own[k].direction if own else "unknown"
         joints.append(Joint(first, second, _point_at(points, chainage), flow, tag))
     return joints
-

@@ -17,7 +17,13 @@ _WHOLE = {
     "pump": ("Pump unit", "pump"),
     "tank": ("Tank", "tank"),
 }
-_SPECIAL = ("sight glass", "level gauge", "flow meter", "transmitter", "thermowell")  # gauges that have a name of their own
+_SPECIAL = (
+    "sight glass",
+    "level gauge",
+    "flow meter",
+    "transmitter",
+    "thermowell",
+)  # gauges that have a name of their own
 
 
 @dataclass(frozen=True)
@@ -100,9 +106,7 @@ def _of_item(plant: Plant, item: Item) -> Claim:
     return Claim(group, kind if kind in _SPECIAL else name, kind)
 
 
-def _spoilt(
-    right: Claim, every: list[tuple[str, str]], metadata: Metadata, rng: np.random.Generator
-) -> Claim | None:
+def _spoilt(right: Claim, every: list[tuple[str, str]], metadata: Metadata, rng: np.random.Generator) -> Claim | None:
     # All numbers are drawn whatever the shares, so that a larger share spoils the same elements and some more.
     missing, wrong, which = (float(x) for x in rng.random(3))
     others = [one for one in every if one[0] != right.group]

@@ -54,8 +54,8 @@ _TYPES: dict[tuple[str, str], PdmsType] = {
 _OTHER: PdmsType = ("SUBE", "SUBEQUIPMENT")
 
 BRANCH_TYPES = frozenset(
-    {"ELBO", "TEE", "CROS", "REDU", "OLET", "FLAN", "FBLI", "GASK", "COUP", "UNIO", "CAP", "FLEX", "FILT", "PCOM", "VALV",
-     "INST", "TUBI", "ATTA"}
+    {"ELBO", "TEE", "CROS", "REDU", "OLET", "FLAN", "FBLI", "GASK", "COUP", "UNIO", "CAP", "FLEX", "FILT", "PCOM",
+     "VALV", "INST", "TUBI", "ATTA"}
 )  # fmt: skip
 """What may stand on a branch."""
 

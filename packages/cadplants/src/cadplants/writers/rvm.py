@@ -1,7 +1,7 @@
 """Plants as AVEVA RVM: a binary file of primitives, and the attributes of its elements beside it (``.att``).
 
-What is exactly a primitive of PDMS is written as one, everything else as polygons. Straight pipes hang on their branch as
-bare bodies, as PDMS writes its implied tube; every other mesh has an element of its own.
+What is exactly a primitive of PDMS is written as one, everything else as polygons. Straight pipes hang on their branch
+as bare bodies, as PDMS writes its implied tube; every other mesh has an element of its own.
 """
 
 from __future__ import annotations
@@ -60,7 +60,9 @@ def write(plant: Plant, style: FileStyle, stem: str) -> Written:
     }
     boxes = {i: box for i, one in enumerate(placed) if (box := shapes[one.shape].box(one)) is not None}
     files = {".rvm": writer.data, ".att": _attributes(plant, site).encode("ascii", "replace")}
-    return Written(files, tuple(writer.paths), 0.001, "Z", boxes, {key: value for key, value in spoilt.items() if value})
+    return Written(
+        files, tuple(writer.paths), 0.001, "Z", boxes, {key: value for key, value in spoilt.items() if value}
+    )
 
 
 class _Shape:

@@ -1,7 +1,7 @@
 """The binary layout of RVM files: big-endian chunks of 32-bit words.
 
-After the layout that rvmparser (github.com/cdyk/rvmparser) reads, checked against files of PDMS 11.5 and E3D 2.1 and 3.1:
-every chunk is its tag, one letter in each of four words, the offset of the next chunk, 1, and its payload.
+After the layout that rvmparser (github.com/cdyk/rvmparser) reads, checked against files of PDMS 11.5 and E3D 2.1 and
+3.1: every chunk is its tag, one letter in each of four words, the offset of the next chunk, 1, and its payload.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The element tree that a plant-design system (PDMS, E3D) keeps of a plant: sites, zones, pipes, branches, equipment."""
+"""The element tree that a plant-design system (PDMS, E3D) keeps: sites, zones, pipes, branches, equipment."""
 
 from __future__ import annotations
 
@@ -111,7 +111,12 @@ class _Grower:
             branch.attributes |= {"Hposition": _position(course[0]), "Tposition": _position(course[-1])}
             branch.position = course[0]
         head, tail = self._inventory.ends.get(tag, (None, None))
-        branch.attributes |= {"Href": self._reference(head), "Tref": self._reference(tail), "Hbore": bore, "Tbore": bore}
+        branch.attributes |= {
+            "Href": self._reference(head),
+            "Tref": self._reference(tail),
+            "Hbore": bore,
+            "Tbore": bore,
+        }
         # A tube without element shows as one only where its branch has elements besides.
         bare = any(not self._is_tube(item) for item in items)
         for item in items:

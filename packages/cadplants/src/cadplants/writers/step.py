@@ -78,9 +78,7 @@ class _Step:
         self._styles: dict[RGB, int] = {}
         self._styled: list[int] = []
         application = self._add("APPLICATION_CONTEXT('core data for automotive mechanical design processes')")
-        self._add(
-            f"APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2000,#{application})"
-        )
+        self._add(f"APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2000,#{application})")
         self._product = self._add(f"PRODUCT_CONTEXT('',#{application},'mechanical')")
         self._design = self._add(f"PRODUCT_DEFINITION_CONTEXT('part definition',#{application},'design')")
         prefix = _PREFIXES[frame.meters_per_unit]
@@ -114,16 +112,14 @@ class _Step:
     def assembly(self, name: str, occurrences: list[tuple[str, _Part, Floats]]) -> None:
         """The product that holds all others, and the colours of everything."""
         axes = [self._axes(self._frame.pose(pose)) for _, _, pose in occurrences]
-        shape = self._add(
-            f"SHAPE_REPRESENTATION('',({_references([self._axes(np.eye(4)), *axes])}),#{self._context})"
-        )
+        shape = self._add(f"SHAPE_REPRESENTATION('',({_references([self._axes(np.eye(4)), *axes])}),#{self._context})")
         definition = self._define(name, shape)
-        for k, ((called, part, _), place) in enumerate(zip(occurrences, axes, strict=True)):
+        for k, ((called, part, _), target) in enumerate(zip(occurrences, axes, strict=True)):
             use = self._add(
                 f"NEXT_ASSEMBLY_USAGE_OCCURRENCE('{k + 1}','{called}','',#{definition},#{part.definition},$)"
             )
             used = self._add(f"PRODUCT_DEFINITION_SHAPE('','',#{use})")
-            move = self._add(f"ITEM_DEFINED_TRANSFORMATION('','',#{part.axes},#{place})")
+            move = self._add(f"ITEM_DEFINED_TRANSFORMATION('','',#{part.axes},#{target})")
             relation = self._add(
                 f"(REPRESENTATION_RELATIONSHIP('','',#{part.shape},#{shape})"
                 f"REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(#{move})SHAPE_REPRESENTATION_RELATIONSHIP())"

@@ -12,6 +12,7 @@ __all__ = ["write"]
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("spare", "<u2")])
 
+
 def write(plant: Plant, style: FileStyle, stem: str) -> Written:
     """Writes a plant as STL, component after component; nothing in the file says where one ends.
 
