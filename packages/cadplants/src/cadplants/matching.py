@@ -172,7 +172,7 @@ def _pairs(
     """What is nearest to what, each once: number of a mesh of the scene by number of what is wanted."""
     if not len(wanted) or not len(free):
         return {}
-    close: list[list[int]] = cKDTree(boxes[free]).query_ball_point(wanted, tolerance, p=np.inf).tolist()
+    close: Sequence[list[int]] = cKDTree(boxes[free]).query_ball_point(wanted, tolerance, p=np.inf)  # type: ignore[assignment]
     cases = []
     for k, near in enumerate(close):
         for j in near:

@@ -15,6 +15,7 @@ from cadplants.plant import Plant
 __all__ = ["Frame", "Placed", "centroid", "is_closed", "place", "shells"]
 
 _WELD = 1e-9  # m; corners closer than this are in one place
+_EXACT = 1e-9  # of the square of a length: rounding of turns
 _TO_Y = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, -1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
 
 
@@ -57,18 +58,37 @@ class Placed:
 
 
 def place(plant: Plant) -> list[Placed]:
-    """The components of a plant in their order; what is mirrored gets a mirrored shape."""
-    flip = np.diag([-1.0, 1.0, 1.0, 1.0])
-    shapes: dict[tuple[int, bool], tuple[int, Solid]] = {}
+    """The components of a plant in their order; what is stretched or mirrored gets a shape of its own.
+
+    Some modelling styles stretch a shape by its pose, which most formats have no word for.
+    """
+    shapes: dict[tuple[int, tuple[float, ...]], tuple[int, Solid]] = {}
     placed = []
     for component in plant.components:
-        mirrored = bool(np.linalg.det(component.pose[:3, :3]) < 0)
-        key = (id(component.solid), mirrored)
+        turn, stretch = _rigid(component.pose[:3, :3])
+        key = (id(component.solid), tuple(np.round(stretch, 12).ravel().tolist()))
         if key not in shapes:
-            shapes[key] = (len(shapes), moved(component.solid, flip) if mirrored else component.solid)
+            change = np.eye(4)
+            change[:3, :3] = stretch
+            plain = np.array_equal(stretch, np.eye(3))
+            shapes[key] = (len(shapes), component.solid if plain else moved(component.solid, change))
+        pose = component.pose.copy()
+        pose[:3, :3] = turn
         number, solid = shapes[key]
-        placed.append(Placed(solid, number, component.pose @ flip if mirrored else component.pose))
+        placed.append(Placed(solid, number, pose))
     return placed
+
+
+def _rigid(linear: Floats) -> tuple[Floats, Floats]:
+    """A turn, and what is left to do before it (polar decomposition): ``turn @ stretch`` is ``linear``."""
+    turn, stretch = linear, np.eye(3)
+    if np.abs(linear.T @ linear - stretch).max() > _EXACT:
+        u, sizes, v = np.linalg.svd(linear)
+        turn, stretch = u @ v, v.T @ np.diag(sizes) @ v
+    if np.linalg.det(turn) < 0:
+        flip = np.diag([-1.0, 1.0, 1.0])
+        turn, stretch = turn @ flip, flip @ stretch
+    return turn, stretch
 
 
 def shells(solid: Solid) -> list[Solid]:
