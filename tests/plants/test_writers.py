@@ -309,7 +309,7 @@ def test_rvm_has_the_tree_of_a_design_system_and_its_attributes(plant, tmp_path)
 
 
 def test_wrong_classes_and_missing_names_are_as_many_as_asked_for(tmp_path):
-    plant = make("skid", 0, "bim")
+    plant = make("pumps")
     style = FileStyle(metadata=Metadata(wrong_classes=0.2, missing_names=0.3))
     write_plant(plant, tmp_path / "plant.rvm", style)
     truth = Truth.load(tmp_path / "plant.truth.json")
