@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -67,22 +67,36 @@ def match(scene: Scene, truth: Truth, tolerance: float = _TOLERANCE) -> Match:
     boxes, centers = _of_scene(scene)
     wanted = np.array([row.box for row in rows]).reshape(-1, 6)
     middles = np.array([row.center for row in rows]).reshape(-1, 3)
-    free = np.arange(scene.n_meshes)
-    same = _pairs(wanted, middles, boxes, centers, free, tolerance)
-    free = np.setdiff1d(free, list(same.values()))
-    left = [k for k in range(len(rows)) if k not in same]
-    split = _pieces(rows, left, boxes, centers, free, tolerance)
-    taken = {one for some in split.values() for one in some}
-    free = np.array([one for one in free.tolist() if one not in taken], np.int64)
-    left = [k for k in left if k not in split]
+    same = _pairs(wanted, middles, boxes, centers, np.arange(scene.n_meshes), tolerance)
+    free = _without(range(scene.n_meshes), same.values())
+    left = _without(range(len(rows)), same)
+    split = _pieces(rows, left, boxes, free, tolerance)
+    free, left = _without(free, *split.values()), _without(left, split)
     merged = _unions(rows, left, boxes, free, tolerance)
-    held = {k for some in merged.values() for k in some}
+    return _named(rows, scene.paths, same, split, merged, _without(left, *merged.values()), _without(free, merged))
+
+
+def _without(numbers: Iterable[int], *gone: Iterable[int]) -> Ints:
+    """Ascending numbers, less those that are gone."""
+    return np.array(sorted(set(numbers).difference(*gone)), np.int64)
+
+
+def _named(
+    rows: Sequence[_Row],
+    paths: Sequence[str],
+    same: Mapping[int, int],
+    split: Mapping[int, list[int]],
+    merged: Mapping[int, list[int]],
+    missing: Ints,
+    surplus: Ints,
+) -> Match:
+    """What was found, by paths instead of numbers."""
     return Match(
-        same={rows[k].path: scene.paths[i] for k, i in sorted(same.items())},
-        split={rows[k].path: tuple(scene.paths[i] for i in some) for k, some in sorted(split.items())},
-        merged={scene.paths[i]: tuple(rows[k].path for k in some) for i, some in sorted(merged.items())},
-        missing=tuple(rows[k].path for k in left if k not in held),
-        surplus=tuple(scene.paths[i] for i in free.tolist() if i not in merged),
+        same={rows[k].path: paths[i] for k, i in sorted(same.items())},
+        split={rows[k].path: tuple(paths[i] for i in some) for k, some in sorted(split.items())},
+        merged={paths[i]: tuple(rows[k].path for k in some) for i, some in sorted(merged.items())},
+        missing=tuple(rows[k].path for k in missing.tolist()),
+        surplus=tuple(paths[i] for i in surplus.tolist()),
     )
 
 
@@ -105,26 +119,31 @@ def truth_for(scene: Scene, truth: Truth, tolerance: float = _TOLERANCE) -> Trut
     now: dict[str, tuple[str, ...]] = {old: (new,) for old, new in found.same.items()} | found.split
     now |= {old: (new,) for new, some in found.merged.items() for old in some}
     data = truth.to_json()
-    exact = not (found.split or found.merged)
     data["meshes"] = _labels(scene, data["meshes"], now)
-    units = _grouped(data["units"], "meshes", now)
-    gone = {unit["id"] for unit in units or () if not unit["meshes"]}
-    for unit in units or ():
-        unit["fasteners"] = sorted({path for old in unit.get("fasteners", ()) for path in now.get(old, ())})
-    data["units"] = None if units is None else [unit for unit in units if unit["id"] not in gone]
-    if data["connections"] is not None:
-        data["connections"] = [one for one in data["connections"] if not {one["from"], one["to"]} & gone]
+    _map_units(data, now)
     data["clusters"] = _grouped(data["clusters"], "meshes", now)
     data["parts"] = _parts(data["parts"], found, now)
-    data["contacts"] = _mapped_pairs(data["contacts"], now) if exact else None
+    data["contacts"] = None if found.split or found.merged else _mapped_pairs(data["contacts"], now)
     data["duplicates"] = _mapped_pairs(data["duplicates"], now) or []
-    data["hidden"] = list(_flat(data["hidden"], now))
-    for section in ("flaws", "gaps"):
-        data[section] = {path: value for old, value in data[section].items() for path in now.get(old, ())}
-    for section in ("wrong_classes", "missing_names"):
+    for section in ("hidden", "wrong_classes", "missing_names"):
         if section in data:
             data[section] = list(_flat(data[section], now))
+    for section in ("flaws", "gaps"):
+        data[section] = {path: value for old, value in data[section].items() for path in now.get(old, ())}
     return Truth.from_json(data)
+
+
+def _map_units(data: dict[str, Any], now: _Now) -> None:
+    """Units with new paths; those of which nothing is there go, and their connections with them."""
+    units = _grouped(data["units"], "meshes", now)
+    if units is None:
+        return
+    for unit in units:
+        unit["fasteners"] = sorted(_flat(unit.get("fasteners", ()), now))
+    gone = {unit["id"] for unit in units if not unit["meshes"]}
+    data["units"] = [unit for unit in units if unit["id"] not in gone]
+    if data["connections"] is not None:
+        data["connections"] = [one for one in data["connections"] if not {one["from"], one["to"]} & gone]
 
 
 @dataclass(frozen=True)
@@ -188,12 +207,11 @@ def _pairs(
     return found
 
 
-def _pieces(
-    rows: Sequence[_Row], left: Sequence[int], boxes: Floats, centers: Floats, free: Ints, tolerance: float
-) -> dict[int, list[int]]:
+def _pieces(rows: Sequence[_Row], left: Ints, boxes: Floats, free: Ints, tolerance: float) -> dict[int, list[int]]:
     """Meshes of the scene that are pieces of one of the truth, by its number."""
-    owners = [k for k in left for _ in rows[k].pieces]
-    wanted = np.array([piece for k in left for piece in rows[k].pieces]).reshape(-1, 6)
+    whole: list[int] = left.tolist()
+    owners = [k for k in whole for _ in rows[k].pieces]
+    wanted = np.array([piece for k in whole for piece in rows[k].pieces]).reshape(-1, 6)
     middles = (wanted[:, :3] + wanted[:, 3:]) / 2
     inner = (boxes[:, :3] + boxes[:, 3:]) / 2
     found: dict[int, list[int]] = defaultdict(list)
@@ -201,21 +219,19 @@ def _pieces(
         found[owners[piece]].append(i)
     used = {i for some in found.values() for i in some}
     # What is cut otherwise lies within the mesh that it is from; the smallest that holds it is the likeliest.
-    sizes = {k: float(np.linalg.norm(rows[k].box[3:] - rows[k].box[:3])) for k in left}
+    sizes = {k: float(np.linalg.norm(rows[k].box[3:] - rows[k].box[:3])) for k in whole}
     for i in free.tolist():
-        holders = [k for k in left if i not in used and _within(boxes[i], rows[k].box, tolerance)]
+        holders = [k for k in whole if i not in used and _within(boxes[i], rows[k].box, tolerance)]
         if holders:
             found[min(holders, key=lambda k: (sizes[k], k))].append(i)
     return {k: sorted(some) for k, some in found.items()}
 
 
-def _unions(
-    rows: Sequence[_Row], left: Sequence[int], boxes: Floats, free: Ints, tolerance: float
-) -> dict[int, list[int]]:
+def _unions(rows: Sequence[_Row], left: Ints, boxes: Floats, free: Ints, tolerance: float) -> dict[int, list[int]]:
     """Meshes of the truth that are one of the scene together, by its number."""
     sizes = np.linalg.norm(boxes[:, 3:] - boxes[:, :3], axis=1)
     found: dict[int, list[int]] = defaultdict(list)
-    for k in left:
+    for k in left.tolist():
         holders = [i for i in free.tolist() if _within(rows[k].box, boxes[i], tolerance)]
         if holders:
             found[min(holders, key=lambda i: (sizes[i], i))].append(k)

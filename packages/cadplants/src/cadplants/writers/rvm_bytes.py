@@ -105,14 +105,21 @@ def facet_group(solid: Solid) -> Body:
     """A mesh as polygons, each with one contour; what is flat is one polygon where a single way goes round it."""
     points = solid.vertices * _MM
     counts, corners = facets(solid)
-    polygons = []
-    for ring in np.split(corners, np.cumsum(counts)[:-1]):
-        at = points[ring]
-        off = at - at[0]
-        normal = np.cross(off, np.roll(off, -1, axis=0)).sum(axis=0)  # Newell
-        length = float(np.linalg.norm(normal))
-        normal = normal / length if length > 0 else np.zeros(3)
-        rows = np.hstack([at, np.broadcast_to(normal, at.shape)])
-        polygons.append(_words(1, len(ring)) + _floats(rows))
-    used = points[np.unique(corners)]
-    return _FACETS, np.array([used.min(axis=0), used.max(axis=0)]), _words(len(polygons)) + b"".join(polygons)
+    starts = np.concatenate([[0], np.cumsum(counts)[:-1]]).astype(np.int64)
+    polygon = np.repeat(np.arange(len(counts)), counts)
+    following = np.arange(1, len(corners) + 1)
+    following[starts + counts - 1] = starts
+    at = points[corners]
+    off = at - at[starts][polygon]
+    normals = np.add.reduceat(np.cross(off, off[following]), starts, axis=0)  # Newell
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    normals = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
+    # Of each polygon two words, then six of each corner.
+    words = np.zeros(1 + 2 * len(counts) + 6 * len(corners), ">u4")
+    words[0] = len(counts)
+    heads = 1 + 2 * np.arange(len(counts)) + 6 * starts
+    words[heads], words[heads + 1] = 1, counts
+    bodies = 3 + 2 * polygon + 6 * np.arange(len(corners))
+    rows = np.hstack([at, normals[polygon]]).astype(">f4").view(">u4")
+    words[bodies[:, None] + np.arange(6)] = rows
+    return _FACETS, np.array([at.min(axis=0), at.max(axis=0)]), words.tobytes()
