@@ -356,3 +356,32 @@ def test_a_format_is_known_by_its_name_or_its_suffix():
         format_of("a.stp", "rvm")
     with pytest.raises(ValueError, match="give one of usd"):
         format_of("a.stp", "jt")
+
+
+def test_the_command_line_writes_each_format_and_fits_the_truth_to_what_is_read(tmp_path, capsys):
+    from cadgraph.cli import main
+
+    def run(*words):
+        with pytest.raises(SystemExit) as end:
+            main([str(word) for word in words])
+        return end.value.code or 0, "".join(capsys.readouterr())
+
+    target = tmp_path / "riser.usda"
+    make_it = ("environment", "make", "--preset", "riser", "--style", "bim", "-o")
+    assert run(*make_it, tmp_path / "riser.rvm", "--wrong-classes", "0.1")[0] == 0
+    assert {path.name for path in tmp_path.iterdir()} == {"riser.rvm", "riser.att", "riser.truth.json"}
+    code, said = run(*make_it, tmp_path / "riser.rvm", "--polygons", "1")
+    assert code != 0
+    assert "--polygons is no setting of rvm" in said
+    code, said = run(*make_it, target, "--missing-names", "0.1")
+    assert code != 0
+    assert "--missing-names is no setting of usd" in said
+    assert run(*make_it, tmp_path / "other.rvm")[0] == run(*make_it, target)[0] == 0
+    # The truth that was written with one format fits the same plant in another.
+    code, said = run(
+        "environment", "match", target, tmp_path / "other.truth.json", "-o", tmp_path / "fitted.truth.json"
+    )
+    assert (code, "75 meshes" in said) == (0, True)
+    fitted = Truth.load(tmp_path / "fitted.truth.json")
+    own = Truth.load(tmp_path / "riser.truth.json")
+    assert {row.mesh: row.name for row in fitted.meshes} == {row.mesh: row.name for row in own.meshes}
