@@ -5,10 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.geometry.line.centreline import Branch, Centreline, End
+from cadgraph.model.facts import StatedLink
 from cadgraph.model.parts import Contacts
+from cadgraph.model.stated import StatedJoin
 from cadgraph.stages.relate.decide import decide_joints, settle_faces
 from cadgraph.stages.relate.joint import gather_ends
 from cadgraph.stages.relate.offer import Surroundings, offer_faces, offer_taps
+from cadgraph.stages.relate.stated import Stated
 
 NAN = float("nan")
 BRIDGE = 0.012
@@ -30,10 +33,17 @@ def run(start, stop, radius=0.05, only=None):
     return Centreline((Branch(points, np.full(2, radius), np.full(2, NAN)),), ends, (), 1.0)
 
 
-def offers(lines, blocked=(), bolted=(), bridge=BRIDGE, contacts=None):
+def stated(*pairs):
+    """What a file says that joins pairs of parts."""
+    links = (StatedLink(f"/{a}", f"/{b}", "unknown", "IfcRelConnectsPorts") for a, b in pairs)
+    return Stated(tuple(StatedJoin((a,), (b,), link) for (a, b), link in zip(pairs, links, strict=True)))
+
+
+def offers(lines, blocked=(), bolted=(), bridge=BRIDGE, contacts=None, stated=None):
     """The offers between ends of lines, numbered as they are given; and the ends."""
     ends = gather_ends(dict(enumerate(lines)))
-    return offer_faces(ends, Surroundings(contacts or touching(), bridge, set(blocked), set(bolted))), ends
+    around = Surroundings(contacts or touching(), bridge, set(blocked), set(bolted), stated or Stated())
+    return offer_faces(ends, around), ends
 
 
 def decided(lines, singles=None, **around):

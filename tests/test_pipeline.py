@@ -1,4 +1,5 @@
 import json
+from dataclasses import replace
 
 import networkx as nx
 import numpy as np
@@ -201,7 +202,7 @@ def test_the_origin_only_moves_coordinates():
     near = built(line(), "exact")
     scene = Scene.from_meshes(line(), PATHS)
     far = cadgraph.build(
-        Scene(**{**vars(scene), "origin": np.array([2.4e7, -1e6, 0.0])}),
+        replace(scene, origin=np.array([2.4e7, -1e6, 0.0])),
         cadgraph.Config().replace({"label.labeler": "none"}),
         labels=LABELS,
     )

@@ -249,6 +249,7 @@ class RelateConfig(Section):
         0.6, "a gauge stands in the run that it is tapped into where the way to it is at most this long [m]", ge=0
     )
     flow: tuple[str, ...] = _setting((), "flow directions that are known: 'P-001 -> T-001', tags of units or nodes")
+    use_metadata: bool = _setting(False, "let what the file says of joints and flow count beside geometry")
 
 
 class ReportConfig(Section):

@@ -60,7 +60,7 @@ class MissingExtra(CadGraphError):
     """
 
     def __init__(self, purpose: str, extra: str) -> None:
-        self.extra = extra
+        self.purpose, self.extra = purpose, extra
         super().__init__(f"{purpose} needs an extra: pip install 'cadgraph[{extra}]'")
 
 

@@ -130,6 +130,15 @@ def test_bad_flags_are_named(capsys, scene_file, tmp_path, extra, word):
     assert word in refused(capsys, "build", scene_file, "-o", tmp_path / "out", "--no-report", *extra)
 
 
+def test_export_tells_what_it_could_not_write_and_refuses_a_needless_source(capsys, scene_file, tmp_path):
+    run(capsys, "build", scene_file, "-o", tmp_path / "out", "--no-report", "--set", "label.labeler=none")
+    code, out, _ = run(capsys, "export", tmp_path / "out", "--to", "labels-csv", "-o", tmp_path / "exported")
+    assert code == 0
+    assert out.splitlines()[1].startswith("note  unlabelled: meshes without a label have no row: /")
+    assert "leave --source out" in refused(capsys, "export", tmp_path / "out", "--to", "csv", "--source", scene_file)
+    assert "'labels-csv' writes the labels by path" in refused(capsys, "export", tmp_path / "out", "--to", "gltf")
+
+
 def test_an_unknown_export_format_lists_the_known_ones(capsys, scene_file, tmp_path):
     run(capsys, "build", scene_file, "-o", tmp_path / "out", "--no-report")
     assert "graphml" in refused(capsys, "export", tmp_path / "out", "--to", "dwg")

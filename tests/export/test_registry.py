@@ -4,20 +4,24 @@ import graphs
 from cadgraph.errors import OutputError
 from cadgraph.export import export_graph, formats
 
+ALL = ["att", "csv", "dexpi", "gltf", "graphml", "ifc", "isometric", "labels-csv", "networkx-json", "pcf"]
+ALONE = [name for name in ALL if name not in ("gltf", "ifc")]  # those that need no source
+FILLED = [name for name in ALONE if name not in ("isometric", "pcf")]  # those that a graph without centrelines fills
+
 
 def test_formats_are_named_in_order_with_their_meaning():
-    assert list(formats()) == ["csv", "dexpi", "graphml", "networkx-json"]
+    assert list(formats()) == ALL
     assert all(formats().values())
 
 
-@pytest.mark.parametrize("to", formats())
+@pytest.mark.parametrize("to", FILLED)
 def test_every_format_writes_into_a_folder_that_it_makes(tmp_path, to):
     files = export_graph(graphs.valve_line(), to, tmp_path / "new")
     assert files
     assert sorted(files) == sorted((tmp_path / "new").iterdir())
 
 
-@pytest.mark.parametrize("to", formats())
+@pytest.mark.parametrize("to", ALONE)
 def test_inputs_stay_as_they_are(tmp_path, to):
     graph = graphs.valve_line()
     before = graph.to_json()
@@ -25,7 +29,10 @@ def test_inputs_stay_as_they_are(tmp_path, to):
     assert graph.to_json() == before
 
 
-@pytest.mark.parametrize(("to", "name"), [("graphml", "plant.graphml"), ("networkx-json", "plant.JSON")])
+@pytest.mark.parametrize(
+    ("to", "name"),
+    [("graphml", "plant.graphml"), ("networkx-json", "plant.JSON"), ("labels-csv", "plant.csv"), ("att", "plant.att")],
+)
 def test_a_path_with_the_formats_suffix_is_the_file(tmp_path, to, name):
     assert export_graph(graphs.graph(), to, tmp_path / name) == [tmp_path / name]
 
@@ -43,11 +50,11 @@ def test_several_tables_do_not_fit_one_file(tmp_path):
 
 
 def test_an_unknown_format_names_the_known_ones(tmp_path):
-    with pytest.raises(ValueError, match="'pdf'; there are csv, dexpi, graphml, networkx-json"):
+    with pytest.raises(ValueError, match="'pdf'; there are att, csv, dexpi, gltf, graphml, ifc"):
         export_graph(graphs.graph(), "pdf", tmp_path)
 
 
-@pytest.mark.parametrize("to", formats())
+@pytest.mark.parametrize("to", FILLED)
 def test_a_file_in_the_way_is_an_output_error(tmp_path, to):
     (tmp_path / "file").write_text("", encoding="utf-8")
     with pytest.raises(OutputError, match="choose another output folder"):

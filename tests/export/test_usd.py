@@ -15,7 +15,9 @@ import graphs
 import shapes
 from cadgraph.errors import LoadError, OutputError
 from cadgraph.export.usd import prim_paths, write_geometry, write_semantics
-from cadgraph.model.scene import Scene, Source
+from cadgraph.load import load
+from cadgraph.model.scene import MeshArrays, Placement, Scene, Source
+from cadgraph.pipeline import build
 
 DATA = Path(__file__).parents[2] / "../shared/data/usd"
 TEAPOTS = DATA / "teapot_scene/scenes/teapotScene.usd"
@@ -531,6 +533,45 @@ def test_faces_and_colors_are_written_as_they_are(tmp_path):
     first, second = (UsdGeom.Mesh(stage.GetPrimAtPath(path)) for path in prim_paths(scene))
     assert np.allclose(first.GetDisplayColorAttr().Get(), [colors[0]])
     assert not second.GetDisplayColorAttr().HasAuthoredValue()
+
+
+def test_meshes_that_share_a_shape_refer_to_its_points(tmp_path):
+    turn = np.array([[0.0, 1, 0], [-1, 0, 0], [0, 0, 1]])
+    placement = Placement(
+        np.array([0, 0, 1]), np.array([np.eye(3), turn, np.eye(3)]), np.array([[500.0, 0, 0], [0, 3, 1], [9, 9, 9]])
+    )
+    arrays = MeshArrays.of([shapes.box((0.3, 0.2, 0.1), (0.05, 0, 7)), shapes.cylinder()])
+    colors = np.array([[0.1, 0.2, 0.3], [0.9, 0.2, 0.3], [np.nan] * 3], np.float32)
+    scene = Scene(arrays, ("/a", "/b", "/c"), colors, placement=placement)
+    stage = opened(write_geometry(scene, tmp_path / "scene.usdc"))
+    drawn = [prim for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
+    assert [str(prim.GetPath()) for prim in drawn] == list(prim_paths(scene))
+    for index, prim in enumerate(drawn):
+        mesh = UsdGeom.Mesh(prim)
+        local = np.array(mesh.GetPointsAttr().Get(), np.float64)
+        matrix = np.array(UsdGeom.Xformable(prim).ComputeLocalToWorldTransform(0))
+        assert np.abs(local @ matrix[:3, :3] + matrix[3, :3] - scene.mesh(index)[0]).max() < 1e-7
+    assert np.allclose(UsdGeom.Mesh(drawn[1]).GetDisplayColorAttr().Get(), [colors[1]])
+    assert not drawn[0].GetPrimStack()[0].attributes.get("points")
+
+
+def test_a_source_whose_meshes_were_split_gets_its_solids_written(tmp_path):
+    whole = tmp_path / "bag.usda"
+    stage = Usd.Stage.CreateNew(str(whole))
+    UsdGeom.SetStageMetersPerUnit(stage, 1.0)
+    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)
+    boxes = [shapes.box((0.1, 0.1, 0.1), (0.2 * k, 0, 0)) for k in range(30)]
+    mesh = UsdGeom.Mesh.Define(stage, "/World/all")
+    mesh.GetPointsAttr().Set(np.concatenate([v for v, _ in boxes]).tolist())
+    faces = np.concatenate([f + 8 * k for k, (_, f) in enumerate(boxes)])
+    mesh.GetFaceVertexCountsAttr().Set([3] * len(faces))
+    mesh.GetFaceVertexIndicesAttr().Set(faces.reshape(-1).tolist())
+    stage.Save()
+    scene = load(whole)
+    assert scene.n_meshes == 30
+    layer = opened(write_semantics(scene, build(scene), whole, tmp_path / "out" / "semantics.usda"))
+    assert (tmp_path / "out" / "scene.usdc").exists()
+    assert len([prim for prim in layer.Traverse() if prim.IsA(UsdGeom.Mesh)]) == 30
 
 
 def test_geometry_has_the_same_bytes_each_time(tmp_path):

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cadgraph._io.text import natural_key, printable, tag_key, xml_text
+from cadgraph._io.text import natural_key, natural_order, printable, tag_key, xml_text
 
 
 def test_numbers_sort_by_value_and_paths_before_those_below_them():
@@ -31,3 +31,13 @@ def test_what_cant_be_printed_is_replaced(text, shown):
 def test_xml_text_can_stand_in_a_document(text):
     ET.fromstring(ET.tostring(ET.Element("a", value=xml_text(text))))
     assert xml_text(xml_text(text)) == xml_text(text)
+
+
+@given(st.lists(st.text(st.sampled_from("ab/019_ \x00\x01\x02é"), max_size=8)))
+def test_the_fast_order_is_that_of_the_key(texts):
+    assert natural_order(texts) == sorted(range(len(texts)), key=lambda i: natural_key(texts[i]))
+
+
+@given(st.lists(st.text(st.sampled_from("ab/0123_"), max_size=12)))
+def test_the_fast_order_is_that_of_the_key_for_plain_texts(texts):
+    assert natural_order(texts) == sorted(range(len(texts)), key=lambda i: natural_key(texts[i]))

@@ -12,7 +12,8 @@ from cadgraph.config import LoadConfig
 from cadgraph.errors import LoadError
 from cadgraph.load import load
 from cadgraph.load.bodies import split_bodies
-from cadgraph.load.glb import read_glb
+from cadgraph.load.gltf import node_matrix, root_nodes
+from cadgraph.load.gltf_file import parse_glb
 from load.solids import _FACES, StepFile
 from shapes import box, moved
 
@@ -228,7 +229,7 @@ def test_no_faces_make_one_empty_body():
 @pytest.mark.parametrize("data", [b"", b"glTF", b"glTF" + struct.pack("<II", 2, 20) + b"\0" * 12])
 def test_no_glb_is_an_error(data):
     with pytest.raises((ValueError, KeyError)):
-        read_glb(data)
+        parse_glb(data)
 
 
 def test_node_placements_follow_gltf():
@@ -238,7 +239,8 @@ def test_node_placements_follow_gltf():
     )
     tree += b" " * (-len(tree) % 4)
     data = b"glTF" + struct.pack("<IIII", 2, 20 + len(tree), len(tree), 0x4E4F534A) + tree
-    nodes, roots, meshes = read_glb(data)
-    assert (roots, meshes) == ([0, 1], [])
-    np.testing.assert_allclose(nodes[0].matrix, nodes[1].matrix, atol=1e-7)
-    np.testing.assert_allclose([1, 0, 0, 1] @ nodes[0].matrix, [1, 4, 3, 1], atol=1e-7)
+    gltf = parse_glb(data)
+    assert root_nodes(gltf) == [0, 1]
+    first, second = (node_matrix(node) for node in gltf.rows("nodes"))
+    np.testing.assert_allclose(first, second, atol=1e-7)
+    np.testing.assert_allclose([1, 0, 0, 1] @ first, [1, 4, 3, 1], atol=1e-7)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from cadgraph.model.scene import Floats, Ints, Scene
+from cadgraph.model.scene import Floats, Ints, MeshArrays, Scene
 
 Mesh = tuple[Floats, Ints]
 
@@ -159,10 +159,12 @@ def small_parts(n: int, seed: int = 0) -> Scene:
     at = np.column_stack([cell % side, cell // side % side, cell // side**2]) * [0.052, 0.052, 0.112]
     at = at + random.uniform(-0.002, 0.002, (n, 3))
     return Scene(
-        vertices=(vertices[None] + at[:, None]).reshape(-1, 3),
-        faces=np.tile(faces.astype(np.int32), (n, 1)),
-        vertex_offsets=np.arange(n + 1) * len(vertices),
-        face_offsets=np.arange(n + 1) * len(faces),
+        MeshArrays(
+            vertices=(vertices[None] + at[:, None]).reshape(-1, 3),
+            faces=np.tile(faces.astype(np.int32), (n, 1)),
+            vertex_offsets=np.arange(n + 1) * len(vertices),
+            face_offsets=np.arange(n + 1) * len(faces),
+        ),
         paths=tuple(f"/{i}" for i in range(n)),
         colors=np.full((n, 3), np.nan, np.float32),
     )
@@ -223,11 +225,4 @@ def bin_of_bolts(n: int, seed: int = 0) -> Scene:
 
 def far_away(scene: Scene) -> Scene:
     """The same scene at 2.4e7 m, its coordinates rounded as float64 rounds them there."""
-    return Scene(
-        vertices=scene.vertices + np.array([2.4e7, -1.7e7, 300.0]),
-        faces=scene.faces,
-        vertex_offsets=scene.vertex_offsets,
-        face_offsets=scene.face_offsets,
-        paths=scene.paths,
-        colors=scene.colors,
-    )
+    return scene.with_vertices(scene.vertices + np.array([2.4e7, -1.7e7, 300.0]))

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
-__all__ = ["natural_key", "printable", "tag_key", "xml_text"]
+__all__ = ["natural_key", "natural_order", "printable", "tag_key", "xml_text"]
 
+_LONGEST = 20_000  # characters of a text that is sorted fast: their number must be a character
 _DIGITS = re.compile(r"([0-9]+)")
 # XML 1.0, production [2] Char: everything else can't stand in a document, not even escaped.
 _NO_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -18,6 +20,27 @@ def natural_key(text: str) -> NaturalKey:
     """A key that sorts ``mesh_2`` before ``mesh_10``, and paths before those below them."""
     steps = _DIGITS.split(text.replace("/", "\x00"))
     return tuple(int(step) if i % 2 else step for i, step in enumerate(steps)), text
+
+
+def natural_order(texts: Sequence[str]) -> list[int]:
+    """The numbers of texts in the order of ``natural_key``, some ten times faster than by it."""
+    if any("\x00" in text or "\x01" in text or len(text) > _LONGEST for text in texts):
+        return sorted(range(len(texts)), key=lambda i: natural_key(texts[i]))
+    number = _Numbers().__getitem__
+    # An end goes before a number, that before a slash, and that before all other characters.
+    keys = [_DIGITS.sub(lambda found: number(found[0]), text.replace("/", "\x01")) for text in texts]
+    if len(set(keys)) < len(set(texts)):  # 01 and 1: the texts decide
+        return sorted(range(len(texts)), key=lambda i: (keys[i], texts[i]))
+    return sorted(range(len(texts)), key=keys.__getitem__)
+
+
+class _Numbers(dict[str, str]):
+    """Of digits a text that sorts as their number does among others of its kind: how many there are, then they."""
+
+    def __missing__(self, digits: str) -> str:
+        plain = digits.lstrip("0")
+        self[digits] = text = f"\x00{chr(0x100 + len(plain))}{plain}"
+        return text
 
 
 def tag_key(tag: str) -> NaturalKey:

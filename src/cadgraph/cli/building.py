@@ -9,7 +9,7 @@ import typer
 
 from cadgraph.cli.application import app
 from cadgraph.cli.asking import AskingOptions, asks
-from cadgraph.cli.options import ConfigOption, MethodOption, SetOption, read_flows, settings_of
+from cadgraph.cli.options import ConfigOption, MethodOption, SetOption, UnitOption, UpOption, read_flows, settings_of
 from cadgraph.cli.screen import bars, tell, tell_next
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 @app.command()
 @asks
 def build(
-    scene: Annotated[Path, typer.Argument(metavar="SCENE", help="A CAD scene: USD (usd, usda, usdc, usdz) or STEP.")],
+    scene: Annotated[Path, typer.Argument(metavar="SCENE", help="A CAD scene: USD, STEP, IFC, RVM, glTF, OBJ, STL...")],
     output: Annotated[Path, typer.Option("--output", "-o", metavar="FOLDER", help="Where the results go.")],
     asking: AskingOptions,
     labels: Annotated[
@@ -44,6 +44,8 @@ def build(
             help="What flows where, as 'P-001 -> T-001', or a file of such lines. May be repeated.",
         ),
     ] = None,
+    unit: UnitOption = None,
+    up: UpOption = None,
     method: MethodOption = None,
     config: ConfigOption = None,
     settings: SetOption = None,
@@ -53,7 +55,7 @@ def build(
     from cadgraph.session.run import run
 
     changes = [*(settings or [])]
-    chosen = settings_of(config, changes, method)
+    chosen = settings_of(config, changes, method, unit, up)
     if ground:
         find = "none" if ground == ["none"] else "named"
         chosen = chosen.replace({"ground.find": find, "ground.meshes": [] if find == "none" else ground})

@@ -173,7 +173,12 @@ def diagram(
 @app.command()
 def compare(
     graph: GraphArgument,
-    plan: Annotated[Path, typer.Argument(metavar="PLAN", help="The P&ID as Proteus XML (DEXPI).")],
+    plan: Annotated[
+        Path | None, typer.Argument(metavar="[PLAN]", help="The P&ID as Proteus XML (DEXPI).", show_default=False)
+    ] = None,
+    source: Annotated[
+        bool, typer.Option("--source", help="Instead of a plan: what the source itself says is joined to what.")
+    ] = False,
     mapping: Annotated[
         Path | None,
         typer.Option("--map", metavar="FILE", help="CSV with a tag of the plan and the plant's tag in each line."),
@@ -187,11 +192,21 @@ def compare(
         Path | None, typer.Option("--output", "-o", metavar="FILE", help="Write the answer there.")
     ] = None,
 ) -> None:
-    """Compare a plant with its P&ID: units, connections, order along the lines, directions, kinds.
+    """Compare a plant with its P&ID (units, connections, order along the lines, directions, kinds), or with its source.
 
     Units are matched as --map says, then by tag, then by their place in the network with a figure that says how sure
     that is; what can't be matched is listed.
+
+    With --source: which connections and directions the graph and the ports or branches of its IFC or RVM file have in
+    common, and which only one of both has. What can't be compared is listed.
     """
+    if source:
+        _compare_source(graph, (plan, mapping, by_network or None), strict, as_json, output)
+        return
+    if plan is None:
+        raise ValueError(
+            "give the plan to compare with, a Proteus XML file, or --source for what the source itself says"
+        )
     from cadgraph._io.atomic import write_atomically
     from cadgraph._io.limits import MAPPING, read_text_within
     from cadgraph.export.dexpi import read_dexpi
@@ -211,6 +226,26 @@ def compare(
         values = json.dumps(comparison_values(found), ensure_ascii=False, indent=1)
         write_atomically(output, (values if as_json else "\n".join(comparison_lines(found, most=10**9))) + "\n")
         out.print(f"wrote {escape(str(output))}: the plant and the plan {'agree' if found.agrees else 'differ'}")
+    if strict and not found.agrees:
+        raise typer.Exit(1)
+
+
+def _compare_source(graph: Path, others: tuple[object, ...], strict: bool, as_json: bool, output: Path | None) -> None:
+    """The comparison of a graph with what its source says."""
+    from cadgraph._io.atomic import write_atomically
+    from cadgraph.model.graph import SceneGraph
+    from cadgraph.query.compare_source import compare_source
+    from cadgraph.query.source_text import source_lines, source_values
+
+    if any(other is not None for other in others):
+        raise ValueError("--source compares with the source alone; leave out the plan, --map and --by-network")
+    found = compare_source(SceneGraph.load(graph))
+    if output is None:
+        _show(source_lines(found), source_values(found), as_json)
+    else:
+        values = json.dumps(source_values(found), ensure_ascii=False, indent=1)
+        write_atomically(output, (values if as_json else "\n".join(source_lines(found, most=10**9))) + "\n")
+        out.print(f"wrote {escape(str(output))}: {source_lines(found)[-1]}")
     if strict and not found.agrees:
         raise typer.Exit(1)
 

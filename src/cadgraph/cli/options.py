@@ -12,7 +12,17 @@ import typer
 from cadgraph._io.limits import FLOWS, read_text_within
 from cadgraph.config import Config, read_config
 
-__all__ = ["ConfigOption", "GraphArgument", "MethodOption", "SetOption", "read_flows", "settings_of", "values_of"]
+__all__ = [
+    "ConfigOption",
+    "GraphArgument",
+    "MethodOption",
+    "SetOption",
+    "UnitOption",
+    "UpOption",
+    "read_flows",
+    "settings_of",
+    "values_of",
+]
 
 ConfigOption = Annotated[
     Path | None, typer.Option("--config", metavar="FILE", help="Settings as TOML; 'cadgraph config' prints them all.")
@@ -22,15 +32,24 @@ SetOption = Annotated[
     typer.Option("--set", metavar="NAME=VALUE", help="Change one setting, e.g. cluster.eps=0.02. May be repeated."),
 ]
 MethodOption = Annotated[str | None, typer.Option("--method", help="How to decide what touches: exact or paper.")]
+UnitOption = Annotated[
+    str | None,
+    typer.Option("--unit", metavar="UNIT", help="Unit of the file's lengths, whatever it says: m, cm, mm, in, ft..."),
+]
+UpOption = Annotated[
+    str | None, typer.Option("--up", metavar="AXIS", help="Up axis of the file, whatever it says: X, Y or Z.")
+]
 GraphArgument = Annotated[Path, typer.Argument(metavar="FOLDER", help="What 'cadgraph build' wrote, or a graph.json.")]
 
 
-def settings_of(file: Path | None, changes: Sequence[str], method: str | None) -> Config:
+def settings_of(
+    file: Path | None, changes: Sequence[str], method: str | None, unit: str | None = None, up: str | None = None
+) -> Config:
     """Defaults, then the file, then flags."""
     chosen = read_config(file) if file else Config()
     values = values_of(changes)
-    if method is not None:
-        values["method"] = method
+    flags = {"method": method, "load.unit": unit, "load.up": up.upper() if up else None}
+    values |= {name: value for name, value in flags.items() if value is not None}
     return chosen.replace(values) if values else chosen
 
 

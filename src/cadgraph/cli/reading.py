@@ -12,7 +12,7 @@ from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.options import ConfigOption, GraphArgument, SetOption, settings_of
-from cadgraph.cli.screen import out, summary_lines
+from cadgraph.cli.screen import note_line, out, summary_lines
 from cadgraph.config import to_toml
 
 
@@ -36,17 +36,32 @@ def show(
 @app.command()
 def export(
     graph: GraphArgument,
-    to: Annotated[str, typer.Option("--to", metavar="FORMAT", help="graphml, csv, networkx-json or dexpi.")],
+    to: Annotated[
+        str,
+        typer.Option(
+            "--to",
+            metavar="FORMAT",
+            help="att, csv, dexpi, gltf, graphml, ifc, isometric, labels-csv, networkx-json or pcf.",
+        ),
+    ],
     output: Annotated[
         Path | None, typer.Option("--output", "-o", metavar="PATH", help="File or folder; beside the graph by default.")
     ] = None,
+    source: Annotated[
+        Path | None,
+        typer.Option("--source", metavar="FILE", help="For gltf and ifc: the scene itself, where it has moved."),
+    ] = None,
 ) -> None:
-    """Write a graph in another format."""
-    from cadgraph.export import export_graph
+    """Write a graph in another format, or a copy of its source with the labels in it."""
+    from cadgraph.export import write_export
     from cadgraph.model.graph import SceneGraph
 
-    for path in export_graph(SceneGraph.load(graph), to, output or (graph if graph.is_dir() else graph.parent)):
+    folder = graph if graph.is_dir() else graph.parent
+    written = write_export(SceneGraph.load(graph), to, output or folder, source)
+    for path in written.files:
         out.print(f"wrote {escape(str(path))}")
+    for note in written.notes:
+        out.print(f"[dim]note[/]  {escape(note_line(note))}")
 
 
 @app.command("config")

@@ -12,9 +12,10 @@ from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedCo
 
 from cadgraph._io.progress import quiet
 
-__all__ = ["bars", "err", "out", "summary_lines", "tell", "tell_next"]
+__all__ = ["bars", "err", "note_line", "out", "summary_lines", "tell", "tell_next"]
 
 _MOST_NAMES = 12  # units that are named on one line
+_MOST_PATHS = 3  # meshes that a note names
 
 out = Console(highlight=False, soft_wrap=True)
 err = Console(stderr=True, highlight=False, soft_wrap=True)
@@ -71,6 +72,13 @@ def tell_next(commands: Sequence[str]) -> None:
     """Names commands to go on with, one a line."""
     for number, command in enumerate(commands):
         out.print(f"[dim]{'' if number else 'try next':<15}[/]{escape(command)}")
+
+
+def note_line(note: Any) -> str:
+    """A diagnostic on one line, with the first of the paths that it concerns."""
+    first = ", ".join(note.meshes[:_MOST_PATHS])
+    more = f" and {len(note.meshes) - _MOST_PATHS} more" if len(note.meshes) > _MOST_PATHS else ""
+    return f"{note.code}: {note.message}" + (f": {first}{more}" if first else "")
 
 
 def summary_lines(summary: Any) -> list[str]:

@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from cadgraph.export.registry import export_graph, formats
+from cadgraph.export.registry import Written, export_graph, formats, write_export
 
-__all__ = ["export_graph", "formats"]
+__all__ = ["Written", "export_graph", "formats", "write_export"]

@@ -2,16 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+import importlib.util
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
+from cadgraph.errors import LoadError, MissingExtra
+from cadgraph.export.att import write_att
 from cadgraph.export.graphml import write_graphml
+from cadgraph.export.labels import write_labels
 from cadgraph.export.nodelink import write_nodelink
+from cadgraph.export.source import find_source, refuse_source
 from cadgraph.export.tables import write_tables
+from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
 
-__all__ = ["Format", "export_graph", "formats"]
+__all__ = ["Format", "Written", "export_graph", "formats", "write_export"]
+
+
+@dataclass(frozen=True)
+class Written:
+    """What an export wrote.
+
+    Args:
+        files: all of them.
+        notes: what of the graph could not be written, or was guessed.
+    """
+
+    files: tuple[Path, ...]
+    notes: tuple[Diagnostic, ...] = ()
+
+
+def _not_alone(graph: SceneGraph, path: Path) -> Written:
+    raise ValueError(f"{path}: this format needs the source of {graph.source.path}")
 
 
 @dataclass(frozen=True)
@@ -21,36 +44,117 @@ class Format:
     Args:
         name: as a user asks for it (``"graphml"``).
         meaning: what it is good for, one line.
-        write: takes the graph and the place to write to, and returns the files that it wrote.
+        write: takes the graph and the place to write to, and says what it wrote.
+        write_over: likewise with the source file between the two, where the format is a copy of the source.
         file: the name of its file where a folder is given; None if it always takes a folder.
+        copied_as: how the copy of a source ends, by how the source ends.
     """
 
     name: str
     meaning: str
-    write: Callable[[SceneGraph, Path], list[Path]]
+    write: Callable[[SceneGraph, Path], Written] = _not_alone
+    write_over: Callable[[SceneGraph, Path, Path], Written] | None = None
     file: str | None = None
+    copied_as: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def needs_source(self) -> bool:
+        """Whether the file that the graph was made from has to be there."""
+        return self.write_over is not None
+
+
+def _write_dexpi(graph: SceneGraph, path: Path) -> Written:
+    # It places what it writes by the layout library, which the other formats do without.
+    from cadgraph.export.dexpi import write_dexpi
+
+    return Written((write_dexpi(graph, path),))
+
+
+def _write_labels(graph: SceneGraph, path: Path) -> Written:
+    file, notes = write_labels(graph, path)
+    return Written((file,), notes)
+
+
+def _write_gltf(graph: SceneGraph, source: Path, path: Path) -> Written:
+    from cadgraph.export.gltf import write_gltf
+
+    file, notes = write_gltf(graph, source, path)
+    return Written((file,), notes)
+
+
+def _write_ifc(graph: SceneGraph, source: Path, path: Path) -> Written:
+    if importlib.util.find_spec("ifcopenshell") is None:
+        raise MissingExtra("writing IFC files", "ifc")
+    refuse_source(source, path)
+    from cadgraph.export.ifc import write_ifc
+
+    return Written((write_ifc(graph, source, path),))
+
+
+def _write_pcf(graph: SceneGraph, path: Path) -> Written:
+    from cadgraph.export.pcf import write_pcf
+
+    return Written(*write_pcf(graph, path))
+
+
+def _write_isometrics(graph: SceneGraph, path: Path) -> Written:
+    from cadgraph.draw.isometric import write_isometrics
+
+    return Written(*write_isometrics(graph, path))
 
 
 _FORMATS = (
-    Format("csv", "tables of parts, units, relations, clusters, contacts and meshes, for Excel", write_tables),
+    Format(
+        "att",
+        "labels as PDMS attributes, beside an RVM file",
+        lambda g, p: Written((write_att(g, p),)),
+        None,
+        "labels.att",
+    ),
+    Format(
+        "csv",
+        "tables of parts, units, relations, clusters, contacts and meshes, for Excel",
+        lambda graph, path: Written(tuple(write_tables(graph, path))),
+    ),
     Format(
         "dexpi",
         "tanks, pumps, lines, valves and instruments as Proteus XML in DEXPI 1.3 terms, for P&ID tools",
-        lambda graph, path: [_write_dexpi(graph, path)],
-        "dexpi.xml",
+        _write_dexpi,
+        file="dexpi.xml",
+    ),
+    Format(
+        "gltf",
+        "a copy of a glTF source with the labels in the extras of its nodes",
+        write_over=_write_gltf,
+        file="labelled.glb",
+        copied_as={".glb": ".glb", ".gltf": ".gltf"},
     ),
     Format(
         "graphml",
         "the whole graph, for yEd, Gephi, Cytoscape",
-        lambda graph, path: [write_graphml(graph, path)],
-        "graph.graphml",
+        lambda graph, path: Written((write_graphml(graph, path),)),
+        file="graph.graphml",
     ),
+    Format(
+        "ifc",
+        "a copy of an IFC source with the labels as a property set of its products",
+        write_over=_write_ifc,
+        file="labelled.ifc",
+        copied_as={".ifc": ".ifc", ".ifczip": ".ifc"},
+    ),
+    Format(
+        "isometric",
+        "each line as an isometric drawing, SVG",
+        _write_isometrics,
+    ),
+    Format("labels-csv", "labels by source path, for 'cadgraph build --labels'", _write_labels, file="labels.csv"),
     Format(
         "networkx-json",
         "nodes and edges alone, for networkx.node_link_graph and d3",
-        lambda graph, path: [write_nodelink(graph, path)],
-        "nodelink.json",
+        lambda graph, path: Written((write_nodelink(graph, path),)),
+        file="nodelink.json",
     ),
+    Format("pcf", "each line as an Isogen piping component file", _write_pcf),
 )
 
 
@@ -59,7 +163,18 @@ def formats() -> dict[str, str]:
     return {each.name: each.meaning for each in _FORMATS}
 
 
-def export_graph(graph: SceneGraph, to: str, path: str | Path) -> list[Path]:
+def export_graph(graph: SceneGraph, to: str, path: str | Path, source: str | Path | None = None) -> list[Path]:
+    """Writes a graph in another format; :func:`write_export` tells what could not be written, too.
+
+    Args, errors as there.
+
+    Returns:
+        The files written.
+    """
+    return list(write_export(graph, to, path, source).files)
+
+
+def write_export(graph: SceneGraph, to: str, path: str | Path, source: str | Path | None = None) -> Written:
     """Writes a graph in another format.
 
     Args:
@@ -67,32 +182,42 @@ def export_graph(graph: SceneGraph, to: str, path: str | Path) -> list[Path]:
         to: the format's name, one of :func:`formats`.
         path: the folder that gets the files, made if missing; or the file, if it ends as the format's files do
             (``plant.graphml``).
+        source: where the file is that the graph was made from, for formats that are a copy of it; None: where it was.
 
     Returns:
-        The files written.
+        The files written, and what is to be said of them.
 
     Raises:
-        ValueError: no format has that name, or a file is given for a format of several files.
+        ValueError: no format has that name, a file is given for a format of several files, or a source for a format
+            that needs none.
+        LoadError: the source is missing, is another one than the graph was made from, or one of another format.
+        MissingExtra: the format needs a package that isn't installed.
         OutputError: a file can't be written.
     """
+    form = next((each for each in _FORMATS if each.name == to), None)
+    if form is None:
+        raise ValueError(f"no export format is called {to!r}; there are {', '.join(formats())}")
     target = Path(path)
-    for each in _FORMATS:
-        if each.name == to:
-            return each.write(graph, _place(each, target))
-    raise ValueError(f"no export format is called {to!r}; there are {', '.join(formats())}")
+    if form.write_over is None:
+        if source is not None:
+            raise ValueError(f"{form.name} is written from the graph alone; leave --source out")
+        return form.write(graph, _place(form, target, None))
+    origin = find_source(graph, source)
+    if origin.suffix.lower() not in form.copied_as:
+        raise LoadError(
+            f"{origin}: {form.name} is a copy of a {' or '.join(form.copied_as)} file, which this is not; "
+            "'labels-csv' writes the labels by path"
+        )
+    return form.write_over(graph, origin, _place(form, target, origin))
 
 
-def _write_dexpi(graph: SceneGraph, path: Path) -> Path:
-    # It places what it writes by the layout library, which the other formats do without.
-    from cadgraph.export.dexpi import write_dexpi
-
-    return write_dexpi(graph, path)
-
-
-def _place(form: Format, path: Path) -> Path:
+def _place(form: Format, path: Path, source: Path | None) -> Path:
     if form.file is None:
         if path.suffix.lower() == f".{form.name}" and not path.is_dir():
             raise ValueError(f"{path}: {form.name} is written as several files; give a folder")
         return path
-    names_file = path.suffix.lower() == Path(form.file).suffix and not path.is_dir()
-    return path if names_file else path / form.file
+    file = Path(form.file)
+    if source is not None:
+        file = file.with_suffix(form.copied_as[source.suffix.lower()])
+    names_file = path.suffix.lower() == file.suffix and not path.is_dir()
+    return path if names_file else path / file

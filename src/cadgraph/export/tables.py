@@ -14,7 +14,7 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Adjacent, Box, Cluster, Part, Unit
 from cadgraph.query.summary import connection_between
 
-__all__ = ["table_bytes", "write_tables"]
+__all__ = ["Row", "table_bytes", "table_cell", "write_tables"]
 
 # A spreadsheet runs a cell that starts so as a formula, in a file from anybody (OWASP, "CSV Injection").
 _FORMULA = re.compile(r"\s*[=+\-@\uff1d\uff0b\uff0d\uff20]")
@@ -182,7 +182,7 @@ def _extents(aabb: Box) -> tuple[float, ...]:
 def table_bytes(rows: Iterable[Row]) -> bytes:
     """Rows as CSV for spreadsheets: UTF-8 with a byte order mark, no cell that would be run as a formula."""
     text = io.StringIO(newline="")
-    csv.writer(text).writerows([_cell(value) for value in row] for row in rows)
+    csv.writer(text).writerows([table_cell(value) for value in row] for row in rows)
     return text.getvalue().encode("utf-8-sig")
 
 
@@ -191,7 +191,8 @@ def _write(path: Path, rows: Iterable[Row]) -> Path:
     return path
 
 
-def _cell(value: Any) -> Any:
+def table_cell(value: Any) -> Any:
+    """A value as it stands in a table: text without control characters, and none that would be run as a formula."""
     if not isinstance(value, str):
         return value
     cleaned = _CONTROL.sub("", value)

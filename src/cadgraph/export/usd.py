@@ -16,13 +16,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pxr import Sdf, Tf, Vt
+from pxr import Gf, Sdf, Tf, Vt
 
 from cadgraph._io.atomic import replacing, write_atomically
 from cadgraph.errors import LoadError, OutputError
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Cluster, Connected, Contains, Junction, Part, Related, System, Terminal, Unit
-from cadgraph.model.scene import Scene
+from cadgraph.model.scene import Faces, Floats, Scene
 
 __all__ = ["CLASS", "GROUP", "UNIT", "check_source", "is_usd", "prim_paths", "write_geometry", "write_semantics"]
 
@@ -39,6 +39,7 @@ _RESTATED = (
     "colorManagementSystem",
 )  # fmt: skip
 _WORLD = "World"
+_SHAPE = "CadGraphShape"
 
 
 def is_usd(source_path: str | Path) -> bool:
@@ -67,8 +68,9 @@ def check_source(source_path: str | Path, path: str | Path) -> None:
 def write_semantics(scene: Scene, graph: SceneGraph, source_path: str | Path, path: str | Path) -> Path:
     """Writes the layer of labels, units and clusters over the source, which stays as it is.
 
-    Opening the layer shows the source's geometry. Over a source that is not USD, the scene's geometry is first written
-    as ``scene.usdc`` beside the layer, see :func:`write_geometry`.
+    Opening the layer shows the source's geometry. Over a source that is not USD, or one whose meshes were split into
+    their separate solids, the scene's geometry is first written as ``scene.usdc`` beside the layer, see
+    :func:`write_geometry`.
 
     Args:
         scene: the loaded scene with all meshes of the source; its anchors say where opinions can be authored.
@@ -86,7 +88,7 @@ def write_semantics(scene: Scene, graph: SceneGraph, source_path: str | Path, pa
     """
     target, source = Path(path), Path(source_path)
     check_source(source, target)
-    if is_usd(source):
+    if is_usd(source) and not _is_split(scene):
         below, anchors, targets = source, scene.anchors or scene.paths, scene.paths
     else:
         below = target.with_name("scene.usdc")
@@ -105,6 +107,11 @@ def write_semantics(scene: Scene, graph: SceneGraph, source_path: str | Path, pa
     return target
 
 
+def _is_split(scene: Scene) -> bool:
+    """Whether a mesh of the source is several of the scene: then no prim of the source can carry their labels."""
+    return any(note.code == "split-mesh" for note in scene.diagnostics)
+
+
 def prim_paths(scene: Scene) -> tuple[str, ...]:
     """The prim path that :func:`write_geometry` gives to each mesh, in the order of the scene.
 
@@ -118,8 +125,8 @@ def write_geometry(scene: Scene, path: str | Path) -> Path:
 
     Z up, metres, one Mesh prim for each mesh under ``/World``, which stands at the scene's origin. Points are single
     precision in USD: each mesh is stored about its own centre and moved there in double precision, so that rounding
-    stays below a ten-millionth of the mesh's own size wherever it stands. The original names and paths are kept as
-    ``displayName`` and in ``customData``.
+    stays below a ten-millionth of the mesh's own size wherever it stands. Meshes that share a shape refer to one class
+    prim with its points. The original names and paths are kept as ``displayName`` and in ``customData``.
 
     Args:
         scene: what to write.
@@ -140,8 +147,9 @@ def write_geometry(scene: Scene, path: str | Path) -> Path:
         _translate(world, scene.origin)
         for prim_path, name in groups:
             _define(layer, prim_path, "Xform", name)
+        shared = _define_shapes(layer, scene)
         for index, prim_path in enumerate(mesh_paths):
-            _define_mesh(layer, prim_path, scene, index)
+            _define_mesh(layer, prim_path, scene, index, shared)
     with replacing(path) as beside:
         try:
             exported = layer.Export(str(beside))
@@ -456,14 +464,47 @@ def _tree(scene: Scene) -> tuple[list[Any], list[tuple[Any, str]]]:
     return result, named
 
 
-def _define_mesh(layer: Any, path: Any, scene: Scene, index: int) -> None:
-    vertices, faces = scene.mesh(index)
+def _define_shapes(layer: Any, scene: Scene) -> dict[int, tuple[Any, Floats]]:
+    """A class prim for each shape that several meshes share, and the point of the shape that it is stored about."""
+    if scene.placement is None:
+        return {}
+    rows, counts = np.unique(scene.placement.shape, return_counts=True)
+    found: dict[int, tuple[Any, Floats]] = {}
+    for row in rows[counts > 1].tolist():
+        path = Sdf.Path.absoluteRootPath.AppendChild(f"{_SHAPE}_{len(found)}")
+        prim = _define(layer, path, "Mesh")
+        prim.specifier = Sdf.SpecifierClass
+        found[row] = path, _fill_mesh(prim, *scene.shapes.mesh(row))
+    return found
+
+
+def _define_mesh(layer: Any, path: Any, scene: Scene, index: int, shared: Mapping[int, tuple[Any, Floats]]) -> None:
     source_path = scene.paths[index]
     prim = _define(layer, path, "Mesh", source_path.rsplit("/", 1)[-1])
     prim.customData = {"cadgraph": {"path": _text(source_path)}}
-    center = (vertices.min(axis=0) + vertices.max(axis=0)) / 2 if len(vertices) else np.zeros(3)
+    placement = scene.placement
+    if placement is not None and (shape := int(placement.shape[index])) in shared:
+        at, center = shared[shape]
+        prim.referenceList.prependedItems = [Sdf.Reference("", at)]
+        matrix = np.eye(4)
+        matrix[:3, :3] = placement.turn[index]
+        matrix[3, :3] = center @ placement.turn[index] + placement.shift[index]
+        _attribute(prim, "xformOp:transform", "Matrix4d", Gf.Matrix4d(*matrix.reshape(-1).tolist()))
+        _attribute(prim, "xformOpOrder", "TokenArray", Vt.TokenArray(["xformOp:transform"]), uniform=True)
+    else:
+        _translate(prim, _fill_mesh(prim, *scene.mesh(index)))
+    color = scene.colors[index]
+    if np.isfinite(color).all():
+        shown = _attribute(
+            prim, "primvars:displayColor", "Color3fArray", Vt.Vec3fArray.FromNumpy(np.float32(color[None]))
+        )
+        shown.SetInfo("interpolation", "constant")
+
+
+def _fill_mesh(prim: Any, vertices: Floats, faces: Faces) -> Floats:
+    """Gives a prim points about the middle of the mesh, which is returned, and faces."""
+    center: Floats = (vertices.min(axis=0) + vertices.max(axis=0)) / 2 if len(vertices) else np.zeros(3)
     points = np.ascontiguousarray(vertices - center, np.float32)
-    _translate(prim, center)
     _attribute(prim, "points", "Point3fArray", Vt.Vec3fArray.FromNumpy(points))
     _attribute(prim, "faceVertexCounts", "IntArray", Vt.IntArray(len(faces), 3))
     corners = np.ascontiguousarray(faces, np.int32).reshape(-1)
@@ -474,12 +515,7 @@ def _define_mesh(layer: Any, path: Any, scene: Scene, index: int) -> None:
     if len(points):
         extent = np.stack([points.min(axis=0), points.max(axis=0)])
         _attribute(prim, "extent", "Float3Array", Vt.Vec3fArray.FromNumpy(extent))
-    color = scene.colors[index]
-    if np.isfinite(color).all():
-        shown = _attribute(
-            prim, "primvars:displayColor", "Color3fArray", Vt.Vec3fArray.FromNumpy(np.float32(color[None]))
-        )
-        shown.SetInfo("interpolation", "constant")
+    return center
 
 
 def _translate(prim: Any, offset: Any) -> None:

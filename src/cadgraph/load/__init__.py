@@ -54,21 +54,22 @@ _FORMATS = (
     Format("gltf", "glTF", (".glb", ".gltf"), "cadgraph.load.gltf"),
     Format("obj", "OBJ", (".obj",), "cadgraph.load.obj"),
     Format("stl", "STL", (".stl",), "cadgraph.load.stl"),
-    Format("ply", "PLY", (".ply",), "cadgraph.load.mesh", "trimesh", "mesh"),
-    Format("3mf", "3MF", (".3mf",), "cadgraph.load.mesh", "trimesh", "mesh"),
-    Format("collada", "COLLADA", (".dae",), "cadgraph.load.mesh", "trimesh", "mesh"),
+    Format("ply", "PLY", (".ply",), "cadgraph.load.ply", "trimesh", "mesh"),
+    Format("3mf", "3MF", (".3mf",), "cadgraph.load.threemf"),
+    Format("collada", "COLLADA", (".dae",), "cadgraph.load.collada", "collada", "mesh"),
 )
 
 _INSTEAD = {
     (".fbx", ".blend", ".max", ".3ds", ".ma", ".mb", ".c4d"): "export it as USD or glTF",
     (".jt",): "export it as STEP (AP242)",
     (".dwg", ".dxf", ".rvt", ".skp", ".pln"): "export it as IFC or STEP",
+    (".ifcxml", ".ifcjson"): "export it as a STEP physical file (.ifc)",
     (".dgn",): "export it as IFC, from OpenPlant or MicroStation",
     (".nwd", ".nwc", ".nwf"): "export the models that it was made from, as IFC or STEP",
     (".vue",): "export it as IFC or STEP from Smart 3D or SmartPlant Review",
     (".sldprt", ".sldasm", ".catpart", ".catproduct", ".ipt", ".iam", ".prt", ".asm", ".par", ".x_t",
      ".x_b", ".xmt_txt", ".sat", ".sab", ".3dm", ".3dxml", ".cgr", ".f3d", ".fcstd", ".brep"): "export it as STEP",
-    (".e57", ".las", ".laz", ".pts", ".rcp", ".pcd", ".xyz"): "that is a point cloud; model its surfaces first",
+    (".e57", ".las", ".laz", ".pts", ".rcp", ".pcd", ".xyz"): "they hold points; make a mesh of them first",
 }  # fmt: skip
 """Formats that other programs turn into ones that are read, with what to export."""
 
@@ -125,7 +126,9 @@ def load(path: str | os.PathLike[str], config: LoadConfig | None = None) -> Scen
             scene = read_isolated(form.module, file, given, config)
             digest = hashing.result()
     else:
-        scene = importlib.import_module(form.module).read(file, config)
+        from cadgraph.load.finish import finish
+
+        scene = finish(importlib.import_module(form.module).read(file, config), config, file)
         digest = _digest(file)
     return replace(scene, source=replace(scene.source, path=given, sha256=digest, format=form.name))
 

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import numpy.typing as npt
 
-from cadgraph._io.text import natural_key
+from cadgraph._io.text import natural_key, natural_order
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.facts import Fact, StatedLink
-from cadgraph.model.scene import Faces, Floats, Ints, Scene, Source
+from cadgraph.model.scene import Faces, Floats, Ints, MeshArrays, Placement, Scene, Source
 
 __all__ = ["Z_UP_FROM", "Notes", "Piece", "metres_z_up", "pack", "pack_placed", "unique_name"]
 
@@ -23,9 +23,11 @@ Z_UP_FROM = {
 """Cyclic swaps, for row vectors: what pointed along the up axis points along Z, and no handedness changes."""
 
 _FAR = 10_000.0  # [m] beyond this a scene gets an origin of its own; ours: float32 renders still resolve 1 mm
+_TOO_FAR_TOLD = "left out: it reaches farther than a million kilometres; check its points and the file's units"
 _ORIGIN_STEP = 100.0  # [m] origins are whole multiples, so that they are exact and stable under small edits
 _TOO_FAR = 1e9  # [m] ours: there float64 still resolves a micrometre; the Moon is at 4e8
 _SIZES = (1e-3, 1e5)  # [m] ours: no plant is smaller than a millimetre or larger than 100 km
+_RIGID = 2e-6  # shapes are shared by placements that turn as truly as this; ours: float32 frames do
 _EXAMPLES = 20  # so many paths stand for the rest in a note on meshes that were loaded
 
 
@@ -136,32 +138,22 @@ def pack(
     Returns:
         The scene, sorted by path.
     """
-    ordered = sorted(pieces, key=lambda piece: natural_key(piece.path))
-    with np.errstate(over="ignore", invalid="ignore"):
-        matrices = np.array([piece.matrix for piece in ordered]).reshape(-1, 4, 4) @ world_from_source
-        origin = _origin(ordered, matrices)
-        kept, vertices = _placed(ordered, matrices, origin, notes)
-        mirrored = np.linalg.det(matrices[kept, :3, :3]) < 0
-    ordered = [ordered[i] for i in kept]
-    _note_size(vertices, source, notes)
-    faces = [p.faces[:, ::-1] if turned else p.faces for p, turned in zip(ordered, mirrored.tolist(), strict=True)]
-    taken: set[str] = set()
-    paths = tuple(unique_name(piece.path, taken) for piece in ordered)
-    anchors = tuple(piece.anchor or path for piece, path in zip(ordered, paths, strict=True))
-    colors = [_NO_COLOR if piece.color is None else piece.color for piece in ordered]
-    return Scene(
-        vertices=vertices,
-        faces=np.concatenate(faces, dtype=np.int32) if faces else np.zeros((0, 3), np.int32),
-        vertex_offsets=np.cumsum([0, *(len(piece.points) for piece in ordered)], dtype=np.int64),
-        face_offsets=np.cumsum([0, *map(len, faces)], dtype=np.int64),
-        paths=paths,
-        colors=np.clip(np.array(colors, np.float64).reshape(-1, 3), 0, 1).astype(np.float32),
-        source=source,
-        origin=origin,
-        anchors=anchors if anchors != paths else (),
-        diagnostics=notes.diagnostics(abridged),
-        facts=tuple(facts),
-        links=tuple(links),
+    shapes: dict[tuple[int, int], int] = {}
+    shape_of_mesh = [shapes.setdefault((id(piece.points), id(piece.faces)), len(shapes)) for piece in pieces]
+    distinct = {shape: (piece.points, piece.faces) for shape, piece in zip(shape_of_mesh, pieces, strict=True)}
+    return pack_placed(
+        [distinct[shape] for shape in range(len(distinct))],
+        np.array(shape_of_mesh, np.int64),
+        np.array([piece.matrix for piece in pieces], np.float64).reshape(-1, 4, 4),
+        [piece.path for piece in pieces],
+        np.array([_NO_COLOR if piece.color is None else piece.color for piece in pieces], np.float64).reshape(-1, 3),
+        source,
+        world_from_source,
+        notes,
+        abridged,
+        facts,
+        links,
+        [piece.anchor or "" for piece in pieces],
     )
 
 
@@ -180,6 +172,7 @@ def pack_placed(
     abridged: Iterable[str] = (),
     facts: Iterable[Fact] = (),
     links: Iterable[StatedLink] = (),
+    anchors: Sequence[str] = (),
 ) -> Scene:
     """Like ``pack``, of shapes that are placed many times each.
 
@@ -195,57 +188,155 @@ def pack_placed(
         abridged: codes of notes whose paths are cut short.
         facts: what the source says of its parts.
         links: what it says is joined to what.
+        anchors: ``(n_meshes,)`` the paths that carry opinions on them, "" for the mesh's own; none: their own.
 
     Returns:
         The scene, sorted by path.
     """
-    pieces = [
-        Piece(path, shapes[shape][0], shapes[shape][1], matrix, None if np.isnan(color).any() else color)
-        for path, shape, matrix, color in zip(paths, shape_of_mesh.tolist(), matrices, colors, strict=True)
-    ]
-    return pack(pieces, source, world_from_source, notes, abridged, facts, links)
+    order = np.array(natural_order(paths), np.int64)
+    with np.errstate(over="ignore", invalid="ignore"):
+        world = matrices[order] @ world_from_source
+        placed = _Placed.of(shapes, shape_of_mesh[order], world)
+        kept = placed.kept([paths[i] for i in order.tolist()], notes)
+    order, placed = order[kept], placed.select(kept)
+    taken: set[str] = set()
+    unique = tuple(unique_name(paths[i], taken) for i in order.tolist())
+    given = tuple((anchors[i] if anchors else "") or path for i, path in zip(order.tolist(), unique, strict=True))
+    arrays, placement = placed.arrays()
+    scene = Scene(
+        arrays,
+        placement=placement,
+        paths=unique,
+        colors=np.clip(colors[order], 0, 1).astype(np.float32),
+        source=source,
+        origin=placed.origin,
+        anchors=given if given != unique else (),
+        facts=tuple(facts),
+        links=tuple(links),
+    )
+    _note_size(placed, source, notes)
+    return replace(scene, diagnostics=notes.diagnostics(abridged))
 
 
-def _placed(pieces: Sequence[Piece], matrices: Floats, origin: Floats, notes: Notes) -> tuple[list[int], Floats]:
-    """The numbers of the pieces that can be placed, and the vertices of these in world coordinates."""
-    ends = np.cumsum([0, *(len(piece.points) for piece in pieces)])
-    vertices = np.empty((int(ends[-1]), 3))
-    slots = [vertices[first:end] for first, end in zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True)]
-    turns, shifts = matrices[:, :3, :3], matrices[:, 3, :3] - origin
-    for piece, turn, shift, slot in zip(pieces, turns, shifts, slots, strict=True):
-        np.matmul(piece.points.astype(np.float64, copy=False), turn, out=slot)
-        slot += shift
-    finite = np.asarray(np.isfinite(matrices).all(axis=(1, 2)))
-    near = np.ones(len(pieces), bool)
-    # Written so that NaN fails it too.
-    limit = _TOO_FAR - float(np.abs(origin).max())
-    if len(vertices) and not (vertices.max() <= limit and vertices.min() >= -limit):
-        finite &= np.array([np.isfinite(slot.sum()) for slot in slots], bool)
-        near = np.array([slot.max() <= limit and slot.min() >= -limit for slot in slots], bool)
-    # The first face nearly always settles it, without a look at all the others.
-    corners = ends[:-1, None] + np.array([piece.faces[0] for piece in pieces], np.int64).reshape(-1, 3)
-    solid = _have_area(vertices, corners)
-    kept, where = [], []
-    for i, (piece, slot) in enumerate(zip(pieces, slots, strict=True)):
-        if not finite[i]:
-            notes.add("invalid-transform", "left out: its placement is not finite", piece.path)
-        elif not near[i]:
-            message = "left out: it reaches farther than a million kilometres; check its points and the file's units"
-            notes.add("too-far", message, piece.path)
-        elif not (solid[i] or _have_area(slot, piece.faces).any()):
-            notes.add("degenerate-mesh", "left out: all its faces have zero area", piece.path)
+@dataclass(frozen=True, eq=False)
+class _Placed:
+    """Shapes and where they lie in a world of metres.
+
+    Args:
+        shapes: points and triangles of each, in units of the source.
+        shape: ``(n,)`` of each mesh.
+        turn: ``(n, 3, 3)`` of each mesh, for row vectors; with scale, maybe mirrored or not finite.
+        shift: ``(n, 3)`` [m], relative to the origin.
+        origin: ``(3,)`` [m].
+    """
+
+    shapes: Sequence[tuple[npt.NDArray[np.floating], Faces]]
+    shape: Ints
+    turn: Floats
+    shift: Floats
+    origin: Floats
+
+    @classmethod
+    def of(cls, shapes: Sequence[tuple[npt.NDArray[np.floating], Faces]], shape: Ints, matrices: Floats) -> _Placed:
+        turn, shift = np.ascontiguousarray(matrices[:, :3, :3]), matrices[:, 3, :3]
+        # A corner of each shape tells where it is.
+        corners = np.array([points[faces[0, 0]] for points, faces in shapes], np.float64).reshape(-1, 3)
+        origin = _origin(np.einsum("ij,ijk->ik", corners[shape], turn) + shift)
+        return cls(shapes, shape, turn, shift - origin, origin)
+
+    def select(self, kept: Ints) -> _Placed:
+        return replace(self, shape=self.shape[kept], turn=self.turn[kept], shift=self.shift[kept])
+
+    def points(self, mesh: int) -> Floats:
+        """The vertices of one mesh ``(n, 3)`` [m]."""
+        placed: Floats = self.shapes[self.shape[mesh]][0].astype(np.float64, copy=False) @ self.turn[mesh]
+        placed += self.shift[mesh]
+        return placed
+
+    def bounds(self) -> tuple[Floats, Floats]:
+        """Bounds ``(n, 3)`` [m] of the boxes of the shapes, each as it lies: no less than those of the meshes."""
+        low = np.array([points.min(axis=0) for points, _ in self.shapes], np.float64).reshape(-1, 3)
+        high = np.array([points.max(axis=0) for points, _ in self.shapes], np.float64).reshape(-1, 3)
+        middle, half = 0.5 * (low + high)[self.shape], 0.5 * (high - low)[self.shape]
+        center = np.einsum("ij,ijk->ik", middle, self.turn) + self.shift
+        reach = np.einsum("ij,ijk->ik", half, np.abs(self.turn))
+        return center - reach, center + reach
+
+    def kept(self, paths: Sequence[str], notes: Notes) -> Ints:
+        """The meshes that can be placed; the others are noted."""
+        finite = np.asarray(np.isfinite(self.turn).all(axis=(1, 2)) & np.isfinite(self.shift).all(axis=1))
+        low, high = self.bounds()
+        # Written so that NaN fails it too.
+        limit = _TOO_FAR - float(np.abs(self.origin).max())
+        sure = np.asarray((high <= limit).all(axis=1) & (low >= -limit).all(axis=1))
+        solid = self._have_area()
+        kept = []
+        for i, path in enumerate(paths):
+            if sure[i] and finite[i] and solid[i]:
+                kept.append(i)
+                continue
+            placed = self.points(i)
+            if not (finite[i] and np.isfinite(placed.sum())):
+                notes.add("invalid-transform", "left out: its placement is not finite", path)
+            elif not (placed.max() <= limit and placed.min() >= -limit):
+                message = (
+                    "left out: it reaches farther than a million kilometres; check its points and the file's units"
+                )
+                notes.add("too-far", message, path)
+            elif not _have_area(placed, self.shapes[self.shape[i]][1]).any():
+                notes.add("degenerate-mesh", "left out: all its faces have zero area", path)
+            else:
+                kept.append(i)
+        return np.array(kept, np.int64)
+
+    def _have_area(self) -> npt.NDArray[np.bool_]:
+        """Whether the first triangle of each mesh has area: nearly always that settles it for all of them."""
+        corners = np.array([points[faces[0]] for points, faces in self.shapes], np.float64).reshape(-1, 3, 3)
+        placed = np.einsum("nij,njk->nik", corners[self.shape], self.turn) + self.shift[:, None]
+        return _have_area(placed.reshape(-1, 3), np.arange(3 * len(placed)).reshape(-1, 3))
+
+    def arrays(self) -> tuple[MeshArrays, Placement | None]:
+        """The meshes as a scene holds them: shapes in metres that are turned and moved, or each mesh in its place
+        where none repeats.
+        """
+        scale = np.cbrt(np.abs(np.linalg.det(self.turn)))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            turn = self.turn / scale[:, None, None]
+        gram = np.einsum("nij,nkj->nik", turn, turn)
+        rigid = np.asarray((np.abs(gram - np.eye(3)) <= _RIGID).all(axis=(1, 2)))
+        mirrored = np.linalg.det(self.turn) < 0
+        # One shape for each that is scaled or mirrored otherwise; what is skewed is a shape of its own.
+        own = np.where(rigid, -1, np.arange(len(self.shape)))
+        keys = list(
+            zip(
+                self.shape.tolist(), np.round(np.log(np.maximum(scale, 1e-300)) / _RIGID).tolist(), mirrored.tolist(),
+                own.tolist(), strict=True,
+            )
+        )  # fmt: skip
+        rows: dict[tuple[int, float, bool, int], int] = {}
+        of_mesh = np.array([rows.setdefault(key, len(rows)) for key in keys], np.int64)
+        first = np.unique(of_mesh, return_index=True)[1]
+        if len(rows) == len(of_mesh):
+            points, placement = [self.points(i) for i in range(len(of_mesh))], None
         else:
-            kept.append(i)
-            where.append(slot)
-    if len(kept) < len(pieces):
-        vertices = np.concatenate(where) if where else np.zeros((0, 3))
-    return kept, vertices
+            mirror = np.where(mirrored[:, None, None], np.diag([-1.0, 1.0, 1.0]), np.eye(3))
+            size = scale[first[of_mesh], None, None]
+            shared = np.where(rigid[:, None, None], mirror @ (self.turn / np.where(size > 0, size, 1.0)), np.eye(3))
+            sized = np.where(rigid[:, None, None], mirror * size, self.turn)
+            points = [self.shapes[self.shape[i]][0].astype(np.float64, copy=False) @ sized[i] for i in first.tolist()]
+            placement = Placement(of_mesh, shared, self.shift)
+        faces = [self.shapes[self.shape[i]][1] for i in first.tolist()]
+        faces = [
+            each[:, ::-1] if turned else each for each, turned in zip(faces, mirrored[first].tolist(), strict=True)
+        ]
+        return MeshArrays.of(list(zip(points, faces, strict=True))), placement
 
 
-def _note_size(vertices: Floats, source: Source, notes: Notes) -> None:
-    if not len(vertices):
+def _note_size(placed: _Placed, source: Source, notes: Notes) -> None:
+    if not len(placed.shape):
         return
-    size = float((vertices.max(axis=0) - vertices.min(axis=0)).max())
+    low, high = placed.bounds()
+    size = float((high.max(axis=0) - low.min(axis=0)).max())
     if not _SIZES[0] <= size <= _SIZES[1]:
         unit = f"check its units (one is taken as {source.meters_per_unit:g} m)"
         notes.add("unusual-size", f"the scene is {size:.3g} m across, which no plant is; {unit}")
@@ -259,12 +350,12 @@ def _have_area(points: Floats, faces: Faces | Ints) -> npt.NDArray[np.bool_]:
     return area
 
 
-def _origin(pieces: Sequence[Piece], matrices: Floats) -> Floats:
-    """A whole multiple of 100 m amid the pieces where these lie far out, else zero."""
-    if not pieces:
-        return np.zeros(3)
-    corners = np.array([piece.points[piece.faces[0, 0]] for piece in pieces], np.float64)
-    first = np.einsum("ij,ijk->ik", corners, matrices[:, :3, :3]) + matrices[:, 3, :3]
+def _origin(first: Floats) -> Floats:
+    """A whole multiple of 100 m amid the pieces where these lie far out, else zero.
+
+    Args:
+        first: ``(n, 3)`` a corner of each piece [m].
+    """
     first = first[(np.abs(first) <= _TOO_FAR).all(axis=1)]
     if not len(first):
         return np.zeros(3)

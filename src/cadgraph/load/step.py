@@ -20,10 +20,13 @@ import numpy as np
 import numpy.typing as npt
 
 from cadgraph.errors import LoadError
-from cadgraph.geometry.mesh.merge import weld_points
 from cadgraph.load.bodies import split_bodies
-from cadgraph.load.glb import GlbMesh, GlbNode, read_glb
+from cadgraph.load.gltf import node_matrix, root_nodes
+from cadgraph.load.gltf_file import BROKEN, Gltf, parse_glb
+from cadgraph.load.gltf_mesh import GltfMesh, read_mesh
+from cadgraph.load.naming import path_step
 from cadgraph.load.packing import Notes, Piece, pack, unique_name
+from cadgraph.load.triangles import main_color
 from cadgraph.model.scene import Faces, Floats, Scene, Source
 
 if TYPE_CHECKING:
@@ -42,7 +45,7 @@ _IGES_UNITS = {
 
 @dataclass(frozen=True)
 class _Body:
-    points: npt.NDArray[np.float32]
+    points: npt.NDArray[np.floating]
     faces: Faces
     color: Floats | None
 
@@ -68,20 +71,17 @@ def read(path: Path, config: LoadConfig) -> Scene:
     )
     if not glb:
         raise LoadError(f"{path}: not readable as {form.upper()} (damaged or cut short); export it again")
-    try:
-        nodes, roots, meshes = read_glb(glb)
-    except (ValueError, KeyError, IndexError, TypeError) as error:
-        raise LoadError(f"{path}: the CAD library returned no usable triangles ({error})") from error
     notes = Notes()
     bodies: dict[int, list[_Body]] = {}
     pieces: list[Piece] = []
-    for at, matrix, node in _occurrences(nodes, roots, meshes):
-        number = node.mesh
-        if number is None:
-            continue
-        if number not in bodies:
-            bodies[number] = _bodies(meshes[number])
-        pieces.extend(_pieces(at, matrix, bodies[number], notes))
+    try:
+        gltf = parse_glb(glb)
+        for at, matrix, number in _occurrences(gltf):
+            if number not in bodies:
+                bodies[number] = _bodies(read_mesh(gltf, number, at, notes))
+            pieces.extend(_pieces(at, matrix, bodies[number], notes))
+    except BROKEN as error:
+        raise LoadError(f"{path}: the CAD library returned no usable triangles ({error})") from error
     # Of IGES the library (cascadio 0.1) leaves the lengths in millimetres.
     to_metres = np.diag([0.001, 0.001, 0.001, 1]) if form == "iges" else np.eye(4)
     unit = _iges_unit(data) if form == "iges" else _step_unit(data)
@@ -91,60 +91,43 @@ def read(path: Path, config: LoadConfig) -> Scene:
     return scene
 
 
-def _occurrences(
-    nodes: list[GlbNode], roots: list[int], meshes: list[GlbMesh]
-) -> Iterator[tuple[str, Floats, GlbNode]]:
-    """Every node with its path and its matrix to the world, parents first."""
+def _occurrences(gltf: Gltf) -> Iterator[tuple[str, Floats, int]]:
+    """Path, matrix to the world and number of the mesh of every node that has one, parents first."""
     stack: list[tuple[int, str, Floats, int]] = []
 
     def enter(numbers: list[int], path: str, matrix: Floats, depth: int) -> None:
         taken: set[str] = set()
-        named = [(number, f"{path}/{unique_name(_name(nodes[number], meshes), taken)}") for number in numbers]
-        stack.extend((number, at, nodes[number].matrix @ matrix, depth) for number, at in reversed(named))
+        named = [(number, f"{path}/{unique_name(_name(gltf, number), taken)}") for number in numbers]
+        stack.extend(
+            (number, at, node_matrix(gltf.item("nodes", number)) @ matrix, depth) for number, at in reversed(named)
+        )
 
-    enter(roots, "", np.eye(4), 0)
+    enter(root_nodes(gltf), "", np.eye(4), 0)
     while stack:
         number, path, matrix, depth = stack.pop()
-        yield path, matrix, nodes[number]
+        node = gltf.item("nodes", number)
+        if node.get("mesh") is not None:
+            yield path, matrix, node["mesh"]
         if depth < _MAX_DEPTH:
-            enter(list(nodes[number].children), path, matrix, depth + 1)
+            enter(list(node.get("children", ())), path, matrix, depth + 1)
 
 
-def _name(node: GlbNode, meshes: list[GlbMesh]) -> str:
+def _name(gltf: Gltf, number: int) -> str:
     # "=>[0:1:1:2]" is how OpenCASCADE calls an occurrence without a name of its own: the part's name says more.
-    name = "" if node.name.startswith("=>[") else node.name
-    if not name and node.mesh is not None:
-        name = meshes[node.mesh].name
-    return re.sub(r"[^\w.-]+", "_", name).strip("_.") or "part"
+    node = gltf.item("nodes", number)
+    name = node.get("name", "")
+    if (not name or name.startswith("=>[")) and node.get("mesh") is not None:
+        name = gltf.item("meshes", node["mesh"]).get("name", "")
+    return path_step("" if name.startswith("=>[") else name, "part")
 
 
-def _bodies(mesh: GlbMesh) -> list[_Body]:
-    # Converters repeat the points along the edges between the faces of a solid, bit by bit the same.
-    first, place = weld_points(mesh.points)
-    points, faces = mesh.points[first] + np.float32(0), place.astype(np.int32)[mesh.faces]  # -0 becomes 0
-    a, b, c = faces.T
-    finite = np.asarray(np.isfinite(points).all(axis=1))
-    whole = (a != b) & (b != c) & (c != a) & finite[faces].all(axis=1)
-    faces, colors = faces[whole], mesh.colors[whole]
+def _bodies(mesh: GltfMesh) -> list[_Body]:
     bodies = []
-    for triangles in split_bodies(points, faces) if len(faces) else []:
-        own, corners = np.unique(faces[triangles], return_inverse=True)
-        color = _main_color(points, faces[triangles], colors[triangles])
-        bodies.append(_Body(points[own], corners.reshape(-1, 3).astype(np.int32), color))
+    for triangles in split_bodies(mesh.points, mesh.faces) if len(mesh.faces) else []:
+        own, corners = np.unique(mesh.faces[triangles], return_inverse=True)
+        color = main_color(mesh.points, mesh.faces[triangles], mesh.palette, mesh.color_of_face[triangles])
+        bodies.append(_Body(mesh.points[own], corners.reshape(-1, 3).astype(np.int32), color))
     return bodies
-
-
-def _main_color(points: npt.NDArray[np.float32], faces: Faces, colors: Floats) -> Floats | None:
-    """The colour with the largest area."""
-    known = ~np.isnan(colors).any(axis=1)
-    if not known.any():
-        return None
-    p = points.astype(np.float64)
-    a, b, c = (p[faces[known, i]] for i in range(3))
-    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    different, which = np.unique(colors[known], axis=0, return_inverse=True)
-    main: Floats = different[np.argmax(np.bincount(which.reshape(-1), areas))]
-    return main
 
 
 def _pieces(path: str, matrix: Floats, bodies: list[_Body], notes: Notes) -> Iterator[Piece]:

@@ -23,7 +23,7 @@ from cadgraph._io.arrays import read_arrays
 from cadgraph._io.atomic import write_atomically
 from cadgraph._io.limits import CATALOG, read_bytes_within
 from cadgraph.errors import LabelError
-from cadgraph.model.scene import Scene
+from cadgraph.model.scene import MeshArrays, Scene
 from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["SUFFIX", "Catalog", "Entry", "read_catalog", "rows_of", "write_catalog"]
@@ -221,10 +221,12 @@ def _shapes(arrays: Mapping[str, Any], n: int, path: str | Path) -> Scene:
         raise LabelError(f"{path}: the catalogue is damaged (a vertex is not finite); {_REMEDY}")
     return _renamed(
         Scene(
-            vertices.astype(np.float64),
-            faces.astype(np.int32),
-            arrays["vertex_offsets"].astype(np.int64),
-            arrays["face_offsets"].astype(np.int64),
+            MeshArrays(
+                vertices.astype(np.float64),
+                faces.astype(np.int32),
+                arrays["vertex_offsets"].astype(np.int64),
+                arrays["face_offsets"].astype(np.int64),
+            ),
             tuple(f"/{i}" for i in range(n)),
             np.full((n, 3), np.nan, np.float32),
         )
@@ -233,11 +235,4 @@ def _shapes(arrays: Mapping[str, Any], n: int, path: str | Path) -> Scene:
 
 def _renamed(shapes: Scene) -> Scene:
     """The same meshes under plain names."""
-    return Scene(
-        shapes.vertices,
-        shapes.faces,
-        shapes.vertex_offsets,
-        shapes.face_offsets,
-        tuple(f"/mesh_{i}" for i in range(shapes.n_meshes)),
-        shapes.colors,
-    )
+    return Scene(shapes.shapes, tuple(f"/mesh_{i}" for i in range(shapes.n_meshes)), shapes.colors)

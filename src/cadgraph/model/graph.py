@@ -377,7 +377,7 @@ class SceneGraph:
         """
         target = Path(path)
         target = target / "graph.json" if target.suffix != ".json" else target
-        write_json_rows(target, self.to_json(), rows=("nodes", "edges", "joints", "diagnostics"))
+        write_json_rows(target, self.to_json(), rows=("nodes", "edges", "joints", "stated", "diagnostics"))
         return target
 
     @classmethod

@@ -35,6 +35,7 @@ __all__ = [
     "Related",
     "Site",
     "SourceRecord",
+    "Stated",
     "System",
     "Terminal",
     "Unit",
@@ -239,6 +240,24 @@ class Joint(Record):
     reasons: tuple[str, ...] = Field(default=(), description="what speaks for and against it, in words")
 
 
+class Stated(Record):
+    """Two places of the source that it says itself are joined along a pipe, and which way it flows there."""
+
+    first: tuple[str, ...] = Field(
+        description="ids of the parts that it is: one for a mesh, several for a node above meshes; none where nothing "
+        "of it is in the graph, or where it is a node above more than 2,000 meshes"
+    )
+    second: tuple[str, ...] = Field(description="likewise of what it is joined to")
+    first_path: str = Field(description="path in the source: of a mesh, or of a node above meshes")
+    second_path: str = Field(description="likewise")
+    flow: Literal["forward", "backward", "unknown"] = Field(
+        default="unknown", description="what the source says of the flow; forward is from first to second"
+    )
+    where: str = Field(
+        default="", description="by what the source says so: 'IfcRelConnectsPorts', 'order in branch'..."
+    )
+
+
 Node = Site | Cluster | Part | Unit | Junction | Terminal | System
 Edge = Contains | Adjacent | Connected | Related
 _NodeField = Annotated[Node, Field(discriminator="layer")]
@@ -264,6 +283,11 @@ class GraphDocument(Record):
         default=(),
         exclude_if=lambda joints: not joints,
         description="what the connections are made of, and the likeliest joints that were not made; absent where none",
+    )
+    stated: tuple[Stated, ...] = Field(
+        default=(),
+        exclude_if=lambda stated: not stated,
+        description="what the source itself says is joined to what; absent where it says nothing",
     )
     diagnostics: tuple[Diagnostic, ...] = ()
 

@@ -1,18 +1,32 @@
-"""A loaded scene: all meshes as one set of flat arrays."""
+"""A loaded scene: meshes, each with its path, placed in one world."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from cadgraph._io.text import natural_key
+from cadgraph._io.text import natural_order
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.facts import Fact, StatedLink
 
-__all__ = ["Diagnostic", "Fact", "Floats", "Ints", "Scene", "Source", "StatedLink", "mesh_of_face", "mesh_of_vertex"]
+__all__ = [
+    "Diagnostic",
+    "Fact",
+    "Floats",
+    "Ints",
+    "MeshArrays",
+    "Placement",
+    "Scene",
+    "Source",
+    "StatedLink",
+    "mesh_of_face",
+    "mesh_of_vertex",
+]
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
@@ -45,18 +59,85 @@ class Source:
     metadata: tuple[tuple[str, str], ...] = ()
 
 
+@dataclass(frozen=True, eq=False)
+class MeshArrays:
+    """Meshes as flat arrays, each once.
+
+    Args:
+        vertices: ``(n_vertices, 3)`` float64 [m].
+        faces: ``(n_faces, 3)`` int32 triangles, counter-clockwise seen from outside; indices local to the mesh.
+        vertex_offsets: ``(n + 1,)`` int64; mesh ``i`` owns the vertices from ``vertex_offsets[i]`` up to
+            ``vertex_offsets[i + 1]``.
+        face_offsets: ``(n + 1,)`` int64, likewise for faces.
+    """
+
+    vertices: Floats
+    faces: Faces
+    vertex_offsets: Ints
+    face_offsets: Ints
+
+    @classmethod
+    def of(cls, meshes: Sequence[tuple[npt.ArrayLike, npt.ArrayLike]]) -> MeshArrays:
+        """Pairs of vertices ``(n, 3)`` and triangles ``(m, 3)`` as arrays; copies."""
+        vertices = [np.asarray(v, np.float64).reshape(-1, 3) for v, _ in meshes]
+        faces = [np.asarray(f, np.int32).reshape(-1, 3) for _, f in meshes]
+        return cls(
+            np.concatenate(vertices) if meshes else np.zeros((0, 3)),
+            np.concatenate(faces) if meshes else np.zeros((0, 3), np.int32),
+            _offsets([len(v) for v in vertices]),
+            _offsets([len(f) for f in faces]),
+        )
+
+    @property
+    def n(self) -> int:
+        """How many meshes there are."""
+        return len(self.vertex_offsets) - 1
+
+    def mesh(self, index: int) -> tuple[Floats, Faces]:
+        """The vertices ``(n, 3)`` [m] and faces ``(m, 3)`` of one mesh, as views."""
+        v0, v1 = self.vertex_offsets[index : index + 2]
+        f0, f1 = self.face_offsets[index : index + 2]
+        return self.vertices[v0:v1], self.faces[f0:f1]
+
+    def select(self, order: Ints) -> MeshArrays:
+        """Some of the meshes, in the order given."""
+        n_vertices, n_faces = np.diff(self.vertex_offsets)[order], np.diff(self.face_offsets)[order]
+        return MeshArrays(
+            self.vertices[_ranges(self.vertex_offsets[order], n_vertices)],
+            self.faces[_ranges(self.face_offsets[order], n_faces)],
+            _offsets(n_vertices),
+            _offsets(n_faces),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Placement:
+    """Where each mesh of a scene lies, where meshes share shapes: ``vertices of the shape @ turn + shift``.
+
+    Args:
+        shape: ``(n_meshes,)`` int64 row of the shape.
+        turn: ``(n_meshes, 3, 3)`` rotation for row vectors; no scale, no mirror.
+        shift: ``(n_meshes, 3)`` [m].
+    """
+
+    shape: Ints
+    turn: Floats
+    shift: Floats
+
+    def select(self, order: Ints) -> Placement:
+        """Of some of the meshes, in the order given."""
+        return Placement(self.shape[order], self.turn[order], self.shift[order])
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Scene:
     """All meshes of a source, in metres, Z up, right-handed, in world coordinates relative to ``origin``.
 
-    A mesh is one placed occurrence of geometry. Faces are triangles, counter-clockwise seen from outside.
+    A mesh is one placed occurrence of geometry. Meshes that repeat may share a shape: then only the shapes are held,
+    and where they lie; ``mesh`` places one on demand, ``vertices`` and ``faces`` all of them at once.
 
     Args:
-        vertices: ``(n_vertices, 3)`` float64 [m], relative to ``origin``.
-        faces: ``(n_faces, 3)`` int32, indices local to the mesh.
-        vertex_offsets: ``(n_meshes + 1,)`` int64; mesh ``i`` owns the vertices from ``vertex_offsets[i]`` up to
-            ``vertex_offsets[i + 1]``.
-        face_offsets: ``(n_meshes + 1,)`` int64, likewise for faces.
+        shapes: the geometry: of the meshes themselves, or of the shapes that ``placement`` speaks of.
         paths: ``(n_meshes,)`` unique source paths.
         colors: ``(n_meshes, 3)`` float32 linear RGB in 0..1, NaN where the source gives none.
         source: where it came from.
@@ -67,12 +148,10 @@ class Scene:
         diagnostics: what the loader skipped, repaired or guessed.
         facts: what the source says of its parts, sorted as its reader found it.
         links: what it says is joined to what.
+        placement: where each mesh lies; None where ``shapes`` are the meshes, in place.
     """
 
-    vertices: Floats
-    faces: Faces
-    vertex_offsets: Ints
-    face_offsets: Ints
+    shapes: MeshArrays
     paths: tuple[str, ...]
     colors: npt.NDArray[np.float32]
     source: Source = field(default_factory=Source)
@@ -81,13 +160,16 @@ class Scene:
     diagnostics: tuple[Diagnostic, ...] = ()
     facts: tuple[Fact, ...] = ()
     links: tuple[StatedLink, ...] = ()
+    placement: Placement | None = None
 
     def __post_init__(self) -> None:
         n = len(self.paths)
-        if len(self.vertex_offsets) != n + 1 or len(self.face_offsets) != n + 1 or len(self.colors) != n:
+        held = self.shapes.n if self.placement is None else len(self.placement.shape)
+        if held != n or len(self.shapes.face_offsets) != self.shapes.n + 1 or len(self.colors) != n:
             raise ValueError(
-                f"a scene of {n} paths needs {n + 1} offsets and {n} colors, got {len(self.vertex_offsets)} vertex "
-                f"offsets, {len(self.face_offsets)} face offsets and {len(self.colors)} colors"
+                f"a scene of {n} paths needs {n} meshes and {n} colors, got {len(self.shapes.vertex_offsets) - 1} "
+                f"ranges of vertices, {len(self.shapes.face_offsets) - 1} of faces, {held} meshes and "
+                f"{len(self.colors)} colors"
             )
         if len(set(self.paths)) != n:
             raise ValueError("the paths of a scene must be unique")
@@ -119,14 +201,9 @@ class Scene:
         Returns:
             The scene, holding copies.
         """
-        vertices = [np.asarray(v, np.float64).reshape(-1, 3) for v, _ in meshes]
-        faces = [np.asarray(f, np.int32).reshape(-1, 3) for _, f in meshes]
         n = len(meshes)
         return cls(
-            vertices=np.concatenate(vertices) if n else np.zeros((0, 3)),
-            faces=np.concatenate(faces) if n else np.zeros((0, 3), np.int32),
-            vertex_offsets=np.concatenate([[0], np.cumsum([len(v) for v in vertices])]).astype(np.int64),
-            face_offsets=np.concatenate([[0], np.cumsum([len(f) for f in faces])]).astype(np.int64),
+            MeshArrays.of(meshes),
             paths=tuple(paths) if paths is not None else tuple(f"/mesh_{i}" for i in range(n)),
             colors=np.full((n, 3), np.nan, np.float32)
             if colors is None
@@ -142,13 +219,54 @@ class Scene:
     @property
     def n_triangles(self) -> int:
         """How many triangles there are in all."""
-        return len(self.faces)
+        return int(self.face_offsets[-1])
+
+    @cached_property
+    def vertex_offsets(self) -> Ints:
+        """``(n_meshes + 1,)`` int64; mesh ``i`` owns the vertices from its offset up to the next."""
+        counts = self.shapes.vertex_offsets
+        return counts if self.placement is None else _offsets(np.diff(counts)[self.placement.shape])
+
+    @cached_property
+    def face_offsets(self) -> Ints:
+        """``(n_meshes + 1,)`` int64, likewise for faces."""
+        counts = self.shapes.face_offsets
+        return counts if self.placement is None else _offsets(np.diff(counts)[self.placement.shape])
+
+    @cached_property
+    def vertices(self) -> Floats:
+        """``(n_vertices, 3)`` float64 [m] of all meshes, relative to ``origin``; made on first use where shapes are
+        shared, and as large as all meshes together.
+        """
+        if self.placement is None:
+            return self.shapes.vertices
+        ends = self.vertex_offsets.tolist()
+        vertices = np.empty((ends[-1], 3))
+        starts = self.shapes.vertex_offsets.tolist()
+        rows = zip(self.placement.shape.tolist(), self.placement.turn, self.placement.shift, strict=True)
+        for i, (shape, turn, shift) in enumerate(rows):
+            slot = vertices[ends[i] : ends[i + 1]]
+            np.matmul(self.shapes.vertices[starts[shape] : starts[shape + 1]], turn, out=slot)
+            slot += shift
+        return vertices
+
+    @cached_property
+    def faces(self) -> Faces:
+        """``(n_faces, 3)`` int32 triangles of all meshes; indices are local to the mesh."""
+        if self.placement is None:
+            return self.shapes.faces
+        first = self.shapes.face_offsets[:-1][self.placement.shape]
+        return self.shapes.faces[_ranges(first, np.diff(self.face_offsets))]
 
     def mesh(self, index: int) -> tuple[Floats, Faces]:
-        """The vertices ``(n, 3)`` [m] and faces ``(m, 3)`` of one mesh, as views."""
-        v0, v1 = self.vertex_offsets[index : index + 2]
-        f0, f1 = self.face_offsets[index : index + 2]
-        return self.vertices[v0:v1], self.faces[f0:f1]
+        """The vertices ``(n, 3)`` [m] and faces ``(m, 3)`` of one mesh, placed."""
+        if self.placement is None:
+            return self.shapes.mesh(index)
+        if "vertices" in self.__dict__:
+            v0, v1 = self.vertex_offsets[index : index + 2]
+            return self.vertices[v0:v1], self.shapes.mesh(int(self.placement.shape[index]))[1]
+        vertices, faces = self.shapes.mesh(int(self.placement.shape[index]))
+        return vertices @ self.placement.turn[index] + self.placement.shift[index], faces
 
     def global_faces(self) -> Ints:
         """``(n_faces, 3)`` int64 indices into ``vertices``."""
@@ -159,28 +277,44 @@ class Scene:
         """``(n_faces, 3, 3)`` float64 corner positions [m]."""
         return self.vertices[self.global_faces()]
 
+    def with_vertices(self, vertices: Floats) -> Scene:
+        """The same meshes with their vertices elsewhere, each a shape of its own.
+
+        Args:
+            vertices: ``(n_vertices, 3)`` [m], in the order of ``vertices``.
+        """
+        arrays = MeshArrays(vertices, self.faces, self.vertex_offsets, self.face_offsets)
+        return replace(self, shapes=arrays, placement=None)
+
     def select(self, indices: npt.ArrayLike) -> Scene:
         """The scene of these meshes only, in the order given."""
         order = np.asarray(indices, np.int64).reshape(-1)
-        n_vertices, n_faces = np.diff(self.vertex_offsets)[order], np.diff(self.face_offsets)[order]
-        return Scene(
-            vertices=self.vertices[_ranges(self.vertex_offsets[order], n_vertices)],
-            faces=self.faces[_ranges(self.face_offsets[order], n_faces)],
-            vertex_offsets=np.concatenate([[0], np.cumsum(n_vertices)]).astype(np.int64),
-            face_offsets=np.concatenate([[0], np.cumsum(n_faces)]).astype(np.int64),
-            paths=tuple(self.paths[i] for i in order),
-            colors=self.colors[order],
-            source=self.source,
-            origin=self.origin,
-            anchors=tuple(self.anchors[i] for i in order) if self.anchors else (),
-            diagnostics=self.diagnostics,
-            facts=self.facts,
-            links=self.links,
+        rest = self._rest(order.tolist())
+        if self.placement is None:
+            return Scene(self.shapes.select(order), **rest)
+        used, shape = np.unique(self.placement.shape[order], return_inverse=True)
+        placement = Placement(
+            shape.reshape(-1).astype(np.int64), self.placement.turn[order], self.placement.shift[order]
         )
+        shapes = self.shapes if len(used) == self.shapes.n else self.shapes.select(used)
+        return Scene(shapes, placement=placement, **rest)
+
+    def _rest(self, order: Sequence[int]) -> dict[str, Any]:
+        """All but the geometry, of some meshes in the order given."""
+        return {
+            "paths": tuple(self.paths[i] for i in order),
+            "colors": self.colors[np.asarray(order, np.int64)],
+            "source": self.source,
+            "origin": self.origin,
+            "anchors": tuple(self.anchors[i] for i in order) if self.anchors else (),
+            "diagnostics": self.diagnostics,
+            "facts": self.facts,
+            "links": self.links,
+        }
 
     def in_path_order(self) -> Scene:
         """The same scene with its meshes in the natural order of their paths (``pipe_2`` before ``pipe_10``)."""
-        order = sorted(range(self.n_meshes), key=lambda i: natural_key(self.paths[i]))
+        order = natural_order(self.paths)
         return self if order == list(range(self.n_meshes)) else self.select(order)
 
     def merge(self, part_of_mesh: npt.ArrayLike, head_of_part: npt.ArrayLike) -> Scene:
@@ -191,29 +325,41 @@ class Scene:
             head_of_part: ``(n_parts,)`` the mesh that gives a part its path and colour.
 
         Returns:
-            A scene of ``n_parts`` meshes; within a part its meshes follow in their order here.
+            A scene of ``n_parts`` meshes; within a part its meshes follow in their order here. A part of one mesh
+            keeps the shape of that.
         """
         parts = np.asarray(part_of_mesh, np.int64)
         heads = np.asarray(head_of_part, np.int64)
-        by_part = self.select(np.argsort(parts, kind="stable"))
-        sorted_parts = np.sort(parts, kind="stable")
-        first = np.searchsorted(sorted_parts, np.arange(len(heads) + 1))
+        count = np.bincount(parts, minlength=len(heads))
+        rest = self._rest(heads.tolist())
+        if self.placement is None or (count > 1).all():
+            return Scene(self._joined(parts, len(heads)), **rest)
+        single = np.flatnonzero(count == 1)
+        rank = np.cumsum(count > 1) - 1
+        several = count[parts] > 1
+        joined = self.select(np.flatnonzero(several))._joined(rank[parts[several]], int((count > 1).sum()))
+        shape = self.shapes.n + rank
+        turn, shift = np.tile(np.eye(3), (len(heads), 1, 1)), np.zeros((len(heads), 3))
+        alone = self.placement.select(heads[single])
+        shape[single], turn[single], shift[single] = alone.shape, alone.turn, alone.shift
+        shapes = MeshArrays(
+            np.concatenate([self.shapes.vertices, joined.vertices]),
+            np.concatenate([self.shapes.faces, joined.faces]),
+            np.concatenate([self.shapes.vertex_offsets, self.shapes.vertex_offsets[-1] + joined.vertex_offsets[1:]]),
+            np.concatenate([self.shapes.face_offsets, self.shapes.face_offsets[-1] + joined.face_offsets[1:]]),
+        )
+        return Scene(shapes, placement=Placement(shape.astype(np.int64), turn, shift), **rest)
+
+    def _joined(self, parts: Ints, n_parts: int) -> MeshArrays:
+        """The meshes of each part as one."""
+        order = np.argsort(parts, kind="stable")
+        by_part = MeshArrays(self.vertices, self.faces, self.vertex_offsets, self.face_offsets).select(order)
+        sorted_parts = parts[order]
+        first = np.searchsorted(sorted_parts, np.arange(n_parts + 1))
         v_offsets, f_offsets = by_part.vertex_offsets[first], by_part.face_offsets[first]
         shift = (by_part.vertex_offsets[:-1] - v_offsets[sorted_parts]).astype(np.int32)
-        return Scene(
-            vertices=by_part.vertices,
-            faces=by_part.faces + np.repeat(shift, np.diff(by_part.face_offsets))[:, None],
-            vertex_offsets=v_offsets,
-            face_offsets=f_offsets,
-            paths=tuple(self.paths[i] for i in heads),
-            colors=self.colors[heads],
-            source=self.source,
-            origin=self.origin,
-            anchors=tuple(self.anchors[i] for i in heads) if self.anchors else (),
-            diagnostics=self.diagnostics,
-            facts=self.facts,
-            links=self.links,
-        )
+        faces = by_part.faces + np.repeat(shift, np.diff(by_part.face_offsets))[:, None]
+        return MeshArrays(by_part.vertices, faces, v_offsets, f_offsets)
 
 
 def mesh_of_vertex(scene: Scene) -> Ints:
@@ -224,6 +370,11 @@ def mesh_of_vertex(scene: Scene) -> Ints:
 def mesh_of_face(scene: Scene) -> Ints:
     """``(n_faces,)`` the mesh that owns each face."""
     return np.repeat(np.arange(scene.n_meshes), np.diff(scene.face_offsets))
+
+
+def _offsets(counts: npt.ArrayLike) -> Ints:
+    """``(n + 1,)`` where each of ``n`` ranges of these lengths begins, and the last ends."""
+    return np.concatenate([[0], np.cumsum(np.asarray(counts, np.int64))]).astype(np.int64)
 
 
 def _ranges(starts: Ints, lengths: Ints) -> Ints:

@@ -24,6 +24,7 @@ from cadgraph.model.records import (
     Part,
     Related,
     Site,
+    Stated,
     System,
     Terminal,
     Unit,
@@ -84,6 +85,7 @@ def check_document(document: GraphDocument) -> None:
     _check_edges(document.edges, nodes)
     _check_nodes(document.nodes, nodes)
     _check_joints(document.joints, nodes)
+    _check_stated(document.stated, nodes)
 
 
 def _check_edges(edges: Iterable[Edge], nodes: Mapping[str, Node]) -> None:
@@ -154,6 +156,12 @@ def _check_joints(joints: Iterable[Joint], nodes: Mapping[str, Node]) -> None:
         _check_known((joint.first, joint.second), Part, nodes, here)
 
 
+def _check_stated(links: Iterable[Stated], nodes: Mapping[str, Node]) -> None:
+    for link in links:
+        here = f"the stated link from {link.first_path!r} to {link.second_path!r}"
+        _check_known((*link.first, *link.second), Part, nodes, here)
+
+
 def _check_known(names: Iterable[str], layer: type[Any], nodes: Mapping[str, Node], here: str) -> None:
     for name in names:
         if not isinstance(nodes.get(name), layer):
@@ -170,7 +178,7 @@ def _first_repeat(names: Iterable[str]) -> str:
 
 
 def what_is_wrong(error: ValidationError, data: Mapping[str, Any]) -> str:
-    """The first fault of a document, with the id of its node, the ends of its edge or the parts of its joint.
+    """The first fault of a document, with the id of its node, the ends of its edge or link, or the parts of its joint.
 
     Args:
         error: of reading the document.
@@ -179,7 +187,7 @@ def what_is_wrong(error: ValidationError, data: Mapping[str, Any]) -> str:
     fault = error.errors()[0]
     steps = list(fault["loc"])
     place = ".".join(str(step) for step in steps)
-    if len(steps) < 2 or steps[0] not in ("nodes", "edges", "joints") or not isinstance(steps[1], int):
+    if len(steps) < 2 or steps[0] not in ("nodes", "edges", "joints", "stated") or not isinstance(steps[1], int):
         return f"{place} {expectation(fault)}"
     called = _called(str(steps[0]), data[str(steps[0])][steps[1]])
     return f"{f'{called} ({place})' if called else place} {expectation(fault)}"
@@ -192,6 +200,8 @@ def _called(key: str, row: object) -> str:
     told = {name: reprlib.repr(value) for name, value in row.items()}
     if key == "nodes":
         return f"node {told['id']}" if row.get("id") is not None else ""
+    if key == "stated":
+        return f"link {told['first_path']} - {told.get('second_path', 'None')}" if "first_path" in told else ""
     ends = ("source", "target") if key == "edges" else ("first", "second")
     if row.get(ends[0]) is None:
         return ""

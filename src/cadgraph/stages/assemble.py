@@ -30,12 +30,14 @@ from cadgraph.model.records import (
     Related,
     Site,
     SourceRecord,
+    Stated,
     System,
     Terminal,
     Unit,
     points,
 )
 from cadgraph.model.scene import Floats, Ints, Scene
+from cadgraph.model.stated import resolve_links
 from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["Results", "assemble_graph"]
@@ -118,6 +120,7 @@ def assemble_graph(results: Results, vocabulary: Vocabulary, config: dict[str, o
             nodes=nodes,
             edges=tuple(edges),
             joints=tuple(_joints(results, part_ids)),
+            stated=tuple(_stated(results, part_ids)),
             diagnostics=tuple(_findings(results)),
         )
     )
@@ -282,6 +285,22 @@ def _joints(results: Results, part_ids: Sequence[str]) -> list[Joint]:
         for joint in results.network.joints
     ]
     return sorted(found, key=lambda joint: (joint.first, joint.second, joint.point, joint.kind, not joint.made))
+
+
+def _stated(results: Results, part_ids: Sequence[str]) -> list[Stated]:
+    """What the source says is joined, in its own order."""
+    scene = results.scene
+    return [
+        Stated(
+            first=tuple(part_ids[part] for part in join.first),
+            second=tuple(part_ids[part] for part in join.second),
+            first_path=join.link.first,
+            second_path=join.link.second,
+            flow=join.link.flow,
+            where=join.link.where,
+        )
+        for join in resolve_links(scene.links, scene.paths, results.parts.part_of_mesh)
+    ]
 
 
 def _is(network: Network, node: int, junction: bool) -> bool:

@@ -8,7 +8,7 @@ import numpy as np
 
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.parts import Bools
-from cadgraph.model.scene import Scene, mesh_of_face, mesh_of_vertex
+from cadgraph.model.scene import MeshArrays, Scene, mesh_of_face, mesh_of_vertex
 
 __all__ = ["prepare_scene"]
 
@@ -53,10 +53,10 @@ def _keep_vertices(scene: Scene, keep: Bools) -> Scene:
     whole = keep[corners].all(axis=1)
     offsets = kept[scene.vertex_offsets]
     first = offsets[mesh_of_face(scene)][whole]
-    return dataclasses.replace(
-        scene,
+    arrays = MeshArrays(
         vertices=scene.vertices[keep],
         faces=(kept[corners[whole]] - first[:, None]).astype(np.int32),
         vertex_offsets=offsets,
         face_offsets=np.concatenate([[0], np.cumsum(whole)])[scene.face_offsets],
     )
+    return dataclasses.replace(scene, shapes=arrays, placement=None)

@@ -1,5 +1,7 @@
 """A little plant and its graph, written by hand: a pipe with a valve and a gauge, a tank, a mystery, the ground."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -55,7 +57,7 @@ def make_scene(origin=(0.0, 0.0, 0.0), meshes=MESHES):
         list(meshes),
         source=Source(path="plant/<b>demo</b>.usd", format="usd"),
     )
-    return Scene(**{**scene.__dict__, "origin": np.array(origin)})
+    return replace(scene, origin=np.array(origin))
 
 
 def make_graph(origin=(0.0, 0.0, 0.0), meshes=MESHES, **changes):

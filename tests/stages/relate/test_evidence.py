@@ -5,8 +5,9 @@ import pytest
 
 from cadgraph.stages.relate import decide
 from cadgraph.stages.relate.evidence import BASE, CURVES, FLAGS, OPEN_END, Curve, add_up, score_of, tell
-from cadgraph.stages.relate.offer import Offer, offer_mount
-from runs import decided, offers, run, taps, touching
+from cadgraph.stages.relate.joint import gather_ends
+from cadgraph.stages.relate.offer import Offer, bear_witness, offer_mount
+from runs import decided, offers, run, stated, taps, touching
 
 WIDE, NARROW = 0.2, 0.05  # radii of which the lesser is a quarter [m]
 
@@ -26,6 +27,20 @@ def at_angle(degrees, gap=0.010, second=0.3 * NARROW, length=1.0):
     first, way = np.array([np.cos(half), np.sin(half), 0]), np.array([np.cos(half), -np.sin(half), 0])
     lines = run(-first, [0, 0, 0], NARROW), run([gap, 0, 0], np.array([gap, 0, 0]) + length * way, second)
     return faces(*lines, contacts=touching([0, 1]))
+
+
+def in_stated_line(gap, aside=0.0):
+    """Two pipes that face each other across a gap, which the file joins."""
+    return in_line(gap, first=WIDE, second=WIDE, aside=aside, stated=stated((0, 1)))
+
+
+def on_its_side(said):
+    """A pipe before the side of another one, each of which the file joins to two others, maybe also to each other."""
+    lines = [run(0, 3, 0.1), run([1.0, 0.05, 1], [1.0, 0.05, np.sqrt(0.11**2 - 0.05**2)], 0.05)]
+    witness = stated((0, 2), (0, 3), (1, 4), (1, 5), *said)
+    ends = gather_ends(dict(enumerate(lines)))
+    (offer,) = [one for one in taps(lines, 1, 0) if one.kind == "tap"]
+    return bear_witness(offer, ends, 0, witness).odds > 0
 
 
 def mount(*, gap=0.010, along=0.0, off=0.0, facing=None, radius=0.01):
@@ -82,6 +97,7 @@ CURVE_SCENES = {
     "behind": (lambda share: mount(along=-share * 0.05, radius=0.05), 3.0, 3.6),
     "facing": (lambda cosine: mount(facing=cosine), 0.7, 0.21),
     "miss": (lambda share: tap(0.010, miss=share * 0.1), 0.6, 0.82),
+    "far": (in_stated_line, 0.13, 0.149),
     "near end": (lambda share: tap(0.005, miss=0.05, from_end=share * 0.1), 1.1, 0.9),
 }
 
@@ -91,6 +107,8 @@ FLAG_SCENES = {
     "hidden": (with_plug, -0.005, 0.005),
     "over": (in_line, 0.0120, 0.0121),
     "blocked": (lambda pairs: in_line(0.010, blocked=pairs), [], [(0, 1)]),
+    "stated": (lambda pairs: in_line(0.120, first=WIDE, second=WIDE, stated=stated(*pairs)), [(0, 1)], []),
+    "unstated": (on_its_side, [(0, 1)], []),
 }
 
 # For each kind of joint: the scene, a value on either side of where its base decides, and whether it is made without.

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from cadgraph.draw.render.color import to_linear, to_srgb
-from cadgraph.model.scene import Floats, Ints, Scene
+from cadgraph.model.scene import Floats, Ints, MeshArrays, Scene
 
 __all__ = ["Surroundings", "reach"]
 
@@ -98,10 +98,12 @@ class Surroundings:
         color = self._rounded.color[members]
         known = color[:, 3] != _NO_COLOR
         return Scene(
-            vertices=shape * _SHAPE + np.repeat(places * _PLACE, counts, axis=0),
-            faces=self._faces(members, part),
-            vertex_offsets=part.vertex_offsets,
-            face_offsets=part.face_offsets,
+            MeshArrays(
+                vertices=shape * _SHAPE + np.repeat(places * _PLACE, counts, axis=0),
+                faces=self._faces(members, part),
+                vertex_offsets=part.vertex_offsets,
+                face_offsets=part.face_offsets,
+            ),
             paths=tuple(f"/{i}" for i in range(len(members))),
             colors=np.where(known[:, None], to_linear(color[:, :3] / np.float32(255)), np.float32(np.nan)),
         )

@@ -210,7 +210,7 @@ class _Obstacles:
         self.slack = favour(vertices[np.isfinite(vertices).all(axis=1)])
         index = np.arange(1, scene.n_meshes + 1)[:, None]
         hair = (index * np.array([0.8191725134, 0.6710436067, 0.5497004779]) % 1.0 - 0.5) * _HAIR
-        self._scene = replace(scene, vertices=scene.vertices + hair[mesh_of_vertex(scene)])
+        self._scene = scene.with_vertices(scene.vertices + hair[mesh_of_vertex(scene)])
         self.own = Caster(scene, [target.mesh])
         self.mesh_of_face = mesh_of_face(scene).astype(np.int32)
         faces = scene.global_faces()

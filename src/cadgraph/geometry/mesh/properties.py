@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import inf, sqrt
 
 import numpy as np
@@ -10,7 +11,7 @@ from cadgraph.geometry.kernels.key import NO_KEY, Keys, key_position, mix
 from cadgraph.geometry.kernels.parallel import compiled, for_ranges, readable
 from cadgraph.geometry.mesh.box import fit_boxes, order_boxes
 from cadgraph.model.parts import Bools, Properties
-from cadgraph.model.scene import Faces, Floats, Ints, Scene
+from cadgraph.model.scene import Faces, Floats, Ints, MeshArrays, Placement, Scene
 
 __all__ = ["DEGENERATE_RATIO", "measure"]
 
@@ -24,7 +25,7 @@ def measure(scene: Scene, workers: int | None = None, boxes: bool = True) -> Pro
 
     Faces that refer to a vertex that isn't there or isn't finite are left out and counted. A mesh without area has
     the mean of its vertices as centroid; one without a finite vertex has NaN positions, zero extents and the
-    identity as axes.
+    identity as axes. Shapes that meshes share are measured once.
 
     Args:
         scene: of any size, maybe empty.
@@ -34,9 +35,17 @@ def measure(scene: Scene, workers: int | None = None, boxes: bool = True) -> Pro
     Returns:
         One row for each mesh.
     """
-    n = scene.n_meshes
-    vertices, faces = readable(scene.vertices, np.float64), readable(scene.faces, np.int32)
-    v_offsets, f_offsets = readable(scene.vertex_offsets, np.int64), readable(scene.face_offsets, np.int64)
+    found, used = _measured(scene.shapes, workers, boxes)
+    if scene.placement is None:
+        return found
+    return _placed(found, scene.shapes, used, scene.placement, workers, boxes)
+
+
+def _measured(meshes: MeshArrays, workers: int | None, boxes: bool) -> tuple[Properties, Bools]:
+    """The properties of meshes as they lie in their arrays, and ``(n_vertices,)`` which vertices make a surface."""
+    n = meshes.n
+    vertices, faces = readable(meshes.vertices, np.float64), readable(meshes.faces, np.int32)
+    v_offsets, f_offsets = readable(meshes.vertex_offsets, np.int64), readable(meshes.face_offsets, np.int64)
     bits = vertices.view(np.uint64)
     sums = np.zeros((n, 2))
     closed = np.zeros(n, np.bool_)
@@ -67,7 +76,7 @@ def measure(scene: Scene, workers: int | None = None, boxes: bool = True) -> Pro
     inertia = 0.0 - covariance
     diagonal = np.arange(3)
     inertia[:, diagonal, diagonal] += (covariance[:, 0, 0] + covariance[:, 1, 1] + covariance[:, 2, 2])[:, None]
-    return Properties(
+    found = Properties(
         area=sums[:, 0].copy(),
         volume=sums[:, 1].copy(),
         closed=closed,
@@ -81,6 +90,73 @@ def measure(scene: Scene, workers: int | None = None, boxes: bool = True) -> Pro
         n_degenerate=counts[:, 0].copy(),
         n_nonfinite=counts[:, 1].copy(),
     )
+    return found, used
+
+
+def _placed(
+    found: Properties, shapes: MeshArrays, used: Bools, placement: Placement, workers: int | None, boxes: bool
+) -> Properties:
+    """The properties of meshes from those of the shapes that they share."""
+    rows, turn, shift = placement.shape, placement.turn, placement.shift
+    one = found.select(rows)
+    n = len(rows)
+    aabb = np.full((n, 2, 3), np.nan)
+    vertices, offsets = readable(shapes.vertices, np.float64), readable(shapes.vertex_offsets, np.int64)
+
+    def kernel(first: int, last: int) -> None:
+        _bound_meshes(vertices, used, offsets, rows, turn, shift, first, last, aabb)
+
+    for_ranges(kernel, np.diff(offsets)[rows], workers)
+    if boxes:
+        half = 0.5 * one.obb_extents
+        center, axes, extents = order_boxes(
+            _moved(one.obb_center, turn, shift), one.obb_extents[:, 0], one.obb_axes @ turn, np.stack([-half, half], 1)
+        )
+    else:
+        center, axes, extents = _upright_boxes(aabb)
+    return replace(
+        one,
+        centroid=_moved(one.centroid, turn, shift),
+        aabb=aabb,
+        obb_center=center,
+        obb_axes=axes,
+        obb_extents=extents,
+        inertia=turn.transpose(0, 2, 1) @ one.inertia @ turn,
+    )
+
+
+def _moved(points: Floats, turn: Floats, shift: Floats) -> Floats:
+    moved: Floats = np.einsum("ni,nik->nk", points, turn) + shift
+    return moved
+
+
+@compiled
+def _bound_meshes(
+    vertices: Floats,
+    used: Bools,
+    offsets: Ints,
+    rows: Ints,
+    turn: Floats,
+    shift: Floats,
+    first: int,
+    last: int,
+    aabb: Floats,
+) -> None:
+    """The least and the greatest corner of a range of placed meshes; NaN where no vertex makes a surface."""
+    for i in range(first, last):
+        for k in range(3):
+            low, high = inf, -inf
+            for v in range(offsets[rows[i]], offsets[rows[i] + 1]):
+                if used[v]:
+                    x = (
+                        vertices[v, 0] * turn[i, 0, k]
+                        + vertices[v, 1] * turn[i, 1, k]
+                        + vertices[v, 2] * turn[i, 2, k]
+                        + shift[i, k]
+                    )
+                    low, high = min(low, x), max(high, x)
+            if low <= high:
+                aabb[i, 0, k], aabb[i, 1, k] = low, high
 
 
 def _upright_boxes(aabb: Floats) -> tuple[Floats, Floats, Floats]:

@@ -10,7 +10,7 @@ from cadgraph.geometry.kernels.parallel import compiled, for_ranges, readable
 from cadgraph.geometry.mesh.weld import weld_range
 from cadgraph.geometry.shape.alignment import align_by_order, align_sets, count_cells, pick_anchors
 from cadgraph.model.parts import Bools, Properties
-from cadgraph.model.scene import Faces, Floats, Ints, Scene
+from cadgraph.model.scene import Faces, Floats, Ints, Placement, Scene
 
 __all__ = ["Shapes", "find_shapes", "position_tolerance"]
 
@@ -77,8 +77,10 @@ def find_shapes(scene: Scene, properties: Properties, workers: int | None = None
         workers: threads; all processors by default. The outcome does not depend on it.
 
     Returns:
-        The shapes.
+        The shapes. Of meshes that share one in the scene already, only the first is compared.
     """
+    if scene.placement is not None:
+        return _of_shared(scene, scene.placement, properties, workers)
     n = scene.n_meshes
     tolerance = position_tolerance(properties)
     looks, slack = _looks(properties, tolerance)
@@ -110,6 +112,22 @@ def find_shapes(scene: Scene, properties: Properties, workers: int | None = None
         mirrors[mirror[:, 1]] = mirror[:, 0]
         open_meshes = pairs[sense != 1, 1]
     return _number(first, mirrors, turn, shift)
+
+
+def _of_shared(scene: Scene, placement: Placement, properties: Properties, workers: int | None) -> Shapes:
+    heads, row = np.unique(placement.shape, return_index=True, return_inverse=True)[1:]
+    order = np.argsort(heads)
+    heads, row = heads[order], np.argsort(order)[row.reshape(-1)]
+    alone = scene.select(heads)
+    among = find_shapes(alone.with_vertices(alone.vertices), properties.select(heads), workers)
+    # For column vectors: from the first mesh of a shape in the scene to the mesh, after what leads to that.
+    head = heads[row]
+    turn = placement.turn.transpose(0, 2, 1) @ placement.turn[head]
+    shift = placement.shift - np.einsum("nij,nj->ni", turn, placement.shift[head])
+    shift += np.einsum("nij,nj->ni", turn, among.shift[row])
+    return Shapes(
+        among.shape[row], among.mirrored[row], heads[among.first], among.mirror_of, turn @ among.turn[row], shift
+    )
 
 
 def _number(first: Ints, mirrors: Ints, turn: Floats, shift: Floats) -> Shapes:

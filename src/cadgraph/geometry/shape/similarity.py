@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -169,7 +169,7 @@ def _unit_scene(scene: Scene, properties: Properties, meshes: Ints) -> Scene:
     owner = mesh_of_vertex(part)
     size = np.sqrt(properties.area[meshes])
     vertices = (part.vertices - properties.centroid[meshes][owner]) / size[owner, None]
-    return replace(part, vertices=vertices)
+    return part.with_vertices(vertices)
 
 
 def _pair_up(

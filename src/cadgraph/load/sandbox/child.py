@@ -20,7 +20,8 @@ from types import ModuleType, SimpleNamespace
 from typing import TYPE_CHECKING, cast
 
 from cadgraph._io.limits import NOTE, read_text_within
-from cadgraph.errors import LoadError
+from cadgraph.errors import LoadError, MissingExtra
+from cadgraph.load.finish import finish
 from cadgraph.load.sandbox.exchange import write_scene
 
 if TYPE_CHECKING:
@@ -28,21 +29,26 @@ if TYPE_CHECKING:
 
 __all__ = ["main"]
 
+_READS_BY_TRIMESH = "cadgraph.load.ply"
+
 
 def main(folder: Path) -> None:
     """Serves the request in a folder."""
     _leave_no_core()
     # This process ends before garbage matters; to look for it among tens of thousands of meshes takes a fifth longer.
     gc.disable()
-    # cascadio imports it, where it is installed, for a bridge that nothing here crosses: most of a second.
-    sys.modules["trimesh"] = cast("ModuleType", None)
     request = json.loads(read_text_within(folder / "request.json", NOTE, LoadError, "read the file again"))
+    if request["module"] != _READS_BY_TRIMESH:
+        # cascadio imports it, where it is installed, for a bridge that nothing here crosses: most of a second.
+        sys.modules["trimesh"] = cast("ModuleType", None)
     # The caller has checked these settings; importing pydantic only to check them again would cost a fifth of a start.
     config = cast("LoadConfig", SimpleNamespace(**request["config"]))
+    path = Path(request["path"])
     try:
-        scene = importlib.import_module(request["module"]).read(Path(request["path"]), config)
-    except LoadError as error:
-        (folder / "error.json").write_text(json.dumps(str(error)), encoding="utf-8")
+        scene = finish(importlib.import_module(request["module"]).read(path, config), config, path)
+    except (LoadError, MissingExtra) as error:
+        told = [error.purpose, error.extra] if isinstance(error, MissingExtra) else str(error)
+        (folder / "error.json").write_text(json.dumps(told), encoding="utf-8")
         return
     write_scene(scene, folder)
 

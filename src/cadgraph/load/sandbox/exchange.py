@@ -13,18 +13,25 @@ from cadgraph._io.arrays import check_array
 from cadgraph._io.limits import EXCHANGE_HEAD, read_text_within
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.facts import Fact, StatedLink
-from cadgraph.model.scene import Scene, Source
+from cadgraph.model.scene import MeshArrays, Placement, Scene, Source
 
 __all__ = ["read_scene", "write_scene"]
 
-_ARRAYS = ("vertices", "faces", "vertex_offsets", "face_offsets", "colors", "origin")
+_SHAPES = ("vertices", "faces", "vertex_offsets", "face_offsets")
+_PLACEMENT = ("shape", "turn", "shift")
+_ARRAYS = ("colors", "origin")
 
 
 def write_scene(scene: Scene, folder: Path) -> None:
     """Writes a scene into an existing folder: an ``.npy`` file for each array and ``scene.json``."""
-    for name in _ARRAYS:
-        np.save(folder / f"{name}.npy", getattr(scene, name), allow_pickle=False)
+    arrays = {name: getattr(scene.shapes, name) for name in _SHAPES}
+    arrays |= {name: getattr(scene, name) for name in _ARRAYS}
+    if scene.placement is not None:
+        arrays |= {f"placed-{name}": getattr(scene.placement, name) for name in _PLACEMENT}
+    for name, array in arrays.items():
+        np.save(folder / f"{name}.npy", array, allow_pickle=False)
     rest = {
+        "placed": scene.placement is not None,
         "paths": scene.paths,
         "anchors": scene.anchors,
         "source": asdict(scene.source),
@@ -41,10 +48,13 @@ def read_scene(folder: Path) -> Scene:
     Raises:
         OSError, ValueError, KeyError: the folder doesn't hold a whole scene.
     """
-    arrays = {name: _array(folder / f"{name}.npy") for name in _ARRAYS}
     rest = json.loads(read_text_within(folder / "scene.json", EXCHANGE_HEAD, ValueError, "split the scene"))
     return Scene(
-        **arrays,
+        MeshArrays(**{name: _array(folder / f"{name}.npy") for name in _SHAPES}),
+        placement=Placement(**{name: _array(folder / f"placed-{name}.npy") for name in _PLACEMENT})
+        if rest["placed"]
+        else None,
+        **{name: _array(folder / f"{name}.npy") for name in _ARRAYS},
         paths=tuple(rest["paths"]),
         anchors=tuple(rest["anchors"]),
         source=_source(rest["source"]),

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 import cadgraph
 from cadgraph._io.limits import NOTE, read_text_within
 from cadgraph._io.text import printable
-from cadgraph.errors import LoadError
+from cadgraph.errors import LoadError, MissingExtra
 from cadgraph.load.sandbox.exchange import read_scene
 from cadgraph.model.scene import Scene
 
@@ -49,13 +49,17 @@ def read_isolated(module: str, file: Path, given: str, config: LoadConfig) -> Sc
 
     Raises:
         LoadError: the file can't be read, the process crashed, or it took longer than ``config.timeout``.
+        MissingExtra: what the file holds needs a package that isn't installed.
     """
     with _exchange_folder() as folder:
         request = {"module": module, "path": str(file.absolute()), "config": config.model_dump()}
         (folder / "request.json").write_text(json.dumps(request), encoding="utf-8")
         code = _run(folder, given, config.timeout)
         if (folder / "error.json").exists():
-            raise LoadError(_with_given_path(_told(folder, given), file, given))
+            told = _told(folder, given)
+            if isinstance(told, list):
+                raise MissingExtra(*told)
+            raise LoadError(_with_given_path(told, file, given))
         if code != 0:
             raise LoadError(f"{given}: {_reason(code, folder / 'stderr.txt')}")
         try:
@@ -64,10 +68,11 @@ def read_isolated(module: str, file: Path, given: str, config: LoadConfig) -> Sc
             raise LoadError(f"{given}: the reading process left no whole result ({error})") from error
 
 
-def _told(folder: Path, given: str) -> str:
-    """The error that the reading process left."""
+def _told(folder: Path, given: str) -> str | list[str]:
+    """The error that the reading process left: its text, or purpose and name of an extra that is missing."""
     try:
-        return str(json.loads(read_text_within(folder / "error.json", NOTE, LoadError, "export the file again")))
+        told = json.loads(read_text_within(folder / "error.json", NOTE, LoadError, "export the file again"))
+        return [str(word) for word in told[:2]] if isinstance(told, list) and len(told) == 2 else str(told)
     except ValueError:
         raise LoadError(f"{given}: reading it failed; the file is likely damaged, export it again") from None
 

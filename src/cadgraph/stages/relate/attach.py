@@ -18,13 +18,16 @@ from cadgraph.stages.relate.offer import (
     Ahead,
     Offer,
     Surroundings,
+    bear_witness,
+    ends_about,
     find_ahead,
     is_hidden,
-    near_ends,
     offer_faces,
+    offer_far_mount,
     offer_mount,
     offer_taps,
 )
+from cadgraph.stages.relate.stated import REACH, Stated, mouth_gap
 
 __all__ = ["Attachments", "Mount", "Side", "Tapped", "attach_lines", "facings_of", "flat_contacts", "regions_of"]
 
@@ -128,6 +131,7 @@ def attach_lines(
     feet: Collection[int],
     bridge: float,
     bolted: Collection[tuple[int, int]] = (),
+    stated: Stated | None = None,
 ) -> Attachments:
     """Finds for each end of a line what it joins.
 
@@ -139,11 +143,12 @@ def attach_lines(
         feet: solids that may sit on the side of a line: parts of gauges.
         bridge: gap up to which ends that face each other join without other evidence [m].
         bolted: pairs of parts that one fastener touches both of.
+        stated: what the file says of joints, where that counts.
     """
     ends = gather_ends(lines)
     solid = set(solids)
-    around = Surroundings(contacts, bridge, set(_shut(contacts, lines, solid)), bolted)
-    ahead = find_ahead(ends, near_ends(ends, around))
+    around = Surroundings(contacts, bridge, set(_shut(contacts, lines, solid)), bolted, stated or Stated())
+    ahead = find_ahead(ends, ends_about(ends, around))
     faces = offer_faces(ends, around, ahead)
     settled = settle_faces(faces)
     loose = {row for row in range(len(ends.part)) if row not in settled}
@@ -156,9 +161,59 @@ def attach_lines(
         ]
         for row in sorted(loose)
     }
+    if around.stated:
+        singles = _with_witness(parts, lines, solid, ends, singles, ahead, around)
     decision = decide_joints(faces, singles, settled)
     doubled = _double(ends, decision.joined, near, bridge)
     return _attached(ends, decision, doubled, sides)
+
+
+def _with_witness(
+    parts: Parts,
+    lines: Mapping[int, Centreline],
+    solids: set[int],
+    ends: Ends,
+    singles: Mapping[int, Sequence[Offer]],
+    ahead: Mapping[int, Sequence[Ahead]],
+    around: Surroundings,
+) -> dict[int, list[Offer]]:
+    """The offers of each end at solids and sides of lines with what the file says of them, and those that only the file
+    makes possible.
+    """
+    found: dict[int, list[Offer]] = {}
+    for row, offers in singles.items():
+        known = {offer.other for offer in offers}
+        others = [part for part in around.stated.partners(int(ends.part[row])) if part not in known]
+        found[row] = [bear_witness(offer, ends, offer.other, around.stated) for offer in offers]
+        found[row] += _far_taps(ends, row, {part: lines[part] for part in others if part in lines}, around)
+        found[row] += _far_mounts(parts, ends, row, [part for part in others if part in solids], ahead, around.stated)
+    return found
+
+
+def _far_taps(ends: Ends, row: int, lines: Mapping[int, Centreline], around: Surroundings) -> list[Offer]:
+    """The sides of lines that the file joins an end to, farther off than geometry alone would look."""
+    offers = offer_taps(ends, row, lines, [(part, REACH - around.bridge) for part in lines], around.bridge)
+    return [bear_witness(offer, ends, offer.other, around.stated) for offer in offers]
+
+
+def _far_mounts(
+    parts: Parts, ends: Ends, row: int, solids: Sequence[int], ahead: Mapping[int, Sequence[Ahead]], stated: Stated
+) -> list[Offer]:
+    """The solids before an end that the file joins it to, farther off than geometry alone would look."""
+    point, direction, radius = ends.point[row], ends.direction[row], float(ends.radius[row])
+    low, high = point - REACH - radius, point + REACH + radius
+    boxes = parts.properties.aabb
+    offers = []
+    for solid in solids:
+        if np.any(boxes[solid, 1] < low) or np.any(boxes[solid, 0] > high):
+            continue
+        vertices, faces = parts.scene.mesh(solid)
+        met = mouth_gap(vertices[faces], point, direction, radius)
+        part = int(ends.part[row])
+        if met is not None and not is_hidden(ahead.get(row, ()), met[0], (part,)):
+            said = stated.by(part, solid) or ""
+            offers.append(offer_far_mount(row, solid, *met, radius, said))
+    return offers
 
 
 def _attached(

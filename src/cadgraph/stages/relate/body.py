@@ -151,7 +151,14 @@ def _loose_mounts(piping: Piping, pool: Collection[int]) -> tuple[Ends, list[Mou
         return known.ends, []
     solids = piping.members.union(piping.lineless, pool)
     found = attach_lines(
-        given.parts, given.contacts, piping.lines, solids, piping.feet, given.config.relate.bridge, piping.bolted
+        given.parts,
+        given.contacts,
+        piping.lines,
+        solids,
+        piping.feet,
+        given.config.relate.bridge,
+        piping.bolted,
+        given.stated,
     )
     return found.ends, [mount for mount in found.mounts if mount.row in free and mount.part in pool]
 

@@ -18,6 +18,7 @@ from cadgraph.stages.relate.flow import direct_flow, stated_flow
 from cadgraph.stages.relate.kind import name_kinds
 from cadgraph.stages.relate.line import is_disc
 from cadgraph.stages.relate.network import Drawing, draw_network
+from cadgraph.stages.relate.offer import Offer
 from cadgraph.stages.relate.piping import Group, Piping, RelateInput
 from cadgraph.stages.relate.record import record_joints
 from cadgraph.stages.relate.recover import recover_units
@@ -25,6 +26,7 @@ from cadgraph.stages.relate.relabel import relabel_parts
 from cadgraph.stages.relate.role import Roles, find_roles
 from cadgraph.stages.relate.run import make_network
 from cadgraph.stages.relate.shortfall import find_shortfalls
+from cadgraph.stages.relate.stated import report_unplaced
 from cadgraph.stages.relate.stub import drop_stubs
 from cadgraph.stages.relate.tag import tag_units
 from cadgraph.stages.relate.trace import drop_shapeless, trace_lines
@@ -76,12 +78,14 @@ def connect_units(given: RelateInput) -> Connected:
     drawing = _draw(piping, units)
     network = replace(_contract(piping, units, drawing, names), joints=record_joints(piping, units, drawing.flanged))
     network = name_kinds(network, names, given.parts)
-    stated = stated_flow(network, given.config.relate.flow)
-    network, contradictions = direct_flow(network, given.parts, names, stated)
+    by_user = stated_flow(network, given.config.relate.flow)
+    network, contradictions = direct_flow(network, given.parts, names, by_user, given.stated)
     network = drop_stubs(network)
     diagnostics = (
         *find_shortfalls(piping, network),
         *_bridged_gaps(given.parts, drawing),
+        *_stated_gaps(piping),
+        *report_unplaced(given.stated),
         *_doubted_labels(given.parts, roles),
         *_loose_operators(given.parts, loose),
         *contradictions,
@@ -163,6 +167,27 @@ def _bridged_gaps(parts: Parts, drawing: Drawing) -> tuple[Diagnostic, ...]:
         f"{1000 * widest:.1f} mm (relate.bridge); each pair of meshes is listed in turn"
     )
     return (Diagnostic("bridged-gap", message, heads),)
+
+
+def _stated_gaps(piping: Piping) -> tuple[Diagnostic, ...]:
+    """The joints across gaps that geometry alone would not bridge."""
+    far = _far_joints(piping)
+    if not far:
+        return ()
+    paths, ends = piping.given.parts.scene.paths, piping.joints.ends
+    pairs = [(int(ends.part[offer.row]), offer.part(ends)) for offer in far]
+    message = (
+        f"{len(far)} joints are made across gaps wider than relate.bridge because the file says so, the widest "
+        f"{1000 * max(offer.gap for offer in far):.1f} mm; each pair of meshes is listed in turn"
+    )
+    return (Diagnostic("stated-gap", message, tuple(paths[part] for pair in pairs for part in pair)),)
+
+
+def _far_joints(piping: Piping) -> list[Offer]:
+    """The joints that are made because the file says so across a gap wider than geometry alone would bridge."""
+    limit = piping.given.config.relate.bridge
+    made = sorted(piping.joints.made.items())
+    return [offer for row, offer in made if row == offer.row and offer.said and offer.gap > limit]
 
 
 def _doubted_labels(parts: Parts, roles: Roles) -> tuple[Diagnostic, ...]:

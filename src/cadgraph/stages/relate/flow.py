@@ -10,8 +10,10 @@ import numpy as np
 
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.parts import Link, Network, Parts
+from cadgraph.stages.relate.flow_file import file_flow, is_of_file, weigh_flow
 from cadgraph.stages.relate.flow_sources import SOURCES, Sight
-from cadgraph.stages.relate.flow_spread import Evidence, Flows, around, spread
+from cadgraph.stages.relate.flow_spread import Evidence, around
+from cadgraph.stages.relate.stated import Stated
 
 __all__ = ["direct_flow", "stated_flow"]
 
@@ -20,7 +22,11 @@ _STATED, _STATED_MAYBE = 1.0, 0.9
 
 
 def direct_flow(
-    network: Network, parts: Parts, names: Sequence[str | None], stated: Sequence[Evidence] = ()
+    network: Network,
+    parts: Parts,
+    names: Sequence[str | None],
+    given: Sequence[Evidence] = (),
+    stated: Stated | None = None,
 ) -> tuple[Network, tuple[Diagnostic, ...]]:
     """Gives links the direction of their flow where something shows it.
 
@@ -28,15 +34,27 @@ def direct_flow(
         network: units and links, without directions.
         parts: parts of the scene.
         names: name of each part, None where unknown.
-        stated: directions that the user states (``stated_flow``).
+        given: directions that the user states (``stated_flow``).
+        stated: what the file says, where that counts.
 
     Returns:
-        The network with directions, their reasons and confidences, and a diagnostic of the contradictions.
+        The network with directions, their reasons and confidences, and diagnostics of the contradictions.
     """
     sight = Sight(network, parts, names, around(network))
-    flows = spread(network, [*stated, *(one for source in SOURCES for one in source(sight))])
-    links = tuple(_directed(link, flows.chosen.get(number)) for number, link in enumerate(network.links))
-    return replace(network, links=links), _contradictions(network, parts, flows)
+    shown = [one for source in SOURCES for one in source(sight)]
+    filed, doubts = file_flow(network, stated) if stated else ([], [])
+    weighed = weigh_flow(network, given, shown, filed)
+    chosen, against = weighed.flows.chosen, weighed.flows.against
+    links = tuple(_directed(link, chosen.get(number)) for number, link in enumerate(network.links))
+    doubts += weighed.disagreeing
+    doubts += [pair for pair in against if any(map(is_of_file, pair))]
+    ours = [pair for pair in against if not any(map(is_of_file, pair))]
+    return replace(network, links=links), (
+        *_contradictions(network, parts, ours, "flow-contradiction", "reasons disagree which way it flows"),
+        *_contradictions(
+            network, parts, doubts, "flow-disagrees", "what the file says of the flow is contradicted, also by itself"
+        ),
+    )
 
 
 def _directed(link: Link, best: Evidence | None) -> Link:
@@ -50,17 +68,19 @@ def _directed(link: Link, best: Evidence | None) -> Link:
     )
 
 
-def _contradictions(network: Network, parts: Parts, flows: Flows) -> tuple[Diagnostic, ...]:
-    if not flows.against:
+def _contradictions(
+    network: Network, parts: Parts, against: Sequence[tuple[Evidence, Evidence]], code: str, message: str
+) -> tuple[Diagnostic, ...]:
+    """A diagnostic of reasons that disagree; none where none do."""
+    if not against:
         return ()
     lines = []
-    for a, b in flows.against:
+    for a, b in against:
         link = network.links[a.link]
         lines.append(f"{_name(network, link.source)} to {_name(network, link.target)}: {a.reason}, but {b.reason}")
+    meshes = tuple(parts.scene.paths[part] for a, _ in against for part in network.links[a.link].via[:1])
     told = "; ".join(dict.fromkeys(lines))
-    meshes = tuple(parts.scene.paths[part] for a, _ in flows.against for part in network.links[a.link].via[:1])
-    message = "reasons disagree which way it flows; " + told
-    return (Diagnostic("flow-contradiction", message, tuple(dict.fromkeys(meshes))),)
+    return (Diagnostic(code, f"{message}; {told}", tuple(dict.fromkeys(meshes))),)
 
 
 def stated_flow(network: Network, statements: Sequence[str]) -> list[Evidence]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -14,15 +14,19 @@ from cadgraph.model.parts import Bools, Contacts
 from cadgraph.model.scene import Floats, Ints
 from cadgraph.stages.relate.evidence import CURVES, FLAGS, add_up, score_of, tell
 from cadgraph.stages.relate.joint import Ends, Tap, find_tap
+from cadgraph.stages.relate.stated import REACH, Stated
 
 __all__ = [
     "Ahead",
     "Offer",
     "Surroundings",
+    "bear_witness",
+    "ends_about",
     "find_ahead",
     "is_hidden",
     "near_ends",
     "offer_faces",
+    "offer_far_mount",
     "offer_mount",
     "offer_taps",
 ]
@@ -47,6 +51,7 @@ _DISC = 1.6
 # Gaps within this much of each other are alike [m]; so many make a habit, and none that is narrower is one.
 _ALIKE, _HABIT, _LEAST_HABIT = 0.0004, 5, 0.001
 
+_OF_GAP = ("gap", "wide")  # what is measured of a gap
 _THINKABLE = -4.0  # log-odds below which nobody would ask why a joint was not made
 
 Kind = Literal["face", "corner", "mount", "tap", "sleeve"]
@@ -66,6 +71,7 @@ class Offer:
         measured: the quantities that speak for or against it.
         flags: what else does.
         tap: the place, for taps and sleeves.
+        said: by what the file joins the two, where it does.
     """
 
     kind: Kind
@@ -76,16 +82,21 @@ class Offer:
     measured: Mapping[str, float] = field(default_factory=dict)
     flags: tuple[str, ...] = ()
     tap: Tap | None = None
+    said: str = ""
 
     @property
     def score(self) -> float:
         """How sure it is, 0..1."""
         return score_of(self.odds)
 
+    def part(self, ends: Ends) -> int:
+        """The part that the end would join."""
+        return int(ends.part[self.other]) if self.kind in ("face", "corner") else self.other
+
     @property
     def reasons(self) -> tuple[str, ...]:
         """What speaks for and against it, in words."""
-        return tell(self.measured, self.flags)
+        return tell(self.measured, self.flags, self.said)
 
 
 @dataclass(frozen=True)
@@ -97,12 +108,14 @@ class Surroundings:
         bridge: gap up to which ends join without other evidence [m].
         blocked: pairs of parts with a solid near both.
         bolted: pairs of parts that one fastener touches both of.
+        stated: what the file says of joints.
     """
 
     contacts: Contacts
     bridge: float
     blocked: Collection[tuple[int, int]] = ()
     bolted: Collection[tuple[int, int]] = ()
+    stated: Stated = field(default_factory=Stated)
 
 
 @dataclass(frozen=True)
@@ -168,10 +181,60 @@ def offer_faces(ends: Ends, around: Surroundings, ahead: Mapping[int, Sequence[A
     odds = add_up("face", measured, {name: holds.astype(float) for name, holds in flags.items()})
     flags["habit"] = _habitual(gap, straight & (odds > 1.0))
     odds = odds + flags["habit"] * FLAGS["habit"][0]
-    thinkable = straight & (odds > _THINKABLE)
+    thinkable = straight & ((odds > _THINKABLE) | _are_stated(ends, pairs, around.stated))
     found = [_face(k, pairs, gap, odds, measured, flags) for k in np.flatnonzero(thinkable).tolist()]
     corners = _corners(ends, i, j, cosine, around.bridge) & ~straight
-    return found + [_corner(pairs, k, measured) for k in np.flatnonzero(corners).tolist()]
+    found += [_corner(pairs, k, measured) for k in np.flatnonzero(corners).tolist()]
+    return _witnessed(ends, found, around.stated) if around.stated else found
+
+
+def _are_stated(ends: Ends, pairs: Ints, stated: Stated) -> Bools:
+    """Which pairs of ends belong to parts that the file joins."""
+    if not stated:
+        return np.zeros(len(pairs), np.bool_)
+    parts = ends.part[pairs].tolist()
+    return np.array([stated.by(a, b) is not None for a, b in parts], np.bool_)
+
+
+def _witnessed(ends: Ends, offers: Sequence[Offer], stated: Stated) -> list[Offer]:
+    """Offers between two ends with what the file says of them, without those that nobody would ask about."""
+    heard = [bear_witness(offer, ends, int(ends.part[offer.other]), stated) for offer in offers]
+    return [offer for offer in heard if offer.odds > _THINKABLE]
+
+
+def bear_witness(offer: Offer, ends: Ends, other: int, stated: Stated) -> Offer:
+    """An offer with what the file says of it.
+
+    Args:
+        offer: as geometry has it.
+        ends: of all lines.
+        other: the part that the end would join.
+        stated: what the file says.
+    """
+    part = int(ends.part[offer.row])
+    said = stated.by(part, other)
+    if said is None:
+        n_ends = len(ends.of_part.get(part, ())), len(ends.of_part.get(other, ()))
+        denied = stated.is_complete(part, n_ends[0]) and stated.is_complete(other, n_ends[1])
+        flags = (*offer.flags, "unstated") if denied else offer.flags
+        return replace(offer, odds=offer.odds + FLAGS["unstated"][0], flags=flags) if denied else offer
+    if "hidden" in offer.flags:
+        # The file joins them through what lies between.
+        return offer
+    return _across(replace(offer, odds=offer.odds + FLAGS["stated"][0], flags=(*offer.flags, "stated"), said=said))
+
+
+def _across(offer: Offer) -> Offer:
+    """An offer in whose gap the file's word counts where it explains more of it than geometry alone does."""
+    gap = offer.measured.get("gap", float("nan"))
+    # "over" tells of the gap too, though it is a flag.
+    terms = [float(CURVES[name](offer.measured.get(name, float("nan")))) for name in _OF_GAP]
+    gain = float(CURVES["far"](gap)) - sum(terms) - FLAGS["over"][0] * ("over" in offer.flags)
+    if not gap > 0 or gain <= 0:
+        return offer
+    left = {name: value for name, value in offer.measured.items() if name not in _OF_GAP}
+    flags = tuple(name for name in offer.flags if name != "over")
+    return replace(offer, odds=offer.odds + gain, measured={"far": gap, **left}, flags=flags)
 
 
 def _flags(
@@ -269,9 +332,31 @@ def near_ends(ends: Ends, around: Surroundings) -> Ints:
         for p in ends.of_part[a]
         for q in ends.of_part[b]
     }
-    near = cKDTree(ends.point).query_pairs(_REACH * around.bridge, output_type="ndarray")
+    tree = cKDTree(ends.point)
+    near = tree.query_pairs(_REACH * around.bridge, output_type="ndarray")
     found.update((p, q) for p, q in near.tolist() if ends.part[p] != ends.part[q])
+    found |= _near_stated(ends, tree, around.stated)
     return np.array(sorted(found), np.int64).reshape(-1, 2)
+
+
+def _near_stated(ends: Ends, tree: cKDTree, stated: Stated) -> set[tuple[int, int]]:
+    """Pairs of ends that a link of the file reaches."""
+    if not stated:
+        return set()
+    pairs = tree.query_pairs(REACH, output_type="ndarray")
+    return {(p, q) for p, q in pairs.tolist() if stated.by(int(ends.part[p]), int(ends.part[q])) is not None}
+
+
+def ends_about(ends: Ends, around: Surroundings) -> Ints:
+    """Pairs of near ends; where the file joins ends farther apart, also those with all that may lie between them."""
+    near = near_ends(ends, around)
+    if not around.stated or not len(near):
+        return near
+    known = {(p, q) for p, q in near.tolist()}
+    joined = {row for pair in near[_are_stated(ends, near, around.stated)].tolist() for row in pair}
+    wider = cKDTree(ends.point).query_pairs(REACH, output_type="ndarray").tolist()
+    known.update((p, q) for p, q in wider if ends.part[p] != ends.part[q] and (p in joined or q in joined))
+    return np.array(sorted(known), np.int64).reshape(-1, 2)
 
 
 def _corners(ends: Ends, i: Ints, j: Ints, cosine: Floats, bridge: float) -> Bools:
@@ -294,6 +379,22 @@ def _corners(ends: Ends, i: Ints, j: Ints, cosine: Floats, bridge: float) -> Boo
         & (lesser >= _EQUAL_SIZE * greater)
         & (np.minimum(ends.length[i], ends.length[j]) > 2 * greater)
     )
+
+
+def offer_far_mount(row: int, solid: int, gap: float, off: float, radius: float, said: str) -> Offer:
+    """An end before a solid that it doesn't come near, but that the file joins it to.
+
+    Args:
+        row: the end.
+        solid: the part.
+        gap: from the end to the solid along the pipe's wall [m].
+        off: of what the wall meets from the axis [m].
+        radius: of the end [m].
+        said: by what the file joins them.
+    """
+    measured = {"far": gap, "off": off / radius}
+    odds = float(add_up("mount", {name: np.array([value]) for name, value in measured.items()})[0])
+    return Offer("mount", row, solid, gap, odds + FLAGS["stated"][0], measured, ("stated",), said=said)
 
 
 def offer_mount(

@@ -15,9 +15,11 @@ from cadgraph.model.labels import Label
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.probabilities import Probabilities
 from cadgraph.model.scene import Ints
+from cadgraph.model.stated import resolve_links
 from cadgraph.model.vocabulary import Vocabulary
 from cadgraph.stages.relate.attach import Attachments, attach_lines
 from cadgraph.stages.relate.role import Roles
+from cadgraph.stages.relate.stated import Stated
 
 __all__ = ["FASTENERS", "Group", "Piping", "Recovered", "RelateInput"]
 
@@ -70,6 +72,14 @@ class RelateInput:
             found.setdefault(a, []).append(b)
             found.setdefault(b, []).append(a)
         return {part: sorted(near) for part, near in found.items()}
+
+    @cached_property
+    def stated(self) -> Stated:
+        """What the file says of joints and flow; nothing unless ``relate.use_metadata`` lets it count."""
+        if not self.config.relate.use_metadata:
+            return Stated()
+        scene = self.analysis.scene
+        return Stated(resolve_links(scene.links, scene.paths, self.parts.part_of_mesh))
 
     @cached_property
     def is_connector(self) -> tuple[bool, ...]:
@@ -136,7 +146,14 @@ class Piping:
         given = self.given
         solids = self.members.union(self.lineless)
         return attach_lines(
-            given.parts, given.contacts, self.lines, solids, self.feet, given.config.relate.bridge, self.bolted
+            given.parts,
+            given.contacts,
+            self.lines,
+            solids,
+            self.feet,
+            given.config.relate.bridge,
+            self.bolted,
+            given.stated,
         )
 
     @cached_property

@@ -112,7 +112,7 @@ def _versions(job: tuple[Path, int, str, list[dict[str, str]]]) -> list[Example]
 
 
 def _stretched(scene: Scene, factors: Floats) -> Scene:
-    return replace(scene, vertices=scene.vertices * factors)
+    return scene.with_vertices(scene.vertices * factors)
 
 
 def _example(scene: Scene, labels: dict[str, str], source: str) -> tuple[Example, Scene]:

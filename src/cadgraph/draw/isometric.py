@@ -1,0 +1,514 @@
+"""Isometric drawings of lines: 30 degree axes, lengths not to scale, dimensions in millimetres, bill of components.
+
+Directions are those of the plant: north (+y) to the upper right, east (+x) to the lower right, up upwards. Every text
+has a place of its own: one that finds none beside what it belongs to moves out, with a line that leads back.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise, product
+from pathlib import Path
+
+from cadgraph._io.atomic import write_atomically
+from cadgraph._io.text import printable
+from cadgraph.draw.svg import Svg, element, joined
+from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.graph import SceneGraph
+from cadgraph.model.records import Point
+from cadgraph.query.components import Branch, Component, LineEnd, PipedLine, find_components
+
+__all__ = ["Box", "Isometric", "draw_isometric", "write_isometrics"]
+
+Spot = tuple[float, float]
+Box = tuple[float, float, float, float]
+"""Left, top, right, bottom."""
+
+_COS, _SIN = math.cos(math.radians(30)), 0.5
+_MARGIN, _GAP = 40.0, 4.0
+_LETTER, _LINE = 6.2, 13.0  # width and height of the letters of a text of size 11, generous
+_BILL = 300.0  # width of the bill of components
+_DIMENSION = 26.0  # a dimension line stands so far from its pipe
+_LONGEST = 48  # letters of a text on the sheet
+_MOST_TURNS = 400  # tries to find a place for a text
+# Drawn lengths: a component always has the same, a pipe's grows with the logarithm of its length.
+_LENGTHS = {"flange": 7.0, "gasket": 3.0, "blind flange": 7.0, "valve": 30.0, "reducer": 24.0, "instrument": 30.0}
+_BOXES = ("instrument", "other", "strainer", "hose", "expansion joint")  # drawn as a box in the line
+_CLOSE = 12.0  # legs that come nearer than this are drawn apart
+_LEG, _OTHER = 16.0, 24.0
+_STYLE = (
+    "text{font:11px sans-serif;fill:#111}.p{stroke:#111;stroke-width:2.6;fill:none;stroke-linecap:round}"
+    ".s{stroke:#111;stroke-width:1.4;fill:#fff}.d{stroke:#567;stroke-width:.8;fill:none}.w{fill:#111}"
+    ".t{fill:#345}.b{font-weight:bold}"
+)
+
+
+@dataclass
+class Isometric:
+    """A drawing in the making.
+
+    Args:
+        shapes: pieces of SVG, in the order that they are drawn.
+        texts: place of each text on the sheet, with its letters.
+        solid: places of what no text may lie on.
+    """
+
+    shapes: list[Svg] = field(default_factory=list)
+    texts: list[tuple[Box, str]] = field(default_factory=list)
+    solid: list[Box] = field(default_factory=list)
+    _waiting: list[tuple[Spot, Sequence[str], Spot, str]] = field(default_factory=list)
+
+    def line(self, points: Sequence[Spot], style: str, *, solid: bool = True) -> None:
+        """A line through points; short boxes along it keep texts away."""
+        way = "M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in points)
+        self.shapes.append(element("path", d=way, class_=style))
+        if solid:
+            for a, b in pairwise(points):
+                steps = max(1, math.ceil(math.dist(a, b) / 8))
+                for i in range(steps + 1):
+                    x, y = a[0] + (b[0] - a[0]) * i / steps, a[1] + (b[1] - a[1]) * i / steps
+                    self.solid.append((x - 2, y - 2, x + 2, y + 2))
+
+    def area(self, points: Sequence[Spot], style: str = "s") -> None:
+        """A filled shape."""
+        way = "M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in points) + "Z"
+        self.shapes.append(element("path", d=way, class_=style))
+        xs, ys = zip(*points, strict=True)
+        self.solid.append((min(xs), min(ys), max(xs), max(ys)))
+
+    def dot(self, at: Spot, radius: float, style: str) -> None:
+        """A circle."""
+        self.shapes.append(element("circle", cx=at[0], cy=at[1], r=radius, class_=style))
+        self.solid.append((at[0] - radius, at[1] - radius, at[0] + radius, at[1] + radius))
+
+    def text(self, at: Spot, lines: Sequence[str], away: Spot, style: str = "t") -> None:
+        """Some lines of text near a point, for :meth:`settle` to find room for, first in a direction."""
+        self._waiting.append((at, lines, away, style))
+
+    def settle(self) -> None:
+        """Puts each text as near to its point as there is room, now that all else is drawn."""
+        for at, lines, away, style in self._waiting:
+            self._put(at, lines, away, style)
+        self._waiting.clear()
+
+    def _put(self, at: Spot, lines: Sequence[str], away: Spot, style: str) -> None:
+        lines = [_short(line) for line in lines if line]
+        wide, high = max(map(len, lines)) * _LETTER + 2 * _GAP, len(lines) * _LINE + _GAP
+        box = self._room(at, wide, high, math.atan2(away[1], away[0]))
+        middle = ((box[0] + box[2]) / 2, (box[1] + box[3]) / 2)
+        if math.dist(middle, at) > max(wide, high) / 2 + 26:
+            nearest = (min(max(at[0], box[0]), box[2]), min(max(at[1], box[1]), box[3]))
+            self.line([at, nearest], "d", solid=False)
+        for number, line in enumerate(lines):
+            y = box[1] + (number + 1) * _LINE - 2
+            self.shapes.append(element("text", line, x=middle[0], y=y, text_anchor="middle", class_=style))
+        self.texts.append((box, " / ".join(lines)))
+
+    def _room(self, at: Spot, wide: float, high: float, first: float) -> Box:
+        box: Box = (0.0, 0.0, 0.0, 0.0)
+        for turn in range(_MOST_TURNS):
+            # Around the point in widening rings, at each to both sides of the wanted direction.
+            ring, step = divmod(turn, 12)
+            angle = first + (step + 1) // 2 * (1 if step % 2 else -1) * math.radians(30)
+            reach = 8.0 + 12.0 * ring
+            x = at[0] + math.cos(angle) * (reach + wide / 2)
+            y = at[1] + math.sin(angle) * (reach + high / 2)
+            box = (x - wide / 2, y - high / 2, x + wide / 2, y + high / 2)
+            if not any(_meet(box, other) for other in self.solid) and not any(_meet(box, b) for b, _ in self.texts):
+                break
+        return box
+
+
+def write_isometrics(graph: SceneGraph, folder: str | Path) -> tuple[tuple[Path, ...], tuple[Diagnostic, ...]]:
+    """Writes a drawing of each line, ``L-0123.svg``.
+
+    Args:
+        graph: the finished graph.
+        folder: where to; made if missing.
+
+    Returns:
+        The files in the order of the line list, and notes on lines that could not be drawn (``no-centreline``,
+        ``no-component``) or lack joints (``missing-joint``).
+
+    Raises:
+        OutputError: a file can't be written.
+    """
+    files: list[Path] = []
+    notes: list[Diagnostic] = []
+    for line in find_components(graph):
+        notes.extend(line.notes)
+        if not line.components:
+            if not line.notes:
+                notes.append(Diagnostic("no-component", f"{line.line.tag}: nothing of it stands between what it joins"))
+            continue
+        path = Path(folder) / f"{line.line.tag}.svg"
+        write_atomically(path, draw_isometric(line)[0])
+        files.append(path)
+    return tuple(files), tuple(notes)
+
+
+def draw_isometric(line: PipedLine) -> tuple[str, Isometric]:
+    """The drawing of one line.
+
+    Args:
+        line: with at least one component.
+
+    Returns:
+        The SVG document, and where on the sheet what stands.
+    """
+    legs = _legs(line.components)
+    spots = _untangled(legs)
+    sheet = Isometric()
+    _pipes(sheet, line, legs, spots)
+    _end(sheet, line.start, spots[0], _back(spots[0], spots[1]))
+    _end(sheet, line.end, spots[-1], _back(spots[-1], spots[-2]))
+    _instruments(sheet, line, legs, spots)
+    _tags(sheet, legs, spots)
+    _dimensions(sheet, legs, spots)
+    sheet.settle()
+    return _document(sheet, line), sheet
+
+
+@dataclass(frozen=True)
+class _Leg:
+    """A straight piece of a component: all of it, or one side of an elbow."""
+
+    component: Component
+    start: Point
+    end: Point
+    drawn: float
+    half: int = 0  # 1 and 2: before and after the corner of what turns
+
+
+def _legs(components: Sequence[Component]) -> list[_Leg]:
+    legs = []
+    for each in components:
+        if math.dist(each.start, each.end) == 0 and each.centre in (None, each.start):
+            continue
+        if each.centre is not None and (each.angle or each.kind in ("tee", "cross")):
+            legs.append(_Leg(each, each.start, each.centre, _LEG, 1))
+            legs.append(_Leg(each, each.centre, each.end, _LEG, 2))
+        else:
+            legs.append(_Leg(each, each.start, each.end, _drawn(each)))
+    return [leg for leg in legs if math.dist(leg.start, leg.end) > 0] or legs
+
+
+def _drawn(component: Component) -> float:
+    if component.kind == "pipe":
+        return 30.0 + 45.0 * math.log1p(component.length / 0.4)
+    return _LENGTHS.get(component.kind, _OTHER)
+
+
+def _untangled(legs: Sequence[_Leg]) -> list[Spot]:
+    """Places of the legs on the sheet, drawn longer along one axis or another where they would lie on each other."""
+    ways = [_spots(legs, factors) for factors in product((1.0, 1.4, 1.9), repeat=3)]
+    return min(enumerate(ways), key=lambda item: (_tangles(legs, item[1]), item[0]))[1]
+
+
+def _tangles(legs: Sequence[_Leg], spots: Sequence[Spot]) -> int:
+    """How many samples of legs lie close to one of another leg that isn't its neighbour."""
+    cells: dict[tuple[int, int], list[int]] = {}
+    for i, (a, b) in enumerate(pairwise(spots)):
+        steps = max(1, math.ceil(math.dist(a, b) / _CLOSE))
+        for k in range(steps):
+            x, y = _between(a, b, (k + 0.5) / steps)
+            cells.setdefault((round(x / _CLOSE), round(y / _CLOSE)), []).append(i)
+    return sum(max(found) - min(found) > 2 for found in cells.values())
+
+
+def _spots(legs: Sequence[_Leg], factors: Sequence[float]) -> list[Spot]:
+    """Where the legs begin on the sheet, and where the last one ends.
+
+    Args:
+        legs: in order.
+        factors: by which pipes along x, y and z are drawn longer.
+    """
+    spots = [(0.0, 0.0)]
+    for leg in legs:
+        vector = tuple(b - a for a, b in zip(leg.start, leg.end, strict=True))
+        dx, dy = _project(vector)
+        length = math.dist(leg.start, leg.end) or 1.0
+        main = max(range(3), key=lambda axis: abs(vector[axis]))
+        drawn = leg.drawn * (factors[main] if leg.component.kind == "pipe" else 1.0)
+        x, y = spots[-1]
+        spots.append((x + dx / length * drawn, y + dy / length * drawn))
+    return spots
+
+
+def _project(vector: Sequence[float]) -> Spot:
+    x, y, z = vector
+    return (x + y) * _COS, (x - y) * _SIN - z
+
+
+def _pipes(sheet: Isometric, line: PipedLine, legs: Sequence[_Leg], spots: Sequence[Spot]) -> None:
+    for i, (leg, a, b) in enumerate(zip(legs, spots, spots[1:], strict=False)):
+        _symbol(sheet, leg, a, b)
+        # Of what turns or branches the second half begins at its middle.
+        for branch in leg.component.branches if leg.half != 1 else ():
+            _branch(sheet, branch, a if leg.half else _between(a, b, 0.5), leg.start)
+        if i and _welded(legs[i - 1], leg):
+            sheet.dot(a, 3.0, "w")
+    for each in line.components:
+        if each.kind == "tap":
+            at = spots[min(range(len(spots)), key=lambda i: math.dist(_corner(legs, i), each.start))]
+            for branch in each.branches:
+                _branch(sheet, branch, at, each.start)
+    if line.line.flow == "forward":
+        _flow(sheet, legs, spots)
+
+
+def _branch(sheet: Isometric, branch: Branch, at: Spot, start: Point) -> None:
+    """A short piece of a branch with what goes on there."""
+    way = _project(tuple(p - c for p, c in zip(branch.point, start, strict=True)))
+    size = math.hypot(*way) or 1.0
+    tip = (at[0] + way[0] / size * 26, at[1] + way[1] / size * 26)
+    sheet.line([at, tip], "p")
+    if branch.line:
+        sheet.text(tip, [branch.line], way)
+
+
+def _symbol(sheet: Isometric, leg: _Leg, a: Spot, b: Spot) -> None:
+    """What a leg looks like between two places on the sheet."""
+    kind, across = leg.component.kind, _across(leg, a, b)
+    if kind == "valve":
+        _valve(sheet, a, b, across)
+    elif kind in ("flange", "blind flange"):
+        for share in (0.15, 0.85):
+            at = _between(a, b, share)
+            sheet.line([_off(at, across, -8), _off(at, across, 8)], "p" if kind == "blind flange" else "d")
+        sheet.line([a, b], "p")
+    elif kind == "reducer":
+        first, last = _widths(leg.component)
+        sheet.area([_off(a, across, -first), _off(b, across, -last), _off(b, across, last), _off(a, across, first)])
+    elif kind in _BOXES:
+        sheet.area([_off(a, across, -7), _off(b, across, -7), _off(b, across, 7), _off(a, across, 7)])
+    elif kind != "gasket":
+        sheet.line([a, b], "p")
+
+
+def _flow(sheet: Isometric, legs: Sequence[_Leg], spots: Sequence[Spot]) -> None:
+    """An arrow with the flow, on the first pipe."""
+    pipes = [(a, b) for leg, a, b in zip(legs, spots, spots[1:], strict=False) if leg.component.kind == "pipe"]
+    for a, b in pipes[:1]:
+        way = ((b[0] - a[0]) / math.dist(a, b), (b[1] - a[1]) / math.dist(a, b))
+        tip, side = _between(a, b, 0.5), (-way[1], way[0])
+        back = (tip[0] - way[0] * 12, tip[1] - way[1] * 12)
+        sheet.area([tip, _off(back, side, 5), _off(back, side, -5)], "w")
+
+
+def _valve(sheet: Isometric, a: Spot, b: Spot, across: Spot) -> None:
+    middle = _between(a, b, 0.5)
+    sheet.area([_off(a, across, -8), _off(a, across, 8), middle])
+    sheet.area([_off(b, across, -8), _off(b, across, 8), middle])
+
+
+def _welded(before: _Leg, after: _Leg) -> bool:
+    """Whether a weld stands between two legs: where nothing is bolted, and not in the midst of a component."""
+    if before.component is after.component or before.component.parts == after.component.parts:
+        return False
+    kinds = {before.component.kind, after.component.kind}
+    if "gasket" in kinds or "valve" in kinds or "instrument" in kinds:
+        return False
+    return not kinds <= {"flange", "blind flange"}
+
+
+def _dimensions(sheet: Isometric, legs: Sequence[_Leg], spots: Sequence[Spot]) -> None:
+    """The length of each straight, from corner to corner, beside it."""
+    start = 0
+    for i in range(1, len(legs) + 1):
+        if i < len(legs) and not _turns(legs[start], legs[i]):
+            continue
+        a, b = spots[start], spots[i]
+        length = math.dist(legs[start].start, legs[i - 1].end) * 1000
+        if math.dist(a, b) > 20:
+            across, reach = _side(sheet, a, b)
+            first, last = _off(a, across, reach), _off(b, across, reach)
+            sheet.line([_off(a, across, 6), _off(a, across, reach + 5)], "d")
+            sheet.line([_off(b, across, 6), _off(b, across, reach + 5)], "d")
+            sheet.line([first, last], "d")
+            sheet.text(_between(first, last, 0.5), [f"{length:.0f}"], across)
+        start = i
+
+
+def _side(sheet: Isometric, a: Spot, b: Spot) -> tuple[Spot, float]:
+    """Which way from a pipe, and how far, a dimension line crosses least."""
+    upright = abs(b[0] - a[0]) < 0.2 * math.dist(a, b)
+    ways = [(_COS, _SIN), (-_COS, _SIN), (-_COS, -_SIN), (_COS, -_SIN)] if upright else [(0.0, 1.0), (0.0, -1.0)]
+    found = []
+    for reach in (_DIMENSION, 1.8 * _DIMENSION, 2.6 * _DIMENSION):
+        for number, way in enumerate(ways):
+            first, last = _off(a, way, reach), _off(b, way, reach)
+            steps = max(2, math.ceil(math.dist(a, b) / 6))
+            points = [_between(first, last, k / steps) for k in range(steps + 1)]
+            crossed = sum(any(_meet((x - 3, y - 3, x + 3, y + 3), box) for box in sheet.solid) for x, y in points)
+            found.append((crossed, reach, number, way))
+    _, reach, _, way = min(found)
+    return way, reach
+
+
+def _turns(one: _Leg, other: _Leg) -> bool:
+    a = tuple(y - x for x, y in zip(one.start, one.end, strict=True))
+    b = tuple(y - x for x, y in zip(other.start, other.end, strict=True))
+    lengths = math.hypot(*a) * math.hypot(*b)
+    return lengths > 0 and sum(x * y for x, y in zip(a, b, strict=True)) / lengths < 0.98
+
+
+def _tags(sheet: Isometric, legs: Sequence[_Leg], spots: Sequence[Spot]) -> None:
+    size: object = None
+    for leg, a, b in zip(legs, spots, spots[1:], strict=False):
+        across = _across(leg, a, b)
+        away = (-across[0], -across[1])
+        if leg.component.tag is not None and leg.half < 2:
+            sheet.text(_off(_between(a, b, 0.5), across, -10), [leg.component.tag, leg.component.what or ""], away, "b")
+        elif leg.component.kind == "pipe" and leg.component.sizes[0] not in (None, size):
+            size = leg.component.sizes[0]
+            sheet.text(_between(a, b, 0.5), [f"DN {size}"], away)
+
+
+def _instruments(sheet: Isometric, line: PipedLine, legs: Sequence[_Leg], spots: Sequence[Spot]) -> None:
+    for tag, _, point in line.instruments:
+        nearest = min(range(len(spots)), key=lambda i: math.dist(_corner(legs, i), point))
+        at = spots[nearest]
+        sheet.line([at, (at[0], at[1] - 16)], "d")
+        sheet.dot((at[0], at[1] - 24), 8, "s")
+        sheet.text((at[0], at[1] - 24), [tag], (0.0, -1.0), "b")
+
+
+def _corner(legs: Sequence[_Leg], i: int) -> Point:
+    return legs[i].start if i < len(legs) else legs[-1].end
+
+
+def _end(sheet: Isometric, end: LineEnd, at: Spot, away: Spot) -> None:
+    name = "/".join(filter(None, (end.name, end.port)))
+    said = {
+        "equipment": f"TO {name}",
+        "pipeline": f"CONT. ON {name}",
+        "open": "OPEN END",
+        "closed": "CLOSED END",
+        "unknown": name or "END",
+    }[end.kind]
+    x, y, z = (round(c * 1000) for c in end.point)
+    sheet.text(at, [said, f"E {x}  N {y}  EL {z}"], away, "b")
+
+
+def _document(sheet: Isometric, line: PipedLine) -> str:
+    boxes = [*sheet.solid, *(box for box, _ in sheet.texts)]
+    left, top = min(box[0] for box in boxes), min(box[1] for box in boxes)
+    right, bottom = max(box[2] for box in boxes), max(box[3] for box in boxes)
+    bill = list(_bill(line))
+    wide = max(right - left, 320.0) + 3 * _MARGIN + _BILL
+    high = max(bottom - top + 2 * _MARGIN + 90, 60 + _LINE * (len(bill) + 12))
+    shift = f"translate({_MARGIN - left:.1f} {_MARGIN + 50 - top:.1f})"
+    edge = wide - _MARGIN - _BILL
+    content = joined(
+        (
+            element("style", Svg(_STYLE)),
+            element("rect", width=wide, height=high, fill="#fff"),
+            element("rect", x=10, y=10, width=wide - 20, height=high - 20, class_="d"),
+            _north(),
+            element("g", *sheet.shapes, transform=shift),
+            *_table(bill, edge, 40.0),
+            *_title(line, edge, high),
+        )
+    )
+    document = element(
+        "svg",
+        content,
+        xmlns="http://www.w3.org/2000/svg",
+        viewBox=f"0 0 {wide:.0f} {high:.0f}",
+        width=wide,
+        height=high,
+    )
+    return f"{document}\n"
+
+
+def _north() -> Svg:
+    """An arrow to the north, +y."""
+    x, y = 34.0, 62.0
+    tip = (x + 30 * _COS, y - 30 * _SIN)
+    head = [tip, (tip[0] - 10, tip[1] + 1), (tip[0] - 5, tip[1] + 8)]
+    arrow = element("path", d=f"M{x:.1f} {y:.1f}L{tip[0]:.1f} {tip[1]:.1f}", class_="p")
+    filled = "M" + "L".join(f"{a:.1f} {b:.1f}" for a, b in head) + "Z"
+    return joined(
+        (arrow, element("path", d=filled, class_="w"), element("text", "N", x=tip[0] + 6, y=tip[1], class_="b"))
+    )
+
+
+def _bill(line: PipedLine) -> Iterator[tuple[str, str, str]]:
+    """What, nominal size and how much of it."""
+    counted: Counter[tuple[str, str]] = Counter()
+    pipes: dict[str, float] = {}
+    for each in line.components:
+        sizes = list(dict.fromkeys(str(size) for size in each.sizes if size is not None))
+        size = "x".join(sizes) or "?"
+        if each.kind in ("pipe", "bend"):
+            pipes[size] = pipes.get(size, 0.0) + each.length
+        else:
+            counted[each.what or each.kind, size] += 1
+    for _, kind, _ in line.instruments:
+        counted[kind or "instrument", ""] += 1
+    for size, length in sorted(pipes.items()):
+        yield "pipe, bends included", size, f"{length:.2f} m"
+    for (what, size), number in sorted(counted.items()):
+        yield what, size, str(number)
+
+
+def _table(rows: Iterable[tuple[str, str, str]], left: float, top: float) -> Iterator[Svg]:
+    for number, (what, size, amount) in enumerate([("COMPONENT", "DN", "QUANTITY"), *rows]):
+        y, style = top + number * _LINE, "b" if number == 0 else None
+        yield element("text", _short(what), x=left, y=y, class_=style)
+        yield element("text", size, x=left + 190, y=y, class_=style)
+        yield element("text", amount, x=left + _BILL, y=y, text_anchor="end", class_=style)
+
+
+def _title(line: PipedLine, left: float, high: float) -> Iterator[Svg]:
+    length = f"{line.line.length:.3f} m" if line.line.length is not None else "unknown"
+    rows = [
+        (f"LINE {line.line.tag}", "b"),
+        (f"from {line.line.start_name} to {line.line.end_name}", None),
+        (f"DN {line.line.size or 'unknown'}, length {length}", None),
+        ("not to scale, dimensions in mm", None),
+    ]
+    top = high - 24 - len(rows) * _LINE
+    yield element("path", d=f"M{left:.1f} {top - 10:.1f}h{_BILL:.1f}", class_="d")
+    for number, (words, style) in enumerate(rows):
+        yield element("text", _short(words), x=left, y=top + (number + 0.7) * _LINE, class_=style)
+
+
+# Small geometry on the sheet
+
+
+def _across(leg: _Leg, a: Spot, b: Spot) -> Spot:
+    """A direction along another axis than that of a leg: up beside what lies, east beside what stands."""
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    upright = abs(dx) < 0.2 * (abs(dx) + abs(dy))
+    return (_COS, _SIN) if upright else (0.0, 1.0)
+
+
+def _off(at: Spot, way: Spot, distance: float) -> Spot:
+    return at[0] + way[0] * distance, at[1] + way[1] * distance
+
+
+def _between(a: Spot, b: Spot, share: float) -> Spot:
+    return a[0] + (b[0] - a[0]) * share, a[1] + (b[1] - a[1]) * share
+
+
+def _back(at: Spot, inward: Spot) -> Spot:
+    return at[0] - inward[0], at[1] - inward[1]
+
+
+def _widths(reducer: Component) -> tuple[float, float]:
+    first, last = (size or 0 for size in reducer.sizes)
+    return (9.0, 5.0) if first >= last else (5.0, 9.0)
+
+
+def _meet(one: Box, other: Box) -> bool:
+    return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
+
+
+def _short(text: str) -> str:
+    clean = printable(text)
+    return clean if len(clean) <= _LONGEST else clean[: _LONGEST - 1] + "\u2026"

@@ -1,0 +1,204 @@
+"""What every scene gets after its reader, whatever its format: unit and up axis settled, bags of triangles split.
+
+Notes in ``Scene.diagnostics``: ``missing-units``, ``missing-up-axis``, ``unit-doubt``, ``split-mesh``, ``one-surface``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from cadgraph.errors import LoadError
+from cadgraph.load.packing import Z_UP_FROM
+from cadgraph.load.units import METRES, UnitEvidence, weigh_units
+from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.scene import Faces, Floats, Ints, MeshArrays, Scene
+
+if TYPE_CHECKING:
+    from cadgraph.config import LoadConfig
+
+__all__ = ["finish"]
+
+_UNSTATED_SHELLS = 2  # a format that keeps all in one mesh: from so many surfaces on these are its parts
+_BAG_SHELLS = 20  # a mesh of a format that keeps parts apart is a bag of them where it has more surfaces than this ...
+_BAG_SHARE = 0.3  # ... and this share of the scene's triangles, or where all meshes have so many on average ...
+_FEW_MESHES = 50  # ... and are no more than this
+_ONE_BODY = 0.8  # a surface with this share of a mesh's triangles makes it one body with scraps: a scan
+_SCAN = 5000  # triangles of one connected surface that are worth a note
+_LEAST_TRIANGLES = 8  # of a surface on average; a box has twelve
+_BAGS = ("stl", "ply", "obj")
+_FLAT = 0.6  # a scene whose extent along Y is below this share of the two others stands on Y
+
+
+def finish(scene: Scene, config: LoadConfig, path: Path) -> Scene:
+    """Settles what the reader of a format could not know.
+
+    Args:
+        scene: what it returned: where the source states no unit, in units of the file; likewise of the up axis.
+        config: how it is read.
+        path: of the file, for messages.
+
+    Returns:
+        The scene in metres and Z up, with bags of triangles split into their surfaces.
+
+    Raises:
+        LoadError: the file states no unit, and its parts don't tell one clearly.
+    """
+    if not scene.n_meshes:
+        return scene
+    if config.split:
+        scene = _split(scene)
+    return _with_up(_with_unit(scene, config, path), config)
+
+
+def _split(scene: Scene) -> Scene:
+    """The scene with every mesh that is a bag of separate surfaces as a mesh for each of them."""
+    bags = {mesh: surfaces for mesh, surfaces in _candidates(scene).items() if len(surfaces) > 1}
+    if scene.n_meshes == 1 and not bags and scene.n_triangles >= _SCAN:
+        message = "the file holds one connected surface (a scan?), which stays one mesh"
+        return _noted(scene, Diagnostic("one-surface", message, scene.paths))
+    if not bags:
+        return scene
+    meshes: list[tuple[Floats, Faces]] = []
+    paths, anchors, rows = [], [], []
+    for mesh in range(scene.n_meshes):
+        vertices, faces = scene.mesh(mesh)
+        own = scene.anchors[mesh] if scene.anchors else scene.paths[mesh]
+        for number, triangles in enumerate(bags.get(mesh, ()), start=1):
+            used, corners = np.unique(faces[triangles], return_inverse=True)
+            meshes.append((vertices[used], corners.reshape(-1, 3).astype(np.int32)))
+            paths.append(f"{scene.paths[mesh]}/solid_{number}")
+        if mesh not in bags:
+            meshes.append((vertices, faces))
+            paths.append(scene.paths[mesh])
+        n = len(bags.get(mesh, (0,)))
+        anchors += [own] * n
+        rows += [mesh] * n
+    notes = [
+        Diagnostic(
+            "split-mesh",
+            f"one mesh held {len(surfaces):,} separate surfaces; each is a mesh of its own now (load.split = false "
+            "keeps it whole)",
+            (scene.paths[mesh],),
+        )
+        for mesh, surfaces in bags.items()
+    ]
+    taken = set(paths)
+    if len(taken) < len(paths):  # a path of the file reads like one of ours
+        return scene
+    split = replace(
+        scene, shapes=MeshArrays.of(meshes), placement=None, paths=tuple(paths), anchors=tuple(anchors),
+        colors=scene.colors[np.array(rows)],
+    )  # fmt: skip
+    return _noted(split.in_path_order(), *notes)
+
+
+def _candidates(scene: Scene) -> dict[int, list[Ints]]:
+    """The surfaces of each mesh that may be a bag."""
+    counts = np.diff(scene.face_offsets)
+    if counts.sum() < _BAG_SHELLS * 4:
+        return {}
+    if scene.source.format in _BAGS and scene.n_meshes == 1:
+        found = {0: _surfaces(scene, 0)}
+        return found if len(found[0]) >= _UNSTATED_SHELLS and not _is_whole(found[0], int(counts[0])) else {}
+    large = np.flatnonzero(counts > _BAG_SHARE * counts.sum()).tolist()
+    looked_at = range(scene.n_meshes) if scene.n_meshes <= _FEW_MESHES else large
+    found = {int(mesh): _surfaces(scene, int(mesh)) for mesh in looked_at}
+    found = {mesh: surfaces for mesh, surfaces in found.items() if not _is_whole(surfaces, int(counts[mesh]))}
+    bags = {mesh: surfaces for mesh, surfaces in found.items() if len(surfaces) > _BAG_SHELLS}
+    # A few meshes that hold many surfaces each: what a game engine makes of all parts of one material.
+    if sum(len(surfaces) for surfaces in found.values()) > _BAG_SHELLS * scene.n_meshes:
+        return bags
+    return {mesh: surfaces for mesh, surfaces in bags.items() if mesh in large}
+
+
+def _is_whole(surfaces: list[Ints], n_triangles: int) -> bool:
+    """Whether a mesh is no bag of parts: nearly one surface, as of a scan with scraps, or loose triangles."""
+    scraps = max(map(len, surfaces)) > _ONE_BODY * n_triangles and len(surfaces) > 2
+    return scraps or n_triangles < _LEAST_TRIANGLES * len(surfaces)
+
+
+def _surfaces(scene: Scene, mesh: int) -> list[Ints]:
+    # Only here, because the graph library that it uses takes a third of the time that a small scene takes to read.
+    from cadgraph.geometry.mesh.merge import weld_points
+    from cadgraph.load.bodies import split_shells
+
+    vertices, faces = scene.mesh(mesh)
+    first, place = weld_points(vertices)
+    return split_shells(vertices[first], place.astype(np.int32)[faces])
+
+
+def _with_unit(scene: Scene, config: LoadConfig, path: Path) -> Scene:
+    """In metres: by the setting, by what the file states, or by what its parts tell."""
+    source = scene.source
+    if config.unit is not None:
+        metres = METRES[config.unit]
+        moved = _moved(scene, metres / source.meters_per_unit, np.eye(3))
+        return replace(moved, source=replace(source, meters_per_unit=metres, unit_stated=True))
+    evidence = weigh_units(scene, source.meters_per_unit)
+    if source.unit_stated:
+        return _noted(scene, *_doubt(evidence, source.meters_per_unit))
+    unit = evidence.best
+    if not evidence.clear:
+        raise LoadError(
+            f"{path}: the file names no unit of length and its parts don't tell one clearly; say it with --unit mm (or "
+            f"m, cm, in, ft): it is {evidence.largest:.4g} units across"
+        )
+    told = (
+        f"the file names no unit; taken as {unit}, in which {evidence.hits[unit]} of {evidence.n_diameters} diameters "
+        "of pipes are standard ones (another one: --unit)"
+    )
+    moved = _moved(scene, METRES[unit] / source.meters_per_unit, np.eye(3))
+    settled = replace(moved, source=replace(source, meters_per_unit=METRES[unit]))
+    return _noted(settled, Diagnostic("missing-units", told))
+
+
+def _doubt(evidence: UnitEvidence, metres: float) -> tuple[Diagnostic, ...]:
+    """What is to be said where a file's parts speak for another unit than it states."""
+    unit = evidence.best
+    if not evidence.certain or abs(METRES[unit] / metres - 1) < 1e-3:
+        return ()
+    stated = next((name for name, length in METRES.items() if abs(length / metres - 1) < 1e-3), f"{metres:g} m")
+    message = (
+        f"the file's unit is {stated}, yet {evidence.hits[unit]} of {evidence.n_diameters} diameters of its pipes are "
+        f"standard ones in {unit}, {evidence.hits.get(stated, 0)} in {stated}; if so, read it with --unit {unit}"
+    )
+    return (Diagnostic("unit-doubt", message),)
+
+
+def _with_up(scene: Scene, config: LoadConfig) -> Scene:
+    """Z up: by the setting, by what the file states, or by how the scene lies."""
+    source = scene.source
+    axis = config.up
+    told: tuple[Diagnostic, ...] = ()
+    if axis is None and not source.up_stated:
+        vertices = scene.vertices
+        x, y, z = vertices.max(axis=0) - vertices.min(axis=0)
+        axis = "Y" if y < _FLAT * min(x, z) else "Z"
+        told = (Diagnostic("missing-up-axis", f"the file names no up axis; taken as {axis} (another one: --up)"),)
+    if axis is None or axis == source.up_axis:
+        return _noted(scene, *told)
+    turn = Z_UP_FROM[source.up_axis].T @ Z_UP_FROM[axis]
+    return _noted(replace(_moved(scene, 1.0, turn), source=replace(source, up_axis=axis, up_stated=True)), *told)
+
+
+def _moved(scene: Scene, scale: float, turn: Floats) -> Scene:
+    """The scene enlarged and turned (for row vectors) about the source's origin."""
+    if scale == 1.0 and (turn == np.eye(3)).all():
+        return scene
+    origin = scale * scene.origin @ turn
+    if scene.placement is None:
+        return replace(scene.with_vertices(scale * scene.vertices @ turn), origin=origin)
+    shapes = replace(scene.shapes, vertices=scale * scene.shapes.vertices)
+    placement = replace(scene.placement, turn=scene.placement.turn @ turn, shift=scale * scene.placement.shift @ turn)
+    return replace(scene, shapes=shapes, placement=placement, origin=origin)
+
+
+def _noted(scene: Scene, *notes: Diagnostic) -> Scene:
+    if not notes:
+        return scene
+    found = sorted((*scene.diagnostics, *notes), key=lambda note: (note.code, note.message))
+    return replace(scene, diagnostics=tuple(found))

@@ -1,0 +1,190 @@
+"""The shapes of a model's products, as triangles."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import ifcopenshell.geom
+import numpy as np
+import numpy.typing as npt
+
+from cadgraph.load.ifc.entities import Entity, Model, entities, text
+from cadgraph.load.ifc.tree import Tree, is_spatial
+from cadgraph.load.packing import Notes, Piece
+from cadgraph.model.scene import Faces, Floats
+
+if TYPE_CHECKING:
+    from cadgraph.config import LoadConfig
+
+__all__ = ["shape_products"]
+
+_THREADS = 2
+# Representations by how well they show what is built (IFC4.3, 4.1.6.3 and 8.18.3.5); others come last.
+_BEST = ("Body", "Facetation", "Tessellation", "Body-FallBack", "Surface")
+_NO_BODY = frozenset(
+    {"Annotation", "Axis", "Box", "CoG", "Clearance", "FootPrint", "Lighting", "Profile", "Reference", "SurveyPoints"}
+)
+_NO_SURFACE = frozenset(
+    {
+        *("Annotation2D", "BoundingBox", "Curve", "Curve2D", "Curve3D", "Fill", "FillArea", "FootPrint"),
+        *("GeometricCurveSet", "LightSource", "Point", "PointCloud", "Segment", "Text"),
+    }
+)
+_MAX_MAPS = 20  # representations that stand for one another; real files have one or two
+
+
+@dataclass(frozen=True)
+class _Shape:
+    points: Floats
+    faces: Faces
+    color: Floats | None
+
+
+def shape_products(model: Model, tree: Tree, config: LoadConfig, notes: Notes) -> list[Piece]:
+    """The pieces of all built products; those of one shape share its arrays.
+
+    Args:
+        model: an open file.
+        tree: of its nodes.
+        config: ``max_gap`` and ``max_angle`` say how fine curved surfaces are cut.
+        notes: gets what is left out, and why.
+
+    Returns:
+        The pieces, in metres, in the order of the paths.
+    """
+    products = _built(tree, notes)
+    if not products:
+        return []
+    shapes: dict[str, _Shape] = {}
+    found: dict[int, dict[str, list[tuple[str, Floats]]]] = {}
+    for element in _shaped(model, products, config):
+        matrix = np.array(element.transformation.matrix, np.float64).reshape(4, 4)
+        geometry = element.geometry
+        if geometry.id not in shapes:
+            shapes[geometry.id] = _shape(geometry)
+        contexts = found.setdefault(element.id, {})
+        contexts.setdefault(element.context, []).append((geometry.id, matrix))
+    pieces: list[Piece] = []
+    for product in products:
+        path = tree.paths[product.id()]
+        pieces.extend(_pieces(product, path, found.get(product.id(), {}), shapes, notes))
+    return pieces
+
+
+def _built(tree: Tree, notes: Notes) -> list[Entity]:
+    """The products that are built and have a shape."""
+    built = []
+    for node in tree.nodes:
+        path = tree.paths[node.id()]
+        if not node.is_a("IfcProduct"):
+            continue
+        if not entities(node, "Representation"):
+            if node.is_a("IfcElement") and node.id() not in tree.parents:
+                notes.add("no-geometry", "left out: the file gives it no shape", path)
+        elif node.is_a("IfcElement") or node.is_a("IfcProxy") or node.is_a("IfcSite"):
+            built.append(node)
+        else:
+            what = "the volume of a space or zone" if is_spatial(node) else "an annotation, a grid or an alignment"
+            notes.add("not-built", f"left out: {what} is nothing that is built", path)
+    return built
+
+
+def _shaped(model: Model, products: list[Entity], config: LoadConfig) -> Iterator[Any]:
+    settings = ifcopenshell.geom.settings()
+    settings.set("mesher-linear-deflection", config.max_gap)
+    settings.set("mesher-angular-deflection", config.max_angle)
+    settings.set("weld-vertices", True)
+    # Points about the product itself: equal shapes stay equal, and a far site doesn't cost digits.
+    settings.set("use-world-coords", False)
+    settings.set("apply-default-materials", False)
+    iterator = ifcopenshell.geom.iterator(settings, model, _THREADS, include=products, geometry_library="opencascade")
+    if iterator.initialize():
+        while True:
+            yield iterator.get()
+            if not iterator.next():
+                return
+
+
+def _shape(geometry: Any) -> _Shape:
+    # Copies, as the buffers end with the element.
+    points = np.frombuffer(geometry.verts_buffer, np.float64).reshape(-1, 3) + 0.0
+    faces = np.frombuffer(geometry.faces_buffer, np.int32).reshape(-1, 3).copy()
+    materials = np.frombuffer(geometry.material_ids_buffer, np.int32)
+    a, b, c = faces.T
+    whole = (a != b) & (b != c) & (c != a) & (faces.min(axis=1, initial=0) >= 0)
+    whole &= faces.max(axis=1, initial=0) < len(points)
+    finite = np.asarray(np.isfinite(points).all(axis=1))
+    whole[whole] = finite[faces[whole]].all(axis=1)
+    color = _main_color(points, faces[whole], materials[whole], geometry.materials) if len(materials) else None
+    return _Shape(points, faces[whole], color)
+
+
+def _main_color(points: Floats, faces: Faces, materials: npt.NDArray[np.int32], styles: Any) -> Floats | None:
+    """The colour with the largest area, as linear light; colours in IFC files are those of screens (sRGB)."""
+    known = (materials >= 0) & (materials < len(styles))
+    if not known.any():
+        return None
+    a, b, c = (points[faces[known, i]] for i in range(3))
+    areas = np.bincount(materials[known], np.linalg.norm(np.cross(b - a, c - a), axis=1), len(styles))
+    diffuse = styles[int(np.argmax(areas))].diffuse
+    color = np.array([diffuse.r(), diffuse.g(), diffuse.b()], np.float64)
+    if not np.isfinite(color).all():
+        return None
+    color = np.clip(color, 0, 1)
+    # IEC 61966-2-1
+    linear: Floats = np.where(color <= 0.04045, color / 12.92, ((color + 0.055) / 1.055) ** 2.4)
+    return linear
+
+
+def _pieces(
+    product: Entity,
+    path: str,
+    contexts: dict[str, list[tuple[str, Floats]]],
+    shapes: dict[str, _Shape],
+    notes: Notes,
+) -> Iterator[Piece]:
+    usable = sorted(set(contexts) - _NO_BODY, key=lambda name: (_BEST.index(name) if name in _BEST else 99, name))
+    if not usable:
+        if contexts or not any(_has_surface(each) for each in _representations(product)):
+            notes.add("no-surface", "left out: its shape is of curves, points or a mere box or clearance", path)
+        else:
+            notes.add("unreadable", "left out: its shape can't be made; check it in the program that wrote it", path)
+        return
+    seen: set[tuple[str, bytes]] = set()
+    placed = sorted(contexts[usable[0]], key=lambda each: (each[0], each[1].tobytes()))
+    for shape, matrix in placed:
+        if (shape, matrix.tobytes()) in seen:
+            notes.add("listed-twice", "the file lists its shape more than once; one is kept", path)
+            continue
+        seen.add((shape, matrix.tobytes()))
+        if not len(shapes[shape].faces):
+            notes.add("empty-mesh", "left out: it has no triangle", path)
+            continue
+        yield Piece(path, shapes[shape].points, shapes[shape].faces, matrix, shapes[shape].color)
+
+
+def _representations(product: Entity) -> Iterator[Entity]:
+    for shape in entities(product, "Representation"):
+        yield from entities(shape, "Representations")
+
+
+def _has_surface(representation: Entity) -> bool:
+    """Whether a representation should give triangles, by what it says of itself."""
+    for _ in range(_MAX_MAPS):
+        if text(representation, "RepresentationIdentifier") in _NO_BODY:
+            return False
+        kind = text(representation, "RepresentationType")
+        if kind != "MappedRepresentation":
+            return kind not in _NO_SURFACE
+        mapped = [
+            inner
+            for item in entities(representation, "Items")
+            for source in entities(item, "MappingSource")
+            for inner in entities(source, "MappedRepresentation")
+        ]
+        if not mapped:
+            return True
+        representation = mapped[0]
+    return True
