@@ -109,7 +109,8 @@ def test_obj_has_an_object_for_each_mesh_and_a_material_file(plant, size, tmp_pa
     write_plant(plant, tmp_path / "plant.obj")
     meshes = scene_meshes(tmp_path / "plant.obj", split_objects=True, group_material=False)
     assert len(meshes) == plant.n_meshes
-    assert box_of(np.concatenate([v for v, _ in meshes.values()])) == pytest.approx(size[1] * 1000, abs=1e-5)
+    points = np.concatenate([v for v, _ in meshes.values()])[:, [0, 2, 1]] * (1, -1, 1)
+    assert box_of(points) == pytest.approx(size[1] * 1000, abs=1e-5)
     assert content(meshes.values()) == pytest.approx(size[0] * 1e9, rel=1e-7)
     assert "mtllib plant.mtl" in (tmp_path / "plant.obj").read_text()
     assert (tmp_path / "plant.mtl").read_text().count("newmtl") == 3
@@ -377,6 +378,10 @@ def test_the_command_line_writes_each_format_and_fits_the_truth_to_what_is_read(
     assert code != 0
     assert "--missing-names is no setting of usd" in said
     assert run(*make_it, tmp_path / "other.rvm")[0] == run(*make_it, target)[0] == 0
+    # What a file of this format does not say of its unit and up axis, its truth does.
+    assert run(*make_it, tmp_path / "bag.obj", "--unit", "0.0254", "--up", "Z")[0] == 0
+    code, said = run("environment", "match", tmp_path / "bag.obj", "-o", tmp_path / "bag.truth.json")
+    assert (code, "meshes of the" in said, "75 meshes" in said) == (0, False, True)
     # The truth that was written with one format fits the same plant in another.
     code, said = run(
         "environment", "match", target, tmp_path / "other.truth.json", "-o", tmp_path / "fitted.truth.json"

@@ -14,10 +14,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from _timing import machine
-from cadplants.matching import truth_for
-from cadplants.writers import write_plant
-from cadplants.writers.metadata import Metadata
-from cadplants.writers.plant_file import FileStyle
 
 from cadgraph.config import Config
 from cadgraph.load import load
@@ -26,6 +22,10 @@ from cadgraph.pipeline import build
 from cadlab.evaluate.evaluation import StructureScores, evaluate
 from cadlab.markdown import put, table
 from cadplants import make
+from cadplants.matching import truth_for
+from cadplants.writers import write_plant
+from cadplants.writers.metadata import Metadata
+from cadplants.writers.plant_file import FileStyle
 
 PAGE = Path(__file__).parents[3] / "docs" / "formats.md"
 SPOILT = FileStyle(metadata=Metadata(wrong_classes=0.1, missing_names=0.1))

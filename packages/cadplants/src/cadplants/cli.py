@@ -13,6 +13,8 @@ from cadgraph.cli.screen import err, out
 from cadgraph.errors import FormatError
 
 if TYPE_CHECKING:
+    from cadgraph.config import LoadConfig
+    from cadgraph.model.truth import Truth
     from cadplants.defects import Defects
     from cadplants.writers.plant_file import FileStyle
 
@@ -50,7 +52,7 @@ def make_plant(
         typer.Option(help="Draw it as others do: gaps, setback, gaskets, insulation, primitives... or all."),
     ] = None,
     unit: Annotated[float | None, typer.Option(help="Metres in one authored unit; 0.001 by default, of GLB 1.")] = None,
-    up: Annotated[str | None, typer.Option(help="Authored up axis, Y or Z; Z by default, of GLB Y.")] = None,
+    up: Annotated[str | None, typer.Option(help="Authored up axis, Y or Z; Z by default, of GLB and OBJ Y.")] = None,
     instances: Annotated[
         str | None,
         typer.Option(help="Of USD, repeated shapes: none, native, nested, point or mixed; none by default."),
@@ -176,11 +178,22 @@ def match_truth(
     from cadplants import truth_path
     from cadplants.matching import match, truth_for
 
-    read, known = load(scene), Truth.load(truth or truth_path(scene))
+    known = Truth.load(truth or truth_path(scene))
+    read = load(scene, _as_written(known))
     for line in match(read, known).lines():
         out.print(line)
     truth_for(read, known).save(output)
     out.print(f"wrote {escape(str(output))}: {read.n_meshes:,} meshes")
+
+
+def _as_written(truth: Truth) -> LoadConfig:
+    """How to read a scene whose format has no place for its unit and up axis: as the truth beside it has them."""
+    from cadgraph.config import LoadConfig
+
+    units: dict[float | None, Any] = {1.0: "m", 0.1: "dm", 0.01: "cm", 0.001: "mm", 0.0254: "in", 0.3048: "ft"}
+    up: Any = truth.up_axis
+    silent = (truth.model_extra or {}).get("file_format") in ("glb", "obj", "stl")
+    return LoadConfig(unit=units.get(truth.meters_per_unit), up=up) if silent else LoadConfig()
 
 
 @plants.command("truth-from-usd")

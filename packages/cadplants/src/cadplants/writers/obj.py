@@ -16,10 +16,10 @@ def write(plant: Plant, style: FileStyle, stem: str) -> Written:
 
     Args:
         plant: what to write.
-        style: millimetres and Z up by default; the file tells neither.
+        style: millimetres and Y up by default, as modelling programs export it; the file tells neither.
         stem: name of the file without its suffix, which the material file shares.
     """
-    frame = Frame(style.meters_per_unit or 0.001, style.up_axis or "Z")
+    frame = Frame(style.meters_per_unit or 0.001, style.up_axis or "Y")
     numbers = np.random.default_rng([plant.seed, 7]).permutation(max(10 * plant.n_meshes, 10))[: plant.n_meshes]
     materials: dict[RGB, str] = {}
     blocks, paths, first = [f"mtllib {stem}.mtl"], [], 1
