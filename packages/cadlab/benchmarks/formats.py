@@ -14,10 +14,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from _timing import machine
-from cadplants.matching import truth_for
-from cadplants.writers import write_plant
-from cadplants.writers.metadata import Metadata
-from cadplants.writers.plant_file import FileStyle
 
 from cadgraph.config import Config
 from cadgraph.load import load
@@ -26,6 +22,10 @@ from cadgraph.pipeline import build
 from cadlab.evaluate.evaluation import StructureScores, evaluate
 from cadlab.markdown import put, table
 from cadplants import make
+from cadplants.matching import truth_for
+from cadplants.writers import write_plant
+from cadplants.writers.metadata import Metadata
+from cadplants.writers.plant_file import FileStyle
 
 PAGE = Path(__file__).parents[3] / "docs" / "formats.md"
 SPOILT = FileStyle(metadata=Metadata(wrong_classes=0.1, missing_names=0.1))
@@ -39,6 +39,10 @@ FILES: tuple[tuple[str, str, FileStyle | None], ...] = (
     ("OBJ", "plant.obj", None),
     ("STL, one bag", "plant.stl", None),
 )
+KNOWN: dict[str, dict[str, str]] = {
+    ".obj": {"load.unit": "mm", "load.up": "Y"},
+    ".stl": {"load.unit": "mm", "load.up": "Z"},
+}
 TITLES = (
     "format", "meshes", "read [s]", "group", "name", "connected F1", "with metadata: group", "name", "connected F1",
 )  # fmt: skip
@@ -50,11 +54,11 @@ def rows(preset: str, seed: int, folder: Path) -> Iterator[tuple[str, ...]]:
     for title, name, style in FILES:
         truth = Truth.load(write_plant(plant, folder / name, style))
         # Files without a unit are read as a user would who knows it.
-        config = Config().replace({"load.unit": "mm"}) if name.endswith((".obj", ".stl")) else Config()
+        config = Config().replace(KNOWN.get(Path(name).suffix, {}))
         start = time.perf_counter()
         scene = load(folder / name, config.load)
         seconds = time.perf_counter() - start
-        fitting = truth_for(scene, truth)
+        fitting = truth if style is None and name.endswith(".usdc") else truth_for(scene, truth)
         told = config.replace({"label.use_metadata": True, "relate.use_metadata": True})
         plain, with_metadata = (evaluate(build(scene, each), fitting).total for each in (config, told))
         yield title, f"{scene.n_meshes:,}", f"{seconds:.1f}", *scored(plain), *scored(with_metadata)

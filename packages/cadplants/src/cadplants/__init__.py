@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from cadplants.defects import Defects, degrade, draw_defects
+    from cadplants.matching import match, truth_for
     from cadplants.modeling_style import STYLES, ModelingStyle
     from cadplants.plant import Component, Plant
     from cadplants.preset import PRESETS, make
@@ -13,6 +14,9 @@ if TYPE_CHECKING:
     from cadplants.skid import make_skid
     from cadplants.tank import make_tank
     from cadplants.usd import UsdStyle, draw_style, truth_path, write_usd
+    from cadplants.writers import write_plant
+    from cadplants.writers.metadata import Metadata
+    from cadplants.writers.plant_file import FileStyle
 
 __version__ = "0.1.0"
 
@@ -21,6 +25,8 @@ __all__ = [
     "STYLES",
     "Component",
     "Defects",
+    "FileStyle",
+    "Metadata",
     "ModelingStyle",
     "Plant",
     "UsdStyle",
@@ -31,7 +37,10 @@ __all__ = [
     "make_riser",
     "make_skid",
     "make_tank",
+    "match",
+    "truth_for",
     "truth_path",
+    "write_plant",
     "write_usd",
 ]
 
@@ -39,6 +48,8 @@ __all__ = [
 _LATER = {
     "Component": "cadplants.plant",
     "Defects": "cadplants.defects",
+    "FileStyle": "cadplants.writers.plant_file",
+    "Metadata": "cadplants.writers.metadata",
     "ModelingStyle": "cadplants.modeling_style",
     "PRESETS": "cadplants.preset",
     "Plant": "cadplants.plant",
@@ -51,7 +62,10 @@ _LATER = {
     "make_riser": "cadplants.riser",
     "make_skid": "cadplants.skid",
     "make_tank": "cadplants.tank",
+    "match": "cadplants.matching",
+    "truth_for": "cadplants.matching",
     "truth_path": "cadplants.usd",
+    "write_plant": "cadplants.writers",
     "write_usd": "cadplants.usd",
 }
 _OLD = {"HANDS": "STYLES", "Hand": "ModelingStyle", "Sins": "Defects", "draw_sins": "draw_defects", "spoil": "degrade"}

@@ -1,4 +1,4 @@
-"""Generated plants and truth: environment make, environment check, environment truth-from-usd."""
+"""Generated plants and truth: environment make, check, match, truth-from-usd."""
 
 from __future__ import annotations
 
@@ -13,7 +13,10 @@ from cadgraph.cli.screen import err, out
 from cadgraph.errors import FormatError
 
 if TYPE_CHECKING:
+    from cadgraph.config import LoadConfig
+    from cadgraph.model.truth import Truth
     from cadplants.defects import Defects
+    from cadplants.writers.plant_file import FileStyle
 
 __all__ = ["plants"]
 
@@ -22,7 +25,10 @@ plants = typer.Typer(no_args_is_help=True, help="Generated test plants with thei
 
 @plants.command("make")
 def make_plant(
-    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The scene, e.g. field.usdc.")],
+    output: Annotated[
+        Path,
+        typer.Option("--output", "-o", metavar="FILE", help="The scene, e.g. field.usdc; its suffix is its format."),
+    ],
     preset: Annotated[
         str, typer.Option(help="skid, riser, tank, pumps, loop, manifold, station, rack or field.")
     ] = "skid",
@@ -45,41 +51,82 @@ def make_plant(
         str | None,
         typer.Option(help="Draw it as others do: gaps, setback, gaskets, insulation, primitives... or all."),
     ] = None,
-    unit: Annotated[float | None, typer.Option(help="Metres in one authored unit; 0.001 by default.")] = None,
-    up: Annotated[str | None, typer.Option(help="Authored up axis, Y or Z; Z by default.")] = None,
+    unit: Annotated[float | None, typer.Option(help="Metres in one authored unit; 0.001 by default, of GLB 1.")] = None,
+    up: Annotated[str | None, typer.Option(help="Authored up axis, Y or Z; Z by default, of GLB and OBJ Y.")] = None,
     instances: Annotated[
-        str | None, typer.Option(help="Repeated shapes: none, native, nested, point or mixed; none by default.")
+        str | None,
+        typer.Option(help="Of USD, repeated shapes: none, native, nested, point or mixed; none by default."),
     ] = None,
     polygons: Annotated[
-        float | None, typer.Option(min=0, max=1, help="Share of meshes with polygons of more than three corners.")
+        float | None,
+        typer.Option(min=0, max=1, help="Of USD, share of meshes with polygons of more than three corners."),
+    ] = None,
+    form: Annotated[
+        str | None,
+        typer.Option("--format", help="usd, rvm, ifc, glb, obj, stl or step; by the suffix of --output by default."),
+    ] = None,
+    layout: Annotated[
+        str | None,
+        typer.Option(help="Of GLB: nodes (one for each mesh) or merged (one mesh for each colour); nodes by default."),
+    ] = None,
+    wrong_classes: Annotated[
+        float | None, typer.Option(min=0, max=1, help="Of RVM and IFC, share of elements with the class of others.")
+    ] = None,
+    missing_names: Annotated[
+        float | None, typer.Option(min=0, max=1, help="Of RVM and IFC, share of elements without class and name.")
     ] = None,
     hand: Annotated[str | None, typer.Option(hidden=True)] = None,
     spoilt: Annotated[float, typer.Option(min=0, max=1, hidden=True)] = 0.0,
     sins: Annotated[bool, typer.Option("--sins", hidden=True)] = False,
 ) -> None:
-    """Generate a plant as USD with meaningless names, and its ground truth beside it."""
-    from cadplants import UsdStyle, draw_defects, draw_style, make, write_usd
+    """Generate a plant as an authoring system would write it, and its ground truth beside it."""
+    from cadplants import UsdStyle, draw_defects, draw_style, make
+    from cadplants.writers import format_of, write_plant
 
     renamed = {"--hand": ("--style", hand), "--spoilt": ("--defective", spoilt), "--sins": ("--defects", sins)}
     for old, (new, given_so) in renamed.items():
         if given_so:
             err.print(f"[dim]{old} is deprecated; use {new}[/]")
     style, defective, defects = style or hand, defective or spoilt, defects or sins
-    authoring = draw_style(seed) if defects else UsdStyle()
     given: dict[str, Any] = {"meters_per_unit": unit, "up_axis": up, "instances": instances, "polygons": polygons}
     for name, value, choices in (
         ("--up", up, ("Y", "Z")),
         ("--instances", instances, ("none", "native", "nested", "point", "mixed")),
+        ("--layout", layout, ("nodes", "merged")),
     ):
         if value is not None and value not in choices:
             raise ValueError(f"{name} {value}: give {', '.join(choices[:-1])} or {choices[-1]}")
     # Written so that NaN fails it too.
     if unit is not None and not 1e-6 <= unit <= 1e3:
         raise ValueError(f"--unit {unit:g}: give the length of one authored unit in metres, from 1e-06 to 1000")
-    authoring = replace(authoring, **{key: value for key, value in given.items() if value is not None})
+    told = {"layout": layout, "wrong_classes": wrong_classes, "missing_names": missing_names}
+    if format_of(output, form).name == "usd":
+        _refuse(told, "usd")
+        usual = draw_style(seed) if defects else UsdStyle()
+        authoring: UsdStyle | FileStyle = replace(
+            usual, **{k: value for k, value in given.items() if value is not None}
+        )
+    else:
+        _refuse({"instances": given.pop("instances"), "polygons": given.pop("polygons")}, format_of(output, form).name)
+        authoring = _file_style(given, told)
     plant = make(preset, seed, style, draw_defects(seed) if defects else _asked_for(drawn, defective))
-    truth = write_usd(plant, output, authoring)
+    truth = write_plant(plant, output, authoring, form)
     out.print(f"wrote {escape(str(output))} and {escape(str(truth))}")
+
+
+def _refuse(settings: dict[str, Any], form: str) -> None:
+    """Refuses the settings that a format has nothing to do with."""
+    for name, value in settings.items():
+        if value is not None:
+            raise ValueError(f"--{name.replace('_', '-')} is no setting of {form}; leave it out")
+
+
+def _file_style(given: dict[str, Any], told: dict[str, Any]) -> FileStyle:
+    from cadplants.writers.metadata import Metadata
+    from cadplants.writers.plant_file import FileStyle
+
+    metadata = Metadata(told["wrong_classes"] or 0.0, told["missing_names"] or 0.0)
+    return FileStyle(**given, layout=told["layout"] or "nodes", metadata=metadata)
 
 
 def _asked_for(drawn: str | None, defective: float) -> Defects | None:
@@ -115,6 +162,38 @@ def check_plant(
             out.print(escape(line))
         raise FormatError(f"{truth or truth_path(scene)}: the geometry contradicts it in {len(proof.findings)} places")
     out.print("the truth holds")
+
+
+@plants.command("match")
+def match_truth(
+    scene: Annotated[Path, typer.Argument(metavar="SCENE", help="A scene, e.g. field.ifc.")],
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="The truth file (JSON) for it.")],
+    truth: Annotated[
+        Path | None, typer.Argument(metavar="TRUTH", help="What was generated with it; beside the scene by default.")
+    ] = None,
+) -> None:
+    """Put a generated plant's truth in terms of the scene as it is read, by where its meshes lie."""
+    from cadgraph.load import load
+    from cadgraph.model.truth import Truth
+    from cadplants import truth_path
+    from cadplants.matching import match, truth_for
+
+    known = Truth.load(truth or truth_path(scene))
+    read = load(scene, _as_written(known))
+    for line in match(read, known).lines():
+        out.print(line)
+    truth_for(read, known).save(output)
+    out.print(f"wrote {escape(str(output))}: {read.n_meshes:,} meshes")
+
+
+def _as_written(truth: Truth) -> LoadConfig:
+    """How to read a scene whose format has no place for its unit and up axis: as the truth beside it has them."""
+    from cadgraph.config import LoadConfig
+
+    units: dict[float | None, Any] = {1.0: "m", 0.1: "dm", 0.01: "cm", 0.001: "mm", 0.0254: "in", 0.3048: "ft"}
+    up: Any = truth.up_axis
+    silent = (truth.model_extra or {}).get("file_format") in ("glb", "obj", "stl")
+    return LoadConfig(unit=units.get(truth.meters_per_unit), up=up) if silent else LoadConfig()
 
 
 @plants.command("truth-from-usd")
