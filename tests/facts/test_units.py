@@ -15,7 +15,7 @@ from cadgraph.model.parts import Network, UnitParts
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import default_vocabulary
 from cadgraph.pipeline import analyse, build
-from cadgraph.stages.relate.stated import name_as_stated, tag_as_stated
+from cadgraph.stages.relate.stated_names import name_as_stated, tag_as_stated
 from tanks import PATHS, built, tanks
 
 
