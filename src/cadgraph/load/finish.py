@@ -63,7 +63,7 @@ def finish(scene: Scene, config: LoadConfig, path: Path) -> Scene:
 def _split(scene: Scene, unit: str | None) -> Scene:
     """The scene with every mesh that is a bag of separate surfaces as a mesh for each of them."""
     bags = {mesh: surfaces for mesh, surfaces in _candidates(scene).items() if len(surfaces) > 1}
-    if scene.n_meshes == 1 and not bags and scene.n_triangles >= _SCAN:
+    if scene.source.format in _BAGS and scene.n_meshes == 1 and not bags and scene.n_triangles >= _SCAN:
         message = "the file holds one connected surface (a scan?), which stays one mesh"
         return _noted(scene, Diagnostic("one-surface", message, scene.paths))
     if not bags:
