@@ -332,7 +332,7 @@ def _flow(sheet: Isometric, legs: Sequence[_Leg], spots: Sequence[Spot]) -> None
 
 
 def _valve(sheet: Isometric, what: str, a: Spot, b: Spot, across: Spot) -> None:
-    """Two triangles, with the mark of a kind of valve between them (ISO 10628-2, table of valves)."""
+    """Two triangles with the mark of its kind, as ISO 10628-2 has it for globe, ball and butterfly valves."""
     middle = _between(a, b, 0.5)
     sheet.area([_off(a, across, -8), _off(a, across, 8), middle], "w" if "check" in what else "s")
     sheet.area([_off(b, across, -8), _off(b, across, 8), middle])
