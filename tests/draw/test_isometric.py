@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from itertools import combinations
+from dataclasses import replace
+from itertools import combinations, pairwise, product
 
 import pytest
 
@@ -85,6 +86,87 @@ def test_axes_are_at_thirty_degrees():
         if abs(bx - ax) > 10:
             slopes.add(round((by - ay) / (bx - ax), 1))
     assert slopes == {0.6, -0.6}
+
+
+def through(*points, kind="pipe", **more):
+    """A line of straight components through some points."""
+    base = next(iter(find_components(valve_line())))
+    pieces = [
+        replace(base.components[0], kind=kind, start=a, end=b, centre=None, angle=0.0, branches=(), **more)
+        for a, b in pairwise(points)
+    ]
+    return replace(base, components=tuple(pieces), instruments=())
+
+
+def classes(root):
+    return [element.get("class") for element in root.iter() if element.get("class")]
+
+
+def test_what_lies_does_not_seem_to_stand():
+    # Half way between east and south a pipe would be drawn upright, and back over the one that stands.
+    line = through((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (1.0, -1.0, 1.0), (2.0, -1.0, 1.0))
+    text, sheet = draw_isometric(line)
+    assert sheet.turned
+    assert not draw_isometric(through((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 1.0)))[1].turned
+    paths = [e.get("d") for e in ET.fromstring(text).iter(f"{SVG}path") if e.get("class") == "p"]
+    # The first one is the arrow to the north: up and to the left.
+    (ax, ay), (bx, by) = (tuple(map(float, spot.split())) for spot in paths[0][1:].split("L"))
+    assert bx < ax
+    assert by < ay
+    _, lying, _ = paths[1:4]
+    (ax, ay), (bx, by) = (tuple(map(float, spot.split())) for spot in lying[1:].split("L"))
+    assert abs(by - ay) < 0.1 * abs(bx - ax)
+
+
+def test_a_skew_pipe_shows_the_way_along_the_axes():
+    skew = ET.fromstring(draw_isometric(through((0.0, 0.0, 0.0), (1.0, 1.0, 0.0)))[0])
+    assert classes(skew).count("k") == 1
+    straight = ET.fromstring(draw_isometric(through((0.0, 0.0, 0.0), (1.0, 0.01, 0.0)))[0])
+    assert "k" not in classes(straight)
+    (way,) = (e.get("d") for e in skew.iter(f"{SVG}path") if e.get("class") == "k")
+    ends = [tuple(map(float, spot.split())) for spot in way[1:].split("L")]
+    pipe = [e.get("d") for e in skew.iter(f"{SVG}path") if e.get("class") == "p"][1]
+    assert [way[1:].split("L")[0], way[1:].split("L")[-1]] == pipe[1:].split("L")
+    assert len(ends) == 3
+
+
+@pytest.mark.parametrize(("what", "marks"), [("gate valve", 0), ("globe valve", 1), ("ball valve", 1), (None, 0)])
+def test_kinds_of_valves_differ(what, marks):
+    line = through((0.0, 0.0, 0.0), (0.3, 0.0, 0.0), kind="valve", what=what)
+    root = ET.fromstring(draw_isometric(line)[0])
+    assert sum(1 for _ in root.iter(f"{SVG}circle")) == marks
+
+
+def test_the_tag_of_an_instrument_stands_in_its_balloon_clear_of_the_pipe():
+    line = through((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, 0.0, 2.0))
+    line = replace(line, instruments=(("G-004", "pressure gauge", (0.0, 0.0, 1.0)),))
+    root = ET.fromstring(draw_isometric(line)[0])
+    (balloon,) = root.iter(f"{SVG}circle")
+    (tag,) = (e for e in root.iter(f"{SVG}text") if e.text == "G-004")
+    assert tag.get("x") == balloon.get("cx")
+    # The pipe stands at x = 0.
+    assert abs(float(balloon.get("cx"))) > float(balloon.get("r"))
+
+
+def test_a_dimension_crosses_no_pipe_where_there_is_room_beside():
+    line = through((0.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, -2.0, -1.0), (3.0, -2.0, -1.0), (3.0, -2.0, -4.0))
+    root = ET.fromstring(draw_isometric(line)[0])
+    lines = {key: [] for key in "pd"}
+    (drawing,) = root.iter(f"{SVG}g")
+    for path in drawing.iter(f"{SVG}path"):
+        if path.get("class") in lines and not path.get("d").endswith("Z"):
+            spots = [tuple(map(float, spot.split())) for spot in path.get("d")[1:].split("L")]
+            lines[path.get("class")] += pairwise(spots)
+    assert len(lines["d"]) >= 12
+    assert not any(crosses(one, other) for one, other in product(lines["p"], lines["d"]))
+
+
+def crosses(one, other):
+    def side(a, b, c):
+        return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+    (a, b), (c, d) = one, other
+    return side(a, b, c) * side(a, b, d) < 0 and side(c, d, a) * side(c, d, b) < 0
 
 
 def test_text_of_a_graph_is_escaped():

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import hashlib
-import importlib.util
 import json
 import struct
+from pathlib import Path
 
 import pytest
 
 import graphs
+from cadgraph.config import LoadConfig
 from cadgraph.errors import LoadError, OutputError
 from cadgraph.export import export_graph, write_export
 from cadgraph.export.gltf import write_gltf
-from cadgraph.load.gltf_paths import node_paths
+from cadgraph.load import load
+from cadgraph.load.gltf_file import Gltf
+from cadgraph.load.gltf_nodes import node_paths
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import SourceRecord
 
@@ -184,6 +187,10 @@ def test_damage_ends_in_one_line(tmp_path, content):
     assert not (tmp_path / "copy.glb").exists()
 
 
+def paths_of(content):
+    return list(node_paths(Gltf(content, Path("plant.gltf"), None)))
+
+
 def test_paths_are_names_made_unique_and_broken_nodes_are_passed_over():
     content = tree(
         nodes=[
@@ -194,24 +201,34 @@ def test_paths_are_names_made_unique_and_broken_nodes_are_passed_over():
             {"name": "never reached"},
         ]
     )
-    assert list(node_paths(content)) == [("/A_b_c", 0), ("/A_b_c/A", 1), ("/A_b_c/A_1", 2), ("/A_b_c/Ring_1", 3)]
-    assert list(node_paths({})) == []
-    assert list(node_paths({"nodes": [{"children": [1]}, {}]})) == [("/node_0", 0), ("/node_0/node_1", 1)]
+    assert paths_of(content) == [("/A_b_c", 0), ("/A_b_c/A", 1), ("/A_b_c/A_1", 2), ("/A_b_c/Ring_1", 3)]
+    assert paths_of({}) == []
+    assert paths_of({"nodes": [{"children": [1]}, {}]}) == [("/node_0", 0), ("/node_0/node_1", 1)]
 
 
 def test_a_deep_chain_of_nodes_ends():
     nodes = [{"children": [i + 1]} for i in range(5000)]
-    assert len(list(node_paths({"nodes": [*nodes, {}]}))) == 201
+    assert len(paths_of({"nodes": [*nodes, {}]})) == 201
 
 
-@pytest.mark.skipif(importlib.util.find_spec("cadgraph.load.gltf") is None, reason="this build reads no glTF")
 def test_paths_are_those_of_the_reader(tmp_path):
-    from cadgraph.config import LoadConfig
-    from cadgraph.load import load
-
+    odd = tree()
+    hidden = {"KHR_node_visibility": {"visible": False}}
+    children = [
+        {"name": "a b", "mesh": 0},
+        {"name": "a b", "mesh": 0, "extensions": hidden},
+        {"name": "a.b", "mesh": 0},
+    ]
+    children += [{"name": "a b", "mesh": 0}, {"mesh": 0}, {"name": 7, "mesh": 0}, {"matrix": "x", "mesh": 0}]
+    first = len(odd["nodes"])
+    odd["nodes"] += [{"name": "/TOP/1", "children": [*range(first + 1, first + 8), first + 1, True, 999]}, *children]
+    odd["scenes"][odd.get("scene", 0)]["nodes"].append(first)
     source = tmp_path / "plant.glb"
-    source.write_bytes(binary(tree()))
+    source.write_bytes(binary(odd))
     scene = load(source, LoadConfig(isolate=False))
-    known = {path for path, _ in node_paths(tree())}
-    assert set(scene.paths) <= known
-    assert len(scene.paths) == 3
+    known = dict(paths_of(odd))
+    below = {path.removeprefix("/TOP_1/"): known[path] - first for path in scene.paths if path.startswith("/TOP_1/")}
+    assert below == {"a_b": 1, "a.b": 3, "a_b_2": 4, "Ring_1": 5, f"node_{first + 6}": 6}
+    assert set(scene.paths) <= set(known)
+    everything = load(source, LoadConfig(isolate=False, invisible=True))
+    assert set(everything.paths) - set(scene.paths) == {"/TOP_1/a_b_1"}

@@ -12,8 +12,9 @@ from cadgraph.config import LoadConfig
 from cadgraph.errors import LoadError
 from cadgraph.load import load
 from cadgraph.load.bodies import split_bodies
-from cadgraph.load.gltf import node_matrix, root_nodes
+from cadgraph.load.gltf import node_matrix
 from cadgraph.load.gltf_file import parse_glb
+from cadgraph.load.gltf_nodes import root_nodes
 from load.solids import _FACES, StepFile
 from shapes import box, moved
 

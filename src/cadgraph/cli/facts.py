@@ -11,7 +11,7 @@ from rich.markup import escape
 
 from cadgraph._io.text import printable
 from cadgraph.cli.application import app
-from cadgraph.cli.options import ConfigOption, SetOption, settings_of
+from cadgraph.cli.options import ConfigOption, SetOption, UnitOption, UpOption, settings_of
 from cadgraph.cli.screen import out
 
 if TYPE_CHECKING:
@@ -33,6 +33,8 @@ def facts(
     as_json: Annotated[bool, typer.Option("--json", help="Print as JSON.")] = False,
     config: ConfigOption = None,
     settings: SetOption = None,
+    unit: UnitOption = None,
+    up: UpOption = None,
 ) -> None:
     """List what a file says of its parts: each value, how often, the label that it speaks for and by what rule.
 
@@ -44,7 +46,7 @@ def facts(
     from cadgraph.load import load
     from cadgraph.model.vocabulary import default_vocabulary, read_vocabulary
 
-    chosen = settings_of(config, settings or [], None)
+    chosen = settings_of(config, settings or [], None, unit, up)
     known = read_words(words or chosen.label.words)
     tree = read_vocabulary(vocabulary) if vocabulary else default_vocabulary()
     loaded = load(scene, chosen.load)

@@ -10,7 +10,7 @@ import typer
 from rich.markup import escape
 
 from cadgraph.cli.application import app
-from cadgraph.cli.options import ConfigOption, GraphArgument, SetOption, settings_of
+from cadgraph.cli.options import ConfigOption, GraphArgument, SetOption, UnitOption, UpOption, settings_of
 from cadgraph.cli.screen import bars, err, out
 
 catalogs = typer.Typer(no_args_is_help=True, help="Catalogues of your own parts: add to one, list it.")
@@ -117,6 +117,8 @@ def add_(
     scene: _SceneOption = None,
     config: ConfigOption = None,
     settings: SetOption = None,
+    unit: UnitOption = None,
+    up: UpOption = None,
 ) -> None:
     """Add parts to a catalogue, from CAD files under one label or from graphs with theirs.
 
@@ -135,13 +137,15 @@ def add_(
         err.print(
             f"[dim]{escape(str(label))} is not in the built-in vocabulary; build with the --vocabulary that has it[/]"
         )
-    chosen = settings_of(config, settings or [], None)
+    chosen = settings_of(config, settings or [], None, unit, up)
     whole = read_catalog(catalog) if catalog.exists() else EMPTY
     wanted = split_label(only, None) if only is not None else None
     for file in files:
         if file.is_dir() or file.name == "graph.json":
             if merge:
                 raise ValueError(f"{file}: --merge is for CAD files; a graph has its parts")
+            if unit is not None or up is not None:
+                raise ValueError(f"{file}: --unit and --up are for CAD files; a graph knows how its scene was read")
             taken = take_graph(whole, file, wanted, meant, scene)
         else:
             if meant is None:

@@ -11,7 +11,16 @@ from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.asking import AskingOptions, asks
-from cadgraph.cli.options import USE_METADATA, ConfigOption, MetadataOption, SetOption, settings_of, values_of
+from cadgraph.cli.options import (
+    USE_METADATA,
+    ConfigOption,
+    MetadataOption,
+    SetOption,
+    UnitOption,
+    UpOption,
+    settings_of,
+    values_of,
+)
 from cadgraph.cli.screen import bars, err, out, tell
 
 vocabularies = typer.Typer(no_args_is_help=True, help="The tree of labels: grow, show, check, merge.")
@@ -133,6 +142,8 @@ def grow_(
     pictures: Annotated[int, typer.Option(min=1, max=64, help="Overview pictures, shown one after the other.")] = 8,
     config: ConfigOption = None,
     settings: SetOption = None,
+    unit: UnitOption = None,
+    up: UpOption = None,
 ) -> None:
     """Show a model overview pictures one after the other, and add the labels that it misses."""
     from cadgraph._io.atomic import write_atomically
@@ -144,7 +155,7 @@ def grow_(
 
     if empty and start:
         raise ValueError("--empty and --from contradict each other; give one")
-    chosen = asking.settings(settings_of(config, settings or [], None))
+    chosen = asking.settings(settings_of(config, settings or [], None, unit, up))
     tree = Vocabulary({}) if empty else read_vocabulary(start) if start else default_vocabulary()
     kept = output.parent / f"{output.stem}-lvlm"
     with bars() as progress:

@@ -49,7 +49,7 @@ def export(
     ] = None,
     source: Annotated[
         Path | None,
-        typer.Option("--source", metavar="FILE", help="For gltf and ifc: the scene itself, where it has moved."),
+        typer.Option("--source", metavar="FILE", help="For att, gltf and ifc: the scene itself, where it has moved."),
     ] = None,
 ) -> None:
     """Write a graph in another format, or a copy of its source with the labels in it."""

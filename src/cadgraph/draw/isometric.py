@@ -1,7 +1,9 @@
 """Isometric drawings of lines: 30 degree axes, lengths not to scale, dimensions in millimetres, bill of components.
 
-Directions are those of the plant: north (+y) to the upper right, east (+x) to the lower right, up upwards. Every text
-has a place of its own: one that finds none beside what it belongs to moves out, with a line that leads back.
+Directions are those of the plant: north (+y) to the upper right, east (+x) to the lower right, up upwards; or north to
+the upper left and east to the upper right, where that shows more. What runs along none of the three gets the edges of a
+box beside it, dashed. Every text has a place of its own: one that finds none beside what it belongs to moves out, with
+a line that leads back.
 """
 
 from __future__ import annotations
@@ -37,11 +39,16 @@ _MOST_TURNS = 400  # tries to find a place for a text
 # Drawn lengths: a component always has the same, a pipe's grows with the logarithm of its length.
 _LENGTHS = {"flange": 7.0, "gasket": 3.0, "blind flange": 7.0, "valve": 30.0, "reducer": 24.0, "instrument": 30.0}
 _BOXES = ("instrument", "other", "strainer", "hose", "expansion joint")  # drawn as a box in the line
+_WORSE = 6  # so much worse than another dimension it is to cross a pipe
 _CLOSE = 12.0  # legs that come nearer than this are drawn apart
 _LEG, _OTHER = 16.0, 24.0
+_STEM, _BALLOON, _BALLOON_LETTERS = 10.0, 19.0, 5  # of an instrument: its line, radius, and the letters in it
+_STRAIGHT = 0.98  # of a direction's length along one axis, from which on it runs along that
 _STYLE = (
     "text{font:11px sans-serif;fill:#111}.p{stroke:#111;stroke-width:2.6;fill:none;stroke-linecap:round}"
-    ".s{stroke:#111;stroke-width:1.4;fill:#fff}.d{stroke:#567;stroke-width:.8;fill:none}.w{fill:#111}"
+    ".s{stroke:#111;stroke-width:1.4;fill:#fff}.f{stroke:#111;stroke-width:1.8;fill:none}"
+    ".k{stroke:#567;stroke-width:.8;fill:none;stroke-dasharray:4 3}"
+    ".d{stroke:#567;stroke-width:.8;fill:none}.w{fill:#111}"
     ".t{fill:#345}.b{font-weight:bold}"
 )
 
@@ -54,11 +61,13 @@ class Isometric:
         shapes: pieces of SVG, in the order that they are drawn.
         texts: place of each text on the sheet, with its letters.
         solid: places of what no text may lie on.
+        turned: whether north is to the upper left.
     """
 
     shapes: list[Svg] = field(default_factory=list)
     texts: list[tuple[Box, str]] = field(default_factory=list)
     solid: list[Box] = field(default_factory=list)
+    turned: bool = False
     _waiting: list[tuple[Spot, Sequence[str], Spot, str]] = field(default_factory=list)
 
     def line(self, points: Sequence[Spot], style: str, *, solid: bool = True) -> None:
@@ -101,7 +110,8 @@ class Isometric:
         middle = ((box[0] + box[2]) / 2, (box[1] + box[3]) / 2)
         if math.dist(middle, at) > max(wide, high) / 2 + 26:
             nearest = (min(max(at[0], box[0]), box[2]), min(max(at[1], box[1]), box[3]))
-            self.line([at, nearest], "d", solid=False)
+            # Not from the very point: that would cross out the symbol there.
+            self.line([_between(at, nearest, min(0.5, 9 / math.dist(at, nearest))), nearest], "d", solid=False)
         for number, line in enumerate(lines):
             y = box[1] + (number + 1) * _LINE - 2
             self.shapes.append(element("text", line, x=middle[0], y=y, text_anchor="middle", class_=style))
@@ -160,14 +170,15 @@ def draw_isometric(line: PipedLine) -> tuple[str, Isometric]:
         The SVG document, and where on the sheet what stands.
     """
     legs = _legs(line.components)
-    spots = _untangled(legs)
-    sheet = Isometric()
+    spots, turned = _untangled(legs)
+    sheet = Isometric(turned=turned)
     _pipes(sheet, line, legs, spots)
     _end(sheet, line.start, spots[0], _back(spots[0], spots[1]))
     _end(sheet, line.end, spots[-1], _back(spots[-1], spots[-2]))
     _instruments(sheet, line, legs, spots)
     _tags(sheet, legs, spots)
     _dimensions(sheet, legs, spots)
+    _skews(sheet, legs, spots)
     sheet.settle()
     return _document(sheet, line), sheet
 
@@ -202,10 +213,29 @@ def _drawn(component: Component) -> float:
     return _LENGTHS.get(component.kind, _OTHER)
 
 
-def _untangled(legs: Sequence[_Leg]) -> list[Spot]:
-    """Places of the legs on the sheet, drawn longer along one axis or another where they would lie on each other."""
-    ways = [_spots(legs, factors) for factors in product((1.0, 1.4, 1.9), repeat=3)]
-    return min(enumerate(ways), key=lambda item: (_tangles(legs, item[1]), item[0]))[1]
+def _untangled(legs: Sequence[_Leg]) -> tuple[list[Spot], bool]:
+    """Places of the legs on the sheet, and whether it is turned.
+
+    Drawn longer along one axis or another where they would lie on each other. Half way between two axes, what lies
+    would seem to stand: then the plant is seen from the other side.
+    """
+    factors = list(product((1.0, 1.4, 1.9), repeat=3))
+    ways = [(_spots(legs, each, turned), turned) for turned in (False, True) for each in factors]
+
+    def worth(item: tuple[int, tuple[list[Spot], bool]]) -> tuple[int, int, int]:
+        number, (spots, _) = item
+        return _mistaken(legs, spots), _tangles(legs, spots), number
+
+    return min(enumerate(ways), key=worth)[1]
+
+
+def _mistaken(legs: Sequence[_Leg], spots: Sequence[Spot]) -> int:
+    """How many legs seem to stand, but don't."""
+    count = 0
+    for leg, a, b in zip(legs, spots, spots[1:], strict=False):
+        rise, length = abs(leg.end[2] - leg.start[2]), math.dist(leg.start, leg.end)
+        count += length > 0 and rise < 0.5 * length and abs(b[0] - a[0]) < 0.2 * math.dist(a, b)
+    return count
 
 
 def _tangles(legs: Sequence[_Leg], spots: Sequence[Spot]) -> int:
@@ -219,17 +249,18 @@ def _tangles(legs: Sequence[_Leg], spots: Sequence[Spot]) -> int:
     return sum(max(found) - min(found) > 2 for found in cells.values())
 
 
-def _spots(legs: Sequence[_Leg], factors: Sequence[float]) -> list[Spot]:
+def _spots(legs: Sequence[_Leg], factors: Sequence[float], turned: bool) -> list[Spot]:
     """Where the legs begin on the sheet, and where the last one ends.
 
     Args:
         legs: in order.
         factors: by which pipes along x, y and z are drawn longer.
+        turned: whether north is to the upper left.
     """
     spots = [(0.0, 0.0)]
     for leg in legs:
         vector = tuple(b - a for a, b in zip(leg.start, leg.end, strict=True))
-        dx, dy = _project(vector)
+        dx, dy = _project(vector, turned)
         length = math.dist(leg.start, leg.end) or 1.0
         main = max(range(3), key=lambda axis: abs(vector[axis]))
         drawn = leg.drawn * (factors[main] if leg.component.kind == "pipe" else 1.0)
@@ -238,8 +269,10 @@ def _spots(legs: Sequence[_Leg], factors: Sequence[float]) -> list[Spot]:
     return spots
 
 
-def _project(vector: Sequence[float]) -> Spot:
+def _project(vector: Sequence[float], turned: bool) -> Spot:
     x, y, z = vector
+    if turned:
+        x, y = -y, x
     return (x + y) * _COS, (x - y) * _SIN - z
 
 
@@ -262,7 +295,7 @@ def _pipes(sheet: Isometric, line: PipedLine, legs: Sequence[_Leg], spots: Seque
 
 def _branch(sheet: Isometric, branch: Branch, at: Spot, start: Point) -> None:
     """A short piece of a branch with what goes on there."""
-    way = _project(tuple(p - c for p, c in zip(branch.point, start, strict=True)))
+    way = _project(tuple(p - c for p, c in zip(branch.point, start, strict=True)), sheet.turned)
     size = math.hypot(*way) or 1.0
     tip = (at[0] + way[0] / size * 26, at[1] + way[1] / size * 26)
     sheet.line([at, tip], "p")
@@ -274,12 +307,11 @@ def _symbol(sheet: Isometric, leg: _Leg, a: Spot, b: Spot) -> None:
     """What a leg looks like between two places on the sheet."""
     kind, across = leg.component.kind, _across(leg, a, b)
     if kind == "valve":
-        _valve(sheet, a, b, across)
+        _valve(sheet, leg.component.what or "", a, b, across)
     elif kind in ("flange", "blind flange"):
-        for share in (0.15, 0.85):
-            at = _between(a, b, share)
-            sheet.line([_off(at, across, -8), _off(at, across, 8)], "p" if kind == "blind flange" else "d")
+        at = _between(a, b, 0.5)
         sheet.line([a, b], "p")
+        sheet.line([_off(at, across, -9), _off(at, across, 9)], "p" if kind == "blind flange" else "f")
     elif kind == "reducer":
         first, last = _widths(leg.component)
         sheet.area([_off(a, across, -first), _off(b, across, -last), _off(b, across, last), _off(a, across, first)])
@@ -299,10 +331,18 @@ def _flow(sheet: Isometric, legs: Sequence[_Leg], spots: Sequence[Spot]) -> None
         sheet.area([tip, _off(back, side, 5), _off(back, side, -5)], "w")
 
 
-def _valve(sheet: Isometric, a: Spot, b: Spot, across: Spot) -> None:
+def _valve(sheet: Isometric, what: str, a: Spot, b: Spot, across: Spot) -> None:
+    """Two triangles with the mark of its kind, as ISO 10628-2 has it for globe, ball and butterfly valves."""
     middle = _between(a, b, 0.5)
-    sheet.area([_off(a, across, -8), _off(a, across, 8), middle])
+    sheet.area([_off(a, across, -8), _off(a, across, 8), middle], "w" if "check" in what else "s")
     sheet.area([_off(b, across, -8), _off(b, across, 8), middle])
+    if "globe" in what:
+        sheet.dot(middle, 4.0, "w")
+    elif "ball" in what or "plug" in what:
+        sheet.dot(middle, 4.5, "s")
+    elif "butterfly" in what:
+        sheet.line([_off(_between(a, b, 0.25), across, -8), _off(_between(a, b, 0.75), across, 8)], "f")
+        sheet.dot(middle, 3.0, "w")
 
 
 def _welded(before: _Leg, after: _Leg) -> bool:
@@ -317,36 +357,80 @@ def _welded(before: _Leg, after: _Leg) -> bool:
 
 def _dimensions(sheet: Isometric, legs: Sequence[_Leg], spots: Sequence[Spot]) -> None:
     """The length of each straight, from corner to corner, beside it."""
-    start = 0
-    for i in range(1, len(legs) + 1):
-        if i < len(legs) and not _turns(legs[start], legs[i]):
-            continue
-        a, b = spots[start], spots[i]
-        length = math.dist(legs[start].start, legs[i - 1].end) * 1000
+    n_pipes = len(sheet.solid)
+    for start, stop in _straights(legs):
+        a, b = spots[start], spots[stop]
+        length = math.dist(legs[start].start, legs[stop - 1].end) * 1000
         if math.dist(a, b) > 20:
-            across, reach = _side(sheet, a, b)
+            across, reach = _side(sheet, a, b, n_pipes)
             first, last = _off(a, across, reach), _off(b, across, reach)
             sheet.line([_off(a, across, 6), _off(a, across, reach + 5)], "d")
             sheet.line([_off(b, across, 6), _off(b, across, reach + 5)], "d")
             sheet.line([first, last], "d")
             sheet.text(_between(first, last, 0.5), [f"{length:.0f}"], across)
-        start = i
 
 
-def _side(sheet: Isometric, a: Spot, b: Spot) -> tuple[Spot, float]:
-    """Which way from a pipe, and how far, a dimension line crosses least."""
-    upright = abs(b[0] - a[0]) < 0.2 * math.dist(a, b)
-    ways = [(_COS, _SIN), (-_COS, _SIN), (-_COS, -_SIN), (_COS, -_SIN)] if upright else [(0.0, 1.0), (0.0, -1.0)]
+def _side(sheet: Isometric, a: Spot, b: Spot, n_pipes: int) -> tuple[Spot, float]:
+    """Which way from a pipe, along one of the axes, and how far, a dimension line and its ends cross least.
+
+    Args:
+        sheet: with pipes and symbols, and with the dimensions before this one.
+        a: where the pipe begins.
+        b: where it ends.
+        n_pipes: how many of what is solid on the sheet is no dimension: to cross one of these is worse.
+    """
+    along = ((b[0] - a[0]) / math.dist(a, b), (b[1] - a[1]) / math.dist(a, b))
+    axes = ((0.0, 1.0), (_COS, _SIN), (_COS, -_SIN))
+    # First up or down beside what lies, east or west beside what stands.
+    ways = [(x * sign, y * sign) for x, y in axes if abs(x * along[1] - y * along[0]) > 0.4 for sign in (1.0, -1.0)]
     found = []
     for reach in (_DIMENSION, 1.8 * _DIMENSION, 2.6 * _DIMENSION):
         for number, way in enumerate(ways):
-            first, last = _off(a, way, reach), _off(b, way, reach)
-            steps = max(2, math.ceil(math.dist(a, b) / 6))
-            points = [_between(first, last, k / steps) for k in range(steps + 1)]
-            crossed = sum(any(_meet((x - 3, y - 3, x + 3, y + 3), box) for box in sheet.solid) for x, y in points)
+            points = [*_along(_off(a, way, reach), _off(b, way, reach))]
+            points += [point for end in (a, b) for point in _along(_off(end, way, 11), _off(end, way, reach + 5))]
+            boxes = [(x - 3, y - 3, x + 3, y + 3) for x, y in points]
+            crossed = sum(
+                _WORSE * any(_meet(box, other) for other in sheet.solid[:n_pipes])
+                + any(_meet(box, other) for other in sheet.solid[n_pipes:])
+                for box in boxes
+            )
             found.append((crossed, reach, number, way))
     _, reach, _, way = min(found)
     return way, reach
+
+
+def _along(a: Spot, b: Spot) -> list[Spot]:
+    """Points between two, six apart."""
+    steps = max(2, math.ceil(math.dist(a, b) / 6))
+    return [_between(a, b, k / steps) for k in range(steps + 1)]
+
+
+def _skews(sheet: Isometric, legs: Sequence[_Leg], spots: Sequence[Spot]) -> None:
+    """Beside each straight that runs along none of the axes, the way along them from its start to its end."""
+    for first, last in _straights(legs):
+        a, b = spots[first], spots[last]
+        vector = [y - x for x, y in zip(legs[first].start, legs[last - 1].end, strict=True)]
+        length = math.hypot(*vector)
+        if math.dist(a, b) <= 20 or max(map(abs, vector)) > _STRAIGHT * length:
+            continue
+        dx, dy = _project(vector, sheet.turned)
+        share = math.dist(a, b) / (math.hypot(dx, dy) or 1.0)
+        way = [a]
+        for axis in sorted(range(3), key=lambda axis: -abs(vector[axis])):
+            own = [0.0, 0.0, 0.0]
+            own[axis] = vector[axis] * share
+            if abs(vector[axis]) > 0.05 * length:
+                way.append(_off(way[-1], _project(own, sheet.turned), 1.0))
+        sheet.line(way, "k")
+
+
+def _straights(legs: Sequence[_Leg]) -> Iterator[tuple[int, int]]:
+    """The first leg of each straight and the one after its last."""
+    start = 0
+    for i in range(1, len(legs) + 1):
+        if i == len(legs) or _turns(legs[start], legs[i]):
+            yield start, i
+            start = i
 
 
 def _turns(one: _Leg, other: _Leg) -> bool:
@@ -362,7 +446,7 @@ def _tags(sheet: Isometric, legs: Sequence[_Leg], spots: Sequence[Spot]) -> None
         across = _across(leg, a, b)
         away = (-across[0], -across[1])
         if leg.component.tag is not None and leg.half < 2:
-            sheet.text(_off(_between(a, b, 0.5), across, -10), [leg.component.tag, leg.component.what or ""], away, "b")
+            sheet.text(_between(a, b, 0.5), [leg.component.tag, leg.component.what or ""], away, "b")
         elif leg.component.kind == "pipe" and leg.component.sizes[0] not in (None, size):
             size = leg.component.sizes[0]
             sheet.text(_between(a, b, 0.5), [f"DN {size}"], away)
@@ -371,10 +455,28 @@ def _tags(sheet: Isometric, legs: Sequence[_Leg], spots: Sequence[Spot]) -> None
 def _instruments(sheet: Isometric, line: PipedLine, legs: Sequence[_Leg], spots: Sequence[Spot]) -> None:
     for tag, _, point in line.instruments:
         nearest = min(range(len(spots)), key=lambda i: math.dist(_corner(legs, i), point))
-        at = spots[nearest]
-        sheet.line([at, (at[0], at[1] - 16)], "d")
-        sheet.dot((at[0], at[1] - 24), 8, "s")
-        sheet.text((at[0], at[1] - 24), [tag], (0.0, -1.0), "b")
+        at, way = spots[nearest], _free(sheet, spots[nearest])
+        middle = _off(at, way, _STEM + _BALLOON)
+        sheet.line([at, _off(at, way, _STEM)], "f")
+        sheet.dot(middle, _BALLOON, "s")
+        if len(tag) <= _BALLOON_LETTERS:
+            sheet.shapes.append(
+                element("text", _short(tag), x=middle[0], y=middle[1] + 4, text_anchor="middle", class_="b")
+            )
+        else:
+            sheet.text(middle, [tag], way, "b")
+
+
+def _free(sheet: Isometric, at: Spot) -> Spot:
+    """Which way along the axes the balloon of an instrument covers least, upwards first."""
+    ways = ((0.0, -1.0), (_COS, -_SIN), (-_COS, -_SIN), (_COS, _SIN), (-_COS, _SIN), (0.0, 1.0))
+
+    def covered(number: int) -> int:
+        x, y = _off(at, ways[number], _STEM + _BALLOON)
+        balloon = (x - _BALLOON, y - _BALLOON, x + _BALLOON, y + _BALLOON)
+        return sum(_meet(balloon, box) for box in sheet.solid)
+
+    return ways[min(range(len(ways)), key=lambda number: (covered(number), number))]
 
 
 def _corner(legs: Sequence[_Leg], i: int) -> Point:
@@ -408,7 +510,7 @@ def _document(sheet: Isometric, line: PipedLine) -> str:
             element("style", Svg(_STYLE)),
             element("rect", width=wide, height=high, fill="#fff"),
             element("rect", x=10, y=10, width=wide - 20, height=high - 20, class_="d"),
-            _north(),
+            _north(sheet.turned),
             element("g", *sheet.shapes, transform=shift),
             *_table(bill, edge, 40.0),
             *_title(line, edge, high),
@@ -425,16 +527,15 @@ def _document(sheet: Isometric, line: PipedLine) -> str:
     return f"{document}\n"
 
 
-def _north() -> Svg:
+def _north(turned: bool) -> Svg:
     """An arrow to the north, +y."""
-    x, y = 34.0, 62.0
-    tip = (x + 30 * _COS, y - 30 * _SIN)
-    head = [tip, (tip[0] - 10, tip[1] + 1), (tip[0] - 5, tip[1] + 8)]
+    x, y, side = (64.0, 62.0, -1.0) if turned else (34.0, 62.0, 1.0)
+    tip = (x + side * 30 * _COS, y - 30 * _SIN)
+    head = [tip, (tip[0] - side * 10, tip[1] + 1), (tip[0] - side * 5, tip[1] + 8)]
     arrow = element("path", d=f"M{x:.1f} {y:.1f}L{tip[0]:.1f} {tip[1]:.1f}", class_="p")
     filled = "M" + "L".join(f"{a:.1f} {b:.1f}" for a, b in head) + "Z"
-    return joined(
-        (arrow, element("path", d=filled, class_="w"), element("text", "N", x=tip[0] + 6, y=tip[1], class_="b"))
-    )
+    letter = element("text", "N", x=tip[0] + (6 if side > 0 else -14), y=tip[1], class_="b")
+    return joined((arrow, element("path", d=filled, class_="w"), letter))
 
 
 def _bill(line: PipedLine) -> Iterator[tuple[str, str, str]]:
@@ -447,13 +548,20 @@ def _bill(line: PipedLine) -> Iterator[tuple[str, str, str]]:
         if each.kind in ("pipe", "bend"):
             pipes[size] = pipes.get(size, 0.0) + each.length
         else:
-            counted[each.what or each.kind, size] += 1
+            counted[_named(each), size] += 1
     for _, kind, _ in line.instruments:
         counted[kind or "instrument", ""] += 1
     for size, length in sorted(pipes.items()):
         yield "pipe, bends included", size, f"{length:.2f} m"
     for (what, size), number in sorted(counted.items()):
         yield what, size, str(number)
+
+
+def _named(component: Component) -> str:
+    """What the bill calls a component; one that does another's work by that, and by its label."""
+    if component.kind in ("tee", "cross", "tap") and component.what not in (None, component.kind):
+        return f"{component.kind} ({component.what})"
+    return component.what or component.kind
 
 
 def _table(rows: Iterable[tuple[str, str, str]], left: float, top: float) -> Iterator[Svg]:

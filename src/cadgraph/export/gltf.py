@@ -17,7 +17,8 @@ from cadgraph._io.text import natural_key
 from cadgraph.errors import LoadError
 from cadgraph.export.labels import MeshLabel, mesh_labels
 from cadgraph.export.source import refuse_source
-from cadgraph.load.gltf_paths import node_paths
+from cadgraph.load.gltf_file import Gltf
+from cadgraph.load.gltf_nodes import node_paths
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
 
@@ -59,7 +60,7 @@ def write_gltf(graph: SceneGraph, source: str | Path, path: str | Path) -> tuple
     except OSError as error:
         raise LoadError(f"{origin}: can't be read ({error.strerror}); check the path") from error
     tree = _parsed(read_bytes_within(origin, GRAPH, LoadError, "export it as .glb"), origin)
-    notes = _annotate(tree, graph)
+    notes = _annotate(tree, origin, graph)
     _move_references(tree, origin, target)
     write_atomically(target, _json_bytes(tree))
     return target, notes
@@ -78,7 +79,7 @@ def _write_binary(graph: SceneGraph, origin: Path, file: IO[bytes], target: Path
     if length > GRAPH.most:
         raise LoadError(f"{origin}: {size_text(length)} of JSON, and at most {size_text(GRAPH.most)} are read")
     tree = _parsed(file.read(length), origin)
-    notes = _annotate(tree, graph)
+    notes = _annotate(tree, origin, graph)
     _move_references(tree, origin, target)
     text = _json_bytes(tree)
     text += b" " * (-len(text) % 4)
@@ -102,9 +103,9 @@ def _parsed(data: bytes, origin: Path) -> dict[str, Any]:
     return tree
 
 
-def _annotate(tree: dict[str, Any], graph: SceneGraph) -> tuple[Diagnostic, ...]:
+def _annotate(tree: dict[str, Any], origin: Path, graph: SceneGraph) -> tuple[Diagnostic, ...]:
     """Puts the labels into the nodes of a parsed file."""
-    paths = dict(node_paths(tree))
+    paths = dict(node_paths(Gltf(tree, origin, None)))
     labels = {label.mesh: label for label in mesh_labels(graph)}
     at_node: dict[int, list[tuple[str, MeshLabel]]] = {}
     lost = []

@@ -46,14 +46,17 @@ class Format:
         meaning: what it is good for, one line.
         write: takes the graph and the place to write to, and says what it wrote.
         write_over: likewise with the source file between the two, where the format is a copy of the source.
+        write_with: likewise, where the format is the better for the source file but does without: it gets None, and
+            why, where the file isn't there any more.
         file: the name of its file where a folder is given; None if it always takes a folder.
-        copied_as: how the copy of a source ends, by how the source ends.
+        copied_as: how the copy of a source, or what stands beside it, ends, by how the source ends.
     """
 
     name: str
     meaning: str
     write: Callable[[SceneGraph, Path], Written] = _not_alone
     write_over: Callable[[SceneGraph, Path, Path], Written] | None = None
+    write_with: Callable[[SceneGraph, Path | None, str, Path], Written] | None = None
     file: str | None = None
     copied_as: Mapping[str, str] = field(default_factory=dict)
 
@@ -61,6 +64,17 @@ class Format:
     def needs_source(self) -> bool:
         """Whether the file that the graph was made from has to be there."""
         return self.write_over is not None
+
+
+def _write_att(graph: SceneGraph, source: Path | None, missing: str, path: Path) -> Written:
+    if source is None:
+        file, notes = write_att(graph, path)
+        return Written((file,), tuple(Diagnostic(n.code, f"{n.message}: {missing}", n.meshes) for n in notes))
+    refuse_source(source, path)
+    from cadgraph.load.rvm import element_names
+
+    file, notes = write_att(graph, path, element_names(source))
+    return Written((file,), notes)
 
 
 def _write_dexpi(graph: SceneGraph, path: Path) -> Written:
@@ -107,9 +121,9 @@ _FORMATS = (
     Format(
         "att",
         "labels as PDMS attributes, beside an RVM file",
-        lambda g, p: Written((write_att(g, p),)),
-        None,
-        "labels.att",
+        write_with=_write_att,
+        file="labels.att",
+        copied_as={".rvm": ".att", ".rev": ".att"},
     ),
     Format(
         "csv",
@@ -182,7 +196,8 @@ def write_export(graph: SceneGraph, to: str, path: str | Path, source: str | Pat
         to: the format's name, one of :func:`formats`.
         path: the folder that gets the files, made if missing; or the file, if it ends as the format's files do
             (``plant.graphml``).
-        source: where the file is that the graph was made from, for formats that are a copy of it; None: where it was.
+        source: where the file is that the graph was made from, for formats that are a copy of it or stand beside it;
+            None: where it was.
 
     Returns:
         The files written, and what is to be said of them.
@@ -198,17 +213,38 @@ def write_export(graph: SceneGraph, to: str, path: str | Path, source: str | Pat
     if form is None:
         raise ValueError(f"no export format is called {to!r}; there are {', '.join(formats())}")
     target = Path(path)
+    if form.write_with is not None:
+        origin, missing = _source_if_there(form, graph, source)
+        return form.write_with(graph, origin, missing, _place(form, target, origin))
     if form.write_over is None:
         if source is not None:
             raise ValueError(f"{form.name} is written from the graph alone; leave --source out")
         return form.write(graph, _place(form, target, None))
     origin = find_source(graph, source)
-    if origin.suffix.lower() not in form.copied_as:
+    _check_kind(form, origin, "a copy of")
+    return form.write_over(graph, origin, _place(form, target, origin))
+
+
+def _source_if_there(form: Format, graph: SceneGraph, given: str | Path | None) -> tuple[Path | None, str]:
+    """The source of a graph where it is there and of the right kind, else why not; a given one has to be."""
+    if given is not None:
+        origin = find_source(graph, given)
+        _check_kind(form, origin, "written for")
+        return origin, ""
+    if Path(graph.source.path).suffix.lower() not in form.copied_as:
+        return None, f"the graph was made from no {' or '.join(form.copied_as)} file"
+    try:
+        return find_source(graph), ""
+    except LoadError as error:
+        return None, str(error)
+
+
+def _check_kind(form: Format, source: Path, what: str) -> None:
+    if source.suffix.lower() not in form.copied_as:
         raise LoadError(
-            f"{origin}: {form.name} is a copy of a {' or '.join(form.copied_as)} file, which this is not; "
+            f"{source}: {form.name} is {what} a {' or '.join(form.copied_as)} file, which this is not; "
             "'labels-csv' writes the labels by path"
         )
-    return form.write_over(graph, origin, _place(form, target, origin))
 
 
 def _place(form: Format, path: Path, source: Path | None) -> Path:

@@ -26,8 +26,9 @@ import numpy as np
 from cadgraph.errors import LoadError
 from cadgraph.load.gltf_file import BROKEN, MESHOPT_REMEDY, Gltf, open_gltf
 from cadgraph.load.gltf_mesh import GltfMesh, read_mesh, values_of
+from cadgraph.load.gltf_nodes import walk_nodes
 from cadgraph.load.naming import clipped, name_fact, path_step
-from cadgraph.load.packing import Notes, Piece, metres_z_up, pack, unique_name
+from cadgraph.load.packing import Notes, Piece, metres_z_up, pack
 from cadgraph.load.triangles import MAX_TRIANGLES, main_color
 from cadgraph.model.facts import Fact, FactKey
 from cadgraph.model.scene import Floats, Scene, Source
@@ -35,9 +36,8 @@ from cadgraph.model.scene import Floats, Scene, Source
 if TYPE_CHECKING:
     from cadgraph.config import LoadConfig
 
-__all__ = ["node_matrix", "read", "root_nodes"]
+__all__ = ["node_matrix", "read"]
 
-_MAX_DEPTH = 200  # of the tree of nodes; ours, far beyond any real one
 _MAX_MESHES = 5_000_000  # ours; a mesh takes some 500 bytes here
 _COARSE = 0.001  # [m] a grid coarser than this moves flanges apart that touch; ours
 _MESHOPT = {"EXT_meshopt_compression", "KHR_meshopt_compression"}
@@ -128,23 +128,6 @@ def _metadata(gltf: Gltf) -> tuple[tuple[str, str], ...]:
     return tuple((key, clipped(known[key])) for key in ("copyright", "generator") if isinstance(known.get(key), str))
 
 
-def root_nodes(gltf: Gltf) -> list[int]:
-    """The nodes at the top: those of the default scene, else of the first, else all that are nobody's child [3.5.1]."""
-    scenes = gltf.rows("scenes")
-    if scenes:
-        try:
-            return _numbers(gltf.item("scenes", gltf.tree.get("scene", 0)).get("nodes", []))
-        except BROKEN:
-            return _numbers(gltf.item("scenes", 0).get("nodes", []))
-    nodes = gltf.rows("nodes")
-    below = {child for node in nodes if isinstance(node, dict) for child in _numbers(node.get("children", []))}
-    return [number for number in range(len(nodes)) if number not in below]
-
-
-def _numbers(found: Any) -> list[int]:
-    return [number for number in found if isinstance(number, int)] if isinstance(found, list) else []
-
-
 def node_matrix(node: Mapping[str, Any]) -> Floats:
     """The ``(4, 4)`` matrix for row vectors from a node to its parent [3.5.3].
 
@@ -198,14 +181,14 @@ class _Reading:
     pieces: list[Piece] = field(default_factory=list)
     facts: list[Fact] = field(default_factory=list)
     _meshes: dict[int, tuple[GltfMesh, Floats | None]] = field(default_factory=dict)
-    _seen: set[int] = field(default_factory=set)
     _triangles: int = 0
     _coarsest: float = 0.0
     _coarse: list[str] = field(default_factory=list)
 
     def walk(self) -> None:
         """Takes up the meshes of all nodes of the scene, parents first."""
-        for number, path, matrix in self._nodes():
+        seen: set[int] = set()
+        for number, path, matrix in walk_nodes(self.gltf, np.eye(4), self._enter, self.notes, seen):
             node = self.gltf.item("nodes", number)
             if node.get("mesh") is not None:
                 try:
@@ -222,75 +205,25 @@ class _Reading:
             for path in self._coarse:
                 self.notes.add("coarse-points", message + "; write it without quantization", path)
         for number, node in enumerate(self.gltf.rows("nodes")):
-            if number not in self._seen and isinstance(node, dict) and node.get("mesh") is not None:
+            if number not in seen and isinstance(node, dict) and node.get("mesh") is not None:
                 name = path_step(node.get("name"), f"node_{number}")
                 self.notes.add("outside-scene", "left out: the file's scene doesn't hold it", f"/{name}")
 
-    def _nodes(self) -> Iterator[tuple[int, str, Floats]]:
-        stack: list[tuple[int, str, Floats, int]] = []
-
-        def enter(numbers: list[int], path: str, matrix: Floats, depth: int) -> None:
-            taken: set[str] = set()
-            entered = []
-            for number in numbers:
-                found = self._enter(number, path, matrix, taken)
-                if found is not None:
-                    entered.append((number, *found, depth))
-            stack.extend(reversed(entered))
-
-        enter(root_nodes(self.gltf), "", np.eye(4), 0)
-        while stack:
-            number, path, matrix, depth = stack.pop()
-            yield number, path, matrix
-            children = _numbers(self.gltf.item("nodes", number).get("children", []))
-            if depth < _MAX_DEPTH:
-                enter(children, path, matrix, depth + 1)
-            elif children:
-                self._pass_over(children)
-                self.notes.add("too-deep", f"what lies deeper than {_MAX_DEPTH} nodes below it was left out", path)
-
-    def _enter(self, number: int, above: str, matrix: Floats, taken: set[str]) -> tuple[str, Floats] | None:
-        """Path and matrix to the world of a node, or None if it doesn't count."""
-        try:
-            node = self.gltf.item("nodes", number)
-        except BROKEN as error:
-            self.notes.add("broken-node", f"left out: it can't be read ({error!s:.120})", above or "/")
-            return None
-        path = f"{above}/{unique_name(self._name(node, number), taken)}"
-        if number in self._seen:
-            self.notes.add("repeated-node", "left out: a node belongs to one place only, and it was at another", path)
-            return None
-        self._seen.add(number)
+    def _enter(self, node: Mapping[str, Any], path: str, above: Floats) -> Floats | None:
+        """The matrix to the world of a node, or None if it doesn't count."""
         try:
             shown = node.get("extensions", {}).get("KHR_node_visibility", {}).get("visible", True)
             own = node_matrix(node)
         except BROKEN as error:
             self.notes.add("broken-node", f"left out with all below: it can't be read ({error!s:.120})", path)
-            self._pass_over([number])
             return None
         if not shown and not self.invisible:
             message = "left out with all below: hidden in the file; set load.invisible = true to load it"
             self.notes.add("hidden", message, path)
-            self._pass_over([number])
             return None
         with np.errstate(over="ignore", invalid="ignore"):
-            return path, own @ matrix
-
-    def _pass_over(self, numbers: list[int]) -> None:
-        """Counts nodes and all below them as seen."""
-        left = list(numbers)
-        nodes = self.gltf.rows("nodes")
-        while left:
-            self._seen.add(number := left.pop())
-            if 0 <= number < len(nodes) and isinstance(nodes[number], dict):
-                left += [child for child in _numbers(nodes[number].get("children", [])) if child not in self._seen]
-
-    def _name(self, node: Mapping[str, Any], number: int) -> str:
-        name = node.get("name")
-        if not name and isinstance(mesh := node.get("mesh"), int) and 0 <= mesh < len(self.gltf.rows("meshes")):
-            row = self.gltf.rows("meshes")[mesh]
-            name = row.get("name") if isinstance(row, dict) else None
-        return path_step(name, f"node_{number}")
+            matrix: Floats = own @ above
+        return matrix
 
     def _place(self, node: Mapping[str, Any], path: str, matrix: Floats) -> None:
         number = node["mesh"]

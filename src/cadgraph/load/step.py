@@ -21,9 +21,10 @@ import numpy.typing as npt
 
 from cadgraph.errors import LoadError
 from cadgraph.load.bodies import split_bodies
-from cadgraph.load.gltf import node_matrix, root_nodes
+from cadgraph.load.gltf import node_matrix
 from cadgraph.load.gltf_file import BROKEN, Gltf, parse_glb
 from cadgraph.load.gltf_mesh import GltfMesh, read_mesh
+from cadgraph.load.gltf_nodes import root_nodes
 from cadgraph.load.naming import path_step
 from cadgraph.load.packing import Notes, Piece, pack, unique_name
 from cadgraph.load.triangles import main_color

@@ -9,11 +9,12 @@ from typing import Any
 
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import Evidence, GivenEvidence
-from cadgraph.model.records import Adjacent, Junction, Part, Terminal, Unit
+from cadgraph.model.records import Adjacent, Junction, Part, SourceFact, Terminal, Unit
 from cadgraph.model.vocabulary import spell_label
 from cadgraph.query.explain_connection import ConnectionExplanation, explain_connection
 from cadgraph.query.explain_unit import UnitExplanation, explain_unit
 from cadgraph.query.network import Network
+from cadgraph.query.told_facts import fact_rows, fact_values
 from cadgraph.query.told_joint import ToldJoint, say_joint, tell_joint
 
 __all__ = ["Explanation", "Neighbor", "explain", "explain_any"]
@@ -59,6 +60,7 @@ class Explanation:
         cluster: id of its structure, or None.
         inside: id of the part that encloses it on all sides, or None.
         joints: where lines join at it, made or not, the surest first.
+        facts: what the source file says of it.
     """
 
     part: str
@@ -77,10 +79,11 @@ class Explanation:
     cluster: str | None = None
     inside: str | None = None
     joints: tuple[ToldJoint, ...] = ()
+    facts: tuple[SourceFact, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         """As plain values."""
-        return {**asdict(self), "evidence": self.evidence.to_json()}
+        return {**asdict(self), "evidence": self.evidence.to_json(), "facts": fact_values(self.facts)}
 
     def lines(self) -> list[tuple[str, str]]:
         """The explanation as pairs of a heading and a text."""
@@ -105,7 +108,7 @@ class Explanation:
         rows.append(("unit", self.unit or "none"))
         rows.append(("structure", self.cluster or "none"))
         rows += [("joined" if joint.made else "not joined", say_joint(joint)) for joint in self.joints[:_MOST_TOLD]]
-        return rows
+        return rows + fact_rows(self.facts)
 
 
 def explain(graph: SceneGraph, which: str) -> Explanation:
@@ -144,6 +147,7 @@ def explain(graph: SceneGraph, which: str) -> Explanation:
         cluster=None if cluster is None else cluster.id,
         inside=part.inside,
         joints=_joints(graph, part),
+        facts=part.facts,
     )
 
 

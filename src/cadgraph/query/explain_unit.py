@@ -9,8 +9,9 @@ from typing import Any
 
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.ports import least_ports, port_word
-from cadgraph.model.records import Part, Point, Unit
+from cadgraph.model.records import Part, Point, SourceFact, Unit
 from cadgraph.query.network import Arc, Network
+from cadgraph.query.told_facts import fact_rows, fact_values
 from cadgraph.query.told_joint import ToldJoint, name_part, say_joint, tell_joint
 
 __all__ = ["PortInUse", "UnitExplanation", "UnitPart", "explain_unit"]
@@ -72,6 +73,7 @@ class UnitExplanation:
         joints: that were made at it but at none of its ports.
         open_joints: that were not made at it, the likeliest first.
         recorded: whether the graph names joints at all.
+        facts: what the source file says of nodes above several of its parts.
     """
 
     place: str
@@ -86,6 +88,7 @@ class UnitExplanation:
     joints: tuple[ToldJoint, ...]
     open_joints: tuple[ToldJoint, ...]
     recorded: bool
+    facts: tuple[SourceFact, ...] = ()
 
     @property
     def missing(self) -> int:
@@ -94,7 +97,7 @@ class UnitExplanation:
 
     def to_json(self) -> dict[str, Any]:
         """As plain values."""
-        return {**asdict(self), "missing": self.missing}
+        return {**asdict(self), "missing": self.missing, "facts": fact_values(self.facts)}
 
     def lines(self) -> list[tuple[str, str]]:
         """The explanation as pairs of a heading and a text."""
@@ -105,7 +108,7 @@ class UnitExplanation:
             rows.append((f"{self._word} {port.port}" if port.port else self._word, _said_port(port)))
             rows += [("", say_joint(joint)) for joint in port.joints]
         rows += [("joined", say_joint(joint)) for joint in self.joints]
-        return rows + self._lacking_rows()
+        return rows + self._lacking_rows() + fact_rows(self.facts)
 
     def _lacking_rows(self) -> list[tuple[str, str]]:
         """What is missing for its kind, and what might be joined to it."""
@@ -155,6 +158,7 @@ def explain_unit(graph: SceneGraph | Network, which: str) -> UnitExplanation:
         joints=elsewhere,
         open_joints=tuple(joint for joint in told if not joint.made),
         recorded=bool(network.graph.document.joints),
+        facts=node.facts if isinstance(node, Unit) else (),
     )
 
 

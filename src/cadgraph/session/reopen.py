@@ -153,7 +153,9 @@ def find_source(graph: SceneGraph, folder: Path, scene: str | Path | None) -> Pa
     found = next((path for path in tried if path.is_file()), None)
     if found is None:
         raise LabelError(f"{tried[0]}: the scene isn't there; name it with --scene")
-    if graph.source.sha256 and hashlib.sha256(found.read_bytes()).hexdigest() != graph.source.sha256:
+    with found.open("rb") as opened:
+        digest = hashlib.file_digest(opened, "sha256").hexdigest()
+    if graph.source.sha256 and digest != graph.source.sha256:
         raise LabelError(f"{found}: changed since the graph was built; run 'cadgraph build' on it instead")
     return found
 

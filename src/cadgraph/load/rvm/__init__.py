@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from cadgraph.model.facts import Fact, StatedLink
     from cadgraph.model.scene import Ints, Scene
 
-__all__ = ["read"]
+__all__ = ["element_names", "read"]
 
 _ABRIDGED = ("broken-primitive", "broken-node", "empty-mesh", "invalid-transform", "left-out-type")
 _SKEW = 1e-4  # so far directions of binary files may be from a rotation: float32 and the sums of many turns
@@ -56,24 +56,19 @@ def read(path: Path, config: LoadConfig) -> Scene:
 
     from cadgraph.load.packing import Notes, pack_placed
     from cadgraph.load.rvm.attributes import find_attributes, read_attributes
-    from cadgraph.load.rvm.chunks import find_chunks, map_words
     from cadgraph.load.rvm.colors import colors_of
     from cadgraph.load.rvm.placing import cut_shapes, place
     from cadgraph.load.rvm.primitives import read_primitives
     from cadgraph.load.rvm.shapes import Fineness
     from cadgraph.load.rvm.statements import Owner, find_facts, find_links
-    from cadgraph.load.rvm.text import TEXT_SKEW, is_text, read_words
-    from cadgraph.load.rvm.tree import read_tree
+    from cadgraph.load.rvm.text import TEXT_SKEW, is_text
     from cadgraph.model.scene import Source
 
     notes = Notes()
-    text = is_text(path)
-    words = read_words(path, notes) if text else map_words(path)
-    chunks = find_chunks(words, path, notes)
-    tree, taken = read_tree(words, chunks, str(path), notes)
-    primitives = read_primitives(
-        words, chunks, tree.path_of, notes, config.insulation, TEXT_SKEW if text else _SKEW
-    ).without(_left_out(tree, chunks, notes))
+    words, chunks, tree, taken = _opened(path, notes)
+    skew = TEXT_SKEW if is_text(path) else _SKEW
+    primitives = read_primitives(words, chunks, tree.path_of, notes, config.insulation, skew)
+    primitives = primitives.without(_left_out(tree, chunks, notes))
     fineness = Fineness(config.max_gap * 1000, config.max_angle)
     shapes, shape = cut_shapes(words, primitives, fineness, config.max_triangles, tree.path_of, notes)
     meshes = place(primitives, shapes, shape, _joined(tree, primitives, config.granularity))
@@ -103,6 +98,35 @@ def read(path: Path, config: LoadConfig) -> Scene:
     if not scene.n_meshes:
         raise LoadError(f"{path}: opens, but holds no primitive with a surface; export it with its geometry")
     return scene
+
+
+def element_names(path: Path) -> dict[str, str]:
+    """What the elements of an RVM file are called in it, by their paths in the scene, in the order of the file.
+
+    Args:
+        path: of the model.
+
+    Raises:
+        LoadError: it is no RVM file, or can't be read.
+    """
+    from cadgraph.load.packing import Notes
+
+    try:
+        _, _, tree, _ = _opened(path, Notes())
+    except OSError as error:
+        raise LoadError(f"{path}: can't be read ({error.strerror or error}); check the path") from error
+    return dict(zip(tree.paths, tree.names, strict=True))
+
+
+def _opened(path: Path, notes: Notes) -> tuple[Words, Chunks, Tree, Names]:
+    """The words and chunks of a file, its nodes, and the paths that these take."""
+    from cadgraph.load.rvm.chunks import find_chunks, map_words
+    from cadgraph.load.rvm.text import is_text, read_words
+    from cadgraph.load.rvm.tree import read_tree
+
+    words = read_words(path, notes) if is_text(path) else map_words(path)
+    chunks = find_chunks(words, path, notes)
+    return words, chunks, *read_tree(words, chunks, str(path), notes)
 
 
 def _left_out(tree: Tree, chunks: Chunks, notes: Notes) -> npt.NDArray[np.bool_]:
