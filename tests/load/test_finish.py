@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 import shapes
 from cadgraph.config import LoadConfig
@@ -94,6 +95,21 @@ def test_scenes_of_shared_shapes_are_scaled_and_turned_as_others():
     one, two = finish(shared, config, FILE), finish(plain, config, FILE)
     np.testing.assert_allclose(one.vertices, two.vertices, atol=1e-15)
     np.testing.assert_allclose(one.mesh(1)[0].mean(axis=0), [0.005, -0.007, 0.006], atol=1e-12)  # Y is up now
+
+
+def test_the_extent_of_turned_shapes_is_that_of_their_vertices():
+    turns = Rotation.random(40, rng=5).as_matrix()
+    shift = np.random.default_rng(6).uniform(-2, 2, (40, 3))
+    arrays = MeshArrays.of([shapes.box((2.0, 1.0, 0.5)), shapes.cylinder(0.3, 2.0)])
+    scene = Scene(
+        arrays,
+        tuple(f"/m_{i:02}" for i in range(40)),
+        np.full((40, 3), np.nan, np.float32),
+        Source(meters_per_unit=1.0),
+        placement=Placement(np.arange(40) % 2, turns, shift),
+    )
+    largest = np.ptp(scene.with_vertices(scene.vertices).vertices, axis=0).max()
+    assert weigh_units(scene, 1.0).largest == pytest.approx(largest, rel=1e-12)
 
 
 def test_the_up_axis_of_a_file_without_one_is_that_it_lies_on():
