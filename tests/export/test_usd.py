@@ -560,10 +560,12 @@ def test_a_source_whose_meshes_were_split_gets_its_solids_written(tmp_path):
     stage = Usd.Stage.CreateNew(str(whole))
     UsdGeom.SetStageMetersPerUnit(stage, 1.0)
     UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)
-    boxes = [shapes.box((0.1, 0.1, 0.1), (0.2 * k, 0, 0)) for k in range(30)]
+    boxes = [
+        (v + np.array([0.5 * k, 0, 0]), f) for k in range(30) for v, f in [shapes.tube(0.1 + 0.05 * (k % 3), 0.09, 2.0)]
+    ]
     mesh = UsdGeom.Mesh.Define(stage, "/World/all")
     mesh.GetPointsAttr().Set(np.concatenate([v for v, _ in boxes]).tolist())
-    faces = np.concatenate([f + 8 * k for k, (_, f) in enumerate(boxes)])
+    faces = np.concatenate([f + len(boxes[0][0]) * k for k, (_, f) in enumerate(boxes)])
     mesh.GetFaceVertexCountsAttr().Set([3] * len(faces))
     mesh.GetFaceVertexIndicesAttr().Set(faces.reshape(-1).tolist())
     stage.Save()

@@ -135,13 +135,32 @@ def test_a_bag_is_split_and_said_so():
     assert finish(whole, LoadConfig(split=False), FILE).n_meshes == 1
 
 
-def test_a_format_that_keeps_parts_apart_is_split_only_where_a_mesh_is_a_bag_of_many():
+def plant_of(n, apart=1.0):
+    """Pipes of three diameters, upright in a row."""
+    return [moved(shapes.tube(0.1 + 0.05 * (k % 3), 0.09, 2.0), (apart * k, 0, 0)) for k in range(n)]
+
+
+def test_a_format_that_keeps_parts_apart_is_split_only_where_a_mesh_is_a_plant():
     few = scene_of([bag(pipes())], format="usd")
     assert finish(few, LoadConfig(), FILE).n_meshes == 1
-    many = [moved(shapes.box((0.1, 0.1, 0.1)), (k, 0, 0)) for k in range(30)]
-    found = finish(scene_of([bag(many), shapes.box((3.0, 3.0, 0.1))], format="gltf"), LoadConfig(), FILE)
+    deck = shapes.box((3.0, 3.0, 0.1))
+    found = finish(scene_of([bag(plant_of(30, 0.3)), deck], format="gltf"), LoadConfig(), FILE)
     assert found.n_meshes == 31
     assert "/mesh_1" in found.paths
+    boxes = [moved(shapes.box((0.1, 0.1, 0.1)), (0.3 * k, 0, 0)) for k in range(30)]
+    assert finish(scene_of([bag(boxes), deck], format="gltf"), LoadConfig(), FILE).n_meshes == 2
+    lamp = [(v * 0.01, f) for v, f in plant_of(30, 0.3)]
+    assert finish(scene_of([bag(lamp)], format="gltf"), LoadConfig(), FILE).n_meshes == 1
+
+
+def test_meshes_of_one_material_each_are_split_and_things_of_many_pieces_are_not():
+    pillars = bag([moved(shapes.box((0.1, 0.1, 3.0)), (2 * k, 5, 0)) for k in range(12)])
+    alone = shapes.box((1.0, 1.0, 0.2))
+    found = finish(scene_of([pillars, bag(plant_of(12)), alone], format="gltf"), LoadConfig(), FILE)
+    assert found.n_meshes == 25
+    assert codes(found) == ["split-mesh", "split-mesh"]
+    railing = bag([*plant_of(12), shapes.box((12.0, 0.05, 0.05), (5.5, 0.0, 0.5))])
+    assert finish(scene_of([railing, alone], format="gltf"), LoadConfig(), FILE).n_meshes == 2
 
 
 def test_scans_and_loose_triangles_stay_whole():

@@ -11,6 +11,7 @@ pytest.importorskip("ifcopenshell")
 import ifcopenshell
 
 import ifc_files
+import shapes
 from cadgraph.config import LoadConfig
 from cadgraph.errors import LoadError
 from cadgraph.load import load
@@ -232,6 +233,27 @@ def test_a_shape_that_cannot_be_made_is_named(tmp_path):
     scene = loaded(plant, tmp_path)
     assert scene.n_meshes == 1
     assert len(codes(scene)["unreadable"].meshes) == 1
+
+
+def test_triangles_that_the_file_holds_are_kept_as_they_are(tmp_path):
+    plant = ifc_files.IfcPlant(unit="")
+    vertices, faces = shapes.tube(sides=9)
+    points = plant.file.create_entity("IfcCartesianPointList3D", vertices.tolist())
+    held = plant.file.create_entity(
+        "IfcTriangulatedFaceSet", Coordinates=points, CoordIndex=(faces + 1).tolist(), Closed=True
+    )
+    upright = {"along": (0, 0, 1)}
+    plant.element("IfcPipeSegment", plant.body(held, kind="Tessellation"), **upright)
+    shared = plant.shape_map(held)
+    for x in (3, 6):
+        plant.element("IfcPipeSegment", plant.mapped(shared), at=(x, 0, 0), **upright)
+    plant.element("IfcPipeSegment", plant.body(plant.cylinder(1, 7)), at=(9, 0, 0))
+    scene = loaded(plant, tmp_path)
+    meshes = [scene.mesh(i) for i in range(scene.n_meshes)]
+    held_ones = sorted((v for v, f in meshes if len(f) == len(faces)), key=lambda v: v[:, 0].min())
+    assert (len(meshes), len(held_ones)) == (4, 3)
+    for found, x in zip(held_ones, (0, 3, 6), strict=True):
+        assert sorted(np.round(found - [x, 0, 0], 6).tolist()) == sorted(np.round(vertices, 6).tolist())
 
 
 @pytest.mark.parametrize(("unit", "metres"), [("", 1.0), ("CENTI", 0.01)])

@@ -13,7 +13,7 @@ import numpy as np
 
 from cadgraph.errors import LoadError
 from cadgraph.load.packing import Z_UP_FROM
-from cadgraph.load.units import METRES, UnitEvidence, weigh_units
+from cadgraph.load.units import METRES, UnitEvidence, distinct, pipe_diameters, weigh_units
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.scene import Faces, Floats, Ints, MeshArrays, Scene
 
@@ -24,8 +24,14 @@ __all__ = ["finish"]
 
 _UNSTATED_SHELLS = 2  # a format that keeps all in one mesh: from so many surfaces on these are its parts
 _BAG_SHELLS = 20  # a mesh of a format that keeps parts apart is a bag of them where it has more surfaces than this ...
-_BAG_SHARE = 0.3  # ... and this share of the scene's triangles, or where all meshes have so many on average ...
-_FEW_MESHES = 50  # ... and are no more than this
+_BAG_SHARE = 0.3  # ... and this share of the scene's triangles
+_FEW_MESHES = 50  # of a scene that may have one mesh for each material
+_PLACES = 5  # such a mesh has surfaces in so many places apart from each other ...
+_APART = 0.02  # ... by this share of its own diagonal
+_BY_MATERIAL = 0.5  # and such meshes hold this share of the scene's triangles
+_PLANT = 2.0  # least extent of a plant [m] ...
+_PIPES, _DIAMETERS = 10, 3  # ... and how many long round surfaces it has at least, of how many diameters
+_MOST_BOXES = 3000  # surfaces of a mesh that are compared
 _ONE_BODY = 0.8  # a surface with this share of a mesh's triangles makes it one body with scraps: a scan
 _SCAN = 5000  # triangles of one connected surface that are worth a note
 _LEAST_TRIANGLES = 8  # of a surface on average; a box has twelve
@@ -50,11 +56,11 @@ def finish(scene: Scene, config: LoadConfig, path: Path) -> Scene:
     if not scene.n_meshes:
         return scene
     if config.split:
-        scene = _split(scene)
+        scene = _split(scene, config.unit)
     return _with_up(_with_unit(scene, config, path), config)
 
 
-def _split(scene: Scene) -> Scene:
+def _split(scene: Scene, unit: str | None) -> Scene:
     """The scene with every mesh that is a bag of separate surfaces as a mesh for each of them."""
     bags = {mesh: surfaces for mesh, surfaces in _candidates(scene).items() if len(surfaces) > 1}
     if scene.n_meshes == 1 and not bags and scene.n_triangles >= _SCAN:
@@ -89,11 +95,23 @@ def _split(scene: Scene) -> Scene:
     taken = set(paths)
     if len(taken) < len(paths):  # a path of the file reads like one of ours
         return scene
-    split = replace(
+    parted = replace(
         scene, shapes=MeshArrays.of(meshes), placement=None, paths=tuple(paths), anchors=tuple(anchors),
         colors=scene.colors[np.array(rows)],
     )  # fmt: skip
-    return _noted(split.in_path_order(), *notes)
+    if scene.source.format not in _BAGS and not _is_plant(parted, unit):
+        return scene
+    return _noted(parted.in_path_order(), *notes)
+
+
+def _is_plant(scene: Scene, unit: str | None) -> bool:
+    """Whether a scene is large and has pipes of several sizes: a lamp or a pump in one mesh is one thing, whatever its
+    surfaces.
+    """
+    scale = METRES[unit] / scene.source.meters_per_unit if unit else 1.0
+    size = float((scene.vertices.max(axis=0) - scene.vertices.min(axis=0)).max()) * scale
+    diameters = pipe_diameters(scene)
+    return size >= _PLANT and len(diameters) >= _PIPES and len(distinct(diameters)) >= _DIAMETERS
 
 
 def _candidates(scene: Scene) -> dict[int, list[Ints]]:
@@ -108,11 +126,25 @@ def _candidates(scene: Scene) -> dict[int, list[Ints]]:
     looked_at = range(scene.n_meshes) if scene.n_meshes <= _FEW_MESHES else large
     found = {int(mesh): _surfaces(scene, int(mesh)) for mesh in looked_at}
     found = {mesh: surfaces for mesh, surfaces in found.items() if not _is_whole(surfaces, int(counts[mesh]))}
-    bags = {mesh: surfaces for mesh, surfaces in found.items() if len(surfaces) > _BAG_SHELLS}
-    # A few meshes that hold many surfaces each: what a game engine makes of all parts of one material.
-    if sum(len(surfaces) for surfaces in found.values()) > _BAG_SHELLS * scene.n_meshes:
-        return bags
-    return {mesh: surfaces for mesh, surfaces in bags.items() if mesh in large}
+    spread = [mesh for mesh, surfaces in found.items() if _places(scene, mesh, surfaces) >= _PLACES]
+    if scene.n_meshes <= _FEW_MESHES and counts[spread].sum() > _BY_MATERIAL * counts.sum():
+        return found
+    return {mesh: surfaces for mesh, surfaces in found.items() if mesh in large and len(surfaces) > _BAG_SHELLS}
+
+
+def _places(scene: Scene, mesh: int, surfaces: list[Ints]) -> int:
+    """In how many places, apart from each other, the surfaces of a mesh lie: those of one thing are near each other."""
+    if len(surfaces) < _PLACES:
+        return 1
+    from cadgraph.geometry.components import first_of_component
+
+    vertices, faces = scene.mesh(mesh)
+    apart = _APART * float(np.linalg.norm(vertices.max(axis=0) - vertices.min(axis=0)))
+    corners = [vertices[faces[triangles]].reshape(-1, 3) for triangles in surfaces[:_MOST_BOXES]]
+    low = np.array([points.min(axis=0) for points in corners]) - apart
+    high = np.array([points.max(axis=0) for points in corners])
+    near = (low[:, None] <= high[None]).all(axis=2)
+    return len(np.unique(first_of_component(len(corners), np.argwhere(near & near.T))))
 
 
 def _is_whole(surfaces: list[Ints], n_triangles: int) -> bool:

@@ -13,7 +13,7 @@ import numpy as np
 from cadgraph.model.scene import Floats, Scene
 from cadgraph.model.standards import outer_diameters
 
-__all__ = ["METRES", "UnitEvidence", "weigh_units"]
+__all__ = ["METRES", "UnitEvidence", "distinct", "pipe_diameters", "weigh_units"]
 
 METRES = {"m": 1.0, "dm": 0.1, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048, "km": 1000.0}
 """Length of each unit [m]."""
@@ -70,6 +70,19 @@ class UnitEvidence:
         return self.lead >= _LEAD and (hits >= 3 or (hits == self.n_diameters == 2 and self.lead >= 2 * _LEAD))
 
 
+def pipe_diameters(scene: Scene) -> Floats:
+    """The diameters of the shapes that are long and round [m]; of a large scene those of some thousands of them."""
+    return _sizes(scene)[1]
+
+
+def distinct(diameters: Floats) -> Floats:
+    """Diameters in order, each once within 0.2 %."""
+    ordered = np.sort(diameters[diameters > 0])
+    new = np.concatenate([[True], ordered[1:] > ordered[:-1] * (1 + _SAME)]) if len(ordered) else np.zeros(0, bool)
+    found: Floats = ordered[new]
+    return found
+
+
 def weigh_units(scene: Scene, meters_per_unit: float) -> UnitEvidence:
     """Weighs all units for a scene.
 
@@ -81,27 +94,20 @@ def weigh_units(scene: Scene, meters_per_unit: float) -> UnitEvidence:
     low, high = _span(scene)
     largest = float((high - low).max()) / meters_per_unit
     median = float(np.median(extents)) / meters_per_unit if len(extents) else 0.0
-    distinct = _distinct(diameters / meters_per_unit)
+    different = distinct(diameters / meters_per_unit)
     standard = np.log(sorted({outer for _, outer in outer_diameters()}))
     scores, hits = {}, {}
     for unit, metres in METRES.items():
-        near = np.abs(np.log(np.maximum(distinct * metres, 1e-300))[:, None] - standard[None]).min(
+        near = np.abs(np.log(np.maximum(different * metres, 1e-300))[:, None] - standard[None]).min(
             axis=1, initial=np.inf
         )
         hit = int(np.count_nonzero(near <= _NEAR))
-        miss = len(distinct) - hit
+        miss = len(different) - hit
         score = hit * np.log(_HIT / _CHANCE) + miss * np.log((1 - _HIT) / (1 - _CHANCE))
         for size, (middle, spread) in ((largest, _SCENE), (median, _MESH)):
             score += -0.5 * ((np.log(max(size * metres, 1e-300)) - middle) / spread) ** 2
         scores[unit], hits[unit] = float(score), hit
-    return UnitEvidence(scores, hits, len(distinct), largest)
-
-
-def _distinct(diameters: Floats) -> Floats:
-    ordered = np.sort(diameters[diameters > 0])
-    new = np.concatenate([[True], ordered[1:] > ordered[:-1] * (1 + _SAME)]) if len(ordered) else np.zeros(0, bool)
-    found: Floats = ordered[new]
-    return found
+    return UnitEvidence(scores, hits, len(different), largest)
 
 
 def _span(scene: Scene) -> tuple[Floats, Floats]:
