@@ -18,8 +18,8 @@ from cadplants import PRESETS, make
 
 TITLES = (
     "scenes", "number", "with pipes", "declared right: false alarm", "declared wrong", "right unit told",
-    "wrong unit told", "silent", "no unit, parts kept (OBJ): right", "wrong", "refused", "no unit, one bag (STL): right",
-    "wrong", "refused",
+    "wrong unit told", "silent", "no unit, parts kept (OBJ): right", "wrong", "refused",
+    "no unit, one bag (STL): right", "wrong", "refused",
 )  # fmt: skip
 _SUFFIXES = (".usd", ".usda", ".usdc", ".step", ".stp")
 _MOST_TRIANGLES = 1_500_000  # of a scene that is tried as one bag: splitting it takes memory and time

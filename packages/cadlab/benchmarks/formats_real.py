@@ -71,11 +71,22 @@ def plm(data: Path) -> list[str]:
     )  # fmt: skip
     found = match(rvm, truth, PLM_TOLERANCE)
     extra = surplus_words(rvm, found.surplus)
+    labels = labels_of(build(rvm))
+    now = {old: (new,) for old, new in found.same.items()} | found.split
+    wrong = [
+        mesh.mesh
+        for mesh in truth.meshes
+        if mesh.name is not None and any(labels[path] != (mesh.group, mesh.name) for path in now.get(mesh.mesh, ("",)))
+    ]
+    split = sum(path in found.split for path in wrong)
+    pieces = sum(map(len, found.split.values()))
     return [
         *table(titles, rows, numbers=True),
         "",
-        f"{len(found.split)} meshes of scene.usdc are several of plm.rvm, {sum(map(len, found.merged.values()))} became "
-        f"part of another, {len(found.missing)} are not in it; {len(found.surplus)} meshes of plm.rvm are not in "
+        f"{len(found.split)} meshes of scene.usdc are {pieces} of plm.rvm, and right only where all of these are: "
+        f"{split} of the {len(wrong)} names that are wrong by geometry alone are of such. "
+        f"{sum(map(len, found.merged.values()))} is part of another there, {len(found.missing)} are not in it; "
+        f"{len(found.surplus)} meshes of plm.rvm are not in "
         f"scene.usdc: {extra}.",
     ]
 
@@ -190,12 +201,12 @@ def rhbg(data: Path) -> list[str]:
         summary.append(
             (title, words, *counts, *(len(between.directions(v)) for v in ("agree", "differ", "ours", "theirs")))
         )
-    titles = (
+    heads = (
         "graph", "units", "connections", "compare --source: agree", "only graph", "only source", "directions agree",
         "differ", "only graph", "only source",
     )  # fmt: skip
     print("\n".join(source_lines(compare_source(graphs[0]), most=8)), file=sys.stderr)
-    return [*lines, *table(titles, summary, numbers=True)]
+    return [*lines, *table(heads, summary, numbers=True)]
 
 
 # -------------------------------------------------------------------------------------------------------- other files
