@@ -1,5 +1,6 @@
 """Unit, up axis and bags of triangles: what every scene gets after its reader."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ from cadgraph.config import LoadConfig
 from cadgraph.errors import LoadError
 from cadgraph.load.bodies import split_shells
 from cadgraph.load.finish import finish
-from cadgraph.load.units import METRES, weigh_units
+from cadgraph.load.units import METRES, UnitEvidence, weigh_units
 from cadgraph.model.scene import MeshArrays, Placement, Scene, Source
 
 FILE = Path("plant.stl")
@@ -64,6 +65,14 @@ def test_without_evidence_the_unit_must_be_said():
     found = finish(plain, LoadConfig(unit="cm"), FILE)
     assert np.ptp(found.vertices[:, 0]) == pytest.approx(0.06)
     assert found.source.meters_per_unit == 0.01
+
+
+def test_two_standard_diameters_among_others_decide_no_unit():
+    two = UnitEvidence(dict.fromkeys(METRES, 0.0) | {"mm": 5.0}, dict.fromkeys(METRES, 0) | {"mm": 2}, 2, 1.0)
+    assert two.clear
+    assert not replace(two, n_diameters=3).clear
+    assert replace(two, n_diameters=9, hits=two.hits | {"mm": 3}).clear
+    assert not replace(two, scores=two.scores | {"mm": 3.9}).clear
 
 
 def test_a_stated_unit_is_doubted_and_kept():

@@ -61,7 +61,9 @@ class UnitEvidence:
     @property
     def clear(self) -> bool:
         """Whether the likeliest unit may be taken where the file states none."""
-        return self.lead >= _LEAD and self.hits[self.best] >= 2
+        # Two of many are chance: of a dozen lengths two are standard ones in some unit or other.
+        hits = self.hits[self.best]
+        return self.lead >= _LEAD and (hits >= 3 or hits == self.n_diameters == 2)
 
     @property
     def certain(self) -> bool:
