@@ -37,7 +37,7 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.scene import Scene
 from cadgraph.model.truth import Truth
 from cadgraph.pipeline import build
-from cadgraph.query.compare_source import compare_source
+from cadgraph.query.compare_source import Verdict, compare_source
 from cadgraph.query.source_text import source_lines
 from cadlab.evaluate.evaluation import evaluate
 from cadlab.markdown import put, table
@@ -51,6 +51,7 @@ METADATA = {"label.use_metadata": True, "relate.use_metadata": True}
 PLM_TOLERANCE = 0.005  # of the boxes of two readings of one plant [m]; 1 and 20 mm give the same pairs
 ASK_FOR_UNIT = "--unit"
 SEEDS = (3, 11)
+ALWAYS = "OBJ, STL and PLY are read with --unit mm; sound ones get a note, too, on their up axis or on being split."
 
 # ---------------------------------------------------------------------------------------------------------- plm.rvm
 
@@ -170,43 +171,52 @@ def types_of(scene: Scene) -> dict[str, str]:
 def rhbg(data: Path) -> list[str]:
     """The labels of a plant's elements, beside their types, which are read from default names."""
     scene = load(data / "formats" / "RHBG.RVM", IN_PROCESS)
-    own = {fact.path: fact.value for fact in scene.facts if fact.key == "class"}
     graphs = [build(scene, Config().replace(settings)) for settings in ({}, METADATA)]
     plain, told = map(labels_of, graphs)
-    rows = []
-    for kind, count in Counter(own[path] for path in scene.paths if path in own).most_common():
-        means = pdms_label(kind)
-        if means is None or means[1] is None:
-            continue
-        paths = [path for path in scene.paths if own.get(path) == kind]
-        cells = [sum(labels[path][:2] == means[:2] for path in paths) for labels in (plain, told)]
-        group = sum(plain[path][0] == means[0] for path in paths)
-        others = Counter(plain[path][1] or "no name" for path in paths if plain[path][1] != means[1])
-        misses = ", ".join(f"{n} {name}" for name, n in others.most_common(3))
-        rows.append((kind.lower(), count, means[1], group, cells[0], misses or "-", cells[1]))
     titles = ("type", "meshes", "name", "group right", "name right", "other names", "name right with metadata")
-    lines = [
-        f"{scene.n_meshes} meshes, {scene.n_triangles:,} triangles, {len(scene.facts)} facts, {len(scene.links)} links "
-        "of elements that follow each other in a branch.",
-        "",
-        *table(titles, rows, numbers=True),
-        "",
-    ]
-    summary = []
-    for title, graph in zip(("geometry alone", "with metadata"), graphs, strict=True):
-        units = Counter(unit.unit_type for unit in graph.units())
-        between = compare_source(graph)
-        counts = (len(graph.connections()), len(between.agreeing), len(between.only_ours), len(between.only_theirs))
-        words = ", ".join(f"{n} {kind}" for kind, n in sorted(units.items())) or "none"
-        summary.append(
-            (title, words, *counts, *(len(between.directions(v)) for v in ("agree", "differ", "ours", "theirs")))
-        )
     heads = (
         "graph", "units", "connections", "compare --source: agree", "only graph", "only source", "directions agree",
         "differ", "only graph", "only source",
     )  # fmt: skip
     print("\n".join(source_lines(compare_source(graphs[0]), most=8)), file=sys.stderr)
-    return [*lines, *table(heads, summary, numbers=True)]
+    return [
+        f"{scene.n_meshes} meshes, {scene.n_triangles:,} triangles, {len(scene.facts)} facts, {len(scene.links)} links "
+        "of elements that follow each other in a branch.",
+        "",
+        *table(titles, type_rows(scene, plain, told), numbers=True),
+        "",
+        *table(heads, map(source_row, ("geometry alone", "with metadata"), graphs), numbers=True),
+    ]
+
+
+Labels = Mapping[str, tuple[str | None, str | None]]
+
+
+def type_rows(scene: Scene, plain: Labels, told: Labels) -> Iterator[tuple[object, ...]]:
+    """A row for each type of element that tells a name, the most frequent first."""
+    own = {fact.path: fact.value for fact in scene.facts if fact.key == "class"}
+    for kind, count in Counter(own[path] for path in scene.paths if path in own).most_common():
+        means = pdms_label(kind)
+        if means is None or means[1] is None:
+            continue
+        paths = [path for path in scene.paths if own.get(path) == kind]
+        right, right_told = (sum(labels[path] == means[:2] for path in paths) for labels in (plain, told))
+        group = sum(plain[path][0] == means[0] for path in paths)
+        others = Counter(plain[path][1] or "no name" for path in paths if plain[path][1] != means[1])
+        misses = ", ".join(f"{n} {name}" for name, n in others.most_common(3))
+        yield kind.lower(), count, means[1], group, right, misses or "-", right_told
+
+
+def source_row(title: str, graph: SceneGraph) -> tuple[object, ...]:
+    """What a graph holds, and how it compares with what the file joins."""
+    units = Counter(unit.unit_type for unit in graph.units())
+    found = compare_source(graph)
+    words = ", ".join(f"{n} {kind}" for kind, n in sorted(units.items())) or "none"
+    verdicts: tuple[Verdict, ...] = ("agree", "differ", "ours", "theirs")
+    return (
+        title, words, len(graph.connections()), len(found.agreeing), len(found.only_ours), len(found.only_theirs),
+        *(len(found.directions(verdict)) for verdict in verdicts),
+    )  # fmt: skip
 
 
 # -------------------------------------------------------------------------------------------------------- other files
@@ -252,7 +262,7 @@ def damage(copies: int) -> list[str]:
             rows.append((f"{path.suffix[1:].upper()}, {path.stat().st_size / 1000:.0f} kB", *cells[1:]))
             defects += other
             print(rows[-1], *other, sep="\n", file=sys.stderr, flush=True)
-    return [*table(("format", *DAMAGE_TITLES[1:]), rows, numbers=True), *(f"\n{line}" for line in defects)]
+    return [*table(("format", *DAMAGE_TITLES[1:]), rows, numbers=True), "", ALWAYS, *(f"\n{line}" for line in defects)]
 
 
 # ------------------------------------------------------------------------------------------------ a million primitives
