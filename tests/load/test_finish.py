@@ -13,6 +13,7 @@ from cadgraph.errors import LoadError
 from cadgraph.load.bodies import split_shells
 from cadgraph.load.finish import finish
 from cadgraph.load.units import METRES, UnitEvidence, weigh_units
+from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.scene import MeshArrays, Placement, Scene, Source
 
 FILE = Path("plant.stl")
@@ -62,6 +63,9 @@ def test_without_evidence_the_unit_must_be_said():
     plain = scene_of([shapes.box((3.0, 2.0, 1.0)), moved(shapes.box(), (4, 0, 0))], unit_stated=False)
     with pytest.raises(LoadError, match=r"^plant\.stl: the file names no unit .* --unit mm"):
         finish(plain, LoadConfig(), FILE)
+    hinted = replace(plain, diagnostics=(Diagnostic("unit-hint", "its name speaks of mm"),))
+    with pytest.raises(LoadError, match=r"units across \(its name speaks of mm\)$"):
+        finish(hinted, LoadConfig(), FILE)
     found = finish(plain, LoadConfig(unit="cm"), FILE)
     assert np.ptp(found.vertices[:, 0]) == pytest.approx(0.06)
     assert found.source.meters_per_unit == 0.01

@@ -21,6 +21,13 @@ BOX = shapes.box((1, 2, 3))
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 
 
+@pytest.fixture(autouse=True)
+def _as_read(monkeypatch):
+    """Scenes as the reader leaves them: unit, up axis and bags are settled after it, see test_finish.py."""
+    finishing = importlib.import_module("cadgraph.load.finish")
+    monkeypatch.setattr(finishing, "finish", lambda scene, config, path: scene)
+
+
 def loaded(path, text=None, **settings):
     if text is not None:
         path = path / "plant.obj"

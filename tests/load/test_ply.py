@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import logging
 
 import numpy as np
@@ -28,10 +29,18 @@ def text(points=BOX[0], faces=BOX[1], extra="", color=""):
     return head + "end_header\n" + "\n".join(rows) + "\n"
 
 
+@pytest.fixture(autouse=True)
+def _as_read(monkeypatch):
+    """Scenes as the reader leaves them: unit, up axis and bags are settled after it, see test_finish.py."""
+    finishing = importlib.import_module("cadgraph.load.finish")
+    monkeypatch.setattr(finishing, "finish", lambda scene, config, path: scene)
+
+
 def loaded(path, content, isolate=False):
     path = path / "my part.ply"
     path.write_text(content)
-    return load(path, LoadConfig(isolate=isolate))
+    # The other process settles the unit, so it must be told.
+    return load(path, LoadConfig(isolate=True, unit="m", up="Z") if isolate else LoadConfig(isolate=False))
 
 
 @pytest.mark.parametrize("isolate", [True, False])
@@ -39,7 +48,7 @@ def test_a_box_is_one_mesh_in_its_own_unit(tmp_path, isolate):
     scene = loaded(tmp_path, text(), isolate)
     assert (scene.paths, scene.n_triangles, len(scene.vertices)) == (("/my_part",), 12, 8)
     np.testing.assert_allclose(np.ptp(scene.vertices, axis=0), [1, 2, 3])
-    assert (scene.source.unit_stated, scene.source.up_stated, scene.source.format) == (False, False, "ply")
+    assert (scene.source.unit_stated, scene.source.format) == (isolate, "ply")
 
 
 def test_colours_are_those_of_a_screen(tmp_path):

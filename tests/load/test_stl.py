@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 from pathlib import Path
 
 import numpy as np
@@ -33,6 +34,13 @@ def solid(name, corners, end=True):
         for triangle in corners.tolist()
     )
     return f"solid {name}\n{facets}" + (f"endsolid {name}\n" if end else "")
+
+
+@pytest.fixture(autouse=True)
+def _as_read(monkeypatch):
+    """Scenes as the reader leaves them: unit, up axis and bags are settled after it, see test_finish.py."""
+    finishing = importlib.import_module("cadgraph.load.finish")
+    monkeypatch.setattr(finishing, "finish", lambda scene, config, path: scene)
 
 
 def loaded(path, text=None):

@@ -7,8 +7,9 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 import graphs
+from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import Label
-from cadgraph.model.records import Adjacent, GraphDocument, Site, document_schema, points
+from cadgraph.model.records import Adjacent, GraphDocument, Site, Stated, document_schema, points
 
 
 def test_records_are_frozen():
@@ -72,5 +73,7 @@ def test_the_schema_allows_unknown_keys():
 
 
 def test_every_field_of_a_document_is_in_the_schema():
-    data = graphs.valve_line(joints=(graphs.joint(),)).to_json()
+    document = graphs.valve_line(joints=(graphs.joint(),)).document
+    link = Stated(first=("part-00000",), second=(), first_path="/a", second_path="/b", where="IfcRelConnectsPorts")
+    data = SceneGraph(document.model_copy(update={"stated": (link,)})).to_json()
     assert set(data) == set(document_schema()["properties"]) == set(GraphDocument.model_fields)

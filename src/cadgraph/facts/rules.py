@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Literal, NamedTuple
 
+from cadgraph.facts.filing import filed_alike
 from cadgraph.facts.ifc_classes import IfcClass, ifc_class
 from cadgraph.facts.pdms_types import SILENT_TYPES, isogen_label, pdms_label
 from cadgraph.facts.words import Words
@@ -53,6 +54,7 @@ class Claim(NamedTuple):
         rule: by which it is read, in words.
         kind: of the unit, where it says that, too.
         is_prior: whether it only leans a decision, and is no word to disagree with.
+        also: other names of the group that are filed the same way: a beam of IFC may be a brace.
     """
 
     group: str
@@ -64,6 +66,7 @@ class Claim(NamedTuple):
     rule: str
     kind: str | None = None
     is_prior: bool = False
+    also: tuple[str, ...] = ()
 
     @property
     def said(self) -> tuple[str, str | None]:
@@ -126,7 +129,7 @@ def _claim(fact: Fact, classes: Sequence[IfcClass], words: Words, vocabulary: Vo
         group, name, kind = coded
         rule = "type of element" if fact.key == "class" else "Isogen symbol key"
         family: Family = "class"
-        return Claim(group, name, _CODE, family, fact.key, value, rule, kind)
+        return Claim(group, name, _CODE, family, fact.key, value, rule, kind, also=filed_alike(group, name))
     return _of_words(fact, value, words)
 
 
@@ -139,7 +142,8 @@ def _of_ifc(fact: Fact, value: str) -> Claim | None:
     if known is None or known.said is None:
         return None
     trust = _PRIOR if known.is_prior else _CLASS
-    return Claim(*known.said, trust, "class", fact.key, value, "class of IFC", is_prior=known.is_prior)
+    prior, also = known.is_prior, filed_alike(*known.said)
+    return Claim(*known.said, trust, "class", fact.key, value, "class of IFC", is_prior=prior, also=also)
 
 
 def _of_enumeration(fact: Fact, value: str, known: IfcClass) -> Claim | None:
@@ -150,7 +154,8 @@ def _of_enumeration(fact: Fact, value: str, known: IfcClass) -> Claim | None:
     prior = known.is_prior and value not in known.by_type
     trust = _PRIOR if prior else _CODE
     rule = "predefined type of IFC"
-    return Claim(*said, trust, "class", fact.key, value, rule, known.kinds.get(value), prior)
+    kind = known.kinds.get(value)
+    return Claim(*said, trust, "class", fact.key, value, rule, kind, prior, filed_alike(*said))
 
 
 def _of_words(fact: Fact, value: str, words: Words) -> Claim | None:

@@ -15,6 +15,7 @@ from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["LabelBeliefs", "shared_weight"]
 
+_ALSO = 0.25  # how often a name is meant by the word for another, over how often that is (ours)
 _LOST = 0.05  # share of a labeler's probabilities that goes to all names alike: it may be out of its depth
 _ALIKE = 0.6  # how much of several statements about one thing is the same: they mostly share their mistakes
 
@@ -78,7 +79,13 @@ class LabelBeliefs:
             row[self._group == guess.group] += guess.confidence / (self._group == guess.group).sum()
 
     def likelihood(
-        self, group: str, name: str | None, named: float, grouped: float, astray: float | None = None
+        self,
+        group: str,
+        name: str | None,
+        named: float,
+        grouped: float,
+        astray: float | None = None,
+        also: Sequence[str] = (),
     ) -> Floats:
         """``(n_classes,)`` how likely a statement is made, for each label that may be the true one.
 
@@ -88,6 +95,7 @@ class LabelBeliefs:
             named: how often such a statement has the right name.
             grouped: how often it has the right group.
             astray: how often a statement with a wrong group says just this; None: as often as any other label.
+            also: other names of the group that such a statement means now and then.
         """
         inside = self._group == group
         n_inside = max(int(inside.sum()), 1)
@@ -96,8 +104,13 @@ class LabelBeliefs:
             return np.asarray(np.where(inside, grouped / n_inside, outside), np.float64)
         # Of the wrong ones some fall on the same group, the rest on all others.
         odd: Floats = np.where(inside, max(grouped - named, 1e-3) / max(n_inside - 1, 1), outside)
+        odd[self._ranks(group, also)] = _ALSO * named
         odd[self._rank[group, name]] = named
         return odd
+
+    def _ranks(self, group: str, names: Sequence[str]) -> list[int]:
+        """The columns of those names of a group that there are."""
+        return [self._rank[group, name] for name in names if (group, name) in self._rank]
 
     def weigh(self, rows: Ints, logs: Floats) -> None:
         """Multiplies the probabilities of some parts by the likelihood of what was said of them.
@@ -115,21 +128,22 @@ class LabelBeliefs:
         """The likeliest group of a part."""
         return self._groups[int(np.argmax(self.values[part] @ self._belongs))]
 
-    def name_within(self, part: int, group: str, name: str, least: float) -> None:
-        """Gives a name at least a share of its group's probability, which stays as it is.
+    def name_within(self, part: int, group: str, names: Sequence[str], least: float) -> None:
+        """Gives some names together at least a share of their group's probability, which stays as it is.
 
         Args:
             part: which.
-            group: of the name.
-            name: in that group.
+            group: of the names.
+            names: in that group.
             least: share, 0..1.
         """
-        row, inside, mine = self.values[part], self._group == group, self._rank[group, name]
+        row, inside, mine = self.values[part], self._group == group, self._ranks(group, names)
         total = float(row[inside].sum())
-        share = float(row[mine]) / total if total > 0 else 1.0
-        if share < least:
+        share = float(row[mine].sum()) / total if total > 0 else 1.0
+        if 0 < share < least:
+            chosen = row[mine] * (least / share)
             row[inside] *= (1 - least) / (1 - share)
-            row[mine] = least * total
+            row[mine] = chosen
 
     def label_of(self, part: int, least: float) -> Likeliest:
         """The likeliest label of a part, the group alone where only that is likely enough.

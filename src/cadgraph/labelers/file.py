@@ -116,13 +116,13 @@ def _weigh(
         grouped = claim.trust if claim.is_prior else (1 + claim.trust) / 2
         astray = None if often is None else often.share(claim)
         named = claim.trust * (_WHOLE if _is_device(claim, vocabulary) else 1)
-        logs += shared_weight(alike) * np.log(beliefs.likelihood(*claim.said, named, grouped, astray))
+        logs += shared_weight(alike) * np.log(beliefs.likelihood(*claim.said, named, grouped, astray, claim.also))
     beliefs.weigh(np.array([part], np.int64), logs)
     group = beliefs.group_of(part)
     for claim in claims:
         if claim.name is not None and claim.trust >= _SETTLES and claim.group == group:
             if not _is_device(claim, vocabulary):
-                beliefs.name_within(part, group, claim.name, claim.trust)
+                beliefs.name_within(part, group, (claim.name, *claim.also), claim.trust)
             return
 
 

@@ -63,7 +63,7 @@ def finish(scene: Scene, config: LoadConfig, path: Path) -> Scene:
 def _split(scene: Scene, unit: str | None) -> Scene:
     """The scene with every mesh that is a bag of separate surfaces as a mesh for each of them."""
     bags = {mesh: surfaces for mesh, surfaces in _candidates(scene).items() if len(surfaces) > 1}
-    if scene.n_meshes == 1 and not bags and scene.n_triangles >= _SCAN:
+    if scene.source.format in _BAGS and scene.n_meshes == 1 and not bags and scene.n_triangles >= _SCAN:
         message = "the file holds one connected surface (a scan?), which stays one mesh"
         return _noted(scene, Diagnostic("one-surface", message, scene.paths))
     if not bags:
@@ -177,7 +177,7 @@ def _with_unit(scene: Scene, config: LoadConfig, path: Path) -> Scene:
     if not evidence.clear:
         raise LoadError(
             f"{path}: the file names no unit of length and its parts don't tell one clearly; say it with --unit mm (or "
-            f"m, cm, in, ft): it is {evidence.largest:.4g} units across"
+            f"m, cm, in, ft): it is {evidence.largest:.4g} units across{_hint(scene)}"
         )
     told = (
         f"the file names no unit; taken as {unit}, in which {evidence.hits[unit]} of {evidence.n_diameters} diameters "
@@ -186,6 +186,12 @@ def _with_unit(scene: Scene, config: LoadConfig, path: Path) -> Scene:
     moved = _moved(scene, METRES[unit] / source.meters_per_unit, np.eye(3))
     settled = replace(moved, source=replace(source, meters_per_unit=METRES[unit]))
     return _noted(settled, Diagnostic("missing-units", told))
+
+
+def _hint(scene: Scene) -> str:
+    """What the file's name or header says of its unit, in brackets; empty where nothing does."""
+    said = [note.message for note in scene.diagnostics if note.code == "unit-hint"]
+    return f" ({'; '.join(said)})" if said else ""
 
 
 def _doubt(evidence: UnitEvidence, metres: float) -> tuple[Diagnostic, ...]:
