@@ -128,3 +128,17 @@ def test_one_witness_of_each_family_the_most_trusted_first():
 def test_a_step_of_a_path_is_a_name():
     ((_, claim),) = claims_of([path_name("Handrad_3")], WORDS, VOCABULARY)
     assert (claim.key, claim.name, claim.trust) == ("name", "handwheel", 0.6)
+
+
+def test_a_nozzle_of_rvm_says_nothing_as_pumps_have_them_too():
+    for kind in ("NOZZ", "NOZZLE"):
+        assert claims(("class", kind), ("name", "NOZZLE_2", "path")) == [None, None]
+    # In a name that somebody gave, the word counts as ever.
+    (claim,) = claims(("name", "Nozzle_N2", "path"))
+    assert claim.said == ("Tank", "nozzle")
+
+
+def test_default_names_repeat_their_type():
+    said, repeated = claims(("class", "ELBO"), ("name", "ELBOW_12", "path"))
+    assert (said.name, repeated) == ("elbow", None)
+    assert [claim.name for claim in claims(("class", "ELBO"), ("name", "Tee_3", "path"))] == ["elbow", "tee"]

@@ -5,13 +5,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 import shapes
 from cadgraph.config import LoadConfig
 from cadgraph.errors import LoadError
 from cadgraph.load.bodies import split_shells
 from cadgraph.load.finish import finish
-from cadgraph.load.units import METRES, weigh_units
+from cadgraph.load.units import METRES, UnitEvidence, weigh_units
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.scene import MeshArrays, Placement, Scene, Source
 
@@ -70,6 +71,14 @@ def test_without_evidence_the_unit_must_be_said():
     assert found.source.meters_per_unit == 0.01
 
 
+def test_two_standard_diameters_among_others_decide_no_unit():
+    two = UnitEvidence(dict.fromkeys(METRES, 0.0) | {"mm": 5.0}, dict.fromkeys(METRES, 0) | {"mm": 2}, 2, 1.0)
+    assert two.clear
+    assert not replace(two, n_diameters=3).clear
+    assert replace(two, n_diameters=9, hits=two.hits | {"mm": 3}).clear
+    assert not replace(two, scores=two.scores | {"mm": 3.9}).clear
+
+
 def test_a_stated_unit_is_doubted_and_kept():
     wrong = scene_of([(v / 0.0254, f) for v, f in pipes()], meters_per_unit=1.0)
     found = finish(wrong, LoadConfig(), FILE)
@@ -99,6 +108,21 @@ def test_scenes_of_shared_shapes_are_scaled_and_turned_as_others():
     one, two = finish(shared, config, FILE), finish(plain, config, FILE)
     np.testing.assert_allclose(one.vertices, two.vertices, atol=1e-15)
     np.testing.assert_allclose(one.mesh(1)[0].mean(axis=0), [0.005, -0.007, 0.006], atol=1e-12)  # Y is up now
+
+
+def test_the_extent_of_turned_shapes_is_that_of_their_vertices():
+    turns = Rotation.random(40, rng=5).as_matrix()
+    shift = np.random.default_rng(6).uniform(-2, 2, (40, 3))
+    arrays = MeshArrays.of([shapes.box((2.0, 1.0, 0.5)), shapes.cylinder(0.3, 2.0)])
+    scene = Scene(
+        arrays,
+        tuple(f"/m_{i:02}" for i in range(40)),
+        np.full((40, 3), np.nan, np.float32),
+        Source(meters_per_unit=1.0),
+        placement=Placement(np.arange(40) % 2, turns, shift),
+    )
+    largest = np.ptp(scene.with_vertices(scene.vertices).vertices, axis=0).max()
+    assert weigh_units(scene, 1.0).largest == pytest.approx(largest, rel=1e-12)
 
 
 def test_the_up_axis_of_a_file_without_one_is_that_it_lies_on():

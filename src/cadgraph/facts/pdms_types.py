@@ -44,7 +44,6 @@ _TYPES: Mapping[str, Said] = MappingProxyType(
         "UNIO": (_PIPE, "union", None), "CAP": (_PIPE, "pipe cap", None), "FLEX": (_PIPE, "hose", None),
         "FILT": (_PIPE, "strainer", None),
         "VALV": (_VALVE, "valve", None), "VTWA": (_VALVE, "valve", None), "VFWA": (_VALVE, "valve", None),
-        "NOZZ": ("Tank", "nozzle", None),
         "SCTN": (_STEEL, None, None), "GENSEC": (_STEEL, None, None), "PANE": (_STEEL, "plate", None),
         "STWALL": (_STEEL, "wall", None), "GWALL": (_STEEL, "wall", None), "WALL": (_STEEL, "wall", None),
         "CTRAY": ("Electrical and safety", "cable tray", None),
@@ -71,6 +70,8 @@ SILENT_TYPES = frozenset(
             "HANG",
         ),
         *("DRAW", "WELD", "DUCT", "HVAC", "SUPPO", "PLOO", "EQUIPMENT", "SUBEQUIPMENT", "BRANCH", "STRUCTURE"),
+        # Of pumps and exchangers as of tanks: on the pumps of a real plant each would make a tank of its own.
+        *("NOZZ", "NOZZLE"),
         *("FRAMEWORK", "SUBFRAMEWORK", "INSTRUMENT", "PCOMPONENT", "ATTACHMENT", "CYLINDER", "PYRAMID", "EXTRUSION"),
     }
 )
@@ -79,7 +80,7 @@ SILENT_TYPES = frozenset(
 _IN_FULL = {
     "TUBING": "TUBI", "ELBOW": "ELBO", "CROSS": "CROS", "REDUCER": "REDU", "FLANGE": "FLAN", "FBLIND": "FBLI",
     "GASKET": "GASK", "COUPLING": "COUP", "UNION": "UNIO", "VALVE": "VALV", "VTWAY": "VTWA", "VFWAY": "VFWA",
-    "FILTER": "FILT", "NOZZLE": "NOZZ", "SCTION": "SCTN", "PANEL": "PANE",
+    "FILTER": "FILT", "SCTION": "SCTN", "PANEL": "PANE",
 }  # fmt: skip
 
 # How a component is joined: butt weld, socket weld, screwed, flanged, compression, plain, clamped.

@@ -86,7 +86,8 @@ def claims_of(facts: Sequence[Fact], words: Words, vocabulary: Vocabulary) -> li
         Each fact with its claim, None where it makes none. A claim need not be in the vocabulary.
     """
     classes = [known for fact in facts if fact.key in ("class", "type") and (known := _ifc(fact.value)) is not None]
-    return [(fact, _claim(fact, classes, words, vocabulary)) for fact in facts]
+    types = tuple(fact.value.upper() for fact in facts if fact.key == "class" and fact.value)
+    return [(fact, None if _repeats(fact, types) else _claim(fact, classes, words, vocabulary)) for fact in facts]
 
 
 def strongest(claims: Iterable[Claim]) -> list[Claim]:
@@ -101,6 +102,12 @@ def strongest(claims: Iterable[Claim]) -> list[Claim]:
 def path_name(segment: str) -> Fact:
     """A step of a path as the fact that it is: a name."""
     return Fact("", "name", segment, "path")
+
+
+def _repeats(fact: Fact, types: tuple[str, ...]) -> bool:
+    """Whether a fact is a default name, which says no more than the type that it is made from (NOZZ, "NOZZLE_2")."""
+    word, sign, number = fact.value.rpartition("_")
+    return fact.where == "path" and sign == "_" and number.isdecimal() and word.upper().startswith(types)
 
 
 def _claim(fact: Fact, classes: Sequence[IfcClass], words: Words, vocabulary: Vocabulary) -> Claim | None:

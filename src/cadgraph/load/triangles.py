@@ -14,6 +14,9 @@ __all__ = ["MAX_TRIANGLES", "clean_triangles", "linear", "main_color"]
 MAX_TRIANGLES = 200_000_000
 """So many are placed at most, from whatever few bytes: about 20 GB. Ours; large plants have a tenth of that."""
 
+_STRAY = 1e9  # a few points farther out than this, in the file's unit, are damage: a plant in micrometres is smaller
+_FEW = 0.05  # so many of a mesh at most; where more are, the file means it
+
 
 def clean_triangles(
     points: npt.NDArray[np.floating], corners: npt.NDArray[np.integer], path: str, notes: Notes
@@ -40,11 +43,17 @@ def clean_triangles(
     used, numbers = np.unique(corners[kept], return_inverse=True)
     own = np.asarray(points[used])
     faces = numbers.reshape(-1, 3)
-    finite = np.asarray(np.isfinite(own).all(axis=1))
-    if not finite.all():
+    sound = np.asarray(np.isfinite(own).all(axis=1))
+    if not sound.all():
         notes.add("invalid-points", "faces that use NaN or infinite points were dropped", path)
-        sound = finite[faces].all(axis=1)
-        kept, faces = kept[sound], faces[sound]
+    stray = np.asarray((np.abs(own) > _STRAY).any(axis=1)) & sound
+    if stray.any() and np.count_nonzero(stray) <= _FEW * len(own):
+        # One of them would have the whole mesh left out for reaching too far.
+        notes.add("invalid-points", f"faces that use points more than {_STRAY:.0e} units away were dropped", path)
+        sound &= ~stray
+    if not sound.all():
+        whole = sound[faces].all(axis=1)
+        kept, faces = kept[whole], faces[whole]
     first, place = weld_points(own)
     faces = place[faces]
     a, b, c = faces.T

@@ -61,7 +61,9 @@ class UnitEvidence:
     @property
     def clear(self) -> bool:
         """Whether the likeliest unit may be taken where the file states none."""
-        return self.lead >= _LEAD and self.hits[self.best] >= 2
+        # Two of many are chance: of a dozen lengths two are standard ones in some unit or other.
+        hits = self.hits[self.best]
+        return self.lead >= _LEAD and (hits >= 3 or hits == self.n_diameters == 2)
 
     @property
     def certain(self) -> bool:
@@ -112,13 +114,25 @@ def weigh_units(scene: Scene, meters_per_unit: float) -> UnitEvidence:
 
 def _span(scene: Scene) -> tuple[Floats, Floats]:
     """The corners of a box around the scene."""
-    if scene.placement is None:
+    placement = scene.placement
+    if placement is None:
         return scene.vertices.min(axis=0), scene.vertices.max(axis=0)
-    low, high = np.full(3, np.inf), np.full(3, -np.inf)
-    for mesh in range(scene.n_meshes):
-        vertices = scene.mesh(mesh)[0]
-        low, high = np.minimum(low, vertices.min(axis=0)), np.maximum(high, vertices.max(axis=0))
-    return low, high
+    first = scene.shapes.vertex_offsets[:-1]
+    lowest = np.minimum.reduceat(scene.shapes.vertices, first)[placement.shape]
+    highest = np.maximum.reduceat(scene.shapes.vertices, first)[placement.shape]
+    center = np.einsum("ij,ijk->ik", 0.5 * (lowest + highest), placement.turn) + placement.shift
+    reach = np.einsum("ij,ijk->ik", 0.5 * (highest - lowest), np.abs(placement.turn))
+    # The box of a turned shape reaches too far rather than not far enough: once no other box reaches as far as the
+    # vertices that were looked at, nor does any other mesh.
+    ends = np.full((2, 3), np.inf)
+    for end, axis in np.ndindex(2, 3):
+        sign = 1 - 2 * end
+        bounds = sign * center[:, axis] - reach[:, axis]
+        for mesh in np.argsort(bounds, kind="stable").tolist():
+            if bounds[mesh] >= ends[end, axis]:
+                break
+            ends[end, axis] = min(ends[end, axis], (sign * scene.mesh(mesh)[0][:, axis]).min())
+    return ends[0], -ends[1]
 
 
 def _sizes(scene: Scene) -> tuple[Floats, Floats]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,7 @@ from cadgraph._io.arrays import check_array
 from cadgraph._io.limits import EXCHANGE_HEAD, read_text_within
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.facts import Fact, StatedLink
-from cadgraph.model.scene import MeshArrays, Placement, Scene, Source
+from cadgraph.model.scene import Ints, MeshArrays, Placement, Scene, Source
 
 __all__ = ["read_scene", "write_scene"]
 
@@ -28,6 +29,9 @@ def write_scene(scene: Scene, folder: Path) -> None:
     arrays |= {name: getattr(scene, name) for name in _ARRAYS}
     if scene.placement is not None:
         arrays |= {f"placed-{name}": getattr(scene.placement, name) for name in _PLACEMENT}
+    # Facts repeat their paths and words many times over.
+    texts: dict[str, int] = {}
+    arrays |= {"facts": _numbered(scene.facts, texts), "links": _numbered(scene.links, texts)}
     for name, array in arrays.items():
         np.save(folder / f"{name}.npy", array, allow_pickle=False)
     rest = {
@@ -35,8 +39,7 @@ def write_scene(scene: Scene, folder: Path) -> None:
         "paths": scene.paths,
         "anchors": scene.anchors,
         "source": asdict(scene.source),
-        "facts": scene.facts,
-        "links": scene.links,
+        "texts": list(texts),
         "diagnostics": [note.model_dump() for note in scene.diagnostics],
     }
     (folder / "scene.json").write_text(json.dumps(rest), encoding="utf-8")
@@ -61,9 +64,25 @@ def read_scene(folder: Path) -> Scene:
         diagnostics=tuple(
             Diagnostic(note["code"], note["message"], tuple(note["meshes"])) for note in rest["diagnostics"]
         ),
-        facts=tuple(Fact(*row) for row in rest["facts"]),
-        links=tuple(StatedLink(*row) for row in rest["links"]),
+        facts=tuple(map(Fact, *_columns(folder / "facts.npy", rest["texts"], len(Fact._fields)))),
+        links=tuple(map(StatedLink, *_columns(folder / "links.npy", rest["texts"], len(StatedLink._fields)))),
     )
+
+
+def _numbered(rows: Sequence[tuple[str, ...]], texts: dict[str, int]) -> Ints:
+    """Rows of texts as an array of their numbers, ``(n, width)``; new texts are added."""
+    numbers = np.array([texts.setdefault(text, len(texts)) for row in rows for text in row], np.int64)
+    return numbers.reshape(len(rows), -1 if rows else 1)
+
+
+def _columns(path: Path, texts: Sequence[str], width: int) -> list[list[str]]:
+    """What ``_numbered`` made, as columns of texts."""
+    numbers = _array(path)
+    if not len(numbers):
+        return [[] for _ in range(width)]
+    if numbers.ndim != 2 or numbers.shape[1] != width or numbers.min() < 0 or numbers.max() >= len(texts):
+        raise ValueError(f"{path.name}: not the numbers of texts")
+    return [[texts[number] for number in column] for column in numbers.T.tolist()]
 
 
 def _source(values: dict[str, Any]) -> Source:
