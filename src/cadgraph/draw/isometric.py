@@ -21,7 +21,8 @@ from cadgraph.draw.svg import Svg, element, joined
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Point
-from cadgraph.query.components import Branch, Component, LineEnd, PipedLine, find_components
+from cadgraph.query.components import find_components
+from cadgraph.query.piped_line import Branch, Component, LineEnd, PipedLine
 
 __all__ = ["Box", "Isometric", "draw_isometric", "write_isometrics"]
 

@@ -16,7 +16,8 @@ from cadgraph._io.text import printable
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Part, Point
-from cadgraph.query.components import Component, LineEnd, PipedLine, find_components
+from cadgraph.query.components import find_components
+from cadgraph.query.piped_line import Component, LineEnd, PipedLine
 
 __all__ = ["write_pcf"]
 

@@ -8,127 +8,24 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Literal
 
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Joint, Junction, Part, Point, Terminal, Unit
+from cadgraph.query.bends import TURN, arc_tangents, bend_radius, fitted, tangent
 from cadgraph.query.lines import Line, find_lines
 from cadgraph.query.network import Arc, Network
-from cadgraph.query.polyline import Polyline, add, angle, apex, dot, minus, times, unit
+from cadgraph.query.piped_line import Branch, Component, EndKind, LineEnd, PipedLine
+from cadgraph.query.polyline import Polyline, angle, apex, dot, minus, times, unit
 
-__all__ = ["Branch", "Component", "LineEnd", "PipedLine", "find_components"]
+__all__ = ["find_components"]
 
 _FITTINGS = ("tee", "cross", "branch outlet")
-_TURN = 0.05  # rad; ours: what turns by less runs straight through
-_FAR, _CLOSE = 0.05, 0.005  # m; ours: over which a straight beside a bend is measured, if need be over less
-_LEG = 1e-3  # m; ours: what is less of a pipe beside a bend is none: a centreline found in triangles wavers as much
 _NEAR = 5e-3  # m; ours: a tap and what sits on it have one axis
 _PIPE = 0.05  # m; ours: a diameter where none is known, to tell bends from straights
 _LEAST = 1e-4  # m; ours: a shorter piece is none, a gasket is some millimetres
 _MOST_TURN = math.radians(100)  # ours: elbows turn by 90 degrees at most, and are built a little askew
 _OFFSET = 0.02  # ours: of the larger size; a concentric reducer's ends lie on one axis
-
-EndKind = Literal["equipment", "pipeline", "open", "closed", "unknown"]
-
-
-@dataclass(frozen=True)
-class Branch:
-    """Where something branches off a component.
-
-    Args:
-        point: end of the branch, where the next piece begins.
-        size: nominal size of it (DN), or None.
-        diameter: bore [m], or None.
-        line: tag of the line that goes on there, or of the instrument; empty where nothing does.
-        goes_on: whether it is a line.
-    """
-
-    point: Point
-    size: int | None
-    diameter: float | None
-    line: str
-    goes_on: bool = False
-
-
-@dataclass(frozen=True)
-class Component:
-    """One piece of a line.
-
-    Args:
-        kind: ``pipe``, ``bend``, a name of the vocabulary (``elbow``, ``tee``...), ``valve``, ``instrument``,
-            ``tap`` (a branch set on a pipe; it has no length), or ``other``.
-        what: name or kind in words, or None.
-        start: its end towards the start of the line.
-        end: its other end.
-        centre: where its axes meet, for what turns or branches.
-        branches: what branches off, beside the line itself.
-        sizes: nominal sizes (DN) at start and end, None where unknown.
-        diameters: bores at start and end [m], None where unknown.
-        length: along the centreline [m].
-        angle: that it turns by [rad].
-        parts: ids, the one that it is made from, or all of a unit.
-        tag: of the unit, or None.
-        flanged: whether flanges, gaskets or faces stand at its start and its end.
-        split: whether it is one of several pieces of one part.
-        offset: from the axis of its larger end to that of its smaller one [m], of an eccentric reducer; None of others.
-    """
-
-    kind: str
-    what: str | None
-    start: Point
-    end: Point
-    centre: Point | None = None
-    branches: tuple[Branch, ...] = ()
-    sizes: tuple[int | None, int | None] = (None, None)
-    diameters: tuple[float | None, float | None] = (None, None)
-    length: float = 0.0
-    angle: float = 0.0
-    parts: tuple[str, ...] = ()
-    tag: str | None = None
-    flanged: tuple[bool, bool] = (False, False)
-    split: bool = False
-    offset: Point | None = None
-
-
-@dataclass(frozen=True)
-class LineEnd:
-    """How a line ends.
-
-    Args:
-        kind: what is there.
-        point: where the last component ends.
-        name: tag of the equipment, or of the line that goes on.
-        port: its nozzle.
-    """
-
-    kind: EndKind
-    point: Point
-    name: str | None = None
-    port: str | None = None
-
-
-@dataclass(frozen=True)
-class PipedLine:
-    """A line with all that stands in it.
-
-    Args:
-        line: as in the line list.
-        components: in order from its start.
-        start: how it begins.
-        end: how it ends.
-        outlets: branch outlets that instruments sit on, each at its place.
-        instruments: what sits on taps of it: tag, kind and place on the line.
-        notes: what was missing or guessed.
-    """
-
-    line: Line
-    components: tuple[Component, ...]
-    start: LineEnd
-    end: LineEnd
-    outlets: tuple[Component, ...] = ()
-    instruments: tuple[tuple[str, str | None, Point], ...] = ()
-    notes: tuple[Diagnostic, ...] = ()
 
 
 @dataclass
@@ -413,7 +310,7 @@ class _Plant:
             run.centreline.direction(run.bounds[i + 1], run.bounds[i + 1] + 0.05),
         )
         turned = angle(*ways)
-        if turned > 10 * _TURN:
+        if turned > 10 * TURN:
             return replace(found, centre=apex(found.start, ways[0], found.end, ways[1]), angle=turned)
         return found
 
@@ -547,12 +444,12 @@ class _Plant:
         for stretch in stretches:
             if stretch.turns:
                 found.append(self._bend(run, stretch.start, stretch.end, base))
-                radii.append(_radius(run.centreline, stretch.start, stretch.end, found[-1]))
+                radii.append(bend_radius(run.centreline, stretch.start, stretch.end, found[-1]))
                 continue
             ends = [stretch.start, *(cut for cut in cuts if stretch.start < cut < stretch.end), stretch.end]
             found.extend(self._piece(run, a, b, base) for a, b in zip(ends, ends[1:], strict=False))
             radii.extend(None for _ in ends[1:])
-        found = list(_fitted(found, radii))
+        found = list(fitted(found, radii))
         known = self._group(run.items[i]) in ("Pipe assembly", None)
         for piece in found:
             kind = piece.kind if known else "other"
@@ -576,16 +473,16 @@ class _Plant:
         """A piece that turns, with the point where its tangents meet; a straight one where there is no such point."""
         piece = self._piece(run, start, end, base)
         line = run.centreline
-        before, after = _tangent(line, start, -1), _tangent(line, end, 1)
+        before, after = tangent(line, start, -1), tangent(line, end, 1)
         tangents = [
             (before, after) if before is not None and after is not None else None,
-            _arc_tangents(piece.start, line.at(self._vertex(line, start, end)), piece.end),
+            arc_tangents(piece.start, line.at(self._vertex(line, start, end)), piece.end),
         ]
         for ways in tangents:
             if ways is None:
                 continue
             centre = apex(piece.start, ways[0], piece.end, ways[1])
-            if centre is not None and angle(*ways) > _TURN:
+            if centre is not None and angle(*ways) > TURN:
                 return replace(piece, kind="bend", centre=centre, angle=angle(*ways))
         return piece
 
@@ -702,102 +599,6 @@ class _Plant:
         return tuple(found)
 
 
-def _first(component: Component) -> tuple[int | None, float | None]:
-    return component.sizes[0] or component.sizes[1], component.diameters[0] or component.diameters[1]
-
-
-def _fitted(pieces: Sequence[Component], radii: Sequence[float | None]) -> Iterator[Component]:
-    """Pipes and bends, each bend from tangent point to tangent point.
-
-    Where a centreline begins to turn is seen late, as it turns little at first; how far its middle stays off the corner
-    tells the radius, and with it where the bend begins and ends. What that moves, the pipes beside it give or take.
-
-    Args:
-        pieces: in order, each beginning where the one before ends.
-        radii: of each piece that is a bend [m], else None.
-    """
-    found: list[Component] = []
-    for i, (piece, radius) in enumerate(zip(pieces, radii, strict=True)):
-        onward = pieces[i + 1] if i + 1 < len(pieces) else None
-        if piece.centre is None or radius is None:
-            # What the bend before it took or left.
-            start = found[-1].end if found else piece.start
-            found.append(replace(piece, start=start, length=math.dist(start, piece.end)))
-            continue
-        before, after = minus(piece.start, piece.centre), minus(piece.end, piece.centre)
-        room = [math.hypot(*before), math.hypot(*after)]
-        if found and found[-1].kind == "pipe":
-            room[0] += max(0.0, found[-1].length - _LEG)
-        if onward is not None and onward.kind == "pipe":
-            room[1] += max(0.0, onward.length - _LEG)
-        leg = min(radius * math.tan(piece.angle / 2), *room)
-        start = add(piece.centre, times(unit(before), leg))
-        end = add(piece.centre, times(unit(after), leg))
-        if found and found[-1].kind == "pipe":
-            found[-1] = replace(found[-1], end=start, length=math.dist(found[-1].start, start))
-        elif math.hypot(*before) - leg > _LEG:
-            found.append(_straight(piece, piece.start, start))
-        else:
-            start = piece.start
-        found.append(replace(piece, start=start, end=end, length=leg / math.tan(piece.angle / 2) * piece.angle))
-        if onward is None or onward.kind != "pipe":
-            if math.hypot(*after) - leg > _LEG:
-                found.append(_straight(piece, end, piece.end))
-            else:
-                found[-1] = replace(found[-1], end=piece.end)
-    yield from found
-
-
-def _radius(line: Polyline, start: float, end: float, bend: Component) -> float | None:
-    """Radius of a bend by how far its corner lies off the centreline [m]; None of what isn't one."""
-    if bend.centre is None:
-        return None
-    _, distance = line.nearest(bend.centre, start, end)
-    return distance / (1 / math.cos(bend.angle / 2) - 1)
-
-
-def _straight(piece: Component, start: Point, end: Point) -> Component:
-    return replace(piece, kind="pipe", start=start, end=end, centre=None, angle=0.0, length=math.dist(start, end))
-
-
-def _tangent(line: Polyline, station: float, side: int) -> Point | None:
-    """The direction of a line beside a bend, forward; None where it isn't straight there.
-
-    Args:
-        line: the centreline.
-        station: where the bend begins or ends [m].
-        side: -1 for what comes before it, 1 for what comes after it.
-    """
-
-    def way(reach: float, which: int = side) -> Point | None:
-        other = min(max(station + which * reach, 0.0), line.length)
-        if abs(other - station) < reach / 2:
-            return None
-        return line.direction(min(station, other), max(station, other))
-
-    far, near, across = way(_FAR), way(_CLOSE), way(_CLOSE, -side)
-    if near is None:
-        return None
-    if far is not None and angle(far, near) < _TURN / 2:
-        return far
-    # A short straight between two bends, which were divided in the midst of it.
-    return near if across is not None and angle(near, across) < _TURN / 2 else None
-
-
-def _arc_tangents(start: Point, middle: Point, end: Point) -> tuple[Point, Point] | None:
-    """The tangents at the ends of the circle through three points; None where they lie in line."""
-    a, b = minus(middle, start), minus(end, middle)
-    chord = minus(end, start)
-    if angle(a, b) < _TURN / 2:
-        return None
-    # The chords to any point of an arc turn by half of what the arc turns by, each tangent from the chord by half, too.
-    half = angle(a, b)
-    way = unit(chord)
-    side = unit(minus(a, times(way, dot(a, way))))
-    along, across = times(way, math.cos(half)), times(side, math.sin(half))
-    return add(along, across), minus(along, across)
-
-
 def _with_flanges(components: Sequence[Component]) -> Iterator[Component]:
     """The components, each with whether flanges or gaskets stand next to it."""
     faces = ("flange", "gasket", "blind flange")
@@ -805,3 +606,7 @@ def _with_flanges(components: Sequence[Component]) -> Iterator[Component]:
         before = i > 0 and components[i - 1].kind in faces
         after = i + 1 < len(components) and components[i + 1].kind in faces
         yield replace(each, flanged=(before, after))
+
+
+def _first(component: Component) -> tuple[int | None, float | None]:
+    return component.sizes[0] or component.sizes[1], component.diameters[0] or component.diameters[1]
