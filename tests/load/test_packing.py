@@ -3,7 +3,8 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph._io.text import natural_key
-from cadgraph.load.packing import Notes, Piece, pack, unique_name
+from cadgraph.load.naming import Names
+from cadgraph.load.packing import Notes, Piece, pack
 from cadgraph.model.scene import Source
 from shapes import box
 
@@ -19,9 +20,9 @@ def test_natural_order_puts_two_before_ten_and_parents_first():
     assert ordered == ["/a", "/a/m2", "/a/m10", "/a-b", "/i[9]/x", "/i[10]", "/m02", "/m2"]
 
 
-def test_unique_name_counts_up():
-    taken = set()
-    assert [unique_name("a", taken) for _ in range(3)] == ["a", "a_1", "a_2"]
+def test_a_taken_name_counts_up():
+    taken = Names()
+    assert [taken.take("a") for _ in range(3)] == ["a", "a_1", "a_2"]
 
 
 def test_equal_paths_become_unique():

@@ -11,7 +11,6 @@ what is new follow from the project's and from names, so that the same graph giv
 
 from __future__ import annotations
 
-import hashlib
 import importlib.util
 import os
 import re
@@ -21,6 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from cadgraph._io.atomic import replacing
+from cadgraph._io.digest import sha256_of
 from cadgraph._io.spf import IFC_MARK, find_ifc_damage, unzipped
 from cadgraph._io.text import printable
 from cadgraph.errors import LoadError, MissingExtra, OutputError
@@ -91,8 +91,7 @@ def _check(graph: SceneGraph, source: Path, target: Path) -> None:
     if os.path.realpath(source) == os.path.realpath(target):
         raise OutputError(f"{target}: this is the source itself, which stays untouched; choose another output file")
     try:
-        with source.open("rb") as file:
-            digest = hashlib.file_digest(file, "sha256").hexdigest()
+        digest = sha256_of(source)
         damage = find_ifc_damage(source)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
@@ -314,7 +313,7 @@ def _label_rows(part: Part, label: Label) -> dict[str, tuple[str, object]]:
         rows["Name"] = ("IfcLabel", _label(label.name))
     rows["Confidence"] = ("IfcReal", round(float(label.confidence), 6))
     rows["Source"] = ("IfcLabel", _label(label.source))
-    rows["State"] = ("IfcLabel", "likely" if label.likely else "sure")
+    rows["State"] = ("IfcLabel", label.state)
     rows["Part"] = ("IfcLabel", _label(part.id))
     return rows
 

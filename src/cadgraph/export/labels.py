@@ -53,7 +53,7 @@ def mesh_labels(graph: SceneGraph) -> Iterator[MeshLabel]:
                 label.group,
                 label.name,
                 label.confidence,
-                "likely" if label.likely else "sure",
+                label.state,
                 label.source,
                 part.id,
                 unit.id if unit else None,

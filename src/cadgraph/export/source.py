@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 from pathlib import Path
 
+from cadgraph._io.digest import sha256_of
 from cadgraph.errors import LoadError, OutputError
 from cadgraph.model.graph import SceneGraph
 
@@ -28,8 +28,7 @@ def find_source(graph: SceneGraph, given: str | Path | None = None) -> Path:
     try:
         if not path.is_file():
             raise LoadError(f"{path}: the file that the graph was made from is not there; give it with --source FILE")
-        with path.open("rb") as file:
-            found = hashlib.file_digest(file, "sha256").hexdigest()
+        found = sha256_of(path)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
         raise LoadError(f"{path}: can't be read ({reason}); give the graph's source with --source FILE") from error

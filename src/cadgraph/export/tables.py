@@ -69,7 +69,7 @@ def _parts(graph: SceneGraph) -> Iterator[Row]:
     )  # fmt: skip
     for part in graph.of_layer(Part):
         label, unit, cluster = part.label, graph.unit_of(part), graph.cluster_of(part)
-        state = "open" if label is None else "likely" if label.likely else "sure"
+        state = label.state if label is not None else "open"
         says = (label.group, label.name, label.confidence) if label else (None, None, None)
         yield (
             part.id, *says, state, label.source if label else None, unit.tag if unit else None,

@@ -5,7 +5,6 @@ A new format is one module with ``read(path, config) -> Scene`` and one line in 
 
 from __future__ import annotations
 
-import hashlib
 import importlib
 import importlib.util
 import os
@@ -14,6 +13,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from cadgraph._io.digest import sha256_of
 from cadgraph.errors import LoadError, MissingExtra
 from cadgraph.load.sandbox.signature import find_damage, kind_of, name_content
 
@@ -122,20 +122,15 @@ def load(path: str | os.PathLike[str], config: LoadConfig | None = None) -> Scen
 
         # The hash is made here while the other process reads.
         with ThreadPoolExecutor(1) as threads:
-            hashing = threads.submit(_digest, file)
+            hashing = threads.submit(sha256_of, file)
             scene = read_isolated(form.module, file, given, config)
             digest = hashing.result()
     else:
         from cadgraph.load.finish import finish
 
         scene = finish(importlib.import_module(form.module).read(file, config), config, file)
-        digest = _digest(file)
+        digest = sha256_of(file)
     return replace(scene, source=replace(scene.source, path=given, sha256=digest, format=form.name))
-
-
-def _digest(file: Path) -> str:
-    with file.open("rb") as opened:
-        return hashlib.file_digest(opened, "sha256").hexdigest()
 
 
 def _check_file(file: Path, given: str) -> None:

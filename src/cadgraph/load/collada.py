@@ -23,8 +23,8 @@ import collada
 import numpy as np
 
 from cadgraph.errors import LoadError
-from cadgraph.load.naming import clipped, name_fact, path_step
-from cadgraph.load.packing import Notes, Piece, metres_z_up, pack, unique_name
+from cadgraph.load.naming import Names, clipped, name_fact, path_step
+from cadgraph.load.packing import Notes, Piece, metres_z_up, pack
 from cadgraph.load.polygons import triangulate
 from cadgraph.load.triangles import MAX_TRIANGLES, clean_triangles, main_color
 from cadgraph.model.facts import Fact
@@ -132,9 +132,9 @@ class _Reading:
         n = 0
 
         def enter(children: list[Any], path: str, matrix: Floats, depth: int) -> None:
-            taken: set[str] = set()
+            taken = Names()
             entered = [
-                (child, f"{path}/{unique_name(path_step(_name(child), 'node'), taken)}", matrix, depth)
+                (child, f"{path}/{taken.take(path_step(_name(child), 'node'))}", matrix, depth)
                 for child in children
                 if isinstance(child, collada.scene.Node)
             ]
@@ -161,7 +161,7 @@ class _Reading:
 
     def _place(self, shown: list[Any], path: str, matrix: Floats) -> None:
         """All geometries of one node; the first, as most have one, under its own path."""
-        taken = {path}
+        taken, is_first = Names(), True
         for child in shown:
             if isinstance(child, collada.scene.ControllerNode):
                 self.notes.add("skinned-mesh", "taken as it is stored and its node is placed, without its joints", path)
@@ -177,12 +177,9 @@ class _Reading:
                 self.notes.add("empty-mesh", "left out: it has no triangle", path)
                 continue
             self._triangles += len(shape.faces)
-            own = (
-                path
-                if path in taken
-                else unique_name(f"{path}/{path_step(geometry.name or geometry.id, 'part')}", taken)
-            )
-            taken.discard(path)
+            step = path_step(geometry.name or geometry.id, "part")
+            own = path if is_first else taken.take(f"{path}/{step}")
+            is_first = False
             materials = {entry.symbol: entry.target for entry in child.materials}
             used = [materials.get(symbol) for symbol in shape.symbols]
             palette = np.array([_diffuse(material) for material in used])

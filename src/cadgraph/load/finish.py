@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from cadgraph.errors import LoadError
+from cadgraph.load.naming import Names
 from cadgraph.load.packing import Z_UP_FROM
-from cadgraph.load.units import METRES, UnitEvidence, distinct, pipe_diameters, weigh_units
+from cadgraph.load.units import METRES, UnitEvidence, bounds_of, distinct, pipe_diameters, weigh_units
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.scene import Faces, Floats, Ints, MeshArrays, Scene
 
@@ -70,13 +71,16 @@ def _split(scene: Scene, unit: str | None) -> Scene:
         return scene
     meshes: list[tuple[Floats, Faces]] = []
     paths, anchors, rows = [], [], []
+    names = Names()
+    for path in scene.paths:
+        names.take(path)
     for mesh in range(scene.n_meshes):
         vertices, faces = scene.mesh(mesh)
         own = scene.anchors[mesh] if scene.anchors else scene.paths[mesh]
         for number, triangles in enumerate(bags.get(mesh, ()), start=1):
             used, corners = np.unique(faces[triangles], return_inverse=True)
             meshes.append((vertices[used], corners.reshape(-1, 3).astype(np.int32)))
-            paths.append(f"{scene.paths[mesh]}/solid_{number}")
+            paths.append(names.take(f"{scene.paths[mesh]}/solid_{number}"))
         if mesh not in bags:
             meshes.append((vertices, faces))
             paths.append(scene.paths[mesh])
@@ -92,9 +96,6 @@ def _split(scene: Scene, unit: str | None) -> Scene:
         )
         for mesh, surfaces in bags.items()
     ]
-    taken = set(paths)
-    if len(taken) < len(paths):  # a path of the file reads like one of ours
-        return scene
     parted = replace(
         scene, shapes=MeshArrays.of(meshes), placement=None, paths=tuple(paths), anchors=tuple(anchors),
         colors=scene.colors[np.array(rows)],
@@ -109,7 +110,8 @@ def _is_plant(scene: Scene, unit: str | None) -> bool:
     surfaces.
     """
     scale = METRES[unit] / scene.source.meters_per_unit if unit else 1.0
-    size = float((scene.vertices.max(axis=0) - scene.vertices.min(axis=0)).max()) * scale
+    low, high = bounds_of(scene)
+    size = float((high - low).max()) * scale
     diameters = pipe_diameters(scene)
     return size >= _PLANT and len(diameters) >= _PIPES and len(distinct(diameters)) >= _DIAMETERS
 
@@ -213,8 +215,8 @@ def _with_up(scene: Scene, config: LoadConfig) -> Scene:
     axis = config.up
     told: tuple[Diagnostic, ...] = ()
     if axis is None and not source.up_stated:
-        vertices = scene.vertices
-        x, y, z = vertices.max(axis=0) - vertices.min(axis=0)
+        low, high = bounds_of(scene)
+        x, y, z = high - low
         axis = "Y" if y < _FLAT * min(x, z) else "Z"
         told = (Diagnostic("missing-up-axis", f"the file names no up axis; taken as {axis} (another one: --up)"),)
     if axis is None or axis == source.up_axis:

@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from cadgraph.errors import LoadError
-from cadgraph.load.gltf_file import BROKEN, MESHOPT_REMEDY, Gltf, open_gltf
+from cadgraph.load.gltf_file import BROKEN, MESHOPT, MESHOPT_REMEDY, Gltf, open_gltf
 from cadgraph.load.gltf_mesh import GltfMesh, read_mesh, values_of
 from cadgraph.load.gltf_nodes import walk_nodes
 from cadgraph.load.naming import clipped, name_fact, path_step
@@ -40,7 +40,6 @@ __all__ = ["node_matrix", "read"]
 
 _MAX_MESHES = 5_000_000  # ours; a mesh takes some 500 bytes here
 _COARSE = 0.001  # [m] a grid coarser than this moves flanges apart that touch; ours
-_MESHOPT = {"EXT_meshopt_compression", "KHR_meshopt_compression"}
 _INSTANCING = "EXT_mesh_gpu_instancing"
 _READ = {_INSTANCING, "KHR_draco_mesh_compression", "KHR_mesh_quantization", "KHR_node_visibility"}
 _NO_GEOMETRY = (
@@ -108,7 +107,7 @@ def _check_extensions(gltf: Gltf, path: Path, notes: Notes) -> None:
     required, used = (
         {name for name in gltf.rows(key) if isinstance(name, str)} for key in ("extensionsRequired", "extensionsUsed")
     )
-    if required & _MESHOPT:
+    if required & MESHOPT:
         raise LoadError(f"{path}: {MESHOPT_REMEDY}")
     unknown = sorted(name for name in required - _READ if not name.startswith(_NO_GEOMETRY))
     if unknown:
@@ -117,7 +116,7 @@ def _check_extensions(gltf: Gltf, path: Path, notes: Notes) -> None:
             "or convert it with gltf-transform"
         )
     # Where meshopt isn't required, the plain buffers are there too.
-    for name in sorted(used - required - _READ - _MESHOPT):
+    for name in sorted(used - required - _READ - MESHOPT):
         if not name.startswith(_NO_GEOMETRY):
             notes.add("unknown-extension", f"{name[:80]} is not read; what it holds or changes is missing")
 

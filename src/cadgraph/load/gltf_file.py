@@ -22,7 +22,7 @@ import numpy.typing as npt
 from cadgraph.errors import LoadError
 from cadgraph.load.beside import file_beside
 
-__all__ = ["BROKEN", "Gltf", "open_gltf", "parse_glb"]
+__all__ = ["BROKEN", "MESHOPT", "Gltf", "open_gltf", "parse_glb"]
 
 BROKEN = (AttributeError, KeyError, IndexError, OverflowError, TypeError, ValueError)
 """What reading a tree whose members have other types or lie elsewhere than they should ends in."""
@@ -34,7 +34,8 @@ _COMPONENT = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5
 _WIDTH = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 _MOST_SPARSE = 10_000_000  # values of an accessor that no bytes stand for; ours
 _MOST_JSON = 1 << 30  # bytes; a node takes about 200: five million nodes
-_MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression")
+MESHOPT = frozenset(("EXT_meshopt_compression", "KHR_meshopt_compression"))
+"""Extensions that compress buffers in a way that is not read."""
 
 
 class Gltf:
@@ -89,7 +90,7 @@ class Gltf:
         uri, length = row.get("uri"), row.get("byteLength", 0)
         if not isinstance(uri, str):
             extensions = row.get("extensions")
-            if isinstance(extensions, dict) and any(name in extensions for name in _MESHOPT):
+            if isinstance(extensions, dict) and not MESHOPT.isdisjoint(extensions):
                 raise LoadError(f"{self._path}: {MESHOPT_REMEDY}")
             data = self._own if number == 0 else None
         elif uri.startswith("data:"):

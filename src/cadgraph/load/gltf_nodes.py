@@ -10,8 +10,8 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any, TypeVar
 
 from cadgraph.load.gltf_file import BROKEN, Gltf
-from cadgraph.load.naming import path_step
-from cadgraph.load.packing import Notes, unique_name
+from cadgraph.load.naming import Names, path_step
+from cadgraph.load.packing import Notes
 
 __all__ = ["MOST_DEEP", "node_paths", "root_nodes", "walk_nodes"]
 
@@ -45,7 +45,7 @@ def walk_nodes(
     stack: list[tuple[int, str, _T, int]] = []
 
     def take(numbers: list[int], above: str, given: _T, depth: int) -> None:
-        taken: set[str] = set()
+        taken = Names()
         entered = []
         for number in numbers:
             try:
@@ -54,7 +54,7 @@ def walk_nodes(
                 notes.add("broken-node", f"left out: it can't be read ({error!s:.120})", above or "/")
                 continue
             # A name counts even where its node is passed over, so that those of its siblings stay the same.
-            path = f"{above}/{unique_name(_step(gltf, node, number), taken)}"
+            path = f"{above}/{taken.take(_step(gltf, node, number))}"
             if number in known:
                 notes.add("repeated-node", "left out: a node belongs to one place only, and it was at another", path)
                 continue

@@ -23,8 +23,8 @@ import numpy.typing as npt
 
 from cadgraph.errors import LoadError
 from cadgraph.load.beside import file_beside
-from cadgraph.load.naming import clipped, name_fact, path_step
-from cadgraph.load.packing import Notes, Piece, pack, unique_name
+from cadgraph.load.naming import Names, clipped, name_fact, path_step
+from cadgraph.load.packing import Notes, Piece, pack
 from cadgraph.load.polygons import triangulate
 from cadgraph.load.text_lines import Lines, blocks_of
 from cadgraph.load.triangles import clean_triangles, main_color
@@ -217,7 +217,7 @@ def _meshes(path: Path, text: _Text, used: Ints, notes: Notes) -> list[tuple[str
         notes.add("split-by-material", "the file names neither objects nor groups: each material is a mesh")
     else:
         by_material = False
-    taken: set[str] = set()
+    taken = Names()
     latest: dict[tuple[str, ...], tuple[str, int]] = {}
     found = [("", "")] * len(text.blocks)
     for number in used.tolist():
@@ -227,7 +227,7 @@ def _meshes(path: Path, text: _Text, used: Ints, notes: Notes) -> list[tuple[str
         if known < 0 or (block.low >= known and not by_material):
             steps = [path_step(name, "") for name in key]
             own = "/".join(dict.fromkeys(step for step in steps if step)) or path_step(path.stem, "part")
-            at = unique_name(f"/{own}", taken)
+            at = taken.take(f"/{own}")
         latest[key] = at, max(known, block.known)
         found[number] = at, next((name for name in reversed(key) if name), "")
     return found

@@ -9,11 +9,12 @@ import numpy as np
 import numpy.typing as npt
 
 from cadgraph._io.text import natural_key, natural_order
+from cadgraph.load.naming import Names
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.facts import Fact, StatedLink
-from cadgraph.model.scene import Faces, Floats, Ints, MeshArrays, Placement, Scene, Source
+from cadgraph.model.scene import Faces, Floats, Ints, MeshArrays, Placement, Scene, Source, turned_boxes
 
-__all__ = ["Z_UP_FROM", "Notes", "Piece", "metres_z_up", "pack", "pack_placed", "unique_name"]
+__all__ = ["Z_UP_FROM", "Notes", "Piece", "metres_z_up", "pack", "pack_placed"]
 
 Z_UP_FROM = {
     "X": np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]], float),
@@ -98,16 +99,6 @@ def metres_z_up(meters_per_unit: float, up_axis: str) -> Floats:
     matrix = np.eye(4)
     matrix[:3, :3] = Z_UP_FROM[up_axis] * meters_per_unit
     return matrix
-
-
-def unique_name(name: str, taken: set[str]) -> str:
-    """The name, or the first of ``name_1``, ``name_2``... that isn't taken; it is taken afterwards."""
-    candidate, i = name, 0
-    while candidate in taken:
-        i += 1
-        candidate = f"{name}_{i}"
-    taken.add(candidate)
-    return candidate
 
 
 def pack(
@@ -197,13 +188,15 @@ def pack_placed(
     with np.errstate(over="ignore", invalid="ignore"):
         world = matrices[order] @ world_from_source
         placed = _Placed.of(shapes, shape_of_mesh[order], world)
-        kept = placed.kept([paths[i] for i in order.tolist()], notes)
+        low, high = placed.bounds()
+        kept = placed.kept([paths[i] for i in order.tolist()], low, high, notes)
     order, placed = order[kept], placed.select(kept)
-    taken: set[str] = set()
-    unique = tuple(unique_name(paths[i], taken) for i in order.tolist())
+    _note_size(low[kept], high[kept], source, notes)
+    names = Names()
+    unique = tuple(names.take(paths[i]) for i in order.tolist())
     given = tuple((anchors[i] if anchors else "") or path for i, path in zip(order.tolist(), unique, strict=True))
     arrays, placement = placed.arrays()
-    scene = Scene(
+    return Scene(
         arrays,
         placement=placement,
         paths=unique,
@@ -211,11 +204,10 @@ def pack_placed(
         source=source,
         origin=placed.origin,
         anchors=given if given != unique else (),
+        diagnostics=notes.diagnostics(abridged),
         facts=tuple(facts),
         links=tuple(links),
     )
-    _note_size(placed, source, notes)
-    return replace(scene, diagnostics=notes.diagnostics(abridged))
 
 
 @dataclass(frozen=True, eq=False)
@@ -257,15 +249,11 @@ class _Placed:
         """Bounds ``(n, 3)`` [m] of the boxes of the shapes, each as it lies: no less than those of the meshes."""
         low = np.array([points.min(axis=0) for points, _ in self.shapes], np.float64).reshape(-1, 3)
         high = np.array([points.max(axis=0) for points, _ in self.shapes], np.float64).reshape(-1, 3)
-        middle, half = 0.5 * (low + high)[self.shape], 0.5 * (high - low)[self.shape]
-        center = np.einsum("ij,ijk->ik", middle, self.turn) + self.shift
-        reach = np.einsum("ij,ijk->ik", half, np.abs(self.turn))
-        return center - reach, center + reach
+        return turned_boxes(low[self.shape], high[self.shape], self.turn, self.shift)
 
-    def kept(self, paths: Sequence[str], notes: Notes) -> Ints:
-        """The meshes that can be placed; the others are noted."""
+    def kept(self, paths: Sequence[str], low: Floats, high: Floats, notes: Notes) -> Ints:
+        """The meshes that can be placed, by their bounds; the others are noted."""
         finite = np.asarray(np.isfinite(self.turn).all(axis=(1, 2)) & np.isfinite(self.shift).all(axis=1))
-        low, high = self.bounds()
         # Written so that NaN fails it too.
         limit = _TOO_FAR - float(np.abs(self.origin).max())
         sure = np.asarray((high <= limit).all(axis=1) & (low >= -limit).all(axis=1))
@@ -279,10 +267,7 @@ class _Placed:
             if not (finite[i] and np.isfinite(placed.sum())):
                 notes.add("invalid-transform", "left out: its placement is not finite", path)
             elif not (placed.max() <= limit and placed.min() >= -limit):
-                message = (
-                    "left out: it reaches farther than a million kilometres; check its points and the file's units"
-                )
-                notes.add("too-far", message, path)
+                notes.add("too-far", _TOO_FAR_TOLD, path)
             elif not _have_area(placed, self.shapes[self.shape[i]][1]).any():
                 notes.add("degenerate-mesh", "left out: all its faces have zero area", path)
             else:
@@ -299,12 +284,12 @@ class _Placed:
         """The meshes as a scene holds them: shapes in metres that are turned and moved, or each mesh in its place
         where none repeats.
         """
-        scale = np.cbrt(np.abs(np.linalg.det(self.turn)))
+        volume = np.linalg.det(self.turn)
+        scale, mirrored = np.cbrt(np.abs(volume)), volume < 0
         with np.errstate(divide="ignore", invalid="ignore"):
             turn = self.turn / scale[:, None, None]
         gram = np.einsum("nij,nkj->nik", turn, turn)
         rigid = np.asarray((np.abs(gram - np.eye(3)) <= _RIGID).all(axis=(1, 2)))
-        mirrored = np.linalg.det(self.turn) < 0
         # One shape for each that is scaled or mirrored otherwise; what is skewed is a shape of its own.
         own = np.where(rigid, -1, np.arange(len(self.shape)))
         keys = list(
@@ -332,10 +317,9 @@ class _Placed:
         return MeshArrays.of(list(zip(points, faces, strict=True))), placement
 
 
-def _note_size(placed: _Placed, source: Source, notes: Notes) -> None:
-    if not len(placed.shape):
+def _note_size(low: Floats, high: Floats, source: Source, notes: Notes) -> None:
+    if not len(low):
         return
-    low, high = placed.bounds()
     size = float((high.max(axis=0) - low.min(axis=0)).max())
     if not _SIZES[0] <= size <= _SIZES[1]:
         unit = f"check its units (one is taken as {source.meters_per_unit:g} m)"

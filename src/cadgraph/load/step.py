@@ -25,8 +25,8 @@ from cadgraph.load.gltf import node_matrix
 from cadgraph.load.gltf_file import BROKEN, Gltf, parse_glb
 from cadgraph.load.gltf_mesh import GltfMesh, read_mesh
 from cadgraph.load.gltf_nodes import root_nodes
-from cadgraph.load.naming import path_step
-from cadgraph.load.packing import Notes, Piece, pack, unique_name
+from cadgraph.load.naming import Names, path_step
+from cadgraph.load.packing import Notes, Piece, pack
 from cadgraph.load.triangles import main_color
 from cadgraph.model.scene import Faces, Floats, Scene, Source
 
@@ -97,8 +97,8 @@ def _occurrences(gltf: Gltf) -> Iterator[tuple[str, Floats, int]]:
     stack: list[tuple[int, str, Floats, int]] = []
 
     def enter(numbers: list[int], path: str, matrix: Floats, depth: int) -> None:
-        taken: set[str] = set()
-        named = [(number, f"{path}/{unique_name(_name(gltf, number), taken)}") for number in numbers]
+        taken = Names()
+        named = [(number, f"{path}/{taken.take(_name(gltf, number))}") for number in numbers]
         stack.extend(
             (number, at, node_matrix(gltf.item("nodes", number)) @ matrix, depth) for number, at in reversed(named)
         )

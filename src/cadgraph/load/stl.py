@@ -20,8 +20,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from cadgraph.errors import LoadError
-from cadgraph.load.naming import name_fact, path_step
-from cadgraph.load.packing import Notes, Piece, metres_z_up, pack, unique_name
+from cadgraph.load.naming import Names, name_fact, path_step
+from cadgraph.load.packing import Notes, Piece, metres_z_up, pack
 from cadgraph.load.sandbox.signature import stl_is_binary
 from cadgraph.load.text_lines import blocks_of
 from cadgraph.load.triangles import MAX_TRIANGLES, clean_triangles
@@ -140,13 +140,13 @@ def _text(path: Path, notes: Notes, facts: list[Fact]) -> Iterator[tuple[str, Fl
         points, solid = points[sound], solid[sound]
     corners, owner = points.reshape(-1, 3, 3), solid[::3]
     ends = np.searchsorted(owner, np.arange(len(names) + 1))
-    taken: set[str] = set()
+    taken = Names()
     for i, name in enumerate(names):
         if ends[i] == ends[i + 1]:
             if i:
                 notes.add("empty-mesh", "left out: it has no triangle that can be used", f"/{path_step(name, 'solid')}")
             continue
-        at = unique_name(f"/{path_step(name, path_step(path.stem, 'part'))}", taken)
+        at = taken.take(f"/{path_step(name, path_step(path.stem, 'part'))}")
         facts += name_fact(at, name, "solid")
         yield at, corners[ends[i] : ends[i + 1]]
 

@@ -26,8 +26,8 @@ import numpy as np
 import numpy.typing as npt
 
 from cadgraph.errors import LoadError
-from cadgraph.load.naming import clipped, name_fact, path_step
-from cadgraph.load.packing import Notes, Piece, metres_z_up, pack, unique_name
+from cadgraph.load.naming import Names, clipped, name_fact, path_step
+from cadgraph.load.packing import Notes, Piece, metres_z_up, pack
 from cadgraph.load.triangles import MAX_TRIANGLES, clean_triangles, linear, main_color
 from cadgraph.model.facts import Fact
 from cadgraph.model.scene import Faces, Floats, Ints, Scene, Source
@@ -263,12 +263,12 @@ class _Reading:
     def _named(
         self, placements: list[tuple[Key, Floats]], above: str, matrix: Floats, depth: int
     ) -> Iterator[tuple[Key, str, Floats, int]]:
-        taken: set[str] = set()
+        taken = Names()
         for key, own in placements:
             built = self.package.objects.get(key)
             name = path_step(built.name if built else None, f"object_{path_step(key[1], '')}")
             with np.errstate(over="ignore", invalid="ignore"):
-                yield key, f"{above}/{unique_name(name, taken)}", own @ matrix, depth
+                yield key, f"{above}/{taken.take(name)}", own @ matrix, depth
 
     def _place(self, key: Key, built: _Object, path: str, matrix: Floats) -> None:
         self.facts += name_fact(path, built.name, "object name")

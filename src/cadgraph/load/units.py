@@ -10,10 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cadgraph.model.scene import Floats, Scene
+from cadgraph.model.scene import Floats, Scene, turned_boxes
 from cadgraph.model.standards import outer_diameters
 
-__all__ = ["METRES", "UnitEvidence", "distinct", "pipe_diameters", "weigh_units"]
+__all__ = ["METRES", "UnitEvidence", "bounds_of", "distinct", "pipe_diameters", "weigh_units"]
 
 METRES = {"m": 1.0, "dm": 0.1, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048, "km": 1000.0}
 """Length of each unit [m]."""
@@ -93,7 +93,7 @@ def weigh_units(scene: Scene, meters_per_unit: float) -> UnitEvidence:
         meters_per_unit: what one unit of the file was taken as [m].
     """
     extents, diameters = _sizes(scene)
-    low, high = _span(scene)
+    low, high = bounds_of(scene)
     largest = float((high - low).max()) / meters_per_unit
     median = float(np.median(extents)) / meters_per_unit if len(extents) else 0.0
     different = distinct(diameters / meters_per_unit)
@@ -112,22 +112,21 @@ def weigh_units(scene: Scene, meters_per_unit: float) -> UnitEvidence:
     return UnitEvidence(scores, hits, len(different), largest)
 
 
-def _span(scene: Scene) -> tuple[Floats, Floats]:
-    """The corners of a box around the scene."""
+def bounds_of(scene: Scene) -> tuple[Floats, Floats]:
+    """The least and the greatest corner of a scene ``(3,)``, in its own lengths, without placing all of it."""
     placement = scene.placement
     if placement is None:
         return scene.vertices.min(axis=0), scene.vertices.max(axis=0)
     first = scene.shapes.vertex_offsets[:-1]
     lowest = np.minimum.reduceat(scene.shapes.vertices, first)[placement.shape]
     highest = np.maximum.reduceat(scene.shapes.vertices, first)[placement.shape]
-    center = np.einsum("ij,ijk->ik", 0.5 * (lowest + highest), placement.turn) + placement.shift
-    reach = np.einsum("ij,ijk->ik", 0.5 * (highest - lowest), np.abs(placement.turn))
+    least, greatest = turned_boxes(lowest, highest, placement.turn, placement.shift)
     # The box of a turned shape reaches too far rather than not far enough: once no other box reaches as far as the
     # vertices that were looked at, nor does any other mesh.
     ends = np.full((2, 3), np.inf)
     for end, axis in np.ndindex(2, 3):
         sign = 1 - 2 * end
-        bounds = sign * center[:, axis] - reach[:, axis]
+        bounds = -greatest[:, axis] if end else least[:, axis]
         for mesh in np.argsort(bounds, kind="stable").tolist():
             if bounds[mesh] >= ends[end, axis]:
                 break
@@ -158,11 +157,10 @@ def _sizes(scene: Scene) -> tuple[Floats, Floats]:
     length = np.maximum.reduceat(along, first) - np.minimum.reduceat(along, first)
     greatest = np.maximum.reduceat(radius, first)
     rim = radius >= (1 - _ROUND) * greatest[owner]
-    share = np.add.reduceat(rim.astype(np.float64), first) / counts
+    n_rim = np.add.reduceat(rim.astype(np.float64), first)
     # All around: the corners of a rim cancel out.
     lean = np.linalg.norm(np.add.reduceat(across * rim[:, None], first), axis=1)
-    even = lean <= 0.1 * greatest * np.maximum(np.add.reduceat(rim.astype(np.float64), first), 1)
-    several = np.add.reduceat(rim.astype(np.float64), first) >= 12
-    pipes = (length >= _SLENDER * 2 * greatest) & (share >= 0.3) & even & several
+    even = lean <= 0.1 * greatest * np.maximum(n_rim, 1)
+    pipes = (length >= _SLENDER * 2 * greatest) & (n_rim >= 0.3 * counts) & even & (n_rim >= 12)
     extents = np.maximum.reduceat(np.abs(points).max(axis=1), first) * 2
     return extents, 2 * greatest[pipes]

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal
 
 from pydantic import (
     Field,
@@ -331,6 +331,11 @@ class Label(Record):
     def said(self) -> tuple[str, str | None]:
         """Group and name."""
         return self.group, self.name
+
+    @property
+    def state(self) -> Literal["sure", "likely"]:
+        """How sure it is, in a word."""
+        return "likely" if self.likely else "sure"
 
 
 def typed_evidence(source: object, plain: Mapping[str, Any]) -> Evidence:

@@ -26,6 +26,7 @@ __all__ = [
     "StatedLink",
     "mesh_of_face",
     "mesh_of_vertex",
+    "turned_boxes",
 ]
 
 Floats = npt.NDArray[np.float64]
@@ -360,6 +361,23 @@ class Scene:
         shift = (by_part.vertex_offsets[:-1] - v_offsets[sorted_parts]).astype(np.int32)
         faces = by_part.faces + np.repeat(shift, np.diff(by_part.face_offsets))[:, None]
         return MeshArrays(by_part.vertices, faces, v_offsets, f_offsets)
+
+
+def turned_boxes(low: Floats, high: Floats, turn: Floats, shift: Floats) -> tuple[Floats, Floats]:
+    """Boxes around boxes that are turned and moved.
+
+    Args:
+        low: ``(n, 3)`` their least corners.
+        high: ``(n, 3)`` their greatest corners.
+        turn: ``(n, 3, 3)`` for row vectors; may scale and mirror, too.
+        shift: ``(n, 3)``.
+
+    Returns:
+        The least and the greatest corners ``(n, 3)``: no less than what is in the boxes reaches.
+    """
+    center = np.einsum("ij,ijk->ik", 0.5 * (low + high), turn) + shift
+    reach = np.einsum("ij,ijk->ik", 0.5 * (high - low), np.abs(turn))
+    return center - reach, center + reach
 
 
 def mesh_of_vertex(scene: Scene) -> Ints:

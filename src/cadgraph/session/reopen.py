@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import hashlib
 from pathlib import Path
 from typing import Any
 
+from cadgraph._io.digest import sha256_of
 from cadgraph._io.progress import Progress, quiet
 from cadgraph._io.run_folder import results_folder
 from cadgraph.config import Config
@@ -153,9 +153,7 @@ def find_source(graph: SceneGraph, folder: Path, scene: str | Path | None) -> Pa
     found = next((path for path in tried if path.is_file()), None)
     if found is None:
         raise LabelError(f"{tried[0]}: the scene isn't there; name it with --scene")
-    with found.open("rb") as opened:
-        digest = hashlib.file_digest(opened, "sha256").hexdigest()
-    if graph.source.sha256 and digest != graph.source.sha256:
+    if graph.source.sha256 and sha256_of(found) != graph.source.sha256:
         raise LabelError(f"{found}: changed since the graph was built; run 'cadgraph build' on it instead")
     return found
 

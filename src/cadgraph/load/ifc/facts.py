@@ -35,19 +35,17 @@ _BORES = (3.0, 4000.0)  # [mm] nominal bores that there are (DN 3 to DN 4000, EN
 _Row = tuple[FactKey, str, str]
 
 
-def element_facts(model: Model, tree: Tree, meshes: Collection[str]) -> list[Fact]:
+def element_facts(model: Model, tree: Tree, shown: Collection[str]) -> list[Fact]:
     """The facts of all elements that have a mesh, or stand above one.
 
     Args:
         model: an open file.
         tree: of its nodes.
-        meshes: paths of the meshes.
+        shown: paths of the meshes and of the nodes above them.
 
     Returns:
         Them, sorted by path, then by key.
     """
-    shown = set(meshes)
-    shown |= {path[:end] for path in meshes for end in range(1, len(path)) if path[end] == "/"}
     elements = [node for node in tree.nodes if tree.paths[node.id()] in shown and not is_spatial(node)]
     properties = _Properties(model)
     grouped = _by_relation(model)

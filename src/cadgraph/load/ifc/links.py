@@ -30,7 +30,7 @@ class _Joined(NamedTuple):
     where: str
 
 
-def stated_links(model: Model, tree: Tree, meshes: Collection[str], notes: Notes) -> list[StatedLink]:
+def stated_links(model: Model, tree: Tree, shown: Collection[str], notes: Notes) -> list[StatedLink]:
     """The links between elements that have a mesh, or stand above one.
 
     An element without any mesh that joins just two others (a gasket that is only listed) is passed over: these two
@@ -39,14 +39,12 @@ def stated_links(model: Model, tree: Tree, meshes: Collection[str], notes: Notes
     Args:
         model: an open file.
         tree: of its nodes.
-        meshes: paths of the meshes.
+        shown: paths of the meshes and of the nodes above them.
         notes: gets what is left out.
 
     Returns:
         One link for two elements and one kind of relation, sorted by path; both directions at once are unknown.
     """
-    shown = set(meshes)
-    shown |= {path[:end] for path in meshes for end in range(1, len(path)) if path[end] == "/"}
     joined = _merged([*_by_ports(model), *_direct(model)])
     kept = _without_bare(joined, {i for i, path in tree.paths.items() if path in shown}, tree, notes)
     links = []

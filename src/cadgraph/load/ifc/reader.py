@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -53,7 +54,6 @@ def read(path: Path, config: LoadConfig) -> Scene:
             f"{path}: opens, but no product in it has a solid or a surface ({why or 'it holds no product'}); "
             "export it with its geometry"
         )
-    meshes = {piece.path for piece in pieces}
     keep = config.metadata == "keep"
     unit, stated = length_unit(model)
     source = Source(
@@ -63,13 +63,20 @@ def read(path: Path, config: LoadConfig) -> Scene:
         unit_stated=stated,
         metadata=file_metadata(model) if keep else (),
     )
-    facts = element_facts(model, tree, meshes) if keep else ()
-    links = stated_links(model, tree, meshes, notes) if keep else ()
+    shown = _with_nodes_above({piece.path for piece in pieces}) if keep else frozenset()
+    facts = element_facts(model, tree, shown) if keep else ()
+    links = stated_links(model, tree, shown, notes) if keep else ()
     # The library gives metres and Z up, whatever the file's unit.
     scene = pack(pieces, source, np.eye(4), notes, _ABRIDGED, facts, links)
     if not scene.n_meshes:
         raise LoadError(f"{path}: opens, but all its shapes are without area; export it with its geometry")
     return scene
+
+
+def _with_nodes_above(paths: Iterable[str]) -> frozenset[str]:
+    """Paths, and those of all nodes above them."""
+    whole = frozenset(paths)
+    return whole | {path[:end] for path in whole for end in range(1, len(path)) if path[end] == "/"}
 
 
 _WHY = (

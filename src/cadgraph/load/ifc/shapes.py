@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import ifcopenshell.geom
 import numpy as np
-import numpy.typing as npt
 
 from cadgraph.load.ifc.entities import Entity, Model, entities, text
 from cadgraph.load.ifc.tree import Tree, is_spatial
 from cadgraph.load.packing import Notes, Piece
+from cadgraph.load.triangles import linear, main_color
 from cadgraph.model.scene import Faces, Floats
 
 if TYPE_CHECKING:
@@ -142,25 +142,21 @@ def _shape(geometry: Any) -> _Shape:
     whole &= faces.max(axis=1, initial=0) < len(points)
     finite = np.asarray(np.isfinite(points).all(axis=1))
     whole[whole] = finite[faces[whole]].all(axis=1)
-    color = _main_color(points, faces[whole], materials[whole], geometry.materials) if len(materials) else None
+    color = None
+    if len(materials):
+        palette = _palette(geometry.materials)
+        unknown = (materials < 0) | (materials >= len(palette) - 1)
+        number = np.where(unknown, len(palette) - 1, materials).astype(np.int64)[whole]
+        color = main_color(points, faces[whole], palette, number)
     return _Shape(points, faces[whole], color)
 
 
-def _main_color(points: Floats, faces: Faces, materials: npt.NDArray[np.int32], styles: Any) -> Floats | None:
-    """The colour with the largest area, as linear light; colours in IFC files are those of screens (sRGB)."""
-    known = (materials >= 0) & (materials < len(styles))
-    if not known.any():
-        return None
-    a, b, c = (points[faces[known, i]] for i in range(3))
-    areas = np.bincount(materials[known], np.linalg.norm(np.cross(b - a, c - a), axis=1), len(styles))
-    diffuse = styles[int(np.argmax(areas))].diffuse
-    color = np.array([diffuse.r(), diffuse.g(), diffuse.b()], np.float64)
-    if not np.isfinite(color).all():
-        return None
-    color = np.clip(color, 0, 1)
-    # IEC 61966-2-1
-    linear: Floats = np.where(color <= 0.04045, color / 12.92, ((color + 0.055) / 1.055) ** 2.4)
-    return linear
+def _palette(styles: Any) -> Floats:
+    """``(n + 1, 3)`` linear colours of styles, in IFC files those of screens; the last is none."""
+    colors = [(style.diffuse.r(), style.diffuse.g(), style.diffuse.b()) for style in styles]
+    palette = np.array([*colors, (np.nan, np.nan, np.nan)], np.float64)
+    palette[~np.isfinite(palette).all(axis=1)] = np.nan
+    return linear(palette)
 
 
 def _pieces(

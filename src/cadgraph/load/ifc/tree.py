@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
+from collections import Counter, defaultdict
 from dataclasses import dataclass
 
 from cadgraph.load.ifc.entities import Entity, Model, attribute, entities, of_type, text
-from cadgraph.load.packing import Notes, unique_name
+from cadgraph.load.naming import Names, step_text
+from cadgraph.load.packing import Notes
 
 __all__ = ["Tree", "is_spatial", "plant_tree"]
 
@@ -59,13 +60,13 @@ def plant_tree(model: Model, notes: Notes) -> Tree:
     names = _Names(list(nodes.values()))
     home = projects[0].id() if projects else 0
     paths, depths = {0: ""}, {0: 0}
-    taken: dict[str, set[str]] = {}
+    taken: dict[str, Names] = defaultdict(Names)
     for i in nodes:
         for below, node in _unnamed(i, nodes, above, home, paths):
             # A chain of any length must not make paths of any length.
             below = below if depths[below] < _MAX_DEPTH else home
             at = paths[below]
-            paths[node.id()] = f"{at}/{unique_name(names.of(node), taken.setdefault(at, set()))}"
+            paths[node.id()] = f"{at}/{taken[at].take(names.of(node))}"
             depths[node.id()] = depths[below] + 1
     del paths[0]
     wrong = [paths[node.id()] for node in nodes.values() if names.lacks_guid(node)]
@@ -148,7 +149,7 @@ class _Names:
         kind = str(node.is_a())
         if is_spatial(node):
             name = text(node, "Name") or text(node, "LongName")
-            return re.sub(r"[^\w.-]+", "_", name)[:100].strip("_.") or kind
+            return step_text(name)[:100].strip("_.") or kind
         return f"{kind}_id{node.id()}" if self.lacks_guid(node) else f"{kind}_{_guid(node)}"
 
 

@@ -25,11 +25,12 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from cadgraph.config import LoadConfig
+    from cadgraph.load.naming import Names
     from cadgraph.load.packing import Notes
     from cadgraph.load.rvm.chunks import Chunks, Words
     from cadgraph.load.rvm.placing import Meshes
     from cadgraph.load.rvm.primitives import Primitives
-    from cadgraph.load.rvm.tree import Names, Tree
+    from cadgraph.load.rvm.tree import Tree
     from cadgraph.model.facts import Fact, StatedLink
     from cadgraph.model.scene import Ints, Scene
 

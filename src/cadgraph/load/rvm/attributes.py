@@ -6,6 +6,7 @@ A line of tokens, then elements within each other: ``NEW`` and the name that the
 
 from __future__ import annotations
 
+import codecs
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -128,8 +129,6 @@ def _encoding(path: Path) -> str:
 
 
 def _decoded(file: IO[bytes]) -> Iterator[str]:
-    import codecs
-
     decoder = codecs.getincrementaldecoder("utf-8")()
     while block := file.read(1 << 20):
         yield decoder.decode(block)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cadgraph.load.rvm.chunks import Chunks, Words
+from cadgraph.load.triangles import linear
 from cadgraph.model.scene import Floats, Ints
 
 __all__ = ["colors_of"]
@@ -38,6 +39,4 @@ def colors_of(material: Ints, words: Words, chunks: Chunks) -> Floats:
     for i, number in enumerate(different.tolist()):
         if number in table:
             colors[i] = np.frombuffer(table[number], np.uint8) / 255
-    # sRGB to linear (IEC 61966-2-1).
-    linear = np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
-    return np.asarray(linear[which.reshape(-1)], np.float64)
+    return linear(colors)[which.reshape(-1)]

@@ -9,36 +9,19 @@ import numpy as np
 import numpy.typing as npt
 
 from cadgraph.errors import LoadError
+from cadgraph.load.naming import Names, step_text
 from cadgraph.load.packing import Notes
 from cadgraph.load.rvm.chunks import Chunks, Words
 from cadgraph.model.scene import Ints
 
-__all__ = ["NO_PLANT", "Names", "Tree", "decode", "read_tree"]
+__all__ = ["NO_PLANT", "Tree", "decode", "read_tree"]
 
 NO_PLANT = ("DRAWING", "WELD")
 """Types, as default names tell them, that are no part of the plant: drawn frames, and welds, which lie within pipes."""
 
 # What an element without a name is called: "VALVE 1 of BRANCH 2 of PIPE /100-B-1".
 _DEFAULT = re.compile(r"([A-Z][A-Z ]*?) (\d+) of ([A-Z][A-Z ]*?)(?: \d+ of |(?= /))")
-_NO_STEP = re.compile(r"[^\w.-]+")
 _MOST_TEXT = 500_000_000  # characters of all paths together; ours: a million nodes of real depth have 8e7
-
-
-class Names:
-    """Paths that are taken; quick however often the same one is asked for."""
-
-    def __init__(self) -> None:
-        self._taken: set[str] = set()
-        self._last: dict[str, int] = {}
-
-    def take(self, path: str) -> str:
-        """The path, or the first of ``path_1``, ``path_2``... that isn't taken; it is taken afterwards."""
-        free = path
-        while free in self._taken:
-            self._last[path] = self._last.get(path, 0) + 1
-            free = f"{path}_{self._last[path]}"
-        self._taken.add(free)
-        return free
 
 
 @dataclass(frozen=True)
@@ -139,7 +122,7 @@ def decode(raw: bytes) -> tuple[str, bool]:
 def _step(name: str, told: re.Match[str] | None) -> str:
     # What follows "of" is the path above.
     own = f"{told[1]}_{told[2]}" if told else name
-    return _NO_STEP.sub("_", own).strip("_.") or "node"
+    return step_text(own) or "node"
 
 
 def _paths(steps: list[str], parent: Ints, where: str) -> tuple[list[str], Names]:
