@@ -1,0 +1,2 @@
+// Style sheets are bundled beside the page by build.mjs.
+declare module "*.css";
