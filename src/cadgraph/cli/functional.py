@@ -207,7 +207,6 @@ def compare(
         raise ValueError(
             "give the plan to compare with, a Proteus XML file, or --source for what the source itself says"
         )
-    from cadgraph._io.atomic import write_atomically
     from cadgraph._io.limits import MAPPING, read_text_within
     from cadgraph.export.dexpi import read_dexpi
     from cadgraph.model.graph import SceneGraph
@@ -220,19 +219,15 @@ def compare(
         remedy = "give a CSV file with the plan's tag and the plant's tag in each line"
         given = read_mapping(read_text_within(mapping, MAPPING, ValueError, remedy), str(mapping))
     found = compare_graphs(SceneGraph.load(graph), read_dexpi(plan), given, by_tag=not by_network)
-    if output is None:
-        _show(comparison_lines(found), comparison_values(found), as_json)
-    else:
-        values = json.dumps(comparison_values(found), ensure_ascii=False, indent=1)
-        write_atomically(output, (values if as_json else "\n".join(comparison_lines(found, most=10**9))) + "\n")
-        out.print(f"wrote {escape(str(output))}: the plant and the plan {'agree' if found.agrees else 'differ'}")
+    lines = comparison_lines(found) if output is None else comparison_lines(found, most=10**9)
+    outcome = f"the plant and the plan {'agree' if found.agrees else 'differ'}"
+    _tell_comparison(lines, comparison_values(found), outcome, as_json, output)
     if strict and not found.agrees:
         raise typer.Exit(1)
 
 
 def _compare_source(graph: Path, others: tuple[object, ...], strict: bool, as_json: bool, output: Path | None) -> None:
     """The comparison of a graph with what its source says."""
-    from cadgraph._io.atomic import write_atomically
     from cadgraph.model.graph import SceneGraph
     from cadgraph.query.compare_source import compare_source
     from cadgraph.query.source_text import source_lines, source_values
@@ -240,14 +235,24 @@ def _compare_source(graph: Path, others: tuple[object, ...], strict: bool, as_js
     if any(other is not None for other in others):
         raise ValueError("--source compares with the source alone; leave out the plan, --map and --by-network")
     found = compare_source(SceneGraph.load(graph))
-    if output is None:
-        _show(source_lines(found), source_values(found), as_json)
-    else:
-        values = json.dumps(source_values(found), ensure_ascii=False, indent=1)
-        write_atomically(output, (values if as_json else "\n".join(source_lines(found, most=10**9))) + "\n")
-        out.print(f"wrote {escape(str(output))}: {source_lines(found)[-1]}")
+    lines = source_lines(found) if output is None else source_lines(found, most=10**9)
+    _tell_comparison(lines, source_values(found), lines[-1], as_json, output)
     if strict and not found.agrees:
         raise typer.Exit(1)
+
+
+def _tell_comparison(
+    lines: list[str], values: dict[str, Any], outcome: str, as_json: bool, output: Path | None
+) -> None:
+    """Prints a comparison, or writes it into a file and prints the outcome."""
+    from cadgraph._io.atomic import write_atomically
+
+    if output is None:
+        _show(lines, values, as_json)
+        return
+    text = json.dumps(values, ensure_ascii=False, indent=1) if as_json else "\n".join(lines)
+    write_atomically(output, f"{text}\n")
+    out.print(f"wrote {escape(str(output))}: {escape(outcome)}")
 
 
 def _show(text: list[str], values: dict[str, Any], as_json: bool) -> None:
