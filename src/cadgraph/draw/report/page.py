@@ -6,11 +6,12 @@ import base64
 import hashlib
 import io
 from importlib import resources
-from pathlib import Path, PurePath
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cadgraph._io.atomic import write_atomically
 from cadgraph._io.progress import Progress, quiet
+from cadgraph._io.text import file_name
 from cadgraph.config import ReportConfig
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Connected
@@ -77,7 +78,7 @@ def _page(graph: SceneGraph, pictures: list[Picture]) -> str:
     colors = group_colors(graph)
     style, script = _asset("page.css"), _asset("page.js")
     return environment.get_template("page.html").render(
-        name=PurePath(graph.source.path.replace("\\", "/")).name or "scene",
+        name=file_name(graph.source.path) or "scene",
         version=__version__,
         style=style,
         script=script,
