@@ -113,9 +113,7 @@ def parts_of(graph: SceneGraph, ids: Iterable[str] | None = None, origin: Point 
     }
 
 
-def network_of(
-    graph: SceneGraph, rows: Mapping[str, int] | None = None, origin: Point = _NOWHERE
-) -> dict[str, Any]:
+def network_of(graph: SceneGraph, rows: Mapping[str, int] | None = None, origin: Point = _NOWHERE) -> dict[str, Any]:
     """Units, ends, connections, lines, systems, clusters and joints of a graph.
 
     Args:
@@ -128,6 +126,7 @@ def network_of(
     lines = find_lines(network)
     systems = graph.of_layer(System)
     system = {system.id: i for i, system in enumerate(systems)}
+    ends: list[Junction | Terminal] = [*graph.junctions(), *graph.terminals()]
     line_of = {arc.index: i for i, line in enumerate(lines) for arc in line.arcs}
     return {
         "units": [_unit(unit, network, row, system, origin) for unit in graph.of_layer(Unit)],
@@ -140,7 +139,7 @@ def network_of(
                 "parts": [row[part] for part in end.parts],
                 "system": system.get(network.system(end.id) or "", -1),
             }
-            for end in (*graph.of_layer(Junction), *graph.of_layer(Terminal))
+            for end in ends
         ],
         "connections": [
             {
