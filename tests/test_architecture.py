@@ -49,7 +49,7 @@ MAY_IMPORT = {
     },
     "cli": {
         *("_io", "config", "errors", "facts", "labelers", "load", "model", "pipeline", "query", "session"),
-        *("draw.render", "draw.report", "draw.schematic", "export"),
+        *("draw.render", "draw.report", "draw.schematic", "draw.web", "export"),
     },
     "draw": set(),
     "__main__": {"cli"},

@@ -226,7 +226,24 @@ def _may_collapse(
 ) -> int:
     """How many faces go if a vertex moves onto another; 0 where it may not."""
     gone: int = ZERO
-    joined, common = ZERO, ZERO
+    gone, joined = _leave(vertices, faces, start, around, onto, mark, a, b, stamp)
+    if gone <= 0:
+        return 0
+    common, others = _arrive(faces, start, around, onto, mark, a, b, stamp)
+    # The link condition; with less than three vertices round both nothing but two faces back to back would be left.
+    return gone if common == gone and joined + others > 2 else 0
+
+
+@compiled
+def _leave(
+    vertices: Any, faces: Any, start: Any, around: Any, onto: Any, mark: Any, a: int, b: int, stamp: int
+) -> tuple[int, int]:
+    """How many faces round a vertex have the other, and how many further vertices are round it, which get a mark.
+
+    The first is -1 where a face would turn too far if the vertex moved to the other.
+    """
+    gone: int = ZERO
+    joined: int = ZERO
     for k in range(start[a], start[a + 1]):
         f = around[k]
         x, y, z = onto[faces[f, 0]], onto[faces[f, 1]], onto[faces[f, 2]]
@@ -234,15 +251,23 @@ def _may_collapse(
             continue
         # The other two in order, whichever corner the vertex itself is.
         y, z = (y, z) if x == a else ((z, x) if y == a else (x, y))
-        if y == b or z == b:
+        if b in (y, z):
             gone += 1
         elif _turns(vertices, a, b, y, z):
-            return 0
+            return ZERO - 1, joined
         for c in range(2):
             v = y if c == 0 else z
             if v != b and mark[v] != stamp:
                 mark[v] = stamp
                 joined += 1
+    return gone, joined
+
+
+@compiled
+def _arrive(faces: Any, start: Any, around: Any, onto: Any, mark: Any, a: int, b: int, stamp: int) -> tuple[int, int]:
+    """How many vertices round the second one have the mark, and how many have not."""
+    common: int = ZERO
+    others: int = ZERO
     for k in range(start[b], start[b + 1]):
         f = around[k]
         x, y, z = onto[faces[f, 0]], onto[faces[f, 1]], onto[faces[f, 2]]
@@ -255,10 +280,9 @@ def _may_collapse(
             if mark[v] == stamp:
                 common += 1
             else:
-                joined += 1
+                others += 1
             mark[v] = stamp + 1
-    # The link condition; with less than three vertices round both nothing but two faces back to back would be left.
-    return gone if common == gone and gone > 0 and joined > 2 else 0
+    return common, others
 
 
 @compiled
