@@ -8,6 +8,7 @@ from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 import shapes
+from cadgraph.draw.web import packing
 from cadgraph.draw.web.encode import decode, encode
 from cadgraph.draw.web.instances import CLOSE, find_instances, quaternions
 from cadgraph.draw.web.packing import pack_scene
@@ -91,7 +92,10 @@ def test_every_mesh_lies_where_it_lay():
 
 
 def test_a_mirror_image_is_a_shape_of_its_own():
-    skew = np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 3.0]]), np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    skew = (
+        np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 3.0]]),
+        np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]),
+    )
     mirrored = skew[0] * [-1, 1, 1], skew[1][:, ::-1]
     assert pack_scene(Scene.from_meshes([skew, mirrored])).manifest["n_shapes"] == 2
 
@@ -116,13 +120,17 @@ def test_what_is_only_nearly_a_copy_far_out_is_not_shown_as_one():
     body = shapes.tube(sides=40)
     noise = np.random.default_rng(0).uniform(-4e-4, 4e-4, body[0].shape)
     far = np.array([8000.0, 0, 0])
-    meshes = [(body[0] + far, body[1]), (body[0] + noise + far + [2, 0, 0], body[1]), (body[0] + far + [4, 0, 0], body[1])]
+    meshes = [
+        (body[0] + far, body[1]),
+        (body[0] + noise + far + [2, 0, 0], body[1]),
+        (body[0] + far + [4, 0, 0], body[1]),
+    ]
     found = find_instances(Scene.from_meshes(meshes))
     assert found.shape.tolist() == [0, 1, 0]
 
 
 def test_the_same_scene_gives_the_same_bytes():
-    scene = Scene.from_meshes([shapes.moved(shapes.sphere(radius=r), *pose) for r, pose in zip((1, 2, 3), poses(3))])
+    scene = Scene.from_meshes([shapes.moved(shapes.sphere(radius=r), *pose) for r, pose in enumerate(poses(3), 1)])
     first, second = pack_scene(scene), pack_scene(scene)
     assert (first.manifest, first.files) == (second.manifest, second.files)
 
@@ -185,17 +193,20 @@ def test_few_triangles_come_at_once_and_many_in_two_levels():
     assert len(forms[ball, 1][2]) <= len(forms[ball, 0][2]) / 4
 
 
-def test_shapes_fill_chunks_of_a_few_megabytes_and_large_ones_have_wide_indices():
-    balls = [shapes.sphere(r, 340, 200) for r in (1.0, 1.1, 1.2, 1.3)]
-    packed = pack_scene(Scene.from_meshes(balls))
-    sizes = [(chunk["level"], chunk["bytes"]) for chunk in packed.manifest["chunks"]]
-    assert [level for level, _ in sizes] == [1] * len([s for s in sizes if s[0]]) + [0] * len([s for s in sizes if not s[0]])
-    assert sum(level == 0 for level, _ in sizes) >= 2
-    forms, _ = read(packed)
-    assert sorted(forms) == [(i, level) for i in range(4) for level in (0, 1)]
-    for (_, level), (vertices, _, faces) in forms.items():
-        assert faces.max() + 1 == len(vertices)
-        assert (len(vertices) > 0xFFFF) == (level == 0)
+def test_shapes_fill_chunks_up_to_a_size_and_every_shape_is_in_one_of_each_level(monkeypatch):
+    monkeypatch.setattr(packing, "_CHUNK", {1: 7_000, 0: 25_000})
+    packed = pack_scene(Scene.from_meshes([shapes.sphere(r, 48, 24) for r in (1.0, 1.1, 1.2, 1.3)]))
+    levels = [chunk["level"] for chunk in packed.manifest["chunks"]]
+    assert levels == sorted(levels, reverse=True)
+    assert levels.count(0) == levels.count(1) == 2
+    assert sorted(read(packed)[0]) == [(i, level) for i in range(4) for level in (0, 1)]
+
+
+def test_more_vertices_than_two_bytes_can_count_have_wide_indices():
+    forms, _ = read(pack_scene(Scene.from_meshes([shapes.sphere(1.0, 340, 200)])))
+    assert {level: len(vertices) > 0xFFFF for (_, level), (vertices, _, _) in forms.items()} == {0: True, 1: False}
+    for vertices, _, faces in forms.values():
+        assert np.unique(faces).tolist() == list(range(len(vertices)))
 
 
 @pytest.mark.parametrize(
