@@ -75,7 +75,10 @@ def encode(vertices: Floats, faces: Faces) -> tuple[Encoded, Encoded | None] | N
     low = bounds[0].astype(np.float32)
     step = ((bounds[1] - low) / GRID).astype(np.float32)
     place, spots = np.full(len(points), -1, np.int32), np.empty((len(points), 3), np.uint16)
-    n_spots = _find_spots(points, whole, low.astype(np.float64), step.astype(np.float64), place, spots)
+    keys = np.empty(len(points), np.uint64)
+    n_spots = _find_spots(
+        points, whole, low.astype(np.float64), step.astype(np.float64), _table(len(points)), keys, place, spots
+    )
     kept = np.empty((len(whole), 3), np.int32)
     n_kept = _faces_of_spots(whole, place, kept)
     if not n_kept:
@@ -90,7 +93,8 @@ def encode(vertices: Floats, faces: Faces) -> tuple[Encoded, Encoded | None] | N
     most = max(_LEAST, int(_SHARE * n_kept))
     coarse = simplify(places, kept, most, _FAR * diagonal, _NEAR * diagonal)
     normals = np.empty((len(coarse), 3), np.uint16)
-    _take_normals(places, kept, full[0], full[1], coarse, normals)
+    start, around = np.zeros(len(places) + 1, np.int32), np.empty(3 * len(kept), np.int32)
+    _take_normals(places, kept, full[0], full[1], coarse, start, around, normals)
     return form, Encoded(low, step, *_welded(spots, coarse, normals))
 
 
@@ -138,19 +142,14 @@ def _slot(table: Any, key: Any, keys: Any) -> Any:
     return at
 
 
-@compiled
-def _table(entries: int) -> Any:
+def _table(entries: int) -> npt.NDArray[np.int32]:
     """An empty hash table, a power of two and at least twice as large as what goes into it."""
-    size = 16
-    while size < 2 * entries:
-        size *= 2
-    return np.full(size, -1, np.int32)
+    return np.full(1 << max(4, (2 * entries - 1).bit_length()), -1, np.int32)
 
 
 @compiled
-def _find_spots(vertices: Any, faces: Any, low: Any, step: Any, place: Any, spots: Any) -> int:
+def _find_spots(vertices: Any, faces: Any, low: Any, step: Any, table: Any, keys: Any, place: Any, spots: Any) -> int:
     """The distinct grid points of the vertices that faces use, in the order of the faces; how many they are."""
-    table, keys = _table(len(vertices)), np.empty(len(vertices), np.uint64)
     found: int = ZERO
     for f in range(len(faces)):
         for c in range(3):
@@ -213,13 +212,13 @@ def _welded(spots: Shorts, faces: Faces, normals: Shorts) -> tuple[Shorts, Indic
     """Vertices of like place and normal as one, in the order in which the triangles first use them."""
     vertices = np.empty((3 * len(faces), 4), np.uint16)
     indices = np.empty((len(faces), 3), np.uint32)
-    count = _weld(spots, faces, normals, vertices, indices)
+    keys = np.empty(3 * len(faces), np.uint64)
+    count = _weld(spots, faces, normals, _table(len(keys)), keys, vertices, indices)
     return vertices[:count].copy(), indices
 
 
 @compiled
-def _weld(spots: Any, faces: Any, normals: Any, vertices: Any, indices: Any) -> int:
-    table, keys = _table(3 * len(faces)), np.empty(3 * len(faces), np.uint64)
+def _weld(spots: Any, faces: Any, normals: Any, table: Any, keys: Any, vertices: Any, indices: Any) -> int:
     found: int = ZERO
     for f in range(len(faces)):
         for c in range(3):
@@ -238,23 +237,26 @@ def _weld(spots: Any, faces: Any, normals: Any, vertices: Any, indices: Any) -> 
 
 
 @compiled
-def _take_normals(places: Any, full: Any, vertices: Any, indices: Any, coarse: Any, normals: Any) -> None:
+def _take_normals(
+    places: Any, full: Any, vertices: Any, indices: Any, coarse: Any, start: Any, around: Any, normals: Any
+) -> None:
     """For each corner of a coarse form the normal of the full one there that is nearest to the coarse face's.
 
     So what is round looks round although it has fewer sides, and an edge stays an edge.
     """
-    start, around = np.zeros(len(places) + 1, np.int32), np.empty(3 * len(full), np.int32)
+    # The full form's vertices at each position: those from start[v] to start[v + 1] in `around`.
+    total = ZERO
     for f in range(len(full)):
         for c in range(3):
-            start[full[f, c] + 1] += 1
-    for v in range(len(places)):
-        start[v + 1] += start[v]
-    filled = start.copy()
+            start[full[f, c]] += 1
+    for v in range(len(start)):
+        total += start[v]
+        start[v] = total
     for f in range(len(full)):
         for c in range(3):
             v = full[f, c]
-            around[filled[v]] = indices[f, c]
-            filled[v] += 1
+            start[v] -= 1
+            around[start[v]] = indices[f, c]
     for f in range(len(coarse)):
         a, b, d = coarse[f, 0], coarse[f, 1], coarse[f, 2]
         ux, uy, uz = places[b, 0] - places[a, 0], places[b, 1] - places[a, 1], places[b, 2] - places[a, 2]

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from cadgraph.geometry.kernels.parallel import ZERO, compiled
+from cadgraph.geometry.kernels.parallel import ZERO, compiled, readable
 from cadgraph.model.scene import Faces, Floats
 
 __all__ = ["simplify"]
@@ -38,27 +38,33 @@ def simplify(vertices: Floats, faces: Faces, most: int, error: float, free: floa
         ``(k, 3)`` int32 triangles of the same vertices, in the order of the faces that they come from.
     """
     work = np.array(faces, np.int32)
-    count = _simplify(np.ascontiguousarray(vertices, np.float64), work, most, error * error, free * free)
+    n, m = len(vertices), len(work)
+    costs = np.empty(3 * m, np.float32)
+    count = _simplify(
+        readable(vertices, np.float64), work, most, error * error, free * free,
+        np.zeros(n + 1, np.int32), np.empty(3 * m, np.int32), np.zeros(n, np.int8), np.zeros((n, 11)),
+        np.empty(n, np.int32), np.zeros(n, np.int32), np.zeros(n, np.bool_),
+        costs, costs.view(np.uint32), np.empty(3 * m, np.int32), np.empty(_BUCKETS + 1, np.int32),
+    )  # fmt: skip
     return work[:count]
 
 
 @compiled
-def _simplify(vertices: Any, faces: Any, most: int, limit: float, free: float) -> int:
-    """Works on ``faces`` in place; how many of its first rows are left."""
+def _simplify(
+    vertices: Any, faces: Any, most: int, limit: float, free: float,
+    start: Any, around: Any, kind: Any, quadrics: Any, onto: Any, mark: Any, touched: Any,
+    costs: Any, bits: Any, order: Any, buckets: Any,
+) -> int:  # fmt: skip
+    """Works on ``faces`` in place; how many of its first rows are left. All further arrays are workspace."""
     n = len(vertices)
     count: int = ZERO + len(faces)
-    start, around = np.zeros(n + 1, np.int32), np.empty(3 * len(faces), np.int32)
-    kind, quadrics = np.zeros(n, np.int8), np.zeros((n, 11))
-    onto, mark, touched = np.empty(n, np.int32), np.zeros(n, np.int32), np.zeros(n, np.bool_)
-    costs, order = np.empty(3 * len(faces), np.float32), np.empty(3 * len(faces), np.int32)
-    bits = costs.view(np.uint32)
     stamp = ZERO
     for turn in range(_PASSES):
         _find_faces(faces, count, start, around)
         if turn == 0:
             _start_quadrics(vertices, faces, count, start, around, kind, quadrics)
         n_costs = _find_costs(vertices, faces, count, start, around, kind, quadrics, limit, costs)
-        _sort(bits, 3 * count, order)
+        _sort(bits, 3 * count, order, buckets)
         goal = max(count - most, 0)
         last = costs[order[min(goal, max(n_costs - 1, 0))]] * np.float32(1.5)
         for v in range(n):
@@ -207,9 +213,10 @@ def _find_costs(
 
 
 @compiled
-def _sort(bits: Any, count: int, order: Any) -> None:
+def _sort(bits: Any, count: int, order: Any, first: Any) -> None:
     """The numbers of the costs, the least first, by the leading bits; of equal ones in their order."""
-    first = np.zeros(_BUCKETS + 1, np.int32)
+    for k in range(len(first)):
+        first[k] = 0
     for k in range(count):
         first[(bits[k] >> _BUCKET_BITS) + 1] += 1
     for k in range(_BUCKETS):
