@@ -226,6 +226,13 @@ def test_the_coarse_form_is_closed_and_much_like_the_full_one(mesh):
     assert used - len(faces) / 2 == (0 if len(mesh[1]) == 8 * 96 else 2)
 
 
+def test_what_cannot_be_made_simpler_is_sent_once():
+    loose = np.random.default_rng(0).normal(size=(600, 3)), np.arange(600).reshape(-1, 3)
+    packed = pack_scene(Scene.from_meshes([loose]))
+    assert [chunk["level"] for chunk in packed.manifest["chunks"]] == [1]
+    assert len(placed(packed)[0][1]) == 200
+
+
 def test_simplifying_stops_where_it_would_spoil_the_shape():
     vertices, faces = shapes.box()
     assert len(simplify(vertices, faces, 4, error=1e-3)) == 12

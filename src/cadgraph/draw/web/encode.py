@@ -24,6 +24,7 @@ FEW = 96
 
 _LEAST = 64  # triangles that a coarse form may have in any case
 _SHARE = 0.25  # of the triangles in the coarse form
+_WORTH = 0.75  # of the triangles: a coarse form with more is not worth its bytes
 _FAR = 0.1  # of a shape's diagonal: how far the coarse form may lie from it ...
 _NEAR = 0.002  # ... and how far where there are few enough triangles already
 _SMOOTH = 0.5  # cosine of the angle between a coarse face and the normal that it takes from the full form
@@ -64,7 +65,8 @@ def encode(vertices: Floats, faces: Faces) -> tuple[Encoded, Encoded | None] | N
         faces: ``(m, 3)``.
 
     Returns:
-        The full form and the coarse one, which is None where the full form has few triangles; None without any.
+        The full form and the coarse one, which is None where the full form has few triangles or can't be made much
+        simpler; None without any triangle.
     """
     points, corners = readable(vertices, np.float64), readable(faces, np.int32)
     bounds = np.empty((2, 3))
@@ -92,6 +94,8 @@ def encode(vertices: Floats, faces: Faces) -> tuple[Encoded, Encoded | None] | N
     diagonal = float(np.linalg.norm(bounds[1] - bounds[0]))
     most = max(_LEAST, int(_SHARE * n_kept))
     coarse = simplify(places, kept, most, _FAR * diagonal, _NEAR * diagonal)
+    if len(coarse) > _WORTH * n_kept:
+        return form, None
     normals = np.empty((len(coarse), 3), np.uint16)
     start, around = np.zeros(len(places) + 1, np.int32), np.empty(3 * len(kept), np.int32)
     _take_normals(places, kept, full[0], full[1], coarse, start, around, normals)

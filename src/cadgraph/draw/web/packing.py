@@ -69,8 +69,8 @@ def pack_scene(scene: Scene, shown: npt.ArrayLike | None = None) -> PackedScene:
     is the word ``HCGC``, the number of its shapes as uint32, a directory (:data:`ROW`), and for each shape at its
     offset: positions (three uint16 for each vertex; ``low + step * value``), normals (two int8, octahedral) and
     indices (uint16, or uint32 by the flag), each padded to four bytes. Everything is little-endian. Level 1 is the
-    coarse form, of at most about a quarter of the triangles; a shape of few triangles is in level 1 in full and not
-    in level 0.
+    coarse form, of at most about a quarter of the triangles; a shape of few triangles, or one that can't be made much
+    simpler, is in level 1 in full and not in level 0.
 
     Args:
         scene: any; meshes without a sound triangle are not shown.
