@@ -8,14 +8,14 @@ network has no name for them. The farther a part is, and the surer somebody was 
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.spatial.distance import cdist
 
-from cadgraph.labelers.catalog import find_matches
-from cadgraph.model.catalog import Catalog, Entry
+from cadgraph.labelers.catalog import Match, decide_matches, matches_of_shape
 from cadgraph.model.corrections import Correction, Fingerprint
-from cadgraph.model.derived import store_of
+from cadgraph.model.derived import kept_with, store_of
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.labels import CorrectedEvidence, FormerLabel, Label
 from cadgraph.model.parts import Bools, Contacts, Parts
@@ -80,10 +80,15 @@ def fingerprint_of(parts: Parts, part: int) -> Fingerprint:
     return Fingerprint(int(measured.n_triangles[part]), lengths)
 
 
+@kept_with
+def _fingerprints(parts: Parts) -> tuple[Fingerprint, ...]:
+    return tuple(fingerprint_of(parts, part) for part in range(parts.n_parts))
+
+
 def find_parts(corrections: Sequence[Correction], scene: Scene, parts: Parts) -> list[int | None]:
     """The part that each correction means: that of its mesh if the shape agrees, else one of that shape there."""
     rank = {path: i for i, path in enumerate(scene.paths)}
-    prints = [fingerprint_of(parts, part) for part in range(parts.n_parts)]
+    prints = _fingerprints(parts)
     by_count: dict[int, list[int]] = {}
     for part, fingerprint in enumerate(prints):
         by_count.setdefault(fingerprint.n_triangles, []).append(part)
@@ -169,16 +174,18 @@ class _Spread:
         open_parts = [part for part in range(self._parts.n_parts) if self._is_open(part)]
         if not self._sources or not open_parts:
             return
-        entries = [Entry("", s.group, s.name) for s in self._sources]
-        catalog = Catalog.of(self._parts.scene.select([s.part for s in self._sources]), entries)
         shape = self._parts.shape
-        heads: dict[int, int] = {}
+        first: dict[int, int] = {}
+        for number, source in enumerate(self._sources):
+            first.setdefault(int(shape[source.part]), number)
+        found: dict[int, list[Match]] = {}
+        for own, number in first.items():
+            for other, match in matches_of_shape(self._parts, own).items():
+                found.setdefault(other, []).append(replace(match, entry=number))
+        matches, _ = decide_matches([(s.group, s.name) for s in self._sources], list(found.values()))
+        of_shape = dict(zip(found, matches, strict=True))
         for part in open_parts:
-            heads.setdefault(int(shape[part]), part)
-        matches, _ = find_matches(catalog, self._parts.scene.select(list(heads.values())))
-        of_shape = dict(zip(heads, matches, strict=True))
-        for part in open_parts:
-            match = of_shape[int(shape[part])]
+            match = of_shape.get(int(shape[part]))
             if match is not None:
                 words = f"{match.kind} shape" if match.kind == "mirrored" else f"{match.similarity:.0%} the same shape"
                 words += f" at {match.scale:.3g} times the size" if match.kind == "scaled" else ""
@@ -202,9 +209,9 @@ class _Spread:
         reaches = {label: self._reach(space, label) for label in confused}
         rivals = self._rivals()
         chosen = []
-        for part in open_parts:
-            far = np.linalg.norm(space[[s.part for s in self._sources]] - space[part], axis=1)
-            source, near = self._sources[int(far.argmin())], float(far.min())
+        far = cdist(space[open_parts], space[[s.part for s in self._sources]])
+        for part, number, near in zip(open_parts, far.argmin(axis=1).tolist(), far.min(axis=1).tolist(), strict=True):
+            source = self._sources[number]
             wrong = confused[source.group, source.name]
             old = self.before[part]
             # What is only likely is as open to a correction as what has no label.
@@ -240,7 +247,7 @@ class _Spread:
         others = rivals.labelled & (rivals.label != mine) & (self._parts.shape != self._parts.shape[part])
         others &= rivals.settled | ~np.isin(rivals.label, doubted)
         others[part] = False
-        return float(np.linalg.norm(space[others] - space[part], axis=1).min()) if others.any() else np.inf
+        return float(cdist(space[[part]], space)[0, others].min(initial=np.inf))
 
     def _rivals(self) -> _Rivals:
         said = [None if label is None or label.likely else label.said for label in self.labels]
