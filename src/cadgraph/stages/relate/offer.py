@@ -10,9 +10,10 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from cadgraph.geometry.line.centreline import Centreline
+from cadgraph.model.derived import kept_with
 from cadgraph.model.parts import Bools, Contacts
 from cadgraph.model.scene import Floats, Ints
-from cadgraph.stages.relate.evidence import CURVES, FLAGS, add_up, score_of, tell
+from cadgraph.stages.relate.evidence import CURVES, FLAGS, add_up, add_up_one, score_of, tell
 from cadgraph.stages.relate.joint import Ends, Tap, find_tap
 from cadgraph.stages.relate.stated import REACH, Stated
 
@@ -321,13 +322,14 @@ def _habitual(gap: Floats, likely: Bools) -> Bools:
     return np.asarray((gap > _LEAST_HABIT) & (count >= _HABIT))
 
 
+@kept_with
 def near_ends(ends: Ends, around: Surroundings) -> Ints:
     """Pairs of ends of parts that are near each other, or that are near each other themselves."""
     if not len(ends.part):
         return np.zeros((0, 2), np.int64)
     found = {
         (p, q) if p < q else (q, p)
-        for a, b in around.contacts.pairs.tolist()
+        for a, b in around.contacts.plain_pairs
         if a in ends.of_part and b in ends.of_part
         for p in ends.of_part[a]
         for q in ends.of_part[b]
@@ -393,7 +395,7 @@ def offer_far_mount(row: int, solid: int, gap: float, off: float, radius: float,
         said: by what the file joins them.
     """
     measured = {"far": gap, "off": off / radius}
-    odds = float(add_up("mount", {name: np.array([value]) for name, value in measured.items()})[0])
+    odds = add_up_one("mount", measured)
     return Offer("mount", row, solid, gap, odds + FLAGS["stated"][0], measured, ("stated",), said=said)
 
 
@@ -420,7 +422,7 @@ def offer_mount(
         "facing": float("nan") if facing is None else facing,
     }
     flags = ("hidden",) if hidden else ()
-    odds = float(add_up("mount", {name: np.array([value]) for name, value in measured.items()})[0])
+    odds = add_up_one("mount", measured)
     return Offer("mount", row, solid, gap, odds + sum(FLAGS[name][0] for name in flags), measured, flags)
 
 
@@ -447,5 +449,5 @@ def _tap_offer(ends: Ends, row: int, part: int, tap: Tap, line: Centreline) -> O
     if not tap.sleeve:
         measured["near end"] = min(to_end / wall, 9.0)
     kind: Kind = "sleeve" if tap.sleeve else "tap"
-    odds = float(add_up(kind, {name: np.array([value]) for name, value in measured.items()})[0])
+    odds = add_up_one(kind, measured)
     return Offer(kind, row, part, tap.gap, odds, measured, (), tap)
