@@ -180,8 +180,8 @@ class _Spread:
             first.setdefault(int(shape[source.part]), number)
         found: dict[int, list[Match]] = {}
         for own, number in first.items():
-            for other, match in matches_of_shape(self._parts, own).items():
-                found.setdefault(other, []).append(replace(match, entry=number))
+            for other, alike in matches_of_shape(self._parts, own).items():
+                found.setdefault(other, []).append(replace(alike, entry=number))
         matches, _ = decide_matches([(s.group, s.name) for s in self._sources], list(found.values()))
         of_shape = dict(zip(found, matches, strict=True))
         for part in open_parts:

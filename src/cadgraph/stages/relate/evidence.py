@@ -36,7 +36,7 @@ Term: TypeAlias = tuple[str, float]
 """What speaks for or against something, in words, and its log-odds."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Curve:
     """A contribution to the log-odds.
 
@@ -118,13 +118,13 @@ def add_up(kind: str, measured: Mapping[str, Floats], flags: Mapping[str, Floats
 
 def add_up_one(kind: str, measured: Mapping[str, float]) -> float:
     """The log-odds of one joint; see ``add_up``."""
-    return sum(_gives(name, value) for name, value in measured.items()) + BASE[kind]
+    return sum(_given(CURVES[name], value) for name, value in measured.items() if not math.isnan(value)) + BASE[kind]
 
 
 @lru_cache(maxsize=_MOST_KEPT)
-def _gives(name: str, value: float) -> float:
-    """What a curve of ``CURVES`` gives at one value; a change of labels leaves most joints as they were."""
-    return float(CURVES[name](value))
+def _given(curve: Curve, value: float) -> float:
+    """What a curve gives at one value; a change of labels leaves most joints as they were."""
+    return float(curve(value))
 
 
 @lru_cache(maxsize=_MOST_KEPT)
@@ -142,7 +142,7 @@ def tell(measured: Mapping[str, float], flags: Sequence[str] = (), said: str = "
         said: by what the file joins the two, where ``stated`` is one of the flags.
     """
     terms = [
-        (CURVES[name].says.format(CURVES[name].scale * value), _gives(name, value))
+        (CURVES[name].says.format(CURVES[name].scale * value), _given(CURVES[name], value))
         for name, value in measured.items()
         if math.isfinite(value)
     ]
