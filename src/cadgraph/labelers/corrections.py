@@ -34,6 +34,7 @@ _OPEN_SHARE = 1.2
 _SPREAD, _LEAST_OPEN, _MOST_OPEN, _ALONE = 1.5, 0.5, 0.85, 0.6
 _SETTLED = frozenset({"author", "human", "catalog"})
 _KIN_CONFIDENCE = 0.9  # of the closest kin
+_MOST_NEAR = 64  # nearest parts of other shapes that are kept of a part
 _PLACE = 0.01  # m; a part that was renamed lies where it lay
 
 
@@ -208,6 +209,7 @@ class _Spread:
         }
         reaches = {label: self._reach(space, label) for label in confused}
         rivals = self._rivals()
+        against = {label: self._against(label, wrong, rivals) for label, wrong in confused.items()}
         chosen = []
         far = cdist(space[open_parts], space[[s.part for s in self._sources]])
         for part, number, near in zip(open_parts, far.argmin(axis=1).tolist(), far.min(axis=1).tolist(), strict=True):
@@ -220,7 +222,9 @@ class _Spread:
                 continue
             widest = reaches[source.group, source.name]
             reach, share = (widest, _OPEN_SHARE) if label is None else CONFUSED if label in wrong else SURE
-            if near <= min(reach, widest) and near <= share * self._nearest_other(space, part, source, wrong, rivals):
+            if near > min(reach, widest):
+                continue
+            if not self._is_contested(contacts, part, against[source.group, source.name], near / share):
                 chosen.append((part, source, near))
         for part, source, near in chosen:
             alike = 1.0 - near**2 / 2  # the cosine
@@ -238,16 +242,35 @@ class _Spread:
         np.fill_diagonal(apart, np.inf)
         return float(np.clip(_SPREAD * np.median(apart.min(axis=1)), _LEAST_OPEN, _MOST_OPEN))
 
-    def _nearest_other(
-        self, space: Floats, part: int, source: _Source, wrong: Collection[tuple[str, str | None]], rivals: _Rivals
-    ) -> float:
-        """How far the nearest part is whose label, another one, nothing speaks against."""
-        mine = rivals.number.get((source.group, source.name), -1)
-        doubted = [rivals.number[label] for label in wrong if label in rivals.number]
-        others = rivals.labelled & (rivals.label != mine) & (self._parts.shape != self._parts.shape[part])
-        others &= rivals.settled | ~np.isin(rivals.label, doubted)
-        others[part] = False
-        return float(cdist(space[[part]], space)[0, others].min(initial=np.inf))
+    def _against(
+        self, label: tuple[str, str | None], wrong: Collection[tuple[str, str | None]], rivals: _Rivals
+    ) -> Bools:
+        """``(n_parts,)`` whether a part has another label, which nothing speaks against."""
+        doubted = [rivals.number[one] for one in wrong if one in rivals.number]
+        found: Bools = rivals.labelled & (rivals.label != rivals.number.get(label, -1))
+        return found & (rivals.settled | ~np.isin(rivals.label, doubted))
+
+    def _is_contested(self, contacts: Contacts, part: int, against: Bools, within: float) -> bool:
+        """Whether a part of another shape that speaks against a correction is nearer than it."""
+        near, apart = self._nearest(contacts, part)
+        if len(near) == _MOST_NEAR and apart[-1] < within:
+            near, apart = self._others(contacts, part)
+        return bool((apart[against[near]] < within).any())
+
+    def _nearest(self, contacts: Contacts, part: int) -> tuple[Ints, Floats]:
+        """The nearest parts of other shapes, the nearest first, and how far they are; kept for the same parts."""
+        kept = store_of(contacts, "nearest kin", self._parts)
+        if part not in kept:
+            others, apart = self._others(contacts, part)
+            order = np.argsort(apart, kind="stable")[:_MOST_NEAR]
+            kept[part] = others[order], apart[order]
+        found: tuple[Ints, Floats] = kept[part]
+        return found
+
+    def _others(self, contacts: Contacts, part: int) -> tuple[Ints, Floats]:
+        """All parts of other shapes, and how far they are."""
+        space, others = self._kinship(contacts), np.flatnonzero(self._parts.shape != self._parts.shape[part])
+        return others, cdist(space[[part]], space)[0, others]
 
     def _rivals(self) -> _Rivals:
         said = [None if label is None or label.likely else label.said for label in self.labels]
