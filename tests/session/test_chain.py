@@ -44,6 +44,7 @@ def told(graph):
 def test_a_chain_of_corrections_gives_the_bytes_of_a_build_with_all_of_them(plant):
     session = cadgraph.Session.start(plant())
     assert len(session.graph.clusters("pipe system")) == (1 if plant is demo else 3)
+    session.prepare()
     start, texts = session.graph, [told(session.graph)]
     for name, label in CHAIN:
         part = next((p for p in session.graph.parts() if p.label is not None and p.label.name == name), None)
@@ -58,3 +59,9 @@ def test_a_chain_of_corrections_gives_the_bytes_of_a_build_with_all_of_them(plan
     # Parts are the very records that they were: only what changed is made anew.
     same = [new is old for new, old in zip(session.graph.parts(), start.parts(), strict=True)]
     assert sum(same) > len(same) / 4
+
+
+def test_a_scene_without_meshes_is_prepared_too():
+    session = cadgraph.Session.start(Scene.from_meshes([]))
+    session.prepare()
+    assert session.graph.parts() == []

@@ -21,7 +21,7 @@ from cadgraph.model.labels import CorrectedEvidence, FormerLabel, Label
 from cadgraph.model.parts import Bools, Contacts, Parts
 from cadgraph.model.scene import Floats, Ints, Scene
 
-__all__ = ["apply_corrections", "find_parts", "fingerprint_of"]
+__all__ = ["apply_corrections", "find_parts", "fingerprint_of", "prepare_corrections"]
 
 # How far a correction reaches among kin, as distance of unit vectors (0 the same, 1.41 nothing in common), and how many
 # times as far that may be as the nearest part with another label: for a part that nobody was sure about; one with the
@@ -311,11 +311,24 @@ class _Spread:
         return self._may_change(part, _SETTLED) and not reached
 
     def _kinship(self, contacts: Contacts) -> Floats:
-        kept = store_of(contacts, "kinship")
-        if self._parts not in kept:
-            from cadgraph.labelers.embedded.features import observe
-            from cadgraph.labelers.embedded.model import default_model
+        return _kinship(contacts, self._parts)
 
-            kept[self._parts] = default_model().kinship(observe(self._parts, contacts))
-        space: Floats = kept[self._parts]
-        return space
+
+def prepare_corrections(parts: Parts, contacts: Contacts) -> None:
+    """Works out how the shapes and the parts of a scene are alike, which else the first correction does.
+
+    Args:
+        parts: of the scene.
+        contacts: pairs of parts that are adjacent.
+    """
+    if parts.n_parts:
+        _kinship(contacts, parts)
+        matches_of_shape(parts, int(parts.shape[0]))
+
+
+@kept_with
+def _kinship(contacts: Contacts, parts: Parts) -> Floats:
+    from cadgraph.labelers.embedded.features import observe
+    from cadgraph.labelers.embedded.model import default_model
+
+    return default_model().kinship(observe(parts, contacts))

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
+import numpy.typing as npt
 from scipy.spatial import cKDTree
 
 from cadgraph.geometry.line.centreline import Centreline
@@ -183,7 +184,7 @@ def offer_faces(ends: Ends, around: Surroundings, ahead: Mapping[int, Sequence[A
     flags["habit"] = _habitual(gap, straight & (odds > 1.0))
     odds = odds + flags["habit"] * FLAGS["habit"][0]
     thinkable = straight & ((odds > _THINKABLE) | _are_stated(ends, pairs, around.stated))
-    found = [_face(k, pairs, gap, odds, measured, flags) for k in np.flatnonzero(thinkable).tolist()]
+    found = _faces(pairs[thinkable], gap[thinkable], odds[thinkable], _of(measured, thinkable), _of(flags, thinkable))
     corners = _corners(ends, i, j, cosine, around.bridge) & ~straight
     found += [_corner(pairs, k, measured) for k in np.flatnonzero(corners).tolist()]
     return _witnessed(ends, found, around.stated) if around.stated else found
@@ -266,19 +267,24 @@ def _flags(
     }
 
 
-def _face(
-    k: int,
-    pairs: Ints,
-    gap: Floats,
-    odds: Floats,
-    measured: Mapping[str, Floats],
-    flags: Mapping[str, Bools],
-) -> Offer:
-    return Offer(
-        "face", int(pairs[k, 0]), int(pairs[k, 1]), float(gap[k]), float(odds[k]),
-        {name: float(values[k]) for name, values in measured.items()},
-        tuple(name for name, holds in flags.items() if holds[k]),
-    )  # fmt: skip
+def _of(columns: Mapping[str, npt.NDArray[Any]], rows: Bools) -> dict[str, list[Any]]:
+    """Some rows of each column, as plain values."""
+    return {name: values[rows].tolist() for name, values in columns.items()}
+
+
+def _faces(
+    pairs: Ints, gap: Floats, odds: Floats, measured: Mapping[str, list[float]], flags: Mapping[str, list[bool]]
+) -> list[Offer]:
+    """The offers of pairs of ends that face each other."""
+    rows = zip(pairs.tolist(), gap.tolist(), odds.tolist(), strict=True)
+    return [
+        Offer(
+            "face", row, other, wide, sure,
+            {name: values[k] for name, values in measured.items()},
+            tuple(name for name, holds in flags.items() if holds[k]),
+        )
+        for k, ((row, other), wide, sure) in enumerate(rows)
+    ]  # fmt: skip
 
 
 def _corner(pairs: Ints, k: int, measured: Mapping[str, Floats]) -> Offer:
