@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 import knobs
 import shapes
 from cadgraph.config import LabelConfig
-from cadgraph.labelers.catalog import apply_catalogs, find_matches
+from cadgraph.labelers.catalog import apply_catalogs, find_matches, matches_of_shape
 from cadgraph.labelers.given import apply_given
 from cadgraph.model.catalog import Catalog, Entry
 from cadgraph.model.given_labels import GivenLabel
@@ -43,6 +43,21 @@ def test_the_same_shape_matches_exactly_in_any_pose(angles, shift):
 def test_a_mirror_image_is_told_apart():
     (match,) = matched(catalog_of(knobs.hook()), knobs.mirrored(knobs.hook()))
     assert match.kind == "mirrored"
+
+
+def test_shapes_of_one_scene_match_each_other_as_they_match_an_entry():
+    meshes = [knobs.knob(sides=40), knobs.hook(), knobs.mirrored(knobs.hook()), knobs.knob(sides=24), shapes.box()]
+    parts = parts_of(
+        Scene.from_meshes([shapes.moved(mesh, translation=(9.0 * k, 0, 0)) for k, mesh in enumerate(meshes)])
+    )
+    for entry in range(len(meshes)):
+        found = matches_of_shape(parts, int(parts.shape[entry]))
+        expected = matched(catalog_of(meshes[entry]), *meshes)
+        told = [found.get(int(shape)) for shape in parts.shape]
+        assert [match and (match.kind, match.entry) for match in told] == [
+            match and (match.kind, match.entry) for match in expected
+        ]
+    assert [match and match.kind for match in told] == [None, None, None, None, "exact"]
 
 
 def test_other_triangles_match_nearly():

@@ -46,6 +46,7 @@ def row(preset: str) -> list[str]:
     build = once(lambda: cadgraph.build(scene))
     session = cadgraph.Session.start(scene)
     graph = session.graph
+    prepare = once(session.prepare)
     corrections, undos, changed = [], [], []
     for name, label in CORRECTIONS.items():
         part = next((p for p in graph.parts() if p.label is not None and p.label.name == name), None)
@@ -59,7 +60,7 @@ def row(preset: str) -> list[str]:
         raise ValueError("taking corrections back did not lead back to the graph")
     middle = statistics.median(corrections)
     return [
-        preset, f"{scene.n_meshes:,}", f"{len(graph.parts()):,}", f"{build:.2f}", f"{middle:.2f}",
+        preset, f"{scene.n_meshes:,}", f"{len(graph.parts()):,}", f"{build:.2f}", f"{prepare:.2f}", f"{middle:.2f}",
         f"{max(corrections):.2f}", f"{statistics.median(undos):.2f}", f"{build / middle:.0f}", f"{max(changed)}",
     ]  # fmt: skip
 
@@ -75,6 +76,7 @@ def main() -> None:
         "meshes",
         "parts",
         "build [s]",
+        "prepared [s]",
         "correction [s]",
         "slowest [s]",
         "undo [s]",

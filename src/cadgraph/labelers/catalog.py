@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from cadgraph.geometry.mesh.properties import measure
-from cadgraph.geometry.shape.repeats import find_shapes
+from cadgraph.geometry.shape.repeats import Shapes, find_shapes
 from cadgraph.geometry.shape.similarity import find_alike
 from cadgraph.model.catalog import Catalog, Entry
+from cadgraph.model.derived import kept_with, store_of
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.labels import CatalogEvidence, Label
 from cadgraph.model.parts import Bools, Parts, Properties
 from cadgraph.model.scene import Ints, Scene, mesh_of_face
 from cadgraph.model.vocabulary import Vocabulary
 
-__all__ = ["Match", "apply_catalogs", "find_matches"]
+__all__ = ["Match", "apply_catalogs", "decide_matches", "find_matches", "matches_of_shape"]
 
 # Least similarity of another tessellation: of shapes of a form of their own in the same size; of plain ones, or where
 # sizes differ. Ours, measured on pairs of shapes of generated plants in different styles; see docs/catalog.md.
@@ -113,47 +114,114 @@ def find_matches(
     n, m = len(catalog.entries), shapes.n_meshes
     if not n or not m:
         return (None,) * m, ()
-    both = _side_by_side(catalog.shapes, shapes)
-    properties = measure(both, workers)
-    found: list[list[Match]] = [[] for _ in range(m)]
-    same = find_shapes(both, properties, workers)
+    both = _about_middles(catalog.shapes, shapes)
+    table = _Table.of(both, measure(both, workers), workers)
+    found = _agreeing(table, np.arange(n), np.arange(n, n + m), workers)
+    return decide_matches([(entry.group, entry.name) for entry in catalog.entries], found)
+
+
+def matches_of_shape(parts: Parts, shape: int) -> Mapping[int, Match]:
+    """How shapes of some parts agree with one of them, by shape; found once for the same parts.
+
+    Args:
+        parts: of a scene.
+        shape: as in ``parts.shape``; it is entry 0.
+    """
+    known = store_of(parts, "matches of shapes")
+    if shape not in known:
+        shapes, heads, table = _shapes_of(parts)
+        entry = np.flatnonzero(shapes == shape)
+        found = _agreeing(table, entry, np.arange(len(heads)))
+        known[shape] = {int(other): matches[0] for other, matches in zip(shapes, found, strict=True) if matches}
+    matches: Mapping[int, Match] = known[shape]
+    return matches
+
+
+@dataclass(frozen=True, eq=False)
+class _Table:
+    """Meshes that are compared, each about its own middle.
+
+    Args:
+        scene: the meshes.
+        properties: of each.
+        same: which repeat each other.
+        rigid: ``(n_meshes,)`` whether each looks like others of its own size only.
+    """
+
+    scene: Scene
+    properties: Properties
+    same: Shapes
+    rigid: Bools
+
+    @classmethod
+    def of(cls, scene: Scene, properties: Properties, workers: int | None = None) -> _Table:
+        return cls(scene, properties, find_shapes(scene, properties, workers), _prisms(scene, properties))
+
+
+@kept_with
+def _shapes_of(parts: Parts) -> tuple[Ints, Ints, _Table]:
+    """The distinct shapes of some parts, the first part of each, and their table."""
+    shapes, heads = np.unique(parts.shape, return_index=True)
+    alone = _about_middles(parts.scene.select(heads))
+    return shapes, heads, _Table.of(alone, measure(alone))
+
+
+def _agreeing(table: _Table, entries: Ints, others: Ints, workers: int | None = None) -> list[list[Match]]:
+    """How each of some meshes agrees with entries, which the matches name by their place among them; of entries that
+    repeat each other with the first.
+    """
+    same, found = table.same, [list[Match]() for _ in others]
     first: dict[int, int] = {}
-    for entry, k in enumerate(same.shape[:n].tolist()):
+    for entry, k in enumerate(same.shape[entries].tolist()):
         first.setdefault(k, entry)
-    for row, k in enumerate(same.shape[n:].tolist()):
-        image = int(same.mirror_of[k])
+    # Of two shapes that mirror each other only the later one says so.
+    image = {int(same.mirror_of[k]): entry for k, entry in first.items() if same.mirror_of[k] >= 0}
+    image |= {k: first[int(of)] for k, of in enumerate(same.mirror_of) if int(of) in first}
+    for row, k in enumerate(same.shape[others].tolist()):
         if k in first:
             found[row].append(Match(first[k], "exact", 1.0, 1.0))
-        elif image in first:
-            found[row].append(Match(first[image], "mirrored", 1.0, 1.0))
-    rest = n + np.array([row for row in range(m) if not found[row]], np.int64)
-    rigid = _prisms(both, properties)
-    heads = np.array(sorted(first.values()), np.int64)
-    alike = find_alike(both, properties, heads, rest, rigid, min(LEAST_RICH, LEAST_OTHER), workers)
+        elif k in image:
+            found[row].append(Match(image[k], "mirrored", 1.0, 1.0))
+    rest = np.array([row for row in range(len(others)) if not found[row]], np.int64)
+    row_of, entry_of = dict(zip(others[rest].tolist(), rest.tolist(), strict=True)), {}
+    for entry in first.values():
+        entry_of[int(entries[entry])] = entry
+    rigid, heads = table.rigid, np.array(sorted(entry_of), np.int64)
+    least = min(LEAST_RICH, LEAST_OTHER)
+    alike = find_alike(table.scene, table.properties, heads, others[rest], rigid, least, workers)
     for (entry, mesh), similarity, scale in zip(
         alike.pairs.tolist(), alike.similarity.tolist(), alike.scale.tolist(), strict=True
     ):
         kind = "near" if abs(np.log(scale)) <= _SAME_SIZE else "scaled"
         rich = kind == "near" and not rigid[entry] and not rigid[mesh]
         if similarity >= (LEAST_RICH if rich else LEAST_OTHER):
-            found[mesh - n].append(Match(entry, kind, min(1.0, similarity), scale))
-    return _decided(catalog, found)
+            found[row_of[mesh]].append(Match(entry_of[entry], kind, min(1.0, similarity), scale))
+    return found
 
 
-def _decided(catalog: Catalog, found: Sequence[Sequence[Match]]) -> tuple[tuple[Match | None, ...], tuple[int, ...]]:
-    """The best of the matches of each shape, none where others of its kind say something else."""
+def decide_matches(
+    said: Sequence[tuple[str, str | None]], found: Sequence[Sequence[Match]]
+) -> tuple[tuple[Match | None, ...], tuple[int, ...]]:
+    """The best of the matches of each shape, none where others of its kind say something else.
+
+    Args:
+        said: group and name of each entry.
+        found: matches of each shape.
+
+    Returns:
+        As ``find_matches``.
+    """
     chosen: list[Match | None] = []
     torn = []
     for row, matches in enumerate(found):
         best = min(matches, key=_rank, default=None)
         if best is not None:
-            label = catalog.entries[best.entry].group, catalog.entries[best.entry].name
             rivals = [
                 match
                 for match in matches
                 if match.kind == best.kind
                 and match.similarity >= best.similarity - _MARGIN
-                and (catalog.entries[match.entry].group, catalog.entries[match.entry].name) != label
+                and said[match.entry] != said[best.entry]
             ]
             if rivals:
                 torn.append(row)
@@ -204,10 +272,10 @@ def _gathered(catalogs: Sequence[Catalog], vocabulary: Vocabulary) -> tuple[Cata
     return whole, files, list(foreign)
 
 
-def _side_by_side(first: Scene, second: Scene) -> Scene:
-    """The meshes of both, each about its own middle: far from the origin positions lose digits."""
+def _about_middles(*scenes: Scene) -> Scene:
+    """The meshes of all scenes, each about its own middle: far from the origin positions lose digits."""
     meshes = []
-    for scene in (first, second):
+    for scene in scenes:
         for i in range(scene.n_meshes):
             vertices, faces = scene.mesh(i)
             finite = vertices[np.isfinite(vertices).all(axis=1)]

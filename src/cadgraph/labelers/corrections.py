@@ -8,20 +8,20 @@ network has no name for them. The farther a part is, and the surer somebody was 
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.spatial.distance import cdist
 
-from cadgraph.labelers.catalog import find_matches
-from cadgraph.model.catalog import Catalog, Entry
+from cadgraph.labelers.catalog import Match, decide_matches, matches_of_shape
 from cadgraph.model.corrections import Correction, Fingerprint
-from cadgraph.model.derived import store_of
+from cadgraph.model.derived import kept_with, store_of
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.labels import CorrectedEvidence, FormerLabel, Label
 from cadgraph.model.parts import Bools, Contacts, Parts
 from cadgraph.model.scene import Floats, Ints, Scene
 
-__all__ = ["apply_corrections", "find_parts", "fingerprint_of"]
+__all__ = ["apply_corrections", "find_parts", "fingerprint_of", "prepare_corrections"]
 
 # How far a correction reaches among kin, as distance of unit vectors (0 the same, 1.41 nothing in common), and how many
 # times as far that may be as the nearest part with another label: for a part that nobody was sure about; one with the
@@ -34,6 +34,7 @@ _OPEN_SHARE = 1.2
 _SPREAD, _LEAST_OPEN, _MOST_OPEN, _ALONE = 1.5, 0.5, 0.85, 0.6
 _SETTLED = frozenset({"author", "human", "catalog"})
 _KIN_CONFIDENCE = 0.9  # of the closest kin
+_MOST_NEAR = 64  # nearest parts of other shapes that are kept of a part
 _PLACE = 0.01  # m; a part that was renamed lies where it lay
 
 
@@ -80,10 +81,15 @@ def fingerprint_of(parts: Parts, part: int) -> Fingerprint:
     return Fingerprint(int(measured.n_triangles[part]), lengths)
 
 
+@kept_with
+def _fingerprints(parts: Parts) -> tuple[Fingerprint, ...]:
+    return tuple(fingerprint_of(parts, part) for part in range(parts.n_parts))
+
+
 def find_parts(corrections: Sequence[Correction], scene: Scene, parts: Parts) -> list[int | None]:
     """The part that each correction means: that of its mesh if the shape agrees, else one of that shape there."""
     rank = {path: i for i, path in enumerate(scene.paths)}
-    prints = [fingerprint_of(parts, part) for part in range(parts.n_parts)]
+    prints = _fingerprints(parts)
     by_count: dict[int, list[int]] = {}
     for part, fingerprint in enumerate(prints):
         by_count.setdefault(fingerprint.n_triangles, []).append(part)
@@ -169,16 +175,18 @@ class _Spread:
         open_parts = [part for part in range(self._parts.n_parts) if self._is_open(part)]
         if not self._sources or not open_parts:
             return
-        entries = [Entry("", s.group, s.name) for s in self._sources]
-        catalog = Catalog.of(self._parts.scene.select([s.part for s in self._sources]), entries)
         shape = self._parts.shape
-        heads: dict[int, int] = {}
+        first: dict[int, int] = {}
+        for number, source in enumerate(self._sources):
+            first.setdefault(int(shape[source.part]), number)
+        found: dict[int, list[Match]] = {}
+        for own, number in first.items():
+            for other, alike in matches_of_shape(self._parts, own).items():
+                found.setdefault(other, []).append(replace(alike, entry=number))
+        matches, _ = decide_matches([(s.group, s.name) for s in self._sources], list(found.values()))
+        of_shape = dict(zip(found, matches, strict=True))
         for part in open_parts:
-            heads.setdefault(int(shape[part]), part)
-        matches, _ = find_matches(catalog, self._parts.scene.select(list(heads.values())))
-        of_shape = dict(zip(heads, matches, strict=True))
-        for part in open_parts:
-            match = of_shape[int(shape[part])]
+            match = of_shape.get(int(shape[part]))
             if match is not None:
                 words = f"{match.kind} shape" if match.kind == "mirrored" else f"{match.similarity:.0%} the same shape"
                 words += f" at {match.scale:.3g} times the size" if match.kind == "scaled" else ""
@@ -201,10 +209,11 @@ class _Spread:
         }
         reaches = {label: self._reach(space, label) for label in confused}
         rivals = self._rivals()
+        against = {label: self._against(label, wrong, rivals) for label, wrong in confused.items()}
         chosen = []
-        for part in open_parts:
-            far = np.linalg.norm(space[[s.part for s in self._sources]] - space[part], axis=1)
-            source, near = self._sources[int(far.argmin())], float(far.min())
+        far = cdist(space[open_parts], space[[s.part for s in self._sources]])
+        for part, number, near in zip(open_parts, far.argmin(axis=1).tolist(), far.min(axis=1).tolist(), strict=True):
+            source = self._sources[number]
             wrong = confused[source.group, source.name]
             old = self.before[part]
             # What is only likely is as open to a correction as what has no label.
@@ -213,7 +222,9 @@ class _Spread:
                 continue
             widest = reaches[source.group, source.name]
             reach, share = (widest, _OPEN_SHARE) if label is None else CONFUSED if label in wrong else SURE
-            if near <= min(reach, widest) and near <= share * self._nearest_other(space, part, source, wrong, rivals):
+            if near > min(reach, widest):
+                continue
+            if not self._is_contested(contacts, part, against[source.group, source.name], near / share):
                 chosen.append((part, source, near))
         for part, source, near in chosen:
             alike = 1.0 - near**2 / 2  # the cosine
@@ -231,16 +242,35 @@ class _Spread:
         np.fill_diagonal(apart, np.inf)
         return float(np.clip(_SPREAD * np.median(apart.min(axis=1)), _LEAST_OPEN, _MOST_OPEN))
 
-    def _nearest_other(
-        self, space: Floats, part: int, source: _Source, wrong: Collection[tuple[str, str | None]], rivals: _Rivals
-    ) -> float:
-        """How far the nearest part is whose label, another one, nothing speaks against."""
-        mine = rivals.number.get((source.group, source.name), -1)
-        doubted = [rivals.number[label] for label in wrong if label in rivals.number]
-        others = rivals.labelled & (rivals.label != mine) & (self._parts.shape != self._parts.shape[part])
-        others &= rivals.settled | ~np.isin(rivals.label, doubted)
-        others[part] = False
-        return float(np.linalg.norm(space[others] - space[part], axis=1).min()) if others.any() else np.inf
+    def _against(
+        self, label: tuple[str, str | None], wrong: Collection[tuple[str, str | None]], rivals: _Rivals
+    ) -> Bools:
+        """``(n_parts,)`` whether a part has another label, which nothing speaks against."""
+        doubted = [rivals.number[one] for one in wrong if one in rivals.number]
+        found: Bools = rivals.labelled & (rivals.label != rivals.number.get(label, -1))
+        return found & (rivals.settled | ~np.isin(rivals.label, doubted))
+
+    def _is_contested(self, contacts: Contacts, part: int, against: Bools, within: float) -> bool:
+        """Whether a part of another shape that speaks against a correction is nearer than it."""
+        near, apart = self._nearest(contacts, part)
+        if len(near) == _MOST_NEAR and apart[-1] < within:
+            near, apart = self._others(contacts, part)
+        return bool((apart[against[near]] < within).any())
+
+    def _nearest(self, contacts: Contacts, part: int) -> tuple[Ints, Floats]:
+        """The nearest parts of other shapes, the nearest first, and how far they are; kept for the same parts."""
+        kept = store_of(contacts, "nearest kin", self._parts)
+        if part not in kept:
+            others, apart = self._others(contacts, part)
+            order = np.argsort(apart, kind="stable")[:_MOST_NEAR]
+            kept[part] = others[order], apart[order]
+        found: tuple[Ints, Floats] = kept[part]
+        return found
+
+    def _others(self, contacts: Contacts, part: int) -> tuple[Ints, Floats]:
+        """All parts of other shapes, and how far they are."""
+        space, others = self._kinship(contacts), np.flatnonzero(self._parts.shape != self._parts.shape[part])
+        return others, cdist(space[[part]], space)[0, others]
 
     def _rivals(self) -> _Rivals:
         said = [None if label is None or label.likely else label.said for label in self.labels]
@@ -281,11 +311,24 @@ class _Spread:
         return self._may_change(part, _SETTLED) and not reached
 
     def _kinship(self, contacts: Contacts) -> Floats:
-        kept = store_of(contacts, "kinship")
-        if self._parts not in kept:
-            from cadgraph.labelers.embedded.features import observe
-            from cadgraph.labelers.embedded.model import default_model
+        return _kinship(contacts, self._parts)
 
-            kept[self._parts] = default_model().kinship(observe(self._parts, contacts))
-        space: Floats = kept[self._parts]
-        return space
+
+def prepare_corrections(parts: Parts, contacts: Contacts) -> None:
+    """Works out how the shapes and the parts of a scene are alike, which else the first correction does.
+
+    Args:
+        parts: of the scene.
+        contacts: pairs of parts that are adjacent.
+    """
+    if parts.n_parts:
+        _kinship(contacts, parts)
+        matches_of_shape(parts, int(parts.shape[0]))
+
+
+@kept_with
+def _kinship(contacts: Contacts, parts: Parts) -> Floats:
+    from cadgraph.labelers.embedded.features import observe
+    from cadgraph.labelers.embedded.model import default_model
+
+    return default_model().kinship(observe(parts, contacts))

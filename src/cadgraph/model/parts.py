@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -102,6 +103,20 @@ class Contacts:
     pairs: Ints
     distance: Floats
     points: Floats
+
+    @cached_property
+    def plain_pairs(self) -> tuple[tuple[int, int], ...]:
+        """The pairs as plain numbers, for what looks at each by itself."""
+        return tuple((a, b) for a, b in self.pairs.tolist())
+
+    @cached_property
+    def neighbors(self) -> Mapping[int, list[int]]:
+        """The parts that are near each part, ascending."""
+        found: dict[int, list[int]] = {}
+        for a, b in self.plain_pairs:
+            found.setdefault(a, []).append(b)
+            found.setdefault(b, []).append(a)
+        return {part: sorted(near) for part, near in found.items()}
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from functools import partial
 from cadgraph._io.progress import Progress, quiet
 from cadgraph.config import Config
 from cadgraph.labelers.base import AskingLabeler, Labeler, Labeling, label_parts
+from cadgraph.labelers.corrections import prepare_corrections
 from cadgraph.labelers.precedence import SettledLabels, lay_corrections, lay_known
 from cadgraph.labelers.registry import labeler_of
 from cadgraph.model.analysis import Analysis
@@ -128,6 +129,14 @@ class Session:
             labels = lay_corrections(self._known, self.labeling, self.analysis, self._corrections)
             self._graph = interpret(self.analysis, labels, self.vocabulary, self.config, progress)
         return self._graph
+
+    def prepare(self) -> None:
+        """Works out now what else the first correction does: the graph, and how parts are alike.
+
+        What serves people calls it before it says that it is ready.
+        """
+        self.make_graph()
+        prepare_corrections(self.analysis.parts, self.analysis.contacts)
 
     def correct(self, part: str, label: str, *, this_only: bool = False) -> Change:
         """Says what a part is; its repeats follow, and softly what is much like it.

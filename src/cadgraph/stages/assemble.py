@@ -10,6 +10,7 @@ from typing import Literal
 import numpy as np
 
 from cadgraph.facts.places import NodeFacts, Places
+from cadgraph.model.derived import kept_with, store_of
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.facts import Fact
 from cadgraph.model.graph import SceneGraph
@@ -46,6 +47,7 @@ from cadgraph.model.vocabulary import Vocabulary
 __all__ = ["Results", "assemble_graph"]
 
 PIPE_SYSTEM = "pipe system"
+_SITE = "site"
 _LONGEST_FACT = 1000  # characters of a value that are kept; a file may hold anything
 _ENDINGS: dict[str, Literal["open", "blind"]] = {"open": "open", "blind": "blind"}
 
@@ -90,28 +92,22 @@ def assemble_graph(results: Results, vocabulary: Vocabulary, config: dict[str, o
         config: every setting in force, as plain values.
     """
     scene, parts = results.scene, results.parts
-    width = max(5, len(str(parts.n_parts)))
-    part_ids = [f"part-{i:0{width}d}" for i in range(parts.n_parts)]
-    n_clusters = int(results.cluster.max(initial=-1)) + 1
-    cluster_ids = [f"cluster-{i:0{max(3, len(str(n_clusters)))}d}" for i in range(n_clusters)]
+    part_ids, cluster_ids = _part_ids(parts), _cluster_ids(results.cluster)
     above = results.places.of_units([unit.parts for unit in results.network.units]) if results.places else ()
-    site = Site(id="site", facts=_facts(results.places.left_over(above) if results.places else ()))
+    site = Site(id=_SITE, facts=_facts(results.places.left_over(above) if results.places else ()))
     clusters = _clusters(results, cluster_ids)
     units = _units(results, part_ids, above)
     edges: list[Edge] = [Contains(source=site.id, target=cluster.id) for cluster in clusters]
-    edges += [
-        Contains(source=cluster_ids[c] if c >= 0 else site.id, target=part_ids[i])
-        for i, c in enumerate(results.cluster.tolist())
-    ]
+    edges += _held_parts(parts, results.cluster)
     edges += [Contains(source=unit.id, target=part) for unit in units for part in unit.parts]
-    edges += _adjacency(results, part_ids)
+    edges += _adjacency(results.contacts, results.cluster, parts, scene)
     edges += [Related(source=units[a].id, target=units[b].id) for a, b in results.related]
     places = _places(results, part_ids)
     ends = [node.id for node in (*units, *places)]
     edges += [_connected(link, results, ends, part_ids) for link in results.network.links]
     systems = _systems(results, ends)
     edges += [Contains(source=s.id, target=node) for s in systems for node in (*s.units, *s.junctions, *s.terminals)]
-    nodes: tuple[Node, ...] = (site, *clusters, *_parts(results, part_ids), *units, *places, *systems)
+    nodes: tuple[Node, ...] = (site, *clusters, *_parts(results), *units, *places, *systems)
     return SceneGraph(
         GraphDocument(
             source=SourceRecord(
@@ -133,34 +129,49 @@ def assemble_graph(results: Results, vocabulary: Vocabulary, config: dict[str, o
     )
 
 
-def _parts(results: Results, ids: Sequence[str]) -> list[Part]:
-    scene, parts, measured = results.scene, results.parts, results.parts.properties
-    centroids = points(measured.centroid + scene.origin)
-    corners = points((measured.aabb + scene.origin).reshape(-1, 3))
-    centers = points(measured.obb_center + scene.origin)
-    axes = points(measured.obb_axes.reshape(-1, 3))
-    extents = points(measured.obb_extents)
-    return [
-        Part(
-            id=ids[i],
-            meshes=tuple(scene.paths[mesh] for mesh in parts.meshes[i]),
-            label=_label(results.labels[i]),
-            guesses=_guesses(_possible(results, i)),
-            centroid=centroids[i],
-            aabb=(corners[2 * i], corners[2 * i + 1]),
-            obb=OrientedBox(
-                center=centers[i], axes=(axes[3 * i], axes[3 * i + 1], axes[3 * i + 2]), extents=extents[i]
-            ),
-            area=_rounded(measured.area[i]),
-            volume=_rounded(measured.volume[i]) if measured.closed[i] else None,
-            n_triangles=int(measured.n_triangles[i]),
-            shape=f"shape-{parts.shape[i]:05d}",
-            ground=bool(parts.ground[i]),
-            inside=ids[parts.inside[i]] if i in parts.inside else None,
-            facts=_facts_of_part(results, i),
-        )
-        for i in range(parts.n_parts)
-    ]
+@kept_with
+def _part_ids(parts: Parts) -> tuple[str, ...]:
+    width = max(5, len(str(parts.n_parts)))
+    return tuple(f"part-{i:0{width}d}" for i in range(parts.n_parts))
+
+
+def _cluster_ids(cluster: Ints) -> list[str]:
+    n_clusters = int(cluster.max(initial=-1)) + 1
+    return [f"cluster-{i:0{max(3, len(str(n_clusters)))}d}" for i in range(n_clusters)]
+
+
+def _parts(results: Results) -> list[Part]:
+    """The record of each part: that of the graph before where its label and its guesses are the same."""
+    kept = store_of(results.parts, "records", results.scene, results.places)
+    for part, label in enumerate(results.labels):
+        said = label, _possible(results, part)
+        if part not in kept or kept[part][0] != said:
+            kept[part] = said, _part_of(results, part, *said)
+    return [kept[part][1] for part in range(results.parts.n_parts)]
+
+
+def _part_of(results: Results, part: int, label: Label | None, guesses: Sequence[Guess]) -> Part:
+    measured, parts, ids = results.parts.properties, results.parts, _part_ids(results.parts)
+    centroid, center, low, high = points(
+        np.array([measured.centroid[part], measured.obb_center[part], *measured.aabb[part]]) + results.scene.origin
+    )
+    first, second, third, extents = points([*measured.obb_axes[part], measured.obb_extents[part]])
+    return Part(
+        id=ids[part],
+        meshes=tuple(results.scene.paths[mesh] for mesh in parts.meshes[part]),
+        label=_label(label),
+        guesses=_guesses(guesses),
+        centroid=centroid,
+        aabb=(low, high),
+        obb=OrientedBox(center=center, axes=(first, second, third), extents=extents),
+        area=_rounded(measured.area[part]),
+        volume=_rounded(measured.volume[part]) if measured.closed[part] else None,
+        n_triangles=int(measured.n_triangles[part]),
+        shape=f"shape-{parts.shape[part]:05d}",
+        ground=bool(parts.ground[part]),
+        inside=ids[parts.inside[part]] if part in parts.inside else None,
+        facts=_facts_of_part(results, part),
+    )
 
 
 def _facts_of_part(results: Results, part: int) -> tuple[SourceFact, ...]:
@@ -338,10 +349,19 @@ def _point(point: Point, origin: Floats) -> Point:
     return points(np.asarray(point) + origin)[0]
 
 
-def _adjacency(results: Results, part_ids: Sequence[str]) -> list[Adjacent]:
+@kept_with
+def _held_parts(parts: Parts, cluster: Ints) -> list[Contains]:
+    """What holds each part: its cluster, or the site."""
+    ids, cluster_ids = _part_ids(parts), _cluster_ids(cluster)
+    holders = [cluster_ids[number] if number >= 0 else _SITE for number in cluster.tolist()]
+    return [Contains(source=holder, target=part) for holder, part in zip(holders, ids, strict=True)]
+
+
+@kept_with
+def _adjacency(contacts: Contacts, cluster: Ints, parts: Parts, scene: Scene) -> list[Adjacent]:
     """Edges between parts of one cluster; each edge's point is midway between the two closest points."""
-    contacts, cluster = results.contacts, results.cluster
-    middles = points(contacts.points.mean(axis=1) + results.scene.origin)
+    part_ids = _part_ids(parts)
+    middles = points(contacts.points.mean(axis=1) + scene.origin)
     return [
         Adjacent(source=part_ids[a], target=part_ids[b], distance=_rounded(distance), point=middle)
         for (a, b), distance, middle in zip(contacts.pairs.tolist(), contacts.distance, middles, strict=True)

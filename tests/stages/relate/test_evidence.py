@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cadgraph.stages.relate import decide
-from cadgraph.stages.relate.evidence import BASE, CURVES, FLAGS, OPEN_END, Curve, add_up, score_of, tell
+from cadgraph.stages.relate.evidence import BASE, CURVES, FLAGS, OPEN_END, Curve, add_up, add_up_one, score_of, tell
 from cadgraph.stages.relate.joint import gather_ends
 from cadgraph.stages.relate.offer import Offer, bear_witness, offer_mount
 from runs import decided, offers, run, stated, taps, touching
@@ -192,6 +192,12 @@ def test_log_odds_add_up_and_what_is_unknown_adds_nothing():
     total = add_up("face", {"gap": np.zeros(2), "size": nan + 1.0}, {"bolted": np.array([0.0, 1.0])})
     first = BASE["face"] + 2.5
     np.testing.assert_allclose(total, [first, first + 1.0 + FLAGS["bolted"][0]])
+
+
+def test_one_joint_is_weighed_as_many_are():
+    measured = {"gap": 0.0031, "wide": 0.7, "off": 0.61, "behind": 0.13, "facing": float("nan")}
+    (many,) = add_up("mount", {name: np.array([value]) for name, value in measured.items()})
+    assert add_up_one("mount", measured) == many
 
 
 @pytest.mark.parametrize(("odds", "score"), [(0.0, 0.5), (2.0, 0.8808), (-2.0, 0.1192), (1e6, 1.0), (-1e6, 0.0)])

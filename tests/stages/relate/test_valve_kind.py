@@ -1,5 +1,6 @@
 """Kinds of valves by what turns them, their length and their place: stated where sure, guessed where open."""
 
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -79,6 +80,20 @@ def test_a_cover_that_nothing_turns_is_a_check_valve_but_not_beside_a_stem():
     assert kinds([body(0.203), cover], ["valve body", "valve bonnet"], 0.203, 50)[0][0] == "check valve"
     found = kinds([body(0.203), cover, stem], ["valve body", "valve bonnet", "valve stem"], 0.203, 50)
     assert not found or found[0][1] < SURE_FROM
+
+
+def test_other_names_sizes_and_openings_of_the_same_parts_are_looked_at_anew():
+    parts = parts_of(body(0.178), operator("lever", 0.178))
+    unit = UnitParts("valve", "V-001", (0, 1), None, ends(0.178))
+    asked = [
+        (unit, ["valve body", "lever"], [50]),
+        (unit, ["valve body", "handwheel"], [50]),
+        (unit, ["valve body", "lever"], [200]),
+        (replace(unit, openings=ends(0.178)[:1]), ["valve body", "lever"], [50]),
+    ]
+    found = [valve_kinds(*one, parts) for one in asked]
+    assert len(set(found)) == len(asked)
+    assert [valve_kinds(*one, parts) for one in asked] == found
 
 
 def test_a_bare_barrel_says_nothing():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from cadgraph.model.scene import Floats
 __all__ = ["Branch", "Centreline", "End", "Junction", "NotTube"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Branch:
     """One run of a centreline between ends or junctions.
 
@@ -27,7 +28,7 @@ class Branch:
     bore: Floats
     closed: bool = False
 
-    @property
+    @cached_property
     def length(self) -> float:
         """Length along the line [m]."""
         return float(np.linalg.norm(np.diff(self.points, axis=0), axis=1).sum())
@@ -65,7 +66,7 @@ class Junction:
     branches: tuple[int, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Centreline:
     """The centreline of a tube-like part.
 
@@ -81,10 +82,16 @@ class Centreline:
     junctions: tuple[Junction, ...]
     share: float
 
-    @property
+    @cached_property
     def length(self) -> float:
         """Length of all branches [m]."""
         return sum(branch.length for branch in self.branches)
+
+    @cached_property
+    def table_of_ends(self) -> Floats:
+        """``(n_ends, 9)`` point, direction, radius, bore of each end, and the length of its branch [m]."""
+        rows = [(*e.point, *e.direction, e.radius, e.bore, self.branches[e.branch].length) for e in self.ends]
+        return np.array(rows, np.float64).reshape(-1, 9)
 
     def placed(self, turn: Floats, shift: Floats) -> Centreline:
         """The same line in another place.

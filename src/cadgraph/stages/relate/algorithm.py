@@ -34,7 +34,7 @@ def find_units(
     unit_of_group = vocabulary.unit_of_group
     groups = [label.group if label is not None and label.group in unit_of_group else None for label in labels]
     members = [part for part, group in enumerate(groups) if group is not None]
-    joined = [(a, b) for a, b in contacts.pairs.tolist() if groups[a] == groups[b] and cluster[a] == cluster[b] >= 0]
+    joined = [(a, b) for a, b in contacts.plain_pairs if groups[a] == groups[b] and cluster[a] == cluster[b] >= 0]
     counts: Counter[str] = Counter()
     units = []
     for parts in connected_sets(members, joined):
@@ -95,7 +95,7 @@ def _pairs_in_systems(
 ) -> list[tuple[int, int]]:
     """The contacts within clusters that hold a connector."""
     systems = pipe_systems(labels, cluster, vocabulary)
-    pairs = contacts.pairs.tolist()
+    pairs = contacts.plain_pairs
     return [(a, b) for a, b in pairs if cluster[a] == cluster[b] and int(cluster[a]) in systems]
 
 

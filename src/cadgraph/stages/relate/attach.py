@@ -301,7 +301,7 @@ def _yields(ends: Ends, made: Mapping[int, Offer], row: int, twin: int) -> bool:
 def _neighbors(contacts: Contacts, lines: Mapping[int, Centreline]) -> dict[int, list[tuple[int, float]]]:
     """The parts with lines that are near each part with a line, and how near."""
     found: dict[int, list[tuple[int, float]]] = {}
-    for (a, b), distance in zip(contacts.pairs.tolist(), contacts.distance.tolist(), strict=True):
+    for (a, b), distance in zip(contacts.plain_pairs, contacts.distance.tolist(), strict=True):
         if a in lines and b in lines:
             found.setdefault(a, []).append((b, distance))
             found.setdefault(b, []).append((a, distance))
@@ -403,7 +403,7 @@ def _offers_at(
 
 def _meetings(contacts: Contacts, lines: Collection[int], solids: Collection[int]) -> Iterator[tuple[int, int, int]]:
     """The contacts of a part with a line and a solid: row, the former and the latter."""
-    for row, (a, b) in enumerate(contacts.pairs.tolist()):
+    for row, (a, b) in enumerate(contacts.plain_pairs):
         if a in lines and b in solids:
             yield row, a, b
         elif b in lines and a in solids:
@@ -467,7 +467,7 @@ def flat_contacts(
         For each such pair the middle of the area [m] and its normal, from the first to the second.
     """
     wanted = set(pairs)
-    rows = [k for k, (a, b) in enumerate(contacts.pairs.tolist()) if (a, b) in wanted]
+    rows = [k for k, (a, b) in enumerate(contacts.plain_pairs) if (a, b) in wanted]
     if not rows:
         return {}
     index = np.array(rows, np.int64)

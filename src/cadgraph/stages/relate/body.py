@@ -69,7 +69,7 @@ def find_bodies(piping: Piping, beliefs: Beliefs) -> tuple[Ends, list[Body]]:
 
 def _connected(piping: Piping, pool: Collection[int]) -> list[tuple[int, ...]]:
     """The parts of a pool that hang together."""
-    pairs = [(a, b) for a, b in piping.given.contacts.pairs.tolist() if a in pool and b in pool]
+    pairs = [(a, b) for a, b in piping.given.contacts.plain_pairs if a in pool and b in pool]
     return connected_sets(sorted(pool), pairs)
 
 

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cadgraph.model.derived import store_of
 from cadgraph.model.parts import Opening, Parts
 from cadgraph.model.scene import Floats
 
-__all__ = ["Surface", "lean", "line_through", "surface_about"]
+__all__ = ["Surface", "lean", "lean_of", "line_through", "surface_about"]
 
 # A neck leans at least and at most as far (slopes of 20 and 65 degrees), and is upright up to a slope of 10 degrees.
 _LEANS, _LIES, _UPRIGHT = 0.36, 2.14, 0.18
@@ -113,6 +114,16 @@ def _split(corners: Floats, longest: float) -> tuple[Floats, Floats]:
         half = (a + b) / 2
         corners = np.concatenate([np.stack([a, half, c], axis=1), np.stack([half, b, c], axis=1)])
     return np.concatenate(middles), np.concatenate(vectors)
+
+
+def lean_of(parts: Parts, some: Collection[int], line: tuple[Floats, Floats]) -> float | None:
+    """How far the neck of some parts leans along the line through them; see ``lean``."""
+    known = store_of(parts, "leaning necks")
+    key = tuple(sorted(some)), *(tuple(point.tolist()) for point in line)
+    if key not in known:
+        known[key] = lean(surface_about(parts, some, *line))
+    found: float | None = known[key]
+    return found
 
 
 def lean(surface: Surface) -> float | None:

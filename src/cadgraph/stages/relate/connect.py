@@ -136,9 +136,7 @@ def _between(piping: Piping, units: Sequence[UnitParts]) -> list[tuple[int, int]
     """Pairs of solids in contact that are not of one unit."""
     owner = {part: -1 - part for part in piping.lineless}
     owner |= {part: number for number, unit in enumerate(units) for part in unit.parts}
-    return [
-        (a, b) for a, b in piping.given.contacts.pairs.tolist() if a in owner and b in owner and owner[a] != owner[b]
-    ]
+    return [(a, b) for a, b in piping.given.contacts.plain_pairs if a in owner and b in owner and owner[a] != owner[b]]
 
 
 def _contract(piping: Piping, units: Sequence[UnitParts], drawing: Drawing, names: Sequence[str | None]) -> Network:

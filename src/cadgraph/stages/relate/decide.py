@@ -105,6 +105,10 @@ def _match(group: Sequence[int], faces: Sequence[Offer], single: Mapping[int, Of
     by_pair: dict[tuple[int, int], Offer] = {}
     for offer in sorted(faces, key=lambda offer: (-offer.odds, offer.row, offer.other)):
         by_pair.setdefault((offer.row, offer.other), offer)
+    if len(by_pair) == 1 and single.keys().isdisjoint(group):
+        # Two ends that nothing else is offered to.
+        (offer,) = by_pair.values()
+        return dict.fromkeys(group, offer)
     made: dict[int, Offer] = {}
     for (kind, a), (other_kind, b) in networkx.max_weight_matching(_graph_of(group, by_pair, single)):
         if kind == other_kind == "end":

@@ -7,22 +7,36 @@ the joint is. ``tests/stages/relate/test_evidence.py`` holds both sides of each.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TypeAlias
 
 import numpy as np
 
 from cadgraph.model.scene import Floats
 
-__all__ = ["BASE", "CURVES", "FLAGS", "OPEN_END", "Curve", "Term", "add_up", "score_of", "tell", "tell_terms"]
+__all__ = [
+    "BASE",
+    "CURVES",
+    "FLAGS",
+    "OPEN_END",
+    "Curve",
+    "Term",
+    "add_up",
+    "add_up_one",
+    "score_of",
+    "tell",
+    "tell_terms",
+]
 
 
 Term: TypeAlias = tuple[str, float]
 """What speaks for or against something, in words, and its log-odds."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Curve:
     """A contribution to the log-odds.
 
@@ -81,6 +95,7 @@ FLAGS: Mapping[str, tuple[float, str]] = {
 }
 """The contributions of what is there or not, in words."""
 
+_MOST_KEPT = 1 << 16  # values whose contributions are kept
 _NOTHING = 0.05  # log-odds that are 0.0 in words
 
 OPEN_END = 1.5
@@ -101,6 +116,18 @@ def add_up(kind: str, measured: Mapping[str, Floats], flags: Mapping[str, Floats
     return np.asarray(total, np.float64)
 
 
+def add_up_one(kind: str, measured: Mapping[str, float]) -> float:
+    """The log-odds of one joint; see ``add_up``."""
+    return sum(_given(CURVES[name], value) for name, value in measured.items() if not math.isnan(value)) + BASE[kind]
+
+
+@lru_cache(maxsize=_MOST_KEPT)
+def _given(curve: Curve, value: float) -> float:
+    """What a curve gives at one value; a change of labels leaves most joints as they were."""
+    return float(curve(value))
+
+
+@lru_cache(maxsize=_MOST_KEPT)
 def score_of(odds: float) -> float:
     """How sure a joint of these log-odds is, 0..1."""
     return float(1 / (1 + np.exp(-np.clip(odds, -30, 30))))
@@ -115,9 +142,9 @@ def tell(measured: Mapping[str, float], flags: Sequence[str] = (), said: str = "
         said: by what the file joins the two, where ``stated`` is one of the flags.
     """
     terms = [
-        (CURVES[name].says.format(CURVES[name].scale * value), float(CURVES[name](value)))
+        (CURVES[name].says.format(CURVES[name].scale * value), _given(CURVES[name], value))
         for name, value in measured.items()
-        if np.isfinite(value)
+        if math.isfinite(value)
     ]
     terms += [(f"{FLAGS[name][1]} ({said})" if name == "stated" else FLAGS[name][1], FLAGS[name][0]) for name in flags]
     return tell_terms(terms)

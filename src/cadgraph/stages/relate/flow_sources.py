@@ -14,7 +14,7 @@ import numpy as np
 
 from cadgraph.model.parts import Network, Opening, Parts, UnitParts
 from cadgraph.model.scene import Floats
-from cadgraph.stages.relate.body_shape import lean, line_through, surface_about
+from cadgraph.stages.relate.body_shape import lean_of, line_through
 from cadgraph.stages.relate.flow_spread import Evidence
 
 __all__ = ["SOURCES", "SURE", "Sight"]
@@ -247,7 +247,7 @@ def check_valves(sight: Sight) -> Iterator[Evidence]:
 def _by_lean(sight: Sight, unit: UnitParts, line: tuple[Floats, Floats]) -> int | None:
     """A neck that holds a ball, disc or piston leans downstream: flow lifts it off its seat along the neck."""
     body = [part for part in unit.parts if sight.names[part] not in _OPERATORS]
-    slope = lean(surface_about(sight.parts, body, *line)) if body else None
+    slope = lean_of(sight.parts, body, line) if body else None
     return None if not slope else 0 if slope > 0 else 1
 
 
@@ -325,7 +325,7 @@ def strainers(sight: Sight) -> Iterator[Evidence]:
             if sight.names[part] != "strainer":
                 continue
             line = _along_path(sight, number, part)
-            slope = lean(surface_about(sight.parts, [part], *line)) if line is not None else None
+            slope = lean_of(sight.parts, [part], line) if line is not None else None
             if slope:
                 sure = "strainer, leaning basket"
                 yield Evidence(number, slope > 0, SURE[sure], "a strainer's basket leans downstream")

@@ -70,9 +70,12 @@ def recover_inline(piping: Piping, beliefs: Beliefs, likelihood: Curve) -> Pipin
     groups: list[Group] = []
     recovered = dict(piping.recovered)
     for piece in _pieces(piping, beliefs):
+        share = max(float(likely[list(piece.parts)].mean()), _LEAST)
+        said = f"the labeler gives it {share:.0%}", float(likelihood(np.log(share)))
+        if _judged(piece, True, said).sure < _SURE:
+            continue
         stems = _stems(piping, beliefs, piece)
-        said = max(float(likely[list(piece.parts)].mean()), _LEAST)
-        found = _judged(piece, bool(stems), (f"the labeler gives it {said:.0%}", float(likelihood(np.log(said)))))
+        found = _judged(piece, bool(stems), said)
         if found.sure < _SURE or not taken.isdisjoint(piece.parts):
             continue
         parts = tuple(sorted({*piece.parts, *stems} - taken))

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cadgraph.geometry.line.centreline import Branch, Centreline, End
+from cadgraph.geometry.line.centreline import Branch, Centreline
+from cadgraph.model.derived import store_of
 from cadgraph.model.scene import Floats, Ints
 
 __all__ = ["Ends", "Facing", "Tap", "find_tap", "gather_ends", "nearest_on", "same_place"]
@@ -20,7 +21,7 @@ _SLANT, _ECCENTRIC = 0.86, 0.85
 _SEATED = 5e-4  # what lies along a line lies this far from its ends [m]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Ends:
     """The free ends of all lines, one row each.
 
@@ -87,26 +88,25 @@ class Tap:
 
 def gather_ends(lines: Mapping[int, Centreline]) -> Ends:
     """The free ends of lines, by part."""
-    rows = [(part, k, end) for part, line in sorted(lines.items()) for k, end in enumerate(line.ends)]
-    ends = [end for _, _, end in rows]
-    of_part: dict[int, list[int]] = {}
-    for row, (part, _, _) in enumerate(rows):
-        of_part.setdefault(part, []).append(row)
+    ordered = sorted(lines.items())
+    counts = [len(line.ends) for _, line in ordered]
+    table = np.concatenate([np.zeros((0, 9)), *(line.table_of_ends for _, line in ordered)])
+    of_part: dict[int, tuple[int, ...]] = {}
+    row = 0
+    for (part, _), count in zip(ordered, counts, strict=True):
+        if count:
+            of_part[part] = tuple(range(row, row + count))
+            row += count
     return Ends(
-        part=np.array([part for part, _, _ in rows], np.int64),
-        index=np.array([k for _, k, _ in rows], np.int64),
-        point=_column(ends, "point").reshape(-1, 3),
-        direction=_column(ends, "direction").reshape(-1, 3),
-        radius=_column(ends, "radius"),
-        bore=_column(ends, "bore"),
-        length=np.array([lines[part].branches[end.branch].length for part, _, end in rows], np.float64),
-        of_part={part: tuple(found) for part, found in of_part.items()},
+        part=np.repeat(np.array([part for part, _ in ordered], np.int64), counts),
+        index=np.array([k for count in counts for k in range(count)], np.int64),
+        point=table[:, :3].copy(),
+        direction=table[:, 3:6].copy(),
+        radius=table[:, 6].copy(),
+        bore=table[:, 7].copy(),
+        length=table[:, 8].copy(),
+        of_part=of_part,
     )
-
-
-def _column(ends: Sequence[End], name: str) -> Floats:
-    """One property of all ends."""
-    return np.array([getattr(end, name) for end in ends], np.float64)
 
 
 def same_place(ends: Ends, row: int, others: Sequence[int], reach: float) -> int | None:
@@ -134,6 +134,15 @@ def nearest_on(branch: Branch, point: Floats) -> tuple[float, Floats, Floats, fl
         Position along it [m], the point there, the unit direction of the branch there, its radius there [m], and the
         distance to the point [m].
     """
+    known = store_of(branch, "nearest")
+    key = tuple(point.tolist())
+    if key not in known:
+        known[key] = _nearest_on(branch, point)
+    found: tuple[float, Floats, Floats, float, float] = known[key]
+    return found
+
+
+def _nearest_on(branch: Branch, point: Floats) -> tuple[float, Floats, Floats, float, float]:
     steps = np.diff(branch.points, axis=0)
     lengths = np.linalg.norm(steps, axis=1)
     offset = point - branch.points[:-1]

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
+import numpy.typing as npt
 from scipy.spatial import cKDTree
 
 from cadgraph.geometry.line.centreline import Centreline
+from cadgraph.model.derived import kept_with
 from cadgraph.model.parts import Bools, Contacts
 from cadgraph.model.scene import Floats, Ints
-from cadgraph.stages.relate.evidence import CURVES, FLAGS, add_up, score_of, tell
+from cadgraph.stages.relate.evidence import CURVES, FLAGS, add_up, add_up_one, score_of, tell
 from cadgraph.stages.relate.joint import Ends, Tap, find_tap
 from cadgraph.stages.relate.stated import REACH, Stated
 
@@ -182,7 +184,7 @@ def offer_faces(ends: Ends, around: Surroundings, ahead: Mapping[int, Sequence[A
     flags["habit"] = _habitual(gap, straight & (odds > 1.0))
     odds = odds + flags["habit"] * FLAGS["habit"][0]
     thinkable = straight & ((odds > _THINKABLE) | _are_stated(ends, pairs, around.stated))
-    found = [_face(k, pairs, gap, odds, measured, flags) for k in np.flatnonzero(thinkable).tolist()]
+    found = _faces(pairs[thinkable], gap[thinkable], odds[thinkable], _of(measured, thinkable), _of(flags, thinkable))
     corners = _corners(ends, i, j, cosine, around.bridge) & ~straight
     found += [_corner(pairs, k, measured) for k in np.flatnonzero(corners).tolist()]
     return _witnessed(ends, found, around.stated) if around.stated else found
@@ -265,19 +267,24 @@ def _flags(
     }
 
 
-def _face(
-    k: int,
-    pairs: Ints,
-    gap: Floats,
-    odds: Floats,
-    measured: Mapping[str, Floats],
-    flags: Mapping[str, Bools],
-) -> Offer:
-    return Offer(
-        "face", int(pairs[k, 0]), int(pairs[k, 1]), float(gap[k]), float(odds[k]),
-        {name: float(values[k]) for name, values in measured.items()},
-        tuple(name for name, holds in flags.items() if holds[k]),
-    )  # fmt: skip
+def _of(columns: Mapping[str, npt.NDArray[Any]], rows: Bools) -> dict[str, list[Any]]:
+    """Some rows of each column, as plain values."""
+    return {name: values[rows].tolist() for name, values in columns.items()}
+
+
+def _faces(
+    pairs: Ints, gap: Floats, odds: Floats, measured: Mapping[str, list[float]], flags: Mapping[str, list[bool]]
+) -> list[Offer]:
+    """The offers of pairs of ends that face each other."""
+    rows = zip(pairs.tolist(), gap.tolist(), odds.tolist(), strict=True)
+    return [
+        Offer(
+            "face", row, other, wide, sure,
+            {name: values[k] for name, values in measured.items()},
+            tuple(name for name, holds in flags.items() if holds[k]),
+        )
+        for k, ((row, other), wide, sure) in enumerate(rows)
+    ]  # fmt: skip
 
 
 def _corner(pairs: Ints, k: int, measured: Mapping[str, Floats]) -> Offer:
@@ -321,13 +328,14 @@ def _habitual(gap: Floats, likely: Bools) -> Bools:
     return np.asarray((gap > _LEAST_HABIT) & (count >= _HABIT))
 
 
+@kept_with
 def near_ends(ends: Ends, around: Surroundings) -> Ints:
     """Pairs of ends of parts that are near each other, or that are near each other themselves."""
     if not len(ends.part):
         return np.zeros((0, 2), np.int64)
     found = {
         (p, q) if p < q else (q, p)
-        for a, b in around.contacts.pairs.tolist()
+        for a, b in around.contacts.plain_pairs
         if a in ends.of_part and b in ends.of_part
         for p in ends.of_part[a]
         for q in ends.of_part[b]
@@ -393,7 +401,7 @@ def offer_far_mount(row: int, solid: int, gap: float, off: float, radius: float,
         said: by what the file joins them.
     """
     measured = {"far": gap, "off": off / radius}
-    odds = float(add_up("mount", {name: np.array([value]) for name, value in measured.items()})[0])
+    odds = add_up_one("mount", measured)
     return Offer("mount", row, solid, gap, odds + FLAGS["stated"][0], measured, ("stated",), said=said)
 
 
@@ -420,7 +428,7 @@ def offer_mount(
         "facing": float("nan") if facing is None else facing,
     }
     flags = ("hidden",) if hidden else ()
-    odds = float(add_up("mount", {name: np.array([value]) for name, value in measured.items()})[0])
+    odds = add_up_one("mount", measured)
     return Offer("mount", row, solid, gap, odds + sum(FLAGS[name][0] for name in flags), measured, flags)
 
 
@@ -447,5 +455,5 @@ def _tap_offer(ends: Ends, row: int, part: int, tap: Tap, line: Centreline) -> O
     if not tap.sleeve:
         measured["near end"] = min(to_end / wall, 9.0)
     kind: Kind = "sleeve" if tap.sleeve else "tap"
-    odds = float(add_up(kind, {name: np.array([value]) for name, value in measured.items()})[0])
+    odds = add_up_one(kind, measured)
     return Offer(kind, row, part, tap.gap, odds, measured, (), tap)

@@ -67,14 +67,10 @@ class RelateInput:
         """``(n_parts,)`` number of each part's structure; -1 for none."""
         return self.analysis.cluster
 
-    @cached_property
+    @property
     def neighbors(self) -> Mapping[int, list[int]]:
         """The parts that are near each part, ascending."""
-        found: dict[int, list[int]] = {}
-        for a, b in self.contacts.pairs.tolist():
-            found.setdefault(a, []).append(b)
-            found.setdefault(b, []).append(a)
-        return {part: sorted(near) for part, near in found.items()}
+        return self.contacts.neighbors
 
     @cached_property
     def stated(self) -> Stated:

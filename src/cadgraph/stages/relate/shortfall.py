@@ -61,7 +61,7 @@ def _least(unit: UnitParts) -> int:
 def _hung_on(piping: Piping, network: Network) -> frozenset[int]:
     """Gauges that touch another unit: these sit on it, without any line."""
     owner = {part: number for number, unit in enumerate(network.units) for part in unit.parts}
-    pairs = [(owner.get(a), owner.get(b)) for a, b in piping.given.contacts.pairs.tolist()]
+    pairs = [(owner.get(a), owner.get(b)) for a, b in piping.given.contacts.plain_pairs]
     return frozenset(
         unit
         for pair in pairs
@@ -122,7 +122,7 @@ def _before(piping: Piping) -> dict[int, tuple[float, int]]:
     free = _free_ends(piping)
     with_own = {tuple(sorted(pair)) for pair in _joined_pairs(piping)}
     best: dict[int, tuple[float, int]] = {}
-    for (a, b), points, gap in zip(contacts.pairs.tolist(), contacts.points, contacts.distance.tolist(), strict=True):
+    for (a, b), points, gap in zip(contacts.plain_pairs, contacts.points, contacts.distance.tolist(), strict=True):
         if gap > _BEFORE or (a, b) in with_own:
             continue
         for part, other in ((a, b), (b, a)):
@@ -176,7 +176,7 @@ def _units_touching(piping: Piping, network: Network, short: Collection[int]) ->
     # A pair that is joined, or told already, is not told.
     shut = {(link.source, link.target) for link in network.links}
     contacts, scene = piping.given.contacts, piping.given.parts.scene
-    for (a, b), gap in zip(contacts.pairs.tolist(), contacts.distance.tolist(), strict=True):
+    for (a, b), gap in zip(contacts.plain_pairs, contacts.distance.tolist(), strict=True):
         first, second = sorted((owner.get(a, -1), owner.get(b, -1)))
         if first < 0 or first == second or (first, second) in shut or not {first, second}.intersection(short):
             continue

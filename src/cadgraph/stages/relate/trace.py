@@ -11,6 +11,7 @@ import numpy as np
 from cadgraph.geometry.line.centreline import Branch, Centreline
 from cadgraph.geometry.line.part_lines import lines_of_parts
 from cadgraph.geometry.shape.analysis import shapes_of
+from cadgraph.model.derived import store_of
 from cadgraph.model.parts import Bools, Contacts, Parts
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.attach import Attachments, facings_of
@@ -214,7 +215,7 @@ def _repeated(parts: Parts, contacts: Contacts, lines: Mapping[int, Centreline])
     middles = parts.properties.centroid
     return {
         b
-        for a, b in contacts.pairs.tolist()
+        for a, b in contacts.plain_pairs
         if a in lines
         and b in lines
         and parts.shape[a] == parts.shape[b]
@@ -267,12 +268,17 @@ def _single_ratio(given: RelateInput, roles: Roles, part: int, line: Centreline)
 
 def _jackets(given: RelateInput, traced: Mapping[int, Centreline], sure: Mapping[int, Centreline]) -> set[int]:
     """Parts that nobody but the labeler has named and that run around lines that are sure: insulation."""
-    return {
-        part
-        for part, line in traced.items()
-        if given.labels[part] is given.opinions[part]
-        and _is_jacket(line, [sure[other] for other in given.neighbors.get(part, ()) if other in sure])
-    }
+    known = store_of(given.parts, "jackets")
+    found = set()
+    for part, line in traced.items():
+        if given.labels[part] is not given.opinions[part]:
+            continue
+        around = tuple(sure[other] for other in given.neighbors.get(part, ()) if other in sure)
+        if (line, around) not in known:
+            known[line, around] = _is_jacket(line, around)
+        if known[line, around]:
+            found.add(part)
+    return found
 
 
 def _is_jacket(line: Centreline, around: Sequence[Centreline]) -> bool:
@@ -399,7 +405,7 @@ def _branches(
     bridge: float,
 ) -> Iterator[tuple[int, int]]:
     """The parts that nothing but their joints can make pipes, each with a line that branches off its side."""
-    for a, b in contacts.pairs.tolist():
+    for a, b in contacts.plain_pairs:
         for part, other in ((a, b), (b, a)):
             if part not in lines or ratios.get(part) != _BOTH_ENDS or other in ratios:
                 continue

@@ -47,7 +47,7 @@ def _pairs_of_one_type(given: RelateInput, types: Sequence[str | None]) -> list[
     cluster = given.cluster
     return [
         (a, b)
-        for a, b in given.contacts.pairs.tolist()
+        for a, b in given.contacts.plain_pairs
         if types[a] is not None and types[a] == types[b] and cluster[a] == cluster[b] >= 0
     ]
 

@@ -8,6 +8,7 @@ from types import MappingProxyType
 
 import numpy as np
 
+from cadgraph.model.derived import store_of
 from cadgraph.model.parts import Parts, UnitParts
 from cadgraph.model.scene import Floats
 from cadgraph.model.standards import lengths_of
@@ -147,7 +148,17 @@ def valve_kinds(
     Returns:
         ``("gate valve", 0.95)``... of those with rules; nothing where nothing can be seen.
     """
-    look = _look(unit, names, sizes, parts)
+    # All that it follows from, beside geometry: what a correction elsewhere leaves as it was is not looked at again.
+    known = store_of(parts, "kinds of valves")
+    key = unit.parts, unit.openings, tuple(names[part] for part in unit.parts), min(sizes, default=None)
+    if key not in known:
+        known[key] = _weigh(_look(unit, names, min(sizes, default=None), parts))
+    found: tuple[tuple[str, float], ...] = known[key]
+    return found
+
+
+def _weigh(look: _Look) -> tuple[tuple[str, float], ...]:
+    """The kinds that have the look of a valve, the likeliest first."""
     if not look.says_something:
         return ()
     weight = {kind: share * _likelihood(kind, look) for kind, share in _PRIOR.items()}
@@ -198,7 +209,7 @@ def _is_one_of(length: float, table: str, size: int, near: float) -> bool:
     return any(abs(length - known) <= near for known in lengths_of(table, size))
 
 
-def _look(unit: UnitParts, names: Sequence[str | None], sizes: Sequence[int], parts: Parts) -> _Look:
+def _look(unit: UnitParts, names: Sequence[str | None], size: int | None, parts: Parts) -> _Look:
     own = {names[part] for part in unit.parts}
     turned = next((operator for name, operator in _NAMED.items() if name in own), None)
     still = turned is None and not own & _TURNING
@@ -208,7 +219,7 @@ def _look(unit: UnitParts, names: Sequence[str | None], sizes: Sequence[int], pa
         covered=still and "valve bonnet" in own,
         place=1 if len(unit.openings) > 1 else 2,
         length=None,
-        size=min(sizes, default=None),
+        size=size,
         sprung=_is_sprung(unit, names, parts),
         ball="valve ball" in own,
     )
