@@ -300,8 +300,8 @@ class CorrectionsFile:
         """
         if self.known is not None and _digest(self._content()) != self.known:
             raise OutputError(
-                f"{self.file}: another program has corrected something here meanwhile; open the folder again and repeat "
-                "this correction"
+                f"{self.file}: another program has corrected something here meanwhile; open the folder again and "
+                "repeat this correction"
             )
         document = {
             "format": FORMAT,
