@@ -38,11 +38,11 @@ def analyse_shapes(scene: Scene, properties: Properties, shapes: Shapes | None =
 
 def shapes_of(parts: Parts) -> ShapeAnalysis:
     """What is known of the shapes of parts; measured once for the same parts, whichever of them are the ground."""
-    return _shapes_of(parts.properties, parts.scene)
+    return _shapes_of(parts.scene, parts.properties)
 
 
 @kept_with
-def _shapes_of(properties: Properties, scene: Scene) -> ShapeAnalysis:
+def _shapes_of(scene: Scene, properties: Properties) -> ShapeAnalysis:
     return analyse_shapes(scene, properties)
 
 
