@@ -10,7 +10,7 @@ from typing import Any, Literal
 from cadgraph._io.atomic import write_atomically
 from cadgraph._io.progress import Progress, quiet
 from cadgraph._io.run_folder import results_folder
-from cadgraph.model.corrections import CORRECTIONS, read_history, write_history
+from cadgraph.model.corrections import CORRECTIONS, read_history
 from cadgraph.model.edits import Correction
 from cadgraph.model.given_labels import split_label
 from cadgraph.model.graph import SceneGraph
@@ -175,23 +175,17 @@ def _changed(
         config = config_of(folder)
         source = find_source(before, target, scene)
         former = FormerLabeler(before) if config.lvlm.ask != "never" else None
-        session = reopen(before, target, source, config, former, clock)
+        session = reopen(before, target, source, config, former, clock, keep=True)
+        file = target / CORRECTIONS
+        old = file.read_bytes() if file.exists() else None
         done = change(session)
-        outcome = _write(session, source, target, report, clock)
+        try:
+            outcome = write_results(session, source, target, report, clock)
+        except BaseException:
+            # A correction that the graph does not show must not wait for a later build.
+            if old is None:
+                file.unlink(missing_ok=True)
+            else:
+                write_atomically(file, old, durable=True)
+            raise
     return Amendment(outcome, done.part, changed_parts(before, outcome.graph), done.message, session.lost)
-
-
-def _write(session: Session, source: Path, target: Path, report: bool, clock: Clock) -> Outcome:
-    """The results with the corrections beside them, or neither."""
-    file = target / CORRECTIONS
-    old = file.read_bytes() if file.exists() else None
-    write_history(session.history, file)
-    try:
-        return write_results(session, source, target, report, clock)
-    except BaseException:
-        # A correction that the graph does not show must not wait for a later build.
-        if old is None:
-            file.unlink(missing_ok=True)
-        else:
-            write_atomically(file, old, durable=True)
-        raise
