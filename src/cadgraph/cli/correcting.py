@@ -85,17 +85,15 @@ def correct(
     from cadgraph.session.correct import apply_edits, step_back_or_forth
 
     graph = SceneGraph.load(folder)
-    edits: list[dict[str, Any]] = [{"kind": "forget", "part": part} for part in forget or []]
-    for kind, first, second, pairs in (("label", "part", "group", label), ("tag", "unit", "tag", tag)):
-        edits += [{"kind": kind, **dict(zip((first, second), _sides(kind, one), strict=True))} for one in pairs or []]
-    edits = [edit | {"this_only": this_only} if edit["kind"] == "label" else edit for edit in edits]
-    edits += [{"kind": "merge", "parts": [p for one in merge for p in _parts(graph, one)]}] if merge else []
-    edits += [{"kind": "split", "parts": split}] if split else []
-    edits += [{"kind": "join", "first": join[0], "second": join[1]}] if join else []
-    edits += _cuts(graph, *cut) if cut else []
-    edits += [_flow(one) for one in flow or []]
-    for is_ground, parts in ((True, ground), (False, no_ground)):
-        edits += [{"kind": "ground", "part": part, "ground": is_ground} for part in parts or []]
+    edits = [
+        *_labels(label or [], forget or [], this_only),
+        *(dict(zip(("kind", "unit", "tag"), ("tag", *_sides("tag", one)), strict=True)) for one in tag or []),
+        *_units(graph, merge, split),
+        *_joints(graph, join, cut),
+        *(_flow(one) for one in flow or []),
+        *({"kind": "ground", "part": part, "ground": True} for part in ground or []),
+        *({"kind": "ground", "part": part, "ground": False} for part in no_ground or []),
+    ]
     if undo + redo + bool(edits) != 1:
         raise ValueError("say what to correct, as --tag V-001=V-4711, or one of --undo and --redo alone")
     name = _user() if who is None else who
@@ -148,6 +146,22 @@ def _user() -> str:
         return getpass.getuser()
     except (OSError, KeyError, ImportError):
         return ""
+
+
+def _labels(labels: list[str], forget: list[str], this_only: bool) -> list[dict[str, Any]]:
+    sides = [_sides("label", one) for one in labels]
+    said = [{"kind": "label", "part": part, "group": label, "this_only": this_only} for part, label in sides]
+    return [*said, *({"kind": "forget", "part": part} for part in forget)]
+
+
+def _units(graph: SceneGraph, merge: _Pair, split: list[str] | None) -> list[dict[str, Any]]:
+    merged = [{"kind": "merge", "parts": [part for one in merge for part in _parts(graph, one)]}] if merge else []
+    return [*merged, *([{"kind": "split", "parts": split}] if split else [])]
+
+
+def _joints(graph: SceneGraph, join: _Pair, cut: _Pair) -> list[dict[str, Any]]:
+    joined = [{"kind": "join", "first": join[0], "second": join[1]}] if join else []
+    return [*joined, *(_cuts(graph, *cut) if cut else [])]
 
 
 def _sides(kind: str, text: str) -> tuple[str, str]:

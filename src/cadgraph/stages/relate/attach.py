@@ -77,12 +77,14 @@ class Tapped:
         part: the part that carries the line.
         tap: the place.
         score: how sure that is, 0..1.
+        apart: whether a user joined them across a gap, which counts as length.
     """
 
     row: int
     part: int
     tap: Tap
     score: float = 1.0
+    apart: bool = False
 
 
 @dataclass(frozen=True)

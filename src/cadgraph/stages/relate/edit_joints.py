@@ -69,19 +69,28 @@ def edit_joints(
 
 def _without_cut(found: Attachments, edits: NetworkEdits) -> Attachments:
     """What joins what without the joints that a user cut, which are refused now."""
-    part, cut = found.ends.part, edits.cut
-    apart = [(a, b) for a, b in found.doubled if (int(part[a]), int(part[b])) in cut]
-    # Of two ends in one place neither is refused by geometry; that one looks for the other is all that is to be told.
-    twins = {a: Offer("face", a, b, 0.0, 0.0) for a, b in apart}
-    gone = {row: offer for row, offer in found.made.items() if _pair(found, offer) in cut} | twins
-    no_more = gone | {row: offer for row, offer in found.refused.items() if _pair(found, offer) in cut}
+    cut = edits.cut
+    twins = _cut_twins(found, edits)
+    gone = {**_cut_offers(found, found.made, edits), **twins}
     kept = replace(
         found,
-        refused={**found.refused, **{row: _cut(offer) for row, offer in no_more.items()}},
-        doubled=tuple(pair for pair in found.doubled if pair not in apart),
+        refused={**found.refused, **_cut_offers(found, found.refused, edits), **gone},
+        doubled=tuple(pair for pair in found.doubled if pair[0] not in twins),
         sides=tuple(side for side in found.sides if (side.solid, side.part) not in cut),
     )
     return _with_made(kept, {row: offer for row, offer in found.made.items() if row not in gone}, {})
+
+
+def _cut_offers(found: Attachments, offers: Mapping[int, Offer], edits: NetworkEdits) -> dict[int, Offer]:
+    """Those offers that a user cut, as refused ones."""
+    return {row: _cut(offer) for row, offer in offers.items() if _pair(found, offer) in edits.cut}
+
+
+def _cut_twins(found: Attachments, edits: NetworkEdits) -> dict[int, Offer]:
+    """The ends in one place with another one whose parts a user cut, as refused offers."""
+    part = found.ends.part
+    apart = [(a, b) for a, b in found.doubled if (int(part[a]), int(part[b])) in edits.cut]
+    return {a: _cut(Offer("face", a, b, 0.0, 0.0)) for a, b in apart}
 
 
 def _with_made(found: Attachments, made: Mapping[int, Offer], at: Mapping[int, Floats]) -> Attachments:
@@ -92,7 +101,7 @@ def _with_made(found: Attachments, made: Mapping[int, Offer], at: Mapping[int, F
         made=made,
         refused={row: offer for row, offer in found.refused.items() if row not in made},
         facings=facings_of(made),
-        taps=tuple(Tapped(row, o.other, o.tap, o.score) for row, o in ordered if o.tap is not None),
+        taps=tuple(Tapped(row, o.other, o.tap, o.score, BY_USER in o.flags) for row, o in ordered if o.tap is not None),
         mounts=tuple(Mount(row, o.other, o.gap, o.score, at.get(row)) for row, o in ordered if o.kind == "mount"),
     )
 

@@ -136,8 +136,12 @@ def _place_taps(draft: _Draft) -> None:
     """The nodes on each branch between its ends."""
     for tapped in draft.found.taps:
         if tapped.row in draft.node_of_end and tapped.part in draft.lines:
-            here, tap = draft.new(), tapped.tap
-            draft.join(here, draft.node_of_end[tapped.row], tapped.score)
+            here, tap, tip = draft.new(), tapped.tap, draft.node_of_end[tapped.row]
+            if tapped.apart:
+                way = np.stack([draft.found.ends.point[tapped.row], tap.point])
+                draft.spans.append(Span(tip, here, (), way, max(0.0, tap.gap), (), tapped.score))
+            else:
+                draft.join(here, tip, tapped.score)
             draft.places.setdefault((tapped.part, tap.branch), []).append((tap.s, here, tap.point))
             draft.taps.append(here)
 
