@@ -63,9 +63,14 @@ def set_flow(network: Network, edits: NetworkEdits) -> SetFlow:
 
 
 def _name(network: Network, node: int) -> str:
-    if node < len(network.units):
+    """What a node is called: the tag of a unit, the id of a junction, or what end it is."""
+    number = node - len(network.units)
+    if number < 0:
         return network.units[node].tag
-    return f"{network.places[node - len(network.units)].kind} {node - len(network.units)}"
+    kind = network.places[number].kind
+    if kind != "junction":
+        return "end" if kind == "unknown" else f"{kind} end"
+    return f"junction-{sum(place.kind == 'junction' for place in network.places[:number]):03d}"
 
 
 def _find(network: Network, edit: FlowEdit) -> tuple[int, bool] | None:
