@@ -75,7 +75,7 @@ def test_a_later_build_into_the_folder_gives_the_same_graph(folder, scene):
     before = (folder / "graph.json").read_bytes()
     run(scene, folder, NONE, report=False)
     assert (folder / "graph.json").read_bytes() == before
-    assert len(json.loads((folder / "corrections.json").read_text())["corrections"]) == 2
+    assert len(json.loads((folder / "corrections.json").read_text())["events"]) == 2
 
 
 def test_a_correction_can_be_taken_back(folder):
@@ -199,6 +199,59 @@ def test_the_commands_say_what_they_did(capsys, folder, scene, tmp_path):
         capsys, "build", scene, "-o", tmp_path / "n", "--catalog", file, "--no-report", "--labeler", "none"
     )
     assert label_of(SceneGraph.load(tmp_path / "n"), "/b") == ("handwheel", "catalog")
+
+
+def test_several_corrections_are_one_and_are_undone_and_listed(capsys, folder, scene):
+    before = (folder / "graph.json").read_bytes()
+    code, out, _ = command(
+        capsys, "correct", folder, "--label", "/a=handwheel", "--label", "/knob=Tank", "--why", "seen on site",
+        "--who", "Ann [b]", "--no-report",
+    )  # fmt: skip
+    assert code == 0
+    assert "is Valve assembly/handwheel" in out
+    code, out, _ = command(capsys, "correct", folder, "--tag", "V-001=V-4711 <b>", "--no-report")
+    assert "V-001 is called V-4711 <b>" in out
+    graph = (folder / "graph.json").read_bytes()
+    assert SceneGraph.load(folder).unit("V-4711 <b>").unit_type == "valve"
+    assert "V-4711" in (folder / "semantics.usda").read_text()
+    run(scene, folder, NONE, report=False)
+    assert (folder / "graph.json").read_bytes() == graph
+    for _ in range(2):
+        assert "undone: " in command(capsys, "correct", folder, "--undo", "--no-report")[1]
+    assert (folder / "graph.json").read_bytes() == before
+    assert "nothing to undo" in refused(capsys, "correct", folder, "--undo")
+    command(capsys, "correct", folder, "--redo", "--no-report")
+    code, out, _ = command(capsys, "corrections", folder)
+    rows = [line.split() for line in out.splitlines()]
+    assert [row[0] for row in rows] == ["5", "4", "3", "2", "1", "5"]
+    assert "Ann [b]" in out
+    assert "seen on site" in out
+    told = json.loads(command(capsys, "corrections", folder, "--json")[1])
+    assert [row["undone"] for row in told["corrections"]] == [False, False, False, True, False]
+    assert told["lost"] == []
+
+
+def test_bad_corrections_end_in_one_line(capsys, folder):
+    assert "--tag V-001=V-4711" in refused(capsys, "correct", folder)
+    assert "one of --undo" in refused(capsys, "correct", folder, "--undo", "--tag", "V-001=x")
+    assert "write it as V-001=V-4711" in refused(capsys, "correct", folder, "--tag", "V-001")
+    assert "is no flow" in refused(capsys, "correct", folder, "--flow", "V-001")
+    assert "are not joined" in refused(capsys, "correct", folder, "--cut", "/a", "/box")
+    assert "nothing in the graph" in refused(capsys, "correct", folder, "--merge", "V-9", "/a")
+    assert "too far apart" in refused(capsys, "correct", folder, "--join", "/a", "/knob", "--no-report")
+    assert not (folder / "corrections.json").exists()
+
+
+def test_what_a_changed_scene_lost_is_told_and_kept(capsys, folder, scene):
+    command(capsys, "correct", folder, "--label", "/knob=Tank", "--no-report")
+    scene.write_text(scene.read_text().replace("(5.", "(6."))
+    text = scene.read_text().replace('def Mesh "knob"', 'def Mesh "moved"')
+    scene.write_text(text)
+    run(scene, folder, NONE, report=False)
+    lost = "label Tank of /knob: no part of that path and shape, and none of that shape in its place"
+    assert [d.message for d in SceneGraph.load(folder).diagnostics if d.code == "correction-lost"] == [lost]
+    assert "no longer fits: label Tank of /knob" in command(capsys, "corrections", folder)[1]
+    assert "/knob" in (folder / "corrections.json").read_text()
 
 
 def test_bad_input_ends_in_one_line(capsys, folder, scene, tmp_path):

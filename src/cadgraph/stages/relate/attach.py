@@ -58,12 +58,14 @@ class Mount:
         part: the solid part.
         gap: distance between the two [m].
         score: how sure that is, 0..1.
+        at: ``(3,)`` point of the solid that a user joined it to; None where the end lies at the solid [m].
     """
 
     row: int
     part: int
     gap: float
     score: float = 1.0
+    at: Floats | None = None
 
 
 @dataclass(frozen=True)
@@ -75,12 +77,14 @@ class Tapped:
         part: the part that carries the line.
         tap: the place.
         score: how sure that is, 0..1.
+        apart: whether a user joined them across a gap, which counts as length.
     """
 
     row: int
     part: int
     tap: Tap
     score: float = 1.0
+    apart: bool = False
 
 
 @dataclass(frozen=True)

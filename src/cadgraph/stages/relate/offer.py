@@ -14,6 +14,7 @@ from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.derived import kept_with
 from cadgraph.model.parts import Bools, Contacts
 from cadgraph.model.scene import Floats, Ints
+from cadgraph.stages.relate.edits import BY_USER, CUT
 from cadgraph.stages.relate.evidence import CURVES, FLAGS, add_up, add_up_one, score_of, tell
 from cadgraph.stages.relate.joint import Ends, Tap, find_tap
 from cadgraph.stages.relate.stated import REACH, Stated
@@ -98,6 +99,8 @@ class Offer:
     @property
     def reasons(self) -> tuple[str, ...]:
         """What speaks for and against it, in words."""
+        if self.flags in ((BY_USER,), (CUT,)):
+            return self.flags
         return tell(self.measured, self.flags, self.said)
 
 

@@ -10,6 +10,7 @@ from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.parts import Network, Parts, UnitParts
 from cadgraph.model.ports import least_ports, port_word
 from cadgraph.model.scene import Floats
+from cadgraph.stages.relate.edits import CUT
 from cadgraph.stages.relate.piping import Piping
 
 __all__ = ["find_shortfalls"]
@@ -92,7 +93,7 @@ def _best_refused(piping: Piping) -> dict[int, tuple[float, int]]:
     found = piping.joints
     best: dict[int, tuple[float, int]] = {}
     for row, offer in found.refused.items():
-        if offer.kind == "mount":
+        if offer.kind == "mount" and offer.flags != (CUT,):
             here = (max(0.0, offer.gap), int(found.ends.part[row]))
             best[offer.other] = min(best.get(offer.other, here), here)
     return best
@@ -120,7 +121,7 @@ def _before(piping: Piping) -> dict[int, tuple[float, int]]:
     """For each free end that something lies before the gap [m] and that part."""
     contacts = piping.given.contacts
     free = _free_ends(piping)
-    with_own = {tuple(sorted(pair)) for pair in _joined_pairs(piping)}
+    with_own = {tuple(sorted(pair)) for pair in (*_joined_pairs(piping), *piping.given.edits.cut)}
     best: dict[int, tuple[float, int]] = {}
     for (a, b), points, gap in zip(contacts.plain_pairs, contacts.points, contacts.distance.tolist(), strict=True):
         if gap > _BEFORE or (a, b) in with_own:
@@ -178,7 +179,8 @@ def _units_touching(piping: Piping, network: Network, short: Collection[int]) ->
     contacts, scene = piping.given.contacts, piping.given.parts.scene
     for (a, b), gap in zip(contacts.plain_pairs, contacts.distance.tolist(), strict=True):
         first, second = sorted((owner.get(a, -1), owner.get(b, -1)))
-        if first < 0 or first == second or (first, second) in shut or not {first, second}.intersection(short):
+        told = (first, second) in shut or (a, b) in piping.given.edits.cut
+        if first < 0 or first == second or told or not {first, second}.intersection(short):
             continue
         shut.add((first, second))
         tags = f"{network.units[first].tag} and {network.units[second].tag}"
