@@ -33,7 +33,7 @@ from cadgraph.stages.parts import make_parts
 from cadgraph.stages.preprocess import prepare_scene
 from cadgraph.stages.relate import RelateInput, connect_units, pipe_systems, relate_units
 
-__all__ = ["ANALYSIS_SETTINGS", "STAGES", "analyse", "build", "contradicted", "interpret"]
+__all__ = ["ANALYSIS_SETTINGS", "CONTRADICTIONS", "STAGES", "analyse", "build", "contradicted", "interpret"]
 
 _WEAK = 0.46  # a likely label below this confidence is no label for the relations
 STAGES = ("measure", "contacts", "group", "cluster", "label", "relate", "assemble")
@@ -175,7 +175,8 @@ def interpret(
     return graph
 
 
-_CONTRADICTIONS = frozenset({"unit-short-of-lines", "end-before-part", "units-touch-unjoined", "line-untraced"})
+CONTRADICTIONS = frozenset({"unit-short-of-lines", "end-before-part", "units-touch-unjoined", "line-untraced"})
+"""Codes of the diagnostics that say that the network does not add up; often a label is the reason."""
 
 
 def contradicted(
@@ -196,5 +197,5 @@ def contradicted(
     """
     given = RelateInput(analysis, tuple(labels), tuple(labels), vocabulary, config, probabilities)
     number = {path: part for part, path in enumerate(analysis.parts.scene.paths)}
-    found = (one for one in connect_units(given).diagnostics if one.code in _CONTRADICTIONS)
+    found = (one for one in connect_units(given).diagnostics if one.code in CONTRADICTIONS)
     return frozenset(number[mesh] for one in found for mesh in one.meshes if mesh in number)
