@@ -2,9 +2,9 @@
 
 Four witnesses are weighed against each other. The embedded labeler says how likely each name is, also where somebody
 else gave the label: a second opinion. Who gave the label is right as often as that source mostly is; what the lines say
-of a part mostly has the right group, but often not the right name. Kin, parts of other shapes that the labeler sees much
-alike, mostly have the same name; those that a user has settled count most. And where the lines do not add up, a label
-is often the reason.
+of a part mostly has the right group, but often not the right name. Kin, parts of other shapes that look much alike,
+mostly have the same name; those that a user has settled count most. And where the lines do not add up, a label is often
+the reason.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Questions about labels: parts that one answer settles together, and what that is worth.
 
-Repeats of a shape are asked about together where the same is doubtful about them, and so are other shapes that the
-labeler sees much alike and that are as doubtful, and held for the same. An answer holds for exactly these parts: a correction
-that spreads to kin would set others that nobody looked at.
+Repeats of a shape are asked about together where they are as doubtful as each other, and so are other shapes that look
+much alike and are held for the same. An answer holds for exactly these parts: a correction that spreads to kin would
+set others that nobody looked at.
 """
 
 from __future__ import annotations
