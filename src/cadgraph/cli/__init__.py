@@ -6,6 +6,7 @@ from __future__ import annotations
 from cadgraph.cli import building as _building  # noqa: F401
 from cadgraph.cli import lvlm as _lvlm  # noqa: F401
 from cadgraph.cli import labeling as _labeling  # noqa: F401
+from cadgraph.cli import correcting as _correcting  # noqa: F401
 from cadgraph.cli import reading as _reading  # noqa: F401
 from cadgraph.cli import facts as _facts  # noqa: F401
 from cadgraph.cli import functional as _functional  # noqa: F401

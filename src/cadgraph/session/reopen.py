@@ -12,7 +12,7 @@ from cadgraph.config import Config
 from cadgraph.errors import FormatError, LabelError
 from cadgraph.labelers.base import AskingLabeler, Labeler, Labeling
 from cadgraph.load import load
-from cadgraph.model.corrections import read_corrections
+from cadgraph.model.corrections import CorrectionsFile
 from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import CorrectedEvidence, FileEvidence, GeometryEvidence, GivenEvidence, Label
@@ -65,7 +65,14 @@ def relabel(
 
 
 def reopen(
-    graph: SceneGraph, target: Path, source: Path, config: Config, labeler: Labeler | None, progress: Progress = quiet
+    graph: SceneGraph,
+    target: Path,
+    source: Path,
+    config: Config,
+    labeler: Labeler | None,
+    progress: Progress = quiet,
+    *,
+    keep: bool = False,
 ) -> Session:
     """A session on the scene of a finished graph, with its vocabulary, the labels given from outside, its corrections.
 
@@ -76,6 +83,7 @@ def reopen(
         config: all settings.
         labeler: says what the parts are; the one that is set if None.
         progress: called with the name of a stage and the share of it that is done.
+        keep: whether each correction is written into the folder at once, before the session says that it is done.
 
     Raises:
         LabelError: the corrections can't be read.
@@ -84,7 +92,8 @@ def reopen(
     """
     check_target(source, target)
     tree = Vocabulary.from_json(graph.document.vocabulary, f"{target}: vocabulary of the graph")
-    corrections = read_corrections(target, tree)
+    file = CorrectionsFile(target)
+    history = file.read(tree)
     progress("read", 0)
     scene = load(source, config.load)
     check_layers(source, target)
@@ -94,7 +103,8 @@ def reopen(
         labels=_given(graph),
         vocabulary=tree,
         labeler=labeler,
-        corrections=corrections,
+        history=history,
+        file=file if keep else None,
         graph=graph if labeler is None or isinstance(labeler, FormerLabeler) else None,
         progress=progress,
     )

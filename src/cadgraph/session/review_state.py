@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from cadgraph.labelers.suspicion import Suspicion, suspect_labels
+from cadgraph.model.edits import Cut, Join
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.probabilities import Probabilities
 from cadgraph.model.records import Connected, Part, Unit
@@ -72,7 +73,8 @@ class ReviewState:
             stakes[part] = max(stakes[part], _FUNCTIONAL)
         for part, unit in unit_of.items():
             stakes[part] = max(stakes[part], _VALVE if unit.unit_type == "valve" else _FUNCTIONAL)
-        return cls(graph, nodes, number, suspicion, contradicted, stakes, unit_of, session.vocabulary)
+        pairs = tuple((e.first.mesh, e.second.mesh) for e in session.corrections if isinstance(e, Join | Cut))
+        return cls(graph, nodes, number, suspicion, contradicted, stakes, unit_of, session.vocabulary, pairs)
 
     @cached_property
     def network(self) -> Network:

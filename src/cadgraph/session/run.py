@@ -14,7 +14,7 @@ from cadgraph._io.run_folder import clear_results, refuse_to_overwrite, results_
 from cadgraph.config import Config
 from cadgraph.labelers.base import AskingLabeler, Labeler
 from cadgraph.load import load
-from cadgraph.model.corrections import read_corrections
+from cadgraph.model.corrections import read_history
 from cadgraph.model.given_labels import GivenLabel, read_labels
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary, read_vocabulary
@@ -81,12 +81,12 @@ def run(
         check_target(source, target)
         tree = vocabulary if isinstance(vocabulary, Vocabulary) else _tree(vocabulary)
         given = read_labels(labels, tree) if isinstance(labels, str | Path) else labels or ()
-        corrections = read_corrections(target, tree)
+        history = read_history(target, tree)
         clock("read", 0)
         scene = load(source, config.load)
         check_layers(source, target)
         session = Session.start(
-            scene, config, labels=given, vocabulary=tree, labeler=labeler, corrections=corrections, progress=clock
+            scene, config, labels=given, vocabulary=tree, labeler=labeler, history=history, progress=clock
         )
         if isinstance(labeler, AskingLabeler) and labeler.only_asks and (target / "graph.json").exists():
             clock("", 1)
