@@ -22,6 +22,7 @@ import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 from _timing import machine
@@ -29,10 +30,12 @@ from _timing import machine
 import cadgraph
 from cadgraph._io.progress import Progress, quiet
 from cadgraph.labelers.base import Labeling
+from cadgraph.labelers.embedded.labeler import EmbeddedLabeler
 from cadgraph.labelers.precedence import lay_corrections
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import Label
 from cadgraph.model.parts import Contacts, Parts
+from cadgraph.model.probabilities import Probabilities
 from cadgraph.model.records import Part
 from cadgraph.model.scene import Scene
 from cadgraph.model.truth import Truth
@@ -101,13 +104,14 @@ class WrongLabeler:
     """
 
     def __init__(self, truth: Truth, how: str, seed: int) -> None:
-        self._true = {row.mesh: (row.group, row.name) for row in truth.meshes if row.group and row.name}
+        self._true = {row.mesh: (row.group, row.name) for row in truth.meshes if row.group is not None}
         self._how, self._rng = how, np.random.default_rng([seed, 41])
 
     def label(self, parts: Parts, contacts: Contacts, vocabulary: Vocabulary) -> Labeling:
         """Labels parts; see ``Labeler``."""
-        said: list[Said | None] = [self._true.get(path) for path in parts.scene.paths]
-        wrong = self._shapes(parts, contacts, vocabulary, said) if self._how == "shape" else self._singles(said)
+        own = EmbeddedLabeler().label(parts, contacts, vocabulary)
+        said = [_completed(self._true.get(path), own.answers[k]) for k, path in enumerate(parts.scene.paths)]
+        wrong = self._singles(said) if self._how == "single" else self._shapes(parts, own.probabilities, said)
         said = [wrong.get(part, one) for part, one in enumerate(said)]
         sure = np.round(self._rng.uniform(0.85, 0.99, len(said)), 3).tolist()
         return Labeling.judge(
@@ -125,13 +129,8 @@ class WrongLabeler:
                 found[part] = others[int(self._rng.integers(len(others)))]
         return found
 
-    def _shapes(
-        self, parts: Parts, contacts: Contacts, vocabulary: Vocabulary, said: Sequence[Said | None]
-    ) -> dict[int, Said]:
+    def _shapes(self, parts: Parts, probable: Probabilities | None, said: Sequence[Said | None]) -> dict[int, Said]:
         """All repeats of shapes at random, each shape as what the embedded labeler might take it for."""
-        from cadgraph.labelers.embedded.labeler import EmbeddedLabeler
-
-        probable = EmbeddedLabeler().label(parts, contacts, vocabulary).probabilities
         known = np.array([one is not None for one in said])
         goal, found = round(WRONG * known.sum()), dict[int, Said]()
         for shape in self._rng.permutation(np.unique(parts.shape)).tolist():
@@ -147,6 +146,13 @@ class WrongLabeler:
         return found
 
 
+def _completed(true: Said | None, own: Label | None) -> Said | None:
+    """A true label; where the truth leaves the name open, the labeler's if its group is right."""
+    if true is None or true[1] is not None or own is None or own.group != true[0]:
+        return true
+    return own.said
+
+
 @dataclass
 class Run:
     """What came of answering questions.
@@ -159,7 +165,8 @@ class Run:
         offered: of these, with the right answer among the options.
         elsewhere: of the decisions, questions about the network, which were passed over.
         unknown: questions about parts whose truth nobody knows, which were passed over and not counted.
-        seconds: that the queue took, median.
+        seconds: that the queue took each time.
+        asked_with_options: whether the order offers answers.
     """
 
     n: int = 0
@@ -170,12 +177,13 @@ class Run:
     unknown: int = 0
     wrong: dict[int, int] = field(default_factory=dict)
     seconds: list[float] = field(default_factory=list)
+    asked_with_options: bool = True
 
     def cells(self) -> list[str]:
         """Accuracy at each mark, and the rest."""
         shares = [f"{1 - self._at(mark) / max(self.n, 1):.2%}" for mark in MARKS]
         done = next((str(k) for k, wrong in sorted(self.wrong.items()) if wrong == 0), f"{self._at(MARKS[-1])} left")
-        right = f"{self.offered} of {self.useful}"
+        right = f"{self.offered} of {self.useful}" if self.asked_with_options else "-"
         return [*shares, done, str(self.useful), right, str(self.elsewhere), f"{np.median(self.seconds or [0]):.2f}"]
 
     def _at(self, mark: int) -> int:
@@ -242,7 +250,7 @@ def review(session: QuickSession, truth: Truth, order: str, most: int, every: in
     """Answers questions until so many decisions are made or nothing is wrong."""
     graph = session.renew()
     true = truths_of(pair(graph, truth))
-    run, skipped, rng = Run(n=len(true)), set[str](), np.random.default_rng(7)
+    run, skipped, rng = Run(n=len(true), asked_with_options=order == "queue"), set[str](), np.random.default_rng(7)
     run.wrong[0] = count_wrong(graph, truth)
     while run.decisions < most and run.wrong[max(run.wrong)]:
         start = time.perf_counter()
@@ -250,8 +258,9 @@ def review(session: QuickSession, truth: Truth, order: str, most: int, every: in
         run.seconds.append(time.perf_counter() - start)
         if question is None:
             break
-        run.decisions += question.kind not in ("label", "contradiction") or _shown(session, question) in true
-        if question.kind not in ("label", "contradiction") or len(question.parts) != 1:
+        about_label = question.id.startswith("label:")
+        run.decisions += not about_label or _shown(session, question) in true
+        if not about_label:
             run.elsewhere += 1
             skipped.add(question.id)
         elif _shown(session, question) not in true:
@@ -305,7 +314,7 @@ def main() -> None:
         for how in options.wrong:
             for order in options.orders:
                 labeler = None if how == "own" else WrongLabeler(truth, how, 0)
-                session = QuickSession.start(scene, labeler=labeler)
+                session = cast("QuickSession", QuickSession.start(scene, labeler=labeler))
                 run = review(session, truth, order, options.most, options.every, options.verbose)
                 rows.append([name, how, order, str(run.n), *run.cells()])
                 print(" | ".join(rows[-1]), flush=True)

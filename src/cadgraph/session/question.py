@@ -34,7 +34,8 @@ class Question:
     Args:
         id: the same as long as it is about the same: its kind and the source path of a mesh.
         kind: ``label``: what an unsure part is; ``contradiction``: a label, or a gap, that something speaks against;
-            ``ports``: a unit short of a line; ``joint``: two ends that may be joined; ``kind``: a unit of open kind.
+            ``ports``: a unit short of a line; ``joint``: two ends that may be joined; ``kind``: what may turn a
+            valve whose kind is open.
         title: the question.
         why: it is asked, in words.
         parts: ids of what it is about, to be shown in place.

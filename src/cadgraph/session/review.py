@@ -72,7 +72,9 @@ def _ask(state: ReviewState, batch: Batch) -> Question:
     )
 
 
-def _kind(state: ReviewState, part: int) -> Literal["label", "contradiction"]:
+def _kind(state: ReviewState, part: int) -> Literal["label", "contradiction", "kind"]:
+    if part in state.deciding_kind:
+        return "kind"
     label = state.nodes[part].label
     doubted = label is not None and not label.likely and label.name is not None
     return "contradiction" if doubted and state.suspicion.wrong[part] >= _CONTRADICTS else "label"
@@ -121,6 +123,10 @@ def _why(state: ReviewState, batch: Batch) -> str:
     if tags:
         shown = ", ".join(list(tags)[:3])
         told.append(f"it belongs to {shown}{f' and {len(tags) - 3} more' if len(tags) > 3 else ''}")
+    if batch.leader in state.deciding_kind:
+        unit = state.unit_of[batch.leader]
+        guesses = " or ".join(f"{kind} ({sure:.0%})" for kind, sure in unit.kind_guesses)
+        told.append(f"the kind of {unit.tag} is open: {guesses}; what turns it tells")
     if len(batch.groups) > 1:
         told.append(f"{1 + len(batch.others)} parts of {len(batch.groups)} shapes that look alike")
     return "; ".join(told)

@@ -1,4 +1,4 @@
-"""Questions about the network: joints not made, units short of a line, gaps in lines, open kinds of valves."""
+"""Questions about the network: joints not made, units short of a line, gaps in lines."""
 
 from __future__ import annotations
 
@@ -14,13 +14,10 @@ from cadgraph.session.review_state import ReviewState
 __all__ = ["network_questions"]
 
 # What an answer is worth beside one about a label that is surely wrong (1): a joint by how likely it is, a unit that is
-# short of a line or a gap in a line as a label that is wrong with even odds, an open kind less.
-_JOINT, _SHORT, _GAP, _KIND = 1.5, 0.5, 0.4, 0.2
+# short of a line or a gap in a line as a label that is wrong with even odds.
+_JOINT, _SHORT, _GAP = 1.5, 0.5, 0.4
 _MOST_JOINS = 3
 _IN_QUEUE = 0.1  # doubt from which on a label is asked about first, which may settle the unit's lines, too
-# What turns a valve tells its kind.
-_OPERATORS = ("handwheel", "lever", "actuator", "gearbox")
-_LEAST_OPERATOR = 0.02  # probability of them all from which on a part may be one
 
 
 def network_questions(state: ReviewState) -> list[Question]:
@@ -36,7 +33,6 @@ def network_questions(state: ReviewState) -> list[Question]:
         *joints,
         *shorts,
         *(gap for gap in _gaps(state) if frozenset(gap.parts) not in asked),
-        *_kinds(state),
     ]
 
 
@@ -91,17 +87,20 @@ def _ports(state: ReviewState) -> Iterator[Question]:
             continue
         main = _main_part(state, unit)
         label = state.nodes[main].label
-        if (label is not None and label.source == "human") or _is_doubted(state, unit):
+        if _is_doubted(state, unit):
             continue
         joins = [
             _sure(_pair("join", joint.first, joint.second), joint.score)
             for joint in _open_joints(state, unit)
             if not _is_settled(state, joint.first, joint.second)
-        ]
-        named = [
-            Option(f"it joins {_other(state, unit, option)}", option.confidence, option.edits)
-            for option in joins[:_MOST_JOINS]
-        ]
+        ][:_MOST_JOINS]
+        if not joins and label is not None and label.source == "human":
+            # Whoever says that it is what it is called sees nothing to be joined to it.
+            continue
+        named = [Option(f"it joins {_other(state, unit, one)}", one.confidence, one.edits) for one in joins]
+        if joins:
+            cuts = tuple({**one.edits[0], "kind": "cut"} for one in joins)
+            named.append(Option("it joins none of these", None, cuts))
         yield Question(
             id=f"ports:{state.nodes[main].meshes[0]}",
             kind="ports",
@@ -189,41 +188,3 @@ def _gaps(state: ReviewState) -> Iterator[Question]:
             gain=_GAP,
             options=(_pair("join", first, second), _pair("cut", first, second), *relabel),
         )
-
-
-def _kinds(state: ReviewState) -> Iterator[Question]:
-    """Valves of open kind, where a part may be what turns it, which tells the kind."""
-    for unit in state.graph.units("valve"):
-        if unit.kind is not None or not unit.kind_guesses or len(unit.parts) < 2 or _is_doubted(state, unit):
-            continue
-        chance = {state.rank[part]: _operator_chance(state, state.rank[part]) for part in unit.parts}
-        part = max(chance, key=lambda one: (chance[one], -one))
-        label = state.nodes[part].label
-        if chance[part] < _LEAST_OPERATOR or (label is not None and label.source == "human"):
-            continue
-        guesses = " or ".join(f"{kind} ({sure:.0%})" for kind, sure in unit.kind_guesses)
-        group = next((g for g, name in state.suspicion.classes if name in _OPERATORS), "")
-        named = sorted(
-            ((state.suspicion.share(state.suspicion.values, part, (group, name)), name) for name in _OPERATORS),
-            key=lambda one: (-one[0], one[1]),
-        )
-        node = state.nodes[part]
-        yield Question(
-            id=f"kind:{node.meshes[0]}",
-            kind="kind",
-            title=f"What turns {unit.tag}?",
-            why=f"its kind is open: {guesses}; what turns it tells",
-            parts=(node.id,),
-            alike=(),
-            gain=_KIND,
-            options=tuple(
-                Option(name, round(sure, 4), label_edits((node.id,), group, name))
-                for sure, name in named
-                if state.vocabulary.holds(group, name)
-            ),
-        )
-
-
-def _operator_chance(state: ReviewState, part: int) -> float:
-    columns = [k for k, (_, name) in enumerate(state.suspicion.classes) if name in _OPERATORS]
-    return float(state.suspicion.values[part, columns].sum())

@@ -24,6 +24,10 @@ __all__ = ["ReviewState"]
 
 # What hangs on a part: of a valve, which isolates; of any other unit, or in a line; or whether there is a unit or line.
 _VALVE, _FUNCTIONAL, _DECIDES = 1.5, 1.25, 1.5
+_OPEN_KIND = 2.0  # of a part that may be what turns a valve whose kind is open
+# What turns a valve tells its kind.
+_OPERATORS = ("handwheel", "lever", "actuator", "gearbox")
+_LEAST_OPERATOR = 0.05  # probability of them all from which on a part may be one
 _CODES = CONTRADICTIONS | {"file-disagrees"}
 
 
@@ -39,6 +43,7 @@ class ReviewState:
         contradicted: parts at which something does not add up.
         stakes: ``(n_parts,)`` how much hangs on each part, 1 where nothing does.
         unit_of: the unit that a part belongs to.
+        deciding_kind: parts that may be what turns a valve whose kind is open.
         vocabulary: the tree that the labels are from.
         settled_pairs: source paths of two meshes of which a user has said whether they join.
     """
@@ -50,6 +55,7 @@ class ReviewState:
     contradicted: frozenset[int]
     stakes: Floats
     unit_of: Mapping[int, Unit]
+    deciding_kind: frozenset[int]
     vocabulary: Vocabulary
     settled_pairs: tuple[tuple[str, str], ...] = ()
 
@@ -73,8 +79,10 @@ class ReviewState:
             stakes[part] = max(stakes[part], _FUNCTIONAL)
         for part, unit in unit_of.items():
             stakes[part] = max(stakes[part], _VALVE if unit.unit_type == "valve" else _FUNCTIONAL)
+        deciding = _deciding_kind(unit_of, suspicion)
+        stakes[sorted(deciding)] = _OPEN_KIND
         pairs = tuple((e.first.mesh, e.second.mesh) for e in session.corrections if isinstance(e, Join | Cut))
-        return cls(graph, nodes, number, suspicion, contradicted, stakes, unit_of, session.vocabulary, pairs)
+        return cls(graph, nodes, number, suspicion, contradicted, stakes, unit_of, deciding, session.vocabulary, pairs)
 
     @cached_property
     def network(self) -> Network:
@@ -123,3 +131,18 @@ def _decisive(nodes: tuple[Part, ...], suspicion: Suspicion, vocabulary: Vocabul
         if likeliest != now and (likeliest in functional or now in functional):
             stakes[part] = _DECIDES
     return stakes
+
+
+def _deciding_kind(unit_of: Mapping[int, Unit], suspicion: Suspicion) -> frozenset[int]:
+    """Parts of valves of open kind that may be what turns them, or may not."""
+    columns = [k for k, (_, name) in enumerate(suspicion.classes) if name in _OPERATORS]
+    return frozenset(
+        part
+        for part, unit in unit_of.items()
+        if unit.unit_type == "valve"
+        and unit.kind is None
+        and unit.kind_guesses
+        and len(unit.parts) > 1
+        and suspicion.values[part, columns].sum() >= _LEAST_OPERATOR
+        and suspicion.wrong[part] >= _LEAST_OPERATOR
+    )
