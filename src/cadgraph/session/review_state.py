@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -73,14 +73,12 @@ class ReviewState:
         )
         rank = {node.id: k for k, node in enumerate(nodes)}
         unit_of = {rank[part]: unit for unit in graph.units() for part in unit.parts}
-        in_line = {rank[part] for edge in graph.of_kind(Connected) for part in edge.via if part in rank}
-        stakes = _decisive(nodes, suspicion, session.vocabulary)
-        for part in in_line:
-            stakes[part] = max(stakes[part], _FUNCTIONAL)
-        for part, unit in unit_of.items():
-            stakes[part] = max(stakes[part], _VALVE if unit.unit_type == "valve" else _FUNCTIONAL)
         deciding = _deciding_kind(unit_of, suspicion)
-        stakes[sorted(deciding)] = _OPEN_KIND
+        stakes = _decisive(nodes, suspicion, session.vocabulary)
+        in_line = {rank[part] for edge in graph.of_kind(Connected) for part in edge.via if part in rank}
+        _raise(stakes, in_line | unit_of.keys(), _FUNCTIONAL)
+        _raise(stakes, {part for part, unit in unit_of.items() if unit.unit_type == "valve"}, _VALVE)
+        _raise(stakes, deciding, _OPEN_KIND)
         pairs = tuple((e.first.mesh, e.second.mesh) for e in session.corrections if isinstance(e, Join | Cut))
         return cls(graph, nodes, number, suspicion, contradicted, stakes, unit_of, deciding, session.vocabulary, pairs)
 
@@ -116,6 +114,12 @@ def _opinions(session: Session) -> Probabilities | None:
     said = session.labeling
     own = all(answer is None or answer.source == "geometry" for answer in said.answers)
     return said.probabilities if own else None
+
+
+def _raise(stakes: Floats, parts: Collection[int], least: float) -> None:
+    """Lets at least so much hang on some parts."""
+    rows = sorted(parts)
+    stakes[rows] = np.maximum(stakes[rows], least)
 
 
 def _decisive(nodes: tuple[Part, ...], suspicion: Suspicion, vocabulary: Vocabulary) -> Floats:
