@@ -18,6 +18,7 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import CorrectedEvidence, FileEvidence, GeometryEvidence, GivenEvidence, Label
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.records import Part
+from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary
 from cadgraph.session.run import Clock, Outcome, check_layers, check_target, write_results
 from cadgraph.session.session import Session
@@ -65,7 +66,15 @@ def relabel(
 
 
 def reopen(
-    graph: SceneGraph, target: Path, source: Path, config: Config, labeler: Labeler | None, progress: Progress = quiet
+    graph: SceneGraph,
+    target: Path,
+    source: Path,
+    config: Config,
+    labeler: Labeler | None,
+    progress: Progress = quiet,
+    *,
+    scene: Scene | None = None,
+    anew: bool = False,
 ) -> Session:
     """A session on the scene of a finished graph, with its vocabulary, the labels given from outside, its corrections.
 
@@ -76,6 +85,8 @@ def reopen(
         config: all settings.
         labeler: says what the parts are; the one that is set if None.
         progress: called with the name of a stage and the share of it that is done.
+        scene: what ``load`` makes of the source, if it is at hand.
+        anew: whether the session makes its graph anew, as corrections may have been kept that ``graph`` doesn't show.
 
     Raises:
         LabelError: the corrections can't be read.
@@ -85,8 +96,9 @@ def reopen(
     check_target(source, target)
     tree = Vocabulary.from_json(graph.document.vocabulary, f"{target}: vocabulary of the graph")
     corrections = read_corrections(target, tree)
-    progress("read", 0)
-    scene = load(source, config.load)
+    if scene is None:
+        progress("read", 0)
+        scene = load(source, config.load)
     check_layers(source, target)
     return Session.start(
         scene,
@@ -95,7 +107,7 @@ def reopen(
         vocabulary=tree,
         labeler=labeler,
         corrections=corrections,
-        graph=graph if labeler is None or isinstance(labeler, FormerLabeler) else None,
+        graph=graph if not anew and (labeler is None or isinstance(labeler, FormerLabeler)) else None,
         progress=progress,
     )
 
