@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from pathlib import PurePosixPath, PureWindowsPath
 
-__all__ = ["natural_key", "natural_order", "printable", "tag_key", "xml_text"]
+__all__ = ["file_name", "natural_key", "natural_order", "printable", "tag_key", "xml_text"]
 
 _LONGEST = 20_000  # characters of a text that is sorted fast: their number must be a character
 _DIGITS = re.compile(r"([0-9]+)")
@@ -67,6 +68,11 @@ def tag_key(tag: str) -> NaturalKey:
 def printable(text: str, instead: str = " ") -> str:
     """A text with something else in place of each control character, line break or lone surrogate."""
     return "".join(letter if letter.isprintable() else instead for letter in text)
+
+
+def file_name(path: str) -> str:
+    """The last step of a path of any system, which tells nobody where a user keeps files; ``""`` of none."""
+    return PureWindowsPath(PurePosixPath(path).name).name
 
 
 def xml_text(text: str) -> str:

@@ -1,7 +1,7 @@
 import numpy as np
 
 from cadgraph.config import ReportConfig
-from cadgraph.draw.report.colors import RELATION, group_colors
+from cadgraph.draw.colors import RELATION, group_colors
 from cadgraph.draw.report.pictures import cluster_colors, draw_pictures, largest_first
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Terminal

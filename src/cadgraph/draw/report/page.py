@@ -6,11 +6,12 @@ import base64
 import hashlib
 import io
 from importlib import resources
-from pathlib import Path, PurePath
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cadgraph._io.atomic import write_atomically
 from cadgraph._io.progress import Progress, quiet
+from cadgraph._io.text import file_name
 from cadgraph.config import ReportConfig
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Connected
@@ -68,7 +69,7 @@ def _page(graph: SceneGraph, pictures: list[Picture]) -> str:
     from cadgraph import __version__
     from cadgraph.draw.report import tables
     from cadgraph.draw.report.chart import draw_bars
-    from cadgraph.draw.report.colors import color_of_unit_type, group_colors
+    from cadgraph.draw.colors import color_of_unit_type, group_colors
 
     environment = jinja2.Environment(
         loader=jinja2.FunctionLoader(_asset), autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True,
@@ -77,7 +78,7 @@ def _page(graph: SceneGraph, pictures: list[Picture]) -> str:
     colors = group_colors(graph)
     style, script = _asset("page.css"), _asset("page.js")
     return environment.get_template("page.html").render(
-        name=PurePath(graph.source.path.replace("\\", "/")).name or "scene",
+        name=file_name(graph.source.path) or "scene",
         version=__version__,
         style=style,
         script=script,

@@ -6,22 +6,21 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from pathlib import PurePosixPath, PureWindowsPath
 
-from cadgraph._io.text import tag_key
+from cadgraph._io.text import file_name, tag_key
 from cadgraph.draw.schematic.layout import Placed, Way, lay_out, pack
 from cadgraph.draw.schematic.plan import Cell, Edge, Row, plan_systems
 from cadgraph.draw.schematic.symbol import TAG_SIZE, Symbol, clean, text_width
 from cadgraph.draw.svg import Svg, element, joined, number
 from cadgraph.query.network import Network
 
-__all__ = ["draw_sheet"]
+__all__ = ["STYLE", "draw_sheet"]
 
 _MARGIN = 28.0  # px around the drawing
 _GAP = 46.0  # px between systems
 _CAPTION = 22.0  # px above a system
 _BLOCK = (300.0, 62.0)  # px, the title block
-_STYLE = (
+_RULES = (
     "text{font-family:Arial,Helvetica,'Liberation Sans',sans-serif;fill:#111}"
     ".c{text-anchor:middle}.r{text-anchor:end}.l{fill:#33506e}.g{fill:#667}.h{font-weight:bold}"
     ".s{fill:#fff;stroke:#111;stroke-width:1.2;stroke-linejoin:round}"
@@ -30,6 +29,8 @@ _STYLE = (
     ".k{fill:#111}.w{fill:#fff}.p{fill:none;stroke:#111;stroke-width:1.6;stroke-linecap:round}.i{fill:none;stroke:#111;stroke-width:.8}"
     ".u{stroke-dasharray:6 3}.f{fill:none;stroke:#99a;stroke-width:1}"
 )
+STYLE = ".schematic " + "}.schematic ".join(_RULES.rstrip("}").split("}")) + "}"
+"""Rules that hold for the schematic alone where it stands in a page."""
 
 Box = tuple[float, float, float, float]
 
@@ -44,7 +45,7 @@ class _Paper:
     segments: list[Box] = field(default_factory=list)
 
 
-def draw_sheet(network: Network, system: str | None = None) -> str:
+def draw_sheet(network: Network, system: str | None = None, styled: bool = True) -> str:
     """The sheet of :func:`cadgraph.draw.schematic.draw_diagram`."""
     placed = [lay_out(sketch) for sketch in plan_systems(network, system)]
     sizes = [(p.box[2] - p.box[0], p.box[3] - p.box[1] + _CAPTION) for p in placed]
@@ -67,8 +68,8 @@ def draw_sheet(network: Network, system: str | None = None) -> str:
     body.append(_title_block(network, width, height, len(placed), system))
     drawn = element(
         "svg",
-        element("title", f"Schematic of {_file_name(network.graph.source.path)}"),
-        element("style", Svg(f".schematic {_scoped(_STYLE)}")),
+        element("title", f"Schematic of {_sheet_name(network)}"),
+        *([element("style", Svg(STYLE))] if styled else []),
         element("rect", class_="w", width="100%", height="100%"),
         element("rect", class_="f", x=8, y=8, width=width - 16, height=height - 16),
         *body,
@@ -80,11 +81,6 @@ def draw_sheet(network: Network, system: str | None = None) -> str:
         role="img",
     )
     return f"{drawn}\n"
-
-
-def _scoped(style: str) -> str:
-    """Rules that hold for the schematic alone where it stands in a page."""
-    return "}.schematic ".join(style.rstrip("}").split("}")) + "}"
 
 
 def _system(placed: Placed, dx: float, dy: float) -> Svg:
@@ -132,7 +128,7 @@ def _draw_junction(paper: _Paper, symbol: Symbol, centre: tuple[float, float], w
     for x, y in dots:
         paper.marks.append(symbol.draw(x, y))
         paper.boxes.append((x - 2.6, y - 2.6, x + 2.6, y + 2.6))
-    _name_point(paper, symbol.label, *dots[0])
+    _name_point(paper, symbol, *dots[0])
 
 
 def _directions(
@@ -155,14 +151,19 @@ def _directions(
 def _draw_way(paper: _Paper, row: Row, edge: Edge, way: Way) -> None:
     style = ("p" if row.line else "i") + ("" if edge.solid else " u")
     d = "M" + "L".join(f"{number(x)} {number(y)}" for x, y in way)
-    paper.pipes.append(element("path", class_=style, d=d))
+    paper.pipes.append(element("path", class_=style, d=d, data_line=_tag(row)))
     for (ax, ay), (bx, by) in zip(way, way[1:], strict=False):
         paper.segments.append((min(ax, bx), min(ay, by), max(ax, bx), max(ay, by)))
     if edge.flow == "in":
-        _draw_arrow(paper, way[::-1], 4.0)
+        _draw_arrow(paper, way[::-1], 4.0, _tag(row))
 
 
-def _draw_arrow(paper: _Paper, way: Way, short: float) -> None:
+def _tag(row: Row) -> str | None:
+    """The tag of a row's line; None of a tap."""
+    return row.line.tag if row.line else None
+
+
+def _draw_arrow(paper: _Paper, way: Way, short: float, line: str | None) -> None:
     """A filled arrow at the end of a way, a little short of it."""
     for (ax, ay), (bx, by) in zip(way[-2::-1], way[:0:-1], strict=False):
         length = math.hypot(bx - ax, by - ay)
@@ -172,7 +173,7 @@ def _draw_arrow(paper: _Paper, way: Way, short: float) -> None:
             left = (x - 8 * ux - 3 * uy, y - 8 * uy + 3 * ux)
             right = (x - 8 * ux + 3 * uy, y - 8 * uy - 3 * ux)
             corners = " ".join(f"{number(a)},{number(b)}" for a, b in ((x, y), left, right))
-            paper.marks.append(element("polygon", class_="k", points=corners))
+            paper.marks.append(element("polygon", class_="k", points=corners, data_line=line))
             return
 
 
@@ -184,7 +185,8 @@ def _draw_row(paper: _Paper, row: Row, x: float, y: float) -> None:
     if row.line is None and row.cells:
         last = row.cells[-1]
         end = left + used - last.width / 2
-    paper.pipes.append(element("path", class_=style, d=f"M{number(left)} {number(y)}H{number(end)}"))
+    d = f"M{number(left)} {number(y)}H{number(end)}"
+    paper.pipes.append(element("path", class_=style, d=d, data_line=_tag(row)))
     paper.segments.append((left, y, left + row.width, y))
     at = left + (row.width - used) / 2 if row.line else left
     for cell in row.cells:
@@ -192,7 +194,7 @@ def _draw_row(paper: _Paper, row: Row, x: float, y: float) -> None:
         at += cell.width
     if row.label:
         low = max((cell.symbol.bottom for cell in row.cells if cell.symbol), default=0.0)
-        _text(paper, row.label, x, y + max(low, 2.0) + 8.5, 7.0, "c l")
+        _text(paper, row.label, x, y + max(low, 2.0) + 8.5, 7.0, "c l", data_line=_tag(row))
 
 
 def _draw_cell(paper: _Paper, cell: Cell, x: float, y: float, style: str) -> None:
@@ -210,6 +212,7 @@ def _draw_cell(paper: _Paper, cell: Cell, x: float, y: float, style: str) -> Non
                 y - cell.symbol.top - (7 if cell.symbol.form == "check" else 3),
                 TAG_SIZE,
                 "c",
+                data_id=cell.place,
             )
     foot = y
     for symbol in cell.hanging:
@@ -218,10 +221,10 @@ def _draw_cell(paper: _Paper, cell: Cell, x: float, y: float, style: str) -> Non
         paper.marks.append(symbol.draw(x, middle))
         paper.boxes.append((x - symbol.left, middle - symbol.top, x + symbol.right, middle + symbol.bottom))
         if symbol.label_width:
-            _text(paper, symbol.label, x + symbol.right + 2, middle + 3, 6.5, "")
+            _text(paper, symbol.label, x + symbol.right + 2, middle + 3, 6.5, "", data_id=symbol.place)
         foot = middle - symbol.top
     if cell.symbol is None:
-        paper.marks.append(element("circle", class_="k", cx=x, cy=y, r=1.8))
+        paper.marks.append(element("circle", class_="k", cx=x, cy=y, r=1.8, data_id=cell.place or None))
 
 
 def _draw_reducer(paper: _Paper, x: float, y: float, sizes: tuple[int, int]) -> None:
@@ -244,11 +247,12 @@ def _draw_anchor(paper: _Paper, symbol: Symbol, x: float, y: float, own: list[tu
         ax, ay = ways[0][0]
         reach = x - math.copysign(symbol.left, x - ax) if abs(ax - x) > abs(ay - y) else x
         paper.pipes.append(element("path", class_="p", d=f"M{number(ax)} {number(ay)}L{number(reach)} {number(y)}"))
-        _text(paper, symbol.label, x, y + symbol.bottom + 8, 6.5, "c g")
+        _text(paper, symbol.label, x, y + symbol.bottom + 8, 6.5, "c g", data_id=symbol.place)
     paper.marks.append(symbol.draw(x, y))
     paper.boxes.append((x - symbol.left, y - symbol.top, x + symbol.right, y + symbol.bottom))
     if symbol.label_width and symbol.form not in ("junction", "blind"):
-        _text(paper, symbol.label, x, y - symbol.top - 4, TAG_SIZE, "c h" if symbol.form == "pump" else "c")
+        style = "c h" if symbol.form == "pump" else "c"
+        _text(paper, symbol.label, x, y - symbol.top - 4, TAG_SIZE, style, data_id=symbol.place)
 
 
 def _name_port(paper: _Paper, port: str, way: Way) -> None:
@@ -262,20 +266,22 @@ def _name_port(paper: _Paper, port: str, way: Way) -> None:
     _free_text(paper, clean(port), spots, 6.0, "g")
 
 
-def _name_point(paper: _Paper, name: str, x: float, y: float) -> None:
-    short = name.replace("junction-", "J-")
+def _name_point(paper: _Paper, symbol: Symbol, x: float, y: float) -> None:
+    short = symbol.label.replace("junction-", "J-")
     width = text_width(short, 6.0)
     spots = [(x + 4, y + 9), (x - 4 - width, y + 9), (x + 4, y - 4), (x - 4 - width, y - 4)]
-    _free_text(paper, short, spots, 6.0, "g")
+    _free_text(paper, short, spots, 6.0, "g", symbol.place)
 
 
-def _free_text(paper: _Paper, text: str, spots: list[tuple[float, float]], size: float, style: str) -> None:
+def _free_text(
+    paper: _Paper, text: str, spots: list[tuple[float, float]], size: float, style: str, place: str | None = None
+) -> None:
     """A small text at the first spot that is free; none where all are taken, as the symbol's title has it too."""
     width = text_width(text, size)
     for x, y in spots:
         box = (x - 0.5, y - size, x + width + 0.5, y + 1)
         if not any(_overlap(box, other) for other in (*paper.boxes, *paper.segments)):
-            _text(paper, text, x, y, size, style)
+            _text(paper, text, x, y, size, style, data_id=place)
             return
 
 
@@ -283,11 +289,11 @@ def _overlap(a: Box, b: Box) -> bool:
     return a[0] <= b[2] and b[0] <= a[2] and a[1] <= b[3] and b[1] <= a[3]
 
 
-def _text(paper: _Paper, text: str, x: float, y: float, size: float, style: str) -> None:
+def _text(paper: _Paper, text: str, x: float, y: float, size: float, style: str, **data: str | None) -> None:
     width = text_width(text, size)
     left = x - width / 2 if "c" in style.split() else x
     paper.boxes.append((left, y - size, left + width, y + 1))
-    paper.marks.append(element("text", text, class_=style or None, x=x, y=y, font_size=size))
+    paper.marks.append(element("text", text, class_=style or None, x=x, y=y, font_size=size, **data))
 
 
 def _title_block(network: Network, width: float, height: float, count: int, system: str | None) -> Svg:
@@ -296,7 +302,7 @@ def _title_block(network: Network, width: float, height: float, count: int, syst
     w, h = _BLOCK
     x, y = width - _MARGIN - w, height - _MARGIN - h
     rows = (
-        ("h", 10.0, _file_name(network.graph.source.path)),
+        ("h", 10.0, _sheet_name(network)),
         ("", 8.0, f"Schematic of {system or f'{count} system' + 's' * (count != 1)}, not to scale"),
         ("g", 7.0, "Derived from geometry, to be checked on site. Arrow: known flow. Dashed: unsure."),
         ("g", 7.0, f"cadgraph {__version__} · symbols after ISO 10628-2 and ISA 5.1"),
@@ -307,9 +313,8 @@ def _title_block(network: Network, width: float, height: float, count: int, syst
     return joined(drawn)
 
 
-def _file_name(path: str) -> str:
-    """The last part of a path of any system; the page must not tell where a user keeps files."""
-    return clean(PureWindowsPath(PurePosixPath(path).name).name) or "untitled"
+def _sheet_name(network: Network) -> str:
+    return clean(file_name(network.graph.source.path)) or "untitled"
 
 
 def _loose_units(network: Network) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from cadgraph._io.text import xml_text
@@ -37,6 +37,7 @@ class Symbol:
         flow: 1 where the flow goes to the right, -1 to the left, 0 where nobody knows.
         letters: of an instrument (``"PI"``).
         upright: whether it stands on a vertical line.
+        place: id of the node.
     """
 
     form: str
@@ -49,6 +50,7 @@ class Symbol:
     flow: int = 0
     letters: str = ""
     upright: bool = False
+    place: str = ""
 
     @property
     def width(self) -> float:
@@ -72,7 +74,7 @@ class Symbol:
         turn = " rotate(-90)" if self.upright and self.form in _TURNING else ""
         body = _FORMS[self.form](self)
         move = f"translate({number(x)} {number(y)}){turn}"
-        return element("g", element("title", self.title), body, transform=move)
+        return element("g", element("title", self.title), body, transform=move, data_id=self.place)
 
 
 def symbol_of(network: Network, place: str, flow: int = 0, upright: bool = False) -> Symbol:
@@ -84,6 +86,10 @@ def symbol_of(network: Network, place: str, flow: int = 0, upright: bool = False
         flow: 1 where the flow goes to the right through it, -1 to the left, 0 where nobody knows.
         upright: whether it stands on a vertical line.
     """
+    return replace(_symbol(network, place, flow, upright), place=place)
+
+
+def _symbol(network: Network, place: str, flow: int, upright: bool) -> Symbol:
     node = network.places[place]
     name, what = clean(network.name(place)), clean(network.what(place))
     title = f"{name}: {what}"

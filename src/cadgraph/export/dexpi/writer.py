@@ -5,11 +5,11 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from pathlib import Path, PurePosixPath, PureWindowsPath
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cadgraph._io.atomic import write_atomically
-from cadgraph._io.text import tag_key, xml_text
+from cadgraph._io.text import file_name, tag_key, xml_text
 from cadgraph.draw.schematic.symbol import instrument_letters
 from cadgraph.export.dexpi.element import Ids, add_item, add_nodes, add_position, add_values, diameter_values
 from cadgraph.export.dexpi.terms import INSTRUMENT, Term, term_of_terminal, term_of_unit
@@ -101,7 +101,7 @@ class _Document:
     def _head(self) -> None:
         from cadgraph import __version__
 
-        name = PureWindowsPath(PurePosixPath(self.network.graph.source.path).name).name or "plant"
+        name = file_name(self.network.graph.source.path) or "plant"
         information = ET.SubElement(
             self.root,
             "PlantInformation",

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from PIL import Image, ImageDraw, ImageFont
 
-from cadgraph.draw.report.colors import UNLABELLED, group_colors
+from cadgraph.draw.colors import UNLABELLED, group_colors
 from cadgraph.model.graph import SceneGraph
 
 __all__ = ["Slice", "distribution", "draw_pies"]
