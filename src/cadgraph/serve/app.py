@@ -17,11 +17,12 @@ from starlette.requests import Request
 from starlette.responses import Response, StreamingResponse
 from starlette.routing import Route
 
+from cadgraph.draw.web.content import as_bytes
 from cadgraph.errors import CadGraphError, UnknownNode
 from cadgraph.model.pipework import Direction
 from cadgraph.serve.guard import Doors, Guard, refuse
 from cadgraph.serve.plant import Plant
-from cadgraph.serve.snapshot import Snapshot, json_bytes
+from cadgraph.serve.snapshot import Snapshot
 from cadgraph.serve.state import Refusal, one_line
 
 __all__ = ["make_app"]
@@ -99,7 +100,7 @@ class _Answers:
 
     async def _events(self) -> AsyncIterator[bytes]:
         async for state in self._plant.feed.follow():
-            yield b":\n\n" if state is None else b"data: " + json_bytes(state.to_json()) + b"\n\n"
+            yield b":\n\n" if state is None else b"data: " + as_bytes(state.to_json()) + b"\n\n"
 
     async def content(self, request: Request) -> Response:
         shown = self._shown()
@@ -179,7 +180,7 @@ class _Answers:
 
 
 def _json(values: Any) -> Response:
-    return Response(json_bytes(values), media_type="application/json")
+    return Response(as_bytes(values), media_type="application/json")
 
 
 def _given(text: str | None) -> str:
@@ -226,7 +227,7 @@ async def _refusal(request: Request, error: Refusal) -> Response:
     if error.state is None:
         return refuse(request.url.path, error.status, one_line(error.reason))
     told = {"error": one_line(error.reason), "state": error.state.to_json()}
-    return Response(json_bytes(told), error.status, media_type="application/json")
+    return Response(as_bytes(told), error.status, media_type="application/json")
 
 
 async def _bad(request: Request, error: Exception) -> Response:

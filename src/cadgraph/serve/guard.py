@@ -13,7 +13,7 @@ from starlette.datastructures import Headers, MutableHeaders
 from starlette.responses import PlainTextResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from cadgraph.serve.snapshot import json_bytes
+from cadgraph.draw.web.content import as_bytes
 
 __all__ = ["POLICY", "Doors", "Guard", "is_loopback", "refuse"]
 
@@ -97,7 +97,7 @@ def _is_address(name: str) -> bool:
 def refuse(path: str, status: int, reason: str) -> Response:
     """An answer that says in one line why there is none: JSON for the page's calls, else plain text."""
     if path.startswith("/api/"):
-        return Response(json_bytes({"error": reason}), status, media_type="application/json")
+        return Response(as_bytes({"error": reason}), status, media_type="application/json")
     return PlainTextResponse(f"{reason}\n", status)
 
 

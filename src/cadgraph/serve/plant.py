@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -12,7 +11,9 @@ from typing import Any
 from cadgraph._io.atomic import ensure_writable
 from cadgraph._io.digest import sha256_of
 from cadgraph._io.run_folder import refuse_foreign
+from cadgraph._io.text import file_name
 from cadgraph.config import Config
+from cadgraph.draw.web.content import shown_meshes
 from cadgraph.draw.web.packing import PackedScene, pack_scene
 from cadgraph.errors import CadGraphError, FormatError, LabelError, LoadError, MissingExtra, OutputError
 from cadgraph.load import load
@@ -234,7 +235,7 @@ class Plant:
     def _reopen(self) -> None:
         folder = self._order.folder
         graph = SceneGraph.load(folder)
-        self.feed.publish(title=_file_name(graph.source.path))
+        self.feed.publish(title=file_name(graph.source.path))
         try:
             source, config = find_source(graph, folder, self._order.scene), config_of(folder)
             self._progress("read", 0)
@@ -250,19 +251,21 @@ class Plant:
         self._source = source
         now = session.make_graph(self._progress)
         shown = self.shown()
-        if now.document != graph.document:
-            # A server that was killed left corrections that the graph doesn't show, or another version made it.
+        # A server that was killed left corrections that the graph doesn't show, or another version made it. Where the
+        # source lies now is no such difference.
+        behind = now.document.model_copy(update={"source": graph.source}) != graph.document
+        if behind:
             self._snapshot = Snapshot(shown.version + 1, now, shown.scene)
         self._begin(session)
-        if now.document != graph.document and self.feed.state.read_only is None:
+        if behind and self.feed.state.read_only is None:
             self._saver.give(now)
 
     def _see(self, graph: SceneGraph, scene: Scene) -> None:
         """Makes the geometry ready for the page."""
         self._progress("draw", 0)
-        self._packed = pack_scene(scene)
+        self._packed = pack_scene(scene, shown_meshes(graph, scene))
         self._snapshot = Snapshot(1, graph, scene)
-        self.feed.publish(version=1, title=_file_name(graph.source.path))
+        self.feed.publish(version=1, title=file_name(graph.source.path))
 
     def _begin(self, session: Session) -> None:
         self._desk = Desk(session, self._order.folder)
@@ -454,8 +457,3 @@ class Plant:
     def _saved(self, failed: str | None) -> None:
         if failed is not None:
             self.feed.publish(message=f"corrections are kept, but the graph can't be written now: {failed}")
-
-
-def _file_name(path: str) -> str:
-    """The last step of a path of any system."""
-    return re.split(r"[\\/]", path)[-1]

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from cadgraph.draw.colors import group_colors
 from cadgraph.draw.schematic import draw_diagram
-from cadgraph.draw.web.content import content_of, network_of, parts_of
+from cadgraph.draw.web.content import as_bytes, content_of, diagnostics_of, network_of, parts_of
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.pipework import Direction
 from cadgraph.model.records import Part
@@ -18,16 +18,7 @@ from cadgraph.query import Doubt, Network, Trace, find_isolation, find_way, trac
 from cadgraph.query.explain import explain_any
 from cadgraph.query.text import isolation_lines, trace_lines, way_lines
 
-__all__ = ["Snapshot", "difference", "json_bytes"]
-
-
-def json_bytes(values: Any) -> bytes:
-    """Plain values as JSON in ASCII: a name from a file may hold half a character, which has no UTF-8.
-
-    Raises:
-        ValueError: a number is infinite or NaN.
-    """
-    return json.dumps(values, allow_nan=False, separators=(",", ":")).encode("ascii")
+__all__ = ["Snapshot", "difference"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +43,7 @@ class Snapshot:
     @cached_property
     def content(self) -> bytes:
         """All that the page is told of the graph, as JSON."""
-        return json_bytes(content_of(self.graph, self.scene, self.version))
+        return as_bytes(content_of(self.graph, self.scene, self.version))
 
     @cached_property
     def schematic(self) -> bytes:
@@ -138,27 +129,19 @@ def difference(before: Snapshot, now: Snapshot, changed: Sequence[Part]) -> dict
         The keys of an update from ``changed`` to ``reload``; where the parts themselves are others, only that.
     """
     old, new = before.graph.parts(), now.graph.parts()
-    if [(part.id, part.meshes) for part in old] != [(part.id, part.meshes) for part in new]:
-        nothing = {"changed": [], "rows": [], "parts": parts_of(now.graph, ()), "reload": True}
-        return {**nothing, "network": network_of(now.graph, now.row_of), "diagnostics": _diagnostics(now)}
+    same = [(part.id, part.meshes) for part in old] == [(part.id, part.meshes) for part in new]
+    same = same and list(group_colors(before.graph)) == list(group_colors(now.graph))
     rows = [
         row
-        for row, (was, part) in enumerate(zip(old, new, strict=True))
+        for row, (was, part) in enumerate(zip(old, new, strict=True) if same else ())
         if before.unit_row_of.get(part.id) != now.unit_row_of.get(part.id) or (was is not part and was != part)
     ]
+    x, y, z = now.scene.origin.tolist()
     return {
-        "changed": sorted(now.row_of[part.id] for part in changed),
+        "changed": sorted(now.row_of[part.id] for part in changed) if same else [],
         "rows": rows,
-        "parts": parts_of(now.graph, [new[row].id for row in rows]),
-        "network": network_of(now.graph, now.row_of),
-        "diagnostics": _diagnostics(now),
-        "reload": False,
+        "parts": parts_of(now.graph, [new[row].id for row in rows], (x, y, z)),
+        "network": network_of(now.graph, now.row_of, (x, y, z)),
+        "diagnostics": diagnostics_of(now.graph),
+        "reload": not same,
     }
-
-
-def _diagnostics(now: Snapshot) -> list[dict[str, Any]]:
-    found = []
-    for one in now.graph.diagnostics:
-        parts = {part.id: None for mesh in one.meshes if (part := now.graph.part_with(mesh)) is not None}
-        found.append({"code": one.code, "message": one.message, "parts": [now.row_of[part] for part in parts]})
-    return found

@@ -1,6 +1,5 @@
 """What other parts of the project bring, small enough to test the server alone."""
 
-import json
 import sys
 import types
 from dataclasses import dataclass, field
@@ -13,23 +12,10 @@ from cadgraph.session.session import Change, Session
 def install():
     if hasattr(corrections, "History"):
         return
-    content = types.ModuleType("cadgraph.draw.web.content")
-    content.content_of = lambda graph, scene, version: {
-        "version": version,
-        "parts": parts_of(graph, [part.id for part in graph.parts()]),
-        "network": network_of(graph, {}),
-    }
-    content.parts_of, content.network_of = parts_of, network_of
-    packing = types.ModuleType("cadgraph.draw.web.packing")
-    packing.PackedScene = Packed
-    packing.pack_scene = lambda scene: Packed(
-        {"n_meshes": scene.n_meshes, "instances": "instances.bin", "chunks": []}, {"instances.bin": b"1234"}
-    )
     review = types.ModuleType("cadgraph.session.review")
     review.Question, review.review_queue = Question, review_queue
     web = types.ModuleType("cadgraph.draw.web")
-    for module in (web, content, packing, review):
-        sys.modules[module.__name__] = module
+    sys.modules[review.__name__] = review
     corrections.History, corrections.read_history, corrections.write_history = History, read_history, write_history
     plain = Session.__init__
 
@@ -70,12 +56,6 @@ def _change(session, before, changed):
     object.__setattr__(change, "message", f"{len(changed)} parts changed")
     object.__setattr__(change, "regrouped", False)
     return change
-
-
-@dataclass(frozen=True)
-class Packed:
-    manifest: dict
-    files: dict
 
 
 @dataclass(frozen=True)
@@ -165,7 +145,11 @@ class Question:
     options: tuple = field(default=())
 
     def to_json(self):
-        return {"id": self.id, "title": self.title, "options": [{"text": o.text, "edits": list(o.edits)} for o in self.options]}
+        return {
+            "id": self.id,
+            "title": self.title,
+            "options": [{"text": o.text, "edits": list(o.edits)} for o in self.options],
+        }
 
 
 def review_queue(session, limit=50, skipped=()):
@@ -177,12 +161,3 @@ def review_queue(session, limit=50, skipped=()):
             edit = {"kind": "label", "part": part.id, "group": "Pipe assembly", "name": "tee", "this_only": True}
             found.append(Question(name, "What is this?", (Option("tee", (edit,)),)))
     return tuple(found[:limit])
-
-
-def parts_of(graph, ids):
-    parts = [graph.part(one) for one in ids]
-    return {"id": [part.id for part in parts], "name": [part.label and part.label.name for part in parts]}
-
-
-def network_of(graph, rows):
-    return {"units": [{"id": unit.id, "tag": unit.tag} for unit in graph.units()], "connections": []}
