@@ -94,11 +94,14 @@ class Served:
     def states(self):
         """The states as the page is told of them, for as long as the server runs."""
         connection = http.client.HTTPConnection(self.host, timeout=30)
-        connection.request("GET", "/api/events", headers={"Authorization": f"Bearer {self.token}"})
-        with connection.getresponse() as answer:
-            for line in answer:
-                if line.startswith(b"data: "):
-                    yield json.loads(line[6:])
+        try:
+            connection.request("GET", "/api/events", headers={"Authorization": f"Bearer {self.token}"})
+            with connection.getresponse() as answer:
+                for line in answer:
+                    if line.startswith(b"data: "):
+                        yield json.loads(line[6:])
+        finally:
+            connection.close()
 
     def wait_until_ready(self):
         """The first state in which the plant can be worked on."""

@@ -219,16 +219,6 @@ def test_work_ends_at_its_next_step_when_the_server_ends(folder):
     plant.close()
 
 
-def test_a_question_is_answered_by_its_options_or_put_aside(opened, folder):
-    plant = opened(folder)
-    plant.edit(1, [label(f"part-0000{i}", "Tank", None) for i in range(4)], "")
-    plant.undo(2)
-    if not (first := plant.review(1)):
-        pytest.skip("nothing to ask of these blocks")
-    plant.answer(3, first[0]["id"], "skip", "")
-    assert first[0]["id"] not in {one["id"] for one in plant.review(50)}
-
-
 def test_a_scene_is_built_once_then_opened_again(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     scene = serving.write_blocks(tmp_path / "plant.usda")
