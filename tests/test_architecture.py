@@ -32,16 +32,24 @@ MAY_IMPORT = {
     "query": {"_io", "errors", "model"},
     "draw.svg": {"_io"},
     "draw.schematic": {"_io", "draw.svg", "errors", "model", "query"},
-    "draw.report": {"_io", "config", "draw.render", "draw.schematic", "draw.svg", "errors", "model", "query"},
+    "draw.colors": {"draw.render", "model"},
+    "draw.report": {
+        *("_io", "config", "errors", "model", "query"),
+        *("draw.colors", "draw.render", "draw.schematic", "draw.svg"),
+    },
+    "draw.web": {"_io", "draw.colors", "draw.render", "geometry", "model", "query"},
     "draw.isometric": {"_io", "draw.svg", "errors", "model", "query"},
-    "export": {"_io", "config", "draw.isometric", "draw.schematic", "errors", "load", "model", "query"},
+    "export": {
+        *("_io", "config", "errors", "load", "model", "query"),
+        *("draw.isometric", "draw.schematic", "draw.web"),
+    },
     "session": {
         *("_io", "config", "errors", "geometry", "labelers", "load", "model", "pipeline", "query", "stages"),
         *("draw.report", "export"),
     },
     "cli": {
         *("_io", "config", "errors", "facts", "labelers", "load", "model", "pipeline", "query", "session"),
-        *("draw.render", "draw.report", "draw.schematic", "export"),
+        *("draw.render", "draw.report", "draw.schematic", "draw.web", "export"),
     },
     "draw": set(),
     "__main__": {"cli"},

@@ -32,6 +32,7 @@ __all__ = [
     "Section",
     "describe",
     "read_config",
+    "restore_config",
     "to_toml",
 ]
 
@@ -335,6 +336,21 @@ def read_config(path: str | Path, base: Config | None = None) -> Config:
         else:
             whole[name] = value
     return _validated(whole, str(path))
+
+
+def restore_config(tree: Mapping[str, Any]) -> Config:
+    """The settings that a graph keeps; the defaults where it says nothing.
+
+    Args:
+        tree: names and values, those of a section under its name, as ``graph.json`` has them under ``config``.
+
+    Raises:
+        ValueError: a name is not known any more, or a value out of its limits.
+    """
+    flat: dict[str, Any] = {}
+    for name, value in tree.items():
+        flat |= {f"{name}.{inner}": each for inner, each in value.items()} if isinstance(value, dict) else {name: value}
+    return Config().replace(flat)
 
 
 def describe(config: Config) -> Iterator[tuple[str, Any, str, str]]:

@@ -41,7 +41,7 @@ def export(
         typer.Option(
             "--to",
             metavar="FORMAT",
-            help="att, csv, dexpi, gltf, graphml, ifc, isometric, labels-csv, networkx-json or pcf.",
+            help="att, csv, dexpi, gltf, graphml, html, ifc, isometric, labels-csv, networkx-json or pcf.",
         ),
     ],
     output: Annotated[
@@ -49,10 +49,12 @@ def export(
     ] = None,
     source: Annotated[
         Path | None,
-        typer.Option("--source", metavar="FILE", help="For att, gltf and ifc: the scene itself, where it has moved."),
+        typer.Option(
+            "--source", metavar="FILE", help="For att, gltf, html and ifc: the scene itself, where it has moved."
+        ),
     ] = None,
 ) -> None:
-    """Write a graph in another format, or a copy of its source with the labels in it."""
+    """Write a graph in another format, as a page to look at, or a copy of its source with the labels in it."""
     from cadgraph.export import write_export
     from cadgraph.model.graph import SceneGraph
 

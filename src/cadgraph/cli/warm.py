@@ -14,6 +14,7 @@ from cadgraph.draw.render.annotation import Tag, annotate
 from cadgraph.draw.render.camera import frame
 from cadgraph.draw.render.pair import PairRenderer
 from cadgraph.draw.render.picture import Renderer
+from cadgraph.draw.web.packing import pack_scene
 from cadgraph.load import load
 from cadgraph.pipeline import build
 from cadgraph.session.demo import DEMO_SCENE
@@ -31,6 +32,7 @@ def warm_up() -> None:
     renderer.alone(0, camera, np.array([0.0, -1.0, 0.0, 0.0]))
     picture = Renderer(scene).picture(camera)
     annotate(picture, camera, tags=[Tag((0.0, 0.0, 0.0), "")])
+    pack_scene(scene)
 
 
 if __name__ == "__main__":

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import importlib.util
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Literal
 
-from cadgraph.errors import LoadError, MissingExtra
+from cadgraph.errors import LoadError
 from cadgraph.export.att import write_att
 from cadgraph.export.graphml import write_graphml
 from cadgraph.export.labels import write_labels
@@ -33,8 +33,7 @@ class Written:
     notes: tuple[Diagnostic, ...] = ()
 
 
-def _not_alone(graph: SceneGraph, path: Path) -> Written:
-    raise ValueError(f"{path}: this format needs the source of {graph.source.path}")
+Write = Callable[[SceneGraph, Path, Path | None], Written]
 
 
 @dataclass(frozen=True)
@@ -44,32 +43,26 @@ class Format:
     Args:
         name: as a user asks for it (``"graphml"``).
         meaning: what it is good for, one line.
-        write: takes the graph and the place to write to, and says what it wrote.
-        write_over: likewise with the source file between the two, where the format is a copy of the source.
-        write_with: likewise, where the format is the better for the source file but does without: it gets None, and
-            why, where the file isn't there any more.
+        write: takes the graph, the place to write to, and the file that the graph was made from or None, and says what
+            it wrote.
+        source: whether that file is ``"needed"``, or only ``"helps"`` where it is still there; ``"no"`` is never given.
         file: the name of its file where a folder is given; None if it always takes a folder.
-        copied_as: how the copy of a source, or what stands beside it, ends, by how the source ends.
+        copied_as: how the copy of a source, or what stands beside it, ends, by how the source ends; empty where any
+            source will do.
     """
 
     name: str
     meaning: str
-    write: Callable[[SceneGraph, Path], Written] = _not_alone
-    write_over: Callable[[SceneGraph, Path, Path], Written] | None = None
-    write_with: Callable[[SceneGraph, Path | None, str, Path], Written] | None = None
+    write: Write
+    source: Literal["no", "helps", "needed"] = "no"
     file: str | None = None
     copied_as: Mapping[str, str] = field(default_factory=dict)
 
-    @property
-    def needs_source(self) -> bool:
-        """Whether the file that the graph was made from has to be there."""
-        return self.write_over is not None
 
-
-def _write_att(graph: SceneGraph, source: Path | None, missing: str, path: Path) -> Written:
+def _write_att(graph: SceneGraph, path: Path, source: Path | None) -> Written:
     if source is None:
         file, notes = write_att(graph, path)
-        return Written((file,), tuple(Diagnostic(n.code, f"{n.message}: {missing}", n.meshes) for n in notes))
+        return Written((file,), notes)
     refuse_source(source, path)
     from cadgraph.load.rvm import element_names
 
@@ -77,41 +70,48 @@ def _write_att(graph: SceneGraph, source: Path | None, missing: str, path: Path)
     return Written((file,), notes)
 
 
-def _write_dexpi(graph: SceneGraph, path: Path) -> Written:
+def _write_dexpi(graph: SceneGraph, path: Path, _: Path | None) -> Written:
     # It places what it writes by the layout library, which the other formats do without.
     from cadgraph.export.dexpi import write_dexpi
 
     return Written((write_dexpi(graph, path),))
 
 
-def _write_labels(graph: SceneGraph, path: Path) -> Written:
+def _write_labels(graph: SceneGraph, path: Path, _: Path | None) -> Written:
     file, notes = write_labels(graph, path)
     return Written((file,), notes)
 
 
-def _write_gltf(graph: SceneGraph, source: Path, path: Path) -> Written:
+def _write_gltf(graph: SceneGraph, path: Path, source: Path | None) -> Written:
     from cadgraph.export.gltf import write_gltf
 
+    assert source is not None  # it is needed
     file, notes = write_gltf(graph, source, path)
     return Written((file,), notes)
 
 
-def _write_ifc(graph: SceneGraph, source: Path, path: Path) -> Written:
-    if importlib.util.find_spec("ifcopenshell") is None:
-        raise MissingExtra("writing IFC files", "ifc")
-    refuse_source(source, path)
+def _write_html(graph: SceneGraph, path: Path, source: Path | None) -> Written:
+    from cadgraph.export.html import write_html
+
+    assert source is not None  # it is needed
+    file, notes = write_html(graph, source, path)
+    return Written((file,), notes)
+
+
+def _write_ifc(graph: SceneGraph, path: Path, source: Path | None) -> Written:
     from cadgraph.export.ifc import write_ifc
 
+    assert source is not None  # it is needed
     return Written((write_ifc(graph, source, path),))
 
 
-def _write_pcf(graph: SceneGraph, path: Path) -> Written:
+def _write_pcf(graph: SceneGraph, path: Path, _: Path | None) -> Written:
     from cadgraph.export.pcf import write_pcf
 
     return Written(*write_pcf(graph, path))
 
 
-def _write_isometrics(graph: SceneGraph, path: Path) -> Written:
+def _write_isometrics(graph: SceneGraph, path: Path, _: Path | None) -> Written:
     from cadgraph.draw.isometric import write_isometrics
 
     return Written(*write_isometrics(graph, path))
@@ -121,14 +121,15 @@ _FORMATS = (
     Format(
         "att",
         "labels as PDMS attributes, beside an RVM file",
-        write_with=_write_att,
+        _write_att,
+        source="helps",
         file="labels.att",
         copied_as={".rvm": ".att", ".rev": ".att"},
     ),
     Format(
         "csv",
         "tables of parts, units, relations, clusters, contacts and meshes, for Excel",
-        lambda graph, path: Written(tuple(write_tables(graph, path))),
+        lambda graph, path, _: Written(tuple(write_tables(graph, path))),
     ),
     Format(
         "dexpi",
@@ -139,20 +140,29 @@ _FORMATS = (
     Format(
         "gltf",
         "a copy of a glTF source with the labels in the extras of its nodes",
-        write_over=_write_gltf,
+        _write_gltf,
+        source="needed",
         file="labelled.glb",
         copied_as={".glb": ".glb", ".gltf": ".gltf"},
     ),
     Format(
         "graphml",
         "the whole graph, for yEd, Gephi, Cytoscape",
-        lambda graph, path: Written((write_graphml(graph, path),)),
+        lambda graph, path, _: Written((write_graphml(graph, path),)),
         file="graph.graphml",
+    ),
+    Format(
+        "html",
+        "the plant and its network as one page to look at in a browser, from disk",
+        _write_html,
+        source="needed",
+        file="viewer.html",
     ),
     Format(
         "ifc",
         "a copy of an IFC source with the labels as a property set of its products",
-        write_over=_write_ifc,
+        _write_ifc,
+        source="needed",
         file="labelled.ifc",
         copied_as={".ifc": ".ifc", ".ifczip": ".ifc"},
     ),
@@ -165,7 +175,7 @@ _FORMATS = (
     Format(
         "networkx-json",
         "nodes and edges alone, for networkx.node_link_graph and d3",
-        lambda graph, path: Written((write_nodelink(graph, path),)),
+        lambda graph, path, _: Written((write_nodelink(graph, path),)),
         file="nodelink.json",
     ),
     Format("pcf", "each line as an Isogen piping component file", _write_pcf),
@@ -213,16 +223,20 @@ def write_export(graph: SceneGraph, to: str, path: str | Path, source: str | Pat
     if form is None:
         raise ValueError(f"no export format is called {to!r}; there are {', '.join(formats())}")
     target = Path(path)
-    if form.write_with is not None:
-        origin, missing = _source_if_there(form, graph, source)
-        return form.write_with(graph, origin, missing, _place(form, target, origin))
-    if form.write_over is None:
+    if form.source == "no":
         if source is not None:
             raise ValueError(f"{form.name} is written from the graph alone; leave --source out")
-        return form.write(graph, _place(form, target, None))
-    origin = find_source(graph, source)
-    _check_kind(form, origin, "a copy of")
-    return form.write_over(graph, origin, _place(form, target, origin))
+        return form.write(graph, _place(form, target, None), None)
+    if form.source == "needed":
+        origin = find_source(graph, source)
+        _check_kind(form, origin, "a copy of")
+        return form.write(graph, _place(form, target, origin), origin)
+    there, missing = _source_if_there(form, graph, source)
+    written = form.write(graph, _place(form, target, there), there)
+    if there is not None:
+        return written
+    notes = tuple(Diagnostic(note.code, f"{note.message}: {missing}", note.meshes) for note in written.notes)
+    return Written(written.files, notes)
 
 
 def _source_if_there(form: Format, graph: SceneGraph, given: str | Path | None) -> tuple[Path | None, str]:
@@ -240,7 +254,7 @@ def _source_if_there(form: Format, graph: SceneGraph, given: str | Path | None) 
 
 
 def _check_kind(form: Format, source: Path, what: str) -> None:
-    if source.suffix.lower() not in form.copied_as:
+    if form.copied_as and source.suffix.lower() not in form.copied_as:
         raise LoadError(
             f"{source}: {form.name} is {what} a {' or '.join(form.copied_as)} file, which this is not; "
             "'labels-csv' writes the labels by path"
@@ -253,7 +267,7 @@ def _place(form: Format, path: Path, source: Path | None) -> Path:
             raise ValueError(f"{path}: {form.name} is written as several files; give a folder")
         return path
     file = Path(form.file)
-    if source is not None:
+    if source is not None and form.copied_as:
         file = file.with_suffix(form.copied_as[source.suffix.lower()])
     names_file = path.suffix.lower() == file.suffix and not path.is_dir()
     return path if names_file else path / file

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 from cadgraph._io.digest import sha256_of
 from cadgraph._io.progress import Progress, quiet
 from cadgraph._io.run_folder import results_folder
-from cadgraph.config import Config
+from cadgraph.config import Config, restore_config
 from cadgraph.errors import FormatError, LabelError
 from cadgraph.labelers.base import AskingLabeler, Labeler, Labeling
 from cadgraph.load import load
@@ -129,14 +128,8 @@ def config_of(folder: str | Path) -> Config:
     Raises:
         FormatError: the folder holds no graph, or one with settings that aren't known any more.
     """
-    flat: dict[str, Any] = {}
-    for name, value in SceneGraph.load(folder).document.config.items():
-        if isinstance(value, dict):
-            flat.update({f"{name}.{inner}": each for inner, each in value.items()})
-        else:
-            flat[name] = value
     try:
-        return Config().replace(flat)
+        return restore_config(SceneGraph.load(folder).document.config)
     except ValueError as error:
         raise FormatError(f"{folder}: its settings can't be used any more ({error}); build the graph anew") from error
 

@@ -1,5 +1,5 @@
-from cadgraph.draw.report import tables
 from cadgraph.draw.colors import color_of_unit_type, group_colors
+from cadgraph.draw.report import tables
 from cadgraph.model.records import Connected, Terminal
 
 

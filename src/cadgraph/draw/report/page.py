@@ -67,9 +67,9 @@ def _page(graph: SceneGraph, pictures: list[Picture]) -> str:
     import jinja2
 
     from cadgraph import __version__
+    from cadgraph.draw.colors import color_of_unit_type, group_colors
     from cadgraph.draw.report import tables
     from cadgraph.draw.report.chart import draw_bars
-    from cadgraph.draw.colors import color_of_unit_type, group_colors
 
     environment = jinja2.Environment(
         loader=jinja2.FunctionLoader(_asset), autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True,

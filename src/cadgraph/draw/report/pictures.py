@@ -15,12 +15,12 @@ from PIL import Image
 
 from cadgraph._io.progress import Progress, quiet
 from cadgraph.config import ReportConfig
+from cadgraph.draw.colors import BACKDROP, RELATION, UNLABELLED, color_of_unit_type, group_colors
 from cadgraph.draw.render.annotation import Annotated, LegendEntry, Mark, Segment, Tag, annotate
 from cadgraph.draw.render.camera import Camera, frame
 from cadgraph.draw.render.color import distinct_colors, from_hex, source_colors, to_hex
 from cadgraph.draw.render.picture import Look, Paint, Renderer
 from cadgraph.draw.render.views import three_quarter_view
-from cadgraph.draw.colors import BACKDROP, RELATION, UNLABELLED, color_of_unit_type, group_colors
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Cluster, Connected, Edge, Junction, Part, Point, Related, Terminal, Unit
 from cadgraph.model.scene import Ints, Scene

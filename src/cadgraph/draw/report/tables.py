@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from cadgraph.config import Config, describe
-from cadgraph.draw.report.chart import Bar
 from cadgraph.draw.colors import UNLABELLED
+from cadgraph.draw.report.chart import Bar
 from cadgraph.draw.report.pictures import cluster_colors, kind_words, largest_first
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Node, Part, Unit

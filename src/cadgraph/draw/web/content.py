@@ -12,7 +12,7 @@ import numpy.typing as npt
 from cadgraph._io.text import file_name, printable
 from cadgraph.draw.colors import group_colors
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.labels import Guess
+from cadgraph.model.labels import Guess, Label
 from cadgraph.model.records import Cluster, Contains, Junction, Part, Point, SourceFact, System, Terminal, Unit
 from cadgraph.model.scene import Scene
 from cadgraph.query.doubt import few_ports
@@ -88,34 +88,43 @@ def parts_of(graph: SceneGraph, ids: Iterable[str] | None = None, origin: Point 
     shapes = {name: i for i, name in enumerate(dict.fromkeys(part.shape for part in every))}
     unit = _row_of_part(graph.of_layer(Unit))
     cluster = _cluster_of_part(graph)
-    boxes = np.array([part.aabb for part in parts]).reshape(-1, 2, 3)
-    labels = [part.label for part in parts]
     return {
         "id": [part.id for part in parts],
-        "group": [groups[label.group] if label else -1 for label in labels],
-        "name": [label.name if label else None for label in labels],
-        "confidence": [label.confidence if label else None for label in labels],
-        "state": [label.state if label else "open" for label in labels],
-        "source": [label.source if label else None for label in labels],
+        **_label_columns([part.label for part in parts], groups),
         "unit": [unit.get(part.id, -1) for part in parts],
         "cluster": [cluster.get(part.id, -1) for part in parts],
         "shape": [shapes[part.shape] for part in parts],
         "ground": [part.ground for part in parts],
         "inside": [row[part.inside] if part.inside is not None else -1 for part in parts],
+        **_measure_columns(parts, origin),
+        "guesses": [_guesses(part.guesses, groups) for part in parts],
+        "facts": [_facts(part.facts) for part in parts],
+    }
+
+
+def _label_columns(labels: Sequence[Label | None], groups: Mapping[str, int]) -> dict[str, list[Any]]:
+    return {
+        "group": [groups[label.group] if label else -1 for label in labels],
+        "name": [label.name if label else None for label in labels],
+        "confidence": [label.confidence if label else None for label in labels],
+        "state": [label.state if label else "open" for label in labels],
+        "source": [label.source if label else None for label in labels],
+    }
+
+
+def _measure_columns(parts: Sequence[Part], origin: Point) -> dict[str, list[Any]]:
+    boxes = np.array([part.aabb for part in parts]).reshape(-1, 2, 3)
+    return {
         "center": _numbers(boxes.mean(axis=1) - origin),
         "size": _numbers(boxes[:, 1] - boxes[:, 0]),
         "extents": _numbers(np.array([part.obb.extents for part in parts])),
         "n_triangles": [part.n_triangles for part in parts],
         "area": [part.area for part in parts],
         "volume": [part.volume for part in parts],
-        "guesses": [_guesses(part.guesses, groups) for part in parts],
-        "facts": [_facts(part.facts) for part in parts],
     }
 
 
-def network_of(
-    graph: SceneGraph, rows: Mapping[str, int] | None = None, origin: Point = _NOWHERE
-) -> dict[str, Any]:
+def network_of(graph: SceneGraph, rows: Mapping[str, int] | None = None, origin: Point = _NOWHERE) -> dict[str, Any]:
     """Units, ends, connections, lines, systems, clusters and joints of a graph.
 
     Args:
@@ -128,6 +137,7 @@ def network_of(
     lines = find_lines(network)
     systems = graph.of_layer(System)
     system = {system.id: i for i, system in enumerate(systems)}
+    ends: list[Junction | Terminal] = [*graph.junctions(), *graph.terminals()]
     line_of = {arc.index: i for i, line in enumerate(lines) for arc in line.arcs}
     return {
         "units": [_unit(unit, network, row, system, origin) for unit in graph.of_layer(Unit)],
@@ -140,7 +150,7 @@ def network_of(
                 "parts": [row[part] for part in end.parts],
                 "system": system.get(network.system(end.id) or "", -1),
             }
-            for end in (*graph.of_layer(Junction), *graph.of_layer(Terminal))
+            for end in ends
         ],
         "connections": [
             {

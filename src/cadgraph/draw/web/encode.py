@@ -96,12 +96,13 @@ def encode(vertices: Floats, faces: Faces) -> tuple[Encoded, Encoded | None] | N
 
 def decode(form: Encoded) -> tuple[Floats, Floats]:
     """The positions [m] and unit normals of a shape's vertices, as the page reads them; both ``(n, 3)``."""
-    positions: Floats = form.low + form.vertices[:, :3] * form.step.astype(np.float64)
+    positions = form.low.astype(np.float64) + form.vertices[:, :3] * form.step.astype(np.float64)
     a, b = (form.vertices[:, 3:].copy().view(np.int8).astype(np.float64) / 127).T
     normals = np.stack([a, b, 1 - np.abs(a) - np.abs(b)], axis=1)
     fold = np.maximum(-normals[:, 2:], 0)
     normals[:, :2] -= np.where(normals[:, :2] >= 0, fold, -fold)
-    return positions, normals / np.linalg.norm(normals, axis=1, keepdims=True)
+    units: Floats = normals / np.linalg.norm(normals, axis=1, keepdims=True)
+    return positions, units
 
 
 @compiled
@@ -109,7 +110,7 @@ def _whole_faces(vertices: Any, faces: Any, bounds: Any, whole: Any) -> int:
     """The faces whose vertices are there and finite; how many they are. Their box goes to ``bounds``."""
     for i in range(3):
         bounds[0, i], bounds[1, i] = np.inf, -np.inf
-    found = ZERO
+    found: int = ZERO
     for f in range(len(faces)):
         sound = True
         for c in range(3):
@@ -129,7 +130,7 @@ def _whole_faces(vertices: Any, faces: Any, bounds: Any, whole: Any) -> int:
 
 
 @compiled
-def _slot(table: Any, key: Any, keys: Any) -> int:
+def _slot(table: Any, key: Any, keys: Any) -> Any:
     """Where in a hash table of numbers the one with a key stands, or belongs; ``keys`` says the key of each number."""
     at = np.int64(mix(key) & np.uint64(len(table) - 1))
     while table[at] >= 0 and keys[table[at]] != key:
@@ -150,7 +151,7 @@ def _table(entries: int) -> Any:
 def _find_spots(vertices: Any, faces: Any, low: Any, step: Any, place: Any, spots: Any) -> int:
     """The distinct grid points of the vertices that faces use, in the order of the faces; how many they are."""
     table, keys = _table(len(vertices)), np.empty(len(vertices), np.uint64)
-    found = ZERO
+    found: int = ZERO
     for f in range(len(faces)):
         for c in range(3):
             v = faces[f, c]
@@ -175,7 +176,7 @@ def _find_spots(vertices: Any, faces: Any, low: Any, step: Any, place: Any, spot
 @compiled
 def _faces_of_spots(faces: Any, place: Any, kept: Any) -> int:
     """The faces of three different grid points; how many they are."""
-    found = ZERO
+    found: int = ZERO
     for f in range(len(faces)):
         x, y, z = place[faces[f, 0]], place[faces[f, 1]], place[faces[f, 2]]
         if x != y and y != z and z != x:
@@ -219,7 +220,7 @@ def _welded(spots: Shorts, faces: Faces, normals: Shorts) -> tuple[Shorts, Indic
 @compiled
 def _weld(spots: Any, faces: Any, normals: Any, vertices: Any, indices: Any) -> int:
     table, keys = _table(3 * len(faces)), np.empty(3 * len(faces), np.uint64)
-    found = ZERO
+    found: int = ZERO
     for f in range(len(faces)):
         for c in range(3):
             spot = faces[f, c]
@@ -237,9 +238,7 @@ def _weld(spots: Any, faces: Any, normals: Any, vertices: Any, indices: Any) -> 
 
 
 @compiled
-def _take_normals(
-    places: Any, full: Any, vertices: Any, indices: Any, coarse: Any, normals: Any
-) -> None:
+def _take_normals(places: Any, full: Any, vertices: Any, indices: Any, coarse: Any, normals: Any) -> None:
     """For each corner of a coarse form the normal of the full one there that is nearest to the coarse face's.
 
     So what is round looks round although it has fewer sides, and an edge stays an edge.

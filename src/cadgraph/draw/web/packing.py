@@ -5,8 +5,10 @@ The layout of the files is described with :func:`pack_scene`.
 
 from __future__ import annotations
 
+import os
 import struct
 from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -41,6 +43,7 @@ _WIDE = 1  # flag: indices of 32 bits
 _CHUNK = {1: 2_000_000, 0: 4_000_000}  # bytes of a chunk by level, about
 _NAMES = {1: "coarse", 0: "full"}
 _INSTANCES = "instances.bin"
+_AT_ONCE = 16  # shapes that a thread encodes before it takes the next
 _CLASSES = 4  # of size, each four times as large as the next
 
 
@@ -75,12 +78,7 @@ def pack_scene(scene: Scene, shown: npt.ArrayLike | None = None) -> PackedScene:
     """
     placed = find_instances(scene)
     wanted = np.ones(scene.n_meshes, np.bool_) if shown is None else np.asarray(shown, np.bool_).copy()
-    forms: dict[int, tuple[_Form, _Form | None]] = {}
-    for shape in np.unique(placed.shape[wanted]).tolist():
-        vertices, faces = placed.shapes.mesh(int(placed.first[shape]))
-        found = encode(vertices - placed.center[shape], faces)
-        if found is not None:
-            forms[shape] = _packed(found[0]), _packed(found[1]) if found[1] is not None else None
+    forms = _encode_all(placed, np.unique(placed.shape[wanted]).tolist())
     wanted &= np.isin(placed.shape, list(forms))
     order = _order_of_loading(placed, wanted, list(forms))
     number = np.full(placed.n, HIDDEN, np.int64)
@@ -116,6 +114,23 @@ def pack_scene(scene: Scene, shown: npt.ArrayLike | None = None) -> PackedScene:
         "chunks": chunks,
     }
     return PackedScene(manifest, files)
+
+
+def _encode_all(placed: Instances, shapes: Sequence[int]) -> dict[int, tuple[_Form, _Form | None]]:
+    """The forms of these shapes, but for those without a sound triangle; the full one, and the coarse one if any."""
+
+    def encoded(some: Sequence[int]) -> list[tuple[int, tuple[_Form, _Form | None]]]:
+        found = []
+        for shape in some:
+            vertices, faces = placed.shapes.mesh(int(placed.first[shape]))
+            forms = encode(vertices - placed.center[shape], faces)
+            if forms is not None:
+                found.append((shape, (_packed(forms[0]), _packed(forms[1]) if forms[1] is not None else None)))
+        return found
+
+    batches = [shapes[i : i + _AT_ONCE] for i in range(0, len(shapes), _AT_ONCE)]
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        return dict(form for batch in pool.map(encoded, batches) for form in batch)
 
 
 def _order_of_loading(placed: Instances, wanted: npt.NDArray[np.bool_], shapes: Sequence[int]) -> list[int]:

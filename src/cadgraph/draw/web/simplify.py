@@ -1,8 +1,8 @@
 """Fewer triangles for what is far away: edges are collapsed where that moves the surface least.
 
-Garland and Heckbert, *Surface Simplification Using Quadric Error Metrics* (1997), with every vertex kept where it was or
-taken out, so that nothing new has to be stored. A closed surface stays closed, a pipe a pipe: what would change how the
-faces hang together is never collapsed (the link condition, Dey et al. 1999).
+Garland and Heckbert, *Surface Simplification Using Quadric Error Metrics* (1997), with every vertex kept where it was
+or taken out, so that nothing new has to be stored. A closed surface stays closed, a pipe a pipe: what would change how
+the faces hang together is never collapsed (the link condition, Dey et al. 1999).
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from cadgraph.geometry.kernels.parallel import ZERO, compiled
 from cadgraph.model.scene import Faces, Floats
@@ -46,7 +45,8 @@ def simplify(vertices: Floats, faces: Faces, most: int, error: float, free: floa
 @compiled
 def _simplify(vertices: Any, faces: Any, most: int, limit: float, free: float) -> int:
     """Works on ``faces`` in place; how many of its first rows are left."""
-    n, count = len(vertices), ZERO + len(faces)
+    n = len(vertices)
+    count: int = ZERO + len(faces)
     start, around = np.zeros(n + 1, np.int32), np.empty(3 * len(faces), np.int32)
     kind, quadrics = np.zeros(n, np.int8), np.zeros((n, 11))
     onto, mark, touched = np.empty(n, np.int32), np.zeros(n, np.int32), np.zeros(n, np.bool_)
@@ -111,7 +111,7 @@ def _find_faces(faces: Any, count: int, start: Any, around: Any) -> None:
 @compiled
 def _shared(faces: Any, start: Any, around: Any, a: int, b: int) -> int:
     """How many faces have both vertices."""
-    found = ZERO
+    found: int = ZERO
     for k in range(start[a], start[a + 1]):
         f = around[k]
         if faces[f, 0] == b or faces[f, 1] == b or faces[f, 2] == b:
@@ -120,9 +120,7 @@ def _shared(faces: Any, start: Any, around: Any, a: int, b: int) -> int:
 
 
 @compiled
-def _start_quadrics(
-    vertices: Any, faces: Any, count: int, start: Any, around: Any, kind: Any, quadrics: Any
-) -> None:
+def _start_quadrics(vertices: Any, faces: Any, count: int, start: Any, around: Any, kind: Any, quadrics: Any) -> None:
     """Squared distances from the planes round each vertex, and whether it is inside (0), on a border (1) or fixed."""
     normal = np.empty(3)
     for f in range(count):
@@ -139,7 +137,11 @@ def _start_quadrics(
                 continue
             kind[a], kind[b] = max(kind[a], 1 if shared == 1 else 2), max(kind[b], 1 if shared == 1 else 2)
             _normal(vertices, faces[f, 0], faces[f, 1], faces[f, 2], normal)
-            x, y, z = (vertices[b, 0] - vertices[a, 0], vertices[b, 1] - vertices[a, 1], vertices[b, 2] - vertices[a, 2])
+            x, y, z = (
+                vertices[b, 0] - vertices[a, 0],
+                vertices[b, 1] - vertices[a, 1],
+                vertices[b, 2] - vertices[a, 2],
+            )
             long = np.sqrt(x * x + y * y + z * z)
             if long == 0.0:
                 continue
@@ -186,7 +188,7 @@ def _find_costs(
     vertices: Any, faces: Any, count: int, start: Any, around: Any, kind: Any, quadrics: Any, limit: float, costs: Any
 ) -> int:
     """The cost of moving the first vertex of each edge onto the second; of how many it is within the limit."""
-    found = ZERO
+    found: int = ZERO
     for edge in range(3 * count):
         a, b = faces[edge // 3, edge % 3], faces[edge // 3, (edge + 1) % 3]
         costs[edge] = np.inf
@@ -223,7 +225,25 @@ def _may_collapse(
     vertices: Any, faces: Any, start: Any, around: Any, onto: Any, mark: Any, a: int, b: int, stamp: int
 ) -> int:
     """How many faces go if a vertex moves onto another; 0 where it may not."""
-    gone, joined, common = ZERO, ZERO, ZERO
+    gone: int = ZERO
+    gone, joined = _leave(vertices, faces, start, around, onto, mark, a, b, stamp)
+    if gone <= 0:
+        return 0
+    common, others = _arrive(faces, start, around, onto, mark, a, b, stamp)
+    # The link condition; with less than three vertices round both nothing but two faces back to back would be left.
+    return gone if common == gone and joined + others > 2 else 0
+
+
+@compiled
+def _leave(
+    vertices: Any, faces: Any, start: Any, around: Any, onto: Any, mark: Any, a: int, b: int, stamp: int
+) -> tuple[int, int]:
+    """How many faces round a vertex have the other, and how many further vertices are round it, which get a mark.
+
+    The first is -1 where a face would turn too far if the vertex moved to the other.
+    """
+    gone: int = ZERO
+    joined: int = ZERO
     for k in range(start[a], start[a + 1]):
         f = around[k]
         x, y, z = onto[faces[f, 0]], onto[faces[f, 1]], onto[faces[f, 2]]
@@ -231,15 +251,23 @@ def _may_collapse(
             continue
         # The other two in order, whichever corner the vertex itself is.
         y, z = (y, z) if x == a else ((z, x) if y == a else (x, y))
-        if y == b or z == b:
+        if b in (y, z):
             gone += 1
         elif _turns(vertices, a, b, y, z):
-            return 0
+            return ZERO - 1, joined
         for c in range(2):
             v = y if c == 0 else z
             if v != b and mark[v] != stamp:
                 mark[v] = stamp
                 joined += 1
+    return gone, joined
+
+
+@compiled
+def _arrive(faces: Any, start: Any, around: Any, onto: Any, mark: Any, a: int, b: int, stamp: int) -> tuple[int, int]:
+    """How many vertices round the second one have the mark, and how many have not."""
+    common: int = ZERO
+    others: int = ZERO
     for k in range(start[b], start[b + 1]):
         f = around[k]
         x, y, z = onto[faces[f, 0]], onto[faces[f, 1]], onto[faces[f, 2]]
@@ -247,15 +275,14 @@ def _may_collapse(
             continue
         for c in range(3):
             v = x if c == 0 else (y if c == 1 else z)
-            if v == a or v == b or mark[v] == stamp + 1:
+            if v in (a, b) or mark[v] == stamp + 1:
                 continue
             if mark[v] == stamp:
                 common += 1
             else:
-                joined += 1
+                others += 1
             mark[v] = stamp + 1
-    # The link condition; with less than three vertices round both nothing but two faces back to back would be left.
-    return gone if common == gone and gone > 0 and joined > 2 else 0
+    return common, others
 
 
 @compiled
@@ -265,13 +292,14 @@ def _turns(vertices: Any, a: int, b: int, y: int, z: int) -> bool:
     if _normal(vertices, a, y, z, before) == 0.0:
         return False
     _normal(vertices, b, y, z, after)
-    return before[0] * after[0] + before[1] * after[1] + before[2] * after[2] < _TURN
+    cosine: float = before[0] * after[0] + before[1] * after[1] + before[2] * after[2]
+    return cosine < _TURN
 
 
 @compiled
 def _rewrite(faces: Any, count: int, onto: Any) -> int:
     """The faces after the collapses, those without area left out; how many there are."""
-    kept = ZERO
+    kept: int = ZERO
     for f in range(count):
         x, y, z = onto[faces[f, 0]], onto[faces[f, 1]], onto[faces[f, 2]]
         if x != y and y != z and z != x:
