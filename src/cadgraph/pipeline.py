@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
 
 from cadgraph._io.progress import Progress, quiet
 from cadgraph.config import Config
@@ -13,11 +16,14 @@ from cadgraph.labelers.base import Labeler, label_parts
 from cadgraph.labelers.precedence import SettledLabels, settle_labels
 from cadgraph.labelers.registry import labeler_of
 from cadgraph.model.analysis import Analysis
+from cadgraph.model.anchors import anchored_meshes, anchored_parts
 from cadgraph.model.catalog import read_catalog
-from cadgraph.model.corrections import Correction
+from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.edits import LOST, Edit, Ground, meshes_of, tell_lost
 from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import Label
+from cadgraph.model.parts import Bools, Contacts, Properties
 from cadgraph.model.probabilities import Probabilities
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary
@@ -25,15 +31,15 @@ from cadgraph.stages.adjacency import find_near_meshes, join_contacts
 from cadgraph.stages.assemble import Results, assemble_graph
 from cadgraph.stages.bridge import cut_bridges, find_weak_bridges, report_bridges
 from cadgraph.stages.cluster import cluster_parts
-from cadgraph.stages.ground import find_ground
+from cadgraph.stages.ground import find_ground, report_ground
 from cadgraph.stages.group import group_meshes
 from cadgraph.stages.insides import find_insides, join_enclosed
 from cadgraph.stages.inspect import inspect_meshes
 from cadgraph.stages.parts import make_parts
 from cadgraph.stages.preprocess import prepare_scene
-from cadgraph.stages.relate import RelateInput, connect_units, pipe_systems, relate_units
+from cadgraph.stages.relate import RelateInput, connect_units, pipe_systems, place_edits, relate_units
 
-__all__ = ["ANALYSIS_SETTINGS", "STAGES", "analyse", "build", "contradicted", "interpret"]
+__all__ = ["ANALYSIS_SETTINGS", "STAGES", "analyse", "build", "contradicted", "interpret", "lay_ground"]
 
 _WEAK = 0.46  # a likely label below this confidence is no label for the relations
 STAGES = ("measure", "contacts", "group", "cluster", "label", "relate", "assemble")
@@ -50,7 +56,7 @@ def build(
     labels: Sequence[GivenLabel] = (),
     vocabulary: Vocabulary | None = None,
     labeler: Labeler | None = None,
-    corrections: Sequence[Correction] = (),
+    corrections: Sequence[Edit] = (),
     progress: Progress = quiet,
 ) -> SceneGraph:
     """Turns a scene into a scene graph (paper, section III).
@@ -61,7 +67,7 @@ def build(
         labels: labels of source meshes from outside.
         vocabulary: the built-in tree if None.
         labeler: another labeler than the one that is set.
-        corrections: a user's, of single parts; they spread to others like them.
+        corrections: a user's that are in force; those of labels spread to parts alike.
         progress: called with the name of a stage and the share of it that is done.
 
     Returns:
@@ -77,13 +83,13 @@ def build(
     if not isinstance(config, Config):
         raise TypeError(f"build takes a Config, not {type(config).__name__}")
     catalogs = [read_catalog(file) for file in config.label.catalogs]
-    analysis = analyse(scene, config, progress)
+    analysis = lay_ground(analyse(scene, config, progress), corrections, config)
     progress("label", 0)
     labeling = label_parts(labeler or labeler_of(config.label), analysis.parts, analysis.contacts, tree, config.label)
     settled = settle_labels(
         labeling, analysis, tree, config.label, catalogs=catalogs, given=labels, corrections=corrections
     )
-    return interpret(analysis, settled, tree, config, progress)
+    return interpret(analysis, settled, tree, config, progress, edits=corrections)
 
 
 def analyse(scene: Scene, config: Config | None = None, progress: Progress = quiet) -> Analysis:
@@ -104,11 +110,29 @@ def analyse(scene: Scene, config: Config | None = None, progress: Progress = qui
     scene, from_scene = prepare_scene(scene)
     progress("measure", 0)
     scene, properties, from_meshes = inspect_meshes(scene, measure(scene), config.inspect)
-    ground, from_ground = find_ground(scene, properties, config.ground)
+    ground = find_ground(scene, properties, config.ground)
     progress("contacts", 0)
     near = find_near_meshes(scene, max(config.cluster.eps, config.group.proximity), config, progress)
+    seen = _Seen(scene, properties, near, ground, (*scene.diagnostics, *from_scene, *from_meshes))
+    return _structured(seen, ground, config, progress)
+
+
+@dataclass(frozen=True, eq=False)
+class _Seen:
+    """What is known of a scene's meshes before anything is said of the ground: see ``Analysis``."""
+
+    scene: Scene
+    properties: Properties
+    near: Contacts
+    found_ground: Bools
+    notes: tuple[Diagnostic, ...]
+
+
+def _structured(seen: _Seen, ground: Bools, config: Config, progress: Progress = quiet) -> Analysis:
+    """Parts, contacts and structures of meshes, of which some are the ground."""
+    scene, near = seen.scene, seen.near
     progress("group", 0)
-    parts = make_parts(scene, properties, group_meshes(properties, ground, near, config.group), ground)
+    parts = make_parts(scene, seen.properties, group_meshes(seen.properties, ground, near, config.group), ground)
     parts = find_insides(parts, config.method)
     contacts = join_contacts(near, parts.part_of_mesh, config.cluster.eps)
     progress("cluster", 0)
@@ -117,9 +141,44 @@ def analyse(scene: Scene, config: Config | None = None, progress: Progress = qui
     contacts = cut_bridges(contacts, bridges) if config.cluster.cut_bridges else contacts
     cluster = cluster_parts(parts.n_parts, contacts, parts.ground, config.cluster.min_samples)
     cluster = join_enclosed(cluster, parts)
-    found = (*scene.diagnostics, *from_scene, *from_meshes, *from_ground, *from_bridges)
+    found = (*seen.notes, *report_ground(scene, ground, seen.found_ground), *from_bridges)
     settings = config.model_dump(mode="json", include=set(ANALYSIS_SETTINGS))
-    return Analysis(scene, properties, parts, contacts, cluster, found, settings)
+    return Analysis(
+        scene,
+        seen.properties,
+        parts,
+        contacts,
+        cluster,
+        found,
+        settings,
+        near=near,
+        found_ground=seen.found_ground,
+        ground=ground,
+        notes=seen.notes,
+    )
+
+
+def lay_ground(analysis: Analysis, edits: Sequence[Edit], config: Config | None = None) -> Analysis:
+    """An analysis in which the ground is what a user says; parts and structures follow, and nothing is measured again.
+
+    Args:
+        analysis: of the scene, with whatever ground.
+        edits: in force; those of the ground count.
+        config: that it was made with; the defaults if None.
+    """
+    near, found, ground = analysis.near, analysis.found_ground, analysis.ground
+    if near is None or found is None or ground is None:
+        return analysis
+    meshes = anchored_meshes(analysis.scene, analysis.properties)
+    wanted = found.copy()
+    for edit in edits:
+        mesh = meshes.find(edit.mesh) if isinstance(edit, Ground) else None
+        if isinstance(edit, Ground) and mesh is not None:
+            wanted[mesh] = edit.ground
+    if np.array_equal(wanted, ground):
+        return analysis
+    seen = _Seen(analysis.scene, analysis.properties, near, found, analysis.notes)
+    return _structured(seen, wanted, config or Config())
 
 
 def _without(labels: Sequence[Label | None], weak: Sequence[bool]) -> tuple[Label | None, ...]:
@@ -132,6 +191,8 @@ def interpret(
     vocabulary: Vocabulary,
     config: Config | None = None,
     progress: Progress = quiet,
+    *,
+    edits: Sequence[Edit] = (),
 ) -> SceneGraph:
     """Makes the graph of analysed parts whose labels are settled: units, lines, flow.
 
@@ -141,6 +202,8 @@ def interpret(
         vocabulary: the tree that they are from.
         config: all settings, which go into the graph; the defaults if None.
         progress: called with the name of a stage and the share of it that is done.
+        edits: a user's that are in force; those of the network count here. That of labels and of the ground must have
+            been followed before.
     """
     config = config or Config()
     parts, contacts, cluster = analysis.parts, analysis.contacts, analysis.cluster
@@ -149,12 +212,14 @@ def interpret(
     weak = [label is not None and label.likely and label.confidence < _WEAK for label in labels.labels]
     firm, opinions = _without(labels.labels, weak), _without(labels.opinions, weak)
     statements = Statements(analysis, read_words(config.label.words), vocabulary) if config.label.use_metadata else None
-    given = RelateInput(analysis, firm, opinions, vocabulary, config, labels.probabilities, statements)
+    placed = place_edits(edits, anchored_parts(analysis.scene, parts))
+    given = RelateInput(analysis, firm, opinions, vocabulary, config, labels.probabilities, statements, placed)
     connected = connect_units(given)
     network = connected.network
     named = tuple(
         before if after is None else after for before, after in zip(labels.labels, connected.labels, strict=True)
     )
+    lost = _lost(edits, (*placed.unmet, *connected.unmet), analysis)
     related = relate_units(network.units, named, contacts, cluster, vocabulary)
     progress("assemble", 0)
     results = Results(
@@ -167,12 +232,24 @@ def interpret(
         guesses=labels.guesses,
         network=network,
         related=related,
-        diagnostics=(*analysis.diagnostics, *labels.diagnostics, *connected.diagnostics),
+        diagnostics=(*analysis.diagnostics, *labels.diagnostics, *connected.diagnostics, *lost),
         places=places_of(analysis) if analysis.scene.facts else None,
     )
     graph = assemble_graph(results, vocabulary, config.model_dump(mode="json"))
     progress("assemble", 1)
     return graph
+
+
+def _lost(edits: Sequence[Edit], unmet: Sequence[tuple[int, str]], analysis: Analysis) -> list[Diagnostic]:
+    """The corrections of the network and of the ground that no longer fit, each with the reason."""
+    meshes = anchored_meshes(analysis.scene, analysis.properties)
+    gone = [
+        (number, "no mesh of that path and shape, and none of that shape in its place")
+        for number, edit in enumerate(edits)
+        if isinstance(edit, Ground) and meshes.find(edit.mesh) is None
+    ]
+    told = sorted((*unmet, *gone))
+    return [Diagnostic(LOST, tell_lost(edits[number], why), (meshes_of(edits[number]))) for number, why in told]
 
 
 _CONTRADICTIONS = frozenset({"unit-short-of-lines", "end-before-part", "units-touch-unjoined", "line-untraced"})

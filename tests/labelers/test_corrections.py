@@ -7,8 +7,9 @@ import knobs
 import shapes
 from cadgraph.config import LabelConfig
 from cadgraph.labelers.base import label_parts
-from cadgraph.labelers.corrections import apply_corrections, find_parts, fingerprint_of
+from cadgraph.labelers.corrections import apply_corrections
 from cadgraph.labelers.embedded.labeler import EmbeddedLabeler
+from cadgraph.model.anchors import fingerprint_of
 from cadgraph.model.corrections import Correction
 from cadgraph.model.labels import Label
 from cadgraph.model.parts import Contacts
@@ -33,7 +34,7 @@ def scene_of(*meshes):
 
 def correction(parts, part, name="handwheel", group="Valve assembly", **more):
     centroid = tuple(parts.properties.centroid[part].tolist())
-    return Correction(parts.scene.paths[part], group, name, fingerprint_of(parts, part), centroid, **more)
+    return Correction(parts.scene.paths[part], group, name, fingerprint_of(parts.properties, part), centroid, **more)
 
 
 def applied(scene, corrections, labels=None):

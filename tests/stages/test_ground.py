@@ -10,7 +10,7 @@ from cadgraph.stages.ground import find_ground
 
 def ground_of(*meshes, **settings):
     scene = Scene.from_meshes(meshes)
-    return np.flatnonzero(find_ground(scene, measure(scene), GroundConfig(**settings))[0]).tolist()
+    return np.flatnonzero(find_ground(scene, measure(scene), GroundConfig(**settings))).tolist()
 
 
 MACHINE = shapes.box((1.0, 1.0, 2.0), (0, 0, 1.0))

@@ -18,7 +18,7 @@ _TRIED = 1 << 16  # bytes: more than a file system keeps beside a name
 
 
 @contextmanager
-def replacing(target: str | Path) -> Iterator[Path]:
+def replacing(target: str | Path, durable: bool = False) -> Iterator[Path]:
     """A path beside the target to write to; it takes the target's place when the block ends well, else it is removed.
 
     The path keeps the target's suffix, which some libraries choose the format by. A new file gets the modes that any
@@ -37,21 +37,47 @@ def replacing(target: str | Path) -> Iterator[Path]:
         yield beside
         with suppress(FileNotFoundError):
             beside.chmod(stat.S_IMODE(final.stat().st_mode))
+        if durable:
+            _flush(beside)
         beside.replace(final)
+        if durable:
+            _flush_folder(final.parent)
     except OSError as error:
         raise OutputError(f"{final}: can't be written ({error.strerror}); choose another output folder") from error
     finally:
         beside.unlink(missing_ok=True)
 
 
-def write_atomically(target: str | Path, content: str | bytes) -> None:
+def write_atomically(target: str | Path, content: str | bytes, durable: bool = False) -> None:
     """Writes a file whole or not at all; text as UTF-8 with line feeds on every system.
+
+    Args:
+        target: the file.
+        content: of it.
+        durable: whether it is to be on the disk when this returns, so that no loss of power takes it back.
 
     Raises:
         OutputError: it can't be written.
     """
-    with replacing(target) as beside:
+    with replacing(target, durable) as beside:
         beside.write_bytes(content.encode("utf-8") if isinstance(content, str) else content)
+
+
+def _flush(file: Path) -> None:
+    """Waits until what was written to a file is on the disk."""
+    with file.open("rb+") as opened:
+        os.fsync(opened.fileno())
+
+
+def _flush_folder(folder: Path) -> None:
+    """Waits until the names in a folder are on the disk, on systems that can open a folder."""
+    if not hasattr(os, "O_DIRECTORY"):
+        return
+    number = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        os.fsync(number)
+    finally:
+        os.close(number)
 
 
 def _make_beside(final: Path) -> Path:

@@ -9,7 +9,7 @@ from typing import Any
 
 from cadgraph._io.atomic import write_atomically
 
-__all__ = ["write_json_rows"]
+__all__ = ["json_rows", "write_json_rows"]
 
 
 def write_json_rows(target: str | Path, document: Mapping[str, Any], rows: Collection[str]) -> None:
@@ -24,6 +24,11 @@ def write_json_rows(target: str | Path, document: Mapping[str, Any], rows: Colle
         OutputError: it can't be written.
         ValueError: a number is infinite or NaN.
     """
+    write_atomically(target, json_rows(document, rows))
+
+
+def json_rows(document: Mapping[str, Any], rows: Collection[str]) -> bytes:
+    """The bytes that ``write_json_rows`` writes of a JSON object."""
     lines = []
     for key, value in document.items():
         if key in rows and value:
@@ -32,7 +37,7 @@ def write_json_rows(target: str | Path, document: Mapping[str, Any], rows: Colle
         else:
             lines.append(f" {_dumps(key)}: {_dumps(value)}")
     # A lone surrogate has no UTF-8, but its backslash form is what JSON calls it.
-    write_atomically(target, ("{\n" + ",\n".join(lines) + "\n}\n").encode("utf-8", "backslashreplace"))
+    return ("{\n" + ",\n".join(lines) + "\n}\n").encode("utf-8", "backslashreplace")
 
 
 def _dumps(value: Any) -> str:

@@ -83,8 +83,9 @@ def relabel(
         raise ValueError("say what the part is with --as 'group/name', or take a correction back with --forget")
     with bars() as progress:
         done = amend(folder, part, label, this_only=this_only, scene=scene, report=report, progress=progress)
-    out.print(f"[bold]{done.part.id}[/] is {escape(_said(done.part))} now")
-    others = [p for p in done.changed if p.id != done.part.id]
+    corrected = done.part or done.outcome.graph.part(part)
+    out.print(f"[bold]{corrected.id}[/] is {escape(_said(corrected))} now")
+    others = [p for p in done.changed if p.id != corrected.id]
     for p in others[:_SHOWN]:
         why = "" if p.label is None else p.label.evidence.why or p.label.source
         out.print(f"[dim]{p.id:<12}[/]{escape(_said(p))}{escape(f': {why}') if why else ''}")

@@ -13,15 +13,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from cadgraph.labelers.catalog import find_matches
+from cadgraph.model.anchors import anchored_parts
 from cadgraph.model.catalog import Catalog, Entry
-from cadgraph.model.corrections import Correction, Fingerprint
 from cadgraph.model.derived import store_of
 from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.edits import LOST, Correction, tell_lost
 from cadgraph.model.labels import CorrectedEvidence, FormerLabel, Label
 from cadgraph.model.parts import Bools, Contacts, Parts
 from cadgraph.model.scene import Floats, Ints, Scene
 
-__all__ = ["apply_corrections", "find_parts", "fingerprint_of"]
+__all__ = ["apply_corrections"]
 
 # How far a correction reaches among kin, as distance of unit vectors (0 the same, 1.41 nothing in common), and how many
 # times as far that may be as the nearest part with another label: for a part that nobody was sure about; one with the
@@ -34,7 +35,6 @@ _OPEN_SHARE = 1.2
 _SPREAD, _LEAST_OPEN, _MOST_OPEN, _ALONE = 1.5, 0.5, 0.85, 0.6
 _SETTLED = frozenset({"author", "human", "catalog"})
 _KIN_CONFIDENCE = 0.9  # of the closest kin
-_PLACE = 0.01  # m; a part that was renamed lies where it lay
 
 
 def apply_corrections(
@@ -58,7 +58,8 @@ def apply_corrections(
     """
     if not corrections:
         return tuple(labels), ()
-    found = find_parts(corrections, scene, parts)
+    anchored = anchored_parts(scene, parts)
+    found = [anchored.find(correction.anchor) for correction in corrections]
     corrected = {part: c for part, c in zip(found, corrections, strict=True) if part is not None}
     work = _Spread(labels, corrected, parts)
     work.correct()
@@ -66,42 +67,10 @@ def apply_corrections(
     work.to_near_shapes()
     work.to_kin(contacts)
     lost = [c for part, c in zip(found, corrections, strict=True) if part is None]
-    if not lost:
-        return tuple(work.labels), ()
-    message = f"{len(lost)} corrections found no part any more: nothing of that path and shape is in the scene"
-    return tuple(work.labels), (Diagnostic("correction-lost", message, tuple(c.mesh for c in lost)),)
-
-
-def fingerprint_of(parts: Parts, part: int) -> Fingerprint:
-    """What of a part's shape stays in any pose."""
-    measured = parts.properties
-    extents = [float(x) for x in measured.obb_extents[part]]
-    lengths = (float(np.sqrt(max(measured.area[part], 0.0))), extents[0], extents[1], extents[2])
-    return Fingerprint(int(measured.n_triangles[part]), lengths)
-
-
-def find_parts(corrections: Sequence[Correction], scene: Scene, parts: Parts) -> list[int | None]:
-    """The part that each correction means: that of its mesh if the shape agrees, else one of that shape there."""
-    rank = {path: i for i, path in enumerate(scene.paths)}
-    prints = [fingerprint_of(parts, part) for part in range(parts.n_parts)]
-    by_count: dict[int, list[int]] = {}
-    for part, fingerprint in enumerate(prints):
-        by_count.setdefault(fingerprint.n_triangles, []).append(part)
-    found: list[int | None] = []
-    for correction in corrections:
-        mesh = rank.get(correction.mesh)
-        here: int | None = int(parts.part_of_mesh[mesh]) if mesh is not None else None
-        if here is None or not prints[here].agrees(correction.fingerprint):
-            place = np.asarray(correction.centroid) - scene.origin
-            others = [
-                (float(np.linalg.norm(parts.properties.centroid[other] - place)), other)
-                for other in by_count.get(correction.fingerprint.n_triangles, ())
-                if prints[other].agrees(correction.fingerprint)
-            ]
-            far, nearest = min(others, default=(np.inf, -1))
-            here = nearest if far <= _PLACE else None
-        found.append(here)
-    return found
+    return tuple(work.labels), tuple(
+        Diagnostic(LOST, tell_lost(c, "no part of that path and shape, and none of that shape in its place"), (c.mesh,))
+        for c in lost
+    )
 
 
 @dataclass(frozen=True)

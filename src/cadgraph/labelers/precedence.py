@@ -13,8 +13,8 @@ from cadgraph.labelers.file import lay_file
 from cadgraph.labelers.given import apply_given
 from cadgraph.model.analysis import Analysis
 from cadgraph.model.catalog import Catalog
-from cadgraph.model.corrections import Correction
 from cadgraph.model.diagnostic import Diagnostic
+from cadgraph.model.edits import Correction, Edit
 from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.labels import CorrectedEvidence, Guess, Label
 from cadgraph.model.probabilities import Probabilities
@@ -50,7 +50,7 @@ def settle_labels(
     *,
     catalogs: Sequence[Catalog] = (),
     given: Sequence[GivenLabel] = (),
-    corrections: Sequence[Correction] = (),
+    corrections: Sequence[Edit] = (),
 ) -> SettledLabels:
     """Lays what the user knows over what a labeler said.
 
@@ -61,7 +61,7 @@ def settle_labels(
         config: how parts get their labels.
         catalogs: of the user's own parts.
         given: labels of source meshes from outside.
-        corrections: of single parts, which spread.
+        corrections: in force; those of labels count here, and spread.
 
     Raises:
         LabelError: a given label names a mesh that is not in the scene.
@@ -88,10 +88,11 @@ def lay_known(
 
 
 def lay_corrections(
-    known: SettledLabels, labeling: Labeling, analysis: Analysis, corrections: Sequence[Correction]
+    known: SettledLabels, labeling: Labeling, analysis: Analysis, corrections: Sequence[Edit]
 ) -> SettledLabels:
     """The labels with corrections over what ``lay_known`` returned."""
-    labels, found = apply_corrections(known.labels, corrections, analysis.scene, analysis.parts, analysis.contacts)
+    of_labels = [edit for edit in corrections if isinstance(edit, Correction)]
+    labels, found = apply_corrections(known.labels, of_labels, analysis.scene, analysis.parts, analysis.contacts)
     opinions = _opinions(labels, labeling)
     return SettledLabels(labels, known.guesses, opinions, (*known.diagnostics, *found), known.probabilities)
 

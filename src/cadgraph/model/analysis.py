@@ -9,8 +9,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
 from cadgraph.model.diagnostic import Diagnostic
-from cadgraph.model.parts import Contacts, Parts, Properties
+from cadgraph.model.parts import Bools, Contacts, Parts, Properties
 from cadgraph.model.scene import Ints, Scene
 
 __all__ = ["Analysis"]
@@ -28,6 +30,10 @@ class Analysis:
         cluster: ``(n_parts,)`` number of each part's structure; -1 for the ground and for noise.
         diagnostics: what was found on the way.
         settings: those that it depends on, as plain values.
+        near: pairs of meshes that are near, which parts and their contacts follow from.
+        found_ground: ``(n_meshes,)`` the meshes that are the ground by themselves, whatever a user says.
+        ground: ``(n_meshes,)`` those that are, as a user has it.
+        notes: the diagnostics that don't depend on what the ground is.
     """
 
     scene: Scene
@@ -37,6 +43,10 @@ class Analysis:
     cluster: Ints
     diagnostics: tuple[Diagnostic, ...] = ()
     settings: Mapping[str, Any] | None = None
+    near: Contacts | None = None
+    found_ground: Bools | None = None
+    ground: Bools | None = None
+    notes: tuple[Diagnostic, ...] = ()
 
     @cached_property
     def digest(self) -> str:
@@ -48,4 +58,10 @@ class Analysis:
             *(self.scene.colors, self.scene.origin),
         ):
             digest.update(array.tobytes())
+        if (
+            self.ground is not None
+            and self.found_ground is not None
+            and not np.array_equal(self.ground, self.found_ground)
+        ):
+            digest.update(self.ground.tobytes())
         return digest.hexdigest()[:16]

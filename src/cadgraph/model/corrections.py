@@ -1,177 +1,346 @@
-"""A user's corrections beside a graph (``corrections.json``): which part is what, whatever a labeler says.
+"""A user's corrections beside a graph (``corrections.json``): all that was ever done and undone, and what is in force.
 
-A correction is kept under the source path of the part's largest mesh together with numbers that no motion changes, so
-that it finds its part again when the source is exported anew, and is not laid on another part by mistake.
+A correction is kept under source paths of meshes together with numbers that no motion changes, so that it finds its
+parts again when the source is exported anew, and is not laid on others by mistake. Nothing is ever taken out of the
+file: what is undone is noted behind what was done.
 """
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+import hashlib
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Literal, TypedDict
 
 from cadgraph._io import limits
-from cadgraph._io.json_rows import write_json_rows
-from cadgraph._io.limits import read_text_within
-from cadgraph.errors import LabelError
+from cadgraph._io.atomic import write_atomically
+from cadgraph._io.json_rows import json_rows
+from cadgraph._io.limits import read_bytes_within, size_text
+from cadgraph._io.text import printable
+from cadgraph.errors import LabelError, OutputError
+from cadgraph.model.anchors import Fingerprint
+from cadgraph.model.corrections_json import FORMAT, MOST, VERSION, event_row, read_document
+from cadgraph.model.edits import Correction, Edit, describe, fold, with_correction
 from cadgraph.model.vocabulary import Vocabulary, spell_label
 
-__all__ = ["CORRECTIONS", "Correction", "Fingerprint", "read_corrections", "with_correction", "write_corrections"]
+__all__ = [
+    "CORRECTIONS",
+    "Action",
+    "AuditRow",
+    "Correction",
+    "CorrectionsFile",
+    "Fingerprint",
+    "History",
+    "read_corrections",
+    "read_history",
+    "with_correction",
+    "write_corrections",
+    "write_history",
+]
 
 CORRECTIONS = "corrections.json"
 """Name of the file beside the graph."""
 
-_FORMAT, _VERSION = "cadgraph-corrections", 1
-_MOST, _MOST_TEXT = 100_000, 4096
-_SLACK = 1e-3  # of a length; ours: another writer rounds to single precision, another tessellation differs by more
-_LEAST = 1e-5  # m
-_FAR = 1e12  # m; beyond lies no plant
+_LONGEST_WHO, _LONGEST_WHY = 200, 2000  # characters; what is longer is cut
 
 
 @dataclass(frozen=True)
-class Fingerprint:
-    """What of a shape stays in any pose.
+class Action:
+    """One thing that a user did: a correction of one or several things at once, or taking one back.
 
     Args:
-        n_triangles: of the part.
-        lengths: square root of the area, then the extents of the oriented box, descending [m].
+        id: its number in the history, from 1.
+        when: ISO 8601, UTC; empty where unknown.
+        who: name of the user; may be empty.
+        why: the reason that was given; may be empty.
+        what: in words, as it was when it was done.
+        edits: what was corrected; none for what undoes or redoes.
+        kind: ``do``, ``undo`` or ``redo``.
+        of: id of the action that is undone or redone; None for one that does something.
     """
 
-    n_triangles: int
-    lengths: tuple[float, float, float, float]
+    id: int
+    when: str
+    who: str
+    why: str
+    what: str
+    edits: tuple[Edit, ...] = ()
+    kind: Literal["do", "undo", "redo"] = "do"
+    of: int | None = None
 
-    def agrees(self, other: Fingerprint) -> bool:
-        """Whether both may be of one shape."""
-        return self.n_triangles == other.n_triangles and all(
-            abs(a - b) <= _LEAST + _SLACK * max(a, b) for a, b in zip(self.lengths, other.lengths, strict=True)
+
+class AuditRow(TypedDict):
+    """A row of the list of all that was done: id, when, who, what, why, and whether it is undone now."""
+
+    id: int
+    when: str
+    who: str
+    what: str
+    why: str
+    undone: bool
+
+
+@dataclass(frozen=True)
+class History:
+    """All that a user did, in order; it only ever grows. Each change gives a new history.
+
+    Args:
+        events: in the order in which they happened.
+    """
+
+    events: tuple[Action, ...] = ()
+
+    @classmethod
+    def of(cls, edits: Iterable[Edit]) -> History:
+        """A history of edits of which nothing else is known, each an action."""
+        return cls(tuple(Action(k, "", "", "", describe(edit), (edit,)) for k, edit in enumerate(edits, 1)))
+
+    @cached_property
+    def _stacks(self) -> tuple[tuple[Action, ...], tuple[Action, ...]]:
+        """The actions that are done, and those that are undone, the latest last in both."""
+        done: list[Action] = []
+        undone: list[Action] = []
+        for event in self.events:
+            if event.kind == "do":
+                done.append(event)
+                undone.clear()
+                continue
+            source, target = (done, undone) if event.kind == "undo" else (undone, done)
+            if not source or source[-1].id != event.of:
+                raise LabelError(
+                    f"event {event.id}: {event.kind} of action {event.of}, which isn't the one to {event.kind}"
+                )
+            target.append(source.pop())
+        return tuple(done), tuple(undone)
+
+    def check(self) -> None:
+        """Makes sure that what is undone and redone was there to be.
+
+        Raises:
+            LabelError: it wasn't.
+        """
+        _ = self._stacks
+
+    @cached_property
+    def in_force(self) -> tuple[Edit, ...]:
+        """What counts now, in the order in which it was done; of two about the same the later one."""
+        return fold(edit for action in self._stacks[0] for edit in action.edits)
+
+    @property
+    def to_undo(self) -> Action | None:
+        """The action that ``undo`` takes back; None where there is none."""
+        return self._stacks[0][-1] if self._stacks[0] else None
+
+    @property
+    def to_redo(self) -> Action | None:
+        """The action that ``redo`` does again; None where there is none."""
+        return self._stacks[1][-1] if self._stacks[1] else None
+
+    @property
+    def can_undo(self) -> bool:
+        """Whether anything is done."""
+        return self.to_undo is not None
+
+    @property
+    def can_redo(self) -> bool:
+        """Whether anything was undone since something was done last."""
+        return self.to_redo is not None
+
+    def do(self, edits: Sequence[Edit], what: str, *, when: str = "", who: str = "", why: str = "") -> History:
+        """The history with another action.
+
+        Args:
+            edits: what is corrected.
+            what: in words.
+            when: ISO 8601, UTC.
+            who: name of the user.
+            why: the reason.
+        """
+        return self._with(
+            Action(self._next, when, _line(who, _LONGEST_WHO), _line(why, _LONGEST_WHY), what, tuple(edits))
         )
 
+    def undo(self, *, when: str = "", who: str = "", why: str = "") -> History:
+        """The history in which the last action is taken back.
 
-@dataclass(frozen=True)
-class Correction:
-    """What a user says about one part.
+        Raises:
+            ValueError: there is none.
+        """
+        return self._step("undo", self.to_undo, when, who, why)
+
+    def redo(self, *, when: str = "", who: str = "", why: str = "") -> History:
+        """The history in which what was undone last is done again.
+
+        Raises:
+            ValueError: nothing was undone since the last action.
+        """
+        return self._step("redo", self.to_redo, when, who, why)
+
+    def audit(self) -> list[AuditRow]:
+        """All that was done, undone and done again, the latest first."""
+        in_force = {action.id for action in self._stacks[0]}
+        return [
+            AuditRow(
+                id=event.id,
+                when=event.when,
+                who=event.who,
+                what=event.what,
+                why=event.why,
+                undone=event.kind == "do" and event.id not in in_force,
+            )
+            for event in reversed(self.events)
+        ]
+
+    @property
+    def may_come(self) -> tuple[Action, ...]:
+        """The actions that are in force, or can be done again."""
+        return self._stacks[0] + self._stacks[1]
+
+    @property
+    def _next(self) -> int:
+        return self.events[-1].id + 1 if self.events else 1
+
+    def _step(self, kind: Literal["undo", "redo"], action: Action | None, when: str, who: str, why: str) -> History:
+        if action is None:
+            raise ValueError(f"nothing to {kind}")
+        what = f"{'undone' if kind == 'undo' else 'done again'}: {action.what}"
+        who, why = _line(who, _LONGEST_WHO), _line(why, _LONGEST_WHY)
+        return self._with(Action(self._next, when, who, why, what, (), kind, action.id))
+
+    def _with(self, event: Action) -> History:
+        if len(self.events) >= MOST:
+            raise ValueError(f"{MOST:,} corrections were made, and no more are kept; build into another folder")
+        return History((*self.events, event))
+
+
+def _line(text: str, most: int) -> str:
+    """A text on one line, cut where it is too long."""
+    return printable(text).strip()[:most]
+
+
+def write_history(history: History, path: str | Path) -> Path:
+    """Writes all that was done, whole or not at all; it is on the disk when this returns.
 
     Args:
-        mesh: source path of its largest mesh.
-        group: of the vocabulary.
-        name: in that group, or None.
-        fingerprint: of the part.
-        centroid: of the part, world coordinates [m].
-        this_only: whether it says nothing about others.
-    """
-
-    mesh: str
-    group: str
-    name: str | None
-    fingerprint: Fingerprint
-    centroid: tuple[float, float, float]
-    this_only: bool = False
-
-
-def with_correction(corrections: Sequence[Correction], new: Correction) -> tuple[Correction, ...]:
-    """The corrections with a new one; an earlier one of the same mesh is replaced."""
-    return (*(old for old in corrections if old.mesh != new.mesh), new)
-
-
-def write_corrections(corrections: Sequence[Correction], path: str | Path) -> Path:
-    """Writes corrections, whole or not at all; the same corrections give the same bytes.
-
-    Args:
-        corrections: in the order in which they were made.
+        history: the same one gives the same bytes.
         path: the file.
 
     Raises:
-        OutputError: it can't be written.
+        OutputError: it can't be written, or would be larger than what is read.
     """
-    rows = [
-        {
-            "mesh": c.mesh,
-            "group": c.group,
-            "name": c.name,
-            "this_only": c.this_only,
-            "n_triangles": c.fingerprint.n_triangles,
-            "lengths": list(c.fingerprint.lengths),
-            "centroid": list(c.centroid),
-        }
-        for c in corrections
-    ]
-    document = {"format": _FORMAT, "version": _VERSION, "corrections": rows}
-    write_json_rows(path, document, rows=("corrections",))
+    CorrectionsFile(path, None).write(history)
     return Path(path)
 
 
-def read_corrections(path: str | Path, vocabulary: Vocabulary | None = None) -> tuple[Correction, ...]:
-    """Reads corrections; none if the file isn't there.
+def write_corrections(corrections: Sequence[Edit], path: str | Path) -> Path:
+    """Writes corrections of which nothing else is known; see ``write_history``."""
+    return write_history(History.of(corrections), path)
+
+
+def read_history(path: str | Path, vocabulary: Vocabulary | None = None) -> History:
+    """Reads all that was done; an empty history if the file isn't there.
 
     Args:
-        path: the file, or the folder that holds it.
-        vocabulary: must hold their labels; None asks nothing.
+        path: the file, or the folder that holds it; of this version, or of the first one, which held labels alone.
+        vocabulary: must hold the labels that are in force or may be done again; None asks nothing.
 
     Raises:
         LabelError: the file can't be read, is damaged, or names labels that the vocabulary lacks.
     """
-    file = Path(path) / CORRECTIONS if Path(path).is_dir() else Path(path)
-    if not file.exists():
-        return ()
-    text = read_text_within(file, limits.CORRECTIONS, LabelError, "take rows out, or remove it to build without")
-    try:
-        content = json.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise LabelError(f"{file}: not JSON ({error}); correct it, or remove it to build without") from error
-    if not isinstance(content, Mapping) or content.get("format") != _FORMAT:
-        raise LabelError(f"{file}: no corrections of cadgraph; move it elsewhere, or choose another folder")
-    if content.get("version") != _VERSION:
-        raise LabelError(
-            f"{file}: corrections of version {str(content.get('version'))[:20]}, but this cadgraph reads version "
-            f"{_VERSION}; update it"
-        )
-    rows = content.get("corrections")
-    if not isinstance(rows, list) or len(rows) > _MOST:
-        raise LabelError(f"{file}: no list of at most {_MOST:,} corrections; remove the file to build without")
-    found = []
-    for i, row in enumerate(rows):
-        correction = _correction(row, f"{file}: correction {i}")
-        if vocabulary is not None and not vocabulary.holds(correction.group, correction.name):
-            label = spell_label(correction.group, correction.name)
+    return CorrectionsFile(path).read(vocabulary)
+
+
+def read_corrections(path: str | Path, vocabulary: Vocabulary | None = None) -> tuple[Edit, ...]:
+    """Reads the corrections that are in force; see ``read_history`` for arguments and errors."""
+    return read_history(path, vocabulary).in_force
+
+
+@dataclass
+class CorrectionsFile:
+    """A file of corrections that is written again and again, and that nobody else may change meanwhile.
+
+    Args:
+        path: the file, or the folder that holds it; it need not be there.
+        known: digest of its content as it was last read or written; None overwrites whatever is there.
+    """
+
+    path: str | Path
+    known: str | None = field(default="")
+
+    @property
+    def file(self) -> Path:
+        """The file itself."""
+        path = Path(self.path)
+        return path / CORRECTIONS if path.is_dir() else path
+
+    def read(self, vocabulary: Vocabulary | None = None) -> History:
+        """Reads it; see ``read_history``."""
+        content = self._content()
+        self.known = _digest(content)
+        if content is None:
+            return History()
+        history = History(tuple(Action(**row) for row in read_document(content, self.file)))
+        try:
+            history.check()
+        except LabelError as error:
             raise LabelError(
-                f"{file}: correction {i}: {label!r} is not in the vocabulary; build with the --vocabulary that has it, "
-                "or take the row out"
+                f"{self.file}: {error}; take the file from a copy, or remove it to build without"
+            ) from None
+        for action in history.may_come if vocabulary is not None else ():
+            _check_labels(action, vocabulary, self.file)
+        return history
+
+    @property
+    def overtaken(self) -> bool:
+        """Whether somebody else has written it since it was read or written here.
+
+        Raises:
+            LabelError: it can't be read.
+        """
+        return self.known is not None and _digest(self._content()) != self.known
+
+    def write(self, history: History) -> None:
+        """Writes it whole or not at all; it is on the disk when this returns.
+
+        Raises:
+            OutputError: it can't be written, or somebody else has written it since it was read here.
+        """
+        if self.overtaken:
+            raise OutputError(
+                f"{self.file}: another program has corrected something here meanwhile; open the folder again and repeat "
+                "this correction"
             )
-        found.append(correction)
-    return tuple(found)
+        document = {
+            "format": FORMAT,
+            "version": VERSION,
+            "events": [event_row(vars(event)) for event in history.events],
+        }
+        content = json_rows(document, rows=("events",))
+        if len(content) > limits.CORRECTIONS.most:
+            most = size_text(limits.CORRECTIONS.most)
+            raise OutputError(f"{self.file}: would be larger than the {most} that are read; build into another folder")
+        write_atomically(self.file, content, durable=True)
+        if self.known is not None:
+            self.known = _digest(content)
+
+    def _content(self) -> bytes | None:
+        if not self.file.exists():
+            return None
+        remedy = "take rows out, or remove it to build without"
+        return read_bytes_within(self.file, limits.CORRECTIONS, LabelError, remedy)
 
 
-def _correction(row: Any, place: str) -> Correction:
-    if not isinstance(row, Mapping):
-        raise LabelError(f"{place}: not an object with mesh, group, name; take it out")
-    texts = {key: row.get(key) for key in ("mesh", "group", "name")}
-    for key, text in texts.items():
-        if not (isinstance(text, str) and 0 < len(text) <= _MOST_TEXT) and not (key == "name" and text is None):
-            raise LabelError(f"{place}: {key!r} must be text, not {str(text)[:60]!r}")
-    if not isinstance(row.get("this_only", False), bool):
-        raise LabelError(f"{place}: 'this_only' must be true or false")
-    count = row.get("n_triangles")
-    if not isinstance(count, int) or isinstance(count, bool) or count < 0:
-        raise LabelError(f"{place}: 'n_triangles' must be a number of triangles")
-    lengths, centroid = _numbers(row, "lengths", 4, place), _numbers(row, "centroid", 3, place)
-    return Correction(
-        str(texts["mesh"]),
-        str(texts["group"]),
-        texts["name"],
-        Fingerprint(count, (lengths[0], lengths[1], lengths[2], lengths[3])),
-        (centroid[0], centroid[1], centroid[2]),
-        row.get("this_only", False),
-    )
+def _digest(content: bytes | None) -> str:
+    return "" if content is None else hashlib.sha256(content).hexdigest()
 
 
-def _numbers(row: Mapping[str, Any], key: str, n: int, place: str) -> list[float]:
-    values = row.get(key)
-    if (
-        not isinstance(values, list)
-        or len(values) != n
-        or not all(isinstance(v, int | float) and not isinstance(v, bool) and abs(v) < _FAR for v in values)
-    ):
-        raise LabelError(f"{place}: {key!r} must be {n} finite numbers")
-    return [float(v) for v in values]
+def _check_labels(action: Action, vocabulary: Vocabulary | None, file: Path) -> None:
+    for edit in action.edits:
+        if isinstance(edit, Correction) and vocabulary is not None and not vocabulary.holds(edit.group, edit.name):
+            label = spell_label(edit.group, edit.name)
+            raise LabelError(
+                f"{file}: correction {action.id - 1}: {label!r} is not in the vocabulary; build with the --vocabulary "
+                "that has it, or take the row out"
+            )

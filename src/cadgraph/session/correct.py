@@ -1,23 +1,27 @@
-"""Correcting a finished graph: one part gets another label, others like it follow, and the folder is written anew."""
+"""Correcting a finished graph in its folder: labels, units, joints, directions, tags; the results are written anew."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any, Literal
 
 from cadgraph._io.atomic import write_atomically
 from cadgraph._io.progress import Progress, quiet
 from cadgraph._io.run_folder import results_folder
-from cadgraph.model.corrections import CORRECTIONS, read_corrections, write_corrections
+from cadgraph.model.corrections import CORRECTIONS, read_history, write_history
+from cadgraph.model.edits import Correction
 from cadgraph.model.given_labels import split_label
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Part
 from cadgraph.model.vocabulary import Vocabulary
 from cadgraph.session.reopen import FormerLabeler, config_of, find_source, reopen
+from cadgraph.session.requests import EditRequest
 from cadgraph.session.run import Clock, Outcome, write_results
-from cadgraph.session.session import Session, changed_parts
+from cadgraph.session.session import Change, Session, changed_parts
 
-__all__ = ["Amendment", "amend"]
+__all__ = ["Amendment", "amend", "apply_edits", "step_back_or_forth"]
 
 
 @dataclass(frozen=True)
@@ -26,13 +30,17 @@ class Amendment:
 
     Args:
         outcome: of writing the folder anew.
-        part: that was corrected, as it is now.
+        part: that was corrected, as it is now; None where it was no label of a single part.
         changed: all parts with another label than before, itself included, as they are now.
+        message: what was done, in words.
+        lost: the corrections in force that don't fit the graph, in words.
     """
 
     outcome: Outcome
-    part: Part
+    part: Part | None
     changed: tuple[Part, ...]
+    message: str = ""
+    lost: tuple[str, ...] = ()
 
 
 def amend(
@@ -41,6 +49,8 @@ def amend(
     label: str | None,
     *,
     this_only: bool = False,
+    who: str = "",
+    why: str = "",
     scene: str | Path | None = None,
     report: bool = True,
     progress: Progress = quiet,
@@ -55,6 +65,8 @@ def amend(
         part: id of the part, or source path of one of its meshes.
         label: ``group/name``, a group, or a name that only one group has; None takes an earlier correction back.
         this_only: whether others keep their labels.
+        who: name of the user.
+        why: the reason.
         scene: the source, where it isn't where the graph says.
         report: whether to draw pictures and write the report.
         progress: called with the name of a stage and the share of it that is done.
@@ -64,31 +76,116 @@ def amend(
         LabelError: the label is not in the graph's vocabulary; the source isn't there or has changed.
         FormatError: the folder holds no graph.
     """
-    before = SceneGraph.load(folder)
+    before, target = _opened(folder)
     node = before.part(part)
     tree = Vocabulary.from_json(before.document.vocabulary, f"{folder}: vocabulary of the graph")
     if label is not None:
         split_label(label, tree)
+    corrected = {edit.mesh for edit in read_history(target, tree).in_force if isinstance(edit, Correction)}
+    if label is None and corrected.isdisjoint(node.meshes):
+        raise ValueError(f"{part}: nobody corrected this part itself; 'cadgraph explain' names the one that was")
+    mesh = node.meshes[0]
+
+    def change(session: Session) -> Change:
+        if label is None:
+            return session.forget(mesh, who=who, why=why)
+        return session.correct(mesh, label, this_only=this_only, who=who, why=why)
+
+    return _changed(before, target, change, scene, report, progress)
+
+
+def apply_edits(
+    folder: str | Path,
+    edits: Sequence[Mapping[str, Any] | EditRequest],
+    *,
+    who: str = "",
+    why: str = "",
+    scene: str | Path | None = None,
+    report: bool = True,
+    progress: Progress = quiet,
+) -> Amendment:
+    """Corrects one or several things at once, all or nothing; the folder's results are written anew.
+
+    Args:
+        folder: what ``cadgraph build`` wrote.
+        edits: as :meth:`~cadgraph.session.session.Session.apply` takes them.
+        who: name of the user.
+        why: the reason.
+        scene: the source, where it isn't where the graph says.
+        report: whether to draw pictures and write the report.
+        progress: called with the name of a stage and the share of it that is done.
+
+    Raises:
+        ValueError: the graph has no such part, unit or place (``UnknownNode``), or a correction can't be carried out.
+        LabelError: a label is not in the graph's vocabulary; the source isn't there or has changed.
+        FormatError: the folder holds no graph.
+    """
+    before, target = _opened(folder)
+    return _changed(before, target, lambda session: session.apply(edits, who=who, why=why), scene, report, progress)
+
+
+def step_back_or_forth(
+    folder: str | Path,
+    step: Literal["undo", "redo"],
+    *,
+    who: str = "",
+    why: str = "",
+    scene: str | Path | None = None,
+    report: bool = True,
+    progress: Progress = quiet,
+) -> Amendment:
+    """Undoes the last correction of a folder, or does the one undone last again; the results are written anew.
+
+    Args:
+        folder: what ``cadgraph build`` wrote.
+        step: which of both.
+        who: name of the user.
+        why: the reason.
+        scene: the source, where it isn't where the graph says.
+        report: whether to draw pictures and write the report.
+        progress: called with the name of a stage and the share of it that is done.
+
+    Raises:
+        ValueError: there is nothing to undo, or to do again.
+        LabelError: the source isn't there or has changed.
+        FormatError: the folder holds no graph.
+    """
+    before, target = _opened(folder)
+    history = read_history(target)
+    if not (history.can_undo if step == "undo" else history.can_redo):
+        raise ValueError(f"{target}: nothing to {step}")
+    return _changed(before, target, lambda session: getattr(session, step)(who=who, why=why), scene, report, progress)
+
+
+def _opened(folder: str | Path) -> tuple[SceneGraph, Path]:
+    return SceneGraph.load(folder), Path(folder) if Path(folder).is_dir() else Path(folder).parent
+
+
+def _changed(
+    before: SceneGraph,
+    folder: Path,
+    change: Callable[[Session], Change],
+    scene: str | Path | None,
+    report: bool,
+    progress: Progress,
+) -> Amendment:
+    """Takes the scene of a graph up again, changes something, and writes everything anew."""
     clock = Clock(progress)
-    with results_folder(Path(folder) if Path(folder).is_dir() else Path(folder).parent) as target:
-        if label is None and not any(one.mesh in node.meshes for one in read_corrections(target, tree)):
-            raise ValueError(f"{part}: nobody corrected this part itself; 'cadgraph explain' names the one that was")
+    with results_folder(folder) as target:
         config = config_of(folder)
         source = find_source(before, target, scene)
         former = FormerLabeler(before) if config.lvlm.ask != "never" else None
         session = reopen(before, target, source, config, former, clock)
-        mesh = node.meshes[0]
-        change = session.forget(mesh) if label is None else session.correct(mesh, label, this_only=this_only)
+        done = change(session)
         outcome = _write(session, source, target, report, clock)
-    now = outcome.graph
-    return Amendment(outcome, change.part or now.part(mesh), changed_parts(before, now))
+    return Amendment(outcome, done.part, changed_parts(before, outcome.graph), done.message, session.lost)
 
 
 def _write(session: Session, source: Path, target: Path, report: bool, clock: Clock) -> Outcome:
     """The results with the corrections beside them, or neither."""
     file = target / CORRECTIONS
     old = file.read_bytes() if file.exists() else None
-    write_corrections(session.corrections, file)
+    write_history(session.history, file)
     try:
         return write_results(session, source, target, report, clock)
     except BaseException:
@@ -96,5 +193,5 @@ def _write(session: Session, source: Path, target: Path, report: bool, clock: Cl
         if old is None:
             file.unlink(missing_ok=True)
         else:
-            write_atomically(file, old)
+            write_atomically(file, old, durable=True)
         raise

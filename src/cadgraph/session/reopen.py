@@ -11,7 +11,7 @@ from cadgraph.config import Config, restore_config
 from cadgraph.errors import FormatError, LabelError
 from cadgraph.labelers.base import AskingLabeler, Labeler, Labeling
 from cadgraph.load import load
-from cadgraph.model.corrections import read_corrections
+from cadgraph.model.corrections import CorrectionsFile
 from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import CorrectedEvidence, FileEvidence, GeometryEvidence, GivenEvidence, Label
@@ -73,7 +73,7 @@ def reopen(
     progress: Progress = quiet,
     *,
     scene: Scene | None = None,
-    anew: bool = False,
+    keep: bool = False,
 ) -> Session:
     """A session on the scene of a finished graph, with its vocabulary, the labels given from outside, its corrections.
 
@@ -85,7 +85,8 @@ def reopen(
         labeler: says what the parts are; the one that is set if None.
         progress: called with the name of a stage and the share of it that is done.
         scene: what ``load`` makes of the source, if it is at hand.
-        anew: whether the session makes its graph anew, as corrections may have been kept that ``graph`` doesn't show.
+        keep: whether each correction is written into the folder at once, before the session says that it is done. The
+            folder may then hold corrections that ``graph`` doesn't show, so that the session makes its graph anew.
 
     Raises:
         LabelError: the corrections can't be read.
@@ -94,7 +95,8 @@ def reopen(
     """
     check_target(source, target)
     tree = Vocabulary.from_json(graph.document.vocabulary, f"{target}: vocabulary of the graph")
-    corrections = read_corrections(target, tree)
+    file = CorrectionsFile(target)
+    history = file.read(tree)
     if scene is None:
         progress("read", 0)
         scene = load(source, config.load)
@@ -105,8 +107,9 @@ def reopen(
         labels=_given(graph),
         vocabulary=tree,
         labeler=labeler,
-        corrections=corrections,
-        graph=graph if not anew and (labeler is None or isinstance(labeler, FormerLabeler)) else None,
+        history=history,
+        file=file if keep else None,
+        graph=graph if not keep and (labeler is None or isinstance(labeler, FormerLabeler)) else None,
         progress=progress,
     )
 

@@ -14,7 +14,7 @@ from cadgraph._io.run_folder import clear_results, refuse_to_overwrite, results_
 from cadgraph.config import Config
 from cadgraph.labelers.base import AskingLabeler, Labeler
 from cadgraph.load import load
-from cadgraph.model.corrections import read_corrections
+from cadgraph.model.corrections import CorrectionsFile
 from cadgraph.model.given_labels import GivenLabel, read_labels
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.scene import Scene
@@ -96,6 +96,8 @@ def begin(
     vocabulary: Vocabulary | None = None,
     labeler: Labeler | None = None,
     progress: Progress = quiet,
+    *,
+    keep: bool = False,
 ) -> Session:
     """A session on a scene that is read anew, with the corrections that lie in a folder; nothing is written yet.
 
@@ -107,6 +109,7 @@ def begin(
         vocabulary: the label tree; the built-in one if None.
         labeler: another labeler than the one that is set.
         progress: called with the name of a stage and the share of it that is done.
+        keep: whether each correction is written into the folder at once, before the session says that it is done.
 
     Raises:
         LoadError: the scene can't be read.
@@ -115,12 +118,20 @@ def begin(
     """
     check_target(source, target)
     tree = vocabulary or default_vocabulary()
-    corrections = read_corrections(target, tree)
+    file = CorrectionsFile(target)
+    history = file.read(tree)
     progress("read", 0)
     scene = load(source, config.load)
     check_layers(source, target)
     return Session.start(
-        scene, config, labels=given, vocabulary=tree, labeler=labeler, corrections=corrections, progress=progress
+        scene,
+        config,
+        labels=given,
+        vocabulary=tree,
+        labeler=labeler,
+        history=history,
+        file=file if keep else None,
+        progress=progress,
     )
 
 

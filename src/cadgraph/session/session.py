@@ -1,11 +1,14 @@
-"""One scene being worked on: what geometry says of it is kept, so that a change of labels costs little."""
+"""One scene being worked on: what geometry says of it is kept, so that a correction costs little."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
 from functools import partial
+from typing import Any
+
+import numpy as np
 
 from cadgraph._io.progress import Progress, quiet
 from cadgraph.config import Config
@@ -14,13 +17,16 @@ from cadgraph.labelers.precedence import SettledLabels, lay_corrections, lay_kno
 from cadgraph.labelers.registry import labeler_of
 from cadgraph.model.analysis import Analysis
 from cadgraph.model.catalog import read_catalog
-from cadgraph.model.corrections import Correction, Fingerprint, with_correction
-from cadgraph.model.given_labels import GivenLabel, split_label
+from cadgraph.model.corrections import CorrectionsFile, History
+from cadgraph.model.edits import LOST, Correction, Edit, tell_lost
+from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.graph import SceneGraph
+from cadgraph.model.parts import Parts
 from cadgraph.model.records import Part
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary
-from cadgraph.pipeline import analyse, contradicted, interpret
+from cadgraph.pipeline import analyse, contradicted, interpret, lay_ground
+from cadgraph.session.requests import EditRequest, Requests, read_requests
 
 __all__ = ["Change", "Session"]
 
@@ -30,12 +36,27 @@ class Change:
     """What a correction, or taking one back, changed.
 
     Args:
-        part: the corrected part as it is now; None where several corrections changed at once.
+        part: the corrected part as it is now; None where it is no single part that was corrected.
         changed: all parts with another label than before, as they are now.
+        message: what was done, in words.
+        regrouped: whether parts themselves, or what structure they are in, may be others than before.
     """
 
     part: Part | None
     changed: tuple[Part, ...]
+    message: str = ""
+    regrouped: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class _State:
+    """All of a session that a correction changes."""
+
+    history: History
+    analysis: Analysis
+    labeling: Labeling
+    known: SettledLabels | None
+    graph: SceneGraph | None
 
 
 class Session:
@@ -50,8 +71,12 @@ class Session:
         config: all settings; the defaults if None.
         vocabulary: the tree that the labels are from; the built-in one if None.
         given: labels of source meshes from outside.
-        corrections: made before.
+        corrections: made before, of which nothing else is known.
         graph: that follows from all this, where it is at hand.
+        history: of all corrections made before, in place of ``corrections``.
+        file: that each correction is written to before it counts; None keeps them in memory alone.
+        labeler: is asked again where the ground changes, and parts with it; None, or one that asks a model, is not: what
+            it said of parts stays with them.
 
     Raises:
         LabelError: a label names a mesh that is not in the scene, or a catalogue can't be read.
@@ -65,17 +90,20 @@ class Session:
         *,
         vocabulary: Vocabulary | None = None,
         given: Sequence[GivenLabel] = (),
-        corrections: Sequence[Correction] = (),
+        corrections: Sequence[Edit] = (),
         graph: SceneGraph | None = None,
+        history: History | None = None,
+        file: CorrectionsFile | None = None,
+        labeler: Labeler | None = None,
     ) -> None:
         self.analysis, self.labeling = analysis, labeling
         self.config, self.vocabulary = config or Config(), vocabulary or default_vocabulary()
         self.given = tuple(given)
-        self._corrections = tuple(corrections)
-        self._done: list[tuple[Correction, ...]] = []
-        self._undone: list[tuple[Correction, ...]] = []
+        self._history = History.of(corrections) if history is None else history
+        self._file, self._labeler = file, labeler
         self._known: SettledLabels | None = None
         self._graph = graph
+        self._follow_ground()
 
     @classmethod
     def start(
@@ -86,24 +114,47 @@ class Session:
         labels: Sequence[GivenLabel] = (),
         vocabulary: Vocabulary | None = None,
         labeler: Labeler | None = None,
-        corrections: Sequence[Correction] = (),
+        corrections: Sequence[Edit] = (),
         graph: SceneGraph | None = None,
+        history: History | None = None,
+        file: CorrectionsFile | None = None,
         progress: Progress = quiet,
     ) -> Session:
         """Analyses a scene and asks a labeler about its parts; see ``cadgraph.build`` for arguments and errors."""
         config, tree = config or Config(), vocabulary or default_vocabulary()
-        analysis = analyse(scene, config, progress)
+        history = History.of(corrections) if history is None else history
+        analysis = lay_ground(analyse(scene, config, progress), history.in_force, config)
         progress("label", 0)
         labeler = labeler or labeler_of(config.label)
         if isinstance(labeler, AskingLabeler):
             labeler.contradictions = partial(contradicted, analysis, tree, config)
         labeling = label_parts(labeler, analysis.parts, analysis.contacts, tree, config.label)
-        return cls(analysis, labeling, config, vocabulary=tree, given=labels, corrections=corrections, graph=graph)
+        return cls(
+            analysis,
+            labeling,
+            config,
+            vocabulary=tree,
+            given=labels,
+            graph=graph,
+            history=history,
+            file=file,
+            labeler=labeler,
+        )
 
     @property
-    def corrections(self) -> tuple[Correction, ...]:
+    def history(self) -> History:
+        """All that was corrected, undone and done again."""
+        return self._history
+
+    @property
+    def corrections(self) -> tuple[Edit, ...]:
         """Those in force, in the order in which they were made."""
-        return self._corrections
+        return self._history.in_force
+
+    @property
+    def lost(self) -> tuple[str, ...]:
+        """The corrections in force that no longer fit the scene, in words, each with the reason."""
+        return tuple(one.message for one in self.graph.diagnostics if one.code == LOST)
 
     @property
     def graph(self) -> SceneGraph:
@@ -125,71 +176,121 @@ class Session:
                 self._known = lay_known(
                     self.labeling, self.analysis, self.vocabulary, self.config.label, catalogs, self.given
                 )
-            labels = lay_corrections(self._known, self.labeling, self.analysis, self._corrections)
-            self._graph = interpret(self.analysis, labels, self.vocabulary, self.config, progress)
+            labels = lay_corrections(self._known, self.labeling, self.analysis, self.corrections)
+            self._graph = interpret(
+                self.analysis, labels, self.vocabulary, self.config, progress, edits=self.corrections
+            )
         return self._graph
 
-    def correct(self, part: str, label: str, *, this_only: bool = False) -> Change:
+    def apply(self, edits: Sequence[Mapping[str, Any] | EditRequest], *, who: str = "", why: str = "") -> Change:
+        """Corrects one or several things at once; all of it or, where one can't be carried out, nothing.
+
+        Args:
+            edits: one object each, by the ids of the graph: ``{"kind": "label", "part", "group", "name", "this_only"}``,
+                ``forget`` (``part``), ``merge`` and ``split`` (``parts``), ``join`` and ``cut`` (``first``, ``second``),
+                ``direction`` (``source``, ``target``, ``via``, ``flow``), ``tag`` (``unit``, ``tag``), ``ground``
+                (``part``, ``ground``).
+            who: name of the user.
+            why: the reason.
+
+        Returns:
+            What changed. With a file, the correction is on the disk by then.
+
+        Raises:
+            KeyError: the graph has no such part, unit or place.
+            ValueError: a correction can't be carried out; the message says why.
+            LabelError: the vocabulary has no such label.
+            OutputError: the file can't be written, or another program has written it.
+        """
+        requests = read_requests(edits)
+        corrected = {edit.mesh for edit in self.corrections if isinstance(edit, Correction)}
+        graph = self.graph
+        anchored, what = Requests(graph, self.analysis, self.vocabulary, corrected).anchor(requests)
+        history = self._history.do(anchored, what, when=_now(), who=who, why=why)
+        named = {getattr(request, "part", None) for request in requests}
+        only = named.pop() if len(named) == 1 else None
+        return self._become(history, what, anchored, None if only is None else graph.part(only).meshes[0])
+
+    def correct(self, part: str, label: str, *, this_only: bool = False, who: str = "", why: str = "") -> Change:
         """Says what a part is; its repeats follow, and softly what is much like it.
 
         Args:
             part: id of the part, or source path of one of its meshes.
             label: ``group/name``, a group, or a name that only one group has.
             this_only: whether others keep their labels.
+            who: name of the user.
+            why: the reason.
 
         Raises:
             KeyError: the graph has no such part.
             LabelError: the vocabulary has no such label.
         """
-        node = self.graph.part(part)
-        new = _correction(node, split_label(label, self.vocabulary), this_only)
-        return self._change(with_correction(self._corrections, new), node)
+        return self.apply([{"kind": "label", "part": part, "group": label, "this_only": this_only}], who=who, why=why)
 
-    def forget(self, part: str) -> Change:
+    def forget(self, part: str, *, who: str = "", why: str = "") -> Change:
         """Takes the correction of a part back.
 
         Args:
             part: id of the part, or source path of one of its meshes.
+            who: name of the user.
+            why: the reason.
 
         Raises:
             KeyError: the graph has no such part.
             ValueError: nobody corrected this part itself.
         """
-        node = self.graph.part(part)
-        kept = tuple(one for one in self._corrections if one.mesh not in node.meshes)
-        if len(kept) == len(self._corrections):
-            raise ValueError(f"{part}: nobody corrected this part itself; 'cadgraph explain' names the one that was")
-        return self._change(kept, node)
+        return self.apply([{"kind": "forget", "part": part}], who=who, why=why)
 
     @property
     def can_undo(self) -> bool:
-        """Whether anything was corrected or taken back in this session."""
-        return bool(self._done)
+        """Whether any correction is done."""
+        return self._history.can_undo
 
     @property
     def can_redo(self) -> bool:
         """Whether anything was undone since the last correction."""
-        return bool(self._undone)
+        return self._history.can_redo
 
-    def undo(self) -> Change:
+    def undo(self, *, who: str = "", why: str = "") -> Change:
         """Takes the last correction, or the last taking back of one, back.
 
         Raises:
             ValueError: there is none.
+            OutputError: the file can't be written, or another program has written it.
         """
-        if not self._done:
-            raise ValueError("nothing to undo")
-        return self._step(self._done, self._undone)
+        history = self._history.undo(when=_now(), who=who, why=why)
+        return self._become(history, history.events[-1].what)
 
-    def redo(self) -> Change:
+    def redo(self, *, who: str = "", why: str = "") -> Change:
         """Does again what was undone last.
 
         Raises:
             ValueError: nothing was undone since the last correction.
+            OutputError: the file can't be written, or another program has written it.
         """
-        if not self._undone:
-            raise ValueError("nothing to redo")
-        return self._step(self._undone, self._done)
+        history = self._history.redo(when=_now(), who=who, why=why)
+        return self._become(history, history.events[-1].what)
+
+    @property
+    def overtaken(self) -> bool:
+        """Whether another program has changed the file of the corrections.
+
+        Raises:
+            LabelError: it can't be read.
+        """
+        return self._file is not None and self._file.overtaken
+
+    def take_up(self) -> Change:
+        """Takes the corrections up as another program left them in the file.
+
+        Raises:
+            LabelError: they can't be read; nothing changes then.
+            ValueError: the session keeps none in a file.
+        """
+        if self._file is None:
+            raise ValueError("the corrections of this session are in no file")
+        history = self._file.read(self.vocabulary)
+        return self._become(history, "corrections of another program", write=False)
 
     def relabel(self, labeler: Labeler | None, given: Sequence[GivenLabel] | None = None) -> None:
         """Asks another labeler about all parts; corrections stay.
@@ -204,26 +305,82 @@ class Session:
         parts, contacts = self.analysis.parts, self.analysis.contacts
         self.labeling = label_parts(labeler, parts, contacts, self.vocabulary, self.config.label)
         self.given = self.given if given is None else tuple(given)
+        self._labeler = labeler
         self._known = self._graph = None
 
-    def _change(self, corrections: tuple[Correction, ...], node: Part) -> Change:
-        before, old = self.graph, self._corrections
-        self._corrections, self._graph = corrections, None
-        try:
-            now = self.graph
-        except BaseException:
-            # A correction that no graph shows must not wait for a later one.
-            self._corrections, self._graph = old, before
-            raise
-        self._done.append(old)
-        self._undone.clear()
-        return Change(now.part(node.meshes[0]), changed_parts(before, now))
-
-    def _step(self, source: list[tuple[Correction, ...]], target: list[tuple[Correction, ...]]) -> Change:
+    def _become(
+        self, history: History, what: str, new: Sequence[Edit] = (), mesh: str | None = None, *, write: bool = True
+    ) -> Change:
+        """Takes another history on, if its graph can be made and it can be written; else nothing changes."""
         before = self.graph
-        target.append(self._corrections)
-        self._corrections, self._graph = source.pop(), None
-        return Change(None, changed_parts(before, self.graph))
+        old = _State(self._history, self.analysis, self.labeling, self._known, before)
+        try:
+            self._history, self._graph = history, None
+            self._follow_ground()
+            now = self.graph
+            _refuse_unmet(now, new)
+            if self._file is not None and write:
+                self._file.write(history)
+        except BaseException:
+            # A correction that no graph shows, or no file holds, must not wait for a later one.
+            self._history, self.analysis, self.labeling = old.history, old.analysis, old.labeling
+            self._known, self._graph = old.known, old.graph
+            raise
+        changed = changed_parts(before, now)
+        count = f"{len(changed):,} part{'s' * (len(changed) != 1)} changed" if changed else "no label changed"
+        part = None if mesh is None else now.part(mesh)
+        return Change(part, changed, f"{what}: {count}", self.analysis is not old.analysis)
+
+    def _follow_ground(self) -> None:
+        """Lets parts and structures follow from the ground as it is now."""
+        analysis = lay_ground(self.analysis, self.corrections, self.config)
+        if analysis is self.analysis:
+            return
+        if self._labeler is None or isinstance(self._labeler, AskingLabeler):
+            self.labeling = _carried(self.labeling, self.analysis.parts, analysis.parts)
+        else:
+            self.labeling = label_parts(
+                self._labeler, analysis.parts, analysis.contacts, self.vocabulary, self.config.label
+            )
+        self.analysis, self._known, self._graph = analysis, None, None
+
+
+def _now() -> str:
+    return datetime.now(UTC).isoformat(timespec="seconds").replace("+00:00", "Z")
+
+
+def _refuse_unmet(graph: SceneGraph, new: Sequence[Edit]) -> None:
+    """Makes sure that new edits are carried out.
+
+    Raises:
+        ValueError: one isn't.
+    """
+    starts = tuple(tell_lost(edit, "") for edit in new)
+    unmet = (one.message for one in graph.diagnostics if one.code == LOST and one.message.startswith(starts))
+    message = next(unmet, None) if starts else None
+    if message is not None:
+        raise ValueError(message)
+
+
+def _carried(labeling: Labeling, before: Parts, after: Parts) -> Labeling:
+    """What was said of parts, for parts that others may have been made of since: each by its largest mesh."""
+    number = {path: part for part, path in enumerate(before.scene.paths)}
+    rows = [number.get(path) for path in after.scene.paths]
+    known = labeling.probabilities
+    if known is not None:
+        values = np.zeros((len(rows), known.values.shape[1]))
+        for part, row in enumerate(rows):
+            if row is not None:
+                values[part] = known.values[row]
+        known = replace(known, values=values)
+    return replace(
+        labeling,
+        labels=tuple(None if row is None else labeling.labels[row] for row in rows),
+        guesses=tuple(() if row is None else labeling.guesses[row] for row in rows),
+        answers=tuple(None if row is None else labeling.answers[row] for row in rows),
+        thresholds=tuple(0.0 if row is None else labeling.thresholds[row] for row in rows),
+        probabilities=known,
+    )
 
 
 def changed_parts(before: SceneGraph, now: SceneGraph) -> tuple[Part, ...]:
@@ -239,9 +396,3 @@ def changed_parts(before: SceneGraph, now: SceneGraph) -> tuple[Part, ...]:
 
 def _said(part: Part) -> tuple[str, str | None] | None:
     return part.label.said if part.label is not None else None
-
-
-def _correction(part: Part, label: tuple[str, str | None], this_only: bool) -> Correction:
-    extents = part.obb.extents
-    fingerprint = Fingerprint(part.n_triangles, (math.sqrt(part.area), extents[0], extents[1], extents[2]))
-    return Correction(part.meshes[0], *label, fingerprint, part.centroid, this_only)

@@ -9,13 +9,13 @@ from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.parts import Bools, Properties
 from cadgraph.model.scene import Scene
 
-__all__ = ["find_ground"]
+__all__ = ["find_ground", "report_ground"]
 
 
 _TOLERANCE = 1e-6  # what ends this little above the underside of a plate still lies below it [m]
 
 
-def find_ground(scene: Scene, properties: Properties, config: GroundConfig) -> tuple[Bools, tuple[Diagnostic, ...]]:
+def find_ground(scene: Scene, properties: Properties, config: GroundConfig) -> Bools:
     """Which meshes are the ground.
 
     Found by itself, the ground is large, flat and lowest: it spreads under nearly all of everything else, is thin
@@ -28,14 +28,14 @@ def find_ground(scene: Scene, properties: Properties, config: GroundConfig) -> t
         config: thresholds, or the paths named by the user.
 
     Returns:
-        ``(n_meshes,)`` bool, and diagnostics about what was found.
+        ``(n_meshes,)`` bool.
 
     Raises:
         ValueError: a named path is not in the scene.
     """
     ground = np.zeros(scene.n_meshes, np.bool_)
     if config.find == "none" or scene.n_meshes == 0:
-        return ground, ()
+        return ground
     if config.find == "named":
         rank = {path: i for i, path in enumerate(scene.paths)}
         for path in config.meshes:
@@ -46,12 +46,26 @@ def find_ground(scene: Scene, properties: Properties, config: GroundConfig) -> t
             ground[rank[path]] = True
     elif scene.n_meshes > 1:
         ground[_candidates(properties, config)] = True
-    if not ground.any():
-        return ground, ()
-    paths = tuple(scene.paths[i] for i in np.flatnonzero(ground))
-    return ground, (
-        Diagnostic("ground", f"{len(paths)} mesh(es) taken for the ground and left out of clusters", paths),
-    )
+    return ground
+
+
+def report_ground(scene: Scene, ground: Bools, found: Bools) -> tuple[Diagnostic, ...]:
+    """What is told of the ground.
+
+    Args:
+        scene: all meshes.
+        ground: ``(n_meshes,)`` what it is.
+        found: ``(n_meshes,)`` what it would be if no user had said otherwise.
+    """
+    notes = []
+    for code, meshes, words in (
+        ("ground", ground, "mesh(es) taken for the ground and left out of clusters"),
+        ("ground-corrected", ground & ~found, "mesh(es) that are the ground as a user said so"),
+        ("ground-corrected", found & ~ground, "mesh(es) that are no ground as a user said so"),
+    ):
+        paths = tuple(scene.paths[i] for i in np.flatnonzero(meshes))
+        notes += [Diagnostic(code, f"{len(paths)} {words}", paths)] if paths else []
+    return tuple(notes)
 
 
 def _candidates(properties: Properties, config: GroundConfig) -> list[int]:

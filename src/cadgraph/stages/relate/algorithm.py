@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from cadgraph._io.text import natural_key
 from cadgraph.geometry.components import connected_sets
@@ -12,7 +12,7 @@ from cadgraph.model.parts import Contacts, UnitParts
 from cadgraph.model.scene import Ints
 from cadgraph.model.vocabulary import Vocabulary
 
-__all__ = ["LETTERS", "find_units", "pipe_systems", "relate_units"]
+__all__ = ["LETTERS", "find_units", "number_units", "pipe_systems", "relate_units"]
 
 LETTERS = {"valve": "V", "gauge": "G", "pump": "P", "tank": "T", "equipment": "E"}
 
@@ -35,10 +35,21 @@ def find_units(
     groups = [label.group if label is not None and label.group in unit_of_group else None for label in labels]
     members = [part for part, group in enumerate(groups) if group is not None]
     joined = [(a, b) for a, b in contacts.pairs.tolist() if groups[a] == groups[b] and cluster[a] == cluster[b] >= 0]
+    return number_units((unit_of_group[str(groups[p[0]])], p) for p in connected_sets(members, joined))
+
+
+def number_units(groups: Iterable[tuple[str, tuple[int, ...]]]) -> tuple[UnitParts, ...]:
+    """Units with tags that are numbered by type.
+
+    Args:
+        groups: type and parts of each, in the order in which they are numbered.
+
+    Returns:
+        The units by tag.
+    """
     counts: Counter[str] = Counter()
     units = []
-    for parts in connected_sets(members, joined):
-        unit_type = unit_of_group[str(groups[parts[0]])]
+    for unit_type, parts in groups:
         counts[unit_type] += 1
         letter = LETTERS.get(unit_type, unit_type[:3].upper())
         units.append(UnitParts(unit_type, f"{letter}-{counts[unit_type]:03d}", parts))

@@ -58,12 +58,14 @@ class Mount:
         part: the solid part.
         gap: distance between the two [m].
         score: how sure that is, 0..1.
+        at: ``(3,)`` point of the solid that a user joined it to; None where the end lies at the solid [m].
     """
 
     row: int
     part: int
     gap: float
     score: float = 1.0
+    at: Floats | None = None
 
 
 @dataclass(frozen=True)

@@ -160,7 +160,9 @@ def _loose_mounts(piping: Piping, pool: Collection[int]) -> tuple[Ends, list[Mou
         piping.bolted,
         given.stated,
     )
-    return found.ends, [mount for mount in found.mounts if mount.row in free and mount.part in pool]
+    cut = given.edits.cut
+    mounts = [mount for mount in found.mounts if mount.row in free and mount.part in pool]
+    return found.ends, [mount for mount in mounts if (int(found.ends.part[mount.row]), mount.part) not in cut]
 
 
 def _loose_rows(known: Attachments, pool: Collection[int]) -> set[int]:

@@ -10,10 +10,14 @@ import numpy as np
 from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.labels import Label
-from cadgraph.model.parts import Network, Parts, UnitParts
-from cadgraph.stages.relate.algorithm import find_units
+from cadgraph.model.parts import Joint, Network, Parts, UnitParts
+from cadgraph.stages.relate.algorithm import find_units, number_units
 from cadgraph.stages.relate.attach import flat_contacts
 from cadgraph.stages.relate.contract import simplify
+from cadgraph.stages.relate.edit_flow import set_flow, unmet_flow
+from cadgraph.stages.relate.edit_joints import bridge_solids, joint_of_solids, unmet_joints
+from cadgraph.stages.relate.edit_units import edit_groups, edit_units, tag_as_corrected
+from cadgraph.stages.relate.edits import Unmet
 from cadgraph.stages.relate.flow import direct_flow, stated_flow
 from cadgraph.stages.relate.kind import name_kinds
 from cadgraph.stages.relate.line import is_disc
@@ -48,11 +52,13 @@ class Connected:
         network: units and what joins them.
         labels: of each part, as the network has it.
         diagnostics: what the user should know about it.
+        unmet: the user's edits that can't be carried out: the number of each, and why.
     """
 
     network: Network
     labels: tuple[Label | None, ...]
     diagnostics: tuple[Diagnostic, ...] = ()
+    unmet: tuple[Unmet, ...] = ()
 
 
 def connect_units(given: RelateInput) -> Connected:
@@ -66,29 +72,31 @@ def connect_units(given: RelateInput) -> Connected:
         The network, the labels that agree with it, and what the user should know.
     """
     if given.config.method == "paper":
-        units = find_units(given.labels, given.contacts, given.cluster, given.vocabulary)
-        named = tag_as_stated(units, given.statements, given.parts, given.labels, given.vocabulary)
-        network, told = name_as_stated(Network(named.units), named, given.parts, given.vocabulary)
-        return Connected(network, tuple(given.labels), (*named.diagnostics, *told))
+        return _as_paper(given)
     roles = find_roles(given.parts, given.labels, given.opinions)
     piping = trace_lines(given, roles)
     piping = recover_units(drop_shapeless(piping))
     piping, groups = mend_units(piping)
     groups, loose = _decide(piping, groups)
+    piping, groups, unmet = edit_units(piping, groups)
     labels = relabel_parts(piping, groups)
     names = [label.name if label is not None else None for label in labels]
     named = tag_as_stated(tag_units(given.parts, groups), given.statements, given.parts, labels, given.vocabulary)
+    former = [unit.tag for unit in named.units]
+    named, untagged = tag_as_corrected(named, given.edits)
     units = named.units
     drawing = _draw(piping, units)
-    network = replace(_contract(piping, units, drawing, names), joints=record_joints(piping, units, drawing.flanged))
+    network = replace(_contract(piping, units, drawing, names), joints=_joints(piping, units, drawing))
     network = name_kinds(network, names, given.parts)
     network, told = name_as_stated(network, named, given.parts, given.vocabulary)
-    by_user = stated_flow(network, given.config.relate.flow)
-    network, contradictions = direct_flow(network, given.parts, names, by_user, given.stated)
+    stated = stated_flow(network, given.config.relate.flow, former)
+    by_user = set_flow(network, given.edits)
+    network, contradictions = direct_flow(network, given.parts, names, stated, given.stated, by_user.evidence)
+    unmet += [*untagged, *_unjoined(piping, network), *by_user.unmet, *unmet_flow(network, by_user)]
     network = drop_stubs(network)
     diagnostics = (
         *find_shortfalls(piping, network),
-        *_bridged_gaps(given.parts, drawing),
+        *_bridged_gaps(given, drawing),
         *_stated_gaps(piping),
         *report_unplaced(given.stated),
         *_doubted_labels(given.parts, roles),
@@ -97,7 +105,40 @@ def connect_units(given: RelateInput) -> Connected:
         *named.diagnostics,
         *told,
     )
-    return Connected(network, labels, diagnostics)
+    return Connected(network, labels, diagnostics, tuple(unmet))
+
+
+def _as_paper(given: RelateInput) -> Connected:
+    """The paper's units, as the user corrected them; there are no lines whose joints or directions could be."""
+    units = find_units(given.labels, given.contacts, given.cluster, given.vocabulary)
+    edits = given.edits
+    numbers = [*(edit.number for edit in edits.joints), *(edit.number for edit in edits.flows)]
+    unmet: list[Unmet] = [(number, "method = 'paper' knows no lines") for number in numbers]
+    if edits.units:
+        groups, lost = edit_groups([Group(u.unit_type, u.parts) for u in units], edits, given.parts.properties.area)
+        units, unmet = number_units((group.unit_type, group.parts) for group in groups), [*unmet, *lost]
+    named = tag_as_stated(units, given.statements, given.parts, given.labels, given.vocabulary)
+    named, untagged = tag_as_corrected(named, edits)
+    network, told = name_as_stated(Network(named.units), named, given.parts, given.vocabulary)
+    return Connected(network, tuple(given.labels), (*named.diagnostics, *told), (*unmet, *untagged))
+
+
+def _joints(piping: Piping, units: Sequence[UnitParts], drawing: Drawing) -> tuple[Joint, ...]:
+    """The joints, with those of solids that a user made."""
+    made = [joint_of_solids(pair, points) for pair, points in sorted(drawing.by_user.items(), key=lambda row: row[0])]
+    return (*record_joints(piping, units, drawing.flanged), *made)
+
+
+def _unjoined(piping: Piping, network: Network) -> list[Unmet]:
+    """The joints that the user made and that can't be."""
+    owner = _owners(network.units)
+    usable = {*piping.lines, *piping.lineless, *piping.members, *owner}
+    return unmet_joints(piping.given.edits, network.joints, piping.given.parts, usable, owner)
+
+
+def _owners(units: Sequence[UnitParts]) -> dict[int, int]:
+    """The number of the unit that each part is in."""
+    return {part: number for number, unit in enumerate(units) for part in unit.parts}
 
 
 def _decide(piping: Piping, groups: Sequence[Group]) -> tuple[list[Group], list[Group]]:
@@ -124,18 +165,20 @@ def _draw(piping: Piping, units: Sequence[UnitParts]) -> Drawing:
     """The network of lines between units, every piece between two joints a span."""
     given = piping.given
     flanged = flat_contacts(given.parts, given.contacts, _between(piping, units), given.config.cluster.eps)
-    where = {pair: middle for pair, (middle, _) in flanged.items()}
+    where = {pair: middle for pair, (middle, _) in flanged.items() if pair not in given.edits.cut}
+    owner = {part: -1 - part for part in piping.lineless} | _owners(units)
+    bridged = bridge_solids(given.edits, given.parts, piping.lines, owner)
+    where = {pair: middle for pair, middle in where.items() if pair not in bridged}
 
     def confidence(part: int) -> float:
         return 1.0 if given.is_connector[part] else _BY_SHAPE
 
-    return draw_network(piping.lines, piping.lineless, units, piping.joints, where, confidence)
+    return draw_network(piping.lines, piping.lineless, units, piping.joints, where, confidence, bridged)
 
 
 def _between(piping: Piping, units: Sequence[UnitParts]) -> list[tuple[int, int]]:
     """Pairs of solids in contact that are not of one unit."""
-    owner = {part: -1 - part for part in piping.lineless}
-    owner |= {part: number for number, unit in enumerate(units) for part in unit.parts}
+    owner = {part: -1 - part for part in piping.lineless} | _owners(units)
     return [
         (a, b) for a, b in piping.given.contacts.pairs.tolist() if a in owner and b in owner and owner[a] != owner[b]
     ]
@@ -164,13 +207,15 @@ def _is_cover(line: Centreline, name: str | None) -> bool:
     return is_disc(line) and not hollow and name not in _ON_LINES
 
 
-def _bridged_gaps(parts: Parts, drawing: Drawing) -> tuple[Diagnostic, ...]:
-    if not drawing.bridged:
+def _bridged_gaps(given: RelateInput, drawing: Drawing) -> tuple[Diagnostic, ...]:
+    by_user = {frozenset((edit.first, edit.second)) for edit in given.edits.joined}
+    bridged = [(a, b, gap) for a, b, gap in drawing.bridged if frozenset((a, b)) not in by_user]
+    if not bridged:
         return ()
-    widest = max(gap for _, _, gap in drawing.bridged)
-    heads = tuple(parts.scene.paths[part] for a, b, _ in sorted(drawing.bridged) for part in (a, b))
+    widest = max(gap for _, _, gap in bridged)
+    heads = tuple(given.parts.scene.paths[part] for a, b, _ in sorted(bridged) for part in (a, b))
     message = (
-        f"{len(drawing.bridged)} gaps between ends of pipes that face each other are bridged, the widest "
+        f"{len(bridged)} gaps between ends of pipes that face each other are bridged, the widest "
         f"{1000 * widest:.1f} mm (relate.bridge); each pair of meshes is listed in turn"
     )
     return (Diagnostic("bridged-gap", message, heads),)

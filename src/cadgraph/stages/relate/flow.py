@@ -10,6 +10,7 @@ import numpy as np
 
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.parts import Link, Network, Parts
+from cadgraph.stages.relate.edit_flow import yield_to
 from cadgraph.stages.relate.flow_file import file_flow, is_of_file, weigh_flow
 from cadgraph.stages.relate.flow_sources import SOURCES, Sight
 from cadgraph.stages.relate.flow_spread import Evidence, around
@@ -27,6 +28,7 @@ def direct_flow(
     names: Sequence[str | None],
     given: Sequence[Evidence] = (),
     stated: Stated | None = None,
+    by_user: Sequence[Evidence] = (),
 ) -> tuple[Network, tuple[Diagnostic, ...]]:
     """Gives links the direction of their flow where something shows it.
 
@@ -36,6 +38,7 @@ def direct_flow(
         names: name of each part, None where unknown.
         given: directions that the user states (``stated_flow``).
         stated: what the file says, where that counts.
+        by_user: directions that the user set; everything else gives way to them.
 
     Returns:
         The network with directions, their reasons and confidences, and diagnostics of the contradictions.
@@ -43,10 +46,13 @@ def direct_flow(
     sight = Sight(network, parts, names, around(network))
     shown = [one for source in SOURCES for one in source(sight)]
     filed, doubts = file_flow(network, stated) if stated else ([], [])
-    weighed = weigh_flow(network, given, shown, filed)
+    out, overruled = yield_to(network, by_user, [*given, *shown, *filed])
+    given, shown, filed = ([one for one in ones if one.reason not in out] for ones in (given, shown, filed))
+    weighed = weigh_flow(network, [*by_user, *given], shown, filed)
     chosen, against = weighed.flows.chosen, weighed.flows.against
     links = tuple(_directed(link, chosen.get(number)) for number, link in enumerate(network.links))
     doubts += weighed.disagreeing
+    against += overruled
     doubts += [pair for pair in against if any(map(is_of_file, pair))]
     ours = [pair for pair in against if not any(map(is_of_file, pair))]
     return replace(network, links=links), (
@@ -83,17 +89,18 @@ def _contradictions(
     return (Diagnostic(code, f"{message}; {told}", tuple(dict.fromkeys(meshes))),)
 
 
-def stated_flow(network: Network, statements: Sequence[str]) -> list[Evidence]:
+def stated_flow(network: Network, statements: Sequence[str], former: Sequence[str] = ()) -> list[Evidence]:
     """What the user says about the flow.
 
     Args:
         network: units and links.
         statements: ``"P-001 -> T-001"`` each: it flows from one unit to the other.
+        former: tags of the units before a user gave them others; they mean the same unless they mean another unit now.
 
     Raises:
         ValueError: a statement is malformed, names no unit, or nothing joins the two.
     """
-    number = {unit.tag: k for k, unit in enumerate(network.units)}
+    number = {tag: k for k, tag in enumerate(former)} | {unit.tag: k for k, unit in enumerate(network.units)}
     return [one for statement in statements for one in _stated(network, *_ends(statement, number))]
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 
 import numpy as np
 
@@ -35,6 +36,7 @@ class Drawing:
         solids: nodes that are a connector without a line, and which part.
         bridged: parts on both sides of each bridged gap, and the gap [m].
         flanged: pairs of solids that are flanged to each other, and where [m].
+        by_user: pairs of solids that a user joined, and the two ends of the gap between them [m].
     """
 
     net: Net
@@ -44,6 +46,7 @@ class Drawing:
     solids: Mapping[int, int]
     bridged: tuple[tuple[int, int, float], ...]
     flanged: Mapping[tuple[int, int], Floats] = field(default_factory=dict)
+    by_user: Mapping[tuple[int, int], Floats] = field(default_factory=dict)
 
 
 @dataclass
@@ -86,6 +89,7 @@ def draw_network(
     found: Attachments,
     flanged: Mapping[tuple[int, int], Floats],
     sure: Callable[[int], float],
+    bridged: Mapping[tuple[int, int], Floats] = MappingProxyType({}),
 ) -> Drawing:
     """Draws the spans between units, joints, junctions and taps.
 
@@ -96,6 +100,7 @@ def draw_network(
         found: what joins what.
         flanged: pairs of solids that are flanged to each other, and where [m].
         sure: how sure it is that a part is a connector.
+        bridged: pairs of solids that a user joined across a gap, and the two ends of it, ``(2, 3)`` [m].
     """
     owner = {part: number for number, unit in enumerate(units) for part in unit.parts}
     draft = _Draft(lines, found, owner, len(units), openings=[[] for _ in units])
@@ -109,8 +114,9 @@ def draw_network(
     for part in sorted(lines):
         _draw_line(draft, part, sure(part))
     _draw_mounts(draft)
-    _draw_flanged(draft, flanged)
-    return replace(_finish(draft), flanged=flanged)
+    _draw_flanged(draft, {pair: point[None] for pair, point in flanged.items()}, FLANGED_SCORE)
+    _draw_flanged(draft, bridged, 1.0)
+    return replace(_finish(draft), flanged=flanged, by_user=bridged)
 
 
 def _join_ends(draft: _Draft) -> None:
@@ -241,25 +247,28 @@ def _draw_mounts(draft: _Draft) -> None:
         sure = mount.score
         if mount.part in draft.owner:
             unit = draft.owner[mount.part]
-            port = draft.open(unit, point, -ends.direction[mount.row], diameter)
-            draft.spans.append(Span(here, unit, (), point[None], 0.0, (), sure, -1, port))
+            way = point[None] if mount.at is None else np.stack([point, mount.at])
+            port = draft.open(unit, way[-1], -ends.direction[mount.row], diameter)
+            length = float(np.linalg.norm(way[-1] - point))
+            draft.spans.append(Span(here, unit, (), way, length, (), sure, -1, port))
         elif mount.part in draft.node_of_solid:
             node = draft.node_of_solid[mount.part]
             draft.spans.append(Span(here, node, (mount.part,), point[None], 0.0, (), sure))
 
 
-def _draw_flanged(draft: _Draft, flanged: Mapping[tuple[int, int], Floats]) -> None:
-    """Spans without length between solids that are flanged to each other."""
-    for (a, b), point in sorted(flanged.items()):
+def _draw_flanged(draft: _Draft, flanged: Mapping[tuple[int, int], Floats], sure: float) -> None:
+    """Spans between solids that are joined to each other, by the way between them: one point, or two."""
+    for (a, b), way in sorted(flanged.items(), key=lambda item: item[0]):
         first = draft.owner.get(a, draft.node_of_solid.get(a))
         second = draft.owner.get(b, draft.node_of_solid.get(b))
         if first is None or second is None or first == second:
             continue
         ports = [
             draft.open(node, point, None, None) if part in draft.owner else -1
-            for part, node in ((a, first), (b, second))
+            for part, node, point in ((a, first, way[0]), (b, second, way[-1]))
         ]
-        draft.spans.append(Span(first, second, (), point[None], 0.0, (), FLANGED_SCORE, ports[0], ports[1]))
+        length = float(np.linalg.norm(way[-1] - way[0]))
+        draft.spans.append(Span(first, second, (), way, length, (), sure, ports[0], ports[1]))
 
 
 def _finish(draft: _Draft) -> Drawing:

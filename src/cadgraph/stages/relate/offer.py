@@ -12,6 +12,7 @@ from scipy.spatial import cKDTree
 from cadgraph.geometry.line.centreline import Centreline
 from cadgraph.model.parts import Bools, Contacts
 from cadgraph.model.scene import Floats, Ints
+from cadgraph.stages.relate.edits import BY_USER, CUT
 from cadgraph.stages.relate.evidence import CURVES, FLAGS, add_up, score_of, tell
 from cadgraph.stages.relate.joint import Ends, Tap, find_tap
 from cadgraph.stages.relate.stated import REACH, Stated
@@ -96,6 +97,8 @@ class Offer:
     @property
     def reasons(self) -> tuple[str, ...]:
         """What speaks for and against it, in words."""
+        if self.flags in ((BY_USER,), (CUT,)):
+            return self.flags
         return tell(self.measured, self.flags, self.said)
 
 

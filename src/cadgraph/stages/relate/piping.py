@@ -19,6 +19,8 @@ from cadgraph.model.scene import Ints
 from cadgraph.model.stated import resolve_links
 from cadgraph.model.vocabulary import Vocabulary
 from cadgraph.stages.relate.attach import Attachments, attach_lines
+from cadgraph.stages.relate.edit_joints import edit_joints
+from cadgraph.stages.relate.edits import NetworkEdits
 from cadgraph.stages.relate.role import Roles
 from cadgraph.stages.relate.stated import Stated
 
@@ -42,6 +44,7 @@ class RelateInput:
         config: settings.
         probabilities: what the labeler holds for possible, where it knows.
         statements: what the file says of parts and units, where that counts.
+        edits: what a user corrected of the network.
     """
 
     analysis: Analysis
@@ -51,6 +54,7 @@ class RelateInput:
     config: Config
     probabilities: Probabilities | None = None
     statements: Statements | None = None
+    edits: NetworkEdits = field(default_factory=NetworkEdits)
 
     @property
     def parts(self) -> Parts:
@@ -148,7 +152,7 @@ class Piping:
         """What every end of a line joins; it follows from the lines and from what they may end at."""
         given = self.given
         solids = self.members.union(self.lineless)
-        return attach_lines(
+        found = attach_lines(
             given.parts,
             given.contacts,
             self.lines,
@@ -158,6 +162,7 @@ class Piping:
             self.bolted,
             given.stated,
         )
+        return edit_joints(found, given.edits, given.parts, self.lines, solids)
 
     @cached_property
     def bolted(self) -> frozenset[tuple[int, int]]:

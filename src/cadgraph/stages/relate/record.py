@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from cadgraph.model.parts import Joint, UnitParts
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.attach import Attachments
+from cadgraph.stages.relate.edits import CUT
 from cadgraph.stages.relate.network import FLANGED_SCORE, SIDE_SCORE, TWIN_SCORE, gauge_sides
 from cadgraph.stages.relate.offer import Offer
 from cadgraph.stages.relate.piping import Piping
@@ -49,7 +50,7 @@ def _refused(found: Attachments) -> Iterator[Joint]:
     """The best joints of ends that stayed free, each once."""
     offers = {(o.row, o.other, o.kind): o for o in found.refused.values() if o.kind != "sleeve"}
     for _, offer in sorted(offers.items()):
-        if offer.score >= _LEAST:
+        if offer.score >= _LEAST or offer.flags == (CUT,):
             yield _joint(found, offer, False)
 
 

@@ -15,7 +15,7 @@ from cadgraph.model.names import loose_tag
 from cadgraph.model.parts import Network, Parts, UnitParts
 from cadgraph.model.vocabulary import Vocabulary, spell_label
 
-__all__ = ["Named", "name_as_stated", "tag_as_stated"]
+__all__ = ["Named", "name_as_stated", "renumbered", "tag_as_stated"]
 
 _SURE = 0.75  # a claim that is trusted so much replaces the kind that geometry finds; others fill gaps
 _NO_PLACE = 99  # of a name that its group doesn't have
@@ -67,7 +67,7 @@ def tag_as_stated(
         return Named(tuple(units))
     said = stated.of_units(_by_rank(units, parts, labels, vocabulary))
     wanted = [next((tag for value in one.tags if (tag := usable_tag(value))), None) for one in said]
-    renamed = _renumbered(units, _claimed_once(wanted))
+    renamed = renumbered(units, _claimed_once(wanted))
     order = sorted(range(len(units)), key=lambda k: natural_key(renamed[k]))
     return Named(
         tuple(replace(units[k], tag=renamed[k]) for k in order),
@@ -98,8 +98,13 @@ def _by_rank(
     return [sorted(unit.parts, key=rank) for unit in units]
 
 
-def _renumbered(units: Sequence[UnitParts], tags: Sequence[str | None]) -> list[str]:
-    """The tags of the file, and for units without one their numbers, or where these are taken the next free ones."""
+def renumbered(units: Sequence[UnitParts], tags: Sequence[str | None]) -> list[str]:
+    """The given tags; for units without one the tags that they have, or where these are taken the next free numbers.
+
+    Args:
+        units: with a tag each.
+        tags: another one for some.
+    """
     taken = {loose_tag(tag) for tag in tags if tag}
     numbers = {loose_tag(unit.tag) for unit in units}
     found = []
