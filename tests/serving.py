@@ -111,9 +111,9 @@ class Served:
 @contextmanager
 def served(*arguments):
     """The command ``cadgraph view`` while it runs; killed at the end, if it still does."""
+    start = "import serving; from cadgraph.cli import main; main()"
     process = subprocess.Popen(
-        [sys.executable, "-c", "import serving; from cadgraph.cli import main; main()", "view", *map(str, arguments)]
-        + ["--no-browser"],
+        [sys.executable, "-c", start, "view", *map(str, arguments), "--no-browser"],
         env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,

@@ -125,7 +125,9 @@ def test_a_question_is_answered_by_an_option_or_put_aside(client, plant):
     version = plant.feed.state.version
     first, second, third = client.get("/api/review?limit=3").json()
     for question, option in ((first, "skip"), (second, "unsure")):
-        told = client.post("/api/answer", json={"version": version, "question": question["id"], "option": option}).json()
+        told = client.post(
+            "/api/answer", json={"version": version, "question": question["id"], "option": option}
+        ).json()
         assert (told["version"], told["rows"], told["changed"]) == (version, [], [])
     asked = {question["id"] for question in client.get("/api/review?limit=500").json()}
     assert third["id"] in asked

@@ -27,7 +27,9 @@ def client(plant, tmp_path):
     return serving.client_of(plant, serving.make_page(tmp_path), raise_server_exceptions=False)
 
 
-@pytest.mark.parametrize("token", [None, "", "Bearer", "Bearer wrong", "Basic a-token", "Bearer a-token2", "Bearer \xff"])
+@pytest.mark.parametrize(
+    "token", [None, "", "Bearer", "Bearer wrong", "Basic a-token", "Bearer a-token2", "Bearer \xff"]
+)
 def test_without_the_token_nothing_is_told_or_done(client, token):
     headers = {"authorization": "" if token is None else token.encode("latin-1")}
     for path in CALLS:
@@ -47,8 +49,10 @@ def test_the_page_itself_needs_the_token_in_its_address(client):
 
 @pytest.mark.parametrize(
     "host",
-    ["evil.example:8000", "127.0.0.1", "127.0.0.1:8001", "localhost.evil.example:8000", "127.0.0.1:8000.evil.example"]
-    + ["", "evil@127.0.0.1:8000", "[::1", "0.0.0.0:8000", "localhost:", "127.0.0.1:08000"],
+    (
+        *("evil.example:8000", "127.0.0.1", "127.0.0.1:8001", "localhost.evil.example:8000", "0.0.0.0:8000"),
+        *("", "evil@127.0.0.1:8000", "[::1", "127.0.0.1:8000.evil.example", "localhost:", "127.0.0.1:08000"),
+    ),
 )
 def test_a_name_that_leads_here_from_another_site_is_refused(client, host):
     assert client.get("/api/state", headers={"host": host}).status_code == 403
@@ -60,13 +64,17 @@ def test_the_names_of_this_machine_are_let_in(client, host):
     assert client.get("/api/state", headers={"host": host, "origin": f"http://{host}"}).status_code == 200
 
 
-@pytest.mark.parametrize("origin", ["http://evil.example", "null", "https://127.0.0.1:8000", "http://127.0.0.1:8001", ""])
+@pytest.mark.parametrize(
+    "origin", ["http://evil.example", "null", "https://127.0.0.1:8000", "http://127.0.0.1:8001", ""]
+)
 def test_pages_of_other_sites_are_refused_even_with_the_token(client, origin):
     assert client.post("/api/undo", json={"version": 1}, headers={"origin": origin}).status_code == 403
     assert client.get("/api/state", headers={"origin": origin}).status_code == 403
 
 
-@pytest.mark.parametrize("kind", ["text/plain", "application/x-www-form-urlencoded", "multipart/form-data; boundary=x", ""])
+@pytest.mark.parametrize(
+    "kind", ["text/plain", "application/x-www-form-urlencoded", "multipart/form-data; boundary=x", ""]
+)
 def test_what_a_form_can_post_is_refused(client, kind):
     assert client.post("/api/undo", content='{"version": 1}', headers={"content-type": kind}).status_code == 415
 
@@ -74,8 +82,12 @@ def test_what_a_form_can_post_is_refused(client, kind):
 def test_all_addresses_of_a_machine_let_in_bare_addresses_but_no_foreign_names(monkeypatch):
     monkeypatch.setattr("socket.gethostname", lambda: "Plant-PC")
     doors = Doors("0.0.0.0", 8000)
-    assert all(doors.lets_in(host) for host in ("192.168.1.5:8000", "[fe80::1]:8000", "plant-pc:8000", "localhost:8000"))
-    assert not any(doors.lets_in(host) for host in ("evil.example:8000", "192.168.1.5", "192.168.1.5.evil.example:8000"))
+    assert all(
+        doors.lets_in(host) for host in ("192.168.1.5:8000", "[fe80::1]:8000", "plant-pc:8000", "localhost:8000")
+    )
+    assert not any(
+        doors.lets_in(host) for host in ("evil.example:8000", "192.168.1.5", "192.168.1.5.evil.example:8000")
+    )
     named = Doors("plant.local", 80)
     assert named.lets_in("plant.local")
     assert named.lets_in("Plant.local:80")
@@ -99,7 +111,9 @@ def test_every_answer_carries_the_policy(client, monkeypatch, plant):
         assert "access-control-allow-origin" not in answer.headers
 
 
-@pytest.mark.parametrize("name", ["..%2f..%2fgraph.json", "%2e%2e/graph.json", "%2fetc%2fpasswd", "..\\graph.json", "%00"])
+@pytest.mark.parametrize(
+    "name", ["..%2f..%2fgraph.json", "%2e%2e/graph.json", "%2fetc%2fpasswd", "..\\graph.json", "%00"]
+)
 def test_a_scene_has_no_files_but_its_own(client, name):
     assert client.get(f"/api/scene/{name}").status_code == 404
 
@@ -116,10 +130,13 @@ def test_what_is_asked_for_reaches_no_header_and_breaks_no_line(client):
 
 @pytest.mark.parametrize(
     "body",
-    ["", "nonsense", "[]", "1", "{}", '{"version": true}', '{"version": "1"}', '{"version": 1}', '{"version": 1, "edits": []}']
-    + ['{"version": 1, "edits": [1]}', '{"version": 1, "edits": {}}', "[" * 100_000, '{"version": 1, "edits": [{}]}']
-    + ['{"version": 1, "edits": [{"kind": "a later one", "part": "part-00000"}]}', '{"version": NaN, "edits": [{}]}']
-    + ['{"version": 1, "edits": [{"kind": "label"}], "why": 1}', '{"version": 1, "edits": [{"kind": []}]}'],
+    (
+        *("", "nonsense", "[]", "1", "{}", "[" * 100_000, '{"version": true}', '{"version": "1"}', '{"version": 1}'),
+        *('{"version": 1, "edits": []}', '{"version": 1, "edits": [1]}', '{"version": 1, "edits": {}}'),
+        *('{"version": 1, "edits": [{}]}', '{"version": 1, "edits": [{"kind": "a later one", "part": "part-00000"}]}'),
+        *('{"version": NaN, "edits": [{}]}', '{"version": 1, "edits": [{"kind": "label"}], "why": 1}'),
+        *('{"version": 1, "edits": [{"kind": []}]}', '{"version": 1, "edits": [{"kind": "label", "part": {}}]}'),
+    ),
 )
 def test_what_is_no_edit_is_refused_in_one_line_and_changes_nothing(client, plant, body):
     answer = client.post("/api/edit", content=body, headers={"content-type": "application/json"})

@@ -5,9 +5,8 @@ import pytest
 
 import serving
 from cadgraph.errors import FormatError, LoadError, OutputError
-from cadgraph.model.corrections import CORRECTIONS, read_corrections
+from cadgraph.model.corrections import CORRECTIONS, CorrectionsFile, read_corrections
 from cadgraph.model.graph import SceneGraph
-from cadgraph.serve import desk as serve_desk
 from cadgraph.serve import plant as serve_plant
 from cadgraph.serve.boxes import boxes_of
 from cadgraph.serve.plant import Order, Plant, order_of
@@ -123,11 +122,11 @@ def test_what_the_disk_does_not_take_is_taken_back(opened, folder, monkeypatch):
     plant.edit(1, [label("part-00001", "Pipe assembly", "tee")], "")
     before = plant.shown().content
 
-    def full(history, path):
-        raise OutputError(f"{path}: can't be written (No space left on device); choose another output folder")
+    def full(self, history):
+        raise OutputError(f"{self.file}: can't be written (No space left on device); choose another output folder")
 
     with monkeypatch.context() as patched:
-        patched.setattr(serve_desk, "write_history", full)
+        patched.setattr(CorrectionsFile, "write", full)
         with pytest.raises(Refusal, match="No space left") as refused:
             plant.edit(2, [label("part-00002", "Tank", None)], "")
     assert refused.value.status == 507
@@ -186,7 +185,11 @@ def test_a_box_lies_where_its_part_does(folder):
         low, high = (vertices + scene.origin).min(axis=0), (vertices + scene.origin).max(axis=0)
         assert [*low, *high] == pytest.approx([*part.aabb[0], *part.aabb[1]], abs=1e-6)
         a, b, c = (vertices[faces[:, corner]] for corner in range(3))
-        volume = float(((b - a)[:, [1, 2, 0]] * (c - a)[:, [2, 0, 1]] * a - (b - a)[:, [2, 0, 1]] * (c - a)[:, [1, 2, 0]] * a).sum())
+        volume = float(
+            (
+                (b - a)[:, [1, 2, 0]] * (c - a)[:, [2, 0, 1]] * a - (b - a)[:, [2, 0, 1]] * (c - a)[:, [1, 2, 0]] * a
+            ).sum()
+        )
         assert volume / 6 != pytest.approx(0)
 
 

@@ -278,9 +278,12 @@ class CorrectionsFile:
     def read(self, vocabulary: Vocabulary | None = None) -> History:
         """Reads it; see ``read_history``."""
         content = self._content()
+        history = History() if content is None else self._parsed(content, vocabulary)
+        # Only now: what can't be read must not be written over.
         self.known = _digest(content)
-        if content is None:
-            return History()
+        return history
+
+    def _parsed(self, content: bytes, vocabulary: Vocabulary | None) -> History:
         history = History(tuple(Action(**row) for row in read_document(content, self.file)))
         try:
             history.check()

@@ -21,7 +21,6 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import SourceRecord
 from cadgraph.model.scene import Scene
 from cadgraph.serve.boxes import boxes_of
-from cadgraph.serve.desk import Desk, Overtaken
 from cadgraph.serve.saving import Saver
 from cadgraph.serve.snapshot import Snapshot, difference
 from cadgraph.serve.state import Feed, Refusal, State
@@ -135,7 +134,7 @@ class Plant:
         self._at_rest.set()
         self._snapshot: Snapshot | None = None
         self._packed: PackedScene | None = None
-        self._desk: Desk | None = None
+        self._session: Session | None = None
         self._source: Path | None = None
         self._on_disk = False  # whether nothing but the disk keeps it from being changed
         self._saver = Saver(self._save, self._saved, delay)
@@ -226,7 +225,7 @@ class Plant:
     def _build(self, source: Path) -> None:
         folder, config = self._order.folder, self._order.config or Config()
         clock = Clock(self._progress)
-        session = begin(source, folder, config, progress=clock)
+        session = begin(source, folder, config, progress=clock, keep=True)
         write_results(session, source, folder, False, clock)
         self._see(session.graph, session.analysis.scene)
         self._source = source
@@ -247,7 +246,7 @@ class Plant:
         # The plant can be looked at while the rest is made ready.
         self._see(graph, prepare_scene(scene)[0])
         former = FormerLabeler(graph) if config.lvlm.ask != "never" else None
-        session = reopen(graph, folder, source, config, former, self._progress, scene=scene, anew=True)
+        session = reopen(graph, folder, source, config, former, self._progress, scene=scene, keep=True)
         self._source = source
         now = session.make_graph(self._progress)
         shown = self.shown()
@@ -268,9 +267,9 @@ class Plant:
         self.feed.publish(version=1, title=file_name(graph.source.path))
 
     def _begin(self, session: Session) -> None:
-        self._desk = Desk(session, self._order.folder)
+        self._session = session
         self._look_at_disk()
-        self._publish(status="ready", stage="", share=1.0)
+        self._publish(session, status="ready", stage="", share=1.0)
 
     def _view_only(self, why: str) -> None:
         self.feed.publish(status="ready", stage="", share=1.0, read_only=why)
@@ -289,12 +288,13 @@ class Plant:
 
     def look(self) -> None:
         """Looks whether others changed the corrections, or whether a disk that was full has room again."""
-        if self._desk is None:
+        if self._session is None:
             return
         try:
-            if self._desk.overtaken:
-                self._desk.take_up()
-                self._changed("the corrections were changed by another program, and are shown as they are now")
+            if self._session.overtaken:
+                self._take_up(
+                    self._session, "the corrections were changed by another program; this is how they are now"
+                )
             elif self._on_disk:
                 self._look_at_disk()
         except LabelError as error:
@@ -316,15 +316,15 @@ class Plant:
             LabelError: an edit can't be carried out.
             ValueError: likewise.
         """
-        return self._act(version, lambda desk: desk.apply(edits, self._who, why))
+        return self._act(version, lambda session: session.apply(edits, who=self._who, why=why))
 
     def undo(self, version: int) -> dict[str, Any]:
         """Takes the last action back; see ``edit``."""
-        return self._act(version, lambda desk: desk.undo(self._who))
+        return self._act(version, lambda session: session.undo(who=self._who))
 
     def redo(self, version: int) -> dict[str, Any]:
         """Does again what was taken back last; see ``edit``."""
-        return self._act(version, lambda desk: desk.redo(self._who))
+        return self._act(version, lambda session: session.redo(who=self._who))
 
     def review(self, limit: int) -> list[dict[str, Any]]:
         """What is most worth a look, without what was put aside.
@@ -334,12 +334,12 @@ class Plant:
         Args:
             limit: questions at most.
         """
-        if self._desk is None:
+        if self._session is None:
             return []
-        found = review_queue(self._desk.session, limit, self._later | self._unsure)
+        found = review_queue(self._session, limit, self._later | self._unsure)
         if not found and self._later:
             self._later.clear()
-            found = review_queue(self._desk.session, limit, self._unsure)
+            found = review_queue(self._session, limit, self._unsure)
         self._questions.update((question.id, question) for question in found)
         return [question.to_json() for question in found]
 
@@ -368,7 +368,7 @@ class Plant:
 
     def audit(self) -> list[Any]:
         """All that was done, the newest first."""
-        return [] if self._desk is None else list(self._desk.history.audit())
+        return [] if self._session is None else list(self._session.history.audit())
 
     def draw_report(self) -> None:
         """Draws the report of the plant as it is now.
@@ -378,24 +378,24 @@ class Plant:
         """
         from cadgraph.draw.report import write_report
 
-        if self._desk is not None and self.feed.state.read_only is None:
-            session = self._desk.session
+        session = self._session
+        if session is not None and self.feed.state.read_only is None:
             write_report(
                 session.analysis.scene, session.graph, self._order.folder / "report.html", session.config.report
             )
 
-    def _act(self, version: int, act: Callable[[Desk], Change]) -> dict[str, Any]:
-        desk = self._check(version)
+    def _act(self, version: int, act: Callable[[Session], Change]) -> dict[str, Any]:
+        session = self._check(version)
         before = self.shown()
         self._at_rest.clear()
         try:
-            change = act(desk)
-            self._changed(change.message)
+            if session.overtaken:
+                reason = "the corrections were changed by another program meanwhile; look at them, then repeat yours"
+                self._take_up(session, reason)
+                raise Refusal(409, reason, self.feed.state)
+            change = act(session)
+            self._changed(session, change.message)
             return self._update(before, self.shown(), change.changed, change.message)
-        except Overtaken:
-            reason = "the corrections were changed by another program meanwhile; look at them, then repeat yours"
-            self._changed(reason)
-            raise Refusal(409, reason, self.feed.state) from None
         except OutputError as error:
             self._on_disk = True
             self.feed.publish(read_only=str(error))
@@ -403,35 +403,35 @@ class Plant:
         finally:
             self._at_rest.set()
 
-    def _check(self, version: int) -> Desk:
-        """The session's desk, if it can be changed from what the page shows."""
+    def _check(self, version: int) -> Session:
+        """The session, if it can be changed from what the page shows."""
         state = self.feed.state
         if self._on_disk:
             self._look_at_disk()
             state = self.feed.state
-        if self._desk is None or state.read_only is not None:
+        if self._session is None or state.read_only is not None:
             raise Refusal(507, state.read_only or "nothing can be corrected here")
         if version != state.version:
             reason = "another window has changed the plant meanwhile; look at it, then repeat this correction"
             raise Refusal(409, reason, state)
-        return self._desk
+        return self._session
 
-    def _changed(self, message: str) -> None:
+    def _take_up(self, session: Session, message: str) -> None:
+        """Shows the corrections that another program left."""
+        session.take_up()
+        self._changed(session, message)
+
+    def _changed(self, session: Session, message: str) -> None:
         """Shows the session's graph as the next version."""
-        if self._desk is None:
-            return
         before = self.shown()
-        self._snapshot = Snapshot(before.version + 1, self._desk.graph, before.scene)
+        self._snapshot = Snapshot(before.version + 1, session.graph, before.scene)
         self._questions.clear()
-        self._saver.give(self._desk.graph)
-        self._publish(message=message)
+        self._saver.give(session.graph)
+        self._publish(session, message=message)
 
-    def _publish(self, **changes: Any) -> None:
+    def _publish(self, session: Session, **changes: Any) -> None:
         """Tells how things are after a change."""
-        if self._desk is None:
-            return
-        history, shown = self._desk.history, self.shown()
-        lost = tuple(one.message for one in shown.graph.diagnostics if one.code == "correction-lost")
+        history, shown = session.history, self.shown()
         undo, redo = history.to_undo, history.to_redo
         self.feed.publish(
             version=shown.version,
@@ -439,8 +439,8 @@ class Plant:
             can_redo=history.can_redo,
             undo=None if undo is None else undo.what,
             redo=None if redo is None else redo.what,
-            n_edits=sum(event.kind == "do" for event in history.events) - sum(row["undone"] for row in history.audit()),
-            lost=lost,
+            n_edits=len(history.in_force),
+            lost=session.lost,
             **changes,
         )
 
