@@ -125,12 +125,10 @@ class Feed:
         with self._lock:
             self._followers[event] = asyncio.get_running_loop()
         try:
-            while True:
+            while not self._closed:
                 event.clear()
                 yield self._state
-                if self._closed:
-                    return
-                while not event.is_set():
+                while not event.is_set() and not self._closed:
                     try:
                         await asyncio.wait_for(event.wait(), _BEAT)
                     except TimeoutError:
