@@ -17,12 +17,12 @@ from pathlib import Path
 import numpy as np
 from _timing import machine
 
-from cadgraph.draw.web.packing import PackedScene, pack_scene
+from cadgraph.draw.web.packing import ROW, PackedScene, pack_scene
 from cadgraph.load import load
 from cadgraph.model.scene import MeshArrays, Scene
 from cadgraph.session.demo import DEMO_SCENE
 from cadlab.markdown import table
-from cadplants.make import make_plant
+from cadplants import make, write_usd
 
 
 def tiled(scene: Scene, count: int, spread: float = 0.0) -> Scene:
@@ -32,7 +32,9 @@ def tiled(scene: Scene, count: int, spread: float = 0.0) -> Scene:
     extent = np.ptp(scene.vertices, axis=0)[:2] + 2.0
     random = np.random.default_rng(0)
     n_vertices, n_faces = np.diff(scene.vertex_offsets), np.diff(scene.face_offsets)
-    middle = np.repeat(np.add.reduceat(scene.vertices, scene.vertex_offsets[:-1]) / n_vertices[:, None], n_vertices, axis=0)
+    middle = np.repeat(
+        np.add.reduceat(scene.vertices, scene.vertex_offsets[:-1]) / n_vertices[:, None], n_vertices, axis=0
+    )
     vertices = []
     for i in range(copies):
         scale = np.repeat(random.uniform(1 - spread, 1 + spread, scene.n_meshes), n_vertices)[:, None]
@@ -64,8 +66,6 @@ def row(name: str, scene: Scene) -> list[object]:
 
 def triangles(packed: PackedScene, level: int) -> int:
     """Of the chunks of a level, each shape once."""
-    from cadgraph.draw.web.packing import ROW
-
     total = 0
     for chunk in packed.manifest["chunks"]:
         if chunk["level"] == level:
@@ -80,7 +80,7 @@ def main() -> None:
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "field.usdc"
-        make_plant("field", file)
+        write_usd(make("field"), file)
         field = load(file)
     demo = load(DEMO_SCENE)
     pack_scene(demo)  # compiles
@@ -92,7 +92,7 @@ def main() -> None:
         "seconds", "GB at most so far",
     ]  # fmt: skip
     print(f"{machine()}\n")
-    print(table(heads, rows))
+    print(*table(heads, rows), sep="\n")
 
 
 if __name__ == "__main__":
