@@ -23,7 +23,7 @@ from cadgraph.model.edits import LOST, Edit, Ground, meshes_of, tell_lost
 from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import Label
-from cadgraph.model.parts import Bools, Contacts, Properties
+from cadgraph.model.parts import Bools, Contacts, Parts, Properties
 from cadgraph.model.probabilities import Probabilities
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary
@@ -35,11 +35,20 @@ from cadgraph.stages.ground import find_ground, report_ground
 from cadgraph.stages.group import group_meshes
 from cadgraph.stages.insides import find_insides, join_enclosed
 from cadgraph.stages.inspect import inspect_meshes
-from cadgraph.stages.parts import make_parts
+from cadgraph.stages.parts import make_parts, regrounded
 from cadgraph.stages.preprocess import prepare_scene
 from cadgraph.stages.relate import RelateInput, connect_units, pipe_systems, place_edits, relate_units
 
-__all__ = ["ANALYSIS_SETTINGS", "STAGES", "analyse", "build", "contradicted", "interpret", "lay_ground"]
+__all__ = [
+    "ANALYSIS_SETTINGS",
+    "STAGES",
+    "analyse",
+    "build",
+    "contradicted",
+    "ground_as_said",
+    "interpret",
+    "lay_ground",
+]
 
 _WEAK = 0.46  # a likely label below this confidence is no label for the relations
 STAGES = ("measure", "contacts", "group", "cluster", "label", "relate", "assemble")
@@ -128,11 +137,15 @@ class _Seen:
     notes: tuple[Diagnostic, ...]
 
 
-def _structured(seen: _Seen, ground: Bools, config: Config, progress: Progress = quiet) -> Analysis:
-    """Parts, contacts and structures of meshes, of which some are the ground."""
+def _structured(
+    seen: _Seen, ground: Bools, config: Config, progress: Progress = quiet, former: Parts | None = None
+) -> Analysis:
+    """Parts, contacts and structures of meshes, of which some are the ground; former parts of the same meshes stay."""
     scene, near = seen.scene, seen.near
     progress("group", 0)
-    parts = make_parts(scene, seen.properties, group_meshes(seen.properties, ground, near, config.group), ground)
+    heads = group_meshes(seen.properties, ground, near, config.group)
+    parts = regrounded(former, heads, ground) if former is not None else None
+    parts = make_parts(scene, seen.properties, heads, ground) if parts is None else parts
     parts = find_insides(parts, config.method)
     contacts = join_contacts(near, parts.part_of_mesh, config.cluster.eps)
     progress("cluster", 0)
@@ -158,6 +171,27 @@ def _structured(seen: _Seen, ground: Bools, config: Config, progress: Progress =
     )
 
 
+def ground_as_said(analysis: Analysis, edits: Sequence[Edit]) -> Bools | None:
+    """Which meshes are the ground as a user says.
+
+    Args:
+        analysis: of the scene, with whatever ground.
+        edits: in force; those of the ground count.
+
+    Returns:
+        ``(n_meshes,)``; None where it is that of the analysis.
+    """
+    if analysis.found_ground is None:
+        return None
+    meshes = anchored_meshes(analysis.scene, analysis.properties)
+    wanted = analysis.found_ground.copy()
+    for edit in edits:
+        mesh = meshes.find(edit.mesh) if isinstance(edit, Ground) else None
+        if isinstance(edit, Ground) and mesh is not None:
+            wanted[mesh] = edit.ground
+    return None if analysis.ground is not None and np.array_equal(wanted, analysis.ground) else wanted
+
+
 def lay_ground(analysis: Analysis, edits: Sequence[Edit], config: Config | None = None) -> Analysis:
     """An analysis in which the ground is what a user says; parts and structures follow, and nothing is measured again.
 
@@ -166,19 +200,11 @@ def lay_ground(analysis: Analysis, edits: Sequence[Edit], config: Config | None 
         edits: in force; those of the ground count.
         config: that it was made with; the defaults if None.
     """
-    near, found, ground = analysis.near, analysis.found_ground, analysis.ground
-    if near is None or found is None or ground is None:
+    wanted = ground_as_said(analysis, edits)
+    if wanted is None or analysis.near is None or analysis.found_ground is None:
         return analysis
-    meshes = anchored_meshes(analysis.scene, analysis.properties)
-    wanted = found.copy()
-    for edit in edits:
-        mesh = meshes.find(edit.mesh) if isinstance(edit, Ground) else None
-        if isinstance(edit, Ground) and mesh is not None:
-            wanted[mesh] = edit.ground
-    if np.array_equal(wanted, ground):
-        return analysis
-    seen = _Seen(analysis.scene, analysis.properties, near, found, analysis.notes)
-    return _structured(seen, wanted, config or Config())
+    seen = _Seen(analysis.scene, analysis.properties, analysis.near, analysis.found_ground, analysis.notes)
+    return _structured(seen, wanted, config or Config(), former=analysis.parts)
 
 
 def _without(labels: Sequence[Label | None], weak: Sequence[bool]) -> tuple[Label | None, ...]:

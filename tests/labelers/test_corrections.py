@@ -9,7 +9,7 @@ from cadgraph.config import LabelConfig
 from cadgraph.labelers.base import label_parts
 from cadgraph.labelers.corrections import apply_corrections
 from cadgraph.labelers.embedded.labeler import EmbeddedLabeler
-from cadgraph.model.anchors import fingerprint_of
+from cadgraph.model.anchors import anchored_parts, fingerprint_of
 from cadgraph.model.corrections import Correction
 from cadgraph.model.labels import Label
 from cadgraph.model.parts import Contacts
@@ -108,7 +108,8 @@ def test_parts_are_found_after_meshes_were_renamed_and_reordered():
     parts = parts_of(scene)
     made = [correction(parts, 0), correction(parts, 1)]
     shuffled = replace(scene.select([1, 0]), paths=("/mesh_0", "/another"))
-    assert find_parts(made, shuffled, parts_of(shuffled)) == [1, 0]
+    found = anchored_parts(shuffled, parts_of(shuffled))
+    assert [found.find(one.anchor) for one in made] == [1, 0]
 
 
 def test_a_correction_without_its_part_is_told_and_lays_hands_on_nothing():

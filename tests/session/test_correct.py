@@ -75,7 +75,7 @@ def test_a_later_build_into_the_folder_gives_the_same_graph(folder, scene):
     before = (folder / "graph.json").read_bytes()
     run(scene, folder, NONE, report=False)
     assert (folder / "graph.json").read_bytes() == before
-    assert len(json.loads((folder / "corrections.json").read_text())["corrections"]) == 2
+    assert len(json.loads((folder / "corrections.json").read_text())["events"]) == 2
 
 
 def test_a_correction_can_be_taken_back(folder):

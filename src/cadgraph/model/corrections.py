@@ -312,8 +312,8 @@ class CorrectionsFile:
         """
         if self.overtaken:
             raise OutputError(
-                f"{self.file}: another program has corrected something here meanwhile; open the folder again and repeat "
-                "this correction"
+                f"{self.file}: another program has corrected something here meanwhile; open the folder again and "
+                "repeat this correction"
             )
         document = {
             "format": FORMAT,

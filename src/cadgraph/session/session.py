@@ -25,10 +25,12 @@ from cadgraph.model.parts import Parts
 from cadgraph.model.records import Part
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary
-from cadgraph.pipeline import analyse, contradicted, interpret, lay_ground
+from cadgraph.pipeline import analyse, contradicted, ground_as_said, interpret, lay_ground
 from cadgraph.session.requests import EditRequest, Requests, read_requests
 
 __all__ = ["Change", "Session"]
+
+_MOST_GROUNDS = 4  # analyses with another ground that are kept, so that undoing costs nothing
 
 
 @dataclass(frozen=True)
@@ -75,8 +77,8 @@ class Session:
         graph: that follows from all this, where it is at hand.
         history: of all corrections made before, in place of ``corrections``.
         file: that each correction is written to before it counts; None keeps them in memory alone.
-        labeler: is asked again where the ground changes, and parts with it; None, or one that asks a model, is not: what
-            it said of parts stays with them.
+        labeler: is asked again where the ground changes, and parts with it; None, or one that asks a model, is not:
+            what it said of parts stays with them.
 
     Raises:
         LabelError: a label names a mesh that is not in the scene, or a catalogue can't be read.
@@ -103,6 +105,7 @@ class Session:
         self._file, self._labeler = file, labeler
         self._known: SettledLabels | None = None
         self._graph = graph
+        self._grounds: dict[bytes, tuple[Analysis, Labeling]] = {}
         self._follow_ground()
 
     @classmethod
@@ -186,10 +189,10 @@ class Session:
         """Corrects one or several things at once; all of it or, where one can't be carried out, nothing.
 
         Args:
-            edits: one object each, by the ids of the graph: ``{"kind": "label", "part", "group", "name", "this_only"}``,
-                ``forget`` (``part``), ``merge`` and ``split`` (``parts``), ``join`` and ``cut`` (``first``, ``second``),
-                ``direction`` (``source``, ``target``, ``via``, ``flow``), ``tag`` (``unit``, ``tag``), ``ground``
-                (``part``, ``ground``).
+            edits: one object each with its ``kind`` and, by the ids of the graph, what it is about: ``label``
+                (``part``, ``group``, ``name``, ``this_only``), ``forget`` (``part``), ``merge``, ``split`` (``parts``),
+                ``join`` and ``cut`` (``first``, ``second``), ``direction`` (``source``, ``target``, ``via``,
+                ``flow``), ``tag`` (``unit``, ``tag``), ``ground`` (``part``, ``ground``).
             who: name of the user.
             why: the reason.
 
@@ -306,6 +309,7 @@ class Session:
         self.labeling = label_parts(labeler, parts, contacts, self.vocabulary, self.config.label)
         self.given = self.given if given is None else tuple(given)
         self._labeler = labeler
+        self._grounds.clear()
         self._known = self._graph = None
 
     def _become(
@@ -327,22 +331,30 @@ class Session:
             self._known, self._graph = old.known, old.graph
             raise
         changed = changed_parts(before, now)
-        count = f"{len(changed):,} part{'s' * (len(changed) != 1)} changed" if changed else "no label changed"
+        count = f": {len(changed):,} label{'s' * (len(changed) != 1)} changed" if changed else ""
         part = None if mesh is None else now.part(mesh)
-        return Change(part, changed, f"{what}: {count}", self.analysis is not old.analysis)
+        return Change(part, changed, f"{what}{count}", self.analysis is not old.analysis)
 
     def _follow_ground(self) -> None:
-        """Lets parts and structures follow from the ground as it is now."""
-        analysis = lay_ground(self.analysis, self.corrections, self.config)
-        if analysis is self.analysis:
+        """Lets parts and structures follow from the ground as it is now; what was made before is kept for a while."""
+        former, wanted = self.analysis, ground_as_said(self.analysis, self.corrections)
+        if wanted is None or former.ground is None:
             return
+        self._grounds[former.ground.tobytes()] = former, self.labeling
+        while len(self._grounds) > _MOST_GROUNDS:
+            del self._grounds[next(iter(self._grounds))]
+        known = self._grounds.pop(wanted.tobytes(), None)
+        if known is None:
+            analysis = lay_ground(former, self.corrections, self.config)
+            known = analysis, self._labeled(analysis)
+        self.analysis, self.labeling = known
+        self._known = self._graph = None
+
+    def _labeled(self, analysis: Analysis) -> Labeling:
+        """What the labeler says of parts that others may have been before."""
         if self._labeler is None or isinstance(self._labeler, AskingLabeler):
-            self.labeling = _carried(self.labeling, self.analysis.parts, analysis.parts)
-        else:
-            self.labeling = label_parts(
-                self._labeler, analysis.parts, analysis.contacts, self.vocabulary, self.config.label
-            )
-        self.analysis, self._known, self._graph = analysis, None, None
+            return _carried(self.labeling, self.analysis.parts, analysis.parts)
+        return label_parts(self._labeler, analysis.parts, analysis.contacts, self.vocabulary, self.config.label)
 
 
 def _now() -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from cadgraph.geometry.mesh.properties import measure
@@ -9,7 +11,7 @@ from cadgraph.geometry.shape.repeats import find_shapes
 from cadgraph.model.parts import Bools, Parts, Properties
 from cadgraph.model.scene import Ints, Scene
 
-__all__ = ["make_parts"]
+__all__ = ["make_parts", "regrounded"]
 
 
 def make_parts(scene: Scene, properties: Properties, head_of_mesh: Ints, ground: Bools) -> Parts:
@@ -42,3 +44,20 @@ def make_parts(scene: Scene, properties: Properties, head_of_mesh: Ints, ground:
         shape=find_shapes(merged, measured).shape,
         ground=ground[heads],
     )
+
+
+def regrounded(parts: Parts, head_of_mesh: Ints, ground: Bools) -> Parts | None:
+    """Parts of the same meshes of which others are the ground, so that nothing is measured again.
+
+    Args:
+        parts: as they were.
+        head_of_mesh: ``(n_meshes,)`` the mesh that heads each mesh's part.
+        ground: ``(n_meshes,)`` bool.
+
+    Returns:
+        The parts, of which it is not known which lies inside which; None where other meshes belong together now.
+    """
+    heads = np.array([meshes[0] for meshes in parts.meshes], np.int64)
+    if not np.array_equal(heads[parts.part_of_mesh], head_of_mesh):
+        return None
+    return replace(parts, ground=ground[heads], inside={})

@@ -56,7 +56,7 @@ def lines_of_parts(
         round the axis from face to face. A part of several meshes has the line of the first of them: what is too small
         for a part of its own (a flange's nuts) would blur its shape.
     """
-    found: dict[int, Centreline | None] = store_of(parts, "lines")
+    found: dict[int, Centreline | None] = store_of(parts.scene, "lines")
     new = [part for part in dict.fromkeys(chosen) if part not in found]
     found |= _find_lines(scene, properties, parts, new, workers)
     return {part: line for part in chosen if (line := found[part]) is not None}
@@ -74,7 +74,7 @@ def _find_lines(
 
 def _lines_of_shapes(parts: Parts, chosen: Sequence[int], workers: int | None) -> dict[int, Centreline | None]:
     """Of parts of one mesh each: the shapes of parts are those of their meshes."""
-    known, traced = shapes_of(parts), store_of(parts, "lines of shapes")
+    known, traced = shapes_of(parts), store_of(parts.scene, "lines of shapes")
     shapes = [shape for shape in dict.fromkeys(known.shape[list(chosen)].tolist()) if shape not in traced]
     traced |= _trace(parts.scene, parts.properties, known, shapes, workers)
     return {part: _placed(traced, known, part) for part in chosen}

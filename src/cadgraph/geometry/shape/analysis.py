@@ -36,10 +36,14 @@ def analyse_shapes(scene: Scene, properties: Properties, shapes: Shapes | None =
     return ShapeAnalysis(tuple(facts), shapes.first, shapes.shape, shapes.turn, shapes.shift)
 
 
-@kept_with
 def shapes_of(parts: Parts) -> ShapeAnalysis:
-    """What is known of the shapes of parts; measured once for the same parts."""
-    return analyse_shapes(parts.scene, parts.properties)
+    """What is known of the shapes of parts; measured once for the same parts, whichever of them are the ground."""
+    return _shapes_of(parts.scene, parts.properties)
+
+
+@kept_with
+def _shapes_of(scene: Scene, properties: Properties) -> ShapeAnalysis:
+    return analyse_shapes(scene, properties)
 
 
 def measure_shapes(scene: Scene, properties: Properties) -> list[Facts]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +10,7 @@ import numpy as np
 from cadgraph.model.parts import Link, Network
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.edits import FlowEdit, NetworkEdits, Unmet
-from cadgraph.stages.relate.flow_spread import Evidence, spread
+from cadgraph.stages.relate.flow_spread import Evidence, Flows, spread
 
 __all__ = ["SetFlow", "set_flow", "unmet_flow", "yield_to"]
 
@@ -134,17 +134,18 @@ def yield_to(
     doubts: list[tuple[Evidence, Evidence]] = []
     for _ in range(_MOST_ROUNDS if said else 0):
         left = [one for one in others if one.reason not in out]
-        against = [
-            pair
-            for pair in spread(network, [*said, *left]).against
-            if (pair[0].reason in own) != (pair[1].reason in own)
-        ]
+        against = _against(spread(network, [*said, *left]), own)
         if not against:
             break
-        ordered = [(a, b) if a.reason in own else (b, a) for a, b in against]
-        doubts += ordered
-        out.update(other.reason for _, other in ordered)
+        doubts += against
+        out.update(other.reason for _, other in against)
     return frozenset(out), doubts
+
+
+def _against(flows: Flows, own: Collection[str]) -> list[tuple[Evidence, Evidence]]:
+    """The contradictions of a user's reasons, which go first, with others."""
+    mixed = [pair for pair in flows.against if (pair[0].reason in own) != (pair[1].reason in own)]
+    return [(a, b) if a.reason in own else (b, a) for a, b in mixed]
 
 
 def unmet_flow(network: Network, flow: SetFlow) -> list[Unmet]:

@@ -57,31 +57,43 @@ def edit_joints(
     """
     if not edits.joints:
         return found
+    found = _without_cut(found, edits)
     made, refused = dict(found.made), dict(found.refused)
-    for row, offer in list(refused.items()):
-        if _pair(found, offer) in edits.cut:
-            refused[row] = _cut(offer)
-    for row, offer in list(made.items()):
-        if _pair(found, offer) in edits.cut:
-            refused[row] = _cut(made.pop(row))
-    part = found.ends.part
-    apart = [(a, b) for a, b in found.doubled if (int(part[a]), int(part[b])) in edits.cut]
-    refused |= {a: _cut(Offer("face", a, b, 0.0, 0.0)) for a, b in apart}
     at: dict[int, Floats] = {}
     for edit in edits.joined:
         chance = _best(found, edit, parts, lines, solids, made)
         if chance is not None:
             _make(chance, made, refused, at)
-    ordered = sorted(made.items())
+    return _with_made(replace(found, refused=refused), made, at)
+
+
+def _without_cut(found: Attachments, edits: NetworkEdits) -> Attachments:
+    """What joins what without the joints that a user cut, which are refused now."""
+    part, cut = found.ends.part, edits.cut
+    apart = [(a, b) for a, b in found.doubled if (int(part[a]), int(part[b])) in cut]
+    # Of two ends in one place neither is refused by geometry; that one looks for the other is all that is to be told.
+    twins = {a: Offer("face", a, b, 0.0, 0.0) for a, b in apart}
+    gone = {row: offer for row, offer in found.made.items() if _pair(found, offer) in cut} | twins
+    no_more = gone | {row: offer for row, offer in found.refused.items() if _pair(found, offer) in cut}
+    kept = replace(
+        found,
+        refused={**found.refused, **{row: _cut(offer) for row, offer in no_more.items()}},
+        doubled=tuple(pair for pair in found.doubled if pair not in apart),
+        sides=tuple(side for side in found.sides if (side.solid, side.part) not in cut),
+    )
+    return _with_made(kept, {row: offer for row, offer in found.made.items() if row not in gone}, {})
+
+
+def _with_made(found: Attachments, made: Mapping[int, Offer], at: Mapping[int, Floats]) -> Attachments:
+    """What joins what with other joints made; ``at`` holds the points of solids that are not at their ends."""
+    ordered = sorted(made.items(), key=lambda item: item[0])
     return replace(
         found,
         made=made,
-        refused={row: offer for row, offer in refused.items() if row not in made},
+        refused={row: offer for row, offer in found.refused.items() if row not in made},
         facings=facings_of(made),
-        doubled=tuple(pair for pair in found.doubled if pair not in apart),
         taps=tuple(Tapped(row, o.other, o.tap, o.score) for row, o in ordered if o.tap is not None),
         mounts=tuple(Mount(row, o.other, o.gap, o.score, at.get(row)) for row, o in ordered if o.kind == "mount"),
-        sides=tuple(side for side in found.sides if (side.solid, side.part) not in edits.cut),
     )
 
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from cadgraph.model.names import loose_tag
+from cadgraph.model.parts import UnitParts
 from cadgraph.model.scene import Floats
 from cadgraph.stages.relate.edits import NetworkEdits, TagEdit, UnitEdit, Unmet
 from cadgraph.stages.relate.piping import Group, Piping
@@ -30,22 +31,22 @@ def edit_units(piping: Piping, groups: Sequence[Group]) -> tuple[Piping, list[Gr
     if not edits.units:
         return piping, list(groups), []
     edited, unmet = edit_groups(groups, edits, piping.given.parts.properties.area)
-    held = {part for group in groups for part in group.parts}
-    new = {part for group in edited for part in group.parts} - held
+    new = _parts_of(edited) - _parts_of(groups)
+    touched = _parts_of([group for group in edited if group not in groups])
+    gauges = _parts_of([group for group in edited if group.unit_type == "gauge"])
     members = piping.members | new
-    gauges = {part for group in edited if group.unit_type == "gauge" for part in group.parts}
-    changed = {part for edit in edits.units for group in edited for part in group.parts if part in edit.parts}
-    return (
-        replace(
-            piping,
-            lines={part: line for part, line in piping.lines.items() if part not in new},
-            lineless=tuple(part for part in piping.lineless if part not in new),
-            members=members,
-            feet=(piping.feet - changed) | (gauges & changed & members),
-        ),
-        edited,
-        unmet,
+    changed = replace(
+        piping,
+        lines={part: line for part, line in piping.lines.items() if part not in new},
+        lineless=tuple(part for part in piping.lineless if part not in new),
+        members=members,
+        feet=(piping.feet - touched) | (gauges & touched & members),
     )
+    return changed, edited, unmet
+
+
+def _parts_of(groups: Sequence[Group]) -> set[int]:
+    return {part for group in groups for part in group.parts}
 
 
 def edit_groups(groups: Sequence[Group], edits: NetworkEdits, area: Floats) -> tuple[list[Group], list[Unmet]]:
@@ -110,10 +111,18 @@ def tag_as_corrected(named: Named, edits: NetworkEdits) -> tuple[Named, list[Unm
     """
     if not edits.tags:
         return named, []
-    owner = {part: k for k, unit in enumerate(named.units) for part in unit.parts}
+    wanted, unmet = _wanted(named.units, edits.tags)
+    tags = renumbered(named.units, [wanted[k].tag if k in wanted else None for k in range(len(named.units))])
+    units = tuple(replace(unit, tag=tag) for unit, tag in zip(named.units, tags, strict=True))
+    return replace(named, units=units), unmet
+
+
+def _wanted(units: Sequence[UnitParts], edits: Sequence[TagEdit]) -> tuple[dict[int, TagEdit], list[Unmet]]:
+    """The tag of each unit that a user gave one, each tag once; and the edits that don't fit."""
+    owner = {part: k for k, unit in enumerate(units) for part in unit.parts}
     unmet: list[Unmet] = []
     wanted: dict[int, TagEdit] = {}
-    for edit in edits.tags:
+    for edit in edits:
         unit = _unit_of(edit, owner)
         if unit is None:
             unmet.append((edit.number, _NO_UNIT))
@@ -121,9 +130,7 @@ def tag_as_corrected(named: Named, edits: NetworkEdits) -> tuple[Named, list[Unm
         for other in [k for k, one in wanted.items() if k != unit and _is_same(one.tag, edit.tag)]:
             unmet.append((wanted.pop(other).number, "another unit is called so by a later correction"))
         wanted[unit] = edit
-    tags = renumbered(named.units, [wanted[k].tag if k in wanted else None for k in range(len(named.units))])
-    units = tuple(replace(unit, tag=tag) for unit, tag in zip(named.units, tags, strict=True))
-    return replace(named, units=units), unmet
+    return wanted, unmet
 
 
 def _unit_of(edit: TagEdit, owner: Mapping[int, int]) -> int | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import heapq
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -47,8 +47,7 @@ def direct_flow(
     shown = [one for source in SOURCES for one in source(sight)]
     filed, doubts = file_flow(network, stated) if stated else ([], [])
     out, overruled = yield_to(network, by_user, [*given, *shown, *filed])
-    given, shown, filed = ([one for one in ones if one.reason not in out] for ones in (given, shown, filed))
-    weighed = weigh_flow(network, [*by_user, *given], shown, filed)
+    weighed = weigh_flow(network, [*by_user, *_without(given, out)], _without(shown, out), _without(filed, out))
     chosen, against = weighed.flows.chosen, weighed.flows.against
     links = tuple(_directed(link, chosen.get(number)) for number, link in enumerate(network.links))
     doubts += weighed.disagreeing
@@ -61,6 +60,10 @@ def direct_flow(
             network, parts, doubts, "flow-disagrees", "what the file says of the flow is contradicted, also by itself"
         ),
     )
+
+
+def _without(evidence: Sequence[Evidence], reasons: Collection[str]) -> list[Evidence]:
+    return [one for one in evidence if one.reason not in reasons]
 
 
 def _directed(link: Link, best: Evidence | None) -> Link:
