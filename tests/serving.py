@@ -10,12 +10,9 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from urllib.parse import parse_qs, urlsplit
 
-import serve_standins
 import shapes
 from cadgraph.config import Config
 from cadgraph.session.run import run
-
-serve_standins.install()
 
 NONE = Config().replace({"label.labeler": "none", "load.isolate": False})
 TOKEN, ADDRESS = "a-token", "http://127.0.0.1:8000"
@@ -111,9 +108,8 @@ class Served:
 @contextmanager
 def served(*arguments):
     """The command ``cadgraph view`` while it runs; killed at the end, if it still does."""
-    start = "import serving; from cadgraph.cli import main; main()"
     process = subprocess.Popen(
-        [sys.executable, "-c", start, "view", *map(str, arguments), "--no-browser"],
+        [sys.executable, "-m", "cadgraph", "view", *map(str, arguments), "--no-browser"],
         env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,

@@ -41,6 +41,7 @@ from cadgraph.stages.relate import RelateInput, connect_units, pipe_systems, pla
 
 __all__ = [
     "ANALYSIS_SETTINGS",
+    "CONTRADICTIONS",
     "STAGES",
     "analyse",
     "build",
@@ -278,7 +279,8 @@ def _lost(edits: Sequence[Edit], unmet: Sequence[tuple[int, str]], analysis: Ana
     return [Diagnostic(LOST, tell_lost(edits[number], why), (meshes_of(edits[number]))) for number, why in told]
 
 
-_CONTRADICTIONS = frozenset({"unit-short-of-lines", "end-before-part", "units-touch-unjoined", "line-untraced"})
+CONTRADICTIONS = frozenset({"unit-short-of-lines", "end-before-part", "units-touch-unjoined", "line-untraced"})
+"""Codes of the diagnostics that say that the network does not add up; often a label is the reason."""
 
 
 def contradicted(
@@ -299,5 +301,5 @@ def contradicted(
     """
     given = RelateInput(analysis, tuple(labels), tuple(labels), vocabulary, config, probabilities)
     number = {path: part for part, path in enumerate(analysis.parts.scene.paths)}
-    found = (one for one in connect_units(given).diagnostics if one.code in _CONTRADICTIONS)
+    found = (one for one in connect_units(given).diagnostics if one.code in CONTRADICTIONS)
     return frozenset(number[mesh] for one in found for mesh in one.meshes if mesh in number)

@@ -341,7 +341,13 @@ class Plant:
             self._later.clear()
             found = review_queue(self._session, limit, self._unsure)
         self._questions.update((question.id, question) for question in found)
-        return [question.to_json() for question in found]
+        return [self._told(question) for question in found]
+
+    def _told(self, question: Question) -> dict[str, Any]:
+        """A question as the page knows it, with the rows of parts."""
+        row_of = self.shown().row_of
+        rows = {key: [row_of[part] for part in getattr(question, key)] for key in ("parts", "alike")}
+        return {**question.to_json(), **rows}
 
     def answer(self, version: int, question: str, option: int | str, why: str) -> dict[str, Any]:
         """Answers a question of the review, or puts it aside; see ``edit``.
