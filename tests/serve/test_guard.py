@@ -49,10 +49,10 @@ def test_the_page_itself_needs_the_token_in_its_address(client):
 
 @pytest.mark.parametrize(
     "host",
-    (
+    [
         *("evil.example:8000", "127.0.0.1", "127.0.0.1:8001", "localhost.evil.example:8000", "0.0.0.0:8000"),
         *("", "evil@127.0.0.1:8000", "[::1", "127.0.0.1:8000.evil.example", "localhost:", "127.0.0.1:08000"),
-    ),
+    ],
 )
 def test_a_name_that_leads_here_from_another_site_is_refused(client, host):
     assert client.get("/api/state", headers={"host": host}).status_code == 403
@@ -130,13 +130,13 @@ def test_what_is_asked_for_reaches_no_header_and_breaks_no_line(client):
 
 @pytest.mark.parametrize(
     "body",
-    (
+    [
         *("", "nonsense", "[]", "1", "{}", "[" * 100_000, '{"version": true}', '{"version": "1"}', '{"version": 1}'),
         *('{"version": 1, "edits": []}', '{"version": 1, "edits": [1]}', '{"version": 1, "edits": {}}'),
         *('{"version": 1, "edits": [{}]}', '{"version": 1, "edits": [{"kind": "a later one", "part": "part-00000"}]}'),
         *('{"version": NaN, "edits": [{}]}', '{"version": 1, "edits": [{"kind": "label"}], "why": 1}'),
         *('{"version": 1, "edits": [{"kind": []}]}', '{"version": 1, "edits": [{"kind": "label", "part": {}}]}'),
-    ),
+    ],
 )
 def test_what_is_no_edit_is_refused_in_one_line_and_changes_nothing(client, plant, body):
     answer = client.post("/api/edit", content=body, headers={"content-type": "application/json"})
