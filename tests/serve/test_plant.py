@@ -1,5 +1,6 @@
 import json
 import threading
+import time
 
 import pytest
 
@@ -155,6 +156,29 @@ def test_a_disk_that_cannot_be_written_is_said_at_once_and_when_it_can_again(ope
         assert plant.feed.state.read_only is not None
     plant.look()
     assert plant.feed.state.read_only is None
+
+
+def test_a_graph_that_could_not_be_written_is_written_when_it_can(folder, monkeypatch):
+    def full(*arguments):
+        raise OutputError("graph.json: can't be written (No space left on device)")
+
+    plant = Plant(Order(folder, scene=folder.parent / "plant.usda"), delay=0)
+    plant.open()
+    with monkeypatch.context() as patched:
+        patched.setattr(serve_plant, "write_graph", full)
+        plant.edit(1, [label("part-00001", "Pipe assembly", "tee")], "")
+        wait_for(lambda: "corrections are kept, but the graph can't be written" in plant.feed.state.message)
+    plant.look()
+    wait_for(lambda: plant.feed.state.message == "the graph is written again")
+    assert names(SceneGraph.load(folder))["/b1"] == "tee"
+    assert plant.close() is None
+
+
+def wait_for(condition):
+    before = time.monotonic()
+    while not condition():
+        assert time.monotonic() - before < 30
+        time.sleep(0.01)
 
 
 @pytest.mark.parametrize("how", ["gone", "changed"])

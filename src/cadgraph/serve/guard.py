@@ -60,14 +60,19 @@ class Doors:
     host: str
     port: int
 
+    @property
+    def anywhere(self) -> bool:
+        """Whether it is listened at all addresses of this machine."""
+        return self.host in _ANYWHERE
+
     def lets_in(self, host: str) -> bool:
         """Whether a ``Host`` header names this server."""
         name, port = _split(host.lower())
         if port != (str(self.port) if port else "") or (not port and self.port != 80):
             return False
-        if name in ("localhost", "127.0.0.1", "[::1]") and (is_loopback(self.host) or self.host in _ANYWHERE):
+        if name in ("localhost", "127.0.0.1", "[::1]") and (is_loopback(self.host) or self.anywhere):
             return True
-        if self.host in _ANYWHERE:
+        if self.anywhere:
             # No site has a bare address as its name.
             return _is_address(name) or name == socket.gethostname().lower()
         return name.strip("[]") == self.host.lower()

@@ -136,8 +136,10 @@ class Plant:
         self._packed: PackedScene | None = None
         self._session: Session | None = None
         self._source: Path | None = None
-        self._on_disk = False  # whether nothing but the disk keeps it from being changed
+        self._not_kept = False  # whether corrections could not be kept when that was tried last
+        self._behind = False  # whether the graph in the folder is another one, and writing it was put off or failed
         self._saver = Saver(self._save, self._saved, delay)
+        self._failure: str | None = None
         self._questions: dict[str, Question] = {}
         self._later: set[str] = set()
         self._unsure: set[str] = set()
@@ -189,12 +191,13 @@ class Plant:
 
     @property
     def unsaved(self) -> bool:
-        """Whether the graph on disk is behind the corrections."""
+        """Whether a graph is still to be written."""
         return self._saver.pending
 
-    def close(self) -> None:
-        """Writes what is left to be written."""
+    def close(self) -> str | None:
+        """Writes what is left to be written; why that failed, if it did."""
         self._saver.close()
+        return self._failure
 
     # Opening
 
@@ -253,11 +256,10 @@ class Plant:
         # A server that was killed left corrections that the graph doesn't show, or another version made it. Where the
         # source lies now is no such difference.
         behind = now.document.model_copy(update={"source": graph.source}) != graph.document
+        self._behind = behind
         if behind:
             self._snapshot = Snapshot(shown.version + 1, now, shown.scene)
         self._begin(session)
-        if behind and self.feed.state.read_only is None:
-            self._saver.give(now)
 
     def _see(self, graph: SceneGraph, scene: Scene) -> None:
         """Makes the geometry ready for the page."""
@@ -280,11 +282,13 @@ class Plant:
             ensure_writable(self._order.folder)
             refuse_foreign(self._order.folder)
         except OutputError as error:
-            self._on_disk = True
+            self._not_kept = True
             self.feed.publish(read_only=str(error))
             return
-        self._on_disk = False
+        self._not_kept = False
         self.feed.publish(read_only=None)
+        if self._behind and self._session is not None and not self._saver.pending:
+            self._saver.give(self._session.graph)
 
     def look(self) -> None:
         """Looks whether others changed the corrections, or whether a disk that was full has room again."""
@@ -295,10 +299,10 @@ class Plant:
                 self._take_up(
                     self._session, "the corrections were changed by another program; this is how they are now"
                 )
-            elif self._on_disk:
+            elif self._not_kept or self._behind:
                 self._look_at_disk()
-        except LabelError as error:
-            self._on_disk = True
+        except (LabelError, ValueError) as error:
+            self._not_kept = True
             self.feed.publish(read_only=str(error))
 
     # What the person does
@@ -359,12 +363,13 @@ class Plant:
                 is no action: the audit and undo know only what changed something.
             why: the person's reason.
         """
-        self._check(version)
         if isinstance(option, str):
+            self._check_version(version)
             (self._later if option == "skip" else self._unsure).add(question)
             shown = self.shown()
             aside = "skipped: it comes again at the end" if option == "skip" else "put aside for this session"
             return self._update(shown, shown, (), aside)
+        self._check(version)
         if question not in self._questions:
             self.review(_MOST_ANSWERABLE)
         asked = self._questions.get(question)
@@ -403,7 +408,7 @@ class Plant:
             self._changed(session, change.message)
             return self._update(before, self.shown(), change.changed, change.message)
         except OutputError as error:
-            self._on_disk = True
+            self._not_kept = True
             self.feed.publish(read_only=str(error))
             raise Refusal(507, f"not kept, and taken back: {error}") from None
         finally:
@@ -411,16 +416,18 @@ class Plant:
 
     def _check(self, version: int) -> Session:
         """The session, if it can be changed from what the page shows."""
-        state = self.feed.state
-        if self._on_disk:
+        if self._not_kept:
             self._look_at_disk()
-            state = self.feed.state
-        if self._session is None or state.read_only is not None:
-            raise Refusal(507, state.read_only or "nothing can be corrected here")
-        if version != state.version:
-            reason = "another window has changed the plant meanwhile; look at it, then repeat this correction"
-            raise Refusal(409, reason, state)
+        why = self.feed.state.read_only
+        if self._session is None or why is not None:
+            raise Refusal(507, why or "nothing can be corrected here")
+        self._check_version(version)
         return self._session
+
+    def _check_version(self, version: int) -> None:
+        if version != self.feed.state.version:
+            reason = "another window has changed the plant meanwhile; look at it, then repeat this correction"
+            raise Refusal(409, reason, self.feed.state)
 
     def _take_up(self, session: Session, message: str) -> None:
         """Shows the corrections that another program left."""
@@ -463,3 +470,6 @@ class Plant:
     def _saved(self, failed: str | None) -> None:
         if failed is not None:
             self.feed.publish(message=f"corrections are kept, but the graph can't be written now: {failed}")
+        elif self._failure is not None:
+            self.feed.publish(message="the graph is written again")
+        self._failure, self._behind = failed, failed is not None

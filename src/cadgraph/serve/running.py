@@ -114,7 +114,8 @@ def _end(
     busy = bool(wait([opening], _PATIENCE).not_done) or not plant.idle(_PATIENCE)
     if plant.unsaved:
         say("writing the graph; Ctrl-C once more leaves that to the next run")
-    plant.close()
+    if (failure := plant.close()) is not None:
+        say(f"the graph is not written, which the next run makes up for: {one_line(failure)}")
     if options.report and not busy:
         say("drawing the report; Ctrl-C once more stops that")
         plant.draw_report()
@@ -137,7 +138,7 @@ def _tell(done: Future[None], plant: Plant, say: Say) -> None:
 
 def _welcome(doors: Doors, token: str, options: Options, say: Say) -> None:
     """Says where the page is, and opens it."""
-    near = doors.host if is_loopback(doors.host) else "127.0.0.1"
+    near = "127.0.0.1" if doors.anywhere else doors.host
     shown = f"[{near}]" if ":" in near else near
     address = f"http://{shown}:{doors.port}/?token={token}"
     say(address)
