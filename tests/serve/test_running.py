@@ -2,6 +2,7 @@ import os
 import random
 import signal
 import socket
+import sys
 import threading
 import time
 
@@ -12,6 +13,9 @@ from cadgraph._io.folder_lock import holding
 from cadgraph.errors import OutputError
 from cadgraph.model.corrections import read_corrections
 from cadgraph.model.graph import SceneGraph
+from cadgraph.serve import running
+from cadgraph.serve.guard import Doors
+from cadgraph.serve.running import Options
 from cadgraph.session.correct import amend
 from cadgraph.session.demo import DEMO_SCENE
 from command_line import refused
@@ -109,6 +113,29 @@ def test_a_port_that_is_taken_is_said_in_one_line(folder, capsys):
         said = refused(capsys, "view", folder, "--no-browser", "--port", port)
     assert f"127.0.0.1:{port}" in said
     assert "--port" in said
+
+
+def test_the_extra_that_is_missing_is_named(folder, capsys, monkeypatch):
+    for name in [name for name in sys.modules if name.startswith("cadgraph.serve")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "uvicorn", None)
+    assert "pip install 'cadgraph[view]'" in refused(capsys, "view", folder)
+
+
+@pytest.mark.parametrize(
+    ("host", "shown", "minds"),
+    [
+        ("127.0.0.1", "127.0.0.1", False),
+        ("::1", "[::1]", False),
+        ("0.0.0.0", "127.0.0.1", True),
+        ("10.0.0.7", "10.0.0.7", True),
+    ],
+)
+def test_who_else_is_let_in_is_said(host, shown, minds):
+    said = []
+    running._welcome(Doors(host, 8123), "secret", Options(host, browser=False), said.append)
+    assert said[0] == f"http://{shown}:8123/?token=secret"
+    assert any("everybody who has this address" in line for line in said) == minds
 
 
 def test_a_folder_is_held_by_one_at_a_time(tmp_path):
