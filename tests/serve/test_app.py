@@ -7,6 +7,8 @@ from cadgraph.model.records import Unit
 from cadgraph.serve.plant import Order, Plant
 from serving import label
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def plant(demo, tmp_path_factory):

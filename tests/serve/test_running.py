@@ -31,6 +31,7 @@ def folder(tmp_path_factory):
     return serving.make_folder(tmp_path_factory.mktemp("run"), MANY)
 
 
+@pytest.mark.slow
 def test_a_killed_server_has_lost_nothing_that_it_confirmed(folder):
     confirmed = {}
     with serving.served(folder, "--who", "Ada") as server:
@@ -77,6 +78,7 @@ def is_free(folder):
         return False
 
 
+@pytest.mark.slow
 def test_while_a_server_runs_nobody_else_writes_and_ctrl_c_ends_it_in_a_second(folder, capsys):
     with serving.served(folder) as server:
         server.wait_until_ready()
@@ -95,6 +97,7 @@ def test_while_a_server_runs_nobody_else_writes_and_ctrl_c_ends_it_in_a_second(f
     amend(folder, "part-00001", "tee", this_only=True, report=False)
 
 
+@pytest.mark.slow
 def test_ctrl_c_while_a_scene_is_built_ends_as_other_commands_do(tmp_path):
     with serving.served(DEMO_SCENE, "-o", tmp_path / "out") as server:
         first = next(server.states())
