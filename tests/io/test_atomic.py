@@ -1,3 +1,4 @@
+import errno
 import os
 import sys
 
@@ -95,3 +96,13 @@ def test_a_folder_where_the_file_should_be_is_an_output_error(tmp_path):
 def test_a_writable_folder_is_made_and_left_empty(tmp_path):
     assert ensure_writable(tmp_path / "a" / "b") == tmp_path / "a" / "b"
     assert list((tmp_path / "a" / "b").iterdir()) == []
+
+
+def test_a_full_disk_is_found_before_a_long_run(tmp_path, monkeypatch):
+    def full(file):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("os.fsync", full)
+    with pytest.raises(OutputError, match="No space left on device"):
+        ensure_writable(tmp_path)
+    assert list(tmp_path.iterdir()) == []

@@ -14,6 +14,8 @@ from cadgraph.errors import OutputError
 
 __all__ = ["ensure_writable", "replacing", "write_atomically"]
 
+_TRIED = 1 << 16  # bytes: more than a file system keeps beside a name
+
 
 @contextmanager
 def replacing(target: str | Path, durable: bool = False) -> Iterator[Path]:
@@ -96,15 +98,18 @@ def ensure_writable(folder: str | Path) -> Path:
     """Makes a folder if needed and tries to write to it, so that a long run doesn't end in vain.
 
     Raises:
-        OutputError: it can't be made or written to.
+        OutputError: it can't be made or written to, or the disk is full.
     """
     path = Path(folder)
     if path.exists() and not path.is_dir():
         raise OutputError(f"{path}: not a folder but a file; choose another output folder")
     try:
         path.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=path):
-            pass
+        with tempfile.TemporaryFile(dir=path) as file:
+            # A full disk takes names, but no bytes.
+            file.write(bytes(_TRIED))
+            file.flush()
+            os.fsync(file.fileno())
     except OSError as error:
         raise OutputError(f"{path}: can't write there ({error.strerror}); choose another output folder") from error
     return path

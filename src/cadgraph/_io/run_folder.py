@@ -8,9 +8,10 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from cadgraph._io.atomic import ensure_writable
+from cadgraph._io.folder_lock import holding
 from cadgraph.errors import OutputError
 
-__all__ = ["RESULTS", "clear_results", "refuse_to_overwrite", "results_folder"]
+__all__ = ["RESULTS", "clear_results", "refuse_foreign", "refuse_to_overwrite", "results_folder"]
 
 RESULTS = ("scene.usdc", "semantics.usda", "report.html", "picture.png", "timings.json", "graph.json")
 """All files that a run may write. The graph vouches for those without a mark of their own, so it goes last."""
@@ -21,19 +22,21 @@ _HEAD = 100_000  # bytes in which a mark stands; the styles of a report come bef
 
 @contextmanager
 def results_folder(folder: str | Path) -> Iterator[Path]:
-    """A folder that can be written to and holds nothing of others that a run would write over.
+    """A folder that can be written to and holds nothing of others that a run would write over; nobody else writes.
 
     When the block fails and the folder didn't exist before, it is gone again unless something was written.
 
     Raises:
-        OutputError: it can't be made or written to, or holds a file of somebody else under the name of a result.
+        OutputError: it can't be made or written to, holds a file of somebody else under the name of a result, or
+            another process is at work in it.
     """
     target = Path(folder)
     made = [path for path in (target, *target.parents) if not path.exists()]
     try:
         ensure_writable(target)
-        _refuse_foreign(target)
-        yield target
+        with holding(target):
+            refuse_foreign(target)
+            yield target
     except BaseException:
         for path in made:
             with suppress(OSError):
@@ -41,13 +44,17 @@ def results_folder(folder: str | Path) -> Iterator[Path]:
         raise
 
 
-def clear_results(folder: Path) -> None:
+def clear_results(folder: Path, names: Iterable[str] = RESULTS) -> None:
     """Removes the results of earlier runs, so that the folder never mixes two scenes, even if this run is killed.
+
+    Args:
+        folder: that holds them.
+        names: of the files to remove.
 
     Raises:
         OutputError: a file can't be removed.
     """
-    for name in RESULTS:
+    for name in names:
         path = folder / name
         # Left over where a run was killed while it wrote; see cadgraph._io.atomic.
         for stale in (*folder.glob(f".{path.stem}-????????{path.suffix}"), path):
@@ -76,7 +83,12 @@ def refuse_to_overwrite(folder: Path, files: Iterable[str | Path], what: str) ->
             raise OutputError(f"{folder / name}: this is {what}, which stays untouched; choose another output folder")
 
 
-def _refuse_foreign(folder: Path) -> None:
+def refuse_foreign(folder: Path) -> None:
+    """Makes sure that nothing of others stands in a folder where a result goes.
+
+    Raises:
+        OutputError: a file of somebody else has the name of a result.
+    """
     ours = _is_marked(folder / "graph.json", _MARKS["graph.json"])
     for name in RESULTS:
         path = folder / name

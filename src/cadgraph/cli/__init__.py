@@ -4,6 +4,7 @@ from __future__ import annotations
 
 # isort: off
 from cadgraph.cli import building as _building  # noqa: F401
+from cadgraph.cli import viewing as _viewing  # noqa: F401
 from cadgraph.cli import lvlm as _lvlm  # noqa: F401
 from cadgraph.cli import labeling as _labeling  # noqa: F401
 from cadgraph.cli import correcting as _correcting  # noqa: F401

@@ -278,9 +278,12 @@ class CorrectionsFile:
     def read(self, vocabulary: Vocabulary | None = None) -> History:
         """Reads it; see ``read_history``."""
         content = self._content()
+        history = History() if content is None else self._parsed(content, vocabulary)
+        # Only now: what can't be read must not be written over.
         self.known = _digest(content)
-        if content is None:
-            return History()
+        return history
+
+    def _parsed(self, content: bytes, vocabulary: Vocabulary | None) -> History:
         history = History(tuple(Action(**row) for row in read_document(content, self.file)))
         try:
             history.check()
@@ -292,13 +295,22 @@ class CorrectionsFile:
             _check_labels(action, vocabulary, self.file)
         return history
 
+    @property
+    def overtaken(self) -> bool:
+        """Whether somebody else has written it since it was read or written here.
+
+        Raises:
+            LabelError: it can't be read.
+        """
+        return self.known is not None and _digest(self._content()) != self.known
+
     def write(self, history: History) -> None:
         """Writes it whole or not at all; it is on the disk when this returns.
 
         Raises:
             OutputError: it can't be written, or somebody else has written it since it was read here.
         """
-        if self.known is not None and _digest(self._content()) != self.known:
+        if self.overtaken:
             raise OutputError(
                 f"{self.file}: another program has corrected something here meanwhile; open the folder again and "
                 "repeat this correction"

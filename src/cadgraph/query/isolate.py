@@ -81,6 +81,7 @@ class Isolation:
         shut_off: ids of the units that lie in the isolated section too, the nearest first.
         shut_off_names: their tags.
         lines: tags of the lines in the section, wholly or in part.
+        connections: numbers of the graph's connections in the section.
         remarks: what the reader should know, a sentence each.
     """
 
@@ -92,6 +93,7 @@ class Isolation:
     shut_off: tuple[str, ...]
     shut_off_names: tuple[str, ...]
     lines: tuple[str, ...]
+    connections: tuple[int, ...]
     remarks: tuple[str, ...]
 
     @property
@@ -154,6 +156,7 @@ def find_isolation(
         shut_off=tuple(inside),
         shut_off_names=tuple(network.name(place) for place in inside),
         lines=_lines(network, section, line_of),
+        connections=_connections(network, section),
         remarks=_remarks(network, section, check_valves),
     )
 
@@ -202,9 +205,12 @@ def _own(network: Network, section: _Section) -> list[str]:
 
 def _lines(network: Network, section: _Section, line_of: Mapping[int, str]) -> tuple[str, ...]:
     """The tags of the lines of a section; the pipes at a tank beside it don't belong to it."""
-    own = _own(network, section)
-    tags = {line_of[arc.index] for place in own for arc in network.arcs(place) if arc.index in line_of}
+    tags = {line_of[index] for index in _connections(network, section) if index in line_of}
     return tuple(sorted(tags, key=tag_key))
+
+
+def _connections(network: Network, section: _Section) -> tuple[int, ...]:
+    return tuple(sorted({arc.index for place in _own(network, section) for arc in network.arcs(place)}))
 
 
 def _kind(network: Network, place: str) -> str:

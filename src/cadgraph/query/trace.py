@@ -93,6 +93,7 @@ class Trace:
         returns: loops, and branches that meet again.
         doubts: where more may follow than was found: units with fewer lines than their kind needs, and joints on the
             way that were not made although much speaks for them. Empty where the answer is whole.
+        connections: numbers of the graph's connections that were followed.
     """
 
     start: str
@@ -101,6 +102,7 @@ class Trace:
     halts: tuple[Halt, ...] = ()
     returns: tuple[Return, ...] = ()
     doubts: tuple[Doubt, ...] = ()
+    connections: tuple[int, ...] = ()
 
 
 def trace(
@@ -143,7 +145,9 @@ def trace(
         ends = not met and not _goes_on(network, place, arcs, follows)
         steps.append(_step(network, place, arcs, distances[place], line_of, ends))
     returns = tuple(_returns(network, order, arcs_to, follows))
-    return Trace(first, direction, tuple(steps), tuple(halts), returns, open_sides(network, order))
+    followed = sorted({arc.index for place in order for arc in network.arcs(place) if follows(arc)})
+    doubts = open_sides(network, order)
+    return Trace(first, direction, tuple(steps), tuple(halts), returns, doubts, tuple(followed))
 
 
 def _returns(
@@ -202,7 +206,7 @@ def find_way(graph: SceneGraph | Network, start: str, end: str, direction: Direc
     for number, arc in enumerate(arcs, 1):
         gone = steps[-1].distance + (arc.length or 0.0)
         steps.append(_step(network, arc.end, arcs[:number], gone, line_of, arc.end == last))
-    return Trace(first, direction, tuple(steps))
+    return Trace(first, direction, tuple(steps), connections=tuple(arc.index for arc in arcs))
 
 
 def _step(

@@ -17,6 +17,7 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import CorrectedEvidence, FileEvidence, GeometryEvidence, GivenEvidence, Label
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.records import Part
+from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary
 from cadgraph.session.run import Clock, Outcome, check_layers, check_target, write_results
 from cadgraph.session.session import Session
@@ -71,6 +72,7 @@ def reopen(
     labeler: Labeler | None,
     progress: Progress = quiet,
     *,
+    scene: Scene | None = None,
     keep: bool = False,
 ) -> Session:
     """A session on the scene of a finished graph, with its vocabulary, the labels given from outside, its corrections.
@@ -82,7 +84,9 @@ def reopen(
         config: all settings.
         labeler: says what the parts are; the one that is set if None.
         progress: called with the name of a stage and the share of it that is done.
-        keep: whether each correction is written into the folder at once, before the session says that it is done.
+        scene: what ``load`` makes of the source, if it is at hand.
+        keep: whether each correction is written into the folder at once, before the session says that it is done. The
+            folder may then hold corrections that ``graph`` doesn't show, so that the session makes its graph anew.
 
     Raises:
         LabelError: the corrections can't be read.
@@ -93,8 +97,9 @@ def reopen(
     tree = Vocabulary.from_json(graph.document.vocabulary, f"{target}: vocabulary of the graph")
     file = CorrectionsFile(target)
     history = file.read(tree)
-    progress("read", 0)
-    scene = load(source, config.load)
+    if scene is None:
+        progress("read", 0)
+        scene = load(source, config.load)
     check_layers(source, target)
     return Session.start(
         scene,
@@ -104,7 +109,7 @@ def reopen(
         labeler=labeler,
         history=history,
         file=file if keep else None,
-        graph=graph if labeler is None or isinstance(labeler, FormerLabeler) else None,
+        graph=graph if not keep and (labeler is None or isinstance(labeler, FormerLabeler)) else None,
         progress=progress,
     )
 

@@ -14,14 +14,15 @@ from cadgraph._io.run_folder import clear_results, refuse_to_overwrite, results_
 from cadgraph.config import Config
 from cadgraph.labelers.base import AskingLabeler, Labeler
 from cadgraph.load import load
-from cadgraph.model.corrections import read_history
+from cadgraph.model.corrections import CorrectionsFile
 from cadgraph.model.given_labels import GivenLabel, read_labels
 from cadgraph.model.graph import SceneGraph
+from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary, read_vocabulary
 from cadgraph.pipeline import STAGES
 from cadgraph.session.session import Session
 
-__all__ = ["RUN_STAGES", "Outcome", "run", "write_results"]
+__all__ = ["RUN_STAGES", "Outcome", "begin", "run", "write_graph", "write_results"]
 
 RUN_STAGES = ("read", *STAGES, "write graph", "write labels", "draw report")
 """The names that ``run`` gives to its progress, in order."""
@@ -78,20 +79,60 @@ def run(
     config = config or Config()
     clock = Clock(progress)
     with results_folder(folder) as target:
-        check_target(source, target)
         tree = vocabulary if isinstance(vocabulary, Vocabulary) else _tree(vocabulary)
         given = read_labels(labels, tree) if isinstance(labels, str | Path) else labels or ()
-        history = read_history(target, tree)
-        clock("read", 0)
-        scene = load(source, config.load)
-        check_layers(source, target)
-        session = Session.start(
-            scene, config, labels=given, vocabulary=tree, labeler=labeler, history=history, progress=clock
-        )
+        session = begin(source, target, config, given, tree, labeler, clock)
         if isinstance(labeler, AskingLabeler) and labeler.only_asks and (target / "graph.json").exists():
             clock("", 1)
             return Outcome(SceneGraph.load(target), {}, clock.seconds)
         return write_results(session, source, target, report, clock)
+
+
+def begin(
+    source: str | Path,
+    target: Path,
+    config: Config,
+    given: Sequence[GivenLabel] = (),
+    vocabulary: Vocabulary | None = None,
+    labeler: Labeler | None = None,
+    progress: Progress = quiet,
+    *,
+    keep: bool = False,
+) -> Session:
+    """A session on a scene that is read anew, with the corrections that lie in a folder; nothing is written yet.
+
+    Args:
+        source: the scene's file.
+        target: the folder for its results; it exists.
+        config: all settings.
+        given: labels from outside.
+        vocabulary: the label tree; the built-in one if None.
+        labeler: another labeler than the one that is set.
+        progress: called with the name of a stage and the share of it that is done.
+        keep: whether each correction is written into the folder at once, before the session says that it is done.
+
+    Raises:
+        LoadError: the scene can't be read.
+        LabelError: labels or corrections can't be used.
+        OutputError: a result would take the place of a file of the scene.
+    """
+    check_target(source, target)
+    tree = vocabulary or default_vocabulary()
+    file = CorrectionsFile(target)
+    history = file.read(tree)
+    progress("read", 0)
+    scene = load(source, config.load)
+    check_layers(source, target)
+    return Session.start(
+        scene,
+        config,
+        labels=given,
+        vocabulary=tree,
+        labeler=labeler,
+        history=history,
+        file=file if keep else None,
+        progress=progress,
+    )
 
 
 def write_results(session: Session, source: str | Path, target: Path, report: bool, clock: Clock) -> Outcome:
@@ -125,6 +166,30 @@ def write_results(session: Session, source: str | Path, target: Path, report: bo
     files["timings"] = target / "timings.json"
     write_atomically(files["timings"], json.dumps(clock.seconds, indent=1) + "\n")
     return Outcome(graph, files, clock.seconds)
+
+
+def write_graph(scene: Scene, graph: SceneGraph, source: str | Path, target: Path) -> None:
+    """Writes another graph of the same scene over the one in a folder, and the label layer with it.
+
+    Whenever the process ends, the folder holds one of the two graphs, whole. The report and its picture, which would
+    show the graph as it was, are removed.
+
+    Args:
+        scene: all meshes that the graph is of.
+        graph: finished.
+        source: the scene's file.
+        target: the folder; it exists.
+
+    Raises:
+        OutputError: a file can't be written.
+        LoadError: the source can't be opened any more.
+    """
+    from cadgraph.export.usd import write_semantics
+
+    clear_results(target, ("report.html", "picture.png"))
+    write_semantics(scene, graph, source, target / "semantics.usda")
+    # Last, as the folder is taken for finished where it holds this graph.
+    graph.save(target / "graph.json")
 
 
 def check_target(source: str | Path, target: Path) -> None:

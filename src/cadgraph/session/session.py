@@ -283,6 +283,27 @@ class Session:
         history = self._history.redo(when=_now(), who=who, why=why)
         return self._become(history, history.events[-1].what)
 
+    @property
+    def overtaken(self) -> bool:
+        """Whether another program has changed the file of the corrections.
+
+        Raises:
+            LabelError: it can't be read.
+        """
+        return self._file is not None and self._file.overtaken
+
+    def take_up(self) -> Change:
+        """Takes the corrections up as another program left them in the file.
+
+        Raises:
+            LabelError: they can't be read; nothing changes then.
+            ValueError: the session keeps none in a file.
+        """
+        if self._file is None:
+            raise ValueError("the corrections of this session are in no file")
+        history = self._file.read(self.vocabulary)
+        return self._become(history, "corrections of another program", write=False)
+
     def relabel(self, labeler: Labeler | None, given: Sequence[GivenLabel] | None = None) -> None:
         """Asks another labeler about all parts; corrections stay.
 
@@ -300,7 +321,9 @@ class Session:
         self._grounds.clear()
         self._known = self._graph = None
 
-    def _become(self, history: History, what: str, new: Sequence[Edit] = (), mesh: str | None = None) -> Change:
+    def _become(
+        self, history: History, what: str, new: Sequence[Edit] = (), mesh: str | None = None, *, write: bool = True
+    ) -> Change:
         """Takes another history on, if its graph can be made and it can be written; else nothing changes."""
         before = self.graph
         old = _State(self._history, self.analysis, self.labeling, self._known, before)
@@ -309,7 +332,7 @@ class Session:
             self._follow_ground()
             now = self.graph
             _refuse_unmet(now, new)
-            if self._file is not None:
+            if self._file is not None and write:
                 self._file.write(history)
         except BaseException:
             # A correction that no graph shows, or no file holds, must not wait for a later one.

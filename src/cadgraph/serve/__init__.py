@@ -1,0 +1,1 @@
+"""A plant in the browser: one folder, one session, served on this machine (``cadgraph view``)."""
