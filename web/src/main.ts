@@ -20,3 +20,4 @@ await panels.untilReady();
 const view = await openView(panels.middle, store, source);
 startNetwork(view, store, source, panels);
 panels.connect(view);
+(window as unknown as Record<string, unknown>).cadgraph = { store, view };
