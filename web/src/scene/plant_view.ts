@@ -183,7 +183,10 @@ export class PlantView implements SceneView {
   }
 
   home(smooth = true): void {
-    this.navigation.flyTo(this.allCorners(), HOME, smooth && !this.pace.slow);
+    const points = this.allCorners();
+    const sides = [0, 1].map((k) => extent(points, k));
+    const way = sides[0] >= sides[1] ? HOME : HOME_ASIDE;
+    this.navigation.flyTo(points, way, smooth && !this.pace.slow);
   }
 
   lookAlong(way: Vector3): void {
@@ -395,8 +398,17 @@ function ballOf(manifest: Manifest): Ball {
   return { center, radius: Math.max(Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) / 2, 1e-3) };
 }
 
-/** From the plant to the eye, as one stands before a model on a table. */
-const HOME = new Vector3(-0.62, -1, 0.62).normalize();
+/** From the plant to the eye, as one stands before a model on a table, its long side across the picture. */
+const HOME = new Vector3(-0.5, -0.8, 0.5).normalize();
+const HOME_ASIDE = new Vector3(0.8, -0.5, 0.5).normalize();
+
+function extent(points: Float32Array, k: number): number {
+  let low = Infinity;
+  let high = -Infinity;
+  for (let i = k; i < points.length; i += 3) [low, high] = [Math.min(low, points[i]), Math.max(high, points[i])];
+  return high - low;
+}
+
 const ORIGIN = new Vector3();
 const PROJECTED = new Vector4();
 const VIEW = new Matrix4();
