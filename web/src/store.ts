@@ -106,7 +106,9 @@ export class Store {
   }
 
   setContent(content: Content): void {
+    const before = this.content;
     this.content = content;
+    if (before && before.meshes !== content.meshes) this.keepRows(before);
     this.keepSelection();
     this.tell("content", content);
   }
@@ -146,8 +148,28 @@ export class Store {
     const network = this.content!.network;
     const { place, selection } = this.shown;
     const n = this.content!.parts.id.length;
-    if (place && ![...network.units, ...network.ends].some((node) => node.id === place)) this.set({ place: null });
+    const node = place && [...network.units, ...network.ends].find((node) => node.id === place);
+    if (node) {
+      const same = node.parts.length === selection.length && node.parts.every((row, i) => row === selection[i]);
+      if (!same) this.set({ selection: node.parts });
+    } else if (place) this.set({ place: null });
     if (selection.some((row) => row >= n)) this.set({ selection: selection.filter((row) => row < n) });
+  }
+
+  /** The parts themselves may be others now: what was selected or hidden is found again by its meshes. */
+  private keepRows(before: Content): void {
+    const now = new Map(this.content!.meshes.path.map((path, mesh) => [path, this.content!.meshes.part[mesh]]));
+    const next = new Map<number, number>();
+    before.meshes.part.forEach((row, mesh) => {
+      const found = now.get(before.meshes.path[mesh]) ?? -1;
+      if (row >= 0 && found >= 0 && !next.has(row)) next.set(row, found);
+    });
+    const keep = (rows: Iterable<number>) => [...new Set([...rows].map((row) => next.get(row) ?? -1))].filter((row) => row >= 0);
+    const { selection, hidden, isolated } = this.shown;
+    this.set({
+      selection: keep(selection), hidden: new Set(keep(hidden)), isolated: isolated && new Set(keep(isolated)),
+      hovered: -1, marks: null, question: null,
+    });
   }
 
   private tell<K extends keyof Topics>(topic: K, value: Topics[K]): void {

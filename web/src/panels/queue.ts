@@ -8,6 +8,8 @@ export interface Sent {
   ok: boolean;
   /** The version of the plant after it; null where nothing was changed (skipped). */
   version: number | null;
+  /** What came of it, in words. */
+  message?: string;
 }
 
 export interface QueueIo {
@@ -21,6 +23,7 @@ export interface Answered {
   question: Question;
   choice: Choice;
   version: number | null;
+  message?: string;
 }
 
 /** What an option or another choice says, in words. */
@@ -92,7 +95,7 @@ export class Queue {
     const done = this.chain.then(async () => {
       const sent = await this.io.send(question, choice).catch((): Sent => ({ ok: false, version: null }));
       this.sending--;
-      if (sent.ok) told.version = sent.version;
+      if (sent.ok) Object.assign(told, { version: sent.version, message: sent.message });
       else this.restore(told);
       if (!this.sending) await this.load().catch(() => undefined);
       this.changed();

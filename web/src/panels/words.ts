@@ -55,20 +55,21 @@ export function howSure(state: string): string {
 }
 
 const SOURCES: Record<string, string> = {
-  geometry: "from its shape, by the built-in network",
-  embedded: "from its shape, by the built-in network",
-  network: "from the pipes around it",
-  catalog: "from a catalogue of shapes",
-  author: "from the names in the file",
-  file: "from the file",
-  lvlm: "from its picture, by a language model",
-  human: "corrected by hand",
-  repeat: "same shape as a part corrected by hand",
-  kin: "much like a part corrected by hand",
+  geometry: "Told from its shape, by the built-in network.",
+  embedded: "Told from its shape, by the built-in network.",
+  network: "Told from the pipes around it.",
+  catalog: "Found in a catalogue of shapes.",
+  author: "Given by the names in the file.",
+  file: "Given by the file.",
+  lvlm: "Told from its picture, by a language model.",
+  human: "Corrected by hand.",
+  repeat: "It has the shape of a part corrected by hand.",
+  kin: "It is much like a part corrected by hand.",
 };
 
+/** Where a label comes from, as a sentence. */
 export function fromWhere(source: string | null): string {
-  return source === null ? "nobody has said" : (SOURCES[source] ?? `from ${source}`);
+  return source === null ? "Nobody has said what it is." : (SOURCES[source] ?? `Said by ${source}.`);
 }
 
 const CODES: Record<string, string> = {

@@ -1,0 +1,129 @@
+// Sends corrections one after the other and lays the answers over what is shown; follows what others change.
+
+import { Refused, type Source } from "../api.ts";
+import type { Store } from "../store.ts";
+import type { Edit, Question, ServerState, Update } from "../types.ts";
+import type { Page } from "./page.ts";
+import type { Choice, Sent } from "./queue.ts";
+
+type Say = Page["say"];
+
+export class Corrector {
+  private readonly store: Store;
+  private readonly source: Source;
+  private readonly say: Say;
+  private chain: Promise<unknown> = Promise.resolve();
+  /** After a break the server may be another one that counts anew. */
+  private anew = true;
+
+  constructor(store: Store, source: Source, say: Say) {
+    this.store = store;
+    this.source = source;
+    this.say = say;
+  }
+
+  async edit(edits: Edit[], why = ""): Promise<boolean> {
+    if (!edits.length) return true;
+    const send = (version: number) => this.source.edit(version, edits, why);
+    return (await this.send(send, () => void this.edit(edits, why))) !== null;
+  }
+
+  async undo(): Promise<boolean> {
+    return (await this.send((version) => this.source.undo(version))) !== null;
+  }
+
+  async redo(): Promise<boolean> {
+    return (await this.send((version) => this.source.redo(version))) !== null;
+  }
+
+  /** Answers a question of the queue. Options are sent as what they say, as the list may be another one by then. */
+  async answer(question: Question, choice: Choice): Promise<Sent> {
+    const edits = typeof choice === "object" ? choice.edits : typeof choice === "number" ? question.options[choice].edits : [];
+    const before = this.store.state?.version;
+    const update = await this.send((version) =>
+      edits.length
+        ? this.source.edit(version, edits, "review")
+        : this.source.answer(version, question.id, typeof choice === "object" ? "unsure" : choice), undefined, true);
+    const version = update && update.version !== before ? update.version : null;
+    return { ok: update !== null, version, message: update?.message };
+  }
+
+  /** Undoes the correction that led to a version, if nothing came after it. */
+  async takeBack(version: number): Promise<boolean> {
+    if (this.store.state?.version !== version) {
+      this.say("Something else was corrected since; use Undo, or the list under History.", "bad");
+      return false;
+    }
+    return this.undo();
+  }
+
+  /** The state that the server tells of by itself: where another window has changed the plant, it is fetched anew. */
+  heard(state: ServerState): void {
+    const now = this.store.state;
+    if (!this.anew && now && state.version < now.version) return;
+    this.anew = false;
+    this.store.setState(state);
+    if (state.status !== "ready" || !this.store.content) return;
+    void this.inTurn(async () => {
+      const { content, state: latest } = this.store;
+      if (!content || !latest || latest.version === content.version || latest.status !== "ready") return;
+      await this.fetch();
+      this.say(`Changed in another window${latest.undo ? `: ${latest.undo}` : ""}. The plant is shown as it is now.`);
+    }).catch((error: unknown) => this.told(error));
+  }
+
+  lost(): void {
+    this.anew = true;
+  }
+
+  /** The content as the server has it now. */
+  async fetch(): Promise<void> {
+    this.store.setContent(await this.source.content());
+  }
+
+  private inTurn<T>(work: () => Promise<T>): Promise<T> {
+    const done = this.chain.then(work);
+    this.chain = done.catch(() => undefined);
+    return done;
+  }
+
+  private send(run: (version: number) => Promise<Update>, repeat?: () => void, quiet = false): Promise<Update | null> {
+    return this.inTurn(async () => {
+      try {
+        const update = await run(this.store.state?.version ?? 0);
+        const changed = update.version !== this.store.content?.version;
+        if (!this.store.apply(update)) await this.fetch();
+        if (update.message && !quiet) {
+          const undo = changed && update.state.can_undo ? [{ text: "Undo", run: () => void this.undo() }] : [];
+          this.say(update.message, "good", undo);
+        }
+        return update;
+      } catch (error) {
+        await this.refused(error, repeat);
+        return null;
+      }
+    });
+  }
+
+  private async refused(error: unknown, repeat?: () => void): Promise<void> {
+    if (!(error instanceof Refused) || error.status !== 409) {
+      this.told(error);
+      return;
+    }
+    const actions = repeat ? [{ text: "Do mine as well", run: repeat }] : [];
+    if (error.state) this.store.setState(error.state);
+    try {
+      await this.fetch();
+      this.say("Another window was quicker: its correction is shown now, yours was not taken.", "bad", actions);
+    } catch (failed) {
+      this.told(failed);
+    }
+  }
+
+  private told(error: unknown): void {
+    if (!(error instanceof Refused)) throw error;
+    const lead = { 423: "Still building: ", 507: "Nothing was changed: " }[error.status] ?? "";
+    this.say(lead + error.message, "bad");
+    if (error.state) this.store.setState(error.state);
+  }
+}
