@@ -3,7 +3,7 @@
 import type { Content, Edit } from "../types.ts";
 import { el, fill, fold, iconButton, put, swatch } from "./dom.ts";
 import type { LabelChoice, Page } from "./page.ts";
-import { button, jointsOf, lines, linkButton, note, partButton, sureBar, viewButtons, whyField } from "./pieces.ts";
+import { button, lines, linkButton, partButton, sureBar, viewButtons, whyField } from "./pieces.ts";
 import {
   area, count, fromWhere, howSure, labelOf, lengths, meshesOf, percent, repeatsOf, upper, volume, whole,
 } from "./words.ts";
@@ -16,13 +16,10 @@ export function inspectPart(page: Page, content: Content, row: number, head: HTM
   if (row !== lastRow) onlyThis = false;
   lastRow = row;
   fill(head, title(content, row), sureness(content, row), page.canEdit() && correction(page, content, row), viewButtons(page, [row]));
-  const joints = jointsOf(page, content, [row]);
   fill(rest,
-    joints.open && note("It may join what it was not joined to:", joints.open),
     fold("About this part", true, about(page, content, row)),
     facts(content, row),
     page.source.live && why(page, content, row),
-    joints.made && fold("Joints", false, joints.made),
     page.canEdit() && fold("More corrections", false, more(page, content, row)));
 }
 

@@ -1,7 +1,7 @@
 // The inspector of a unit, and of a junction or an end of a pipe.
 
-import type { Connection, Content, Edit, End, Flow, Unit } from "../types.ts";
-import { bar, el, fill, fold, iconButton, put, swatch } from "./dom.ts";
+import type { Content, End, Unit } from "../types.ts";
+import { bar, el, fill, fold, iconButton, swatch } from "./dom.ts";
 import type { Page } from "./page.ts";
 import { button, jointsOf, lines, linkButton, note, partList, viewButtons } from "./pieces.ts";
 import { lazily } from "./inspect_part.ts";
@@ -147,33 +147,4 @@ export function inspectEnd(page: Page, content: Content, end: End, head: HTMLEle
       }), "join-next")),
     fold("Parts here", true, partList(page, content, end.parts)),
     joints.made && fold("Joints", false, joints.made));
-}
-
-/** The lines that run through some parts: which way they flow, why that is believed, and putting it right. */
-export function flows(page: Page, content: Content, rows: readonly number[]): HTMLElement | null {
-  const of = new Set(rows);
-  const found = content.network.connections.filter((connection) => connection.via.some((row) => of.has(row)));
-  if (!found.length || found.length > 6) return null;
-  const box = el("section", { "aria-label": "Flow" });
-  for (const connection of found) put(box, flow(page, content, connection));
-  return box;
-}
-
-function flow(page: Page, content: Content, connection: Connection): HTMLElement {
-  const line = content.network.lines[connection.line];
-  const { source, target, source_name, target_name } = connection;
-  const set = (way: Flow) => {
-    const edit: Edit = { kind: "direction", source, target, via: connection.via.map((row) => content.parts.id[row]), flow: way };
-    void page.edit([edit]);
-  };
-  const choice = (way: Flow, text: string, title: string) =>
-    el("button", { type: "button", "aria-pressed": String(connection.flow === way), title, "data-test": `flow-${way}`, "data-key": `flow-${source}-${target}-${way}`, onclick: () => set(way) }, text);
-  return el("div", { class: "flow" },
-    el("p", {}, el("b", {}, line?.tag ?? "Line"), " ", linkButton(source_name, "Select", () => page.store.selectPlace(source)), " – ", linkButton(target_name, "Select", () => page.store.selectPlace(target))),
-    el("p", { class: "soft" }, [connection.size && `DN ${connection.size}`, connection.length !== null && length(connection.length), connection.confidence !== null && `joined with ${percent(connection.confidence)}`].filter(Boolean).join(", ")),
-    page.canEdit()
-      ? el("div", { class: "segments", role: "group", "aria-label": "Flow direction" },
-        choice("forward", `→ ${target_name}`, `It flows to ${target_name}`), choice("backward", `→ ${source_name}`, `It flows to ${source_name}`), choice("unknown", "Not known", "Take a direction that was set back"))
-      : el("p", {}, connection.flow === "unknown" ? "Flow not known" : `Flows to ${connection.flow === "forward" ? target_name : source_name}`),
-    connection.reason && el("p", { class: "soft" }, upper(connection.reason)));
 }

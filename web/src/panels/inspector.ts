@@ -4,7 +4,7 @@ import type { Content } from "../types.ts";
 import { bar, el, fill, swatch } from "./dom.ts";
 import { inspectMany } from "./inspect_many.ts";
 import { inspectPart } from "./inspect_part.ts";
-import { flows, inspectEnd, inspectUnit } from "./inspect_place.ts";
+import { inspectEnd, inspectUnit } from "./inspect_place.ts";
 import type { Page } from "./page.ts";
 import { button, linkButton } from "./pieces.ts";
 import { count, percent, whole } from "./words.ts";
@@ -13,7 +13,6 @@ export class Inspector {
   readonly element: HTMLElement;
   readonly networkSlot = el("div", { class: "network-slot", "data-test": "network-slot" });
   private readonly head = el("div", { class: "inspector-head" });
-  private readonly flow = el("div", {});
   private readonly rest = el("div", { class: "inspector-rest" });
   private readonly page: Page;
   /** Which sections are open, by title: they stay so from part to part. */
@@ -22,7 +21,7 @@ export class Inspector {
 
   constructor(page: Page) {
     this.page = page;
-    this.element = el("section", { class: "inspector", "aria-label": "Selection", "data-test": "inspector" }, this.head, this.networkSlot, this.flow, this.rest);
+    this.element = el("section", { class: "inspector", "aria-label": "Selection", "data-test": "inspector" }, this.head, this.networkSlot, this.rest);
     this.rest.addEventListener("toggle", (event) => this.noteToggle(event.target as HTMLDetailsElement), true);
     page.store.watch(["selection", "place", "isolated"], () => this.render());
     page.store.on("content", () => this.render());
@@ -52,7 +51,6 @@ export class Inspector {
   private draw(content: Content, selection: readonly number[], place: string | null): void {
     const unit = place && content.network.units.find((unit) => unit.id === place);
     const end = place && content.network.ends.find((end) => end.id === place);
-    fill(this.flow, flows(this.page, content, unit ? [] : selection.length <= 2 ? selection : []));
     if (unit) inspectUnit(this.page, content, unit, this.head, this.rest);
     else if (end) inspectEnd(this.page, content, end, this.head, this.rest);
     else if (selection.length === 1) inspectPart(this.page, content, selection[0], this.head, this.rest);

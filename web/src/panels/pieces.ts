@@ -71,8 +71,9 @@ function jointRow(page: Page, content: Content, joint: Joint, of: ReadonlySet<nu
     joint.reasons.length > 0 && el("details", { class: "reasons" }, el("summary", {}, "reasons"), el("ul", {}, ...joint.reasons.map((reason) => el("li", {}, reason)))));
 }
 
-/** Joints of some parts with others: those not made although they are likely come first. */
+/** Joints of some parts with others: those not made although they are likely. Those of one part the network's slot tells. */
 export function jointsOf(page: Page, content: Content, rows: readonly number[]): { open: HTMLElement | null; made: HTMLElement | null } {
+  if (rows.length < 2) return { open: null, made: null };
   const of = new Set(rows);
   const across = content.network.joints.filter((joint) => of.has(joint.first) !== of.has(joint.second) || (rows.length === 2 && of.has(joint.first) && of.has(joint.second)));
   const list = (joints: Joint[]) =>
