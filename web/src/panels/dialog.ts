@@ -3,20 +3,16 @@
 import { allCommands, type Command } from "../commands.ts";
 import { el, iconButton, put } from "./dom.ts";
 
-/** Opens a window over the page; Escape, its button or a click beside it closes it and gives the focus back. */
+/** Opens a window over the page; Escape, its button or a click beside it closes it; the browser gives the focus back. */
 export function openDialog(title: string, content: Node[], test: string, kind = ""): HTMLDialogElement {
   const dialog = el("dialog", { class: `dialog ${kind}`, "aria-label": title, "data-test": test });
   put(dialog,
     el("header", {}, el("h2", {}, title), iconButton("close", "Close (Esc)", () => dialog.close(), "dialog-close")),
     el("div", { class: "dialog-body" }, ...content));
-  const before = document.activeElement as HTMLElement | null;
   // What is typed here is not meant for the page below.
   dialog.addEventListener("keydown", (event) => event.stopPropagation());
   dialog.addEventListener("click", (event) => event.target === dialog && dialog.close());
-  dialog.addEventListener("close", () => {
-    dialog.remove();
-    if (before?.isConnected) before.focus({ preventScroll: true });
-  });
+  dialog.addEventListener("close", () => dialog.remove());
   document.body.append(dialog);
   dialog.showModal();
   return dialog;
@@ -57,5 +53,7 @@ const NAMES: Record<string, string> = {
 };
 
 export function keyWords(key: string): string {
-  return key.split(/(?<=.)\+(?=.)/).map((piece) => NAMES[piece] ?? (piece.length === 1 ? piece.toUpperCase() : piece)).join(" + ");
+  // A capital letter is typed with Shift.
+  const told = key.replace(/(?<=^|\+)([A-Z])$/, "Shift+$1");
+  return told.split(/(?<=.)\+(?=.)/).map((piece) => NAMES[piece] ?? (piece.length === 1 ? piece.toUpperCase() : piece)).join(" + ");
 }

@@ -5,7 +5,7 @@ import { el, fill, put, swatch } from "./dom.ts";
 import type { Page } from "./page.ts";
 import { Index, type Found, type Results } from "./search.ts";
 import { partsOf } from "./rows.ts";
-import { count, labelOf, length, meshesOf, partTitle, whole } from "./words.ts";
+import { count, labelOf, length, meshName, partTitle, whole } from "./words.ts";
 
 /** One index for all fields, made when somebody first searches a content. */
 const indices = new WeakMap<Content, Index>();
@@ -111,8 +111,7 @@ function words(content: Content, kind: Found["kind"], index: number): { title: s
     const line = content.network.lines[index];
     return { title: line.tag, detail: [line.size && `DN ${line.size}`, line.length !== null && length(line.length)].filter(Boolean).join(", "), swatch: null };
   }
-  const path = content.meshes.path[meshesOf(content, index)[0]] ?? "";
-  return { title: partTitle(content, index), detail: path.split("/").at(-1) ?? "", swatch: swatch(labelOf(content, index).color, content.parts.state[index]) };
+  return { title: partTitle(content, index), detail: meshName(content, index), swatch: swatch(labelOf(content, index).color, content.parts.state[index]) };
 }
 
 export class Find {

@@ -66,11 +66,12 @@ export function startPanels(app: HTMLElement, store: Store, source: Source): Pan
   const networkTab = el("div", { class: "network-tab" });
   const inspector = new Inspector(page);
   const find = new Find(page);
-  const review = new Review(page, corrector, () => {
-    top.setLeft(review.left);
-    badge("review", review.queue.waiting.length ? review.left : "");
+  const review = new Review(page, corrector, () => top.setLeft(review.left));
+  const warnings = new Warnings(page, (n) => {
+    const { badge } = layout.tabs.get("warnings")!;
+    fill(badge, whole(n));
+    badge.hidden = n === 0;
   });
-  const warnings = new Warnings(page, (n) => badge("warnings", n ? whole(n) : ""));
   const top = new TopBar(page, (query) => {
     open("find");
     find.open(query);
@@ -83,12 +84,6 @@ export function startPanels(app: HTMLElement, store: Store, source: Source): Pan
   app.prepend(layout.root, building.element);
   layout.middle.append(hint, toasts.element);
   const address = new Address(page);
-
-  function badge(tab: LeftTab, text: string): void {
-    const { badge } = layout.tabs.get(tab)!;
-    fill(badge, text);
-    badge.hidden = !text;
-  }
 
   function open(tab: LeftTab): void {
     layout.toggle("left", true);

@@ -7,7 +7,7 @@ import { bar, el, fill, put, swatch } from "./dom.ts";
 import type { LabelChoice, Page } from "./page.ts";
 import { button } from "./pieces.ts";
 import { choiceWords, Queue, type Choice } from "./queue.ts";
-import { count, labelOf, percent, upper, whole } from "./words.ts";
+import { count, labelOf, meshName, percent, upper, whole } from "./words.ts";
 
 const LIMIT = 50;
 /** A key pressed right after the question was replaced was meant for the one before [ms]. */
@@ -95,6 +95,7 @@ export class Review {
     if (!content || !question.parts.length) return "";
     const units = [...new Set(question.parts.map((row) => content.network.units[content.parts.unit[row]]?.tag))].filter(Boolean);
     const label = labelOf(content, question.parts[0]);
+    if (!label.group && !units.length) return `No label (${meshName(content, question.parts[0])})`;
     return `${label.name}${units.length ? ` of ${units.slice(0, 3).join(", ")}` : ""}`;
   }
 
@@ -174,7 +175,7 @@ export class Review {
         el("span", { class: "soft", "data-test": "alike" }, question.alike.length ? `settles ${whole(question.alike.length)} more like it` : "this one alone")),
       can ? this.options(content, question) : el("p", { class: "soft" }, "Answers can't be taken: the plant is for looking only."),
       can && el("div", { class: "buttons", role: "group", "aria-label": "Other answers" },
-        question.parts.length > 0 && keyed("o", "Other label…", "Choose any label (o)", () => this.other(), "review-other"),
+        question.parts.length > 0 && keyed("o", "Other…", "Choose any label (o)", () => this.other(), "review-other"),
         keyed("u", "Not sure", "Leave it as it is, don't ask again (u)", () => this.answer("unsure"), "review-unsure"),
         keyed("s", "Skip", "Ask me later (s)", () => this.answer("skip"), "review-skip")),
       el("button", { type: "button", class: "link", "data-key": "review-look", onclick: () => this.page.go(question.parts) }, "Show it again"));

@@ -83,8 +83,8 @@ export class Table {
     this.place = new Map(this.rows.map((row, i) => [row, i]));
     this.total.textContent = countWords(this.wish.kind, this.rows.length);
     this.body.style.height = `${Math.max(this.rows.length, 1) * ROW}px`;
-    const template = this.all.map((column) => `minmax(${column.width * 7}px, ${column.width}fr)`).join(" ");
-    const least = this.all.reduce((sum, column) => sum + column.width * 7, 0);
+    const template = this.all.map((column) => `minmax(${column.width * 9}px, ${column.width}fr)`).join(" ");
+    const least = this.all.reduce((sum, column) => sum + column.width * 9, 0);
     for (const piece of [this.head, this.body]) {
       piece.style.setProperty("--columns", template);
       piece.style.minWidth = `${least}px`;
@@ -98,7 +98,7 @@ export class Table {
   private titles(): void {
     fill(this.head, ...this.all.map((column) => {
       const by = this.wish.sort === column.key;
-      return el("div", { role: "columnheader", class: column.number ? "right" : null, "aria-sort": by ? (this.wish.descending ? "descending" : "ascending") : "none" },
+      return el("div", { role: "columnheader", class: column.number ? "num" : null, "aria-sort": by ? (this.wish.descending ? "descending" : "ascending") : "none" },
         el("button", { type: "button", title: `Sort by ${column.title.toLowerCase()}`, onclick: () => this.sort(column.key) }, column.title, by ? (this.wish.descending ? " ▼" : " ▲") : ""));
     }));
   }
@@ -132,7 +132,7 @@ export class Table {
     line.style.transform = `translateY(${i * ROW}px)`;
     this.all.forEach((column, k) => {
       const value = column.of(row);
-      const cell = el("div", { role: "gridcell", class: column.number ? "right" : null }, k === 0 && this.swatch(content, row), column.number && typeof value === "number" && Number.isInteger(value) ? whole(value) : value);
+      const cell = el("div", { role: "gridcell", class: column.number ? "num" : null }, k === 0 && this.swatch(content, row), column.number && typeof value === "number" && Number.isInteger(value) ? whole(value) : value);
       if (typeof value === "string" && value.length > 12) cell.title = value;
       put(line, cell);
     });

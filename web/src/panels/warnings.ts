@@ -5,10 +5,13 @@ import type { Content } from "../types.ts";
 import { el, fill, iconButton, put } from "./dom.ts";
 import type { Page } from "./page.ts";
 import { linkButton } from "./pieces.ts";
-import { count, finding, partTitle, whole } from "./words.ts";
+import { count, finding, meshName, partTitle, whole } from "./words.ts";
 
 interface Item {
   text: string;
+  /** Tells items with the same text apart. */
+  note?: string;
+  /** More of it, said when it is looked at. */
   detail: string;
   place: string | null;
   parts: number[];
@@ -40,7 +43,7 @@ export function warningGroups(content: Content): WarningGroup[] {
     if (COVERED.has(code)) continue;
     const each = (code === "unlabelled" || code === "likely") && parts.length > 1;
     if (!each) add(code, finding(code), { text: message, detail: "", place: null, parts });
-    else for (const row of parts) add(code, finding(code), { text: partTitle(content, row), detail: "", place: null, parts: [row] });
+    else for (const row of parts) add(code, finding(code), { text: partTitle(content, row), detail: "", note: meshName(content, row), place: null, parts: [row] });
   }
   const rank = (group: WarningGroup) => LAST.indexOf(group.key);
   return [...groups.values()].sort((a, b) => rank(a) - rank(b));
@@ -98,8 +101,8 @@ export class Warnings {
       list);
     box.addEventListener("toggle", () => (box.open ? this.open.add(group.key) : this.open.delete(group.key)));
     group.items.slice(0, MOST).forEach((item, i) => put(list, el("li", {}, el("button", {
-      type: "button", class: "row top", "data-test": "warning", title: item.detail || null, disabled: !item.parts.length && !item.place, onclick: () => this.go(group, i, list, where),
-    }, el("span", { class: "grow" }, item.text)))));
+      type: "button", class: "row wrap", "data-test": "warning", title: item.detail || null, disabled: !item.parts.length && !item.place, onclick: () => this.go(group, i, list, where),
+    }, el("span", { class: "grow" }, item.text), item.note && el("span", { class: "soft" }, item.note)))));
     if (n > MOST) put(list, el("li", { class: "soft" }, `and ${count(n - MOST, "more", "more")}: the arrows reach them all`));
     where.textContent = `${n}`;
     return box;

@@ -149,6 +149,11 @@ export function meshesOf(content: Content, row: number): number[] {
   return table[row] ?? [];
 }
 
+/** What the file calls a part: the last name of its first mesh's path. */
+export function meshName(content: Content, row: number): string {
+  return (content.meshes.path[meshesOf(content, row)[0]] ?? "").split("/").at(-1) ?? "";
+}
+
 /** Rows of all parts of one shape, this one among them. */
 export function repeatsOf(parts: Parts, row: number): number[] {
   const shape = parts.shape[row];
