@@ -208,3 +208,14 @@ test("the question shown stays while the list is asked for anew", async () => {
   await queue.load();
   assert.deepEqual(queue.waiting.map((q) => q.id), ["a", "z", "b"]);
 });
+
+test("a list asked for before an answer is not shown, and what was skipped may come again", async () => {
+  const server = new Server(question("a", [0]));
+  const queue = new Queue(server, () => {});
+  await queue.load();
+  const stale = queue.load();
+  server.send = async () => ({ ok: true, version: null });
+  await Promise.all([stale, queue.answer("skip")]);
+  await queue.load();
+  assert.equal(queue.current!.id, "a");
+});

@@ -42,7 +42,7 @@ export class Corrector {
     const before = this.store.state?.version;
     const update = await this.send((version) =>
       edits.length
-        ? this.source.edit(version, edits, "review")
+        ? this.source.edit(version, edits, question.title)
         : this.source.answer(version, question.id, typeof choice === "object" ? "unsure" : choice), undefined, true);
     const version = update && update.version !== before ? update.version : null;
     return { ok: update !== null, version, message: update?.message };

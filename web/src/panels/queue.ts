@@ -39,7 +39,10 @@ export class Queue {
   loaded = false;
   /** When the question shown became another one without the person's doing [ms]; keys are not taken right after. */
   replacedAt = -Infinity;
+  /** Answers on their way; the server still lists their questions. */
   private readonly settled = new Set<string>();
+  /** Grows with each answer: a list that was asked for before it is stale. */
+  private turn = 0;
   private readonly io: QueueIo;
   private readonly changed: () => void;
   private sending = 0;
@@ -88,6 +91,7 @@ export class Queue {
     if (typeof choice === "number" && !question.options[choice]) return Promise.resolve();
     const told: Answered = { question, choice, version: null };
     this.settled.add(question.id);
+    this.turn++;
     this.past.push(told);
     this.waiting = this.waiting.slice(1).filter((other) => !answersToo(question, choice, other));
     this.sending++;
@@ -95,6 +99,7 @@ export class Queue {
     const done = this.chain.then(async () => {
       const sent = await this.io.send(question, choice).catch((): Sent => ({ ok: false, version: null }));
       this.sending--;
+      this.settled.delete(question.id);
       if (sent.ok) Object.assign(told, { version: sent.version, message: sent.message });
       else this.restore(told);
       if (!this.sending) await this.load().catch(() => undefined);
@@ -125,13 +130,20 @@ export class Queue {
 
   private restore(told: Answered): void {
     this.past = this.past.filter((past) => past !== told);
-    this.settled.delete(told.question.id);
+    this.turn++;
     this.waiting = [told.question, ...this.waiting.filter((question) => question.id !== told.question.id)];
     this.replacedAt = now();
   }
 
   private async fetch(): Promise<void> {
-    const asked = (await this.io.load()).filter((question) => !this.settled.has(question.id));
+    const { turn } = this;
+    const listed = await this.io.load();
+    if (turn !== this.turn) {
+      // An answer was given meanwhile; when it is through, the list is asked for again.
+      this.again = !this.sending;
+      return;
+    }
+    const asked = listed.filter((question) => !this.settled.has(question.id));
     const shown = this.current;
     const still = shown && asked.find((question) => question.id === shown.id);
     this.waiting = still ? [still, ...asked.filter((question) => question !== still)] : asked;
