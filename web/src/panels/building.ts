@@ -2,7 +2,7 @@
 
 import type { ServerState } from "../types.ts";
 import { el, fill } from "./dom.ts";
-import { elapsed, percent } from "./words.ts";
+import { elapsed, percent, stageWords } from "./words.ts";
 
 export class Building {
   readonly element = el("section", { class: "building", "data-test": "building", "aria-label": "Progress", hidden: true });
@@ -11,12 +11,20 @@ export class Building {
   private readonly fillBar = el("span", { class: "bar-fill" });
   private readonly progress = el("div", { class: "bar big", role: "progressbar", "aria-valuemin": "0", "aria-valuemax": "100", "aria-label": "Progress" }, this.fillBar);
   private readonly time = el("p", { class: "soft", "data-test": "building-time" });
+  /** Above the plant, where it can be seen already while the rest is made ready. */
+  readonly strip = el("p", { class: "making-ready", role: "status", "data-test": "making-ready", hidden: true });
+  /** What has been gone through so far, each with the time that it took. */
+  private readonly steps = el("ol", { class: "steps" });
+  private step = "";
+  private stepped = Date.now();
   private timer = 0;
   private showing = "";
 
-  show(state: ServerState | null, trouble = ""): void {
+  show(state: ServerState | null, seen: boolean, trouble = ""): void {
     const failed = state?.status === "failed";
-    if (state?.status === "ready" && !trouble) {
+    this.strip.hidden = !seen || state?.status !== "building";
+    if (!this.strip.hidden) this.say(`${stageWords(state!.stage)}… Corrections can be made when this is done.`);
+    if ((state?.status === "ready" || (seen && !failed)) && !trouble) {
       clearInterval(this.timer);
       this.timer = 0;
       this.showing = "";
@@ -37,7 +45,7 @@ export class Building {
     const card = el("div", { class: "card" },
       el("p", { class: "brand" }, "cadgraph"),
       el("h1", {}, title ? `Reading ${title}` : "Reading the plant"),
-      this.stage, this.progress, this.time);
+      this.steps, this.stage, this.progress, this.time);
     fill(this.element, card);
     this.timer ||= window.setInterval(() => this.tick(), 1000);
     this.tick();
@@ -52,13 +60,27 @@ export class Building {
       el("p", { class: "soft" }, "What went wrong stands in the terminal, too. Put it right there and start 'cadgraph view' again.")));
   }
 
+  private say(words: string): void {
+    if (this.strip.textContent !== words) this.strip.textContent = words;
+  }
+
   private update(state: ServerState | null): void {
     const share = Math.max(0, Math.min(1, state?.share ?? 0));
-    const told = [state?.stage || "Starting", state?.message].filter(Boolean).join(": ");
+    const told = [stageWords(state?.stage ?? ""), state?.message].filter(Boolean).join(": ");
+    this.progress.classList.toggle("unknown", share === 0);
     if (this.stage.textContent !== told) this.stage.textContent = told;
+    this.stepOn(state?.stage ?? "");
     this.fillBar.style.width = `${100 * share}%`;
     this.progress.setAttribute("aria-valuenow", String(Math.round(100 * share)));
     this.progress.setAttribute("aria-valuetext", `${told}, ${percent(share)}`);
+  }
+
+  private stepOn(stage: string): void {
+    if (stage === this.step) return;
+    const now = Date.now();
+    if (this.step) this.steps.append(el("li", {}, el("span", {}, `✓ ${stageWords(this.step)}`), el("span", { class: "number" }, elapsed((now - this.stepped) / 1000))));
+    this.step = stage;
+    this.stepped = now;
   }
 
   private tick(): void {

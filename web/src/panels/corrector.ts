@@ -63,12 +63,12 @@ export class Corrector {
     if (!this.anew && now && state.version < now.version) return;
     this.anew = false;
     this.store.setState(state);
-    if (state.status !== "ready" || !this.store.content) return;
+    if (state.status === "failed" || !this.store.content) return;
     void this.inTurn(async () => {
       const { content, state: latest } = this.store;
-      if (!content || !latest || latest.version === content.version || latest.status !== "ready") return;
+      if (!content || !latest || latest.version === content.version || latest.status === "failed") return;
       await this.fetch();
-      this.say(`Changed in another window${latest.undo ? `: ${latest.undo}` : ""}. The plant is shown as it is now.`);
+      if (latest.status === "ready") this.say(`Changed in another window${latest.undo ? `: ${latest.undo}` : ""}. The plant is shown as it is now.`);
     }).catch((error: unknown) => this.told(error));
   }
 

@@ -1,6 +1,6 @@
 // The page around the 3D view.
 
-import type { Source } from "../api.ts";
+import { Refused, type Source } from "../api.ts";
 import { addCommands } from "../commands.ts";
 import type { SceneView } from "../scene/view.ts";
 import type { LeftTab, Store } from "../store.ts";
@@ -51,7 +51,7 @@ export function startPanels(app: HTMLElement, store: Store, source: Source): Pan
   const picking = new NextPick(store, hint);
   const page: Page = {
     store, source, view: null, say,
-    canEdit: () => source.live && !!store.state && !store.state.read_only,
+    canEdit: () => source.live && store.state?.status === "ready" && !store.state.read_only,
     edit: (edits, why) => corrector.edit(edits, why),
     undo: async () => void (await corrector.undo()),
     redo: async () => void (await corrector.redo()),
@@ -82,7 +82,7 @@ export function startPanels(app: HTMLElement, store: Store, source: Source): Pan
   const layout = layOut(store, top.element, inspector.element, new Table(page).element, panels);
   const building = new Building();
   app.prepend(layout.root, building.element);
-  layout.middle.append(hint, toasts.element);
+  layout.middle.append(hint, building.strip, toasts.element);
   const address = new Address(page);
 
   function open(tab: LeftTab): void {
@@ -101,7 +101,6 @@ export function startPanels(app: HTMLElement, store: Store, source: Source): Pan
       if (!source.live) layout.middle.append(el("p", { class: "view-only", "data-test": "view-only" }, "View only: corrections are made with 'cadgraph view'."));
       address.start();
       if (!source.live && ["review", "history"].includes(store.shown.leftTab)) store.set({ leftTab: "find" });
-      if (source.live) void review.load();
     },
     connect: (view) => {
       page.view = view;
@@ -123,10 +122,11 @@ async function untilReady(store: Store, source: Source, corrector: Corrector, bu
     let fetching: Promise<void> | null = null;
     const first = (content: Content) => {
       store.setContent(content);
+      building.show(store.state, true);
       resolve();
     };
     const trouble = (reason: string) => {
-      if (!store.content) building.show(store.state, reason);
+      if (!store.content) building.show(store.state, false, reason);
       else if (!lost) say(reason, "bad");
       lost = true;
       corrector.lost();
@@ -135,11 +135,12 @@ async function untilReady(store: Store, source: Source, corrector: Corrector, bu
       if (lost && store.content) say("The server answers again.", "good");
       lost = false;
       corrector.heard(state);
-      building.show(store.state);
-      if (store.state?.status !== "ready" || store.content) return;
+      building.show(store.state, !!store.content);
+      // A plant that was built before can be looked at while it is made ready for corrections.
+      if (store.content || state.status === "failed" || (state.status === "building" && state.version < 1)) return;
       fetching ??= source.content().then(first, (error: Error) => {
         fetching = null;
-        trouble(error.message);
+        if (!(error instanceof Refused && error.status === 423)) trouble(error.message);
       });
     }, trouble);
   });

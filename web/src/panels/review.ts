@@ -39,10 +39,16 @@ export class Review {
       else this.draw();
     });
     page.store.watch(["leftTab"], () => this.opened());
+    let status = page.store.state?.status;
+    page.store.on("state", (state) => {
+      if (state.status === "ready" && status !== "ready") void this.load();
+      status = state.status;
+    });
   }
 
   /** Asks for the list; a queue that can't be had is said in its place. */
   async load(): Promise<void> {
+    if (this.page.store.state?.status !== "ready") return;
     try {
       await this.queue.load();
       this.trouble = "";
@@ -52,8 +58,9 @@ export class Review {
     this.changed();
   }
 
-  /** How many are left, as the top bar says it. */
+  /** How many are left, as the top bar says it; nothing while that is not known. */
   get left(): string {
+    if (!this.queue.loaded) return "";
     const n = this.queue.waiting.length;
     return n >= LIMIT ? `${n}+` : String(n);
   }

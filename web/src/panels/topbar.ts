@@ -14,7 +14,7 @@ export class TopBar {
   private readonly title = el("h1", { class: "plant-title", "data-test": "title" });
   private readonly undo = iconButton("undo", "Undo", () => run("undo"), "undo");
   private readonly redo = iconButton("redo", "Redo", () => run("redo"), "redo");
-  private readonly review = el("button", { type: "button", class: "chip", "data-test": "review-count", title: "What is most worth a look first (r)", onclick: () => run("review") });
+  private readonly review = el("button", { type: "button", class: "chip", "data-test": "review-count", title: "What is most worth a look first (r)", onclick: () => run("review") }, "Review");
   private readonly edits = el("button", { type: "button", class: "chip", "data-test": "edit-count", title: "What was corrected", onclick: () => run("history") });
   private readonly badge = el("span", { class: "read-only", "data-test": "read-only", hidden: true });
   private readonly theme = iconButton("moon", "Dark", () => switchTheme(this.page.store), "theme");
@@ -49,7 +49,7 @@ export class TopBar {
   }
 
   setLeft(words: string): void {
-    fill(this.review, words === "0" ? "Reviewed" : `Review ${words}`);
+    fill(this.review, words === "" ? "Review" : words === "0" ? "Reviewed" : `Review ${words}`);
   }
 
   private update(): void {

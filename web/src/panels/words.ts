@@ -48,6 +48,23 @@ export function volume(value: number | null): string {
   return value < 1 ? `${(value * 1e3).toFixed(1)} l` : `${value.toFixed(2)} m³`;
 }
 
+const STAGES: Record<string, string> = {
+  read: "Reading the file",
+  draw: "Making the picture",
+  measure: "Measuring the parts",
+  contacts: "Finding which parts touch",
+  group: "Putting meshes together to parts",
+  cluster: "Finding what stands together",
+  label: "Telling what each part is",
+  relate: "Following the pipes",
+  assemble: "Writing the graph",
+};
+
+/** What is done at a stage of building. */
+export function stageWords(stage: string): string {
+  return STAGES[stage] ?? (stage ? upper(stage) : "Starting");
+}
+
 const SURE: Record<string, string> = { sure: "Sure", likely: "Likely, not sure", open: "Not known" };
 
 export function howSure(state: string): string {
