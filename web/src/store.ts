@@ -148,10 +148,13 @@ export class Store {
     const network = this.content!.network;
     const { place, selection } = this.shown;
     const n = this.content!.parts.id.length;
-    const node = place && [...network.units, ...network.ends].find((node) => node.id === place);
+    const nodes = [...network.units, ...network.ends];
+    // A unit may have another id now, as that follows its tag: it is known by its parts.
+    const node = place && (nodes.find((node) => node.id === place)
+      ?? nodes.find((node) => node.parts.length === selection.length && node.parts.every((row) => selection.includes(row))));
     if (node) {
       const same = node.parts.length === selection.length && node.parts.every((row, i) => row === selection[i]);
-      if (!same) this.set({ selection: node.parts });
+      if (!same || node.id !== place) this.set({ selection: node.parts, place: node.id });
     } else if (place) this.set({ place: null });
     if (selection.some((row) => row >= n)) this.set({ selection: selection.filter((row) => row < n) });
   }

@@ -5,8 +5,18 @@ import type { Store } from "../store.ts";
 import type { Edit, Question, ServerState, Update } from "../types.ts";
 import type { Page } from "./page.ts";
 import type { Choice, Sent } from "./queue.ts";
+import { sentence } from "./words.ts";
 
 type Say = Page["say"];
+
+interface Sending {
+  /** How to send the same once more, where another window was quicker. */
+  repeat?: () => void;
+  /** What takes it back. */
+  back?: "Undo" | "Redo";
+  /** Nothing is said if it is taken. */
+  quiet?: boolean;
+}
 
 export class Corrector {
   private readonly store: Store;
@@ -15,6 +25,8 @@ export class Corrector {
   private chain: Promise<unknown> = Promise.resolve();
   /** After a break the server may be another one that counts anew. */
   private anew = true;
+  /** Why the last correction was not taken; "" where it was. */
+  refusal = "";
 
   constructor(store: Store, source: Source, say: Say) {
     this.store = store;
@@ -25,11 +37,11 @@ export class Corrector {
   async edit(edits: Edit[], why = ""): Promise<boolean> {
     if (!edits.length) return true;
     const send = (version: number) => this.source.edit(version, edits, why);
-    return (await this.send(send, () => void this.edit(edits, why))) !== null;
+    return (await this.send(send, { repeat: () => void this.edit(edits, why) })) !== null;
   }
 
   async undo(): Promise<boolean> {
-    return (await this.send((version) => this.source.undo(version))) !== null;
+    return (await this.send((version) => this.source.undo(version), { back: "Redo" })) !== null;
   }
 
   async redo(): Promise<boolean> {
@@ -43,9 +55,9 @@ export class Corrector {
     const update = await this.send((version) =>
       edits.length
         ? this.source.edit(version, edits, question.title)
-        : this.source.answer(version, question.id, typeof choice === "object" ? "unsure" : choice), undefined, true);
+        : this.source.answer(version, question.id, typeof choice === "object" ? "unsure" : choice), { quiet: true });
     const version = update && update.version !== before ? update.version : null;
-    return { ok: update !== null, version, message: update?.message };
+    return { ok: update !== null, version, message: update === null ? undefined : sentence(update.message) };
   }
 
   /** Undoes the correction that led to a version, if nothing came after it. */
@@ -87,15 +99,17 @@ export class Corrector {
     return done;
   }
 
-  private send(run: (version: number) => Promise<Update>, repeat?: () => void, quiet = false): Promise<Update | null> {
+  private send(run: (version: number) => Promise<Update>, { repeat, back = "Undo", quiet = false }: Sending = {}): Promise<Update | null> {
     return this.inTurn(async () => {
+      this.refusal = "";
       try {
         const update = await run(this.store.state?.version ?? 0);
         const changed = update.version !== this.store.content?.version;
         if (!this.store.apply(update)) await this.fetch();
         if (update.message && !quiet) {
-          const undo = changed && update.state.can_undo ? [{ text: "Undo", run: () => void this.undo() }] : [];
-          this.say(update.message, "good", undo);
+          const can = back === "Undo" ? update.state.can_undo : update.state.can_redo;
+          const action = { text: back, run: () => void (back === "Undo" ? this.undo() : this.redo()) };
+          this.say(sentence(update.message), "good", changed && can ? [action] : []);
         }
         return update;
       } catch (error) {
@@ -122,8 +136,9 @@ export class Corrector {
 
   private told(error: unknown): void {
     if (!(error instanceof Refused)) throw error;
+    this.refusal = sentence(error.message);
     const lead = { 423: "Still building: ", 507: "Nothing was changed: " }[error.status] ?? "";
-    this.say(lead + error.message, "bad");
+    this.say(lead + (lead ? error.message : this.refusal), "bad");
     if (error.state) this.store.setState(error.state);
   }
 }

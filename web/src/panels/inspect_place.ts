@@ -49,7 +49,7 @@ function tagLine(page: Page, unit: Unit): HTMLElement {
       const taken = await page.edit([{ kind: "tag", unit: unit.id, tag }]);
       input.disabled = false;
       if (taken || !input.isConnected) return;
-      trouble.textContent = "This tag was not taken: the reason stands below the view.";
+      trouble.textContent = page.refusal() || "This tag was not taken.";
       input.focus();
     };
     input.addEventListener("keydown", (event) => {

@@ -21,6 +21,8 @@ export interface Page {
   /** Whether corrections can be made: a server answers, and the folder can be written. */
   canEdit(): boolean;
   edit(edits: Edit[], why?: string): Promise<boolean>;
+  /** Why the last correction was not taken, for saying it in its place. */
+  refusal(): string;
   undo(): Promise<void>;
   redo(): Promise<void>;
   /** Selects these parts, or a place, and moves to them. */

@@ -53,6 +53,7 @@ export function startPanels(app: HTMLElement, store: Store, source: Source): Pan
     store, source, view: null, say,
     canEdit: () => source.live && store.state?.status === "ready" && !store.state.read_only,
     edit: (edits, why) => corrector.edit(edits, why),
+    refusal: () => corrector.refusal,
     undo: async () => void (await corrector.undo()),
     redo: async () => void (await corrector.redo()),
     go: (parts, place = null) => {

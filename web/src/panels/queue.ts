@@ -37,6 +37,8 @@ export class Queue {
   waiting: Question[] = [];
   past: Answered[] = [];
   loaded = false;
+  /** The greatest gain that was ever to be had; what is left is measured by it. */
+  peak = 0;
   /** When the question shown became another one without the person's doing [ms]; keys are not taken right after. */
   replacedAt = -Infinity;
   /** Answers on their way; the server still lists their questions. */
@@ -148,6 +150,7 @@ export class Queue {
     const still = shown && asked.find((question) => question.id === shown.id);
     this.waiting = still ? [still, ...asked.filter((question) => question !== still)] : asked;
     if (shown && !still) this.replacedAt = now();
+    this.peak = asked.reduce((most, question) => Math.max(most, question.gain), this.peak);
     this.loaded = true;
     this.changed();
   }

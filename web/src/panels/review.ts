@@ -1,7 +1,7 @@
 // The review tab: one question at a time, big; keys answer it.
 
 import { addCommands } from "../commands.ts";
-import type { Content, Question } from "../types.ts";
+import type { Content, Option, Question } from "../types.ts";
 import type { Corrector } from "./corrector.ts";
 import { bar, el, fill, put, swatch } from "./dom.ts";
 import type { LabelChoice, Page } from "./page.ts";
@@ -12,6 +12,8 @@ import { count, labelOf, meshName, percent, upper, whole } from "./words.ts";
 const LIMIT = 50;
 /** A key pressed right after the question was replaced was meant for the one before [ms]. */
 const CALM = 500;
+/** Below this share of the greatest gain a question is hardly worth its time. */
+const LITTLE = 0.1;
 
 export class Review {
   readonly element = el("div", { class: "review", "data-test": "review" });
@@ -118,7 +120,9 @@ export class Review {
     const offered = question.options.flatMap((option) => option.edits).flatMap((edit): LabelChoice[] => (edit.kind === "label" ? [{ group: edit.group, name: edit.name }] : []));
     this.page.pickLabel(`${question.title} (${this.subject(question)})`, offered, (choice) => {
       if (this.queue.current?.id !== question.id) return;
-      const edits = [{ kind: "label" as const, part: content.parts.id[question.parts[0]], ...choice, this_only: false }];
+      // As the options do: these parts and those alike, and no other.
+      const rows = question.kind === "label" ? [...question.parts, ...question.alike] : question.parts.slice(0, 1);
+      const edits = rows.map((row) => ({ kind: "label" as const, part: content.parts.id[row], ...choice, this_only: true }));
       void this.queue.answer({ text: choice.name ?? choice.group, edits });
     });
   }
@@ -170,7 +174,7 @@ export class Review {
   }
 
   private question(content: Content, question: Question): HTMLElement {
-    const most = Math.max(...this.queue.waiting.map((other) => other.gain), 1e-9);
+    const share = question.gain / Math.max(this.queue.peak, 1e-9);
     const label = question.parts.length ? labelOf(content, question.parts[0]) : null;
     const row = question.parts[0];
     const can = this.page.canEdit();
@@ -178,8 +182,9 @@ export class Review {
       el("h2", { "data-test": "question-title" }, question.title),
       label && el("p", { class: "subject" }, swatch(label.color, content.parts.state[row]), el("span", {}, `${question.kind === "label" ? "Now: " : ""}${this.subject(question)}`)),
       el("p", { class: "why-line", "data-test": "question-why" }, question.why),
-      el("div", { class: "spread gain" }, el("span", { class: "soft" }, "Gain"), bar(question.gain / most, `Gain ${Math.round((100 * question.gain) / most)} % of the greatest`),
+      el("div", { class: "spread gain" }, el("span", { class: "soft" }, "Gain"), bar(share, `Gain ${percent(share)} of the greatest`),
         el("span", { class: "soft", "data-test": "alike" }, question.alike.length ? `settles ${whole(question.alike.length)} more like it` : "this one alone")),
+      share < LITTLE && el("p", { class: "soft", "data-test": "little-gain" }, "What is left gains little; you can well stop here."),
       can ? this.options(content, question) : el("p", { class: "soft" }, "Answers can't be taken: the plant is for looking only."),
       can && el("div", { class: "buttons", role: "group", "aria-label": "Other answers" },
         question.parts.length > 0 && keyed("o", "Other…", "Choose any label (o)", () => this.other(), "review-other"),
@@ -194,7 +199,7 @@ export class Review {
       const edit = option.edits.find((edit) => edit.kind === "label");
       const color = edit?.kind === "label" ? (content.groups.find((group) => group.name === edit.group)?.color ?? null) : null;
       put(list, el("button", { type: "button", class: "option-button", "data-test": `option-${i + 1}`, "data-key": `option-${i + 1}`, "aria-keyshortcuts": String(i + 1), onclick: () => this.answer(i) },
-        el("kbd", {}, String(i + 1)), color && swatch(color, "sure"), el("span", { class: "grow" }, upper(option.text)),
+        el("kbd", {}, String(i + 1)), color && swatch(color, "sure"), optionText(option),
         option.confidence !== null && bar(option.confidence, percent(option.confidence)),
         option.confidence !== null && el("span", { class: "number" }, percent(option.confidence))));
     });
@@ -222,6 +227,14 @@ export class Review {
       past.length > 0 && this.page.canEdit() && button("Back to the last one", "Take the last answer back (Backspace)", () => void this.back(), "review-back"),
       el("p", { class: "soft" }, "Corrections are kept in the plant's folder. The warnings tab lists what the network still lacks."));
   }
+}
+
+/** "valve body (Valve assembly)" with the group beneath it. */
+function optionText(option: Option): HTMLElement {
+  const edit = option.edits.find((edit) => edit.kind === "label");
+  const group = edit?.kind === "label" && edit.name !== null ? edit.group : "";
+  const name = option.text.endsWith(` (${group})`) ? option.text.slice(0, -group.length - 3) : option.text;
+  return el("span", { class: "grow" }, upper(name), name !== option.text && el("span", { class: "soft small-line" }, group));
 }
 
 function keyed(key: string, text: string, title: string, run: () => void, test: string): HTMLElement {

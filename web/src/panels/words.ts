@@ -147,6 +147,11 @@ export function upper(text: string): string {
   return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
+/** A message of the server as a sentence; ids at its beginning stay as they are. */
+export function sentence(text: string): string {
+  return /^[a-z]+\b(?!-)/.test(text) ? upper(text) : text;
+}
+
 /** A part in one short line. */
 export function partTitle(content: Content, row: number): string {
   const unit = content.network.units[content.parts.unit[row]];
