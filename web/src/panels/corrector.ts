@@ -61,12 +61,14 @@ export class Corrector {
   }
 
   /** Undoes the correction that led to a version, if nothing came after it. */
-  async takeBack(version: number): Promise<boolean> {
-    if (this.store.state?.version !== version) {
-      this.say("Something else was corrected since; use Undo, or the list under History.", "bad");
-      return false;
-    }
-    return this.undo();
+  takeBack(version: number): Promise<boolean> {
+    return this.revert("Undo", version);
+  }
+
+  private async revert(back: "Undo" | "Redo", version: number): Promise<boolean> {
+    if (this.store.state?.version === version) return back === "Undo" ? this.undo() : this.redo();
+    this.say("Something else was corrected since; the buttons above and the list under History go back step by step.", "bad");
+    return false;
   }
 
   /** The state that the server tells of by itself: where another window has changed the plant, it is fetched anew. */
@@ -108,7 +110,7 @@ export class Corrector {
         if (!this.store.apply(update)) await this.fetch();
         if (update.message && !quiet) {
           const can = back === "Undo" ? update.state.can_undo : update.state.can_redo;
-          const action = { text: back, run: () => void (back === "Undo" ? this.undo() : this.redo()) };
+          const action = { text: back, run: () => void this.revert(back, update.version) };
           this.say(sentence(update.message), "good", changed && can ? [action] : []);
         }
         return update;

@@ -7,7 +7,7 @@ import { bar, el, fill, put, swatch } from "./dom.ts";
 import type { LabelChoice, Page } from "./page.ts";
 import { button } from "./pieces.ts";
 import { choiceWords, Queue, type Choice } from "./queue.ts";
-import { count, labelOf, meshName, percent, upper, whole } from "./words.ts";
+import { count, labelOf, meshName, percent, sentence, upper, whole } from "./words.ts";
 
 const LIMIT = 50;
 /** A key pressed right after the question was replaced was meant for the one before [ms]. */
@@ -181,7 +181,7 @@ export class Review {
     return el("section", { class: "question", "aria-label": "Question", "data-test": "question", "data-id": question.id },
       el("h2", { "data-test": "question-title" }, question.title),
       label && el("p", { class: "subject" }, swatch(label.color, content.parts.state[row]), el("span", {}, `${question.kind === "label" ? "Now: " : ""}${this.subject(question)}`)),
-      el("p", { class: "why-line", "data-test": "question-why" }, question.why),
+      el("p", { class: "why-line", "data-test": "question-why" }, sentence(question.why)),
       el("div", { class: "spread gain" }, el("span", { class: "soft" }, "Gain"), bar(share, `Gain ${percent(share)} of the greatest`),
         el("span", { class: "soft", "data-test": "alike" }, question.alike.length ? `settles ${whole(question.alike.length)} more like it` : "this one alone")),
       share < LITTLE && el("p", { class: "soft", "data-test": "little-gain" }, "What is left gains little; you can well stop here."),

@@ -27,7 +27,10 @@ export class Toasts {
       toast.append(el("button", { type: "button", class: "quiet", onclick: () => { close(); action.run(); } }, action.text));
     }
     toast.append(el("button", { type: "button", class: "icon-button", "aria-label": "Dismiss", title: "Dismiss", onclick: close }, icon("close")));
-    for (const old of [...this.element.children]) if (old.querySelector(".toast-text")?.textContent === text) old.remove();
+    // What was done before has been answered; only the last of it can be taken back from here.
+    for (const old of [...this.element.children]) {
+      if ((tone === "good" && old.classList.contains("good")) || old.querySelector(".toast-text")?.textContent === text) old.remove();
+    }
     this.element.append(toast);
     while (this.element.children.length > MOST) this.element.firstElementChild!.remove();
     let timer = setTimeout(close, LASTS[tone]);
