@@ -2,10 +2,12 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { csv } from "../src/panels/csv.ts";
 import { decode, encode, packRows, unpackRows } from "../src/panels/link.ts";
+import { matching } from "../src/panels/picker.ts";
 import { Queue, type Choice, type Sent } from "../src/panels/queue.ts";
 import { Index, understand } from "../src/panels/search.ts";
 import { elapsed, finding, length, moment, percent, volume, whole } from "../src/panels/words.ts";
-import { START, type Shown } from "../src/store.ts";
+import { listed, type Wish } from "../src/panels/rows.ts";
+import { START, Store, type Shown } from "../src/store.ts";
 import type { Content, Question } from "../src/types.ts";
 
 function plant(n = 4): Content {
@@ -218,4 +220,49 @@ test("a list asked for before an answer is not shown, and what was skipped may c
   await Promise.all([stale, queue.answer("skip")]);
   await queue.load();
   assert.equal(queue.current!.id, "a");
+});
+
+test("the table lists what is seen, sorted, empty cells last", () => {
+  const content = plant();
+  content.parts.name = ["pipe", null, "Flange", "elbow"];
+  content.parts.confidence = [0.5, null, 0.9, 0.1];
+  content.parts.center = [0, 0, 0, 0, 0, 0, 0, 0, 5, 0, 0, 0];
+  const wish: Wish = { kind: "parts", scope: "all", text: "", sort: "name", descending: false };
+  assert.deepEqual(listed(content, START, wish), [3, 2, 0, 1]);
+  assert.deepEqual(listed(content, START, { ...wish, descending: true }), [0, 2, 3, 1]);
+  assert.deepEqual(listed(content, START, { ...wish, sort: "confidence" }), [3, 0, 2, 1]);
+  assert.deepEqual(listed(content, START, { ...wish, text: "flan geo_2" }), [2]);
+  const seen = { ...wish, scope: "seen" as const, sort: null };
+  const section = { axis: "z" as const, at: 1, flipped: false };
+  assert.deepEqual(listed(content, { ...START, hidden: new Set([0]), section }, seen), [1, 3]);
+  assert.deepEqual(listed(content, { ...START, isolated: new Set([2]) }, seen), [2]);
+  assert.deepEqual(listed(content, { ...START, selection: [1] }, { ...wish, kind: "units", scope: "selected", sort: "tag" }), [0]);
+});
+
+test("a label is found by the beginnings of its words first", () => {
+  const rows = ["level gauge gauge assembly", "valve body valve assembly", "check valve valve assembly"].map((text) => ({ text }));
+  assert.deepEqual(matching(rows, "valve").map((row) => row.text.split(" ")[0]), ["valve", "check"]);
+  assert.deepEqual(matching(rows, "ass ga").length, 1);
+});
+
+test("what was selected is found again by its meshes when the parts are others", () => {
+  const store = new Store();
+  store.setContent(plant());
+  store.set({ selection: [2], hidden: new Set([0, 3]) });
+  const now = plant();
+  now.meshes = { path: now.meshes.path, part: [3, 2, 1, -1] };
+  store.setContent(now);
+  assert.deepEqual(store.shown.selection, [1]);
+  assert.deepEqual([...store.shown.hidden], [3]);
+});
+
+test("a unit that got another tag, and with it another id, stays selected", () => {
+  const store = new Store();
+  store.setContent(plant());
+  store.selectPlace("unit-1");
+  const now = plant();
+  now.network.units[0].id = "unit-2";
+  now.meshes = store.content!.meshes;
+  store.setContent(now);
+  assert.deepEqual([store.shown.place, store.shown.selection], ["unit-2", [1]]);
 });

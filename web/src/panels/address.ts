@@ -74,6 +74,7 @@ export class Address {
         source.live ? button("Copy this page's address", "Works on this computer while this server runs; it holds the key to the plant, so don't send it", () => void this.copy(`${location.href.split("#")[0]}#${fragment}`), "address-copy") : null),
       el("h3", {}, "Go to a link"), el("div", { class: "spread" }, input, button("Go", "Show what the link shows", go, "link-go")), trouble,
     ].filter((node) => node !== null), "link");
+    dialog.querySelector<HTMLElement>("[data-test=link-copy]")?.focus();
   }
 
   private async copy(text: string): Promise<void> {

@@ -48,7 +48,8 @@ function tagLine(page: Page, unit: Unit): HTMLElement {
       input.disabled = true;
       const taken = await page.edit([{ kind: "tag", unit: unit.id, tag }]);
       input.disabled = false;
-      if (taken || !input.isConnected) return;
+      if (taken) return input.blur();
+      if (!input.isConnected) return;
       trouble.textContent = page.refusal() || "This tag was not taken.";
       input.focus();
     };

@@ -18,11 +18,15 @@ export class Inspector {
   /** Which sections are open, by title: they stay so from part to part. */
   private readonly open = new Map<string, boolean>();
   private due = false;
+  private drawn: { selection: readonly number[]; place: string | null } = { selection: [], place: null };
+  /** Something has changed while the person was typing here. */
+  private late = false;
 
   constructor(page: Page) {
     this.page = page;
     this.element = el("section", { class: "inspector", "aria-label": "Selection", "data-test": "inspector" }, this.head, this.networkSlot, this.rest);
     this.rest.addEventListener("toggle", (event) => this.noteToggle(event.target as HTMLDetailsElement), true);
+    this.element.addEventListener("focusout", () => this.late && this.render());
     page.store.watch(["selection", "place", "isolated"], () => this.render());
     page.store.on("content", () => this.render());
     let could = page.canEdit();
@@ -40,6 +44,8 @@ export class Inspector {
       this.due = false;
       const { content, shown } = this.page.store;
       if (!content) return;
+      this.late = this.typing();
+      if (this.late) return;
       const key = (document.activeElement as HTMLElement | null)?.dataset?.key;
       const inside = this.element.contains(document.activeElement);
       this.draw(content, shown.selection, shown.place);
@@ -48,7 +54,16 @@ export class Inspector {
     });
   }
 
+  /** Whether somebody types about what is shown already: what is typed must not be lost. */
+  private typing(): boolean {
+    const on = document.activeElement;
+    const { selection, place } = this.page.store.shown;
+    const same = selection === this.drawn.selection && place === this.drawn.place;
+    return same && on instanceof HTMLInputElement && on.type === "text" && !on.disabled && this.element.contains(on);
+  }
+
   private draw(content: Content, selection: readonly number[], place: string | null): void {
+    this.drawn = { selection, place };
     const unit = place && content.network.units.find((unit) => unit.id === place);
     const end = place && content.network.ends.find((end) => end.id === place);
     if (unit) inspectUnit(this.page, content, unit, this.head, this.rest);

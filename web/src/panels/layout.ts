@@ -45,7 +45,7 @@ export function layOut(store: Store, top: HTMLElement, inspector: HTMLElement, t
     right: iconButton("right", "Fold the inspector away (])", () => toggle("right"), "fold-right"),
   };
   for (const side of ["left", "right"] as const) {
-    handles[side].classList.add("handle", side);
+    handles[side].classList.add("handle", `handle-${side}`);
     middle.append(handles[side]);
   }
   const toggle = (side: "left" | "right", wanted = !open[side]) => {
@@ -64,6 +64,10 @@ export function layOut(store: Store, top: HTMLElement, inspector: HTMLElement, t
     handles[side].setAttribute("aria-expanded", String(wanted));
   };
   for (const side of ["left", "right"] as const) setOpen(side, innerWidth >= NARROW && remembered(`open-${side}`) !== "false");
+
+  matchMedia(`(max-width: ${NARROW - 1}px)`).addEventListener("change", ({ matches }) => {
+    for (const side of ["left", "right"] as const) setOpen(side, !matches && remembered(`open-${side}`) !== "false");
+  });
 
   const panes = () => {
     root.classList.toggle("with-drawing", store.shown.schematic);

@@ -67,7 +67,7 @@ export function startPanels(app: HTMLElement, store: Store, source: Source): Pan
   const networkTab = el("div", { class: "network-tab" });
   const inspector = new Inspector(page);
   const find = new Find(page);
-  const review = new Review(page, corrector, () => top.setLeft(review.left));
+  const review = new Review(page, corrector, () => top.setLeft(review.left), () => layout.isOpen("left"));
   const warnings = new Warnings(page, (n) => {
     const { badge } = layout.tabs.get("warnings")!;
     fill(badge, whole(n));

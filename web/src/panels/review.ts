@@ -22,12 +22,15 @@ export class Review {
   private readonly told = el("p", { class: "only-read", role: "status", "aria-live": "polite" });
   private readonly card = el("div", {});
   private readonly changedCount: () => void;
+  /** Whether the panel is unfolded: keys must not answer what nobody sees. */
+  private readonly seen: () => boolean;
   private shownId = "";
   private trouble = "";
 
-  constructor(page: Page, corrector: Corrector, changedCount: () => void) {
+  constructor(page: Page, corrector: Corrector, changedCount: () => void, seen: () => boolean) {
     this.page = page;
     this.changedCount = changedCount;
+    this.seen = seen;
     this.queue = new Queue({
       load: () => page.source.review(LIMIT),
       send: (question, choice) => corrector.answer(question, choice),
@@ -133,7 +136,7 @@ export class Review {
   }
 
   private addKeys(): void {
-    const when = () => this.isOpen && this.queue.current !== null && this.page.canEdit();
+    const when = () => this.isOpen && this.seen() && this.queue.current !== null && this.page.canEdit();
     for (const key of [1, 2, 3, 4, 5]) {
       addCommands({ id: `review-${key}`, key: String(key), title: "Take this answer", area: "Review", when: () => when() && this.queue.current!.options.length >= key, run: () => this.answer(key - 1) });
     }
@@ -141,7 +144,7 @@ export class Review {
       { id: "review-other", key: "o", title: "Another label", area: "Review", when, run: () => this.other() },
       { id: "review-unsure", key: "u", title: "I am not sure: leave it as it is", area: "Review", when, run: () => this.answer("unsure") },
       { id: "review-skip", key: "s", title: "Skip: ask me later", area: "Review", when, run: () => this.answer("skip") },
-      { id: "review-back", key: "Backspace", title: "Back: take the last answer back", area: "Review", when: () => this.isOpen && this.page.canEdit() && this.queue.past.length > 0, run: () => void this.back() });
+      { id: "review-back", key: "Backspace", title: "Back: take the last answer back", area: "Review", when: () => this.isOpen && this.seen() && this.page.canEdit() && this.queue.past.length > 0, run: () => void this.back() });
   }
 
   private draw(): void {
