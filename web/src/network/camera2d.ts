@@ -21,12 +21,20 @@ export interface Box2d {
 
 const MARGIN = 12; // px
 const MOST = 12;
+const READABLE = 0.45; // tags of 8 px are smaller than 4 px below this
 
 /** The whole drawing in the middle of the pane. */
 export function fitted(sheet: Sheet, pane: Sheet): Frame2d {
   const room = { width: Math.max(1, pane.width - 2 * MARGIN), height: Math.max(1, pane.height - 2 * MARGIN) };
   const zoom = Math.min(room.width / sheet.width, room.height / sheet.height, 3);
   return { zoom, x: (pane.width - zoom * sheet.width) / 2, y: (pane.height - zoom * sheet.height) / 2 };
+}
+
+/** What is seen first: all of it, or where that would be too small to read, its upper part over the whole width. */
+export function opened(sheet: Sheet, pane: Sheet): Frame2d {
+  const whole = fitted(sheet, pane);
+  const zoom = Math.min(1, (pane.width - 2 * MARGIN) / sheet.width);
+  return whole.zoom >= READABLE || zoom <= whole.zoom ? whole : { zoom, x: (pane.width - zoom * sheet.width) / 2, y: 0 };
 }
 
 /** Larger or smaller by a factor, with the point under the pointer kept where it is. */

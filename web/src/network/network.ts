@@ -200,8 +200,12 @@ class NetworkArea {
   private addCommands(): void {
     const { store, focus, asking, source } = this;
     const area = "Network" as const;
-    const placed = () => source.live && !!focus.place?.connections.length;
-    const at = () => focus.place!.id;
+    const live = () => source.live;
+    const at = (ask: (id: string) => unknown) => {
+      const { place } = focus;
+      if (place?.connections.length) ask(place.id);
+      else this.panels.say(place ? `No pipe was found at ${place.name}.` : "Select a unit, a junction or an end first.");
+    };
     addCommands(
       { id: "network.lines", key: "n", title: "Lines and flow on the plant", area, run: () => store.set({ network: !store.shown.network }) },
       { id: "network.tags", key: "t", title: "Tags", area, run: () => store.set({ tags: !store.shown.tags }) },
@@ -209,10 +213,10 @@ class NetworkArea {
       { id: "network.moving", title: "Let the flow move", area, run: () => focus.set({ moving: !focus.moving }) },
       { id: "network.warning.next", key: "w", title: "Next warning of the network", area, run: () => this.step(1) },
       { id: "network.warning.previous", key: "W", title: "Previous warning of the network", area, run: () => this.step(-1) },
-      { id: "network.upstream", key: "Shift+ArrowUp", title: "Trace upstream of the selection", area, when: placed, run: () => void asking.trace(at(), "upstream") },
-      { id: "network.downstream", key: "Shift+ArrowDown", title: "Trace downstream of the selection", area, when: placed, run: () => void asking.trace(at(), "downstream") },
-      { id: "network.to", key: "Shift+ArrowRight", title: "Trace from the selection to what is clicked next", area, when: placed, run: () => asking.startPick(at()) },
-      { id: "network.isolate", key: "v", title: "Isolate: valves that cut the selected unit off", area, when: () => placed() && !!focus.place?.unit, run: () => void asking.isolate(at()) },
+      { id: "network.upstream", key: "Shift+ArrowUp", title: "Trace upstream of the selection", area, when: live, run: () => at((id) => asking.trace(id, "upstream")) },
+      { id: "network.downstream", key: "Shift+ArrowDown", title: "Trace downstream of the selection", area, when: live, run: () => at((id) => asking.trace(id, "downstream")) },
+      { id: "network.to", key: "Shift+ArrowRight", title: "Trace from the selection to what is clicked next", area, when: live, run: () => at((id) => asking.startPick(id)) },
+      { id: "network.isolate", key: "v", title: "Isolate: valves that cut the selected unit off", area, when: live, run: () => at((id) => asking.isolate(id)) },
       { id: "network.clear", key: "c", title: "End the trace or isolation", area, when: () => !!asking.answer || asking.picking !== null || !!store.shown.marks, run: () => asking.clear() },
       { id: "network.sheet.fit", title: "Whole schematic", area, when: () => store.shown.schematic, run: () => this.schematic.fit() },
       { id: "network.sheet.selection", title: "Schematic: go to the selection", area, when: () => store.shown.schematic, run: () => this.schematic.toSelection() },

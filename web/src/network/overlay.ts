@@ -81,7 +81,7 @@ export class Overlay {
       const stroke = strokes[row];
       color.setXYZW(i, ...linear(stroke.color), stroke.shown ? (lead ? 0.9 : 1) : 0);
       const dash = stroke.dashed ? 1 : stroke.arrows ? 2 : 0;
-      look.setXYZ(i, lead ? 0.5 * stroke.width : stroke.width, lead ? 0 : dash, lead && !stroke.strong ? -1 : 1);
+      look.setXYZ(i, lead ? 0.5 * stroke.width : stroke.width, lead ? 0 : dash, stroke.strong ? 2 : lead || stroke.dim ? -1 : 1);
     });
     const arrowColor = this.arrows.getAttribute("aColor");
     const room = this.arrows.getAttribute("aRoom");

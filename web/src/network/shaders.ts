@@ -52,17 +52,21 @@ void main() {
   vec2 way = sb - sa;
   float length_ = length(way);
   vec2 dir = length_ > 1e-3 ? way / length_ : vec2(1.0, 0.0);
-  float core = 0.5 * aLook.x * uScale;
-  float reach = core + uCasing * uScale + 1.0;
+  // From afar lines are thinner, so that the plant is still seen; what is marked or selected isn't.
+  float metre = 0.5 * (pixelsPerMetre(a) + pixelsPerMetre(b));
+  float bore = max(aAlong.z - 0.06, 0.03) / 0.75;
+  float thin = aLook.z > 1.5 ? 1.0 : clamp(0.35 + bore * metre / (6.0 * uScale), 0.5, 1.0);
+  float core = 0.5 * aLook.x * thin * uScale;
+  float casing = uCasing * thin * uScale;
+  float reach = core + casing + 1.0;
   float cap = uFaint > 0.0 ? 0.0 : reach;
   float side = position.y;
   float end = position.x;
   vec2 at = mix(sa, sb, end) + dir * (2.0 * end - 1.0) * cap + vec2(-dir.y, dir.x) * side * reach;
   vAt = vec2(mix(-cap, length_ + cap, end), side * reach);
-  vSize = vec3(core, uCasing * uScale, length_);
+  vSize = vec3(core, casing, length_);
   vColor = aColor;
   // Dashes keep their place on the pipe; their length doubles or halves with the distance so that they stay readable.
-  float metre = 0.5 * (pixelsPerMetre(a) + pixelsPerMetre(b));
   float period = exp2(floor(log2(20.0 * uScale / metre) + 0.5));
   float perPixel = length_ > 1e-3 ? (along.y - along.x) / length_ : 0.0;
   float from = along.x - cap * perPixel;
@@ -71,7 +75,7 @@ void main() {
   float depth = depthOf(mix(a, b, end), aAlong.z);
   gl_Position = vec4(at / (0.5 * uViewport), depth, 1.0);
   if (aColor.a <= 0.0 || (uFaint > 0.0 && aLook.z < 0.0)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
-  vSize.y *= sign(aLook.z + 0.5);
+  vSize.y *= aLook.z < 0.0 ? 0.0 : 1.0;
 }
 `;
 
@@ -86,7 +90,7 @@ varying vec2 vDash;
 void main() {
   float off = length(vec2(vAt.x - clamp(vAt.x, 0.0, vSize.z), vAt.y));
   float core = vSize.x;
-  float casing = max(vSize.y, 0.0);
+  float casing = vSize.y;
   float inCore = 1.0 - smoothstep(core - 0.5, core + 0.5, off);
   float inAll = 1.0 - smoothstep(core + casing - 0.5, core + casing + 0.5, off);
   if (vDash.y > 0.5 && vDash.y < 1.5) {
@@ -124,7 +128,7 @@ void main() {
   vec2 way = screenOf(beside) - screenOf(clip);
   float share = min(1.0, length(way) / 10.0);
   float room = aRoom.x * metre * share;
-  float fit = aRoom.z * smoothstep(22.0 * uScale, 34.0 * uScale, room) * smoothstep(0.2, 0.35, share);
+  float fit = aRoom.z * smoothstep(30.0 * uScale, 44.0 * uScale, room) * smoothstep(0.2, 0.35, share);
   vec2 dir = length(way) > 1e-4 ? normalize(way) : vec2(1.0, 0.0);
   float size = (5.5 + 1.2 * aRoom.z) * uScale * fit;
   vec2 at = screenOf(clip) + size * (dir * position.x + vec2(-dir.y, dir.x) * position.y);
@@ -168,6 +172,7 @@ void main() {
   float metre = pixelsPerMetre(seen);
   // Small things of the network (ports) come when there is room for them.
   float fit = aDot.y < 6.0 ? smoothstep(110.0 * uScale, 180.0 * uScale, metre) : 1.0;
+  if (aDot.y > 6.0 && aDot.y < 14.0) fit = clamp(0.45 + metre / (90.0 * uScale), 0.55, 1.0);
   vColor = aColor;
   vForm = aDot.x;
   vSide = (aDot.y + 3.0) * uScale * fit;
