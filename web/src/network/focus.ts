@@ -14,7 +14,7 @@ export class Focus {
   warnings = true;
   private line: { row: number; selection: readonly number[] } | null = null;
   private hoveredLine = -1;
-  private readonly listeners = new Set<() => void>();
+  private readonly listeners = new Set<(hoverOnly: boolean) => void>();
   private readonly store: Store;
   private readonly planNow: () => Plan;
 
@@ -23,7 +23,8 @@ export class Focus {
     this.planNow = planNow;
   }
 
-  onChange(listener: () => void): void {
+  /** Calls back on changes; says whether only the pointer went elsewhere. */
+  onChange(listener: (hoverOnly: boolean) => void): void {
     this.listeners.add(listener);
   }
 
@@ -46,7 +47,7 @@ export class Focus {
   hoverLine(row: number): void {
     if (row === this.hoveredLine) return;
     this.hoveredLine = row;
-    this.tell();
+    this.tell(true);
   }
 
   /** Lights the first part of a place, as if the pointer were on it. */
@@ -116,7 +117,7 @@ export class Focus {
     return [source, target].every((id) => this.isPlaceShown(places.get(id)!));
   };
 
-  private tell(): void {
-    for (const listener of this.listeners) listener();
+  private tell(hoverOnly = false): void {
+    for (const listener of this.listeners) listener(hoverOnly);
   }
 }

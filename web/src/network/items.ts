@@ -68,7 +68,8 @@ function lineItem(plan: Plan, row: number): Item | null {
   const { point } = pointAt(longest, (longest.along[best - 1] + longest.along[best]) / 2);
   return {
     key: `line ${line.tag}`, kind: "line", id: String(row), text: line.tag, title: `Line ${line.tag}`, color: null, point,
-    reach: longest.length / 4, body: 0.2, base: 15,
+    // Shown from about 140 px on: below that a line's tag only crowds out those of units.
+    reach: longest.length / 20, body: 0.2, base: 15,
   };
 }
 

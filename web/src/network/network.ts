@@ -68,7 +68,13 @@ class NetworkArea {
   private listen(): void {
     const { store, focus, asking } = this;
     store.on("content", () => this.renew());
-    store.on("state", () => this.fillSlot());
+    // Not on every message of the server: what somebody has unfolded or is about to click would be gone.
+    let editable = this.isEditable();
+    store.on("state", () => {
+      if (editable === this.isEditable()) return;
+      editable = this.isEditable();
+      this.fillSlot();
+    });
     store.watch(["selection", "place"], () => {
       this.fillSlot();
       this.tab.mark();
@@ -77,8 +83,9 @@ class NetworkArea {
     store.watch(["hidden", "isolated", "section", "explode", "ghost"], () => this.tags.forgetHidden());
     store.watch(["schematic"], () => this.schematic.refresh());
     store.watch(["network", "tags", "schematic"], () => this.tab.fillHead());
-    focus.onChange(() => {
+    focus.onChange((hoverOnly) => {
       this.paint();
+      if (hoverOnly) return;
       this.tab.fillHead();
       this.tab.mark();
       this.fillSlot();
@@ -143,12 +150,16 @@ class NetworkArea {
     view.invalidate();
   }
 
-  private fillSlot(): void {
+  private isEditable(): boolean {
     const { state } = this.store;
+    return this.source.live && state?.status === "ready" && state.read_only === null;
+  }
+
+  private fillSlot(): void {
     this.panels.networkSlot.classList.add("net-slot");
     this.panels.networkSlot.replaceChildren(...slotContent({
       plan: this.plan, store: this.store, focus: this.focus, asking: this.asking, panels: this.panels, live: this.source.live,
-      editable: this.source.live && state?.status === "ready" && state.read_only === null, go: (id) => this.go(id), goParts: (parts) => this.goParts(parts),
+      editable: this.isEditable(), go: (id) => this.go(id), goParts: (parts) => this.goParts(parts),
     }));
   }
 

@@ -110,6 +110,7 @@ export class Schematic {
     drawing.classList.add("schematic");
     // The drawing's own title would be the tooltip of all of it.
     for (const child of [...drawing.children]) if (child.localName === "title") child.remove();
+    for (const line of drawing.querySelectorAll("path[data-line]")) widen(line);
     this.drawn.replaceChildren(drawing);
     this.elements.clear();
     for (const element of drawing.querySelectorAll<SVGGraphicsElement>("[data-id],[data-line]")) {
@@ -293,6 +294,13 @@ export class Schematic {
 function addLine(plan: Plan, row: number, keys: Set<string>): void {
   const line = plan.content.network.lines[plan.content.network.connections[row]?.line ?? -1];
   if (line) keys.add(`line ${line.tag}`);
+}
+
+/** A line is easier to hit than it is wide. */
+function widen(line: Element): void {
+  const hit = svg("path", { class: "net-hit", d: line.getAttribute("d") ?? "", "data-line": line.getAttribute("data-line") ?? "" });
+  // Before everything else, so that it is never in the way of a symbol.
+  line.parentElement?.prepend(hit);
 }
 
 /** From an element's own pixels to those of one that it is in. A browser's own answer lags behind changes of the same frame. */

@@ -82,6 +82,7 @@ export class NetworkTab {
     for (const [key, row] of this.rows) {
       const on = key === `place ${place}` || key === `line ${focus.selectedLine}`;
       row.classList.toggle("is-selected", on);
+      if (on && !row.hasAttribute("aria-current")) row.scrollIntoView({ block: "nearest" });
       if (on) row.setAttribute("aria-current", "true");
       else row.removeAttribute("aria-current");
     }
