@@ -204,8 +204,11 @@ test("zooming keeps the point under the pointer; what is out of sight is brought
   const closer = zoomed(frame, 2, 100, 50, 0.05);
   assert.ok(Math.abs((100 - closer.x) / closer.zoom - (100 - frame.x) / frame.zoom) < 1e-9);
   const seen = { x: 0, y: 0, zoom: 1 };
-  assert.equal(showing(seen, { x: 100, y: 100, width: 40, height: 40 }, pane, false), seen);
-  const moved = showing(seen, { x: 1200, y: 350, width: 40, height: 20 }, pane, false);
-  assert.equal(moved.x + moved.zoom * 1220, 400);
+  const sheet = { width: 1600, height: 800 };
+  assert.equal(showing(seen, { x: 100, y: 100, width: 40, height: 40 }, sheet, pane, false), seen);
+  const moved = showing(seen, { x: 900, y: 350, width: 40, height: 20 }, sheet, pane, false);
+  assert.equal(moved.x + moved.zoom * 920, 400);
   assert.equal(moved.y + moved.zoom * 360, 150);
+  // At its edge no empty paper is shown beside the drawing.
+  assert.equal(showing(seen, { x: 1560, y: 350, width: 40, height: 20 }, sheet, pane, false).x, -800);
 });

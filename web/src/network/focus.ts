@@ -103,7 +103,16 @@ export class Focus {
   /** Whether a part is there to be seen: neither hidden nor left out. */
   isPartShown(part: number): boolean {
     const { hidden, isolated } = this.store.shown;
-    return !hidden.has(part) && (isolated === null || isolated.has(part));
+    return !hidden.has(part) && (isolated === null || isolated.has(part)) && !this.isCut(part);
+  }
+
+  /** Whether all of a part lies beyond the section plane. */
+  private isCut(part: number): boolean {
+    const { section } = this.store.shown;
+    if (!section) return false;
+    const { center, size } = this.planNow().content.parts;
+    const at = 3 * part + "xyz".indexOf(section.axis);
+    return section.flipped ? center[at] + size[at] / 2 < section.at : center[at] - size[at] / 2 > section.at;
   }
 
   isPlaceShown(place: Place): boolean {

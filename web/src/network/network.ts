@@ -79,7 +79,7 @@ class NetworkArea {
       this.fillSlot();
       this.tab.mark();
     });
-    store.watch(["selection", "place", "hovered", "marks", "hidden", "isolated", "network", "tags", "theme"], () => this.paint());
+    store.watch(["selection", "place", "hovered", "marks", "hidden", "isolated", "section", "network", "tags", "theme"], () => this.paint());
     store.watch(["hidden", "isolated", "section", "explode", "ghost"], () => this.tags.forgetHidden());
     store.watch(["schematic"], () => this.schematic.refresh());
     store.watch(["network", "tags", "schematic"], () => this.tab.fillHead());
@@ -126,6 +126,7 @@ class NetworkArea {
     const { store, focus, view } = this;
     const { shown } = store;
     this.overlay.visible = shown.network || shown.marks !== null;
+    this.overlay.setSection(shown.section);
     const palette = readPalette(view.element);
     const strokes = strokesOf(this.plan, {
       by: focus.linesBy, marks: shown.marks, selected: focus.connections, hovered: focus.hoveredConnections,

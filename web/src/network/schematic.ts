@@ -77,12 +77,12 @@ export class Schematic {
   }
 
   zoom(factor: number): void {
+    this.touched = true;
     if (this.frame) this.look(zoomed(this.frame, factor, this.size.width / 2, this.size.height / 2, 0.05));
   }
 
   toSelection(): void {
-    const box = this.boxOf(this.selected());
-    if (box && this.frame) this.look(showing(this.frame, box, this.size, true));
+    this.show(this.selected(), true);
   }
 
   private async load(): Promise<void> {
@@ -167,8 +167,17 @@ export class Schematic {
     const name = [...selected].sort().join("\n");
     if (name === this.lastShown || !this.elements.size) return;
     this.lastShown = name;
-    const box = this.boxOf(selected);
-    if (box && this.frame) this.look(showing(this.frame, box, this.size, false));
+    this.show(selected, false);
+  }
+
+  private show(keys: ReadonlySet<string>, closer: boolean): void {
+    const box = this.boxOf(keys);
+    const sheet = this.sheetSize();
+    if (!box || !sheet || !this.frame) return;
+    const frame = showing(this.frame, box, sheet, this.size, closer);
+    if (frame === this.frame) return;
+    this.touched = true;
+    this.look(frame);
   }
 
   private selected(): Set<string> {

@@ -5,6 +5,8 @@
 export const COMMON = /* glsl */ `
 uniform vec2 uViewport;
 uniform float uScale;
+uniform vec4 uPlane;
+varying float vCut;
 bool perspective() { return projectionMatrix[2][3] != 0.0; }
 float depthOf(vec4 seen, float pull) {
   vec4 near = seen;
@@ -73,6 +75,7 @@ void main() {
   float to = along.y + cap * perPixel;
   vDash = vec2(mix(from, to, end) / period, aLook.y);
   float depth = depthOf(mix(a, b, end), aAlong.z);
+  vCut = dot(uPlane, mix(a, b, end));
   gl_Position = vec4(at / (0.5 * uViewport), depth, 1.0);
   if (aColor.a <= 0.0 || (uFaint > 0.0 && aLook.z < 0.0)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
   vSize.y *= aLook.z < 0.0 ? 0.0 : 1.0;
@@ -87,7 +90,9 @@ varying vec2 vAt;
 varying vec3 vSize;
 varying vec4 vColor;
 varying vec2 vDash;
+varying float vCut;
 void main() {
+  if (vCut > 0.0) discard;
   float off = length(vec2(vAt.x - clamp(vAt.x, 0.0, vSize.z), vAt.y));
   float core = vSize.x;
   float casing = vSize.y;
@@ -134,6 +139,7 @@ void main() {
   vec2 at = screenOf(clip) + size * (dir * position.x + vec2(-dir.y, dir.x) * position.y);
   vEdge = vec3(float(gl_VertexID == 0), float(gl_VertexID == 1), float(gl_VertexID == 2));
   vHeight = 2.6 * size;
+  vCut = dot(uPlane, seen);
   vColor = aColor;
   bool behind = perspective() && seen.z > -1e-3;
   gl_Position = fit <= 0.01 || behind
@@ -148,7 +154,9 @@ uniform float uFaint;
 varying vec3 vColor;
 varying vec3 vEdge;
 varying float vHeight;
+varying float vCut;
 void main() {
+  if (vCut > 0.0) discard;
   float edge = min(vEdge.x, min(vEdge.y, vEdge.z)) * vHeight;
   float rim = 1.3 * uScale;
   float core = smoothstep(rim - 0.5, rim + 0.5, edge);
@@ -176,6 +184,7 @@ void main() {
   vColor = aColor;
   vForm = aDot.x;
   vSide = (aDot.y + 3.0) * uScale * fit;
+  vCut = dot(uPlane, seen);
   gl_PointSize = vSide;
   bool behind = perspective() && seen.z > -1e-3;
   gl_Position = fit <= 0.01 || aDot.y <= 0.0 || behind
@@ -191,7 +200,9 @@ uniform float uFaint;
 varying vec3 vColor;
 varying float vForm;
 varying float vSide;
+varying float vCut;
 void main() {
+  if (vCut > 0.0) discard;
   vec2 p = (gl_PointCoord - 0.5) * vSide;
   float radius = 0.5 * vSide - 1.5 * uScale;
   float round_ = length(p) - radius;

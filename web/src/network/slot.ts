@@ -44,10 +44,8 @@ function placeCard(context: SlotContext, place: Place): HTMLElement {
       placeLink(other.id, other.name, context),
       el("span", { class: "net-soft" }, `${sizeText(connection)}, ${lengthText(connection.length)}`));
   }));
-  const missing = place.unit?.missing ?? 0;
   return el("section", { class: "net-card", "data-test": "net-place", "aria-label": "On the network" },
     el("h3", {}, "On the network"),
-    missing > 0 ? el("p", { class: "net-verdict is-unsure" }, `Lacks ${counted(missing, "line")} that a ${place.what} needs.`) : null,
     rows.length ? list : el("p", { class: "net-soft" }, "No pipe was found that leads here."),
     rows.length > SHOWN ? el("p", { class: "net-soft" }, `and ${rows.length - SHOWN} more`) : null,
     rows.length && context.live ? askButtons(context, place) : null,
@@ -62,10 +60,10 @@ function askButtons({ asking }: SlotContext, place: Place): HTMLElement {
   }, text);
   return el("div", {},
     el("div", { class: "net-buttons" },
-      button("net-upstream", "Trace upstream", "What leads here (Shift+Up)", () => void asking.trace(place.id, "upstream")),
-      button("net-downstream", "Trace downstream", "What it leads to (Shift+Down)", () => void asking.trace(place.id, "downstream")),
-      button("net-trace-to", "Trace to…", "The way to a second one (Shift+Right)", () => asking.startPick(place.id), picking),
-      place.unit && button("net-isolate", "Isolate", "What must be closed to cut it off (v)", () => void asking.isolate(place.id))),
+      button("net-upstream", "Upstream", "Trace what leads here (Shift+Up)", () => void asking.trace(place.id, "upstream")),
+      button("net-downstream", "Downstream", "Trace where it leads (Shift+Down)", () => void asking.trace(place.id, "downstream")),
+      button("net-trace-to", "Way to…", "Trace the way to a second one (Shift+Right)", () => asking.startPick(place.id), picking),
+      place.unit && button("net-isolate", "Valves to close", "Isolate: which valves must be closed to cut it off (v)", () => void asking.isolate(place.id))),
     picking ? el("p", { class: "net-verdict", role: "status" }, `Click where the way from ${place.name} should lead.`) : null);
 }
 
