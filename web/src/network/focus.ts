@@ -14,7 +14,7 @@ export class Focus {
   warnings = true;
   private line: { row: number; selection: readonly number[] } | null = null;
   private hoveredLine = -1;
-  private readonly listeners = new Set<() => void>();
+  private readonly listeners = new Set<(hoverOnly: boolean) => void>();
   private readonly store: Store;
   private readonly planNow: () => Plan;
 
@@ -23,7 +23,8 @@ export class Focus {
     this.planNow = planNow;
   }
 
-  onChange(listener: () => void): void {
+  /** Calls back on changes; says whether only the pointer went elsewhere. */
+  onChange(listener: (hoverOnly: boolean) => void): void {
     this.listeners.add(listener);
   }
 
@@ -46,7 +47,7 @@ export class Focus {
   hoverLine(row: number): void {
     if (row === this.hoveredLine) return;
     this.hoveredLine = row;
-    this.tell();
+    this.tell(true);
   }
 
   /** Lights the first part of a place, as if the pointer were on it. */
@@ -102,7 +103,16 @@ export class Focus {
   /** Whether a part is there to be seen: neither hidden nor left out. */
   isPartShown(part: number): boolean {
     const { hidden, isolated } = this.store.shown;
-    return !hidden.has(part) && (isolated === null || isolated.has(part));
+    return !hidden.has(part) && (isolated === null || isolated.has(part)) && !this.isCut(part);
+  }
+
+  /** Whether all of a part lies beyond the section plane. */
+  private isCut(part: number): boolean {
+    const { section } = this.store.shown;
+    if (!section) return false;
+    const { center, size } = this.planNow().content.parts;
+    const at = 3 * part + "xyz".indexOf(section.axis);
+    return section.flipped ? center[at] + size[at] / 2 < section.at : center[at] - size[at] / 2 > section.at;
   }
 
   isPlaceShown(place: Place): boolean {
@@ -116,7 +126,7 @@ export class Focus {
     return [source, target].every((id) => this.isPlaceShown(places.get(id)!));
   };
 
-  private tell(): void {
-    for (const listener of this.listeners) listener();
+  private tell(hoverOnly = false): void {
+    for (const listener of this.listeners) listener(hoverOnly);
   }
 }

@@ -32,7 +32,7 @@ export function itemsOf(plan: Plan, warnings: readonly NetworkWarning[]): Item[]
   for (const place of plan.places.values()) if (place.type !== "junction") items.push(placeItem(plan, place));
   plan.content.network.lines.forEach((line, row) => {
     const item = lineItem(plan, row);
-    if (item) items.push({ ...item, text: `${line.tag}  ${lineSizeText(line.size)}` });
+    if (item) items.push({ ...item, text: `${clipped(line.tag)}  ${lineSizeText(line.size)}` });
   });
   for (const warning of warnings) {
     items.push({
@@ -44,12 +44,20 @@ export function itemsOf(plan: Plan, warnings: readonly NetworkWarning[]): Item[]
   return items;
 }
 
+const LONGEST = 32; // characters of a tag
+
+/** A name in one line that leaves room for others. */
+function clipped(name: string): string {
+  const text = name.replace(/\s+/g, " ").trim();
+  return text.length <= LONGEST ? text : `${text.slice(0, LONGEST - 1)}…`;
+}
+
 function placeItem(plan: Plan, place: Place): Item {
   const { size } = place;
   const diagonal = size ? Math.hypot(...size) : 0.1;
   const group = plan.content.groups.find((candidate) => candidate.unit === place.type);
   return {
-    key: `place ${place.id}`, kind: "place", id: place.id, text: place.name, title: `${place.name}: ${place.what}`,
+    key: `place ${place.id}`, kind: "place", id: place.id, text: clipped(place.name), title: `${place.name}: ${place.what}`,
     color: group?.color ?? null, point: place.point, reach: diagonal, body: 0.5 * diagonal,
     base: place.unit ? RANKS[place.type] ?? 50 : 5,
   };
@@ -68,7 +76,8 @@ function lineItem(plan: Plan, row: number): Item | null {
   const { point } = pointAt(longest, (longest.along[best - 1] + longest.along[best]) / 2);
   return {
     key: `line ${line.tag}`, kind: "line", id: String(row), text: line.tag, title: `Line ${line.tag}`, color: null, point,
-    reach: longest.length / 4, body: 0.2, base: 15,
+    // Shown from about 140 px on: below that a line's tag only crowds out those of units.
+    reach: longest.length / 20, body: 0.2, base: 15,
   };
 }
 

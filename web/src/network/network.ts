@@ -68,17 +68,24 @@ class NetworkArea {
   private listen(): void {
     const { store, focus, asking } = this;
     store.on("content", () => this.renew());
-    store.on("state", () => this.fillSlot());
+    // Not on every message of the server: what somebody has unfolded or is about to click would be gone.
+    let editable = this.isEditable();
+    store.on("state", () => {
+      if (editable === this.isEditable()) return;
+      editable = this.isEditable();
+      this.fillSlot();
+    });
     store.watch(["selection", "place"], () => {
       this.fillSlot();
       this.tab.mark();
     });
-    store.watch(["selection", "place", "hovered", "marks", "hidden", "isolated", "network", "tags", "theme"], () => this.paint());
+    store.watch(["selection", "place", "hovered", "marks", "hidden", "isolated", "section", "network", "tags", "theme"], () => this.paint());
     store.watch(["hidden", "isolated", "section", "explode", "ghost"], () => this.tags.forgetHidden());
     store.watch(["schematic"], () => this.schematic.refresh());
     store.watch(["network", "tags", "schematic"], () => this.tab.fillHead());
-    focus.onChange(() => {
+    focus.onChange((hoverOnly) => {
       this.paint();
+      if (hoverOnly) return;
       this.tab.fillHead();
       this.tab.mark();
       this.fillSlot();
@@ -119,6 +126,7 @@ class NetworkArea {
     const { store, focus, view } = this;
     const { shown } = store;
     this.overlay.visible = shown.network || shown.marks !== null;
+    this.overlay.setSection(shown.section);
     const palette = readPalette(view.element);
     const strokes = strokesOf(this.plan, {
       by: focus.linesBy, marks: shown.marks, selected: focus.connections, hovered: focus.hoveredConnections,
@@ -143,12 +151,16 @@ class NetworkArea {
     view.invalidate();
   }
 
-  private fillSlot(): void {
+  private isEditable(): boolean {
     const { state } = this.store;
+    return this.source.live && state?.status === "ready" && state.read_only === null;
+  }
+
+  private fillSlot(): void {
     this.panels.networkSlot.classList.add("net-slot");
     this.panels.networkSlot.replaceChildren(...slotContent({
       plan: this.plan, store: this.store, focus: this.focus, asking: this.asking, panels: this.panels, live: this.source.live,
-      editable: this.source.live && state?.status === "ready" && state.read_only === null, go: (id) => this.go(id), goParts: (parts) => this.goParts(parts),
+      editable: this.isEditable(), go: (id) => this.go(id), goParts: (parts) => this.goParts(parts),
     }));
   }
 
@@ -200,8 +212,12 @@ class NetworkArea {
   private addCommands(): void {
     const { store, focus, asking, source } = this;
     const area = "Network" as const;
-    const placed = () => source.live && !!focus.place?.connections.length;
-    const at = () => focus.place!.id;
+    const live = () => source.live;
+    const at = (ask: (id: string) => unknown) => {
+      const { place } = focus;
+      if (place?.connections.length) ask(place.id);
+      else this.panels.say(place ? `No pipe was found at ${place.name}.` : "Select a unit, a junction or an end first.");
+    };
     addCommands(
       { id: "network.lines", key: "n", title: "Lines and flow on the plant", area, run: () => store.set({ network: !store.shown.network }) },
       { id: "network.tags", key: "t", title: "Tags", area, run: () => store.set({ tags: !store.shown.tags }) },
@@ -209,10 +225,10 @@ class NetworkArea {
       { id: "network.moving", title: "Let the flow move", area, run: () => focus.set({ moving: !focus.moving }) },
       { id: "network.warning.next", key: "w", title: "Next warning of the network", area, run: () => this.step(1) },
       { id: "network.warning.previous", key: "W", title: "Previous warning of the network", area, run: () => this.step(-1) },
-      { id: "network.upstream", key: "Shift+ArrowUp", title: "Trace upstream of the selection", area, when: placed, run: () => void asking.trace(at(), "upstream") },
-      { id: "network.downstream", key: "Shift+ArrowDown", title: "Trace downstream of the selection", area, when: placed, run: () => void asking.trace(at(), "downstream") },
-      { id: "network.to", key: "Shift+ArrowRight", title: "Trace from the selection to what is clicked next", area, when: placed, run: () => asking.startPick(at()) },
-      { id: "network.isolate", key: "v", title: "Isolate: valves that cut the selected unit off", area, when: () => placed() && !!focus.place?.unit, run: () => void asking.isolate(at()) },
+      { id: "network.upstream", key: "Shift+ArrowUp", title: "Trace upstream of the selection", area, when: live, run: () => at((id) => asking.trace(id, "upstream")) },
+      { id: "network.downstream", key: "Shift+ArrowDown", title: "Trace downstream of the selection", area, when: live, run: () => at((id) => asking.trace(id, "downstream")) },
+      { id: "network.to", key: "Shift+ArrowRight", title: "Trace from the selection to what is clicked next", area, when: live, run: () => at((id) => asking.startPick(id)) },
+      { id: "network.isolate", key: "v", title: "Isolate: valves that cut the selected unit off", area, when: live, run: () => at((id) => asking.isolate(id)) },
       { id: "network.clear", key: "c", title: "End the trace or isolation", area, when: () => !!asking.answer || asking.picking !== null || !!store.shown.marks, run: () => asking.clear() },
       { id: "network.sheet.fit", title: "Whole schematic", area, when: () => store.shown.schematic, run: () => this.schematic.fit() },
       { id: "network.sheet.selection", title: "Schematic: go to the selection", area, when: () => store.shown.schematic, run: () => this.schematic.toSelection() },

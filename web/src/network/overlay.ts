@@ -2,8 +2,9 @@
 
 import {
   BufferGeometry, Color, DoubleSide, DynamicDrawUsage, type Camera, Float32BufferAttribute, Group, InstancedBufferAttribute,
-  InstancedBufferGeometry, Mesh, Points, ShaderMaterial, Vector2, Vector4, type WebGLRenderer,
+  InstancedBufferGeometry, Matrix4, Mesh, Points, ShaderMaterial, Vector2, Vector4, type WebGLRenderer,
 } from "three";
+import type { Section } from "../store.ts";
 import { arrowsAlong, distance, piecesOf, wayOf } from "./path.ts";
 import type { Plan } from "./plan.ts";
 import {
@@ -35,12 +36,14 @@ export class Overlay {
   readonly through = new Group();
   private readonly uniforms = {
     uViewport: { value: new Vector2(1, 1) }, uScale: { value: 1 }, uTime: { value: -1 }, uCasing: { value: 1.4 },
-    uCasingColor: { value: new Color(1, 1, 1) },
+    uCasingColor: { value: new Color(1, 1, 1) }, uPlane: { value: new Vector4(0, 0, 0, -1) },
   };
   private readonly ribbons = new InstancedBufferGeometry();
   private readonly arrows = new InstancedBufferGeometry();
   private readonly dots = new BufferGeometry();
   private owners: Owner[] = [];
+  /** Beyond it is where its value is above 0, in the content's coordinates. */
+  private readonly plane = new Vector4(0, 0, 0, -1);
   private arrowRows: number[] = [];
   /** Ids of the places of the dots, ports by the id of their unit. */
   private dotPlaces: string[] = [];
@@ -81,7 +84,7 @@ export class Overlay {
       const stroke = strokes[row];
       color.setXYZW(i, ...linear(stroke.color), stroke.shown ? (lead ? 0.9 : 1) : 0);
       const dash = stroke.dashed ? 1 : stroke.arrows ? 2 : 0;
-      look.setXYZ(i, lead ? 0.5 * stroke.width : stroke.width, lead ? 0 : dash, lead && !stroke.strong ? -1 : 1);
+      look.setXYZ(i, lead ? 0.5 * stroke.width : stroke.width, lead ? 0 : dash, stroke.strong ? 2 : lead || stroke.dim ? -1 : 1);
     });
     const arrowColor = this.arrows.getAttribute("aColor");
     const room = this.arrows.getAttribute("aRoom");
@@ -98,6 +101,13 @@ export class Overlay {
       dot.setY(i, look_.size);
     });
     for (const attribute of [color, look, arrowColor, room, dotColor, dot]) attribute.needsUpdate = true;
+  }
+
+  /** What lies beyond a section plane isn't drawn. */
+  setSection(section: Section | null): void {
+    const sign = section?.flipped ? -1 : 1;
+    this.plane.set(0, 0, 0, section ? -sign * section.at : -1);
+    if (section) this.plane.setComponent("xyz".indexOf(section.axis), sign);
   }
 
   /** How far the flow has moved; below 0 it stands still. */
@@ -176,6 +186,7 @@ export class Overlay {
         this.dotPlaces.push(place.id);
       }
     }
+    this.dots.dispose();
     this.dots.setAttribute("position", new Float32BufferAttribute(at, 3));
     this.dots.setAttribute("aDot", new Float32BufferAttribute(dot, 3));
     this.dots.setAttribute("aColor", new Float32BufferAttribute(new Float32Array(at.length), 3));
@@ -188,15 +199,18 @@ export class Overlay {
     });
   }
 
-  private fit(renderer: WebGLRenderer, _camera: Camera, height: number, material: ShaderMaterial): void {
+  private fit(renderer: WebGLRenderer, camera: Camera, height: number, material: ShaderMaterial): void {
     const viewport = renderer.getCurrentViewport(scratch);
     this.uniforms.uViewport.value.set(viewport.z, viewport.w);
     this.uniforms.uScale.value = height > 0 ? viewport.w / height : 1;
+    // Planes go from the world to the eye's coordinates by the inverse transposed of what points go by.
+    this.uniforms.uPlane.value.copy(this.plane).applyMatrix4(turned.copy(camera.matrixWorld).transpose());
     material.uniformsNeedUpdate = true;
   }
 }
 
 const scratch = new Vector4();
+const turned = new Matrix4();
 
 function pullOf(diameter: number | null): number {
   return 0.75 * (diameter ?? 0.05) + MARGIN;

@@ -2,7 +2,7 @@
 
 import type { Source } from "../api.ts";
 import type { Store } from "../store.ts";
-import { type Box2d, fitted, type Frame2d, showing, zoomed } from "./camera2d.ts";
+import { type Box2d, fitted, type Frame2d, opened, showing, zoomed } from "./camera2d.ts";
 import { el, svg } from "./dom.ts";
 import type { Focus } from "./focus.ts";
 import type { Plan } from "./plan.ts";
@@ -63,20 +63,26 @@ export class Schematic {
     this.light();
   }
 
+  /** Shows the whole drawing. */
   fit(): void {
     const box = this.sheetSize();
     if (!box) return;
-    this.touched = false;
+    this.touched = true;
     this.look(fitted(box, this.size));
   }
 
+  private open(): void {
+    const box = this.sheetSize();
+    if (box) this.look(opened(box, this.size));
+  }
+
   zoom(factor: number): void {
+    this.touched = true;
     if (this.frame) this.look(zoomed(this.frame, factor, this.size.width / 2, this.size.height / 2, 0.05));
   }
 
   toSelection(): void {
-    const box = this.boxOf(this.selected());
-    if (box && this.frame) this.look(showing(this.frame, box, this.size, true));
+    this.show(this.selected(), true);
   }
 
   private async load(): Promise<void> {
@@ -104,6 +110,7 @@ export class Schematic {
     drawing.classList.add("schematic");
     // The drawing's own title would be the tooltip of all of it.
     for (const child of [...drawing.children]) if (child.localName === "title") child.remove();
+    for (const line of drawing.querySelectorAll("path[data-line]")) widen(line);
     this.drawn.replaceChildren(drawing);
     this.elements.clear();
     for (const element of drawing.querySelectorAll<SVGGraphicsElement>("[data-id],[data-line]")) {
@@ -113,7 +120,7 @@ export class Schematic {
       if (known) known.push(element);
       else this.elements.set(key, [element]);
     }
-    if (!this.frame || !this.touched) this.fit();
+    if (!this.frame || !this.touched) this.open();
     this.lastShown = "";
     this.light();
   }
@@ -160,8 +167,17 @@ export class Schematic {
     const name = [...selected].sort().join("\n");
     if (name === this.lastShown || !this.elements.size) return;
     this.lastShown = name;
-    const box = this.boxOf(selected);
-    if (box && this.frame) this.look(showing(this.frame, box, this.size, false));
+    this.show(selected, false);
+  }
+
+  private show(keys: ReadonlySet<string>, closer: boolean): void {
+    const box = this.boxOf(keys);
+    const sheet = this.sheetSize();
+    if (!box || !sheet || !this.frame) return;
+    const frame = showing(this.frame, box, sheet, this.size, closer);
+    if (frame === this.frame) return;
+    this.touched = true;
+    this.look(frame);
   }
 
   private selected(): Set<string> {
@@ -175,15 +191,11 @@ export class Schematic {
 
   /** Around some elements, in the drawing's own pixels. */
   private boxOf(keys: ReadonlySet<string>): Box2d | null {
-    const base = this.sheet.getScreenCTM()?.inverse();
-    if (!base) return null;
     let [left, top, right, bottom] = [Infinity, Infinity, -Infinity, -Infinity];
     for (const key of keys) {
       for (const element of this.elements.get(key) ?? []) {
         const box = element.getBBox();
-        const to = element.getScreenCTM();
-        if (!to) continue;
-        const matrix = base.multiply(to);
+        const matrix = matrixIn(element, this.drawn);
         for (const [x, y] of [[box.x, box.y], [box.x + box.width, box.y + box.height]]) {
           const at = new DOMPoint(x, y).matrixTransform(matrix);
           [left, right] = [Math.min(left, at.x), Math.max(right, at.x)];
@@ -210,7 +222,7 @@ export class Schematic {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (!width || !height) return;
     this.size = { width, height };
-    if (!this.touched) this.fit();
+    if (!this.touched) this.open();
   }
 
   private tell(text: string): void {
@@ -291,4 +303,21 @@ export class Schematic {
 function addLine(plan: Plan, row: number, keys: Set<string>): void {
   const line = plan.content.network.lines[plan.content.network.connections[row]?.line ?? -1];
   if (line) keys.add(`line ${line.tag}`);
+}
+
+/** A line is easier to hit than it is wide. */
+function widen(line: Element): void {
+  const hit = svg("path", { class: "net-hit", d: line.getAttribute("d") ?? "", "data-line": line.getAttribute("data-line") ?? "" });
+  // Before everything else, so that it is never in the way of a symbol.
+  line.parentElement?.prepend(hit);
+}
+
+/** From an element's own pixels to those of one that it is in. A browser's own answer lags behind changes of the same frame. */
+function matrixIn(element: SVGGraphicsElement, root: SVGElement): DOMMatrix {
+  let matrix = new DOMMatrix();
+  for (let at: Element | null = element; at && at !== root; at = at.parentElement) {
+    const own = (at as SVGGraphicsElement).transform?.baseVal.consolidate()?.matrix;
+    if (own) matrix = new DOMMatrix([own.a, own.b, own.c, own.d, own.e, own.f]).multiply(matrix);
+  }
+  return matrix;
 }

@@ -5,6 +5,8 @@
 export const COMMON = /* glsl */ `
 uniform vec2 uViewport;
 uniform float uScale;
+uniform vec4 uPlane;
+varying float vCut;
 bool perspective() { return projectionMatrix[2][3] != 0.0; }
 float depthOf(vec4 seen, float pull) {
   vec4 near = seen;
@@ -52,26 +54,31 @@ void main() {
   vec2 way = sb - sa;
   float length_ = length(way);
   vec2 dir = length_ > 1e-3 ? way / length_ : vec2(1.0, 0.0);
-  float core = 0.5 * aLook.x * uScale;
-  float reach = core + uCasing * uScale + 1.0;
+  // From afar lines are thinner, so that the plant is still seen; what is marked or selected isn't.
+  float metre = 0.5 * (pixelsPerMetre(a) + pixelsPerMetre(b));
+  float bore = max(aAlong.z - 0.06, 0.03) / 0.75;
+  float thin = aLook.z > 1.5 ? 1.0 : clamp(0.35 + bore * metre / (6.0 * uScale), 0.5, 1.0);
+  float core = 0.5 * aLook.x * thin * uScale;
+  float casing = uCasing * thin * uScale;
+  float reach = core + casing + 1.0;
   float cap = uFaint > 0.0 ? 0.0 : reach;
   float side = position.y;
   float end = position.x;
   vec2 at = mix(sa, sb, end) + dir * (2.0 * end - 1.0) * cap + vec2(-dir.y, dir.x) * side * reach;
   vAt = vec2(mix(-cap, length_ + cap, end), side * reach);
-  vSize = vec3(core, uCasing * uScale, length_);
+  vSize = vec3(core, casing, length_);
   vColor = aColor;
   // Dashes keep their place on the pipe; their length doubles or halves with the distance so that they stay readable.
-  float metre = 0.5 * (pixelsPerMetre(a) + pixelsPerMetre(b));
   float period = exp2(floor(log2(20.0 * uScale / metre) + 0.5));
   float perPixel = length_ > 1e-3 ? (along.y - along.x) / length_ : 0.0;
   float from = along.x - cap * perPixel;
   float to = along.y + cap * perPixel;
   vDash = vec2(mix(from, to, end) / period, aLook.y);
   float depth = depthOf(mix(a, b, end), aAlong.z);
+  vCut = dot(uPlane, mix(a, b, end));
   gl_Position = vec4(at / (0.5 * uViewport), depth, 1.0);
   if (aColor.a <= 0.0 || (uFaint > 0.0 && aLook.z < 0.0)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
-  vSize.y *= sign(aLook.z + 0.5);
+  vSize.y *= aLook.z < 0.0 ? 0.0 : 1.0;
 }
 `;
 
@@ -83,10 +90,12 @@ varying vec2 vAt;
 varying vec3 vSize;
 varying vec4 vColor;
 varying vec2 vDash;
+varying float vCut;
 void main() {
+  if (vCut > 0.0) discard;
   float off = length(vec2(vAt.x - clamp(vAt.x, 0.0, vSize.z), vAt.y));
   float core = vSize.x;
-  float casing = max(vSize.y, 0.0);
+  float casing = vSize.y;
   float inCore = 1.0 - smoothstep(core - 0.5, core + 0.5, off);
   float inAll = 1.0 - smoothstep(core + casing - 0.5, core + casing + 0.5, off);
   if (vDash.y > 0.5 && vDash.y < 1.5) {
@@ -124,12 +133,13 @@ void main() {
   vec2 way = screenOf(beside) - screenOf(clip);
   float share = min(1.0, length(way) / 10.0);
   float room = aRoom.x * metre * share;
-  float fit = aRoom.z * smoothstep(22.0 * uScale, 34.0 * uScale, room) * smoothstep(0.2, 0.35, share);
+  float fit = aRoom.z * smoothstep(30.0 * uScale, 44.0 * uScale, room) * smoothstep(0.2, 0.35, share);
   vec2 dir = length(way) > 1e-4 ? normalize(way) : vec2(1.0, 0.0);
   float size = (5.5 + 1.2 * aRoom.z) * uScale * fit;
   vec2 at = screenOf(clip) + size * (dir * position.x + vec2(-dir.y, dir.x) * position.y);
   vEdge = vec3(float(gl_VertexID == 0), float(gl_VertexID == 1), float(gl_VertexID == 2));
   vHeight = 2.6 * size;
+  vCut = dot(uPlane, seen);
   vColor = aColor;
   bool behind = perspective() && seen.z > -1e-3;
   gl_Position = fit <= 0.01 || behind
@@ -144,7 +154,9 @@ uniform float uFaint;
 varying vec3 vColor;
 varying vec3 vEdge;
 varying float vHeight;
+varying float vCut;
 void main() {
+  if (vCut > 0.0) discard;
   float edge = min(vEdge.x, min(vEdge.y, vEdge.z)) * vHeight;
   float rim = 1.3 * uScale;
   float core = smoothstep(rim - 0.5, rim + 0.5, edge);
@@ -168,9 +180,11 @@ void main() {
   float metre = pixelsPerMetre(seen);
   // Small things of the network (ports) come when there is room for them.
   float fit = aDot.y < 6.0 ? smoothstep(110.0 * uScale, 180.0 * uScale, metre) : 1.0;
+  if (aDot.y > 6.0 && aDot.y < 14.0) fit = clamp(0.45 + metre / (90.0 * uScale), 0.55, 1.0);
   vColor = aColor;
   vForm = aDot.x;
   vSide = (aDot.y + 3.0) * uScale * fit;
+  vCut = dot(uPlane, seen);
   gl_PointSize = vSide;
   bool behind = perspective() && seen.z > -1e-3;
   gl_Position = fit <= 0.01 || aDot.y <= 0.0 || behind
@@ -186,7 +200,9 @@ uniform float uFaint;
 varying vec3 vColor;
 varying float vForm;
 varying float vSide;
+varying float vCut;
 void main() {
+  if (vCut > 0.0) discard;
   vec2 p = (gl_PointCoord - 0.5) * vSide;
   float radius = 0.5 * vSide - 1.5 * uScale;
   float round_ = length(p) - radius;

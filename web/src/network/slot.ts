@@ -44,10 +44,8 @@ function placeCard(context: SlotContext, place: Place): HTMLElement {
       placeLink(other.id, other.name, context),
       el("span", { class: "net-soft" }, `${sizeText(connection)}, ${lengthText(connection.length)}`));
   }));
-  const missing = place.unit?.missing ?? 0;
   return el("section", { class: "net-card", "data-test": "net-place", "aria-label": "On the network" },
     el("h3", {}, "On the network"),
-    missing > 0 ? el("p", { class: "net-verdict is-unsure" }, `Lacks ${counted(missing, "line")} that a ${place.what} needs.`) : null,
     rows.length ? list : el("p", { class: "net-soft" }, "No pipe was found that leads here."),
     rows.length > SHOWN ? el("p", { class: "net-soft" }, `and ${rows.length - SHOWN} more`) : null,
     rows.length && context.live ? askButtons(context, place) : null,
@@ -62,10 +60,10 @@ function askButtons({ asking }: SlotContext, place: Place): HTMLElement {
   }, text);
   return el("div", {},
     el("div", { class: "net-buttons" },
-      button("net-upstream", "Trace upstream", "What leads here (Shift+Up)", () => void asking.trace(place.id, "upstream")),
-      button("net-downstream", "Trace downstream", "What it leads to (Shift+Down)", () => void asking.trace(place.id, "downstream")),
-      button("net-trace-to", "Trace to…", "The way to a second one (Shift+Right)", () => asking.startPick(place.id), picking),
-      place.unit && button("net-isolate", "Isolate", "What must be closed to cut it off (v)", () => void asking.isolate(place.id))),
+      button("net-upstream", "Upstream", "Trace what leads here (Shift+Up)", () => void asking.trace(place.id, "upstream")),
+      button("net-downstream", "Downstream", "Trace where it leads (Shift+Down)", () => void asking.trace(place.id, "downstream")),
+      button("net-trace-to", "Way to…", "Trace the way to a second one (Shift+Right)", () => asking.startPick(place.id), picking),
+      place.unit && button("net-isolate", "Valves to close", "Isolate: which valves must be closed to cut it off (v)", () => void asking.isolate(place.id))),
     picking ? el("p", { class: "net-verdict", role: "status" }, `Click where the way from ${place.name} should lead.`) : null);
 }
 
@@ -103,7 +101,7 @@ function lineCard(context: SlotContext, row: number): HTMLElement {
     el("p", { class: "net-soft" }, `${lineSizeText(line.size)}, ${lengthText(line.length)}, ${counted(connections.length, "piece")}`),
     el("p", {}, placeLink(line.start, start, context), " – ", placeLink(line.end, end, context)),
     el("p", {}, words[line.flow] ?? `Flow: ${line.flow}`,
-      reasonOf(connections) ? el("span", { class: "net-soft" }, ` by ${reasonOf(connections)}`) : null),
+      reasonOf(connections) ? el("span", { class: "net-soft" }, `: ${reasonOf(connections)}`) : null),
     doubtful ? el("p", { class: "net-verdict is-unsure" }, `Not certain in ${doubtful} of ${counted(connections.length, "piece")}.`) : null,
     editable ? directionButtons(line.flow as Flow, start, end, (flow) => context.panels.edit(edits(flow))) : null);
 }
@@ -126,7 +124,7 @@ function flowText(connection: Connection): HTMLElement {
   const state = flowState(connection);
   return el("p", { class: state === "doubtful" ? "net-verdict is-unsure" : "" },
     `Flows ${wayText(connection)}`, connection.reason ? `: ${connection.reason}` : "",
-    el("span", { class: "net-soft" }, `, ${state === "doubtful" ? "not certain" : "likelihood"} (${shareText(connection.confidence)})`));
+    el("span", { class: "net-soft" }, `, ${state === "doubtful" ? "not certain: " : ""}likelihood ${shareText(connection.confidence)}`));
 }
 
 function directionButtons(flow: Flow, source: string, target: string, send: (flow: Flow) => Promise<boolean>): HTMLElement {
@@ -154,7 +152,7 @@ function jointList(context: SlotContext): HTMLElement | null {
     (joint.first === part || joint.second === part) && (joint.made || joint.score >= LIKELY));
   if (!joints.length) return null;
   joints.sort((a, b) => Number(a.made) - Number(b.made) || b.score - a.score);
-  return el("details", { class: "net-card", "data-test": "net-joints", open: joints.some((joint) => !joint.made) },
+  return el("details", { class: "net-card", "data-test": "net-joints", open: joints.length <= 6 || joints.some((joint) => !joint.made) },
     el("summary", {}, `Joints of this part (${joints.length})`),
     el("ul", { class: "net-joints" }, ...joints.slice(0, 30).map((joint) => jointRow(context, joint, part))));
 }
@@ -169,7 +167,7 @@ function jointRow(context: SlotContext, joint: Joint, part: number): HTMLElement
   const ids = { first: parts.id[joint.first], second: parts.id[joint.second] };
   return el("li", { class: joint.made ? "" : "is-unsure", title: joint.reasons.join("; ") },
     el("button", { type: "button", class: "net-link", onclick: () => context.goParts([other]) }, text),
-    el("span", { class: "net-soft" }, `${joint.kind}, ${(1000 * joint.gap).toFixed(1)} mm, ${shareText(joint.score)}${joint.made ? "" : ", not joined"}`),
+    el("span", { class: "net-soft" }, `${joint.kind}, ${(1000 * Math.abs(joint.gap)).toFixed(1)} mm, ${shareText(joint.score)}${joint.made ? "" : ", not joined"}`),
     editable && (joint.made
       ? el("button", { type: "button", "data-test": "net-cut", title: "These two do not join", onclick: () => void panels.edit([{ kind: "cut", ...ids }]) }, "Cut here")
       : el("button", { type: "button", "data-test": "net-join", title: "These two join", onclick: () => void panels.edit([{ kind: "join", ...ids }]) }, "Join")));

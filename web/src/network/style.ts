@@ -30,6 +30,8 @@ export interface Stroke {
   shown: boolean;
   /** Marked or selected: drawn through the plant, too. */
   strong: boolean;
+  /** Beside what is marked: no rim, and not through the plant. */
+  dim: boolean;
 }
 
 export interface Looks {
@@ -47,13 +49,13 @@ export function strokesOf(plan: Plan, looks: Looks, palette: Palette): Stroke[] 
     const state = flowState(connection);
     const stroke: Stroke = {
       color: colorOf(plan, row, looks.by, palette, sizes), width: 3, dashed: state !== "known",
-      arrows: state !== "unknown", shown: looks.isShown(row), strong: false,
+      arrows: state !== "unknown", shown: looks.isShown(row), strong: false, dim: false,
     };
     const marked = looks.marks?.connections.has(row) ?? false;
-    if (looks.marks && !marked) Object.assign(stroke, { color: palette.faint, width: 1.5, arrows: false });
+    if (looks.marks && !marked) Object.assign(stroke, { color: palette.faint, width: 1.5, arrows: false, dim: true });
     if (marked) Object.assign(stroke, { color: palette.mark, width: 4.5, shown: true, strong: true });
     if (looks.hovered.has(row)) stroke.width += 2;
-    if (looks.selected.has(row)) Object.assign(stroke, { color: palette.selected, width: 5, shown: true, strong: true });
+    if (looks.selected.has(row)) Object.assign(stroke, { color: palette.selected, width: 5, shown: true, strong: true, dim: false });
     return stroke;
   });
 }

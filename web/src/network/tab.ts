@@ -82,6 +82,7 @@ export class NetworkTab {
     for (const [key, row] of this.rows) {
       const on = key === `place ${place}` || key === `line ${focus.selectedLine}`;
       row.classList.toggle("is-selected", on);
+      if (on && !row.hasAttribute("aria-current")) row.scrollIntoView({ block: "nearest" });
       if (on) row.setAttribute("aria-current", "true");
       else row.removeAttribute("aria-current");
     }
@@ -164,11 +165,12 @@ export class NetworkTab {
     const arrow = { forward: "→", backward: "←" }[line.flow] ?? "–";
     const button = el("button", {
       type: "button", class: "net-item", "data-test": "net-tree-line", "data-line": line.tag,
+      title: `${nameOf(plan, line.start)} ${arrow} ${nameOf(plan, line.end)}, ${lengthText(line.length)}`,
       onclick: () => focus.selectLine(row), onpointerenter: () => focus.hoverLine(row), onpointerleave: () => focus.hoverLine(-1),
     },
     el("span", { class: "net-line-sign", "aria-hidden": "true" }), el("span", { class: "net-name" }, line.tag),
-    el("span", { class: "net-soft" }, `${nameOf(plan, line.start)} ${arrow} ${nameOf(plan, line.end)}`),
-    el("span", { class: "net-row-end net-soft" }, `${lineSizeText(line.size)}, ${lengthText(line.length)}`));
+    el("span", { class: "net-soft" }, `${shortName(plan, line.start)} ${arrow} ${shortName(plan, line.end)}`),
+    el("span", { class: "net-row-end net-soft" }, lineSizeText(line.size)));
     this.rows.set(`line ${row}`, button);
     return button;
   }
@@ -193,6 +195,13 @@ export class NetworkTab {
 
 function nameOf(plan: Plan, id: string): string {
   return plan.places.get(id)?.name ?? id;
+}
+
+/** As in the schematic: J-000 for a junction; ends by what they are. */
+function shortName(plan: Plan, id: string): string {
+  const place = plan.places.get(id);
+  if (!place || place.unit) return place?.name ?? id;
+  return place.type === "junction" ? place.name.replace("junction-", "J-") : place.type === "blind" ? "closed" : "open";
 }
 
 function range(sizes: readonly number[]): string {

@@ -26,6 +26,8 @@ const SPECIAL = 500;
 const KEPT = 8; // a tag that is shown is not driven out by one that matters just a little more
 const HEIGHT = 20; // px, of a tag; see network.css
 
+type Box = readonly [number, number, number, number];
+
 interface Shown_ {
   element: HTMLButtonElement;
   slot: number;
@@ -41,10 +43,12 @@ export class TagLayer {
   /** Whether what was looked at lately is hidden; items that nobody has looked for are not in here. */
   private hiddenOf = new Map<string, boolean>();
   private items: Item[] = [];
+  private byKey = new Map<string, Item>();
   private ranks: number[] = [];
   private plan: Plan | null = null;
   private size = { width: 1, height: 1 };
   private seenFrom: number[] = [];
+  private taken: Box[] = [];
   private dirty = true;
   private timer = 0;
   private readonly widths = new Map<string, number>();
@@ -70,6 +74,8 @@ export class TagLayer {
   setPlan(plan: Plan, warnings: readonly NetworkWarning[]): void {
     this.plan = plan;
     this.items = itemsOf(plan, warnings);
+    this.byKey = new Map(this.items.map((item) => [item.key, item]));
+    this.pen.font = `600 11px ${getComputedStyle(this.root).fontFamily}`;
     this.hiddenOf.clear();
     this.refresh();
   }
@@ -126,7 +132,7 @@ export class TagLayer {
     const start = performance.now();
     const wishes = this.wishes((item, rank) => rank >= SPECIAL || this.hiddenOf.get(item.key) === false);
     const limit = Math.min(MOST, Math.round((this.size.width * this.size.height) / AREA));
-    this.draw(placeLabels(wishes, { ...this.size, taken: [] }, limit));
+    this.draw(placeLabels(wishes, { ...this.size, taken: this.taken }, limit));
     this.lastMs = performance.now() - start;
   }
 
@@ -154,8 +160,10 @@ export class TagLayer {
   /** Looks in slices which of the items are hidden by the plant, most important first; then places anew. */
   private look(): void {
     const eye = eyeOf(this.view);
-    const byKey = new Map(this.items.map((item) => [item.key, item]));
     const before = new Map(this.hiddenOf);
+    const room = String(this.taken);
+    this.taken = boxesOver(this.view.element, this.root);
+    const changed = room !== String(this.taken);
     const wishes = this.wishes(() => true).sort((a, b) => b.rank - a.rank);
     const from = this.seenFrom;
     let next = 0;
@@ -165,12 +173,12 @@ export class TagLayer {
       const end = performance.now() + SLICE;
       while (next < wishes.length && seen < 2 * MOST && performance.now() < end) {
         const wish = wishes[next++];
-        const hidden = wish.rank < SPECIAL && this.view.isHidden(towards(byKey.get(wish.key)!, eye));
+        const hidden = wish.rank < SPECIAL && this.view.isHidden(towards(this.byKey.get(wish.key)!, eye));
         this.hiddenOf.set(wish.key, hidden);
         if (!hidden) seen++;
       }
-      if (next < wishes.length && seen < 2 * MOST) requestAnimationFrame(slice);
-      else if (wishes.some(({ key }) => before.get(key) !== this.hiddenOf.get(key))) this.place();
+      if (next < wishes.length && seen < 2 * MOST) this.timer = window.setTimeout(slice);
+      else if (changed || wishes.some(({ key }) => before.get(key) !== this.hiddenOf.get(key))) this.place();
     };
     slice();
   }
@@ -182,11 +190,10 @@ export class TagLayer {
       element.remove();
       this.shown.delete(key);
     }
-    const byKey = new Map(this.items.map((item) => [item.key, item]));
     let leaders = "";
     let dots = "";
     for (const place of placed) {
-      const item = byKey.get(place.wish.key)!;
+      const item = this.byKey.get(place.wish.key)!;
       const element = this.elementOf(item, place.slot);
       element.style.transform = `translate(${Math.round(place.left)}px,${Math.round(place.top)}px)`;
       this.mark(element, item);
@@ -254,12 +261,24 @@ export class TagLayer {
     if (item.kind === "warning") return 18;
     const known = this.widths.get(item.text);
     if (known !== undefined) return known;
-    const font = getComputedStyle(this.root);
-    this.pen.font = `600 11px ${font.fontFamily}`;
     const width = Math.ceil(this.pen.measureText(item.text).width) + 16;
     this.widths.set(item.text, width);
     return width;
   }
+}
+
+/** Boxes of what else lies over the picture: buttons, the legend, notes. */
+function boxesOver(element: HTMLElement, own: HTMLElement): Box[] {
+  const frame = element.getBoundingClientRect();
+  const boxes: Box[] = [];
+  for (const other of element.children) {
+    if (other === own || other.localName === "canvas") continue;
+    const box = other.getBoundingClientRect();
+    // What covers half of the view is a layer with something in it, no box.
+    if (!box.width || !box.height || box.width * box.height > 0.4 * frame.width * frame.height) continue;
+    boxes.push([box.left - frame.left, box.top - frame.top, box.right - frame.left, box.bottom - frame.top]);
+  }
+  return boxes;
 }
 
 type ToScreen = (point: Point) => { x: number; y: number; metre: number } | null;
