@@ -24,6 +24,7 @@ export interface Marks {
   close: ReadonlySet<string>;
 }
 
+/** A plane across an axis, at a place on it [m]: what lies beyond is cut away, or what lies before where it is flipped. */
 export interface Section {
   axis: "x" | "y" | "z";
   at: number;

@@ -127,10 +127,18 @@ export function lazily(title: string, ask: () => Promise<string[]>): HTMLElement
     if (!box.open || text.childElementCount) return;
     fill(text, el("p", { class: "soft" }, "Asking…"));
     ask().then(
-      (told) => fill(text, ...(told.length ? told.map((line) => el("p", {}, line)) : [el("p", { class: "soft" }, "Nothing is known.")])),
+      (told) => fill(text, told.length ? answer(told) : el("p", { class: "soft" }, "Nothing is known.")),
       (error: Error) => fill(text, el("p", { class: "soft" }, error.message)));
   });
   return box;
+}
+
+/** Lines of "what   value", as the command line prints them, as a table. */
+function answer(told: string[]): HTMLElement {
+  return lines(told.map((line): [string, string] => {
+    const [what, ...rest] = line.trim().split(/\s{2,}/);
+    return rest.length ? [upper(what), rest.join(" ")] : ["", what];
+  }));
 }
 
 function more(page: Page, content: Content, row: number): HTMLElement {

@@ -48,8 +48,10 @@ export class Inspector {
       if (this.late) return;
       const key = (document.activeElement as HTMLElement | null)?.dataset?.key;
       const inside = this.element.contains(document.activeElement);
+      const other = shown.selection !== this.drawn.selection || shown.place !== this.drawn.place;
       this.draw(content, shown.selection, shown.place);
       this.restoreOpen();
+      if (other) this.element.scrollTop = 0;
       if (inside && key) this.element.querySelector<HTMLElement>(`[data-key="${CSS.escape(key)}"]`)?.focus({ preventScroll: true });
     });
   }

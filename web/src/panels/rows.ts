@@ -36,7 +36,7 @@ function partColumns(content: Content): Column[] {
     { key: "confidence", title: "Conf. %", width: 7, number: true, of: (row) => (parts.confidence[row] === null ? null : round(100 * parts.confidence[row]!, 1)) },
     { key: "source", title: "Said by", width: 9, of: (row) => parts.source[row] ?? "" },
     { key: "unit", title: "Unit", width: 9, of: (row) => network.units[parts.unit[row]]?.tag ?? "" },
-    { key: "system", title: "System", width: 9, of: (row) => network.systems[system(row)]?.id ?? "" },
+    { key: "system", title: "System", width: 11, of: (row) => network.systems[system(row)]?.id ?? "" },
     { key: "length", title: "Length m", width: 8, number: true, of: (row) => round(parts.extents[3 * row], 4) },
     { key: "repeats", title: "Alike", width: 6, number: true, of: (row) => repeats.get(parts.shape[row]) ?? 1 },
     { key: "triangles", title: "Triangles", width: 8, number: true, of: (row) => parts.n_triangles[row] },

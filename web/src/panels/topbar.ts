@@ -19,7 +19,7 @@ export class TopBar {
   private readonly badge = el("span", { class: "read-only", "data-test": "read-only", hidden: true });
   private readonly theme = iconButton("moon", "Dark", () => switchTheme(this.page.store), "theme");
   private readonly table = paneButton("table", "Table", "Table of parts, units and lines (b)", "table");
-  private readonly drawing = paneButton("schematic", "Drawing", "The schematic (d)", "drawing");
+  private readonly drawing = paneButton("schematic", "Schematic", "The schematic beside the plant (d)", "drawing");
 
   constructor(page: Page, findAll: (query: string) => void) {
     this.page = page;

@@ -11,7 +11,7 @@ interface Item {
   text: string;
   /** Tells items with the same text apart. */
   note?: string;
-  /** More of it, said when it is looked at. */
+  /** More of it, told when it is looked at. */
   detail: string;
   place: string | null;
   parts: number[];
@@ -101,7 +101,7 @@ export class Warnings {
       list);
     box.addEventListener("toggle", () => (box.open ? this.open.add(group.key) : this.open.delete(group.key)));
     group.items.slice(0, MOST).forEach((item, i) => put(list, el("li", {}, el("button", {
-      type: "button", class: "row wrap", "data-test": "warning", title: item.detail || null, disabled: !item.parts.length && !item.place, onclick: () => this.go(group, i, list, where),
+      type: "button", class: "row wrap", "data-test": "warning", disabled: !item.parts.length && !item.place, onclick: () => this.go(group, i, list, where),
     }, el("span", { class: "grow" }, item.text), item.note && el("span", { class: "soft" }, item.note)))));
     if (n > MOST) put(list, el("li", { class: "soft" }, `and ${count(n - MOST, "more", "more")}: the arrows reach them all`));
     where.textContent = `${n}`;
@@ -116,7 +116,9 @@ export class Warnings {
     row?.setAttribute("aria-current", "true");
     row?.scrollIntoView({ block: "nearest" });
     const item = group.items[i];
+    list.querySelector(".detail")?.remove();
+    const detail = item.detail ? el("p", { class: "soft detail", role: "status" }, item.detail) : null;
+    if (row) put(row.parentElement!, detail);
     this.page.go(item.parts, item.place);
-    if (item.detail) this.page.say(item.detail);
   }
 }
