@@ -1,5 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { carry } from "../src/panels/carry.ts";
 import { csv } from "../src/panels/csv.ts";
 import { decode, encode, packRows, unpackRows } from "../src/panels/link.ts";
 import { matching } from "../src/panels/picker.ts";
@@ -265,4 +266,14 @@ test("a unit that got another tag, and with it another id, stays selected", () =
   now.meshes = store.content!.meshes;
   store.setContent(now);
   assert.deepEqual([store.shown.place, store.shown.selection], ["unit-2", [1]]);
+});
+
+test("a correction that is repeated goes to the same meshes, whatever their part is called now", () => {
+  const before = plant();
+  const now = plant();
+  now.meshes = { path: now.meshes.path, part: [3, 2, 1, -1] };
+  const label = { kind: "label", part: "part-00000", group: "Pipe assembly", name: null, this_only: true } as const;
+  assert.deepEqual(carry([label, { kind: "merge", parts: ["part-00001", "part-00002"] }], before, now),
+    [{ ...label, part: "part-00003" }, { kind: "merge", parts: ["part-00002", "part-00001"] }]);
+  assert.equal(carry([{ ...label, part: "part-00003" }], before, now), null);
 });

@@ -3,6 +3,7 @@
 import { Refused, type Source } from "../api.ts";
 import type { Store } from "../store.ts";
 import type { Edit, Question, ServerState, Update } from "../types.ts";
+import { carry } from "./carry.ts";
 import type { Page } from "./page.ts";
 import type { Choice, Sent } from "./queue.ts";
 import { sentence } from "./words.ts";
@@ -37,7 +38,13 @@ export class Corrector {
   async edit(edits: Edit[], why = ""): Promise<boolean> {
     if (!edits.length) return true;
     const send = (version: number) => this.source.edit(version, edits, why);
-    return (await this.send(send, { repeat: () => void this.edit(edits, why) })) !== null;
+    const before = this.store.content;
+    const repeat = () => {
+      const carried = before && this.store.content && carry(edits, before, this.store.content);
+      if (carried) void this.edit(carried, why);
+      else this.say("What you corrected is no more in the plant as it is now.", "bad");
+    };
+    return (await this.send(send, { repeat })) !== null;
   }
 
   async undo(): Promise<boolean> {
@@ -51,7 +58,7 @@ export class Corrector {
   /** Answers a question of the queue. Options are sent as what they say, as the list may be another one by then. */
   async answer(question: Question, choice: Choice): Promise<Sent> {
     const edits = typeof choice === "object" ? choice.edits : typeof choice === "number" ? question.options[choice].edits : [];
-    const before = this.store.state?.version;
+    const before = this.store.content?.version;
     const update = await this.send((version) =>
       edits.length
         ? this.source.edit(version, edits, question.title)
@@ -105,7 +112,8 @@ export class Corrector {
     return this.inTurn(async () => {
       this.refusal = "";
       try {
-        const update = await run(this.store.state?.version ?? 0);
+        // The version that the person has seen, not the newest that was heard of.
+        const update = await run(this.store.content?.version ?? 0);
         const changed = update.version !== this.store.content?.version;
         if (!this.store.apply(update)) await this.fetch();
         if (update.message && !quiet) {

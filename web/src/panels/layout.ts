@@ -39,7 +39,7 @@ export function layOut(store: Store, top: HTMLElement, inspector: HTMLElement, t
   left.after(splitter("Width of the left panel", "vertical", { key: "left", start: 300, least: 230, most: () => Math.min(520, innerWidth * 0.45) }, size("--left"), (now, moved) => now + moved.x));
   right.before(splitter("Width of the inspector", "vertical", { key: "right", start: 310, least: 240, most: () => Math.min(560, innerWidth * 0.45) }, size("--right"), (now, moved) => now - moved.x));
   bottom.before(splitter("Height of the panes below", "horizontal", { key: "bottom", start: 240, least: 100, most: () => innerHeight * 0.7 }, size("--bottom"), (now, moved) => now - moved.y));
-  schematicPane.after(splitter("Width of the schematic", "vertical", { key: "drawing", start: 380, least: 160, most: () => (center.clientWidth || innerWidth) - TABLE }, size("--drawing"), (now, moved) => now + moved.x));
+  schematicPane.after(splitter("Width of the schematic", "vertical", { key: "drawing", start: 330, least: 160, most: () => (center.clientWidth || innerWidth) - TABLE }, size("--drawing"), (now, moved) => now + moved.x));
 
   const open = { left: true, right: true };
   const handles = {
