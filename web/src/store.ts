@@ -108,10 +108,12 @@ export class Store {
 
   setContent(content: Content): void {
     const before = this.content;
-    this.content = content;
-    if (before && before.meshes !== content.meshes) this.keepRows(before);
+    const same = before && sameMeshes(before.meshes, content.meshes);
+    // What was worked out for the meshes stays good as long as they are the same object.
+    this.content = same ? { ...content, meshes: before.meshes } : content;
+    if (before && !same) this.keepRows(before);
     this.keepSelection();
-    this.tell("content", content);
+    this.tell("content", this.content);
   }
 
   /** Lays an update over the content; false where the content has to be fetched anew. */
@@ -158,6 +160,8 @@ export class Store {
       if (!same || node.id !== place) this.set({ selection: node.parts, place: node.id });
     } else if (place) this.set({ place: null });
     if (selection.some((row) => row >= n)) this.set({ selection: selection.filter((row) => row < n) });
+    const { explode } = this.shown;
+    if (explode && !network.units.some((unit) => unit.id === explode.unit)) this.set({ explode: null });
   }
 
   /** The parts themselves may be others now: what was selected or hidden is found again by its meshes. */
@@ -179,4 +183,8 @@ export class Store {
   private tell<K extends keyof Topics>(topic: K, value: Topics[K]): void {
     for (const listener of [...this.listeners[topic]]) listener(value);
   }
+}
+
+function sameMeshes(a: Content["meshes"], b: Content["meshes"]): boolean {
+  return a === b || (a.path.length === b.path.length && a.path.every((path, mesh) => path === b.path[mesh] && a.part[mesh] === b.part[mesh]));
 }
