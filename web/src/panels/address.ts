@@ -54,8 +54,16 @@ export class Address {
     const folder = store.state?.folder || "the folder";
     const title = store.content?.title ?? "the plant";
     const place = source.live ? `View of ${title}. Run: cadgraph view ${folder}\nThen press k there and paste this link:\n#${fragment}` : `${location.href.split("#")[0]}#${fragment}`;
-    const input = el("input", { type: "text", class: "wide", placeholder: "Paste a link: #at=…", "aria-label": "Link to go to", "data-test": "link-input" });
-    const text = el("textarea", { readonly: true, rows: 5, class: "wide", "aria-label": "Link", "data-test": "link-text" }, place);
+    const input = el(
+      "input",
+      {
+        type: "text", class: "wide", placeholder: "Paste a link: #at=…", "aria-label": "Link to go to",
+        "data-test": "link-input"
+      }
+    );
+    const text = el(
+      "textarea", { readonly: true, rows: 5, class: "wide", "aria-label": "Link", "data-test": "link-text" }, place
+    );
     const go = () => {
       const at = input.value.indexOf("#");
       if (at < 0) return void (trouble.textContent = "A link has a “#”, and what is shown after it.");
@@ -69,10 +77,18 @@ export class Address {
         ? "For a colleague who has the folder: camera, selection, colours, section and what is hidden go with it. It holds no key to this page."
         : "This file and what is shown of it: send the file along."),
       text,
-      left ? el("p", { class: "trouble", "data-test": "link-left" }, `Too many parts for a link: ${left} did not go into it.`) : null,
+      left ? el(
+        "p", { class: "trouble", "data-test": "link-left" }, `Too many parts for a link: ${left} did not go into it.`
+      ) : null,
       el("div", { class: "buttons" }, button("Copy", "Copy the link", () => void this.copy(place), "link-copy", "main"),
-        source.live ? button("Copy this page's address", "Works on this computer while this server runs; it holds the key to the plant, so don't send it", () => void this.copy(`${location.href.split("#")[0]}#${fragment}`), "address-copy") : null),
-      el("h3", {}, "Go to a link"), el("div", { class: "spread" }, input, button("Go", "Show what the link shows", go, "link-go")), trouble,
+        source.live ? button(
+          "Copy this page's address",
+          "Works on this computer while this server runs; it holds the key to the plant, so don't send it",
+          () => void this.copy(`${location.href.split("#")[0]}#${fragment}`), "address-copy"
+        ) : null),
+      el("h3", {}, "Go to a link"), el(
+        "div", { class: "spread" }, input, button("Go", "Show what the link shows", go, "link-go")
+      ), trouble,
     ].filter((node) => node !== null), "link");
     dialog.querySelector<HTMLElement>("[data-test=link-copy]")?.focus();
   }

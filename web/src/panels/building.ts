@@ -5,11 +5,17 @@ import { el, fill } from "./dom.ts";
 import { elapsed, percent, stageWords } from "./words.ts";
 
 export class Building {
-  readonly element = el("section", { class: "building", "data-test": "building", "aria-label": "Progress", hidden: true });
+  readonly element = el(
+    "section", { class: "building", "data-test": "building", "aria-label": "Progress", hidden: true }
+  );
   private readonly started = Date.now();
   private readonly stage = el("p", { class: "building-stage", "data-test": "building-stage", role: "status" });
   private readonly fillBar = el("span", { class: "bar-fill" });
-  private readonly progress = el("div", { class: "bar big", role: "progressbar", "aria-valuemin": "0", "aria-valuemax": "100", "aria-label": "Progress" }, this.fillBar);
+  private readonly progress = el(
+    "div",
+    { class: "bar big", role: "progressbar", "aria-valuemin": "0", "aria-valuemax": "100", "aria-label": "Progress" },
+    this.fillBar
+  );
   private readonly time = el("p", { class: "soft", "data-test": "building-time" });
   /** Above the plant, where it can be seen already while the rest is made ready. */
   readonly strip = el("p", { class: "making-ready", role: "status", "data-test": "making-ready", hidden: true });
@@ -36,7 +42,9 @@ export class Building {
     if (kind !== this.showing) {
       this.showing = kind;
       if (kind === "building") this.layOut(state?.title ?? "");
-      else this.layOutFailed(kind === "failed" ? "The plant could not be built" : "No answer from cadgraph", trouble || state?.message || "");
+      else this.layOutFailed(
+        kind === "failed" ? "The plant could not be built" : "No answer from cadgraph", trouble || state?.message || ""
+      );
     }
     if (kind === "building") this.update(state);
   }
@@ -57,7 +65,10 @@ export class Building {
     fill(this.element, el("div", { class: "card", role: "alert" },
       el("p", { class: "brand" }, "cadgraph"), el("h1", {}, title),
       el("p", { class: "building-message", "data-test": "building-message" }, message),
-      el("p", { class: "soft" }, "What went wrong stands in the terminal, too. Put it right there and start 'cadgraph view' again.")));
+      el(
+        "p", { class: "soft" },
+        "What went wrong stands in the terminal, too. Put it right there and start 'cadgraph view' again."
+      )));
   }
 
   private say(words: string): void {
@@ -78,7 +89,12 @@ export class Building {
   private stepOn(stage: string): void {
     if (stage === this.step) return;
     const now = Date.now();
-    if (this.step) this.steps.append(el("li", {}, el("span", {}, `✓ ${stageWords(this.step)}`), el("span", { class: "number" }, elapsed((now - this.stepped) / 1000))));
+    if (this.step) this.steps.append(
+      el(
+        "li", {}, el("span", {}, `✓ ${stageWords(this.step)}`),
+        el("span", { class: "number" }, elapsed((now - this.stepped) / 1000))
+      )
+    );
     this.step = stage;
     this.stepped = now;
   }

@@ -74,7 +74,9 @@ export class Corrector {
 
   private async revert(back: "Undo" | "Redo", version: number): Promise<boolean> {
     if (this.store.state?.version === version) return back === "Undo" ? this.undo() : this.redo();
-    this.say("Something else was corrected since; the buttons above and the list under History go back step by step.", "bad");
+    this.say(
+      "Something else was corrected since; the buttons above and the list under History go back step by step.", "bad"
+    );
     return false;
   }
 
@@ -89,7 +91,9 @@ export class Corrector {
       const { content, state: latest } = this.store;
       if (!content || !latest || latest.version === content.version || latest.status === "failed") return;
       await this.fetch();
-      if (latest.status === "ready") this.say(`Changed in another window${latest.undo ? `: ${latest.undo}` : ""}. The plant is shown as it is now.`);
+      if (latest.status === "ready") this.say(
+        `Changed in another window${latest.undo ? `: ${latest.undo}` : ""}. The plant is shown as it is now.`
+      );
     }).catch((error: unknown) => this.told(error));
   }
 
@@ -108,7 +112,9 @@ export class Corrector {
     return done;
   }
 
-  private send(run: (version: number) => Promise<Update>, { repeat, back = "Undo", quiet = false }: Sending = {}): Promise<Update | null> {
+  private send(
+    run: (version: number) => Promise<Update>, { repeat, back = "Undo", quiet = false }: Sending = {}
+  ): Promise<Update | null> {
     return this.inTurn(async () => {
       this.refusal = "";
       try {

@@ -44,7 +44,9 @@ export function openHelp(): void {
 
 function table(title: string, rows: [string[], string][]): HTMLElement {
   const list = el("dl", {});
-  for (const [keys, does] of rows) put(list, el("dt", {}, ...keys.map((key) => el("kbd", {}, key))), el("dd", {}, does));
+  for (const [keys, does] of rows) put(
+    list, el("dt", {}, ...keys.map((key) => el("kbd", {}, key))), el("dd", {}, does)
+  );
   return el("section", {}, el("h3", {}, title), list);
 }
 

@@ -79,7 +79,11 @@ export function icon(name: keyof typeof ICONS & string): SVGElement {
 
 /** A button with an icon alone; its title says what it does. */
 export function iconButton(name: string, title: string, run: Handler, test = ""): HTMLButtonElement {
-  return el("button", { type: "button", class: "icon-button", title, "aria-label": title, "data-test": test || null, onclick: run }, icon(name));
+  return el(
+    "button",
+    { type: "button", class: "icon-button", title, "aria-label": title, "data-test": test || null, onclick: run },
+    icon(name)
+  );
 }
 
 /** A small square in the colour of a group; striped where the label is not sure, hatched where there is none. */

@@ -23,8 +23,13 @@ export interface SearchField {
 }
 
 /** A field that lists what it finds: arrow keys choose, Enter selects and moves there. */
-export function searchField(page: Page, id: string, most: { units: number; lines: number; parts: number }, taken: () => void, all?: (query: string) => void): SearchField {
-  const list = el("div", { class: "found", role: "listbox", id: `${id}-list`, "aria-label": "Found", "data-test": `${id}-list` });
+export function searchField(
+  page: Page, id: string, most: { units: number; lines: number; parts: number }, taken: () => void,
+  all?: (query: string) => void
+): SearchField {
+  const list = el(
+    "div", { class: "found", role: "listbox", id: `${id}-list`, "aria-label": "Found", "data-test": `${id}-list` }
+  );
   const said = el("span", { class: "only-read", role: "status" });
   let rows: { element: HTMLElement; take: () => void }[] = [];
   let active = -1;
@@ -37,7 +42,11 @@ export function searchField(page: Page, id: string, most: { units: number; lines
       if (event.key === "Escape" && input.value) { search(""); event.stopPropagation(); }
       else if (event.key === "ArrowDown") mark(active + 1);
       else if (event.key === "ArrowUp") mark(active - 1);
-      else if (event.key === "Enter") { clearTimeout(asked); if (shown !== input.value) search(input.value); rows[Math.max(active, 0)]?.take(); }
+      else if (event.key === "Enter") {
+        clearTimeout(asked);
+        if (shown !== input.value) search(input.value);
+        rows[Math.max(active, 0)]?.take();
+      }
       else return;
       event.preventDefault();
     },
@@ -64,7 +73,13 @@ export function searchField(page: Page, id: string, most: { units: number; lines
     for (const kind of ["unit", "line", "part"] as const) group(content, found, kind);
     const { totals } = found;
     const total = totals.units + totals.lines + totals.parts;
-    if (query.trim() && !total) put(list, el("p", { class: "empty" }, `Nothing holds “${query.trim()}”. Tags, labels, paths, part ids, sizes such as DN80 or 350 mm can be found.`));
+    if (query.trim() && !total) put(
+      list,
+      el(
+        "p", { class: "empty" },
+        `Nothing holds “${query.trim()}”. Tags, labels, paths, part ids, sizes such as DN80 or 350 mm can be found.`
+      )
+    );
     if (all && total) row(`All ${whole(total)} in the Find tab`, null, "", () => all(query));
     input.setAttribute("aria-expanded", String(total > 0));
     said.textContent = query.trim() ? `${whole(total)} found` : "";
@@ -84,11 +99,16 @@ export function searchField(page: Page, id: string, most: { units: number; lines
         else page.go(partsOf(content, key as "lines" | "parts", index));
       });
     }
-    if (found.totals[key] > listed.length && !all) put(list, el("p", { class: "soft" }, `and ${whole(found.totals[key] - listed.length)} more: the table lists them all`));
+    if (found.totals[key] > listed.length && !all) put(
+      list, el("p", { class: "soft" }, `and ${whole(found.totals[key] - listed.length)} more: the table lists them all`)
+    );
   }
 
   function row(title: string, mark: Node | null, detail: string, take: () => void): void {
-    const element = el("div", { role: "option", class: "option", id: `${id}-${rows.length}`, "aria-selected": "false", "data-test": "found", onclick: take },
+    const element = el("div", {
+      role: "option", class: "option", id: `${id}-${rows.length}`, "aria-selected": "false", "data-test": "found",
+      onclick: take
+    },
       mark, el("span", { class: "grow" }, title), el("span", { class: "soft" }, detail));
     // The field keeps the focus, so that the list does not close before the click.
     element.addEventListener("pointerdown", (event) => event.preventDefault());
@@ -101,7 +121,11 @@ export function searchField(page: Page, id: string, most: { units: number; lines
   return { input, list, search };
 }
 
-function words(content: Content, kind: Found["kind"], index: number): { title: string; detail: string; swatch: HTMLElement | null } {
+function words(content: Content, kind: Found["kind"], index: number): {
+  title: string;
+  detail: string;
+  swatch: HTMLElement | null
+} {
   if (kind === "unit") {
     const unit = content.network.units[index];
     const color = content.groups.find((group) => group.unit === unit.type)?.color ?? null;
@@ -109,9 +133,16 @@ function words(content: Content, kind: Found["kind"], index: number): { title: s
   }
   if (kind === "line") {
     const line = content.network.lines[index];
-    return { title: line.tag, detail: [line.size && `DN ${line.size}`, line.length !== null && length(line.length)].filter(Boolean).join(", "), swatch: null };
+    return {
+      title: line.tag,
+      detail: [line.size && `DN ${line.size}`, line.length !== null && length(line.length)].filter(Boolean).join(", "),
+      swatch: null
+    };
   }
-  return { title: partTitle(content, index), detail: meshName(content, index), swatch: swatch(labelOf(content, index).color, content.parts.state[index]) };
+  return {
+    title: partTitle(content, index), detail: meshName(content, index),
+    swatch: swatch(labelOf(content, index).color, content.parts.state[index])
+  };
 }
 
 export class Find {
@@ -122,8 +153,22 @@ export class Find {
     this.field = searchField(page, "find", { units: 100, lines: 100, parts: 200 }, () => undefined);
     const hints = el("div", { class: "empty hints" },
       el("p", {}, "Search the whole plant:"),
-      el("ul", {}, ...([["V-0", "tags of units and lines"], ["gate valve", "labels and kinds"], ["DN80", "what runs in a nominal size"], ["350 mm", "parts with a side of that length"], ["Geo_0004", "paths and names of the file, part ids"]] as const).map(([query, means]) =>
-        el("li", {}, el("button", { type: "button", class: "link", onclick: () => { this.field.search(query); this.field.input.focus(); } }, query), el("span", { class: "soft" }, means)))),
+      el("ul", {}, ...(
+        [
+          ["V-0", "tags of units and lines"], ["gate valve", "labels and kinds"],
+          ["DN80", "what runs in a nominal size"], ["350 mm", "parts with a side of that length"],
+          ["Geo_0004", "paths and names of the file, part ids"]
+        ] as const
+      ).map(([query, means]) =>
+        el(
+          "li", {},
+          el(
+            "button",
+            { type: "button", class: "link", onclick: () => { this.field.search(query); this.field.input.focus(); } },
+            query
+          ),
+          el("span", { class: "soft" }, means)
+        ))),
       el("p", { class: "soft" }, "Arrow keys choose, Enter selects and moves there."));
     this.element.append(this.field.input, this.field.list, hints);
   }

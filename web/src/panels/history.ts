@@ -35,23 +35,38 @@ export class History {
     if (!state) return;
     const can = this.page.canEdit();
     fill(this.element,
-      state.lost.length > 0 && note(`${count(state.lost.length, "correction no longer fits", "corrections no longer fit")} this model:`, el("ul", { "data-test": "lost" }, ...state.lost.map((lost) => el("li", {}, lost)))),
-      can && el("div", { class: "buttons" }, this.step("undo", "Undo", state.can_undo, state.undo), this.step("redo", "Redo", state.can_redo, state.redo)),
+      state.lost.length > 0 && note(
+        `${count(state.lost.length, "correction no longer fits", "corrections no longer fit")} this model:`,
+        el("ul", { "data-test": "lost" }, ...state.lost.map((lost) => el("li", {}, lost)))
+      ),
+      can && el(
+        "div", { class: "buttons" }, this.step("undo", "Undo", state.can_undo, state.undo),
+        this.step("redo", "Redo", state.can_redo, state.redo)
+      ),
       this.trouble && el("p", { class: "trouble" }, this.trouble),
       this.rows.length
         ? el("ol", { class: "audit" }, ...this.rows.map((row) => this.row(row)))
-        : el("p", { class: "empty" }, this.page.source.live ? "Nothing was corrected yet. What you correct is listed here: who, when, what and why." : "This file holds no history; it is kept in the plant's folder."));
+        : el(
+          "p", { class: "empty" },
+          this.page.source.live ? "Nothing was corrected yet. What you correct is listed here: who, when, what and why." : "This file holds no history; it is kept in the plant's folder."
+        ));
   }
 
   private step(which: "undo" | "redo", text: string, can: boolean, what: string | null): HTMLElement {
-    const made = button(text, what ? `${text}: ${what}` : `Nothing to ${which}`, () => void this.page[which](), `history-${which}`);
+    const made = button(
+      text, what ? `${text}: ${what}` : `Nothing to ${which}`, () => void this.page[which](), `history-${which}`
+    );
     made.disabled = !can;
     made.prepend(icon(which));
     return made;
   }
 
   private row(row: AuditRow): HTMLElement {
-    const time = el("time", { datetime: row.when || null, title: row.when ? new Date(row.when).toLocaleString() : "The time was not kept" }, moment(row.when));
+    const time = el(
+      "time",
+      { datetime: row.when || null, title: row.when ? new Date(row.when).toLocaleString() : "The time was not kept" },
+      moment(row.when)
+    );
     return el("li", { class: row.undone ? "undone" : "", "data-test": "audit" },
       row.undone ? el("s", {}, row.what) : el("span", {}, row.what),
       row.undone && el("span", { class: "badge" }, "undone"),

@@ -15,7 +15,10 @@ let lastRow = -1;
 export function inspectPart(page: Page, content: Content, row: number, head: HTMLElement, rest: HTMLElement): void {
   if (row !== lastRow) onlyThis = false;
   lastRow = row;
-  fill(head, title(content, row), sureness(content, row), page.canEdit() && correction(page, content, row), viewButtons(page, [row]));
+  fill(
+    head, title(content, row), sureness(content, row), page.canEdit() && correction(page, content, row),
+    viewButtons(page, [row])
+  );
   fill(rest,
     fold("About this part", true, about(page, content, row)),
     facts(content, row),
@@ -29,13 +32,22 @@ function title(content: Content, row: number): HTMLElement {
     swatch(label.color, content.parts.state[row]),
     el("div", { class: "grow" },
       el("h2", { "data-test": "part-name" }, label.name),
-      el("p", { class: "soft" }, [label.group, content.parts.ground[row] ? "ground" : ""].filter(Boolean).join(" · ") || "Nothing is known of it yet")));
+      el(
+        "p", { class: "soft" },
+        [
+          label.group, content.parts.ground[row] ? "ground" : ""
+        ].filter(Boolean).join(" · ") || "Nothing is known of it yet"
+      )));
 }
 
 function sureness(content: Content, row: number): HTMLElement {
   const { state, confidence, source } = content.parts;
   return el("div", { class: "sureness" },
-    el("div", { class: "spread" }, el("b", { class: `state ${state[row]}`, "data-test": "part-state" }, howSure(state[row])), el("span", { class: "number" }, confidence[row] === null ? "" : percent(confidence[row]))),
+    el(
+      "div", { class: "spread" },
+      el("b", { class: `state ${state[row]}`, "data-test": "part-state" }, howSure(state[row])),
+      el("span", { class: "number" }, confidence[row] === null ? "" : percent(confidence[row]))
+    ),
     sureBar(confidence[row], state[row]),
     el("p", { class: "soft" }, fromWhere(source[row])));
 }
@@ -68,14 +80,26 @@ function correction(page: Page, content: Content, row: number): HTMLElement {
   return el("section", { class: "correct", "aria-label": "Correct the label" },
     el("h3", {}, parts.state[row] === "sure" ? "Wrong? Click what it is" : "What is it?"), list,
     alike.length > 1 ? reach(alike.length) : el("p", { class: "soft" }, "No other part has its shape."),
-    parts.source[row] === "human" && button("Take my correction back", "The label it would have without your correction", () => void page.edit([{ kind: "forget", part: parts.id[row] }]), "forget"),
+    parts.source[row] === "human" && button(
+      "Take my correction back", "The label it would have without your correction",
+      () => void page.edit([{ kind: "forget", part: parts.id[row] }]), "forget"
+    ),
     reason.element);
 }
 
 /** "All 24 like it" or "this part only". */
 function reach(n: number): HTMLElement {
   const choice = (only: boolean, text: string, test: string) =>
-    el("label", {}, el("input", { type: "radio", name: "reach", checked: onlyThis === only, "data-test": test, onchange: () => (onlyThis = only) }), text);
+    el(
+      "label", {},
+      el(
+        "input",
+        {
+          type: "radio", name: "reach", checked: onlyThis === only, "data-test": test, onchange: () => (onlyThis = only)
+        }
+      ),
+      text
+    );
   return el("fieldset", { class: "reach" }, el("legend", { class: "only-read" }, "For which parts"),
     choice(false, `Same for all ${whole(n)} like it`, "all-alike"), choice(true, "This part only", "this-only"));
 }
@@ -89,10 +113,33 @@ function about(page: Page, content: Content, row: number): HTMLElement {
   const repeats = repeatsOf(parts, row);
   return el("div", {},
     lines([
-      ["Unit", unit && linkButton(`${unit.tag} (${unit.kind ?? unit.type})`, "Select the whole unit", () => page.go(unit.parts, unit.id), "to-unit")],
-      ["System", system && linkButton(system.id, "Select all units of the system", () => page.go(system.units.flatMap((i) => network.units[i].parts)))],
-      ["Cluster", cluster && linkButton(`${cluster.kind ?? cluster.id}, ${count(cluster.n_parts, "part")}`, "Select the cluster", () => page.go(inCluster()))],
-      ["Alike", repeats.length > 1 ? linkButton(count(repeats.length, "part"), "Select all parts of this shape", () => page.go(repeats), "select-alike") : "no other part"],
+      [
+        "Unit",
+        unit && linkButton(
+          `${unit.tag} (${unit.kind ?? unit.type})`, "Select the whole unit", () => page.go(unit.parts, unit.id),
+          "to-unit"
+        )
+      ],
+      [
+        "System",
+        system && linkButton(
+          system.id, "Select all units of the system",
+          () => page.go(system.units.flatMap((i) => network.units[i].parts))
+        )
+      ],
+      [
+        "Cluster",
+        cluster && linkButton(
+          `${cluster.kind ?? cluster.id}, ${count(cluster.n_parts, "part")}`, "Select the cluster",
+          () => page.go(inCluster())
+        )
+      ],
+      [
+        "Alike",
+        repeats.length > 1 ? linkButton(
+          count(repeats.length, "part"), "Select all parts of this shape", () => page.go(repeats), "select-alike"
+        ) : "no other part"
+      ],
       ["Size", lengths(parts.extents.slice(3 * row, 3 * row + 3))],
       ["Area, volume", `${area(parts.area[row])}, ${volume(parts.volume[row])}`],
       ["Triangles", whole(parts.n_triangles[row])],
@@ -104,10 +151,22 @@ function about(page: Page, content: Content, row: number): HTMLElement {
 
 function paths(page: Page, content: Content, row: number): HTMLElement {
   const all = meshesOf(content, row).map((mesh) => content.meshes.path[mesh]);
-  const copy = () => navigator.clipboard.writeText(all.join("\n")).then(() => page.say("Copied the path."), () => page.say("The browser does not let the page copy; select the text instead.", "bad"));
+  const copy = () => navigator.clipboard.writeText(all.join("\n")).then(
+    () => page.say("Copied the path."),
+    () => page.say("The browser does not let the page copy; select the text instead.", "bad")
+  );
   return el("div", { class: "paths" },
-    el("div", { class: "spread" }, el("span", { class: "soft" }, all.length > 1 ? `In the file (${count(all.length, "mesh", "meshes")})` : "In the file"), iconButton("copy", "Copy the path", copy, "copy-path")),
-    ...all.slice(0, 20).map((path) => el("code", {}, path)), all.length > 20 && el("p", { class: "soft" }, `and ${whole(all.length - 20)} more`));
+    el(
+      "div", { class: "spread" },
+      el(
+        "span", { class: "soft" },
+        all.length > 1 ? `In the file (${count(all.length, "mesh", "meshes")})` : "In the file"
+      ),
+      iconButton("copy", "Copy the path", copy, "copy-path")
+    ),
+    ...all.slice(0, 20).map((path) => el("code", {}, path)), all.length > 20 && el(
+      "p", { class: "soft" }, `and ${whole(all.length - 20)} more`
+    ));
 }
 
 function facts(content: Content, row: number): HTMLElement | null {
@@ -147,12 +206,20 @@ function more(page: Page, content: Content, row: number): HTMLElement {
   const unit = network.units[parts.unit[row]];
   const ground = parts.ground[row];
   return el("div", { class: "buttons stack" },
-    unit && unit.parts.length > 1 && button(`Split off ${unit.tag}`, "This part is a unit of its own", () => void page.edit([{ kind: "split", parts: [id] }]), "split"),
+    unit && unit.parts.length > 1 && button(
+      `Split off ${unit.tag}`, "This part is a unit of its own", () => void page.edit([{ kind: "split", parts: [id] }]),
+      "split"
+    ),
     button("Merge with what I click next", "Both are one unit", () => page.pickNext("Click the part or unit that belongs to the same unit", (other) => {
       if (other !== row) void page.edit([{ kind: "merge", parts: [id, parts.id[other]] }]);
     }), "merge"),
-    button("Join with what I click next", "Both join along the pipes", () => page.pickNext("Click the part that it joins", (other) => {
+    button("Join with what I click next", "Both join along the pipes",
+      () => page.pickNext("Click the part that it joins", (other) => {
       if (other !== row) void page.edit([{ kind: "join", first: id, second: parts.id[other] }]);
     }), "join-next"),
-    button(ground ? "It is not the ground" : "It is the ground", ground ? "Count it among the plant again" : "Leave it out of clusters, as ground or floor", () => void page.edit([{ kind: "ground", part: id, ground: !ground }]), "ground"));
+    button(
+      ground ? "It is not the ground" : "It is the ground",
+      ground ? "Count it among the plant again" : "Leave it out of clusters, as ground or floor",
+      () => void page.edit([{ kind: "ground", part: id, ground: !ground }]), "ground"
+    ));
 }

@@ -21,7 +21,13 @@ export function inspectUnit(page: Page, content: Content, unit: Unit, head: HTML
   fill(rest,
     !unit.missing && joints.open && note("It may join what it was not joined to:", joints.open),
     fold("About this unit", true, lines([
-      ["System", system && linkButton(`${system.id}, ${count(system.units.length, "unit")}`, "Select all units of the system", () => page.go(system.units.flatMap((i) => content.network.units[i].parts)))],
+      [
+        "System",
+        system && linkButton(
+          `${system.id}, ${count(system.units.length, "unit")}`, "Select all units of the system",
+          () => page.go(system.units.flatMap((i) => content.network.units[i].parts))
+        )
+      ],
       ["Size", lengths(unit.size)],
       ["Place", unit.point.map((at, i) => (at + content.origin[i]).toFixed(2)).join(", ") + " m"],
       ...unit.facts.map(([key, value]): [string, string] => [upper(key), value]),
@@ -39,7 +45,12 @@ function tagLine(page: Page, unit: Unit): HTMLElement {
   const show = () => fill(box, el("div", { class: "spread" }, el("h2", { "data-test": "unit-tag" }, unit.tag),
     page.canEdit() && iconButton("edit", "Change the tag", edit, "edit-tag")));
   const edit = () => {
-    const input = el("input", { type: "text", value: unit.tag, maxlength: 80, "aria-label": "Tag", "data-test": "tag-input", spellcheck: "false" });
+    const input = el(
+      "input",
+      {
+        type: "text", value: unit.tag, maxlength: 80, "aria-label": "Tag", "data-test": "tag-input", spellcheck: "false"
+      }
+    );
     const trouble = el("p", { class: "trouble", role: "alert" });
     const save = async () => {
       const tag = input.value.trim();
@@ -60,7 +71,11 @@ function tagLine(page: Page, unit: Unit): HTMLElement {
       event.preventDefault();
       event.stopPropagation();
     });
-    fill(box, el("div", { class: "spread" }, input, button("Save", "Take this tag", () => void save(), "tag-save", "main")), trouble);
+    fill(
+      box,
+      el("div", { class: "spread" }, input, button("Save", "Take this tag", () => void save(), "tag-save", "main")),
+      trouble
+    );
     input.select();
   };
   show();
@@ -72,27 +87,44 @@ function kind(unit: Unit): HTMLElement {
   return el("div", { class: "sureness" },
     el("p", { "data-test": "unit-kind" }, upper(unit.kind ?? `${unit.type}, kind not known`)),
     guesses.length > 0 && el("ul", { class: "rows" }, ...guesses.map(([name, share]) =>
-      el("li", { class: "row" }, el("span", { class: "grow" }, upper(name)), bar(share, percent(share)), el("span", { class: "number" }, percent(share))))),
-    guesses.length > 1 && el("p", { class: "soft" }, "The kind follows the labels of its parts: correct one of them to change it."));
+      el(
+        "li", { class: "row" }, el("span", { class: "grow" }, upper(name)), bar(share, percent(share)),
+        el("span", { class: "number" }, percent(share))
+      ))),
+    guesses.length > 1 && el(
+      "p", { class: "soft" }, "The kind follows the labels of its parts: correct one of them to change it."
+    ));
 }
 
 function missing(page: Page, content: Content, unit: Unit): HTMLElement | null {
   if (unit.missing <= 0) return null;
   const open = jointsOf(page, content, unit.parts).open;
   return note(`${count(unit.missing, "line is", "lines are")} missing: a ${unit.kind ?? unit.type} needs more lines than were found here.`,
-    el("p", { class: "soft" }, open ? "It may join one of these:" : "Look for a wrong label beside it, or join it by hand (More corrections)."), open);
+    el(
+      "p", { class: "soft" },
+      open ? "It may join one of these:" : "Look for a wrong label beside it, or join it by hand (More corrections)."
+    ), open);
 }
 
 function ports(unit: Unit): HTMLElement {
   if (!unit.ports.length) return el("p", { class: "soft" }, "No port was found.");
   return el("ul", { class: "rows" }, ...unit.ports.map((port) =>
-    el("li", { class: "row" }, el("b", {}, port.name), el("span", { class: "grow soft" }, port.diameter === null ? "diameter not known" : `⌀ ${length(port.diameter)}`))));
+    el(
+      "li", { class: "row" }, el("b", {}, port.name),
+      el("span", { class: "grow soft" }, port.diameter === null ? "diameter not known" : `⌀ ${length(port.diameter)}`)
+    )));
 }
 
 function explode(page: Page, unit: Unit): HTMLElement | null {
   if (unit.parts.length < 2) return null;
   const now = page.store.shown.explode;
-  const input = el("input", { type: "range", min: 0, max: 100, value: now?.unit === unit.id ? 100 * now.share : 0, "aria-label": "Draw its parts apart", "data-test": "explode", "data-key": "explode" });
+  const input = el(
+    "input",
+    {
+      type: "range", min: 0, max: 100, value: now?.unit === unit.id ? 100 * now.share : 0,
+      "aria-label": "Draw its parts apart", "data-test": "explode", "data-key": "explode"
+    }
+  );
   input.addEventListener("input", () => {
     const share = Number(input.value) / 100;
     page.store.set({ explode: share ? { unit: unit.id, share } : null });
@@ -103,7 +135,8 @@ function explode(page: Page, unit: Unit): HTMLElement | null {
 function more(page: Page, content: Content, unit: Unit, row: number): HTMLElement {
   const id = (part: number) => content.parts.id[part];
   return el("div", { class: "buttons stack" },
-    button("Merge with the unit I click next", "Both are one unit", () => page.pickNext(`Click the unit that ${unit.tag} belongs to`, (part) => {
+    button("Merge with the unit I click next", "Both are one unit",
+      () => page.pickNext(`Click the unit that ${unit.tag} belongs to`, (part) => {
       const other = content.network.units[content.parts.unit[part]];
       if (content.parts.unit[part] === row) page.say(`That is ${unit.tag} itself.`);
       else void page.edit([{ kind: "merge", parts: [...unit.parts, ...(other?.parts ?? [part])].map(id) }]);
@@ -112,7 +145,8 @@ function more(page: Page, content: Content, unit: Unit, row: number): HTMLElemen
       if (content.parts.unit[part] === row) void page.edit([{ kind: "split", parts: [id(part)] }]);
       else page.say(`That part does not belong to ${unit.tag}.`);
     }), "split"),
-    button("Join with the part I click next", "They join along the pipes", () => page.pickNext(`Click the part that joins ${unit.tag}`, (part) => {
+    button("Join with the part I click next", "They join along the pipes",
+      () => page.pickNext(`Click the part that joins ${unit.tag}`, (part) => {
       const first = nearest(content, unit.parts, part);
       if (content.parts.unit[part] !== row) void page.edit([{ kind: "join", first: id(first), second: id(part) }]);
     }), "join-next"));
@@ -136,15 +170,21 @@ const ENDS: Record<End["kind"], [string, string]> = {
 export function inspectEnd(page: Page, content: Content, end: End, head: HTMLElement, rest: HTMLElement): void {
   const [name, words] = ENDS[end.kind];
   fill(head,
-    el("div", { class: "title" }, el("div", { class: "grow" }, el("h2", { "data-test": "end-name" }, name), el("p", { class: "soft" }, end.name))),
+    el(
+      "div", { class: "title" },
+      el("div", { class: "grow" }, el("h2", { "data-test": "end-name" }, name), el("p", { class: "soft" }, end.name))
+    ),
     el("p", {}, words), viewButtons(page, end.parts));
   const joints = jointsOf(page, content, end.parts);
   const first = end.parts[0];
   fill(rest,
     joints.open && note("Near it, not joined:", joints.open),
     page.canEdit() && end.kind !== "junction" && first !== undefined && el("div", { class: "buttons" },
-      button("Join with the part I click next", "They join along the pipes", () => page.pickNext("Click the part that this end joins", (part) => {
-        if (!end.parts.includes(part)) void page.edit([{ kind: "join", first: content.parts.id[nearest(content, end.parts, part)], second: content.parts.id[part] }]);
+      button("Join with the part I click next", "They join along the pipes",
+        () => page.pickNext("Click the part that this end joins", (part) => {
+        if (!end.parts.includes(part)) void page.edit(
+          [{ kind: "join", first: content.parts.id[nearest(content, end.parts, part)], second: content.parts.id[part] }]
+        );
       }), "join-next")),
     fold("Parts here", true, partList(page, content, end.parts)),
     joints.made && fold("Joints", false, joints.made));

@@ -24,7 +24,10 @@ export class Inspector {
 
   constructor(page: Page) {
     this.page = page;
-    this.element = el("section", { class: "inspector", "aria-label": "Selection", "data-test": "inspector" }, this.head, this.networkSlot, this.rest);
+    this.element = el(
+      "section", { class: "inspector", "aria-label": "Selection", "data-test": "inspector" }, this.head,
+      this.networkSlot, this.rest
+    );
     this.rest.addEventListener("toggle", (event) => this.noteToggle(event.target as HTMLDetailsElement), true);
     this.element.addEventListener("focusout", () => this.late && this.render());
     page.store.watch(["selection", "place", "isolated"], () => this.render());
@@ -83,17 +86,39 @@ export class Inspector {
     const n = parts.id.length;
     const rows = (["sure", "likely", "open"] as const).map((state) =>
       el("li", { class: "row" }, swatch(state === "open" ? null : "var(--accent)", state),
-        linkButton({ sure: "Sure", likely: "Likely, not sure", open: "Not known" }[state], "Select these parts", () => this.page.store.select(parts.state.flatMap((s, row) => (s === state ? [row] : [])))),
-        el("span", { class: "grow" }), bar(states[state] / Math.max(n, 1), percent(states[state] / Math.max(n, 1)), state), el("span", { class: "number" }, whole(states[state]))));
+        linkButton(
+          { sure: "Sure", likely: "Likely, not sure", open: "Not known" }[state], "Select these parts",
+          () => this.page.store.select(parts.state.flatMap((s, row) => (s === state ? [row] : [])))
+        ),
+        el("span", { class: "grow" }), bar(
+          states[state] / Math.max(n, 1), percent(states[state] / Math.max(n, 1)), state
+        ), el("span", { class: "number" }, whole(states[state]))));
     const { canEdit, store } = this.page;
     fill(this.head,
-      el("div", { class: "title" }, el("div", { class: "grow" }, el("h2", {}, content.title), el("p", { class: "soft" }, `${count(n, "part")}, ${count(network.units.length, "unit")}, ${count(network.lines.length, "line")}, ${count(network.systems.length, "system")}`))),
+      el(
+        "div", { class: "title" },
+        el(
+          "div", { class: "grow" }, el("h2", {}, content.title),
+          el(
+            "p", { class: "soft" },
+            `${count(n, "part")}, ${count(network.units.length, "unit")}, ${count(network.lines.length, "line")}, ${count(network.systems.length, "system")}`
+          )
+        )
+      ),
       el("h3", {}, "How sure the labels are"), el("ul", { class: "rows" }, ...rows));
     fill(this.rest,
       el("div", { class: "empty" },
         el("p", {}, "Click a part to see what it is and how sure that is. Click it again for its whole unit."),
-        canEdit() && el("p", {}, "A wrong label? Click the part, then click what it is: all parts of its shape follow.")),
-      canEdit() && el("div", { class: "buttons" }, button("Start the review", "What is most worth a look first (r)", () => store.set({ leftTab: "review" }), "start-review", "main")));
+        canEdit() && el(
+          "p", {}, "A wrong label? Click the part, then click what it is: all parts of its shape follow."
+        )),
+      canEdit() && el(
+        "div", { class: "buttons" },
+        button(
+          "Start the review", "What is most worth a look first (r)", () => store.set({ leftTab: "review" }),
+          "start-review", "main"
+        )
+      ));
   }
 
   private noteToggle(box: HTMLDetailsElement): void {

@@ -25,9 +25,13 @@ const NARROW = 900;
 /** The table keeps this width beside the drawing [px]. */
 const TABLE = 240;
 
-export function layOut(store: Store, top: HTMLElement, inspector: HTMLElement, table: HTMLElement, panels: Record<LeftTab, HTMLElement>): Layout {
+export function layOut(
+  store: Store, top: HTMLElement, inspector: HTMLElement, table: HTMLElement, panels: Record<LeftTab, HTMLElement>
+): Layout {
   const middle = el("main", { class: "middle", id: "view", "aria-label": "The plant" });
-  const schematicPane = el("section", { class: "schematic-pane", id: "schematic", "aria-label": "Schematic", "data-test": "schematic" });
+  const schematicPane = el(
+    "section", { class: "schematic-pane", id: "schematic", "aria-label": "Schematic", "data-test": "schematic" }
+  );
   const { element: left, tabs } = leftPanel(store, panels);
   const right = el("aside", { class: "right", "aria-label": "Inspector", id: "right" }, inspector);
   const bottom = el("div", { class: "bottom" }, schematicPane, table);
@@ -36,10 +40,34 @@ export function layOut(store: Store, top: HTMLElement, inspector: HTMLElement, t
   const root = el("div", { class: "page" }, top, body);
 
   const size = (name: string) => (value: number) => root.style.setProperty(name, `${value}px`);
-  left.after(splitter("Width of the left panel", "vertical", { key: "left", start: 300, least: 230, most: () => Math.min(520, innerWidth * 0.45) }, size("--left"), (now, moved) => now + moved.x));
-  right.before(splitter("Width of the inspector", "vertical", { key: "right", start: 310, least: 240, most: () => Math.min(560, innerWidth * 0.45) }, size("--right"), (now, moved) => now - moved.x));
-  bottom.before(splitter("Height of the panes below", "horizontal", { key: "bottom", start: 240, least: 100, most: () => innerHeight * 0.7 }, size("--bottom"), (now, moved) => now - moved.y));
-  schematicPane.after(splitter("Width of the schematic", "vertical", { key: "drawing", start: 330, least: 160, most: () => (center.clientWidth || innerWidth) - TABLE }, size("--drawing"), (now, moved) => now + moved.x));
+  left.after(
+    splitter(
+      "Width of the left panel", "vertical",
+      { key: "left", start: 300, least: 230, most: () => Math.min(520, innerWidth * 0.45) }, size("--left"),
+      (now, moved) => now + moved.x
+    )
+  );
+  right.before(
+    splitter(
+      "Width of the inspector", "vertical",
+      { key: "right", start: 310, least: 240, most: () => Math.min(560, innerWidth * 0.45) }, size("--right"),
+      (now, moved) => now - moved.x
+    )
+  );
+  bottom.before(
+    splitter(
+      "Height of the panes below", "horizontal",
+      { key: "bottom", start: 240, least: 100, most: () => innerHeight * 0.7 }, size("--bottom"),
+      (now, moved) => now - moved.y
+    )
+  );
+  schematicPane.after(
+    splitter(
+      "Width of the schematic", "vertical",
+      { key: "drawing", start: 330, least: 160, most: () => (center.clientWidth || innerWidth) - TABLE },
+      size("--drawing"), (now, moved) => now + moved.x
+    )
+  );
 
   const open = { left: true, right: true };
   const handles = {
@@ -65,7 +93,9 @@ export function layOut(store: Store, top: HTMLElement, inspector: HTMLElement, t
     handles[side].setAttribute("aria-label", handles[side].title);
     handles[side].setAttribute("aria-expanded", String(wanted));
   };
-  for (const side of ["left", "right"] as const) setOpen(side, innerWidth >= NARROW && remembered(`open-${side}`) !== "false");
+  for (const side of ["left", "right"] as const) setOpen(
+    side, innerWidth >= NARROW && remembered(`open-${side}`) !== "false"
+  );
 
   matchMedia(`(max-width: ${NARROW - 1}px)`).addEventListener("change", ({ matches }) => {
     for (const side of ["left", "right"] as const) setOpen(side, !matches && remembered(`open-${side}`) !== "false");
@@ -91,11 +121,24 @@ const TABS: [LeftTab, string, string][] = [
 function leftPanel(store: Store, panels: Record<LeftTab, HTMLElement>): { element: HTMLElement; tabs: Layout["tabs"] } {
   const bar = el("div", { class: "tabs", role: "tablist", "aria-label": "Left panel" });
   const tabs: Layout["tabs"] = new Map();
-  const element = el("aside", { class: "left", "aria-label": "Review, find, network, warnings, history", id: "left" }, bar);
+  const element = el(
+    "aside", { class: "left", "aria-label": "Review, find, network, warnings, history", id: "left" }, bar
+  );
   for (const [key, text, title] of TABS) {
     const badge = el("span", { class: "badge", hidden: true });
-    const button = el("button", { type: "button", role: "tab", id: `tab-${key}`, "aria-controls": `panel-${key}`, title, "data-test": `tab-${key}`, onclick: () => store.set({ leftTab: key }) }, text, badge);
-    const panel = el("div", { role: "tabpanel", id: `panel-${key}`, class: "tab-panel", "aria-labelledby": `tab-${key}`, tabindex: "-1" }, panels[key]);
+    const button = el(
+      "button",
+      {
+        type: "button", role: "tab", id: `tab-${key}`, "aria-controls": `panel-${key}`, title,
+        "data-test": `tab-${key}`, onclick: () => store.set({ leftTab: key })
+      },
+      text, badge
+    );
+    const panel = el(
+      "div",
+      { role: "tabpanel", id: `panel-${key}`, class: "tab-panel", "aria-labelledby": `tab-${key}`, tabindex: "-1" },
+      panels[key]
+    );
     tabs.set(key, { button, panel, badge });
     bar.append(button);
     element.append(panel);
@@ -123,10 +166,19 @@ function leftPanel(store: Store, panels: Record<LeftTab, HTMLElement>): { elemen
 }
 
 /** A border that can be dragged, or moved by the arrow keys. */
-function splitter(label: string, direction: "vertical" | "horizontal", bounds: Bounds, apply: (value: number) => void, moved: (now: number, by: { x: number; y: number }) => number): HTMLElement {
+function splitter(
+  label: string, direction: "vertical" | "horizontal", bounds: Bounds, apply: (value: number) => void,
+  moved: (now: number, by: { x: number; y: number }) => number
+): HTMLElement {
   const saved = Number(remembered(`size-${bounds.key}`));
   let now = 0;
-  const bar = el("div", { class: `splitter ${direction} split-${bounds.key}`, role: "separator", tabindex: "0", "aria-orientation": direction, "aria-label": label });
+  const bar = el(
+    "div",
+    {
+      class: `splitter ${direction} split-${bounds.key}`, role: "separator", tabindex: "0",
+      "aria-orientation": direction, "aria-label": label
+    }
+  );
   const set = (value: number) => {
     now = Math.round(Math.max(bounds.least, Math.min(Math.max(bounds.most(), bounds.least), value)));
     bar.setAttribute("aria-valuenow", String(now));
@@ -137,9 +189,13 @@ function splitter(label: string, direction: "vertical" | "horizontal", bounds: B
   bar.addEventListener("pointerdown", (event) => {
     bar.setPointerCapture(event.pointerId);
     const from = { x: event.clientX, y: event.clientY, now };
-    const move = (event: PointerEvent) => set(moved(from.now, { x: event.clientX - from.x, y: event.clientY - from.y }));
+    const move = (event: PointerEvent) => set(
+      moved(from.now, { x: event.clientX - from.x, y: event.clientY - from.y })
+    );
     bar.addEventListener("pointermove", move);
-    bar.addEventListener("lostpointercapture", () => { bar.removeEventListener("pointermove", move); keep(); }, { once: true });
+    bar.addEventListener(
+      "lostpointercapture", () => { bar.removeEventListener("pointermove", move); keep(); }, { once: true }
+    );
     event.preventDefault();
   });
   bar.addEventListener("dblclick", () => { set(bounds.start); keep(); });

@@ -64,7 +64,9 @@ export function encode(shown: Shown, most = MOST): Encoded {
   if (shown.camera) told.set("at", packCamera(shown.camera));
   if (shown.place) told.set("place", shown.place);
   if (shown.colorBy !== "group") told.set("by", shown.colorBy);
-  if (shown.section) told.set("cut", `${shown.section.axis}${short(shown.section.at)}${shown.section.flipped ? "!" : ""}`);
+  if (shown.section) told.set(
+    "cut", `${shown.section.axis}${short(shown.section.at)}${shown.section.flipped ? "!" : ""}`
+  );
   if (shown.leftTab !== "find") told.set("tab", shown.leftTab);
   if (!shown.ghost) told.set("ghost", "0");
   const left: string[] = [];

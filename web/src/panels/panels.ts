@@ -99,7 +99,11 @@ export function startPanels(app: HTMLElement, store: Store, source: Source): Pan
     edit: page.edit, say,
     untilReady: async () => {
       await untilReady(store, source, corrector, building, say);
-      if (!source.live) layout.middle.append(el("p", { class: "view-only", "data-test": "view-only" }, "View only: corrections are made with 'cadgraph view'."));
+      if (!source.live) layout.middle.append(
+        el(
+          "p", { class: "view-only", "data-test": "view-only" }, "View only: corrections are made with 'cadgraph view'."
+        )
+      );
       address.start();
       if (!source.live && ["review", "history"].includes(store.shown.leftTab)) store.set({ leftTab: "find" });
     },
@@ -112,7 +116,9 @@ export function startPanels(app: HTMLElement, store: Store, source: Source): Pan
 }
 
 /** Follows the server's state from the start; ends when there is something to show. */
-async function untilReady(store: Store, source: Source, corrector: Corrector, building: Building, say: Page["say"]): Promise<void> {
+async function untilReady(
+  store: Store, source: Source, corrector: Corrector, building: Building, say: Page["say"]
+): Promise<void> {
   if (!source.live) {
     store.setState(await source.state());
     store.setContent(await source.content());
@@ -164,7 +170,10 @@ class NextPick {
 
   start(words: string, take: (row: number, place: string | null) => void): void {
     this.end();
-    fill(this.hint, el("span", {}, words), el("button", { type: "button", class: "quiet", onclick: () => this.end() }, "Cancel (Esc)"));
+    fill(
+      this.hint, el("span", {}, words),
+      el("button", { type: "button", class: "quiet", onclick: () => this.end() }, "Cancel (Esc)")
+    );
     this.hint.hidden = false;
     const off = this.store.watch(["selection", "place"], () => {
       const { selection, place } = this.store.shown;
@@ -193,11 +202,20 @@ interface Means {
 function addPageCommands(page: Page, { picking, layout, address, open, find }: Means): void {
   const { store, source } = page;
   const live = () => source.live;
-  const redo = { title: "Redo", area: "Corrections" as const, when: () => page.canEdit() && !!store.state?.can_redo, run: () => void page.redo() };
+  const redo = {
+    title: "Redo", area: "Corrections" as const, when: () => page.canEdit() && !!store.state?.can_redo,
+    run: () => void page.redo()
+  };
   addCommands(
-    { id: "pick-cancel", key: "Escape", title: "Cancel what is going on", area: "Selection", when: () => picking.active, run: () => picking.end() },
+    {
+      id: "pick-cancel", key: "Escape", title: "Cancel what is going on", area: "Selection", when: () => picking.active,
+      run: () => picking.end()
+    },
     { id: "find", key: "/", title: "Find", area: "Selection", run: find },
-    { id: "table", key: "b", title: "Table of parts, units and lines", area: "View", run: () => store.set({ table: !store.shown.table }) },
+    {
+      id: "table", key: "b", title: "Table of parts, units and lines", area: "View",
+      run: () => store.set({ table: !store.shown.table })
+    },
     { id: "fold-left", key: "[", title: "Left panel", area: "View", run: () => layout.toggle("left") },
     { id: "fold-right", key: "]", title: "Inspector", area: "View", run: () => layout.toggle("right") },
     { id: "link", key: "k", title: "Link to this view, and going to one", area: "View", run: () => address.open() },
@@ -207,8 +225,14 @@ function addPageCommands(page: Page, { picking, layout, address, open, find }: M
   addCommands(
     { id: "review", key: "r", title: "Review: what is most worth a look", area: "Review", run: () => open("review") },
     { id: "history", title: "History", area: "Corrections", run: () => open("history") },
-    { id: "label", key: "l", title: "Label what is selected", area: "Corrections", when: () => page.canEdit() && store.shown.selection.length > 0, run: () => labelSelection(page) },
-    { id: "undo", key: "Ctrl+z", title: "Undo", area: "Corrections", when: () => page.canEdit() && !!store.state?.can_undo, run: () => void page.undo() },
+    {
+      id: "label", key: "l", title: "Label what is selected", area: "Corrections",
+      when: () => page.canEdit() && store.shown.selection.length > 0, run: () => labelSelection(page)
+    },
+    {
+      id: "undo", key: "Ctrl+z", title: "Undo", area: "Corrections",
+      when: () => page.canEdit() && !!store.state?.can_undo, run: () => void page.undo()
+    },
     { id: "redo", key: "Ctrl+y", ...redo },
     { id: "redo-shift", key: "Ctrl+Z", ...redo });
 }
@@ -218,6 +242,13 @@ function labelSelection(page: Page): void {
   const content = page.store.content!;
   const rows = page.store.shown.selection;
   const title = rows.length === 1 ? `What is this ${labelOf(content, rows[0]).name.toLowerCase()}?` : `What are these ${whole(rows.length)} parts?`;
-  const first = rows.length === 1 ? content.parts.guesses[rows[0]].flatMap(([group, name]): LabelChoice[] => (content.groups[group] ? [{ group: content.groups[group].name, name }] : [])) : [];
-  page.pickLabel(title, first, (choice) => void page.edit(rows.map((row): Edit => ({ kind: "label", part: content.parts.id[row], ...choice, this_only: rows.length > 1 }))));
+  const first = rows.length === 1 ? content.parts.guesses[rows[0]].flatMap(
+    ([group, name]): LabelChoice[] => (content.groups[group] ? [{ group: content.groups[group].name, name }] : [])
+  ) : [];
+  page.pickLabel(
+    title, first,
+    (choice) => void page.edit(
+      rows.map((row): Edit => ({ kind: "label", part: content.parts.id[row], ...choice, this_only: rows.length > 1 }))
+    )
+  );
 }

@@ -18,7 +18,9 @@ const RECENT = 4;
 function vocabulary(content: Content): Row[] {
   return content.groups.flatMap((group) => [
     { group: group.name, name: null, color: group.color, text: group.name.toLowerCase() },
-    ...group.names.map((name) => ({ group: group.name, name, color: group.color, text: `${name} ${group.name}`.toLowerCase() })),
+    ...group.names.map(
+      (name) => ({ group: group.name, name, color: group.color, text: `${name} ${group.name}`.toLowerCase() })
+    ),
   ]);
 }
 
@@ -26,11 +28,15 @@ function vocabulary(content: Content): Row[] {
 export function matching<T extends { text: string }>(rows: T[], query: string): T[] {
   const words = query.toLowerCase().split(/\s+/).filter(Boolean);
   const hits = rows.filter((row) => words.every((word) => row.text.includes(word)));
-  const lead = (row: T) => (row.text.startsWith(words.join(" ")) ? 0 : words.every((word) => ` ${row.text}`.includes(` ${word}`)) ? 1 : 2);
+  const lead = (row: T) => (
+    row.text.startsWith(words.join(" ")) ? 0 : words.every((word) => ` ${row.text}`.includes(` ${word}`)) ? 1 : 2
+  );
   return words.length ? hits.sort((a, b) => lead(a) - lead(b)) : hits;
 }
 
-export function pickLabel(content: Content, title: string, first: LabelChoice[], take: (choice: LabelChoice) => void): void {
+export function pickLabel(
+  content: Content, title: string, first: LabelChoice[], take: (choice: LabelChoice) => void
+): void {
   const rows = vocabulary(content);
   const find = (choice: LabelChoice) => rows.find((row) => row.group === choice.group && row.name === choice.name);
   const list = el("div", { class: "picker-list", role: "listbox", id: "picker-list", "aria-label": "Labels" });
@@ -66,11 +72,19 @@ export function pickLabel(content: Content, title: string, first: LabelChoice[],
     const near = query ? [] : [...first, ...recent].map(find).filter((row) => row !== undefined);
     shown = query ? matching(rows, query) : [...new Set([...near, ...rows])];
     const options = shown.map((row, i) =>
-      el("div", { role: "option", id: `picker-${i}`, class: row.name ? "option" : "option whole", "data-test": "picker-option", onclick: () => choose(row), onpointermove: () => { if (active !== i) { active = i; mark(false); } } },
+      el("div", {
+        role: "option", id: `picker-${i}`, class: row.name ? "option" : "option whole", "data-test": "picker-option",
+        onclick: () => choose(row), onpointermove: () => { if (active !== i) { active = i; mark(false); } }
+      },
         swatch(row.color, "sure"), el("span", { class: "grow" }, row.name ? upper(row.name) : row.group),
         el("span", { class: "soft" }, row.name ? row.group : "group only")));
     if (near.length) options[new Set(near).size - 1]?.classList.add("last-near");
-    fill(list, ...options, !shown.length && el("p", { class: "empty" }, "No label holds these letters. The vocabulary is what the plant was built with."));
+    fill(
+      list, ...options,
+      !shown.length && el(
+        "p", { class: "empty" }, "No label holds these letters. The vocabulary is what the plant was built with."
+      )
+    );
     mark();
   }
 

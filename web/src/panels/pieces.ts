@@ -20,14 +20,20 @@ export function linkButton(text: string, title: string, run: () => void, test = 
 }
 
 export function button(text: string, title: string, run: () => void, test = "", kind = ""): HTMLButtonElement {
-  return el("button", { type: "button", class: kind || null, title, "data-test": test || null, "data-key": test || text, onclick: run }, text);
+  return el(
+    "button",
+    { type: "button", class: kind || null, title, "data-test": test || null, "data-key": test || text, onclick: run },
+    text
+  );
 }
 
 /** Names of parts that select them; the first few, and how many more there are. */
 export function partList(page: Page, content: Content, rows: readonly number[], most = 40): HTMLElement {
   const list = el("ul", { class: "rows" });
   for (const row of rows.slice(0, most)) put(list, el("li", {}, partButton(page, content, row)));
-  if (rows.length > most) put(list, el("li", { class: "soft" }, `and ${count(rows.length - most, "more part", "more parts")}: see the table`));
+  if (rows.length > most) put(
+    list, el("li", { class: "soft" }, `and ${count(rows.length - most, "more part", "more parts")}: see the table`)
+  );
   return list;
 }
 
@@ -45,14 +51,29 @@ export function viewButtons(page: Page, rows: readonly number[]): HTMLElement {
   const already = isolated && isolated.size === new Set(rows).size && rows.every((row) => isolated.has(row));
   return el("div", { class: "buttons", role: "group", "aria-label": "View" },
     button("Fly to", "Move so that it fills the view (f)", () => page.view?.flyTo(rows), "fly"),
-    button(already ? "Show all" : "Isolate", already ? "Show the rest again" : "Show only this (i)", () => store.set({ isolated: already ? null : new Set(rows) }), "isolate-parts"),
-    button("Hide", "Hide it (h)", () => store.set({ hidden: new Set([...store.shown.hidden, ...rows]), selection: [], place: null }), "hide"));
+    button(
+      already ? "Show all" : "Isolate", already ? "Show the rest again" : "Show only this (i)",
+      () => store.set({ isolated: already ? null : new Set(rows) }), "isolate-parts"
+    ),
+    button(
+      "Hide", "Hide it (h)",
+      () => store.set({ hidden: new Set([...store.shown.hidden, ...rows]), selection: [], place: null }), "hide"
+    ));
 }
 
 /** The "why?" that goes into the history beside the next correction. */
 export function whyField(): { element: HTMLElement; value: () => string } {
-  const input = el("input", { type: "text", class: "wide", maxlength: 300, placeholder: "e.g. seen on P&ID 4711 sheet 2", "aria-label": "Why, for the history", "data-test": "why" });
-  const element = el("details", { class: "why" }, el("summary", {}, "Say why"), input, el("p", { class: "soft" }, "It stands beside the correction in the history."));
+  const input = el(
+    "input",
+    {
+      type: "text", class: "wide", maxlength: 300, placeholder: "e.g. seen on P&ID 4711 sheet 2",
+      "aria-label": "Why, for the history", "data-test": "why"
+    }
+  );
+  const element = el(
+    "details", { class: "why" }, el("summary", {}, "Say why"), input,
+    el("p", { class: "soft" }, "It stands beside the correction in the history.")
+  );
   return { element, value: () => input.value.trim() };
 }
 
@@ -62,22 +83,38 @@ function jointRow(page: Page, content: Content, joint: Joint, of: ReadonlySet<nu
   const id = (row: number) => content.parts.id[row];
   const ends = { first: id(joint.first), second: id(joint.second) };
   const edit = joint.made
-    ? button("Cut", "These two do not join: take the joint away", () => void page.edit([{ kind: "cut", ...ends }]), "cut", "small")
-    : button("Join", "These two join: make the joint", () => void page.edit([{ kind: "join", ...ends }]), "join", "small");
+    ? button(
+      "Cut", "These two do not join: take the joint away", () => void page.edit([{ kind: "cut", ...ends }]), "cut",
+      "small"
+    )
+    : button(
+      "Join", "These two join: make the joint", () => void page.edit([{ kind: "join", ...ends }]), "join", "small"
+    );
   const told = joint.made ? joint.kind : `gap ${length(joint.gap)}, ${percent(joint.score)} likely`;
   return el("li", { class: "joint" },
     linkButton(partTitle(content, other), "Select both and move there", () => page.go([joint.first, joint.second])),
     el("span", { class: "soft grow" }, told), page.canEdit() && edit,
-    joint.reasons.length > 0 && el("details", { class: "reasons" }, el("summary", {}, "reasons"), el("ul", {}, ...joint.reasons.map((reason) => el("li", {}, reason)))));
+    joint.reasons.length > 0 && el(
+      "details", { class: "reasons" }, el("summary", {}, "reasons"),
+      el("ul", {}, ...joint.reasons.map((reason) => el("li", {}, reason)))
+    ));
 }
 
 /** Joints of some parts with others: those not made although they are likely. Those of one part the network's slot tells. */
-export function jointsOf(page: Page, content: Content, rows: readonly number[]): { open: HTMLElement | null; made: HTMLElement | null } {
+export function jointsOf(
+  page: Page, content: Content, rows: readonly number[]
+): { open: HTMLElement | null; made: HTMLElement | null } {
   if (rows.length < 2) return { open: null, made: null };
   const of = new Set(rows);
-  const across = content.network.joints.filter((joint) => of.has(joint.first) !== of.has(joint.second) || (rows.length === 2 && of.has(joint.first) && of.has(joint.second)));
+  const across = content.network.joints.filter(
+    (joint) => of.has(joint.first) !== of.has(joint.second) || (
+      rows.length === 2 && of.has(joint.first) && of.has(joint.second)
+    )
+  );
   const list = (joints: Joint[]) =>
-    joints.length ? el("ul", { class: "joints" }, ...joints.slice(0, 30).map((joint) => jointRow(page, content, joint, of))) : null;
+    joints.length ? el(
+      "ul", { class: "joints" }, ...joints.slice(0, 30).map((joint) => jointRow(page, content, joint, of))
+    ) : null;
   const open = across.filter((joint) => !joint.made && joint.score >= LIKELY).sort((a, b) => b.score - a.score);
   return { open: list(open), made: list(across.filter((joint) => joint.made)) };
 }

@@ -33,7 +33,10 @@ function partColumns(content: Content): Column[] {
     { key: "name", title: "Label", width: 13, of: (row) => parts.name[row] ?? "" },
     { key: "group", title: "Group", width: 13, of: (row) => groups[parts.group[row]]?.name ?? "no label" },
     { key: "sure", title: "How sure", width: 10, of: (row) => howSure(parts.state[row]).split(",")[0] },
-    { key: "confidence", title: "Conf. %", width: 7, number: true, of: (row) => (parts.confidence[row] === null ? null : round(100 * parts.confidence[row]!, 1)) },
+    {
+      key: "confidence", title: "Conf. %", width: 7, number: true,
+      of: (row) => (parts.confidence[row] === null ? null : round(100 * parts.confidence[row]!, 1))
+    },
     { key: "source", title: "Said by", width: 9, of: (row) => parts.source[row] ?? "" },
     { key: "unit", title: "Unit", width: 9, of: (row) => network.units[parts.unit[row]]?.tag ?? "" },
     { key: "system", title: "System", width: 11, of: (row) => network.systems[system(row)]?.id ?? "" },
@@ -41,7 +44,10 @@ function partColumns(content: Content): Column[] {
     { key: "repeats", title: "Alike", width: 6, number: true, of: (row) => repeats.get(parts.shape[row]) ?? 1 },
     { key: "triangles", title: "Triangles", width: 8, number: true, of: (row) => parts.n_triangles[row] },
     { key: "id", title: "Part", width: 10, of: (row) => parts.id[row] },
-    { key: "path", title: "Path in the file", width: 26, of: (row) => meshesOf(content, row).map((mesh) => content.meshes.path[mesh]).join(" ") },
+    {
+      key: "path", title: "Path in the file", width: 26,
+      of: (row) => meshesOf(content, row).map((mesh) => content.meshes.path[mesh]).join(" ")
+    },
   ];
 }
 
@@ -67,7 +73,10 @@ function lineColumns(content: Content): Column[] {
   return [
     { key: "tag", title: "Line", width: 12, of: (row) => lines[row].tag },
     { key: "size", title: "DN", width: 8, of: (row) => lines[row].size },
-    { key: "length", title: "Length m", width: 9, number: true, of: (row) => (lines[row].length === null ? null : round(lines[row].length!, 3)) },
+    {
+      key: "length", title: "Length m", width: 9, number: true,
+      of: (row) => (lines[row].length === null ? null : round(lines[row].length!, 3))
+    },
     { key: "start", title: "From", width: 13, of: (row) => name(lines[row].start) },
     { key: "end", title: "To", width: 13, of: (row) => name(lines[row].end) },
     { key: "flow", title: "Flow", width: 9, of: (row) => (lines[row].flow === "none" ? "not known" : lines[row].flow) },

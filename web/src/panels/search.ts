@@ -102,7 +102,9 @@ export class Index {
 
   private unit(i: number, wanted: Wanted): number {
     const unit = this.content.network.units[i];
-    if (wanted.bores.length && !wanted.bores.every((bore) => unit.ports.some((port) => near(port.diameter, bore)))) return -1;
+    if (
+      wanted.bores.length && !wanted.bores.every((bore) => unit.ports.some((port) => near(port.diameter, bore)))
+    ) return -1;
     if (!wanted.lengths.every((span) => unit.size.some((side) => within(side, span)))) return -1;
     const tag = unit.tag.toLowerCase();
     const facts = unit.facts.map(([, value]) => value).join(" ");
@@ -122,7 +124,9 @@ export class Index {
     if (wanted.bores.length && !wanted.bores.every((bore) => this.bores.get(row)?.includes(bore))) return -1;
     const extents = this.content.parts.extents;
     for (const span of wanted.lengths) {
-      if (!within(extents[3 * row], span) && !within(extents[3 * row + 1], span) && !within(extents[3 * row + 2], span)) return -1;
+      if (
+        !within(extents[3 * row], span) && !within(extents[3 * row + 1], span) && !within(extents[3 * row + 2], span)
+      ) return -1;
     }
     return rankOf(this.names[row], this.names[row], `${this.content.parts.id[row]} ${this.paths[row]}`, wanted.words);
   }
@@ -151,7 +155,9 @@ const kept = new WeakMap<object, string[]>();
 function pathsOf(content: Content): string[] {
   let paths = kept.get(content.meshes);
   if (!paths) {
-    paths = content.parts.id.map((_id, row) => meshesOf(content, row).map((mesh) => content.meshes.path[mesh]).join(" ").toLowerCase());
+    paths = content.parts.id.map(
+      (_id, row) => meshesOf(content, row).map((mesh) => content.meshes.path[mesh]).join(" ").toLowerCase()
+    );
     kept.set(content.meshes, paths);
   }
   return paths;

@@ -16,7 +16,14 @@ export class Table {
   private readonly wish: Wish = { kind: "parts", scope: "all", text: "", sort: null, descending: false };
   private readonly head = el("div", { class: "table-head", role: "row", "aria-rowindex": "1" });
   private readonly body = el("div", { class: "table-body", role: "rowgroup" });
-  private readonly scroll = el("div", { class: "table-scroll", role: "grid", tabindex: "0", "aria-label": "Rows: arrow keys choose, Enter moves there", "data-test": "table-rows" }, this.head, this.body);
+  private readonly scroll = el(
+    "div",
+    {
+      class: "table-scroll", role: "grid", tabindex: "0", "aria-label": "Rows: arrow keys choose, Enter moves there",
+      "data-test": "table-rows"
+    },
+    this.head, this.body
+  );
   private readonly total = el("span", { class: "soft", role: "status", "data-test": "table-count" });
   private readonly kinds = new Map<Kind, HTMLButtonElement>();
   private all: Column[] = [];
@@ -44,12 +51,20 @@ export class Table {
   private bar(): HTMLElement {
     const tabs = el("div", { class: "segments", role: "group", "aria-label": "What is listed" });
     for (const [kind, text] of [["parts", "Parts"], ["units", "Units"], ["lines", "Lines"]] as const) {
-      const made = el("button", { type: "button", "aria-pressed": String(kind === this.wish.kind), "data-test": `table-${kind}`, onclick: () => this.show(kind) }, text);
+      const made = el(
+        "button",
+        {
+          type: "button", "aria-pressed": String(kind === this.wish.kind), "data-test": `table-${kind}`,
+          onclick: () => this.show(kind)
+        },
+        text
+      );
       this.kinds.set(kind, made);
       put(tabs, made);
     }
     let due = 0;
-    const filter = el("input", { type: "search", placeholder: "Filter rows…", "aria-label": "Filter rows", "data-test": "table-filter", oninput: (event: Event) => {
+    const filter = el("input", { type: "search", placeholder: "Filter rows…", "aria-label": "Filter rows",
+      "data-test": "table-filter", oninput: (event: Event) => {
       this.wish.text = (event.target as HTMLInputElement).value;
       clearTimeout(due);
       due = window.setTimeout(() => this.refresh(), 120);
@@ -57,10 +72,26 @@ export class Table {
     const scope = el("select", { "aria-label": "Which rows", "data-test": "table-scope", onchange: (event: Event) => {
       this.wish.scope = (event.target as HTMLSelectElement).value as Scope;
       this.refresh();
-    } }, el("option", { value: "all" }, "All"), el("option", { value: "seen" }, "Only what is seen"), el("option", { value: "selected" }, "In the selection"));
+    } }, el("option", { value: "all" }, "All"), el("option", { value: "seen" }, "Only what is seen"), el(
+      "option", { value: "selected" }, "In the selection"
+    ));
     return el("div", { class: "table-bar" }, tabs, filter, scope, this.total, el("span", { class: "grow" }),
-      el("button", { type: "button", class: "quiet", title: "Save the listed rows as CSV", "data-test": "csv", onclick: () => this.save() }, "CSV"),
-      el("button", { type: "button", class: "icon-button", title: "Close the table (b)", "aria-label": "Close the table", onclick: () => this.page.store.set({ table: false }) }, icon("close")));
+      el(
+        "button",
+        {
+          type: "button", class: "quiet", title: "Save the listed rows as CSV", "data-test": "csv",
+          onclick: () => this.save()
+        },
+        "CSV"
+      ),
+      el(
+        "button",
+        {
+          type: "button", class: "icon-button", title: "Close the table (b)", "aria-label": "Close the table",
+          onclick: () => this.page.store.set({ table: false })
+        },
+        icon("close")
+      ));
   }
 
   show(kind: Kind): void {
@@ -98,8 +129,15 @@ export class Table {
   private titles(): void {
     fill(this.head, ...this.all.map((column) => {
       const by = this.wish.sort === column.key;
-      return el("div", { role: "columnheader", class: column.number ? "num" : null, "aria-sort": by ? (this.wish.descending ? "descending" : "ascending") : "none" },
-        el("button", { type: "button", title: `Sort by ${column.title.toLowerCase()}`, onclick: () => this.sort(column.key) }, column.title, by ? (this.wish.descending ? " ▼" : " ▲") : ""));
+      return el("div", {
+        role: "columnheader", class: column.number ? "num" : null,
+        "aria-sort": by ? (this.wish.descending ? "descending" : "ascending") : "none"
+      },
+        el(
+          "button",
+          { type: "button", title: `Sort by ${column.title.toLowerCase()}`, onclick: () => this.sort(column.key) },
+          column.title, by ? (this.wish.descending ? " ▼" : " ▲") : ""
+        ));
     }));
   }
 
@@ -119,20 +157,36 @@ export class Table {
     const { content, shown } = this.page.store;
     if (!content || !shown.table || this.stale) return;
     const first = Math.max(0, Math.floor(this.scroll.scrollTop / ROW) - SPARE);
-    const last = Math.min(this.rows.length, Math.ceil((this.scroll.scrollTop + this.scroll.clientHeight) / ROW) + SPARE);
+    const last = Math.min(
+      this.rows.length, Math.ceil((this.scroll.scrollTop + this.scroll.clientHeight) / ROW) + SPARE
+    );
     const drawn: Node[] = [];
     for (let i = first; i < last; i++) drawn.push(this.line(content, i));
-    if (!this.rows.length) drawn.push(el("p", { class: "empty" }, this.wish.scope === "selected" ? "Nothing is selected." : "No row holds that. Clear the filter to see all."));
+    if (!this.rows.length) drawn.push(
+      el(
+        "p", { class: "empty" },
+        this.wish.scope === "selected" ? "Nothing is selected." : "No row holds that. Clear the filter to see all."
+      )
+    );
     fill(this.body, ...drawn);
   }
 
   private line(content: Content, i: number): HTMLElement {
     const row = this.rows[i];
-    const line = el("div", { role: "row", class: "table-row", "data-index": i, "aria-rowindex": i + 2, "aria-selected": String(this.chosen.has(row)) });
+    const line = el(
+      "div",
+      {
+        role: "row", class: "table-row", "data-index": i, "aria-rowindex": i + 2,
+        "aria-selected": String(this.chosen.has(row))
+      }
+    );
     line.style.transform = `translateY(${i * ROW}px)`;
     this.all.forEach((column, k) => {
       const value = column.of(row);
-      const cell = el("div", { role: "gridcell", class: column.number ? "num" : null }, k === 0 && this.swatch(content, row), column.number && typeof value === "number" && Number.isInteger(value) ? whole(value) : value);
+      const cell = el(
+        "div", { role: "gridcell", class: column.number ? "num" : null }, k === 0 && this.swatch(content, row),
+        column.number && typeof value === "number" && Number.isInteger(value) ? whole(value) : value
+      );
       if (typeof value === "string" && value.length > 12) cell.title = value;
       put(line, cell);
     });
@@ -143,7 +197,9 @@ export class Table {
     if (this.wish.kind === "parts") return swatch(labelOf(content, row).color, content.parts.state[row]);
     if (this.wish.kind === "lines") return null;
     const unit = content.network.units[row];
-    return swatch(content.groups.find((group) => group.unit === unit.type)?.color ?? null, unit.kind ? "sure" : "likely");
+    return swatch(
+      content.groups.find((group) => group.unit === unit.type)?.color ?? null, unit.kind ? "sure" : "likely"
+    );
   }
 
   /** Rows of what is selected. */
@@ -211,7 +267,9 @@ export class Table {
     const at = Math.min(...[...this.chosen].map((row) => this.place.get(row) ?? Infinity));
     const now = Number.isFinite(at) ? at : -1;
     const page = Math.max(1, Math.floor(this.scroll.clientHeight / ROW) - 2);
-    const to = { ArrowDown: now + 1, ArrowUp: now - 1, PageDown: now + page, PageUp: now - page, Home: 0, End: this.rows.length - 1 }[event.key];
+    const to = {
+      ArrowDown: now + 1, ArrowUp: now - 1, PageDown: now + page, PageUp: now - page, Home: 0, End: this.rows.length - 1
+    }[event.key];
     if (to !== undefined) {
       const next = Math.max(0, Math.min(this.rows.length - 1, to));
       this.select(this.rows[next]);
@@ -224,7 +282,10 @@ export class Table {
 
   private save(): void {
     const name = (this.page.store.content?.title ?? "plant").replace(/\.[^.]*$/, "").replace(/[^\w.-]+/g, "_");
-    saveText(`${name}-${this.wish.kind}.csv`, csv(this.all.map((column) => column.title), this.rows.map((row) => this.all.map((column) => column.of(row)))));
+    saveText(
+      `${name}-${this.wish.kind}.csv`,
+      csv(this.all.map((column) => column.title), this.rows.map((row) => this.all.map((column) => column.of(row))))
+    );
     this.page.say(`${countWords(this.wish.kind, this.rows.length)} saved as CSV.`, "good");
   }
 }

@@ -24,18 +24,29 @@ export class Toasts {
       icon(tone === "good" ? "check" : tone === "bad" ? "warn" : "dot"), el("span", { class: "toast-text" }, text));
     const close = () => toast.remove();
     for (const action of actions) {
-      toast.append(el("button", { type: "button", class: "quiet", onclick: () => { close(); action.run(); } }, action.text));
+      toast.append(
+        el("button", { type: "button", class: "quiet", onclick: () => { close(); action.run(); } }, action.text)
+      );
     }
-    toast.append(el("button", { type: "button", class: "icon-button", "aria-label": "Dismiss", title: "Dismiss", onclick: close }, icon("close")));
+    toast.append(
+      el(
+        "button", { type: "button", class: "icon-button", "aria-label": "Dismiss", title: "Dismiss", onclick: close },
+        icon("close")
+      )
+    );
     // What was done before has been answered; only the last of it can be taken back from here.
     for (const old of [...this.element.children]) {
-      if ((tone === "good" && old.classList.contains("good")) || old.querySelector(".toast-text")?.textContent === text) old.remove();
+      if (
+        (tone === "good" && old.classList.contains("good")) || old.querySelector(".toast-text")?.textContent === text
+      ) old.remove();
     }
     this.element.append(toast);
     while (this.element.children.length > MOST) this.element.firstElementChild!.remove();
     let timer = setTimeout(close, LASTS[tone]);
     // Who reads or reaches for a button is not to be hurried.
     for (const event of ["pointerenter", "focusin"]) toast.addEventListener(event, () => clearTimeout(timer));
-    for (const event of ["pointerleave", "focusout"]) toast.addEventListener(event, () => { clearTimeout(timer); timer = setTimeout(close, 4000); });
+    for (const event of ["pointerleave", "focusout"]) toast.addEventListener(
+      event, () => { clearTimeout(timer); timer = setTimeout(close, 4000); }
+    );
   }
 }

@@ -37,13 +37,19 @@ export function warningGroups(content: Content): WarningGroup[] {
     else groups.set(key, { key, title, items: [item] });
   };
   for (const warning of networkWarnings(content)) {
-    add(warning.kind, WARNING_TITLES[warning.kind], { text: warning.title, detail: warning.text, place: warning.place, parts: warning.parts });
+    add(
+      warning.kind, WARNING_TITLES[warning.kind],
+      { text: warning.title, detail: warning.text, place: warning.place, parts: warning.parts }
+    );
   }
   for (const { code, message, parts } of content.diagnostics) {
     if (COVERED.has(code)) continue;
     const each = (code === "unlabelled" || code === "likely") && parts.length > 1;
     if (!each) add(code, finding(code), { text: message, detail: "", place: null, parts });
-    else for (const row of parts) add(code, finding(code), { text: partTitle(content, row), detail: "", note: meshName(content, row), place: null, parts: [row] });
+    else for (const row of parts) add(
+      code, finding(code),
+      { text: partTitle(content, row), detail: "", note: meshName(content, row), place: null, parts: [row] }
+    );
   }
   const rank = (group: WarningGroup) => LAST.indexOf(group.key);
   return [...groups.values()].sort((a, b) => rank(a) - rank(b));
@@ -65,7 +71,11 @@ export class Warnings {
     this.changed = changed;
     page.store.on("content", (content) => {
       this.stale = true;
-      this.changed(this.groups(content).filter((group) => !LAST.includes(group.key)).reduce((n, group) => n + group.items.length, 0));
+      this.changed(
+        this.groups(content).filter((group) => !LAST.includes(group.key)).reduce(
+          (n, group) => n + group.items.length, 0
+        )
+      );
       this.draw();
     });
     page.store.watch(["leftTab"], () => this.draw());
@@ -82,28 +92,49 @@ export class Warnings {
     this.stale = false;
     const groups = this.groups(content);
     if (!groups.length) {
-      fill(this.element, el("p", { class: "empty" }, "No warnings: every unit has the lines it needs, and every part a label."));
+      fill(
+        this.element,
+        el("p", { class: "empty" }, "No warnings: every unit has the lines it needs, and every part a label.")
+      );
       return;
     }
     const told = groups.some((group) => !LAST.includes(group.key));
-    fill(this.element, el("p", { class: "soft lead" }, told ? "Click one to see it in its place; the arrows go through them one by one." : "Nothing is wrong; these are only to be known."), ...groups.map((group) => this.group(group)));
+    fill(
+      this.element,
+      el(
+        "p", { class: "soft lead" },
+        told ? "Click one to see it in its place; the arrows go through them one by one." : "Nothing is wrong; these are only to be known."
+      ),
+      ...groups.map((group) => this.group(group))
+    );
   }
 
   private group(group: WarningGroup): HTMLElement {
     const n = group.items.length;
     const where = el("span", { class: "number", "aria-live": "polite" });
     const list = el("ul", { class: "rows" });
-    const step = (by: number) => this.go(group, ((this.at.get(group.key) ?? (by > 0 ? -1 : 0)) + by + n) % n, list, where);
-    const box = el("details", { class: "fold warning-group", open: this.open.has(group.key) || group.items.length <= 4, "data-test": "warning-group", "data-code": group.key },
+    const step = (by: number) => this.go(
+      group, ((this.at.get(group.key) ?? (by > 0 ? -1 : 0)) + by + n) % n, list, where
+    );
+    const box = el("details", {
+      class: "fold warning-group", open: this.open.has(group.key) || group.items.length <= 4,
+      "data-test": "warning-group", "data-code": group.key
+    },
       el("summary", {}, el("span", { class: "grow" }, group.title), el("span", { class: "badge" }, whole(n))),
-      n > 1 && el("div", { class: "spread stepper" }, iconButton("left", "The one before", () => step(-1)), where, iconButton("right", "The next one", () => step(1), "warning-next"),
-        linkButton("Select all", "Select the parts of all of them", () => this.page.store.select([...new Set(group.items.flatMap((item) => item.parts))]))),
+      n > 1 && el("div", { class: "spread stepper" }, iconButton("left", "The one before", () => step(-1)), where,
+        iconButton("right", "The next one", () => step(1), "warning-next"),
+        linkButton(
+          "Select all", "Select the parts of all of them",
+          () => this.page.store.select([...new Set(group.items.flatMap((item) => item.parts))])
+        )),
       list);
     box.addEventListener("toggle", () => (box.open ? this.open.add(group.key) : this.open.delete(group.key)));
     group.items.slice(0, MOST).forEach((item, i) => put(list, el("li", {}, el("button", {
       type: "button", class: "row wrap", "data-test": "warning", disabled: !item.parts.length && !item.place, onclick: () => this.go(group, i, list, where),
     }, el("span", { class: "grow" }, item.text), item.note && el("span", { class: "soft" }, item.note)))));
-    if (n > MOST) put(list, el("li", { class: "soft" }, `and ${count(n - MOST, "more", "more")}: the arrows reach them all`));
+    if (n > MOST) put(
+      list, el("li", { class: "soft" }, `and ${count(n - MOST, "more", "more")}: the arrows reach them all`)
+    );
     where.textContent = `${n}`;
     return box;
   }
