@@ -22,6 +22,8 @@ export interface Answer {
   result: Traced | Isolated;
   /** Valves that the person has ticked off as closed. */
   ticked: Set<string>;
+  /** Parts of the places of the query: by them a place is known again after its tag, and so its id, has changed. */
+  parts: Map<string, readonly number[]>;
 }
 
 export class Asking {
@@ -44,6 +46,10 @@ export class Asking {
     this.panels = panels;
     this.planNow = planNow;
     store.watch(["place", "selection"], () => this.picked());
+    // Whoever takes the marks away ends the answer, too; not so a change of the content, after which is asked again.
+    store.watch(["marks"], () => queueMicrotask(() => {
+      if (this.answer && !this.busy && store.shown.marks === null) this.clear();
+    }));
   }
 
   onChange(listener: () => void): void {
@@ -84,13 +90,21 @@ export class Asking {
   again(): void {
     if (!this.answer) return;
     const { query, ticked } = this.answer;
-    const places = this.planNow().places;
-    if (!places.has(query.at) || (query.to !== null && !places.has(query.to))) {
+    const at = this.nowCalled(query.at);
+    const to = query.to === null ? null : this.nowCalled(query.to);
+    if (at === undefined || to === undefined) {
       this.clear();
       this.panels.say("What was traced is no longer in the network.");
       return;
     }
-    void this.ask(query, ticked);
+    void this.ask({ ...query, at, to }, ticked);
+  }
+
+  private nowCalled(id: string): string | undefined {
+    const { places } = this.planNow();
+    if (places.has(id)) return id;
+    const before = String(this.answer?.parts.get(id) ?? "");
+    return [...places.values()].find((place) => before !== "" && String(place.parts) === before)?.id;
   }
 
   private picked(): void {
@@ -109,7 +123,9 @@ export class Asking {
     try {
       const result = await this.result(query);
       if (turn !== this.turn) return;
-      this.answer = { query, result, ticked: new Set([...ticked].filter((id) => closeOf(result).includes(id))) };
+      const { places } = this.planNow();
+      const parts = new Map([query.at, query.to ?? query.at].map((id) => [id, places.get(id)?.parts ?? []]));
+      this.answer = { query, result, ticked: new Set([...ticked].filter((id) => closeOf(result).includes(id))), parts };
       this.store.set({ marks: this.marksOf(this.answer) });
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
