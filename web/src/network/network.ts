@@ -6,7 +6,7 @@ import type { Panels } from "../panels/panels.ts";
 import type { SceneView } from "../scene/view.ts";
 import type { Store } from "../store.ts";
 import { Asking } from "./asking.ts";
-import { el } from "./dom.ts";
+import { el, keepPresses } from "./dom.ts";
 import { Focus } from "./focus.ts";
 import { fillNotes } from "./notes.ts";
 import { Motion } from "./motion.ts";
@@ -59,6 +59,7 @@ class NetworkArea {
     this.tab = new NetworkTab(panels.networkTab, {
       store, focus: this.focus, planNow, warningsNow: () => this.warnings, go: (id) => this.go(id),
     });
+    keepPresses(this.notes);
     view.element.append(this.notes);
     this.addCommands();
     this.listen();

@@ -59,7 +59,7 @@ function verdict(result: Isolated): HTMLElement {
       "No doubt was found. That is what the model's geometry says: check it on site before anything is opened.");
   }
   const n = result.doubts.length;
-  const reasons = n ? `${counted(n, "doubt")} below must be cleared on site.` : "A way may stay open; read the steps below.";
+  const reasons = n ? `${counted(n, "doubt")} below must be cleared on site.` : "a way may stay open; read the steps below.";
   return el("p", { class: "net-verdict is-unsure", role: "alert" }, el("strong", {}, "Not certain. "),
     `Closing these valves may not cut it off: ${reasons}`);
 }
