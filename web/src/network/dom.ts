@@ -17,6 +17,15 @@ export function el<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** What is pressed in an element is not pressed on what lies below it. */
+export function keepPresses(element: HTMLElement): void {
+  for (const name of ["pointerdown", "click", "dblclick"]) element.addEventListener(name, (event) => event.stopPropagation());
+  // A drag that began elsewhere goes on over it.
+  element.addEventListener("pointermove", (event) => {
+    if (!event.buttons) event.stopPropagation();
+  });
+}
+
 const SVG = "http://www.w3.org/2000/svg";
 
 export function svg<K extends keyof SVGElementTagNameMap>(

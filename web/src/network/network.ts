@@ -6,7 +6,7 @@ import type { Panels } from "../panels/panels.ts";
 import type { SceneView } from "../scene/view.ts";
 import type { Store } from "../store.ts";
 import { Asking } from "./asking.ts";
-import { el } from "./dom.ts";
+import { el, keepPresses } from "./dom.ts";
 import { Focus } from "./focus.ts";
 import { fillNotes } from "./notes.ts";
 import { Motion } from "./motion.ts";
@@ -59,6 +59,7 @@ class NetworkArea {
     this.tab = new NetworkTab(panels.networkTab, {
       store, focus: this.focus, planNow, warningsNow: () => this.warnings, go: (id) => this.go(id),
     });
+    keepPresses(this.notes);
     view.element.append(this.notes);
     this.addCommands();
     this.listen();
@@ -79,14 +80,20 @@ class NetworkArea {
       this.fillSlot();
       this.tab.mark();
     });
-    store.watch(["selection", "place", "hovered", "marks", "hidden", "isolated", "section", "network", "tags", "theme"], () => this.paint());
+    store.watch(
+      ["selection", "place", "hovered", "marks", "hidden", "isolated", "section", "network", "tags", "theme"],
+      () => this.paint(),
+    );
     store.watch(["hidden", "isolated", "section", "explode", "ghost"], () => this.tags.forgetHidden());
+    // Once the page has taken the theme.
+    store.watch(["theme"], () => requestAnimationFrame(() => this.tab.paint()));
     store.watch(["schematic"], () => this.schematic.refresh());
     store.watch(["network", "tags", "schematic"], () => this.tab.fillHead());
     focus.onChange((hoverOnly) => {
       this.paint();
       if (hoverOnly) return;
       this.tab.fillHead();
+      this.tab.paint();
       this.tab.mark();
       this.fillSlot();
       this.fillNotes();

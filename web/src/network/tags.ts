@@ -4,7 +4,7 @@ import { Matrix4 } from "three";
 import type { SceneView } from "../scene/view.ts";
 import type { Store } from "../store.ts";
 import type { Point } from "../types.ts";
-import { el, svg } from "./dom.ts";
+import { el, keepPresses, svg } from "./dom.ts";
 import type { Focus } from "./focus.ts";
 import { type Item, itemsOf, rankOf } from "./items.ts";
 import { leaderEnd, type Placed, placeLabels, type Wish } from "./placement.ts";
@@ -65,6 +65,7 @@ export class TagLayer {
     this.actions = actions;
     const drawing = svg("svg", { class: "net-leader-layer", "aria-hidden": "true" }, this.leaders, this.dots);
     this.root.append(drawing);
+    keepPresses(this.root);
     view.element.append(this.root);
     new ResizeObserver(() => this.measure()).observe(view.element);
     this.measure();
