@@ -1,4 +1,4 @@
-// Runs the tests that need no browser: node test.mjs. Node 20 doesn't read TypeScript, so that they are bundled first.
+// Runs the tests: bundled first, as Node 20 reads no TypeScript.
 import { build } from "esbuild";
 import { spawnSync } from "node:child_process";
 import { mkdtemp, readdir, rm } from "node:fs/promises";
@@ -7,15 +7,22 @@ import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
 const here = dirname(fileURLToPath(import.meta.url));
-const folder = await mkdtemp(join(tmpdir(), "cadgraph-web-"));
+const names = (await readdir(join(here, "test"))).filter((name) => name.endsWith(".test.ts"));
+const target = await mkdtemp(join(tmpdir(), "cadgraph-page-"));
 try {
-  const tests = (await readdir(join(here, "test"))).filter((name) => name.endsWith(".test.ts")).sort();
   await build({
-    absWorkingDir: here, entryPoints: tests.map((name) => `test/${name}`), outdir: folder, bundle: true, platform: "node",
-    format: "esm", outExtension: { ".js": ".mjs" }, logLevel: "warning",
+    absWorkingDir: here,
+    entryPoints: names.map((name) => join("test", name)),
+    outdir: target,
+    outExtension: { ".js": ".mjs" },
+    bundle: true,
+    platform: "node",
+    format: "esm",
+    sourcemap: "inline",
+    logLevel: "warning",
   });
-  const files = tests.map((name) => join(folder, name.replace(/\.ts$/, ".mjs")));
-  process.exitCode = spawnSync(process.execPath, ["--test", ...files], { stdio: "inherit" }).status ?? 1;
+  const files = names.map((name) => join(target, name.replace(/ts$/, "mjs")));
+  process.exitCode = spawnSync(process.execPath, ["--enable-source-maps", "--test", ...files], { stdio: "inherit" }).status ?? 1;
 } finally {
-  await rm(folder, { recursive: true, force: true });
+  await rm(target, { recursive: true });
 }
