@@ -3,8 +3,8 @@
 import { Refused, type Source } from "../api.ts";
 import type { Panels } from "../panels/panels.ts";
 import type { Marks, Store } from "../store.ts";
-import type { Isolated, Traced } from "../types.ts";
-import { partsOf, type Plan } from "./plan.ts";
+import type { Doubt, Isolated, Traced } from "../types.ts";
+import { otherSide, partsOf, type Plan } from "./plan.ts";
 
 export type Direction = "upstream" | "downstream";
 
@@ -22,6 +22,8 @@ export interface Answer {
   result: Traced | Isolated;
   /** Valves that the person has ticked off as closed. */
   ticked: Set<string>;
+  /** Parts of the places of the query: by them a place is known again after its tag, and so its id, has changed. */
+  parts: Map<string, readonly number[]>;
 }
 
 export class Asking {
@@ -44,6 +46,10 @@ export class Asking {
     this.panels = panels;
     this.planNow = planNow;
     store.watch(["place", "selection"], () => this.picked());
+    // Whoever takes the marks away ends the answer, too; not so a change of the content, after which is asked again.
+    store.watch(["marks"], () => queueMicrotask(() => {
+      if (this.answer && !this.busy && store.shown.marks === null) this.clear();
+    }));
   }
 
   onChange(listener: () => void): void {
@@ -84,13 +90,21 @@ export class Asking {
   again(): void {
     if (!this.answer) return;
     const { query, ticked } = this.answer;
-    const places = this.planNow().places;
-    if (!places.has(query.at) || (query.to !== null && !places.has(query.to))) {
+    const at = this.nowCalled(query.at);
+    const to = query.to === null ? null : this.nowCalled(query.to);
+    if (at === undefined || to === undefined) {
       this.clear();
       this.panels.say("What was traced is no longer in the network.");
       return;
     }
-    void this.ask(query, ticked);
+    void this.ask({ ...query, at, to }, ticked);
+  }
+
+  private nowCalled(id: string): string | undefined {
+    const { places } = this.planNow();
+    if (places.has(id)) return id;
+    const before = String(this.answer?.parts.get(id) ?? "");
+    return [...places.values()].find((place) => before !== "" && String(place.parts) === before)?.id;
   }
 
   private picked(): void {
@@ -109,7 +123,9 @@ export class Asking {
     try {
       const result = await this.result(query);
       if (turn !== this.turn) return;
-      this.answer = { query, result, ticked: new Set([...ticked].filter((id) => closeOf(result).includes(id))) };
+      const { places } = this.planNow();
+      const parts = new Map([query.at, query.to ?? query.at].map((id) => [id, places.get(id)?.parts ?? []]));
+      this.answer = { query, result, ticked: new Set([...ticked].filter((id) => closeOf(result).includes(id))), parts };
       this.store.set({ marks: this.marksOf(this.answer) });
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
@@ -128,13 +144,22 @@ export class Asking {
   }
 
   private async result(query: Query): Promise<Traced | Isolated> {
-    if (query.kind === "isolate") return this.source.isolate(query.at);
-    if (query.to === null) return this.source.trace(query.at, query.direction);
+    const at = this.nameOf(query.at);
+    if (query.kind === "isolate") return this.source.isolate(at);
+    if (query.to === null) return this.source.trace(at, query.direction);
     // With the flow where there is such a way; else against it.
-    const along = await this.source.trace(query.at, "downstream", query.to);
+    const to = this.nameOf(query.to);
+    const along = await this.source.trace(at, "downstream", to);
     if (along.places.includes(query.to)) return along;
-    const against = await this.source.trace(query.at, "upstream", query.to);
+    const against = await this.source.trace(at, "upstream", to);
     return against.places.includes(query.to) ? against : along;
+  }
+
+  /** What a place is asked for by: its tag, which the answer then speaks of; its id where others have the same tag. */
+  private nameOf(id: string): string {
+    const { places, named } = this.planNow();
+    const name = places.get(id)?.name ?? id;
+    return named.get(name) === id ? name : id;
   }
 
   private marksOf({ query, result }: Answer): Marks {
@@ -155,6 +180,30 @@ export class Asking {
 /** The valves to be closed; none for a trace. */
 export function closeOf(result: Traced | Isolated): string[] {
   return "close" in result ? result.close : [];
+}
+
+/**
+ * What is not certain of an answer: the server's doubts, and for a trace where it halts, as nobody knows which way the flow
+ * goes on. What leads to a closed end alone is no halt.
+ */
+export function doubtsOf(plan: Plan, { query, result }: Pick<Answer, "query" | "result">): Doubt[] {
+  if (query.kind === "isolate" || query.to !== null) return result.doubts;
+  const { connections, lines } = plan.content.network;
+  const reached = new Set([query.at, ...result.places]);
+  const followed = new Set(result.connections);
+  const halts: Doubt[] = [];
+  for (const id of reached) {
+    for (const row of plan.places.get(id)?.connections ?? []) {
+      const connection = connections[row];
+      const other = otherSide(connection, id);
+      const line = lines[connection.line];
+      if (connection.flow !== "unknown" || followed.has(row) || reached.has(other.id) || line?.flow === "none") continue;
+      const name = plan.places.get(id)!.name;
+      const text = `the way halts at ${name}: the direction of flow towards ${other.name} is unknown${line ? ` (${line.tag})` : ""}`;
+      halts.push({ text, parts: connection.via, place: connection.via.length ? null : id });
+    }
+  }
+  return [...result.doubts, ...halts];
 }
 
 /** Whether an isolation is certain: it says so, and leaves nothing open. */

@@ -79,14 +79,20 @@ class NetworkArea {
       this.fillSlot();
       this.tab.mark();
     });
-    store.watch(["selection", "place", "hovered", "marks", "hidden", "isolated", "section", "network", "tags", "theme"], () => this.paint());
+    store.watch(
+      ["selection", "place", "hovered", "marks", "hidden", "isolated", "section", "network", "tags", "theme"],
+      () => this.paint(),
+    );
     store.watch(["hidden", "isolated", "section", "explode", "ghost"], () => this.tags.forgetHidden());
+    // Once the page has taken the theme.
+    store.watch(["theme"], () => requestAnimationFrame(() => this.tab.paint()));
     store.watch(["schematic"], () => this.schematic.refresh());
     store.watch(["network", "tags", "schematic"], () => this.tab.fillHead());
     focus.onChange((hoverOnly) => {
       this.paint();
       if (hoverOnly) return;
       this.tab.fillHead();
+      this.tab.paint();
       this.tab.mark();
       this.fillSlot();
       this.fillNotes();

@@ -2,7 +2,7 @@
 
 import type { Store } from "../store.ts";
 import type { Doubt, Isolated } from "../types.ts";
-import { type Answer, type Asking, closeOf, isCertain } from "./asking.ts";
+import { type Answer, type Asking, closeOf, doubtsOf, isCertain } from "./asking.ts";
 import { el } from "./dom.ts";
 import type { Focus } from "./focus.ts";
 import type { Plan } from "./plan.ts";
@@ -25,10 +25,11 @@ export function answerCard(answer: Answer, shower: Shower): HTMLElement {
   const clear = el("button", {
     type: "button", "data-test": "net-clear", title: "End this and show everything again (c)", onclick: () => shower.asking.clear(),
   }, "Clear");
-  return el("section", { class: "net-card", "data-test": "net-answer", "aria-label": result.title },
-    el("header", {}, el("h3", {}, result.title), clear),
+  const title = titleOf(answer);
+  return el("section", { class: "net-card", "data-test": "net-answer", "aria-label": title },
+    el("header", {}, el("h3", {}, title), clear),
     query.kind === "isolate" ? verdict(result as Isolated) : null,
-    doubtList(result.doubts, shower),
+    doubtList(doubtsOf(shower.plan, answer), shower),
     query.kind === "isolate" ? closeList(answer, shower) : null,
     steps(result.lines, shower, query.kind === "isolate"));
 }
@@ -37,15 +38,19 @@ export function answerCard(answer: Answer, shower: Shower): HTMLElement {
 export function answerLine(answer: Answer, plan: Plan): { text: string; certain: boolean } {
   const { result, query } = answer;
   if (query.kind === "trace") {
-    const doubts = result.doubts.length ? `; ${counted(result.doubts.length, "doubt")}` : "";
-    return { text: `${result.title}${doubts}`, certain: result.doubts.length === 0 };
+    const n = doubtsOf(plan, answer).length;
+    return { text: `${titleOf(answer)}${n ? `: not certain, ${counted(n, "doubt")}` : ""}`, certain: n === 0 };
   }
   const isolated = result as Isolated;
   const names = isolated.close.map((id) => plan.places.get(id)?.name ?? id);
   const close = names.length === 0 ? "no valve found to close"
     : `close ${names.slice(0, 6).join(", ")}${names.length > 6 ? ` and ${names.length - 6} more` : ""}`;
   const certain = isCertain(isolated);
-  return { text: `${certain ? "" : "Not certain: "}${isolated.title}: ${close}`, certain };
+  return { text: `${certain ? "" : "Not certain: "}${titleOf(answer)}: ${close}`, certain };
+}
+
+function titleOf({ result: { title } }: Answer): string {
+  return title.charAt(0).toUpperCase() + title.slice(1);
 }
 
 function verdict(result: Isolated): HTMLElement {
@@ -90,8 +95,9 @@ function closeList(answer: Answer, shower: Shower): HTMLElement {
 
 function steps(lines: readonly string[], shower: Shower, folded: boolean): HTMLElement | null {
   if (!lines.length) return null;
-  const list = el("ol", { class: "net-steps", "data-test": "net-steps" },
-    ...lines.map((line) => el("li", {}, ...linked(line, shower))));
+  // The lines are columns of text, as the command line prints them.
+  const list = el("div", { class: "net-steps", "data-test": "net-steps", tabindex: "0", role: "group", "aria-label": "Steps" },
+    ...lines.map((line) => el("div", { class: /\S {2,}\S/.test(line) ? "" : "is-text" }, ...linked(line || " ", shower))));
   if (!folded) return list;
   return el("details", { open: true }, el("summary", {}, "How it was found"), list);
 }

@@ -120,7 +120,7 @@ export class Schematic {
       if (known) known.push(element);
       else this.elements.set(key, [element]);
     }
-    if (!this.frame || !this.touched) this.open();
+    if (this.measure() && (!this.frame || !this.touched)) this.open();
     this.lastShown = "";
     this.light();
   }
@@ -173,7 +173,7 @@ export class Schematic {
   private show(keys: ReadonlySet<string>, closer: boolean): void {
     const box = this.boxOf(keys);
     const sheet = this.sheetSize();
-    if (!box || !sheet || !this.frame) return;
+    if (!box || !sheet || !this.frame || !this.measure()) return;
     const frame = showing(this.frame, box, sheet, this.size, closer);
     if (frame === this.frame) return;
     this.touched = true;
@@ -219,10 +219,15 @@ export class Schematic {
   }
 
   private resized(): void {
+    if (this.measure() && !this.touched) this.open();
+  }
+
+  /** False where the pane isn't there to be seen. */
+  private measure(): boolean {
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    if (!width || !height) return;
+    if (!width || !height) return false;
     this.size = { width, height };
-    if (!this.touched) this.open();
+    return true;
   }
 
   private tell(text: string): void {

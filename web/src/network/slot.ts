@@ -137,6 +137,10 @@ function directionButtons(flow: Flow, source: string, target: string, send: (flo
     choice("unknown", "Take back", "Takes a direction back that was set by hand"));
 }
 
+function button(test: string, text: string, title: string, run: () => void): HTMLElement {
+  return el("button", { type: "button", "data-test": test, title, onclick: run }, text);
+}
+
 function directionEdit({ plan }: SlotContext, connection: Connection, flow: Flow): Edit {
   const via = connection.via.map((part) => plan.content.parts.id[part]);
   return { kind: "direction", source: connection.source, target: connection.target, via, flow };
@@ -167,10 +171,12 @@ function jointRow(context: SlotContext, joint: Joint, part: number): HTMLElement
   const ids = { first: parts.id[joint.first], second: parts.id[joint.second] };
   return el("li", { class: joint.made ? "" : "is-unsure", title: joint.reasons.join("; ") },
     el("button", { type: "button", class: "net-link", onclick: () => context.goParts([other]) }, text),
-    el("span", { class: "net-soft" }, `${joint.kind}, ${(1000 * Math.abs(joint.gap)).toFixed(1)} mm, ${shareText(joint.score)}${joint.made ? "" : ", not joined"}`),
+    el("span", { class: "net-soft" }, [
+      joint.kind, `${(1000 * Math.abs(joint.gap)).toFixed(1)} mm`, shareText(joint.score), ...(joint.made ? [] : ["not joined"]),
+    ].join(", ")),
     editable && (joint.made
-      ? el("button", { type: "button", "data-test": "net-cut", title: "These two do not join", onclick: () => void panels.edit([{ kind: "cut", ...ids }]) }, "Cut here")
-      : el("button", { type: "button", "data-test": "net-join", title: "These two join", onclick: () => void panels.edit([{ kind: "join", ...ids }]) }, "Join")));
+      ? button("net-cut", "Cut here", "These two do not join", () => void panels.edit([{ kind: "cut", ...ids }]))
+      : button("net-join", "Join", "These two join", () => void panels.edit([{ kind: "join", ...ids }]))));
 }
 
 /** Seen from a place: → leads away, ← comes here, – unknown. */

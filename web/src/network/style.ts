@@ -44,7 +44,7 @@ export interface Looks {
 }
 
 export function strokesOf(plan: Plan, looks: Looks, palette: Palette): Stroke[] {
-  const sizes = [...new Set(plan.content.network.connections.map((c) => c.size ?? 0))].sort((a, b) => a - b);
+  const sizes = sizesOf(plan);
   return plan.content.network.connections.map((connection, row) => {
     const state = flowState(connection);
     const stroke: Stroke = {
@@ -60,11 +60,23 @@ export function strokesOf(plan: Plan, looks: Looks, palette: Palette): Stroke[] 
   });
 }
 
+/** The colour of a line, as that of its first connection, for lists beside the view. */
+export function lineColor(plan: Plan, row: number, by: LinesBy, palette: Palette): string {
+  const [first] = plan.content.network.lines[row].connections;
+  const color = first === undefined ? palette.faint : colorOf(plan, first, by, palette, sizesOf(plan));
+  return `rgb(${color.map((share) => Math.round(255 * share)).join(" ")})`;
+}
+
+function sizesOf(plan: Plan): number[] {
+  return [...new Set(plan.content.network.connections.map((c) => c.size ?? 0))].sort((a, b) => a - b);
+}
+
 function colorOf(plan: Plan, row: number, by: LinesBy, palette: Palette, sizes: number[]): Rgb {
   const connection = plan.content.network.connections[row];
   if (by === "flow") return connection.flow === "unknown" ? palette.unknown : palette.known;
   if (by === "size") return mix(palette.ramp, sizes.indexOf(connection.size ?? 0) / Math.max(1, sizes.length - 1));
-  const system = plan.content.network.lines[connection.line]?.system ?? plan.places.get(connection.source)?.system ?? -1;
+  const line = plan.content.network.lines[connection.line];
+  const system = line?.system ?? plan.places.get(connection.source)?.system ?? -1;
   const which = by === "line" ? connection.line : system;
   return which < 0 ? palette.faint : palette.several[which % palette.several.length];
 }

@@ -7,7 +7,7 @@ import { flowState, lengthText, lineSizeText } from "./flow.ts";
 import type { Focus } from "./focus.ts";
 import type { Plan } from "./plan.ts";
 import { counted } from "./result.ts";
-import type { LinesBy } from "./style.ts";
+import { lineColor, type LinesBy, readPalette } from "./style.ts";
 import type { NetworkWarning } from "./warnings.ts";
 
 export interface TabContext {
@@ -30,6 +30,7 @@ export class NetworkTab {
   });
   private readonly open = new Set<number>([0]);
   private readonly rows = new Map<string, HTMLElement>();
+  private readonly signs = new Map<number, HTMLElement>();
   private readonly context: TabContext;
 
   constructor(root: HTMLElement, context: TabContext) {
@@ -75,6 +76,16 @@ export class NetworkTab {
       this.warningRow());
   }
 
+  /** Gives the rows of lines the colours that the lines have in the view. */
+  paint(): void {
+    const palette = readPalette(this.list);
+    const plan = this.context.planNow();
+    for (const [row, sign] of this.signs) {
+      if (!plan.content.network.lines[row]) continue;
+      sign.style.borderTopColor = lineColor(plan, row, this.context.focus.linesBy, palette);
+    }
+  }
+
   /** Marks the rows of what is selected. */
   mark(): void {
     const { focus } = this.context;
@@ -98,14 +109,18 @@ export class NetworkTab {
       parts[0] ? `${counted(parts[0], "unit")} without all lines` : "",
       parts[1] ? `${counted(parts[1], "unjoined face")}` : "", parts[2] ? counted(parts[2], "open end") : "",
     ].filter(Boolean).join(", ");
+    const step = (text: string, title: string, key: string, command: string) => el("button", {
+      type: "button", title: `${title} (${key})`, "aria-label": title, onclick: () => run(command),
+    }, text);
     return el("div", { class: "net-row net-warning-row", "data-test": "net-warnings" },
       el("span", { class: "net-warn-sign", "aria-hidden": "true" }, "!"), el("span", {}, words),
       el("span", { class: "net-row-end" },
-        el("button", { type: "button", title: "Previous warning (W)", "aria-label": "Previous warning", onclick: () => run("network.warning.previous") }, "‹"),
+        step("‹", "Previous warning", "W", "network.warning.previous"),
         el("span", { class: "net-soft" }, `${at < 0 ? "–" : at + 1}/${warnings.length}`),
-        el("button", { type: "button", title: "Next warning (w)", "aria-label": "Next warning", onclick: () => run("network.warning.next") }, "›"),
+        step("›", "Next warning", "w", "network.warning.next"),
         el("button", {
-          type: "button", title: "Show warnings in the view", "aria-pressed": String(focus.warnings), "data-test": "net-toggle-warnings",
+          type: "button", title: "Show warnings in the view", "aria-pressed": String(focus.warnings),
+          "data-test": "net-toggle-warnings",
           onclick: () => focus.set({ warnings: !focus.warnings }),
         }, "Show")));
   }
@@ -114,6 +129,7 @@ export class NetworkTab {
     const { network } = this.context.planNow().content;
     const words = this.search.value.toLowerCase().split(/\s+/).filter(Boolean);
     this.rows.clear();
+    this.signs.clear();
     const blocks: HTMLElement[] = [];
     network.systems.forEach((system, row) => {
       blocks.push(this.block(row, system.id, `${lengthText(system.length)}${system.sizes.length ? `, DN ${range(system.sizes)}` : ""}`, words));
@@ -124,6 +140,7 @@ export class NetworkTab {
       this.list.append(el("p", { class: "net-empty" }, words.length ? "Nothing in the network is called so." : "No units were found."));
     }
     this.mark();
+    this.paint();
   }
 
   private block(system: number, title: string, note: string, words: string[]): HTMLElement {
@@ -145,7 +162,10 @@ export class NetworkTab {
     const block = el("details", {
       open: words.length > 0 || this.open.has(system),
       ontoggle: () => {
-        if (block.open) fillBody();
+        if (block.open) {
+          fillBody();
+          this.paint();
+        }
         if (words.length) return;
         if (block.open) this.open.add(system);
         else this.open.delete(system);
@@ -162,13 +182,15 @@ export class NetworkTab {
     const { focus } = this.context;
     const plan = this.context.planNow();
     const line = plan.content.network.lines[row];
+    const sign = el("span", { class: `net-line-sign${line.flow === "unknown" ? " is-unknown" : ""}`, "aria-hidden": "true" });
+    this.signs.set(row, sign);
     const arrow = { forward: "→", backward: "←" }[line.flow] ?? "–";
     const button = el("button", {
       type: "button", class: "net-item", "data-test": "net-tree-line", "data-line": line.tag,
       title: `${nameOf(plan, line.start)} ${arrow} ${nameOf(plan, line.end)}, ${lengthText(line.length)}`,
       onclick: () => focus.selectLine(row), onpointerenter: () => focus.hoverLine(row), onpointerleave: () => focus.hoverLine(-1),
     },
-    el("span", { class: "net-line-sign", "aria-hidden": "true" }), el("span", { class: "net-name" }, line.tag),
+    sign, el("span", { class: "net-name" }, line.tag),
     el("span", { class: "net-soft" }, `${shortName(plan, line.start)} ${arrow} ${shortName(plan, line.end)}`),
     el("span", { class: "net-row-end net-soft" }, lineSizeText(line.size)));
     this.rows.set(`line ${row}`, button);
