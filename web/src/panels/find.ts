@@ -116,7 +116,8 @@ export function searchField(
     put(list, element);
   }
 
-  page.store.on("content", () => shown && search(shown));
+  // What nobody sees is not searched again.
+  page.store.on("content", () => shown && list.offsetParent && search(shown));
   list.append(said);
   return { input, list, search };
 }
@@ -171,6 +172,9 @@ export class Find {
         ))),
       el("p", { class: "soft" }, "Arrow keys choose, Enter selects and moves there."));
     this.element.append(this.field.input, this.field.list, hints);
+    page.store.watch(["leftTab"], () => {
+      if (page.store.shown.leftTab === "find" && this.field.input.value) this.field.search(this.field.input.value);
+    });
   }
 
   open(query: string): void {
