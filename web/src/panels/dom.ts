@@ -62,7 +62,6 @@ const ICONS: Record<string, string> = {
   check: "M5 12l5 5 9-10",
   warn: "M12 4 2.5 20h19zM12 10v5M12 17.5v.01",
   dot: "M12 9a3 3 0 1 0 0 6 3 3 0 0 0 0-6z",
-  cross: "M7 7l10 10M17 7 7 17",
 };
 
 /** A line icon; decoration: what holds it carries the words. */

@@ -8,7 +8,6 @@ export interface Layout {
   root: HTMLElement;
   middle: HTMLElement;
   schematicPane: HTMLElement;
-  left: HTMLElement;
   tabs: Map<LeftTab, { button: HTMLButtonElement; panel: HTMLElement; badge: HTMLElement }>;
   toggle: (side: "left" | "right", open?: boolean) => void;
   isOpen: (side: "left" | "right") => boolean;
@@ -107,7 +106,7 @@ export function layOut(
   };
   store.watch(["schematic", "table"], panes);
   panes();
-  return { root, middle, schematicPane, left, tabs, toggle, isOpen: (side) => open[side] };
+  return { root, middle, schematicPane, tabs, toggle, isOpen: (side) => open[side] };
 }
 
 const TABS: [LeftTab, string, string][] = [

@@ -28,7 +28,7 @@ export interface Page {
   /** Selects these parts, or a place, and moves to them. */
   go(parts: readonly number[], place?: string | null): void;
   /** Lets the person click what comes next in the view; Escape ends it. */
-  pickNext(words: string, take: (row: number, place: string | null) => void): void;
+  pickNext(words: string, take: (row: number) => void): void;
   /** Lets the person choose a label of the vocabulary. */
   pickLabel(title: string, first: LabelChoice[], take: (choice: LabelChoice) => void): void;
 }

@@ -168,7 +168,7 @@ class NextPick {
     return this.stop !== null;
   }
 
-  start(words: string, take: (row: number, place: string | null) => void): void {
+  start(words: string, take: (row: number) => void): void {
     this.end();
     fill(
       this.hint, el("span", {}, words),
@@ -176,10 +176,10 @@ class NextPick {
     );
     this.hint.hidden = false;
     const off = this.store.watch(["selection", "place"], () => {
-      const { selection, place } = this.store.shown;
+      const { selection } = this.store.shown;
       if (!selection.length) return;
       this.end();
-      take(selection.at(-1)!, place);
+      take(selection.at(-1)!);
     });
     this.stop = off;
   }
