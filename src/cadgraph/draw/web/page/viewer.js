@@ -1,8 +1,4656 @@
-const element = document.getElementById("cadgraph-data-content");
-if (element) {
-  const bytes = Uint8Array.from(atob(element.textContent), (letter) => letter.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  const content = JSON.parse(await new Response(stream).text());
-  document.title = content.title;
-  document.getElementById("plant").textContent = `${content.title}: ${content.parts.id.length} parts`;
+/* cadgraph viewer, Apache-2.0; with three.js and three-mesh-bvh, both MIT: see THIRD_PARTY.txt */
+var yn=class extends Error{status;state;constructor(t,e,n=null){super(t),this.name="Refused",this.status=e,this.state=n}},Vd="cadgraph-data-";function Hd(){return document.getElementById(`${Vd}content`)?new Kc:new Jc(B0())}function B0(){return new URLSearchParams(location.search).get("token")??""}var Jc=class{live=!0;headers;constructor(t){this.headers={Authorization:`Bearer ${t}`}}state=()=>this.json("api/state");content=()=>this.json("api/content");manifest=()=>this.json("api/scene");review=(t=50)=>this.json(`api/review?limit=${t}`);audit=()=>this.json("api/audit");async file(t,e){return(await this.call(`api/scene/${encodeURIComponent(t)}`,{signal:e})).arrayBuffer()}async schematic(){return(await this.call("api/schematic")).text()}async explain(t,e){return(await this.json(`api/${t}/${encodeURIComponent(e)}`)).lines}trace(t,e,n){let s=new URLSearchParams({at:t,direction:e,...n?{to:n}:{}});return this.json(`api/trace?${s}`)}isolate(t){return this.json(`api/isolate?${new URLSearchParams({at:t})}`)}edit=(t,e,n="")=>this.post("api/edit",{version:t,edits:e,why:n});undo=t=>this.post("api/undo",{version:t});redo=t=>this.post("api/redo",{version:t});answer=(t,e,n,s="")=>this.post("api/answer",{version:t,question:e,option:n,why:s});async follow(t,e,n){let s=500;for(;!t.aborted;){try{let o=(await this.call("api/events",{signal:t})).body.pipeThrough(new TextDecoderStream).getReader(),a="";for(;;){let{done:l,value:c}=await o.read();if(l)break;s=500,a+=c;let h;for(;(h=a.indexOf(`
+
+`))>=0;){let u=a.slice(0,h).split(`
+`).filter(d=>d.startsWith("data:")).map(d=>d.slice(5).trim()).join(`
+`);a=a.slice(h+2),u&&e(JSON.parse(u))}}}catch(r){if(t.aborted)return;if(r instanceof yn&&r.status===403){n(r.message);return}}if(t.aborted)return;n("The server does not answer. Corrections that were confirmed are kept; start 'cadgraph view' again."),await new Promise(r=>setTimeout(r,s)),s=Math.min(2*s,5e3)}}async json(t){return(await this.call(t)).json()}async post(t,e){let n={...this.headers,"Content-Type":"application/json"};return(await this.call(t,{method:"POST",body:JSON.stringify(e),headers:n})).json()}async call(t,e={}){let n;try{n=await fetch(t,{headers:this.headers,...e})}catch(s){throw s instanceof DOMException&&s.name==="AbortError"?s:new yn("The server does not answer; start 'cadgraph view' again. Nothing confirmed is lost.",0)}if(!n.ok){let s=await n.json().catch(()=>({}));throw new yn(s.error??`The server answered with ${n.status}.`,n.status,s.state??null)}return n}},zd="This file is for looking only; corrections are made with 'cadgraph view'.",Kc=class{live=!1;async state(){let t=await this.content();return{status:"ready",stage:"",share:1,message:"",version:t.version,read_only:zd,title:t.title,folder:"",can_undo:!1,can_redo:!1,undo:null,redo:null,n_edits:0,lost:[],who:""}}follow=()=>Promise.resolve();content=async()=>JSON.parse(await this.text("content"));manifest=async()=>JSON.parse(await this.text("manifest"));file=t=>this.bytes(t);schematic=()=>this.text("schematic");explain=()=>Promise.resolve([]);review=()=>Promise.resolve([]);audit=()=>Promise.resolve([]);trace=()=>this.refuse();isolate=()=>this.refuse();edit=()=>this.refuse();undo=()=>this.refuse();redo=()=>this.refuse();answer=()=>this.refuse();refuse(){return Promise.reject(new yn(zd,403))}async text(t){return new TextDecoder().decode(await this.bytes(t))}async bytes(t){let e=document.getElementById(Vd+t);if(!e)throw new yn(`This file lacks ${t}; export it again.`,404);let n=Uint8Array.from(atob((e.textContent??"").trim()),r=>r.charCodeAt(0)),s=new Blob([n]).stream().pipeThrough(new DecompressionStream("deflate"));return new Response(s).arrayBuffer()}};var ko=new Map;function Di(...i){for(let t of i)ko.set(t.id,t)}function Gd(){return[...ko.values()]}function ni(i){let t=ko.get(i);t&&(t.when?.()??!0)&&t.run()}function z0(i){return i.key==="Escape"||i.ctrlKey&&!/^[acvxyz]$/i.test(i.key)}function Wd(i){i.addEventListener("keydown",t=>{let e=t,n=e.target,s=!!n&&(n.isContentEditable||/^(INPUT|TEXTAREA|SELECT)$/.test(n.tagName));if(e.defaultPrevented||e.altKey||s&&!z0(e))return;let r=`${e.ctrlKey||e.metaKey?"Ctrl+":""}${e.shiftKey&&e.key.length>1?"Shift+":""}${e.key}`;for(let o of ko.values())if(o.key===r&&(o.when?.()??!0)){e.preventDefault(),o.run();return}})}var V0={junction:"junction",open:"open end",blind:"closed end",unknown:"end of a pipe"};function Er(i){let t={content:i,places:new Map,named:new Map,placeOfPart:new Map,connectionsOfPart:new Map};for(let e of i.network.units)Xd(t,H0(e));for(let e of i.network.ends)Xd(t,G0(e));return i.network.connections.forEach((e,n)=>{for(let s of new Set([e.source,e.target]))t.places.get(s)?.connections.push(n);for(let s of e.via)W0(t.connectionsOfPart,s,n)}),t}function H0(i){return{id:i.id,name:i.tag,type:i.type,what:i.kind??i.type,point:i.point,size:i.size,parts:i.parts,system:i.system,unit:i,connections:[]}}function G0(i){return{id:i.id,name:i.name,type:i.kind,what:V0[i.kind],point:i.point,size:null,parts:i.parts,system:i.system,unit:null,connections:[]}}function Xd(i,t){i.places.set(t.id,t),i.named.has(t.name)?i.named.set(t.name,""):i.named.set(t.name,t.id);for(let e of t.parts)i.placeOfPart.has(e)||i.placeOfPart.set(e,t.id)}function W0(i,t,e){let n=i.get(t);n?n.push(e):i.set(t,[e])}function $d(i,t){let e=new Set;for(let n of t.connections){let s=i.content.network.connections[n];for(let r of s.via)e.add(r);for(let r of[s.source,s.target])r!==t.start&&r!==t.end&&i.places.get(r)?.parts.forEach(o=>e.add(o))}return[...e]}function qd(i,t,e){let n=new Set;for(let s of t)i.places.get(s)?.parts.forEach(r=>n.add(r));for(let s of e)i.content.network.connections[s]?.via.forEach(r=>n.add(r));return n}function Es(i,t){return i.source===t?{id:i.target,name:i.target_name}:{id:i.source,name:i.source_name}}function Yd(i,t){let e=t.start;return t.connections.map(n=>{let s=i.content.network.connections[n],r=s.source===e;return e=r?s.target:s.source,{row:n,along:r}})}var No=class{answer=null;picking=null;busy=!1;refusal=null;turn=0;listeners=new Set;store;source;panels;planNow;constructor(t,e,n,s){this.store=t,this.source=e,this.panels=n,this.planNow=s,t.watch(["place","selection"],()=>this.picked()),t.watch(["marks"],()=>queueMicrotask(()=>{this.answer&&!this.busy&&t.shown.marks===null&&this.clear()}))}onChange(t){this.listeners.add(t)}trace(t,e){return this.ask({kind:"trace",at:t,direction:e,to:null})}isolate(t){return this.ask({kind:"isolate",at:t,direction:"downstream",to:null})}startPick(t){this.picking=this.picking===t?null:t,this.tell()}tick(t,e){e?this.answer?.ticked.add(t):this.answer?.ticked.delete(t),this.tell()}clear(){this.turn++,this.answer=null,this.picking=null,this.busy=!1,this.refusal=null,this.store.set({marks:null}),this.tell()}again(){if(!this.answer)return;let{query:t,ticked:e}=this.answer,n=this.nowCalled(t.at),s=t.to===null?null:this.nowCalled(t.to);if(n===void 0||s===void 0){this.clear(),this.panels.say("What was traced is no longer in the network.");return}this.ask({...t,at:n,to:s},e)}nowCalled(t){let{places:e}=this.planNow();if(e.has(t))return t;let n=String(this.answer?.parts.get(t)??"");return[...e.values()].find(s=>n!==""&&String(s.parts)===n)?.id}picked(){let t=this.store.shown.place??this.planNow().placeOfPart.get(this.store.shown.selection[0])??null;if(this.picking===null||t===null||t===this.picking)return;let e=this.picking;this.picking=null,this.ask({kind:"trace",at:e,direction:"downstream",to:t})}async ask(t,e=new Set){let n=++this.turn;this.busy=!0,this.refusal=null,this.tell();try{let s=await this.result(t);if(n!==this.turn)return;let{places:r}=this.planNow(),o=new Map([t.at,t.to??t.at].map(a=>[a,r.get(a)?.parts??[]]));this.answer={query:t,result:s,ticked:new Set([...e].filter(a=>Do(s).includes(a))),parts:o},this.store.set({marks:this.marksOf(this.answer)})}catch(s){if(!(s instanceof yn))throw s;if(n!==this.turn)return;this.answer=null,this.refusal=s.message,this.store.set({marks:null}),this.panels.say(s.message,"bad")}finally{n===this.turn&&(this.busy=!1,this.tell())}}async result(t){let e=this.nameOf(t.at);if(t.kind==="isolate")return this.source.isolate(e);if(t.to===null)return this.source.trace(e,t.direction);let n=this.nameOf(t.to),s=await this.source.trace(e,"downstream",n);if(s.places.includes(t.to))return s;let r=await this.source.trace(e,"upstream",n);return r.places.includes(t.to)?r:s}nameOf(t){let{places:e,named:n}=this.planNow(),s=e.get(t)?.name??t;return n.get(s)===t?s:t}marksOf({query:t,result:e}){let n=Do(e),s=new Set([t.at,...e.places,...n]),r=new Set(e.connections);return{kind:t.kind,result:e,places:s,connections:r,parts:qd(this.planNow(),s,r),close:new Set(n)}}tell(){for(let t of this.listeners)t()}};function Do(i){return"close"in i?i.close:[]}function jc(i,{query:t,result:e}){if(t.kind==="isolate"||t.to!==null)return e.doubts;let{connections:n,lines:s}=i.content.network,r=new Set([t.at,...e.places]),o=new Set(e.connections),a=[];for(let l of r)for(let c of i.places.get(l)?.connections??[]){let h=n[c],u=Es(h,l),d=s[h.line];if(h.flow!=="unknown"||o.has(c)||r.has(u.id)||d?.flow==="none")continue;let p=`the way halts at ${i.places.get(l).name}: the direction of flow towards ${u.name} is unknown${d?` (${d.tag})`:""}`;a.push({text:p,parts:h.via,place:h.via.length?null:l})}return[...e.doubts,...a]}function Qc(i){return i.sure&&i.doubts.length===0}function J(i,t={},...e){let n=document.createElement(i);for(let[s,r]of Object.entries(t))typeof r=="function"?n.addEventListener(s.slice(2),r):r===!0?n.setAttribute(s,""):r!==!1&&r!==void 0&&n.setAttribute(s,r);for(let s of e)s!=null&&s!==!1&&n.append(s);return n}function Fo(i){for(let t of["pointerdown","click","dblclick"])i.addEventListener(t,e=>e.stopPropagation());i.addEventListener("pointermove",t=>{t.buttons||t.stopPropagation()})}var X0="http://www.w3.org/2000/svg";function $n(i,t,...e){let n=document.createElementNS(X0,i);for(let[s,r]of Object.entries(t))n.setAttribute(s,r);return n.append(...e),n}var Uo=class{linesBy="flow";moving=!1;warning=null;warnings=!0;line=null;hoveredLine=-1;listeners=new Set;store;planNow;constructor(t,e){this.store=t,this.planNow=e}onChange(t){this.listeners.add(t)}set(t){Object.assign(this,t),this.tell()}selectLine(t){let e=this.planNow(),n=e.content.network.lines[t];if(!n)return;let s=$d(e,n);this.line={row:t,selection:s},this.store.select(s),this.tell()}hoverLine(t){t!==this.hoveredLine&&(this.hoveredLine=t,this.tell(!0))}hoverPlace(t){let e=t===null?void 0:this.planNow().places.get(t)?.parts[0];this.store.set({hovered:e??-1})}get selectedLine(){return this.line&&this.line.selection===this.store.shown.selection?this.line.row:-1}get place(){let t=this.planNow(),{place:e,selection:n}=this.store.shown;if(e)return t.places.get(e)??null;if(this.selectedLine>=0||n.length===0)return null;let s=new Set(n.map(o=>t.placeOfPart.get(o))),[r]=s;return s.size===1&&r?t.places.get(r)??null:null}get connections(){let t=this.planNow();if(this.selectedLine>=0)return new Set(t.content.network.lines[this.selectedLine].connections);let e=new Set;if(this.store.shown.place||this.store.shown.selection.length>40)return e;for(let n of this.store.shown.selection)t.placeOfPart.has(n)||t.connectionsOfPart.get(n)?.forEach(s=>e.add(s));return e}get hoveredConnections(){let t=this.planNow(),e=t.content.network.lines[this.hoveredLine];if(e)return new Set(e.connections);let{hovered:n}=this.store.shown;return new Set(t.placeOfPart.has(n)?[]:t.connectionsOfPart.get(n)??[])}get hoveredPlace(){return this.planNow().placeOfPart.get(this.store.shown.hovered)??null}get hovered(){return this.hoveredLine}isPartShown(t){let{hidden:e,isolated:n}=this.store.shown;return!e.has(t)&&(n===null||n.has(t))&&!this.isCut(t)}isCut(t){let{section:e}=this.store.shown;if(!e)return!1;let{center:n,size:s}=this.planNow().content.parts,r=3*t+"xyz".indexOf(e.axis);return e.flipped?n[r]+s[r]/2<e.at:n[r]-s[r]/2>e.at}isPlaceShown(t){return t.parts.length===0||t.parts.some(e=>this.isPartShown(e))}isConnectionShown=t=>{let{via:e,source:n,target:s}=this.planNow().content.network.connections[t];if(e.length)return e.some(o=>this.isPartShown(o));let r=this.planNow().places;return[n,s].every(o=>this.isPlaceShown(r.get(o)))};tell(t=!1){for(let e of this.listeners)e(t)}};var $0=/[\p{L}\p{N}][\p{L}\p{N}_./-]*/gu;function Zd(i,t){let e=[],n=0;for(let s of i.matchAll($0)){let r=s[0].replace(/[./-]+$/,""),o=t.named.get(r);o&&(s.index>n&&e.push({text:i.slice(n,s.index),place:null}),e.push({text:r,place:o}),n=s.index+r.length)}return n<i.length&&e.push({text:i.slice(n),place:null}),e}function Jd(i,t){let{result:e,query:n}=i,s=J("button",{type:"button","data-test":"net-clear",title:"End this and show everything again (c)",onclick:()=>t.asking.clear()},"Clear"),r=th(i);return J("section",{class:"net-card","data-test":"net-answer","aria-label":r},J("header",{},J("h3",{},r),s),n.kind==="isolate"?q0(e):null,Y0(jc(t.plan,i),t),n.kind==="isolate"?Z0(i,t):null,J0(e.lines,t,n.kind==="isolate"))}function Kd(i,t){let{result:e,query:n}=i;if(n.kind==="trace"){let l=jc(t,i).length;return{text:`${th(i)}${l?`: not certain, ${bn(l,"doubt")}`:""}`,certain:l===0}}let s=e,r=s.close.map(l=>t.places.get(l)?.name??l),o=r.length===0?"no valve found to close":`close ${r.slice(0,6).join(", ")}${r.length>6?` and ${r.length-6} more`:""}`,a=Qc(s);return{text:`${a?"":"Not certain: "}${th(i)}: ${o}`,certain:a}}function th({result:{title:i}}){return i.charAt(0).toUpperCase()+i.slice(1)}function q0(i){if(Qc(i))return J("p",{class:"net-verdict"},"No doubt was found. That is what the model's geometry says: check it on site before anything is opened.");let t=i.doubts.length,e=t?`${bn(t,"doubt")} below must be cleared on site.`:"a way may stay open; read the steps below.";return J("p",{class:"net-verdict is-unsure",role:"alert"},J("strong",{},"Not certain. "),`Closing these valves may not cut it off: ${e}`)}function Y0(i,t){return i.length?J("ul",{class:"net-doubts","aria-label":"Doubts"},...i.map(e=>{let n=()=>e.place!==null?t.go(e.place):t.goParts(e.parts),s=e.place!==null||e.parts.length>0,r=`Not certain: ${e.text}`;return J("li",{},s?J("button",{type:"button",class:"net-doubt","data-test":"net-doubt",onclick:n},r):J("span",{class:"net-doubt"},r))})):null}function Z0(i,t){let e=Do(i.result);if(!e.length)return J("p",{class:"net-soft"},"No valve to close was found.");let n=e.filter(s=>i.ticked.has(s)).length;return J("div",{},J("h4",{},"To be closed ",J("span",{class:"net-soft"},`${n} of ${e.length} ticked off`)),J("ul",{class:"net-close"},...e.map(s=>{let r=t.plan.places.get(s),o=J("input",{type:"checkbox","data-test":"net-close-tick","data-id":s,"aria-label":`${r?.name??s} is closed`,checked:i.ticked.has(s),onchange:a=>t.asking.tick(s,a.target.checked)});return J("li",{},o,Fi(s,r?.name??s,t),J("span",{class:"net-soft"},r?.what??""))})))}function J0(i,t,e){if(!i.length)return null;let n=J("div",{class:"net-steps","data-test":"net-steps",tabindex:"0",role:"group","aria-label":"Steps"},...i.map(s=>J("div",{class:/\S {2,}\S/.test(s)?"":"is-text"},...K0(s||" ",t))));return e?J("details",{open:!0},J("summary",{},"How it was found"),n):n}function K0(i,t){return Zd(i,t.plan).map(e=>e.place===null?document.createTextNode(e.text):Fi(e.place,e.text,t))}function Fi(i,t,e){return J("button",{type:"button",class:"net-link","data-id":i,"data-test":"net-link",onclick:()=>e.go(i),onpointerenter:()=>e.focus.hoverPlace(i),onpointerleave:()=>e.focus.hoverPlace(null)},t)}function bn(i,t,e=`${t}s`){return`${i} ${i===1?t:e}`}function Qd(i,t,e,n,s){let r=[],{asking:o}=t;if(o.picking!==null){let l=t.plan.places.get(o.picking)?.name??"it";r.push(jd(`Click where the way from ${l} should lead.`,"","Stop",()=>o.startPick(o.picking)))}if(o.answer){let{text:l,certain:c}=Kd(o.answer,t.plan);r.push(jd(l,c?"":"is-unsure","Clear",()=>o.clear()))}let a=e[n];a&&r.push(j0(a,n,e.length,s)),i.replaceChildren(...r)}function jd(i,t,e,n){return J("div",{class:`net-note ${t}`,role:"status","data-test":"net-note"},J("span",{},i),J("button",{type:"button","data-test":"net-note-end",onclick:n},e))}function j0(i,t,e,n){let s=(r,o,a,l)=>J("button",{type:"button","data-test":r,title:a,"aria-label":a,onclick:l},o);return J("div",{class:"net-note net-warning-card",role:"status","data-test":"net-warning-card"},J("div",{},J("strong",{},i.title),J("p",{},i.text)),J("div",{class:"net-note-tools"},s("net-warning-previous","\u2039","Previous warning (W)",()=>n.step(-1)),J("span",{},`${t+1} of ${e}`),s("net-warning-next","\u203A","Next warning (w)",()=>n.step(1)),s("net-warning-close","\xD7","Close",()=>n.close())))}var Oo=class{timer=0;view;store;focus;overlay;still=matchMedia("(prefers-reduced-motion: reduce)");slow;constructor(t,e,n,s){this.view=t,this.store=e,this.focus=n,this.overlay=s,this.slow=Q0(t.element),this.still.addEventListener("change",()=>this.refresh())}refresh(){let t=this.isWanted();t&&!this.timer&&(this.timer=window.setInterval(()=>this.step(),50)),!t&&this.timer&&(clearInterval(this.timer),this.timer=0,this.overlay.setTime(-1),this.view.invalidate())}isWanted(){let{network:t,marks:e}=this.store.shown;return!t&&!e?!1:this.focus.moving?!0:e?.kind==="trace"&&!this.still.matches&&!this.slow&&this.view.stats.frameMs<8}step(){document.hidden||(this.overlay.setTime(performance.now()/1600%1),this.view.invalidate())}};function Q0(i){let t=i.querySelector("canvas")?.getContext("webgl2"),e=t?.getExtension("WEBGL_debug_renderer_info"),n=t&&e?String(t.getParameter(e.UNMASKED_RENDERER_WEBGL)):"";return/swiftshader|llvmpipe|software/i.test(n)}var Rf=0,Dh=1,Pf=2;var Jr=1,If=2,Ks=3,Kn=0,Ke=1,Fe=2,jn=0,js=1,Fh=2,Uh=3,Oh=4,Kr=5;var ds=100,Lf=101,kf=102,Nf=103,Df=104,Ff=200,Ha=201,Uf=202,Of=203,jr=204,Qs=205,Bf=206,zf=207,Vf=208,Hf=209,Gf=210,Wf=211,Xf=212,$f=213,qf=214,da=0,fa=1,pa=2,Gs=3,ma=4,ga=5,xa=6,va=7,Bh=0,Yf=1,Zf=2,ui=0,zh=1,Vh=2,Hh=3,Gh=4,Wh=5,Xh=6,$h=7;var qh=300,fs=301,tr=302,Ga=303,Wa=304,ya=1e3,ri=1001,ba=1002,Se=1003,Jf=1004;var Qr=1005;var $e=1006,Xa=1007;var Ai=1008;var je=1009,Yh=1010,Zh=1011,er=1012,$a=1013,Sn=1014,Rn=1015,Ln=1016,qa=1017,Ya=1018,ps=1020,Jh=35902,Kh=35899,jh=1021,Qh=1022,Je=1023,Ti=1026,Ci=1027,tu=1028,to=1029,Yi=1030,Za=1031;var Ja=1033,eo=33776,no=33777,io=33778,so=33779,Ka=35840,ja=35841,Qa=35842,tl=35843,el=36196,nl=37492,il=37496,sl=37488,rl=37489,ro=37490,ol=37491,al=37808,ll=37809,cl=37810,hl=37811,ul=37812,dl=37813,fl=37814,pl=37815,ml=37816,gl=37817,xl=37818,vl=37819,yl=37820,bl=37821,_l=36492,wl=36494,Sl=36495,Ml=36283,Tl=36284,oo=36285,El=36286;var Lr=2300,_a=2301,ha=2302,Eh=2303,Ah=2400,Ch=2401,Rh=2402;var Kf=3200;var eu=0,jf=1,Ri="",An="srgb",kr="srgb-linear",Nr="linear",se="srgb";var ua=7680;var Qf=519,tp=512,ep=513,np=514,nu=515,ip=516,sp=517,iu=518,su=519,rp=35044,ru=35048;var ms="300 es",zn=2e3,Dr=2001;function tx(i){for(let t=i.length-1;t>=0;--t)if(i[t]>=65535)return!0;return!1}function ex(i){return ArrayBuffer.isView(i)&&!(i instanceof DataView)}function Fr(i){return document.createElementNS("http://www.w3.org/1999/xhtml",i)}function op(){let i=Fr("canvas");return i.style.display="block",i}var tf={},Ws=null;function ou(...i){let t="THREE."+i.shift();Ws?Ws("log",t,...i):console.log(t,...i)}function ap(i){let t=i[0];if(typeof t=="string"&&t.startsWith("TSL:")){let e=i[1];e&&e.isStackTrace?i[0]+=" "+e.getLocation():i[1]='Stack trace not available. Enable "THREE.Node.captureStackTrace" to capture stack traces.'}return i}function Lt(...i){i=ap(i);let t="THREE."+i.shift();if(Ws)Ws("warn",t,...i);else{let e=i[0];e&&e.isStackTrace?console.warn(e.getError(t)):console.warn(t,...i)}}function kt(...i){i=ap(i);let t="THREE."+i.shift();if(Ws)Ws("error",t,...i);else{let e=i[0];e&&e.isStackTrace?console.error(e.getError(t)):console.error(t,...i)}}function Ir(...i){let t=i.join(" ");t in tf||(tf[t]=!0,Lt(...i))}function lp(i,t,e){return new Promise(function(n,s){function r(){switch(i.clientWaitSync(t,i.SYNC_FLUSH_COMMANDS_BIT,0)){case i.WAIT_FAILED:s();break;case i.TIMEOUT_EXPIRED:setTimeout(r,e);break;default:n()}}setTimeout(r,e)})}var cp={[da]:da,[pa]:xa,[ma]:ma,[Gs]:ga,[fa]:fa,[xa]:pa,[va]:va,[ga]:Gs},ai=class{addEventListener(t,e){this._listeners===void 0&&(this._listeners={});let n=this._listeners;n[t]===void 0&&(n[t]=[]),n[t].indexOf(e)===-1&&n[t].push(e)}hasEventListener(t,e){let n=this._listeners;return n===void 0?!1:n[t]!==void 0&&n[t].indexOf(e)!==-1}removeEventListener(t,e){let n=this._listeners;if(n===void 0)return;let s=n[t];if(s!==void 0){let r=s.indexOf(e);r!==-1&&s.splice(r,1)}}dispatchEvent(t){let e=this._listeners;if(e===void 0)return;let n=e[t.type];if(n!==void 0){t.target=this;let s=n.slice(0);for(let r=0,o=s.length;r<o;r++)s[r].call(this,t);t.target=null}}},sn=["00","01","02","03","04","05","06","07","08","09","0a","0b","0c","0d","0e","0f","10","11","12","13","14","15","16","17","18","19","1a","1b","1c","1d","1e","1f","20","21","22","23","24","25","26","27","28","29","2a","2b","2c","2d","2e","2f","30","31","32","33","34","35","36","37","38","39","3a","3b","3c","3d","3e","3f","40","41","42","43","44","45","46","47","48","49","4a","4b","4c","4d","4e","4f","50","51","52","53","54","55","56","57","58","59","5a","5b","5c","5d","5e","5f","60","61","62","63","64","65","66","67","68","69","6a","6b","6c","6d","6e","6f","70","71","72","73","74","75","76","77","78","79","7a","7b","7c","7d","7e","7f","80","81","82","83","84","85","86","87","88","89","8a","8b","8c","8d","8e","8f","90","91","92","93","94","95","96","97","98","99","9a","9b","9c","9d","9e","9f","a0","a1","a2","a3","a4","a5","a6","a7","a8","a9","aa","ab","ac","ad","ae","af","b0","b1","b2","b3","b4","b5","b6","b7","b8","b9","ba","bb","bc","bd","be","bf","c0","c1","c2","c3","c4","c5","c6","c7","c8","c9","ca","cb","cc","cd","ce","cf","d0","d1","d2","d3","d4","d5","d6","d7","d8","d9","da","db","dc","dd","de","df","e0","e1","e2","e3","e4","e5","e6","e7","e8","e9","ea","eb","ec","ed","ee","ef","f0","f1","f2","f3","f4","f5","f6","f7","f8","f9","fa","fb","fc","fd","fe","ff"];var eh=Math.PI/180,wa=180/Math.PI;function ao(){let i=Math.random()*4294967295|0,t=Math.random()*4294967295|0,e=Math.random()*4294967295|0,n=Math.random()*4294967295|0;return(sn[i&255]+sn[i>>8&255]+sn[i>>16&255]+sn[i>>24&255]+"-"+sn[t&255]+sn[t>>8&255]+"-"+sn[t>>16&15|64]+sn[t>>24&255]+"-"+sn[e&63|128]+sn[e>>8&255]+"-"+sn[e>>16&255]+sn[e>>24&255]+sn[n&255]+sn[n>>8&255]+sn[n>>16&255]+sn[n>>24&255]).toLowerCase()}function Ht(i,t,e){return Math.max(t,Math.min(e,i))}function nx(i,t){return(i%t+t)%t}function nh(i,t,e){return(1-e)*i+e*t}function hp(i){return Math.pow(2,Math.floor(Math.log(i)/Math.LN2))}function au(i){switch(i.constructor){case Uint32Array:return 4294967295;case Uint16Array:return 65535;case Uint8Array:case Uint8ClampedArray:return 255;case Int32Array:return 2147483647;case Int16Array:return 32767;case Int8Array:return 127;default:return}}function ix(i,t){if(t.constructor===Float32Array)return i;let e=au(t);if(e===void 0)throw new Error("THREE.MathUtils: Invalid component type.");return Math.max(i/e,-1)}function sx(i,t){if(t.constructor===Float32Array)return i;let e=au(t);if(e===void 0)throw new Error("THREE.MathUtils: Invalid component type.");return Math.round(i*e)}var At=class{static{this.prototype.isVector2=!0}constructor(t=0,e=0){this.x=t,this.y=e}get width(){return this.x}set width(t){this.x=t}get height(){return this.y}set height(t){this.y=t}set(t,e){return this.x=t,this.y=e,this}setScalar(t){return this.x=t,this.y=t,this}setX(t){return this.x=t,this}setY(t){return this.y=t,this}setComponent(t,e){switch(t){case 0:this.x=e;break;case 1:this.y=e;break;default:throw new Error("THREE.Vector2: index is out of range: "+t)}return this}getComponent(t){switch(t){case 0:return this.x;case 1:return this.y;default:throw new Error("THREE.Vector2: index is out of range: "+t)}}clone(){return new this.constructor(this.x,this.y)}copy(t){return this.x=t.x,this.y=t.y,this}add(t){return this.x+=t.x,this.y+=t.y,this}addScalar(t){return this.x+=t,this.y+=t,this}addVectors(t,e){return this.x=t.x+e.x,this.y=t.y+e.y,this}addScaledVector(t,e){return this.x+=t.x*e,this.y+=t.y*e,this}sub(t){return this.x-=t.x,this.y-=t.y,this}subScalar(t){return this.x-=t,this.y-=t,this}subVectors(t,e){return this.x=t.x-e.x,this.y=t.y-e.y,this}multiply(t){return this.x*=t.x,this.y*=t.y,this}multiplyScalar(t){return this.x*=t,this.y*=t,this}divide(t){return this.x/=t.x,this.y/=t.y,this}divideScalar(t){return this.multiplyScalar(1/t)}applyMatrix3(t){let e=this.x,n=this.y,s=t.elements;return this.x=s[0]*e+s[3]*n+s[6],this.y=s[1]*e+s[4]*n+s[7],this}min(t){return this.x=Math.min(this.x,t.x),this.y=Math.min(this.y,t.y),this}max(t){return this.x=Math.max(this.x,t.x),this.y=Math.max(this.y,t.y),this}clamp(t,e){return this.x=Ht(this.x,t.x,e.x),this.y=Ht(this.y,t.y,e.y),this}clampScalar(t,e){return this.x=Ht(this.x,t,e),this.y=Ht(this.y,t,e),this}clampLength(t,e){let n=this.length();return this.divideScalar(n||1).multiplyScalar(Ht(n,t,e))}floor(){return this.x=Math.floor(this.x),this.y=Math.floor(this.y),this}ceil(){return this.x=Math.ceil(this.x),this.y=Math.ceil(this.y),this}round(){return this.x=Math.round(this.x),this.y=Math.round(this.y),this}roundToZero(){return this.x=Math.trunc(this.x),this.y=Math.trunc(this.y),this}negate(){return this.x=-this.x,this.y=-this.y,this}dot(t){return this.x*t.x+this.y*t.y}cross(t){return this.x*t.y-this.y*t.x}lengthSq(){return this.x*this.x+this.y*this.y}length(){return Math.sqrt(this.x*this.x+this.y*this.y)}manhattanLength(){return Math.abs(this.x)+Math.abs(this.y)}normalize(){return this.divideScalar(this.length()||1)}angle(){return Math.atan2(-this.y,-this.x)+Math.PI}angleTo(t){let e=Math.sqrt(this.lengthSq()*t.lengthSq());if(e===0)return Math.PI/2;let n=this.dot(t)/e;return Math.acos(Ht(n,-1,1))}distanceTo(t){return Math.sqrt(this.distanceToSquared(t))}distanceToSquared(t){let e=this.x-t.x,n=this.y-t.y;return e*e+n*n}manhattanDistanceTo(t){return Math.abs(this.x-t.x)+Math.abs(this.y-t.y)}setLength(t){return this.normalize().multiplyScalar(t)}lerp(t,e){return this.x+=(t.x-this.x)*e,this.y+=(t.y-this.y)*e,this}lerpVectors(t,e,n){return this.x=t.x+(e.x-t.x)*n,this.y=t.y+(e.y-t.y)*n,this}equals(t){return t.x===this.x&&t.y===this.y}fromArray(t,e=0){return this.x=t[e],this.y=t[e+1],this}toArray(t=[],e=0){return t[e]=this.x,t[e+1]=this.y,t}fromBufferAttribute(t,e){return this.x=t.getX(e),this.y=t.getY(e),this}rotateAround(t,e){let n=Math.cos(e),s=Math.sin(e),r=this.x-t.x,o=this.y-t.y;return this.x=r*n-o*s+t.x,this.y=r*s+o*n+t.y,this}random(){return this.x=Math.random(),this.y=Math.random(),this}*[Symbol.iterator](){yield this.x,yield this.y}},Vn=class{constructor(t=0,e=0,n=0,s=1){this.isQuaternion=!0,this._x=t,this._y=e,this._z=n,this._w=s}static slerpFlat(t,e,n,s,r,o,a){let l=n[s+0],c=n[s+1],h=n[s+2],u=n[s+3],d=r[o+0],f=r[o+1],p=r[o+2],b=r[o+3];if(u!==b||l!==d||c!==f||h!==p){let m=l*d+c*f+h*p+u*b;m<0&&(d=-d,f=-f,p=-p,b=-b,m=-m);let g=1-a;if(m<.9995){let y=Math.acos(m),w=Math.sin(y);g=Math.sin(g*y)/w,a=Math.sin(a*y)/w,l=l*g+d*a,c=c*g+f*a,h=h*g+p*a,u=u*g+b*a}else{l=l*g+d*a,c=c*g+f*a,h=h*g+p*a,u=u*g+b*a;let y=1/Math.sqrt(l*l+c*c+h*h+u*u);l*=y,c*=y,h*=y,u*=y}}t[e]=l,t[e+1]=c,t[e+2]=h,t[e+3]=u}static multiplyQuaternionsFlat(t,e,n,s,r,o){let a=n[s],l=n[s+1],c=n[s+2],h=n[s+3],u=r[o],d=r[o+1],f=r[o+2],p=r[o+3];return t[e]=a*p+h*u+l*f-c*d,t[e+1]=l*p+h*d+c*u-a*f,t[e+2]=c*p+h*f+a*d-l*u,t[e+3]=h*p-a*u-l*d-c*f,t}get x(){return this._x}set x(t){this._x=t,this._onChangeCallback()}get y(){return this._y}set y(t){this._y=t,this._onChangeCallback()}get z(){return this._z}set z(t){this._z=t,this._onChangeCallback()}get w(){return this._w}set w(t){this._w=t,this._onChangeCallback()}set(t,e,n,s){return this._x=t,this._y=e,this._z=n,this._w=s,this._onChangeCallback(),this}clone(){return new this.constructor(this._x,this._y,this._z,this._w)}copy(t){return this._x=t.x,this._y=t.y,this._z=t.z,this._w=t.w,this._onChangeCallback(),this}setFromEuler(t,e=!0){let n=t._x,s=t._y,r=t._z,o=t._order,a=Math.cos,l=Math.sin,c=a(n/2),h=a(s/2),u=a(r/2),d=l(n/2),f=l(s/2),p=l(r/2);switch(o){case"XYZ":this._x=d*h*u+c*f*p,this._y=c*f*u-d*h*p,this._z=c*h*p+d*f*u,this._w=c*h*u-d*f*p;break;case"YXZ":this._x=d*h*u+c*f*p,this._y=c*f*u-d*h*p,this._z=c*h*p-d*f*u,this._w=c*h*u+d*f*p;break;case"ZXY":this._x=d*h*u-c*f*p,this._y=c*f*u+d*h*p,this._z=c*h*p+d*f*u,this._w=c*h*u-d*f*p;break;case"ZYX":this._x=d*h*u-c*f*p,this._y=c*f*u+d*h*p,this._z=c*h*p-d*f*u,this._w=c*h*u+d*f*p;break;case"YZX":this._x=d*h*u+c*f*p,this._y=c*f*u+d*h*p,this._z=c*h*p-d*f*u,this._w=c*h*u-d*f*p;break;case"XZY":this._x=d*h*u-c*f*p,this._y=c*f*u-d*h*p,this._z=c*h*p+d*f*u,this._w=c*h*u+d*f*p;break;default:Lt("Quaternion: .setFromEuler() encountered an unknown order: "+o)}return e===!0&&this._onChangeCallback(),this}setFromAxisAngle(t,e){let n=e/2,s=Math.sin(n);return this._x=t.x*s,this._y=t.y*s,this._z=t.z*s,this._w=Math.cos(n),this._onChangeCallback(),this}setFromRotationMatrix(t){let e=t.elements,n=e[0],s=e[4],r=e[8],o=e[1],a=e[5],l=e[9],c=e[2],h=e[6],u=e[10],d=n+a+u;if(d>0){let f=.5/Math.sqrt(d+1);this._w=.25/f,this._x=(h-l)*f,this._y=(r-c)*f,this._z=(o-s)*f}else if(n>a&&n>u){let f=2*Math.sqrt(1+n-a-u);this._w=(h-l)/f,this._x=.25*f,this._y=(s+o)/f,this._z=(r+c)/f}else if(a>u){let f=2*Math.sqrt(1+a-n-u);this._w=(r-c)/f,this._x=(s+o)/f,this._y=.25*f,this._z=(l+h)/f}else{let f=2*Math.sqrt(1+u-n-a);this._w=(o-s)/f,this._x=(r+c)/f,this._y=(l+h)/f,this._z=.25*f}return this._onChangeCallback(),this}setFromUnitVectors(t,e){let n=t.dot(e)+1;return n<1e-8?(n=0,Math.abs(t.x)>Math.abs(t.z)?(this._x=-t.y,this._y=t.x,this._z=0,this._w=n):(this._x=0,this._y=-t.z,this._z=t.y,this._w=n)):(this._x=t.y*e.z-t.z*e.y,this._y=t.z*e.x-t.x*e.z,this._z=t.x*e.y-t.y*e.x,this._w=n),this.normalize()}angleTo(t){return 2*Math.acos(Math.abs(Ht(this.dot(t),-1,1)))}rotateTowards(t,e){let n=this.angleTo(t);if(n===0)return this;let s=Math.min(1,e/n);return this.slerp(t,s),this}identity(){return this.set(0,0,0,1)}invert(){return this.conjugate()}conjugate(){return this._x*=-1,this._y*=-1,this._z*=-1,this._onChangeCallback(),this}dot(t){return this._x*t._x+this._y*t._y+this._z*t._z+this._w*t._w}lengthSq(){return this._x*this._x+this._y*this._y+this._z*this._z+this._w*this._w}length(){return Math.sqrt(this._x*this._x+this._y*this._y+this._z*this._z+this._w*this._w)}normalize(){let t=this.length();return t===0?(this._x=0,this._y=0,this._z=0,this._w=1):(t=1/t,this._x=this._x*t,this._y=this._y*t,this._z=this._z*t,this._w=this._w*t),this._onChangeCallback(),this}multiply(t){return this.multiplyQuaternions(this,t)}premultiply(t){return this.multiplyQuaternions(t,this)}multiplyQuaternions(t,e){let n=t._x,s=t._y,r=t._z,o=t._w,a=e._x,l=e._y,c=e._z,h=e._w;return this._x=n*h+o*a+s*c-r*l,this._y=s*h+o*l+r*a-n*c,this._z=r*h+o*c+n*l-s*a,this._w=o*h-n*a-s*l-r*c,this._onChangeCallback(),this}slerp(t,e){let n=t._x,s=t._y,r=t._z,o=t._w,a=this.dot(t);a<0&&(n=-n,s=-s,r=-r,o=-o,a=-a);let l=1-e;if(a<.9995){let c=Math.acos(a),h=Math.sin(c);l=Math.sin(l*c)/h,e=Math.sin(e*c)/h,this._x=this._x*l+n*e,this._y=this._y*l+s*e,this._z=this._z*l+r*e,this._w=this._w*l+o*e,this._onChangeCallback()}else this._x=this._x*l+n*e,this._y=this._y*l+s*e,this._z=this._z*l+r*e,this._w=this._w*l+o*e,this.normalize();return this}slerpQuaternions(t,e,n){return this.copy(t).slerp(e,n)}random(){let t=2*Math.PI*Math.random(),e=2*Math.PI*Math.random(),n=Math.random(),s=Math.sqrt(1-n),r=Math.sqrt(n);return this.set(s*Math.sin(t),s*Math.cos(t),r*Math.sin(e),r*Math.cos(e))}equals(t){return t._x===this._x&&t._y===this._y&&t._z===this._z&&t._w===this._w}fromArray(t,e=0){return this._x=t[e],this._y=t[e+1],this._z=t[e+2],this._w=t[e+3],this._onChangeCallback(),this}toArray(t=[],e=0){return t[e]=this._x,t[e+1]=this._y,t[e+2]=this._z,t[e+3]=this._w,t}fromBufferAttribute(t,e){return this._x=t.getX(e),this._y=t.getY(e),this._z=t.getZ(e),this._w=t.getW(e),this._onChangeCallback(),this}toJSON(){return this.toArray()}_onChange(t){return this._onChangeCallback=t,this}_onChangeCallback(){}*[Symbol.iterator](){yield this._x,yield this._y,yield this._z,yield this._w}},N=class{static{this.prototype.isVector3=!0}constructor(t=0,e=0,n=0){this.x=t,this.y=e,this.z=n}set(t,e,n){return n===void 0&&(n=this.z),this.x=t,this.y=e,this.z=n,this}setScalar(t){return this.x=t,this.y=t,this.z=t,this}setX(t){return this.x=t,this}setY(t){return this.y=t,this}setZ(t){return this.z=t,this}setComponent(t,e){switch(t){case 0:this.x=e;break;case 1:this.y=e;break;case 2:this.z=e;break;default:throw new Error("THREE.Vector3: index is out of range: "+t)}return this}getComponent(t){switch(t){case 0:return this.x;case 1:return this.y;case 2:return this.z;default:throw new Error("THREE.Vector3: index is out of range: "+t)}}clone(){return new this.constructor(this.x,this.y,this.z)}copy(t){return this.x=t.x,this.y=t.y,this.z=t.z,this}add(t){return this.x+=t.x,this.y+=t.y,this.z+=t.z,this}addScalar(t){return this.x+=t,this.y+=t,this.z+=t,this}addVectors(t,e){return this.x=t.x+e.x,this.y=t.y+e.y,this.z=t.z+e.z,this}addScaledVector(t,e){return this.x+=t.x*e,this.y+=t.y*e,this.z+=t.z*e,this}sub(t){return this.x-=t.x,this.y-=t.y,this.z-=t.z,this}subScalar(t){return this.x-=t,this.y-=t,this.z-=t,this}subVectors(t,e){return this.x=t.x-e.x,this.y=t.y-e.y,this.z=t.z-e.z,this}multiply(t){return this.x*=t.x,this.y*=t.y,this.z*=t.z,this}multiplyScalar(t){return this.x*=t,this.y*=t,this.z*=t,this}multiplyVectors(t,e){return this.x=t.x*e.x,this.y=t.y*e.y,this.z=t.z*e.z,this}applyEuler(t){return this.applyQuaternion(ef.setFromEuler(t))}applyAxisAngle(t,e){return this.applyQuaternion(ef.setFromAxisAngle(t,e))}applyMatrix3(t){let e=this.x,n=this.y,s=this.z,r=t.elements;return this.x=r[0]*e+r[3]*n+r[6]*s,this.y=r[1]*e+r[4]*n+r[7]*s,this.z=r[2]*e+r[5]*n+r[8]*s,this}applyNormalMatrix(t){return this.applyMatrix3(t).normalize()}applyMatrix4(t){let e=this.x,n=this.y,s=this.z,r=t.elements,o=1/(r[3]*e+r[7]*n+r[11]*s+r[15]);return this.x=(r[0]*e+r[4]*n+r[8]*s+r[12])*o,this.y=(r[1]*e+r[5]*n+r[9]*s+r[13])*o,this.z=(r[2]*e+r[6]*n+r[10]*s+r[14])*o,this}applyQuaternion(t){let e=this.x,n=this.y,s=this.z,r=t.x,o=t.y,a=t.z,l=t.w,c=2*(o*s-a*n),h=2*(a*e-r*s),u=2*(r*n-o*e);return this.x=e+l*c+o*u-a*h,this.y=n+l*h+a*c-r*u,this.z=s+l*u+r*h-o*c,this}project(t){return this.applyMatrix4(t.matrixWorldInverse).applyMatrix4(t.projectionMatrix)}unproject(t){return this.applyMatrix4(t.projectionMatrixInverse).applyMatrix4(t.matrixWorld)}transformDirection(t){let e=this.x,n=this.y,s=this.z,r=t.elements;return this.x=r[0]*e+r[4]*n+r[8]*s,this.y=r[1]*e+r[5]*n+r[9]*s,this.z=r[2]*e+r[6]*n+r[10]*s,this.normalize()}divide(t){return this.x/=t.x,this.y/=t.y,this.z/=t.z,this}divideScalar(t){return this.multiplyScalar(1/t)}min(t){return this.x=Math.min(this.x,t.x),this.y=Math.min(this.y,t.y),this.z=Math.min(this.z,t.z),this}max(t){return this.x=Math.max(this.x,t.x),this.y=Math.max(this.y,t.y),this.z=Math.max(this.z,t.z),this}clamp(t,e){return this.x=Ht(this.x,t.x,e.x),this.y=Ht(this.y,t.y,e.y),this.z=Ht(this.z,t.z,e.z),this}clampScalar(t,e){return this.x=Ht(this.x,t,e),this.y=Ht(this.y,t,e),this.z=Ht(this.z,t,e),this}clampLength(t,e){let n=this.length();return this.divideScalar(n||1).multiplyScalar(Ht(n,t,e))}floor(){return this.x=Math.floor(this.x),this.y=Math.floor(this.y),this.z=Math.floor(this.z),this}ceil(){return this.x=Math.ceil(this.x),this.y=Math.ceil(this.y),this.z=Math.ceil(this.z),this}round(){return this.x=Math.round(this.x),this.y=Math.round(this.y),this.z=Math.round(this.z),this}roundToZero(){return this.x=Math.trunc(this.x),this.y=Math.trunc(this.y),this.z=Math.trunc(this.z),this}negate(){return this.x=-this.x,this.y=-this.y,this.z=-this.z,this}dot(t){return this.x*t.x+this.y*t.y+this.z*t.z}lengthSq(){return this.x*this.x+this.y*this.y+this.z*this.z}length(){return Math.sqrt(this.x*this.x+this.y*this.y+this.z*this.z)}manhattanLength(){return Math.abs(this.x)+Math.abs(this.y)+Math.abs(this.z)}normalize(){return this.divideScalar(this.length()||1)}setLength(t){return this.normalize().multiplyScalar(t)}lerp(t,e){return this.x+=(t.x-this.x)*e,this.y+=(t.y-this.y)*e,this.z+=(t.z-this.z)*e,this}lerpVectors(t,e,n){return this.x=t.x+(e.x-t.x)*n,this.y=t.y+(e.y-t.y)*n,this.z=t.z+(e.z-t.z)*n,this}cross(t){return this.crossVectors(this,t)}crossVectors(t,e){let n=t.x,s=t.y,r=t.z,o=e.x,a=e.y,l=e.z;return this.x=s*l-r*a,this.y=r*o-n*l,this.z=n*a-s*o,this}projectOnVector(t){let e=t.lengthSq();if(e===0)return this.set(0,0,0);let n=t.dot(this)/e;return this.copy(t).multiplyScalar(n)}projectOnPlane(t){return ih.copy(this).projectOnVector(t),this.sub(ih)}reflect(t){return this.sub(ih.copy(t).multiplyScalar(2*this.dot(t)))}angleTo(t){let e=Math.sqrt(this.lengthSq()*t.lengthSq());if(e===0)return Math.PI/2;let n=this.dot(t)/e;return Math.acos(Ht(n,-1,1))}distanceTo(t){return Math.sqrt(this.distanceToSquared(t))}distanceToSquared(t){let e=this.x-t.x,n=this.y-t.y,s=this.z-t.z;return e*e+n*n+s*s}manhattanDistanceTo(t){return Math.abs(this.x-t.x)+Math.abs(this.y-t.y)+Math.abs(this.z-t.z)}setFromSpherical(t){return this.setFromSphericalCoords(t.radius,t.phi,t.theta)}setFromSphericalCoords(t,e,n){let s=Math.sin(e)*t;return this.x=s*Math.sin(n),this.y=Math.cos(e)*t,this.z=s*Math.cos(n),this}setFromCylindrical(t){return this.setFromCylindricalCoords(t.radius,t.theta,t.y)}setFromCylindricalCoords(t,e,n){return this.x=t*Math.sin(e),this.y=n,this.z=t*Math.cos(e),this}setFromMatrixPosition(t){let e=t.elements;return this.x=e[12],this.y=e[13],this.z=e[14],this}setFromMatrixScale(t){let e=this.setFromMatrixColumn(t,0).length(),n=this.setFromMatrixColumn(t,1).length(),s=this.setFromMatrixColumn(t,2).length();return this.x=e,this.y=n,this.z=s,this}setFromMatrixColumn(t,e){return this.fromArray(t.elements,e*4)}setFromMatrix3Column(t,e){return this.fromArray(t.elements,e*3)}setFromEuler(t){return this.x=t._x,this.y=t._y,this.z=t._z,this}setFromColor(t){return this.x=t.r,this.y=t.g,this.z=t.b,this}equals(t){return t.x===this.x&&t.y===this.y&&t.z===this.z}fromArray(t,e=0){return this.x=t[e],this.y=t[e+1],this.z=t[e+2],this}toArray(t=[],e=0){return t[e]=this.x,t[e+1]=this.y,t[e+2]=this.z,t}fromBufferAttribute(t,e){return this.x=t.getX(e),this.y=t.getY(e),this.z=t.getZ(e),this}random(){return this.x=Math.random(),this.y=Math.random(),this.z=Math.random(),this}randomDirection(){let t=Math.random()*Math.PI*2,e=Math.random()*2-1,n=Math.sqrt(1-e*e);return this.x=n*Math.cos(t),this.y=e,this.z=n*Math.sin(t),this}*[Symbol.iterator](){yield this.x,yield this.y,yield this.z}},ih=new N,ef=new Vn,Ft=class{static{this.prototype.isMatrix3=!0}constructor(t,e,n,s,r,o,a,l,c){this.elements=[1,0,0,0,1,0,0,0,1],t!==void 0&&this.set(t,e,n,s,r,o,a,l,c)}set(t,e,n,s,r,o,a,l,c){let h=this.elements;return h[0]=t,h[1]=s,h[2]=a,h[3]=e,h[4]=r,h[5]=l,h[6]=n,h[7]=o,h[8]=c,this}identity(){return this.set(1,0,0,0,1,0,0,0,1),this}copy(t){let e=this.elements,n=t.elements;return e[0]=n[0],e[1]=n[1],e[2]=n[2],e[3]=n[3],e[4]=n[4],e[5]=n[5],e[6]=n[6],e[7]=n[7],e[8]=n[8],this}extractBasis(t,e,n){return t.setFromMatrix3Column(this,0),e.setFromMatrix3Column(this,1),n.setFromMatrix3Column(this,2),this}setFromMatrix4(t){let e=t.elements;return this.set(e[0],e[4],e[8],e[1],e[5],e[9],e[2],e[6],e[10]),this}multiply(t){return this.multiplyMatrices(this,t)}premultiply(t){return this.multiplyMatrices(t,this)}multiplyMatrices(t,e){let n=t.elements,s=e.elements,r=this.elements,o=n[0],a=n[3],l=n[6],c=n[1],h=n[4],u=n[7],d=n[2],f=n[5],p=n[8],b=s[0],m=s[3],g=s[6],y=s[1],w=s[4],v=s[7],_=s[2],E=s[5],x=s[8];return r[0]=o*b+a*y+l*_,r[3]=o*m+a*w+l*E,r[6]=o*g+a*v+l*x,r[1]=c*b+h*y+u*_,r[4]=c*m+h*w+u*E,r[7]=c*g+h*v+u*x,r[2]=d*b+f*y+p*_,r[5]=d*m+f*w+p*E,r[8]=d*g+f*v+p*x,this}multiplyScalar(t){let e=this.elements;return e[0]*=t,e[3]*=t,e[6]*=t,e[1]*=t,e[4]*=t,e[7]*=t,e[2]*=t,e[5]*=t,e[8]*=t,this}determinant(){let t=this.elements,e=t[0],n=t[1],s=t[2],r=t[3],o=t[4],a=t[5],l=t[6],c=t[7],h=t[8];return e*o*h-e*a*c-n*r*h+n*a*l+s*r*c-s*o*l}invert(){let t=this.elements,e=t[0],n=t[1],s=t[2],r=t[3],o=t[4],a=t[5],l=t[6],c=t[7],h=t[8],u=h*o-a*c,d=a*l-h*r,f=c*r-o*l,p=e*u+n*d+s*f;if(p===0)return this.set(0,0,0,0,0,0,0,0,0);let b=1/p;return t[0]=u*b,t[1]=(s*c-h*n)*b,t[2]=(a*n-s*o)*b,t[3]=d*b,t[4]=(h*e-s*l)*b,t[5]=(s*r-a*e)*b,t[6]=f*b,t[7]=(n*l-c*e)*b,t[8]=(o*e-n*r)*b,this}transpose(){let t,e=this.elements;return t=e[1],e[1]=e[3],e[3]=t,t=e[2],e[2]=e[6],e[6]=t,t=e[5],e[5]=e[7],e[7]=t,this}getNormalMatrix(t){return this.setFromMatrix4(t).invert().transpose()}transposeIntoArray(t){let e=this.elements;return t[0]=e[0],t[1]=e[3],t[2]=e[6],t[3]=e[1],t[4]=e[4],t[5]=e[7],t[6]=e[2],t[7]=e[5],t[8]=e[8],this}setUvTransform(t,e,n,s,r,o,a){let l=Math.cos(r),c=Math.sin(r);return this.set(n*l,n*c,-n*(l*o+c*a)+o+t,-s*c,s*l,-s*(-c*o+l*a)+a+e,0,0,1),this}scale(t,e){return Ir("Matrix3: .scale() is deprecated. Use .makeScale() instead."),this.premultiply(sh.makeScale(t,e)),this}rotate(t){return Ir("Matrix3: .rotate() is deprecated. Use .makeRotation() instead."),this.premultiply(sh.makeRotation(-t)),this}translate(t,e){return Ir("Matrix3: .translate() is deprecated. Use .makeTranslation() instead."),this.premultiply(sh.makeTranslation(t,e)),this}makeTranslation(t,e){return t.isVector2?this.set(1,0,t.x,0,1,t.y,0,0,1):this.set(1,0,t,0,1,e,0,0,1),this}makeRotation(t){let e=Math.cos(t),n=Math.sin(t);return this.set(e,-n,0,n,e,0,0,0,1),this}makeScale(t,e){return this.set(t,0,0,0,e,0,0,0,1),this}equals(t){let e=this.elements,n=t.elements;for(let s=0;s<9;s++)if(e[s]!==n[s])return!1;return!0}fromArray(t,e=0){for(let n=0;n<9;n++)this.elements[n]=t[n+e];return this}toArray(t=[],e=0){let n=this.elements;return t[e]=n[0],t[e+1]=n[1],t[e+2]=n[2],t[e+3]=n[3],t[e+4]=n[4],t[e+5]=n[5],t[e+6]=n[6],t[e+7]=n[7],t[e+8]=n[8],t}clone(){return new this.constructor().fromArray(this.elements)}},sh=new Ft,nf=new Ft().set(.4123908,.3575843,.1804808,.212639,.7151687,.0721923,.0193308,.1191948,.9505322),sf=new Ft().set(3.2409699,-1.5373832,-.4986108,-.9692436,1.8759675,.0415551,.0556301,-.203977,1.0569715);function rx(){let i={enabled:!0,workingColorSpace:kr,spaces:{},convert:function(s,r,o){return this.enabled===!1||r===o||!r||!o||(this.spaces[r].transfer===se&&(s.r=Si(s.r),s.g=Si(s.g),s.b=Si(s.b)),this.spaces[r].primaries!==this.spaces[o].primaries&&(s.applyMatrix3(this.spaces[r].toXYZ),s.applyMatrix3(this.spaces[o].fromXYZ)),this.spaces[o].transfer===se&&(s.r=Hs(s.r),s.g=Hs(s.g),s.b=Hs(s.b))),s},workingToColorSpace:function(s,r){return this.convert(s,this.workingColorSpace,r)},colorSpaceToWorking:function(s,r){return this.convert(s,r,this.workingColorSpace)},getPrimaries:function(s){return this.spaces[s].primaries},getTransfer:function(s){return s===Ri?Nr:this.spaces[s].transfer},getToneMappingMode:function(s){return this.spaces[s].outputColorSpaceConfig.toneMappingMode||"standard"},getLuminanceCoefficients:function(s,r=this.workingColorSpace){return s.fromArray(this.spaces[r].luminanceCoefficients)},define:function(s){Object.assign(this.spaces,s)},_getMatrix:function(s,r,o){return s.copy(this.spaces[o].fromXYZ).multiply(this.spaces[r].toXYZ)},_getDrawingBufferColorSpace:function(s){return this.spaces[s].outputColorSpaceConfig.drawingBufferColorSpace},_getUnpackColorSpace:function(s=this.workingColorSpace){return this.spaces[s].workingColorSpaceConfig.unpackColorSpace}},t=[.64,.33,.3,.6,.15,.06],e=[.2126,.7152,.0722],n=[.3127,.329];return i.define({[kr]:{primaries:t,whitePoint:n,transfer:Nr,toXYZ:nf,fromXYZ:sf,luminanceCoefficients:e,workingColorSpaceConfig:{unpackColorSpace:An},outputColorSpaceConfig:{drawingBufferColorSpace:An}},[An]:{primaries:t,whitePoint:n,transfer:se,toXYZ:nf,fromXYZ:sf,luminanceCoefficients:e,outputColorSpaceConfig:{drawingBufferColorSpace:An}}}),i}var Xt=rx();function Si(i){return i<.04045?i*.0773993808:Math.pow(i*.9478672986+.0521327014,2.4)}function Hs(i){return i<.0031308?i*12.92:1.055*Math.pow(i,.41666)-.055}var As,Sa=class{static getDataURL(t,e="image/png"){if(/^data:/i.test(t.src)||typeof HTMLCanvasElement>"u")return t.src;let n;if(t instanceof HTMLCanvasElement)n=t;else{As===void 0&&(As=Fr("canvas")),As.width=t.width,As.height=t.height;let s=As.getContext("2d");t instanceof ImageData?s.putImageData(t,0,0):s.drawImage(t,0,0,t.width,t.height),n=As}return n.toDataURL(e)}static sRGBToLinear(t){if(typeof HTMLImageElement<"u"&&t instanceof HTMLImageElement||typeof HTMLCanvasElement<"u"&&t instanceof HTMLCanvasElement||typeof ImageBitmap<"u"&&t instanceof ImageBitmap){let e=Fr("canvas");e.width=t.width,e.height=t.height;let n=e.getContext("2d");n.drawImage(t,0,0,t.width,t.height);let s=n.getImageData(0,0,t.width,t.height),r=s.data;for(let o=0;o<r.length;o++)r[o]=Si(r[o]/255)*255;return n.putImageData(s,0,0),e}else if(t.data){let e=t.data.slice(0);for(let n=0;n<e.length;n++)e instanceof Uint8Array||e instanceof Uint8ClampedArray?e[n]=Math.floor(Si(e[n]/255)*255):e[n]=Si(e[n]);return{data:e,width:t.width,height:t.height}}else return Lt("ImageUtils.sRGBToLinear(): Unsupported image type. No color space conversion applied."),t}},ox=0,Xs=class{constructor(t=null){this.isTextureSource=!0,Object.defineProperty(this,"id",{value:ox++}),this.uuid=ao(),this.data=t,this.dataReady=!0,this.version=0}getSize(t){let e=this.data;return typeof HTMLVideoElement<"u"&&e instanceof HTMLVideoElement?t.set(e.videoWidth,e.videoHeight,0):typeof VideoFrame<"u"&&e instanceof VideoFrame?t.set(e.displayWidth,e.displayHeight,0):e!==null?t.set(e.width||0,e.height||0,e.depth||0):t.set(0,0,0),t}set needsUpdate(t){t===!0&&this.version++}toJSON(t){let e=t===void 0||typeof t=="string";if(!e&&t.images[this.uuid]!==void 0)return t.images[this.uuid];let n={uuid:this.uuid,url:""},s=this.data;if(s!==null){let r;if(Array.isArray(s)){r=[];for(let o=0,a=s.length;o<a;o++)s[o].isDataTexture?r.push(rh(s[o].image)):r.push(rh(s[o]))}else r=rh(s);n.url=r}return e||(t.images[this.uuid]=n),n}};function rh(i){return typeof HTMLImageElement<"u"&&i instanceof HTMLImageElement||typeof HTMLCanvasElement<"u"&&i instanceof HTMLCanvasElement||typeof ImageBitmap<"u"&&i instanceof ImageBitmap?Sa.getDataURL(i):i.data?{data:Array.from(i.data),width:i.width,height:i.height,type:i.data.constructor.name}:(Lt("Texture: Unable to serialize Texture."),{})}var ax=0,oh=new N,wn=class i extends ai{constructor(t=i.DEFAULT_IMAGE,e=i.DEFAULT_MAPPING,n=ri,s=ri,r=$e,o=Ai,a=Je,l=je,c=i.DEFAULT_ANISOTROPY,h=Ri){super(),this.isTexture=!0,Object.defineProperty(this,"id",{value:ax++}),this.uuid=ao(),this.name="",this.source=new Xs(t),this.mipmaps=[],this.mapping=e,this.channel=0,this.wrapS=n,this.wrapT=s,this.magFilter=r,this.minFilter=o,this.anisotropy=c,this.format=a,this.internalFormat=null,this.type=l,this.offset=new At(0,0),this.repeat=new At(1,1),this.center=new At(0,0),this.rotation=0,this.matrixAutoUpdate=!0,this.matrix=new Ft,this.generateMipmaps=!0,this.mipmapsAutoUpdate=!0,this.premultiplyAlpha=!1,this.flipY=!0,this.unpackAlignment=4,this.colorSpace=h,this.userData={},this.updateRanges=[],this.version=0,this.onUpdate=null,this.renderTarget=null,this.isRenderTargetTexture=!1,this.isArrayTexture=!!(t&&t.depth&&t.depth>1),this.pmremVersion=0,this.isPMREMTexture=!1,this.normalized=!1}get width(){return this.source.getSize(oh).x}get height(){return this.source.getSize(oh).y}get depth(){return this.source.getSize(oh).z}get image(){return this.source.data}set image(t){this.source.data=t}updateMatrix(){this.matrix.setUvTransform(this.offset.x,this.offset.y,this.repeat.x,this.repeat.y,this.rotation,this.center.x,this.center.y)}addUpdateRange(t,e){this.updateRanges.push({start:t,count:e})}clearUpdateRanges(){this.updateRanges.length=0}clone(){return new this.constructor().copy(this)}copy(t){return this.name=t.name,this.source=t.source,this.mipmaps=t.mipmaps.slice(0),this.mapping=t.mapping,this.channel=t.channel,this.wrapS=t.wrapS,this.wrapT=t.wrapT,this.magFilter=t.magFilter,this.minFilter=t.minFilter,this.anisotropy=t.anisotropy,this.format=t.format,this.internalFormat=t.internalFormat,this.type=t.type,this.normalized=t.normalized,this.offset.copy(t.offset),this.repeat.copy(t.repeat),this.center.copy(t.center),this.rotation=t.rotation,this.matrixAutoUpdate=t.matrixAutoUpdate,this.matrix.copy(t.matrix),this.generateMipmaps=t.generateMipmaps,this.mipmapsAutoUpdate=t.mipmapsAutoUpdate,this.premultiplyAlpha=t.premultiplyAlpha,this.flipY=t.flipY,this.unpackAlignment=t.unpackAlignment,this.colorSpace=t.colorSpace,this.renderTarget=t.renderTarget,this.isRenderTargetTexture=t.isRenderTargetTexture,this.isPMREMTexture=t.isPMREMTexture,this.isArrayTexture=t.isArrayTexture,this.userData=JSON.parse(JSON.stringify(t.userData)),this.needsUpdate=!0,this}setValues(t){for(let e in t){let n=t[e];if(n===void 0){Lt(`Texture.setValues(): parameter '${e}' has value of undefined.`);continue}let s=this[e];if(s===void 0){Lt(`Texture.setValues(): property '${e}' does not exist.`);continue}s&&n&&s.isVector2&&n.isVector2||s&&n&&s.isVector3&&n.isVector3||s&&n&&s.isMatrix3&&n.isMatrix3?s.copy(n):this[e]=n}}toJSON(t){let e=t===void 0||typeof t=="string";if(!e&&t.textures[this.uuid]!==void 0)return t.textures[this.uuid];let n={metadata:{version:4.7,type:"Texture",generator:"Texture.toJSON"},uuid:this.uuid,name:this.name,image:this.source.toJSON(t).uuid,mapping:this.mapping,channel:this.channel,repeat:[this.repeat.x,this.repeat.y],offset:[this.offset.x,this.offset.y],center:[this.center.x,this.center.y],rotation:this.rotation,wrap:[this.wrapS,this.wrapT],format:this.format,internalFormat:this.internalFormat,type:this.type,normalized:this.normalized,colorSpace:this.colorSpace,minFilter:this.minFilter,magFilter:this.magFilter,anisotropy:this.anisotropy,flipY:this.flipY,generateMipmaps:this.generateMipmaps,mipmapsAutoUpdate:this.mipmapsAutoUpdate,premultiplyAlpha:this.premultiplyAlpha,unpackAlignment:this.unpackAlignment};return Object.keys(this.userData).length>0&&(n.userData=this.userData),e||(t.textures[this.uuid]=n),n}dispose(){this.dispatchEvent({type:"dispose"})}transformUv(t){if(this.mapping!==qh)return t;if(t.applyMatrix3(this.matrix),t.x<0||t.x>1)switch(this.wrapS){case ya:t.x=t.x-Math.floor(t.x);break;case ri:t.x=t.x<0?0:1;break;case ba:Math.abs(Math.floor(t.x)%2)===1?t.x=Math.ceil(t.x)-t.x:t.x=t.x-Math.floor(t.x);break}if(t.y<0||t.y>1)switch(this.wrapT){case ya:t.y=t.y-Math.floor(t.y);break;case ri:t.y=t.y<0?0:1;break;case ba:Math.abs(Math.floor(t.y)%2)===1?t.y=Math.ceil(t.y)-t.y:t.y=t.y-Math.floor(t.y);break}return this.flipY&&(t.y=1-t.y),t}set needsUpdate(t){t===!0&&(this.version++,this.source.needsUpdate=!0)}set needsPMREMUpdate(t){t===!0&&this.pmremVersion++}};wn.DEFAULT_IMAGE=null;wn.DEFAULT_MAPPING=qh;wn.DEFAULT_ANISOTROPY=1;var $t=class{static{this.prototype.isVector4=!0}constructor(t=0,e=0,n=0,s=1){this.x=t,this.y=e,this.z=n,this.w=s}get width(){return this.z}set width(t){this.z=t}get height(){return this.w}set height(t){this.w=t}set(t,e,n,s){return this.x=t,this.y=e,this.z=n,this.w=s,this}setScalar(t){return this.x=t,this.y=t,this.z=t,this.w=t,this}setX(t){return this.x=t,this}setY(t){return this.y=t,this}setZ(t){return this.z=t,this}setW(t){return this.w=t,this}setComponent(t,e){switch(t){case 0:this.x=e;break;case 1:this.y=e;break;case 2:this.z=e;break;case 3:this.w=e;break;default:throw new Error("THREE.Vector4: index is out of range: "+t)}return this}getComponent(t){switch(t){case 0:return this.x;case 1:return this.y;case 2:return this.z;case 3:return this.w;default:throw new Error("THREE.Vector4: index is out of range: "+t)}}clone(){return new this.constructor(this.x,this.y,this.z,this.w)}copy(t){return this.x=t.x,this.y=t.y,this.z=t.z,this.w=t.w!==void 0?t.w:1,this}add(t){return this.x+=t.x,this.y+=t.y,this.z+=t.z,this.w+=t.w,this}addScalar(t){return this.x+=t,this.y+=t,this.z+=t,this.w+=t,this}addVectors(t,e){return this.x=t.x+e.x,this.y=t.y+e.y,this.z=t.z+e.z,this.w=t.w+e.w,this}addScaledVector(t,e){return this.x+=t.x*e,this.y+=t.y*e,this.z+=t.z*e,this.w+=t.w*e,this}sub(t){return this.x-=t.x,this.y-=t.y,this.z-=t.z,this.w-=t.w,this}subScalar(t){return this.x-=t,this.y-=t,this.z-=t,this.w-=t,this}subVectors(t,e){return this.x=t.x-e.x,this.y=t.y-e.y,this.z=t.z-e.z,this.w=t.w-e.w,this}multiply(t){return this.x*=t.x,this.y*=t.y,this.z*=t.z,this.w*=t.w,this}multiplyScalar(t){return this.x*=t,this.y*=t,this.z*=t,this.w*=t,this}applyMatrix4(t){let e=this.x,n=this.y,s=this.z,r=this.w,o=t.elements;return this.x=o[0]*e+o[4]*n+o[8]*s+o[12]*r,this.y=o[1]*e+o[5]*n+o[9]*s+o[13]*r,this.z=o[2]*e+o[6]*n+o[10]*s+o[14]*r,this.w=o[3]*e+o[7]*n+o[11]*s+o[15]*r,this}divide(t){return this.x/=t.x,this.y/=t.y,this.z/=t.z,this.w/=t.w,this}divideScalar(t){return this.multiplyScalar(1/t)}setAxisAngleFromQuaternion(t){this.w=2*Math.acos(t.w);let e=Math.sqrt(1-t.w*t.w);return e<1e-4?(this.x=1,this.y=0,this.z=0):(this.x=t.x/e,this.y=t.y/e,this.z=t.z/e),this}setAxisAngleFromRotationMatrix(t){let e,n,s,r,l=t.elements,c=l[0],h=l[4],u=l[8],d=l[1],f=l[5],p=l[9],b=l[2],m=l[6],g=l[10];if(Math.abs(h-d)<.01&&Math.abs(u-b)<.01&&Math.abs(p-m)<.01){if(Math.abs(h+d)<.1&&Math.abs(u+b)<.1&&Math.abs(p+m)<.1&&Math.abs(c+f+g-3)<.1)return this.set(1,0,0,0),this;e=Math.PI;let w=(c+1)/2,v=(f+1)/2,_=(g+1)/2,E=(h+d)/4,x=(u+b)/4,S=(p+m)/4;return w>v&&w>_?w<.01?(n=0,s=.707106781,r=.707106781):(n=Math.sqrt(w),s=E/n,r=x/n):v>_?v<.01?(n=.707106781,s=0,r=.707106781):(s=Math.sqrt(v),n=E/s,r=S/s):_<.01?(n=.707106781,s=.707106781,r=0):(r=Math.sqrt(_),n=x/r,s=S/r),this.set(n,s,r,e),this}let y=Math.sqrt((m-p)*(m-p)+(u-b)*(u-b)+(d-h)*(d-h));return Math.abs(y)<.001&&(y=1),this.x=(m-p)/y,this.y=(u-b)/y,this.z=(d-h)/y,this.w=Math.acos((c+f+g-1)/2),this}setFromMatrixPosition(t){let e=t.elements;return this.x=e[12],this.y=e[13],this.z=e[14],this.w=e[15],this}min(t){return this.x=Math.min(this.x,t.x),this.y=Math.min(this.y,t.y),this.z=Math.min(this.z,t.z),this.w=Math.min(this.w,t.w),this}max(t){return this.x=Math.max(this.x,t.x),this.y=Math.max(this.y,t.y),this.z=Math.max(this.z,t.z),this.w=Math.max(this.w,t.w),this}clamp(t,e){return this.x=Ht(this.x,t.x,e.x),this.y=Ht(this.y,t.y,e.y),this.z=Ht(this.z,t.z,e.z),this.w=Ht(this.w,t.w,e.w),this}clampScalar(t,e){return this.x=Ht(this.x,t,e),this.y=Ht(this.y,t,e),this.z=Ht(this.z,t,e),this.w=Ht(this.w,t,e),this}clampLength(t,e){let n=this.length();return this.divideScalar(n||1).multiplyScalar(Ht(n,t,e))}floor(){return this.x=Math.floor(this.x),this.y=Math.floor(this.y),this.z=Math.floor(this.z),this.w=Math.floor(this.w),this}ceil(){return this.x=Math.ceil(this.x),this.y=Math.ceil(this.y),this.z=Math.ceil(this.z),this.w=Math.ceil(this.w),this}round(){return this.x=Math.round(this.x),this.y=Math.round(this.y),this.z=Math.round(this.z),this.w=Math.round(this.w),this}roundToZero(){return this.x=Math.trunc(this.x),this.y=Math.trunc(this.y),this.z=Math.trunc(this.z),this.w=Math.trunc(this.w),this}negate(){return this.x=-this.x,this.y=-this.y,this.z=-this.z,this.w=-this.w,this}dot(t){return this.x*t.x+this.y*t.y+this.z*t.z+this.w*t.w}lengthSq(){return this.x*this.x+this.y*this.y+this.z*this.z+this.w*this.w}length(){return Math.sqrt(this.x*this.x+this.y*this.y+this.z*this.z+this.w*this.w)}manhattanLength(){return Math.abs(this.x)+Math.abs(this.y)+Math.abs(this.z)+Math.abs(this.w)}normalize(){return this.divideScalar(this.length()||1)}setLength(t){return this.normalize().multiplyScalar(t)}lerp(t,e){return this.x+=(t.x-this.x)*e,this.y+=(t.y-this.y)*e,this.z+=(t.z-this.z)*e,this.w+=(t.w-this.w)*e,this}lerpVectors(t,e,n){return this.x=t.x+(e.x-t.x)*n,this.y=t.y+(e.y-t.y)*n,this.z=t.z+(e.z-t.z)*n,this.w=t.w+(e.w-t.w)*n,this}equals(t){return t.x===this.x&&t.y===this.y&&t.z===this.z&&t.w===this.w}fromArray(t,e=0){return this.x=t[e],this.y=t[e+1],this.z=t[e+2],this.w=t[e+3],this}toArray(t=[],e=0){return t[e]=this.x,t[e+1]=this.y,t[e+2]=this.z,t[e+3]=this.w,t}fromBufferAttribute(t,e){return this.x=t.getX(e),this.y=t.getY(e),this.z=t.getZ(e),this.w=t.getW(e),this}random(){return this.x=Math.random(),this.y=Math.random(),this.z=Math.random(),this.w=Math.random(),this}*[Symbol.iterator](){yield this.x,yield this.y,yield this.z,yield this.w}},Ma=class extends ai{constructor(t=1,e=1,n={}){super(),n=Object.assign({generateMipmaps:!1,internalFormat:null,minFilter:$e,depthBuffer:!0,stencilBuffer:!1,resolveColorBuffer:!0,resolveDepthBuffer:!0,resolveStencilBuffer:!0,storeMultisampledColorBuffer:!0,storeMultisampledDepthBuffer:!0,storeMultisampledStencilBuffer:!0,depthTexture:null,samples:0,count:1,depth:1,multiview:!1,useArrayDepthTexture:!1},n),this.isRenderTarget=!0,this.width=t,this.height=e,this.depth=n.depth,this.scissor=new $t(0,0,t,e),this.scissorTest=!1,this.viewport=new $t(0,0,t,e),this.textures=[];let s=n.count;for(let r=0;r<s;r++)this.textures[r]=new wn({width:t,height:e,depth:n.depth}),this.textures[r].isRenderTargetTexture=!0,this.textures[r].renderTarget=this;this._setTextureOptions(n),this.depthBuffer=n.depthBuffer,this.stencilBuffer=n.stencilBuffer,this.resolveColorBuffer=n.resolveColorBuffer,this.resolveDepthBuffer=n.resolveDepthBuffer,this.resolveStencilBuffer=n.resolveStencilBuffer,this.storeMultisampledColorBuffer=n.storeMultisampledColorBuffer,this.storeMultisampledDepthBuffer=n.storeMultisampledDepthBuffer,this.storeMultisampledStencilBuffer=n.storeMultisampledStencilBuffer,this._depthTexture=null,this.depthTexture=n.depthTexture,this.samples=n.samples,this.multiview=n.multiview,this.useArrayDepthTexture=n.useArrayDepthTexture}_setTextureOptions(t={}){let e={minFilter:$e,generateMipmaps:!1,flipY:!1,internalFormat:null};t.mapping!==void 0&&(e.mapping=t.mapping),t.wrapS!==void 0&&(e.wrapS=t.wrapS),t.wrapT!==void 0&&(e.wrapT=t.wrapT),t.wrapR!==void 0&&(e.wrapR=t.wrapR),t.magFilter!==void 0&&(e.magFilter=t.magFilter),t.minFilter!==void 0&&(e.minFilter=t.minFilter),t.format!==void 0&&(e.format=t.format),t.type!==void 0&&(e.type=t.type),t.anisotropy!==void 0&&(e.anisotropy=t.anisotropy),t.colorSpace!==void 0&&(e.colorSpace=t.colorSpace),t.flipY!==void 0&&(e.flipY=t.flipY),t.generateMipmaps!==void 0&&(e.generateMipmaps=t.generateMipmaps),t.mipmapsAutoUpdate!==void 0&&(e.mipmapsAutoUpdate=t.mipmapsAutoUpdate),t.internalFormat!==void 0&&(e.internalFormat=t.internalFormat);for(let n=0;n<this.textures.length;n++)this.textures[n].setValues(e)}get texture(){return this.textures[0]}set texture(t){this.textures[0]=t}set depthTexture(t){this._depthTexture!==null&&this._depthTexture.renderTarget===this&&(this._depthTexture.renderTarget=null),t!==null&&t.renderTarget===null&&(t.renderTarget=this),this._depthTexture=t}get depthTexture(){return this._depthTexture}setSize(t,e,n=1){if(this.width!==t||this.height!==e||this.depth!==n){this.width=t,this.height=e,this.depth=n;for(let s=0,r=this.textures.length;s<r;s++)this.textures[s].image.width=t,this.textures[s].image.height=e,this.textures[s].image.depth=n,this.textures[s].isData3DTexture!==!0&&(this.textures[s].isArrayTexture=this.textures[s].image.depth>1);this.dispose()}this.viewport.set(0,0,t,e),this.scissor.set(0,0,t,e)}clone(){return new this.constructor().copy(this)}copy(t){this.width=t.width,this.height=t.height,this.depth=t.depth,this.scissor.copy(t.scissor),this.scissorTest=t.scissorTest,this.viewport.copy(t.viewport),this.textures.length=0;for(let e=0,n=t.textures.length;e<n;e++){this.textures[e]=t.textures[e].clone(),this.textures[e].isRenderTargetTexture=!0,this.textures[e].renderTarget=this;let s=Object.assign({},t.textures[e].image);this.textures[e].source=new Xs(s)}if(this.depthBuffer=t.depthBuffer,this.stencilBuffer=t.stencilBuffer,this.resolveColorBuffer=t.resolveColorBuffer,this.resolveDepthBuffer=t.resolveDepthBuffer,this.resolveStencilBuffer=t.resolveStencilBuffer,this.storeMultisampledColorBuffer=t.storeMultisampledColorBuffer,this.storeMultisampledDepthBuffer=t.storeMultisampledDepthBuffer,this.storeMultisampledStencilBuffer=t.storeMultisampledStencilBuffer,t.depthTexture!==null)if(t.depthTexture.renderTarget===t){let e=t.depthTexture.clone();e.renderTarget=null,this.depthTexture=e}else this.depthTexture=t.depthTexture;else this.depthTexture=null;return this.samples=t.samples,this.multiview=t.multiview,this.useArrayDepthTexture=t.useArrayDepthTexture,this}dispose(){this.dispatchEvent({type:"dispose"})}},Pe=class extends Ma{constructor(t=1,e=1,n={}){super(t,e,n),this.isWebGLRenderTarget=!0}},Ur=class extends wn{constructor(t=null,e=1,n=1,s=1){super(null),this.isDataArrayTexture=!0,this.image={data:t,width:e,height:n,depth:s},this.magFilter=Se,this.minFilter=Se,this.wrapR=ri,this.generateMipmaps=!1,this.flipY=!1,this.unpackAlignment=1,this.layerUpdates=new Set}copy(t){return super.copy(t),this.wrapR=t.wrapR,this}addLayerUpdate(t){this.layerUpdates.add(t)}clearLayerUpdates(){this.layerUpdates.clear()}};var Ta=class extends wn{constructor(t=null,e=1,n=1,s=1){super(null),this.isData3DTexture=!0,this.image={data:t,width:e,height:n,depth:s},this.magFilter=Se,this.minFilter=Se,this.wrapR=ri,this.generateMipmaps=!1,this.flipY=!1,this.unpackAlignment=1}copy(t){return super.copy(t),this.wrapR=t.wrapR,this}};var Mt=class i{static{this.prototype.isMatrix4=!0}constructor(t,e,n,s,r,o,a,l,c,h,u,d,f,p,b,m){this.elements=[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1],t!==void 0&&this.set(t,e,n,s,r,o,a,l,c,h,u,d,f,p,b,m)}set(t,e,n,s,r,o,a,l,c,h,u,d,f,p,b,m){let g=this.elements;return g[0]=t,g[4]=e,g[8]=n,g[12]=s,g[1]=r,g[5]=o,g[9]=a,g[13]=l,g[2]=c,g[6]=h,g[10]=u,g[14]=d,g[3]=f,g[7]=p,g[11]=b,g[15]=m,this}identity(){return this.set(1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1),this}clone(){return new i().fromArray(this.elements)}copy(t){let e=this.elements,n=t.elements;return e[0]=n[0],e[1]=n[1],e[2]=n[2],e[3]=n[3],e[4]=n[4],e[5]=n[5],e[6]=n[6],e[7]=n[7],e[8]=n[8],e[9]=n[9],e[10]=n[10],e[11]=n[11],e[12]=n[12],e[13]=n[13],e[14]=n[14],e[15]=n[15],this}copyPosition(t){let e=this.elements,n=t.elements;return e[12]=n[12],e[13]=n[13],e[14]=n[14],this}setFromMatrix3(t){let e=t.elements;return this.set(e[0],e[3],e[6],0,e[1],e[4],e[7],0,e[2],e[5],e[8],0,0,0,0,1),this}extractBasis(t,e,n){return this.determinantAffine()===0?(t.set(1,0,0),e.set(0,1,0),n.set(0,0,1),this):(t.setFromMatrixColumn(this,0),e.setFromMatrixColumn(this,1),n.setFromMatrixColumn(this,2),this)}makeBasis(t,e,n){return this.set(t.x,e.x,n.x,0,t.y,e.y,n.y,0,t.z,e.z,n.z,0,0,0,0,1),this}extractRotation(t){if(t.determinantAffine()===0)return this.identity();let e=this.elements,n=t.elements,s=1/Cs.setFromMatrixColumn(t,0).length(),r=1/Cs.setFromMatrixColumn(t,1).length(),o=1/Cs.setFromMatrixColumn(t,2).length();return e[0]=n[0]*s,e[1]=n[1]*s,e[2]=n[2]*s,e[3]=0,e[4]=n[4]*r,e[5]=n[5]*r,e[6]=n[6]*r,e[7]=0,e[8]=n[8]*o,e[9]=n[9]*o,e[10]=n[10]*o,e[11]=0,e[12]=0,e[13]=0,e[14]=0,e[15]=1,this}makeRotationFromEuler(t){let e=this.elements,n=t.x,s=t.y,r=t.z,o=Math.cos(n),a=Math.sin(n),l=Math.cos(s),c=Math.sin(s),h=Math.cos(r),u=Math.sin(r);if(t.order==="XYZ"){let d=o*h,f=o*u,p=a*h,b=a*u;e[0]=l*h,e[4]=-l*u,e[8]=c,e[1]=f+p*c,e[5]=d-b*c,e[9]=-a*l,e[2]=b-d*c,e[6]=p+f*c,e[10]=o*l}else if(t.order==="YXZ"){let d=l*h,f=l*u,p=c*h,b=c*u;e[0]=d+b*a,e[4]=p*a-f,e[8]=o*c,e[1]=o*u,e[5]=o*h,e[9]=-a,e[2]=f*a-p,e[6]=b+d*a,e[10]=o*l}else if(t.order==="ZXY"){let d=l*h,f=l*u,p=c*h,b=c*u;e[0]=d-b*a,e[4]=-o*u,e[8]=p+f*a,e[1]=f+p*a,e[5]=o*h,e[9]=b-d*a,e[2]=-o*c,e[6]=a,e[10]=o*l}else if(t.order==="ZYX"){let d=o*h,f=o*u,p=a*h,b=a*u;e[0]=l*h,e[4]=p*c-f,e[8]=d*c+b,e[1]=l*u,e[5]=b*c+d,e[9]=f*c-p,e[2]=-c,e[6]=a*l,e[10]=o*l}else if(t.order==="YZX"){let d=o*l,f=o*c,p=a*l,b=a*c;e[0]=l*h,e[4]=b-d*u,e[8]=p*u+f,e[1]=u,e[5]=o*h,e[9]=-a*h,e[2]=-c*h,e[6]=f*u+p,e[10]=d-b*u}else if(t.order==="XZY"){let d=o*l,f=o*c,p=a*l,b=a*c;e[0]=l*h,e[4]=-u,e[8]=c*h,e[1]=d*u+b,e[5]=o*h,e[9]=f*u-p,e[2]=p*u-f,e[6]=a*h,e[10]=b*u+d}return e[3]=0,e[7]=0,e[11]=0,e[12]=0,e[13]=0,e[14]=0,e[15]=1,this}makeRotationFromQuaternion(t){return this.compose(lx,t,cx)}lookAt(t,e,n){let s=this.elements;return Tn.subVectors(t,e),Tn.lengthSq()===0&&(Tn.z=1),Tn.normalize(),Ui.crossVectors(n,Tn),Ui.lengthSq()===0&&(Math.abs(n.z)===1?Tn.x+=1e-4:Tn.z+=1e-4,Tn.normalize(),Ui.crossVectors(n,Tn)),Ui.normalize(),Bo.crossVectors(Tn,Ui),s[0]=Ui.x,s[4]=Bo.x,s[8]=Tn.x,s[1]=Ui.y,s[5]=Bo.y,s[9]=Tn.y,s[2]=Ui.z,s[6]=Bo.z,s[10]=Tn.z,this}multiply(t){return this.multiplyMatrices(this,t)}premultiply(t){return this.multiplyMatrices(t,this)}multiplyMatrices(t,e){let n=t.elements,s=e.elements,r=this.elements,o=n[0],a=n[4],l=n[8],c=n[12],h=n[1],u=n[5],d=n[9],f=n[13],p=n[2],b=n[6],m=n[10],g=n[14],y=n[3],w=n[7],v=n[11],_=n[15],E=s[0],x=s[4],S=s[8],k=s[12],C=s[1],P=s[5],I=s[9],U=s[13],L=s[2],B=s[6],G=s[10],W=s[14],nt=s[3],$=s[7],tt=s[11],et=s[15];return r[0]=o*E+a*C+l*L+c*nt,r[4]=o*x+a*P+l*B+c*$,r[8]=o*S+a*I+l*G+c*tt,r[12]=o*k+a*U+l*W+c*et,r[1]=h*E+u*C+d*L+f*nt,r[5]=h*x+u*P+d*B+f*$,r[9]=h*S+u*I+d*G+f*tt,r[13]=h*k+u*U+d*W+f*et,r[2]=p*E+b*C+m*L+g*nt,r[6]=p*x+b*P+m*B+g*$,r[10]=p*S+b*I+m*G+g*tt,r[14]=p*k+b*U+m*W+g*et,r[3]=y*E+w*C+v*L+_*nt,r[7]=y*x+w*P+v*B+_*$,r[11]=y*S+w*I+v*G+_*tt,r[15]=y*k+w*U+v*W+_*et,this}multiplyScalar(t){let e=this.elements;return e[0]*=t,e[4]*=t,e[8]*=t,e[12]*=t,e[1]*=t,e[5]*=t,e[9]*=t,e[13]*=t,e[2]*=t,e[6]*=t,e[10]*=t,e[14]*=t,e[3]*=t,e[7]*=t,e[11]*=t,e[15]*=t,this}determinant(){let t=this.elements,e=t[0],n=t[4],s=t[8],r=t[12],o=t[1],a=t[5],l=t[9],c=t[13],h=t[2],u=t[6],d=t[10],f=t[14],p=t[3],b=t[7],m=t[11],g=t[15],y=l*f-c*d,w=a*f-c*u,v=a*d-l*u,_=o*f-c*h,E=o*d-l*h,x=o*u-a*h;return e*(b*y-m*w+g*v)-n*(p*y-m*_+g*E)+s*(p*w-b*_+g*x)-r*(p*v-b*E+m*x)}determinantAffine(){let t=this.elements,e=t[0],n=t[4],s=t[8],r=t[1],o=t[5],a=t[9],l=t[2],c=t[6],h=t[10];return e*(o*h-a*c)-n*(r*h-a*l)+s*(r*c-o*l)}transpose(){let t=this.elements,e;return e=t[1],t[1]=t[4],t[4]=e,e=t[2],t[2]=t[8],t[8]=e,e=t[6],t[6]=t[9],t[9]=e,e=t[3],t[3]=t[12],t[12]=e,e=t[7],t[7]=t[13],t[13]=e,e=t[11],t[11]=t[14],t[14]=e,this}setPosition(t,e,n){let s=this.elements;return t.isVector3?(s[12]=t.x,s[13]=t.y,s[14]=t.z):(s[12]=t,s[13]=e,s[14]=n),this}invert(){let t=this.elements,e=t[0],n=t[1],s=t[2],r=t[3],o=t[4],a=t[5],l=t[6],c=t[7],h=t[8],u=t[9],d=t[10],f=t[11],p=t[12],b=t[13],m=t[14],g=t[15],y=e*a-n*o,w=e*l-s*o,v=e*c-r*o,_=n*l-s*a,E=n*c-r*a,x=s*c-r*l,S=h*b-u*p,k=h*m-d*p,C=h*g-f*p,P=u*m-d*b,I=u*g-f*b,U=d*g-f*m,L=y*U-w*I+v*P+_*C-E*k+x*S;if(L===0)return this.set(0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0);let B=1/L;return t[0]=(a*U-l*I+c*P)*B,t[1]=(s*I-n*U-r*P)*B,t[2]=(b*x-m*E+g*_)*B,t[3]=(d*E-u*x-f*_)*B,t[4]=(l*C-o*U-c*k)*B,t[5]=(e*U-s*C+r*k)*B,t[6]=(m*v-p*x-g*w)*B,t[7]=(h*x-d*v+f*w)*B,t[8]=(o*I-a*C+c*S)*B,t[9]=(n*C-e*I-r*S)*B,t[10]=(p*E-b*v+g*y)*B,t[11]=(u*v-h*E-f*y)*B,t[12]=(a*k-o*P-l*S)*B,t[13]=(e*P-n*k+s*S)*B,t[14]=(b*w-p*_-m*y)*B,t[15]=(h*_-u*w+d*y)*B,this}scale(t){let e=this.elements,n=t.x,s=t.y,r=t.z;return e[0]*=n,e[4]*=s,e[8]*=r,e[1]*=n,e[5]*=s,e[9]*=r,e[2]*=n,e[6]*=s,e[10]*=r,e[3]*=n,e[7]*=s,e[11]*=r,this}getMaxScaleOnAxis(){let t=this.elements,e=t[0]*t[0]+t[1]*t[1]+t[2]*t[2],n=t[4]*t[4]+t[5]*t[5]+t[6]*t[6],s=t[8]*t[8]+t[9]*t[9]+t[10]*t[10];return Math.sqrt(Math.max(e,n,s))}makeTranslation(t,e,n){return t.isVector3?this.set(1,0,0,t.x,0,1,0,t.y,0,0,1,t.z,0,0,0,1):this.set(1,0,0,t,0,1,0,e,0,0,1,n,0,0,0,1),this}makeRotationX(t){let e=Math.cos(t),n=Math.sin(t);return this.set(1,0,0,0,0,e,-n,0,0,n,e,0,0,0,0,1),this}makeRotationY(t){let e=Math.cos(t),n=Math.sin(t);return this.set(e,0,n,0,0,1,0,0,-n,0,e,0,0,0,0,1),this}makeRotationZ(t){let e=Math.cos(t),n=Math.sin(t);return this.set(e,-n,0,0,n,e,0,0,0,0,1,0,0,0,0,1),this}makeRotationAxis(t,e){let n=Math.cos(e),s=Math.sin(e),r=1-n,o=t.x,a=t.y,l=t.z,c=r*o,h=r*a;return this.set(c*o+n,c*a-s*l,c*l+s*a,0,c*a+s*l,h*a+n,h*l-s*o,0,c*l-s*a,h*l+s*o,r*l*l+n,0,0,0,0,1),this}makeScale(t,e,n){return this.set(t,0,0,0,0,e,0,0,0,0,n,0,0,0,0,1),this}makeShear(t,e,n,s,r,o){return this.set(1,n,r,0,t,1,o,0,e,s,1,0,0,0,0,1),this}compose(t,e,n){let s=this.elements,r=e._x,o=e._y,a=e._z,l=e._w,c=r+r,h=o+o,u=a+a,d=r*c,f=r*h,p=r*u,b=o*h,m=o*u,g=a*u,y=l*c,w=l*h,v=l*u,_=n.x,E=n.y,x=n.z;return s[0]=(1-(b+g))*_,s[1]=(f+v)*_,s[2]=(p-w)*_,s[3]=0,s[4]=(f-v)*E,s[5]=(1-(d+g))*E,s[6]=(m+y)*E,s[7]=0,s[8]=(p+w)*x,s[9]=(m-y)*x,s[10]=(1-(d+b))*x,s[11]=0,s[12]=t.x,s[13]=t.y,s[14]=t.z,s[15]=1,this}decompose(t,e,n){let s=this.elements;t.x=s[12],t.y=s[13],t.z=s[14];let r=this.determinantAffine();if(r===0)return n.set(1,1,1),e.identity(),this;let o=Cs.set(s[0],s[1],s[2]).length(),a=Cs.set(s[4],s[5],s[6]).length(),l=Cs.set(s[8],s[9],s[10]).length();r<0&&(o=-o),qn.copy(this);let c=1/o,h=1/a,u=1/l;return qn.elements[0]*=c,qn.elements[1]*=c,qn.elements[2]*=c,qn.elements[4]*=h,qn.elements[5]*=h,qn.elements[6]*=h,qn.elements[8]*=u,qn.elements[9]*=u,qn.elements[10]*=u,e.setFromRotationMatrix(qn),n.x=o,n.y=a,n.z=l,this}makePerspective(t,e,n,s,r,o,a=zn,l=!1){let c=this.elements,h=2*r/(e-t),u=2*r/(n-s),d=(e+t)/(e-t),f=(n+s)/(n-s),p,b;if(l)p=r/(o-r),b=o*r/(o-r);else if(a===zn)p=-(o+r)/(o-r),b=-2*o*r/(o-r);else if(a===Dr)p=-o/(o-r),b=-o*r/(o-r);else throw new Error("THREE.Matrix4.makePerspective(): Invalid coordinate system: "+a);return c[0]=h,c[4]=0,c[8]=d,c[12]=0,c[1]=0,c[5]=u,c[9]=f,c[13]=0,c[2]=0,c[6]=0,c[10]=p,c[14]=b,c[3]=0,c[7]=0,c[11]=-1,c[15]=0,this}makeOrthographic(t,e,n,s,r,o,a=zn,l=!1){let c=this.elements,h=2/(e-t),u=2/(n-s),d=-(e+t)/(e-t),f=-(n+s)/(n-s),p,b;if(l)p=1/(o-r),b=o/(o-r);else if(a===zn)p=-2/(o-r),b=-(o+r)/(o-r);else if(a===Dr)p=-1/(o-r),b=-r/(o-r);else throw new Error("THREE.Matrix4.makeOrthographic(): Invalid coordinate system: "+a);return c[0]=h,c[4]=0,c[8]=0,c[12]=d,c[1]=0,c[5]=u,c[9]=0,c[13]=f,c[2]=0,c[6]=0,c[10]=p,c[14]=b,c[3]=0,c[7]=0,c[11]=0,c[15]=1,this}equals(t){let e=this.elements,n=t.elements;for(let s=0;s<16;s++)if(e[s]!==n[s])return!1;return!0}fromArray(t,e=0){for(let n=0;n<16;n++)this.elements[n]=t[n+e];return this}toArray(t=[],e=0){let n=this.elements;return t[e]=n[0],t[e+1]=n[1],t[e+2]=n[2],t[e+3]=n[3],t[e+4]=n[4],t[e+5]=n[5],t[e+6]=n[6],t[e+7]=n[7],t[e+8]=n[8],t[e+9]=n[9],t[e+10]=n[10],t[e+11]=n[11],t[e+12]=n[12],t[e+13]=n[13],t[e+14]=n[14],t[e+15]=n[15],t}},Cs=new N,qn=new Mt,lx=new N(0,0,0),cx=new N(1,1,1),Ui=new N,Bo=new N,Tn=new N,rf=new Mt,of=new Vn,Hi=class i{constructor(t=0,e=0,n=0,s=i.DEFAULT_ORDER){this.isEuler=!0,this._x=t,this._y=e,this._z=n,this._order=s}get x(){return this._x}set x(t){this._x=t,this._onChangeCallback()}get y(){return this._y}set y(t){this._y=t,this._onChangeCallback()}get z(){return this._z}set z(t){this._z=t,this._onChangeCallback()}get order(){return this._order}set order(t){this._order=t,this._onChangeCallback()}set(t,e,n,s=this._order){return this._x=t,this._y=e,this._z=n,this._order=s,this._onChangeCallback(),this}clone(){return new this.constructor(this._x,this._y,this._z,this._order)}copy(t){return this._x=t._x,this._y=t._y,this._z=t._z,this._order=t._order,this._onChangeCallback(),this}setFromRotationMatrix(t,e=this._order,n=!0){let s=t.elements,r=s[0],o=s[4],a=s[8],l=s[1],c=s[5],h=s[9],u=s[2],d=s[6],f=s[10];switch(e){case"XYZ":this._y=Math.asin(Ht(a,-1,1)),Math.abs(a)<.9999999?(this._x=Math.atan2(-h,f),this._z=Math.atan2(-o,r)):(this._x=Math.atan2(d,c),this._z=0);break;case"YXZ":this._x=Math.asin(-Ht(h,-1,1)),Math.abs(h)<.9999999?(this._y=Math.atan2(a,f),this._z=Math.atan2(l,c)):(this._y=Math.atan2(-u,r),this._z=0);break;case"ZXY":this._x=Math.asin(Ht(d,-1,1)),Math.abs(d)<.9999999?(this._y=Math.atan2(-u,f),this._z=Math.atan2(-o,c)):(this._y=0,this._z=Math.atan2(l,r));break;case"ZYX":this._y=Math.asin(-Ht(u,-1,1)),Math.abs(u)<.9999999?(this._x=Math.atan2(d,f),this._z=Math.atan2(l,r)):(this._x=0,this._z=Math.atan2(-o,c));break;case"YZX":this._z=Math.asin(Ht(l,-1,1)),Math.abs(l)<.9999999?(this._x=Math.atan2(-h,c),this._y=Math.atan2(-u,r)):(this._x=0,this._y=Math.atan2(a,f));break;case"XZY":this._z=Math.asin(-Ht(o,-1,1)),Math.abs(o)<.9999999?(this._x=Math.atan2(d,c),this._y=Math.atan2(a,r)):(this._x=Math.atan2(-h,f),this._y=0);break;default:Lt("Euler: .setFromRotationMatrix() encountered an unknown order: "+e)}return this._order=e,n===!0&&this._onChangeCallback(),this}setFromQuaternion(t,e,n){return rf.makeRotationFromQuaternion(t),this.setFromRotationMatrix(rf,e,n)}setFromVector3(t,e=this._order){return this.set(t.x,t.y,t.z,e)}reorder(t){return of.setFromEuler(this),this.setFromQuaternion(of,t)}equals(t){return t._x===this._x&&t._y===this._y&&t._z===this._z&&t._order===this._order}fromArray(t){return this._x=t[0],this._y=t[1],this._z=t[2],t[3]!==void 0&&(this._order=t[3]),this._onChangeCallback(),this}toArray(t=[],e=0){return t[e]=this._x,t[e+1]=this._y,t[e+2]=this._z,t[e+3]=this._order,t}_onChange(t){return this._onChangeCallback=t,this}_onChangeCallback(){}*[Symbol.iterator](){yield this._x,yield this._y,yield this._z,yield this._order}};Hi.DEFAULT_ORDER="XYZ";var $s=class{constructor(){this.mask=1}set(t){this.mask=(1<<t|0)>>>0}enable(t){this.mask|=1<<t|0}enableAll(){this.mask=-1}toggle(t){this.mask^=1<<t|0}disable(t){this.mask&=~(1<<t|0)}disableAll(){this.mask=0}test(t){return(this.mask&t.mask)!==0}isEnabled(t){return(this.mask&(1<<t|0))!==0}},hx=0,af=new N,Rs=new Vn,vi=new Mt,zo=new N,Ar=new N,ux=new N,dx=new Vn,lf=new N(1,0,0),cf=new N(0,1,0),hf=new N(0,0,1),uf={type:"added"},fx={type:"removed"},Ps={type:"childadded",child:null},ah={type:"childremoved",child:null},Pn=class i extends ai{constructor(){super(),this.isObject3D=!0,Object.defineProperty(this,"id",{value:hx++}),this.uuid=ao(),this.name="",this.type="Object3D",this.parent=null,this.children=[],this.up=i.DEFAULT_UP.clone();let t=new N,e=new Hi,n=new Vn,s=new N(1,1,1);function r(){n.setFromEuler(e,!1)}function o(){e.setFromQuaternion(n,void 0,!1)}e._onChange(r),n._onChange(o),Object.defineProperties(this,{position:{configurable:!0,enumerable:!0,value:t},rotation:{configurable:!0,enumerable:!0,value:e},quaternion:{configurable:!0,enumerable:!0,value:n},scale:{configurable:!0,enumerable:!0,value:s},modelViewMatrix:{value:new Mt},normalMatrix:{value:new Ft}}),this.matrix=new Mt,this.matrixWorld=new Mt,this.matrixAutoUpdate=i.DEFAULT_MATRIX_AUTO_UPDATE,this.matrixWorldAutoUpdate=i.DEFAULT_MATRIX_WORLD_AUTO_UPDATE,this.matrixWorldNeedsUpdate=!1,this.layers=new $s,this.visible=!0,this.castShadow=!1,this.receiveShadow=!1,this.frustumCulled=!0,this.renderOrder=0,this.animations=[],this.customDepthMaterial=void 0,this.customDistanceMaterial=void 0,this.static=!1,this.userData={},this.pivot=null}onBeforeShadow(){}onAfterShadow(){}onBeforeRender(){}onAfterRender(){}applyMatrix4(t){this.matrixAutoUpdate&&this.updateMatrix(),this.matrix.premultiply(t),this.matrix.decompose(this.position,this.quaternion,this.scale),this.pivot!==null&&this.position.copy(this.pivot).applyMatrix4(this.matrix).sub(this.pivot)}applyQuaternion(t){return this.quaternion.premultiply(t),this}setRotationFromAxisAngle(t,e){this.quaternion.setFromAxisAngle(t,e)}setRotationFromEuler(t){this.quaternion.setFromEuler(t,!0)}setRotationFromMatrix(t){this.quaternion.setFromRotationMatrix(t)}setRotationFromQuaternion(t){this.quaternion.copy(t)}rotateOnAxis(t,e){return Rs.setFromAxisAngle(t,e),this.quaternion.multiply(Rs),this}rotateOnWorldAxis(t,e){return Rs.setFromAxisAngle(t,e),this.quaternion.premultiply(Rs),this}rotateX(t){return this.rotateOnAxis(lf,t)}rotateY(t){return this.rotateOnAxis(cf,t)}rotateZ(t){return this.rotateOnAxis(hf,t)}translateOnAxis(t,e){return af.copy(t).applyQuaternion(this.quaternion),this.position.add(af.multiplyScalar(e)),this}translateX(t){return this.translateOnAxis(lf,t)}translateY(t){return this.translateOnAxis(cf,t)}translateZ(t){return this.translateOnAxis(hf,t)}localToWorld(t){return this.updateWorldMatrix(!0,!1),t.applyMatrix4(this.matrixWorld)}worldToLocal(t){return this.updateWorldMatrix(!0,!1),t.applyMatrix4(vi.copy(this.matrixWorld).invert())}lookAt(t,e,n){t.isVector3?zo.copy(t):zo.set(t,e,n);let s=this.parent;this.updateWorldMatrix(!0,!1),Ar.setFromMatrixPosition(this.matrixWorld),this.isCamera||this.isLight?vi.lookAt(Ar,zo,this.up):vi.lookAt(zo,Ar,this.up),this.quaternion.setFromRotationMatrix(vi),s&&(vi.extractRotation(s.matrixWorld),Rs.setFromRotationMatrix(vi),this.quaternion.premultiply(Rs.invert()))}add(t){if(arguments.length>1){for(let e=0;e<arguments.length;e++)this.add(arguments[e]);return this}return t===this?(kt("Object3D.add: object can't be added as a child of itself.",t),this):(t&&t.isObject3D?(t.removeFromParent(),t.parent=this,this.children.push(t),t.dispatchEvent(uf),Ps.child=t,this.dispatchEvent(Ps),Ps.child=null):kt("Object3D.add: object not an instance of THREE.Object3D.",t),this)}remove(t){if(arguments.length>1){for(let n=0;n<arguments.length;n++)this.remove(arguments[n]);return this}let e=this.children.indexOf(t);return e!==-1&&(t.parent=null,this.children.splice(e,1),t.dispatchEvent(fx),ah.child=t,this.dispatchEvent(ah),ah.child=null),this}removeFromParent(){let t=this.parent;return t!==null&&t.remove(this),this}clear(){return this.remove(...this.children)}attach(t){return this.updateWorldMatrix(!0,!1),vi.copy(this.matrixWorld).invert(),t.parent!==null&&(t.parent.updateWorldMatrix(!0,!1),vi.multiply(t.parent.matrixWorld)),t.applyMatrix4(vi),t.removeFromParent(),t.parent=this,this.children.push(t),t.updateWorldMatrix(!1,!0),t.dispatchEvent(uf),Ps.child=t,this.dispatchEvent(Ps),Ps.child=null,this}getObjectById(t){return this.getObjectByProperty("id",t)}getObjectByName(t){return this.getObjectByProperty("name",t)}getObjectByProperty(t,e){if(this[t]===e)return this;for(let n=0,s=this.children.length;n<s;n++){let o=this.children[n].getObjectByProperty(t,e);if(o!==void 0)return o}}getObjectsByProperty(t,e,n=[]){this[t]===e&&n.push(this);let s=this.children;for(let r=0,o=s.length;r<o;r++)s[r].getObjectsByProperty(t,e,n);return n}getWorldPosition(t){return this.updateWorldMatrix(!0,!1),t.setFromMatrixPosition(this.matrixWorld)}getWorldQuaternion(t){return this.updateWorldMatrix(!0,!1),this.matrixWorld.decompose(Ar,t,ux),t}getWorldScale(t){return this.updateWorldMatrix(!0,!1),this.matrixWorld.decompose(Ar,dx,t),t}getWorldDirection(t){this.updateWorldMatrix(!0,!1);let e=this.matrixWorld.elements;return t.set(e[8],e[9],e[10]).normalize()}raycast(){}intersectsFrustum(){return!0}traverse(t){t(this);let e=this.children;for(let n=0,s=e.length;n<s;n++)e[n].traverse(t)}traverseVisible(t){if(this.visible===!1)return;t(this);let e=this.children;for(let n=0,s=e.length;n<s;n++)e[n].traverseVisible(t)}traverseAncestors(t){let e=this.parent;e!==null&&(t(e),e.traverseAncestors(t))}updateMatrix(){this.matrix.compose(this.position,this.quaternion,this.scale);let t=this.pivot;if(t!==null){let e=t.x,n=t.y,s=t.z,r=this.matrix.elements;r[12]+=e-r[0]*e-r[4]*n-r[8]*s,r[13]+=n-r[1]*e-r[5]*n-r[9]*s,r[14]+=s-r[2]*e-r[6]*n-r[10]*s}this.matrixWorldNeedsUpdate=!0}updateMatrixWorld(t){this.matrixAutoUpdate&&this.updateMatrix(),(this.matrixWorldNeedsUpdate||t)&&(this.matrixWorldAutoUpdate===!0&&(this.parent===null?this.matrixWorld.copy(this.matrix):this.matrixWorld.multiplyMatrices(this.parent.matrixWorld,this.matrix)),this.matrixWorldNeedsUpdate=!1,t=!0);let e=this.children;for(let n=0,s=e.length;n<s;n++)e[n].updateMatrixWorld(t)}updateWorldMatrix(t,e,n=!1){let s=this.parent;if(t===!0&&s!==null&&s.updateWorldMatrix(!0,!1),this.matrixAutoUpdate&&this.updateMatrix(),(this.matrixWorldNeedsUpdate||n)&&(this.matrixWorldAutoUpdate===!0&&(this.parent===null?this.matrixWorld.copy(this.matrix):this.matrixWorld.multiplyMatrices(this.parent.matrixWorld,this.matrix)),this.matrixWorldNeedsUpdate=!1,n=!0),e===!0){let r=this.children;for(let o=0,a=r.length;o<a;o++)r[o].updateWorldMatrix(!1,!0,n)}}toJSON(t){let e=t===void 0||typeof t=="string",n={};e&&(t={geometries:{},materials:{},textures:{},images:{},shapes:{},skeletons:{},animations:{},nodes:{}},n.metadata={version:4.7,type:"Object",generator:"Object3D.toJSON"});let s={};s.uuid=this.uuid,s.type=this.type,s.name=this.name,s.castShadow=this.castShadow,s.receiveShadow=this.receiveShadow,s.visible=this.visible,s.frustumCulled=this.frustumCulled,s.renderOrder=this.renderOrder,s.static=this.static,s.matrixAutoUpdate=this.matrixAutoUpdate,Object.keys(this.userData).length>0&&(s.userData=this.userData),s.layers=this.layers.mask,s.matrix=this.matrix.toArray(),s.up=this.up.toArray(),this.pivot!==null&&(s.pivot=this.pivot.toArray()),this.morphTargetDictionary!==void 0&&(s.morphTargetDictionary=Object.assign({},this.morphTargetDictionary)),this.morphTargetInfluences!==void 0&&(s.morphTargetInfluences=this.morphTargetInfluences.slice()),this.isInstancedMesh&&(s.type="InstancedMesh",s.count=this.count,s.instanceMatrix=this.instanceMatrix.toJSON(),this.instanceColor!==null&&(s.instanceColor=this.instanceColor.toJSON())),this.isBatchedMesh&&(s.type="BatchedMesh",s.perObjectFrustumCulled=this.perObjectFrustumCulled,s.sortObjects=this.sortObjects,s.drawRanges=this._drawRanges,s.reservedRanges=this._reservedRanges,s.geometryInfo=this._geometryInfo.map(a=>({...a,boundingBox:a.boundingBox?a.boundingBox.toJSON():void 0,boundingSphere:a.boundingSphere?a.boundingSphere.toJSON():void 0})),s.instanceInfo=this._instanceInfo.map(a=>({...a})),s.availableInstanceIds=this._availableInstanceIds.slice(),s.availableGeometryIds=this._availableGeometryIds.slice(),s.nextIndexStart=this._nextIndexStart,s.nextVertexStart=this._nextVertexStart,s.geometryCount=this._geometryCount,s.maxInstanceCount=this._maxInstanceCount,s.maxVertexCount=this._maxVertexCount,s.maxIndexCount=this._maxIndexCount,s.geometryInitialized=this._geometryInitialized,s.matricesTexture=this._matricesTexture.toJSON(t),s.indirectTexture=this._indirectTexture.toJSON(t),this._colorsTexture!==null&&(s.colorsTexture=this._colorsTexture.toJSON(t)),this.boundingSphere!==null&&(s.boundingSphere=this.boundingSphere.toJSON()),this.boundingBox!==null&&(s.boundingBox=this.boundingBox.toJSON()));function r(a,l){return a[l.uuid]===void 0&&(a[l.uuid]=l.toJSON(t)),l.uuid}if(this.isScene)this.background&&(this.background.isColor?s.background=this.background.toJSON():this.background.isTexture&&(s.background=this.background.toJSON(t).uuid)),this.environment&&this.environment.isTexture&&this.environment.isRenderTargetTexture!==!0&&(s.environment=this.environment.toJSON(t).uuid);else if(this.isMesh||this.isLine||this.isPoints){s.geometry=r(t.geometries,this.geometry);let a=this.geometry.parameters;if(a!==void 0&&a.shapes!==void 0){let l=a.shapes;if(Array.isArray(l))for(let c=0,h=l.length;c<h;c++){let u=l[c];r(t.shapes,u)}else r(t.shapes,l)}}if(this.isSkinnedMesh&&(s.bindMode=this.bindMode,s.bindMatrix=this.bindMatrix.toArray(),this.skeleton!==void 0&&(r(t.skeletons,this.skeleton),s.skeleton=this.skeleton.uuid)),this.material!==void 0)if(Array.isArray(this.material)){let a=[];for(let l=0,c=this.material.length;l<c;l++)a.push(r(t.materials,this.material[l]));s.material=a}else s.material=r(t.materials,this.material);if(this.children.length>0){s.children=[];for(let a=0;a<this.children.length;a++)s.children.push(this.children[a].toJSON(t).object)}if(this.animations.length>0){s.animations=[];for(let a=0;a<this.animations.length;a++){let l=this.animations[a];s.animations.push(r(t.animations,l))}}if(e){let a=o(t.geometries),l=o(t.materials),c=o(t.textures),h=o(t.images),u=o(t.shapes),d=o(t.skeletons),f=o(t.animations),p=o(t.nodes);a.length>0&&(n.geometries=a),l.length>0&&(n.materials=l),c.length>0&&(n.textures=c),h.length>0&&(n.images=h),u.length>0&&(n.shapes=u),d.length>0&&(n.skeletons=d),f.length>0&&(n.animations=f),p.length>0&&(n.nodes=p)}return n.object=s,n;function o(a){let l=[];for(let c in a){let h=a[c];delete h.metadata,l.push(h)}return l}}clone(t){return new this.constructor().copy(this,t)}copy(t,e=!0){if(this.name=t.name,this.up.copy(t.up),this.position.copy(t.position),this.rotation.order=t.rotation.order,this.quaternion.copy(t.quaternion),this.scale.copy(t.scale),this.pivot=t.pivot!==null?t.pivot.clone():null,this.matrix.copy(t.matrix),this.matrixWorld.copy(t.matrixWorld),this.matrixAutoUpdate=t.matrixAutoUpdate,this.matrixWorldAutoUpdate=t.matrixWorldAutoUpdate,this.matrixWorldNeedsUpdate=t.matrixWorldNeedsUpdate,this.layers.mask=t.layers.mask,this.visible=t.visible,this.castShadow=t.castShadow,this.receiveShadow=t.receiveShadow,this.frustumCulled=t.frustumCulled,this.renderOrder=t.renderOrder,this.static=t.static,this.animations=t.animations.slice(),this.userData=JSON.parse(JSON.stringify(t.userData)),e===!0)for(let n=0;n<t.children.length;n++){let s=t.children[n];this.add(s.clone())}return this}dispose(){this.dispatchEvent({type:"dispose"})}};Pn.DEFAULT_UP=new N(0,1,0);Pn.DEFAULT_MATRIX_AUTO_UPDATE=!0;Pn.DEFAULT_MATRIX_WORLD_AUTO_UPDATE=!0;var oi=class extends Pn{constructor(){super(),this.isGroup=!0,this.type="Group"}},px={type:"move"},qs=class{constructor(){this._targetRay=null,this._grip=null,this._hand=null}getHandSpace(){return this._hand===null&&(this._hand=new oi,this._hand.matrixAutoUpdate=!1,this._hand.visible=!1,this._hand.joints={},this._hand.inputState={pinching:!1}),this._hand}getTargetRaySpace(){return this._targetRay===null&&(this._targetRay=new oi,this._targetRay.matrixAutoUpdate=!1,this._targetRay.visible=!1,this._targetRay.hasLinearVelocity=!1,this._targetRay.linearVelocity=new N,this._targetRay.hasAngularVelocity=!1,this._targetRay.angularVelocity=new N),this._targetRay}getGripSpace(){return this._grip===null&&(this._grip=new oi,this._grip.matrixAutoUpdate=!1,this._grip.visible=!1,this._grip.hasLinearVelocity=!1,this._grip.linearVelocity=new N,this._grip.hasAngularVelocity=!1,this._grip.angularVelocity=new N,this._grip.eventsEnabled=!1),this._grip}dispatchEvent(t){return this._targetRay!==null&&this._targetRay.dispatchEvent(t),this._grip!==null&&this._grip.dispatchEvent(t),this._hand!==null&&this._hand.dispatchEvent(t),this}connect(t){if(t&&t.hand){let e=this._hand;if(e)for(let n of t.hand.values())this._getHandJoint(e,n)}return this.dispatchEvent({type:"connected",data:t}),this}disconnect(t){return this.dispatchEvent({type:"disconnected",data:t}),this._targetRay!==null&&(this._targetRay.visible=!1),this._grip!==null&&(this._grip.visible=!1),this._hand!==null&&(this._hand.visible=!1),this}update(t,e,n){let s=null,r=null,o=null,a=this._targetRay,l=this._grip,c=this._hand;if(t&&e.session.visibilityState!=="visible-blurred"){if(c&&t.hand){o=!0;for(let b of t.hand.values()){let m=e.getJointPose(b,n),g=this._getHandJoint(c,b);m!==null&&(g.matrix.fromArray(m.transform.matrix),g.matrix.decompose(g.position,g.quaternion,g.scale),g.matrixWorldNeedsUpdate=!0,g.jointRadius=m.radius),g.visible=m!==null}let h=c.joints["index-finger-tip"],u=c.joints["thumb-tip"],d=h.position.distanceTo(u.position),f=.02,p=.005;c.inputState.pinching&&d>f+p?(c.inputState.pinching=!1,this.dispatchEvent({type:"pinchend",handedness:t.handedness,target:this})):!c.inputState.pinching&&d<=f-p&&(c.inputState.pinching=!0,this.dispatchEvent({type:"pinchstart",handedness:t.handedness,target:this}))}else l!==null&&t.gripSpace&&(r=e.getPose(t.gripSpace,n),r!==null&&(l.matrix.fromArray(r.transform.matrix),l.matrix.decompose(l.position,l.quaternion,l.scale),l.matrixWorldNeedsUpdate=!0,r.linearVelocity?(l.hasLinearVelocity=!0,l.linearVelocity.copy(r.linearVelocity)):l.hasLinearVelocity=!1,r.angularVelocity?(l.hasAngularVelocity=!0,l.angularVelocity.copy(r.angularVelocity)):l.hasAngularVelocity=!1,l.eventsEnabled&&l.dispatchEvent({type:"gripUpdated",data:t,target:this})));a!==null&&(s=e.getPose(t.targetRaySpace,n),s===null&&r!==null&&(s=r),s!==null&&(a.matrix.fromArray(s.transform.matrix),a.matrix.decompose(a.position,a.quaternion,a.scale),a.matrixWorldNeedsUpdate=!0,s.linearVelocity?(a.hasLinearVelocity=!0,a.linearVelocity.copy(s.linearVelocity)):a.hasLinearVelocity=!1,s.angularVelocity?(a.hasAngularVelocity=!0,a.angularVelocity.copy(s.angularVelocity)):a.hasAngularVelocity=!1,this.dispatchEvent(px)))}return a!==null&&(a.visible=s!==null),l!==null&&(l.visible=r!==null),c!==null&&(c.visible=o!==null),this}_getHandJoint(t,e){if(t.joints[e.jointName]===void 0){let n=new oi;n.matrixAutoUpdate=!1,n.visible=!1,t.joints[e.jointName]=n,t.add(n)}return t.joints[e.jointName]}},up={aliceblue:15792383,antiquewhite:16444375,aqua:65535,aquamarine:8388564,azure:15794175,beige:16119260,bisque:16770244,black:0,blanchedalmond:16772045,blue:255,blueviolet:9055202,brown:10824234,burlywood:14596231,cadetblue:6266528,chartreuse:8388352,chocolate:13789470,coral:16744272,cornflowerblue:6591981,cornsilk:16775388,crimson:14423100,cyan:65535,darkblue:139,darkcyan:35723,darkgoldenrod:12092939,darkgray:11119017,darkgreen:25600,darkgrey:11119017,darkkhaki:12433259,darkmagenta:9109643,darkolivegreen:5597999,darkorange:16747520,darkorchid:10040012,darkred:9109504,darksalmon:15308410,darkseagreen:9419919,darkslateblue:4734347,darkslategray:3100495,darkslategrey:3100495,darkturquoise:52945,darkviolet:9699539,deeppink:16716947,deepskyblue:49151,dimgray:6908265,dimgrey:6908265,dodgerblue:2003199,firebrick:11674146,floralwhite:16775920,forestgreen:2263842,fuchsia:16711935,gainsboro:14474460,ghostwhite:16316671,gold:16766720,goldenrod:14329120,gray:8421504,green:32768,greenyellow:11403055,grey:8421504,honeydew:15794160,hotpink:16738740,indianred:13458524,indigo:4915330,ivory:16777200,khaki:15787660,lavender:15132410,lavenderblush:16773365,lawngreen:8190976,lemonchiffon:16775885,lightblue:11393254,lightcoral:15761536,lightcyan:14745599,lightgoldenrodyellow:16448210,lightgray:13882323,lightgreen:9498256,lightgrey:13882323,lightpink:16758465,lightsalmon:16752762,lightseagreen:2142890,lightskyblue:8900346,lightslategray:7833753,lightslategrey:7833753,lightsteelblue:11584734,lightyellow:16777184,lime:65280,limegreen:3329330,linen:16445670,magenta:16711935,maroon:8388608,mediumaquamarine:6737322,mediumblue:205,mediumorchid:12211667,mediumpurple:9662683,mediumseagreen:3978097,mediumslateblue:8087790,mediumspringgreen:64154,mediumturquoise:4772300,mediumvioletred:13047173,midnightblue:1644912,mintcream:16121850,mistyrose:16770273,moccasin:16770229,navajowhite:16768685,navy:128,oldlace:16643558,olive:8421376,olivedrab:7048739,orange:16753920,orangered:16729344,orchid:14315734,palegoldenrod:15657130,palegreen:10025880,paleturquoise:11529966,palevioletred:14381203,papayawhip:16773077,peachpuff:16767673,peru:13468991,pink:16761035,plum:14524637,powderblue:11591910,purple:8388736,rebeccapurple:6697881,red:16711680,rosybrown:12357519,royalblue:4286945,saddlebrown:9127187,salmon:16416882,sandybrown:16032864,seagreen:3050327,seashell:16774638,sienna:10506797,silver:12632256,skyblue:8900331,slateblue:6970061,slategray:7372944,slategrey:7372944,snow:16775930,springgreen:65407,steelblue:4620980,tan:13808780,teal:32896,thistle:14204888,tomato:16737095,turquoise:4251856,violet:15631086,wheat:16113331,white:16777215,whitesmoke:16119285,yellow:16776960,yellowgreen:10145074},Oi={h:0,s:0,l:0},Vo={h:0,s:0,l:0};function lh(i,t,e){return e<0&&(e+=1),e>1&&(e-=1),e<1/6?i+(t-i)*6*e:e<1/2?t:e<2/3?i+(t-i)*6*(2/3-e):i}var Ut=class{constructor(t,e,n){return this.isColor=!0,this.r=1,this.g=1,this.b=1,this.set(t,e,n)}set(t,e,n){if(e===void 0&&n===void 0){let s=t;s&&s.isColor?this.copy(s):typeof s=="number"?this.setHex(s):typeof s=="string"&&this.setStyle(s)}else this.setRGB(t,e,n);return this}setScalar(t){return this.r=t,this.g=t,this.b=t,this}setHex(t,e=An){return t=Math.floor(t),this.r=(t>>16&255)/255,this.g=(t>>8&255)/255,this.b=(t&255)/255,Xt.colorSpaceToWorking(this,e),this}setRGB(t,e,n,s=Xt.workingColorSpace){return this.r=t,this.g=e,this.b=n,Xt.colorSpaceToWorking(this,s),this}setHSL(t,e,n,s=Xt.workingColorSpace){if(t=nx(t,1),e=Ht(e,0,1),n=Ht(n,0,1),e===0)this.r=this.g=this.b=n;else{let r=n<=.5?n*(1+e):n+e-n*e,o=2*n-r;this.r=lh(o,r,t+1/3),this.g=lh(o,r,t),this.b=lh(o,r,t-1/3)}return Xt.colorSpaceToWorking(this,s),this}setStyle(t,e=An){function n(r){r!==void 0&&parseFloat(r)<1&&Lt("Color: Alpha component of "+t+" will be ignored.")}let s;if(s=/^(\w+)\(([^\)]*)\)/.exec(t)){let r,o=s[1],a=s[2];switch(o){case"rgb":case"rgba":if(r=/^\s*(\d+)\s*,\s*(\d+)\s*,\s*(\d+)\s*(?:,\s*(\d+(?:\.\d+)?|\.\d+)\s*)?$/.exec(a))return n(r[4]),this.setRGB(Math.min(255,parseInt(r[1],10))/255,Math.min(255,parseInt(r[2],10))/255,Math.min(255,parseInt(r[3],10))/255,e);if(r=/^\s*(\d+(?:\.\d+)?|\.\d+)\%\s*,\s*(\d+(?:\.\d+)?|\.\d+)\%\s*,\s*(\d+(?:\.\d+)?|\.\d+)\%\s*(?:,\s*(\d+(?:\.\d+)?|\.\d+)\s*)?$/.exec(a))return n(r[4]),this.setRGB(Math.min(100,parseFloat(r[1]))/100,Math.min(100,parseFloat(r[2]))/100,Math.min(100,parseFloat(r[3]))/100,e);break;case"hsl":case"hsla":if(r=/^\s*([+-]?(?:\d+(?:\.\d+)?|\.\d+))\s*,\s*(\d+(?:\.\d+)?|\.\d+)\%\s*,\s*(\d+(?:\.\d+)?|\.\d+)\%\s*(?:,\s*(\d+(?:\.\d+)?|\.\d+)\s*)?$/.exec(a))return n(r[4]),this.setHSL(parseFloat(r[1])/360,parseFloat(r[2])/100,parseFloat(r[3])/100,e);break;default:Lt("Color: Unknown color model "+t)}}else if(s=/^\#([A-Fa-f\d]+)$/.exec(t)){let r=s[1],o=r.length;if(o===3)return this.setRGB(parseInt(r.charAt(0),16)/15,parseInt(r.charAt(1),16)/15,parseInt(r.charAt(2),16)/15,e);if(o===6)return this.setHex(parseInt(r,16),e);Lt("Color: Invalid hex color "+t)}else if(t&&t.length>0)return this.setColorName(t,e);return this}setColorName(t,e=An){let n=up[t.toLowerCase()];return n!==void 0?this.setHex(n,e):Lt("Color: Unknown color "+t),this}clone(){return new this.constructor(this.r,this.g,this.b)}copy(t){return this.r=t.r,this.g=t.g,this.b=t.b,this}copySRGBToLinear(t){return this.r=Si(t.r),this.g=Si(t.g),this.b=Si(t.b),this}copyLinearToSRGB(t){return this.r=Hs(t.r),this.g=Hs(t.g),this.b=Hs(t.b),this}convertSRGBToLinear(){return this.copySRGBToLinear(this),this}convertLinearToSRGB(){return this.copyLinearToSRGB(this),this}getHex(t=An){return Xt.workingToColorSpace(rn.copy(this),t),Math.round(Ht(rn.r*255,0,255))*65536+Math.round(Ht(rn.g*255,0,255))*256+Math.round(Ht(rn.b*255,0,255))}getHexString(t=An){return("000000"+this.getHex(t).toString(16)).slice(-6)}getHSL(t,e=Xt.workingColorSpace){Xt.workingToColorSpace(rn.copy(this),e);let n=rn.r,s=rn.g,r=rn.b,o=Math.max(n,s,r),a=Math.min(n,s,r),l,c,h=(a+o)/2;if(a===o)l=0,c=0;else{let u=o-a;switch(c=h<=.5?u/(o+a):u/(2-o-a),o){case n:l=(s-r)/u+(s<r?6:0);break;case s:l=(r-n)/u+2;break;case r:l=(n-s)/u+4;break}l/=6}return t.h=l,t.s=c,t.l=h,t}getRGB(t,e=Xt.workingColorSpace){return Xt.workingToColorSpace(rn.copy(this),e),t.r=rn.r,t.g=rn.g,t.b=rn.b,t}getStyle(t=An){Xt.workingToColorSpace(rn.copy(this),t);let e=rn.r,n=rn.g,s=rn.b;return t!==An?`color(${t} ${e.toFixed(3)} ${n.toFixed(3)} ${s.toFixed(3)})`:`rgb(${Math.round(e*255)},${Math.round(n*255)},${Math.round(s*255)})`}offsetHSL(t,e,n){return this.getHSL(Oi),this.setHSL(Oi.h+t,Oi.s+e,Oi.l+n)}add(t){return this.r+=t.r,this.g+=t.g,this.b+=t.b,this}addColors(t,e){return this.r=t.r+e.r,this.g=t.g+e.g,this.b=t.b+e.b,this}addScalar(t){return this.r+=t,this.g+=t,this.b+=t,this}sub(t){return this.r=Math.max(0,this.r-t.r),this.g=Math.max(0,this.g-t.g),this.b=Math.max(0,this.b-t.b),this}multiply(t){return this.r*=t.r,this.g*=t.g,this.b*=t.b,this}multiplyScalar(t){return this.r*=t,this.g*=t,this.b*=t,this}lerp(t,e){return this.r+=(t.r-this.r)*e,this.g+=(t.g-this.g)*e,this.b+=(t.b-this.b)*e,this}lerpColors(t,e,n){return this.r=t.r+(e.r-t.r)*n,this.g=t.g+(e.g-t.g)*n,this.b=t.b+(e.b-t.b)*n,this}lerpHSL(t,e){this.getHSL(Oi),t.getHSL(Vo);let n=nh(Oi.h,Vo.h,e),s=nh(Oi.s,Vo.s,e),r=nh(Oi.l,Vo.l,e);return this.setHSL(n,s,r),this}setFromVector3(t){return this.r=t.x,this.g=t.y,this.b=t.z,this}applyMatrix3(t){let e=this.r,n=this.g,s=this.b,r=t.elements;return this.r=r[0]*e+r[3]*n+r[6]*s,this.g=r[1]*e+r[4]*n+r[7]*s,this.b=r[2]*e+r[5]*n+r[8]*s,this}equals(t){return t.r===this.r&&t.g===this.g&&t.b===this.b}fromArray(t,e=0){return this.r=t[e],this.g=t[e+1],this.b=t[e+2],this}toArray(t=[],e=0){return t[e]=this.r,t[e+1]=this.g,t[e+2]=this.b,t}fromBufferAttribute(t,e){return this.r=t.getX(e),this.g=t.getY(e),this.b=t.getZ(e),this}toJSON(){return this.getHex()}*[Symbol.iterator](){yield this.r,yield this.g,yield this.b}},rn=new Ut;Ut.NAMES=up;var li=class extends Pn{constructor(){super(),this.isScene=!0,this.type="Scene",this.background=null,this.environment=null,this.fog=null,this.backgroundBlurriness=0,this.backgroundIntensity=1,this.backgroundRotation=new Hi,this.environmentIntensity=1,this.environmentRotation=new Hi,this.overrideMaterial=null,typeof __THREE_DEVTOOLS__<"u"&&__THREE_DEVTOOLS__.dispatchEvent(new CustomEvent("observe",{detail:this}))}copy(t,e){return super.copy(t,e),this.background=t.background!==null?t.background.clone():null,this.environment=t.environment!==null?t.environment.clone():null,this.fog=t.fog!==null?t.fog.clone():null,this.backgroundBlurriness=t.backgroundBlurriness,this.backgroundIntensity=t.backgroundIntensity,this.backgroundRotation.copy(t.backgroundRotation),this.environmentIntensity=t.environmentIntensity,this.environmentRotation.copy(t.environmentRotation),this.overrideMaterial=t.overrideMaterial!==null?t.overrideMaterial.clone():null,this.matrixAutoUpdate=t.matrixAutoUpdate,this}toJSON(t){let e=super.toJSON(t);return this.fog!==null&&(e.object.fog=this.fog.toJSON()),e.object.backgroundBlurriness=this.backgroundBlurriness,e.object.backgroundIntensity=this.backgroundIntensity,e.object.backgroundRotation=this.backgroundRotation.toArray(),e.object.environmentIntensity=this.environmentIntensity,e.object.environmentRotation=this.environmentRotation.toArray(),e}},Yn=new N,yi=new N,ch=new N,bi=new N,Is=new N,Ls=new N,df=new N,hh=new N,uh=new N,dh=new N,fh=new $t,ph=new $t,mh=new $t,an=class i{constructor(t=new N,e=new N,n=new N){this.a=t,this.b=e,this.c=n}static getNormal(t,e,n,s){s.subVectors(n,e),Yn.subVectors(t,e),s.cross(Yn);let r=s.lengthSq();return r>0?s.multiplyScalar(1/Math.sqrt(r)):s.set(0,0,0)}static getBarycoord(t,e,n,s,r){Yn.subVectors(s,e),yi.subVectors(n,e),ch.subVectors(t,e);let o=Yn.dot(Yn),a=Yn.dot(yi),l=Yn.dot(ch),c=yi.dot(yi),h=yi.dot(ch),u=o*c-a*a;if(u===0)return r.set(0,0,0),null;let d=1/u,f=(c*l-a*h)*d,p=(o*h-a*l)*d;return r.set(1-f-p,p,f)}static containsPoint(t,e,n,s){return this.getBarycoord(t,e,n,s,bi)===null?!1:bi.x>=0&&bi.y>=0&&bi.x+bi.y<=1}static getInterpolation(t,e,n,s,r,o,a,l){return this.getBarycoord(t,e,n,s,bi)===null?(l.x=0,l.y=0,"z"in l&&(l.z=0),"w"in l&&(l.w=0),null):(l.setScalar(0),l.addScaledVector(r,bi.x),l.addScaledVector(o,bi.y),l.addScaledVector(a,bi.z),l)}static getInterpolatedAttribute(t,e,n,s,r,o){return fh.setScalar(0),ph.setScalar(0),mh.setScalar(0),fh.fromBufferAttribute(t,e),ph.fromBufferAttribute(t,n),mh.fromBufferAttribute(t,s),o.setScalar(0),o.addScaledVector(fh,r.x),o.addScaledVector(ph,r.y),o.addScaledVector(mh,r.z),o}static isFrontFacing(t,e,n,s){return Yn.subVectors(n,e),yi.subVectors(t,e),Yn.cross(yi).dot(s)<0}set(t,e,n){return this.a.copy(t),this.b.copy(e),this.c.copy(n),this}setFromPointsAndIndices(t,e,n,s){return this.a.copy(t[e]),this.b.copy(t[n]),this.c.copy(t[s]),this}setFromAttributeAndIndices(t,e,n,s){return this.a.fromBufferAttribute(t,e),this.b.fromBufferAttribute(t,n),this.c.fromBufferAttribute(t,s),this}clone(){return new this.constructor().copy(this)}copy(t){return this.a.copy(t.a),this.b.copy(t.b),this.c.copy(t.c),this}getArea(){return Yn.subVectors(this.c,this.b),yi.subVectors(this.a,this.b),Yn.cross(yi).length()*.5}getMidpoint(t){return t.addVectors(this.a,this.b).add(this.c).multiplyScalar(1/3)}getNormal(t){return i.getNormal(this.a,this.b,this.c,t)}getPlane(t){return t.setFromCoplanarPoints(this.a,this.b,this.c)}getBarycoord(t,e){return i.getBarycoord(t,this.a,this.b,this.c,e)}getInterpolation(t,e,n,s,r){return i.getInterpolation(t,this.a,this.b,this.c,e,n,s,r)}containsPoint(t){return i.containsPoint(t,this.a,this.b,this.c)}isFrontFacing(t){return i.isFrontFacing(this.a,this.b,this.c,t)}intersectsBox(t){return t.intersectsTriangle(this)}closestPointToPoint(t,e){let n=this.a,s=this.b,r=this.c,o,a;Is.subVectors(s,n),Ls.subVectors(r,n),hh.subVectors(t,n);let l=Is.dot(hh),c=Ls.dot(hh);if(l<=0&&c<=0)return e.copy(n);uh.subVectors(t,s);let h=Is.dot(uh),u=Ls.dot(uh);if(h>=0&&u<=h)return e.copy(s);let d=l*u-h*c;if(d<=0&&l>=0&&h<=0&&l-h>0)return o=l/(l-h),e.copy(n).addScaledVector(Is,o);dh.subVectors(t,r);let f=Is.dot(dh),p=Ls.dot(dh);if(p>=0&&f<=p)return e.copy(r);let b=f*c-l*p;if(b<=0&&c>=0&&p<=0)return a=c/(c-p),e.copy(n).addScaledVector(Ls,a);let m=h*p-f*u;if(m<=0&&u-h>=0&&f-p>=0)return df.subVectors(r,s),a=(u-h)/(u-h+(f-p)),e.copy(s).addScaledVector(df,a);let g=1/(m+b+d);return o=b*g,a=d*g,e.copy(n).addScaledVector(Is,o).addScaledVector(Ls,a)}equals(t){return t.a.equals(this.a)&&t.b.equals(this.b)&&t.c.equals(this.c)}},le=class{constructor(t=new N(1/0,1/0,1/0),e=new N(-1/0,-1/0,-1/0)){this.isBox3=!0,this.min=t,this.max=e}set(t,e){return this.min.copy(t),this.max.copy(e),this}setFromArray(t){this.makeEmpty();for(let e=0,n=t.length;e<n;e+=3)this.expandByPoint(Zn.fromArray(t,e));return this}setFromBufferAttribute(t){this.makeEmpty();for(let e=0,n=t.count;e<n;e++)this.expandByPoint(Zn.fromBufferAttribute(t,e));return this}setFromPoints(t){this.makeEmpty();for(let e=0,n=t.length;e<n;e++)this.expandByPoint(t[e]);return this}setFromCenterAndSize(t,e){let n=Zn.copy(e).multiplyScalar(.5);return this.min.copy(t).sub(n),this.max.copy(t).add(n),this}setFromObject(t,e=!1){return this.makeEmpty(),this.expandByObject(t,e)}clone(){return new this.constructor().copy(this)}copy(t){return this.min.copy(t.min),this.max.copy(t.max),this}makeEmpty(){return this.min.x=this.min.y=this.min.z=1/0,this.max.x=this.max.y=this.max.z=-1/0,this}isEmpty(){return this.max.x<this.min.x||this.max.y<this.min.y||this.max.z<this.min.z}getCenter(t){return this.isEmpty()?t.set(0,0,0):t.addVectors(this.min,this.max).multiplyScalar(.5)}getSize(t){return this.isEmpty()?t.set(0,0,0):t.subVectors(this.max,this.min)}expandByPoint(t){return this.min.min(t),this.max.max(t),this}expandByVector(t){return this.min.sub(t),this.max.add(t),this}expandByScalar(t){return this.min.addScalar(-t),this.max.addScalar(t),this}expandByObject(t,e=!1){t.updateWorldMatrix(!1,!1);let n=t.geometry;if(n!==void 0){let r=n.getAttribute("position");if(e===!0&&r!==void 0&&t.isInstancedMesh!==!0&&t.isBatchedMesh!==!0)for(let o=0,a=r.count;o<a;o++)t.isMesh===!0?t.getVertexPosition(o,Zn):Zn.fromBufferAttribute(r,o),Zn.applyMatrix4(t.matrixWorld),this.expandByPoint(Zn);else t.boundingBox!==void 0?(t.boundingBox===null&&t.computeBoundingBox(),Ho.copy(t.boundingBox)):(n.boundingBox===null&&n.computeBoundingBox(),Ho.copy(n.boundingBox)),Ho.applyMatrix4(t.matrixWorld),this.union(Ho)}let s=t.children;for(let r=0,o=s.length;r<o;r++)this.expandByObject(s[r],e);return this}containsPoint(t){return t.x>=this.min.x&&t.x<=this.max.x&&t.y>=this.min.y&&t.y<=this.max.y&&t.z>=this.min.z&&t.z<=this.max.z}containsBox(t){return this.min.x<=t.min.x&&t.max.x<=this.max.x&&this.min.y<=t.min.y&&t.max.y<=this.max.y&&this.min.z<=t.min.z&&t.max.z<=this.max.z}getParameter(t,e){return e.set((t.x-this.min.x)/(this.max.x-this.min.x),(t.y-this.min.y)/(this.max.y-this.min.y),(t.z-this.min.z)/(this.max.z-this.min.z))}intersectsBox(t){return t.max.x>=this.min.x&&t.min.x<=this.max.x&&t.max.y>=this.min.y&&t.min.y<=this.max.y&&t.max.z>=this.min.z&&t.min.z<=this.max.z}intersectsSphere(t){return this.clampPoint(t.center,Zn),Zn.distanceToSquared(t.center)<=t.radius*t.radius}intersectsPlane(t){let e,n;return t.normal.x>0?(e=t.normal.x*this.min.x,n=t.normal.x*this.max.x):(e=t.normal.x*this.max.x,n=t.normal.x*this.min.x),t.normal.y>0?(e+=t.normal.y*this.min.y,n+=t.normal.y*this.max.y):(e+=t.normal.y*this.max.y,n+=t.normal.y*this.min.y),t.normal.z>0?(e+=t.normal.z*this.min.z,n+=t.normal.z*this.max.z):(e+=t.normal.z*this.max.z,n+=t.normal.z*this.min.z),e<=-t.constant&&n>=-t.constant}intersectsTriangle(t){if(this.isEmpty())return!1;this.getCenter(Cr),Go.subVectors(this.max,Cr),ks.subVectors(t.a,Cr),Ns.subVectors(t.b,Cr),Ds.subVectors(t.c,Cr),Bi.subVectors(Ns,ks),zi.subVectors(Ds,Ns),as.subVectors(ks,Ds);let e=[0,-Bi.z,Bi.y,0,-zi.z,zi.y,0,-as.z,as.y,Bi.z,0,-Bi.x,zi.z,0,-zi.x,as.z,0,-as.x,-Bi.y,Bi.x,0,-zi.y,zi.x,0,-as.y,as.x,0];return!gh(e,ks,Ns,Ds,Go)||(e=[1,0,0,0,1,0,0,0,1],!gh(e,ks,Ns,Ds,Go))?!1:(Wo.crossVectors(Bi,zi),e=[Wo.x,Wo.y,Wo.z],gh(e,ks,Ns,Ds,Go))}clampPoint(t,e){return e.copy(t).clamp(this.min,this.max)}distanceToPoint(t){return this.clampPoint(t,Zn).distanceTo(t)}getBoundingSphere(t){return this.isEmpty()?t.makeEmpty():(this.getCenter(t.center),t.radius=this.getSize(Zn).length()*.5),t}intersect(t){return this.min.max(t.min),this.max.min(t.max),this.isEmpty()&&this.makeEmpty(),this}union(t){return this.min.min(t.min),this.max.max(t.max),this}applyMatrix4(t){return this.isEmpty()?this:(_i[0].set(this.min.x,this.min.y,this.min.z).applyMatrix4(t),_i[1].set(this.min.x,this.min.y,this.max.z).applyMatrix4(t),_i[2].set(this.min.x,this.max.y,this.min.z).applyMatrix4(t),_i[3].set(this.min.x,this.max.y,this.max.z).applyMatrix4(t),_i[4].set(this.max.x,this.min.y,this.min.z).applyMatrix4(t),_i[5].set(this.max.x,this.min.y,this.max.z).applyMatrix4(t),_i[6].set(this.max.x,this.max.y,this.min.z).applyMatrix4(t),_i[7].set(this.max.x,this.max.y,this.max.z).applyMatrix4(t),this.setFromPoints(_i),this)}translate(t){return this.min.add(t),this.max.add(t),this}equals(t){return t.min.equals(this.min)&&t.max.equals(this.max)}toJSON(){return{min:this.min.toArray(),max:this.max.toArray()}}fromJSON(t){return this.min.fromArray(t.min),this.max.fromArray(t.max),this}},_i=[new N,new N,new N,new N,new N,new N,new N,new N],Zn=new N,Ho=new le,ks=new N,Ns=new N,Ds=new N,Bi=new N,zi=new N,as=new N,Cr=new N,Go=new N,Wo=new N,ls=new N;function gh(i,t,e,n,s){for(let r=0,o=i.length-3;r<=o;r+=3){ls.fromArray(i,r);let a=s.x*Math.abs(ls.x)+s.y*Math.abs(ls.y)+s.z*Math.abs(ls.z),l=t.dot(ls),c=e.dot(ls),h=n.dot(ls);if(Math.max(-Math.max(l,c,h),Math.min(l,c,h))>a)return!1}return!0}var Re=new N,Xo=new At,mx=0,be=class extends ai{constructor(t,e,n=!1){if(super(),Array.isArray(t))throw new TypeError("THREE.BufferAttribute: array should be a Typed Array.");this.isBufferAttribute=!0,Object.defineProperty(this,"id",{value:mx++}),this.name="",this.array=t,this.itemSize=e,this.count=t!==void 0?t.length/e:0,this.normalized=n,this.usage=rp,this.updateRanges=[],this.gpuType=Rn,this.version=0,this._normalizationScale=t!==void 0?au(t):void 0}onUploadCallback(){}set needsUpdate(t){t===!0&&this.version++}setUsage(t){return this.usage=t,this}addUpdateRange(t,e){this.updateRanges.push({start:t,count:e})}clearUpdateRanges(){this.updateRanges.length=0}copy(t){return this.name=t.name,this.array=new t.array.constructor(t.array),this.itemSize=t.itemSize,this.count=t.count,this.normalized=t.normalized,this.usage=t.usage,this.gpuType=t.gpuType,this._normalizationScale=t._normalizationScale,this}copyAt(t,e,n){t*=this.itemSize,n*=e.itemSize;for(let s=0,r=this.itemSize;s<r;s++)this.array[t+s]=e.array[n+s];return this}copyArray(t){return this.array.set(t),this}applyMatrix3(t){if(this.itemSize===2)for(let e=0,n=this.count;e<n;e++)Xo.fromBufferAttribute(this,e),Xo.applyMatrix3(t),this.setXY(e,Xo.x,Xo.y);else if(this.itemSize===3)for(let e=0,n=this.count;e<n;e++)Re.fromBufferAttribute(this,e),Re.applyMatrix3(t),this.setXYZ(e,Re.x,Re.y,Re.z);return this}applyMatrix4(t){for(let e=0,n=this.count;e<n;e++)Re.fromBufferAttribute(this,e),Re.applyMatrix4(t),this.setXYZ(e,Re.x,Re.y,Re.z);return this}applyNormalMatrix(t){for(let e=0,n=this.count;e<n;e++)Re.fromBufferAttribute(this,e),Re.applyNormalMatrix(t),this.setXYZ(e,Re.x,Re.y,Re.z);return this}transformDirection(t){for(let e=0,n=this.count;e<n;e++)Re.fromBufferAttribute(this,e),Re.transformDirection(t),this.setXYZ(e,Re.x,Re.y,Re.z);return this}set(t,e=0){return this.array.set(t,e),this}getComponent(t,e){let n=this.array[t*this.itemSize+e];return this.normalized&&(n=this._denormalize(n)),n}setComponent(t,e,n){return this.normalized&&(n=this._normalize(n)),this.array[t*this.itemSize+e]=n,this}getX(t){let e=this.array[t*this.itemSize];return this.normalized&&(e=this._denormalize(e)),e}setX(t,e){return this.normalized&&(e=this._normalize(e)),this.array[t*this.itemSize]=e,this}getY(t){let e=this.array[t*this.itemSize+1];return this.normalized&&(e=this._denormalize(e)),e}setY(t,e){return this.normalized&&(e=this._normalize(e)),this.array[t*this.itemSize+1]=e,this}getZ(t){let e=this.array[t*this.itemSize+2];return this.normalized&&(e=this._denormalize(e)),e}setZ(t,e){return this.normalized&&(e=this._normalize(e)),this.array[t*this.itemSize+2]=e,this}getW(t){let e=this.array[t*this.itemSize+3];return this.normalized&&(e=this._denormalize(e)),e}setW(t,e){return this.normalized&&(e=this._normalize(e)),this.array[t*this.itemSize+3]=e,this}setXY(t,e,n){return t*=this.itemSize,this.normalized&&(e=this._normalize(e),n=this._normalize(n)),this.array[t+0]=e,this.array[t+1]=n,this}setXYZ(t,e,n,s){return t*=this.itemSize,this.normalized&&(e=this._normalize(e),n=this._normalize(n),s=this._normalize(s)),this.array[t+0]=e,this.array[t+1]=n,this.array[t+2]=s,this}setXYZW(t,e,n,s,r){return t*=this.itemSize,this.normalized&&(e=this._normalize(e),n=this._normalize(n),s=this._normalize(s),r=this._normalize(r)),this.array[t+0]=e,this.array[t+1]=n,this.array[t+2]=s,this.array[t+3]=r,this}onUpload(t){return this.onUploadCallback=t,this}clone(){return new this.constructor(this.array,this.itemSize).copy(this)}toJSON(){let t={itemSize:this.itemSize,type:this.array.constructor.name,array:Array.from(this.array),normalized:this.normalized};return t.name=this.name,t.usage=this.usage,t.gpuType=this.gpuType,t}dispose(){this.dispatchEvent({type:"dispose"})}_denormalize(t){let e=this._normalizationScale;return e!==void 0?Math.max(t/e,-1):ix(t,this.array)}_normalize(t){let e=this._normalizationScale;return e!==void 0?Math.round(t*e):sx(t,this.array)}};var Or=class extends be{constructor(t,e,n){super(new Uint16Array(t),e,n)}};var Br=class extends be{constructor(t,e,n){super(new Uint32Array(t),e,n)}};var Xe=class extends be{constructor(t,e,n){super(new Float32Array(t),e,n)}},gx=new le,Rr=new N,xh=new N,Cn=class{constructor(t=new N,e=-1){this.isSphere=!0,this.center=t,this.radius=e}set(t,e){return this.center.copy(t),this.radius=e,this}setFromPoints(t,e){let n=this.center;e!==void 0?n.copy(e):gx.setFromPoints(t).getCenter(n);let s=0;for(let r=0,o=t.length;r<o;r++)s=Math.max(s,n.distanceToSquared(t[r]));return this.radius=Math.sqrt(s),this}copy(t){return this.center.copy(t.center),this.radius=t.radius,this}isEmpty(){return this.radius<0}makeEmpty(){return this.center.set(0,0,0),this.radius=-1,this}containsPoint(t){return t.distanceToSquared(this.center)<=this.radius*this.radius}distanceToPoint(t){return t.distanceTo(this.center)-this.radius}intersectsSphere(t){let e=this.radius+t.radius;return t.center.distanceToSquared(this.center)<=e*e}intersectsBox(t){return t.intersectsSphere(this)}intersectsPlane(t){return Math.abs(t.distanceToPoint(this.center))<=this.radius}clampPoint(t,e){let n=this.center.distanceToSquared(t);return e.copy(t),n>this.radius*this.radius&&(e.sub(this.center).normalize(),e.multiplyScalar(this.radius).add(this.center)),e}getBoundingBox(t){return this.isEmpty()?(t.makeEmpty(),t):(t.set(this.center,this.center),t.expandByScalar(this.radius),t)}applyMatrix4(t){return this.center.applyMatrix4(t),this.radius=this.radius*t.getMaxScaleOnAxis(),this}translate(t){return this.center.add(t),this}expandByPoint(t){if(this.isEmpty())return this.center.copy(t),this.radius=0,this;Rr.subVectors(t,this.center);let e=Rr.lengthSq();if(e>this.radius*this.radius){let n=Math.sqrt(e),s=(n-this.radius)*.5;this.center.addScaledVector(Rr,s/n),this.radius+=s}return this}union(t){return t.isEmpty()?this:this.isEmpty()?(this.copy(t),this):(this.center.equals(t.center)===!0?this.radius=Math.max(this.radius,t.radius):(xh.subVectors(t.center,this.center).setLength(t.radius),this.expandByPoint(Rr.copy(t.center).add(xh)),this.expandByPoint(Rr.copy(t.center).sub(xh))),this)}equals(t){return t.center.equals(this.center)&&t.radius===this.radius}clone(){return new this.constructor().copy(this)}toJSON(){return{radius:this.radius,center:this.center.toArray()}}fromJSON(t){return this.radius=t.radius,this.center.fromArray(t.center),this}},xx=0,Bn=new Mt,vh=new Pn,Fs=new N,En=new le,Pr=new le,We=new N,Ie=class i extends ai{constructor(){super(),this.isBufferGeometry=!0,Object.defineProperty(this,"id",{value:xx++}),this.uuid=ao(),this.name="",this.type="BufferGeometry",this.index=null,this.indirect=null,this.indirectOffset=0,this.attributes={},this.morphAttributes={},this.morphTargetsRelative=!1,this.groups=[],this.boundingBox=null,this.boundingSphere=null,this.drawRange={start:0,count:1/0},this.userData={},this._transformed=!1}getIndex(){return this.index}setIndex(t){return Array.isArray(t)?this.index=new(tx(t)?Br:Or)(t,1):this.index=t,this}setIndirect(t,e=0){return this.indirect=t,this.indirectOffset=e,this}getIndirect(){return this.indirect}getAttribute(t){return this.attributes[t]}setAttribute(t,e){return this.attributes[t]=e,this}deleteAttribute(t){return delete this.attributes[t],this}hasAttribute(t){return this.attributes[t]!==void 0}addGroup(t,e,n=0){this.groups.push({start:t,count:e,materialIndex:n})}clearGroups(){this.groups=[]}setDrawRange(t,e){this.drawRange.start=t,this.drawRange.count=e}applyMatrix4(t){let e=this.attributes.position;e!==void 0&&(e.applyMatrix4(t),e.needsUpdate=!0);let n=this.attributes.normal;if(n!==void 0){let r=new Ft().getNormalMatrix(t);n.applyNormalMatrix(r),n.needsUpdate=!0}let s=this.attributes.tangent;return s!==void 0&&(s.transformDirection(t),s.needsUpdate=!0),this.boundingBox!==null&&this.computeBoundingBox(),this.boundingSphere!==null&&this.computeBoundingSphere(),this._transformed=!0,this}applyQuaternion(t){return Bn.makeRotationFromQuaternion(t),this.applyMatrix4(Bn),this}rotateX(t){return Bn.makeRotationX(t),this.applyMatrix4(Bn),this}rotateY(t){return Bn.makeRotationY(t),this.applyMatrix4(Bn),this}rotateZ(t){return Bn.makeRotationZ(t),this.applyMatrix4(Bn),this}translate(t,e,n){return Bn.makeTranslation(t,e,n),this.applyMatrix4(Bn),this}scale(t,e,n){return Bn.makeScale(t,e,n),this.applyMatrix4(Bn),this}lookAt(t){return vh.lookAt(t),vh.updateMatrix(),this.applyMatrix4(vh.matrix),this}center(){return this.computeBoundingBox(),this.boundingBox.getCenter(Fs).negate(),this.translate(Fs.x,Fs.y,Fs.z),this}setFromPoints(t){let e=this.getAttribute("position");if(e===void 0){let n=[];for(let s=0,r=t.length;s<r;s++){let o=t[s];n.push(o.x,o.y,o.z||0)}this.setAttribute("position",new Xe(n,3))}else{let n=Math.min(t.length,e.count);for(let s=0;s<n;s++){let r=t[s];e.setXYZ(s,r.x,r.y,r.z||0)}t.length>e.count&&Lt("BufferGeometry: Buffer size too small for points data. Use .dispose() and create a new geometry."),e.needsUpdate=!0}return this}computeBoundingBox(){this.boundingBox===null&&(this.boundingBox=new le);let t=this.attributes.position,e=this.morphAttributes.position;if(t&&t.isGLBufferAttribute){kt("BufferGeometry.computeBoundingBox(): GLBufferAttribute requires a manual bounding box.",this),this.boundingBox.set(new N(-1/0,-1/0,-1/0),new N(1/0,1/0,1/0));return}if(t!==void 0){if(this.boundingBox.setFromBufferAttribute(t),e)for(let n=0,s=e.length;n<s;n++){let r=e[n];En.setFromBufferAttribute(r),this.morphTargetsRelative?(We.addVectors(this.boundingBox.min,En.min),this.boundingBox.expandByPoint(We),We.addVectors(this.boundingBox.max,En.max),this.boundingBox.expandByPoint(We)):(this.boundingBox.expandByPoint(En.min),this.boundingBox.expandByPoint(En.max))}}else this.boundingBox.makeEmpty();(isNaN(this.boundingBox.min.x)||isNaN(this.boundingBox.min.y)||isNaN(this.boundingBox.min.z))&&kt('BufferGeometry.computeBoundingBox(): Computed min/max have NaN values. The "position" attribute is likely to have NaN values.',this)}computeBoundingSphere(){this.boundingSphere===null&&(this.boundingSphere=new Cn);let t=this.attributes.position,e=this.morphAttributes.position;if(t&&t.isGLBufferAttribute){kt("BufferGeometry.computeBoundingSphere(): GLBufferAttribute requires a manual bounding sphere.",this),this.boundingSphere.set(new N,1/0);return}if(t){let n=this.boundingSphere.center;if(En.setFromBufferAttribute(t),e)for(let r=0,o=e.length;r<o;r++){let a=e[r];Pr.setFromBufferAttribute(a),this.morphTargetsRelative?(We.addVectors(En.min,Pr.min),En.expandByPoint(We),We.addVectors(En.max,Pr.max),En.expandByPoint(We)):(En.expandByPoint(Pr.min),En.expandByPoint(Pr.max))}En.getCenter(n);let s=0;for(let r=0,o=t.count;r<o;r++)We.fromBufferAttribute(t,r),s=Math.max(s,n.distanceToSquared(We));if(e)for(let r=0,o=e.length;r<o;r++){let a=e[r],l=this.morphTargetsRelative;for(let c=0,h=a.count;c<h;c++)We.fromBufferAttribute(a,c),l&&(Fs.fromBufferAttribute(t,c),We.add(Fs)),s=Math.max(s,n.distanceToSquared(We))}this.boundingSphere.radius=Math.sqrt(s),isNaN(this.boundingSphere.radius)&&kt('BufferGeometry.computeBoundingSphere(): Computed radius is NaN. The "position" attribute is likely to have NaN values.',this)}}computeTangents(){let t=this.index,e=this.attributes;if(t===null||e.position===void 0||e.normal===void 0||e.uv===void 0){kt("BufferGeometry: .computeTangents() failed. Missing required attributes (index, position, normal or uv)");return}let n=e.position,s=e.normal,r=e.uv,o=this.getAttribute("tangent");(o===void 0||o.count!==n.count)&&(o=new be(new Float32Array(4*n.count),4),this.setAttribute("tangent",o));let a=[],l=[],c=new Uint8Array(n.count);for(let k=0;k<n.count;k++)a[k]=new N,l[k]=new N;let h=new N,u=new N,d=new N,f=new At,p=new At,b=new At,m=new N,g=new N;function y(k,C,P){c[k]=c[C]=c[P]=1,h.fromBufferAttribute(n,k),u.fromBufferAttribute(n,C),d.fromBufferAttribute(n,P),f.fromBufferAttribute(r,k),p.fromBufferAttribute(r,C),b.fromBufferAttribute(r,P),u.sub(h),d.sub(h),p.sub(f),b.sub(f);let I=1/(p.x*b.y-b.x*p.y);isFinite(I)&&(m.copy(u).multiplyScalar(b.y).addScaledVector(d,-p.y).multiplyScalar(I),g.copy(d).multiplyScalar(p.x).addScaledVector(u,-b.x).multiplyScalar(I),a[k].add(m),a[C].add(m),a[P].add(m),l[k].add(g),l[C].add(g),l[P].add(g))}let w=this.groups;w.length===0&&(w=[{start:0,count:t.count}]);for(let k=0,C=w.length;k<C;++k){let P=w[k],I=P.start,U=P.count;for(let L=I,B=I+U;L<B;L+=3)y(t.getX(L+0),t.getX(L+1),t.getX(L+2))}let v=new N,_=new N,E=new N,x=new N;function S(k){E.fromBufferAttribute(s,k),x.copy(E);let C=a[k];v.copy(C),v.sub(E.multiplyScalar(E.dot(C))).normalize(),_.crossVectors(x,C);let I=_.dot(l[k])<0?-1:1;o.setXYZW(k,v.x,v.y,v.z,I)}for(let k=0,C=n.count;k<C;++k)c[k]&&S(k);this._transformed=!0}computeVertexNormals(){let t=this.index,e=this.getAttribute("position");if(e!==void 0){let n=this.getAttribute("normal");if(n===void 0||n.count!==e.count)n=new be(new Float32Array(e.count*3),3),this.setAttribute("normal",n);else for(let d=0,f=n.count;d<f;d++)n.setXYZ(d,0,0,0);let s=new N,r=new N,o=new N,a=new N,l=new N,c=new N,h=new N,u=new N;if(t)for(let d=0,f=t.count;d<f;d+=3){let p=t.getX(d+0),b=t.getX(d+1),m=t.getX(d+2);s.fromBufferAttribute(e,p),r.fromBufferAttribute(e,b),o.fromBufferAttribute(e,m),h.subVectors(o,r),u.subVectors(s,r),h.cross(u),a.fromBufferAttribute(n,p),l.fromBufferAttribute(n,b),c.fromBufferAttribute(n,m),a.add(h),l.add(h),c.add(h),n.setXYZ(p,a.x,a.y,a.z),n.setXYZ(b,l.x,l.y,l.z),n.setXYZ(m,c.x,c.y,c.z)}else for(let d=0,f=e.count;d<f;d+=3)s.fromBufferAttribute(e,d+0),r.fromBufferAttribute(e,d+1),o.fromBufferAttribute(e,d+2),h.subVectors(o,r),u.subVectors(s,r),h.cross(u),n.setXYZ(d+0,h.x,h.y,h.z),n.setXYZ(d+1,h.x,h.y,h.z),n.setXYZ(d+2,h.x,h.y,h.z);this.normalizeNormals(),n.needsUpdate=!0}}normalizeNormals(){let t=this.attributes.normal;for(let e=0,n=t.count;e<n;e++)We.fromBufferAttribute(t,e),We.normalize(),t.setXYZ(e,We.x,We.y,We.z)}toNonIndexed(){function t(a,l){let c=a.array,h=a.itemSize,u=a.normalized,d=new c.constructor(l.length*h),f=0,p=0;for(let b=0,m=l.length;b<m;b++){a.isInterleavedBufferAttribute?f=l[b]*a.data.stride+a.offset:f=l[b]*h;for(let g=0;g<h;g++)d[p++]=c[f++]}return new be(d,h,u)}if(this.index===null)return Lt("BufferGeometry.toNonIndexed(): BufferGeometry is already non-indexed."),this;let e=new i,n=this.index.array,s=this.attributes;for(let a in s){let l=s[a],c=t(l,n);e.setAttribute(a,c)}let r=this.morphAttributes;for(let a in r){let l=[],c=r[a];for(let h=0,u=c.length;h<u;h++){let d=c[h],f=t(d,n);l.push(f)}e.morphAttributes[a]=l}e.morphTargetsRelative=this.morphTargetsRelative;let o=this.groups;for(let a=0,l=o.length;a<l;a++){let c=o[a];e.addGroup(c.start,c.count,c.materialIndex)}return e}toJSON(){let t={metadata:{version:4.7,type:"BufferGeometry",generator:"BufferGeometry.toJSON"}};if(t.uuid=this.uuid,t.type=this.parameters!==void 0&&this._transformed===!0?"BufferGeometry":this.type,t.name=this.name,Object.keys(this.userData).length>0&&(t.userData=this.userData),this.parameters!==void 0&&this._transformed!==!0){let l=this.parameters;for(let c in l)l[c]!==void 0&&(t[c]=l[c]);return t}t.data={attributes:{}};let e=this.index;e!==null&&(t.data.index={type:e.array.constructor.name,array:Array.prototype.slice.call(e.array)});let n=this.attributes;for(let l in n){let c=n[l];t.data.attributes[l]=c.toJSON(t.data)}let s={},r=!1;for(let l in this.morphAttributes){let c=this.morphAttributes[l],h=[];for(let u=0,d=c.length;u<d;u++){let f=c[u];h.push(f.toJSON(t.data))}h.length>0&&(s[l]=h,r=!0)}r&&(t.data.morphAttributes=s,t.data.morphTargetsRelative=this.morphTargetsRelative);let o=this.groups;o.length>0&&(t.data.groups=JSON.parse(JSON.stringify(o)));let a=this.boundingSphere;return a!==null&&(t.data.boundingSphere=a.toJSON()),t}clone(){return new this.constructor().copy(this)}copy(t){this.index=null,this.attributes={},this.morphAttributes={},this.groups=[],this.boundingBox=null,this.boundingSphere=null;let e={};this.name=t.name;let n=t.index;n!==null&&this.setIndex(n.clone());let s=t.attributes;for(let c in s){let h=s[c];this.setAttribute(c,h.clone(e))}let r=t.morphAttributes;for(let c in r){let h=[],u=r[c];for(let d=0,f=u.length;d<f;d++)h.push(u[d].clone(e));this.morphAttributes[c]=h}this.morphTargetsRelative=t.morphTargetsRelative;let o=t.groups;for(let c=0,h=o.length;c<h;c++){let u=o[c];this.addGroup(u.start,u.count,u.materialIndex)}let a=t.boundingBox;a!==null&&(this.boundingBox=a.clone());let l=t.boundingSphere;return l!==null&&(this.boundingSphere=l.clone()),this.drawRange.start=t.drawRange.start,this.drawRange.count=t.drawRange.count,this.userData=t.userData,this._transformed=t._transformed,this}dispose(){this.dispatchEvent({type:"dispose"})}};var yh=new N,vx=new N,yx=new Ft,fn=class{constructor(t=new N(1,0,0),e=0){this.isPlane=!0,this.normal=t,this.constant=e}set(t,e){return this.normal.copy(t),this.constant=e,this}setComponents(t,e,n,s){return this.normal.set(t,e,n),this.constant=s,this}setFromNormalAndCoplanarPoint(t,e){return this.normal.copy(t),this.constant=-e.dot(this.normal),this}setFromCoplanarPoints(t,e,n){let s=yh.subVectors(n,e).cross(vx.subVectors(t,e)).normalize();return this.setFromNormalAndCoplanarPoint(s,t),this}copy(t){return this.normal.copy(t.normal),this.constant=t.constant,this}normalize(){let t=1/this.normal.length();return this.normal.multiplyScalar(t),this.constant*=t,this}negate(){return this.constant*=-1,this.normal.negate(),this}distanceToPoint(t){return this.normal.dot(t)+this.constant}distanceToSphere(t){return this.distanceToPoint(t.center)-t.radius}projectPoint(t,e){return e.copy(t).addScaledVector(this.normal,-this.distanceToPoint(t))}intersectLine(t,e,n=!0){let s=t.delta(yh),r=this.normal.dot(s);if(r===0)return this.distanceToPoint(t.start)===0?e.copy(t.start):null;let o=-(t.start.dot(this.normal)+this.constant)/r;return n===!0&&(o<0||o>1)?null:e.copy(t.start).addScaledVector(s,o)}intersectsLine(t){let e=this.distanceToPoint(t.start),n=this.distanceToPoint(t.end);return e<0&&n>0||n<0&&e>0}intersectsBox(t){return t.intersectsPlane(this)}intersectsSphere(t){return t.intersectsPlane(this)}coplanarPoint(t){return t.copy(this.normal).multiplyScalar(-this.constant)}applyMatrix4(t,e){let n=e||yx.getNormalMatrix(t),s=this.coplanarPoint(yh).applyMatrix4(t),r=this.normal.applyMatrix3(n).normalize();return this.constant=-s.dot(r),this}translate(t){return this.constant-=t.dot(this.normal),this}equals(t){return t.normal.equals(this.normal)&&t.constant===this.constant}clone(){return new this.constructor().copy(this)}toJSON(){return{normal:this.normal.toArray(),constant:this.constant}}fromJSON(t){return this.normal.fromArray(t.normal),this.constant=t.constant,this}},bx=0,Gi=class extends ai{constructor(){super(),this.isMaterial=!0,Object.defineProperty(this,"id",{value:bx++}),this.uuid=ao(),this.name="",this.type="Material",this.blending=js,this.side=Kn,this.vertexColors=!1,this.opacity=1,this.transparent=!1,this.alphaHash=!1,this.blendSrc=jr,this.blendDst=Qs,this.blendEquation=ds,this.blendSrcAlpha=null,this.blendDstAlpha=null,this.blendEquationAlpha=null,this.blendColor=new Ut(0,0,0),this.blendAlpha=0,this.depthFunc=Gs,this.depthTest=!0,this.depthWrite=!0,this.stencilWriteMask=255,this.stencilFunc=Qf,this.stencilRef=0,this.stencilFuncMask=255,this.stencilFail=ua,this.stencilZFail=ua,this.stencilZPass=ua,this.stencilWrite=!1,this.clippingPlanes=null,this.clipIntersection=!1,this.clipShadows=!1,this.shadowSide=null,this.colorWrite=!0,this.precision=null,this.polygonOffset=!1,this.polygonOffsetFactor=0,this.polygonOffsetUnits=0,this.dithering=!1,this.alphaToCoverage=!1,this.premultipliedAlpha=!1,this.forceSinglePass=!1,this.allowOverride=!0,this.visible=!0,this.toneMapped=!0,this.userData={},this.version=0,this._alphaTest=0}get alphaTest(){return this._alphaTest}set alphaTest(t){this._alphaTest>0!=t>0&&this.version++,this._alphaTest=t}onBeforeRender(){}onBeforeCompile(){}customProgramCacheKey(){return this.onBeforeCompile.toString()}setValues(t){if(t!==void 0)for(let e in t){let n=t[e];if(n===void 0){Lt(`Material: parameter '${e}' has value of undefined.`);continue}let s=this[e];if(s===void 0){Lt(`Material: '${e}' is not a property of THREE.${this.type}.`);continue}s&&s.isColor?s.set(n):s&&s.isVector2&&n&&n.isVector2||s&&s.isEuler&&n&&n.isEuler||s&&s.isVector3&&n&&n.isVector3?s.copy(n):this[e]=n}}toJSON(t){let e=t===void 0||typeof t=="string";e&&(t={textures:{},images:{}});let n={metadata:{version:4.7,type:"Material",generator:"Material.toJSON"}};n.uuid=this.uuid,n.type=this.type,n.blending=this.blending,n.side=this.side,n.shadowSide=this.shadowSide,n.vertexColors=this.vertexColors,n.opacity=this.opacity,n.transparent=this.transparent,n.blendSrc=this.blendSrc,n.blendDst=this.blendDst,n.blendEquation=this.blendEquation,n.blendSrcAlpha=this.blendSrcAlpha,n.blendDstAlpha=this.blendDstAlpha,n.blendEquationAlpha=this.blendEquationAlpha,n.blendColor=this.blendColor.getHex(),n.blendAlpha=this.blendAlpha,n.depthFunc=this.depthFunc,n.depthTest=this.depthTest,n.depthWrite=this.depthWrite,n.colorWrite=this.colorWrite,n.clipIntersection=this.clipIntersection,n.clipShadows=this.clipShadows,n.stencilWriteMask=this.stencilWriteMask,n.stencilFunc=this.stencilFunc,n.stencilRef=this.stencilRef,n.stencilFuncMask=this.stencilFuncMask,n.stencilFail=this.stencilFail,n.stencilZFail=this.stencilZFail,n.stencilZPass=this.stencilZPass,n.stencilWrite=this.stencilWrite,n.polygonOffset=this.polygonOffset,n.polygonOffsetFactor=this.polygonOffsetFactor,n.polygonOffsetUnits=this.polygonOffsetUnits,n.dithering=this.dithering,n.alphaTest=this.alphaTest,n.alphaHash=this.alphaHash,n.alphaToCoverage=this.alphaToCoverage,n.premultipliedAlpha=this.premultipliedAlpha,n.forceSinglePass=this.forceSinglePass,n.allowOverride=this.allowOverride,n.visible=this.visible,n.toneMapped=this.toneMapped,n.name=this.name,this.color&&this.color.isColor&&(n.color=this.color.getHex()),this.roughness!==void 0&&(n.roughness=this.roughness),this.metalness!==void 0&&(n.metalness=this.metalness),this.sheen!==void 0&&(n.sheen=this.sheen),this.sheenColor&&this.sheenColor.isColor&&(n.sheenColor=this.sheenColor.getHex()),this.sheenRoughness!==void 0&&(n.sheenRoughness=this.sheenRoughness),this.emissive&&this.emissive.isColor&&(n.emissive=this.emissive.getHex()),this.emissiveIntensity!==void 0&&(n.emissiveIntensity=this.emissiveIntensity),this.specular&&this.specular.isColor&&(n.specular=this.specular.getHex()),this.specularIntensity!==void 0&&(n.specularIntensity=this.specularIntensity),this.specularColor&&this.specularColor.isColor&&(n.specularColor=this.specularColor.getHex()),this.shininess!==void 0&&(n.shininess=this.shininess),this.clearcoat!==void 0&&(n.clearcoat=this.clearcoat),this.clearcoatRoughness!==void 0&&(n.clearcoatRoughness=this.clearcoatRoughness),this.diffuseRoughness!==void 0&&(n.diffuseRoughness=this.diffuseRoughness),this.diffuseRoughnessMap&&this.diffuseRoughnessMap.isTexture&&(n.diffuseRoughnessMap=this.diffuseRoughnessMap.toJSON(t).uuid),this.clearcoatMap&&this.clearcoatMap.isTexture&&(n.clearcoatMap=this.clearcoatMap.toJSON(t).uuid),this.clearcoatRoughnessMap&&this.clearcoatRoughnessMap.isTexture&&(n.clearcoatRoughnessMap=this.clearcoatRoughnessMap.toJSON(t).uuid),this.clearcoatNormalMap&&this.clearcoatNormalMap.isTexture&&(n.clearcoatNormalMap=this.clearcoatNormalMap.toJSON(t).uuid,n.clearcoatNormalScale=this.clearcoatNormalScale.toArray()),this.sheenColorMap&&this.sheenColorMap.isTexture&&(n.sheenColorMap=this.sheenColorMap.toJSON(t).uuid),this.sheenRoughnessMap&&this.sheenRoughnessMap.isTexture&&(n.sheenRoughnessMap=this.sheenRoughnessMap.toJSON(t).uuid),this.dispersion!==void 0&&(n.dispersion=this.dispersion),this.retroreflectivity!==void 0&&(n.retroreflectivity=this.retroreflectivity),this.iridescence!==void 0&&(n.iridescence=this.iridescence),this.iridescenceIOR!==void 0&&(n.iridescenceIOR=this.iridescenceIOR),this.iridescenceThicknessMinimum!==void 0&&(n.iridescenceThicknessMinimum=this.iridescenceThicknessMinimum),this.iridescenceThicknessMaximum!==void 0&&(n.iridescenceThicknessMaximum=this.iridescenceThicknessMaximum),this.iridescenceMap&&this.iridescenceMap.isTexture&&(n.iridescenceMap=this.iridescenceMap.toJSON(t).uuid),this.iridescenceThicknessMap&&this.iridescenceThicknessMap.isTexture&&(n.iridescenceThicknessMap=this.iridescenceThicknessMap.toJSON(t).uuid),this.anisotropy!==void 0&&(n.anisotropy=this.anisotropy),this.anisotropyRotation!==void 0&&(n.anisotropyRotation=this.anisotropyRotation),this.anisotropyMap&&this.anisotropyMap.isTexture&&(n.anisotropyMap=this.anisotropyMap.toJSON(t).uuid),this.map&&this.map.isTexture&&(n.map=this.map.toJSON(t).uuid),this.matcap&&this.matcap.isTexture&&(n.matcap=this.matcap.toJSON(t).uuid),this.alphaMap&&this.alphaMap.isTexture&&(n.alphaMap=this.alphaMap.toJSON(t).uuid),this.lightMap&&this.lightMap.isTexture&&(n.lightMap=this.lightMap.toJSON(t).uuid,n.lightMapIntensity=this.lightMapIntensity),this.aoMap&&this.aoMap.isTexture&&(n.aoMap=this.aoMap.toJSON(t).uuid,n.aoMapIntensity=this.aoMapIntensity),this.bumpMap&&this.bumpMap.isTexture&&(n.bumpMap=this.bumpMap.toJSON(t).uuid,n.bumpScale=this.bumpScale),this.normalMap&&this.normalMap.isTexture&&(n.normalMap=this.normalMap.toJSON(t).uuid,n.normalMapType=this.normalMapType,n.normalScale=this.normalScale.toArray()),this.displacementMap&&this.displacementMap.isTexture&&(n.displacementMap=this.displacementMap.toJSON(t).uuid,n.displacementScale=this.displacementScale,n.displacementBias=this.displacementBias),this.roughnessMap&&this.roughnessMap.isTexture&&(n.roughnessMap=this.roughnessMap.toJSON(t).uuid),this.metalnessMap&&this.metalnessMap.isTexture&&(n.metalnessMap=this.metalnessMap.toJSON(t).uuid),this.emissiveMap&&this.emissiveMap.isTexture&&(n.emissiveMap=this.emissiveMap.toJSON(t).uuid),this.specularMap&&this.specularMap.isTexture&&(n.specularMap=this.specularMap.toJSON(t).uuid),this.specularIntensityMap&&this.specularIntensityMap.isTexture&&(n.specularIntensityMap=this.specularIntensityMap.toJSON(t).uuid),this.specularColorMap&&this.specularColorMap.isTexture&&(n.specularColorMap=this.specularColorMap.toJSON(t).uuid),this.envMap&&this.envMap.isTexture&&(n.envMap=this.envMap.toJSON(t).uuid,this.combine!==void 0&&(n.combine=this.combine)),this.envMapRotation!==void 0&&(n.envMapRotation=this.envMapRotation.toArray()),this.envMapIntensity!==void 0&&(n.envMapIntensity=this.envMapIntensity),this.reflectivity!==void 0&&(n.reflectivity=this.reflectivity),this.refractionRatio!==void 0&&(n.refractionRatio=this.refractionRatio),this.gradientMap&&this.gradientMap.isTexture&&(n.gradientMap=this.gradientMap.toJSON(t).uuid),this.transmission!==void 0&&(n.transmission=this.transmission),this.transmissionMap&&this.transmissionMap.isTexture&&(n.transmissionMap=this.transmissionMap.toJSON(t).uuid),this.thickness!==void 0&&(n.thickness=this.thickness),this.thicknessMap&&this.thicknessMap.isTexture&&(n.thicknessMap=this.thicknessMap.toJSON(t).uuid),this.attenuationDistance!==void 0&&(n.attenuationDistance=this.attenuationDistance),this.attenuationColor!==void 0&&(n.attenuationColor=this.attenuationColor.getHex()),this.size!==void 0&&(n.size=this.size),this.sizeAttenuation!==void 0&&(n.sizeAttenuation=this.sizeAttenuation),Array.isArray(this.clippingPlanes)&&this.clippingPlanes.length>0&&(n.clippingPlanes=this.clippingPlanes.map(r=>r.toJSON())),this.rotation!==void 0&&(n.rotation=this.rotation),this.depthPacking!==void 0&&(n.depthPacking=this.depthPacking),this.linewidth!==void 0&&(n.linewidth=this.linewidth),this.linecap!==void 0&&(n.linecap=this.linecap),this.linejoin!==void 0&&(n.linejoin=this.linejoin),this.dashSize!==void 0&&(n.dashSize=this.dashSize),this.gapSize!==void 0&&(n.gapSize=this.gapSize),this.scale!==void 0&&(n.scale=this.scale),this.wireframe!==void 0&&(n.wireframe=this.wireframe),this.wireframeLinewidth!==void 0&&(n.wireframeLinewidth=this.wireframeLinewidth),this.wireframeLinecap!==void 0&&(n.wireframeLinecap=this.wireframeLinecap),this.wireframeLinejoin!==void 0&&(n.wireframeLinejoin=this.wireframeLinejoin),this.flatShading!==void 0&&(n.flatShading=this.flatShading),this.fog!==void 0&&(n.fog=this.fog),Object.keys(this.userData).length>0&&(n.userData=this.userData);function s(r){let o=[];for(let a in r){let l=r[a];delete l.metadata,o.push(l)}return o}if(e){let r=s(t.textures),o=s(t.images);r.length>0&&(n.textures=r),o.length>0&&(n.images=o)}return n}fromJSON(t,e){if(t.uuid!==void 0&&(this.uuid=t.uuid),t.name!==void 0&&(this.name=t.name),t.color!==void 0&&this.color!==void 0&&this.color.setHex(t.color),t.roughness!==void 0&&(this.roughness=t.roughness),t.metalness!==void 0&&(this.metalness=t.metalness),t.sheen!==void 0&&(this.sheen=t.sheen),t.sheenColor!==void 0&&(this.sheenColor=new Ut().setHex(t.sheenColor)),t.sheenRoughness!==void 0&&(this.sheenRoughness=t.sheenRoughness),t.emissive!==void 0&&this.emissive!==void 0&&this.emissive.setHex(t.emissive),t.specular!==void 0&&this.specular!==void 0&&this.specular.setHex(t.specular),t.specularIntensity!==void 0&&(this.specularIntensity=t.specularIntensity),t.specularColor!==void 0&&this.specularColor!==void 0&&this.specularColor.setHex(t.specularColor),t.shininess!==void 0&&(this.shininess=t.shininess),t.clearcoat!==void 0&&(this.clearcoat=t.clearcoat),t.clearcoatRoughness!==void 0&&(this.clearcoatRoughness=t.clearcoatRoughness),t.diffuseRoughness!==void 0&&(this.diffuseRoughness=t.diffuseRoughness),t.dispersion!==void 0&&(this.dispersion=t.dispersion),t.retroreflectivity!==void 0&&(this.retroreflectivity=t.retroreflectivity),t.iridescence!==void 0&&(this.iridescence=t.iridescence),t.iridescenceIOR!==void 0&&(this.iridescenceIOR=t.iridescenceIOR),t.iridescenceThicknessMinimum!==void 0&&(this.iridescenceThicknessMinimum=t.iridescenceThicknessMinimum),t.iridescenceThicknessMaximum!==void 0&&(this.iridescenceThicknessMaximum=t.iridescenceThicknessMaximum),t.iridescenceThicknessRange!==void 0&&(this.iridescenceThicknessMinimum=t.iridescenceThicknessRange[0],this.iridescenceThicknessMaximum=t.iridescenceThicknessRange[1]),t.transmission!==void 0&&(this.transmission=t.transmission),t.thickness!==void 0&&(this.thickness=t.thickness),t.attenuationDistance!==void 0&&(this.attenuationDistance=t.attenuationDistance),t.attenuationColor!==void 0&&this.attenuationColor!==void 0&&this.attenuationColor.setHex(t.attenuationColor),t.anisotropy!==void 0&&(this.anisotropy=t.anisotropy),t.anisotropyRotation!==void 0&&(this.anisotropyRotation=t.anisotropyRotation),t.fog!==void 0&&(this.fog=t.fog),t.flatShading!==void 0&&(this.flatShading=t.flatShading),t.blending!==void 0&&(this.blending=t.blending),t.combine!==void 0&&(this.combine=t.combine),t.side!==void 0&&(this.side=t.side),t.shadowSide!==void 0&&(this.shadowSide=t.shadowSide),t.opacity!==void 0&&(this.opacity=t.opacity),t.transparent!==void 0&&(this.transparent=t.transparent),t.alphaTest!==void 0&&(this.alphaTest=t.alphaTest),t.alphaHash!==void 0&&(this.alphaHash=t.alphaHash),t.depthFunc!==void 0&&(this.depthFunc=t.depthFunc),t.depthTest!==void 0&&(this.depthTest=t.depthTest),t.depthWrite!==void 0&&(this.depthWrite=t.depthWrite),t.colorWrite!==void 0&&(this.colorWrite=t.colorWrite),t.clippingPlanes!==void 0&&(this.clippingPlanes=t.clippingPlanes.map(n=>new fn().fromJSON(n))),t.clipIntersection!==void 0&&(this.clipIntersection=t.clipIntersection),t.clipShadows!==void 0&&(this.clipShadows=t.clipShadows),t.depthPacking!==void 0&&(this.depthPacking=t.depthPacking),t.blendSrc!==void 0&&(this.blendSrc=t.blendSrc),t.blendDst!==void 0&&(this.blendDst=t.blendDst),t.blendEquation!==void 0&&(this.blendEquation=t.blendEquation),t.blendSrcAlpha!==void 0&&(this.blendSrcAlpha=t.blendSrcAlpha),t.blendDstAlpha!==void 0&&(this.blendDstAlpha=t.blendDstAlpha),t.blendEquationAlpha!==void 0&&(this.blendEquationAlpha=t.blendEquationAlpha),t.blendColor!==void 0&&this.blendColor!==void 0&&this.blendColor.setHex(t.blendColor),t.blendAlpha!==void 0&&(this.blendAlpha=t.blendAlpha),t.stencilWriteMask!==void 0&&(this.stencilWriteMask=t.stencilWriteMask),t.stencilFunc!==void 0&&(this.stencilFunc=t.stencilFunc),t.stencilRef!==void 0&&(this.stencilRef=t.stencilRef),t.stencilFuncMask!==void 0&&(this.stencilFuncMask=t.stencilFuncMask),t.stencilFail!==void 0&&(this.stencilFail=t.stencilFail),t.stencilZFail!==void 0&&(this.stencilZFail=t.stencilZFail),t.stencilZPass!==void 0&&(this.stencilZPass=t.stencilZPass),t.stencilWrite!==void 0&&(this.stencilWrite=t.stencilWrite),t.wireframe!==void 0&&(this.wireframe=t.wireframe),t.wireframeLinewidth!==void 0&&(this.wireframeLinewidth=t.wireframeLinewidth),t.wireframeLinecap!==void 0&&(this.wireframeLinecap=t.wireframeLinecap),t.wireframeLinejoin!==void 0&&(this.wireframeLinejoin=t.wireframeLinejoin),t.rotation!==void 0&&(this.rotation=t.rotation),t.linewidth!==void 0&&(this.linewidth=t.linewidth),t.linecap!==void 0&&(this.linecap=t.linecap),t.linejoin!==void 0&&(this.linejoin=t.linejoin),t.dashSize!==void 0&&(this.dashSize=t.dashSize),t.gapSize!==void 0&&(this.gapSize=t.gapSize),t.scale!==void 0&&(this.scale=t.scale),t.polygonOffset!==void 0&&(this.polygonOffset=t.polygonOffset),t.polygonOffsetFactor!==void 0&&(this.polygonOffsetFactor=t.polygonOffsetFactor),t.polygonOffsetUnits!==void 0&&(this.polygonOffsetUnits=t.polygonOffsetUnits),t.dithering!==void 0&&(this.dithering=t.dithering),t.alphaToCoverage!==void 0&&(this.alphaToCoverage=t.alphaToCoverage),t.premultipliedAlpha!==void 0&&(this.premultipliedAlpha=t.premultipliedAlpha),t.forceSinglePass!==void 0&&(this.forceSinglePass=t.forceSinglePass),t.allowOverride!==void 0&&(this.allowOverride=t.allowOverride),t.visible!==void 0&&(this.visible=t.visible),t.toneMapped!==void 0&&(this.toneMapped=t.toneMapped),t.userData!==void 0&&(this.userData=t.userData),t.vertexColors!==void 0&&(typeof t.vertexColors=="number"?this.vertexColors=t.vertexColors>0:this.vertexColors=t.vertexColors),t.size!==void 0&&(this.size=t.size),t.sizeAttenuation!==void 0&&(this.sizeAttenuation=t.sizeAttenuation),t.map!==void 0&&(this.map=e[t.map]||null),t.matcap!==void 0&&(this.matcap=e[t.matcap]||null),t.alphaMap!==void 0&&(this.alphaMap=e[t.alphaMap]||null),t.bumpMap!==void 0&&(this.bumpMap=e[t.bumpMap]||null),t.bumpScale!==void 0&&(this.bumpScale=t.bumpScale),t.normalMap!==void 0&&(this.normalMap=e[t.normalMap]||null),t.normalMapType!==void 0&&(this.normalMapType=t.normalMapType),t.normalScale!==void 0){let n=t.normalScale;Array.isArray(n)===!1&&(n=[n,n]),this.normalScale=new At().fromArray(n)}return t.displacementMap!==void 0&&(this.displacementMap=e[t.displacementMap]||null),t.displacementScale!==void 0&&(this.displacementScale=t.displacementScale),t.displacementBias!==void 0&&(this.displacementBias=t.displacementBias),t.roughnessMap!==void 0&&(this.roughnessMap=e[t.roughnessMap]||null),t.metalnessMap!==void 0&&(this.metalnessMap=e[t.metalnessMap]||null),t.emissiveMap!==void 0&&(this.emissiveMap=e[t.emissiveMap]||null),t.emissiveIntensity!==void 0&&(this.emissiveIntensity=t.emissiveIntensity),t.specularMap!==void 0&&(this.specularMap=e[t.specularMap]||null),t.specularIntensityMap!==void 0&&(this.specularIntensityMap=e[t.specularIntensityMap]||null),t.specularColorMap!==void 0&&(this.specularColorMap=e[t.specularColorMap]||null),t.envMap!==void 0&&(this.envMap=e[t.envMap]||null),t.envMapRotation!==void 0&&this.envMapRotation.fromArray(t.envMapRotation),t.envMapIntensity!==void 0&&(this.envMapIntensity=t.envMapIntensity),t.reflectivity!==void 0&&(this.reflectivity=t.reflectivity),t.refractionRatio!==void 0&&(this.refractionRatio=t.refractionRatio),t.lightMap!==void 0&&(this.lightMap=e[t.lightMap]||null),t.lightMapIntensity!==void 0&&(this.lightMapIntensity=t.lightMapIntensity),t.aoMap!==void 0&&(this.aoMap=e[t.aoMap]||null),t.aoMapIntensity!==void 0&&(this.aoMapIntensity=t.aoMapIntensity),t.gradientMap!==void 0&&(this.gradientMap=e[t.gradientMap]||null),t.clearcoatMap!==void 0&&(this.clearcoatMap=e[t.clearcoatMap]||null),t.clearcoatRoughnessMap!==void 0&&(this.clearcoatRoughnessMap=e[t.clearcoatRoughnessMap]||null),t.clearcoatNormalMap!==void 0&&(this.clearcoatNormalMap=e[t.clearcoatNormalMap]||null),t.clearcoatNormalScale!==void 0&&(this.clearcoatNormalScale=new At().fromArray(t.clearcoatNormalScale)),t.diffuseRoughnessMap!==void 0&&(this.diffuseRoughnessMap=e[t.diffuseRoughnessMap]||null),t.iridescenceMap!==void 0&&(this.iridescenceMap=e[t.iridescenceMap]||null),t.iridescenceThicknessMap!==void 0&&(this.iridescenceThicknessMap=e[t.iridescenceThicknessMap]||null),t.transmissionMap!==void 0&&(this.transmissionMap=e[t.transmissionMap]||null),t.thicknessMap!==void 0&&(this.thicknessMap=e[t.thicknessMap]||null),t.anisotropyMap!==void 0&&(this.anisotropyMap=e[t.anisotropyMap]||null),t.sheenColorMap!==void 0&&(this.sheenColorMap=e[t.sheenColorMap]||null),t.sheenRoughnessMap!==void 0&&(this.sheenRoughnessMap=e[t.sheenRoughnessMap]||null),this}clone(){return new this.constructor().copy(this)}copy(t){this.name=t.name,this.blending=t.blending,this.side=t.side,this.vertexColors=t.vertexColors,this.opacity=t.opacity,this.transparent=t.transparent,this.blendSrc=t.blendSrc,this.blendDst=t.blendDst,this.blendEquation=t.blendEquation,this.blendSrcAlpha=t.blendSrcAlpha,this.blendDstAlpha=t.blendDstAlpha,this.blendEquationAlpha=t.blendEquationAlpha,this.blendColor.copy(t.blendColor),this.blendAlpha=t.blendAlpha,this.depthFunc=t.depthFunc,this.depthTest=t.depthTest,this.depthWrite=t.depthWrite,this.stencilWriteMask=t.stencilWriteMask,this.stencilFunc=t.stencilFunc,this.stencilRef=t.stencilRef,this.stencilFuncMask=t.stencilFuncMask,this.stencilFail=t.stencilFail,this.stencilZFail=t.stencilZFail,this.stencilZPass=t.stencilZPass,this.stencilWrite=t.stencilWrite;let e=t.clippingPlanes,n=null;if(e!==null){let s=e.length;n=new Array(s);for(let r=0;r!==s;++r)n[r]=e[r].clone()}return this.clippingPlanes=n,this.clipIntersection=t.clipIntersection,this.clipShadows=t.clipShadows,this.shadowSide=t.shadowSide,this.colorWrite=t.colorWrite,this.precision=t.precision,this.polygonOffset=t.polygonOffset,this.polygonOffsetFactor=t.polygonOffsetFactor,this.polygonOffsetUnits=t.polygonOffsetUnits,this.dithering=t.dithering,this.alphaTest=t.alphaTest,this.alphaHash=t.alphaHash,this.alphaToCoverage=t.alphaToCoverage,this.premultipliedAlpha=t.premultipliedAlpha,this.forceSinglePass=t.forceSinglePass,this.allowOverride=t.allowOverride,this.visible=t.visible,this.toneMapped=t.toneMapped,this.userData=JSON.parse(JSON.stringify(t.userData)),this}dispose(){this.dispatchEvent({type:"dispose"})}set needsUpdate(t){t===!0&&this.version++}};var wi=new N,bh=new N,$o=new N,qo=new N,Wi=class{constructor(t=new N,e=new N(0,0,-1)){this.origin=t,this.direction=e}set(t,e){return this.origin.copy(t),this.direction.copy(e),this}copy(t){return this.origin.copy(t.origin),this.direction.copy(t.direction),this}at(t,e){return e.copy(this.origin).addScaledVector(this.direction,t)}lookAt(t){return this.direction.copy(t).sub(this.origin).normalize(),this}recast(t){return this.origin.copy(this.at(t,wi)),this}closestPointToPoint(t,e){e.subVectors(t,this.origin);let n=e.dot(this.direction);return n<0?e.copy(this.origin):e.copy(this.origin).addScaledVector(this.direction,n)}distanceToPoint(t){return Math.sqrt(this.distanceSqToPoint(t))}distanceSqToPoint(t){let e=wi.subVectors(t,this.origin).dot(this.direction);return e<0?this.origin.distanceToSquared(t):(wi.copy(this.origin).addScaledVector(this.direction,e),wi.distanceToSquared(t))}distanceSqToSegment(t,e,n,s){bh.copy(t).add(e).multiplyScalar(.5),$o.copy(e).sub(t).normalize(),qo.copy(this.origin).sub(bh);let r=t.distanceTo(e)*.5,o=-this.direction.dot($o),a=qo.dot(this.direction),l=-qo.dot($o),c=qo.lengthSq(),h=Math.abs(1-o*o),u,d,f,p;if(h>0)if(u=o*l-a,d=o*a-l,p=r*h,u>=0)if(d>=-p)if(d<=p){let b=1/h;u*=b,d*=b,f=u*(u+o*d+2*a)+d*(o*u+d+2*l)+c}else d=r,u=Math.max(0,-(o*d+a)),f=-u*u+d*(d+2*l)+c;else d=-r,u=Math.max(0,-(o*d+a)),f=-u*u+d*(d+2*l)+c;else d<=-p?(u=Math.max(0,-(-o*r+a)),d=u>0?-r:Math.min(Math.max(-r,-l),r),f=-u*u+d*(d+2*l)+c):d<=p?(u=0,d=Math.min(Math.max(-r,-l),r),f=d*(d+2*l)+c):(u=Math.max(0,-(o*r+a)),d=u>0?r:Math.min(Math.max(-r,-l),r),f=-u*u+d*(d+2*l)+c);else d=o>0?-r:r,u=Math.max(0,-(o*d+a)),f=-u*u+d*(d+2*l)+c;return n&&n.copy(this.origin).addScaledVector(this.direction,u),s&&s.copy(bh).addScaledVector($o,d),f}intersectSphere(t,e){if(t.radius<0)return null;wi.subVectors(t.center,this.origin);let n=wi.dot(this.direction),s=wi.dot(wi)-n*n,r=t.radius*t.radius;if(s>r)return null;let o=Math.sqrt(r-s),a=n-o,l=n+o;return l<0?null:a<0?this.at(l,e):this.at(a,e)}intersectsSphere(t){return t.radius<0?!1:this.distanceSqToPoint(t.center)<=t.radius*t.radius}distanceToPlane(t){let e=t.normal.dot(this.direction);if(e===0)return t.distanceToPoint(this.origin)===0?0:null;let n=-(this.origin.dot(t.normal)+t.constant)/e;return n>=0?n:null}intersectPlane(t,e){let n=this.distanceToPlane(t);return n===null?null:this.at(n,e)}intersectsPlane(t){let e=t.distanceToPoint(this.origin);return e===0||t.normal.dot(this.direction)*e<0}intersectBox(t,e){let n,s,r,o,a,l,c=1/this.direction.x,h=1/this.direction.y,u=1/this.direction.z,d=this.origin;return c>=0?(n=(t.min.x-d.x)*c,s=(t.max.x-d.x)*c):(n=(t.max.x-d.x)*c,s=(t.min.x-d.x)*c),h>=0?(r=(t.min.y-d.y)*h,o=(t.max.y-d.y)*h):(r=(t.max.y-d.y)*h,o=(t.min.y-d.y)*h),n>o||r>s||((r>n||isNaN(n))&&(n=r),(o<s||isNaN(s))&&(s=o),u>=0?(a=(t.min.z-d.z)*u,l=(t.max.z-d.z)*u):(a=(t.max.z-d.z)*u,l=(t.min.z-d.z)*u),n>l||a>s)||((a>n||n!==n)&&(n=a),(l<s||s!==s)&&(s=l),s<0)?null:this.at(n>=0?n:s,e)}intersectsBox(t){return this.intersectBox(t,wi)!==null}intersectTriangle(t,e,n,s,r){let o=this.origin,a=this.direction,l=a.x,c=a.y,h=a.z,u=t.x-o.x,d=t.y-o.y,f=t.z-o.z,p=e.x-o.x,b=e.y-o.y,m=e.z-o.z,g=n.x-o.x,y=n.y-o.y,w=n.z-o.z,v=Math.abs(l),_=Math.abs(c),E=Math.abs(h),x,S,k,C,P,I,U,L,B,G,W,nt;if(v>=_&&v>=E?(k=l,I=u,B=p,nt=g,l>=0?(x=c,S=h,C=d,P=f,U=b,L=m,G=y,W=w):(x=h,S=c,C=f,P=d,U=m,L=b,G=w,W=y)):_>=E?(k=c,I=d,B=b,nt=y,c>=0?(x=h,S=l,C=f,P=u,U=m,L=p,G=w,W=g):(x=l,S=h,C=u,P=f,U=p,L=m,G=g,W=w)):(k=h,I=f,B=m,nt=w,h>=0?(x=l,S=c,C=u,P=d,U=p,L=b,G=g,W=y):(x=c,S=l,C=d,P=u,U=b,L=p,G=y,W=g)),k===0)return null;let $=x/k,tt=S/k,et=1/k,bt=C-$*I,Dt=P-tt*I,K=U-$*B,ut=L-tt*B,yt=G-$*nt,Rt=W-tt*nt,mt=yt*ut-Rt*K,Ot=bt*Rt-Dt*yt,Te=K*Dt-ut*bt;if(s){if(mt<0||Ot<0||Te<0)return null}else if((mt<0||Ot<0||Te<0)&&(mt>0||Ot>0||Te>0))return null;let Pt=mt+Ot+Te;if(Pt===0)return null;let Qt=et*(mt*I+Ot*B+Te*nt);return(Pt>0?Qt<0:Qt>0)?null:this.at(Qt/Pt,r)}applyMatrix4(t){return this.origin.applyMatrix4(t),this.direction.transformDirection(t),this}equals(t){return t.origin.equals(this.origin)&&t.direction.equals(this.direction)}clone(){return new this.constructor().copy(this)}},Ea=class extends Gi{constructor(t){super(),this.isMeshBasicMaterial=!0,this.type="MeshBasicMaterial",this.color=new Ut(16777215),this.map=null,this.lightMap=null,this.lightMapIntensity=1,this.aoMap=null,this.aoMapIntensity=1,this.specularMap=null,this.alphaMap=null,this.envMap=null,this.envMapRotation=new Hi,this.combine=Bh,this.reflectivity=1,this.refractionRatio=.98,this.wireframe=!1,this.wireframeLinewidth=1,this.wireframeLinecap="round",this.wireframeLinejoin="round",this.fog=!0,this.setValues(t)}copy(t){return super.copy(t),this.color.copy(t.color),this.map=t.map,this.lightMap=t.lightMap,this.lightMapIntensity=t.lightMapIntensity,this.aoMap=t.aoMap,this.aoMapIntensity=t.aoMapIntensity,this.specularMap=t.specularMap,this.alphaMap=t.alphaMap,this.envMap=t.envMap,this.envMapRotation.copy(t.envMapRotation),this.combine=t.combine,this.reflectivity=t.reflectivity,this.refractionRatio=t.refractionRatio,this.wireframe=t.wireframe,this.wireframeLinewidth=t.wireframeLinewidth,this.wireframeLinecap=t.wireframeLinecap,this.wireframeLinejoin=t.wireframeLinejoin,this.fog=t.fog,this}},ff=new Mt,cs=new Wi,Yo=new Cn,pf=new N,Zo=new N,Jo=new N,Ko=new N,_h=new N,jo=new N,mf=new N,Qo=new N,Le=class extends Pn{constructor(t=new Ie,e=new Ea){super(),this.isMesh=!0,this.type="Mesh",this.geometry=t,this.material=e,this.morphTargetDictionary=void 0,this.morphTargetInfluences=void 0,this.count=1,this.updateMorphTargets()}copy(t,e){return super.copy(t,e),t.morphTargetInfluences!==void 0?this.morphTargetInfluences=t.morphTargetInfluences.slice():this.morphTargetInfluences=void 0,t.morphTargetDictionary!==void 0?this.morphTargetDictionary=Object.assign({},t.morphTargetDictionary):this.morphTargetDictionary=void 0,this.material=Array.isArray(t.material)?t.material.slice():t.material,this.geometry=t.geometry,this}updateMorphTargets(){let e=this.geometry.morphAttributes,n=Object.keys(e);if(n.length>0){let s=e[n[0]];if(s!==void 0){this.morphTargetInfluences=[],this.morphTargetDictionary={};for(let r=0,o=s.length;r<o;r++){let a=s[r].name||String(r);this.morphTargetInfluences.push(0),this.morphTargetDictionary[a]=r}}}}getVertexPosition(t,e){let n=this.geometry,s=n.attributes.position,r=n.morphAttributes.position,o=n.morphTargetsRelative;e.fromBufferAttribute(s,t);let a=this.morphTargetInfluences;if(r&&a){jo.set(0,0,0);for(let l=0,c=r.length;l<c;l++){let h=a[l],u=r[l];h!==0&&(_h.fromBufferAttribute(u,t),o?jo.addScaledVector(_h,h):jo.addScaledVector(_h.sub(e),h))}e.add(jo)}return e}intersectsFrustum(t){return t.intersectsObject(this)}raycast(t,e){let n=this.geometry,s=this.material,r=this.matrixWorld;s!==void 0&&(n.boundingSphere===null&&n.computeBoundingSphere(),Yo.copy(n.boundingSphere),Yo.applyMatrix4(r),cs.copy(t.ray).recast(t.near),!(Yo.containsPoint(cs.origin)===!1&&(cs.intersectSphere(Yo,pf)===null||cs.origin.distanceToSquared(pf)>(t.far-t.near)**2))&&(ff.copy(r).invert(),cs.copy(t.ray).applyMatrix4(ff),!(n.boundingBox!==null&&cs.intersectsBox(n.boundingBox)===!1)&&this._computeIntersections(t,e,cs)))}_computeIntersections(t,e,n){let s,r=this.geometry,o=this.material,a=r.index,l=r.attributes.position,c=r.attributes.uv,h=r.attributes.uv1,u=r.attributes.normal,d=r.groups,f=r.drawRange;if(a!==null)if(Array.isArray(o))for(let p=0,b=d.length;p<b;p++){let m=d[p],g=o[m.materialIndex],y=Math.max(m.start,f.start),w=Math.min(a.count,Math.min(m.start+m.count,f.start+f.count));for(let v=y,_=w;v<_;v+=3){let E=a.getX(v),x=a.getX(v+1),S=a.getX(v+2);s=ta(this,g,t,n,c,h,u,E,x,S),s&&(s.faceIndex=Math.floor(v/3),s.face.materialIndex=m.materialIndex,e.push(s))}}else{let p=Math.max(0,f.start),b=Math.min(a.count,f.start+f.count);for(let m=p,g=b;m<g;m+=3){let y=a.getX(m),w=a.getX(m+1),v=a.getX(m+2);s=ta(this,o,t,n,c,h,u,y,w,v),s&&(s.faceIndex=Math.floor(m/3),e.push(s))}}else if(l!==void 0)if(Array.isArray(o))for(let p=0,b=d.length;p<b;p++){let m=d[p],g=o[m.materialIndex],y=Math.max(m.start,f.start),w=Math.min(l.count,Math.min(m.start+m.count,f.start+f.count));for(let v=y,_=w;v<_;v+=3){let E=v,x=v+1,S=v+2;s=ta(this,g,t,n,c,h,u,E,x,S),s&&(s.faceIndex=Math.floor(v/3),s.face.materialIndex=m.materialIndex,e.push(s))}}else{let p=Math.max(0,f.start),b=Math.min(l.count,f.start+f.count);for(let m=p,g=b;m<g;m+=3){let y=m,w=m+1,v=m+2;s=ta(this,o,t,n,c,h,u,y,w,v),s&&(s.faceIndex=Math.floor(m/3),e.push(s))}}}};function _x(i,t,e,n,s,r,o,a){let l;if(t.side===Ke?l=n.intersectTriangle(o,r,s,!0,a):l=n.intersectTriangle(s,r,o,t.side===Kn,a),l===null)return null;Qo.copy(a),Qo.applyMatrix4(i.matrixWorld);let c=e.ray.origin.distanceTo(Qo);return c<e.near||c>e.far?null:{distance:c,point:Qo.clone(),object:i}}function ta(i,t,e,n,s,r,o,a,l,c){i.getVertexPosition(a,Zo),i.getVertexPosition(l,Jo),i.getVertexPosition(c,Ko);let h=_x(i,t,e,n,Zo,Jo,Ko,mf);if(h){let u=new N;an.getBarycoord(mf,Zo,Jo,Ko,u),s&&(h.uv=an.getInterpolatedAttribute(s,a,l,c,u,new At)),r&&(h.uv1=an.getInterpolatedAttribute(r,a,l,c,u,new At)),o&&(h.normal=an.getInterpolatedAttribute(o,a,l,c,u,new N),h.normal.dot(n.direction)>0&&h.normal.multiplyScalar(-1));let d={a,b:l,c,normal:new N,materialIndex:0};an.getNormal(Zo,Jo,Ko,d.normal),h.face=d,h.barycoord=u}return h}var Mi=class extends wn{constructor(t=null,e=1,n=1,s,r,o,a,l,c=Se,h=Se,u,d){super(null,o,a,l,c,h,s,r,u,d),this.isDataTexture=!0,this.image={data:t,width:e,height:n},this.generateMipmaps=!1,this.flipY=!1,this.unpackAlignment=1}};var zr=class extends be{constructor(t,e,n,s=1){super(t,e,n),this.isInstancedBufferAttribute=!0,this.meshPerAttribute=s}copy(t){return super.copy(t),this.meshPerAttribute=t.meshPerAttribute,this}toJSON(){let t=super.toJSON();return t.meshPerAttribute=this.meshPerAttribute,t.isInstancedBufferAttribute=!0,t}};var hs=new Cn,wx=new At(.5,.5),ea=new N,ci=class{constructor(t=new fn,e=new fn,n=new fn,s=new fn,r=new fn,o=new fn){this.planes=[t,e,n,s,r,o]}set(t,e,n,s,r,o){let a=this.planes;return a[0].copy(t),a[1].copy(e),a[2].copy(n),a[3].copy(s),a[4].copy(r),a[5].copy(o),this}copy(t){let e=this.planes;for(let n=0;n<6;n++)e[n].copy(t.planes[n]);return this}setFromProjectionMatrix(t,e=zn,n=!1){let s=this.planes,r=t.elements,o=r[0],a=r[1],l=r[2],c=r[3],h=r[4],u=r[5],d=r[6],f=r[7],p=r[8],b=r[9],m=r[10],g=r[11],y=r[12],w=r[13],v=r[14],_=r[15];if(s[0].setComponents(c-o,f-h,g-p,_-y).normalize(),s[1].setComponents(c+o,f+h,g+p,_+y).normalize(),s[2].setComponents(c+a,f+u,g+b,_+w).normalize(),s[3].setComponents(c-a,f-u,g-b,_-w).normalize(),n)s[4].setComponents(l,d,m,v).normalize(),s[5].setComponents(c-l,f-d,g-m,_-v).normalize();else if(s[4].setComponents(c-l,f-d,g-m,_-v).normalize(),e===zn)s[5].setComponents(c+l,f+d,g+m,_+v).normalize();else if(e===Dr)s[5].setComponents(l,d,m,v).normalize();else throw new Error("THREE.Frustum.setFromProjectionMatrix(): Invalid coordinate system: "+e);return this}intersectsObject(t){if(t.boundingSphere!==void 0)t.boundingSphere===null&&t.computeBoundingSphere(),hs.copy(t.boundingSphere).applyMatrix4(t.matrixWorld);else{let e=t.geometry;e.boundingSphere===null&&e.computeBoundingSphere(),hs.copy(e.boundingSphere).applyMatrix4(t.matrixWorld)}return this.intersectsSphere(hs)}intersectsSprite(t){hs.center.set(0,0,0);let e=wx.distanceTo(t.center);return hs.radius=.7071067811865476+e,hs.applyMatrix4(t.matrixWorld),this.intersectsSphere(hs)}intersectsSphere(t){let e=this.planes,n=t.center,s=-t.radius;for(let r=0;r<6;r++)if(e[r].distanceToPoint(n)<s)return!1;return!0}intersectsBox(t){let e=this.planes;for(let n=0;n<6;n++){let s=e[n];if(ea.x=s.normal.x>0?t.max.x:t.min.x,ea.y=s.normal.y>0?t.max.y:t.min.y,ea.z=s.normal.z>0?t.max.z:t.min.z,s.distanceToPoint(ea)<0)return!1}return!0}containsPoint(t){let e=this.planes;for(let n=0;n<6;n++)if(e[n].distanceToPoint(t)<0)return!1;return!0}clone(){return new this.constructor().copy(this)}},gf=new Mt,Vr=class i{constructor(){this.coordinateSystem=zn,this._frustums=[],this._count=0}setFromArrayCamera(t){let e=t.cameras,n=this._frustums;for(let s=0;s<e.length;s++){let r=e[s];gf.multiplyMatrices(r.projectionMatrix,r.matrixWorldInverse),n[s]===void 0&&(n[s]=new ci),n[s].setFromProjectionMatrix(gf,r.coordinateSystem,r.reversedDepth)}return this._count=e.length,this}getFrustum(t){return this._frustums[t]}intersectsObject(t){let e=this._frustums;for(let n=0;n<this._count;n++)if(e[n].intersectsObject(t))return!0;return!1}intersectsSprite(t){let e=this._frustums;for(let n=0;n<this._count;n++)if(e[n].intersectsSprite(t))return!0;return!1}intersectsSphere(t){let e=this._frustums;for(let n=0;n<this._count;n++)if(e[n].intersectsSphere(t))return!0;return!1}intersectsBox(t){let e=this._frustums;for(let n=0;n<this._count;n++)if(e[n].intersectsBox(t))return!0;return!1}containsPoint(t){let e=this._frustums;for(let n=0;n<this._count;n++)if(e[n].containsPoint(t))return!0;return!1}copy(t){this.coordinateSystem=t.coordinateSystem;let e=this._frustums,n=t._frustums;for(let s=0;s<t._count;s++)e[s]===void 0&&(e[s]=new ci),e[s].copy(n[s]);return this._count=t._count,this}clone(){return new i().copy(this)}};function wh(i,t){return i-t}function Sx(i,t){return i.z-t.z}function Mx(i,t){return t.z-i.z}var Ph=class{constructor(){this.index=0,this.pool=[],this.list=[]}push(t,e,n,s){let r=this.pool,o=this.list;this.index>=r.length&&r.push({start:-1,count:-1,z:-1,index:-1});let a=r[this.index];o.push(a),this.index++,a.start=t,a.count=e,a.z=n,a.index=s}reset(){this.list.length=0,this.index=0}},_n=new Mt,Tx=new Ut(1,1,1),Ex=new ci,Ax=new Vr,na=new le,us=new Cn,Sh=new N,xf=new N,vf=new N,Cx=new N,Mh=new Ph,on=new Le,ia=[];function Rx(i,t,e=0){let n=t.itemSize;if(i.isInterleavedBufferAttribute||i.array.constructor!==t.array.constructor){let s=i.count;for(let r=0;r<s;r++)for(let o=0;o<n;o++)t.setComponent(r+e,o,i.getComponent(r,o))}else t.array.set(i.array,e*n);t.needsUpdate=!0}function ii(i,t){if(i.constructor!==t.constructor){let e=Math.min(i.length,t.length);for(let n=0;n<e;n++)t[n]=i[n]}else{let e=Math.min(i.length,t.length);t.set(new i.constructor(i.buffer,0,e))}}var Hr=class extends Le{constructor(t,e,n=e*2,s){super(new Ie,s),this.isBatchedMesh=!0,this.perObjectFrustumCulled=!0,this.sortObjects=!0,this.boundingBox=null,this.boundingSphere=null,this.customSort=null,this._instanceInfo=[],this._geometryInfo=[],this._availableInstanceIds=[],this._availableGeometryIds=[],this._nextIndexStart=0,this._nextVertexStart=0,this._geometryCount=0,this._visibilityChanged=!0,this._geometryInitialized=!1,this._maxInstanceCount=t,this._maxVertexCount=e,this._maxIndexCount=n,this._multiDrawCounts=new Int32Array(t),this._multiDrawStarts=new Int32Array(t),this._multiDrawCount=0,this._multiDrawBytesPerElement=1,this._mergedDrawCounts=new Int32Array(t),this._mergedDrawStarts=new Int32Array(t),this._mergedDrawInstanceCounts=new Int32Array(t),this._mergedDrawCount=0,this._matricesTexture=null,this._indirectTexture=null,this._colorsTexture=null,this._previousMatricesTexture=null,this._initMatricesTexture(),this._initIndirectTexture()}get maxInstanceCount(){return this._maxInstanceCount}get instanceCount(){return this._instanceInfo.length-this._availableInstanceIds.length}get unusedVertexCount(){return this._maxVertexCount-this._nextVertexStart}get unusedIndexCount(){return this._maxIndexCount-this._nextIndexStart}_initMatricesTexture(){let t=Math.sqrt(this._maxInstanceCount*4);t=Math.ceil(t/4)*4,t=Math.max(t,4);let e=new Float32Array(t*t*4),n=new Mi(e,t,t,Je,Rn);this._matricesTexture=n}_initIndirectTexture(){let t=Math.sqrt(this._maxInstanceCount);t=Math.ceil(t);let e=new Uint32Array(t*t),n=new Mi(e,t,t,to,Sn);this._indirectTexture=n}_initColorsTexture(){let t=Math.sqrt(this._maxInstanceCount);t=Math.ceil(t);let e=new Float32Array(t*t*4).fill(1),n=new Mi(e,t,t,Je,Rn);n.colorSpace=Xt.workingColorSpace,this._colorsTexture=n}_initializeGeometry(t){let e=this.geometry,n=this._maxVertexCount,s=this._maxIndexCount;if(this._geometryInitialized===!1){for(let r in t.attributes){let o=t.getAttribute(r),{array:a,itemSize:l,normalized:c}=o,h=new a.constructor(n*l),u=new be(h,l,c);e.setAttribute(r,u)}if(t.getIndex()!==null){let r=n>65535?new Uint32Array(s):new Uint16Array(s);e.setIndex(new be(r,1))}this._geometryInitialized=!0}}_validateGeometry(t){let e=this.geometry;if(!!t.getIndex()!=!!e.getIndex())throw new Error('THREE.BatchedMesh: All geometries must consistently have "index".');for(let n in e.attributes){if(!t.hasAttribute(n))throw new Error(`THREE.BatchedMesh: Added geometry missing "${n}". All geometries must have consistent attributes.`);let s=t.getAttribute(n),r=e.getAttribute(n);if(s.itemSize!==r.itemSize||s.normalized!==r.normalized)throw new Error(`THREE.BatchedMesh: Added geometry attribute "${n}" has an inconsistent itemSize or normalized value.`)}}validateInstanceId(t){let e=this._instanceInfo;if(t<0||t>=e.length||e[t].active===!1)throw new Error(`THREE.BatchedMesh: Invalid instanceId ${t}. Instance is either out of range or has been deleted.`)}validateGeometryId(t){let e=this._geometryInfo;if(t<0||t>=e.length||e[t].active===!1)throw new Error(`THREE.BatchedMesh: Invalid geometryId ${t}. Geometry is either out of range or has been deleted.`)}setCustomSort(t){return this.customSort=t,this}computeBoundingBox(){this.boundingBox===null&&(this.boundingBox=new le);let t=this.boundingBox,e=this._instanceInfo;t.makeEmpty();for(let n=0,s=e.length;n<s;n++){if(e[n].active===!1)continue;let r=e[n].geometryIndex;this.getMatrixAt(n,_n),this.getBoundingBoxAt(r,na).applyMatrix4(_n),t.union(na)}}computeBoundingSphere(){this.boundingSphere===null&&(this.boundingSphere=new Cn);let t=this.boundingSphere,e=this._instanceInfo;t.makeEmpty();for(let n=0,s=e.length;n<s;n++){if(e[n].active===!1)continue;let r=e[n].geometryIndex;this.getMatrixAt(n,_n),this.getBoundingSphereAt(r,us).applyMatrix4(_n),t.union(us)}}addInstance(t){if(this._instanceInfo.length>=this.maxInstanceCount&&this._availableInstanceIds.length===0)throw new Error("THREE.BatchedMesh: Maximum item count reached.");let n={visible:!0,active:!0,geometryIndex:t},s=null;this._availableInstanceIds.length>0?(this._availableInstanceIds.sort(wh),s=this._availableInstanceIds.shift(),this._instanceInfo[s]=n):(s=this._instanceInfo.length,this._instanceInfo.push(n));let r=this._matricesTexture;_n.identity().toArray(r.image.data,s*16),r.needsUpdate=!0;let o=this._colorsTexture;return o&&(Tx.toArray(o.image.data,s*4),o.needsUpdate=!0),this._visibilityChanged=!0,s}addGeometry(t,e=-1,n=-1){this._initializeGeometry(t),this._validateGeometry(t);let s={vertexStart:-1,vertexCount:-1,reservedVertexCount:-1,indexStart:-1,indexCount:-1,reservedIndexCount:-1,start:-1,count:-1,boundingBox:null,boundingSphere:null,active:!0},r=this._geometryInfo;s.vertexStart=this._nextVertexStart,s.reservedVertexCount=e===-1?t.getAttribute("position").count:e;let o=t.getIndex();if(o!==null&&(s.indexStart=this._nextIndexStart,s.reservedIndexCount=n===-1?o.count:n),s.indexStart!==-1&&s.indexStart+s.reservedIndexCount>this._maxIndexCount||s.vertexStart+s.reservedVertexCount>this._maxVertexCount)throw new Error("THREE.BatchedMesh: Reserved space request exceeds the maximum buffer size.");let l;return this._availableGeometryIds.length>0?(this._availableGeometryIds.sort(wh),l=this._availableGeometryIds.shift(),r[l]=s):(l=this._geometryCount,this._geometryCount++,r.push(s)),this.setGeometryAt(l,t),this._nextIndexStart=s.indexStart+s.reservedIndexCount,this._nextVertexStart=s.vertexStart+s.reservedVertexCount,l}setGeometryAt(t,e){if(t>=this._geometryCount)throw new Error("THREE.BatchedMesh: Maximum geometry count reached.");this._validateGeometry(e);let n=this.geometry,s=n.getIndex()!==null,r=n.getIndex(),o=e.getIndex(),a=this._geometryInfo[t];if(s&&o.count>a.reservedIndexCount||e.attributes.position.count>a.reservedVertexCount)throw new Error("THREE.BatchedMesh: Reserved space not large enough for provided geometry.");let l=a.vertexStart,c=a.reservedVertexCount;a.vertexCount=e.getAttribute("position").count;for(let h in n.attributes){let u=e.getAttribute(h),d=n.getAttribute(h);Rx(u,d,l);let f=u.itemSize;for(let p=u.count,b=c;p<b;p++){let m=l+p;for(let g=0;g<f;g++)d.setComponent(m,g,0)}d.needsUpdate=!0,d.addUpdateRange(l*f,c*f)}if(s){let h=a.indexStart,u=a.reservedIndexCount;a.indexCount=e.getIndex().count;for(let d=0;d<o.count;d++)r.setX(h+d,l+o.getX(d));for(let d=o.count,f=u;d<f;d++)r.setX(h+d,l);r.needsUpdate=!0,r.addUpdateRange(h,a.reservedIndexCount)}return a.start=s?a.indexStart:a.vertexStart,a.count=s?a.indexCount:a.vertexCount,a.boundingBox=null,e.boundingBox!==null&&(a.boundingBox=e.boundingBox.clone()),a.boundingSphere=null,e.boundingSphere!==null&&(a.boundingSphere=e.boundingSphere.clone()),this._visibilityChanged=!0,t}deleteGeometry(t){let e=this._geometryInfo;if(t>=e.length||e[t].active===!1)return this;let n=this._instanceInfo;for(let s=0,r=n.length;s<r;s++)n[s].active&&n[s].geometryIndex===t&&this.deleteInstance(s);return e[t].active=!1,this._availableGeometryIds.push(t),this._visibilityChanged=!0,this}deleteInstance(t){return this.validateInstanceId(t),this._instanceInfo[t].active=!1,this._availableInstanceIds.push(t),this._visibilityChanged=!0,this}optimize(){let t=0,e=0,n=this._geometryInfo,s=n.map((o,a)=>a).sort((o,a)=>n[o].vertexStart-n[a].vertexStart),r=this.geometry;for(let o=0,a=n.length;o<a;o++){let l=s[o],c=n[l];if(c.active!==!1){if(r.index!==null){if(c.indexStart!==e){let{indexStart:h,vertexStart:u,reservedIndexCount:d}=c,f=r.index,p=f.array,b=t-u;for(let m=h;m<h+d;m++)p[m]=p[m]+b;f.array.copyWithin(e,h,h+d),f.addUpdateRange(e,d),f.needsUpdate=!0,c.indexStart=e}e+=c.reservedIndexCount}if(c.vertexStart!==t){let{vertexStart:h,reservedVertexCount:u}=c,d=r.attributes;for(let f in d){let p=d[f],{array:b,itemSize:m}=p;b.copyWithin(t*m,h*m,(h+u)*m),p.addUpdateRange(t*m,u*m),p.needsUpdate=!0}c.vertexStart=t}t+=c.reservedVertexCount,c.start=r.index?c.indexStart:c.vertexStart}}return this._nextIndexStart=e,this._nextVertexStart=t,this._visibilityChanged=!0,this}getBoundingBoxAt(t,e){if(t>=this._geometryCount)return null;let n=this.geometry,s=this._geometryInfo[t];if(s.boundingBox===null){let r=new le,o=n.index,a=n.attributes.position;for(let l=s.start,c=s.start+s.count;l<c;l++){let h=l;o&&(h=o.getX(h)),r.expandByPoint(Sh.fromBufferAttribute(a,h))}s.boundingBox=r}return e.copy(s.boundingBox),e}getBoundingSphereAt(t,e){if(t>=this._geometryCount)return null;let n=this.geometry,s=this._geometryInfo[t];if(s.boundingSphere===null){let r=new Cn;this.getBoundingBoxAt(t,na),na.getCenter(r.center);let o=n.index,a=n.attributes.position,l=0;for(let c=s.start,h=s.start+s.count;c<h;c++){let u=c;o&&(u=o.getX(u)),Sh.fromBufferAttribute(a,u),l=Math.max(l,r.center.distanceToSquared(Sh))}r.radius=Math.sqrt(l),s.boundingSphere=r}return e.copy(s.boundingSphere),e}setMatrixAt(t,e){this.validateInstanceId(t);let n=this._matricesTexture,s=this._matricesTexture.image.data;return e.toArray(s,t*16),n.needsUpdate=!0,this}getMatrixAt(t,e){return this.validateInstanceId(t),e.fromArray(this._matricesTexture.image.data,t*16)}setColorAt(t,e){return this.validateInstanceId(t),this._colorsTexture===null&&this._initColorsTexture(),e.toArray(this._colorsTexture.image.data,t*4),this._colorsTexture.needsUpdate=!0,this}getColorAt(t,e){return this.validateInstanceId(t),this._colorsTexture===null?e.isVector4?e.set(1,1,1,1):e.setRGB(1,1,1):e.fromArray(this._colorsTexture.image.data,t*4)}setVisibleAt(t,e){return this.validateInstanceId(t),this._instanceInfo[t].visible===e?this:(this._instanceInfo[t].visible=e,this._visibilityChanged=!0,this)}getVisibleAt(t){return this.validateInstanceId(t),this._instanceInfo[t].visible}setGeometryIdAt(t,e){return this.validateInstanceId(t),this.validateGeometryId(e),this._instanceInfo[t].geometryIndex=e,this._visibilityChanged=!0,this}getGeometryIdAt(t){return this.validateInstanceId(t),this._instanceInfo[t].geometryIndex}getGeometryRangeAt(t,e={}){this.validateGeometryId(t);let n=this._geometryInfo[t];return e.vertexStart=n.vertexStart,e.vertexCount=n.vertexCount,e.reservedVertexCount=n.reservedVertexCount,e.indexStart=n.indexStart,e.indexCount=n.indexCount,e.reservedIndexCount=n.reservedIndexCount,e.start=n.start,e.count=n.count,e}setInstanceCount(t){let e=this._availableInstanceIds,n=this._instanceInfo;for(e.sort(wh);e[e.length-1]===n.length-1;)n.pop(),e.pop();if(t<n.length)throw new Error(`THREE.BatchedMesh: Instance ids outside the range ${t} are being used. Cannot shrink instance count.`);let s=new Int32Array(t),r=new Int32Array(t);ii(this._multiDrawCounts,s),ii(this._multiDrawStarts,r),this._multiDrawCounts=s,this._multiDrawStarts=r;let o=new Int32Array(t),a=new Int32Array(t),l=new Int32Array(t);ii(this._mergedDrawCounts,o),ii(this._mergedDrawStarts,a),ii(this._mergedDrawInstanceCounts,l),this._mergedDrawCounts=o,this._mergedDrawStarts=a,this._mergedDrawInstanceCounts=l,this._maxInstanceCount=t;let c=this._indirectTexture,h=this._matricesTexture,u=this._colorsTexture;c.dispose(),this._initIndirectTexture(),ii(c.image.data,this._indirectTexture.image.data),h.dispose(),this._initMatricesTexture(),ii(h.image.data,this._matricesTexture.image.data),u&&(u.dispose(),this._initColorsTexture(),ii(u.image.data,this._colorsTexture.image.data)),this._previousMatricesTexture!==null&&(this._previousMatricesTexture.dispose(),this._previousMatricesTexture=null)}setGeometrySize(t,e){let n=[...this._geometryInfo].filter(a=>a.active);if(Math.max(...n.map(a=>a.vertexStart+a.reservedVertexCount))>t)throw new Error(`THREE.BatchedMesh: Geometry vertex values are being used outside the range ${t}. Cannot shrink further.`);if(this.geometry.index&&Math.max(...n.map(l=>l.indexStart+l.reservedIndexCount))>e)throw new Error(`THREE.BatchedMesh: Geometry index values are being used outside the range ${e}. Cannot shrink further.`);let r=this.geometry;r.dispose(),this._maxVertexCount=t,this._maxIndexCount=e,this._geometryInitialized&&(this._geometryInitialized=!1,this.geometry=new Ie,this._initializeGeometry(r));let o=this.geometry;r.index&&ii(r.index.array,o.index.array);for(let a in r.attributes)ii(r.attributes[a].array,o.attributes[a].array);this._visibilityChanged=!0}raycast(t,e){let n=this._instanceInfo,s=this._geometryInfo,r=this.matrixWorld,o=this.geometry;on.material=this.material,on.geometry.index=o.index,on.geometry.attributes=o.attributes,on.geometry.boundingBox===null&&(on.geometry.boundingBox=new le),on.geometry.boundingSphere===null&&(on.geometry.boundingSphere=new Cn);for(let a=0,l=n.length;a<l;a++){if(!n[a].visible||!n[a].active)continue;let c=n[a].geometryIndex,h=s[c];on.geometry.setDrawRange(h.start,h.count),this.getMatrixAt(a,on.matrixWorld).premultiply(r),this.getBoundingBoxAt(c,on.geometry.boundingBox),this.getBoundingSphereAt(c,on.geometry.boundingSphere),on.raycast(t,ia);for(let u=0,d=ia.length;u<d;u++){let f=ia[u];f.object=this,f.batchId=a,e.push(f)}ia.length=0}on.material=null,on.geometry.index=null,on.geometry.attributes={},on.geometry.setDrawRange(0,1/0)}copy(t){return super.copy(t),this.geometry=t.geometry.clone(),this.perObjectFrustumCulled=t.perObjectFrustumCulled,this.sortObjects=t.sortObjects,this.boundingBox=t.boundingBox!==null?t.boundingBox.clone():null,this.boundingSphere=t.boundingSphere!==null?t.boundingSphere.clone():null,this._geometryInfo=t._geometryInfo.map(e=>({...e,boundingBox:e.boundingBox!==null?e.boundingBox.clone():null,boundingSphere:e.boundingSphere!==null?e.boundingSphere.clone():null})),this._instanceInfo=t._instanceInfo.map(e=>({...e})),this._availableInstanceIds=t._availableInstanceIds.slice(),this._availableGeometryIds=t._availableGeometryIds.slice(),this._nextIndexStart=t._nextIndexStart,this._nextVertexStart=t._nextVertexStart,this._geometryCount=t._geometryCount,this._maxInstanceCount=t._maxInstanceCount,this._maxVertexCount=t._maxVertexCount,this._maxIndexCount=t._maxIndexCount,this._geometryInitialized=t._geometryInitialized,this._multiDrawCounts=t._multiDrawCounts.slice(),this._multiDrawStarts=t._multiDrawStarts.slice(),this._multiDrawBytesPerElement=t._multiDrawBytesPerElement,this._mergedDrawCounts=t._mergedDrawCounts.slice(),this._mergedDrawStarts=t._mergedDrawStarts.slice(),this._mergedDrawInstanceCounts=t._mergedDrawInstanceCounts.slice(),this._indirectTexture=t._indirectTexture.clone(),this._indirectTexture.image.data=this._indirectTexture.image.data.slice(),this._matricesTexture=t._matricesTexture.clone(),this._matricesTexture.image.data=this._matricesTexture.image.data.slice(),t._colorsTexture!==null?(this._colorsTexture=t._colorsTexture.clone(),this._colorsTexture.image.data=this._colorsTexture.image.data.slice()):this._colorsTexture=null,this}dispose(){super.dispose(),this.geometry.dispose(),this._matricesTexture.dispose(),this._matricesTexture=null,this._indirectTexture.dispose(),this._indirectTexture=null,this._colorsTexture!==null&&(this._colorsTexture.dispose(),this._colorsTexture=null),this._previousMatricesTexture!==null&&(this._previousMatricesTexture.dispose(),this._previousMatricesTexture=null)}_updateDrawParameters(t,e,n,s="multiDraw"){if(!this._visibilityChanged&&!this.perObjectFrustumCulled&&!this.sortObjects)return;let r=e.getIndex(),o=r===null?1:r.array.BYTES_PER_ELEMENT,a=1;n.wireframe&&(a=2,o=e.attributes.position.count>65535?4:2);let l=this._instanceInfo,c=this._multiDrawStarts,h=this._multiDrawCounts,u=this._mergedDrawStarts,d=this._mergedDrawCounts,f=this._mergedDrawInstanceCounts,p=this._geometryInfo,b=this.perObjectFrustumCulled,m=this._indirectTexture,g=m.image.data,y=t.isArrayCamera?Ax:Ex;b&&(t.isArrayCamera?y.setFromArrayCamera(t):(_n.multiplyMatrices(t.projectionMatrix,t.matrixWorldInverse).multiply(this.matrixWorld),y.setFromProjectionMatrix(_n,t.coordinateSystem,t.reversedDepth)));let w=0,v=0;if(this.sortObjects){_n.copy(this.matrixWorld).invert(),xf.setFromMatrixPosition(t.matrixWorld).applyMatrix4(_n),vf.set(0,0,-1).transformDirection(t.matrixWorld).transformDirection(_n);for(let x=0,S=l.length;x<S;x++)if(l[x].visible&&l[x].active){let k=l[x].geometryIndex;this.getMatrixAt(x,_n),this.getBoundingSphereAt(k,us).applyMatrix4(_n);let C=!1;if(b&&(C=!y.intersectsSphere(us)),!C){let P=p[k],I=Cx.subVectors(us.center,xf).dot(vf);Mh.push(P.start,P.count,I,x)}}let _=Mh.list,E=this.customSort;E===null?_.sort(n.transparent?Mx:Sx):E.call(this,_,t);for(let x=0,S=_.length;x<S;x++){let k=_[x],C=k.start*o*a,P=k.count*a;s==="merged"?v>0&&u[v-1]===C&&d[v-1]===P?f[v-1]++:(u[v]=C,d[v]=P,f[v]=1,v++):(c[w]=C,h[w]=P),g[w]=k.index,w++}Mh.reset()}else for(let _=0,E=l.length;_<E;_++)if(l[_].visible&&l[_].active){let x=l[_].geometryIndex,S=!1;if(b&&(this.getMatrixAt(_,_n),this.getBoundingSphereAt(x,us).applyMatrix4(_n),S=!y.intersectsSphere(us)),!S){let k=p[x],C=k.start*o*a,P=k.count*a;s==="merged"?v>0&&u[v-1]===C&&d[v-1]===P?f[v-1]++:(u[v]=C,d[v]=P,f[v]=1,v++):(c[w]=C,h[w]=P),g[w]=_,w++}}m.needsUpdate=!0,this._multiDrawCount=w,this._mergedDrawCount=v,this._multiDrawBytesPerElement=o,this._visibilityChanged=!1}onBeforeRender(t,e,n,s,r){t.isWebGPURenderer===!0?(this._visibilityChanged||this.perObjectFrustumCulled||this.sortObjects)&&(this._indirectTexture.needsUpdate=!0):this._updateDrawParameters(n,s,r)}onBeforeShadow(t,e,n,s,r,o){t.isWebGPURenderer!==!0&&this._updateDrawParameters(s,r,o)}};var Aa=class extends Gi{constructor(t){super(),this.isPointsMaterial=!0,this.type="PointsMaterial",this.color=new Ut(16777215),this.map=null,this.alphaMap=null,this.size=1,this.sizeAttenuation=!0,this.fog=!0,this.setValues(t)}copy(t){return super.copy(t),this.color.copy(t.color),this.map=t.map,this.alphaMap=t.alphaMap,this.size=t.size,this.sizeAttenuation=t.sizeAttenuation,this.fog=t.fog,this}},yf=new Mt,Ih=new Wi,sa=new Cn,ra=new N,Gr=class extends Pn{constructor(t=new Ie,e=new Aa){super(),this.isPoints=!0,this.type="Points",this.geometry=t,this.material=e,this.morphTargetDictionary=void 0,this.morphTargetInfluences=void 0,this.updateMorphTargets()}copy(t,e){return super.copy(t,e),t.morphTargetInfluences!==void 0?this.morphTargetInfluences=t.morphTargetInfluences.slice():this.morphTargetInfluences=void 0,t.morphTargetDictionary!==void 0?this.morphTargetDictionary=Object.assign({},t.morphTargetDictionary):this.morphTargetDictionary=void 0,this.material=Array.isArray(t.material)?t.material.slice():t.material,this.geometry=t.geometry,this}intersectsFrustum(t){return t.intersectsObject(this)}raycast(t,e){let n=this.geometry,s=this.matrixWorld,r=t.params.Points.threshold,o=n.drawRange;if(n.boundingSphere===null&&n.computeBoundingSphere(),sa.copy(n.boundingSphere),sa.applyMatrix4(s),sa.radius+=r,t.ray.intersectsSphere(sa)===!1)return;yf.copy(s).invert(),Ih.copy(t.ray).applyMatrix4(yf);let a=r/((this.scale.x+this.scale.y+this.scale.z)/3),l=a*a,c=n.index,u=n.attributes.position;if(c!==null){let d=Math.max(0,o.start),f=Math.min(c.count,o.start+o.count);for(let p=d,b=f;p<b;p++){let m=c.getX(p);ra.fromBufferAttribute(u,m),bf(ra,m,l,s,t,e,this)}}else{let d=Math.max(0,o.start),f=Math.min(u.count,o.start+o.count);for(let p=d,b=f;p<b;p++)ra.fromBufferAttribute(u,p),bf(ra,p,l,s,t,e,this)}}updateMorphTargets(){let e=this.geometry.morphAttributes,n=Object.keys(e);if(n.length>0){let s=e[n[0]];if(s!==void 0){this.morphTargetInfluences=[],this.morphTargetDictionary={};for(let r=0,o=s.length;r<o;r++){let a=s[r].name||String(r);this.morphTargetInfluences.push(0),this.morphTargetDictionary[a]=r}}}}};function bf(i,t,e,n,s,r,o){let a=Ih.distanceSqToPoint(i);if(a<e){let l=new N;Ih.closestPointToPoint(i,l),l.applyMatrix4(n);let c=s.ray.origin.distanceTo(l);if(c<s.near||c>s.far)return;r.push({distance:c,distanceToRay:Math.sqrt(a),point:l,index:t,face:null,faceIndex:null,barycoord:null,object:o})}}var Wr=class extends wn{constructor(t=[],e=fs,n,s,r,o,a,l,c,h){super(t,e,n,s,r,o,a,l,c,h),this.isCubeTexture=!0,this.flipY=!1}get images(){return this.image}set images(t){this.image=t}};var Jn=class extends wn{constructor(t,e,n=Sn,s,r,o,a=Se,l=Se,c,h=Ti,u=1){if(h!==Ti&&h!==Ci)throw new Error("THREE.DepthTexture: format must be either THREE.DepthFormat or THREE.DepthStencilFormat");let d={width:t,height:e,depth:u};super(d,s,r,o,a,l,h,n,c),this.isDepthTexture=!0,this.flipY=!1,this.generateMipmaps=!1,this.compareFunction=null}copy(t){return super.copy(t),this.source=new Xs(Object.assign({},t.image)),this.compareFunction=t.compareFunction,this}toJSON(t){let e=super.toJSON(t);return e.compareFunction=this.compareFunction,e}},Xr=class extends Jn{constructor(t,e=Sn,n=fs,s,r,o=Se,a=Se,l,c=Ti){let h={width:t,height:t,depth:1},u=[h,h,h,h,h,h];super(t,t,e,n,s,r,o,a,l,c),this.image=u,this.isCubeDepthTexture=!0,this.isCubeTexture=!0}get images(){return this.image}set images(t){this.image=t}},$r=class extends wn{constructor(t=null){super(),this.sourceTexture=t,this.isExternalTexture=!0}copy(t){return super.copy(t),this.sourceTexture=t.sourceTexture,this}},Ys=class i extends Ie{constructor(t=1,e=1,n=1,s=1,r=1,o=1){super(),this.type="BoxGeometry",this.parameters={width:t,height:e,depth:n,widthSegments:s,heightSegments:r,depthSegments:o};let a=this;s=Math.floor(s),r=Math.floor(r),o=Math.floor(o);let l=[],c=[],h=[],u=[],d=0,f=0;p("z","y","x",-1,-1,n,e,t,o,r,0),p("z","y","x",1,-1,n,e,-t,o,r,1),p("x","z","y",1,1,t,n,e,s,o,2),p("x","z","y",1,-1,t,n,-e,s,o,3),p("x","y","z",1,-1,t,e,n,s,r,4),p("x","y","z",-1,-1,t,e,-n,s,r,5),this.setIndex(l),this.setAttribute("position",new Xe(c,3)),this.setAttribute("normal",new Xe(h,3)),this.setAttribute("uv",new Xe(u,2));function p(b,m,g,y,w,v,_,E,x,S,k){let C=v/x,P=_/S,I=v/2,U=_/2,L=E/2,B=x+1,G=S+1,W=0,nt=0,$=new N;for(let tt=0;tt<G;tt++){let et=tt*P-U;for(let bt=0;bt<B;bt++){let Dt=bt*C-I;$[b]=Dt*y,$[m]=et*w,$[g]=L,c.push($.x,$.y,$.z),$[b]=0,$[m]=0,$[g]=E>0?1:-1,h.push($.x,$.y,$.z),u.push(bt/x),u.push(1-tt/S),W+=1}}for(let tt=0;tt<S;tt++)for(let et=0;et<x;et++){let bt=d+et+B*tt,Dt=d+et+B*(tt+1),K=d+(et+1)+B*(tt+1),ut=d+(et+1)+B*tt;l.push(bt,Dt,ut),l.push(Dt,K,ut),nt+=6}a.addGroup(f,nt,k),f+=nt,d+=W}}copy(t){return super.copy(t),this.parameters=Object.assign({},t.parameters),this}static fromJSON(t){return new i(t.width,t.height,t.depth,t.widthSegments,t.heightSegments,t.depthSegments)}};var Ei=class i extends Ie{constructor(t=1,e=1,n=1,s=1){super(),this.type="PlaneGeometry",this.parameters={width:t,height:e,widthSegments:n,heightSegments:s};let r=t/2,o=e/2,a=Math.floor(n),l=Math.floor(s),c=a+1,h=l+1,u=t/a,d=e/l,f=[],p=[],b=[],m=[];for(let g=0;g<h;g++){let y=g*d-o;for(let w=0;w<c;w++){let v=w*u-r;p.push(v,-y,0),b.push(0,0,1),m.push(w/a),m.push(1-g/l)}}for(let g=0;g<l;g++)for(let y=0;y<a;y++){let w=y+c*g,v=y+c*(g+1),_=y+1+c*(g+1),E=y+1+c*g;f.push(w,v,E),f.push(v,_,E)}this.setIndex(f),this.setAttribute("position",new Xe(p,3)),this.setAttribute("normal",new Xe(b,3)),this.setAttribute("uv",new Xe(m,2))}copy(t){return super.copy(t),this.parameters=Object.assign({},t.parameters),this}static fromJSON(t){return new i(t.width,t.height,t.widthSegments,t.heightSegments)}};function gs(i){let t={};for(let e in i){t[e]={};for(let n in i[e]){let s=i[e][n];if(_f(s))s.isRenderTargetTexture?(Lt("UniformsUtils: Textures of render targets cannot be cloned via cloneUniforms() or mergeUniforms()."),t[e][n]=null):t[e][n]=s.clone();else if(Array.isArray(s))if(_f(s[0])){let r=[];for(let o=0,a=s.length;o<a;o++)r[o]=s[o].clone();t[e][n]=r}else t[e][n]=s.slice();else t[e][n]=s}}return t}function cn(i){let t={};for(let e=0;e<i.length;e++){let n=gs(i[e]);for(let s in n)t[s]=n[s]}return t}function _f(i){return i&&(i.isColor||i.isMatrix3||i.isMatrix4||i.isVector2||i.isVector3||i.isVector4||i.isTexture||i.isQuaternion)}function Px(i){let t=[];for(let e=0;e<i.length;e++)t.push(i[e].clone());return t}function lu(i){let t=i.getRenderTarget();return t===null?i.outputColorSpace:t.isXRRenderTarget===!0?t.texture.colorSpace:Xt.workingColorSpace}var dp={clone:gs,merge:cn},Ix=`void main() {
+	gl_Position = projectionMatrix * modelViewMatrix * vec4( position, 1.0 );
+}`,Lx=`void main() {
+	gl_FragColor = vec4( 1.0, 0.0, 0.0, 1.0 );
+}`,ln=class extends Gi{constructor(t){super(),this.isShaderMaterial=!0,this.type="ShaderMaterial",this.defines={},this.uniforms={},this.uniformsGroups=[],this.vertexShader=Ix,this.fragmentShader=Lx,this.linewidth=1,this.wireframe=!1,this.wireframeLinewidth=1,this.fog=!1,this.lights=!1,this.clipping=!1,this.forceSinglePass=!0,this.extensions={clipCullDistance:!1,multiDraw:!1},this.defaultAttributeValues={color:[1,1,1],uv:[0,0],uv1:[0,0]},this.index0AttributeName=void 0,this.uniformsNeedUpdate=!1,this.glslVersion=null,t!==void 0&&this.setValues(t)}copy(t){return super.copy(t),this.fragmentShader=t.fragmentShader,this.vertexShader=t.vertexShader,this.uniforms=gs(t.uniforms),this.uniformsGroups=Px(t.uniformsGroups),this.defines=Object.assign({},t.defines),this.wireframe=t.wireframe,this.wireframeLinewidth=t.wireframeLinewidth,this.fog=t.fog,this.lights=t.lights,this.clipping=t.clipping,this.extensions=Object.assign({},t.extensions),this.glslVersion=t.glslVersion,this.defaultAttributeValues=Object.assign({},t.defaultAttributeValues),this.index0AttributeName=t.index0AttributeName,this.uniformsNeedUpdate=t.uniformsNeedUpdate,this}toJSON(t){let e=super.toJSON(t);e.glslVersion=this.glslVersion,e.uniforms={};for(let s in this.uniforms){let o=this.uniforms[s].value;o&&o.isTexture?e.uniforms[s]={type:"t",value:o.toJSON(t).uuid}:o&&o.isColor?e.uniforms[s]={type:"c",value:o.getHex()}:o&&o.isVector2?e.uniforms[s]={type:"v2",value:o.toArray()}:o&&o.isVector3?e.uniforms[s]={type:"v3",value:o.toArray()}:o&&o.isVector4?e.uniforms[s]={type:"v4",value:o.toArray()}:o&&o.isMatrix3?e.uniforms[s]={type:"m3",value:o.toArray()}:o&&o.isMatrix4?e.uniforms[s]={type:"m4",value:o.toArray()}:e.uniforms[s]={value:o}}Object.keys(this.defines).length>0&&(e.defines=this.defines),e.vertexShader=this.vertexShader,e.fragmentShader=this.fragmentShader,e.lights=this.lights,e.clipping=this.clipping;let n={};for(let s in this.extensions)this.extensions[s]===!0&&(n[s]=!0);return Object.keys(n).length>0&&(e.extensions=n),e}fromJSON(t,e){if(super.fromJSON(t,e),t.uniforms!==void 0)for(let n in t.uniforms){let s=t.uniforms[n];switch(this.uniforms[n]={},s.type){case"t":this.uniforms[n].value=e[s.value]||null;break;case"c":this.uniforms[n].value=new Ut().setHex(s.value);break;case"v2":this.uniforms[n].value=new At().fromArray(s.value);break;case"v3":this.uniforms[n].value=new N().fromArray(s.value);break;case"v4":this.uniforms[n].value=new $t().fromArray(s.value);break;case"m3":this.uniforms[n].value=new Ft().fromArray(s.value);break;case"m4":this.uniforms[n].value=new Mt().fromArray(s.value);break;default:this.uniforms[n].value=s.value}}if(t.defines!==void 0&&(this.defines=t.defines),t.vertexShader!==void 0&&(this.vertexShader=t.vertexShader),t.fragmentShader!==void 0&&(this.fragmentShader=t.fragmentShader),t.glslVersion!==void 0&&(this.glslVersion=t.glslVersion),t.extensions!==void 0)for(let n in t.extensions)this.extensions[n]=t.extensions[n];return t.lights!==void 0&&(this.lights=t.lights),t.clipping!==void 0&&(this.clipping=t.clipping),this}},Ca=class extends ln{constructor(t){super(t),this.isRawShaderMaterial=!0,this.type="RawShaderMaterial"}};var Ra=class extends Gi{constructor(t){super(),this.isMeshDepthMaterial=!0,this.type="MeshDepthMaterial",this.depthPacking=Kf,this.map=null,this.alphaMap=null,this.displacementMap=null,this.displacementScale=1,this.displacementBias=0,this.wireframe=!1,this.wireframeLinewidth=1,this.setValues(t)}copy(t){return super.copy(t),this.depthPacking=t.depthPacking,this.map=t.map,this.alphaMap=t.alphaMap,this.displacementMap=t.displacementMap,this.displacementScale=t.displacementScale,this.displacementBias=t.displacementBias,this.wireframe=t.wireframe,this.wireframeLinewidth=t.wireframeLinewidth,this}},Pa=class extends Gi{constructor(t){super(),this.isMeshDistanceMaterial=!0,this.type="MeshDistanceMaterial",this.map=null,this.alphaMap=null,this.displacementMap=null,this.displacementScale=1,this.displacementBias=0,this.setValues(t)}copy(t){return super.copy(t),this.map=t.map,this.alphaMap=t.alphaMap,this.displacementMap=t.displacementMap,this.displacementScale=t.displacementScale,this.displacementBias=t.displacementBias,this}};function Us(i,t){return!i||i.constructor===t?i:typeof t.BYTES_PER_ELEMENT=="number"?new t(i):Array.prototype.slice.call(i)}function oa(i){return i!==void 0&&i.inTangents!==void 0&&i.outTangents!==void 0}var Xi=class{constructor(t,e,n,s){this.parameterPositions=t,this._cachedIndex=0,this.resultBuffer=s!==void 0?s:new e.constructor(n),this.sampleValues=e,this.valueSize=n,this.settings=null,this.DefaultSettings_={}}evaluate(t){let e=this.parameterPositions,n=this._cachedIndex,s=e[n],r=e[n-1];n:{t:{let o;e:{i:if(!(t<s)){for(let a=n+2;;){if(s===void 0){if(t<r)break i;return n=e.length,this._cachedIndex=n,this.copySampleValue_(n-1)}if(n===a)break;if(r=s,s=e[++n],t<s)break t}o=e.length;break e}if(!(t>=r)){let a=e[1];t<a&&(n=2,r=a);for(let l=n-2;;){if(r===void 0)return this._cachedIndex=0,this.copySampleValue_(0);if(n===l)break;if(s=r,r=e[--n-1],t>=r)break t}o=n,n=0;break e}break n}for(;n<o;){let a=n+o>>>1;t<e[a]?o=a:n=a+1}if(s=e[n],r=e[n-1],r===void 0)return this._cachedIndex=0,this.copySampleValue_(0);if(s===void 0)return n=e.length,this._cachedIndex=n,this.copySampleValue_(n-1)}this._cachedIndex=n,this.intervalChanged_(n,r,s)}return this.interpolate_(n,r,t,s)}getSettings_(){return this.settings||this.DefaultSettings_}copySampleValue_(t){let e=this.resultBuffer,n=this.sampleValues,s=this.valueSize,r=t*s;for(let o=0;o!==s;++o)e[o]=n[r+o];return e}interpolate_(){throw new Error("THREE.Interpolant: Call to abstract method.")}intervalChanged_(){}},Ia=class extends Xi{constructor(t,e,n,s){super(t,e,n,s),this._weightPrev=-0,this._offsetPrev=-0,this._weightNext=-0,this._offsetNext=-0,this.DefaultSettings_={endingStart:Ah,endingEnd:Ah}}intervalChanged_(t,e,n){let s=this.parameterPositions,r=t-2,o=t+1,a=s[r],l=s[o];if(a===void 0)switch(this.getSettings_().endingStart){case Ch:r=t,a=2*e-n;break;case Rh:r=s.length-2,a=e+s[r]-s[r+1];break;default:r=t,a=n}if(l===void 0)switch(this.getSettings_().endingEnd){case Ch:o=t,l=2*n-e;break;case Rh:o=1,l=n+s[1]-s[0];break;default:o=t-1,l=e}let c=(n-e)*.5,h=this.valueSize;this._weightPrev=c/(e-a),this._weightNext=c/(l-n),this._offsetPrev=r*h,this._offsetNext=o*h}interpolate_(t,e,n,s){let r=this.resultBuffer,o=this.sampleValues,a=this.valueSize,l=t*a,c=l-a,h=this._offsetPrev,u=this._offsetNext,d=this._weightPrev,f=this._weightNext,p=(n-e)/(s-e),b=p*p,m=b*p,g=-d*m+2*d*b-d*p,y=(1+d)*m+(-1.5-2*d)*b+(-.5+d)*p+1,w=(-1-f)*m+(1.5+f)*b+.5*p,v=f*m-f*b;for(let _=0;_!==a;++_)r[_]=g*o[h+_]+y*o[c+_]+w*o[l+_]+v*o[u+_];return r}},La=class extends Xi{constructor(t,e,n,s){super(t,e,n,s)}interpolate_(t,e,n,s){let r=this.resultBuffer,o=this.sampleValues,a=this.valueSize,l=t*a,c=l-a,h=(n-e)/(s-e),u=1-h;for(let d=0;d!==a;++d)r[d]=o[c+d]*u+o[l+d]*h;return r}},ka=class extends Xi{constructor(t,e,n,s){super(t,e,n,s)}interpolate_(t){return this.copySampleValue_(t-1)}},Na=class extends Xi{interpolate_(t,e,n,s){let r=this.resultBuffer,o=this.sampleValues,a=this.valueSize,l=t*a,c=l-a,h=this.inTangents,u=this.outTangents;if(!h||!u){let p=(n-e)/(s-e),b=1-p;for(let m=0;m!==a;++m)r[m]=o[c+m]*b+o[l+m]*p;return r}let d=a*2,f=t-1;for(let p=0;p!==a;++p){let b=o[c+p],m=o[l+p],g=f*d+p*2,y=u[g],w=u[g+1],v=t*d+p*2,_=h[v],E=h[v+1],x=Nx(n,e,y,_,s);r[p]=fp(x,b,w,E,m)}return r}};function fp(i,t,e,n,s){let r=1-i;return r*r*r*t+3*r*r*i*e+3*r*i*i*n+i*i*i*s}function kx(i,t,e,n,s){let r=1-i;return 3*r*r*(e-t)+6*r*i*(n-e)+3*i*i*(s-n)}function Nx(i,t,e,n,s){let r=(i-t)/(s-t);for(let o=0;o<8;o++){let a=fp(r,t,e,n,s)-i;if(Math.abs(a)<1e-10)break;let l=kx(r,t,e,n,s);if(Math.abs(l)<1e-10)break;r=Math.max(0,Math.min(1,r-a/l))}return r}var In=class{constructor(t,e,n,s){if(t===void 0)throw new Error("THREE.KeyframeTrack: track name is undefined");if(e===void 0||e.length===0)throw new Error("THREE.KeyframeTrack: no keyframes in track named "+t);this.name=t,this.times=Us(e,this.TimeBufferType),this.values=Us(n,this.ValueBufferType),this.setInterpolation(s||this.DefaultInterpolation)}static toJSON(t){let e=t.constructor,n;if(e.toJSON!==this.toJSON)n=e.toJSON(t);else{n={name:t.name,times:Us(t.times,Array),values:Us(t.values,Array)};let s=t.getInterpolation();s!==t.DefaultInterpolation&&(n.interpolation=s),oa(t.settings)&&(n.settings={inTangents:Us(t.settings.inTangents,Array),outTangents:Us(t.settings.outTangents,Array)})}return n.type=t.ValueTypeName,n}InterpolantFactoryMethodDiscrete(t){return new ka(this.times,this.values,this.getValueSize(),t)}InterpolantFactoryMethodLinear(t){return new La(this.times,this.values,this.getValueSize(),t)}InterpolantFactoryMethodSmooth(t){return new Ia(this.times,this.values,this.getValueSize(),t)}InterpolantFactoryMethodBezier(t){let e=new Na(this.times,this.values,this.getValueSize(),t);return this.settings&&(e.inTangents=this.settings.inTangents,e.outTangents=this.settings.outTangents),e}setInterpolation(t){let e;switch(t){case Lr:e=this.InterpolantFactoryMethodDiscrete;break;case _a:e=this.InterpolantFactoryMethodLinear;break;case ha:e=this.InterpolantFactoryMethodSmooth;break;case Eh:e=this.InterpolantFactoryMethodBezier;break}if(e===void 0){let n="unsupported interpolation for "+this.ValueTypeName+" keyframe track named "+this.name;if(this.createInterpolant===void 0)if(t!==this.DefaultInterpolation)this.setInterpolation(this.DefaultInterpolation);else throw new Error(n);return Lt("KeyframeTrack:",n),this}return this.createInterpolant=e,this}getInterpolation(){switch(this.createInterpolant){case this.InterpolantFactoryMethodDiscrete:return Lr;case this.InterpolantFactoryMethodLinear:return _a;case this.InterpolantFactoryMethodSmooth:return ha;case this.InterpolantFactoryMethodBezier:return Eh}}getValueSize(){return this.values.length/this.times.length}shift(t){if(t!==0){let e=this.times;for(let n=0,s=e.length;n!==s;++n)e[n]+=t;oa(this.settings)&&(wf(this.settings.inTangents,t),wf(this.settings.outTangents,t))}return this}scale(t){if(t!==1){let e=this.times;for(let n=0,s=e.length;n!==s;++n)e[n]*=t;oa(this.settings)&&(Sf(this.settings.inTangents,t),Sf(this.settings.outTangents,t))}return this}trim(t,e){let n=this.times,s=n.length,r=0,o=s-1;for(;r!==s&&n[r]<t;)++r;for(;o!==-1&&n[o]>e;)--o;if(++o,r!==0||o!==s){r>=o&&(o=Math.max(o,1),r=o-1);let a=this.getValueSize();this.times=n.slice(r,o),this.values=this.values.slice(r*a,o*a)}return this}validate(){let t=!0,e=this.getValueSize();e-Math.floor(e)!==0&&(kt("KeyframeTrack: Invalid value size in track.",this),t=!1);let n=this.times,s=this.values,r=n.length;r===0&&(kt("KeyframeTrack: Track is empty.",this),t=!1);let o=null;for(let a=0;a!==r;a++){let l=n[a];if(typeof l=="number"&&isNaN(l)){kt("KeyframeTrack: Time is not a valid number.",this,a,l),t=!1;break}if(o!==null&&o>l){kt("KeyframeTrack: Out of order keys.",this,a,l,o),t=!1;break}o=l}if(s!==void 0&&ex(s))for(let a=0,l=s.length;a!==l;++a){let c=s[a];if(isNaN(c)){kt("KeyframeTrack: Value is not a valid number.",this,a,c),t=!1;break}}return t}optimize(){let t=this.times.slice(),e=this.values.slice(),n=this.getValueSize(),s=this.getInterpolation()===ha,r=t.length-1,o=1;for(let a=1;a<r;++a){let l=!1,c=t[a],h=t[a+1];if(c!==h&&(a!==1||c!==t[0]))if(s)l=!0;else{let u=a*n,d=u-n,f=u+n;for(let p=0;p!==n;++p){let b=e[u+p];if(b!==e[d+p]||b!==e[f+p]){l=!0;break}}}if(l){if(a!==o){t[o]=t[a];let u=a*n,d=o*n;for(let f=0;f!==n;++f)e[d+f]=e[u+f]}++o}}if(r>0){t[o]=t[r];for(let a=r*n,l=o*n,c=0;c!==n;++c)e[l+c]=e[a+c];++o}return o!==t.length?(this.times=t.slice(0,o),this.values=e.slice(0,o*n)):(this.times=t,this.values=e),this}clone(){let t=this.times.slice(),e=this.values.slice(),n=this.constructor,s=new n(this.name,t,e);return s.createInterpolant=this.createInterpolant,oa(this.settings)&&(s.settings={inTangents:this.settings.inTangents.slice(),outTangents:this.settings.outTangents.slice()}),s}};function wf(i,t){for(let e=0,n=i.length;e!==n;e+=2)i[e]+=t}function Sf(i,t){for(let e=0,n=i.length;e!==n;e+=2)i[e]*=t}In.prototype.ValueTypeName="";In.prototype.TimeBufferType=Float32Array;In.prototype.ValueBufferType=Float32Array;In.prototype.DefaultInterpolation=_a;var $i=class extends In{constructor(t,e,n){super(t,e,n)}};$i.prototype.ValueTypeName="bool";$i.prototype.ValueBufferType=Array;$i.prototype.DefaultInterpolation=Lr;$i.prototype.InterpolantFactoryMethodLinear=void 0;$i.prototype.InterpolantFactoryMethodSmooth=void 0;var Da=class extends In{constructor(t,e,n,s){super(t,e,n,s)}};Da.prototype.ValueTypeName="color";var Fa=class extends In{constructor(t,e,n,s){super(t,e,n,s)}};Fa.prototype.ValueTypeName="number";var Ua=class extends Xi{constructor(t,e,n,s){super(t,e,n,s)}interpolate_(t,e,n,s){let r=this.resultBuffer,o=this.sampleValues,a=this.valueSize,l=(n-e)/(s-e),c=t*a;for(let h=c+a;c!==h;c+=4)Vn.slerpFlat(r,0,o,c-a,o,c,l);return r}},qr=class extends In{constructor(t,e,n,s){super(t,e,n,s)}InterpolantFactoryMethodLinear(t){return new Ua(this.times,this.values,this.getValueSize(),t)}};qr.prototype.ValueTypeName="quaternion";qr.prototype.InterpolantFactoryMethodSmooth=void 0;var qi=class extends In{constructor(t,e,n){super(t,e,n)}};qi.prototype.ValueTypeName="string";qi.prototype.ValueBufferType=Array;qi.prototype.DefaultInterpolation=Lr;qi.prototype.InterpolantFactoryMethodLinear=void 0;qi.prototype.InterpolantFactoryMethodSmooth=void 0;var Oa=class extends In{constructor(t,e,n,s){super(t,e,n,s)}};Oa.prototype.ValueTypeName="vector";var Ba=class{constructor(t,e,n){let s=this,r=!1,o=0,a=0,l,c=[];this.onStart=void 0,this.onLoad=t,this.onProgress=e,this.onError=n,this._abortController=null,this.itemStart=function(h){a++,r===!1&&s.onStart!==void 0&&s.onStart(h,o,a),r=!0},this.itemEnd=function(h){o++,s.onProgress!==void 0&&s.onProgress(h,o,a),o===a&&(r=!1,s.onLoad!==void 0&&s.onLoad())},this.itemError=function(h){s.onError!==void 0&&s.onError(h)},this.resolveURL=function(h){return h=h.normalize("NFC"),l?l(h):h},this.setURLModifier=function(h){return l=h,this},this.addHandler=function(h,u){return c.push(h,u),this},this.removeHandler=function(h){let u=c.indexOf(h);return u!==-1&&c.splice(u,2),this},this.getHandler=function(h){for(let u=0,d=c.length;u<d;u+=2){let f=c[u],p=c[u+1];if(f.global&&(f.lastIndex=0),f.test(h))return p}return null},this.abort=function(){return this.abortController.abort(),this._abortController=null,this}}get abortController(){return this._abortController||(this._abortController=new AbortController),this._abortController}},pp=new Ba,za=class{constructor(t){this.manager=t!==void 0?t:pp,this.crossOrigin="anonymous",this.withCredentials=!1,this.path="",this.resourcePath="",this.requestHeader={},this.priority="auto",this.cache="default",typeof __THREE_DEVTOOLS__<"u"&&__THREE_DEVTOOLS__.dispatchEvent(new CustomEvent("observe",{detail:this}))}load(){}loadAsync(t,e){let n=this;return new Promise(function(s,r){n.load(t,s,e,r)})}parse(){}setCrossOrigin(t){return this.crossOrigin=t,this}setWithCredentials(t){return this.withCredentials=t,this}setPath(t){return this.path=t,this}setResourcePath(t){return this.resourcePath=t,this}setRequestHeader(t){return this.requestHeader=t,this}setPriority(t){return this.priority=t,this}setCache(t){return this.cache=t,this}abort(){return this}};za.DEFAULT_MATERIAL_NAME="__DEFAULT";var aa=new N,la=new Vn,si=new N,Yr=class extends Pn{constructor(){super(),this.isCamera=!0,this.type="Camera",this.matrixWorldInverse=new Mt,this.projectionMatrix=new Mt,this.projectionMatrixInverse=new Mt,this.coordinateSystem=zn,this._reversedDepth=!1}get reversedDepth(){return this._reversedDepth}copy(t,e){return super.copy(t,e),this.matrixWorldInverse.copy(t.matrixWorldInverse),this.projectionMatrix.copy(t.projectionMatrix),this.projectionMatrixInverse.copy(t.projectionMatrixInverse),this.coordinateSystem=t.coordinateSystem,this}getWorldDirection(t){return super.getWorldDirection(t).negate()}updateMatrixWorld(t){super.updateMatrixWorld(t),this.matrixWorld.decompose(aa,la,si),si.x===1&&si.y===1&&si.z===1?this.matrixWorldInverse.copy(this.matrixWorld).invert():this.matrixWorldInverse.compose(aa,la,si.set(1,1,1)).invert()}updateWorldMatrix(t,e,n=!1){super.updateWorldMatrix(t,e,n),this.matrixWorld.decompose(aa,la,si),si.x===1&&si.y===1&&si.z===1?this.matrixWorldInverse.copy(this.matrixWorld).invert():this.matrixWorldInverse.compose(aa,la,si.set(1,1,1)).invert()}clone(){return new this.constructor().copy(this)}},Vi=new N,Mf=new At,Tf=new At,pn=class extends Yr{constructor(t=50,e=1,n=.1,s=2e3){super(),this.isPerspectiveCamera=!0,this.type="PerspectiveCamera",this.fov=t,this.zoom=1,this.near=n,this.far=s,this.focus=10,this.aspect=e,this.view=null,this.filmGauge=35,this.filmOffset=0,this.updateProjectionMatrix()}copy(t,e){return super.copy(t,e),this.fov=t.fov,this.zoom=t.zoom,this.near=t.near,this.far=t.far,this.focus=t.focus,this.aspect=t.aspect,this.view=t.view===null?null:Object.assign({},t.view),this.filmGauge=t.filmGauge,this.filmOffset=t.filmOffset,this}setFocalLength(t){let e=.5*this.getFilmHeight()/t;this.fov=wa*2*Math.atan(e),this.updateProjectionMatrix()}getFocalLength(){let t=Math.tan(eh*.5*this.fov);return .5*this.getFilmHeight()/t}getEffectiveFOV(){return wa*2*Math.atan(Math.tan(eh*.5*this.fov)/this.zoom)}getFilmWidth(){return this.filmGauge*Math.min(this.aspect,1)}getFilmHeight(){return this.filmGauge/Math.max(this.aspect,1)}getViewBounds(t,e,n){Vi.set(-1,-1,.5).applyMatrix4(this.projectionMatrixInverse),e.set(Vi.x,Vi.y).multiplyScalar(-t/Vi.z),Vi.set(1,1,.5).applyMatrix4(this.projectionMatrixInverse),n.set(Vi.x,Vi.y).multiplyScalar(-t/Vi.z)}getViewSize(t,e){return this.getViewBounds(t,Mf,Tf),e.subVectors(Tf,Mf)}setViewOffset(t,e,n,s,r,o){this.aspect=t/e,this.view===null&&(this.view={enabled:!0,fullWidth:1,fullHeight:1,offsetX:0,offsetY:0,width:1,height:1}),this.view.enabled=!0,this.view.fullWidth=t,this.view.fullHeight=e,this.view.offsetX=n,this.view.offsetY=s,this.view.width=r,this.view.height=o,this.updateProjectionMatrix()}clearViewOffset(){this.view!==null&&(this.view.enabled=!1),this.updateProjectionMatrix()}updateProjectionMatrix(){let t=this.near,e=t*Math.tan(eh*.5*this.fov)/this.zoom,n=2*e,s=this.aspect*n,r=-.5*s,o=this.view;if(this.view!==null&&this.view.enabled){let l=o.fullWidth,c=o.fullHeight;r+=o.offsetX*s/l,e-=o.offsetY*n/c,s*=o.width/l,n*=o.height/c}let a=this.filmOffset;a!==0&&(r+=t*a/this.getFilmWidth()),this.projectionMatrix.makePerspective(r,r+s,e,e-n,t,this.far,this.coordinateSystem,this.reversedDepth),this.projectionMatrixInverse.copy(this.projectionMatrix).invert()}toJSON(t){let e=super.toJSON(t);return e.object.fov=this.fov,e.object.zoom=this.zoom,e.object.near=this.near,e.object.far=this.far,e.object.focus=this.focus,e.object.aspect=this.aspect,this.view!==null&&(e.object.view=Object.assign({},this.view)),e.object.filmGauge=this.filmGauge,e.object.filmOffset=this.filmOffset,e}};var hi=class extends Yr{constructor(t=-1,e=1,n=1,s=-1,r=.1,o=2e3){super(),this.isOrthographicCamera=!0,this.type="OrthographicCamera",this.zoom=1,this.view=null,this.left=t,this.right=e,this.top=n,this.bottom=s,this.near=r,this.far=o,this.updateProjectionMatrix()}copy(t,e){return super.copy(t,e),this.left=t.left,this.right=t.right,this.top=t.top,this.bottom=t.bottom,this.near=t.near,this.far=t.far,this.zoom=t.zoom,this.view=t.view===null?null:Object.assign({},t.view),this}setViewOffset(t,e,n,s,r,o){this.view===null&&(this.view={enabled:!0,fullWidth:1,fullHeight:1,offsetX:0,offsetY:0,width:1,height:1}),this.view.enabled=!0,this.view.fullWidth=t,this.view.fullHeight=e,this.view.offsetX=n,this.view.offsetY=s,this.view.width=r,this.view.height=o,this.updateProjectionMatrix()}clearViewOffset(){this.view!==null&&(this.view.enabled=!1),this.updateProjectionMatrix()}updateProjectionMatrix(){let t=(this.right-this.left)/(2*this.zoom),e=(this.top-this.bottom)/(2*this.zoom),n=(this.right+this.left)/2,s=(this.top+this.bottom)/2,r=n-t,o=n+t,a=s+e,l=s-e;if(this.view!==null&&this.view.enabled){let c=(this.right-this.left)/this.view.fullWidth/this.zoom,h=(this.top-this.bottom)/this.view.fullHeight/this.zoom;r+=c*this.view.offsetX,o=r+c*this.view.width,a-=h*this.view.offsetY,l=a-h*this.view.height}this.projectionMatrix.makeOrthographic(r,o,a,l,this.near,this.far,this.coordinateSystem,this.reversedDepth),this.projectionMatrixInverse.copy(this.projectionMatrix).invert()}toJSON(t){let e=super.toJSON(t);return e.object.zoom=this.zoom,e.object.left=this.left,e.object.right=this.right,e.object.top=this.top,e.object.bottom=this.bottom,e.object.near=this.near,e.object.far=this.far,this.view!==null&&(e.object.view=Object.assign({},this.view)),e}};var Zs=class extends Ie{constructor(){super(),this.isInstancedBufferGeometry=!0,this.type="InstancedBufferGeometry",this.instanceCount=1/0}copy(t){return super.copy(t),this.instanceCount=t.instanceCount,this}toJSON(){let t=super.toJSON();return t.instanceCount=this.instanceCount,t.isInstancedBufferGeometry=!0,t}};var Os=-90,Bs=1,Js=class extends Pn{constructor(t,e,n){super(),this.type="CubeCamera",this.renderTarget=n,this.coordinateSystem=null,this.activeMipmapLevel=0;let s=new pn(Os,Bs,t,e);s.layers=this.layers,this.add(s);let r=new pn(Os,Bs,t,e);r.layers=this.layers,this.add(r);let o=new pn(Os,Bs,t,e);o.layers=this.layers,this.add(o);let a=new pn(Os,Bs,t,e);a.layers=this.layers,this.add(a);let l=new pn(Os,Bs,t,e);l.layers=this.layers,this.add(l);let c=new pn(Os,Bs,t,e);c.layers=this.layers,this.add(c)}updateCoordinateSystem(){let t=this.coordinateSystem,e=this.children.concat(),[n,s,r,o,a,l]=e;for(let c of e)this.remove(c);if(t===zn)n.up.set(0,1,0),n.lookAt(1,0,0),s.up.set(0,1,0),s.lookAt(-1,0,0),r.up.set(0,0,-1),r.lookAt(0,1,0),o.up.set(0,0,1),o.lookAt(0,-1,0),a.up.set(0,1,0),a.lookAt(0,0,1),l.up.set(0,1,0),l.lookAt(0,0,-1);else if(t===Dr)n.up.set(0,-1,0),n.lookAt(-1,0,0),s.up.set(0,-1,0),s.lookAt(1,0,0),r.up.set(0,0,1),r.lookAt(0,1,0),o.up.set(0,0,-1),o.lookAt(0,-1,0),a.up.set(0,-1,0),a.lookAt(0,0,1),l.up.set(0,-1,0),l.lookAt(0,0,-1);else throw new Error("THREE.CubeCamera.updateCoordinateSystem(): Invalid coordinate system: "+t);for(let c of e)this.add(c),c.updateMatrixWorld()}update(t,e){this.parent===null&&this.updateMatrixWorld();let{renderTarget:n,activeMipmapLevel:s}=this;this.coordinateSystem!==t.coordinateSystem&&(this.coordinateSystem=t.coordinateSystem,this.updateCoordinateSystem());let[r,o,a,l,c,h]=this.children,u=t.getRenderTarget(),d=t.getActiveCubeFace(),f=t.getActiveMipmapLevel(),p=t.xr.enabled;t.xr.enabled=!1;let b=n.texture.mipmapsAutoUpdate;n.texture.mipmapsAutoUpdate=!1;let m=!1;t.isWebGLRenderer===!0?m=t.state.buffers.depth.getReversed():m=t.reversedDepthBuffer,t.setRenderTarget(n,0,s),m&&t.autoClear===!1&&t.clearDepth(),t.render(e,r),t.setRenderTarget(n,1,s),m&&t.autoClear===!1&&t.clearDepth(),t.render(e,o),t.setRenderTarget(n,2,s),m&&t.autoClear===!1&&t.clearDepth(),t.render(e,a),t.setRenderTarget(n,3,s),m&&t.autoClear===!1&&t.clearDepth(),t.render(e,l),t.setRenderTarget(n,4,s),m&&t.autoClear===!1&&t.clearDepth(),t.render(e,c),n.texture.mipmapsAutoUpdate=b,t.setRenderTarget(n,5,s),m&&t.autoClear===!1&&t.clearDepth(),t.render(e,h),t.setRenderTarget(u,d,f),t.xr.enabled=p,n.texture.needsPMREMUpdate=!0}},Va=class extends pn{constructor(t=[]){super(),this.isArrayCamera=!0,this.isMultiViewCamera=!1,this.cameras=t,this.perCameraFrustumCulled=!1}};var cu="\\[\\]\\.:\\/",Dx=new RegExp("["+cu+"]","g"),hu="[^"+cu+"]",Fx="[^"+cu.replace("\\.","")+"]",Ux=/((?:WC+[\/:])*)/.source.replace("WC",hu),Ox=/(WCOD+)?/.source.replace("WCOD",Fx),Bx=/(?:\.(WC+)(?:\[(.+)\])?)?/.source.replace("WC",hu),zx=/\.(WC+)(?:\[(.+)\])?/.source.replace("WC",hu),Vx=new RegExp("^"+Ux+Ox+Bx+zx+"$"),Hx=["material","materials","bones","map"],Lh=class{constructor(t,e,n){let s=n||xe.parseTrackName(e);this._targetGroup=t,this._bindings=t.subscribe_(e,s)}getValue(t,e){this.bind();let n=this._targetGroup.nCachedObjects_,s=this._bindings[n];s!==void 0&&s.getValue(t,e)}setValue(t,e){let n=this._bindings;for(let s=this._targetGroup.nCachedObjects_,r=n.length;s!==r;++s)n[s].setValue(t,e)}bind(){let t=this._bindings;for(let e=this._targetGroup.nCachedObjects_,n=t.length;e!==n;++e)t[e].bind()}unbind(){let t=this._bindings;for(let e=this._targetGroup.nCachedObjects_,n=t.length;e!==n;++e)t[e].unbind()}},xe=class i{constructor(t,e,n){this.path=e,this.parsedPath=n||i.parseTrackName(e),this.node=i.findNode(t,this.parsedPath.nodeName),this.rootNode=t,this.getValue=this._getValue_unbound,this.setValue=this._setValue_unbound}static create(t,e,n){return t&&t.isAnimationObjectGroup?new i.Composite(t,e,n):new i(t,e,n)}static sanitizeNodeName(t){return t.replace(/\s/g,"_").replace(Dx,"")}static parseTrackName(t){let e=Vx.exec(t);if(e===null)throw new Error("THREE.PropertyBinding: Cannot parse trackName: "+t);let n={nodeName:e[2],objectName:e[3],objectIndex:e[4],propertyName:e[5],propertyIndex:e[6]},s=n.nodeName&&n.nodeName.lastIndexOf(".");if(s!==void 0&&s!==-1){let r=n.nodeName.substring(s+1);Hx.indexOf(r)!==-1&&(n.nodeName=n.nodeName.substring(0,s),n.objectName=r)}if(n.propertyName===null||n.propertyName.length===0)throw new Error("THREE.PropertyBinding: can not parse propertyName from trackName: "+t);return n}static findNode(t,e){if(e===void 0||e===""||e==="."||e===-1||e===t.name||e===t.uuid)return t;if(t.skeleton){let n=t.skeleton.getBoneByName(e);if(n!==void 0)return n}if(t.children){let n=function(r){for(let o=0;o<r.length;o++){let a=r[o];if(a.name===e||a.uuid===e)return a;let l=n(a.children);if(l)return l}return null},s=n(t.children);if(s)return s}return null}_getValue_unavailable(){}_setValue_unavailable(){}_getValue_direct(t,e){t[e]=this.targetObject[this.propertyName]}_getValue_array(t,e){let n=this.resolvedProperty;for(let s=0,r=n.length;s!==r;++s)t[e++]=n[s]}_getValue_arrayElement(t,e){t[e]=this.resolvedProperty[this.propertyIndex]}_getValue_toArray(t,e){this.resolvedProperty.toArray(t,e)}_setValue_direct(t,e){this.targetObject[this.propertyName]=t[e]}_setValue_direct_setNeedsUpdate(t,e){this.targetObject[this.propertyName]=t[e],this.targetObject.needsUpdate=!0}_setValue_direct_setMatrixWorldNeedsUpdate(t,e){this.targetObject[this.propertyName]=t[e],this.targetObject.matrixWorldNeedsUpdate=!0}_setValue_array(t,e){let n=this.resolvedProperty;for(let s=0,r=n.length;s!==r;++s)n[s]=t[e++]}_setValue_array_setNeedsUpdate(t,e){let n=this.resolvedProperty;for(let s=0,r=n.length;s!==r;++s)n[s]=t[e++];this.targetObject.needsUpdate=!0}_setValue_array_setMatrixWorldNeedsUpdate(t,e){let n=this.resolvedProperty;for(let s=0,r=n.length;s!==r;++s)n[s]=t[e++];this.targetObject.matrixWorldNeedsUpdate=!0}_setValue_arrayElement(t,e){this.resolvedProperty[this.propertyIndex]=t[e]}_setValue_arrayElement_setNeedsUpdate(t,e){this.resolvedProperty[this.propertyIndex]=t[e],this.targetObject.needsUpdate=!0}_setValue_arrayElement_setMatrixWorldNeedsUpdate(t,e){this.resolvedProperty[this.propertyIndex]=t[e],this.targetObject.matrixWorldNeedsUpdate=!0}_setValue_fromArray(t,e){this.resolvedProperty.fromArray(t,e)}_setValue_fromArray_setNeedsUpdate(t,e){this.resolvedProperty.fromArray(t,e),this.targetObject.needsUpdate=!0}_setValue_fromArray_setMatrixWorldNeedsUpdate(t,e){this.resolvedProperty.fromArray(t,e),this.targetObject.matrixWorldNeedsUpdate=!0}_getValue_unbound(t,e){this.bind(),this.getValue(t,e)}_setValue_unbound(t,e){this.bind(),this.setValue(t,e)}bind(){let t=this.node,e=this.parsedPath,n=e.objectName,s=e.propertyName,r=e.propertyIndex;if(t||(t=i.findNode(this.rootNode,e.nodeName),this.node=t),this.getValue=this._getValue_unavailable,this.setValue=this._setValue_unavailable,!t){Lt("PropertyBinding: No target node found for track: "+this.path+".");return}if(n){let c=e.objectIndex;switch(n){case"materials":if(!t.material){kt("PropertyBinding: Can not bind to material as node does not have a material.",this);return}if(!t.material.materials){kt("PropertyBinding: Can not bind to material.materials as node.material does not have a materials array.",this);return}t=t.material.materials;break;case"bones":if(!t.skeleton){kt("PropertyBinding: Can not bind to bones as node does not have a skeleton.",this);return}t=t.skeleton.bones;for(let h=0;h<t.length;h++)if(t[h].name===c){c=h;break}break;case"map":if("map"in t){t=t.map;break}if(!t.material){kt("PropertyBinding: Can not bind to material as node does not have a material.",this);return}if(!t.material.map){kt("PropertyBinding: Can not bind to material.map as node.material does not have a map.",this);return}t=t.material.map;break;default:if(t[n]===void 0){kt("PropertyBinding: Can not bind to objectName of node undefined.",this);return}t=t[n]}if(c!==void 0){if(t[c]===void 0){kt("PropertyBinding: Trying to bind to objectIndex of objectName, but is undefined.",this,t);return}t=t[c]}}let o=t[s];if(o===void 0){let c=e.nodeName;kt("PropertyBinding: Trying to update property for track: "+c+"."+s+" but it wasn't found.",t);return}let a=this.Versioning.None;this.targetObject=t,t.isMaterial===!0?a=this.Versioning.NeedsUpdate:t.isObject3D===!0&&(a=this.Versioning.MatrixWorldNeedsUpdate);let l=this.BindingType.Direct;if(r!==void 0){if(s==="morphTargetInfluences"){if(!t.geometry){kt("PropertyBinding: Can not bind to morphTargetInfluences because node does not have a geometry.",this);return}if(!t.geometry.morphAttributes){kt("PropertyBinding: Can not bind to morphTargetInfluences because node does not have a geometry.morphAttributes.",this);return}t.morphTargetDictionary[r]!==void 0&&(r=t.morphTargetDictionary[r])}l=this.BindingType.ArrayElement,this.resolvedProperty=o,this.propertyIndex=r}else o.fromArray!==void 0&&o.toArray!==void 0?(l=this.BindingType.HasFromToArray,this.resolvedProperty=o):Array.isArray(o)?(l=this.BindingType.EntireArray,this.resolvedProperty=o):this.propertyName=s;this.getValue=this.GetterByBindingType[l],this.setValue=this.SetterByBindingTypeAndVersioning[l][a]}unbind(){this.node=null,this.getValue=this._getValue_unbound,this.setValue=this._setValue_unbound}};xe.Composite=Lh;xe.prototype.BindingType={Direct:0,EntireArray:1,ArrayElement:2,HasFromToArray:3};xe.prototype.Versioning={None:0,NeedsUpdate:1,MatrixWorldNeedsUpdate:2};xe.prototype.GetterByBindingType=[xe.prototype._getValue_direct,xe.prototype._getValue_array,xe.prototype._getValue_arrayElement,xe.prototype._getValue_toArray];xe.prototype.SetterByBindingTypeAndVersioning=[[xe.prototype._setValue_direct,xe.prototype._setValue_direct_setNeedsUpdate,xe.prototype._setValue_direct_setMatrixWorldNeedsUpdate],[xe.prototype._setValue_array,xe.prototype._setValue_array_setNeedsUpdate,xe.prototype._setValue_array_setMatrixWorldNeedsUpdate],[xe.prototype._setValue_arrayElement,xe.prototype._setValue_arrayElement_setNeedsUpdate,xe.prototype._setValue_arrayElement_setMatrixWorldNeedsUpdate],[xe.prototype._setValue_fromArray,xe.prototype._setValue_fromArray_setNeedsUpdate,xe.prototype._setValue_fromArray_setMatrixWorldNeedsUpdate]];var D1=new Float32Array(1);var Ef=new Mt,Zr=class{constructor(t,e,n=0,s=1/0){this.ray=new Wi(t,e),this.near=n,this.far=s,this.camera=null,this.layers=new $s,this.params={Mesh:{},Line:{threshold:1},LOD:{},Points:{threshold:1},Sprite:{}}}set(t,e){this.ray.set(t,e)}setFromCamera(t,e){e.isPerspectiveCamera?(this.ray.origin.setFromMatrixPosition(e.matrixWorld),this.ray.direction.set(t.x,t.y,.5).unproject(e).sub(this.ray.origin).normalize(),this.camera=e):e.isOrthographicCamera?(this.ray.origin.set(t.x,t.y,e.projectionMatrix.elements[14]).unproject(e),this.ray.direction.set(0,0,-1).transformDirection(e.matrixWorld),this.camera=e):kt("Raycaster: Unsupported camera type: "+e.type)}setFromXRController(t){return Ef.identity().extractRotation(t.matrixWorld),this.ray.origin.setFromMatrixPosition(t.matrixWorld),this.ray.direction.set(0,0,-1).applyMatrix4(Ef),this}intersectObject(t,e=!0,n=[]){return kh(t,this,n,e),n.sort(Af),n}intersectObjects(t,e=!0,n=[]){for(let s=0,r=t.length;s<r;s++)kh(t[s],this,n,e);return n.sort(Af),n}};function Af(i,t){return i.distance-t.distance}function kh(i,t,e,n){let s=!0;if(i.layers.test(t.layers)&&i.raycast(t,e)===!1&&(s=!1),s===!0&&n===!0){let r=i.children;for(let o=0,a=r.length;o<a;o++)kh(r[o],t,e,!0)}}var Nh=class{static{this.prototype.isMatrix2=!0}constructor(t,e,n,s){this.elements=[1,0,0,1],t!==void 0&&this.set(t,e,n,s)}identity(){return this.set(1,0,0,1),this}fromArray(t,e=0){for(let n=0;n<4;n++)this.elements[n]=t[n+e];return this}set(t,e,n,s){let r=this.elements;return r[0]=t,r[2]=e,r[1]=n,r[3]=s,this}};var Cf=new N,ca=new N,zs=new N,Vs=new N,Th=new N,Gx=new N,Wx=new N,mn=class{constructor(t=new N,e=new N){this.start=t,this.end=e}set(t,e){return this.start.copy(t),this.end.copy(e),this}copy(t){return this.start.copy(t.start),this.end.copy(t.end),this}getCenter(t){return t.addVectors(this.start,this.end).multiplyScalar(.5)}delta(t){return t.subVectors(this.end,this.start)}distanceSq(){return this.start.distanceToSquared(this.end)}distance(){return this.start.distanceTo(this.end)}at(t,e){return this.delta(e).multiplyScalar(t).add(this.start)}closestPointToPointParameter(t,e){Cf.subVectors(t,this.start),ca.subVectors(this.end,this.start);let n=ca.dot(ca);if(n===0)return 0;let r=ca.dot(Cf)/n;return e&&(r=Ht(r,0,1)),r}closestPointToPoint(t,e,n){let s=this.closestPointToPointParameter(t,e);return this.delta(n).multiplyScalar(s).add(this.start)}distanceSqToLine3(t,e=Gx,n=Wx){let s=10000000000000001e-32,r,o,a=this.start,l=t.start,c=this.end,h=t.end;zs.subVectors(c,a),Vs.subVectors(h,l),Th.subVectors(a,l);let u=zs.dot(zs),d=Vs.dot(Vs),f=Vs.dot(Th);if(u<=s&&d<=s)return e.copy(a),n.copy(l),e.distanceToSquared(n);if(u<=s)r=0,o=f/d,o=Ht(o,0,1);else{let p=zs.dot(Th);if(d<=s)o=0,r=Ht(-p/u,0,1);else{let b=zs.dot(Vs),m=u*d-b*b;m!==0?r=Ht((b*f-p*d)/m,0,1):r=0,o=(b*r+f)/d,o<0?(o=0,r=Ht(-p/u,0,1)):o>1&&(o=1,r=Ht((b-p)/u,0,1))}}return e.copy(a).addScaledVector(zs,r),n.copy(l).addScaledVector(Vs,o),e.distanceToSquared(n)}applyMatrix4(t){return this.start.applyMatrix4(t),this.end.applyMatrix4(t),this}equals(t){return t.start.equals(this.start)&&t.end.equals(this.end)}clone(){return new this.constructor().copy(this)}};function uu(i,t,e,n){let s=Xx(n);switch(e){case jh:return i*t;case tu:return i*t/s.components*s.byteLength;case to:return i*t/s.components*s.byteLength;case Yi:return i*t*2/s.components*s.byteLength;case Za:return i*t*2/s.components*s.byteLength;case Qh:return i*t*3/s.components*s.byteLength;case Je:return i*t*4/s.components*s.byteLength;case Ja:return i*t*4/s.components*s.byteLength;case eo:case no:return Math.floor((i+3)/4)*Math.floor((t+3)/4)*8;case io:case so:return Math.floor((i+3)/4)*Math.floor((t+3)/4)*16;case ja:case tl:return Math.max(i,16)*Math.max(t,8)/4;case Ka:case Qa:return Math.max(i,8)*Math.max(t,8)/2;case el:case nl:case sl:case rl:return Math.floor((i+3)/4)*Math.floor((t+3)/4)*8;case il:case ro:case ol:return Math.floor((i+3)/4)*Math.floor((t+3)/4)*16;case al:return Math.floor((i+3)/4)*Math.floor((t+3)/4)*16;case ll:return Math.floor((i+4)/5)*Math.floor((t+3)/4)*16;case cl:return Math.floor((i+4)/5)*Math.floor((t+4)/5)*16;case hl:return Math.floor((i+5)/6)*Math.floor((t+4)/5)*16;case ul:return Math.floor((i+5)/6)*Math.floor((t+5)/6)*16;case dl:return Math.floor((i+7)/8)*Math.floor((t+4)/5)*16;case fl:return Math.floor((i+7)/8)*Math.floor((t+5)/6)*16;case pl:return Math.floor((i+7)/8)*Math.floor((t+7)/8)*16;case ml:return Math.floor((i+9)/10)*Math.floor((t+4)/5)*16;case gl:return Math.floor((i+9)/10)*Math.floor((t+5)/6)*16;case xl:return Math.floor((i+9)/10)*Math.floor((t+7)/8)*16;case vl:return Math.floor((i+9)/10)*Math.floor((t+9)/10)*16;case yl:return Math.floor((i+11)/12)*Math.floor((t+9)/10)*16;case bl:return Math.floor((i+11)/12)*Math.floor((t+11)/12)*16;case _l:case wl:case Sl:return Math.ceil(i/4)*Math.ceil(t/4)*16;case Ml:case Tl:return Math.ceil(i/4)*Math.ceil(t/4)*8;case oo:case El:return Math.ceil(i/4)*Math.ceil(t/4)*16}throw new Error(`Unable to determine texture byte length for ${e} format.`)}function Xx(i){switch(i){case je:case Yh:return{byteLength:1,components:1};case er:case Zh:case Ln:return{byteLength:2,components:1};case qa:case Ya:return{byteLength:2,components:4};case Sn:case $a:case Rn:return{byteLength:4,components:1};case Jh:case Kh:return{byteLength:4,components:3}}throw new Error(`THREE.TextureUtils: Unknown texture type ${i}.`)}typeof __THREE_DEVTOOLS__<"u"&&__THREE_DEVTOOLS__.dispatchEvent(new CustomEvent("register",{detail:{revision:"187"}}));typeof window<"u"&&(window.__THREE__?Lt("WARNING: Multiple instances of Three.js being imported."):window.__THREE__="187");function Fp(){let i=null,t=!1,e=null,n=null;function s(r,o){n=i.requestAnimationFrame(s),e(r,o)}return{start:function(){t!==!0&&e!==null&&i!==null&&(n=i.requestAnimationFrame(s),t=!0)},stop:function(){i!==null&&i.cancelAnimationFrame(n),t=!1},setAnimationLoop:function(r){e=r},setContext:function(r){i=r}}}function $x(i){let t=new WeakMap;function e(a,l){let c=a.array,h=a.usage,u=c.byteLength,d=i.createBuffer();i.bindBuffer(l,d),i.bufferData(l,c,h),a.onUploadCallback();let f;if(c instanceof Float32Array)f=i.FLOAT;else if(typeof Float16Array<"u"&&c instanceof Float16Array)f=i.HALF_FLOAT;else if(c instanceof Uint16Array)a.isFloat16BufferAttribute?f=i.HALF_FLOAT:f=i.UNSIGNED_SHORT;else if(c instanceof Int16Array)f=i.SHORT;else if(c instanceof Uint32Array)f=i.UNSIGNED_INT;else if(c instanceof Int32Array)f=i.INT;else if(c instanceof Int8Array)f=i.BYTE;else if(c instanceof Uint8Array)f=i.UNSIGNED_BYTE;else if(c instanceof Uint8ClampedArray)f=i.UNSIGNED_BYTE;else throw new Error("THREE.WebGLAttributes: Unsupported buffer data format: "+c);return{buffer:d,type:f,bytesPerElement:c.BYTES_PER_ELEMENT,version:a.version,size:u}}function n(a,l,c){let h=l.array,u=l.updateRanges;if(i.bindBuffer(c,a),u.length===0)i.bufferSubData(c,0,h);else{u.sort((f,p)=>f.start-p.start);let d=0;for(let f=1;f<u.length;f++){let p=u[d],b=u[f];b.start<=p.start+p.count+1?p.count=Math.max(p.count,b.start+b.count-p.start):(++d,u[d]=b)}u.length=d+1;for(let f=0,p=u.length;f<p;f++){let b=u[f];i.bufferSubData(c,b.start*h.BYTES_PER_ELEMENT,h,b.start,b.count)}l.clearUpdateRanges()}l.onUploadCallback()}function s(a){return a.isInterleavedBufferAttribute&&(a=a.data),t.get(a)}function r(a){a.isInterleavedBufferAttribute&&(a=a.data);let l=t.get(a);l&&(i.deleteBuffer(l.buffer),t.delete(a))}function o(a,l){if(a.isInterleavedBufferAttribute&&(a=a.data),a.isGLBufferAttribute){let h=t.get(a);(!h||h.version<a.version)&&t.set(a,{buffer:a.buffer,type:a.type,bytesPerElement:a.elementSize,version:a.version});return}let c=t.get(a);if(c===void 0)t.set(a,e(a,l));else if(c.version<a.version){if(c.size!==a.array.byteLength)throw new Error("THREE.WebGLAttributes: The size of the buffer attribute's array buffer does not match the original size. Resizing buffer attributes is not supported.");n(c.buffer,a,l),c.version=a.version}}return{get:s,remove:r,update:o}}var qx=`#ifdef USE_ALPHAHASH
+	if ( diffuseColor.a < getAlphaHashThreshold( vPosition ) ) discard;
+#endif`,Yx=`#ifdef USE_ALPHAHASH
+	const float ALPHA_HASH_SCALE = 0.05;
+	float hash2D( vec2 value ) {
+		return fract( 1.0e4 * sin( 17.0 * value.x + 0.1 * value.y ) * ( 0.1 + abs( sin( 13.0 * value.y + value.x ) ) ) );
+	}
+	float hash3D( vec3 value ) {
+		return hash2D( vec2( hash2D( value.xy ), value.z ) );
+	}
+	float getAlphaHashThreshold( vec3 position ) {
+		float maxDeriv = max(
+			length( dFdx( position.xyz ) ),
+			length( dFdy( position.xyz ) )
+		);
+		float pixScale = 1.0 / ( ALPHA_HASH_SCALE * maxDeriv );
+		vec2 pixScales = vec2(
+			exp2( floor( log2( pixScale ) ) ),
+			exp2( ceil( log2( pixScale ) ) )
+		);
+		vec2 alpha = vec2(
+			hash3D( floor( pixScales.x * position.xyz ) ),
+			hash3D( floor( pixScales.y * position.xyz ) )
+		);
+		float lerpFactor = fract( log2( pixScale ) );
+		float x = ( 1.0 - lerpFactor ) * alpha.x + lerpFactor * alpha.y;
+		float a = min( lerpFactor, 1.0 - lerpFactor );
+		vec3 cases = vec3(
+			x * x / ( 2.0 * a * ( 1.0 - a ) ),
+			( x - 0.5 * a ) / ( 1.0 - a ),
+			1.0 - ( ( 1.0 - x ) * ( 1.0 - x ) / ( 2.0 * a * ( 1.0 - a ) ) )
+		);
+		float threshold = ( x < ( 1.0 - a ) )
+			? ( ( x < a ) ? cases.x : cases.y )
+			: cases.z;
+		return clamp( threshold , 1.0e-6, 1.0 );
+	}
+#endif`,Zx=`#ifdef USE_ALPHAMAP
+	diffuseColor.a *= texture2D( alphaMap, vAlphaMapUv ).g;
+#endif`,Jx=`#ifdef USE_ALPHAMAP
+	uniform sampler2D alphaMap;
+#endif`,Kx=`#ifdef USE_ALPHATEST
+	#ifdef ALPHA_TO_COVERAGE
+	diffuseColor.a = smoothstep( alphaTest, alphaTest + fwidth( diffuseColor.a ), diffuseColor.a );
+	if ( diffuseColor.a == 0.0 ) discard;
+	#else
+	if ( diffuseColor.a < alphaTest ) discard;
+	#endif
+#endif`,jx=`#ifdef USE_ALPHATEST
+	uniform float alphaTest;
+#endif`,Qx=`#ifdef USE_AOMAP
+	float ambientOcclusion = ( texture2D( aoMap, vAoMapUv ).r - 1.0 ) * aoMapIntensity + 1.0;
+	reflectedLight.indirectDiffuse *= ambientOcclusion;
+	#if defined( USE_CLEARCOAT ) 
+		clearcoatSpecularIndirect *= ambientOcclusion;
+	#endif
+	#if defined( USE_SHEEN ) 
+		sheenSpecularIndirect *= ambientOcclusion;
+	#endif
+	#if defined( USE_ENVMAP ) && defined( STANDARD )
+		float dotNV = saturate( dot( geometryNormal, geometryViewDir ) );
+		reflectedLight.indirectSpecular *= computeSpecularOcclusion( dotNV, ambientOcclusion, material.roughness );
+	#endif
+#endif`,tv=`#ifdef USE_AOMAP
+	uniform sampler2D aoMap;
+	uniform float aoMapIntensity;
+#endif`,ev=`#ifdef USE_BATCHING
+	#if ! defined( GL_ANGLE_multi_draw )
+	#define gl_DrawID _gl_DrawID
+	uniform int _gl_DrawID;
+	#endif
+	uniform highp sampler2D batchingTexture;
+	uniform highp usampler2D batchingIdTexture;
+	mat4 getBatchingMatrix( const in float i ) {
+		int size = textureSize( batchingTexture, 0 ).x;
+		int j = int( i ) * 4;
+		int x = j % size;
+		int y = j / size;
+		vec4 v1 = texelFetch( batchingTexture, ivec2( x, y ), 0 );
+		vec4 v2 = texelFetch( batchingTexture, ivec2( x + 1, y ), 0 );
+		vec4 v3 = texelFetch( batchingTexture, ivec2( x + 2, y ), 0 );
+		vec4 v4 = texelFetch( batchingTexture, ivec2( x + 3, y ), 0 );
+		return mat4( v1, v2, v3, v4 );
+	}
+	float getIndirectIndex( const in int i ) {
+		int size = textureSize( batchingIdTexture, 0 ).x;
+		int x = i % size;
+		int y = i / size;
+		return float( texelFetch( batchingIdTexture, ivec2( x, y ), 0 ).r );
+	}
+#endif
+#ifdef USE_BATCHING_COLOR
+	uniform sampler2D batchingColorTexture;
+	vec4 getBatchingColor( const in float i ) {
+		int size = textureSize( batchingColorTexture, 0 ).x;
+		int j = int( i );
+		int x = j % size;
+		int y = j / size;
+		return texelFetch( batchingColorTexture, ivec2( x, y ), 0 );
+	}
+#endif`,nv=`#ifdef USE_BATCHING
+	mat4 batchingMatrix = getBatchingMatrix( getIndirectIndex( gl_DrawID ) );
+#endif`,iv=`vec3 transformed = vec3( position );
+#ifdef USE_ALPHAHASH
+	vPosition = vec3( position );
+#endif`,sv=`vec3 objectNormal = vec3( normal );
+#ifdef USE_TANGENT
+	vec3 objectTangent = vec3( tangent.xyz );
+#endif`,rv=`float G_BlinnPhong_Implicit( ) {
+	return 0.25;
 }
+float D_BlinnPhong( const in float shininess, const in float dotNH ) {
+	return RECIPROCAL_PI * ( shininess * 0.5 + 1.0 ) * pow( dotNH, shininess );
+}
+vec3 BRDF_BlinnPhong( const in vec3 lightDir, const in vec3 viewDir, const in vec3 normal, const in vec3 specularColor, const in float shininess ) {
+	vec3 halfDir = normalize( lightDir + viewDir );
+	float dotNH = saturate( dot( normal, halfDir ) );
+	float dotVH = saturate( dot( viewDir, halfDir ) );
+	vec3 F = F_Schlick( specularColor, 1.0, dotVH );
+	float G = G_BlinnPhong_Implicit( );
+	float D = D_BlinnPhong( shininess, dotNH );
+	return F * ( G * D );
+} // validated`,ov=`#ifdef USE_IRIDESCENCE
+	const mat3 XYZ_TO_REC709 = mat3(
+		 3.2404542, -0.9692660,  0.0556434,
+		-1.5371385,  1.8760108, -0.2040259,
+		-0.4985314,  0.0415560,  1.0572252
+	);
+	vec3 Fresnel0ToIor( vec3 fresnel0 ) {
+		vec3 sqrtF0 = sqrt( fresnel0 );
+		return ( vec3( 1.0 ) + sqrtF0 ) / ( vec3( 1.0 ) - sqrtF0 );
+	}
+	vec3 IorToFresnel0( vec3 transmittedIor, float incidentIor ) {
+		return pow2( ( transmittedIor - vec3( incidentIor ) ) / ( transmittedIor + vec3( incidentIor ) ) );
+	}
+	float IorToFresnel0( float transmittedIor, float incidentIor ) {
+		return pow2( ( transmittedIor - incidentIor ) / ( transmittedIor + incidentIor ));
+	}
+	vec3 evalSensitivity( float OPD, vec3 shift ) {
+		float phase = 2.0 * PI * OPD * 1.0e-9;
+		vec3 val = vec3( 5.4856e-13, 4.4201e-13, 5.2481e-13 );
+		vec3 pos = vec3( 1.6810e+06, 1.7953e+06, 2.2084e+06 );
+		vec3 var = vec3( 4.3278e+09, 9.3046e+09, 6.6121e+09 );
+		vec3 xyz = val * sqrt( 2.0 * PI * var ) * cos( pos * phase + shift ) * exp( - pow2( phase ) * var );
+		xyz.x += 9.7470e-14 * sqrt( 2.0 * PI * 4.5282e+09 ) * cos( 2.2399e+06 * phase + shift[ 0 ] ) * exp( - 4.5282e+09 * pow2( phase ) );
+		xyz /= 1.0685e-7;
+		vec3 rgb = XYZ_TO_REC709 * xyz;
+		return rgb;
+	}
+	vec3 evalIridescence( float outsideIOR, float eta2, float cosTheta1, float thinFilmThickness, vec3 baseF0 ) {
+		vec3 I;
+		float iridescenceIOR = mix( outsideIOR, eta2, smoothstep( 0.0, 0.03, thinFilmThickness ) );
+		float sinTheta2Sq = pow2( outsideIOR / iridescenceIOR ) * ( 1.0 - pow2( cosTheta1 ) );
+		float cosTheta2Sq = 1.0 - sinTheta2Sq;
+		if ( cosTheta2Sq < 0.0 ) {
+			return vec3( 1.0 );
+		}
+		float cosTheta2 = sqrt( cosTheta2Sq );
+		float R0 = IorToFresnel0( iridescenceIOR, outsideIOR );
+		float R12 = F_Schlick( R0, 1.0, cosTheta1 );
+		float T121 = 1.0 - R12;
+		float phi12 = 0.0;
+		if ( iridescenceIOR < outsideIOR ) phi12 = PI;
+		float phi21 = PI - phi12;
+		vec3 baseIOR = Fresnel0ToIor( clamp( baseF0, 0.0, 0.9999 ) );		vec3 R1 = IorToFresnel0( baseIOR, iridescenceIOR );
+		vec3 R23 = F_Schlick( R1, 1.0, cosTheta2 );
+		vec3 phi23 = vec3( 0.0 );
+		if ( baseIOR[ 0 ] < iridescenceIOR ) phi23[ 0 ] = PI;
+		if ( baseIOR[ 1 ] < iridescenceIOR ) phi23[ 1 ] = PI;
+		if ( baseIOR[ 2 ] < iridescenceIOR ) phi23[ 2 ] = PI;
+		float OPD = 2.0 * iridescenceIOR * thinFilmThickness * cosTheta2;
+		vec3 phi = vec3( phi21 ) + phi23;
+		vec3 R123 = clamp( R12 * R23, 1e-5, 0.9999 );
+		vec3 r123 = sqrt( R123 );
+		vec3 Rs = pow2( T121 ) * R23 / ( vec3( 1.0 ) - R123 );
+		vec3 C0 = R12 + Rs;
+		I = C0;
+		vec3 Cm = Rs - T121;
+		for ( int m = 1; m <= 2; ++ m ) {
+			Cm *= r123;
+			vec3 Sm = 2.0 * evalSensitivity( float( m ) * OPD, float( m ) * phi );
+			I += Cm * Sm;
+		}
+		return max( I, vec3( 0.0 ) );
+	}
+#endif`,av=`#ifdef USE_BUMPMAP
+	uniform sampler2D bumpMap;
+	uniform float bumpScale;
+	vec2 dHdxy_fwd() {
+		vec2 dSTdx = dFdx( vBumpMapUv );
+		vec2 dSTdy = dFdy( vBumpMapUv );
+		float Hll = bumpScale * texture2D( bumpMap, vBumpMapUv ).x;
+		float dBx = bumpScale * texture2D( bumpMap, vBumpMapUv + dSTdx ).x - Hll;
+		float dBy = bumpScale * texture2D( bumpMap, vBumpMapUv + dSTdy ).x - Hll;
+		return vec2( dBx, dBy );
+	}
+	vec3 perturbNormalArb( vec3 surf_pos, vec3 surf_norm, vec2 dHdxy, float faceDirection ) {
+		vec3 vSigmaX = normalize( dFdx( surf_pos.xyz ) );
+		vec3 vSigmaY = normalize( dFdy( surf_pos.xyz ) );
+		vec3 vN = surf_norm;
+		vec3 R1 = cross( vSigmaY, vN );
+		vec3 R2 = cross( vN, vSigmaX );
+		float fDet = dot( vSigmaX, R1 ) * faceDirection;
+		vec3 vGrad = sign( fDet ) * ( dHdxy.x * R1 + dHdxy.y * R2 );
+		return normalize( abs( fDet ) * surf_norm - vGrad );
+	}
+#endif`,lv=`#if NUM_CLIPPING_PLANES > 0
+	vec4 plane;
+	#ifdef ALPHA_TO_COVERAGE
+		float distanceToPlane, distanceGradient;
+		float clipOpacity = 1.0;
+		#pragma unroll_loop_start
+		for ( int i = 0; i < UNION_CLIPPING_PLANES; i ++ ) {
+			plane = clippingPlanes[ i ];
+			distanceToPlane = - dot( vClipPosition, plane.xyz ) + plane.w;
+			distanceGradient = fwidth( distanceToPlane ) / 2.0;
+			clipOpacity *= smoothstep( - distanceGradient, distanceGradient, distanceToPlane );
+			if ( clipOpacity == 0.0 ) discard;
+		}
+		#pragma unroll_loop_end
+		#if UNION_CLIPPING_PLANES < NUM_CLIPPING_PLANES
+			float unionClipOpacity = 1.0;
+			#pragma unroll_loop_start
+			for ( int i = UNION_CLIPPING_PLANES; i < NUM_CLIPPING_PLANES; i ++ ) {
+				plane = clippingPlanes[ i ];
+				distanceToPlane = - dot( vClipPosition, plane.xyz ) + plane.w;
+				distanceGradient = fwidth( distanceToPlane ) / 2.0;
+				unionClipOpacity *= 1.0 - smoothstep( - distanceGradient, distanceGradient, distanceToPlane );
+			}
+			#pragma unroll_loop_end
+			clipOpacity *= 1.0 - unionClipOpacity;
+		#endif
+		diffuseColor.a *= clipOpacity;
+		if ( diffuseColor.a == 0.0 ) discard;
+	#else
+		#pragma unroll_loop_start
+		for ( int i = 0; i < UNION_CLIPPING_PLANES; i ++ ) {
+			plane = clippingPlanes[ i ];
+			if ( dot( vClipPosition, plane.xyz ) > plane.w ) discard;
+		}
+		#pragma unroll_loop_end
+		#if UNION_CLIPPING_PLANES < NUM_CLIPPING_PLANES
+			bool clipped = true;
+			#pragma unroll_loop_start
+			for ( int i = UNION_CLIPPING_PLANES; i < NUM_CLIPPING_PLANES; i ++ ) {
+				plane = clippingPlanes[ i ];
+				clipped = ( dot( vClipPosition, plane.xyz ) > plane.w ) && clipped;
+			}
+			#pragma unroll_loop_end
+			if ( clipped ) discard;
+		#endif
+	#endif
+#endif`,cv=`#if NUM_CLIPPING_PLANES > 0
+	varying vec3 vClipPosition;
+	uniform vec4 clippingPlanes[ NUM_CLIPPING_PLANES ];
+#endif`,hv=`#if NUM_CLIPPING_PLANES > 0
+	varying vec3 vClipPosition;
+#endif`,uv=`#if NUM_CLIPPING_PLANES > 0
+	vClipPosition = - mvPosition.xyz;
+#endif`,dv=`#if defined( USE_COLOR ) || defined( USE_COLOR_ALPHA )
+	diffuseColor *= vColor;
+#endif`,fv=`#if defined( USE_COLOR ) || defined( USE_COLOR_ALPHA )
+	varying vec4 vColor;
+#endif`,pv=`#if defined( USE_COLOR ) || defined( USE_COLOR_ALPHA ) || defined( USE_INSTANCING_COLOR ) || defined( USE_BATCHING_COLOR )
+	varying vec4 vColor;
+#endif`,mv=`#if defined( USE_COLOR ) || defined( USE_COLOR_ALPHA ) || defined( USE_INSTANCING_COLOR ) || defined( USE_BATCHING_COLOR )
+	vColor = vec4( 1.0 );
+#endif
+#ifdef USE_COLOR_ALPHA
+	vColor *= color;
+#elif defined( USE_COLOR )
+	vColor.rgb *= color;
+#endif
+#ifdef USE_INSTANCING_COLOR
+	vColor.rgb *= instanceColor.rgb;
+#endif
+#ifdef USE_BATCHING_COLOR
+	vColor *= getBatchingColor( getIndirectIndex( gl_DrawID ) );
+#endif`,gv=`#define PI 3.141592653589793
+#define PI2 6.283185307179586
+#define PI_HALF 1.5707963267948966
+#define RECIPROCAL_PI 0.3183098861837907
+#define RECIPROCAL_PI2 0.15915494309189535
+#define EPSILON 1e-6
+#ifndef saturate
+#define saturate( a ) clamp( a, 0.0, 1.0 )
+#endif
+#define whiteComplement( a ) ( 1.0 - saturate( a ) )
+float pow2( const in float x ) { return x*x; }
+vec3 pow2( const in vec3 x ) { return x*x; }
+float pow3( const in float x ) { return x*x*x; }
+float pow4( const in float x ) { float x2 = x*x; return x2*x2; }
+float max3( const in vec3 v ) { return max( max( v.x, v.y ), v.z ); }
+float average( const in vec3 v ) { return dot( v, vec3( 0.3333333 ) ); }
+highp float rand( const in vec2 uv ) {
+	const highp float a = 12.9898, b = 78.233, c = 43758.5453;
+	highp float dt = dot( uv.xy, vec2( a,b ) ), sn = mod( dt, PI );
+	return fract( sin( sn ) * c );
+}
+#ifdef HIGH_PRECISION
+	float precisionSafeLength( vec3 v ) { return length( v ); }
+#else
+	float precisionSafeLength( vec3 v ) {
+		float maxComponent = max3( abs( v ) );
+		return length( v / maxComponent ) * maxComponent;
+	}
+#endif
+struct IncidentLight {
+	vec3 color;
+	vec3 direction;
+	bool visible;
+};
+struct ReflectedLight {
+	vec3 directDiffuse;
+	vec3 directSpecular;
+	vec3 indirectDiffuse;
+	vec3 indirectSpecular;
+};
+#ifdef USE_ALPHAHASH
+	varying vec3 vPosition;
+#endif
+vec3 transformDirection( in vec3 dir, in mat4 matrix ) {
+	return normalize( ( matrix * vec4( dir, 0.0 ) ).xyz );
+}
+#define inverseTransformDirection transformDirectionByInverseViewMatrix
+vec3 transformNormalByInverseViewMatrix( in vec3 normal, in mat4 viewMatrix ) {
+	return normalize( ( vec4( normal, 0.0 ) * viewMatrix ).xyz );
+}
+vec3 transformDirectionByInverseViewMatrix( in vec3 dir, in mat4 viewMatrix ) {
+	return normalize( ( vec4( dir, 0.0 ) * viewMatrix ).xyz );
+}
+bool isPerspectiveMatrix( mat4 m ) {
+	return m[ 2 ][ 3 ] == - 1.0;
+}
+vec2 equirectUv( in vec3 dir ) {
+	float u = atan( dir.z, dir.x ) * RECIPROCAL_PI2 + 0.5;
+	float v = asin( clamp( dir.y, - 1.0, 1.0 ) ) * RECIPROCAL_PI + 0.5;
+	return vec2( u, v );
+}
+vec3 BRDF_Lambert( const in vec3 diffuseColor ) {
+	return RECIPROCAL_PI * diffuseColor;
+}
+vec3 F_Schlick( const in vec3 f0, const in float f90, const in float dotVH ) {
+	float fresnel = exp2( ( - 5.55473 * dotVH - 6.98316 ) * dotVH );
+	return f0 * ( 1.0 - fresnel ) + ( f90 * fresnel );
+}
+float F_Schlick( const in float f0, const in float f90, const in float dotVH ) {
+	float fresnel = exp2( ( - 5.55473 * dotVH - 6.98316 ) * dotVH );
+	return f0 * ( 1.0 - fresnel ) + ( f90 * fresnel );
+} // validated`,xv=`vec3 transformedNormal = objectNormal;
+#ifdef USE_TANGENT
+	vec3 transformedTangent = objectTangent;
+#endif
+#ifdef USE_BATCHING
+	mat3 bm = mat3( batchingMatrix );
+	transformedNormal /= vec3( dot( bm[ 0 ], bm[ 0 ] ), dot( bm[ 1 ], bm[ 1 ] ), dot( bm[ 2 ], bm[ 2 ] ) );
+	transformedNormal = bm * transformedNormal;
+	#ifdef USE_TANGENT
+		transformedTangent = bm * transformedTangent;
+	#endif
+#endif
+#ifdef USE_INSTANCING
+	mat3 im = mat3( instanceMatrix );
+	transformedNormal /= vec3( dot( im[ 0 ], im[ 0 ] ), dot( im[ 1 ], im[ 1 ] ), dot( im[ 2 ], im[ 2 ] ) );
+	transformedNormal = im * transformedNormal;
+	#ifdef USE_TANGENT
+		transformedTangent = im * transformedTangent;
+	#endif
+#endif
+transformedNormal = normalMatrix * transformedNormal;
+#ifdef FLIP_SIDED
+	transformedNormal = - transformedNormal;
+#endif
+#ifdef USE_TANGENT
+	transformedTangent = ( modelViewMatrix * vec4( transformedTangent, 0.0 ) ).xyz;
+#endif`,vv=`#ifdef USE_DISPLACEMENTMAP
+	uniform sampler2D displacementMap;
+	uniform float displacementScale;
+	uniform float displacementBias;
+#endif`,yv=`#ifdef USE_DISPLACEMENTMAP
+	transformed += normalize( objectNormal ) * ( texture2D( displacementMap, vDisplacementMapUv ).x * displacementScale + displacementBias );
+#endif`,bv=`#ifdef USE_EMISSIVEMAP
+	vec4 emissiveColor = texture2D( emissiveMap, vEmissiveMapUv );
+	#ifdef DECODE_VIDEO_TEXTURE_EMISSIVE
+		emissiveColor = sRGBTransferEOTF( emissiveColor );
+	#endif
+	totalEmissiveRadiance *= emissiveColor.rgb;
+#endif`,_v=`#ifdef USE_EMISSIVEMAP
+	uniform sampler2D emissiveMap;
+#endif`,wv="gl_FragColor = linearToOutputTexel( gl_FragColor );",Sv=`vec4 LinearTransferOETF( in vec4 value ) {
+	return value;
+}
+vec4 sRGBTransferEOTF( in vec4 value ) {
+	return vec4( mix( pow( value.rgb * 0.9478672986 + vec3( 0.0521327014 ), vec3( 2.4 ) ), value.rgb * 0.0773993808, vec3( lessThanEqual( value.rgb, vec3( 0.04045 ) ) ) ), value.a );
+}
+vec4 sRGBTransferOETF( in vec4 value ) {
+	return vec4( mix( pow( value.rgb, vec3( 0.41666 ) ) * 1.055 - vec3( 0.055 ), value.rgb * 12.92, vec3( lessThanEqual( value.rgb, vec3( 0.0031308 ) ) ) ), value.a );
+}`,Mv=`#ifdef USE_ENVMAP
+	#ifdef ENV_WORLDPOS
+		vec3 cameraToFrag;
+		if ( isOrthographic ) {
+			cameraToFrag = normalize( vec3( - viewMatrix[ 0 ][ 2 ], - viewMatrix[ 1 ][ 2 ], - viewMatrix[ 2 ][ 2 ] ) );
+		} else {
+			cameraToFrag = normalize( vWorldPosition - cameraPosition );
+		}
+		vec3 worldNormal = transformNormalByInverseViewMatrix( normal, viewMatrix );
+		#ifdef ENVMAP_MODE_REFLECTION
+			vec3 reflectVec = reflect( cameraToFrag, worldNormal );
+		#else
+			vec3 reflectVec = refract( cameraToFrag, worldNormal, refractionRatio );
+		#endif
+	#else
+		vec3 reflectVec = vReflect;
+	#endif
+	#ifdef ENVMAP_TYPE_CUBE
+		vec4 envColor = textureCube( envMap, envMapRotation * reflectVec );
+		#ifdef ENVMAP_BLENDING_MULTIPLY
+			outgoingLight = mix( outgoingLight, outgoingLight * envColor.xyz, specularStrength * reflectivity );
+		#elif defined( ENVMAP_BLENDING_MIX )
+			outgoingLight = mix( outgoingLight, envColor.xyz, specularStrength * reflectivity );
+		#elif defined( ENVMAP_BLENDING_ADD )
+			outgoingLight += envColor.xyz * specularStrength * reflectivity;
+		#endif
+	#endif
+#endif`,Tv=`#ifdef USE_ENVMAP
+	uniform float envMapIntensity;
+	uniform mat3 envMapRotation;
+	uniform samplerCube envMap;
+	#ifdef ENVMAP_TYPE_PMREM
+		float roughnessToMip( const in float roughness ) {
+			float r = clamp( roughness, 0.0, 1.0 );
+			return ENVMAP_MAX_LOD * r * ( 2.0 - r );
+		}
+	#endif
+#endif`,Ev=`#ifdef USE_ENVMAP
+	uniform float reflectivity;
+	#if defined( USE_BUMPMAP ) || defined( USE_NORMALMAP ) || defined( PHONG ) || defined( LAMBERT )
+		#define ENV_WORLDPOS
+	#endif
+	#ifdef ENV_WORLDPOS
+		varying vec3 vWorldPosition;
+		uniform float refractionRatio;
+	#else
+		varying vec3 vReflect;
+	#endif
+#endif`,Av=`#ifdef USE_ENVMAP
+	#if defined( USE_BUMPMAP ) || defined( USE_NORMALMAP ) || defined( PHONG ) || defined( LAMBERT )
+		#define ENV_WORLDPOS
+	#endif
+	#ifdef ENV_WORLDPOS
+		
+		varying vec3 vWorldPosition;
+	#else
+		varying vec3 vReflect;
+		uniform float refractionRatio;
+	#endif
+#endif`,Cv=`#ifdef USE_ENVMAP
+	#ifdef ENV_WORLDPOS
+		vWorldPosition = worldPosition.xyz;
+	#else
+		vec3 cameraToVertex;
+		if ( isOrthographic ) {
+			cameraToVertex = normalize( vec3( - viewMatrix[ 0 ][ 2 ], - viewMatrix[ 1 ][ 2 ], - viewMatrix[ 2 ][ 2 ] ) );
+		} else {
+			cameraToVertex = normalize( worldPosition.xyz - cameraPosition );
+		}
+		vec3 worldNormal = transformNormalByInverseViewMatrix( transformedNormal, viewMatrix );
+		#ifdef ENVMAP_MODE_REFLECTION
+			vReflect = reflect( cameraToVertex, worldNormal );
+		#else
+			vReflect = refract( cameraToVertex, worldNormal, refractionRatio );
+		#endif
+	#endif
+#endif`,Rv=`#ifdef USE_FOG
+	vFogDepth = - mvPosition.z;
+#endif`,Pv=`#ifdef USE_FOG
+	varying float vFogDepth;
+#endif`,Iv=`#ifdef USE_FOG
+	#ifdef FOG_EXP2
+		float fogFactor = 1.0 - exp( - fogDensity * fogDensity * vFogDepth * vFogDepth );
+	#else
+		float fogFactor = smoothstep( fogNear, fogFar, vFogDepth );
+	#endif
+	gl_FragColor.rgb = mix( gl_FragColor.rgb, fogColor, fogFactor );
+#endif`,Lv=`#ifdef USE_FOG
+	uniform vec3 fogColor;
+	varying float vFogDepth;
+	#ifdef FOG_EXP2
+		uniform float fogDensity;
+	#else
+		uniform float fogNear;
+		uniform float fogFar;
+	#endif
+#endif`,kv=`#ifdef USE_GRADIENTMAP
+	uniform sampler2D gradientMap;
+#endif
+vec3 getGradientIrradiance( vec3 normal, vec3 lightDirection ) {
+	float dotNL = dot( normal, lightDirection );
+	vec2 coord = vec2( dotNL * 0.5 + 0.5, 0.0 );
+	#ifdef USE_GRADIENTMAP
+		return vec3( texture2D( gradientMap, coord ).r );
+	#else
+		vec2 fw = fwidth( coord ) * 0.5;
+		return mix( vec3( 0.7 ), vec3( 1.0 ), smoothstep( 0.7 - fw.x, 0.7 + fw.x, coord.x ) );
+	#endif
+}`,Nv=`#ifdef USE_LIGHTMAP
+	uniform sampler2D lightMap;
+	uniform float lightMapIntensity;
+#endif`,Dv=`LambertMaterial material;
+material.diffuseColor = diffuseColor.rgb;
+material.specularStrength = specularStrength;`,Fv=`varying vec3 vViewPosition;
+struct LambertMaterial {
+	vec3 diffuseColor;
+	float specularStrength;
+};
+void RE_Direct_Lambert( const in IncidentLight directLight, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in LambertMaterial material, inout ReflectedLight reflectedLight ) {
+	float dotNL = saturate( dot( geometryNormal, directLight.direction ) );
+	vec3 irradiance = dotNL * directLight.color;
+	reflectedLight.directDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+}
+void RE_IndirectDiffuse_Lambert( const in vec3 irradiance, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in LambertMaterial material, inout ReflectedLight reflectedLight ) {
+	reflectedLight.indirectDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+}
+#define RE_Direct				RE_Direct_Lambert
+#define RE_IndirectDiffuse		RE_IndirectDiffuse_Lambert`,Uv=`uniform bool receiveShadow;
+uniform vec3 ambientLightColor;
+#if defined( USE_LIGHT_PROBES )
+	uniform vec3 lightProbe[ 9 ];
+#endif
+vec3 shGetIrradianceAt( in vec3 normal, in vec3 shCoefficients[ 9 ] ) {
+	float x = normal.x, y = normal.y, z = normal.z;
+	vec3 result = shCoefficients[ 0 ] * 0.886227;
+	result += shCoefficients[ 1 ] * 2.0 * 0.511664 * y;
+	result += shCoefficients[ 2 ] * 2.0 * 0.511664 * z;
+	result += shCoefficients[ 3 ] * 2.0 * 0.511664 * x;
+	result += shCoefficients[ 4 ] * 2.0 * 0.429043 * x * y;
+	result += shCoefficients[ 5 ] * 2.0 * 0.429043 * y * z;
+	result += shCoefficients[ 6 ] * ( 0.743125 * z * z - 0.247708 );
+	result += shCoefficients[ 7 ] * 2.0 * 0.429043 * x * z;
+	result += shCoefficients[ 8 ] * 0.429043 * ( x * x - y * y );
+	return result;
+}
+vec3 getLightProbeIrradiance( const in vec3 lightProbe[ 9 ], const in vec3 normal ) {
+	vec3 worldNormal = transformNormalByInverseViewMatrix( normal, viewMatrix );
+	vec3 irradiance = shGetIrradianceAt( worldNormal, lightProbe );
+	return irradiance;
+}
+vec3 getAmbientLightIrradiance( const in vec3 ambientLightColor ) {
+	vec3 irradiance = ambientLightColor;
+	return irradiance;
+}
+float getDistanceAttenuation( const in float lightDistance, const in float cutoffDistance, const in float decayExponent ) {
+	float distanceFalloff = 1.0 / max( pow( lightDistance, decayExponent ), 0.01 );
+	if ( cutoffDistance > 0.0 ) {
+		distanceFalloff *= pow2( saturate( 1.0 - pow4( lightDistance / cutoffDistance ) ) );
+	}
+	return distanceFalloff;
+}
+float getSpotAttenuation( const in float coneCosine, const in float penumbraCosine, const in float angleCosine ) {
+	return smoothstep( coneCosine, penumbraCosine, angleCosine );
+}
+#if NUM_SUN_LIGHTS > 0
+	struct SunLight {
+		vec3 direction;
+		vec3 color;
+	};
+	uniform SunLight sunLights[ NUM_SUN_LIGHTS ];
+	void getSunLightInfo( const in SunLight sunLight, out IncidentLight light ) {
+		light.color = sunLight.color;
+		light.direction = sunLight.direction;
+		light.visible = true;
+	}
+#endif
+#if NUM_DIR_LIGHTS > 0
+	struct DirectionalLight {
+		vec3 direction;
+		vec3 color;
+	};
+	uniform DirectionalLight directionalLights[ NUM_DIR_LIGHTS ];
+	void getDirectionalLightInfo( const in DirectionalLight directionalLight, out IncidentLight light ) {
+		light.color = directionalLight.color;
+		light.direction = directionalLight.direction;
+		light.visible = true;
+	}
+#endif
+#if NUM_POINT_LIGHTS > 0
+	struct PointLight {
+		vec3 position;
+		vec3 color;
+		float distance;
+		float decay;
+	};
+	uniform PointLight pointLights[ NUM_POINT_LIGHTS ];
+	void getPointLightInfo( const in PointLight pointLight, const in vec3 geometryPosition, out IncidentLight light ) {
+		vec3 lVector = pointLight.position - geometryPosition;
+		light.direction = normalize( lVector );
+		float lightDistance = length( lVector );
+		light.color = pointLight.color;
+		light.color *= getDistanceAttenuation( lightDistance, pointLight.distance, pointLight.decay );
+		light.visible = ( light.color != vec3( 0.0 ) );
+	}
+#endif
+#if NUM_SPOT_LIGHTS > 0
+	struct SpotLight {
+		vec3 position;
+		vec3 direction;
+		vec3 color;
+		float distance;
+		float decay;
+		float coneCos;
+		float penumbraCos;
+	};
+	uniform SpotLight spotLights[ NUM_SPOT_LIGHTS ];
+	void getSpotLightInfo( const in SpotLight spotLight, const in vec3 geometryPosition, out IncidentLight light ) {
+		vec3 lVector = spotLight.position - geometryPosition;
+		light.direction = normalize( lVector );
+		float angleCos = dot( light.direction, spotLight.direction );
+		float spotAttenuation = getSpotAttenuation( spotLight.coneCos, spotLight.penumbraCos, angleCos );
+		if ( spotAttenuation > 0.0 ) {
+			float lightDistance = length( lVector );
+			light.color = spotLight.color * spotAttenuation;
+			light.color *= getDistanceAttenuation( lightDistance, spotLight.distance, spotLight.decay );
+			light.visible = ( light.color != vec3( 0.0 ) );
+		} else {
+			light.color = vec3( 0.0 );
+			light.visible = false;
+		}
+	}
+#endif
+#if NUM_RECT_AREA_LIGHTS > 0
+	struct RectAreaLight {
+		vec3 color;
+		vec3 position;
+		vec3 halfWidth;
+		vec3 halfHeight;
+	};
+	uniform sampler2D ltc_1;	uniform sampler2D ltc_2;
+	uniform RectAreaLight rectAreaLights[ NUM_RECT_AREA_LIGHTS ];
+#endif
+#if NUM_HEMI_LIGHTS > 0
+	struct HemisphereLight {
+		vec3 direction;
+		vec3 skyColor;
+		vec3 groundColor;
+	};
+	uniform HemisphereLight hemisphereLights[ NUM_HEMI_LIGHTS ];
+	vec3 getHemisphereLightIrradiance( const in HemisphereLight hemiLight, const in vec3 normal ) {
+		float dotNL = dot( normal, hemiLight.direction );
+		float hemiDiffuseWeight = 0.5 * dotNL + 0.5;
+		vec3 irradiance = mix( hemiLight.groundColor, hemiLight.skyColor, hemiDiffuseWeight );
+		return irradiance;
+	}
+#endif
+#include <lightprobes_pars_fragment>`,Ov=`#ifdef USE_ENVMAP
+	vec3 getIBLIrradiance( const in vec3 normal ) {
+		#ifdef ENVMAP_TYPE_PMREM
+			vec3 worldNormal = transformNormalByInverseViewMatrix( normal, viewMatrix );
+			vec4 envMapColor = textureLod( envMap, envMapRotation * worldNormal, ENVMAP_MAX_LOD );
+			return PI * envMapColor.rgb * envMapIntensity;
+		#else
+			return vec3( 0.0 );
+		#endif
+	}
+	vec3 getIBLRadiance( const in vec3 viewDir, const in vec3 normal, const in float roughness ) {
+		#ifdef ENVMAP_TYPE_PMREM
+			vec3 reflectVec = reflect( - viewDir, normal );
+			reflectVec = normalize( mix( reflectVec, normal, pow4( roughness ) ) );
+			reflectVec = transformDirectionByInverseViewMatrix( reflectVec, viewMatrix );
+			vec4 envMapColor = textureLod( envMap, envMapRotation * reflectVec, roughnessToMip( roughness ) );
+			return envMapColor.rgb * envMapIntensity;
+		#else
+			return vec3( 0.0 );
+		#endif
+	}
+	#ifdef USE_RETROREFLECTION
+		vec3 getIBLRetroRadiance( const in vec3 viewDir, const in vec3 normal, const in float roughness ) {
+			#ifdef ENVMAP_TYPE_PMREM
+				vec3 retroVec = normalize( mix( viewDir, normal, pow4( roughness ) ) );
+				retroVec = transformDirectionByInverseViewMatrix( retroVec, viewMatrix );
+				vec4 envMapColor = textureLod( envMap, envMapRotation * retroVec, roughnessToMip( roughness ) );
+				return envMapColor.rgb * envMapIntensity;
+			#else
+				return vec3( 0.0 );
+			#endif
+		}
+	#endif
+	#ifdef USE_ANISOTROPY
+		vec3 getIBLAnisotropyRadiance( const in vec3 viewDir, const in vec3 normal, const in float roughness, const in vec3 bitangent, const in float anisotropy ) {
+			#ifdef ENVMAP_TYPE_PMREM
+				vec3 bentNormal = cross( bitangent, viewDir );
+				bentNormal = normalize( cross( bentNormal, bitangent ) );
+				bentNormal = normalize( mix( bentNormal, normal, pow2( pow2( 1.0 - anisotropy * ( 1.0 - roughness ) ) ) ) );
+				return getIBLRadiance( viewDir, bentNormal, roughness );
+			#else
+				return vec3( 0.0 );
+			#endif
+		}
+		#ifdef USE_RETROREFLECTION
+			vec3 getIBLAnisotropyRetroRadiance( const in vec3 viewDir, const in vec3 normal, const in float roughness, const in vec3 bitangent, const in float anisotropy ) {
+				#ifdef ENVMAP_TYPE_PMREM
+					vec3 bentNormal = cross( bitangent, viewDir );
+					bentNormal = normalize( cross( bentNormal, bitangent ) );
+					bentNormal = normalize( mix( bentNormal, normal, pow2( pow2( 1.0 - anisotropy * ( 1.0 - roughness ) ) ) ) );
+					return getIBLRetroRadiance( viewDir, bentNormal, roughness );
+				#else
+					return vec3( 0.0 );
+				#endif
+			}
+		#endif
+	#endif
+#endif`,Bv=`ToonMaterial material;
+material.diffuseColor = diffuseColor.rgb;`,zv=`varying vec3 vViewPosition;
+struct ToonMaterial {
+	vec3 diffuseColor;
+};
+void RE_Direct_Toon( const in IncidentLight directLight, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in ToonMaterial material, inout ReflectedLight reflectedLight ) {
+	vec3 irradiance = getGradientIrradiance( geometryNormal, directLight.direction ) * directLight.color;
+	reflectedLight.directDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+}
+void RE_IndirectDiffuse_Toon( const in vec3 irradiance, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in ToonMaterial material, inout ReflectedLight reflectedLight ) {
+	reflectedLight.indirectDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+}
+#define RE_Direct				RE_Direct_Toon
+#define RE_IndirectDiffuse		RE_IndirectDiffuse_Toon`,Vv=`BlinnPhongMaterial material;
+material.diffuseColor = diffuseColor.rgb;
+material.specularColor = specular;
+material.specularShininess = shininess;
+material.specularStrength = specularStrength;`,Hv=`varying vec3 vViewPosition;
+struct BlinnPhongMaterial {
+	vec3 diffuseColor;
+	vec3 specularColor;
+	float specularShininess;
+	float specularStrength;
+};
+void RE_Direct_BlinnPhong( const in IncidentLight directLight, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in BlinnPhongMaterial material, inout ReflectedLight reflectedLight ) {
+	float dotNL = saturate( dot( geometryNormal, directLight.direction ) );
+	vec3 irradiance = dotNL * directLight.color;
+	reflectedLight.directDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+	reflectedLight.directSpecular += irradiance * BRDF_BlinnPhong( directLight.direction, geometryViewDir, geometryNormal, material.specularColor, material.specularShininess ) * material.specularStrength;
+}
+void RE_IndirectDiffuse_BlinnPhong( const in vec3 irradiance, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in BlinnPhongMaterial material, inout ReflectedLight reflectedLight ) {
+	reflectedLight.indirectDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+}
+#define RE_Direct				RE_Direct_BlinnPhong
+#define RE_IndirectDiffuse		RE_IndirectDiffuse_BlinnPhong`,Gv=`PhysicalMaterial material;
+material.diffuseColor = diffuseColor.rgb;
+material.diffuseContribution = diffuseColor.rgb * ( 1.0 - metalnessFactor );
+material.metalness = metalnessFactor;
+vec3 dxy = max( abs( dFdx( nonPerturbedNormal ) ), abs( dFdy( nonPerturbedNormal ) ) );
+float geometryRoughness = max( max( dxy.x, dxy.y ), dxy.z );
+material.roughness = max( roughnessFactor, 0.045 );
+material.roughness += geometryRoughness;
+material.roughness = min( material.roughness, 1.0 );
+#ifdef USE_DIFFUSE_ROUGHNESS
+	float diffuseRoughnessFactor = diffuseRoughness;
+	#ifdef USE_DIFFUSE_ROUGHNESSMAP
+		diffuseRoughnessFactor *= texture2D( diffuseRoughnessMap, vDiffuseRoughnessMapUv ).r;
+	#endif
+	material.diffuseRoughness = saturate( diffuseRoughnessFactor );
+#endif
+#ifdef IOR
+	material.ior = ior;
+	#ifdef USE_SPECULAR
+		float specularIntensityFactor = specularIntensity;
+		vec3 specularColorFactor = specularColor;
+		#ifdef USE_SPECULAR_COLORMAP
+			specularColorFactor *= texture2D( specularColorMap, vSpecularColorMapUv ).rgb;
+		#endif
+		#ifdef USE_SPECULAR_INTENSITYMAP
+			specularIntensityFactor *= texture2D( specularIntensityMap, vSpecularIntensityMapUv ).a;
+		#endif
+		material.specularF90 = mix( specularIntensityFactor, 1.0, metalnessFactor );
+	#else
+		float specularIntensityFactor = 1.0;
+		vec3 specularColorFactor = vec3( 1.0 );
+		material.specularF90 = 1.0;
+	#endif
+	material.specularColor = min( pow2( ( material.ior - 1.0 ) / ( material.ior + 1.0 ) ) * specularColorFactor, vec3( 1.0 ) ) * specularIntensityFactor;
+	material.specularColorBlended = mix( material.specularColor, diffuseColor.rgb, metalnessFactor );
+#else
+	material.specularColor = vec3( 0.04 );
+	material.specularColorBlended = mix( material.specularColor, diffuseColor.rgb, metalnessFactor );
+	material.specularF90 = 1.0;
+#endif
+#ifdef USE_CLEARCOAT
+	material.clearcoat = clearcoat;
+	material.clearcoatRoughness = clearcoatRoughness;
+	material.clearcoatF0 = vec3( 0.04 );
+	material.clearcoatF90 = 1.0;
+	#ifdef USE_CLEARCOATMAP
+		material.clearcoat *= texture2D( clearcoatMap, vClearcoatMapUv ).x;
+	#endif
+	#ifdef USE_CLEARCOAT_ROUGHNESSMAP
+		material.clearcoatRoughness *= texture2D( clearcoatRoughnessMap, vClearcoatRoughnessMapUv ).y;
+	#endif
+	material.clearcoat = saturate( material.clearcoat );	material.clearcoatRoughness = max( material.clearcoatRoughness, 0.045 );
+	material.clearcoatRoughness += geometryRoughness;
+	material.clearcoatRoughness = min( material.clearcoatRoughness, 1.0 );
+#endif
+#ifdef USE_DISPERSION
+	material.dispersion = dispersion;
+#endif
+#ifdef USE_RETROREFLECTION
+	material.retroreflectivity = retroreflectivity;
+#endif
+#ifdef USE_IRIDESCENCE
+	material.iridescence = iridescence;
+	material.iridescenceIOR = iridescenceIOR;
+	#ifdef USE_IRIDESCENCEMAP
+		material.iridescence *= texture2D( iridescenceMap, vIridescenceMapUv ).r;
+	#endif
+	#ifdef USE_IRIDESCENCE_THICKNESSMAP
+		material.iridescenceThickness = (iridescenceThicknessMaximum - iridescenceThicknessMinimum) * texture2D( iridescenceThicknessMap, vIridescenceThicknessMapUv ).g + iridescenceThicknessMinimum;
+	#else
+		material.iridescenceThickness = iridescenceThicknessMaximum;
+	#endif
+#endif
+#ifdef USE_SHEEN
+	material.sheenColor = sheenColor;
+	#ifdef USE_SHEEN_COLORMAP
+		material.sheenColor *= texture2D( sheenColorMap, vSheenColorMapUv ).rgb;
+	#endif
+	material.sheenRoughness = clamp( sheenRoughness, 0.0001, 1.0 );
+	#ifdef USE_SHEEN_ROUGHNESSMAP
+		material.sheenRoughness *= texture2D( sheenRoughnessMap, vSheenRoughnessMapUv ).a;
+	#endif
+#endif
+#ifdef USE_ANISOTROPY
+	#ifdef USE_ANISOTROPYMAP
+		mat2 anisotropyMat = mat2( anisotropyVector.x, anisotropyVector.y, - anisotropyVector.y, anisotropyVector.x );
+		vec3 anisotropyPolar = texture2D( anisotropyMap, vAnisotropyMapUv ).rgb;
+		vec2 anisotropyV = anisotropyMat * normalize( 2.0 * anisotropyPolar.rg - vec2( 1.0 ) ) * anisotropyPolar.b;
+	#else
+		vec2 anisotropyV = anisotropyVector;
+	#endif
+	material.anisotropy = length( anisotropyV );
+	if( material.anisotropy == 0.0 ) {
+		anisotropyV = vec2( 1.0, 0.0 );
+	} else {
+		anisotropyV /= material.anisotropy;
+		material.anisotropy = saturate( material.anisotropy );
+	}
+	material.alphaT = mix( pow2( material.roughness ), 1.0, pow2( material.anisotropy ) );
+	material.anisotropyT = tbn[ 0 ] * anisotropyV.x + tbn[ 1 ] * anisotropyV.y;
+	material.anisotropyB = tbn[ 1 ] * anisotropyV.x - tbn[ 0 ] * anisotropyV.y;
+#endif`,Wv=`uniform sampler2D dfgLUT;
+struct PhysicalMaterial {
+	vec3 diffuseColor;
+	vec3 diffuseContribution;
+	vec3 specularColor;
+	vec3 specularColorBlended;
+	float roughness;
+	float metalness;
+	float specularF90;
+	float dispersion;
+	vec2 dfg;
+	vec3 multiScatteringCompensation;
+	#ifdef USE_DIFFUSE_ROUGHNESS
+		float diffuseRoughness;
+	#endif
+	#ifdef USE_RETROREFLECTION
+		float retroreflectivity;
+	#endif
+	#ifdef USE_CLEARCOAT
+		float clearcoat;
+		float clearcoatRoughness;
+		vec3 clearcoatF0;
+		float clearcoatF90;
+	#endif
+	#ifdef USE_IRIDESCENCE
+		float iridescence;
+		float iridescenceIOR;
+		float iridescenceThickness;
+		vec3 iridescenceFresnel;
+		vec3 iridescenceF0Dielectric;
+		vec3 iridescenceF0Metallic;
+	#endif
+	#ifdef USE_SHEEN
+		vec3 sheenColor;
+		float sheenRoughness;
+	#endif
+	#ifdef IOR
+		float ior;
+	#endif
+	#ifdef USE_TRANSMISSION
+		float transmission;
+		float transmissionAlpha;
+		float thickness;
+		float attenuationDistance;
+		vec3 attenuationColor;
+	#endif
+	#ifdef USE_ANISOTROPY
+		float anisotropy;
+		float alphaT;
+		vec3 anisotropyT;
+		vec3 anisotropyB;
+	#endif
+};
+vec3 clearcoatSpecularDirect = vec3( 0.0 );
+vec3 clearcoatSpecularIndirect = vec3( 0.0 );
+vec3 sheenSpecularDirect = vec3( 0.0 );
+vec3 sheenSpecularIndirect = vec3(0.0 );
+vec3 Schlick_to_F0( const in vec3 f, const in float f90, const in float dotVH ) {
+    float x = clamp( 1.0 - dotVH, 0.0, 1.0 );
+    float x2 = x * x;
+    float x5 = clamp( x * x2 * x2, 0.0, 0.9999 );
+    return ( f - vec3( f90 ) * x5 ) / ( 1.0 - x5 );
+}
+#ifdef USE_DIFFUSE_ROUGHNESS
+	const float EON_EPSILON = 1e-7;
+	float FON_DirectionalAlbedo( const in float mu, const in float roughness, const in float A ) {
+		float muComp = 1.0 - mu;
+		float gOverPi = muComp * ( 0.0571085289 + muComp * ( 0.491881867 + muComp * ( - 0.332181442 + muComp * 0.0714429953 ) ) );
+		return A * ( 1.0 + roughness * gOverPi );
+	}
+	vec3 BRDF_EON( const in vec3 lightDir, const in vec3 viewDir, const in vec3 normal, const in vec3 diffuseColor, const in float roughness ) {
+		vec3 rho = saturate( diffuseColor );
+		if ( roughness <= EON_EPSILON ) return BRDF_Lambert( rho );
+		float dotNL = saturate( dot( normal, lightDir ) );
+		float dotNV = saturate( dot( normal, viewDir ) );
+		float s = dot( lightDir, viewDir ) - dotNL * dotNV;
+		float sOverT = ( s > 0.0 ) ? s / max( max( dotNL, dotNV ), EON_EPSILON ) : s;
+		float A = 1.0 / ( 1.0 + ( 0.5 - 2.0 / ( 3.0 * PI ) ) * roughness );
+		vec3 singleScatter = rho * RECIPROCAL_PI * A * ( 1.0 + roughness * sOverT );
+		float averageAlbedo = A * ( 1.0 + ( 2.0 / 3.0 - 28.0 / ( 15.0 * PI ) ) * roughness );
+		float albedoV = FON_DirectionalAlbedo( dotNV, roughness, A );
+		float albedoL = FON_DirectionalAlbedo( dotNL, roughness, A );
+		vec3 rhoMultiScatter = rho * rho * averageAlbedo / max( vec3( EON_EPSILON ), vec3( 1.0 ) - rho * ( 1.0 - averageAlbedo ) );
+		vec3 multiScatter = rhoMultiScatter * RECIPROCAL_PI
+			* max( EON_EPSILON, 1.0 - albedoV )
+			* max( EON_EPSILON, 1.0 - albedoL )
+			/ max( EON_EPSILON, 1.0 - averageAlbedo );
+		return singleScatter + multiScatter;
+	}
+	vec3 EON_DirectionalAlbedo( const in vec3 diffuseColor, const in float roughness, const in float dotNV ) {
+		vec3 rho = saturate( diffuseColor );
+		if ( roughness <= EON_EPSILON ) return rho;
+		float A = 1.0 / ( 1.0 + ( 0.5 - 2.0 / ( 3.0 * PI ) ) * roughness );
+		float directionalAlbedo = FON_DirectionalAlbedo( dotNV, roughness, A );
+		float averageAlbedo = A * ( 1.0 + ( 2.0 / 3.0 - 28.0 / ( 15.0 * PI ) ) * roughness );
+		vec3 rhoMultiScatter = rho * rho * averageAlbedo / max( vec3( EON_EPSILON ), vec3( 1.0 ) - rho * ( 1.0 - averageAlbedo ) );
+		return rho * directionalAlbedo + rhoMultiScatter * ( 1.0 - directionalAlbedo );
+	}
+#endif
+float V_GGX_SmithCorrelated( const in float alpha, const in float dotNL, const in float dotNV ) {
+	float a2 = pow2( alpha );
+	float gv = dotNL * sqrt( a2 + ( 1.0 - a2 ) * pow2( dotNV ) );
+	float gl = dotNV * sqrt( a2 + ( 1.0 - a2 ) * pow2( dotNL ) );
+	return 0.5 / max( gv + gl, EPSILON );
+}
+float D_GGX( const in float alpha, const in float dotNH ) {
+	float a2 = pow2( alpha );
+	float denom = pow2( dotNH ) * ( a2 - 1.0 ) + 1.0;
+	return RECIPROCAL_PI * a2 / pow2( denom );
+}
+#ifdef USE_ANISOTROPY
+	float V_GGX_SmithCorrelated_Anisotropic( const in float alphaT, const in float alphaB, const in float dotTV, const in float dotBV, const in float dotTL, const in float dotBL, const in float dotNV, const in float dotNL ) {
+		float gv = dotNL * length( vec3( alphaT * dotTV, alphaB * dotBV, dotNV ) );
+		float gl = dotNV * length( vec3( alphaT * dotTL, alphaB * dotBL, dotNL ) );
+		return 0.5 / max( gv + gl, EPSILON );
+	}
+	float D_GGX_Anisotropic( const in float alphaT, const in float alphaB, const in float dotNH, const in float dotTH, const in float dotBH ) {
+		float a2 = alphaT * alphaB;
+		highp vec3 v = vec3( alphaB * dotTH, alphaT * dotBH, a2 * dotNH );
+		highp float v2 = dot( v, v );
+		float w2 = a2 / v2;
+		return RECIPROCAL_PI * a2 * pow2 ( w2 );
+	}
+#endif
+#ifdef USE_CLEARCOAT
+	vec3 BRDF_GGX_Clearcoat( const in vec3 lightDir, const in vec3 viewDir, const in vec3 normal, const in PhysicalMaterial material) {
+		vec3 f0 = material.clearcoatF0;
+		float f90 = material.clearcoatF90;
+		float roughness = max( material.clearcoatRoughness, 0.045 );
+		float alpha = pow2( roughness );
+		vec3 halfDir = normalize( lightDir + viewDir );
+		float dotNL = saturate( dot( normal, lightDir ) );
+		float dotNV = saturate( dot( normal, viewDir ) );
+		float dotNH = saturate( dot( normal, halfDir ) );
+		float dotVH = saturate( dot( viewDir, halfDir ) );
+		vec3 F = F_Schlick( f0, f90, dotVH );
+		float V = V_GGX_SmithCorrelated( alpha, dotNL, dotNV );
+		float D = D_GGX( alpha, dotNH );
+		return F * ( V * D );
+	}
+#endif
+vec3 BRDF_GGX( const in vec3 lightDir, const in vec3 viewDir, const in vec3 normal, const in PhysicalMaterial material ) {
+	vec3 f0 = material.specularColorBlended;
+	float f90 = material.specularF90;
+	float roughness = max( material.roughness, 0.045 );
+	float alpha = pow2( roughness );
+	vec3 halfDir = normalize( lightDir + viewDir );
+	float dotNL = saturate( dot( normal, lightDir ) );
+	float dotNV = saturate( dot( normal, viewDir ) );
+	float dotNH = saturate( dot( normal, halfDir ) );
+	float dotVH = saturate( dot( viewDir, halfDir ) );
+	vec3 F = F_Schlick( f0, f90, dotVH );
+	#ifdef USE_IRIDESCENCE
+		F = mix( F, material.iridescenceFresnel, material.iridescence );
+	#endif
+	#ifdef USE_ANISOTROPY
+		float dotTL = dot( material.anisotropyT, lightDir );
+		float dotTV = dot( material.anisotropyT, viewDir );
+		float dotTH = dot( material.anisotropyT, halfDir );
+		float dotBL = dot( material.anisotropyB, lightDir );
+		float dotBV = dot( material.anisotropyB, viewDir );
+		float dotBH = dot( material.anisotropyB, halfDir );
+		float alphaT = max( material.alphaT, alpha );
+		float V = V_GGX_SmithCorrelated_Anisotropic( alphaT, alpha, dotTV, dotBV, dotTL, dotBL, dotNV, dotNL );
+		float D = D_GGX_Anisotropic( alphaT, alpha, dotNH, dotTH, dotBH );
+	#else
+		float V = V_GGX_SmithCorrelated( alpha, dotNL, dotNV );
+		float D = D_GGX( alpha, dotNH );
+	#endif
+	return F * ( V * D );
+}
+vec2 LTC_Uv( const in vec3 N, const in vec3 V, const in float roughness ) {
+	const float LUT_SIZE = 64.0;
+	const float LUT_SCALE = ( LUT_SIZE - 1.0 ) / LUT_SIZE;
+	const float LUT_BIAS = 0.5 / LUT_SIZE;
+	float dotNV = saturate( dot( N, V ) );
+	vec2 uv = vec2( roughness, sqrt( 1.0 - dotNV ) );
+	uv = uv * LUT_SCALE + LUT_BIAS;
+	return uv;
+}
+float LTC_ClippedSphereFormFactor( const in vec3 f ) {
+	float l = length( f );
+	return max( ( l * l + f.z ) / ( l + 1.0 ), 0.0 );
+}
+vec3 LTC_EdgeVectorFormFactor( const in vec3 v1, const in vec3 v2 ) {
+	float x = dot( v1, v2 );
+	float y = abs( x );
+	float a = 0.8543985 + ( 0.4965155 + 0.0145206 * y ) * y;
+	float b = 3.4175940 + ( 4.1616724 + y ) * y;
+	float v = a / b;
+	float theta_sintheta = ( x > 0.0 ) ? v : 0.5 * inversesqrt( max( 1.0 - x * x, 1e-7 ) ) - v;
+	return cross( v1, v2 ) * theta_sintheta;
+}
+vec3 LTC_Evaluate( const in vec3 N, const in vec3 V, const in vec3 P, const in mat3 mInv, const in vec3 rectCoords[ 4 ] ) {
+	vec3 v1 = rectCoords[ 1 ] - rectCoords[ 0 ];
+	vec3 v2 = rectCoords[ 3 ] - rectCoords[ 0 ];
+	vec3 lightNormal = cross( v1, v2 );
+	if( dot( lightNormal, P - rectCoords[ 0 ] ) < 0.0 ) return vec3( 0.0 );
+	vec3 T1, T2;
+	T1 = normalize( V - N * dot( V, N ) );
+	T2 = - cross( N, T1 );
+	mat3 mat = mInv * transpose( mat3( T1, T2, N ) );
+	vec3 coords[ 4 ];
+	coords[ 0 ] = mat * ( rectCoords[ 0 ] - P );
+	coords[ 1 ] = mat * ( rectCoords[ 1 ] - P );
+	coords[ 2 ] = mat * ( rectCoords[ 2 ] - P );
+	coords[ 3 ] = mat * ( rectCoords[ 3 ] - P );
+	coords[ 0 ] = normalize( coords[ 0 ] );
+	coords[ 1 ] = normalize( coords[ 1 ] );
+	coords[ 2 ] = normalize( coords[ 2 ] );
+	coords[ 3 ] = normalize( coords[ 3 ] );
+	vec3 vectorFormFactor = vec3( 0.0 );
+	vectorFormFactor += LTC_EdgeVectorFormFactor( coords[ 0 ], coords[ 1 ] );
+	vectorFormFactor += LTC_EdgeVectorFormFactor( coords[ 1 ], coords[ 2 ] );
+	vectorFormFactor += LTC_EdgeVectorFormFactor( coords[ 2 ], coords[ 3 ] );
+	vectorFormFactor += LTC_EdgeVectorFormFactor( coords[ 3 ], coords[ 0 ] );
+	float result = LTC_ClippedSphereFormFactor( vectorFormFactor );
+	return vec3( result );
+}
+#if defined( USE_SHEEN )
+float D_Charlie( float roughness, float dotNH ) {
+	float alpha = pow2( roughness );
+	float invAlpha = 1.0 / alpha;
+	float cos2h = dotNH * dotNH;
+	float sin2h = max( 1.0 - cos2h, 0.0078125 );
+	return ( 2.0 + invAlpha ) * pow( sin2h, invAlpha * 0.5 ) / ( 2.0 * PI );
+}
+float V_Neubelt( float dotNV, float dotNL ) {
+	return saturate( 1.0 / ( 4.0 * ( dotNL + dotNV - dotNL * dotNV ) ) );
+}
+vec3 BRDF_Sheen( const in vec3 lightDir, const in vec3 viewDir, const in vec3 normal, vec3 sheenColor, const in float sheenRoughness ) {
+	vec3 halfDir = normalize( lightDir + viewDir );
+	float dotNL = saturate( dot( normal, lightDir ) );
+	float dotNV = saturate( dot( normal, viewDir ) );
+	float dotNH = saturate( dot( normal, halfDir ) );
+	float D = D_Charlie( sheenRoughness, dotNH );
+	float V = V_Neubelt( dotNV, dotNL );
+	return sheenColor * ( D * V );
+}
+#endif
+float IBLSheenBRDF( const in vec3 normal, const in vec3 viewDir, const in float roughness ) {
+	float dotNV = saturate( dot( normal, viewDir ) );
+	float r2 = roughness * roughness;
+	float rInv = 1.0 / ( roughness + 0.1 );
+	float a = -1.9362 + 1.0678 * roughness + 0.4573 * r2 - 0.8469 * rInv;
+	float b = -0.6014 + 0.5538 * roughness - 0.4670 * r2 - 0.1255 * rInv;
+	float DG = exp( a * dotNV + b );
+	return saturate( DG );
+}
+vec3 EnvironmentBRDF( const in vec3 normal, const in vec3 viewDir, const in vec3 specularColor, const in float specularF90, const in float roughness ) {
+	float dotNV = saturate( dot( normal, viewDir ) );
+	vec2 fab = texture2D( dfgLUT, vec2( roughness, dotNV ) ).rg;
+	return specularColor * fab.x + specularF90 * fab.y;
+}
+#ifdef USE_IRIDESCENCE
+void computeMultiscatteringIridescence( const in vec2 fab, const in vec3 specularColor, const in float specularF90, const in float iridescence, const in vec3 iridescenceF0, inout vec3 singleScatter, inout vec3 multiScatter ) {
+#else
+void computeMultiscattering( const in vec2 fab, const in vec3 specularColor, const in float specularF90, inout vec3 singleScatter, inout vec3 multiScatter ) {
+#endif
+	#ifdef USE_IRIDESCENCE
+		vec3 Fr = mix( specularColor, iridescenceF0, iridescence );
+	#else
+		vec3 Fr = specularColor;
+	#endif
+	vec3 FssEss = Fr * fab.x + specularF90 * fab.y;
+	float Ess = fab.x + fab.y;
+	float Ems = 1.0 - Ess;
+	vec3 Favg = Fr + ( 1.0 - Fr ) * 0.047619;	vec3 Fms = FssEss * Favg / ( 1.0 - Ems * Favg );
+	singleScatter += FssEss;
+	multiScatter += Fms * Ems;
+}
+#if NUM_RECT_AREA_LIGHTS > 0
+	void RE_Direct_RectArea_Physical( const in RectAreaLight rectAreaLight, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material, inout ReflectedLight reflectedLight ) {
+		vec3 normal = geometryNormal;
+		vec3 viewDir = geometryViewDir;
+		vec3 position = geometryPosition;
+		vec3 lightPos = rectAreaLight.position;
+		vec3 halfWidth = rectAreaLight.halfWidth;
+		vec3 halfHeight = rectAreaLight.halfHeight;
+		vec3 lightColor = rectAreaLight.color;
+		float roughness = material.roughness;
+		vec3 rectCoords[ 4 ];
+		rectCoords[ 0 ] = lightPos + halfWidth - halfHeight;		rectCoords[ 1 ] = lightPos - halfWidth - halfHeight;
+		rectCoords[ 2 ] = lightPos - halfWidth + halfHeight;
+		rectCoords[ 3 ] = lightPos + halfWidth + halfHeight;
+		vec2 uv = LTC_Uv( normal, viewDir, roughness );
+		vec4 t1 = texture2D( ltc_1, uv );
+		vec4 t2 = texture2D( ltc_2, uv );
+		mat3 mInv = mat3(
+			vec3( t1.x, 0, t1.y ),
+			vec3(    0, 1,    0 ),
+			vec3( t1.z, 0, t1.w )
+		);
+		vec3 fresnel = ( material.specularColorBlended * t2.x + ( material.specularF90 - material.specularColorBlended ) * t2.y );
+		reflectedLight.directSpecular += lightColor * fresnel * LTC_Evaluate( normal, viewDir, position, mInv, rectCoords );
+		reflectedLight.directDiffuse += lightColor * material.diffuseContribution * LTC_Evaluate( normal, viewDir, position, mat3( 1.0 ), rectCoords );
+		#ifdef USE_CLEARCOAT
+			vec3 Ncc = geometryClearcoatNormal;
+			vec2 uvClearcoat = LTC_Uv( Ncc, viewDir, material.clearcoatRoughness );
+			vec4 t1Clearcoat = texture2D( ltc_1, uvClearcoat );
+			vec4 t2Clearcoat = texture2D( ltc_2, uvClearcoat );
+			mat3 mInvClearcoat = mat3(
+				vec3( t1Clearcoat.x, 0, t1Clearcoat.y ),
+				vec3(             0, 1,             0 ),
+				vec3( t1Clearcoat.z, 0, t1Clearcoat.w )
+			);
+			vec3 fresnelClearcoat = material.clearcoatF0 * t2Clearcoat.x + ( material.clearcoatF90 - material.clearcoatF0 ) * t2Clearcoat.y;
+			clearcoatSpecularDirect += lightColor * fresnelClearcoat * LTC_Evaluate( Ncc, viewDir, position, mInvClearcoat, rectCoords );
+		#endif
+	}
+#endif
+void RE_Direct_Physical( const in IncidentLight directLight, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material, inout ReflectedLight reflectedLight ) {
+	float dotNL = saturate( dot( geometryNormal, directLight.direction ) );
+	vec3 irradiance = dotNL * directLight.color;
+	#ifdef USE_CLEARCOAT
+		float dotNLcc = saturate( dot( geometryClearcoatNormal, directLight.direction ) );
+		vec3 ccIrradiance = dotNLcc * directLight.color;
+		clearcoatSpecularDirect += ccIrradiance * BRDF_GGX_Clearcoat( directLight.direction, geometryViewDir, geometryClearcoatNormal, material );
+	#endif
+	#ifdef USE_SHEEN
+ 
+ 		sheenSpecularDirect += irradiance * BRDF_Sheen( directLight.direction, geometryViewDir, geometryNormal, material.sheenColor, material.sheenRoughness );
+ 
+ 		float sheenAlbedoV = IBLSheenBRDF( geometryNormal, geometryViewDir, material.sheenRoughness );
+ 		float sheenAlbedoL = IBLSheenBRDF( geometryNormal, directLight.direction, material.sheenRoughness );
+ 
+ 		float sheenEnergyComp = 1.0 - max3( material.sheenColor ) * max( sheenAlbedoV, sheenAlbedoL );
+ 
+ 		irradiance *= sheenEnergyComp;
+ 
+ 	#endif
+	vec3 specularBRDF = BRDF_GGX( directLight.direction, geometryViewDir, geometryNormal, material );
+	#ifdef USE_RETROREFLECTION
+		vec3 retroViewDir = reflect( - geometryViewDir, geometryNormal );
+		vec3 retroSpecularBRDF = BRDF_GGX( directLight.direction, retroViewDir, geometryNormal, material );
+		specularBRDF = mix( specularBRDF, retroSpecularBRDF, saturate( material.retroreflectivity ) );
+	#endif
+	reflectedLight.directSpecular += irradiance * specularBRDF * material.multiScatteringCompensation;
+	vec3 halfDir = normalize( directLight.direction + geometryViewDir );
+	float dotVH = saturate( dot( geometryViewDir, halfDir ) );
+	vec3 F = F_Schlick( material.specularColor, material.specularF90, dotVH );
+	#ifdef USE_RETROREFLECTION
+		vec3 retroHalfDir = normalize( directLight.direction + retroViewDir );
+		float dotRetroVH = saturate( dot( retroViewDir, retroHalfDir ) );
+		vec3 retroF = F_Schlick( material.specularColor, material.specularF90, dotRetroVH );
+		F = mix( F, retroF, saturate( material.retroreflectivity ) );
+	#endif
+	#ifdef USE_DIFFUSE_ROUGHNESS
+		vec3 diffuseBRDF = BRDF_EON( directLight.direction, geometryViewDir, geometryNormal, material.diffuseColor, material.diffuseRoughness ) * ( 1.0 - material.metalness );
+	#else
+		vec3 diffuseBRDF = BRDF_Lambert( material.diffuseContribution );
+	#endif
+	reflectedLight.directDiffuse += irradiance * diffuseBRDF * ( 1.0 - F );
+}
+void RE_IndirectDiffuse_Physical( const in vec3 irradiance, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material, inout ReflectedLight reflectedLight ) {
+	vec3 singleScattering = vec3( 0.0 );
+	vec3 multiScattering = vec3( 0.0 );
+	#ifdef USE_IRIDESCENCE
+		computeMultiscatteringIridescence( material.dfg, material.specularColor, material.specularF90, material.iridescence, material.iridescenceF0Dielectric, singleScattering, multiScattering );
+	#else
+		computeMultiscattering( material.dfg, material.specularColor, material.specularF90, singleScattering, multiScattering );
+	#endif
+	#ifdef USE_DIFFUSE_ROUGHNESS
+		float dotNV = saturate( dot( geometryNormal, geometryViewDir ) );
+		vec3 diffuseAlbedo = EON_DirectionalAlbedo( material.diffuseColor, material.diffuseRoughness, dotNV ) * ( 1.0 - material.metalness );
+		vec3 diffuse = irradiance * RECIPROCAL_PI * diffuseAlbedo * ( 1.0 - singleScattering - multiScattering );
+	#else
+		vec3 diffuse = irradiance * BRDF_Lambert( material.diffuseContribution ) * ( 1.0 - singleScattering - multiScattering );
+	#endif
+	#ifdef USE_SHEEN
+		float sheenAlbedo = IBLSheenBRDF( geometryNormal, geometryViewDir, material.sheenRoughness );
+		sheenSpecularIndirect += irradiance * material.sheenColor * sheenAlbedo * RECIPROCAL_PI;
+		float sheenEnergyComp = 1.0 - max3( material.sheenColor ) * sheenAlbedo;
+		diffuse *= sheenEnergyComp;
+	#endif
+	reflectedLight.indirectDiffuse += diffuse;
+}
+void RE_IndirectSpecular_Physical( const in vec3 radiance, const in vec3 irradiance, const in vec3 clearcoatRadiance, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material, inout ReflectedLight reflectedLight) {
+	#ifdef USE_CLEARCOAT
+		clearcoatSpecularIndirect += clearcoatRadiance * EnvironmentBRDF( geometryClearcoatNormal, geometryViewDir, material.clearcoatF0, material.clearcoatF90, material.clearcoatRoughness );
+	#endif
+	#ifdef USE_SHEEN
+		sheenSpecularIndirect += irradiance * material.sheenColor * IBLSheenBRDF( geometryNormal, geometryViewDir, material.sheenRoughness ) * RECIPROCAL_PI;
+ 	#endif
+	vec3 singleScatteringDielectric = vec3( 0.0 );
+	vec3 multiScatteringDielectric = vec3( 0.0 );
+	vec3 singleScatteringMetallic = vec3( 0.0 );
+	vec3 multiScatteringMetallic = vec3( 0.0 );
+	#ifdef USE_IRIDESCENCE
+		computeMultiscatteringIridescence( material.dfg, material.specularColor, material.specularF90, material.iridescence, material.iridescenceF0Dielectric, singleScatteringDielectric, multiScatteringDielectric );
+		computeMultiscatteringIridescence( material.dfg, material.diffuseColor, material.specularF90, material.iridescence, material.iridescenceF0Metallic, singleScatteringMetallic, multiScatteringMetallic );
+	#else
+		computeMultiscattering( material.dfg, material.specularColor, material.specularF90, singleScatteringDielectric, multiScatteringDielectric );
+		computeMultiscattering( material.dfg, material.diffuseColor, material.specularF90, singleScatteringMetallic, multiScatteringMetallic );
+	#endif
+	vec3 singleScattering = mix( singleScatteringDielectric, singleScatteringMetallic, material.metalness );
+	vec3 multiScattering = mix( multiScatteringDielectric, multiScatteringMetallic, material.metalness );
+	vec3 totalScatteringDielectric = singleScatteringDielectric + multiScatteringDielectric;
+	#ifdef USE_DIFFUSE_ROUGHNESS
+		float dotNV = saturate( dot( geometryNormal, geometryViewDir ) );
+		vec3 diffuse = EON_DirectionalAlbedo( material.diffuseColor, material.diffuseRoughness, dotNV ) * ( 1.0 - material.metalness ) * ( 1.0 - totalScatteringDielectric );
+	#else
+		vec3 diffuse = material.diffuseContribution * ( 1.0 - totalScatteringDielectric );
+	#endif
+	vec3 cosineWeightedIrradiance = irradiance * RECIPROCAL_PI;
+	vec3 indirectSpecular = radiance * singleScattering;
+	indirectSpecular += multiScattering * cosineWeightedIrradiance;
+	vec3 indirectDiffuse = diffuse * cosineWeightedIrradiance;
+	#ifdef USE_SHEEN
+		float sheenAlbedo = IBLSheenBRDF( geometryNormal, geometryViewDir, material.sheenRoughness );
+		float sheenEnergyComp = 1.0 - max3( material.sheenColor ) * sheenAlbedo;
+		indirectSpecular *= sheenEnergyComp;
+		indirectDiffuse *= sheenEnergyComp;
+	#endif
+	reflectedLight.indirectSpecular += indirectSpecular;
+	reflectedLight.indirectDiffuse += indirectDiffuse;
+}
+#define RE_Direct				RE_Direct_Physical
+#define RE_Direct_RectArea		RE_Direct_RectArea_Physical
+#define RE_IndirectDiffuse		RE_IndirectDiffuse_Physical
+#define RE_IndirectSpecular		RE_IndirectSpecular_Physical
+float computeSpecularOcclusion( const in float dotNV, const in float ambientOcclusion, const in float roughness ) {
+	return saturate( pow( dotNV + ambientOcclusion, exp2( - 16.0 * roughness - 1.0 ) ) - 1.0 + ambientOcclusion );
+}`,Xv=`
+vec3 geometryPosition = - vViewPosition;
+vec3 geometryNormal = normal;
+vec3 geometryViewDir = ( isOrthographic ) ? vec3( 0, 0, 1 ) : normalize( vViewPosition );
+vec3 geometryClearcoatNormal = vec3( 0.0 );
+#ifdef USE_CLEARCOAT
+	geometryClearcoatNormal = clearcoatNormal;
+#endif
+#ifdef USE_IRIDESCENCE
+	float dotNVi = saturate( dot( normal, geometryViewDir ) );
+	if ( material.iridescenceThickness == 0.0 ) {
+		material.iridescence = 0.0;
+	} else {
+		material.iridescence = saturate( material.iridescence );
+	}
+	if ( material.iridescence > 0.0 ) {
+		vec3 iridescenceFresnelDielectric = evalIridescence( 1.0, material.iridescenceIOR, dotNVi, material.iridescenceThickness, material.specularColor );
+		vec3 iridescenceFresnelMetallic = evalIridescence( 1.0, material.iridescenceIOR, dotNVi, material.iridescenceThickness, material.diffuseColor );
+		material.iridescenceFresnel = mix( iridescenceFresnelDielectric, iridescenceFresnelMetallic, material.metalness );
+		material.iridescenceF0Dielectric = Schlick_to_F0( iridescenceFresnelDielectric, 1.0, dotNVi );
+		material.iridescenceF0Metallic = Schlick_to_F0( iridescenceFresnelMetallic, 1.0, dotNVi );
+	}
+#endif
+#ifdef STANDARD
+	float dotNVms = saturate( dot( geometryNormal, geometryViewDir ) );
+	material.dfg = texture2D( dfgLUT, vec2( material.roughness, dotNVms ) ).rg;
+	#if ( NUM_SUN_LIGHTS > 0 || NUM_DIR_LIGHTS > 0 || NUM_POINT_LIGHTS > 0 || NUM_SPOT_LIGHTS > 0 )
+		float EssMs = material.dfg.x + material.dfg.y;
+		material.multiScatteringCompensation = 1.0 + material.specularColorBlended * ( 1.0 / EssMs - 1.0 );
+	#endif
+#endif
+IncidentLight directLight;
+#if ( NUM_POINT_LIGHTS > 0 ) && defined( RE_Direct )
+	PointLight pointLight;
+	#if defined( USE_SHADOWMAP ) && NUM_POINT_LIGHT_SHADOWS > 0
+	PointLightShadow pointLightShadow;
+	#endif
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_POINT_LIGHTS; i ++ ) {
+		pointLight = pointLights[ i ];
+		getPointLightInfo( pointLight, geometryPosition, directLight );
+		#if defined( USE_SHADOWMAP ) && ( UNROLLED_LOOP_INDEX < NUM_POINT_LIGHT_SHADOWS ) && ( defined( SHADOWMAP_TYPE_PCF ) || defined( SHADOWMAP_TYPE_BASIC ) )
+		pointLightShadow = pointLightShadows[ i ];
+		directLight.color *= ( directLight.visible && receiveShadow ) ? getPointShadow( pointShadowMap[ i ], pointLightShadow.shadowMapSize, pointLightShadow.shadowIntensity, pointLightShadow.shadowBias, pointLightShadow.shadowRadius, vPointShadowCoord[ i ], pointLightShadow.shadowCameraNear, pointLightShadow.shadowCameraFar ) : 1.0;
+		#endif
+		RE_Direct( directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+	}
+	#pragma unroll_loop_end
+#endif
+#if ( NUM_SPOT_LIGHTS > 0 ) && defined( RE_Direct )
+	SpotLight spotLight;
+	vec4 spotColor;
+	vec3 spotLightCoord;
+	bool inSpotLightMap;
+	#if defined( USE_SHADOWMAP ) && NUM_SPOT_LIGHT_SHADOWS > 0
+	SpotLightShadow spotLightShadow;
+	#endif
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_SPOT_LIGHTS; i ++ ) {
+		spotLight = spotLights[ i ];
+		getSpotLightInfo( spotLight, geometryPosition, directLight );
+		#if ( UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS_WITH_MAPS )
+		#define SPOT_LIGHT_MAP_INDEX UNROLLED_LOOP_INDEX
+		#elif ( UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS )
+		#define SPOT_LIGHT_MAP_INDEX NUM_SPOT_LIGHT_MAPS
+		#else
+		#define SPOT_LIGHT_MAP_INDEX ( UNROLLED_LOOP_INDEX - NUM_SPOT_LIGHT_SHADOWS + NUM_SPOT_LIGHT_SHADOWS_WITH_MAPS )
+		#endif
+		#if ( SPOT_LIGHT_MAP_INDEX < NUM_SPOT_LIGHT_MAPS )
+			spotLightCoord = vSpotLightCoord[ i ].xyz / vSpotLightCoord[ i ].w;
+			inSpotLightMap = all( lessThan( abs( spotLightCoord * 2. - 1. ), vec3( 1.0 ) ) );
+			spotColor = texture2D( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], spotLightCoord.xy );
+			directLight.color = inSpotLightMap ? directLight.color * spotColor.rgb : directLight.color;
+		#endif
+		#undef SPOT_LIGHT_MAP_INDEX
+		#if defined( USE_SHADOWMAP ) && ( UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS )
+		spotLightShadow = spotLightShadows[ i ];
+		directLight.color *= ( directLight.visible && receiveShadow ) ? getShadow( spotShadowMap[ i ], spotLightShadow.shadowMapSize, spotLightShadow.shadowIntensity, spotLightShadow.shadowBias, spotLightShadow.shadowRadius, vSpotLightCoord[ i ] ) : 1.0;
+		#endif
+		RE_Direct( directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+	}
+	#pragma unroll_loop_end
+#endif
+#if ( NUM_SUN_LIGHTS > 0 ) && defined( RE_Direct )
+	SunLight sunLight;
+	#if defined( USE_SHADOWMAP ) && NUM_SUN_LIGHT_SHADOWS > 0
+	SunLightShadow sunLightShadow;
+	#endif
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_SUN_LIGHTS; i ++ ) {
+		sunLight = sunLights[ i ];
+		getSunLightInfo( sunLight, directLight );
+		#if defined( USE_SHADOWMAP ) && ( UNROLLED_LOOP_INDEX < NUM_SUN_LIGHT_SHADOWS )
+		sunLightShadow = sunLightShadows[ i ];
+		directLight.color *= ( directLight.visible && receiveShadow ) ? getSunShadow( sunShadowMap[ i ], sunLightShadow, UNROLLED_LOOP_INDEX ) : 1.0;
+		#endif
+		RE_Direct( directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+	}
+	#pragma unroll_loop_end
+#endif
+#if ( NUM_DIR_LIGHTS > 0 ) && defined( RE_Direct )
+	DirectionalLight directionalLight;
+	#if defined( USE_SHADOWMAP ) && NUM_DIR_LIGHT_SHADOWS > 0
+	DirectionalLightShadow directionalLightShadow;
+	#endif
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_DIR_LIGHTS; i ++ ) {
+		directionalLight = directionalLights[ i ];
+		getDirectionalLightInfo( directionalLight, directLight );
+		#if defined( USE_SHADOWMAP ) && ( UNROLLED_LOOP_INDEX < NUM_DIR_LIGHT_SHADOWS )
+		directionalLightShadow = directionalLightShadows[ i ];
+		directLight.color *= ( directLight.visible && receiveShadow ) ? getShadow( directionalShadowMap[ i ], directionalLightShadow.shadowMapSize, directionalLightShadow.shadowIntensity, directionalLightShadow.shadowBias, directionalLightShadow.shadowRadius, vDirectionalShadowCoord[ i ] ) : 1.0;
+		#endif
+		RE_Direct( directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+	}
+	#pragma unroll_loop_end
+#endif
+#if ( NUM_RECT_AREA_LIGHTS > 0 ) && defined( RE_Direct_RectArea )
+	RectAreaLight rectAreaLight;
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_RECT_AREA_LIGHTS; i ++ ) {
+		rectAreaLight = rectAreaLights[ i ];
+		RE_Direct_RectArea( rectAreaLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+	}
+	#pragma unroll_loop_end
+#endif
+#if defined( RE_IndirectDiffuse )
+	vec3 iblIrradiance = vec3( 0.0 );
+	vec3 irradiance = getAmbientLightIrradiance( ambientLightColor );
+	#if defined( USE_LIGHT_PROBES )
+		irradiance += getLightProbeIrradiance( lightProbe, geometryNormal );
+	#endif
+	#if ( NUM_HEMI_LIGHTS > 0 )
+		#pragma unroll_loop_start
+		for ( int i = 0; i < NUM_HEMI_LIGHTS; i ++ ) {
+			irradiance += getHemisphereLightIrradiance( hemisphereLights[ i ], geometryNormal );
+		}
+		#pragma unroll_loop_end
+	#endif
+	#if NUM_LIGHT_PROBE_GRIDS > 0
+		vec3 probeWorldPos = ( ( vec4( geometryPosition, 1.0 ) - viewMatrix[ 3 ] ) * viewMatrix ).xyz;
+		vec3 probeWorldNormal = transformNormalByInverseViewMatrix( geometryNormal, viewMatrix );
+		int probeGrid = - 1;
+		#pragma unroll_loop_start
+		for ( int i = 0; i < NUM_LIGHT_PROBE_GRIDS; i ++ ) {
+			if ( isInsideLightProbeGrid( probeWorldPos, probeWorldNormal, probesMin[ i ], probesMax[ i ], probesResolution[ i ] ) ) probeGrid = UNROLLED_LOOP_INDEX;
+		}
+		#pragma unroll_loop_end
+		#pragma unroll_loop_start
+		for ( int i = 0; i < NUM_LIGHT_PROBE_GRIDS; i ++ ) {
+			if ( probeGrid == UNROLLED_LOOP_INDEX ) irradiance += getLightProbeGridIrradiance( probesSH[ i ], probesMin[ i ], probesMax[ i ], probesResolution[ i ], probeWorldPos, probeWorldNormal );
+		}
+		#pragma unroll_loop_end
+	#endif
+#endif
+#if defined( RE_IndirectSpecular )
+	vec3 radiance = vec3( 0.0 );
+	vec3 clearcoatRadiance = vec3( 0.0 );
+#endif`,$v=`#if defined( RE_IndirectDiffuse )
+	#ifdef USE_LIGHTMAP
+		vec4 lightMapTexel = texture2D( lightMap, vLightMapUv );
+		vec3 lightMapIrradiance = lightMapTexel.rgb * lightMapIntensity;
+		irradiance += lightMapIrradiance;
+	#endif
+	#if defined( USE_ENVMAP ) && defined( ENVMAP_TYPE_PMREM )
+		#if defined( STANDARD ) || defined( LAMBERT ) || defined( PHONG )
+			iblIrradiance += getIBLIrradiance( geometryNormal );
+		#endif
+	#endif
+#endif
+#if defined( USE_ENVMAP ) && defined( RE_IndirectSpecular )
+	#ifdef USE_ANISOTROPY
+		vec3 iblRadiance = getIBLAnisotropyRadiance( geometryViewDir, geometryNormal, material.roughness, material.anisotropyB, material.anisotropy );
+	#else
+		vec3 iblRadiance = getIBLRadiance( geometryViewDir, geometryNormal, material.roughness );
+	#endif
+	#ifdef USE_RETROREFLECTION
+		#ifdef USE_ANISOTROPY
+			vec3 retroIBLRadiance = getIBLAnisotropyRetroRadiance( geometryViewDir, geometryNormal, material.roughness, material.anisotropyB, material.anisotropy );
+		#else
+			vec3 retroIBLRadiance = getIBLRetroRadiance( geometryViewDir, geometryNormal, material.roughness );
+		#endif
+		iblRadiance = mix( iblRadiance, retroIBLRadiance, saturate( material.retroreflectivity ) );
+	#endif
+	radiance += iblRadiance;
+	#ifdef USE_CLEARCOAT
+		clearcoatRadiance += getIBLRadiance( geometryViewDir, geometryClearcoatNormal, material.clearcoatRoughness );
+	#endif
+#endif`,qv=`#if defined( RE_IndirectDiffuse )
+	#if defined( LAMBERT ) || defined( PHONG )
+		irradiance += iblIrradiance;
+	#endif
+	RE_IndirectDiffuse( irradiance, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+#endif
+#if defined( RE_IndirectSpecular )
+	RE_IndirectSpecular( radiance, iblIrradiance, clearcoatRadiance, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+#endif`,Yv=`#if NUM_LIGHT_PROBE_GRIDS > 0
+uniform highp sampler3D probesSH[ NUM_LIGHT_PROBE_GRIDS ];
+uniform vec3 probesMin[ NUM_LIGHT_PROBE_GRIDS ];
+uniform vec3 probesMax[ NUM_LIGHT_PROBE_GRIDS ];
+uniform vec3 probesResolution[ NUM_LIGHT_PROBE_GRIDS ];
+bool isInsideLightProbeGrid( vec3 worldPos, vec3 worldNormal, vec3 probesMin, vec3 probesMax, vec3 probesResolution ) {
+	vec3 spacing = ( probesMax - probesMin ) / probesResolution;
+	vec3 samplePos = worldPos + worldNormal * spacing * 0.5;
+	vec3 margin = spacing * 0.01;
+	return all( greaterThanEqual( samplePos, probesMin - margin ) ) && all( lessThanEqual( samplePos, probesMax + margin ) );
+}
+vec3 getLightProbeGridIrradiance( highp sampler3D probesSH, vec3 probesMin, vec3 probesMax, vec3 probesResolution, vec3 worldPos, vec3 worldNormal ) {
+	vec3 res = probesResolution;
+	vec3 gridRange = probesMax - probesMin;
+	vec3 probeSpacing = gridRange / res;
+	vec3 samplePos = worldPos + worldNormal * probeSpacing * 0.5;
+	vec3 uvw = clamp( ( samplePos - probesMin ) / gridRange, 0.5 / res, 1.0 - 0.5 / res );
+	float nz          = res.z;
+	float paddedSlices = nz + 2.0;
+	float atlasDepth  = 7.0 * paddedSlices;
+	float uvZBase     = uvw.z * nz + 1.0;
+	vec4 s0 = texture( probesSH, vec3( uvw.xy, ( uvZBase                       ) / atlasDepth ) );
+	vec4 s1 = texture( probesSH, vec3( uvw.xy, ( uvZBase +       paddedSlices   ) / atlasDepth ) );
+	vec4 s2 = texture( probesSH, vec3( uvw.xy, ( uvZBase + 2.0 * paddedSlices   ) / atlasDepth ) );
+	vec4 s3 = texture( probesSH, vec3( uvw.xy, ( uvZBase + 3.0 * paddedSlices   ) / atlasDepth ) );
+	vec4 s4 = texture( probesSH, vec3( uvw.xy, ( uvZBase + 4.0 * paddedSlices   ) / atlasDepth ) );
+	vec4 s5 = texture( probesSH, vec3( uvw.xy, ( uvZBase + 5.0 * paddedSlices   ) / atlasDepth ) );
+	vec4 s6 = texture( probesSH, vec3( uvw.xy, ( uvZBase + 6.0 * paddedSlices   ) / atlasDepth ) );
+	vec3 c0 = s0.xyz;
+	vec3 c1 = vec3( s0.w, s1.xy );
+	vec3 c2 = vec3( s1.zw, s2.x );
+	vec3 c3 = s2.yzw;
+	vec3 c4 = s3.xyz;
+	vec3 c5 = vec3( s3.w, s4.xy );
+	vec3 c6 = vec3( s4.zw, s5.x );
+	vec3 c7 = s5.yzw;
+	vec3 c8 = s6.xyz;
+	float x = worldNormal.x, y = worldNormal.y, z = worldNormal.z;
+	vec3 result = c0 * 0.886227;
+	result += c1 * 2.0 * 0.511664 * y;
+	result += c2 * 2.0 * 0.511664 * z;
+	result += c3 * 2.0 * 0.511664 * x;
+	result += c4 * 2.0 * 0.429043 * x * y;
+	result += c5 * 2.0 * 0.429043 * y * z;
+	result += c6 * ( 0.743125 * z * z - 0.247708 );
+	result += c7 * 2.0 * 0.429043 * x * z;
+	result += c8 * 0.429043 * ( x * x - y * y );
+	return max( result, vec3( 0.0 ) );
+}
+#endif`,Zv=`#if defined( USE_LOGARITHMIC_DEPTH_BUFFER )
+	gl_FragDepth = vIsPerspective == 0.0 ? gl_FragCoord.z : log2( vFragDepth ) * logDepthBufFC * 0.5;
+#endif`,Jv=`#if defined( USE_LOGARITHMIC_DEPTH_BUFFER )
+	uniform float logDepthBufFC;
+	varying float vFragDepth;
+	varying float vIsPerspective;
+#endif`,Kv=`#ifdef USE_LOGARITHMIC_DEPTH_BUFFER
+	varying float vFragDepth;
+	varying float vIsPerspective;
+#endif`,jv=`#ifdef USE_LOGARITHMIC_DEPTH_BUFFER
+	vFragDepth = 1.0 + gl_Position.w;
+	vIsPerspective = float( isPerspectiveMatrix( projectionMatrix ) );
+#endif`,Qv=`#ifdef USE_MAP
+	vec4 sampledDiffuseColor = texture2D( map, vMapUv );
+	#ifdef DECODE_VIDEO_TEXTURE
+		sampledDiffuseColor = sRGBTransferEOTF( sampledDiffuseColor );
+	#endif
+	diffuseColor *= sampledDiffuseColor;
+#endif`,ty=`#ifdef USE_MAP
+	uniform sampler2D map;
+#endif`,ey=`#if defined( USE_MAP ) || defined( USE_ALPHAMAP )
+	#if defined( USE_POINTS_UV )
+		vec2 uv = vUv;
+	#else
+		vec2 uv = ( uvTransform * vec3( gl_PointCoord.x, 1.0 - gl_PointCoord.y, 1 ) ).xy;
+	#endif
+#endif
+#ifdef USE_MAP
+	diffuseColor *= texture2D( map, uv );
+#endif
+#ifdef USE_ALPHAMAP
+	diffuseColor.a *= texture2D( alphaMap, uv ).g;
+#endif`,ny=`#if defined( USE_POINTS_UV )
+	varying vec2 vUv;
+#else
+	#if defined( USE_MAP ) || defined( USE_ALPHAMAP )
+		uniform mat3 uvTransform;
+	#endif
+#endif
+#ifdef USE_MAP
+	uniform sampler2D map;
+#endif
+#ifdef USE_ALPHAMAP
+	uniform sampler2D alphaMap;
+#endif`,iy=`float metalnessFactor = metalness;
+#ifdef USE_METALNESSMAP
+	vec4 texelMetalness = texture2D( metalnessMap, vMetalnessMapUv );
+	metalnessFactor *= texelMetalness.b;
+#endif`,sy=`#ifdef USE_METALNESSMAP
+	uniform sampler2D metalnessMap;
+#endif`,ry=`#ifdef USE_INSTANCING_MORPH
+	float morphTargetInfluences[ MORPHTARGETS_COUNT ];
+	float morphTargetBaseInfluence = texelFetch( morphTexture, ivec2( 0, gl_InstanceID ), 0 ).r;
+	for ( int i = 0; i < MORPHTARGETS_COUNT; i ++ ) {
+		morphTargetInfluences[i] =  texelFetch( morphTexture, ivec2( i + 1, gl_InstanceID ), 0 ).r;
+	}
+#endif`,oy=`#if defined( USE_MORPHCOLORS )
+	#if defined( USE_COLOR_ALPHA )
+		vColor *= morphTargetBaseInfluence;
+	#elif defined( USE_COLOR )
+		vColor.rgb *= morphTargetBaseInfluence;
+	#endif
+	for ( int i = 0; i < MORPHTARGETS_COUNT; i ++ ) {
+		#if defined( USE_COLOR_ALPHA )
+			if ( morphTargetInfluences[ i ] != 0.0 ) vColor += getMorph( gl_VertexID, i, 2 ) * morphTargetInfluences[ i ];
+		#elif defined( USE_COLOR )
+			if ( morphTargetInfluences[ i ] != 0.0 ) vColor.rgb += getMorph( gl_VertexID, i, 2 ).rgb * morphTargetInfluences[ i ];
+		#endif
+	}
+#endif`,ay=`#ifdef USE_MORPHNORMALS
+	objectNormal *= morphTargetBaseInfluence;
+	for ( int i = 0; i < MORPHTARGETS_COUNT; i ++ ) {
+		if ( morphTargetInfluences[ i ] != 0.0 ) objectNormal += getMorph( gl_VertexID, i, 1 ).xyz * morphTargetInfluences[ i ];
+	}
+#endif`,ly=`#ifdef USE_MORPHTARGETS
+	#ifndef USE_INSTANCING_MORPH
+		uniform float morphTargetBaseInfluence;
+		uniform float morphTargetInfluences[ MORPHTARGETS_COUNT ];
+	#endif
+	uniform sampler2DArray morphTargetsTexture;
+	uniform ivec2 morphTargetsTextureSize;
+	vec4 getMorph( const in int vertexIndex, const in int morphTargetIndex, const in int offset ) {
+		int texelIndex = vertexIndex * MORPHTARGETS_TEXTURE_STRIDE + offset;
+		int y = texelIndex / morphTargetsTextureSize.x;
+		int x = texelIndex - y * morphTargetsTextureSize.x;
+		ivec3 morphUV = ivec3( x, y, morphTargetIndex );
+		return texelFetch( morphTargetsTexture, morphUV, 0 );
+	}
+#endif`,cy=`#ifdef USE_MORPHTARGETS
+	transformed *= morphTargetBaseInfluence;
+	for ( int i = 0; i < MORPHTARGETS_COUNT; i ++ ) {
+		if ( morphTargetInfluences[ i ] != 0.0 ) transformed += getMorph( gl_VertexID, i, 0 ).xyz * morphTargetInfluences[ i ];
+	}
+#endif`,hy=`float faceDirection = gl_FrontFacing ? 1.0 : - 1.0;
+#ifdef FLAT_SHADED
+	vec3 fdx = dFdx( vViewPosition );
+	vec3 fdy = dFdy( vViewPosition );
+	vec3 normal = normalize( cross( fdx, fdy ) );
+#else
+	vec3 normal = normalize( vNormal );
+	#ifdef DOUBLE_SIDED
+		normal *= faceDirection;
+	#endif
+#endif
+#if defined( USE_NORMALMAP_TANGENTSPACE ) || defined( USE_CLEARCOAT_NORMALMAP ) || defined( USE_ANISOTROPY )
+	#ifdef USE_TANGENT
+		mat3 tbn = mat3( normalize( vTangent ), normalize( vBitangent ), normal );
+	#else
+		mat3 tbn = getTangentFrame( - vViewPosition, normal,
+		#if defined( USE_NORMALMAP )
+			vNormalMapUv
+		#elif defined( USE_CLEARCOAT_NORMALMAP )
+			vClearcoatNormalMapUv
+		#else
+			vUv
+		#endif
+		);
+	#endif
+	#ifdef DOUBLE_SIDED
+		tbn[0] *= faceDirection;
+		tbn[1] *= faceDirection;
+	#endif
+#endif
+#ifdef USE_CLEARCOAT_NORMALMAP
+	#ifdef USE_TANGENT
+		mat3 tbn2 = mat3( normalize( vTangent ), normalize( vBitangent ), normal );
+	#else
+		mat3 tbn2 = getTangentFrame( - vViewPosition, normal, vClearcoatNormalMapUv );
+	#endif
+	#ifdef DOUBLE_SIDED
+		tbn2[0] *= faceDirection;
+		tbn2[1] *= faceDirection;
+	#endif
+#endif
+vec3 nonPerturbedNormal = normal;`,uy=`#ifdef USE_NORMALMAP_OBJECTSPACE
+	normal = texture2D( normalMap, vNormalMapUv ).xyz * 2.0 - 1.0;
+	#ifdef FLIP_SIDED
+		normal = - normal;
+	#endif
+	#ifdef DOUBLE_SIDED
+		normal = normal * faceDirection;
+	#endif
+	normal = normalize( normalMatrix * normal );
+#elif defined( USE_NORMALMAP_TANGENTSPACE )
+	vec3 mapN = texture2D( normalMap, vNormalMapUv ).xyz * 2.0 - 1.0;
+	#if defined( USE_PACKED_NORMALMAP )
+		mapN = vec3( mapN.xy, sqrt( saturate( 1.0 - dot( mapN.xy, mapN.xy ) ) ) );
+	#endif
+	mapN.xy *= normalScale;
+	normal = normalize( tbn * mapN );
+#elif defined( USE_BUMPMAP )
+	normal = perturbNormalArb( - vViewPosition, normal, dHdxy_fwd(), faceDirection );
+#endif`,dy=`#ifndef FLAT_SHADED
+	varying vec3 vNormal;
+	#ifdef USE_TANGENT
+		varying vec3 vTangent;
+		varying vec3 vBitangent;
+	#endif
+#endif`,fy=`#ifndef FLAT_SHADED
+	varying vec3 vNormal;
+	#ifdef USE_TANGENT
+		varying vec3 vTangent;
+		varying vec3 vBitangent;
+	#endif
+#endif`,py=`#ifndef FLAT_SHADED
+	vNormal = normalize( transformedNormal );
+	#ifdef USE_TANGENT
+		vTangent = normalize( transformedTangent );
+		vBitangent = normalize( cross( vNormal, vTangent ) * tangent.w );
+		#ifdef FLIP_SIDED
+			vBitangent = - vBitangent;
+		#endif
+	#endif
+#endif`,my=`#ifdef USE_NORMALMAP
+	uniform sampler2D normalMap;
+	uniform vec2 normalScale;
+#endif
+#ifdef USE_NORMALMAP_OBJECTSPACE
+	uniform mat3 normalMatrix;
+#endif
+#if ! defined ( USE_TANGENT ) && ( defined ( USE_NORMALMAP_TANGENTSPACE ) || defined ( USE_CLEARCOAT_NORMALMAP ) || defined( USE_ANISOTROPY ) )
+	mat3 getTangentFrame( vec3 eye_pos, vec3 surf_norm, vec2 uv ) {
+		vec3 q0 = dFdx( eye_pos.xyz );
+		vec3 q1 = dFdy( eye_pos.xyz );
+		vec2 st0 = dFdx( uv.st );
+		vec2 st1 = dFdy( uv.st );
+		vec3 N = surf_norm;
+		vec3 q1perp = cross( q1, N );
+		vec3 q0perp = cross( N, q0 );
+		vec3 T = q1perp * st0.x + q0perp * st1.x;
+		vec3 B = q1perp * st0.y + q0perp * st1.y;
+		float det = max( dot( T, T ), dot( B, B ) );
+		float scale = ( det == 0.0 ) ? 0.0 : inversesqrt( det );
+		return mat3( T * scale, B * scale, N );
+	}
+#endif`,gy=`#ifdef USE_CLEARCOAT
+	vec3 clearcoatNormal = nonPerturbedNormal;
+#endif`,xy=`#ifdef USE_CLEARCOAT_NORMALMAP
+	vec3 clearcoatMapN = texture2D( clearcoatNormalMap, vClearcoatNormalMapUv ).xyz * 2.0 - 1.0;
+	clearcoatMapN.xy *= clearcoatNormalScale;
+	clearcoatNormal = normalize( tbn2 * clearcoatMapN );
+#endif`,vy=`#ifdef USE_CLEARCOATMAP
+	uniform sampler2D clearcoatMap;
+#endif
+#ifdef USE_CLEARCOAT_NORMALMAP
+	uniform sampler2D clearcoatNormalMap;
+	uniform vec2 clearcoatNormalScale;
+#endif
+#ifdef USE_CLEARCOAT_ROUGHNESSMAP
+	uniform sampler2D clearcoatRoughnessMap;
+#endif`,yy=`#ifdef USE_IRIDESCENCEMAP
+	uniform sampler2D iridescenceMap;
+#endif
+#ifdef USE_IRIDESCENCE_THICKNESSMAP
+	uniform sampler2D iridescenceThicknessMap;
+#endif`,by=`#ifdef OPAQUE
+diffuseColor.a = 1.0;
+#endif
+#ifdef USE_TRANSMISSION
+diffuseColor.a *= material.transmissionAlpha;
+#endif
+gl_FragColor = vec4( outgoingLight, diffuseColor.a );`,_y=`vec3 packNormalToRGB( const in vec3 normal ) {
+	return normalize( normal ) * 0.5 + 0.5;
+}
+vec3 unpackRGBToNormal( const in vec3 rgb ) {
+	return 2.0 * rgb.xyz - 1.0;
+}
+const float PackUpscale = 256. / 255.;const float UnpackDownscale = 255. / 256.;const float ShiftRight8 = 1. / 256.;
+const float Inv255 = 1. / 255.;
+const vec4 PackFactors = vec4( 1.0, 256.0, 256.0 * 256.0, 256.0 * 256.0 * 256.0 );
+const vec2 UnpackFactors2 = vec2( UnpackDownscale, 1.0 / PackFactors.g );
+const vec3 UnpackFactors3 = vec3( UnpackDownscale / PackFactors.rg, 1.0 / PackFactors.b );
+const vec4 UnpackFactors4 = vec4( UnpackDownscale / PackFactors.rgb, 1.0 / PackFactors.a );
+vec4 packDepthToRGBA( const in float v ) {
+	if( v <= 0.0 )
+		return vec4( 0., 0., 0., 0. );
+	if( v >= 1.0 )
+		return vec4( 1., 1., 1., 1. );
+	float vuf;
+	float af = modf( v * PackFactors.a, vuf );
+	float bf = modf( vuf * ShiftRight8, vuf );
+	float gf = modf( vuf * ShiftRight8, vuf );
+	return vec4( vuf * Inv255, gf * PackUpscale, bf * PackUpscale, af );
+}
+vec3 packDepthToRGB( const in float v ) {
+	if( v <= 0.0 )
+		return vec3( 0., 0., 0. );
+	if( v >= 1.0 )
+		return vec3( 1., 1., 1. );
+	float vuf;
+	float bf = modf( v * PackFactors.b, vuf );
+	float gf = modf( vuf * ShiftRight8, vuf );
+	return vec3( vuf * Inv255, gf * PackUpscale, bf );
+}
+vec2 packDepthToRG( const in float v ) {
+	if( v <= 0.0 )
+		return vec2( 0., 0. );
+	if( v >= 1.0 )
+		return vec2( 1., 1. );
+	float vuf;
+	float gf = modf( v * 256., vuf );
+	return vec2( vuf * Inv255, gf );
+}
+float unpackRGBAToDepth( const in vec4 v ) {
+	return dot( v, UnpackFactors4 );
+}
+float unpackRGBToDepth( const in vec3 v ) {
+	return dot( v, UnpackFactors3 );
+}
+float unpackRGToDepth( const in vec2 v ) {
+	return v.r * UnpackFactors2.r + v.g * UnpackFactors2.g;
+}
+vec4 pack2HalfToRGBA( const in vec2 v ) {
+	vec4 r = vec4( v.x, fract( v.x * 255.0 ), v.y, fract( v.y * 255.0 ) );
+	return vec4( r.x - r.y / 255.0, r.y, r.z - r.w / 255.0, r.w );
+}
+vec2 unpackRGBATo2Half( const in vec4 v ) {
+	return vec2( v.x + ( v.y / 255.0 ), v.z + ( v.w / 255.0 ) );
+}
+float viewZToOrthographicDepth( const in float viewZ, const in float near, const in float far ) {
+	return ( viewZ + near ) / ( near - far );
+}
+float orthographicDepthToViewZ( const in float depth, const in float near, const in float far ) {
+	#ifdef USE_REVERSED_DEPTH_BUFFER
+	
+		return depth * ( far - near ) - far;
+	#else
+		return depth * ( near - far ) - near;
+	#endif
+}
+float viewZToPerspectiveDepth( const in float viewZ, const in float near, const in float far ) {
+	return ( ( near + viewZ ) * far ) / ( ( far - near ) * viewZ );
+}
+float perspectiveDepthToViewZ( const in float depth, const in float near, const in float far ) {
+	
+	#ifdef USE_REVERSED_DEPTH_BUFFER
+		return ( near * far ) / ( ( near - far ) * depth - near );
+	#else
+		return ( near * far ) / ( ( far - near ) * depth - far );
+	#endif
+}`,wy=`#ifdef PREMULTIPLIED_ALPHA
+	gl_FragColor.rgb *= gl_FragColor.a;
+#endif`,Sy=`vec4 mvPosition = vec4( transformed, 1.0 );
+#ifdef USE_BATCHING
+	mvPosition = batchingMatrix * mvPosition;
+#endif
+#ifdef USE_INSTANCING
+	mvPosition = instanceMatrix * mvPosition;
+#endif
+mvPosition = modelViewMatrix * mvPosition;
+gl_Position = projectionMatrix * mvPosition;`,My=`#ifdef DITHERING
+	gl_FragColor.rgb = dithering( gl_FragColor.rgb );
+#endif`,Ty=`#ifdef DITHERING
+	vec3 dithering( vec3 color ) {
+		float grid_position = rand( gl_FragCoord.xy );
+		vec3 dither_shift_RGB = vec3( 0.25 / 255.0, -0.25 / 255.0, 0.25 / 255.0 );
+		dither_shift_RGB = mix( 2.0 * dither_shift_RGB, -2.0 * dither_shift_RGB, grid_position );
+		return color + dither_shift_RGB;
+	}
+#endif`,Ey=`float roughnessFactor = roughness;
+#ifdef USE_ROUGHNESSMAP
+	vec4 texelRoughness = texture2D( roughnessMap, vRoughnessMapUv );
+	roughnessFactor *= texelRoughness.g;
+#endif`,Ay=`#ifdef USE_ROUGHNESSMAP
+	uniform sampler2D roughnessMap;
+#endif`,Cy=`#if NUM_SPOT_LIGHT_COORDS > 0
+	varying vec4 vSpotLightCoord[ NUM_SPOT_LIGHT_COORDS ];
+#endif
+#if NUM_SPOT_LIGHT_MAPS > 0
+	uniform sampler2D spotLightMap[ NUM_SPOT_LIGHT_MAPS ];
+#endif
+#ifdef USE_SHADOWMAP
+	#if NUM_SUN_LIGHT_SHADOWS > 0
+		#define SUN_LIGHT_CASCADES 2
+		#if defined( SHADOWMAP_TYPE_PCF )
+			uniform sampler2DShadow sunShadowMap[ NUM_SUN_LIGHT_SHADOWS ];
+		#else
+			uniform sampler2D sunShadowMap[ NUM_SUN_LIGHT_SHADOWS ];
+		#endif
+		uniform mat4 sunShadowMatrix[ NUM_SUN_LIGHT_SHADOWS * SUN_LIGHT_CASCADES ];
+		uniform vec4 sunShadowCascade[ NUM_SUN_LIGHT_SHADOWS * SUN_LIGHT_CASCADES ];
+		varying vec4 vSunShadowWorldPosition;
+		varying vec3 vSunShadowWorldNormal;
+		struct SunLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+		};
+		uniform SunLightShadow sunLightShadows[ NUM_SUN_LIGHT_SHADOWS ];
+	#endif
+	#if NUM_DIR_LIGHT_SHADOWS > 0
+		#if defined( SHADOWMAP_TYPE_PCF )
+			uniform sampler2DShadow directionalShadowMap[ NUM_DIR_LIGHT_SHADOWS ];
+		#else
+			uniform sampler2D directionalShadowMap[ NUM_DIR_LIGHT_SHADOWS ];
+		#endif
+		varying vec4 vDirectionalShadowCoord[ NUM_DIR_LIGHT_SHADOWS ];
+		struct DirectionalLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+		};
+		uniform DirectionalLightShadow directionalLightShadows[ NUM_DIR_LIGHT_SHADOWS ];
+	#endif
+	#if NUM_SPOT_LIGHT_SHADOWS > 0
+		#if defined( SHADOWMAP_TYPE_PCF )
+			uniform sampler2DShadow spotShadowMap[ NUM_SPOT_LIGHT_SHADOWS ];
+		#else
+			uniform sampler2D spotShadowMap[ NUM_SPOT_LIGHT_SHADOWS ];
+		#endif
+		struct SpotLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+		};
+		uniform SpotLightShadow spotLightShadows[ NUM_SPOT_LIGHT_SHADOWS ];
+	#endif
+	#if NUM_POINT_LIGHT_SHADOWS > 0
+		#if defined( SHADOWMAP_TYPE_PCF )
+			uniform samplerCubeShadow pointShadowMap[ NUM_POINT_LIGHT_SHADOWS ];
+		#elif defined( SHADOWMAP_TYPE_BASIC )
+			uniform samplerCube pointShadowMap[ NUM_POINT_LIGHT_SHADOWS ];
+		#endif
+		varying vec4 vPointShadowCoord[ NUM_POINT_LIGHT_SHADOWS ];
+		struct PointLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+			float shadowCameraNear;
+			float shadowCameraFar;
+		};
+		uniform PointLightShadow pointLightShadows[ NUM_POINT_LIGHT_SHADOWS ];
+	#endif
+	#if defined( SHADOWMAP_TYPE_PCF )
+		float interleavedGradientNoise( vec2 position ) {
+			return fract( 52.9829189 * fract( dot( position, vec2( 0.06711056, 0.00583715 ) ) ) );
+		}
+		vec2 vogelDiskSample( int sampleIndex, int samplesCount, float phi ) {
+			const float goldenAngle = 2.399963229728653;
+			float r = sqrt( ( float( sampleIndex ) + 0.5 ) / float( samplesCount ) );
+			float theta = float( sampleIndex ) * goldenAngle + phi;
+			return vec2( cos( theta ), sin( theta ) ) * r;
+		}
+	#endif
+	#if defined( SHADOWMAP_TYPE_PCF )
+		float getShadow( sampler2DShadow shadowMap, vec2 shadowMapSize, float shadowIntensity, float shadowBias, float shadowRadius, vec4 shadowCoord ) {
+			float shadow = 1.0;
+			shadowCoord.xyz /= shadowCoord.w;
+			#ifdef USE_REVERSED_DEPTH_BUFFER
+				shadowCoord.z -= shadowBias;
+			#else
+				shadowCoord.z += shadowBias;
+			#endif
+			bool inFrustum = shadowCoord.x >= 0.0 && shadowCoord.x <= 1.0 && shadowCoord.y >= 0.0 && shadowCoord.y <= 1.0;
+			bool frustumTest = inFrustum && shadowCoord.z <= 1.0;
+			if ( frustumTest ) {
+				vec2 texelSize = vec2( 1.0 ) / shadowMapSize;
+				vec2 radius = shadowRadius * texelSize;
+				float phi = interleavedGradientNoise( gl_FragCoord.xy ) * PI2;
+				shadow = (
+					texture( shadowMap, vec3( shadowCoord.xy + vogelDiskSample( 0, 5, phi ) * radius, shadowCoord.z ) ) +
+					texture( shadowMap, vec3( shadowCoord.xy + vogelDiskSample( 1, 5, phi ) * radius, shadowCoord.z ) ) +
+					texture( shadowMap, vec3( shadowCoord.xy + vogelDiskSample( 2, 5, phi ) * radius, shadowCoord.z ) ) +
+					texture( shadowMap, vec3( shadowCoord.xy + vogelDiskSample( 3, 5, phi ) * radius, shadowCoord.z ) ) +
+					texture( shadowMap, vec3( shadowCoord.xy + vogelDiskSample( 4, 5, phi ) * radius, shadowCoord.z ) )
+				) * 0.2;
+			}
+			return mix( 1.0, shadow, shadowIntensity );
+		}
+	#elif defined( SHADOWMAP_TYPE_VSM )
+		float getShadow( sampler2D shadowMap, vec2 shadowMapSize, float shadowIntensity, float shadowBias, float shadowRadius, vec4 shadowCoord ) {
+			float shadow = 1.0;
+			shadowCoord.xyz /= shadowCoord.w;
+			#ifdef USE_REVERSED_DEPTH_BUFFER
+				shadowCoord.z -= shadowBias;
+			#else
+				shadowCoord.z += shadowBias;
+			#endif
+			bool inFrustum = shadowCoord.x >= 0.0 && shadowCoord.x <= 1.0 && shadowCoord.y >= 0.0 && shadowCoord.y <= 1.0;
+			bool frustumTest = inFrustum && shadowCoord.z <= 1.0;
+			if ( frustumTest ) {
+				vec2 distribution = texture2D( shadowMap, shadowCoord.xy ).rg;
+				float mean = distribution.x;
+				float variance = distribution.y * distribution.y;
+				#ifdef USE_REVERSED_DEPTH_BUFFER
+					float hard_shadow = step( mean, shadowCoord.z );
+				#else
+					float hard_shadow = step( shadowCoord.z, mean );
+				#endif
+				
+				if ( hard_shadow == 1.0 ) {
+					shadow = 1.0;
+				} else {
+					variance = max( variance, 0.0000001 );
+					float d = shadowCoord.z - mean;
+					float p_max = variance / ( variance + d * d );
+					p_max = clamp( ( p_max - 0.3 ) / 0.65, 0.0, 1.0 );
+					shadow = max( hard_shadow, p_max );
+				}
+			}
+			return mix( 1.0, shadow, shadowIntensity );
+		}
+	#else
+		float getShadow( sampler2D shadowMap, vec2 shadowMapSize, float shadowIntensity, float shadowBias, float shadowRadius, vec4 shadowCoord ) {
+			float shadow = 1.0;
+			shadowCoord.xyz /= shadowCoord.w;
+			#ifdef USE_REVERSED_DEPTH_BUFFER
+				shadowCoord.z -= shadowBias;
+			#else
+				shadowCoord.z += shadowBias;
+			#endif
+			bool inFrustum = shadowCoord.x >= 0.0 && shadowCoord.x <= 1.0 && shadowCoord.y >= 0.0 && shadowCoord.y <= 1.0;
+			bool frustumTest = inFrustum && shadowCoord.z <= 1.0;
+			if ( frustumTest ) {
+				float depth = texture2D( shadowMap, shadowCoord.xy ).r;
+				#ifdef USE_REVERSED_DEPTH_BUFFER
+					shadow = step( depth, shadowCoord.z );
+				#else
+					shadow = step( shadowCoord.z, depth );
+				#endif
+			}
+			return mix( 1.0, shadow, shadowIntensity );
+		}
+	#endif
+	#if NUM_SUN_LIGHT_SHADOWS > 0
+		float getSunShadow(
+			#if defined( SHADOWMAP_TYPE_PCF )
+				sampler2DShadow shadowMap,
+			#else
+				sampler2D shadowMap,
+			#endif
+			SunLightShadow sunLightShadow,
+			int shadowIndex
+		) {
+			vec4 shadowWorldPosition = vec4( vSunShadowWorldPosition.xyz + vSunShadowWorldNormal * sunLightShadow.shadowNormalBias, 1.0 );
+			float viewDepth = vSunShadowWorldPosition.w;
+			int cascadeOffset = shadowIndex * SUN_LIGHT_CASCADES;
+			float shadow = 1.0;
+			for ( int i = SUN_LIGHT_CASCADES - 1; i >= 0; i -- ) {
+				vec4 cascade = sunShadowCascade[ cascadeOffset + i ];
+				if ( viewDepth >= cascade.x && viewDepth < cascade.y ) {
+					float cascadeShadow = getShadow(
+						shadowMap,
+						sunLightShadow.shadowMapSize,
+						sunLightShadow.shadowIntensity,
+						sunLightShadow.shadowBias,
+						sunLightShadow.shadowRadius,
+						sunShadowMatrix[ cascadeOffset + i ] * shadowWorldPosition
+					);
+					shadow = mix( cascadeShadow, shadow, smoothstep( cascade.z, cascade.y, viewDepth ) );
+				}
+			}
+			return shadow;
+		}
+	#endif
+	#if NUM_POINT_LIGHT_SHADOWS > 0
+	#if defined( SHADOWMAP_TYPE_PCF )
+	float getPointShadow( samplerCubeShadow shadowMap, vec2 shadowMapSize, float shadowIntensity, float shadowBias, float shadowRadius, vec4 shadowCoord, float shadowCameraNear, float shadowCameraFar ) {
+		float shadow = 1.0;
+		vec3 lightToPosition = shadowCoord.xyz;
+		vec3 bd3D = normalize( lightToPosition );
+		vec3 absVec = abs( lightToPosition );
+		float viewSpaceZ = max( max( absVec.x, absVec.y ), absVec.z );
+		if ( viewSpaceZ - shadowCameraFar <= 0.0 && viewSpaceZ - shadowCameraNear >= 0.0 ) {
+			float lightDistance = length( lightToPosition );
+			float depthRange = shadowCameraFar - shadowCameraNear;
+			#ifdef USE_REVERSED_DEPTH_BUFFER
+				float depthA = - shadowCameraNear / depthRange - shadowBias;
+				float depthB = shadowCameraNear * shadowCameraFar / ( depthRange * lightDistance );
+			#else
+				float depthA = shadowCameraFar / depthRange + shadowBias;
+				float depthB = - shadowCameraNear * shadowCameraFar / ( depthRange * lightDistance );
+			#endif
+			float texelSize = shadowRadius / shadowMapSize.x;
+			vec3 absDir = abs( bd3D );
+			vec3 tangent = absDir.x > absDir.z ? vec3( 0.0, 1.0, 0.0 ) : vec3( 1.0, 0.0, 0.0 );
+			tangent = normalize( cross( bd3D, tangent ) );
+			vec3 bitangent = cross( bd3D, tangent );
+			float phi = interleavedGradientNoise( gl_FragCoord.xy ) * PI2;
+			shadow = 0.0;
+			for ( int i = 0; i < 5; i ++ ) {
+				vec2 offset = vogelDiskSample( i, 5, phi );
+				vec3 direction = bd3D + ( tangent * offset.x + bitangent * offset.y ) * texelSize;
+				vec3 absDirection = abs( direction );
+				float dp = depthA + depthB / max( max( absDirection.x, absDirection.y ), absDirection.z );
+				shadow += texture( shadowMap, vec4( direction, dp ) );
+			}
+			shadow *= 0.2;
+		}
+		return mix( 1.0, shadow, shadowIntensity );
+	}
+	#elif defined( SHADOWMAP_TYPE_BASIC )
+	float getPointShadow( samplerCube shadowMap, vec2 shadowMapSize, float shadowIntensity, float shadowBias, float shadowRadius, vec4 shadowCoord, float shadowCameraNear, float shadowCameraFar ) {
+		float shadow = 1.0;
+		vec3 lightToPosition = shadowCoord.xyz;
+		vec3 absVec = abs( lightToPosition );
+		float viewSpaceZ = max( max( absVec.x, absVec.y ), absVec.z );
+		if ( viewSpaceZ - shadowCameraFar <= 0.0 && viewSpaceZ - shadowCameraNear >= 0.0 ) {
+			float dp = ( shadowCameraFar * ( viewSpaceZ - shadowCameraNear ) ) / ( viewSpaceZ * ( shadowCameraFar - shadowCameraNear ) );
+			dp += shadowBias;
+			vec3 bd3D = normalize( lightToPosition );
+			float depth = textureCube( shadowMap, bd3D ).r;
+			#ifdef USE_REVERSED_DEPTH_BUFFER
+				depth = 1.0 - depth;
+			#endif
+			shadow = step( dp, depth );
+		}
+		return mix( 1.0, shadow, shadowIntensity );
+	}
+	#endif
+	#endif
+#endif`,Ry=`#if NUM_SPOT_LIGHT_COORDS > 0
+	uniform mat4 spotLightMatrix[ NUM_SPOT_LIGHT_COORDS ];
+	varying vec4 vSpotLightCoord[ NUM_SPOT_LIGHT_COORDS ];
+#endif
+#ifdef USE_SHADOWMAP
+	#if NUM_SUN_LIGHT_SHADOWS > 0
+		varying vec4 vSunShadowWorldPosition;
+		varying vec3 vSunShadowWorldNormal;
+	#endif
+	#if NUM_DIR_LIGHT_SHADOWS > 0
+		uniform mat4 directionalShadowMatrix[ NUM_DIR_LIGHT_SHADOWS ];
+		varying vec4 vDirectionalShadowCoord[ NUM_DIR_LIGHT_SHADOWS ];
+		struct DirectionalLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+		};
+		uniform DirectionalLightShadow directionalLightShadows[ NUM_DIR_LIGHT_SHADOWS ];
+	#endif
+	#if NUM_SPOT_LIGHT_SHADOWS > 0
+		struct SpotLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+		};
+		uniform SpotLightShadow spotLightShadows[ NUM_SPOT_LIGHT_SHADOWS ];
+	#endif
+	#if NUM_POINT_LIGHT_SHADOWS > 0
+		uniform mat4 pointShadowMatrix[ NUM_POINT_LIGHT_SHADOWS ];
+		varying vec4 vPointShadowCoord[ NUM_POINT_LIGHT_SHADOWS ];
+		struct PointLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+			float shadowCameraNear;
+			float shadowCameraFar;
+		};
+		uniform PointLightShadow pointLightShadows[ NUM_POINT_LIGHT_SHADOWS ];
+	#endif
+#endif`,Py=`#if ( defined( USE_SHADOWMAP ) && ( NUM_DIR_LIGHT_SHADOWS > 0 || NUM_SUN_LIGHT_SHADOWS > 0 || NUM_POINT_LIGHT_SHADOWS > 0 ) ) || ( NUM_SPOT_LIGHT_COORDS > 0 )
+	#ifdef HAS_NORMAL
+		vec3 shadowWorldNormal = transformNormalByInverseViewMatrix( transformedNormal, viewMatrix );
+	#else
+		vec3 shadowWorldNormal = vec3( 0.0 );
+	#endif
+	vec4 shadowWorldPosition;
+#endif
+#if defined( USE_SHADOWMAP )
+	#if NUM_SUN_LIGHT_SHADOWS > 0
+		vSunShadowWorldPosition = vec4( worldPosition.xyz, - mvPosition.z );
+		vSunShadowWorldNormal = shadowWorldNormal;
+	#endif
+	#if NUM_DIR_LIGHT_SHADOWS > 0
+		#pragma unroll_loop_start
+		for ( int i = 0; i < NUM_DIR_LIGHT_SHADOWS; i ++ ) {
+			shadowWorldPosition = worldPosition + vec4( shadowWorldNormal * directionalLightShadows[ i ].shadowNormalBias, 0 );
+			vDirectionalShadowCoord[ i ] = directionalShadowMatrix[ i ] * shadowWorldPosition;
+		}
+		#pragma unroll_loop_end
+	#endif
+	#if NUM_POINT_LIGHT_SHADOWS > 0
+		#pragma unroll_loop_start
+		for ( int i = 0; i < NUM_POINT_LIGHT_SHADOWS; i ++ ) {
+			shadowWorldPosition = worldPosition + vec4( shadowWorldNormal * pointLightShadows[ i ].shadowNormalBias, 0 );
+			vPointShadowCoord[ i ] = pointShadowMatrix[ i ] * shadowWorldPosition;
+		}
+		#pragma unroll_loop_end
+	#endif
+#endif
+#if NUM_SPOT_LIGHT_COORDS > 0
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_SPOT_LIGHT_COORDS; i ++ ) {
+		shadowWorldPosition = worldPosition;
+		#if ( defined( USE_SHADOWMAP ) && UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS )
+			shadowWorldPosition.xyz += shadowWorldNormal * spotLightShadows[ i ].shadowNormalBias;
+		#endif
+		vSpotLightCoord[ i ] = spotLightMatrix[ i ] * shadowWorldPosition;
+	}
+	#pragma unroll_loop_end
+#endif`,Iy=`float getShadowMask() {
+	float shadow = 1.0;
+	#ifdef USE_SHADOWMAP
+	#if NUM_SUN_LIGHT_SHADOWS > 0
+	SunLightShadow sunLight;
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_SUN_LIGHT_SHADOWS; i ++ ) {
+		sunLight = sunLightShadows[ i ];
+		shadow *= receiveShadow ? getSunShadow( sunShadowMap[ i ], sunLight, UNROLLED_LOOP_INDEX ) : 1.0;
+	}
+	#pragma unroll_loop_end
+	#endif
+	#if NUM_DIR_LIGHT_SHADOWS > 0
+	DirectionalLightShadow directionalLight;
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_DIR_LIGHT_SHADOWS; i ++ ) {
+		directionalLight = directionalLightShadows[ i ];
+		shadow *= receiveShadow ? getShadow( directionalShadowMap[ i ], directionalLight.shadowMapSize, directionalLight.shadowIntensity, directionalLight.shadowBias, directionalLight.shadowRadius, vDirectionalShadowCoord[ i ] ) : 1.0;
+	}
+	#pragma unroll_loop_end
+	#endif
+	#if NUM_SPOT_LIGHT_SHADOWS > 0
+	SpotLightShadow spotLight;
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_SPOT_LIGHT_SHADOWS; i ++ ) {
+		spotLight = spotLightShadows[ i ];
+		shadow *= receiveShadow ? getShadow( spotShadowMap[ i ], spotLight.shadowMapSize, spotLight.shadowIntensity, spotLight.shadowBias, spotLight.shadowRadius, vSpotLightCoord[ i ] ) : 1.0;
+	}
+	#pragma unroll_loop_end
+	#endif
+	#if NUM_POINT_LIGHT_SHADOWS > 0 && ( defined( SHADOWMAP_TYPE_PCF ) || defined( SHADOWMAP_TYPE_BASIC ) )
+	PointLightShadow pointLight;
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_POINT_LIGHT_SHADOWS; i ++ ) {
+		pointLight = pointLightShadows[ i ];
+		shadow *= receiveShadow ? getPointShadow( pointShadowMap[ i ], pointLight.shadowMapSize, pointLight.shadowIntensity, pointLight.shadowBias, pointLight.shadowRadius, vPointShadowCoord[ i ], pointLight.shadowCameraNear, pointLight.shadowCameraFar ) : 1.0;
+	}
+	#pragma unroll_loop_end
+	#endif
+	#endif
+	return shadow;
+}`,Ly=`#ifdef USE_SKINNING
+	mat4 boneMatX = getBoneMatrix( skinIndex.x );
+	mat4 boneMatY = getBoneMatrix( skinIndex.y );
+	mat4 boneMatZ = getBoneMatrix( skinIndex.z );
+	mat4 boneMatW = getBoneMatrix( skinIndex.w );
+#endif`,ky=`#ifdef USE_SKINNING
+	uniform mat4 bindMatrix;
+	uniform mat4 bindMatrixInverse;
+	uniform highp sampler2D boneTexture;
+	mat4 getBoneMatrix( const in float i ) {
+		int size = textureSize( boneTexture, 0 ).x;
+		int j = int( i ) * 4;
+		int x = j % size;
+		int y = j / size;
+		vec4 v1 = texelFetch( boneTexture, ivec2( x, y ), 0 );
+		vec4 v2 = texelFetch( boneTexture, ivec2( x + 1, y ), 0 );
+		vec4 v3 = texelFetch( boneTexture, ivec2( x + 2, y ), 0 );
+		vec4 v4 = texelFetch( boneTexture, ivec2( x + 3, y ), 0 );
+		return mat4( v1, v2, v3, v4 );
+	}
+#endif`,Ny=`#ifdef USE_SKINNING
+	vec4 skinVertex = bindMatrix * vec4( transformed, 1.0 );
+	vec4 skinned = vec4( 0.0 );
+	skinned += boneMatX * skinVertex * skinWeight.x;
+	skinned += boneMatY * skinVertex * skinWeight.y;
+	skinned += boneMatZ * skinVertex * skinWeight.z;
+	skinned += boneMatW * skinVertex * skinWeight.w;
+	transformed = ( bindMatrixInverse * skinned ).xyz;
+#endif`,Dy=`#ifdef USE_SKINNING
+	mat4 skinMatrix = mat4( 0.0 );
+	skinMatrix += skinWeight.x * boneMatX;
+	skinMatrix += skinWeight.y * boneMatY;
+	skinMatrix += skinWeight.z * boneMatZ;
+	skinMatrix += skinWeight.w * boneMatW;
+	skinMatrix = bindMatrixInverse * skinMatrix * bindMatrix;
+	objectNormal = vec4( skinMatrix * vec4( objectNormal, 0.0 ) ).xyz;
+	#ifdef USE_TANGENT
+		objectTangent = vec4( skinMatrix * vec4( objectTangent, 0.0 ) ).xyz;
+	#endif
+#endif`,Fy=`float specularStrength;
+#ifdef USE_SPECULARMAP
+	vec4 texelSpecular = texture2D( specularMap, vSpecularMapUv );
+	specularStrength = texelSpecular.r;
+#else
+	specularStrength = 1.0;
+#endif`,Uy=`#ifdef USE_SPECULARMAP
+	uniform sampler2D specularMap;
+#endif`,Oy=`#if defined( TONE_MAPPING )
+	gl_FragColor.rgb = toneMapping( gl_FragColor.rgb );
+#endif`,By=`#ifndef saturate
+#define saturate( a ) clamp( a, 0.0, 1.0 )
+#endif
+uniform float toneMappingExposure;
+vec3 LinearToneMapping( vec3 color ) {
+	return saturate( toneMappingExposure * color );
+}
+vec3 ReinhardToneMapping( vec3 color ) {
+	color *= toneMappingExposure;
+	return saturate( color / ( vec3( 1.0 ) + color ) );
+}
+vec3 CineonToneMapping( vec3 color ) {
+	color *= toneMappingExposure;
+	color = max( vec3( 0.0 ), color - 0.004 );
+	return pow( ( color * ( 6.2 * color + 0.5 ) ) / ( color * ( 6.2 * color + 1.7 ) + 0.06 ), vec3( 2.2 ) );
+}
+vec3 RRTAndODTFit( vec3 v ) {
+	vec3 a = v * ( v + 0.0245786 ) - 0.000090537;
+	vec3 b = v * ( 0.983729 * v + 0.4329510 ) + 0.238081;
+	return a / b;
+}
+vec3 ACESFilmicToneMapping( vec3 color ) {
+	const mat3 ACESInputMat = mat3(
+		vec3( 0.59719, 0.07600, 0.02840 ),		vec3( 0.35458, 0.90834, 0.13383 ),
+		vec3( 0.04823, 0.01566, 0.83777 )
+	);
+	const mat3 ACESOutputMat = mat3(
+		vec3(  1.60475, -0.10208, -0.00327 ),		vec3( -0.53108,  1.10813, -0.07276 ),
+		vec3( -0.07367, -0.00605,  1.07602 )
+	);
+	color *= toneMappingExposure / 0.6;
+	color = ACESInputMat * color;
+	color = RRTAndODTFit( color );
+	color = ACESOutputMat * color;
+	return saturate( color );
+}
+const mat3 LINEAR_REC2020_TO_LINEAR_SRGB = mat3(
+	vec3( 1.6605, - 0.1246, - 0.0182 ),
+	vec3( - 0.5876, 1.1329, - 0.1006 ),
+	vec3( - 0.0728, - 0.0083, 1.1187 )
+);
+const mat3 LINEAR_SRGB_TO_LINEAR_REC2020 = mat3(
+	vec3( 0.6274, 0.0691, 0.0164 ),
+	vec3( 0.3293, 0.9195, 0.0880 ),
+	vec3( 0.0433, 0.0113, 0.8956 )
+);
+vec3 agxDefaultContrastApprox( vec3 x ) {
+	vec3 x2 = x * x;
+	vec3 x4 = x2 * x2;
+	return + 15.5 * x4 * x2
+		- 40.14 * x4 * x
+		+ 31.96 * x4
+		- 6.868 * x2 * x
+		+ 0.4298 * x2
+		+ 0.1191 * x
+		- 0.00232;
+}
+vec3 AgXToneMapping( vec3 color ) {
+	const mat3 AgXInsetMatrix = mat3(
+		vec3( 0.856627153315983, 0.137318972929847, 0.11189821299995 ),
+		vec3( 0.0951212405381588, 0.761241990602591, 0.0767994186031903 ),
+		vec3( 0.0482516061458583, 0.101439036467562, 0.811302368396859 )
+	);
+	const mat3 AgXOutsetMatrix = mat3(
+		vec3( 1.1271005818144368, - 0.1413297634984383, - 0.14132976349843826 ),
+		vec3( - 0.11060664309660323, 1.157823702216272, - 0.11060664309660294 ),
+		vec3( - 0.016493938717834573, - 0.016493938717834257, 1.2519364065950405 )
+	);
+	const float AgxMinEv = - 12.47393;	const float AgxMaxEv = 4.026069;
+	color *= toneMappingExposure;
+	color = LINEAR_SRGB_TO_LINEAR_REC2020 * color;
+	color = AgXInsetMatrix * color;
+	color = max( color, 1e-10 );	color = log2( color );
+	color = ( color - AgxMinEv ) / ( AgxMaxEv - AgxMinEv );
+	color = clamp( color, 0.0, 1.0 );
+	color = agxDefaultContrastApprox( color );
+	color = AgXOutsetMatrix * color;
+	color = pow( max( vec3( 0.0 ), color ), vec3( 2.2 ) );
+	color = LINEAR_REC2020_TO_LINEAR_SRGB * color;
+	color = clamp( color, 0.0, 1.0 );
+	return color;
+}
+vec3 NeutralToneMapping( vec3 color ) {
+	const float StartCompression = 0.8 - 0.04;
+	const float Desaturation = 0.15;
+	color *= toneMappingExposure;
+	float x = min( color.r, min( color.g, color.b ) );
+	float offset = x < 0.08 ? x - 6.25 * x * x : 0.04;
+	color -= offset;
+	float peak = max( color.r, max( color.g, color.b ) );
+	if ( peak < StartCompression ) return color;
+	float d = 1. - StartCompression;
+	float newPeak = 1. - d * d / ( peak + d - StartCompression );
+	color *= newPeak / peak;
+	float g = 1. - 1. / ( Desaturation * ( peak - newPeak ) + 1. );
+	return mix( color, vec3( newPeak ), g );
+}
+vec3 CustomToneMapping( vec3 color ) { return color; }`,zy=`#ifdef USE_TRANSMISSION
+	material.transmission = transmission;
+	material.transmissionAlpha = 1.0;
+	material.thickness = thickness;
+	material.attenuationDistance = attenuationDistance;
+	material.attenuationColor = attenuationColor;
+	#ifdef USE_TRANSMISSIONMAP
+		material.transmission *= texture2D( transmissionMap, vTransmissionMapUv ).r;
+	#endif
+	#ifdef USE_THICKNESSMAP
+		material.thickness *= texture2D( thicknessMap, vThicknessMapUv ).g;
+	#endif
+	vec3 pos = vWorldPosition;
+	vec3 v = normalize( cameraPosition - pos );
+	vec3 n = transformNormalByInverseViewMatrix( normal, viewMatrix );
+	vec4 transmitted = getIBLVolumeRefraction(
+		n, v, material.roughness, material.diffuseContribution, material.specularColorBlended, material.specularF90,
+		pos, modelMatrix, viewMatrix, projectionMatrix, material.dispersion, material.ior, material.thickness,
+		material.attenuationColor, material.attenuationDistance );
+	material.transmissionAlpha = mix( material.transmissionAlpha, transmitted.a, material.transmission );
+	totalDiffuse = mix( totalDiffuse, transmitted.rgb, material.transmission );
+#endif`,Vy=`#ifdef USE_TRANSMISSION
+	uniform float transmission;
+	uniform float thickness;
+	uniform float attenuationDistance;
+	uniform vec3 attenuationColor;
+	#ifdef USE_TRANSMISSIONMAP
+		uniform sampler2D transmissionMap;
+	#endif
+	#ifdef USE_THICKNESSMAP
+		uniform sampler2D thicknessMap;
+	#endif
+	uniform vec2 transmissionSamplerSize;
+	uniform sampler2D transmissionSamplerMap;
+	uniform mat4 modelMatrix;
+	uniform mat4 projectionMatrix;
+	varying vec3 vWorldPosition;
+	float w0( float a ) {
+		return ( 1.0 / 6.0 ) * ( a * ( a * ( - a + 3.0 ) - 3.0 ) + 1.0 );
+	}
+	float w1( float a ) {
+		return ( 1.0 / 6.0 ) * ( a *  a * ( 3.0 * a - 6.0 ) + 4.0 );
+	}
+	float w2( float a ){
+		return ( 1.0 / 6.0 ) * ( a * ( a * ( - 3.0 * a + 3.0 ) + 3.0 ) + 1.0 );
+	}
+	float w3( float a ) {
+		return ( 1.0 / 6.0 ) * ( a * a * a );
+	}
+	float g0( float a ) {
+		return w0( a ) + w1( a );
+	}
+	float g1( float a ) {
+		return w2( a ) + w3( a );
+	}
+	float h0( float a ) {
+		return - 1.0 + w1( a ) / ( w0( a ) + w1( a ) );
+	}
+	float h1( float a ) {
+		return 1.0 + w3( a ) / ( w2( a ) + w3( a ) );
+	}
+	vec4 bicubic( sampler2D tex, vec2 uv, vec4 texelSize, float lod ) {
+		uv = uv * texelSize.zw + 0.5;
+		vec2 iuv = floor( uv );
+		vec2 fuv = fract( uv );
+		float g0x = g0( fuv.x );
+		float g1x = g1( fuv.x );
+		float h0x = h0( fuv.x );
+		float h1x = h1( fuv.x );
+		float h0y = h0( fuv.y );
+		float h1y = h1( fuv.y );
+		vec2 p0 = ( vec2( iuv.x + h0x, iuv.y + h0y ) - 0.5 ) * texelSize.xy;
+		vec2 p1 = ( vec2( iuv.x + h1x, iuv.y + h0y ) - 0.5 ) * texelSize.xy;
+		vec2 p2 = ( vec2( iuv.x + h0x, iuv.y + h1y ) - 0.5 ) * texelSize.xy;
+		vec2 p3 = ( vec2( iuv.x + h1x, iuv.y + h1y ) - 0.5 ) * texelSize.xy;
+		return g0( fuv.y ) * ( g0x * textureLod( tex, p0, lod ) + g1x * textureLod( tex, p1, lod ) ) +
+			g1( fuv.y ) * ( g0x * textureLod( tex, p2, lod ) + g1x * textureLod( tex, p3, lod ) );
+	}
+	vec4 textureBicubic( sampler2D sampler, vec2 uv, float lod ) {
+		vec2 fLodSize = vec2( textureSize( sampler, int( lod ) ) );
+		vec2 cLodSize = vec2( textureSize( sampler, int( lod + 1.0 ) ) );
+		vec2 fLodSizeInv = 1.0 / fLodSize;
+		vec2 cLodSizeInv = 1.0 / cLodSize;
+		vec4 fSample = bicubic( sampler, uv, vec4( fLodSizeInv, fLodSize ), floor( lod ) );
+		vec4 cSample = bicubic( sampler, uv, vec4( cLodSizeInv, cLodSize ), ceil( lod ) );
+		return mix( fSample, cSample, fract( lod ) );
+	}
+	vec3 getVolumeTransmissionRay( const in vec3 n, const in vec3 v, const in float thickness, const in float ior, const in mat4 modelMatrix ) {
+		vec3 refractionVector = refract( - v, normalize( n ), 1.0 / ior );
+		vec3 modelScale;
+		modelScale.x = length( vec3( modelMatrix[ 0 ].xyz ) );
+		modelScale.y = length( vec3( modelMatrix[ 1 ].xyz ) );
+		modelScale.z = length( vec3( modelMatrix[ 2 ].xyz ) );
+		return normalize( refractionVector ) * thickness * modelScale;
+	}
+	float applyIorToRoughness( const in float roughness, const in float ior ) {
+		return roughness * clamp( ior * 2.0 - 2.0, 0.0, 1.0 );
+	}
+	vec4 getTransmissionSample( const in vec2 fragCoord, const in float roughness, const in float ior ) {
+		float lod = log2( transmissionSamplerSize.x ) * applyIorToRoughness( roughness, ior );
+		return textureBicubic( transmissionSamplerMap, fragCoord.xy, lod );
+	}
+	vec3 volumeAttenuation( const in float transmissionDistance, const in vec3 attenuationColor, const in float attenuationDistance ) {
+		if ( isinf( attenuationDistance ) ) {
+			return vec3( 1.0 );
+		} else {
+			vec3 attenuationCoefficient = -log( attenuationColor ) / attenuationDistance;
+			vec3 transmittance = exp( - attenuationCoefficient * transmissionDistance );			return transmittance;
+		}
+	}
+	vec4 getIBLVolumeRefraction( const in vec3 n, const in vec3 v, const in float roughness, const in vec3 diffuseColor,
+		const in vec3 specularColor, const in float specularF90, const in vec3 position, const in mat4 modelMatrix,
+		const in mat4 viewMatrix, const in mat4 projMatrix, const in float dispersion, const in float ior, const in float thickness,
+		const in vec3 attenuationColor, const in float attenuationDistance ) {
+		vec4 transmittedLight;
+		vec3 transmittance;
+		#ifdef USE_DISPERSION
+			float halfSpread = ( ior - 1.0 ) * 0.025 * dispersion;
+			vec3 iors = vec3( ior - halfSpread, ior, ior + halfSpread );
+			for ( int i = 0; i < 3; i ++ ) {
+				vec3 transmissionRay = getVolumeTransmissionRay( n, v, thickness, iors[ i ], modelMatrix );
+				vec3 refractedRayExit = position + transmissionRay;
+				vec4 ndcPos = projMatrix * viewMatrix * vec4( refractedRayExit, 1.0 );
+				vec2 refractionCoords = ndcPos.xy / ndcPos.w;
+				refractionCoords += 1.0;
+				refractionCoords /= 2.0;
+				vec4 transmissionSample = getTransmissionSample( refractionCoords, roughness, iors[ i ] );
+				transmittedLight[ i ] = transmissionSample[ i ];
+				transmittedLight.a += transmissionSample.a;
+				transmittance[ i ] = diffuseColor[ i ] * volumeAttenuation( length( transmissionRay ), attenuationColor, attenuationDistance )[ i ];
+			}
+			transmittedLight.a /= 3.0;
+		#else
+			vec3 transmissionRay = getVolumeTransmissionRay( n, v, thickness, ior, modelMatrix );
+			vec3 refractedRayExit = position + transmissionRay;
+			vec4 ndcPos = projMatrix * viewMatrix * vec4( refractedRayExit, 1.0 );
+			vec2 refractionCoords = ndcPos.xy / ndcPos.w;
+			refractionCoords += 1.0;
+			refractionCoords /= 2.0;
+			transmittedLight = getTransmissionSample( refractionCoords, roughness, ior );
+			transmittance = diffuseColor * volumeAttenuation( length( transmissionRay ), attenuationColor, attenuationDistance );
+		#endif
+		vec3 attenuatedColor = transmittance * transmittedLight.rgb;
+		vec3 F = EnvironmentBRDF( n, v, specularColor, specularF90, roughness );
+		float transmittanceFactor = ( transmittance.r + transmittance.g + transmittance.b ) / 3.0;
+		return vec4( ( 1.0 - F ) * attenuatedColor, 1.0 - ( 1.0 - transmittedLight.a ) * transmittanceFactor );
+	}
+#endif`,Hy=`#if defined( USE_UV ) || defined( USE_ANISOTROPY )
+	varying vec2 vUv;
+#endif
+#ifdef USE_MAP
+	varying vec2 vMapUv;
+#endif
+#ifdef USE_ALPHAMAP
+	varying vec2 vAlphaMapUv;
+#endif
+#ifdef USE_LIGHTMAP
+	varying vec2 vLightMapUv;
+#endif
+#ifdef USE_AOMAP
+	varying vec2 vAoMapUv;
+#endif
+#ifdef USE_BUMPMAP
+	varying vec2 vBumpMapUv;
+#endif
+#ifdef USE_NORMALMAP
+	varying vec2 vNormalMapUv;
+#endif
+#ifdef USE_EMISSIVEMAP
+	varying vec2 vEmissiveMapUv;
+#endif
+#ifdef USE_METALNESSMAP
+	varying vec2 vMetalnessMapUv;
+#endif
+#ifdef USE_ROUGHNESSMAP
+	varying vec2 vRoughnessMapUv;
+#endif
+#ifdef USE_DIFFUSE_ROUGHNESSMAP
+	varying vec2 vDiffuseRoughnessMapUv;
+#endif
+#ifdef USE_ANISOTROPYMAP
+	varying vec2 vAnisotropyMapUv;
+#endif
+#ifdef USE_CLEARCOATMAP
+	varying vec2 vClearcoatMapUv;
+#endif
+#ifdef USE_CLEARCOAT_NORMALMAP
+	varying vec2 vClearcoatNormalMapUv;
+#endif
+#ifdef USE_CLEARCOAT_ROUGHNESSMAP
+	varying vec2 vClearcoatRoughnessMapUv;
+#endif
+#ifdef USE_IRIDESCENCEMAP
+	varying vec2 vIridescenceMapUv;
+#endif
+#ifdef USE_IRIDESCENCE_THICKNESSMAP
+	varying vec2 vIridescenceThicknessMapUv;
+#endif
+#ifdef USE_SHEEN_COLORMAP
+	varying vec2 vSheenColorMapUv;
+#endif
+#ifdef USE_SHEEN_ROUGHNESSMAP
+	varying vec2 vSheenRoughnessMapUv;
+#endif
+#ifdef USE_SPECULARMAP
+	varying vec2 vSpecularMapUv;
+#endif
+#ifdef USE_SPECULAR_COLORMAP
+	varying vec2 vSpecularColorMapUv;
+#endif
+#ifdef USE_SPECULAR_INTENSITYMAP
+	varying vec2 vSpecularIntensityMapUv;
+#endif
+#ifdef USE_TRANSMISSIONMAP
+	uniform mat3 transmissionMapTransform;
+	varying vec2 vTransmissionMapUv;
+#endif
+#ifdef USE_THICKNESSMAP
+	uniform mat3 thicknessMapTransform;
+	varying vec2 vThicknessMapUv;
+#endif`,Gy=`#if defined( USE_UV ) || defined( USE_ANISOTROPY )
+	varying vec2 vUv;
+#endif
+#ifdef USE_MAP
+	uniform mat3 mapTransform;
+	varying vec2 vMapUv;
+#endif
+#ifdef USE_ALPHAMAP
+	uniform mat3 alphaMapTransform;
+	varying vec2 vAlphaMapUv;
+#endif
+#ifdef USE_LIGHTMAP
+	uniform mat3 lightMapTransform;
+	varying vec2 vLightMapUv;
+#endif
+#ifdef USE_AOMAP
+	uniform mat3 aoMapTransform;
+	varying vec2 vAoMapUv;
+#endif
+#ifdef USE_BUMPMAP
+	uniform mat3 bumpMapTransform;
+	varying vec2 vBumpMapUv;
+#endif
+#ifdef USE_NORMALMAP
+	uniform mat3 normalMapTransform;
+	varying vec2 vNormalMapUv;
+#endif
+#ifdef USE_DISPLACEMENTMAP
+	uniform mat3 displacementMapTransform;
+	varying vec2 vDisplacementMapUv;
+#endif
+#ifdef USE_EMISSIVEMAP
+	uniform mat3 emissiveMapTransform;
+	varying vec2 vEmissiveMapUv;
+#endif
+#ifdef USE_METALNESSMAP
+	uniform mat3 metalnessMapTransform;
+	varying vec2 vMetalnessMapUv;
+#endif
+#ifdef USE_ROUGHNESSMAP
+	uniform mat3 roughnessMapTransform;
+	varying vec2 vRoughnessMapUv;
+#endif
+#ifdef USE_DIFFUSE_ROUGHNESSMAP
+	uniform mat3 diffuseRoughnessMapTransform;
+	varying vec2 vDiffuseRoughnessMapUv;
+#endif
+#ifdef USE_ANISOTROPYMAP
+	uniform mat3 anisotropyMapTransform;
+	varying vec2 vAnisotropyMapUv;
+#endif
+#ifdef USE_CLEARCOATMAP
+	uniform mat3 clearcoatMapTransform;
+	varying vec2 vClearcoatMapUv;
+#endif
+#ifdef USE_CLEARCOAT_NORMALMAP
+	uniform mat3 clearcoatNormalMapTransform;
+	varying vec2 vClearcoatNormalMapUv;
+#endif
+#ifdef USE_CLEARCOAT_ROUGHNESSMAP
+	uniform mat3 clearcoatRoughnessMapTransform;
+	varying vec2 vClearcoatRoughnessMapUv;
+#endif
+#ifdef USE_SHEEN_COLORMAP
+	uniform mat3 sheenColorMapTransform;
+	varying vec2 vSheenColorMapUv;
+#endif
+#ifdef USE_SHEEN_ROUGHNESSMAP
+	uniform mat3 sheenRoughnessMapTransform;
+	varying vec2 vSheenRoughnessMapUv;
+#endif
+#ifdef USE_IRIDESCENCEMAP
+	uniform mat3 iridescenceMapTransform;
+	varying vec2 vIridescenceMapUv;
+#endif
+#ifdef USE_IRIDESCENCE_THICKNESSMAP
+	uniform mat3 iridescenceThicknessMapTransform;
+	varying vec2 vIridescenceThicknessMapUv;
+#endif
+#ifdef USE_SPECULARMAP
+	uniform mat3 specularMapTransform;
+	varying vec2 vSpecularMapUv;
+#endif
+#ifdef USE_SPECULAR_COLORMAP
+	uniform mat3 specularColorMapTransform;
+	varying vec2 vSpecularColorMapUv;
+#endif
+#ifdef USE_SPECULAR_INTENSITYMAP
+	uniform mat3 specularIntensityMapTransform;
+	varying vec2 vSpecularIntensityMapUv;
+#endif
+#ifdef USE_TRANSMISSIONMAP
+	uniform mat3 transmissionMapTransform;
+	varying vec2 vTransmissionMapUv;
+#endif
+#ifdef USE_THICKNESSMAP
+	uniform mat3 thicknessMapTransform;
+	varying vec2 vThicknessMapUv;
+#endif`,Wy=`#if defined( USE_UV ) || defined( USE_ANISOTROPY )
+	vUv = vec3( uv, 1 ).xy;
+#endif
+#ifdef USE_MAP
+	vMapUv = ( mapTransform * vec3( MAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_ALPHAMAP
+	vAlphaMapUv = ( alphaMapTransform * vec3( ALPHAMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_LIGHTMAP
+	vLightMapUv = ( lightMapTransform * vec3( LIGHTMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_AOMAP
+	vAoMapUv = ( aoMapTransform * vec3( AOMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_BUMPMAP
+	vBumpMapUv = ( bumpMapTransform * vec3( BUMPMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_NORMALMAP
+	vNormalMapUv = ( normalMapTransform * vec3( NORMALMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_DISPLACEMENTMAP
+	vDisplacementMapUv = ( displacementMapTransform * vec3( DISPLACEMENTMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_EMISSIVEMAP
+	vEmissiveMapUv = ( emissiveMapTransform * vec3( EMISSIVEMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_METALNESSMAP
+	vMetalnessMapUv = ( metalnessMapTransform * vec3( METALNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_ROUGHNESSMAP
+	vRoughnessMapUv = ( roughnessMapTransform * vec3( ROUGHNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_DIFFUSE_ROUGHNESSMAP
+	vDiffuseRoughnessMapUv = ( diffuseRoughnessMapTransform * vec3( DIFFUSE_ROUGHNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_ANISOTROPYMAP
+	vAnisotropyMapUv = ( anisotropyMapTransform * vec3( ANISOTROPYMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_CLEARCOATMAP
+	vClearcoatMapUv = ( clearcoatMapTransform * vec3( CLEARCOATMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_CLEARCOAT_NORMALMAP
+	vClearcoatNormalMapUv = ( clearcoatNormalMapTransform * vec3( CLEARCOAT_NORMALMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_CLEARCOAT_ROUGHNESSMAP
+	vClearcoatRoughnessMapUv = ( clearcoatRoughnessMapTransform * vec3( CLEARCOAT_ROUGHNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_IRIDESCENCEMAP
+	vIridescenceMapUv = ( iridescenceMapTransform * vec3( IRIDESCENCEMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_IRIDESCENCE_THICKNESSMAP
+	vIridescenceThicknessMapUv = ( iridescenceThicknessMapTransform * vec3( IRIDESCENCE_THICKNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_SHEEN_COLORMAP
+	vSheenColorMapUv = ( sheenColorMapTransform * vec3( SHEEN_COLORMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_SHEEN_ROUGHNESSMAP
+	vSheenRoughnessMapUv = ( sheenRoughnessMapTransform * vec3( SHEEN_ROUGHNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_SPECULARMAP
+	vSpecularMapUv = ( specularMapTransform * vec3( SPECULARMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_SPECULAR_COLORMAP
+	vSpecularColorMapUv = ( specularColorMapTransform * vec3( SPECULAR_COLORMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_SPECULAR_INTENSITYMAP
+	vSpecularIntensityMapUv = ( specularIntensityMapTransform * vec3( SPECULAR_INTENSITYMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_TRANSMISSIONMAP
+	vTransmissionMapUv = ( transmissionMapTransform * vec3( TRANSMISSIONMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_THICKNESSMAP
+	vThicknessMapUv = ( thicknessMapTransform * vec3( THICKNESSMAP_UV, 1 ) ).xy;
+#endif`,Xy=`#if defined( USE_ENVMAP ) || defined( DISTANCE ) || defined ( USE_SHADOWMAP ) || defined ( USE_TRANSMISSION ) || NUM_SPOT_LIGHT_COORDS > 0
+	vec4 worldPosition = vec4( transformed, 1.0 );
+	#ifdef USE_BATCHING
+		worldPosition = batchingMatrix * worldPosition;
+	#endif
+	#ifdef USE_INSTANCING
+		worldPosition = instanceMatrix * worldPosition;
+	#endif
+	worldPosition = modelMatrix * worldPosition;
+#endif`,$y=`varying vec2 vUv;
+uniform mat3 uvTransform;
+void main() {
+	vUv = ( uvTransform * vec3( uv, 1 ) ).xy;
+	gl_Position = vec4( position.xy, 1.0, 1.0 );
+}`,qy=`uniform sampler2D t2D;
+uniform float backgroundIntensity;
+varying vec2 vUv;
+void main() {
+	vec4 texColor = texture2D( t2D, vUv );
+	#ifdef DECODE_VIDEO_TEXTURE
+		texColor = vec4( mix( pow( texColor.rgb * 0.9478672986 + vec3( 0.0521327014 ), vec3( 2.4 ) ), texColor.rgb * 0.0773993808, vec3( lessThanEqual( texColor.rgb, vec3( 0.04045 ) ) ) ), texColor.w );
+	#endif
+	texColor.rgb *= backgroundIntensity;
+	gl_FragColor = texColor;
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+}`,Yy=`varying vec3 vWorldDirection;
+#include <common>
+void main() {
+	vWorldDirection = transformDirection( position, modelMatrix );
+	#include <begin_vertex>
+	#include <project_vertex>
+	gl_Position.z = gl_Position.w;
+}`,Zy=`uniform float backgroundBlurriness;
+uniform float backgroundIntensity;
+uniform mat3 backgroundRotation;
+varying vec3 vWorldDirection;
+#include <envmap_common_pars_fragment>
+void main() {
+	#ifdef ENVMAP_TYPE_PMREM
+		vec4 texColor = textureLod( envMap, backgroundRotation * vWorldDirection, roughnessToMip( backgroundBlurriness ) );
+	#else
+		vec4 texColor = textureCube( envMap, backgroundRotation * vWorldDirection );
+	#endif
+	texColor.rgb *= backgroundIntensity;
+	gl_FragColor = texColor;
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+}`,Jy=`varying vec3 vWorldDirection;
+#include <common>
+void main() {
+	vWorldDirection = transformDirection( position, modelMatrix );
+	#include <begin_vertex>
+	#include <project_vertex>
+	gl_Position.z = gl_Position.w;
+}`,Ky=`uniform samplerCube tCube;
+uniform float tFlip;
+uniform float opacity;
+varying vec3 vWorldDirection;
+void main() {
+	vec4 texColor = textureCube( tCube, vec3( tFlip * vWorldDirection.x, vWorldDirection.yz ) );
+	gl_FragColor = texColor;
+	gl_FragColor.a *= opacity;
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+}`,jy=`#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+varying vec2 vHighPrecisionZW;
+void main() {
+	#include <uv_vertex>
+	#include <batching_vertex>
+	#include <skinbase_vertex>
+	#include <morphinstance_vertex>
+	#ifdef USE_DISPLACEMENTMAP
+		#include <beginnormal_vertex>
+		#include <morphnormal_vertex>
+		#include <skinnormal_vertex>
+	#endif
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	vHighPrecisionZW = gl_Position.zw;
+}`,Qy=`#if DEPTH_PACKING == 3200
+	uniform float opacity;
+#endif
+#include <common>
+#include <packing>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+varying vec2 vHighPrecisionZW;
+void main() {
+	vec4 diffuseColor = vec4( 1.0 );
+	#include <clipping_planes_fragment>
+	#if DEPTH_PACKING == 3200
+		diffuseColor.a = opacity;
+	#endif
+	#include <map_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <logdepthbuf_fragment>
+	#ifdef USE_REVERSED_DEPTH_BUFFER
+		float fragCoordZ = vHighPrecisionZW[ 0 ] / vHighPrecisionZW[ 1 ];
+	#else
+		float fragCoordZ = 0.5 * vHighPrecisionZW[ 0 ] / vHighPrecisionZW[ 1 ] + 0.5;
+	#endif
+	#if DEPTH_PACKING == 3200
+		gl_FragColor = vec4( vec3( 1.0 - fragCoordZ ), opacity );
+	#elif DEPTH_PACKING == 3201
+		gl_FragColor = packDepthToRGBA( fragCoordZ );
+	#elif DEPTH_PACKING == 3202
+		gl_FragColor = vec4( packDepthToRGB( fragCoordZ ), 1.0 );
+	#elif DEPTH_PACKING == 3203
+		gl_FragColor = vec4( packDepthToRG( fragCoordZ ), 0.0, 1.0 );
+	#endif
+}`,tb=`#define DISTANCE
+varying vec3 vWorldPosition;
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <batching_vertex>
+	#include <skinbase_vertex>
+	#include <morphinstance_vertex>
+	#ifdef USE_DISPLACEMENTMAP
+		#include <beginnormal_vertex>
+		#include <morphnormal_vertex>
+		#include <skinnormal_vertex>
+	#endif
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <worldpos_vertex>
+	#include <clipping_planes_vertex>
+	vWorldPosition = worldPosition.xyz;
+}`,eb=`#define DISTANCE
+uniform vec3 referencePosition;
+uniform float nearDistance;
+uniform float farDistance;
+varying vec3 vWorldPosition;
+#include <common>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( 1.0 );
+	#include <clipping_planes_fragment>
+	#include <map_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	float dist = length( vWorldPosition - referencePosition );
+	dist = ( dist - nearDistance ) / ( farDistance - nearDistance );
+	dist = saturate( dist );
+	gl_FragColor = vec4( dist, 0.0, 0.0, 1.0 );
+}`,nb=`varying vec3 vWorldDirection;
+#include <common>
+void main() {
+	vWorldDirection = transformDirection( position, modelMatrix );
+	#include <begin_vertex>
+	#include <project_vertex>
+}`,ib=`uniform sampler2D tEquirect;
+varying vec3 vWorldDirection;
+#include <common>
+void main() {
+	vec3 direction = normalize( vWorldDirection );
+	vec2 sampleUV = equirectUv( direction );
+	gl_FragColor = texture2D( tEquirect, sampleUV );
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+}`,sb=`uniform float scale;
+attribute float lineDistance;
+varying float vLineDistance;
+#include <common>
+#include <uv_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	vLineDistance = scale * lineDistance;
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	#include <fog_vertex>
+}`,rb=`uniform vec3 diffuse;
+uniform float opacity;
+uniform float dashSize;
+uniform float totalSize;
+varying float vLineDistance;
+#include <common>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <fog_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	if ( mod( vLineDistance, totalSize ) > dashSize ) {
+		discard;
+	}
+	vec3 outgoingLight = vec3( 0.0 );
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	outgoingLight = diffuseColor.rgb;
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+}`,ob=`#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <envmap_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#if defined ( USE_ENVMAP ) || defined ( USE_SKINNING )
+		#include <beginnormal_vertex>
+		#include <morphnormal_vertex>
+		#include <skinbase_vertex>
+		#include <skinnormal_vertex>
+		#include <defaultnormal_vertex>
+	#endif
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	#include <worldpos_vertex>
+	#include <envmap_vertex>
+	#include <fog_vertex>
+}`,ab=`uniform vec3 diffuse;
+uniform float opacity;
+#ifndef FLAT_SHADED
+	varying vec3 vNormal;
+#endif
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <aomap_pars_fragment>
+#include <lightmap_pars_fragment>
+#include <envmap_common_pars_fragment>
+#include <envmap_pars_fragment>
+#include <fog_pars_fragment>
+#include <specularmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <specularmap_fragment>
+	ReflectedLight reflectedLight = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+	#ifdef USE_LIGHTMAP
+		vec4 lightMapTexel = texture2D( lightMap, vLightMapUv );
+		reflectedLight.indirectDiffuse += lightMapTexel.rgb * lightMapIntensity * RECIPROCAL_PI;
+	#else
+		reflectedLight.indirectDiffuse += vec3( 1.0 );
+	#endif
+	#include <aomap_fragment>
+	reflectedLight.indirectDiffuse *= diffuseColor.rgb;
+	vec3 outgoingLight = reflectedLight.indirectDiffuse;
+	#include <envmap_fragment>
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,lb=`#define LAMBERT
+varying vec3 vViewPosition;
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <envmap_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <shadowmap_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	vViewPosition = - mvPosition.xyz;
+	#include <worldpos_vertex>
+	#include <envmap_vertex>
+	#include <shadowmap_vertex>
+	#include <fog_vertex>
+}`,cb=`#define LAMBERT
+uniform vec3 diffuse;
+uniform vec3 emissive;
+uniform float opacity;
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <aomap_pars_fragment>
+#include <lightmap_pars_fragment>
+#include <emissivemap_pars_fragment>
+#include <envmap_common_pars_fragment>
+#include <envmap_pars_fragment>
+#include <envmap_physical_pars_fragment>
+#include <fog_pars_fragment>
+#include <bsdfs>
+#include <lights_pars_begin>
+#include <normal_pars_fragment>
+#include <lights_lambert_pars_fragment>
+#include <shadowmap_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <specularmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	ReflectedLight reflectedLight = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+	vec3 totalEmissiveRadiance = emissive;
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <specularmap_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	#include <emissivemap_fragment>
+	#include <lights_lambert_fragment>
+	#include <lights_fragment_begin>
+	#include <lights_fragment_maps>
+	#include <lights_fragment_end>
+	#include <aomap_fragment>
+	vec3 outgoingLight = reflectedLight.directDiffuse + reflectedLight.indirectDiffuse + totalEmissiveRadiance;
+	#include <envmap_fragment>
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,hb=`#define MATCAP
+varying vec3 vViewPosition;
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <color_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <fog_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	#include <fog_vertex>
+	vViewPosition = - mvPosition.xyz;
+}`,ub=`#define MATCAP
+uniform vec3 diffuse;
+uniform float opacity;
+uniform sampler2D matcap;
+varying vec3 vViewPosition;
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <fog_pars_fragment>
+#include <normal_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	vec3 viewDir = normalize( vViewPosition );
+	vec3 x = normalize( vec3( viewDir.z, 0.0, - viewDir.x ) );
+	vec3 y = cross( viewDir, x );
+	vec2 uv = vec2( dot( x, normal ), dot( y, normal ) ) * 0.495 + 0.5;
+	#ifdef USE_MATCAP
+		vec4 matcapColor = texture2D( matcap, uv );
+	#else
+		vec4 matcapColor = vec4( vec3( mix( 0.2, 0.8, uv.y ) ), 1.0 );
+	#endif
+	vec3 outgoingLight = diffuseColor.rgb * matcapColor.rgb;
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,db=`#define NORMAL
+#if defined( FLAT_SHADED ) || defined( USE_BUMPMAP ) || defined( USE_NORMALMAP_TANGENTSPACE )
+	varying vec3 vViewPosition;
+#endif
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphinstance_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+#if defined( FLAT_SHADED ) || defined( USE_BUMPMAP ) || defined( USE_NORMALMAP_TANGENTSPACE )
+	vViewPosition = - mvPosition.xyz;
+#endif
+}`,fb=`#define NORMAL
+uniform float opacity;
+#if defined( FLAT_SHADED ) || defined( USE_BUMPMAP ) || defined( USE_NORMALMAP_TANGENTSPACE )
+	varying vec3 vViewPosition;
+#endif
+#include <uv_pars_fragment>
+#include <normal_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( 0.0, 0.0, 0.0, opacity );
+	#include <clipping_planes_fragment>
+	#include <logdepthbuf_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	gl_FragColor = vec4( normalize( normal ) * 0.5 + 0.5, diffuseColor.a );
+	#ifdef OPAQUE
+		gl_FragColor.a = 1.0;
+	#endif
+}`,pb=`#define PHONG
+varying vec3 vViewPosition;
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <envmap_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <shadowmap_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphinstance_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	vViewPosition = - mvPosition.xyz;
+	#include <worldpos_vertex>
+	#include <envmap_vertex>
+	#include <shadowmap_vertex>
+	#include <fog_vertex>
+}`,mb=`#define PHONG
+uniform vec3 diffuse;
+uniform vec3 emissive;
+uniform vec3 specular;
+uniform float shininess;
+uniform float opacity;
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <aomap_pars_fragment>
+#include <lightmap_pars_fragment>
+#include <emissivemap_pars_fragment>
+#include <envmap_common_pars_fragment>
+#include <envmap_pars_fragment>
+#include <envmap_physical_pars_fragment>
+#include <fog_pars_fragment>
+#include <bsdfs>
+#include <lights_pars_begin>
+#include <normal_pars_fragment>
+#include <lights_phong_pars_fragment>
+#include <shadowmap_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <specularmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	ReflectedLight reflectedLight = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+	vec3 totalEmissiveRadiance = emissive;
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <specularmap_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	#include <emissivemap_fragment>
+	#include <lights_phong_fragment>
+	#include <lights_fragment_begin>
+	#include <lights_fragment_maps>
+	#include <lights_fragment_end>
+	#include <aomap_fragment>
+	vec3 outgoingLight = reflectedLight.directDiffuse + reflectedLight.indirectDiffuse + reflectedLight.directSpecular + reflectedLight.indirectSpecular + totalEmissiveRadiance;
+	#include <envmap_fragment>
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,gb=`#define STANDARD
+varying vec3 vViewPosition;
+#ifdef USE_TRANSMISSION
+	varying vec3 vWorldPosition;
+#endif
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <shadowmap_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	vViewPosition = - mvPosition.xyz;
+	#include <worldpos_vertex>
+	#include <shadowmap_vertex>
+	#include <fog_vertex>
+#ifdef USE_TRANSMISSION
+	vWorldPosition = worldPosition.xyz;
+#endif
+}`,xb=`#define STANDARD
+#ifdef PHYSICAL
+	#define IOR
+	#define USE_SPECULAR
+#endif
+uniform vec3 diffuse;
+uniform vec3 emissive;
+uniform float roughness;
+uniform float metalness;
+uniform float opacity;
+#ifdef IOR
+	uniform float ior;
+#endif
+#ifdef USE_SPECULAR
+	uniform float specularIntensity;
+	uniform vec3 specularColor;
+	#ifdef USE_SPECULAR_COLORMAP
+		uniform sampler2D specularColorMap;
+	#endif
+	#ifdef USE_SPECULAR_INTENSITYMAP
+		uniform sampler2D specularIntensityMap;
+	#endif
+#endif
+#ifdef USE_CLEARCOAT
+	uniform float clearcoat;
+	uniform float clearcoatRoughness;
+#endif
+#ifdef USE_DIFFUSE_ROUGHNESS
+	uniform float diffuseRoughness;
+	#ifdef USE_DIFFUSE_ROUGHNESSMAP
+		uniform sampler2D diffuseRoughnessMap;
+	#endif
+#endif
+#ifdef USE_DISPERSION
+	uniform float dispersion;
+#endif
+#ifdef USE_RETROREFLECTION
+	uniform float retroreflectivity;
+#endif
+#ifdef USE_IRIDESCENCE
+	uniform float iridescence;
+	uniform float iridescenceIOR;
+	uniform float iridescenceThicknessMinimum;
+	uniform float iridescenceThicknessMaximum;
+#endif
+#ifdef USE_SHEEN
+	uniform vec3 sheenColor;
+	uniform float sheenRoughness;
+	#ifdef USE_SHEEN_COLORMAP
+		uniform sampler2D sheenColorMap;
+	#endif
+	#ifdef USE_SHEEN_ROUGHNESSMAP
+		uniform sampler2D sheenRoughnessMap;
+	#endif
+#endif
+#ifdef USE_ANISOTROPY
+	uniform vec2 anisotropyVector;
+	#ifdef USE_ANISOTROPYMAP
+		uniform sampler2D anisotropyMap;
+	#endif
+#endif
+varying vec3 vViewPosition;
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <aomap_pars_fragment>
+#include <lightmap_pars_fragment>
+#include <emissivemap_pars_fragment>
+#include <iridescence_fragment>
+#include <envmap_common_pars_fragment>
+#include <envmap_physical_pars_fragment>
+#include <fog_pars_fragment>
+#include <lights_pars_begin>
+#include <normal_pars_fragment>
+#include <lights_physical_pars_fragment>
+#include <transmission_pars_fragment>
+#include <shadowmap_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <clearcoat_pars_fragment>
+#include <iridescence_pars_fragment>
+#include <roughnessmap_pars_fragment>
+#include <metalnessmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	ReflectedLight reflectedLight = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+	vec3 totalEmissiveRadiance = emissive;
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <roughnessmap_fragment>
+	#include <metalnessmap_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	#include <clearcoat_normal_fragment_begin>
+	#include <clearcoat_normal_fragment_maps>
+	#include <emissivemap_fragment>
+	#include <lights_physical_fragment>
+	#include <lights_fragment_begin>
+	#include <lights_fragment_maps>
+	#include <lights_fragment_end>
+	#include <aomap_fragment>
+	vec3 totalDiffuse = reflectedLight.directDiffuse + reflectedLight.indirectDiffuse;
+	vec3 totalSpecular = reflectedLight.directSpecular + reflectedLight.indirectSpecular;
+	#include <transmission_fragment>
+	vec3 outgoingLight = totalDiffuse + totalSpecular + totalEmissiveRadiance;
+	#ifdef USE_SHEEN
+ 
+		outgoingLight = outgoingLight + sheenSpecularDirect + sheenSpecularIndirect;
+ 
+ 	#endif
+	#ifdef USE_CLEARCOAT
+		float dotNVcc = saturate( dot( geometryClearcoatNormal, geometryViewDir ) );
+		vec3 Fcc = F_Schlick( material.clearcoatF0, material.clearcoatF90, dotNVcc );
+		outgoingLight = outgoingLight * ( 1.0 - material.clearcoat * Fcc ) + ( clearcoatSpecularDirect + clearcoatSpecularIndirect ) * material.clearcoat;
+	#endif
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,vb=`#define TOON
+varying vec3 vViewPosition;
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <shadowmap_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	vViewPosition = - mvPosition.xyz;
+	#include <worldpos_vertex>
+	#include <shadowmap_vertex>
+	#include <fog_vertex>
+}`,yb=`#define TOON
+uniform vec3 diffuse;
+uniform vec3 emissive;
+uniform float opacity;
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <aomap_pars_fragment>
+#include <lightmap_pars_fragment>
+#include <emissivemap_pars_fragment>
+#include <gradientmap_pars_fragment>
+#include <fog_pars_fragment>
+#include <bsdfs>
+#include <lights_pars_begin>
+#include <normal_pars_fragment>
+#include <lights_toon_pars_fragment>
+#include <shadowmap_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	ReflectedLight reflectedLight = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+	vec3 totalEmissiveRadiance = emissive;
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	#include <emissivemap_fragment>
+	#include <lights_toon_fragment>
+	#include <lights_fragment_begin>
+	#include <lights_fragment_maps>
+	#include <lights_fragment_end>
+	#include <aomap_fragment>
+	vec3 outgoingLight = reflectedLight.directDiffuse + reflectedLight.indirectDiffuse + totalEmissiveRadiance;
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,bb=`uniform float size;
+uniform float scale;
+#include <common>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+#ifdef USE_POINTS_UV
+	varying vec2 vUv;
+	uniform mat3 uvTransform;
+#endif
+void main() {
+	#ifdef USE_POINTS_UV
+		vUv = ( uvTransform * vec3( uv, 1 ) ).xy;
+	#endif
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <project_vertex>
+	gl_PointSize = size;
+	#ifdef USE_SIZEATTENUATION
+		bool isPerspective = isPerspectiveMatrix( projectionMatrix );
+		if ( isPerspective ) gl_PointSize *= ( scale / - mvPosition.z );
+	#endif
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	#include <worldpos_vertex>
+	#include <fog_vertex>
+}`,_b=`uniform vec3 diffuse;
+uniform float opacity;
+#include <common>
+#include <color_pars_fragment>
+#include <map_particle_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <fog_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	vec3 outgoingLight = vec3( 0.0 );
+	#include <logdepthbuf_fragment>
+	#include <map_particle_fragment>
+	#include <color_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	outgoingLight = diffuseColor.rgb;
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+}`,wb=`#include <common>
+#include <batching_pars_vertex>
+#include <fog_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <shadowmap_pars_vertex>
+void main() {
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphinstance_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <worldpos_vertex>
+	#include <shadowmap_vertex>
+	#include <fog_vertex>
+}`,Sb=`uniform vec3 color;
+uniform float opacity;
+#include <common>
+#include <fog_pars_fragment>
+#include <bsdfs>
+#include <lights_pars_begin>
+#include <logdepthbuf_pars_fragment>
+#include <shadowmap_pars_fragment>
+#include <shadowmask_pars_fragment>
+void main() {
+	#include <logdepthbuf_fragment>
+	gl_FragColor = vec4( color, opacity * ( 1.0 - getShadowMask() ) );
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+}`,Mb=`uniform float rotation;
+uniform vec2 center;
+#include <common>
+#include <uv_pars_vertex>
+#include <fog_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	vec4 mvPosition = modelViewMatrix[ 3 ];
+	vec2 scale = vec2( length( modelMatrix[ 0 ].xyz ), length( modelMatrix[ 1 ].xyz ) );
+	#ifndef USE_SIZEATTENUATION
+		bool isPerspective = isPerspectiveMatrix( projectionMatrix );
+		if ( isPerspective ) scale *= - mvPosition.z;
+	#endif
+	vec2 alignedPosition = ( position.xy - ( center - vec2( 0.5 ) ) ) * scale;
+	vec2 rotatedPosition;
+	rotatedPosition.x = cos( rotation ) * alignedPosition.x - sin( rotation ) * alignedPosition.y;
+	rotatedPosition.y = sin( rotation ) * alignedPosition.x + cos( rotation ) * alignedPosition.y;
+	mvPosition.xy += rotatedPosition;
+	gl_Position = projectionMatrix * mvPosition;
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	#include <fog_vertex>
+}`,Tb=`uniform vec3 diffuse;
+uniform float opacity;
+#include <common>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <fog_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	vec3 outgoingLight = vec3( 0.0 );
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	outgoingLight = diffuseColor.rgb;
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+}`,Wt={alphahash_fragment:qx,alphahash_pars_fragment:Yx,alphamap_fragment:Zx,alphamap_pars_fragment:Jx,alphatest_fragment:Kx,alphatest_pars_fragment:jx,aomap_fragment:Qx,aomap_pars_fragment:tv,batching_pars_vertex:ev,batching_vertex:nv,begin_vertex:iv,beginnormal_vertex:sv,bsdfs:rv,iridescence_fragment:ov,bumpmap_pars_fragment:av,clipping_planes_fragment:lv,clipping_planes_pars_fragment:cv,clipping_planes_pars_vertex:hv,clipping_planes_vertex:uv,color_fragment:dv,color_pars_fragment:fv,color_pars_vertex:pv,color_vertex:mv,common:gv,defaultnormal_vertex:xv,displacementmap_pars_vertex:vv,displacementmap_vertex:yv,emissivemap_fragment:bv,emissivemap_pars_fragment:_v,colorspace_fragment:wv,colorspace_pars_fragment:Sv,envmap_fragment:Mv,envmap_common_pars_fragment:Tv,envmap_pars_fragment:Ev,envmap_pars_vertex:Av,envmap_physical_pars_fragment:Ov,envmap_vertex:Cv,fog_vertex:Rv,fog_pars_vertex:Pv,fog_fragment:Iv,fog_pars_fragment:Lv,gradientmap_pars_fragment:kv,lightmap_pars_fragment:Nv,lights_lambert_fragment:Dv,lights_lambert_pars_fragment:Fv,lights_pars_begin:Uv,lights_toon_fragment:Bv,lights_toon_pars_fragment:zv,lights_phong_fragment:Vv,lights_phong_pars_fragment:Hv,lights_physical_fragment:Gv,lights_physical_pars_fragment:Wv,lights_fragment_begin:Xv,lights_fragment_maps:$v,lights_fragment_end:qv,lightprobes_pars_fragment:Yv,logdepthbuf_fragment:Zv,logdepthbuf_pars_fragment:Jv,logdepthbuf_pars_vertex:Kv,logdepthbuf_vertex:jv,map_fragment:Qv,map_pars_fragment:ty,map_particle_fragment:ey,map_particle_pars_fragment:ny,metalnessmap_fragment:iy,metalnessmap_pars_fragment:sy,morphinstance_vertex:ry,morphcolor_vertex:oy,morphnormal_vertex:ay,morphtarget_pars_vertex:ly,morphtarget_vertex:cy,normal_fragment_begin:hy,normal_fragment_maps:uy,normal_pars_fragment:dy,normal_pars_vertex:fy,normal_vertex:py,normalmap_pars_fragment:my,clearcoat_normal_fragment_begin:gy,clearcoat_normal_fragment_maps:xy,clearcoat_pars_fragment:vy,iridescence_pars_fragment:yy,opaque_fragment:by,packing:_y,premultiplied_alpha_fragment:wy,project_vertex:Sy,dithering_fragment:My,dithering_pars_fragment:Ty,roughnessmap_fragment:Ey,roughnessmap_pars_fragment:Ay,shadowmap_pars_fragment:Cy,shadowmap_pars_vertex:Ry,shadowmap_vertex:Py,shadowmask_pars_fragment:Iy,skinbase_vertex:Ly,skinning_pars_vertex:ky,skinning_vertex:Ny,skinnormal_vertex:Dy,specularmap_fragment:Fy,specularmap_pars_fragment:Uy,tonemapping_fragment:Oy,tonemapping_pars_fragment:By,transmission_fragment:zy,transmission_pars_fragment:Vy,uv_pars_fragment:Hy,uv_pars_vertex:Gy,uv_vertex:Wy,worldpos_vertex:Xy,background_vert:$y,background_frag:qy,backgroundCube_vert:Yy,backgroundCube_frag:Zy,cube_vert:Jy,cube_frag:Ky,depth_vert:jy,depth_frag:Qy,distance_vert:tb,distance_frag:eb,equirect_vert:nb,equirect_frag:ib,linedashed_vert:sb,linedashed_frag:rb,meshbasic_vert:ob,meshbasic_frag:ab,meshlambert_vert:lb,meshlambert_frag:cb,meshmatcap_vert:hb,meshmatcap_frag:ub,meshnormal_vert:db,meshnormal_frag:fb,meshphong_vert:pb,meshphong_frag:mb,meshphysical_vert:gb,meshphysical_frag:xb,meshtoon_vert:vb,meshtoon_frag:yb,points_vert:bb,points_frag:_b,shadow_vert:wb,shadow_frag:Sb,sprite_vert:Mb,sprite_frag:Tb},xt={common:{diffuse:{value:new Ut(16777215)},opacity:{value:1},map:{value:null},mapTransform:{value:new Ft},alphaMap:{value:null},alphaMapTransform:{value:new Ft},alphaTest:{value:0}},specularmap:{specularMap:{value:null},specularMapTransform:{value:new Ft}},envmap:{envMap:{value:null},envMapRotation:{value:new Ft},reflectivity:{value:1},ior:{value:1.5},refractionRatio:{value:.98},dfgLUT:{value:null}},aomap:{aoMap:{value:null},aoMapIntensity:{value:1},aoMapTransform:{value:new Ft}},lightmap:{lightMap:{value:null},lightMapIntensity:{value:1},lightMapTransform:{value:new Ft}},bumpmap:{bumpMap:{value:null},bumpMapTransform:{value:new Ft},bumpScale:{value:1}},normalmap:{normalMap:{value:null},normalMapTransform:{value:new Ft},normalScale:{value:new At(1,1)}},displacementmap:{displacementMap:{value:null},displacementMapTransform:{value:new Ft},displacementScale:{value:1},displacementBias:{value:0}},emissivemap:{emissiveMap:{value:null},emissiveMapTransform:{value:new Ft}},metalnessmap:{metalnessMap:{value:null},metalnessMapTransform:{value:new Ft}},roughnessmap:{roughnessMap:{value:null},roughnessMapTransform:{value:new Ft}},gradientmap:{gradientMap:{value:null}},fog:{fogDensity:{value:25e-5},fogNear:{value:1},fogFar:{value:2e3},fogColor:{value:new Ut(16777215)}},lights:{ambientLightColor:{value:[]},lightProbe:{value:[]},sunLights:{value:[],properties:{direction:{},color:{}}},sunLightShadows:{value:[],properties:{shadowIntensity:1,shadowBias:{},shadowNormalBias:{},shadowRadius:{},shadowMapSize:{}}},sunShadowMatrix:{value:[]},sunShadowCascade:{value:[]},directionalLights:{value:[],properties:{direction:{},color:{}}},directionalLightShadows:{value:[],properties:{shadowIntensity:1,shadowBias:{},shadowNormalBias:{},shadowRadius:{},shadowMapSize:{}}},directionalShadowMatrix:{value:[]},spotLights:{value:[],properties:{color:{},position:{},direction:{},distance:{},coneCos:{},penumbraCos:{},decay:{}}},spotLightShadows:{value:[],properties:{shadowIntensity:1,shadowBias:{},shadowNormalBias:{},shadowRadius:{},shadowMapSize:{}}},spotLightMap:{value:[]},spotLightMatrix:{value:[]},pointLights:{value:[],properties:{color:{},position:{},decay:{},distance:{}}},pointLightShadows:{value:[],properties:{shadowIntensity:1,shadowBias:{},shadowNormalBias:{},shadowRadius:{},shadowMapSize:{},shadowCameraNear:{},shadowCameraFar:{}}},pointShadowMatrix:{value:[]},hemisphereLights:{value:[],properties:{direction:{},skyColor:{},groundColor:{}}},rectAreaLights:{value:[],properties:{color:{},position:{},width:{},height:{}}},ltc_1:{value:null},ltc_2:{value:null},probesSH:{value:[]},probesMin:{value:[]},probesMax:{value:[]},probesResolution:{value:[]}},points:{diffuse:{value:new Ut(16777215)},opacity:{value:1},size:{value:1},scale:{value:1},map:{value:null},alphaMap:{value:null},alphaMapTransform:{value:new Ft},alphaTest:{value:0},uvTransform:{value:new Ft}},sprite:{diffuse:{value:new Ut(16777215)},opacity:{value:1},center:{value:new At(.5,.5)},rotation:{value:0},map:{value:null},mapTransform:{value:new Ft},alphaMap:{value:null},alphaMapTransform:{value:new Ft},alphaTest:{value:0}}},fi={basic:{uniforms:cn([xt.common,xt.specularmap,xt.envmap,xt.aomap,xt.lightmap,xt.fog]),vertexShader:Wt.meshbasic_vert,fragmentShader:Wt.meshbasic_frag},lambert:{uniforms:cn([xt.common,xt.specularmap,xt.envmap,xt.aomap,xt.lightmap,xt.emissivemap,xt.bumpmap,xt.normalmap,xt.displacementmap,xt.fog,xt.lights,{emissive:{value:new Ut(0)},envMapIntensity:{value:1}}]),vertexShader:Wt.meshlambert_vert,fragmentShader:Wt.meshlambert_frag},phong:{uniforms:cn([xt.common,xt.specularmap,xt.envmap,xt.aomap,xt.lightmap,xt.emissivemap,xt.bumpmap,xt.normalmap,xt.displacementmap,xt.fog,xt.lights,{emissive:{value:new Ut(0)},specular:{value:new Ut(1118481)},shininess:{value:30},envMapIntensity:{value:1}}]),vertexShader:Wt.meshphong_vert,fragmentShader:Wt.meshphong_frag},standard:{uniforms:cn([xt.common,xt.envmap,xt.aomap,xt.lightmap,xt.emissivemap,xt.bumpmap,xt.normalmap,xt.displacementmap,xt.roughnessmap,xt.metalnessmap,xt.fog,xt.lights,{emissive:{value:new Ut(0)},roughness:{value:1},metalness:{value:0},envMapIntensity:{value:1}}]),vertexShader:Wt.meshphysical_vert,fragmentShader:Wt.meshphysical_frag},toon:{uniforms:cn([xt.common,xt.aomap,xt.lightmap,xt.emissivemap,xt.bumpmap,xt.normalmap,xt.displacementmap,xt.gradientmap,xt.fog,xt.lights,{emissive:{value:new Ut(0)}}]),vertexShader:Wt.meshtoon_vert,fragmentShader:Wt.meshtoon_frag},matcap:{uniforms:cn([xt.common,xt.bumpmap,xt.normalmap,xt.displacementmap,xt.fog,{matcap:{value:null}}]),vertexShader:Wt.meshmatcap_vert,fragmentShader:Wt.meshmatcap_frag},points:{uniforms:cn([xt.points,xt.fog]),vertexShader:Wt.points_vert,fragmentShader:Wt.points_frag},dashed:{uniforms:cn([xt.common,xt.fog,{scale:{value:1},dashSize:{value:1},totalSize:{value:2}}]),vertexShader:Wt.linedashed_vert,fragmentShader:Wt.linedashed_frag},depth:{uniforms:cn([xt.common,xt.displacementmap]),vertexShader:Wt.depth_vert,fragmentShader:Wt.depth_frag},normal:{uniforms:cn([xt.common,xt.bumpmap,xt.normalmap,xt.displacementmap,{opacity:{value:1}}]),vertexShader:Wt.meshnormal_vert,fragmentShader:Wt.meshnormal_frag},sprite:{uniforms:cn([xt.sprite,xt.fog]),vertexShader:Wt.sprite_vert,fragmentShader:Wt.sprite_frag},background:{uniforms:{uvTransform:{value:new Ft},t2D:{value:null},backgroundIntensity:{value:1}},vertexShader:Wt.background_vert,fragmentShader:Wt.background_frag},backgroundCube:{uniforms:{envMap:{value:null},backgroundBlurriness:{value:0},backgroundIntensity:{value:1},backgroundRotation:{value:new Ft}},vertexShader:Wt.backgroundCube_vert,fragmentShader:Wt.backgroundCube_frag},cube:{uniforms:{tCube:{value:null},tFlip:{value:-1},opacity:{value:1}},vertexShader:Wt.cube_vert,fragmentShader:Wt.cube_frag},equirect:{uniforms:{tEquirect:{value:null}},vertexShader:Wt.equirect_vert,fragmentShader:Wt.equirect_frag},distance:{uniforms:cn([xt.common,xt.displacementmap,{referencePosition:{value:new N},nearDistance:{value:1},farDistance:{value:1e3}}]),vertexShader:Wt.distance_vert,fragmentShader:Wt.distance_frag},shadow:{uniforms:cn([xt.lights,xt.fog,{color:{value:new Ut(0)},opacity:{value:1}}]),vertexShader:Wt.shadow_vert,fragmentShader:Wt.shadow_frag}};fi.physical={uniforms:cn([fi.standard.uniforms,{clearcoat:{value:0},clearcoatMap:{value:null},clearcoatMapTransform:{value:new Ft},clearcoatNormalMap:{value:null},clearcoatNormalMapTransform:{value:new Ft},clearcoatNormalScale:{value:new At(1,1)},clearcoatRoughness:{value:0},clearcoatRoughnessMap:{value:null},clearcoatRoughnessMapTransform:{value:new Ft},diffuseRoughness:{value:0},diffuseRoughnessMap:{value:null},diffuseRoughnessMapTransform:{value:new Ft},dispersion:{value:0},retroreflectivity:{value:0},iridescence:{value:0},iridescenceMap:{value:null},iridescenceMapTransform:{value:new Ft},iridescenceIOR:{value:1.3},iridescenceThicknessMinimum:{value:100},iridescenceThicknessMaximum:{value:400},iridescenceThicknessMap:{value:null},iridescenceThicknessMapTransform:{value:new Ft},sheen:{value:0},sheenColor:{value:new Ut(0)},sheenColorMap:{value:null},sheenColorMapTransform:{value:new Ft},sheenRoughness:{value:1},sheenRoughnessMap:{value:null},sheenRoughnessMapTransform:{value:new Ft},transmission:{value:0},transmissionMap:{value:null},transmissionMapTransform:{value:new Ft},transmissionSamplerSize:{value:new At},transmissionSamplerMap:{value:null},thickness:{value:0},thicknessMap:{value:null},thicknessMapTransform:{value:new Ft},attenuationDistance:{value:0},attenuationColor:{value:new Ut(0)},specularColor:{value:new Ut(1,1,1)},specularColorMap:{value:null},specularColorMapTransform:{value:new Ft},specularIntensity:{value:1},specularIntensityMap:{value:null},specularIntensityMapTransform:{value:new Ft},anisotropyVector:{value:new At},anisotropyMap:{value:null},anisotropyMapTransform:{value:new Ft}}]),vertexShader:Wt.meshphysical_vert,fragmentShader:Wt.meshphysical_frag};var Al={r:0,b:0,g:0},Eb=new Mt,Up=new Ft;Up.set(-1,0,0,0,1,0,0,0,1);function Ab(i,t,e,n,s,r){let o=new Ut(0),a=s===!0?0:1,l,c,h=null,u=0,d=null;function f(y){let w=y.isScene===!0?y.background:null;if(w&&w.isTexture){let v=y.backgroundBlurriness>0;w=t.get(w,v)}return w}function p(y){let w=!1,v=f(y);v===null?m(o,a):v&&v.isColor&&(m(v,1),w=!0);let _=i.xr.getEnvironmentBlendMode();_==="additive"?e.buffers.color.setClear(0,0,0,1,r):_==="alpha-blend"&&e.buffers.color.setClear(0,0,0,0,r),(i.autoClear||w)&&(e.buffers.depth.setTest(!0),e.buffers.depth.setMask(!0),e.buffers.color.setMask(!0),i.clear(i.autoClearColor,i.autoClearDepth,i.autoClearStencil))}function b(y,w){let v=f(w);v&&v.isCubeTexture?(c===void 0&&(c=new Le(new Ys(1,1,1),new ln({name:"BackgroundCubeMaterial",uniforms:gs(fi.backgroundCube.uniforms),vertexShader:fi.backgroundCube.vertexShader,fragmentShader:fi.backgroundCube.fragmentShader,side:Ke,depthTest:!1,depthWrite:!1,fog:!1,allowOverride:!1})),c.geometry.deleteAttribute("normal"),c.geometry.deleteAttribute("uv"),c.onBeforeRender=function(_,E,x){this.matrixWorld.copyPosition(x.matrixWorld)},Object.defineProperty(c.material,"envMap",{get:function(){return this.uniforms.envMap.value}}),n.update(c)),c.material.uniforms.envMap.value=v,c.material.uniforms.backgroundBlurriness.value=w.backgroundBlurriness,c.material.uniforms.backgroundIntensity.value=w.backgroundIntensity,c.material.uniforms.backgroundRotation.value.setFromMatrix4(Eb.makeRotationFromEuler(w.backgroundRotation)).transpose(),v.isRenderTargetTexture===!1&&c.material.uniforms.backgroundRotation.value.premultiply(Up),c.material.toneMapped=Xt.getTransfer(v.colorSpace)!==se,(h!==v||u!==v.version||d!==i.toneMapping)&&(c.material.needsUpdate=!0,h=v,u=v.version,d=i.toneMapping),c.layers.enableAll(),y.unshift(c,c.geometry,c.material,0,0,null)):v&&v.isTexture&&(l===void 0&&(l=new Le(new Ei(2,2),new ln({name:"BackgroundMaterial",uniforms:gs(fi.background.uniforms),vertexShader:fi.background.vertexShader,fragmentShader:fi.background.fragmentShader,side:Kn,depthTest:!1,depthWrite:!1,fog:!1,allowOverride:!1})),l.geometry.deleteAttribute("normal"),Object.defineProperty(l.material,"map",{get:function(){return this.uniforms.t2D.value}}),n.update(l)),l.material.uniforms.t2D.value=v,l.material.uniforms.backgroundIntensity.value=w.backgroundIntensity,l.material.toneMapped=Xt.getTransfer(v.colorSpace)!==se,v.matrixAutoUpdate===!0&&v.updateMatrix(),l.material.uniforms.uvTransform.value.copy(v.matrix),(h!==v||u!==v.version||d!==i.toneMapping)&&(l.material.needsUpdate=!0,h=v,u=v.version,d=i.toneMapping),l.layers.enableAll(),y.unshift(l,l.geometry,l.material,0,0,null))}function m(y,w){y.getRGB(Al,lu(i)),e.buffers.color.setClear(Al.r,Al.g,Al.b,w,r)}function g(){c!==void 0&&(c.geometry.dispose(),c.material.dispose(),c=void 0),l!==void 0&&(l.geometry.dispose(),l.material.dispose(),l=void 0)}return{getClearColor:function(){return o},setClearColor:function(y,w=1){o.set(y),a=w,m(o,a)},getClearAlpha:function(){return a},setClearAlpha:function(y){a=y,m(o,a)},render:p,addToRenderList:b,dispose:g}}function Cb(i,t){let e=i.getParameter(i.MAX_VERTEX_ATTRIBS),n={},s=d(null),r=s,o=!1;function a(P,I,U,L,B){let G=!1,W=u(P,L,U,I);r!==W&&(r=W,c(r.object)),G=f(P,L,U,B),G&&p(P,L,U,B),B!==null&&t.update(B,i.ELEMENT_ARRAY_BUFFER),(G||o)&&(o=!1,v(P,I,U,L),B!==null&&i.bindBuffer(i.ELEMENT_ARRAY_BUFFER,t.get(B).buffer))}function l(){return i.createVertexArray()}function c(P){return i.bindVertexArray(P)}function h(P){return i.deleteVertexArray(P)}function u(P,I,U,L){let B=L.wireframe===!0,G=n[I.id];G===void 0&&(G={},n[I.id]=G);let W=P.isInstancedMesh===!0?P.id:0,nt=G[W];nt===void 0&&(nt={},G[W]=nt);let $=nt[U.id];$===void 0&&($={},nt[U.id]=$);let tt=$[B];return tt===void 0&&(tt=d(l()),$[B]=tt),tt}function d(P){let I=[],U=[],L=[];for(let B=0;B<e;B++)I[B]=0,U[B]=0,L[B]=0;return{geometry:null,program:null,wireframe:!1,newAttributes:I,enabledAttributes:U,attributeDivisors:L,object:P,attributes:{},index:null}}function f(P,I,U,L){let B=r.attributes,G=I.attributes,W=0,nt=U.getAttributes();for(let $ in nt)if(nt[$].location>=0){let et=B[$],bt=G[$];if(bt===void 0&&($==="instanceMatrix"&&P.instanceMatrix&&(bt=P.instanceMatrix),$==="instanceColor"&&P.instanceColor&&(bt=P.instanceColor)),et===void 0||et.attribute!==bt||bt&&et.data!==bt.data)return!0;W++}return r.attributesNum!==W||r.index!==L}function p(P,I,U,L){let B={},G=I.attributes,W=0,nt=U.getAttributes();for(let $ in nt)if(nt[$].location>=0){let et=G[$];et===void 0&&($==="instanceMatrix"&&P.instanceMatrix&&(et=P.instanceMatrix),$==="instanceColor"&&P.instanceColor&&(et=P.instanceColor));let bt={};bt.attribute=et,et&&et.data&&(bt.data=et.data),B[$]=bt,W++}r.attributes=B,r.attributesNum=W,r.index=L}function b(){let P=r.newAttributes;for(let I=0,U=P.length;I<U;I++)P[I]=0}function m(P){g(P,0)}function g(P,I){let U=r.newAttributes,L=r.enabledAttributes,B=r.attributeDivisors;U[P]=1,L[P]===0&&(i.enableVertexAttribArray(P),L[P]=1),B[P]!==I&&(i.vertexAttribDivisor(P,I),B[P]=I)}function y(){let P=r.newAttributes,I=r.enabledAttributes;for(let U=0,L=I.length;U<L;U++)I[U]!==P[U]&&(i.disableVertexAttribArray(U),I[U]=0)}function w(P,I,U,L,B,G,W){W===!0?i.vertexAttribIPointer(P,I,U,B,G):i.vertexAttribPointer(P,I,U,L,B,G)}function v(P,I,U,L){b();let B=L.attributes,G=U.getAttributes(),W=I.defaultAttributeValues;for(let nt in G){let $=G[nt];if($.location>=0){let tt=B[nt];if(tt===void 0&&(nt==="instanceMatrix"&&P.instanceMatrix&&(tt=P.instanceMatrix),nt==="instanceColor"&&P.instanceColor&&(tt=P.instanceColor)),tt!==void 0){let et=tt.normalized,bt=tt.itemSize,Dt=t.get(tt);if(Dt===void 0)continue;let K=Dt.buffer,ut=Dt.type,yt=Dt.bytesPerElement,Rt=ut===i.INT||ut===i.UNSIGNED_INT||tt.gpuType===$a;if(tt.isInterleavedBufferAttribute){let mt=tt.data,Ot=mt.isInterleavedBuffer===!0?mt.stride:mt.itemSize,Te=tt.offset;if(mt.isInstancedInterleavedBuffer||mt.isInstancedBufferAttribute){for(let Pt=0;Pt<$.locationSize;Pt++)g($.location+Pt,mt.meshPerAttribute);P.isInstancedMesh!==!0&&L._maxInstanceCount===void 0&&(L._maxInstanceCount=mt.meshPerAttribute*mt.count)}else for(let Pt=0;Pt<$.locationSize;Pt++)m($.location+Pt);i.bindBuffer(i.ARRAY_BUFFER,K);for(let Pt=0;Pt<$.locationSize;Pt++)w($.location+Pt,bt/$.locationSize,ut,et,Ot*yt,(Te+bt/$.locationSize*Pt)*yt,Rt)}else{if(tt.isInstancedBufferAttribute){for(let mt=0;mt<$.locationSize;mt++)g($.location+mt,tt.meshPerAttribute);P.isInstancedMesh!==!0&&L._maxInstanceCount===void 0&&(L._maxInstanceCount=tt.meshPerAttribute*tt.count)}else for(let mt=0;mt<$.locationSize;mt++)m($.location+mt);i.bindBuffer(i.ARRAY_BUFFER,K);for(let mt=0;mt<$.locationSize;mt++)w($.location+mt,bt/$.locationSize,ut,et,bt*yt,bt/$.locationSize*mt*yt,Rt)}}else if(W!==void 0){let et=W[nt];if(et!==void 0)switch(et.length){case 2:i.vertexAttrib2fv($.location,et);break;case 3:i.vertexAttrib3fv($.location,et);break;case 4:i.vertexAttrib4fv($.location,et);break;default:i.vertexAttrib1fv($.location,et)}}}}y()}function _(){k();for(let P in n){let I=n[P];for(let U in I){let L=I[U];for(let B in L){let G=L[B];for(let W in G)h(G[W].object),delete G[W];delete L[B]}}delete n[P]}}function E(P){if(n[P.id]===void 0)return;let I=n[P.id];for(let U in I){let L=I[U];for(let B in L){let G=L[B];for(let W in G)h(G[W].object),delete G[W];delete L[B]}}delete n[P.id]}function x(P){for(let I in n){let U=n[I];for(let L in U){let B=U[L];if(B[P.id]===void 0)continue;let G=B[P.id];for(let W in G)h(G[W].object),delete G[W];delete B[P.id]}}}function S(P){for(let I in n){let U=n[I],L=P.isInstancedMesh===!0?P.id:0,B=U[L];if(B!==void 0){for(let G in B){let W=B[G];for(let nt in W)h(W[nt].object),delete W[nt];delete B[G]}delete U[L],Object.keys(U).length===0&&delete n[I]}}}function k(){C(),o=!0,r!==s&&(r=s,c(r.object))}function C(){s.geometry=null,s.program=null,s.wireframe=!1}return{setup:a,reset:k,resetDefaultState:C,dispose:_,releaseStatesOfGeometry:E,releaseStatesOfObject:S,releaseStatesOfProgram:x,initAttributes:b,enableAttribute:m,disableUnusedAttributes:y}}function Rb(i,t,e){let n;function s(l){n=l}function r(l,c){i.drawArrays(n,l,c),e.update(c,n,1)}function o(l,c,h){h!==0&&(i.drawArraysInstanced(n,l,c,h),e.update(c,n,h))}function a(l,c,h){if(h===0)return;t.get("WEBGL_multi_draw").multiDrawArraysWEBGL(n,l,0,c,0,h);let d=0;for(let f=0;f<h;f++)d+=c[f];e.update(d,n,1)}this.setMode=s,this.render=r,this.renderInstances=o,this.renderMultiDraw=a}function Pb(i,t,e,n){let s;function r(){if(s!==void 0)return s;if(t.has("EXT_texture_filter_anisotropic")===!0){let x=t.get("EXT_texture_filter_anisotropic");s=i.getParameter(x.MAX_TEXTURE_MAX_ANISOTROPY_EXT)}else s=0;return s}function o(x){return!(x!==Je&&n.convert(x)!==i.getParameter(i.IMPLEMENTATION_COLOR_READ_FORMAT))}function a(x){let S=x===Ln&&(t.has("EXT_color_buffer_half_float")||t.has("EXT_color_buffer_float"));return!(x!==je&&x!==Rn&&!S&&n.convert(x)!==i.getParameter(i.IMPLEMENTATION_COLOR_READ_TYPE))}function l(x){if(x==="highp"){if(i.getShaderPrecisionFormat(i.VERTEX_SHADER,i.HIGH_FLOAT).precision>0&&i.getShaderPrecisionFormat(i.FRAGMENT_SHADER,i.HIGH_FLOAT).precision>0)return"highp";x="mediump"}return x==="mediump"&&i.getShaderPrecisionFormat(i.VERTEX_SHADER,i.MEDIUM_FLOAT).precision>0&&i.getShaderPrecisionFormat(i.FRAGMENT_SHADER,i.MEDIUM_FLOAT).precision>0?"mediump":"lowp"}let c=e.precision!==void 0?e.precision:"highp",h=l(c);h!==c&&(Lt("WebGLRenderer:",c,"not supported, using",h,"instead."),c=h);let u=e.reversedDepthBuffer===!0&&t.has("EXT_clip_control"),d=e.logarithmicDepthBuffer===!0&&u===!1;e.reversedDepthBuffer===!0&&u===!1&&Lt("WebGLRenderer: Unable to use reversed depth buffer due to missing EXT_clip_control extension. Fallback to default depth buffer."),e.logarithmicDepthBuffer===!0&&u===!0&&Lt("WebGLRenderer: Logarithmic depth buffer is ignored when reversed depth buffer is enabled.");let f=i.getParameter(i.MAX_TEXTURE_IMAGE_UNITS),p=i.getParameter(i.MAX_VERTEX_TEXTURE_IMAGE_UNITS),b=i.getParameter(i.MAX_TEXTURE_SIZE),m=i.getParameter(i.MAX_CUBE_MAP_TEXTURE_SIZE),g=i.getParameter(i.MAX_VERTEX_ATTRIBS),y=i.getParameter(i.MAX_VERTEX_UNIFORM_VECTORS),w=i.getParameter(i.MAX_VARYING_VECTORS),v=i.getParameter(i.MAX_FRAGMENT_UNIFORM_VECTORS),_=i.getParameter(i.MAX_SAMPLES),E=i.getParameter(i.SAMPLES);return{isWebGL2:!0,getMaxAnisotropy:r,getMaxPrecision:l,textureFormatReadable:o,textureTypeReadable:a,precision:c,logarithmicDepthBuffer:d,reversedDepthBuffer:u,maxTextures:f,maxVertexTextures:p,maxTextureSize:b,maxCubemapSize:m,maxAttributes:g,maxVertexUniforms:y,maxVaryings:w,maxFragmentUniforms:v,maxSamples:_,samples:E}}function Ib(i){let t=this,e=null,n=0,s=!1,r=!1,o=new fn,a=new Ft,l={value:null,needsUpdate:!1};this.uniform=l,this.numPlanes=0,this.numIntersection=0,this.init=function(u,d){let f=u.length!==0||d||n!==0||s;return s=d,n=u.length,f},this.beginShadows=function(){r=!0,h(null)},this.endShadows=function(){r=!1},this.setGlobalState=function(u,d){e=h(u,d,0)},this.setState=function(u,d,f){let p=u.clippingPlanes,b=u.clipIntersection,m=u.clipShadows,g=i.get(u);if(!s||p===null||p.length===0||r&&!m)r?h(null):c();else{let y=r?0:n,w=y*4,v=g.clippingState||null;l.value=v,v=h(p,d,w,f);for(let _=0;_!==w;++_)v[_]=e[_];g.clippingState=v,this.numIntersection=b?this.numPlanes:0,this.numPlanes+=y}};function c(){l.value!==e&&(l.value=e,l.needsUpdate=n>0),t.numPlanes=n,t.numIntersection=0}function h(u,d,f,p){let b=u!==null?u.length:0,m=null;if(b!==0){if(m=l.value,p!==!0||m===null){let g=f+b*4,y=d.matrixWorldInverse;a.getNormalMatrix(y),(m===null||m.length<g)&&(m=new Float32Array(g));for(let w=0,v=f;w!==b;++w,v+=4)o.copy(u[w]).applyMatrix4(y,a),o.normal.toArray(m,v),m[v+3]=o.constant}l.value=m,l.needsUpdate=!0}return t.numPlanes=b,t.numIntersection=0,m}}var ho=class extends Pe{constructor(t=1,e={}){super(t,t,e),this.isWebGLCubeRenderTarget=!0;let n={width:t,height:t,depth:1},s=[n,n,n,n,n,n];this.texture=new Wr(s),this._setTextureOptions(e),this.texture.isRenderTargetTexture=!0}fromEquirectangularTexture(t,e){this.texture.type=e.type,this.texture.colorSpace=e.colorSpace,this.texture.generateMipmaps=e.generateMipmaps,this.texture.minFilter=e.minFilter,this.texture.magFilter=e.magFilter;let n={uniforms:{tEquirect:{value:null}},vertexShader:`
+
+				varying vec3 vWorldDirection;
+
+				vec3 transformDirection( in vec3 dir, in mat4 matrix ) {
+
+					return normalize( ( matrix * vec4( dir, 0.0 ) ).xyz );
+
+				}
+
+				void main() {
+
+					vWorldDirection = transformDirection( position, modelMatrix );
+
+					#include <begin_vertex>
+					#include <project_vertex>
+
+				}
+			`,fragmentShader:`
+
+				uniform sampler2D tEquirect;
+
+				varying vec3 vWorldDirection;
+
+				#include <common>
+
+				void main() {
+
+					vec3 direction = normalize( vWorldDirection );
+
+					vec2 sampleUV = equirectUv( direction );
+
+					gl_FragColor = texture2D( tEquirect, sampleUV );
+
+				}
+			`},s=new Ys(5,5,5),r=new ln({name:"CubemapFromEquirect",uniforms:gs(n.uniforms),vertexShader:n.vertexShader,fragmentShader:n.fragmentShader,side:Ke,blending:jn});r.uniforms.tEquirect.value=e;let o=new Le(s,r),a=e.minFilter;return e.minFilter===Ai&&(e.minFilter=$e),new Js(1,10,this).update(t,o),e.minFilter=a,o.geometry.dispose(),o.material.dispose(),this}clear(t,e=!0,n=!0,s=!0){let r=t.getRenderTarget();for(let o=0;o<6;o++)t.setRenderTarget(this,o),t.clear(e,n,s);t.setRenderTarget(r)}},mp=256,Lb=3,kb=20,Op=256,Bp=16,Nb=3,Db=new N,Fb=new Ut,Rl=class i{constructor(t){this._renderer=t,this._cubeSize=0,this._sourceTarget=null,this._cubeCamera=new Js(1,10,null),this._boxMesh=new Le(new Ys(5,5,5),null),this._cubemapMaterial=null,this._equirectMaterial=null,this._blurMaterial=null,this._ggxMaterial=null,this._integrationMaterial=null}fromScene(t,e=0,n=.1,s=100,r={}){let{size:o=256,position:a=Db}=r,l=this._renderer;this._setSize(o);let c=this._allocateTarget(),h=this._getSourceTarget(!0);e>0&&(h.texture.mipmapsAutoUpdate=!1);let u=l.autoClear,d=l.autoClearColor,f=l.autoClearDepth,p=l.autoClearStencil,b=t.background;l.autoClear=!0,l.autoClearColor=!0,l.autoClearDepth=!0,l.autoClearStencil=!0,b===null&&(t.background=l.getClearColor(Fb));let m=new Js(n,s,h);return m.position.copy(a),m.update(l,t),l.autoClear=u,l.autoClearColor=d,l.autoClearDepth=f,l.autoClearStencil=p,t.background=b,e>0&&(h.texture.mipmapsAutoUpdate=!0,this._blur(c,e)),this._applyPMREM(c),c}fromEquirectangular(t,e=null){return this._fromTexture(t,e)}fromCubemap(t,e=null){return this._fromTexture(t,e)}compileCubemapShader(){this._cubemapMaterial===null&&(this._cubemapMaterial=vp(),this._compileMaterial(this._cubemapMaterial))}compileEquirectangularShader(){this._equirectMaterial===null&&(this._equirectMaterial=xp(),this._compileMaterial(this._equirectMaterial))}dispose(){this._sourceTarget!==null&&this._sourceTarget.dispose(),this._cubemapMaterial!==null&&this._cubemapMaterial.dispose(),this._equirectMaterial!==null&&this._equirectMaterial.dispose(),this._blurMaterial!==null&&this._blurMaterial.dispose(),this._ggxMaterial!==null&&this._ggxMaterial.dispose(),this._integrationMaterial!==null&&this._integrationMaterial.dispose(),this._boxMesh.geometry.dispose()}static lodToRoughness(t,e){return e>0?1-Math.sqrt(1-t/e):0}_setSize(t){this._cubeSize=Math.max(mp,hp(t))}_fromTexture(t,e){t.mapping===fs||t.mapping===tr?this._setSize(t.image.length===0?mp:t.image[0].width||t.image[0].image.width):this._setSize(t.image.width/4);let n=e||this._allocateTarget();return this._textureToCubemap(t),this._applyPMREM(n),n}_allocateTarget(){let t=this._cubeSize,e=gp(t,!1,!1),n=Math.log2(t)-Lb;for(let s=0;s<=n;s++)e.texture.mipmaps.push({width:t>>s,height:t>>s});return e.texture.name="PMREM",e.texture.isPMREMTexture=!0,e}_getSourceTarget(t=!1){let e=this._cubeSize,n=this._sourceTarget;return(n===null||n.width!==e||t&&n.depthBuffer===!1)&&(n!==null&&n.dispose(),this._sourceTarget=gp(e,!0,t)),this._sourceTarget}_compileMaterial(t){this._boxMesh.material=t,this._renderer.compile(this._boxMesh,this._cubeCamera.children[0])}_renderCube(t,e,n){let s=this._boxMesh,r=this._cubeCamera;s.material=n,r.renderTarget=t,r.activeMipmapLevel=e;let o=t.width>>e;t.viewport.set(0,0,o,o),r.update(this._renderer,s),t.viewport.set(0,0,t.width,t.height)}_textureToCubemap(t){let e;t.mapping===fs||t.mapping===tr?(this._cubemapMaterial===null&&(this._cubemapMaterial=vp()),e=this._cubemapMaterial,e.uniforms.flipEnvMap.value=t.isRenderTargetTexture===!1?-1:1):(this._equirectMaterial===null&&(this._equirectMaterial=xp()),e=this._equirectMaterial),e.uniforms.envMap.value=t,this._renderCube(this._getSourceTarget(),0,e)}_applyPMREM(t){this._ggxMaterial===null&&(this._ggxMaterial=Ub(),this._integrationMaterial=Ob());let e=this._cubeSize,n=t.texture.mipmaps.length-1,s=this._ggxMaterial.uniforms;s.envMap.value=this._sourceTarget.texture;let r=this._integrationMaterial.uniforms;r.envMap.value=this._sourceTarget.texture,r.sourceLod.value=Math.log2(e/Bp);for(let o=0;o<=n;o++){let a=i.lodToRoughness(o,n);if(o>n-Nb)r.roughness.value=a,this._renderCube(t,o,this._integrationMaterial);else{let l=a>0?Math.log2(e)+.5*Math.log2(6/(Op*Math.pow(a,4)))+.5:0;s.roughness.value=a,s.lodBias.value=l,this._renderCube(t,o,this._ggxMaterial)}}}_blur(t,e){this._blurMaterial===null&&(this._blurMaterial=Bb());let n=this._blurMaterial,s=n.uniforms,r=this._sourceTarget;s.sigma.value=Math.min(e,Math.PI)/Math.SQRT2,s.envMap.value=r.texture,this._renderCube(t,0,n),s.envMap.value=t.texture,this._renderCube(r,0,n)}};function gp(i,t,e){return new ho(i,{minFilter:Ai,generateMipmaps:t,type:Ln,colorSpace:kr,depthBuffer:e})}function uo(i,t,e){return new ln({name:i,uniforms:t,vertexShader:Wt.cube_vert,fragmentShader:e,side:Ke,blending:jn,depthTest:!1,depthWrite:!1})}function Ub(){return uo("PMREMGGXConvolution",{envMap:{value:null},roughness:{value:0},lodBias:{value:0}},`
+
+		#define GGX_SAMPLES ${Op}u
+
+		varying vec3 vWorldDirection;
+
+		uniform samplerCube envMap;
+		uniform float roughness;
+		uniform float lodBias;
+
+		#include <common>
+
+		// Van der Corput radical inverse
+		float radicalInverse_VdC( uint bits ) {
+
+			bits = ( bits << 16u ) | ( bits >> 16u );
+			bits = ( ( bits & 0x55555555u ) << 1u ) | ( ( bits & 0xAAAAAAAAu ) >> 1u );
+			bits = ( ( bits & 0x33333333u ) << 2u ) | ( ( bits & 0xCCCCCCCCu ) >> 2u );
+			bits = ( ( bits & 0x0F0F0F0Fu ) << 4u ) | ( ( bits & 0xF0F0F0F0u ) >> 4u );
+			bits = ( ( bits & 0x00FF00FFu ) << 8u ) | ( ( bits & 0xFF00FF00u ) >> 8u );
+			return float( bits ) * 2.3283064365386963e-10; // / 0x100000000
+
+		}
+
+		// Hammersley sequence
+		vec2 hammersley( uint i, uint N ) {
+
+			return vec2( float( i ) / float( N ), radicalInverse_VdC( i ) );
+
+		}
+
+		void main() {
+
+			vec3 N = normalize( vWorldDirection );
+
+			// For very low roughness, just sample the environment directly
+			if ( roughness < 0.001 ) {
+
+				gl_FragColor = vec4( textureLod( envMap, N, 0.0 ).rgb, 1.0 );
+				return;
+
+			}
+
+			float alpha = roughness * roughness;
+			float alpha2 = alpha * alpha;
+
+			// Tangent space basis for VNDF sampling
+			vec3 up = abs( N.z ) < 0.999 ? vec3( 0.0, 0.0, 1.0 ) : vec3( 1.0, 0.0, 0.0 );
+			vec3 tangent = normalize( cross( up, N ) );
+			vec3 bitangent = cross( N, tangent );
+
+			vec3 prefilteredColor = vec3( 0.0 );
+			float totalWeight = 0.0;
+
+			for ( uint i = 0u; i < GGX_SAMPLES; i ++ ) {
+
+				vec2 Xi = hammersley( i, GGX_SAMPLES );
+
+				// With V = N, sample the reflected direction directly.
+				float invQ = 1.0 / ( 1.0 - Xi.x + alpha2 * Xi.x );
+				float NdotL = ( 1.0 - Xi.x - alpha2 * Xi.x ) * invQ;
+
+				if ( NdotL > 0.0 ) {
+
+					float phi = 2.0 * PI * Xi.y;
+					float sinTheta = 2.0 * alpha * sqrt( Xi.x * ( 1.0 - Xi.x ) ) * invQ;
+					vec3 L = N * NdotL + ( tangent * cos( phi ) + bitangent * sin( phi ) ) * sinTheta;
+
+					// Match the source mip to the sample's solid angle. The terms
+					// independent of the sample are precomputed in lodBias.
+					float d = alpha2 * invQ;
+					float lod = max( log2( d ) + lodBias, 0.0 );
+
+					// Weight by NdotL for the split-sum approximation
+					prefilteredColor += textureLod( envMap, L, lod ).rgb * NdotL;
+					totalWeight += NdotL;
+
+				}
+
+			}
+
+			gl_FragColor = vec4( prefilteredColor / totalWeight, 1.0 );
+
+		}
+	`)}function Ob(){return uo("PMREMGGXIntegration",{envMap:{value:null},roughness:{value:0},sourceLod:{value:0},sourceSize:{value:Bp}},`
+
+		varying vec3 vWorldDirection;
+
+		uniform samplerCube envMap;
+		uniform float roughness;
+		uniform float sourceLod;
+		uniform int sourceSize;
+
+		void main() {
+
+			vec3 N = normalize( vWorldDirection );
+
+			float alpha = roughness * roughness;
+			float alpha2 = alpha * alpha;
+
+			float texelSize = 2.0 / float( sourceSize );
+
+			vec3 prefilteredColor = vec3( 0.0 );
+			float totalWeight = 0.0;
+
+			// Pair opposite texels: only the one in N's hemisphere contributes.
+			for ( int face = 0; face < 3; face ++ ) {
+
+				for ( int y = 0; y < sourceSize; y ++ ) {
+
+					for ( int x = 0; x < sourceSize; x ++ ) {
+
+						vec2 uv = ( vec2( x, y ) + 0.5 ) * texelSize - 1.0;
+						vec3 texelDirection = face == 0 ? vec3( 1.0, uv ) : ( face == 1 ? vec3( uv.x, 1.0, uv.y ) : vec3( uv, 1.0 ) );
+
+						float invDistance = inversesqrt( 1.0 + dot( uv, uv ) );
+						float NdotL = dot( N, texelDirection );
+						texelDirection *= NdotL < 0.0 ? - 1.0 : 1.0;
+						NdotL = abs( NdotL ) * invDistance;
+
+						// With V = N, NdotH squared is ( 1 + NdotL ) / 2. Common factors
+						// in the GGX distribution and texel solid angle cancel when normalized.
+						float d = 1.0 + alpha2 + ( alpha2 - 1.0 ) * NdotL;
+						float weight = NdotL * invDistance * invDistance * invDistance / ( d * d );
+
+						prefilteredColor += textureLod( envMap, texelDirection, sourceLod ).rgb * weight;
+						totalWeight += weight;
+
+					}
+
+				}
+
+			}
+
+			gl_FragColor = vec4( prefilteredColor / totalWeight, 1.0 );
+
+		}
+	`)}function Bb(){return uo("PMREMSphericalGaussianBlur",{envMap:{value:null},sigma:{value:0}},`
+
+		#define SAMPLES ${kb}
+		#define GOLDEN_ANGLE 2.39996322973
+
+		varying vec3 vWorldDirection;
+
+		uniform samplerCube envMap;
+		uniform float sigma;
+
+		#include <common>
+
+		void main() {
+
+			vec3 outputDirection = normalize( vWorldDirection );
+
+			vec3 up = abs( outputDirection.z ) < 0.999 ? vec3( 0.0, 0.0, 1.0 ) : vec3( 1.0, 0.0, 0.0 );
+			vec3 tangent = normalize( cross( up, outputDirection ) );
+			vec3 bitangent = cross( outputDirection, tangent );
+
+			// Truncate the kernel at three standard deviations or at the antipode.
+			float thetaMax = min( 3.0 * sigma, PI );
+			float truncation = 1.0 - exp( - 0.5 * thetaMax * thetaMax / ( sigma * sigma ) );
+
+			vec3 accumColor = vec3( 0.0 );
+			float accumWeight = 0.0;
+
+			for ( int i = 0; i < SAMPLES; i ++ ) {
+
+				// Stratified inverse-CDF sampling of the Gaussian, placed on a golden-angle spiral.
+				float stratum = ( float( i ) + 0.5 ) / float( SAMPLES );
+				float theta = sigma * sqrt( - 2.0 * log( 1.0 - stratum * truncation ) );
+				float phi = float( i ) * GOLDEN_ANGLE;
+
+				vec3 offset = cos( phi ) * tangent + sin( phi ) * bitangent;
+				vec3 sampleDirection = cos( theta ) * outputDirection + sin( theta ) * offset;
+
+				// Correct the planar sample density to solid angle.
+				float weight = sin( theta ) / theta;
+
+				accumColor += weight * textureLod( envMap, sampleDirection, 0.0 ).rgb;
+				accumWeight += weight;
+
+			}
+
+			gl_FragColor = vec4( accumColor / accumWeight, 1.0 );
+
+		}
+	`)}function xp(){return uo("PMREMEquirectangularToCubemap",{envMap:{value:null}},`
+
+		varying vec3 vWorldDirection;
+
+		uniform sampler2D envMap;
+
+		#include <common>
+
+		void main() {
+
+			// Average four subpixel samples to preserve small, bright features.
+			vec3 direction = normalize( vWorldDirection );
+			vec3 dx = dFdx( direction ) * 0.25;
+			vec3 dy = dFdy( direction ) * 0.25;
+
+			vec3 color = textureLod( envMap, equirectUv( normalize( direction - dx - dy ) ), 0.0 ).rgb;
+			color += textureLod( envMap, equirectUv( normalize( direction + dx - dy ) ), 0.0 ).rgb;
+			color += textureLod( envMap, equirectUv( normalize( direction - dx + dy ) ), 0.0 ).rgb;
+			color += textureLod( envMap, equirectUv( normalize( direction + dx + dy ) ), 0.0 ).rgb;
+			gl_FragColor = vec4( color * 0.25, 1.0 );
+
+		}
+	`)}function vp(){return uo("PMREMCubemapToCubemap",{envMap:{value:null},flipEnvMap:{value:-1}},`
+
+		varying vec3 vWorldDirection;
+
+		uniform samplerCube envMap;
+		uniform float flipEnvMap;
+
+		void main() {
+
+			gl_FragColor = vec4( textureCube( envMap, vec3( flipEnvMap * vWorldDirection.x, vWorldDirection.yz ) ).rgb, 1.0 );
+
+		}
+	`)}function zb(i){let t=new WeakMap,e=new WeakMap,n=null;function s(d,f=!1){return d==null?null:f?o(d):r(d)}function r(d){if(d&&d.isTexture){let f=d.mapping;if(f===Ga||f===Wa)if(t.has(d)){let p=t.get(d).texture;return a(p,d.mapping)}else{let p=d.image;if(p&&p.height>0){let b=new ho(p.height);return b.fromEquirectangularTexture(i,d),t.set(d,b),d.addEventListener("dispose",c),a(b.texture,d.mapping)}else return null}}return d}function o(d){if(d&&d.isTexture&&d.isPMREMTexture!==!0){let f=d.mapping,p=f===Ga||f===Wa,b=f===fs||f===tr;if(p||b){let m=e.get(d),g=m!==void 0?m.texture.pmremVersion:0;if(d.isRenderTargetTexture&&d.pmremVersion!==g)return n===null&&(n=new Rl(i)),m=p?n.fromEquirectangular(d,m):n.fromCubemap(d,m),m.texture.pmremVersion=d.pmremVersion,e.set(d,m),m.texture;if(m!==void 0)return m.texture;{let y=d.image;return p&&y&&y.height>0||b&&y&&l(y)?(n===null&&(n=new Rl(i)),m=p?n.fromEquirectangular(d):n.fromCubemap(d),m.texture.pmremVersion=d.pmremVersion,e.set(d,m),d.addEventListener("dispose",h),m.texture):null}}}return d}function a(d,f){return f===Ga?d.mapping=fs:f===Wa&&(d.mapping=tr),d}function l(d){let f=0,p=6;for(let b=0;b<p;b++)d[b]!==void 0&&f++;return f===p}function c(d){let f=d.target;f.removeEventListener("dispose",c);let p=t.get(f);p!==void 0&&(t.delete(f),p.dispose())}function h(d){let f=d.target;f.removeEventListener("dispose",h);let p=e.get(f);p!==void 0&&(e.delete(f),p.dispose())}function u(){t=new WeakMap,e=new WeakMap,n!==null&&(n.dispose(),n=null)}return{get:s,dispose:u}}function Vb(i){let t={};function e(n){if(t[n]!==void 0)return t[n];let s=i.getExtension(n);return t[n]=s,s}return{has:function(n){return e(n)!==null},init:function(){e("EXT_color_buffer_float"),e("WEBGL_clip_cull_distance"),e("OES_texture_float_linear"),e("EXT_color_buffer_half_float"),e("WEBGL_multisampled_render_to_texture"),e("WEBGL_render_shared_exponent")},get:function(n){let s=e(n);return s===null&&Ir("WebGLRenderer: "+n+" extension not supported."),s}}}function Hb(i,t,e,n){let s={},r=new WeakMap,o=new FinalizationRegistry(p=>delete s[p]);function a(p){l(p.target)}function l(p){p.index!==null&&t.remove(p.index);for(let m in p.attributes)t.remove(p.attributes[m]);p.removeEventListener("dispose",a),delete s[p.id],o.unregister(p);let b=r.get(p);b&&(t.remove(b),r.delete(p)),n.releaseStatesOfGeometry(p),p.isInstancedBufferGeometry===!0&&delete p._maxInstanceCount,e.memory.geometries--}function c(p,b){return s[b.id]!==void 0||(b.addEventListener("dispose",a),s[b.id]=new WeakRef(b),o.register(b,b.id,b),e.memory.geometries++),b}function h(p){let b=p.attributes;for(let m in b)t.update(b[m],i.ARRAY_BUFFER)}function u(p){let b=p.index,m=p.attributes.position,g=0;if(m===void 0)return;let y=b!==null?b.array.length:m.array.length/3-1,w=m.count>=65535?Br:Or,v=new w(Math.ceil(y/3)*6,1),_=v.array;if(b!==null){let x=b.array;g=b.version;for(let S=0,k=0;S<y;S+=3){let C=x[S+0],P=x[S+1],I=x[S+2];_[k++]=C,_[k++]=P,_[k++]=P,_[k++]=I,_[k++]=I,_[k++]=C}}else{g=m.version;for(let x=0,S=0;x<y;x+=3){let k=x+0,C=x+1,P=x+2;_[S++]=k,_[S++]=C,_[S++]=C,_[S++]=P,_[S++]=P,_[S++]=k}}v.version=g;let E=r.get(p);E&&t.remove(E),r.set(p,v)}function d(p){let b=r.get(p);if(b){let m=p.index;m!==null&&b.version<m.version&&u(p)}else u(p);return r.get(p)}function f(){for(let p in s){let b=s[p].deref();b!==void 0&&l(b)}}return{get:c,update:h,getWireframeAttribute:d,dispose:f}}function Gb(i,t,e){let n;function s(u){n=u}let r,o;function a(u){r=u.type,o=u.bytesPerElement}function l(u,d){i.drawElements(n,d,r,u*o),e.update(d,n,1)}function c(u,d,f){f!==0&&(i.drawElementsInstanced(n,d,r,u*o,f),e.update(d,n,f))}function h(u,d,f){if(f===0)return;t.get("WEBGL_multi_draw").multiDrawElementsWEBGL(n,d,0,r,u,0,f);let b=0;for(let m=0;m<f;m++)b+=d[m];e.update(b,n,1)}this.setMode=s,this.setIndex=a,this.render=l,this.renderInstances=c,this.renderMultiDraw=h}function Wb(i){let t={geometries:0,textures:0},e={frame:0,calls:0,triangles:0,points:0,lines:0};function n(r,o,a){switch(e.calls++,o){case i.TRIANGLES:e.triangles+=a*(r/3);break;case i.LINES:e.lines+=a*(r/2);break;case i.LINE_STRIP:e.lines+=a*(r-1);break;case i.LINE_LOOP:e.lines+=a*r;break;case i.POINTS:e.points+=a*r;break;default:kt("WebGLInfo: Unknown draw mode:",o);break}}function s(){e.calls=0,e.triangles=0,e.points=0,e.lines=0}return{memory:t,render:e,programs:null,autoReset:!0,reset:s,update:n}}function Xb(i,t,e){let n=new WeakMap,s=new $t;function r(o,a,l){let c=o.morphTargetInfluences,h=a.morphAttributes.position||a.morphAttributes.normal||a.morphAttributes.color,u=h!==void 0?h.length:0,d=n.get(a);if(d===void 0||d.count!==u){let k=function(){x.dispose(),n.delete(a),a.removeEventListener("dispose",k)};d!==void 0&&d.texture.dispose();let f=a.morphAttributes.position!==void 0,p=a.morphAttributes.normal!==void 0,b=a.morphAttributes.color!==void 0,m=a.morphAttributes.position||[],g=a.morphAttributes.normal||[],y=a.morphAttributes.color||[],w=0;f===!0&&(w=1),p===!0&&(w=2),b===!0&&(w=3);let v=a.attributes.position.count*w,_=1;v>t.maxTextureSize&&(_=Math.ceil(v/t.maxTextureSize),v=t.maxTextureSize);let E=new Float32Array(v*_*4*u),x=new Ur(E,v,_,u);x.type=Rn,x.needsUpdate=!0;let S=w*4;for(let C=0;C<u;C++){let P=m[C],I=g[C],U=y[C],L=v*_*4*C;for(let B=0;B<P.count;B++){let G=B*S;f===!0&&(s.fromBufferAttribute(P,B),E[L+G+0]=s.x,E[L+G+1]=s.y,E[L+G+2]=s.z,E[L+G+3]=0),p===!0&&(s.fromBufferAttribute(I,B),E[L+G+4]=s.x,E[L+G+5]=s.y,E[L+G+6]=s.z,E[L+G+7]=0),b===!0&&(s.fromBufferAttribute(U,B),E[L+G+8]=s.x,E[L+G+9]=s.y,E[L+G+10]=s.z,E[L+G+11]=U.itemSize===4?s.w:1)}}d={count:u,texture:x,size:new At(v,_)},n.set(a,d),a.addEventListener("dispose",k)}if(o.isInstancedMesh===!0&&o.morphTexture!==null)l.getUniforms().setValue(i,"morphTexture",o.morphTexture,e);else{let f=0;for(let b=0;b<c.length;b++)f+=c[b];let p=a.morphTargetsRelative?1:1-f;l.getUniforms().setValue(i,"morphTargetBaseInfluence",p),l.getUniforms().setValue(i,"morphTargetInfluences",c)}l.getUniforms().setValue(i,"morphTargetsTexture",d.texture,e),l.getUniforms().setValue(i,"morphTargetsTextureSize",d.size)}return{update:r}}function $b(i,t,e,n,s){let r=new WeakMap;function o(c){let h=s.render.frame,u=c.geometry,d=t.get(c,u);if(r.get(d)!==h&&(t.update(d),r.set(d,h)),c.isInstancedMesh&&(c.hasEventListener("dispose",l)===!1&&c.addEventListener("dispose",l),r.get(c)!==h&&(e.update(c.instanceMatrix,i.ARRAY_BUFFER),c.instanceColor!==null&&e.update(c.instanceColor,i.ARRAY_BUFFER),r.set(c,h))),c.isSkinnedMesh){let f=c.skeleton;r.get(f)!==h&&(f.update(),r.set(f,h))}return d}function a(){r=new WeakMap}function l(c){let h=c.target;h.removeEventListener("dispose",l),n.releaseStatesOfObject(h),e.remove(h.instanceMatrix),h.instanceColor!==null&&e.remove(h.instanceColor)}return{update:o,dispose:a}}var qb={[zh]:"LINEAR_TONE_MAPPING",[Vh]:"REINHARD_TONE_MAPPING",[Hh]:"CINEON_TONE_MAPPING",[Gh]:"ACES_FILMIC_TONE_MAPPING",[Xh]:"AGX_TONE_MAPPING",[$h]:"NEUTRAL_TONE_MAPPING",[Wh]:"CUSTOM_TONE_MAPPING"};function Yb(i,t,e,n,s,r){let o=new Pe(t,e,{type:i,depthBuffer:s,stencilBuffer:r,samples:n?4:0,storeMultisampledDepthBuffer:!1,storeMultisampledStencilBuffer:!1,resolveDepthBuffer:!1,resolveStencilBuffer:!1}),a=null,l=null,c=null,h=new Ie;h.setAttribute("position",new Xe([-1,3,0,-1,-1,0,3,-1,0],3)),h.setAttribute("uv",new Xe([0,2,0,0,2,0],2));let u=new Ca({uniforms:{tDiffuse:{value:null}},vertexShader:`
+			precision highp float;
+
+			uniform mat4 modelViewMatrix;
+			uniform mat4 projectionMatrix;
+
+			attribute vec3 position;
+			attribute vec2 uv;
+
+			varying vec2 vUv;
+
+			void main() {
+				vUv = uv;
+				gl_Position = projectionMatrix * modelViewMatrix * vec4( position, 1.0 );
+			}`,fragmentShader:`
+			precision highp float;
+
+			uniform sampler2D tDiffuse;
+
+			varying vec2 vUv;
+
+			#include <tonemapping_pars_fragment>
+			#include <colorspace_pars_fragment>
+
+			void main() {
+				gl_FragColor = texture2D( tDiffuse, vUv );
+
+				#ifdef LINEAR_TONE_MAPPING
+					gl_FragColor.rgb = LinearToneMapping( gl_FragColor.rgb );
+				#elif defined( REINHARD_TONE_MAPPING )
+					gl_FragColor.rgb = ReinhardToneMapping( gl_FragColor.rgb );
+				#elif defined( CINEON_TONE_MAPPING )
+					gl_FragColor.rgb = CineonToneMapping( gl_FragColor.rgb );
+				#elif defined( ACES_FILMIC_TONE_MAPPING )
+					gl_FragColor.rgb = ACESFilmicToneMapping( gl_FragColor.rgb );
+				#elif defined( AGX_TONE_MAPPING )
+					gl_FragColor.rgb = AgXToneMapping( gl_FragColor.rgb );
+				#elif defined( NEUTRAL_TONE_MAPPING )
+					gl_FragColor.rgb = NeutralToneMapping( gl_FragColor.rgb );
+				#elif defined( CUSTOM_TONE_MAPPING )
+					gl_FragColor.rgb = CustomToneMapping( gl_FragColor.rgb );
+				#endif
+
+				#ifdef SRGB_TRANSFER
+					gl_FragColor = sRGBTransferOETF( gl_FragColor );
+				#endif
+			}`,depthTest:!1,depthWrite:!1}),d=new Le(h,u),f=new hi(-1,1,1,-1,0,1),p=null,b=null,m=!1,g,y=null,w=[],v=!1;this.setSize=function(_,E){o.setSize(_,E),a!==null&&a.setSize(_,E),l!==null&&l.setSize(_,E);for(let x=0;x<w.length;x++){let S=w[x];S.setSize&&S.setSize(_,E)}},this.setEffects=function(_){w=_,v=w.length>0&&w[0].isRenderPass===!0;let E=o.width,x=o.height;w.length>0&&a===null&&(a=new Pe(E,x,{type:Ln,depthBuffer:!1,stencilBuffer:!1}),l=new Pe(E,x,{type:Ln,depthBuffer:!1,stencilBuffer:!1}));let S=s===!0&&w.some(k=>k.needsDepthTexture===!0);S!==(o.depthTexture!==null)&&(S===!0&&c===null&&(c=new Jn(E,x),r===!0&&(c.format=Ci,c.type=ps)),o.dispose(),o.depthTexture=S?c:null,o.resolveDepthBuffer=S,o.storeMultisampledDepthBuffer=S);for(let k=0;k<w.length;k++){let C=w[k];C.setSize&&C.setSize(E,x),S&&C.needsDepthTexture===!0&&C.setDepthTexture&&C.setDepthTexture(c)}},this.begin=function(_,E){if(m||_.toneMapping===ui&&w.length===0)return!1;if(y=E,E!==null){let x=E.width,S=E.height;(o.width!==x||o.height!==S)&&this.setSize(x,S)}return v===!1&&_.setRenderTarget(o),g=_.toneMapping,_.toneMapping=ui,!0},this.hasRenderPass=function(){return v},this.end=function(_,E){_.toneMapping=g,m=!0;let x=o,S=a;for(let k=0;k<w.length;k++){let C=w[k];C.enabled!==!1&&(C.render(_,S,x,E),C.needsSwap!==!1&&(x=S,S=S===a?l:a))}if(p!==_.outputColorSpace||b!==_.toneMapping){p=_.outputColorSpace,b=_.toneMapping,u.defines={},Xt.getTransfer(p)===se&&(u.defines.SRGB_TRANSFER="");let k=qb[b];k&&(u.defines[k]=""),u.needsUpdate=!0}u.uniforms.tDiffuse.value=x.texture,_.setRenderTarget(y),_.render(d,f),y=null,m=!1},this.isCompositing=function(){return m},this.dispose=function(){o.dispose(),a!==null&&a.dispose(),l!==null&&l.dispose(),h.dispose(),u.dispose()}}var zp=new wn,Vp=new Jn(1,1),Hp=new Xr(1),Gp=new Ur,Wp=new Ta,Xp=new Wr,yp=[],bp=[],_p=new Float32Array(16),wp=new Float32Array(9),Sp=new Float32Array(4);function ir(i,t,e){let n=i[0];if(n<=0||n>0)return i;let s=t*e,r=yp[s];if(r===void 0&&(r=new Float32Array(s),yp[s]=r),t!==0){n.toArray(r,0);for(let o=1,a=0;o!==t;++o)a+=e,i[o].toArray(r,a)}return r}function Ue(i,t){if(i.length!==t.length)return!1;for(let e=0,n=i.length;e<n;e++)if(i[e]!==t[e])return!1;return!0}function Oe(i,t){for(let e=0,n=t.length;e<n;e++)i[e]=t[e]}function Ll(i,t){let e=bp[t];e===void 0&&(e=new Int32Array(t),bp[t]=e);for(let n=0;n!==t;++n)e[n]=i.allocateTextureUnit();return e}function Zb(i,t){let e=this.cache;e[0]!==t&&(i.uniform1f(this.addr,t),e[0]=t)}function Jb(i,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y)&&(i.uniform2f(this.addr,t.x,t.y),e[0]=t.x,e[1]=t.y);else{if(Ue(e,t))return;i.uniform2fv(this.addr,t),Oe(e,t)}}function Kb(i,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y||e[2]!==t.z)&&(i.uniform3f(this.addr,t.x,t.y,t.z),e[0]=t.x,e[1]=t.y,e[2]=t.z);else if(t.r!==void 0)(e[0]!==t.r||e[1]!==t.g||e[2]!==t.b)&&(i.uniform3f(this.addr,t.r,t.g,t.b),e[0]=t.r,e[1]=t.g,e[2]=t.b);else{if(Ue(e,t))return;i.uniform3fv(this.addr,t),Oe(e,t)}}function jb(i,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y||e[2]!==t.z||e[3]!==t.w)&&(i.uniform4f(this.addr,t.x,t.y,t.z,t.w),e[0]=t.x,e[1]=t.y,e[2]=t.z,e[3]=t.w);else{if(Ue(e,t))return;i.uniform4fv(this.addr,t),Oe(e,t)}}function Qb(i,t){let e=this.cache,n=t.elements;if(n===void 0){if(Ue(e,t))return;i.uniformMatrix2fv(this.addr,!1,t),Oe(e,t)}else{if(Ue(e,n))return;Sp.set(n),i.uniformMatrix2fv(this.addr,!1,Sp),Oe(e,n)}}function t_(i,t){let e=this.cache,n=t.elements;if(n===void 0){if(Ue(e,t))return;i.uniformMatrix3fv(this.addr,!1,t),Oe(e,t)}else{if(Ue(e,n))return;wp.set(n),i.uniformMatrix3fv(this.addr,!1,wp),Oe(e,n)}}function e_(i,t){let e=this.cache,n=t.elements;if(n===void 0){if(Ue(e,t))return;i.uniformMatrix4fv(this.addr,!1,t),Oe(e,t)}else{if(Ue(e,n))return;_p.set(n),i.uniformMatrix4fv(this.addr,!1,_p),Oe(e,n)}}function n_(i,t){let e=this.cache;e[0]!==t&&(i.uniform1i(this.addr,t),e[0]=t)}function i_(i,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y)&&(i.uniform2i(this.addr,t.x,t.y),e[0]=t.x,e[1]=t.y);else{if(Ue(e,t))return;i.uniform2iv(this.addr,t),Oe(e,t)}}function s_(i,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y||e[2]!==t.z)&&(i.uniform3i(this.addr,t.x,t.y,t.z),e[0]=t.x,e[1]=t.y,e[2]=t.z);else{if(Ue(e,t))return;i.uniform3iv(this.addr,t),Oe(e,t)}}function r_(i,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y||e[2]!==t.z||e[3]!==t.w)&&(i.uniform4i(this.addr,t.x,t.y,t.z,t.w),e[0]=t.x,e[1]=t.y,e[2]=t.z,e[3]=t.w);else{if(Ue(e,t))return;i.uniform4iv(this.addr,t),Oe(e,t)}}function o_(i,t){let e=this.cache;e[0]!==t&&(i.uniform1ui(this.addr,t),e[0]=t)}function a_(i,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y)&&(i.uniform2ui(this.addr,t.x,t.y),e[0]=t.x,e[1]=t.y);else{if(Ue(e,t))return;i.uniform2uiv(this.addr,t),Oe(e,t)}}function l_(i,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y||e[2]!==t.z)&&(i.uniform3ui(this.addr,t.x,t.y,t.z),e[0]=t.x,e[1]=t.y,e[2]=t.z);else{if(Ue(e,t))return;i.uniform3uiv(this.addr,t),Oe(e,t)}}function c_(i,t){let e=this.cache;if(t.x!==void 0)(e[0]!==t.x||e[1]!==t.y||e[2]!==t.z||e[3]!==t.w)&&(i.uniform4ui(this.addr,t.x,t.y,t.z,t.w),e[0]=t.x,e[1]=t.y,e[2]=t.z,e[3]=t.w);else{if(Ue(e,t))return;i.uniform4uiv(this.addr,t),Oe(e,t)}}function kl(i){return i.version===0&&(i.compareFunction=su,i.needsUpdate=!0),i}function h_(i,t,e){let n=this.cache,s=e.allocateTextureUnit();n[0]!==s&&(i.uniform1i(this.addr,s),n[0]=s);let r;this.type===i.SAMPLER_2D_SHADOW?r=kl(Vp):r=zp,e.setTexture2D(t||r,s)}function u_(i,t,e){let n=this.cache,s=e.allocateTextureUnit();n[0]!==s&&(i.uniform1i(this.addr,s),n[0]=s),e.setTexture3D(t||Wp,s)}function d_(i,t,e){let n=this.cache,s=e.allocateTextureUnit();n[0]!==s&&(i.uniform1i(this.addr,s),n[0]=s);let r;this.type===i.SAMPLER_CUBE_SHADOW?r=kl(Hp):r=Xp,e.setTextureCube(t||r,s)}function f_(i,t,e){let n=this.cache,s=e.allocateTextureUnit();n[0]!==s&&(i.uniform1i(this.addr,s),n[0]=s),e.setTexture2DArray(t||Gp,s)}function p_(i){switch(i){case 5126:return Zb;case 35664:return Jb;case 35665:return Kb;case 35666:return jb;case 35674:return Qb;case 35675:return t_;case 35676:return e_;case 5124:case 35670:return n_;case 35667:case 35671:return i_;case 35668:case 35672:return s_;case 35669:case 35673:return r_;case 5125:return o_;case 36294:return a_;case 36295:return l_;case 36296:return c_;case 35678:case 36198:case 36298:case 36306:case 35682:return h_;case 35679:case 36299:case 36307:return u_;case 35680:case 36300:case 36308:case 36293:return d_;case 36289:case 36303:case 36311:case 36292:return f_}}function m_(i,t){i.uniform1fv(this.addr,t)}function g_(i,t){let e=ir(t,this.size,2);i.uniform2fv(this.addr,e)}function x_(i,t){let e=ir(t,this.size,3);i.uniform3fv(this.addr,e)}function v_(i,t){let e=ir(t,this.size,4);i.uniform4fv(this.addr,e)}function y_(i,t){let e=ir(t,this.size,4);i.uniformMatrix2fv(this.addr,!1,e)}function b_(i,t){let e=ir(t,this.size,9);i.uniformMatrix3fv(this.addr,!1,e)}function __(i,t){let e=ir(t,this.size,16);i.uniformMatrix4fv(this.addr,!1,e)}function w_(i,t){i.uniform1iv(this.addr,t)}function S_(i,t){i.uniform2iv(this.addr,t)}function M_(i,t){i.uniform3iv(this.addr,t)}function T_(i,t){i.uniform4iv(this.addr,t)}function E_(i,t){i.uniform1uiv(this.addr,t)}function A_(i,t){i.uniform2uiv(this.addr,t)}function C_(i,t){i.uniform3uiv(this.addr,t)}function R_(i,t){i.uniform4uiv(this.addr,t)}function P_(i,t,e){let n=this.cache,s=t.length,r=Ll(e,s);Ue(n,r)||(i.uniform1iv(this.addr,r),Oe(n,r));let o;this.type===i.SAMPLER_2D_SHADOW?o=kl(Vp):o=zp;for(let a=0;a!==s;++a)e.setTexture2D(t[a]||o,r[a])}function I_(i,t,e){let n=this.cache,s=t.length,r=Ll(e,s);Ue(n,r)||(i.uniform1iv(this.addr,r),Oe(n,r));for(let o=0;o!==s;++o)e.setTexture3D(t[o]||Wp,r[o])}function L_(i,t,e){let n=this.cache,s=t.length,r=Ll(e,s);Ue(n,r)||(i.uniform1iv(this.addr,r),Oe(n,r));let o;this.type===i.SAMPLER_CUBE_SHADOW?o=kl(Hp):o=Xp;for(let a=0;a!==s;++a)e.setTextureCube(t[a]||o,r[a])}function k_(i,t,e){let n=this.cache,s=t.length,r=Ll(e,s);Ue(n,r)||(i.uniform1iv(this.addr,r),Oe(n,r));for(let o=0;o!==s;++o)e.setTexture2DArray(t[o]||Gp,r[o])}function N_(i){switch(i){case 5126:return m_;case 35664:return g_;case 35665:return x_;case 35666:return v_;case 35674:return y_;case 35675:return b_;case 35676:return __;case 5124:case 35670:return w_;case 35667:case 35671:return S_;case 35668:case 35672:return M_;case 35669:case 35673:return T_;case 5125:return E_;case 36294:return A_;case 36295:return C_;case 36296:return R_;case 35678:case 36198:case 36298:case 36306:case 35682:return P_;case 35679:case 36299:case 36307:return I_;case 35680:case 36300:case 36308:case 36293:return L_;case 36289:case 36303:case 36311:case 36292:return k_}}var pu=class{constructor(t,e,n){this.id=t,this.addr=n,this.cache=[],this.type=e.type,this.setValue=p_(e.type)}},mu=class{constructor(t,e,n){this.id=t,this.addr=n,this.cache=[],this.type=e.type,this.size=e.size,this.setValue=N_(e.type)}},gu=class{constructor(t){this.id=t,this.seq=[],this.map={}}setValue(t,e,n){let s=this.seq;for(let r=0,o=s.length;r!==o;++r){let a=s[r];a.setValue(t,e[a.id],n)}}},du=/(\w+)(\])?(\[|\.)?/g;function Mp(i,t){i.seq.push(t),i.map[t.id]=t}function D_(i,t,e){let n=i.name,s=n.length;for(du.lastIndex=0;;){let r=du.exec(n),o=du.lastIndex,a=r[1],l=r[2]==="]",c=r[3];if(l&&(a=a|0),c===void 0||c==="["&&o+2===s){Mp(e,c===void 0?new pu(a,i,t):new mu(a,i,t));break}else{let u=e.map[a];u===void 0&&(u=new gu(a),Mp(e,u)),e=u}}}var nr=class{constructor(t,e){this.seq=[],this.map={};let n=t.getProgramParameter(e,t.ACTIVE_UNIFORMS);for(let o=0;o<n;++o){let a=t.getActiveUniform(e,o),l=t.getUniformLocation(e,a.name);D_(a,l,this)}let s=[],r=[];for(let o of this.seq)o.type===t.SAMPLER_2D_SHADOW||o.type===t.SAMPLER_CUBE_SHADOW||o.type===t.SAMPLER_2D_ARRAY_SHADOW?s.push(o):r.push(o);s.length>0&&(this.seq=s.concat(r))}setValue(t,e,n,s){let r=this.map[e];r!==void 0&&r.setValue(t,n,s)}setOptional(t,e,n){let s=e[n];s!==void 0&&this.setValue(t,n,s)}static upload(t,e,n,s){for(let r=0,o=e.length;r!==o;++r){let a=e[r],l=n[a.id];l.needsUpdate!==!1&&a.setValue(t,l.value,s)}}static seqWithValue(t,e){let n=[];for(let s=0,r=t.length;s!==r;++s){let o=t[s];o.id in e&&n.push(o)}return n}};function Tp(i,t,e){let n=i.createShader(t);return i.shaderSource(n,e),i.compileShader(n),n}var F_=37297,U_=0;function O_(i,t){let e=i.split(`
+`),n=[],s=Math.max(t-6,0),r=Math.min(t+6,e.length);for(let o=s;o<r;o++){let a=o+1;n.push(`${a===t?">":" "} ${a}: ${e[o]}`)}return n.join(`
+`)}var Ep=new Ft;function B_(i){Xt._getMatrix(Ep,Xt.workingColorSpace,i);let t=`mat3( ${Ep.elements.map(e=>e.toFixed(4))} )`;switch(Xt.getTransfer(i)){case Nr:return[t,"LinearTransferOETF"];case se:return[t,"sRGBTransferOETF"];default:return Lt("WebGLProgram: Unsupported color space: ",i),[t,"LinearTransferOETF"]}}function Ap(i,t,e){let n=i.getShaderParameter(t,i.COMPILE_STATUS),r=(i.getShaderInfoLog(t)||"").trim();if(n&&r==="")return"";let o=/ERROR: 0:(\d+)/.exec(r);if(o){let a=parseInt(o[1]);return e.toUpperCase()+`
+
+`+r+`
+
+`+O_(i.getShaderSource(t),a)}else return r}function z_(i,t){let e=B_(t);return[`vec4 ${i}( vec4 value ) {`,`	return ${e[1]}( vec4( ${e[0]} * value.rgb, value.a ) );`,"}"].join(`
+`)}var V_={[zh]:"Linear",[Vh]:"Reinhard",[Hh]:"Cineon",[Gh]:"ACESFilmic",[Xh]:"AgX",[$h]:"Neutral",[Wh]:"Custom"};function H_(i,t){let e=V_[t];return e===void 0?(Lt("WebGLProgram: Unsupported toneMapping:",t),"vec3 "+i+"( vec3 color ) { return LinearToneMapping( color ); }"):"vec3 "+i+"( vec3 color ) { return "+e+"ToneMapping( color ); }"}var Cl=new N;function G_(){Xt.getLuminanceCoefficients(Cl);let i=Cl.x.toFixed(4),t=Cl.y.toFixed(4),e=Cl.z.toFixed(4);return["float luminance( const in vec3 rgb ) {",`	const vec3 weights = vec3( ${i}, ${t}, ${e} );`,"	return dot( weights, rgb );","}"].join(`
+`)}function W_(i){return[i.extensionClipCullDistance?"#extension GL_ANGLE_clip_cull_distance : require":"",i.extensionMultiDraw?"#extension GL_ANGLE_multi_draw : require":""].filter(co).join(`
+`)}function X_(i){let t=[];for(let e in i){let n=i[e];n!==!1&&t.push("#define "+e+" "+n)}return t.join(`
+`)}function $_(i,t){let e={},n=i.getProgramParameter(t,i.ACTIVE_ATTRIBUTES);for(let s=0;s<n;s++){let r=i.getActiveAttrib(t,s),o=r.name,a=1;r.type===i.FLOAT_MAT2&&(a=2),r.type===i.FLOAT_MAT3&&(a=3),r.type===i.FLOAT_MAT4&&(a=4),e[o]={type:r.type,location:i.getAttribLocation(t,o),locationSize:a}}return e}function co(i){return i!==""}function Cp(i,t){let e=t.numSpotLightShadows+t.numSpotLightMaps-t.numSpotLightShadowsWithMaps;return i.replace(/NUM_SUN_LIGHTS/g,t.numSunLights).replace(/NUM_DIR_LIGHTS/g,t.numDirLights).replace(/NUM_SPOT_LIGHTS/g,t.numSpotLights).replace(/NUM_SPOT_LIGHT_MAPS/g,t.numSpotLightMaps).replace(/NUM_SPOT_LIGHT_COORDS/g,e).replace(/NUM_RECT_AREA_LIGHTS/g,t.numRectAreaLights).replace(/NUM_POINT_LIGHTS/g,t.numPointLights).replace(/NUM_HEMI_LIGHTS/g,t.numHemiLights).replace(/NUM_SUN_LIGHT_SHADOWS/g,t.numSunLightShadows).replace(/NUM_DIR_LIGHT_SHADOWS/g,t.numDirLightShadows).replace(/NUM_SPOT_LIGHT_SHADOWS_WITH_MAPS/g,t.numSpotLightShadowsWithMaps).replace(/NUM_SPOT_LIGHT_SHADOWS/g,t.numSpotLightShadows).replace(/NUM_POINT_LIGHT_SHADOWS/g,t.numPointLightShadows).replace(/NUM_LIGHT_PROBE_GRIDS/g,t.numLightProbeGrids)}function Rp(i,t){return i.replace(/NUM_CLIPPING_PLANES/g,t.numClippingPlanes).replace(/UNION_CLIPPING_PLANES/g,t.numClippingPlanes-t.numClipIntersection)}var q_=/^[ \t]*#include +<([\w\d./]+)>/gm;function xu(i){return i.replace(q_,Y_)}function Y_(i,t){let e=Wt[t];if(e===void 0)throw new Error("THREE.WebGLProgram: Can not resolve #include <"+t+">");return xu(e)}var Z_=/#pragma unroll_loop_start\s+for\s*\(\s*int\s+i\s*=\s*(\d+)\s*;\s*i\s*<\s*(\d+)\s*;\s*i\s*\+\+\s*\)\s*{([\s\S]+?)}\s+#pragma unroll_loop_end/g;function Pp(i){return i.replace(Z_,J_)}function J_(i,t,e,n){let s="";for(let r=parseInt(t);r<parseInt(e);r++)s+=n.replace(/\[\s*i\s*\]/g,"[ "+r+" ]").replace(/UNROLLED_LOOP_INDEX/g,r);return s}function Ip(i){let t=`precision ${i.precision} float;
+	precision ${i.precision} int;
+	precision ${i.precision} sampler2D;
+	precision ${i.precision} samplerCube;
+	precision ${i.precision} sampler3D;
+	precision ${i.precision} sampler2DArray;
+	precision ${i.precision} sampler2DShadow;
+	precision ${i.precision} samplerCubeShadow;
+	precision ${i.precision} sampler2DArrayShadow;
+	precision ${i.precision} isampler2D;
+	precision ${i.precision} isampler3D;
+	precision ${i.precision} isamplerCube;
+	precision ${i.precision} isampler2DArray;
+	precision ${i.precision} usampler2D;
+	precision ${i.precision} usampler3D;
+	precision ${i.precision} usamplerCube;
+	precision ${i.precision} usampler2DArray;
+	`;return i.precision==="highp"?t+=`
+#define HIGH_PRECISION`:i.precision==="mediump"?t+=`
+#define MEDIUM_PRECISION`:i.precision==="lowp"&&(t+=`
+#define LOW_PRECISION`),t}var K_={[Jr]:"SHADOWMAP_TYPE_PCF",[Ks]:"SHADOWMAP_TYPE_VSM"};function j_(i){return K_[i.shadowMapType]||"SHADOWMAP_TYPE_BASIC"}var Q_={[tr]:"ENVMAP_MODE_REFRACTION"};function tw(i){return i.envMap===!1?"ENVMAP_MODE_REFLECTION":Q_[i.envMapMode]||"ENVMAP_MODE_REFLECTION"}var ew={[Bh]:"ENVMAP_BLENDING_MULTIPLY",[Yf]:"ENVMAP_BLENDING_MIX",[Zf]:"ENVMAP_BLENDING_ADD"};function nw(i){return i.envMap===!1?"ENVMAP_BLENDING_NONE":ew[i.combine]||"ENVMAP_BLENDING_NONE"}function iw(i,t,e,n){let s=i.getContext(),r=e.defines,o=e.vertexShader,a=e.fragmentShader,l=j_(e),c=e.envMapPMREM===!0?"ENVMAP_TYPE_PMREM":"ENVMAP_TYPE_CUBE",h=tw(e),u=nw(e),d=W_(e),f=X_(r),p=s.createProgram(),b,m,g=e.glslVersion?"#version "+e.glslVersion+`
+`:"";e.isRawShaderMaterial?(b=["#define SHADER_TYPE "+e.shaderType,"#define SHADER_NAME "+e.shaderName,f].filter(co).join(`
+`),b.length>0&&(b+=`
+`),m=["#define SHADER_TYPE "+e.shaderType,"#define SHADER_NAME "+e.shaderName,f].filter(co).join(`
+`),m.length>0&&(m+=`
+`)):(b=[Ip(e),"#define SHADER_TYPE "+e.shaderType,"#define SHADER_NAME "+e.shaderName,f,e.extensionClipCullDistance?"#define USE_CLIP_DISTANCE":"",e.batching?"#define USE_BATCHING":"",e.batchingColor?"#define USE_BATCHING_COLOR":"",e.instancing?"#define USE_INSTANCING":"",e.instancingColor?"#define USE_INSTANCING_COLOR":"",e.instancingMorph?"#define USE_INSTANCING_MORPH":"",e.useFog&&e.fog?"#define USE_FOG":"",e.useFog&&e.fogExp2?"#define FOG_EXP2":"",e.map?"#define USE_MAP":"",e.envMap?"#define USE_ENVMAP":"",e.envMap?"#define "+h:"",e.lightMap?"#define USE_LIGHTMAP":"",e.aoMap?"#define USE_AOMAP":"",e.bumpMap?"#define USE_BUMPMAP":"",e.normalMap?"#define USE_NORMALMAP":"",e.normalMapObjectSpace?"#define USE_NORMALMAP_OBJECTSPACE":"",e.normalMapTangentSpace?"#define USE_NORMALMAP_TANGENTSPACE":"",e.displacementMap?"#define USE_DISPLACEMENTMAP":"",e.emissiveMap?"#define USE_EMISSIVEMAP":"",e.anisotropy?"#define USE_ANISOTROPY":"",e.anisotropyMap?"#define USE_ANISOTROPYMAP":"",e.clearcoatMap?"#define USE_CLEARCOATMAP":"",e.clearcoatRoughnessMap?"#define USE_CLEARCOAT_ROUGHNESSMAP":"",e.clearcoatNormalMap?"#define USE_CLEARCOAT_NORMALMAP":"",e.diffuseRoughnessMap?"#define USE_DIFFUSE_ROUGHNESSMAP":"",e.iridescenceMap?"#define USE_IRIDESCENCEMAP":"",e.iridescenceThicknessMap?"#define USE_IRIDESCENCE_THICKNESSMAP":"",e.specularMap?"#define USE_SPECULARMAP":"",e.specularColorMap?"#define USE_SPECULAR_COLORMAP":"",e.specularIntensityMap?"#define USE_SPECULAR_INTENSITYMAP":"",e.roughnessMap?"#define USE_ROUGHNESSMAP":"",e.metalnessMap?"#define USE_METALNESSMAP":"",e.alphaMap?"#define USE_ALPHAMAP":"",e.alphaHash?"#define USE_ALPHAHASH":"",e.transmission?"#define USE_TRANSMISSION":"",e.transmissionMap?"#define USE_TRANSMISSIONMAP":"",e.thicknessMap?"#define USE_THICKNESSMAP":"",e.sheenColorMap?"#define USE_SHEEN_COLORMAP":"",e.sheenRoughnessMap?"#define USE_SHEEN_ROUGHNESSMAP":"",e.mapUv?"#define MAP_UV "+e.mapUv:"",e.alphaMapUv?"#define ALPHAMAP_UV "+e.alphaMapUv:"",e.lightMapUv?"#define LIGHTMAP_UV "+e.lightMapUv:"",e.aoMapUv?"#define AOMAP_UV "+e.aoMapUv:"",e.emissiveMapUv?"#define EMISSIVEMAP_UV "+e.emissiveMapUv:"",e.bumpMapUv?"#define BUMPMAP_UV "+e.bumpMapUv:"",e.normalMapUv?"#define NORMALMAP_UV "+e.normalMapUv:"",e.displacementMapUv?"#define DISPLACEMENTMAP_UV "+e.displacementMapUv:"",e.metalnessMapUv?"#define METALNESSMAP_UV "+e.metalnessMapUv:"",e.roughnessMapUv?"#define ROUGHNESSMAP_UV "+e.roughnessMapUv:"",e.anisotropyMapUv?"#define ANISOTROPYMAP_UV "+e.anisotropyMapUv:"",e.clearcoatMapUv?"#define CLEARCOATMAP_UV "+e.clearcoatMapUv:"",e.clearcoatNormalMapUv?"#define CLEARCOAT_NORMALMAP_UV "+e.clearcoatNormalMapUv:"",e.clearcoatRoughnessMapUv?"#define CLEARCOAT_ROUGHNESSMAP_UV "+e.clearcoatRoughnessMapUv:"",e.diffuseRoughnessMapUv?"#define DIFFUSE_ROUGHNESSMAP_UV "+e.diffuseRoughnessMapUv:"",e.iridescenceMapUv?"#define IRIDESCENCEMAP_UV "+e.iridescenceMapUv:"",e.iridescenceThicknessMapUv?"#define IRIDESCENCE_THICKNESSMAP_UV "+e.iridescenceThicknessMapUv:"",e.sheenColorMapUv?"#define SHEEN_COLORMAP_UV "+e.sheenColorMapUv:"",e.sheenRoughnessMapUv?"#define SHEEN_ROUGHNESSMAP_UV "+e.sheenRoughnessMapUv:"",e.specularMapUv?"#define SPECULARMAP_UV "+e.specularMapUv:"",e.specularColorMapUv?"#define SPECULAR_COLORMAP_UV "+e.specularColorMapUv:"",e.specularIntensityMapUv?"#define SPECULAR_INTENSITYMAP_UV "+e.specularIntensityMapUv:"",e.transmissionMapUv?"#define TRANSMISSIONMAP_UV "+e.transmissionMapUv:"",e.thicknessMapUv?"#define THICKNESSMAP_UV "+e.thicknessMapUv:"",e.vertexTangents&&e.flatShading===!1?"#define USE_TANGENT":"",e.vertexNormals?"#define HAS_NORMAL":"",e.vertexColors?"#define USE_COLOR":"",e.vertexAlphas?"#define USE_COLOR_ALPHA":"",e.vertexUv1s?"#define USE_UV1":"",e.vertexUv2s?"#define USE_UV2":"",e.vertexUv3s?"#define USE_UV3":"",e.pointsUvs?"#define USE_POINTS_UV":"",e.flatShading?"#define FLAT_SHADED":"",e.skinning?"#define USE_SKINNING":"",e.morphTargets?"#define USE_MORPHTARGETS":"",e.morphNormals&&e.flatShading===!1?"#define USE_MORPHNORMALS":"",e.morphColors?"#define USE_MORPHCOLORS":"",e.morphTargetsCount>0?"#define MORPHTARGETS_TEXTURE_STRIDE "+e.morphTextureStride:"",e.morphTargetsCount>0?"#define MORPHTARGETS_COUNT "+e.morphTargetsCount:"",e.doubleSided?"#define DOUBLE_SIDED":"",e.flipSided?"#define FLIP_SIDED":"",e.shadowMapEnabled?"#define USE_SHADOWMAP":"",e.shadowMapEnabled?"#define "+l:"",e.sizeAttenuation?"#define USE_SIZEATTENUATION":"",e.numLightProbes>0?"#define USE_LIGHT_PROBES":"",e.logarithmicDepthBuffer?"#define USE_LOGARITHMIC_DEPTH_BUFFER":"",e.reversedDepthBuffer?"#define USE_REVERSED_DEPTH_BUFFER":"","uniform mat4 modelMatrix;","uniform mat4 modelViewMatrix;","uniform mat4 projectionMatrix;","uniform mat4 viewMatrix;","uniform mat3 normalMatrix;","uniform vec3 cameraPosition;","uniform bool isOrthographic;","#ifdef USE_INSTANCING","	attribute mat4 instanceMatrix;","#endif","#ifdef USE_INSTANCING_COLOR","	attribute vec3 instanceColor;","#endif","#ifdef USE_INSTANCING_MORPH","	uniform sampler2D morphTexture;","#endif","attribute vec3 position;","attribute vec3 normal;","attribute vec2 uv;","#ifdef USE_UV1","	attribute vec2 uv1;","#endif","#ifdef USE_UV2","	attribute vec2 uv2;","#endif","#ifdef USE_UV3","	attribute vec2 uv3;","#endif","#ifdef USE_TANGENT","	attribute vec4 tangent;","#endif","#if defined( USE_COLOR_ALPHA )","	attribute vec4 color;","#elif defined( USE_COLOR )","	attribute vec3 color;","#endif","#ifdef USE_SKINNING","	attribute vec4 skinIndex;","	attribute vec4 skinWeight;","#endif",`
+`].filter(co).join(`
+`),m=[Ip(e),"#define SHADER_TYPE "+e.shaderType,"#define SHADER_NAME "+e.shaderName,f,e.useFog&&e.fog?"#define USE_FOG":"",e.useFog&&e.fogExp2?"#define FOG_EXP2":"",e.alphaToCoverage?"#define ALPHA_TO_COVERAGE":"",e.map?"#define USE_MAP":"",e.matcap?"#define USE_MATCAP":"",e.envMap?"#define USE_ENVMAP":"",e.envMap?"#define "+c:"",e.envMap?"#define "+h:"",e.envMap?"#define "+u:"",e.envMapPMREM?"#define ENVMAP_MAX_LOD "+e.envMapMaxLod+".0":"",e.envMapPMREM?"#define ENVMAP_SIZE "+e.envMapSize+".0":"",e.lightMap?"#define USE_LIGHTMAP":"",e.aoMap?"#define USE_AOMAP":"",e.bumpMap?"#define USE_BUMPMAP":"",e.normalMap?"#define USE_NORMALMAP":"",e.normalMapObjectSpace?"#define USE_NORMALMAP_OBJECTSPACE":"",e.normalMapTangentSpace?"#define USE_NORMALMAP_TANGENTSPACE":"",e.packedNormalMap?"#define USE_PACKED_NORMALMAP":"",e.emissiveMap?"#define USE_EMISSIVEMAP":"",e.anisotropy?"#define USE_ANISOTROPY":"",e.anisotropyMap?"#define USE_ANISOTROPYMAP":"",e.clearcoat?"#define USE_CLEARCOAT":"",e.clearcoatMap?"#define USE_CLEARCOATMAP":"",e.clearcoatRoughnessMap?"#define USE_CLEARCOAT_ROUGHNESSMAP":"",e.clearcoatNormalMap?"#define USE_CLEARCOAT_NORMALMAP":"",e.diffuseRoughness?"#define USE_DIFFUSE_ROUGHNESS":"",e.diffuseRoughnessMap?"#define USE_DIFFUSE_ROUGHNESSMAP":"",e.dispersion?"#define USE_DISPERSION":"",e.retroreflection?"#define USE_RETROREFLECTION":"",e.iridescence?"#define USE_IRIDESCENCE":"",e.iridescenceMap?"#define USE_IRIDESCENCEMAP":"",e.iridescenceThicknessMap?"#define USE_IRIDESCENCE_THICKNESSMAP":"",e.specularMap?"#define USE_SPECULARMAP":"",e.specularColorMap?"#define USE_SPECULAR_COLORMAP":"",e.specularIntensityMap?"#define USE_SPECULAR_INTENSITYMAP":"",e.roughnessMap?"#define USE_ROUGHNESSMAP":"",e.metalnessMap?"#define USE_METALNESSMAP":"",e.alphaMap?"#define USE_ALPHAMAP":"",e.alphaTest?"#define USE_ALPHATEST":"",e.alphaHash?"#define USE_ALPHAHASH":"",e.sheen?"#define USE_SHEEN":"",e.sheenColorMap?"#define USE_SHEEN_COLORMAP":"",e.sheenRoughnessMap?"#define USE_SHEEN_ROUGHNESSMAP":"",e.transmission?"#define USE_TRANSMISSION":"",e.transmissionMap?"#define USE_TRANSMISSIONMAP":"",e.thicknessMap?"#define USE_THICKNESSMAP":"",e.vertexTangents&&e.flatShading===!1?"#define USE_TANGENT":"",e.vertexColors||e.instancingColor?"#define USE_COLOR":"",e.vertexAlphas||e.batchingColor?"#define USE_COLOR_ALPHA":"",e.vertexUv1s?"#define USE_UV1":"",e.vertexUv2s?"#define USE_UV2":"",e.vertexUv3s?"#define USE_UV3":"",e.pointsUvs?"#define USE_POINTS_UV":"",e.gradientMap?"#define USE_GRADIENTMAP":"",e.flatShading?"#define FLAT_SHADED":"",e.doubleSided?"#define DOUBLE_SIDED":"",e.flipSided?"#define FLIP_SIDED":"",e.shadowMapEnabled?"#define USE_SHADOWMAP":"",e.shadowMapEnabled?"#define "+l:"",e.premultipliedAlpha?"#define PREMULTIPLIED_ALPHA":"",e.numLightProbes>0?"#define USE_LIGHT_PROBES":"",e.decodeVideoTexture?"#define DECODE_VIDEO_TEXTURE":"",e.decodeVideoTextureEmissive?"#define DECODE_VIDEO_TEXTURE_EMISSIVE":"",e.logarithmicDepthBuffer?"#define USE_LOGARITHMIC_DEPTH_BUFFER":"",e.reversedDepthBuffer?"#define USE_REVERSED_DEPTH_BUFFER":"","uniform mat4 viewMatrix;","uniform vec3 cameraPosition;","uniform bool isOrthographic;",e.toneMapping!==ui?"#define TONE_MAPPING":"",e.toneMapping!==ui?Wt.tonemapping_pars_fragment:"",e.toneMapping!==ui?H_("toneMapping",e.toneMapping):"",e.dithering?"#define DITHERING":"",e.opaque?"#define OPAQUE":"",Wt.colorspace_pars_fragment,z_("linearToOutputTexel",e.outputColorSpace),G_(),e.useDepthPacking?"#define DEPTH_PACKING "+e.depthPacking:"",`
+`].filter(co).join(`
+`)),o=xu(o),o=Cp(o,e),o=Rp(o,e),a=xu(a),a=Cp(a,e),a=Rp(a,e),o=Pp(o),a=Pp(a),e.isRawShaderMaterial!==!0&&(g=`#version 300 es
+`,b=[d,"#define attribute in","#define varying out","#define texture2D texture"].join(`
+`)+`
+`+b,m=["#define varying in",e.glslVersion===ms?"":"layout(location = 0) out highp vec4 pc_fragColor;",e.glslVersion===ms?"":"#define gl_FragColor pc_fragColor","#define gl_FragDepthEXT gl_FragDepth","#define texture2D texture","#define textureCube texture","#define texture2DProj textureProj","#define texture2DLodEXT textureLod","#define texture2DProjLodEXT textureProjLod","#define textureCubeLodEXT textureLod","#define texture2DGradEXT textureGrad","#define texture2DProjGradEXT textureProjGrad","#define textureCubeGradEXT textureGrad"].join(`
+`)+`
+`+m);let y=g+b+o,w=g+m+a,v=Tp(s,s.VERTEX_SHADER,y),_=Tp(s,s.FRAGMENT_SHADER,w);s.attachShader(p,v),s.attachShader(p,_),e.index0AttributeName!==void 0?s.bindAttribLocation(p,0,e.index0AttributeName):e.hasPositionAttribute===!0&&s.bindAttribLocation(p,0,"position"),s.linkProgram(p);function E(C){if(i.debug.checkShaderErrors){let P=s.getProgramInfoLog(p)||"",I=s.getShaderInfoLog(v)||"",U=s.getShaderInfoLog(_)||"",L=P.trim(),B=I.trim(),G=U.trim(),W=!0,nt=!0;if(s.getProgramParameter(p,s.LINK_STATUS)===!1)if(W=!1,typeof i.debug.onShaderError=="function")i.debug.onShaderError(s,p,v,_);else{let $=Ap(s,v,"vertex"),tt=Ap(s,_,"fragment");kt("WebGLProgram: Shader Error "+s.getError()+" - VALIDATE_STATUS "+s.getProgramParameter(p,s.VALIDATE_STATUS)+`
+
+Material Name: `+C.name+`
+Material Type: `+C.type+`
+
+Program Info Log: `+L+`
+`+$+`
+`+tt)}else L!==""?Lt("WebGLProgram: Program Info Log:",L):(B===""||G==="")&&(nt=!1);nt&&(C.diagnostics={runnable:W,programLog:L,vertexShader:{log:B,prefix:b},fragmentShader:{log:G,prefix:m}})}s.deleteShader(v),s.deleteShader(_),x=new nr(s,p),S=$_(s,p)}let x;this.getUniforms=function(){return x===void 0&&E(this),x};let S;this.getAttributes=function(){return S===void 0&&E(this),S};let k=e.rendererExtensionParallelShaderCompile===!1;return this.isReady=function(){return k===!1&&(k=s.getProgramParameter(p,F_)),k},this.destroy=function(){n.releaseStatesOfProgram(this),s.deleteProgram(p),this.program=void 0},this.type=e.shaderType,this.name=e.shaderName,this.id=U_++,this.cacheKey=t,this.usedTimes=1,this.program=p,this.vertexShader=v,this.fragmentShader=_,this}var sw=0,vu=class{constructor(){this.shaderCache=new Map,this.materialCache=new Map}update(t,e,n){let s=this._getShaderCacheForMaterial(t);return s.has(e)===!1&&(s.add(e),e.usedTimes++),s.has(n)===!1&&(s.add(n),n.usedTimes++),this}remove(t){let e=this.materialCache.get(t);for(let n of e)n.usedTimes--,n.usedTimes===0&&this.shaderCache.delete(n.code);return this.materialCache.delete(t),this}getVertexShaderStage(t){return this._getShaderStage(t.vertexShader)}getFragmentShaderStage(t){return this._getShaderStage(t.fragmentShader)}dispose(){this.shaderCache.clear(),this.materialCache.clear()}_getShaderCacheForMaterial(t){let e=this.materialCache,n=e.get(t);return n===void 0&&(n=new Set,e.set(t,n)),n}_getShaderStage(t){let e=this.shaderCache,n=e.get(t);return n===void 0&&(n=new yu(t),e.set(t,n)),n}},yu=class{constructor(t){this.id=sw++,this.code=t,this.usedTimes=0}};function rw(i){return i===Yi||i===ro||i===oo}function ow(i,t,e,n,s,r){let o=new $s,a=new vu,l=new Set,c=[],h=new Map,u=n.logarithmicDepthBuffer,d={MeshDepthMaterial:"depth",MeshDistanceMaterial:"distance",MeshNormalMaterial:"normal",MeshBasicMaterial:"basic",MeshLambertMaterial:"lambert",MeshPhongMaterial:"phong",MeshToonMaterial:"toon",MeshStandardMaterial:"physical",MeshPhysicalMaterial:"physical",MeshMatcapMaterial:"matcap",LineBasicMaterial:"basic",LineDashedMaterial:"dashed",PointsMaterial:"points",ShadowMaterial:"shadow",SpriteMaterial:"sprite"};function f(x){return l.add(x),x===0?"uv":`uv${x}`}function p(x,S,k,C,P,I){let U=C.fog,L=P.geometry,B=x.isMeshStandardMaterial||x.isMeshLambertMaterial||x.isMeshPhongMaterial?C.environment:null,G=x.isMeshStandardMaterial||x.isMeshLambertMaterial&&!x.envMap||x.isMeshPhongMaterial&&!x.envMap,W=t.get(x.envMap||B,G),nt=d[x.type],$=n.precision;x.precision!==null&&($=n.getMaxPrecision(x.precision),$!==x.precision&&Lt("WebGLProgram.getParameters:",x.precision,"not supported, using",$,"instead."));let tt=L.morphAttributes.position||L.morphAttributes.normal||L.morphAttributes.color,et=tt!==void 0?tt.length:0,bt=0;L.morphAttributes.position!==void 0&&(bt=1),L.morphAttributes.normal!==void 0&&(bt=2),L.morphAttributes.color!==void 0&&(bt=3);let Dt,K,ut,yt;if(nt){let gt=fi[nt];Dt=gt.vertexShader,K=gt.fragmentShader}else{Dt=x.vertexShader,K=x.fragmentShader;let gt=a.getVertexShaderStage(x),ae=a.getFragmentShaderStage(x);a.update(x,gt,ae),ut=gt.id,yt=ae.id}let Rt=i.getRenderTarget(),mt=i.state.buffers.depth.getReversed(),Ot=P.isInstancedMesh===!0,Te=P.isBatchedMesh===!0,Pt=!!x.map,Qt=!!x.matcap,he=!!W,Yt=he&&W.isPMREMTexture===!0,Ye=!!x.aoMap,Ne=!!x.lightMap,vn=!!x.bumpMap&&x.wireframe===!1,_e=!!x.normalMap,ei=!!x.displacementMap,Ve=!!x.emissiveMap,Dn=!!x.metalnessMap,Fn=!!x.roughnessMap,Un=x.anisotropy>0,O=x.clearcoat>0,On=x.diffuseRoughness>0,ve=x.dispersion>0,ye=x.retroreflectivity>0,pt=x.iridescence>0,De=x.sheen>0,It=x.transmission>0,Bt=Un&&!!x.anisotropyMap,R=O&&!!x.clearcoatMap,M=O&&!!x.clearcoatNormalMap,V=O&&!!x.clearcoatRoughnessMap,it=On&&!!x.diffuseRoughnessMap,Q=pt&&!!x.iridescenceMap,ot=pt&&!!x.iridescenceThicknessMap,dt=De&&!!x.sheenColorMap,Y=De&&!!x.sheenRoughnessMap,Z=!!x.specularMap,lt=!!x.specularColorMap,D=!!x.specularIntensityMap,j=It&&!!x.transmissionMap,q=It&&!!x.thicknessMap,ct=!!x.gradientMap,rt=!!x.alphaMap,at=x.alphaTest>0,Et=!!x.alphaHash,Gt=!!x.extensions,st=ui;x.toneMapped&&(Rt===null||Rt.isXRRenderTarget===!0)&&(st=i.toneMapping);let Ct=Yt?W.isCompressedCubeTexture?W.image[0].mipmaps:W.mipmaps:null,Vt={shaderID:nt,shaderType:x.type,shaderName:x.name,vertexShader:Dt,fragmentShader:K,defines:x.defines,customVertexShaderID:ut,customFragmentShaderID:yt,isRawShaderMaterial:x.isRawShaderMaterial===!0,glslVersion:x.glslVersion,precision:$,batching:Te,batchingColor:Te&&P._colorsTexture!==null,instancing:Ot,instancingColor:Ot&&P.instanceColor!==null,instancingMorph:Ot&&P.morphTexture!==null,outputColorSpace:Rt===null?i.outputColorSpace:Rt.isXRRenderTarget===!0?Rt.texture.colorSpace:Xt.workingColorSpace,alphaToCoverage:!!x.alphaToCoverage,map:Pt,matcap:Qt,envMap:he,envMapMode:he&&W.mapping,envMapPMREM:Yt,envMapMaxLod:Yt?Ct.length-1:null,envMapSize:Yt?Ct[0].width:null,aoMap:Ye,lightMap:Ne,bumpMap:vn,normalMap:_e,displacementMap:ei,emissiveMap:Ve,normalMapObjectSpace:_e&&x.normalMapType===jf,normalMapTangentSpace:_e&&x.normalMapType===eu,packedNormalMap:_e&&x.normalMapType===eu&&rw(x.normalMap.format),metalnessMap:Dn,roughnessMap:Fn,anisotropy:Un,anisotropyMap:Bt,clearcoat:O,clearcoatMap:R,clearcoatNormalMap:M,clearcoatRoughnessMap:V,diffuseRoughness:On,diffuseRoughnessMap:it,dispersion:ve,retroreflection:ye,iridescence:pt,iridescenceMap:Q,iridescenceThicknessMap:ot,sheen:De,sheenColorMap:dt,sheenRoughnessMap:Y,specularMap:Z,specularColorMap:lt,specularIntensityMap:D,transmission:It,transmissionMap:j,thicknessMap:q,gradientMap:ct,opaque:x.transparent===!1&&x.blending===js&&x.alphaToCoverage===!1,alphaMap:rt,alphaTest:at,alphaHash:Et,combine:x.combine,mapUv:Pt&&f(x.map.channel),aoMapUv:Ye&&f(x.aoMap.channel),lightMapUv:Ne&&f(x.lightMap.channel),bumpMapUv:vn&&f(x.bumpMap.channel),normalMapUv:_e&&f(x.normalMap.channel),displacementMapUv:ei&&f(x.displacementMap.channel),emissiveMapUv:Ve&&f(x.emissiveMap.channel),metalnessMapUv:Dn&&f(x.metalnessMap.channel),roughnessMapUv:Fn&&f(x.roughnessMap.channel),anisotropyMapUv:Bt&&f(x.anisotropyMap.channel),clearcoatMapUv:R&&f(x.clearcoatMap.channel),clearcoatNormalMapUv:M&&f(x.clearcoatNormalMap.channel),clearcoatRoughnessMapUv:V&&f(x.clearcoatRoughnessMap.channel),diffuseRoughnessMapUv:it&&f(x.diffuseRoughnessMap.channel),iridescenceMapUv:Q&&f(x.iridescenceMap.channel),iridescenceThicknessMapUv:ot&&f(x.iridescenceThicknessMap.channel),sheenColorMapUv:dt&&f(x.sheenColorMap.channel),sheenRoughnessMapUv:Y&&f(x.sheenRoughnessMap.channel),specularMapUv:Z&&f(x.specularMap.channel),specularColorMapUv:lt&&f(x.specularColorMap.channel),specularIntensityMapUv:D&&f(x.specularIntensityMap.channel),transmissionMapUv:j&&f(x.transmissionMap.channel),thicknessMapUv:q&&f(x.thicknessMap.channel),alphaMapUv:rt&&f(x.alphaMap.channel),vertexTangents:!!L.attributes.tangent&&(_e||Un),vertexNormals:!!L.attributes.normal,vertexColors:x.vertexColors,vertexAlphas:x.vertexColors===!0&&!!L.attributes.color&&L.attributes.color.itemSize===4,pointsUvs:P.isPoints===!0&&!!L.attributes.uv&&(Pt||rt),fog:!!U,useFog:x.fog===!0,fogExp2:!!U&&U.isFogExp2,flatShading:x.wireframe===!1&&(x.flatShading===!0||L.attributes.normal===void 0&&_e===!1&&(x.isMeshLambertMaterial||x.isMeshPhongMaterial||x.isMeshStandardMaterial||x.isMeshPhysicalMaterial)),sizeAttenuation:x.sizeAttenuation===!0,logarithmicDepthBuffer:u,reversedDepthBuffer:mt,skinning:P.isSkinnedMesh===!0,hasPositionAttribute:L.attributes.position!==void 0,morphTargets:L.morphAttributes.position!==void 0,morphNormals:L.morphAttributes.normal!==void 0,morphColors:L.morphAttributes.color!==void 0,morphTargetsCount:et,morphTextureStride:bt,numSunLights:S.sun.length,numDirLights:S.directional.length,numPointLights:S.point.length,numSpotLights:S.spot.length,numSpotLightMaps:S.spotLightMap.length,numRectAreaLights:S.rectArea.length,numHemiLights:S.hemi.length,numSunLightShadows:S.sunShadowMap.length,numDirLightShadows:S.directionalShadowMap.length,numPointLightShadows:S.pointShadowMap.length,numSpotLightShadows:S.spotShadowMap.length,numSpotLightShadowsWithMaps:S.numSpotLightShadowsWithMaps,numLightProbes:S.numLightProbes,numLightProbeGrids:I.filter(gt=>gt.texture!==null).length,numClippingPlanes:r.numPlanes,numClipIntersection:r.numIntersection,dithering:x.dithering,shadowMapEnabled:i.shadowMap.enabled&&k.length>0,shadowMapType:i.shadowMap.type,toneMapping:st,decodeVideoTexture:Pt&&x.map.isVideoTexture===!0&&Xt.getTransfer(x.map.colorSpace)===se,decodeVideoTextureEmissive:Ve&&x.emissiveMap.isVideoTexture===!0&&Xt.getTransfer(x.emissiveMap.colorSpace)===se,premultipliedAlpha:x.premultipliedAlpha,doubleSided:x.side===Fe,flipSided:x.side===Ke,useDepthPacking:x.depthPacking>=0,depthPacking:x.depthPacking||0,index0AttributeName:x.index0AttributeName,extensionClipCullDistance:Gt&&x.extensions.clipCullDistance===!0&&e.has("WEBGL_clip_cull_distance"),extensionMultiDraw:(Gt&&x.extensions.multiDraw===!0||Te)&&e.has("WEBGL_multi_draw"),rendererExtensionParallelShaderCompile:e.has("KHR_parallel_shader_compile"),customProgramCacheKey:x.customProgramCacheKey()};return Vt.vertexUv1s=l.has(1),Vt.vertexUv2s=l.has(2),Vt.vertexUv3s=l.has(3),l.clear(),Vt}function b(x){let S=[];if(x.shaderID?S.push(x.shaderID):(S.push(x.customVertexShaderID),S.push(x.customFragmentShaderID)),x.defines!==void 0)for(let k in x.defines)S.push(k),S.push(x.defines[k]);return x.isRawShaderMaterial===!1&&(m(S,x),g(S,x),S.push(i.outputColorSpace)),S.push(x.customProgramCacheKey),S.join()}function m(x,S){x.push(S.precision),x.push(S.outputColorSpace),x.push(S.envMapMode),x.push(S.envMapPMREM),x.push(S.envMapMaxLod),x.push(S.envMapSize),x.push(S.mapUv),x.push(S.alphaMapUv),x.push(S.lightMapUv),x.push(S.aoMapUv),x.push(S.bumpMapUv),x.push(S.normalMapUv),x.push(S.displacementMapUv),x.push(S.emissiveMapUv),x.push(S.metalnessMapUv),x.push(S.roughnessMapUv),x.push(S.anisotropyMapUv),x.push(S.clearcoatMapUv),x.push(S.clearcoatNormalMapUv),x.push(S.clearcoatRoughnessMapUv),x.push(S.diffuseRoughnessMapUv),x.push(S.iridescenceMapUv),x.push(S.iridescenceThicknessMapUv),x.push(S.sheenColorMapUv),x.push(S.sheenRoughnessMapUv),x.push(S.specularMapUv),x.push(S.specularColorMapUv),x.push(S.specularIntensityMapUv),x.push(S.transmissionMapUv),x.push(S.thicknessMapUv),x.push(S.combine),x.push(S.fogExp2),x.push(S.sizeAttenuation),x.push(S.morphTargetsCount),x.push(S.numSunLights),x.push(S.numDirLights),x.push(S.numPointLights),x.push(S.numSpotLights),x.push(S.numSpotLightMaps),x.push(S.numHemiLights),x.push(S.numRectAreaLights),x.push(S.numSunLightShadows),x.push(S.numDirLightShadows),x.push(S.numPointLightShadows),x.push(S.numSpotLightShadows),x.push(S.numSpotLightShadowsWithMaps),x.push(S.numLightProbes),x.push(S.numLightProbeGrids),x.push(S.shadowMapType),x.push(S.toneMapping),x.push(S.numClippingPlanes),x.push(S.numClipIntersection),x.push(S.depthPacking)}function g(x,S){o.disableAll(),S.instancing&&o.enable(0),S.instancingColor&&o.enable(1),S.instancingMorph&&o.enable(2),S.matcap&&o.enable(3),S.envMap&&o.enable(4),S.normalMapObjectSpace&&o.enable(5),S.normalMapTangentSpace&&o.enable(6),S.clearcoat&&o.enable(7),S.iridescence&&o.enable(8),S.alphaTest&&o.enable(9),S.vertexColors&&o.enable(10),S.vertexAlphas&&o.enable(11),S.vertexUv1s&&o.enable(12),S.vertexUv2s&&o.enable(13),S.vertexUv3s&&o.enable(14),S.vertexTangents&&o.enable(15),S.anisotropy&&o.enable(16),S.alphaHash&&o.enable(17),S.batching&&o.enable(18),S.dispersion&&o.enable(19),S.retroreflection&&o.enable(24),S.diffuseRoughness&&o.enable(25),S.batchingColor&&o.enable(20),S.gradientMap&&o.enable(21),S.packedNormalMap&&o.enable(22),S.vertexNormals&&o.enable(23),x.push(o.mask),o.disableAll(),S.fog&&o.enable(0),S.useFog&&o.enable(1),S.flatShading&&o.enable(2),S.logarithmicDepthBuffer&&o.enable(3),S.reversedDepthBuffer&&o.enable(4),S.skinning&&o.enable(5),S.morphTargets&&o.enable(6),S.morphNormals&&o.enable(7),S.morphColors&&o.enable(8),S.premultipliedAlpha&&o.enable(9),S.shadowMapEnabled&&o.enable(10),S.doubleSided&&o.enable(11),S.flipSided&&o.enable(12),S.useDepthPacking&&o.enable(13),S.dithering&&o.enable(14),S.transmission&&o.enable(15),S.sheen&&o.enable(16),S.opaque&&o.enable(17),S.pointsUvs&&o.enable(18),S.decodeVideoTexture&&o.enable(19),S.decodeVideoTextureEmissive&&o.enable(20),S.alphaToCoverage&&o.enable(21),S.numLightProbeGrids>0&&o.enable(22),S.hasPositionAttribute&&o.enable(23),x.push(o.mask)}function y(x){let S=d[x.type],k;if(S){let C=fi[S];k=dp.clone(C.uniforms)}else k=x.uniforms;return k}function w(x,S){let k=h.get(S);return k!==void 0?++k.usedTimes:(k=new iw(i,S,x,s),c.push(k),h.set(S,k)),k}function v(x){if(--x.usedTimes===0){let S=c.indexOf(x);c[S]=c[c.length-1],c.pop(),h.delete(x.cacheKey),x.destroy()}}function _(x){a.remove(x)}function E(){a.dispose()}return{getParameters:p,getProgramCacheKey:b,getUniforms:y,acquireProgram:w,releaseProgram:v,releaseShaderCache:_,programs:c,dispose:E}}function aw(){let i=new WeakMap;function t(o){return i.has(o)}function e(o){let a=i.get(o);return a===void 0&&(a={},i.set(o,a)),a}function n(o){i.delete(o)}function s(o,a,l){i.get(o)[a]=l}function r(){i=new WeakMap}return{has:t,get:e,remove:n,update:s,dispose:r}}function lw(i,t){return i.groupOrder!==t.groupOrder?i.groupOrder-t.groupOrder:i.renderOrder!==t.renderOrder?i.renderOrder-t.renderOrder:i.material.id!==t.material.id?i.material.id-t.material.id:i.materialVariant!==t.materialVariant?i.materialVariant-t.materialVariant:i.z!==t.z?i.z-t.z:i.id-t.id}function Lp(i,t){return i.groupOrder!==t.groupOrder?i.groupOrder-t.groupOrder:i.renderOrder!==t.renderOrder?i.renderOrder-t.renderOrder:i.z!==t.z?t.z-i.z:i.id-t.id}function kp(){let i=[],t=0,e=[],n=[],s=[];function r(){t=0,e.length=0,n.length=0,s.length=0}function o(d){let f=0;return d.isInstancedMesh&&(f+=2),d.isSkinnedMesh&&(f+=1),f}function a(d,f,p,b,m,g){let y=i[t];return y===void 0?(y={id:d.id,object:d,geometry:f,material:p,materialVariant:o(d),groupOrder:b,renderOrder:d.renderOrder,z:m,group:g},i[t]=y):(y.id=d.id,y.object=d,y.geometry=f,y.material=p,y.materialVariant=o(d),y.groupOrder=b,y.renderOrder=d.renderOrder,y.z=m,y.group=g),t++,y}function l(d,f,p,b,m,g,y){y.reversedDepth===!0&&(m=-m);let w=a(d,f,p,b,m,g);p.transmission>0?n.push(w):p.transparent===!0?s.push(w):e.push(w)}function c(d,f,p,b,m,g){let y=a(d,f,p,b,m,g);p.transmission>0?n.unshift(y):p.transparent===!0?s.unshift(y):e.unshift(y)}function h(d,f){e.length>1&&e.sort(d||lw),n.length>1&&n.sort(f||Lp),s.length>1&&s.sort(f||Lp)}function u(){for(let d=t,f=i.length;d<f;d++){let p=i[d];if(p.id===null)break;p.id=null,p.object=null,p.geometry=null,p.material=null,p.group=null}}return{opaque:e,transmissive:n,transparent:s,init:r,push:l,unshift:c,finish:u,sort:h}}function cw(){let i=new WeakMap;function t(n,s){let r=i.get(n),o;return r===void 0?(o=new kp,i.set(n,[o])):s>=r.length?(o=new kp,r.push(o)):o=r[s],o}function e(){i=new WeakMap}return{get:t,dispose:e}}function hw(){let i={};return{get:function(t){if(i[t.id]!==void 0)return i[t.id];let e;switch(t.type){case"SunLight":case"DirectionalLight":e={direction:new N,color:new Ut};break;case"SpotLight":e={position:new N,direction:new N,color:new Ut,distance:0,coneCos:0,penumbraCos:0,decay:0};break;case"PointLight":e={position:new N,color:new Ut,distance:0,decay:0};break;case"HemisphereLight":e={direction:new N,skyColor:new Ut,groundColor:new Ut};break;case"RectAreaLight":e={color:new Ut,position:new N,halfWidth:new N,halfHeight:new N};break}return i[t.id]=e,e}}}function uw(){let i={};return{get:function(t){if(i[t.id]!==void 0)return i[t.id];let e;switch(t.type){case"SunLight":case"DirectionalLight":e={shadowIntensity:1,shadowBias:0,shadowNormalBias:0,shadowRadius:1,shadowMapSize:new At};break;case"SpotLight":e={shadowIntensity:1,shadowBias:0,shadowNormalBias:0,shadowRadius:1,shadowMapSize:new At};break;case"PointLight":e={shadowIntensity:1,shadowBias:0,shadowNormalBias:0,shadowRadius:1,shadowMapSize:new At,shadowCameraNear:1,shadowCameraFar:1e3};break}return i[t.id]=e,e}}}var dw=0;function fw(i,t){return(t.castShadow?2:0)-(i.castShadow?2:0)+(t.map?1:0)-(i.map?1:0)}function pw(i){let t=new hw,e=uw(),n={version:0,hash:{sunLength:-1,directionalLength:-1,pointLength:-1,spotLength:-1,rectAreaLength:-1,hemiLength:-1,numSunShadows:-1,numDirectionalShadows:-1,numPointShadows:-1,numSpotShadows:-1,numSpotMaps:-1,numLightProbes:-1},ambient:[0,0,0],probe:[],sun:[],sunShadow:[],sunShadowMap:[],sunShadowMatrix:[],sunShadowCascade:[],directional:[],directionalShadow:[],directionalShadowMap:[],directionalShadowMatrix:[],spot:[],spotLightMap:[],spotShadow:[],spotShadowMap:[],spotLightMatrix:[],rectArea:[],rectAreaLTC1:null,rectAreaLTC2:null,point:[],pointShadow:[],pointShadowMap:[],pointShadowMatrix:[],hemi:[],numSpotLightShadowsWithMaps:0,numLightProbes:0};for(let c=0;c<9;c++)n.probe.push(new N);let s=new N,r=new Mt,o=new Mt;function a(c){let h=0,u=0,d=0;for(let I=0;I<9;I++)n.probe[I].set(0,0,0);let f=0,p=0,b=0,m=0,g=0,y=0,w=0,v=0,_=0,E=0,x=0,S=0,k=0,C=0;c.sort(fw);for(let I=0,U=c.length;I<U;I++){let L=c[I],B=L.color,G=L.intensity,W=L.distance,nt=null;if(L.shadow&&L.shadow.map&&(L.shadow.map.texture.format===Yi?nt=L.shadow.map.texture:nt=L.shadow.map.depthTexture||L.shadow.map.texture),L.isAmbientLight)h+=B.r*G,u+=B.g*G,d+=B.b*G;else if(L.isLightProbe){for(let $=0;$<9;$++)n.probe[$].addScaledVector(L.sh.coefficients[$],G);C++}else if(L.isSunLight){let $=t.get(L);if($.color.copy(L.color).multiplyScalar(L.intensity),L.castShadow){let tt=L.shadow,et=e.get(L);et.shadowIntensity=tt.intensity,et.shadowBias=tt.bias,et.shadowNormalBias=tt.normalBias,et.shadowRadius=tt.radius,et.shadowMapSize.copy(tt.mapSize).multiply(tt.getFrameExtents()),n.sunShadow[p]=et,n.sunShadowMap[p]=nt;let bt=tt.getViewportCount();for(let Dt=0;Dt<bt;Dt++)n.sunShadowMatrix[b+Dt]=tt.getMatrix(Dt),n.sunShadowCascade[b+Dt]=tt._cascadeData[Dt];b+=bt,p++}n.sun[f]=$,f++}else if(L.isDirectionalLight){let $=t.get(L);if($.color.copy(L.color).multiplyScalar(L.intensity),L.castShadow){let tt=L.shadow,et=e.get(L);et.shadowIntensity=tt.intensity,et.shadowBias=tt.bias,et.shadowNormalBias=tt.normalBias,et.shadowRadius=tt.radius,et.shadowMapSize=tt.mapSize,n.directionalShadow[m]=et,n.directionalShadowMap[m]=nt,n.directionalShadowMatrix[m]=L.shadow.matrix,_++}n.directional[m]=$,m++}else if(L.isSpotLight){let $=t.get(L);$.position.setFromMatrixPosition(L.matrixWorld),$.color.copy(B).multiplyScalar(G),$.distance=W,$.coneCos=Math.cos(L.angle),$.penumbraCos=Math.cos(L.angle*(1-L.penumbra)),$.decay=L.decay,n.spot[y]=$;let tt=L.shadow;if(L.map&&(n.spotLightMap[S]=L.map,S++,tt.updateMatrices(L),L.castShadow&&k++),n.spotLightMatrix[y]=tt.matrix,L.castShadow){let et=e.get(L);et.shadowIntensity=tt.intensity,et.shadowBias=tt.bias,et.shadowNormalBias=tt.normalBias,et.shadowRadius=tt.radius,et.shadowMapSize=tt.mapSize,n.spotShadow[y]=et,n.spotShadowMap[y]=nt,x++}y++}else if(L.isRectAreaLight){let $=t.get(L);$.color.copy(B).multiplyScalar(G),$.halfWidth.set(L.width*.5,0,0),$.halfHeight.set(0,L.height*.5,0),n.rectArea[w]=$,w++}else if(L.isPointLight){let $=t.get(L);if($.color.copy(L.color).multiplyScalar(L.intensity),$.distance=L.distance,$.decay=L.decay,L.castShadow){let tt=L.shadow,et=e.get(L);et.shadowIntensity=tt.intensity,et.shadowBias=tt.bias,et.shadowNormalBias=tt.normalBias,et.shadowRadius=tt.radius,et.shadowMapSize=tt.mapSize,et.shadowCameraNear=tt.camera.near,et.shadowCameraFar=tt.camera.far,n.pointShadow[g]=et,n.pointShadowMap[g]=nt,n.pointShadowMatrix[g]=L.shadow.matrix,E++}n.point[g]=$,g++}else if(L.isHemisphereLight){let $=t.get(L);$.skyColor.copy(L.color).multiplyScalar(G),$.groundColor.copy(L.groundColor).multiplyScalar(G),n.hemi[v]=$,v++}}w>0&&(i.has("OES_texture_float_linear")===!0?(n.rectAreaLTC1=xt.LTC_FLOAT_1,n.rectAreaLTC2=xt.LTC_FLOAT_2):(n.rectAreaLTC1=xt.LTC_HALF_1,n.rectAreaLTC2=xt.LTC_HALF_2)),n.ambient[0]=h,n.ambient[1]=u,n.ambient[2]=d;let P=n.hash;(P.sunLength!==f||P.directionalLength!==m||P.pointLength!==g||P.spotLength!==y||P.rectAreaLength!==w||P.hemiLength!==v||P.numSunShadows!==p||P.numDirectionalShadows!==_||P.numPointShadows!==E||P.numSpotShadows!==x||P.numSpotMaps!==S||P.numLightProbes!==C)&&(n.sun.length=f,n.directional.length=m,n.spot.length=y,n.rectArea.length=w,n.point.length=g,n.hemi.length=v,n.sunShadow.length=p,n.sunShadowMap.length=p,n.sunShadowMatrix.length=b,n.sunShadowCascade.length=b,n.directionalShadow.length=_,n.directionalShadowMap.length=_,n.directionalShadowMatrix.length=_,n.pointShadow.length=E,n.pointShadowMap.length=E,n.pointShadowMatrix.length=E,n.spotShadow.length=x,n.spotShadowMap.length=x,n.spotLightMatrix.length=x+S-k,n.spotLightMap.length=S,n.numSpotLightShadowsWithMaps=k,n.numLightProbes=C,P.sunLength=f,P.directionalLength=m,P.pointLength=g,P.spotLength=y,P.rectAreaLength=w,P.hemiLength=v,P.numSunShadows=p,P.numDirectionalShadows=_,P.numPointShadows=E,P.numSpotShadows=x,P.numSpotMaps=S,P.numLightProbes=C,n.version=dw++)}function l(c,h){let u=0,d=0,f=0,p=0,b=0,m=0,g=h.matrixWorldInverse;for(let y=0,w=c.length;y<w;y++){let v=c[y];if(v.isSunLight){let _=n.sun[u];_.direction.setFromMatrixPosition(v.matrixWorld),_.direction.transformDirection(g),u++}else if(v.isDirectionalLight){let _=n.directional[d];_.direction.setFromMatrixPosition(v.matrixWorld),s.setFromMatrixPosition(v.target.matrixWorld),_.direction.sub(s),_.direction.transformDirection(g),d++}else if(v.isSpotLight){let _=n.spot[p];_.position.setFromMatrixPosition(v.matrixWorld),_.position.applyMatrix4(g),_.direction.setFromMatrixPosition(v.matrixWorld),s.setFromMatrixPosition(v.target.matrixWorld),_.direction.sub(s),_.direction.transformDirection(g),p++}else if(v.isRectAreaLight){let _=n.rectArea[b];_.position.setFromMatrixPosition(v.matrixWorld),_.position.applyMatrix4(g),o.identity(),r.copy(v.matrixWorld),r.premultiply(g),o.extractRotation(r),_.halfWidth.set(v.width*.5,0,0),_.halfHeight.set(0,v.height*.5,0),_.halfWidth.applyMatrix4(o),_.halfHeight.applyMatrix4(o),b++}else if(v.isPointLight){let _=n.point[f];_.position.setFromMatrixPosition(v.matrixWorld),_.position.applyMatrix4(g),f++}else if(v.isHemisphereLight){let _=n.hemi[m];_.direction.setFromMatrixPosition(v.matrixWorld),_.direction.transformDirection(g),m++}}}return{setup:a,setupView:l,state:n}}function Np(i){let t=new pw(i),e=[],n=[],s=[];function r(u){h.camera=u,e.length=0,n.length=0,s.length=0}function o(u){u.isLightProbeGrid?s.push(u):e.push(u)}function a(u){n.push(u)}function l(){t.setup(e),s.sort((u,d)=>u.priority-d.priority||u.id-d.id)}function c(u){t.setupView(e,u)}let h={lightsArray:e,shadowsArray:n,lightProbeGridArray:s,camera:null,lights:t,transmissionRenderTarget:{},textureUnits:0};return{init:r,state:h,setupLights:l,setupLightsView:c,pushLight:o,pushShadow:a}}function mw(i){let t=new WeakMap;function e(s,r=0){let o=t.get(s),a;return o===void 0?(a=new Np(i),t.set(s,[a])):r>=o.length?(a=new Np(i),o.push(a)):a=o[r],a}function n(){t=new WeakMap}return{get:e,dispose:n}}var gw=`void main() {
+	gl_Position = vec4( position, 1.0 );
+}`,xw=`uniform sampler2D shadow_pass;
+uniform vec2 resolution;
+uniform float radius;
+void main() {
+	const float samples = float( VSM_SAMPLES );
+	float mean = 0.0;
+	float squared_mean = 0.0;
+	float uvStride = samples <= 1.0 ? 0.0 : 2.0 / ( samples - 1.0 );
+	float uvStart = samples <= 1.0 ? 0.0 : - 1.0;
+	for ( float i = 0.0; i < samples; i ++ ) {
+		float uvOffset = uvStart + i * uvStride;
+		#ifdef HORIZONTAL_PASS
+			vec2 distribution = texture2D( shadow_pass, ( gl_FragCoord.xy + vec2( uvOffset, 0.0 ) * radius ) / resolution ).rg;
+			mean += distribution.x;
+			squared_mean += distribution.y * distribution.y + distribution.x * distribution.x;
+		#else
+			float depth = texture2D( shadow_pass, ( gl_FragCoord.xy + vec2( 0.0, uvOffset ) * radius ) / resolution ).r;
+			mean += depth;
+			squared_mean += depth * depth;
+		#endif
+	}
+	mean = mean / samples;
+	squared_mean = squared_mean / samples;
+	float std_dev = sqrt( max( 0.0, squared_mean - mean * mean ) );
+	gl_FragColor = vec4( mean, std_dev, 0.0, 1.0 );
+}`,vw=[new N(1,0,0),new N(-1,0,0),new N(0,1,0),new N(0,-1,0),new N(0,0,1),new N(0,0,-1)],yw=[new N(0,-1,0),new N(0,-1,0),new N(0,0,1),new N(0,0,-1),new N(0,-1,0),new N(0,-1,0)],Dp=new Mt,lo=new N,fu=new N;function bw(i,t,e){let n=new ci,s=new At,r=new At,o=new $t,a=new Ra,l=new Pa,c={},h=e.maxTextureSize,u={[Kn]:Ke,[Ke]:Kn,[Fe]:Fe},d=new ln({defines:{VSM_SAMPLES:8},uniforms:{shadow_pass:{value:null},resolution:{value:new At},radius:{value:4}},vertexShader:gw,fragmentShader:xw}),f=d.clone();f.defines.HORIZONTAL_PASS=1;let p=new Ie;p.setAttribute("position",new be(new Float32Array([-1,-1,.5,3,-1,.5,-1,3,.5]),3));let b=new Le(p,d),m=this;this.enabled=!1,this.autoUpdate=!0,this.needsUpdate=!1,this.type=Jr;let g=this.type;this.render=function(E,x,S){if(m.enabled===!1||m.autoUpdate===!1&&m.needsUpdate===!1||E.length===0)return;this.type===If&&(Lt("WebGLShadowMap: PCFSoftShadowMap has been removed. Using PCFShadowMap instead."),this.type=Jr);let k=i.getRenderTarget(),C=i.getActiveCubeFace(),P=i.getActiveMipmapLevel(),I=i.state;I.setBlending(jn),I.buffers.depth.getReversed()===!0?I.buffers.color.setClear(0,0,0,0):I.buffers.color.setClear(1,1,1,1),I.buffers.depth.setTest(!0),I.setScissorTest(!1);let U=g!==this.type;U&&x.traverse(function(L){L.material&&(Array.isArray(L.material)?L.material.forEach(B=>B.needsUpdate=!0):L.material.needsUpdate=!0)});for(let L=0,B=E.length;L<B;L++){let G=E[L],W=G.shadow;if(W===void 0){Lt("WebGLShadowMap:",G,"has no shadow.");continue}if(W.autoUpdate===!1&&W.needsUpdate===!1)continue;s.copy(W.mapSize);let nt=W.getFrameExtents();s.multiply(nt),r.copy(W.mapSize),(s.x>h||s.y>h)&&(s.x>h&&(r.x=Math.floor(h/nt.x),s.x=r.x*nt.x,W.mapSize.x=r.x),s.y>h&&(r.y=Math.floor(h/nt.y),s.y=r.y*nt.y,W.mapSize.y=r.y));let $=i.state.buffers.depth.getReversed();if(W.camera._reversedDepth=$,W.map===null||U===!0){if(W.map!==null&&(W.map.depthTexture!==null&&(W.map.depthTexture.dispose(),W.map.depthTexture=null),W.map.dispose()),this.type===Ks){if(G.isPointLight){Lt("WebGLShadowMap: VSM shadow maps are not supported for PointLights. Use PCF or BasicShadowMap instead.");continue}W.map=new Pe(s.x,s.y,{format:Yi,type:Ln,minFilter:$e,magFilter:$e,generateMipmaps:!1}),W.map.texture.name=G.name+".shadowMap",W.map.depthTexture=new Jn(s.x,s.y,Rn),W.map.depthTexture.name=G.name+".shadowMapDepth",W.map.depthTexture.format=Ti,W.map.depthTexture.compareFunction=null,W.map.depthTexture.minFilter=Se,W.map.depthTexture.magFilter=Se}else G.isPointLight?(W.map=new ho(s.x),W.map.depthTexture=new Xr(s.x,Sn)):(W.map=new Pe(s.x,s.y),W.map.depthTexture=new Jn(s.x,s.y,Sn)),W.map.depthTexture.name=G.name+".shadowMap",W.map.depthTexture.format=Ti,this.type===Jr?(W.map.depthTexture.compareFunction=$?iu:nu,W.map.depthTexture.minFilter=$e,W.map.depthTexture.magFilter=$e):(W.map.depthTexture.compareFunction=null,W.map.depthTexture.minFilter=Se,W.map.depthTexture.magFilter=Se);W.camera.updateProjectionMatrix()}W.map.isWebGLCubeRenderTarget!==!0&&(W.map.width!==s.x||W.map.height!==s.y)&&W.map.setSize(s.x,s.y);let tt=W.map.isWebGLCubeRenderTarget?6:W.getViewportCount();G.isPointLight!==!0&&W.updateMatrices(G,S);let et=(W.camera.layers.mask&4294967294)!==0?W.camera.layers:S.layers;for(let bt=0;bt<tt;bt++){let Dt=W.getCamera(bt);if(G.isPointLight){let K=W.camera,ut=W.matrix,yt=G.distance||K.far;yt!==K.far&&(K.far=yt,K.updateProjectionMatrix()),lo.setFromMatrixPosition(G.matrixWorld),K.position.copy(lo),fu.copy(K.position),fu.add(vw[bt]),K.up.copy(yw[bt]),K.lookAt(fu),K.updateMatrixWorld(),ut.makeTranslation(-lo.x,-lo.y,-lo.z),Dp.multiplyMatrices(K.projectionMatrix,K.matrixWorldInverse),W._frustum.setFromProjectionMatrix(Dp,K.coordinateSystem,K.reversedDepth)}if(W.map.isWebGLCubeRenderTarget)i.setRenderTarget(W.map,bt),i.clear();else{bt===0&&(i.setRenderTarget(W.map),i.clear());let K=W.getViewport(bt);o.set(r.x*K.x,r.y*K.y,r.x*K.z,r.y*K.w),I.viewport(o)}n=W.getFrustum(bt),v(x,S,Dt,G,et,this.type)}W.isPointLightShadow!==!0&&this.type===Ks&&y(W,S),W.needsUpdate=!1}g=this.type,m.needsUpdate=!1,i.setRenderTarget(k,C,P)};function y(E,x){let S=t.update(b);d.defines.VSM_SAMPLES!==E.blurSamples&&(d.defines.VSM_SAMPLES=E.blurSamples,f.defines.VSM_SAMPLES=E.blurSamples,d.needsUpdate=!0,f.needsUpdate=!0),E.mapPass===null?E.mapPass=new Pe(s.x,s.y,{format:Yi,type:Ln}):(E.mapPass.width!==E.map.width||E.mapPass.height!==E.map.height)&&E.mapPass.setSize(E.map.width,E.map.height),d.uniforms.shadow_pass.value=E.map.depthTexture,d.uniforms.resolution.value.set(E.map.width,E.map.height),d.uniforms.radius.value=E.radius,i.setRenderTarget(E.mapPass),i.clear(),i.renderBufferDirect(x,null,S,d,b,null),f.uniforms.shadow_pass.value=E.mapPass.texture,f.uniforms.resolution.value.set(E.map.width,E.map.height),f.uniforms.radius.value=E.radius,i.setRenderTarget(E.map),i.clear(),i.renderBufferDirect(x,null,S,f,b,null)}function w(E,x,S,k){let C=null,P=S.isPointLight===!0?E.customDistanceMaterial:E.customDepthMaterial;if(P!==void 0)C=P;else if(C=S.isPointLight===!0?l:a,i.localClippingEnabled&&x.clipShadows===!0&&Array.isArray(x.clippingPlanes)&&x.clippingPlanes.length!==0||x.displacementMap&&x.displacementScale!==0||x.alphaMap&&x.alphaTest>0||x.map&&x.alphaTest>0||x.alphaToCoverage===!0){let I=C.uuid,U=x.uuid,L=c[I];L===void 0&&(L={},c[I]=L);let B=L[U];B===void 0&&(B=C.clone(),L[U]=B,x.addEventListener("dispose",_)),C=B}if(C.visible=x.visible,C.wireframe=x.wireframe,k===Ks?C.side=x.shadowSide!==null?x.shadowSide:x.side:C.side=x.shadowSide!==null?x.shadowSide:u[x.side],C.alphaMap=x.alphaMap,C.alphaTest=x.alphaToCoverage===!0?.5:x.alphaTest,C.map=x.map,C.clipShadows=x.clipShadows,C.clippingPlanes=x.clippingPlanes,C.clipIntersection=x.clipIntersection,C.displacementMap=x.displacementMap,C.displacementScale=x.displacementScale,C.displacementBias=x.displacementBias,C.wireframeLinewidth=x.wireframeLinewidth,C.linewidth=x.linewidth,S.isPointLight===!0&&C.isMeshDistanceMaterial===!0){let I=i.properties.get(C);I.light=S}return C}function v(E,x,S,k,C,P){if(E.visible===!1)return;if(E.layers.test(C)&&(E.isMesh||E.isLine||E.isPoints)&&(E.castShadow||E.receiveShadow&&P===Ks)&&(!E.frustumCulled||E.intersectsFrustum(n))){E.modelViewMatrix.multiplyMatrices(S.matrixWorldInverse,E.matrixWorld);let L=t.update(E),B=E.material;if(Array.isArray(B)){let G=L.groups;for(let W=0,nt=G.length;W<nt;W++){let $=G[W],tt=B[$.materialIndex];if(tt&&tt.visible){let et=w(E,tt,k,P);E.onBeforeShadow(i,E,x,S,L,et,$),i.renderBufferDirect(S,null,L,et,E,$),E.onAfterShadow(i,E,x,S,L,et,$)}}}else if(B.visible){let G=w(E,B,k,P);E.onBeforeShadow(i,E,x,S,L,G,null),i.renderBufferDirect(S,null,L,G,E,null),E.onAfterShadow(i,E,x,S,L,G,null)}}let U=E.children;for(let L=0,B=U.length;L<B;L++)v(U[L],x,S,k,C,P)}function _(E){E.target.removeEventListener("dispose",_);for(let S in c){let k=c[S],C=E.target.uuid;C in k&&(k[C].dispose(),delete k[C])}}}function _w(i,t){function e(){let D=!1,j=new $t,q=null,ct=new $t(0,0,0,0);return{setMask:function(rt){q!==rt&&!D&&(i.colorMask(rt,rt,rt,rt),q=rt)},setLocked:function(rt){D=rt},setClear:function(rt,at,Et,Gt,st){st===!0&&(rt*=Gt,at*=Gt,Et*=Gt),j.set(rt,at,Et,Gt),ct.equals(j)===!1&&(i.clearColor(rt,at,Et,Gt),ct.copy(j))},reset:function(){D=!1,q=null,ct.set(-1,0,0,0)}}}function n(){let D=!1,j=!1,q=null,ct=null,rt=null;return{setReversed:function(at){if(j!==at){let Et=t.get("EXT_clip_control");at?Et.clipControlEXT(Et.LOWER_LEFT_EXT,Et.ZERO_TO_ONE_EXT):Et.clipControlEXT(Et.LOWER_LEFT_EXT,Et.NEGATIVE_ONE_TO_ONE_EXT),j=at;let Gt=rt;rt=null,this.setClear(Gt)}},getReversed:function(){return j},setTest:function(at){at?mt(i.DEPTH_TEST):Ot(i.DEPTH_TEST)},setMask:function(at){q!==at&&!D&&(i.depthMask(at),q=at)},setFunc:function(at){if(j&&(at=cp[at]),ct!==at){switch(at){case da:i.depthFunc(i.NEVER);break;case fa:i.depthFunc(i.ALWAYS);break;case pa:i.depthFunc(i.LESS);break;case Gs:i.depthFunc(i.LEQUAL);break;case ma:i.depthFunc(i.EQUAL);break;case ga:i.depthFunc(i.GEQUAL);break;case xa:i.depthFunc(i.GREATER);break;case va:i.depthFunc(i.NOTEQUAL);break;default:i.depthFunc(i.LEQUAL)}ct=at}},setLocked:function(at){D=at},setClear:function(at){rt!==at&&(rt=at,j&&(at=1-at),i.clearDepth(at))},reset:function(){D=!1,q=null,ct=null,rt=null,j=!1}}}function s(){let D=!1,j=null,q=null,ct=null,rt=null,at=null,Et=null,Gt=null,st=null;return{setTest:function(Ct){D||(Ct?mt(i.STENCIL_TEST):Ot(i.STENCIL_TEST))},setMask:function(Ct){j!==Ct&&!D&&(i.stencilMask(Ct),j=Ct)},setFunc:function(Ct,Vt,gt){(q!==Ct||ct!==Vt||rt!==gt)&&(i.stencilFunc(Ct,Vt,gt),q=Ct,ct=Vt,rt=gt)},setOp:function(Ct,Vt,gt){(at!==Ct||Et!==Vt||Gt!==gt)&&(i.stencilOp(Ct,Vt,gt),at=Ct,Et=Vt,Gt=gt)},setLocked:function(Ct){D=Ct},setClear:function(Ct){st!==Ct&&(i.clearStencil(Ct),st=Ct)},reset:function(){D=!1,j=null,q=null,ct=null,rt=null,at=null,Et=null,Gt=null,st=null}}}let r=new e,o=new n,a=new s,l={},c=new WeakMap,h={},u={},d={},f=new WeakMap,p=[],b=null,m=!1,g=null,y=null,w=null,v=null,_=null,E=null,x=null,S=new Ut(0,0,0),k=0,C=!1,P=null,I=null,U=null,L=null,B=null,G=i.getParameter(i.MAX_COMBINED_TEXTURE_IMAGE_UNITS),W=!1,nt=0,$=i.getParameter(i.VERSION);$.indexOf("WebGL")!==-1?(nt=parseFloat(/^WebGL (\d)/.exec($)[1]),W=nt>=1):$.indexOf("OpenGL ES")!==-1&&(nt=parseFloat(/^OpenGL ES (\d)/.exec($)[1]),W=nt>=2);let tt=null,et={},bt=i.getParameter(i.SCISSOR_BOX),Dt=i.getParameter(i.VIEWPORT),K=new $t().fromArray(bt),ut=new $t().fromArray(Dt);function yt(D,j,q,ct){let rt=new Uint8Array(4),at=i.createTexture();i.bindTexture(D,at),i.texParameteri(D,i.TEXTURE_MIN_FILTER,i.NEAREST),i.texParameteri(D,i.TEXTURE_MAG_FILTER,i.NEAREST);for(let Et=0;Et<q;Et++)D===i.TEXTURE_3D||D===i.TEXTURE_2D_ARRAY?i.texImage3D(j,0,i.RGBA,1,1,ct,0,i.RGBA,i.UNSIGNED_BYTE,rt):i.texImage2D(j+Et,0,i.RGBA,1,1,0,i.RGBA,i.UNSIGNED_BYTE,rt);return at}let Rt={};Rt[i.TEXTURE_2D]=yt(i.TEXTURE_2D,i.TEXTURE_2D,1),Rt[i.TEXTURE_CUBE_MAP]=yt(i.TEXTURE_CUBE_MAP,i.TEXTURE_CUBE_MAP_POSITIVE_X,6),Rt[i.TEXTURE_2D_ARRAY]=yt(i.TEXTURE_2D_ARRAY,i.TEXTURE_2D_ARRAY,1,1),Rt[i.TEXTURE_3D]=yt(i.TEXTURE_3D,i.TEXTURE_3D,1,1),r.setClear(0,0,0,1),o.setClear(1),a.setClear(0),mt(i.DEPTH_TEST),o.setFunc(Gs),vn(!1),_e(Dh),mt(i.CULL_FACE),Ye(jn);function mt(D){h[D]!==!0&&(i.enable(D),h[D]=!0)}function Ot(D){h[D]!==!1&&(i.disable(D),h[D]=!1)}function Te(D,j){return d[D]!==j?(i.bindFramebuffer(D,j),d[D]=j,D===i.DRAW_FRAMEBUFFER&&(d[i.FRAMEBUFFER]=j),D===i.FRAMEBUFFER&&(d[i.DRAW_FRAMEBUFFER]=j),!0):!1}function Pt(D,j){let q=p,ct=!1;if(D){q=f.get(j),q===void 0&&(q=[],f.set(j,q));let rt=D.textures;if(q.length!==rt.length||q[0]!==i.COLOR_ATTACHMENT0){for(let at=0,Et=rt.length;at<Et;at++)q[at]=i.COLOR_ATTACHMENT0+at;q.length=rt.length,ct=!0}}else q[0]!==i.BACK&&(q[0]=i.BACK,ct=!0);ct&&i.drawBuffers(q)}function Qt(D){return b!==D?(i.useProgram(D),b=D,!0):!1}let he={[ds]:i.FUNC_ADD,[Lf]:i.FUNC_SUBTRACT,[kf]:i.FUNC_REVERSE_SUBTRACT};he[Nf]=i.MIN,he[Df]=i.MAX;let Yt={[Ff]:i.ZERO,[Ha]:i.ONE,[Uf]:i.SRC_COLOR,[jr]:i.SRC_ALPHA,[Gf]:i.SRC_ALPHA_SATURATE,[Vf]:i.DST_COLOR,[Bf]:i.DST_ALPHA,[Of]:i.ONE_MINUS_SRC_COLOR,[Qs]:i.ONE_MINUS_SRC_ALPHA,[Hf]:i.ONE_MINUS_DST_COLOR,[zf]:i.ONE_MINUS_DST_ALPHA,[Wf]:i.CONSTANT_COLOR,[Xf]:i.ONE_MINUS_CONSTANT_COLOR,[$f]:i.CONSTANT_ALPHA,[qf]:i.ONE_MINUS_CONSTANT_ALPHA};function Ye(D,j,q,ct,rt,at,Et,Gt,st,Ct){if(D===jn){m===!0&&(Ot(i.BLEND),m=!1);return}if(m===!1&&(mt(i.BLEND),m=!0),D!==Kr){if(D!==g||Ct!==C){if((y!==ds||_!==ds)&&(i.blendEquation(i.FUNC_ADD),y=ds,_=ds),Ct)switch(D){case js:i.blendFuncSeparate(i.ONE,i.ONE_MINUS_SRC_ALPHA,i.ONE,i.ONE_MINUS_SRC_ALPHA);break;case Fh:i.blendFunc(i.ONE,i.ONE);break;case Uh:i.blendFuncSeparate(i.ZERO,i.ONE_MINUS_SRC_COLOR,i.ZERO,i.ONE);break;case Oh:i.blendFuncSeparate(i.DST_COLOR,i.ONE_MINUS_SRC_ALPHA,i.ZERO,i.ONE);break;default:kt("WebGLState: Invalid blending: ",D);break}else switch(D){case js:i.blendFuncSeparate(i.SRC_ALPHA,i.ONE_MINUS_SRC_ALPHA,i.ONE,i.ONE_MINUS_SRC_ALPHA);break;case Fh:i.blendFuncSeparate(i.SRC_ALPHA,i.ONE,i.ONE,i.ONE);break;case Uh:kt("WebGLState: SubtractiveBlending requires material.premultipliedAlpha = true");break;case Oh:kt("WebGLState: MultiplyBlending requires material.premultipliedAlpha = true");break;default:kt("WebGLState: Invalid blending: ",D);break}w=null,v=null,E=null,x=null,S.set(0,0,0),k=0,g=D,C=Ct}return}rt=rt||j,at=at||q,Et=Et||ct,(j!==y||rt!==_)&&(i.blendEquationSeparate(he[j],he[rt]),y=j,_=rt),(q!==w||ct!==v||at!==E||Et!==x)&&(i.blendFuncSeparate(Yt[q],Yt[ct],Yt[at],Yt[Et]),w=q,v=ct,E=at,x=Et),(Gt.equals(S)===!1||st!==k)&&(i.blendColor(Gt.r,Gt.g,Gt.b,st),S.copy(Gt),k=st),g=D,C=!1}function Ne(D,j){D.side===Fe?Ot(i.CULL_FACE):mt(i.CULL_FACE);let q=D.side===Ke;j&&(q=!q),vn(q),D.blending===js&&D.transparent===!1?Ye(jn):Ye(D.blending,D.blendEquation,D.blendSrc,D.blendDst,D.blendEquationAlpha,D.blendSrcAlpha,D.blendDstAlpha,D.blendColor,D.blendAlpha,D.premultipliedAlpha),o.setFunc(D.depthFunc),o.setTest(D.depthTest),o.setMask(D.depthWrite),r.setMask(D.colorWrite);let ct=D.stencilWrite;a.setTest(ct),ct&&(a.setMask(D.stencilWriteMask),a.setFunc(D.stencilFunc,D.stencilRef,D.stencilFuncMask),a.setOp(D.stencilFail,D.stencilZFail,D.stencilZPass)),Ve(D.polygonOffset,D.polygonOffsetFactor,D.polygonOffsetUnits),D.alphaToCoverage===!0?mt(i.SAMPLE_ALPHA_TO_COVERAGE):Ot(i.SAMPLE_ALPHA_TO_COVERAGE)}function vn(D){P!==D&&(D?i.frontFace(i.CW):i.frontFace(i.CCW),P=D)}function _e(D){D!==Rf?(mt(i.CULL_FACE),D!==I&&(D===Dh?i.cullFace(i.BACK):D===Pf?i.cullFace(i.FRONT):i.cullFace(i.FRONT_AND_BACK))):Ot(i.CULL_FACE),I=D}function ei(D){D!==U&&(W&&i.lineWidth(D),U=D)}function Ve(D,j,q){D?(mt(i.POLYGON_OFFSET_FILL),(L!==j||B!==q)&&(L=j,B=q,o.getReversed()&&(j=-j,q=-q),i.polygonOffset(j,q))):Ot(i.POLYGON_OFFSET_FILL)}function Dn(D){D?mt(i.SCISSOR_TEST):Ot(i.SCISSOR_TEST)}function Fn(D){D===void 0&&(D=i.TEXTURE0+G-1),tt!==D&&(i.activeTexture(D),tt=D)}function Un(D,j,q){q===void 0&&(tt===null?q=i.TEXTURE0+G-1:q=tt);let ct=et[q];ct===void 0&&(ct={type:void 0,texture:void 0},et[q]=ct),(ct.type!==D||ct.texture!==j)&&(tt!==q&&(i.activeTexture(q),tt=q),i.bindTexture(D,j||Rt[D]),ct.type=D,ct.texture=j)}function O(){let D=et[tt];D!==void 0&&D.type!==void 0&&(i.bindTexture(D.type,null),D.type=void 0,D.texture=void 0)}function On(){try{i.compressedTexImage2D(...arguments)}catch(D){kt("WebGLState:",D)}}function ve(){try{i.compressedTexImage3D(...arguments)}catch(D){kt("WebGLState:",D)}}function ye(){try{i.texSubImage2D(...arguments)}catch(D){kt("WebGLState:",D)}}function pt(){try{i.texSubImage3D(...arguments)}catch(D){kt("WebGLState:",D)}}function De(){try{i.compressedTexSubImage2D(...arguments)}catch(D){kt("WebGLState:",D)}}function It(){try{i.compressedTexSubImage3D(...arguments)}catch(D){kt("WebGLState:",D)}}function Bt(){try{i.texStorage2D(...arguments)}catch(D){kt("WebGLState:",D)}}function R(){try{i.texStorage3D(...arguments)}catch(D){kt("WebGLState:",D)}}function M(){try{i.texImage2D(...arguments)}catch(D){kt("WebGLState:",D)}}function V(){try{i.texImage3D(...arguments)}catch(D){kt("WebGLState:",D)}}function it(D){return u[D]!==void 0?u[D]:i.getParameter(D)}function Q(D,j){u[D]!==j&&(i.pixelStorei(D,j),u[D]=j)}function ot(D){K.equals(D)===!1&&(i.scissor(D.x,D.y,D.z,D.w),K.copy(D))}function dt(D){ut.equals(D)===!1&&(i.viewport(D.x,D.y,D.z,D.w),ut.copy(D))}function Y(D,j){let q=c.get(j);q===void 0&&(q=new WeakMap,c.set(j,q));let ct=q.get(D);ct===void 0&&(ct=i.getUniformBlockIndex(j,D.name),i.uniformBlockBinding(j,ct,ct),q.set(D,ct))}function Z(D,j,q){let rt=c.get(j).get(D);l[rt]!==q&&(i.bindBufferBase(i.UNIFORM_BUFFER,rt,q),l[rt]=q)}function lt(){i.disable(i.BLEND),i.disable(i.CULL_FACE),i.disable(i.DEPTH_TEST),i.disable(i.POLYGON_OFFSET_FILL),i.disable(i.SCISSOR_TEST),i.disable(i.STENCIL_TEST),i.disable(i.SAMPLE_ALPHA_TO_COVERAGE),i.blendEquation(i.FUNC_ADD),i.blendFunc(i.ONE,i.ZERO),i.blendFuncSeparate(i.ONE,i.ZERO,i.ONE,i.ZERO),i.blendColor(0,0,0,0),i.colorMask(!0,!0,!0,!0),i.clearColor(0,0,0,0),i.depthMask(!0),i.depthFunc(i.LESS),o.setReversed(!1),i.clearDepth(1),i.stencilMask(4294967295),i.stencilFunc(i.ALWAYS,0,4294967295),i.stencilOp(i.KEEP,i.KEEP,i.KEEP),i.clearStencil(0),i.cullFace(i.BACK),i.frontFace(i.CCW),i.polygonOffset(0,0),i.activeTexture(i.TEXTURE0),i.bindFramebuffer(i.FRAMEBUFFER,null),i.bindFramebuffer(i.DRAW_FRAMEBUFFER,null),i.bindFramebuffer(i.READ_FRAMEBUFFER,null),i.useProgram(null),i.lineWidth(1),i.scissor(0,0,i.canvas.width,i.canvas.height),i.viewport(0,0,i.canvas.width,i.canvas.height),i.pixelStorei(i.PACK_ALIGNMENT,4),i.pixelStorei(i.UNPACK_ALIGNMENT,4),i.pixelStorei(i.UNPACK_FLIP_Y_WEBGL,!1),i.pixelStorei(i.UNPACK_PREMULTIPLY_ALPHA_WEBGL,!1),i.pixelStorei(i.UNPACK_COLORSPACE_CONVERSION_WEBGL,i.BROWSER_DEFAULT_WEBGL),i.pixelStorei(i.PACK_ROW_LENGTH,0),i.pixelStorei(i.PACK_SKIP_PIXELS,0),i.pixelStorei(i.PACK_SKIP_ROWS,0),i.pixelStorei(i.UNPACK_ROW_LENGTH,0),i.pixelStorei(i.UNPACK_IMAGE_HEIGHT,0),i.pixelStorei(i.UNPACK_SKIP_PIXELS,0),i.pixelStorei(i.UNPACK_SKIP_ROWS,0),i.pixelStorei(i.UNPACK_SKIP_IMAGES,0),h={},u={},tt=null,et={},d={},l={},f=new WeakMap,p=[],b=null,m=!1,g=null,y=null,w=null,v=null,_=null,E=null,x=null,S=new Ut(0,0,0),k=0,C=!1,P=null,I=null,U=null,L=null,B=null,K.set(0,0,i.canvas.width,i.canvas.height),ut.set(0,0,i.canvas.width,i.canvas.height),r.reset(),o.reset(),a.reset()}return{buffers:{color:r,depth:o,stencil:a},enable:mt,disable:Ot,bindFramebuffer:Te,drawBuffers:Pt,useProgram:Qt,setBlending:Ye,setMaterial:Ne,setFlipSided:vn,setCullFace:_e,setLineWidth:ei,setPolygonOffset:Ve,setScissorTest:Dn,activeTexture:Fn,bindTexture:Un,unbindTexture:O,compressedTexImage2D:On,compressedTexImage3D:ve,texImage2D:M,texImage3D:V,pixelStorei:Q,getParameter:it,updateUBOMapping:Y,uniformBlockBinding:Z,texStorage2D:Bt,texStorage3D:R,texSubImage2D:ye,texSubImage3D:pt,compressedTexSubImage2D:De,compressedTexSubImage3D:It,scissor:ot,viewport:dt,reset:lt}}function ww(i,t,e,n,s,r,o){let a=t.has("WEBGL_multisampled_render_to_texture")?t.get("WEBGL_multisampled_render_to_texture"):null,l=typeof navigator>"u"?!1:/OculusBrowser/g.test(navigator.userAgent),c=new At,h=new WeakMap,u=new Set,d,f=new WeakMap,p=new Set,b=new FinalizationRegistry(R=>p.delete(R)),m=!1;try{m=typeof OffscreenCanvas<"u"&&new OffscreenCanvas(1,1).getContext("2d")!==null}catch{}function g(R,M){return m?new OffscreenCanvas(R,M):Fr("canvas")}function y(R,M,V){let it=1,Q=Bt(R);if((Q.width>V||Q.height>V)&&(it=V/Math.max(Q.width,Q.height)),it<1)if(typeof HTMLImageElement<"u"&&R instanceof HTMLImageElement||typeof HTMLCanvasElement<"u"&&R instanceof HTMLCanvasElement||typeof ImageBitmap<"u"&&R instanceof ImageBitmap||typeof VideoFrame<"u"&&R instanceof VideoFrame){let ot=Math.floor(it*Q.width),dt=Math.floor(it*Q.height);d===void 0&&(d=g(ot,dt));let Y=M?g(ot,dt):d;return Y.width=ot,Y.height=dt,Y.getContext("2d").drawImage(R,0,0,ot,dt),Lt("WebGLRenderer: Texture has been resized from ("+Q.width+"x"+Q.height+") to ("+ot+"x"+dt+")."),Y}else return"data"in R&&Lt("WebGLRenderer: Image in DataTexture is too big ("+Q.width+"x"+Q.height+")."),R;return R}function w(R){return R.generateMipmaps}function v(R){i.generateMipmap(R)}function _(R){return R.isWebGLCubeRenderTarget?i.TEXTURE_CUBE_MAP:R.isWebGL3DRenderTarget?i.TEXTURE_3D:R.isWebGLArrayRenderTarget||R.isCompressedArrayTexture?i.TEXTURE_2D_ARRAY:i.TEXTURE_2D}function E(R,M,V,it,Q,ot=!1){if(R!==null){if(i[R]!==void 0)return i[R];Lt("WebGLRenderer: Attempt to use non-existing WebGL internal format '"+R+"'")}let dt;it&&(dt=t.get("EXT_texture_norm16"),dt||Lt("WebGLRenderer: Unable to use normalized textures without EXT_texture_norm16 extension"));let Y=M;if(M===i.RED&&(V===i.FLOAT&&(Y=i.R32F),V===i.HALF_FLOAT&&(Y=i.R16F),V===i.UNSIGNED_BYTE&&(Y=i.R8),V===i.UNSIGNED_SHORT&&dt&&(Y=dt.R16_EXT),V===i.SHORT&&dt&&(Y=dt.R16_SNORM_EXT)),M===i.RED_INTEGER&&(V===i.UNSIGNED_BYTE&&(Y=i.R8UI),V===i.UNSIGNED_SHORT&&(Y=i.R16UI),V===i.UNSIGNED_INT&&(Y=i.R32UI),V===i.BYTE&&(Y=i.R8I),V===i.SHORT&&(Y=i.R16I),V===i.INT&&(Y=i.R32I)),M===i.RG&&(V===i.FLOAT&&(Y=i.RG32F),V===i.HALF_FLOAT&&(Y=i.RG16F),V===i.UNSIGNED_BYTE&&(Y=i.RG8),V===i.UNSIGNED_SHORT&&dt&&(Y=dt.RG16_EXT),V===i.SHORT&&dt&&(Y=dt.RG16_SNORM_EXT)),M===i.RG_INTEGER&&(V===i.UNSIGNED_BYTE&&(Y=i.RG8UI),V===i.UNSIGNED_SHORT&&(Y=i.RG16UI),V===i.UNSIGNED_INT&&(Y=i.RG32UI),V===i.BYTE&&(Y=i.RG8I),V===i.SHORT&&(Y=i.RG16I),V===i.INT&&(Y=i.RG32I)),M===i.RGB_INTEGER&&(V===i.UNSIGNED_BYTE&&(Y=i.RGB8UI),V===i.UNSIGNED_SHORT&&(Y=i.RGB16UI),V===i.UNSIGNED_INT&&(Y=i.RGB32UI),V===i.BYTE&&(Y=i.RGB8I),V===i.SHORT&&(Y=i.RGB16I),V===i.INT&&(Y=i.RGB32I)),M===i.RGBA_INTEGER&&(V===i.UNSIGNED_BYTE&&(Y=i.RGBA8UI),V===i.UNSIGNED_SHORT&&(Y=i.RGBA16UI),V===i.UNSIGNED_INT&&(Y=i.RGBA32UI),V===i.BYTE&&(Y=i.RGBA8I),V===i.SHORT&&(Y=i.RGBA16I),V===i.INT&&(Y=i.RGBA32I)),M===i.RGB&&(V===i.UNSIGNED_SHORT&&dt&&(Y=dt.RGB16_EXT),V===i.SHORT&&dt&&(Y=dt.RGB16_SNORM_EXT),V===i.UNSIGNED_INT_5_9_9_9_REV&&(Y=i.RGB9_E5),V===i.UNSIGNED_INT_10F_11F_11F_REV&&(Y=i.R11F_G11F_B10F)),M===i.RGBA){let Z=ot?Nr:Xt.getTransfer(Q);V===i.FLOAT&&(Y=i.RGBA32F),V===i.HALF_FLOAT&&(Y=i.RGBA16F),V===i.UNSIGNED_BYTE&&(Y=Z===se?i.SRGB8_ALPHA8:i.RGBA8),V===i.UNSIGNED_SHORT&&dt&&(Y=dt.RGBA16_EXT),V===i.SHORT&&dt&&(Y=dt.RGBA16_SNORM_EXT),V===i.UNSIGNED_SHORT_4_4_4_4&&(Y=i.RGBA4),V===i.UNSIGNED_SHORT_5_5_5_1&&(Y=i.RGB5_A1)}return(Y===i.R16F||Y===i.R32F||Y===i.RG16F||Y===i.RG32F||Y===i.RGBA16F||Y===i.RGBA32F)&&t.get("EXT_color_buffer_float"),Y}function x(R,M){let V;return R?M===null||M===Sn||M===ps?V=i.DEPTH24_STENCIL8:M===Rn?V=i.DEPTH32F_STENCIL8:M===er&&(V=i.DEPTH24_STENCIL8,Lt("DepthTexture: 16 bit depth attachment is not supported with stencil. Using 24-bit attachment.")):M===null||M===Sn||M===ps?V=i.DEPTH_COMPONENT24:M===Rn?V=i.DEPTH_COMPONENT32F:M===er&&(V=i.DEPTH_COMPONENT16),V}function S(R,M){return w(R)===!0||R.isFramebufferTexture&&R.minFilter!==Se&&R.minFilter!==$e?Math.log2(Math.max(M.width,M.height))+1:R.mipmaps.length>0?R.mipmaps.length:R.isCompressedTexture&&Array.isArray(R.image)?M.mipmaps.length:1}function k(R){let M=new WeakRef(R);n.get(R).__ref=M,p.add(M),b.register(R,M,M)}function C(R){let M=n.get(R).__ref;M!==void 0&&(p.delete(M),b.unregister(M))}function P(R){U(R.target)}function I(R){L(R.target)}function U(R){R.removeEventListener("dispose",P),C(R),G(R),R.isVideoTexture&&h.delete(R),R.isHTMLTexture&&u.delete(R)}function L(R){R.removeEventListener("dispose",I),C(R),nt(R)}function B(){for(let R of p){let M=R.deref();M!==void 0&&(M.isRenderTarget===!0?L(M):U(M))}p.clear(),u.clear()}function G(R){let M=n.get(R);if(M.__webglInit===void 0)return;let V=R.source,it=f.get(V);if(it){let Q=it[M.__cacheKey];Q.usedTimes--,Q.usedTimes===0&&W(R),Object.keys(it).length===0&&f.delete(V)}n.remove(R)}function W(R){let M=n.get(R);i.deleteTexture(M.__webglTexture);let V=R.source,it=f.get(V);delete it[M.__cacheKey],o.memory.textures--}function nt(R){let M=n.get(R);M.__depthDisposeCallback&&M.__depthDisposeCallback();let V=R.depthTexture;if(V&&V.renderTarget===R&&U(V),R.isWebGLCubeRenderTarget)for(let Q=0;Q<6;Q++){if(Array.isArray(M.__webglFramebuffer[Q]))for(let ot=0;ot<M.__webglFramebuffer[Q].length;ot++)i.deleteFramebuffer(M.__webglFramebuffer[Q][ot]);else i.deleteFramebuffer(M.__webglFramebuffer[Q]);M.__webglDepthbuffer&&i.deleteRenderbuffer(M.__webglDepthbuffer[Q])}else{if(Array.isArray(M.__webglFramebuffer))for(let Q=0;Q<M.__webglFramebuffer.length;Q++)i.deleteFramebuffer(M.__webglFramebuffer[Q]);else i.deleteFramebuffer(M.__webglFramebuffer);if(M.__webglDepthbuffer&&i.deleteRenderbuffer(M.__webglDepthbuffer),M.__webglMultisampledFramebuffer&&i.deleteFramebuffer(M.__webglMultisampledFramebuffer),M.__webglColorRenderbuffer)for(let Q=0;Q<M.__webglColorRenderbuffer.length;Q++)M.__webglColorRenderbuffer[Q]&&i.deleteRenderbuffer(M.__webglColorRenderbuffer[Q]);M.__webglDepthRenderbuffer&&i.deleteRenderbuffer(M.__webglDepthRenderbuffer)}let it=R.textures;for(let Q=0,ot=it.length;Q<ot;Q++){let dt=n.get(it[Q]);dt.__webglTexture&&(i.deleteTexture(dt.__webglTexture),o.memory.textures--),n.remove(it[Q])}n.remove(R)}let $=0;function tt(){$=0}function et(){return $}function bt(R){$=R}function Dt(){let R=$;return R>=s.maxTextures&&Lt("WebGLTextures: Trying to use "+(R+1)+" texture units while this GPU supports only "+s.maxTextures),$+=1,R}function K(R){let M=[];return M.push(R.wrapS),M.push(R.wrapT),M.push(R.wrapR||0),M.push(R.magFilter),M.push(R.minFilter),M.push(R.anisotropy),M.push(R.internalFormat),M.push(R.format),M.push(R.type),M.push(R.generateMipmaps),M.push(R.mipmapsAutoUpdate),M.push(R.premultiplyAlpha),M.push(R.flipY),M.push(R.unpackAlignment),M.push(R.colorSpace),M.join()}function ut(R,M){let V=n.get(R);if(R.isVideoTexture&&De(R),R.isRenderTargetTexture===!1&&R.isExternalTexture!==!0&&R.version>0&&V.__version!==R.version){let it=R.image;if(it===null)Lt("WebGLRenderer: Texture marked for update but no image data found.");else if(it.complete===!1)Lt("WebGLRenderer: Texture marked for update but image is incomplete");else{Ne(V,R,M);return}}else R.isExternalTexture&&(V.__webglTexture=R.sourceTexture?R.sourceTexture:null);e.bindTexture(i.TEXTURE_2D,V.__webglTexture,i.TEXTURE0+M)}function yt(R,M){let V=n.get(R);if(R.isRenderTargetTexture===!1&&R.version>0&&V.__version!==R.version){Ne(V,R,M);return}else R.isExternalTexture&&(V.__webglTexture=R.sourceTexture?R.sourceTexture:null);e.bindTexture(i.TEXTURE_2D_ARRAY,V.__webglTexture,i.TEXTURE0+M)}function Rt(R,M){let V=n.get(R);if(R.isRenderTargetTexture===!1&&R.version>0&&V.__version!==R.version){Ne(V,R,M);return}e.bindTexture(i.TEXTURE_3D,V.__webglTexture,i.TEXTURE0+M)}function mt(R,M){let V=n.get(R);if(R.version>0&&V.__version!==R.version){vn(V,R,M);return}e.bindTexture(i.TEXTURE_CUBE_MAP,V.__webglTexture,i.TEXTURE0+M)}let Ot={[ya]:i.REPEAT,[ri]:i.CLAMP_TO_EDGE,[ba]:i.MIRRORED_REPEAT},Te={[Se]:i.NEAREST,[Jf]:i.NEAREST_MIPMAP_NEAREST,[Qr]:i.NEAREST_MIPMAP_LINEAR,[$e]:i.LINEAR,[Xa]:i.LINEAR_MIPMAP_NEAREST,[Ai]:i.LINEAR_MIPMAP_LINEAR},Pt={[tp]:i.NEVER,[su]:i.ALWAYS,[ep]:i.LESS,[nu]:i.LEQUAL,[np]:i.EQUAL,[iu]:i.GEQUAL,[ip]:i.GREATER,[sp]:i.NOTEQUAL};function Qt(R,M){if(M.type===Rn&&t.has("OES_texture_float_linear")===!1&&(M.magFilter===$e||M.magFilter===Xa||M.magFilter===Qr||M.magFilter===Ai||M.minFilter===$e||M.minFilter===Xa||M.minFilter===Qr||M.minFilter===Ai)&&Lt("WebGLRenderer: Unable to use linear filtering with floating point textures. OES_texture_float_linear not supported on this device."),i.texParameteri(R,i.TEXTURE_WRAP_S,Ot[M.wrapS]),i.texParameteri(R,i.TEXTURE_WRAP_T,Ot[M.wrapT]),(R===i.TEXTURE_3D||R===i.TEXTURE_2D_ARRAY)&&i.texParameteri(R,i.TEXTURE_WRAP_R,Ot[M.wrapR]),i.texParameteri(R,i.TEXTURE_MAG_FILTER,Te[M.magFilter]),i.texParameteri(R,i.TEXTURE_MIN_FILTER,Te[M.minFilter]),M.compareFunction&&(i.texParameteri(R,i.TEXTURE_COMPARE_MODE,i.COMPARE_REF_TO_TEXTURE),i.texParameteri(R,i.TEXTURE_COMPARE_FUNC,Pt[M.compareFunction])),t.has("EXT_texture_filter_anisotropic")===!0){if(M.magFilter===Se||M.minFilter!==Qr&&M.minFilter!==Ai||M.type===Rn&&t.has("OES_texture_float_linear")===!1)return;if(M.anisotropy>1||n.get(M).__currentAnisotropy){let V=t.get("EXT_texture_filter_anisotropic");i.texParameterf(R,V.TEXTURE_MAX_ANISOTROPY_EXT,Math.min(M.anisotropy,s.getMaxAnisotropy())),n.get(M).__currentAnisotropy=M.anisotropy}}}function he(R,M){let V=!1;R.__webglInit===void 0&&(R.__webglInit=!0,M.addEventListener("dispose",P),k(M));let it=M.source,Q=f.get(it);Q===void 0&&(Q={},f.set(it,Q));let ot=K(M);if(ot!==R.__cacheKey){Q[ot]===void 0&&(Q[ot]={texture:i.createTexture(),usedTimes:0},o.memory.textures++,V=!0),Q[ot].usedTimes++;let dt=Q[R.__cacheKey];dt!==void 0&&(Q[R.__cacheKey].usedTimes--,dt.usedTimes===0&&W(M)),R.__cacheKey=ot,R.__webglTexture=Q[ot].texture}return V}function Yt(R,M,V){return Math.floor(Math.floor(R/V)/M)}function Ye(R,M,V,it){let ot=R.updateRanges;if(ot.length===0)e.texSubImage2D(i.TEXTURE_2D,0,0,0,M.width,M.height,V,it,M.data);else{ot.sort((D,j)=>D.start-j.start);let dt=0;for(let D=1;D<ot.length;D++){let j=ot[dt],q=ot[D],ct=j.start+j.count,rt=Yt(q.start,M.width,4),at=Yt(j.start,M.width,4);q.start<=ct+1&&rt===at&&Yt(q.start+q.count-1,M.width,4)===rt?j.count=Math.max(j.count,q.start+q.count-j.start):(++dt,ot[dt]=q)}ot.length=dt+1;let Y=e.getParameter(i.UNPACK_ROW_LENGTH),Z=e.getParameter(i.UNPACK_SKIP_PIXELS),lt=e.getParameter(i.UNPACK_SKIP_ROWS);e.pixelStorei(i.UNPACK_ROW_LENGTH,M.width);for(let D=0,j=ot.length;D<j;D++){let q=ot[D],ct=Math.floor(q.start/4),rt=Math.ceil(q.count/4),at=ct%M.width,Et=Math.floor(ct/M.width),Gt=rt,st=1;e.pixelStorei(i.UNPACK_SKIP_PIXELS,at),e.pixelStorei(i.UNPACK_SKIP_ROWS,Et),e.texSubImage2D(i.TEXTURE_2D,0,at,Et,Gt,st,V,it,M.data)}R.clearUpdateRanges(),e.pixelStorei(i.UNPACK_ROW_LENGTH,Y),e.pixelStorei(i.UNPACK_SKIP_PIXELS,Z),e.pixelStorei(i.UNPACK_SKIP_ROWS,lt)}}function Ne(R,M,V){let it=i.TEXTURE_2D;(M.isDataArrayTexture||M.isCompressedArrayTexture)&&(it=i.TEXTURE_2D_ARRAY),M.isData3DTexture&&(it=i.TEXTURE_3D);let Q=he(R,M),ot=M.source;e.bindTexture(it,R.__webglTexture,i.TEXTURE0+V);let dt=n.get(ot);if(ot.version!==dt.__version||Q===!0){if(e.activeTexture(i.TEXTURE0+V),(typeof ImageBitmap<"u"&&M.image instanceof ImageBitmap)===!1){let st=Xt.getPrimaries(Xt.workingColorSpace),Ct=M.colorSpace===Ri?null:Xt.getPrimaries(M.colorSpace),Vt=M.colorSpace===Ri||st===Ct?i.NONE:i.BROWSER_DEFAULT_WEBGL;e.pixelStorei(i.UNPACK_FLIP_Y_WEBGL,M.flipY),e.pixelStorei(i.UNPACK_PREMULTIPLY_ALPHA_WEBGL,M.premultiplyAlpha),e.pixelStorei(i.UNPACK_COLORSPACE_CONVERSION_WEBGL,Vt)}e.pixelStorei(i.UNPACK_ALIGNMENT,M.unpackAlignment);let Z=y(M.image,!1,s.maxTextureSize);Z=It(M,Z);let lt=r.convert(M.format,M.colorSpace),D=r.convert(M.type),j=E(M.internalFormat,lt,D,M.normalized,M.colorSpace,M.isVideoTexture);Qt(it,M);let q,ct=M.mipmaps,rt=M.isVideoTexture!==!0,at=dt.__version===void 0||Q===!0,Et=ot.dataReady,Gt=S(M,Z);if(M.isDepthTexture)j=x(M.format===Ci,M.type),at&&(rt?e.texStorage2D(i.TEXTURE_2D,1,j,Z.width,Z.height):e.texImage2D(i.TEXTURE_2D,0,j,Z.width,Z.height,0,lt,D,null));else if(M.isDataTexture)if(ct.length>0){rt&&at&&e.texStorage2D(i.TEXTURE_2D,Gt,j,ct[0].width,ct[0].height);for(let st=0,Ct=ct.length;st<Ct;st++)q=ct[st],rt?Et&&e.texSubImage2D(i.TEXTURE_2D,st,0,0,q.width,q.height,lt,D,q.data):e.texImage2D(i.TEXTURE_2D,st,j,q.width,q.height,0,lt,D,q.data);M.generateMipmaps=!1}else rt?(at&&e.texStorage2D(i.TEXTURE_2D,Gt,j,Z.width,Z.height),Et&&Ye(M,Z,lt,D)):e.texImage2D(i.TEXTURE_2D,0,j,Z.width,Z.height,0,lt,D,Z.data);else if(M.isCompressedTexture)if(M.isCompressedArrayTexture){rt&&at&&e.texStorage3D(i.TEXTURE_2D_ARRAY,Gt,j,ct[0].width,ct[0].height,Z.depth);for(let st=0,Ct=ct.length;st<Ct;st++)if(q=ct[st],M.format!==Je)if(lt!==null)if(rt){if(Et)if(M.layerUpdates.size>0){let Vt=uu(q.width,q.height,M.format,M.type);for(let gt of M.layerUpdates){let ae=q.data.subarray(gt*Vt/q.data.BYTES_PER_ELEMENT,(gt+1)*Vt/q.data.BYTES_PER_ELEMENT);e.compressedTexSubImage3D(i.TEXTURE_2D_ARRAY,st,0,0,gt,q.width,q.height,1,lt,ae)}}else e.compressedTexSubImage3D(i.TEXTURE_2D_ARRAY,st,0,0,0,q.width,q.height,Z.depth,lt,q.data)}else e.compressedTexImage3D(i.TEXTURE_2D_ARRAY,st,j,q.width,q.height,Z.depth,0,q.data,0,0);else Lt("WebGLRenderer: Attempt to load unsupported compressed texture format in .uploadTexture()");else rt?Et&&e.texSubImage3D(i.TEXTURE_2D_ARRAY,st,0,0,0,q.width,q.height,Z.depth,lt,D,q.data):e.texImage3D(i.TEXTURE_2D_ARRAY,st,j,q.width,q.height,Z.depth,0,lt,D,q.data);M.layerUpdates.size>0&&M.clearLayerUpdates()}else{rt&&at&&e.texStorage2D(i.TEXTURE_2D,Gt,j,ct[0].width,ct[0].height);for(let st=0,Ct=ct.length;st<Ct;st++)q=ct[st],M.format!==Je?lt!==null?rt?Et&&e.compressedTexSubImage2D(i.TEXTURE_2D,st,0,0,q.width,q.height,lt,q.data):e.compressedTexImage2D(i.TEXTURE_2D,st,j,q.width,q.height,0,q.data):Lt("WebGLRenderer: Attempt to load unsupported compressed texture format in .uploadTexture()"):rt?Et&&e.texSubImage2D(i.TEXTURE_2D,st,0,0,q.width,q.height,lt,D,q.data):e.texImage2D(i.TEXTURE_2D,st,j,q.width,q.height,0,lt,D,q.data)}else if(M.isDataArrayTexture)if(rt){if(at&&e.texStorage3D(i.TEXTURE_2D_ARRAY,Gt,j,Z.width,Z.height,Z.depth),Et)if(M.layerUpdates.size>0){let st=uu(Z.width,Z.height,M.format,M.type);for(let Ct of M.layerUpdates){let Vt=Z.data.subarray(Ct*st/Z.data.BYTES_PER_ELEMENT,(Ct+1)*st/Z.data.BYTES_PER_ELEMENT);e.texSubImage3D(i.TEXTURE_2D_ARRAY,0,0,0,Ct,Z.width,Z.height,1,lt,D,Vt)}M.clearLayerUpdates()}else e.texSubImage3D(i.TEXTURE_2D_ARRAY,0,0,0,0,Z.width,Z.height,Z.depth,lt,D,Z.data)}else e.texImage3D(i.TEXTURE_2D_ARRAY,0,j,Z.width,Z.height,Z.depth,0,lt,D,Z.data);else if(M.isData3DTexture)rt?(at&&e.texStorage3D(i.TEXTURE_3D,Gt,j,Z.width,Z.height,Z.depth),Et&&e.texSubImage3D(i.TEXTURE_3D,0,0,0,0,Z.width,Z.height,Z.depth,lt,D,Z.data)):e.texImage3D(i.TEXTURE_3D,0,j,Z.width,Z.height,Z.depth,0,lt,D,Z.data);else if(M.isFramebufferTexture){if(at)if(rt)e.texStorage2D(i.TEXTURE_2D,Gt,j,Z.width,Z.height);else{let st=Z.width,Ct=Z.height;for(let Vt=0;Vt<Gt;Vt++)e.texImage2D(i.TEXTURE_2D,Vt,j,st,Ct,0,lt,D,null),st>>=1,Ct>>=1}}else if(M.isHTMLTexture){if("texElementImage2D"in i){let st=i.canvas;if(st.hasAttribute("layoutsubtree")||st.setAttribute("layoutsubtree","true"),Z.parentNode!==st){st.appendChild(Z),u.add(M),st.onpaint=Ct=>{let Vt=Ct.changedElements;for(let gt of u)Vt.includes(gt.image)&&(gt.needsUpdate=!0)},st.requestPaint();return}if(i.texElementImage2D.length===3)i.texElementImage2D(i.TEXTURE_2D,i.RGBA8,Z);else{let Vt=i.RGBA,gt=i.RGBA,ae=i.UNSIGNED_BYTE;i.texElementImage2D(i.TEXTURE_2D,0,Vt,gt,ae,Z)}i.texParameteri(i.TEXTURE_2D,i.TEXTURE_MIN_FILTER,i.LINEAR),i.texParameteri(i.TEXTURE_2D,i.TEXTURE_WRAP_S,i.CLAMP_TO_EDGE),i.texParameteri(i.TEXTURE_2D,i.TEXTURE_WRAP_T,i.CLAMP_TO_EDGE)}}else if(ct.length>0){if(rt&&at){let st=Bt(ct[0]);e.texStorage2D(i.TEXTURE_2D,Gt,j,st.width,st.height)}for(let st=0,Ct=ct.length;st<Ct;st++)q=ct[st],rt?Et&&e.texSubImage2D(i.TEXTURE_2D,st,0,0,lt,D,q):e.texImage2D(i.TEXTURE_2D,st,j,lt,D,q);M.generateMipmaps=!1}else if(rt){if(at){let st=Bt(Z);e.texStorage2D(i.TEXTURE_2D,Gt,j,st.width,st.height)}Et&&e.texSubImage2D(i.TEXTURE_2D,0,0,0,lt,D,Z)}else e.texImage2D(i.TEXTURE_2D,0,j,lt,D,Z);w(M)&&M.mipmapsAutoUpdate===!0&&v(it),dt.__version=ot.version,M.onUpdate&&M.onUpdate(M)}R.__version=M.version}function vn(R,M,V){if(M.image.length!==6)return;let it=he(R,M),Q=M.source;e.bindTexture(i.TEXTURE_CUBE_MAP,R.__webglTexture,i.TEXTURE0+V);let ot=n.get(Q);if(Q.version!==ot.__version||it===!0){e.activeTexture(i.TEXTURE0+V);let dt=Xt.getPrimaries(Xt.workingColorSpace),Y=M.colorSpace===Ri?null:Xt.getPrimaries(M.colorSpace),Z=M.colorSpace===Ri||dt===Y?i.NONE:i.BROWSER_DEFAULT_WEBGL;e.pixelStorei(i.UNPACK_FLIP_Y_WEBGL,M.flipY),e.pixelStorei(i.UNPACK_PREMULTIPLY_ALPHA_WEBGL,M.premultiplyAlpha),e.pixelStorei(i.UNPACK_ALIGNMENT,M.unpackAlignment),e.pixelStorei(i.UNPACK_COLORSPACE_CONVERSION_WEBGL,Z);let lt=M.isCompressedTexture||M.image[0].isCompressedTexture,D=M.image[0]&&M.image[0].isDataTexture,j=[];for(let gt=0;gt<6;gt++)!lt&&!D?j[gt]=y(M.image[gt],!0,s.maxCubemapSize):j[gt]=D?M.image[gt].image:M.image[gt],j[gt]=It(M,j[gt]);let q=j[0],ct=r.convert(M.format,M.colorSpace),rt=r.convert(M.type),at=E(M.internalFormat,ct,rt,M.normalized,M.colorSpace),Et=M.isVideoTexture!==!0,Gt=ot.__version===void 0||it===!0,st=Q.dataReady,Ct=S(M,q);Qt(i.TEXTURE_CUBE_MAP,M);let Vt;if(M.isDepthTexture){if(at=x(M.format===Ci,M.type),Gt)if(Et)e.texStorage2D(i.TEXTURE_CUBE_MAP,1,at,q.width,q.height);else for(let gt=0;gt<6;gt++)e.texImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+gt,0,at,q.width,q.height,0,ct,rt,null)}else if(lt){Et&&Gt&&e.texStorage2D(i.TEXTURE_CUBE_MAP,Ct,at,q.width,q.height);for(let gt=0;gt<6;gt++){Vt=j[gt].mipmaps;for(let ae=0;ae<Vt.length;ae++){let He=Vt[ae];M.format!==Je?ct!==null?Et?st&&e.compressedTexSubImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+gt,ae,0,0,He.width,He.height,ct,He.data):e.compressedTexImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+gt,ae,at,He.width,He.height,0,He.data):Lt("WebGLRenderer: Attempt to load unsupported compressed texture format in .setTextureCube()"):Et?st&&e.texSubImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+gt,ae,0,0,He.width,He.height,ct,rt,He.data):e.texImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+gt,ae,at,He.width,He.height,0,ct,rt,He.data)}}}else{if(Vt=M.mipmaps,Et&&Gt){Vt.length>0&&Ct++;let gt=Bt(j[0]);e.texStorage2D(i.TEXTURE_CUBE_MAP,Ct,at,gt.width,gt.height)}for(let gt=0;gt<6;gt++)if(D){Et?st&&e.texSubImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+gt,0,0,0,j[gt].width,j[gt].height,ct,rt,j[gt].data):e.texImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+gt,0,at,j[gt].width,j[gt].height,0,ct,rt,j[gt].data);for(let ae=0;ae<Vt.length;ae++){let ki=Vt[ae].image[gt].image;Et?st&&e.texSubImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+gt,ae+1,0,0,ki.width,ki.height,ct,rt,ki.data):e.texImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+gt,ae+1,at,ki.width,ki.height,0,ct,rt,ki.data)}}else{Et?st&&e.texSubImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+gt,0,0,0,ct,rt,j[gt]):e.texImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+gt,0,at,ct,rt,j[gt]);for(let ae=0;ae<Vt.length;ae++){let He=Vt[ae];Et?st&&e.texSubImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+gt,ae+1,0,0,ct,rt,He.image[gt]):e.texImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+gt,ae+1,at,ct,rt,He.image[gt])}}}w(M)&&M.mipmapsAutoUpdate===!0&&v(i.TEXTURE_CUBE_MAP),ot.__version=Q.version,M.onUpdate&&M.onUpdate(M)}R.__version=M.version}function _e(R,M,V,it,Q,ot){let dt=r.convert(V.format,V.colorSpace),Y=r.convert(V.type),Z=E(V.internalFormat,dt,Y,V.normalized,V.colorSpace),lt=n.get(M),D=n.get(V);if(D.__renderTarget=M,!lt.__hasExternalTextures){let j=Math.max(1,M.width>>ot),q=Math.max(1,M.height>>ot);Q===i.TEXTURE_3D||Q===i.TEXTURE_2D_ARRAY?e.texImage3D(Q,ot,Z,j,q,M.depth,0,dt,Y,null):e.texImage2D(Q,ot,Z,j,q,0,dt,Y,null)}e.bindFramebuffer(i.FRAMEBUFFER,R),pt(M)?a.framebufferTexture2DMultisampleEXT(i.FRAMEBUFFER,it,Q,D.__webglTexture,0,ye(M)):(Q===i.TEXTURE_2D||Q>=i.TEXTURE_CUBE_MAP_POSITIVE_X&&Q<=i.TEXTURE_CUBE_MAP_NEGATIVE_Z)&&i.framebufferTexture2D(i.FRAMEBUFFER,it,Q,D.__webglTexture,ot),e.bindFramebuffer(i.FRAMEBUFFER,null)}function ei(R,M,V){if(i.bindRenderbuffer(i.RENDERBUFFER,R),M.depthBuffer){let it=M.depthTexture,Q=it&&it.isDepthTexture?it.type:null,ot=x(M.stencilBuffer,Q),dt=M.stencilBuffer?i.DEPTH_STENCIL_ATTACHMENT:i.DEPTH_ATTACHMENT;pt(M)?a.renderbufferStorageMultisampleEXT(i.RENDERBUFFER,ye(M),ot,M.width,M.height):V?i.renderbufferStorageMultisample(i.RENDERBUFFER,ye(M),ot,M.width,M.height):i.renderbufferStorage(i.RENDERBUFFER,ot,M.width,M.height),i.framebufferRenderbuffer(i.FRAMEBUFFER,dt,i.RENDERBUFFER,R)}else{let it=M.textures;for(let Q=0;Q<it.length;Q++){let ot=it[Q],dt=r.convert(ot.format,ot.colorSpace),Y=r.convert(ot.type),Z=E(ot.internalFormat,dt,Y,ot.normalized,ot.colorSpace);pt(M)?a.renderbufferStorageMultisampleEXT(i.RENDERBUFFER,ye(M),Z,M.width,M.height):V?i.renderbufferStorageMultisample(i.RENDERBUFFER,ye(M),Z,M.width,M.height):i.renderbufferStorage(i.RENDERBUFFER,Z,M.width,M.height)}}i.bindRenderbuffer(i.RENDERBUFFER,null)}function Ve(R,M,V){let it=M.isWebGLCubeRenderTarget===!0;if(e.bindFramebuffer(i.FRAMEBUFFER,R),!(M.depthTexture&&M.depthTexture.isDepthTexture))throw new Error("THREE.WebGLTextures: renderTarget.depthTexture must be an instance of THREE.DepthTexture.");let Q=n.get(M.depthTexture);Q.__renderTarget=M;let ot=it?M.depthTexture.image[0]:M.depthTexture.image;(!Q.__webglTexture||ot.width!==M.width||ot.height!==M.height)&&(ot.width=M.width,ot.height=M.height,M.depthTexture.needsUpdate=!0),it?mt(M.depthTexture,0):ut(M.depthTexture,0);let dt=Q.__webglTexture,Y=ye(M),Z=it?i.TEXTURE_CUBE_MAP_POSITIVE_X+V:i.TEXTURE_2D,lt=M.depthTexture.format===Ci?i.DEPTH_STENCIL_ATTACHMENT:i.DEPTH_ATTACHMENT;if(M.depthTexture.format===Ti)pt(M)?a.framebufferTexture2DMultisampleEXT(i.FRAMEBUFFER,lt,Z,dt,0,Y):i.framebufferTexture2D(i.FRAMEBUFFER,lt,Z,dt,0);else if(M.depthTexture.format===Ci)pt(M)?a.framebufferTexture2DMultisampleEXT(i.FRAMEBUFFER,lt,Z,dt,0,Y):i.framebufferTexture2D(i.FRAMEBUFFER,lt,Z,dt,0);else throw new Error("THREE.WebGLTextures: Unknown depthTexture format.")}function Dn(R){let M=n.get(R),V=R.isWebGLCubeRenderTarget===!0;if(M.__boundDepthTexture!==R.depthTexture){let it=R.depthTexture;if(M.__depthDisposeCallback&&M.__depthDisposeCallback(),it){let Q=()=>{delete M.__boundDepthTexture,delete M.__depthDisposeCallback,it.removeEventListener("dispose",Q)};it.addEventListener("dispose",Q),M.__depthDisposeCallback=Q}M.__boundDepthTexture=it}if(R.depthTexture&&!M.__autoAllocateDepthBuffer)if(V)for(let it=0;it<6;it++)Ve(M.__webglFramebuffer[it],R,it);else R.texture.mipmaps.length>0?Ve(M.__webglFramebuffer[0],R,0):Ve(M.__webglFramebuffer,R,0);else if(V){M.__webglDepthbuffer=[];for(let it=0;it<6;it++)if(e.bindFramebuffer(i.FRAMEBUFFER,M.__webglFramebuffer[it]),M.__webglDepthbuffer[it]===void 0)M.__webglDepthbuffer[it]=i.createRenderbuffer(),ei(M.__webglDepthbuffer[it],R,!1);else{let Q=R.stencilBuffer?i.DEPTH_STENCIL_ATTACHMENT:i.DEPTH_ATTACHMENT,ot=M.__webglDepthbuffer[it];i.bindRenderbuffer(i.RENDERBUFFER,ot),i.framebufferRenderbuffer(i.FRAMEBUFFER,Q,i.RENDERBUFFER,ot)}}else if(R.texture.mipmaps.length>0?e.bindFramebuffer(i.FRAMEBUFFER,M.__webglFramebuffer[0]):e.bindFramebuffer(i.FRAMEBUFFER,M.__webglFramebuffer),M.__webglDepthbuffer===void 0)M.__webglDepthbuffer=i.createRenderbuffer(),ei(M.__webglDepthbuffer,R,!1);else{let Q=R.stencilBuffer?i.DEPTH_STENCIL_ATTACHMENT:i.DEPTH_ATTACHMENT,ot=M.__webglDepthbuffer;i.bindRenderbuffer(i.RENDERBUFFER,ot),i.framebufferRenderbuffer(i.FRAMEBUFFER,Q,i.RENDERBUFFER,ot)}e.bindFramebuffer(i.FRAMEBUFFER,null)}function Fn(R,M,V){let it=n.get(R);M!==void 0&&_e(it.__webglFramebuffer,R,R.texture,i.COLOR_ATTACHMENT0,i.TEXTURE_2D,0),V!==void 0&&Dn(R)}function Un(R){let M=R.texture,V=n.get(R),it=n.get(M);R.addEventListener("dispose",I),k(R);let Q=R.textures,ot=R.isWebGLCubeRenderTarget===!0,dt=Q.length>1;if(dt||(it.__webglTexture===void 0&&(it.__webglTexture=i.createTexture()),it.__version=M.version,o.memory.textures++),ot){V.__webglFramebuffer=[];for(let Y=0;Y<6;Y++)if(M.mipmaps.length>0){V.__webglFramebuffer[Y]=[];for(let Z=0;Z<M.mipmaps.length;Z++)V.__webglFramebuffer[Y][Z]=i.createFramebuffer()}else V.__webglFramebuffer[Y]=i.createFramebuffer()}else{if(M.mipmaps.length>0){V.__webglFramebuffer=[];for(let Y=0;Y<M.mipmaps.length;Y++)V.__webglFramebuffer[Y]=i.createFramebuffer()}else V.__webglFramebuffer=i.createFramebuffer();if(dt)for(let Y=0,Z=Q.length;Y<Z;Y++){let lt=n.get(Q[Y]);lt.__webglTexture===void 0&&(lt.__webglTexture=i.createTexture(),o.memory.textures++)}if(R.samples>0&&pt(R)===!1){V.__webglMultisampledFramebuffer=i.createFramebuffer(),V.__webglColorRenderbuffer=[],e.bindFramebuffer(i.FRAMEBUFFER,V.__webglMultisampledFramebuffer);for(let Y=0;Y<Q.length;Y++){let Z=Q[Y];V.__webglColorRenderbuffer[Y]=i.createRenderbuffer(),i.bindRenderbuffer(i.RENDERBUFFER,V.__webglColorRenderbuffer[Y]);let lt=r.convert(Z.format,Z.colorSpace),D=r.convert(Z.type),j=E(Z.internalFormat,lt,D,Z.normalized,Z.colorSpace,R.isXRRenderTarget===!0),q=ye(R);i.renderbufferStorageMultisample(i.RENDERBUFFER,q,j,R.width,R.height),i.framebufferRenderbuffer(i.FRAMEBUFFER,i.COLOR_ATTACHMENT0+Y,i.RENDERBUFFER,V.__webglColorRenderbuffer[Y])}i.bindRenderbuffer(i.RENDERBUFFER,null),R.depthBuffer&&(V.__webglDepthRenderbuffer=i.createRenderbuffer(),ei(V.__webglDepthRenderbuffer,R,!0)),e.bindFramebuffer(i.FRAMEBUFFER,null)}}if(ot){e.bindTexture(i.TEXTURE_CUBE_MAP,it.__webglTexture),Qt(i.TEXTURE_CUBE_MAP,M);for(let Y=0;Y<6;Y++)if(M.mipmaps.length>0)for(let Z=0;Z<M.mipmaps.length;Z++)_e(V.__webglFramebuffer[Y][Z],R,M,i.COLOR_ATTACHMENT0,i.TEXTURE_CUBE_MAP_POSITIVE_X+Y,Z);else _e(V.__webglFramebuffer[Y],R,M,i.COLOR_ATTACHMENT0,i.TEXTURE_CUBE_MAP_POSITIVE_X+Y,0);w(M)?v(i.TEXTURE_CUBE_MAP):M.mipmaps.length>0&&i.texParameteri(i.TEXTURE_CUBE_MAP,i.TEXTURE_MAX_LEVEL,M.mipmaps.length-1),e.unbindTexture()}else if(dt){for(let Y=0,Z=Q.length;Y<Z;Y++){let lt=Q[Y],D=n.get(lt),j=i.TEXTURE_2D;(R.isWebGL3DRenderTarget||R.isWebGLArrayRenderTarget)&&(j=R.isWebGL3DRenderTarget?i.TEXTURE_3D:i.TEXTURE_2D_ARRAY),e.bindTexture(j,D.__webglTexture),Qt(j,lt),_e(V.__webglFramebuffer,R,lt,i.COLOR_ATTACHMENT0+Y,j,0),w(lt)&&v(j)}e.unbindTexture()}else{let Y=i.TEXTURE_2D;if((R.isWebGL3DRenderTarget||R.isWebGLArrayRenderTarget)&&(Y=R.isWebGL3DRenderTarget?i.TEXTURE_3D:i.TEXTURE_2D_ARRAY),e.bindTexture(Y,it.__webglTexture),Qt(Y,M),M.mipmaps.length>0)for(let Z=0;Z<M.mipmaps.length;Z++)_e(V.__webglFramebuffer[Z],R,M,i.COLOR_ATTACHMENT0,Y,Z);else _e(V.__webglFramebuffer,R,M,i.COLOR_ATTACHMENT0,Y,0);w(M)?v(Y):M.mipmaps.length>0&&i.texParameteri(Y,i.TEXTURE_MAX_LEVEL,M.mipmaps.length-1),e.unbindTexture()}R.depthBuffer&&Dn(R)}function O(R){let M=R.textures;for(let V=0,it=M.length;V<it;V++){let Q=M[V];if(w(Q)&&Q.mipmapsAutoUpdate===!0){let ot=_(R),dt=n.get(Q).__webglTexture;e.bindTexture(ot,dt),v(ot),e.unbindTexture()}}}let On=[];function ve(R){if(R.samples>0){if(pt(R)===!1){let M=R.textures,V=R.width,it=R.height,Q=i.COLOR_BUFFER_BIT,ot=R.stencilBuffer?i.DEPTH_STENCIL_ATTACHMENT:i.DEPTH_ATTACHMENT,dt=n.get(R),Y=M.length>1;if(Y)for(let lt=0;lt<M.length;lt++)e.bindFramebuffer(i.FRAMEBUFFER,dt.__webglMultisampledFramebuffer),i.framebufferRenderbuffer(i.FRAMEBUFFER,i.COLOR_ATTACHMENT0+lt,i.RENDERBUFFER,null),e.bindFramebuffer(i.FRAMEBUFFER,dt.__webglFramebuffer),i.framebufferTexture2D(i.DRAW_FRAMEBUFFER,i.COLOR_ATTACHMENT0+lt,i.TEXTURE_2D,null,0);e.bindFramebuffer(i.READ_FRAMEBUFFER,dt.__webglMultisampledFramebuffer),R.texture.mipmaps.length>0?e.bindFramebuffer(i.DRAW_FRAMEBUFFER,dt.__webglFramebuffer[0]):e.bindFramebuffer(i.DRAW_FRAMEBUFFER,dt.__webglFramebuffer);for(let lt=0;lt<M.length;lt++){if(R.resolveDepthBuffer&&(R.depthBuffer&&(Q|=i.DEPTH_BUFFER_BIT),R.stencilBuffer&&R.resolveStencilBuffer&&(Q|=i.STENCIL_BUFFER_BIT)),Y){i.framebufferRenderbuffer(i.READ_FRAMEBUFFER,i.COLOR_ATTACHMENT0,i.RENDERBUFFER,dt.__webglColorRenderbuffer[lt]);let D=n.get(M[lt]).__webglTexture;i.framebufferTexture2D(i.DRAW_FRAMEBUFFER,i.COLOR_ATTACHMENT0,i.TEXTURE_2D,D,0)}i.blitFramebuffer(0,0,V,it,0,0,V,it,Q,i.NEAREST),l===!0&&(On.length=0,On.push(i.COLOR_ATTACHMENT0+lt),R.depthBuffer&&R.storeMultisampledDepthBuffer===!1&&On.push(ot),i.invalidateFramebuffer(i.READ_FRAMEBUFFER,On))}if(e.bindFramebuffer(i.READ_FRAMEBUFFER,null),e.bindFramebuffer(i.DRAW_FRAMEBUFFER,null),Y)for(let lt=0;lt<M.length;lt++){e.bindFramebuffer(i.FRAMEBUFFER,dt.__webglMultisampledFramebuffer),i.framebufferRenderbuffer(i.FRAMEBUFFER,i.COLOR_ATTACHMENT0+lt,i.RENDERBUFFER,dt.__webglColorRenderbuffer[lt]);let D=n.get(M[lt]).__webglTexture;e.bindFramebuffer(i.FRAMEBUFFER,dt.__webglFramebuffer),i.framebufferTexture2D(i.DRAW_FRAMEBUFFER,i.COLOR_ATTACHMENT0+lt,i.TEXTURE_2D,D,0)}e.bindFramebuffer(i.DRAW_FRAMEBUFFER,dt.__webglMultisampledFramebuffer)}else if(R.depthBuffer&&R.storeMultisampledDepthBuffer===!1&&l){let M=R.stencilBuffer?i.DEPTH_STENCIL_ATTACHMENT:i.DEPTH_ATTACHMENT;i.invalidateFramebuffer(i.DRAW_FRAMEBUFFER,[M])}}}function ye(R){return Math.min(s.maxSamples,R.samples)}function pt(R){let M=n.get(R);return R.samples>0&&t.has("WEBGL_multisampled_render_to_texture")===!0&&M.__useRenderToTexture!==!1}function De(R){let M=o.render.frame;h.get(R)!==M&&(h.set(R,M),R.update())}function It(R,M){let V=R.colorSpace,it=R.format,Q=R.type;return R.isCompressedTexture===!0||R.isVideoTexture===!0||V!==kr&&V!==Ri&&(Xt.getTransfer(V)===se?(it!==Je||Q!==je)&&Lt("WebGLTextures: sRGB encoded textures have to use RGBAFormat and UnsignedByteType."):kt("WebGLTextures: Unsupported texture color space:",V)),M}function Bt(R){return typeof HTMLImageElement<"u"&&R instanceof HTMLImageElement?(c.width=R.naturalWidth||R.width,c.height=R.naturalHeight||R.height):typeof VideoFrame<"u"&&R instanceof VideoFrame?(c.width=R.displayWidth,c.height=R.displayHeight):(c.width=R.width,c.height=R.height),c}this.allocateTextureUnit=Dt,this.resetTextureUnits=tt,this.getTextureUnits=et,this.setTextureUnits=bt,this.setTexture2D=ut,this.setTexture2DArray=yt,this.setTexture3D=Rt,this.setTextureCube=mt,this.rebindTextures=Fn,this.setupRenderTarget=Un,this.updateRenderTargetMipmap=O,this.updateMultisampleRenderTarget=ve,this.setupDepthRenderbuffer=Dn,this.setupFrameBufferTexture=_e,this.useMultisampledRTT=pt,this.dispose=B}function Sw(i,t){function e(n,s=Ri){let r,o=Xt.getTransfer(s);if(n===je)return i.UNSIGNED_BYTE;if(n===qa)return i.UNSIGNED_SHORT_4_4_4_4;if(n===Ya)return i.UNSIGNED_SHORT_5_5_5_1;if(n===Jh)return i.UNSIGNED_INT_5_9_9_9_REV;if(n===Kh)return i.UNSIGNED_INT_10F_11F_11F_REV;if(n===Yh)return i.BYTE;if(n===Zh)return i.SHORT;if(n===er)return i.UNSIGNED_SHORT;if(n===$a)return i.INT;if(n===Sn)return i.UNSIGNED_INT;if(n===Rn)return i.FLOAT;if(n===Ln)return i.HALF_FLOAT;if(n===jh)return i.ALPHA;if(n===Qh)return i.RGB;if(n===Je)return i.RGBA;if(n===Ti)return i.DEPTH_COMPONENT;if(n===Ci)return i.DEPTH_STENCIL;if(n===tu)return i.RED;if(n===to)return i.RED_INTEGER;if(n===Yi)return i.RG;if(n===Za)return i.RG_INTEGER;if(n===Ja)return i.RGBA_INTEGER;if(n===eo||n===no||n===io||n===so)if(o===se)if(r=t.get("WEBGL_compressed_texture_s3tc_srgb"),r!==null){if(n===eo)return r.COMPRESSED_SRGB_S3TC_DXT1_EXT;if(n===no)return r.COMPRESSED_SRGB_ALPHA_S3TC_DXT1_EXT;if(n===io)return r.COMPRESSED_SRGB_ALPHA_S3TC_DXT3_EXT;if(n===so)return r.COMPRESSED_SRGB_ALPHA_S3TC_DXT5_EXT}else return null;else if(r=t.get("WEBGL_compressed_texture_s3tc"),r!==null){if(n===eo)return r.COMPRESSED_RGB_S3TC_DXT1_EXT;if(n===no)return r.COMPRESSED_RGBA_S3TC_DXT1_EXT;if(n===io)return r.COMPRESSED_RGBA_S3TC_DXT3_EXT;if(n===so)return r.COMPRESSED_RGBA_S3TC_DXT5_EXT}else return null;if(n===Ka||n===ja||n===Qa||n===tl)if(r=t.get("WEBGL_compressed_texture_pvrtc"),r!==null){if(n===Ka)return r.COMPRESSED_RGB_PVRTC_4BPPV1_IMG;if(n===ja)return r.COMPRESSED_RGB_PVRTC_2BPPV1_IMG;if(n===Qa)return r.COMPRESSED_RGBA_PVRTC_4BPPV1_IMG;if(n===tl)return r.COMPRESSED_RGBA_PVRTC_2BPPV1_IMG}else return null;if(n===el||n===nl||n===il||n===sl||n===rl||n===ro||n===ol)if(r=t.get("WEBGL_compressed_texture_etc"),r!==null){if(n===el||n===nl)return o===se?r.COMPRESSED_SRGB8_ETC2:r.COMPRESSED_RGB8_ETC2;if(n===il)return o===se?r.COMPRESSED_SRGB8_ALPHA8_ETC2_EAC:r.COMPRESSED_RGBA8_ETC2_EAC;if(n===sl)return r.COMPRESSED_R11_EAC;if(n===rl)return r.COMPRESSED_SIGNED_R11_EAC;if(n===ro)return r.COMPRESSED_RG11_EAC;if(n===ol)return r.COMPRESSED_SIGNED_RG11_EAC}else return null;if(n===al||n===ll||n===cl||n===hl||n===ul||n===dl||n===fl||n===pl||n===ml||n===gl||n===xl||n===vl||n===yl||n===bl)if(r=t.get("WEBGL_compressed_texture_astc"),r!==null){if(n===al)return o===se?r.COMPRESSED_SRGB8_ALPHA8_ASTC_4x4_KHR:r.COMPRESSED_RGBA_ASTC_4x4_KHR;if(n===ll)return o===se?r.COMPRESSED_SRGB8_ALPHA8_ASTC_5x4_KHR:r.COMPRESSED_RGBA_ASTC_5x4_KHR;if(n===cl)return o===se?r.COMPRESSED_SRGB8_ALPHA8_ASTC_5x5_KHR:r.COMPRESSED_RGBA_ASTC_5x5_KHR;if(n===hl)return o===se?r.COMPRESSED_SRGB8_ALPHA8_ASTC_6x5_KHR:r.COMPRESSED_RGBA_ASTC_6x5_KHR;if(n===ul)return o===se?r.COMPRESSED_SRGB8_ALPHA8_ASTC_6x6_KHR:r.COMPRESSED_RGBA_ASTC_6x6_KHR;if(n===dl)return o===se?r.COMPRESSED_SRGB8_ALPHA8_ASTC_8x5_KHR:r.COMPRESSED_RGBA_ASTC_8x5_KHR;if(n===fl)return o===se?r.COMPRESSED_SRGB8_ALPHA8_ASTC_8x6_KHR:r.COMPRESSED_RGBA_ASTC_8x6_KHR;if(n===pl)return o===se?r.COMPRESSED_SRGB8_ALPHA8_ASTC_8x8_KHR:r.COMPRESSED_RGBA_ASTC_8x8_KHR;if(n===ml)return o===se?r.COMPRESSED_SRGB8_ALPHA8_ASTC_10x5_KHR:r.COMPRESSED_RGBA_ASTC_10x5_KHR;if(n===gl)return o===se?r.COMPRESSED_SRGB8_ALPHA8_ASTC_10x6_KHR:r.COMPRESSED_RGBA_ASTC_10x6_KHR;if(n===xl)return o===se?r.COMPRESSED_SRGB8_ALPHA8_ASTC_10x8_KHR:r.COMPRESSED_RGBA_ASTC_10x8_KHR;if(n===vl)return o===se?r.COMPRESSED_SRGB8_ALPHA8_ASTC_10x10_KHR:r.COMPRESSED_RGBA_ASTC_10x10_KHR;if(n===yl)return o===se?r.COMPRESSED_SRGB8_ALPHA8_ASTC_12x10_KHR:r.COMPRESSED_RGBA_ASTC_12x10_KHR;if(n===bl)return o===se?r.COMPRESSED_SRGB8_ALPHA8_ASTC_12x12_KHR:r.COMPRESSED_RGBA_ASTC_12x12_KHR}else return null;if(n===_l||n===wl||n===Sl)if(r=t.get("EXT_texture_compression_bptc"),r!==null){if(n===_l)return o===se?r.COMPRESSED_SRGB_ALPHA_BPTC_UNORM_EXT:r.COMPRESSED_RGBA_BPTC_UNORM_EXT;if(n===wl)return r.COMPRESSED_RGB_BPTC_SIGNED_FLOAT_EXT;if(n===Sl)return r.COMPRESSED_RGB_BPTC_UNSIGNED_FLOAT_EXT}else return null;if(n===Ml||n===Tl||n===oo||n===El)if(r=t.get("EXT_texture_compression_rgtc"),r!==null){if(n===Ml)return r.COMPRESSED_RED_RGTC1_EXT;if(n===Tl)return r.COMPRESSED_SIGNED_RED_RGTC1_EXT;if(n===oo)return r.COMPRESSED_RED_GREEN_RGTC2_EXT;if(n===El)return r.COMPRESSED_SIGNED_RED_GREEN_RGTC2_EXT}else return null;return n===ps?i.UNSIGNED_INT_24_8:i[n]!==void 0?i[n]:null}return{convert:e}}var Mw=`
+void main() {
+
+	gl_Position = vec4( position, 1.0 );
+
+}`,Tw=`
+uniform sampler2DArray depthColor;
+uniform float depthWidth;
+uniform float depthHeight;
+
+void main() {
+
+	vec2 coord = vec2( gl_FragCoord.x / depthWidth, gl_FragCoord.y / depthHeight );
+
+	if ( coord.x >= 1.0 ) {
+
+		gl_FragDepth = texture( depthColor, vec3( coord.x - 1.0, coord.y, 1 ) ).r;
+
+	} else {
+
+		gl_FragDepth = texture( depthColor, vec3( coord.x, coord.y, 0 ) ).r;
+
+	}
+
+}`,bu=class{constructor(){this.texture=null,this.mesh=null,this.depthNear=0,this.depthFar=0}init(t,e){if(this.texture===null){let n=new $r(t.texture);(t.depthNear!==e.depthNear||t.depthFar!==e.depthFar)&&(this.depthNear=t.depthNear,this.depthFar=t.depthFar),this.texture=n}}getMesh(t){if(this.texture!==null&&this.mesh===null){let e=t.cameras[0].viewport,n=new ln({vertexShader:Mw,fragmentShader:Tw,uniforms:{depthColor:{value:this.texture},depthWidth:{value:e.z},depthHeight:{value:e.w}}});this.mesh=new Le(new Ei(20,20),n)}return this.mesh}reset(){this.texture=null,this.mesh=null}getDepthTexture(){return this.texture}},_u=class extends ai{constructor(t,e){super();let n=this,s=null,r=1,o=null,a="local-floor",l=1,c=null,h=null,u=null,d=null,f=null,p=null,b=typeof XRWebGLBinding<"u",m=new bu,g={},y=e.getContextAttributes(),w=null,v=null,_=[],E=[],x=new At,S=null,k=null,C=new pn;C.viewport=new $t;let P=new pn;P.viewport=new $t;let I=[C,P],U=new Va,L=null,B=null;this.cameraAutoUpdate=!0,this.enabled=!1,this.isPresenting=!1,this.getController=function(K){let ut=_[K];return ut===void 0&&(ut=new qs,_[K]=ut),ut.getTargetRaySpace()},this.getControllerGrip=function(K){let ut=_[K];return ut===void 0&&(ut=new qs,_[K]=ut),ut.getGripSpace()},this.getHand=function(K){let ut=_[K];return ut===void 0&&(ut=new qs,_[K]=ut),ut.getHandSpace()};function G(K){let ut=E.indexOf(K.inputSource);if(ut===-1)return;let yt=_[ut];yt!==void 0&&(yt.update(K.inputSource,K.frame,c||o),yt.dispatchEvent({type:K.type,data:K.inputSource}))}function W(){s.removeEventListener("select",G),s.removeEventListener("selectstart",G),s.removeEventListener("selectend",G),s.removeEventListener("squeeze",G),s.removeEventListener("squeezestart",G),s.removeEventListener("squeezeend",G),s.removeEventListener("end",W),s.removeEventListener("inputsourceschange",nt);for(let K=0;K<_.length;K++){let ut=E[K];ut!==null&&(E[K]=null,_[K].disconnect(ut))}L=null,B=null,m.reset();for(let K in g)delete g[K];if(t.setRenderTarget(w),f=null,d=null,u=null,s=null,v=null,Dt.stop(),n.isPresenting=!1,t.setPixelRatio(S),t.setSize(x.width,x.height,!1),k!==null){let K=k.camera;K.fov=k.fov,K.zoom=k.zoom,K.updateProjectionMatrix(),k=null}n.dispatchEvent({type:"sessionend"})}this.setFramebufferScaleFactor=function(K){r=K,n.isPresenting===!0&&Lt("WebXRManager: Cannot change framebuffer scale while presenting.")},this.setReferenceSpaceType=function(K){a=K,n.isPresenting===!0&&Lt("WebXRManager: Cannot change reference space type while presenting.")},this.getReferenceSpace=function(){return c||o},this.setReferenceSpace=function(K){c=K},this.getBaseLayer=function(){return d!==null?d:f},this.getBinding=function(){return u===null&&b&&(u=new XRWebGLBinding(s,e)),u},this.getFrame=function(){return p},this.getSession=function(){return s},this.setSession=async function(K){if(s=K,s!==null){if(w=t.getRenderTarget(),s.addEventListener("select",G),s.addEventListener("selectstart",G),s.addEventListener("selectend",G),s.addEventListener("squeeze",G),s.addEventListener("squeezestart",G),s.addEventListener("squeezeend",G),s.addEventListener("end",W),s.addEventListener("inputsourceschange",nt),y.xrCompatible!==!0&&await e.makeXRCompatible(),S=t.getPixelRatio(),t.getSize(x),b&&"createProjectionLayer"in XRWebGLBinding.prototype){let yt=null,Rt=null,mt=null;y.depth&&(mt=y.stencil?e.DEPTH24_STENCIL8:e.DEPTH_COMPONENT24,yt=y.stencil?Ci:Ti,Rt=y.stencil?ps:Sn);let Ot={colorFormat:e.RGBA8,depthFormat:mt,scaleFactor:r};u=this.getBinding(),d=u.createProjectionLayer(Ot),s.updateRenderState({layers:[d]}),t.setPixelRatio(1),t.setSize(d.textureWidth,d.textureHeight,!1),v=new Pe(d.textureWidth,d.textureHeight,{format:Je,type:je,depthTexture:new Jn(d.textureWidth,d.textureHeight,Rt,void 0,void 0,void 0,void 0,void 0,void 0,yt),stencilBuffer:y.stencil,colorSpace:t.outputColorSpace,samples:y.antialias?4:0,resolveDepthBuffer:d.ignoreDepthValues===!1,resolveStencilBuffer:d.ignoreDepthValues===!1,storeMultisampledDepthBuffer:d.ignoreDepthValues===!1,storeMultisampledStencilBuffer:d.ignoreDepthValues===!1})}else{let yt={antialias:y.antialias,alpha:!0,depth:y.depth,stencil:y.stencil,framebufferScaleFactor:r};f=new XRWebGLLayer(s,e,yt),s.updateRenderState({baseLayer:f}),t.setPixelRatio(1),t.setSize(f.framebufferWidth,f.framebufferHeight,!1),v=new Pe(f.framebufferWidth,f.framebufferHeight,{format:Je,type:je,colorSpace:t.outputColorSpace,stencilBuffer:y.stencil,resolveDepthBuffer:f.ignoreDepthValues===!1,resolveStencilBuffer:f.ignoreDepthValues===!1,storeMultisampledDepthBuffer:f.ignoreDepthValues===!1,storeMultisampledStencilBuffer:f.ignoreDepthValues===!1})}v.isXRRenderTarget=!0,this.setFoveation(l),c=null,o=await s.requestReferenceSpace(a),Dt.setContext(s),Dt.start(),n.isPresenting=!0,n.dispatchEvent({type:"sessionstart"})}},this.getEnvironmentBlendMode=function(){if(s!==null)return s.environmentBlendMode},this.getDepthTexture=function(){return m.getDepthTexture()};function nt(K){for(let ut=0;ut<K.removed.length;ut++){let yt=K.removed[ut],Rt=E.indexOf(yt);Rt>=0&&(E[Rt]=null,_[Rt].disconnect(yt))}for(let ut=0;ut<K.added.length;ut++){let yt=K.added[ut],Rt=E.indexOf(yt);if(Rt===-1){for(let Ot=0;Ot<_.length;Ot++)if(Ot>=E.length){E.push(yt),Rt=Ot;break}else if(E[Ot]===null){E[Ot]=yt,Rt=Ot;break}if(Rt===-1)break}let mt=_[Rt];mt&&mt.connect(yt)}}function $(K,ut){ut===null?K.matrixWorld.copy(K.matrix):K.matrixWorld.multiplyMatrices(ut.matrixWorld,K.matrix),K.matrixWorldInverse.copy(K.matrixWorld).invert()}this.updateCamera=function(K){if(s===null)return;let ut=K.near,yt=K.far;m.texture!==null&&(m.depthNear>0&&(ut=m.depthNear),m.depthFar>0&&(yt=m.depthFar)),U.near=P.near=C.near=ut,U.far=P.far=C.far=yt,(L!==U.near||B!==U.far)&&(s.updateRenderState({depthNear:U.near,depthFar:U.far}),L=U.near,B=U.far),U.layers.mask=K.layers.mask|6,C.layers.mask=U.layers.mask&-5,P.layers.mask=U.layers.mask&-3;let Rt=K.parent,mt=U.cameras;$(U,Rt);for(let Ot=0;Ot<mt.length;Ot++)$(mt[Ot],Rt);U.projectionMatrix.copy(C.projectionMatrix),U.projectionMatrixInverse.copy(C.projectionMatrixInverse),k===null&&K.isPerspectiveCamera&&(k={camera:K,fov:K.fov,zoom:K.zoom}),tt(K,U,Rt)};function tt(K,ut,yt){yt===null?K.matrix.copy(ut.matrixWorld):(K.matrix.copy(yt.matrixWorld),K.matrix.invert(),K.matrix.multiply(ut.matrixWorld)),K.matrix.decompose(K.position,K.quaternion,K.scale),K.updateMatrixWorld(!0),K.projectionMatrix.copy(ut.projectionMatrix),K.projectionMatrixInverse.copy(ut.projectionMatrixInverse),K.isPerspectiveCamera&&(K.fov=wa*2*Math.atan(1/K.projectionMatrix.elements[5]),K.zoom=1)}this.getCamera=function(){return U},this.getFoveation=function(){if(!(d===null&&f===null))return l},this.setFoveation=function(K){l=K,d!==null&&(d.fixedFoveation=K),f!==null&&f.fixedFoveation!==void 0&&(f.fixedFoveation=K)},this.hasDepthSensing=function(){return m.texture!==null},this.getDepthSensingMesh=function(){return m.getMesh(U)},this.getCameraTexture=function(K){return g[K]};let et=null;function bt(K,ut){if(h=ut.getViewerPose(c||o),p=ut,h!==null){let yt=h.views;f!==null&&(t.setRenderTargetFramebuffer(v,f.framebuffer),t.setRenderTarget(v));let Rt=!1;yt.length!==U.cameras.length&&(U.cameras.length=0,Rt=!0);for(let Pt=0;Pt<yt.length;Pt++){let Qt=yt[Pt],he=null;if(f!==null)he=f.getViewport(Qt);else{let Ye=u.getViewSubImage(d,Qt);he=Ye.viewport,Pt===0&&(t.setRenderTargetTextures(v,Ye.colorTexture,Ye.depthStencilTexture),t.setRenderTarget(v))}let Yt=I[Pt];Yt===void 0&&(Yt=new pn,Yt.layers.enable(Pt),Yt.viewport=new $t,I[Pt]=Yt),Yt.matrix.fromArray(Qt.transform.matrix),Yt.matrix.decompose(Yt.position,Yt.quaternion,Yt.scale),Yt.projectionMatrix.fromArray(Qt.projectionMatrix),Yt.projectionMatrixInverse.copy(Yt.projectionMatrix).invert(),Yt.viewport.set(he.x,he.y,he.width,he.height),Pt===0&&(U.matrix.copy(Yt.matrix),U.matrix.decompose(U.position,U.quaternion,U.scale)),Rt===!0&&U.cameras.push(Yt)}let mt=s.enabledFeatures;if(mt&&mt.includes("depth-sensing")&&s.depthUsage=="gpu-optimized"&&b){u=n.getBinding();let Pt=u.getDepthInformation(yt[0]);Pt&&Pt.isValid&&Pt.texture&&m.init(Pt,s.renderState)}if(mt&&mt.includes("camera-access")&&b){t.state.unbindTexture(),u=n.getBinding();for(let Pt=0;Pt<yt.length;Pt++){let Qt=yt[Pt].camera;if(Qt){let he=g[Qt];he||(he=new $r,g[Qt]=he);let Yt=u.getCameraImage(Qt);he.sourceTexture=Yt}}}}for(let yt=0;yt<_.length;yt++){let Rt=E[yt],mt=_[yt];Rt!==null&&mt!==void 0&&mt.update(Rt,ut,c||o)}et&&et(K,ut),ut.detectedPlanes&&n.dispatchEvent({type:"planesdetected",data:ut}),p=null}let Dt=new Fp;Dt.setAnimationLoop(bt),this.setAnimationLoop=function(K){et=K},this.dispose=function(){}}},Ew=new Mt,$p=new Ft;$p.set(-1,0,0,0,1,0,0,0,1);function Aw(i,t){function e(m,g){m.matrixAutoUpdate===!0&&m.updateMatrix(),g.value.copy(m.matrix)}function n(m,g){g.color.getRGB(m.fogColor.value,lu(i)),g.isFog?(m.fogNear.value=g.near,m.fogFar.value=g.far):g.isFogExp2&&(m.fogDensity.value=g.density)}function s(m,g,y,w,v){g.isNodeMaterial?g.uniformsNeedUpdate=!1:g.isMeshBasicMaterial?r(m,g):g.isMeshLambertMaterial?(r(m,g),g.envMap&&(m.envMapIntensity.value=g.envMapIntensity)):g.isMeshToonMaterial?(r(m,g),u(m,g)):g.isMeshPhongMaterial?(r(m,g),h(m,g),g.envMap&&(m.envMapIntensity.value=g.envMapIntensity)):g.isMeshStandardMaterial?(r(m,g),d(m,g),g.isMeshPhysicalMaterial&&f(m,g,v)):g.isMeshMatcapMaterial?(r(m,g),p(m,g)):g.isMeshDepthMaterial?r(m,g):g.isMeshDistanceMaterial?(r(m,g),b(m,g)):g.isMeshNormalMaterial?r(m,g):g.isLineBasicMaterial?(o(m,g),g.isLineDashedMaterial&&a(m,g)):g.isPointsMaterial?l(m,g,y,w):g.isSpriteMaterial?c(m,g):g.isShadowMaterial?(m.color.value.copy(g.color),m.opacity.value=g.opacity):g.isShaderMaterial&&(g.uniformsNeedUpdate=!1)}function r(m,g){m.opacity.value=g.opacity,g.color&&m.diffuse.value.copy(g.color),g.emissive&&m.emissive.value.copy(g.emissive).multiplyScalar(g.emissiveIntensity),g.map&&(m.map.value=g.map,e(g.map,m.mapTransform)),g.alphaMap&&(m.alphaMap.value=g.alphaMap,e(g.alphaMap,m.alphaMapTransform)),g.bumpMap&&(m.bumpMap.value=g.bumpMap,e(g.bumpMap,m.bumpMapTransform),m.bumpScale.value=g.bumpScale,g.side===Ke&&(m.bumpScale.value*=-1)),g.normalMap&&(m.normalMap.value=g.normalMap,e(g.normalMap,m.normalMapTransform),m.normalScale.value.copy(g.normalScale),g.side===Ke&&m.normalScale.value.negate()),g.displacementMap&&(m.displacementMap.value=g.displacementMap,e(g.displacementMap,m.displacementMapTransform),m.displacementScale.value=g.displacementScale,m.displacementBias.value=g.displacementBias),g.emissiveMap&&(m.emissiveMap.value=g.emissiveMap,e(g.emissiveMap,m.emissiveMapTransform)),g.specularMap&&(m.specularMap.value=g.specularMap,e(g.specularMap,m.specularMapTransform)),g.alphaTest>0&&(m.alphaTest.value=g.alphaTest);let y=t.get(g),w=y.envMap,v=y.envMapRotation;w&&(m.envMap.value=w,m.envMapRotation.value.setFromMatrix4(Ew.makeRotationFromEuler(v)).transpose(),w.isCubeTexture&&w.isRenderTargetTexture===!1&&m.envMapRotation.value.premultiply($p),m.reflectivity.value=g.reflectivity,m.ior.value=g.ior,m.refractionRatio.value=g.refractionRatio),g.lightMap&&(m.lightMap.value=g.lightMap,m.lightMapIntensity.value=g.lightMapIntensity,e(g.lightMap,m.lightMapTransform)),g.aoMap&&(m.aoMap.value=g.aoMap,m.aoMapIntensity.value=g.aoMapIntensity,e(g.aoMap,m.aoMapTransform))}function o(m,g){m.diffuse.value.copy(g.color),m.opacity.value=g.opacity,g.map&&(m.map.value=g.map,e(g.map,m.mapTransform))}function a(m,g){m.dashSize.value=g.dashSize,m.totalSize.value=g.dashSize+g.gapSize,m.scale.value=g.scale}function l(m,g,y,w){m.diffuse.value.copy(g.color),m.opacity.value=g.opacity,m.size.value=g.size*y,m.scale.value=w*.5,g.map&&(m.map.value=g.map,e(g.map,m.uvTransform)),g.alphaMap&&(m.alphaMap.value=g.alphaMap,e(g.alphaMap,m.alphaMapTransform)),g.alphaTest>0&&(m.alphaTest.value=g.alphaTest)}function c(m,g){m.diffuse.value.copy(g.color),m.opacity.value=g.opacity,m.rotation.value=g.rotation,g.map&&(m.map.value=g.map,e(g.map,m.mapTransform)),g.alphaMap&&(m.alphaMap.value=g.alphaMap,e(g.alphaMap,m.alphaMapTransform)),g.alphaTest>0&&(m.alphaTest.value=g.alphaTest)}function h(m,g){m.specular.value.copy(g.specular),m.shininess.value=Math.max(g.shininess,1e-4)}function u(m,g){g.gradientMap&&(m.gradientMap.value=g.gradientMap)}function d(m,g){m.metalness.value=g.metalness,g.metalnessMap&&(m.metalnessMap.value=g.metalnessMap,e(g.metalnessMap,m.metalnessMapTransform)),m.roughness.value=g.roughness,g.roughnessMap&&(m.roughnessMap.value=g.roughnessMap,e(g.roughnessMap,m.roughnessMapTransform)),g.envMap&&(m.envMapIntensity.value=g.envMapIntensity)}function f(m,g,y){m.ior.value=g.ior,g.diffuseRoughness>0&&(m.diffuseRoughness.value=g.diffuseRoughness,g.diffuseRoughnessMap&&(m.diffuseRoughnessMap.value=g.diffuseRoughnessMap,e(g.diffuseRoughnessMap,m.diffuseRoughnessMapTransform))),g.sheen>0&&(m.sheenColor.value.copy(g.sheenColor).multiplyScalar(g.sheen),m.sheenRoughness.value=g.sheenRoughness,g.sheenColorMap&&(m.sheenColorMap.value=g.sheenColorMap,e(g.sheenColorMap,m.sheenColorMapTransform)),g.sheenRoughnessMap&&(m.sheenRoughnessMap.value=g.sheenRoughnessMap,e(g.sheenRoughnessMap,m.sheenRoughnessMapTransform))),g.clearcoat>0&&(m.clearcoat.value=g.clearcoat,m.clearcoatRoughness.value=g.clearcoatRoughness,g.clearcoatMap&&(m.clearcoatMap.value=g.clearcoatMap,e(g.clearcoatMap,m.clearcoatMapTransform)),g.clearcoatRoughnessMap&&(m.clearcoatRoughnessMap.value=g.clearcoatRoughnessMap,e(g.clearcoatRoughnessMap,m.clearcoatRoughnessMapTransform)),g.clearcoatNormalMap&&(m.clearcoatNormalMap.value=g.clearcoatNormalMap,e(g.clearcoatNormalMap,m.clearcoatNormalMapTransform),m.clearcoatNormalScale.value.copy(g.clearcoatNormalScale),g.side===Ke&&m.clearcoatNormalScale.value.negate())),g.dispersion>0&&(m.dispersion.value=g.dispersion),g.retroreflectivity>0&&(m.retroreflectivity.value=g.retroreflectivity),g.iridescence>0&&(m.iridescence.value=g.iridescence,m.iridescenceIOR.value=g.iridescenceIOR,m.iridescenceThicknessMinimum.value=g.iridescenceThicknessMinimum,m.iridescenceThicknessMaximum.value=g.iridescenceThicknessMaximum,g.iridescenceMap&&(m.iridescenceMap.value=g.iridescenceMap,e(g.iridescenceMap,m.iridescenceMapTransform)),g.iridescenceThicknessMap&&(m.iridescenceThicknessMap.value=g.iridescenceThicknessMap,e(g.iridescenceThicknessMap,m.iridescenceThicknessMapTransform))),g.transmission>0&&(m.transmission.value=g.transmission,m.transmissionSamplerMap.value=y.texture,m.transmissionSamplerSize.value.set(y.width,y.height),g.transmissionMap&&(m.transmissionMap.value=g.transmissionMap,e(g.transmissionMap,m.transmissionMapTransform)),m.thickness.value=g.thickness,g.thicknessMap&&(m.thicknessMap.value=g.thicknessMap,e(g.thicknessMap,m.thicknessMapTransform)),m.attenuationDistance.value=g.attenuationDistance,m.attenuationColor.value.copy(g.attenuationColor)),g.anisotropy>0&&(m.anisotropyVector.value.set(g.anisotropy*Math.cos(g.anisotropyRotation),g.anisotropy*Math.sin(g.anisotropyRotation)),g.anisotropyMap&&(m.anisotropyMap.value=g.anisotropyMap,e(g.anisotropyMap,m.anisotropyMapTransform))),m.specularIntensity.value=g.specularIntensity,m.specularColor.value.copy(g.specularColor),g.specularColorMap&&(m.specularColorMap.value=g.specularColorMap,e(g.specularColorMap,m.specularColorMapTransform)),g.specularIntensityMap&&(m.specularIntensityMap.value=g.specularIntensityMap,e(g.specularIntensityMap,m.specularIntensityMapTransform))}function p(m,g){g.matcap&&(m.matcap.value=g.matcap)}function b(m,g){let y=t.get(g).light;m.referencePosition.value.setFromMatrixPosition(y.matrixWorld),m.nearDistance.value=y.shadow.camera.near,m.farDistance.value=y.shadow.camera.far}return{refreshFogUniforms:n,refreshMaterialUniforms:s}}function Cw(i,t,e,n){let s={},r={};function o(y,w){let v=w.program;n.uniformBlockBinding(y,v,s[y.id])}function a(y,w){let v=s[y.id];v===void 0&&(p(y),v=l(y),s[y.id]=v,y.addEventListener("dispose",m));let _=w.program;n.updateUBOMapping(y,_);let E=t.render.frame;r[y.id]!==E&&(c(y),r[y.id]=E)}function l(y){let w=i.createBuffer(),v=y.__size,_=y.usage;return i.bindBuffer(i.UNIFORM_BUFFER,w),i.bufferData(i.UNIFORM_BUFFER,v,_),i.bindBuffer(i.UNIFORM_BUFFER,null),w}function c(y){let w=s[y.id],v=y.uniforms,_=y.__cache;i.bindBuffer(i.UNIFORM_BUFFER,w);for(let E=0,x=v.length;E<x;E++){let S=v[E];if(Array.isArray(S))for(let k=0,C=S.length;k<C;k++)h(S[k],E,k,_);else h(S,E,0,_)}i.bindBuffer(i.UNIFORM_BUFFER,null)}function h(y,w,v,_){if(d(y,w,v,_)===!0){let E=y.__offset,x=y.value;if(Array.isArray(x)){let S=0;for(let k=0;k<x.length;k++){let C=x[k],P=b(C,!0);u(C,y.__data,S),S+=P.storage/Float32Array.BYTES_PER_ELEMENT}}else u(x,y.__data,0);i.bufferSubData(i.UNIFORM_BUFFER,E,y.__data)}}function u(y,w,v){typeof y=="number"||typeof y=="boolean"?w[v]=y:y.isMatrix3?(w[v]=y.elements[0],w[v+1]=y.elements[1],w[v+2]=y.elements[2],w[v+3]=0,w[v+4]=y.elements[3],w[v+5]=y.elements[4],w[v+6]=y.elements[5],w[v+7]=0,w[v+8]=y.elements[6],w[v+9]=y.elements[7],w[v+10]=y.elements[8],w[v+11]=0):ArrayBuffer.isView(y)?w.set(y.subarray(0,w.length-v),v):y.toArray(w,v)}function d(y,w,v,_){let E=y.value,x=w+"_"+v;if(Array.isArray(E)){_[x]===void 0&&(_[x]=[]);let S=_[x],k=!1;for(let C=0;C<E.length;C++)f(E[C],S,C)===!0&&(k=!0);return k}return f(E,_,x)}function f(y,w,v){if(w[v]===void 0)return typeof y=="number"||typeof y=="boolean"?w[v]=y:ArrayBuffer.isView(y)?w[v]=y.slice():w[v]=y.clone(),!0;{let _=w[v];if(typeof y=="number"||typeof y=="boolean"){if(_!==y)return w[v]=y,!0}else{if(ArrayBuffer.isView(y))return!0;if(_.equals(y)===!1)return _.copy(y),!0}}return!1}function p(y){let w=y.uniforms,v=0,_=16;for(let x=0,S=w.length;x<S;x++){let k=Array.isArray(w[x])?w[x]:[w[x]];for(let C=0,P=k.length;C<P;C++){let I=k[C],U=Array.isArray(I.value)?I.value:[I.value],L=Array.isArray(w[x])||Array.isArray(I.value),B=v;for(let W=0,nt=U.length;W<nt;W++){let $=U[W],tt=b($,L),et=v%_,bt=et%tt.boundary,Dt=et+bt;v+=bt,Dt!==0&&_-Dt<tt.storage&&(v+=_-Dt),W===0&&(B=v),v+=tt.storage}let G=I.type==="int"?Int32Array:I.type==="uint"?Uint32Array:Float32Array;I.__data=new G((v-B)/Float32Array.BYTES_PER_ELEMENT),I.__offset=B}}let E=v%_;return E>0&&(v+=_-E),y.__size=v,y.__cache={},this}function b(y,w){let v={boundary:0,storage:0};return typeof y=="number"||typeof y=="boolean"?(v.boundary=4,v.storage=4):y.isVector2?(v.boundary=8,v.storage=8):y.isVector3||y.isColor?(v.boundary=16,v.storage=12):y.isVector4?(v.boundary=16,v.storage=16):y.isMatrix3?(v.boundary=16,v.storage=48):y.isMatrix4?(v.boundary=16,v.storage=64):y.isTexture?Lt("WebGLRenderer: Texture samplers can not be part of an uniforms group."):ArrayBuffer.isView(y)?(v.boundary=16,v.storage=y.byteLength):Lt("WebGLRenderer: Unsupported uniform value type.",y),w===!0&&(v.boundary=16,v.storage=Math.ceil(v.storage/16)*16),v}function m(y){let w=y.target;w.removeEventListener("dispose",m),i.deleteBuffer(s[w.id]),delete s[w.id],delete r[w.id]}function g(){for(let y in s)i.deleteBuffer(s[y]);s={},r={}}return{bind:o,update:a,dispose:g}}var Rw=new Uint16Array([12469,15057,12620,14925,13266,14620,13807,14376,14323,13990,14545,13625,14713,13328,14840,12882,14931,12528,14996,12233,15039,11829,15066,11525,15080,11295,15085,10976,15082,10705,15073,10495,13880,14564,13898,14542,13977,14430,14158,14124,14393,13732,14556,13410,14702,12996,14814,12596,14891,12291,14937,11834,14957,11489,14958,11194,14943,10803,14921,10506,14893,10278,14858,9960,14484,14039,14487,14025,14499,13941,14524,13740,14574,13468,14654,13106,14743,12678,14818,12344,14867,11893,14889,11509,14893,11180,14881,10751,14852,10428,14812,10128,14765,9754,14712,9466,14764,13480,14764,13475,14766,13440,14766,13347,14769,13070,14786,12713,14816,12387,14844,11957,14860,11549,14868,11215,14855,10751,14825,10403,14782,10044,14729,9651,14666,9352,14599,9029,14967,12835,14966,12831,14963,12804,14954,12723,14936,12564,14917,12347,14900,11958,14886,11569,14878,11247,14859,10765,14828,10401,14784,10011,14727,9600,14660,9289,14586,8893,14508,8533,15111,12234,15110,12234,15104,12216,15092,12156,15067,12010,15028,11776,14981,11500,14942,11205,14902,10752,14861,10393,14812,9991,14752,9570,14682,9252,14603,8808,14519,8445,14431,8145,15209,11449,15208,11451,15202,11451,15190,11438,15163,11384,15117,11274,15055,10979,14994,10648,14932,10343,14871,9936,14803,9532,14729,9218,14645,8742,14556,8381,14461,8020,14365,7603,15273,10603,15272,10607,15267,10619,15256,10631,15231,10614,15182,10535,15118,10389,15042,10167,14963,9787,14883,9447,14800,9115,14710,8665,14615,8318,14514,7911,14411,7507,14279,7198,15314,9675,15313,9683,15309,9712,15298,9759,15277,9797,15229,9773,15166,9668,15084,9487,14995,9274,14898,8910,14800,8539,14697,8234,14590,7790,14479,7409,14367,7067,14178,6621,15337,8619,15337,8631,15333,8677,15325,8769,15305,8871,15264,8940,15202,8909,15119,8775,15022,8565,14916,8328,14804,8009,14688,7614,14569,7287,14448,6888,14321,6483,14088,6171,15350,7402,15350,7419,15347,7480,15340,7613,15322,7804,15287,7973,15229,8057,15148,8012,15046,7846,14933,7611,14810,7357,14682,7069,14552,6656,14421,6316,14251,5948,14007,5528,15356,5942,15356,5977,15353,6119,15348,6294,15332,6551,15302,6824,15249,7044,15171,7122,15070,7050,14949,6861,14818,6611,14679,6349,14538,6067,14398,5651,14189,5311,13935,4958,15359,4123,15359,4153,15356,4296,15353,4646,15338,5160,15311,5508,15263,5829,15188,6042,15088,6094,14966,6001,14826,5796,14678,5543,14527,5287,14377,4985,14133,4586,13869,4257,15360,1563,15360,1642,15358,2076,15354,2636,15341,3350,15317,4019,15273,4429,15203,4732,15105,4911,14981,4932,14836,4818,14679,4621,14517,4386,14359,4156,14083,3795,13808,3437,15360,122,15360,137,15358,285,15355,636,15344,1274,15322,2177,15281,2765,15215,3223,15120,3451,14995,3569,14846,3567,14681,3466,14511,3305,14344,3121,14037,2800,13753,2467,15360,0,15360,1,15359,21,15355,89,15346,253,15325,479,15287,796,15225,1148,15133,1492,15008,1749,14856,1882,14685,1886,14506,1783,14324,1608,13996,1398,13702,1183]),di=null;function Pw(){return di===null&&(di=new Mi(Rw,16,16,Yi,Ln),di.name="DFG_LUT",di.minFilter=$e,di.magFilter=$e,di.wrapS=ri,di.wrapT=ri,di.generateMipmaps=!1,di.needsUpdate=!0),di}var Pl=class{constructor(t={}){let{canvas:e=op(),context:n=null,depth:s=!0,stencil:r=!1,alpha:o=!1,antialias:a=!1,premultipliedAlpha:l=!0,preserveDrawingBuffer:c=!1,powerPreference:h="default",failIfMajorPerformanceCaveat:u=!1,reversedDepthBuffer:d=!1,outputBufferType:f=je}=t;this.isWebGLRenderer=!0;let p;if(n!==null){if(typeof WebGLRenderingContext<"u"&&n instanceof WebGLRenderingContext)throw new Error("THREE.WebGLRenderer: WebGL 1 is not supported since r163.");p=n.getContextAttributes().alpha}else p=o;let b=f,m=new Set([Ja,Za,to]),g=new Set([je,Sn,er,ps,qa,Ya]),y=new Uint32Array(4),w=new Int32Array(4),v={textures:[],min:[],max:[],resolution:[]},_=null,E=null,x=[],S=[],k=null;this.domElement=e,this.debug={checkShaderErrors:!0,diagnostics:{keywords:!1},onShaderError:null},this.autoClear=!0,this.autoClearColor=!0,this.autoClearDepth=!0,this.autoClearStencil=!0,this.sortObjects=!0,this.clippingPlanes=[],this.localClippingEnabled=!1,this.toneMapping=ui,this.toneMappingExposure=1,this.transmissionResolutionScale=1;let C=this,P=!1,I=null,U=null,L=null,B=null;this._outputColorSpace=An;let G=0,W=0,nt=null,$=-1,tt=null,et=new $t,bt=new $t,Dt=null,K=new Ut(0),ut=0,yt=e.width,Rt=e.height,mt=1,Ot=null,Te=null,Pt=new $t(0,0,yt,Rt),Qt=new $t(0,0,yt,Rt),he=!1,Yt=new ci,Ye=new Vr,Ne=!1,vn=!1,_e=new Mt,ei=new N,Ve=new $t,Dn={background:null,fog:null,environment:null,overrideMaterial:null,isScene:!0},Fn=!1;function Un(){return nt===null?mt:1}let O=n;function On(T,F){return e.getContext(T,F)}let ve,ye,pt,De,It,Bt,R,M,V,it,Q,ot,dt,Y,Z,lt,D,j,q,ct,rt,at,Et;try{let T={alpha:!0,depth:s,stencil:r,antialias:a,premultipliedAlpha:l,preserveDrawingBuffer:c,powerPreference:h,failIfMajorPerformanceCaveat:u};if("setAttribute"in e&&e.setAttribute("data-engine",`three.js r${"187"}`),e.addEventListener("webglcontextlost",Ct,!1),e.addEventListener("webglcontextrestored",Vt,!1),e.addEventListener("webglcontextcreationerror",gt,!1),O===null){let F="webgl2";if(O=On(F,T),O===null)throw On(F)?new Error("THREE.WebGLRenderer: Error creating WebGL context with your selected attributes."):new Error("THREE.WebGLRenderer: Error creating WebGL context.")}Gt()}catch(T){throw e.removeEventListener("webglcontextlost",Ct,!1),e.removeEventListener("webglcontextrestored",Vt,!1),e.removeEventListener("webglcontextcreationerror",gt,!1),kt("WebGLRenderer: "+T.message),T}function Gt(){ve=new Vb(O),ve.init(),rt=new Sw(O,ve),ye=new Pb(O,ve,t,rt),pt=new _w(O,ve),ye.reversedDepthBuffer&&d&&pt.buffers.depth.setReversed(!0),U=O.createFramebuffer(),L=O.createFramebuffer(),B=O.createFramebuffer(),De=new Wb(O),It=new aw,Bt=new ww(O,ve,pt,It,ye,rt,De),R=new zb(C),M=new $x(O),at=new Cb(O,M),V=new Hb(O,M,De,at),it=new $b(O,V,M,at,De),j=new Xb(O,ye,Bt),Z=new Ib(It),Q=new ow(C,R,ve,ye,at,Z),ot=new Aw(C,It),dt=new cw,Y=new mw(ve),D=new Ab(C,R,pt,it,p,l),lt=new bw(C,it,ye),Et=new Cw(O,De,ye,pt),q=new Rb(O,ve,De),ct=new Gb(O,ve,De),De.programs=Q.programs,C.capabilities=ye,C.extensions=ve,C.properties=It,C.renderLists=dt,C.shadowMap=lt,C.state=pt,C.info=De}b!==je&&(k=new Yb(b,e.width,e.height,a,s,r));let st=new _u(C,O);this.xr=st,this.getContext=function(){return O},this.getContextAttributes=function(){return O.getContextAttributes()},this.forceContextLoss=function(){let T=ve.get("WEBGL_lose_context");T&&T.loseContext()},this.forceContextRestore=function(){let T=ve.get("WEBGL_lose_context");T&&T.restoreContext()},this.getPixelRatio=function(){return mt},this.setPixelRatio=function(T){T!==void 0&&(mt=T,this.setSize(yt,Rt,!1))},this.getSize=function(T){return T.set(yt,Rt)},this.setSize=function(T,F,X=!0){if(st.isPresenting){Lt("WebGLRenderer: Can't change size while VR device is presenting.");return}yt=T,Rt=F,e.width=Math.floor(T*mt),e.height=Math.floor(F*mt),X===!0&&(e.style.width=T+"px",e.style.height=F+"px"),k!==null&&k.setSize(e.width,e.height),this.setViewport(0,0,T,F)},this.getDrawingBufferSize=function(T){return T.set(yt*mt,Rt*mt).floor()},this.setDrawingBufferSize=function(T,F,X){yt=T,Rt=F,mt=X,e.width=Math.floor(T*X),e.height=Math.floor(F*X),this.setViewport(0,0,T,F)},this.setEffects=function(T){if(b===je){kt("WebGLRenderer: setEffects() requires outputBufferType set to HalfFloatType or FloatType.");return}if(T){for(let F=0;F<T.length;F++)if(T[F].isOutputPass===!0){Lt("WebGLRenderer: OutputPass is not needed in setEffects(). Tone mapping and color space conversion are applied automatically.");break}}k.setEffects(T||[])},this.getCurrentViewport=function(T){return T.copy(et)},this.getViewport=function(T){return T.copy(Pt)},this.setViewport=function(T,F,X,z){T.isVector4?Pt.set(T.x,T.y,T.z,T.w):Pt.set(T,F,X,z),pt.viewport(et.copy(Pt).multiplyScalar(Un()).round())},this.getScissor=function(T){return T.copy(Qt)},this.setScissor=function(T,F,X,z){T.isVector4?Qt.set(T.x,T.y,T.z,T.w):Qt.set(T,F,X,z),pt.scissor(bt.copy(Qt).multiplyScalar(Un()).round())},this.getScissorTest=function(){return he},this.setScissorTest=function(T){pt.setScissorTest(he=T)},this.setOpaqueSort=function(T){Ot=T},this.setTransparentSort=function(T){Te=T},this.getClearColor=function(T){return T.copy(D.getClearColor())},this.setClearColor=function(){D.setClearColor(...arguments)},this.getClearAlpha=function(){return D.getClearAlpha()},this.setClearAlpha=function(){D.setClearAlpha(...arguments)},this.clear=function(T=!0,F=!0,X=!0){let z=0;if(T){let H=!1;if(nt!==null){let ft=nt.texture.format;H=m.has(ft)}if(H){let ft=nt.texture.type,_t=g.has(ft),ht=D.getClearColor(),vt=D.getClearAlpha(),Tt=ht.r,zt=ht.g,Zt=ht.b;_t?(y[0]=Tt,y[1]=zt,y[2]=Zt,y[3]=vt,O.clearBufferuiv(O.COLOR,0,y)):(w[0]=Tt,w[1]=zt,w[2]=Zt,w[3]=vt,O.clearBufferiv(O.COLOR,0,w))}else z|=O.COLOR_BUFFER_BIT}F&&(z|=O.DEPTH_BUFFER_BIT,this.state.buffers.depth.setMask(!0)),X&&(z|=O.STENCIL_BUFFER_BIT,this.state.buffers.stencil.setMask(4294967295)),z!==0&&O.clear(z)},this.clearColor=function(){this.clear(!0,!1,!1)},this.clearDepth=function(){this.clear(!1,!0,!1)},this.clearStencil=function(){this.clear(!1,!1,!0)},this.setNodesHandler=function(T){T.setRenderer(this),I=T},this.dispose=function(){e.removeEventListener("webglcontextlost",Ct,!1),e.removeEventListener("webglcontextrestored",Vt,!1),e.removeEventListener("webglcontextcreationerror",gt,!1),D.dispose(),dt.dispose(),Y.dispose(),Bt.dispose(),It.dispose(),R.dispose(),it.dispose(),V.dispose(),at.dispose(),Et.dispose(),Q.dispose(),st.dispose(),st.removeEventListener("sessionstart",Pd),st.removeEventListener("sessionend",Id),ss.stop()};function Ct(T){T.preventDefault(),ou("WebGLRenderer: Context Lost."),P=!0}function Vt(){ou("WebGLRenderer: Context Restored."),P=!1;let T=De.autoReset,F=lt.enabled,X=lt.autoUpdate,z=lt.needsUpdate,H=lt.type;Gt(),De.autoReset=T,lt.enabled=F,lt.autoUpdate=X,lt.needsUpdate=z,lt.type=H}function gt(T){kt("WebGLRenderer: A WebGL context could not be created. Reason: ",T.statusMessage)}function ae(T){let F=T.target;F.removeEventListener("dispose",ae),He(F)}function He(T){ki(T),It.remove(T)}function ki(T){let F=It.get(T).programs;F!==void 0&&(F.forEach(function(X){Q.releaseProgram(X)}),T.isShaderMaterial&&Q.releaseShaderCache(T))}this.renderBufferDirect=function(T,F,X,z,H,ft){F===null&&(F=Dn);let _t=H.isMesh&&H.matrixWorld.determinantAffine()<0,ht=F0(T,F,X,z,H);pt.setMaterial(z,_t);let vt=X.index,Tt=1;if(z.wireframe===!0){if(vt=V.getWireframeAttribute(X),vt===void 0)return;Tt=2}let zt=X.drawRange,Zt=X.attributes.position,wt=zt.start*Tt,Jt=(zt.start+zt.count)*Tt;ft!==null&&(wt=Math.max(wt,ft.start*Tt),Jt=Math.min(Jt,(ft.start+ft.count)*Tt)),vt!==null?(wt=Math.max(wt,0),Jt=Math.min(Jt,vt.count)):Zt!=null&&(wt=Math.max(wt,0),Jt=Math.min(Jt,Zt.count));let Ce=Jt-wt;if(Ce<0||Ce===1/0)return;at.setup(H,z,ht,X,vt);let pe,ue=q;if(vt!==null&&(pe=M.get(vt),ue=ct,ue.setIndex(pe)),H.isMesh)z.wireframe===!0?(pt.setLineWidth(z.wireframeLinewidth*Un()),ue.setMode(O.LINES)):ue.setMode(O.TRIANGLES);else if(H.isLine){let en=z.linewidth;en===void 0&&(en=1),pt.setLineWidth(en*Un()),H.isLineSegments?ue.setMode(O.LINES):H.isLineLoop?ue.setMode(O.LINE_LOOP):ue.setMode(O.LINE_STRIP)}else H.isPoints?ue.setMode(O.POINTS):H.isSprite&&ue.setMode(O.TRIANGLES);if(H.isBatchedMesh)if(ve.get("WEBGL_multi_draw"))ue.renderMultiDraw(H._multiDrawStarts,H._multiDrawCounts,H._multiDrawCount);else{let en=H._multiDrawStarts,St=H._multiDrawCounts,dn=H._multiDrawCount,ee=vt?M.get(vt).bytesPerElement:1,rs=It.get(z).currentProgram.getUniforms();for(let nn=0;nn<dn;nn++)rs.setValue(O,"_gl_DrawID",nn),ue.render(en[nn]/ee,St[nn])}else if(H.isInstancedMesh)ue.renderInstances(wt,Ce,H.count);else if(X.isInstancedBufferGeometry){let en=X._maxInstanceCount!==void 0?X._maxInstanceCount:1/0,St=Math.min(X.instanceCount,en);ue.renderInstances(wt,Ce,St)}else ue.render(wt,Ce)};function Rd(T,F,X,z){I!==null&&T.isNodeMaterial&&I.setObject(z,T),Ne===!0&&Z.setState(T,X,!1),T.transparent===!0&&T.side===Fe&&T.forceSinglePass===!1?(T.side=Ke,T.needsUpdate=!0,Tr(T,F,z),T.side=Kn,T.needsUpdate=!0,Tr(T,F,z),T.side=Fe):Tr(T,F,z)}this.compile=function(T,F,X=null){X===null&&(X=T),I!==null&&I.renderStart(T,F,X),E=Y.get(X),E.init(F),S.push(E),X.traverseVisible(function(H){H.isLight&&H.layers.test(F.layers)&&(E.pushLight(H),H.castShadow&&E.pushShadow(H))}),T!==X&&T.traverseVisible(function(H){H.isLight&&H.layers.test(F.layers)&&(E.pushLight(H),H.castShadow&&E.pushShadow(H))}),E.setupLights(),I!==null&&I.updateLights(E.state.lightsArray),vn=this.localClippingEnabled,Ne=Z.init(this.clippingPlanes,vn),Ne===!0&&Z.setGlobalState(this.clippingPlanes,F),I!==null&&lt.render(E.state.shadowsArray,X,F);let z=new Set;return T.traverse(function(H){if(!(H.isMesh||H.isPoints||H.isLine||H.isSprite))return;let ft=H.material;if(ft)if(Array.isArray(ft))for(let _t=0;_t<ft.length;_t++){let ht=ft[_t];Rd(ht,X,F,H),z.add(ht)}else Rd(ft,X,F,H),z.add(ft)}),E=S.pop(),I!==null&&I.renderEnd(),z},this.compileAsync=function(T,F,X=null){let z=this.compile(T,F,X);return new Promise(H=>{function ft(){if(z.forEach(function(_t){let vt=It.get(_t).currentProgram;(vt===void 0||vt.isReady())&&z.delete(_t)}),z.size===0){H(T);return}setTimeout(ft,10)}ve.get("KHR_parallel_shader_compile")!==null?ft():setTimeout(ft,10)})};let Yc=null;function N0(T){Yc&&Yc(T)}function Pd(){ss.stop()}function Id(){ss.start()}let ss=new Fp;ss.setAnimationLoop(N0),typeof self<"u"&&ss.setContext(self),this.setAnimationLoop=function(T){Yc=T,st.setAnimationLoop(T),T===null?ss.stop():ss.start()},st.addEventListener("sessionstart",Pd),st.addEventListener("sessionend",Id),this.render=function(T,F){if(F!==void 0&&F.isCamera!==!0){kt("WebGLRenderer.render: camera is not an instance of THREE.Camera.");return}if(P===!0)return;I!==null&&I.renderStart(T,F);let X=st.enabled===!0&&st.isPresenting===!0,z=k!==null&&(nt===null||X)&&k.begin(C,nt);if(T.matrixWorldAutoUpdate===!0&&T.updateMatrixWorld(),F.parent===null&&F.matrixWorldAutoUpdate===!0&&F.updateMatrixWorld(),st.enabled===!0&&st.isPresenting===!0&&(k===null||k.isCompositing()===!1)&&(st.cameraAutoUpdate===!0&&st.updateCamera(F),F=st.getCamera()),T.isScene===!0&&T.onBeforeRender(C,T,F,nt),E=Y.get(T,S.length),E.init(F),E.state.textureUnits=Bt.getTextureUnits(),S.push(E),_e.multiplyMatrices(F.projectionMatrix,F.matrixWorldInverse),F.isArrayCamera?Ye.setFromArrayCamera(F):Yt.setFromProjectionMatrix(_e,zn,F.reversedDepth),vn=this.localClippingEnabled,Ne=Z.init(this.clippingPlanes,vn),_=dt.get(T,x.length),_.init(),x.push(_),this.info.render.frame++,st.enabled===!0&&st.isPresenting===!0){let _t=C.xr.getDepthSensingMesh();_t!==null&&Zc(_t,F,-1/0,C.sortObjects)}Zc(T,F,0,C.sortObjects),_.finish(),I!==null&&I.updateLights(E.state.lightsArray),C.sortObjects===!0&&_.sort(Ot,Te),Fn=st.enabled===!1||st.isPresenting===!1||st.hasDepthSensing()===!1,Fn&&D.addToRenderList(_,T),this.info.autoReset===!0&&this.info.reset(),Ne===!0&&Z.beginShadows();let H=E.state.shadowsArray;if(lt.render(H,T,F),Ne===!0&&Z.endShadows(),(z&&k.hasRenderPass())===!1){let _t=_.opaque,ht=_.transmissive;if(E.setupLights(),F.isArrayCamera){let vt=F.cameras;if(ht.length>0)for(let Tt=0,zt=vt.length;Tt<zt;Tt++){let Zt=vt[Tt];kd(_t,ht,T,Zt)}Fn&&D.render(T);for(let Tt=0,zt=vt.length;Tt<zt;Tt++){let Zt=vt[Tt];Ld(_,T,Zt,Zt.viewport)}}else ht.length>0&&kd(_t,ht,T,F),Fn&&D.render(T),Ld(_,T,F)}nt!==null&&W===0&&(Bt.updateMultisampleRenderTarget(nt),Bt.updateRenderTargetMipmap(nt)),z&&k.end(C),T.isScene===!0&&T.onAfterRender(C,T,F),at.resetDefaultState(),$=-1,tt=null,S.pop(),S.length>0?(E=S[S.length-1],Bt.setTextureUnits(E.state.textureUnits),Ne===!0&&Z.setGlobalState(C.clippingPlanes,E.state.camera)):E=null,x.pop(),x.length>0?_=x[x.length-1]:_=null,I!==null&&I.renderEnd()};function Zc(T,F,X,z){if(T.visible===!1)return;if(T.layers.test(F.layers)){if(T.isGroup)X=T.renderOrder;else if(T.isLOD)T.autoUpdate===!0&&T.update(F);else if(T.isLight)E.pushLight(T),T.castShadow&&E.pushShadow(T);else if(T.isSprite){let _t=F.isArrayCamera?Ye:Yt;if(!T.frustumCulled||T.intersectsFrustum(_t)){z&&Ve.setFromMatrixPosition(T.matrixWorld).applyMatrix4(_e);let ht=it.update(T),vt=T.material;vt.visible&&_.push(T,ht,vt,X,Ve.z,null,F)}}else if(T.isMesh||T.isLine||T.isPoints){let _t=F.isArrayCamera?Ye:Yt;if(!T.frustumCulled||T.intersectsFrustum(_t)){let ht=it.update(T),vt=T.material;if(z&&(T.boundingSphere!==void 0?(T.boundingSphere===null&&T.computeBoundingSphere(),Ve.copy(T.boundingSphere.center)):(ht.boundingSphere===null&&ht.computeBoundingSphere(),Ve.copy(ht.boundingSphere.center)),Ve.applyMatrix4(T.matrixWorld).applyMatrix4(_e)),Array.isArray(vt)){let Tt=ht.groups;for(let zt=0,Zt=Tt.length;zt<Zt;zt++){let wt=Tt[zt],Jt=vt[wt.materialIndex];Jt&&Jt.visible&&_.push(T,ht,Jt,X,Ve.z,wt,F)}}else vt.visible&&_.push(T,ht,vt,X,Ve.z,null,F)}}}let ft=T.children;for(let _t=0,ht=ft.length;_t<ht;_t++)Zc(ft[_t],F,X,z)}function Ld(T,F,X,z){let{opaque:H,transmissive:ft,transparent:_t}=T;E.setupLightsView(X),Ne===!0&&Z.setGlobalState(C.clippingPlanes,X),z&&pt.viewport(et.copy(z)),H.length>0&&Io(H,F,X),ft.length>0&&Io(ft,F,X),_t.length>0&&Io(_t,F,X),pt.buffers.depth.setTest(!0),pt.buffers.depth.setMask(!0),pt.buffers.color.setMask(!0),pt.setPolygonOffset(!1)}function kd(T,F,X,z){if((X.isScene===!0?X.overrideMaterial:null)!==null)return;if(E.state.transmissionRenderTarget[z.id]===void 0){let wt=ve.has("EXT_color_buffer_half_float")||ve.has("EXT_color_buffer_float");E.state.transmissionRenderTarget[z.id]=new Pe(1,1,{generateMipmaps:!0,type:wt?Ln:je,minFilter:Ai,samples:Math.max(4,ye.samples),stencilBuffer:r,resolveDepthBuffer:!1,resolveStencilBuffer:!1,storeMultisampledDepthBuffer:!1,storeMultisampledStencilBuffer:!1,colorSpace:Xt.workingColorSpace})}let ft=E.state.transmissionRenderTarget[z.id],_t=z.viewport||et;ft.setSize(_t.z*C.transmissionResolutionScale,_t.w*C.transmissionResolutionScale);let ht=C.getRenderTarget(),vt=C.getActiveCubeFace(),Tt=C.getActiveMipmapLevel();C.setRenderTarget(ft),C.getClearColor(K),ut=C.getClearAlpha(),ut<1&&C.setClearColor(16777215,.5),C.clear(),Fn&&D.render(X);let zt=C.toneMapping;C.toneMapping=ui;let Zt=z.viewport;if(z.viewport!==void 0&&(z.viewport=void 0),E.setupLightsView(z),Ne===!0&&Z.setGlobalState(C.clippingPlanes,z),Io(T,X,z),Bt.updateMultisampleRenderTarget(ft),Bt.updateRenderTargetMipmap(ft),ve.has("WEBGL_multisampled_render_to_texture")===!1){let wt=!1;for(let Jt=0,Ce=F.length;Jt<Ce;Jt++){let pe=F[Jt],{object:ue,geometry:en,material:St,group:dn}=pe;if(St.side===Fe&&ue.layers.test(z.layers)){let ee=St.side;St.side=Ke,St.needsUpdate=!0,Nd(ue,X,z,en,St,dn),St.side=ee,St.needsUpdate=!0,wt=!0}}wt===!0&&(Bt.updateMultisampleRenderTarget(ft),Bt.updateRenderTargetMipmap(ft))}C.setRenderTarget(ht,vt,Tt),C.setClearColor(K,ut),Zt!==void 0&&(z.viewport=Zt),C.toneMapping=zt}function Io(T,F,X){let z=F.isScene===!0?F.overrideMaterial:null;for(let H=0,ft=T.length;H<ft;H++){let _t=T[H],{object:ht,geometry:vt,group:Tt}=_t,zt=_t.material;zt.allowOverride===!0&&z!==null&&(zt=z),ht.layers.test(X.layers)&&Nd(ht,F,X,vt,zt,Tt)}}function Nd(T,F,X,z,H,ft){I!==null&&H.isNodeMaterial&&I.setObject(T,H),T.onBeforeRender(C,F,X,z,H,ft),T.modelViewMatrix.multiplyMatrices(X.matrixWorldInverse,T.matrixWorld),T.normalMatrix.getNormalMatrix(T.modelViewMatrix),H.onBeforeRender(C,F,X,z,T,ft),H.transparent===!0&&H.side===Fe&&H.forceSinglePass===!1?(H.side=Ke,H.needsUpdate=!0,C.renderBufferDirect(X,F,z,H,T,ft),H.side=Kn,H.needsUpdate=!0,C.renderBufferDirect(X,F,z,H,T,ft),H.side=Fe):C.renderBufferDirect(X,F,z,H,T,ft),T.onAfterRender(C,F,X,z,H,ft)}function Dd(T){let F=0;for(let X of T)X.texture!==null&&F++;return F}function Tr(T,F,X){F.isScene!==!0&&(F=Dn);let z=It.get(T),H=E.state.lights,ft=E.state.shadowsArray,_t=H.state.version,ht=Q.getParameters(T,H.state,ft,F,X,E.state.lightProbeGridArray),vt=Q.getProgramCacheKey(ht),Tt=z.programs;z.environment=T.isMeshStandardMaterial||T.isMeshLambertMaterial||T.isMeshPhongMaterial?F.environment:null,z.fog=F.fog;let zt=T.isMeshStandardMaterial||T.isMeshLambertMaterial&&!T.envMap||T.isMeshPhongMaterial&&!T.envMap;z.envMap=R.get(T.envMap||z.environment,zt),z.envMapRotation=z.environment!==null&&T.envMap===null?F.environmentRotation:T.envMapRotation,Tt===void 0&&(T.addEventListener("dispose",ae),Tt=new Map,z.programs=Tt,z.programVariants=new Map);let Zt=Tt.get(vt);if(Zt!==void 0){if(z.currentProgram===Zt&&z.lightsStateVersion===_t)return Ud(T,ht),Zt}else ht.uniforms=Q.getUniforms(T),I!==null&&T.isNodeMaterial&&I.build(T,X,ht),T.onBeforeCompile(ht,C),Zt=Q.acquireProgram(ht,vt),Tt.set(vt,Zt),z.uniforms=ht.uniforms;let wt=z.uniforms;return(!T.isShaderMaterial&&!T.isRawShaderMaterial||T.clipping===!0)&&(wt.clippingPlanes=Z.uniform),Ud(T,ht),z.needsLights=O0(T),z.lightsStateVersion=_t,z.needsLights&&(wt.ambientLightColor.value=H.state.ambient,wt.lightProbe.value=H.state.probe,wt.sunLights.value=H.state.sun,wt.sunLightShadows.value=H.state.sunShadow,wt.directionalLights.value=H.state.directional,wt.directionalLightShadows.value=H.state.directionalShadow,wt.spotLights.value=H.state.spot,wt.spotLightShadows.value=H.state.spotShadow,wt.rectAreaLights.value=H.state.rectArea,wt.ltc_1.value=H.state.rectAreaLTC1,wt.ltc_2.value=H.state.rectAreaLTC2,wt.pointLights.value=H.state.point,wt.pointLightShadows.value=H.state.pointShadow,wt.hemisphereLights.value=H.state.hemi,wt.sunShadowMatrix.value=H.state.sunShadowMatrix,wt.sunShadowCascade.value=H.state.sunShadowCascade,wt.directionalShadowMatrix.value=H.state.directionalShadowMatrix,wt.spotLightMatrix.value=H.state.spotLightMatrix,wt.spotLightMap.value=H.state.spotLightMap,wt.pointShadowMatrix.value=H.state.pointShadowMatrix),z.numLightProbeGrids=Dd(E.state.lightProbeGridArray),z.currentProgram=Zt,z.uniformsList=null,Zt}function D0(T,F,X,z,H){let ft=It.get(T),_t=ft.currentProgram.id+","+z+","+H,ht=ft.programVariants.get(_t);return ht===void 0?(ht=Tr(T,F,X),ft.programVariants.set(_t,ht)):(ft.currentProgram=ht,ft.uniformsList=null,ft.outputColorSpace=z,ft.toneMapping=H),ht}function Fd(T){if(T.uniformsList===null){let F=T.currentProgram.getUniforms();T.uniformsList=nr.seqWithValue(F.seq,T.uniforms)}return T.uniformsList}function Ud(T,F){let X=It.get(T);X.outputColorSpace=F.outputColorSpace,X.batching=F.batching,X.batchingColor=F.batchingColor,X.instancing=F.instancing,X.instancingColor=F.instancingColor,X.instancingMorph=F.instancingMorph,X.skinning=F.skinning,X.morphTargets=F.morphTargets,X.morphNormals=F.morphNormals,X.morphColors=F.morphColors,X.morphTargetsCount=F.morphTargetsCount,X.numClippingPlanes=F.numClippingPlanes,X.numIntersection=F.numClipIntersection,X.vertexAlphas=F.vertexAlphas,X.vertexTangents=F.vertexTangents,X.toneMapping=F.toneMapping}function F0(T,F,X,z,H){F.isScene!==!0&&(F=Dn),Bt.resetTextureUnits();let ft=F.fog,_t=z.isMeshStandardMaterial||z.isMeshLambertMaterial||z.isMeshPhongMaterial?F.environment:null,ht=nt===null?C.outputColorSpace:nt.isXRRenderTarget===!0?nt.texture.colorSpace:Xt.workingColorSpace,vt=z.isMeshStandardMaterial||z.isMeshLambertMaterial&&!z.envMap||z.isMeshPhongMaterial&&!z.envMap,Tt=R.get(z.envMap||_t,vt),zt=z.vertexColors===!0&&!!X.attributes.color&&X.attributes.color.itemSize===4,Zt=!!X.attributes.tangent&&(!!z.normalMap||z.anisotropy>0),wt=!!X.morphAttributes.position,Jt=!!X.morphAttributes.normal,Ce=!!X.morphAttributes.color,pe=ui;z.toneMapped&&(nt===null||nt.isXRRenderTarget===!0)&&(pe=C.toneMapping);let ue=X.morphAttributes.position||X.morphAttributes.normal||X.morphAttributes.color,en=ue!==void 0?ue.length:0,St=It.get(z),dn=E.state.lights;if(Ne===!0&&(vn===!0||T!==tt)){let we=T===tt&&z.id===$;Z.setState(z,T,we)}let ee=!1,rs=!1;z.version===St.__version?St.needsLights&&St.lightsStateVersion!==dn.state.version||H.isBatchedMesh&&St.batching===!1||!H.isBatchedMesh&&St.batching===!0||H.isBatchedMesh&&St.batchingColor===!0&&H._colorsTexture===null||H.isBatchedMesh&&St.batchingColor===!1&&H._colorsTexture!==null||H.isInstancedMesh&&St.instancing===!1||!H.isInstancedMesh&&St.instancing===!0||H.isSkinnedMesh&&St.skinning===!1||!H.isSkinnedMesh&&St.skinning===!0||H.isInstancedMesh&&St.instancingColor===!0&&H.instanceColor===null||H.isInstancedMesh&&St.instancingColor===!1&&H.instanceColor!==null||H.isInstancedMesh&&St.instancingMorph===!0&&H.morphTexture===null||H.isInstancedMesh&&St.instancingMorph===!1&&H.morphTexture!==null||St.envMap!==Tt||z.fog===!0&&St.fog!==ft||St.numClippingPlanes!==void 0&&(St.numClippingPlanes!==Z.numPlanes||St.numIntersection!==Z.numIntersection)||St.vertexAlphas!==zt||St.vertexTangents!==Zt||St.morphTargets!==wt||St.morphNormals!==Jt||St.morphColors!==Ce||St.morphTargetsCount!==en||St.numLightProbeGrids!==Dd(E.state.lightProbeGridArray)?ee=!0:(St.outputColorSpace!==ht||St.toneMapping!==pe)&&(rs=!0):(ee=!0,St.__version=z.version);let nn=St.currentProgram;(ee===!0||rs===!0)&&(nn=rs===!0?D0(z,F,H,ht,pe):Tr(z,F,H),I&&z.isNodeMaterial&&I.onUpdateProgram(z,nn,St));let Lo=!1,Ni=!1,os=!1,te=nn.getUniforms(),Ze=St.uniforms;if(pt.useProgram(nn.program)&&(Lo=!0,Ni=!0,os=!0),z.id!==$&&($=z.id,Ni=!0),Lo||tt!==T){pt.buffers.depth.getReversed()&&T.reversedDepth!==!0&&(T._reversedDepth=!0,T.updateProjectionMatrix()),te.setValue(O,"projectionMatrix",T.projectionMatrix),te.setValue(O,"viewMatrix",T.matrixWorldInverse);let Ge=te.map.cameraPosition;Ge!==void 0&&Ge.setValue(O,ei.setFromMatrixPosition(T.matrixWorld)),ye.logarithmicDepthBuffer&&te.setValue(O,"logDepthBufFC",2/(Math.log(T.far+1)/Math.LN2)),(z.isMeshPhongMaterial||z.isMeshToonMaterial||z.isMeshLambertMaterial||z.isMeshBasicMaterial||z.isMeshStandardMaterial||z.isShaderMaterial)&&te.setValue(O,"isOrthographic",T.isOrthographicCamera===!0),tt!==T&&(tt=T,Ni=!0,os=!0)}if(St.needsLights&&(dn.state.sunShadowMap.length>0&&te.setValue(O,"sunShadowMap",dn.state.sunShadowMap,Bt),dn.state.directionalShadowMap.length>0&&te.setValue(O,"directionalShadowMap",dn.state.directionalShadowMap,Bt),dn.state.spotShadowMap.length>0&&te.setValue(O,"spotShadowMap",dn.state.spotShadowMap,Bt),dn.state.pointShadowMap.length>0&&te.setValue(O,"pointShadowMap",dn.state.pointShadowMap,Bt)),H.isSkinnedMesh){te.setOptional(O,H,"bindMatrix"),te.setOptional(O,H,"bindMatrixInverse");let we=H.skeleton;we&&(we.boneTexture===null&&we.computeBoneTexture(),te.setValue(O,"boneTexture",we.boneTexture,Bt))}H.isBatchedMesh&&(te.setOptional(O,H,"batchingTexture"),te.setValue(O,"batchingTexture",H._matricesTexture,Bt),te.setOptional(O,H,"batchingIdTexture"),te.setValue(O,"batchingIdTexture",H._indirectTexture,Bt),te.setOptional(O,H,"batchingColorTexture"),H._colorsTexture!==null&&te.setValue(O,"batchingColorTexture",H._colorsTexture,Bt));let Xn=X.morphAttributes;if((Xn.position!==void 0||Xn.normal!==void 0||Xn.color!==void 0)&&j.update(H,X,nn),(Ni||St.receiveShadow!==H.receiveShadow)&&(St.receiveShadow=H.receiveShadow,te.setValue(O,"receiveShadow",H.receiveShadow)),(z.isMeshStandardMaterial||z.isMeshLambertMaterial||z.isMeshPhongMaterial)&&z.envMap===null&&F.environment!==null&&(Ze.envMapIntensity.value=F.environmentIntensity),Ze.dfgLUT!==void 0&&(Ze.dfgLUT.value=Pw()),Ni){if(te.setValue(O,"toneMappingExposure",C.toneMappingExposure),St.needsLights&&U0(Ze,os),ft&&z.fog===!0&&ot.refreshFogUniforms(Ze,ft),ot.refreshMaterialUniforms(Ze,z,mt,Rt,E.state.transmissionRenderTarget[T.id]),St.needsLights&&St.numLightProbeGrids>0){let we=v,Ge=0;for(let xi of E.state.lightProbeGridArray)xi.texture!==null&&(we.textures[Ge]=xi.texture,we.min[Ge]=xi.boundingBox.min,we.max[Ge]=xi.boundingBox.max,we.resolution[Ge]=xi.resolution,Ge++);for(let xi in we)we[xi].length=Ge;Ze.probesSH.value=we.textures,Ze.probesMin.value=we.min,Ze.probesMax.value=we.max,Ze.probesResolution.value=we.resolution}nr.upload(O,Fd(St),Ze,Bt)}if(z.isShaderMaterial&&z.uniformsNeedUpdate===!0&&(nr.upload(O,Fd(St),Ze,Bt),z.uniformsNeedUpdate=!1),z.isSpriteMaterial&&te.setValue(O,"center",H.center),te.setValue(O,"modelViewMatrix",H.modelViewMatrix),te.setValue(O,"normalMatrix",H.normalMatrix),te.setValue(O,"modelMatrix",H.matrixWorld),z.uniformsGroups!==void 0){let we=z.uniformsGroups;for(let Ge=0,xi=we.length;Ge<xi;Ge++){let Bd=we[Ge];Et.update(Bd,nn),Et.bind(Bd,nn)}}return nn}function U0(T,F){T.ambientLightColor.needsUpdate=F,T.lightProbe.needsUpdate=F,T.sunLights.needsUpdate=F,T.sunLightShadows.needsUpdate=F,T.directionalLights.needsUpdate=F,T.directionalLightShadows.needsUpdate=F,T.pointLights.needsUpdate=F,T.pointLightShadows.needsUpdate=F,T.spotLights.needsUpdate=F,T.spotLightShadows.needsUpdate=F,T.rectAreaLights.needsUpdate=F,T.hemisphereLights.needsUpdate=F}function O0(T){return T.isMeshLambertMaterial||T.isMeshToonMaterial||T.isMeshPhongMaterial||T.isMeshStandardMaterial||T.isShadowMaterial||T.isShaderMaterial&&T.lights===!0}this.getActiveCubeFace=function(){return G},this.getActiveMipmapLevel=function(){return W},this.getRenderTarget=function(){return nt},this.setRenderTargetTextures=function(T,F,X){let z=It.get(T);z.__autoAllocateDepthBuffer=T.resolveDepthBuffer===!1,z.__autoAllocateDepthBuffer===!1&&(z.__useRenderToTexture=!1),It.get(T.texture).__webglTexture=F,It.get(T.depthTexture).__webglTexture=z.__autoAllocateDepthBuffer?void 0:X,z.__hasExternalTextures=!0},this.setRenderTargetFramebuffer=function(T,F){let X=It.get(T);X.__webglFramebuffer=F,X.__useDefaultFramebuffer=F===void 0},this.setRenderTarget=function(T,F=0,X=0){nt=T,G=F,W=X;let z=null,H=!1,ft=!1;if(T){let ht=It.get(T);if(ht.__useDefaultFramebuffer!==void 0){pt.bindFramebuffer(O.FRAMEBUFFER,ht.__webglFramebuffer),et.copy(T.viewport),bt.copy(T.scissor),Dt=T.scissorTest,pt.viewport(et),pt.scissor(bt),pt.setScissorTest(Dt),$=-1;return}else if(ht.__webglFramebuffer===void 0)Bt.setupRenderTarget(T);else if(ht.__hasExternalTextures)Bt.rebindTextures(T,It.get(T.texture).__webglTexture,It.get(T.depthTexture).__webglTexture);else if(T.depthBuffer){let zt=T.depthTexture;if(ht.__boundDepthTexture!==zt){if(zt!==null&&It.has(zt)&&(T.width!==zt.image.width||T.height!==zt.image.height))throw new Error("THREE.WebGLRenderer: Attached DepthTexture is initialized to the incorrect size.");Bt.setupDepthRenderbuffer(T)}}let vt=T.texture;(vt.isData3DTexture||vt.isDataArrayTexture||vt.isCompressedArrayTexture)&&(ft=!0);let Tt=It.get(T).__webglFramebuffer;T.isWebGLCubeRenderTarget?(Array.isArray(Tt[F])?z=Tt[F][X]:z=Tt[F],H=!0):T.samples>0&&Bt.useMultisampledRTT(T)===!1?z=It.get(T).__webglMultisampledFramebuffer:Array.isArray(Tt)?z=Tt[X]:z=Tt,et.copy(T.viewport),bt.copy(T.scissor),Dt=T.scissorTest}else et.copy(Pt).multiplyScalar(mt).floor(),bt.copy(Qt).multiplyScalar(mt).floor(),Dt=he;if(X!==0&&(z=U),pt.bindFramebuffer(O.FRAMEBUFFER,z)&&pt.drawBuffers(T,z),pt.viewport(et),pt.scissor(bt),pt.setScissorTest(Dt),H){let ht=It.get(T.texture);O.framebufferTexture2D(O.FRAMEBUFFER,O.COLOR_ATTACHMENT0,O.TEXTURE_CUBE_MAP_POSITIVE_X+F,ht.__webglTexture,X)}else if(ft){let ht=F;for(let vt=0;vt<T.textures.length;vt++){let Tt=It.get(T.textures[vt]);O.framebufferTextureLayer(O.FRAMEBUFFER,O.COLOR_ATTACHMENT0+vt,Tt.__webglTexture,X,ht)}}else if(T!==null&&X!==0){let ht=It.get(T.texture);O.framebufferTexture2D(O.FRAMEBUFFER,O.COLOR_ATTACHMENT0,O.TEXTURE_2D,ht.__webglTexture,X)}$=-1};function Od(T){let F=It.get(T);return(F.__readFormat!==T.format||F.__readType!==T.type)&&(F.__readFormat=T.format,F.__readType=T.type,F.__formatReadable=ye.textureFormatReadable(T.format),F.__typeReadable=ye.textureTypeReadable(T.type)),F}this.readRenderTargetPixels=function(T,F,X,z,H,ft,_t,ht=0){if(!(T&&T.isWebGLRenderTarget)){kt("WebGLRenderer.readRenderTargetPixels: renderTarget is not THREE.WebGLRenderTarget.");return}let vt=It.get(T).__webglFramebuffer;if(T.isWebGLCubeRenderTarget&&_t!==void 0&&(vt=vt[_t],Array.isArray(vt)&&(vt=vt[0])),vt){pt.bindFramebuffer(O.FRAMEBUFFER,vt);try{let Tt=T.textures[ht],zt=Tt.format,Zt=Tt.type;T.textures.length>1&&O.readBuffer(O.COLOR_ATTACHMENT0+ht);let wt=Od(Tt);if(wt.__formatReadable===!1){kt("WebGLRenderer.readRenderTargetPixels: renderTarget is not in RGBA or implementation defined format.");return}if(wt.__typeReadable===!1){kt("WebGLRenderer.readRenderTargetPixels: renderTarget is not in UnsignedByteType or implementation defined type.");return}F>=0&&F<=T.width-z&&X>=0&&X<=T.height-H&&O.readPixels(F,X,z,H,rt.convert(zt),rt.convert(Zt),ft)}finally{let Tt=nt!==null?It.get(nt).__webglFramebuffer:null;pt.bindFramebuffer(O.FRAMEBUFFER,Tt)}}},this.readRenderTargetPixelsAsync=async function(T,F,X,z,H,ft,_t,ht=0){if(!(T&&T.isWebGLRenderTarget))throw new Error("THREE.WebGLRenderer.readRenderTargetPixels: renderTarget is not THREE.WebGLRenderTarget.");let vt=It.get(T).__webglFramebuffer;if(T.isWebGLCubeRenderTarget&&_t!==void 0&&(vt=vt[_t],Array.isArray(vt)&&(vt=vt[0])),vt)if(F>=0&&F<=T.width-z&&X>=0&&X<=T.height-H){pt.bindFramebuffer(O.FRAMEBUFFER,vt);let Tt=T.textures[ht],zt=Tt.format,Zt=Tt.type;T.textures.length>1&&O.readBuffer(O.COLOR_ATTACHMENT0+ht);let wt=Od(Tt);if(wt.__formatReadable===!1)throw new Error("THREE.WebGLRenderer.readRenderTargetPixelsAsync: renderTarget is not in RGBA or implementation defined format.");if(wt.__typeReadable===!1)throw new Error("THREE.WebGLRenderer.readRenderTargetPixelsAsync: renderTarget is not in UnsignedByteType or implementation defined type.");let Jt=O.createBuffer();O.bindBuffer(O.PIXEL_PACK_BUFFER,Jt),O.bufferData(O.PIXEL_PACK_BUFFER,ft.byteLength,O.STREAM_READ),O.readPixels(F,X,z,H,rt.convert(zt),rt.convert(Zt),0),O.bindBuffer(O.PIXEL_PACK_BUFFER,null);let Ce=nt!==null?It.get(nt).__webglFramebuffer:null;pt.bindFramebuffer(O.FRAMEBUFFER,Ce);let pe=O.fenceSync(O.SYNC_GPU_COMMANDS_COMPLETE,0);return O.flush(),await lp(O,pe,4),O.bindBuffer(O.PIXEL_PACK_BUFFER,Jt),O.getBufferSubData(O.PIXEL_PACK_BUFFER,0,ft),O.bindBuffer(O.PIXEL_PACK_BUFFER,null),O.deleteBuffer(Jt),O.deleteSync(pe),ft}else throw new Error("THREE.WebGLRenderer.readRenderTargetPixelsAsync: requested read bounds are out of range.")},this.copyFramebufferToTexture=function(T,F=null,X=0){let z=Math.pow(2,-X),H=Math.floor(T.image.width*z),ft=Math.floor(T.image.height*z),_t=F!==null?F.x:0,ht=F!==null?F.y:0;Bt.setTexture2D(T,0),O.copyTexSubImage2D(O.TEXTURE_2D,X,0,0,_t,ht,H,ft),pt.unbindTexture()},this.copyTextureToTexture=function(T,F,X=null,z=null,H=0,ft=0){let _t,ht,vt,Tt,zt,Zt,wt,Jt,Ce,pe=T.isCompressedTexture?T.mipmaps[ft]:T.image;if(X!==null)_t=X.max.x-X.min.x,ht=X.max.y-X.min.y,vt=X.isBox3?X.max.z-X.min.z:1,Tt=X.min.x,zt=X.min.y,Zt=X.isBox3?X.min.z:0;else{let te=Math.pow(2,-H);_t=Math.floor(pe.width*te),ht=Math.floor(pe.height*te),T.isDataArrayTexture?vt=pe.depth:T.isData3DTexture?vt=Math.floor(pe.depth*te):vt=1,Tt=0,zt=0,Zt=0}z!==null?(wt=z.x,Jt=z.y,Ce=z.z):(wt=0,Jt=0,Ce=0);let ue=rt.convert(F.format),en=rt.convert(F.type),St;F.isData3DTexture?(Bt.setTexture3D(F,0),St=O.TEXTURE_3D):F.isDataArrayTexture||F.isCompressedArrayTexture?(Bt.setTexture2DArray(F,0),St=O.TEXTURE_2D_ARRAY):(Bt.setTexture2D(F,0),St=O.TEXTURE_2D),pt.activeTexture(O.TEXTURE0),pt.pixelStorei(O.UNPACK_FLIP_Y_WEBGL,F.flipY),pt.pixelStorei(O.UNPACK_PREMULTIPLY_ALPHA_WEBGL,F.premultiplyAlpha),pt.pixelStorei(O.UNPACK_ALIGNMENT,F.unpackAlignment);let dn=pt.getParameter(O.UNPACK_ROW_LENGTH),ee=pt.getParameter(O.UNPACK_IMAGE_HEIGHT),rs=pt.getParameter(O.UNPACK_SKIP_PIXELS),nn=pt.getParameter(O.UNPACK_SKIP_ROWS),Lo=pt.getParameter(O.UNPACK_SKIP_IMAGES);pt.pixelStorei(O.UNPACK_ROW_LENGTH,pe.width),pt.pixelStorei(O.UNPACK_IMAGE_HEIGHT,pe.height),pt.pixelStorei(O.UNPACK_SKIP_PIXELS,Tt),pt.pixelStorei(O.UNPACK_SKIP_ROWS,zt),pt.pixelStorei(O.UNPACK_SKIP_IMAGES,Zt);let Ni=T.isDataArrayTexture||T.isData3DTexture,os=F.isDataArrayTexture||F.isData3DTexture;if(T.isDepthTexture){let te=It.get(T),Ze=It.get(F),Xn=It.get(te.__renderTarget),we=It.get(Ze.__renderTarget);pt.bindFramebuffer(O.READ_FRAMEBUFFER,Xn.__webglFramebuffer),pt.bindFramebuffer(O.DRAW_FRAMEBUFFER,we.__webglFramebuffer);for(let Ge=0;Ge<vt;Ge++)Ni&&(O.framebufferTextureLayer(O.READ_FRAMEBUFFER,O.COLOR_ATTACHMENT0,It.get(T).__webglTexture,H,Zt+Ge),O.framebufferTextureLayer(O.DRAW_FRAMEBUFFER,O.COLOR_ATTACHMENT0,It.get(F).__webglTexture,ft,Ce+Ge)),O.blitFramebuffer(Tt,zt,Tt+_t,zt+ht,wt,Jt,wt+_t,Jt+ht,O.DEPTH_BUFFER_BIT,O.NEAREST);pt.bindFramebuffer(O.READ_FRAMEBUFFER,null),pt.bindFramebuffer(O.DRAW_FRAMEBUFFER,null)}else if(H!==0||T.isRenderTargetTexture||It.has(T)){let te=It.get(T),Ze=It.get(F);pt.bindFramebuffer(O.READ_FRAMEBUFFER,L),pt.bindFramebuffer(O.DRAW_FRAMEBUFFER,B);for(let Xn=0;Xn<vt;Xn++)Ni?O.framebufferTextureLayer(O.READ_FRAMEBUFFER,O.COLOR_ATTACHMENT0,te.__webglTexture,H,Zt+Xn):O.framebufferTexture2D(O.READ_FRAMEBUFFER,O.COLOR_ATTACHMENT0,O.TEXTURE_2D,te.__webglTexture,H),os?O.framebufferTextureLayer(O.DRAW_FRAMEBUFFER,O.COLOR_ATTACHMENT0,Ze.__webglTexture,ft,Ce+Xn):O.framebufferTexture2D(O.DRAW_FRAMEBUFFER,O.COLOR_ATTACHMENT0,O.TEXTURE_2D,Ze.__webglTexture,ft),H!==0?O.blitFramebuffer(Tt,zt,Tt+_t,zt+ht,wt,Jt,wt+_t,Jt+ht,O.COLOR_BUFFER_BIT,O.NEAREST):os?O.copyTexSubImage3D(St,ft,wt,Jt,Ce+Xn,Tt,zt,_t,ht):O.copyTexSubImage2D(St,ft,wt,Jt,Tt,zt,_t,ht);pt.bindFramebuffer(O.READ_FRAMEBUFFER,null),pt.bindFramebuffer(O.DRAW_FRAMEBUFFER,null)}else os?T.isDataTexture||T.isData3DTexture?O.texSubImage3D(St,ft,wt,Jt,Ce,_t,ht,vt,ue,en,pe.data):F.isCompressedArrayTexture?O.compressedTexSubImage3D(St,ft,wt,Jt,Ce,_t,ht,vt,ue,pe.data):O.texSubImage3D(St,ft,wt,Jt,Ce,_t,ht,vt,ue,en,pe):T.isDataTexture?O.texSubImage2D(O.TEXTURE_2D,ft,wt,Jt,_t,ht,ue,en,pe.data):T.isCompressedTexture?O.compressedTexSubImage2D(O.TEXTURE_2D,ft,wt,Jt,pe.width,pe.height,ue,pe.data):O.texSubImage2D(O.TEXTURE_2D,ft,wt,Jt,_t,ht,ue,en,pe);pt.pixelStorei(O.UNPACK_ROW_LENGTH,dn),pt.pixelStorei(O.UNPACK_IMAGE_HEIGHT,ee),pt.pixelStorei(O.UNPACK_SKIP_PIXELS,rs),pt.pixelStorei(O.UNPACK_SKIP_ROWS,nn),pt.pixelStorei(O.UNPACK_SKIP_IMAGES,Lo),ft===0&&F.generateMipmaps===!0&&F.mipmapsAutoUpdate===!0&&O.generateMipmap(St),pt.unbindTexture()},this.initRenderTarget=function(T){It.get(T).__webglFramebuffer===void 0&&Bt.setupRenderTarget(T)},this.initTexture=function(T){T.isCubeTexture?Bt.setTextureCube(T,0):T.isData3DTexture?Bt.setTexture3D(T,0):T.isDataArrayTexture||T.isCompressedArrayTexture?Bt.setTexture2DArray(T,0):Bt.setTexture2D(T,0),pt.unbindTexture()},this.resetState=function(){G=0,W=0,nt=null,pt.reset(),at.reset()},typeof __THREE_DEVTOOLS__<"u"&&__THREE_DEVTOOLS__.dispatchEvent(new CustomEvent("observe",{detail:this}))}get coordinateSystem(){return zn}get outputColorSpace(){return this._outputColorSpace}set outputColorSpace(t){this._outputColorSpace=t;let e=this.getContext();e.drawingBufferColorSpace=Xt._getDrawingBufferColorSpace(t),e.unpackColorSpace=Xt._getUnpackColorSpace()}};function fo(i){let t=[];for(let s=0;s+2<i.length;s+=3)t.push([i[s],i[s+1],i[s+2]]);let e=[];for(let[s,r]of t.entries()){let o=e[e.length-1],a=t[s+1];o&&a&&(Zi(o,r)<5e-4||Iw(o,a,r)<5e-4)||(o&&!a&&e.length>1&&Zi(o,r)<5e-4&&e.pop(),e.push(r))}let n=[0];for(let s=1;s<e.length;s++)n.push(n[s-1]+Zi(e[s-1],e[s]));return{points:e,along:e.length?n:[],length:n[n.length-1]}}function Zi(i,t){return Math.hypot(t[0]-i[0],t[1]-i[1],t[2]-i[2])}function Iw(i,t,e){let n=[t[0]-i[0],t[1]-i[1],t[2]-i[2]],s=n[0]**2+n[1]**2+n[2]**2;if(s===0)return Zi(i,e);let r=[e[0]-i[0],e[1]-i[1],e[2]-i[2]],o=(r[0]*n[0]+r[1]*n[1]+r[2]*n[2])/s;return o<0||o>1?1/0:Math.hypot(r[0]-o*n[0],r[1]-o*n[1],r[2]-o*n[2])}function wu(i,t){let{points:e,along:n}=i,s=1;for(;s<e.length-1&&n[s]<t;)s++;let r=e[s-1],o=e[s]??r,a=n[s]-n[s-1]||1,l=Math.min(1,Math.max(0,(t-n[s-1])/a)),c=[(o[0]-r[0])/a,(o[1]-r[1])/a,(o[2]-r[2])/a];return{point:[r[0]+l*(o[0]-r[0]),r[1]+l*(o[1]-r[1]),r[2]+l*(o[2]-r[2])],direction:c}}function qp(i,t,e){if(t==="unknown"||i.points.length<2||i.length===0)return[];let n=[],s=t==="forward"?1:-1;for(let r=1,o=0;o===0||i.length/r>=e;r*=2,o++){let a=i.length/r;for(let l=0;l<r;l++){let{point:c,direction:h}=wu(i,(l+.5)*a),u=o?a/2:a;n.push({point:c,direction:[s*h[0],s*h[1],s*h[2]],room:u})}if(o>=6)break}return n}function Yp(i){let t=[];for(let e=1;e<i.points.length;e++)t.push({from:i.points[e-1],to:i.points[e],start:i.along[e-1],end:i.along[e]});return t}var Su=`
+uniform vec2 uViewport;
+uniform float uScale;
+uniform vec4 uPlane;
+varying float vCut;
+bool perspective() { return projectionMatrix[2][3] != 0.0; }
+float depthOf(vec4 seen, float pull) {
+  vec4 near = seen;
+  if (perspective()) near.xyz += normalize(-seen.xyz) * min(pull, 0.4 * length(seen.xyz));
+  else near.z += pull;
+  vec4 clip = projectionMatrix * near;
+  return clip.z / clip.w;
+}
+vec2 screenOf(vec4 clip) { return 0.5 * uViewport * clip.xy / clip.w; }
+float pixelsPerMetre(vec4 seen) {
+  float scale = 0.5 * uViewport.y * projectionMatrix[1][1];
+  return perspective() ? scale / max(-seen.z, 1e-3) : scale;
+}
+`,Zp=`
+attribute vec3 aFrom;
+attribute vec3 aTo;
+attribute vec3 aAlong;
+attribute vec4 aColor;
+attribute vec3 aLook;
+uniform float uCasing;
+uniform float uFaint;
+varying vec2 vAt;
+varying vec3 vSize;
+varying vec4 vColor;
+varying vec2 vDash;
+${Su}
+void main() {
+  vec4 a = modelViewMatrix * vec4(aFrom, 1.0);
+  vec4 b = modelViewMatrix * vec4(aTo, 1.0);
+  vec2 along = aAlong.xy;
+  if (perspective()) {
+    // What is behind the eye is cut off at the near plane.
+    float edge = projectionMatrix[3][2] / (projectionMatrix[2][2] - 1.0) * -1.001;
+    if (a.z > edge && b.z > edge) { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); return; }
+    float t = clamp((edge - a.z) / (b.z - a.z), 0.0, 1.0);
+    if (a.z > edge) { a = mix(a, b, t); along.x = mix(along.x, along.y, t); }
+    else if (b.z > edge) { b = mix(a, b, t); along.y = mix(along.x, along.y, t); }
+  }
+  vec4 ca = projectionMatrix * a;
+  vec4 cb = projectionMatrix * b;
+  vec2 sa = screenOf(ca);
+  vec2 sb = screenOf(cb);
+  vec2 way = sb - sa;
+  float length_ = length(way);
+  vec2 dir = length_ > 1e-3 ? way / length_ : vec2(1.0, 0.0);
+  // From afar lines are thinner, so that the plant is still seen; what is marked or selected isn't.
+  float metre = 0.5 * (pixelsPerMetre(a) + pixelsPerMetre(b));
+  float bore = max(aAlong.z - 0.06, 0.03) / 0.75;
+  float thin = aLook.z > 1.5 ? 1.0 : clamp(0.35 + bore * metre / (6.0 * uScale), 0.5, 1.0);
+  float core = 0.5 * aLook.x * thin * uScale;
+  float casing = uCasing * thin * uScale;
+  float reach = core + casing + 1.0;
+  float cap = uFaint > 0.0 ? 0.0 : reach;
+  float side = position.y;
+  float end = position.x;
+  vec2 at = mix(sa, sb, end) + dir * (2.0 * end - 1.0) * cap + vec2(-dir.y, dir.x) * side * reach;
+  vAt = vec2(mix(-cap, length_ + cap, end), side * reach);
+  vSize = vec3(core, casing, length_);
+  vColor = aColor;
+  // Dashes keep their place on the pipe; their length doubles or halves with the distance so that they stay readable.
+  float period = exp2(floor(log2(20.0 * uScale / metre) + 0.5));
+  float perPixel = length_ > 1e-3 ? (along.y - along.x) / length_ : 0.0;
+  float from = along.x - cap * perPixel;
+  float to = along.y + cap * perPixel;
+  vDash = vec2(mix(from, to, end) / period, aLook.y);
+  float depth = depthOf(mix(a, b, end), aAlong.z);
+  vCut = dot(uPlane, mix(a, b, end));
+  gl_Position = vec4(at / (0.5 * uViewport), depth, 1.0);
+  if (aColor.a <= 0.0 || (uFaint > 0.0 && aLook.z < 0.0)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  vSize.y *= aLook.z < 0.0 ? 0.0 : 1.0;
+}
+`,Jp=`
+uniform vec3 uCasingColor;
+uniform float uFaint;
+uniform float uTime;
+varying vec2 vAt;
+varying vec3 vSize;
+varying vec4 vColor;
+varying vec2 vDash;
+varying float vCut;
+void main() {
+  if (vCut > 0.0) discard;
+  float off = length(vec2(vAt.x - clamp(vAt.x, 0.0, vSize.z), vAt.y));
+  float core = vSize.x;
+  float casing = vSize.y;
+  float inCore = 1.0 - smoothstep(core - 0.5, core + 0.5, off);
+  float inAll = 1.0 - smoothstep(core + casing - 0.5, core + casing + 0.5, off);
+  if (vDash.y > 0.5 && vDash.y < 1.5) {
+    float gap = abs(fract(vDash.x) - 0.5) * 2.0;
+    inCore *= 1.0 - smoothstep(0.56, 0.62, gap);
+  }
+  vec3 color = vColor.rgb;
+  if (uTime >= 0.0 && vDash.y > 1.5) {
+    float wave = fract(vDash.x * 0.5 - uTime);
+    color = mix(color, uCasingColor, 0.55 * smoothstep(0.75, 0.9, wave) * (1.0 - smoothstep(0.9, 1.0, wave)));
+  }
+  float alpha = uFaint > 0.0 ? inCore * uFaint * vColor.a : inAll * vColor.a;
+  if (alpha < 0.02) discard;
+  gl_FragColor = vec4(uFaint > 0.0 ? color : mix(uCasingColor, color, inCore), alpha);
+  #include <colorspace_fragment>
+}
+`,Kp=`
+attribute vec3 aAt;
+attribute vec3 aDirection;
+attribute vec3 aRoom;
+attribute vec3 aColor;
+varying vec3 vColor;
+varying vec3 vEdge;
+varying float vHeight;
+${Su}
+void main() {
+  vec4 seen = modelViewMatrix * vec4(aAt, 1.0);
+  vec3 toward = (modelViewMatrix * vec4(aDirection, 0.0)).xyz;
+  vec4 clip = projectionMatrix * seen;
+  float metre = pixelsPerMetre(seen);
+  // How long a metre of the pipe appears: seen from its end an arrow says nothing.
+  vec4 beside = projectionMatrix * vec4(seen.xyz + toward * (10.0 / metre), 1.0);
+  vec2 way = screenOf(beside) - screenOf(clip);
+  float share = min(1.0, length(way) / 10.0);
+  float room = aRoom.x * metre * share;
+  float fit = aRoom.z * smoothstep(30.0 * uScale, 44.0 * uScale, room) * smoothstep(0.2, 0.35, share);
+  vec2 dir = length(way) > 1e-4 ? normalize(way) : vec2(1.0, 0.0);
+  float size = (5.5 + 1.2 * aRoom.z) * uScale * fit;
+  vec2 at = screenOf(clip) + size * (dir * position.x + vec2(-dir.y, dir.x) * position.y);
+  vEdge = vec3(float(gl_VertexID == 0), float(gl_VertexID == 1), float(gl_VertexID == 2));
+  vHeight = 2.6 * size;
+  vCut = dot(uPlane, seen);
+  vColor = aColor;
+  bool behind = perspective() && seen.z > -1e-3;
+  gl_Position = fit <= 0.01 || behind
+    ? vec4(2.0, 2.0, 2.0, 1.0) : vec4(at / (0.5 * uViewport), depthOf(seen, aRoom.y), 1.0);
+}
+`,jp=`
+uniform vec3 uCasingColor;
+uniform float uScale;
+uniform float uFaint;
+varying vec3 vColor;
+varying vec3 vEdge;
+varying float vHeight;
+varying float vCut;
+void main() {
+  if (vCut > 0.0) discard;
+  float edge = min(vEdge.x, min(vEdge.y, vEdge.z)) * vHeight;
+  float rim = 1.3 * uScale;
+  float core = smoothstep(rim - 0.5, rim + 0.5, edge);
+  float alpha = uFaint > 0.0 ? uFaint * core : smoothstep(0.0, 1.0, edge);
+  if (alpha < 0.02) discard;
+  gl_FragColor = vec4(mix(uCasingColor, vColor, core), alpha);
+  #include <colorspace_fragment>
+}
+`,Qp=`
+attribute vec3 aColor;
+attribute vec3 aDot;
+varying vec3 vColor;
+varying float vForm;
+varying float vSide;
+${Su}
+void main() {
+  vec4 seen = modelViewMatrix * vec4(position, 1.0);
+  vec4 clip = projectionMatrix * seen;
+  float metre = pixelsPerMetre(seen);
+  // Small things of the network (ports) come when there is room for them.
+  float fit = aDot.y < 6.0 ? smoothstep(110.0 * uScale, 180.0 * uScale, metre) : 1.0;
+  if (aDot.y > 6.0 && aDot.y < 14.0) fit = clamp(0.45 + metre / (90.0 * uScale), 0.55, 1.0);
+  vColor = aColor;
+  vForm = aDot.x;
+  vSide = (aDot.y + 3.0) * uScale * fit;
+  vCut = dot(uPlane, seen);
+  gl_PointSize = vSide;
+  bool behind = perspective() && seen.z > -1e-3;
+  gl_Position = fit <= 0.01 || aDot.y <= 0.0 || behind
+    ? vec4(2.0, 2.0, 2.0, 1.0) : vec4(clip.xy / clip.w, depthOf(seen, aDot.z), 1.0);
+}
+`,tm=`
+uniform vec3 uCasingColor;
+uniform float uScale;
+uniform float uFaint;
+varying vec3 vColor;
+varying float vForm;
+varying float vSide;
+varying float vCut;
+void main() {
+  if (vCut > 0.0) discard;
+  vec2 p = (gl_PointCoord - 0.5) * vSide;
+  float radius = 0.5 * vSide - 1.5 * uScale;
+  float round_ = length(p) - radius;
+  float square = max(abs(p.x), abs(p.y)) - 0.86 * radius;
+  float shape = vForm < 1.5 ? round_ : square;
+  float inside = 1.0 - smoothstep(-0.5, 0.5, shape);
+  float all = 1.0 - smoothstep(-0.5, 0.5, shape - 1.2 * uScale);
+  if (vForm > 0.5 && vForm < 1.5) inside *= smoothstep(-0.5, 0.5, length(p) - radius + 2.4 * uScale);
+  if (vForm > 1.5 && vForm < 2.5) inside *= smoothstep(-0.5, 0.5, abs(abs(p.x) - 0.43 * radius) - 0.6 * uScale);
+  float alpha = uFaint > 0.0 ? inside * uFaint : all;
+  if (alpha < 0.02) discard;
+  gl_FragColor = vec4(mix(uCasingColor, vColor, inside), alpha);
+  #include <colorspace_fragment>
+}
+`;var Lw=.3,kw=.35,Nw=.06,Dw=.02,Fl=class{front=new oi;through=new oi;uniforms={uViewport:{value:new At(1,1)},uScale:{value:1},uTime:{value:-1},uCasing:{value:1.4},uCasingColor:{value:new Ut(1,1,1)},uPlane:{value:new $t(0,0,0,-1)}};ribbons=new Zs;arrows=new Zs;dots=new Ie;owners=[];plane=new $t(0,0,0,-1);arrowRows=[];dotPlaces=[];constructor(t){Bw(this.ribbons),zw(this.arrows);let e=[[this.ribbons,Zp,Jp],[this.arrows,Kp,jp],[this.dots,Qp,tm]];for(let[n,s]of[[this.through,Lw],[this.front,0]])e.forEach(([r,o,a],l)=>{let c=this.material(o,a,s),h=r===this.dots?new Gr(r,c):new Le(r,c);h.frustumCulled=!1,h.renderOrder=10+l,h.raycast=()=>{},h.onBeforeRender=(u,d,f)=>this.fit(u,f,t(),c),n.add(h)})}setPlan(t){this.layRibbons(t),this.layArrows(t),this.layDots(t)}setStrokes(t,e,n){this.uniforms.uCasingColor.value.setRGB(...n.casing,"srgb");let s=this.ribbons.getAttribute("aColor"),r=this.ribbons.getAttribute("aLook");this.owners.forEach(({row:h,lead:u},d)=>{let f=t[h];s.setXYZW(d,...Mu(f.color),f.shown?u?.9:1:0);let p=f.dashed?1:f.arrows?2:0;r.setXYZ(d,u?.5*f.width:f.width,u?0:p,f.strong?2:u||f.dim?-1:1)});let o=this.arrows.getAttribute("aColor"),a=this.arrows.getAttribute("aRoom");this.arrowRows.forEach((h,u)=>{let d=t[h];o.setXYZ(u,...Mu(d.color)),a.setZ(u,d.shown&&d.arrows?d.strong?1.3:1:0)});let l=this.dots.getAttribute("aColor"),c=this.dots.getAttribute("aDot");this.dotPlaces.forEach((h,u)=>{let d=e(h,c.getX(u)===3);l.setXYZ(u,...Mu(d.color)),c.setY(u,d.size)});for(let h of[s,r,o,a,l,c])h.needsUpdate=!0}setSection(t){let e=t?.flipped?-1:1;this.plane.set(0,0,0,t?-e*t.at:-1),t&&this.plane.setComponent("xyz".indexOf(t.axis),e)}setTime(t){this.uniforms.uTime.value=t}set visible(t){this.front.visible=t,this.through.visible=t}layRibbons(t){let e=[],n=[],s=[];this.owners=[];let r=(a,l,c,h,u,d)=>{e.push(...a),n.push(...l),s.push(c,h,u),this.owners.push(d)};t.content.network.connections.forEach((a,l)=>{let c=fo(a.path),h=Nl(a.diameter),u=a.flow==="backward";for(let d of Yp(c))u?r(d.to,d.from,c.length-d.end,c.length-d.start,h,{row:l,lead:!1}):r(d.from,d.to,d.start,d.end,h,{row:l,lead:!1});for(let[d,f]of[[a.source,c.points[0]],[a.target,c.points.at(-1)]]){let p=t.places.get(d);!f||!p?.unit||Zi(f,p.point)<Dw||r(f,p.point,0,1,h,{row:l,lead:!0})}});let o=this.owners.length;em(this.ribbons,o,{aFrom:[e,3],aTo:[n,3],aAlong:[s,3],aColor:[null,4],aLook:[null,3]})}layArrows(t){let e=[],n=[],s=[];this.arrowRows=[],t.content.network.connections.forEach((r,o)=>{for(let a of qp(fo(r.path),r.flow,kw))e.push(...a.point),n.push(...a.direction),s.push(a.room,Nl(r.diameter),1),this.arrowRows.push(o)}),em(this.arrows,this.arrowRows.length,{aAt:[e,3],aDirection:[n,3],aRoom:[s,3],aColor:[null,3]})}layDots(t){let e=[],n=[];this.dotPlaces=[];let s={junction:0,open:1,blind:2,unknown:1};for(let r of t.places.values()){let o=Nl(Ow(t,r.connections));r.unit||(e.push(...r.point),n.push(s[r.type]??0,1,o),this.dotPlaces.push(r.id));for(let a of r.unit?.ports??[])e.push(...a.point),n.push(3,1,Nl(a.diameter)),this.dotPlaces.push(r.id)}this.dots.dispose(),this.dots.setAttribute("position",new Xe(e,3)),this.dots.setAttribute("aDot",new Xe(n,3)),this.dots.setAttribute("aColor",new Xe(new Float32Array(e.length),3))}material(t,e,n){return new ln({vertexShader:t,fragmentShader:e,uniforms:{...this.uniforms,uFaint:{value:n}},transparent:!0,depthTest:n===0,depthWrite:!1,toneMapped:!1,side:Fe})}fit(t,e,n,s){let r=t.getCurrentViewport(Fw);this.uniforms.uViewport.value.set(r.z,r.w),this.uniforms.uScale.value=n>0?r.w/n:1,this.uniforms.uPlane.value.copy(this.plane).applyMatrix4(Uw.copy(e.matrixWorld).transpose()),s.uniformsNeedUpdate=!0}},Fw=new $t,Uw=new Mt;function Nl(i){return .75*(i??.05)+Nw}function Ow(i,t){let e=t.map(n=>i.content.network.connections[n].diameter??0);return e.length?Math.max(...e):null}var Dl=new Ut;function Mu(i){return Dl.setRGB(...i,"srgb"),[Dl.r,Dl.g,Dl.b]}function Bw(i){i.setAttribute("position",new Xe([0,-1,0,1,-1,0,1,1,0,0,1,0],3)),i.setIndex([0,1,2,0,2,3]),i.instanceCount=0}function zw(i){i.setAttribute("position",new Xe([1.5,0,0,-1.1,1.25,0,-1.1,-1.25,0],3)),i.instanceCount=0}function em(i,t,e){i.dispose();for(let[n,[s,r]]of Object.entries(e)){let o=s?new Float32Array(s):new Float32Array(t*r),a=new zr(o,r);s||a.setUsage(ru),i.setAttribute(n,a)}i.instanceCount=t}function Tu(i,t){let e={width:Math.max(1,t.width-24),height:Math.max(1,t.height-24)},n=Math.min(e.width/i.width,e.height/i.height,3);return{zoom:n,x:(t.width-n*i.width)/2,y:(t.height-n*i.height)/2}}function im(i,t){let e=Tu(i,t),n=Math.min(1,(t.width-24)/i.width);return e.zoom>=.45||n<=e.zoom?e:{zoom:n,x:(t.width-n*i.width)/2,y:0}}function Eu(i,t,e,n,s){let r=Math.min(12,Math.max(s,i.zoom*t)),o=r/i.zoom;return{zoom:r,x:e-o*(e-i.x),y:n-o*(n-i.y)}}function sm(i,t,e,n,s){let r=i.x+i.zoom*t.x,o=i.y+i.zoom*t.y,a=r+i.zoom*t.width,l=o+i.zoom*t.height,c=r>=12&&o>=12&&a<=n.width-12&&l<=n.height-12;if(!s&&c&&i.zoom>.45)return i;let h=Math.min(.8*n.width/Math.max(t.width,1),.8*n.height/Math.max(t.height,1)),u=Math.min(h,s?Math.max(i.zoom,1.6):Math.max(i.zoom,.9));return{zoom:u,x:nm(n.width/2-u*(t.x+t.width/2),u*e.width,n.width),y:nm(n.height/2-u*(t.y+t.height/2),u*e.height,n.height)}}function nm(i,t,e){return t<=e?(e-t)/2:Math.min(0,Math.max(e-t,i))}var am="http://www.w3.org/2000/svg",Ru=String.raw`[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?`,Be=new RegExp(`^${Ru}%?$`,"i"),Au=new RegExp(`^\\s*(?:${Ru}[\\s,]*)*$`,"i"),Vw=/^[MLHVCSQTAZmlhvcsqtaz\d\s,.eE+-]*$/,Hw=new RegExp(`^\\s*(?:(?:translate|rotate|scale)\\(\\s*(?:${Ru}[\\s,]*)+\\)\\s*)*$`,"i"),Gw=/^[a-z][a-z0-9 _-]*$/i,rm=/^[^]*$/,om={class:Gw,transform:Hw,"data-id":rm,"data-line":rm},Cu={svg:{width:Be,height:Be,viewBox:Au},g:{},title:{},path:{d:Vw},circle:{cx:Be,cy:Be,r:Be},rect:{x:Be,y:Be,width:Be,height:Be,rx:Be},polygon:{points:Au},polyline:{points:Au},line:{x1:Be,y1:Be,x2:Be,y2:Be},text:{x:Be,y:Be,"font-size":Be},tspan:{x:Be,y:Be}},Ww=new Set(["text","tspan","title"]),Xw=40;function $w(i,t,e){let n=Object.hasOwn(Cu,i)?Cu[i]:null;if(!n)return!1;let s=Object.hasOwn(n,t)?n[t]:Object.hasOwn(om,t)?om[t]:null;return s!==null&&s.test(e)}function lm(i,t,e=0){let n=i.localName??"";if(i.nodeType!==1||i.namespaceURI!==am||!Object.hasOwn(Cu,n)||e>Xw)return null;let s=t.element(n);for(let{name:r,value:o}of Array.from(i.attributes??[]))$w(n,r,o)&&t.attribute(s,r,o);for(let r of Array.from(i.childNodes))if(r.nodeType===1){let o=lm(r,t,e+1);o!==null&&t.append(s,o)}else r.nodeType===3&&Ww.has(n)&&t.append(s,r.nodeValue??"");return s}var qw={element:i=>document.createElementNS(am,i),attribute:(i,t,e)=>i.setAttribute(t,e),append:(i,t)=>i.append(t)};function cm(i){let t=new DOMParser().parseFromString(i,"image/svg+xml").documentElement;return t.localName!=="svg"?null:lm(t,qw)}var Yw=250,Zw=4,Ul=class{sheet=$n("g",{});halos=$n("g",{class:"net-halos"});drawn=$n("g",{});canvas;note=J("p",{class:"net-empty",role:"status"},"Drawing the schematic\u2026");frame=null;size={width:1,height:1};elements=new Map;version=-1;timer=0;asked=0;touched=!1;lastShown="";store;source;focus;planNow;actions;constructor(t,e,n,s,r,o){this.store=e,this.source=n,this.focus=s,this.planNow=r,this.actions=o,this.sheet.append(this.halos,this.drawn),this.canvas=$n("svg",{class:"net-sheet",role:"img","aria-label":"Schematic of the plant"},this.sheet),t.classList.add("net-schematic"),t.append(this.toolbar(),this.canvas,this.note),this.listen(),new ResizeObserver(()=>this.resized()).observe(this.canvas)}refresh(){if(!this.store.shown.schematic)return;(this.store.content?.version??-1)!==this.version&&(clearTimeout(this.timer),this.timer=window.setTimeout(()=>{this.load()},this.version<0?0:Yw)),this.light()}fit(){let t=this.sheetSize();t&&(this.touched=!0,this.look(Tu(t,this.size)))}open(){let t=this.sheetSize();t&&this.look(im(t,this.size))}zoom(t){this.touched=!0,this.frame&&this.look(Eu(this.frame,t,this.size.width/2,this.size.height/2,.05))}toSelection(){this.show(this.selected(),!0)}async load(){let t=this.store.content?.version??-1,e=++this.asked,n;try{n=await this.source.schematic()}catch(r){e===this.asked&&this.tell(r instanceof Error?r.message:"The schematic could not be fetched.");return}if(e!==this.asked)return;this.version=t;let s=cm(n);if(!s){this.tell("The schematic could not be read.");return}this.tell(""),this.adopt(s)}adopt(t){t.classList.add("schematic");for(let e of[...t.children])e.localName==="title"&&e.remove();for(let e of t.querySelectorAll("path[data-line]"))Jw(e);this.drawn.replaceChildren(t),this.elements.clear();for(let e of t.querySelectorAll("[data-id],[data-line]")){let n=e.getAttribute("data-id"),s=n!==null?`place ${n}`:`line ${e.getAttribute("data-line")}`,r=this.elements.get(s);r?r.push(e):this.elements.set(s,[e])}this.measure()&&(!this.frame||!this.touched)&&this.open(),this.lastShown="",this.light()}light(){let t=this.planNow(),{marks:e}=this.store.shown,n=this.selected(),s=new Set;this.focus.hoveredPlace&&s.add(`place ${this.focus.hoveredPlace}`);for(let o of this.focus.hoveredConnections)Pu(t,o,s);let r=new Set([...e?.places??[]].map(o=>`place ${o}`));for(let o of e?.connections??[])Pu(t,o,r);this.drawn.classList.toggle("has-marks",e!==null);for(let[o,a]of this.elements){let l=e?.close.has(o.slice(6))??!1;for(let{classList:c}of a)c.toggle("is-selected",n.has(o)),c.toggle("is-hovered",s.has(o)),c.toggle("is-marked",r.has(o)),c.toggle("is-close",l&&o.startsWith("place "))}this.drawHalos(n,e?[...e.close].map(o=>`place ${o}`):[]),this.follow(n)}drawHalos(t,e){let n=[],s=(r,o)=>{let a=r.startsWith("place ")?this.boxOf(new Set([r])):null;a&&n.push($n("rect",{class:o,x:String(a.x-4),y:String(a.y-4),width:String(a.width+8),height:String(a.height+8),rx:"5"}))};e.forEach(r=>s(r,"is-close")),t.forEach(r=>s(r,"is-selected")),this.halos.replaceChildren(...n)}follow(t){let e=[...t].sort().join(`
+`);e===this.lastShown||!this.elements.size||(this.lastShown=e,this.show(t,!1))}show(t,e){let n=this.boxOf(t),s=this.sheetSize();if(!n||!s||!this.frame||!this.measure())return;let r=sm(this.frame,n,s,this.size,e);r!==this.frame&&(this.touched=!0,this.look(r))}selected(){let t=new Set,e=this.planNow(),{place:n}=this.focus;n&&t.add(`place ${n.id}`);for(let s of this.focus.connections)Pu(e,s,t);return t}boxOf(t){let[e,n,s,r]=[1/0,1/0,-1/0,-1/0];for(let o of t)for(let a of this.elements.get(o)??[]){let l=a.getBBox(),c=Kw(a,this.drawn);for(let[h,u]of[[l.x,l.y],[l.x+l.width,l.y+l.height]]){let d=new DOMPoint(h,u).matrixTransform(c);[e,s]=[Math.min(e,d.x),Math.max(s,d.x)],[n,r]=[Math.min(n,d.y),Math.max(r,d.y)]}}return e>s?null:{x:e,y:n,width:s-e,height:r-n}}look(t){this.frame=t,this.sheet.setAttribute("transform",`translate(${t.x} ${t.y}) scale(${t.zoom})`)}sheetSize(){let t=this.drawn.firstElementChild,e=Number(t?.getAttribute("width")),n=Number(t?.getAttribute("height"));return e>0&&n>0?{width:e,height:n}:null}resized(){this.measure()&&!this.touched&&this.open()}measure(){let{clientWidth:t,clientHeight:e}=this.canvas;return!t||!e?!1:(this.size={width:t,height:e},!0)}tell(t){this.note.textContent=t,this.note.hidden=t===""}toolbar(){let t=(e,n,s,r)=>J("button",{type:"button","data-test":e,title:s,"aria-label":s,onclick:r},n);return J("div",{class:"net-sheet-tools",role:"toolbar","aria-label":"Schematic"},t("sheet-out","\u2212","Smaller",()=>this.zoom(1/1.4)),t("sheet-in","+","Larger",()=>this.zoom(1.4)),t("sheet-fit","Fit","Show the whole schematic",()=>this.fit()),t("sheet-selection","To selection","Show what is selected",()=>this.toSelection()))}listen(){let{canvas:t}=this;t.addEventListener("wheel",n=>{if(n.preventDefault(),!this.frame)return;let s=t.getBoundingClientRect(),r=n.deltaMode===1?30*n.deltaY:n.deltaY;this.touched=!0,this.look(Eu(this.frame,Math.exp(-r*.0016),n.clientX-s.left,n.clientY-s.top,.05))},{passive:!1});let e=null;t.addEventListener("pointerdown",n=>{this.frame&&n.button<=1&&(e={x:n.clientX,y:n.clientY,frame:this.frame,moved:!1})}),t.addEventListener("pointermove",n=>{if(!e){this.hover(n.target);return}let[s,r]=[n.clientX-e.x,n.clientY-e.y];!e.moved&&Math.hypot(s,r)<Zw||(e.moved||t.setPointerCapture(n.pointerId),e.moved=!0,this.touched=!0,this.look({...e.frame,x:e.frame.x+s,y:e.frame.y+r}))}),t.addEventListener("pointerup",n=>{e&&!e.moved&&this.click(n.target),e=null}),t.addEventListener("pointercancel",()=>e=null),t.addEventListener("pointerleave",()=>this.hover(null)),t.addEventListener("dblclick",()=>this.toSelection())}click(t){let e=this.under(t);e?.id!==void 0?this.actions.place(e.id):e&&e.line>=0?this.actions.line(e.line):this.store.select([])}hover(t){let e=this.under(t);this.focus.hoverLine(e&&e.id===void 0?e.line:-1);let n=e?.id===void 0?void 0:this.planNow().places.get(e.id)?.parts[0];(n??-1)!==this.store.shown.hovered&&this.store.set({hovered:n??-1})}under(t){let e=t?.closest("[data-id],[data-line]");if(!e||!this.drawn.contains(e))return null;let n=this.planNow(),s=e.getAttribute("data-id");if(s!==null)return n.places.has(s)?{id:s,line:-1}:null;let r=e.getAttribute("data-line");return{line:n.content.network.lines.findIndex(o=>o.tag===r)}}};function Pu(i,t,e){let n=i.content.network.lines[i.content.network.connections[t]?.line??-1];n&&e.add(`line ${n.tag}`)}function Jw(i){let t=$n("path",{class:"net-hit",d:i.getAttribute("d")??"","data-line":i.getAttribute("data-line")??""});i.parentElement?.prepend(t)}function Kw(i,t){let e=new DOMMatrix;for(let n=i;n&&n!==t;n=n.parentElement){let s=n.transform?.baseVal.consolidate()?.matrix;s&&(e=new DOMMatrix([s.a,s.b,s.c,s.d,s.e,s.f]).multiply(e))}return e}function xs(i){return i.flow==="unknown"?"unknown":i.confidence!==null&&i.confidence<.7?"doubtful":"known"}function hm(i){return i==="forward"?"backward":i==="backward"?"forward":"unknown"}function um(i){let{source_name:t,target_name:e,flow:n}=i;return n==="unknown"?`${t} \u2013 ${e}`:n==="forward"?`${t} \u2192 ${e}`:`${e} \u2192 ${t}`}function Pi(i){return i===null?"length unknown":i<1?`${Math.round(i*1e3)} mm`:`${i<100?i.toFixed(2):Math.round(i)} m`}function Iu(i){return i.size!==null?`DN ${i.size}`:i.diameter===null?"size unknown":`\u2300 ${Pi(i.diameter)}`}function vs(i){return/^\d/.test(i)?`DN ${i}`:i}function Lu(i){return i===null?"unknown":`${Math.round(100*i)} %`}var ku=.1,pm={missing:"Units that lack a line",joint:"Faces that may be joined",open:"Open ends"};function Ol(i,t=Er(i)){let e=[...jw(t),...Qw(t),...tS(t)],n=["missing","joint","open"];return e.sort((s,r)=>n.indexOf(s.kind)-n.indexOf(r.kind))}function jw(i){return i.content.network.units.filter(e=>e.missing>0).map(e=>({key:`missing:${e.id}`,kind:"missing",title:`${e.tag} lacks ${fm(e.missing,"line")}`,text:`A ${e.kind??e.type} needs ${fm(e.missing,"more line","more lines")} than was found here. A part beside it may have a wrong label, or pipes end in a gap. Until then tracing and isolating stop here.`,place:e.id,parts:e.parts,point:e.point}))}function Qw(i){let t=i.content.network.joints.filter(e=>!e.made&&e.score>=ku);return t.sort((e,n)=>n.score-e.score),t.map(e=>({key:`joint:${i.content.parts.id[e.first]}:${i.content.parts.id[e.second]}`,kind:"joint",title:`${dm(i,e.first)} and ${dm(i,e.second)} may be joined`,text:`Likelihood ${Math.round(100*e.score)} %: ${nS(e)}. It was not taken for a joint.`,place:null,parts:[e.first,e.second],point:e.point}))}function tS(i){return[...i.places.values()].filter(e=>e.type==="open"||e.type==="unknown").map(e=>({key:`open:${e.id}`,kind:"open",title:`${e.type==="open"?"Open end":"Pipe ends"}${eS(i,e)}`,text:e.type==="open"?"The pipe ends here without a flange or cap that closes it: where the model ends, or where a piece is missing.":"The pipe ends here, and it can't be told whether it is closed.",place:e.id,parts:[...e.parts],point:e.point}))}function eS(i,t){let e=t.connections[0];if(e===void 0)return"";let n=i.content.network.connections[e],s=n.size===null?"":`, DN ${n.size}`;return` beside ${Es(n,t.id).name}${s}`}function dm(i,t){let e=i.placeOfPart.get(t),n=e===void 0?void 0:i.places.get(e);return n?n.name:i.content.parts.name[t]??i.content.groups[i.content.parts.group[t]]?.name??"a part"}function nS(i){return i.reasons.length?i.reasons.join("; "):`a gap of ${(1e3*i.gap).toFixed(1)} mm`}function fm(i,t,e=`${t}s`){return i===1?`one ${t}`:`${i} ${e}`}var Nu=12;function xm(i){let{asking:t,focus:e}=i,n=[];t.busy&&n.push(J("p",{class:"net-soft",role:"status"},"Following the pipes\u2026")),t.refusal&&n.push(J("p",{class:"net-refusal",role:"alert"},t.refusal)),t.answer&&n.push(Jd(t.answer,i));let{place:s}=e;e.selectedLine>=0?n.push(oS(i,e.selectedLine)):s?n.push(iS(i,s)):n.push(...[...e.connections].slice(0,3).map(o=>rS(i,o)));let r=cS(i);return r&&n.push(r),n}function iS(i,t){let e=t.connections,n=J("ul",{class:"net-connections"},...e.slice(0,Nu).map(s=>{let r=i.plan.content.network.connections[s],o=Es(r,t.id);return J("li",{},J("span",{class:"net-arrow",title:uS(r,t.id)},bm(r,t.id)),Fi(o.id,o.name,i),J("span",{class:"net-soft"},`${Iu(r)}, ${Pi(r.length)}`))}));return J("section",{class:"net-card","data-test":"net-place","aria-label":"On the network"},J("h3",{},"On the network"),e.length?n:J("p",{class:"net-soft"},"No pipe was found that leads here."),e.length>Nu?J("p",{class:"net-soft"},`and ${e.length-Nu} more`):null,e.length&&i.live?sS(i,t):null,e.length&&!i.live?J("p",{class:"net-soft"},"Tracing and isolating need 'cadgraph view'."):null)}function sS({asking:i},t){let e=i.picking===t.id,n=(s,r,o,a,l)=>J("button",{type:"button","data-test":s,title:o,disabled:i.busy,onclick:a,"aria-pressed":l===void 0?void 0:String(l)},r);return J("div",{},J("div",{class:"net-buttons"},n("net-upstream","Upstream","Trace what leads here (Shift+Up)",()=>{i.trace(t.id,"upstream")}),n("net-downstream","Downstream","Trace where it leads (Shift+Down)",()=>{i.trace(t.id,"downstream")}),n("net-trace-to","Way to\u2026","Trace the way to a second one (Shift+Right)",()=>i.startPick(t.id),e),t.unit&&n("net-isolate","Valves to close","Isolate: which valves must be closed to cut it off (v)",()=>{i.isolate(t.id)})),e?J("p",{class:"net-verdict",role:"status"},`Click where the way from ${t.name} should lead.`):null)}function rS(i,t){let{plan:e,editable:n}=i,s=e.content.network.connections[t],r=e.content.network.lines[s.line];return J("section",{class:"net-card","data-test":"net-connection","aria-label":"Connection"},J("h3",{},"Connection ",Fi(s.source,s.source_name,i)," \u2013 ",Fi(s.target,s.target_name,i)),J("p",{class:"net-soft"},`${Iu(s)}, ${Pi(s.length)}`),r?aS(i,s.line,r):null,lS(s),n?vm(s.flow,s.source_name,s.target_name,o=>i.panels.edit([ym(i,s,o)])):null)}function oS(i,t){let{plan:e,editable:n}=i,s=e.content.network.lines[t],r=Yd(e,s),o=r.map(d=>e.content.network.connections[d.row]),a=o.filter(d=>xs(d)!=="known").length,l=e.places.get(s.start)?.name??s.start,c=e.places.get(s.end)?.name??s.end,h=d=>r.map(({along:f},p)=>ym(i,o[p],f?d:hm(d))),u={forward:`Flows from ${l} to ${c}`,backward:`Flows from ${c} to ${l}`,unknown:"Direction of flow unknown",none:"No flow: it ends at a closed end",contradictory:"The directions found along it contradict each other"};return J("section",{class:"net-card","data-test":"net-line-card","aria-label":`Line ${s.tag}`},J("h3",{},`Line ${s.tag}`),J("p",{class:"net-soft"},`${vs(s.size)}, ${Pi(s.length)}, ${bn(o.length,"piece")}`),J("p",{},Fi(s.start,l,i)," \u2013 ",Fi(s.end,c,i)),J("p",{},u[s.flow]??`Flow: ${s.flow}`,mm(o)?J("span",{class:"net-soft"},`: ${mm(o)}`):null),a?J("p",{class:"net-verdict is-unsure"},`Not certain in ${a} of ${bn(o.length,"piece")}.`):null,n?vm(s.flow,l,c,d=>i.panels.edit(h(d))):null)}function mm(i){return i.find(t=>t.reason!==null)?.reason??null}function aS(i,t,e){return J("p",{},"Line ",J("button",{type:"button",class:"net-link",onclick:()=>i.focus.selectLine(t),onpointerenter:()=>i.focus.hoverLine(t),onpointerleave:()=>i.focus.hoverLine(-1)},e.tag))}function lS(i){if(i.flow==="unknown")return J("p",{class:"net-verdict is-unsure"},"Direction of flow unknown: tracing halts here.");let t=xs(i);return J("p",{class:t==="doubtful"?"net-verdict is-unsure":""},`Flows ${um(i)}`,i.reason?`: ${i.reason}`:"",J("span",{class:"net-soft"},`, ${t==="doubtful"?"not certain: ":""}likelihood ${Lu(i.confidence)}`))}function vm(i,t,e,n){let s=(r,o,a)=>J("button",{type:"button","data-test":`net-flow-${r}`,title:a,"aria-pressed":r==="unknown"?void 0:String(i===r),onclick:()=>{n(r)}},o);return J("div",{class:"net-buttons",role:"group","aria-label":"Direction of flow"},s("forward",`${t} \u2192 ${e}`,`Set: flows from ${t} to ${e}`),s("backward",`${e} \u2192 ${t}`,`Set: flows from ${e} to ${t}`),s("unknown","Take back","Takes a direction back that was set by hand"))}function gm(i,t,e,n){return J("button",{type:"button","data-test":i,title:e,onclick:n},t)}function ym({plan:i},t,e){let n=t.via.map(s=>i.content.parts.id[s]);return{kind:"direction",source:t.source,target:t.target,via:n,flow:e}}function cS(i){let{plan:t,store:e}=i,[n]=e.shown.selection;if(e.shown.selection.length!==1||n===void 0)return null;let s=t.content.network.joints.filter(r=>(r.first===n||r.second===n)&&(r.made||r.score>=ku));return s.length?(s.sort((r,o)=>Number(r.made)-Number(o.made)||o.score-r.score),J("details",{class:"net-card","data-test":"net-joints",open:s.length<=6||s.some(r=>!r.made)},J("summary",{},`Joints of this part (${s.length})`),J("ul",{class:"net-joints"},...s.slice(0,30).map(r=>hS(i,r,n))))):null}function hS(i,t,e){let{plan:n,panels:s,editable:r}=i,{parts:o}=n.content,a=t.first===e?t.second:t.first,l=n.placeOfPart.get(a),c=o.name[a]??n.content.groups[o.group[a]]?.name??"part",h=l?`${c} of ${n.places.get(l).name}`:c,u={first:o.id[t.first],second:o.id[t.second]};return J("li",{class:t.made?"":"is-unsure",title:t.reasons.join("; ")},J("button",{type:"button",class:"net-link",onclick:()=>i.goParts([a])},h),J("span",{class:"net-soft"},[t.kind,`${(1e3*Math.abs(t.gap)).toFixed(1)} mm`,Lu(t.score),...t.made?[]:["not joined"]].join(", ")),r&&(t.made?gm("net-cut","Cut here","These two do not join",()=>{s.edit([{kind:"cut",...u}])}):gm("net-join","Join","These two join",()=>{s.edit([{kind:"join",...u}])})))}function bm(i,t){return i.flow==="unknown"?"\u2013":i.source===t==(i.flow==="forward")?"\u2192":"\u2190"}function uS(i,t){return{"\u2013":"direction unknown","\u2192":"flows away from it","\u2190":"flows to it"}[bm(i,t)]}function _m(i,t,e){let n=Sm(i);return i.content.network.connections.map((s,r)=>{let o=xs(s),a={color:Mm(i,r,t.by,e,n),width:3,dashed:o!=="known",arrows:o!=="unknown",shown:t.isShown(r),strong:!1,dim:!1},l=t.marks?.connections.has(r)??!1;return t.marks&&!l&&Object.assign(a,{color:e.faint,width:1.5,arrows:!1,dim:!0}),l&&Object.assign(a,{color:e.mark,width:4.5,shown:!0,strong:!0}),t.hovered.has(r)&&(a.width+=2),t.selected.has(r)&&Object.assign(a,{color:e.selected,width:5,shown:!0,strong:!0,dim:!1}),a})}function wm(i,t,e,n){let[s]=i.content.network.lines[t].connections;return`rgb(${(s===void 0?n.faint:Mm(i,s,e,n,Sm(i))).map(o=>Math.round(255*o)).join(" ")})`}function Sm(i){return[...new Set(i.content.network.connections.map(t=>t.size??0))].sort((t,e)=>t-e)}function Mm(i,t,e,n,s){let r=i.content.network.connections[t];if(e==="flow")return r.flow==="unknown"?n.unknown:n.known;if(e==="size")return dS(n.ramp,s.indexOf(r.size??0)/Math.max(1,s.length-1));let a=i.content.network.lines[r.line]?.system??i.places.get(r.source)?.system??-1,l=e==="line"?r.line:a;return l<0?n.faint:n.several[l%n.several.length]}function dS([i,t],e){return[0,1,2].map(n=>i[n]+e*(t[n]-i[n]))}function fS(i){let t=/^#([0-9a-f]{6})$/i.exec(i.trim())?.[1]??"000000";return[0,2,4].map(e=>parseInt(t.slice(e,e+2),16)/255)}function Bl(i){let t=getComputedStyle(i),e=n=>fS(t.getPropertyValue(n));return{known:e("--net-known"),unknown:e("--net-unknown"),selected:e("--net-selected"),mark:e("--net-mark"),faint:e("--net-faint"),casing:e("--net-casing"),several:[1,2,3,4,5,6,7,8].map(n=>e(`--net-${n}`)),ramp:[e("--net-small"),e("--net-large")]}}var pS={flow:"flow",line:"line",system:"system",size:"size"},zl=300,Hl=class{head=J("div",{class:"net-tab-head"});list=J("div",{class:"net-tree","data-test":"net-tree"});search=J("input",{type:"search",placeholder:"Filter: tag, kind, DN","aria-label":"Filter the network","data-test":"net-filter",oninput:()=>this.fillList()});open=new Set([0]);rows=new Map;signs=new Map;context;constructor(t,e){this.context=e,t.classList.add("net-tab"),t.append(this.head,this.search,this.list)}fill(){this.fillHead(),this.fillList()}fillHead(){let{store:t,focus:e}=this.context,{network:n}=this.context.planNow().content,{connections:s}=n,{shown:r}=t,o=(u,d,f,p,b)=>J("button",{type:"button","data-test":u,"aria-pressed":String(p),title:`${d} (${f})`,onclick:()=>ni(b)},d),a=J("select",{"data-test":"net-lines-by","aria-label":"Colour the lines by",onchange:u=>e.set({linesBy:u.target.value})},...Object.entries(pS).map(([u,d])=>J("option",{value:u,selected:u===e.linesBy},d))),l=s.filter(u=>u.flow==="unknown").length,c=s.filter(u=>xs(u)==="doubtful").length,h=n.systems.reduce((u,d)=>u+(d.length??0),0);this.head.replaceChildren(J("div",{class:"net-buttons"},o("net-toggle-lines","Lines","n",r.network,"network.lines"),o("net-toggle-tags","Tags","t",r.tags,"network.tags"),o("net-toggle-schematic","Schematic","d",r.schematic,"network.schematic"),o("net-toggle-moving","Moving flow","no key",e.moving,"network.moving")),J("label",{class:"net-row"},"Colour lines by ",a),e.linesBy==="flow"?gS(s.length-l-c,c,l):"",J("p",{class:"net-soft","data-test":"net-counts"},[bn(n.units.length,"unit"),bn(n.lines.length,"line"),bn(n.systems.length,"system"),`${Pi(h)} of pipe`].join(", ")),this.warningRow())}paint(){let t=Bl(this.list),e=this.context.planNow();for(let[n,s]of this.signs)e.content.network.lines[n]&&(s.style.borderTopColor=wm(e,n,this.context.focus.linesBy,t))}mark(){let{focus:t}=this.context,e=t.place?.id;for(let[n,s]of this.rows){let r=n===`place ${e}`||n===`line ${t.selectedLine}`;s.classList.toggle("is-selected",r),r&&!s.hasAttribute("aria-current")&&s.scrollIntoView({block:"nearest"}),r?s.setAttribute("aria-current","true"):s.removeAttribute("aria-current")}}warningRow(){let{focus:t}=this.context,e=this.context.warningsNow();if(!e.length)return J("p",{class:"net-soft"},"No warnings in the network.");let n=e.findIndex(a=>a.key===t.warning),s=["missing","joint","open"].map(a=>e.filter(l=>l.kind===a).length),r=[s[0]?`${bn(s[0],"unit")} without all lines`:"",s[1]?`${bn(s[1],"unjoined face")}`:"",s[2]?bn(s[2],"open end"):""].filter(Boolean).join(", "),o=(a,l,c,h)=>J("button",{type:"button",title:`${l} (${c})`,"aria-label":l,onclick:()=>ni(h)},a);return J("div",{class:"net-row net-warning-row","data-test":"net-warnings"},J("span",{class:"net-warn-sign","aria-hidden":"true"},"!"),J("span",{},r),J("span",{class:"net-row-end"},o("\u2039","Previous warning","W","network.warning.previous"),J("span",{class:"net-soft"},`${n<0?"\u2013":n+1}/${e.length}`),o("\u203A","Next warning","w","network.warning.next"),J("button",{type:"button",title:"Show warnings in the view","aria-pressed":String(t.warnings),"data-test":"net-toggle-warnings",onclick:()=>t.set({warnings:!t.warnings})},"Show")))}fillList(){let{network:t}=this.context.planNow().content,e=this.search.value.toLowerCase().split(/\s+/).filter(Boolean);this.rows.clear(),this.signs.clear();let n=[];t.systems.forEach((s,r)=>{n.push(this.block(r,s.id,`${Pi(s.length)}${s.sizes.length?`, DN ${mS(s.sizes)}`:""}`,e))}),t.units.some(s=>s.system<0)&&n.push(this.block(-1,"Not connected","",e)),this.list.replaceChildren(...n.filter(s=>!s.hidden)),this.list.childElementCount||this.list.append(J("p",{class:"net-empty"},e.length?"Nothing in the network is called so.":"No units were found.")),this.mark(),this.paint()}block(t,e,n,s){let r=this.context.planNow(),{network:o}=r.content,a=f=>s.every(p=>f.toLowerCase().includes(p)),l=o.lines.map((f,p)=>({line:f,row:p})).filter(({line:f})=>f.system===t&&a(`${f.tag} line ${vs(f.size)} ${Vl(r,f.start)} ${Vl(r,f.end)}`)),c=o.units.filter(f=>f.system===t&&a(`${f.tag} ${f.kind??""} ${f.type}`)),h=J("div",{class:"net-block"}),u=()=>{if(h.childElementCount)return;h.append(...l.slice(0,zl).map(({row:p})=>this.lineRow(p)),...c.slice(0,zl).map(p=>this.unitRow(p.id)));let f=Math.max(0,l.length-zl)+Math.max(0,c.length-zl);f&&h.append(J("p",{class:"net-soft"},`and ${f} more: filter to see them`))},d=J("details",{open:s.length>0||this.open.has(t),ontoggle:()=>{d.open&&(u(),this.paint()),!s.length&&(d.open?this.open.add(t):this.open.delete(t),this.mark())}},J("summary",{},J("strong",{},e),J("span",{class:"net-soft"},[n,bn(l.length,"line"),bn(c.length,"unit")].filter(Boolean).join(", "))),h);return d.open&&u(),d.hidden=s.length>0&&!l.length&&!c.length,d}lineRow(t){let{focus:e}=this.context,n=this.context.planNow(),s=n.content.network.lines[t],r=J("span",{class:`net-line-sign${s.flow==="unknown"?" is-unknown":""}`,"aria-hidden":"true"});this.signs.set(t,r);let o={forward:"\u2192",backward:"\u2190"}[s.flow]??"\u2013",a=J("button",{type:"button",class:"net-item","data-test":"net-tree-line","data-line":s.tag,title:`${Vl(n,s.start)} ${o} ${Vl(n,s.end)}, ${Pi(s.length)}`,onclick:()=>e.selectLine(t),onpointerenter:()=>e.hoverLine(t),onpointerleave:()=>e.hoverLine(-1)},r,J("span",{class:"net-name"},s.tag),J("span",{class:"net-soft"},`${Tm(n,s.start)} ${o} ${Tm(n,s.end)}`),J("span",{class:"net-row-end net-soft"},vs(s.size)));return this.rows.set(`line ${t}`,a),a}unitRow(t){let{focus:e,go:n}=this.context,s=this.context.planNow(),r=s.places.get(t),o=J("span",{class:"net-swatch","aria-hidden":"true"}),a=s.content.groups.find(c=>c.unit===r.type)?.color;a&&(o.style.background=a);let l=J("button",{type:"button",class:"net-item","data-test":"net-tree-unit","data-id":t,onclick:()=>n(t),onpointerenter:()=>e.hoverPlace(t),onpointerleave:()=>e.hoverPlace(null)},o,J("span",{class:"net-name"},r.name),J("span",{class:"net-soft"},r.what),r.unit.missing>0&&J("span",{class:"net-row-end is-unsure",title:"Lacks lines that its kind needs"},"! lacks a line"));return this.rows.set(`place ${t}`,l),l}};function Vl(i,t){return i.places.get(t)?.name??t}function Tm(i,t){let e=i.places.get(t);return!e||e.unit?e?.name??t:e.type==="junction"?e.name.replace("junction-","J-"):e.type==="blind"?"closed":"open"}function mS(i){let[t,e]=[Math.min(...i),Math.max(...i)];return t===e?String(t):`${t} to ${e}`}function gS(i,t,e){let n=(s,r,o)=>o>0&&J("li",{},J("span",{class:`net-stroke ${s}`,"aria-hidden":"true"}),r,J("span",{class:"net-soft"},String(o)));return J("ul",{class:"net-legend","aria-label":"Lines"},n("is-known","Direction known",i),n("is-doubtful","Not certain",t),n("is-unknown","Direction unknown",e))}var xS={pump:60,tank:60,equipment:55,valve:45,gauge:25};function Cm(i,t){let e=[];for(let n of i.places.values())n.type!=="junction"&&e.push(vS(i,n));i.content.network.lines.forEach((n,s)=>{let r=yS(i,s);r&&e.push({...r,text:`${Rm(n.tag)}  ${vs(n.size)}`})});for(let n of t)e.push({key:`warning ${n.key}`,kind:"warning",id:n.key,text:n.kind==="open"?"":"!",title:n.title,color:null,point:n.point,reach:n.kind==="open"?.3:3,body:bS(i,n),base:n.kind==="open"?35:70});return e}var Em=32;function Rm(i){let t=i.replace(/\s+/g," ").trim();return t.length<=Em?t:`${t.slice(0,Em-1)}\u2026`}function vS(i,t){let{size:e}=t,n=e?Math.hypot(...e):.1,s=i.content.groups.find(r=>r.unit===t.type);return{key:`place ${t.id}`,kind:"place",id:t.id,text:Rm(t.name),title:`${t.name}: ${t.what}`,color:s?.color??null,point:t.point,reach:n,body:.5*n,base:t.unit?xS[t.type]??50:5}}function yS(i,t){let e=i.content.network.lines[t],s=e.connections.map(a=>fo(i.content.network.connections[a].path)).reduce((a,l)=>l.length>a.length?l:a,{points:[],along:[],length:0});if(s.points.length<2)return null;let r=1;for(let a=1;a<s.points.length;a++)Am(s.points,a)>Am(s.points,r)&&(r=a);let{point:o}=wu(s,(s.along[r-1]+s.along[r])/2);return{key:`line ${e.tag}`,kind:"line",id:String(t),text:e.tag,title:`Line ${e.tag}`,color:null,point:o,reach:s.length/20,body:.2,base:15}}function Am(i,t){return Zi(i[t-1],i[t])}function bS(i,t){let e=t.place===null?null:i.places.get(t.place)?.size;return e?.5*Math.hypot(...e):.15}function Pm(i,t,e){let{focus:n,marks:s}=e;if(i.kind==="warning")return _S(i,t,e);if(i.kind==="line"){let o=Number(i.id);return n.selectedLine===o?850:n.hovered===o?800:!e.shown.tags||s?-1:t.content.network.lines[o].connections.some(n.isConnectionShown)?i.base:-1}if(e.place===i.id)return 1e3;if(e.hoveredPlace===i.id)return 900;let r=t.places.get(i.id);return s?.close.has(i.id)?700:s?.places.has(i.id)?r.unit?600:500:!e.shown.tags||s||!r.unit||!n.isPlaceShown(r)?-1:i.base}function _S(i,t,{focus:e,marks:n,shown:s}){if(e.warning===i.id)return 2e3;if(!e.warnings||!s.network||n)return-1;let r=t.places.get(i.id.slice(i.id.indexOf(":")+1));return r&&!e.isPlaceShown(r)?-1:i.base}var Du=[14,30,52].flatMap(i=>[[.8,-.8],[-.8,-.8],[.8,.8],[-.8,.8],[0,-1],[1,0],[-1,0],[0,1]].map(([t,e])=>[t*i,e*i]));function Lm(i,t,e){let n=new Map;for(let[o,a,l,c]of t.taken)Im(n,[o,a,l,c]);let s=[],r=[...i].sort((o,a)=>a.rank-o.rank||(o.key<a.key?-1:1));for(let o of r){if(s.length>=e)break;let a=o.fixed?wS(o,t,n):SS(o,t,n);a&&(Im(n,[a.left,a.top,a.left+o.width,a.top+o.height]),s.push(a))}return s}function wS(i,t,e){let n=i.x-i.width/2,s=i.y-i.height/2;return km(n,s,i,t,e)?{wish:i,left:n,top:s,slot:0}:null}function SS(i,t,e){let n=i.slot>=0&&i.slot<Du.length?i.slot:0;for(let s=-1;s<Du.length;s++){let r=s<0?n:s;if(s===n)continue;let[o,a]=Du[r],l=i.x+o+(o>0?0:o<0?-i.width:-i.width/2),c=i.y+a+(a>0?0:a<0?-i.height:-i.height/2);if(km(l,c,i,t,e))return{wish:i,left:l,top:c,slot:r}}return null}function km(i,t,e,n,s){let r=i+e.width,o=t+e.height;if(i<2||t<2||r>n.width-2||o>n.height-2)return!1;let a=!0;return Nm(i,t,r,o,l=>{for(let c of s.get(l)??[])i<c[2]+2&&c[0]<r+2&&t<c[3]+2&&c[1]<o+2&&(a=!1)}),a}function Im(i,t){Nm(t[0],t[1],t[2],t[3],e=>{let n=i.get(e);n?n.push(t):i.set(e,[t])})}function Nm(i,t,e,n,s){for(let r=Math.floor((i-2)/64);r<=(e+2)/64;r++)for(let o=Math.floor((t-2)/64);o<=(n+2)/64;o++)s(r*4096+o)}function Dm(i){let{wish:t,left:e,top:n}=i;return{x:Math.min(Math.max(t.x,e),e+t.width),y:Math.min(Math.max(t.y,n),n+t.height)}}var MS=110,TS=3,ES=7,AS=13e3,Fu=80,Uu=500,CS=8,RS=20,Gl=class{lastMs=0;root=J("div",{class:"net-tags","data-test":"net-tags"});leaders=$n("path",{class:"net-leaders"});dots=$n("path",{class:"net-leader-dots"});shown=new Map;hiddenOf=new Map;items=[];byKey=new Map;ranks=[];plan=null;size={width:1,height:1};seenFrom=[];taken=[];dirty=!0;timer=0;widths=new Map;pen=document.createElement("canvas").getContext("2d");view;store;focus;actions;constructor(t,e,n,s){this.view=t,this.store=e,this.focus=n,this.actions=s;let r=$n("svg",{class:"net-leader-layer","aria-hidden":"true"},this.leaders,this.dots);this.root.append(r),Fo(this.root),t.element.append(this.root),new ResizeObserver(()=>this.measure()).observe(t.element),this.measure(),t.onFrame(()=>this.frame())}setPlan(t,e){this.plan=t,this.items=Cm(t,e),this.byKey=new Map(this.items.map(n=>[n.key,n])),this.pen.font=`600 11px ${getComputedStyle(this.root).fontFamily}`,this.hiddenOf.clear(),this.refresh()}refresh(){if(!this.plan)return;let{shown:t}=this.store,e={shown:t,focus:this.focus,place:this.focus.place?.id??null,hoveredPlace:this.focus.hoveredPlace,marks:t.marks};this.ranks=this.items.map(n=>Pm(n,this.plan,e)),this.dirty=!0,requestAnimationFrame(()=>this.frame())}forgetHidden(){this.hiddenOf.clear(),this.rest()}measure(){this.size={width:this.view.element.clientWidth,height:this.view.element.clientHeight},this.dirty=!0,this.frame()}frame(){!this.plan||!this.hasMoved()&&!this.dirty||(this.dirty=!1,this.place(),this.rest())}hasMoved(){let{matrixWorld:t,projectionMatrix:e}=this.view.camera,n=[...t.elements,...e.elements],s=n.some((r,o)=>r!==this.seenFrom[o]);return s&&(this.seenFrom=n),s}rest(){clearTimeout(this.timer),this.timer=window.setTimeout(()=>this.look(),MS)}place(){let t=performance.now(),e=this.wishes((s,r)=>r>=Uu||this.hiddenOf.get(s.key)===!1),n=Math.min(Fu,Math.round(this.size.width*this.size.height/AS));this.draw(Lm(e,{...this.size,taken:this.taken},n)),this.lastMs=performance.now()-t}wishes(t){let e=IS(this.view,this.size),n=[];return this.items.forEach((s,r)=>{let o=this.ranks[r];if(o<0||!t(s,o))return;let a=e(s.point);if(!a||a.x<0||a.y<0||a.x>this.size.width||a.y>this.size.height)return;let l=s.reach*a.metre;if(l<ES&&o<Uu)return;let c=this.shown.get(s.key);n.push({key:s.key,x:a.x,y:a.y,width:this.widthOf(s),height:s.kind==="warning"?18:RS,rank:o+Math.min(15,l/10)+(c?CS:0),slot:c?.slot??-1,fixed:s.kind==="warning"})}),n}look(){let t=LS(this.view),e=new Map(this.hiddenOf),n=String(this.taken);this.taken=PS(this.view.element,this.root);let s=n!==String(this.taken),r=this.wishes(()=>!0).sort((h,u)=>u.rank-h.rank),o=this.seenFrom,a=0,l=0,c=()=>{if(o!==this.seenFrom)return;let h=performance.now()+TS;for(;a<r.length&&l<2*Fu&&performance.now()<h;){let u=r[a++],d=u.rank<Uu&&this.view.isHidden(kS(this.byKey.get(u.key),t));this.hiddenOf.set(u.key,d),d||l++}a<r.length&&l<2*Fu?this.timer=window.setTimeout(c):(s||r.some(({key:u})=>e.get(u)!==this.hiddenOf.get(u)))&&this.place()};c()}draw(t){let e=new Set(t.map(({wish:r})=>r.key));for(let[r,{element:o}]of this.shown)e.has(r)||(o.remove(),this.shown.delete(r));let n="",s="";for(let r of t){let o=this.byKey.get(r.wish.key),a=this.elementOf(o,r.slot);if(a.style.transform=`translate(${Math.round(r.left)}px,${Math.round(r.top)}px)`,this.mark(a,o),o.kind==="warning")continue;let l=Dm(r);n+=`M${r.wish.x.toFixed(1)} ${r.wish.y.toFixed(1)}L${l.x.toFixed(1)} ${l.y.toFixed(1)}`,s+=`M${r.wish.x.toFixed(1)} ${r.wish.y.toFixed(1)}h0`}this.leaders.setAttribute("d",n),this.dots.setAttribute("d",s)}elementOf(t,e){let n=this.shown.get(t.key);if(n)return n.slot=e,n.element.textContent!==t.text&&(n.element.textContent=t.text),n.element;let s=J("button",{type:"button",tabindex:"-1",title:t.title,class:`net-${t.kind==="place"?"tag":t.kind}`,"data-test":`net-${t.kind}`,"data-id":t.id,onclick:()=>this.click(t),onpointerenter:()=>this.hover(t,!0),onpointerleave:()=>this.hover(t,!1)},t.text);return t.kind==="warning"&&s.setAttribute("aria-label",t.title),t.kind==="warning"&&t.text===""&&s.classList.add("is-end"),t.color&&(s.style.borderLeftColor=t.color),s.addEventListener("wheel",r=>this.passOn(r),{passive:!1}),this.root.append(s),this.shown.set(t.key,{element:s,slot:e}),s}mark(t,e){let{marks:n}=this.store.shown,s=e.kind==="place"?e.id:null,r=t.classList,o=e.kind==="line"?Number(e.id):-2,a=s!==null&&s===this.focus.place?.id;r.toggle("is-selected",a||o===this.focus.selectedLine||this.focus.warning===e.id),r.toggle("is-hovered",s!==null&&s===this.focus.hoveredPlace||o===this.focus.hovered),r.toggle("is-close",s!==null&&!!n?.close.has(s)),r.toggle("is-marked",s!==null&&!!n?.places.has(s))}click(t){t.kind==="place"?this.actions.place(t.id):t.kind==="line"?this.actions.line(Number(t.id)):this.actions.warning(t.id)}hover(t,e){t.kind==="place"?this.focus.hoverPlace(e?t.id:null):t.kind==="line"&&this.focus.hoverLine(e?Number(t.id):-1)}passOn(t){t.preventDefault(),t.stopPropagation(),this.view.element.querySelector("canvas")?.dispatchEvent(new WheelEvent(t.type,t))}widthOf(t){if(t.kind==="warning")return 18;let e=this.widths.get(t.text);if(e!==void 0)return e;let n=Math.ceil(this.pen.measureText(t.text).width)+16;return this.widths.set(t.text,n),n}};function PS(i,t){let e=i.getBoundingClientRect(),n=[];for(let s of i.children){if(s===t||s.localName==="canvas")continue;let r=s.getBoundingClientRect();!r.width||!r.height||r.width*r.height>.4*e.width*e.height||n.push([r.left-e.left,r.top-e.top,r.right-e.left,r.bottom-e.top])}return n}function IS(i,t){let{camera:e}=i,n=new Mt().multiplyMatrices(e.projectionMatrix,e.matrixWorldInverse).elements,s=.5*t.height*e.projectionMatrix.elements[5];return([r,o,a])=>{let l=n[3]*r+n[7]*o+n[11]*a+n[15];if(l<=1e-6)return null;let c=(n[0]*r+n[4]*o+n[8]*a+n[12])/l,h=(n[1]*r+n[5]*o+n[9]*a+n[13])/l;return{x:(.5+.5*c)*t.width,y:(.5-.5*h)*t.height,metre:s/l}}}function LS(i){let t=i.camera.matrixWorld.elements;return{point:"isOrthographicCamera"in i.camera?null:[t[12],t[13],t[14]],back:[t[8],t[9],t[10]]}}function kS(i,t){let[e,n,s]=i.point,r=t.point?[t.point[0]-e,t.point[1]-n,t.point[2]-s]:t.back,o=Math.hypot(...r)||1,a=(t.point?Math.min(i.body,.9*o):i.body)/o;return[e+r[0]*a,n+r[1]*a,s+r[2]*a]}function Fm(i,t,e,n){new Ou(i,t,e,n)}var Ou=class{plan;warnings=[];focus;asking;overlay;motion;tags;schematic;tab;notes=J("div",{class:"net-notes"});paintAsked=!1;view;store;source;panels;constructor(t,e,n,s){this.view=t,this.store=e,this.source=n,this.panels=s;let r=()=>this.plan;this.plan=Er(e.content),this.focus=new Uo(e,r),this.asking=new No(e,n,s,r),this.overlay=new Fl(()=>t.element.clientHeight),this.motion=new Oo(t,e,this.focus,this.overlay),t.add(this.overlay.through,!0),t.add(this.overlay.front);let o={place:a=>e.selectPlace(a),line:a=>this.focus.selectLine(a)};this.tags=new Gl(t,e,this.focus,{...o,warning:a=>this.tell(a,!1)}),this.schematic=new Ul(s.schematicPane,e,n,this.focus,r,o),this.tab=new Hl(s.networkTab,{store:e,focus:this.focus,planNow:r,warningsNow:()=>this.warnings,go:a=>this.go(a)}),Fo(this.notes),t.element.append(this.notes),this.addCommands(),this.listen(),this.renew()}listen(){let{store:t,focus:e,asking:n}=this;t.on("content",()=>this.renew());let s=this.isEditable();t.on("state",()=>{s!==this.isEditable()&&(s=this.isEditable(),this.fillSlot())}),t.watch(["selection","place"],()=>{this.fillSlot(),this.tab.mark()}),t.watch(["selection","place","hovered","marks","hidden","isolated","section","network","tags","theme"],()=>this.paint()),t.watch(["hidden","isolated","section","explode","ghost"],()=>this.tags.forgetHidden()),t.watch(["theme"],()=>requestAnimationFrame(()=>this.tab.paint())),t.watch(["schematic"],()=>this.schematic.refresh()),t.watch(["network","tags","schematic"],()=>this.tab.fillHead()),e.onChange(r=>{this.paint(),!r&&(this.tab.fillHead(),this.tab.paint(),this.tab.mark(),this.fillSlot(),this.fillNotes())}),n.onChange(()=>{this.fillSlot(),this.fillNotes()})}renew(){this.plan=Er(this.store.content),this.warnings=Ol(this.store.content,this.plan),this.warnings.some(t=>t.key===this.focus.warning)||(this.focus.warning=null),this.overlay.setPlan(this.plan),this.tags.setPlan(this.plan,this.warnings),this.tab.fill(),this.schematic.refresh(),this.asking.again(),this.fillSlot(),this.fillNotes(),this.paint()}paint(){this.paintAsked||(this.paintAsked=!0,requestAnimationFrame(()=>{this.paintAsked=!1,this.paintNow()}))}paintNow(){let{store:t,focus:e,view:n}=this,{shown:s}=t;this.overlay.visible=s.network||s.marks!==null,this.overlay.setSection(s.section);let r=Bl(n.element),o=_m(this.plan,{by:e.linesBy,marks:s.marks,selected:e.connections,hovered:e.hoveredConnections,isShown:e.isConnectionShown},r),a=e.place?.id,l=e.hoveredPlace;this.overlay.setStrokes(o,(c,h)=>{let u=this.plan.places.get(c);return e.isPlaceShown(u)?h?{color:r.known,size:s.marks?0:5}:c===a?{color:r.selected,size:15}:s.marks?s.marks.places.has(c)?{color:r.mark,size:11}:{color:r.faint,size:6}:{color:u.type==="junction"?r.known:u.type==="blind"?r.faint:r.unknown,size:(u.type==="junction"?8:12)+(c===l?4:0)}:{color:r.faint,size:0}},r),this.tags.refresh(),this.schematic.refresh(),this.motion.refresh(),n.invalidate()}isEditable(){let{state:t}=this.store;return this.source.live&&t?.status==="ready"&&t.read_only===null}fillSlot(){this.panels.networkSlot.classList.add("net-slot"),this.panels.networkSlot.replaceChildren(...xm({plan:this.plan,store:this.store,focus:this.focus,asking:this.asking,panels:this.panels,live:this.source.live,editable:this.isEditable(),go:t=>this.go(t),goParts:t=>this.goParts(t)}))}fillNotes(){let t=this.warnings.findIndex(n=>n.key===this.focus.warning),e={plan:this.plan,store:this.store,focus:this.focus,asking:this.asking,go:n=>this.go(n),goParts:n=>this.goParts(n)};Qd(this.notes,e,this.warnings,t,{step:n=>this.step(n),close:()=>this.focus.set({warning:null})})}go(t){let e=this.plan.places.get(t);e&&(this.store.selectPlace(t),e.parts.length&&this.view.flyTo(e.parts))}goParts(t){t.length&&(this.store.select(t),this.view.flyTo(t))}tell(t,e){let n=this.warnings.find(s=>s.key===t);n&&(this.focus.set({warning:t}),n.place!==null?this.store.selectPlace(n.place):this.store.select(n.parts),e&&n.parts.length&&this.view.flyTo(n.parts))}step(t){let e=this.warnings.length;if(!e){this.panels.say("No warnings in the network.");return}let n=this.warnings.findIndex(r=>r.key===this.focus.warning),s=n<0?t>0?0:e-1:(n+t+e)%e;this.tell(this.warnings[s].key,!0)}addCommands(){let{store:t,focus:e,asking:n,source:s}=this,r="Network",o=()=>s.live,a=l=>{let{place:c}=e;c?.connections.length?l(c.id):this.panels.say(c?`No pipe was found at ${c.name}.`:"Select a unit, a junction or an end first.")};Di({id:"network.lines",key:"n",title:"Lines and flow on the plant",area:r,run:()=>t.set({network:!t.shown.network})},{id:"network.tags",key:"t",title:"Tags",area:r,run:()=>t.set({tags:!t.shown.tags})},{id:"network.schematic",key:"d",title:"Schematic beside the plant",area:r,run:()=>t.set({schematic:!t.shown.schematic})},{id:"network.moving",title:"Let the flow move",area:r,run:()=>e.set({moving:!e.moving})},{id:"network.warning.next",key:"w",title:"Next warning of the network",area:r,run:()=>this.step(1)},{id:"network.warning.previous",key:"W",title:"Previous warning of the network",area:r,run:()=>this.step(-1)},{id:"network.upstream",key:"Shift+ArrowUp",title:"Trace upstream of the selection",area:r,when:o,run:()=>a(l=>n.trace(l,"upstream"))},{id:"network.downstream",key:"Shift+ArrowDown",title:"Trace downstream of the selection",area:r,when:o,run:()=>a(l=>n.trace(l,"downstream"))},{id:"network.to",key:"Shift+ArrowRight",title:"Trace from the selection to what is clicked next",area:r,when:o,run:()=>a(l=>n.startPick(l))},{id:"network.isolate",key:"v",title:"Isolate: valves that cut the selected unit off",area:r,when:o,run:()=>a(l=>n.isolate(l))},{id:"network.clear",key:"c",title:"End the trace or isolation",area:r,when:()=>!!n.answer||n.picking!==null||!!t.shown.marks,run:()=>n.clear()},{id:"network.sheet.fit",title:"Whole schematic",area:r,when:()=>t.shown.schematic,run:()=>this.schematic.fit()},{id:"network.sheet.selection",title:"Schematic: go to the selection",area:r,when:()=>t.shown.schematic,run:()=>this.schematic.toSelection()})}};function A(i,t={},...e){let n=document.createElement(i);for(let[s,r]of Object.entries(t))typeof r=="function"?n.addEventListener(s.slice(2),r):s==="text"?n.textContent=String(r??""):s==="value"?n.value=String(r??""):r===!0?n.setAttribute(s,""):r!==!1&&r!==null&&r!==void 0&&n.setAttribute(s,String(r));return me(n,...e),n}function me(i,...t){for(let e of t)e==null||e===!1||i.append(e instanceof Node?e:String(e))}function Nt(i,...t){i.replaceChildren(),me(i,...t)}function Hn(i,t,e=""){let n=A("span",{class:"bar-fill"});return n.style.width=`${Math.round(100*Math.max(0,Math.min(1,i)))}%`,A("span",{class:`bar ${e}`,role:"img","aria-label":t},n)}var Um="http://www.w3.org/2000/svg",NS={undo:"M9 7 4 12l5 5M4 12h10a6 6 0 0 1 0 12h-2",redo:"M15 7l5 5-5 5M20 12H10a6 6 0 0 0 0 12h2",help:"M9 9a3 3 0 1 1 4.5 2.6c-1 .6-1.5 1.1-1.5 2.4M12 18v.01",link:"M10 14a4 4 0 0 0 5.7 0l3-3a4 4 0 0 0-5.7-5.7l-1 1M14 10a4 4 0 0 0-5.7 0l-3 3a4 4 0 0 0 5.7 5.7l1-1",sun:"M12 8a4 4 0 1 0 0 8 4 4 0 0 0 0-8zM12 2v3M12 19v3M2 12h3M19 12h3M5 5l2 2M17 17l2 2M19 5l-2 2M7 17l-2 2",moon:"M20 14.5A8.5 8.5 0 0 1 9.5 4 8.5 8.5 0 1 0 20 14.5z",left:"M14 6l-6 6 6 6",right:"M10 6l6 6-6 6",search:"M11 5a6 6 0 1 0 0 12 6 6 0 0 0 0-12zM15.5 15.5 21 21",copy:"M9 9h11v11H9zM5 15H4V4h11v1",close:"M6 6l12 12M18 6 6 18",edit:"M4 20l1-5L16 4l4 4L9 19zM14 6l4 4",table:"M4 5h16v14H4zM4 10h16M4 15h16M10 5v14",drawing:"M4 12h4M16 12h4M8 8l8 8V8l-8 8z",check:"M5 12l5 5 9-10",warn:"M12 4 2.5 20h19zM12 10v5M12 17.5v.01",dot:"M12 9a3 3 0 1 0 0 6 3 3 0 0 0 0-6z"};function Mn(i){let t=document.createElementNS(Um,"svg");t.setAttribute("viewBox",i==="undo"||i==="redo"?"0 3 24 24":"0 0 24 24"),t.setAttribute("class","icon"),t.setAttribute("aria-hidden","true");let e=document.createElementNS(Um,"path");return e.setAttribute("d",NS[i]),t.append(e),t}function qe(i,t,e,n=""){return A("button",{type:"button",class:"icon-button",title:t,"aria-label":t,"data-test":n||null,onclick:e},Mn(i))}function Me(i,t){let e=A("span",{class:`swatch ${i?t:"open"}`,"aria-hidden":"true"});return i&&e.style.setProperty("--swatch",i),e}function gn(i,t,...e){return A("details",{class:"fold",open:t},A("summary",{},i),...e)}function po(i,t,e,n=""){let s=A("dialog",{class:`dialog ${n}`,"aria-label":i,"data-test":e});return me(s,A("header",{},A("h2",{},i),qe("close","Close (Esc)",()=>s.close(),"dialog-close")),A("div",{class:"dialog-body"},...t)),s.addEventListener("keydown",r=>r.stopPropagation()),s.addEventListener("click",r=>r.target===s&&s.close()),s.addEventListener("close",()=>s.remove()),document.body.append(s),s.showModal(),s}var DS=["View","Selection","Review","Network","Corrections","Help"],FS=[["Drag","Turn around the point under the pointer"],["Right or middle drag, Shift + drag","Move sideways"],["Wheel, pinch","Nearer and farther, towards the pointer"],["Click","Select a part; click it again for its whole unit"],["Ctrl + click","Add to the selection"],["Double click","Fly to a part"]];function Bm(){let i=DS.map(e=>{let n=new Map;for(let s of Gd())s.area!==e||!s.key||n.set(s.title,[...n.get(s.title)??[],OS(s.key)]);return n.size?Om(e,[...n].map(([s,r])=>[r,s])):null}),t=Om("Mouse and touch",FS.map(([e,n])=>[[e],n]));po("Keys and mouse",[A("div",{class:"help"},t,...i)],"help","wide")}function Om(i,t){let e=A("dl",{});for(let[n,s]of t)me(e,A("dt",{},...n.map(r=>A("kbd",{},r))),A("dd",{},s));return A("section",{},A("h3",{},i),e)}var US={Escape:"Esc",Backspace:"\u232B Backspace",ArrowUp:"\u2191",ArrowDown:"\u2193",ArrowLeft:"\u2190",ArrowRight:"\u2192"," ":"Space"};function OS(i){return i.replace(/(?<=^|\+)([A-Z])$/,"Shift+$1").split(/(?<=.)\+(?=.)/).map(e=>US[e]??(e.length===1?e.toUpperCase():e)).join(" + ")}var BS=["group","name","unit","system","cluster","confidence","source","original"],zS=["review","find","network","warnings","history"];function VS(i){let t=[...new Set(i)].sort((s,r)=>s-r),e=[],n=0;for(let s=0;s<t.length;){let r=s;for(;r+1<t.length&&t[r+1]===t[r]+1;)r++;let o=r-s;e.push((t[s]-n).toString(36)+(o?`-${o.toString(36)}`:"")),n=t[r],s=r+1}return e.join(".")}function Bu(i,t){let e=[],n=0;for(let s of i.split(".")){let r=/^([0-9a-z]+)(?:-([0-9a-z]+))?$/.exec(s);if(!r)continue;let o=n+parseInt(r[1],36);if(n=o+(r[2]?parseInt(r[2],36):0),n-o>t)break;for(let a=o;a<=n;a++)a<t&&e.push(a)}return e}var Vm=i=>String(Math.round(i*1e3)/1e3);function HS(i){return[...i.eye,...i.target].map(Vm).join(",")+(i.orthographic?",o":"")}function GS(i){let t=i.split(","),e=t.slice(0,6).map(Number);return e.length<6||!e.every(Number.isFinite)?null:{eye:e.slice(0,3),target:e.slice(3),orthographic:t[6]==="o"}}function zu(i,t=2e3){let e=new URLSearchParams;i.camera&&e.set("at",HS(i.camera)),i.place&&e.set("place",i.place),i.colorBy!=="group"&&e.set("by",i.colorBy),i.section&&e.set("cut",`${i.section.axis}${Vm(i.section.at)}${i.section.flipped?"!":""}`),i.leftTab!=="find"&&e.set("tab",i.leftTab),i.ghost||e.set("ghost","0");let n=[],s=(r,o,a)=>{let l=VS(o);l&&(e.set(r,l),!(zm(e).length<=t)&&(e.delete(r),n.push(a)))};return!i.place&&i.selection.length&&s("part",i.selection,"the selection"),i.isolated&&s("only",i.isolated,"which parts are isolated"),i.hidden.size&&s("hide",i.hidden,"which parts are hidden"),{fragment:zm(e),left:n.join(" and ")}}function zm(i){return i.toString().replaceAll("%2C",",").replaceAll("%21","!").replaceAll("%3A",":")}function Hm(i,t){let e=new URLSearchParams(i.replace(/^#/,"")),n=t.parts.id.length,s={},r=GS(e.get("at")??"");r&&(s.camera=r);let o=e.get("by");s.colorBy=o&&BS.includes(o)?o:"group";let a=e.get("tab");a&&zS.includes(a)&&(s.leftTab=a),s.section=WS(e.get("cut")??""),s.ghost=e.get("ghost")!=="0",s.hidden=new Set(Bu(e.get("hide")??"",n));let l=Bu(e.get("only")??"",n);s.isolated=l.length?new Set(l):null;let c=e.get("place"),h=[...t.network.units,...t.network.ends].find(u=>u.id===c);return s.place=h?.id??null,s.selection=h?h.parts:Bu(e.get("part")??"",n),s}function WS(i){let t=/^([xyz])(-?[\d.]+)(!?)$/.exec(i);return t?{axis:t[1],at:Number(t[2]),flipped:t[3]==="!"}:null}function re(i,t,e=`${t}s`){return`${ge(i)} ${i===1?t:e}`}function ge(i){return String(Math.round(i)).replace(/\B(?=(\d{3})+(?!\d))/g,",")}function ke(i){if(i===null||!Number.isFinite(i))return"not known";let t=i*100;return t>99&&i<1?"over 99 %":t<1&&i>0?"below 1 %":`${Math.round(t)} %`}function sr(i){if(i===null||!Number.isFinite(i))return"not known";let t=Math.abs(i);return t<1e-5?"0 mm":t<.01?`${(i*1e3).toFixed(1)} mm`:t<1?`${Math.round(i*1e3)} mm`:`${i.toFixed(t<10?2:1)} m`}function Wl(i){let t=Array.from(i),e=Math.max(...t.map(Math.abs))>=1;return`${t.map(s=>e?s.toFixed(2):String(Math.round(s*1e3))).join(" \xD7 ")} ${e?"m":"mm"}`}function Wm(i){return i===null||!Number.isFinite(i)?"not known":i<.01?`${(i*1e4).toFixed(i<.001?2:1)} cm\xB2`:`${i.toFixed(i<1?3:2)} m\xB2`}function Xm(i){return i===null||!Number.isFinite(i)?"not known (its surface is open)":i<.001?`${(i*1e6).toFixed(i<1e-5?2:0)} cm\xB3`:i<1?`${(i*1e3).toFixed(1)} l`:`${i.toFixed(2)} m\xB3`}var XS={read:"Reading the file",draw:"Making the picture",measure:"Measuring the parts",contacts:"Finding which parts touch",group:"Putting meshes together to parts",cluster:"Finding what stands together",label:"Telling what each part is",relate:"Following the pipes",assemble:"Writing the graph"};function Xl(i){return XS[i]??(i?hn(i):"Starting")}var $S={sure:"Sure",likely:"Likely, not sure",open:"Not known"};function $l(i){return $S[i]??i}var qS={geometry:"Told from its shape, by the built-in network.",embedded:"Told from its shape, by the built-in network.",network:"Told from the pipes around it.",catalog:"Found in a catalogue of shapes.",author:"Given by the names in the file.",file:"Given by the file.",lvlm:"Told from its picture, by a language model.",human:"Corrected by hand.",repeat:"It has the shape of a part corrected by hand.",kin:"It is much like a part corrected by hand."};function $m(i){return i===null?"Nobody has said what it is.":qS[i]??`Said by ${i}.`}var YS={ground:"Taken for the ground","unit-short-of-lines":"Units with missing lines",unlabelled:"Parts without a label",likely:"Labels that are likely, not sure","network-in-pieces":"Networks that nothing joins","end-before-part":"Pipes that end just before a part","units-touch-unjoined":"Units that touch and are not joined","line-untraced":"Lines that could not be traced","file-disagrees":"The file says otherwise","file-unknown-label":"Labels of the file that the vocabulary lacks","label-doubted":"Labels that the network doubts","label-outvoted":"Labels that their repeats outvoted","correction-lost":"Corrections that no longer fit","duplicate-mesh":"Meshes that are there twice","near-duplicate-mesh":"Meshes that are nearly there twice","empty-mesh":"Empty meshes","open-mesh":"Meshes with an open surface","one-surface":"Several parts in one surface","split-mesh":"Meshes that were split","nonfinite-vertices":"Meshes with broken points","missing-joint":"Joints that the file names and that are missing","missing-units":"The file does not say its unit of length","missing-up-axis":"The file does not say which way is up","no-centreline":"Pipes without a centre line","no-part":"Meshes that belong to no part","no-component":"Components that were not found","bridged-gap":"Gaps that were bridged","weak-bridge":"Weak joints between clusters","stated-gap":"Gaps between parts that the file joins","stated-unplaced":"Connections of the file without a place","tag-twice":"Tags that are there twice","tag-unusable":"Tags that can't be used","unit-doubt":"Units in doubt","loose-operator":"Operators without a valve","changed-path":"Meshes with another path than before",excluded:"Left out as asked","unmatched-mesh":"Meshes that match nothing"};function Vu(i){return YS[i]??i.charAt(0).toUpperCase()+i.slice(1).replaceAll("-"," ")}function ze(i,t){let e=i.parts,n=i.groups[e.group[t]];if(!n)return{name:"No label",group:"",color:null};let s=e.name[t];return{name:s?hn(s):n.name,group:s?n.name:"",color:n.color}}function hn(i){return i.charAt(0).toUpperCase()+i.slice(1)}function rr(i){return/^[a-z]+\b(?!-)/.test(i)?hn(i):i}function ys(i,t){let e=i.network.units[i.parts.unit[t]];return e?`${ze(i,t).name} of ${e.tag}`:ze(i,t).name}var Gm=new WeakMap;function Ii(i,t){let e=Gm.get(i.meshes);return e||(e=Array.from({length:i.parts.id.length},()=>[]),i.meshes.part.forEach((n,s)=>e[n]?.push(s)),Gm.set(i.meshes,e)),e[t]??[]}function or(i,t){return(i.meshes.path[Ii(i,t)[0]]??"").split("/").at(-1)??""}function Hu(i,t){let e=i.shape[t],n=[];for(let s=0;s<i.shape.length;s++)i.shape[s]===e&&n.push(s);return n}function qm(i,t=new Date){let e=new Date(i);if(!i||Number.isNaN(e.getTime()))return"earlier";let n=(t.getTime()-e.getTime())/6e4;if(n>=-1&&n<1)return"just now";if(n>=0&&n<60)return`${Math.floor(n)} min ago`;let s=`${String(e.getHours()).padStart(2,"0")}:${String(e.getMinutes()).padStart(2,"0")}`;if(e.toDateString()===t.toDateString())return s;let r=["Jan","Feb","Mar","Apr","May","Jun","Jul","Aug","Sep","Oct","Nov","Dec"],o=e.getFullYear()===t.getFullYear()?"":` ${e.getFullYear()}`;return`${e.getDate()} ${r[e.getMonth()]}${o}, ${s}`}function Gu(i){let t=Math.max(0,Math.floor(i));return t<60?`${t} s`:`${Math.floor(t/60)} min ${String(t%60).padStart(2,"0")} s`}var ZS=.1;function ar(i){let t=A("dl",{class:"lines"});for(let[e,n]of i)n&&me(t,A("dt",{},e),A("dd",{},n));return t}function Gn(i,t,e,n=""){return A("button",{type:"button",class:"link",title:t,"data-test":n||null,onclick:e},i)}function Kt(i,t,e,n="",s=""){return A("button",{type:"button",class:s||null,title:t,"data-test":n||null,"data-key":n||i,onclick:e},i)}function mo(i,t,e,n=40){let s=A("ul",{class:"rows"});for(let r of e.slice(0,n))me(s,A("li",{},Wu(i,t,r)));return e.length>n&&me(s,A("li",{class:"soft"},`and ${re(e.length-n,"more part","more parts")}: see the table`)),s}function Wu(i,t,e){let n=ze(t,e);return A("button",{type:"button",class:"row","data-test":"part-row",onclick:()=>i.go([e])},Me(n.color,t.parts.state[e]),A("span",{class:"grow"},ys(t,e)),A("span",{class:"soft"},ke(t.parts.confidence[e])))}function bs(i,t){let{store:e}=i,n=e.shown.isolated,s=n&&n.size===new Set(t).size&&t.every(r=>n.has(r));return A("div",{class:"buttons",role:"group","aria-label":"View"},Kt("Fly to","Move so that it fills the view (f)",()=>i.view?.flyTo(t),"fly"),Kt(s?"Show all":"Isolate",s?"Show the rest again":"Show only this (i)",()=>e.set({isolated:s?null:new Set(t)}),"isolate-parts"),Kt("Hide","Hide it (h)",()=>e.set({hidden:new Set([...e.shown.hidden,...t]),selection:[],place:null}),"hide"))}function Ym(){let i=A("input",{type:"text",class:"wide",maxlength:300,placeholder:"e.g. seen on P&ID 4711 sheet 2","aria-label":"Why, for the history","data-test":"why"});return{element:A("details",{class:"why"},A("summary",{},"Say why"),i,A("p",{class:"soft"},"It stands beside the correction in the history.")),value:()=>i.value.trim()}}function JS(i,t,e,n){let s=n.has(e.first)?e.second:e.first,r=c=>t.parts.id[c],o={first:r(e.first),second:r(e.second)},a=e.made?Kt("Cut","These two do not join: take the joint away",()=>{i.edit([{kind:"cut",...o}])},"cut","small"):Kt("Join","These two join: make the joint",()=>{i.edit([{kind:"join",...o}])},"join","small"),l=e.made?e.kind:`gap ${sr(e.gap)}, ${ke(e.score)} likely`;return A("li",{class:"joint"},Gn(ys(t,s),"Select both and move there",()=>i.go([e.first,e.second])),A("span",{class:"soft grow"},l),i.canEdit()&&a,e.reasons.length>0&&A("details",{class:"reasons"},A("summary",{},"reasons"),A("ul",{},...e.reasons.map(c=>A("li",{},c)))))}function lr(i,t,e){if(e.length<2)return{open:null,made:null};let n=new Set(e),s=t.network.joints.filter(a=>n.has(a.first)!==n.has(a.second)||e.length===2&&n.has(a.first)&&n.has(a.second)),r=a=>a.length?A("ul",{class:"joints"},...a.slice(0,30).map(l=>JS(i,t,l,n))):null,o=s.filter(a=>!a.made&&a.score>=ZS).sort((a,l)=>l.score-a.score);return{open:r(o),made:r(s.filter(a=>a.made))}}function Ji(i,...t){return A("div",{class:"note"},Mn("warn"),A("div",{},A("p",{},i),...t))}function Zm(i,t){return Hn(i??0,`Confidence ${ke(i)}`,t)}var KS=["camera","selection","place","colorBy","hidden","isolated","ghost","section","leftTab"],ql=class{page;due=0;written="";constructor(t){this.page=t}start(){location.hash.length>1&&this.read(location.hash),this.page.store.watch([...KS],()=>{clearTimeout(this.due),this.due=window.setTimeout(()=>this.write(),300)}),addEventListener("hashchange",()=>{location.hash.slice(1)!==this.written&&this.read(location.hash)})}read(t){let{store:e}=this.page;e.content&&e.set(Hm(t,e.content))}write(){let{fragment:t}=zu(this.page.store.shown);if(t!==this.written){this.written=t;try{history.replaceState(history.state,"",`#${t}`)}catch{}}}open(){let{store:t,source:e}=this.page;this.page.view&&t.set({camera:this.page.view.getCamera()});let{fragment:n,left:s}=zu(t.shown),r=t.state?.folder||"the folder",o=t.content?.title??"the plant",a=e.live?`View of ${o}. Run: cadgraph view ${r}
+Then press k there and paste this link:
+#${n}`:`${location.href.split("#")[0]}#${n}`,l=A("input",{type:"text",class:"wide",placeholder:"Paste a link: #at=\u2026","aria-label":"Link to go to","data-test":"link-input"}),c=A("textarea",{readonly:!0,rows:5,class:"wide","aria-label":"Link","data-test":"link-text"},a),h=()=>{let f=l.value.indexOf("#");if(f<0)return void(u.textContent="A link has a \u201C#\u201D, and what is shown after it.");d.close(),this.read(l.value.slice(f).split(/\s/)[0])},u=A("p",{class:"trouble",role:"alert"});l.addEventListener("keydown",f=>f.key==="Enter"&&h());let d=po("Link to this view",[A("p",{},e.live?"For a colleague who has the folder: camera, selection, colours, section and what is hidden go with it. It holds no key to this page.":"This file and what is shown of it: send the file along."),c,s?A("p",{class:"trouble","data-test":"link-left"},`Too many parts for a link: ${s} did not go into it.`):null,A("div",{class:"buttons"},Kt("Copy","Copy the link",()=>{this.copy(a)},"link-copy","main"),e.live?Kt("Copy this page's address","Works on this computer while this server runs; it holds the key to the plant, so don't send it",()=>{this.copy(`${location.href.split("#")[0]}#${n}`)},"address-copy"):null),A("h3",{},"Go to a link"),A("div",{class:"spread"},l,Kt("Go","Show what the link shows",h,"link-go")),u].filter(f=>f!==null),"link");d.querySelector("[data-test=link-copy]")?.focus()}async copy(t){try{await navigator.clipboard.writeText(t),this.page.say("Copied.","good")}catch{this.page.say("The browser does not let the page copy: select the text and press Ctrl+C.","bad")}}};var Yl=class{element=A("section",{class:"building","data-test":"building","aria-label":"Progress",hidden:!0});started=Date.now();stage=A("p",{class:"building-stage","data-test":"building-stage",role:"status"});fillBar=A("span",{class:"bar-fill"});progress=A("div",{class:"bar big",role:"progressbar","aria-valuemin":"0","aria-valuemax":"100","aria-label":"Progress"},this.fillBar);time=A("p",{class:"soft","data-test":"building-time"});strip=A("p",{class:"making-ready",role:"status","data-test":"making-ready",hidden:!0});steps=A("ol",{class:"steps"});step="";stepped=Date.now();timer=0;showing="";show(t,e,n=""){let s=t?.status==="failed";if(this.strip.hidden=!e||t?.status!=="building",this.strip.hidden||this.say(`${Xl(t.stage)}\u2026 Corrections can be made when this is done.`),(t?.status==="ready"||e&&!s)&&!n){clearInterval(this.timer),this.timer=0,this.showing="",this.element.hidden=!0;return}this.element.hidden=!1;let r=n?"trouble":s?"failed":"building";r!==this.showing&&(this.showing=r,r==="building"?this.layOut(t?.title??""):this.layOutFailed(r==="failed"?"The plant could not be built":"No answer from cadgraph",n||t?.message||"")),r==="building"&&this.update(t)}layOut(t){let e=A("div",{class:"card"},A("p",{class:"brand"},"cadgraph"),A("h1",{},t?`Reading ${t}`:"Reading the plant"),this.steps,this.stage,this.progress,this.time);Nt(this.element,e),this.timer||=window.setInterval(()=>this.tick(),1e3),this.tick()}layOutFailed(t,e){clearInterval(this.timer),this.timer=0,Nt(this.element,A("div",{class:"card",role:"alert"},A("p",{class:"brand"},"cadgraph"),A("h1",{},t),A("p",{class:"building-message","data-test":"building-message"},e),A("p",{class:"soft"},"What went wrong stands in the terminal, too. Put it right there and start 'cadgraph view' again.")))}say(t){this.strip.textContent!==t&&(this.strip.textContent=t)}update(t){let e=Math.max(0,Math.min(1,t?.share??0)),n=[Xl(t?.stage??""),t?.message].filter(Boolean).join(": ");this.progress.classList.toggle("unknown",e===0),this.stage.textContent!==n&&(this.stage.textContent=n),this.stepOn(t?.stage??""),this.fillBar.style.width=`${100*e}%`,this.progress.setAttribute("aria-valuenow",String(Math.round(100*e))),this.progress.setAttribute("aria-valuetext",`${n}, ${ke(e)}`)}stepOn(t){if(t===this.step)return;let e=Date.now();this.step&&this.steps.append(A("li",{},A("span",{},`\u2713 ${Xl(this.step)}`),A("span",{class:"number"},Gu((e-this.stepped)/1e3)))),this.step=t,this.stepped=e}tick(){this.time.textContent=`${Gu((Date.now()-this.started)/1e3)} so far`}};function Jm(i,t,e){let n=new Map(t.parts.id.map((l,c)=>[l,c])),s=new Map(e.meshes.path.map((l,c)=>[l,c])),r=!1,o=l=>{let c=n.get(l),h=c===void 0?void 0:Ii(t,c)[0],u=h===void 0?void 0:e.meshes.part[s.get(t.meshes.path[h])??-1];return(u===void 0||u<0)&&(r=!0),e.parts.id[u??-1]??l},a=i.map(l=>{switch(l.kind){case"label":case"forget":case"ground":return{...l,part:o(l.part)};case"merge":case"split":return{...l,parts:l.parts.map(o)};case"join":case"cut":return{...l,first:o(l.first),second:o(l.second)};case"direction":return{...l,via:l.via.map(o)};case"tag":return l}});return r?null:a}var Zl=class{store;source;say;chain=Promise.resolve();anew=!0;refusal="";constructor(t,e,n){this.store=t,this.source=e,this.say=n}async edit(t,e=""){if(!t.length)return!0;let n=o=>this.source.edit(o,t,e),s=this.store.content,r=()=>{let o=s&&this.store.content&&Jm(t,s,this.store.content);o?this.edit(o,e):this.say("What you corrected is no more in the plant as it is now.","bad")};return await this.send(n,{repeat:r})!==null}async undo(){return await this.send(t=>this.source.undo(t),{back:"Redo"})!==null}async redo(){return await this.send(t=>this.source.redo(t))!==null}async answer(t,e){let n=typeof e=="object"?e.edits:typeof e=="number"?t.options[e].edits:[],s=this.store.content?.version,r=await this.send(a=>n.length?this.source.edit(a,n,t.title):this.source.answer(a,t.id,typeof e=="object"?"unsure":e),{quiet:!0}),o=r&&r.version!==s?r.version:null;return{ok:r!==null,version:o,message:r===null?void 0:rr(r.message)}}takeBack(t){return this.revert("Undo",t)}async revert(t,e){return this.store.state?.version===e?t==="Undo"?this.undo():this.redo():(this.say("Something else was corrected since; the buttons above and the list under History go back step by step.","bad"),!1)}heard(t){let e=this.store.state;!this.anew&&e&&t.version<e.version||(this.anew=!1,this.store.setState(t),!(t.status==="failed"||!this.store.content)&&this.inTurn(async()=>{let{content:n,state:s}=this.store;!n||!s||s.version===n.version||s.status==="failed"||(await this.fetch(),s.status==="ready"&&this.say(`Changed in another window${s.undo?`: ${s.undo}`:""}. The plant is shown as it is now.`))}).catch(n=>this.told(n)))}lost(){this.anew=!0}async fetch(){this.store.setContent(await this.source.content())}inTurn(t){let e=this.chain.then(t);return this.chain=e.catch(()=>{}),e}send(t,{repeat:e,back:n="Undo",quiet:s=!1}={}){return this.inTurn(async()=>{this.refusal="";try{let r=await t(this.store.content?.version??0),o=r.version!==this.store.content?.version;if(this.store.apply(r)||await this.fetch(),r.message&&!s){let a=n==="Undo"?r.state.can_undo:r.state.can_redo,l={text:n,run:()=>{this.revert(n,r.version)}};this.say(rr(r.message),"good",o&&a?[l]:[])}return r}catch(r){return await this.refused(r,e),null}})}async refused(t,e){if(!(t instanceof yn)||t.status!==409){this.told(t);return}let n=e?[{text:"Do mine as well",run:e}]:[];t.state&&this.store.setState(t.state);try{await this.fetch(),this.say("Another window was quicker: its correction is shown now, yours was not taken.","bad",n)}catch(s){this.told(s)}}told(t){if(!(t instanceof yn))throw t;this.refusal=rr(t.message);let e={423:"Still building: ",507:"Nothing was changed: "}[t.status]??"";this.say(e+(e?t.message:this.refusal),"bad"),t.state&&this.store.setState(t.state)}};function jS(i){let t={words:[],bores:[],lengths:[]},e=i.toLowerCase().replace(/\bdn\s*(\d+)\b/g,(n,s)=>(t.bores.push(Number(s))," ")).replace(/(^|\s)(\d+(?:[.,]\d+)?)\s*(mm|cm|m)(?=\s|$)/g,(n,s,r,o)=>{let a=Number(r.replace(",","."))*{mm:.001,cm:.01,m:1}[o],l=Math.max(.02*a,6e-4);return t.lengths.push({low:a-l,high:a+l}),s});return t.words=e.split(/\s+/).filter(Boolean),t}var Jl=class{content;names=[];paths;bores=new Map;constructor(t){this.content=t,this.paths=tM(t);let{parts:e,groups:n,network:s}=t,r=new Map;for(let o=0;o<e.id.length;o++){let a=`${e.group[o]}|${e.name[o]??""}|${e.unit[o]}`,l=r.get(a);l===void 0&&(l=[e.name[o],n[e.group[o]]?.name??"no label",s.units[e.unit[o]]?.tag].filter(Boolean).join(" ").toLowerCase(),r.set(a,l)),this.names.push(l)}for(let o of s.connections)if(o.size!==null)for(let a of o.via){let l=this.bores.get(a);l?l.includes(o.size)||l.push(o.size):this.bores.set(a,[o.size])}}find(t,e=200){let n=jS(t);if(!n.words.length&&!n.bores.length&&!n.lengths.length)return{units:[],lines:[],parts:[],totals:{units:0,lines:0,parts:0}};let r=this.rank(this.content.network.units.length,l=>this.unit(l,n),e),o=this.rank(this.content.network.lines.length,l=>this.line(l,n),e),a=this.rank(this.content.parts.id.length,l=>this.part(l,n),e);return{units:r.best,lines:o.best,parts:a.best,totals:{units:r.total,lines:o.total,parts:a.total}}}rank(t,e,n){let s=[[],[],[],[]],r=0;for(let o=0;o<t;o++){let a=e(o);a<0||(r++,s[a].length<n&&s[a].push(o))}return{best:s.flat().slice(0,n),total:r}}unit(t,e){let n=this.content.network.units[t];if(e.bores.length&&!e.bores.every(o=>n.ports.some(a=>QS(a.diameter,o)))||!e.lengths.every(o=>n.size.some(a=>go(a,o))))return-1;let s=n.tag.toLowerCase(),r=n.facts.map(([,o])=>o).join(" ");return Xu(s,`${s} ${n.type} ${n.kind??""} ${n.id} ${r}`.toLowerCase(),"",e.words)}line(t,e){let n=this.content.network.lines[t],s=n.size.split(/[^\d.]+/).map(Number);if(!e.bores.every(o=>s.includes(o))||!e.lengths.every(o=>n.length!==null&&go(n.length,o)))return-1;let r=n.tag.toLowerCase();return Xu(r,`${r} line`,"",e.words)}part(t,e){if(e.bores.length&&!e.bores.every(s=>this.bores.get(t)?.includes(s)))return-1;let n=this.content.parts.extents;for(let s of e.lengths)if(!go(n[3*t],s)&&!go(n[3*t+1],s)&&!go(n[3*t+2],s))return-1;return Xu(this.names[t],this.names[t],`${this.content.parts.id[t]} ${this.paths[t]}`,e.words)}};function Xu(i,t,e,n){if(!n.length)return 2;let s=!0;for(let r of n)if(!t.includes(r)&&(s=!1,!e.includes(r)))return-1;return s?i.startsWith(n.join(" "))?0:n.every(r=>t.startsWith(r)||t.includes(` ${r}`))?1:2:3}var go=(i,t)=>i>=t.low&&i<=t.high,QS=(i,t)=>i!==null&&Math.abs(i*1e3-t)<=.15*t,Km=new WeakMap;function tM(i){let t=Km.get(i.meshes);return t||(t=i.parts.id.map((e,n)=>Ii(i,n).map(s=>i.meshes.path[s]).join(" ").toLowerCase()),Km.set(i.meshes,t)),t}var cr=(i,t)=>Number(i.toFixed(t));function $u(i,t){return{parts:eM,units:nM,lines:iM}[t](i)}function eM(i){let{parts:t,groups:e,network:n}=i,s=new Map;for(let o of t.shape)s.set(o,(s.get(o)??0)+1);let r=rM(i);return[{key:"name",title:"Label",width:13,of:o=>t.name[o]??""},{key:"group",title:"Group",width:13,of:o=>e[t.group[o]]?.name??"no label"},{key:"sure",title:"How sure",width:10,of:o=>$l(t.state[o]).split(",")[0]},{key:"confidence",title:"Conf. %",width:7,number:!0,of:o=>t.confidence[o]===null?null:cr(100*t.confidence[o],1)},{key:"source",title:"Said by",width:9,of:o=>t.source[o]??""},{key:"unit",title:"Unit",width:9,of:o=>n.units[t.unit[o]]?.tag??""},{key:"system",title:"System",width:11,of:o=>n.systems[r(o)]?.id??""},{key:"length",title:"Length m",width:8,number:!0,of:o=>cr(t.extents[3*o],4)},{key:"repeats",title:"Alike",width:6,number:!0,of:o=>s.get(t.shape[o])??1},{key:"triangles",title:"Triangles",width:8,number:!0,of:o=>t.n_triangles[o]},{key:"id",title:"Part",width:10,of:o=>t.id[o]},{key:"path",title:"Path in the file",width:26,of:o=>Ii(i,o).map(a=>i.meshes.path[a]).join(" ")}]}function nM(i){let{units:t,systems:e}=i.network;return[{key:"tag",title:"Tag",width:12,of:n=>t[n].tag},{key:"type",title:"Type",width:10,of:n=>t[n].type},{key:"kind",title:"Kind",width:15,of:n=>t[n].kind??"not known"},{key:"system",title:"System",width:11,of:n=>e[t[n].system]?.id??""},{key:"ports",title:"Ports",width:7,number:!0,of:n=>t[n].ports.length},{key:"missing",title:"Missing lines",width:10,number:!0,of:n=>t[n].missing},{key:"parts",title:"Parts",width:7,number:!0,of:n=>t[n].parts.length},{key:"x",title:"x m",width:8,number:!0,of:n=>cr(t[n].point[0]+i.origin[0],3)},{key:"y",title:"y m",width:8,number:!0,of:n=>cr(t[n].point[1]+i.origin[1],3)},{key:"z",title:"z m",width:8,number:!0,of:n=>cr(t[n].point[2]+i.origin[2],3)}]}function iM(i){let{lines:t,systems:e}=i.network,n=sM(i);return[{key:"tag",title:"Line",width:12,of:s=>t[s].tag},{key:"size",title:"DN",width:8,of:s=>t[s].size},{key:"length",title:"Length m",width:9,number:!0,of:s=>t[s].length===null?null:cr(t[s].length,3)},{key:"start",title:"From",width:13,of:s=>n(t[s].start)},{key:"end",title:"To",width:13,of:s=>n(t[s].end)},{key:"flow",title:"Flow",width:9,of:s=>t[s].flow==="none"?"not known":t[s].flow},{key:"system",title:"System",width:11,of:s=>e[t[s].system]?.id??""}]}function sM(i){let t=new Map;for(let e of i.network.units)t.set(e.id,e.tag);for(let e of i.network.ends)t.set(e.id,e.name);return e=>t.get(e)??e}function rM(i){let{units:t,ends:e,connections:n,lines:s}=i.network,r=new Map;for(let o of s)for(let a of o.connections)for(let l of n[a].via)r.set(l,o.system);for(let o of[...e,...t])if(o.system>=0)for(let a of o.parts)r.set(a,o.system);return o=>r.get(o)??-1}function Ki(i,t,e){if(t==="parts")return[e];if(t==="units")return i.network.units[e].parts;let{connections:n,lines:s}=i.network;return[...new Set(s[e].connections.flatMap(r=>n[r].via))]}function oM(i,t){let e=aM(i,t.section);return n=>!t.hidden.has(n)&&(!t.isolated||t.isolated.has(n))&&!e(n)}function aM(i,t){if(!t)return()=>!1;let e="xyz".indexOf(t.axis),{center:n,size:s}=i.parts;return r=>{let o=n[3*r+e],a=s[3*r+e]/2;return t.flipped?o+a<t.at:o-a>t.at}}function jm(i,t,e,n=$u(i,e.kind)){let s={parts:i.parts.id,units:i.network.units,lines:i.network.lines}[e.kind].length,r=oM(i,t),o=new Set(t.selection),a=e.text.toLowerCase().split(/\s+/).filter(Boolean),l=[];for(let h=0;h<s;h++)e.scope==="seen"&&!Ki(i,e.kind,h).some(r)||e.scope==="selected"&&!Ki(i,e.kind,h).some(u=>o.has(u))||a.length&&!lM(n,h,a)||l.push(h);let c=n.find(h=>h.key===e.sort);return c&&(l=hM(l,c,e.descending)),l}function lM(i,t,e){let n=i.map(s=>s.of(t)??"").join(" ").toLowerCase();return e.every(s=>n.includes(s))}var cM=new Intl.Collator("en",{numeric:!0,sensitivity:"base"});function hM(i,t,e){let n=new Map(i.map(a=>[a,t.of(a)])),s=e?-1:1,r=t.number?null:uM([...new Set(n.values())]),o=a=>r?r.get(n.get(a)):n.get(a);return i.sort((a,l)=>{let[c,h]=[n.get(a),n.get(l)];return+(c===null||c==="")-+(h===null||h==="")||s*((o(a)??0)-(o(l)??0))||a-l})}function uM(i){return new Map(i.sort((t,e)=>cM.compare(t??"",e??"")).map((t,e)=>[t,e]))}function qu(i,t){return re(t,{parts:"part",units:"unit",lines:"line"}[i])}var Qm=new WeakMap;function dM(i){let t=Qm.get(i);return t||Qm.set(i,t=new Jl(i)),t}function Yu(i,t,e,n,s){let r=A("div",{class:"found",role:"listbox",id:`${t}-list`,"aria-label":"Found","data-test":`${t}-list`}),o=A("span",{class:"only-read",role:"status"}),a=[],l=-1,c=0,h=A("input",{type:"search",id:t,placeholder:"Find a tag, label, DN80, 0.5 m, path\u2026",role:"combobox",autocomplete:"off",spellcheck:"false","aria-expanded":"false","aria-controls":`${t}-list`,"aria-label":"Find tags, labels, sizes, paths","data-test":t,oninput:()=>{clearTimeout(c),c=window.setTimeout(()=>f(h.value),60)},onkeydown:m=>{if(m.key==="Escape"&&h.value)f(""),m.stopPropagation();else if(m.key==="ArrowDown")d(l+1);else if(m.key==="ArrowUp")d(l-1);else if(m.key==="Enter")clearTimeout(c),u!==h.value&&f(h.value),a[Math.max(l,0)]?.take();else return;m.preventDefault()}}),u="";function d(m){a[l]?.element.setAttribute("aria-selected","false"),l=a.length?(m+a.length)%a.length:-1,a[l]?.element.setAttribute("aria-selected","true"),a[l]?.element.scrollIntoView({block:"nearest"}),h.setAttribute("aria-activedescendant",a[l]?.element.id??"")}function f(m){let{content:g}=i.store;if(!g)return;h.value!==m&&(h.value=m),u=m,a=[],l=-1;let y=dM(g).find(m,Math.max(e.units,e.lines,e.parts));Nt(r);for(let _ of["unit","line","part"])p(g,y,_);let{totals:w}=y,v=w.units+w.lines+w.parts;m.trim()&&!v&&me(r,A("p",{class:"empty"},`Nothing holds \u201C${m.trim()}\u201D. Tags, labels, paths, part ids, sizes such as DN80 or 350 mm can be found.`)),s&&v&&b(`All ${ge(v)} in the Find tab`,null,"",()=>s(m)),h.setAttribute("aria-expanded",String(v>0)),o.textContent=m.trim()?`${ge(v)} found`:"",a.length&&d(0)}function p(m,g,y){let w=`${y}s`,v=g[w].slice(0,e[w]);if(v.length){me(r,A("h3",{role:"presentation"},re(g.totals[w],y)));for(let _ of v){let{title:E,detail:x,swatch:S}=fM(m,y,_);b(E,S,x,()=>{n(),y==="unit"?i.go(m.network.units[_].parts,m.network.units[_].id):i.go(Ki(m,w,_))})}g.totals[w]>v.length&&!s&&me(r,A("p",{class:"soft"},`and ${ge(g.totals[w]-v.length)} more: the table lists them all`))}}function b(m,g,y,w){let v=A("div",{role:"option",class:"option",id:`${t}-${a.length}`,"aria-selected":"false","data-test":"found",onclick:w},g,A("span",{class:"grow"},m),A("span",{class:"soft"},y));v.addEventListener("pointerdown",_=>_.preventDefault()),a.push({element:v,take:w}),me(r,v)}return i.store.on("content",()=>u&&r.offsetParent&&f(u)),r.append(o),{input:h,list:r,search:f}}function fM(i,t,e){if(t==="unit"){let n=i.network.units[e],s=i.groups.find(r=>r.unit===n.type)?.color??null;return{title:n.tag,detail:n.kind??n.type,swatch:Me(s,n.kind?"sure":"likely")}}if(t==="line"){let n=i.network.lines[e];return{title:n.tag,detail:[n.size&&`DN ${n.size}`,n.length!==null&&sr(n.length)].filter(Boolean).join(", "),swatch:null}}return{title:ys(i,e),detail:or(i,e),swatch:Me(ze(i,e).color,i.parts.state[e])}}var Kl=class{element=A("div",{class:"find"});field;constructor(t){this.field=Yu(t,"find",{units:100,lines:100,parts:200},()=>{});let e=A("div",{class:"empty hints"},A("p",{},"Search the whole plant:"),A("ul",{},...[["V-0","tags of units and lines"],["gate valve","labels and kinds"],["DN80","what runs in a nominal size"],["350 mm","parts with a side of that length"],["Geo_0004","paths and names of the file, part ids"]].map(([n,s])=>A("li",{},A("button",{type:"button",class:"link",onclick:()=>{this.field.search(n),this.field.input.focus()}},n),A("span",{class:"soft"},s)))),A("p",{class:"soft"},"Arrow keys choose, Enter selects and moves there."));this.element.append(this.field.input,this.field.list,e),t.store.watch(["leftTab"],()=>{t.store.shown.leftTab==="find"&&this.field.input.value&&this.field.search(this.field.input.value)})}open(t){this.field.search(t),this.field.input.focus()}};var jl=class{element=A("div",{class:"history","data-test":"history"});page;version=-1;rows=[];trouble="";constructor(t){this.page=t,t.store.watch(["leftTab"],()=>this.refresh()),t.store.on("state",()=>this.refresh())}refresh(){let{state:t,shown:e}=this.page.store;e.leftTab!=="history"||!t||(this.draw(),t.version!==this.version&&(this.version=t.version,this.page.source.audit().then(n=>{this.rows=n,this.trouble="",this.draw()},n=>{this.version=-1,this.trouble=n.message,this.draw()})))}draw(){let{state:t}=this.page.store;if(!t)return;let e=this.page.canEdit();Nt(this.element,t.lost.length>0&&Ji(`${re(t.lost.length,"correction no longer fits","corrections no longer fit")} this model:`,A("ul",{"data-test":"lost"},...t.lost.map(n=>A("li",{},n)))),e&&A("div",{class:"buttons"},this.step("undo","Undo",t.can_undo,t.undo),this.step("redo","Redo",t.can_redo,t.redo)),this.trouble&&A("p",{class:"trouble"},this.trouble),this.rows.length?A("ol",{class:"audit"},...this.rows.map(n=>this.row(n))):A("p",{class:"empty"},this.page.source.live?"Nothing was corrected yet. What you correct is listed here: who, when, what and why.":"This file holds no history; it is kept in the plant's folder."))}step(t,e,n,s){let r=Kt(e,s?`${e}: ${s}`:`Nothing to ${t}`,()=>{this.page[t]()},`history-${t}`);return r.disabled=!n,r.prepend(Mn(t)),r}row(t){let e=A("time",{datetime:t.when||null,title:t.when?new Date(t.when).toLocaleString():"The time was not kept"},qm(t.when));return A("li",{class:t.undone?"undone":"","data-test":"audit"},t.undone?A("s",{},t.what):A("span",{},t.what),t.undone&&A("span",{class:"badge"},"undone"),t.why&&A("p",{class:"audit-why"},t.why),A("p",{class:"soft"},t.who||"somebody",", ",e))}};var Ql=!1;function tg(i,t,e,n,s){Nt(n,A("div",{class:"title"},A("div",{class:"grow"},A("h2",{"data-test":"many"},`${re(e.length,"part")} selected`))),pM(i,t,e),i.canEdit()&&mM(i,t,e),bs(i,e));let r=e.length<=50?lr(i,t,e):{open:null};Nt(s,r.open&&Ji("They may join what they were not joined to:",r.open),gn("Parts",!0,mo(i,t,e)))}function pM(i,t,e){let{parts:n}=t,s=new Map;for(let a of e){let l=`${n.group[a]}|${n.name[a]}`,c=s.get(l);c?c.push(a):s.set(l,[a])}let r=[...s.values()].sort((a,l)=>l.length-a.length),o=r.slice(0,12).map(a=>{let l=ze(t,a[0]);return A("li",{},A("button",{type:"button",class:"row",title:"Select only these",onclick:()=>i.store.select(a)},Me(l.color,l.color?"sure":"open"),A("span",{class:"grow"},l.name),Hn(a.length/e.length,ke(a.length/e.length)),A("span",{class:"number"},ge(a.length))))});return A("ul",{class:"rows","aria-label":"Labels among them"},...o,r.length>12&&A("li",{class:"soft"},`and ${re(r.length-12,"more label","more labels")}`))}function mM(i,t,e){let{parts:n}=t,s=l=>{let c=new Set,h=[];for(let u of e)Ql&&c.has(n.shape[u])||(c.add(n.shape[u]),h.push({kind:"label",part:n.id[u],...l,this_only:!Ql}));i.edit(h)},r=e.map(l=>n.id[l]),o=new Set(e.map(l=>n.unit[l])),a=o.size===1&&!o.has(-1)?t.network.units[[...o][0]]:null;return A("section",{class:"correct","aria-label":"Correct them"},A("div",{class:"buttons"},Kt("Label them all\u2026","Choose one label for all of them (l)",()=>i.pickLabel(`What are these ${ge(e.length)} parts?`,[],s),"label-all","main"),Kt("Merge as one unit","They are one unit together",()=>{i.edit([{kind:"merge",parts:r}])},"merge-all"),a&&e.length<a.parts.length&&Kt(`Split off ${a.tag}`,"They are a unit of their own",()=>{i.edit([{kind:"split",parts:r}])},"split-all"),e.length===2&&Kt("Join these two","They join along the pipes",()=>{i.edit([{kind:"join",first:r[0],second:r[1]}])},"join-two")),A("label",{class:"check"},A("input",{type:"checkbox",checked:Ql,onchange:l=>Ql=l.target.checked}),"and all other parts of the same shapes"))}var xo=!1,eg=-1;function ng(i,t,e,n,s){e!==eg&&(xo=!1),eg=e,Nt(n,gM(t,e),xM(t,e),i.canEdit()&&vM(i,t,e),bs(i,[e])),Nt(s,gn("About this part",!0,bM(i,t,e)),wM(t,e),i.source.live&&SM(i,t,e),i.canEdit()&&gn("More corrections",!1,TM(i,t,e)))}function gM(i,t){let e=ze(i,t);return A("div",{class:"title"},Me(e.color,i.parts.state[t]),A("div",{class:"grow"},A("h2",{"data-test":"part-name"},e.name),A("p",{class:"soft"},[e.group,i.parts.ground[t]?"ground":""].filter(Boolean).join(" \xB7 ")||"Nothing is known of it yet")))}function xM(i,t){let{state:e,confidence:n,source:s}=i.parts;return A("div",{class:"sureness"},A("div",{class:"spread"},A("b",{class:`state ${e[t]}`,"data-test":"part-state"},$l(e[t])),A("span",{class:"number"},n[t]===null?"":ke(n[t]))),Zm(n[t],e[t]),A("p",{class:"soft"},$m(s[t])))}function vM(i,t,e){let{parts:n,groups:s}=t,r=Hu(n,e),o=Ym(),a=d=>{let f={kind:"label",part:n.id[e],...d,this_only:xo};i.edit([f],o.value())},l=n.guesses[e].filter(([d])=>s[d]),c=(d,f)=>d===n.group[e]&&f===n.name[e],h=A("div",{class:"guesses",role:"group","aria-label":"What it may be"});for(let[d,f,p]of l){let b=c(d,f);me(h,A("button",{type:"button",class:b?"guess now":"guess","data-test":"guess","data-key":`guess-${d}-${f}`,title:b?"It is labelled so: click to confirm it":`Label it so${xo?"":`, and all ${ge(r.length)} like it`}`,onclick:()=>a({group:s[d].name,name:f})},Me(s[d].color,"sure"),A("span",{class:"grow"},hn(f??s[d].name)),b&&A("span",{class:"tick"},"\u2713 now"),A("span",{class:"number"},ke(p))))}let u=l.map(([d,f])=>({group:s[d].name,name:f}));return me(h,A("button",{type:"button",class:"guess other","data-test":"other-label","data-key":"other-label",title:"Choose any label of the vocabulary (l)",onclick:()=>i.pickLabel(`What is this ${ze(t,e).name.toLowerCase()}?`,u,a)},"Other\u2026")),A("section",{class:"correct","aria-label":"Correct the label"},A("h3",{},n.state[e]==="sure"?"Wrong? Click what it is":"What is it?"),h,r.length>1?yM(r.length):A("p",{class:"soft"},"No other part has its shape."),n.source[e]==="human"&&Kt("Take my correction back","The label it would have without your correction",()=>{i.edit([{kind:"forget",part:n.id[e]}])},"forget"),o.element)}function yM(i){let t=(e,n,s)=>A("label",{},A("input",{type:"radio",name:"reach",checked:xo===e,"data-test":s,onchange:()=>xo=e}),n);return A("fieldset",{class:"reach"},A("legend",{class:"only-read"},"For which parts"),t(!1,`Same for all ${ge(i)} like it`,"all-alike"),t(!0,"This part only","this-only"))}function bM(i,t,e){let{parts:n,network:s}=t,r=s.units[n.unit[e]],o=s.systems[r?.system??-1],a=s.clusters[n.cluster[e]],l=()=>n.cluster.flatMap((h,u)=>h===n.cluster[e]?[u]:[]),c=Hu(n,e);return A("div",{},ar([["Unit",r&&Gn(`${r.tag} (${r.kind??r.type})`,"Select the whole unit",()=>i.go(r.parts,r.id),"to-unit")],["System",o&&Gn(o.id,"Select all units of the system",()=>i.go(o.units.flatMap(h=>s.units[h].parts)))],["Cluster",a&&Gn(`${a.kind??a.id}, ${re(a.n_parts,"part")}`,"Select the cluster",()=>i.go(l()))],["Alike",c.length>1?Gn(re(c.length,"part"),"Select all parts of this shape",()=>i.go(c),"select-alike"):"no other part"],["Size",Wl(n.extents.slice(3*e,3*e+3))],["Area, volume",`${Wm(n.area[e])}, ${Xm(n.volume[e])}`],["Triangles",ge(n.n_triangles[e])],["Inside of",n.inside[e]>=0?Wu(i,t,n.inside[e]):null],["Part",n.id[e]]]),_M(i,t,e))}function _M(i,t,e){let n=Ii(t,e).map(r=>t.meshes.path[r]),s=()=>navigator.clipboard.writeText(n.join(`
+`)).then(()=>i.say("Copied the path."),()=>i.say("The browser does not let the page copy; select the text instead.","bad"));return A("div",{class:"paths"},A("div",{class:"spread"},A("span",{class:"soft"},n.length>1?`In the file (${re(n.length,"mesh","meshes")})`:"In the file"),qe("copy","Copy the path",s,"copy-path")),...n.slice(0,20).map(r=>A("code",{},r)),n.length>20&&A("p",{class:"soft"},`and ${ge(n.length-20)} more`))}function wM(i,t){let e=i.parts.facts[t];return e.length?gn("What the file says",!0,ar(e.map(([n,s])=>[hn(n),s]))):null}function SM(i,t,e){return Zu("Why this label?",()=>i.source.explain("part",t.parts.id[e]))}function Zu(i,t){let e=A("div",{class:"explain","data-test":"explain","aria-live":"polite"}),n=gn(i,!1,e);return n.addEventListener("toggle",()=>{!n.open||e.childElementCount||(Nt(e,A("p",{class:"soft"},"Asking\u2026")),t().then(s=>Nt(e,s.length?MM(s):A("p",{class:"soft"},"Nothing is known.")),s=>Nt(e,A("p",{class:"soft"},s.message))))}),n}function MM(i){return ar(i.map(t=>{let[e,...n]=t.trim().split(/\s{2,}/);return n.length?[hn(e),n.join(" ")]:["",e]}))}function TM(i,t,e){let{parts:n,network:s}=t,r=n.id[e],o=s.units[n.unit[e]],a=n.ground[e];return A("div",{class:"buttons stack"},o&&o.parts.length>1&&Kt(`Split off ${o.tag}`,"This part is a unit of its own",()=>{i.edit([{kind:"split",parts:[r]}])},"split"),Kt("Merge with what I click next","Both are one unit",()=>i.pickNext("Click the part or unit that belongs to the same unit",l=>{l!==e&&i.edit([{kind:"merge",parts:[r,n.id[l]]}])}),"merge"),Kt("Join with what I click next","Both join along the pipes",()=>i.pickNext("Click the part that it joins",l=>{l!==e&&i.edit([{kind:"join",first:r,second:n.id[l]}])}),"join-next"),Kt(a?"It is not the ground":"It is the ground",a?"Count it among the plant again":"Leave it out of clusters, as ground or floor",()=>{i.edit([{kind:"ground",part:r,ground:!a}])},"ground"))}function ig(i,t,e,n,s){let r=t.network.units.indexOf(e),o=t.groups.find(c=>c.unit===e.type)?.color??null;Nt(n,A("div",{class:"title"},Me(o,e.kind?"sure":"likely"),EM(i,e)),AM(e),CM(i,t,e),bs(i,e.parts),PM(i,e));let a=lr(i,t,e.parts),l=t.network.systems[e.system];Nt(s,!e.missing&&a.open&&Ji("It may join what it was not joined to:",a.open),gn("About this unit",!0,ar([["System",l&&Gn(`${l.id}, ${re(l.units.length,"unit")}`,"Select all units of the system",()=>i.go(l.units.flatMap(c=>t.network.units[c].parts)))],["Size",Wl(e.size)],["Place",e.point.map((c,h)=>(c+t.origin[h]).toFixed(2)).join(", ")+" m"],...e.facts.map(([c,h])=>[hn(c),h]),["Unit",e.id]])),gn(`Ports (${e.ports.length})`,e.ports.length<5,RM(e)),gn(`Parts (${e.parts.length})`,e.parts.length<13,mo(i,t,e.parts)),i.source.live&&Zu("Why this unit?",()=>i.source.explain("unit",e.id)),a.made&&gn("Joints",!1,a.made),i.canEdit()&&gn("More corrections",!1,IM(i,t,e,r)))}function EM(i,t){let e=A("div",{class:"grow tag-line"}),n=()=>Nt(e,A("div",{class:"spread"},A("h2",{"data-test":"unit-tag"},t.tag),i.canEdit()&&qe("edit","Change the tag",s,"edit-tag"))),s=()=>{let r=A("input",{type:"text",value:t.tag,maxlength:80,"aria-label":"Tag","data-test":"tag-input",spellcheck:"false"}),o=A("p",{class:"trouble",role:"alert"}),a=async()=>{let l=r.value.trim();if(l===t.tag)return n();if(!l)return void(o.textContent="A tag has at least one letter.");r.disabled=!0;let c=await i.edit([{kind:"tag",unit:t.id,tag:l}]);if(r.disabled=!1,c)return r.blur();r.isConnected&&(o.textContent=i.refusal()||"This tag was not taken.",r.focus())};r.addEventListener("keydown",l=>{if(l.key==="Enter")a();else if(l.key==="Escape")n();else return;l.preventDefault(),l.stopPropagation()}),Nt(e,A("div",{class:"spread"},r,Kt("Save","Take this tag",()=>{a()},"tag-save","main")),o),r.select()};return n(),e}function AM(i){let t=i.kind_guesses.slice(0,4);return A("div",{class:"sureness"},A("p",{"data-test":"unit-kind"},hn(i.kind??`${i.type}, kind not known`)),t.length>0&&A("ul",{class:"rows"},...t.map(([e,n])=>A("li",{class:"row"},A("span",{class:"grow"},hn(e)),Hn(n,ke(n)),A("span",{class:"number"},ke(n))))),t.length>1&&A("p",{class:"soft"},"The kind follows the labels of its parts: correct one of them to change it."))}function CM(i,t,e){if(e.missing<=0)return null;let n=lr(i,t,e.parts).open;return Ji(`${re(e.missing,"line is","lines are")} missing: a ${e.kind??e.type} needs more lines than were found here.`,A("p",{class:"soft"},n?"It may join one of these:":"Look for a wrong label beside it, or join it by hand (More corrections)."),n)}function RM(i){return i.ports.length?A("ul",{class:"rows"},...i.ports.map(t=>A("li",{class:"row"},A("b",{},t.name),A("span",{class:"grow soft"},t.diameter===null?"diameter not known":`\u2300 ${sr(t.diameter)}`)))):A("p",{class:"soft"},"No port was found.")}function PM(i,t){if(t.parts.length<2)return null;let e=i.store.shown.explode,n=A("input",{type:"range",min:0,max:100,value:e?.unit===t.id?100*e.share:0,"aria-label":"Draw its parts apart","data-test":"explode","data-key":"explode"});return n.addEventListener("input",()=>{let s=Number(n.value)/100;i.store.set({explode:s?{unit:t.id,share:s}:null})}),A("label",{class:"slider"},"Explode",n)}function IM(i,t,e,n){let s=r=>t.parts.id[r];return A("div",{class:"buttons stack"},Kt("Merge with the unit I click next","Both are one unit",()=>i.pickNext(`Click the unit that ${e.tag} belongs to`,r=>{let o=t.network.units[t.parts.unit[r]];t.parts.unit[r]===n?i.say(`That is ${e.tag} itself.`):i.edit([{kind:"merge",parts:[...e.parts,...o?.parts??[r]].map(s)}])}),"merge"),e.parts.length>1&&Kt("Split off the part I click next","That part is a unit of its own",()=>i.pickNext(`Click the part that does not belong to ${e.tag}`,r=>{t.parts.unit[r]===n?i.edit([{kind:"split",parts:[s(r)]}]):i.say(`That part does not belong to ${e.tag}.`)}),"split"),Kt("Join with the part I click next","They join along the pipes",()=>i.pickNext(`Click the part that joins ${e.tag}`,r=>{let o=sg(t,e.parts,r);t.parts.unit[r]!==n&&i.edit([{kind:"join",first:s(o),second:s(r)}])}),"join-next"))}function sg(i,t,e){let{center:n,size:s}=i.parts,r=o=>Math.hypot(...[0,1,2].map(a=>Math.max(0,Math.abs(n[3*o+a]-n[3*e+a])-(s[3*o+a]+s[3*e+a])/2)));return t.reduce((o,a)=>r(a)<r(o)?a:o,t[0])}var LM={junction:["Junction","Lines meet here."],open:["Open end","A pipe ends here without a cap: it leads out of the model, or something is missing."],blind:["Blind end","A cap or a blind flange closes the pipe here."],unknown:["End of a pipe","It is not known whether it is open or closed."]};function rg(i,t,e,n,s){let[r,o]=LM[e.kind];Nt(n,A("div",{class:"title"},A("div",{class:"grow"},A("h2",{"data-test":"end-name"},r),A("p",{class:"soft"},e.name))),A("p",{},o),bs(i,e.parts));let a=lr(i,t,e.parts),l=e.parts[0];Nt(s,a.open&&Ji("Near it, not joined:",a.open),i.canEdit()&&e.kind!=="junction"&&l!==void 0&&A("div",{class:"buttons"},Kt("Join with the part I click next","They join along the pipes",()=>i.pickNext("Click the part that this end joins",c=>{e.parts.includes(c)||i.edit([{kind:"join",first:t.parts.id[sg(t,e.parts,c)],second:t.parts.id[c]}])}),"join-next")),gn("Parts here",!0,mo(i,t,e.parts)),a.made&&gn("Joints",!1,a.made))}var tc=class{element;networkSlot=A("div",{class:"network-slot","data-test":"network-slot"});head=A("div",{class:"inspector-head"});rest=A("div",{class:"inspector-rest"});page;open=new Map;due=!1;drawn={selection:[],place:null};late=!1;constructor(t){this.page=t,this.element=A("section",{class:"inspector","aria-label":"Selection","data-test":"inspector"},this.head,this.networkSlot,this.rest),this.rest.addEventListener("toggle",n=>this.noteToggle(n.target),!0),this.element.addEventListener("focusout",()=>this.late&&this.render()),t.store.watch(["selection","place","isolated"],()=>this.render()),t.store.on("content",()=>this.render());let e=t.canEdit();t.store.on("state",()=>{e!==t.canEdit()&&this.render(),e=t.canEdit()})}render(){this.due||(this.due=!0,queueMicrotask(()=>{this.due=!1;let{content:t,shown:e}=this.page.store;if(!t||(this.late=this.typing(),this.late))return;let n=document.activeElement?.dataset?.key,s=this.element.contains(document.activeElement),r=e.selection!==this.drawn.selection||e.place!==this.drawn.place;this.draw(t,e.selection,e.place),this.restoreOpen(),r&&(this.element.scrollTop=0),s&&n&&this.element.querySelector(`[data-key="${CSS.escape(n)}"]`)?.focus({preventScroll:!0})}))}typing(){let t=document.activeElement,{selection:e,place:n}=this.page.store.shown;return e===this.drawn.selection&&n===this.drawn.place&&t instanceof HTMLInputElement&&t.type==="text"&&!t.disabled&&this.element.contains(t)}draw(t,e,n){this.drawn={selection:e,place:n};let s=n&&t.network.units.find(o=>o.id===n),r=n&&t.network.ends.find(o=>o.id===n);s?ig(this.page,t,s,this.head,this.rest):r?rg(this.page,t,r,this.head,this.rest):e.length===1?ng(this.page,t,e[0],this.head,this.rest):e.length>1?tg(this.page,t,e,this.head,this.rest):this.overview(t)}overview(t){let{parts:e,network:n}=t,s={sure:0,likely:0,open:0};for(let c of e.state)s[c]++;let r=e.id.length,o=["sure","likely","open"].map(c=>A("li",{class:"row"},Me(c==="open"?null:"var(--accent)",c),Gn({sure:"Sure",likely:"Likely, not sure",open:"Not known"}[c],"Select these parts",()=>this.page.store.select(e.state.flatMap((h,u)=>h===c?[u]:[]))),A("span",{class:"grow"}),Hn(s[c]/Math.max(r,1),ke(s[c]/Math.max(r,1)),c),A("span",{class:"number"},ge(s[c])))),{canEdit:a,store:l}=this.page;Nt(this.head,A("div",{class:"title"},A("div",{class:"grow"},A("h2",{},t.title),A("p",{class:"soft"},`${re(r,"part")}, ${re(n.units.length,"unit")}, ${re(n.lines.length,"line")}, ${re(n.systems.length,"system")}`))),A("h3",{},"How sure the labels are"),A("ul",{class:"rows"},...o)),Nt(this.rest,A("div",{class:"empty"},A("p",{},"Click a part to see what it is and how sure that is. Click it again for its whole unit."),a()&&A("p",{},"A wrong label? Click the part, then click what it is: all parts of its shape follow.")),a()&&A("div",{class:"buttons"},Kt("Start the review","What is most worth a look first (r)",()=>l.set({leftTab:"review"}),"start-review","main")))}noteToggle(t){t.classList.contains("fold")&&this.open.set(t.querySelector("summary").textContent.replace(/ \(\d+\)$/,""),t.open)}restoreOpen(){for(let t of this.rest.querySelectorAll("details.fold")){let e=this.open.get(t.querySelector("summary").textContent.replace(/ \(\d+\)$/,""));e!==void 0&&(t.open=e)}}};function vo(i,t){try{localStorage.setItem(`cadgraph.${i}`,t)}catch{}}function _s(i){try{return localStorage.getItem(`cadgraph.${i}`)}catch{return null}}var Ju=900,kM=240;function og(i,t,e,n,s){let r=A("main",{class:"middle",id:"view","aria-label":"The plant"}),o=A("section",{class:"schematic-pane",id:"schematic","aria-label":"Schematic","data-test":"schematic"}),{element:a,tabs:l}=DM(i,s),c=A("aside",{class:"right","aria-label":"Inspector",id:"right"},e),h=A("div",{class:"bottom"},o,n),u=A("div",{class:"center"},r,h),d=A("div",{class:"body"},a,u,c),f=A("div",{class:"page"},t,d),p=v=>_=>f.style.setProperty(v,`${_}px`);a.after(ec("Width of the left panel","vertical",{key:"left",start:300,least:230,most:()=>Math.min(520,innerWidth*.45)},p("--left"),(v,_)=>v+_.x)),c.before(ec("Width of the inspector","vertical",{key:"right",start:310,least:240,most:()=>Math.min(560,innerWidth*.45)},p("--right"),(v,_)=>v-_.x)),h.before(ec("Height of the panes below","horizontal",{key:"bottom",start:240,least:100,most:()=>innerHeight*.7},p("--bottom"),(v,_)=>v-_.y)),o.after(ec("Width of the schematic","vertical",{key:"drawing",start:330,least:160,most:()=>(u.clientWidth||innerWidth)-kM},p("--drawing"),(v,_)=>v+_.x));let b={left:!0,right:!0},m={left:qe("left","Fold the left panel away ([)",()=>g("left"),"fold-left"),right:qe("right","Fold the inspector away (])",()=>g("right"),"fold-right")};for(let v of["left","right"])m[v].classList.add("handle",`handle-${v}`),r.append(m[v]);let g=(v,_=!b[v])=>{b[v]=_,_&&innerWidth<Ju&&y(v==="left"?"right":"left",!1),y(v,_),vo(`open-${v}`,String(_))},y=(v,_)=>{b[v]=_,f.classList.toggle(`no-${v}`,!_);let E=v==="left"?"the left panel ([)":"the inspector (])";m[v].title=_?`Fold ${E} away`:`Show ${E}`,m[v].setAttribute("aria-label",m[v].title),m[v].setAttribute("aria-expanded",String(_))};for(let v of["left","right"])y(v,innerWidth>=Ju&&_s(`open-${v}`)!=="false");matchMedia(`(max-width: ${Ju-1}px)`).addEventListener("change",({matches:v})=>{for(let _ of["left","right"])y(_,!v&&_s(`open-${_}`)!=="false")});let w=()=>{f.classList.toggle("with-drawing",i.shown.schematic),f.classList.toggle("with-table",i.shown.table)};return i.watch(["schematic","table"],w),w(),{root:f,middle:r,schematicPane:o,tabs:l,toggle:g,isOpen:v=>b[v]}}var NM=[["review","Review","What is most worth a look (r)"],["find","Find","Search the plant (/)"],["network","Network","Systems, lines and units"],["warnings","Warnings","What is doubtful"],["history","History","What was corrected"]];function DM(i,t){let e=A("div",{class:"tabs",role:"tablist","aria-label":"Left panel"}),n=new Map,s=A("aside",{class:"left","aria-label":"Review, find, network, warnings, history",id:"left"},e);for(let[o,a,l]of NM){let c=A("span",{class:"badge",hidden:!0}),h=A("button",{type:"button",role:"tab",id:`tab-${o}`,"aria-controls":`panel-${o}`,title:l,"data-test":`tab-${o}`,onclick:()=>i.set({leftTab:o})},a,c),u=A("div",{role:"tabpanel",id:`panel-${o}`,class:"tab-panel","aria-labelledby":`tab-${o}`,tabindex:"-1"},t[o]);n.set(o,{button:h,panel:u,badge:c}),e.append(h),s.append(u)}e.addEventListener("keydown",o=>{let a={ArrowRight:1,ArrowLeft:-1}[o.key];if(!a)return;let l=[...n.keys()].filter(h=>!n.get(h).button.hidden),c=l[(l.indexOf(i.shown.leftTab)+a+l.length)%l.length];i.set({leftTab:c}),n.get(c).button.focus(),o.preventDefault()});let r=()=>{for(let[o,{button:a,panel:l}]of n){let c=o===i.shown.leftTab;a.setAttribute("aria-selected",String(c)),a.tabIndex=c?0:-1,l.hidden=!c}};return i.watch(["leftTab"],r),r(),{element:s,tabs:n}}function ec(i,t,e,n,s){let r=Number(_s(`size-${e.key}`)),o=0,a=A("div",{class:`splitter ${t} split-${e.key}`,role:"separator",tabindex:"0","aria-orientation":t,"aria-label":i}),l=h=>{o=Math.round(Math.max(e.least,Math.min(Math.max(e.most(),e.least),h))),a.setAttribute("aria-valuenow",String(o)),n(o)};l(r>0?r:e.start);let c=()=>vo(`size-${e.key}`,String(o));return a.addEventListener("pointerdown",h=>{a.setPointerCapture(h.pointerId);let u={x:h.clientX,y:h.clientY,now:o},d=f=>l(s(u.now,{x:f.clientX-u.x,y:f.clientY-u.y}));a.addEventListener("pointermove",d),a.addEventListener("lostpointercapture",()=>{a.removeEventListener("pointermove",d),c()},{once:!0}),h.preventDefault()}),a.addEventListener("dblclick",()=>{l(e.start),c()}),a.addEventListener("keydown",h=>{let u={ArrowLeft:[-16,0],ArrowRight:[16,0],ArrowUp:[0,-16],ArrowDown:[0,16]}[h.key];u&&(l(s(o,{x:u[0],y:u[1]})),c(),h.preventDefault(),h.stopPropagation())}),a}var hr=[],FM=4;function UM(i){return i.groups.flatMap(t=>[{group:t.name,name:null,color:t.color,text:t.name.toLowerCase()},...t.names.map(e=>({group:t.name,name:e,color:t.color,text:`${e} ${t.name}`.toLowerCase()}))])}function OM(i,t){let e=t.toLowerCase().split(/\s+/).filter(Boolean),n=i.filter(r=>e.every(o=>r.text.includes(o))),s=r=>r.text.startsWith(e.join(" "))?0:e.every(o=>` ${r.text}`.includes(` ${o}`))?1:2;return e.length?n.sort((r,o)=>s(r)-s(o)):n}function ag(i,t,e,n){let s=UM(i),r=p=>s.find(b=>b.group===p.group&&b.name===p.name),o=A("div",{class:"picker-list",role:"listbox",id:"picker-list","aria-label":"Labels"}),a=[],l=0,c=A("input",{type:"text",class:"picker-input",placeholder:"Type a label: valve body, flange, support\u2026",role:"combobox",autocomplete:"off","aria-expanded":"true","aria-controls":"picker-list","aria-label":"Filter labels","data-test":"picker-input",oninput:()=>{l=0,d()},onkeydown:p=>{let b={ArrowDown:1,ArrowUp:-1,PageDown:8,PageUp:-8}[p.key];if(b)l=Math.max(0,Math.min(a.length-1,l+b));else if(p.key==="Enter"&&a[l])u(a[l]);else return;p.preventDefault(),f()}}),h=po(t,[c,o],"picker","picker");function u(p){h.close();let b={group:p.group,name:p.name},m=hr.findIndex(g=>g.group===p.group&&g.name===p.name);m>=0&&hr.splice(m,1),hr.unshift(b),hr.length=Math.min(hr.length,FM),n(b)}function d(){let p=c.value.trim(),b=p?[]:[...e,...hr].map(r).filter(g=>g!==void 0);a=p?OM(s,p):[...new Set([...b,...s])];let m=a.map((g,y)=>A("div",{role:"option",id:`picker-${y}`,class:g.name?"option":"option whole","data-test":"picker-option",onclick:()=>u(g),onpointermove:()=>{l!==y&&(l=y,f(!1))}},Me(g.color,"sure"),A("span",{class:"grow"},g.name?hn(g.name):g.group),A("span",{class:"soft"},g.name?g.group:"group only")));b.length&&m[new Set(b).size-1]?.classList.add("last-near"),Nt(o,...m,!a.length&&A("p",{class:"empty"},"No label holds these letters. The vocabulary is what the plant was built with.")),f()}function f(p=!0){[...o.children].forEach((b,m)=>b.setAttribute("aria-selected",String(m===l))),c.setAttribute("aria-activedescendant",`picker-${l}`),p&&o.children[l]?.scrollIntoView({block:"nearest"})}d(),c.focus()}function cg(i,t){return t==="skip"?"skipped":t==="unsure"?"left as unsure":typeof t=="number"?i.options[t]?.text??"":t.text}var nc=class{waiting=[];past=[];loaded=!1;peak=0;replacedAt=-1/0;settled=new Set;turn=0;io;changed;sending=0;chain=Promise.resolve();loading=null;again=!1;constructor(t,e){this.io=t,this.changed=e}get current(){return this.waiting[0]??null}get decided(){return this.past.filter(t=>t.choice!=="skip").length}get busy(){return this.sending>0}load(){return this.loading?(this.again=!0,this.loading):(this.loading=this.fetch().finally(()=>{this.loading=null,this.again&&(this.again=!1,this.load())}),this.loading)}answer(t){let e=this.current;if(!e||typeof t=="number"&&!e.options[t])return Promise.resolve();let n={question:e,choice:t,version:null};this.settled.add(e.id),this.turn++,this.past.push(n),this.waiting=this.waiting.slice(1).filter(r=>!BM(e,t,r)),this.sending++,this.changed();let s=this.chain.then(async()=>{let r=await this.io.send(e,t).catch(()=>({ok:!1,version:null}));this.sending--,this.settled.delete(e.id),r.ok?Object.assign(n,{version:r.version,message:r.message}):this.restore(n),this.sending||await this.load().catch(()=>{}),this.changed()});return this.chain=s,s}async back(){await this.chain;let t=this.past.at(-1);return!t||t.version!==null&&!await this.io.takeBack(t.version)?!1:(this.restore(t),this.changed(),!0)}show(t){let e=this.waiting.findIndex(n=>n.id===t);e<=0||(this.waiting=[this.waiting[e],...this.waiting.slice(0,e),...this.waiting.slice(e+1)],this.changed())}restore(t){this.past=this.past.filter(e=>e!==t),this.turn++,this.waiting=[t.question,...this.waiting.filter(e=>e.id!==t.question.id)],this.replacedAt=lg()}async fetch(){let{turn:t}=this,e=await this.io.load();if(t!==this.turn){this.again=!this.sending;return}let n=e.filter(o=>!this.settled.has(o.id)),s=this.current,r=s&&n.find(o=>o.id===s.id);this.waiting=r?[r,...n.filter(o=>o!==r)]:n,s&&!r&&(this.replacedAt=lg()),this.peak=n.reduce((o,a)=>Math.max(o,a.gain),this.peak),this.loaded=!0,this.changed()}},lg=()=>performance.now();function BM(i,t,e){if(i.kind!=="label"||e.kind!=="label"||t==="skip"||t==="unsure")return!1;let n=new Set([...i.parts,...i.alike]);return e.parts.every(s=>n.has(s))}var hg=50,zM=500,VM=.1,ic=class{element=A("div",{class:"review","data-test":"review"});queue;page;told=A("p",{class:"only-read",role:"status","aria-live":"polite"});card=A("div",{});changedCount;seen;shownId="";trouble="";constructor(t,e,n,s){this.page=t,this.changedCount=n,this.seen=s,this.queue=new nc({load:()=>t.source.review(hg),send:(o,a)=>e.answer(o,a),takeBack:o=>e.takeBack(o)},()=>this.changed()),this.element.append(this.told,this.card),this.addKeys(),t.store.on("content",()=>{!this.queue.busy&&t.store.shown.leftTab==="review"?this.load():this.draw()}),t.store.watch(["leftTab"],()=>this.opened());let r=t.store.state?.status;t.store.on("state",o=>{o.status==="ready"&&r!=="ready"&&this.load(),r=o.status})}async load(){if(this.page.store.state?.status==="ready"){try{await this.queue.load(),this.trouble=""}catch(t){this.trouble=t.message}this.changed()}}get left(){if(!this.queue.loaded)return"";let t=this.queue.waiting.length;return t>=hg?`${t}+`:String(t)}get isOpen(){return this.page.store.shown.leftTab==="review"}opened(){if(!this.isOpen){this.page.store.shown.question&&this.page.store.set({question:null}),this.shownId="";return}this.load()}changed(){if(this.changedCount(),this.draw(),!this.isOpen)return;let t=this.queue.current;if((t?.id??"")===this.shownId){t&&this.page.store.shown.question===null&&this.show(t);return}this.shownId=t?.id??"",this.show(t),t&&(this.told.textContent=`${t.title} ${this.subject(t)}. ${t.options.map((e,n)=>`${n+1}: ${e.text}`).join(", ")}. ${this.left} left.`)}show(t){this.page.store.set({question:t,...t?{selection:t.parts,place:null}:{}})}subject(t){let e=this.page.store.content;if(!e||!t.parts.length)return"";let n=[...new Set(t.parts.map(r=>e.network.units[e.parts.unit[r]]?.tag))].filter(Boolean),s=ze(e,t.parts[0]);return!s.group&&!n.length?`No label (${or(e,t.parts[0])})`:`${s.name}${n.length?` of ${n.slice(0,3).join(", ")}`:""}`}answer(t){performance.now()-this.queue.replacedAt<zM||this.queue.answer(t)}other(){let t=this.queue.current,{content:e}=this.page.store;if(!t?.parts.length||!e)return;let n=t.options.flatMap(s=>s.edits).flatMap(s=>s.kind==="label"?[{group:s.group,name:s.name}]:[]);this.page.pickLabel(`${t.title} (${this.subject(t)})`,n,s=>{if(this.queue.current?.id!==t.id)return;let o=(t.kind==="label"?[...t.parts,...t.alike]:t.parts.slice(0,1)).map(a=>({kind:"label",part:e.parts.id[a],...s,this_only:!0}));this.queue.answer({text:s.name??s.group,edits:o})})}async back(){this.queue.past.length?await this.queue.back():this.page.say("There is no answer to take back.")}addKeys(){let t=()=>this.isOpen&&this.seen()&&this.queue.current!==null&&this.page.canEdit();for(let e of[1,2,3,4,5])Di({id:`review-${e}`,key:String(e),title:"Take this answer",area:"Review",when:()=>t()&&this.queue.current.options.length>=e,run:()=>this.answer(e-1)});Di({id:"review-other",key:"o",title:"Another label",area:"Review",when:t,run:()=>this.other()},{id:"review-unsure",key:"u",title:"I am not sure: leave it as it is",area:"Review",when:t,run:()=>this.answer("unsure")},{id:"review-skip",key:"s",title:"Skip: ask me later",area:"Review",when:t,run:()=>this.answer("skip")},{id:"review-back",key:"Backspace",title:"Back: take the last answer back",area:"Review",when:()=>this.isOpen&&this.seen()&&this.page.canEdit()&&this.queue.past.length>0,run:()=>{this.back()}})}draw(){let{content:t}=this.page.store;if(!t||!this.isOpen)return;let e=this.element.contains(document.activeElement)?document.activeElement.dataset.key:void 0,n=this.queue.current;this.trouble&&!n?Nt(this.card,A("div",{class:"empty"},A("p",{},this.trouble),Kt("Ask again","Ask for the queue again",()=>{this.load()}))):this.queue.loaded?n?Nt(this.card,this.progress(),this.lastLine(),this.question(t,n),this.next(t)):Nt(this.card,this.done()):Nt(this.card,A("p",{class:"empty"},"Looking for what is most worth a look\u2026")),e&&this.element.querySelector(`[data-key="${CSS.escape(e)}"]`)?.focus({preventScroll:!0})}progress(){let{decided:t,waiting:e}=this.queue;return A("div",{class:"spread review-progress"},A("b",{"data-test":"review-left"},`${this.left} left`),A("span",{class:"soft","data-test":"review-done"},t?`${ge(t)} answered`:"most worth a look first"),Hn(t/Math.max(t+e.length,1),`${t} answered, ${e.length} left`))}lastLine(){let t=this.queue.past.at(-1);if(!t)return null;let e=t.message&&typeof t.choice!="string"?t.message:`${hn(cg(t.question,t.choice))}.`;return A("div",{class:"spread last-answer"},A("span",{class:"grow","data-test":"review-last"},`\u2713 ${e}`),this.page.canEdit()&&Kt("Back","Take it back and ask again (Backspace)",()=>{this.back()},"review-back","quiet"))}question(t,e){let n=e.gain/Math.max(this.queue.peak,1e-9),s=e.parts.length?ze(t,e.parts[0]):null,r=e.parts[0],o=this.page.canEdit();return A("section",{class:"question","aria-label":"Question","data-test":"question","data-id":e.id},A("h2",{"data-test":"question-title"},e.title),s&&A("p",{class:"subject"},Me(s.color,t.parts.state[r]),A("span",{},`${e.kind==="label"?"Now: ":""}${this.subject(e)}`)),A("p",{class:"why-line","data-test":"question-why"},rr(e.why)),A("div",{class:"spread gain"},A("span",{class:"soft"},"Gain"),Hn(n,`Gain ${ke(n)} of the greatest`),A("span",{class:"soft","data-test":"alike"},e.alike.length?`settles ${ge(e.alike.length)} more like it`:"this one alone")),n<VM&&A("p",{class:"soft","data-test":"little-gain"},"What is left gains little; you can well stop here."),o?this.options(t,e):A("p",{class:"soft"},"Answers can't be taken: the plant is for looking only."),o&&A("div",{class:"buttons",role:"group","aria-label":"Other answers"},e.parts.length>0&&Ku("o","Other\u2026","Choose any label (o)",()=>this.other(),"review-other"),Ku("u","Not sure","Leave it as it is, don't ask again (u)",()=>this.answer("unsure"),"review-unsure"),Ku("s","Skip","Ask me later (s)",()=>this.answer("skip"),"review-skip")),A("button",{type:"button",class:"link","data-key":"review-look",onclick:()=>this.page.go(e.parts)},"Show it again"))}options(t,e){let n=A("div",{class:"options",role:"group","aria-label":"Answers"});return e.options.slice(0,5).forEach((s,r)=>{let o=s.edits.find(l=>l.kind==="label"),a=o?.kind==="label"?t.groups.find(l=>l.name===o.group)?.color??null:null;me(n,A("button",{type:"button",class:"option-button","data-test":`option-${r+1}`,"data-key":`option-${r+1}`,"aria-keyshortcuts":String(r+1),onclick:()=>this.answer(r)},A("kbd",{},String(r+1)),a&&Me(a,"sure"),HM(s),s.confidence!==null&&Hn(s.confidence,ke(s.confidence)),s.confidence!==null&&A("span",{class:"number"},ke(s.confidence))))}),n}next(t){let e=this.queue.waiting.slice(1,9);return e.length?A("section",{"aria-label":"Next"},A("h3",{},"Next"),A("ul",{class:"rows"},...e.map(n=>{let s=n.parts[0];return A("li",{},A("button",{type:"button",class:"row","data-test":"next-question",title:"Answer this one first",onclick:()=>this.queue.show(n.id)},Me(s===void 0?null:ze(t,s).color,s===void 0?"open":t.parts.state[s]),A("span",{class:"grow"},this.subject(n)||n.title),n.alike.length>0&&A("span",{class:"soft"},`+${ge(n.alike.length)}`)))}))):null}done(){let{decided:t,past:e}=this.queue,n=e.filter(s=>s.choice==="skip").length;return A("div",{class:"empty done","data-test":"review-empty"},A("h2",{},t?"All reviewed":"Nothing to ask"),A("p",{},t?`${re(t,"answer")} given${n?`, ${n} skipped`:""}. Nothing in this plant is worth another look.`:"No label and no joint of this plant is worth a question."),e.length>0&&this.page.canEdit()&&Kt("Back to the last one","Take the last answer back (Backspace)",()=>{this.back()},"review-back"),A("p",{class:"soft"},"Corrections are kept in the plant's folder. The warnings tab lists what the network still lacks."))}};function HM(i){let t=i.edits.find(s=>s.kind==="label"),e=t?.kind==="label"&&t.name!==null?t.group:"",n=i.text.endsWith(` (${e})`)?i.text.slice(0,-e.length-3):i.text;return A("span",{class:"grow"},hn(n),n!==i.text&&A("span",{class:"soft small-line"},e))}function Ku(i,t,e,n,s){return A("button",{type:"button",title:e,"aria-keyshortcuts":i,"data-test":s,"data-key":s,onclick:n},A("kbd",{},i.toUpperCase()),t)}function ug(i){if(i===null)return"";if(typeof i=="number")return Number.isFinite(i)?String(i):"";let t=/^[=+\-@\t\r]/.test(i)?`'${i}`:i;return/[",\r\n]/.test(t)||t!==t.trim()?`"${t.replaceAll('"','""')}"`:t}function dg(i,t){let e=[i.map(ug).join(",")];for(let n of t)e.push(n.map(ug).join(","));return`${e.join(`\r
+`)}\r
+`}function fg(i,t){GM(i,new Blob(["\uFEFF",t],{type:"text/csv;charset=utf-8"}))}function GM(i,t){let e=document.createElement("a");e.href=URL.createObjectURL(t),e.download=i,e.click(),setTimeout(()=>URL.revokeObjectURL(e.href),1e4)}var ws=24,pg=8,sc=class{element=A("section",{class:"table-pane","aria-label":"Table","data-test":"table"});page;wish={kind:"parts",scope:"all",text:"",sort:null,descending:!1};head=A("div",{class:"table-head",role:"row","aria-rowindex":"1"});body=A("div",{class:"table-body",role:"rowgroup"});scroll=A("div",{class:"table-scroll",role:"grid",tabindex:"0","aria-label":"Rows: arrow keys choose, Enter moves there","data-test":"table-rows"},this.head,this.body);total=A("span",{class:"soft",role:"status","data-test":"table-count"});kinds=new Map;all=[];rows=[];place=new Map;chosen=new Set;stale=!0;clicked=!1;constructor(t){this.page=t,this.element.append(this.bar(),this.scroll),this.scroll.addEventListener("scroll",()=>this.draw()),this.scroll.addEventListener("keydown",e=>this.key(e)),this.body.addEventListener("click",e=>this.click(e)),this.body.addEventListener("dblclick",e=>this.fly(this.rowOf(e))),new ResizeObserver(()=>this.draw()).observe(this.scroll),t.store.on("content",()=>this.refresh()),t.store.watch(["table"],()=>this.refresh(this.stale)),t.store.watch(["hidden","isolated","section"],()=>this.wish.scope==="seen"&&this.refresh()),t.store.watch(["selection","place"],()=>this.follow())}bar(){let t=A("div",{class:"segments",role:"group","aria-label":"What is listed"});for(let[r,o]of[["parts","Parts"],["units","Units"],["lines","Lines"]]){let a=A("button",{type:"button","aria-pressed":String(r===this.wish.kind),"data-test":`table-${r}`,onclick:()=>this.show(r)},o);this.kinds.set(r,a),me(t,a)}let e=0,n=A("input",{type:"search",placeholder:"Filter rows\u2026","aria-label":"Filter rows","data-test":"table-filter",oninput:r=>{this.wish.text=r.target.value,clearTimeout(e),e=window.setTimeout(()=>this.refresh(),120)}}),s=A("select",{"aria-label":"Which rows","data-test":"table-scope",onchange:r=>{this.wish.scope=r.target.value,this.refresh()}},A("option",{value:"all"},"All"),A("option",{value:"seen"},"Only what is seen"),A("option",{value:"selected"},"In the selection"));return A("div",{class:"table-bar"},t,n,s,this.total,A("span",{class:"grow"}),A("button",{type:"button",class:"quiet",title:"Save the listed rows as CSV","data-test":"csv",onclick:()=>this.save()},"CSV"),A("button",{type:"button",class:"icon-button",title:"Close the table (b)","aria-label":"Close the table",onclick:()=>this.page.store.set({table:!1})},Mn("close")))}show(t){this.wish.kind=t,this.wish.sort=null;for(let[e,n]of this.kinds)n.setAttribute("aria-pressed",String(e===t));this.refresh(),this.scroll.scrollTop=0,this.follow()}refresh(t=!0){let{content:e,shown:n}=this.page.store;if(this.stale=!0,!e||!n.table||!t)return;this.stale=!1,this.all=$u(e,this.wish.kind),this.rows=jm(e,n,this.wish,this.all),this.place=new Map(this.rows.map((o,a)=>[o,a])),this.total.textContent=qu(this.wish.kind,this.rows.length),this.body.style.height=`${Math.max(this.rows.length,1)*ws}px`;let s=this.all.map(o=>`minmax(${o.width*9}px, ${o.width}fr)`).join(" "),r=this.all.reduce((o,a)=>o+a.width*9,0);for(let o of[this.head,this.body])o.style.setProperty("--columns",s),o.style.minWidth=`${r}px`;this.scroll.setAttribute("aria-rowcount",String(this.rows.length+1)),this.titles(),this.mark(e),this.draw()}titles(){Nt(this.head,...this.all.map(t=>{let e=this.wish.sort===t.key;return A("div",{role:"columnheader",class:t.number?"num":null,"aria-sort":e?this.wish.descending?"descending":"ascending":"none"},A("button",{type:"button",title:`Sort by ${t.title.toLowerCase()}`,onclick:()=>this.sort(t.key)},t.title,e?this.wish.descending?" \u25BC":" \u25B2":""))}))}sort(t){let e=this.wish.sort===t;e&&this.wish.descending?this.wish.sort=null:(this.wish.sort=t,this.wish.descending=e),this.wish.sort===null&&(this.wish.descending=!1),this.refresh()}draw(){let{content:t,shown:e}=this.page.store;if(!t||!e.table||this.stale)return;let n=Math.max(0,Math.floor(this.scroll.scrollTop/ws)-pg),s=Math.min(this.rows.length,Math.ceil((this.scroll.scrollTop+this.scroll.clientHeight)/ws)+pg),r=[];for(let o=n;o<s;o++)r.push(this.line(t,o));this.rows.length||r.push(A("p",{class:"empty"},this.wish.scope==="selected"?"Nothing is selected.":"No row holds that. Clear the filter to see all.")),Nt(this.body,...r)}line(t,e){let n=this.rows[e],s=A("div",{role:"row",class:"table-row","data-index":e,"aria-rowindex":e+2,"aria-selected":String(this.chosen.has(n))});return s.style.transform=`translateY(${e*ws}px)`,this.all.forEach((r,o)=>{let a=r.of(n),l=A("div",{role:"gridcell",class:r.number?"num":null},o===0&&this.swatch(t,n),r.number&&typeof a=="number"&&Number.isInteger(a)?ge(a):a);typeof a=="string"&&a.length>12&&(l.title=a),me(s,l)}),s}swatch(t,e){if(this.wish.kind==="parts")return Me(ze(t,e).color,t.parts.state[e]);if(this.wish.kind==="lines")return null;let n=t.network.units[e];return Me(t.groups.find(s=>s.unit===n.type)?.color??null,n.kind?"sure":"likely")}mark(t){let{selection:e,place:n}=this.page.store.shown;if(this.wish.kind==="parts")this.chosen=new Set(e);else if(this.wish.kind==="units"){let s=n?t.network.units.findIndex(r=>r.id===n):-1;this.chosen=new Set(s>=0?[s]:e.map(r=>t.parts.unit[r]))}else{let s=new Set(e),r=o=>{let a=Ki(t,"lines",o);return a.length>0&&a.every(l=>s.has(l))};this.chosen=new Set(this.rows.filter(o=>s.size>0&&r(o)))}}follow(){let{content:t,shown:e}=this.page.store;if(!t||!e.table)return;if(this.wish.scope==="selected")return this.refresh();this.mark(t);let n=Math.min(...[...this.chosen].map(s=>this.place.get(s)??1/0));Number.isFinite(n)&&!this.clicked&&this.reveal(n),this.draw()}reveal(t){let e=t*ws,n=this.scroll.clientHeight-this.head.offsetHeight;(e<this.scroll.scrollTop||e+ws>this.scroll.scrollTop+n)&&(this.scroll.scrollTop=e-n/2)}rowOf(t){let e=t.target.closest(".table-row");return e?this.rows[Number(e.dataset.index)]:null}click(t){let e=this.rowOf(t);e!==null&&(this.clicked=!0,this.select(e,t.ctrlKey||t.metaKey||t.shiftKey),this.clicked=!1)}select(t,e=!1){let{store:n}=this.page,s=n.content,r=Ki(s,this.wish.kind,t);e?n.select([...new Set([...n.shown.selection,...r])]):this.wish.kind==="units"?n.selectPlace(s.network.units[t].id):n.select(r)}fly(t){t!==null&&this.page.view?.flyTo(Ki(this.page.store.content,this.wish.kind,t))}key(t){if(t.target!==this.scroll||!this.rows.length)return;let e=Math.min(...[...this.chosen].map(o=>this.place.get(o)??1/0)),n=Number.isFinite(e)?e:-1,s=Math.max(1,Math.floor(this.scroll.clientHeight/ws)-2),r={ArrowDown:n+1,ArrowUp:n-1,PageDown:n+s,PageUp:n-s,Home:0,End:this.rows.length-1}[t.key];if(r!==void 0){let o=Math.max(0,Math.min(this.rows.length-1,r));this.select(this.rows[o]),this.reveal(o)}else if(t.key==="Enter")this.fly(this.rows[n]??null);else return;t.preventDefault(),t.stopPropagation()}save(){let t=(this.page.store.content?.title??"plant").replace(/\.[^.]*$/,"").replace(/[^\w.-]+/g,"_");fg(`${t}-${this.wish.kind}.csv`,dg(this.all.map(e=>e.title),this.rows.map(e=>this.all.map(n=>n.of(e))))),this.page.say(`${qu(this.wish.kind,this.rows.length)} saved as CSV.`,"good")}};function mg(i){let t=matchMedia("(prefers-color-scheme: dark)"),e=_s("theme"),n=()=>document.documentElement.dataset.theme=i.shown.theme;i.watch(["theme"],n),i.set({theme:e==="dark"||e==="light"?e:t.matches?"dark":"light"}),n(),t.addEventListener("change",()=>{_s("theme")||i.set({theme:t.matches?"dark":"light"})})}function gg(i){let t=i.shown.theme==="dark"?"light":"dark";vo("theme",t),i.set({theme:t})}var WM={info:6e3,good:6e3,bad:15e3},XM=3,rc=class{element=A("div",{class:"toasts","data-test":"toasts"});polite=A("div",{class:"only-read",role:"status","aria-live":"polite"});urgent=A("div",{class:"only-read",role:"alert","aria-live":"assertive"});constructor(t){t.append(this.polite,this.urgent,this.element)}say(t,e="info",n=[]){let s=e==="bad"?this.urgent:this.polite;s.textContent="",requestAnimationFrame(()=>s.textContent=t);let r=A("div",{class:`toast ${e}`,"data-test":"toast"},Mn(e==="good"?"check":e==="bad"?"warn":"dot"),A("span",{class:"toast-text"},t)),o=()=>r.remove();for(let l of n)r.append(A("button",{type:"button",class:"quiet",onclick:()=>{o(),l.run()}},l.text));r.append(A("button",{type:"button",class:"icon-button","aria-label":"Dismiss",title:"Dismiss",onclick:o},Mn("close")));for(let l of[...this.element.children])(e==="good"&&l.classList.contains("good")||l.querySelector(".toast-text")?.textContent===t)&&l.remove();for(this.element.append(r);this.element.children.length>XM;)this.element.firstElementChild.remove();let a=setTimeout(o,WM[e]);for(let l of["pointerenter","focusin"])r.addEventListener(l,()=>clearTimeout(a));for(let l of["pointerleave","focusout"])r.addEventListener(l,()=>{clearTimeout(a),a=setTimeout(o,4e3)})}};var oc=class{element;search;page;title=A("h1",{class:"plant-title","data-test":"title"});undo=qe("undo","Undo",()=>ni("undo"),"undo");redo=qe("redo","Redo",()=>ni("redo"),"redo");review=A("button",{type:"button",class:"chip","data-test":"review-count",title:"What is most worth a look first (r)",onclick:()=>ni("review")},"Review");edits=A("button",{type:"button",class:"chip","data-test":"edit-count",title:"What was corrected",onclick:()=>ni("history")});badge=A("span",{class:"read-only","data-test":"read-only",hidden:!0});theme=qe("moon","Dark",()=>gg(this.page.store),"theme");table=xg("table","Table","Table of parts, units and lines (b)","table");drawing=xg("schematic","Schematic","The schematic beside the plant (d)","drawing");constructor(t,e){this.page=t;let{element:n,input:s}=this.quickSearch(e);this.search=s;let r=t.source.live?[A("div",{class:"group",role:"group","aria-label":"Corrections"},this.undo,this.redo),this.review,this.edits]:[];for(let[o,a]of[[this.table,"table"],[this.drawing,"schematic"]])o.addEventListener("click",()=>t.store.set({[a]:!t.store.shown[a]}));this.element=A("header",{class:"top"},A("span",{class:"brand"},"cadgraph"),this.title,n,...r,this.badge,A("span",{class:"grow"}),A("div",{class:"group",role:"group","aria-label":"Panes"},this.drawing,this.table),A("div",{class:"group"},qe("link","Link to this view (k)",()=>ni("link"),"link"),this.theme,qe("help","Keys and mouse (?)",()=>ni("help"),"help-button"))),t.store.on("state",()=>this.update()),t.store.watch(["theme","table","schematic"],()=>this.marks()),this.marks()}quickSearch(t){let e=()=>{n.input.blur()},n=Yu(this.page,"search",{units:6,lines:4,parts:6},e,r=>{e(),t(r)});n.list.classList.add("drop");let s=A("div",{class:"search",role:"search"},Mn("search"),n.input,n.list);return n.list.hidden=!0,n.input.addEventListener("focus",()=>{n.list.hidden=!1,n.search(n.input.value)}),n.input.addEventListener("blur",()=>n.list.hidden=!0),{element:s,input:n.input}}setLeft(t){Nt(this.review,t===""?"Review":t==="0"?"Reviewed":`Review ${t}`)}update(){let{state:t}=this.page.store;if(t){document.title=`${t.title||"cadgraph"} \u2013 cadgraph`,Nt(this.title,t.title),this.title.title=[t.title,t.folder&&`folder ${t.folder}`,t.who&&`you are ${t.who}`].filter(Boolean).join(", ");for(let[e,n,s,r]of[[this.undo,"Undo",t.can_undo,t.undo],[this.redo,"Redo",t.can_redo,t.redo]])e.disabled=!s||!this.page.canEdit(),e.title=r?`${n}: ${r}`:`Nothing to ${n.toLowerCase()}`,e.setAttribute("aria-label",e.title);Nt(this.edits,re(t.n_edits,"correction"),t.lost.length>0&&A("span",{class:"badge bad"},`${t.lost.length} lost`)),this.edits.title=t.lost.length?`${re(t.lost.length,"correction")} no longer fit this model: see History`:"What was corrected, and by whom",this.badge.hidden=!t.read_only,Nt(this.badge,"View only"),this.badge.title=t.read_only??"",this.badge.setAttribute("aria-label",`View only: ${t.read_only??""}`)}}marks(){let{theme:t,table:e,schematic:n}=this.page.store.shown;Nt(this.theme,Mn(t==="dark"?"sun":"moon")),this.theme.title=t==="dark"?"Light colours":"Dark colours",this.theme.setAttribute("aria-label",this.theme.title),this.table.setAttribute("aria-pressed",String(e)),this.drawing.setAttribute("aria-pressed",String(n))}};function xg(i,t,e,n){return A("button",{type:"button",title:e,"aria-label":t,"data-test":`${i}-toggle`},Mn(n),A("span",{class:"wide-only"},t))}var $M=new Set(["unit-short-of-lines"]),Qu=["ground","excluded","duplicate-mesh","near-duplicate-mesh","empty-mesh","open-mesh","likely"];function qM(i){let t=new Map,e=(s,r,o)=>{let a=t.get(s);a?a.items.push(o):t.set(s,{key:s,title:r,items:[o]})};for(let s of Ol(i))e(s.kind,pm[s.kind],{text:s.title,detail:s.text,place:s.place,parts:s.parts});for(let{code:s,message:r,parts:o}of i.diagnostics){if($M.has(s))continue;if(!((s==="unlabelled"||s==="likely")&&o.length>1))e(s,Vu(s),{text:r,detail:"",place:null,parts:o});else for(let l of o)e(s,Vu(s),{text:ys(i,l),detail:"",note:or(i,l),place:null,parts:[l]})}let n=s=>Qu.indexOf(s.key);return[...t.values()].sort((s,r)=>n(s)-n(r))}var ju=60,ac=class{element=A("div",{class:"warnings","data-test":"warnings"});page;changed;at=new Map;open=new Set;stale=!0;known=null;constructor(t,e){this.page=t,this.changed=e,t.store.on("content",n=>{this.stale=!0,this.changed(this.groups(n).filter(s=>!Qu.includes(s.key)).reduce((s,r)=>s+r.items.length,0)),this.draw()}),t.store.watch(["leftTab"],()=>this.draw())}groups(t){return this.known?.content!==t&&(this.known={content:t,groups:qM(t)}),this.known.groups}draw(){let{content:t,shown:e}=this.page.store;if(!t||!this.stale||e.leftTab!=="warnings")return;this.stale=!1;let n=this.groups(t);if(!n.length){Nt(this.element,A("p",{class:"empty"},"No warnings: every unit has the lines it needs, and every part a label."));return}let s=n.some(r=>!Qu.includes(r.key));Nt(this.element,A("p",{class:"soft lead"},s?"Click one to see it in its place; the arrows go through them one by one.":"Nothing is wrong; these are only to be known."),...n.map(r=>this.group(r)))}group(t){let e=t.items.length,n=A("span",{class:"number","aria-live":"polite"}),s=A("ul",{class:"rows"}),r=a=>this.go(t,((this.at.get(t.key)??(a>0?-1:0))+a+e)%e,s,n),o=A("details",{class:"fold warning-group",open:this.open.has(t.key)||t.items.length<=4,"data-test":"warning-group","data-code":t.key},A("summary",{},A("span",{class:"grow"},t.title),A("span",{class:"badge"},ge(e))),e>1&&A("div",{class:"spread stepper"},qe("left","The one before",()=>r(-1)),n,qe("right","The next one",()=>r(1),"warning-next"),Gn("Select all","Select the parts of all of them",()=>this.page.store.select([...new Set(t.items.flatMap(a=>a.parts))]))),s);return o.addEventListener("toggle",()=>o.open?this.open.add(t.key):this.open.delete(t.key)),t.items.slice(0,ju).forEach((a,l)=>me(s,A("li",{},A("button",{type:"button",class:"row wrap","data-test":"warning",disabled:!a.parts.length&&!a.place,onclick:()=>this.go(t,l,s,n)},A("span",{class:"grow"},a.text),a.note&&A("span",{class:"soft"},a.note))))),e>ju&&me(s,A("li",{class:"soft"},`and ${re(e-ju,"more","more")}: the arrows reach them all`)),n.textContent=`${e}`,o}go(t,e,n,s){this.at.set(t.key,e),s.textContent=`${e+1} of ${t.items.length}`,n.querySelector("[aria-current]")?.removeAttribute("aria-current");let r=n.children[e]?.querySelector("button.row");r?.setAttribute("aria-current","true"),r?.scrollIntoView({block:"nearest"});let o=t.items[e];n.querySelector(".detail")?.remove();let a=o.detail?A("p",{class:"soft detail",role:"status"},o.detail):null;r&&me(r.parentElement,a),this.page.go(o.parts,o.place)}};function vg(i,t,e){mg(t);let n=new rc(i),s=(v,_,E)=>n.say(v,_,E),r=new Zl(t,e,s),o=A("div",{class:"pick-hint",role:"status","data-test":"pick-hint",hidden:!0}),a=new td(t,o),l={store:t,source:e,view:null,say:s,canEdit:()=>e.live&&t.state?.status==="ready"&&!t.state.read_only,edit:(v,_)=>r.edit(v,_),refusal:()=>r.refusal,undo:async()=>{await r.undo()},redo:async()=>{await r.redo()},go:(v,_=null)=>{t.select(v,_),v.length&&l.view?.flyTo(v)},pickNext:(v,_)=>a.start(v,_),pickLabel:(v,_,E)=>t.content&&ag(t.content,v,_,E)},c=A("div",{class:"network-tab"}),h=new tc(l),u=new Kl(l),d=new ic(l,r,()=>p.setLeft(d.left),()=>m.isOpen("left")),f=new ac(l,v=>{let{badge:_}=m.tabs.get("warnings");Nt(_,ge(v)),_.hidden=v===0}),p=new oc(l,v=>{w("find"),u.open(v)}),b={review:d.element,find:u.element,network:c,warnings:f.element,history:new jl(l).element},m=og(t,p.element,h.element,new sc(l).element,b),g=new Yl;i.prepend(m.root,g.element),m.middle.append(o,g.strip,n.element);let y=new ql(l);function w(v){m.toggle("left",!0),t.set({leftTab:v})}if(!e.live)for(let v of["review","history"])m.tabs.get(v).button.hidden=!0;return ZM(l,{picking:a,layout:m,address:y,open:w,find:()=>p.search.focus()}),{middle:m.middle,schematicPane:m.schematicPane,networkSlot:h.networkSlot,networkTab:c,edit:l.edit,say:s,untilReady:async()=>{await YM(t,e,r,g,s),e.live||m.middle.append(A("p",{class:"view-only","data-test":"view-only"},"View only: corrections are made with 'cadgraph view'.")),y.start(),!e.live&&["review","history"].includes(t.shown.leftTab)&&t.set({leftTab:"find"})},connect:v=>{l.view=v;let{camera:_}=t.shown;_&&v.setCamera(_)}}}async function YM(i,t,e,n,s){if(!t.live){i.setState(await t.state()),i.setContent(await t.content());return}let r=!1;await new Promise(o=>{let a=null,l=h=>{i.setContent(h),n.show(i.state,!0),o()},c=h=>{i.content?r||s(h,"bad"):n.show(i.state,!1,h),r=!0,e.lost()};t.follow(new AbortController().signal,h=>{r&&i.content&&s("The server answers again.","good"),r=!1,e.heard(h),n.show(i.state,!!i.content),!(i.content||h.status==="failed"||h.status==="building"&&h.version<1)&&(a??=t.content().then(l,u=>{a=null,u instanceof yn&&u.status===423||c(u.message)}))},c)})}var td=class{store;hint;stop=null;constructor(t,e){this.store=t,this.hint=e}get active(){return this.stop!==null}start(t,e){this.end(),Nt(this.hint,A("span",{},t),A("button",{type:"button",class:"quiet",onclick:()=>this.end()},"Cancel (Esc)")),this.hint.hidden=!1;let n=this.store.watch(["selection","place"],()=>{let{selection:s}=this.store.shown;s.length&&(this.end(),e(s.at(-1)))});this.stop=n}end(){this.stop?.(),this.stop=null,this.hint.hidden=!0}};function ZM(i,{picking:t,layout:e,address:n,open:s,find:r}){let{store:o,source:a}=i,l=()=>a.live,c={title:"Redo",area:"Corrections",when:()=>i.canEdit()&&!!o.state?.can_redo,run:()=>{i.redo()}};Di({id:"pick-cancel",key:"Escape",title:"Cancel what is going on",area:"Selection",when:()=>t.active,run:()=>t.end()},{id:"find",key:"/",title:"Find",area:"Selection",run:r},{id:"table",key:"b",title:"Table of parts, units and lines",area:"View",run:()=>o.set({table:!o.shown.table})},{id:"fold-left",key:"[",title:"Left panel",area:"View",run:()=>e.toggle("left")},{id:"fold-right",key:"]",title:"Inspector",area:"View",run:()=>e.toggle("right")},{id:"link",key:"k",title:"Link to this view, and going to one",area:"View",run:()=>n.open()},{id:"help",key:"?",title:"This list",area:"Help",run:Bm}),l()&&Di({id:"review",key:"r",title:"Review: what is most worth a look",area:"Review",run:()=>s("review")},{id:"history",title:"History",area:"Corrections",run:()=>s("history")},{id:"label",key:"l",title:"Label what is selected",area:"Corrections",when:()=>i.canEdit()&&o.shown.selection.length>0,run:()=>JM(i)},{id:"undo",key:"Ctrl+z",title:"Undo",area:"Corrections",when:()=>i.canEdit()&&!!o.state?.can_undo,run:()=>{i.undo()}},{id:"redo",key:"Ctrl+y",...c},{id:"redo-shift",key:"Ctrl+Z",...c})}function JM(i){let t=i.store.content,e=i.store.shown.selection,n=e.length===1?`What is this ${ze(t,e[0]).name.toLowerCase()}?`:`What are these ${ge(e.length)} parts?`,s=e.length===1?t.parts.guesses[e[0]].flatMap(([r,o])=>t.groups[r]?[{group:t.groups[r].name,name:o}]:[]):[];i.pickLabel(n,s,r=>{i.edit(e.map(o=>({kind:"label",part:t.parts.id[o],...r,this_only:e.length>1})))})}var KM=5,lc=class{down=new Map;start={x:0,y:0,moved:!1};pivot=new N;spread=0;element;navigation;target;wheelPoint=null;constructor(t,e,n){this.element=t,this.navigation=e,this.target=n,t.addEventListener("pointerdown",s=>this.press(s)),t.addEventListener("pointermove",s=>this.move(s)),t.addEventListener("pointerup",s=>this.release(s)),t.addEventListener("pointercancel",s=>this.down.delete(s.pointerId)),t.addEventListener("pointerleave",()=>n.left()),t.addEventListener("wheel",s=>this.wheel(s),{passive:!1}),t.addEventListener("dblclick",s=>n.doubleClicked(...this.at(s))),t.addEventListener("contextmenu",s=>s.preventDefault())}at(t){let e=this.element.getBoundingClientRect();return[t.clientX-e.left,t.clientY-e.top]}press(t){let[e,n]=this.at(t);this.element.setPointerCapture(t.pointerId),this.down.set(t.pointerId,{x:e,y:n}),this.down.size===1?(this.start={x:e,y:n,moved:!1},this.pivot=this.target.pointAt(e,n)):(this.start.moved=!0,this.spread=this.fingers().spread)}move(t){let[e,n]=this.at(t),s=this.down.get(t.pointerId);if(!s){this.target.hovered(e,n);return}let r=this.down.size>1?this.fingers():null,[o,a]=[e-s.x,n-s.y];if(this.down.set(t.pointerId,{x:e,y:n}),!this.start.moved&&Math.hypot(e-this.start.x,n-this.start.y)<KM)return;this.start.moved=!0;let l=this.element.clientHeight;if(r){let c=this.fingers();this.navigation.pan(this.pivot,c.x-r.x,c.y-r.y,l),c.spread>1&&this.spread>1&&this.navigation.zoom(this.pivot,this.spread/c.spread),this.spread=c.spread}else t.buttons&1&&!t.shiftKey?this.navigation.orbit(this.pivot,o/l*Math.PI*1.2,a/l*Math.PI*1.2):this.navigation.pan(this.pivot,o,a,l)}release(t){this.down.delete(t.pointerId)&&!this.start.moved&&t.button===0&&this.down.size===0&&this.target.clicked(...this.at(t),t)}wheel(t){t.preventDefault();let[e,n]=this.at(t),s=performance.now(),r=this.wheelPoint,a=r&&Math.hypot(e-r.x,n-r.y)<3&&s-r.at<400?r.point:this.target.pointAt(e,n);this.wheelPoint={x:e,y:n,at:s,point:a};let l=t.deltaMode===1?16:t.deltaMode===2?400:1;this.navigation.zoom(a,Math.exp(Math.max(-300,Math.min(300,t.deltaY*l))*.0012))}fingers(){let[t,e]=[...this.down.values()];return{x:(t.x+e.x)/2,y:(t.y+e.y)/2,spread:Math.hypot(t.x-e.x,t.y-e.y)}}};var Qe={ghost:1,hatched:2,selected:4,hovered:8,alike:16,marked:32},yg=`
+#include <common>
+#include <batching_pars_vertex>
+attribute vec2 oct;
+uniform highp sampler2D stateTexture;
+uniform int ghosts;
+flat varying vec4 vState;
+flat varying vec3 vMesh;
+varying vec3 vNormal;
+varying vec3 vWorld;
+
+vec3 unfold(vec2 e) {
+  vec3 n = vec3(e, 1.0 - abs(e.x) - abs(e.y));
+  if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * vec2(n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0);
+  return normalize(n);
+}
+
+void main() {
+  float instance = getIndirectIndex(gl_DrawID);
+  int width = textureSize(stateTexture, 0).x;
+  int at = 2 * int(instance);
+  vState = texelFetch(stateTexture, ivec2(at % width, at / width), 0);
+  vMesh = texelFetch(stateTexture, ivec2((at + 1) % width, (at + 1) / width), 0).rgb;
+  bool ghost = (int(vState.a * 255.0 + 0.5) & 1) != 0;
+  if (ghost != (ghosts == 1)) {
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    return;
+  }
+  mat4 place = getBatchingMatrix(instance);
+  vec4 world = place * vec4(position, 1.0);
+  mat3 turn = mat3(normalize(place[0].xyz), normalize(place[1].xyz), normalize(place[2].xyz));
+  vNormal = turn * unfold(max(oct / 127.0, -1.0));
+  vWorld = world.xyz;
+  gl_Position = projectionMatrix * viewMatrix * world;
+}`,ed=`
+uniform vec4 section;
+uniform bool cutting;
+bool isCutOff(vec3 at) { return cutting && dot(section.xyz, at) > section.w; }
+`,bg=`
+layout(location = 0) out vec4 outColor;
+layout(location = 1) out vec4 outNormal;
+layout(location = 2) out vec4 outMesh;
+flat in vec4 vState;
+flat in vec3 vMesh;
+in vec3 vNormal;
+in vec3 vWorld;
+uniform vec3 toLight;
+uniform vec3 lookDirection;
+uniform bool parallel;
+uniform vec3 accent;
+uniform vec3 markColor;
+${ed}
+vec3 linear(vec3 c) { return pow(c, vec3(2.2)); }
+vec3 shown(vec3 c) { return pow(clamp(c, 0.0, 1.0), vec3(1.0 / 2.2)); }
+
+void main() {
+  if (isCutOff(vWorld)) discard;
+  int flags = int(vState.a * 255.0 + 0.5);
+  vec3 toEye = parallel ? -lookDirection : normalize(cameraPosition - vWorld);
+  vec3 n = normalize(vNormal);
+  if (dot(n, toEye) < 0.0) n = -n;
+  vec3 base = linear(vState.rgb);
+  float stripe = step(0.5, fract((gl_FragCoord.x + gl_FragCoord.y) / 9.0));
+  if ((flags & ${Qe.hatched}) != 0) base = mix(base, base * 0.62 + 0.02, stripe);
+  if ((flags & ${Qe.marked}) != 0) base = linear(markColor);
+  if ((flags & ${Qe.alike}) != 0) base = mix(base, linear(accent), 0.5 * stripe + 0.1);
+  if ((flags & ${Qe.selected}) != 0) base = mix(base, linear(accent), 0.55);
+  bool cap = cutting && !gl_FrontFacing;
+  if (cap) n = section.xyz;
+  float sky = 0.5 + 0.5 * n.z;
+  float key = max(dot(n, toLight), 0.0);
+  float rim = pow(1.0 - max(dot(n, toEye), 0.0), 3.0);
+  vec3 light = mix(vec3(0.30, 0.29, 0.28), vec3(0.62, 0.65, 0.70), sky) + 0.46 * key + 0.10 * max(dot(n, toEye), 0.0);
+  vec3 color = cap ? base * 0.7 : base * light + 0.03 * rim;
+  if ((flags & ${Qe.hovered}) != 0) color = mix(color, vec3(1.0), 0.16);
+  outColor = vec4(shown(color), 1.0);
+  vec3 seen = (viewMatrix * vec4(n, 0.0)).xyz;
+  outNormal = vec4(seen.xy * 0.5 + 0.5, vState.a, 1.0);
+  outMesh = vec4(vMesh, 1.0);
+}`,_g=`
+layout(location = 0) out vec4 outColor;
+flat in vec4 vState;
+flat in vec3 vMesh;
+in vec3 vNormal;
+in vec3 vWorld;
+uniform vec3 lookDirection;
+uniform bool parallel;
+uniform float faint;
+${ed}
+void main() {
+  if (isCutOff(vWorld)) discard;
+  vec3 toEye = parallel ? -lookDirection : normalize(cameraPosition - vWorld);
+  float facing = abs(dot(normalize(vNormal), toEye));
+  float alpha = faint * (0.35 + 0.65 * pow(1.0 - facing, 2.0));
+  outColor = vec4(mix(vState.rgb, vec3(0.55, 0.6, 0.66), 0.7) * alpha, alpha);
+}`,wg=`
+varying vec3 vWorld;
+void main() {
+  vec4 world = modelMatrix * vec4(position, 1.0);
+  vWorld = world.xyz;
+  gl_Position = projectionMatrix * viewMatrix * world;
+}`,Sg=`
+layout(location = 0) out vec4 outColor;
+in vec3 vWorld;
+${ed}
+void main() {
+  if (isCutOff(vWorld)) discard;
+  outColor = vec4(1.0);
+}`,Mg=`
+varying vec2 vUv;
+void main() {
+  vUv = uv;
+  gl_Position = vec4(position.xy, 0.0, 1.0);
+}`,Tg=`
+layout(location = 0) out vec4 outColor;
+in vec2 vUv;
+uniform sampler2D tColor, tNormal, tMesh, tGhost, tMask;
+uniform highp sampler2D tDepth;
+uniform vec2 texel;
+uniform vec2 used;
+uniform mat4 fromClip;
+uniform bool occlusion, hasGhosts, hasMask;
+uniform float weight, turn, edgeStrength;
+uniform vec3 skyTop, skyBottom, ink, accent;
+
+vec3 placeAt(vec2 uv) {
+  vec4 p = fromClip * vec4(uv / used * 2.0 - 1.0, texture(tDepth, uv).r * 2.0 - 1.0, 1.0);
+  return p.xyz / p.w;
+}
+vec3 normalAt(vec2 uv) {
+  vec2 xy = texture(tNormal, uv).xy * 2.0 - 1.0;
+  return vec3(xy, sqrt(max(0.0, 1.0 - dot(xy, xy))));
+}
+int flagsAt(vec2 uv) { return int(texture(tNormal, uv).z * 255.0 + 0.5); }
+
+// Lines where parts, creases and silhouettes end, on the nearer side.
+float edgeAt(vec2 uv, vec3 p, vec3 n, vec3 mesh) {
+  float found = 0.0;
+  float pixel = length(placeAt(uv + vec2(texel.x, 0.0)) - p);
+  for (int k = 0; k < 4; k++) {
+    vec2 way = k == 0 ? vec2(1, 0) : k == 1 ? vec2(-1, 0) : k == 2 ? vec2(0, 1) : vec2(0, -1);
+    vec2 at = uv + way * texel;
+    vec4 other = texture(tMesh, at);
+    if (other.a == 0.0) { found = max(found, 0.85); continue; }
+    vec3 q = placeAt(at);
+    float away = abs(dot(q - p, n));
+    bool nearer = p.z >= q.z;
+    float far = max(abs(p.z) * 0.004, 3.0 * length(q.xy - p.xy));
+    if (nearer && away > far) found = max(found, 0.8);
+    else if (other.rgb != mesh && nearer) found = max(found, 0.5);
+    else if (dot(normalAt(at), n) < 0.83 && nearer) found = max(found, 0.42);
+  }
+  return found;
+}
+
+float occluded(vec2 uv, vec3 p, vec3 n) {
+  float sum = 0.0;
+  float reach = max(0.01 * abs(p.z), 0.02);
+  for (int k = 0; k < 8; k++) {
+    float angle = turn + float(k) * 2.399963;
+    float radius = (float(k) + 0.5) / 8.0;
+    vec2 at = uv + vec2(cos(angle), sin(angle)) * texel * mix(2.0, 26.0, radius);
+    if (at.x < 0.0 || at.y < 0.0 || at.x > used.x || at.y > used.y || texture(tMesh, at).a == 0.0) continue;
+    vec3 v = placeAt(at) - p;
+    float d = length(v);
+    sum += max(0.0, dot(n, v) / max(d, 1e-6) - 0.12) * smoothstep(reach * 2.0, reach * 0.3, d);
+  }
+  return clamp(1.0 - 0.22 * sum, 0.35, 1.0);
+}
+
+void main() {
+  vec2 uv = vUv * used;
+  vec4 mesh = texture(tMesh, uv);
+  vec3 color = mix(skyBottom, skyTop, vUv.y);
+  int flags = 0;
+  if (mesh.a > 0.0) {
+    flags = flagsAt(uv);
+    vec3 p = placeAt(uv);
+    vec3 n = normalAt(uv);
+    color = texture(tColor, uv).rgb;
+    if (occlusion) color *= mix(occluded(uv, p, n), 1.0, 0.25);
+    color = mix(color, ink, edgeStrength * edgeAt(uv, p, n, mesh.rgb));
+  }
+  if (hasGhosts) {
+    vec4 ghost = texture(tGhost, uv);
+    color = color * (1.0 - ghost.a) + ghost.rgb;
+  }
+  if (hasMask) {
+    float here = texture(tMask, uv).r;
+    float least = here, most = here;
+    for (int k = 0; k < 8; k++) {
+      float angle = float(k) * 0.785398;
+      float other = texture(tMask, uv + vec2(cos(angle), sin(angle)) * texel * 1.2).r;
+      least = min(least, other);
+      most = max(most, other);
+    }
+    bool seen = (flags & 4) != 0;
+    if (here > 0.5 && !seen) color = mix(color, accent, 0.28);
+    if (most - least > 0.5) color = mix(color, accent, seen || here < 0.5 ? 0.95 : 0.6);
+  }
+  outColor = vec4(color, weight);
+}`,Eg=`
+layout(location = 0) out vec4 outColor;
+in vec2 vUv;
+uniform sampler2D tPicture;
+uniform highp sampler2D tDepth;
+uniform vec2 used, usedDepth;
+void main() {
+  outColor = vec4(texture(tPicture, vUv * used).rgb, 1.0);
+  gl_FragDepth = texture(tDepth, vUv * usedDepth).r;
+}`,Ag=`
+layout(location = 0) out vec4 outColor;
+in vec2 vUv;
+uniform highp sampler2D tDepth;
+uniform vec2 used;
+void main() {
+  float d = min(texture(tDepth, vUv * used).r, 0.9999999) * 16777215.0;
+  outColor = vec4(mod(d, 256.0), mod(floor(d / 256.0), 256.0), floor(d / 65536.0), 255.0) / 255.0;
+}`;var cc=class{renderer;plant=new li;mask=new li;overlay=new li;overlayOnTop=new li;material;maskMaterial;ghostMaterial;composeMaterial;showMaterial;screen;flat=new hi(-1,1,1,-1,0,1);targets;used=new At(1,1);size=new At(1,1);clearColor=new Ut(0,0,0);constructor(t,e){this.renderer=new Pl({canvas:t,antialias:e,powerPreference:"high-performance",alpha:!1}),this.renderer.autoClear=!1,this.renderer.info.autoReset=!1;let n={stateTexture:{value:null},section:{value:new $t},cutting:{value:!1},toLight:{value:new N(0,0,1)},lookDirection:{value:new N(0,1,0)},parallel:{value:!1},accent:{value:new Ut},markColor:{value:new Ut}},s=(r,o,a={})=>new ln({glslVersion:ms,vertexShader:yg,fragmentShader:r,uniforms:{...n,...o},side:Fe,blending:jn,...a});this.material=s(bg,{ghosts:{value:0}}),this.ghostMaterial=s(_g,{ghosts:{value:1},faint:{value:.3}},{transparent:!0,depthWrite:!1,blending:Kr,blendSrc:Ha,blendDst:Qs}),this.maskMaterial=new ln({glslVersion:ms,vertexShader:wg,fragmentShader:Sg,side:Fe,depthTest:!1,depthWrite:!1,blending:jn,uniforms:{section:n.section,cutting:n.cutting}}),this.composeMaterial=hc(Tg,{tColor:{value:null},tNormal:{value:null},tMesh:{value:null},tGhost:{value:null},tMask:{value:null},tDepth:{value:null},texel:{value:new At},used:{value:new At},fromClip:{value:new Mt},occlusion:{value:!1},hasGhosts:{value:!1},hasMask:{value:!1},weight:{value:1},turn:{value:0},edgeStrength:{value:.8},skyTop:{value:new Ut},skyBottom:{value:new Ut},ink:{value:new Ut},accent:{value:new Ut}},{blending:Kr,blendSrc:jr,blendDst:Qs,transparent:!0,depthTest:!1,depthWrite:!1}),this.showMaterial=hc(Eg,{tPicture:{value:null},tDepth:{value:null},used:{value:new At},usedDepth:{value:new At}},{blending:jn}),this.screen=new Le(new Ei(2,2),this.composeMaterial),this.screen.frustumCulled=!1,this.targets=Rg(1,1);for(let r of[this.plant,this.mask])r.matrixAutoUpdate=!1}setPalette(t){let{composeMaterial:e,material:n}=this,s=(r,o)=>r.value.setStyle(o,"");s(e.uniforms.skyTop,t.top),s(e.uniforms.skyBottom,t.bottom),s(e.uniforms.ink,t.ink),s(e.uniforms.accent,t.accent),s(n.uniforms.accent,t.accent),s(n.uniforms.markColor,t.mark)}setSize(t,e,n,s){this.renderer.setPixelRatio(1),this.renderer.setSize(t,e,!1);let r=this.renderer.domElement;r.style.width=`${n}px`,r.style.height=`${s}px`,this.size.set(t,e),Pg(this.targets),this.targets=Rg(t,e)}setSection(t){this.material.uniforms.section.value.copy(t??new $t(0,0,0,0)),this.material.uniforms.cutting.value=this.maskMaterial.uniforms.cutting.value=t!==null,this.ghostMaterial.uniforms.cutting.value=t!==null}draw(t,e){let{renderer:n,targets:s}=this,r=Math.max(1,Math.round(this.size.x*e.scale)),o=Math.max(1,Math.round(this.size.y*e.scale));this.used.set(r/this.size.x,o/this.size.y),n.info.reset(),this.lookFrom(t);let a=Cg[e.sample%Cg.length];t.setViewOffset(r,o,a[0],a[1],r,o),t.updateProjectionMatrix();for(let c of[s.pixels,s.ghosts,s.mask,s.sum])c.viewport.set(0,0,r,o),c.scissor.set(0,0,r,o),c.scissorTest=!0;n.setClearColor(this.clearColor,0),this.plant.overrideMaterial=null,n.setRenderTarget(s.pixels),n.clear(),n.render(this.plant,t),e.ghosts&&(this.plant.overrideMaterial=this.ghostMaterial,n.setRenderTarget(s.ghosts),n.clear(!0,!1,!1),n.render(this.plant,t),this.plant.overrideMaterial=null);let l=this.mask.children.length>0;l&&(n.setRenderTarget(s.mask),n.clear(),n.render(this.mask,t)),this.compose(t,e,l),t.clearViewOffset(),t.updateProjectionMatrix(),this.show()}lookFrom(t){let{uniforms:e}=this.material,n=t.getWorldDirection(e.lookDirection.value);e.parallel.value=this.ghostMaterial.uniforms.parallel.value="isOrthographicCamera"in t;let s=e.toLight.value,r=new N().crossVectors(n,t.up).normalize();s.copy(n).multiplyScalar(-.55).addScaledVector(r,-.5),s.z=Math.max(s.z,0)+.75,s.normalize()}compose(t,e,n){let{renderer:s,targets:r}=this,{uniforms:o}=this.composeMaterial;o.tColor.value=r.pixels.textures[0],o.tNormal.value=r.pixels.textures[1],o.tMesh.value=r.pixels.textures[2],o.tDepth.value=r.pixels.depthTexture,o.tGhost.value=r.ghosts.texture,o.tMask.value=r.mask.texture,o.texel.value.set(1/this.size.x,1/this.size.y),o.used.value.copy(this.used),o.fromClip.value.copy(t.projectionMatrix).invert(),o.occlusion.value=e.occlusion,o.hasGhosts.value=e.ghosts,o.hasMask.value=n,o.weight.value=1/(e.sample+1),o.turn.value=e.sample*1.1,this.screen.material=this.composeMaterial,s.setRenderTarget(r.sum),e.sample===0&&s.clear(),s.render(this.screen,this.flat)}show(t){let{renderer:e,targets:n}=this,{uniforms:s}=this.showMaterial;s.tPicture.value=n.sum.texture,s.tDepth.value=n.pixels.depthTexture,s.used.value.copy(this.used),s.usedDepth.value.copy(this.used),this.screen.material=this.showMaterial,e.setRenderTarget(null),e.clear(),e.render(this.screen,this.flat),t&&this.drawOverlays(t)}drawOverlays(t){let{renderer:e}=this;e.setRenderTarget(null),this.overlay.children.length&&e.render(this.overlay,t),this.overlayOnTop.children.length&&(e.clearDepth(),e.render(this.overlayOnTop,t))}meshAt(t,e){let n=this.size.x*this.used.x,s=this.size.y*this.used.y,r=new Uint8Array(4),o=Math.min(n-1,Math.max(0,Math.floor(t*n))),a=Math.min(s-1,Math.max(0,Math.floor((1-e)*s)));return this.renderer.readRenderTargetPixels(this.targets.pixels,o,a,1,1,r,void 0,2),r[3]?r[0]+256*r[1]+65536*r[2]-1:-1}get depth(){return{texture:this.targets.pixels.depthTexture,used:this.used}}add(t,e){(e?this.overlayOnTop:this.overlay).add(t)}dispose(){Pg(this.targets),this.renderer.dispose()}},Cg=[[0,0],[-.25,.17],[.25,-.17],[-.38,-.33],[.13,.39],[-.13,-.06],[.38,.28],[.06,-.44],[-.44,.06],[.31,.07],[-.19,.41],[.19,-.3],[-.31,-.19],[.44,-.41],[-.03,.22],[.03,.02]];function Rg(i,t){let e=new Jn(i,t,Sn),n={minFilter:Se,magFilter:Se,format:Je,type:je,generateMipmaps:!1};return{pixels:new Pe(i,t,{...n,count:3,depthTexture:e}),ghosts:new Pe(i,t,{...n,depthTexture:e}),mask:new Pe(i,t,{...n,depthBuffer:!1}),sum:new Pe(i,t,{...n,type:Ln,minFilter:$e,magFilter:$e,depthBuffer:!1})}}function Pg(i){for(let t of Object.values(i))t.dispose();i.pixels.depthTexture?.dispose()}function hc(i,t,e={}){return new ln({glslVersion:ms,vertexShader:Mg,fragmentShader:i,uniforms:t,...e})}var pi={none:0,coarse:1,full:2},nd=48,jM=24,uc=class{drawn;pixels;triangles=0;meshes=0;coarse;full;plant;frustum=new ci;matrix=new Mt;ball=new Cn;eye=new N;ahead=new N;constructor(t){this.plant=t,this.drawn=new Uint8Array(t.n),this.pixels=new Float32Array(t.n);let e=()=>({batch:new Array(t.n).fill(null),instance:new Uint32Array(t.n),triangles:new Uint32Array(t.n)});this.coarse=e(),this.full=e()}add(t){let e=t.level===0?this.full:this.coarse;t.meshes.forEach((n,s)=>{e.batch[n]=t,e.instance[n]=s,e.triangles[n]=t.triangles[s]})}remove(t){let e=t.level===0?this.full:this.coarse;t.meshes.forEach(n=>{e.batch[n]===t&&(this.drawn[n]===(t.level===0?pi.full:pi.coarse)&&(this.drawn[n]=pi.none),e.batch[n]=null)})}formOf(t){for(let e of[this.full,this.coarse]){let n=e.batch[t];if(n)return{batch:n,instance:e.instance[t]}}return null}eachForm(t,e){for(let n of[this.full,this.coarse]){let s=n.batch[t];s&&e(s,n.instance[t])}}look(t,e,n,s,r){this.measure(t,e,n);let{plant:o,pixels:a,coarse:l,full:c}=this,h=new Float64Array(nd);for(let p=0;p<o.n;p++)a[p]>=s&&(h[Ig(a[p])]+=this.cost(p,a[p],r));let u=nd,d=0;for(;u>0&&d+h[u-1]<=r;)d+=h[--u];let f=!1;this.triangles=this.meshes=0;for(let p=0;p<o.n;p++){let b=a[p],m=pi.none;b>=s&&(Ig(b)>=u||b>80)&&(m=c.batch[p]!==null&&(l.batch[p]===null||this.isFull(p,b,r))?pi.full:l.batch[p]?pi.coarse:pi.none,this.meshes++,this.triangles+=m===pi.full?c.triangles[p]:l.triangles[p]),m!==this.drawn[p]&&(this.show(p,m),f=!0)}return f}isFull(t,e,n){return this.full.batch[t]===null?!1:e>=(n<1/0?160:jM)}cost(t,e,n){return this.isFull(t,e,n)?this.full.triangles[t]:this.coarse.triangles[t]}show(t,e){let{coarse:n,full:s}=this;n.batch[t]?.setVisible(n.instance[t],e===pi.coarse),s.batch[t]?.setVisible(s.instance[t],e===pi.full),this.drawn[t]=e}measure(t,e,n){let{plant:s,pixels:r,ball:o,eye:a,ahead:l}=this;this.frustum.setFromProjectionMatrix(this.matrix.multiplyMatrices(t.projectionMatrix,t.matrixWorldInverse)),a.setFromMatrixPosition(t.matrixWorld),t.getWorldDirection(l);let c="isOrthographicCamera"in t,h=c?e/(t.top-t.bottom):e/(2*Math.tan(t.fov*Math.PI/360));for(let u=0;u<s.n;u++){r[u]=0;let d=s.radius[u];if(!d||!n[u]||(o.center.set(s.center[3*u]+s.offset[3*u],s.center[3*u+1]+s.offset[3*u+1],s.center[3*u+2]+s.offset[3*u+2]),o.radius=d,!this.frustum.intersectsSphere(o)))continue;let f=c?1:Math.max(o.center.sub(a).dot(l),d*.5);r[u]=2*d*h/f}}};function Ig(i){return Math.max(0,Math.min(nd-1,Math.floor(2*Math.log2(i+1e-6))+8))}var ji=320,dc=class{height=180;target=new Pe(ji,this.height,{depthBuffer:!1});pixels=null;next=null;toClip=new Mt;fromClip=new Mt;material=hc(Ag,{tDepth:{value:null},used:{value:new At}},{depthTest:!1,depthWrite:!1});scene=new li;flat=new hi(-1,1,1,-1,0,1);busy=!1;constructor(){let t=new Le(new Ei(2,2),this.material);t.frustumCulled=!1,this.scene.add(t)}copy(t,e,n){if(this.busy)return;this.busy=!0;let s=Math.max(1,Math.round(ji*t.renderer.domElement.height/t.renderer.domElement.width));s!==this.height&&(this.height=s,this.target.setSize(ji,s),this.next=null);let{texture:r,used:o}=t.depth;this.material.uniforms.tDepth.value=r,this.material.uniforms.used.value.copy(o),t.renderer.setRenderTarget(this.target),t.renderer.render(this.scene,this.flat),t.renderer.setRenderTarget(null);let a=new Mt().multiplyMatrices(e.projectionMatrix,e.matrixWorldInverse),l=this.next??new Uint8Array(4*ji*s);t.renderer.readRenderTargetPixelsAsync(this.target,0,0,ji,s,l).then(()=>{this.next=this.pixels?.length===l.length?this.pixels:null,this.pixels=l,this.toClip.copy(a),this.fromClip.copy(a).invert(),this.busy=!1,n()},()=>this.busy=!1)}isBefore(t,e,n){if(!this.pixels)return!1;let s=new $t(t,e,n,1).applyMatrix4(this.toClip);if(s.w<=0)return!0;let r=Math.floor((s.x/s.w/2+.5)*ji),o=Math.floor((s.y/s.w/2+.5)*this.height);if(r<1||o<1||r>=ji-1||o>=this.height-1)return!1;let a=s.z/s.w,l=this.slackAt(s);for(let c=-1;c<=1;c++)for(let h=-1;h<=1;h++){let u=4*((o+c)*ji+r+h);if((this.pixels[u]+256*this.pixels[u+1]+65536*this.pixels[u+2])/16777215*2-1>=a-l)return!1}return!0}slackAt(t){let e=new $t(t.x/t.w,t.y/t.w,t.z/t.w,1).applyMatrix4(this.fromClip),n=new $t(0,0,-1,1).applyMatrix4(this.fromClip),[s,r]=[e.divideScalar(e.w),n.divideScalar(n.w)],o=s.clone().lerp(r,.02).setW(1).applyMatrix4(this.toClip);return Math.max(0,t.z/t.w-o.z/o.w)}};var QM=65535,fc=class{object;bytes;level;meshes;triangles;ranges=[];rangeOf;state;texture;dirty=!1;constructor(t,e,n){let s=0,r=0,o=0;for(let h of t)s+=h.positions.length/3,r+=h.indices.length,o+=e.meshesOfShape.of(h.shape).length;this.level=t[0]?.level??1,this.meshes=new Uint32Array(o),this.triangles=new Uint32Array(o),this.rangeOf=new Uint32Array(o);let a=512,l=Math.max(1,Math.ceil(2*o/a));this.state=new Uint8Array(4*a*l),this.texture=new Mi(this.state,a,l,Je,je),this.texture.minFilter=this.texture.magFilter=Se,this.object=new Hr(Math.max(o,1),Math.max(s,1),Math.max(r,1),n),this.object.frustumCulled=this.object.perObjectFrustumCulled=this.object.sortObjects=!1,this.object.matrixAutoUpdate=!1;let c=this.object.onBeforeRender;this.object.onBeforeRender=(h,u,d,f,p,b)=>{this.bindState(p),c.call(this.object,h,u,d,f,p,b)};for(let h of t)this.addForm(h,e);this.bytes=s*8+r*(s>QM?4:2)+o*80}addForm(t,e){let n=new Ie;n.setAttribute("position",new be(t.positions,3)),n.setAttribute("oct",new be(t.normals,2)),n.setIndex(new be(t.indices,1));let s=this.object.addGeometry(n),r=this.object.getGeometryRangeAt(s);this.ranges.push({vertexStart:r.vertexStart,vertexCount:r.vertexCount,indexStart:r.indexStart,indexCount:r.indexCount,low:t.low,step:t.step});for(let o of e.meshesOfShape.of(t.shape)){let a=this.object.addInstance(s);this.meshes[a]=o,this.triangles[a]=t.indices.length/3,this.rangeOf[a]=this.ranges.length-1,this.object.setVisibleAt(a,!1),this.setMatrix(a,e);let l=8*a+4;this.state[l]=o+1&255,this.state[l+1]=o+1>>8&255,this.state[l+2]=o+1>>16&255}this.dirty=!0}rangeAt(t){return this.ranges[this.rangeOf[t]]}setVisible(t,e){this.object.setVisibleAt(t,e)}setState(t,e,n,s,r){let o=8*t;this.state[o]=e,this.state[o+1]=n,this.state[o+2]=s,this.state[o+3]=r,this.dirty=!0}setMatrix(t,e){this.object.setMatrixAt(t,this.matrixAt(t,e,tT))}matrixAt(t,e,n){let{low:s,step:r}=this.rangeAt(t);return e.matrixOf(this.meshes[t],n),Lg.makeScale(r[0]||1e-9,r[1]||1e-9,r[2]||1e-9).setPosition(s[0],s[1],s[2]),n.multiply(Lg)}bindState(t){this.dirty&&(this.texture.needsUpdate=!0,this.dirty=!1),t.uniforms.stateTexture.value=this.texture,t.uniformsNeedUpdate=!0}dispose(){this.texture.dispose(),this.object.dispose()}},tT=new Mt,Lg=new Mt;function Dg(i){let t=new DataView(i);if(i.byteLength<8||t.getUint32(0,!0)!==1128743752)throw new Error("this is no chunk of shapes");let e=t.getUint32(4,!0);if(8+e*48>i.byteLength)throw new Error("a chunk of shapes is cut off");let n=[];for(let s=0;s<e;s++)n.push(eT(i,t,8+s*48));return n}function eT(i,t,e){let[n,s,r,o,a,l]=[0,4,8,12,16,20].map(d=>t.getUint32(e+d,!0)),c=(l&1)!==0,h=a+Ng(6*r),u=h+Ng(2*r);if(u+(c?4:2)*o>i.byteLength)throw new Error("a chunk of shapes is cut off");return{shape:n,level:s===0?0:1,positions:new Uint16Array(i,a,3*r),normals:new Int8Array(i,h,2*r),indices:c?new Uint32Array(i,u,o):new Uint16Array(i,u,o),low:kg(t,e+24),step:kg(t,e+36)}}function kg(i,t){return[i.getFloat32(t,!0),i.getFloat32(t+4,!0),i.getFloat32(t+8,!0)]}function Ng(i){return i+3&-4}var nT=3,iT=6e8,pc=class{bytes=0;share=0;batches=new Map;failed=new Set;source;manifest;plant;culling;pipeline;changed;filling=!1;again=!1;memory;constructor(t,e,n,s,r,o,a=iT){this.source=t,this.manifest=e,this.plant=n,this.culling=s,this.pipeline=r,this.changed=o,this.memory=a}get isComplete(){return this.share>=1&&!this.filling}async loadCoarse(){let t=this.manifest.chunks.filter(s=>s.level===1),e=t.reduce((s,r)=>s+r.bytes,0)||1,n=0;await Fg(t,nT,async s=>{this.bytes+2*s.bytes<=this.memory&&await this.load(s),n+=s.bytes,this.share=Math.min(n/e,.999),this.changed()}),this.share=1,this.changed()}async fill(t){if(this.share<1)return;if(this.filling){this.again=!0;return}this.filling=!0;let e=new Map(this.manifest.chunks.filter(s=>s.level===0).map(s=>[s,sT(s,t)])),n=[...e.keys()].sort((s,r)=>e.get(r)-e.get(s));try{await Fg(n,2,async s=>{this.batches.has(s)||this.failed.has(s)||this.makeRoom(s,e)&&(await this.load(s),this.changed())})}finally{this.filling=!1}this.again&&(this.again=!1,await this.fill(t))}makeRoom(t,e){let n=2*t.bytes,s=[...this.batches.keys()].filter(r=>r.level===0).sort((r,o)=>(e.get(r)??0)-(e.get(o)??0));for(let r of s){if(this.bytes+n<=this.memory||(e.get(r)??0)*1.5>e.get(t))break;this.drop(r)}return this.bytes+n<=this.memory}drop(t){let e=this.batches.get(t);this.batches.delete(t),this.culling.remove(e),this.pipeline.plant.remove(e.object),this.bytes-=2*e.bytes,e.dispose()}async load(t){let e;try{e=Dg(await this.source.file(t.file))}catch(s){throw this.failed.add(t),s}await rT();let n=new fc(e,this.plant,this.pipeline.material);for(let s of e){let r=s.low.map((o,a)=>o+s.step[a]*65535);this.plant.setBounds(s.shape,s.low,r)}this.batches.set(t,n),this.bytes+=2*n.bytes,this.pipeline.plant.add(n.object),this.culling.add(n)}dispose(){for(let t of[...this.batches.keys()])this.drop(t)}};function sT(i,t){let e=0,n=0;for(let s=0;s<3;s++)e+=Math.max(i.low[s]-t[s],0,t[s]-i.high[s])**2,n+=(i.high[s]-i.low[s])**2;return Math.sqrt(n)/(Math.sqrt(e)+.1*Math.sqrt(n)+.001)}async function Fg(i,t,e){let n=0,s=async()=>{for(;n<i.length;)await e(i[n++])};await Promise.all(Array.from({length:Math.min(t,i.length)},s))}function rT(){return new Promise(i=>setTimeout(i,0))}var id="#c3cad3",oT=["#00224e","#35456c","#666970","#948e77","#c8b866","#fee838"],Og={embedded:["Geometry","#4477aa"],geometry:["Geometry","#4477aa"],lvlm:["Vision-language model","#aa3377"],author:["Given with the scene","#228833"],human:["Corrected by a person","#ee7733"],catalog:["Catalogue","#ccbb44"],file:["The file's own data","#66ccee"],graph:["Neighbours","#997700"]};function Bg(i,t){let{parts:e,groups:n,network:s}=i,r=e.id.length,o=Uint8Array.from(e.state,(p,b)=>p==="sure"||e.ground[b]?0:1);if(t==="original")return{entryOf:new Int32Array(r).fill(-1),entries:[],hatched:new Uint8Array(r)};if(t==="confidence")return hT(i,o);let a=p=>e.unit[p]>=0?s.units[e.unit[p]].system:-1,l=t==="system"?uT(i):null,c={group:p=>n[e.group[p]]?.name??null,name:p=>e.name[p],unit:p=>s.units[e.unit[p]]?.tag??null,system:p=>s.systems[l[p]>=0?l[p]:a(p)]?.id??null,cluster:p=>s.clusters[e.cluster[p]]?.id??null,source:p=>e.source[p]},h=new Map;for(let p=0;p<r;p++){let b=c[t](p),m=h.get(b);m?m.push(p):h.set(b,[p])}let d=[...h.keys()].sort((p,b)=>p===null?1:b===null?-1:aT(p,b,h)).map((p,b)=>({label:p===null?lT(t):t==="source"?Og[p]?.[0]??p:p,color:p===null?id:cT(t,p,b,i),hatched:p===null,parts:h.get(p)})),f=new Int32Array(r);d.forEach((p,b)=>p.parts.forEach(m=>f[m]=b)),t!=="group"&&t!=="name"&&o.fill(0);for(let p of d)if(p.hatched)for(let b of p.parts)o[b]=e.ground[b]?0:1;return{entryOf:f,entries:d,hatched:o}}function aT(i,t,e){return e.get(t).length-e.get(i).length||(i<t?-1:1)}function lT(i){return{unit:"In no unit",system:"In no system",cluster:"In no structure"}[i]??"No label"}function cT(i,t,e,n){return i==="group"?n.groups.find(s=>s.name===t)?.color??id:i==="source"?Og[t]?.[1]??Ug(e+7):Ug(e)}function hT(i,t){let{confidence:e,state:n}=i.parts,s=[.5,.7,.85,.95,.99],r=oT.map((a,l)=>({label:l===0?"below 50 %":l===5?"99 % and more":`${Math.round(s[l-1]*100)} to ${Math.round(s[l]*100)} %`,color:a,hatched:!1,parts:[]}));r.push({label:"No label",color:id,hatched:!0,parts:[]});let o=Int32Array.from(e,(a,l)=>{let c=a===null||n[l]==="open"?6:s.filter(h=>a>=h).length;return r[c].parts.push(l),c});for(let a=0;a<t.length;a++)t[a]=o[a]===6?1:0;return{entryOf:o,entries:r,hatched:t}}function uT(i){let{parts:t,network:e}=i,n=new Int32Array(t.id.length).fill(-1);for(let s of e.connections){let r=e.lines[s.line]?.system??-1;for(let o of s.via)n[o]=r}for(let s of e.units)for(let r of s.parts)n[r]=s.system;return n}function Ug(i){let t=(210+i*137.508)%360,[e,n]=[[62,52],[55,66],[70,40]][i%3];return fT(dT(t,e/100,n/100))}function dT(i,t,e){let n=s=>{let r=(s+i/30)%12;return Math.round(255*(e-t*Math.min(e,1-e)*Math.max(-1,Math.min(r-3,9-r,1))))};return[n(0),n(8),n(4)]}function zg(i){let t=Number.parseInt(i.slice(1),16);return[t>>16&255,t>>8&255,t&255]}function fT([i,t,e]){return`#${(1<<24|i<<16|t<<8|e).toString(16).slice(1)}`}var pT=4e3,mc=class{state;visible;hasGhosts=!1;emphasised=[];coloring=null;plant;store;constructor(t,e){this.plant=t,this.store=e,this.state=new Uint8Array(4*t.n),this.visible=new Uint8Array(t.n).fill(1)}recolor(){this.coloring=Bg(this.store.content,this.store.shown.colorBy),this.update()}update(){let{plant:t}=this,e=this.coloring,n=this.store.shown,s=this.flagsOfParts(n),r=e.entries.map(o=>zg(o.color));this.emphasised=[],this.hasGhosts=!1;for(let o=0;o<t.n;o++){let a=t.partOf[o],l=4*o,c=a>=0?e.entryOf[a]:-1,h=c>=0?r[c]:this.ownColor(o);this.state[l]=h[0],this.state[l+1]=h[1],this.state[l+2]=h[2];let u=a>=0?s[a]:n.isolated||n.marks?Qe.ghost:0;a>=0&&e.hatched[a]&&(u|=Qe.hatched);let d=a>=0&&n.hidden.has(a),f=(u&Qe.ghost)!==0;this.visible[o]=d||t.shapeOf[o]<0||f&&!n.ghost?0:1,this.state[l+3]=u,f&&this.visible[o]&&(this.hasGhosts=!0),u&Qe.selected&&this.visible[o]&&this.emphasised.length<pT&&this.emphasised.push(o)}}ownColor(t){let{color:e}=this.plant,n=4*t;return e[n+3]?[e[n],e[n+1],e[n+2]]:[174,183,194]}flagsOfParts(t){let e=this.store.content,n=e.parts.id.length,s=new Uint8Array(n),r=this.onlyThese(t);if(r)for(let a=0;a<n;a++)r.has(a)||(s[a]|=Qe.ghost);for(let a of t.question?.alike??[])s[a]|=Qe.alike;let o=t.question?t.question.parts:t.selection;for(let a of o)s[a]=(s[a]|Qe.selected)&~Qe.ghost;t.hovered>=0&&t.hovered<n&&(s[t.hovered]|=Qe.hovered);for(let a of e.network.units)if(t.marks?.close.has(a.id))for(let l of a.parts)s[l]=(s[l]|Qe.marked)&~Qe.ghost;return s}onlyThese(t){if(t.explode){let e=this.store.content.network.units.find(n=>n.id===t.explode.unit);if(e)return new Set(e.parts)}return t.marks?t.marks.parts:t.isolated}};var gc=38,sd=Math.cos(.4*Math.PI/180),xc=class{perspective=new pn(gc,1,.01,1e3);parallel=new hi(-1,1,1,-1,-1e3,1e3);orthographic=!1;eye=new N(-10,-13,9);target=new N;aspect=1;flight=0;bounds={center:[0,0,0],radius:10};moved;constructor(t){this.moved=t;for(let e of[this.perspective,this.parallel])e.up.set(0,0,1)}get camera(){return this.orthographic?this.parallel:this.perspective}setBounds(t){this.bounds=t}setAspect(t){this.aspect=t,this.place()}get(){return{eye:this.eye.toArray(),target:this.target.toArray(),orthographic:this.orthographic}}set(t){this.stop(),this.orthographic=t.orthographic,this.eye.fromArray(t.eye),this.target.fromArray(t.target),this.place()}setOrthographic(t){this.orthographic=t,this.place()}pixelAt(t,e){return 2*(this.orthographic?this.distance:Math.max(this.depthOf(t),1e-6))*Math.tan(gc*Math.PI/360)/e}orbit(t,e,n){this.stop();let s=-e,r=this.right();for(let l of[this.eye,this.target])l.sub(t).applyAxisAngle(yo,s).add(t);r.applyAxisAngle(yo,s);let o=[this.eye.clone(),this.target.clone()];for(let l of[this.eye,this.target])l.sub(t).applyAxisAngle(r,-n).add(t);let a=this.ahead();(Math.abs(a.z)>sd||a.dot(new N().crossVectors(yo,r))<0)&&(this.eye.copy(o[0]),this.target.copy(o[1])),this.place()}pan(t,e,n,s){this.stop();let r=this.pixelAt(t,s),o=this.right(),a=new N().crossVectors(o,this.ahead()),l=o.multiplyScalar(-e*r).addScaledVector(a,n*r);this.eye.add(l),this.target.add(l),this.place()}zoom(t,e){this.stop();let n=this.bounds.radius*1e-5;e<1&&this.distance*e<n||e>1&&this.distance*e>this.bounds.radius*40||(this.eye.sub(t).multiplyScalar(e).add(t),this.target.sub(t).multiplyScalar(e).add(t),this.place())}flyTo(t,e,n=!0,s=1.08){let r=(e??this.ahead().negate()).clone().normalize();Math.abs(r.z)>sd&&r.set(0,-Math.sqrt(1-sd**2),r.z).normalize();let{target:o,distance:a}=this.fit(t,r,s);this.travel(o.clone().addScaledVector(r,a),o,n)}fit(t,e,n){let s=new N().crossVectors(yo,e).normalize(),r=new N().crossVectors(e,s),o=Math.tan(gc*Math.PI/360)/n,a=o*this.aspect,l=mT(t),c=0,h=new N;for(let u=0;u<4;u++){c=this.bounds.radius*1e-4;for(let p=0;p<t.length;p+=3){h.fromArray(t,p).sub(l);let b=Math.max(Math.abs(h.dot(s))/a,Math.abs(h.dot(r))/o);c=Math.max(c,b+h.dot(e))}let d=[1/0,-1/0],f=[1/0,-1/0];for(let p=0;p<t.length;p+=3){h.fromArray(t,p).sub(l);let b=this.orthographic?c:Math.max(c-h.dot(e),1e-6),[m,g]=[h.dot(s)/b,h.dot(r)/b];[d[0],d[1]]=[Math.min(d[0],m),Math.max(d[1],m)],[f[0],f[1]]=[Math.min(f[0],g),Math.max(f[1],g)]}u<3&&l.addScaledVector(s,(d[0]+d[1])/2*c).addScaledVector(r,(f[0]+f[1])/2*c)}return{target:l,distance:c}}travel(t,e,n){if(this.stop(),!n||matchMedia("(prefers-reduced-motion: reduce)").matches){this.eye.copy(t),this.target.copy(e),this.place();return}let[r,o]=[this.eye.clone(),this.target.clone()],a=performance.now(),l=c=>{let h=Math.min(1,Math.max(0,(c-a)/420)),u=h*h*(3-2*h);this.target.lerpVectors(o,e,u),this.eye.lerpVectors(r,t,u),this.place(),this.flight=h<1?requestAnimationFrame(l):0};this.flight=requestAnimationFrame(l)}stop(){this.flight&&cancelAnimationFrame(this.flight),this.flight=0}get distance(){return this.eye.distanceTo(this.target)}ahead(){return new N().subVectors(this.target,this.eye).normalize()}right(){let t=new N().crossVectors(this.ahead(),yo);return t.lengthSq()>1e-9?t.normalize():t.set(1,0,0)}depthOf(t){return t.clone().sub(this.eye).dot(this.ahead())}place(){let t=new N(...this.bounds.center),e=this.bounds.radius*1.3,n=this.depthOf(t),{perspective:s,parallel:r}=this;s.far=Math.max(n+e,this.bounds.radius*.01),s.near=Math.max(n-e,s.far/2e4),s.aspect=this.aspect;let o=this.distance*Math.tan(gc*Math.PI/360);r.top=o,r.bottom=-o,r.left=-o*this.aspect,r.right=o*this.aspect,r.near=n-e,r.far=n+e;for(let a of[s,r])a.position.copy(this.eye),a.lookAt(this.target),a.updateMatrixWorld(),a.updateProjectionMatrix();this.moved()}},yo=new N(0,0,1);function mT(i){let t=new N(1/0,1/0,1/0),e=new N(-1/0,-1/0,-1/0),n=new N;for(let s=0;s<i.length;s+=3)n.fromArray(i,s),t.min(n),e.max(n);return t.add(e).multiplyScalar(.5)}var ur=Math.pow(2,-24),bo=Symbol("SKIP_GENERATION"),vc={strategy:0,maxDepth:40,targetLeafSize:10,useSharedArrayBuffer:!1,setBoundingBox:!0,onProgress:null,indirect:!1,verbose:!0,range:null,[bo]:!1};function de(i,t,e){return e.min.x=t[i],e.min.y=t[i+1],e.min.z=t[i+2],e.max.x=t[i+3],e.max.y=t[i+4],e.max.z=t[i+5],e}function _o(i){let t=-1,e=-1/0;for(let n=0;n<3;n++){let s=i[n+3]-i[n];s>e&&(e=s,t=n)}return t}function rd(i,t,e){for(let n=0;n<3;n++){let s=t[i+2*n],r=t[i+2*n+1],o=s-r,a=s+r;o<e[n]&&(e[n]=o),a>e[n+3]&&(e[n+3]=a)}}function yc(i){let t=i[3]-i[0],e=i[4]-i[1],n=i[5]-i[2];return 2*(t*e+e*n+n*t)}function jt(i,t){return t[i+15]===65535}function oe(i,t){return t[i+6]}function ce(i,t){return t[i+14]}function ne(i){return i+8}function ie(i,t){let e=t[i+6];return i+e*8}function dr(i,t){return t[i+7]}function bc(i,t,e,n,s){let r=1/0,o=1/0,a=1/0,l=-1/0,c=-1/0,h=-1/0,u=1/0,d=1/0,f=1/0,p=-1/0,b=-1/0,m=-1/0,g=i.offset||0;for(let y=(t-g)*6,w=(t+e-g)*6;y<w;y+=6){let v=i[y+0],_=i[y+1],E=v-_,x=v+_;E<r&&(r=E),x>l&&(l=x),v<u&&(u=v),v>p&&(p=v);let S=i[y+2],k=i[y+3],C=S-k,P=S+k;C<o&&(o=C),P>c&&(c=P),S<d&&(d=S),S>b&&(b=S);let I=i[y+4],U=i[y+5],L=I-U,B=I+U;L<a&&(a=L),B>h&&(h=B),I<f&&(f=I),I>m&&(m=I)}n[0]=r,n[1]=o,n[2]=a,n[3]=l,n[4]=c,n[5]=h,s[0]=u,s[1]=d,s[2]=f,s[3]=p,s[4]=b,s[5]=m}var gi=8,ad=8,od=new Int32Array(gi),mi=new Float32Array(gi*6),fr=new Float32Array(gi*6),Qn=new Float32Array(6),_c=new Float32Array(6),Qi=new Int32Array(ad),Hg=new Float32Array(ad*6);function vT(i,t,e,n){for(let s=0;s<3;s++){let r=t[i+2*s],o=t[i+2*s+1],a=r-o,l=r+o;a<e[n+s]&&(e[n+s]=a),l>e[n+s+3]&&(e[n+s+3]=l)}}function Gg(i,t){let e=i[t+3]-i[t],n=i[t+4]-i[t+1],s=i[t+5]-i[t+2];return 2*(e*n+n*s+s*e)}function Wg(i,t,e,n,s,r){let o=-1,a=0;if(r===0)o=_o(t),o!==-1&&(a=(t[o]+t[o+3])/2);else if(r===1)o=_o(i),o!==-1&&(a=yT(e,n,s,o));else if(r===2){let l=yc(i),c=1.25*s,h=e.offset||0,u=(n-h)*6,d=(n+s-h)*6;for(let f=0;f<3;f++){let p=t[f],g=(t[f+3]-p)/gi;if(s<ad){for(let y=0;y<s;y++){let w=u+y*6,v=e[w+2*f],_=y;for(;_>0&&e[Qi[_-1]+2*f]>v;)Qi[_]=Qi[_-1],_--;Qi[_]=w}for(let y=0;y<3;y++)Qn[y]=1/0,Qn[y+3]=-1/0,_c[y]=1/0,_c[y+3]=-1/0;for(let y=s-1;y>=0;y--)rd(Qi[y],e,_c),Hg.set(_c,y*6);for(let y=0;y<s-1;y++){rd(Qi[y],e,Qn);let w=e[Qi[y+1]+2*f];if(e[Qi[y]+2*f]===w)continue;let v=y+1,_=s-v,E=yc(Qn)/l,x=Gg(Hg,v*6)/l,S=1+1.25*(E*v+x*_);S<c&&(o=f,c=S,a=w)}}else{for(let v=0;v<gi;v++){od[v]=0;for(let _=0;_<3;_++)mi[v*6+_]=1/0,mi[v*6+_+3]=-1/0}for(let v=u;v<d;v+=6){let x=~~((e[v+2*f]-p)/g);x>=gi&&(x=gi-1),od[x]++,vT(v,e,mi,x*6)}let y=(gi-1)*6;for(let v=0;v<6;v++)fr[y+v]=mi[y+v];for(let v=gi-2;v>=0;v--){let _=v*6,E=_+6;for(let x=0;x<3;x++)fr[_+x]=Math.min(mi[_+x],fr[E+x]),fr[_+x+3]=Math.max(mi[_+x+3],fr[E+x+3])}let w=0;for(let v=0;v<gi-1;v++){let _=v*6,E=od[v];if(E!==0)for(let P=0;P<3;P++)w===0?(Qn[P]=mi[_+P],Qn[P+3]=mi[_+P+3]):(Qn[P]=Math.min(Qn[P],mi[_+P]),Qn[P+3]=Math.max(Qn[P+3],mi[_+P+3]));w+=E;let x=0,S=0;w!==0&&(x=yc(Qn)/l);let k=s-w;k!==0&&(S=Gg(fr,_+6)/l);let C=1+1.25*(x*w+S*k);C<c&&(o=f,c=C,a=p+g+v*g)}}}}else console.warn(`BVH: Invalid build strategy value ${r} used.`);return{axis:o,pos:a}}function yT(i,t,e,n){let s=0,r=i.offset;for(let o=t,a=t+e;o<a;o++)s+=i[(o-r)*6+n*2];return s/e}function Xg(i,t,e,n,s,r){let o=n,a=n+s-1,l=r.pos,c=r.axis*2,h=e.offset||0;for(;;){for(;o<=a&&e[(o-h)*6+c]<l;)o++;for(;o<=a&&e[(a-h)*6+c]>=l;)a--;if(o<a){for(let u=0;u<t;u++){let d=i[o*t+u];i[o*t+u]=i[a*t+u],i[a*t+u]=d}for(let u=0;u<6;u++){let d=o-h,f=a-h,p=e[d*6+u];e[d*6+u]=e[f*6+u],e[f*6+u]=p}o++,a--}else return o}}var bT=Math.pow(2,32),pr=new Float32Array(6),wc=new Float32Array(6);function _T(i,t,e,n,s,r){let{maxDepth:o,verbose:a,targetLeafSize:l,_strictLeafSize:c=1/0,strategy:h,onProgress:u,useSharedArrayBuffer:d=!1}=s,f=i.primitiveBuffer,p=i.primitiveBufferStride,b=d?SharedArrayBuffer:ArrayBuffer,m=new b(32*Math.max(1,2*Math.ceil(n)-1)),g=new Float32Array(m),y=new Uint32Array(m),w=new Uint16Array(m),v=0,_=!1;return bc(t,e,n,pr,wc),S(e,n,0),m.slice(0,v*32);function E(k){u&&u((k-r.offset)/r.count)}function x(k,C,P){let I=k*2;y[k+6]=C,w[I+14]=P,w[I+15]=65535,E(C+P)}function S(k,C,P){let I=v++,U=I*8;g.set(pr,U),!_&&P>=o&&(_=!0,a&&console.warn(`BVH: Max depth of ${o} reached when generating BVH. Consider increasing maxDepth.`));let L=C>c;if(C<=l&&!L||P>=o){x(U,k,C);return}let B=Wg(pr,wc,t,k,C,h),G=B.axis===-1?-1:Xg(f,p,t,k,C,B);if(B.axis===-1||G===k||G===k+C){if(!L){x(U,k,C);return}B.axis=Math.max(0,_o(pr)),G=k+Math.max(1,Math.floor(C/2))}y[U+7]=B.axis;let W=G-k;bc(t,k,W,pr,wc),S(k,W,P+1);let nt=v-I;if(nt>bT)throw new Error("MeshBVH: Cannot store relative child node offset greater than 32 bits.");y[U+6]=nt;let $=C-W;bc(t,G,$,pr,wc),S(G,$,P+1)}}function $g(i,t){let e=i.getRootRanges(t.range),n=e[0],s=e[e.length-1],r={offset:n.offset,count:s.offset+s.count-n.offset},o=new Float32Array(6*r.count);o.offset=r.offset,i.computePrimitiveBounds(r.offset,r.count,o),i._roots=e.map(a=>_T(i,o,a.offset,a.count,t,r))}var ts=class{constructor(t){this._getNewPrimitive=t,this._primitives=[]}getPrimitive(){let t=this._primitives;return t.length===0?this._getNewPrimitive():t.pop()}releasePrimitive(t){this._primitives.push(t)}};var ld=class{constructor(){this.float32Array=null,this.uint16Array=null,this.uint32Array=null;let t=[],e=null;this.setBuffer=n=>{e&&t.push(e),e=n,this.float32Array=new Float32Array(n),this.uint16Array=new Uint16Array(n),this.uint32Array=new Uint32Array(n)},this.clearBuffer=()=>{e=null,this.float32Array=null,this.uint16Array=null,this.uint32Array=null,t.length!==0&&this.setBuffer(t.pop())}}},qt=new ld;var es,gr,mr=[],Sc=new ts(()=>new le);function qg(i,t,e,n,s,r){es=Sc.getPrimitive(),gr=Sc.getPrimitive(),mr.push(es,gr),qt.setBuffer(i._roots[t]);let o=cd(0,i.geometry,e,n,s,r);qt.clearBuffer(),Sc.releasePrimitive(es),Sc.releasePrimitive(gr),mr.pop(),mr.pop();let a=mr.length;return a>0&&(gr=mr[a-1],es=mr[a-2]),o}function cd(i,t,e,n,s=null,r=0,o=0){let{float32Array:a,uint16Array:l,uint32Array:c}=qt,h=i*2;if(jt(h,l)){let d=oe(i,c),f=ce(h,l);return de(i,a,es),n(d,f,!1,o,r+i/8,es)}else{let C=function(I){let{uint16Array:U,uint32Array:L}=qt,B=I*2;for(;!jt(B,U);)I=ne(I),B=I*2;return oe(I,L)},P=function(I){let{uint16Array:U,uint32Array:L}=qt,B=I*2;for(;!jt(B,U);)I=ie(I,L),B=I*2;return oe(I,L)+ce(B,U)},d=ne(i),f=ie(i,c),p=d,b=f,m,g,y,w;if(s&&(y=es,w=gr,de(p,a,y),de(b,a,w),m=s(y),g=s(w),g<m)){p=f,b=d;let I=m;m=g,g=I,y=w}y||(y=es,de(p,a,y));let v=jt(p*2,l),_=e(y,v,m,o+1,r+p/8),E;if(_===2){let I=C(p),L=P(p)-I;E=n(I,L,!0,o+1,r+p/8,y)}else E=_&&cd(p,t,e,n,s,r,o+1);if(E)return!0;w=gr,de(b,a,w);let x=jt(b*2,l),S=e(w,x,g,o+1,r+b/8),k;if(S===2){let I=C(b),L=P(b)-I;k=n(I,L,!0,o+1,r+b/8,w)}else k=S&&cd(b,t,e,n,s,r,o+1);return!!k}}var wo=new qt.constructor,Mc=new qt.constructor,ns=new ts(()=>new le),xr=new le,vr=new le,ud=new le,dd=new le,fd=!1;function Yg(i,t,e,n){if(fd)throw new Error("MeshBVH: Recursive calls to bvhcast not supported.");fd=!0;let s=i._roots,r=t._roots,o,a=0,l=0,c=new Mt().copy(e).invert();for(let h=0,u=s.length;h<u;h++){wo.setBuffer(s[h]),l=0;let d=ns.getPrimitive();de(0,wo.float32Array,d),d.applyMatrix4(c);for(let f=0,p=r.length;f<p&&(Mc.setBuffer(r[f]),o=ti(0,0,e,c,n,a,l,0,0,d),Mc.clearBuffer(),l+=r[f].byteLength/32,!o);f++);if(ns.releasePrimitive(d),wo.clearBuffer(),a+=s[h].byteLength/32,o)break}return fd=!1,o}function ti(i,t,e,n,s,r=0,o=0,a=0,l=0,c=null,h=!1){let u,d;h?(u=Mc,d=wo):(u=wo,d=Mc);let f=u.float32Array,p=u.uint32Array,b=u.uint16Array,m=d.float32Array,g=d.uint32Array,y=d.uint16Array,w=i*2,v=t*2,_=jt(w,b),E=jt(v,y),x=!1;if(E&&_)h?x=s(oe(t,g),ce(t*2,y),oe(i,p),ce(i*2,b),l,o+t/8,a,r+i/8):x=s(oe(i,p),ce(i*2,b),oe(t,g),ce(t*2,y),a,r+i/8,l,o+t/8);else if(E){let S=ns.getPrimitive();de(t,m,S),S.applyMatrix4(e);let k=ne(i),C=ie(i,p);de(k,f,xr),de(C,f,vr);let P=S.intersectsBox(xr),I=S.intersectsBox(vr);x=P&&ti(t,k,n,e,s,o,r,l,a+1,S,!h)||I&&ti(t,C,n,e,s,o,r,l,a+1,S,!h),ns.releasePrimitive(S)}else{let S=ne(t),k=ie(t,g);de(S,m,ud),de(k,m,dd);let C=c.intersectsBox(ud),P=c.intersectsBox(dd);if(C&&P)x=ti(i,S,e,n,s,r,o,a,l+1,c,h)||ti(i,k,e,n,s,r,o,a,l+1,c,h);else if(C)if(_)x=ti(i,S,e,n,s,r,o,a,l+1,c,h);else{let I=ns.getPrimitive();I.copy(ud).applyMatrix4(e);let U=ne(i),L=ie(i,p);de(U,f,xr),de(L,f,vr);let B=I.intersectsBox(xr),G=I.intersectsBox(vr);x=B&&ti(S,U,n,e,s,o,r,l,a+1,I,!h)||G&&ti(S,L,n,e,s,o,r,l,a+1,I,!h),ns.releasePrimitive(I)}else if(P)if(_)x=ti(i,k,e,n,s,r,o,a,l+1,c,h);else{let I=ns.getPrimitive();I.copy(dd).applyMatrix4(e);let U=ne(i),L=ie(i,p);de(U,f,xr),de(L,f,vr);let B=I.intersectsBox(xr),G=I.intersectsBox(vr);x=B&&ti(k,U,n,e,s,o,r,l,a+1,I,!h)||G&&ti(k,L,n,e,s,o,r,l,a+1,I,!h),ns.releasePrimitive(I)}}return x}var Tc=new class{constructor(){let i=null,t=null,e=null,n=!1;this.root=null,this.buffer=null,this.uint32Array=null,this.uint16Array=null,this.setBVH=(r,o)=>{if(n)throw new Error("BVHTraversalHelper: cannot call setBVH during an active traversal.");this.root=o,this.buffer=i=r._roots[o],this.uint16Array=e=new Uint16Array(i),this.uint32Array=t=new Uint32Array(i)},this.reset=()=>{this.root=null,this.buffer=i=null,this.uint16Array=e=null,this.uint32Array=t=null},this.getRangeStart=r=>{let o=r*2;for(;!jt(o,e);)r=ne(r),o=r*2;return oe(r,t)},this.getRangeEnd=r=>{let o=r*2;for(;!jt(o,e);)r=ie(r,t),o=r*2;return oe(r,t)+ce(o,e)};let s=(r,o,a)=>{let l=o*2,c=jt(l,e);if(!r(a,c,o)&&!c){let u=ne(o),d=ie(o,t);s(r,u,a+1),s(r,d,a+1)}};this.traverseBuffer=r=>{if(n)throw new Error("BVHTraversalHelper: cannot start a traversal during an active traversal.");n=!0;try{s(r,0,0)}finally{n=!1}},this.traverse=r=>{this.traverseBuffer((o,a,l)=>{if(a){let c=l*2,h=t[l+6],u=e[c+14];return r(o,a,new Float32Array(i,l*4,6),h,u)}else{let c=dr(l,t);return r(o,a,new Float32Array(i,l*4,6),c)}})}}};var Zg=new le,yr=new Float32Array(6),Ec=class{constructor(){this._roots=null,this.primitiveBuffer=null,this.primitiveBufferStride=null}init(t){t={...vc,...t},"maxLeafSize"in t&&(console.warn('BVH: "maxLeafSize" option has been deprecated. Use "targetLeafSize", instead.'),t={...t,targetLeafSize:t.maxLeafSize}),$g(this,t)}getRootRanges(){throw new Error("BVH: getRootRanges() not implemented")}writePrimitiveBounds(){throw new Error("BVH: writePrimitiveBounds() not implemented")}writePrimitiveRangeBounds(t,e,n,s){let r=1/0,o=1/0,a=1/0,l=-1/0,c=-1/0,h=-1/0;for(let u=t,d=t+e;u<d;u++){this.writePrimitiveBounds(u,yr,0);let[f,p,b,m,g,y]=yr;f<r&&(r=f),m>l&&(l=m),p<o&&(o=p),g>c&&(c=g),b<a&&(a=b),y>h&&(h=y)}return n[s+0]=r,n[s+1]=o,n[s+2]=a,n[s+3]=l,n[s+4]=c,n[s+5]=h,n}computePrimitiveBounds(t,e,n){let s=n.offset||0;for(let r=t,o=t+e;r<o;r++){this.writePrimitiveBounds(r,yr,0);let[a,l,c,h,u,d]=yr,f=(a+h)/2,p=(l+u)/2,b=(c+d)/2,m=(h-a)/2,g=(u-l)/2,y=(d-c)/2,w=(r-s)*6;n[w+0]=f,n[w+1]=m+(Math.abs(f)+m)*ur,n[w+2]=p,n[w+3]=g+(Math.abs(p)+g)*ur,n[w+4]=b,n[w+5]=y+(Math.abs(b)+y)*ur}return n}shiftPrimitiveOffsets(t){let e=this._indirectBuffer;if(e)for(let n=0,s=e.length;n<s;n++)e[n]+=t;else{let n=this._roots;for(let s=0;s<n.length;s++){let r=n[s],o=new Uint32Array(r),a=new Uint16Array(r),l=r.byteLength/32;for(let c=0;c<l;c++){let h=8*c,u=2*h;jt(u,a)&&(o[h+6]+=t)}}}}traverse(t,e=0){Tc.setBVH(this,e),Tc.traverse(t),Tc.reset()}refit(){let t=this._roots;for(let e=0,n=t.length;e<n;e++){let s=t[e],r=new Uint32Array(s),o=new Uint16Array(s),a=new Float32Array(s),l=s.byteLength/32;for(let c=l-1;c>=0;c--){let h=c*8,u=h*2;if(jt(u,o)){let f=oe(h,r),p=ce(u,o);this.writePrimitiveRangeBounds(f,p,yr,0),a.set(yr,h)}else{let f=ne(h),p=ie(h,r);for(let b=0;b<3;b++){let m=a[f+b],g=a[f+b+3],y=a[p+b],w=a[p+b+3];a[h+b]=m<y?m:y,a[h+b+3]=g>w?g:w}}}}}getBoundingBox(t){return t.makeEmpty(),this._roots.forEach(n=>{de(0,new Float32Array(n),Zg),t.union(Zg)}),t}shapecast(t){let{boundsTraverseOrder:e,intersectsBounds:n,intersectsRange:s,intersectsPrimitive:r,scratchPrimitive:o,iterate:a}=t;if(s&&r){let u=s;s=(d,f,p,b,m)=>u(d,f,p,b,m)?!0:a(d,f,this,r,p,b,o)}else s||(r?s=(u,d,f,p)=>a(u,d,this,r,f,p,o):s=(u,d,f)=>f);let l=!1,c=0,h=this._roots;for(let u=0,d=h.length;u<d;u++){let f=h[u];if(l=qg(this,u,n,s,e,c),l)break;c+=f.byteLength/32}return l}bvhcast(t,e,n){let{intersectsRanges:s}=n;return Yg(this,t,e,s)}};function Jg(){return typeof SharedArrayBuffer<"u"}function pd(i){return i.index?i.index.count:i.attributes.position.count}function is(i){return pd(i)/3}function ST(i,t=ArrayBuffer){return i>65535?new Uint32Array(new t(4*i)):new Uint16Array(new t(2*i))}function Kg(i,t){if(!i.index){let e=i.attributes.position.count,n=t.useSharedArrayBuffer?SharedArrayBuffer:ArrayBuffer,s=ST(e,n);i.setIndex(new be(s,1));for(let r=0;r<e;r++)s[r]=r}}function MT(i,t,e){let n=pd(i)/e,s=t||i.drawRange,r=s.start/e,o=(s.start+s.count)/e,a=Math.max(0,r),l=Math.min(n,o)-a;return{offset:Math.floor(a),count:Math.floor(l)}}function TT(i,t){return i.groups.map(e=>({offset:e.start/t,count:e.count/t}))}function md(i,t,e){let n=MT(i,t,e),s=TT(i,e);if(!s.length)return[n];let r=[],o=n.offset,a=n.offset+n.count,l=pd(i)/e,c=[];for(let d of s){let{offset:f,count:p}=d,b=f,m=isFinite(p)?p:l-f,g=f+m;b<a&&g>o&&(c.push({pos:Math.max(o,b),isStart:!0}),c.push({pos:Math.min(a,g),isStart:!1}))}c.sort((d,f)=>d.pos!==f.pos?d.pos-f.pos:d.type==="end"?-1:1);let h=0,u=null;for(let d of c){let f=d.pos;h!==0&&f!==u&&r.push({offset:u,count:f-u}),h+=d.isStart?1:-1,u=f}return r}function ET(i,t){let e=i[i.length-1],n=e.offset+e.count>2**16,s=i.reduce((c,h)=>c+h.count,0),r=n?4:2,o=t?new SharedArrayBuffer(s*r):new ArrayBuffer(s*r),a=n?new Uint32Array(o):new Uint16Array(o),l=0;for(let c=0;c<i.length;c++){let{offset:h,count:u}=i[c];for(let d=0;d<u;d++)a[l+d]=h+d;l+=u}return a}var Ac=class extends Ec{get indirect(){return!!this._indirectBuffer}get primitiveStride(){return null}get primitiveBufferStride(){return this.indirect?1:this.primitiveStride}set primitiveBufferStride(t){}get primitiveBuffer(){return this.indirect?this._indirectBuffer:this.geometry.index.array}set primitiveBuffer(t){}constructor(t,e={}){if(t.isBufferGeometry){if(t.index&&t.index.isInterleavedBufferAttribute)throw new Error("BVH: InterleavedBufferAttribute is not supported for the index attribute.")}else throw new Error("BVH: Only BufferGeometries are supported.");if(e.useSharedArrayBuffer&&!Jg())throw new Error("BVH: SharedArrayBuffer is not available.");super(),this.geometry=t,this.resolvePrimitiveIndex=e.indirect?n=>this._indirectBuffer[n]:n=>n,this.primitiveBuffer=null,this.primitiveBufferStride=null,this._indirectBuffer=null,e={...vc,...e},e[bo]||this.init(e)}init(t){let{geometry:e,primitiveStride:n}=this;if(t.indirect){let s=md(e,t.range,n),r=ET(s,t.useSharedArrayBuffer);this._indirectBuffer=r}else Kg(e,t);super.init(t),!e.boundingBox&&t.setBoundingBox&&(e.boundingBox=this.getBoundingBox(new le))}getRootRanges(t){return this.indirect?[{offset:0,count:this._indirectBuffer.length}]:md(this.geometry,t,this.primitiveStride)}raycastObject3D(){throw new Error("BVH: raycastObject3D() not implemented")}};var Nn=class{constructor(){this.min=1/0,this.max=-1/0}setFromPointsField(t,e){let n=1/0,s=-1/0;for(let r=0,o=t.length;r<o;r++){let l=t[r][e];n=l<n?l:n,s=l>s?l:s}this.min=n,this.max=s}setFromPoints(t,e){let n=1/0,s=-1/0;for(let r=0,o=e.length;r<o;r++){let a=e[r],l=t.dot(a);n=l<n?l:n,s=l>s?l:s}this.min=n,this.max=s}isSeparated(t){return this.min>t.max||t.min>this.max}};Nn.prototype.setFromBox=(function(){let i=new N;return function(e,n){let s=n.min,r=n.max,o=1/0,a=-1/0;for(let l=0;l<=1;l++)for(let c=0;c<=1;c++)for(let h=0;h<=1;h++){i.x=s.x*l+r.x*(1-l),i.y=s.y*c+r.y*(1-c),i.z=s.z*h+r.z*(1-h);let u=e.dot(i);o=Math.min(u,o),a=Math.max(u,a)}this.min=o,this.max=a}})();var AT=(function(){let i=new N,t=new N,e=new N;return function(s,r,o){let a=s.start,l=i,c=r.start,h=t;e.subVectors(a,c),i.subVectors(s.end,s.start),t.subVectors(r.end,r.start);let u=e.dot(h),d=h.dot(l),f=h.dot(h),p=e.dot(l),m=l.dot(l)*f-d*d,g,y;m!==0?g=(u*d-p*f)/m:g=0,y=(u+g*d)/f,o.x=g,o.y=y}})(),So=(function(){let i=new At,t=new N,e=new N;return function(s,r,o,a){AT(s,r,i);let l=i.x,c=i.y;if(l>=0&&l<=1&&c>=0&&c<=1){s.at(l,o),r.at(c,a);return}else if(l>=0&&l<=1){c<0?r.at(0,a):r.at(1,a),s.closestPointToPoint(a,!0,o);return}else if(c>=0&&c<=1){l<0?s.at(0,o):s.at(1,o),r.closestPointToPoint(o,!0,a);return}else{let h;l<0?h=s.start:h=s.end;let u;c<0?u=r.start:u=r.end;let d=t,f=e;if(s.closestPointToPoint(u,!0,t),r.closestPointToPoint(h,!0,e),d.distanceToSquared(u)<=f.distanceToSquared(h)){o.copy(d),a.copy(u);return}else{o.copy(h),a.copy(f);return}}}})(),jg=(function(){let i=new N,t=new N,e=new fn,n=new mn;return function(r,o){let{radius:a,center:l}=r,{a:c,b:h,c:u}=o;if(n.start=c,n.end=h,n.closestPointToPoint(l,!0,i).distanceTo(l)<=a||(n.start=c,n.end=u,n.closestPointToPoint(l,!0,i).distanceTo(l)<=a)||(n.start=h,n.end=u,n.closestPointToPoint(l,!0,i).distanceTo(l)<=a))return!0;let b=o.getPlane(e);if(Math.abs(b.distanceToPoint(l))<=a){let g=b.projectPoint(l,t);if(o.containsPoint(g))return!0}return!1}})();var CT=["x","y","z"],Li=1e-15,Qg=Li*Li;function Wn(i){return Math.abs(i)<Li}var tn=class extends an{constructor(...t){super(...t),this.isExtendedTriangle=!0,this.satAxes=new Array(4).fill().map(()=>new N),this.satBounds=new Array(4).fill().map(()=>new Nn),this.points=[this.a,this.b,this.c],this.plane=new fn,this.isDegenerateIntoSegment=!1,this.isDegenerateIntoPoint=!1,this.degenerateSegment=new mn,this.needsUpdate=!0}intersectsSphere(t){return jg(t,this)}update(){let t=this.a,e=this.b,n=this.c,s=this.points,r=this.satAxes,o=this.satBounds,a=r[0],l=o[0];this.getNormal(a),l.setFromPoints(a,s);let c=r[1],h=o[1];c.subVectors(t,e),h.setFromPoints(c,s);let u=r[2],d=o[2];u.subVectors(e,n),d.setFromPoints(u,s);let f=r[3],p=o[3];f.subVectors(n,t),p.setFromPoints(f,s);let b=c.length(),m=u.length(),g=f.length();this.isDegenerateIntoPoint=!1,this.isDegenerateIntoSegment=!1,b<Li?m<Li||g<Li?this.isDegenerateIntoPoint=!0:(this.isDegenerateIntoSegment=!0,this.degenerateSegment.start.copy(t),this.degenerateSegment.end.copy(n)):m<Li?g<Li?this.isDegenerateIntoPoint=!0:(this.isDegenerateIntoSegment=!0,this.degenerateSegment.start.copy(e),this.degenerateSegment.end.copy(t)):g<Li&&(this.isDegenerateIntoSegment=!0,this.degenerateSegment.start.copy(n),this.degenerateSegment.end.copy(e)),this.plane.setFromNormalAndCoplanarPoint(a,t),this.needsUpdate=!1}};tn.prototype.closestPointToSegment=(function(){let i=new N,t=new N,e=new mn;return function(s,r=null,o=null){this.needsUpdate&&this.update();let{start:a,end:l}=s,c=this.points,h,u=1/0,d=this.plane.distanceToPoint(a),f=this.plane.distanceToPoint(l);if(d*f<0&&this.plane.intersectLine(s,i)!==null&&this.containsPoint(i))return r&&r.copy(i),o&&o.copy(i),0;for(let p=0;p<3;p++){let b=(p+1)%3;e.start.copy(c[p]),e.end.copy(c[b]),So(e,s,i,t),h=i.distanceToSquared(t),h<u&&(u=h,r&&r.copy(i),o&&o.copy(t))}return this.closestPointToPoint(a,i),h=a.distanceToSquared(i),h<u&&(u=h,r&&r.copy(i),o&&o.copy(a)),this.closestPointToPoint(l,i),h=l.distanceToSquared(i),h<u&&(u=h,r&&r.copy(i),o&&o.copy(l)),Math.sqrt(u)}})();tn.prototype.intersectsTriangle=(function(){let i=new tn,t=new Nn,e=new Nn,n=new N,s=new N,r=new N,o=new N,a=new mn,l=new mn,c=new N,h=new At,u=new At;function d(w,v,_,E){let x=n;!w.isDegenerateIntoPoint&&!w.isDegenerateIntoSegment?x.copy(w.plane.normal):x.copy(v.plane.normal);let S=w.satBounds,k=w.satAxes;for(let I=1;I<4;I++){let U=S[I],L=k[I];if(t.setFromPoints(L,v.points),U.isSeparated(t)||(o.copy(x).cross(L),t.setFromPoints(o,w.points),e.setFromPoints(o,v.points),t.isSeparated(e)))return!1}let C=v.satBounds,P=v.satAxes;for(let I=1;I<4;I++){let U=C[I],L=P[I];if(t.setFromPoints(L,w.points),U.isSeparated(t)||(o.crossVectors(x,L),t.setFromPoints(o,w.points),e.setFromPoints(o,v.points),t.isSeparated(e)))return!1}return _&&(E||console.warn("ExtendedTriangle.intersectsTriangle: Triangles are coplanar which does not support an output edge. Setting edge to 0, 0, 0."),_.start.set(0,0,0),_.end.set(0,0,0)),!0}function f(w,v,_,E,x,S,k,C,P,I,U){let L=k/(k-C);I.x=E+(x-E)*L,U.start.subVectors(v,w).multiplyScalar(L).add(w),L=k/(k-P),I.y=E+(S-E)*L,U.end.subVectors(_,w).multiplyScalar(L).add(w)}function p(w,v,_,E,x,S,k,C,P,I,U){if(x>0)f(w.c,w.a,w.b,E,v,_,P,k,C,I,U);else if(S>0)f(w.b,w.a,w.c,_,v,E,C,k,P,I,U);else if(C*P>0||k!=0)f(w.a,w.b,w.c,v,_,E,k,C,P,I,U);else if(C!=0)f(w.b,w.a,w.c,_,v,E,C,k,P,I,U);else if(P!=0)f(w.c,w.a,w.b,E,v,_,P,k,C,I,U);else return!0;return!1}function b(w,v,_,E){let x=v.degenerateSegment,S=w.plane.distanceToPoint(x.start),k=w.plane.distanceToPoint(x.end);return Wn(S)?Wn(k)?d(w,v,_,E):(_&&(_.start.copy(x.start),_.end.copy(x.start)),w.containsPoint(x.start)):Wn(k)?(_&&(_.start.copy(x.end),_.end.copy(x.end)),w.containsPoint(x.end)):w.plane.intersectLine(x,n)!=null?(_&&(_.start.copy(n),_.end.copy(n)),w.containsPoint(n)):!1}function m(w,v,_){let E=v.a;return Wn(w.plane.distanceToPoint(E))&&w.containsPoint(E)?(_&&(_.start.copy(E),_.end.copy(E)),!0):!1}function g(w,v,_){let E=w.degenerateSegment,x=v.a;return E.closestPointToPoint(x,!0,n),x.distanceToSquared(n)<Qg?(_&&(_.start.copy(x),_.end.copy(x)),!0):!1}function y(w,v,_,E){if(w.isDegenerateIntoSegment)if(v.isDegenerateIntoSegment){let x=w.degenerateSegment,S=v.degenerateSegment,k=s,C=r;x.delta(k),S.delta(C);let P=n.subVectors(S.start,x.start),I=k.x*C.y-k.y*C.x;if(Wn(I))return!1;let U=(P.x*C.y-P.y*C.x)/I,L=-(k.x*P.y-k.y*P.x)/I;if(U<0||U>1||L<0||L>1)return!1;let B=x.start.z+k.z*U,G=S.start.z+C.z*L;return Wn(B-G)?(_&&(_.start.copy(x.start).addScaledVector(k,U),_.end.copy(x.start).addScaledVector(k,U)),!0):!1}else return v.isDegenerateIntoPoint?g(w,v,_):b(v,w,_,E);else{if(w.isDegenerateIntoPoint)return v.isDegenerateIntoPoint?v.a.distanceToSquared(w.a)<Qg?(_&&(_.start.copy(w.a),_.end.copy(w.a)),!0):!1:v.isDegenerateIntoSegment?g(v,w,_):m(v,w,_);if(v.isDegenerateIntoPoint)return m(w,v,_);if(v.isDegenerateIntoSegment)return b(w,v,_,E)}}return function(v,_=null,E=!1){this.needsUpdate&&this.update(),v.isExtendedTriangle?v.needsUpdate&&v.update():(i.copy(v),i.update(),v=i);let x=y(this,v,_,E);if(x!==void 0)return x;let S=this.plane,k=v.plane,C=k.distanceToPoint(this.a),P=k.distanceToPoint(this.b),I=k.distanceToPoint(this.c);Wn(C)&&(C=0),Wn(P)&&(P=0),Wn(I)&&(I=0);let U=C*P,L=C*I;if(U>0&&L>0)return!1;let B=S.distanceToPoint(v.a),G=S.distanceToPoint(v.b),W=S.distanceToPoint(v.c);Wn(B)&&(B=0),Wn(G)&&(G=0),Wn(W)&&(W=0);let nt=B*G,$=B*W;if(nt>0&&$>0)return!1;s.copy(S.normal),r.copy(k.normal);let tt=s.cross(r),et=0,bt=Math.abs(tt.x),Dt=Math.abs(tt.y);Dt>bt&&(bt=Dt,et=1),Math.abs(tt.z)>bt&&(et=2);let ut=CT[et],yt=this.a[ut],Rt=this.b[ut],mt=this.c[ut],Ot=v.a[ut],Te=v.b[ut],Pt=v.c[ut];if(p(this,yt,Rt,mt,U,L,C,P,I,h,a))return d(this,v,_,E);if(p(v,Ot,Te,Pt,nt,$,B,G,W,u,l))return d(this,v,_,E);if(h.y<h.x){let Qt=h.y;h.y=h.x,h.x=Qt,c.copy(a.start),a.start.copy(a.end),a.end.copy(c)}if(u.y<u.x){let Qt=u.y;u.y=u.x,u.x=Qt,c.copy(l.start),l.start.copy(l.end),l.end.copy(c)}return h.y<u.x||u.y<h.x?!1:(_&&(u.x>h.x?_.start.copy(l.start):_.start.copy(a.start),u.y<h.y?_.end.copy(l.end):_.end.copy(a.end)),!0)}})();tn.prototype.distanceToPoint=(function(){let i=new N;return function(e){return this.closestPointToPoint(e,i),e.distanceTo(i)}})();tn.prototype.distanceToTriangle=(function(){let i=new N,t=new N,e=["a","b","c"],n=new mn,s=new mn;return function(o,a=null,l=null){let c=a||l?n:null;if(this.intersectsTriangle(o,c,!0))return(a||l)&&(a&&c.getCenter(a),l&&c.getCenter(l)),0;let h=1/0;for(let u=0;u<3;u++){let d,f=e[u],p=o[f];this.closestPointToPoint(p,i),d=p.distanceToSquared(i),d<h&&(h=d,a&&a.copy(i),l&&l.copy(p));let b=this[f];o.closestPointToPoint(b,i),d=b.distanceToSquared(i),d<h&&(h=d,a&&a.copy(b),l&&l.copy(i))}for(let u=0;u<3;u++){let d=e[u],f=e[(u+1)%3];n.set(this[d],this[f]);for(let p=0;p<3;p++){let b=e[p],m=e[(p+1)%3];s.set(o[b],o[m]),So(n,s,i,t);let g=i.distanceToSquared(t);g<h&&(h=g,a&&a.copy(i),l&&l.copy(t))}}return Math.sqrt(h)}})();var Ee=class{constructor(t,e,n){this.isOrientedBox=!0,this.min=new N,this.max=new N,this.matrix=new Mt,this.invMatrix=new Mt,this.points=new Array(8).fill().map(()=>new N),this.satAxes=new Array(3).fill().map(()=>new N),this.satBounds=new Array(3).fill().map(()=>new Nn),this.alignedSatBounds=new Array(3).fill().map(()=>new Nn),this.needsUpdate=!1,t&&this.min.copy(t),e&&this.max.copy(e),n&&this.matrix.copy(n)}set(t,e,n){this.min.copy(t),this.max.copy(e),this.matrix.copy(n),this.needsUpdate=!0}copy(t){this.min.copy(t.min),this.max.copy(t.max),this.matrix.copy(t.matrix),this.needsUpdate=!0}};Ee.prototype.update=(function(){return function(){let t=this.matrix,e=this.min,n=this.max,s=this.points;for(let c=0;c<=1;c++)for(let h=0;h<=1;h++)for(let u=0;u<=1;u++){let d=1*c|2*h|4*u,f=s[d];f.x=c?n.x:e.x,f.y=h?n.y:e.y,f.z=u?n.z:e.z,f.applyMatrix4(t)}let r=this.satBounds,o=this.satAxes,a=s[0];for(let c=0;c<3;c++){let h=o[c],u=r[c],d=1<<c,f=s[d];h.subVectors(a,f),u.setFromPoints(h,s)}let l=this.alignedSatBounds;l[0].setFromPointsField(s,"x"),l[1].setFromPointsField(s,"y"),l[2].setFromPointsField(s,"z"),this.invMatrix.copy(this.matrix).invert(),this.needsUpdate=!1}})();Ee.prototype.intersectsBox=(function(){let i=new Nn;return function(e){this.needsUpdate&&this.update();let n=e.min,s=e.max,r=this.satBounds,o=this.satAxes,a=this.alignedSatBounds;if(i.min=n.x,i.max=s.x,a[0].isSeparated(i)||(i.min=n.y,i.max=s.y,a[1].isSeparated(i))||(i.min=n.z,i.max=s.z,a[2].isSeparated(i)))return!1;for(let l=0;l<3;l++){let c=o[l],h=r[l];if(i.setFromBox(c,e),h.isSeparated(i))return!1}return!0}})();Ee.prototype.intersectsTriangle=(function(){let i=new tn,t=new Array(3),e=new Nn,n=new Nn,s=new N;return function(o){this.needsUpdate&&this.update(),o.isExtendedTriangle?o.needsUpdate&&o.update():(i.copy(o),i.update(),o=i);let a=this.satBounds,l=this.satAxes;t[0]=o.a,t[1]=o.b,t[2]=o.c;for(let d=0;d<3;d++){let f=a[d],p=l[d];if(e.setFromPoints(p,t),f.isSeparated(e))return!1}let c=o.satBounds,h=o.satAxes,u=this.points;for(let d=0;d<3;d++){let f=c[d],p=h[d];if(e.setFromPoints(p,u),f.isSeparated(e))return!1}for(let d=0;d<3;d++){let f=l[d];for(let p=0;p<4;p++){let b=h[p];if(s.crossVectors(f,b),e.setFromPoints(s,t),n.setFromPoints(s,u),e.isSeparated(n))return!1}}return!0}})();Ee.prototype.closestPointToPoint=(function(){return function(t,e){return this.needsUpdate&&this.update(),e.copy(t).applyMatrix4(this.invMatrix).clamp(this.min,this.max).applyMatrix4(this.matrix),e}})();Ee.prototype.distanceToPoint=(function(){let i=new N;return function(e){return this.closestPointToPoint(e,i),e.distanceTo(i)}})();Ee.prototype.distanceToBox=(function(){let i=["x","y","z"],t=new Array(12).fill().map(()=>new mn),e=new Array(12).fill().map(()=>new mn),n=new N,s=new N;return function(o,a=0,l=null,c=null){if(this.needsUpdate&&this.update(),this.intersectsBox(o))return(l||c)&&(o.getCenter(s),this.closestPointToPoint(s,n),o.closestPointToPoint(n,s),l&&l.copy(n),c&&c.copy(s)),0;let h=a*a,u=o.min,d=o.max,f=this.points,p=1/0;for(let m=0;m<8;m++){let g=f[m];s.copy(g).clamp(u,d);let y=g.distanceToSquared(s);if(y<p&&(p=y,l&&l.copy(g),c&&c.copy(s),y<h))return Math.sqrt(y)}let b=0;for(let m=0;m<3;m++)for(let g=0;g<=1;g++)for(let y=0;y<=1;y++){let w=(m+1)%3,v=(m+2)%3,_=g<<w|y<<v,E=1<<m|g<<w|y<<v,x=f[_],S=f[E];t[b].set(x,S);let C=i[m],P=i[w],I=i[v],U=e[b],L=U.start,B=U.end;L[C]=u[C],L[P]=g?u[P]:d[P],L[I]=y?u[I]:d[I],B[C]=d[C],B[P]=g?u[P]:d[P],B[I]=y?u[I]:d[I],b++}for(let m=0;m<=1;m++)for(let g=0;g<=1;g++)for(let y=0;y<=1;y++){s.x=m?d.x:u.x,s.y=g?d.y:u.y,s.z=y?d.z:u.z,this.closestPointToPoint(s,n);let w=s.distanceToSquared(n);if(w<p&&(p=w,l&&l.copy(n),c&&c.copy(s),w<h))return Math.sqrt(w)}for(let m=0;m<12;m++){let g=t[m];for(let y=0;y<12;y++){let w=e[y];So(g,w,n,s);let v=n.distanceToSquared(s);if(v<p&&(p=v,l&&l.copy(n),c&&c.copy(s),v<h))return Math.sqrt(v)}}return Math.sqrt(p)}})();var gd=class extends ts{constructor(){super(()=>new tn)}},xn=new gd;var Mo=new N,xd=new N;function t0(i,t,e={},n=0,s=1/0){let r=n*n,o=s*s,a=1/0,l=null;if(i.shapecast({boundsTraverseOrder:h=>(Mo.copy(t).clamp(h.min,h.max),Mo.distanceToSquared(t)),intersectsBounds:(h,u,d)=>d<a&&d<o,intersectsTriangle:(h,u)=>{h.closestPointToPoint(t,Mo);let d=t.distanceToSquared(Mo);return d<a&&(xd.copy(Mo),a=d,l=u),d<r}}),a===1/0)return null;let c=Math.sqrt(a);return e.point?e.point.copy(xd):e.point=xd.clone(),e.distance=c,e.faceIndex=l,e}var Cc=parseInt("187")>=169,RT=parseInt("187")<=161,Ss=new N,Ms=new N,Ts=new N,Rc=new At,Pc=new At,Ic=new At,e0=new N,n0=new N,i0=new N,To=new N;function PT(i,t,e,n,s,r,o,a){let l;if(r===Ke?l=i.intersectTriangle(n,e,t,!0,s):l=i.intersectTriangle(t,e,n,r!==Fe,s),l===null)return null;let c=i.origin.distanceTo(s);return c<o||c>a?null:{distance:c,point:s.clone()}}function s0(i,t,e,n,s,r,o,a,l,c,h){Ss.fromBufferAttribute(t,r),Ms.fromBufferAttribute(t,o),Ts.fromBufferAttribute(t,a);let u=PT(i,Ss,Ms,Ts,To,l,c,h);if(u){if(n){Rc.fromBufferAttribute(n,r),Pc.fromBufferAttribute(n,o),Ic.fromBufferAttribute(n,a),u.uv=new At;let f=an.getInterpolation(To,Ss,Ms,Ts,Rc,Pc,Ic,u.uv);Cc||(u.uv=f)}if(s){Rc.fromBufferAttribute(s,r),Pc.fromBufferAttribute(s,o),Ic.fromBufferAttribute(s,a),u.uv1=new At;let f=an.getInterpolation(To,Ss,Ms,Ts,Rc,Pc,Ic,u.uv1);Cc||(u.uv1=f),RT&&(u.uv2=u.uv1)}if(e){e0.fromBufferAttribute(e,r),n0.fromBufferAttribute(e,o),i0.fromBufferAttribute(e,a),u.normal=new N;let f=an.getInterpolation(To,Ss,Ms,Ts,e0,n0,i0,u.normal);u.normal.dot(i.direction)>0&&u.normal.multiplyScalar(-1),Cc||(u.normal=f)}let d={a:r,b:o,c:a,normal:new N,materialIndex:0};if(an.getNormal(Ss,Ms,Ts,d.normal),u.face=d,u.faceIndex=r,Cc){let f=new N;an.getBarycoord(To,Ss,Ms,Ts,f),u.barycoord=f}}return u}function r0(i){return i&&i.isMaterial?i.side:i}function br(i,t,e,n,s,r,o){let a=n*3,l=a+0,c=a+1,h=a+2,{index:u,groups:d}=i;i.index&&(l=u.getX(l),c=u.getX(c),h=u.getX(h));let{position:f,normal:p,uv:b,uv1:m}=i.attributes;if(Array.isArray(t)){let g=n*3;for(let y=0,w=d.length;y<w;y++){let{start:v,count:_,materialIndex:E}=d[y];if(g>=v&&g<v+_){let x=r0(t[E]),S=s0(e,f,p,b,m,l,c,h,x,r,o);if(S)if(S.faceIndex=n,S.face.materialIndex=E,s)s.push(S);else return S}}}else{let g=r0(t),y=s0(e,f,p,b,m,l,c,h,g,r,o);if(y)if(y.faceIndex=n,y.face.materialIndex=0,s)s.push(y);else return y}return null}function fe(i,t,e,n){let s=i.a,r=i.b,o=i.c,a=t,l=t+1,c=t+2;e&&(a=e.getX(a),l=e.getX(l),c=e.getX(c)),s.x=n.getX(a),s.y=n.getY(a),s.z=n.getZ(a),r.x=n.getX(l),r.y=n.getY(l),r.z=n.getZ(l),o.x=n.getX(c),o.y=n.getY(c),o.z=n.getZ(c)}function o0(i,t,e,n,s,r,o,a){let{geometry:l,_indirectBuffer:c}=i;for(let h=n,u=n+s;h<u;h++)br(l,t,e,h,r,o,a)}function a0(i,t,e,n,s,r,o){let{geometry:a,_indirectBuffer:l}=i,c=1/0,h=null;for(let u=n,d=n+s;u<d;u++){let f;f=br(a,t,e,u,null,r,o),f&&f.distance<c&&(h=f,c=f.distance)}return h}function l0(i,t,e,n,s,r,o){let{geometry:a}=e,{index:l}=a,c=a.attributes.position;for(let h=i,u=t+i;h<u;h++){let d;if(d=h,fe(o,d*3,l,c),o.needsUpdate=!0,n(o,d,s,r))return!0}return!1}function c0(i,t=null){t&&Array.isArray(t)&&(t=new Set(t));let e=i.geometry,n=e.index?e.index.array:null,s=e.attributes.position,r,o,a,l,c=0,h=i._roots;for(let d=0,f=h.length;d<f;d++)r=h[d],o=new Uint32Array(r),a=new Uint16Array(r),l=new Float32Array(r),u(0,c),c+=r.byteLength;function u(d,f,p=!1){let b=d*2;if(jt(b,a)){let m=oe(d,o),g=ce(b,a),y=1/0,w=1/0,v=1/0,_=-1/0,E=-1/0,x=-1/0;for(let S=3*m,k=3*(m+g);S<k;S++){let C=n[S],P=s.getX(C),I=s.getY(C),U=s.getZ(C);P<y&&(y=P),P>_&&(_=P),I<w&&(w=I),I>E&&(E=I),U<v&&(v=U),U>x&&(x=U)}return l[d+0]!==y||l[d+1]!==w||l[d+2]!==v||l[d+3]!==_||l[d+4]!==E||l[d+5]!==x?(l[d+0]=y,l[d+1]=w,l[d+2]=v,l[d+3]=_,l[d+4]=E,l[d+5]=x,!0):!1}else{let m=ne(d),g=ie(d,o),y=p,w=!1,v=!1;if(t){if(!y){let C=m/8+f/32,P=g/8+f/32;w=t.has(C),v=t.has(P),y=!w&&!v}}else w=!0,v=!0;let _=y||w,E=y||v,x=!1;_&&(x=u(m,f,y));let S=!1;E&&(S=u(g,f,y));let k=x||S;if(k)for(let C=0;C<3;C++){let P=m+C,I=g+C,U=l[P],L=l[P+3],B=l[I],G=l[I+3];l[d+C]=U<B?U:B,l[d+C+3]=L>G?L:G}return k}}}function un(i,t,e,n,s){let r,o,a,l,c,h,u=1/e.direction.x,d=1/e.direction.y,f=1/e.direction.z,p=e.origin.x,b=e.origin.y,m=e.origin.z,g=t[i],y=t[i+3],w=t[i+1],v=t[i+3+1],_=t[i+2],E=t[i+3+2];return u>=0?(r=(g-p)*u,o=(y-p)*u):(r=(y-p)*u,o=(g-p)*u),d>=0?(a=(w-b)*d,l=(v-b)*d):(a=(v-b)*d,l=(w-b)*d),r>l||a>o||((a>r||isNaN(r))&&(r=a),(l<o||isNaN(o))&&(o=l),f>=0?(c=(_-m)*f,h=(E-m)*f):(c=(E-m)*f,h=(_-m)*f),r>h||c>o)?!1:((c>r||r!==r)&&(r=c),(h<o||o!==o)&&(o=h),r<=s&&o>=n)}function h0(i,t,e,n,s,r,o,a){let{geometry:l,_indirectBuffer:c}=i;for(let h=n,u=n+s;h<u;h++){let d=c?c[h]:h;br(l,t,e,d,r,o,a)}}function u0(i,t,e,n,s,r,o){let{geometry:a,_indirectBuffer:l}=i,c=1/0,h=null;for(let u=n,d=n+s;u<d;u++){let f;f=br(a,t,e,l?l[u]:u,null,r,o),f&&f.distance<c&&(h=f,c=f.distance)}return h}function d0(i,t,e,n,s,r,o){let{geometry:a}=e,{index:l}=a,c=a.attributes.position;for(let h=i,u=t+i;h<u;h++){let d;if(d=e.resolveTriangleIndex(h),fe(o,d*3,l,c),o.needsUpdate=!0,n(o,d,s,r))return!0}return!1}function f0(i,t,e,n,s,r,o){qt.setBuffer(i._roots[t]),un(0,qt.float32Array,n,r,o)&&vd(0,i,e,n,s,r,o),qt.clearBuffer()}function vd(i,t,e,n,s,r,o){let{float32Array:a,uint16Array:l,uint32Array:c}=qt,h=i*2;if(jt(h,l)){let d=oe(i,c),f=ce(h,l);o0(t,e,n,d,f,s,r,o)}else{let d=ne(i);un(d,a,n,r,o)&&vd(d,t,e,n,s,r,o);let f=ie(i,c);un(f,a,n,r,o)&&vd(f,t,e,n,s,r,o)}}var IT=["x","y","z"];function p0(i,t,e,n,s,r){qt.setBuffer(i._roots[t]);let o=null;return un(0,qt.float32Array,n,s,r)&&(o=yd(0,i,e,n,s,r)),qt.clearBuffer(),o}function yd(i,t,e,n,s,r){let{float32Array:o,uint16Array:a,uint32Array:l}=qt,c=i*2;if(jt(c,a)){let u=oe(i,l),d=ce(c,a);return a0(t,e,n,u,d,s,r)}else{let u=dr(i,l),d=IT[u],p=n.direction[d]>=0,b,m;p?(b=ne(i),m=ie(i,l)):(b=ie(i,l),m=ne(i));let y=un(b,o,n,s,r)?yd(b,t,e,n,s,r):null;if(y){let _=y.point[d];if(p?_<=o[m+u]:_>=o[m+u+3])return y}let v=un(m,o,n,s,r)?yd(m,t,e,n,s,r):null;return y&&v?y.distance<=v.distance?y:v:y||v||null}}var Lc=new le,_r=new tn,wr=new tn,Eo=new Mt,m0=new Ee,kc=new Ee;function g0(i,t,e,n){qt.setBuffer(i._roots[t]);let s=bd(0,i,e,n);return qt.clearBuffer(),s}function bd(i,t,e,n,s=null){let{float32Array:r,uint16Array:o,uint32Array:a}=qt,l=i*2;if(s===null&&(e.boundingBox||e.computeBoundingBox(),m0.set(e.boundingBox.min,e.boundingBox.max,n),s=m0),jt(l,o)){let h=t.geometry,u=h.index,d=h.attributes.position,f=e.index,p=e.attributes.position,b=oe(i,a),m=ce(l,o);if(Eo.copy(n).invert(),e.boundsTree)return de(i,r,kc),kc.matrix.copy(Eo),kc.needsUpdate=!0,e.boundsTree.shapecast({intersectsBounds:y=>kc.intersectsBox(y),intersectsTriangle:y=>{y.a.applyMatrix4(n),y.b.applyMatrix4(n),y.c.applyMatrix4(n),y.needsUpdate=!0;for(let w=b*3,v=(m+b)*3;w<v;w+=3)if(fe(wr,w,u,d),wr.needsUpdate=!0,y.intersectsTriangle(wr))return!0;return!1}});{let g=is(e);for(let y=b*3,w=(m+b)*3;y<w;y+=3){fe(_r,y,u,d),_r.a.applyMatrix4(Eo),_r.b.applyMatrix4(Eo),_r.c.applyMatrix4(Eo),_r.needsUpdate=!0;for(let v=0,_=g*3;v<_;v+=3)if(fe(wr,v,f,p),wr.needsUpdate=!0,_r.intersectsTriangle(wr))return!0}}}else{let h=ne(i),u=ie(i,a);return de(h,r,Lc),!!(s.intersectsBox(Lc)&&bd(h,t,e,n,s)||(de(u,r,Lc),s.intersectsBox(Lc)&&bd(u,t,e,n,s)))}}var Nc=new Mt,_d=new Ee,Ao=new Ee,LT=new N,kT=new N,NT=new N,DT=new N;function x0(i,t,e,n={},s={},r=0,o=1/0){t.boundingBox||t.computeBoundingBox(),_d.set(t.boundingBox.min,t.boundingBox.max,e),_d.needsUpdate=!0;let a=i.geometry,l=a.attributes.position,c=a.index,h=t.attributes.position,u=t.index,d=xn.getPrimitive(),f=xn.getPrimitive(),p=LT,b=kT,m=null,g=null;s&&(m=NT,g=DT);let y=1/0,w=null,v=null;return Nc.copy(e).invert(),Ao.matrix.copy(Nc),i.shapecast({boundsTraverseOrder:_=>_d.distanceToBox(_),intersectsBounds:(_,E,x)=>x<y&&x<o?(E&&(Ao.min.copy(_.min),Ao.max.copy(_.max),Ao.needsUpdate=!0),!0):!1,intersectsRange:(_,E)=>{if(t.boundsTree)return t.boundsTree.shapecast({boundsTraverseOrder:S=>Ao.distanceToBox(S),intersectsBounds:(S,k,C)=>C<y&&C<o,intersectsRange:(S,k)=>{for(let C=S,P=S+k;C<P;C++){fe(f,3*C,u,h),f.a.applyMatrix4(e),f.b.applyMatrix4(e),f.c.applyMatrix4(e),f.needsUpdate=!0;for(let I=_,U=_+E;I<U;I++){fe(d,3*I,c,l),d.needsUpdate=!0;let L=d.distanceToTriangle(f,p,m);if(L<y&&(b.copy(p),g&&g.copy(m),y=L,w=I,v=C),L<r)return!0}}}});{let x=is(t);for(let S=0,k=x;S<k;S++){fe(f,3*S,u,h),f.a.applyMatrix4(e),f.b.applyMatrix4(e),f.c.applyMatrix4(e),f.needsUpdate=!0;for(let C=_,P=_+E;C<P;C++){fe(d,3*C,c,l),d.needsUpdate=!0;let I=d.distanceToTriangle(f,p,m);if(I<y&&(b.copy(p),g&&g.copy(m),y=I,w=C,v=S),I<r)return!0}}}}}),xn.releasePrimitive(d),xn.releasePrimitive(f),y===1/0?null:(n.point?n.point.copy(b):n.point=b.clone(),n.distance=y,n.faceIndex=w,s&&(s.point?s.point.copy(g):s.point=g.clone(),s.point.applyMatrix4(Nc),b.applyMatrix4(Nc),s.distance=b.sub(s.point).length(),s.faceIndex=v),n)}function v0(i,t=null){t&&Array.isArray(t)&&(t=new Set(t));let e=i.geometry,n=e.index?e.index.array:null,s=e.attributes.position,r,o,a,l,c=0,h=i._roots;for(let d=0,f=h.length;d<f;d++)r=h[d],o=new Uint32Array(r),a=new Uint16Array(r),l=new Float32Array(r),u(0,c),c+=r.byteLength;function u(d,f,p=!1){let b=d*2;if(jt(b,a)){let m=oe(d,o),g=ce(b,a),y=1/0,w=1/0,v=1/0,_=-1/0,E=-1/0,x=-1/0;for(let S=m,k=m+g;S<k;S++){let C=3*i.resolveTriangleIndex(S);for(let P=0;P<3;P++){let I=C+P;I=n?n[I]:I;let U=s.getX(I),L=s.getY(I),B=s.getZ(I);U<y&&(y=U),U>_&&(_=U),L<w&&(w=L),L>E&&(E=L),B<v&&(v=B),B>x&&(x=B)}}return l[d+0]!==y||l[d+1]!==w||l[d+2]!==v||l[d+3]!==_||l[d+4]!==E||l[d+5]!==x?(l[d+0]=y,l[d+1]=w,l[d+2]=v,l[d+3]=_,l[d+4]=E,l[d+5]=x,!0):!1}else{let m=ne(d),g=ie(d,o),y=p,w=!1,v=!1;if(t){if(!y){let C=m/8+f/32,P=g/8+f/32;w=t.has(C),v=t.has(P),y=!w&&!v}}else w=!0,v=!0;let _=y||w,E=y||v,x=!1;_&&(x=u(m,f,y));let S=!1;E&&(S=u(g,f,y));let k=x||S;if(k)for(let C=0;C<3;C++){let P=m+C,I=g+C,U=l[P],L=l[P+3],B=l[I],G=l[I+3];l[d+C]=U<B?U:B,l[d+C+3]=L>G?L:G}return k}}}function y0(i,t,e,n,s,r,o){qt.setBuffer(i._roots[t]),un(0,qt.float32Array,n,r,o)&&wd(0,i,e,n,s,r,o),qt.clearBuffer()}function wd(i,t,e,n,s,r,o){let{float32Array:a,uint16Array:l,uint32Array:c}=qt,h=i*2;if(jt(h,l)){let d=oe(i,c),f=ce(h,l);h0(t,e,n,d,f,s,r,o)}else{let d=ne(i);un(d,a,n,r,o)&&wd(d,t,e,n,s,r,o);let f=ie(i,c);un(f,a,n,r,o)&&wd(f,t,e,n,s,r,o)}}var FT=["x","y","z"];function b0(i,t,e,n,s,r){qt.setBuffer(i._roots[t]);let o=null;return un(0,qt.float32Array,n,s,r)&&(o=Sd(0,i,e,n,s,r)),qt.clearBuffer(),o}function Sd(i,t,e,n,s,r){let{float32Array:o,uint16Array:a,uint32Array:l}=qt,c=i*2;if(jt(c,a)){let u=oe(i,l),d=ce(c,a);return u0(t,e,n,u,d,s,r)}else{let u=dr(i,l),d=FT[u],p=n.direction[d]>=0,b,m;p?(b=ne(i),m=ie(i,l)):(b=ie(i,l),m=ne(i));let y=un(b,o,n,s,r)?Sd(b,t,e,n,s,r):null;if(y){let _=y.point[d];if(p?_<=o[m+u]:_>=o[m+u+3])return y}let v=un(m,o,n,s,r)?Sd(m,t,e,n,s,r):null;return y&&v?y.distance<=v.distance?y:v:y||v||null}}var Dc=new le,Sr=new tn,Mr=new tn,Co=new Mt,_0=new Ee,Fc=new Ee;function w0(i,t,e,n){qt.setBuffer(i._roots[t]);let s=Md(0,i,e,n);return qt.clearBuffer(),s}function Md(i,t,e,n,s=null){let{float32Array:r,uint16Array:o,uint32Array:a}=qt,l=i*2;if(s===null&&(e.boundingBox||e.computeBoundingBox(),_0.set(e.boundingBox.min,e.boundingBox.max,n),s=_0),jt(l,o)){let h=t.geometry,u=h.index,d=h.attributes.position,f=e.index,p=e.attributes.position,b=oe(i,a),m=ce(l,o);if(Co.copy(n).invert(),e.boundsTree)return de(i,r,Fc),Fc.matrix.copy(Co),Fc.needsUpdate=!0,e.boundsTree.shapecast({intersectsBounds:y=>Fc.intersectsBox(y),intersectsTriangle:y=>{y.a.applyMatrix4(n),y.b.applyMatrix4(n),y.c.applyMatrix4(n),y.needsUpdate=!0;for(let w=b,v=m+b;w<v;w++)if(fe(Mr,3*t.resolveTriangleIndex(w),u,d),Mr.needsUpdate=!0,y.intersectsTriangle(Mr))return!0;return!1}});{let g=is(e);for(let y=b,w=m+b;y<w;y++){let v=t.resolveTriangleIndex(y);fe(Sr,3*v,u,d),Sr.a.applyMatrix4(Co),Sr.b.applyMatrix4(Co),Sr.c.applyMatrix4(Co),Sr.needsUpdate=!0;for(let _=0,E=g*3;_<E;_+=3)if(fe(Mr,_,f,p),Mr.needsUpdate=!0,Sr.intersectsTriangle(Mr))return!0}}}else{let h=ne(i),u=ie(i,a);return de(h,r,Dc),!!(s.intersectsBox(Dc)&&Md(h,t,e,n,s)||(de(u,r,Dc),s.intersectsBox(Dc)&&Md(u,t,e,n,s)))}}var Uc=new Mt,Td=new Ee,Ro=new Ee,UT=new N,OT=new N,BT=new N,zT=new N;function S0(i,t,e,n={},s={},r=0,o=1/0){t.boundingBox||t.computeBoundingBox(),Td.set(t.boundingBox.min,t.boundingBox.max,e),Td.needsUpdate=!0;let a=i.geometry,l=a.attributes.position,c=a.index,h=t.attributes.position,u=t.index,d=xn.getPrimitive(),f=xn.getPrimitive(),p=UT,b=OT,m=null,g=null;s&&(m=BT,g=zT);let y=1/0,w=null,v=null;return Uc.copy(e).invert(),Ro.matrix.copy(Uc),i.shapecast({boundsTraverseOrder:_=>Td.distanceToBox(_),intersectsBounds:(_,E,x)=>x<y&&x<o?(E&&(Ro.min.copy(_.min),Ro.max.copy(_.max),Ro.needsUpdate=!0),!0):!1,intersectsRange:(_,E)=>{if(t.boundsTree){let x=t.boundsTree;return x.shapecast({boundsTraverseOrder:S=>Ro.distanceToBox(S),intersectsBounds:(S,k,C)=>C<y&&C<o,intersectsRange:(S,k)=>{for(let C=S,P=S+k;C<P;C++){let I=x.resolveTriangleIndex(C);fe(f,3*I,u,h),f.a.applyMatrix4(e),f.b.applyMatrix4(e),f.c.applyMatrix4(e),f.needsUpdate=!0;for(let U=_,L=_+E;U<L;U++){let B=i.resolveTriangleIndex(U);fe(d,3*B,c,l),d.needsUpdate=!0;let G=d.distanceToTriangle(f,p,m);if(G<y&&(b.copy(p),g&&g.copy(m),y=G,w=U,v=C),G<r)return!0}}}})}else{let x=is(t);for(let S=0,k=x;S<k;S++){fe(f,3*S,u,h),f.a.applyMatrix4(e),f.b.applyMatrix4(e),f.c.applyMatrix4(e),f.needsUpdate=!0;for(let C=_,P=_+E;C<P;C++){let I=i.resolveTriangleIndex(C);fe(d,3*I,c,l),d.needsUpdate=!0;let U=d.distanceToTriangle(f,p,m);if(U<y&&(b.copy(p),g&&g.copy(m),y=U,w=C,v=S),U<r)return!0}}}}}),xn.releasePrimitive(d),xn.releasePrimitive(f),y===1/0?null:(n.point?n.point.copy(b):n.point=b.clone(),n.distance=y,n.faceIndex=w,s&&(s.point?s.point.copy(g):s.point=g.clone(),s.point.applyMatrix4(Uc),b.applyMatrix4(Uc),s.distance=b.sub(s.point).length(),s.faceIndex=v),n)}function Ed(i,t,e){return i===null?null:(i.point.applyMatrix4(t.matrixWorld),i.distance=i.point.distanceTo(e.ray.origin),i.object=t,i)}var Oc=new Ee,Bc=new Wi,M0=new N,T0=new Mt,E0=new N,Ad=["getX","getY","getZ"],zc=class i extends Ac{static serialize(t,e={}){e={cloneBuffers:!0,...e};let n=t.geometry,s=t._roots,r=t._indirectBuffer,o=n.getIndex(),a={version:1,roots:null,index:null,indirectBuffer:null};return e.cloneBuffers?(a.roots=s.map(l=>l.slice()),a.index=o?o.array.slice():null,a.indirectBuffer=r?r.slice():null):(a.roots=s,a.index=o?o.array:null,a.indirectBuffer=r),a}static deserialize(t,e,n={}){n={setIndex:!0,indirect:!!t.indirectBuffer,...n};let{index:s,roots:r,indirectBuffer:o}=t;t.version||(console.warn("MeshBVH.deserialize: Serialization format has been changed and will be fixed up. It is recommended to regenerate any stored serialized data."),l(r));let a=new i(e,{...n,[bo]:!0});if(a._roots=r,a._indirectBuffer=o||null,n.setIndex){let c=e.getIndex();if(c===null){let h=new be(t.index,1,!1);e.setIndex(h)}else c.array!==s&&(c.array.set(s),c.needsUpdate=!0)}return a;function l(c){for(let h=0;h<c.length;h++){let u=c[h],d=new Uint32Array(u),f=new Uint16Array(u);for(let p=0,b=u.byteLength/32;p<b;p++){let m=8*p,g=2*m;jt(g,f)||(d[m+6]=d[m+6]/8-p)}}}}get primitiveStride(){return 3}get resolveTriangleIndex(){return this.resolvePrimitiveIndex}constructor(t,e={}){e.maxLeafTris&&(console.warn('MeshBVH: "maxLeafTris" option has been deprecated. Use "targetLeafSize", instead.'),e={...e,targetLeafSize:e.maxLeafTris}),super(t,e)}shiftTriangleOffsets(t){return super.shiftPrimitiveOffsets(t)}writePrimitiveBounds(t,e,n){let s=this.geometry,r=this._indirectBuffer,o=s.attributes.position,a=s.index?s.index.array:null,c=(r?r[t]:t)*3,h=c+0,u=c+1,d=c+2;a&&(h=a[h],u=a[u],d=a[d]);for(let f=0;f<3;f++){let p=o[Ad[f]](h),b=o[Ad[f]](u),m=o[Ad[f]](d),g=p;b<g&&(g=b),m<g&&(g=m);let y=p;b>y&&(y=b),m>y&&(y=m),e[n+f]=g,e[n+f+3]=y}return e}computePrimitiveBounds(t,e,n){let s=this.geometry,r=this._indirectBuffer,o=s.attributes.position,a=s.index?s.index.array:null,l=o.normalized;if(t<0||e+t-n.offset>n.length/6)throw new Error("MeshBVH: compute triangle bounds range is invalid.");let c=o.array,h=o.offset||0,u=3;o.isInterleavedBufferAttribute&&(u=o.data.stride);let d=["getX","getY","getZ"],f=n.offset;for(let p=t,b=t+e;p<b;p++){let g=(r?r[p]:p)*3,y=(p-f)*6,w=g+0,v=g+1,_=g+2;a&&(w=a[w],v=a[v],_=a[_]),l||(w=w*u+h,v=v*u+h,_=_*u+h);for(let E=0;E<3;E++){let x,S,k;l?(x=o[d[E]](w),S=o[d[E]](v),k=o[d[E]](_)):(x=c[w+E],S=c[v+E],k=c[_+E]);let C=x;S<C&&(C=S),k<C&&(C=k);let P=x;S>P&&(P=S),k>P&&(P=k);let I=(P-C)/2,U=E*2;n[y+U+0]=C+I,n[y+U+1]=I+(Math.abs(C)+I)*ur}}return n}raycastObject3D(t,e,n=[]){let{material:s}=t;if(s===void 0)return;T0.copy(t.matrixWorld).invert(),Bc.copy(e.ray).applyMatrix4(T0),E0.setFromMatrixScale(t.matrixWorld),M0.copy(Bc.direction).multiply(E0);let r=M0.length(),o=e.near/r,a=e.far/r;if(e.firstHitOnly===!0){let l=this.raycastFirst(Bc,s,o,a);l=Ed(l,t,e),l&&n.push(l)}else{let l=this.raycast(Bc,s,o,a);for(let c=0,h=l.length;c<h;c++){let u=Ed(l[c],t,e);u&&n.push(u)}}return n}refit(t=null){return(this.indirect?v0:c0)(this,t)}raycast(t,e=Kn,n=0,s=1/0){let r=this._roots,o=[],a=this.indirect?y0:f0;for(let l=0,c=r.length;l<c;l++)a(this,l,e,t,o,n,s);return o}raycastFirst(t,e=Kn,n=0,s=1/0){let r=this._roots,o=null,a=this.indirect?b0:p0;for(let l=0,c=r.length;l<c;l++){let h=a(this,l,e,t,n,s);h!=null&&(o==null||h.distance<o.distance)&&(o=h)}return o}intersectsGeometry(t,e){let n=!1,s=this._roots,r=this.indirect?w0:g0;for(let o=0,a=s.length;o<a&&(n=r(this,o,t,e),!n);o++);return n}shapecast(t){let e=xn.getPrimitive(),n=super.shapecast({...t,intersectsPrimitive:t.intersectsTriangle,scratchPrimitive:e,iterate:this.indirect?d0:l0});return xn.releasePrimitive(e),n}bvhcast(t,e,n){let{intersectsRanges:s,intersectsTriangles:r}=n,o=xn.getPrimitive(),a=this.geometry.index,l=this.geometry.attributes.position,c=this.indirect?p=>{let b=this.resolveTriangleIndex(p);fe(o,b*3,a,l)}:p=>{fe(o,p*3,a,l)},h=xn.getPrimitive(),u=t.geometry.index,d=t.geometry.attributes.position,f=t.indirect?p=>{let b=t.resolveTriangleIndex(p);fe(h,b*3,u,d)}:p=>{fe(h,p*3,u,d)};if(r){if(!(t instanceof i))throw new Error('MeshBVH: "intersectsTriangles" callback can only be used with another MeshBVH.');let p=(b,m,g,y,w,v,_,E)=>{for(let x=g,S=g+y;x<S;x++){f(x),h.a.applyMatrix4(e),h.b.applyMatrix4(e),h.c.applyMatrix4(e),h.needsUpdate=!0;for(let k=b,C=b+m;k<C;k++)if(c(k),o.needsUpdate=!0,r(o,h,k,x,w,v,_,E))return!0}return!1};if(s){let b=s;s=function(m,g,y,w,v,_,E,x){return b(m,g,y,w,v,_,E,x)?!0:p(m,g,y,w,v,_,E,x)}}else s=p}return super.bvhcast(t,e,{intersectsRanges:s})}intersectsBox(t,e){return Oc.set(t.min,t.max,e),Oc.needsUpdate=!0,this.shapecast({intersectsBounds:n=>Oc.intersectsBox(n),intersectsTriangle:n=>Oc.intersectsTriangle(n)})}intersectsSphere(t){return this.shapecast({intersectsBounds:e=>t.intersectsBox(e),intersectsTriangle:e=>e.intersectsSphere(t)})}closestPointToGeometry(t,e,n={},s={},r=0,o=1/0){return(this.indirect?S0:x0)(this,t,e,n,s,r,o)}closestPointToPoint(t,e={},n=0,s=1/0){return t0(this,t,e,n,s)}};var VT=48,Vc=class{kept=new Map;plant;culling;constructor(t,e){this.plant=t,this.culling=e}hit(t,e,n){let s=this.culling.formOf(t);if(!s)return null;let r=this.treeOf(s.batch,s.instance),o=this.plant.matrixOf(t,new Mt),a=e.clone().applyMatrix4(o.clone().invert()),l=null,c=1/0;for(let h of r.raycast(a,Fe)){if(h.distance>=c||!h.face)continue;let u=h.point.clone().applyMatrix4(o);if(n&&n.x*u.x+n.y*u.y+n.z*u.z>n.w)continue;c=h.distance;let d=this.cornersOf(r,h.face,o),f=new N().subVectors(d[1],d[0]).cross(new N().subVectors(d[2],d[0])).normalize();f.dot(e.direction)>0&&f.negate(),l={mesh:t,point:u,normal:f,corners:d}}return l}cornersOf(t,e,n){let s=t.geometry.getAttribute("position"),r=o=>new N().fromBufferAttribute(s,o).applyMatrix4(n);return[r(e.a),r(e.b),r(e.c)]}treeOf(t,e){let n=t.rangeAt(e),s=this.kept.get(n);if(s)return this.kept.delete(n),this.kept.set(n,s),s;let r=t.object.geometry.getAttribute("position").array,o=t.object.geometry.getIndex().array,a=new Float32Array(3*n.vertexCount);for(let u=0;u<a.length;u++)a[u]=n.low[u%3]+n.step[u%3]*r[3*n.vertexStart+u];let l=new Uint32Array(n.indexCount);for(let u=0;u<l.length;u++)l[u]=o[n.indexStart+u]-n.vertexStart;let c=new Ie;c.setAttribute("position",new be(a,3)),c.setIndex(new be(l,1));let h=new zc(c);return this.kept.set(n,h),this.kept.size>VT&&this.kept.delete(this.kept.keys().next().value),h}};var A0=36,HT=4294967295,Hc=class{start;items;constructor(t,e){this.start=new Uint32Array(e+1);for(let s=0;s<t.length;s++)t[s]>=0&&t[s]<e&&this.start[t[s]+1]++;for(let s=0;s<e;s++)this.start[s+1]+=this.start[s];this.items=new Uint32Array(this.start[e]);let n=this.start.slice();for(let s=0;s<t.length;s++)t[s]>=0&&t[s]<e&&(this.items[n[t[s]]++]=s)}of(t){return this.items.subarray(this.start[t]??0,this.start[t+1]??0)}},Gc=class{n;shapeOf;partOf;color;center;radius;offset;meshesOfShape;meshesOfPart;quaternion;shift;turn=new Vn;place=new N;size=new N;whole=new N(1,1,1);constructor(t,e,n){let s=Math.min(t.n_meshes,Math.floor(e.byteLength/A0)),r=new DataView(e);this.n=s,this.shapeOf=new Int32Array(s),this.partOf=Int32Array.from({length:s},(o,a)=>n.meshes.part[a]??-1),this.color=new Uint8Array(4*s),this.quaternion=new Float32Array(4*s),this.shift=new Float32Array(3*s),this.center=new Float32Array(3*s),this.radius=new Float32Array(s),this.offset=new Float32Array(3*s);for(let o=0;o<s;o++){let a=o*A0,l=r.getUint32(a,!0);this.shapeOf[o]=l===HT?-1:l;for(let c=0;c<4;c++)this.color[4*o+c]=r.getUint8(a+4+c);for(let c=0;c<4;c++)this.quaternion[4*o+c]=r.getFloat32(a+8+4*c,!0);for(let c=0;c<3;c++)this.shift[3*o+c]=r.getFloat32(a+24+4*c,!0)}this.meshesOfShape=new Hc(this.shapeOf,t.n_shapes),this.meshesOfPart=new Hc(this.partOf,n.parts.id.length)}matrixOf(t,e,n=!1){return this.turn.fromArray(this.quaternion,4*t),this.place.fromArray(this.shift,3*t),n||(this.place.x+=this.offset[3*t],this.place.y+=this.offset[3*t+1],this.place.z+=this.offset[3*t+2]),e.compose(this.place,this.turn,this.whole)}setBounds(t,e,n){let s=new Mt,r=new N,o=this.size.set(n[0]-e[0],n[1]-e[1],n[2]-e[2]).length()/2;for(let a of this.meshesOfShape.of(t))r.set((e[0]+n[0])/2,(e[1]+n[1])/2,(e[2]+n[2])/2),r.applyMatrix4(this.matrixOf(a,s,!0)).toArray(this.center,3*a),this.radius[a]=Math.max(o,1e-6)}ballOf(t){let e=[1/0,1/0,1/0],n=[-1/0,-1/0,-1/0];for(let r of t){let o=this.radius[r];if(o)for(let a=0;a<3;a++){let l=this.center[3*r+a]+this.offset[3*r+a];e[a]=Math.min(e[a],l-o),n[a]=Math.max(n[a],l+o)}}return e[0]>n[0]?null:{center:[(e[0]+n[0])/2,(e[1]+n[1])/2,(e[2]+n[2])/2],radius:Math.hypot(n[0]-e[0],n[1]-e[1],n[2]-e[2])/2}}};var Wc=class{frameMs=0;budget;scale=1;last=-1/0;software;constructor(t){this.software=t,this.budget=t?4e5:6e6,t&&(this.scale=.6)}get slow(){return this.software||this.frameMs>150}get samples(){return this.software?4:12}get leastPixels(){return this.scale<1?5:2}frame(t,e){let n=t-this.last;this.last=t,!(!e||n>2e3||n<=0)&&(this.frameMs=this.frameMs?.7*this.frameMs+.3*n:n,this.frameMs>1.3*40?this.slower():this.frameMs<.7*40&&this.faster())}slower(){this.budget=Math.max(6e4,this.budget*.85),this.budget<3e5&&(this.scale=Math.max(.4,this.scale-.1))}faster(){this.scale<1&&this.frameMs<.5*40&&(this.scale=Math.min(1,this.scale+.05)),this.budget=Math.min(6e7,this.budget*1.1)}};var GT=[.5,.2,.9,-.35].flatMap(i=>Array.from({length:12},(t,e)=>{let n=e/12*2*Math.PI,s=Math.sqrt(1-i*i);return[s*Math.cos(n),s*Math.sin(n),i]}));function R0(i,t,e,n,s,r){let o=WT(i,t,n,s,r),a=e,l=C0(i,t,e,n,o);if(l===0)return e;for(let c of GT){let h=1-(c[0]*e[0]+c[1]*e[1]+c[2]*e[2]),u=C0(i,t,c,n,o)+.2*h+(c[2]<0?.3:0);u<l&&([a,l]=[c,u])}return a}function WT(i,t,e,n,s){let r=[];for(let o=0;o*3<e.center.length;o++){let a=0;for(let l=0;l<3;l++){let c=Math.abs(e.center[3*o+l]-i[l])-e.size[3*o+l]/2;a+=Math.max(c,0)**2}a<=t*t&&!n.has(o)&&s(o)&&r.push(o)}return r}function C0(i,t,e,n,s){let r=0;for(let o of s){let a=0,l=t;for(let c=0;c<3&&a<=l;c++){let h=n.size[3*o+c]/2,u=n.center[3*o+c]-i[c];if(Math.abs(e[c])<1e-9){Math.abs(u)>h&&(a=1/0);continue}let[d,f]=[(u-h)/e[c],(u+h)/e[c]];a=Math.max(a,Math.min(d,f)),l=Math.min(l,Math.max(d,f))}a<=l&&(r+=a>0?1:.25)}return r}var XT=160,$T=400,P0=2.2,qT=["selection","hidden","isolated","ghost","marks","question","hovered","explode"],Xc=class{element;navigation;pipeline;plant;store;culling;look;loader;trees;depth=new dc;pace;listeners=new Set;canvas;frame=0;sample=0;movedAt=-1/0;finished=!1;cameraTimer=0;followed=null;cut=null;constructor(t,e,n,s,r,o,a,l){this.element=t,this.canvas=e,this.store=n,this.pipeline=r,this.plant=new Gc(a,l,n.content),this.culling=new uc(this.plant),this.look=new mc(this.plant,n),this.trees=new Vc(this.plant,this.culling),this.pace=new Wc(o),this.navigation=new xc(()=>this.moved()),this.loader=new pc(s,a,this.plant,this.culling,r,()=>this.arrived()),this.navigation.setBounds(YT(a)),this.resize(),new ResizeObserver(()=>this.resize()).observe(t),this.repaint(),this.look.recolor(),this.listen();let c=n.shown.camera;c?this.navigation.set(c):this.home(!1)}listen(){let{store:t}=this;t.on("content",()=>this.changed(!0)),t.watch(["colorBy"],()=>this.changed(!0)),t.watch(qT,()=>this.changed(!1)),t.watch(["section"],()=>this.setSection()),t.watch(["camera"],()=>this.follow()),new MutationObserver(()=>this.repaint()).observe(document.documentElement,{attributeFilter:["data-theme"]}),matchMedia("(prefers-color-scheme: dark)").addEventListener("change",()=>this.repaint()),t.shown.section&&this.setSection()}async load(){await this.loader.loadCoarse(),this.fill()}get loaded(){return this.loader.share}get camera(){return this.navigation.camera}get stats(){return{frameMs:this.pace.frameMs,triangles:this.culling.triangles,meshes:this.culling.meshes,bytes:this.loader.bytes,loaded:this.loader.share}}get isAtRest(){return this.finished&&this.loader.isComplete}pickHit(t,e){let n=this.pipeline.meshAt(t/this.element.clientWidth,e/this.element.clientHeight);return n<0?null:this.trees.hit(n,this.rayAt(t,e),this.cut)}pick(t,e){let n=this.pickHit(t,e);return n&&{mesh:n.mesh,part:this.plant.partOf[n.mesh],point:n.point.toArray(),normal:n.normal.toArray()}}partAt(t,e){let n=this.pipeline.meshAt(t/this.element.clientWidth,e/this.element.clientHeight);return n<0?-1:this.plant.partOf[n]}rayAt(t,e){let n=new At(t/this.element.clientWidth*2-1,1-e/this.element.clientHeight*2),s=new Zr;return s.setFromCamera(n,this.camera),s.ray}project(t){let e=QT.set(t[0],t[1],t[2],1).applyMatrix4(t1.multiplyMatrices(this.camera.projectionMatrix,this.camera.matrixWorldInverse));return e.w<=0?null:{x:(e.x/e.w/2+.5)*this.element.clientWidth,y:(.5-e.y/e.w/2)*this.element.clientHeight,depth:e.z/e.w}}isHidden(t){return this.depth.isBefore(t[0],t[1],t[2])}cornersOf(t){let{center:e,size:n}=this.store.content.parts,s=new Float32Array(24*t.length);return t.forEach((r,o)=>{for(let a=0;a<8;a++)for(let l=0;l<3;l++){let c=a>>l&1?.5:-.5;s[24*o+3*a+l]=e[3*r+l]+c*n[3*r+l]}}),s}flyTo(t){if(!t.length)return;let e=this.cornersOf(t),n=this.camera.getWorldDirection(new N).negate(),{center:s,size:r}=this.store.content.parts,o=h=>this.plant.meshesOfPart.of(h).some(u=>this.look.visible[u]===1),{target:a,distance:l}=this.navigation.fit(e,n,P0),c=R0(a.toArray(),l,n.toArray(),{center:s,size:r},new Set(t),o);this.navigation.flyTo(e,new N(...c),!this.pace.slow,P0)}home(t=!0){let e=this.allCorners(),n=[0,1].map(r=>KT(e,r)),s=n[0]>=n[1]?ZT:JT;this.navigation.flyTo(e,s,t&&!this.pace.slow)}lookAlong(t){this.navigation.flyTo(this.allCorners(),t,!this.pace.slow)}allCorners(){let{ground:t}=this.store.content.parts,{hidden:e,isolated:n}=this.store.shown,s=t.map((o,a)=>a).filter(o=>!e.has(o)&&(n?.has(o)??!0)),r=s.filter(o=>!t[o]);return this.cornersOf(r.length?r:s.length?s:[...t.keys()])}getCamera(){return this.navigation.get()}setCamera(t){this.navigation.set(t)}add(t,e=!1){this.pipeline.add(t,e),this.invalidate()}remove(t){t.removeFromParent(),this.invalidate()}invalidate(){this.frame||(this.frame=requestAnimationFrame(t=>this.draw(t)))}onFrame(t){return this.listeners.add(t),()=>this.listeners.delete(t)}picture(){return this.pipeline.show(this.camera),new Promise((t,e)=>{this.canvas.toBlob(n=>n?t(n):e(new Error("no picture")),"image/png")})}redraw(){this.sample=0,this.finished=!1,this.invalidate()}moved(){this.movedAt=performance.now(),this.redraw(),window.clearTimeout(this.cameraTimer),this.cameraTimer=window.setTimeout(()=>{this.followed=this.navigation.get(),this.store.set({camera:this.followed}),this.fill()},250)}follow(){let{camera:t}=this.store.shown;t&&t!==this.followed&&this.navigation.set(t)}fill(){this.loader.fill(this.navigation.get().eye).catch(()=>this.redraw())}arrived(){this.changed(!1)}changed(t){t?this.look.recolor():this.look.update(),this.paint(),this.redraw()}paint(){let{state:t}=this.look;for(let e=0;e<this.plant.n;e++){let n=4*e;this.culling.eachForm(e,(s,r)=>{s.setState(r,t[n],t[n+1],t[n+2],t[n+3])})}this.maskSelected()}maskSelected(){let{mask:t,maskMaterial:e}=this.pipeline;for(let n of[...t.children])t.remove(n),n.geometry.dispose();for(let n of this.look.emphasised.slice(0,$T)){let s=this.culling.formOf(n);if(!s)continue;let r=s.batch.rangeAt(s.instance),o=s.batch.object.geometry,a=new Ie;a.setAttribute("position",o.getAttribute("position")),a.setIndex(o.getIndex()),a.setDrawRange(r.indexStart,r.indexCount);let l=new Le(a,e);l.frustumCulled=l.matrixAutoUpdate=l.matrixWorldAutoUpdate=!1,s.batch.matrixAt(s.instance,this.plant,l.matrixWorld),t.add(l)}}setOffsets(t){let{plant:e}=this;for(let n=0;n<e.n;n++){let s=t.get(e.partOf[n]),r=3*n;!s&&!e.offset[r]&&!e.offset[r+1]&&!e.offset[r+2]||((s??jT).toArray(e.offset,r),this.culling.eachForm(n,(o,a)=>o.setMatrix(a,e)))}this.changed(!1)}setSection(){let{section:t}=this.store.shown;if(t){let e="xyz".indexOf(t.axis),n=t.flipped?-1:1;this.cut=new $t(0,0,0,n*t.at).setComponent(e,n)}else this.cut=null;this.pipeline.setSection(this.cut),this.redraw()}repaint(){let t=getComputedStyle(document.documentElement),e=(r,o)=>t.getPropertyValue(r).trim()||o,n=document.documentElement.dataset.theme==="dark",s={top:e("--sky-top","#e9eef4"),bottom:e("--sky-bottom","#ffffff"),ink:n?"#05080b":"#10161d",accent:n?"#ffb000":"#e66100",mark:e("--mark","#d1580a")};this.pipeline.setPalette(s),this.redraw()}resize(){let t=Math.max(1,this.element.clientWidth),e=Math.max(1,this.element.clientHeight),n=Math.min(window.devicePixelRatio||1,this.pace.slow?1:2);this.pipeline.setSize(Math.round(t*n),Math.round(e*n),t,e),this.navigation.setAspect(t/e)}draw(t){this.frame=0;let e=performance.now()-this.movedAt<XT;this.finished||this.drawPlant(e),this.pipeline.show(this.camera);for(let n of this.listeners)n();(!this.finished||e)&&(this.pace.frame(t,e),this.invalidate())}drawPlant(t){let{pace:e,culling:n,look:s}=this,r=this.element.clientHeight;if(t){n.look(this.camera,r,s.visible,e.leastPixels,e.budget),this.pipeline.draw(this.camera,{scale:e.scale,sample:0,occlusion:!1,ghosts:s.hasGhosts}),this.sample=0;return}this.sample===0&&n.look(this.camera,r,s.visible,.7,1/0),this.pipeline.draw(this.camera,{scale:1,sample:this.sample,occlusion:!0,ghosts:s.hasGhosts}),this.sample===0&&this.depth.copy(this.pipeline,this.camera,()=>this.invalidate()),this.sample++,this.finished=this.sample>=e.samples}dispose(){this.loader.dispose(),this.pipeline.dispose()}};function YT(i){let{low:t,high:e}=i;return{center:t.map((s,r)=>(s+e[r])/2),radius:Math.max(Math.hypot(e[0]-t[0],e[1]-t[1],e[2]-t[2])/2,.001)}}var ZT=new N(-.5,-.8,.5).normalize(),JT=new N(.8,-.5,.5).normalize();function KT(i,t){let e=1/0,n=-1/0;for(let s=t;s<i.length;s+=3)[e,n]=[Math.min(e,i[s]),Math.max(n,i[s])];return n-e}var jT=new N,QT=new $t,t1=new Mt;function I0(i,t){return{clicked:()=>!1,hovered:()=>!1}}var L0="This browser draws no 3D here: WebGL 2 is switched off or missing. Lists, tables and the drawing work without it.";async function k0(i,t,e){let n=document.createElement("div");n.className="scene";let s=document.createElement("canvas");s.className="scene-canvas",s.dataset.test="canvas",s.tabIndex=0,s.setAttribute("role","img"),s.setAttribute("aria-label","The plant in 3D. Arrow keys turn it, plus and minus come closer and go away.");let r=document.createElement("div");r.className="scene-note",r.setAttribute("role","status"),r.dataset.test="scene-note",n.append(s,r),i.append(n);let o=e1();if(o===null)throw r.textContent=L0,new Error(L0);let a=new cc(s,!o);r.textContent="Reading the plant...";let l=await e.manifest(),c=await e.file(l.instances),h=new Xc(n,s,t,e,a,o,l,c);n1(s,r,h);let u=I0(h,t);s1(s,h,t,u);let d=i1(r),f=h.onFrame(()=>d(h.loaded));return h.load().then(()=>{f(),r.textContent=""},p=>r.textContent=`Parts of the plant could not be read: ${p.message}`),h}function e1(){let i=document.createElement("canvas").getContext("webgl2");if(!i)return null;let t=i.getExtension("WEBGL_debug_renderer_info"),e=String(i.getParameter(t?t.UNMASKED_RENDERER_WEBGL:i.RENDERER));return i.getExtension("WEBGL_lose_context")?.loseContext(),/swiftshader|llvmpipe|softpipe|software|basic render/i.test(e)}function n1(i,t,e){i.addEventListener("webglcontextlost",n=>{n.preventDefault(),t.textContent="The graphics card dropped the picture; it comes back by itself, else reload the page."}),i.addEventListener("webglcontextrestored",()=>{t.textContent="",e.redraw()})}function i1(i){let t=document.createElement("progress");return t.max=1,i.replaceChildren("Loading shapes ",t),e=>{t.value=e}}function s1(i,t,e,n){let s=0;new lc(i,t.navigation,{pointAt:(r,o)=>t.pickHit(r,o)?.point??r1(t,r,o),clicked:(r,o,a)=>{i.focus({preventScroll:!0}),n.clicked(r,o)||o1(t,e,r,o,a.ctrlKey||a.metaKey)},doubleClicked:(r,o)=>{let a=t.partAt(r,o);a>=0&&t.flyTo([a])},hovered:(r,o)=>{n.hovered(r,o)||(window.clearTimeout(s),s=window.setTimeout(()=>e.set({hovered:t.partAt(r,o)}),60))},left:()=>{window.clearTimeout(s),e.set({hovered:-1})}})}function r1(i,t,e){let n=i.rayAt(t,e),{eye:s,target:r}=i.getCamera(),o=new N(...r).sub(new N(...s)),a=n.direction.dot(o.clone().normalize()),l=new N(...r).sub(n.origin).dot(o.normalize())/Math.max(a,.001);return n.at(l,new N)}function o1(i,t,e,n,s){let r=i.partAt(e,n),{selection:o,place:a}=t.shown;if(r<0){s||t.select([]);return}if(s){t.select(o.includes(r)?o.filter(c=>c!==r):[...o,r]);return}let l=t.content.network.units[t.content.parts.unit[r]];l&&o.length===1&&o[0]===r&&a===null?t.selectPlace(l.id):t.select([r])}var a1={selection:[],place:null,hovered:-1,hidden:new Set,isolated:null,ghost:!0,colorBy:"group",marks:null,network:!0,tags:!0,section:null,explode:null,tool:"select",question:null,leftTab:"find",schematic:!1,table:!1,theme:"light",camera:null},$c=class{content=null;state=null;shown=a1;listeners={content:new Set,state:new Set,shown:new Set};on(t,e){return this.listeners[t].add(e),()=>this.listeners[t].delete(e)}watch(t,e){return this.on("shown",n=>{t.some(s=>n.has(s))&&e()})}set(t){let e=new Set;for(let n of Object.keys(t))t[n]!==this.shown[n]&&e.add(n);e.size&&(this.shown={...this.shown,...t},this.tell("shown",e))}setState(t){this.state=t,this.tell("state",t)}setContent(t){let e=this.content,n=e&&l1(e.meshes,t.meshes);this.content=n?{...t,meshes:e.meshes}:t,e&&!n&&this.keepRows(e),this.keepSelection(),this.tell("content",this.content)}apply(t){if(this.setState(t.state),t.reload||!this.content)return!1;let e=this.content.parts;for(let n of Object.keys(e)){let s=e[n],r=t.parts[n],o=n==="center"||n==="size"||n==="extents"?3:1;t.rows.forEach((a,l)=>{for(let c=0;c<o;c++)s[a*o+c]=r[l*o+c]})}return this.setContent({...this.content,version:t.version,parts:e,network:t.network,diagnostics:t.diagnostics}),!0}select(t,e=null){this.set({selection:t,place:e})}selectPlace(t){let e=this.content?.network,n=e?.units.find(s=>s.id===t)??e?.ends.find(s=>s.id===t);n&&this.select(n.parts,t)}keepSelection(){let t=this.content.network,{place:e,selection:n}=this.shown,s=this.content.parts.id.length,r=[...t.units,...t.ends],o=e&&(r.find(l=>l.id===e)??r.find(l=>l.parts.length===n.length&&l.parts.every(c=>n.includes(c))));o?(!(o.parts.length===n.length&&o.parts.every((c,h)=>c===n[h]))||o.id!==e)&&this.set({selection:o.parts,place:o.id}):e&&this.set({place:null}),n.some(l=>l>=s)&&this.set({selection:n.filter(l=>l<s)});let{explode:a}=this.shown;a&&!t.units.some(l=>l.id===a.unit)&&this.set({explode:null})}keepRows(t){let e=new Map(this.content.meshes.path.map((l,c)=>[l,this.content.meshes.part[c]])),n=new Map;t.meshes.part.forEach((l,c)=>{let h=e.get(t.meshes.path[c])??-1;l>=0&&h>=0&&!n.has(l)&&n.set(l,h)});let s=l=>[...new Set([...l].map(c=>n.get(c)??-1))].filter(c=>c>=0),{selection:r,hidden:o,isolated:a}=this.shown;this.set({selection:s(r),hidden:new Set(s(o)),isolated:a&&new Set(s(a)),hovered:-1,marks:null,question:null})}tell(t,e){for(let n of[...this.listeners[t]])n(e)}};function l1(i,t){return i===t||i.path.length===t.path.length&&i.path.every((e,n)=>e===t.path[n]&&i.part[n]===t.part[n])}var Cd=Hd(),qc=new $c;window.cadgraph={store:qc,view:null};var Po=vg(document.getElementById("app"),qc,Cd);Wd(document);await Po.untilReady();try{let i=await k0(Po.middle,qc,Cd);window.cadgraph.view=i,Fm(i,qc,Cd,Po),Po.connect(i)}catch(i){throw Po.say(`The plant can't be drawn: ${i.message}`,"bad"),i}
