@@ -122,8 +122,13 @@ def line_rows(lines: Sequence[Line]) -> list[tuple[Any, ...]]:
     return rows
 
 
-def trace_lines(found: Trace) -> list[str]:
-    """A trace: each node with its distance and what it comes after, then where the way halts and where it returns."""
+def trace_lines(found: Trace, *, hints: bool = True) -> list[str]:
+    """A trace: each node with its distance and what it comes after, then where the way halts and where it returns.
+
+    Args:
+        found: the trace.
+        hints: whether to name options of the command line.
+    """
     start = found.steps[0].name
     rows: list[tuple[str, ...]] = [("distance", "", "", "after", "line", "")]
     rows += [_step_row(step) for step in found.steps[1:]]
@@ -133,7 +138,8 @@ def trace_lines(found: Trace) -> list[str]:
     else:
         told += aligned(rows, right=(0,))
     if found.halts:
-        told += ["", "not followed, as the direction of flow is unknown (--unknown follows it both ways):"]
+        hint = " (--unknown follows it both ways)" if hints else ""
+        told += ["", f"not followed, as the direction of flow is unknown{hint}:"]
         told += aligned([(f"{h.distance:.2f} m", f"{h.after} - {h.towards}", h.line or "") for h in found.halts], (0,))
     loops = [f"{r.after} -> {r.to}" for r in found.returns if r.loop]
     meets = [f"{r.after} -> {r.to}" for r in found.returns if not r.loop]
