@@ -98,7 +98,7 @@ class Snapshot:
         found = find_isolation(self.network, at)
         return {
             "title": f"isolate {found.name}",
-            "lines": isolation_lines(found),
+            "lines": isolation_lines(found, hints=False),
             "sure": found.isolated is True,
             "close": [valve.place for valve in found.valves if not valve.automatic],
             "places": [found.target, *found.shut_off],
