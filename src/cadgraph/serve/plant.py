@@ -270,8 +270,9 @@ class Plant:
         self.feed.publish(version=1, title=file_name(graph.source.path))
 
     def _begin(self, session: Session) -> None:
-        # The first correction must not take longer than the others.
+        # Neither the first correction nor the first question must take longer than the others.
         session.prepare()
+        review_queue(session, 1)
         # What is there now stays: nobody has to look for rubbish in it at each correction.
         gc.freeze()
         self._session = session
