@@ -4,17 +4,19 @@ import { Vector3 } from "three";
 import type { Content, Unit } from "../types.ts";
 
 /** As shares of the unit's radius (half the diagonal of its box). */
-const GAP = 0.16; // between parts that follow one another on an axis
+const GAP = 0.25; // between parts that follow one another on an axis
 const ON_AXIS = 0.12; // so near to an axis a part lies on it
 const CORE = 0.06; // so near to the centre a part stays
 const OUTWARDS = 0.75; // what lies on no axis moves at least this far
 const MOST = 3; // nothing moves farther
 
+const MOST_CENTERS = 40;
+
 const FASTENER = /\b(bolt|stud|screw|nut|washer|u-bolt)s?\b/i;
 
 interface Piece {
   row: number;
-  /** From the unit's centre [m]. */
+  /** From the unit's centre: at first the middle of its box, then of the part that the others stand around [m]. */
   at: Vector3;
   /** Half the sides of its axis-aligned box [m]. */
   half: Vector3;
@@ -42,6 +44,8 @@ export function fullOffsets(content: Content, unit: Unit): Map<number, Vector3> 
   const offsets = new Map<number, Vector3>();
   if (pieces.length < 2 || !(radius > 0)) return offsets;
   const axes = axesOf(unit);
+  const center = centerOf(pieces, axes, radius);
+  for (const { at } of pieces) at.sub(center);
   const stacks = new Map<string, { way: Vector3; pieces: Piece[] }>();
   const core: Piece[] = [];
   for (const piece of pieces) {
@@ -86,6 +90,24 @@ function piecesOf(content: Content, unit: Unit): Piece[] {
   const middle = low.add(high).multiplyScalar(0.5);
   for (const { at } of pieces) at.sub(middle);
   return pieces;
+}
+
+/** The point through which the axes pass: the middle of the part that most others stand in line with, as the body of a valve. */
+function centerOf(pieces: Piece[], axes: Vector3[], radius: number): Vector3 {
+  const solid = pieces.filter((piece) => !piece.axis);
+  const bulk = ({ half }: Piece) => half.x * half.y * half.z;
+  let best = new Vector3();
+  let most = 0;
+  for (const { at } of [...solid].sort((a, b) => bulk(b) - bulk(a) || a.row - b.row).slice(0, MOST_CENTERS)) {
+    const inLine = solid.filter((piece) => {
+      const way = piece.at.clone().sub(at);
+      return axes.some((axis) => way.clone().addScaledVector(axis, -way.dot(axis)).length() < ON_AXIS * radius);
+    });
+    if (inLine.length <= most) continue;
+    most = inLine.length;
+    best = at.clone();
+  }
+  return best;
 }
 
 function radiusOf(pieces: Piece[]): number {
@@ -141,7 +163,7 @@ function wayOf(piece: Piece, axes: Vector3[], radius: number): Vector3 | null {
 /** Moves what lies on one side of an axis outwards, one after the other. */
 function stack(pieces: Piece[], way: Vector3, core: Piece[], radius: number, offsets: Map<number, Vector3>): void {
   let end = Math.max(0, ...core.map((piece) => reach(piece, way)));
-  let least = 0;
+  let least = GAP * radius;
   for (const level of levelsOf(pieces, way, radius)) {
     // What follows on an axis is never behind what it is put on.
     const move = Math.min(MOST * radius, Math.max(least, end + GAP * radius - level.near));

@@ -60,7 +60,8 @@ function fillRows(list: HTMLElement, store: Store): Row[] {
   list.replaceChildren();
   const { entries, hatched } = colorParts(store.content!, store.shown.colorBy);
   const rows = entries.slice(0, MOST_ROWS).map((entry) => rowOf(entry, store));
-  const unsure = entries.some((entry) => entry.hatched) ? [] : [...hatched.keys()].filter((row) => hatched[row]);
+  const unlabelled = new Set(entries.flatMap((entry) => (entry.hatched ? entry.parts : [])));
+  const unsure = [...hatched.keys()].filter((row) => hatched[row] && !unlabelled.has(row));
   if (unsure.length) rows.push(rowOf({ label: "Not sure", color: "", hatched: true, parts: unsure }, store));
   list.append(...rows.map(({ button }) => el("li", {}, button)));
   if (entries.length > MOST_ROWS) list.append(el("li", { class: "scene-soft" }, `and ${entries.length - MOST_ROWS} more with fewer parts`));

@@ -76,3 +76,14 @@ export function measuredText({ distance, along, between }: Measured): [string, s
     between === null || between < 5e-5 ? null : `parallel faces ${lengthText(between)} apart`,
   ];
 }
+
+/** The middle of a label that stands beside a line on the screen, above it rather than below, and covers nothing of it. */
+export function besideLine(
+  a: { x: number; y: number }, b: { x: number; y: number }, label: { width: number; height: number },
+): { x: number; y: number } {
+  const long = Math.hypot(b.x - a.x, b.y - a.y);
+  const side = b.x < a.x ? -1 : 1;
+  const normal = long < 1 ? { x: 0, y: -1 } : { x: (side * (b.y - a.y)) / long, y: (-side * (b.x - a.x)) / long };
+  const away = (Math.abs(normal.x) * label.width + Math.abs(normal.y) * label.height) / 2 + 8;
+  return { x: (a.x + b.x) / 2 + normal.x * away, y: (a.y + b.y) / 2 + normal.y * away };
+}

@@ -3,7 +3,7 @@
 import { Vector3 } from "three";
 import type { Store } from "../store.ts";
 import { el, iconButton, svg } from "./dom.ts";
-import { catchPoint, measure, measuredText } from "./measure.ts";
+import { besideLine, catchPoint, measure, measuredText } from "./measure.ts";
 import type { Caught } from "./measure.ts";
 import type { PlantView } from "./plant_view.ts";
 
@@ -15,6 +15,8 @@ interface Drawn {
   to: Vector3;
   group: SVGGElement;
   label: HTMLElement;
+  /** Of the label [px]. */
+  size: { width: number; height: number };
 }
 
 export class MeasureTool {
@@ -31,6 +33,8 @@ export class MeasureTool {
   private first: Caught | null = null;
   private caught: Caught | null = null;
   private timer = 0;
+  /** The last measurement in words, until the next one begins. */
+  private said = "";
 
   constructor(view: PlantView, store: Store) {
     this.view = view;
@@ -74,8 +78,10 @@ export class MeasureTool {
   clicked(x: number, y: number): boolean {
     if (!this.isOn) return false;
     const caught = this.catchAt(x, y);
-    if (caught && !this.first) this.first = caught;
-    else if (caught && caught.point.distanceTo(this.first!.point) > SAME) this.keep(caught);
+    if (caught && !this.first) {
+      this.first = caught;
+      this.said = "";
+    } else if (caught && caught.point.distanceTo(this.first!.point) > SAME) this.keep(caught);
     this.look(caught);
     this.update();
     return true;
@@ -92,9 +98,10 @@ export class MeasureTool {
     const drawn = this.draw(from.point, to.point, distance, along, between);
     drawn.label.classList.add("is-kept");
     drawn.label.append(iconButton("close", `Remove this measurement: ${distance}`, "measure-remove", () => this.remove(drawn)));
+    drawn.size.width = drawn.label.offsetWidth;
     this.kept.push(drawn);
+    this.said = `${distance}${between ? `, ${between}` : ""}. Click the next first point.`;
     this.drop();
-    this.hint.textContent = `${distance}; ${along}${between ? `; ${between}` : ""}`;
   }
 
   private look(caught: Caught | null): void {
@@ -118,7 +125,7 @@ export class MeasureTool {
     const label = el("div", { class: "scene-measure-label", "data-test": "measurement" },
       el("div", {}, el("strong", {}, distance), el("div", { class: "scene-measure-along" }, along), between && el("div", {}, between)));
     this.overlay.append(label);
-    return { from, to, group, label };
+    return { from, to, group, label, size: { width: label.offsetWidth, height: label.offsetHeight } };
   }
 
   private erase(drawn: Drawn | null): void {
@@ -146,14 +153,15 @@ export class MeasureTool {
   }
 
   private update(): void {
-    if (!this.isOn && (this.first || this.caught)) {
+    if (!this.isOn) {
       this.first = null;
-      this.look(null);
+      this.said = "";
+      if (this.caught || this.preview) this.look(null);
     }
     this.view.element.classList.toggle("is-measuring", this.isOn);
     this.panel.hidden = !this.isOn;
     this.clear.hidden = !this.kept.length;
-    this.hint.textContent = this.first ? "Click the second point." : "Click the first point: corners and edges catch.";
+    this.hint.textContent = this.first ? "Click the second point." : this.said || "Click the first point: corners and edges catch.";
     this.place();
   }
 
@@ -167,7 +175,7 @@ export class MeasureTool {
     for (const drawn of this.preview ? [...this.kept, this.preview] : this.kept) this.placeOne(drawn);
   }
 
-  private placeOne({ from, to, group, label }: Drawn): void {
+  private placeOne({ from, to, group, label, size }: Drawn): void {
     const corner = new Vector3(to.x, from.y, from.z);
     const above = new Vector3(to.x, to.y, from.z);
     const [a, b, c, d] = [from, to, corner, above].map((point) => this.view.project(point.toArray()));
@@ -186,7 +194,8 @@ export class MeasureTool {
       circle.setAttribute("cx", [a, b][i].x.toFixed(1));
       circle.setAttribute("cy", [a, b][i].y.toFixed(1));
     });
-    label.style.transform = `translate(${((a.x + b.x) / 2).toFixed(1)}px, ${((a.y + b.y) / 2).toFixed(1)}px) translate(-50%, -130%)`;
+    const beside = besideLine(a, b, size);
+    label.style.transform = `translate(${(beside.x - size.width / 2).toFixed(1)}px, ${(beside.y - size.height / 2).toFixed(1)}px)`;
   }
 }
 
