@@ -6,6 +6,8 @@ import type { PlantView } from "./plant_view.ts";
 
 const SIZE = 76; // px
 const REACH = 28;
+/** A little from the south, so that a plan has north above as on paper. */
+const NORTH_UP = new Vector3(0, -0.0075, 0);
 
 interface End {
   name: string;
@@ -24,7 +26,7 @@ export function axesWidget(view: PlantView): HTMLElement {
     const words = `Look from ${name}${{ "+Z": " (top)", "-Z": " (below)" }[name] ?? ""}`;
     const button = el("button", {
       type: "button", class: `scene-axis is-${axis}${positive ? "" : " is-back"}`, title: words, "aria-label": words,
-      "data-test": `axis${name}`, onclick: () => view.lookAlong(way),
+      "data-test": `axis${name}`, onclick: () => view.lookAlong(way.clone().add(NORTH_UP)),
     }, positive ? name[1] : null);
     const line = positive ? svg("line", { class: `scene-axis-line is-${axis}`, x1: middle, y1: middle }) : null;
     if (line) lines.append(line);
