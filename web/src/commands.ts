@@ -26,13 +26,18 @@ export function run(id: string): void {
   if (command && (command.when?.() ?? true)) command.run();
 }
 
+/** Whether a key that is pressed in a text field is none of the field's own. */
+function meantForPage(pressed: KeyboardEvent): boolean {
+  return pressed.key === "Escape" || (pressed.ctrlKey && !/^[acvxyz]$/i.test(pressed.key));
+}
+
 /** Runs the command of a key, unless somebody is typing text. */
 export function listenToKeys(target: HTMLElement | Document): void {
   target.addEventListener("keydown", (event) => {
     const pressed = event as KeyboardEvent;
     const on = pressed.target as HTMLElement | null;
     const typing = !!on && (on.isContentEditable || /^(INPUT|TEXTAREA|SELECT)$/.test(on.tagName));
-    if (pressed.defaultPrevented || pressed.altKey || (typing && pressed.key !== "Escape" && !pressed.ctrlKey)) return;
+    if (pressed.defaultPrevented || pressed.altKey || (typing && !meantForPage(pressed))) return;
     const key = `${pressed.ctrlKey || pressed.metaKey ? "Ctrl+" : ""}${pressed.shiftKey && pressed.key.length > 1 ? "Shift+" : ""}${pressed.key}`;
     for (const command of commands.values()) {
       if (command.key === key && (command.when?.() ?? true)) {

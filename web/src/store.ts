@@ -24,6 +24,7 @@ export interface Marks {
   close: ReadonlySet<string>;
 }
 
+/** A plane across an axis, at a place on it [m]: what lies beyond is cut away, or what lies before where it is flipped. */
 export interface Section {
   axis: "x" | "y" | "z";
   at: number;
@@ -106,9 +107,13 @@ export class Store {
   }
 
   setContent(content: Content): void {
-    this.content = content;
+    const before = this.content;
+    const same = before && sameMeshes(before.meshes, content.meshes);
+    // What was worked out for the meshes stays good as long as they are the same object.
+    this.content = same ? { ...content, meshes: before.meshes } : content;
+    if (before && !same) this.keepRows(before);
     this.keepSelection();
-    this.tell("content", content);
+    this.tell("content", this.content);
   }
 
   /** Lays an update over the content; false where the content has to be fetched anew. */
@@ -146,11 +151,40 @@ export class Store {
     const network = this.content!.network;
     const { place, selection } = this.shown;
     const n = this.content!.parts.id.length;
-    if (place && ![...network.units, ...network.ends].some((node) => node.id === place)) this.set({ place: null });
+    const nodes = [...network.units, ...network.ends];
+    // A unit may have another id now, as that follows its tag: it is known by its parts.
+    const node = place && (nodes.find((node) => node.id === place)
+      ?? nodes.find((node) => node.parts.length === selection.length && node.parts.every((row) => selection.includes(row))));
+    if (node) {
+      const same = node.parts.length === selection.length && node.parts.every((row, i) => row === selection[i]);
+      if (!same || node.id !== place) this.set({ selection: node.parts, place: node.id });
+    } else if (place) this.set({ place: null });
     if (selection.some((row) => row >= n)) this.set({ selection: selection.filter((row) => row < n) });
+    const { explode } = this.shown;
+    if (explode && !network.units.some((unit) => unit.id === explode.unit)) this.set({ explode: null });
+  }
+
+  /** The parts themselves may be others now: what was selected or hidden is found again by its meshes. */
+  private keepRows(before: Content): void {
+    const now = new Map(this.content!.meshes.path.map((path, mesh) => [path, this.content!.meshes.part[mesh]]));
+    const next = new Map<number, number>();
+    before.meshes.part.forEach((row, mesh) => {
+      const found = now.get(before.meshes.path[mesh]) ?? -1;
+      if (row >= 0 && found >= 0 && !next.has(row)) next.set(row, found);
+    });
+    const keep = (rows: Iterable<number>) => [...new Set([...rows].map((row) => next.get(row) ?? -1))].filter((row) => row >= 0);
+    const { selection, hidden, isolated } = this.shown;
+    this.set({
+      selection: keep(selection), hidden: new Set(keep(hidden)), isolated: isolated && new Set(keep(isolated)),
+      hovered: -1, marks: null, question: null,
+    });
   }
 
   private tell<K extends keyof Topics>(topic: K, value: Topics[K]): void {
     for (const listener of [...this.listeners[topic]]) listener(value);
   }
+}
+
+function sameMeshes(a: Content["meshes"], b: Content["meshes"]): boolean {
+  return a === b || (a.path.length === b.path.length && a.path.every((path, mesh) => path === b.path[mesh] && a.part[mesh] === b.part[mesh]));
 }

@@ -105,14 +105,46 @@ export class Navigation {
     this.place();
   }
 
-  /** So that a ball fills the picture; from another direction (out of the plant to the eye) where one is given. */
-  flyTo(ball: Ball, way?: Vector3, smooth = true): void {
-    const target = new Vector3(...ball.center);
-    const half = Math.atan(Math.tan((FOV * Math.PI) / 360) * Math.min(1, this.aspect));
-    const distance = Math.max(ball.radius, this.bounds.radius * 1e-4) / Math.sin(half) * 1.08;
+  /** So that points fill the picture; from another direction (out of the plant to the eye) where one is given. */
+  flyTo(points: Float32Array, way?: Vector3, smooth = true, margin = 1.08): void {
     const from = (way ?? this.ahead().negate()).clone().normalize();
-    if (Math.abs(from.z) > STEEPEST) from.set(1e-3 * this.ahead().x, 1e-3 * this.ahead().y - 1e-3, from.z).normalize();
+    // Straight from above there is no right and left: almost straight, then.
+    if (Math.abs(from.z) > STEEPEST) from.set(0, -Math.sqrt(1 - STEEPEST ** 2), from.z).normalize();
+    const { target, distance } = this.fit(points, from, margin);
     this.travel(target.clone().addScaledVector(from, distance), target, smooth);
+  }
+
+  /** Where to look, and from how far, to see all points (three numbers each) from a direction. */
+  fit(points: Float32Array, from: Vector3, margin: number): { target: Vector3; distance: number } {
+    const right = new Vector3().crossVectors(UP, from).normalize();
+    const up = new Vector3().crossVectors(from, right);
+    const tall = Math.tan((FOV * Math.PI) / 360) / margin;
+    const wide = tall * this.aspect;
+    const target = middleOf(points);
+    let distance = 0;
+    const at = new Vector3();
+    // What is nearer looks larger: the middle of the picture is found step by step.
+    for (let step = 0; step < 4; step++) {
+      distance = this.bounds.radius * 1e-4;
+      for (let i = 0; i < points.length; i += 3) {
+        at.fromArray(points, i).sub(target);
+        const aside = Math.max(Math.abs(at.dot(right)) / wide, Math.abs(at.dot(up)) / tall);
+        distance = Math.max(distance, aside + at.dot(from));
+      }
+      const x = [Infinity, -Infinity];
+      const y = [Infinity, -Infinity];
+      for (let i = 0; i < points.length; i += 3) {
+        at.fromArray(points, i).sub(target);
+        const depth = this.orthographic ? distance : Math.max(distance - at.dot(from), 1e-6);
+        const [sx, sy] = [at.dot(right) / depth, at.dot(up) / depth];
+        [x[0], x[1]] = [Math.min(x[0], sx), Math.max(x[1], sx)];
+        [y[0], y[1]] = [Math.min(y[0], sy), Math.max(y[1], sy)];
+      }
+      if (step < 3) {
+        target.addScaledVector(right, ((x[0] + x[1]) / 2) * distance).addScaledVector(up, ((y[0] + y[1]) / 2) * distance);
+      }
+    }
+    return { target, distance };
   }
 
   private travel(eye: Vector3, target: Vector3, smooth: boolean): void {
@@ -185,3 +217,16 @@ export class Navigation {
 }
 
 const UP = new Vector3(0, 0, 1);
+
+/** The middle of the box around points. */
+export function middleOf(points: Float32Array): Vector3 {
+  const low = new Vector3(Infinity, Infinity, Infinity);
+  const high = new Vector3(-Infinity, -Infinity, -Infinity);
+  const at = new Vector3();
+  for (let i = 0; i < points.length; i += 3) {
+    at.fromArray(points, i);
+    low.min(at);
+    high.max(at);
+  }
+  return low.add(high).multiplyScalar(0.5);
+}

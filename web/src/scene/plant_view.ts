@@ -18,10 +18,12 @@ import { Pipeline } from "./pipeline.ts";
 import type { Palette } from "./pipeline.ts";
 import { Plant } from "./plant.ts";
 import { Pace } from "./pace.ts";
+import { clearWay } from "./sightline.ts";
 import type { Pick, SceneView } from "./view.ts";
 
 const REST = 160; // ms without movement, after which the picture is finished
 const MOST_MASKED = 400;
+const MARGIN = 2.2; // what a part is looked at with: some of its neighbourhood
 /** Changes of these make the picture another one, though no colour. */
 const LOOKS: (keyof Shown)[] = ["selection", "hidden", "isolated", "ghost", "marks", "question", "hovered", "explode"];
 
@@ -153,30 +155,51 @@ export class PlantView implements SceneView {
 
   // Moving
 
-  ballOfParts(parts: Iterable<number>): Ball | null {
-    const meshes: number[] = [];
-    for (const part of parts) meshes.push(...this.plant.meshesOfPart.of(part));
-    return this.plant.ballOf(meshes);
+  /** The corners of the boxes of parts, three numbers each. */
+  private cornersOf(parts: readonly number[]): Float32Array {
+    const { center, size } = this.store.content!.parts;
+    const points = new Float32Array(24 * parts.length);
+    parts.forEach((part, i) => {
+      for (let corner = 0; corner < 8; corner++) {
+        for (let k = 0; k < 3; k++) {
+          const half = (corner >> k) & 1 ? 0.5 : -0.5;
+          points[24 * i + 3 * corner + k] = center[3 * part + k] + half * size[3 * part + k];
+        }
+      }
+    });
+    return points;
   }
 
+  /** Comes close to parts, from a side where nothing stands before them. */
   flyTo(parts: readonly number[]): void {
-    const ball = this.ballOfParts(parts);
-    if (ball) this.navigation.flyTo({ center: ball.center, radius: ball.radius * 1.5 }, undefined, !this.pace.slow);
+    if (!parts.length) return;
+    const points = this.cornersOf(parts);
+    const now = this.camera.getWorldDirection(new Vector3()).negate();
+    const { center, size } = this.store.content!.parts;
+    const isShown = (row: number) => this.plant.meshesOfPart.of(row).some((mesh) => this.look.visible[mesh] === 1);
+    const { target, distance } = this.navigation.fit(points, now, MARGIN);
+    const way = clearWay(target.toArray(), distance, now.toArray(), { center, size }, new Set(parts), isShown);
+    this.navigation.flyTo(points, new Vector3(...way), !this.pace.slow, MARGIN);
   }
 
   home(smooth = true): void {
-    const meshes: number[] = [];
-    const { ground } = this.store.content!.parts;
-    for (let mesh = 0; mesh < this.plant.n; mesh++) {
-      if (this.look.visible[mesh] && !ground[this.plant.partOf[mesh]]) meshes.push(mesh);
-    }
-    const ball = this.plant.ballOf(meshes) ?? this.navigation.bounds;
-    this.navigation.flyTo({ center: ball.center, radius: ball.radius * 0.8 }, HOME, smooth && !this.pace.slow);
+    const points = this.allCorners();
+    const sides = [0, 1].map((k) => extent(points, k));
+    const way = sides[0] >= sides[1] ? HOME : HOME_ASIDE;
+    this.navigation.flyTo(points, way, smooth && !this.pace.slow);
   }
 
   lookAlong(way: Vector3): void {
-    const ball = this.plant.ballOf(this.plant.partOf.keys()) ?? this.navigation.bounds;
-    this.navigation.flyTo({ center: ball.center, radius: ball.radius * 0.8 }, way, !this.pace.slow);
+    this.navigation.flyTo(this.allCorners(), way, !this.pace.slow);
+  }
+
+  /** Of all that is shown, but for the ground. */
+  private allCorners(): Float32Array {
+    const { ground } = this.store.content!.parts;
+    const { hidden, isolated } = this.store.shown;
+    const rows = ground.map((_, row) => row).filter((row) => !hidden.has(row) && (isolated?.has(row) ?? true));
+    const standing = rows.filter((row) => !ground[row]);
+    return this.cornersOf(standing.length ? standing : rows.length ? rows : [...ground.keys()]);
   }
 
   getCamera(): Camera {
@@ -375,8 +398,17 @@ function ballOf(manifest: Manifest): Ball {
   return { center, radius: Math.max(Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) / 2, 1e-3) };
 }
 
-/** From the plant to the eye, as one stands before a model on a table. */
-const HOME = new Vector3(-0.62, -1, 0.62).normalize();
+/** From the plant to the eye, as one stands before a model on a table, its long side across the picture. */
+const HOME = new Vector3(-0.5, -0.8, 0.5).normalize();
+const HOME_ASIDE = new Vector3(0.8, -0.5, 0.5).normalize();
+
+function extent(points: Float32Array, k: number): number {
+  let low = Infinity;
+  let high = -Infinity;
+  for (let i = k; i < points.length; i += 3) [low, high] = [Math.min(low, points[i]), Math.max(high, points[i])];
+  return high - low;
+}
+
 const ORIGIN = new Vector3();
 const PROJECTED = new Vector4();
 const VIEW = new Matrix4();

@@ -175,11 +175,11 @@ float edgeAt(vec2 uv, vec3 p, vec3 n, vec3 mesh) {
 
 float occluded(vec2 uv, vec3 p, vec3 n) {
   float sum = 0.0;
-  float reach = max(0.02 * abs(p.z), 0.02);
+  float reach = max(0.01 * abs(p.z), 0.02);
   for (int k = 0; k < 8; k++) {
     float angle = turn + float(k) * 2.399963;
     float radius = (float(k) + 0.5) / 8.0;
-    vec2 at = uv + vec2(cos(angle), sin(angle)) * texel * mix(3.0, 34.0, radius);
+    vec2 at = uv + vec2(cos(angle), sin(angle)) * texel * mix(2.0, 26.0, radius);
     if (at.x < 0.0 || at.y < 0.0 || at.x > used.x || at.y > used.y || texture(tMesh, at).a == 0.0) continue;
     vec3 v = placeAt(at) - p;
     float d = length(v);
@@ -210,7 +210,7 @@ void main() {
     float least = here, most = here;
     for (int k = 0; k < 8; k++) {
       float angle = float(k) * 0.785398;
-      float other = texture(tMask, uv + vec2(cos(angle), sin(angle)) * texel * 1.6).r;
+      float other = texture(tMask, uv + vec2(cos(angle), sin(angle)) * texel * 1.2).r;
       least = min(least, other);
       most = max(most, other);
     }

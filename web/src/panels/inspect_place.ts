@@ -1,0 +1,191 @@
+// The inspector of a unit, and of a junction or an end of a pipe.
+
+import type { Content, End, Unit } from "../types.ts";
+import { bar, el, fill, fold, iconButton, swatch } from "./dom.ts";
+import type { Page } from "./page.ts";
+import { button, jointsOf, lines, linkButton, note, partList, viewButtons } from "./pieces.ts";
+import { lazily } from "./inspect_part.ts";
+import { count, length, lengths, percent, upper } from "./words.ts";
+
+export function inspectUnit(page: Page, content: Content, unit: Unit, head: HTMLElement, rest: HTMLElement): void {
+  const row = content.network.units.indexOf(unit);
+  const color = content.groups.find((group) => group.unit === unit.type)?.color ?? null;
+  fill(head,
+    el("div", { class: "title" }, swatch(color, unit.kind ? "sure" : "likely"), tagLine(page, unit)),
+    kind(unit),
+    missing(page, content, unit),
+    viewButtons(page, unit.parts),
+    explode(page, unit));
+  const joints = jointsOf(page, content, unit.parts);
+  const system = content.network.systems[unit.system];
+  fill(rest,
+    !unit.missing && joints.open && note("It may join what it was not joined to:", joints.open),
+    fold("About this unit", true, lines([
+      [
+        "System",
+        system && linkButton(
+          `${system.id}, ${count(system.units.length, "unit")}`, "Select all units of the system",
+          () => page.go(system.units.flatMap((i) => content.network.units[i].parts))
+        )
+      ],
+      ["Size", lengths(unit.size)],
+      ["Place", unit.point.map((at, i) => (at + content.origin[i]).toFixed(2)).join(", ") + " m"],
+      ...unit.facts.map(([key, value]): [string, string] => [upper(key), value]),
+      ["Unit", unit.id]])),
+    fold(`Ports (${unit.ports.length})`, unit.ports.length < 5, ports(unit)),
+    fold(`Parts (${unit.parts.length})`, unit.parts.length < 13, partList(page, content, unit.parts)),
+    page.source.live && lazily("Why this unit?", () => page.source.explain("unit", unit.id)),
+    joints.made && fold("Joints", false, joints.made),
+    page.canEdit() && fold("More corrections", false, more(page, content, unit, row)));
+}
+
+/** The tag, put right in its place: Enter takes it, Escape leaves it; a refusal is said beneath. */
+function tagLine(page: Page, unit: Unit): HTMLElement {
+  const box = el("div", { class: "grow tag-line" });
+  const show = () => fill(box, el("div", { class: "spread" }, el("h2", { "data-test": "unit-tag" }, unit.tag),
+    page.canEdit() && iconButton("edit", "Change the tag", edit, "edit-tag")));
+  const edit = () => {
+    const input = el(
+      "input",
+      {
+        type: "text", value: unit.tag, maxlength: 80, "aria-label": "Tag", "data-test": "tag-input", spellcheck: "false"
+      }
+    );
+    const trouble = el("p", { class: "trouble", role: "alert" });
+    const save = async () => {
+      const tag = input.value.trim();
+      if (tag === unit.tag) return show();
+      if (!tag) return void (trouble.textContent = "A tag has at least one letter.");
+      input.disabled = true;
+      const taken = await page.edit([{ kind: "tag", unit: unit.id, tag }]);
+      input.disabled = false;
+      if (taken) return input.blur();
+      if (!input.isConnected) return;
+      trouble.textContent = page.refusal() || "This tag was not taken.";
+      input.focus();
+    };
+    input.addEventListener("keydown", (event) => {
+      if (event.key === "Enter") void save();
+      else if (event.key === "Escape") show();
+      else return;
+      event.preventDefault();
+      event.stopPropagation();
+    });
+    fill(
+      box,
+      el("div", { class: "spread" }, input, button("Save", "Take this tag", () => void save(), "tag-save", "main")),
+      trouble
+    );
+    input.select();
+  };
+  show();
+  return box;
+}
+
+function kind(unit: Unit): HTMLElement {
+  const guesses = unit.kind_guesses.slice(0, 4);
+  return el("div", { class: "sureness" },
+    el("p", { "data-test": "unit-kind" }, upper(unit.kind ?? `${unit.type}, kind not known`)),
+    guesses.length > 0 && el("ul", { class: "rows" }, ...guesses.map(([name, share]) =>
+      el(
+        "li", { class: "row" }, el("span", { class: "grow" }, upper(name)), bar(share, percent(share)),
+        el("span", { class: "number" }, percent(share))
+      ))),
+    guesses.length > 1 && el(
+      "p", { class: "soft" }, "The kind follows the labels of its parts: correct one of them to change it."
+    ));
+}
+
+function missing(page: Page, content: Content, unit: Unit): HTMLElement | null {
+  if (unit.missing <= 0) return null;
+  const open = jointsOf(page, content, unit.parts).open;
+  return note(`${count(unit.missing, "line is", "lines are")} missing: a ${unit.kind ?? unit.type} needs more lines than were found here.`,
+    el(
+      "p", { class: "soft" },
+      open ? "It may join one of these:" : "Look for a wrong label beside it, or join it by hand (More corrections)."
+    ), open);
+}
+
+function ports(unit: Unit): HTMLElement {
+  if (!unit.ports.length) return el("p", { class: "soft" }, "No port was found.");
+  return el("ul", { class: "rows" }, ...unit.ports.map((port) =>
+    el(
+      "li", { class: "row" }, el("b", {}, port.name),
+      el("span", { class: "grow soft" }, port.diameter === null ? "diameter not known" : `⌀ ${length(port.diameter)}`)
+    )));
+}
+
+function explode(page: Page, unit: Unit): HTMLElement | null {
+  if (unit.parts.length < 2) return null;
+  const now = page.store.shown.explode;
+  const input = el(
+    "input",
+    {
+      type: "range", min: 0, max: 100, value: now?.unit === unit.id ? 100 * now.share : 0,
+      "aria-label": "Draw its parts apart", "data-test": "explode", "data-key": "explode"
+    }
+  );
+  input.addEventListener("input", () => {
+    const share = Number(input.value) / 100;
+    page.store.set({ explode: share ? { unit: unit.id, share } : null });
+  });
+  return el("label", { class: "slider" }, "Explode", input);
+}
+
+function more(page: Page, content: Content, unit: Unit, row: number): HTMLElement {
+  const id = (part: number) => content.parts.id[part];
+  return el("div", { class: "buttons stack" },
+    button("Merge with the unit I click next", "Both are one unit",
+      () => page.pickNext(`Click the unit that ${unit.tag} belongs to`, (part) => {
+      const other = content.network.units[content.parts.unit[part]];
+      if (content.parts.unit[part] === row) page.say(`That is ${unit.tag} itself.`);
+      else void page.edit([{ kind: "merge", parts: [...unit.parts, ...(other?.parts ?? [part])].map(id) }]);
+    }), "merge"),
+    unit.parts.length > 1 && button("Split off the part I click next", "That part is a unit of its own", () => page.pickNext(`Click the part that does not belong to ${unit.tag}`, (part) => {
+      if (content.parts.unit[part] === row) void page.edit([{ kind: "split", parts: [id(part)] }]);
+      else page.say(`That part does not belong to ${unit.tag}.`);
+    }), "split"),
+    button("Join with the part I click next", "They join along the pipes",
+      () => page.pickNext(`Click the part that joins ${unit.tag}`, (part) => {
+      const first = nearest(content, unit.parts, part);
+      if (content.parts.unit[part] !== row) void page.edit([{ kind: "join", first: id(first), second: id(part) }]);
+    }), "join-next"));
+}
+
+/** The one of some parts whose box is nearest to another part's. */
+function nearest(content: Content, rows: readonly number[], to: number): number {
+  const { center, size } = content.parts;
+  const gap = (row: number) => Math.hypot(...[0, 1, 2].map((k) =>
+    Math.max(0, Math.abs(center[3 * row + k] - center[3 * to + k]) - (size[3 * row + k] + size[3 * to + k]) / 2)));
+  return rows.reduce((best, row) => (gap(row) < gap(best) ? row : best), rows[0]);
+}
+
+const ENDS: Record<End["kind"], [string, string]> = {
+  junction: ["Junction", "Lines meet here."],
+  open: ["Open end", "A pipe ends here without a cap: it leads out of the model, or something is missing."],
+  blind: ["Blind end", "A cap or a blind flange closes the pipe here."],
+  unknown: ["End of a pipe", "It is not known whether it is open or closed."],
+};
+
+export function inspectEnd(page: Page, content: Content, end: End, head: HTMLElement, rest: HTMLElement): void {
+  const [name, words] = ENDS[end.kind];
+  fill(head,
+    el(
+      "div", { class: "title" },
+      el("div", { class: "grow" }, el("h2", { "data-test": "end-name" }, name), el("p", { class: "soft" }, end.name))
+    ),
+    el("p", {}, words), viewButtons(page, end.parts));
+  const joints = jointsOf(page, content, end.parts);
+  const first = end.parts[0];
+  fill(rest,
+    joints.open && note("Near it, not joined:", joints.open),
+    page.canEdit() && end.kind !== "junction" && first !== undefined && el("div", { class: "buttons" },
+      button("Join with the part I click next", "They join along the pipes",
+        () => page.pickNext("Click the part that this end joins", (part) => {
+        if (!end.parts.includes(part)) void page.edit(
+          [{ kind: "join", first: content.parts.id[nearest(content, end.parts, part)], second: content.parts.id[part] }]
+        );
+      }), "join-next")),
+    fold("Parts here", true, partList(page, content, end.parts)),
+    joints.made && fold("Joints", false, joints.made));
+}
