@@ -132,3 +132,10 @@ test("frames that take long make less to draw, quick ones more", () => {
   for (let i = 1; i < 60; i++) pace.frame(4000 + 10 * i, true);
   assert.ok(pace.budget > slow);
 });
+
+test("pictures that take long are averaged of fewer", () => {
+  const pace = new Pace(true);
+  assert.equal(pace.samples, 4);
+  for (let i = 1; i < 8; i++) pace.frame(700 * i, false);
+  assert.equal(pace.samples, 2);
+});
