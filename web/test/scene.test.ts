@@ -145,7 +145,7 @@ test("pictures that take long are averaged of fewer", () => {
 
 test("full forms stay within the memory, those near the eye first, and give way when the eye moves", async () => {
   const chunks = [0, 1, 2, 3].map((k) => ({
-    file: `full-${k}`, bytes: 200, level: 0 as const, n_shapes: 1, low: [100 * k, 0, 0] as Point, high: [100 * k + 1, 1, 1] as Point,
+    file: `full-${k}`, bytes: 110, level: 0 as const, n_shapes: 1, low: [100 * k, 0, 0] as Point, high: [100 * k + 1, 1, 1] as Point,
   }));
   const manifest = { n_meshes: 4, n_shapes: 4, chunks } as unknown as Manifest;
   const instances = new ArrayBuffer(4 * 36);
@@ -156,14 +156,14 @@ test("full forms stay within the memory, those near the eye first, and give way 
   const plant = new Plant(manifest, instances, content);
   const pipeline = { plant: new Scene(), material: new ShaderMaterial() } as unknown as Pipeline;
   const source = { file: async (name: string) => chunkOf(Number(name.at(-1)), 0) } as unknown as Source;
-  const loader = new Loader(source, manifest, plant, new Culling(plant), pipeline, () => {}, 900);
+  const loader = new Loader(source, manifest, plant, new Culling(plant), pipeline, () => {}, 500);
   await loader.loadCoarse();
   const shown = () => pipeline.plant.children.length;
   await loader.fill([0, 0, 0]);
   assert.ok(shown() >= 1 && shown() < 4, `${shown()}`);
-  assert.ok(loader.bytes <= 900);
+  assert.ok(loader.bytes <= 500);
   assert.ok(plant.radius[0] > 0 && plant.radius[3] === 0);
   await loader.fill([300, 0, 0]);
   assert.ok(plant.radius[3] > 0, "what is near now has come");
-  assert.ok(loader.bytes <= 900);
+  assert.ok(loader.bytes <= 500);
 });
