@@ -29,6 +29,7 @@ export class Loader {
   private readonly changed: () => void;
   private filling = false;
   private again = false;
+  private eye: Point = [0, 0, 0];
   private readonly memory: number;
 
   constructor(
@@ -66,6 +67,7 @@ export class Loader {
 
   /** Full forms, those near the eye first; what is far goes where there is no room. */
   async fill(eye: Point): Promise<void> {
+    this.eye = eye;
     if (this.share < 1) return;
     if (this.filling) {
       this.again = true;
@@ -88,7 +90,7 @@ export class Loader {
     }
     if (this.again) {
       this.again = false;
-      await this.fill(eye);
+      await this.fill(this.eye);
     }
   }
 
