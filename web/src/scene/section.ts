@@ -2,7 +2,8 @@
 
 import type { Section, Store } from "../store.ts";
 import type { Content, Point } from "../types.ts";
-import { el, iconButton, keysBack } from "./dom.ts";
+import { el } from "../dom.ts";
+import { iconButton, keysBack } from "./icons.ts";
 import type { PlantView } from "./plant_view.ts";
 
 const STEPS = 1000;
