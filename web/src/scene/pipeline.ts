@@ -1,7 +1,7 @@
 // From batches to the picture: what each pixel shows, edges and shade from that, and a few such pictures averaged.
 
 import {
-  Color, DepthTexture, GLSL3, HalfFloatType, Matrix4, Mesh, NearestFilter, OrthographicCamera, PlaneGeometry, RGBAFormat,
+  Color, DepthTexture, GLSL3, HalfFloatType, Mesh, NearestFilter, OrthographicCamera, PlaneGeometry, RGBAFormat,
   Scene, ShaderMaterial, UnsignedByteType, UnsignedIntType, Vector2, Vector3, Vector4, WebGLRenderTarget, DoubleSide,
   NoBlending, CustomBlending, OneFactor, OneMinusSrcAlphaFactor, SrcAlphaFactor, LinearFilter, WebGLRenderer,
 } from "three";
@@ -56,14 +56,14 @@ export class Pipeline {
     this.renderer.autoClear = false;
     this.renderer.info.autoReset = false;
     const shared = {
-      stateTexture: { value: null }, section: { value: new Vector4() }, cutting: { value: false },
+      stateTexture: { value: null }, section: { value: new Vector4() },
       toLight: { value: new Vector3(0, 0, 1) }, lookDirection: { value: new Vector3(0, 1, 0) },
       parallel: { value: false }, accent: { value: new Color() }, markColor: { value: new Color() },
     };
     const plantOf = (fragmentShader: string, more: Uniforms, rest = {}) =>
       new ShaderMaterial({
         glslVersion: GLSL3, vertexShader: PLANT_VERTEX, fragmentShader, uniforms: { ...shared, ...more }, side: DoubleSide,
-        blending: NoBlending, ...rest,
+        blending: NoBlending, defines: {}, ...rest,
       });
     this.material = plantOf(PLANT_FRAGMENT, { ghosts: { value: 0 } });
     this.ghostMaterial = plantOf(GHOST_FRAGMENT, { ghosts: { value: 1 }, faint: { value: 0.3 } }, {
@@ -71,12 +71,12 @@ export class Pipeline {
     });
     this.maskMaterial = new ShaderMaterial({
       glslVersion: GLSL3, vertexShader: MASK_VERTEX, fragmentShader: MASK_FRAGMENT, side: DoubleSide, depthTest: false,
-      depthWrite: false, blending: NoBlending, uniforms: { section: shared.section, cutting: shared.cutting },
+      depthWrite: false, blending: NoBlending, uniforms: { section: shared.section }, defines: {},
     });
     this.composeMaterial = fullScreen(COMPOSE_FRAGMENT, {
       tColor: { value: null }, tNormal: { value: null }, tMesh: { value: null }, tGhost: { value: null },
       tMask: { value: null }, tDepth: { value: null }, texel: { value: new Vector2() }, used: { value: new Vector2() },
-      fromClip: { value: new Matrix4() }, occlusion: { value: false }, hasGhosts: { value: false },
+      lens: { value: new Vector4() }, parallel: { value: false }, occlusion: { value: false }, hasGhosts: { value: false },
       hasMask: { value: false }, weight: { value: 1 }, turn: { value: 0 }, edgeStrength: { value: 0.8 },
       skyTop: { value: new Color() }, skyBottom: { value: new Color() }, ink: { value: new Color() },
       accent: { value: new Color() },
@@ -128,8 +128,11 @@ export class Pipeline {
 
   setSection(plane: Vector4 | null): void {
     (this.material.uniforms.section.value as Vector4).copy(plane ?? new Vector4(0, 0, 0, 0));
-    this.material.uniforms.cutting.value = this.maskMaterial.uniforms.cutting.value = plane !== null;
-    this.ghostMaterial.uniforms.cutting.value = plane !== null;
+    for (const material of [this.material, this.ghostMaterial, this.maskMaterial]) {
+      if ("CUTTING" in material.defines === (plane !== null)) continue;
+      material.defines = plane ? { CUTTING: 1 } : {};
+      material.needsUpdate = true;
+    }
   }
 
   /** Draws a picture, averages it with those before, and shows it. */
@@ -195,7 +198,8 @@ export class Pipeline {
     uniforms.tMask.value = targets.mask.texture;
     (uniforms.texel.value as Vector2).set(1 / this.size.x, 1 / this.size.y);
     (uniforms.used.value as Vector2).copy(this.used);
-    (uniforms.fromClip.value as Matrix4).copy(camera.projectionMatrix).invert();
+    uniforms.parallel.value = "isOrthographicCamera" in camera;
+    setLens(uniforms.lens.value as Vector4, camera);
     uniforms.occlusion.value = options.occlusion;
     uniforms.hasGhosts.value = options.ghosts;
     uniforms.hasMask.value = masked;
@@ -283,6 +287,13 @@ function makeTargets(width: number, height: number): Targets {
       ...plain, type: HalfFloatType, minFilter: LinearFilter, magFilter: LinearFilter, depthBuffer: false,
     }),
   };
+}
+
+/** What turns depth of 0 to 1 into the distance before the eye, see COMPOSE_FRAGMENT. */
+function setLens(lens: Vector4, camera: AnyCamera): void {
+  const { near, far } = camera;
+  if (camera instanceof OrthographicCamera) lens.set(camera.right, camera.top, -near, near - far);
+  else lens.set(1 / camera.projectionMatrix.elements[0], 1 / camera.projectionMatrix.elements[5], (near * far) / (far - near), -far / (far - near));
 }
 
 function disposeTargets(targets: Targets): void {

@@ -43,9 +43,10 @@ void main() {
 }`;
 
 const CLIP = /* glsl */ `
+// A program that may discard pixels must shade those behind others, too: only where something is cut.
+#ifdef CUTTING
 uniform vec4 section;
-uniform bool cutting;
-bool isCutOff(vec3 at) { return cutting && dot(section.xyz, at) > section.w; }
+#endif
 `;
 
 export const PLANT_FRAGMENT = /* glsl */ `
@@ -62,11 +63,14 @@ uniform bool parallel;
 uniform vec3 accent;
 uniform vec3 markColor;
 ${CLIP}
-vec3 linear(vec3 c) { return pow(c, vec3(2.2)); }
-vec3 shown(vec3 c) { return pow(clamp(c, 0.0, 1.0), vec3(1.0 / 2.2)); }
+// Close enough to sRGB, and much cheaper.
+vec3 linear(vec3 c) { return c * c; }
+vec3 shown(vec3 c) { return sqrt(clamp(c, 0.0, 1.0)); }
 
 void main() {
-  if (isCutOff(vWorld)) discard;
+#ifdef CUTTING
+  if (dot(section.xyz, vWorld) > section.w) discard;
+#endif
   int flags = int(vState.a * 255.0 + 0.5);
   vec3 toEye = parallel ? -lookDirection : normalize(cameraPosition - vWorld);
   vec3 n = normalize(vNormal);
@@ -77,12 +81,16 @@ void main() {
   if ((flags & ${FLAG.marked}) != 0) base = linear(markColor);
   if ((flags & ${FLAG.alike}) != 0) base = mix(base, linear(accent), 0.5 * stripe + 0.1);
   if ((flags & ${FLAG.selected}) != 0) base = mix(base, linear(accent), 0.55);
-  bool cap = cutting && !gl_FrontFacing;
+  bool cap = false;
+#ifdef CUTTING
+  cap = !gl_FrontFacing;
   if (cap) n = section.xyz;
+#endif
   float sky = 0.5 + 0.5 * n.z;
   float key = max(dot(n, toLight), 0.0);
-  float rim = pow(1.0 - max(dot(n, toEye), 0.0), 3.0);
-  vec3 light = mix(vec3(0.30, 0.29, 0.28), vec3(0.62, 0.65, 0.70), sky) + 0.46 * key + 0.10 * max(dot(n, toEye), 0.0);
+  float facing = max(dot(n, toEye), 0.0);
+  float rim = (1.0 - facing) * (1.0 - facing) * (1.0 - facing);
+  vec3 light = mix(vec3(0.30, 0.29, 0.28), vec3(0.62, 0.65, 0.70), sky) + 0.46 * key + 0.10 * facing;
   vec3 color = cap ? base * 0.7 : base * light + 0.03 * rim;
   outColor = vec4(shown(color), 1.0);
   vec3 seen = (viewMatrix * vec4(n, 0.0)).xyz;
@@ -101,7 +109,9 @@ uniform bool parallel;
 uniform float faint;
 ${CLIP}
 void main() {
-  if (isCutOff(vWorld)) discard;
+#ifdef CUTTING
+  if (dot(section.xyz, vWorld) > section.w) discard;
+#endif
   vec3 toEye = parallel ? -lookDirection : normalize(cameraPosition - vWorld);
   float facing = abs(dot(normalize(vNormal), toEye));
   float alpha = faint * (0.35 + 0.65 * pow(1.0 - facing, 2.0));
@@ -122,7 +132,9 @@ layout(location = 0) out vec4 outColor;
 in vec3 vWorld;
 ${CLIP}
 void main() {
-  if (isCutOff(vWorld)) discard;
+#ifdef CUTTING
+  if (dot(section.xyz, vWorld) > section.w) discard;
+#endif
   outColor = vec4(1.0);
 }`;
 
@@ -140,14 +152,18 @@ uniform sampler2D tColor, tNormal, tMesh, tGhost, tMask;
 uniform highp sampler2D tDepth;
 uniform vec2 texel;
 uniform vec2 used;
-uniform mat4 fromClip;
-uniform bool occlusion, hasGhosts, hasMask;
+uniform vec4 lens;
+uniform bool occlusion, hasGhosts, hasMask, parallel;
 uniform float weight, turn, edgeStrength;
 uniform vec3 skyTop, skyBottom, ink, accent;
 
+// Before the eye; lens: half width and height of the picture at distance 1 (or anywhere), and what depth means there.
 vec3 placeAt(vec2 uv) {
-  vec4 p = fromClip * vec4(uv / used * 2.0 - 1.0, texture(tDepth, uv).r * 2.0 - 1.0, 1.0);
-  return p.xyz / p.w;
+  float d = texture(tDepth, uv).r;
+  vec2 xy = (uv / used * 2.0 - 1.0) * lens.xy;
+  if (parallel) return vec3(xy, lens.z + lens.w * d);
+  float z = lens.z / (d + lens.w);
+  return vec3(xy * -z, z);
 }
 vec3 normalAt(vec2 uv) {
   vec2 xy = texture(tNormal, uv).xy * 2.0 - 1.0;
