@@ -7,6 +7,7 @@ import { Gestures } from "./gestures.ts";
 import { Pipeline } from "./pipeline.ts";
 import { PlantView } from "./plant_view.ts";
 import { addTools } from "./tools.ts";
+import type { Tools } from "./tools.ts";
 import type { SceneView } from "./view.ts";
 
 const NO_WEBGL =
@@ -82,12 +83,6 @@ function progressBar(note: HTMLElement): (share: number) => void {
   };
 }
 
-interface Tools {
-  /** A click that a tool takes; false where it is none of its business. */
-  clicked(x: number, y: number): boolean;
-  hovered(x: number, y: number): boolean;
-}
-
 function addGestures(canvas: HTMLCanvasElement, view: PlantView, store: Store, tools: Tools): void {
   let hoverTimer = 0;
   new Gestures(canvas, view.navigation, {
@@ -97,6 +92,7 @@ function addGestures(canvas: HTMLCanvasElement, view: PlantView, store: Store, t
       if (!tools.clicked(x, y)) select(view, store, x, y, event.ctrlKey || event.metaKey);
     },
     doubleClicked: (x, y) => {
+      if (store.shown.tool !== "select") return;
       const part = view.partAt(x, y);
       if (part >= 0) view.flyTo([part]);
     },
