@@ -97,7 +97,12 @@ class Viewer:
 
     def ready(self):
         """Waits until the plant is there and can be corrected."""
-        self.until("() => window.cadgraph?.store.content && cadgraph.store.state.status === 'ready'")
+        self.until(
+            """() => {
+              const { content, state } = window.cadgraph?.store ?? {};
+              return state?.status === 'ready' && content?.version === state.version;
+            }"""
+        )
         return self
 
     @property

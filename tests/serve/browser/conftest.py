@@ -51,9 +51,10 @@ def window(browser):
     """Opens pages, each in a browser of its own that knows nothing of the others."""
 
     @contextmanager
-    def opened(address, **settings):
-        context = browser.new_context(viewport=SIZE, **settings)
+    def opened(address, prepare=lambda context: None):
+        context = browser.new_context(viewport=SIZE)
         try:
+            prepare(context)
             yield browsing.Viewer(context, address)
         finally:
             context.close()
