@@ -95,7 +95,7 @@ def test_names_are_never_markup(graph, tmp_path):
     file, page = page_of(graph, tmp_path)
     assert json.loads(page.data["content"])["network"]["units"][0]["tag"] == HOSTILE
     assert "img" not in page.elements
-    assert "onerror" not in file.read_text(encoding="utf-8")
+    assert HOSTILE not in file.read_text(encoding="utf-8")
     assert b"<img" not in page.data["schematic"]
     assert page.elements.count("script") == len(page.data) + 1
 

@@ -1,20 +1,23 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Matrix4, PerspectiveCamera, Vector3 } from "three";
+import { Matrix4, PerspectiveCamera, Scene, ShaderMaterial, Vector3 } from "three";
 import { decodeChunk, decodeNormal } from "../src/scene/chunk.ts";
 import { colorParts, distinct } from "../src/scene/colors.ts";
-import { worthOf } from "../src/scene/loader.ts";
+import { Culling } from "../src/scene/culling.ts";
+import { Loader, worthOf } from "../src/scene/loader.ts";
+import type { Pipeline } from "../src/scene/pipeline.ts";
 import { Navigation } from "../src/scene/navigation.ts";
 import { Pace } from "../src/scene/pace.ts";
 import { Plant } from "../src/scene/plant.ts";
 import { clearWay } from "../src/scene/sightline.ts";
+import type { Source } from "../src/api.ts";
 import type { Content, Manifest, Point } from "../src/types.ts";
 
 /** A chunk with one triangle, as the packer writes it. */
-function chunkOf(shape = 3): ArrayBuffer {
+function chunkOf(shape = 3, level = 1): ArrayBuffer {
   const bytes = new ArrayBuffer(8 + 48 + 20 + 8 + 8);
   const view = new DataView(bytes);
-  [0x43474348, 1, shape, 1, 3, 3, 56, 0].forEach((value, i) => view.setUint32(4 * i, value, true));
+  [0x43474348, 1, shape, level, 3, 3, 56, 0].forEach((value, i) => view.setUint32(4 * i, value, true));
   [-1, 0, 2, 0.5, 0.25, 1].forEach((value, i) => view.setFloat32(32 + 4 * i, value, true));
   [0, 0, 0, 4, 0, 0, 0, 8, 0].forEach((value, i) => view.setUint16(56 + 2 * i, value, true));
   [0, 0, 127, 0, 0, -127].forEach((value, i) => view.setInt8(76 + i, value));
@@ -131,4 +134,36 @@ test("frames that take long make less to draw, quick ones more", () => {
   const slow = pace.budget;
   for (let i = 1; i < 60; i++) pace.frame(4000 + 10 * i, true);
   assert.ok(pace.budget > slow);
+});
+
+test("pictures that take long are averaged of fewer", () => {
+  const pace = new Pace(true);
+  assert.equal(pace.samples, 4);
+  for (let i = 1; i < 8; i++) pace.frame(700 * i, false);
+  assert.equal(pace.samples, 2);
+});
+
+test("full forms stay within the memory, those near the eye first, and give way when the eye moves", async () => {
+  const chunks = [0, 1, 2, 3].map((k) => ({
+    file: `full-${k}`, bytes: 110, level: 0 as const, n_shapes: 1, low: [100 * k, 0, 0] as Point, high: [100 * k + 1, 1, 1] as Point,
+  }));
+  const manifest = { n_meshes: 4, n_shapes: 4, chunks } as unknown as Manifest;
+  const instances = new ArrayBuffer(4 * 36);
+  for (let i = 0; i < 4; i++) {
+    new DataView(instances).setUint32(36 * i, i, true);
+    new DataView(instances).setFloat32(36 * i + 20, 1, true);
+  }
+  const plant = new Plant(manifest, instances, content);
+  const pipeline = { plant: new Scene(), material: new ShaderMaterial() } as unknown as Pipeline;
+  const source = { file: async (name: string) => chunkOf(Number(name.at(-1)), 0) } as unknown as Source;
+  const loader = new Loader(source, manifest, plant, new Culling(plant), pipeline, () => {}, 500);
+  await loader.loadCoarse();
+  const shown = () => pipeline.plant.children.length;
+  await loader.fill([0, 0, 0]);
+  assert.ok(shown() >= 1 && shown() < 4, `${shown()}`);
+  assert.ok(loader.bytes <= 500);
+  assert.ok(plant.radius[0] > 0 && plant.radius[3] === 0);
+  await loader.fill([300, 0, 0]);
+  assert.ok(plant.radius[3] > 0, "what is near now has come");
+  assert.ok(loader.bytes <= 500);
 });

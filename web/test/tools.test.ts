@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { Vector3 } from "three";
 import { fullOffsets, offsetsAt } from "../src/scene/explode.ts";
 import { besideLine, catchPoint, lengthText, measure, measuredText } from "../src/scene/measure.ts";
-import { boundsOf } from "../src/scene/section.ts";
+import { boundsOf, sectionAcross } from "../src/scene/section.ts";
 import type { Content, Point, Unit } from "../src/types.ts";
 
 interface Box {
@@ -133,4 +133,11 @@ test("the section goes from end to end of the plant, or of the parts that are na
   assert.deepEqual(boundsOf(content, [0]), { low: [-0.15, -0.1, -0.1], high: [0.15, 0.1, 0.1] });
   assert.ok(Math.abs(boundsOf(content)!.high[2] - 0.215) < 1e-12);
   assert.equal(boundsOf(content, []), null);
+});
+
+test("a section takes away the half of the plant that is before the eye", () => {
+  const { content } = unitOf(VALVE);
+  assert.deepEqual(sectionAcross("x", content, [0], [-5, 0, 0]), { axis: "x", at: 0, flipped: true });
+  assert.deepEqual(sectionAcross("z", content, [0], [-5, 0, 3]), { axis: "z", at: 0, flipped: false });
+  assert.equal(sectionAcross("z", unitOf([]).content, [], [0, 0, 0]), null);
 });

@@ -118,7 +118,7 @@ def _questions(graph: SceneGraph, folder: Path) -> list[str]:
     from cadgraph.query import trace
 
     pumps = [pump for pump in graph.units("pump") if graph.connections(pump)]
-    commands = [f"cadgraph lines {folder}"]
+    commands = [f"cadgraph view {folder}", f"cadgraph lines {folder}"]
     valves = {unit.tag for unit in graph.units("valve")}
     for pump in pumps[:1]:
         feeding = [step.name for step in trace(graph, pump.tag, "upstream").steps if step.name in valves]

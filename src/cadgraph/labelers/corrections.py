@@ -163,14 +163,7 @@ class _Spread:
         if not self._sources or not open_parts:
             return
         space = self._kinship(contacts)
-        confused = {
-            (s.group, s.name): {
-                (old.group, old.name)
-                for other in self._sources
-                if (other.group, other.name) == (s.group, s.name) and (old := self.before[other.part]) is not None
-            }
-            for s in self._sources
-        }
+        confused = self._confused()
         reaches = {label: self._reach(space, label) for label in confused}
         rivals = self._rivals()
         against = {label: self._against(label, wrong, rivals) for label, wrong in confused.items()}
@@ -194,6 +187,15 @@ class _Spread:
             alike = 1.0 - near**2 / 2  # the cosine
             confidence = _KIN_CONFIDENCE * alike
             self._take(part, source, confidence, f"much like it ({alike:.0%})", "kin", {"similarity": round(alike, 4)})
+
+    def _confused(self) -> dict[tuple[str, str | None], set[tuple[str, str | None]]]:
+        """By what a user said: what those parts were called before."""
+        found: dict[tuple[str, str | None], set[tuple[str, str | None]]] = {}
+        for source in self._sources:
+            old, wrong = self.before[source.part], found.setdefault((source.group, source.name), set())
+            if old is not None:
+                wrong.add((old.group, old.name))
+        return found
 
     def _reach(self, space: Floats, label: tuple[str, str | None]) -> float:
         """How far corrections to a label reach among parts that nobody was sure about."""

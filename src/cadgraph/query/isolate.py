@@ -20,6 +20,7 @@ __all__ = ["Closing", "Isolation", "Opening", "find_isolation"]
 # lockout and tagout (OSHA 29 CFR 1910.147, EN ISO 14118) don't take it for an isolating device.
 _NOT_ISOLATING = ("control",)
 _CHECK = "check"
+PASSED_OVER = "is a check valve: passed over"
 _RELIEF = ("relief", "safety")
 
 
@@ -370,7 +371,7 @@ def _remark(network: Network, section: _Section, place: str, check_valves: bool)
         needless = place not in section.needed and not network.is_tap(arc)
         return "need not be closed: nothing can flow from behind it" if needless else None
     if _CHECK in kind and not check_valves:
-        return "is a check valve: passed over (--check-valves counts it)"
+        return PASSED_OVER
     if _CHECK in kind and arc.flow == "unknown":
         return "is a check valve, but which way it lets through is not known"
     if any(word in kind for word in _NOT_ISOLATING):

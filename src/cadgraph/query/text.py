@@ -9,7 +9,7 @@ from typing import Any
 
 from cadgraph.query.compare import Comparison, Missing
 from cadgraph.query.doubt import Doubt, few_ports, likely_joints, unconnected
-from cadgraph.query.isolate import Isolation
+from cadgraph.query.isolate import PASSED_OVER, Isolation
 from cadgraph.query.lines import Line
 from cadgraph.query.network import Network
 from cadgraph.query.trace import Step, Trace
@@ -122,8 +122,13 @@ def line_rows(lines: Sequence[Line]) -> list[tuple[Any, ...]]:
     return rows
 
 
-def trace_lines(found: Trace) -> list[str]:
-    """A trace: each node with its distance and what it comes after, then where the way halts and where it returns."""
+def trace_lines(found: Trace, *, hints: bool = True) -> list[str]:
+    """A trace: each node with its distance and what it comes after, then where the way halts and where it returns.
+
+    Args:
+        found: the trace.
+        hints: whether to name options of the command line.
+    """
     start = found.steps[0].name
     rows: list[tuple[str, ...]] = [("distance", "", "", "after", "line", "")]
     rows += [_step_row(step) for step in found.steps[1:]]
@@ -133,7 +138,8 @@ def trace_lines(found: Trace) -> list[str]:
     else:
         told += aligned(rows, right=(0,))
     if found.halts:
-        told += ["", "not followed, as the direction of flow is unknown (--unknown follows it both ways):"]
+        hint = " (--unknown follows it both ways)" if hints else ""
+        told += ["", f"not followed, as the direction of flow is unknown{hint}:"]
         told += aligned([(f"{h.distance:.2f} m", f"{h.after} - {h.towards}", h.line or "") for h in found.halts], (0,))
     loops = [f"{r.after} -> {r.to}" for r in found.returns if r.loop]
     meets = [f"{r.after} -> {r.to}" for r in found.returns if not r.loop]
@@ -185,8 +191,13 @@ def trace_values(found: Trace) -> dict[str, Any]:
     }
 
 
-def isolation_lines(found: Isolation) -> list[str]:
-    """What can't be isolated, what makes that doubtful, what to close, what else is shut off."""
+def isolation_lines(found: Isolation, *, hints: bool = True) -> list[str]:
+    """What can't be isolated, what makes that doubtful, what to close, what else is shut off.
+
+    Args:
+        found: the isolation.
+        hints: whether to name options of the command line.
+    """
     told = []
     if found.openings:
         told.append(f"{found.name} can't be isolated wholly:")
@@ -199,7 +210,9 @@ def isolation_lines(found: Isolation) -> list[str]:
         told.append(f"no valve has to be closed to isolate {found.name}: nothing can flow to it")
     shut = ", ".join(found.shut_off_names) or "nothing else"
     lines = f" (lines {', '.join(found.lines)})" if found.lines else ""
-    return [*told, *_closing_lines(found), f"shut off with it: {shut}{lines}", *(f"note: {r}" for r in found.remarks)]
+    more = " (--check-valves counts it)" if hints else ""
+    notes = (f"note: {r}{more if r.endswith(PASSED_OVER) else ''}" for r in found.remarks)
+    return [*told, *_closing_lines(found), f"shut off with it: {shut}{lines}", *notes]
 
 
 def _closing_lines(found: Isolation) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -269,6 +270,11 @@ class Plant:
         self.feed.publish(version=1, title=file_name(graph.source.path))
 
     def _begin(self, session: Session) -> None:
+        # Neither the first correction nor the first question must take longer than the others.
+        session.prepare()
+        review_queue(session, 1)
+        # What is there now stays: nobody has to look for rubbish in it at each correction.
+        gc.freeze()
         self._session = session
         self._look_at_disk()
         self._publish(session, status="ready", stage="", share=1.0)

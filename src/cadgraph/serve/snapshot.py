@@ -14,7 +14,7 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.pipework import Direction
 from cadgraph.model.records import Part
 from cadgraph.model.scene import Scene
-from cadgraph.query import Doubt, Network, Trace, find_isolation, find_way, trace
+from cadgraph.query import Doubt, Isolation, Network, Trace, find_isolation, find_way, trace
 from cadgraph.query.explain import explain_any
 from cadgraph.query.text import isolation_lines, trace_lines, way_lines
 
@@ -77,7 +77,7 @@ class Snapshot:
         if to is None:
             found = trace(self.network, at, direction or "downstream")
             title = f"{found.direction} of {self.network.name(found.start)}"
-            return {"title": title, "lines": trace_lines(found), **self._way(found)}
+            return {"title": title, "lines": trace_lines(found, hints=False), **self._way(found)}
         found = find_way(self.network, at, to, direction)
         title = f"from {self.network.name(found.start)} to {self.network.name(self.network.find(to))}"
         return {"title": title, "lines": way_lines(found, at, to), **self._way(found)}
@@ -98,13 +98,20 @@ class Snapshot:
         found = find_isolation(self.network, at)
         return {
             "title": f"isolate {found.name}",
-            "lines": isolation_lines(found),
+            "lines": isolation_lines(found, hints=False),
             "sure": found.isolated is True,
             "close": [valve.place for valve in found.valves if not valve.automatic],
             "places": [found.target, *found.shut_off],
             "connections": list(found.connections),
-            "doubts": self._doubts(found.doubts),
+            "doubts": [*self._openings(found), *self._doubts(found.doubts)],
         }
+
+    def _openings(self, found: Isolation) -> list[dict[str, Any]]:
+        """Ways in that no valve closes, to be gone to like a doubt."""
+        return [
+            {"text": f"not closed by any valve: {one.name} ({one.what}): {one.why}", "parts": [], "place": one.place}
+            for one in found.openings
+        ]
 
     def _doubts(self, doubts: Sequence[Doubt]) -> list[dict[str, Any]]:
         return [

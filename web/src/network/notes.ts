@@ -1,6 +1,6 @@
 // What stands over the 3D view: the answer that is shown, and the warning that is told.
 
-import { el } from "./dom.ts";
+import { el } from "../dom.ts";
 import { answerLine, type Shower } from "./result.ts";
 import type { NetworkWarning } from "./warnings.ts";
 

@@ -3,7 +3,7 @@
 import type { Store } from "../store.ts";
 import type { Doubt, Isolated } from "../types.ts";
 import { type Answer, type Asking, closeOf, doubtsOf, isCertain } from "./asking.ts";
-import { el } from "./dom.ts";
+import { el } from "../dom.ts";
 import type { Focus } from "./focus.ts";
 import type { Plan } from "./plan.ts";
 import { pieces } from "./told.ts";

@@ -3,7 +3,7 @@
 import type { Source } from "../api.ts";
 import type { Store } from "../store.ts";
 import { type Box2d, fitted, type Frame2d, opened, showing, zoomed } from "./camera2d.ts";
-import { el, svg } from "./dom.ts";
+import { el, svg } from "../dom.ts";
 import type { Focus } from "./focus.ts";
 import type { Plan } from "./plan.ts";
 import { readDrawing } from "./sanitize.ts";

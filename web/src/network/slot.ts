@@ -2,7 +2,7 @@
 
 import type { Panels } from "../panels/panels.ts";
 import type { Connection, Edit, Flow, Joint, Line } from "../types.ts";
-import { el } from "./dom.ts";
+import { el } from "../dom.ts";
 import { flowState, lengthText, lineSizeText, opposite, shareText, sizeText, wayText } from "./flow.ts";
 import { otherSide, type Place, walk } from "./plan.ts";
 import { answerCard, counted, placeLink, type Shower } from "./result.ts";

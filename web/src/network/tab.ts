@@ -2,7 +2,7 @@
 
 import { run } from "../commands.ts";
 import type { Store } from "../store.ts";
-import { el } from "./dom.ts";
+import { el } from "../dom.ts";
 import { flowState, lengthText, lineSizeText } from "./flow.ts";
 import type { Focus } from "./focus.ts";
 import type { Plan } from "./plan.ts";

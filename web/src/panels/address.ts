@@ -1,7 +1,7 @@
 // The address follows what is shown, and the other way round; copying it for somebody else.
 
 import { openDialog } from "./dialog.ts";
-import { el } from "./dom.ts";
+import { el } from "../dom.ts";
 import { decode, encode } from "./link.ts";
 import type { Page } from "./page.ts";
 import { button } from "./pieces.ts";

@@ -1,7 +1,7 @@
 // The page while the plant is being built or read, and when that failed.
 
 import type { ServerState } from "../types.ts";
-import { el, fill } from "./dom.ts";
+import { el, fill } from "../dom.ts";
 import { elapsed, percent, stageWords } from "./words.ts";
 
 export class Building {

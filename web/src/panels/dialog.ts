@@ -1,7 +1,8 @@
 // Windows over the page: one way of opening and closing them, and the help.
 
 import { allCommands, type Command } from "../commands.ts";
-import { el, iconButton, put } from "./dom.ts";
+import { el, put } from "../dom.ts";
+import { iconButton } from "./widgets.ts";
 
 /** Opens a window over the page; Escape, its button or a click beside it closes it; the browser gives the focus back. */
 export function openDialog(title: string, content: Node[], test: string, kind = ""): HTMLDialogElement {

@@ -1,7 +1,8 @@
 // Searching: a field with a list of what was found, in the top bar and, longer, in the left panel.
 
 import type { Content } from "../types.ts";
-import { el, fill, put, swatch } from "./dom.ts";
+import { el, fill, put } from "../dom.ts";
+import { swatch } from "./widgets.ts";
 import type { Page } from "./page.ts";
 import { Index, type Found, type Results } from "./search.ts";
 import { partsOf } from "./rows.ts";

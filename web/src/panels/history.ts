@@ -1,7 +1,8 @@
 // The history tab: who corrected what and when, and what no longer fits.
 
 import type { AuditRow } from "../types.ts";
-import { el, fill, icon } from "./dom.ts";
+import { el, fill } from "../dom.ts";
+import { icon } from "./widgets.ts";
 import type { Page } from "./page.ts";
 import { button, note } from "./pieces.ts";
 import { count, moment } from "./words.ts";

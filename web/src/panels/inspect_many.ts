@@ -1,7 +1,8 @@
 // The inspector of several parts at once.
 
 import type { Content, Edit } from "../types.ts";
-import { bar, el, fill, fold, swatch } from "./dom.ts";
+import { el, fill } from "../dom.ts";
+import { bar, fold, swatch } from "./widgets.ts";
 import type { LabelChoice, Page } from "./page.ts";
 import { button, jointsOf, note, partList, viewButtons } from "./pieces.ts";
 import { count, labelOf, percent, whole } from "./words.ts";

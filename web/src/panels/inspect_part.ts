@@ -1,7 +1,8 @@
 // The inspector of one part: what it is, how sure that is, and putting it right.
 
 import type { Content, Edit } from "../types.ts";
-import { el, fill, fold, iconButton, put, swatch } from "./dom.ts";
+import { el, fill, put } from "../dom.ts";
+import { fold, iconButton, swatch } from "./widgets.ts";
 import type { LabelChoice, Page } from "./page.ts";
 import { button, lines, linkButton, partButton, sureBar, viewButtons, whyField } from "./pieces.ts";
 import {

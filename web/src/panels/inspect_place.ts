@@ -1,7 +1,8 @@
 // The inspector of a unit, and of a junction or an end of a pipe.
 
 import type { Content, End, Unit } from "../types.ts";
-import { bar, el, fill, fold, iconButton, swatch } from "./dom.ts";
+import { el, fill } from "../dom.ts";
+import { bar, fold, iconButton, swatch } from "./widgets.ts";
 import type { Page } from "./page.ts";
 import { button, jointsOf, lines, linkButton, note, partList, viewButtons } from "./pieces.ts";
 import { lazily } from "./inspect_part.ts";

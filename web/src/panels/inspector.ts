@@ -1,7 +1,8 @@
 // The right panel: what is selected, and what can be done about it.
 
 import type { Content } from "../types.ts";
-import { bar, el, fill, swatch } from "./dom.ts";
+import { el, fill } from "../dom.ts";
+import { bar, swatch } from "./widgets.ts";
 import { inspectMany } from "./inspect_many.ts";
 import { inspectPart } from "./inspect_part.ts";
 import { inspectEnd, inspectUnit } from "./inspect_place.ts";

@@ -1,7 +1,8 @@
 // Where things stand: panels left and right of the view, panes below it; all can be sized and folded away.
 
 import type { LeftTab, Store } from "../store.ts";
-import { el, iconButton } from "./dom.ts";
+import { el } from "../dom.ts";
+import { iconButton } from "./widgets.ts";
 import { remember, remembered } from "./page.ts";
 
 export interface Layout {

@@ -9,7 +9,7 @@ import { Address } from "./address.ts";
 import { Building } from "./building.ts";
 import { Corrector } from "./corrector.ts";
 import { openHelp } from "./dialog.ts";
-import { el, fill } from "./dom.ts";
+import { el, fill } from "../dom.ts";
 import { Find } from "./find.ts";
 import { History } from "./history.ts";
 import { Inspector } from "./inspector.ts";

@@ -1,7 +1,8 @@
 // Choosing a label of the vocabulary: type a few letters, arrow keys, Enter.
 
 import type { Content } from "../types.ts";
-import { el, fill, swatch } from "./dom.ts";
+import { el, fill } from "../dom.ts";
+import { swatch } from "./widgets.ts";
 import { openDialog } from "./dialog.ts";
 import type { LabelChoice } from "./page.ts";
 import { upper } from "./words.ts";

@@ -1,7 +1,8 @@
 // Pieces that several parts of the inspector are made of.
 
 import type { Content, Joint } from "../types.ts";
-import { bar, el, icon, put, swatch } from "./dom.ts";
+import { el, put } from "../dom.ts";
+import { bar, icon, swatch } from "./widgets.ts";
 import type { Page } from "./page.ts";
 import { count, labelOf, length, partTitle, percent } from "./words.ts";
 

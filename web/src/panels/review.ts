@@ -3,7 +3,8 @@
 import { addCommands } from "../commands.ts";
 import type { Content, Option, Question } from "../types.ts";
 import type { Corrector } from "./corrector.ts";
-import { bar, el, fill, put, swatch } from "./dom.ts";
+import { el, fill, put } from "../dom.ts";
+import { bar, swatch } from "./widgets.ts";
 import type { LabelChoice, Page } from "./page.ts";
 import { button } from "./pieces.ts";
 import { choiceWords, Queue, type Choice } from "./queue.ts";

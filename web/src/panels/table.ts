@@ -2,7 +2,8 @@
 
 import type { Content } from "../types.ts";
 import { csv, saveText } from "./csv.ts";
-import { el, fill, icon, put, swatch } from "./dom.ts";
+import { el, fill, put } from "../dom.ts";
+import { icon, swatch } from "./widgets.ts";
 import type { Page } from "./page.ts";
 import { columns, countWords, listed, partsOf, type Column, type Kind, type Scope, type Wish } from "./rows.ts";
 import { labelOf, whole } from "./words.ts";

@@ -1,6 +1,7 @@
 // Short answers at the foot of the view; screen readers are told them, too.
 
-import { el, icon } from "./dom.ts";
+import { el } from "../dom.ts";
+import { icon } from "./widgets.ts";
 import type { Action, Tone } from "./page.ts";
 
 const LASTS = { info: 6000, good: 6000, bad: 15_000 };

@@ -1,7 +1,8 @@
 // The bar at the top: what this is, search, undo and redo, counts, theme, help.
 
 import { run } from "../commands.ts";
-import { el, fill, icon, iconButton } from "./dom.ts";
+import { el, fill } from "../dom.ts";
+import { icon, iconButton } from "./widgets.ts";
 import { searchField } from "./find.ts";
 import type { Page } from "./page.ts";
 import { switchTheme } from "./theme.ts";

@@ -2,7 +2,8 @@
 
 import { networkWarnings, WARNING_TITLES } from "../network/warnings.ts";
 import type { Content } from "../types.ts";
-import { el, fill, iconButton, put } from "./dom.ts";
+import { el, fill, put } from "../dom.ts";
+import { iconButton } from "./widgets.ts";
 import type { Page } from "./page.ts";
 import { linkButton } from "./pieces.ts";
 import { count, finding, meshName, partTitle, whole } from "./words.ts";

@@ -1,7 +1,7 @@
 // How the axes stand, in a corner of the view; its ends and its middle turn the plant.
 
 import { Vector3 } from "three";
-import { el, svg } from "./dom.ts";
+import { el, svg } from "../dom.ts";
 import type { PlantView } from "./plant_view.ts";
 
 const SIZE = 76; // px

@@ -101,7 +101,7 @@ function byConfidence(content: Content, hatched: Uint8Array): Coloring {
     entries[i].parts.push(row);
     return i;
   });
-  for (let row = 0; row < hatched.length; row++) hatched[row] = entryOf[row] === 6 ? 1 : 0;
+  for (let row = 0; row < hatched.length; row++) hatched[row] = entryOf[row] === 6 && !content.parts.ground[row] ? 1 : 0;
   return { entryOf, entries, hatched };
 }
 

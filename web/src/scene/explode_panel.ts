@@ -1,7 +1,8 @@
 // Draws a unit apart: follows what is wanted, and the panel that says how far.
 
 import type { Store } from "../store.ts";
-import { el, iconButton, keysBack } from "./dom.ts";
+import { el } from "../dom.ts";
+import { iconButton, keysBack } from "./icons.ts";
 import { fullOffsets, offsetsAt } from "./explode.ts";
 import type { PlantView } from "./plant_view.ts";
 

@@ -3,7 +3,8 @@
 import type { ColorBy, Store } from "../store.ts";
 import { colorParts } from "./colors.ts";
 import type { LegendEntry } from "./colors.ts";
-import { el, icon, keysBack } from "./dom.ts";
+import { el } from "../dom.ts";
+import { icon, keysBack } from "./icons.ts";
 import type { PlantView } from "./plant_view.ts";
 
 const CHOICES: [ColorBy, string][] = [

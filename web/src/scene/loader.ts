@@ -29,6 +29,7 @@ export class Loader {
   private readonly changed: () => void;
   private filling = false;
   private again = false;
+  private eye: Point = [0, 0, 0];
   private readonly memory: number;
 
   constructor(
@@ -66,6 +67,7 @@ export class Loader {
 
   /** Full forms, those near the eye first; what is far goes where there is no room. */
   async fill(eye: Point): Promise<void> {
+    this.eye = eye;
     if (this.share < 1) return;
     if (this.filling) {
       this.again = true;
@@ -88,7 +90,7 @@ export class Loader {
     }
     if (this.again) {
       this.again = false;
-      await this.fill(eye);
+      await this.fill(this.eye);
     }
   }
 
@@ -116,13 +118,17 @@ export class Loader {
 
   private async load(chunk: Chunk): Promise<void> {
     let forms: ShapeForm[];
+    // Others that come at the same time must know that this room is taken.
+    const reserved = 2 * chunk.bytes;
+    this.bytes += reserved;
     try {
       forms = decodeChunk(await this.source.file(chunk.file));
     } catch (error) {
       this.failed.add(chunk);
       throw error;
+    } finally {
+      this.bytes -= reserved;
     }
-    await nextTurn();
     const batch = new Batch(forms, this.plant, this.pipeline.material);
     for (const form of forms) {
       const high = form.low.map((low, k) => low + form.step[k] * 65535) as Point;
@@ -157,9 +163,4 @@ async function inTurn<T>(items: T[], most: number, act: (item: T) => Promise<voi
     while (next < items.length) await act(items[next++]);
   };
   await Promise.all(Array.from({ length: Math.min(most, items.length) }, worker));
-}
-
-/** Lets the page draw and listen between two pieces of work. */
-function nextTurn(): Promise<void> {
-  return new Promise((resolve) => setTimeout(resolve, 0));
 }

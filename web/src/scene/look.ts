@@ -79,7 +79,6 @@ export class Look {
     for (const row of shown.question?.alike ?? []) flags[row] |= FLAG.alike;
     const marked = shown.question ? shown.question.parts : shown.selection;
     for (const row of marked) flags[row] = (flags[row] | FLAG.selected) & ~FLAG.ghost;
-    if (shown.hovered >= 0 && shown.hovered < n) flags[shown.hovered] |= FLAG.hovered;
     for (const unit of content.network.units) {
       if (shown.marks?.close.has(unit.id)) {
         for (const row of unit.parts) flags[row] = (flags[row] | FLAG.marked) & ~FLAG.ghost;

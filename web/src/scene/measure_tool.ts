@@ -2,7 +2,8 @@
 
 import { Vector3 } from "three";
 import type { Store } from "../store.ts";
-import { el, iconButton, svg } from "./dom.ts";
+import { el, svg } from "../dom.ts";
+import { iconButton } from "./icons.ts";
 import { besideLine, catchPoint, measure, measuredText } from "./measure.ts";
 import type { Caught } from "./measure.ts";
 import type { PlantView } from "./plant_view.ts";

@@ -1,6 +1,7 @@
 // How much can be drawn in time: found out while the plant turns, as no page can ask the machine.
 
 const WISHED = 40; // ms a frame while something moves
+const PATIENCE = 1200; // ms
 const LEAST = 60e3;
 const MOST = 60e6;
 
@@ -11,6 +12,7 @@ export class Pace {
   budget: number;
   /** Share of the resolution while something moves. */
   scale = 1;
+  private stillMs = 0;
   private last = -Infinity;
   private readonly software: boolean;
 
@@ -24,9 +26,10 @@ export class Pace {
     return this.software || this.frameMs > 150;
   }
 
-  /** Pictures that are averaged at rest. */
+  /** Pictures that are averaged at rest: what a person waits a second for. */
   get samples(): number {
-    return this.software ? 4 : 12;
+    const most = this.software ? 4 : 12;
+    return this.stillMs ? Math.max(2, Math.min(most, Math.round(PATIENCE / this.stillMs))) : most;
   }
 
   /** What is smaller [px] is left out while something moves. */
@@ -37,7 +40,12 @@ export class Pace {
   frame(now: number, moving: boolean): void {
     const spent = now - this.last;
     this.last = now;
-    if (!moving || spent > 2000 || spent <= 0) return;
+    if (spent <= 0 || spent > 5000) return;
+    if (!moving) {
+      this.stillMs = this.stillMs ? 0.5 * this.stillMs + 0.5 * spent : spent;
+      return;
+    }
+    if (spent > 2000) return;
     this.frameMs = this.frameMs ? 0.7 * this.frameMs + 0.3 * spent : spent;
     if (this.frameMs > 1.3 * WISHED) this.slower();
     else if (this.frameMs < 0.7 * WISHED) this.faster();

@@ -8,7 +8,8 @@ import {
 import type { IUniform, Object3D } from "three";
 import type { AnyCamera } from "./culling.ts";
 import {
-  COMPOSE_FRAGMENT, FULL_VERTEX, GHOST_FRAGMENT, MASK_FRAGMENT, MASK_VERTEX, PLANT_FRAGMENT, PLANT_VERTEX, SHOW_FRAGMENT,
+  COMPOSE_FRAGMENT, FULL_VERTEX, GHOST_FRAGMENT, MASK_FRAGMENT, MASK_VERTEX, MOST_HOVERED, PLANT_FRAGMENT, PLANT_VERTEX,
+  SHOW_FRAGMENT,
 } from "./shaders.ts";
 
 type Uniforms = Record<string, IUniform>;
@@ -82,7 +83,8 @@ export class Pipeline {
     }, { blending: CustomBlending, blendSrc: SrcAlphaFactor, blendDst: OneMinusSrcAlphaFactor, transparent: true,
       depthTest: false, depthWrite: false });
     this.showMaterial = fullScreen(SHOW_FRAGMENT, {
-      tPicture: { value: null }, tDepth: { value: null }, used: { value: new Vector2() }, usedDepth: { value: new Vector2() },
+      tPicture: { value: null }, tMesh: { value: null }, tDepth: { value: null }, used: { value: new Vector2() },
+      hovered: { value: Array.from({ length: MOST_HOVERED }, () => new Vector3()) }, nHovered: { value: 0 },
     }, { blending: NoBlending });
     this.screen = new Mesh(new PlaneGeometry(2, 2), this.composeMaterial);
     this.screen.frustumCulled = false;
@@ -112,6 +114,16 @@ export class Pipeline {
     this.size.set(width, height);
     disposeTargets(this.targets);
     this.targets = makeTargets(width, height);
+  }
+
+  /** Lights meshes in the picture as it is, without drawing the plant again. */
+  setHovered(meshes: ArrayLike<number>): void {
+    const { hovered, nHovered } = this.showMaterial.uniforms;
+    nHovered.value = Math.min(meshes.length, MOST_HOVERED);
+    for (let k = 0; k < nHovered.value; k++) {
+      const id = meshes[k] + 1;
+      (hovered.value as Vector3[])[k].set(id & 255, (id >> 8) & 255, (id >> 16) & 255).divideScalar(255);
+    }
   }
 
   setSection(plane: Vector4 | null): void {
@@ -200,9 +212,9 @@ export class Pipeline {
     const { renderer, targets } = this;
     const { uniforms } = this.showMaterial;
     uniforms.tPicture.value = targets.sum.texture;
+    uniforms.tMesh.value = targets.pixels.textures[2];
     uniforms.tDepth.value = targets.pixels.depthTexture;
     (uniforms.used.value as Vector2).copy(this.used);
-    (uniforms.usedDepth.value as Vector2).copy(this.used);
     this.screen.material = this.showMaterial;
     renderer.setRenderTarget(null);
     renderer.clear();

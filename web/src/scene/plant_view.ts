@@ -25,7 +25,7 @@ const REST = 160; // ms without movement, after which the picture is finished
 const MOST_MASKED = 400;
 const MARGIN = 2.2; // what a part is looked at with: some of its neighbourhood
 /** Changes of these make the picture another one, though no colour. */
-const LOOKS: (keyof Shown)[] = ["selection", "hidden", "isolated", "ghost", "marks", "question", "hovered", "explode"];
+const LOOKS: (keyof Shown)[] = ["selection", "hidden", "isolated", "ghost", "marks", "question", "explode"];
 
 export class PlantView implements SceneView {
   readonly element: HTMLElement;
@@ -79,6 +79,7 @@ export class PlantView implements SceneView {
     store.watch(["colorBy"], () => this.changed(true));
     store.watch(LOOKS, () => this.changed(false));
     store.watch(["section"], () => this.setSection());
+    store.watch(["hovered"], () => this.hover());
     store.watch(["camera"], () => this.follow());
     new MutationObserver(() => this.repaint()).observe(document.documentElement, { attributeFilter: ["data-theme"] });
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.repaint());
@@ -325,6 +326,12 @@ export class PlantView implements SceneView {
     this.changed(false);
   }
 
+  private hover(): void {
+    const { hovered } = this.store.shown;
+    this.pipeline.setHovered(hovered >= 0 ? this.plant.meshesOfPart.of(hovered) : []);
+    this.invalidate();
+  }
+
   private setSection(): void {
     const { section } = this.store.shown;
     if (section) {
@@ -344,7 +351,7 @@ export class PlantView implements SceneView {
     const dark = document.documentElement.dataset.theme === "dark";
     const palette: Palette = {
       top: get("--sky-top", "#e9eef4"), bottom: get("--sky-bottom", "#ffffff"), ink: dark ? "#05080b" : "#10161d",
-      accent: dark ? "#ffb000" : "#e66100", mark: get("--mark", "#d1580a"),
+      accent: "#ffc400", mark: get("--mark", "#d1580a"),
     };
     this.pipeline.setPalette(palette);
     this.redraw();

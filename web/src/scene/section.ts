@@ -2,7 +2,8 @@
 
 import type { Section, Store } from "../store.ts";
 import type { Content, Point } from "../types.ts";
-import { el, iconButton, keysBack } from "./dom.ts";
+import { el } from "../dom.ts";
+import { iconButton, keysBack } from "./icons.ts";
 import type { PlantView } from "./plant_view.ts";
 
 const STEPS = 1000;
@@ -22,16 +23,21 @@ export function boundsOf(content: Content, rows?: Iterable<number>): { low: Poin
   return low[0] <= high[0] ? { low, high } : null;
 }
 
+/** A plane through the middle of parts (all, where none are named) that takes away the half before the eye. */
+export function sectionAcross(axis: Section["axis"], content: Content, rows: readonly number[], eye: Point): Section | null {
+  const bounds = (rows.length ? boundsOf(content, rows) : null) ?? boundsOf(content);
+  if (!bounds) return null;
+  const k = AXES.indexOf(axis);
+  const at = (bounds.low[k] + bounds.high[k]) / 2;
+  return { axis, at, flipped: eye[k] < at };
+}
+
 /** The panel with which the section plane is moved; to be seen while there is one. */
 export function sectionPanel(view: PlantView, store: Store): HTMLElement {
   const change = (patch: Partial<Section>) => store.shown.section && store.set({ section: { ...store.shown.section, ...patch } });
   const axes = AXES.map((axis) => el("button", {
     type: "button", title: `Cut across ${axis.toUpperCase()}`, "data-test": `section-${axis}`,
-    onclick: () => {
-      const bounds = store.content && boundsOf(store.content);
-      const k = AXES.indexOf(axis);
-      if (bounds) change({ axis, at: (bounds.low[k] + bounds.high[k]) / 2 });
-    },
+    onclick: () => store.set({ section: sectionAcross(axis, store.content!, store.shown.selection, view.getCamera().eye) }),
   }, axis.toUpperCase()));
   const slider = el("input", { type: "range", min: 0, max: STEPS, step: 1, "aria-label": "Where the plant is cut", "data-test": "section-at" });
   const value = el("output", { class: "scene-value", "data-test": "section-value" });

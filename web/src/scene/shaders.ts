@@ -1,7 +1,10 @@
 // What is drawn of the plant: first what each pixel shows (colour, normal, mesh), then the picture made of it.
 
 /** Flags of an instance, as the shaders read them. */
-export const FLAG = { ghost: 1, hatched: 2, selected: 4, hovered: 8, alike: 16, marked: 32 } as const;
+export const FLAG = { ghost: 1, hatched: 2, selected: 4, alike: 16, marked: 32 } as const;
+
+/** Meshes of a part that are lit under the cursor. */
+export const MOST_HOVERED = 8;
 
 export const PLANT_VERTEX = /* glsl */ `
 #include <common>
@@ -81,7 +84,6 @@ void main() {
   float rim = pow(1.0 - max(dot(n, toEye), 0.0), 3.0);
   vec3 light = mix(vec3(0.30, 0.29, 0.28), vec3(0.62, 0.65, 0.70), sky) + 0.46 * key + 0.10 * max(dot(n, toEye), 0.0);
   vec3 color = cap ? base * 0.7 : base * light + 0.03 * rim;
-  if ((flags & ${FLAG.hovered}) != 0) color = mix(color, vec3(1.0), 0.16);
   outColor = vec4(shown(color), 1.0);
   vec3 seen = (viewMatrix * vec4(n, 0.0)).xyz;
   outNormal = vec4(seen.xy * 0.5 + 0.5, vState.a, 1.0);
@@ -217,6 +219,15 @@ void main() {
     bool seen = (flags & 4) != 0;
     if (here > 0.5 && !seen) color = mix(color, accent, 0.28);
     if (most - least > 0.5) color = mix(color, accent, seen || here < 0.5 ? 0.95 : 0.6);
+    else if (here < 0.5) {
+      // A dark rim, as no one colour stands out from all others.
+      float around = 0.0;
+      for (int k = 0; k < 8; k++) {
+        float angle = float(k) * 0.785398;
+        around = max(around, texture(tMask, uv + vec2(cos(angle), sin(angle)) * texel * 2.4).r);
+      }
+      if (around > 0.5) color = mix(color, vec3(0.06, 0.08, 0.11), 0.8);
+    }
   }
   outColor = vec4(color, weight);
 }`;
@@ -225,12 +236,20 @@ void main() {
 export const SHOW_FRAGMENT = /* glsl */ `
 layout(location = 0) out vec4 outColor;
 in vec2 vUv;
-uniform sampler2D tPicture;
+uniform sampler2D tPicture, tMesh;
 uniform highp sampler2D tDepth;
-uniform vec2 used, usedDepth;
+uniform vec2 used;
+uniform vec3 hovered[${MOST_HOVERED}];
+uniform int nHovered;
 void main() {
-  outColor = vec4(texture(tPicture, vUv * used).rgb, 1.0);
-  gl_FragDepth = texture(tDepth, vUv * usedDepth).r;
+  vec3 color = texture(tPicture, vUv * used).rgb;
+  if (nHovered > 0) {
+    vec4 mesh = texture(tMesh, vUv * used);
+    for (int k = 0; k < ${MOST_HOVERED}; k++)
+      if (k < nHovered && mesh.a > 0.0 && distance(mesh.rgb, hovered[k]) < 0.001) color = mix(color, vec3(1.0), 0.22);
+  }
+  outColor = vec4(color, 1.0);
+  gl_FragDepth = texture(tDepth, vUv * used).r;
 }`;
 
 /** Depth in three bytes, small, to be read back. */

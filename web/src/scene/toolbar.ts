@@ -2,8 +2,9 @@
 
 import { allCommands, run } from "../commands.ts";
 import type { Store } from "../store.ts";
-import { el, iconButton } from "./dom.ts";
-import type { IconName } from "./dom.ts";
+import { el } from "../dom.ts";
+import { iconButton } from "./icons.ts";
+import type { IconName } from "./icons.ts";
 import type { PlantView } from "./plant_view.ts";
 import { isAltered } from "./view_commands.ts";
 

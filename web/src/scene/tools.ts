@@ -2,7 +2,7 @@
 
 import type { Store } from "../store.ts";
 import { axesWidget } from "./axes.ts";
-import { el } from "./dom.ts";
+import { el } from "../dom.ts";
 import { explodePanel } from "./explode_panel.ts";
 import { legendPanel } from "./legend.ts";
 import { MeasureTool } from "./measure_tool.ts";

@@ -6,7 +6,7 @@ import type { Command } from "../commands.ts";
 import type { Store } from "../store.ts";
 import type { Unit } from "../types.ts";
 import type { PlantView } from "./plant_view.ts";
-import { boundsOf } from "./section.ts";
+import { sectionAcross } from "./section.ts";
 
 const TURN = (10 * Math.PI) / 180;
 const NEARER = 0.8;
@@ -27,7 +27,7 @@ export function addViewCommands(view: PlantView, store: Store, tools: Escapable)
     { id: "view-isolate", key: "i", title: "Show only the selection", area: "Selection", when: () => chosen() || !!store.shown.isolated, run: () => isolate(store) },
     { id: "view-all", key: "a", title: "Show all again", area: "Selection", run: () => showAll(store) },
     { id: "view-ghost", key: "g", title: "Draw faintly what is not shown, or leave it out", area: "View", run: () => store.set({ ghost: !store.shown.ghost }) },
-    { id: "view-section", key: "x", title: "Cut the plant open", area: "View", run: () => section(store) },
+    { id: "view-section", key: "x", title: "Cut the plant open", area: "View", run: () => section(view, store) },
     { id: "view-explode", key: "e", title: "Draw the selected unit apart", area: "Selection", when: () => !!store.shown.explode || unitOf(store) !== null, run: () => explode(view, store) },
     { id: "view-measure", key: "m", title: "Measure between two points", area: "View", run: () => store.set({ tool: store.shown.tool === "measure" ? "select" : "measure", hovered: -1 }) },
     { id: "view-parallel", key: "p", title: "Without perspective", area: "View", run: () => view.navigation.setOrthographic(!view.navigation.orthographic) },
@@ -88,15 +88,10 @@ export function showAll(store: Store): void {
   store.set({ hidden: new Set(), isolated: null, marks: null, explode: null });
 }
 
-/** Through what is selected, else through the middle of the plant. */
-function section(store: Store): void {
+function section(view: PlantView, store: Store): void {
   const { content, shown } = store;
-  if (shown.section || !content) {
-    store.set({ section: null });
-    return;
-  }
-  const { low, high } = boundsOf(content, subject(store)) ?? boundsOf(content)!;
-  store.set({ section: { axis: "y", at: (low[1] + high[1]) / 2, flipped: true } });
+  const on = content && !shown.section;
+  store.set({ section: on ? sectionAcross("y", content, subject(store), view.getCamera().eye) : null });
 }
 
 function explode(view: PlantView, store: Store): void {

@@ -1,40 +1,7 @@
-// Elements, made without markup: text stays text.
+// Small things that the page is made of: icons, bars, swatches, folds.
 
-type Child = Node | string | number | null | undefined | false;
-type Handler = (event: any) => void;
-type Value = string | number | boolean | null | undefined | Handler;
-
-/** Makes an element: `on...` are listeners, true/false set or leave out an attribute, `text` is its text. */
-export function el<K extends keyof HTMLElementTagNameMap>(
-  tag: K,
-  given: Record<string, Value> = {},
-  ...children: Child[]
-): HTMLElementTagNameMap[K] {
-  const made = document.createElement(tag);
-  for (const [key, value] of Object.entries(given)) {
-    if (typeof value === "function") made.addEventListener(key.slice(2), value);
-    else if (key === "text") made.textContent = String(value ?? "");
-    else if (key === "value") (made as HTMLInputElement).value = String(value ?? "");
-    else if (value === true) made.setAttribute(key, "");
-    else if (value !== false && value !== null && value !== undefined) made.setAttribute(key, String(value));
-  }
-  put(made, ...children);
-  return made;
-}
-
-/** Appends what is something. */
-export function put(to: Element, ...children: Child[]): void {
-  for (const child of children) {
-    if (child === null || child === undefined || child === false) continue;
-    to.append(child instanceof Node ? child : String(child));
-  }
-}
-
-/** Puts these in the place of what was in it. */
-export function fill(to: Element, ...children: Child[]): void {
-  to.replaceChildren();
-  put(to, ...children);
-}
+import { el, svg } from "../dom.ts";
+import type { Child, Handler } from "../dom.ts";
 
 /** A bar for a share of 0..1; said to screen readers by its label. */
 export function bar(share: number, label: string, kind = ""): HTMLElement {
@@ -43,7 +10,6 @@ export function bar(share: number, label: string, kind = ""): HTMLElement {
   return el("span", { class: `bar ${kind}`, role: "img", "aria-label": label }, inner);
 }
 
-const SVG = "http://www.w3.org/2000/svg";
 const ICONS: Record<string, string> = {
   undo: "M9 7 4 12l5 5M4 12h10a6 6 0 0 1 0 12h-2",
   redo: "M15 7l5 5-5 5M20 12H10a6 6 0 0 0 0 12h2",
@@ -66,14 +32,8 @@ const ICONS: Record<string, string> = {
 
 /** A line icon; decoration: what holds it carries the words. */
 export function icon(name: keyof typeof ICONS & string): SVGElement {
-  const svg = document.createElementNS(SVG, "svg");
-  svg.setAttribute("viewBox", name === "undo" || name === "redo" ? "0 3 24 24" : "0 0 24 24");
-  svg.setAttribute("class", "icon");
-  svg.setAttribute("aria-hidden", "true");
-  const path = document.createElementNS(SVG, "path");
-  path.setAttribute("d", ICONS[name]);
-  svg.append(path);
-  return svg;
+  const viewBox = name === "undo" || name === "redo" ? "0 3 24 24" : "0 0 24 24";
+  return svg("svg", { viewBox, class: "icon", "aria-hidden": "true" }, svg("path", { d: ICONS[name] }));
 }
 
 /** A button with an icon alone; its title says what it does. */

@@ -1,35 +1,6 @@
-// Elements and icons of the tools, made without markup: text stays text.
+// Icons and buttons of the tools.
 
-type Value = string | number | boolean | null | undefined | ((event: any) => void);
-type Child = Node | string | null | undefined | false;
-
-/** Makes an element: `on...` are listeners, true sets an attribute, false, null and undefined leave it out. */
-export function el<K extends keyof HTMLElementTagNameMap>(
-  tag: K, given: Record<string, Value> = {}, ...children: Child[]
-): HTMLElementTagNameMap[K] {
-  const made = document.createElement(tag);
-  assign(made, given);
-  for (const child of children) if (child) made.append(child);
-  return made;
-}
-
-/** The same for what is drawn. */
-export function svg<K extends keyof SVGElementTagNameMap>(
-  tag: K, given: Record<string, Value> = {}, ...children: Node[]
-): SVGElementTagNameMap[K] {
-  const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
-  assign(made, given);
-  made.append(...children);
-  return made;
-}
-
-function assign(made: Element, given: Record<string, Value>): void {
-  for (const [key, value] of Object.entries(given)) {
-    if (typeof value === "function") made.addEventListener(key.slice(2), value);
-    else if (value === true) made.setAttribute(key, "");
-    else if (value !== false && value !== null && value !== undefined) made.setAttribute(key, String(value));
-  }
-}
+import { el, svg } from "../dom.ts";
 
 /** Lines on a grid of 24; what comes after "|" is filled. */
 const ICONS = {
