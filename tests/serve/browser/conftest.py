@@ -75,8 +75,9 @@ def page(shared):
     shared.press("Escape")
     shared.leave_fields()
     shared.js(
-        """() => cadgraph.store.set({ selection: [], place: null, hidden: new Set(), isolated: null, ghost: true,
-          marks: null, section: null, explode: null, colorBy: 'group', leftTab: 'find', schematic: false, table: false })"""
+        """() => cadgraph.store.set({
+          selection: [], place: null, hidden: new Set(), isolated: null, ghost: true, marks: null, section: null,
+          explode: null, colorBy: 'group', leftTab: 'find', schematic: false, table: false })"""
     )
     shared.until("() => { cadgraph.view?.home(); return !!cadgraph.view }")
     yield shared

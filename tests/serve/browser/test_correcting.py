@@ -227,8 +227,8 @@ def test_of_two_windows_the_slower_one_is_told_and_both_corrections_stay(page, s
         until(lambda: other.page.wait_for_timeout(20) or held, "a correction on its way")
         put(page, third)
         until(lambda: corrected(page) == 2, "the first window is quicker")
-        other.page.unroute("**/api/edit")
         held[0].continue_()
+        other.page.unroute("**/api/edit")
         until(lambda: "Another window was quicker" in other.text("toasts"), "the slower one is told")
         until(lambda: labels(other) == labels(page), "it shows what the first one did")
         assert settled(other, server)["n_edits"] == 2

@@ -65,7 +65,10 @@ def look_everywhere(page):
     for kind in ("parts", "units", "lines"):
         page.by(f"table-{kind}").click()
     page.leave_fields()
-    for select in ("() => cadgraph.store.select([3])", "() => cadgraph.store.selectPlace(cadgraph.store.content.network.units[0].id)"):
+    for select in (
+        "() => cadgraph.store.select([3])",
+        "() => cadgraph.store.selectPlace(cadgraph.store.content.network.units[0].id)",
+    ):
         page.js(select)
         page.js("() => document.querySelectorAll('details').forEach(fold => (fold.open = true))")
         page.page.wait_for_timeout(150)
@@ -96,10 +99,16 @@ def test_names_from_the_file_and_from_people_are_text(window, hostile):
             look_everywhere(page)
             assert page.text("title") == scene.name
             assert NAMES[0] in [unit["tag"] for unit in page.content["network"]["units"]]
-            page.js("tag => cadgraph.store.selectPlace(cadgraph.store.content.network.units.find(u => u.tag === tag).id)", NAMES[0])
+            page.js(
+                "tag => cadgraph.store.selectPlace(cadgraph.store.content.network.units.find(u => u.tag === tag).id)",
+                NAMES[0],
+            )
             until(lambda: page.text("unit-tag") == NAMES[0], "the tag as it is")
             page.by("tab-history").click()
-            until(lambda: NAMES[1] in page.text("audit") and NAMES[0] in page.text("audit"), "reason and person as they are")
+            until(
+                lambda: NAMES[1] in page.text("audit") and NAMES[0] in page.text("audit"),
+                "reason and person as they are",
+            )
             page.press("?")
             check(page)
             assert page.troubles == []
@@ -124,9 +133,11 @@ def poisoned(content):
     return content
 
 
-DRAWING = f"""<svg xmlns="http://www.w3.org/2000/svg" width="300" height="200" onload="{STRIKE}"><script>{STRIKE}</script>
+DRAWING = f"""<svg xmlns="http://www.w3.org/2000/svg" width="300" height="200" onload="{STRIKE}">
+<script>{STRIKE}</script>
 <style>@import url(http://example.com/x.css)</style><image href="x" onerror="{STRIKE}" width="9" height="9"/>
-<foreignObject width="99" height="99"><img xmlns="http://www.w3.org/1999/xhtml" src="x" onerror="{STRIKE}"/></foreignObject>
+<foreignObject width="99" height="99">
+<img xmlns="http://www.w3.org/1999/xhtml" src="x" onerror="{STRIKE}"/></foreignObject>
 <a href="javascript:{STRIKE}"><text>{STRIKE}</text></a>
 <rect data-id="unit-G-001" x="150" y="100" width="40" height="40" fill="red" onclick="{STRIKE}" style="fill:red"/>
 <use href="http://example.com/x.svg#a"/><animate attributeName="href" to="javascript:{STRIKE}"/></svg>"""
@@ -154,9 +165,14 @@ def test_the_page_itself_takes_no_text_for_markup(window, hostile):
         page.js("() => cadgraph.store.select([1])")
         until(lambda: NAMES[1] in page.text("inspector"), "the path as it is")
         check(page)
-        assert drawn.first.evaluate("e => e.getAttributeNames().some(name => name === 'style' || name.startsWith('on'))") is False
+        assert (
+            drawn.first.evaluate("e => e.getAttributeNames().some(name => name === 'style' || name.startsWith('on'))")
+            is False
+        )
         drawing = "name => document.querySelectorAll('[data-test=schematic] ' + name).length"
-        assert [page.js(drawing, name) for name in ("script", "style", "image", "foreignObject", "a", "use", "animate")] == [0] * 7
+        assert [
+            page.js(drawing, name) for name in ("script", "style", "image", "foreignObject", "a", "use", "animate")
+        ] == [0] * 7
         assert {url.split("/")[2] for url in page.requests if url.startswith("http")} == {server.host}
 
 

@@ -229,7 +229,10 @@ def test_a_link_and_the_address_bring_the_same_view_back(page, server):
 
 
 def test_dark_follows_the_system_until_somebody_chooses(page):
-    brightness = "() => getComputedStyle(document.body).backgroundColor.match(/\\d+/g).slice(0, 3).reduce((a, b) => a + +b, 0) / 3"
+    brightness = """() => {
+      const [red, green, blue] = getComputedStyle(document.body).backgroundColor.match(/\\d+/g).map(Number);
+      return (red + green + blue) / 3;
+    }"""
     assert page.js(brightness) > 200
     page.page.emulate_media(color_scheme="dark")
     page.has("theme", "dark")

@@ -28,7 +28,17 @@ def test_the_file_opens_from_disk_with_everything_to_see_and_nothing_to_correct(
         page.drawn()
         page.page.mouse.click(*at)
         until(lambda: page.shown("selection"), "a selected part")
-        for name in ("guess", "other-label", "forget", "merge", "split", "ground", "edit-tag", "net-isolate", "net-cut"):
+        for name in (
+            "guess",
+            "other-label",
+            "forget",
+            "merge",
+            "split",
+            "ground",
+            "edit-tag",
+            "net-isolate",
+            "net-cut",
+        ):
             assert page.by(name).count() == 0
         page.press("l", "Control+z", "1")
         assert page.by("picker-input").count() == 0
