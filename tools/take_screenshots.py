@@ -87,21 +87,22 @@ def isolate(viewer: Viewer) -> None:
 
 
 def correct(viewer: Viewer) -> None:
-    """One part corrected: what it is now, with its repeats, and the way back."""
+    """A part that nobody was sure of, said by hand: what it is now, with its repeat, and the way back."""
     viewer.js(
         """() => {
           const { parts, network } = cadgraph.store.content;
-          const unit = network.units.find(unit => unit.tag === 'V-011');
+          const unit = network.units.find(unit => unit.tag === 'V-008');
           const row = unit.parts.reduce((a, b) => (parts.area[a] > parts.area[b] ? a : b));
           cadgraph.store.select([row]);
           cadgraph.view.flyTo([row]);
         }"""
     )
-    viewer.by("guess").nth(1).click()
+    viewer.by("guess").first.click()
     until(viewer.by("toast").count, "an answer")
     viewer.by("tab-history").click()
     until(viewer.by("audit").count, "the list of what was corrected")
     viewer.leave_fields()
+    viewer.by("toast").hover()  # so it stays
 
 
 def field(viewer: Viewer) -> None:
@@ -112,6 +113,7 @@ def field(viewer: Viewer) -> None:
 def dark(viewer: Viewer) -> None:
     """A part of it, dark, with the table of its units."""
     viewer.page.emulate_media(color_scheme="dark")
+    viewer.by("legend-fold").click()
     viewer.press("b")
     viewer.by("table-units").click()
     viewer.leave_fields()
@@ -144,16 +146,22 @@ def plant(name: str, made: Path | None) -> Iterator[str]:
             yield server.address
 
 
+def settle(viewer: Viewer) -> None:
+    """Waits until the picture is finished, and tags have found their places."""
+    seen, same = -1, 0
+    while same < 4:
+        viewer.rest().page.wait_for_timeout(250)
+        now = viewer.page.locator("[data-test=net-tags] button").count()
+        seen, same = now, same + 1 if now == seen else 0
+
+
 def take(name: str, address: str, work: Callable[[Viewer], None]) -> None:
     """Takes one picture, as good as fits into the size that pages may have."""
     with browsing() as browser:
         viewer = Viewer(browser.new_context(viewport=SIZE), address)
         viewer.ready().rest()
         work(viewer)
-        viewer.page.mouse.move(5, SIZE["height"] - 5)
-        viewer.rest()
-        viewer.page.wait_for_timeout(500)  # tags look for their places
-        viewer.rest()
+        settle(viewer)
         for quality in (88, 80, 70, 60, 50):
             data = viewer.page.screenshot(type="jpeg", quality=quality, timeout=60_000)
             if len(data) <= MOST:
