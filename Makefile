@@ -1,6 +1,10 @@
 # make demo   set up, build the scene graph of a small plant, say what was found
 # make test   set up, run every test
 # make test-fast  the tests that take no more than two minutes of one processor together
+# make browser  a browser for the tests that need one: the system's Chromium, where it can be had without asking
+# make web    the page of the viewer anew, from web/ (needs Node)
+# make web-test   the page's types, and its tests that need no browser (needs Node)
+# make screenshots  the pictures of the viewer in docs/ (needs a browser; some minutes)
 # make check-wheel  a wheel of the product alone, tried out in an empty environment (needs a package index)
 # make check  style, types, structure, complexity, generated documents
 # make bench  the benchmarks, with what a user would pick instead in the same run
@@ -15,7 +19,11 @@ PIP := $(BIN)/python -m pip install --disable-pip-version-check --quiet --constr
 WHOLE := --editable '.[all,dev]' --editable packages/cadplants --editable packages/cadlab
 PROJECTS := pyproject.toml packages/cadplants/pyproject.toml packages/cadlab/pyproject.toml constraints.txt
 
-.PHONY: demo test test-fast check check-wheel bench train docs clean
+BROWSERS := chromium chromium-browser google-chrome google-chrome-stable microsoft-edge
+WEB_TOOLS := web/node_modules/.package-lock.json
+NO_NODE := the page needs Node 20 or newer with npm to be built or checked: https://nodejs.org; the one that is built already works without
+
+.PHONY: demo test test-fast browser web web-tools web-test screenshots check check-wheel bench train docs clean
 
 demo: $(VENV)/.with-all
 	$(BIN)/cadgraph demo --output demo
@@ -25,6 +33,31 @@ test: $(VENV)/.with-dev
 
 test-fast: $(VENV)/.with-dev
 	$(BIN)/python -m pytest -m "not slow"
+
+# Never fails: tests in a browser are skipped where there is none.
+browser:
+	@for name in $$CADGRAPH_BROWSER $(BROWSERS); do command -v $$name >/dev/null && exit 0; done; \
+	if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
+		echo "installing Chromium for the tests in a browser (once)"; export DEBIAN_FRONTEND=noninteractive; \
+		{ apt-get -qq update && apt-get -qq install --yes --no-install-recommends chromium; } >/dev/null || \
+			echo "Chromium could not be installed; tests in a browser are skipped"; \
+	else echo "no browser: install Chromium (apt install chromium, dnf install chromium...); tests in a browser are skipped without it"; fi
+
+web: web-tools
+	@if command -v npm >/dev/null; then cd web && npm run --silent build; fi
+
+web-test: web-tools
+	@if command -v npm >/dev/null; then cd web && npm run --silent check && npm run --silent test; fi
+
+web-tools:
+	@if command -v npm >/dev/null; then $(MAKE) --no-print-directory $(WEB_TOOLS); else echo "$(NO_NODE)"; fi
+
+$(WEB_TOOLS): web/package.json web/package-lock.json
+	npm ci --prefix web --silent
+	@touch $@
+
+screenshots: $(VENV)/.with-dev
+	$(BIN)/python tools/take_screenshots.py
 
 check: $(VENV)/.with-dev
 	$(BIN)/ruff check .

@@ -70,6 +70,7 @@ class Served:
 
     def __init__(self, process, address):
         self.process = process
+        self.address = address
         self.host = urlsplit(address).netloc
         self.token = parse_qs(urlsplit(address).query)["token"][0]
 

@@ -20,6 +20,9 @@ ROOT = Path(__file__).resolve().parents[1]
 CONTENT = (
     "cadgraph/py.typed",
     "cadgraph/draw/report/page.html",
+    "cadgraph/draw/web/page/index.html",
+    "cadgraph/draw/web/page/viewer.css",
+    "cadgraph/draw/web/page/viewer.js",
     "cadgraph/labelers/embedded/model.npz",
     "cadgraph/labelers/lvlm/templates/label.txt",
     "cadgraph/model/vocabulary.yaml",

@@ -85,13 +85,15 @@ export class Corrector {
     const now = this.store.state;
     if (!this.anew && now && state.version < now.version) return;
     this.anew = false;
+    // While it is made ready, the server itself brings what is shown up to date with the corrections.
+    const worked = now?.status === "ready" && state.status === "ready";
     this.store.setState(state);
     if (state.status === "failed" || !this.store.content) return;
     void this.inTurn(async () => {
       const { content, state: latest } = this.store;
       if (!content || !latest || latest.version === content.version || latest.status === "failed") return;
       await this.fetch();
-      if (latest.status === "ready") this.say(
+      if (worked) this.say(
         `Changed in another window${latest.undo ? `: ${latest.undo}` : ""}. The plant is shown as it is now.`
       );
     }).catch((error: unknown) => this.told(error));

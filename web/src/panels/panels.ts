@@ -124,7 +124,7 @@ async function untilReady(
     store.setContent(await source.content());
     return;
   }
-  let lost = false;
+  let lost = "";
   await new Promise<void>((resolve) => {
     let fetching: Promise<void> | null = null;
     const first = (content: Content) => {
@@ -134,13 +134,14 @@ async function untilReady(
     };
     const trouble = (reason: string) => {
       if (!store.content) building.show(store.state, false, reason);
-      else if (!lost) say(reason, "bad");
-      lost = true;
+      // Another reason is news: a server that was started again wants the address that it printed.
+      else if (reason !== lost) say(reason, "bad");
+      lost = reason;
       corrector.lost();
     };
     void source.follow(new AbortController().signal, (state) => {
       if (lost && store.content) say("The server answers again.", "good");
-      lost = false;
+      lost = "";
       corrector.heard(state);
       building.show(store.state, !!store.content);
       // A plant that was built before can be looked at while it is made ready for corrections.
