@@ -110,6 +110,15 @@ class Viewer:
         return self.js("() => cadgraph.store.content")
 
     @property
+    def parts(self):
+        return self.js("() => cadgraph.store.content.parts")
+
+    @property
+    def units(self):
+        """The units by their tags."""
+        return {unit["tag"]: unit for unit in self.js("() => cadgraph.store.content.network.units")}
+
+    @property
     def version(self):
         return self.js("() => cadgraph.store.content.version")
 

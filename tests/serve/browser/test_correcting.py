@@ -16,10 +16,6 @@ def labels(page):
     return page.js("() => { const p = cadgraph.store.content.parts; return [p.group, p.name, p.source] }")
 
 
-def units(page):
-    return {unit["tag"]: unit for unit in page.content["network"]["units"]}
-
-
 def settled(page, server):
     """Waits until all that was sent is answered and shown; the state of the server."""
 
@@ -28,6 +24,12 @@ def settled(page, server):
         return state if state["version"] == page.version else None
 
     return until(met, "the page shows what the server has")
+
+
+def events_in(folder):
+    """What is kept on the disk."""
+    kept = folder / "corrections.json"
+    return json.loads(kept.read_text())["events"] if kept.exists() else []
 
 
 def question(page):
@@ -49,49 +51,10 @@ def corrected(page):
 
 @pytest.fixture(autouse=True)
 def _nothing_stays(page, server):
-    """Takes back all that a test corrected."""
-    yield
+    """Takes back all that tests before it corrected."""
     while (state := settled(page, server))["can_undo"]:
         assert server.ask("/api/undo", {"version": state["version"]})[0] == 200
     settled(page, server)
-
-
-def test_twenty_answers_by_keys_are_kept_undone_redone_and_there_after_a_reload(page, server, folder):
-    first, begun = labels(page), page.version
-    page.press("r")
-    page.until("() => cadgraph.store.shown.question")
-    assert page.shown("leftTab") == "review"
-    for turn in range(MANY):
-        answer(page, "1" if turn % 3 else "2")
-    # The page goes on at once; the server answers one after the other.
-    until(lambda: page.version == begun + MANY, "all twenty confirmed")
-    n_edits = settled(page, server)["n_edits"]
-    assert n_edits >= MANY
-    until(lambda: page.text("edit-count").startswith(f"{n_edits} corrections"), "the count in the bar")
-    after = labels(page)
-    assert sum(one != other for one, other in zip(first[2], after[2], strict=True)) >= MANY
-    kept = json.loads((folder / "corrections.json").read_text())
-    assert len(kept["events"]) == MANY
-    assert {row["who"] for row in server.ask("/api/audit")[1]} == {"Ada"}
-    page.by("tab-history").click()
-    until(lambda: page.by("audit").count() == MANY, "the list of what was corrected")
-    page.leave_fields()
-    for _ in range(MANY):
-        before = page.version
-        page.press("Control+z")
-        until(lambda before=before: page.version > before, "undone")
-    assert labels(page) == first
-    assert not settled(page, server)["can_undo"]
-    until(lambda: page.page.locator(".audit .undone").count() == MANY, "marks of what was undone")
-    for _ in range(MANY):
-        before = page.version
-        page.press("Control+y")
-        until(lambda before=before: page.version > before, "done again")
-    assert labels(page) == after
-    page.page.reload()
-    page.ready()
-    assert labels(page) == after
-    assert page.text("edit-count").startswith(f"{n_edits} corrections")
 
 
 def test_the_queue_needs_no_mouse(page, server):
@@ -105,8 +68,8 @@ def test_the_queue_needs_no_mouse(page, server):
     page.press("Enter")
     until(lambda: question(page) != start, "the next question")
     until(lambda: corrected(page), "it is confirmed")
-    assert page.content["parts"]["name"][row] == "sight glass"
-    assert page.content["parts"]["source"][row] == "human"
+    assert page.parts["name"][row] == "sight glass"
+    assert page.parts["source"][row] == "human"
     assert "sight glass" in page.text("review-last").lower()
     answer(page, "s")
     answer(page, "u")
@@ -117,7 +80,7 @@ def test_the_queue_needs_no_mouse(page, server):
         until(lambda asked=asked: question(page) != asked, f"the answer before, {left} left")
     assert question(page) == start
     until(lambda: corrected(page) == 0, "nothing corrected")
-    assert page.content["parts"]["name"][row] != "sight glass"
+    assert page.parts["name"][row] != "sight glass"
     # By Tab alone to an answer, and pressed as any button is.
     page.leave_fields()
     reached = "() => document.activeElement.dataset.test"
@@ -133,7 +96,7 @@ def test_the_queue_needs_no_mouse(page, server):
 
 def repeated(page):
     """A part that has repeats and is well seen, and how many they are."""
-    parts = page.content["parts"]
+    parts = page.parts
     shape, size = np.array(parts["shape"]), np.array(parts["size"]).reshape(-1, 3).prod(axis=1)
     counts = np.bincount(shape)[shape]
     rows = np.flatnonzero((counts >= 3) & ~np.array(parts["ground"]))
@@ -149,11 +112,11 @@ def test_a_wrong_label_is_right_with_its_repeats_after_three_clicks(page, server
     page.page.mouse.click(*at)
     page.press("t", "n")
     chosen = until(lambda: page.shown("selection"), "a selected part")
-    parts = page.content["parts"]
+    parts = page.parts
     assert parts["shape"][chosen[0]] == parts["shape"][row]
     page.by("guess").nth(1).click()
     state = until(lambda: corrected(page) == 1 and settled(page, server), "a correction, by two clicks")
-    now = page.content["parts"]
+    now = page.parts
     same = [i for i, shape in enumerate(now["shape"]) if shape == now["shape"][row]]
     assert len(same) == alike
     assert {now["source"][i] for i in same} <= {"human", "repeat"}
@@ -165,7 +128,7 @@ def test_a_wrong_label_is_right_with_its_repeats_after_three_clicks(page, server
 
 
 def test_tags_units_and_directions_are_put_right_in_the_inspector(page, server):
-    wanted = units(page)
+    wanted = page.units
     page.js("id => cadgraph.store.selectPlace(id)", wanted["V-003"]["id"])
     page.by("edit-tag").click()
     page.by("tag-input").fill("V-004")
@@ -176,7 +139,7 @@ def test_tags_units_and_directions_are_put_right_in_the_inspector(page, server):
     page.by("tag-input").fill("PSV 4711/a")
     page.press("Enter")
     until(lambda: page.text("unit-tag") == "PSV 4711/a", "the new tag")
-    assert units(page)["PSV 4711/a"]["parts"] == wanted["V-003"]["parts"]
+    assert page.units["PSV 4711/a"]["parts"] == wanted["V-003"]["parts"]
     page.leave_fields()
     # Two units are one: from the inspector of the first one, by a click on the second one.
     page.page.locator("details", has_text="More corrections").locator("summary").click()
@@ -184,7 +147,7 @@ def test_tags_units_and_directions_are_put_right_in_the_inspector(page, server):
     assert page.by("pick-hint").is_visible()
     page.js("id => cadgraph.store.selectPlace(id)", wanted["V-001"]["id"])
     both = sorted([*wanted["V-003"]["parts"], *wanted["V-001"]["parts"]])
-    until(lambda: any(sorted(unit["parts"]) == both for unit in units(page).values()), "one unit of both")
+    until(lambda: any(sorted(unit["parts"]) == both for unit in page.units.values()), "one unit of both")
     assert not page.by("pick-hint").is_visible()
     # The way that a line flows.
     row = page.js("() => cadgraph.store.content.network.lines.findIndex(line => line.flow === 'forward')")
@@ -207,11 +170,11 @@ def put(page, row):
     """Selects a part and clicks another label for it, the second one that is offered; which."""
     page.js("row => cadgraph.store.select([row])", row)
     page.by("guess").nth(1).click()
-    return page.content["parts"]["guesses"][row][1][1]
+    return page.parts["guesses"][row][1][1]
 
 
 def test_of_two_windows_the_slower_one_is_told_and_both_corrections_stay(page, server, window):
-    parts = page.content["parts"]
+    parts = page.parts
     offered = {parts["shape"][row]: row for row, guesses in enumerate(parts["guesses"]) if len(guesses) > 1}
     first, second, third = list(offered.values())[:3]
     with window(server.address) as other:
@@ -232,18 +195,18 @@ def test_of_two_windows_the_slower_one_is_told_and_both_corrections_stay(page, s
         until(lambda: "Another window was quicker" in other.text("toasts"), "the slower one is told")
         until(lambda: labels(other) == labels(page), "it shows what the first one did")
         assert settled(other, server)["n_edits"] == 2
-        assert other.content["parts"]["name"][second] != name
+        assert other.parts["name"][second] != name
         other.page.locator("[data-test=toast] button", has_text="Do mine as well").click()
         until(lambda: corrected(other) == 3, "its own as well")
         until(lambda: labels(page) == labels(other), "in both windows")
-        assert page.content["parts"]["name"][second] == name
+        assert page.parts["name"][second] == name
         assert [trouble for trouble in other.troubles if "409" not in trouble] == []
 
 
 def test_what_could_not_be_sent_is_not_shown_as_corrected(page):
     begun = page.version
     page.context.set_offline(True)
-    page.js("all => cadgraph.store.select([all.findIndex(one => one.length > 1)])", page.content["parts"]["guesses"])
+    page.js("all => cadgraph.store.select([all.findIndex(one => one.length > 1)])", page.parts["guesses"])
     page.by("guess").nth(1).click()
     until(lambda: "does not answer" in page.text("toasts"), "the page says so")
     assert page.version == begun
@@ -252,3 +215,43 @@ def test_what_could_not_be_sent_is_not_shown_as_corrected(page):
     until(lambda: page.version > begun, "corrected now")
     assert all("DISCONNECTED" in trouble for trouble in page.troubles)
     page.troubles.clear()
+
+
+def test_twenty_answers_by_keys_are_kept_undone_redone_and_there_after_a_reload(page, server, folder):
+    first, begun, past = labels(page), page.version, len(events_in(folder))
+    page.press("r")
+    page.until("() => cadgraph.store.shown.question")
+    assert page.shown("leftTab") == "review"
+    for turn in range(MANY):
+        answer(page, "1" if turn % 3 else "2")
+    # The page goes on at once; the server answers one after the other.
+    until(lambda: page.version == begun + MANY, "all twenty confirmed")
+    n_edits = settled(page, server)["n_edits"]
+    assert n_edits >= MANY
+    until(lambda: page.text("edit-count").startswith(f"{n_edits} corrections"), "the count in the bar")
+    after = labels(page)
+    assert sum(one != other for one, other in zip(first[2], after[2], strict=True)) >= MANY
+    assert len(events_in(folder)) == past + MANY
+    audit = server.ask("/api/audit")[1]
+    assert {row["who"] for row in audit} == {"Ada"}
+    page.by("tab-history").click()
+    until(lambda: page.by("audit").count() == len(audit), "the list of what was corrected")
+    undone = page.page.locator(".audit li.undone")
+    already = undone.count()
+    page.leave_fields()
+    for _ in range(MANY):
+        before = page.version
+        page.press("Control+z")
+        until(lambda before=before: page.version > before, "undone")
+    assert labels(page) == first
+    assert not settled(page, server)["can_undo"]
+    until(lambda: undone.count() == already + MANY, "marks of what was undone")
+    for _ in range(MANY):
+        before = page.version
+        page.press("Control+y")
+        until(lambda before=before: page.version > before, "done again")
+    assert labels(page) == after
+    page.page.reload()
+    page.ready()
+    assert labels(page) == after
+    assert page.text("edit-count").startswith(f"{n_edits} corrections")

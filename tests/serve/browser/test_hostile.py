@@ -55,6 +55,13 @@ def hostile(tmp_path_factory):
     return scene, place / "out"
 
 
+@pytest.fixture(scope="module")
+def hostile_server(hostile):
+    with serving.served(hostile[1], "--who", NAMES[0]) as server:
+        server.wait_until_ready()
+        yield server
+
+
 def look_everywhere(page):
     """Has everything shown that tells a name."""
     for tab in ("find", "network", "warnings", "history", "review"):
@@ -83,35 +90,30 @@ def check(page):
     assert page.page.url.split("#")[0] == page.address
 
 
-def test_names_from_the_file_and_from_people_are_text(window, hostile):
-    scene, folder = hostile
-    with serving.served(folder, "--who", NAMES[0]) as server:
-        state = server.wait_until_ready()
-        assert state["title"] == scene.name
-        content = server.ask("/api/content")[1]
-        assert any(NAMES[0] in value for facts in content["parts"]["facts"] for _, value in facts)
-        unit = content["network"]["units"][0]["id"]
-        tag = {"kind": "tag", "unit": unit, "tag": NAMES[0]}
-        status, told = server.ask("/api/edit", {"version": state["version"], "edits": [tag], "why": NAMES[1]})
-        assert status == 200, told
-        with window(server.address) as page:
-            page.ready()
-            look_everywhere(page)
-            assert page.text("title") == scene.name
-            assert NAMES[0] in [unit["tag"] for unit in page.content["network"]["units"]]
-            page.js(
-                "tag => cadgraph.store.selectPlace(cadgraph.store.content.network.units.find(u => u.tag === tag).id)",
-                NAMES[0],
-            )
-            until(lambda: page.text("unit-tag") == NAMES[0], "the tag as it is")
-            page.by("tab-history").click()
-            until(
-                lambda: NAMES[1] in page.text("audit") and NAMES[0] in page.text("audit"),
-                "reason and person as they are",
-            )
-            page.press("?")
-            check(page)
-            assert page.troubles == []
+def test_names_from_the_file_and_from_people_are_text(window, hostile, hostile_server):
+    title = hostile[0].name
+    content = hostile_server.ask("/api/content")[1]
+    assert content["title"] == title
+    assert any(NAMES[0] in value for facts in content["parts"]["facts"] for _, value in facts)
+    tag = {"kind": "tag", "unit": content["network"]["units"][0]["id"], "tag": NAMES[0]}
+    body = {"version": content["version"], "edits": [tag], "why": NAMES[1]}
+    assert hostile_server.ask("/api/edit", body)[0] == 200
+    with window(hostile_server.address) as page:
+        page.ready()
+        look_everywhere(page)
+        assert page.text("title") == title
+        page.js(
+            "tag => cadgraph.store.selectPlace(cadgraph.store.content.network.units.find(u => u.tag === tag).id)",
+            tag["tag"],
+        )
+        until(lambda: page.text("unit-tag") == NAMES[0], "the tag as it is")
+        page.by("tab-history").click()
+        until(
+            lambda: NAMES[1] in page.text("audit") and NAMES[0] in page.text("audit"), "reason and person as they are"
+        )
+        page.press("?")
+        check(page)
+        assert page.troubles == []
 
 
 def poisoned(content):
@@ -143,9 +145,8 @@ DRAWING = f"""<svg xmlns="http://www.w3.org/2000/svg" width="300" height="200" o
 <use href="http://example.com/x.svg#a"/><animate attributeName="href" to="javascript:{STRIKE}"/></svg>"""
 
 
-def test_the_page_itself_takes_no_text_for_markup(window, hostile):
+def test_the_page_itself_takes_no_text_for_markup(window, hostile_server):
     """Also where a server or a file said it: the page doesn't rely on what others made plain."""
-    _, folder = hostile
 
     def poison(context):
         def content(route):
@@ -154,7 +155,7 @@ def test_the_page_itself_takes_no_text_for_markup(window, hostile):
         context.route("**/api/content", content)
         context.route("**/api/schematic", lambda route: route.fulfill(body=DRAWING, content_type="image/svg+xml"))
 
-    with serving.served(folder) as server, window(server.address, poison) as page:
+    with window(hostile_server.address, poison) as page:
         page.ready()
         look_everywhere(page)
         drawn = page.page.locator('[data-test="schematic"] [data-id="unit-G-001"]')
@@ -173,7 +174,7 @@ def test_the_page_itself_takes_no_text_for_markup(window, hostile):
         assert [
             page.js(drawing, name) for name in ("script", "style", "image", "foreignObject", "a", "use", "animate")
         ] == [0] * 7
-        assert {url.split("/")[2] for url in page.requests if url.startswith("http")} == {server.host}
+        assert {url.split("/")[2] for url in page.requests if url.startswith("http")} == {hostile_server.host}
 
 
 def test_the_page_in_one_file_holds_them_as_text_too(window, hostile, tmp_path):

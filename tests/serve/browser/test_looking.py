@@ -36,18 +36,14 @@ def apart(first, second):
     return abs((first - second + 180) % 360 - 180)
 
 
-def units(page):
-    return {unit["tag"]: unit for unit in page.content["network"]["units"]}
-
-
 def largest(page, rows):
     """The part that takes the most room."""
-    size = np.array(page.content["parts"]["size"]).reshape(-1, 3)
+    size = np.array(page.parts["size"]).reshape(-1, 3)
     return max(rows, key=lambda row: size[row].prod())
 
 
 def select_unit(page, tag):
-    page.js("id => cadgraph.store.selectPlace(id)", units(page)[tag]["id"])
+    page.js("id => cadgraph.store.selectPlace(id)", page.units[tag]["id"])
 
 
 def test_the_plant_is_seen_and_the_page_loads_nothing_but_its_own_files(page, server):
@@ -67,7 +63,7 @@ def test_a_click_selects_the_part_that_is_there_and_a_second_one_its_unit(page):
     page.press("t", "n")  # tags and lines would be in the way
     try:
         for tag in ("T-001", "T-002", "P-001"):
-            unit = units(page)[tag]
+            unit = page.units[tag]
             row = largest(page, unit["parts"])
             at = page.look_at(row)
             assert page.js("([x, y]) => document.elementFromPoint(x, y).dataset.test", list(at)) == "canvas"
@@ -88,7 +84,7 @@ def test_a_click_selects_the_part_that_is_there_and_a_second_one_its_unit(page):
 
 def test_colours_follow_the_choice_and_the_legend_says_what_they_mean(page):
     content = page.content
-    row = largest(page, units(page)["T-001"]["parts"])
+    row = largest(page, page.units["T-001"]["parts"])
     at = page.look_at(row)
     group = content["groups"][content["parts"]["group"][row]]
     hue, saturation = hue_at(page, at)
@@ -106,7 +102,7 @@ def test_colours_follow_the_choice_and_the_legend_says_what_they_mean(page):
 
 
 def test_what_is_hidden_or_not_isolated_is_neither_drawn_nor_picked(page):
-    row = largest(page, units(page)["T-001"]["parts"])
+    row = largest(page, page.units["T-001"]["parts"])
     at = page.look_at(row)
     box = page.box("canvas")
     inside = [at[0] - box["x"], at[1] - box["y"]]
@@ -123,7 +119,7 @@ def test_what_is_hidden_or_not_isolated_is_neither_drawn_nor_picked(page):
     page.has("hidden", [])
     page.drawn()
     assert page.js(picked, inside) == row
-    other = largest(page, units(page)["T-002"]["parts"])
+    other = largest(page, page.units["T-002"]["parts"])
     page.js("row => cadgraph.store.select([row])", other)
     page.press("i", "g")
     page.has("isolated", [other])
@@ -138,25 +134,25 @@ def test_schematic_and_plant_select_each_other(page):
     symbol = page.page.locator('[data-test="schematic"] svg.schematic [data-id]')
     until(symbol.count, "a schematic")
     places = {unit["id"]: unit for unit in page.content["network"]["units"]}
-    unit = units(page)["V-003"]
+    unit = page.units["V-003"]
     page.page.locator(f'[data-test="schematic"] svg.schematic [data-id="{unit["id"]}"]').first.click(force=True)
     page.has("place", unit["id"])
     assert page.text("unit-tag") == "V-003"
     tag = page.page.locator(f'[data-test="net-place"][data-id="{unit["id"]}"].is-selected')
     until(tag.count, "its tag over the plant, marked")
-    row = largest(page, units(page)["T-002"]["parts"])
+    row = largest(page, page.units["T-002"]["parts"])
     at = page.look_at(row)
     page.js("row => cadgraph.store.select([row])", row)
     page.press("t")
     page.page.mouse.click(*at)
     page.press("t")
-    page.has("place", units(page)["T-002"]["id"])
+    page.has("place", page.units["T-002"]["id"])
     page.until(
         """() => [...document.querySelectorAll('svg.schematic .is-selected[data-id]')]
           .some(e => e.dataset.id === cadgraph.store.shown.place)"""
     )
     lit = page.js("() => [...document.querySelectorAll('svg.schematic .is-selected[data-id]')].map(e => e.dataset.id)")
-    assert {place for place in lit if place in places} == {units(page)["T-002"]["id"]}
+    assert {place for place in lit if place in places} == {page.units["T-002"]["id"]}
 
 
 def test_valves_to_close_and_the_way_of_the_flow_are_marked_in_both_views(page, server):
@@ -202,7 +198,7 @@ def test_a_link_and_the_address_bring_the_same_view_back(page, server):
     page.js("() => document.querySelector('[data-test=canvas]').focus()")
     page.press("ArrowLeft", "ArrowLeft", "ArrowUp", "+")
     page.by("color-by").select_option("unit")
-    page.js("rows => cadgraph.store.set({ hidden: new Set(rows) })", units(page)["T-001"]["parts"])
+    page.js("rows => cadgraph.store.set({ hidden: new Set(rows) })", page.units["T-001"]["parts"])
     wanted = view_of(page)
     page.leave_fields()
     page.press("k")
@@ -270,6 +266,6 @@ def test_search_finds_a_tag_by_keys_alone(page):
     page.page.keyboard.type("V-011")
     until(page.by("found").count, "something found")
     page.press("Enter")
-    page.has("place", units(page)["V-011"]["id"])
+    page.has("place", page.units["V-011"]["id"])
     saved = json.dumps(page.shown("selection"))
-    assert saved == json.dumps(units(page)["V-011"]["parts"])
+    assert saved == json.dumps(page.units["V-011"]["parts"])
