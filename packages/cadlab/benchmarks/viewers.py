@@ -234,11 +234,19 @@ def measure(viewer: Open, shot: Path | None) -> list[str]:
 
 def _pictures(page: Any, start: float) -> tuple[float | None, float | None]:
     """Seconds until something of the plant is there, and until the picture stays as it is."""
+    from playwright.sync_api import Error
+
     first: float | None = None
     before: Any = None
     changed = start
     while time.perf_counter() - start < PATIENCE:
-        now = np.asarray(Image.open(BytesIO(page.screenshot(clip=MIDDLE))).convert("L"), np.int16)
+        try:
+            shot = page.screenshot(clip=MIDDLE)
+        except Error:
+            # A page that computes for long answers nobody.
+            time.sleep(0.5)
+            continue
+        now = np.asarray(Image.open(BytesIO(shot)).convert("L"), np.int16)
         at = time.perf_counter()
         if first is None and _shows_plant(now):
             first = at - start
