@@ -5,7 +5,6 @@ import shutil
 import time
 from contextlib import contextmanager
 from io import BytesIO
-from pathlib import Path
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "microsoft-edge")
 FLAGS = (
@@ -188,12 +187,3 @@ class Viewer:
 
     def close(self):
         self.page.close()
-
-
-def screenshot_to(viewer, path, quality=82):
-    """Saves what is seen as a JPEG or PNG, by the suffix of the path."""
-    path = Path(path)
-    if path.suffix == ".jpg":
-        viewer.page.screenshot(path=path, type="jpeg", quality=quality, timeout=60_000)
-    else:
-        viewer.page.screenshot(path=path, timeout=60_000)

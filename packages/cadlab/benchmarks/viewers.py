@@ -91,6 +91,8 @@ def cadgraph_view(work: Path) -> Iterator[Open]:
     assert process.stdout is not None
     try:
         address = next(found[0] for line in process.stdout if (found := re.search(r"http://127\S+", line)))
+        # As the others, which have read their plant before they are looked at.
+        next(line for line in process.stdout if line.startswith("ready"))
         threading.Thread(target=process.stdout.read, daemon=True).start()
         yield Open(
             address,

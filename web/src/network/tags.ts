@@ -119,7 +119,7 @@ export class TagLayer {
 
   private hasMoved(): boolean {
     const { matrixWorld, projectionMatrix } = this.view.camera;
-    const now = [...matrixWorld.elements, ...projectionMatrix.elements];
+    const now = [...matrixWorld.elements, ...projectionMatrix.elements, this.view.depthTurn];
     const moved = now.some((value, i) => value !== this.seenFrom[i]);
     if (moved) this.seenFrom = now;
     return moved;

@@ -20,6 +20,8 @@ export class DepthCopy {
   private readonly scene = new Scene();
   private readonly flat = new OrthographicCamera(-1, 1, 1, -1, 0, 1);
   private busy = false;
+  /** Grows with each copy that has arrived. */
+  turn = 0;
 
   constructor() {
     const screen = new Mesh(new PlaneGeometry(2, 2), this.material);
@@ -27,9 +29,9 @@ export class DepthCopy {
     this.scene.add(screen);
   }
 
-  /** Begins to copy the depth of the last picture; calls back when it is there. */
-  copy(pipeline: Pipeline, camera: AnyCamera, done: () => void): void {
-    if (this.busy) return;
+  /** Begins to copy the depth of the last picture; calls back when it is there. False while an earlier copy is on its way. */
+  copy(pipeline: Pipeline, camera: AnyCamera, done: () => void): boolean {
+    if (this.busy) return false;
     this.busy = true;
     const height = Math.max(1, Math.round((WIDTH * pipeline.renderer.domElement.height) / pipeline.renderer.domElement.width));
     if (height !== this.height) {
@@ -52,10 +54,12 @@ export class DepthCopy {
         this.toClip.copy(toClip);
         this.fromClip.copy(toClip).invert();
         this.busy = false;
+        this.turn++;
         done();
       },
       () => (this.busy = false),
     );
+    return true;
   }
 
   /** Whether something lies well before a point, in the picture that was copied last. */

@@ -38,6 +38,7 @@ export class PlantView implements SceneView {
   private readonly loader: Loader;
   private readonly trees: Trees;
   private readonly depth = new DepthCopy();
+  private depthIsOld = false;
   private readonly pace: Pace;
   private readonly listeners = new Set<() => void>();
   private readonly canvas: HTMLCanvasElement;
@@ -152,6 +153,10 @@ export class PlantView implements SceneView {
 
   isHidden(point: Point): boolean {
     return this.depth.isBefore(point[0], point[1], point[2]);
+  }
+
+  get depthTurn(): number {
+    return this.depth.turn;
   }
 
   // Moving
@@ -388,9 +393,11 @@ export class PlantView implements SceneView {
     }
     if (this.sample === 0) culling.look(this.camera, height, look.visible, 0.7, Infinity);
     this.pipeline.draw(this.camera, { scale: 1, sample: this.sample, occlusion: true, ghosts: look.hasGhosts });
-    if (this.sample === 0) this.depth.copy(this.pipeline, this.camera, () => this.invalidate());
+    if (this.sample === 0) this.depthIsOld = true;
+    if (this.depthIsOld) this.depthIsOld = !this.depth.copy(this.pipeline, this.camera, () => this.invalidate());
     this.sample++;
-    this.finished = this.sample >= pace.samples;
+    // A copy of an earlier picture may still be on its way: what is hidden in this one must be known, too.
+    this.finished = this.sample >= pace.samples && !this.depthIsOld;
   }
 
   dispose(): void {

@@ -23,6 +23,8 @@ export interface SceneView {
   project(point: Point): { x: number; y: number; depth: number } | null;
   /** Whether something of the plant is between the eye and a point. */
   isHidden(point: Point): boolean;
+  /** Another number each time that `isHidden` may answer otherwise. */
+  readonly depthTurn: number;
   /** Moves so that these parts fill the view. */
   flyTo(parts: readonly number[]): void;
   home(): void;
