@@ -3,6 +3,9 @@
 import re
 import shlex
 import shutil
+import signal
+import subprocess
+import sys
 from contextlib import redirect_stdout
 from dataclasses import dataclass
 from io import StringIO
@@ -65,6 +68,8 @@ def run(command):
     line, _, file = command.partition(" > ")
     words = shlex.split(line)
     assert words[0] == "cadgraph", f"what does {command!r} need to be tried?"
+    if words[1] == "view":
+        return view(words[2:])
     said = StringIO()
     with redirect_stdout(said), pytest.raises(SystemExit) as end:
         main([*words[1:], *SHORTENED.get(words[1], ())])
@@ -72,6 +77,22 @@ def run(command):
     if file:
         Path(file).write_text(said.getvalue())
     return said.getvalue()
+
+
+def view(words):
+    """What the viewer says until it is ready; it serves until it is stopped."""
+    line = [sys.executable, "-m", "cadgraph", "view", *words, "--no-browser"]
+    with subprocess.Popen(line, stdout=subprocess.PIPE, text=True) as server:
+        said = []
+        for text in server.stdout:
+            said.append(text)
+            if text.startswith("ready"):
+                break
+        server.send_signal(signal.SIGINT)
+        said.append(server.stdout.read())
+    assert server.returncode == 0, "".join(said)
+    assert said[0].startswith("http://127.0.0.1:")
+    return "".join(said)
 
 
 def run_all(chosen):
