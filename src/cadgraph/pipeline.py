@@ -9,7 +9,7 @@ import numpy as np
 
 from cadgraph._io.progress import Progress, quiet
 from cadgraph.config import Config
-from cadgraph.facts.statements import Statements, places_of
+from cadgraph.facts.statements import places_of, statements_of
 from cadgraph.facts.words import read_words
 from cadgraph.geometry.mesh.properties import measure
 from cadgraph.labelers.base import Labeler, label_parts
@@ -238,7 +238,9 @@ def interpret(
     # What is rather wrong than right counts by its probabilities, beside those of the other names.
     weak = [label is not None and label.likely and label.confidence < _WEAK for label in labels.labels]
     firm, opinions = _without(labels.labels, weak), _without(labels.opinions, weak)
-    statements = Statements(analysis, read_words(config.label.words), vocabulary) if config.label.use_metadata else None
+    statements = (
+        statements_of(analysis, read_words(config.label.words), vocabulary) if config.label.use_metadata else None
+    )
     placed = place_edits(edits, anchored_parts(analysis.scene, parts))
     given = RelateInput(analysis, firm, opinions, vocabulary, config, labels.probabilities, statements, placed)
     connected = connect_units(given)

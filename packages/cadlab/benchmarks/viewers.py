@@ -17,7 +17,6 @@ import http.server
 import importlib.util
 import os
 import re
-import shutil
 import signal
 import socket
 import subprocess
@@ -36,10 +35,13 @@ from _timing import machine
 from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "tests"))
+
+from browsing import MISSING, browsing, find_browser  # noqa: E402
+
 BENCH = ROOT / "web" / "bench"
 SIZE = (1280, 720)
 MIDDLE = {"x": 390, "y": 130, "width": 500, "height": 400}  # px; where every viewer shows the plant
-FLAGS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"]
 TURNING = 6.0  # s
 PATIENCE = 180.0  # s
 PICK_OURS = """(p) => { const start = performance.now(); const hit = cadgraph.view.pick(p.x, p.y);
@@ -161,6 +163,8 @@ def main() -> None:
     parser.add_argument("--only", action="append", choices=VIEWERS, help="only this viewer; may be repeated")
     parser.add_argument("--shots", type=Path, help="folder for a screenshot of each")
     given = parser.parse_args()
+    if find_browser() is None:
+        raise SystemExit(MISSING)
     with tempfile.TemporaryDirectory() as folder:
         work = Path(folder)
         make_plant(work, given.preset)
@@ -206,10 +210,7 @@ def make_plant(work: Path, preset: str) -> None:
 
 def measure(viewer: Open, shot: Path | None) -> list[str]:
     """The columns of one viewer."""
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=_chromium(), args=FLAGS)
+    with browsing() as browser:
         page = browser.new_page(viewport={"width": SIZE[0], "height": SIZE[1]})
         page.set_default_timeout(PATIENCE * 1000)
         page.add_init_script(COUNTER)
@@ -223,7 +224,6 @@ def measure(viewer: Open, shot: Path | None) -> list[str]:
         pick = _pick(page, viewer.pick)
         ours = _memory([p for p in _children(os.getpid()) if p not in _below(viewer.servers)])
         servers = _memory(_below(viewer.servers))
-        browser.close()
     return [
         _seconds(first),
         _seconds(last),
@@ -291,15 +291,6 @@ def _pick(page: Any, script: str | None) -> str:
 
 def _seconds(value: float | None) -> str:
     return f"over {PATIENCE:.0f}" if value is None else f"{value:.1f}"
-
-
-def _chromium() -> str:
-    found = next(
-        (path for name in ("chromium", "chromium-browser", "google-chrome") if (path := shutil.which(name))), None
-    )
-    if found is None:
-        raise SystemExit("no Chromium here: install the system's (apt-get install chromium)")
-    return found
 
 
 def _children(process: int) -> list[int]:

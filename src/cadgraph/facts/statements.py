@@ -16,7 +16,7 @@ from cadgraph.model.facts import Fact
 from cadgraph.model.names import loose_tag
 from cadgraph.model.vocabulary import Vocabulary
 
-__all__ = ["Statements", "UnitStatement", "places_of", "usable_tag"]
+__all__ = ["Statements", "UnitStatement", "places_of", "statements_of", "usable_tag"]
 
 _MOST = 0.5  # share of a unit's meshes from which on what is said of a node is said of the unit
 _TAG = re.compile(r"[A-Za-z0-9](?:[A-Za-z0-9._+-]{0,38}[A-Za-z0-9])?")
@@ -59,7 +59,9 @@ class Statements:
     """
 
     def __init__(self, analysis: Analysis, words: Words, vocabulary: Vocabulary) -> None:
-        self._analysis, self._words, self._vocabulary = analysis, words, vocabulary
+        # Not the analysis itself: statements are kept as long as that lives.
+        self._paths, self._meshes = analysis.scene.paths, analysis.parts.meshes
+        self._words, self._vocabulary = words, vocabulary
         self._places = places_of(analysis)
 
     @cached_property
@@ -71,15 +73,14 @@ class Statements:
     def unheld(self) -> dict[tuple[str, str | None], tuple[str, ...]]:
         """The labels that claims speak for and the vocabulary lacks, with the largest meshes of their parts."""
         found: dict[tuple[str, str | None], list[str]] = {}
-        paths, meshes = self._analysis.scene.paths, self._analysis.parts.meshes
         for part, claims in enumerate(self._all):
             for said in sorted({c.said for c in claims if not self._holds(c)}, key=str):
-                found.setdefault(said, []).append(paths[meshes[part][0]])
+                found.setdefault(said, []).append(self._paths[self._meshes[part][0]])
         return {said: tuple(found[said]) for said in sorted(found, key=str)}
 
     @cached_property
     def _all(self) -> list[list[Claim]]:
-        return [self._claims_of_part(part) for part in range(self._analysis.parts.n_parts)]
+        return [self._claims_of_part(part) for part in range(len(self._meshes))]
 
     def _claims_of_part(self, part: int) -> list[Claim]:
         found: list[Claim] = []
@@ -114,6 +115,18 @@ class Statements:
             tuple(claim for claim in self._claims([*whole, *named]) if self._holds(claim)),
             tuple(claim for part in parts for claim in self.of_parts[part]),
         )
+
+
+@kept_with
+def statements_of(analysis: Analysis, words: Words, vocabulary: Vocabulary) -> Statements:
+    """What a file says of the parts of a scene, worked out once for labels and relations, and for all corrections.
+
+    Args:
+        analysis: of the scene.
+        words: what words mean.
+        vocabulary: the labels in use.
+    """
+    return Statements(analysis, words, vocabulary)
 
 
 def usable_tag(value: str) -> str | None:

@@ -11,7 +11,7 @@ import numpy as np
 
 from cadgraph.config import LabelConfig
 from cadgraph.facts.rules import Claim
-from cadgraph.facts.statements import Statements
+from cadgraph.facts.statements import Statements, statements_of
 from cadgraph.facts.words import read_words
 from cadgraph.labelers.base import Labeling
 from cadgraph.labelers.beliefs import LabelBeliefs, shared_weight
@@ -55,7 +55,7 @@ def lay_file(labeling: Labeling, analysis: Analysis, vocabulary: Vocabulary, con
     """
     if not config.use_metadata:
         return labeling
-    statements = Statements(analysis, read_words(config.words), vocabulary)
+    statements = statements_of(analysis, read_words(config.words), vocabulary)
     parts, answers = analysis.parts, list(labeling.answers)
     beliefs = LabelBeliefs(vocabulary, labeling, parts.n_parts)
     told: dict[int, Claim] = {}

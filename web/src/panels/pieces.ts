@@ -1,13 +1,11 @@
 // Pieces that several parts of the inspector are made of.
 
+import { LIKELY } from "../network/warnings.ts";
 import type { Content, Joint } from "../types.ts";
 import { el, put } from "../dom.ts";
 import { bar, icon, swatch } from "./widgets.ts";
 import type { Page } from "./page.ts";
 import { count, labelOf, length, partTitle, percent } from "./words.ts";
-
-/** Joints below this likelihood that were not made are no news: one in ten of such turns out to be one. */
-export const LIKELY = 0.1;
 
 /** A table of "what: value" lines; lines without a value are left out. */
 export function lines(rows: [string, (Node | string | null)?][]): HTMLElement {
