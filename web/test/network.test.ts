@@ -1,6 +1,5 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { doubtsOf } from "../src/network/asking.ts";
 import { fitted, showing, zoomed } from "../src/network/camera2d.ts";
 import { arrowsAlong, piecesOf, pointAt, wayOf } from "../src/network/path.ts";
 import { leaderEnd, placeLabels, type Placed, type Wish } from "../src/network/placement.ts";
@@ -131,21 +130,6 @@ test("tags in a text can be clicked, parts of other words can't", () => {
     { text: "V-001", place: "u1" }, { text: "V-4711/A", place: "u2" },
   ]);
   assert.deepEqual(pieces("V-0012 and XV-001", plan).filter((p) => p.place), []);
-});
-
-test("a trace is not certain where it halts; ends that are closed and what was followed are no halts", () => {
-  const made = content();
-  made.network.connections.push(connection("u1", "e", [], "unknown"));
-  made.network.connections[2].line = 1;
-  made.network.lines.push({ ...made.network.lines[0], tag: "L-2", flow: "none" });
-  const plan = planOf(made);
-  const query = { kind: "trace" as const, at: "u1", direction: "downstream" as const, to: null };
-  const result = { title: "", lines: [], places: ["u2"], connections: [0], doubts: [] };
-  const doubts = doubtsOf(plan, { query, result });
-  assert.deepEqual(doubts.map(({ text }) => text), ["the way halts at V-4711/A: the direction of flow towards e is unknown (L-1)"]);
-  assert.deepEqual(doubts[0].parts, [4]);
-  assert.deepEqual(doubtsOf(plan, { query, result: { ...result, places: ["u2", "e"] } }), []);
-  assert.deepEqual(doubtsOf(plan, { query: { ...query, kind: "isolate" }, result }), []);
 });
 
 const GREY: Palette = {

@@ -185,7 +185,10 @@ def trace_values(found: Trace) -> dict[str, Any]:
             }
             for step in found.steps
         ],
-        "halts": [{**dataclasses.asdict(halt), "distance": round(halt.distance, 6)} for halt in found.halts],
+        "halts": [
+            {"after": halt.after, "towards": halt.towards, "line": halt.line, "distance": round(halt.distance, 6)}
+            for halt in found.halts
+        ],
         "returns": [dataclasses.asdict(back) for back in found.returns],
         "doubts": [_doubt_values(doubt) for doubt in found.doubts],
     }

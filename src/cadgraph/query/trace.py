@@ -57,12 +57,16 @@ class Halt:
         towards: tag of the node that would be next.
         line: tag of the line that leads there.
         distance: of the halt from the start [m].
+        place: id of the node where the way halts.
+        connection: number of the graph's connection that was not followed.
     """
 
     after: str
     towards: str
     line: str | None
     distance: float
+    place: str
+    connection: int
 
 
 @dataclass(frozen=True)
@@ -137,7 +141,14 @@ def trace(
     for place in order:
         arcs = arcs_to[place]
         met = [
-            Halt(network.name(place), network.name(arc.end), line_of.get(arc.index), distances[place])
+            Halt(
+                after=network.name(place),
+                towards=network.name(arc.end),
+                line=line_of.get(arc.index),
+                distance=distances[place],
+                place=place,
+                connection=arc.index,
+            )
             for arc in network.arcs(place)
             if not follows(arc) and _is_doubtful(network, arc, arcs)
         ]

@@ -86,7 +86,7 @@ class Snapshot:
         return {
             "places": [step.place for step in found.steps],
             "connections": list(found.connections),
-            "doubts": self._doubts(found.doubts),
+            "doubts": [*self._doubts(found.doubts), *self._halts(found)],
         }
 
     def isolate(self, at: str) -> dict[str, Any]:
@@ -112,6 +112,16 @@ class Snapshot:
             {"text": f"not closed by any valve: {one.name} ({one.what}): {one.why}", "parts": [], "place": one.place}
             for one in found.openings
         ]
+
+    def _halts(self, found: Trace) -> list[dict[str, Any]]:
+        """Where a trace goes no further, as nobody knows which way it flows: to be gone to like a doubt."""
+        told = []
+        for halt in found.halts:
+            parts = [self.row_of[part] for part in self.network.edges[halt.connection].via]
+            line = f" ({halt.line})" if halt.line else ""
+            text = f"the way halts at {halt.after}: the direction of flow towards {halt.towards} is unknown{line}"
+            told.append({"text": text, "parts": parts, "place": None if parts else halt.place})
+        return told
 
     def _doubts(self, doubts: Sequence[Doubt]) -> list[dict[str, Any]]:
         return [

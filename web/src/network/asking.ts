@@ -3,8 +3,8 @@
 import { Refused, type Source } from "../api.ts";
 import type { Panels } from "../panels/panels.ts";
 import type { Marks, Store } from "../store.ts";
-import type { Doubt, Isolated, Traced } from "../types.ts";
-import { otherSide, partsOf, type Plan } from "./plan.ts";
+import type { Isolated, Traced } from "../types.ts";
+import { partsOf, type Plan } from "./plan.ts";
 
 export type Direction = "upstream" | "downstream";
 
@@ -180,30 +180,6 @@ export class Asking {
 /** The valves to be closed; none for a trace. */
 export function closeOf(result: Traced | Isolated): string[] {
   return "close" in result ? result.close : [];
-}
-
-/**
- * What is not certain of an answer: the server's doubts, and for a trace where it halts, as nobody knows which way the flow
- * goes on. What leads to a closed end alone is no halt.
- */
-export function doubtsOf(plan: Plan, { query, result }: Pick<Answer, "query" | "result">): Doubt[] {
-  if (query.kind === "isolate" || query.to !== null) return result.doubts;
-  const { connections, lines } = plan.content.network;
-  const reached = new Set([query.at, ...result.places]);
-  const followed = new Set(result.connections);
-  const halts: Doubt[] = [];
-  for (const id of reached) {
-    for (const row of plan.places.get(id)?.connections ?? []) {
-      const connection = connections[row];
-      const other = otherSide(connection, id);
-      const line = lines[connection.line];
-      if (connection.flow !== "unknown" || followed.has(row) || reached.has(other.id) || line?.flow === "none") continue;
-      const name = plan.places.get(id)!.name;
-      const text = `the way halts at ${name}: the direction of flow towards ${other.name} is unknown${line ? ` (${line.tag})` : ""}`;
-      halts.push({ text, parts: connection.via, place: connection.via.length ? null : id });
-    }
-  }
-  return [...result.doubts, ...halts];
 }
 
 /** Whether an isolation is certain: it says so, and leaves nothing open. */

@@ -2,7 +2,7 @@
 
 import type { Store } from "../store.ts";
 import type { Doubt, Isolated } from "../types.ts";
-import { type Answer, type Asking, closeOf, doubtsOf, isCertain } from "./asking.ts";
+import { type Answer, type Asking, closeOf, isCertain } from "./asking.ts";
 import { el } from "../dom.ts";
 import type { Focus } from "./focus.ts";
 import type { Plan } from "./plan.ts";
@@ -29,7 +29,7 @@ export function answerCard(answer: Answer, shower: Shower): HTMLElement {
   return el("section", { class: "net-card", "data-test": "net-answer", "aria-label": title },
     el("header", {}, el("h3", {}, title), clear),
     query.kind === "isolate" ? verdict(result as Isolated) : null,
-    doubtList(doubtsOf(shower.plan, answer), shower),
+    doubtList(result.doubts, shower),
     query.kind === "isolate" ? closeList(answer, shower) : null,
     steps(result.lines, shower, query.kind === "isolate"));
 }
@@ -38,7 +38,7 @@ export function answerCard(answer: Answer, shower: Shower): HTMLElement {
 export function answerLine(answer: Answer, plan: Plan): { text: string; certain: boolean } {
   const { result, query } = answer;
   if (query.kind === "trace") {
-    const n = doubtsOf(plan, answer).length;
+    const n = result.doubts.length;
     return { text: `${titleOf(answer)}${n ? `: not certain, ${counted(n, "doubt")}` : ""}`, certain: n === 0 };
   }
   const isolated = result as Isolated;
