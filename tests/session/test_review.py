@@ -11,9 +11,9 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import Label
 from cadgraph.model.records import Joint
 from cadgraph.session.requests import read_requests
-from cadgraph.session.review import review_queue
-from cadgraph.session.review_network import network_questions
-from cadgraph.session.review_state import ReviewState
+from cadgraph.session.review.network import network_questions
+from cadgraph.session.review.queue import review_queue
+from cadgraph.session.review.state import ReviewState
 from cadplants import make_riser
 
 WRONG = ("Valve assembly", "valve body")
@@ -139,7 +139,7 @@ def test_a_sure_label_that_is_wrong_is_asked_about_first_and_said_to_be_a_contra
 
 def test_a_unit_short_of_a_line_is_asked_about_until_it_is_said_to_be_right(scene, session, monkeypatch):
     # Whatever the doubt in its label, which comes first.
-    monkeypatch.setattr("cadgraph.session.review_network._IN_QUEUE", 2.0)
+    monkeypatch.setattr("cadgraph.session.review.network._IN_QUEUE", 2.0)
     valve = session.graph.units("valve")[0]
     via = session.graph.connections(valve)[0].via
     gone = {mesh for part in via for mesh in session.graph.part(part).meshes}

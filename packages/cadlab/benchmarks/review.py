@@ -40,8 +40,8 @@ from cadgraph.model.records import Part
 from cadgraph.model.scene import Scene
 from cadgraph.model.truth import Truth
 from cadgraph.model.vocabulary import Vocabulary
-from cadgraph.session.question import Option, Question, label_edits
-from cadgraph.session.review import review_queue
+from cadgraph.session.review.question import Option, Question, label_edits
+from cadgraph.session.review.queue import review_queue
 from cadlab.evaluate.pairing import Pairing, pair
 from cadlab.markdown import table
 from cadplants import STYLES, degrade, make

@@ -11,13 +11,13 @@ from typing import Literal
 
 from cadgraph.model.records import Part
 from cadgraph.model.vocabulary import spell_label
-from cadgraph.session.question import MOST_OPTIONS, Option, Question, label_edits
-from cadgraph.session.review_labels import Batch, find_batches
-from cadgraph.session.review_network import network_questions
-from cadgraph.session.review_state import ReviewState
+from cadgraph.session.review.labels import Batch, find_batches
+from cadgraph.session.review.network import network_questions
+from cadgraph.session.review.question import MOST_OPTIONS, Option, Question, label_edits
+from cadgraph.session.review.state import ReviewState
 from cadgraph.session.session import Session
 
-__all__ = ["Option", "Question", "review_queue"]
+__all__ = ["review_queue"]
 
 # A sure label that is rather wrong than right contradicts what else is known.
 _CONTRADICTS = 0.5

@@ -8,8 +8,8 @@ from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.records import Joint, Unit
 from cadgraph.query.doubt import likely_joints
 from cadgraph.query.told_joint import say_joint, tell_joint
-from cadgraph.session.question import MOST_OPTIONS, Option, Question, label_edits
-from cadgraph.session.review_state import ReviewState
+from cadgraph.session.review.question import MOST_OPTIONS, Option, Question, label_edits
+from cadgraph.session.review.state import ReviewState
 
 __all__ = ["network_questions"]
 
