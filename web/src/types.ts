@@ -160,6 +160,8 @@ export interface ServerState {
   message: string;
   version: number;
   read_only: string | null;
+  /** Set by the page itself: the server has gone, and what is shown is what it said last. */
+  away?: boolean;
   title: string;
   folder: string;
   can_undo: boolean;

@@ -28,6 +28,8 @@ def test_a_server_killed_amid_corrections_loses_none_that_the_page_showed(window
         until(lambda: "does not answer" in page.text("toasts"), "the page says that the server is gone")
         assert "cadgraph view" in page.text("toasts"), "and what to do"
         assert "kept" in page.text("toasts") or "lost" in page.text("toasts")
+        until(lambda: page.text("read-only") == "No server", "a sign that stays")
+        assert page.by("undo").is_disabled()
         confirmed, n_edits, names = page.version - begun, page.js("() => cadgraph.store.state.n_edits"), page.js(NAMES)
         assert confirmed >= 3
         port = first.host.rpartition(":")[2]

@@ -138,6 +138,8 @@ async function untilReady(
       else if (reason !== lost) say(reason, "bad");
       lost = reason;
       corrector.lost();
+      // A message goes by; that nothing can be corrected now stays to be seen.
+      if (store.state) store.setState({ ...store.state, read_only: reason, away: true });
     };
     void source.follow(new AbortController().signal, (state) => {
       if (lost && store.content) say("The server answers again.", "good");

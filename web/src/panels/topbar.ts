@@ -99,9 +99,10 @@ export class TopBar {
     );
     this.edits.title = state.lost.length ? `${count(state.lost.length, "correction")} no longer fit this model: see History` : "What was corrected, and by whom";
     this.badge.hidden = !state.read_only;
-    fill(this.badge, "View only");
+    const sign = state.away ? "No server" : "View only";
+    fill(this.badge, sign);
     this.badge.title = state.read_only ?? "";
-    this.badge.setAttribute("aria-label", `View only: ${state.read_only ?? ""}`);
+    this.badge.setAttribute("aria-label", `${sign}: ${state.read_only ?? ""}`);
   }
 
   private marks(): void {
