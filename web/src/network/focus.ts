@@ -1,6 +1,8 @@
 // What of the network is selected, hovered and shown: derived from the store, and the little that the store doesn't hold.
 
+import { lineAgain } from "../kept.ts";
 import type { Store } from "../store.ts";
+import type { Content } from "../types.ts";
 import { partsOfLine, type Place, type Plan } from "./plan.ts";
 import type { LinesBy } from "./style.ts";
 
@@ -42,6 +44,18 @@ export class Focus {
     this.line = { row, selection };
     this.store.select(selection);
     this.tell();
+  }
+
+  /** The content is another one: the same line stays selected wherever it is listed now. False where it is gone. */
+  keepLine(before: Content): boolean {
+    this.hoveredLine = -1;
+    const row = this.selectedLine;
+    if (row < 0) return true;
+    this.line = null;
+    const now = lineAgain(before, row, this.planNow().content);
+    if (now >= 0) this.selectLine(now);
+    else this.store.select([]);
+    return now >= 0;
   }
 
   hoverLine(row: number): void {

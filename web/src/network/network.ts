@@ -107,14 +107,17 @@ class NetworkArea {
 
   /** The content is another one. */
   private renew(): void {
+    const before = this.plan.content;
+    const line = before.network.lines[this.focus.selectedLine]?.tag;
     this.plan = planOf(this.store.content!);
+    if (!this.focus.keepLine(before)) this.panels.say(`Line ${line} is no more: nothing is selected now.`);
     this.warnings = networkWarnings(this.store.content!, this.plan);
     if (!this.warnings.some((warning) => warning.key === this.focus.warning)) this.focus.warning = null;
     this.overlay.setPlan(this.plan);
     this.tags.setPlan(this.plan, this.warnings);
     this.tab.fill();
     this.schematic.refresh();
-    this.asking.again();
+    this.asking.again(before);
     this.fillSlot();
     this.fillNotes();
     this.paint();

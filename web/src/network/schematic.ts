@@ -296,7 +296,8 @@ export class Schematic {
 
   private under(target: Element | null): { id?: string; line: number } | null {
     const element = target?.closest("[data-id],[data-line]");
-    if (!element || !this.drawn.contains(element)) return null;
+    // A drawing of before may call another line so.
+    if (!element || !this.drawn.contains(element) || this.version !== this.store.content?.version) return null;
     const plan = this.planNow();
     const id = element.getAttribute("data-id");
     if (id !== null) return plan.places.has(id) ? { id, line: -1 } : null;

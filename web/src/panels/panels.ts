@@ -47,6 +47,7 @@ export function startPanels(app: HTMLElement, store: Store, source: Source): Pan
   const toasts = new Toasts(app);
   const say: Page["say"] = (text, tone, actions) => toasts.say(text, tone, actions);
   const corrector = new Corrector(store, source, say);
+  store.on("gone", (name) => say(`${name} is no more: nothing is selected now.`));
   const hint = el("div", { class: "pick-hint", role: "status", "data-test": "pick-hint", hidden: true });
   const picking = new NextPick(store, hint);
   const page: Page = {
