@@ -12,6 +12,7 @@ import { openHelp } from "./dialog.ts";
 import { el, fill } from "../dom.ts";
 import { Find } from "./find.ts";
 import { History } from "./history.ts";
+import { isForThisOnly } from "./inspect_part.ts";
 import { Inspector } from "./inspector.ts";
 import { layOut } from "./layout.ts";
 import type { LabelChoice, Page } from "./page.ts";
@@ -252,7 +253,7 @@ function labelSelection(page: Page): void {
   page.pickLabel(
     title, first,
     (choice) => void page.edit(
-      rows.map((row): Edit => ({ kind: "label", part: content.parts.id[row], ...choice, this_only: rows.length > 1 }))
+      rows.map((row): Edit => ({ kind: "label", part: content.parts.id[row], ...choice, this_only: rows.length > 1 || isForThisOnly(row) }))
     )
   );
 }
