@@ -107,11 +107,11 @@ function reach(n: number): HTMLElement {
       text
     );
   return el("fieldset", { class: "reach" }, el("legend", { class: "only-read" }, "For which parts"),
-    choice(false, n > 1 ? `All ${whole(n)} of its shape` : "It, the only one of its shape", "all-alike"),
+    choice(false, n > 1 ? `All ${whole(n)} of its shape, and parts much like it` : "It, and parts much like it", "all-alike"),
     choice(true, "This part only", "this-only"),
     el(
       "p", { class: "soft" },
-      "With the first, parts of other shapes that look much like it may follow, where nobody is sure of them. How many did is said at once, and can be narrowed then."
+      `${n > 1 ? "" : "No other part has its shape. "}Which parts look much enough like it is said once it is done, and can be narrowed then.`
     ));
 }
 
