@@ -113,6 +113,7 @@ export function startPanels(app: HTMLElement, store: Store, source: Source): Pan
       page.view = view;
       const { camera } = store.shown;
       if (camera) view.setCamera(camera);
+      else review.viewed();
     },
   };
 }

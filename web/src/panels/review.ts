@@ -52,6 +52,12 @@ export class Review {
     });
   }
 
+  /** The view is there now: what was asked before it is looked at. */
+  viewed(): void {
+    const { question } = this.page.store.shown;
+    if (this.isOpen && question) this.page.view?.flyTo(question.parts);
+  }
+
   /** Asks for the list; a queue that can't be had is said in its place. */
   async load(): Promise<void> {
     if (this.page.store.state?.status !== "ready") return;
@@ -96,6 +102,8 @@ export class Review {
     }
     this.shownId = question?.id ?? "";
     this.show(question);
+    // Wherever the camera was left: who answers must see what is asked about.
+    if (question) this.page.view?.flyTo(question.parts);
     if (question) this.told.textContent = `${question.title} ${this.subject(question)}. ${question.options.map((option, i) => `${i + 1}: ${option.text}`).join(", ")}. ${this.left} left.`;
   }
 
