@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { fitted, showing, zoomed } from "../src/network/camera2d.ts";
+import { connectionsOf, markOf } from "../src/network/pieces.ts";
 import { arrowsAlong, piecesOf, pointAt, wayOf } from "../src/network/path.ts";
 import { leaderEnd, placeLabels, type Placed, type Wish } from "../src/network/placement.ts";
 import { planOf, partsOfLine, walk } from "../src/network/plan.ts";
@@ -211,4 +212,17 @@ test("zooming keeps the point under the pointer; what is out of sight is brought
   assert.equal(moved.y + moved.zoom * 360, 150);
   // At its edge no empty paper is shown beside the drawing.
   assert.equal(showing(seen, { x: 1560, y: 350, width: 40, height: 20 }, sheet, pane, false).x, -800);
+});
+
+test("what the drawing can't show apart is marked as neither cut off nor live", () => {
+  const made = content();
+  const plan = planOf(made);
+  const element = (attributes: Record<string, string>) => ({ getAttribute: (name: string) => attributes[name] ?? null });
+  assert.deepEqual(connectionsOf(element({ "data-line": made.network.lines[0].tag, "data-connection": "3 14" }), plan), [3, 14]);
+  assert.deepEqual(connectionsOf(element({ "data-line": made.network.lines[0].tag }), plan), made.network.lines[0].connections);
+  assert.deepEqual(connectionsOf(element({}), plan), []);
+  assert.equal(markOf([3, 14], new Set([3])), "partly");
+  assert.equal(markOf([3, 14], new Set([3, 14, 5])), "all");
+  assert.equal(markOf([3], new Set([14])), "none");
+  assert.equal(markOf([], new Set([14])), "none");
 });
