@@ -292,3 +292,13 @@ test("a label that others followed can be narrowed to its shape, or to the part 
   assert.deepEqual(narrower([edit], content, [0]), []);
   assert.deepEqual(narrower([alone], content, [0, 1]), []);
 });
+
+test("a nominal size finds the units at lines of that size, whatever their ports measure", () => {
+  const content = plant();
+  const [unit] = content.network.units;
+  unit.ports = [{ name: "N1", point: [0, 0, 0], direction: null, diameter: 0.1 }];
+  assert.deepEqual(new Index(content).find("DN80").units, [0]);
+  assert.deepEqual(new Index(content).find("DN100").units, []);
+  content.network.connections[0].size = null;
+  assert.deepEqual(new Index(content).find("dn 100").units, [0]);
+});
