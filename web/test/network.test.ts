@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { fitted, showing, zoomed } from "../src/network/camera2d.ts";
+import { isSet } from "../src/network/flow.ts";
 import { connectionsOf, markOf } from "../src/network/pieces.ts";
 import { arrowsAlong, piecesOf, pointAt, wayOf } from "../src/network/path.ts";
 import { leaderEnd, placeLabels, type Placed, type Wish } from "../src/network/placement.ts";
@@ -225,4 +226,18 @@ test("what the drawing can't show apart is marked as neither cut off nor live", 
   assert.equal(markOf([3, 14], new Set([3, 14, 5])), "all");
   assert.equal(markOf([3], new Set([14])), "none");
   assert.equal(markOf([], new Set([14])), "none");
+});
+
+test("a direction can be taken back only where it was set, not where it only follows from that", () => {
+  const plan = planOf(content());
+  const set = { ...plan.content.network.connections[0] };
+  const [a, b] = [set.source, set.target].map((id) => {
+    const place = plan.places.get(id)!;
+    return place.type === "open" ? "open end" : place.name;
+  });
+  assert.equal(isSet({ ...set, reason: `set by a user: ${a} -> ${b}` }, plan), true);
+  assert.equal(isSet({ ...set, reason: `set by a user: ${b} -> ${a}` }, plan), true);
+  assert.equal(isSet({ ...set, reason: `set by a user: ${a} -> X-9` }, plan), false);
+  assert.equal(isSet({ ...set, reason: "from pump P-001" }, plan), false);
+  assert.equal(isSet({ ...set, reason: null }, plan), false);
 });

@@ -332,7 +332,7 @@ class Session:
             self._history, self._graph = history, None
             self._follow_ground()
             now = self.graph
-            _refuse_unmet(now, new)
+            _refuse_unmet(now, new, what)
             changed = changed_parts(before, now)
             told = what if not write else _told(what, before, now, new, changed)
             if new:
@@ -385,17 +385,23 @@ def _told(what: str, before: SceneGraph, now: SceneGraph, new: Sequence[Edit], c
     return "; ".join(filter(None, (what, followers, renamed)))
 
 
-def _refuse_unmet(graph: SceneGraph, new: Sequence[Edit]) -> None:
+def _refuse_unmet(graph: SceneGraph, new: Sequence[Edit], what: str) -> None:
     """Makes sure that new edits are carried out.
+
+    Args:
+        graph: with them.
+        new: edits.
+        what: they are, by tags and ids of the graph: who asks knows no paths of meshes.
 
     Raises:
         ValueError: one isn't.
     """
-    starts = tuple(tell_lost(edit, "") for edit in new)
-    unmet = (one.message for one in graph.diagnostics if one.code == LOST and one.message.startswith(starts))
-    message = next(unmet, None) if starts else None
-    if message is not None:
-        raise ValueError(message)
+    lost = [one.message for one in graph.diagnostics if one.code == LOST] if new else []
+    for edit in new:
+        start = tell_lost(edit, "")
+        unmet = next((message for message in lost if message.startswith(start)), None)
+        if unmet is not None:
+            raise ValueError(f"{what}: {unmet.removeprefix(start)}")
 
 
 def _carried(labeling: Labeling, before: Parts, after: Parts) -> Labeling:
