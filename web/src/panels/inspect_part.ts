@@ -84,7 +84,10 @@ function correction(page: Page, content: Content, row: number): HTMLElement {
     onclick: () => page.pickLabel(`What is this ${labelOf(content, row).name.toLowerCase()}?`, first, send),
   }, "Other…"));
   return el("section", { class: "correct", "aria-label": "Correct the label" },
-    el("h3", {}, parts.state[row] === "sure" ? "Wrong? Click what it is" : "What is it?"), list,
+    el("h3", {}, parts.state[row] === "sure" ? "Wrong? Click what it is" : "What is it?"),
+    guesses.length > 0 && page.store.shown.question !== null && el(
+      "p", { class: "soft" }, "By the labeler alone; the review weighs all evidence."
+    ), list,
     reach(alike.length),
     parts.source[row] === "human" && button(
       "Take my correction back", "The label it would have without your correction",

@@ -26,6 +26,8 @@ export class Review {
   /** Whether the panel is unfolded: keys must not answer what nobody sees. */
   private readonly seen: () => boolean;
   private shownId = "";
+  /** Whether the server had as many questions as were asked for. */
+  private full = false;
   private trouble = "";
 
   constructor(page: Page, corrector: Corrector, changedCount: () => void, seen: () => boolean) {
@@ -33,7 +35,11 @@ export class Review {
     this.changedCount = changedCount;
     this.seen = seen;
     this.queue = new Queue({
-      load: () => page.source.review(LIMIT),
+      load: async () => {
+        const listed = await page.source.review(LIMIT);
+        this.full = listed.length >= LIMIT;
+        return listed;
+      },
       send: (question, choice) => corrector.answer(question, choice),
       takeBack: (version) => corrector.takeBack(version),
     }, () => this.changed());
@@ -73,8 +79,8 @@ export class Review {
   /** How many are left, as the top bar says it; nothing while that is not known. */
   get left(): string {
     if (!this.queue.loaded) return "";
-    const n = this.queue.waiting.length;
-    return n >= LIMIT ? `${n}+` : String(n);
+    // Where the list was full there are more than it holds, whatever was answered since.
+    return this.full ? `${LIMIT}+` : String(this.queue.waiting.length);
   }
 
   private get isOpen(): boolean {
@@ -204,7 +210,7 @@ export class Review {
         "span", { class: "soft", "data-test": "review-done" },
         decided ? `${whole(decided)} answered` : "most worth a look first"
       ),
-      bar(decided / Math.max(decided + waiting.length, 1), `${decided} answered, ${waiting.length} left`));
+      bar(decided / Math.max(decided + waiting.length, 1), `${decided} answered, ${this.left} left`));
   }
 
   /** What became of the last answer. */
@@ -258,6 +264,9 @@ export class Review {
 
   private options(content: Content, question: Question): HTMLElement {
     const list = el("div", { class: "options", role: "group", "aria-label": "Answers" });
+    if (question.options.some((option) => option.confidence !== null)) {
+      put(list, el("p", { class: "soft option-head" }, el("span", {}, "It is"), el("span", {}, "by all evidence")));
+    }
     question.options.slice(0, 5).forEach((option, i) => {
       const edit = option.edits.find((edit) => edit.kind === "label");
       const color = edit?.kind === "label" ? (
