@@ -8,7 +8,7 @@ import { leaderEnd, placeLabels, type Placed, type Wish } from "../src/network/p
 import { planOf, partsOfLine, walk } from "../src/network/plan.ts";
 import { cleanCopy, isAllowed, type Maker, type ReadNode } from "../src/network/sanitize.ts";
 import { type Palette, strokesOf } from "../src/network/style.ts";
-import { pieces } from "../src/network/told.ts";
+import { columns, pieces } from "../src/network/told.ts";
 import { networkWarnings } from "../src/network/warnings.ts";
 import type { Connection, Content, End, Unit } from "../src/types.ts";
 
@@ -240,4 +240,10 @@ test("a direction can be taken back only where it was set, not where it only fol
   assert.equal(isSet({ ...set, reason: `set by a user: ${a} -> X-9` }, plan), false);
   assert.equal(isSet({ ...set, reason: "from pump P-001" }, plan), false);
   assert.equal(isSet({ ...set, reason: null }, plan), false);
+});
+
+test("columns of the command line are told apart", () => {
+  assert.deepEqual(columns("  V-004  gate valve  by N1   0.92 m"), { indent: 2, cells: ["V-004", "gate valve", "by N1", "0.92 m"] });
+  assert.deepEqual(columns("shut off with it: G-004, G-002"), { indent: 0, cells: ["shut off with it: G-004, G-002"] });
+  assert.deepEqual(columns(""), { indent: 0, cells: [""] });
 });
