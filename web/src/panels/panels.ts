@@ -4,7 +4,7 @@ import { Refused, type Source } from "../api.ts";
 import { addCommands } from "../commands.ts";
 import type { SceneView } from "../scene/view.ts";
 import type { LeftTab, Store } from "../store.ts";
-import type { Content, Edit } from "../types.ts";
+import type { Content, Edit, Line } from "../types.ts";
 import { Address } from "./address.ts";
 import { Building } from "./building.ts";
 import { Corrector } from "./corrector.ts";
@@ -37,6 +37,8 @@ export interface Panels {
   /** Shows progress until the content is there. */
   untilReady(): Promise<void>;
   connect(view: SceneView): void;
+  /** Lets the network say which line is selected, for the inspector's title. */
+  followLine(lineNow: () => Line | null): void;
   /** Sends corrections, says what came of them, and lays the answer over the store; false where it was refused. */
   edit(edits: Edit[], why?: string): Promise<boolean>;
   /** A line for the person, told to screen readers, too. */
@@ -109,6 +111,7 @@ export function startPanels(app: HTMLElement, store: Store, source: Source): Pan
       address.start();
       if (!source.live && ["review", "history"].includes(store.shown.leftTab)) store.set({ leftTab: "find" });
     },
+    followLine: (lineNow) => (inspector.lineNow = lineNow),
     connect: (view) => {
       page.view = view;
       const { camera } = store.shown;
