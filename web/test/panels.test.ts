@@ -4,6 +4,7 @@ import { carry } from "../src/panels/carry.ts";
 import { csv } from "../src/panels/csv.ts";
 import { decode, encode, packRows, unpackRows } from "../src/panels/link.ts";
 import { matching } from "../src/panels/picker.ts";
+import { namesIn } from "../src/panels/mentions.ts";
 import { narrower } from "../src/panels/narrow.ts";
 import { Queue, type Choice, type Sent } from "../src/panels/queue.ts";
 import { Index, understand } from "../src/panels/search.ts";
@@ -301,4 +302,13 @@ test("a nominal size finds the units at lines of that size, whatever their ports
   assert.deepEqual(new Index(content).find("DN100").units, []);
   content.network.connections[0].size = null;
   assert.deepEqual(new Index(content).find("dn 100").units, [0]);
+});
+
+test("a line of the history leads to the parts and units that it names", () => {
+  const content = plant();
+  const found = namesIn("pipe part-00002 (V-4711) is flange; V-1 to V-9 are now V-2.", content);
+  assert.deepEqual(found.filter(({ parts }) => parts).map(({ text, parts, place }) => [text, parts, place]), [
+    ["part-00002", [2], null], ["V-4711", [1], "unit-1"],
+  ]);
+  assert.equal(found.map(({ text }) => text).join(""), "pipe part-00002 (V-4711) is flange; V-1 to V-9 are now V-2.");
 });
