@@ -100,7 +100,7 @@ function steps(lines: readonly string[], shower: Shower, folded: boolean): HTMLE
     ...lines.map((line) => {
       const { indent, cells } = columns(line);
       const row = el("div", {}, ...cells.map((cell) => el("span", {}, ...linked(cell, shower))));
-      row.style.paddingLeft = `${0.6 * indent}em`;
+      row.style.setProperty("--indent", String(indent));
       return row;
     }));
   if (!folded) return list;
