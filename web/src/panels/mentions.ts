@@ -11,8 +11,13 @@ export interface Mention {
 
 const WORD = /[\p{L}\p{N}][\p{L}\p{N}_./-]*/gu;
 
-/** A text cut at the ids of parts and the tags of units that the plant has. */
+/** A text cut at the ids of parts and the tags of units that the plant has; tags that are only told to have changed are none. */
 export function namesIn(text: string, content: Content): Mention[] {
+  return text.split(/(?<=; )/).flatMap((piece) =>
+    (/ (is|are) now /.test(piece) ? [{ text: piece, parts: null, place: null }] : namesInPiece(piece, content)));
+}
+
+function namesInPiece(text: string, content: Content): Mention[] {
   const units = new Map(content.network.units.map((unit) => [unit.tag, unit]));
   const found: Mention[] = [];
   let end = 0;
