@@ -8,6 +8,7 @@ import { bar, swatch } from "./widgets.ts";
 import type { LabelChoice, Page } from "./page.ts";
 import { button } from "./pieces.ts";
 import { choiceWords, Queue, type Choice } from "./queue.ts";
+import { uncovering } from "../seen.ts";
 import { count, labelOf, meshName, percent, sentence, upper, whole } from "./words.ts";
 
 const LIMIT = 50;
@@ -61,7 +62,14 @@ export class Review {
   /** The view is there now: what was asked before it is looked at. */
   viewed(): void {
     const { question } = this.page.store.shown;
-    if (this.isOpen && question) this.page.view?.flyTo(question.parts);
+    if (this.isOpen && question) this.look(question);
+  }
+
+  /** Wherever the camera was left, and whatever is hidden: who answers must see what is asked about. */
+  private look(question: Question): void {
+    const { content, shown } = this.page.store;
+    if (content) this.page.store.set(uncovering(content, shown, question.parts));
+    this.page.view?.flyTo(question.parts);
   }
 
   /** Asks for the list; a queue that can't be had is said in its place. */
@@ -108,13 +116,18 @@ export class Review {
     }
     this.shownId = question?.id ?? "";
     this.show(question);
-    // Wherever the camera was left: who answers must see what is asked about.
-    if (question) this.page.view?.flyTo(question.parts);
-    if (question) this.told.textContent = `${question.title} ${this.subject(question)}. ${question.options.map((option, i) => `${i + 1}: ${option.text}`).join(", ")}. ${this.left} left.`;
+    if (!question) return;
+    this.look(question);
+    this.told.textContent = `${question.title} ${this.subject(question)}. ${question.options.map((option, i) => `${i + 1}: ${option.text}`).join(", ")}. ${this.left} left.`;
   }
 
   private show(question: Question | null): void {
     this.page.store.set({ question, ...(question ? { selection: question.parts, place: null } : {}) });
+  }
+
+  private again(question: Question): void {
+    this.show(question);
+    this.look(question);
   }
 
   private subject(question: Question): string {
@@ -257,7 +270,7 @@ export class Review {
         keyed("s", "Skip", "Ask me later (s)", () => this.answer("skip"), "review-skip")),
       el(
         "button",
-        { type: "button", class: "link", "data-key": "review-look", onclick: () => this.page.go(question.parts) },
+        { type: "button", class: "link", "data-key": "review-look", onclick: () => this.again(question) },
         "Show it again"
       ));
   }
