@@ -269,7 +269,7 @@ def test_a_set_direction_beats_geometry_and_spreads():
     assert "but stated: T-001 -> T-002" in against[0]
     with pytest.raises(ValueError, match="contradicts it"):
         session.apply([direction(session, "T-001", "V-001")])
-    with pytest.raises(ValueError, match="^direction between T-001 and V-001 taken back: no direction was set there"):
+    with pytest.raises(ValueError, match=r"^direction between T-001 and V-001 taken back: no direction was set there"):
         session.apply([direction(session, "T-001", "V-001", "unknown")])
     session.apply([direction(session, "V-001", "V-002", "unknown")])
     assert flows(session.graph)[frozenset(("V-001", "V-002"))] == ("V-001", "stated: T-001 -> T-002")

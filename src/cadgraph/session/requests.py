@@ -190,7 +190,8 @@ class Requests:
                 f"{request.part}: nobody corrected this part itself; 'cadgraph explain' names the one that was"
             )
         anchor = _anchor(part)
-        return Forget(Anchor(mesh, anchor.fingerprint, anchor.centroid)), f"correction of {self._called(part)} taken back"
+        edit = Forget(Anchor(mesh, anchor.fingerprint, anchor.centroid))
+        return edit, f"correction of {self._called(part)} taken back"
 
     def _ground(self, request: GroundRequest) -> tuple[Edit, str]:
         part = self.graph.part(request.part)
@@ -198,7 +199,8 @@ class Requests:
             raise ValueError(f"{part.id} is {'the ground' if part.ground else 'no ground'} already")
         row = self._row_of[part.meshes[0]]
         anchor = anchor_of(part.meshes[0], self.analysis.properties, row, self.analysis.scene.origin)
-        return Ground(anchor, request.ground), f"{self._called(part)} is {'the ground' if request.ground else 'no ground'}"
+        said = "the ground" if request.ground else "no ground"
+        return Ground(anchor, request.ground), f"{self._called(part)} is {said}"
 
     # Units
 
