@@ -21,11 +21,13 @@ _DUTIES: tuple[tuple[tuple[str, ...], Duty], ...] = (
     (("control", "regulating", "reducing", "modulating", "solenoid", "safety cutoff"), "control"),
     (("foot", "float", "release", "vacuum", "breather", "three-way", "3-way", "mixing", "diverting"), "other"),
     (
-        ("ball", "gate", "globe", "butterfly", "plug", "diaphragm", "needle", "pinch", "isolating", "isolation")
-        + ("shut-off", "shutoff", "stop", "cock", "block valve", "drain valve"),
+        (
+            "ball", "gate", "globe", "butterfly", "plug", "diaphragm", "needle", "pinch", "isolating", "isolation",
+            "shut-off", "shutoff", "stop", "cock", "block valve", "drain valve",
+        ),
         "shuts off",
     ),
-)
+)  # fmt: skip
 # A valve whose kind is open shuts off where kinds that do are together as sure as a kind must be to be stated (ours).
 _SURE = 0.85
 
@@ -51,7 +53,7 @@ def duty_of(network: Network, place: str) -> Duty | None:
 
 
 def likely_kinds(network: Network, place: str) -> str:
-    """What a valve of unknown kind may be, in words: ``gate valve 55 %, globe valve 42 %``; empty where nobody knows."""
+    """What a valve of unknown kind may be, in words: ``gate valve 55%, globe valve 42%``; empty where nobody knows."""
     node = network.places[place]
     guesses = node.kind_guesses if isinstance(node, Unit) and node.kind is None else ()
     return ", ".join(f"{kind} {sure:.0%}" for kind, sure in guesses)

@@ -148,9 +148,9 @@ def find_isolation(
 
     By default the nearest valve on every way out, so that as little as possible is shut off with it; a valve behind
     which nothing can flow (a blind end, an instrument) need not be closed, one of which only one side is known must.
-    Only valves count that are known to shut off by their kind, or whose kind is open between kinds that all do; those of
-    unknown kind are passed and named apart. Check and control valves never count, relief valves are taken for closed
-    and never asked to be blocked. A tank is a source: the section ends there, valve or not.
+    Only valves count that are known to shut off by their kind, or whose kind is open between kinds that all do; those
+    of unknown kind are passed and named apart. Check and control valves never count, relief valves are taken for
+    closed and never asked to be blocked. A tank is a source: the section ends there, valve or not.
 
     Args:
         graph: the finished graph, or its network.
