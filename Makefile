@@ -28,11 +28,14 @@ NO_NODE := the page needs Node 20 or newer with npm to be built or checked: http
 demo: $(VENV)/.with-all
 	$(BIN)/cadgraph demo --output demo
 
+# By file, as what a file's tests share is made once; more workers than that want more memory than a laptop has.
+WORKERS := --numprocesses auto --maxprocesses 4 --dist loadfile
+
 test: $(VENV)/.with-dev
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest $(WORKERS)
 
 test-fast: $(VENV)/.with-dev
-	$(BIN)/python -m pytest -m "not slow"
+	$(BIN)/python -m pytest $(WORKERS) -m "not slow"
 
 # Never fails: tests in a browser are skipped where there is none.
 browser:
