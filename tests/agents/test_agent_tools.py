@@ -7,6 +7,7 @@ from cadgraph.agents.plant import Plant
 from cadgraph.agents.tools import TOOLS, tool_named
 from cadgraph.errors import AskError, CadGraphError, Unconnected
 from cadgraph.model.graph import SceneGraph
+from cadgraph.model.records import Access, Place
 from networks import chain, junction, network, pumping, terminal, unit
 from plants_by_hand import HOSTILE, hostile_plant, large_plant, pumping_plant
 
@@ -312,3 +313,67 @@ def test_an_empty_graph_is_no_error():
     assert "parts 0" in ask(plant, "overview").text
     assert ask(plant, "find").values == {"found": []}
     assert ask(plant, "lines").values == {"lines": []}
+
+
+# Places
+
+
+def with_places():
+    """A valve on the ground, one on a platform, and one out of reach."""
+    box = ((0.0, 0.0, 0.0), (4.0, 4.0, 0.0))
+    ground = Place(id="place-001", kind="ground", name="ground", height=0.0, area=16.0, aabb=box, parts=())
+    deck = Place(
+        id="place-002", kind="platform", name="platform +2.10 m (east)", height=2.1, area=4.0, aabb=box, parts=()
+    )
+    stairs = Place(id="place-003", kind="stairs", name="stairs", height=2.1, low=0.0, area=0.0, aabb=box, parts=())
+    rows = (
+        ("V-001", "place-001", "floor", 1.0),
+        ("V-002", "place-002", "platform", 0.9),
+        ("V-003", "place-002", "out of reach", 2.4),
+    )
+    units = [
+        unit(tag, "ball valve", (i, 0.0, 1.0)).model_copy(
+            update={"access": Access(place=place, stand=None, height=height, reach=reach)}
+        )
+        for i, (tag, place, reach, height) in enumerate(rows)
+    ]
+    return Plant(network([*units, terminal(1), ground, deck, stairs], chain("V-001 V-002 V-003 X1")))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "tags"),
+    [
+        ({"level": "ground"}, ["V-001"]),
+        ({"level": "platform"}, ["V-002", "V-003"]),
+        ({"level": "place-002", "reach": "platform"}, ["V-002"]),
+        ({"reach": "out of reach"}, ["V-003"]),
+        ({"reach": "floor", "type": "end"}, []),
+    ],
+)
+def test_find_goes_by_level_and_reach(arguments, tags):
+    assert [row["tag"] for row in ask(with_places(), "find", **arguments).values["found"]] == tags
+
+
+def test_levels_and_reach_are_told():
+    plant = with_places()
+    assert "levels 2: ground, platform +2.10 m (east); units reached from floor 1" in ask(plant, "overview").text
+    assert "reach\tplatform: 0.90 m above platform +2.10 m (east)" in ask(plant, "describe", id="V-002").text
+    with pytest.raises(AskError, match=r"no level 'roof' here; there is ground, platform"):
+        ask(plant, "find", level="roof")
+
+
+def test_without_places_reach_is_unknown_and_not_none(plant):
+    for arguments in ({"reach": "floor"}, {"level": "ground"}):
+        with pytest.raises(AskError, match="unknown: this graph was built without places; build it again"):
+            ask(plant, "find", **arguments)
+    assert "levels unknown" in ask(plant, "overview").text
+
+
+def test_isolate_names_apart_what_is_not_relied_on():
+    nodes = [unit("T-001"), unit("V-001", "gate valve"), unit("V-002"), unit("P-001", ports=("N1",)), terminal(1)]
+    plant = Plant(network(nodes, chain("T-001 V-001 V-002 P-001.N1") + chain("P-001 X1")))
+    answer = ask(plant, "isolate", target="P-001")
+    assert [valve["tag"] for valve in answer.values["valves"]] == ["V-001"]
+    assert any(line.startswith("not relied on\tV-002") for line in answer.text.split("\n"))
+    assumed = ask(plant, "isolate", target="P-001", assume_shutoff=True)
+    assert [valve["tag"] for valve in assumed.values["valves"]] == ["V-002"]
