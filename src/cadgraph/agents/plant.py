@@ -106,7 +106,8 @@ class Plant:
             node = self.graph.nodes.get(self._named.get(which, self._named.get(cell(which), "")))
             if node is not None and isinstance(node, layers or get_args(Node)):
                 return node
-            raise AskError(self._hint(which) or cell(error, 500)) from None
+            told = str(error).replace(repr(which), repr(cell(which)))
+            raise AskError(self._hint(which) or cell(told, 500)) from None
 
     def _hint(self, which: str) -> str:
         """Units whose tags begin with the same letters, where none has a tag much like this one."""
