@@ -61,7 +61,7 @@ def large():
 
 @pytest.mark.slow
 def test_every_answer_about_units_of_a_large_plant_keeps_within_the_budget(large):
-    for one in large.graph.units()[::9]:
+    for one in large.graph.units()[::15]:
         for name, arguments in calls(one.tag):
             if name == "what_if" and one.unit_type != "valve":
                 with pytest.raises(AskError, match=r"is no valve but"):
@@ -305,7 +305,16 @@ def test_asking_changes_nothing(tmp_path):
     assert graph.document.model_dump_json() == before
     path = graph.save(tmp_path)
     assert Plant.open(tmp_path).name == Plant.open(path).name == tmp_path.name
-    assert Plant.open(tmp_path).scene is None
+
+
+@pytest.mark.slow
+def test_the_scene_is_the_one_that_the_graph_is_of(tmp_path):
+    (tmp_path / "plant.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 2 3 4\nf 1 3 4\n")
+    document = pumping(str(tmp_path / "plant.obj")).document
+    graph = SceneGraph(document.model_copy(update={"config": {"load": {"unit": "m"}}}))
+    assert Plant(graph, tmp_path).scene.n_meshes == 1
+    assert Plant(graph).scene is None
+    assert Plant(pumping(str(tmp_path / "gone.obj")), tmp_path).scene is None
 
 
 def test_an_empty_graph_is_no_error():
@@ -358,6 +367,8 @@ def test_levels_and_reach_are_told():
     plant = with_places()
     assert "levels 2: ground, platform +2.10 m (east); units reached from floor 1" in ask(plant, "overview").text
     assert "reach\tplatform: 0.90 m above platform +2.10 m (east)" in ask(plant, "describe", id="V-002").text
+    assert ask(plant, "describe", id="place-002").values["units"] == ["V-002", "V-003"]
+    assert "height\tfrom 0.00 m to 2.10 m" in ask(plant, "describe", id="place-003").text
     with pytest.raises(AskError, match=r"no level 'roof' here; there is ground, platform"):
         ask(plant, "find", level="roof")
 
