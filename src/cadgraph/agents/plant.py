@@ -16,6 +16,7 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Box, Junction, Node, Terminal, Unit
 from cadgraph.query.lines import Line, find_lines
 from cadgraph.query.network import Network
+from cadgraph.query.summary import Summary, summarize
 
 if TYPE_CHECKING:
     from cadgraph.model.scene import Scene
@@ -83,6 +84,11 @@ class Plant:
         low = tuple(min(box[0][k] for box in boxes) for k in range(3))
         high = tuple(max(box[1][k] for box in boxes) for k in range(3))
         return (low[0], low[1], low[2]), (high[0], high[1], high[2])
+
+    @cached_property
+    def summary(self) -> Summary:
+        """Counts of what the graph holds."""
+        return summarize(self.graph)
 
     @cached_property
     def line_of(self) -> Mapping[int, str]:
