@@ -10,7 +10,7 @@ from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, create_model
 
-from cadgraph.agents import measuring
+from cadgraph.agents import asking_sql, measuring
 from cadgraph.agents.answer import Answer, AskError, among, cell, did_you_mean
 from cadgraph.agents.plant import Plant
 
@@ -108,5 +108,6 @@ TOOLS: tuple[Tool, ...] = (
         "How far two things are apart: straight, in plan, in height, by compass, above or below, and along the pipes.",
         measuring.measure,
     ),
+    Tool("query", asking_sql.DESCRIPTION, asking_sql.query),
 )
 """All tools, in the order that they are listed in."""

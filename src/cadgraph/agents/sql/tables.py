@@ -1,0 +1,154 @@
+"""The rows of the tables that SQL can ask, from a finished graph."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from cadgraph._io.text import tag_key
+from cadgraph.agents.answer import cell
+from cadgraph.agents.plant import Plant
+from cadgraph.model.graph import SceneGraph
+from cadgraph.model.records import Adjacent, Box, Cluster, Part, Point, System, Unit
+from cadgraph.query.network import Arc
+
+__all__ = ["Row", "Rows", "make_tables"]
+
+Row = tuple[str | float | int | None, ...]
+Rows = Mapping[str, Sequence[Row]]
+
+_LONGEST = 200  # characters of a text in a table: paths of meshes come from anybody
+
+
+def make_tables(plant: Plant) -> Rows:
+    """The rows of all tables of :data:`~cadgraph.agents.sql.schema.TABLES`, by table, in the order of its columns.
+
+    Texts are on one line, without control characters, and cut to 200 characters.
+
+    Args:
+        plant: whose graph it is.
+    """
+    names = _names(plant)
+    places = [node.model_dump() for node in plant.graph.document.nodes if str(node.layer) == "place"]
+    levels = _level_names(places)
+    return {
+        "unit": list(_units(plant, names, levels)),
+        "point": list(_points(plant, names)),
+        "part": list(_parts(plant, names)),
+        "pipe": list(_pipes(plant, names)),
+        "contact": list(_contacts(plant)),
+        "line": list(_lines(plant, names)),
+        "cluster": [
+            (_text(node.id), _text(node.kind), node.n_parts, *node.centroid) for node in plant.graph.of_layer(Cluster)
+        ],
+        "system": [
+            (_text(node.id), len(node.units), len(node.terminals), node.length, _joined(node.sizes))
+            for node in plant.graph.of_layer(System)
+        ],
+        "level": [
+            (levels[p["id"]], _text(p["kind"]), p["height"], p["low"], p["area"], _text(p["id"])) for p in places
+        ],
+    }
+
+
+def _text(value: str | None) -> str | None:
+    return None if value is None else cell(value, _LONGEST)
+
+
+def _joined(sizes: Sequence[int]) -> str:
+    return "/".join(str(size) for size in sizes)
+
+
+def _names(plant: Plant) -> dict[str, str]:
+    """What the nodes of the network are called in the tables, by id: no two alike, for tables are joined by it."""
+    called = {place: plant.called(place) for place in plant.network.places}
+    often = Counter(called.values())
+    return {place: name if often[name] == 1 else cell(place, _LONGEST) for place, name in called.items()}
+
+
+def _level_names(places: Sequence[Mapping[str, Any]]) -> dict[str, str]:
+    """What levels are called in the tables, by id: no two alike."""
+    often = Counter(cell(place["name"]) for place in places)
+    return {
+        place["id"]: cell(place["name"]) if often[cell(place["name"])] == 1 else f"{cell(place['name'])} {place['id']}"
+        for place in places
+    }
+
+
+def _units(plant: Plant, names: Mapping[str, str], levels: Mapping[str, str]) -> Iterator[Row]:
+    plan = _plan(plant.graph)
+    for unit in sorted(plant.graph.of_layer(Unit), key=lambda unit: tag_key(unit.tag)):
+        access = unit.model_dump().get("access") or {}
+        guess = unit.kind_guesses[0][0] if unit.kind is None and unit.kind_guesses else None
+        yield (
+            names[unit.id], _text(unit.unit_type), _text(unit.kind), _text(guess), _text(plant.network.system(unit.id)),
+            _region(plan, unit.centroid), levels.get(access.get("place") or ""), *unit.centroid,
+            unit.aabb[0][2], unit.aabb[1][2], access.get("height"), access.get("reach"),
+            len({arc.index for arc in plant.network.arcs(unit.id)}), _text(unit.id),
+        )  # fmt: skip
+
+
+def _plan(graph: SceneGraph) -> Box:
+    """The box round all units and all parts but the ground."""
+    solid = [part.aabb for part in graph.of_layer(Part) if not part.ground]
+    boxes = [*(unit.aabb for unit in graph.of_layer(Unit)), *solid] or [((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))]
+    low = tuple(min(box[0][k] for box in boxes) for k in range(3))
+    high = tuple(max(box[1][k] for box in boxes) for k in range(3))
+    return (low[0], low[1], low[2]), (high[0], high[1], high[2])
+
+
+def _region(plan: Box, point: Point) -> str:
+    """The ninth of the plan that a point lies in; north is +y."""
+    third = [min(2, max(0, int(3 * (point[k] - plan[0][k]) / max(plan[1][k] - plan[0][k], 1e-9)))) for k in range(2)]
+    return " ".join(filter(None, (("south", "", "north")[third[1]], ("west", "", "east")[third[0]]))) or "centre"
+
+
+def _points(plant: Plant, names: Mapping[str, str]) -> Iterator[Row]:
+    network = plant.network
+    for place, node in network.places.items():
+        what = "unit" if isinstance(node, Unit) else network.what(place)
+        at = node.centroid if isinstance(node, Unit) else node.point
+        yield names[place], what, _text(network.system(place)), *at
+
+
+def _parts(plant: Plant, names: Mapping[str, str]) -> Iterator[Row]:
+    graph = plant.graph
+    for part in graph.of_layer(Part):
+        label, unit, cluster = part.label, graph.unit_of(part), graph.cluster_of(part)
+        yield (
+            _text(part.id), *((_text(label.group), _text(label.name), label.confidence) if label else (None,) * 3),
+            int(label.likely) if label else None, names[unit.id] if unit else None,
+            _text(cluster.id) if cluster else None, _text(part.meshes[0]), *part.centroid, *_extents(part.aabb),
+        )  # fmt: skip
+
+
+def _extents(box: Box) -> tuple[float, float, float]:
+    x, y, z = (high - low for low, high in zip(*box, strict=True))
+    return x, y, z
+
+
+def _pipes(plant: Plant, names: Mapping[str, str]) -> Iterator[Row]:
+    line_of = {arc.index: line.tag for line in plant.lines for arc in line.arcs}
+    for number, edge in enumerate(plant.network.edges):
+        for arc in (Arc(number, edge, True), Arc(number, edge, False)):
+            yield (
+                names[arc.start], names[arc.end], arc.flow, arc.length, edge.size, line_of.get(number),
+                edge.confidence, number,
+            )  # fmt: skip
+
+
+def _contacts(plant: Plant) -> Iterator[Row]:
+    for edge in plant.graph.of_kind(Adjacent):
+        a, b = _text(edge.source), _text(edge.target)
+        yield a, b, edge.distance
+        yield b, a, edge.distance
+
+
+def _lines(plant: Plant, names: Mapping[str, str]) -> Iterator[Row]:
+    for line in plant.lines:
+        through = ", ".join(names[place] for place in line.through)
+        yield (
+            line.tag, names[line.start], names[line.end], through, line.length, int(line.whole), line.size, line.flow,
+            _text(line.system),
+        )  # fmt: skip
