@@ -16,9 +16,8 @@ import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
-__all__ = ["FUNCTIONS", "MOST_ROWS", "SECONDS", "main"]
+__all__ = ["FUNCTIONS", "MOST_ROWS", "add_mathematics", "limit_process", "main"]
 
-SECONDS = 3.0  # a query may take
 MOST_ROWS = 500  # that a query gives
 _MOST_CHARACTERS = 400  # of a cell
 _MOST_SIZE = 200_000  # characters of all cells of an answer
@@ -52,31 +51,48 @@ _MATHEMATICS: dict[str, tuple[int, Callable[..., float]]] = {
 }
 """What an SQLite that was built without mathematics gets from here."""
 
-FUNCTIONS = frozenset(  # noqa: SIM905
-    "abs avg ceil ceiling coalesce count format glob group_concat ifnull iif instr length like lower ltrim max min "
-    "mod nullif printf replace round rtrim sign substr substring sum total trim typeof unicode upper "
-    "cume_dist dense_rank first_value lag last_value lead nth_value ntile percent_rank rank row_number "
-    "likely unlikely likelihood "
-    "sqrt pow power floor atan2 degrees".split()
+FUNCTIONS = frozenset(
+    {
+        *("abs", "ceil", "ceiling", "floor", "round", "sign", "mod", "sqrt", "pow", "power", "atan2", "degrees"),
+        *("avg", "count", "group_concat", "max", "min", "sum", "total"),
+        *("coalesce", "ifnull", "iif", "nullif", "typeof", "likely", "unlikely", "likelihood"),
+        *("format", "glob", "instr", "length", "like", "lower", "ltrim", "printf", "replace", "rtrim", "substr"),
+        *("substring", "trim", "unicode", "upper"),
+        *("cume_dist", "dense_rank", "first_value", "lag", "last_value", "lead", "nth_value", "ntile"),
+        *("percent_rank", "rank", "row_number"),
+    }
 )
 """Functions that a query may call: none that reads, writes, or makes text out of nothing."""
 
 
 class _Guard:
-    """Decides what a query may do, and notes which columns it reads."""
+    """Decides what a query may do, and notes which columns it reads.
 
-    def __init__(self, tables: set[str]) -> None:
+    Args:
+        tables: that may be read.
+        others: what else SQLite would take for a table: modules, as ``json_each``.
+    """
+
+    def __init__(self, tables: set[str], others: set[str]) -> None:
         self._tables = tables | {"sqlite_master", "sqlite_schema"}
+        self._others = others
         self.read: set[str] = set()
 
     def __call__(self, action: int, first: str | None, second: str | None, _base: str | None, _by: str | None) -> int:
-        if action == sqlite3.SQLITE_READ and first is not None and first.lower() in self._tables:
-            self.read.add(f"{first}.{second}".lower())
-            return sqlite3.SQLITE_OK
-        if action == sqlite3.SQLITE_FUNCTION and second is not None and second.lower() in FUNCTIONS:
-            return sqlite3.SQLITE_OK
-        allowed = action in (sqlite3.SQLITE_SELECT, sqlite3.SQLITE_RECURSIVE)
+        if action == sqlite3.SQLITE_READ:
+            allowed = self._may_read((first or "").lower(), (second or "").lower())
+        elif action == sqlite3.SQLITE_FUNCTION:
+            allowed = (second or "").lower() in FUNCTIONS
+        else:
+            allowed = action in (sqlite3.SQLITE_SELECT, sqlite3.SQLITE_RECURSIVE)
         return sqlite3.SQLITE_OK if allowed else sqlite3.SQLITE_DENY
+
+    def _may_read(self, table: str, column: str) -> bool:
+        if table in self._tables:
+            self.read.add(f"{table}.{column}")
+            return True
+        # The rows of a table that the query makes itself are counted: it has that name there, and no column is read.
+        return not column and table not in self._others and not table.startswith("pragma_")
 
 
 def main() -> None:
@@ -86,17 +102,21 @@ def main() -> None:
     first = sys.stdin.buffer.readline()
     if not first:
         return
-    connection, guard = _opened(first)
+    content: dict[str, Any] = json.loads(first)
+    seconds: float = content.pop("seconds")
+    limit_process(_ROOM + 10 * len(first))
+    connection, guard = _opened(content)
+    # The rows are in the tables now, and this copy of them is several times as large.
+    content.clear()
+    del first
     _write({})
     for line in iter(sys.stdin.buffer.readline, b""):
         guard.read.clear()
-        _write(_answer(connection, json.loads(line)) | {"read": sorted(guard.read)})
+        _write(_answer(connection, json.loads(line), seconds) | {"read": sorted(guard.read)})
 
 
-def _opened(message: bytes) -> tuple[sqlite3.Connection, _Guard]:
+def _opened(content: dict[str, Any]) -> tuple[sqlite3.Connection, _Guard]:
     """The tables in memory, locked up."""
-    _limit_process(_ROOM + 10 * len(message))
-    content: dict[str, Any] = json.loads(message)
     connection = sqlite3.connect(":memory:", isolation_level=None, cached_statements=0)
     # Nothing is put aside on the disk; the extension loader is off, which is also what SQLite starts with.
     connection.execute("PRAGMA temp_store = MEMORY")
@@ -110,12 +130,13 @@ def _opened(message: bytes) -> tuple[sqlite3.Connection, _Guard]:
         if not statement.startswith("CREATE TABLE"):
             connection.execute(statement)
     add_mathematics(connection)
+    others = {name.lower() for (name,) in connection.execute("SELECT name FROM pragma_module_list")}
     (pages,), (size,) = (connection.execute(f"PRAGMA {what}").fetchone() for what in ("page_count", "page_size"))
     connection.execute(f"PRAGMA hard_heap_limit = {2 * pages * size + _HEAP}")
     connection.execute("PRAGMA query_only = ON")
     for limit, most in _LIMITS.items():
         connection.setlimit(limit, most)
-    guard = _Guard(set(content["rows"]))
+    guard = _Guard(set(content["rows"]), others)
     connection.set_authorizer(guard)
     return connection, guard
 
@@ -142,9 +163,9 @@ def _of_numbers(function: Callable[..., float]) -> Callable[..., float | None]:
     return called
 
 
-def _answer(connection: sqlite3.Connection, sql: str) -> dict[str, Any]:
+def _answer(connection: sqlite3.Connection, sql: str, seconds: float) -> dict[str, Any]:
     """Rows of a query, or what is wrong."""
-    end = time.monotonic() + SECONDS
+    end = time.monotonic() + seconds
     connection.set_progress_handler(lambda: time.monotonic() > end, _OFTEN)
     try:
         cursor = connection.execute(sql)
@@ -183,7 +204,7 @@ def _cell(value: Any) -> Any:
     return value
 
 
-def _limit_process(memory: int) -> None:
+def limit_process(memory: int) -> None:
     """Lets the system refuse what no query needs: files, other processes' worth of memory, a core."""
     try:
         import resource

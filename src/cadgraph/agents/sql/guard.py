@@ -22,11 +22,13 @@ from cadgraph.agents.sql import child
 from cadgraph.agents.sql.schema import definitions
 from cadgraph.errors import AskError
 
-__all__ = ["Database", "Found", "Stopped"]
+__all__ = ["SECONDS", "Database", "Found", "Stopped"]
 
-_GRACE = 0.3  # s; above the time that the process keeps to by itself, where SQLite lets it
+_GRACE = 0.15  # s; above the time that the process keeps to by itself, where SQLite lets it
 _START = 60.0  # s; to start it and to load the tables
 _WAIT = 10.0  # s; for the queries of others
+SECONDS = 3.0
+"""What a query may take by default."""
 _LONGEST = 9_000  # characters of a query
 
 Value = str | float | int | None
@@ -60,10 +62,13 @@ class Database:
 
     Args:
         rows: of the tables of :data:`~cadgraph.agents.sql.schema.TABLES`, by name.
+        seconds: that a query may take.
     """
 
-    def __init__(self, rows: Mapping[str, Sequence[Sequence[Value]]]) -> None:
-        self._content = (json.dumps({"definitions": definitions(), "rows": rows}) + "\n").encode()
+    def __init__(self, rows: Mapping[str, Sequence[Sequence[Value]]], seconds: float = SECONDS) -> None:
+        self.seconds = seconds
+        content = {"definitions": definitions(), "rows": rows, "seconds": seconds}
+        self._content = (json.dumps(content) + "\n").encode()
         self._lock = threading.Lock()
         self._worker: _Worker | None = None
         self._last: tuple[str, Found] | None = None
@@ -75,7 +80,7 @@ class Database:
             sql: one SELECT, of at most 9,000 characters.
 
         Raises:
-            Stopped: it took longer than 3 s or too much memory.
+            Stopped: it took longer than it may, or too much memory.
             AskError: it is no SQL, or does something else than to read the tables.
         """
         if len(sql) > _LONGEST:
@@ -84,7 +89,7 @@ class Database:
             raise Stopped("other queries are still running; ask again")
         try:
             if self._last is None or self._last[0] != sql:
-                self._last = sql, _found(self._exchanged(sql))
+                self._last = sql, _found(self._exchanged(sql), self.seconds)
             return self._last[1]
         finally:
             self._lock.release()
@@ -95,12 +100,14 @@ class Database:
             self._discard()
 
     def _exchanged(self, sql: str) -> dict[str, Any]:
+        if self._worker is not None and self._worker.gone:
+            self._discard()
         if self._worker is None:
             self._worker = _Worker()
             if self._worker.exchange(self._content, _START) is None:
                 self._discard()
                 raise Stopped("the tables could not be loaded; there may be too little memory for so large a graph")
-        answer = self._worker.exchange(json.dumps(sql).encode() + b"\n", child.SECONDS + _GRACE)
+        answer = self._worker.exchange(json.dumps(sql).encode() + b"\n", self.seconds + _GRACE)
         if answer is None or answer.get("error") == "memory":
             late = self._worker.late
             self._discard()
@@ -131,6 +138,11 @@ class _Worker:
         self._process = process
         self.end = weakref.finalize(self, _end, process)
         self.late = False
+
+    @property
+    def gone(self) -> bool:
+        """Whether it has ended."""
+        return self._process.poll() is not None
 
     def exchange(self, message: bytes, seconds: float) -> dict[str, Any] | None:
         """Sends a line and waits for the answer to it; None where there is none in time, which ends the process."""
@@ -176,10 +188,10 @@ def _end(process: subprocess.Popen[bytes]) -> None:
             continue
 
 
-def _found(answer: Mapping[str, Any]) -> Found:
+def _found(answer: Mapping[str, Any], seconds: float) -> Found:
     error = answer.get("error")
     if error == "time":
-        raise Stopped(f"stopped after {child.SECONDS:g} s; filter before you join, and leave walks to the other tools")
+        raise Stopped(f"stopped after {seconds:g} s; filter before you join, and leave walks to the other tools")
     if error == "memory":
         raise Stopped("stopped, as it takes too much memory; ask for fewer rows, or for sums")
     if error is not None:
