@@ -133,7 +133,7 @@ TABLES: Mapping[str, Table] = {
         },
     ),
     "level": Table(
-        "where one stands, or a way up: empty in a graph that was built without places",
+        "a place where one stands, or a way up; there is none in a graph that was built without places",
         {
             "name": ("TEXT", "ground, platform +2.10 m (north east)..."),
             "kind": ("TEXT", "ground, platform, stairs or ladder"),
