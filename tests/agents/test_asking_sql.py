@@ -17,6 +17,7 @@ from cadgraph.agents.sql.guard import Database
 from cadgraph.agents.sql.schema import TABLES
 from cadgraph.agents.sql.tables import make_tables
 from cadgraph.model.records import Unit
+from cadgraph.query import Network, find_lines
 from graphs import valve_line
 from networks import chain, network, pumping, unit
 
@@ -28,6 +29,11 @@ def plant():
     made = Plant(pumping())
     yield made
     made.tables.close()
+
+
+def tables_of(graph):
+    network = Network(graph)
+    return make_tables(network, find_lines(network))
 
 
 def rows(plant, sql):
@@ -43,7 +49,7 @@ def test_the_description_fits_and_names_every_table_and_no_column_that_there_is_
 
 def test_every_row_has_the_columns_of_its_table():
     for graph in (pumping(), valve_line()):
-        found = make_tables(Plant(graph))
+        found = tables_of(graph)
         assert list(found) == list(TABLES)
         assert {name for name, some in found.items() for row in some if len(row) != len(TABLES[name].columns)} == set()
 
@@ -85,7 +91,7 @@ def test_without_places_an_answer_about_levels_says_that_nothing_is_known(plant)
 def test_levels_and_reach_come_from_the_places_of_a_graph():
     access = {"place": "place-001", "height": 1.25, "reach": "platform", "stand": None, "facing": None}
     reached = Unit.model_validate(unit("V-001").model_dump() | {"access": access})
-    found = make_tables(Plant(network([reached, unit("V-002")], chain("V-001 V-002"))))
+    found = tables_of(network([reached, unit("V-002")], chain("V-001 V-002")))
     first = dict(zip(TABLES["unit"].columns, found["unit"][0], strict=True))
     assert (first["reach_height"], first["reach"]) == (1.25, "platform")
 
@@ -146,7 +152,7 @@ def test_two_that_would_be_called_alike_are_called_by_their_ids():
 
 def test_other_questions_do_not_wait_for_a_query():
     plant = Plant(pumping())
-    vars(plant)["tables"] = Database(make_tables(plant), 0.6)
+    vars(plant)["tables"] = Database(make_tables(plant.network, plant.lines), 0.6)
     query(plant, "SELECT 1")
     sql = "SELECT count(*) FROM pipe a, pipe b, pipe c, pipe d, pipe e"
     slow = threading.Thread(target=pytest.raises, args=(AskError, query, plant, sql))

@@ -83,7 +83,7 @@ class Plant:
         from cadgraph.agents.sql.guard import Database
         from cadgraph.agents.sql.tables import make_tables
 
-        return Database(make_tables(self))
+        return Database(make_tables(self.network, self.lines))
 
     def find(self, which: str) -> Node:
         """The node that is called so.

@@ -147,12 +147,8 @@ class _Worker:
     def exchange(self, message: bytes, seconds: float) -> dict[str, Any] | None:
         """Sends a line and waits for the answer to it; None where there is none in time, which ends the process."""
         late = threading.Event()
-
-        def give_up() -> None:
-            late.set()
-            self._process.kill()
-
-        timer = threading.Timer(seconds, give_up)
+        # The timer holds the process alone: a thread that is about to end must not keep this from its end.
+        timer = threading.Timer(seconds, _give_up, (self._process, late))
         timer.daemon = True
         timer.start()
         try:
@@ -175,6 +171,11 @@ class _Worker:
             return reading.readline()
         except OSError:  # it is gone
             return b""
+
+
+def _give_up(process: subprocess.Popen[bytes], late: threading.Event) -> None:
+    late.set()
+    process.kill()
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:

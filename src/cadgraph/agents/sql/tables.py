@@ -8,10 +8,10 @@ from typing import Any
 
 from cadgraph._io.text import tag_key
 from cadgraph.agents.answer import cell
-from cadgraph.agents.plant import Plant
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Adjacent, Box, Cluster, Part, Point, System, Unit
-from cadgraph.query.network import Arc
+from cadgraph.query.lines import Line
+from cadgraph.query.network import Arc, Network
 
 __all__ = ["Row", "Rows", "make_tables"]
 
@@ -21,30 +21,32 @@ Rows = Mapping[str, Sequence[Row]]
 _LONGEST = 200  # characters of a text in a table: paths of meshes come from anybody
 
 
-def make_tables(plant: Plant) -> Rows:
+def make_tables(network: Network, lines: Sequence[Line]) -> Rows:
     """The rows of all tables of :data:`~cadgraph.agents.sql.schema.TABLES`, by table, in the order of its columns.
 
     Texts are on one line, without control characters, and cut to 200 characters.
 
     Args:
-        plant: whose graph it is.
+        network: of the finished graph.
+        lines: all of it.
     """
-    names = _names(plant)
-    places = [node.model_dump() for node in plant.graph.document.nodes if str(node.layer) == "place"]
+    graph = network.graph
+    names = _names(network)
+    places = [node.model_dump() for node in graph.document.nodes if str(node.layer) == "place"]
     levels = _level_names(places)
     return {
-        "unit": list(_units(plant, names, levels)),
-        "point": list(_points(plant, names)),
-        "part": list(_parts(plant, names)),
-        "pipe": list(_pipes(plant, names)),
-        "contact": list(_contacts(plant)),
-        "line": list(_lines(plant, names)),
+        "unit": list(_units(network, names, levels)),
+        "point": list(_points(network, names)),
+        "part": list(_parts(graph, names)),
+        "pipe": list(_pipes(network, lines, names)),
+        "contact": list(_contacts(graph)),
+        "line": list(_lines(lines, names)),
         "cluster": [
-            (_text(node.id), _text(node.kind), node.n_parts, *node.centroid) for node in plant.graph.of_layer(Cluster)
+            (_text(node.id), _text(node.kind), node.n_parts, *node.centroid) for node in graph.of_layer(Cluster)
         ],
         "system": [
             (_text(node.id), len(node.units), len(node.terminals), node.length, _joined(node.sizes))
-            for node in plant.graph.of_layer(System)
+            for node in graph.of_layer(System)
         ],
         "level": [
             (levels[p["id"]], _text(p["kind"]), p["height"], p["low"], p["area"], _text(p["id"])) for p in places
@@ -60,9 +62,9 @@ def _joined(sizes: Sequence[int]) -> str:
     return "/".join(str(size) for size in sizes)
 
 
-def _names(plant: Plant) -> dict[str, str]:
+def _names(network: Network) -> dict[str, str]:
     """What the nodes of the network are called in the tables, by id: no two alike, for tables are joined by it."""
-    called = {place: plant.called(place) for place in plant.network.places}
+    called = {place: cell(network.name(place)) for place in network.places}
     often = Counter(called.values())
     return {place: name if often[name] == 1 else cell(place, _LONGEST) for place, name in called.items()}
 
@@ -76,16 +78,16 @@ def _level_names(places: Sequence[Mapping[str, Any]]) -> dict[str, str]:
     }
 
 
-def _units(plant: Plant, names: Mapping[str, str], levels: Mapping[str, str]) -> Iterator[Row]:
-    plan = _plan(plant.graph)
-    for unit in sorted(plant.graph.of_layer(Unit), key=lambda unit: tag_key(unit.tag)):
+def _units(network: Network, names: Mapping[str, str], levels: Mapping[str, str]) -> Iterator[Row]:
+    plan = _plan(network.graph)
+    for unit in sorted(network.graph.of_layer(Unit), key=lambda unit: tag_key(unit.tag)):
         access = unit.model_dump().get("access") or {}
         guess = unit.kind_guesses[0][0] if unit.kind is None and unit.kind_guesses else None
         yield (
-            names[unit.id], _text(unit.unit_type), _text(unit.kind), _text(guess), _text(plant.network.system(unit.id)),
+            names[unit.id], _text(unit.unit_type), _text(unit.kind), _text(guess), _text(network.system(unit.id)),
             _region(plan, unit.centroid), levels.get(access.get("place") or ""), *unit.centroid,
             unit.aabb[0][2], unit.aabb[1][2], access.get("height"), access.get("reach"),
-            len({arc.index for arc in plant.network.arcs(unit.id)}), _text(unit.id),
+            len({arc.index for arc in network.arcs(unit.id)}), _text(unit.id),
         )  # fmt: skip
 
 
@@ -104,16 +106,14 @@ def _region(plan: Box, point: Point) -> str:
     return " ".join(filter(None, (("south", "", "north")[third[1]], ("west", "", "east")[third[0]]))) or "centre"
 
 
-def _points(plant: Plant, names: Mapping[str, str]) -> Iterator[Row]:
-    network = plant.network
+def _points(network: Network, names: Mapping[str, str]) -> Iterator[Row]:
     for place, node in network.places.items():
         what = "unit" if isinstance(node, Unit) else network.what(place)
         at = node.centroid if isinstance(node, Unit) else node.point
         yield names[place], what, _text(network.system(place)), *at
 
 
-def _parts(plant: Plant, names: Mapping[str, str]) -> Iterator[Row]:
-    graph = plant.graph
+def _parts(graph: SceneGraph, names: Mapping[str, str]) -> Iterator[Row]:
     for part in graph.of_layer(Part):
         label, unit, cluster = part.label, graph.unit_of(part), graph.cluster_of(part)
         yield (
@@ -128,9 +128,9 @@ def _extents(box: Box) -> tuple[float, float, float]:
     return x, y, z
 
 
-def _pipes(plant: Plant, names: Mapping[str, str]) -> Iterator[Row]:
-    line_of = {arc.index: line.tag for line in plant.lines for arc in line.arcs}
-    for number, edge in enumerate(plant.network.edges):
+def _pipes(network: Network, lines: Sequence[Line], names: Mapping[str, str]) -> Iterator[Row]:
+    line_of = {arc.index: line.tag for line in lines for arc in line.arcs}
+    for number, edge in enumerate(network.edges):
         for arc in (Arc(number, edge, True), Arc(number, edge, False)):
             yield (
                 names[arc.start], names[arc.end], arc.flow, arc.length, edge.size, line_of.get(number),
@@ -138,15 +138,15 @@ def _pipes(plant: Plant, names: Mapping[str, str]) -> Iterator[Row]:
             )  # fmt: skip
 
 
-def _contacts(plant: Plant) -> Iterator[Row]:
-    for edge in plant.graph.of_kind(Adjacent):
+def _contacts(graph: SceneGraph) -> Iterator[Row]:
+    for edge in graph.of_kind(Adjacent):
         a, b = _text(edge.source), _text(edge.target)
         yield a, b, edge.distance
         yield b, a, edge.distance
 
 
-def _lines(plant: Plant, names: Mapping[str, str]) -> Iterator[Row]:
-    for line in plant.lines:
+def _lines(lines: Sequence[Line], names: Mapping[str, str]) -> Iterator[Row]:
+    for line in lines:
         through = ", ".join(names[place] for place in line.through)
         yield (
             line.tag, names[line.start], names[line.end], through, line.length, int(line.whole), line.size, line.flow,
