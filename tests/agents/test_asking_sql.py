@@ -17,7 +17,6 @@ from cadgraph.agents.sql.guard import Database
 from cadgraph.agents.sql.schema import TABLES
 from cadgraph.agents.sql.tables import make_tables
 from cadgraph.model.records import Unit
-from cadgraph.query import Network, find_lines
 from graphs import valve_line
 from networks import chain, network, pumping, unit
 
@@ -32,8 +31,8 @@ def plant():
 
 
 def tables_of(graph):
-    network = Network(graph)
-    return make_tables(network, find_lines(network))
+    plant = Plant(graph)
+    return make_tables(plant.network, plant.lines, plant.extent)
 
 
 def rows(plant, sql):
@@ -152,7 +151,7 @@ def test_two_that_would_be_called_alike_are_called_by_their_ids():
 
 def test_other_questions_do_not_wait_for_a_query():
     plant = Plant(pumping())
-    vars(plant)["tables"] = Database(make_tables(plant.network, plant.lines), 0.6)
+    vars(plant)["tables"] = Database(make_tables(plant.network, plant.lines, plant.extent), 0.6)
     query(plant, "SELECT 1")
     sql = "SELECT count(*) FROM pipe a, pipe b, pipe c, pipe d, pipe e"
     slow = threading.Thread(target=pytest.raises, args=(AskError, query, plant, sql))

@@ -11,11 +11,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from cadgraph.agents.plant import Plant
 from cadgraph.agents.sql import child
 from cadgraph.agents.sql.guard import SECONDS, Database, Stopped
 from cadgraph.agents.sql.tables import make_tables
 from cadgraph.errors import AskError
-from cadgraph.query import Network, find_lines
 from networks import pumping
 
 SHORT = 0.4  # s; that queries may take in most tests here
@@ -115,8 +115,8 @@ FULL = {
 
 @pytest.fixture(scope="module")
 def rows():
-    network = Network(pumping())
-    return make_tables(network, find_lines(network))
+    plant = Plant(pumping())
+    return make_tables(plant.network, plant.lines, plant.extent)
 
 
 @pytest.fixture(scope="module")

@@ -39,7 +39,7 @@ TABLES: Mapping[str, Table] = {
             "kind": ("TEXT", "ball valve, pressure gauge...; null where it is not known"),
             "likely_kind": ("TEXT", "where kind is null: the likeliest one, a guess"),
             "system": _SYSTEM,
-            "region": ("TEXT", "north, north east, centre...: ninths of the plan"),
+            "region": ("TEXT", "north, north east, middle...: ninths of the plan"),
             "level": ("TEXT", "name of the level that it is worked from"),
             **_PLACE,
             "low": ("REAL", "height of its lowest point [m]"),

@@ -21,7 +21,7 @@ Rows = Mapping[str, Sequence[Row]]
 _LONGEST = 200  # characters of a text in a table: paths of meshes come from anybody
 
 
-def make_tables(network: Network, lines: Sequence[Line]) -> Rows:
+def make_tables(network: Network, lines: Sequence[Line], extent: Box) -> Rows:
     """The rows of all tables of :data:`~cadgraph.agents.sql.schema.TABLES`, by table, in the order of its columns.
 
     Texts are on one line, without control characters, and cut to 200 characters.
@@ -29,13 +29,14 @@ def make_tables(network: Network, lines: Sequence[Line]) -> Rows:
     Args:
         network: of the finished graph.
         lines: all of it.
+        extent: box that the regions are ninths of, in plan [m].
     """
     graph = network.graph
     names = _names(network)
     places = [node.model_dump() for node in graph.document.nodes if str(node.layer) == "place"]
     levels = _level_names(places)
     return {
-        "unit": list(_units(network, names, levels)),
+        "unit": list(_units(network, names, levels, extent)),
         "point": list(_points(network, names)),
         "part": list(_parts(graph, names)),
         "pipe": list(_pipes(network, lines, names)),
@@ -78,32 +79,26 @@ def _level_names(places: Sequence[Mapping[str, Any]]) -> dict[str, str]:
     }
 
 
-def _units(network: Network, names: Mapping[str, str], levels: Mapping[str, str]) -> Iterator[Row]:
-    plan = _plan(network.graph)
+def _units(network: Network, names: Mapping[str, str], levels: Mapping[str, str], extent: Box) -> Iterator[Row]:
     for unit in sorted(network.graph.of_layer(Unit), key=lambda unit: tag_key(unit.tag)):
         access = unit.model_dump().get("access") or {}
         guess = unit.kind_guesses[0][0] if unit.kind is None and unit.kind_guesses else None
         yield (
             names[unit.id], _text(unit.unit_type), _text(unit.kind), _text(guess), _text(network.system(unit.id)),
-            _region(plan, unit.centroid), levels.get(access.get("place") or ""), *unit.centroid,
+            _region(extent, unit.centroid), levels.get(access.get("place") or ""), *unit.centroid,
             unit.aabb[0][2], unit.aabb[1][2], access.get("height"), access.get("reach"),
             len({arc.index for arc in network.arcs(unit.id)}), _text(unit.id),
         )  # fmt: skip
 
 
-def _plan(graph: SceneGraph) -> Box:
-    """The box round all units and all parts but the ground."""
-    solid = [part.aabb for part in graph.of_layer(Part) if not part.ground]
-    boxes = [*(unit.aabb for unit in graph.of_layer(Unit)), *solid] or [((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))]
-    low = tuple(min(box[0][k] for box in boxes) for k in range(3))
-    high = tuple(max(box[1][k] for box in boxes) for k in range(3))
-    return (low[0], low[1], low[2]), (high[0], high[1], high[2])
-
-
-def _region(plan: Box, point: Point) -> str:
+def _region(extent: Box, point: Point) -> str:
     """The ninth of the plan that a point lies in; north is +y."""
-    third = [min(2, max(0, int(3 * (point[k] - plan[0][k]) / max(plan[1][k] - plan[0][k], 1e-9)))) for k in range(2)]
-    return " ".join(filter(None, (("south", "", "north")[third[1]], ("west", "", "east")[third[0]]))) or "centre"
+    words = []
+    for k, names in ((1, ("south", "", "north")), (0, ("west", "", "east"))):
+        span = extent[1][k] - extent[0][k]
+        share = (point[k] - extent[0][k]) / span if span > 0 else 0.5
+        words.append(names[min(2, max(0, int(3 * share)))])
+    return " ".join(filter(None, words)) or "middle"
 
 
 def _points(network: Network, names: Mapping[str, str]) -> Iterator[Row]:
