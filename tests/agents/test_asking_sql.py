@@ -140,13 +140,12 @@ def test_names_of_a_hostile_file_are_cells(plant):
     assert query(bad, "SELECT 1 AS 'a\n\tb'").text.splitlines() == ["a b", "1"]
 
 
-def test_two_that_would_be_called_alike_are_called_by_their_ids():
-    tags = ["V-1\x00", "V-1\x01"]
-    valves = [unit(f"V-00{n}").model_copy(update={"tag": tag}) for n, tag in enumerate(tags, 1)]
-    assert rows(Plant(network(valves, chain("V-001 V-002"))), "SELECT tag FROM unit ORDER BY tag") == [
-        ("unit-V-001",),
-        ("unit-V-002",),
-    ]
+def test_two_that_look_alike_have_names_of_their_own_that_other_tools_know():
+    valves = [unit(f"V-00{n}").model_copy(update={"tag": f"V-1{mark}"}) for n, mark in ((1, "\x00"), (2, "\x01"))]
+    plant = Plant(network(valves, chain("V-001 V-002")))
+    names = [name for (name,) in rows(plant, "SELECT tag FROM unit ORDER BY id")]
+    assert [plant.find(name).id for name in names] == ["unit-V-001", "unit-V-002"]
+    assert rows(plant, "SELECT a, b FROM pipe WHERE flow = 'along'") == [tuple(names)]
 
 
 def test_other_questions_do_not_wait_for_a_query():

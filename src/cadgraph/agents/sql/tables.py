@@ -27,12 +27,12 @@ def make_tables(network: Network, lines: Sequence[Line], extent: Box) -> Rows:
     Texts are on one line, without control characters, and cut to 200 characters.
 
     Args:
-        network: of the finished graph.
+        network: of the finished graph, with names as answers show them: on one line, no two alike.
         lines: all of it.
         extent: box that the regions are ninths of, in plan [m].
     """
     graph = network.graph
-    names = _names(network)
+    names = {place: network.name(place) for place in network.places}
     places = [node.model_dump() for node in graph.document.nodes if str(node.layer) == "place"]
     levels = _level_names(places)
     return {
@@ -61,13 +61,6 @@ def _text(value: str | None) -> str | None:
 
 def _joined(sizes: Sequence[int]) -> str:
     return "/".join(str(size) for size in sizes)
-
-
-def _names(network: Network) -> dict[str, str]:
-    """What the nodes of the network are called in the tables, by id: no two alike, for tables are joined by it."""
-    called = {place: cell(network.name(place)) for place in network.places}
-    often = Counter(called.values())
-    return {place: name if often[name] == 1 else cell(place, _LONGEST) for place, name in called.items()}
 
 
 def _level_names(places: Sequence[Mapping[str, Any]]) -> dict[str, str]:
