@@ -19,6 +19,7 @@ from cadgraph.query.network import Network
 from cadgraph.query.summary import Summary, summarize
 
 if TYPE_CHECKING:
+    from cadgraph.agents.sql.guard import Database
     from cadgraph.model.scene import Scene
 
 __all__ = ["Plant"]
@@ -75,6 +76,19 @@ class Plant:
     def lines(self) -> tuple[Line, ...]:
         """All lines, in the order of the line list."""
         return tuple(find_lines(self.network))
+
+    @property
+    def has_places(self) -> bool:
+        """Whether the graph says where one can stand; graphs of earlier versions don't."""
+        return any(str(node.layer) == "place" for node in self.graph.nodes.values())
+
+    @cached_property
+    def tables(self) -> Database:
+        """The graph as tables that SQL can ask."""
+        from cadgraph.agents.sql.guard import Database
+        from cadgraph.agents.sql.tables import make_tables
+
+        return Database(make_tables(self.network, self.lines, self.extent))
 
     @cached_property
     def extent(self) -> Box:

@@ -10,7 +10,7 @@ from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, create_model
 
-from cadgraph.agents import describing, looking, measuring, walking
+from cadgraph.agents import asking_sql, describing, looking, measuring, walking
 from cadgraph.agents.answer import Answer, AskError, among, cell, did_you_mean
 from cadgraph.agents.plant import Plant
 
@@ -142,5 +142,6 @@ TOOLS: tuple[Tool, ...] = (
         "How far two things are apart: straight, in plan, height, compass, above or below, along pipes.",
         measuring.measure,
     ),
+    Tool("query", asking_sql.DESCRIPTION, asking_sql.query),
 )
 """All tools, in the order that they are listed in."""
