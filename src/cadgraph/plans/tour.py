@@ -1,0 +1,165 @@
+"""The order of stops that makes a round short."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+
+__all__ = ["EXACT", "length_of", "shortest_order"]
+
+EXACT = 12
+"""Up to so many stops the shortest order of all is found (Held and Karp 1962), above it nearly."""
+
+_RESTARTS = 12  # how often a part of a good order is shuffled and mended again
+_LEAST_GAIN = 1e-9  # m; what is no more than rounding is no gain
+
+
+def shortest_order(distances: Sequence[Sequence[float]], stages: Sequence[int]) -> list[int]:
+    """The order in which stops are visited from the start and back to it.
+
+    Exact for up to :data:`EXACT` stops. Above, each stop is inserted where it lengthens the round least, then the order
+    is mended by turning pieces round (2-opt) and moving them (Or-opt) until nothing shortens it, several times over.
+
+    Args:
+        distances: between the start, which is number 0, and the stops, whose numbers are 1, 2...; symmetric [m].
+        stages: of each stop, the start left out; those of a lower stage are visited before those of a higher one.
+
+    Returns:
+        The numbers of the stops; of orders of the same length always the same one.
+    """
+    n = len(stages)
+    if n <= 1:
+        return list(range(1, n + 1))
+    return _exact(distances, stages) if n <= EXACT else _mended(distances, stages)
+
+
+def length_of(distances: Sequence[Sequence[float]], order: Sequence[int]) -> float:
+    """The length of a round in this order, the start before and after it included [m]."""
+    return sum(distances[a][b] for a, b in zip((0, *order), (*order, 0), strict=True))
+
+
+def _exact(distances: Sequence[Sequence[float]], stages: Sequence[int]) -> list[int]:
+    """Dynamic programming over sets of stops that were visited and the last of them."""
+    n = len(stages)
+    # What must have been visited before a stop, as bits.
+    before = [sum(1 << k for k in range(n) if stages[k] < stages[i]) for i in range(n)]
+    best: dict[tuple[int, int], tuple[float, int]] = {
+        (1 << i, i): (distances[0][i + 1], -1) for i in range(n) if before[i] == 0
+    }
+    layer = list(best)
+    for _ in range(n - 1):
+        following: dict[tuple[int, int], tuple[float, int]] = {}
+        for visited, last in layer:
+            so_far = best[visited, last][0]
+            for i in range(n):
+                if visited >> i & 1 or before[i] & ~visited:
+                    continue
+                state, length = (visited | 1 << i, i), so_far + distances[last + 1][i + 1]
+                known = following.get(state)
+                if known is None or (length, last) < known:
+                    following[state] = length, last
+        best |= following
+        layer = list(following)
+    _, last = min((best[state][0] + distances[state[1] + 1][0], state[1]) for state in layer)
+    order: list[int] = []
+    visited = (1 << n) - 1
+    while last >= 0:
+        order.append(last + 1)
+        previous = best[visited, last][1]
+        visited, last = visited & ~(1 << last), previous
+    return order[::-1]
+
+
+def _mended(distances: Sequence[Sequence[float]], stages: Sequence[int]) -> list[int]:
+    best = _improve(distances, stages, _inserted(distances, stages))
+    length = length_of(distances, best)
+    chance = random.Random(0)  # the same round each time
+    for _ in range(_RESTARTS):
+        order = list(best)
+        for low, high in _blocks(order, stages):
+            cuts = sorted(chance.sample(range(low, high + 1), 3)) if high - low > 3 else []
+            if cuts:  # two pieces beside each other change places, which neither mending can do in one go
+                a, b, c = cuts
+                order[a:c] = order[b:c] + order[a:b]
+        order = _improve(distances, stages, order)
+        found = length_of(distances, order)
+        if found < length - _LEAST_GAIN:
+            best, length = order, found
+    return best
+
+
+def _inserted(distances: Sequence[Sequence[float]], stages: Sequence[int]) -> list[int]:
+    """Stage by stage, the stop nearest to the round so far where it lengthens it least."""
+    order: list[int] = []
+    for stage in sorted(set(stages)):
+        waiting = {i + 1 for i, own in enumerate(stages) if own == stage}
+        low = len(order)
+        near = {i: min(distances[i][k] for k in (0, *order)) for i in waiting}
+        while waiting:
+            stop = min(waiting, key=lambda i: (near[i], i))
+            waiting.remove(stop)
+            row = distances[stop]
+
+            def longer(at: int, row: Sequence[float] = row) -> float:
+                a, b = (order[at - 1] if at else 0), (order[at] if at < len(order) else 0)
+                return row[a] + row[b] - distances[a][b]
+
+            order.insert(min(range(low, len(order) + 1), key=longer), stop)
+            near = {i: min(near[i], row[i]) for i in waiting}
+    return order
+
+
+def _blocks(order: Sequence[int], stages: Sequence[int]) -> list[tuple[int, int]]:
+    """Where each stage begins and ends in an order."""
+    cuts = [k for k in range(1, len(order)) if stages[order[k] - 1] != stages[order[k - 1] - 1]]
+    return list(zip((0, *cuts), (*cuts, len(order)), strict=True))
+
+
+def _improve(distances: Sequence[Sequence[float]], stages: Sequence[int], order: list[int]) -> list[int]:
+    """Turns and moves pieces within their stages until nothing shortens the round."""
+    blocks = _blocks(order, stages)
+    better = True
+    while better:
+        better = False
+        for low, high in blocks:
+            better |= _turn(distances, order, low, high)
+            for size in (1, 2, 3):
+                better |= _move(distances, order, low, high, size)
+    return order
+
+
+def _turn(distances: Sequence[Sequence[float]], order: list[int], low: int, high: int) -> bool:
+    """2-opt: turns round each piece that is shorter so."""
+    found = False
+    for i in range(low, high - 1):
+        before = order[i - 1] if i else 0
+        for j in range(i + 1, high):
+            after = order[j + 1] if j + 1 < len(order) else 0
+            first, last = order[i], order[j]
+            gain = distances[before][first] + distances[last][after] - distances[before][last] - distances[first][after]
+            if gain > _LEAST_GAIN:
+                order[i : j + 1] = order[i : j + 1][::-1]
+                found = True
+    return found
+
+
+def _move(distances: Sequence[Sequence[float]], order: list[int], low: int, high: int, size: int) -> bool:
+    """Or-opt: moves each piece of some stops to where it lengthens the round least, either way round."""
+    found = False
+    for i in range(low, high - size + 1):
+        piece = order[i : i + size]
+        rest = order[:i] + order[i + size :]
+        ends = [0, *rest, 0]  # rest[k] is ends[k + 1]
+        saved = distances[ends[i]][piece[0]] + distances[piece[-1]][ends[i + 1]] - distances[ends[i]][ends[i + 1]]
+        best, where, turned = saved - _LEAST_GAIN, -1, False
+        for k in range(low, high - size + 1):
+            a, b = ends[k], ends[k + 1]
+            for backwards in (False, True):
+                first, last = (piece[-1], piece[0]) if backwards else (piece[0], piece[-1])
+                added = distances[a][first] + distances[last][b] - distances[a][b]
+                if added < best:
+                    best, where, turned = added, k, backwards
+        if where >= 0:
+            order[:] = rest[:where] + (piece[::-1] if turned else piece) + rest[where:]
+            found = True
+    return found
