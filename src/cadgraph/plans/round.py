@@ -32,7 +32,7 @@ class Step:
         do: ``walk`` on a level, ``climb`` stairs or a ladder, ``set up`` a ladder or lift, or what the goal says.
         target: id of the unit or way that it is done at, or that one walks to.
         level: id of the level that one stands on after it.
-        point: where one stands after it [m]; None for anywhere on the ground.
+        point: where one stands after it [m]; None where that isn't known.
         length: of the walk, or height of the climb [m]; 0 for all else.
         estimated: whether the length is that of a straight line.
         goal: that it fulfils, if any.
@@ -177,7 +177,7 @@ def _steps(known: Survey, order: Sequence[Goal]) -> Iterator[Step]:
         stop = known.stops[goal.unit]
         yield from _on_the_way(known, here, stop.spot)
         here = stop.spot
-        standing = Step("set up", goal.unit, here.level, here.point)
+        standing = Step("set up", goal.unit, here.level, _known_point(here))
         if stop.aid is not None and goal.unit not in lifted:
             lifted.add(goal.unit)
             yield replace(standing, needs=(f"a ladder or lift: {stop.aid}",))
@@ -205,7 +205,11 @@ def _step(leg: Leg) -> Step:
     unsure = ("no free way was found: the length is that of a straight line",) if leg.blocked else ()
     end = leg.end
     doing: Doing = "climb" if leg.climb else "walk"
-    return Step(doing, end.name, end.level, end.point, leg.length, leg.estimated, unsure=unsure)
+    return Step(doing, end.name, end.level, _known_point(end), leg.length, leg.estimated, unsure=unsure)
+
+
+def _known_point(spot: Spot) -> Point | None:
+    return spot.point if spot.sure else None
 
 
 def _needs(known: Survey, goal: Goal, stop: Stop) -> tuple[str, ...]:

@@ -100,19 +100,19 @@ def _told(known: Survey, step: Step, number: int) -> str:
     name = _name(known, step.target)
     level = shown(known.terrain.name(step.level))
     if step.do == "walk":
-        stand = f"stand at {_at(step.point)}" if not step.unsure and step.point is not None else "around there"
+        stand = f", stand at {_at(step.point)}" if step.point is not None else ""
         if number == 1 and known.start.point is None:
-            return f"begin at {name} on the {level}, {stand}"
-        return f"walk {'about ' * step.estimated}{step.length:.1f} m to {name} on the {level}, {stand}"
+            return f"begin at {name} on the {level}{stand}"
+        return f"walk {'about ' * step.estimated}{step.length:.1f} m to {name} on the {level}{stand}{' ?' * bool(step.unsure)}"
     if step.do == "climb":
-        low = known.terrain.places[step.target].height > (step.point[2] if step.point else 0.0) + 0.3
-        return f"climb {name} {'down' if low else 'up'} {step.length:.1f} m to the {level}"
+        top = known.terrain.ways[step.target].ends[-1].level
+        return f"climb {name} {'up' if step.level == top else 'down'} {step.length:.1f} m to the {level}"
     if step.do == "set up":
         return f"set up {'; '.join(step.needs)}"
-    told = [*step.needs, *_changed(step), *step.unsure]
+    told = [*step.needs, *_changed(step)]
     if step.eye is not None:
         told.insert(0, f"seen from {_at(step.eye)}")
-    return f"{step.do} {name} ({_what(known, step.target)}){': ' * bool(told)}{'; '.join(told)}"
+    return f"{step.do} {name} ({_what(known, step.target)}){' ?' * bool(step.unsure)}{': ' * bool(told)}{'; '.join(told)}"
 
 
 def _changed(step: Step) -> list[str]:
@@ -123,7 +123,8 @@ def _changed(step: Step) -> list[str]:
     if change.fed_again:
         told.append(f"feeds again {', '.join(map(shown, change.fed_again))}")
     if change.unknown:
-        told.append(f"whether it changes anything is not known for {', '.join(map(shown, change.unknown))}")
+        may = "may cut off" if step.do == "close" else "may feed again"
+        told.append(f"{may}, nobody knows: {', '.join(map(shown, change.unknown))}")
     if step.do != "read" and not (change.cut_off or change.fed_again or change.unknown or change.notes):
         told.append("no unit or end is known to be cut off by it" if step.do == "close" else "feeds nothing again")
     return told + [shown(note, 500) for note in change.notes]

@@ -67,7 +67,9 @@ class Walks:
         return rows
 
     def legs(self, start: Spot, end: Spot) -> tuple[Leg, ...] | None:
-        """The walks and climbs of the shortest way; None where no way leads there."""
+        """The walks and climbs of the shortest way, none where one is there; None where no way leads there."""
+        if start == end:
+            return ()
         best = math.inf
         via: tuple[int, int] | None = None
         if start.level == end.level:
@@ -81,7 +83,8 @@ class Walks:
         if via is None:
             return None if math.isinf(best) else (self.on_level(start, end),)
         middle = self._chain(*via)
-        return (self.on_level(start, self._ends[via[0]]), *middle, self.on_level(self._ends[via[1]], end))
+        legs = (self.on_level(start, self._ends[via[0]]), *middle, self.on_level(self._ends[via[1]], end))
+        return tuple(leg for leg in legs if leg.start != leg.end)
 
     def on_level(self, start: Spot, end: Spot) -> Leg:
         """The walk between two spots of a level."""

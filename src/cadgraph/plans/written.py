@@ -80,5 +80,5 @@ def read_written(text: str, where: str) -> WrittenRound:
         first = error.errors(include_url=False, include_context=False, include_input=False)[0]
         at = ".".join(str(step) for step in first["loc"]) or "the file"
         raise AskError(
-            f"{where}: no round: {shown(at)}: {shown(first['msg'], 200)}; 'cadgraph plan --json' prints one as it should be"
+            f"{where}: no round: {shown(at)}: {shown(first['msg'], 200)}; 'cadgraph plan --json' prints what is one"
         ) from None
