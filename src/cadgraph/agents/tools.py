@@ -10,7 +10,7 @@ from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, create_model
 
-from cadgraph.agents import measuring
+from cadgraph.agents import describing, looking, measuring, walking
 from cadgraph.agents.answer import Answer, AskError, among, cell, did_you_mean
 from cadgraph.agents.plant import Plant
 
@@ -104,8 +104,44 @@ def _untitled(schema: Any) -> Any:
 
 TOOLS: tuple[Tool, ...] = (
     Tool(
+        "overview",
+        "Start here: extent, units by kind, systems, and what the graph does not know.",
+        looking.overview,
+    ),
+    Tool(
+        "find",
+        "Lists and counts units (also parts, junctions, ends) by type, kind, system, region, or distance, with places "
+        "in m. Distances are straight, middle to middle.",
+        looking.find,
+    ),
+    Tool("describe", "One thing: kind, place, ports, parts, how sure.", describing.describe),
+    Tool(
+        "neighbors",
+        "What is next along pipes (units, ends), or which parts touch.",
+        walking.neighbors,
+    ),
+    Tool(
+        "trace",
+        "All downstream (what it feeds) or upstream (what feeds it), in order, with distances along pipes. Says where "
+        "it halts.",
+        walking.trace,
+    ),
+    Tool("route", "Shortest way along pipes between two units, either way of flow.", walking.route),
+    Tool(
+        "isolate",
+        "Valves to close so that nothing can flow to a unit. Repeat its doubts and what stays open: people act on it.",
+        walking.isolate,
+    ),
+    Tool(
+        "what_if",
+        "What is cut off from its supply when valves are closed. About flow, not safety: for opening a unit use "
+        "isolate. UNKNOWN stays unknown.",
+        walking.what_if,
+    ),
+    Tool("lines", "Line list: from, to, length, DN, flow, what stands in each line in order.", walking.lines),
+    Tool(
         "measure",
-        "How far two things are apart: straight, in plan, in height, by compass, above or below, and along the pipes.",
+        "How far two things are apart: straight, in plan, height, compass, above or below, along pipes.",
         measuring.measure,
     ),
 )
