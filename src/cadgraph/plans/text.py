@@ -46,7 +46,11 @@ def doubt_lines(known: Survey, planned: Round) -> list[str]:
 
 def step_lines(known: Survey, planned: Round) -> list[str]:
     """One line for each step."""
-    return [f"{number}. {_told(known, step, number)}" for number, step in enumerate(planned.steps, start=1)]
+    levels = [known.start.level, *(step.level for step in planned.steps)]
+    return [
+        f"{number}. {_told(known, step, levels[number - 1], number == 1)}"
+        for number, step in enumerate(planned.steps, start=1)
+    ]
 
 
 def supposed_lines(planned: Round) -> list[str]:
@@ -96,23 +100,28 @@ def _values(known: Survey, step: Step) -> dict[str, Any]:
     }
 
 
-def _told(known: Survey, step: Step, number: int) -> str:
+def _told(known: Survey, step: Step, before: str, first: bool) -> str:
+    """A step in words, after one that ended on a level."""
     name = _name(known, step.target)
     level = shown(known.terrain.name(step.level))
     if step.do == "walk":
         stand = f", stand at {_at(step.point)}" if step.point is not None else ""
-        if number == 1 and known.start.point is None:
+        if first and known.start.point is None:
             return f"begin at {name} on the {level}{stand}"
-        return f"walk {'about ' * step.estimated}{step.length:.1f} m to {name} on the {level}{stand}{' ?' * bool(step.unsure)}"
+        length = f"{'about ' * step.estimated}{step.length:.1f} m"
+        return f"walk {length} to {name} on the {level}{stand}{' ?' * bool(step.unsure)}"
     if step.do == "climb":
-        top = known.terrain.ways[step.target].ends[-1].level
-        return f"climb {name} {'up' if step.level == top else 'down'} {step.length:.1f} m to the {level}"
+        ends = [end.level for end in known.terrain.ways[step.target].ends]
+        way = "up" if ends.index(step.level) > ends.index(before) else "down"
+        return f"climb {name} {way} {step.length:.1f} m to the {level}"
     if step.do == "set up":
         return f"set up {'; '.join(step.needs)}"
     told = [*step.needs, *_changed(step)]
     if step.eye is not None:
         told.insert(0, f"seen from {_at(step.eye)}")
-    return f"{step.do} {name} ({_what(known, step.target)}){' ?' * bool(step.unsure)}{': ' * bool(told)}{'; '.join(told)}"
+    return (
+        f"{step.do} {name} ({_what(known, step.target)}){' ?' * bool(step.unsure)}{': ' * bool(told)}{'; '.join(told)}"
+    )
 
 
 def _changed(step: Step) -> list[str]:

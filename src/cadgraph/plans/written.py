@@ -8,7 +8,6 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from cadgraph.errors import AskError, CadGraphError
-from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Node, Place, Unit
 from cadgraph.plans.goals import shown
 from cadgraph.plans.rules import Move
@@ -42,11 +41,10 @@ class WrittenRound(_Written):
     steps: tuple[_WrittenStep, ...] = Field(max_length=100_000)
     length_m: float | None = Field(default=None, ge=0)
 
-    def moves(self, graph: SceneGraph, find: Callable[[str], Node]) -> tuple[Move, ...]:
+    def moves(self, find: Callable[[str], Node]) -> tuple[Move, ...]:
         """Its steps with the ids of a graph; a name that nothing has stays as it is, which breaks a rule.
 
         Args:
-            graph: that it goes through.
             find: the node with a tag or id; raises where there is none.
         """
         known: dict[str, str] = {}
