@@ -5,13 +5,20 @@ from __future__ import annotations
 import random
 from collections.abc import Sequence
 
+import numpy as np
+import numpy.typing as npt
+
 __all__ = ["EXACT", "length_of", "shortest_order"]
 
 EXACT = 12
 """Up to so many stops the shortest order of all is found (Held and Karp 1962), above it nearly."""
 
-_RESTARTS = 12  # how often a part of a good order is shuffled and mended again
+_SHUFFLES = 3000  # divided by the number of stops: how often a part of a good order is shuffled and mended again
+_MOST_SHUFFLED = 8  # stops of such a part
 _LEAST_GAIN = 1e-9  # m; what is no more than rounding is no gain
+
+Floats = npt.NDArray[np.float64]
+Ints = npt.NDArray[np.int64]
 
 
 def shortest_order(distances: Sequence[Sequence[float]], stages: Sequence[int]) -> list[int]:
@@ -71,21 +78,20 @@ def _exact(distances: Sequence[Sequence[float]], stages: Sequence[int]) -> list[
 
 
 def _mended(distances: Sequence[Sequence[float]], stages: Sequence[int]) -> list[int]:
-    best = _improve(distances, stages, _inserted(distances, stages))
-    length = length_of(distances, best)
+    table = np.array(distances, np.float64)
+    blocks = _blocks(_inserted(distances, stages), stages)
+    best = np.array(_inserted(distances, stages), np.int64)
+    _improve(table, best, blocks)
+    length = length_of(distances, best.tolist())
     chance = random.Random(0)  # the same round each time
-    for _ in range(_RESTARTS):
-        order = list(best)
-        for low, high in _blocks(order, stages):
-            cuts = sorted(chance.sample(range(low, high + 1), 3)) if high - low > 3 else []
-            if cuts:  # two pieces beside each other change places, which neither mending can do in one go
-                a, b, c = cuts
-                order[a:c] = order[b:c] + order[a:b]
-        order = _improve(distances, stages, order)
-        found = length_of(distances, order)
+    for _ in range(_SHUFFLES // len(stages)):
+        order = best.copy()
+        _shuffle(chance, order, blocks)
+        _improve(table, order, blocks)
+        found = length_of(distances, order.tolist())
         if found < length - _LEAST_GAIN:
             best, length = order, found
-    return best
+    return [int(stop) for stop in best]
 
 
 def _inserted(distances: Sequence[Sequence[float]], stages: Sequence[int]) -> list[int]:
@@ -115,51 +121,62 @@ def _blocks(order: Sequence[int], stages: Sequence[int]) -> list[tuple[int, int]
     return list(zip((0, *cuts), (*cuts, len(order)), strict=True))
 
 
-def _improve(distances: Sequence[Sequence[float]], stages: Sequence[int], order: list[int]) -> list[int]:
+def _shuffle(chance: random.Random, order: Ints, blocks: Sequence[tuple[int, int]]) -> None:
+    """Shuffles some neighbouring stops in each of some stages, and lets two pieces of it change places."""
+    for low, high in blocks:
+        size = min(_MOST_SHUFFLED, high - low)
+        if size < 2 or (len(blocks) > 1 and chance.random() < 0.5):
+            continue
+        if high - low > _MOST_SHUFFLED and chance.random() < 0.5:
+            # Neither turning nor moving short pieces can do this in one go (Martin, Otto and Felten 1991).
+            a, b, c = sorted(chance.sample(range(low, high + 1), 3))
+            order[a:c] = np.concatenate([order[b:c], order[a:b]])
+            continue
+        first = chance.randint(low, high - size)
+        piece = [int(stop) for stop in order[first : first + size]]
+        chance.shuffle(piece)
+        order[first : first + size] = piece
+
+
+def _improve(table: Floats, order: Ints, blocks: Sequence[tuple[int, int]]) -> None:
     """Turns and moves pieces within their stages until nothing shortens the round."""
-    blocks = _blocks(order, stages)
     better = True
     while better:
         better = False
         for low, high in blocks:
-            better |= _turn(distances, order, low, high)
+            better |= _turn(table, order, low, high)
             for size in (1, 2, 3):
-                better |= _move(distances, order, low, high, size)
-    return order
+                better |= _move(table, order, low, high, size)
 
 
-def _turn(distances: Sequence[Sequence[float]], order: list[int], low: int, high: int) -> bool:
+def _turn(table: Floats, order: Ints, low: int, high: int) -> bool:
     """2-opt: turns round each piece that is shorter so."""
     found = False
     for i in range(low, high - 1):
-        before = order[i - 1] if i else 0
-        for j in range(i + 1, high):
-            after = order[j + 1] if j + 1 < len(order) else 0
-            first, last = order[i], order[j]
-            gain = distances[before][first] + distances[last][after] - distances[before][last] - distances[first][after]
-            if gain > _LEAST_GAIN:
-                order[i : j + 1] = order[i : j + 1][::-1]
-                found = True
+        before, first = (order[i - 1] if i else 0), order[i]
+        lasts = order[i + 1 : high]
+        afters = np.append(order[i + 2 : high + 1], 0)[: len(lasts)]
+        gains = table[before, first] + table[lasts, afters] - table[before, lasts] - table[first, afters]
+        best = int(np.argmax(gains))
+        if gains[best] > _LEAST_GAIN:
+            order[i : i + best + 2] = order[i : i + best + 2][::-1].copy()
+            found = True
     return found
 
 
-def _move(distances: Sequence[Sequence[float]], order: list[int], low: int, high: int, size: int) -> bool:
+def _move(table: Floats, order: Ints, low: int, high: int, size: int) -> bool:
     """Or-opt: moves each piece of some stops to where it lengthens the round least, either way round."""
     found = False
     for i in range(low, high - size + 1):
-        piece = order[i : i + size]
-        rest = order[:i] + order[i + size :]
-        ends = [0, *rest, 0]  # rest[k] is ends[k + 1]
-        saved = distances[ends[i]][piece[0]] + distances[piece[-1]][ends[i + 1]] - distances[ends[i]][ends[i + 1]]
-        best, where, turned = saved - _LEAST_GAIN, -1, False
-        for k in range(low, high - size + 1):
-            a, b = ends[k], ends[k + 1]
-            for backwards in (False, True):
-                first, last = (piece[-1], piece[0]) if backwards else (piece[0], piece[-1])
-                added = distances[a][first] + distances[last][b] - distances[a][b]
-                if added < best:
-                    best, where, turned = added, k, backwards
-        if where >= 0:
-            order[:] = rest[:where] + (piece[::-1] if turned else piece) + rest[where:]
+        piece = order[i : i + size].copy()
+        ends = np.concatenate([[0], order[:i], order[i + size :], [0]])  # what is left of the order is ends[1:-1]
+        saved = table[ends[i], piece[0]] + table[piece[-1], ends[i + 1]] - table[ends[i], ends[i + 1]]
+        a, b = ends[low : high - size + 1], ends[low + 1 : high - size + 2]
+        added = np.stack([table[a, piece[0]] + table[piece[-1], b], table[a, piece[-1]] + table[piece[0], b]])
+        added -= table[a, b]
+        turned, where = divmod(int(np.argmin(added)), len(a))
+        if added[turned, where] < saved - _LEAST_GAIN:
+            at = low + where + 1
+            order[:] = np.concatenate([ends[1:at], piece[::-1] if turned else piece, ends[at:-1]])
             found = True
     return found
