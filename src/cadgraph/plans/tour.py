@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
@@ -40,9 +41,10 @@ def shortest_order(distances: Sequence[Sequence[float]], stages: Sequence[int]) 
     return _exact(distances, stages) if n <= EXACT else _mended(distances, stages)
 
 
-def length_of(distances: Sequence[Sequence[float]], order: Sequence[int]) -> float:
+def length_of(distances: Sequence[Sequence[float]] | Floats, order: Sequence[int] | Ints) -> float:
     """The length of a round in this order, the start before and after it included [m]."""
-    return sum(distances[a][b] for a, b in zip((0, *order), (*order, 0), strict=True))
+    stops = [0, *map(int, order), 0]
+    return float(sum(distances[a][b] for a, b in pairwise(stops)))
 
 
 def _exact(distances: Sequence[Sequence[float]], stages: Sequence[int]) -> list[int]:
@@ -82,13 +84,13 @@ def _mended(distances: Sequence[Sequence[float]], stages: Sequence[int]) -> list
     blocks = _blocks(_inserted(distances, stages), stages)
     best = np.array(_inserted(distances, stages), np.int64)
     _improve(table, best, blocks)
-    length = length_of(distances, best.tolist())
+    length = length_of(table, best)
     chance = random.Random(0)  # the same round each time
     for _ in range(_SHUFFLES // len(stages)):
         order = best.copy()
         _shuffle(chance, order, blocks)
         _improve(table, order, blocks)
-        found = length_of(distances, order.tolist())
+        found = length_of(table, order)
         if found < length - _LEAST_GAIN:
             best, length = order, found
     return [int(stop) for stop in best]
@@ -140,18 +142,17 @@ def _shuffle(chance: random.Random, order: Ints, blocks: Sequence[tuple[int, int
 
 def _improve(table: Floats, order: Ints, blocks: Sequence[tuple[int, int]]) -> None:
     """Turns and moves pieces within their stages until nothing shortens the round."""
-    better = True
-    while better:
-        better = False
+    before, length = np.inf, length_of(table, order)
+    while length < before - _LEAST_GAIN:
         for low, high in blocks:
-            better |= _turn(table, order, low, high)
+            _turn(table, order, low, high)
             for size in (1, 2, 3):
-                better |= _move(table, order, low, high, size)
+                _move(table, order, low, high, size)
+        before, length = length, length_of(table, order)
 
 
-def _turn(table: Floats, order: Ints, low: int, high: int) -> bool:
+def _turn(table: Floats, order: Ints, low: int, high: int) -> None:
     """2-opt: turns round each piece that is shorter so."""
-    found = False
     for i in range(low, high - 1):
         before, first = (order[i - 1] if i else 0), order[i]
         lasts = order[i + 1 : high]
@@ -160,13 +161,10 @@ def _turn(table: Floats, order: Ints, low: int, high: int) -> bool:
         best = int(np.argmax(gains))
         if gains[best] > _LEAST_GAIN:
             order[i : i + best + 2] = order[i : i + best + 2][::-1].copy()
-            found = True
-    return found
 
 
-def _move(table: Floats, order: Ints, low: int, high: int, size: int) -> bool:
+def _move(table: Floats, order: Ints, low: int, high: int, size: int) -> None:
     """Or-opt: moves each piece of some stops to where it lengthens the round least, either way round."""
-    found = False
     for i in range(low, high - size + 1):
         piece = order[i : i + size].copy()
         ends = np.concatenate([[0], order[:i], order[i + size :], [0]])  # what is left of the order is ends[1:-1]
@@ -178,5 +176,3 @@ def _move(table: Floats, order: Ints, low: int, high: int, size: int) -> bool:
         if added[turned, where] < saved - _LEAST_GAIN:
             at = low + where + 1
             order[:] = np.concatenate([ends[1:at], piece[::-1] if turned else piece, ends[at:-1]])
-            found = True
-    return found
