@@ -10,7 +10,7 @@ from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, create_model
 
-from cadgraph.agents import describing, looking, measuring, walking
+from cadgraph.agents import describing, looking, measuring, planning, walking
 from cadgraph.agents.answer import Answer, AskError, among, cell, did_you_mean
 from cadgraph.agents.plant import Plant
 
@@ -50,7 +50,7 @@ class Tool:
     def schema(self) -> dict[str, Any]:
         """The arguments as a JSON schema, as small as it can be."""
         full = self._arguments.model_json_schema()
-        properties = {name: _untitled(each) for name, each in full.get("properties", {}).items()}
+        properties = {name: _short(each) for name, each in full.get("properties", {}).items()}
         schema: dict[str, Any] = {"type": "object", "properties": properties}
         return schema | ({"required": full["required"]} if full.get("required") else {})
 
@@ -95,11 +95,11 @@ def _described(annotation: Any) -> Any:
     return Annotated[bare, Field(description=text)] if text else annotation
 
 
-def _untitled(schema: Any) -> Any:
-    """A schema without the titles that say each name again."""
-    if isinstance(schema, Mapping):
-        return {key: _untitled(value) for key, value in schema.items() if key != "title"}
-    return schema
+def _short(schema: Mapping[str, Any]) -> dict[str, Any]:
+    """The schema of an argument without what its name and its description say: title, default, that it may be null."""
+    kept = {key: value for key, value in schema.items() if key not in ("title", "default")}
+    choices = [choice for choice in kept.get("anyOf", ()) if choice.get("type") != "null"]
+    return kept | ({"anyOf": choices} if choices else {})
 
 
 TOOLS: tuple[Tool, ...] = (
@@ -110,8 +110,7 @@ TOOLS: tuple[Tool, ...] = (
     ),
     Tool(
         "find",
-        "Lists and counts units (also parts, junctions, ends) by type, kind, system, region, or distance, with places "
-        "in m. Distances are straight, middle to middle.",
+        "Lists and counts units (or parts, junctions, ends), with places in m; distances straight, middle to middle.",
         looking.find,
     ),
     Tool("describe", "One thing: kind, place, ports, parts, how sure.", describing.describe),
@@ -122,8 +121,7 @@ TOOLS: tuple[Tool, ...] = (
     ),
     Tool(
         "trace",
-        "All downstream (what it feeds) or upstream (what feeds it), in order, with distances along pipes. Says where "
-        "it halts.",
+        "All it feeds (downstream) or all that feeds it (upstream), in order, with distances along pipes.",
         walking.trace,
     ),
     Tool("route", "Shortest way along pipes between two units, either way of flow.", walking.route),
@@ -143,6 +141,12 @@ TOOLS: tuple[Tool, ...] = (
         "measure",
         "How far two things are apart: straight, in plan, height, compass, above or below, along pipes.",
         measuring.measure,
+    ),
+    Tool(
+        "plan",
+        "A checked, short round to read gauges and turn valves: walks, climbs, where to stand, what takes a ladder or "
+        "lift, what each step cuts off. ! and ? first: repeat them.",
+        planning.plan,
     ),
 )
 """All tools, in the order that they are listed in."""

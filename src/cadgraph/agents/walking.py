@@ -22,13 +22,14 @@ from cadgraph.query.what_if import what_if as find_consequences
 
 __all__ = ["isolate", "lines", "neighbors", "route", "trace", "what_if"]
 
+_TEXT = 400  # characters of a text that is more than a name
 _LINE = 240  # characters of a row of names; a longer list goes on in another row
 _FLOWS = {"forward": "->", "backward": "<-", "none": "--", "unknown": "?", "contradictory": "><"}
 
 
 def neighbors(
     plant: Plant,
-    id: Annotated[str, "tag or id"],
+    id: str,
     by: Literal["pipe", "touch"] = "pipe",
     page: int = 1,
 ) -> Answer:
@@ -109,7 +110,7 @@ def _touching(plant: Plant, which: str, page: int) -> Answer:
 
 def trace(
     plant: Plant,
-    start: Annotated[str, "tag or id"],
+    start: str,
     direction: Literal["downstream", "upstream"] = "downstream",
     unknown: Annotated[bool, "also go where the flow's direction is unknown"] = False,
     page: int = 1,
@@ -132,9 +133,9 @@ def trace(
     steps = [step for step in found.steps[1:] if not isinstance(plant.network.places[step.place], Junction)]
     head = [f"{direction} of {_told(plant, first)}: {len(steps)} units and ends"]
     if found.halts:
-        head.append(f"MAY NOT BE ALL: halts at {len(found.halts)} places of unknown direction (listed last)")
+        head.append(f"MAY NOT BE ALL: {_count(len(found.halts), 'halt')} where the direction is unknown (listed last)")
     if found.doubts:
-        head.append(f"MAY NOT BE ALL: {len(found.doubts)} doubts (listed last)")
+        head.append(f"MAY NOT BE ALL: {_count(len(found.doubts), 'doubt')} (listed last)")
     head.append(row("distance", "tag", "", "after", "line"))
     rows = [_step_row(step) for step in found.steps[1:]]
     rows += [
@@ -145,7 +146,7 @@ def trace(
     return Answer(page_of(head, [*rows, *_doubt_rows(found.doubts)], [], page), trace_values(found))
 
 
-def route(plant: Plant, start: Annotated[str, "tag or id"], end: Annotated[str, "tag or id"], page: int = 1) -> Answer:
+def route(plant: Plant, start: str, end: str, page: int = 1) -> Answer:
     """The shortest way along the pipes from one unit to another, whichever way they flow.
 
     Args:
@@ -177,7 +178,7 @@ def route(plant: Plant, start: Annotated[str, "tag or id"], end: Annotated[str, 
 
 def isolate(
     plant: Plant,
-    target: Annotated[str, "tag or id"],
+    target: str,
     fewest: Annotated[bool, "fewest valves, though more is shut off"] = False,
     check_valves: Annotated[bool, "count check valves that hold back"] = False,
     page: int = 1,
@@ -198,16 +199,19 @@ def isolate(
     place = plant.place(target)
     found = find_isolation(plant.network, place, check_valves=check_valves, fewest=fewest)
     n_valves = sum(not valve.automatic for valve in found.valves)
-    close = f"{n_valves} valve{'s' * (n_valves != 1)} to close"
+    close = f"{_count(n_valves, 'valve')} to close"
     if found.openings:
-        verdict = f"CAN'T BE ISOLATED WHOLLY: {len(found.openings)} ways stay open; {close}"
+        verdict = f"CAN'T BE ISOLATED WHOLLY: {_count(len(found.openings), 'way')} stay open; {close}"
     elif found.doubts:
-        verdict = f"NOT SURE: {len(found.doubts)} doubts; {close}"
+        verdict = f"NOT SURE: {_count(len(found.doubts), 'doubt')}; {close}"
     else:
         verdict = close if n_valves else "no valve has to be closed: nothing that could flow to it was found"
-    rows = [row("stays open", o.name, o.what, o.port, _metres(o.distance), o.why) for o in found.openings]
+    rows = [
+        f"{row('stays open', o.name, o.what, o.port or '-', _metres(o.distance))}\t{cell(o.why, _TEXT)}"
+        for o in found.openings
+    ]
     rows += _doubt_rows(found.doubts)
-    rows += [row("note", cell(remark, 400)) for remark in found.remarks]
+    rows += [f"note\t{cell(remark, _TEXT)}" for remark in found.remarks]
     rows += [
         row("close", v.name, v.what, v.port, _metres(v.distance), v.line, "closes by itself" if v.automatic else "")
         for v in found.valves
@@ -242,7 +246,7 @@ def what_if(
     except Unconnected:
         raise
     except ValueError as error:
-        raise AskError(cell(error, 400)) from None
+        raise AskError(cell(error, _TEXT)) from None
     return Answer(page_of(_verdict(found), list(_consequence_rows(found)), [], page), _what_if_values(found))
 
 
@@ -265,20 +269,20 @@ def _verdict(found: WhatIf) -> list[str]:
     counts = [f"{surely} cut off"]
     counts += [f"{len(found.cut_off) - surely} cut off only on a condition"] if surely < len(found.cut_off) else []
     counts += [f"{len(found.unknown)} UNKNOWN"] if found.unknown else []
-    counts += [f"{len(found.doubts)} DOUBTS"] if found.doubts else []
+    counts += [_count(len(found.doubts), "DOUBT")] if found.doubts else []
     return [f"closing {cell(', '.join(found.closed), 200)}: {', '.join(counts)}"]
 
 
 def _consequence_rows(found: WhatIf) -> Iterator[str]:
     """What is open first, then what is known."""
-    yield from (row("mind", cell(remark, 400)) for remark in found.remarks)
+    yield from (f"mind\t{cell(remark, _TEXT)}" for remark in found.remarks)
     yield from _doubt_rows(found.doubts)
     yield from _grouped("unknown", found.unknown)
     yield from _grouped("cut off", found.cut_off)
     yield from _grouped("nothing refills", found.not_refilled)
     yield from _grouped("pumps against shut valves", found.dead_headed)
     yield from _grouped("another known way feeds", found.still_fed)
-    yield from (row("supposed", cell(text, 400)) for text in found.assumptions)
+    yield from (f"supposed\t{cell(text, _TEXT)}" for text in found.assumptions)
     yield from _listed("sources", "", found.sources)
 
 
@@ -325,7 +329,7 @@ def lines(
         found = [line for line in found if line.system == wanted]
     known = sum(line.length or 0.0 for line in found)
     head = [
-        f"{len(found)} line{'s' * (len(found) != 1)}, {_metres(known, all(line.whole for line in found))}; flow: "
+        f"{_count(len(found), 'line')}, {_metres(known, all(line.whole for line in found))}; flow: "
         "-> known, ? unknown, -- to a blind end, >< contradictory",
         row("line", "from", "flow", "to", "length", "DN", "system", "through"),
     ]
@@ -353,6 +357,10 @@ def _told(plant: Plant, place: str) -> str:
     return f"{plant.network.name(place)} ({plant.network.what(place)})"
 
 
+def _count(n: int, noun: str) -> str:
+    return f"{n} {noun}{'s' * (n != 1)}"
+
+
 def _metres(value: float, whole: bool = True) -> str:
     return f"{'' if whole else '>= '}{value + 0.0:.2f} m"
 
@@ -365,7 +373,7 @@ def _step_row(step: Step) -> str:
 
 
 def _doubt_rows(doubts: Iterable[Doubt]) -> list[str]:
-    return [row("doubt", doubt.name) + "\t" + cell(doubt.text, 400) for doubt in doubts]
+    return [row("doubt", doubt.name) + "\t" + cell(doubt.text, _TEXT) for doubt in doubts]
 
 
 def _grouped(word: str, those: Sequence[Consequence]) -> Iterator[str]:
@@ -375,7 +383,7 @@ def _grouped(word: str, those: Sequence[Consequence]) -> Iterator[str]:
         groups.setdefault(one.why, {}).setdefault(one.what, []).append(one.name)
     for why, kinds in groups.items():
         if why:
-            yield f"{word}, {cell(why, 400)}:"
+            yield f"{word}, {cell(why, _TEXT)}:"
         for what, names in kinds.items():
             yield from _listed(word, what, names)
 

@@ -118,7 +118,8 @@ class _Game:
 
     def __post_init__(self) -> None:
         self.here = self.known.start
-        self.shut |= dict.fromkeys(shut_before(self.goals), True)
+        shut = shut_before(self.goals)
+        self.shut |= {goal.unit: goal.unit in shut for goal in self.goals if goal.action != "read"}
 
     def play(self, move: Move) -> None:
         """One step."""

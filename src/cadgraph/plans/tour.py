@@ -14,7 +14,7 @@ __all__ = ["EXACT", "length_of", "shortest_order"]
 EXACT = 12
 """Up to so many stops the shortest order of all is found (Held and Karp 1962), above it nearly."""
 
-_SHUFFLES = 3000  # divided by the number of stops: how often a part of a good order is shuffled and mended again
+_SHUFFLES = 1200  # divided by the number of stops: how often a part of a good order is shuffled and mended again
 _MOST_SHUFFLED = 8  # stops of such a part
 _LEAST_GAIN = 1e-9  # m; what is no more than rounding is no gain
 

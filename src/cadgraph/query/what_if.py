@@ -228,8 +228,9 @@ class _Closing:
         return self.network.what(place).casefold() if self.network.is_valve(place) else ""
 
     def _by_tag(self, places: Iterable[str]) -> list[str]:
-        """Units and ends in the order of tags; a junction is nothing to tell."""
-        told = [place for place in set(places) if isinstance(self.network.places[place], Unit | Terminal)]
+        """Units and ends in the order of tags; junctions and blind ends are nothing to tell."""
+        nodes = {place: self.network.places[place] for place in set(places)}
+        told = [p for p, n in nodes.items() if isinstance(n, Unit) or (isinstance(n, Terminal) and n.kind != "blind")]
         return sorted(told, key=lambda place: (tag_key(self.network.name(place)), place))
 
     # What is told
