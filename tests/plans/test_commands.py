@@ -3,8 +3,8 @@ import json
 import pytest
 
 from cadgraph.agents.answer import BUDGET, tokens
-from cadgraph.agents.plant import Plant
 from cadgraph.agents.planning import plan
+from cadgraph.agents.plant import Plant
 from cadgraph.agents.tools import tool_named
 from cadgraph.cli import main
 from cadgraph.errors import AskError

@@ -110,7 +110,7 @@ def test_nothing_is_declared_twice_and_everything_used_is_declared():
     predicates = {one[0] for one in section(planner.domain, ":predicates")}
     used = {fact[0] for fact in planner.facts}
     assert used <= predicates
-    objects = [word for word in section(planner.problem, ":objects")]
+    objects = section(planner.problem, ":objects")
     names = [word for i, word in enumerate(objects) if word != "-" and (i == 0 or objects[i - 1] != "-")]
     assert len(names) == len(set(names))
     assert {word for fact in planner.facts for word in fact[1:]} <= set(planner.types)

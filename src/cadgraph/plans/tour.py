@@ -38,7 +38,9 @@ def shortest_order(distances: Sequence[Sequence[float]], stages: Sequence[int]) 
     n = len(stages)
     if n <= 1:
         return list(range(1, n + 1))
-    return _exact(distances, stages) if n <= EXACT else _mended(distances, stages)
+    order = _exact(distances, stages) if n <= EXACT else _mended(distances, stages)
+    # As long the other way round, where no stages forbid that: rather what was asked first.
+    return order[::-1] if len(set(stages)) == 1 and order[-1] < order[0] else order
 
 
 def length_of(distances: Sequence[Sequence[float]] | Floats, order: Sequence[int] | Ints) -> float:
