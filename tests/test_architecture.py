@@ -30,6 +30,7 @@ MAY_IMPORT = {
     "labelers": {"_io", "config", "draw.render", "errors", "facts", "geometry", "model"},
     "pipeline": {"_io", "config", "errors", "facts", "geometry", "labelers", "model", "stages"},
     "query": {"_io", "errors", "model"},
+    "agents": {"_io", "config", "errors", "load", "model", "query", "session"},
     "draw.svg": {"_io"},
     "draw.schematic": {"_io", "draw.svg", "errors", "model", "query"},
     "draw.colors": {"draw.render", "model"},
@@ -52,7 +53,8 @@ MAY_IMPORT = {
         *("draw.colors", "draw.report", "draw.schematic", "draw.web"),
     },
     "cli": {
-        *("_io", "config", "errors", "facts", "labelers", "load", "model", "pipeline", "query", "serve", "session"),
+        *("_io", "agents", "config", "errors", "facts", "labelers", "load", "model", "pipeline", "query", "serve"),
+        "session",
         *("draw.render", "draw.report", "draw.schematic", "draw.web", "export"),
     },
     "draw": set(),
