@@ -26,8 +26,8 @@ def doings(planned):
 def test_a_platform_is_climbed_to_and_down_from():
     known, planned = made("read G-001, G-002, close V-002", start="V-001")
     assert doings(planned) == [
-        "walk G-001", "read G-001", "walk place-003", "climb place-003", "walk V-002", "close V-002", "walk G-002",
-        "read G-002", "walk place-003", "climb place-003", "walk V-001",
+        "walk G-001", "read G-001", "walk place-003", "climb place-003", "walk G-002", "read G-002", "walk V-002",
+        "close V-002", "walk place-003", "climb place-003", "walk V-001",
     ]  # fmt: skip
     assert planned.climbed == 6.0
     assert any(
