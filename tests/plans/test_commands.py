@@ -35,7 +35,7 @@ def test_a_round_is_told_what_is_not_plain_first(folder, capsys):
     assert code == 0
     assert lines[0].startswith("round of 3 goals from V-001 and back: ")
     assert lines[0].endswith("no order is shorter (walks estimated as straight lines)")
-    assert lines[1].startswith("! V-003 takes a ladder or lift")
+    assert lines[1].startswith("! V-003 takes a ladder, lift or other access")
     assert any("close V-002 (ball valve): its operator is 1.2 m above the platform" in line for line in lines)
 
 

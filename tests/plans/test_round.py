@@ -5,7 +5,7 @@ from cadgraph.model.records import Unit
 from cadgraph.plans import check_round, make_round, parse_goals
 from cadgraph.plans.round import survey
 from cadgraph.plans.text import doubt_lines, step_lines
-from gallery import gallery
+from gallery import gallery, standing
 from networks import network, pumping, unit
 
 GRAPH = gallery()
@@ -67,8 +67,22 @@ def test_what_is_out_of_reach_takes_a_ladder_or_lift():
     known, planned = made("close V-003")
     assert doings(planned) == ["walk V-003", "set up V-003", "close V-003"]
     assert doubt_lines(known, planned)[0] == (
-        "! V-003 takes a ladder or lift: its operator is 3.5 m above the ground, out of reach"
+        "! V-003 takes a ladder, lift or other access: its operator is 3.5 m above the ground, out of reach"
     )
+
+
+def test_what_is_low_and_yet_out_of_reach_is_said_to_have_no_place_to_stand():
+    low = standing("V-005", (5.0, 5.0, 0.5), reach="out of reach", kind="gate valve", height=0.5)
+    known, planned = made("close V-005", gallery([low]))
+    assert doubt_lines(known, planned)[0].endswith("out of reach: no free place to stand near it was found")
+
+
+def test_opening_a_valve_does_not_repeat_what_closing_it_did():
+    _, planned = made("close V-002; open V-002", pumping())
+    close, opened = (step.change for step in planned.steps if step.goal)
+    assert "P-001 would run dry" in close.notes
+    assert "P-001 would run dry" not in opened.notes
+    assert "P-001" in opened.fed_again
 
 
 def test_a_platform_without_a_way_up_takes_a_lift():

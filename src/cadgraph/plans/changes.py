@@ -101,7 +101,8 @@ def _opening(goal: Goal, before: WhatIf | None, after: WhatIf | None) -> Change:
     return Change(
         fed_again=_in_order(cut, freed - open_after - {goal.name}),
         unknown=_in_order((*cut, *open_before), maybe),
-        notes=_notes(goal, after, before, freed),
+        # That it cut something off before is no news any more; what nobody knows of the valve itself is.
+        notes=tuple(text for text in _notes(goal, after, before, freed) if goal.name in text),
     )
 
 

@@ -180,7 +180,7 @@ def _steps(known: Survey, order: Sequence[Goal]) -> Iterator[Step]:
         standing = Step("set up", goal.unit, here.level, _known_point(here))
         if stop.aid is not None and goal.unit not in lifted:
             lifted.add(goal.unit)
-            yield replace(standing, needs=(f"a ladder or lift: {stop.aid}",))
+            yield replace(standing, needs=(f"a ladder, lift or other access: {stop.aid}",))
         access = stop.unit.access
         yield replace(
             standing,
@@ -240,4 +240,4 @@ def _supposed(known: Survey, order: Sequence[Goal]) -> Iterator[str]:
     elif any(known.stops[goal.unit].unit.access is None for goal in order):
         yield "stops of which the level is not known are taken to be on the ground"
     if any(known.stops[goal.unit].aid is not None for goal in order):
-        yield "a ladder or lift can be brought to where it is needed; the way with it is not planned"
+        yield "a ladder, lift or other access can be set up where it is needed; the way with it is not planned"

@@ -10,6 +10,8 @@ from cadgraph.model.records import Place, Point, ReachedFrom, Unit
 
 __all__ = ["ANYWHERE", "Spot", "Stop", "Terrain", "Way", "spots_of"]
 
+_REACH = 2.0  # m above where one stands, as in the reach of a unit; what is lower is out of reach for another reason
+
 ANYWHERE = ""
 """Name of a spot that is anywhere on the ground: where a round begins and ends for which no start was given."""
 
@@ -51,7 +53,7 @@ class Stop:
     Args:
         unit: its node.
         spot: where one stands; below the unit where that isn't known.
-        aid: why it takes a ladder or a lift; None where it takes none, as far as is known.
+        aid: why it takes a ladder, a lift or some other access; None where it takes none, as far as is known.
         unsure: what isn't known, in words.
     """
 
@@ -98,6 +100,8 @@ class Terrain:
         aid = None
         if access.reach == "out of reach":
             aid = f"{_operator(unit)} is {access.height:.1f} m above the {self.name(level)}, out of reach"
+            if access.height <= _REACH:
+                aid += ": no free place to stand near it was found"
         if level not in self.reached:
             aid = f"no way up to {self.name(level)} was found"
             level = self.ground
