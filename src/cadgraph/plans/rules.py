@@ -22,7 +22,7 @@ from cadgraph.plans.stops import Spot, Stop
 
 __all__ = ["Fault", "Move", "check_moves", "check_round", "moves_of"]
 
-_LESS = 0.01, 0.02  # of a length, and m: what may be less by rounding
+_LESS = 0.08, 0.02  # of a length, as walks over squares are so much longer than they must be; and m, by rounding
 
 
 @dataclass(frozen=True)
