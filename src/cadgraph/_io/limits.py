@@ -29,6 +29,7 @@ __all__ = [
     "MAPPING",
     "MODEL",
     "NOTE",
+    "PLAN",
     "PRICES",
     "PROFILES",
     "PROPOSALS",
@@ -83,6 +84,8 @@ MAPPING = Limit(16 * _MB, "a table of tags")
 """A line takes 20 bytes."""
 ACCURACIES = Limit(_MB, "a table of accuracies")
 """The built-in one takes 2 kB."""
+PLAN = Limit(16 * _MB, "a round")
+"""A step takes 500 bytes as it is printed: thirty thousand steps."""
 PRICES = Limit(_MB, "a price table")
 """The built-in one takes 2 kB."""
 PROFILES = Limit(_MB, "a table of profiles")

@@ -10,7 +10,7 @@ from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, create_model
 
-from cadgraph.agents import asking_sql, describing, looking, measuring, walking
+from cadgraph.agents import asking_sql, describing, looking, measuring, planning, walking
 from cadgraph.agents.answer import Answer, AskError, among, cell, did_you_mean
 from cadgraph.agents.plant import Plant
 
@@ -143,5 +143,11 @@ TOOLS: tuple[Tool, ...] = (
         measuring.measure,
     ),
     Tool("query", asking_sql.DESCRIPTION, asking_sql.query),
+    Tool(
+        "plan",
+        "A checked, short round to read gauges and turn valves: walks, climbs, where to stand, what takes a ladder or "
+        "lift, what each step cuts off. ! and ? first: repeat them.",
+        planning.plan,
+    ),
 )
 """All tools, in the order that they are listed in."""

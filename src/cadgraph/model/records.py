@@ -150,7 +150,7 @@ class Access(Record):
     place: str | None = Field(
         description="id of the place that it is reached from; where it is out of reach, of the level below it"
     )
-    stand: Point | None = Field(description="where one stands, on the floor; null where it is out of reach")
+    stand: Point | None = Field(description="where one stands, on the floor; null where nobody gets near")
     height: float = Field(description="of its operator or face above that place [m]; of its middle, where it has none")
     reach: Literal["floor", "platform", "out of reach"] = Field(
         description="'floor': from the ground; 'platform': from another level that a way leads up to; within 0.9 m of "

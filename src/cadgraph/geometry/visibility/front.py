@@ -193,6 +193,8 @@ class _View:
         self.center = case.center
         self.points = corners[np.concatenate([s.faces for s in members])].reshape(-1, 3) - self.center
         self.case_points = corners[case.faces].reshape(-1, 3) - self.center
+        sizes = sorted(np.ptp(self.points, axis=0).tolist())
+        self.broadest = max(1e-12, sizes[1] * sizes[2])
         self.whole = _Target(corners - self.center)
         self.bare = _Target(corners[case.faces] - self.center)
         self.behind = np.average(corners.mean(axis=1), axis=0, weights=double) - self.center
@@ -238,7 +240,6 @@ class _View:
         count = int(inner.sum())
         facing = np.abs(self.normals[hits[seen]] @ direction) >= _PARALLEL
         depths = np.unique(np.round(heights[0][seen] / radius, 3))
-        sizes = sorted(np.ptp(self.points, axis=0).tolist())
         leaves, ahead = self._leaves(direction, radius)
         return [
             float((self.kinds[hits[seen]] == 2).sum()) / count,
@@ -247,7 +248,7 @@ class _View:
             _sunk(rings, heights[1], radius),
             float(facing.sum()) / count,
             float(np.clip(-self.behind @ direction / radius, -2.0, 2.0)),
-            float(np.clip(spans[0] * spans[1] / max(1e-12, sizes[1] * sizes[2]), 0.0, 1.0)),
+            float(np.clip(spans[0] * spans[1] / self.broadest, 0.0, 1.0)),
             1.0 - abs(float(direction[2])),
             max(0.0, -float(direction[2])),
             min(1.0, len(depths) / 20.0),
@@ -277,7 +278,10 @@ class _View:
 
 def _sunk(rings: Floats, heights: Floats, radius: float) -> float:
     """How far the middle lies below the rim, in radii; heights are minus infinity where nothing is met."""
-    inner, rim = (rings <= _INNER) & np.isfinite(heights), (rings >= _RIM[0]) & (rings <= _RIM[1]) & np.isfinite(heights)
+    inner, rim = (
+        (rings <= _INNER) & np.isfinite(heights),
+        (rings >= _RIM[0]) & (rings <= _RIM[1]) & np.isfinite(heights),
+    )
     if not inner.any() or not rim.any():
         return 0.0
     return float(np.clip((np.quantile(heights[rim], 0.75) - np.median(heights[inner])) / radius, -1.0, 1.0))
@@ -297,7 +301,10 @@ class _Target:
     def hits(self, origins: Floats, aims: Floats) -> tuple[Floats, Ints]:
         """How far each ray goes [m], infinity where it meets nothing; and the triangle that it meets, or -1."""
         found = self._world.run(
-            np.ascontiguousarray(origins, np.float32), np.ascontiguousarray(aims, np.float32), query="INTERSECT", output=1
+            np.ascontiguousarray(origins, np.float32),
+            np.ascontiguousarray(aims, np.float32),
+            query="INTERSECT",
+            output=1,
         )
         hit = np.asarray(found["primID"], np.int64)
         away = np.where(hit >= 0, np.asarray(found["tfar"], np.float64), np.inf)

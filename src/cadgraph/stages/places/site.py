@@ -17,7 +17,7 @@ from cadgraph.stages.places.levels import Level, ground_height, level_candidates
 from cadgraph.stages.places.room import Room, ground_room, level_room, nearest_square
 from cadgraph.stages.places.ways import WayUp, find_ways
 
-__all__ = ["Ground", "find_site"]
+__all__ = ["Ground", "find_site", "standing"]
 
 _LEAST_AREA = 0.25  # m2 on which nothing stands, for a level to count
 _TO_LANDING = 1.0  # m in plan from a way to where one stands before it
@@ -57,7 +57,7 @@ class _Way:
     squares: tuple[tuple[int, int], ...]
 
 
-def find_site(parts: Parts, labels: Sequence[Label | None]) -> tuple[list[FoundPlace], list[Ground]]:
+def find_site(parts: Parts, labels: Sequence[Label | None]) -> tuple[list[FoundPlace], list[Ground], list[int]]:
     """All places, and the levels among them with their squares.
 
     Args:
@@ -65,8 +65,8 @@ def find_site(parts: Parts, labels: Sequence[Label | None]) -> tuple[list[FoundP
         labels: of each part.
 
     Returns:
-        The places by height, then position; and the levels, of which each carries the squares that one gets to. The
-        first level is the ground, which is the first place.
+        The places by height, then position; the levels, of which each carries the squares that one gets to, the ground
+        first; and the number of each level's place.
     """
     zero = ground_height(parts)
     low, high = plan_box(parts)
@@ -85,8 +85,8 @@ def find_site(parts: Parts, labels: Sequence[Label | None]) -> tuple[list[FoundP
         FoundPlace(**{**vars(place), "reached_from": tuple(sorted(rank[other] for other in steps[old]))})
         for old, place in zip(order, named, strict=True)
     ]
-    by_place = [grounds[k] for k in sorted(range(len(grounds)), key=rank.__getitem__)]
-    return found, by_place
+    levels = sorted(range(len(grounds)), key=rank.__getitem__)
+    return found, [grounds[k] for k in levels], [rank[k] for k in levels]
 
 
 def _order(place: FoundPlace) -> tuple[bool, float, bool, _Point, tuple[int, ...]]:
@@ -184,7 +184,7 @@ def _way_place(way: _Way, grounds: Sequence[Ground], low: Floats, high: Floats) 
     base, top = grounds[way.levels[0]], grounds[way.levels[-1]]
     rise = top.height - base.height
     landings = [
-        _standing(grounds[k].room.grid, grounds[k].height, square)
+        standing(grounds[k].room.grid, grounds[k].height, square)
         for k, square in zip(way.levels, way.squares, strict=True)
     ]
     return FoundPlace(
@@ -198,7 +198,7 @@ def _way_place(way: _Way, grounds: Sequence[Ground], low: Floats, high: Floats) 
     )
 
 
-def _standing(grid: Grid, height: float, square: tuple[int, int]) -> _Point:
+def standing(grid: Grid, height: float, square: tuple[int, int]) -> _Point:
     """The middle of a square of a floor."""
     row, column = square
     return (
