@@ -1,0 +1,112 @@
+"""The list of tools: the command line, the server and the assistant are all made from it."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Annotated, Any, get_args, get_origin, get_type_hints
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, create_model
+
+from cadgraph.agents import measuring
+from cadgraph.agents.answer import Answer, AskError, among, cell, did_you_mean
+from cadgraph.agents.plant import Plant
+
+__all__ = ["TOOLS", "Tool", "tool_named"]
+
+
+@dataclass(frozen=True)
+class Tool:
+    """A question that can be asked of a plant.
+
+    Args:
+        name: as a server lists it; the command has ``-`` for ``_``.
+        description: for a model: what it answers and what not, in at most 60 words.
+        run: the function; its first parameter is the plant, the others have annotations and plain values.
+    """
+
+    name: str
+    description: str
+    run: Callable[..., Answer]
+
+    @cached_property
+    def parameters(self) -> Mapping[str, inspect.Parameter]:
+        """The parameters but for the plant, by name, with types as pydantic takes them, their descriptions included."""
+        hints = get_type_hints(self.run, include_extras=True)
+        own = list(inspect.signature(self.run).parameters.values())[1:]
+        return {each.name: each.replace(annotation=_described(hints[each.name])) for each in own}
+
+    @cached_property
+    def _arguments(self) -> type[BaseModel]:
+        fields: dict[str, Any] = {
+            name: (each.annotation, Field() if each.default is each.empty else each.default)
+            for name, each in self.parameters.items()
+        }
+        return create_model(self.name, __config__=ConfigDict(extra="forbid", allow_inf_nan=False), **fields)
+
+    @cached_property
+    def schema(self) -> dict[str, Any]:
+        """The arguments as a JSON schema, as small as it can be."""
+        full = self._arguments.model_json_schema()
+        properties = {name: _untitled(each) for name, each in full.get("properties", {}).items()}
+        schema: dict[str, Any] = {"type": "object", "properties": properties}
+        return schema | ({"required": full["required"]} if full.get("required") else {})
+
+    def ask(self, plant: Plant, arguments: Mapping[str, Any]) -> Answer:
+        """Runs the tool with arguments of anybody.
+
+        Args:
+            plant: that is asked about.
+            arguments: by name, as plain values.
+
+        Raises:
+            CadGraphError: the arguments are wrong (:class:`~cadgraph.errors.AskError`), or there is no answer.
+        """
+        for name in arguments:
+            if name not in self.parameters:
+                raise AskError(f"{self.name} has no argument {cell(name)!r}; {did_you_mean(name, self.parameters)}")
+        try:
+            values = self._arguments.model_validate(dict(arguments))
+        except ValidationError as error:
+            first = error.errors(include_url=False, include_context=False, include_input=False)[0]
+            where = ".".join(str(step) for step in first["loc"])
+            raise AskError(f"{self.name}: {cell(where)}: {cell(first['msg'], 200)}") from None
+        return self.run(plant, **{name: getattr(values, name) for name in self.parameters})
+
+
+def tool_named(name: str) -> Tool:
+    """The tool of this name.
+
+    Raises:
+        AskError: there is none; the message names the nearest ones.
+    """
+    named = {tool.name: tool for tool in TOOLS}
+    return named[among(name, named, "tool")]
+
+
+def _described(annotation: Any) -> Any:
+    """``Annotated[T, "text"]`` with the text as the description that pydantic knows."""
+    if get_origin(annotation) is not Annotated:
+        return annotation
+    bare, *notes = get_args(annotation)
+    text = next((note for note in notes if isinstance(note, str)), None)
+    return Annotated[bare, Field(description=text)] if text else annotation
+
+
+def _untitled(schema: Any) -> Any:
+    """A schema without the titles that say each name again."""
+    if isinstance(schema, Mapping):
+        return {key: _untitled(value) for key, value in schema.items() if key != "title"}
+    return schema
+
+
+TOOLS: tuple[Tool, ...] = (
+    Tool(
+        "measure",
+        "How far two things are apart: straight, in plan, in height, by compass, above or below, and along the pipes.",
+        measuring.measure,
+    ),
+)
+"""All tools, in the order that they are listed in."""
