@@ -1,0 +1,68 @@
+"""A server for agents: serve."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.markup import escape
+
+from cadgraph.cli.application import app
+from cadgraph.cli.correcting import user_name
+from cadgraph.cli.screen import err
+from cadgraph.errors import MissingExtra
+
+
+@app.command()
+def serve(
+    where: Annotated[
+        Path,
+        typer.Argument(metavar="FOLDER", help="What 'cadgraph build' wrote, or a folder that holds several of these."),
+    ],
+    http: Annotated[
+        bool, typer.Option("--http", help="Answer over HTTP on this machine, not over standard input and output.")
+    ] = False,
+    port: Annotated[int, typer.Option("--port", min=0, max=65535, help="With --http; 0 takes any that is free.")] = 0,
+    host: Annotated[
+        str, typer.Option("--host", metavar="ADDRESS", help="With --http: listen elsewhere than on this machine alone.")
+    ] = "127.0.0.1",
+    write: Annotated[bool, typer.Option("--write", help="Also offer a tool that corrects labels.")] = False,
+    who: Annotated[
+        str | None,
+        typer.Option("--who", metavar="NAME", help="With --write: who corrects; 'agent of' your user name if none."),
+    ] = None,
+) -> None:
+    """Answer the questions of agents about a plant: a server of the Model Context Protocol.
+
+    An MCP client starts it and speaks with it over standard input and output. Its tools are the questions that the
+    command line has too; all only read, unless --write is given. Then each correction is in corrections.json before it
+    is answered, with who made it and why, and nothing else may change the folder meanwhile.
+    """
+    try:
+        from cadgraph.agents.mcp.running import serve_http, serve_stdio
+    except ModuleNotFoundError as error:
+        if not (error.name or "").partition(".")[0].startswith(("mcp", "starlette", "uvicorn", "anyio")):
+            raise
+        raise MissingExtra("a server for agents", "agents") from None
+    from cadgraph.agents.plants import Plants
+
+    if not http and (port or host != "127.0.0.1"):
+        raise ValueError("--port and --host go with --http")
+    if who is not None and not write:
+        raise ValueError("--who goes with --write")
+    name = (f"agent of {user_name()}".removesuffix(" of ") if who is None else who) if write else None
+    plants = Plants(where, name)
+    try:
+        if http:
+            # Standard output is left to protocols.
+            serve_http(plants, host, port, _say)
+        else:
+            serve_stdio(plants)
+    finally:
+        for failed in plants.close():
+            _say(f"corrections are kept, but the graph is not written: {failed}")
+
+
+def _say(line: str) -> None:
+    err.print(escape(line))
