@@ -53,7 +53,8 @@ MAY_IMPORT = {
         *("draw.colors", "draw.report", "draw.schematic", "draw.web"),
     },
     "cli": {
-        *("_io", "config", "errors", "facts", "labelers", "load", "model", "pipeline", "query", "serve", "session"),
+        *("_io", "agents", "config", "errors", "facts", "labelers", "load", "model", "pipeline", "query", "serve"),
+        "session",
         *("draw.render", "draw.report", "draw.schematic", "draw.web", "export"),
     },
     "draw": set(),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Annotated, Any
+from typing import Any
 
 from cadgraph.agents.answer import Answer, AskError, page_of
 from cadgraph.agents.plant import Plant
@@ -17,7 +17,7 @@ _COMPASS = ("east", "north east", "north", "north west", "west", "south west", "
 _SAME = 0.05  # m; ours: what differs by less is level, or right above
 
 
-def measure(plant: Plant, a: Annotated[str, "tag or id"], b: Annotated[str, "tag or id"]) -> Answer:
+def measure(plant: Plant, a: str, b: str) -> Answer:
     """How far one thing is from another, and where it lies from there.
 
     Args:

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, get_args
 
 from cadgraph._io.text import file_name
 from cadgraph.agents.answer import AskError, cell
 from cadgraph.errors import LabelError, UnknownNode
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.records import Node, Part, Unit
+from cadgraph.model.records import Box, Junction, Node, Terminal, Unit
 from cadgraph.query.lines import Line, find_lines
 from cadgraph.query.network import Network
 
@@ -32,7 +32,7 @@ class Plant:
     def __init__(self, graph: SceneGraph, folder: Path | None = None) -> None:
         self.graph = graph
         self.folder = folder
-        self.network = Network(graph)
+        self.network: Network = _ShownNetwork(graph, self.called)
         self.name = cell((folder.resolve().name if folder else "") or file_name(graph.source.path) or "plant")
 
     @classmethod
@@ -71,24 +71,37 @@ class Plant:
         """All lines, in the order of the line list."""
         return tuple(find_lines(self.network))
 
-    def find(self, which: str) -> Node:
+    @cached_property
+    def extent(self) -> Box:
+        """The box around all parts that aren't ground, along the axes [m]; around all units where there are none."""
+        boxes = [part.aabb for part in self.graph.parts() if not part.ground]
+        boxes = boxes or [unit.aabb for unit in self.graph.units()] or [((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))]
+        low = tuple(min(box[0][k] for box in boxes) for k in range(3))
+        high = tuple(max(box[1][k] for box in boxes) for k in range(3))
+        return (low[0], low[1], low[2]), (high[0], high[1], high[2])
+
+    @cached_property
+    def line_of(self) -> Mapping[int, str]:
+        """The tag of the line of each connection, by the connection's number; taps have none."""
+        return {arc.index: line.tag for line in self.lines for arc in line.arcs}
+
+    def find(self, which: str, *layers: type[Node]) -> Node:
         """The node that is called so.
 
         Args:
             which: a tag, an id or the source path of a mesh; a tag may be spelt loosely (``v4``), or as an answer
                 showed it.
+            layers: what it may be; anything if none is given.
 
         Raises:
-            AskError: there is none, or several; the message names the nearest ones.
+            AskError: there is none; the message names the nearest ones.
         """
         try:
-            return self.graph.find(which)
+            return self.graph.find(which, *layers)
         except UnknownNode as error:
-            shown = self._shown.get(cell(which), ())
-            if len(shown) == 1:
-                return self.graph.nodes[shown[0]]
-            if shown:
-                raise AskError(f"{cell(which)!r} may be any of {', '.join(shown)}; give one of these ids") from None
+            node = self.graph.nodes.get(self._named.get(which, self._named.get(cell(which), "")))
+            if node is not None and isinstance(node, layers or get_args(Node)):
+                return node
             raise AskError(cell(error, 500)) from None
 
     def place(self, which: str) -> str:
@@ -97,27 +110,51 @@ class Plant:
         Raises:
             AskError: there is none; the message names the nearest ones.
         """
-        node = self.find(which)
-        if node.id in self.network.places:
-            return node.id
-        owner = self.network.owner_of_part(node.id) if isinstance(node, Part) else None
-        if owner is None:
-            raise AskError(
-                f"{cell(which)!r} is a {node.layer}, which stands in no line; give a unit, a junction or an end"
-            )
-        return owner
+        return self.find(which, Unit, Junction, Terminal).id
 
     def called(self, node: str) -> str:
-        """What a node is called in answers: the tag of a unit, else the id; on one line, cut to a length."""
-        found = self.graph.nodes[node]
-        return cell(found.tag if isinstance(found, Unit) else found.id)
+        """What a node is called in answers, by its id: the tag of a unit, else the id.
+
+        It is one line, cut to a length, and no other node's name; :meth:`find` knows it.
+        """
+        return self._shown[node]
 
     @cached_property
-    def _shown(self) -> Mapping[str, tuple[str, ...]]:
-        """Ids by what answers show, where that isn't the tag or id itself."""
-        found: dict[str, tuple[str, ...]] = {}
-        for node in self.graph.nodes.values():
-            name = node.tag if isinstance(node, Unit) else node.id
-            if cell(name) != name:
-                found[cell(name)] = (*found.get(cell(name), ()), node.id)
-        return found
+    def _shown(self) -> Mapping[str, str]:
+        names = {node.id: node.tag if isinstance(node, Unit) else node.id for node in self.graph.nodes.values()}
+        # Tags that are plain are called as they are, whatever others come to by being cleaned.
+        taken = {name for name in names.values() if cell(name) == name}
+        shown: dict[str, str] = {}
+        for number, (node, name) in enumerate(names.items()):
+            clean = cell(name)
+            if clean != name:
+                tries = (clean, cell(node), f"node {number}")
+                clean = next((each for each in tries if each and each not in taken), f"node {number}")
+                taken.add(clean)
+            shown[node] = clean
+        return shown
+
+    @cached_property
+    def _named(self) -> Mapping[str, str]:
+        return {shown: node for node, shown in self._shown.items()}
+
+
+class _ShownNetwork(Network):
+    """The network with names as answers show them, whatever stands in the graph.
+
+    Args:
+        graph: the finished graph.
+        called: says what a node is called, by its id.
+    """
+
+    def __init__(self, graph: SceneGraph, called: Callable[[str], str]) -> None:
+        super().__init__(graph)
+        self._called = called
+
+    def name(self, place: str) -> str:
+        """What a node is called in answers."""
+        return self._called(place)
+
+    def what(self, place: str) -> str:
+        """What a node is, in words, on one line."""
+        return cell(super().what(place))

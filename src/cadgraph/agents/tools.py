@@ -10,7 +10,7 @@ from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, create_model
 
-from cadgraph.agents import measuring
+from cadgraph.agents import describing, looking, measuring, walking
 from cadgraph.agents.answer import Answer, AskError, among, cell, did_you_mean
 from cadgraph.agents.plant import Plant
 
@@ -50,7 +50,7 @@ class Tool:
     def schema(self) -> dict[str, Any]:
         """The arguments as a JSON schema, as small as it can be."""
         full = self._arguments.model_json_schema()
-        properties = {name: _untitled(each) for name, each in full.get("properties", {}).items()}
+        properties = {name: _short(each) for name, each in full.get("properties", {}).items()}
         schema: dict[str, Any] = {"type": "object", "properties": properties}
         return schema | ({"required": full["required"]} if full.get("required") else {})
 
@@ -106,17 +106,51 @@ def _described(annotation: Any) -> Any:
     return Annotated[bare, Field(description=text)] if text else annotation
 
 
-def _untitled(schema: Any) -> Any:
-    """A schema without the titles that say each name again."""
-    if isinstance(schema, Mapping):
-        return {key: _untitled(value) for key, value in schema.items() if key != "title"}
-    return schema
+def _short(schema: Mapping[str, Any]) -> dict[str, Any]:
+    """The schema of an argument without what its name and its description say: title, default, that it may be null."""
+    kept = {key: value for key, value in schema.items() if key not in ("title", "default")}
+    choices = [choice for choice in kept.get("anyOf", ()) if choice.get("type") != "null"]
+    return kept | ({"anyOf": choices} if choices else {})
 
 
 TOOLS: tuple[Tool, ...] = (
     Tool(
+        "overview",
+        "Start here: extent, units by kind, systems, and what the graph does not know.",
+        looking.overview,
+    ),
+    Tool(
+        "find",
+        "Lists and counts units (or parts, junctions, ends), with places in m; distances straight, middle to middle.",
+        looking.find,
+    ),
+    Tool("describe", "One thing: kind, place, ports, parts, how sure.", describing.describe),
+    Tool(
+        "neighbors",
+        "What is next along pipes (units, ends), or which parts touch.",
+        walking.neighbors,
+    ),
+    Tool(
+        "trace",
+        "All it feeds (downstream) or all that feeds it (upstream), in order, with distances along pipes.",
+        walking.trace,
+    ),
+    Tool("route", "Shortest way along pipes between two units, either way of flow.", walking.route),
+    Tool(
+        "isolate",
+        "Valves to close so that nothing can flow to a unit. Repeat its doubts and what stays open: people act on it.",
+        walking.isolate,
+    ),
+    Tool(
+        "what_if",
+        "What is cut off from its supply when valves are closed. About flow, not safety: for opening a unit use "
+        "isolate. UNKNOWN stays unknown.",
+        walking.what_if,
+    ),
+    Tool("lines", "Line list: from, to, length, DN, flow, what stands in each line in order.", walking.lines),
+    Tool(
         "measure",
-        "How far two things are apart: straight, in plan, in height, by compass, above or below, and along the pipes.",
+        "How far two things are apart: straight, in plan, height, compass, above or below, along pipes.",
         measuring.measure,
     ),
 )
