@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from contextlib import ExitStack, nullcontext
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 from cadgraph._io.atomic import ensure_writable
 from cadgraph._io.folder_lock import holding
@@ -86,14 +86,7 @@ class Desk:
         """What opening is at, in words."""
         return "ready" if self._session is not None else self._told
 
-    def correct(
-        self,
-        target: Annotated[str, "tag or id of a unit or part"],
-        label: Annotated[str, "group/name, a group, or a name; empty takes a correction back"],
-        why: Annotated[str, "the reason, kept for people"],
-        this_only: Annotated[bool, "not also what looks alike"] = False,
-        dry_run: bool = True,
-    ) -> Answer:
+    def correct(self, target: str, label: str, why: str, this_only: bool = False, dry_run: bool = True) -> Answer:
         """Says what a part or a unit is, or tries that out.
 
         Args:

@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -95,7 +95,7 @@ class Pictures:
     def _mesh_number(self) -> dict[str, int]:
         return {path: number for number, path in enumerate(self.scene.paths)}
 
-    def draw(self, target: Annotated[str, "tag or id"]) -> Picture:
+    def draw(self, target: str) -> Picture:
         """Draws one thing of the plant.
 
         Args:

@@ -1,4 +1,4 @@
-"""A server for agents: serve."""
+"""A server for agents, and a picture as it sends them: serve, picture."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.correcting import user_name
-from cadgraph.cli.screen import err
+from cadgraph.cli.options import GraphArgument
+from cadgraph.cli.screen import err, out
 from cadgraph.errors import MissingExtra
 
 
@@ -40,9 +41,9 @@ def serve(
     is answered, with who made it and why, and nothing else may change the folder meanwhile.
     """
     try:
-        from cadgraph.agents.mcp.running import serve_http, serve_stdio
+        from cadgraph.agents.mcp.stdio import serve_stdio
     except ModuleNotFoundError as error:
-        if not (error.name or "").partition(".")[0].startswith(("mcp", "starlette", "uvicorn", "anyio")):
+        if not (error.name or "").partition(".")[0].startswith(("mcp", "anyio")):
             raise
         raise MissingExtra("a server for agents", "agents") from None
     from cadgraph.agents.plants import Plants
@@ -55,6 +56,8 @@ def serve(
     plants = Plants(where, name)
     try:
         if http:
+            from cadgraph.agents.mcp.http import serve_http
+
             # Standard output is left to protocols.
             serve_http(plants, host, port, _say)
         else:
@@ -62,6 +65,31 @@ def serve(
     finally:
         for failed in plants.close():
             _say(f"corrections are kept, but the graph is not written: {failed}")
+
+
+@app.command()
+def picture(
+    graph: GraphArgument,
+    target: Annotated[str, typer.Argument(help="Tag or id of a unit, part, junction, end, structure or system.")],
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", metavar="FILE", help="The picture; ./TARGET.png by default.")
+    ] = None,
+) -> None:
+    """Draw one thing in red among all others, with its neighbours tagged."""
+    from cadgraph._io.atomic import write_atomically
+    from cadgraph.agents.picture import picture as draw
+    from cadgraph.agents.plant import Plant
+
+    plant = Plant.open(graph)
+    # A name from a file is no path.
+    plain = "".join(
+        letter if letter.isalnum() or letter in "-_" else "_" for letter in plant.called(plant.find(target).id)
+    )
+    file = output or Path(f"{plain}.png")
+    drawn = draw(plant, target)
+    write_atomically(file, drawn.png)
+    out.print(escape(drawn.text))
+    out.print(f"wrote {escape(str(file))}")
 
 
 def _say(line: str) -> None:

@@ -7,7 +7,7 @@ import copy
 import time
 from collections.abc import Callable, Mapping
 from functools import partial
-from typing import Any
+from typing import Annotated, Any
 
 import anyio
 import mcp_types as types
@@ -16,9 +16,7 @@ from mcp.server.context import ServerRequestContext
 from mcp.server.lowlevel.server import Server
 
 from cadgraph import __version__
-from cadgraph.agents.answer import Answer, AskError, cell, did_you_mean
-from cadgraph.agents.correcting import Desk
-from cadgraph.agents.picture import Picture, Pictures
+from cadgraph.agents.answer import AskError, cell, did_you_mean
 from cadgraph.agents.plants import Plants
 from cadgraph.agents.tools import TOOLS, Tool
 from cadgraph.errors import CadGraphError
@@ -37,21 +35,38 @@ _EVERY = 5.0  # s between two messages of progress; clients give up where none c
 _MOST_ERROR = 1500  # characters of an error
 _PLANT = {"type": "string", "description": "name; see plants"}
 
+Context = ServerRequestContext[Any, Any]
+
+
+def _draw(pictures: Any, target: Annotated[str, "tag or id"]) -> Any:
+    return pictures.draw(target)
+
+
+def _correct(
+    desk: Any,
+    target: Annotated[str, "tag or id of a unit or part"],
+    label: Annotated[str, "group/name, a group, or a name; empty takes a correction back"],
+    why: Annotated[str, "the reason, kept for people"],
+    this_only: Annotated[bool, "not also what looks alike"] = False,
+    dry_run: bool = True,
+) -> Any:
+    return desk.correct(target, label, why, this_only, dry_run)
+
+
 PLANTS = Tool("plants", "The plants that the other tools answer about.", Plants.listing)
+# By functions of their own, as a server that is only asked for words needs neither the renderer nor a session.
 PICTURE = Tool(
     "picture",
     "A picture (PNG) of one thing in red, with its neighbours along the pipes, or what touches a part, tagged. For "
     "what words don't tell: how it looks, what stands in the way. Measure nothing in it.",
-    Pictures.draw,
+    _draw,
 )
 CORRECT = Tool(
     "correct",
     "Says what a part is where its label is wrong; its repeats follow. First as a dry run: it says what would change. "
     "Only what the geometry or a person shows; dry_run=false keeps it, with who and why.",
-    Desk.correct,
+    _correct,
 )
-
-Context = ServerRequestContext[Any, Any]
 
 
 def make_server(plants: Plants) -> Server[Any]:
@@ -114,27 +129,27 @@ def _tried(tools: Mapping[str, Tool], plants: Plants, name: str, arguments: Mapp
     try:
         if name not in tools:
             raise AskError(f"no tool {cell(name)!r} here; {did_you_mean(name, tools)}")
-        answer = _answer(tools[name], plants, dict(arguments))
+        return _answered(tools[name], plants, dict(arguments))
     except (CadGraphError, ValueError) as error:
         return _result(cell(error, _MOST_ERROR), is_error=True)
     except OSError as error:
         return _result(f"the server can't read or write that now: {cell(error.strerror)}", is_error=True)
     except MemoryError:
         return _result("there is not enough memory for this", is_error=True)
-    return _result(answer.text, answer.png if isinstance(answer, Picture) else None)
 
 
-def _answer(tool: Tool, plants: Plants, arguments: dict[str, Any]) -> Answer:
+def _answered(tool: Tool, plants: Plants, arguments: dict[str, Any]) -> types.CallToolResult:
     if tool is PLANTS:
-        return tool.run(plants, **tool.checked(arguments))
+        return _result(tool.run(plants, **tool.checked(arguments)).text)
     plant = arguments.pop("plant", "") if plants.several else ""
     if not isinstance(plant, str):
         raise AskError("plant: give the name of a plant; the tool plants lists them")
     given = tool.checked(arguments)
     if tool is PICTURE:
         with plants.pictures(plant) as pictures:
-            return tool.run(pictures, **given)
-    return tool.run(plants.desk(plant) if tool is CORRECT else plants.get(plant), **given)
+            drawn = _draw(pictures, **given)
+        return _result(drawn.text, drawn.png)
+    return _result(tool.run(plants.desk(plant) if tool is CORRECT else plants.get(plant), **given).text)
 
 
 def _result(text: str, png: bytes | None = None, *, is_error: bool = False) -> types.CallToolResult:

@@ -1,12 +1,10 @@
-"""Running the server: over the standard streams of a client that started it, or over HTTP on this machine."""
+"""The server over HTTP, on this machine alone unless somebody says otherwise."""
 
 from __future__ import annotations
 
 import socket
 from collections.abc import Callable
 
-import anyio
-from mcp.server.stdio import stdio_server
 from mcp.server.transport_security import TransportSecuritySettings
 from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Receive, Scope, Send
@@ -16,22 +14,11 @@ from cadgraph.agents.plants import Plants
 from cadgraph.serve.guard import Doors, is_loopback
 from cadgraph.serve.listening import Server, listen
 
-__all__ = ["PATH", "make_app", "serve_http", "serve_stdio"]
+__all__ = ["PATH", "make_app", "serve_http"]
 
 PATH = "/mcp"
 
 Say = Callable[[str], None]
-
-
-def serve_stdio(plants: Plants) -> None:
-    """Answers over standard input and output until the client closes them; nothing else is written there."""
-
-    async def serve() -> None:
-        server = make_server(plants)
-        async with stdio_server() as (incoming, outgoing):
-            await server.run(incoming, outgoing, server.create_initialization_options())
-
-    anyio.run(serve)
 
 
 def serve_http(plants: Plants, host: str, port: int, say: Say) -> None:
