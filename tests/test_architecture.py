@@ -30,7 +30,10 @@ MAY_IMPORT = {
     "labelers": {"_io", "config", "draw.render", "errors", "facts", "geometry", "model"},
     "pipeline": {"_io", "config", "errors", "facts", "geometry", "labelers", "model", "stages"},
     "query": {"_io", "errors", "model"},
-    "agents": {"_io", "config", "errors", "load", "model", "query", "session"},
+    "agents": {
+        *("_io", "config", "errors", "labelers", "load", "model", "query", "serve", "session", "stages"),
+        *("draw.colors", "draw.render"),
+    },
     "draw.svg": {"_io"},
     "draw.schematic": {"_io", "draw.svg", "errors", "model", "query"},
     "draw.colors": {"draw.render", "model"},
@@ -73,6 +76,7 @@ HEAVY = {
     "graphlay",
     "ifcopenshell",
     "jinja2",
+    "mcp",
     "networkx",
     "numba",
     "openai",
@@ -234,6 +238,11 @@ def test_usd_stays_at_the_borders():
         if path.parts[0] not in MAY_USE_USD and "pxr" in {steps[0] for steps in imports}
     ]
     assert wrong == []
+
+
+def test_one_folder_alone_knows_the_library_of_the_server_for_agents():
+    knowing = {path.parts[:2] for path, imports in product() if {"mcp", "mcp_types"} & {steps[0] for steps in imports}}
+    assert knowing == {("agents", "mcp")}
 
 
 def test_geometry_stands_on_arrays_alone():

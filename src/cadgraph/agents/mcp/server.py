@@ -31,9 +31,10 @@ GUIDE = (
 )
 """What the server says of itself to a model."""
 
+_SEVERAL = " There are several plants: each tool takes the name of one that the tool plants lists."
+
 _EVERY = 5.0  # s between two messages of progress; clients give up where none comes for long
 _MOST_ERROR = 1500  # characters of an error
-_PLANT = {"type": "string", "description": "name; see plants"}
 
 Context = ServerRequestContext[Any, Any]
 
@@ -57,14 +58,14 @@ PLANTS = Tool("plants", "The plants that the other tools answer about.", Plants.
 # By functions of their own, as a server that is only asked for words needs neither the renderer nor a session.
 PICTURE = Tool(
     "picture",
-    "A picture (PNG) of one thing in red, with its neighbours along the pipes, or what touches a part, tagged. For "
-    "what words don't tell: how it looks, what stands in the way. Measure nothing in it.",
+    "A picture: one thing in red, its neighbours tagged. For how it looks and what stands in the way; measure nothing "
+    "in it.",
     _draw,
 )
 CORRECT = Tool(
     "correct",
-    "Says what a part is where its label is wrong; its repeats follow. First as a dry run: it says what would change. "
-    "Only what the geometry or a person shows; dry_run=false keeps it, with who and why.",
+    "Mends the label of a part, and of its repeats. First as a dry run, which says what would change; dry_run=false "
+    "keeps it. Only what a picture or a person shows.",
     _correct,
 )
 
@@ -90,7 +91,7 @@ def make_server(plants: Plants) -> Server[Any]:
     return Server(
         "cadgraph",
         version=__version__,
-        instructions=GUIDE,
+        instructions=GUIDE + _SEVERAL * plants.several,
         get_tool_input_schema=lambda name: _schema(tools[name], plants.several) if name in tools else None,
         on_list_tools=list_tools,
         on_call_tool=call_tool,
@@ -107,9 +108,9 @@ def _tools_of(plants: Plants) -> dict[str, Tool]:
 
 def _listed(tool: Tool, several: bool) -> types.Tool:
     if tool is CORRECT:
-        hints = types.ToolAnnotations(read_only_hint=False, destructive_hint=False, open_world_hint=False)
+        hints = types.ToolAnnotations(read_only_hint=False, destructive_hint=False)
     else:
-        hints = types.ToolAnnotations(read_only_hint=True, open_world_hint=False)
+        hints = types.ToolAnnotations(read_only_hint=True)
     return types.Tool(
         name=tool.name, description=tool.description, input_schema=_schema(tool, several), annotations=hints
     )
@@ -119,7 +120,7 @@ def _schema(tool: Tool, several: bool) -> dict[str, Any]:
     """The arguments of a tool, with the plant that is asked about where there are several."""
     schema = copy.deepcopy(tool.schema)
     if several and tool is not PLANTS:
-        schema["properties"] = {"plant": dict(_PLANT), **schema["properties"]}
+        schema["properties"] = {"plant": {"type": "string"}, **schema["properties"]}
         schema["required"] = ["plant", *schema.get("required", ())]
     return schema
 
