@@ -13,22 +13,29 @@ import threading
 from contextlib import closing, contextmanager
 
 import anyio
+import numpy as np
 import pytest
-from mcp import Client
+from mcp import Client, MCPError
 from mcp.client.stdio import StdioServerParameters, stdio_client
 from PIL import Image
 
+import graphs
 import networks
-from cadgraph.agents.answer import Answer
+import shapes
+from cadgraph.agents.answer import Answer, AskError
 from cadgraph.agents.correcting import Desk
 from cadgraph.agents.mcp import server as mcp_server
 from cadgraph.agents.mcp.server import GUIDE, make_server
+from cadgraph.agents.picture import Pictures
+from cadgraph.agents.plant import Plant
 from cadgraph.agents.plants import Plants
 from cadgraph.agents.tools import TOOLS, Tool
 from cadgraph.errors import FormatError, LabelError, OutputError
 from cadgraph.model.corrections import CORRECTIONS, read_history
-from command_line import refused
-from serving import make_folder
+from cadgraph.model.scene import Scene
+from cadgraph.session.run import run as build
+from command_line import refused, run
+from serving import NONE, make_folder
 
 CALLS = {
     "describe": {"id": "V-001"},
@@ -433,3 +440,60 @@ def test_closest_labels_are_found_for_a_name_alone():
 
     with pytest.raises(LabelError, match="did you mean 'Valve assembly/handwheel'"):
         split_label("handweel", default_vocabulary())
+
+
+def test_a_fault_of_ours_is_no_stack_for_the_client_and_no_end_of_the_server(several, monkeypatch):
+    def fail(plant):
+        raise RuntimeError("a secret path")
+
+    monkeypatch.setattr(mcp_server, "TOOLS", (*TOOLS, Tool("fails", "Fails.", fail)))
+
+    async def run():
+        async with Client(make_server(Plants(several / "pumps"))) as client:
+            with pytest.raises(MCPError) as caught:
+                await client.call_tool("fails", {})
+            return str(caught.value), await client.call_tool("overview", {})
+
+    message, after = anyio.run(run)
+    assert "secret" not in message
+    assert "Traceback" not in message
+    assert not after.is_error
+
+
+def test_a_picture_is_drawn_from_the_command_line(blocks, capsys, tmp_path):
+    code, told, _ = run(capsys, "picture", blocks, "part-00001", "-o", tmp_path / "a.png")
+    assert code == 0
+    assert "part-00001 in red" in told
+    with Image.open(tmp_path / "a.png") as image:
+        assert image.size == (768, 576)
+    assert "part-99999" in refused(capsys, "picture", blocks, "part-99999")
+
+
+def test_a_target_that_stands_behind_others_is_seen_through_them():
+    scene = Scene.from_meshes([shapes.box((0.2, 0.2, 0.2)), shapes.box()], ["/inside", "/around"])
+    inside, around = graphs.part(1, "/inside", size=0.2), graphs.part(2, "/around")
+    drawn = Pictures(Plant(graphs.graph([inside, around])), scene).draw("part-1")
+    red = np.asarray(Image.open(io.BytesIO(drawn.png)).convert("RGB")).astype(int)
+    assert ((red[..., 0] > 120) & (red[..., 1] < 60) & (red[..., 2] < 60)).sum() > 1000
+    assert "drawn faint" in drawn.text
+    assert "part-2" not in drawn.text
+
+
+def test_only_a_group_is_said_of_all_parts_of_a_unit(tmp_path):
+    scene = tmp_path / "plant.usda"
+    mesh = """def Mesh "%s" {
+  int[] faceVertexCounts = [3, 3, 3, 3]
+  int[] faceVertexIndices = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2]
+  point3f[] points = [(%f, 0, 0), (%f, 0, 0), (%f, 1, 0), (%f, 0, 1)]
+}
+"""
+    meshes = "".join(mesh % (f"b{n}", 0.999 * n, 0.999 * n + 1, 0.999 * n, 0.999 * n) for n in range(2))
+    scene.write_text(f'#usda 1.0\n(\n    metersPerUnit = 1\n    upAxis = "Z"\n)\n{meshes}')
+    build(scene, tmp_path / "out", NONE, report=False)
+    with closing(Plants(tmp_path / "out", "robot")) as plants:
+        desk = plants.desk("")
+        for part in ("part-00000", "part-00001"):
+            desk.correct(part, "Valve assembly", "a test", this_only=True, dry_run=False)
+        with pytest.raises(AskError, match="has 2 parts, and only a group fits them all; name the part: part-00000"):
+            desk.correct("V-001", "valve body", "a test")
+        assert "all 2 parts of V-001: Gauge assembly" in desk.correct("V-001", "Gauge assembly", "a test").text

@@ -31,6 +31,7 @@ __all__ = ["Desk"]
 
 _MOST_NAMED = 12  # parts or units that an answer names
 _PATIENCE = 40.0  # s that a correction waits for the plant to be opened: less than clients have patience
+_DELAY = 0.5  # s after a correction that the graph is written: a client that ends may kill the server soon after
 
 
 class _Stopping(Exception):
@@ -77,7 +78,7 @@ class Desk:
         except OutputError:
             self._held.close()
             raise
-        self._saver = Saver(self._save, self._saved)
+        self._saver = Saver(self._save, self._saved, _DELAY)
         self._opener = threading.Thread(target=self._open, args=(graph,), name="cadgraph-opener", daemon=True)
         self._opener.start()
 
