@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import difflib
+import itertools
 from collections.abc import Callable, Mapping
 from functools import cached_property
 from pathlib import Path
@@ -19,6 +21,8 @@ if TYPE_CHECKING:
     from cadgraph.model.scene import Scene
 
 __all__ = ["Plant"]
+
+_MOST_HINTED = 6  # tags that an error names
 
 
 class Plant:
@@ -102,7 +106,18 @@ class Plant:
             node = self.graph.nodes.get(self._named.get(which, self._named.get(cell(which), "")))
             if node is not None and isinstance(node, layers or get_args(Node)):
                 return node
-            raise AskError(cell(error, 500)) from None
+            raise AskError(self._hint(which) or cell(error, 500)) from None
+
+    def _hint(self, which: str) -> str:
+        """Units whose tags begin with the same letters, where none has a tag much like this one."""
+        letters = "".join(itertools.takewhile(str.isalpha, cell(which))).casefold()
+        tags = [tag for unit in self.graph.units() if (tag := self.called(unit.id)).casefold().startswith(letters)]
+        near = difflib.get_close_matches(cell(which), [*self._named, *(unit.tag for unit in self.graph.units())], 1)
+        if near or not letters or not tags:
+            return ""
+        more = f" and {len(tags) - _MOST_HINTED} more" if len(tags) > _MOST_HINTED else ""
+        listed = ", ".join(tags[:_MOST_HINTED])
+        return f"nothing in the graph is called {cell(which)!r}; did you mean {listed}{more}?"
 
     def place(self, which: str) -> str:
         """The id of the unit, junction or end that is called so, or that a part or mesh of that name belongs to.
