@@ -21,7 +21,7 @@ from cadgraph.draw.render.camera import Camera, frame
 from cadgraph.draw.render.color import from_hex
 from cadgraph.draw.render.picture import Paint, Renderer
 from cadgraph.draw.render.views import three_quarter_view
-from cadgraph.model.records import Cluster, Junction, Node, Part, Point, System, Terminal, Unit
+from cadgraph.model.records import Cluster, Contains, Junction, Node, Part, Place, Point, System, Terminal, Unit
 from cadgraph.model.scene import Ints, Scene
 from cadgraph.stages.preprocess import prepare_scene
 
@@ -99,7 +99,7 @@ class Pictures:
         """Draws one thing of the plant.
 
         Args:
-            target: tag or id of a unit, part, junction, end, structure or system, or the source path of a mesh.
+            target: tag or id of a unit, part, junction, end, structure, system or level, or the source path of a mesh.
 
         Raises:
             AskError: nothing is called so, or there is nothing of it to be drawn.
@@ -206,7 +206,7 @@ def _parts_of(plant: Plant, node: Node) -> list[Part]:
     if isinstance(node, System):
         inner = (plant.graph.nodes[one] for one in (*node.units, *node.junctions, *node.terminals))
         return [part for one in inner for part in _parts_of(plant, one)]
-    if isinstance(node, Unit | Junction | Terminal):
+    if isinstance(node, Unit | Junction | Terminal | Place):
         return [plant.graph.part(part) for part in node.parts]
     raise AskError(f"{cell(node.id)} is a {node.layer}, which is no one thing to be drawn; give a unit or a part")
 
@@ -214,7 +214,7 @@ def _parts_of(plant: Plant, node: Node) -> list[Part]:
 def _neighbors(plant: Plant, node: Node) -> list[Node]:
     """What a target hangs together with: along the pipes, or, of a part, its unit and what touches it; the next first.
 
-    Of a structure or a system these are the units in it.
+    Of a structure or a system these are the units in it, of a level those that are reached from there.
     """
     if isinstance(node, Part):
         owner = plant.graph.unit_of(node)
@@ -224,6 +224,9 @@ def _neighbors(plant: Plant, node: Node) -> list[Node]:
     if isinstance(node, Cluster):
         inside = {part.id for part in plant.graph.parts(cluster=node.id)}
         return [unit for unit in plant.graph.units() if inside.intersection(unit.parts)]
+    if isinstance(node, Place):
+        served = (edge.target for edge in plant.graph.of_kind(Contains) if edge.source == node.id)
+        return [plant.graph.nodes[one] for one in served]
     if node.id not in plant.network.places:
         return []
     ends = dict.fromkeys(arc.end for arc in plant.network.arcs(node.id) if arc.end != node.id)
@@ -235,6 +238,8 @@ def _point_of(node: Node) -> Point:
         return node.point
     if isinstance(node, Unit | Part | Cluster):
         return node.centroid
+    if isinstance(node, Place):
+        return _tuple(np.mean(node.aabb, axis=0))
     raise AskError(f"{cell(node.id)} is a {node.layer}, which has no one place")
 
 

@@ -277,7 +277,10 @@ class _View:
 
 def _sunk(rings: Floats, heights: Floats, radius: float) -> float:
     """How far the middle lies below the rim, in radii; heights are minus infinity where nothing is met."""
-    inner, rim = (rings <= _INNER) & np.isfinite(heights), (rings >= _RIM[0]) & (rings <= _RIM[1]) & np.isfinite(heights)
+    inner, rim = (
+        (rings <= _INNER) & np.isfinite(heights),
+        (rings >= _RIM[0]) & (rings <= _RIM[1]) & np.isfinite(heights),
+    )
     if not inner.any() or not rim.any():
         return 0.0
     return float(np.clip((np.quantile(heights[rim], 0.75) - np.median(heights[inner])) / radius, -1.0, 1.0))
@@ -297,7 +300,10 @@ class _Target:
     def hits(self, origins: Floats, aims: Floats) -> tuple[Floats, Ints]:
         """How far each ray goes [m], infinity where it meets nothing; and the triangle that it meets, or -1."""
         found = self._world.run(
-            np.ascontiguousarray(origins, np.float32), np.ascontiguousarray(aims, np.float32), query="INTERSECT", output=1
+            np.ascontiguousarray(origins, np.float32),
+            np.ascontiguousarray(aims, np.float32),
+            query="INTERSECT",
+            output=1,
         )
         hit = np.asarray(found["primID"], np.int64)
         away = np.where(hit >= 0, np.asarray(found["tfar"], np.float64), np.inf)
