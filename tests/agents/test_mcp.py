@@ -7,6 +7,7 @@ import io
 import json
 import math
 import os
+import signal
 import subprocess
 import sys
 import threading
@@ -152,6 +153,24 @@ def test_nothing_but_the_protocol_is_written_to_standard_output(several):
     assert [answer["id"] for answer in answers] == [1, 2]
     assert "structuredContent" not in answers[1]["result"]
     assert (rest, errors, process.returncode) == ("", "", 0)
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_a_signal_ends_it_though_the_client_says_nothing(several, number):
+    process = subprocess.Popen(
+        [sys.executable, "-m", "cadgraph", "serve", several / "pumps"],
+        env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
+        stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    try:
+        process.stdin.write('{"jsonrpc": "2.0", "id": 1, "method": "ping"}\n')
+        process.stdin.flush()
+        assert json.loads(process.stdout.readline())["id"] == 1
+        process.send_signal(number)
+        assert process.wait(timeout=20) == 0
+    finally:
+        process.kill()
+        assert process.communicate() == ("", "")
 
 
 @contextmanager

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.markup import escape
@@ -12,7 +14,11 @@ from cadgraph.cli.application import app
 from cadgraph.cli.correcting import user_name
 from cadgraph.cli.options import GraphArgument
 from cadgraph.cli.screen import err, out
+from cadgraph.cli.signals import Stopped
 from cadgraph.errors import MissingExtra
+
+if TYPE_CHECKING:
+    from cadgraph.agents.plants import Plants
 
 
 @app.command()
@@ -54,6 +60,7 @@ def serve(
         raise ValueError("--who goes with --write")
     name = (f"agent of {user_name()}".removesuffix(" of ") if who is None else who) if write else None
     plants = Plants(where, name)
+    stopped = False
     try:
         if http:
             from cadgraph.agents.mcp.http import serve_http
@@ -62,9 +69,23 @@ def serve(
             serve_http(plants, host, port, _say)
         else:
             serve_stdio(plants)
+    except* Stopped:
+        stopped = True
     finally:
+        _close(plants)
+    if stopped:
+        # A thread waits for a line of the client, which can't be ended, and the process would wait for it.
+        sys.stderr.flush()
+        os._exit(0)
+
+
+def _close(plants: Plants) -> None:
+    """Writes what is left to be written; a second signal leaves that to the next run."""
+    try:
         for failed in plants.close():
             _say(f"corrections are kept, but the graph is not written: {failed}")
+    except Stopped:
+        _say("corrections are kept, but the graph is not written; the next run makes up for that")
 
 
 @app.command()
