@@ -31,7 +31,10 @@ MAY_IMPORT = {
     "pipeline": {"_io", "config", "errors", "facts", "geometry", "labelers", "model", "stages"},
     "query": {"_io", "errors", "model"},
     "plans": {"_io", "errors", "model", "query"},
-    "agents": {"_io", "config", "errors", "load", "model", "plans", "query", "session"},
+    "agents": {
+        *("_io", "config", "errors", "labelers", "load", "model", "plans", "query", "serve", "session", "stages"),
+        *("draw.colors", "draw.render"),
+    },
     "draw.svg": {"_io"},
     "draw.schematic": {"_io", "draw.svg", "errors", "model", "query"},
     "draw.colors": {"draw.render", "model"},
@@ -75,6 +78,7 @@ HEAVY = {
     "graphlay",
     "ifcopenshell",
     "jinja2",
+    "mcp",
     "networkx",
     "numba",
     "openai",
@@ -236,6 +240,11 @@ def test_usd_stays_at_the_borders():
         if path.parts[0] not in MAY_USE_USD and "pxr" in {steps[0] for steps in imports}
     ]
     assert wrong == []
+
+
+def test_one_folder_alone_knows_the_library_of_the_server_for_agents():
+    knowing = {path.parts[:2] for path, imports in product() if {"mcp", "mcp_types"} & {steps[0] for steps in imports}}
+    assert knowing == {("agents", "mcp")}
 
 
 def test_geometry_stands_on_arrays_alone():

@@ -64,6 +64,17 @@ class Tool:
         Raises:
             CadGraphError: the arguments are wrong (:class:`~cadgraph.errors.AskError`), or there is no answer.
         """
+        return self.run(plant, **self.checked(arguments))
+
+    def checked(self, arguments: Mapping[str, Any]) -> dict[str, Any]:
+        """The arguments that the function takes, of those that anybody gave.
+
+        Args:
+            arguments: by name, as plain values.
+
+        Raises:
+            AskError: one is wrong; the message says which, and what is there instead.
+        """
         for name in arguments:
             if name not in self.parameters:
                 raise AskError(f"{self.name} has no argument {cell(name)!r}; {did_you_mean(name, self.parameters)}")
@@ -73,7 +84,7 @@ class Tool:
             first = error.errors(include_url=False, include_context=False, include_input=False)[0]
             where = ".".join(str(step) for step in first["loc"])
             raise AskError(f"{self.name}: {cell(where)}: {cell(first['msg'], 200)}") from None
-        return self.run(plant, **{name: getattr(values, name) for name in self.parameters})
+        return {name: getattr(values, name) for name in self.parameters}
 
 
 def tool_named(name: str) -> Tool:

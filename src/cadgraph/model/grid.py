@@ -54,7 +54,7 @@ class Grid:
         return found
 
     def centers(self) -> tuple[Floats, Floats]:
-        """x of the columns' middles and y of the rows' [m]."""
+        """X of the columns' middles and y of the rows' [m]."""
         xs, ys = (start + self.step * (np.arange(n) + 0.5) for start, n in zip(self.origin, self.size, strict=True))
         return xs, ys
 
