@@ -41,7 +41,7 @@ CALLS = {
     "approach": {"target": "V-001"},
     "plan": {"goals": "close V-001"},
 }
-MOST_TOKENS = 3300
+MOST_TOKENS = {"one": 3300, "several": 3700}  # of several plants, each tool says that it takes one
 
 
 @pytest.fixture(scope="module")
@@ -203,7 +203,7 @@ def test_the_list_of_tools_is_short_and_says_that_they_only_read(several, form):
     assert not any(tool.output_schema for tool in tools)
     rows = [tool.model_dump(mode="json", by_alias=True, exclude_none=True) for tool in tools]
     content = json.dumps([GUIDE, rows], separators=(",", ":"), ensure_ascii=False)
-    assert math.ceil(len(content.encode()) / 1.9) <= MOST_TOKENS
+    assert math.ceil(len(content.encode()) / 1.9) <= MOST_TOKENS[form]
 
 
 def test_the_tool_for_corrections_is_there_only_where_it_is_allowed(several):
