@@ -30,7 +30,7 @@ MAY_IMPORT = {
     "labelers": {"_io", "config", "draw.render", "errors", "facts", "geometry", "model"},
     "pipeline": {"_io", "config", "errors", "facts", "geometry", "labelers", "model", "stages"},
     "query": {"_io", "errors", "model"},
-    "agents": {"_io", "config", "errors", "load", "model", "query", "session"},
+    "agents": {"_io", "config", "errors", "labelers", "load", "model", "query", "session"},
     "draw.svg": {"_io"},
     "draw.schematic": {"_io", "draw.svg", "errors", "model", "query"},
     "draw.colors": {"draw.render", "model"},
