@@ -14,6 +14,7 @@ from cadgraph.agents.plant import Plant
 __all__ = ["Call", "Support", "support_of", "value_of"]
 
 _MARK = re.compile(r"^[ \t*_`>#]*ANSWER[ \t*_`]*:[ \t*_`]*", re.MULTILINE)
+_FENCE = re.compile(r"\A[\s`*]*(?:json\b)?[\s`*]*")
 _TAG = re.compile(r"(?<![\w-])[A-Za-z]{1,9}-\d[\w-]*\b")  # what looks like a tag, be it one or not
 _SHOUTED = re.compile(r"[A-Z]{3,}\b[ :]")  # how tools begin a line of doubt
 _MOST_HEADS = 4  # first lines of an answer that may hold its doubts
@@ -123,12 +124,6 @@ def _named_in(plant: Plant, text: str, declared: Iterable[str]) -> dict[str, boo
         for name in names
         if name in text and any(letter.isdigit() for letter in name) and (where := _place(text, name)) >= 0
     }
-    # A name within a longer one that stands there is not named.
-    at = {
-        name: where
-        for name, where in at.items()
-        if not any(name != o and name in o and at[o] <= where <= at[o] + len(o) for o in at)
-    }
     for match in _TAG.finditer(text):
         at.setdefault(_known(plant, match[0]), match.start())
     found = sorted(at, key=lambda name: (at[name], name))
@@ -159,7 +154,7 @@ def _place(text: str, name: str) -> int:
 def _first_json(text: str) -> Any:
     """The JSON that a text begins with; the text's first line where it begins with none."""
     try:
-        return json.JSONDecoder().raw_decode(text.strip().removeprefix("json").lstrip("`\n "))[0]
+        return json.JSONDecoder().raw_decode(_FENCE.sub("", text))[0]
     except (ValueError, RecursionError):
         return cell(text.strip().partition("\n")[0].strip("`* "), 500) or None
 
