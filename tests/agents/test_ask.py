@@ -118,6 +118,8 @@ def test_a_tag_within_a_longer_one_is_another_tag():
         ("Two.\nANSWER: {broken", ("Two.", "{broken", ())),
         ('Two.\nANSWER:\n```json\n{"value": 2}\n```', ("Two.", 2, ())),
         ("Just words.", ("Just words.", None, ())),
+        ('ANSWER: {"value": NaN}', ("nan", "nan", ())),
+        ('ANSWER: {"value": [[1]]}', ("[[1]]", "[[1]]", ())),
         ("ANSWER: " + "[" * 100_000, None),
     ],
 )
@@ -141,7 +143,7 @@ def test_errors_are_fed_back_and_mended(plant):
     assert "P-001" in fed[0]
     assert "no argument 'goal'" in fed[1]
     assert "did you mean isolate?" in fed[2]
-    assert "no JSON object" in fed[3]
+    assert "must be a JSON object" in fed[3]
     assert told.sound
     # A server that reads arguments again must not stumble over what its model wrote.
     sent = next(each for each in model.asked[1][0] if each["role"] == "assistant")["tool_calls"]
@@ -196,6 +198,16 @@ def test_an_answer_of_a_hostile_model_moves_no_cursor(plant):
     told = ask(plant, "what?", model)
     assert all(line.isprintable() for line in told.text.split("\n"))
     assert len(told.text.split("\n")) == 3
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    ['{"id": NaN}', '{"id": 1e999}', '{"id": ' + "[" * 500 + "]" * 500 + "}", '{"id": "\\ud800"}', "[]", "7"],
+)
+def test_arguments_of_any_kind_end_in_an_error_that_can_be_told(plant, arguments):
+    told = ask(plant, "what?", Scripted([("describe", arguments)], answer("Nothing.")))
+    assert told.calls[0].failed
+    json.dumps(told.values(), allow_nan=False, indent=1)
 
 
 # Limits
@@ -310,6 +322,16 @@ def test_json_holds_all_of_it_and_no_key(capsys, graph):
     assert told["calls"][0]["arguments"] == {"id": "V-001"}
     assert (told["steps"], told["prompt_tokens"], told["cost_usd"]) == (2, 2000, 0.0)
     assert KEY not in out + err
+
+
+def test_halves_of_characters_reach_neither_server_nor_screen(capsys, graph):
+    server = ScriptedModel(
+        [("describe", '{"id": "\ud800V-001"}'), ("\udfff", {})], answer("V-001 \ud83d", "\ud83d", "\ud800")
+    )
+    code, out, _ = command(capsys, graph, server, "--json", question="what \udcff?")
+    assert (code, len(server.bodies)) == (1, 2)
+    out.encode()
+    assert command(capsys, graph, ScriptedModel([("overview", {})], "\ud83d"))[0] == 0
 
 
 def test_a_reached_limit_ends_with_one_and_says_so(capsys, graph):

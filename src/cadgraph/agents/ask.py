@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from cadgraph.agents.answer import AskError, among, cell, tokens
-from cadgraph.agents.evidence import Call, Support, support_of, value_of
+from cadgraph.agents.evidence import Call, Support, is_plain, support_of, value_of
 from cadgraph.agents.plant import Plant
 from cadgraph.agents.tools import TOOLS, Tool
 from cadgraph.errors import CadGraphError, LabelError
@@ -168,7 +168,7 @@ def ask(
         LabelError: the model can't be asked, or gave no answer; the message says why.
     """
     limits = limits or Limits()
-    question = question.strip()
+    question = _plain(question)
     if not question:
         raise AskError("the question is empty; ask for example: which valves isolate P-001?")
     if len(question) > _QUESTION:
@@ -380,8 +380,8 @@ def _arguments(wanted: ToolCall) -> dict[str, Any]:
         given = json.loads(wanted.arguments or "{}")
     except (ValueError, RecursionError):
         given = None
-    if not isinstance(given, dict):
-        raise AskError(f'the arguments of {cell(wanted.name)} are no JSON object; write them as {{"name": value}}')
+    if not isinstance(given, dict) or not all(map(is_plain, given.values())):
+        raise AskError(f'the arguments of {cell(wanted.name)} must be a JSON object of plain values: {{"name": value}}')
     # Models fill in what they leave open.
     return {name: value for name, value in given.items() if value is not None}
 

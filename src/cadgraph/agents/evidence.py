@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -11,7 +12,7 @@ from typing import Any
 from cadgraph.agents.answer import AskError, cell
 from cadgraph.agents.plant import Plant
 
-__all__ = ["Call", "Support", "support_of", "value_of"]
+__all__ = ["Call", "Support", "is_plain", "support_of", "value_of"]
 
 _MARK = re.compile(r"^[ \t*_`>#]*ANSWER[ \t*_`]*:[ \t*_`]*", re.MULTILINE)
 _FENCE = re.compile(r"\A[\s`*]*(?:json\b)?[\s`*]*")
@@ -82,11 +83,20 @@ def value_of(text: str) -> tuple[str, Any, tuple[str, ...]]:
     words, rest = text[: marks[-1].start()].strip(), text[marks[-1].end() :]
     told = _first_json(rest)
     if not isinstance(told, dict):
+        told = told if is_plain(told) else cell(repr(told), 500)
         return words or _said(told), told, ()
     named = told.get("tags")
     tags = tuple(cell(tag) for tag in named[:_MOST_TAGS] if isinstance(tag, str)) if isinstance(named, list) else ()
     value = told.get("value")
+    value = value if is_plain(value) else cell(repr(value), 500)
     return words or _said(value), value, tags
+
+
+def is_plain(value: Any) -> bool:
+    """Whether a value is a text, a finite number, true, false, null, or a list of such."""
+    if isinstance(value, list):
+        return all(not isinstance(each, list) and is_plain(each) for each in value)
+    return value is None or isinstance(value, str | int) or (isinstance(value, float) and math.isfinite(value))
 
 
 def support_of(plant: Plant, text: str, declared: Sequence[str], calls: Sequence[Call]) -> Support:

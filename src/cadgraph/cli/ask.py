@@ -88,7 +88,8 @@ def ask(
     finally:
         talker.close()
     if as_json:
-        typer.echo(json.dumps(told.values(), ensure_ascii=False, indent=1))
+        # Half a character in what a model wrote can't be printed.
+        typer.echo(json.dumps(told.values(), ensure_ascii=False, indent=1).encode("utf-8", "replace"))
     else:
         _tell(told)
     if not told.sound:

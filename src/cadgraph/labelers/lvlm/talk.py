@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import uuid
 from collections.abc import Mapping, Sequence
@@ -24,8 +25,10 @@ _BACK = {
     "reasoning_details",
     "extra_content",
 }  # that some servers miss in the next turn
+_MOST_CALLS = 64  # of one turn
 _LONGEST = 40_000  # characters of a text or of the arguments of a call that are kept
 # Ollama, vLLM, llama.cpp and proxies mind tools in words like these, with 400, 404, 422 or 500.
+_MINDED = re.compile(r"\btools?\b.*(support|requir|enabl)|support.*\btools?\b")
 _OF_TOOLS = re.compile(r"\btools?\b|tool_choice|tool[ _-]call|function[ _-]call")
 
 
@@ -130,9 +133,9 @@ class Talker(Client):
         raise LabelError("the server accepts none of the ways to ask for an answer")
 
     def _mind(self, error: Any, manner: Manner, last: bool) -> None:
-        said = self._words(error)
-        if int(error.status_code) in (404, 500, 501) and _OF_TOOLS.search(said[: 4 * _SAID].lower()):
-            raise Refused(said, int(error.status_code)) from error
+        said, status = self._words(error), int(error.status_code)
+        if status in (404, 500, 501) and _MINDED.search(said[: 4 * _SAID].lower()):
+            raise Refused(said, status) from error
         super()._mind(error, manner, last)
 
     def _toolless(self, refusal: Refused) -> LabelError:
@@ -159,20 +162,14 @@ class Talker(Client):
         choices = getattr(done, "choices", None) or [None]
         message = getattr(choices[0], "message", None)
         calls = []
-        for number, call in enumerate(getattr(message, "tool_calls", None) or ()):
+        for number, call in enumerate((getattr(message, "tool_calls", None) or ())[:_MOST_CALLS]):
             function = getattr(call, "function", None)
-            name, arguments = getattr(function, "name", None), getattr(function, "arguments", None)
-            ident = printable(self._scrub(str(getattr(call, "id", None) or "")))[:200]
-            calls.append(
-                ToolCall(
-                    ident or f"call_{number + 1}",
-                    self._scrub(str(name or ""))[:200],
-                    self._scrub(str(arguments or ""))[:_LONGEST],
-                    _told_beside(call),
-                )
-            )
+            name, arguments = (str(getattr(function, each, None) or "") for each in ("name", "arguments"))
+            ident = printable(self._scrub(str(getattr(call, "id", None) or "")))[:200] or f"call_{number + 1}"
+            name, arguments = printable(self._scrub(name))[:200], _encodable(self._scrub(arguments))[:_LONGEST]
+            calls.append(ToolCall(ident, name, arguments, _told_beside(call)))
         return Turn(
-            reply.text or (f"The model declined: {reply.refusal}" if reply.refusal else ""),
+            _encodable(reply.text or (f"The model declined: {reply.refusal}" if reply.refusal else "")),
             tuple(calls),
             reply.prompt_tokens,
             reply.answer_tokens,
@@ -184,4 +181,17 @@ class Talker(Client):
 def _told_beside(told: Any) -> dict[str, Any]:
     """What a server told beside the fields that the interface has, of what it wants back."""
     extra = getattr(told, "model_extra", None) or {}
-    return {name: value for name, value in extra.items() if name in _BACK and value}
+    return {name: value for name, value in extra.items() if name in _BACK and value and _sendable(value)}
+
+
+def _sendable(value: Any) -> bool:
+    try:
+        json.dumps(value, ensure_ascii=False, allow_nan=False).encode()
+    except (ValueError, RecursionError):
+        return False
+    return True
+
+
+def _encodable(text: str) -> str:
+    """A text without halves of characters, which JSON can hold and no request can."""
+    return text.encode("utf-8", "replace").decode("utf-8")
