@@ -39,7 +39,7 @@ def part(number, at=(0.0, 0.0, 0.0), label=("Valve assembly", "valve body"), mes
     )
 
 
-def large_plant(n_lines=3, n_in_line=60):
+def large_plant(n_lines=2, n_in_line=90):
     """Long lines of valves and gauges between tanks, each unit of three parts that touch the next unit's."""
     nodes, edges, number = [], [], 0
     for k in range(n_lines):

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Annotated, Any
 
 from cadgraph.agents.answer import Answer, cell, page_of
-from cadgraph.agents.looking import counted, kind_of, overview, region_of, said_place
+from cadgraph.agents.looking import NO_PLACES, counted, kind_of, overview, said_place, where
 from cadgraph.agents.measuring import box_of, point_of
 from cadgraph.agents.plant import Plant
-from cadgraph.model.records import Cluster, Junction, Part, System, Terminal, Unit
+from cadgraph.model.records import Cluster, Junction, Part, Place, ReachedFrom, System, Terminal, Unit
 from cadgraph.query.explain import explain
 from cadgraph.query.explain_unit import PortInUse, explain_unit
 from cadgraph.query.lines import Line
@@ -25,7 +25,7 @@ _IN_ROW = 4  # names
 
 def describe(
     plant: Plant,
-    id: Annotated[str, "tag or id of a unit, part, junction, end, system, structure or line"],
+    id: Annotated[str, "of a unit, part, junction, end, system, structure, level or line"],
     page: int = 1,
 ) -> Answer:
     """What one thing is: its kind, place, ports, parts, and what that rests on.
@@ -50,6 +50,8 @@ def describe(
         return _describe_system(plant, node, page)
     if isinstance(node, Cluster):
         return _describe_cluster(plant, node, page)
+    if isinstance(node, Place):
+        return _describe_level(plant, node, page)
     return overview(plant)
 
 
@@ -64,7 +66,7 @@ def _where(
     """Where something is, as rows and as values."""
     point, (low, high) = point_of(node), box_of(node)
     size = [b - a for a, b in zip(low, high, strict=True)]
-    place = region_of(plant, point)
+    place = where(plant, point)
     rows = [("at", f"{said_place(point)} m, {place}")]
     if any(size):
         rows.append(("box", f"{' x '.join(f'{x:.2f}' for x in size)} m, from {said_place(low)} to {said_place(high)}"))
@@ -88,6 +90,7 @@ def _describesaid_place(plant: Plant, node: Unit | Junction | Terminal, page: in
     rows += [("not joined", say_joint(joint)) for joint in told.open_joints]
     rows += _pieces("parts", [f"{part.part} {part.label or 'unlabelled'}" for part in told.parts])
     if isinstance(node, Unit):
+        rows.append(("reach", _reach(plant, node)))
         rows += [("labels", _evidence(plant, node)), *fact_rows(node.facts)]
     values |= {
         "id": node.id,
@@ -100,6 +103,7 @@ def _describesaid_place(plant: Plant, node: Unit | Junction | Terminal, page: in
         "ports": [
             {"port": p.port, "to": list(p.to), "lengths_m": list(p.lengths), "dn": list(p.sizes)} for p in told.ports
         ],
+        "access": node.access.model_dump() if isinstance(node, Unit) and node.access is not None else None,
         "missing_lines": told.missing,
         "open_joints": [say_joint(joint) for joint in told.open_joints],
         "parts": [part.part for part in told.parts],
@@ -113,6 +117,16 @@ def _port(port: PortInUse) -> str:
         facts = [f"DN {size}"] * (size is not None) + [f"{length:.2f} m" if length is not None else "length unknown"]
         told.append(f"to {name} ({', '.join(facts)})")
     return "; ".join(told) or "no line was found here"
+
+
+def _reach(plant: Plant, unit: Unit) -> str:
+    """From where people reach a unit, and how high it is above that."""
+    access = unit.access
+    if access is None:
+        return NO_PLACES
+    level = plant.graph.nodes.get(access.place or "")
+    name = cell(level.name) if isinstance(level, Place) else "the level below"
+    return f"{access.reach}: {access.height:.2f} m above {name}"
 
 
 def _evidence(plant: Plant, unit: Unit) -> str:
@@ -180,6 +194,26 @@ def _describe_cluster(plant: Plant, cluster: Cluster, page: int) -> Answer:
     ]
     values |= {"id": cluster.id, "kind": cluster.kind, "units": units, "parts": [part.id for part in parts]}
     return _answer(rows, values, page)
+
+
+def _describe_level(plant: Plant, place: Place, page: int) -> Answer:
+    """A level, or a way up to one."""
+    ways = [edge.target for edge in plant.graph.of_kind(ReachedFrom) if edge.source == place.id]
+    units = [
+        (plant.called(unit.id), unit.access.reach)
+        for unit in plant.graph.units()
+        if unit.access is not None and unit.access.place == place.id
+    ]
+    low = f"from {place.low:.2f} m to " if place.low is not None else ""
+    rows = [
+        (place.id, f"{place.name} ({place.kind})"),
+        ("height", f"{low}{place.height:.2f} m"),
+        ("area", f"{place.area:.1f} m2" if place.area else ""),
+        *_pieces("reached from", ways),
+        *_pieces("units", [f"{name} ({reach})" if reach == "out of reach" else name for name, reach in units]),
+    ]
+    values = {"id": place.id, "name": place.name, "kind": place.kind, "height_m": place.height, "low_m": place.low}
+    return _answer(rows, values | {"reached_from": ways, "units": [name for name, _ in units]}, page)
 
 
 def _line_rows(line: Line) -> list[tuple[str, str]]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import difflib
+import itertools
 from collections.abc import Callable, Mapping
 from functools import cached_property
 from pathlib import Path
@@ -14,12 +16,15 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Box, Junction, Node, Terminal, Unit
 from cadgraph.query.lines import Line, find_lines
 from cadgraph.query.network import Network
+from cadgraph.query.summary import Summary, summarize
 
 if TYPE_CHECKING:
     from cadgraph.agents.sql.guard import Database
     from cadgraph.model.scene import Scene
 
 __all__ = ["Plant"]
+
+_MOST_HINTED = 6  # tags that an error names
 
 
 class Plant:
@@ -95,6 +100,11 @@ class Plant:
         return (low[0], low[1], low[2]), (high[0], high[1], high[2])
 
     @cached_property
+    def summary(self) -> Summary:
+        """Counts of what the graph holds."""
+        return summarize(self.graph)
+
+    @cached_property
     def line_of(self) -> Mapping[int, str]:
         """The tag of the line of each connection, by the connection's number; taps have none."""
         return {arc.index: line.tag for line in self.lines for arc in line.arcs}
@@ -116,7 +126,19 @@ class Plant:
             node = self.graph.nodes.get(self._named.get(which, self._named.get(cell(which), "")))
             if node is not None and isinstance(node, layers or get_args(Node)):
                 return node
-            raise AskError(cell(error, 500)) from None
+            told = str(error).replace(repr(which), repr(cell(which)))
+            raise AskError(self._hint(which) or cell(told, 500)) from None
+
+    def _hint(self, which: str) -> str:
+        """Units whose tags begin with the same letters, where none has a tag much like this one."""
+        letters = "".join(itertools.takewhile(str.isalpha, cell(which))).casefold()
+        tags = [tag for unit in self.graph.units() if (tag := self.called(unit.id)).casefold().startswith(letters)]
+        near = difflib.get_close_matches(cell(which), [*self._named, *(unit.tag for unit in self.graph.units())], 1)
+        if near or not letters or not tags:
+            return ""
+        more = f" and {len(tags) - _MOST_HINTED} more" if len(tags) > _MOST_HINTED else ""
+        listed = ", ".join(tags[:_MOST_HINTED])
+        return f"nothing in the graph is called {cell(which)!r}; did you mean {listed}{more}?"
 
     def place(self, which: str) -> str:
         """The id of the unit, junction or end that is called so, or that a part or mesh of that name belongs to.

@@ -181,6 +181,7 @@ def isolate(
     target: str,
     fewest: Annotated[bool, "fewest valves, though more is shut off"] = False,
     check_valves: Annotated[bool, "count check valves that hold back"] = False,
+    assume_shutoff: Annotated[bool, "count valves of unknown kind"] = False,
     page: int = 1,
 ) -> Answer:
     """The valves that isolate a unit on every one of its ports, what stays open and what makes that doubtful.
@@ -190,6 +191,7 @@ def isolate(
         target: tag or id.
         fewest: rather the smallest set of valves than the nearest ones.
         check_valves: whether a check valve counts that the flow leaves the unit through.
+        assume_shutoff: whether valves of unknown kind count, each of them a doubt.
         page: counted from 1.
 
     Raises:
@@ -197,7 +199,9 @@ def isolate(
         Unconnected: no line was found at the unit: that doesn't say that nothing feeds it.
     """
     place = plant.place(target)
-    found = find_isolation(plant.network, place, check_valves=check_valves, fewest=fewest)
+    found = find_isolation(
+        plant.network, place, check_valves=check_valves, fewest=fewest, assume_shutoff=assume_shutoff
+    )
     n_valves = sum(not valve.automatic for valve in found.valves)
     close = f"{_count(n_valves, 'valve')} to close"
     if found.openings:
@@ -213,7 +217,19 @@ def isolate(
     rows += _doubt_rows(found.doubts)
     rows += [f"note\t{cell(remark, _TEXT)}" for remark in found.remarks]
     rows += [
-        row("close", v.name, v.what, v.port, _metres(v.distance), v.line, "closes by itself" if v.automatic else "")
+        f"{row('not relied on', v.name, v.what, v.port or '-', _metres(v.distance))}\t{cell(v.why, _TEXT)}"
+        for v in found.passed
+    ]
+    rows += [
+        row(
+            "close",
+            v.name,
+            f"{v.what} ({v.likely})" if v.likely else v.what,
+            v.port,
+            _metres(v.distance),
+            v.line,
+            "closes by itself" if v.automatic else "",
+        )
         for v in found.valves
     ]
     rows += _listed("shut off too", "", found.shut_off_names) or [row("shut off too", "", "nothing else")]
@@ -281,7 +297,7 @@ def _consequence_rows(found: WhatIf) -> Iterator[str]:
     yield from _grouped("cut off", found.cut_off)
     yield from _grouped("nothing refills", found.not_refilled)
     yield from _grouped("pumps against shut valves", found.dead_headed)
-    yield from _grouped("another known way feeds", found.still_fed)
+    yield from _grouped("another way leads to", found.still_fed)
     yield from (f"supposed\t{cell(text, _TEXT)}" for text in found.assumptions)
     yield from _listed("sources", "", found.sources)
 

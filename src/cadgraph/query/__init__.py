@@ -9,7 +9,7 @@ from cadgraph.query.compare import Comparison, compare
 from cadgraph.query.doubt import Doubt
 from cadgraph.query.explain_connection import ConnectionExplanation, explain_connection
 from cadgraph.query.explain_unit import UnitExplanation, explain_unit
-from cadgraph.query.isolate import Closing, Isolation, Opening, find_isolation
+from cadgraph.query.isolate import Closing, Isolation, Opening, Passed, find_isolation
 from cadgraph.query.lines import Line, find_lines
 from cadgraph.query.network import Arc, Network
 from cadgraph.query.trace import Halt, Return, Step, Trace, find_way, trace
@@ -27,6 +27,7 @@ __all__ = [
     "Line",
     "Network",
     "Opening",
+    "Passed",
     "Return",
     "Step",
     "Trace",

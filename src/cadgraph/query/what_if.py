@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from cadgraph._io.text import tag_key
@@ -11,18 +11,19 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.pipework import Follow
 from cadgraph.model.records import Terminal, Unit
 from cadgraph.query.doubt import Doubt, open_sides
+from cadgraph.query.duty import Duty, duty_of, likely_kinds
 from cadgraph.query.network import Arc, Network
 
 __all__ = ["Consequence", "WhatIf", "what_if"]
 
-# Kinds that nobody shuts by hand, and what they are told by; a kind that isn't known may be one of them.
-_NOT_SHUT = (
-    ("check", "is a check valve: nobody shuts it by hand"),
-    ("relief", "is a relief valve: it must not be blocked"),
-    ("safety", "is a safety valve: it must not be blocked"),
-    ("control", "is a control valve: it moves by itself and may leak"),
-)
-_RELIEF = ("relief", "safety")
+# Why a valve may not be shut, by what it can be relied on for; of an open kind only where not all that it may be shuts.
+_NOT_SHUT: Mapping[Duty, str] = {
+    "check": "is a check valve: nobody shuts it by hand",
+    "relief": "is a relief valve: it must not be blocked",
+    "control": "is a control valve: it moves by itself and may leak",
+    "other": "is of a kind that isn't known to shut off",
+    "unknown": "is of unknown kind: it may be a check valve, which nobody shuts",
+}
 
 
 @dataclass(frozen=True)
@@ -220,12 +221,9 @@ class _Closing:
 
     def _surely_follows(self, arc: Arc) -> bool:
         # Through a relief valve nothing flows as a rule, so that nothing counts as fed through one.
-        if any(word in self._kind(arc.start) for word in _RELIEF):
+        if duty_of(self.network, arc.start) == "relief":
             return False
         return arc.flow == "along" or self.network.is_tap(arc) or self.network.is_dead(arc)
-
-    def _kind(self, place: str) -> str:
-        return self.network.what(place).casefold() if self.network.is_valve(place) else ""
 
     def _by_tag(self, places: Iterable[str]) -> list[str]:
         """Units and ends in the order of tags; junctions and blind ends are nothing to tell."""
@@ -240,14 +238,9 @@ class _Closing:
 
     def _why_unsure(self, place: str) -> str | None:
         """Why nobody can be sure that a valve can be shut."""
-        node, kind = self.network.places[place], self._kind(place)
-        for word, why in _NOT_SHUT:
-            if word in kind:
-                return why
-        if isinstance(node, Unit) and node.kind is None:
-            likely = f", {node.kind_guesses[0][0]} by {node.kind_guesses[0][1]:.0%}" if node.kind_guesses else ""
-            return f"is of unknown kind{likely}: it may be a check valve, which nobody shuts"
-        return None
+        why = _NOT_SHUT.get(duty_of(self.network, place) or "other")
+        likely = likely_kinds(self.network, place)
+        return f"{why} (likeliest: {likely})" if why and likely else why
 
     def _why_open(self, fed_before: bool, loosely_fed: bool) -> str:
         if not fed_before:
@@ -306,6 +299,11 @@ class _Closing:
 
     def _remarks(self, before: Collection[str], cut: Collection[str]) -> tuple[str, ...]:
         told = [f"{self.network.name(place)} {why}" for place, why in self.unsure.items()]
+        told += [
+            f"{self.network.name(place)} is of open kind, but likely shuts off ({likely_kinds(self.network, place)})"
+            for place in self.closed
+            if duty_of(self.network, place) == "likely"
+        ]
         unfed = [self.network.name(place) for place in self.closed if place not in before]
         told += [
             f"no source was found to feed {name} in the first place: what it cuts off isn't known" for name in unfed
