@@ -156,6 +156,11 @@ class Plant:
         return self._shown[node]
 
     @cached_property
+    def names(self) -> frozenset[str]:
+        """All that answers call something: nodes, and lines of the line list."""
+        return frozenset(self._shown.values()) | {line.tag for line in self.lines}
+
+    @cached_property
     def _shown(self) -> Mapping[str, str]:
         names = {node.id: node.tag if isinstance(node, Unit) else node.id for node in self.graph.nodes.values()}
         # Tags that are plain are called as they are, whatever others come to by being cleaned.

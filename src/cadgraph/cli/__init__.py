@@ -14,6 +14,7 @@ from cadgraph.cli import functional as _functional  # noqa: F401
 from cadgraph.cli import planning as _planning  # noqa: F401
 from cadgraph.cli import agents as _agents  # noqa: F401
 from cadgraph.cli import serving as _serving  # noqa: F401
+from cadgraph.cli import ask as _ask  # noqa: F401
 
 # isort: on
 from cadgraph.cli.application import app, main

@@ -17,7 +17,7 @@ from cadgraph.agents.tools import TOOLS, Tool
 from cadgraph.cli.application import app
 from cadgraph.cli.options import GraphArgument
 
-_PANEL = "Questions, as agents ask them"
+PANEL = "Questions, as agents ask them"
 _JSON = Annotated[bool, typer.Option("--json", help="Print the whole answer as JSON.")]
 
 
@@ -26,7 +26,7 @@ def _register(tool: Tool) -> None:
     name = tool.name.replace("_", "-")
     own = {command.name or getattr(command.callback, "__name__", "") for command in app.registered_commands}
     if name not in own:
-        app.command(name, help=tool.description, rich_help_panel=_PANEL)(_command(tool))
+        app.command(name, help=tool.description, rich_help_panel=PANEL)(_command(tool))
 
 
 def _command(tool: Tool) -> Callable[..., None]:
