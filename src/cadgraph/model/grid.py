@@ -54,8 +54,9 @@ class Grid:
         return found
 
     def centers(self) -> tuple[Floats, Floats]:
-        """x of the columns' middles and y of the rows' [m]."""
-        xs, ys = (start + self.step * (np.arange(n) + 0.5) for start, n in zip(self.origin, self.size, strict=True))
+        """The x of the columns' middles and y of the rows' [m]."""
+        xs: Floats = self.origin[0] + self.step * (np.arange(self.size[0]) + 0.5)
+        ys: Floats = self.origin[1] + self.step * (np.arange(self.size[1]) + 0.5)
         return xs, ys
 
 

@@ -38,8 +38,8 @@ _WEIGHTS = (
     ("most plate", 1.380, 0.430),
     ("most pocket", 0.193, 1.805),
 )
-_OWN = np.array([dict((name, own) for name, own, _ in _WEIGHTS)[name] for name in FEATURES])
-_AGAINST = np.array([dict((name, against) for name, _, against in _WEIGHTS)[name] for name in FEATURES])
+_OWN = np.array([{key: own for key, own, _ in _WEIGHTS}[name] for name in FEATURES])
+_AGAINST = np.array([{key: against for key, _, against in _WEIGHTS}[name] for name in FEATURES])
 
 
 @dataclass(frozen=True, eq=False)
