@@ -41,7 +41,8 @@ class Grid:
         """
         least, greatest = np.asarray(low, np.float64)[:2], np.asarray(high, np.float64)[:2]
         while True:
-            first, last = np.floor(least / step), np.ceil(greatest / step)
+            # Rounded: what lies on a line of the grid stays on it whatever the machine's last digits.
+            first, last = np.floor(np.round(least / step, 6)), np.ceil(np.round(greatest / step, 6))
             columns, rows = (max(1, int(n)) for n in last - first)
             if columns * rows <= most:
                 return cls((float(first[0] * step), float(first[1] * step)), step, (columns, rows))
@@ -50,7 +51,7 @@ class Grid:
     def square_of(self, points: npt.ArrayLike) -> Ints:
         """``(n, 2)`` column and row of points ``(n, 2 or 3)`` [m]; beyond the grid they are out of its size."""
         at = np.asarray(points, np.float64).reshape(len(np.atleast_2d(points)), -1)[:, :2]
-        found: Ints = np.floor((at - self.origin) / self.step).astype(np.int64)
+        found: Ints = np.floor(np.round((at - self.origin) / self.step, 6)).astype(np.int64)
         return found
 
     def centers(self) -> tuple[Floats, Floats]:
