@@ -56,8 +56,9 @@ class Grid:
 
     def centers(self) -> tuple[Floats, Floats]:
         """The x of the columns' middles and y of the rows' [m]."""
-        xs: Floats = self.origin[0] + self.step * (np.arange(self.size[0]) + 0.5)
-        ys: Floats = self.origin[1] + self.step * (np.arange(self.size[1]) + 0.5)
+        columns, rows = (np.arange(n, dtype=np.float64) + 0.5 for n in self.size)
+        xs: Floats = (self.origin[0] + self.step * columns).astype(np.float64)
+        ys: Floats = (self.origin[1] + self.step * rows).astype(np.float64)
         return xs, ys
 
 
