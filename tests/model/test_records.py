@@ -64,7 +64,7 @@ def test_the_schema_names_every_layer_and_kind():
         d["properties"]["kind"]["const"] for d in schema["$defs"].values() if "const" in d["properties"].get("kind", {})
     }
     assert layers == {"site", "cluster", "part", "unit", "junction", "terminal", "system"}
-    assert kinds == {"contains", "adjacent", "connected", "related"}
+    assert kinds == {"contains", "adjacent", "connected", "related", "reached_from"}
 
 
 def test_the_schema_allows_unknown_keys():

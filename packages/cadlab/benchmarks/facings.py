@@ -87,7 +87,7 @@ def fitted(some: Sequence[_Gauge]) -> Floats:
             total -= np.log(share[right].sum() + 1e-12)
             wanted = np.where(right, share, 0.0)
             slope -= rows.T @ (wanted / wanted.sum() - share)
-        return total / len(known) + _STIFF * weights @ weights, slope / len(known) + 2 * _STIFF * weights
+        return float(total / len(known) + _STIFF * weights @ weights), slope / len(known) + 2 * _STIFF * weights
 
     start = np.zeros(2 * len(FEATURES))
     weights: Floats = minimize(loss, start, jac=True, method="L-BFGS-B").x / scale
