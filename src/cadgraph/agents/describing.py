@@ -9,7 +9,7 @@ from cadgraph.agents.answer import Answer, cell, page_of
 from cadgraph.agents.looking import NO_PLACES, counted, kind_of, overview, said_place, where
 from cadgraph.agents.measuring import box_of, point_of
 from cadgraph.agents.plant import Plant
-from cadgraph.model.records import Cluster, Junction, Part, Place, System, Terminal, Unit
+from cadgraph.model.records import Cluster, Junction, Part, Place, ReachedFrom, System, Terminal, Unit
 from cadgraph.query.explain import explain
 from cadgraph.query.explain_unit import PortInUse, explain_unit
 from cadgraph.query.lines import Line
@@ -25,7 +25,7 @@ _IN_ROW = 4  # names
 
 def describe(
     plant: Plant,
-    id: Annotated[str, "tag or id of a unit, part, junction, end, system, structure or line"],
+    id: Annotated[str, "of a unit, part, junction, end, system, structure, level or line"],
     page: int = 1,
 ) -> Answer:
     """What one thing is: its kind, place, ports, parts, and what that rests on.
@@ -50,6 +50,8 @@ def describe(
         return _describe_system(plant, node, page)
     if isinstance(node, Cluster):
         return _describe_cluster(plant, node, page)
+    if isinstance(node, Place):
+        return _describe_level(plant, node, page)
     return overview(plant)
 
 
@@ -192,6 +194,26 @@ def _describe_cluster(plant: Plant, cluster: Cluster, page: int) -> Answer:
     ]
     values |= {"id": cluster.id, "kind": cluster.kind, "units": units, "parts": [part.id for part in parts]}
     return _answer(rows, values, page)
+
+
+def _describe_level(plant: Plant, place: Place, page: int) -> Answer:
+    """A level, or a way up to one."""
+    ways = [edge.target for edge in plant.graph.of_kind(ReachedFrom) if edge.source == place.id]
+    units = [
+        (plant.called(unit.id), unit.access.reach)
+        for unit in plant.graph.units()
+        if unit.access is not None and unit.access.place == place.id
+    ]
+    low = f"from {place.low:.2f} m to " if place.low is not None else ""
+    rows = [
+        (place.id, f"{place.name} ({place.kind})"),
+        ("height", f"{low}{place.height:.2f} m"),
+        ("area", f"{place.area:.1f} m2" if place.area else ""),
+        *_pieces("reached from", ways),
+        *_pieces("units", [f"{name} ({reach})" if reach == "out of reach" else name for name, reach in units]),
+    ]
+    values = {"id": place.id, "name": place.name, "kind": place.kind, "height_m": place.height, "low_m": place.low}
+    return _answer(rows, values | {"reached_from": ways, "units": [name for name, _ in units]}, page)
 
 
 def _line_rows(line: Line) -> list[tuple[str, str]]:

@@ -15,7 +15,6 @@ from cadgraph.model.names import loose_tag
 from cadgraph.model.records import Junction, Part, Place, Point, System, Terminal, Unit
 from cadgraph.model.regions import region_of
 from cadgraph.query.doubt import likely_joints
-from cadgraph.query.summary import summarize
 
 __all__ = ["NO_PLACES", "REGIONS", "counted", "find", "kind_of", "overview", "said_place", "some", "where"]
 
@@ -38,7 +37,7 @@ def overview(plant: Plant) -> Answer:
     Args:
         plant: to be looked at.
     """
-    graph, summary, network = plant.graph, summarize(plant.graph), plant.network
+    graph, summary, network = plant.graph, plant.summary, plant.network
     low, high = plant.extent
     kinds = {kind: dict(counted(kind_of(unit) for unit in graph.units(kind))) for kind in summary.units}
     systems = [

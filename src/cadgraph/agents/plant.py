@@ -16,6 +16,7 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Box, Junction, Node, Terminal, Unit
 from cadgraph.query.lines import Line, find_lines
 from cadgraph.query.network import Network
+from cadgraph.query.summary import Summary, summarize
 
 if TYPE_CHECKING:
     from cadgraph.model.scene import Scene
@@ -85,6 +86,11 @@ class Plant:
         return (low[0], low[1], low[2]), (high[0], high[1], high[2])
 
     @cached_property
+    def summary(self) -> Summary:
+        """Counts of what the graph holds."""
+        return summarize(self.graph)
+
+    @cached_property
     def line_of(self) -> Mapping[int, str]:
         """The tag of the line of each connection, by the connection's number; taps have none."""
         return {arc.index: line.tag for line in self.lines for arc in line.arcs}
@@ -106,7 +112,8 @@ class Plant:
             node = self.graph.nodes.get(self._named.get(which, self._named.get(cell(which), "")))
             if node is not None and isinstance(node, layers or get_args(Node)):
                 return node
-            raise AskError(self._hint(which) or cell(error, 500)) from None
+            told = str(error).replace(repr(which), repr(cell(which)))
+            raise AskError(self._hint(which) or cell(told, 500)) from None
 
     def _hint(self, which: str) -> str:
         """Units whose tags begin with the same letters, where none has a tag much like this one."""

@@ -297,7 +297,7 @@ def _consequence_rows(found: WhatIf) -> Iterator[str]:
     yield from _grouped("cut off", found.cut_off)
     yield from _grouped("nothing refills", found.not_refilled)
     yield from _grouped("pumps against shut valves", found.dead_headed)
-    yield from _grouped("another known way feeds", found.still_fed)
+    yield from _grouped("another way leads to", found.still_fed)
     yield from (f"supposed\t{cell(text, _TEXT)}" for text in found.assumptions)
     yield from _listed("sources", "", found.sources)
 
