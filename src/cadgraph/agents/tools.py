@@ -10,7 +10,7 @@ from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, create_model
 
-from cadgraph.agents import asking_sql, describing, looking, measuring, planning, walking
+from cadgraph.agents import approaching, asking_sql, describing, looking, measuring, planning, walking
 from cadgraph.agents.answer import Answer, AskError, among, cell, did_you_mean
 from cadgraph.agents.plant import Plant
 
@@ -152,6 +152,12 @@ TOOLS: tuple[Tool, ...] = (
         "measure",
         "How far two things are apart: straight, in plan, height, compass, above or below, along pipes.",
         measuring.measure,
+    ),
+    Tool(
+        "approach",
+        "How people get at a unit: level, ways up, where to stand, height of operator or face, which way a gauge looks "
+        "and from where it is seen. OUT OF REACH means just that.",
+        approaching.approach,
     ),
     Tool("query", asking_sql.DESCRIPTION, asking_sql.query),
     Tool(

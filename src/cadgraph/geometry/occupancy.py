@@ -33,7 +33,7 @@ def occupied(scene: Scene, meshes: Ints, low: float, high: float, grid: Grid) ->
     _fill(
         readable(scene.vertices, np.float64), readable(scene.faces, np.int32),
         readable(scene.vertex_offsets, np.int64), readable(scene.face_offsets, np.int64), readable(meshes, np.int64),
-        float(low), float(high), grid.origin[0], grid.origin[1], 1.0 / grid.step, found,
+        round(float(low), 6), round(float(high), 6), grid.origin[0], grid.origin[1], 1.0 / grid.step, found,
     )  # fmt: skip
     return found
 
@@ -53,17 +53,23 @@ def _fill(
             a, b, c = faces[f, 0], faces[f, 1], faces[f, 2]
             if min(a, b, c) < 0 or max(a, b, c) >= n:
                 continue
-            za, zb, zc = vertices[first + a, 2], vertices[first + b, 2], vertices[first + c, 2]
+            za, zb, zc = _plain(vertices[first + a, 2]), _plain(vertices[first + b, 2]), _plain(vertices[first + c, 2])
             if not (min(za, zb, zc) <= high and max(za, zb, zc) >= low):
                 continue
             for k in range(3):
                 corner = first + (a if k == 0 else (b if k == 1 else c))
-                here[k, 0] = (vertices[corner, 0] - left) * scale
-                here[k, 1] = (vertices[corner, 1] - front) * scale
-                here[k, 2] = vertices[corner, 2]
+                here[k, 0] = _plain((vertices[corner, 0] - left) * scale)
+                here[k, 1] = _plain((vertices[corner, 1] - front) * scale)
+                here[k, 2] = za if k == 0 else (zb if k == 1 else zc)
             count = _cut(here, 3, there, low, 1.0)
             count = _cut(there, count, here, high, -1.0)
             _draw(here, count, found)
+
+
+@compiled
+def _plain(value: float) -> float:
+    """A value without its last digits: what lies on the border of a square lies there on every machine."""
+    return float(np.rint(value * 1e6) / 1e6)
 
 
 @compiled
@@ -79,7 +85,7 @@ def _cut(given: Floats, n: int, kept: Floats, height: float, side: float) -> int
         if (a > 0.0 and b < 0.0) or (a < 0.0 and b > 0.0):
             t = a / (a - b)
             kept[count, 0] = given[i, 0] + t * (given[j, 0] - given[i, 0])
-            kept[count, 1] = given[i, 1] + t * (given[j, 1] - given[i, 1])
+            kept[count, 1] = _plain(given[i, 1] + t * (given[j, 1] - given[i, 1]))
             kept[count, 2] = height
             count += 1
     return count
@@ -108,8 +114,8 @@ def _draw(polygon: Floats, n: int, found: Bools) -> None:
             if ey != y:
                 p, q = (row - y) / (ey - y), (row + 1 - y) / (ey - y)
                 s, t = max(0.0, min(p, q)), min(1.0, max(p, q))
-            least = min(least, x + s * (ex - x), x + t * (ex - x))
-            most = max(most, x + s * (ex - x), x + t * (ex - x))
+            one, other = _plain(x + s * (ex - x)), _plain(x + t * (ex - x))
+            least, most = min(least, one, other), max(most, one, other)
         if not (most >= 0.0 and least <= columns):
             continue
         for column in range(max(0, int(np.floor(least))), min(columns - 1, int(np.floor(most))) + 1):

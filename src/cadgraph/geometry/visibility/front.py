@@ -257,7 +257,7 @@ class _View:
         ]
 
     def _leaves(self, direction: Floats, radius: float) -> tuple[float, float]:
-        """Where thin pieces across a direction lie in the case, from -1 at its back to 1 at its front; how many ahead."""
+        """Where thin pieces across a direction lie in the case, from -1 (back) to 1 (front), and how many are ahead."""
         along = self.case_points @ direction
         low, high = float(along.min()), float(along.max())
         half = max(0.5 * (high - low), 1e-6)

@@ -7,20 +7,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cadgraph.geometry.visibility.front import FEATURES, Side, sides_of
+from cadgraph.geometry.visibility.front import FEATURES, sides_of
 from cadgraph.model.derived import store_of
 from cadgraph.model.labels import Label
 from cadgraph.model.parts import Parts, UnitParts
 from cadgraph.model.scene import Floats
 
-__all__ = ["Face", "face_of"]
+__all__ = ["Face", "face_of", "kind_of_name", "scores_of"]
 
 _READ = ("gauge face", "gauge needle", "gauge glass")
 _CARRIERS = ("gauge stem", "siphon", "thermowell")
 _FACELESS = ("transmitter", "flow meter", "level gauge", "sight glass")
 
 # How much each thing that is seen of a side speaks for it, and how much it does against the opposite side. Fitted to
-# instruments of the generator with a dial or a screen, half of them with all their parts named and half with none.
+# instruments of the generator with a dial or a screen, half of them with all their parts named and half with none
+# (packages/cadlab/benchmarks/facings.py --fit).
 _WEIGHTS = (
     ("read", 0.170, 0.191),
     ("plate", 0.137, -0.631),
@@ -38,8 +39,8 @@ _WEIGHTS = (
     ("most plate", 1.380, 0.430),
     ("most pocket", 0.193, 1.805),
 )
-_OWN = np.array([dict((name, own) for name, own, _ in _WEIGHTS)[name] for name in FEATURES])
-_AGAINST = np.array([dict((name, against) for name, _, against in _WEIGHTS)[name] for name in FEATURES])
+_OWN = np.array([{key: own for key, own, _ in _WEIGHTS}[name] for name in FEATURES])
+_AGAINST = np.array([{key: against for key, _, against in _WEIGHTS}[name] for name in FEATURES])
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,14 +67,15 @@ def face_of(unit: UnitParts, parts: Parts, labels: Sequence[Label | None]) -> Fa
     """
     names = [label.name if (label := labels[part]) is not None else None for part in unit.parts]
     kept = store_of(parts, "faces of gauges")
-    key = unit.parts, tuple(_kind(name) for name in names), _has_a_face(unit, names)
+    key = unit.parts, tuple(kind_of_name(name) for name in names), _has_a_face(unit, names)
     if key not in kept:
         kept[key] = _face(unit, parts, key[1]) if key[2] else _middle(unit, parts)
     face: Face = kept[key]
     return face
 
 
-def _kind(name: str | None) -> int:
+def kind_of_name(name: str | None) -> int:
+    """What a part is to the one who reads: 2 to be read, 0 a carrier, 1 a case or unknown."""
     return 2 if name in _READ else 0 if name in _CARRIERS else 1
 
 
@@ -101,7 +103,7 @@ def _face(unit: UnitParts, parts: Parts, kinds: Sequence[int]) -> Face:
     sides = sides_of(np.concatenate(vertices), np.concatenate(faces).astype(np.int32), np.concatenate(of_face))
     if not sides:
         return _middle(unit, parts)
-    scores = _scores(sides)
+    scores = scores_of(np.array([side.features for side in sides]))
     order = np.argsort(-scores, kind="stable")
     best = sides[order[0]]
     return Face(
@@ -110,9 +112,12 @@ def _face(unit: UnitParts, parts: Parts, kinds: Sequence[int]) -> Face:
     )
 
 
-def _scores(sides: Sequence[Side]) -> Floats:
-    """The probability of each side."""
-    table = np.array([side.features for side in sides])
+def scores_of(table: Floats) -> Floats:
+    """The probability of each side that it is the one that is read.
+
+    Args:
+        table: ``(n, len(FEATURES))`` what each shows, opposite sides side by side.
+    """
     other = table[np.arange(len(table)) ^ 1]
     speaks = table @ _OWN + (table - other) @ _AGAINST
     odds = np.exp(speaks - speaks.max())

@@ -43,7 +43,7 @@ class Level:
 
 
 def ground_height(parts: Parts) -> float:
-    """The height that people walk on where no platform is: of the widest ground part, else of what stands lowest [m]."""
+    """The height that people walk on where no platform is: of the widest ground part, else the least one [m]."""
     boxes = parts.properties.aabb
     ground = np.flatnonzero(parts.ground)
     if len(ground):
@@ -53,7 +53,7 @@ def ground_height(parts: Parts) -> float:
 
 
 def plan_box(parts: Parts) -> tuple[Floats, Floats]:
-    """The least and the greatest corner of all that is not the ground; of everything where there is nothing else [m]."""
+    """The least and the greatest corner of all that is not the ground, else of everything [m]."""
     boxes = parts.properties.aabb
     boxes = boxes[~parts.ground] if not parts.ground.all() else boxes
     if not len(boxes):

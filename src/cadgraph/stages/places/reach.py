@@ -174,9 +174,10 @@ def _access(target: _Target, seen: Sequence[_Look], levels: Sequence[Ground], pl
         if square is not None:
             return _stood(target, levels, places, k, square, facing, sure, None)
     # Out of reach: told from the highest level below it, at the least from the ground.
-    look = seen[0] if seen else None
-    below = look.level if look is not None else _below(target, levels)
-    told = _stood(target, levels, places, below, look.square if look else None, facing, sure, look)
+    from_afar = seen[0] if seen else None
+    below = from_afar.level if from_afar is not None else _below(target, levels)
+    square = from_afar.square if from_afar is not None else None
+    told = _stood(target, levels, places, below, square, facing, sure, from_afar)
     return UnitAccess(**{**vars(told), "reach": "out of reach"})
 
 

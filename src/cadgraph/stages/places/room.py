@@ -126,7 +126,7 @@ def _room(parts: Parts, grid: Grid, height: float, surface: Bools) -> Room:
     inner = (slice(rim, rim + grid.size[1]), slice(rim, rim + grid.size[0]))
     free: Bools = surface & ~spread[inner]
     piece, n_pieces = label(free, _AROUND)
-    return Room(grid, height, surface & ~blocked[inner], free, piece, int(n_pieces))
+    return Room(grid, height, surface & ~blocked[inner], free, piece.astype(np.int64), int(n_pieces))
 
 
 def _disc(radius: float) -> Bools:

@@ -136,7 +136,7 @@ def _climb(grounds: list[Ground], ways: Sequence[WayUp]) -> list[_Way]:
 
 
 def _with_landings(way: WayUp, levels: Sequence[int], grounds: list[Ground]) -> _Way | None:
-    """A way with where one stands at its foot and at the levels above; None where it can't be got at or leads nowhere."""
+    """A way with where one stands on each of its levels; None where it can't be got at or leads nowhere."""
     kept: list[int] = []
     squares: list[tuple[int, int]] = []
     for k in levels:
@@ -165,7 +165,11 @@ def _level_place(ground: Ground, low: Floats, high: Floats, zero: float) -> Foun
     else:
         box = ground.boxes[:, 0].min(axis=0), ground.boxes[:, 1].max(axis=0)
     middle = 0.5 * (box[0] + box[1])
-    name = "ground" if is_ground else f"platform {ground.height - zero:+.2f} m ({region_of(low, high, middle)})"
+    name = (
+        "ground"
+        if is_ground
+        else f"platform {ground.height - zero:+.2f} m ({region_of(low.tolist(), high.tolist(), middle.tolist())})"
+    )
     return FoundPlace(
         kind="ground" if is_ground else "platform",
         name=name,
@@ -183,13 +187,14 @@ def _way_place(way: _Way, grounds: Sequence[Ground], low: Floats, high: Floats) 
     box = boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)
     base, top = grounds[way.levels[0]], grounds[way.levels[-1]]
     rise = top.height - base.height
+    where = region_of(low.tolist(), high.tolist(), (0.5 * (box[0] + box[1])).tolist())
     landings = [
         standing(grounds[k].room.grid, grounds[k].height, square)
         for k, square in zip(way.levels, way.squares, strict=True)
     ]
     return FoundPlace(
         kind=way.way.kind,
-        name=f"{way.way.kind} up {rise:.2f} m ({region_of(low, high, 0.5 * (box[0] + box[1]))})",
+        name=f"{way.way.kind} up {rise:.2f} m ({where})",
         height=top.height,
         low=base.height,
         box=(_triple(box[0]), _triple(box[1])),
