@@ -11,7 +11,7 @@ from cadgraph.agents.measuring import box_of, point_of
 from cadgraph.agents.plant import Plant
 from cadgraph.model.records import Cluster, Junction, Part, Place, ReachedFrom, System, Terminal, Unit
 from cadgraph.query.explain import explain
-from cadgraph.query.explain_unit import PortInUse, explain_unit
+from cadgraph.query.explain_unit import PortInUse, UnitExplanation, explain_unit
 from cadgraph.query.lines import Line
 from cadgraph.query.text import line_values
 from cadgraph.query.told_facts import fact_rows
@@ -43,7 +43,7 @@ def describe(
         return _answer(_line_rows(line), {"line": line_values(line)}, page)
     node = plant.find(id)
     if isinstance(node, Unit | Junction | Terminal):
-        return _describesaid_place(plant, node, page)
+        return _describe_node(plant, node, page)
     if isinstance(node, Part):
         return _describe_part(plant, node, page)
     if isinstance(node, System):
@@ -73,7 +73,7 @@ def _where(
     return rows, {"at_m": list(point), "box_m": [list(low), list(high)], "region": place}
 
 
-def _describesaid_place(plant: Plant, node: Unit | Junction | Terminal, page: int) -> Answer:
+def _describe_node(plant: Plant, node: Unit | Junction | Terminal, page: int) -> Answer:
     told = explain_unit(plant.network, node.id)
     kind = f" ({cell(told.unit_type)})" if told.unit_type not in (None, told.what) else ""
     rows = [(told.name, f"{told.what}{kind}, id {node.id}")]
@@ -92,14 +92,19 @@ def _describesaid_place(plant: Plant, node: Unit | Junction | Terminal, page: in
     if isinstance(node, Unit):
         rows.append(("reach", _reach(plant, node)))
         rows += [("labels", _evidence(plant, node)), *fact_rows(node.facts)]
-    values |= {
+    return _answer(rows, values | _node_values(node, told, lines), page)
+
+
+def _node_values(node: Unit | Junction | Terminal, told: UnitExplanation, lines: Sequence[str]) -> dict[str, Any]:
+    """What is known of a node of the network, as values."""
+    return {
         "id": node.id,
         "tag": told.name,
         "type": told.unit_type or node.layer,
         "kind": node.kind if isinstance(node, Unit | Terminal) else None,
-        "kind_guesses": [list(guess) for guess in guesses],
+        "kind_guesses": [list(guess) for guess in node.kind_guesses] if isinstance(node, Unit) else [],
         "system": told.system,
-        "lines": lines,
+        "lines": list(lines),
         "ports": [
             {"port": p.port, "to": list(p.to), "lengths_m": list(p.lengths), "dn": list(p.sizes)} for p in told.ports
         ],
@@ -108,7 +113,6 @@ def _describesaid_place(plant: Plant, node: Unit | Junction | Terminal, page: in
         "open_joints": [say_joint(joint) for joint in told.open_joints],
         "parts": [part.part for part in told.parts],
     }
-    return _answer(rows, values, page)
 
 
 def _port(port: PortInUse) -> str:

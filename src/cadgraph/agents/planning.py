@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated
 
 from cadgraph.agents.answer import Answer, AskError, page_of
 from cadgraph.agents.plant import Plant
 from cadgraph.model.records import Unit
-from cadgraph.plans.goals import parse_goals
+from cadgraph.plans.goals import Goal, parse_goals
 from cadgraph.plans.pddl import domain_text, plan_text, problem_text
 from cadgraph.plans.round import Round, Survey, make_round, survey
 from cadgraph.plans.rules import Fault, check_moves, check_round
 from cadgraph.plans.text import doubt_lines, fault_lines, head_lines, round_values, step_lines, supposed_lines
 from cadgraph.plans.written import WrittenRound
+from cadgraph.query.places import walk
 
 __all__ = ["Planned", "check", "make_plan", "pddl_files", "plan"]
 
@@ -70,7 +73,7 @@ def make_plan(plant: Plant, goals: str, start: str = "") -> Planned:
         AskError: nothing is called so, or it can't be done there.
     """
     asked = parse_goals(goals, plant.find)
-    known = survey(plant.network, asked, _start(plant, start))
+    known = _survey(plant, asked, start)
     made = make_round(known, asked, known.start.name or None)
     return Planned(known, made, check_round(known, made))
 
@@ -89,7 +92,7 @@ def check(plant: Plant, written: WrittenRound, goals: str = "", start: str = "",
         AskError: neither says what it is for, nothing is called so, or it can't be done there.
     """
     asked = parse_goals(goals or written.goals, plant.find)
-    known = survey(plant.network, asked, _start(plant, start or written.start or ""))
+    known = _survey(plant, asked, start or written.start or "")
     faults = check_moves(known, asked, written.moves(plant.find), written.length_m)
     best = make_round(known, asked, known.start.name or None)
     values = {"keeps_rules": not faults, "faults": fault_lines(faults), "shortest_known_m": best.length}
@@ -106,6 +109,12 @@ def pddl_files(made: Planned) -> dict[str, str]:
         "problem.pddl": problem_text(made.known, made.made),
         "plan.pddl": plan_text(made.known, made.made),
     }
+
+
+def _survey(plant: Plant, goals: Sequence[Goal], start: str) -> Survey:
+    # Without places nothing is known of the floor, so that walks are straight lines, and are said to be.
+    steps = partial(walk, plant.graph) if plant.has_places else None
+    return survey(plant.network, goals, _start(plant, start), steps)
 
 
 def _start(plant: Plant, start: str) -> str | None:

@@ -9,7 +9,8 @@ from typing import Any
 from cadgraph._io.text import tag_key
 from cadgraph.agents.answer import cell
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.records import Adjacent, Box, Cluster, Part, Point, System, Unit
+from cadgraph.model.records import Adjacent, Box, Cluster, Part, System, Unit
+from cadgraph.model.regions import region_of
 from cadgraph.query.lines import Line
 from cadgraph.query.network import Arc, Network
 
@@ -78,20 +79,10 @@ def _units(network: Network, names: Mapping[str, str], levels: Mapping[str, str]
         guess = unit.kind_guesses[0][0] if unit.kind is None and unit.kind_guesses else None
         yield (
             names[unit.id], _text(unit.unit_type), _text(unit.kind), _text(guess), _text(network.system(unit.id)),
-            _region(extent, unit.centroid), levels.get(access.get("place") or ""), *unit.centroid,
+            region_of(*extent, unit.centroid), levels.get(access.get("place") or ""), *unit.centroid,
             unit.aabb[0][2], unit.aabb[1][2], access.get("height"), access.get("reach"),
             len({arc.index for arc in network.arcs(unit.id)}), _text(unit.id),
         )  # fmt: skip
-
-
-def _region(extent: Box, point: Point) -> str:
-    """The ninth of the plan that a point lies in; north is +y."""
-    words = []
-    for k, names in ((1, ("south", "", "north")), (0, ("west", "", "east"))):
-        span = extent[1][k] - extent[0][k]
-        share = (point[k] - extent[0][k]) / span if span > 0 else 0.5
-        words.append(names[min(2, max(0, int(3 * share)))])
-    return " ".join(filter(None, words)) or "middle"
 
 
 def _points(network: Network, names: Mapping[str, str]) -> Iterator[Row]:
