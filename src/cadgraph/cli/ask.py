@@ -62,8 +62,8 @@ def ask(
     """Have a language model answer a question by calling the tools; says what each tag in the answer rests on.
 
     Ends with 0 where the model came to an end by itself and calls returned every tag that it names, with 1 where a
-    limit ended it or a tag is unsupported, and with 2 where there is no answer. Numbers are the model's words: the
-    calls are listed, so that they can be looked up.
+    limit ended it or a tag is unsupported, and with 2 where there is no answer. Numbers that no call returned are
+    named; what else it says are the model's words: the calls are listed, so that they can be looked up.
     """
     from cadgraph.agents.ask import Limits
     from cadgraph.agents.ask import ask as ask_model
@@ -118,17 +118,21 @@ def _tell(told: Told) -> None:
         rows.append(("unsupported", f"[bold]{tags}[/]: no call returned this; don't rely on it"))
     if support.absent:
         rows.append(("not there", f"{escape(', '.join(support.absent))}: the plant has nothing of that name"))
+    if support.reckoned:
+        numbers = escape(", ".join(support.reckoned))
+        rows.append(("reckoned", f"{numbers}: no call returned this number; the model made it"))
     by_calls: dict[tuple[int, ...], list[str]] = {}
     for tag, by in support.shown.items():
         by_calls.setdefault(by, []).append(tag)
     for by, tags_of in by_calls.items():
-        rows.append(("rests on", f"{escape(', '.join(tags_of))}: call {', '.join(map(str, by))}"))
+        calls = f"call{'s' * (len(by) > 1)} {', '.join(map(str, by))}"
+        rows.append(("rests on", f"{escape(', '.join(tags_of))}: {calls}"))
     rows += [
         (f"call {call.number}", f"{escape(str(call))} [dim]{escape(call.verdict)}[/]")
         for call in told.calls
         if call.repeats is None
     ]
-    cost = "" if told.cost is None else f", ${told.cost:.4f}"
+    cost = f", ${told.cost:.4f}" if told.cost else ""
     steps = f"{told.steps} steps, {told.prompt_tokens:,} + {told.answer_tokens:,} tokens{cost}"
     rows.append(("asked", f"{escape(told.model)}: {steps}"))
     for name, text in rows:
