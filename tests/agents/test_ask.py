@@ -416,6 +416,15 @@ def test_a_server_is_asked_as_it_understands(capsys, graph):
     assert len(server.bodies) == 5
 
 
+def test_a_refusal_without_a_reason_that_helps_is_told_at_once(capsys, graph):
+    server = ScriptedModel((400, "bad request"))
+    code, _, err = command(capsys, graph, server)
+    assert (code, len(server.bodies)) == (2, 1)
+    assert "refused the question (400): bad request" in err
+    server = ScriptedModel([("overview", {})], (400, "a message of role tool must follow its call"))
+    assert "refused the question (400): a message of role tool" in command(capsys, graph, server)[2]
+
+
 def test_a_bad_key_a_dead_server_and_a_full_context_end_with_two(capsys, graph, monkeypatch):
     _, _, err = command(capsys, graph, ScriptedModel((400, "maximum context length is 2048 tokens, tools included")))
     assert "too long for the server's context" in err

@@ -21,41 +21,47 @@ if TYPE_CHECKING:
 _LINES = 12  # of what a tool said that --verbose shows
 
 
+_Model = Annotated[
+    str, typer.Option("--model", metavar="NAME", help="Of the model, as its server knows it.", show_default=False)
+]
+_Url = Annotated[
+    str,
+    typer.Option(
+        "--base-url",
+        metavar="URL",
+        help="A compatible server: vLLM, Ollama, LM Studio, Azure... OpenAI's own if left out.",
+        show_default=False,
+    ),
+]
+_Key = Annotated[str, typer.Option("--key-variable", metavar="NAME", help="Environment variable that holds the key.")]
+_Steps = Annotated[int, typer.Option("--max-steps", min=2, max=100, help="Turns of the model at most.")]
+_Tokens = Annotated[int, typer.Option("--max-tokens", min=1000, help="Sent and answered in all, as the server counts.")]
+_Cost = Annotated[
+    float | None, typer.Option("--max-cost", min=0.0, help="At most so many US dollars, by the price table.")
+]
+_Prices = Annotated[
+    str,
+    typer.Option(
+        "--prices", metavar="FILE", help="A price table (YAML); the built-in one if left out.", show_default=False
+    ),
+]
+_Timeout = Annotated[
+    float, typer.Option("--timeout", min=1.0, help="Give up on one try, or a wait that is asked for, after [s].")
+]
+
+
 @app.command(rich_help_panel=PANEL)
 def ask(
     graph: GraphArgument,
     question: Annotated[str, typer.Argument(metavar="QUESTION", help="In words: 'which valves isolate P-001?'")],
-    model: Annotated[
-        str, typer.Option("--model", metavar="NAME", help="Of the model, as its server knows it.", show_default=False)
-    ] = "",
-    base_url: Annotated[
-        str,
-        typer.Option(
-            "--base-url",
-            metavar="URL",
-            help="A compatible server: vLLM, Ollama, LM Studio, Azure... OpenAI's own if left out.",
-            show_default=False,
-        ),
-    ] = "",
-    key_variable: Annotated[
-        str, typer.Option("--key-variable", metavar="NAME", help="Environment variable that holds the key.")
-    ] = "OPENAI_API_KEY",
-    max_steps: Annotated[int, typer.Option("--max-steps", min=2, max=100, help="Turns of the model at most.")] = 12,
-    max_tokens: Annotated[
-        int, typer.Option("--max-tokens", min=1000, help="Sent and answered in all, as the server counts.")
-    ] = 40_000,
-    max_cost: Annotated[
-        float | None, typer.Option("--max-cost", min=0.0, help="At most so many US dollars, by the price table.")
-    ] = None,
-    prices: Annotated[
-        str,
-        typer.Option(
-            "--prices", metavar="FILE", help="A price table (YAML); the built-in one if left out.", show_default=False
-        ),
-    ] = "",
-    timeout: Annotated[
-        float, typer.Option("--timeout", min=1.0, help="Give up on one try, or a wait that is asked for, after [s].")
-    ] = 120.0,
+    model: _Model = "",
+    base_url: _Url = "",
+    key_variable: _Key = "OPENAI_API_KEY",
+    max_steps: _Steps = 12,
+    max_tokens: _Tokens = 40_000,
+    max_cost: _Cost = None,
+    prices: _Prices = "",
+    timeout: _Timeout = 120.0,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Show each step.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print the answer, its calls and its cost as JSON.")] = False,
 ) -> None:
