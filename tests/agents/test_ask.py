@@ -107,6 +107,14 @@ def test_a_tag_within_a_longer_one_is_another_tag():
     assert support_of(plant, "V-0001 and V-0002", (), calls).unsupported == ("V-0001",)
 
 
+def test_numbers_that_no_call_returned_are_named(plant):
+    calls = (Call(1, "measure", {}, "straight 1.66 m, x -12.345"), Call(2, "find", {}, "9.9", failed=True))
+    text = "1.66, 1.7 m, -12.35, 12.3 and 2.50m; but 1.6, 9.9 and 14.005. 3 valves, v1.2.3"
+    assert support_of(plant, text, (), calls, "within 2.5 m?").reckoned == ("1.6", "9.9", "14.005")
+    told = ask(plant, "how far?", Scripted([("overview", {})], answer("So far.", 77.7)))
+    assert (told.support.reckoned, told.sound) == (("77.7",), True)
+
+
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
@@ -163,7 +171,7 @@ def test_a_repeated_call_is_answered_from_memory(plant):
     told = ask(plant, "what does T-001 feed?", model, tools=(spied,))
     assert len(ran) == 2
     assert [call.repeats for call in told.calls] == [None, 1, None]
-    assert told.support.shown["P-001"][:2] == (1, 2)
+    assert told.support.shown["P-001"] == (1, 3)
     assert "same as call 1" in model.asked[2][0][-1]["content"]
 
 
@@ -302,7 +310,7 @@ def test_the_command_shows_answer_evidence_and_steps(capsys, graph):
     assert "V-002: call 1" in out
     assert 'isolate(target="P-001")' in out
     assert "isolate P-001" in out
-    assert "2 steps, 2,000 + 100 tokens, $0.0000" in out
+    assert "2 steps, 2,000 + 100 tokens" in out
     assert 'step 1, call 1: isolate(target="P-001")' in err
     first, second = server.bodies
     assert [each["function"]["name"] for each in first["tools"]] == [tool.name for tool in TOOLS]
@@ -406,6 +414,15 @@ def test_a_server_is_asked_as_it_understands(capsys, graph):
     assert command(capsys, graph, server)[0] == 0
     assert server.bodies[-1]["messages"][0]["content"].endswith("which valves isolate P-001?")
     assert len(server.bodies) == 5
+
+
+def test_a_refusal_without_a_reason_that_helps_is_told_at_once(capsys, graph):
+    server = ScriptedModel((400, "bad request"))
+    code, _, err = command(capsys, graph, server)
+    assert (code, len(server.bodies)) == (2, 1)
+    assert "refused the question (400): bad request" in err
+    server = ScriptedModel([("overview", {})], (400, "a message of role tool must follow its call"))
+    assert "refused the question (400): a message of role tool" in command(capsys, graph, server)[2]
 
 
 def test_a_bad_key_a_dead_server_and_a_full_context_end_with_two(capsys, graph, monkeypatch):

@@ -133,6 +133,7 @@ class Told:
             "rests_on": {tag: list(by) for tag, by in self.support.shown.items()},
             "unsupported": list(self.support.unsupported),
             "not_in_the_plant": list(self.support.absent),
+            "reckoned": list(self.support.reckoned),
             "calls": calls,
             "model": self.model,
             "steps": self.steps,
@@ -354,7 +355,7 @@ class _Conversation:
             model=self._model.name,
             text=text,
             value=value,
-            support=support_of(self._plant, "\n".join((text, *_texts(value))), declared, self._calls),
+            support=support_of(self._plant, "\n".join((text, *_texts(value))), declared, self._calls, self._question),
             calls=tuple(self._calls),
             steps=step,
             prompt_tokens=self._purse.prompt,
@@ -412,5 +413,5 @@ def _plain(text: str) -> str:
 
 
 def _texts(value: Any) -> list[str]:
-    """Texts within a value, which may be tags."""
-    return [cell(text) for text in (value if isinstance(value, list) else [value]) if isinstance(text, str)]
+    """What a value holds, as texts, which may be tags or numbers."""
+    return [cell(each) for each in (value if isinstance(value, list) else [value]) if each is not None]

@@ -5,18 +5,21 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
-from cadgraph.agents.answer import AskError, cell
+from cadgraph.agents.answer import cell
 from cadgraph.agents.plant import Plant
+from cadgraph.model.names import loose_tag
 
 __all__ = ["Call", "Support", "is_plain", "support_of", "value_of"]
 
 _MARK = re.compile(r"^[ \t*_`>#]*ANSWER[ \t*_`]*:[ \t*_`]*", re.MULTILINE)
 _FENCE = re.compile(r"\A[\s`*]*(?:json\b)?[\s`*]*")
 _TAG = re.compile(r"(?<![\w-])[A-Za-z]{1,9}-\d[\w-]*\b")  # what looks like a tag, be it one or not
+_NUMBER = re.compile(r"(?<![\w.])\d{1,15}(?:\.\d{1,15})?(?![\d.]*\d)")
 _SHOUTED = re.compile(r"[A-Z]{3,}\b[ :]")  # how tools begin a line of doubt
 _MOST_HEADS = 4  # first lines of an answer that may hold its doubts
 _MOST_TAGS = 500  # that an answer can name in its last line
@@ -61,11 +64,13 @@ class Support:
         shown: of each tag that a call returned, the numbers of those calls.
         unsupported: tags that no call returned.
         absent: tags that were looked for and that the plant has not.
+        reckoned: numbers with a decimal point that neither a call nor the question has, rounded or not.
     """
 
     shown: Mapping[str, tuple[int, ...]]
     unsupported: tuple[str, ...]
     absent: tuple[str, ...]
+    reckoned: tuple[str, ...] = ()
 
 
 def value_of(text: str) -> tuple[str, Any, tuple[str, ...]]:
@@ -99,8 +104,8 @@ def is_plain(value: Any) -> bool:
     return value is None or isinstance(value, str | int) or (isinstance(value, float) and math.isfinite(value))
 
 
-def support_of(plant: Plant, text: str, declared: Sequence[str], calls: Sequence[Call]) -> Support:
-    """Finds what shows the tags of an answer.
+def support_of(plant: Plant, text: str, declared: Sequence[str], calls: Sequence[Call], question: str = "") -> Support:
+    """Finds what shows the tags and the numbers of an answer.
 
     A tag is shown by a call whose answer names it; calls that failed show nothing, but that there is no such tag.
 
@@ -109,12 +114,14 @@ def support_of(plant: Plant, text: str, declared: Sequence[str], calls: Sequence
         text: of the answer.
         declared: tags that the answer says it rests on.
         calls: that were made.
+        question: whose numbers need no call.
     """
+    answers = [call for call in calls if not call.failed and call.repeats is None]
     shown: dict[str, tuple[int, ...]] = {}
     unsupported: list[str] = []
     absent: list[str] = []
     for tag, is_there in _named_in(plant, text, declared).items():
-        by = tuple(call.number for call in calls if not call.failed and _holds(call.text, tag))
+        by = tuple(call.number for call in answers if _holds(call.text, tag))
         tried = any(call.failed and _holds(json.dumps(dict(call.arguments), ensure_ascii=False), tag) for call in calls)
         if is_there and by:
             shown[tag] = by
@@ -122,7 +129,19 @@ def support_of(plant: Plant, text: str, declared: Sequence[str], calls: Sequence
             absent.append(tag)
         else:
             unsupported.append(tag)
-    return Support(shown, tuple(unsupported), tuple(absent))
+    reckoned = _reckoned(text, (question, *(call.text for call in answers)))
+    return Support(shown, tuple(unsupported), tuple(absent), reckoned)
+
+
+def _reckoned(text: str, sources: Iterable[str]) -> tuple[str, ...]:
+    """Numbers with decimals in a text that are none of the sources' numbers, rounded to as many decimals."""
+    known = [float(number) for source in sources for number in _NUMBER.findall(source)]
+    found = dict.fromkeys(number for number in _NUMBER.findall(text) if "." in number)
+    return tuple(
+        number
+        for number in found
+        if not any(abs(float(number) - each) <= 0.5001 * 10.0 ** -len(number.partition(".")[2]) for each in known)
+    )
 
 
 def _named_in(plant: Plant, text: str, declared: Iterable[str]) -> dict[str, bool]:
@@ -134,21 +153,33 @@ def _named_in(plant: Plant, text: str, declared: Iterable[str]) -> dict[str, boo
         for name in names
         if name in text and any(letter.isdigit() for letter in name) and (where := _place(text, name)) >= 0
     }
+    loose = _Loose(names)
     for match in _TAG.finditer(text):
-        at.setdefault(_known(plant, match[0]), match.start())
+        at.setdefault(loose.known(match[0]), match.start())
     found = sorted(at, key=lambda name: (at[name], name))
-    found += [known for tag in declared if tag and (known := _known(plant, tag)) not in at]
+    found += [known for tag in declared if tag and (known := loose.known(tag)) not in at]
     return {name: name in names for name in dict.fromkeys(found)}
 
 
-def _known(plant: Plant, tag: str) -> str:
-    """A tag as answers show it, however loosely it is spelt; the same where there is none."""
-    if tag in plant.names:
-        return tag
-    try:
-        return plant.called(plant.find(tag).id)
-    except AskError:
-        return tag
+class _Loose:
+    """Names by what is alike in their spellings."""
+
+    def __init__(self, names: Set[str]) -> None:
+        self._names = names
+
+    def known(self, tag: str) -> str:
+        """A tag as answers show it, however loosely it is spelt; the same where there is none, or several."""
+        if tag in self._names:
+            return tag
+        alike = self._alike.get(loose_tag(tag), ())
+        return alike[0] if len(alike) == 1 else tag
+
+    @cached_property
+    def _alike(self) -> dict[str, list[str]]:
+        found: dict[str, list[str]] = {}
+        for name in self._names:
+            found.setdefault(loose_tag(name), []).append(name)
+        return found
 
 
 def _holds(text: str, name: str) -> bool:

@@ -21,49 +21,55 @@ if TYPE_CHECKING:
 _LINES = 12  # of what a tool said that --verbose shows
 
 
+_Model = Annotated[
+    str, typer.Option("--model", metavar="NAME", help="Of the model, as its server knows it.", show_default=False)
+]
+_Url = Annotated[
+    str,
+    typer.Option(
+        "--base-url",
+        metavar="URL",
+        help="A compatible server: vLLM, Ollama, LM Studio, Azure... OpenAI's own if left out.",
+        show_default=False,
+    ),
+]
+_Key = Annotated[str, typer.Option("--key-variable", metavar="NAME", help="Environment variable that holds the key.")]
+_Steps = Annotated[int, typer.Option("--max-steps", min=2, max=100, help="Turns of the model at most.")]
+_Tokens = Annotated[int, typer.Option("--max-tokens", min=1000, help="Sent and answered in all, as the server counts.")]
+_Cost = Annotated[
+    float | None, typer.Option("--max-cost", min=0.0, help="At most so many US dollars, by the price table.")
+]
+_Prices = Annotated[
+    str,
+    typer.Option(
+        "--prices", metavar="FILE", help="A price table (YAML); the built-in one if left out.", show_default=False
+    ),
+]
+_Timeout = Annotated[
+    float, typer.Option("--timeout", min=1.0, help="Give up on one try, or a wait that is asked for, after [s].")
+]
+
+
 @app.command(rich_help_panel=PANEL)
 def ask(
     graph: GraphArgument,
     question: Annotated[str, typer.Argument(metavar="QUESTION", help="In words: 'which valves isolate P-001?'")],
-    model: Annotated[
-        str, typer.Option("--model", metavar="NAME", help="Of the model, as its server knows it.", show_default=False)
-    ] = "",
-    base_url: Annotated[
-        str,
-        typer.Option(
-            "--base-url",
-            metavar="URL",
-            help="A compatible server: vLLM, Ollama, LM Studio, Azure... OpenAI's own if left out.",
-            show_default=False,
-        ),
-    ] = "",
-    key_variable: Annotated[
-        str, typer.Option("--key-variable", metavar="NAME", help="Environment variable that holds the key.")
-    ] = "OPENAI_API_KEY",
-    max_steps: Annotated[int, typer.Option("--max-steps", min=2, max=100, help="Turns of the model at most.")] = 12,
-    max_tokens: Annotated[
-        int, typer.Option("--max-tokens", min=1000, help="Sent and answered in all, as the server counts.")
-    ] = 40_000,
-    max_cost: Annotated[
-        float | None, typer.Option("--max-cost", min=0.0, help="At most so many US dollars, by the price table.")
-    ] = None,
-    prices: Annotated[
-        str,
-        typer.Option(
-            "--prices", metavar="FILE", help="A price table (YAML); the built-in one if left out.", show_default=False
-        ),
-    ] = "",
-    timeout: Annotated[
-        float, typer.Option("--timeout", min=1.0, help="Give up on one try, or a wait that is asked for, after [s].")
-    ] = 120.0,
+    model: _Model = "",
+    base_url: _Url = "",
+    key_variable: _Key = "OPENAI_API_KEY",
+    max_steps: _Steps = 12,
+    max_tokens: _Tokens = 40_000,
+    max_cost: _Cost = None,
+    prices: _Prices = "",
+    timeout: _Timeout = 120.0,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Show each step.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print the answer, its calls and its cost as JSON.")] = False,
 ) -> None:
     """Have a language model answer a question by calling the tools; says what each tag in the answer rests on.
 
     Ends with 0 where the model came to an end by itself and calls returned every tag that it names, with 1 where a
-    limit ended it or a tag is unsupported, and with 2 where there is no answer. Numbers are the model's words: the
-    calls are listed, so that they can be looked up.
+    limit ended it or a tag is unsupported, and with 2 where there is no answer. Numbers that no call returned are
+    named; what else it says are the model's words: the calls are listed, so that they can be looked up.
     """
     from cadgraph.agents.ask import Limits
     from cadgraph.agents.ask import ask as ask_model
@@ -118,17 +124,21 @@ def _tell(told: Told) -> None:
         rows.append(("unsupported", f"[bold]{tags}[/]: no call returned this; don't rely on it"))
     if support.absent:
         rows.append(("not there", f"{escape(', '.join(support.absent))}: the plant has nothing of that name"))
+    if support.reckoned:
+        numbers = escape(", ".join(support.reckoned))
+        rows.append(("reckoned", f"{numbers}: no call returned this number; the model made it"))
     by_calls: dict[tuple[int, ...], list[str]] = {}
     for tag, by in support.shown.items():
         by_calls.setdefault(by, []).append(tag)
     for by, tags_of in by_calls.items():
-        rows.append(("rests on", f"{escape(', '.join(tags_of))}: call {', '.join(map(str, by))}"))
+        calls = f"call{'s' * (len(by) > 1)} {', '.join(map(str, by))}"
+        rows.append(("rests on", f"{escape(', '.join(tags_of))}: {calls}"))
     rows += [
         (f"call {call.number}", f"{escape(str(call))} [dim]{escape(call.verdict)}[/]")
         for call in told.calls
         if call.repeats is None
     ]
-    cost = "" if told.cost is None else f", ${told.cost:.4f}"
+    cost = f", ${told.cost:.4f}" if told.cost else ""
     steps = f"{told.steps} steps, {told.prompt_tokens:,} + {told.answer_tokens:,} tokens{cost}"
     rows.append(("asked", f"{escape(told.model)}: {steps}"))
     for name, text in rows:

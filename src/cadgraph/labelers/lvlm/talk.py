@@ -101,26 +101,18 @@ class Talker(Client):
         for way in range(_WAYS):
             manner = self.manner
             body = self._body(system, messages, manner, most)
-            if offered:
-                # Some servers want the tools of earlier calls to be named even where no more may follow.
-                body |= {"tools": list(tools)} | ({"tool_choice": "none"} if last else {})
+            # Some servers want the tools of earlier calls to be named even where no more may follow.
+            more = {"tools": list(tools)} | ({"tool_choice": "none"} if last else {}) if offered else {}
             try:
-                done = self._sent(body, f"{ident}-{way}", manner)
+                done = self._sent(body | more, f"{ident}-{way}", manner)
             except Refused as refusal:
                 words = refusal.said.lower()
-                if too_long(words):
-                    raise LabelError(
-                        f"the conversation is too long for the server's context ({refusal.status}): "
-                        f"{refusal.said[:_SAID]}; ask for less at a time, or give the server a larger context"
-                    ) from None
-                if _OF_TOOLS.search(words):
-                    if offered:
-                        raise self._toolless(refusal) from None
+                if last and not offered and _OF_TOOLS.search(words):
                     offered = True
-                elif not self._adapt(manner, refusal.said) or self._body(system, messages, self.manner, most) == body:
-                    raise LabelError(
-                        f"the server refused the question ({refusal.status}): {refusal.said[:_SAID]}"
-                    ) from None
+                    continue
+                other = not too_long(words) and self._adapt(manner, refusal.said)
+                if not other or self._body(system, messages, self.manner, most) == body:
+                    raise self._no(refusal, offered) from None
                 continue
             except Gone as gone:
                 raise LabelError(str(gone)) from None
@@ -138,11 +130,20 @@ class Talker(Client):
             raise Refused(said, status) from error
         super()._mind(error, manner, last)
 
-    def _toolless(self, refusal: Refused) -> LabelError:
-        return LabelError(
-            f"model {self.name!r} can't use tools, as the server says ({refusal.status}): {refusal.said[:_SAID]}; "
-            "take a model that can, or start the server so that it may"
-        )
+    def _no(self, refusal: Refused, offered: bool) -> LabelError:
+        """Why there is no turn, where a server minds how it is asked."""
+        words, said = refusal.said.lower(), f"({refusal.status}): {refusal.said[:_SAID]}"
+        if too_long(words):
+            return LabelError(
+                f"the conversation is too long for the server's context {said}; ask for less at a time, or give the "
+                "server a larger context"
+            )
+        if offered and not self._settled and _OF_TOOLS.search(words):
+            return LabelError(
+                f"model {self.name!r} can't use tools, as the server says {said}; take a model that can, or start the "
+                "server so that it may"
+            )
+        return LabelError(f"the server refused the question {said}")
 
     def _body(self, system: str, messages: Sequence[Mapping[str, Any]], manner: Manner, most: int) -> dict[str, Any]:
         first, *rest = messages
