@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import itertools
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 from types import NoneType, UnionType
@@ -26,7 +27,9 @@ def _register(tool: Tool) -> None:
     name = tool.name.replace("_", "-")
     own = {command.name or getattr(command.callback, "__name__", "") for command in app.registered_commands}
     if name not in own:
-        app.command(name, help=tool.description, rich_help_panel=PANEL)(_command(tool))
+        # In the list of commands the first sentence says enough; the rest is told by --help.
+        short = re.split(r"[.;:](?:\s|$)", tool.description, maxsplit=1)[0] + "."
+        app.command(name, help=tool.description, short_help=short, rich_help_panel=PANEL)(_command(tool))
 
 
 def _command(tool: Tool) -> Callable[..., None]:
