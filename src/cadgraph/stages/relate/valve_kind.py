@@ -263,7 +263,8 @@ def _is_sprung(unit: UnitParts, names: Sequence[str | None], parts: Parts) -> bo
     return _spring_housing(surface_about(parts, body, start, start + reach * way)) if reach > 1e-3 else None
 
 
-def _spring_housing(surface: Surface) -> bool:
+def _spring_housing(surface: Surface) -> bool | None:
+    """Whether a valve is a spring housing over a snout; None where it is, but might end in two flanges as well."""
     height = surface.height
     low, high = surface.along < 0.0, surface.along > 0.1
     snout, housing = (float(height[row].max(initial=0.0)) for row in (low, high))
@@ -272,7 +273,9 @@ def _spring_housing(surface: Surface) -> bool:
     far = low & (height > 0.8 * snout)
     out = surface.out[far] / height[far, None]
     alone = float(np.linalg.norm(surface.area[far] @ out)) / float(surface.area[far].sum())
-    return alone >= _ALONE and _unlike(surface.along, height)
+    if alone < _ALONE:
+        return False
+    return True if _unlike(surface.along, height) else None
 
 
 def _unlike(along: Floats, height: Floats) -> bool:
