@@ -1,6 +1,8 @@
 import errno
 import os
+import stat
 import sys
+from contextlib import nullcontext
 
 import pytest
 
@@ -106,3 +108,19 @@ def test_a_full_disk_is_found_before_a_long_run(tmp_path, monkeypatch):
     with pytest.raises(OutputError, match="No space left on device"):
         ensure_writable(tmp_path)
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(not hasattr(os, "O_DIRECTORY"), reason="folders can't be flushed here")
+@pytest.mark.parametrize(("number", "refused"), [(errno.EINVAL, False), (errno.EIO, True)])
+def test_a_share_that_flushes_no_folders_is_written_and_a_failing_disk_is_said(tmp_path, monkeypatch, number, refused):
+    flush = os.fsync
+
+    def only_files(file):
+        if stat.S_ISDIR(os.fstat(file).st_mode):
+            raise OSError(number, os.strerror(number))
+        flush(file)
+
+    monkeypatch.setattr("os.fsync", only_files)
+    with pytest.raises(OutputError, match="not sure") if refused else nullcontext():
+        write_atomically(tmp_path / "a.txt", "text", durable=True)
+    assert (tmp_path / "a.txt").read_text() == "text"

@@ -26,10 +26,18 @@ def test_a_folder_that_was_there_or_holds_something_stays(tmp_path):
 
 
 def test_clearing_removes_results_and_nothing_else(tmp_path):
-    for name in (*RESULTS, "mine.txt", ".graph-12345678.json", ".picture-abcdefgh.png", ".graph-mine.json"):
+    for name in (*RESULTS, "mine.txt", "corrections.json"):
         (tmp_path / name).touch()
     clear_results(tmp_path)
-    assert sorted(path.name for path in tmp_path.iterdir()) == [".graph-mine.json", "mine.txt"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["corrections.json", "mine.txt"]
+
+
+def test_what_a_killed_run_left_half_written_goes(tmp_path):
+    half = (".graph-12345678.json", ".picture-abcdefgh.png", ".corrections-0a1b2c3d.json")
+    for name in (*half, ".graph-mine.json", "corrections.json"):
+        (tmp_path / name).touch()
+    with results_folder(tmp_path):
+        assert sorted(path.name for path in tmp_path.iterdir()) == [".graph-mine.json", "corrections.json"]
 
 
 def test_a_graph_vouches_for_what_has_no_mark(tmp_path):

@@ -1,5 +1,6 @@
 """corrections.json: what is in force, what was ever done, and what is refused."""
 
+import dataclasses
 import json
 import os
 import signal
@@ -129,6 +130,43 @@ def test_what_another_program_wrote_is_not_written_over(tmp_path):
         mine.write(history.undo())
 
 
+def test_what_could_not_be_read_again_is_not_written(tmp_path):
+    deep = dataclasses.replace(ONE, mesh="/" + "assembly/" * 1000)
+    file = CorrectionsFile(tmp_path)
+    file.write(History().do((deep,), describe(deep)))
+    assert read_corrections(tmp_path) == (deep,)
+    document = json.loads((tmp_path / "corrections.json").read_text())
+    document["events"][0]["id"] = 999_999_999_999
+    (tmp_path / "corrections.json").write_text(json.dumps(document))
+    before = (tmp_path / "corrections.json").read_bytes()
+    with pytest.raises(OutputError, match="'id' must be a whole number, so it can't be kept"):
+        file.write(file.read().undo())
+    assert (tmp_path / "corrections.json").read_bytes() == before
+
+
+def test_nothing_is_written_where_the_folder_was(tmp_path):
+    (tmp_path / "out").mkdir()
+    file = CorrectionsFile(tmp_path / "out")
+    file.write(history := file.read().do((ONE,), "one"))
+    (tmp_path / "out").rename(tmp_path / "elsewhere")
+    for _ in range(2):
+        with pytest.raises(LabelError, match="the folder is gone"):
+            file.write(history.do((TWO,), "two"))
+        assert not (tmp_path / "out" / "corrections.json").exists()
+        (tmp_path / "out").mkdir(exist_ok=True)
+    (tmp_path / "out").rmdir()
+    (tmp_path / "elsewhere").rename(tmp_path / "out")
+    file.write(history.do((TWO,), "two"))
+    assert len(read_corrections(tmp_path / "out")) == 2
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
+def test_a_pipe_does_not_make_anybody_wait(tmp_path):
+    os.mkfifo(tmp_path / "corrections.json")
+    with pytest.raises(LabelError, match="a pipe"):
+        read_history(tmp_path)
+
+
 WRITER = """
 import sys
 from cadgraph.model.corrections import CorrectionsFile, Correction, Fingerprint
@@ -184,7 +222,7 @@ ROW = {
         {"mesh": 3}, {"mesh": ""}, {"group": None}, {"name": ["x"]}, {"this_only": "yes"}, {"n_triangles": -1},
         {"n_triangles": True}, {"n_triangles": 1.5}, {"lengths": [1, 1, 1]}, {"lengths": "abcd"},
         {"lengths": [1, 1, 1, 1e400]}, {"centroid": [0, 0, float("nan")]}, {"centroid": [0, 0, 10**400]},
-        {"mesh": "x" * 5000}, {"name": "no such name"}, {"group": "Spaceship"},
+        {"group": "x" * 5000}, {"name": "no such name"}, {"group": "Spaceship"},
     ],
     ids=lambda change: str(change)[:30],
 )  # fmt: skip

@@ -3,7 +3,8 @@ import pytest
 import serving
 from cadgraph.serve import app as serve_app
 from cadgraph.serve.guard import POLICY, Doors, is_loopback
-from cadgraph.serve.plant import Order, Plant
+from cadgraph.serve.order import Order
+from cadgraph.serve.plant import Plant
 
 CALLS = (
     *("state", "events", "content", "scene", "scene/x", "schematic", "part/part-00000", "unit/V-001"),

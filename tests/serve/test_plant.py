@@ -10,7 +10,8 @@ from cadgraph.model.corrections import CORRECTIONS, CorrectionsFile, read_correc
 from cadgraph.model.graph import SceneGraph
 from cadgraph.serve import plant as serve_plant
 from cadgraph.serve.boxes import boxes_of
-from cadgraph.serve.plant import Order, Plant, order_of
+from cadgraph.serve.order import Order, order_of
+from cadgraph.serve.plant import Plant
 from cadgraph.serve.state import Refusal
 from cadgraph.session.correct import amend
 from serving import label
@@ -116,6 +117,38 @@ def test_corrections_that_somebody_broke_are_never_written_over(opened, folder):
     plant.look()
     plant.edit(plant.feed.state.version, [label("part-00003", "Tank", None)], "")
     assert len(read_corrections(folder)) == 1
+
+
+def test_corrections_that_were_broken_before_are_taken_up_when_mended(opened, folder):
+    amend(folder, "part-00000", "Pipe assembly/pipe", this_only=True, report=False)
+    sound = (folder / CORRECTIONS).read_bytes()
+    (folder / CORRECTIONS).write_text("broken")
+    plant = opened(folder)
+    assert plant.feed.state.status == "failed"
+    assert "corrections.json: not JSON" in plant.feed.state.message
+    plant.look()
+    assert plant.feed.state.status == "failed"
+    (folder / CORRECTIONS).write_bytes(sound)
+    plant.look()
+    assert (plant.feed.state.status, plant.feed.state.message) == ("ready", "")
+    assert names(plant.shown().graph)["/b0"] == "pipe"
+
+
+def test_a_folder_that_vanishes_is_said_and_not_made_anew(opened, folder):
+    plant = opened(folder)
+    plant.edit(1, [label("part-00000", "Pipe assembly", "pipe")], "")
+    folder.rename(folder.with_name("elsewhere"))
+    plant.look()
+    assert "the folder is gone" in plant.feed.state.read_only
+    with pytest.raises(Refusal, match="the folder is gone"):
+        plant.edit(2, [label("part-00001", "Pipe assembly", "tee")], "")
+    assert not folder.exists()
+    folder.with_name("elsewhere").rename(folder)
+    plant.look()
+    assert plant.feed.state.read_only is None
+    plant.edit(2, [label("part-00001", "Pipe assembly", "tee")], "")
+    plant.close()
+    assert names(SceneGraph.load(folder)) == {"/b0": "pipe", "/b1": "tee", "/b2": None, "/b3": None}
 
 
 def test_what_the_disk_does_not_take_is_taken_back(opened, folder, monkeypatch):

@@ -5,6 +5,8 @@ import socket
 import sys
 import threading
 import time
+import urllib.error
+import urllib.request
 
 import pytest
 
@@ -148,3 +150,32 @@ def test_a_folder_is_held_by_one_at_a_time(tmp_path):
         assert [path for path in tmp_path.iterdir() if os.name == "posix"] == []
     with holding(tmp_path):
         pass
+
+
+def test_connections_on_which_nobody_asks_keep_nobody_out(monkeypatch):
+    monkeypatch.setattr(running, "_SILENCE", 0.3)
+    monkeypatch.setattr(running, "_MOST_CONNECTIONS", 4)
+
+    async def app(scope, receive, send):
+        await send({"type": "http.response.start", "status": 200, "headers": []})
+        await send({"type": "http.response.body", "body": b"here"})
+
+    def ask():
+        with urllib.request.urlopen(f"http://127.0.0.1:{port}/", timeout=5) as answer:
+            return answer.read()
+
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        port = listener.getsockname()[1]
+        server = running._Server(app, lambda: None)
+        thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
+        thread.start()
+        silent = [socket.create_connection(("127.0.0.1", port)) for _ in range(4)]
+        silent[0].sendall(b"GET / HTTP/1.1\r\nHost: x\r\n")
+        with pytest.raises(urllib.error.HTTPError, match="503"):
+            ask()
+        assert [one.recv(1) for one in silent] == [b""] * 4
+        assert ask() == b"here"
+        server.should_exit = True
+        thread.join(10)
+        for one in silent:
+            one.close()

@@ -7,6 +7,7 @@ import shapes
 from cadgraph.config import Config
 from cadgraph.errors import LabelError
 from cadgraph.model.catalog import read_catalog, write_catalog
+from cadgraph.model.corrections import read_corrections
 from cadgraph.model.given_labels import GivenLabel, split_label
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.vocabulary import default_vocabulary
@@ -98,6 +99,19 @@ def test_when_the_source_is_gone_nothing_is_left_behind(folder, scene):
     with pytest.raises(LabelError, match="--scene"):
         amend(folder, "/a", "handwheel", report=False)
     assert not (folder / "corrections.json").exists()
+
+
+def test_whenever_a_correction_is_stopped_graph_and_corrections_agree(folder, monkeypatch):
+    def stopped(*_, **__):
+        raise KeyboardInterrupt
+
+    for name, kept in (("write_graph", 0), ("write_rest", 1)):
+        with monkeypatch.context() as patched:
+            patched.setattr(f"cadgraph.session.correct.{name}", stopped)
+            with pytest.raises(KeyboardInterrupt):
+                amend(folder, "/knob", "Tank", this_only=True, report=False)
+        assert len(read_corrections(folder)) == kept
+        assert (label_of(SceneGraph.load(folder), "/knob") == (None, "human")) == bool(kept)
 
 
 def test_labels_of_a_model_that_was_asked_are_kept_without_asking(folder):

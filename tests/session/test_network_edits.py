@@ -72,6 +72,23 @@ def test_a_join_makes_a_connection_over_the_straight_gap_and_says_who_did():
     assert not [d for d in session.graph.diagnostics if d.code == "bridged-gap"]
 
 
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_joint_that_was_cut_and_is_made_again_is_where_it_was(turned):
+    session = session_of(line_with_a_gap())
+    own = {(j.first, j.second): j for j in session.graph.joints(made=True)}
+    lengths = [edge.length for edge in session.graph.connections()]
+    for first, second in own:
+        session.apply([{"kind": "cut", "first": first, "second": second}])
+        pair = (second, first) if turned else (first, second)
+        session.apply([{"kind": "join", "first": pair[0], "second": pair[1]}])
+    again = {(j.first, j.second): j for j in session.graph.joints(made=True)}
+    assert {pair: (j.kind, j.point, j.gap) for pair, j in again.items()} == {
+        pair: (j.kind, j.point, j.gap) for pair, j in own.items()
+    }
+    assert {j.reasons for j in again.values()} == {("joined by a user",)}
+    assert [edge.length for edge in session.graph.connections()] == lengths
+
+
 def test_an_end_is_joined_with_a_far_solid_at_its_surface():
     sketch = line_with_a_gap()
     sketch.meshes[3] = block((2.75, 0, 0), 0.5)
@@ -252,7 +269,7 @@ def test_a_set_direction_beats_geometry_and_spreads():
     assert "but stated: T-001 -> T-002" in against[0]
     with pytest.raises(ValueError, match="contradicts it"):
         session.apply([direction(session, "T-001", "V-001")])
-    with pytest.raises(ValueError, match="no direction was set there"):
+    with pytest.raises(ValueError, match=r"^direction between T-001 and V-001 taken back: no direction was set there"):
         session.apply([direction(session, "T-001", "V-001", "unknown")])
     session.apply([direction(session, "V-001", "V-002", "unknown")])
     assert flows(session.graph)[frozenset(("V-001", "V-002"))] == ("V-001", "stated: T-001 -> T-002")
@@ -273,7 +290,7 @@ def test_several_edits_are_one_action():
         why="P&ID",
     )
     (row,) = session.history.audit()
-    assert row["what"] == "2 parts are Pipe assembly/elbow, it alone; V-001 is called V-4711"
+    assert row["what"] == "2 parts are Pipe assembly/elbow, these alone; V-001 is called V-4711"
     assert (row["who"], row["why"], row["undone"]) == ("Ann", "P&ID", False)
     assert row["when"].endswith("Z")
     session.undo(who="Bob")

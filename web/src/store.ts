@@ -1,5 +1,6 @@
 // What the page shows: one object that all areas read, change by `set`, and listen to.
 
+import { placeAgain, rowsFrom } from "./kept.ts";
 import type { Content, Isolated, Parts, Point, Question, ServerState, Traced, Update } from "./types.ts";
 
 export type ColorBy =
@@ -68,6 +69,8 @@ export interface Topics {
   content: Content;
   state: ServerState;
   shown: ReadonlySet<keyof Shown>;
+  /** Name of the unit, junction or end that was selected and is no more. */
+  gone: string;
 }
 
 type Listener<T> = (value: T) => void;
@@ -77,7 +80,7 @@ export class Store {
   state: ServerState | null = null;
   shown: Readonly<Shown> = START;
   private readonly listeners: { [K in keyof Topics]: Set<Listener<Topics[K]>> } = {
-    content: new Set(), state: new Set(), shown: new Set(),
+    content: new Set(), state: new Set(), shown: new Set(), gone: new Set(),
   };
 
   /** Calls back on changes; gives the way to stop that. `content`: labels or network are others now. */
@@ -111,9 +114,11 @@ export class Store {
     const same = before && sameMeshes(before.meshes, content.meshes);
     // What was worked out for the meshes stays good as long as they are the same object.
     this.content = same ? { ...content, meshes: before.meshes } : content;
+    const { place } = this.shown;
     if (before && !same) this.keepRows(before);
-    this.keepSelection();
+    const gone = this.keepPlaces(before ?? this.content);
     this.tell("content", this.content);
+    if (gone && place) this.tell("gone", nameOf(before ?? this.content, place));
   }
 
   /** Lays an update over the content; false where the content has to be fetched anew. */
@@ -147,32 +152,31 @@ export class Store {
     if (node) this.select(node.parts, id);
   }
 
-  private keepSelection(): void {
-    const network = this.content!.network;
-    const { place, selection } = this.shown;
-    const n = this.content!.parts.id.length;
-    const nodes = [...network.units, ...network.ends];
-    // A unit may have another id now, as that follows its tag: it is known by its parts.
-    const node = place && (nodes.find((node) => node.id === place)
-      ?? nodes.find((node) => node.parts.length === selection.length && node.parts.every((row) => selection.includes(row))));
-    if (node) {
-      const same = node.parts.length === selection.length && node.parts.every((row, i) => row === selection[i]);
-      if (!same || node.id !== place) this.set({ selection: node.parts, place: node.id });
-    } else if (place) this.set({ place: null });
+  /** Goes on with the same unit or end, whatever its id is now; whether what was selected is gone. */
+  private keepPlaces(before: Content): boolean {
+    const now = this.content!;
+    const { place, selection, explode } = this.shown;
+    const n = now.parts.id.length;
     if (selection.some((row) => row >= n)) this.set({ selection: selection.filter((row) => row < n) });
-    const { explode } = this.shown;
-    if (explode && !network.units.some((unit) => unit.id === explode.unit)) this.set({ explode: null });
+    if (explode) {
+      const unit = placeAgain(before, explode.unit, now);
+      if (unit?.id !== explode.unit) this.set({ explode: unit && { ...explode, unit: unit.id } });
+    }
+    if (!place) return false;
+    const node = placeAgain(before, place, now);
+    if (!node) {
+      this.set({ selection: [], place: null });
+      return true;
+    }
+    const same = node.parts.length === selection.length && node.parts.every((row, i) => row === selection[i]);
+    if (!same || node.id !== place) this.set({ selection: node.parts, place: node.id });
+    return false;
   }
 
   /** The parts themselves may be others now: what was selected or hidden is found again by its meshes. */
   private keepRows(before: Content): void {
-    const now = new Map(this.content!.meshes.path.map((path, mesh) => [path, this.content!.meshes.part[mesh]]));
-    const next = new Map<number, number>();
-    before.meshes.part.forEach((row, mesh) => {
-      const found = now.get(before.meshes.path[mesh]) ?? -1;
-      if (row >= 0 && found >= 0 && !next.has(row)) next.set(row, found);
-    });
-    const keep = (rows: Iterable<number>) => [...new Set([...rows].map((row) => next.get(row) ?? -1))].filter((row) => row >= 0);
+    const next = rowsFrom(before, this.content!);
+    const keep = (rows: Iterable<number>) => [...new Set([...rows].map(next))].filter((row) => row >= 0);
     const { selection, hidden, isolated } = this.shown;
     this.set({
       selection: keep(selection), hidden: new Set(keep(hidden)), isolated: isolated && new Set(keep(isolated)),
@@ -187,4 +191,8 @@ export class Store {
 
 function sameMeshes(a: Content["meshes"], b: Content["meshes"]): boolean {
   return a === b || (a.path.length === b.path.length && a.path.every((path, mesh) => path === b.path[mesh] && a.part[mesh] === b.part[mesh]));
+}
+
+function nameOf({ network }: Content, id: string): string {
+  return network.units.find((unit) => unit.id === id)?.tag ?? network.ends.find((end) => end.id === id)?.name ?? id;
 }

@@ -1,12 +1,14 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { fitted, showing, zoomed } from "../src/network/camera2d.ts";
+import { isSet } from "../src/network/flow.ts";
+import { connectionsOf, markOf } from "../src/network/pieces.ts";
 import { arrowsAlong, piecesOf, pointAt, wayOf } from "../src/network/path.ts";
 import { leaderEnd, placeLabels, type Placed, type Wish } from "../src/network/placement.ts";
 import { planOf, partsOfLine, walk } from "../src/network/plan.ts";
 import { cleanCopy, isAllowed, type Maker, type ReadNode } from "../src/network/sanitize.ts";
 import { type Palette, strokesOf } from "../src/network/style.ts";
-import { pieces } from "../src/network/told.ts";
+import { columns, pieces } from "../src/network/told.ts";
 import { networkWarnings } from "../src/network/warnings.ts";
 import type { Connection, Content, End, Unit } from "../src/types.ts";
 
@@ -211,4 +213,37 @@ test("zooming keeps the point under the pointer; what is out of sight is brought
   assert.equal(moved.y + moved.zoom * 360, 150);
   // At its edge no empty paper is shown beside the drawing.
   assert.equal(showing(seen, { x: 1560, y: 350, width: 40, height: 20 }, sheet, pane, false).x, -800);
+});
+
+test("what the drawing can't show apart is marked as neither cut off nor live", () => {
+  const made = content();
+  const plan = planOf(made);
+  const element = (attributes: Record<string, string>) => ({ getAttribute: (name: string) => attributes[name] ?? null });
+  assert.deepEqual(connectionsOf(element({ "data-line": made.network.lines[0].tag, "data-connection": "3 14" }), plan), [3, 14]);
+  assert.deepEqual(connectionsOf(element({ "data-line": made.network.lines[0].tag }), plan), made.network.lines[0].connections);
+  assert.deepEqual(connectionsOf(element({}), plan), []);
+  assert.equal(markOf([3, 14], new Set([3])), "partly");
+  assert.equal(markOf([3, 14], new Set([3, 14, 5])), "all");
+  assert.equal(markOf([3], new Set([14])), "none");
+  assert.equal(markOf([], new Set([14])), "none");
+});
+
+test("a direction can be taken back only where it was set, not where it only follows from that", () => {
+  const plan = planOf(content());
+  const set = { ...plan.content.network.connections[0] };
+  const [a, b] = [set.source, set.target].map((id) => {
+    const place = plan.places.get(id)!;
+    return place.type === "open" ? "open end" : place.name;
+  });
+  assert.equal(isSet({ ...set, reason: `set by a user: ${a} -> ${b}` }, plan), true);
+  assert.equal(isSet({ ...set, reason: `set by a user: ${b} -> ${a}` }, plan), true);
+  assert.equal(isSet({ ...set, reason: `set by a user: ${a} -> X-9` }, plan), false);
+  assert.equal(isSet({ ...set, reason: "from pump P-001" }, plan), false);
+  assert.equal(isSet({ ...set, reason: null }, plan), false);
+});
+
+test("columns of the command line are told apart", () => {
+  assert.deepEqual(columns("  V-004  gate valve  by N1   0.92 m"), { indent: 2, cells: ["V-004", "gate valve", "by N1", "0.92 m"] });
+  assert.deepEqual(columns("shut off with it: G-004, G-002"), { indent: 0, cells: ["shut off with it: G-004, G-002"] });
+  assert.deepEqual(columns(""), { indent: 0, cells: [""] });
 });

@@ -4,6 +4,8 @@ import { carry } from "../src/panels/carry.ts";
 import { csv } from "../src/panels/csv.ts";
 import { decode, encode, packRows, unpackRows } from "../src/panels/link.ts";
 import { matching } from "../src/panels/picker.ts";
+import { namesIn } from "../src/panels/mentions.ts";
+import { narrower } from "../src/panels/narrow.ts";
 import { Queue, type Choice, type Sent } from "../src/panels/queue.ts";
 import { Index, understand } from "../src/panels/search.ts";
 import { elapsed, finding, length, moment, percent, volume, whole } from "../src/panels/words.ts";
@@ -276,4 +278,37 @@ test("a correction that is repeated goes to the same meshes, whatever their part
   assert.deepEqual(carry([label, { kind: "merge", parts: ["part-00001", "part-00002"] }], before, now),
     [{ ...label, part: "part-00003" }, { kind: "merge", parts: ["part-00002", "part-00001"] }]);
   assert.equal(carry([{ ...label, part: "part-00003" }], before, now), null);
+});
+
+test("a label that others followed can be narrowed to its shape, or to the part alone", () => {
+  const content = plant(5);
+  content.parts.shape = [7, 7, 8, 9, 7];
+  content.parts.source = ["human", "repeat", "repeat", "network", "geometry"];
+  const edit = { kind: "label" as const, part: content.parts.id[0], group: "Pipe assembly", name: "flange", this_only: false };
+  const alone = { ...edit, this_only: true };
+  const ways = narrower([edit], content, [0, 1, 2, 3]);
+  assert.deepEqual(ways.map((way) => way.text), ["Only those of its shape", "This part only"]);
+  assert.deepEqual(ways.map((way) => way.edits), [[alone, { ...alone, part: content.parts.id[1] }], [alone]]);
+  assert.deepEqual(narrower([edit], content, [0, 2]).map((way) => way.text), ["This part only"]);
+  assert.deepEqual(narrower([edit], content, [0]), []);
+  assert.deepEqual(narrower([alone], content, [0, 1]), []);
+});
+
+test("a nominal size finds the units at lines of that size, whatever their ports measure", () => {
+  const content = plant();
+  const [unit] = content.network.units;
+  unit.ports = [{ name: "N1", point: [0, 0, 0], direction: null, diameter: 0.1 }];
+  assert.deepEqual(new Index(content).find("DN80").units, [0]);
+  assert.deepEqual(new Index(content).find("DN100").units, []);
+  content.network.connections[0].size = null;
+  assert.deepEqual(new Index(content).find("dn 100").units, [0]);
+});
+
+test("a line of the history leads to the parts and units that it names", () => {
+  const content = plant();
+  const found = namesIn("pipe part-00002 (V-4711) is flange; V-1 to V-9 are now V-2.", content);
+  assert.deepEqual(found.filter(({ parts }) => parts).map(({ text, parts, place }) => [text, parts, place]), [
+    ["part-00002", [2], null], ["V-4711", [1], "unit-1"],
+  ]);
+  assert.equal(found.map(({ text }) => text).join(""), "pipe part-00002 (V-4711) is flange; V-1 to V-9 are now V-2.");
 });

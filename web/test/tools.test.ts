@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Vector3 } from "three";
 import { fullOffsets, offsetsAt } from "../src/scene/explode.ts";
-import { besideLine, catchPoint, lengthText, measure, measuredText } from "../src/scene/measure.ts";
+import { besideLine, besideOthers, catchPoint, lengthText, measure, measuredText } from "../src/scene/measure.ts";
 import { boundsOf, sectionAcross } from "../src/scene/section.ts";
 import type { Content, Point, Unit } from "../src/types.ts";
 
@@ -140,4 +140,14 @@ test("a section takes away the half of the plant that is before the eye", () => 
   assert.deepEqual(sectionAcross("x", content, [0], [-5, 0, 0]), { axis: "x", at: 0, flipped: true });
   assert.deepEqual(sectionAcross("z", content, [0], [-5, 0, 3]), { axis: "z", at: 0, flipped: false });
   assert.equal(sectionAcross("z", unitOf([]).content, [], [0, 0, 0]), null);
+});
+
+test("labels of several measurements cover none of those before them", () => {
+  const size = { width: 80, height: 40 };
+  const taken: ReturnType<typeof besideOthers>[] = [];
+  for (let i = 0; i < 6; i++) taken.push(besideOthers({ x: 200 + 5 * i, y: 150 }, size, taken));
+  taken.forEach((a, i) => taken.slice(0, i).forEach((b) =>
+    assert.ok(Math.abs(a.x - b.x) >= 80 || Math.abs(a.y - b.y) >= 40, `${JSON.stringify(a)} over ${JSON.stringify(b)}`)));
+  assert.deepEqual(besideOthers({ x: 400, y: 150 }, size, taken), { x: 400, y: 150, ...size });
+  assert.ok(Math.abs(taken[1].y - 150) < 50, "as near as there is room");
 });

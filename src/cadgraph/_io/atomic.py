@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import secrets
 import stat
@@ -40,12 +41,12 @@ def replacing(target: str | Path, durable: bool = False) -> Iterator[Path]:
         if durable:
             _flush(beside)
         beside.replace(final)
-        if durable:
-            _flush_folder(final.parent)
     except OSError as error:
         raise OutputError(f"{final}: can't be written ({error.strerror}); choose another output folder") from error
     finally:
         beside.unlink(missing_ok=True)
+    if durable:
+        _flush_folder(final)
 
 
 def write_atomically(target: str | Path, content: str | bytes, durable: bool = False) -> None:
@@ -69,15 +70,22 @@ def _flush(file: Path) -> None:
         os.fsync(opened.fileno())
 
 
-def _flush_folder(folder: Path) -> None:
-    """Waits until the names in a folder are on the disk, on systems that can open a folder."""
+def _flush_folder(file: Path) -> None:
+    """Waits until the name of a file is on the disk, on systems and disks that can be asked for that."""
     if not hasattr(os, "O_DIRECTORY"):
         return
-    number = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
     try:
-        os.fsync(number)
-    finally:
-        os.close(number)
+        number = os.open(file.parent, os.O_RDONLY | os.O_DIRECTORY)
+        try:
+            os.fsync(number)
+        finally:
+            os.close(number)
+    except OSError as error:
+        # Some shares flush files, but no folders; there is nothing better to be had.
+        if error.errno not in (errno.EINVAL, errno.ENOTSUP, errno.EBADF, errno.ENOSYS, errno.EACCES):
+            raise OutputError(
+                f"{file}: whether it stays written is not sure ({error.strerror}); look after the disk"
+            ) from error
 
 
 def _make_beside(final: Path) -> Path:

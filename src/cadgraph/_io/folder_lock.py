@@ -10,7 +10,7 @@ from pathlib import Path
 
 from cadgraph.errors import OutputError
 
-__all__ = ["holding"]
+__all__ = ["folder_identity", "holding"]
 
 _LOCK = ".cadgraph.lock"  # only where a folder itself can't be locked
 
@@ -67,3 +67,12 @@ def _take(folder: Path) -> int | None:
             ) from None
         return None
     return file
+
+
+def folder_identity(folder: str | Path) -> tuple[int, int] | None:
+    """What tells a folder from another one under the same name, as an empty one where a disk was; None: no folder."""
+    try:
+        status = os.stat(folder)
+    except OSError:
+        return None
+    return status.st_dev, status.st_ino

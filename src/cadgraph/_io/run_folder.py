@@ -11,11 +11,12 @@ from cadgraph._io.atomic import ensure_writable
 from cadgraph._io.folder_lock import holding
 from cadgraph.errors import OutputError
 
-__all__ = ["RESULTS", "clear_results", "refuse_foreign", "refuse_to_overwrite", "results_folder"]
+__all__ = ["RESULTS", "clear_results", "refuse_foreign", "refuse_to_overwrite", "results_folder", "sweep"]
 
 RESULTS = ("scene.usdc", "semantics.usda", "report.html", "picture.png", "timings.json", "graph.json")
 """All files that a run may write. The graph vouches for those without a mark of their own, so it goes last."""
 
+_CORRECTIONS = "corrections.json"
 _MARKS = {"graph.json": b'"cadgraph"', "semantics.usda": b"cadgraph", "report.html": b"cadgraph"}
 _HEAD = 100_000  # bytes in which a mark stands; the styles of a report come before its first words
 
@@ -36,6 +37,7 @@ def results_folder(folder: str | Path) -> Iterator[Path]:
         ensure_writable(target)
         with holding(target):
             refuse_foreign(target)
+            sweep(target)
             yield target
     except BaseException:
         for path in made:
@@ -56,14 +58,25 @@ def clear_results(folder: Path, names: Iterable[str] = RESULTS) -> None:
     """
     for name in names:
         path = folder / name
-        # Left over where a run was killed while it wrote; see cadgraph._io.atomic.
-        for stale in (*folder.glob(f".{path.stem}-????????{path.suffix}"), path):
-            try:
-                stale.unlink(missing_ok=True)
-            except OSError as error:
-                raise OutputError(
-                    f"{stale}: can't be replaced ({error.strerror}); close what holds it or choose another folder"
-                ) from error
+        try:
+            path.unlink(missing_ok=True)
+        except OSError as error:
+            raise OutputError(
+                f"{path}: can't be replaced ({error.strerror}); close what holds it or choose another folder"
+            ) from error
+
+
+def sweep(folder: Path) -> None:
+    """Removes what a run left that was killed while it wrote a file; see ``cadgraph._io.atomic``.
+
+    Args:
+        folder: that nobody else is at work in.
+    """
+    for name in (*RESULTS, _CORRECTIONS):
+        stem, suffix = os.path.splitext(name)
+        for stale in folder.glob(f".{stem}-????????{suffix}"):
+            with suppress(OSError):
+                stale.unlink()
 
 
 def refuse_to_overwrite(folder: Path, files: Iterable[str | Path], what: str) -> None:

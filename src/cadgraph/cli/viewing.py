@@ -53,7 +53,7 @@ def view(
     it anew.
     """
     try:
-        from cadgraph.serve.plant import order_of
+        from cadgraph.serve.order import order_of
         from cadgraph.serve.running import Options, view
     except ModuleNotFoundError as error:
         if (error.name or "").partition(".")[0] not in ("starlette", "uvicorn", "anyio", "h11"):

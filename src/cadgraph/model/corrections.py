@@ -8,20 +8,21 @@ file: what is undone is noted behind what was done.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Literal, TypedDict
+from typing import Any, Literal, TypedDict
 
 from cadgraph._io import limits
 from cadgraph._io.atomic import write_atomically
+from cadgraph._io.folder_lock import folder_identity
 from cadgraph._io.json_rows import json_rows
 from cadgraph._io.limits import read_bytes_within, size_text
 from cadgraph._io.text import printable
 from cadgraph.errors import LabelError, OutputError
 from cadgraph.model.anchors import Fingerprint
-from cadgraph.model.corrections_json import FORMAT, MOST, VERSION, event_row, read_document
+from cadgraph.model.corrections_json import FORMAT, MOST, VERSION, check_row, event_row, read_document
 from cadgraph.model.edits import Correction, Edit, describe, fold, with_correction
 from cadgraph.model.vocabulary import Vocabulary, spell_label
 
@@ -268,8 +269,10 @@ class CorrectionsFile:
 
     path: str | Path
     known: str | None = field(default="")
+    _home: tuple[int, int] | None = field(default=None, init=False, repr=False)
+    _readable: int = field(default=0, init=False, repr=False)  # rows at the start of which it is known that they are
 
-    @property
+    @cached_property
     def file(self) -> Path:
         """The file itself."""
         path = Path(self.path)
@@ -280,7 +283,7 @@ class CorrectionsFile:
         content = self._content()
         history = History() if content is None else self._parsed(content, vocabulary)
         # Only now: what can't be read must not be written over.
-        self.known = _digest(content)
+        self.known, self._readable = _digest(content), len(history.events)
         return history
 
     def _parsed(self, content: bytes, vocabulary: Vocabulary | None) -> History:
@@ -300,7 +303,7 @@ class CorrectionsFile:
         """Whether somebody else has written it since it was read or written here.
 
         Raises:
-            LabelError: it can't be read.
+            LabelError: it can't be read, or its folder is gone.
         """
         return self.known is not None and _digest(self._content()) != self.known
 
@@ -315,11 +318,9 @@ class CorrectionsFile:
                 f"{self.file}: another program has corrected something here meanwhile; open the folder again and "
                 "repeat this correction"
             )
-        document = {
-            "format": FORMAT,
-            "version": VERSION,
-            "events": [event_row(vars(event)) for event in history.events],
-        }
+        rows = [event_row(vars(event)) for event in history.events]
+        self._check(rows)
+        document = {"format": FORMAT, "version": VERSION, "events": rows}
         content = json_rows(document, rows=("events",))
         if len(content) > limits.CORRECTIONS.most:
             most = size_text(limits.CORRECTIONS.most)
@@ -328,11 +329,32 @@ class CorrectionsFile:
         if self.known is not None:
             self.known = _digest(content)
 
+    def _check(self, rows: Sequence[Mapping[str, Any]]) -> None:
+        """Refuses what could not be read again; of rows that were there before that is known."""
+        first = min(self._readable, len(rows))
+        try:
+            for k, row in enumerate(rows[first:], first):
+                check_row(row, f"{self.file}: correction {k}")
+        except LabelError as error:
+            raise OutputError(f"{error}, so it can't be kept") from None
+        self._readable = len(rows)
+
     def _content(self) -> bytes | None:
-        if not self.file.exists():
-            return None
+        place = folder_identity(self.file.parent)
+        if self._home is None:
+            self._home = place
+        if place != self._home:
+            raise LabelError(f"{self.file.parent}: the folder is gone, or another one is in its place; bring it back")
         remedy = "take rows out, or remove it to build without"
-        return read_bytes_within(self.file, limits.CORRECTIONS, LabelError, remedy)
+        if self.file.is_fifo():
+            # Reading would wait for somebody who writes to it.
+            raise LabelError(f"{self.file}: a pipe; {remedy}")
+        try:
+            return read_bytes_within(self.file, limits.CORRECTIONS, LabelError, remedy)
+        except LabelError as error:
+            if isinstance(error.__cause__, FileNotFoundError):
+                return None
+            raise
 
 
 def _digest(content: bytes | None) -> str:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+from cadgraph._io import limits
 from cadgraph.errors import LabelError
 from cadgraph.model.anchors import Anchor, Fingerprint
 from cadgraph.model.edits import (
@@ -25,7 +26,7 @@ from cadgraph.model.edits import (
     describe,
 )
 
-__all__ = ["FORMAT", "MOST", "VERSION", "event_row", "read_document"]
+__all__ = ["FORMAT", "MOST", "VERSION", "check_row", "event_row", "read_document"]
 
 FORMAT, VERSION = "cadgraph-corrections", 2
 MOST = 100_000
@@ -40,8 +41,22 @@ _FAR = 1e12  # m; beyond lies no plant
 def event_row(event: Mapping[str, Any]) -> dict[str, Any]:
     """An action, given by its fields, as it stands in the file."""
     row: dict[str, Any] = {"event": event["kind"], "id": event["id"]}
-    row |= {key: event[key] for key in ("when", "who", "why", "what")}
+    # What was done is in the edits; these words may leave out the end of a long name.
+    row |= {key: event[key][:_MOST_TEXT] for key in ("when", "who", "why", "what")}
     return row | ({"edits": [_edit_row(e) for e in event["edits"]]} if event["kind"] == "do" else {"of": event["of"]})
+
+
+def check_row(row: Mapping[str, Any], place: str) -> None:
+    """Makes sure that a row that is to be written will be read again.
+
+    Args:
+        row: as ``event_row`` makes it.
+        place: what to call it in a message.
+
+    Raises:
+        LabelError: it would not be.
+    """
+    _event(row, place)
 
 
 def _edit_row(edit: Edit) -> dict[str, Any]:
@@ -194,7 +209,8 @@ _READERS: Mapping[str, Callable[[Mapping[str, Any], str], Edit]] = {
 def _anchor(row: Any, place: str) -> Anchor:
     if not isinstance(row, Mapping):
         raise LabelError(f"{place}: not an object with mesh, n_triangles, lengths, centroid; take it out")
-    mesh = _text(row, "mesh", place)
+    # As long as the paths of the source are.
+    mesh = _text(row, "mesh", place, most=limits.CORRECTIONS.most)
     count = _count(row, "n_triangles", place)
     lengths, centroid = _numbers(row, "lengths", 4, place), _numbers(row, "centroid", 3, place)
     fingerprint = Fingerprint(count, (lengths[0], lengths[1], lengths[2], lengths[3]))
@@ -208,10 +224,10 @@ def _anchors(row: Mapping[str, Any], key: str, place: str, least: int = 0) -> tu
     return tuple(_anchor(each, f"{place}: {key!r} {k}") for k, each in enumerate(rows))
 
 
-def _text(row: Mapping[str, Any], key: str, place: str, empty: bool = False) -> str:
+def _text(row: Mapping[str, Any], key: str, place: str, empty: bool = False, most: int = _MOST_TEXT) -> str:
     text = row.get(key)
-    if not isinstance(text, str) or not (0 if empty else 1) <= len(text) <= _MOST_TEXT:
-        raise LabelError(f"{place}: {key!r} must be text, not {str(text)[:60]!r}")
+    if not isinstance(text, str) or not (0 if empty else 1) <= len(text) <= most:
+        raise LabelError(f"{place}: {key!r} must be text of at most {most:,} characters, not {str(text)[:60]!r}")
     return text
 
 

@@ -13,7 +13,7 @@ from typing import Any, TypeVar, cast
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
-from starlette.requests import Request
+from starlette.requests import ClientDisconnect, Request
 from starlette.responses import Response, StreamingResponse
 from starlette.routing import Route
 
@@ -192,10 +192,13 @@ def _given(text: str | None) -> str:
 async def _body(request: Request) -> Mapping[str, Any]:
     """What was posted: a JSON object, read no further than it may be long."""
     content = bytearray()
-    async for chunk in request.stream():
-        content += chunk
-        if len(content) > _MOST_BODY:
-            raise Refusal(413, f"more than {_MOST_BODY >> 20} MB at once; correct fewer parts in one step")
+    try:
+        async for chunk in request.stream():
+            content += chunk
+            if len(content) > _MOST_BODY:
+                raise Refusal(413, f"more than {_MOST_BODY >> 20} MB at once; correct fewer parts in one step")
+    except ClientDisconnect:
+        raise Refusal(400, "the page was closed before all was sent") from None
     try:
         body = json.loads(bytes(content))
     except (ValueError, RecursionError):

@@ -5,12 +5,11 @@ from __future__ import annotations
 import gc
 import threading
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from cadgraph._io.atomic import ensure_writable
-from cadgraph._io.digest import sha256_of
+from cadgraph._io.folder_lock import folder_identity
 from cadgraph._io.run_folder import refuse_foreign
 from cadgraph._io.text import file_name
 from cadgraph.config import Config
@@ -18,10 +17,11 @@ from cadgraph.draw.web.content import shown_meshes
 from cadgraph.draw.web.packing import PackedScene, pack_scene
 from cadgraph.errors import CadGraphError, FormatError, LabelError, LoadError, MissingExtra, OutputError
 from cadgraph.load import load
+from cadgraph.model.corrections import CORRECTIONS
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.records import SourceRecord
 from cadgraph.model.scene import Scene
 from cadgraph.serve.boxes import boxes_of
+from cadgraph.serve.order import Order
 from cadgraph.serve.saving import Saver
 from cadgraph.serve.snapshot import Snapshot, difference
 from cadgraph.serve.state import Feed, Refusal, State
@@ -32,80 +32,9 @@ from cadgraph.session.run import Clock, begin, write_graph, write_results
 from cadgraph.session.session import Change, Session
 from cadgraph.stages.preprocess import prepare_scene
 
-__all__ = ["Order", "Plant", "order_of"]
+__all__ = ["Plant"]
 
 _MOST_ANSWERABLE = 1000  # questions among which one is looked for that nobody has asked for before
-
-
-@dataclass(frozen=True)
-class Order:
-    """What is to be shown.
-
-    Args:
-        folder: of the results.
-        source: the scene to build; None opens what is in the folder.
-        scene: where the source is now, if somebody knows better than the graph.
-        config: all settings to build with; the defaults if None.
-    """
-
-    folder: Path
-    source: Path | None = None
-    scene: Path | None = None
-    config: Config | None = None
-
-    def prepare(self) -> None:
-        """Makes sure that it can be done, before a page is opened.
-
-        Raises:
-            LoadError: there is no such scene.
-            FormatError: the folder holds no graph.
-            OutputError: the folder can't be written although results go there.
-        """
-        if self.source is None:
-            if not (self.folder / "graph.json").is_file():
-                raise FormatError(
-                    f"{self.folder}: holds no graph.json; give a folder that 'cadgraph build' wrote, or a scene"
-                )
-            return
-        if not self.source.is_file():
-            raise LoadError(f"{self.source}: no such file; give a scene, or a folder that 'cadgraph build' wrote")
-        ensure_writable(self.folder)
-        refuse_foreign(self.folder)
-
-
-def order_of(what: Path, output: Path | None, scene: Path | None, config: Config | None) -> Order:
-    """What a person means by a folder or a file.
-
-    Args:
-        what: a folder of results, its ``graph.json``, or a scene.
-        output: of a scene: the folder of its results; beside where the command is run by default.
-        scene: of a folder: where the source is now.
-        config: of a scene: settings to build with.
-
-    Raises:
-        ValueError: an option doesn't go with it.
-    """
-    if what.is_dir() or what.name == "graph.json":
-        if output is not None or config is not None:
-            raise ValueError(f"{what}: results are opened as they are; -o, --config and --set go with a scene to build")
-        return Order(what if what.is_dir() else what.parent, scene=scene)
-    if scene is not None:
-        raise ValueError(f"{what}: --scene goes with a folder of results; a scene is where it is")
-    folder = output or Path(what.stem)
-    former = _former_source(folder)
-    if former is not None and output is None and Path(former.path).resolve() != what.resolve():
-        raise ValueError(f"{folder}: holds the results of another scene ({former.path}); give a folder with -o")
-    if former is not None and config is None and former.sha256 and what.is_file() and sha256_of(what) == former.sha256:
-        return Order(folder, scene=what)
-    return Order(folder, what, None, config)
-
-
-def _former_source(folder: Path) -> SourceRecord | None:
-    """What the graph in a folder is of; None where it holds none that can be read."""
-    try:
-        return SceneGraph.load(folder).source
-    except FormatError:
-        return None
 
 
 class _Stopping(Exception):
@@ -138,6 +67,8 @@ class Plant:
         self._packed: PackedScene | None = None
         self._session: Session | None = None
         self._source: Path | None = None
+        self._place: tuple[int, int] | None = None  # of the folder
+        self._opened_with: tuple[int, int] | None = None  # which corrections
         self._not_kept = False  # whether corrections could not be kept when that was tried last
         self._behind = False  # whether the graph in the folder is another one, and writing it was put off or failed
         self._saver = Saver(self._save, self._saved, delay)
@@ -206,6 +137,8 @@ class Plant:
     def open(self) -> None:
         """Builds the plant or opens it again; how far it is goes into the state, and so does why it can't be."""
         self._at_rest.clear()
+        self._opened_with = self._stamp()
+        self.feed.publish(status="building", message="")
         try:
             if self._order.source is not None:
                 self._build(self._order.source)
@@ -220,6 +153,14 @@ class Plant:
             self.feed.publish(status="failed", stage="", message=message)
         finally:
             self._at_rest.set()
+
+    def _stamp(self) -> tuple[int, int] | None:
+        """Tells one state of the file of the corrections from another; None where there is none."""
+        try:
+            status = (self._order.folder / CORRECTIONS).stat()
+        except OSError:
+            return None
+        return status.st_mtime_ns, status.st_size
 
     def _progress(self, stage: str, share: float) -> None:
         if self._stopping.is_set():
@@ -277,6 +218,7 @@ class Plant:
         # What is there now stays: nobody has to look for rubbish in it at each correction.
         gc.freeze()
         self._session = session
+        self._place = folder_identity(self._order.folder)
         self._look_at_disk()
         self._publish(session, status="ready", stage="", share=1.0)
 
@@ -286,6 +228,7 @@ class Plant:
     def _look_at_disk(self) -> None:
         """Tries whether corrections could be kept, and says so."""
         try:
+            self._check_place()
             ensure_writable(self._order.folder)
             refuse_foreign(self._order.folder)
         except OutputError as error:
@@ -297,9 +240,18 @@ class Plant:
         if self._behind and self._session is not None and not self._saver.pending:
             self._saver.give(self._session.graph)
 
+    def _check_place(self) -> None:
+        """Makes sure that nothing is written where a folder was, or where another one is now."""
+        if folder_identity(self._order.folder) != self._place:
+            folder = self._order.folder
+            raise OutputError(f"{folder}: the folder is gone, or another one stands in its place; bring it back")
+
     def look(self) -> None:
         """Looks whether others changed the corrections, or whether a disk that was full has room again."""
         if self._session is None:
+            # What could not be opened for damaged corrections can be, once these are others.
+            if self.feed.state.status == "failed" and self._stamp() != self._opened_with:
+                self.open()
             return
         try:
             if self._session.overtaken:
@@ -308,7 +260,7 @@ class Plant:
                 )
             elif self._not_kept or self._behind:
                 self._look_at_disk()
-        except (LabelError, ValueError) as error:
+        except (CadGraphError, ValueError, OSError) as error:
             self._not_kept = True
             self.feed.publish(read_only=str(error))
 
@@ -398,6 +350,7 @@ class Plant:
 
         session = self._session
         if session is not None and self.feed.state.read_only is None:
+            self._check_place()
             write_report(
                 session.analysis.scene, session.graph, self._order.folder / "report.html", session.config.report
             )
@@ -472,6 +425,7 @@ class Plant:
 
     def _save(self, graph: SceneGraph) -> None:
         if self._source is not None:
+            self._check_place()
             write_graph(self.shown().scene, graph, self._source, self._order.folder)
 
     def _saved(self, failed: str | None) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 import secrets
 import signal
@@ -17,17 +18,21 @@ from types import FrameType
 from typing import Any
 
 import uvicorn
+from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from cadgraph._io.folder_lock import holding
+from cadgraph._io.run_folder import sweep
 from cadgraph.serve.app import make_app
 from cadgraph.serve.guard import Doors, is_loopback
-from cadgraph.serve.plant import Order, Plant
+from cadgraph.serve.order import Order
+from cadgraph.serve.plant import Plant
 from cadgraph.serve.state import one_line
 
 __all__ = ["Ending", "Options", "view"]
 
 _MOST_CONNECTIONS = 64
 _PATIENCE = 0.4  # s that work which can't be ended gets at the end
+_SILENCE = 8.0  # s within which the first request on a connection must have come
 _LOOK = 2.0  # s between two looks whether the folder was changed by others
 
 Say = Callable[[str], None]
@@ -91,6 +96,7 @@ def view(order: Order, options: Options, say: Say) -> Ending:
 
 def _serve(order: Order, options: Options, say: Say) -> Ending:
     with holding(order.folder), _listen(options) as listener:
+        sweep(order.folder)
         doors, token = Doors(options.host, listener.getsockname()[1]), secrets.token_urlsafe(24)
         plant = Plant(order, options.who)
         worker = ThreadPoolExecutor(1, thread_name_prefix="cadgraph-worker")
@@ -186,6 +192,18 @@ def _listen(options: Options) -> Iterator[socket.socket]:
         yield listener
 
 
+class _Connection(H11Protocol):
+    """A connection that is closed where nobody asks anything, so that silent ones don't use up all there may be."""
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        super().connection_made(transport)
+        self.loop.call_later(_SILENCE, self._close_if_silent)
+
+    def _close_if_silent(self) -> None:
+        if not self.cycle:  # no request has come with all of its head
+            self.transport.close()
+
+
 class _Server(uvicorn.Server):
     """A server that tells the plant when it is ended, and leaves the signals to who called it."""
 
@@ -197,7 +215,7 @@ class _Server(uvicorn.Server):
             lifespan="off",
             ws="none",
             loop="asyncio",
-            http="h11",
+            http=_Connection,
             server_header=False,
             limit_concurrency=_MOST_CONNECTIONS,
             timeout_graceful_shutdown=1,

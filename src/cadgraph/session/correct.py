@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from cadgraph._io.atomic import write_atomically
+from cadgraph._io.digest import sha256_of
 from cadgraph._io.progress import Progress, quiet
 from cadgraph._io.run_folder import results_folder
 from cadgraph.model.corrections import CORRECTIONS, read_history
@@ -18,7 +19,7 @@ from cadgraph.model.records import Part
 from cadgraph.model.vocabulary import Vocabulary
 from cadgraph.session.reopen import FormerLabeler, config_of, find_source, reopen
 from cadgraph.session.requests import EditRequest
-from cadgraph.session.run import Clock, Outcome, write_results
+from cadgraph.session.run import Clock, Outcome, write_graph, write_rest
 from cadgraph.session.session import Change, Session, changed_parts
 
 __all__ = ["Amendment", "amend", "apply_edits", "step_back_or_forth"]
@@ -179,13 +180,22 @@ def _changed(
         file = target / CORRECTIONS
         old = file.read_bytes() if file.exists() else None
         done = change(session)
+        session.make_graph(clock)
+        standing = sha256_of(target / "graph.json")
         try:
-            outcome = write_results(session, source, target, report, clock)
+            clock("write graph", 0)
+            write_graph(session.analysis.scene, session.graph, source, target)
         except BaseException:
             # A correction that the graph does not show must not wait for a later build.
-            if old is None:
-                file.unlink(missing_ok=True)
-            else:
-                write_atomically(file, old, durable=True)
+            if sha256_of(target / "graph.json") == standing:
+                _put_back(file, old)
             raise
+        outcome = write_rest(session, target, report, clock)
     return Amendment(outcome, done.part, changed_parts(before, outcome.graph), done.message, session.lost)
+
+
+def _put_back(file: Path, content: bytes | None) -> None:
+    if content is None:
+        file.unlink(missing_ok=True)
+    else:
+        write_atomically(file, content, durable=True)

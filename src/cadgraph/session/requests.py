@@ -38,6 +38,7 @@ from cadgraph.stages.relate import FARTHEST
 __all__ = ["EditRequest", "Requests", "read_requests"]
 
 _MOST_ANCHORS = 8  # parts that a unit is known by: the largest ones
+_ALONE = ", this part alone"
 _MOST = 100_000  # requests of one action, or parts of one request
 # Names that a graph gives to its nodes; a unit that is called so could not be told from them.
 _IDS = re.compile(r"site|unit-.*|(part|cluster|junction|terminal|system|shape)-?[0-9]+", re.IGNORECASE)
@@ -179,7 +180,7 @@ class Requests:
         group, name = split_label(spell_label(request.group, request.name), self.vocabulary)
         anchor = _anchor(part)
         edit = Correction(anchor.mesh, group, name, anchor.fingerprint, anchor.centroid, request.this_only)
-        return edit, f"{part.id} is {spell_label(group, name)}{', it alone' if request.this_only else ''}"
+        return edit, f"{self._called(part)} is {spell_label(group, name)}{_ALONE if request.this_only else ''}"
 
     def _forget(self, request: ForgetRequest) -> tuple[Edit, str]:
         part = self.graph.part(request.part)
@@ -189,7 +190,8 @@ class Requests:
                 f"{request.part}: nobody corrected this part itself; 'cadgraph explain' names the one that was"
             )
         anchor = _anchor(part)
-        return Forget(Anchor(mesh, anchor.fingerprint, anchor.centroid)), f"correction of {part.id} taken back"
+        edit = Forget(Anchor(mesh, anchor.fingerprint, anchor.centroid))
+        return edit, f"correction of {self._called(part)} taken back"
 
     def _ground(self, request: GroundRequest) -> tuple[Edit, str]:
         part = self.graph.part(request.part)
@@ -197,7 +199,8 @@ class Requests:
             raise ValueError(f"{part.id} is {'the ground' if part.ground else 'no ground'} already")
         row = self._row_of[part.meshes[0]]
         anchor = anchor_of(part.meshes[0], self.analysis.properties, row, self.analysis.scene.origin)
-        return Ground(anchor, request.ground), f"{part.id} is {'the ground' if request.ground else 'no ground'}"
+        said = "the ground" if request.ground else "no ground"
+        return Ground(anchor, request.ground), f"{self._called(part)} is {said}"
 
     # Units
 
@@ -213,7 +216,7 @@ class Requests:
         if len(units) == 1 and not loose:
             raise ValueError(f"all these parts are in {units[0].tag} already")
         _refuse_far([*units, *loose])
-        names = [*(unit.tag for unit in units), *(part.id for part in loose)]
+        names = [*(unit.tag for unit in units), *map(_named, loose)]
         return Merge(tuple(map(_anchor, parts))), f"{_listed(names)} are one unit"
 
     def _split(self, request: UnitRequest) -> tuple[Edit, str]:
@@ -227,7 +230,7 @@ class Requests:
         if len(parts) == len(unit.parts):
             few = "has only this part" if len(parts) == 1 else "has no parts but these"
             raise ValueError(f"{unit.tag} {few}, so that nothing would be left of it")
-        return Split(tuple(map(_anchor, parts))), f"{_listed([part.id for part in parts])} apart from {unit.tag}"
+        return Split(tuple(map(_anchor, parts))), f"{_listed([_named(part) for part in parts])} apart from {unit.tag}"
 
     def _tag(self, request: TagRequest) -> tuple[Edit, str]:
         unit, tag = self.graph.unit(request.unit), check_tag(request.tag)
@@ -331,8 +334,9 @@ class Requests:
         return tuple(_anchor(part) for part in sorted(parts, key=lambda part: (-part.area, part.id))[:_MOST_ANCHORS])
 
     def _called(self, part: Part) -> str:
+        """A part as it is known in the plant, and by its id, which alone names it."""
         unit = self.graph.unit_of(part)
-        return part.id if unit is None else f"{part.id} ({unit.tag})"
+        return _named(part) if unit is None else f"{_named(part)} ({unit.tag})"
 
 
 def _together(words: Sequence[str]) -> list[str]:
@@ -345,7 +349,7 @@ def _together(words: Sequence[str]) -> list[str]:
         each
         for rest, found in subjects.items()
         for each in (
-            [f"{len(found):,} parts are {rest}"]
+            [f"{len(found):,} parts are {rest.removesuffix(_ALONE)}{', these alone' * rest.endswith(_ALONE)}"]
             if rest and len(found) > 1
             else found
             if not rest
@@ -358,6 +362,11 @@ def _anchor(part: Part) -> Anchor:
     extents = part.obb.extents
     fingerprint = Fingerprint(part.n_triangles, (math.sqrt(part.area), extents[0], extents[1], extents[2]))
     return Anchor(part.meshes[0], fingerprint, part.centroid)
+
+
+def _named(part: Part) -> str:
+    label = part.label
+    return part.id if label is None else f"{label.name or label.group} {part.id}"
 
 
 def _name(place: _Place) -> str:

@@ -22,7 +22,7 @@ from cadgraph.model.vocabulary import Vocabulary, default_vocabulary, read_vocab
 from cadgraph.pipeline import STAGES
 from cadgraph.session.session import Session
 
-__all__ = ["RUN_STAGES", "Outcome", "begin", "run", "write_graph", "write_results"]
+__all__ = ["RUN_STAGES", "Outcome", "begin", "run", "write_graph", "write_rest", "write_results"]
 
 RUN_STAGES = ("read", *STAGES, "write graph", "write labels", "draw report")
 """The names that ``run`` gives to its progress, in order."""
@@ -153,14 +153,32 @@ def write_results(session: Session, source: str | Path, target: Path, report: bo
     graph, scene = session.make_graph(clock), session.analysis.scene
     clock("write graph", 0)
     clear_results(target)
-    files = {"graph": graph.save(target / "graph.json")}
+    graph.save(target / "graph.json")
     clock("write labels", 0)
-    files["labels"] = write_semantics(scene, graph, source, target / "semantics.usda")
+    write_semantics(scene, graph, source, target / "semantics.usda")
+    return write_rest(session, target, report, clock)
+
+
+def write_rest(session: Session, target: Path, report: bool, clock: Clock) -> Outcome:
+    """Writes what is made from a graph that stands in its folder: the report, and how long everything took.
+
+    Args:
+        session: whose graph it is.
+        target: the folder with the graph.
+        report: whether to draw pictures and write the report.
+        clock: takes the time of each stage.
+
+    Raises:
+        OutputError: a file can't be written.
+    """
+    graph = session.graph
+    files = {"graph": target / "graph.json", "labels": target / "semantics.usda"}
     if report:
         from cadgraph.draw.report import write_report
 
         clock("draw report", 0)
-        files["report"] = write_report(scene, graph, target / "report.html", session.config.report, clock)
+        report_file = target / "report.html"
+        files["report"] = write_report(session.analysis.scene, graph, report_file, session.config.report, clock)
         files["picture"] = target / "picture.png"
     clock("", 1)
     files["timings"] = target / "timings.json"

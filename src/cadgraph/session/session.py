@@ -19,7 +19,7 @@ from cadgraph.labelers.registry import labeler_of
 from cadgraph.model.analysis import Analysis
 from cadgraph.model.catalog import read_catalog
 from cadgraph.model.corrections import CorrectionsFile, History
-from cadgraph.model.edits import LOST, Correction, Edit, tell_lost
+from cadgraph.model.edits import LOST, Correction, Edit, Tag, tell_lost
 from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.parts import Parts
@@ -28,6 +28,7 @@ from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary
 from cadgraph.pipeline import analyse, contradicted, ground_as_said, interpret, lay_ground
 from cadgraph.session.requests import EditRequest, Requests, read_requests
+from cadgraph.session.told import tell_followers, tell_renamed
 
 __all__ = ["Change", "Session"]
 
@@ -331,7 +332,13 @@ class Session:
             self._history, self._graph = history, None
             self._follow_ground()
             now = self.graph
-            _refuse_unmet(now, new)
+            _refuse_unmet(now, new, what)
+            changed = changed_parts(before, now)
+            told = what if not write else _told(what, before, now, new, changed)
+            if new:
+                # What follows from a correction is part of what was done: nobody else tells later.
+                last = replace(history.events[-1], what=told)
+                self._history = history = replace(history, events=(*history.events[:-1], last))
             if self._file is not None and write:
                 self._file.write(history)
         except BaseException:
@@ -339,10 +346,8 @@ class Session:
             self._history, self.analysis, self.labeling = old.history, old.analysis, old.labeling
             self._known, self._graph = old.known, old.graph
             raise
-        changed = changed_parts(before, now)
-        count = f": {len(changed):,} label{'s' * (len(changed) != 1)} changed" if changed else ""
         part = None if mesh is None else now.part(mesh)
-        return Change(part, changed, f"{what}{count}", self.analysis is not old.analysis)
+        return Change(part, changed, told, self.analysis is not old.analysis)
 
     def _follow_ground(self) -> None:
         """Lets parts and structures follow from the ground as it is now; what was made before is kept for a while."""
@@ -370,17 +375,33 @@ def _now() -> str:
     return datetime.now(UTC).isoformat(timespec="seconds").replace("+00:00", "Z")
 
 
-def _refuse_unmet(graph: SceneGraph, new: Sequence[Edit]) -> None:
+def _told(what: str, before: SceneGraph, now: SceneGraph, new: Sequence[Edit], changed: Sequence[Part]) -> str:
+    """What was done, and what came of it; of what is only undone or done again that was told when it was done."""
+    if not new:
+        return f"{what}; {len(changed):,} label{'s' * (len(changed) != 1)} changed" if changed else what
+    named = [now.part_with(edit.mesh) for edit in new if isinstance(edit, Correction)]
+    followers = tell_followers([part for part in named if part is not None], changed)
+    renamed = tell_renamed(before, now, {edit.tag for edit in new if isinstance(edit, Tag)})
+    return "; ".join(filter(None, (what, followers, renamed)))
+
+
+def _refuse_unmet(graph: SceneGraph, new: Sequence[Edit], what: str) -> None:
     """Makes sure that new edits are carried out.
+
+    Args:
+        graph: with them.
+        new: edits.
+        what: they are, by tags and ids of the graph: who asks knows no paths of meshes.
 
     Raises:
         ValueError: one isn't.
     """
-    starts = tuple(tell_lost(edit, "") for edit in new)
-    unmet = (one.message for one in graph.diagnostics if one.code == LOST and one.message.startswith(starts))
-    message = next(unmet, None) if starts else None
-    if message is not None:
-        raise ValueError(message)
+    lost = [one.message for one in graph.diagnostics if one.code == LOST] if new else []
+    for edit in new:
+        start = tell_lost(edit, "")
+        unmet = next((message for message in lost if message.startswith(start)), None)
+        if unmet is not None:
+            raise ValueError(f"{what}: {unmet.removeprefix(start)}")
 
 
 def _carried(labeling: Labeling, before: Parts, after: Parts) -> Labeling:

@@ -1,9 +1,10 @@
 // Asking the graph: what lies upstream or downstream, and what must be closed. The answer marks both views.
 
 import { Refused, type Source } from "../api.ts";
+import { placeAgain } from "../kept.ts";
 import type { Panels } from "../panels/panels.ts";
 import type { Marks, Store } from "../store.ts";
-import type { Isolated, Traced } from "../types.ts";
+import type { Content, Isolated, Traced } from "../types.ts";
 import { partsOf, type Plan } from "./plan.ts";
 
 export type Direction = "upstream" | "downstream";
@@ -22,8 +23,8 @@ export interface Answer {
   result: Traced | Isolated;
   /** Valves that the person has ticked off as closed. */
   ticked: Set<string>;
-  /** Parts of the places of the query: by them a place is known again after its tag, and so its id, has changed. */
-  parts: Map<string, readonly number[]>;
+  /** What the ids are of: in another content they may be another's. */
+  content: Content;
 }
 
 export class Asking {
@@ -87,24 +88,19 @@ export class Asking {
   }
 
   /** The network has changed: what was answered may be wrong now. */
-  again(): void {
+  again(before: Content): void {
+    if (this.picking !== null) this.picking = placeAgain(before, this.picking, this.planNow().content)?.id ?? null;
     if (!this.answer) return;
-    const { query, ticked } = this.answer;
-    const at = this.nowCalled(query.at);
-    const to = query.to === null ? null : this.nowCalled(query.to);
+    const { query, ticked, content } = this.answer;
+    const again = (id: string) => placeAgain(content, id, this.planNow().content)?.id;
+    const at = again(query.at);
+    const to = query.to === null ? null : again(query.to);
     if (at === undefined || to === undefined) {
       this.clear();
       this.panels.say("What was traced is no longer in the network.");
       return;
     }
-    void this.ask({ ...query, at, to }, ticked);
-  }
-
-  private nowCalled(id: string): string | undefined {
-    const { places } = this.planNow();
-    if (places.has(id)) return id;
-    const before = String(this.answer?.parts.get(id) ?? "");
-    return [...places.values()].find((place) => before !== "" && String(place.parts) === before)?.id;
+    void this.ask({ ...query, at, to }, new Set([...ticked].flatMap((id) => again(id) ?? [])));
   }
 
   private picked(): void {
@@ -120,13 +116,13 @@ export class Asking {
     this.busy = true;
     this.refusal = null;
     this.tell();
+    const { content } = this.planNow();
     try {
       const result = await this.result(query);
       if (turn !== this.turn) return;
-      const { places } = this.planNow();
-      const parts = new Map([query.at, query.to ?? query.at].map((id) => [id, places.get(id)?.parts ?? []]));
-      this.answer = { query, result, ticked: new Set([...ticked].filter((id) => closeOf(result).includes(id))), parts };
-      this.store.set({ marks: this.marksOf(this.answer) });
+      this.answer = { query, result, ticked: new Set([...ticked].filter((id) => closeOf(result).includes(id))), content };
+      if (content === this.planNow().content) this.store.set({ marks: this.marksOf(this.answer) });
+      else this.again(content);
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
       if (turn !== this.turn) return;

@@ -1,6 +1,7 @@
 // What is known of the flow in a connection, in words and as a way of drawing.
 
 import type { Connection, Flow } from "../types.ts";
+import type { Plan } from "./plan.ts";
 
 /** Below this a connection is drawn dashed: the same limit as in the schematic. */
 export const SURE = 0.7;
@@ -42,4 +43,17 @@ export function lineSizeText(size: string): string {
 
 export function shareText(share: number | null): string {
   return share === null ? "unknown" : `${Math.round(100 * share)} %`;
+}
+
+const SET = "set by a user: ";
+const KINDS: Record<string, string> = { open: "open end", blind: "blind end", unknown: "end" };
+
+/** Whether somebody set the direction of this very connection; others that follow from it have the same reason. */
+export function isSet({ source, target, reason }: Connection, plan: Plan): boolean {
+  if (!reason?.startsWith(SET)) return false;
+  const names = [source, target].map((id) => {
+    const place = plan.places.get(id);
+    return place ? KINDS[place.type] ?? place.name : id;
+  });
+  return [names, [...names].reverse()].some((pair) => reason === `${SET}${pair.join(" -> ")}`);
 }

@@ -1,6 +1,9 @@
 // What of the network is selected, hovered and shown: derived from the store, and the little that the store doesn't hold.
 
+import { lineAgain } from "../kept.ts";
+import { isCut } from "../seen.ts";
 import type { Store } from "../store.ts";
+import type { Content } from "../types.ts";
 import { partsOfLine, type Place, type Plan } from "./plan.ts";
 import type { LinesBy } from "./style.ts";
 
@@ -42,6 +45,18 @@ export class Focus {
     this.line = { row, selection };
     this.store.select(selection);
     this.tell();
+  }
+
+  /** The content is another one: the same line stays selected wherever it is listed now. False where it is gone. */
+  keepLine(before: Content): boolean {
+    this.hoveredLine = -1;
+    const row = this.selectedLine;
+    if (row < 0) return true;
+    this.line = null;
+    const now = lineAgain(before, row, this.planNow().content);
+    if (now >= 0) this.selectLine(now);
+    else this.store.select([]);
+    return now >= 0;
   }
 
   hoverLine(row: number): void {
@@ -102,17 +117,9 @@ export class Focus {
 
   /** Whether a part is there to be seen: neither hidden nor left out. */
   isPartShown(part: number): boolean {
-    const { hidden, isolated } = this.store.shown;
-    return !hidden.has(part) && (isolated === null || isolated.has(part)) && !this.isCut(part);
-  }
-
-  /** Whether all of a part lies beyond the section plane. */
-  private isCut(part: number): boolean {
-    const { section } = this.store.shown;
-    if (!section) return false;
-    const { center, size } = this.planNow().content.parts;
-    const at = 3 * part + "xyz".indexOf(section.axis);
-    return section.flipped ? center[at] + size[at] / 2 < section.at : center[at] - size[at] / 2 > section.at;
+    const { shown } = this.store;
+    const left = !shown.hidden.has(part) && (shown.isolated === null || shown.isolated.has(part));
+    return left && !isCut(this.planNow().content, shown, part);
   }
 
   isPlaceShown(place: Place): boolean {

@@ -110,9 +110,11 @@ export function rankOf(item: Item, plan: Plan, attention: Attention): number {
     if (!attention.shown.tags || marks) return -1;
     return plan.content.network.lines[row].connections.some(focus.isConnectionShown) ? item.base : -1;
   }
+  const place = plan.places.get(item.id)!;
+  // A tag in the air, of something hidden or cut away, is only in the way, whoever looks at it.
+  if (!marks && !focus.isPlaceShown(place)) return -1;
   if (attention.place === item.id) return 1000;
   if (attention.hoveredPlace === item.id) return 900;
-  const place = plan.places.get(item.id)!;
   if (marks?.close.has(item.id)) return 700;
   if (marks?.places.has(item.id)) return place.unit ? 600 : 500;
   if (!attention.shown.tags || marks || !place.unit || !focus.isPlaceShown(place)) return -1;

@@ -54,6 +54,7 @@ class NetworkArea {
     this.motion = new Motion(view, store, this.focus, this.overlay);
     view.add(this.overlay.through, true);
     view.add(this.overlay.front);
+    panels.followLine(() => store.content?.network.lines[this.focus.selectedLine] ?? null);
     const actions = { place: (id: string) => store.selectPlace(id), line: (row: number) => this.focus.selectLine(row) };
     this.tags = new TagLayer(view, store, this.focus, { ...actions, warning: (key) => this.tell(key, false) });
     this.schematic = new Schematic(panels.schematicPane, store, source, this.focus, planNow, actions);
@@ -78,6 +79,9 @@ class NetworkArea {
       this.fillSlot();
     });
     store.watch(["selection", "place"], () => {
+      // Who lets go of what a warning is about, by Escape or a click beside it, has done with it.
+      const told = this.warnings.find((warning) => warning.key === focus.warning);
+      if (told?.parts.length && !store.shown.selection.length) focus.set({ warning: null });
       this.fillSlot();
       this.tab.mark();
     });
@@ -88,6 +92,10 @@ class NetworkArea {
     store.watch(["hidden", "isolated", "section", "explode", "ghost"], () => this.tags.forgetHidden());
     // Once the page has taken the theme.
     store.watch(["theme"], () => requestAnimationFrame(() => this.tab.paint()));
+    // Two things that are asked to be looked at are one too many.
+    store.watch(["question"], () => {
+      if (store.shown.question && focus.warning !== null) focus.set({ warning: null });
+    });
     store.watch(["schematic"], () => this.schematic.refresh());
     store.watch(["network", "tags", "schematic"], () => this.tab.fillHead());
     focus.onChange((hoverOnly) => {
@@ -107,14 +115,17 @@ class NetworkArea {
 
   /** The content is another one. */
   private renew(): void {
+    const before = this.plan.content;
+    const line = before.network.lines[this.focus.selectedLine]?.tag;
     this.plan = planOf(this.store.content!);
+    if (!this.focus.keepLine(before)) this.panels.say(`Line ${line} is no more: nothing is selected now.`);
     this.warnings = networkWarnings(this.store.content!, this.plan);
     if (!this.warnings.some((warning) => warning.key === this.focus.warning)) this.focus.warning = null;
     this.overlay.setPlan(this.plan);
     this.tags.setPlan(this.plan, this.warnings);
     this.tab.fill();
     this.schematic.refresh();
-    this.asking.again();
+    this.asking.again(before);
     this.fillSlot();
     this.fillNotes();
     this.paint();
@@ -232,6 +243,10 @@ class NetworkArea {
       { id: "network.schematic", key: "d", title: "Schematic beside the plant", area, run: () => store.set({ schematic: !store.shown.schematic }) },
       { id: "network.moving", title: "Let the flow move", area, run: () => focus.set({ moving: !focus.moving }) },
       { id: "network.warning.next", key: "w", title: "Next warning of the network", area, run: () => this.step(1) },
+      {
+        id: "network.warning.end", key: "Escape", title: "End the walk through the warnings", area,
+        when: () => focus.warning !== null, run: () => focus.set({ warning: null }),
+      },
       { id: "network.warning.previous", key: "W", title: "Previous warning of the network", area, run: () => this.step(-1) },
       { id: "network.upstream", key: "Shift+ArrowUp", title: "Trace upstream of the selection", area, when: live, run: () => at((id) => asking.trace(id, "upstream")) },
       { id: "network.downstream", key: "Shift+ArrowDown", title: "Trace downstream of the selection", area, when: live, run: () => at((id) => asking.trace(id, "downstream")) },

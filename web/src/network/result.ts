@@ -6,7 +6,7 @@ import { type Answer, type Asking, closeOf, isCertain } from "./asking.ts";
 import { el } from "../dom.ts";
 import type { Focus } from "./focus.ts";
 import type { Plan } from "./plan.ts";
-import { pieces } from "./told.ts";
+import { columns, pieces } from "./told.ts";
 
 export interface Shower {
   plan: Plan;
@@ -95,9 +95,14 @@ function closeList(answer: Answer, shower: Shower): HTMLElement {
 
 function steps(lines: readonly string[], shower: Shower, folded: boolean): HTMLElement | null {
   if (!lines.length) return null;
-  // The lines are columns of text, as the command line prints them.
+  // The lines are columns of text, as the command line prints them: here they break where there is no room.
   const list = el("div", { class: "net-steps", "data-test": "net-steps", tabindex: "0", role: "group", "aria-label": "Steps" },
-    ...lines.map((line) => el("div", { class: /\S {2,}\S/.test(line) ? "" : "is-text" }, ...linked(line || " ", shower))));
+    ...lines.map((line) => {
+      const { indent, cells } = columns(line);
+      const row = el("div", {}, ...cells.map((cell) => el("span", {}, ...linked(cell, shower))));
+      row.style.setProperty("--indent", String(indent));
+      return row;
+    }));
   if (!folded) return list;
   return el("details", { open: true }, el("summary", {}, "How it was found"), list);
 }

@@ -27,7 +27,9 @@ const TRANSFORM = new RegExp(`^\\s*(?:(?:translate|rotate|scale)\\(\\s*(?:${NUMB
 const CLASSES = /^[a-z][a-z0-9 _-]*$/i;
 const ANY = /^[^]*$/;
 
-const EVERYWHERE: Record<string, RegExp> = { class: CLASSES, transform: TRANSFORM, "data-id": ANY, "data-line": ANY };
+const EVERYWHERE: Record<string, RegExp> = {
+  class: CLASSES, transform: TRANSFORM, "data-id": ANY, "data-line": ANY, "data-connection": /^\d+( \d+)*$/,
+};
 const ALLOWED: Record<string, Record<string, RegExp>> = {
   svg: { width: LENGTH, height: LENGTH, viewBox: NUMBERS },
   g: {},

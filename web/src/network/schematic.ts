@@ -5,6 +5,7 @@ import type { Store } from "../store.ts";
 import { type Box2d, fitted, type Frame2d, opened, showing, zoomed } from "./camera2d.ts";
 import { el, svg } from "../dom.ts";
 import type { Focus } from "./focus.ts";
+import { connectionsOf, markOf } from "./pieces.ts";
 import type { Plan } from "./plan.ts";
 import { readDrawing } from "./sanitize.ts";
 
@@ -22,9 +23,13 @@ export class Schematic {
   private readonly drawn = svg("g", {});
   private readonly canvas: SVGSVGElement;
   private readonly note = el("p", { class: "net-empty", role: "status" }, "Drawing the schematic…");
+  private readonly partly = el("p", { class: "net-sheet-partly", hidden: true, "data-test": "sheet-partly" },
+    el("span", { class: "net-stroke is-partly", "aria-hidden": "true" }), "partly in it: what of it, the plant shows");
   private frame: Frame2d | null = null;
   private size = { width: 1, height: 1 };
+  /** By what they stand for: "place ID" or "connection ROW". */
   private elements = new Map<string, SVGGraphicsElement[]>();
+  private pieces: { element: SVGGraphicsElement; rows: readonly number[] }[] = [];
   private version = -1;
   private timer = 0;
   private asked = 0;
@@ -47,7 +52,7 @@ export class Schematic {
     this.sheet.append(this.halos, this.drawn);
     this.canvas = svg("svg", { class: "net-sheet", role: "img", "aria-label": "Schematic of the plant" }, this.sheet);
     pane.classList.add("net-schematic");
-    pane.append(this.toolbar(), this.canvas, this.note);
+    pane.append(this.toolbar(), this.canvas, this.partly, this.note);
     this.listen();
     new ResizeObserver(() => this.resized()).observe(this.canvas);
   }
@@ -113,38 +118,57 @@ export class Schematic {
     for (const line of drawing.querySelectorAll("path[data-line]")) widen(line);
     this.drawn.replaceChildren(drawing);
     this.elements.clear();
-    for (const element of drawing.querySelectorAll<SVGGraphicsElement>("[data-id],[data-line]")) {
+    const plan = this.planNow();
+    this.pieces = [];
+    for (const element of drawing.querySelectorAll<SVGGraphicsElement>("[data-id],[data-line],[data-connection]")) {
       const id = element.getAttribute("data-id");
-      const key = id !== null ? `place ${id}` : `line ${element.getAttribute("data-line")}`;
-      const known = this.elements.get(key);
-      if (known) known.push(element);
-      else this.elements.set(key, [element]);
+      if (id !== null) this.keep(`place ${id}`, element);
+      else {
+        const rows = connectionsOf(element, plan);
+        this.pieces.push({ element, rows });
+        for (const row of rows) this.keep(`connection ${row}`, element);
+      }
     }
     if (this.measure() && (!this.frame || !this.touched)) this.open();
     this.lastShown = "";
     this.light();
   }
 
+  private keep(key: string, element: SVGGraphicsElement): void {
+    const known = this.elements.get(key);
+    if (known) known.push(element);
+    else this.elements.set(key, [element]);
+  }
+
   /** Lights what is selected, hovered and marked; goes there if it is out of sight. */
   private light(): void {
-    const plan = this.planNow();
     const { marks } = this.store.shown;
     const selected = this.selected();
     const hovered = new Set<string>();
     if (this.focus.hoveredPlace) hovered.add(`place ${this.focus.hoveredPlace}`);
-    for (const row of this.focus.hoveredConnections) addLine(plan, row, hovered);
+    for (const row of this.focus.hoveredConnections) hovered.add(`connection ${row}`);
     const marked = new Set([...marks?.places ?? []].map((id) => `place ${id}`));
-    for (const row of marks?.connections ?? []) addLine(plan, row, marked);
     this.drawn.classList.toggle("has-marks", marks !== null);
     for (const [key, elements] of this.elements) {
+      if (!key.startsWith("place ")) continue;
       const close = marks?.close.has(key.slice("place ".length)) ?? false;
       for (const { classList } of elements) {
         classList.toggle("is-selected", selected.has(key));
         classList.toggle("is-hovered", hovered.has(key));
         classList.toggle("is-marked", marked.has(key));
-        classList.toggle("is-close", close && key.startsWith("place "));
+        classList.toggle("is-close", close);
       }
     }
+    let partly = false;
+    for (const { element: { classList }, rows } of this.pieces) {
+      const mark = marks ? markOf(rows, marks.connections) : "none";
+      classList.toggle("is-selected", rows.some((row) => selected.has(`connection ${row}`)));
+      classList.toggle("is-hovered", rows.some((row) => hovered.has(`connection ${row}`)));
+      classList.toggle("is-marked", mark === "all");
+      classList.toggle("is-partly", mark === "partly");
+      partly ||= mark === "partly" && classList.contains("p");
+    }
+    this.partly.hidden = !partly;
     this.drawHalos(selected, marks ? [...marks.close].map((id) => `place ${id}`) : []);
     this.follow(selected);
   }
@@ -182,10 +206,9 @@ export class Schematic {
 
   private selected(): Set<string> {
     const found = new Set<string>();
-    const plan = this.planNow();
     const { place } = this.focus;
     if (place) found.add(`place ${place.id}`);
-    for (const row of this.focus.connections) addLine(plan, row, found);
+    for (const row of this.focus.connections) found.add(`connection ${row}`);
     return found;
   }
 
@@ -296,7 +319,8 @@ export class Schematic {
 
   private under(target: Element | null): { id?: string; line: number } | null {
     const element = target?.closest("[data-id],[data-line]");
-    if (!element || !this.drawn.contains(element)) return null;
+    // A drawing of before may call another line so.
+    if (!element || !this.drawn.contains(element) || this.version !== this.store.content?.version) return null;
     const plan = this.planNow();
     const id = element.getAttribute("data-id");
     if (id !== null) return plan.places.has(id) ? { id, line: -1 } : null;
@@ -305,14 +329,13 @@ export class Schematic {
   }
 }
 
-function addLine(plan: Plan, row: number, keys: Set<string>): void {
-  const line = plan.content.network.lines[plan.content.network.connections[row]?.line ?? -1];
-  if (line) keys.add(`line ${line.tag}`);
-}
-
 /** A line is easier to hit than it is wide. */
 function widen(line: Element): void {
-  const hit = svg("path", { class: "net-hit", d: line.getAttribute("d") ?? "", "data-line": line.getAttribute("data-line") ?? "" });
+  const hit = svg("path", { class: "net-hit" });
+  for (const name of ["d", "data-line", "data-connection"]) {
+    const value = line.getAttribute(name);
+    if (value !== null) hit.setAttribute(name, value);
+  }
   // Before everything else, so that it is never in the way of a symbol.
   line.parentElement?.prepend(hit);
 }

@@ -3,7 +3,7 @@
 import type { Panels } from "../panels/panels.ts";
 import type { Connection, Edit, Flow, Joint, Line } from "../types.ts";
 import { el } from "../dom.ts";
-import { flowState, lengthText, lineSizeText, opposite, shareText, sizeText, wayText } from "./flow.ts";
+import { flowState, isSet, lengthText, lineSizeText, opposite, shareText, sizeText, wayText } from "./flow.ts";
 import { otherSide, type Place, walk } from "./plan.ts";
 import { answerCard, counted, placeLink, type Shower } from "./result.ts";
 import { LIKELY } from "./warnings.ts";
@@ -78,7 +78,7 @@ function connectionCard(context: SlotContext, row: number): HTMLElement {
     el("p", { class: "net-soft" }, `${sizeText(connection)}, ${lengthText(connection.length)}`),
     line ? lineLink(context, connection.line, line) : null,
     flowText(connection),
-    editable ? directionButtons(connection.flow, connection.source_name, connection.target_name, (flow) =>
+    editable ? directionButtons(connection.flow, connection.source_name, connection.target_name, isSet(connection, plan), (flow) =>
       context.panels.edit([directionEdit(context, connection, flow)])) : null);
 }
 
@@ -90,8 +90,9 @@ function lineCard(context: SlotContext, row: number): HTMLElement {
   const doubtful = connections.filter((connection) => flowState(connection) !== "known").length;
   const start = plan.places.get(line.start)?.name ?? line.start;
   const end = plan.places.get(line.end)?.name ?? line.end;
-  const edits = (flow: Flow) => steps.map(({ along }, i) =>
-    directionEdit(context, connections[i], along ? flow : opposite(flow)));
+  const set = connections.map((connection) => isSet(connection, plan));
+  const edits = (flow: Flow) => steps.flatMap(({ along }, i) =>
+    (flow === "unknown" && !set[i] ? [] : [directionEdit(context, connections[i], along ? flow : opposite(flow))]));
   const words: Record<string, string> = {
     forward: `Flows from ${start} to ${end}`, backward: `Flows from ${end} to ${start}`, unknown: "Direction of flow unknown",
     none: "No flow: it ends at a closed end", contradictory: "The directions found along it contradict each other",
@@ -103,7 +104,7 @@ function lineCard(context: SlotContext, row: number): HTMLElement {
     el("p", {}, words[line.flow] ?? `Flow: ${line.flow}`,
       reasonOf(connections) ? el("span", { class: "net-soft" }, `: ${reasonOf(connections)}`) : null),
     doubtful ? el("p", { class: "net-verdict is-unsure" }, `Not certain in ${doubtful} of ${counted(connections.length, "piece")}.`) : null,
-    editable ? directionButtons(line.flow as Flow, start, end, (flow) => context.panels.edit(edits(flow))) : null);
+    editable ? directionButtons(line.flow as Flow, start, end, set.includes(true), (flow) => context.panels.edit(edits(flow))) : null);
 }
 
 function reasonOf(connections: readonly Connection[]): string | null {
@@ -127,14 +128,16 @@ function flowText(connection: Connection): HTMLElement {
     el("span", { class: "net-soft" }, `, ${state === "doubtful" ? "not certain: " : ""}likelihood ${shareText(connection.confidence)}`));
 }
 
-function directionButtons(flow: Flow, source: string, target: string, send: (flow: Flow) => Promise<boolean>): HTMLElement {
+function directionButtons(
+  flow: Flow, source: string, target: string, set: boolean, send: (flow: Flow) => Promise<boolean>,
+): HTMLElement {
   const choice = (value: Flow, text: string, title: string) => el("button", {
     type: "button", "data-test": `net-flow-${value}`, title, "aria-pressed": value === "unknown" ? undefined : String(flow === value), onclick: () => void send(value),
   }, text);
   return el("div", { class: "net-buttons", role: "group", "aria-label": "Direction of flow" },
     choice("forward", `${source} → ${target}`, `Set: flows from ${source} to ${target}`),
     choice("backward", `${target} → ${source}`, `Set: flows from ${target} to ${source}`),
-    choice("unknown", "Take back", "Takes a direction back that was set by hand"));
+    set && choice("unknown", "Take back", "Takes a direction back that was set by hand"));
 }
 
 function button(test: string, text: string, title: string, run: () => void): HTMLElement {

@@ -25,3 +25,8 @@ export function pieces(text: string, plan: Plan): Piece[] {
   if (end < text.length) found.push({ text: text.slice(end), place: null });
   return found;
 }
+
+/** A line of columns, as the command line prints it: how far it is set in, and what stands in each column. */
+export function columns(line: string): { indent: number; cells: string[] } {
+  return { indent: line.length - line.trimStart().length, cells: line.trim().split(/ {2,}/) };
+}

@@ -4,7 +4,8 @@ import { Refused, type Source } from "../api.ts";
 import type { Store } from "../store.ts";
 import type { Edit, Question, ServerState, Update } from "../types.ts";
 import { carry } from "./carry.ts";
-import type { Page } from "./page.ts";
+import { narrower } from "./narrow.ts";
+import type { Action, Page } from "./page.ts";
 import type { Choice, Sent } from "./queue.ts";
 import { sentence } from "./words.ts";
 
@@ -17,6 +18,8 @@ interface Sending {
   back?: "Undo" | "Redo";
   /** Nothing is said if it is taken. */
   quiet?: boolean;
+  /** What else is offered once it is taken. */
+  offer?: (update: Update) => Action[];
 }
 
 export class Corrector {
@@ -44,11 +47,19 @@ export class Corrector {
       if (carried) void this.edit(carried, why);
       else this.say("What you corrected is no more in the plant as it is now.", "bad");
     };
-    return (await this.send(send, { repeat })) !== null;
+    const offer = (update: Update) => narrower(edits, this.store.content!, update.changed).map(
+      (way) => ({ text: way.text, run: () => void this.instead(update.version, way.edits, why) })
+    );
+    return (await this.send(send, { repeat, offer })) !== null;
   }
 
-  async undo(): Promise<boolean> {
-    return (await this.send((version) => this.source.undo(version), { back: "Redo" })) !== null;
+  /** Another correction in the place of the one that led to a version, if nothing came after it. */
+  private async instead(version: number, edits: Edit[], why: string): Promise<void> {
+    if (await this.revert("Undo", version, true)) await this.edit(edits, why);
+  }
+
+  async undo(quiet = false): Promise<boolean> {
+    return (await this.send((version) => this.source.undo(version), { back: "Redo", quiet })) !== null;
   }
 
   async redo(): Promise<boolean> {
@@ -72,8 +83,8 @@ export class Corrector {
     return this.revert("Undo", version);
   }
 
-  private async revert(back: "Undo" | "Redo", version: number): Promise<boolean> {
-    if (this.store.state?.version === version) return back === "Undo" ? this.undo() : this.redo();
+  private async revert(back: "Undo" | "Redo", version: number, quiet = false): Promise<boolean> {
+    if (this.store.state?.version === version) return back === "Undo" ? this.undo(quiet) : this.redo();
     this.say(
       "Something else was corrected since; the buttons above and the list under History go back step by step.", "bad"
     );
@@ -115,7 +126,7 @@ export class Corrector {
   }
 
   private send(
-    run: (version: number) => Promise<Update>, { repeat, back = "Undo", quiet = false }: Sending = {}
+    run: (version: number) => Promise<Update>, { repeat, back = "Undo", quiet = false, offer }: Sending = {}
   ): Promise<Update | null> {
     return this.inTurn(async () => {
       this.refusal = "";
@@ -127,7 +138,7 @@ export class Corrector {
         if (update.message && !quiet) {
           const can = back === "Undo" ? update.state.can_undo : update.state.can_redo;
           const action = { text: back, run: () => void this.revert(back, update.version) };
-          this.say(sentence(update.message), "good", changed && can ? [action] : []);
+          this.say(sentence(update.message), "good", changed && can ? [action, ...(offer?.(update) ?? [])] : []);
         }
         return update;
       } catch (error) {

@@ -4,7 +4,8 @@ import type { AuditRow } from "../types.ts";
 import { el, fill } from "../dom.ts";
 import { icon } from "./widgets.ts";
 import type { Page } from "./page.ts";
-import { button, note } from "./pieces.ts";
+import { namesIn } from "./mentions.ts";
+import { button, linkButton, note } from "./pieces.ts";
 import { count, moment } from "./words.ts";
 
 export class History {
@@ -18,6 +19,7 @@ export class History {
     this.page = page;
     page.store.watch(["leftTab"], () => this.refresh());
     page.store.on("state", () => this.refresh());
+    page.store.on("content", () => this.refresh());
   }
 
   private refresh(): void {
@@ -68,10 +70,19 @@ export class History {
       { datetime: row.when || null, title: row.when ? new Date(row.when).toLocaleString() : "The time was not kept" },
       moment(row.when)
     );
+    const what = this.linked(row.what);
     return el("li", { class: row.undone ? "undone" : "", "data-test": "audit" },
-      row.undone ? el("s", {}, row.what) : el("span", {}, row.what),
+      row.undone ? el("s", {}, ...what) : el("span", {}, ...what),
       row.undone && el("span", { class: "badge" }, "undone"),
       row.why && el("p", { class: "audit-why" }, row.why),
       el("p", { class: "soft" }, row.who || "somebody", ", ", time));
+  }
+
+  /** What was done, with those of its parts and units to click that are there by that name now. */
+  private linked(text: string): (Node | string)[] {
+    const { content } = this.page.store;
+    if (!content) return [text];
+    return namesIn(text, content).map(({ text, parts, place }) =>
+      parts ? linkButton(text, `Select what is called ${text} now`, () => this.page.go(parts, place), "audit-link") : text);
   }
 }

@@ -1,6 +1,6 @@
 // The inspector of several parts at once.
 
-import type { Content, Edit } from "../types.ts";
+import type { Content, Edit, Line } from "../types.ts";
 import { el, fill } from "../dom.ts";
 import { bar, fold, swatch } from "./widgets.ts";
 import type { LabelChoice, Page } from "./page.ts";
@@ -24,6 +24,22 @@ export function inspectMany(
   fill(rest,
     joints.open && note("They may join what they were not joined to:", joints.open),
     fold("Parts", true, partList(page, content, rows)));
+}
+
+/** A line of the network: its own card, which the network fills in, comes before what can be done with its parts. */
+export function inspectLine(
+  page: Page, content: Content, line: Line, rows: readonly number[], head: HTMLElement, rest: HTMLElement
+): void {
+  fill(head,
+    el("div", { class: "title" }, el(
+      "div", { class: "grow" }, el("h2", { "data-test": "line-tag" }, `Line ${line.tag}`),
+      el("p", { class: "soft" }, count(rows.length, "part"))
+    )),
+    viewButtons(page, rows));
+  fill(rest,
+    fold("What it is made of", true, byLabel(page, content, rows)),
+    fold("Parts", false, partList(page, content, rows)),
+    page.canEdit() && fold("Correct its parts", false, correct(page, content, rows)));
 }
 
 /** How many of each label, the most first; a click narrows the selection to them. */

@@ -13,6 +13,11 @@ import {
 let onlyThis = false;
 let lastRow = -1;
 
+/** Whether the person wants the next label for this part alone. */
+export function isForThisOnly(row: number): boolean {
+  return onlyThis && row === lastRow;
+}
+
 export function inspectPart(page: Page, content: Content, row: number, head: HTMLElement, rest: HTMLElement): void {
   if (row !== lastRow) onlyThis = false;
   lastRow = row;
@@ -68,7 +73,7 @@ function correction(page: Page, content: Content, row: number): HTMLElement {
     const now = current(group, name);
     put(list, el("button", {
       type: "button", class: now ? "guess now" : "guess", "data-test": "guess", "data-key": `guess-${group}-${name}`,
-      title: now ? "It is labelled so: click to confirm it" : `Label it so${onlyThis ? "" : `, and all ${whole(alike.length)} like it`}`,
+      title: now ? "It is labelled so: click to confirm it" : alike.length > 1 ? `Label it so, or all ${whole(alike.length)} of its shape, as chosen below` : "Label it so",
       onclick: () => send({ group: groups[group].name, name }),
     }, swatch(groups[group].color, "sure"), el("span", { class: "grow" }, upper(name ?? groups[group].name)),
     now && el("span", { class: "tick" }, "✓ now"), el("span", { class: "number" }, percent(confidence))));
@@ -79,8 +84,11 @@ function correction(page: Page, content: Content, row: number): HTMLElement {
     onclick: () => page.pickLabel(`What is this ${labelOf(content, row).name.toLowerCase()}?`, first, send),
   }, "Other…"));
   return el("section", { class: "correct", "aria-label": "Correct the label" },
-    el("h3", {}, parts.state[row] === "sure" ? "Wrong? Click what it is" : "What is it?"), list,
-    alike.length > 1 ? reach(alike.length) : el("p", { class: "soft" }, "No other part has its shape."),
+    el("h3", {}, parts.state[row] === "sure" ? "Wrong? Click what it is" : "What is it?"),
+    guesses.length > 0 && page.store.shown.question !== null && el(
+      "p", { class: "soft" }, "By the labeler alone; the review weighs all evidence."
+    ), list,
+    reach(alike.length),
     parts.source[row] === "human" && button(
       "Take my correction back", "The label it would have without your correction",
       () => void page.edit([{ kind: "forget", part: parts.id[row] }]), "forget"
@@ -88,7 +96,7 @@ function correction(page: Page, content: Content, row: number): HTMLElement {
     reason.element);
 }
 
-/** "All 24 like it" or "this part only". */
+/** The part with its shape, and softly with what looks much like it, or the part alone: kin may follow a single part, too. */
 function reach(n: number): HTMLElement {
   const choice = (only: boolean, text: string, test: string) =>
     el(
@@ -102,7 +110,12 @@ function reach(n: number): HTMLElement {
       text
     );
   return el("fieldset", { class: "reach" }, el("legend", { class: "only-read" }, "For which parts"),
-    choice(false, `Same for all ${whole(n)} like it`, "all-alike"), choice(true, "This part only", "this-only"));
+    choice(false, n > 1 ? `All ${whole(n)} of its shape, and parts much like it` : "It, and parts much like it", "all-alike"),
+    choice(true, "This part only", "this-only"),
+    el(
+      "p", { class: "soft" },
+      `${n > 1 ? "" : "No other part has its shape. "}Which parts look much enough like it is said once it is done, and can be narrowed then.`
+    ));
 }
 
 function about(page: Page, content: Content, row: number): HTMLElement {

@@ -118,17 +118,25 @@ function ports(unit: Unit): HTMLElement {
 
 function explode(page: Page, unit: Unit): HTMLElement | null {
   if (unit.parts.length < 2) return null;
-  const now = page.store.shown.explode;
+  const share = () => {
+    const now = page.store.shown.explode;
+    return now?.unit === unit.id ? Math.round(100 * now.share) : 0;
+  };
   const input = el(
     "input",
     {
-      type: "range", min: 0, max: 100, value: now?.unit === unit.id ? 100 * now.share : 0,
+      type: "range", min: 0, max: 100, value: share(),
       "aria-label": "Draw its parts apart", "data-test": "explode", "data-key": "explode"
     }
   );
   input.addEventListener("input", () => {
-    const share = Number(input.value) / 100;
-    page.store.set({ explode: share ? { unit: unit.id, share } : null });
+    const wanted = Number(input.value) / 100;
+    page.store.set({ explode: wanted ? { unit: unit.id, share: wanted } : null });
+  });
+  // There is another slider in the view, and a key.
+  const off = page.store.watch(["explode"], () => {
+    if (input.isConnected) input.value = String(share());
+    else off();
   });
   return el("label", { class: "slider" }, "Explode", input);
 }

@@ -1,9 +1,9 @@
 // The right panel: what is selected, and what can be done about it.
 
-import type { Content } from "../types.ts";
+import type { Content, Line } from "../types.ts";
 import { el, fill } from "../dom.ts";
 import { bar, swatch } from "./widgets.ts";
-import { inspectMany } from "./inspect_many.ts";
+import { inspectLine, inspectMany } from "./inspect_many.ts";
 import { inspectPart } from "./inspect_part.ts";
 import { inspectEnd, inspectUnit } from "./inspect_place.ts";
 import type { Page } from "./page.ts";
@@ -13,6 +13,8 @@ import { count, percent, whole } from "./words.ts";
 export class Inspector {
   readonly element: HTMLElement;
   readonly networkSlot = el("div", { class: "network-slot", "data-test": "network-slot" });
+  /** The line whose parts are selected, as the network knows it. */
+  lineNow: () => Line | null = () => null;
   private readonly head = el("div", { class: "inspector-head" });
   private readonly rest = el("div", { class: "inspector-rest" });
   private readonly page: Page;
@@ -72,7 +74,9 @@ export class Inspector {
     this.drawn = { selection, place };
     const unit = place && content.network.units.find((unit) => unit.id === place);
     const end = place && content.network.ends.find((end) => end.id === place);
-    if (unit) inspectUnit(this.page, content, unit, this.head, this.rest);
+    const line = this.lineNow();
+    if (line) inspectLine(this.page, content, line, selection, this.head, this.rest);
+    else if (unit) inspectUnit(this.page, content, unit, this.head, this.rest);
     else if (end) inspectEnd(this.page, content, end, this.head, this.rest);
     else if (selection.length === 1) inspectPart(this.page, content, selection[0], this.head, this.rest);
     else if (selection.length > 1) inspectMany(this.page, content, selection, this.head, this.rest);

@@ -4,7 +4,7 @@ import { Refused, type Source } from "../api.ts";
 import { addCommands } from "../commands.ts";
 import type { SceneView } from "../scene/view.ts";
 import type { LeftTab, Store } from "../store.ts";
-import type { Content, Edit } from "../types.ts";
+import type { Content, Edit, Line } from "../types.ts";
 import { Address } from "./address.ts";
 import { Building } from "./building.ts";
 import { Corrector } from "./corrector.ts";
@@ -12,6 +12,7 @@ import { openHelp } from "./dialog.ts";
 import { el, fill } from "../dom.ts";
 import { Find } from "./find.ts";
 import { History } from "./history.ts";
+import { isForThisOnly } from "./inspect_part.ts";
 import { Inspector } from "./inspector.ts";
 import { layOut } from "./layout.ts";
 import type { LabelChoice, Page } from "./page.ts";
@@ -36,6 +37,8 @@ export interface Panels {
   /** Shows progress until the content is there. */
   untilReady(): Promise<void>;
   connect(view: SceneView): void;
+  /** Lets the network say which line is selected, for the inspector's title. */
+  followLine(lineNow: () => Line | null): void;
   /** Sends corrections, says what came of them, and lays the answer over the store; false where it was refused. */
   edit(edits: Edit[], why?: string): Promise<boolean>;
   /** A line for the person, told to screen readers, too. */
@@ -47,6 +50,7 @@ export function startPanels(app: HTMLElement, store: Store, source: Source): Pan
   const toasts = new Toasts(app);
   const say: Page["say"] = (text, tone, actions) => toasts.say(text, tone, actions);
   const corrector = new Corrector(store, source, say);
+  store.on("gone", (name) => say(`${name} is no more: nothing is selected now.`));
   const hint = el("div", { class: "pick-hint", role: "status", "data-test": "pick-hint", hidden: true });
   const picking = new NextPick(store, hint);
   const page: Page = {
@@ -107,10 +111,12 @@ export function startPanels(app: HTMLElement, store: Store, source: Source): Pan
       address.start();
       if (!source.live && ["review", "history"].includes(store.shown.leftTab)) store.set({ leftTab: "find" });
     },
+    followLine: (lineNow) => (inspector.lineNow = lineNow),
     connect: (view) => {
       page.view = view;
       const { camera } = store.shown;
       if (camera) view.setCamera(camera);
+      else review.viewed();
     },
   };
 }
@@ -251,7 +257,7 @@ function labelSelection(page: Page): void {
   page.pickLabel(
     title, first,
     (choice) => void page.edit(
-      rows.map((row): Edit => ({ kind: "label", part: content.parts.id[row], ...choice, this_only: rows.length > 1 }))
+      rows.map((row): Edit => ({ kind: "label", part: content.parts.id[row], ...choice, this_only: rows.length > 1 || isForThisOnly(row) }))
     )
   );
 }

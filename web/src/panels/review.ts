@@ -8,6 +8,7 @@ import { bar, swatch } from "./widgets.ts";
 import type { LabelChoice, Page } from "./page.ts";
 import { button } from "./pieces.ts";
 import { choiceWords, Queue, type Choice } from "./queue.ts";
+import { uncovering } from "../seen.ts";
 import { count, labelOf, meshName, percent, sentence, upper, whole } from "./words.ts";
 
 const LIMIT = 50;
@@ -26,6 +27,8 @@ export class Review {
   /** Whether the panel is unfolded: keys must not answer what nobody sees. */
   private readonly seen: () => boolean;
   private shownId = "";
+  /** Whether the server had as many questions as were asked for. */
+  private full = false;
   private trouble = "";
 
   constructor(page: Page, corrector: Corrector, changedCount: () => void, seen: () => boolean) {
@@ -33,7 +36,11 @@ export class Review {
     this.changedCount = changedCount;
     this.seen = seen;
     this.queue = new Queue({
-      load: () => page.source.review(LIMIT),
+      load: async () => {
+        const listed = await page.source.review(LIMIT);
+        this.full = listed.length >= LIMIT;
+        return listed;
+      },
       send: (question, choice) => corrector.answer(question, choice),
       takeBack: (version) => corrector.takeBack(version),
     }, () => this.changed());
@@ -52,6 +59,19 @@ export class Review {
     });
   }
 
+  /** The view is there now: what was asked before it is looked at. */
+  viewed(): void {
+    const { question } = this.page.store.shown;
+    if (this.isOpen && question) this.look(question);
+  }
+
+  /** Wherever the camera was left, and whatever is hidden: who answers must see what is asked about. */
+  private look(question: Question): void {
+    const { content, shown } = this.page.store;
+    if (content) this.page.store.set(uncovering(content, shown, question.parts));
+    this.page.view?.flyTo(question.parts);
+  }
+
   /** Asks for the list; a queue that can't be had is said in its place. */
   async load(): Promise<void> {
     if (this.page.store.state?.status !== "ready") return;
@@ -67,8 +87,8 @@ export class Review {
   /** How many are left, as the top bar says it; nothing while that is not known. */
   get left(): string {
     if (!this.queue.loaded) return "";
-    const n = this.queue.waiting.length;
-    return n >= LIMIT ? `${n}+` : String(n);
+    // Where the list was full there are more than it holds, whatever was answered since.
+    return this.full ? `${LIMIT}+` : String(this.queue.waiting.length);
   }
 
   private get isOpen(): boolean {
@@ -96,11 +116,18 @@ export class Review {
     }
     this.shownId = question?.id ?? "";
     this.show(question);
-    if (question) this.told.textContent = `${question.title} ${this.subject(question)}. ${question.options.map((option, i) => `${i + 1}: ${option.text}`).join(", ")}. ${this.left} left.`;
+    if (!question) return;
+    this.look(question);
+    this.told.textContent = `${question.title} ${this.subject(question)}. ${question.options.map((option, i) => `${i + 1}: ${option.text}`).join(", ")}. ${this.left} left.`;
   }
 
   private show(question: Question | null): void {
     this.page.store.set({ question, ...(question ? { selection: question.parts, place: null } : {}) });
+  }
+
+  private again(question: Question): void {
+    this.show(question);
+    this.look(question);
   }
 
   private subject(question: Question): string {
@@ -196,7 +223,7 @@ export class Review {
         "span", { class: "soft", "data-test": "review-done" },
         decided ? `${whole(decided)} answered` : "most worth a look first"
       ),
-      bar(decided / Math.max(decided + waiting.length, 1), `${decided} answered, ${waiting.length} left`));
+      bar(decided / Math.max(decided + waiting.length, 1), `${decided} answered, ${this.left} left`));
   }
 
   /** What became of the last answer. */
@@ -243,13 +270,16 @@ export class Review {
         keyed("s", "Skip", "Ask me later (s)", () => this.answer("skip"), "review-skip")),
       el(
         "button",
-        { type: "button", class: "link", "data-key": "review-look", onclick: () => this.page.go(question.parts) },
+        { type: "button", class: "link", "data-key": "review-look", onclick: () => this.again(question) },
         "Show it again"
       ));
   }
 
   private options(content: Content, question: Question): HTMLElement {
     const list = el("div", { class: "options", role: "group", "aria-label": "Answers" });
+    if (question.options.some((option) => option.confidence !== null)) {
+      put(list, el("p", { class: "soft option-head" }, el("span", {}, "It is"), el("span", {}, "by all evidence")));
+    }
     question.options.slice(0, 5).forEach((option, i) => {
       const edit = option.edits.find((edit) => edit.kind === "label");
       const color = edit?.kind === "label" ? (

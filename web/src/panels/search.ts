@@ -47,6 +47,8 @@ export class Index {
   private readonly names: string[] = [];
   private readonly paths: string[];
   private readonly bores: Map<number, number[]> = new Map();
+  /** Nominal sizes of the lines at each unit, by its id. */
+  private readonly sizes: Map<string, Set<number>> = new Map();
 
   constructor(content: Content) {
     this.content = content;
@@ -65,6 +67,9 @@ export class Index {
     }
     for (const connection of network.connections) {
       if (connection.size === null) continue;
+      for (const id of [connection.source, connection.target]) {
+        this.sizes.set(id, (this.sizes.get(id) ?? new Set()).add(connection.size));
+      }
       for (const row of connection.via) {
         const of = this.bores.get(row);
         if (!of) this.bores.set(row, [connection.size]);
@@ -102,9 +107,10 @@ export class Index {
 
   private unit(i: number, wanted: Wanted): number {
     const unit = this.content.network.units[i];
-    if (
-      wanted.bores.length && !wanted.bores.every((bore) => unit.ports.some((port) => near(port.diameter, bore)))
-    ) return -1;
+    // A port is as wide as its pipe is outside; what tells the nominal size is the line at it.
+    const sizes = this.sizes.get(unit.id);
+    const has = (bore: number) => (sizes ? sizes.has(bore) : unit.ports.some((port) => near(port.diameter, bore)));
+    if (!wanted.bores.every(has)) return -1;
     if (!wanted.lengths.every((span) => unit.size.some((side) => within(side, span)))) return -1;
     const tag = unit.tag.toLowerCase();
     const facts = unit.facts.map(([, value]) => value).join(" ");

@@ -5,6 +5,7 @@ import { icon } from "./widgets.ts";
 import type { Action, Tone } from "./page.ts";
 
 const LASTS = { info: 6000, good: 6000, bad: 15_000 };
+const MANY_LAST = 15_000;
 const MOST = 3;
 
 export class Toasts {
@@ -24,11 +25,8 @@ export class Toasts {
     const toast = el("div", { class: `toast ${tone}`, "data-test": "toast" },
       icon(tone === "good" ? "check" : tone === "bad" ? "warn" : "dot"), el("span", { class: "toast-text" }, text));
     const close = () => toast.remove();
-    for (const action of actions) {
-      toast.append(
-        el("button", { type: "button", class: "quiet", onclick: () => { close(); action.run(); } }, action.text)
-      );
-    }
+    toast.append(el("span", { class: "toast-actions" }, ...actions.map((action) =>
+      el("button", { type: "button", class: "quiet", onclick: () => { close(); action.run(); } }, action.text))));
     toast.append(
       el(
         "button", { type: "button", class: "icon-button", "aria-label": "Dismiss", title: "Dismiss", onclick: close },
@@ -43,7 +41,8 @@ export class Toasts {
     }
     this.element.append(toast);
     while (this.element.children.length > MOST) this.element.firstElementChild!.remove();
-    let timer = setTimeout(close, LASTS[tone]);
+    // More to choose from takes longer to read.
+    let timer = setTimeout(close, actions.length > 1 ? Math.max(LASTS[tone], MANY_LAST) : LASTS[tone]);
     // Who reads or reaches for a button is not to be hurried.
     for (const event of ["pointerenter", "focusin"]) toast.addEventListener(event, () => clearTimeout(timer));
     for (const event of ["pointerleave", "focusout"]) toast.addEventListener(

@@ -28,6 +28,7 @@ const SOURCES: Record<string, [string, string]> = {
   embedded: ["Geometry", "#4477aa"], geometry: ["Geometry", "#4477aa"], lvlm: ["Vision-language model", "#aa3377"],
   author: ["Given with the scene", "#228833"], human: ["Corrected by a person", "#ee7733"],
   catalog: ["Catalogue", "#ccbb44"], file: ["The file's own data", "#66ccee"], graph: ["Neighbours", "#997700"],
+  network: ["The pipes around it", "#997700"], repeat: ["Like a corrected part", "#f2b27a"],
 };
 
 /** The colours of all parts by one of their properties. */

@@ -6,6 +6,8 @@ import type { Coloring } from "./colors.ts";
 import type { Plant } from "./plant.ts";
 import { FLAG } from "./shaders.ts";
 
+/** What is left of the ground's colour where the page is dark: a bright slab would outshine the plant. */
+const DIMMED = 0.42;
 /** Parts drawn over everything: what a person looks for must not stay behind something. */
 const MOST_EMPHASISED = 4000;
 
@@ -40,6 +42,7 @@ export class Look {
     const coloring = this.coloring!;
     const shown = this.store.shown;
     const flags = this.flagsOfParts(shown);
+    const { ground } = this.store.content!.parts;
     const palette = coloring.entries.map((entry) => rgb(entry.color));
     this.emphasised = [];
     this.hasGhosts = false;
@@ -48,9 +51,8 @@ export class Look {
       const at = 4 * mesh;
       const entry = part >= 0 ? coloring.entryOf[part] : -1;
       const color = entry >= 0 ? palette[entry] : this.ownColor(mesh);
-      this.state[at] = color[0];
-      this.state[at + 1] = color[1];
-      this.state[at + 2] = color[2];
+      const share = shown.theme === "dark" && part >= 0 && ground[part] ? DIMMED : 1;
+      for (let k = 0; k < 3; k++) this.state[at + k] = Math.round(share * color[k]);
       let flag = part >= 0 ? flags[part] : shown.isolated || shown.marks ? FLAG.ghost : 0;
       if (part >= 0 && coloring.hatched[part]) flag |= FLAG.hatched;
       const hidden = part >= 0 && shown.hidden.has(part);

@@ -87,3 +87,32 @@ export function besideLine(
   const away = (Math.abs(normal.x) * label.width + Math.abs(normal.y) * label.height) / 2 + 8;
   return { x: (a.x + b.x) / 2 + normal.x * away, y: (a.y + b.y) / 2 + normal.y * away };
 }
+
+export interface Box {
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+}
+
+const GAP = 4; // px between labels
+const MOST_STEPS = 12;
+
+/** Where a label goes (its middle) so that it covers none that is placed already: as near above or below its place as there is room. */
+export function besideOthers(at: { x: number; y: number }, size: { width: number; height: number }, taken: readonly Box[]): Box {
+  const tried = (y: number): Box => ({ x: at.x, y, ...size });
+  const covered = (box: Box) => taken.filter((other) =>
+    Math.abs(box.x - other.x) < (box.width + other.width) / 2 && Math.abs(box.y - other.y) < (box.height + other.height) / 2 + GAP - 1);
+  let best: Box | null = null;
+  for (const way of [-1, 1]) {
+    let box = tried(at.y);
+    let under = covered(box);
+    for (let step = 0; step < MOST_STEPS && under.length; step++) {
+      const edges = under.map((other) => way * other.y + other.height / 2);
+      box = tried(way * (Math.max(...edges) + size.height / 2 + GAP));
+      under = covered(box);
+    }
+    if (!under.length && (!best || Math.abs(box.y - at.y) < Math.abs(best.y - at.y))) best = box;
+  }
+  return best ?? tried(at.y);
+}

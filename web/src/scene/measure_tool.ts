@@ -4,8 +4,8 @@ import { Vector3 } from "three";
 import type { Store } from "../store.ts";
 import { el, svg } from "../dom.ts";
 import { iconButton } from "./icons.ts";
-import { besideLine, catchPoint, measure, measuredText } from "./measure.ts";
-import type { Caught } from "./measure.ts";
+import { besideLine, besideOthers, catchPoint, measure, measuredText } from "./measure.ts";
+import type { Box, Caught } from "./measure.ts";
 import type { PlantView } from "./plant_view.ts";
 
 const LOOK_EVERY = 40; // ms: reading a pixel back waits for the card
@@ -173,10 +173,12 @@ export class MeasureTool {
     const mark = at && this.view.project(at.point.toArray());
     this.cursor.toggleAttribute("hidden", !mark);
     if (mark) this.cursor.setAttribute("transform", `translate(${mark.x} ${mark.y})`);
-    for (const drawn of this.preview ? [...this.kept, this.preview] : this.kept) this.placeOne(drawn);
+    const taken: Box[] = [];
+    for (const drawn of this.preview ? [...this.kept, this.preview] : this.kept) this.placeOne(drawn, taken);
   }
 
-  private placeOne({ from, to, group, label, size }: Drawn): void {
+  /** Draws a measurement; its label covers none of those before it. */
+  private placeOne({ from, to, group, label, size }: Drawn, taken: Box[]): void {
     const corner = new Vector3(to.x, from.y, from.z);
     const above = new Vector3(to.x, to.y, from.z);
     const [a, b, c, d] = [from, to, corner, above].map((point) => this.view.project(point.toArray()));
@@ -195,7 +197,8 @@ export class MeasureTool {
       circle.setAttribute("cx", [a, b][i].x.toFixed(1));
       circle.setAttribute("cy", [a, b][i].y.toFixed(1));
     });
-    const beside = besideLine(a, b, size);
+    const beside = besideOthers(besideLine(a, b, size), size, taken);
+    taken.push(beside);
     label.style.transform = `translate(${(beside.x - size.width / 2).toFixed(1)}px, ${(beside.y - size.height / 2).toFixed(1)}px)`;
   }
 }

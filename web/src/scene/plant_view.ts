@@ -25,7 +25,7 @@ const REST = 160; // ms without movement, after which the picture is finished
 const MOST_MASKED = 400;
 const MARGIN = 2.2; // what a part is looked at with: some of its neighbourhood
 /** Changes of these make the picture another one, though no colour. */
-const LOOKS: (keyof Shown)[] = ["selection", "hidden", "isolated", "ghost", "marks", "question", "explode"];
+const LOOKS: (keyof Shown)[] = ["selection", "hidden", "isolated", "ghost", "marks", "question", "explode", "theme"];
 
 export class PlantView implements SceneView {
   readonly element: HTMLElement;

@@ -19,7 +19,8 @@ def draw_diagram(graph: SceneGraph | Network, system: str | None = None, *, for_
         graph: the finished graph, or its network.
         system: id of the system to draw; all where None.
         for_page: whether the page that it is put into has the rules of :func:`diagram_style`, as one must that lets in
-            no styles within; else they are in the document.
+            no styles within; else they are in the document. The pieces of lines carry the rows of their connections as
+            ``data-connection`` then, so that the page can mark some of a line alone.
 
     Returns:
         An SVG document.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
@@ -37,12 +37,21 @@ Box = tuple[float, float, float, float]
 
 @dataclass
 class _Paper:
-    """What is drawn so far, and what of the paper is taken."""
+    """What is drawn so far, and what of the paper is taken.
 
+    Args:
+        numbered: whether pieces of lines tell their connections, which are numbered as the file happens to have them.
+    """
+
+    numbered: bool = False
     pipes: list[Svg] = field(default_factory=list)
     marks: list[Svg] = field(default_factory=list)
     boxes: list[Box] = field(default_factory=list)
     segments: list[Box] = field(default_factory=list)
+
+    def told(self, connections: Sequence[int]) -> str | None:
+        """Connections as an attribute; None where there are none, or where they are not told."""
+        return (" ".join(map(str, connections)) or None) if self.numbered else None
 
 
 def draw_sheet(network: Network, system: str | None = None, styled: bool = True) -> str:
@@ -56,7 +65,7 @@ def draw_sheet(network: Network, system: str | None = None, styled: bool = True)
     foot = _BLOCK[1] + 12 + 12 * len(notes)
     height = max(high, 40.0) + foot + 2 * _MARGIN
     body = [
-        _system(one, _MARGIN + x - one.box[0], _MARGIN + y + _CAPTION - one.box[1])
+        _system(one, _MARGIN + x - one.box[0], _MARGIN + y + _CAPTION - one.box[1], not styled)
         for one, (x, y) in zip(placed, corners, strict=True)
     ]
     if not placed:
@@ -83,8 +92,8 @@ def draw_sheet(network: Network, system: str | None = None, styled: bool = True)
     return f"{drawn}\n"
 
 
-def _system(placed: Placed, dx: float, dy: float) -> Svg:
-    paper = _Paper()
+def _system(placed: Placed, dx: float, dy: float, numbered: bool) -> Svg:
+    paper = _Paper(numbered)
     sketch = placed.sketch
     for edge, way in zip(sketch.edges, placed.ways, strict=True):
         _draw_way(paper, sketch.rows[edge.row], edge, _ended(placed, edge, way))
@@ -99,7 +108,9 @@ def _system(placed: Placed, dx: float, dy: float) -> Svg:
         if anchor.symbol.form == "junction":
             _draw_junction(paper, anchor.symbol, (x, y), [way for _, way in own])
         else:
-            _draw_anchor(paper, anchor.symbol, x, y, own)
+            rows = [(sketch.rows[edge.row], edge) for edge, _ in own]
+            ends = sorted({_nearest(row, edge) for row, edge in rows if row.line})
+            _draw_anchor(paper, anchor.symbol, x, y, own, ends)
     for edge, way in zip(sketch.edges, placed.ways, strict=True):
         if edge.port and sketch.anchors[edge.anchor].symbol.form in ("tank", "pump", "equipment", "exchanger"):
             _name_port(paper, edge.port, way)
@@ -151,11 +162,12 @@ def _directions(
 def _draw_way(paper: _Paper, row: Row, edge: Edge, way: Way) -> None:
     style = ("p" if row.line else "i") + ("" if edge.solid else " u")
     d = "M" + "L".join(f"{number(x)} {number(y)}" for x, y in way)
-    paper.pipes.append(element("path", class_=style, d=d, data_line=_tag(row)))
+    along = paper.told([_nearest(row, edge)] if row.line else [])
+    paper.pipes.append(element("path", class_=style, d=d, data_line=_tag(row), data_connection=along))
     for (ax, ay), (bx, by) in zip(way, way[1:], strict=False):
         paper.segments.append((min(ax, bx), min(ay, by), max(ax, bx), max(ay, by)))
     if edge.flow == "in":
-        _draw_arrow(paper, way[::-1], 4.0, _tag(row))
+        _draw_arrow(paper, way[::-1], 4.0, _tag(row), along)
 
 
 def _tag(row: Row) -> str | None:
@@ -163,7 +175,12 @@ def _tag(row: Row) -> str | None:
     return row.line.tag if row.line else None
 
 
-def _draw_arrow(paper: _Paper, way: Way, short: float, line: str | None) -> None:
+def _nearest(row: Row, edge: Edge) -> int:
+    """The connection of a row that leads to an anchor: ways go from anchors at the left into rows."""
+    return row.connections[0 if edge.into else -1]
+
+
+def _draw_arrow(paper: _Paper, way: Way, short: float, line: str | None, along: str | None) -> None:
     """A filled arrow at the end of a way, a little short of it."""
     for (ax, ay), (bx, by) in zip(way[-2::-1], way[:0:-1], strict=False):
         length = math.hypot(bx - ax, by - ay)
@@ -173,7 +190,7 @@ def _draw_arrow(paper: _Paper, way: Way, short: float, line: str | None) -> None
             left = (x - 8 * ux - 3 * uy, y - 8 * uy + 3 * ux)
             right = (x - 8 * ux + 3 * uy, y - 8 * uy - 3 * ux)
             corners = " ".join(f"{number(a)},{number(b)}" for a, b in ((x, y), left, right))
-            paper.marks.append(element("polygon", class_="k", points=corners, data_line=line))
+            paper.marks.append(element("polygon", class_="k", points=corners, data_line=line, data_connection=along))
             return
 
 
@@ -185,16 +202,32 @@ def _draw_row(paper: _Paper, row: Row, x: float, y: float) -> None:
     if row.line is None and row.cells:
         last = row.cells[-1]
         end = left + used - last.width / 2
-    d = f"M{number(left)} {number(y)}H{number(end)}"
-    paper.pipes.append(element("path", class_=style, d=d, data_line=_tag(row)))
-    paper.segments.append((left, y, left + row.width, y))
     at = left + (row.width - used) / 2 if row.line else left
+    for a, b, along in _stretches(row, left, end, at):
+        d = f"M{number(a)} {number(y)}H{number(b)}"
+        paper.pipes.append(element("path", class_=style, d=d, data_line=_tag(row), data_connection=paper.told(along)))
+    paper.segments.append((left, y, left + row.width, y))
     for cell in row.cells:
         _draw_cell(paper, cell, at + cell.width / 2, y, style)
         at += cell.width
     if row.label:
         low = max((cell.symbol.bottom for cell in row.cells if cell.symbol), default=0.0)
         _text(paper, row.label, x, y + max(low, 2.0) + 8.5, 7.0, "c l", data_line=_tag(row))
+
+
+def _stretches(row: Row, left: float, end: float, at: float) -> Iterator[tuple[float, float, tuple[int, ...]]]:
+    """A row from left to right, cut where one connection goes over into the next: a page marks some of them alone.
+
+    Where nothing is drawn between two connections both have one stretch.
+    """
+    begun = 0
+    for cell in row.cells:
+        middle = at + cell.width / 2
+        if cell.begins:
+            yield left, middle, row.connections[begun : cell.begins]
+            left, begun = middle, cell.begins
+        at += cell.width
+    yield left, end, row.connections[begun:]
 
 
 def _draw_cell(paper: _Paper, cell: Cell, x: float, y: float, style: str) -> None:
@@ -237,7 +270,9 @@ def _draw_reducer(paper: _Paper, x: float, y: float, sizes: tuple[int, int]) -> 
     paper.boxes.append((x - 5, y - 6, x + 5, y + 6))
 
 
-def _draw_anchor(paper: _Paper, symbol: Symbol, x: float, y: float, own: list[tuple[Edge, Way]]) -> None:
+def _draw_anchor(
+    paper: _Paper, symbol: Symbol, x: float, y: float, own: list[tuple[Edge, Way]], ends: Sequence[int]
+) -> None:
     ways = [way for _, way in own]
     if symbol.form == "open" and ways:
         from_left = ways[0][0][0] < x
@@ -246,7 +281,8 @@ def _draw_anchor(paper: _Paper, symbol: Symbol, x: float, y: float, own: list[tu
         # The box of an end is as wide as its name; the line goes on to the symbol in its middle.
         ax, ay = ways[0][0]
         reach = x - math.copysign(symbol.left, x - ax) if abs(ax - x) > abs(ay - y) else x
-        paper.pipes.append(element("path", class_="p", d=f"M{number(ax)} {number(ay)}L{number(reach)} {number(y)}"))
+        d = f"M{number(ax)} {number(ay)}L{number(reach)} {number(y)}"
+        paper.pipes.append(element("path", class_="p", d=d, data_connection=paper.told(ends)))
         _text(paper, symbol.label, x, y + symbol.bottom + 8, 6.5, "c g", data_id=symbol.place)
     paper.marks.append(symbol.draw(x, y))
     paper.boxes.append((x - symbol.left, y - symbol.top, x + symbol.right, y + symbol.bottom))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 
@@ -34,12 +34,14 @@ class Cell:
         hanging: symbols above the line, the nearest first.
         sizes: of a reducer, nominal sizes to its left and right; else None.
         place: id of what stands here.
+        begins: number of the connection that begins here, in the order in which they are drawn; 0 where none does.
     """
 
     symbol: Symbol | None
     hanging: tuple[Symbol, ...] = ()
     sizes: tuple[int, int] | None = None
     place: str = ""
+    begins: int = 0
 
     @cached_property
     def width(self) -> float:
@@ -85,6 +87,12 @@ class Row:
     label: str
     line: Line | None
     reverse: bool
+
+    @cached_property
+    def connections(self) -> tuple[int, ...]:
+        """The connections of the line, by their index in the network, from left to right."""
+        found = tuple(arc.index for arc in self.line.arcs) if self.line else ()
+        return found[::-1] if self.reverse else found
 
     @cached_property
     def width(self) -> float:
@@ -220,7 +228,8 @@ def _cells(network: Network, line: Line, reverse: bool) -> list[Cell]:
     arcs = [arc.back for arc in reversed(line.arcs)] if reverse else list(line.arcs)
     for number, arc in enumerate(arcs):
         if number:
-            cells += _standing(network, arc.start, forward)
+            first, *more = _standing(network, arc.start, forward) or (None,)
+            cells += [replace(first, begins=number), *more] if first is not None else []
         before = arcs[number - 1].sizes[-1:] if number else ()
         sizes = [*before, *arc.sizes]
         for pair in pairwise(sizes):

@@ -61,10 +61,30 @@ def edit_joints(
     made, refused = dict(found.made), dict(found.refused)
     at: dict[int, Floats] = {}
     for edit in edits.joined:
+        own = _own(found, edit, made)
+        made.update(own)
+        if own or _stands(found, edit):
+            continue
         chance = _best(found, edit, parts, lines, solids, made)
         if chance is not None:
             _make(chance, made, refused, at)
     return _with_made(replace(found, refused=refused), made, at)
+
+
+def _own(found: Attachments, edit: JointEdit, made: Mapping[int, Offer]) -> dict[int, Offer]:
+    """The joint that two parts have by themselves, sure now: one that was cut and is joined again is where it was."""
+    pair = {edit.first, edit.second}
+    rows = (*found.ends.of_part.get(edit.first, ()), *found.ends.of_part.get(edit.second, ()))
+    own = {row: made[row] for row in rows if row in made and set(_pair(found, made[row])) == pair}
+    sure = {id(o): replace(o, odds=_CERTAIN, measured={}, flags=(BY_USER,), said="") for o in own.values()}
+    return {row: sure[id(offer)] for row, offer in own.items()}
+
+
+def _stands(found: Attachments, edit: JointEdit) -> bool:
+    """Whether two parts are joined otherwise: by ends in one place, or a solid at the side of a line."""
+    pairs = [(int(found.ends.part[a]), int(found.ends.part[b])) for a, b in found.doubled]
+    pairs += [(side.solid, side.part) for side in found.sides]
+    return {edit.first, edit.second} in map(set, pairs)
 
 
 def _without_cut(found: Attachments, edits: NetworkEdits) -> Attachments:
