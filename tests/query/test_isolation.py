@@ -193,6 +193,32 @@ def test_only_kinds_that_are_known_to_shut_off_count(kind, counts):
         assert ("V-001" in closed(find_isolation(graph, "P-001", assume_shutoff=assume))) is counts
 
 
+def beside(kind, port=".N1"):
+    """T-001 - V-001 - J1 - V-009 - P-001 - V-002 - T-002, V-009 on the side of the run, by one port."""
+    nodes = [unit("T-001"), unit("V-001", GATE), unit("V-009", kind), unit("P-001"), unit("V-002", GATE), unit("T-002")]
+    return network([*nodes, junction(1)], chain(f"T-001 V-001 J1 V-009{port} P-001 V-002 T-002"))
+
+
+@pytest.mark.parametrize("fewest", [False, True])
+def test_a_valve_on_the_side_of_a_run_does_not_close_the_run(fewest):
+    found = find_isolation(beside(GATE), "P-001", fewest=fewest)
+    assert closed(found) == ["V-001", "V-002", "V-009"]  # V-009: nobody knows what it leads to
+    assert "V-009 has a line on one side only: what lies behind it is not known" in found.remarks
+    assert found.isolated
+    assert found.shut_off == ()
+    found = find_isolation(beside("relief valve"), "P-001", fewest=fewest)
+    assert closed(found) == ["V-001", "V-002"]
+    assert found.remarks == ("V-009 is a relief valve: taken for closed, not to be blocked",)
+    assert closed(find_isolation(beside("check valve"), "P-001", fewest=fewest, check_valves=True)) == [
+        "V-001",
+        "V-002",
+    ]
+
+
+def test_a_relief_valve_in_the_line_ends_the_section():
+    assert closed(find_isolation(beside("relief valve", port=""), "P-001")) == ["V-002"]
+
+
 def test_a_bypass_within_the_section_need_not_be_closed():
     graph = pump("T-001 V-001 J1 P-001 J2 V-002 T-002", "J1 V-003 J2")
     assert closed(find_isolation(graph, "P-001")) == ["V-001", "V-002"]

@@ -70,7 +70,7 @@ def suspect_of(network: Network, place: str) -> tuple[str, str] | None:
         The ids of the pump that it stands right behind, on a side that the pump isn't known to draw from, and of the
         valve right behind it; None where it isn't so.
     """
-    if duty_of(network, place) != "unknown":
+    if duty_of(network, place) != "unknown" or network.stands_aside(place):
         return None
     before = _met(network, place, "pump")
     if before is None:
@@ -104,8 +104,9 @@ def _met(network: Network, place: str, wanted: str, but: int | None = None) -> t
                 continue
             seen.add(arc.end)
             kind = network.unit_type(arc.end)
-            if kind == wanted and not (wanted == "pump" and arc.flow == "along"):
+            aside = network.stands_aside(arc.end)
+            if kind == wanted and not aside and not (wanted == "pump" and arc.flow == "along"):
                 return arc.end, first.index
-            if kind in (None, "gauge"):
+            if aside or kind in (None, "gauge"):
                 waiting += network.main_arcs(arc.end)
     return None

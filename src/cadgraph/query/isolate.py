@@ -170,7 +170,9 @@ def find_isolation(
         raise Unconnected(network.name(start), "what isolates it")
     section = _close_off(network, start, _Rules(network, check_valves, assume_shutoff), fewest)
     line_of = {arc.index: line.tag for line in find_lines(network) for arc in line.arcs}
-    inside = [place for place in section.inside() if network.unit_type(place) not in (None, "tank")]
+    apart = {*section.needed, start}
+    inside = [p for p in section.inside() if network.unit_type(p) not in (None, "tank") and p not in apart]
+    doubted = [place for place in _own(network, section) if place not in section.needed]
     return Isolation(
         target=section.start,
         name=network.name(section.start),
@@ -182,7 +184,7 @@ def find_isolation(
         openings=tuple(
             opening for place in section.inside() if (opening := _opening(network, section, place)) is not None
         ),
-        doubts=(*_assumed(network, section), *open_sides(network, _own(network, section), "feeds")),
+        doubts=(*_assumed(network, section), *open_sides(network, doubted, "feeds")),
         shut_off=tuple(inside),
         shut_off_names=tuple(network.name(place) for place in inside),
         lines=_lines(network, section, line_of),
@@ -202,6 +204,11 @@ class _Rules:
     check_valves: bool
     assume_shutoff: bool
 
+    def passes(self, place: str) -> bool:
+        """Whether something comes through a node that is no barrier: past what sits on the side of a run it does."""
+        network = self.network
+        return network.stands_aside(place) or not (_is_relief(network, place) or network.unit_type(place) == "tank")
+
     def isolates(self, place: str) -> bool:
         """Whether a valve counts as shutting off."""
         duty = duty_of(self.network, place)
@@ -209,7 +216,7 @@ class _Rules:
 
     def holds_back(self, arc: Arc) -> bool:
         """Whether an arc away from the unit enters a check valve that counts, against which nothing comes back."""
-        if not self.check_valves or duty_of(self.network, arc.end) != "check":
+        if not self.check_valves or duty_of(self.network, arc.end) != "check" or self.network.stands_aside(arc.end):
             return False
         # The flow through a valve is one: known on its far side, it is known on this one.
         beyond = any(onward.flow == "along" for onward in self.network.arcs(arc.end) if onward.index != arc.index)
@@ -226,7 +233,7 @@ class _Section:
         nearest: the same, the nearest first.
         walls: where the section ends.
         region: the nodes within, the start included.
-        needed: the walls that have to be closed.
+        needed: the walls that have to be closed, and the valves on the sides of runs within that shut off.
     """
 
     start: str
@@ -252,12 +259,15 @@ class _Section:
 
 def _close_off(network: Network, start: str, rules: _Rules, fewest: bool) -> _Section:
     """Finds the walls around a unit: the nearest barriers, or the fewest."""
-    barriers = {place for place in network.places if place != start and rules.isolates(place)}
+    closing = {place for place in network.places if place != start and rules.isolates(place)}
+    barriers = {place for place in closing if not network.stands_aside(place)}
     if fewest:
         barriers = _smallest(network, start, barriers, rules)
     reached, walls = _flood(network, start, barriers, rules)
     region = {start, *(place for place in reached if place not in walls)}
     needed = [place for place in walls if not _is_relief(network, place) and _is_fed(network, place, region, walls)]
+    # What a valve on the side of a run leads to was not found; nobody knows whether it feeds.
+    needed += [place for place in reached if place in region and place in closing and network.stands_aside(place)]
     nearest = sorted(reached, key=lambda place: (reached[place].distance, tag_key(network.name(place))))
     return _Section(start, reached, tuple(nearest), frozenset(walls), frozenset(region), tuple(needed))
 
@@ -295,10 +305,9 @@ def _flood(network: Network, start: str, barriers: set[str], rules: _Rules) -> t
         settled.add(place)
         if arc is not None:
             reached[place] = _Reached(distance, arc, port)
-            if place in barriers or rules.holds_back(arc) or _is_relief(network, place):
-                walls.add(place)
-                continue
-            if network.unit_type(place) == "tank":
+            if place in barriers or rules.holds_back(arc) or not rules.passes(place):
+                if network.unit_type(place) != "tank":
+                    walls.add(place)
                 continue
         for onward in network.arcs(place):
             count += 1
@@ -345,7 +354,7 @@ def _smallest(network: Network, start: str, barriers: set[str], rules: _Rules) -
     for place in network.places:
         if place in barriers:
             flow.add_edge((place, "in"), (place, "out"), capacity=1)
-        elif not _is_relief(network, place) and network.unit_type(place) != "tank":
+        elif rules.passes(place):
             flow.add_edge((place, "in"), (place, "out"))
         for arc in network.arcs(place):
             # What flows to the unit walks the arc's way; a check valve lets it out only the way it opens.
@@ -416,7 +425,8 @@ def _assumed(network: Network, section: _Section) -> list[Doubt]:
 
 def _opening(network: Network, section: _Section, place: str) -> Opening | None:
     node = network.places[place]
-    passed = ", ".join(network.name(step) for step in section.way(place) if network.is_valve(step))
+    valves = (step for step in section.way(place) if network.is_valve(step) and not network.stands_aside(step))
+    passed = ", ".join(network.name(step) for step in valves)
     before = f"no valve before it that is known to shut off (only {passed})" if passed else "no valve before it"
     if network.unit_type(place) == "tank":
         between = f"no valve between that is known to shut off (only {passed})" if passed else "no valve between"
@@ -447,9 +457,9 @@ def _remarks(network: Network, section: _Section, check_valves: bool) -> tuple[s
 def _remark(network: Network, section: _Section, place: str, check_valves: bool) -> str | None:
     """What should be known about a node of the section or at its end, if anything."""
     duty, arc = duty_of(network, place), section.reached[place].arc
-    if place in section.walls:
-        if duty == "relief":
-            return "is a relief valve: taken for closed, not to be blocked"
+    if duty == "relief" and (place in section.walls or network.stands_aside(place)):
+        return "is a relief valve: taken for closed, not to be blocked"
+    if place in section.walls or place in section.needed:
         if few_ports(network, place) is not None:
             return "has a line on one side only: what lies behind it is not known"
         needless = place not in section.needed and not network.is_tap(arc)

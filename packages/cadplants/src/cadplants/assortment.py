@@ -7,7 +7,7 @@ modelled and by what style is drawn anew for each plant and each device.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, fields, replace
 from functools import partial
 from typing import Any, TypeVar
@@ -242,7 +242,7 @@ def _line(work: _Draw, style: ModelingStyle, tag: str, lane: float) -> Assembly:
     )
     laid = lay(run, style)
     supports, endings = _supports(work, style, laid), _endings(work, style, run)
-    line = _closed(laid.assembly, run, [which for which, parts in endings if _has_lid(parts)])
+    line = _ended(laid.assembly, run, endings)
     whole = gather([line, *supports, *(part for _, parts in endings for part in parts)])
     return (_spooled(whole) if style.merged else whole).marked(cluster=tag)
 
@@ -335,16 +335,20 @@ def _narrowed(
     return [*items, back], x + length
 
 
-def _closed(line: Assembly, run: Run, ends: Sequence[int]) -> Assembly:
-    """A line whose truth says that some of its ends (0 or 1) are closed."""
-    names = {f"{run.tag}/{('start', 'end')[which]}" for which in ends}
-    return replace(line, points=tuple(replace(p, end="blind") if p.id in names else p for p in line.points))
+def _ended(line: Assembly, run: Run, endings: Iterable[tuple[int, list[Assembly]]]) -> Assembly:
+    """A line whose truth says what stands at its ends (0 or 1): closed by a lid, untold where a device goes on."""
+    names = {f"{run.tag}/{('start', 'end')[which]}": parts for which, parts in endings}
+    points = (replace(p, end=_end_by(names[p.id], p.end)) if p.id in names else p for p in line.points)
+    return replace(line, points=tuple(points))
 
 
-def _has_lid(parts: Iterable[Assembly]) -> bool:
-    """Whether what stands at an end closes it."""
-    names = {component.name for part in parts for component in part.components}
-    return bool(names & _LIDS) and "branch outlet" not in names
+def _end_by(parts: Iterable[Assembly], end: str) -> str:
+    """What an end is by what stands there: closed by a lid; open or not for a device to say."""
+    components = [component for part in parts for component in part.components]
+    names = {component.name for component in components}
+    if names & _LIDS and "branch outlet" not in names:
+        return "blind"
+    return "" if any(component.unit for component in components) else end
 
 
 def _endings(work: _Draw, style: ModelingStyle, run: Run) -> list[tuple[int, list[Assembly]]]:

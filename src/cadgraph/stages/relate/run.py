@@ -163,14 +163,14 @@ def _ending(
     rows = [row for row in drawing.ends.get(node, ()) if int(found.ends.part[row]) == last]
     if last not in lines or not rows:
         return "unknown"
-    if not np.isfinite(found.ends.bore[rows[0]]) and len(span.via) > 1 and _is_lid(lines, span.via[-2], last):
-        return "blind"
-    return cover(rows[0]) or "open"
+    lid = not np.isfinite(found.ends.bore[rows[0]]) and _is_lid(lines, span.via, last)
+    return "blind" if lid else cover(rows[0]) or "open"
 
 
-def _is_lid(lines: Mapping[int, Centreline], before: int, last: int) -> bool:
+def _is_lid(lines: Mapping[int, Centreline], via: Sequence[int], last: int) -> bool:
     """Whether two discs end a run, of which the last one, without a hole, covers the other: a flange and its lid."""
-    if before not in lines:
+    before = via[-2] if len(via) > 1 else None
+    if before is None or before not in lines:
         return False
     radius, wide = _widest(lines[last]), _widest(lines[before])
     short = lines[last].length < radius and lines[before].length < 1.6 * wide
