@@ -20,8 +20,8 @@ _SURE = 0.8  # a facing of less confidence is told as a doubt
 
 def approach(
     plant: Plant,
-    target: Annotated[str, "tag or id of a unit"],
-    reach: Annotated[float, "how high a hand gets above the floor [m]"] = _REACH,
+    target: str,
+    reach: Annotated[float, "of a hand above the floor [m]"] = _REACH,
 ) -> Answer:
     """How to get at a unit.
 

@@ -28,7 +28,7 @@ type: valve|gauge|pump|tank|equipment. Metres, DN; z up, y north."""
 """What a model is told of the tool."""
 
 
-def query(plant: Plant, sql: Annotated[str, "one SELECT"], page: Annotated[int, "counted from 1"] = 1) -> Answer:
+def query(plant: Plant, sql: Annotated[str, "one SELECT"], page: int = 1) -> Answer:
     """Runs a query over the tables of a graph.
 
     It can only read the tables, takes at most 3 s, and gives at most 500 rows. What each column means is told by

@@ -25,7 +25,7 @@ _IN_ROW = 4  # names
 
 def describe(
     plant: Plant,
-    id: Annotated[str, "of a unit, part, junction, end, system, structure, level or line"],
+    id: Annotated[str, "unit, part, end, system, structure, level or line"],
     page: int = 1,
 ) -> Answer:
     """What one thing is: its kind, place, ports, parts, and what that rests on.

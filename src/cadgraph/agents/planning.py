@@ -43,8 +43,8 @@ class Planned:
 
 def plan(
     plant: Plant,
-    goals: Annotated[str, "e.g. 'read G-003, G-007; close V-002': ';' keeps the order, ',' leaves it free"],
-    start: Annotated[str, "tag of the unit to begin and end at; anywhere on the ground if empty"] = "",
+    goals: Annotated[str, "'read G-003, G-007; close V-002'; ';' orders"],
+    start: Annotated[str, "unit to begin and end at"] = "",
     page: int = 1,
 ) -> Answer:
     """An ordered round that reaches all goals: where to walk, climb and stand, what each step needs and changes.

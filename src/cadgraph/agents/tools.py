@@ -121,7 +121,7 @@ TOOLS: tuple[Tool, ...] = (
     ),
     Tool(
         "find",
-        "Lists and counts units (or parts, junctions, ends), with places in m; distances straight, middle to middle.",
+        "Lists and counts units (or parts, junctions, ends), with places in m; distances straight.",
         looking.find,
     ),
     Tool("describe", "One thing: kind, place, ports, parts, how sure.", describing.describe),
@@ -155,15 +155,13 @@ TOOLS: tuple[Tool, ...] = (
     ),
     Tool(
         "approach",
-        "How people get at a unit: level, ways up, where to stand, height of operator or face, which way a gauge looks "
-        "and from where it is seen. OUT OF REACH means just that.",
+        "How people get at a unit: ways, where to stand, height of its operator, where a gauge is seen from.",
         approaching.approach,
     ),
     Tool("query", asking_sql.DESCRIPTION, asking_sql.query),
     Tool(
         "plan",
-        "A checked, short round to read gauges and turn valves: walks, climbs, where to stand, what takes a ladder or "
-        "lift, what each step cuts off. ! and ? first: repeat them.",
+        "A checked, short round to read gauges and turn valves: ways, ladders, what each step cuts off. Repeat ! and ?.",
         planning.plan,
     ),
 )

@@ -323,8 +323,8 @@ def _what_if_values(found: WhatIf) -> dict[str, Any]:
 
 def lines(
     plant: Plant,
-    system: Annotated[str, "id of a system"] = "",
-    through: Annotated[str, "tag of a unit that they begin at, end at or run through"] = "",
+    system: str = "",
+    through: Annotated[str, "unit in them, or at an end"] = "",
     page: int = 1,
 ) -> Answer:
     """The line list: from, to, length, nominal size, flow, and what stands in each line in order.

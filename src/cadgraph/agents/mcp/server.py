@@ -38,7 +38,7 @@ _MOST_ERROR = 1500  # characters of an error
 Context = ServerRequestContext[Any, Any]
 
 
-def _draw(pictures: Any, target: Annotated[str, "tag or id"]) -> Any:
+def _draw(pictures: Any, target: str) -> Any:
     return pictures.draw(target)
 
 
