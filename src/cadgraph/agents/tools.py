@@ -161,7 +161,7 @@ TOOLS: tuple[Tool, ...] = (
     Tool("query", asking_sql.DESCRIPTION, asking_sql.query),
     Tool(
         "plan",
-        "A checked, short round to read gauges and turn valves: ways, ladders, what each step cuts off. Repeat ! and ?.",
+        "A checked, short round to read gauges and turn valves: ways, ladders, what steps cut off. Repeat ! and ?.",
         planning.plan,
     ),
 )
