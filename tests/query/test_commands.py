@@ -72,7 +72,7 @@ def test_bad_questions_end_with_one_line(folder, capsys, arguments, says):
 
 def apart(folder):
     """T-001 - V-001 - P-001 and a pump and a gauge without a line."""
-    nodes = [unit(tag) for tag in ("T-001", "V-001", "P-001", "P-002", "G-001")]
+    nodes = [unit("V-001", "gate valve"), *(unit(tag) for tag in ("T-001", "P-001", "P-002", "G-001"))]
     network(nodes, chain("T-001 V-001 P-001")).save(folder)
     return folder
 
@@ -112,6 +112,19 @@ def test_isolate_ends_well_when_strict_only_where_it_is_sure(folder, tmp_path_fa
     other = tmp_path_factory.mktemp("other")
     network([unit("T-001"), unit("P-001"), unit("T-002")], chain("T-001 P-001 T-002")).save(other)
     assert run(capsys, "isolate", other, "P-001", "--strict")[0] == 1
+
+
+def test_isolate_takes_valves_of_unknown_kind_for_shut_off_only_when_asked(tmp_path, capsys):
+    nodes = [unit("T-001"), unit("V-001"), unit("P-001"), unit("V-002"), unit("V-003", "gate valve"), unit("T-002")]
+    network(nodes, chain("T-001 V-001 P-001 V-002 V-003 T-002")).save(tmp_path)
+    strict = json.loads(run(capsys, "isolate", tmp_path, "P-001", "--json")[1])
+    assert [v["tag"] for v in strict["valves"]] == ["V-003"]
+    assert [v["tag"] for v in strict["passed"]] == ["V-001", "V-002"]
+    assert (strict["isolated"], strict["openings"][0]["to"]) == (False, "T-001")
+    assumed = json.loads(run(capsys, "isolate", tmp_path, "P-001", "--assume-shutoff", "--json")[1])
+    assert [v["tag"] for v in assumed["valves"]] == ["V-001", "V-002"]
+    assert assumed["isolated"] is None
+    assert "likely a check valve" in assumed["doubts"][1]["text"]
 
 
 def test_the_line_list_names_what_it_lacks(tmp_path, capsys):

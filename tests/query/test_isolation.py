@@ -11,8 +11,11 @@ def closed(found):
     return sorted(valve.name for valve in found.valves)
 
 
+GATE = "gate valve"
+
+
 def pump(*edges, kinds=(), more=()):
-    """P-001 with chains around it; kinds by tag."""
+    """P-001 with chains around it; kinds by tag, valves shut off by default."""
     named = dict(kinds)
     names = {name.split(".")[0] for text in edges for name in text.split()}
     nodes = []
@@ -22,7 +25,7 @@ def pump(*edges, kinds=(), more=()):
         elif name[0] == "X":
             nodes.append(terminal(int(name[1:]), named.get(name, "open")))
         else:
-            nodes.append(unit(name, named.get(name)))
+            nodes.append(unit(name, named.get(name, GATE if name[0] == "V" else None)))
     return network([*nodes, *more], [edge for text in edges for edge in chain(text)])
 
 
@@ -83,7 +86,7 @@ def test_a_check_valve_counts_when_asked_only_where_it_holds_back():
 
 
 def test_a_check_valve_of_unknown_direction_never_counts():
-    nodes = [unit("P-001"), unit("V-001", "check valve"), unit("V-002"), terminal(1)]
+    nodes = [unit("P-001"), unit("V-001", "check valve"), unit("V-002", GATE), terminal(1)]
     found = find_isolation(
         network(nodes, chain("P-001 V-001 V-002 X1", direction="unknown")), "P-001", check_valves=True
     )
@@ -100,8 +103,120 @@ def test_control_valves_do_not_isolate_and_relief_valves_are_left():
     assert [remark.split(":")[0] for remark in found.remarks] == [
         "V-001 is a control valve",
         "V-003 is a relief valve",
+    ]
+
+
+def guessed(tag, *guesses):
+    return unit(tag).model_copy(update={"kind_guesses": guesses})
+
+
+def test_a_valve_of_unknown_kind_is_passed_and_named_apart():
+    graph = pump("T-001 V-001 P-001 V-002 V-003 T-002", kinds=[("V-002", None)])
+    for fewest in (False, True):
+        found = find_isolation(graph, "P-001", fewest=fewest)
+        assert closed(found) == ["V-001", "V-003"]
+        assert [(v.name, v.distance) for v in found.passed] == [("V-002", 1.0)]
+        assert found.isolated
+    told = isolation_lines(found)
+    assert "not relied on, as nobody knows whether they shut off:" in told
+    assert any("likely a check valve" in line for line in told)
+
+
+def test_what_only_valves_of_unknown_kind_keep_off_is_an_opening_that_names_them():
+    graph = pump("T-001 V-001 P-001 V-002 X1", kinds=[("V-001", None), ("V-002", None)])
+    found = find_isolation(graph, "P-001")
+    assert found.valves == ()
+    assert found.isolated is False
+    assert [o.why for o in found.openings] == [
+        "no valve between that is known to shut off (only V-001); empty it, or isolate it as well",
+        "open end with no valve before it that is known to shut off (only V-002)",
+    ]
+
+
+def test_valves_of_unknown_kind_count_when_asked_but_are_doubts():
+    graph = pump("T-001 V-001 P-001 V-002 V-003 T-002", kinds=[("V-002", None)])
+    found = find_isolation(graph, "P-001", assume_shutoff=True)
+    assert closed(found) == ["V-001", "V-002"]
+    assert found.isolated is None
+    assert [doubt.text for doubt in found.doubts] == [
+        "kind not known; right behind P-001, with V-003 behind it: likely a check valve; taken for a shut-off valve as "
+        "asked"
+    ]
+
+
+def test_only_the_first_of_two_valves_behind_a_pump_is_suspected_and_none_before_it():
+    unknown = [("V-001", None), ("V-003", None), ("V-004", None)]
+    graph = pump("T-001 V-002 V-001 P-001 G-001 V-003 V-004 T-002", kinds=unknown)
+    found = find_isolation(graph, "P-001")
+    assert {v.name for v in found.passed if "check valve" in v.why} == {"V-003"}
+    assert len(found.passed) == 3
+
+
+@pytest.mark.parametrize(
+    ("guesses", "counts"),
+    [
+        ([("gate valve", 0.55), ("globe valve", 0.42)], True),
+        ([("gate valve", 0.55), ("globe valve", 0.29)], False),
+        ([("ball valve", 0.8), ("relief valve", 0.12)], False),
+        ([], False),
+    ],
+)
+def test_a_valve_whose_kind_is_open_counts_where_all_that_it_may_be_shuts_off(guesses, counts):
+    nodes = [unit("T-001"), guessed("V-001", *guesses), unit("P-001"), unit("V-002", GATE), terminal(1)]
+    found = find_isolation(network(nodes, chain("T-001 V-001 P-001 V-002 X1")), "P-001")
+    assert ("V-001" in closed(found)) is counts
+    assert [v.name for v in found.passed] == ([] if counts else ["V-001"])
+    if counts:
+        assert found.valves[0].likely == "gate valve 55%, globe valve 42%"
+        assert "V-001: kind only likely; all that it may be shuts off" in found.remarks
+        assert any("valve (gate valve 55%, globe valve 42%)" in line for line in isolation_lines(found))
+
+
+@pytest.mark.parametrize(
+    ("kind", "counts"),
+    [
+        ("ball valve", True),
+        ("Stopcock", True),
+        ("ball check valve", False),
+        ("globe control valve", False),
+        ("pressure reducing valve", False),
+        ("safety cutoff valve", False),
+        ("foot valve", False),
+        ("bleed valve", False),
+        ("non-return valve", False),
+        ("safety valve", False),
+    ],
+)
+def test_only_kinds_that_are_known_to_shut_off_count(kind, counts):
+    graph = pump("T-001 V-001 P-001 V-002 T-002", kinds=[("V-001", kind)])
+    for assume in (False, True):
+        assert ("V-001" in closed(find_isolation(graph, "P-001", assume_shutoff=assume))) is counts
+
+
+def beside(kind, port=".N1"):
+    """T-001 - V-001 - J1 - V-009 - P-001 - V-002 - T-002, V-009 on the side of the run, by one port."""
+    nodes = [unit("T-001"), unit("V-001", GATE), unit("V-009", kind), unit("P-001"), unit("V-002", GATE), unit("T-002")]
+    return network([*nodes, junction(1)], chain(f"T-001 V-001 J1 V-009{port} P-001 V-002 T-002"))
+
+
+@pytest.mark.parametrize("fewest", [False, True])
+def test_a_valve_on_the_side_of_a_run_does_not_close_the_run(fewest):
+    found = find_isolation(beside(GATE), "P-001", fewest=fewest)
+    assert closed(found) == ["V-001", "V-002", "V-009"]  # V-009: nobody knows what it leads to
+    assert "V-009 has a line on one side only: what lies behind it is not known" in found.remarks
+    assert found.isolated
+    assert found.shut_off == ()
+    found = find_isolation(beside("relief valve"), "P-001", fewest=fewest)
+    assert closed(found) == ["V-001", "V-002"]
+    assert found.remarks == ("V-009 is a relief valve: taken for closed, not to be blocked",)
+    assert closed(find_isolation(beside("check valve"), "P-001", fewest=fewest, check_valves=True)) == [
+        "V-001",
         "V-002",
     ]
+
+
+def test_a_relief_valve_in_the_line_ends_the_section():
+    assert closed(find_isolation(beside("relief valve", port=""), "P-001")) == ["V-002"]
 
 
 def test_a_bypass_within_the_section_need_not_be_closed():
@@ -185,7 +300,9 @@ def jointed(*joints):
     """T-001 - V-001 - P-001 - V-002 - T-002, of parts t1, v1, p1, v2, t2 and a pipe; E-001 apart, of part e1."""
     names = {"T-001": "t1", "V-001": "v1", "P-001": "p1", "V-002": "v2", "T-002": "t2", "E-001": "e1"}
     nodes = [graphs.part(k, f"/{name}", id=name) for k, name in enumerate([*names.values(), "pipe", "far"])]
-    nodes += [unit(tag).model_copy(update={"parts": (part,)}) for tag, part in names.items()]
+    nodes += [
+        unit(tag, GATE if tag[0] == "V" else None).model_copy(update={"parts": (part,)}) for tag, part in names.items()
+    ]
     edges = chain("T-001 V-001 P-001") + chain("P-001 V-002", via=("pipe",)) + chain("V-002 T-002")
     return network(nodes, edges, joints=[joint(*row) for row in joints])
 
@@ -223,7 +340,7 @@ def test_a_valve_itself_can_be_isolated():
 
 
 def test_two_connections_between_the_same_nodes_are_both_closed():
-    nodes = [unit("P-001"), unit("V-001"), unit("V-002"), unit("T-001")]
+    nodes = [unit("P-001"), unit("V-001", GATE), unit("V-002", GATE), unit("T-001")]
     edges = chain("P-001.N1 V-001 T-001.N1") + chain("P-001.N2 V-002 T-001.N2") + chain("P-001.N1 V-001")
     assert closed(find_isolation(network(nodes, edges), "P-001")) == ["V-001", "V-002"]
 

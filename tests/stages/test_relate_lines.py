@@ -158,6 +158,41 @@ def test_runs_end_open_or_blind():
     assert terminals(plant.graph()) == ["blind", "open"]
 
 
+def against(shape, apart=0.0):
+    """A pipe whose end at x = 1 lies against a body that begins there, and what its ends are taken for."""
+    plant = Plant().pipe((0, 0, 0), (1, 0, 0))
+    return terminals(plant.add(shapes.moved(shape, np.eye(3), (1.0 + apart, 0, 0)), STEEL, "plate").graph())
+
+
+def slab(thick, side=0.6, aside=0.0):
+    return shapes.box((thick, side, side), (thick / 2, aside, 0))
+
+
+@pytest.mark.parametrize(
+    ("shape", "end"),
+    [
+        (slab(0.006), "blind"),
+        (slab(0.029), "blind"),
+        (slab(0.031), "unknown"),  # a wall: the pipe may go on behind it
+        (slab(0.006, side=0.12), "unknown"),  # no wider than a flange of a device
+        (slab(0.006, aside=0.3), "open"),  # covers half of the mouth
+        (turned(shapes.tube(0.3, 0.02, 0.006), (0.003, 0, 0), (1, 0, 0)), "open"),  # has a hole
+    ],
+)
+def test_a_plate_before_the_whole_mouth_of_a_pipe_closes_it(shape, end):
+    assert against(shape) == sorted([end, "open"])
+
+
+def test_a_plate_a_little_before_a_mouth_does_not_close_it():
+    assert against(slab(0.006), apart=0.005) == ["open", "open"]
+
+
+def test_a_plate_between_two_pipes_closes_neither_for_sure():
+    plant = Plant().pipe((0, 0, 0), (1, 0, 0)).pipe((1.006, 0, 0), (2, 0, 0))
+    graph = plant.add(shapes.moved(slab(0.006), np.eye(3), (1, 0, 0)), STEEL, "plate").graph(**{"relate.bridge": 0.0})
+    assert terminals(graph) == ["open", "open", "unknown", "unknown"]
+
+
 def test_a_lid_is_blind_without_its_name():
     plant = Plant().pipe((0, 0, 0), (1, 0, 0))
     plant.add(ring((1, 0, 0), (1, 0, 0)), PIPE, "flange").add(plate((1.02, 0, 0), (1, 0, 0)), PIPE, "flange")

@@ -145,7 +145,7 @@ def f1(counts: list[int]) -> str:
 
 
 HEADS = [
-    "plants", "true edges", "precision", "recall", "F1 connected", "F1 Algorithm 1", "taps in order", "F1 open ends",
+    "plants", "true edges", "precision", "recall", "F1 connected", "F1 Algorithm 1", "taps in order", "F1 ends",
     "directions decided", "wrong",
 ]  # fmt: skip
 

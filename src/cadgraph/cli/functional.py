@@ -131,6 +131,9 @@ def isolate(
     fewest: Annotated[
         bool, typer.Option("--fewest", help="The fewest valves, even if more is shut off; by default the nearest.")
     ] = False,
+    assume_shutoff: Annotated[
+        bool, typer.Option("--assume-shutoff", help="Count valves of unknown kind; each then is a doubt.")
+    ] = False,
     strict: Annotated[
         bool, typer.Option("--strict", help="End with 1 where the unit can't be isolated for sure.")
     ] = False,
@@ -138,14 +141,17 @@ def isolate(
 ) -> None:
     """List the valves that isolate a unit on every port, what can't be isolated, and what is shut off with it.
 
-    What may feed the unit without having been found is told: ports without a line, and joints that were not made. A
-    unit at which no line was found gets no answer (exit status 2).
+    Only valves count whose kind is known to shut off; check, control and relief valves don't, and those of unknown kind
+    are named apart. What may feed the unit without having been found is told: ports without a line, and joints that
+    were not made. A unit at which no line was found gets no answer (exit status 2).
     """
     from cadgraph.model.graph import SceneGraph
     from cadgraph.query import find_isolation
     from cadgraph.query.text import isolation_lines, isolation_values
 
-    found = find_isolation(SceneGraph.load(graph), tag, check_valves=check_valves, fewest=fewest)
+    found = find_isolation(
+        SceneGraph.load(graph), tag, check_valves=check_valves, fewest=fewest, assume_shutoff=assume_shutoff
+    )
     _show(isolation_lines(found), isolation_values(found), as_json)
     if strict and not found.isolated:
         raise typer.Exit(1)

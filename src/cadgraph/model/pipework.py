@@ -271,6 +271,16 @@ class Pipework:
         named = {arc.start_port for arc in arcs if arc.start_port is not None}
         return len(named) + sum(arc.start_port is None for arc in arcs)
 
+    def stands_aside(self, place: str) -> bool:
+        """Whether a unit sits on the side of a run, where what flows passes it by.
+
+        It stands in the run by one port with several connections, as a gauge on a tap does: a valve there closes what
+        lies behind its other side, not the run.
+        """
+        arcs = self.arcs(place)
+        ports = {arc.start_port for arc in arcs}
+        return isinstance(self.places[place], Unit) and len(arcs) > 1 and len(ports) == 1 and None not in ports
+
     def _order(self, arc: Arc) -> tuple[object, ...]:
         return tag_key(self.name(arc.end)), tag_key(arc.start_port or ""), arc.index, arc.forward
 

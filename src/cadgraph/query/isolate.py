@@ -11,17 +11,13 @@ from cadgraph.errors import Unconnected
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Terminal
 from cadgraph.query.doubt import Doubt, few_ports, open_sides
+from cadgraph.query.duty import duty_of, likely_kinds, suspect_of
 from cadgraph.query.lines import find_lines
 from cadgraph.query.network import Arc, Network
 
-__all__ = ["Closing", "Isolation", "Opening", "find_isolation"]
+__all__ = ["Closing", "Isolation", "Opening", "Passed", "find_isolation"]
 
-# What stands for more than a hand-operated shut-off: a control valve may leak and moves by itself, so that rules of
-# lockout and tagout (OSHA 29 CFR 1910.147, EN ISO 14118) don't take it for an isolating device.
-_NOT_ISOLATING = ("control",)
-_CHECK = "check"
 PASSED_OVER = "is a check valve: passed over"
-_RELIEF = ("relief", "safety")
 
 
 @dataclass(frozen=True)
@@ -36,6 +32,8 @@ class Closing:
         distance: along the pipes from the unit [m].
         line: tag of the line that it stands in, on the side of the unit.
         automatic: whether it is a check valve, which closes by itself.
+        likely: where its kind is open, the kinds that it may be, all of which shut off, with how sure each is; else
+            empty.
     """
 
     place: str
@@ -45,6 +43,30 @@ class Closing:
     distance: float
     line: str | None
     automatic: bool = False
+    likely: str = ""
+
+
+@dataclass(frozen=True)
+class Passed:
+    """A valve on a way to the unit that is not relied on, as nobody knows whether it shuts off.
+
+    Args:
+        place: its id.
+        name: its tag.
+        what: its kind, or ``valve``.
+        port: nozzle of the unit that it is reached by.
+        distance: along the pipes from the unit [m].
+        line: tag of the line that it stands in, on the side of the unit.
+        why: why it isn't relied on, in words.
+    """
+
+    place: str
+    name: str
+    what: str
+    port: str | None
+    distance: float
+    line: str | None
+    why: str
 
 
 @dataclass(frozen=True)
@@ -84,6 +106,7 @@ class Isolation:
         lines: tags of the lines in the section, wholly or in part.
         connections: numbers of the graph's connections in the section.
         remarks: what the reader should know, a sentence each.
+        passed: valves that are not relied on, the nearest first; the section goes on behind them.
     """
 
     target: str
@@ -96,6 +119,7 @@ class Isolation:
     lines: tuple[str, ...]
     connections: tuple[int, ...]
     remarks: tuple[str, ...]
+    passed: tuple[Passed, ...] = ()
 
     @property
     def isolated(self) -> bool | None:
@@ -113,14 +137,20 @@ class _Reached:
 
 
 def find_isolation(
-    graph: SceneGraph | Network, target: str, *, check_valves: bool = False, fewest: bool = False
+    graph: SceneGraph | Network,
+    target: str,
+    *,
+    check_valves: bool = False,
+    fewest: bool = False,
+    assume_shutoff: bool = False,
 ) -> Isolation:
     """The valves that isolate a unit, on every one of its ports.
 
     By default the nearest valve on every way out, so that as little as possible is shut off with it; a valve behind
     which nothing can flow (a blind end, an instrument) need not be closed, one of which only one side is known must.
-    Control valves never count as isolating, relief valves are taken for closed and never asked to be blocked. A tank is
-    a source: the section ends there, valve or not.
+    Only valves count that are known to shut off by their kind, or whose kind is open between kinds that all do; those
+    of unknown kind are passed and named apart. Check and control valves never count, relief valves are taken for
+    closed and never asked to be blocked. A tank is a source: the section ends there, valve or not.
 
     Args:
         graph: the finished graph, or its network.
@@ -128,6 +158,7 @@ def find_isolation(
         check_valves: whether a check valve counts that the flow leaves the unit through.
         fewest: rather the smallest set of valves (a minimum node cut between the unit and all tanks and open ends),
             the nearest of those, although it may shut off more.
+        assume_shutoff: whether valves of unknown kind count too. Each that does is a doubt: it may be a check valve.
 
     Raises:
         Unconnected: no line was found at the unit, which is a ``ValueError``: that doesn't say that nothing feeds it.
@@ -137,9 +168,11 @@ def find_isolation(
     start = network.find(target)
     if not network.arcs(start):
         raise Unconnected(network.name(start), "what isolates it")
-    section = _close_off(network, start, check_valves, fewest)
+    section = _close_off(network, start, _Rules(network, check_valves, assume_shutoff), fewest)
     line_of = {arc.index: line.tag for line in find_lines(network) for arc in line.arcs}
-    inside = [place for place in section.inside() if network.unit_type(place) not in (None, "tank")]
+    apart = {*section.needed, start}
+    inside = [p for p in section.inside() if network.unit_type(p) not in (None, "tank") and p not in apart]
+    doubted = [place for place in _own(network, section) if place not in section.needed]
     return Isolation(
         target=section.start,
         name=network.name(section.start),
@@ -149,17 +182,45 @@ def find_isolation(
             if place in section.needed
         ),
         openings=tuple(
-            opening
-            for place in section.inside()
-            if (opening := _opening(network, place, section.reached[place])) is not None
+            opening for place in section.inside() if (opening := _opening(network, section, place)) is not None
         ),
-        doubts=open_sides(network, _own(network, section), "feeds"),
+        doubts=(*_assumed(network, section), *open_sides(network, doubted, "feeds")),
         shut_off=tuple(inside),
         shut_off_names=tuple(network.name(place) for place in inside),
         lines=_lines(network, section, line_of),
         connections=_connections(network, section),
         remarks=_remarks(network, section, check_valves),
+        passed=tuple(
+            passed for place in section.inside() if (passed := _passed(network, section, place, line_of)) is not None
+        ),
     )
+
+
+@dataclass(frozen=True)
+class _Rules:
+    """Which valves of a network are relied on."""
+
+    network: Network
+    check_valves: bool
+    assume_shutoff: bool
+
+    def passes(self, place: str) -> bool:
+        """Whether something comes through a node that is no barrier: past what sits on the side of a run it does."""
+        network = self.network
+        return network.stands_aside(place) or not (_is_relief(network, place) or network.unit_type(place) == "tank")
+
+    def isolates(self, place: str) -> bool:
+        """Whether a valve counts as shutting off."""
+        duty = duty_of(self.network, place)
+        return duty in ("shuts off", "likely") or (self.assume_shutoff and duty == "unknown")
+
+    def holds_back(self, arc: Arc) -> bool:
+        """Whether an arc away from the unit enters a check valve that counts, against which nothing comes back."""
+        if not self.check_valves or duty_of(self.network, arc.end) != "check" or self.network.stands_aside(arc.end):
+            return False
+        # The flow through a valve is one: known on its far side, it is known on this one.
+        beyond = any(onward.flow == "along" for onward in self.network.arcs(arc.end) if onward.index != arc.index)
+        return arc.flow == "along" or (arc.flow == "unknown" and beyond)
 
 
 @dataclass(frozen=True)
@@ -172,7 +233,7 @@ class _Section:
         nearest: the same, the nearest first.
         walls: where the section ends.
         region: the nodes within, the start included.
-        needed: the walls that have to be closed.
+        needed: the walls that have to be closed, and the valves on the sides of runs within that shut off.
     """
 
     start: str
@@ -186,15 +247,27 @@ class _Section:
         """The nodes within but for the start, the nearest first."""
         return [place for place in self.nearest if place in self.region]
 
+    def way(self, place: str) -> list[str]:
+        """The nodes between the start and a node, from the start on."""
+        found: list[str] = []
+        step = self.reached[place].arc.start
+        while step != self.start:
+            found.append(step)
+            step = self.reached[step].arc.start
+        return found[::-1]
 
-def _close_off(network: Network, start: str, check_valves: bool, fewest: bool) -> _Section:
+
+def _close_off(network: Network, start: str, rules: _Rules, fewest: bool) -> _Section:
     """Finds the walls around a unit: the nearest barriers, or the fewest."""
-    barriers = {place for place in network.places if place != start and _isolates(network, place)}
+    closing = {place for place in network.places if place != start and rules.isolates(place)}
+    barriers = {place for place in closing if not network.stands_aside(place)}
     if fewest:
-        barriers = _smallest(network, start, barriers, check_valves)
-    reached, walls = _flood(network, start, barriers, check_valves)
+        barriers = _smallest(network, start, barriers, rules)
+    reached, walls = _flood(network, start, barriers, rules)
     region = {start, *(place for place in reached if place not in walls)}
     needed = [place for place in walls if not _is_relief(network, place) and _is_fed(network, place, region, walls)]
+    # What a valve on the side of a run leads to was not found; nobody knows whether it feeds.
+    needed += [place for place in reached if place in region and place in closing and network.stands_aside(place)]
     nearest = sorted(reached, key=lambda place: (reached[place].distance, tag_key(network.name(place))))
     return _Section(start, reached, tuple(nearest), frozenset(walls), frozenset(region), tuple(needed))
 
@@ -214,31 +287,11 @@ def _connections(network: Network, section: _Section) -> tuple[int, ...]:
     return tuple(sorted({arc.index for place in _own(network, section) for arc in network.arcs(place)}))
 
 
-def _kind(network: Network, place: str) -> str:
-    return network.what(place).casefold() if network.is_valve(place) else ""
-
-
 def _is_relief(network: Network, place: str) -> bool:
-    return any(word in _kind(network, place) for word in _RELIEF)
+    return duty_of(network, place) == "relief"
 
 
-def _isolates(network: Network, place: str) -> bool:
-    kind = _kind(network, place)
-    return bool(kind) and not any(word in kind for word in (*_NOT_ISOLATING, _CHECK, *_RELIEF))
-
-
-def _holds_back(network: Network, arc: Arc) -> bool:
-    """Whether an arc away from the unit enters a check valve against which nothing comes back."""
-    if _CHECK not in _kind(network, arc.end):
-        return False
-    # The flow through a valve is one: known on its far side, it is known on this one.
-    beyond = any(onward.flow == "along" for onward in network.arcs(arc.end) if onward.index != arc.index)
-    return arc.flow == "along" or (arc.flow == "unknown" and beyond)
-
-
-def _flood(
-    network: Network, start: str, barriers: set[str], check_valves: bool
-) -> tuple[dict[str, _Reached], set[str]]:
+def _flood(network: Network, start: str, barriers: set[str], rules: _Rules) -> tuple[dict[str, _Reached], set[str]]:
     """All that something can come from to the unit, with the distance, and the walls where that ends."""
     reached: dict[str, _Reached] = {}
     walls: set[str] = set()
@@ -252,11 +305,9 @@ def _flood(
         settled.add(place)
         if arc is not None:
             reached[place] = _Reached(distance, arc, port)
-            blocked = check_valves and _holds_back(network, arc)
-            if place in barriers or blocked or _is_relief(network, place):
-                walls.add(place)
-                continue
-            if network.unit_type(place) == "tank":
+            if place in barriers or rules.holds_back(arc) or not rules.passes(place):
+                if network.unit_type(place) != "tank":
+                    walls.add(place)
                 continue
         for onward in network.arcs(place):
             count += 1
@@ -289,11 +340,11 @@ def _is_fed(network: Network, wall: str, region: Collection[str], walls: Collect
     return False
 
 
-def _smallest(network: Network, start: str, barriers: set[str], check_valves: bool) -> set[str]:
+def _smallest(network: Network, start: str, barriers: set[str], rules: _Rules) -> set[str]:
     """The smallest set of barriers between the unit and all sources that barriers can keep off."""
     import networkx
 
-    reached, _ = _flood(network, start, barriers, check_valves)
+    reached, _ = _flood(network, start, barriers, rules)
     sources = [(p, "out") for p in network.places if p != start and _is_source(network, p) and p not in reached]
     # A valve of which only one side is known keeps off what may lie behind it.
     sources += [(p, "in") for p in network.places if p in barriers and few_ports(network, p) is not None]
@@ -303,11 +354,11 @@ def _smallest(network: Network, start: str, barriers: set[str], check_valves: bo
     for place in network.places:
         if place in barriers:
             flow.add_edge((place, "in"), (place, "out"), capacity=1)
-        elif not _is_relief(network, place) and network.unit_type(place) != "tank":
+        elif rules.passes(place):
             flow.add_edge((place, "in"), (place, "out"))
         for arc in network.arcs(place):
             # What flows to the unit walks the arc's way; a check valve lets it out only the way it opens.
-            if not (check_valves and _holds_back(network, arc.back)):
+            if not rules.holds_back(arc.back):
                 flow.add_edge((arc.start, "out"), (arc.end, "in"))
     flow.add_edges_from((origin, source) for source in sources)
     # Seen from the unit, so that of equally small sets the nearest one is found.
@@ -323,6 +374,7 @@ def _is_source(network: Network, place: str) -> bool:
 
 
 def _closing(network: Network, place: str, reached: _Reached, line_of: Mapping[int, str]) -> Closing:
+    duty = duty_of(network, place)
     return Closing(
         place=place,
         name=network.name(place),
@@ -330,20 +382,62 @@ def _closing(network: Network, place: str, reached: _Reached, line_of: Mapping[i
         port=reached.port,
         distance=reached.distance,
         line=line_of.get(reached.arc.index),
-        automatic=_CHECK in _kind(network, place),
+        automatic=duty == "check",
+        likely=likely_kinds(network, place) if duty == "likely" else "",
     )
 
 
-def _opening(network: Network, place: str, reached: _Reached) -> Opening | None:
+def _passed(network: Network, section: _Section, place: str, line_of: Mapping[int, str]) -> Passed | None:
+    """A valve of the section that might have ended it, if that is one."""
+    reached = section.reached[place]
+    duty = duty_of(network, place)
+    if duty not in ("unknown", "other") or network.is_tap(reached.arc):
+        return None
+    return Passed(
+        place=place,
+        name=network.name(place),
+        what=network.what(place),
+        port=reached.port,
+        distance=reached.distance,
+        line=line_of.get(reached.arc.index),
+        why=_unknown(network, place) if duty == "unknown" else "not known to shut off",
+    )
+
+
+def _unknown(network: Network, place: str) -> str:
+    """Why a valve of unknown kind isn't relied on."""
+    suspect = suspect_of(network, place)
+    if suspect is not None:
+        pump, behind = (network.name(one) for one in suspect)
+        return f"kind not known; right behind {pump}, with {behind} behind it: likely a check valve"
+    likely = likely_kinds(network, place)
+    return f"kind not known, may be {likely}" if likely else "kind not known"
+
+
+def _assumed(network: Network, section: _Section) -> list[Doubt]:
+    """The valves to close of which nobody knows whether they shut off."""
+    return [
+        Doubt(place, network.name(place), f"{_unknown(network, place)}; taken for a shut-off valve as asked")
+        for place in section.nearest
+        if place in section.needed and duty_of(network, place) == "unknown"
+    ]
+
+
+def _opening(network: Network, section: _Section, place: str) -> Opening | None:
     node = network.places[place]
+    valves = (step for step in section.way(place) if network.is_valve(step) and not network.stands_aside(step))
+    passed = ", ".join(network.name(step) for step in valves)
+    before = f"no valve before it that is known to shut off (only {passed})" if passed else "no valve before it"
     if network.unit_type(place) == "tank":
-        why = "no valve between; empty it, or isolate it as well"
+        between = f"no valve between that is known to shut off (only {passed})" if passed else "no valve between"
+        why = f"{between}; empty it, or isolate it as well"
     elif isinstance(node, Terminal) and node.kind == "open":
-        why = "open end with no valve before it"
+        why = f"open end with {before}"
     elif isinstance(node, Terminal) and node.kind == "unknown":
-        why = "end of the modelled pipe with no valve before it; what follows is not known"
+        why = f"end of the modelled pipe with {before}; what follows is not known"
     else:
         return None
+    reached = section.reached[place]
     return Opening(place, network.name(place), network.what(place), reached.port, reached.distance, why)
 
 
@@ -354,26 +448,26 @@ def _remarks(network: Network, section: _Section, check_valves: bool) -> tuple[s
         for place in places
         if (remark := _remark(network, section, place, check_valves)) is not None
     ]
-    guessed = sorted((network.name(p) for p in section.needed if network.what(p) == "valve"), key=tag_key)
-    if guessed:
-        told.append(f"{', '.join(guessed)}: kind not known, taken for shut-off valves")
+    likely = sorted((network.name(p) for p in section.needed if duty_of(network, p) == "likely"), key=tag_key)
+    if likely:
+        told.append(f"{', '.join(likely)}: kind only likely; all that it may be shuts off")
     return tuple(told)
 
 
 def _remark(network: Network, section: _Section, place: str, check_valves: bool) -> str | None:
     """What should be known about a node of the section or at its end, if anything."""
-    kind, arc = _kind(network, place), section.reached[place].arc
-    if place in section.walls:
-        if _is_relief(network, place):
-            return "is a relief valve: taken for closed, not to be blocked"
+    duty, arc = duty_of(network, place), section.reached[place].arc
+    if duty == "relief" and (place in section.walls or network.stands_aside(place)):
+        return "is a relief valve: taken for closed, not to be blocked"
+    if place in section.walls or place in section.needed:
         if few_ports(network, place) is not None:
             return "has a line on one side only: what lies behind it is not known"
         needless = place not in section.needed and not network.is_tap(arc)
         return "need not be closed: nothing can flow from behind it" if needless else None
-    if _CHECK in kind and not check_valves:
+    if duty == "check" and not check_valves:
         return PASSED_OVER
-    if _CHECK in kind and arc.flow == "unknown":
+    if duty == "check" and arc.flow == "unknown":
         return "is a check valve, but which way it lets through is not known"
-    if any(word in kind for word in _NOT_ISOLATING):
-        return "is a control valve: not counted as isolating"
+    if duty == "control":
+        return f"is a {network.what(place)}: not counted as isolating"
     return None

@@ -215,7 +215,7 @@ def isolation_lines(found: Isolation, *, hints: bool = True) -> list[str]:
     lines = f" (lines {', '.join(found.lines)})" if found.lines else ""
     more = " (--check-valves counts it)" if hints else ""
     notes = (f"note: {r}{more if r.endswith(PASSED_OVER) else ''}" for r in found.remarks)
-    return [*told, *_closing_lines(found), f"shut off with it: {shut}{lines}", *notes]
+    return [*told, *_closing_lines(found), *_passed_lines(found), f"shut off with it: {shut}{lines}", *notes]
 
 
 def _closing_lines(found: Isolation) -> list[str]:
@@ -224,11 +224,26 @@ def _closing_lines(found: Isolation) -> list[str]:
         return []
     count = sum(not valve.automatic for valve in found.valves)
     rows = [
-        (v.name, v.what, _by(v.port), _metres(v.distance), v.line or "", "closes by itself" if v.automatic else "")
+        (
+            v.name,
+            f"{v.what} ({v.likely})" if v.likely else v.what,
+            _by(v.port),
+            _metres(v.distance),
+            v.line or "",
+            "closes by itself" if v.automatic else "",
+        )
         for v in found.valves
     ]
     heading = f"to isolate {found.name}, close {count} valve{'s' * (count != 1)}:"
     return [heading, *(f"  {row}" for row in aligned(rows, right=(3,)))]
+
+
+def _passed_lines(found: Isolation) -> list[str]:
+    """The valves that are not relied on, if any."""
+    if not found.passed:
+        return []
+    rows = [(v.name, v.what, _by(v.port), _metres(v.distance), v.line or "", v.why) for v in found.passed]
+    return ["not relied on, as nobody knows whether they shut off:", *(f"  {row}" for row in aligned(rows, right=(3,)))]
 
 
 def isolation_values(found: Isolation) -> dict[str, Any]:
@@ -244,8 +259,20 @@ def isolation_values(found: Isolation) -> dict[str, Any]:
                 "distance_m": round(v.distance, 6),
                 "line": v.line,
                 "automatic": v.automatic,
+                "likely": v.likely or None,
             }
             for v in found.valves
+        ],
+        "passed": [
+            {
+                "tag": v.name,
+                "what": v.what,
+                "port": v.port,
+                "distance_m": round(v.distance, 6),
+                "line": v.line,
+                "why": v.why,
+            }
+            for v in found.passed
         ],
         "openings": [
             {"to": o.name, "what": o.what, "port": o.port, "distance_m": round(o.distance, 6), "why": o.why}

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import graphs
-from cadgraph.model.records import Connected, Related
+from cadgraph.model.records import Connected, Related, Terminal
 from cadgraph.model.truth import Truth
 from cadlab.evaluate import evaluate
 from cadlab.evaluate.relations import contract
@@ -160,6 +160,19 @@ def test_open_ends_are_counted_by_their_unit():
     graph = rewired(agreeing(line()), "connected", [("V2", "end")])
     ends = evaluate(graph, line()).total.connected.terminals
     assert (ends.n_true, ends.n_predicted, ends.n_correct) == (1, 1, 0)
+
+
+@pytest.mark.parametrize(
+    ("true", "found", "correct"), [("open", "open", 1), ("blind", "blind", 1), ("blind", "open", 0)]
+)
+def test_an_end_is_right_where_it_is_as_open_as_the_truth_says(true, found, correct):
+    data = line().to_json()
+    data["points"] = [point | ({"end": true} if point["kind"] == "terminal" else {}) for point in data["points"]]
+    graph = agreeing(line())
+    nodes = [n.model_copy(update={"kind": found}) if isinstance(n, Terminal) else n for n in graph.document.nodes]
+    told = made_of(nodes, graph.document.edges)
+    ends = evaluate(told, Truth.from_json(data)).total.connected.terminals
+    assert (ends.n_true, ends.n_predicted, ends.n_correct) == (1, 1, correct)
 
 
 def test_a_graph_without_connections_has_no_precision():

@@ -82,6 +82,22 @@ def test_a_cover_that_nothing_turns_is_a_check_valve_but_not_beside_a_stem():
     assert not found or found[0][1] < SURE_FROM
 
 
+def test_a_lever_over_a_yoke_is_no_ball_valve():
+    yoke = turned(shapes.tube(0.04, 0.03, 0.1), (0.089, 0, 0.13), UP)
+    found = kinds([body(0.178), yoke, operator("lever", 0.178)], ["valve body", "yoke", "lever"], 0.178, 50)
+    assert not found or found[0][1] < SURE_FROM
+
+
+def test_a_bracket_under_an_actuator_says_nothing():
+    actuator = turned(shapes.box((0.1, 0.06, 0.06)), (0.089, 0, 0.2), UP)
+    bracket = turned(shapes.box((0.05, 0.05, 0.08)), (0.089, 0, 0.12), UP)
+    asked = [
+        kinds([body(0.178), bracket, actuator], ["valve body", name, "actuator"], 0.178, 50)
+        for name in ("yoke", "position indicator")
+    ]
+    assert asked[0] == asked[1]
+
+
 def test_other_names_sizes_and_openings_of_the_same_parts_are_looked_at_anew():
     parts = parts_of(body(0.178), operator("lever", 0.178))
     unit = UnitParts("valve", "V-001", (0, 1), None, ends(0.178))
@@ -116,7 +132,7 @@ def test_confidences_add_up_with_what_has_no_rule():
     assert 0.9 < sum(sure for _, sure in found) < 1.0
 
 
-@pytest.mark.parametrize("tables", [valve_kind._TURNED, valve_kind._LENGTH, valve_kind._PLACE])
+@pytest.mark.parametrize("tables", [valve_kind._TURNED, valve_kind._LENGTH, valve_kind._PLACE, valve_kind._HOLDS_YOKE])
 def test_every_kind_has_its_row_in_every_table(tables):
     assert set(tables) == set(valve_kind._PRIOR)
     assert sum(valve_kind._PRIOR.values()) == pytest.approx(1.0, abs=0.1)

@@ -7,7 +7,7 @@ modelled and by what style is drawn anew for each plant and each device.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, fields, replace
 from functools import partial
 from typing import Any, TypeVar
@@ -44,6 +44,7 @@ _MESHES, _MOST = (90, 280), 24  # a plant is full at a number of meshes without 
 _NARROWING = ("reducer/bare cone",)  # families of single reducers whose two ends are on one axis
 _STYLES = 3  # at most, of a plant whose taste is given
 _FASTENERS = ("bolt", "nut", "washer", "stud", "screw")
+_LIDS = frozenset({"pipe cap", "blind flange"})
 _GROUND = 0.3  # share of plants that stand on a slab
 _DN_WEIGHTS = np.array([2, 2, 3, 2, 3, 4, 2, 3, 3, 1, 2, 2, 1, 1], float)  # of DN15..DN300
 
@@ -240,8 +241,9 @@ def _line(work: _Draw, style: ModelingStyle, tag: str, lane: float) -> Assembly:
         tag, dn, Route(np.array(points)), tuple(inline), tuple(taps), bent=bent, bend=bend, ends=(ends[0], ends[1])
     )
     laid = lay(run, style)
-    pieces = [laid.assembly, *_supports(work, style, laid), *_endings(work, style, run)]
-    whole = gather(pieces)
+    supports, endings = _supports(work, style, laid), _endings(work, style, run)
+    line = _ended(laid.assembly, run, endings)
+    whole = gather([line, *supports, *(part for _, parts in endings for part in parts)])
     return (_spooled(whole) if style.merged else whole).marked(cluster=tag)
 
 
@@ -333,16 +335,33 @@ def _narrowed(
     return [*items, back], x + length
 
 
-def _endings(work: _Draw, style: ModelingStyle, run: Run) -> list[Assembly]:
-    """What closes or goes on from the ends of a line: caps, bends and hoses on pipes; valves and lids on flanges."""
-    parts = []
+def _ended(line: Assembly, run: Run, endings: Iterable[tuple[int, list[Assembly]]]) -> Assembly:
+    """A line whose truth says what stands at its ends (0 or 1): closed by a lid, untold where a device goes on."""
+    names = {f"{run.tag}/{('start', 'end')[which]}": parts for which, parts in endings}
+    points = (replace(p, end=_end_by(names[p.id], p.end)) if p.id in names else p for p in line.points)
+    return replace(line, points=tuple(points))
+
+
+def _end_by(parts: Iterable[Assembly], end: str) -> str:
+    """What an end is by what stands there: closed by a lid; open or not for a device to say."""
+    components = [component for part in parts for component in part.components]
+    names = {component.name for component in components}
+    if names & _LIDS and "branch outlet" not in names:
+        return "blind"
+    return "" if any(component.unit for component in components) else end
+
+
+def _endings(work: _Draw, style: ModelingStyle, run: Run) -> list[tuple[int, list[Assembly]]]:
+    """What stands at the ends (0 or 1) of a line: caps, bends and hoses on pipes; valves and lids on flanges."""
+    found = []
     for which, s in ((0, 0.0), (1, run.route.length)):
         frame = run.route.frame(s) if which else run.route.frame(s) @ spun("z", np.pi)
         dn = run.dn_at(s)
         if work.rng.random() < 0.3 or run.ends[which] not in ("open", "flange"):
             continue
-        parts += _pipe_end(work, style, dn, frame) if run.ends[which] == "open" else _flange_end(work, style, dn, frame)
-    return parts
+        build = _pipe_end if run.ends[which] == "open" else _flange_end
+        found.append((which, build(work, style, dn, frame)))
+    return found
 
 
 def _pipe_end(work: _Draw, style: ModelingStyle, dn: int, frame: Floats) -> list[Assembly]:

@@ -11,7 +11,7 @@ from cadgraph.model.derived import store_of
 from cadgraph.model.parts import Opening, Parts
 from cadgraph.model.scene import Floats
 
-__all__ = ["Surface", "lean", "lean_of", "line_through", "surface_about"]
+__all__ = ["Surface", "lean", "lean_of", "line_through", "surface_about", "triangles_of"]
 
 # A neck leans at least and at most as far (slopes of 20 and 65 degrees), and is upright up to a slope of 10 degrees.
 _LEANS, _LIES, _UPRIGHT = 0.36, 2.14, 0.18
@@ -82,14 +82,15 @@ def surface_about(parts: Parts, some: Collection[int], start: Floats, end: Float
     first = np.cross(axis, helper)
     first /= np.linalg.norm(first)
     across = np.array([first, np.cross(axis, first)])
-    corners = np.concatenate([_triangles(parts, part) for part in sorted(some)]) - (start + end) / 2
+    corners = np.concatenate([triangles_of(parts, part) for part in sorted(some)]) - (start + end) / 2
     middles, vectors = _split(corners, length / 12)
     twice = np.linalg.norm(vectors, axis=1)
     normal = vectors / np.maximum(twice, 1e-300)[:, None] @ np.vstack([axis, across]).T
     return Surface(middles @ axis / length, middles @ across.T, normal, twice / 2, length, across)
 
 
-def _triangles(parts: Parts, part: int) -> Floats:
+def triangles_of(parts: Parts, part: int) -> Floats:
+    """``(n, 3, 3)`` corners of the triangles of a part that are whole and finite [m]."""
     vertices, faces = parts.scene.mesh(part)
     inside = faces[(faces >= 0).all(axis=1) & (faces < len(vertices)).all(axis=1)]
     corners = vertices[inside]

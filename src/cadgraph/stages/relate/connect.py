@@ -14,6 +14,7 @@ from cadgraph.model.parts import Joint, Network, Parts, UnitParts
 from cadgraph.stages.relate.algorithm import find_units, number_units
 from cadgraph.stages.relate.attach import flat_contacts
 from cadgraph.stages.relate.contract import simplify
+from cadgraph.stages.relate.cover import Cover, cover_of
 from cadgraph.stages.relate.edit_flow import set_flow, unmet_flow
 from cadgraph.stages.relate.edit_joints import bridge_solids, joint_of_solids, unmet_joints
 from cadgraph.stages.relate.edit_units import edit_groups, edit_units, tag_as_corrected
@@ -195,8 +196,17 @@ def _contract(piping: Piping, units: Sequence[UnitParts], drawing: Drawing, name
         piping.lines,
         piping.joints,
         lambda part: _CLOSED.get(names[part] or ""),
+        lambda row: _cover(piping, units, row),
         given.is_connector.__getitem__,
     )
+
+
+def _cover(piping: Piping, units: Sequence[UnitParts], row: int) -> Cover | None:
+    """What the bodies that a free end lies against make of it."""
+    given, ends = piping.given, piping.joints.ends
+    carried = {*piping.lines, *piping.lineless, *_owners(units), *piping.jackets}
+    near = given.contacts.neighbors.get(int(ends.part[row]), [])
+    return cover_of(given.parts, [part for part in near if part not in carried], ends, row)
 
 
 def _is_cover(line: Centreline, name: str | None) -> bool:

@@ -33,6 +33,7 @@ def make_network(
     lines: Mapping[int, Centreline],
     found: Attachments,
     ending: Callable[[int], str | None],
+    cover: Callable[[int], str | None],
     sure: Callable[[int], bool],
 ) -> Network:
     """Makes links and places of the simplified net.
@@ -44,12 +45,13 @@ def make_network(
         lines: of the connector parts.
         found: what joins what.
         ending: what a part's label says of a run that ends there: ``blind``, ``open`` or None.
+        cover: what the body that a free end (by its row) lies against makes of it: ``blind``, ``unknown`` or None.
         sure: whether a part is a connector by its label.
     """
     spans = _kept(net, len(units), sure)
     nodes = _places_of(spans, len(units))
     number = {**{k: k for k in range(len(units))}, **{node: len(units) + k for k, node in enumerate(nodes)}}
-    places = tuple(_place(node, spans, drawing, lines, found, ending) for node in nodes)
+    places = tuple(_place(node, spans, drawing, lines, found, ending, cover) for node in nodes)
     opened, renumbered = _used_openings(spans, units, drawing)
     directed = [span if number[span.a] <= number[span.b] else span.reversed() for span in spans]
     links = [_link(span, number, opened, renumbered) for span in directed]
@@ -124,6 +126,7 @@ def _place(
     lines: Mapping[int, Centreline],
     found: Attachments,
     ending: Callable[[int], str | None],
+    cover: Callable[[int], str | None],
 ) -> Place:
     meeting = [(span.points[0], span.via[:1]) for span in spans if span.a == node]
     meeting += [(span.points[-1], span.via[-1:]) for span in spans if span.b == node]
@@ -131,7 +134,7 @@ def _place(
     x, y, z = (float(v) for v in np.mean([point for point, _ in meeting], axis=0))
     kind = "junction"
     if len(meeting) == 1:
-        kind = _ending(_only_span(node, spans), node, drawing, lines, found, ending)
+        kind = _ending(_only_span(node, spans), node, drawing, lines, found, ending, cover)
     return Place(kind, (x, y, z), parts)
 
 
@@ -148,8 +151,9 @@ def _ending(
     lines: Mapping[int, Centreline],
     found: Attachments,
     ending: Callable[[int], str | None],
+    cover: Callable[[int], str | None],
 ) -> str:
-    """Whether a run ends open or closed, by the label of what stands there, else by its shape."""
+    """Whether a run ends open or closed, by the label of what stands there, by its shape, or by what it ends at."""
     if not span.via:
         return "unknown"
     last = span.via[-1]
@@ -159,14 +163,14 @@ def _ending(
     rows = [row for row in drawing.ends.get(node, ()) if int(found.ends.part[row]) == last]
     if last not in lines or not rows:
         return "unknown"
-    if np.isfinite(found.ends.bore[rows[0]]):
-        return "open"
-    return "blind" if len(span.via) > 1 and _is_lid(lines, span.via[-2], last) else "open"
+    lid = not np.isfinite(found.ends.bore[rows[0]]) and _is_lid(lines, span.via, last)
+    return "blind" if lid else cover(rows[0]) or "open"
 
 
-def _is_lid(lines: Mapping[int, Centreline], before: int, last: int) -> bool:
+def _is_lid(lines: Mapping[int, Centreline], via: Sequence[int], last: int) -> bool:
     """Whether two discs end a run, of which the last one, without a hole, covers the other: a flange and its lid."""
-    if before not in lines:
+    before = via[-2] if len(via) > 1 else None
+    if before is None or before not in lines:
         return False
     radius, wide = _widest(lines[last]), _widest(lines[before])
     short = lines[last].length < radius and lines[before].length < 1.6 * wide

@@ -100,6 +100,14 @@ _SPRUNG, _UNSPRUNG = (0.6, 0.01), (0.4, 0.99)
 _SLENDER, _REACH, _ALONE, _UNLIKE, _TALL = 0.8, 3.2, 0.75, 0.12, 1.6
 # A ball among the parts is that of a ball valve, but for check valves with a ball.
 _HOLDS_BALL = MappingProxyType({"ball": 1.0, "check": 0.02, "plug": 0.02})
+# How often valves of a kind that is turned by hand have a yoke, which carries a stem that rises (ours); a quarter turn
+# needs none. Brackets of actuators are called so, too.
+_HOLDS_YOKE = MappingProxyType(
+    {
+        "ball": 0.01, "gate": 0.6, "globe": 0.6, "butterfly": 0.01, "check": 0.005, "plug": 0.01, "diaphragm": 0.2,
+        "relief": 0.2, "control": 0.6, "other": 0.3,
+    }
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -115,6 +123,7 @@ class _Look:
         size: nominal (DN), or None.
         sprung: whether it looks like a spring housing with a snout; None where that can't be said.
         ball: whether there is a ball among its parts.
+        yoke: whether there is a yoke among its parts, and no actuator or gearbox.
     """
 
     turned: str | None
@@ -125,6 +134,7 @@ class _Look:
     size: int | None
     sprung: bool | None
     ball: bool
+    yoke: bool = False
 
     @property
     def says_something(self) -> bool:
@@ -171,6 +181,7 @@ def _likelihood(kind: str, look: _Look) -> float:
     share = _by_operator(kind, look) * _by_length(kind, look.length, look.size) * _PLACE[kind][look.place]
     if look.sprung is not None:
         share *= (_SPRUNG if look.sprung else _UNSPRUNG)[kind != "relief"]
+    share *= _HOLDS_YOKE[kind] if look.yoke else 1.0
     return share * (_HOLDS_BALL.get(kind, 0.002) if look.ball else 1.0)
 
 
@@ -222,6 +233,7 @@ def _look(unit: UnitParts, names: Sequence[str | None], size: int | None, parts:
         size=size,
         sprung=_is_sprung(unit, names, parts),
         ball="valve ball" in own,
+        yoke="yoke" in own and turned not in ("actuator", "gearbox"),
     )
     line = line_through(unit.openings)
     return (
@@ -263,7 +275,8 @@ def _is_sprung(unit: UnitParts, names: Sequence[str | None], parts: Parts) -> bo
     return _spring_housing(surface_about(parts, body, start, start + reach * way)) if reach > 1e-3 else None
 
 
-def _spring_housing(surface: Surface) -> bool:
+def _spring_housing(surface: Surface) -> bool | None:
+    """Whether a valve is a spring housing over a snout; None where it is, but might end in two flanges as well."""
     height = surface.height
     low, high = surface.along < 0.0, surface.along > 0.1
     snout, housing = (float(height[row].max(initial=0.0)) for row in (low, high))
@@ -272,7 +285,9 @@ def _spring_housing(surface: Surface) -> bool:
     far = low & (height > 0.8 * snout)
     out = surface.out[far] / height[far, None]
     alone = float(np.linalg.norm(surface.area[far] @ out)) / float(surface.area[far].sum())
-    return alone >= _ALONE and _unlike(surface.along, height)
+    if alone < _ALONE:
+        return False
+    return True if _unlike(surface.along, height) else None
 
 
 def _unlike(along: Floats, height: Floats) -> bool:

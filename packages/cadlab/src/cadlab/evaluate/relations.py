@@ -80,14 +80,15 @@ class EdgeVerdict:
 
 @dataclass(frozen=True)
 class EndVerdict:
-    """The open ends next to one unit.
+    """The ends of lines next to one unit.
 
     Args:
         unit: tag of the true unit, else of the predicted one.
         structure: the true cluster.
         n_true: terminals that it reaches in the truth.
         n_predicted: terminals that it reaches in the graph.
-        n_correct: the lesser of both, 0 where the unit is not in both.
+        n_correct: the lesser of both, 0 where the unit is not in both; open and blind ends each for themselves where
+            the truth says which they are.
     """
 
     unit: str
@@ -233,11 +234,15 @@ def compare_edges(pairing: Pairing, match: UnitMatch, kind: str) -> tuple[EdgeVe
 
 
 def compare_ends(pairing: Pairing, match: UnitMatch) -> tuple[EndVerdict, ...]:
-    """Counts the open ends next to each unit on both sides."""
+    """Counts the ends of lines next to each unit on both sides."""
     true = true_graph(pairing).open_ends
-    predicted: Counter[str] = Counter()
-    for unit, n in predicted_graph(pairing, "connected").open_ends.items():
-        predicted[match.true_of.get(unit, _stray(unit))] += n
+    predicted = _predicted_ends(pairing, match)
+    correct: Counter[str] = Counter()
+    told = all(point.end for point in pairing.truth.points if point.kind == "terminal")
+    for end in ("open", "blind") if told else (None,):
+        here = predicted if end is None else _predicted_ends(pairing, match, end)
+        for unit, n in true_graph(pairing, end).open_ends.items():
+            correct[unit] += min(n, here[unit])
     tag, structure = _names(pairing, match)
     verdicts = [
         EndVerdict(
@@ -245,11 +250,19 @@ def compare_ends(pairing: Pairing, match: UnitMatch) -> tuple[EndVerdict, ...]:
             structure=structure[unit],
             n_true=true.get(unit, 0),
             n_predicted=predicted[unit],
-            n_correct=min(true.get(unit, 0), predicted[unit]),
+            n_correct=correct[unit],
         )
         for unit in {*true, *predicted}
     ]
     return tuple(sorted(verdicts, key=lambda verdict: (natural_key(verdict.unit), verdict.n_true)))
+
+
+def _predicted_ends(pairing: Pairing, match: UnitMatch, end: str | None = None) -> Counter[str]:
+    """How many terminals each unit reaches in the graph, by what it stands for; only those of a kind, if given."""
+    found: Counter[str] = Counter()
+    for unit, n in predicted_graph(pairing, "connected", end).open_ends.items():
+        found[match.true_of.get(unit, _stray(unit))] += n
+    return found
 
 
 def score_relations(
@@ -327,14 +340,14 @@ def _reached(start: str, ways: Mapping[str, Sequence[str]], through: set[str]) -
     return seen - {start}
 
 
-def true_graph(pairing: Pairing) -> UnitGraph:
-    """The truth's functional graph."""
+def true_graph(pairing: Pairing, end: str | None = None) -> UnitGraph:
+    """The truth's functional graph; with ``open`` or ``blind`` its terminals are only those."""
     truth = pairing.truth
     return contract(
         [(c.source, c.target, c.direction) for c in truth.connections or ()],
         [unit.id for unit in truth.units or ()],
         [point.id for point in truth.points if point.kind == "junction"],
-        [point.id for point in truth.points if point.kind == "terminal"],
+        [point.id for point in truth.points if point.kind == "terminal" and end in (None, point.end)],
     )
 
 
@@ -356,8 +369,8 @@ def _reasons(pairing: Pairing) -> dict[Pair, str]:
     return found
 
 
-def predicted_graph(pairing: Pairing, kind: str) -> UnitGraph:
-    """The graph's own functional graph, of the units that hold a mesh of the truth."""
+def predicted_graph(pairing: Pairing, kind: str, end: str | None = None) -> UnitGraph:
+    """The graph's own functional graph, of the units that hold a mesh of the truth; ``end`` as for the truth's."""
     graph = pairing.graph
     units = {unit.id for unit in graph.units() if any(part in pairing.head for part in unit.parts)}
     if kind == "related":
@@ -365,7 +378,8 @@ def predicted_graph(pairing: Pairing, kind: str) -> UnitGraph:
     else:
         edges = [(edge.source, edge.target, edge.direction) for edge in graph.of_kind(Connected)]
     junctions = [node.id for node in graph.of_layer(Junction)]
-    return contract(edges, units, junctions, [node.id for node in graph.of_layer(Terminal)])
+    ends = [node.id for node in graph.of_layer(Terminal) if end in (None, node.kind)]
+    return contract(edges, units, junctions, ends)
 
 
 def _stray(unit: str) -> str:

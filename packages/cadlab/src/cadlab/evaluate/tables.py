@@ -272,7 +272,7 @@ def _relation_rows(relations: RelationScores) -> Iterable[tuple[str, ...]]:
     named: list[tuple[str, Score | None]] = [
         (relations.kind, relations.edges),
         (f"{relations.kind}, of units found", relations.between_matched),
-        ("open ends", relations.terminals),
+        ("ends", relations.terminals),
     ]
     for name, score in named:
         if score is not None:

@@ -1,0 +1,112 @@
+"""What a valve can be relied on for when something is cut off: whether it shuts off, by its kind."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from cadgraph.model.records import Unit
+from cadgraph.query.network import Network
+
+__all__ = ["Duty", "duty_of", "likely_kinds", "suspect_of"]
+
+Duty = Literal["shuts off", "likely", "unknown", "check", "relief", "control", "other"]
+"""``likely``: its kind is open, but all that it may be shuts off; ``other``: a kind that isn't known to shut off."""
+
+# What stands for more than a hand-operated shut-off: a control valve may leak and moves by itself, so that rules of
+# lockout and tagout (OSHA 29 CFR 1910.147, EN ISO 14118) don't take it for an isolating device. The first word that
+# fits counts: a "ball check valve" is a check valve, a "globe control valve" a control valve.
+_DUTIES: tuple[tuple[tuple[str, ...], Duty], ...] = (
+    (("relief", "safety valve"), "relief"),
+    (("check", "non-return", "nonreturn", "non return"), "check"),
+    (("control", "regulating", "reducing", "modulating", "solenoid", "safety cutoff"), "control"),
+    (("foot", "float", "release", "vacuum", "breather", "three-way", "3-way", "mixing", "diverting"), "other"),
+    (
+        (
+            "ball", "gate", "globe", "butterfly", "plug", "diaphragm", "needle", "pinch", "isolating", "isolation",
+            "shut-off", "shutoff", "stop", "cock", "block valve", "drain valve",
+        ),
+        "shuts off",
+    ),
+)  # fmt: skip
+# A valve whose kind is open shuts off where kinds that do are together as sure as a kind must be to be stated (ours).
+_SURE = 0.85
+
+
+def duty_of(network: Network, place: str) -> Duty | None:
+    """What a valve is good for; None for what is no valve.
+
+    Args:
+        network: of a finished graph.
+        place: id of a node.
+    """
+    node = network.places[place]
+    if not isinstance(node, Unit) or node.unit_type != "valve":
+        return None
+    if node.kind is not None:
+        return _of_kind(node.kind)
+    sure = 0.0
+    for kind, confidence in node.kind_guesses:
+        if _of_kind(kind) != "shuts off":
+            return "unknown"
+        sure += confidence
+    return "likely" if sure >= _SURE else "unknown"
+
+
+def likely_kinds(network: Network, place: str) -> str:
+    """What a valve of unknown kind may be, in words: ``gate valve 55%, globe valve 42%``; empty where nobody knows."""
+    node = network.places[place]
+    guesses = node.kind_guesses if isinstance(node, Unit) and node.kind is None else ()
+    return ", ".join(f"{kind} {sure:.0%}" for kind, sure in guesses)
+
+
+def suspect_of(network: Network, place: str) -> tuple[str, str] | None:
+    """The pump and the next valve, where a valve of unknown kind stands between them: a check valve, most likely.
+
+    Args:
+        network: of a finished graph.
+        place: id of a valve.
+
+    Returns:
+        The ids of the pump that it stands right behind, on a side that the pump isn't known to draw from, and of the
+        valve right behind it; None where it isn't so.
+    """
+    if duty_of(network, place) != "unknown" or network.stands_aside(place):
+        return None
+    before = _met(network, place, "pump")
+    if before is None:
+        return None
+    pump, port = before
+    behind = _met(network, place, "valve", port)
+    return None if behind is None else (pump, behind[0])
+
+
+def _of_kind(kind: str) -> Duty:
+    folded = kind.casefold()
+    return next((duty for words, duty in _DUTIES if any(word in folded for word in words)), "other")
+
+
+def _met(network: Network, place: str, wanted: str, but: int | None = None) -> tuple[str, int] | None:
+    """The first unit of a type with nothing but gauges and joints between, and the connection that it is met over.
+
+    Args:
+        network: of a finished graph.
+        place: id of where it is looked from.
+        wanted: type of unit; a pump is only met on a side that it isn't known to draw from.
+        but: number of the connection of the place that isn't followed.
+    """
+    for first in network.main_arcs(place):
+        if first.index == but:
+            continue
+        seen, waiting = {place}, [first]
+        while waiting:
+            arc = waiting.pop()
+            if arc.end in seen:
+                continue
+            seen.add(arc.end)
+            kind = network.unit_type(arc.end)
+            aside = network.stands_aside(arc.end)
+            if kind == wanted and not aside and not (wanted == "pump" and arc.flow == "along"):
+                return arc.end, first.index
+            if aside or kind in (None, "gauge"):
+                waiting += network.main_arcs(arc.end)
+    return None
