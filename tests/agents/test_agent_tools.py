@@ -1,4 +1,5 @@
 import json
+import os
 
 import pytest
 
@@ -199,6 +200,15 @@ def test_overview_counts_kinds_and_says_what_is_not_known(plant):
     assert "valve: 16 (gate valve 5, ball valve 4" in text
     assert "trust: valve kind unknown: V-012" in text
     assert "flow unknown in 4 of 16 lines" in text
+
+
+def test_overview_says_where_corrections_may_be_missing(plant, tmp_path):
+    plant.graph.save(tmp_path / "graph.json")
+    reopened = Plant.open(tmp_path)
+    assert "corrections" not in ask(reopened, "overview").text
+    (tmp_path / "corrections.json").touch()
+    os.utime(tmp_path / "graph.json", (1, 1))
+    assert "trust: corrections were made that this graph may lack" in ask(reopened, "overview").text
 
 
 def test_find_by_kind_names_those_that_may_be_one(plant):

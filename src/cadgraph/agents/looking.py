@@ -52,6 +52,7 @@ def overview(plant: Plant) -> Answer:
         "joints_in_doubt": len(likely_joints(network)),
         "diagnostics": dict(summary.diagnostics),
         "warnings": list(summary.warnings),
+        "behind_corrections": plant.is_behind,
     }
     values = {
         "plant": plant.name,
@@ -98,7 +99,8 @@ def _without_line(plant: Plant) -> Iterator[str]:
 
 
 def _trust_rows(trust: Mapping[str, Any]) -> list[str]:
-    told = [f"trust: {trust['parts_unlabelled']} parts unlabelled"]
+    told = ["trust: corrections were made that this graph may lack: build it again"] * trust["behind_corrections"]
+    told.append(f"trust: {trust['parts_unlabelled']} parts unlabelled")
     for key, words in (("units_without_line", "no line found at"), ("valves_of_unknown_kind", "valve kind unknown:")):
         told += [f"trust: {words} {some(trust[key])}"] if trust[key] else []
     if trust["lines"]:

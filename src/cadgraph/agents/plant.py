@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, get_args
 from cadgraph._io.text import file_name
 from cadgraph.agents.answer import AskError, cell
 from cadgraph.errors import LabelError, UnknownNode
+from cadgraph.model.corrections import CORRECTIONS
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Box, Junction, Node, Terminal, Unit
 from cadgraph.query.lines import Line, find_lines
@@ -52,6 +53,17 @@ class Plant:
             FormatError: there is none, or it does not follow the format.
         """
         return cls(SceneGraph.load(path), path if path.is_dir() else path.parent)
+
+    @property
+    def is_behind(self) -> bool:
+        """Whether corrections in the folder are younger than its graph, which then may lack them."""
+        if self.folder is None:
+            return False
+        try:
+            corrected, written = ((self.folder / name).stat().st_mtime_ns for name in (CORRECTIONS, "graph.json"))
+        except OSError:
+            return False
+        return corrected > written
 
     @cached_property
     def scene(self) -> Scene | None:
