@@ -264,7 +264,7 @@ def test_isolate_says_what_is_wrong_before_what_to_close():
     plant = Plant(network(nodes, chain("T-001 V-001 P-001.N1") + chain("P-001.N2 X1")))
     answer = ask(plant, "isolate", target="P-001")
     lines = answer.text.split("\n")
-    assert lines[0] == "isolate P-001 (pump): CAN'T BE ISOLATED WHOLLY: 1 way stay open; 1 valve to close"
+    assert lines[0] == "isolate P-001 (pump): CAN'T BE ISOLATED WHOLLY: 1 way stays open; 1 valve to close"
     assert lines[1].startswith("stays open\tterminal-001\topen end\tN2")
     assert [line.split("\t")[0] for line in lines].index("close") > 1
     assert answer.values["isolated"] is False

@@ -193,6 +193,12 @@ def status(host, headers):
         return connection.getresponse().status
 
 
+def test_no_neighbour_answers_for_a_folder_that_is_not_there(several):
+    for gone in (several / "typo", several / "typo" / "graph.json"):
+        with pytest.raises(FormatError, match="no such folder"):
+            Plants(gone)
+
+
 @pytest.mark.parametrize("form", ["one", "several"])
 def test_the_list_of_tools_is_short_and_says_that_they_only_read(several, form):
     plants = Plants(several / "pumps" if form == "one" else several)

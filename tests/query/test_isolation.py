@@ -128,8 +128,8 @@ def test_what_only_valves_of_unknown_kind_keep_off_is_an_opening_that_names_them
     assert found.valves == ()
     assert found.isolated is False
     assert [o.why for o in found.openings] == [
-        "no valve between that is known to shut off (only V-001); empty it, or isolate it as well",
-        "open end with no valve before it that is known to shut off (only V-002)",
+        "no valve between that is known to shut off (the nearest way there: V-001); empty it, or isolate it as well",
+        "open end with no valve before it that is known to shut off (the nearest way there: V-002)",
     ]
 
 

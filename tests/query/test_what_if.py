@@ -110,6 +110,15 @@ def test_a_tank_that_nothing_flows_to_any_more_is_told():
     assert tags(found.dead_headed) == {"P-001"}
 
 
+def test_a_tank_that_something_unknown_may_fill_is_unknown():
+    nodes = [unit("T-001"), unit("T-002"), unit("V-001", "gate valve"), terminal(1)]
+    edges = chain("T-001 V-001 T-002") + chain("X1 T-002", direction="unknown")
+    found = what_if(network(nodes, edges), "V-001")
+    assert found.not_refilled == ()
+    assert tags(found.unknown) == {"T-002"}
+    assert not found.known
+
+
 def test_without_tanks_and_ends_pumps_feed():
     nodes = [unit("P-001"), unit("V-001", "gate valve"), unit("G-001", "flow meter"), terminal(1, "blind")]
     found = what_if(network(nodes, chain("P-001 V-001 G-001 X1")), "V-001")

@@ -22,7 +22,7 @@ __all__ = ["Plants"]
 _GRAPH = "graph.json"
 _MOST_OPEN = 8  # plants that are kept open; the one that wasn't asked about for longest is closed
 
-Stamp = tuple[int, int]
+Stamp = tuple[int, int, int]
 
 
 @dataclass
@@ -55,6 +55,9 @@ class Plants:
         self._who = who
         self._lock = threading.Lock()
         self._opened: dict[str, _Opened] = {}
+        if not where.is_dir() and not (where.name == _GRAPH and where.is_file()):
+            # Its neighbours must never answer for a folder that is gone.
+            raise FormatError(f"{where}: no such folder; give what 'cadgraph build' wrote, or a folder of such folders")
         self._root = where if where.is_dir() else where.parent
         self.several = not (where.name == _GRAPH or (where / _GRAPH).is_file())
         if self.several and not self._folders():
@@ -200,7 +203,8 @@ def _stamp(file: Path) -> Stamp:
         raise FormatError(
             f"{file.name} of {file.parent.name}: can't be read ({error.strerror}); build it again"
         ) from None
-    return status.st_mtime_ns, status.st_size
+    # The last one can't be set back, as copies do with the first.
+    return status.st_mtime_ns, status.st_size, status.st_ctime_ns
 
 
 def _size_of(plant: Plant | None) -> str:

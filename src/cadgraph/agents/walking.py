@@ -205,7 +205,7 @@ def isolate(
     n_valves = sum(not valve.automatic for valve in found.valves)
     close = f"{_count(n_valves, 'valve')} to close"
     if found.openings:
-        verdict = f"CAN'T BE ISOLATED WHOLLY: {_count(len(found.openings), 'way')} stay open; {close}"
+        verdict = f"CAN'T BE ISOLATED WHOLLY: {_ways(len(found.openings))} open; {close}"
     elif found.doubts:
         verdict = f"NOT SURE: {_count(len(found.doubts), 'doubt')}; {close}"
     else:
@@ -419,3 +419,7 @@ def _joined(names: Sequence[str]) -> Iterator[str]:
         piece = f"{piece}, {name}" if piece else name
     if piece:
         yield piece
+
+
+def _ways(n: int) -> str:
+    return f"{n} way stays" if n == 1 else f"{n} ways stay"

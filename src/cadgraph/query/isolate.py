@@ -427,10 +427,10 @@ def _opening(network: Network, section: _Section, place: str) -> Opening | None:
     node = network.places[place]
     valves = (step for step in section.way(place) if network.is_valve(step) and not network.stands_aside(step))
     passed = ", ".join(network.name(step) for step in valves)
-    before = f"no valve before it that is known to shut off (only {passed})" if passed else "no valve before it"
+    known = f" that is known to shut off (the nearest way there: {passed})" if passed else ""
+    before = f"no valve before it{known}"
     if network.unit_type(place) == "tank":
-        between = f"no valve between that is known to shut off (only {passed})" if passed else "no valve between"
-        why = f"{between}; empty it, or isolate it as well"
+        why = f"no valve between{known}; empty it, or isolate it as well"
     elif isinstance(node, Terminal) and node.kind == "open":
         why = f"open end with {before}"
     elif isinstance(node, Terminal) and node.kind == "unknown":

@@ -24,6 +24,7 @@ _NOT_SHUT: Mapping[Duty, str] = {
     "other": "is of a kind that isn't known to shut off",
     "unknown": "is of unknown kind: it may be a check valve, which nobody shuts",
 }
+_FILLED = "filled through them before; whether the ways left to it fill it, nobody knows"
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,7 @@ class WhatIf:
         sources: tags of what feeds the network, by tag.
         cut_off: units and ends with no way left from any source but against a known flow, by tag; ``why`` names the
             closed valves that it depends on, as nobody knows whether these can be shut.
-        unknown: units and ends behind the valves that may be cut off or not.
+        unknown: units and ends behind the valves that may be cut off or not, and tanks that may be refilled or not.
         still_fed: units and ends behind the valves to which a way of known direction leads from a source all the same.
         not_refilled: tanks that count as sources and that nothing else flows to any more.
         dead_headed: pumps that have no way left to a tank or an end.
@@ -153,15 +154,17 @@ class _Closing:
         cut = before - after - set(self.closed)
         depends = "only if " + " and ".join(map(self.network.name, self.unsure)) + " really shuts"
         open_ones = (behind - cut) - surely_fed - set(self.sure_sources)
+        not_refilled, perhaps_filled = self._not_refilled(behind)
         return WhatIf(
             closed=tuple(map(self.network.name, self.closed)),
             sources=tuple(map(self.network.name, self._by_tag(self.sources))),
             cut_off=tuple(self._told(p, depends if p in after_for_sure else "") for p in self._by_tag(cut)),
-            unknown=tuple(
-                self._told(p, self._why_open(p in before, p in loosely_fed)) for p in self._by_tag(open_ones)
+            unknown=(
+                *(self._told(p, self._why_open(p in before, p in loosely_fed)) for p in self._by_tag(open_ones)),
+                *(self._told(p, _FILLED) for p in self._by_tag(perhaps_filled)),
             ),
             still_fed=tuple(self._told(p) for p in self._by_tag((behind & surely_fed) - set(self.sources))),
-            not_refilled=tuple(self._told(p) for p in self._by_tag(self._not_refilled(behind))),
+            not_refilled=tuple(self._told(p) for p in self._by_tag(not_refilled)),
             dead_headed=tuple(self._told(p) for p in self._by_tag(self._dead_headed(cut))),
             doubts=self._doubts(cut),
             assumptions=self._assumptions(),
@@ -249,15 +252,21 @@ class _Closing:
             return "the ways left to it lead over pipes of unknown direction, or through a relief valve"
         return "the ways left to it come from ends of which nobody knows whether they feed"
 
-    def _not_refilled(self, behind: Collection[str]) -> list[str]:
-        found = []
+    def _not_refilled(self, behind: Collection[str]) -> tuple[list[str], list[str]]:
+        """Tanks that were filled through the closed valves: those that nothing fills now, those that something may."""
+        nothing: list[str] = []
+        perhaps: list[str] = []
         for place in self.sources:
             if place not in behind or not isinstance(self.network.places[place], Unit):
                 continue
             others = [other for other in self.sources if other != place]
-            if place in self._reach(others, ()) and place not in self._reach(others, self.closed):
-                found.append(place)
-        return found
+            if place not in self._reach(others, ()):
+                continue
+            if place not in self._reach(others, self.closed):
+                nothing.append(place)
+            elif place not in self._reach({*self.sure_sources} - {place}, self.closed, self._surely_follows):
+                perhaps.append(place)
+        return nothing, perhaps
 
     def _dead_headed(self, cut: Collection[str]) -> list[str]:
         pumps = [p for p in self.network.places if self.network.unit_type(p) == "pump" and p not in cut]
