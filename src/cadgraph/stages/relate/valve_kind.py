@@ -108,6 +108,9 @@ _HOLDS_YOKE = MappingProxyType(
         "relief": 0.2, "control": 0.6, "other": 0.3,
     }
 )  # fmt: skip
+# How often valves of a kind have several levers: an arm with its weight, as on check and float valves. Others have
+# one (counted on generated valves: 1 of 25 ball valves has more, all check valves with a lever have).
+_SEVERAL_LEVERS = MappingProxyType({"check": 0.5, "relief": 0.15, "other": 0.4})
 
 
 @dataclass(frozen=True)
@@ -124,6 +127,7 @@ class _Look:
         sprung: whether it looks like a spring housing with a snout; None where that can't be said.
         ball: whether there is a ball among its parts.
         yoke: whether there is a yoke among its parts, and no actuator or gearbox.
+        levers: how many levers there are among its parts.
     """
 
     turned: str | None
@@ -135,6 +139,7 @@ class _Look:
     sprung: bool | None
     ball: bool
     yoke: bool = False
+    levers: int = 0
 
     @property
     def says_something(self) -> bool:
@@ -181,8 +186,14 @@ def _likelihood(kind: str, look: _Look) -> float:
     share = _by_operator(kind, look) * _by_length(kind, look.length, look.size) * _PLACE[kind][look.place]
     if look.sprung is not None:
         share *= (_SPRUNG if look.sprung else _UNSPRUNG)[kind != "relief"]
+    return share * _by_parts(kind, look)
+
+
+def _by_parts(kind: str, look: _Look) -> float:
+    """How often a valve of a kind has a ball, a yoke, several levers, where this one has."""
+    share = _HOLDS_BALL.get(kind, 0.002) if look.ball else 1.0
     share *= _HOLDS_YOKE[kind] if look.yoke else 1.0
-    return share * (_HOLDS_BALL.get(kind, 0.002) if look.ball else 1.0)
+    return share * (_SEVERAL_LEVERS.get(kind, 0.04) if look.levers > 1 else 1.0)
 
 
 def _by_operator(kind: str, look: _Look) -> float:
@@ -234,6 +245,7 @@ def _look(unit: UnitParts, names: Sequence[str | None], size: int | None, parts:
         sprung=_is_sprung(unit, names, parts),
         ball="valve ball" in own,
         yoke="yoke" in own and turned not in ("actuator", "gearbox"),
+        levers=sum(names[part] == "lever" for part in unit.parts),
     )
     line = line_through(unit.openings)
     return (
