@@ -232,7 +232,8 @@ def _is_one_of(length: float, table: str, size: int, near: float) -> bool:
 
 
 def _look(unit: UnitParts, names: Sequence[str | None], size: int | None, parts: Parts) -> _Look:
-    own = {names[part] for part in unit.parts}
+    named = [names[part] for part in unit.parts]
+    own = set(named)
     turned = next((operator for name, operator in _NAMED.items() if name in own), None)
     still = turned is None and not own & _TURNING
     look = _Look(
@@ -245,7 +246,7 @@ def _look(unit: UnitParts, names: Sequence[str | None], size: int | None, parts:
         sprung=_is_sprung(unit, names, parts),
         ball="valve ball" in own,
         yoke="yoke" in own and turned not in ("actuator", "gearbox"),
-        levers=sum(names[part] == "lever" for part in unit.parts),
+        levers=named.count("lever"),
     )
     line = line_through(unit.openings)
     return (
