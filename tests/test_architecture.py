@@ -30,6 +30,11 @@ MAY_IMPORT = {
     "labelers": {"_io", "config", "draw.render", "errors", "facts", "geometry", "model"},
     "pipeline": {"_io", "config", "errors", "facts", "geometry", "labelers", "model", "stages"},
     "query": {"_io", "errors", "model"},
+    "plans": {"_io", "errors", "model", "query"},
+    "agents": {
+        *("_io", "config", "errors", "labelers", "load", "model", "plans", "query", "serve", "session", "stages"),
+        *("draw.colors", "draw.render"),
+    },
     "draw.svg": {"_io"},
     "draw.schematic": {"_io", "draw.svg", "errors", "model", "query"},
     "draw.colors": {"draw.render", "model"},
@@ -52,7 +57,9 @@ MAY_IMPORT = {
         *("draw.colors", "draw.report", "draw.schematic", "draw.web"),
     },
     "cli": {
-        *("_io", "config", "errors", "facts", "labelers", "load", "model", "pipeline", "query", "serve", "session"),
+        *("_io", "agents", "config", "errors", "facts", "labelers", "load", "model", "pipeline", "plans", "query"),
+        "serve",
+        "session",
         *("draw.render", "draw.report", "draw.schematic", "draw.web", "export"),
     },
     "draw": set(),
@@ -71,6 +78,7 @@ HEAVY = {
     "graphlay",
     "ifcopenshell",
     "jinja2",
+    "mcp",
     "networkx",
     "numba",
     "openai",
@@ -232,6 +240,11 @@ def test_usd_stays_at_the_borders():
         if path.parts[0] not in MAY_USE_USD and "pxr" in {steps[0] for steps in imports}
     ]
     assert wrong == []
+
+
+def test_one_folder_alone_knows_the_library_of_the_server_for_agents():
+    knowing = {path.parts[:2] for path, imports in product() if {"mcp", "mcp_types"} & {steps[0] for steps in imports}}
+    assert knowing == {("agents", "mcp")}
 
 
 def test_geometry_stands_on_arrays_alone():

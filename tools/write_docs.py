@@ -16,6 +16,7 @@ from pathlib import Path
 from typer.testing import CliRunner
 
 from cadgraph._io.atomic import write_atomically
+from cadgraph.agents.sql.schema import TABLES
 from cadgraph.cli import app
 from cadgraph.config import Config, describe
 from cadgraph.model.records import document_schema
@@ -68,6 +69,15 @@ def commands() -> str:
         body = "\n".join(line.rstrip() for line in text.strip().splitlines())
         blocks += [f"## {' '.join(['cadgraph', *words])}", "", "```", body, "```", ""]
     return "\n".join(blocks)
+
+
+def tables() -> str:
+    """The tables that SQL can ask, with their columns."""
+    blocks = []
+    for name, each in TABLES.items():
+        columns = [(f"`{column}`", kind.lower(), meaning) for column, (kind, meaning) in each.columns.items()]
+        blocks += [f"### {name}", "", f"A row is {each.holds}.", "", *table(("column", "type", "meaning"), columns), ""]
+    return "\n".join(blocks[:-1])
 
 
 _SPEC = re.compile(r"\{[^}]*\}")
@@ -148,6 +158,7 @@ PLACES: Mapping[str, Mapping[str, Callable[[], str]]] = {
         "sizes": sizes,
         "inline": inline,
     },
+    "query.md": {"tables": tables},
 }
 """What writes the tables in pages that are written by hand, by page and by the name of the place."""
 

@@ -9,6 +9,7 @@
     ├── OutputError    a result can't be written
     ├── MissingExtra   a command needs an optional dependency that isn't installed
     ├── MissingPackage a command comes with a package that isn't installed
+    ├── AskError       a tool can't answer what it was asked; also a ``ValueError``
     ├── UnknownNode    nothing in a graph is called so; also a ``KeyError`` and a ``ValueError``
     └── Unconnected    no line was found at a unit that a question about lines is asked of; also a ``ValueError``
 
@@ -19,6 +20,7 @@ graph's ``diagnostics``.
 from __future__ import annotations
 
 __all__ = [
+    "AskError",
     "CadGraphError",
     "FormatError",
     "LabelError",
@@ -75,6 +77,10 @@ class MissingPackage(CadGraphError):
     def __init__(self, command: str, package: str) -> None:
         self.package = package
         super().__init__(f"'cadgraph {command}' comes with the package {package}: pip install {package}")
+
+
+class AskError(CadGraphError, ValueError):
+    """A tool can't answer, as an argument is wrong; its text tells the one who asked what would be right."""
 
 
 class UnknownNode(CadGraphError, KeyError, ValueError):

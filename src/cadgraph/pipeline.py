@@ -36,6 +36,7 @@ from cadgraph.stages.group import group_meshes
 from cadgraph.stages.insides import find_insides, join_enclosed
 from cadgraph.stages.inspect import inspect_meshes
 from cadgraph.stages.parts import make_parts, regrounded
+from cadgraph.stages.places import find_places
 from cadgraph.stages.preprocess import prepare_scene
 from cadgraph.stages.relate import RelateInput, connect_units, pipe_systems, place_edits, relate_units
 
@@ -52,7 +53,7 @@ __all__ = [
 ]
 
 _WEAK = 0.46  # a likely label below this confidence is no label for the relations
-STAGES = ("measure", "contacts", "group", "cluster", "label", "relate", "assemble")
+STAGES = ("measure", "contacts", "group", "cluster", "label", "relate", "places", "assemble")
 """The names that ``build`` gives to its progress, in order."""
 
 ANALYSIS_SETTINGS = ("method", "inspect", "ground", "group", "cluster", "preprocess")
@@ -250,6 +251,9 @@ def interpret(
     )
     lost = _lost(edits, (*placed.unmet, *connected.unmet), analysis)
     related = relate_units(network.units, named, contacts, cluster, vocabulary)
+    progress("places", 0)
+    # The paper knows no places.
+    reached = find_places(parts, named, network.units) if config.method != "paper" else None
     progress("assemble", 0)
     results = Results(
         scene=analysis.scene,
@@ -263,6 +267,7 @@ def interpret(
         related=related,
         diagnostics=(*analysis.diagnostics, *labels.diagnostics, *connected.diagnostics, *lost),
         places=places_of(analysis) if analysis.scene.facts else None,
+        reached=reached,
     )
     graph = assemble_graph(results, vocabulary, config.model_dump(mode="json"))
     progress("assemble", 1)

@@ -29,6 +29,7 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.scene import Scene
 from cadgraph.model.truth import Truth
 from cadgraph.model.vocabulary import default_vocabulary, read_vocabulary
+from cadlab.agentbench.question_file import read_set
 
 TEN = Limit(10, "a test file")
 
@@ -104,6 +105,7 @@ READERS = {
     "PROPOSALS": (LabelError, read_wishes, "a.json"),
     "BATCH": (LabelError, lambda path: read_results(path, None, "gpt"), "a.jsonl"),
     "DEXPI": (FormatError, read_dexpi, "a.xml"),
+    "QUESTIONS": (FormatError, read_set, "a.jsonl"),
 }
 
 

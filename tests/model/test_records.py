@@ -63,8 +63,8 @@ def test_the_schema_names_every_layer_and_kind():
     kinds = {
         d["properties"]["kind"]["const"] for d in schema["$defs"].values() if "const" in d["properties"].get("kind", {})
     }
-    assert layers == {"site", "cluster", "part", "unit", "junction", "terminal", "system"}
-    assert kinds == {"contains", "adjacent", "connected", "related"}
+    assert layers == {"site", "cluster", "part", "unit", "junction", "terminal", "system", "place"}
+    assert kinds == {"contains", "adjacent", "connected", "related", "reached_from"}
 
 
 def test_the_schema_allows_unknown_keys():

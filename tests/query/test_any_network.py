@@ -2,6 +2,7 @@
 
 import xml.etree.ElementTree as ET
 
+import networkx as nx
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -18,6 +19,7 @@ from cadgraph.query import (
     find_lines,
     find_way,
     trace,
+    what_if,
 )
 from cadgraph.query.text import isolation_lines, trace_lines
 from networks import chain, id_of, junction, network, terminal, unit
@@ -118,3 +120,30 @@ def test_lines_come_back_from_dexpi(tmp_path_factory, graph):
 
 def test_ids_of_names_are_those_of_the_nodes():
     assert [node(name).id for name in NAMES] == [id_of(name) for name in NAMES]
+
+
+@settings(max_examples=40, deadline=None)
+@given(networks, st.sets(st.sampled_from(["V-001", "V-002", "V-003", "V-004"]), min_size=1, max_size=3))
+def test_closing_valves_leaves_nothing_out_and_closing_more_cuts_off_no_less(graph, tags):
+    view = Network(graph)
+    valves = sorted(tag for tag in tags if f"unit-{tag}" in view.places)
+    if not valves:
+        return
+    found = what_if(view, valves)
+    lists = [{one.place for one in those} for those in (found.cut_off, found.unknown, found.still_fed)]
+    assert sum(map(len, lists)) == len(set().union(*lists))
+    assert not set().union(*lists) & {f"unit-{tag}" for tag in valves}
+    for tag in valves:
+        fewer = {one.place for one in what_if(view, tag, found.sources or None).cut_off} if found.sources else set()
+        given = {one.place for one in what_if(view, valves, found.sources).cut_off} if found.sources else set()
+        assert fewer - {f"unit-{tag}" for tag in valves} <= given
+    sources = {view.find(name) for name in found.sources}
+    walked = nx.MultiDiGraph(
+        (arc.start, arc.end) for p in view.places for arc in view.arcs(p) if view.is_tap(arc) or arc.flow != "against"
+    )
+    walked.add_nodes_from(view.places)
+    before = sources.union(*(nx.descendants(walked, source) for source in sources))
+    walked.remove_nodes_from(view.find(tag) for tag in valves)
+    after = sources.union(*(nx.descendants(walked, source) for source in sources))
+    told = {p for p in before - after if view.what(p) not in ("junction", "blind end") and view.name(p) not in valves}
+    assert {one.place for one in found.cut_off} == told

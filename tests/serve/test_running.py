@@ -15,7 +15,7 @@ from cadgraph._io.folder_lock import holding
 from cadgraph.errors import OutputError
 from cadgraph.model.corrections import read_corrections
 from cadgraph.model.graph import SceneGraph
-from cadgraph.serve import running
+from cadgraph.serve import listening, running
 from cadgraph.serve.guard import Doors
 from cadgraph.serve.running import Options
 from cadgraph.session.correct import amend
@@ -153,8 +153,8 @@ def test_a_folder_is_held_by_one_at_a_time(tmp_path):
 
 
 def test_connections_on_which_nobody_asks_keep_nobody_out(monkeypatch):
-    monkeypatch.setattr(running, "_SILENCE", 0.3)
-    monkeypatch.setattr(running, "_MOST_CONNECTIONS", 4)
+    monkeypatch.setattr(listening, "_SILENCE", 0.3)
+    monkeypatch.setattr(listening, "_MOST_CONNECTIONS", 4)
 
     async def app(scope, receive, send):
         await send({"type": "http.response.start", "status": 200, "headers": []})
@@ -166,7 +166,7 @@ def test_connections_on_which_nobody_asks_keep_nobody_out(monkeypatch):
 
     with socket.create_server(("127.0.0.1", 0)) as listener:
         port = listener.getsockname()[1]
-        server = running._Server(app, lambda: None)
+        server = listening.Server(app, lambda: None)
         thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
         thread.start()
         silent = [socket.create_connection(("127.0.0.1", port)) for _ in range(4)]

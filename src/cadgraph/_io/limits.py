@@ -29,9 +29,11 @@ __all__ = [
     "MAPPING",
     "MODEL",
     "NOTE",
+    "PLAN",
     "PRICES",
     "PROFILES",
     "PROPOSALS",
+    "QUESTIONS",
     "REPLY",
     "TRUTH",
     "VOCABULARY",
@@ -83,6 +85,8 @@ MAPPING = Limit(16 * _MB, "a table of tags")
 """A line takes 20 bytes."""
 ACCURACIES = Limit(_MB, "a table of accuracies")
 """The built-in one takes 2 kB."""
+PLAN = Limit(16 * _MB, "a round")
+"""A step takes 500 bytes as it is printed: thirty thousand steps."""
 PRICES = Limit(_MB, "a price table")
 """The built-in one takes 2 kB."""
 PROFILES = Limit(_MB, "a table of profiles")
@@ -91,6 +95,8 @@ INDEX = Limit(256 * _MB, "an index of questions")
 """A question takes 40 bytes and about 60 for each part that it stands for: four million parts."""
 PROPOSALS = Limit(4 * _MB, "a list of proposals")
 """A proposal takes about 300 bytes."""
+QUESTIONS = Limit(256 * _MB, "a file of questions or answers")
+"""A question with its answers takes 400 bytes."""
 ANSWER = Limit(200 * _KB, "an answer")
 """An answer takes 1 kB; what a model writes at most is some 10 kB."""
 REPLY = Limit(4 * _MB, "a reply of a server")

@@ -96,7 +96,7 @@ def correct(
     ]
     if undo + redo + bool(edits) != 1:
         raise ValueError("say what to correct, as --tag V-001=V-4711, or one of --undo and --redo alone")
-    name = _user() if who is None else who
+    name = user_name() if who is None else who
     with bars() as progress:
         more: dict[str, Any] = {"who": name, "why": why, "scene": scene, "report": report, "progress": progress}
         if edits:
@@ -140,7 +140,7 @@ def _tell_lost(lost: Any) -> None:
         out.print(f"[yellow]no longer fits:[/] {escape(message)}")
 
 
-def _user() -> str:
+def user_name() -> str:
     """The name that somebody is logged in by; empty where there is none."""
     try:
         return getpass.getuser()

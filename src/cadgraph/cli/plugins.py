@@ -12,7 +12,7 @@ from cadgraph.errors import MissingPackage
 
 __all__ = ["KNOWN", "add_installed"]
 
-KNOWN = {"environment": "cadplants", "evaluate": "cadlab", "reproduce": "cadlab"}
+KNOWN = {"agentbench": "cadlab", "environment": "cadplants", "evaluate": "cadlab", "reproduce": "cadlab"}
 """The package that brings each of the commands that are part of this repository but not of the product."""
 
 

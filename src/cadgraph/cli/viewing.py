@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import getpass
 import os
 import sys
 from pathlib import Path
@@ -12,6 +11,7 @@ import typer
 from rich.markup import escape
 
 from cadgraph.cli.application import app
+from cadgraph.cli.correcting import user_name
 from cadgraph.cli.options import ConfigOption, SetOption, settings_of
 from cadgraph.cli.screen import err, out
 from cadgraph.cli.signals import Stopped
@@ -61,7 +61,7 @@ def view(
         raise MissingExtra("the viewer in the browser", "view") from None
     chosen = settings_of(config, settings or [], None) if config or settings else None
     order = order_of(what, output, scene, chosen)
-    ending = view(order, Options(host, port, browser, _name() if who is None else who, report), _say)
+    ending = view(order, Options(host, port, browser, user_name() if who is None else who, report), _say)
     if ending.status == "building":
         stop = Stopped(ending.signal)
         if not ending.busy:
@@ -78,11 +78,3 @@ def view(
 
 def _say(line: str) -> None:
     out.print(escape(line))
-
-
-def _name() -> str:
-    try:
-        return getpass.getuser()
-    except (KeyError, OSError, ImportError):
-        # No name is known for this user, or on this system.
-        return ""

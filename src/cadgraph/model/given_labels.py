@@ -128,7 +128,18 @@ def split_label(text: str, vocabulary: Vocabulary | None) -> tuple[str, str | No
         return owners[0], group
     if owners:
         raise LabelError(f"{reprlib.repr(text)}: several groups have this name; say group/name ({', '.join(owners)})")
-    spelt = [f"{one}/{each}" for one, content in vocabulary.groups.items() for each in content.names]
-    close = difflib.get_close_matches(text, spelt, 3) or difflib.get_close_matches(name, spelt, 3, 0.4)
+    close = _closest(text, vocabulary)
     hint = f"; did you mean {' or '.join(map(repr, close))}?" if close else "; 'cadgraph vocabulary show' lists them"
     raise LabelError(f"{reprlib.repr(text)} is not in the vocabulary{hint}")
+
+
+def _closest(text: str, vocabulary: Vocabulary) -> list[str]:
+    """The labels that are spelt most like what is none, at most three."""
+    _, slash, name = (piece.strip() for piece in text.partition("/"))
+    spelt = [f"{one}/{each}" for one, content in vocabulary.groups.items() for each in content.names]
+    close = difflib.get_close_matches(text, spelt, 3) or difflib.get_close_matches(name, spelt, 3, 0.4)
+    if close or slash:
+        return close
+    # A name alone is compared with names alone; the group before them would make all of them unlike it.
+    near = {each.rpartition("/")[2].casefold(): each for each in (*vocabulary.groups, *spelt)}
+    return [near[each] for each in difflib.get_close_matches(text.strip().casefold(), near, 3)]

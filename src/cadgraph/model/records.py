@@ -16,6 +16,7 @@ from cadgraph.model.labels import Guess, Label
 from cadgraph.model.record import Record
 
 __all__ = [
+    "Access",
     "Adjacent",
     "AnyEdge",
     "AnyNode",
@@ -24,14 +25,17 @@ __all__ = [
     "Connected",
     "Contains",
     "Edge",
+    "FreeFloor",
     "GraphDocument",
     "Joint",
     "Junction",
     "Node",
     "OrientedBox",
     "Part",
+    "Place",
     "Point",
     "Port",
+    "ReachedFrom",
     "Related",
     "Site",
     "SourceFact",
@@ -140,6 +144,25 @@ class Port(Record):
     )
 
 
+class Access(Record):
+    """Where one stands to work at a unit, or to read it, and which way its face looks."""
+
+    place: str | None = Field(
+        description="id of the place that it is reached from; where it is out of reach, of the level below it"
+    )
+    stand: Point | None = Field(description="where one stands, on the floor; null where nobody gets near")
+    height: float = Field(description="of its operator or face above that place [m]; of its middle, where it has none")
+    reach: Literal["floor", "platform", "out of reach"] = Field(
+        description="'floor': from the ground; 'platform': from another level that a way leads up to; within 0.9 m of "
+        "where one stands and at most 2.0 m above it"
+    )
+    facing: Point | None = Field(default=None, description="unit vector out of a gauge's face; null where unknown")
+    facing_confidence: float | None = Field(default=None, ge=0, le=1, description="of the facing")
+    viewpoint: Point | None = Field(
+        default=None, description="of an eye that sees a gauge's face, nothing in between; null where none was found"
+    )
+
+
 class Unit(Record):
     """A functional unit: connected parts that work as one valve, gauge, pump, tank..."""
 
@@ -157,6 +180,11 @@ class Unit(Record):
     ports: tuple[Port, ...] = ()
     centroid: Point
     aabb: Box
+    access: Access | None = Field(
+        default=None,
+        exclude_if=lambda access: access is None,
+        description="how people get at it; absent where nothing is known of the places of a plant",
+    )
     facts: tuple[SourceFact, ...] = _facts("what the file says of nodes above several of its parts")
 
 
@@ -193,8 +221,42 @@ class System(Record):
     sizes: tuple[int, ...] = Field(default=(), description="nominal sizes (DN) of its lines, ascending")
 
 
+class FreeFloor(Record):
+    """The squares of a level on which a person can stand: nothing from 0.1 to 1.8 m above them within 0.2 m."""
+
+    origin: tuple[float, float] = Field(description="x and y of the corner where both are least [m]")
+    step: float = Field(description="side of a square [m]")
+    size: tuple[int, int] = Field(description="squares along x, squares along y")
+    runs: tuple[int, ...] = Field(
+        description="lengths of runs of squares, row by row from the least y, each from the least x; squares that are "
+        "not free first, then free ones, and so on by turns"
+    )
+
+
+class Place(Record):
+    """A level that one can stand on, or a way up to one."""
+
+    id: str = Field(description="numbered by height, then by position: place-001...")
+    layer: Literal["place"] = "place"
+    kind: Literal["ground", "platform", "stairs", "ladder"]
+    name: str = Field(description="'ground', 'platform +2.10 m (north east)'")
+    height: float = Field(description="of the surface to stand on; of a way up, its top [m]")
+    low: float | None = Field(default=None, description="of a way up: the height that it starts from [m]")
+    area: float = Field(description="to stand on, of what nothing else stands on [m2]; 0 for ways up")
+    aabb: Box
+    parts: tuple[str, ...]
+    floor: FreeFloor | None = Field(
+        default=None, exclude_if=lambda floor: floor is None, description="where one can stand; absent for ways up"
+    )
+    landings: tuple[Point, ...] = Field(
+        default=(),
+        exclude_if=lambda landings: not landings,
+        description="of a way up: where one stands at its foot and at each level that it leads to, the lowest first",
+    )
+
+
 class Contains(Record):
-    """Site to cluster, cluster to part, system to unit, unit to part."""
+    """Site to cluster, cluster to part, system to unit, unit to part, place to the units reached from it."""
 
     source: str
     target: str
@@ -245,6 +307,14 @@ class Related(Record):
     kind: Literal["related"] = "related"
 
 
+class ReachedFrom(Record):
+    """From a level to a way up to it, and from that to the level that it starts on."""
+
+    source: str
+    target: str
+    kind: Literal["reached_from"] = "reached_from"
+
+
 class Joint(Record):
     """A place where two parts join along the pipes, or might have: what the connections are decided from."""
 
@@ -279,12 +349,12 @@ class Stated(Record):
     )
 
 
-Node = Site | Cluster | Part | Unit | Junction | Terminal | System
-Edge = Contains | Adjacent | Connected | Related
+Node = Site | Cluster | Part | Unit | Junction | Terminal | System | Place
+Edge = Contains | Adjacent | Connected | Related | ReachedFrom
 _NodeField = Annotated[Node, Field(discriminator="layer")]
 _EdgeField = Annotated[Edge, Field(discriminator="kind")]
-AnyNode = TypeVar("AnyNode", Site, Cluster, Part, Unit, Junction, Terminal, System)
-AnyEdge = TypeVar("AnyEdge", Contains, Adjacent, Connected, Related)
+AnyNode = TypeVar("AnyNode", Site, Cluster, Part, Unit, Junction, Terminal, System, Place)
+AnyEdge = TypeVar("AnyEdge", Contains, Adjacent, Connected, Related, ReachedFrom)
 
 
 class GraphDocument(Record):

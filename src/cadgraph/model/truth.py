@@ -66,6 +66,9 @@ class TruthUnit(_Record):
     fasteners: tuple[str, ...] = Field(
         default=(), description="bolts that clamp it into its line; no meshes of its own"
     )
+    faces: tuple[float, float, float] | None = Field(
+        default=None, description="unit vector out of what is read on it: a dial, a screen; null: nothing, or not known"
+    )
 
 
 class TruthPoint(_Record):
@@ -210,6 +213,8 @@ class Truth(_Record):
         for row in data["units"] or ():
             if not row["fasteners"]:
                 del row["fasteners"]
+            if row["faces"] is None:
+                del row["faces"]
         for row in data["points"]:
             if row["end"] is None:
                 del row["end"]

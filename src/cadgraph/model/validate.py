@@ -22,6 +22,7 @@ from cadgraph.model.records import (
     Junction,
     Node,
     Part,
+    Place,
     Related,
     Site,
     Stated,
@@ -32,16 +33,20 @@ from cadgraph.model.records import (
 
 __all__ = ["check_document", "check_names", "what_is_wrong"]
 
+_MOST_SQUARES = 1 << 24  # of a floor; a short list of runs may claim any number
+
 # Which layers an edge may join: (source, target).
 _JOINS: dict[str, tuple[tuple[tuple[type[Any], ...], tuple[type[Any], ...]], ...]] = {
     "contains": (
         ((Site,), (Cluster, Part, Unit, Junction, Terminal, System)),
         ((Cluster, Unit), (Part,)),
         ((System,), (Unit, Junction, Terminal)),
+        ((Place,), (Unit,)),
     ),
     "adjacent": (((Part,), (Part,)),),
     "connected": (((Unit, Junction, Terminal), (Unit, Junction, Terminal)),),
     "related": (((Unit,), (Unit,)),),
+    "reached_from": (((Place,), (Place,)),),
 }
 
 
@@ -141,12 +146,28 @@ def _check_nodes(listed: Iterable[Node], nodes: Mapping[str, Node]) -> None:
             for part in node.parts:
                 if unit_of_part.setdefault(part, node.id) != node.id:
                     raise FormatError(f"part {part!r} is in two units: {unit_of_part[part]!r} and {node.id!r}")
+            place = node.access.place if node.access is not None else None
+            _check_known(() if place is None else (place,), Place, nodes, here)
         elif isinstance(node, Junction | Terminal):
             _check_known(node.parts, Part, nodes, here)
+        elif isinstance(node, Place):
+            _check_known(node.parts, Part, nodes, here)
+            _check_floor(node, here)
         elif isinstance(node, System):
             _check_known(node.units, Unit, nodes, here)
             _check_known(node.junctions, Junction, nodes, here)
             _check_known(node.terminals, Terminal, nodes, here)
+
+
+def _check_floor(place: Place, here: str) -> None:
+    floor = place.floor
+    if floor is None:
+        return
+    columns, rows = floor.size
+    if columns * rows > _MOST_SQUARES:
+        raise FormatError(f"{here} has a floor of {columns:,} x {rows:,} squares; at most {_MOST_SQUARES:,} are read")
+    if min(floor.size) < 0 or floor.step <= 0 or min(floor.runs, default=0) < 0 or sum(floor.runs) != columns * rows:
+        raise FormatError(f"{here} has a floor whose runs don't make up its {columns} x {rows} squares")
 
 
 def _check_joints(joints: Iterable[Joint], nodes: Mapping[str, Node]) -> None:

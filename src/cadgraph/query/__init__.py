@@ -1,4 +1,4 @@
-"""Questions to the functional graph: the line list, what lies along the pipes, what isolates a unit.
+"""Questions to the functional graph: the line list, what lies along the pipes, what isolates a unit, what closing does.
 
 All functions are pure: a finished :class:`~cadgraph.model.graph.SceneGraph` in, frozen values out.
 """
@@ -13,12 +13,14 @@ from cadgraph.query.isolate import Closing, Isolation, Opening, Passed, find_iso
 from cadgraph.query.lines import Line, find_lines
 from cadgraph.query.network import Arc, Network
 from cadgraph.query.trace import Halt, Return, Step, Trace, find_way, trace
+from cadgraph.query.what_if import Consequence, WhatIf, what_if
 
 __all__ = [
     "Arc",
     "Closing",
     "Comparison",
     "ConnectionExplanation",
+    "Consequence",
     "Doubt",
     "Halt",
     "Isolation",
@@ -30,6 +32,7 @@ __all__ = [
     "Step",
     "Trace",
     "UnitExplanation",
+    "WhatIf",
     "compare",
     "explain_connection",
     "explain_unit",
@@ -37,4 +40,5 @@ __all__ = [
     "find_lines",
     "find_way",
     "trace",
+    "what_if",
 ]

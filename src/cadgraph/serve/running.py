@@ -2,37 +2,29 @@
 
 from __future__ import annotations
 
-import asyncio
 import os
 import secrets
 import signal
-import socket
 import sys
 import threading
 import webbrowser
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor, wait
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from dataclasses import dataclass
-from types import FrameType
-from typing import Any
-
-import uvicorn
-from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from cadgraph._io.folder_lock import holding
 from cadgraph._io.run_folder import sweep
 from cadgraph.serve.app import make_app
 from cadgraph.serve.guard import Doors, is_loopback
+from cadgraph.serve.listening import Server, listen
 from cadgraph.serve.order import Order
 from cadgraph.serve.plant import Plant
 from cadgraph.serve.state import one_line
 
 __all__ = ["Ending", "Options", "view"]
 
-_MOST_CONNECTIONS = 64
 _PATIENCE = 0.4  # s that work which can't be ended gets at the end
-_SILENCE = 8.0  # s within which the first request on a connection must have come
 _LOOK = 2.0  # s between two looks whether the folder was changed by others
 
 Say = Callable[[str], None]
@@ -95,12 +87,12 @@ def view(order: Order, options: Options, say: Say) -> Ending:
 
 
 def _serve(order: Order, options: Options, say: Say) -> Ending:
-    with holding(order.folder), _listen(options) as listener:
+    with holding(order.folder), listen(options.host, options.port) as listener:
         sweep(order.folder)
         doors, token = Doors(options.host, listener.getsockname()[1]), secrets.token_urlsafe(24)
         plant = Plant(order, options.who)
         worker = ThreadPoolExecutor(1, thread_name_prefix="cadgraph-worker")
-        server = _Server(make_app(plant, worker, token, doors), plant.stop)
+        server = Server(make_app(plant, worker, token, doors), plant.stop)
         opening = worker.submit(plant.open)
         opening.add_done_callback(lambda done: _tell(done, plant, say))
         _welcome(doors, token, options, say)
@@ -177,74 +169,3 @@ def _look_now_and_then(plant: Plant, worker: ThreadPoolExecutor) -> threading.Ev
 
     threading.Thread(target=look, name="cadgraph-look", daemon=True).start()
     return over
-
-
-@contextmanager
-def _listen(options: Options) -> Iterator[socket.socket]:
-    family = socket.AF_INET6 if ":" in options.host else socket.AF_INET
-    try:
-        listener = socket.create_server((options.host, options.port), family=family)
-    except OSError as error:
-        reason = error.strerror or str(error)
-        remedy = f"can't listen there ({reason}); give another --port or --host"
-        raise OSError(error.errno, remedy, f"{options.host}:{options.port}") from None
-    with listener:
-        yield listener
-
-
-class _Connection(H11Protocol):
-    """A connection that is closed where nobody asks anything, so that silent ones don't use up all there may be."""
-
-    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        super().connection_made(transport)
-        self.loop.call_later(_SILENCE, self._close_if_silent)
-
-    def _close_if_silent(self) -> None:
-        if not self.cycle:  # no request has come with all of its head
-            self.transport.close()
-
-
-class _Server(uvicorn.Server):
-    """A server that tells the plant when it is ended, and leaves the signals to who called it."""
-
-    def __init__(self, app: Any, stop: Callable[[], None]) -> None:
-        config = uvicorn.Config(
-            app,
-            log_level="error",
-            access_log=False,
-            lifespan="off",
-            ws="none",
-            loop="asyncio",
-            http=_Connection,
-            server_header=False,
-            limit_concurrency=_MOST_CONNECTIONS,
-            timeout_graceful_shutdown=1,
-        )
-        super().__init__(config)
-        self._stop = stop
-        self.ended_by: int | None = None
-
-    @contextmanager
-    def capture_signals(self) -> Iterator[None]:
-        """Within the block, Ctrl-C and a polite kill end the server; they aren't raised again after it."""
-        if threading.current_thread() is not threading.main_thread():
-            yield
-            return
-        before = {number: signal.signal(number, self.handle_exit) for number in (signal.SIGINT, signal.SIGTERM)}
-        try:
-            yield
-        finally:
-            for number, handler in before.items():
-                signal.signal(number, handler)
-
-    def handle_exit(self, sig: int, frame: FrameType | None) -> None:
-        """Notes that the server is to end."""
-        self.ended_by = sig
-        self.should_exit = True
-
-    async def on_tick(self, counter: int) -> bool:
-        """Whether it is to end now; then first what follows the state, as the server waits for that."""
-        ending = await super().on_tick(counter)
-        if ending:
-            self._stop()
-        return ending

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from functools import partial
@@ -224,6 +225,18 @@ class Session:
         only = named.pop() if len(named) == 1 else None
         return self._become(history, what, anchored, None if only is None else graph.part(only).meshes[0])
 
+    @contextmanager
+    def trial(self) -> Iterator[None]:
+        """Within the block corrections are tried out: none is written, and at its end all is as it was before."""
+        self.make_graph()
+        old, file = self._state, self._file
+        self._file = None
+        try:
+            yield
+        finally:
+            self._take_back(old)
+            self._file = file
+
     def correct(self, part: str, label: str, *, this_only: bool = False, who: str = "", why: str = "") -> Change:
         """Says what a part is; its repeats follow, and softly what is much like it.
 
@@ -327,7 +340,7 @@ class Session:
     ) -> Change:
         """Takes another history on, if its graph can be made and it can be written; else nothing changes."""
         before = self.graph
-        old = _State(self._history, self.analysis, self.labeling, self._known, before)
+        old = self._state
         try:
             self._history, self._graph = history, None
             self._follow_ground()
@@ -343,11 +356,18 @@ class Session:
                 self._file.write(history)
         except BaseException:
             # A correction that no graph shows, or no file holds, must not wait for a later one.
-            self._history, self.analysis, self.labeling = old.history, old.analysis, old.labeling
-            self._known, self._graph = old.known, old.graph
+            self._take_back(old)
             raise
         part = None if mesh is None else now.part(mesh)
         return Change(part, changed, told, self.analysis is not old.analysis)
+
+    @property
+    def _state(self) -> _State:
+        return _State(self._history, self.analysis, self.labeling, self._known, self._graph)
+
+    def _take_back(self, old: _State) -> None:
+        self._history, self.analysis, self.labeling = old.history, old.analysis, old.labeling
+        self._known, self._graph = old.known, old.graph
 
     def _follow_ground(self) -> None:
         """Lets parts and structures follow from the ground as it is now; what was made before is kept for a while."""

@@ -14,22 +14,28 @@ from cadgraph.model.derived import kept_with, store_of
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.facts import Fact
 from cadgraph.model.graph import SceneGraph
+from cadgraph.model.grid import to_runs
 from cadgraph.model.labels import Guess, Label
 from cadgraph.model.parts import Contacts, Link, Network, Parts, UnitParts
+from cadgraph.model.places import FoundPlace, FoundPlaces, UnitAccess
 from cadgraph.model.records import (
+    Access,
     Adjacent,
     Cluster,
     Connected,
     Contains,
     Edge,
+    FreeFloor,
     GraphDocument,
     Joint,
     Junction,
     Node,
     OrientedBox,
     Part,
+    Place,
     Point,
     Port,
+    ReachedFrom,
     Related,
     Site,
     SourceFact,
@@ -68,6 +74,7 @@ class Results:
         related: pairs of unit indices.
         diagnostics: of all stages.
         places: where what the file says of its parts stands; None where it says nothing.
+        reached: levels, ways up, and how people get at the units; None where they were not looked for.
     """
 
     scene: Scene
@@ -81,6 +88,7 @@ class Results:
     related: Sequence[tuple[int, int]]
     diagnostics: Sequence[Diagnostic]
     places: Places | None = None
+    reached: FoundPlaces | None = None
 
 
 def assemble_graph(results: Results, vocabulary: Vocabulary, config: dict[str, object]) -> SceneGraph:
@@ -107,7 +115,9 @@ def assemble_graph(results: Results, vocabulary: Vocabulary, config: dict[str, o
     edges += [_connected(link, results, ends, part_ids) for link in results.network.links]
     systems = _systems(results, ends)
     edges += [Contains(source=s.id, target=node) for s in systems for node in (*s.units, *s.junctions, *s.terminals)]
-    nodes: tuple[Node, ...] = (site, *clusters, *_parts(results), *units, *places, *systems)
+    levels = _levels(results, part_ids)
+    edges += _reached(results, levels, units)
+    nodes: tuple[Node, ...] = (site, *clusters, *_parts(results), *units, *places, *systems, *levels)
     return SceneGraph(
         GraphDocument(
             source=SourceRecord(
@@ -223,10 +233,74 @@ def _units(results: Results, part_ids: Sequence[str], above: Sequence[Sequence[N
                 ports=_ports(unit, results.scene.origin),
                 centroid=centroid,
                 aabb=(low, high),
+                access=_access(results, number),
                 facts=_facts([fact for node in above[number] for fact in node.facts] if above else ()),
             )
         )
     return nodes
+
+
+def _access(results: Results, number: int) -> Access | None:
+    if results.reached is None:
+        return None
+    found: UnitAccess = results.reached.access[number]
+    origin = results.scene.origin
+    return Access(
+        place=None if found.place is None else _place_id(found.place),
+        stand=None if found.stand is None else _point(found.stand, origin),
+        height=_rounded(found.height),
+        reach=found.reach,
+        facing=None if found.facing is None else points(found.facing)[0],
+        facing_confidence=None if found.facing_confidence is None else round(found.facing_confidence, 6),
+        viewpoint=None if found.viewpoint is None else _point(found.viewpoint, origin),
+    )
+
+
+def _place_id(number: int) -> str:
+    return f"place-{number + 1:03d}"
+
+
+def _levels(results: Results, part_ids: Sequence[str]) -> list[Place]:
+    """Levels and ways up."""
+    found = results.reached.places if results.reached is not None else ()
+    return [_place(number, place, results.scene.origin, part_ids) for number, place in enumerate(found)]
+
+
+def _place(number: int, place: FoundPlace, origin: Floats, part_ids: Sequence[str]) -> Place:
+    lift = float(origin[2])
+    floor = None
+    if place.grid is not None and place.free is not None:
+        (x, y), grid = place.grid.origin, place.grid
+        corner = round(x + float(origin[0]), 9), round(y + float(origin[1]), 9)
+        floor = FreeFloor(origin=corner, step=grid.step, size=grid.size, runs=to_runs(place.free))
+    return Place(
+        id=_place_id(number),
+        kind=place.kind,
+        name=place.name,
+        height=_rounded(place.height + lift),
+        low=None if place.low is None else _rounded(place.low + lift),
+        area=_rounded(place.area),
+        aabb=(_point(place.box[0], origin), _point(place.box[1], origin)),
+        parts=tuple(part_ids[part] for part in place.parts),
+        floor=floor,
+        landings=tuple(_point(landing, origin) for landing in place.landings),
+    )
+
+
+def _reached(results: Results, levels: Sequence[Place], units: Sequence[Unit]) -> list[Edge]:
+    """What is reached from each level, and from where one gets to the levels and the ways up."""
+    found = results.reached.places if results.reached is not None else ()
+    edges: list[Edge] = [
+        Contains(source=unit.access.place, target=unit.id)
+        for unit in units
+        if unit.access is not None and unit.access.place is not None and unit.access.reach != "out of reach"
+    ]
+    edges += [
+        ReachedFrom(source=levels[number].id, target=levels[other].id)
+        for number, place in enumerate(found)
+        for other in place.reached_from
+    ]
+    return edges
 
 
 def _ports(unit: UnitParts, origin: Floats) -> tuple[Port, ...]:

@@ -14,7 +14,7 @@ from cadplants.polygon import section_channel
 from cadplants.structure import column
 from cadplants.transforms import at, looking, spun
 
-__all__ = ["grating", "platform", "railing", "stairs"]
+__all__ = ["grating", "ladder", "platform", "platform_with_stairs", "railing", "stairs"]
 
 _RAIL = 0.0212  # m, radius of a 42.4 mm tube
 _KNEE = 0.0169  # m, radius of a 33.7 mm tube
@@ -223,3 +223,62 @@ def stairs(height: float, style: ModelingStyle, width: float = 0.80) -> Assembly
         joints += [(0, index), (1, index)]
         index += 1
     return gather(parts, joints)
+
+
+def platform_with_stairs(length: float, width: float, height: float, style: ModelingStyle, gap: float) -> Assembly:
+    """A platform about z with stairs up to an opening in the railing of its side y < 0.
+
+    Args:
+        length: along x [m].
+        width: along y [m].
+        height: of the floor over z = 0 [m].
+        style: that models it.
+        gap: x of the middle of the opening [m].
+    """
+    floor = platform(length, width, height, style, gap)
+    steps = stairs(height, style)
+    up = steps.placed(at(gap, -width / 2, 0) @ spun("z", np.pi / 2))
+    front = next(i for i, c in enumerate(floor.components) if c.name == "beam")
+    gratings = [i for i, c in enumerate(floor.components) if c.name == "grating"]
+    n = len(floor.components)
+    joints = []
+    for stringer in (0, 1):
+        low, high = _span(up.components[stringer].vertices)
+        joints.append((front, n + stringer))
+        for i in gratings:
+            g_low, g_high = _span(floor.components[i].vertices)
+            if high >= g_low - 1e-9 and low <= g_high + 1e-9:
+                joints.append((i, n + stringer))
+    return gather([floor, up], joints)
+
+
+def _span(vertices: Floats) -> tuple[float, float]:
+    return float(vertices[:, 0].min()), float(vertices[:, 0].max())
+
+
+def ladder(height: float, style: ModelingStyle, width: float = 0.42) -> Assembly:
+    """A fixed ladder in the plane y = 0 up from z = 0, its rungs along x (EN ISO 14122-4).
+
+    Args:
+        height: of the floor that it leads to; its stiles end 1.1 m above that [m].
+        style: that models it.
+        width: between the stiles [m].
+
+    Returns:
+        The two stiles first, then the rungs from below.
+    """
+    color = style.color("safety")
+    sides = min(style.round(0.0125), 12)
+    count = max(2, round(height / 0.28))
+    rung = _bar_solid(round(width + 0.004, 9), 0.0125, sides)
+    parts = [
+        Component(
+            box((0.012, 0.06, height + 1.1), (s * (width / 2 + 0.006), 0, (height + 1.1) / 2)), _GROUP, "ladder", color
+        )
+        for s in (-1, 1)
+    ]
+    parts += [
+        Component(rung, _GROUP, "ladder", color, at(-width / 2 - 0.002, 0, height * k / count))
+        for k in range(1, count + 1)
+    ]
+    return Assembly(tuple(parts), tuple((s, 2 + k) for k in range(count) for s in (0, 1)))

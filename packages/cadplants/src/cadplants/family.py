@@ -8,13 +8,14 @@ from dataclasses import dataclass, field, replace
 from cadgraph.model.scene import Floats
 from cadplants.mesh_ops import Solid, merge, moved
 from cadplants.modeling_style import Grain, ModelingStyle
-from cadplants.plant import Assembly, Component, Device, Unit
+from cadplants.plant import Assembly, Component, Device, Unit, turned_front
 from cadplants.standards import SIZES
 from cadplants.transforms import IDENTITY
 
-__all__ = ["UNIT", "Build", "Family", "Model", "Part", "Port", "as_assembly", "as_device", "placed"]
+__all__ = ["UNIT", "Build", "Family", "Model", "Part", "Port", "as_assembly", "as_device", "fronted", "placed"]
 
 _EXACT = 1e-9  # m; rounding
+_READ = ("gauge face", "gauge needle", "gauge glass")  # names of what is read
 _UNITS = {
     "Valve assembly": "valve",
     "Gauge assembly": "gauge",
@@ -36,6 +37,7 @@ class Part:
             its own. One that models a device as one mesh takes in every part with a bundle.
         group: of the vocabulary; "" is the device's.
         fine: whether a style without fasteners leaves it out.
+        front: ``(3,)`` unit vector out of what is read on it, in the device's coordinates; None where nothing is.
     """
 
     solid: Solid
@@ -44,6 +46,7 @@ class Part:
     bundle: str = ""
     group: str = ""
     fine: bool = False
+    front: tuple[float, float, float] | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,7 +127,12 @@ class Family:
 
 def placed(parts: Sequence[Part], pose: Floats) -> list[Part]:
     """The parts moved together by a ``(4, 4)`` pose."""
-    return [replace(part, solid=moved(part.solid, pose)) for part in parts]
+    return [replace(part, solid=moved(part.solid, pose), front=turned_front(part.front, pose)) for part in parts]
+
+
+def fronted(parts: Sequence[Part], front: tuple[float, float, float] = (0.0, 0.0, 1.0)) -> list[Part]:
+    """The parts, those that are read marked with the unit vector out of them."""
+    return [replace(p, front=front) if p.name in _READ else p for p in parts]
 
 
 def _grain_of(family: Family, style: ModelingStyle) -> Grain:
@@ -159,7 +167,9 @@ def _component(part: Part, family: Family, style: ModelingStyle, unit: str, grai
     group = part.group or family.group
     owner = unit if family.unit and group == family.group else ""
     color = style.color(part.color)
-    return Component(part.solid, group, part.name, color, IDENTITY, owner, family=family.name, granularity=grain)
+    return Component(
+        part.solid, group, part.name, color, IDENTITY, owner, family=family.name, granularity=grain, front=part.front
+    )
 
 
 def _called(assembly: Assembly, unit: str) -> Assembly:
@@ -174,7 +184,7 @@ def _called(assembly: Assembly, unit: str) -> Assembly:
 def _in_one(family: Family, parts: list[Part]) -> list[Part]:
     own = [p for p in parts if p.bundle or p.group in ("", family.group)]
     rest = [p for p in parts if not p.bundle and p.group not in ("", family.group)]
-    return [Part(merge([p.solid for p in own]), family.whole, own[0].color), *rest]
+    return [Part(merge([p.solid for p in own]), family.whole, own[0].color, front=_front_of(own)), *rest]
 
 
 def _in_few(parts: list[Part]) -> list[Part]:
@@ -186,9 +196,14 @@ def _in_few(parts: list[Part]) -> list[Part]:
             some[0],
             solid=merge([p.solid for p in some]),
             name=some[0].name if some[0].group or not some[0].bundle else some[0].bundle,
+            front=_front_of(some),
         )
         for some in bundles.values()
     ]
+
+
+def _front_of(parts: Sequence[Part]) -> tuple[float, float, float] | None:
+    return next((part.front for part in parts if part.front is not None), None)
 
 
 def as_device(family: Family, model: Model | Device | Assembly, style: ModelingStyle, unit: str = "") -> Device:

@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from cadgraph.model.scene import Floats
-from cadplants.access import platform, stairs
+from cadplants.access import platform, platform_with_stairs
 from cadplants.contacts import met, whole
 from cadplants.electrical import cabinet, lamp, sign
 from cadplants.enclosure import fence, pillar
@@ -107,7 +106,7 @@ def _inside(style: ModelingStyle, flips: tuple[int, int], rng: np.random.Generat
     to_side = -np.pi / 2 * flips[0]
     deck = platform(2.4, 1.2, float(rng.uniform(1.0, 1.4)), style)
     found = [
-        placed(_platform(style), 0.2, 1.1, round_y, "platform"),
+        placed(platform_with_stairs(4.0, 1.6, 2.1, style, 0.9), 0.2, 1.1, round_y, "platform"),
         placed(deck, -3.6, 1.3, 0.0, "deck"),
         placed(_storage(style, rng).prefixed("S"), 6.0, 0.4, 0.0, "storage"),
         placed(_ladder(style, rng), 7.9, 0.6, 0.0, "ladder"),
@@ -119,30 +118,6 @@ def _inside(style: ModelingStyle, flips: tuple[int, int], rng: np.random.Generat
         found.append(placed(lamp(style), x, y, 0.0, f"lamp-{k}"))
     found.append(placed(sign(style, ("TEST FIELD", "HELMETS ON", "NO SMOKING")), -9.9, -4.3, 0.0, "sign"))
     return found
-
-
-def _platform(style: ModelingStyle) -> Assembly:
-    """A platform with stairs up its side."""
-    length, width, height, gap = 4.0, 1.6, 2.1, 0.9
-    floor = platform(length, width, height, style, gap)
-    steps = stairs(height, style)
-    up = steps.placed(at(gap, -width / 2, 0) @ spun("z", np.pi / 2))
-    front = next(i for i, c in enumerate(floor.components) if c.name == "beam")
-    gratings = [i for i, c in enumerate(floor.components) if c.name == "grating"]
-    n = len(floor.components)
-    joints = []
-    for stringer in (0, 1):
-        low, high = _span(up.components[stringer].vertices)
-        joints.append((front, n + stringer))
-        for i in gratings:
-            g_low, g_high = _span(floor.components[i].vertices)
-            if high >= g_low - 1e-9 and low <= g_high + 1e-9:
-                joints.append((i, n + stringer))
-    return gather([floor, up], joints)
-
-
-def _span(vertices: Floats) -> tuple[float, float]:
-    return float(vertices[:, 0].min()), float(vertices[:, 0].max())
 
 
 def _storage(style: ModelingStyle, rng: np.random.Generator) -> Assembly:

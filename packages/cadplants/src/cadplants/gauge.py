@@ -8,7 +8,7 @@ import numpy as np
 
 from cadplants.mesh_ops import Solid, extrude, merge, moved, revolve, stack, tube, weld
 from cadplants.modeling_style import ModelingStyle
-from cadplants.plant import Assembly, Component, Unit, gather
+from cadplants.plant import Assembly, Component, Unit, gather, turned_front
 from cadplants.polygon import circle
 from cadplants.primitive_devices import gauge_of_primitives
 from cadplants.standards import GAUGES
@@ -17,6 +17,13 @@ from cadplants.transforms import IDENTITY, arc, at, spun
 __all__ = ["pressure_gauge", "side_gauge"]
 
 _NIPPLE = 0.00685  # m, radius of a DN8 pipe (ASME B36.10M)
+# What is read looks up in the frame of the case; a gauge in one mesh stands upright, its dial towards -y.
+_FRONTS = {
+    "gauge": (0.0, -1.0, 0.0),
+    "gauge case": (0.0, 0.0, 1.0),
+    "gauge face": (0.0, 0.0, 1.0),
+    "gauge needle": (0.0, 0.0, 1.0),
+}
 _BITE = 0.0003  # m; the square of the stem runs this deep into the round case
 
 
@@ -118,7 +125,10 @@ def pressure_gauge(
             (dial, stand, "gauge face", "dial"),
             (pointer, stand, "gauge needle", "needle"),
         ]
-    components = tuple(Component(s, "Gauge assembly", name, style.color(c), pose, unit) for s, pose, name, c in parts)
+    components = tuple(
+        Component(s, "Gauge assembly", name, style.color(c), pose, unit, front=_FRONTS.get(name))
+        for s, pose, name, c in parts
+    )
     contacts = tuple((i, i + 1) for i in range(len(components) - 1))
     return Assembly(components, contacts, (Unit(unit, "gauge", "pressure gauge"),)).placed(spun("z", turn))
 
@@ -162,7 +172,8 @@ def side_gauge(
     solid = _siphon_solid(round(out, 6), round(rise, 6), style)
     if style.gauge == "one":
         whole = merge([solid, moved(gauge.components[0].solid, gauge.components[0].pose)])
-        one = Component(whole, "Gauge assembly", "gauge", style.color("gauge"), unit=unit)
+        front = turned_front(gauge.components[0].front, gauge.components[0].pose)
+        one = Component(whole, "Gauge assembly", "gauge", style.color("gauge"), unit=unit, front=front)
         return Assembly((one,), (), gauge.units)
     pipe = Component(solid, "Gauge assembly", "siphon", style.color("trim"), unit=unit)
     return gather([Assembly((pipe,)), gauge], [(0, 1)])

@@ -14,7 +14,19 @@ from cadgraph.model.scene import Floats, Scene
 from cadplants.mesh_ops import Solid, moved
 from cadplants.transforms import IDENTITY
 
-__all__ = ["RGB", "Assembly", "Component", "Connection", "Device", "Line", "Plant", "Point", "Unit", "gather"]
+__all__ = [
+    "RGB",
+    "Assembly",
+    "Component",
+    "Connection",
+    "Device",
+    "Line",
+    "Plant",
+    "Point",
+    "Unit",
+    "gather",
+    "turned_front",
+]
 
 RGB = tuple[float, float, float]
 
@@ -38,6 +50,7 @@ class Component:
         style: name of the modelling style, or "".
         holds: id of the unit that it clamps into its line (bolts of the counter-flanges), or "".
         gap: what was taken off its sides so that it no longer reaches its neighbours; negative: overlap [m].
+        front: ``(3,)`` unit vector out of what is read on it, in the solid's frame; None where nothing is.
     """
 
     solid: Solid
@@ -54,6 +67,7 @@ class Component:
     style: str = ""
     holds: str = ""
     gap: float = 0.0
+    front: tuple[float, float, float] | None = None
 
     @property
     def vertices(self) -> Floats:
@@ -64,6 +78,14 @@ class Component:
     def faces(self) -> npt.NDArray[np.int32]:
         """``(m, 3)`` triangles, counter-clockwise seen from outside."""
         return moved(self.solid, self.pose).faces
+
+
+def turned_front(front: tuple[float, float, float] | None, pose: Floats) -> tuple[float, float, float] | None:
+    """A unit vector, or None, turned by a ``(4, 4)`` pose."""
+    if front is None:
+        return None
+    x, y, z = (float(value) for value in pose[:3, :3] @ front)
+    return x, y, z
 
 
 @dataclass(frozen=True)

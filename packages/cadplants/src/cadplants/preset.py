@@ -7,6 +7,7 @@ from collections.abc import Callable
 from cadplants.assortment import make_assortment
 from cadplants.defects import Defects, degrade
 from cadplants.field import make_field
+from cadplants.gallery import make_gallery
 from cadplants.loop import make_loop
 from cadplants.manifold import make_manifold
 from cadplants.modeling_style import STYLES, ModelingStyle
@@ -23,6 +24,7 @@ __all__ = ["PRESETS", "make"]
 PRESETS: dict[str, Callable[[int, ModelingStyle | None], Plant]] = {
     "assortment": make_assortment,
     "field": make_field,
+    "gallery": make_gallery,
     "loop": make_loop,
     "manifold": make_manifold,
     "pumps": make_pumps,

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from cadplants.part_oracle import find_parts
-from cadplants.plant import Component, Connection, Line, Plant, Point
+from cadplants.plant import Component, Connection, Line, Plant, Point, turned_front
 
 __all__ = ["truth_of"]
 
@@ -55,6 +55,11 @@ def _paths_by(key: Callable[[Component], str], plant: Plant, names: Sequence[str
 def _units(plant: Plant, names: Sequence[str]) -> list[dict[str, Any]]:
     meshes = _paths_by(lambda component: component.unit, plant, names)
     clamped = _paths_by(lambda component: component.holds, plant, names)
+    fronts: dict[str, list[float]] = {}
+    for component in plant.components:
+        front = turned_front(component.front, component.pose) if component.unit else None
+        if front is not None and component.unit not in fronts:
+            fronts[component.unit] = _rounded(front)
     return [
         {
             "id": unit.id,
@@ -63,6 +68,7 @@ def _units(plant: Plant, names: Sequence[str]) -> list[dict[str, Any]]:
             "tag": unit.id,
             "meshes": meshes.get(unit.id, []),
             **({"fasteners": clamped[unit.id]} if unit.id in clamped else {}),
+            **({"faces": fronts[unit.id]} if unit.id in fronts else {}),
         }
         for unit in plant.units
     ]

@@ -23,7 +23,7 @@ from cadgraph.labelers.lvlm.reply import Question, Reply, key_of, spoken
 from cadgraph.labelers.lvlm.secret import scrubber
 from cadgraph.labelers.lvlm.wire import ENCODINGS, capped
 
-__all__ = ["Client"]
+__all__ = ["Client", "Refused"]
 
 _WAYS = 12  # of asking that are tried for one question
 _SAID = 120  # characters of a server's own words in a message
@@ -56,6 +56,12 @@ class Client:
     keeps = True
     again = True
 
+    purpose = "asking a vision-language model"
+    """What the client library is needed for, as a person would say it."""
+
+    settings = ("lvlm.wait", "lvlm.timeout")
+    """What sets the longest wait and the time of one try, for messages."""
+
     def __init__(
         self,
         model: str,
@@ -74,7 +80,7 @@ class Client:
         try:
             import openai
         except ImportError as error:
-            raise MissingExtra("asking a vision-language model", "lvlm") from error
+            raise MissingExtra(self.purpose, "lvlm") from error
         address = base_url or os.environ.get("OPENAI_BASE_URL", "")
         check_address(address)
         key = os.environ.get(key_variable, "")
@@ -91,7 +97,7 @@ class Client:
         self._lock = threading.Lock()
         self._scrub = scrubber(key_variable, "OPENAI_API_KEY")
         self._address = address or "https://api.openai.com/v1"
-        self._patience = Patience(wait, timeout, self._address)
+        self._patience = Patience(wait, timeout, self._address, self.settings)
         self._reasons: dict[str, str] = {}
         self._resolved = False
         self._client: Any = None
@@ -108,6 +114,11 @@ class Client:
     def manner(self) -> Manner:
         """What the server understands, as far as is known."""
         return self._manner
+
+    @property
+    def address(self) -> str:
+        """Where the server is."""
+        return self._address
 
     def close(self) -> None:
         """Closes the connections; the next question opens new ones."""
@@ -140,7 +151,7 @@ class Client:
             body = body_of(question, pictures, self.name, manner, self._max_tokens, self._temperature)
             try:
                 reply = self._reply(self._sent(body, f"{key[:40]}-{_digest(manner)}", manner))
-            except _Refused as refusal:
+            except Refused as refusal:
                 if not self._adapt(manner, refusal.said):
                     return self._failure(self._wrong(refusal.said, refusal.status, manner))
                 continue
@@ -159,7 +170,7 @@ class Client:
         """The server's answer, after as many tries as it takes.
 
         Raises:
-            _Refused: it minds how it is asked.
+            Refused: it minds how it is asked.
             Gone: it makes no sense to ask any further.
             OpenAIError: of the last try.
         """
@@ -206,7 +217,7 @@ class Client:
         """What an error that the server told means: another way of asking, an end, or another try.
 
         Raises:
-            _Refused: another way.
+            Refused: another way.
             LabelError: the run ends.
             Gone: the server asks for a longer wait than is waited.
             OpenAIError: the question ends.
@@ -219,7 +230,7 @@ class Client:
         if status == 404:
             raise LabelError(f"the server has no model {self.name!r} (404); check --model and --base-url") from error
         if status in (400, 413, 415, 422) or (status >= 500 and len(said) < _PAGE and adapted(manner, said, True)):
-            raise _Refused(said, status) from error
+            raise Refused(said, status) from error
         if status not in (408, 409, 429) and status < 500:
             raise error
         if getattr(error, "code", None) == "insufficient_quota":
@@ -329,7 +340,7 @@ class Client:
             return self._reasons.setdefault(kind, reason)
 
 
-class _Refused(Exception):
+class Refused(Exception):
     """The server minds how it is asked."""
 
     def __init__(self, said: str, status: int) -> None:

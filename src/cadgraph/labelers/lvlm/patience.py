@@ -40,10 +40,13 @@ class Patience:
         longest: that is waited where a server asks for it [s].
         timeout: of one try [s], for messages.
         where: the server's address, for messages.
+        settings: what sets ``longest`` and ``timeout``, for messages.
     """
 
-    def __init__(self, longest: float, timeout: float, where: str) -> None:
-        self._longest, self._timeout, self._where = longest, timeout, where
+    def __init__(
+        self, longest: float, timeout: float, where: str, settings: tuple[str, str] = ("lvlm.wait", "lvlm.timeout")
+    ) -> None:
+        self._longest, self._timeout, self._where, self._settings = longest, timeout, where, settings
         self._lock = threading.Lock()
         self._stop = threading.Event()
         self._over: str | None = None
@@ -118,7 +121,7 @@ class Patience:
                 return
             self._over = self._over or (
                 f"the server asks to wait {_span(seconds)} (Retry-After), longer than the {_span(self._longest)} of "
-                "lvlm.wait; run the same command again then"
+                f"{self._settings[0]}; run the same command again then"
             )
             raise Gone(self._over)
 
@@ -151,7 +154,7 @@ class Patience:
             if not self._answered and time.monotonic() - self._silent_since >= _SILENT * self._timeout:
                 self.end(
                     f"the server at {self._where} takes questions but answered none within {self._timeout:g} s "
-                    "(lvlm.timeout), twice"
+                    f"({self._settings[1]}), twice"
                 )
 
     def end(self, why: str) -> None:

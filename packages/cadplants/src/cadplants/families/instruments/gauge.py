@@ -23,7 +23,7 @@ from cadplants.families.instruments.kit import (
     upright,
 )
 from cadplants.families.valves.valve import disc_flange
-from cadplants.family import Family, Model, Part, placed
+from cadplants.family import Family, Model, Part, fronted, placed
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
@@ -101,7 +101,7 @@ def _filled(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
         rims = [moved(torus(0.57 * size, 0.05 * size, n, 6), at(0, 0, z * deep)) for z in (0.12, 0.85)]
         head.append(piece([boot, *rims], CASE, "rubber"))
     foot = shank(tall - 0.004, tall + 0.03, style, rng, size)
-    return Model([_plain(tall, style), foot, *upright(head, size, tall + 0.028)], kind=_KIND)
+    return Model([_plain(tall, style), foot, *upright(fronted(head), size, tall + 0.028)], kind=_KIND)
 
 
 def _contact(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
@@ -112,6 +112,7 @@ def _contact(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     n = style.round(size / 2)
     head = [p for p in head if p.name != "gauge glass"]
     head.append(piece(cylinder(0.445 * size, 0.93 * deep, 0.95 * deep, n), "gauge glass", "dial", CASE))
+    head = fronted(head)
     lock = [
         cylinder(0.09 * size, 0.94 * deep, 1.06 * deep, 12),
         box((0.1 * size, 0.02 * size, 0.02), (0, 0, 1.06 * deep)),
@@ -154,7 +155,7 @@ def _smart(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
         bumper = extrude(1.08 * outline, 0.2 * deep, 0.8 * deep, (0.995 * outline,))
         head.append(piece(bumper, CASE, "safety"))
     stem = piece([cylinder(0.0068, 0, low, 12), hexagon(0.027, 0.5 * low, low + 0.002)], STEM, "trim")
-    return Model([stem, *upright(head, tall, low + 0.001)], kind=_KIND)
+    return Model([stem, *upright(fronted(head), tall, low + 0.001)], kind=_KIND)
 
 
 def _sealed(dn: int, style: ModelingStyle, rng: np.random.Generator) -> Model:

@@ -20,7 +20,7 @@ from cadplants.families.instruments.kit import (
     screws,
 )
 from cadplants.families.valves.valve import disc_flange
-from cadplants.family import Family, Model, Part, placed
+from cadplants.family import Family, Model, Part, fronted, placed
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
@@ -185,7 +185,7 @@ def _v_case(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
         piece(scale, "gauge face", "dial", CASE),
         piece(glass, "gauge glass", "dial", CASE),
     ]
-    return Model([*parts, *placed(head, pose)], kind=_KIND)
+    return Model([*parts, *placed(fronted(head, (0.0, -1.0, 0.0)), pose)], kind=_KIND)
 
 
 def _capillary(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:

@@ -7,7 +7,7 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.families.valves.small import hex_end
 from cadplants.families.valves.valve import bolt_circle, disc_flange, flanged_body
-from cadplants.family import Family, Model, Part, placed
+from cadplants.family import Family, Model, Part, fronted, placed
 from cadplants.flange import nut_room, plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved, tube
 from cadplants.modeling_style import ModelingStyle
@@ -53,7 +53,7 @@ def _dial(size: float, style: ModelingStyle, rng: np.random.Generator) -> list[P
     if rng.random() < 0.2:
         flat = ring(0.98 * r, 1.35 * r, 0.7 * depth, 0.7 * depth + 0.003, n)
         parts.append(Part(flat, _CASE, "gauge", _CASE))
-    return parts
+    return fronted(parts)
 
 
 def _shank(low: float, high: float, square: float, style: ModelingStyle, hexagonal: bool) -> Part:
@@ -192,14 +192,12 @@ def _digital(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     keys = merge(
         [moved(cylinder(0.05 * side, depth, depth + 0.003, 8), at(x * side, -0.25 * side)) for x in (-0.2, 0.0, 0.2)]
     )
-    parts += placed(
-        [
-            Part(extrude(shape, 0, depth), _CASE, "electrical", _CASE),
-            Part(screen, "gauge glass", "dial", _CASE),
-            Part(keys, _CASE, "rubber", _CASE),
-        ],
-        pose,
-    )
+    head = [
+        Part(extrude(shape, 0, depth), _CASE, "electrical", _CASE),
+        Part(screen, "gauge glass", "dial", _CASE),
+        Part(keys, _CASE, "rubber", _CASE),
+    ]
+    parts += placed(fronted(head), pose)
     return Model(parts, kind="pressure gauge")
 
 
@@ -339,7 +337,7 @@ def _glass_thermometer(_: int, style: ModelingStyle, rng: np.random.Generator) -
     return Model(
         [
             Part(stem_, _STEM, "trim", _STEM),
-            *placed([Part(case, _CASE, "handle", _CASE), Part(glass, "gauge glass", "dial", _CASE)], pose),
+            *placed(fronted([Part(case, _CASE, "handle", _CASE), Part(glass, "gauge glass", "dial", _CASE)]), pose),
         ],
         kind="thermometer",
     )

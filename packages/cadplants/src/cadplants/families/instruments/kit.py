@@ -11,7 +11,7 @@ import numpy as np
 
 from cadgraph.model.scene import Floats
 from cadplants.families.valves.valve import bolt_circle, disc_flange
-from cadplants.family import Build, Family, Part, placed
+from cadplants.family import Build, Family, Part, fronted, placed
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
@@ -169,7 +169,7 @@ def dial(
         flat = cylinder(0.99 * w, 0.93 * deep, 0.93 * deep + 0.002, n)
         glass = flat if rng.random() < 0.7 else dome(0.99 * w, 0.12 * w, 0.95 * deep, n)
         parts.append(piece(glass, "gauge glass", "dial", CASE))
-    return parts
+    return fronted(parts)
 
 
 def upright(parts: Sequence[Part], size: float, top: float, turn: float = 0.0) -> list[Part]:
@@ -274,7 +274,7 @@ def indicator(wide: float, tall: float, deep: float, style: ModelingStyle, rng: 
     parts.append(piece(needle, "gauge needle", "needle", CASE))
     if rng.random() < 0.5:
         parts.append(piece(extrude(0.855 * outline, 0.92 * deep, 0.96 * deep), "gauge glass", "dial", CASE))
-    return parts
+    return fronted(parts)
 
 
 def t_handle(reach: float, wide: float, radius: float = 0.004) -> Solid:

@@ -24,7 +24,7 @@ from cadplants.families.instruments.kit import (
     upright,
 )
 from cadplants.families.valves.valve import disc_flange
-from cadplants.family import Family, Model, Part, placed
+from cadplants.family import Family, Model, Part, fronted, placed
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import extrude, merge, moved, sweep
 from cadplants.modeling_style import ModelingStyle
@@ -156,7 +156,7 @@ def _sector(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
         head.append(piece(moved(needle, at(0, 0, 0.8 * deep + 0.002)), "gauge needle", "needle", CASE))
         if rng.random() < 0.5:
             head.append(piece(extrude(0.815 * outline, 0.94 * deep, 0.96 * deep), "gauge glass", "dial", CASE))
-        parts += placed(head, at((k - (count - 1) / 2) * 1.5 * wide, 0, middle) @ _LOOK)
+        parts += placed(fronted(head), at((k - (count - 1) / 2) * 1.5 * wide, 0, middle) @ _LOOK)
     return Model(parts, kind=_KIND)
 
 
@@ -228,7 +228,7 @@ def _inclined(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
             [(x, 0.35 * tall, deep - 0.001), (x, 0.35 * tall, deep + 0.03), (x, -tall, deep + 0.03)], 0.004, style
         )
         head.append(piece(tube, STEM, "rubber"))
-    return Model([*parts, *placed(head, at(0, 0, z) @ _LOOK)], kind="manometer")
+    return Model([*parts, *placed(fronted(head), at(0, 0, z) @ _LOOK)], kind="manometer")
 
 
 def _draught(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:

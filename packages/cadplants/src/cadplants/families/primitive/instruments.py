@@ -9,7 +9,7 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.families.chance import chance, num, pick
 from cadplants.families.primitive.shape import disc, family, lying, part, sized, torus_piece
-from cadplants.family import Family, Model, Part, placed
+from cadplants.family import Family, Model, Part, fronted, placed
 from cadplants.mesh_ops import merge, moved
 from cadplants.modeling_style import ModelingStyle
 from cadplants.primitives import box, cylinder, ring
@@ -61,7 +61,7 @@ def case_parts(
     if chance(rng, 0.6):
         low = max(0.85 * deep if ringed else floor, floor + 3.6 * thin)
         parts.append(part("gauge glass", cylinder(inner, low, low + 1.5 * thin, n), color="dial", bundle=_CASE))
-    return parts
+    return fronted(parts)
 
 
 def _upright(parts: list[Part], height: float, deep: float, rng: np.random.Generator) -> list[Part]:

@@ -1,0 +1,1 @@
+"""Questions about generated plants whose answers can be proved, for agents and for the graph that they ask."""

@@ -1,0 +1,150 @@
+"""What closing and opening valves changes in the network, step by step."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from cadgraph.plans.goals import Goal
+from cadgraph.query.network import Network
+from cadgraph.query.what_if import Consequence, WhatIf, what_if
+
+__all__ = ["Change", "assumptions_of", "changes_of", "shut_before"]
+
+
+@dataclass(frozen=True)
+class Change:
+    """What a step changes, as far as the network says so.
+
+    Args:
+        cut_off: tags of what loses all that feeds it, by tag.
+        fed_again: tags of what is fed again.
+        unknown: tags of what may lose or get it, or not.
+        notes: what should be known about it, a sentence each.
+    """
+
+    cut_off: tuple[str, ...] = ()
+    fed_again: tuple[str, ...] = ()
+    unknown: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+
+
+def shut_before(goals: Iterable[Goal]) -> frozenset[str]:
+    """Ids of the valves that must be shut before a round, as it opens them first; of all others nobody knows."""
+    first: dict[str, Goal] = {}
+    for goal in sorted(goals, key=lambda goal: goal.stage):
+        if goal.action != "read":
+            first.setdefault(goal.unit, goal)
+    return frozenset(unit for unit, goal in first.items() if goal.action == "open")
+
+
+def changes_of(network: Network, goals: Sequence[Goal]) -> tuple[Change, ...]:
+    """What each goal changes.
+
+    Args:
+        network: of the finished graph.
+        goals: in the order that they are done in.
+
+    Returns:
+        A change for each goal, in that order.
+    """
+    shut = set(shut_before(goals))
+    now = _asked(network, shut)
+    found: list[Change] = []
+    for goal in goals:
+        if goal.action == "read":
+            found.append(_reading(network, goal, now))
+            continue
+        if not network.arcs(goal.unit):
+            unsaid = f"no line was found at {goal.name}: what turning it changes is not known"
+            found.append(Change(notes=(unsaid,)))
+            continue
+        (shut.add if goal.action == "close" else shut.discard)(goal.unit)
+        after = _asked(network, shut)
+        found.append(_closing(goal, now, after) if goal.action == "close" else _opening(goal, now, after))
+        now = after
+    return tuple(found)
+
+
+def assumptions_of(network: Network, goals: Sequence[Goal]) -> tuple[str, ...]:
+    """What the changes of a round suppose, a sentence each."""
+    turned = [goal for goal in goals if goal.action != "read"]
+    if not turned:
+        return ()
+    shut = {goal.name: None for goal in turned if goal.unit in shut_before(goals)}
+    told = [f"{_and(shut)} {'is' if len(shut) == 1 else 'are'} shut before the round"] if shut else []
+    answer = _asked(network, {goal.unit for goal in turned})
+    return (*told, *(answer.assumptions if answer is not None else ()))
+
+
+def _asked(network: Network, shut: Iterable[str]) -> WhatIf | None:
+    """The consequences of valves being shut; None where none is that a line was found at."""
+    connected = sorted(place for place in shut if network.arcs(place))
+    return what_if(network, connected) if connected else None
+
+
+def _closing(goal: Goal, before: WhatIf | None, after: WhatIf | None) -> Change:
+    lost = _names(after.cut_off if after else ()) - _names(before.cut_off if before else ())
+    open_now = _names(after.unknown if after else ()) - _names(before.unknown if before else ())
+    return Change(
+        cut_off=_in_order(after.cut_off if after else (), lost),
+        unknown=_in_order(after.unknown if after else (), open_now),
+        notes=_notes(goal, before, after, lost),
+    )
+
+
+def _opening(goal: Goal, before: WhatIf | None, after: WhatIf | None) -> Change:
+    cut, open_before = (before.cut_off, before.unknown) if before else ((), ())
+    open_after = _names(after.unknown if after else ())
+    freed = _names(cut) - _names(after.cut_off if after else ())
+    maybe = (freed & open_after) | (_names(open_before) - open_after - {goal.name})
+    return Change(
+        fed_again=_in_order(cut, freed - open_after - {goal.name}),
+        unknown=_in_order((*cut, *open_before), maybe),
+        # That it cut something off before is no news any more; what nobody knows of the valve itself is.
+        notes=tuple(text for text in _notes(goal, after, before, freed) if goal.name in text),
+    )
+
+
+def _reading(network: Network, goal: Goal, now: WhatIf | None) -> Change:
+    if not network.arcs(goal.unit):
+        return Change(notes=(f"no line was found at {goal.name}: what it measures is not known",))
+    if now is None:
+        return Change()
+    closed = _and(now.closed)
+    if goal.unit in {one.place for one in now.cut_off}:
+        return Change(notes=(f"cut off with {closed} closed: it shows what is shut in, not the running plant",))
+    if goal.unit in {one.place for one in now.unknown}:
+        return Change(notes=(f"with {closed} closed it may be cut off or not",))
+    return Change()
+
+
+def _notes(goal: Goal, without: WhatIf | None, shut: WhatIf | None, told: set[str]) -> tuple[str, ...]:
+    """What the consequences say of this valve alone: what they say with it shut and not without."""
+    if shut is None:
+        return ()
+    known = set(_sentences(without)) if without else set()
+    said = [f"cut off {one.why}" for one in shut.cut_off if one.why and one.name in told]
+    return tuple(dict.fromkeys(text for text in (*_sentences(shut), *said) if text not in known))
+
+
+def _sentences(answer: WhatIf) -> list[str]:
+    return [
+        *answer.remarks,
+        *(f"{one.name} would pump against closed valves" for one in answer.dead_headed),
+        *(f"{one.name} is not refilled" for one in answer.not_refilled),
+        *(f"{doubt.name}: {doubt.text}" for doubt in answer.doubts),
+    ]
+
+
+def _names(listed: Iterable[Consequence]) -> set[str]:
+    return {one.name for one in listed}
+
+
+def _in_order(listed: Iterable[Consequence], chosen: set[str]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(one.name for one in listed if one.name in chosen))
+
+
+def _and(names: Iterable[str]) -> str:
+    *most, last = names
+    return f"{', '.join(most)} and {last}" if most else last

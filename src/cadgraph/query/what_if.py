@@ -1,0 +1,312 @@
+"""What closing valves cuts off from what feeds it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from cadgraph._io.text import tag_key
+from cadgraph.errors import Unconnected
+from cadgraph.model.graph import SceneGraph
+from cadgraph.model.pipework import Follow
+from cadgraph.model.records import Terminal, Unit
+from cadgraph.query.doubt import Doubt, open_sides
+from cadgraph.query.duty import Duty, duty_of, likely_kinds
+from cadgraph.query.network import Arc, Network
+
+__all__ = ["Consequence", "WhatIf", "what_if"]
+
+# Why a valve may not be shut, by what it can be relied on for; of an open kind only where not all that it may be shuts.
+_NOT_SHUT: Mapping[Duty, str] = {
+    "check": "is a check valve: nobody shuts it by hand",
+    "relief": "is a relief valve: it must not be blocked",
+    "control": "is a control valve: it moves by itself and may leak",
+    "other": "is of a kind that isn't known to shut off",
+    "unknown": "is of unknown kind: it may be a check valve, which nobody shuts",
+}
+
+
+@dataclass(frozen=True)
+class Consequence:
+    """A unit or an end of a pipe that closing concerns.
+
+    Args:
+        place: its id.
+        name: its tag.
+        what: its kind, or its type.
+        why: what makes it unknown, or what it depends on; ``""`` where nothing does.
+    """
+
+    place: str
+    name: str
+    what: str
+    why: str = ""
+
+
+@dataclass(frozen=True)
+class WhatIf:
+    """The answer. It is about flow: what is cut off may still be under pressure.
+
+    Args:
+        closed: tags of the valves that are taken for shut.
+        sources: tags of what feeds the network, by tag.
+        cut_off: units and ends with no way left from any source but against a known flow, by tag; ``why`` names the
+            closed valves that it depends on, as nobody knows whether these can be shut.
+        unknown: units and ends behind the valves that may be cut off or not.
+        still_fed: units and ends behind the valves to which a way of known direction leads from a source all the same.
+        not_refilled: tanks that count as sources and that nothing else flows to any more.
+        dead_headed: pumps that have no way left to a tank or an end.
+        doubts: where a way that was not found may feed what is cut off.
+        assumptions: what the answer supposes, a sentence each.
+        remarks: on the closed valves, and on pumps that are cut off.
+    """
+
+    closed: tuple[str, ...]
+    sources: tuple[str, ...]
+    cut_off: tuple[Consequence, ...]
+    unknown: tuple[Consequence, ...]
+    still_fed: tuple[Consequence, ...]
+    not_refilled: tuple[Consequence, ...]
+    dead_headed: tuple[Consequence, ...]
+    doubts: tuple[Doubt, ...]
+    assumptions: tuple[str, ...]
+    remarks: tuple[str, ...]
+
+    @property
+    def known(self) -> bool:
+        """Whether nothing is open in the answer, as far as the graph goes."""
+        return not (self.unknown or self.doubts or any(one.why for one in self.cut_off))
+
+
+def what_if(
+    graph: SceneGraph | Network, close: Sequence[str] | str, sources: Sequence[str] | str | None = None
+) -> WhatIf:
+    """What loses what feeds it when valves are closed, all others being open.
+
+    Something is fed where a way leads to it from a source that nowhere goes against a known flow. Sources are tanks and
+    the ends of pipes that aren't known to be outlets; in a network with neither its pumps, which else only pass on.
+
+    Args:
+        graph: the finished graph, or its network.
+        close: tags or ids of the valves.
+        sources: tags or ids of what feeds the network instead.
+
+    Raises:
+        Unconnected: no line was found at one of them, which is a ``ValueError``: that is no answer.
+        ValueError: nothing is called so, what is to be closed is no valve, or both are the same.
+    """
+    network = graph if isinstance(graph, Network) else Network(graph)
+    closed = _closed(network, [close] if isinstance(close, str) else close)
+    given = None if sources is None else _given(network, [sources] if isinstance(sources, str) else sources, closed)
+    return _Closing(network, closed, given).answer()
+
+
+def _closed(network: Network, close: Sequence[str]) -> tuple[str, ...]:
+    if not close:
+        raise ValueError("name at least one valve to close")
+    places = dict.fromkeys(network.find(name) for name in close)
+    for place in places:
+        if not network.is_valve(place):
+            raise ValueError(f"{network.name(place)} is no valve but a {network.what(place)}; name valves to close")
+        if not network.arcs(place):
+            raise Unconnected(network.name(place), "what closing it cuts off")
+    return tuple(sorted(places, key=lambda place: tag_key(network.name(place))))
+
+
+def _given(network: Network, sources: Sequence[str], closed: Collection[str]) -> tuple[str, ...]:
+    places = dict.fromkeys(network.find(name) for name in sources)
+    if not places:
+        raise ValueError("name at least one source, or leave the sources out")
+    for place in places:
+        if place in closed:
+            raise ValueError(f"{network.name(place)} is closed and can't be a source as well")
+        if not network.arcs(place):
+            raise Unconnected(network.name(place), "what it feeds")
+    return tuple(places)
+
+
+class _Closing:
+    """What is reached before and after.
+
+    Args:
+        network: of the graph.
+        closed: ids of the valves.
+        given: ids of the sources, or None.
+    """
+
+    def __init__(self, network: Network, closed: tuple[str, ...], given: tuple[str, ...] | None) -> None:
+        self.network = network
+        self.closed = closed
+        self.given = given
+        self.sure_sources, self.likely_sources = (given, ()) if given is not None else self._sources()
+        self.sources = (*self.sure_sources, *self.likely_sources)
+        self.unsure = {place: why for place in closed if (why := self._why_unsure(place)) is not None}
+
+    def answer(self) -> WhatIf:
+        before = self._reach(self.sources, ())
+        after = self._reach(self.sources, self.closed)
+        shut_for_sure = [place for place in self.closed if place not in self.unsure]
+        after_for_sure = self._reach(self.sources, shut_for_sure)
+        loosely_fed = self._reach(self.sure_sources, self.closed)
+        surely_fed = self._reach(self.sure_sources, self.closed, self._surely_follows)
+        behind = self._behind() - set(self.closed)
+        cut = before - after - set(self.closed)
+        depends = "only if " + " and ".join(map(self.network.name, self.unsure)) + " really shuts"
+        open_ones = (behind - cut) - surely_fed - set(self.sure_sources)
+        return WhatIf(
+            closed=tuple(map(self.network.name, self.closed)),
+            sources=tuple(map(self.network.name, self._by_tag(self.sources))),
+            cut_off=tuple(self._told(p, depends if p in after_for_sure else "") for p in self._by_tag(cut)),
+            unknown=tuple(
+                self._told(p, self._why_open(p in before, p in loosely_fed)) for p in self._by_tag(open_ones)
+            ),
+            still_fed=tuple(self._told(p) for p in self._by_tag((behind & surely_fed) - set(self.sources))),
+            not_refilled=tuple(self._told(p) for p in self._by_tag(self._not_refilled(behind))),
+            dead_headed=tuple(self._told(p) for p in self._by_tag(self._dead_headed(cut))),
+            doubts=self._doubts(cut),
+            assumptions=self._assumptions(),
+            remarks=self._remarks(before, cut),
+        )
+
+    # What feeds
+
+    def _sources(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """What feeds the pieces of the network that hold a closed valve: what surely does, and what may do so."""
+        sure: list[str] = []
+        likely: list[str] = []
+        done: set[str] = set()
+        for place in self.closed:
+            if place in done:
+                continue
+            piece = self._reach((place,), (), lambda arc: True)
+            done |= piece
+            ordered = [p for p in self.network.places if p in piece]
+            ends = [p for p in ordered if self._may_feed(p)]
+            feeding = [p for p in ends if any(arc.flow == "along" for arc in self.network.arcs(p))]
+            tanks = [p for p in ordered if self.network.unit_type(p) == "tank"]
+            sure += [*tanks, *feeding]
+            likely += [p for p in ends if p not in feeding]
+            if not tanks and not ends:
+                sure += [p for p in ordered if self.network.unit_type(p) == "pump"]
+        return tuple(sure), tuple(likely)
+
+    def _may_feed(self, place: str) -> bool:
+        """Whether a node is an end of pipe that isn't blind and not known to be an outlet."""
+        node = self.network.places[place]
+        if not isinstance(node, Terminal) or node.kind == "blind":
+            return False
+        return any(arc.flow != "against" for arc in self.network.arcs(place))
+
+    # Walking
+
+    def _reach(self, starts: Iterable[str], blocked: Collection[str], follows: Follow | None = None) -> set[str]:
+        """All that is reached from some nodes, these included, but not through those that are blocked."""
+        walks = follows or self._follows
+        seen = {place for place in starts if place not in blocked}
+        waiting = list(seen)
+        while waiting:
+            for arc in self.network.arcs(waiting.pop()):
+                if arc.end not in seen and arc.end not in blocked and walks(arc):
+                    seen.add(arc.end)
+                    waiting.append(arc.end)
+        return seen
+
+    def _behind(self) -> set[str]:
+        """All that may have been fed through the closed valves; what lies behind a source it feeds itself."""
+        feeding = set(self.sure_sources)
+        return self._reach(self.closed, (), lambda arc: arc.start not in feeding and self._follows(arc))
+
+    def _follows(self, arc: Arc) -> bool:
+        return arc.flow != "against" or self.network.is_tap(arc)
+
+    def _surely_follows(self, arc: Arc) -> bool:
+        # Through a relief valve nothing flows as a rule, so that nothing counts as fed through one.
+        if duty_of(self.network, arc.start) == "relief":
+            return False
+        return arc.flow == "along" or self.network.is_tap(arc) or self.network.is_dead(arc)
+
+    def _by_tag(self, places: Iterable[str]) -> list[str]:
+        """Units and ends in the order of tags; junctions and blind ends are nothing to tell."""
+        nodes = {place: self.network.places[place] for place in set(places)}
+        told = [p for p, n in nodes.items() if isinstance(n, Unit) or (isinstance(n, Terminal) and n.kind != "blind")]
+        return sorted(told, key=lambda place: (tag_key(self.network.name(place)), place))
+
+    # What is told
+
+    def _told(self, place: str, why: str = "") -> Consequence:
+        return Consequence(place, self.network.name(place), self.network.what(place), why)
+
+    def _why_unsure(self, place: str) -> str | None:
+        """Why nobody can be sure that a valve can be shut."""
+        why = _NOT_SHUT.get(duty_of(self.network, place) or "other")
+        likely = likely_kinds(self.network, place)
+        return f"{why} (likeliest: {likely})" if why and likely else why
+
+    def _why_open(self, fed_before: bool, loosely_fed: bool) -> str:
+        if not fed_before:
+            return "no source was found to feed it even with all valves open"
+        if loosely_fed:
+            return "the ways left to it lead over pipes of unknown direction, or through a relief valve"
+        return "the ways left to it come from ends of which nobody knows whether they feed"
+
+    def _not_refilled(self, behind: Collection[str]) -> list[str]:
+        found = []
+        for place in self.sources:
+            if place not in behind or not isinstance(self.network.places[place], Unit):
+                continue
+            others = [other for other in self.sources if other != place]
+            if place in self._reach(others, ()) and place not in self._reach(others, self.closed):
+                found.append(place)
+        return found
+
+    def _dead_headed(self, cut: Collection[str]) -> list[str]:
+        pumps = [p for p in self.network.places if self.network.unit_type(p) == "pump" and p not in cut]
+        return [p for p in pumps if self._delivers(p, ()) and not self._delivers(p, self.closed)]
+
+    def _delivers(self, pump: str, blocked: Collection[str]) -> bool:
+        """Whether a pump has a way to a tank or an end."""
+        return any(
+            (isinstance(node := self.network.places[place], Terminal) and node.kind != "blind")
+            or self.network.unit_type(place) == "tank"
+            for place in self._reach((pump,), blocked)
+        )
+
+    def _doubts(self, cut: Collection[str]) -> tuple[Doubt, ...]:
+        pieces = [place for place in self.network.places if place in cut]
+        found = [*open_sides(self.network, self.closed), *open_sides(self.network, pieces, "feeds")]
+        # A joint between a closed valve and what it cuts off changes nothing.
+        inner = {*self.closed, *cut}
+        return tuple(
+            doubt
+            for doubt in dict.fromkeys(found)
+            if not doubt.parts or any(self.network.owner_of_part(part) not in inner for part in doubt.parts)
+        )
+
+    def _assumptions(self) -> tuple[str, ...]:
+        told = ["all other valves are open and all pumps run"]
+        if self.given is not None:
+            told.append("only the sources that were given feed")
+        elif not self.sources:
+            told.append(
+                "nothing that could feed was found here, neither a tank nor an end nor a pump; name the sources"
+            )
+        elif all(self.network.unit_type(place) == "pump" for place in self.sources):
+            told.append("as no tank and no end that could feed was found, pumps count as sources")
+        else:
+            told.append("tanks and ends not known to be outlets feed; pumps only pass on")
+        told.append("this is about flow: what is cut off may still be under pressure; isolate says what isolates it")
+        return tuple(told)
+
+    def _remarks(self, before: Collection[str], cut: Collection[str]) -> tuple[str, ...]:
+        told = [f"{self.network.name(place)} {why}" for place, why in self.unsure.items()]
+        told += [
+            f"{self.network.name(place)} is of open kind, but likely shuts off ({likely_kinds(self.network, place)})"
+            for place in self.closed
+            if duty_of(self.network, place) == "likely"
+        ]
+        unfed = [self.network.name(place) for place in self.closed if place not in before]
+        told += [
+            f"no source was found to feed {name} in the first place: what it cuts off isn't known" for name in unfed
+        ]
+        dry = [place for place in self._by_tag(cut) if self.network.unit_type(place) == "pump"]
+        return (*told, *(f"{self.network.name(place)} would run dry" for place in dry))

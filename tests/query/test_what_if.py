@@ -1,0 +1,174 @@
+import pytest
+
+from cadgraph.errors import Unconnected
+from cadgraph.model.graph import SceneGraph
+from cadgraph.query import what_if
+from cadgraph.query.what_if import WhatIf
+from networks import chain, joint, junction, network, pumping, terminal, unit
+
+
+def tags(those):
+    return {one.name for one in those}
+
+
+def series(*kinds, direction="forward", end="open"):
+    """A tank, valves of these kinds with a gauge behind each, and an end."""
+    nodes, names = [unit("T-001")], ["T-001"]
+    for i, kind in enumerate(kinds, 1):
+        nodes += [unit(f"V-{i:03d}", kind), unit(f"G-{i:03d}", "flow meter")]
+        names += [f"V-{i:03d}", f"G-{i:03d}"]
+    return network([*nodes, terminal(1, end)], chain(" ".join([*names, "X1"]), direction=direction))
+
+
+def test_what_lies_behind_a_closed_valve_is_cut_off():
+    found = what_if(series("gate valve", "ball valve"), "V-002")
+    assert found.sources == ("T-001",)
+    assert tags(found.cut_off) == {"G-002", "terminal-001"}
+    assert found.known
+    assert found.unknown == found.still_fed == found.dead_headed == ()
+
+
+def test_a_blind_end_is_nothing_to_tell():
+    assert tags(what_if(series("gate valve", end="blind"), "V-001").cut_off) == {"G-001"}
+
+
+def test_closing_a_suction_valve_cuts_off_the_pump_which_only_passes_on():
+    found = what_if(pumping(), "V-002")
+    assert tags(found.cut_off) == {"G-001", "P-001", "G-003", "V-004", "V-005"}
+    assert "P-001 would run dry" in found.remarks
+    assert {"V-009", "G-005"} <= tags(found.still_fed)
+
+
+def test_valves_that_only_together_cut_off():
+    assert "V-009" not in tags(what_if(pumping(), "V-005").cut_off)
+    assert "V-009" not in tags(what_if(pumping(), "V-007").cut_off)
+    found = what_if(pumping(), ["V-005", "V-007"])
+    assert {"V-008", "V-009", "G-005"} <= tags(found.cut_off)
+    assert tags(found.dead_headed) == {"P-001", "P-002"}
+
+
+def test_what_pipes_of_unknown_direction_may_feed_is_unknown():
+    edges = chain("T-001 V-001 J1 G-001 X1") + chain("J1 V-002 T-002", direction="unknown")
+    nodes = [unit("T-001"), unit("T-002"), unit("V-001", "gate valve"), unit("V-002", "gate valve")]
+    found = what_if(network([*nodes, junction(1), unit("G-001", "flow meter"), terminal(1)], edges), "V-001")
+    assert found.cut_off == ()
+    assert tags(found.unknown) == {"V-002", "G-001", "terminal-001"}
+    assert "unknown direction" in found.unknown[0].why
+    assert not found.known
+
+
+def test_a_piece_that_nothing_is_known_to_feed_is_unknown_and_not_untouched():
+    nodes = [unit("V-001", "gate valve"), unit("G-001", "flow meter"), terminal(1), terminal(2)]
+    outwards = chain("V-001 X1") + chain("V-001 G-001 X2")
+    found = what_if(network(nodes, outwards), "V-001")
+    assert found.sources == found.cut_off == ()
+    assert tags(found.unknown) == {"G-001", "terminal-001", "terminal-002"}
+    assert any("name the sources" in text for text in found.assumptions)
+    assert any("isn't known" in text for text in found.remarks)
+    assert not found.known
+
+
+@pytest.mark.parametrize(
+    ("kind", "words"),
+    [
+        (None, "of unknown kind: it may be a check valve"),
+        ("check valve", "nobody shuts it by hand"),
+        ("relief valve", "must not be blocked"),
+        ("safety valve", "must not be blocked"),
+        ("control valve", "moves by itself"),
+    ],
+)
+def test_what_a_valve_cuts_off_that_may_not_shut_is_said_to_depend_on_it(kind, words):
+    found = what_if(series(kind), "V-001")
+    assert words in found.remarks[0]
+    assert {one.name: one.why for one in found.cut_off} == dict.fromkeys(
+        ("G-001", "terminal-001"), "only if V-001 really shuts"
+    )
+    assert not found.known
+
+
+def test_behind_a_valve_that_surely_shuts_nothing_depends_on_another():
+    found = what_if(series("gate valve", None), ["V-001", "V-002"])
+    assert {one.name: bool(one.why) for one in found.cut_off} == {
+        "G-001": False, "G-002": False, "terminal-001": False
+    }  # fmt: skip
+
+
+def test_nothing_counts_as_fed_through_a_relief_valve():
+    edges = chain("T-001 V-001 J1 X1") + chain("T-001 V-002 J1")
+    nodes = [unit("T-001"), unit("V-001", "gate valve"), unit("V-002", "relief valve"), junction(1), terminal(1)]
+    found = what_if(network(nodes, edges), "V-001")
+    assert tags(found.unknown) == {"terminal-001"}
+    assert found.still_fed == ()
+
+
+def test_a_tank_that_nothing_flows_to_any_more_is_told():
+    nodes = [unit("T-001"), unit("T-002"), unit("V-001", "gate valve"), unit("P-001", ports=("N1", "N2"))]
+    found = what_if(network(nodes, chain("T-001 P-001 V-001 T-002")), "V-001")
+    assert found.cut_off == ()
+    assert tags(found.not_refilled) == {"T-002"}
+    assert tags(found.dead_headed) == {"P-001"}
+
+
+def test_without_tanks_and_ends_pumps_feed():
+    nodes = [unit("P-001"), unit("V-001", "gate valve"), unit("G-001", "flow meter"), terminal(1, "blind")]
+    found = what_if(network(nodes, chain("P-001 V-001 G-001 X1")), "V-001")
+    assert (found.sources, tags(found.cut_off)) == (("P-001",), {"G-001"})
+    assert any("pumps count as sources" in text for text in found.assumptions)
+
+
+def test_an_end_that_is_an_outlet_feeds_nothing_and_one_of_unknown_direction_may():
+    nodes = [unit("V-001", "gate valve"), unit("G-001", "flow meter"), terminal(1), terminal(2)]
+    inwards = network(nodes, chain("X1 V-001 G-001 X2"))
+    assert what_if(inwards, "V-001").sources == ("terminal-001",)
+    assert tags(what_if(inwards, "V-001").cut_off) == {"G-001", "terminal-002"}
+    open_ones = what_if(network(nodes, chain("X1 V-001 G-001 X2", direction="unknown")), "V-001")
+    assert open_ones.sources == ("terminal-001", "terminal-002")
+    assert "whether they feed" in open_ones.unknown[0].why
+
+
+def test_given_sources_are_the_only_ones():
+    found = what_if(pumping(), "V-009", "P-001")
+    assert found.sources == ("P-001",)
+    assert {"G-005", "V-010", "V-011", "V-012"} <= tags(found.cut_off)
+    assert "only the sources that were given feed" in found.assumptions
+
+
+def test_an_instrument_on_a_tap_goes_with_its_line():
+    assert {"G-007", "V-014"} <= tags(what_if(pumping(), ["V-005", "V-007"]).cut_off)
+    assert tags(what_if(pumping(), "V-014").cut_off) == {"G-007"}
+
+
+def test_a_joint_that_may_be_there_makes_it_doubtful():
+    nodes = [
+        unit("T-001"), unit("V-001", "gate valve"),
+        unit("G-001", "flow meter").model_copy(update={"parts": ("part-1",)}),
+        terminal(1), unit("P-001").model_copy(update={"parts": ("part-2",)}),
+    ]  # fmt: skip
+    graph = network(nodes, chain("T-001 V-001 G-001 X1"))
+    doubtful = graph.document.model_copy(update={"joints": (joint("part-1", "part-2", score=0.4, made=False),)})
+    found = what_if(SceneGraph(doubtful), "V-001")
+    assert "is not joined to it (40% sure that it is)" in found.doubts[0].text
+    assert not found.known
+
+
+def test_a_valve_with_a_line_on_one_side_makes_it_doubtful():
+    found = what_if(network([unit("T-001"), unit("V-001", "gate valve")], chain("T-001 V-001")), "V-001")
+    assert found.cut_off == ()
+    assert "only one of its two ports has a line" in found.doubts[0].text
+    assert not found.known
+
+
+def test_wrong_questions_are_refused():
+    graph = network([unit("T-001"), unit("V-001", "gate valve"), unit("V-002"), terminal(1)], chain("T-001 V-001 X1"))
+    with pytest.raises(ValueError, match="T-001 is no valve but a tank"):
+        what_if(graph, "T-001")
+    with pytest.raises(ValueError, match="at least one valve"):
+        what_if(graph, [])
+    with pytest.raises(ValueError, match="V-001 is closed and can't be a source"):
+        what_if(graph, "V-001", ["V-001"])
+    with pytest.raises(Unconnected, match="what closing it cuts off"):
+        what_if(graph, "V-002")
+    with pytest.raises(Unconnected, match="what it feeds"):
+        what_if(graph, "V-001", "V-002")
+    assert isinstance(what_if(graph, ["V-001", "V-001"]), WhatIf)
