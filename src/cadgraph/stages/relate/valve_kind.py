@@ -111,6 +111,8 @@ _HOLDS_YOKE = MappingProxyType(
 # How often valves of a kind have several levers: an arm with its weight, as on check and float valves. Others have
 # one (counted on generated valves: 1 of 25 ball valves has more, all check valves with a lever have).
 _SEVERAL_LEVERS = MappingProxyType({"check": 0.5, "relief": 0.15, "other": 0.4})
+# A lever over a body as long as check valves are, and as no ball valve is, is this much likelier their arm (ours).
+_ARM = 4.0
 
 
 @dataclass(frozen=True)
@@ -190,10 +192,19 @@ def _likelihood(kind: str, look: _Look) -> float:
 
 
 def _by_parts(kind: str, look: _Look) -> float:
-    """How often a valve of a kind has a ball, a yoke, several levers, where this one has."""
+    """How often a valve of a kind has a ball, a yoke, several levers, the arm of a weight, where this one has."""
     share = _HOLDS_BALL.get(kind, 0.002) if look.ball else 1.0
     share *= _HOLDS_YOKE[kind] if look.yoke else 1.0
+    share *= _ARM if kind == "check" and _may_be_arm(look) else 1.0
     return share * (_SEVERAL_LEVERS.get(kind, 0.04) if look.levers > 1 else 1.0)
+
+
+def _may_be_arm(look: _Look) -> bool:
+    """Whether a valve with a lever has a length of check valves that ball valves don't have."""
+    length, size = look.length, look.size
+    if look.turned != "lever" or length is None or size is None:
+        return False
+    return _is_one_of(length, "check", size, _FACE) and not _is_one_of(length, "ball", size, _FACE)
 
 
 def _by_operator(kind: str, look: _Look) -> float:
