@@ -88,6 +88,20 @@ def test_a_lever_over_a_yoke_is_no_ball_valve():
     assert not found or found[0][1] < SURE_FROM
 
 
+def test_a_lever_with_a_weight_is_no_ball_valve():
+    arm, weight = operator("lever", 0.178), turned(shapes.cylinder(0.04, 0.05), (0.25, 0, 0.12), X)
+    assert kinds([body(0.178), arm], ["valve body", "lever"], 0.178, 50)[0][1] >= SURE_FROM
+    found = kinds([body(0.178), arm, weight], ["valve body", "lever", "lever"], 0.178, 50)
+    assert not found or found[0][1] < SURE_FROM
+
+
+def test_a_lever_over_a_length_of_check_valves_alone_may_be_the_arm_of_a_weight():
+    meshes = [body(0.356, 0.14), operator("lever", 0.356)]
+    found = kinds(meshes, ["valve body", "lever"], 0.356, 150)
+    assert found[0][1] < SURE_FROM
+    assert found[1][0] == "check valve"
+
+
 def test_a_bracket_under_an_actuator_says_nothing():
     actuator = turned(shapes.box((0.1, 0.06, 0.06)), (0.089, 0, 0.2), UP)
     bracket = turned(shapes.box((0.05, 0.05, 0.08)), (0.089, 0, 0.12), UP)

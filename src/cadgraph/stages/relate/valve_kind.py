@@ -108,6 +108,11 @@ _HOLDS_YOKE = MappingProxyType(
         "relief": 0.2, "control": 0.6, "other": 0.3,
     }
 )  # fmt: skip
+# How often valves of a kind have several levers: an arm with its weight, as on check and float valves. Others have
+# one (counted on generated valves: 1 of 25 ball valves has more, all check valves with a lever have).
+_SEVERAL_LEVERS = MappingProxyType({"check": 0.5, "relief": 0.15, "other": 0.4})
+# A lever over a body as long as check valves are, and as no ball valve is, is this much likelier their arm (ours).
+_ARM = 4.0
 
 
 @dataclass(frozen=True)
@@ -124,6 +129,7 @@ class _Look:
         sprung: whether it looks like a spring housing with a snout; None where that can't be said.
         ball: whether there is a ball among its parts.
         yoke: whether there is a yoke among its parts, and no actuator or gearbox.
+        levers: how many levers there are among its parts.
     """
 
     turned: str | None
@@ -135,6 +141,7 @@ class _Look:
     sprung: bool | None
     ball: bool
     yoke: bool = False
+    levers: int = 0
 
     @property
     def says_something(self) -> bool:
@@ -181,8 +188,23 @@ def _likelihood(kind: str, look: _Look) -> float:
     share = _by_operator(kind, look) * _by_length(kind, look.length, look.size) * _PLACE[kind][look.place]
     if look.sprung is not None:
         share *= (_SPRUNG if look.sprung else _UNSPRUNG)[kind != "relief"]
+    return share * _by_parts(kind, look)
+
+
+def _by_parts(kind: str, look: _Look) -> float:
+    """How often a valve of a kind has a ball, a yoke, several levers, the arm of a weight, where this one has."""
+    share = _HOLDS_BALL.get(kind, 0.002) if look.ball else 1.0
     share *= _HOLDS_YOKE[kind] if look.yoke else 1.0
-    return share * (_HOLDS_BALL.get(kind, 0.002) if look.ball else 1.0)
+    share *= _ARM if kind == "check" and _may_be_arm(look) else 1.0
+    return share * (_SEVERAL_LEVERS.get(kind, 0.04) if look.levers > 1 else 1.0)
+
+
+def _may_be_arm(look: _Look) -> bool:
+    """Whether a valve with a lever has a length of check valves that ball valves don't have."""
+    length, size = look.length, look.size
+    if look.turned != "lever" or length is None or size is None:
+        return False
+    return _is_one_of(length, "check", size, _FACE) and not _is_one_of(length, "ball", size, _FACE)
 
 
 def _by_operator(kind: str, look: _Look) -> float:
@@ -221,7 +243,8 @@ def _is_one_of(length: float, table: str, size: int, near: float) -> bool:
 
 
 def _look(unit: UnitParts, names: Sequence[str | None], size: int | None, parts: Parts) -> _Look:
-    own = {names[part] for part in unit.parts}
+    named = [names[part] for part in unit.parts]
+    own = set(named)
     turned = next((operator for name, operator in _NAMED.items() if name in own), None)
     still = turned is None and not own & _TURNING
     look = _Look(
@@ -234,6 +257,7 @@ def _look(unit: UnitParts, names: Sequence[str | None], size: int | None, parts:
         sprung=_is_sprung(unit, names, parts),
         ball="valve ball" in own,
         yoke="yoke" in own and turned not in ("actuator", "gearbox"),
+        levers=named.count("lever"),
     )
     line = line_through(unit.openings)
     return (
