@@ -110,6 +110,19 @@ def test_a_tank_that_nothing_flows_to_any_more_is_told():
     assert tags(found.dead_headed) == {"P-001"}
 
 
+def test_a_valve_on_the_side_of_a_run_does_not_close_the_run():
+    nodes = [
+        unit("T-001"),
+        unit("V-001", "ball valve", ports=("N1", "N2")),
+        unit("P-001", ports=("N1", "N2")),
+        terminal(1),
+    ]
+    found = what_if(network(nodes, chain("T-001 V-001.N1 P-001 X1")), "V-001")
+    assert found.cut_off == ()
+    assert found.unknown == ()
+    assert any("stands on the side of a run" in remark for remark in found.remarks)
+
+
 def test_a_tank_that_something_unknown_may_fill_is_unknown():
     nodes = [unit("T-001"), unit("T-002"), unit("V-001", "gate valve"), terminal(1)]
     edges = chain("T-001 V-001 T-002") + chain("X1 T-002", direction="unknown")

@@ -138,6 +138,8 @@ class _Closing:
     def __init__(self, network: Network, closed: tuple[str, ...], given: tuple[str, ...] | None) -> None:
         self.network = network
         self.closed = closed
+        # One on the side of a run closes what lies behind it, not the run.
+        self.barriers = tuple(place for place in closed if not network.stands_aside(place))
         self.given = given
         self.sure_sources, self.likely_sources = (given, ()) if given is not None else self._sources()
         self.sources = (*self.sure_sources, *self.likely_sources)
@@ -145,14 +147,15 @@ class _Closing:
 
     def answer(self) -> WhatIf:
         before = self._reach(self.sources, ())
-        after = self._reach(self.sources, self.closed)
-        shut_for_sure = [place for place in self.closed if place not in self.unsure]
+        after = self._reach(self.sources, self.barriers)
+        shut_for_sure = [place for place in self.barriers if place not in self.unsure]
         after_for_sure = self._reach(self.sources, shut_for_sure)
-        loosely_fed = self._reach(self.sure_sources, self.closed)
-        surely_fed = self._reach(self.sure_sources, self.closed, self._surely_follows)
+        loosely_fed = self._reach(self.sure_sources, self.barriers)
+        surely_fed = self._reach(self.sure_sources, self.barriers, self._surely_follows)
         behind = self._behind() - set(self.closed)
         cut = before - after - set(self.closed)
-        depends = "only if " + " and ".join(map(self.network.name, self.unsure)) + " really shuts"
+        doubted = [self.network.name(place) for place in self.unsure if place in self.barriers]
+        depends = f"only if {' and '.join(doubted)} really shuts"
         open_ones = (behind - cut) - surely_fed - set(self.sure_sources)
         not_refilled, perhaps_filled = self._not_refilled(behind)
         return WhatIf(
@@ -217,7 +220,7 @@ class _Closing:
     def _behind(self) -> set[str]:
         """All that may have been fed through the closed valves; what lies behind a source it feeds itself."""
         feeding = set(self.sure_sources)
-        return self._reach(self.closed, (), lambda arc: arc.start not in feeding and self._follows(arc))
+        return self._reach(self.barriers, (), lambda arc: arc.start not in feeding and self._follows(arc))
 
     def _follows(self, arc: Arc) -> bool:
         return arc.flow != "against" or self.network.is_tap(arc)
@@ -262,15 +265,15 @@ class _Closing:
             others = [other for other in self.sources if other != place]
             if place not in self._reach(others, ()):
                 continue
-            if place not in self._reach(others, self.closed):
+            if place not in self._reach(others, self.barriers):
                 nothing.append(place)
-            elif place not in self._reach({*self.sure_sources} - {place}, self.closed, self._surely_follows):
+            elif place not in self._reach({*self.sure_sources} - {place}, self.barriers, self._surely_follows):
                 perhaps.append(place)
         return nothing, perhaps
 
     def _dead_headed(self, cut: Collection[str]) -> list[str]:
         pumps = [p for p in self.network.places if self.network.unit_type(p) == "pump" and p not in cut]
-        return [p for p in pumps if self._delivers(p, ()) and not self._delivers(p, self.closed)]
+        return [p for p in pumps if self._delivers(p, ()) and not self._delivers(p, self.barriers)]
 
     def _delivers(self, pump: str, blocked: Collection[str]) -> bool:
         """Whether a pump has a way to a tank or an end."""
@@ -312,6 +315,11 @@ class _Closing:
             f"{self.network.name(place)} is of open kind, but likely shuts off ({likely_kinds(self.network, place)})"
             for place in self.closed
             if duty_of(self.network, place) == "likely"
+        ]
+        told += [
+            f"{self.network.name(place)} stands on the side of a run, which it does not close: only what lies behind it"
+            for place in self.closed
+            if place not in self.barriers
         ]
         unfed = [self.network.name(place) for place in self.closed if place not in before]
         told += [
