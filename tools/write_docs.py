@@ -18,6 +18,7 @@ from typer.testing import CliRunner
 from cadgraph._io.atomic import write_atomically
 from cadgraph.agents.sql.schema import TABLES
 from cadgraph.cli import app
+from cadgraph.cli.plugins import add_installed
 from cadgraph.config import Config, describe
 from cadgraph.model.records import document_schema
 from cadgraph.stages.relate.evidence import BASE, CURVES, FLAGS, OPEN_END, Curve
@@ -54,6 +55,7 @@ def settings() -> str:
 
 def commands() -> str:
     """The help of every command."""
+    add_installed(app)
     runner = CliRunner(env={"COLUMNS": "100", "TERMINAL_WIDTH": "100", "NO_COLOR": "1", "TERM": "dumb"})
     names = [str(command.name or command.callback.__name__) for command in app.registered_commands if command.callback]
     blocks = ["# Commands", ""]

@@ -18,8 +18,5 @@ from cadgraph.cli import ask as _ask  # noqa: F401
 
 # isort: on
 from cadgraph.cli.application import app, main
-from cadgraph.cli.plugins import add_installed
 
 __all__ = ["app", "main"]
-
-add_installed(app)

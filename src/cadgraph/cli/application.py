@@ -11,6 +11,7 @@ from rich.markup import escape
 
 from cadgraph import __version__
 from cadgraph._io.text import printable
+from cadgraph.cli.plugins import add_installed
 from cadgraph.cli.screen import err, out
 from cadgraph.cli.signals import Stopped, stoppable
 from cadgraph.errors import CadGraphError
@@ -31,6 +32,8 @@ app = typer.Typer(
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Runs the command line; ends the process with 0, with 2 on bad input or arguments, with 130 on Ctrl-C."""
+    # Here and not on import: what other packages bring imports this one.
+    add_installed(app)
     try:
         with stoppable():
             app(arguments)

@@ -20,12 +20,12 @@ def add_installed(app: typer.Typer) -> None:
     """Adds the commands of the installed packages; those of ``KNOWN`` that are missing say how to get them.
 
     Args:
-        app: the application; its own commands keep their names.
+        app: the application; the commands that it has keep their names, also those that were added before.
     """
     own = {command.name or getattr(command.callback, "__name__", "") for command in app.registered_commands}
     own |= {group.name for group in app.registered_groups}
     found = {point.name: point for point in entry_points(group="cadgraph.commands") if point.name not in own}
-    for name in sorted(KNOWN.keys() | found.keys()):
+    for name in sorted((KNOWN.keys() - own) | found.keys()):
         if name in found:
             _add(app, name, found[name])
         else:

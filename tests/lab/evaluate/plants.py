@@ -107,8 +107,11 @@ def agreeing(truth, confidence=1.0, rename=lambda kind, name: f"{kind}-{name}", 
         made = graphs.unit(f"X-{unit.id}", *(ids[m] for m in unit.meshes), unit_type=unit.type, kind=unit.kind)
         nodes.append(made.model_copy(update={"id": rename("node", unit.id)}))
     for point in truth.points:
-        layer = Junction if point.kind == "junction" else Terminal
-        nodes.append(layer(id=rename("node", point.id), point=graphs.ORIGIN, parts=()))
+        here = rename("node", point.id)
+        if point.kind == "junction":
+            nodes.append(Junction(id=here, point=graphs.ORIGIN, parts=()))
+        else:
+            nodes.append(Terminal(id=here, kind=point.end or "unknown", point=graphs.ORIGIN, parts=()))
     edges += [
         Connected(source=rename("node", c.source), target=rename("node", c.target), direction=c.direction)
         for c in truth.connections or ()

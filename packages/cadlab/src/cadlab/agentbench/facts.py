@@ -48,6 +48,7 @@ class Fact:
         middle: of a unit, the middle of its surface [m]; None where it isn't known.
         shuts: whether it is a valve to isolate by: closed by hand, and known to shut off.
         short: whether it has fewer lines than its kind needs, so that something may lead to it that was not found.
+        aside: whether it sits on the side of a run, all its lines on one port, so that closing it doesn't close the run.
     """
 
     id: str
@@ -57,6 +58,7 @@ class Fact:
     middle: Point | None = None
     shuts: bool = False
     short: bool = False
+    aside: bool = False
 
     @property
     def is_relief(self) -> bool:
@@ -215,16 +217,23 @@ def facts_of_graph(graph: SceneGraph) -> Facts:
     """What a graph says, and where it says that something may be missing."""
     network = Network(graph)
     nodes: dict[str, Fact] = {}
+    connected = list(graph.of_kind(Connected))
+    ports: dict[str, list[str | None]] = {unit.id: [] for unit in graph.units()}
+    for one in connected:
+        for unit_id, port in ((one.source, one.source_port), (one.target, one.target_port)):
+            ports.setdefault(unit_id, []).append(port)
     for unit in graph.units():
         short = few_ports(network, unit.id) is not None
         shuts = duty_of(network, unit.id) in ("shuts off", "likely")
-        nodes[unit.id] = Fact(unit.id, unit.tag, unit.unit_type, unit.kind, unit.centroid, shuts, short)
+        used = ports[unit.id]
+        aside = len(used) > 1 and used[0] is not None and set(used) == {used[0]}
+        nodes[unit.id] = Fact(unit.id, unit.tag, unit.unit_type, unit.kind, unit.centroid, shuts, short, aside)
     for junction in graph.of_layer(Junction):
         nodes[junction.id] = Fact(junction.id, junction.id, "junction")
     for terminal in graph.of_layer(Terminal):
         type_ = "end" if terminal.kind == "unknown" else terminal.kind
         nodes[terminal.id] = Fact(terminal.id, terminal.id, type_)
-    rows: list[_Row] = [(one.source, one.target, one.length, one.direction) for one in graph.of_kind(Connected)]
+    rows: list[_Row] = [(one.source, one.target, one.length, one.direction) for one in connected]
     loose = tuple((_holder(network, j.first), _holder(network, j.second)) for j in likely_joints(network))
     return Facts(nodes, _links(nodes, rows), loose, reach_of_graph(graph))
 

@@ -249,7 +249,8 @@ class Section:
             for link in facts.links[node]:
                 if link.end in inside or link.end in walls:
                     continue
-                if link.end != self.start and (facts.nodes[link.end].shuts or facts.nodes[link.end].is_relief):
+                met = facts.nodes[link.end]
+                if link.end != self.start and not met.aside and (met.shuts or met.is_relief):
                     walls.add(link.end)
                 else:
                     inside.add(link.end)
@@ -261,6 +262,12 @@ class Section:
     def valves(self) -> list[str]:
         """Names of the valves to close: those behind which something may come from."""
         needed = [node for node in self.walls if self.facts.nodes[node].shuts and self._is_fed(node)]
+        # What a valve on the side of a run leads to was not found, so that it may feed.
+        needed += [
+            node
+            for node in self.inside - {self.start}
+            if self.facts.nodes[node].aside and self.facts.nodes[node].shuts
+        ]
         return _names(self.facts, needed, lambda node: True)
 
     @property
@@ -338,7 +345,8 @@ def cut_off(facts: Facts, valves: Sequence[str]) -> list[str]:
     for valve in sorted(closed):
         sources |= _sources(facts, _reach(facts, [valve], lambda node, link: True))
     before = _reach(facts, sources, lambda node, link: _passes(facts, link))
-    after = _reach(facts, sources, lambda node, link: link.end not in closed and _passes(facts, link))
+    barriers = {valve for valve in closed if not facts.nodes[valve].aside}
+    after = _reach(facts, sources, lambda node, link: link.end not in barriers and _passes(facts, link))
     return _names(facts, before - after - closed, lambda node: node.is_equipment or node.type == "gauge")
 
 
