@@ -48,7 +48,7 @@ class Fact:
         middle: of a unit, the middle of its surface [m]; None where it isn't known.
         shuts: whether it is a valve to isolate by: closed by hand, and known to shut off.
         short: whether it has fewer lines than its kind needs, so that something may lead to it that was not found.
-        aside: whether it sits on the side of a run, all its lines on one port, so that closing it doesn't close the run.
+        aside: whether it sits on the side of a run, all lines on one port: closing it doesn't close the run.
     """
 
     id: str

@@ -264,9 +264,7 @@ class Section:
         needed = [node for node in self.walls if self.facts.nodes[node].shuts and self._is_fed(node)]
         # What a valve on the side of a run leads to was not found, so that it may feed.
         needed += [
-            node
-            for node in self.inside - {self.start}
-            if self.facts.nodes[node].aside and self.facts.nodes[node].shuts
+            node for node in self.inside - {self.start} if self.facts.nodes[node].aside and self.facts.nodes[node].shuts
         ]
         return _names(self.facts, needed, lambda node: True)
 
