@@ -219,6 +219,18 @@ def test_no_bars_where_nobody_looks(capsys, scene_file, tmp_path):
     assert len(err.splitlines()) == 1
 
 
+def test_ctrl_c_says_what_is_done_already(capsys, monkeypatch, tmp_path):
+    def half(*_, **__):
+        try:
+            signal.raise_signal(signal.SIGINT)
+        except BaseException as stop:
+            stop.add_note("the graph is written")
+            raise
+
+    monkeypatch.setattr("cadgraph.session.run.run", half)
+    assert run(capsys, "build", "a.usd", "-o", tmp_path / "out")[2].splitlines() == ["stopped; the graph is written"]
+
+
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_ctrl_c_and_a_polite_kill_end_alike(capsys, monkeypatch, tmp_path, number, code):
     handlers = signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)

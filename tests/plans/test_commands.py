@@ -63,7 +63,7 @@ def test_a_round_of_somebody_else_that_breaks_rules_ends_with_1(folder, capsys):
     # Goals of one's own count in place of those in the file; they go before the options that take values.
     code, out, _ = run(capsys, "plan", folder, "read G-001", "--check", file, "--json")
     assert code == 1
-    assert "step 3: unit-V-002: to close it is not asked" in json.loads(out)["faults"]
+    assert "step 3: V-002: to close it is not asked" in json.loads(out)["faults"]
 
 
 @pytest.mark.parametrize(

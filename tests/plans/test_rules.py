@@ -48,7 +48,7 @@ def test_a_round_of_bare_steps_keeps_them_too():
         (without(at("walk", "place-003")), "one is not at an end of place-003: walk there before climbing"),
         (MOVES[:-1], "it does not end where it begins"),
         ((*MOVES, Move("close", "unit-V-002")), "V-002: to close it again is not asked"),
-        ((*MOVES, Move("close", "unit-V-001")), "unit-V-001: to close it is not asked"),
+        ((*MOVES, Move("close", "unit-V-001")), "V-001: to close it is not asked"),
         ((*MOVES, Move("walk", "unit-V-777")), "nothing to walk to is called 'unit-V-777' here"),
         ((*MOVES, Move("climb", "place-002")), "no way up is called 'place-002'"),
         ((*MOVES, Move("read", "nothing")), "no unit is called 'nothing'"),

@@ -351,3 +351,11 @@ def test_a_pumping_station_by_hand():
     assert sorted(found.shut_off_names) == ["G-001", "G-003", "V-004"]
     assert closed(find_isolation(pumping(), "P-001", check_valves=True)) == ["V-002", "V-004"]
     assert closed(find_isolation(pumping(), "T-001")) == ["V-001", "V-008", "V-016"]
+
+
+def test_closing_what_a_relief_valve_blows_through_is_said():
+    graph = pump("P-001 V-001 V-002 T-001", "P-001 V-003 G-001 V-004 T-002", kinds=[("V-003", "relief valve")])
+    found = find_isolation(graph, "T-002")
+    assert closed(found) == ["V-004"]
+    assert "V-004 blocks the relief valve V-003, which then protects nothing" in found.remarks
+    assert not any("blocks" in remark for remark in find_isolation(graph, "P-001").remarks)

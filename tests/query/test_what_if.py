@@ -194,3 +194,11 @@ def test_wrong_questions_are_refused():
     with pytest.raises(Unconnected, match="what it feeds"):
         what_if(graph, "V-001", "V-002")
     assert isinstance(what_if(graph, ["V-001", "V-001"]), WhatIf)
+
+
+def test_what_blocks_a_relief_valve_is_said():
+    found = what_if(series("gate valve", "relief valve"), "V-001")
+    assert "V-001 blocks the relief valve V-002, which then protects nothing" in found.remarks
+    nodes = [unit("T-001"), unit("V-001", "gate valve"), unit("V-002", "relief valve"), junction(1)]
+    passed = network([*nodes, terminal(1), terminal(2)], [*chain("T-001 V-001 J1 X1"), *chain("J1 V-002 X2")])
+    assert not any("blocks" in text for text in what_if(passed, "V-001").remarks)

@@ -108,8 +108,9 @@ def test_whenever_a_correction_is_stopped_graph_and_corrections_agree(folder, mo
     for name, kept in (("write_graph", 0), ("write_rest", 1)):
         with monkeypatch.context() as patched:
             patched.setattr(f"cadgraph.session.correct.{name}", stopped)
-            with pytest.raises(KeyboardInterrupt):
+            with pytest.raises(KeyboardInterrupt) as ended:
                 amend(folder, "/knob", "Tank", this_only=True, report=False)
+        assert bool(getattr(ended.value, "__notes__", ())) == bool(kept)
         assert len(read_corrections(folder)) == kept
         assert (label_of(SceneGraph.load(folder), "/knob") == (None, "human")) == bool(kept)
 

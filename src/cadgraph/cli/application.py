@@ -44,7 +44,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except OSError as error:
         _refuse(f"{error.filename or 'the system'}: {error.strerror or error}")
     except Stopped as stop:
-        err.print("stopped; nothing half-written was left, the same command starts anew")
+        done = getattr(stop, "__notes__", None)
+        err.print(f"stopped; {'; '.join(done or ['nothing half-written was left, the same command starts anew'])}")
         sys.exit(stop.code)
 
 

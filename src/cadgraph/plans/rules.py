@@ -231,7 +231,7 @@ class _Game:
         return stop.spot if stop is not None else None
 
     def _name(self, place: str) -> str:
-        return next((goal.name for goal in self.goals if goal.unit == place), place)
+        return self.known.network.name(place) if place in self.known.network.places else place
 
     def _level(self, spot: Spot) -> str:
         return f"the {self.known.terrain.name(spot.level)}"

@@ -7,7 +7,7 @@ from typing import Literal
 from cadgraph.model.records import Unit
 from cadgraph.query.network import Network
 
-__all__ = ["Duty", "duty_of", "likely_kinds", "suspect_of"]
+__all__ = ["Duty", "blocked_relief", "duty_of", "likely_kinds", "suspect_of"]
 
 Duty = Literal["shuts off", "likely", "unknown", "check", "relief", "control", "other"]
 """``likely``: its kind is open, but all that it may be shuts off; ``other``: a kind that isn't known to shut off."""
@@ -78,6 +78,29 @@ def suspect_of(network: Network, place: str) -> tuple[str, str] | None:
     pump, port = before
     behind = _met(network, place, "valve", port)
     return None if behind is None else (pump, behind[0])
+
+
+def blocked_relief(network: Network, place: str) -> tuple[str, ...]:
+    """The relief valves that closing a valve blocks: those before or behind it with nothing but gauges between.
+
+    Args:
+        network: of a finished graph.
+        place: id of the valve.
+    """
+    if network.stands_aside(place):
+        return ()
+    found: dict[str, None] = {}
+    for first in network.main_arcs(place):
+        seen, arc = {place}, first
+        while network.is_gauge(arc.end) and arc.end not in seen:
+            seen.add(arc.end)
+            onward = [other for other in network.main_arcs(arc.end) if other.index != arc.index]
+            if len(onward) != 1:
+                break
+            arc = onward[0]
+        if duty_of(network, arc.end) == "relief" and not network.stands_aside(arc.end):
+            found[arc.end] = None
+    return tuple(found)
 
 
 def _of_kind(kind: str) -> Duty:

@@ -11,7 +11,7 @@ from cadgraph.errors import Unconnected
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Terminal
 from cadgraph.query.doubt import Doubt, few_ports, open_sides
-from cadgraph.query.duty import duty_of, likely_kinds, suspect_of
+from cadgraph.query.duty import blocked_relief, duty_of, likely_kinds, suspect_of
 from cadgraph.query.lines import find_lines
 from cadgraph.query.network import Arc, Network
 
@@ -447,6 +447,11 @@ def _remarks(network: Network, section: _Section, check_valves: bool) -> tuple[s
         f"{network.name(place)} {remark}"
         for place in places
         if (remark := _remark(network, section, place, check_valves)) is not None
+    ]
+    told += [
+        f"{network.name(place)} blocks the relief valve {network.name(relief)}, which then protects nothing"
+        for place in sorted(section.needed, key=lambda place: tag_key(network.name(place)))
+        for relief in blocked_relief(network, place)
     ]
     likely = sorted((network.name(p) for p in section.needed if duty_of(network, p) == "likely"), key=tag_key)
     if likely:

@@ -11,7 +11,7 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.pipework import Follow
 from cadgraph.model.records import Terminal, Unit
 from cadgraph.query.doubt import Doubt, open_sides
-from cadgraph.query.duty import Duty, duty_of, likely_kinds
+from cadgraph.query.duty import Duty, blocked_relief, duty_of, likely_kinds
 from cadgraph.query.network import Arc, Network
 
 __all__ = ["Consequence", "WhatIf", "what_if"]
@@ -320,6 +320,11 @@ class _Closing:
             f"{self.network.name(place)} stands on the side of a run, which it does not close: only what lies behind it"
             for place in self.closed
             if place not in self.barriers
+        ]
+        told += [
+            f"{self.network.name(place)} blocks the relief valve {self.network.name(relief)}, which then protects nothing"
+            for place in self.closed
+            for relief in blocked_relief(self.network, place)
         ]
         unfed = [self.network.name(place) for place in self.closed if place not in before]
         told += [

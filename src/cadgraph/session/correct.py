@@ -190,7 +190,11 @@ def _changed(
             if sha256_of(target / "graph.json") == standing:
                 _put_back(file, old)
             raise
-        outcome = write_rest(session, target, report, clock)
+        try:
+            outcome = write_rest(session, target, report, clock)
+        except BaseException as stop:
+            stop.add_note("the correction is kept and the graph written; only the report may still be the one before")
+            raise
     return Amendment(outcome, done.part, changed_parts(before, outcome.graph), done.message, session.lost)
 
 
