@@ -310,7 +310,8 @@ class _Closing:
         return tuple(told)
 
     def _remarks(self, before: Collection[str], cut: Collection[str]) -> tuple[str, ...]:
-        told = [f"{self.network.name(place)} {why}" for place, why in self.unsure.items()]
+        name = self.network.name
+        told = [f"{name(place)} {why}" for place, why in self.unsure.items()]
         told += [
             f"{self.network.name(place)} is of open kind, but likely shuts off ({likely_kinds(self.network, place)})"
             for place in self.closed
@@ -322,7 +323,7 @@ class _Closing:
             if place not in self.barriers
         ]
         told += [
-            f"{self.network.name(place)} blocks the relief valve {self.network.name(relief)}, which then protects nothing"
+            f"{name(place)} blocks the relief valve {name(relief)}, which then protects nothing"
             for place in self.closed
             for relief in blocked_relief(self.network, place)
         ]
