@@ -18,17 +18,20 @@ from cadgraph.model.record import Record
 __all__ = [
     "Access",
     "Adjacent",
+    "Affordance",
     "AnyEdge",
     "AnyNode",
     "Box",
     "Cluster",
     "Connected",
     "Contains",
+    "Dial",
     "Edge",
     "FreeFloor",
     "GraphDocument",
     "Joint",
     "Junction",
+    "Mechanism",
     "Node",
     "OrientedBox",
     "Part",
@@ -163,6 +166,45 @@ class Access(Record):
     )
 
 
+class Dial(Record):
+    """The face of a gauge that a needle stands over."""
+
+    center: Point
+    normal: Point = Field(description="unit vector out of the face")
+    radius: float = Field(description="of the face [m]")
+    up: Point = Field(description="unit vector in the face, towards where twelve stands")
+
+
+class Mechanism(Record):
+    """What moves at a unit, about an axis: the wheel or lever of a valve, the needle of a gauge."""
+
+    kind: Literal["handwheel", "lever", "gear operator", "needle"]
+    meshes: tuple[str, ...] = Field(description="source paths of what moves, the largest first", min_length=1)
+    pieces: tuple[int, ...] = Field(
+        default=(),
+        exclude_if=lambda pieces: not pieces,
+        description="where only pieces of the one mesh move: their numbers in the order of their first triangles, a "
+        "piece being what hangs together by corners in the same place; absent where whole meshes move",
+    )
+    axis: Point = Field(
+        description="unit vector out of the unit, towards the one who turns or reads it; angles count anticlockwise "
+        "as seen from there"
+    )
+    pivot: Point = Field(description="on the axis, amid what moves")
+    radius: float = Field(description="from the axis to the middle of the rim, the lever's end, the needle's tip [m]")
+    thickness: float | None = Field(default=None, description="of what a hand grips: half its width [m]")
+    limits: tuple[float, float] = Field(description="least and greatest angle [deg]; 0 is as drawn")
+    open: float | None = Field(default=None, description="angle at which the valve is open [deg]; null for needles")
+    shut: float | None = Field(default=None, description="angle at which the valve is shut [deg]; null for needles")
+    sources: dict[str, str] = Field(
+        default_factory=dict, description="how each of these was found, or why it is assumed, in words, by its name"
+    )
+
+
+Affordance = Literal["turn", "pull", "read"]
+"""What can be done at a unit by hand or eye."""
+
+
 class Unit(Record):
     """A functional unit: connected parts that work as one valve, gauge, pump, tank..."""
 
@@ -184,6 +226,19 @@ class Unit(Record):
         default=None,
         exclude_if=lambda access: access is None,
         description="how people get at it; absent where nothing is known of the places of a plant",
+    )
+    affordances: tuple[Affordance, ...] = Field(
+        default=(),
+        exclude_if=lambda affordances: not affordances,
+        description="'turn': a wheel; 'pull': a lever; 'read': a gauge; absent where there is nothing of these",
+    )
+    mechanism: Mechanism | None = Field(
+        default=None,
+        exclude_if=lambda mechanism: mechanism is None,
+        description="what moves, and how; absent where none was found",
+    )
+    dial: Dial | None = Field(
+        default=None, exclude_if=lambda dial: dial is None, description="of a gauge; absent where none was found"
     )
     facts: tuple[SourceFact, ...] = _facts("what the file says of nodes above several of its parts")
 
