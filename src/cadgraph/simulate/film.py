@@ -106,10 +106,9 @@ def key_times(moves: Sequence[Move], seconds: float, least: int = 5, most: int =
         Ascending [s], the first 0, the last the end.
     """
     times = [0.0, seconds]
-    for move, following in zip(moves, [*moves[1:], None], strict=True):
+    for move, until in zip(moves, [*(move.at for move in moves), seconds][1:], strict=True):
         if move.over >= _LONG:
             times.append(move.at + move.over / 2)
-        until = seconds if following is None else following.at
         # Gauges lag behind: shown is what they say once they have come to rest, if there is time for it.
         times.append(move.end + _REST if move.end + _REST <= until else max(move.end, until))
     apart = seconds / _APART

@@ -80,7 +80,8 @@ def _switch_off(layer: Any, prims: Iterable[Any]) -> None:
         if prim.HasAPI(UsdPhysics.RigidBodyAPI):
             _set(layer, prim.GetPath(), "physics:rigidBodyEnabled", Sdf.ValueTypeNames.Bool, False)
         if prim.IsA(UsdPhysics.Joint):
-            _set(layer, prim.GetPath(), "physics:jointEnabled", Sdf.ValueTypeNames.Bool, False)
+            # Not just disabled: a joint between two bodies that are switched off is an error to validators.
+            Sdf.CreatePrimInLayer(layer, prim.GetPath()).SetInfo("active", False)
         applied = [name for name in _ARTICULATIONS if name in prim.GetPrimTypeInfo().GetAppliedAPISchemas()]
         if applied:
             gone = Sdf.TokenListOp()
