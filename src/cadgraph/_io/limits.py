@@ -35,7 +35,6 @@ __all__ = [
     "PROPOSALS",
     "QUESTIONS",
     "REPLY",
-    "TIMETABLE",
     "TRUTH",
     "VOCABULARY",
     "WORDS",
@@ -80,8 +79,6 @@ MODEL = Limit(256 * _MB, "a labeler's model")
 """Of the file, and of what it holds unpacked: the built-in one takes 6 MB."""
 CONFIG = Limit(_MB, "a file of settings")
 """All settings with their comments take 10 kB."""
-TIMETABLE = Limit(_MB, "a timetable")
-"""A move takes 50 bytes."""
 FLOWS = Limit(16 * _MB, "a file of flows")
 """A line takes 20 bytes."""
 MAPPING = Limit(16 * _MB, "a table of tags")
