@@ -69,6 +69,7 @@ class State:
     opening: dict[str, float] = field(default_factory=dict)
     flow: dict[int, float] = field(default_factory=dict)
     reading: dict[str, float] = field(default_factory=dict)
+    speed: dict[str, float] = field(default_factory=dict)
     joints: dict[str, float] = field(default_factory=dict)
     remarks: tuple[str, ...] = ()
 
@@ -89,6 +90,7 @@ class Told:
             {"V-001": opening},
             {0: flow, 1: flow},
             {"G-001": 4.0 - 3.0 * opening},
+            {"P-001": runs},
             {"V_001": -90.0 * (1 - opening), "G_001": -30.0 * (4.0 - 3.0 * opening)},
         )
 

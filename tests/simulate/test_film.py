@@ -2,10 +2,11 @@ import numpy as np
 import pytest
 
 import playing
+from cadgraph.hydraulics.settings import Move
 from cadgraph.simulate.film import key_times, play
-from cadgraph.simulate.timetable import Move, Timetable
+from cadgraph.simulate.timetable import Timetable
 
-CLOSING = Timetable((Move(1, 2, {"V-001": 0.0}),))
+CLOSING = Timetable((Move(at=1, over=2, set={"V-001": 0.0}),))
 
 
 def test_the_first_picture_is_taken_before_anything_is_done_and_the_last_at_the_end():
@@ -25,13 +26,18 @@ def test_nobody_waits_for_a_film_that_is_too_long(seconds):
 
 
 def test_one_looks_before_amid_and_after_each_move():
-    moves = [Move(2, 10, {"V-003": 0}), Move(20, 0, {"P-001": 0})]
+    moves = [Move(at=2, over=10, set={"V-003": 0}), Move(at=20, over=0, set={"P-001": 0})]
     assert key_times(moves, 30) == (0, 7, 14, 22, 30)
 
 
 @pytest.mark.parametrize(
     "moves",
-    [[], [Move(0, 0, {"V": 0})], [Move(40, 0, {"V": 0})], [Move(k, 2, {"V": 0}) for k in range(20)]],
+    [
+        [],
+        [Move(at=0, over=0, set={"V": 0})],
+        [Move(at=40, over=0, set={"V": 0})],
+        [Move(at=k, over=2, set={"V": 0}) for k in range(20)],
+    ],
 )
 def test_there_are_always_five_looks_apart_from_each_other(moves):
     times = key_times(moves, 30)

@@ -4,14 +4,15 @@ from pxr import Gf, Usd, UsdGeom, UsdPhysics, UsdValidation
 
 import playing
 from cadgraph.errors import LoadError
+from cadgraph.hydraulics.settings import Move
 from cadgraph.simulate.film import play
 from cadgraph.simulate.play import write_animation
-from cadgraph.simulate.timetable import Move, Timetable
+from cadgraph.simulate.timetable import Timetable
 
 
 @pytest.fixture(scope="module")
 def film():
-    return play(playing.Told(), Timetable((Move(1, 2, {"V-001": 0.0}),)), 4.0)
+    return play(playing.Told(), Timetable((Move(at=1, over=2, set={"V-001": 0.0}),)), 4.0)
 
 
 @pytest.fixture

@@ -3,11 +3,12 @@ import pytest
 from PIL import Image
 
 import playing
+from cadgraph.hydraulics.settings import Move
 from cadgraph.simulate.chart import fitted, font
 from cadgraph.simulate.film import play
 from cadgraph.simulate.scenery import OPERATED
 from cadgraph.simulate.strip import Gauge, Strip
-from cadgraph.simulate.timetable import Move, Timetable
+from cadgraph.simulate.timetable import Timetable
 
 
 def drawn(*moves, seconds=4.0):
@@ -17,7 +18,7 @@ def drawn(*moves, seconds=4.0):
 
 @pytest.fixture(scope="module")
 def strip():
-    return drawn(Move(1, 2, {"V-001": 0.0}))
+    return drawn(Move(at=1, over=2, set={"V-001": 0.0}))
 
 
 def count(image, color):
@@ -29,7 +30,7 @@ def test_the_strip_shows_five_pictures_and_is_the_same_each_time(strip, tmp_path
     times = strip.write_png(tmp_path / "animation.png")
     assert len(times) == 5
     first = (tmp_path / "animation.png").read_bytes()
-    drawn(Move(1, 2, {"V-001": 0.0})).write_png(tmp_path / "animation.png")
+    drawn(Move(at=1, over=2, set={"V-001": 0.0})).write_png(tmp_path / "animation.png")
     assert (tmp_path / "animation.png").read_bytes() == first
     with Image.open(tmp_path / "animation.png") as image:
         assert image.width <= 1600

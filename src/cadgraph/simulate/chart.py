@@ -28,7 +28,7 @@ class Line:
 
     Args:
         name: what is written at its end.
-        values: ``(n,)`` one for each time.
+        values: ``(n,)`` one for each time, NaN where it is unknown; not all are.
     """
 
     name: str
@@ -51,7 +51,7 @@ def draw_chart(
     """
     left, top, right, bottom = (side + room for side, room in zip(box, _INWARD, strict=True))
     every = np.concatenate([line.values for line in lines])
-    ticks = _ticks(float(every.min()), float(every.max()))
+    ticks = _ticks(float(np.nanmin(every)), float(np.nanmax(every)))
     low, high = ticks[0], ticks[-1]
 
     def x(time: float) -> float:
@@ -69,9 +69,10 @@ def draw_chart(
         draw.line((x(mark), top, x(mark), bottom), _GRID, 1)
         draw.text((x(mark), bottom + 5), f"{mark:.0f} s", _PALE, font(_LETTERS), "ma")
     for line, color in zip(lines, _COLORS, strict=False):
-        points = [(x(time), y(value)) for time, value in zip(times.tolist(), line.values.tolist(), strict=True)]
+        known = np.isfinite(line.values)
+        points = [(x(time), y(value)) for time, value in zip(times[known], line.values[known], strict=True)]
         draw.line(points, color, 3, "curve")
-    ends = _spread([y(float(line.values[-1])) for line in lines], _LETTERS + 3.0, top, bottom)
+    ends = _spread([y(float(line.values[np.isfinite(line.values)][-1])) for line in lines], _LETTERS + 3.0, top, bottom)
     for line, color, end in zip(lines, _COLORS, ends, strict=False):
         draw.text((right + 6, end), line.name, color, fitted(line.name, -_INWARD[2] - 6, _LETTERS), "lm")
 

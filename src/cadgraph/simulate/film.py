@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
@@ -9,14 +10,17 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadgraph.simulate.timetable import MOST_SECONDS, Move, Timetable
+from cadgraph.simulate.timetable import Timetable
 
 if TYPE_CHECKING:
     from cadgraph.hydraulics.process import State
+    from cadgraph.hydraulics.settings import Move
 
-__all__ = ["FRAMES_PER_SECOND", "Film", "key_times", "play"]
+__all__ = ["FRAMES_PER_SECOND", "MOST_SECONDS", "Film", "key_times", "play"]
 
 FRAMES_PER_SECOND = 24
+MOST_SECONDS = 600.0
+"""What is played at most: 14,400 samples of each thing that moves."""
 
 _LONG = 1.0  # s; a quicker move has no middle to look at
 _REST = 2.0  # s; several times the lag of a gauge
@@ -56,7 +60,7 @@ class Film:
     @property
     def tags(self) -> tuple[str, ...]:
         """Of the valves and pumps that something was done to, in the order of that."""
-        return tuple(dict.fromkeys(tag for move in self.moves for tag in move.to))
+        return tuple(dict.fromkeys(tag for move in self.moves for tag in move.set))
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -66,6 +70,11 @@ class Film:
     def angles(self, joint: str) -> Floats:
         """``(n_pictures,)`` how far something is turned [deg]; 0 is as drawn."""
         return np.array([state.joints[joint] for state in self.states])
+
+    def readings(self, tag: str) -> Floats:
+        """``(n_pictures,)`` what a gauge shows; NaN where nobody knows."""
+        values = [state.reading.get(tag) for state in self.states]
+        return np.array([math.nan if value is None else value for value in values])
 
     def number(self, time: float) -> int:
         """Of the picture at a time."""
@@ -78,7 +87,7 @@ def play(process: Playable, timetable: Timetable, seconds: float, per_second: in
     Args:
         process: goes on from the state that it is in.
         timetable: what is done to it.
-        seconds: how long; at most 600.
+        seconds: how long; at most 600 s.
         per_second: pictures in a second.
 
     Raises:
@@ -86,7 +95,7 @@ def play(process: Playable, timetable: Timetable, seconds: float, per_second: in
     """
     if not 0 < seconds <= MOST_SECONDS:
         raise ValueError(f"can't play {seconds:g} s; give more than 0 and at most {MOST_SECONDS:g}")
-    start = dict(process.state.opening)
+    start = {**process.state.opening, **process.state.speed}
     states = [process.state]
     for number in range(1, round(seconds * per_second) + 1):
         states.append(process.step(timetable.commands(number / per_second, start), 1 / per_second))
@@ -110,7 +119,8 @@ def key_times(moves: Sequence[Move], seconds: float, least: int = 5, most: int =
         if move.over >= _LONG:
             times.append(move.at + move.over / 2)
         # Gauges lag behind: shown is what they say once they have come to rest, if there is time for it.
-        times.append(move.end + _REST if move.end + _REST <= until else max(move.end, until))
+        end = move.at + move.over
+        times.append(end + _REST if end + _REST <= until else max(end, until))
     apart = seconds / _APART
     kept: list[float] = []
     for time in sorted(time for time in times if time <= seconds):

@@ -30,7 +30,7 @@ _WIDTH, _PLANT = 480, 320  # [px] of one picture, and the height of its upper pa
 _PANELS = 5
 _MOST_OPERATED = 2  # of the panels; the rest is for gauges
 _GAP = 8
-_BAR = 40  # [px] height of the line with the time
+_BAR, _REMARK = 40, 18  # [px] height of the line with the time, and of one with a remark
 _CAPTION = 62  # [px] below a panel
 _GIF_FRAMES, _GIF_PAUSE, _GIF_LAST = 48, 120, 1800  # pictures; [ms] of each, and of the last
 _INK, _PALE, _CHANGED = "#1c2128", "#6a7480", "#b3261e"
@@ -131,19 +131,21 @@ class Strip:
 
     def _compose(self, number: int, plant: Image.Image) -> Image.Image:
         """A picture of the plant with the time, and close-ups with captions below."""
-        picture = Image.new("RGB", (_WIDTH, _PLANT + _BAR + self._side + _CAPTION + _GAP), _PAPER)
+        picture = Image.new("RGB", (_WIDTH, _PLANT + _BAR + _REMARK + self._side + _CAPTION + _GAP), _PAPER)
         picture.paste(plant, (0, 0))
         draw = ImageDraw.Draw(picture)
         middle = _PLANT + _BAR / 2
         draw.text((_GAP, middle), f"{number / self.film.per_second:.1f} s", _INK, font(25), "lm")
         said = self._event(number)
         draw.text((_WIDTH - _GAP, middle), said, _INK, fitted(said, _WIDTH - 130), "rm")
+        remark = self._remark(number)
+        draw.text((_WIDTH / 2, _PLANT + _BAR + 4), remark, _CHANGED, fitted(remark, _WIDTH - 2 * _GAP, 15), "mm")
         for k, closeup in enumerate(self._closeups):
             self._panel(picture, closeup, _GAP + k * (self._side + _GAP), number)
         return picture
 
     def _panel(self, picture: Image.Image, closeup: Closeup, left: int, number: int) -> None:
-        unit, side, top, draw = closeup.unit, self._side, _PLANT + _BAR, ImageDraw.Draw(picture)
+        unit, side, top, draw = closeup.unit, self._side, _PLANT + _BAR + _REMARK, ImageDraw.Draw(picture)
         state, now, before = self.film.states[number], *(self._said(unit, at) for at in (number, 0))
         picture.paste(closeup.picture(number, self._runs(unit, number)), (left, top))
         color = OPERATED if unit.tag in self.film.tags else _LINE
@@ -160,10 +162,13 @@ class Strip:
         """What a caption says of a unit."""
         state = self.film.states[number]
         if unit.unit_type == "gauge":
-            return f"{_decimals(state.reading[unit.tag], self._gauges[unit.tag].span)} {self._gauges[unit.tag].unit}"
+            reading, gauge = state.reading.get(unit.tag), self._gauges[unit.tag]
+            return "unknown" if reading is None else f"{_decimals(reading, gauge.span)} {gauge.unit}"
         if unit.unit_type == "valve":
             return _opening(state.opening[unit.tag])
-        return "runs" if self._runs(unit, number) else "stands still"
+        if state.speed.get(unit.tag) == 0:
+            return "stopped"
+        return "running" if self._runs(unit, number) else "no flow"
 
     def _runs(self, unit: Unit, number: int) -> bool:
         flow = self.film.states[number].flow
@@ -176,8 +181,13 @@ class Strip:
         if not begun:
             return "before anything is done"
         move = begun[-1]
-        done = time >= move.end
-        return ", ".join(self._deed(tag, value, done) for tag, value in move.to.items())
+        done = time >= move.at + move.over
+        return ", ".join(self._deed(tag, value, done) for tag, value in move.set.items())
+
+    def _remark(self, number: int) -> str:
+        """What is to be said of a moment that wasn't from the beginning on."""
+        new = [text for text in self.film.states[number].remarks if text not in self.film.states[0].remarks]
+        return new[0] + (f" (and {len(new) - 1} more)" if len(new) > 1 else "") if new else ""
 
     def _deed(self, tag: str, value: float, done: bool) -> str:
         unit = self.graph.unit(tag)
@@ -198,7 +208,7 @@ class Strip:
             draw.text((_GAP + 124, top), what, _INK, fitted(what, size[0] - 140, 17))
         top += 40
         times = np.arange(len(self.film.states)) / self.film.per_second
-        lines = [Line(tag, np.array([state.reading[tag] for state in self.film.states])) for tag in self._shown]
+        lines = [Line(tag, readings) for tag in self._shown if np.isfinite(readings := self.film.readings(tag)).any()]
         marks = [number / self.film.per_second for number in numbers]
         legend = size[1] - 46
         if lines:
@@ -220,8 +230,8 @@ class Strip:
         moves = self.film.moves[: _MOST_DEEDS - (len(self.film.moves) > _MOST_DEEDS)]
         told = []
         for move in moves:
-            when = f"{move.at:.1f} s" if move.over == 0 else f"{move.at:.1f} to {move.end:.1f} s"
-            told.append((when, ", ".join(self._deed(tag, value, True) for tag, value in move.to.items())))
+            when = f"{move.at:.1f} s" if move.over == 0 else f"{move.at:.1f} to {move.at + move.over:.1f} s"
+            told.append((when, ", ".join(self._deed(tag, value, True) for tag, value in move.set.items())))
         if len(moves) < len(self.film.moves):
             told.append(("", f"and {len(self.film.moves) - len(moves)} more"))
         return told
@@ -229,8 +239,9 @@ class Strip:
 
 def _change(film: Film, gauge: Gauge) -> float:
     """How much a reading changes in a film, as share of the span."""
-    readings = [state.reading[gauge.tag] for state in film.states]
-    return float(max(readings) - min(readings)) / gauge.span
+    readings = film.readings(gauge.tag)
+    known = readings[np.isfinite(readings)]
+    return float(np.ptp(known)) / gauge.span if len(known) else 0.0
 
 
 def _by_change(film: Film, gauges: Sequence[Gauge]) -> list[str]:
