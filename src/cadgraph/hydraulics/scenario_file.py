@@ -266,7 +266,7 @@ class _Reading:
             if field not in values or getattr(own, field) == getattr(said, field)
         }
         changed = [field for field in values if getattr(own, field) != getattr(said, field)]
-        why |= {field: f"given in {SCENARIO}" for field in changed}
+        why |= dict.fromkeys(changed, f"given in {SCENARIO}")
         return said.model_copy(update={"why": why})
 
     # What must fit the plant
