@@ -3,8 +3,8 @@ import pytest
 
 import playing
 from cadgraph.hydraulics.settings import Move
-from cadgraph.simulate.film import key_times, play
-from cadgraph.simulate.timetable import Timetable
+from cadgraph.simulate.play.film import key_times, play
+from cadgraph.simulate.play.timetable import Timetable
 
 CLOSING = Timetable((Move(at=1, over=2, set={"V-001": 0.0}),))
 

@@ -7,7 +7,7 @@ from cadgraph.draw.render.camera import frame
 from cadgraph.draw.render.color import source_colors
 from cadgraph.draw.render.picture import Look, Paint, Renderer
 from cadgraph.model.scene import Scene
-from cadgraph.simulate.posing import Posing, pieces_of
+from cadgraph.simulate.play.posing import Posing, pieces_of
 
 
 def test_angles_count_anticlockwise_seen_against_the_axis():

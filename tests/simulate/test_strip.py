@@ -4,11 +4,11 @@ from PIL import Image
 
 import playing
 from cadgraph.hydraulics.settings import Move
-from cadgraph.simulate.chart import fitted, font
-from cadgraph.simulate.film import play
-from cadgraph.simulate.scenery import OPERATED
-from cadgraph.simulate.strip import Gauge, Strip
-from cadgraph.simulate.timetable import Timetable
+from cadgraph.simulate.play.chart import fitted, font
+from cadgraph.simulate.play.film import play
+from cadgraph.simulate.play.scenery import OPERATED
+from cadgraph.simulate.play.strip import Gauge, Strip
+from cadgraph.simulate.play.timetable import Timetable
 
 
 def drawn(*moves, seconds=4.0):

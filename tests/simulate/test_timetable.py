@@ -4,7 +4,7 @@ import playing
 from cadgraph.errors import ScenarioError
 from cadgraph.hydraulics.settings import Move
 from cadgraph.query.network import Network
-from cadgraph.simulate.timetable import Timetable, read_timetable
+from cadgraph.simulate.play.timetable import Timetable, read_timetable
 
 NETWORK = Network(playing.graph())
 

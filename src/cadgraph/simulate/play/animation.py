@@ -18,7 +18,7 @@ from pxr import Gf, Sdf, Tf, Usd, UsdPhysics
 from cadgraph._io.atomic import write_atomically
 from cadgraph.errors import LoadError
 from cadgraph.model.scene import Floats
-from cadgraph.simulate.film import Film
+from cadgraph.simulate.play.film import Film
 
 __all__ = ["write_animation"]
 

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from cadgraph.geometry.components import first_of_component
+from cadgraph.hydraulics.joints import joint_names
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Mechanism
 from cadgraph.model.scene import Faces, Floats, Ints, Scene
-from cadgraph.query.mechanisms import joint_names
 
 __all__ = ["Mover", "Posing"]
 

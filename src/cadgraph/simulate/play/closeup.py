@@ -13,9 +13,9 @@ from cadgraph.draw.render.picture import Look, Paint, Renderer
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Unit
 from cadgraph.model.scene import Floats, Scene
-from cadgraph.simulate.film import Film
-from cadgraph.simulate.posing import Posing
-from cadgraph.simulate.scenery import FLOWING, OPERATED, STILL
+from cadgraph.simulate.play.film import Film
+from cadgraph.simulate.play.posing import Posing
+from cadgraph.simulate.play.scenery import FLOWING, OPERATED, STILL
 
 __all__ = ["Closeup"]
 

@@ -5,9 +5,9 @@ from pxr import Gf, Usd, UsdGeom, UsdPhysics, UsdValidation
 import playing
 from cadgraph.errors import LoadError
 from cadgraph.hydraulics.settings import Move
-from cadgraph.simulate.film import play
-from cadgraph.simulate.play import write_animation
-from cadgraph.simulate.timetable import Timetable
+from cadgraph.simulate.play.animation import write_animation
+from cadgraph.simulate.play.film import play
+from cadgraph.simulate.play.timetable import Timetable
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from cadgraph.model.scene import Floats
-from cadgraph.simulate.timetable import Timetable
+from cadgraph.simulate.play.timetable import Timetable
 
 if TYPE_CHECKING:
     from cadgraph.hydraulics.process import State

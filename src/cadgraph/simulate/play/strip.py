@@ -19,10 +19,10 @@ from cadgraph._io.atomic import write_atomically
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Connected, Unit
 from cadgraph.model.scene import Scene
-from cadgraph.simulate.chart import Line, draw_chart, fitted, font
-from cadgraph.simulate.closeup import Closeup
-from cadgraph.simulate.film import Film, key_times
-from cadgraph.simulate.scenery import FLOWING, OPERATED, STILL, Scenery
+from cadgraph.simulate.play.chart import Line, draw_chart, fitted, font
+from cadgraph.simulate.play.closeup import Closeup
+from cadgraph.simulate.play.film import Film, key_times
+from cadgraph.simulate.play.scenery import FLOWING, OPERATED, STILL, Scenery
 
 __all__ = ["Gauge", "Strip"]
 

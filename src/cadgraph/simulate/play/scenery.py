@@ -18,8 +18,8 @@ from cadgraph.draw.render.views import three_quarter_view
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Connected, Junction, Terminal, Unit
 from cadgraph.model.scene import Floats, Ints, Scene
-from cadgraph.simulate.film import Film
-from cadgraph.simulate.posing import Posing
+from cadgraph.simulate.play.film import Film
+from cadgraph.simulate.play.posing import Posing
 
 __all__ = ["FLOWING", "OPERATED", "STILL", "Scenery"]
 
