@@ -20,11 +20,12 @@ from cadgraph.hydraulics.network import Circuit, LinkKind
 from cadgraph.hydraulics.solve import (
     BACKFLOW,
     LIFT,
-    MOST_ROUNDS,
     MOST_STEPS,
     RELATIVE_STEP,
-    ROUNDS_AT_ONCE,
     STEP,
+    Condition,
+    Solution,
+    Solver,
 )
 
 __all__ = ["BatchSolver", "Conditions", "Solutions"]
@@ -34,6 +35,7 @@ Ints = npt.NDArray[np.int64]
 Bools = npt.NDArray[np.bool_]
 
 _HALVINGS = 12
+_ROUNDS = 6  # few plants need more
 _EPSILON = float(np.finfo(float).eps)
 
 
@@ -82,7 +84,6 @@ class Solutions:
         open: ``(n_links, n_plants)`` whether something could flow.
         shut_in: ``(n_nodes, n_plants)`` whether nothing of known head reaches a node.
         cavitating: ``(n_pumps, n_plants)`` whether a pump gets too little.
-        choked: ``(n_pumps, n_plants)`` whether it gives only what reaches it.
         settled: ``(n_plants,)`` whether nothing contradicts anything.
     """
 
@@ -91,7 +92,6 @@ class Solutions:
     open: Bools
     shut_in: Bools
     cavitating: Bools
-    choked: Bools
     settled: Bools
 
     def of(self, plants: Ints) -> Solutions:
@@ -128,6 +128,7 @@ class BatchSolver:
         self._friction = replace(friction, **{name: getattr(friction, name)[:, None] for name in names})
         self._creep = circuit.creep[:, None]
         self.reach = Reach(circuit)
+        self._alone = Solver(circuit)
 
     def _pattern(self, a: Ints, b: Ints, inner: Bools) -> sparse.csr_matrix:
         """In which cells of the equations each link counts."""
@@ -159,21 +160,40 @@ class BatchSolver:
         usable[self.pumps] &= ~starved
         turns = given.one_way & usable
         opened = np.where(turns, last.open, usable)
+        # Until the end, 'cavitating' holds the pumps that give only what reaches them; those to which nothing can flow
+        # are not open.
         found = Solutions(
-            last.flow.copy(), given.head.copy(), opened, np.zeros(given.head.shape, bool), starved.copy(),
-            last.choked & usable[self.pumps], np.zeros(given.square.shape[1], bool),
+            last.flow.copy(), given.head.copy(), opened, np.zeros(given.head.shape, bool),
+            last.cavitating & usable[self.pumps], np.zeros(given.square.shape[1], bool),
         )  # fmt: skip
         left = np.arange(given.square.shape[1])
-        for number in range(MOST_ROUNDS):
+        for _ in range(_ROUNDS):
             if not len(left):
                 break
             work = _Round(self, given.of(left), found.of(left), usable[:, left], starved[:, left])
             work.settle_pressures()
-            work.turn(turns[:, left], one_by_one=number >= ROUNDS_AT_ONCE)
+            work.turn(turns[:, left])
             found.put(left, work.now)
             left = left[~work.now.settled]
-        found.cavitating[:] = found.choked | starved
+        found.cavitating[:] |= starved
+        for plant in left.tolist():
+            self._solve_alone(plant, given, last, found)
         return found
+
+    def _solve_alone(self, plant: int, given: Conditions, last: Solutions, found: Solutions) -> None:
+        """Solves one plant by itself: it takes many rounds, which cost less so."""
+        condition = Condition(
+            given.square[:, plant], given.offset[:, plant], given.shut[:, plant], given.one_way[:, plant],
+            given.head[:, plant], given.floor[:, 0], given.loop_head[:, 0],
+        )  # fmt: skip
+        before = Solution(
+            last.flow[:, plant], last.head[:, plant], last.open[:, plant], last.shut_in[:, plant],
+            tuple(self.pumps[last.cavitating[:, plant]].tolist()), 0, 0.0, bool(last.settled[plant]),
+        )  # fmt: skip
+        one = self._alone.solve(condition, before)
+        cavitating = np.isin(self.pumps, one.cavitating)
+        parts = (one.flow, one.head, one.open, one.shut_in, cavitating, np.array(one.settled))
+        found.put(np.array([plant]), Solutions(*(part[..., None] for part in parts)))
 
     def loss(self, flow: Floats, square: Floats, offset: Floats) -> tuple[Floats, Floats]:
         """The heads lost in all links, and their slopes.
@@ -257,14 +277,14 @@ class _Step:
         if not len(plants):
             return heads, forced
         # What each pump does to the heads when it moves one unit.
-        moved = np.zeros((len(solver.free), len(pumps), len(plants)))
         at, to = solver.row[circuit.start[pumps]], solver.row[circuit.end[pumps]]
+        effect = np.zeros((len(solver.free), len(pumps), len(plants)))
         for number in range(len(pumps)):
-            if at[number] >= 0:
-                moved[at[number], number] -= 1.0
+            moved = np.zeros((len(solver.free), len(plants)))
+            moved[at[number]] -= 1.0
             if to[number] >= 0:
-                moved[to[number], number] += 1.0
-        effect = solver.elimination.solve(held, moved)
+                moved[to[number]] += 1.0
+            effect[:, number] = solver.elimination.solve(held.copy(), moved)
         wanted = self.given.floor[circuit.start[pumps]] - heads[at][:, plants]
         choked = self.choked[:, plants]
         both = choked[:, None] & choked[None]
@@ -335,7 +355,7 @@ class _Round:
         self.solver, self.circuit = solver, solver.circuit
         self.given, self.now, self.usable, self.starved = given, now, usable, starved
         self.linear = now.open.copy()
-        self.linear[solver.pumps] &= ~now.choked
+        self.linear[solver.pumps] &= ~now.cavitating
         self.pieces: Pieces = solver.reach.pieces(self.linear)
 
     def settle_pressures(self) -> None:
@@ -355,7 +375,7 @@ class _Round:
         fixed = np.where(circuit.fixed[:, None], given.head, 0.0)
         pins = self.pieces.pins[solver.free]
         step = _Step(
-            solver, given, self.linear, self.now.choked, fixed[circuit.start] - fixed[circuit.end], pins,
+            solver, given, self.linear, self.now.cavitating, fixed[circuit.start] - fixed[circuit.end], pins,
             np.where(pins, pin_heads[solver.free], 0.0), flow, np.zeros(flow.shape[1], bool),
         )  # fmt: skip
         heads, flows = given.head.copy(), flow.copy()
@@ -372,7 +392,7 @@ class _Round:
 
     # What contradicts
 
-    def turn(self, turns: Bools, one_by_one: bool) -> None:
+    def turn(self, turns: Bools) -> None:
         """Opens and shuts what the flows and heads say."""
         circuit, now, given, pumps = self.circuit, self.now, self.given, self.solver.pumps
         pressing = now.head[circuit.start] - now.head[circuit.end] - given.offset
@@ -381,17 +401,10 @@ class _Round:
             opening = turns & ~now.open & (pressing > LIFT)
         more, fewer = self._choking(now.open & ~closing)
         turned = closing | opening
-        any_turned = turned.any(axis=0)
-        settled = ~(any_turned | more.any(axis=0) | fewer.any(axis=0))
-        if one_by_one:
-            size = np.where(closing, -now.flow / BACKFLOW, np.where(opening, pressing / LIFT, 0.0))
-            single = np.zeros_like(turned)
-            single[np.argmax(size, axis=0), np.arange(turned.shape[1])] = True
-            turned = single & turned
-            more, fewer = more & ~any_turned, fewer & ~any_turned
+        settled = ~(turned.any(axis=0) | more.any(axis=0) | fewer.any(axis=0))
         after = np.where(settled, now.open, now.open ^ turned)
-        choked = np.where(settled, now.choked, (now.choked | more) & ~fewer & after[pumps])
-        self.now = replace(now, open=after, choked=choked, settled=settled)
+        choked = np.where(settled, now.cavitating, (now.cavitating | more) & ~fewer & after[pumps])
+        self.now = replace(now, open=after, cavitating=choked, settled=settled)
 
     def _choking(self, opened: Bools) -> tuple[Bools, Bools]:
         """The pumps that draw more than reaches them, and those that no longer do."""
@@ -400,6 +413,6 @@ class _Round:
         loss, _ = self.solver.loss(now.flow, given.square, given.offset)
         with np.errstate(invalid="ignore"):
             wasted = now.head[a] - now.head[b] - loss[pumps]
-            fewer = now.choked & ((wasted < -LIFT) | ~opened[pumps])
+            fewer = now.cavitating & ((wasted < -LIFT) | ~opened[pumps])
             thirsty = (now.flow[pumps] > BACKFLOW) & (now.head[a] < given.floor[a] - LIFT)
-        return ~now.choked & opened[pumps] & thirsty, fewer
+        return ~now.cavitating & opened[pumps] & thirsty, fewer

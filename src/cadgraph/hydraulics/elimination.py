@@ -1,42 +1,56 @@
 """Many symmetric systems of equations with zeros in the same places, solved side by side.
 
-The order of elimination is found once, by least degree; after that every step is one operation on all systems. Pipe
-networks are nearly trees, so that hardly anything fills in, and a step costs little more than a number each.
+What is eliminated when is found once: at a time as many unknowns of few neighbours as have nothing to do with each
+other. After that every step is a few operations on all systems. Pipe networks are nearly trees: hardly anything fills
+in, and there are few steps.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
+from scipy import sparse
 
 __all__ = ["Elimination"]
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
 
+_FEW = 2  # neighbours of an unknown that may be eliminated beside others, though one with fewer is left
+
 
 @dataclass(frozen=True)
 class _Step:
-    """One unknown on its way out.
+    """Some unknowns on their way out.
 
     Args:
-        pivot: its number.
-        others: ``(k,)`` the unknowns that its equation still holds.
-        column: ``(k,)`` cells of these in the column of the pivot.
-        first: ``(m,)`` for each cell that changes, which of the column's cells comes first in the product.
-        second: ``(m,)`` and which comes second.
-        cells: ``(m,)`` the cells that change.
+        pivots: ``(k,)`` their numbers.
+        others: ``(c,)`` the unknowns that their equations still hold, one after the other.
+        of: ``(c,)`` which of the pivots' equations each of these stands in.
+        column: ``(c,)`` where its coefficient stands.
+        first: ``(m,)`` of each product of two coefficients of one equation, the one.
+        second: ``(m,)`` and the other.
+        cells: ``(t,)`` the coefficients that products are taken off.
+        to_cells: ``(t, m)`` which are taken off which.
+        rest: ``(r,)`` the unknowns among ``others``, each once.
+        to_rest: ``(r, c)`` where they stand.
+        to_pivots: ``(k, c)`` which of ``others`` stand in which equation.
     """
 
-    pivot: int
+    pivots: Ints
     others: Ints
+    of: Ints
     column: Ints
     first: Ints
     second: Ints
     cells: Ints
+    to_cells: sparse.csr_matrix
+    rest: Ints
+    to_rest: sparse.csr_matrix
+    to_pivots: sparse.csr_matrix
 
 
 class Elimination:
@@ -48,7 +62,6 @@ class Elimination:
     """
 
     def __init__(self, n: int, pairs: Iterable[tuple[int, int]]) -> None:
-        self.n = n
         beside: list[set[int]] = [set() for _ in range(n)]
         for a, b in pairs:
             if a != b:
@@ -58,20 +71,31 @@ class Elimination:
         self._steps: list[_Step] = []
         left = set(range(n))
         while left:
-            pivot = min(left, key=lambda k: (len(beside[k]), k))
-            left.remove(pivot)
-            others = sorted(beside[pivot])
-            for other in others:
-                beside[other].remove(pivot)
-                beside[other].update(each for each in others if each != other)
-            self._steps.append(self._step(pivot, others))
+            pivots = _apart(left, beside)
+            equations = [sorted(beside[pivot]) for pivot in pivots]
+            for pivot, others in zip(pivots, equations, strict=True):
+                left.remove(pivot)
+                for other in others:
+                    beside[other].remove(pivot)
+                    beside[other].update(each for each in others if each != other)
+            self._steps.append(self._step(pivots, equations))
 
-    def _step(self, pivot: int, others: list[int]) -> _Step:
-        column = [self.cell(other, pivot) for other in others]
-        pairs = [(i, j) for i in range(len(others)) for j in range(i + 1)]
-        cells = [self.cell(others[i], others[j]) for i, j in pairs]
-        first, second = [i for i, _ in pairs], [j for _, j in pairs]
-        return _Step(pivot, *(np.array(each, np.int64) for each in (others, column, first, second, cells)))
+    def _step(self, pivots: Sequence[int], equations: Sequence[Sequence[int]]) -> _Step:
+        others, of, column, first, second, cells = ([] for _ in range(6))
+        for number, (pivot, equation) in enumerate(zip(pivots, equations, strict=True)):
+            start = len(others)
+            others += equation
+            of += [number] * len(equation)
+            column += [self.cell(other, pivot) for other in equation]
+            pairs = [(i, j) for i in range(len(equation)) for j in range(i + 1)]
+            first += [start + i for i, _ in pairs]
+            second += [start + j for _, j in pairs]
+            cells += [self.cell(equation[i], equation[j]) for i, j in pairs]
+        targets, to_cells = _gathering(cells)
+        rest, to_rest = _gathering(others)
+        numbers = (np.array(each, np.int64) for each in (pivots, others, of, column, first, second))
+        to_pivots = sparse.csr_matrix((np.ones(len(of)), (of, range(len(of)))), shape=(len(pivots), len(of)))
+        return _Step(*numbers, targets, to_cells, rest, to_rest, to_pivots)
 
     def cell(self, a: int, b: int) -> int:
         """Where the coefficient of one unknown in the equation of another stands; that of itself at its own number."""
@@ -87,26 +111,44 @@ class Elimination:
 
         Args:
             cells: ``(size, n_systems)`` coefficients, each pair once; what fills in is zero. Used up.
-            right: ``(n, n_systems)`` or ``(n, n_sides, n_systems)`` right sides. Used up.
+            right: ``(n, n_systems)`` right sides.
 
         Returns:
-            What ``right`` was, now with the unknowns.
+            ``(n, n_systems)``.
         """
-        wide = right.ndim == 3
+        found, kept = right.copy(), []
         for step in self._steps:
-            pivot = cells[step.pivot]
-            np.divide(1.0, pivot, out=pivot)
-            if not len(step.others):
-                continue
+            inverse = 1 / cells[step.pivots]
             column = cells[step.column]
-            scaled = column * pivot
-            cells[step.cells] -= column[step.first] * scaled[step.second]
-            cells[step.column] = scaled
-            right[step.others] -= (scaled[:, None] if wide else scaled) * right[step.pivot]
-        for step in reversed(self._steps):
-            here = right[step.pivot]
-            here *= cells[step.pivot]
+            scaled = column * inverse[step.of]
+            kept.append((inverse, scaled))
             if len(step.others):
-                scaled = cells[step.column]
-                here -= ((scaled[:, None] if wide else scaled) * right[step.others]).sum(axis=0)
-        return right
+                cells[step.cells] -= step.to_cells @ (column[step.first] * scaled[step.second])
+                found[step.rest] -= step.to_rest @ (scaled * found[step.pivots[step.of]])
+        for step, (inverse, scaled) in zip(reversed(self._steps), reversed(kept), strict=True):
+            found[step.pivots] *= inverse
+            if len(step.others):
+                found[step.pivots] -= step.to_pivots @ (scaled * found[step.others])
+        return found
+
+
+def _apart(left: set[int], beside: Sequence[set[int]]) -> list[int]:
+    """Unknowns with few neighbours of which none is another's, those with the fewest first."""
+    ordered = sorted(left, key=lambda k: (len(beside[k]), k))
+    most = max(_FEW, len(beside[ordered[0]]))
+    chosen: list[int] = []
+    taken: set[int] = set()
+    for unknown in ordered:
+        if len(beside[unknown]) > most:
+            break
+        if unknown not in taken:
+            chosen.append(unknown)
+            taken |= beside[unknown]
+    return chosen
+
+
+def _gathering(targets: Sequence[int]) -> tuple[Ints, sparse.csr_matrix]:
+    """The numbers that there are, each once, and a matrix that adds up what belongs to each."""
+    numbers, at = np.unique(np.array(targets, np.int64), return_inverse=True)
+    ones, columns = np.ones(len(targets)), np.arange(len(targets))
+    return numbers, sparse.csr_matrix((ones, (at, columns)), shape=(len(numbers), len(targets)))

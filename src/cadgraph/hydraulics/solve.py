@@ -38,9 +38,9 @@ BACKFLOW = 1e-9
 LIFT = 1e-6
 """Head that opens what is shut [m]."""
 MOST_STEPS = 100
-MOST_ROUNDS = 80
-ROUNDS_AT_ONCE = 12  # in which all that contradict turn at once; then one by one, so that nothing swings for ever
-START = 0.5  # velocity to begin with [m/s]
+_MOST_ROUNDS = 80
+_ROUNDS_AT_ONCE = 12  # in which all that contradict turn at once; then one by one, so that nothing swings for ever
+_START = 0.5  # velocity to begin with [m/s]
 
 
 @dataclass(frozen=True)
@@ -171,17 +171,17 @@ class Solver:
         choked: tuple[int, ...] = ()
         if last is not None:
             choked = tuple(p for p in last.cavitating if usable[p])
-        flow = last.flow if last is not None else circuit.creep * (START / 1e-3)
+        flow = last.flow if last is not None else circuit.creep * (_START / 1e-3)
         steps, step, settled = 0, 0.0, False
         head = condition.head
         pieces = self._pieces(opened, choked)
-        for number in range(MOST_ROUNDS):
+        for number in range(_MOST_ROUNDS):
             pieces = self._pieces(opened, choked)
             flow, head, taken, step = self._newton(condition, opened, pieces, flow, choked, pulled)
             steps += taken
             head = self._even_out(condition, opened & usable, usable, pieces, head, pulled)
             opened, choked, settled = self._turned(
-                condition, free_to_turn, opened, choked, pieces, flow, head, one_by_one=number >= ROUNDS_AT_ONCE
+                condition, free_to_turn, opened, choked, pieces, flow, head, one_by_one=number >= _ROUNDS_AT_ONCE
             )
             if settled:
                 break
