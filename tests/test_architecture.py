@@ -46,7 +46,7 @@ MAY_IMPORT = {
     "draw.web": {"_io", "draw.colors", "draw.render", "geometry", "model", "query"},
     "draw.isometric": {"_io", "draw.svg", "errors", "model", "query"},
     "export": {
-        *("_io", "config", "errors", "load", "model", "query"),
+        *("_io", "config", "errors", "hydraulics", "load", "model", "query"),
         *("draw.isometric", "draw.schematic", "draw.web"),
     },
     "session": {
