@@ -60,13 +60,18 @@ def export(
             help="With --to usd: one stage with all that the source refers to, the labels where each prim is defined.",
         ),
     ] = False,
+    open_instances: Annotated[
+        bool, typer.Option("--open-instances", help="With --bake: open all instances, for renderers that skip them.")
+    ] = False,
 ) -> None:
     """Write a graph in another format, as a page to look at, or a copy of its source with the labels in it."""
     from cadgraph.export import write_export
     from cadgraph.model.graph import SceneGraph
 
     folder = graph if graph.is_dir() else graph.parent
-    written = write_export(SceneGraph.load(graph), to, output or folder, source, bake=bake)
+    written = write_export(
+        SceneGraph.load(graph), to, output or folder, source, bake=bake, open_instances=open_instances
+    )
     for path in written.files:
         out.print(f"wrote {escape(str(path))}")
     for note in written.notes:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Literal
 
@@ -123,11 +124,11 @@ def _write_usd(graph: SceneGraph, path: Path, source: Path | None) -> Written:
     return Written((write_semantics(_scene_of(graph, source), graph, source, path),))
 
 
-def _write_baked(graph: SceneGraph, path: Path, source: Path | None) -> Written:
+def _write_baked(graph: SceneGraph, path: Path, source: Path | None, open_instances: bool = False) -> Written:
     from cadgraph.export.baked_usd import write_baked
 
     assert source is not None  # it is needed
-    file, notes = write_baked(_scene_of(graph, source), graph, source, path)
+    file, notes = write_baked(_scene_of(graph, source), graph, source, path, open_instances=open_instances)
     return Written((file,), notes)
 
 
@@ -227,6 +228,7 @@ _BAKED = Format(
     file="baked.usdc",
     also=(".usda", ".usd"),
 )
+_OPENED = replace(_BAKED, write=partial(_write_baked, open_instances=True))
 
 
 def formats() -> dict[str, str]:
@@ -246,7 +248,13 @@ def export_graph(graph: SceneGraph, to: str, path: str | Path, source: str | Pat
 
 
 def write_export(
-    graph: SceneGraph, to: str, path: str | Path, source: str | Path | None = None, *, bake: bool = False
+    graph: SceneGraph,
+    to: str,
+    path: str | Path,
+    source: str | Path | None = None,
+    *,
+    bake: bool = False,
+    open_instances: bool = False,
 ) -> Written:
     """Writes a graph in another format.
 
@@ -258,6 +266,7 @@ def write_export(
         source: where the file is that the graph was made from, for formats that are a copy of it or stand beside it;
             None: where it was.
         bake: of ``usd``: whether to write the source and its labels as one stage, instead of a layer over the source.
+        open_instances: of a baked stage: whether to open all native instances, for renderers that skip them.
 
     Returns:
         The files written, and what is to be said of them.
@@ -274,7 +283,9 @@ def write_export(
         raise ValueError(f"no export format is called {to!r}; there are {', '.join(formats())}")
     if bake and to != "usd":
         raise ValueError(f"--bake is for USD; leave it out, or say --to usd instead of {to}")
-    form = _BAKED if bake else form
+    if open_instances and not bake:
+        raise ValueError("--open-instances goes with --bake, as the source stays as it is otherwise")
+    form = (_OPENED if open_instances else _BAKED) if bake else form
     target = Path(path)
     if form.source == "no":
         if source is not None:
