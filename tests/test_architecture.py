@@ -58,7 +58,8 @@ MAY_IMPORT = {
         *("draw.colors", "draw.report", "draw.schematic", "draw.web"),
     },
     "cli": {
-        *("_io", "agents", "config", "errors", "facts", "labelers", "load", "model", "pipeline", "plans", "query"),
+        *("_io", "agents", "config", "errors", "facts", "hydraulics", "labelers", "load", "model", "pipeline"),
+        *("plans", "query"),
         "serve",
         "session",
         *("draw.render", "draw.report", "draw.schematic", "draw.web", "export"),

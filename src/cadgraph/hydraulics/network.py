@@ -89,6 +89,7 @@ class Circuit:
         offset: (n_links,) head that is lost before anything flows [m]; negative for pumps at full speed.
         creep: (n_links,) flows below which losses are linear [m3/s].
         one_way: (n_links,) whether nothing flows from end to start.
+        to_air: (n_links,) whether a link leads into the open.
         owner: id of the graph's node that each link belongs to; ``""`` for pipes.
         connection: (n_links,) number of the connection in the graph, -1 where there is none.
         friction: of the pipes.
@@ -114,6 +115,7 @@ class Circuit:
     offset: Floats
     creep: Floats
     one_way: Bools
+    to_air: Bools
     owner: tuple[str, ...]
     connection: Ints
     friction: Friction
@@ -421,6 +423,7 @@ class _Laying:
             offset=offset,
             creep=area(bores) * CREEP,
             one_way=np.isin(kinds, _ONE_WAY) | np.isin(np.array(end, np.int64), self.open_air),
+            to_air=np.isin(np.array(end, np.int64), self.open_air),
             owner=tuple(str(each) for each in owner),
             connection=np.array(connection, np.int64),
             friction=Friction.of(lengths, bores, self.scenario.pipes.roughness, self.scenario.fluid.viscosity),
