@@ -48,8 +48,9 @@ class Turning:
     point: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def placed(self, pose: Floats) -> Turning:
-        """The same, moved by a ``(4, 4)`` pose."""
-        x, y, z = (float(value) for value in pose[:3, :3] @ self.axis)
+        """The same, moved by a ``(4, 4)`` pose, which may shrink it a little, as what leaves gaps does."""
+        axis = pose[:3, :3] @ self.axis
+        x, y, z = (float(value) for value in axis / np.linalg.norm(axis))
         a, b, c = (float(value) for value in pose[:3, :3] @ self.point + pose[:3, 3])
         return Turning(self.kind, (x, y, z), (a, b, c))
 
