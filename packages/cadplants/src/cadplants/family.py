@@ -178,7 +178,15 @@ def _component(part: Part, family: Family, style: ModelingStyle, unit: str, grai
     owner = unit if family.unit and group == family.group else ""
     color = style.color(part.color)
     return Component(
-        part.solid, group, part.name, color, IDENTITY, owner, family=family.name, granularity=grain, front=part.front,
+        part.solid,
+        group,
+        part.name,
+        color,
+        IDENTITY,
+        owner,
+        family=family.name,
+        granularity=grain,
+        front=part.front,
         turns=part.turns,
     )
 

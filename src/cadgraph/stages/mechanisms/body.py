@@ -10,7 +10,7 @@ import numpy as np
 
 from cadgraph.geometry.mesh.pieces import pieces_of
 from cadgraph.model.parts import Bools
-from cadgraph.model.scene import Floats, Scene
+from cadgraph.model.scene import Faces, Floats, Scene
 
 __all__ = ["Body", "Frame", "bodies_of", "frame_of", "join", "split", "unit_vector"]
 
@@ -33,18 +33,14 @@ class Body:
         pieces: of its one mesh, ascending; none where it is whole meshes.
         corners: ``(n, 3, 3)`` its triangles [m].
         names: what labels call its parts.
+        points: ``(m, 3)`` the vertices that its triangles have [m].
     """
 
     meshes: tuple[int, ...]
     pieces: tuple[int, ...]
     corners: Floats
     names: frozenset[str]
-
-    @cached_property
-    def points(self) -> Floats:
-        """``(n, 3)`` its corners, each once [m]."""
-        found: Floats = np.unique(self.corners.reshape(-1, 3), axis=0)
-        return found
+    points: Floats
 
     @cached_property
     def _cross(self) -> Floats:
@@ -78,7 +74,9 @@ class Body:
     def _moments(self) -> tuple[Floats, Floats]:
         apart = self.corners - self.center
         total = apart.sum(axis=1)
-        square = np.einsum("n,nki,nkj->ij", self.areas, apart, apart) + np.einsum("n,ni,nj->ij", self.areas, total, total)
+        square = np.einsum("n,nki,nkj->ij", self.areas, apart, apart) + np.einsum(
+            "n,ni,nj->ij", self.areas, total, total
+        )
         values, axes = np.linalg.eigh(square / (12 * max(self.area, _TINY)))
         return values, axes.T
 
@@ -118,12 +116,18 @@ def bodies_of(scene: Scene, meshes: Iterable[int], name_of: Sequence[str]) -> li
     for mesh, name in zip(meshes, name_of, strict=True):
         vertices, faces = scene.mesh(mesh)
         whole = ((faces >= 0) & (faces < len(vertices))).all(axis=1)
-        corners = vertices[faces[whole]]
-        corners = corners[np.isfinite(corners).all(axis=(1, 2))]
-        body = Body((mesh,), (), np.asarray(corners, np.float64), frozenset({name} if name else ()))
-        if len(corners) and body.area > 0:
+        rows = faces[whole]
+        finite = np.isfinite(vertices).all(axis=1)
+        body = _body((mesh,), (), vertices, rows[finite[rows].all(axis=1)], frozenset({name} if name else ()))
+        if body.area > 0:
             found.append(body)
     return found
+
+
+def _body(
+    meshes: tuple[int, ...], pieces: tuple[int, ...], vertices: Floats, faces: Faces, names: frozenset[str]
+) -> Body:
+    return Body(meshes, pieces, vertices[faces], names, vertices[np.unique(faces)])
 
 
 def split(scene: Scene, body: Body) -> list[Body]:
@@ -135,10 +139,7 @@ def split(scene: Scene, body: Body) -> list[Body]:
         return []
     order = np.argsort(piece, kind="stable")
     bounds = np.searchsorted(piece[order], np.arange(n + 1))
-    found = [
-        Body(body.meshes, (k,), np.asarray(vertices[faces[order[bounds[k] : bounds[k + 1]]]], np.float64), body.names)
-        for k in range(n)
-    ]
+    found = [_body(body.meshes, (k,), vertices, faces[order[bounds[k] : bounds[k + 1]]], body.names) for k in range(n)]
     return [one for one in found if one.area > 0]
 
 
@@ -148,7 +149,8 @@ def join(bodies: Sequence[Body]) -> Body:
     meshes = tuple(dict.fromkeys(mesh for one in order for mesh in one.meshes))
     pieces = tuple(sorted(piece for one in bodies for piece in one.pieces))
     corners = np.concatenate([one.corners for one in bodies])
-    return Body(meshes, pieces, corners, frozenset().union(*(one.names for one in bodies)))
+    points = np.concatenate([one.points for one in bodies])
+    return Body(meshes, pieces, corners, frozenset().union(*(one.names for one in bodies)), points)
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,10 +17,13 @@ __all__ = ["Lever", "find_lever"]
 # A lever is long against its width, and no higher than this share of its length; one that is called so less clearly.
 _SLENDER, _CALLED_SLENDER, _HIGH = 2.2, 1.2, 0.55
 _LEAST, _MOST = 0.03, 1.6  # m; lengths of levers
-# It lies across the axis that it turns about (sine), on one side of it by this share of its length.
-_LIES, _ASIDE = 0.45, 0.12
+# It is lower along the axis that it turns about than this share of its length, and on one side of it by this one.
+_LIES, _ASIDE = 0.75, 0.12
 # Flat faces are of the cap or of the lever's underside where they look along its axis (cosine), within this of it.
-_FLAT, _SNAP = 0.985, 0.97
+_FLAT, _SNAP = 0.985, 0.82
+_NEAR = 15.0  # degrees from the first guess of an axis, beyond which flat faces count little
+_FACES = 0.03  # of its surface, so that flat faces say which way its axis is
+_PASSES = 0.35  # of its length, by which the axis of a lever may pass the middle of the valve
 _TOUCH = 0.003  # m; around the closest points, what touches a lever
 _TOP = 0.6  # of the height of a valve over its line; levers are above it
 _CALLED = "lever"
@@ -84,8 +87,10 @@ def _lever(body: Body, valve: Valve, still: Sequence[Body]) -> Lever | None:
     if not still:
         return None
     touched = _touched(body, np.concatenate([one.dense for one in still]))
-    axis, source = _axis(body, valve, touched)
-    if abs(float(axis @ body.axes[2])) > _LIES:
+    axis, source = _axis(body, valve, touched, still)
+    long = _long_way(body, axis)
+    span = float(np.ptp(body.points @ long))
+    if float(np.ptp(body.points @ axis)) > _LIES * span:
         return None
     pivot, how = _pivot(body, axis, touched, still)
     frame = frame_of(pivot, axis)
@@ -93,50 +98,92 @@ def _lever(body: Body, valve: Valve, still: Sequence[Body]) -> Lever | None:
     frame = frame_of(pivot + middle * axis, axis)
     way = body.center - frame.origin
     way = way - (way @ axis) * axis
-    if float(np.linalg.norm(way)) < _ASIDE * float(body.extents.max()):
+    if float(np.linalg.norm(way)) < _ASIDE * span:
         # A bar or a wing, as long on both sides.
-        way = body.axes[2] - (body.axes[2] @ axis) * axis
+        way = long
     way = unit_vector(way)
     across = np.cross(axis, way)
     along, aside = (body.points - frame.origin) @ way, (body.points - frame.origin) @ across
     length = float(along.max())
-    if length < 0.5 * float(body.extents.max()):
+    if length < 0.45 * span or _misses(frame, length, valve, still):
         return None
     grip = np.abs(aside[along > 0.6 * length])
     return Lever(body, frame, way, length, float(grip.max(initial=0.0)), {"axis": source, "pivot": how})
 
 
+def _long_way(body: Body, axis: Floats) -> Floats:
+    """``(3,)`` unit vector across an axis along which a body is longest."""
+    frame = frame_of(body.center, axis)
+    flat = frame.flat(body.points)
+    turns = np.pi * np.arange(72) / 72
+    spans = np.ptp(flat @ np.array([np.cos(turns), np.sin(turns)]), axis=0)
+    best = turns[int(np.argmax(np.round(spans, 9)))]
+    rough = np.array([np.cos(best), np.sin(best)]) @ frame.across
+    # Of three axes square to each other, two at the least are not along this one.
+    near = [one for k in range(3) if float(np.linalg.norm(one := body.axes[k] - (body.axes[k] @ axis) * axis)) > 0.5]
+    # A principal axis is exact where it lies near what is longest.
+    close = max(near, key=lambda one: abs(float(unit_vector(one) @ rough)))
+    return unit_vector(close) if abs(float(unit_vector(close) @ rough)) > 0.96 else unit_vector(rough)
+
+
+def _misses(frame: Frame, length: float, valve: Valve, still: Sequence[Body]) -> bool:
+    """Whether an axis passes the body of a valve by far, as the pin of a lever that lifts something does."""
+    if valve.line is not None and valve.line.straight:
+        return valve.line.gap(frame.origin, frame.axis) > max(_PASSES * length, valve.line.bore)
+    areas = np.array([one.area for one in still])
+    middle = areas @ np.array([one.center for one in still]) / areas.sum()
+    return float(frame.away(middle[None])[0]) > _PASSES * length + (valve.line.bore if valve.line is not None else 0.0)
+
+
 def _touched(body: Body, others: Floats) -> Floats:
     """``(3,)`` where something else touches a body, or comes nearest to it [m]."""
     points = body.dense
+    for room in (_TOUCH, 10 * _TOUCH):
+        low, high = points.min(axis=0) - room, points.max(axis=0) + room
+        near = others[((others >= low) & (others <= high)).all(axis=1)]
+        if len(near) > 8:
+            others = near
+            break
     gaps, _ = cKDTree(others).query(points)
     near = points[gaps <= float(gaps.min()) + _TOUCH]
     found: Floats = 0.5 * (near.min(axis=0) + near.max(axis=0))
     return found
 
 
-def _axis(body: Body, valve: Valve, touched: Floats) -> tuple[Floats, str]:
+def _axis(body: Body, valve: Valve, touched: Floats, still: Sequence[Body]) -> tuple[Floats, str]:
     """The axis of a stem under a lever, out of the valve."""
     line = valve.line
-    out = touched - (line.foot(touched) if line is not None else valve.middle)
-    guess = body.axes[0] if abs(float(body.axes[0] @ out)) > 0.5 * float(np.linalg.norm(out)) else unit_vector(out)
-    if line is not None and line.straight:
-        # The stem of a quarter turn is square to the line.
-        square = guess - (guess @ line.way) * line.way
-        guess = unit_vector(square) if float(np.linalg.norm(square)) > 0.5 else unit_vector(out)
-    if float(guess @ out) < 0:
-        guess = -guess
-    flat = np.abs(body.normals @ guess) > _SNAP
-    if not flat.any():
-        return guess, "from the line to where it touches the body"
-    # The flat faces of the bar, the largest first: those that look the same way, of either sign.
-    seed = body.normals[flat][int(np.argmax(body.areas[flat]))]
-    same = np.abs(body.normals @ seed) > 0.9999
-    turned = body.normals[same] * np.sign(body.normals[same] @ guess)[:, None]
-    mean = unit_vector(body.areas[same] @ turned)
-    if float(body.areas[same].sum()) < 0.1 * body.area:
-        return guess, "from the line to where it touches the body"
-    return mean, "square to the lever's plane"
+    areas = np.array([one.area for one in still])
+    middle = areas @ np.array([one.center for one in still]) / areas.sum()
+    out = unit_vector(touched - (line.foot(touched) if line is not None and line.straight else middle))
+    # The flat faces of the bar and of its hub, and of what is under it, which all look the same way, of either sign.
+    wide = float(np.sort(body.extents)[1])
+    normals, areas = [body.normals], [body.areas]
+    for one in still:
+        near = np.linalg.norm(one.corners.mean(axis=1) - touched, axis=1) < 2.5 * wide
+        normals.append(one.normals[near])
+        areas.append(one.areas[near])
+    found = _flat_way(np.concatenate(normals), np.concatenate(areas), out, _FACES * body.area)
+    return (found, "square to the lever's plane") if found is not None else (out, "from the valve to its lever")
+
+
+def _flat_way(normals: Floats, areas: Floats, out: Floats, least: float) -> Floats | None:
+    """The way that the largest flat faces look, those next to a guess before others; None where there are none."""
+    aligned = normals @ out
+    kept = np.abs(aligned) > _SNAP
+    normals, areas = normals[kept] * np.sign(aligned[kept])[:, None], areas[kept]
+    angle = np.degrees(np.arccos(np.minimum(np.abs(aligned[kept]), 1.0)))
+    best: tuple[float, Floats] | None = None
+    left = np.ones(len(normals), np.bool_)
+    while left.any():
+        seed = normals[left][int(np.argmax(areas[left]))]
+        same = normals @ seed > 0.9999
+        total = float(areas[same].sum())
+        score = total * float(np.exp(-((float(np.average(angle[same], weights=areas[same])) / _NEAR) ** 2)))
+        if total >= least and (best is None or score > best[0]):
+            best = score, unit_vector(areas[same] @ normals[same])
+        left &= ~same
+    return best[1] if best is not None else None
 
 
 def _pivot(body: Body, axis: Floats, touched: Floats, still: Sequence[Body]) -> tuple[Floats, str]:

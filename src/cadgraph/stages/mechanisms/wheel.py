@@ -26,6 +26,9 @@ _BETWEEN = (0.45, 0.55, 0.65)
 _ABOVE, _BELOW = 0.6, 0.85
 # On the axis of a straight line it is a flange or a ring.
 _COAXIAL = 0.9
+# A disc that nothing calls a wheel is as wide as this share of the bore, no higher than this share of its radius, and
+# what is below it is narrower than this share of it.
+_DISC_WIDE, _DISC_FLAT, _DISC_BELOW = 0.9, 0.45, 0.5
 # What is part of it reaches no farther out, is no higher than this share of its radius, and overlaps it by this share.
 _WITHIN, _SHORT, _OVERLAP = 1.03, 0.7, 0.2
 # It sits beside the stem where its axis passes the line by this share of its radius, and by this much [m].
@@ -140,7 +143,8 @@ def _about_rim(body: Body, frame: Frame) -> Frame:
         origin = frame.origin + center @ frame.across
         frame = frame_of(origin, frame.axis)
         rim = body.points[frame.away(body.points) > 0.9 * float(np.median(frame.away(body.points[far])))]
-        normal = np.linalg.svd(rim - rim.mean(axis=0))[2][2]
+        apart = rim - rim.mean(axis=0)
+        normal = np.linalg.eigh(apart.T @ apart)[1][:, 0]
         if abs(float(normal @ frame.axis)) > 0.97:
             frame = frame_of(origin, unit_vector(normal))
     return frame
@@ -196,7 +200,9 @@ def _stands_out(found: _Round, valve: Valve, pieces: Sequence[Body], called: boo
             return False
     if called:
         return True
-    if not found.open or (line is not None and found.radius < 0.6 * line.bore):
+    if line is not None and found.radius < (0.6 if found.open else _DISC_WIDE) * line.bore:
+        return False
+    if not found.open and (found.high - found.low > _DISC_FLAT * found.radius or line is None):
         return False
     frame, margin = found.frame, 0.02 * found.radius
     rest = [p for other in valve.others(found.body, pieces) if len(p := other.dense)]
@@ -207,8 +213,10 @@ def _stands_out(found: _Round, valve: Valve, pieces: Sequence[Body], called: boo
     above = away[(height > found.high + margin)]
     if len(above) and float(above.max()) > _ABOVE * found.radius:
         return False
-    below = away[(height < found.low - margin) & (height > found.low - 0.12 * found.radius)]
-    return bool(len(points[height < found.low])) and not (len(below) and float(below.max()) > _BELOW * found.radius)
+    # A disc may be a cover, so that more of what is below it must be slender.
+    depth, most = (0.12, _BELOW) if found.open else (0.4, _DISC_BELOW)
+    below = away[(height < found.low - margin) & (height > found.low - depth * found.radius)]
+    return bool((height < found.low).any()) and not (len(below) and float(below.max()) > most * found.radius)
 
 
 def _whole(found: _Round, bodies: Sequence[Body]) -> Wheel:
