@@ -74,4 +74,4 @@ def _turning(name: str, pose: Floats, inner: list[Turning]) -> Turning | None:
     """What turns of a mesh, in its own frame: an operator does, and so does a piece of a valve in one mesh."""
     if not inner or (name not in _TURNS and name != "valve"):
         return None
-    return inner[0].placed(np.linalg.inv(pose))
+    return inner[0].placed(np.linalg.inv(pose).astype(np.float64))

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from cadgraph.model.derived import store_of
+from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.labels import Label
-from cadgraph.model.mechanisms import FoundMechanism, UnitMotion
+from cadgraph.model.mechanisms import NOT_MOVABLE, FoundMechanism, UnitMotion
 from cadgraph.model.parts import Network, Parts, UnitParts
 from cadgraph.model.places import UnitAccess
 from cadgraph.model.scene import Floats, Scene
@@ -17,7 +18,7 @@ from cadgraph.stages.mechanisms.stroke import stroke_of_lever, stroke_of_wheel
 from cadgraph.stages.mechanisms.valve import Valve, line_of
 from cadgraph.stages.mechanisms.wheel import Wheel, find_wheel, is_geared
 
-__all__ = ["find_mechanisms"]
+__all__ = ["find_mechanisms", "report_not_movable"]
 
 # Valves that nobody moves: the flow does, or air.
 _BY_ITSELF = ("check", "relief", "safety", "reducing", "float", "foot", "flap", "breather", "air", "control")
@@ -46,6 +47,28 @@ def find_mechanisms(
         _motion(scene, parts, labels, unit, sizes.get(number), access[number])
         for number, unit in enumerate(network.units)
     )
+
+
+def report_not_movable(
+    scene: Scene, parts: Parts, units: Sequence[UnitParts], found: Sequence[UnitMotion]
+) -> list[Diagnostic]:
+    """The valves that would be moved by hand, but of which nothing is known to move.
+
+    Args:
+        scene: of source meshes.
+        parts: made from them.
+        units: of the network.
+        found: of each unit.
+    """
+    return [
+        Diagnostic(
+            NOT_MOVABLE,
+            f"{unit.tag}: {motion.why_not}",
+            tuple(scene.paths[mesh] for part in unit.parts for mesh in parts.meshes[part]),
+        )
+        for unit, motion in zip(units, found, strict=False)
+        if motion.why_not
+    ]
 
 
 def _sizes(network: Network) -> Mapping[int, int]:
@@ -88,7 +111,7 @@ def _of_gauge(scene: Scene, bodies: Sequence[Body], access: UnitAccess) -> UnitM
         if pieces:
             dial = dial_of(access, [*bodies, *pieces])
             needle = needle_of(dial, pieces) if dial is not None else None
-    return UnitMotion(needle, dial)
+    return UnitMotion(needle, dial, readable=True)
 
 
 def _of_valve(scene: Scene, bodies: Sequence[Body], unit: UnitParts, size: int | None) -> UnitMotion:

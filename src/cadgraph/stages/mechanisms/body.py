@@ -117,7 +117,7 @@ def bodies_of(scene: Scene, meshes: Iterable[int], name_of: Sequence[str]) -> li
         vertices, faces = scene.mesh(mesh)
         whole = ((faces >= 0) & (faces < len(vertices))).all(axis=1)
         rows = faces[whole]
-        finite = np.isfinite(vertices).all(axis=1)
+        finite = np.asarray(np.isfinite(vertices).all(axis=1))
         body = _body((mesh,), (), vertices, rows[finite[rows].all(axis=1)], frozenset({name} if name else ()))
         if body.area > 0:
             found.append(body)
@@ -203,7 +203,8 @@ class Frame:
             signs.append(side[None, :, 0] * apart[..., 1] - side[None, :, 1] * apart[..., 0])
         inside = (np.minimum.reduce(signs) >= 0) | (np.maximum.reduce(signs) <= 0)
         flat = np.abs(signs[0] + signs[1] + signs[2]) > _TINY
-        return (inside & flat).any(axis=1).reshape(len(radii), n)
+        found: Bools = (inside & flat).any(axis=1).reshape(len(radii), n)
+        return found
 
 
 def frame_of(origin: Floats, axis: Floats) -> Frame:

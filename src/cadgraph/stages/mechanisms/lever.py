@@ -145,8 +145,8 @@ def _touched(body: Body, others: Floats) -> Floats:
             others = near
             break
     gaps, _ = cKDTree(others).query(points)
-    near = points[gaps <= float(gaps.min()) + _TOUCH]
-    found: Floats = 0.5 * (near.min(axis=0) + near.max(axis=0))
+    touching = points[np.asarray(gaps) <= float(np.min(gaps)) + _TOUCH]
+    found: Floats = 0.5 * (touching.min(axis=0) + touching.max(axis=0))
     return found
 
 
@@ -158,12 +158,10 @@ def _axis(body: Body, valve: Valve, touched: Floats, still: Sequence[Body]) -> t
     out = unit_vector(touched - (line.foot(touched) if line is not None and line.straight else middle))
     # The flat faces of the bar and of its hub, and of what is under it, which all look the same way, of either sign.
     wide = float(np.sort(body.extents)[1])
-    normals, areas = [body.normals], [body.areas]
-    for one in still:
-        near = np.linalg.norm(one.corners.mean(axis=1) - touched, axis=1) < 2.5 * wide
-        normals.append(one.normals[near])
-        areas.append(one.areas[near])
-    found = _flat_way(np.concatenate(normals), np.concatenate(areas), out, _FACES * body.area)
+    near = [np.linalg.norm(one.corners.mean(axis=1) - touched, axis=1) < 2.5 * wide for one in still]
+    normals = np.concatenate([body.normals, *(one.normals[row] for one, row in zip(still, near, strict=True))])
+    weights = np.concatenate([body.areas, *(one.areas[row] for one, row in zip(still, near, strict=True))])
+    found = _flat_way(normals, weights, out, _FACES * body.area)
     return (found, "square to the lever's plane") if found is not None else (out, "from the valve to its lever")
 
 

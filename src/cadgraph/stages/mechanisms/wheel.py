@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cadgraph.model.scene import Floats
+from cadgraph.model.scene import Floats, Ints
 from cadgraph.stages.mechanisms.body import Body, Frame, frame_of, join, unit_vector
 from cadgraph.stages.mechanisms.valve import Valve
 
@@ -150,12 +150,12 @@ def _about_rim(body: Body, frame: Frame) -> Frame:
     return frame
 
 
-def _around(flat: Floats, away: Floats) -> Floats:
+def _around(flat: Floats, away: Floats) -> Ints:
     """The farthest point in each of some directions."""
     sector = np.floor((np.arctan2(flat[:, 1], flat[:, 0]) + np.pi) / (2 * np.pi) * 24).astype(int)
     order = np.lexsort((-away, sector))
     _, first = np.unique(sector[order], return_index=True)
-    found: Floats = order[first]
+    found: Ints = order[first]
     return found
 
 
