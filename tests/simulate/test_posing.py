@@ -7,7 +7,7 @@ from cadgraph.draw.render.camera import frame
 from cadgraph.draw.render.color import source_colors
 from cadgraph.draw.render.picture import Look, Paint, Renderer
 from cadgraph.model.scene import Scene
-from cadgraph.simulate.play.posing import Posing, pieces_of
+from cadgraph.simulate.play.posing import Posing
 
 
 def test_angles_count_anticlockwise_seen_against_the_axis():
@@ -25,7 +25,6 @@ def test_only_the_named_pieces_of_a_mesh_turn():
     first, second = shapes.box(center=(0.0, 0.0, 0.0)), shapes.box((0.3, 0.1, 0.1), (0.0, 0.0, 1.0))
     points = np.concatenate([first[0], second[0]])
     faces = np.concatenate([np.asarray(first[1]), np.asarray(second[1]) + len(first[0])])
-    assert pieces_of(points, faces).tolist() == [0] * len(first[1]) + [1] * len(second[1])
     graph = playing.graph()
     valve = graph.unit("V-001")
     moving = playing.LEVER.model_copy(update={"meshes": ("/body",), "pieces": (1,)})
@@ -34,14 +33,6 @@ def test_only_the_named_pieces_of_a_mesh_turn():
     scene = Scene.from_meshes([(points, faces)], ["/body"])
     moved = (Posing(scene, graph).turned({"V_001": 90.0}).vertices != points).any(axis=1)
     assert moved.tolist() == [False] * len(first[0]) + [True] * len(second[0])
-
-
-def test_faces_that_meet_in_a_place_are_one_piece_though_they_share_no_vertex():
-    first = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
-    apart = [[9, 9, 9], [8, 9, 9], [9, 8, 9]]
-    beside = [[0, 1, 0], [1, 0, 0], [1, 1, 0]]
-    triangles = np.array([*first, *apart, *beside], float)
-    assert pieces_of(triangles, np.arange(9).reshape(3, 3)).tolist() == [0, 1, 0]
 
 
 def test_a_picture_of_what_was_moved_is_that_of_the_moved_scene():

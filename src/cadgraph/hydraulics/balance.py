@@ -52,20 +52,22 @@ def complete(network: Network, scenario: Scenario) -> Scenario:
     return with_pressures(scenario, {tag: trial.difference(tag) for tag in open_ones}, measured)
 
 
-def flow_share(opening: float, characteristic: Characteristic | None) -> float:
+def flow_share(opening: npt.ArrayLike, characteristic: Characteristic | None) -> Floats:
     """The flow coefficient of a valve as a share of the open one.
 
     Args:
-        opening: of it, 0 to 1.
+        opening: of it, 0 to 1; of any shape.
         characteristic: how it follows.
+
+    Returns:
+        Of the same shape.
     """
+    share = np.asarray(opening, float)
     if characteristic == "equal percentage":
-        share = math.expm1(opening * math.log(_RATIO)) / (_RATIO - 1)
+        share = np.expm1(share * math.log(_RATIO)) / (_RATIO - 1)
     elif characteristic == "ball":
-        share = math.sin(math.pi / 2 * opening) ** 3
-    else:
-        share = opening
-    return max(share, _LEAST)
+        share = np.sin(math.pi / 2 * share) ** 3
+    return np.maximum(share, _LEAST)
 
 
 class Balance:
@@ -253,6 +255,10 @@ class _Places:
     def inflow(self, flow: Floats) -> dict[str, float]:
         """What flows into each tank [m3/s], by tag."""
         return {tag: float(flow[links].sum()) for tag, links in self._tank_links.items()}
+
+    def links_at_gauge(self, tag: str) -> list[int]:
+        """The pipes that join at a gauge."""
+        return self._at_gauge[tag]
 
     def flow_at(self, tag: str, flow: Floats) -> float:
         """What flows past a gauge [m3/s]."""

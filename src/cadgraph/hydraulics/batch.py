@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from cadgraph.hydraulics.balance import LEAST, RATIO, SHUT
+from cadgraph.hydraulics.balance import SHUT, flow_share
 from cadgraph.hydraulics.batch_solve import BatchSolver, Conditions, Solutions
 from cadgraph.hydraulics.process import LONGEST, SETTLED, STALE, Process
 from cadgraph.hydraulics.settings import Scenario
@@ -136,7 +136,9 @@ class ProcessBatch:
         self.time[chosen], self._changed[chosen] = 0.0, False
         self._solution.put(chosen, self._first(len(chosen)))
 
-    def step(self, opening: npt.ArrayLike | None = None, speed: npt.ArrayLike | None = None, dt: float = 1 / 60) -> None:
+    def step(
+        self, opening: npt.ArrayLike | None = None, speed: npt.ArrayLike | None = None, dt: float = 1 / 60
+    ) -> None:
         """Goes on in time, all plants alike.
 
         Args:
@@ -219,7 +221,7 @@ class ProcessBatch:
             opening = self._opening[row, plants]
             for link in circuit.tags.get(tag, ()):
                 shut[link] = opening <= SHUT
-                square[link] /= self._share(tag, opening) ** 2
+                square[link] /= flow_share(opening, self.process.balance.hand[tag].characteristic) ** 2
         for row, tag in enumerate(self.pumps):
             speed = self._speed[row, plants]
             for link in circuit.tags.get(tag, ()):
@@ -235,16 +237,6 @@ class ProcessBatch:
         floor = circuit.height + scenario.head(scenario.fluid.vapour)
         loop_head = circuit.height + scenario.head(scenario.pipes.loop_pressure)
         return Conditions(square, offset, shut, one_way, head, floor[:, None], loop_head[:, None])
-
-    def _share(self, tag: str, opening: Floats) -> Floats:
-        """The flow coefficient of a valve as a share of the open one, see ``flow_share`` of one plant."""
-        characteristic = self.process.balance.hand[tag].characteristic
-        share = opening
-        if characteristic == "equal percentage":
-            share = (RATIO**opening - 1) / (RATIO - 1)
-        elif characteristic == "ball":
-            share = np.sin(np.pi / 2 * opening) ** 3
-        return np.maximum(share, LEAST)
 
     def _measure(self, plants: Ints, solution: Solutions) -> Floats:
         """``(n_gauges, n)`` what gauges would show without lag and without the end of a scale."""

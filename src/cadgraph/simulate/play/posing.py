@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cadgraph.geometry.components import first_of_component
-from cadgraph.hydraulics.joints import joint_names
+from cadgraph.geometry.mesh.pieces import pieces_of
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Mechanism
-from cadgraph.model.scene import Faces, Floats, Ints, Scene
+from cadgraph.model.scene import Floats, Ints, Scene
+from cadgraph.query.mechanisms import joint_names
 
 __all__ = ["Mover", "Posing"]
 
@@ -89,23 +89,3 @@ def _moving(scene: Scene, mechanism: Mechanism, meshes: list[int]) -> Ints:
     moving = np.zeros(len(vertices), bool)
     moving[faces[np.isin(piece, mechanism.pieces)]] = True
     return ranges[0][moving]
-
-
-def pieces_of(vertices: Floats, faces: Faces) -> Ints:
-    """The piece that each triangle of a mesh belongs to.
-
-    Args:
-        vertices: ``(n, 3)``; corners in the same place hang together.
-        faces: ``(m, 3)``.
-
-    Returns:
-        ``(m,)`` numbers of pieces, in the order of their first triangles.
-    """
-    _, spot = np.unique(vertices, axis=0, return_inverse=True)
-    corners = spot.reshape(-1)[faces]
-    first = first_of_component(len(vertices), np.concatenate([corners[:, :2], corners[:, 1:]]))[corners[:, 0]]
-    _, start, of_face = np.unique(first, return_index=True, return_inverse=True)
-    rank = np.empty(len(start), np.int64)
-    rank[np.argsort(start)] = np.arange(len(start))
-    numbers: Ints = rank[of_face.reshape(-1)]
-    return numbers
