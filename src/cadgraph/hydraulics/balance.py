@@ -15,14 +15,14 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Unit
 from cadgraph.query.network import Network
 
-__all__ = ["SHUT", "Balance", "complete", "default_scenario", "flow_share"]
+__all__ = ["LEAST", "SHUT", "STILL", "Balance", "complete", "default_scenario", "flow_share"]
 
 Floats = npt.NDArray[np.float64]
 
 SHUT = 1e-3
 """Opening of a valve, or speed of a pump, at and below which nothing passes; ours."""
-_STILL = 1e-8  # m3/s
-_LEAST = 1e-4  # share of the flow coefficient of a valve that is not shut
+STILL = 1e-8  # m3/s
+LEAST = 1e-4  # share of the flow coefficient of a valve that is not shut
 _RATIO = 50.0  # of an equal percentage valve between open and nearly shut; IEC 60534-2-4 allows any, 50 is usual
 
 
@@ -67,7 +67,8 @@ def flow_share(opening: npt.ArrayLike, characteristic: Characteristic | None) ->
         share = np.expm1(share * math.log(_RATIO)) / (_RATIO - 1)
     elif characteristic == "ball":
         share = np.sin(math.pi / 2 * share) ** 3
-    return np.maximum(share, _LEAST)
+    passed: Floats = np.maximum(share, LEAST)
+    return passed
 
 
 class Balance:
@@ -108,8 +109,8 @@ class Balance:
         """Nodes that nothing flows at and that air has got to, as they lie above what stands in the pipe below them."""
         circuit, solution = self.circuit, self.solution
         with np.errstate(invalid="ignore"):
-            low = solution.head < circuit.height + _LEAST
-        still = np.abs(solution.flow) < _STILL
+            low = solution.head < circuit.height + LEAST
+        still = np.abs(solution.flow) < STILL
         inlets = np.flatnonzero(self._to_air & still & low[circuit.start])
         if not len(inlets):
             return frozenset()

@@ -205,13 +205,16 @@ class ProcessBatch:
     # One state of some plants
 
     def _solve(self, plants: Ints) -> None:
-        solution = self._solver.solve(self._conditions(plants), self._solution.of(plants))
+        given, to_air = self._conditions(plants)
+        solution = self._solver.solve(given, self._solution.of(plants))
         self._solution.put(plants, solution)
-        self._measured[:, plants] = self._measure(plants, solution)
+        emptied = self._solver.reach.emptied(solution.head, solution.flow, solution.open, to_air)
+        self._measured[:, plants] = self._measure(plants, solution, emptied)
         self._solved_level[:, plants] = self._level[:, plants]
         self._changed[plants] = False
 
-    def _conditions(self, plants: Ints) -> Conditions:
+    def _conditions(self, plants: Ints) -> tuple[Conditions, Bools]:
+        """What some plants stand under, and which of their links lead into the open."""
         circuit, scenario = self.process.balance.circuit, self.process.scenario
         n, tall = len(plants), np.ones((1, len(plants)))
         square, offset = circuit.square[:, None] * tall, circuit.offset[:, None] * tall
@@ -227,18 +230,20 @@ class ProcessBatch:
             for link in circuit.tags.get(tag, ()):
                 shut[link] = speed <= SHUT
                 offset[link] *= speed**2
+        to_air = circuit.to_air[:, None] & ~shut
         head = self._solution.head[:, plants]
         head[circuit.fixed] = circuit.head[circuit.fixed][:, None]
         for nozzle in circuit.nozzles:
             tank, level = scenario.tanks[nozzle.tag], self._level[self.tanks.index(nozzle.tag), plants]
             surface = tank.bottom + level
             one_way[nozzle.link] = (level <= 0) | (nozzle.height >= surface)
+            to_air[nozzle.link] = one_way[nozzle.link] & (tank.pressure == 0)
             head[nozzle.node] = np.maximum(surface, nozzle.height) + scenario.head(tank.pressure)
         floor = circuit.height + scenario.head(scenario.fluid.vapour)
         loop_head = circuit.height + scenario.head(scenario.pipes.loop_pressure)
-        return Conditions(square, offset, shut, one_way, head, floor[:, None], loop_head[:, None])
+        return Conditions(square, offset, shut, one_way, head, floor[:, None], loop_head[:, None]), to_air
 
-    def _measure(self, plants: Ints, solution: Solutions) -> Floats:
+    def _measure(self, plants: Ints, solution: Solutions, emptied: Bools) -> Floats:
         """``(n_gauges, n)`` what gauges would show without lag and without the end of a scale."""
         balance, scenario = self.process.balance, self.process.scenario
         found = np.full((len(self.gauges), len(plants)), np.nan)
@@ -248,7 +253,7 @@ class ProcessBatch:
                 continue
             if gauge.measures == "pressure":
                 pressure = scenario.pressure(1.0) * (solution.head[node] - balance.circuit.height[node])
-                found[row] = np.maximum(pressure, scenario.fluid.vapour)
+                found[row] = np.where(emptied[node], 0.0, np.maximum(pressure, scenario.fluid.vapour))
             elif gauge.measures == "flow":
                 links = balance.places.links_at_gauge(tag)
                 found[row] = np.abs(solution.flow[links]).max(axis=0) * 3600 if len(links) > 1 else 0.0
@@ -272,7 +277,4 @@ class ProcessBatch:
 
     def _first(self, n: int) -> Solutions:
         """The state of the beginning, for so many plants."""
-        one = self.process.solution
-        cavitating = np.isin(self._solver.pumps, one.cavitating)
-        parts = (one.flow, one.head, one.open, one.shut_in, cavitating, np.array(one.settled))
-        return Solutions(*(np.repeat(part[..., None], n, axis=-1) for part in parts))
+        return self._solver.several(self.process.solution, n)

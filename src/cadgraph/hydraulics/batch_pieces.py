@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from cadgraph.hydraulics.balance import LEAST, STILL
 from cadgraph.hydraulics.network import Circuit, LinkKind
 
 __all__ = ["Pieces", "Reach"]
@@ -191,6 +192,31 @@ class Reach:
             fed[:, plants] |= around & round_it
         starts = self.circuit.start[self.pumps]
         found: Bools = onward[self.pumps] & ~fed[starts]
+        return found
+
+    def emptied(self, head: Floats, flow: Floats, opened: Bools, to_air: Bools) -> Bools:
+        """``(n_nodes, n_plants)`` where nothing flows and air has got to, above what stands in the pipe below.
+
+        Args:
+            head: ``(n_nodes, n_plants)``.
+            flow: ``(n_links, n_plants)``.
+            opened: ``(n_links, n_plants)`` where something could flow.
+            to_air: ``(n_links, n_plants)`` links that lead into the open and aren't shut.
+        """
+        circuit = self.circuit
+        start, end = circuit.start, circuit.end
+        with np.errstate(invalid="ignore"):
+            low = head < circuit.height[:, None] + LEAST
+        still = np.abs(flow) < STILL
+        found = np.zeros(head.shape, bool)
+        for link in np.flatnonzero(to_air.any(axis=1)).tolist():
+            found[start[link]] |= to_air[link] & still[link] & low[start[link]]
+        plants = np.flatnonzero(found.any(axis=0))
+        if len(plants):
+            reached = found[:, plants]
+            along = (still & opened & low[start] & low[end])[:, plants]
+            self._flood(reached, along, along)
+            found[:, plants] = reached
         return found
 
     def _flood(self, reached: Bools, onward: Bools, back: Bools) -> None:

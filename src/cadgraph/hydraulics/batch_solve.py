@@ -8,6 +8,7 @@ that are done drop out.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -191,9 +192,18 @@ class BatchSolver:
             tuple(self.pumps[last.cavitating[:, plant]].tolist()), 0, 0.0, bool(last.settled[plant]),
         )  # fmt: skip
         one = self._alone.solve(condition, before)
-        cavitating = np.isin(self.pumps, one.cavitating)
-        parts = (one.flow, one.head, one.open, one.shut_in, cavitating, np.array(one.settled))
-        found.put(np.array([plant]), Solutions(*(part[..., None] for part in parts)))
+        found.put(np.array([plant]), self.several(one, 1))
+
+    def several(self, one: Solution, n: int) -> Solutions:
+        """A state of one plant, as often as this."""
+
+        def side_by_side(part: npt.NDArray[Any]) -> Any:
+            return np.repeat(part[..., None], n, axis=-1)
+
+        return Solutions(
+            side_by_side(one.flow), side_by_side(one.head), side_by_side(one.open), side_by_side(one.shut_in),
+            side_by_side(np.isin(self.pumps, one.cavitating)), side_by_side(np.array(one.settled)),
+        )  # fmt: skip
 
     def loss(self, flow: Floats, square: Floats, offset: Floats) -> tuple[Floats, Floats]:
         """The heads lost in all links, and their slopes.
@@ -233,8 +243,10 @@ class _Step:
 
     def of(self, plants: Ints) -> _Step:
         """The same of some plants."""
-        parts = (self.linear, self.choked, self.outer, self.pins, self.pin_heads, self.flow)
-        other = _Step(self.solver, self.given.of(plants), *(part[:, plants] for part in parts), self.balanced[plants])
+        other = _Step(
+            self.solver, self.given.of(plants), self.linear[:, plants], self.choked[:, plants], self.outer[:, plants],
+            self.pins[:, plants], self.pin_heads[:, plants], self.flow[:, plants], self.balanced[plants],
+        )  # fmt: skip
         if self.lost is not None:
             other.lost = self.lost[0][:, plants], self.lost[1][:, plants]
         return other
@@ -401,7 +413,7 @@ class _Round:
             opening = turns & ~now.open & (pressing > LIFT)
         more, fewer = self._choking(now.open & ~closing)
         turned = closing | opening
-        settled = ~(turned.any(axis=0) | more.any(axis=0) | fewer.any(axis=0))
+        settled: Bools = np.logical_not(turned.any(axis=0) | more.any(axis=0) | fewer.any(axis=0))
         after = np.where(settled, now.open, now.open ^ turned)
         choked = np.where(settled, now.cavitating, (now.cavitating | more) & ~fewer & after[pumps])
         self.now = replace(now, open=after, cavitating=choked, settled=settled)

@@ -81,21 +81,27 @@ class Elimination:
             self._steps.append(self._step(pivots, equations))
 
     def _step(self, pivots: Sequence[int], equations: Sequence[Sequence[int]]) -> _Step:
-        others, of, column, first, second, cells = ([] for _ in range(6))
+        others: list[int] = []
+        of: list[int] = []
+        column: list[int] = []
+        products: list[tuple[int, int]] = []
+        cells: list[int] = []
         for number, (pivot, equation) in enumerate(zip(pivots, equations, strict=True)):
             start = len(others)
             others += equation
             of += [number] * len(equation)
             column += [self.cell(other, pivot) for other in equation]
             pairs = [(i, j) for i in range(len(equation)) for j in range(i + 1)]
-            first += [start + i for i, _ in pairs]
-            second += [start + j for _, j in pairs]
+            products += [(start + i, start + j) for i, j in pairs]
             cells += [self.cell(equation[i], equation[j]) for i, j in pairs]
         targets, to_cells = _gathering(cells)
         rest, to_rest = _gathering(others)
-        numbers = (np.array(each, np.int64) for each in (pivots, others, of, column, first, second))
+        first, second = np.array(products, np.int64).reshape(-1, 2).T
         to_pivots = sparse.csr_matrix((np.ones(len(of)), (of, range(len(of)))), shape=(len(pivots), len(of)))
-        return _Step(*numbers, targets, to_cells, rest, to_rest, to_pivots)
+        return _Step(
+            np.array(pivots, np.int64), np.array(others, np.int64), np.array(of, np.int64),
+            np.array(column, np.int64), first, second, targets, to_cells, rest, to_rest, to_pivots,
+        )  # fmt: skip
 
     def cell(self, a: int, b: int) -> int:
         """Where the coefficient of one unknown in the equation of another stands; that of itself at its own number."""

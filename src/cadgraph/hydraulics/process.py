@@ -203,10 +203,14 @@ class Process:
             self._lag(dt)
             self._state = self._make_state()
         elif self._lag(dt):
-            self._state = replace(self._state, time=self._time, reading=self._readings(), joints=self._angles())
+            self._state = replace(
+                self._state, time=self._time, level=self._levels(), reading=self._readings(), joints=self._angles()
+            )
         else:
-            level = dict(self.balance.level) if self.balance.level else self._state.level
-            self._state = replace(self._state, time=self._time, level=level)
+            self._state = replace(self._state, time=self._time, level=self._levels())
+
+    def _levels(self) -> Mapping[str, float]:
+        return dict(self.balance.level) if self.balance.level else self._state.level
 
     def _fill(self, dt: float) -> bool:
         """Moves the levels by what flowed; whether one has moved so far that pressures change."""
