@@ -64,7 +64,7 @@ MAY_IMPORT = {
         *("plans", "query"),
         "serve",
         "session",
-        *("draw.render", "draw.report", "draw.schematic", "draw.web", "export"),
+        *("draw.render", "draw.report", "draw.schematic", "draw.web", "export", "simulate.play"),
     },
     "draw": set(),
     "__main__": {"cli"},

@@ -4,7 +4,7 @@ import playing
 from cadgraph.errors import ScenarioError
 from cadgraph.hydraulics.settings import Move
 from cadgraph.query.network import Network
-from cadgraph.simulate.play.timetable import Timetable, read_timetable
+from cadgraph.simulate.play.timetable import Timetable, read_timetable, says_more
 
 NETWORK = Network(playing.graph())
 
@@ -20,8 +20,11 @@ def test_moves_are_read_in_the_order_of_time_and_tags_may_be_spelt_loosely(tmp_p
     assert read_back == Timetable((Move(at=2, over=10, set={"V-001": 0.25}), Move(at=20, over=0, set={"P-001": 0.0})))
 
 
-def test_a_scenario_beside_the_moves_is_told(tmp_path):
-    assert not read(tmp_path, "fluid: {density: 900}\nplay: [{at: 0, set: {V-001: 0}}]\n").alone
+@pytest.mark.parametrize(("text", "more"), [("play: []", False), ("fluid: {density: 900}\nplay: []", True)])
+def test_a_scenario_beside_the_moves_is_noticed(tmp_path, text, more):
+    path = tmp_path / "close.yaml"
+    path.write_text(text, encoding="utf-8")
+    assert says_more(path) is more
 
 
 @pytest.mark.parametrize(

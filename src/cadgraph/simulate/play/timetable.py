@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from cadgraph._io.limits import SCENARIO, read_text_within
 from cadgraph._io.strict_yaml import parse_yaml
@@ -23,7 +24,7 @@ from cadgraph.hydraulics.scenario_file import read_scenario
 from cadgraph.hydraulics.settings import Move
 from cadgraph.query.network import Network
 
-__all__ = ["Timetable", "read_timetable"]
+__all__ = ["Timetable", "read_timetable", "says_more"]
 
 _REMEDY = "give a YAML file with a list 'play' of moves, each with 'at', 'set' and maybe 'over'"
 _MOST_MOVES = 1000
@@ -35,11 +36,9 @@ class Timetable:
 
     Args:
         moves: by when they begin.
-        alone: whether the file that they come from says nothing else, so that the scenario is another file.
     """
 
     moves: tuple[Move, ...]
-    alone: bool = True
 
     @property
     def tags(self) -> tuple[str, ...]:
@@ -81,7 +80,7 @@ def read_timetable(path: str | Path, network: Network) -> Timetable:
     Raises:
         ScenarioError: it isn't such a file, a value is impossible, or a tag is that of nothing that can be set.
     """
-    content = parse_yaml(read_text_within(path, SCENARIO, ScenarioError, _REMEDY), str(path), ScenarioError)
+    content = _content(path)
     rows = content.get("play") if isinstance(content, dict) else None
     if not isinstance(rows, list) or not rows:
         raise ScenarioError(f"{path}: no list 'play' in it; {_REMEDY}")
@@ -91,4 +90,21 @@ def read_timetable(path: str | Path, network: Network) -> Timetable:
     still = [number for number, move in enumerate(moves, 1) if not move.set]
     if still:
         raise ScenarioError(f"{path}: play: {still[0]}: 'set' names nothing; give a tag and a value, as {{V-003: 0}}")
-    return Timetable(moves, alone=set(content) == {"play"})
+    return Timetable(moves)
+
+
+def says_more(path: str | Path) -> bool:
+    """Whether a file says more than what is done: what is supposed, too.
+
+    Args:
+        path: a YAML file.
+
+    Raises:
+        ScenarioError: it isn't one.
+    """
+    content = _content(path)
+    return isinstance(content, dict) and bool(set(content) - {"play"})
+
+
+def _content(path: str | Path) -> Any:
+    return parse_yaml(read_text_within(path, SCENARIO, ScenarioError, _REMEDY), str(path), ScenarioError)
