@@ -284,19 +284,18 @@ class _Step:
         solver, circuit, pumps = self.solver, self.solver.circuit, self.solver.pumps
         forced = np.zeros(self.choked.shape)
         plants = np.flatnonzero(self.choked.any(axis=0))
-        held = cells[:, plants].copy()
-        heads = solver.elimination.solve(cells, right)
         if not len(plants):
-            return heads, forced
-        # What each pump does to the heads when it moves one unit.
+            return solver.elimination.solve(cells, right), forced
+        # Beside the heads, for plants with such pumps: what each pump does to the heads when it moves one unit.
         at, to = solver.row[circuit.start[pumps]], solver.row[circuit.end[pumps]]
-        effect = np.zeros((len(solver.free), len(pumps), len(plants)))
+        moved = np.zeros((len(solver.free), len(pumps), len(plants)))
         for number in range(len(pumps)):
-            moved = np.zeros((len(solver.free), len(plants)))
-            moved[at[number]] -= 1.0
+            moved[at[number], number] -= 1.0
             if to[number] >= 0:
-                moved[to[number]] += 1.0
-            effect[:, number] = solver.elimination.solve(held.copy(), moved)
+                moved[to[number], number] += 1.0
+        every = np.concatenate([cells, np.tile(cells[:, plants], len(pumps))], axis=1)
+        solved = solver.elimination.solve(every, np.concatenate([right, moved.reshape(len(moved), -1)], axis=1))
+        heads, effect = solved[:, : right.shape[1]], solved[:, right.shape[1] :].reshape(moved.shape)
         wanted = self.given.floor[circuit.start[pumps]] - heads[at][:, plants]
         choked = self.choked[:, plants]
         both = choked[:, None] & choked[None]
