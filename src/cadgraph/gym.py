@@ -168,12 +168,12 @@ class Isolate(Task):
     def judge(self, moment: Moment) -> tuple[Floats, Bools, Bools]:
         """How far it is cut off."""
         reached = 1 - moment.shut_in[:, self._nodes].mean(axis=1)
-        still = (np.abs(moment.flow[:, self._own]) < _STILL).all(axis=1)
-        stopped = np.ones(len(still), bool) if self._pump is None else moment.speed[:, self._pump] == 0
-        done = (reached == 0) & still & stopped
+        still = np.abs(moment.flow[:, self._own]).max(axis=1, initial=0.0) < _STILL
+        runs = np.zeros(len(reached)) if self._pump is None else (moment.speed[:, self._pump] > 0).astype(float)
+        done: Bools = (reached == 0) & still & (runs == 0)
         kept = np.minimum(np.abs(moment.flow), self._usual).sum(axis=1)
         lost = 1 - kept / self._usual.sum() if self._usual.sum() > 0 else np.zeros(len(done))
-        cost = 0.5 * reached + 0.25 * ~stopped + 0.25 * lost
+        cost = 0.5 * reached + 0.25 * runs + 0.25 * lost
         return np.where(done, _DONE - 0.25 * lost, -cost), done, np.zeros(len(done), bool)
 
 
@@ -254,7 +254,8 @@ class _Shape:
         """``(n, n_observed)`` readings as shares of spans, then levels as shares of heights."""
         shown = moment.reading[:, self.rows] / self.spans
         seen = np.concatenate([np.where(np.isnan(shown), UNKNOWN, shown), moment.level / self.heights], axis=1)
-        return np.clip(seen, UNKNOWN, 1.0).astype(np.float32)
+        clipped: npt.NDArray[np.float32] = np.clip(seen, UNKNOWN, 1.0).astype(np.float32)
+        return clipped
 
     def drawn(self, lot: np.random.Generator, n: int) -> Floats:
         """``(n, n_valves)`` openings to begin with: about half of the valves are not as the scenario says."""

@@ -124,8 +124,8 @@ class Elimination:
         first, second = np.array(products, np.int64).reshape(-1, 2).T
         owner = [pivots[number] for number in of]
         return _Step(
-            *(np.array(each, np.int64) for each in (pivots, others, of, owner, column)),
-            first, second, _Sums.of(cells), _Sums.of(others), _Sums.of(owner),
+            np.array(pivots, np.int64), np.array(others, np.int64), np.array(of, np.int64), np.array(owner, np.int64),
+            np.array(column, np.int64), first, second, _Sums.of(cells), _Sums.of(others), _Sums.of(owner),
         )  # fmt: skip
 
     def cell(self, a: int, b: int) -> int:
