@@ -42,6 +42,7 @@ _MOST_STEPS = 100
 _MOST_ROUNDS = 80
 _ROUNDS_AT_ONCE = 12  # in which all that contradict turn at once; then one by one, so that nothing swings for ever
 _MOST_CHANGES = 3  # of a pump that is choked, then isn't; then it isn't
+_WILD = 1e3  # m3/s; of a step that leads nowhere
 _START = 0.5  # velocity to begin with [m/s]
 
 
@@ -175,13 +176,22 @@ class Solver:
             choked = tuple(pump for pump in last.cavitating if opened[pump])
             flow = last.flow
         let_go: Counter[int] = Counter()
-        steps = 0
+        steps, turned = 0, np.ones_like(opened)
+        more: list[int] = []
+        fewer: list[int] = []
         for number in range(_MOST_ROUNDS):
             choked, pieces = self._kept(opened, choked, let_go)
             flow, head, taken, step = self._newton(condition, opened, pieces, flow, choked)
             steps += taken
+            if choked and step > STEP and taken >= _MOST_STEPS:
+                # What is left to a choked pump can lie behind it; then there is no such flow.
+                let_go.update(dict.fromkeys(choked, _MOST_CHANGES))
+                choked, flow = (), self._first
+                continue
             head = self._even_out(condition, opened, usable, pieces, head, pulled)
-            turned = self._turned(condition, turning, opened, flow, head, one_by_one=number >= _ROUNDS_AT_ONCE)
+            free = turning.copy()
+            free[list(choked)] = False
+            turned = self._turned(condition, free, opened, flow, head, one_by_one=number >= _ROUNDS_AT_ONCE)
             if turned.any():
                 opened = opened ^ turned
                 continue
@@ -191,7 +201,8 @@ class Solver:
                 break
             let_go.update(fewer)
             choked = tuple(sorted({*choked, *more} - {*fewer}))
-        settled = not turned.any() and not more and not fewer
+        settled = step <= STEP or taken < _MOST_STEPS
+        settled = settled and not (turned.any() or more or fewer)
         lacking = {*choked, *map(int, starved), *self._choking(condition, opened, choked, flow, head)[0]}
         shut_in = (pieces.of_node > 0) & ~pieces.circulating[pieces.of_node]
         return Solution(flow, head, opened, shut_in, tuple(sorted(lacking)), steps, step, settled)
@@ -252,6 +263,8 @@ class Solver:
             flow = flow + share * change
             balanced = balanced or share == 1.0
             step = float(np.abs(change).max(initial=0.0))
+            if choked and step > _WILD:
+                return flow, head, _MOST_STEPS, step
             if step < STEP or np.abs(change).sum() < RELATIVE_STEP * np.abs(flow).sum():
                 break
         return flow, head, taken, step
