@@ -81,6 +81,7 @@ def _row(scene: Scene, device: Device) -> dict[str, Any]:
         "open_deg": mechanism.open,
         "shut_deg": mechanism.shut,
         "friction_nm": round(device.friction, 6),
+        "damping_nms": round(device.damping, 6),
         "armature_kgm2": device.armature,
         "mass_kg": round(device.mass, 6),
         "inertia_kgm2": _rounded(device.inertia),

@@ -26,6 +26,8 @@ ARMATURE = 0.02
 """Added to the inertia about each joint [kg m2]; ours: below it, light levers stick in one engine and shake in another."""
 RIM_FORCE, LEVER_FORCE = 40.0, 60.0
 """What starts a wheel at its rim, a lever at its end [N]; ours: a tenth of what EN 12570 lets a hand pull at most."""
+BRISK = 5.0
+"""Speed at which a valve brakes twice as hard as at rest [rad/s]; ours: most people turn a wheel slower than that."""
 SWEEP = 270.0
 """How far a needle goes over its dial [deg], clockwise from half past seven (EN 837-1)."""
 _LEAST_MASS, _LEAST_INERTIA = 0.005, 1e-6
@@ -77,6 +79,7 @@ class Device:
         mass: [kg].
         inertia: ``(3,)`` about the axes of the body's frame at the pivot [kg m2].
         friction: torque that starts it, and that brakes it [N m].
+        damping: torque that brakes it more the faster it turns [N m s/rad].
         armature: what is added to the inertia about the axis [kg m2].
         low: least height of the rim or lever along the axis, from the pivot [m].
         high: greatest height [m].
@@ -92,6 +95,7 @@ class Device:
     mass: float
     inertia: Floats
     friction: float
+    damping: float
     armature: float
     low: float
     high: float
@@ -168,6 +172,7 @@ def _device(unit: Unit, joint: str, mechanism: Mechanism, scene: Scene, row: dic
     force = 0.0 if needle else LEVER_FORCE if lever else RIM_FORCE
     if not needle:
         why["friction"] = f"assumed: {force:g} N at the {'end of the lever' if lever else 'rim'} start it"
+        why["damping"] = f"assumed: at {BRISK:g} rad/s as much as the friction"
         why["armature"] = f"assumed: {ARMATURE:g} kg m2, of stem and gear"
     return Device(
         unit=unit,
@@ -179,6 +184,7 @@ def _device(unit: Unit, joint: str, mechanism: Mechanism, scene: Scene, row: dic
         mass=mass,
         inertia=inertia,
         friction=force * mechanism.radius,
+        damping=force * mechanism.radius / BRISK,
         armature=0.001 if needle else ARMATURE,
         low=low,
         high=high,

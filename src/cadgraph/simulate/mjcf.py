@@ -103,7 +103,8 @@ def _body(world: ElementTree.Element, device: Device) -> ElementTree.Element:
     }
     if not device.is_needle:
         # Stiffer than MuJoCo's own, whose dry friction creeps under load.
-        joint |= {"frictionloss": _text(device.friction), "solreffriction": "0.004 1", "solimpfriction": ".99 .999 .001"}
+        joint |= {"frictionloss": _text(device.friction), "damping": _text(device.damping)}
+        joint |= {"solreffriction": "0.004 1", "solimpfriction": ".99 .999 .001"}
     ElementTree.SubElement(body, "joint", joint)
     ElementTree.SubElement(
         body, "inertial", pos="0 0 0", mass=_text(device.mass), diaginertia=_text(device.inertia)

@@ -16,8 +16,8 @@ from cadgraph.simulate.stage.specs import apply, attribute, define, relate
 
 __all__ = ["add_articulation", "add_body", "body_matrix"]
 
-# Of the drive that sets a needle: [N m/deg], [N m s/deg], [N m]; ours: a dial's needle follows in 0.3 s, and the gains
-# are per radian in the tensors of the engines, 57.3 times these.
+# Of the drive that sets a needle: [N m/deg], [N m s/deg], [N m]; ours: it follows in a tenth of a second, without
+# overshoot. In the tensors of the engines the gains are per radian, 57.3 times these.
 _NEEDLE_STIFFNESS, _NEEDLE_DAMPING, _NEEDLE_FORCE = 0.02, 0.002, 10.0
 _IDENTITY = Gf.Quatf(1.0, 0.0, 0.0, 0.0)
 
@@ -117,6 +117,8 @@ def _joint(layer: Any, device: Device, body: Any) -> None:
         return
     # Dry friction and never a drive: a drive spoils the friction of one engine, and is none in another.
     attribute(joint, "newton:friction", "Float", device.friction)
+    attribute(joint, "newton:damping", "Float", float(np.deg2rad(device.damping)))
+    attribute(joint, "physxJointAxis:angular:viscousFrictionCoefficient", "Float", float(np.deg2rad(device.damping)))
     attribute(joint, "physxJointAxis:angular:staticFrictionEffort", "Float", device.friction)
     attribute(joint, "physxJointAxis:angular:dynamicFrictionEffort", "Float", device.friction)
 

@@ -1,7 +1,7 @@
 """Colliders of what stands still, as opinions over the source: triangle meshes, which cost nothing until touched.
 
 An instance shares its meshes with all others of its kind and hides them from opinions. It is given a reference to a
-class of ours that holds them, so that it stays an instance.
+prim of ours that holds them, so that it stays an instance.
 """
 
 from __future__ import annotations
@@ -48,10 +48,10 @@ def collide(layer: Any, prims: Sequence[Any]) -> None:
             make_collider(over(layer, placed_at(prim.GetPath())), prim.GetTypeName())
         else:
             inside.setdefault(root, []).append(prim)
-    classes = _Classes(layer)
+    holders = _Holders(layer)
     for root, meshes in inside.items():
         spec = over(layer, placed_at(root.GetPath()))
-        spec.referenceList.prependedItems = [Sdf.Reference("", classes.over_instance(root.GetPath(), meshes))]
+        spec.referenceList.prependedItems = [Sdf.Reference("", holders.over_instance(root.GetPath(), meshes))]
 
 
 def make_collider(spec: Any, type_name: str) -> None:
@@ -71,15 +71,15 @@ def _instance_above(prim: Any) -> Any:
     return prim
 
 
-class _Classes:
-    """The classes that instances refer to, each once for all instances with the same colliders."""
+class _Holders:
+    """What instances refer to, each once for all instances with the same colliders."""
 
     def __init__(self, layer: Any) -> None:
         self._layer = layer
         self._made: dict[tuple[Any, ...], Any] = {}
 
     def over_instance(self, root: Any, meshes: Sequence[Any]) -> Any:
-        """The class for an instance of which these meshes get colliders."""
+        """What an instance refers to, of which these meshes get colliders."""
         direct: list[tuple[str, str]] = []
         nested: dict[Any, list[Any]] = {}
         for mesh in meshes:
@@ -98,8 +98,8 @@ class _Classes:
 
     def _make(self, direct: Sequence[tuple[str, str]], deeper: Sequence[tuple[str, Any]]) -> Any:
         path = Sdf.Path(COLLIDERS).AppendChild(f"Instance_{len(self._made):03d}")
-        spec = over(self._layer, path)
-        spec.specifier = Sdf.SpecifierClass
+        # Not even a class: it would make classes of the instances, and a stage shows none.
+        over(self._layer, path)
         for relative, type_name in direct:
             make_collider(over(self._layer, path.AppendPath(relative)), type_name)
         for relative, held in deeper:
