@@ -4,8 +4,21 @@ import graphs
 from cadgraph.errors import OutputError
 from cadgraph.export import export_graph, formats
 
-ALL = ["att", "csv", "dexpi", "gltf", "graphml", "html", "ifc", "isometric", "labels-csv", "networkx-json", "pcf"]
-ALONE = [name for name in ALL if name not in ("gltf", "html", "ifc")]  # those that need no source
+ALL = [
+    "att",
+    "csv",
+    "dexpi",
+    "gltf",
+    "graphml",
+    "html",
+    "ifc",
+    "isometric",
+    "labels-csv",
+    "networkx-json",
+    "pcf",
+    "usd",
+]
+ALONE = [name for name in ALL if name not in ("gltf", "html", "ifc", "usd")]  # those that need no source
 FILLED = [name for name in ALONE if name not in ("isometric", "pcf")]  # those that a graph without centrelines fills
 
 

@@ -41,7 +41,7 @@ def export(
         typer.Option(
             "--to",
             metavar="FORMAT",
-            help="att, csv, dexpi, gltf, graphml, html, ifc, isometric, labels-csv, networkx-json or pcf.",
+            help="att, csv, dexpi, gltf, graphml, html, ifc, isometric, labels-csv, networkx-json, pcf or usd.",
         ),
     ],
     output: Annotated[
@@ -50,16 +50,23 @@ def export(
     source: Annotated[
         Path | None,
         typer.Option(
-            "--source", metavar="FILE", help="For att, gltf, html and ifc: the scene itself, where it has moved."
+            "--source", metavar="FILE", help="For att, gltf, html, ifc and usd: the scene itself, where it has moved."
         ),
     ] = None,
+    bake: Annotated[
+        bool,
+        typer.Option(
+            "--bake",
+            help="With --to usd: one stage with all that the source refers to, the labels where each prim is defined.",
+        ),
+    ] = False,
 ) -> None:
     """Write a graph in another format, as a page to look at, or a copy of its source with the labels in it."""
     from cadgraph.export import write_export
     from cadgraph.model.graph import SceneGraph
 
     folder = graph if graph.is_dir() else graph.parent
-    written = write_export(SceneGraph.load(graph), to, output or folder, source)
+    written = write_export(SceneGraph.load(graph), to, output or folder, source, bake=bake)
     for path in written.files:
         out.print(f"wrote {escape(str(path))}")
     for note in written.notes:

@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
-from cadgraph.errors import LoadError
+from cadgraph.config import restore_config
+from cadgraph.errors import FormatError, LoadError
 from cadgraph.export.att import write_att
 from cadgraph.export.graphml import write_graphml
 from cadgraph.export.labels import write_labels
@@ -16,6 +17,7 @@ from cadgraph.export.source import find_source, refuse_source
 from cadgraph.export.tables import write_tables
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
+from cadgraph.model.scene import Scene
 
 __all__ = ["Format", "Written", "export_graph", "formats", "write_export"]
 
@@ -47,6 +49,7 @@ class Format:
             it wrote.
         source: whether that file is ``"needed"``, or only ``"helps"`` where it is still there; ``"no"`` is never given.
         file: the name of its file where a folder is given; None if it always takes a folder.
+        also: further suffixes that its file may have.
         copied_as: how the copy of a source, or what stands beside it, ends, by how the source ends; empty where any
             source will do.
     """
@@ -56,6 +59,7 @@ class Format:
     write: Write
     source: Literal["no", "helps", "needed"] = "no"
     file: str | None = None
+    also: tuple[str, ...] = ()
     copied_as: Mapping[str, str] = field(default_factory=dict)
 
 
@@ -109,6 +113,33 @@ def _write_pcf(graph: SceneGraph, path: Path, _: Path | None) -> Written:
     from cadgraph.export.pcf import write_pcf
 
     return Written(*write_pcf(graph, path))
+
+
+def _write_usd(graph: SceneGraph, path: Path, source: Path | None) -> Written:
+    from cadgraph.export.usd import check_source, write_semantics
+
+    assert source is not None  # it is needed
+    check_source(source, path)
+    return Written((write_semantics(_scene_of(graph, source), graph, source, path),))
+
+
+def _write_baked(graph: SceneGraph, path: Path, source: Path | None) -> Written:
+    from cadgraph.export.baked_usd import write_baked
+
+    assert source is not None  # it is needed
+    file, notes = write_baked(_scene_of(graph, source), graph, source, path)
+    return Written((file,), notes)
+
+
+def _scene_of(graph: SceneGraph, source: Path) -> Scene:
+    """The scene that a graph was made from, read again as it was then."""
+    from cadgraph.load import load
+
+    try:
+        settings = restore_config(graph.document.config)
+    except ValueError as error:
+        raise FormatError(f"the graph's settings can't be used any more ({error}); build the graph anew") from error
+    return load(source, settings.load)
 
 
 def _write_isometrics(graph: SceneGraph, path: Path, _: Path | None) -> Written:
@@ -179,6 +210,22 @@ _FORMATS = (
         file="nodelink.json",
     ),
     Format("pcf", "each line as an Isogen piping component file", _write_pcf),
+    Format(
+        "usd",
+        "the labels as a USD layer over the source; with --bake the source and its labels as one stage",
+        _write_usd,
+        source="needed",
+        file="semantics.usda",
+    ),
+)
+
+_BAKED = Format(
+    "usd",
+    "the source and its labels as one stage",
+    _write_baked,
+    source="needed",
+    file="baked.usdc",
+    also=(".usda", ".usd"),
 )
 
 
@@ -198,7 +245,9 @@ def export_graph(graph: SceneGraph, to: str, path: str | Path, source: str | Pat
     return list(write_export(graph, to, path, source).files)
 
 
-def write_export(graph: SceneGraph, to: str, path: str | Path, source: str | Path | None = None) -> Written:
+def write_export(
+    graph: SceneGraph, to: str, path: str | Path, source: str | Path | None = None, *, bake: bool = False
+) -> Written:
     """Writes a graph in another format.
 
     Args:
@@ -208,6 +257,7 @@ def write_export(graph: SceneGraph, to: str, path: str | Path, source: str | Pat
             (``plant.graphml``).
         source: where the file is that the graph was made from, for formats that are a copy of it or stand beside it;
             None: where it was.
+        bake: of ``usd``: whether to write the source and its labels as one stage, instead of a layer over the source.
 
     Returns:
         The files written, and what is to be said of them.
@@ -222,6 +272,9 @@ def write_export(graph: SceneGraph, to: str, path: str | Path, source: str | Pat
     form = next((each for each in _FORMATS if each.name == to), None)
     if form is None:
         raise ValueError(f"no export format is called {to!r}; there are {', '.join(formats())}")
+    if bake and to != "usd":
+        raise ValueError(f"--bake is for USD; leave it out, or say --to usd instead of {to}")
+    form = _BAKED if bake else form
     target = Path(path)
     if form.source == "no":
         if source is not None:
@@ -269,5 +322,5 @@ def _place(form: Format, path: Path, source: Path | None) -> Path:
     file = Path(form.file)
     if source is not None and form.copied_as:
         file = file.with_suffix(form.copied_as[source.suffix.lower()])
-    names_file = path.suffix.lower() == file.suffix and not path.is_dir()
+    names_file = path.suffix.lower() in (file.suffix, *form.also) and not path.is_dir()
     return path if names_file else path / file
