@@ -14,11 +14,12 @@ ALL = [
     "ifc",
     "isometric",
     "labels-csv",
+    "mjcf",
     "networkx-json",
     "pcf",
     "usd",
 ]
-ALONE = [name for name in ALL if name not in ("gltf", "html", "ifc", "usd")]  # those that need no source
+ALONE = [name for name in ALL if name not in ("gltf", "html", "ifc", "mjcf", "usd")]  # those that need no source
 FILLED = [name for name in ALONE if name not in ("isometric", "pcf")]  # those that a graph without centrelines fills
 
 

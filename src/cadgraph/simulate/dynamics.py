@@ -8,13 +8,13 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
-from cadgraph.geometry.components import first_of_component
+from cadgraph.geometry.mesh.pieces import pieces_of
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Dial, Mechanism, Unit, points
-from cadgraph.model.scene import Faces, Floats, Ints, Scene
+from cadgraph.model.scene import Faces, Floats, Scene
 from cadgraph.query.mechanisms import joint_names
 
-__all__ = ["Capsule", "Device", "Moving", "find_devices", "grip", "needle_over", "piece_of_face"]
+__all__ = ["Capsule", "Device", "Moving", "find_devices", "grip", "needle_over"]
 
 Bools = npt.NDArray[np.bool_]
 
@@ -23,9 +23,9 @@ DENSITY = 7850.0
 SHEET = 0.003
 """Thickness of a surface that is not closed [m]; ours."""
 ARMATURE = 0.02
-"""Added to the inertia about each joint [kg m2]; ours: below it, light levers stick in one engine and shake in another."""
+"""Added to the inertia about each joint [kg m2]; ours: below it, light levers stick in one engine, shake in another."""
 RIM_FORCE, LEVER_FORCE = 40.0, 60.0
-"""What starts a wheel at its rim, a lever at its end [N]; ours: a tenth of what EN 12570 lets a hand pull at most."""
+"""What starts a wheel at its rim, a lever at its end [N]; ours."""
 BRISK = 5.0
 """Speed at which a valve brakes twice as hard as at rest [rad/s]; ours: most people turn a wheel slower than that."""
 SWEEP = 270.0
@@ -200,24 +200,12 @@ def _moving(unit: Unit, mechanism: Mechanism, scene: Scene, row: dict[str, int])
     for mesh in mechanism.meshes:
         faces = None
         if mechanism.pieces:
-            faces = np.isin(piece_of_face(*scene.mesh(row[mesh])), mechanism.pieces)
+            faces = np.isin(pieces_of(*scene.mesh(row[mesh])), mechanism.pieces)
             if not faces.any():
                 raise ValueError(f"{unit.tag} turns pieces of mesh {mesh!r} that it doesn't have: build the graph anew")
             faces = None if faces.all() else faces
         found.append(Moving(row[mesh], faces))
     return found
-
-
-def piece_of_face(vertices: Floats, faces: Faces) -> Ints:
-    """``(n_faces,)`` the piece of each triangle, numbered by first triangles; equal corner positions hold together."""
-    _, spot = np.unique(vertices, axis=0, return_inverse=True)
-    corners = spot.reshape(-1)[faces]
-    first = first_of_component(len(vertices), np.concatenate([corners[:, :2], corners[:, 1:]]))
-    _, start, piece = np.unique(first[corners[:, 0]], return_index=True, return_inverse=True)
-    rank = np.empty(len(start), np.int64)
-    rank[np.argsort(start, kind="stable")] = np.arange(len(start))
-    numbers: Ints = rank[piece.reshape(-1)]
-    return numbers
 
 
 def _selected(scene: Scene, moving: Moving) -> tuple[Floats, Faces]:

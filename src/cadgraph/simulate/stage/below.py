@@ -59,12 +59,12 @@ class Below:
         try:
             self._layers = open_layers(file)
             self.stage = Usd.Stage.Open(str(file), Usd.Stage.LoadAll)
-            walk = Walk(
-                self.stage, settings.purposes, settings.invisible, settings.time, settings.sides, Notes()
-            )
+            walk = Walk(self.stage, settings.purposes, settings.invisible, settings.time, settings.sides, Notes())
             placements = {each.path: each for each in walk.placements()}
         except Tf.ErrorException as error:
-            raise LoadError(f"{file}: can't be read as USD any more ({_first_line(error)}); build the graph anew") from None
+            raise LoadError(
+                f"{file}: can't be read as USD any more ({_first_line(error)}); build the graph anew"
+            ) from None
         finally:
             delegate.TakeUncoalescedDiagnostics()
         self.meshes: list[Shown] = []

@@ -11,9 +11,10 @@ from typing import Any
 
 from pxr import Sdf
 
+from cadgraph.export.usd_specs import apply_schemas, set_attribute
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Part
-from cadgraph.simulate.stage.specs import apply, attribute, over
+from cadgraph.simulate.stage.specs import over
 
 __all__ = ["COLLIDERS", "PLANT", "SCENE", "collide", "make_collider", "placed_at", "without_collider"]
 
@@ -56,10 +57,10 @@ def collide(layer: Any, prims: Sequence[Any]) -> None:
 
 def make_collider(spec: Any, type_name: str) -> None:
     """Lets a prim be touched: a mesh by its triangles, a sphere or cylinder as such."""
-    apply(spec, "PhysicsCollisionAPI")
+    apply_schemas(spec, "PhysicsCollisionAPI")
     if type_name == "Mesh":
-        apply(spec, "PhysicsMeshCollisionAPI")
-        attribute(spec, "physics:approximation", "Token", "none", uniform=True)
+        apply_schemas(spec, "PhysicsMeshCollisionAPI")
+        set_attribute(spec, "physics:approximation", "Token", "none", uniform=True)
 
 
 def _instance_above(prim: Any) -> Any:

@@ -9,8 +9,9 @@ import numpy.typing as npt
 from pxr import Sdf, UsdGeom, Vt
 from scipy.spatial import cKDTree
 
+from cadgraph.export.usd_specs import set_attribute
 from cadgraph.model.scene import Faces, Floats, Ints
-from cadgraph.simulate.stage.specs import attribute, over
+from cadgraph.simulate.stage.specs import over
 
 __all__ = ["faces_of_pieces", "faces_of_subset", "keep_faces"]
 
@@ -65,13 +66,18 @@ def keep_faces(layer: Any, path: Any, prim: Any, kept: Bools) -> None:
     used, renumbered = np.unique(corners, return_inverse=True)
     spec = over(layer, path)
     points = np.asarray(mesh.GetPointsAttr().Get(), np.float32)[used]
-    attribute(spec, "points", "Point3fArray", Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(points)))
-    attribute(spec, "faceVertexCounts", "IntArray", _ints(counts[kept]))
-    attribute(spec, "faceVertexIndices", "IntArray", _ints(renumbered.reshape(-1)))
+    set_attribute(spec, "points", "Point3fArray", Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(points)))
+    set_attribute(spec, "faceVertexCounts", "IntArray", _ints(counts[kept]))
+    set_attribute(spec, "faceVertexIndices", "IntArray", _ints(renumbered.reshape(-1)))
     extent = np.array([points.min(axis=0), points.max(axis=0)])
-    attribute(spec, "extent", "Float3Array", Vt.Vec3fArray.FromNumpy(extent))
+    set_attribute(spec, "extent", "Float3Array", Vt.Vec3fArray.FromNumpy(extent))
     # In the order of the points, of the polygons, of the corners: which values stay.
-    stay = {"vertex": used, "varying": used, "uniform": np.flatnonzero(kept), "faceVarying": np.flatnonzero(corner_kept)}
+    stay = {
+        "vertex": used,
+        "varying": used,
+        "uniform": np.flatnonzero(kept),
+        "faceVarying": np.flatnonzero(corner_kept),
+    }
     normals = mesh.GetNormalsAttr()
     if normals.HasAuthoredValue() and mesh.GetNormalsInterpolation() in stay:
         _slice(spec, normals, stay[mesh.GetNormalsInterpolation()])
@@ -84,12 +90,14 @@ def keep_faces(layer: Any, path: Any, prim: Any, kept: Bools) -> None:
         indices = np.asarray(subset.GetIndicesAttr().Get(), np.int64)
         indices = indices[(indices >= 0) & (indices < len(kept))]
         child = over(layer, spec.path.AppendChild(subset.GetPrim().GetName()))
-        attribute(child, "indices", "IntArray", _ints(number[indices[kept[indices]]]))
-    for name in ("holeIndices", "cornerIndices", "cornerSharpnesses", "creaseIndices", "creaseLengths", "creaseSharpnesses"):
-        # Of subdivision surfaces, which are loaded as their cages; they number points and faces that are gone.
+        set_attribute(child, "indices", "IntArray", _ints(number[indices[kept[indices]]]))
+    # Of subdivision surfaces, which are loaded as their cages; they number points and faces that are gone.
+    for name in ("holeIndices", "cornerIndices", "creaseIndices", "creaseLengths"):
         if prim.GetAttribute(name).HasAuthoredValue():
-            type_name = "FloatArray" if name.endswith("Sharpnesses") else "IntArray"
-            attribute(spec, name, type_name, Vt.FloatArray() if name.endswith("Sharpnesses") else Vt.IntArray())
+            set_attribute(spec, name, "IntArray", Vt.IntArray())
+    for name in ("cornerSharpnesses", "creaseSharpnesses"):
+        if prim.GetAttribute(name).HasAuthoredValue():
+            set_attribute(spec, name, "FloatArray", Vt.FloatArray())
 
 
 def _slice(spec: Any, whole: Any, stay: Ints) -> None:

@@ -18,13 +18,14 @@ import numpy as np
 from pxr import Gf, Sdf, UsdGeom, Vt
 
 from cadgraph._io.atomic import write_atomically
-from cadgraph.config import LoadConfig, restore_config
-from cadgraph.errors import FormatError
-from cadgraph.export.usd import CLASS, GROUP, prim_paths, write_semantics
+from cadgraph.config import LoadConfig
+from cadgraph.export.source import settings_of
+from cadgraph.export.usd import prim_paths, write_semantics
+from cadgraph.export.usd_labels import Said, dispositions_of, label_prim, said_of, trace_of
+from cadgraph.export.usd_specs import apply_schemas, define_prim, set_attribute
 from cadgraph.load import load
 from cadgraph.load.packing import metres_z_up
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.labels import Label
 from cadgraph.model.records import Part
 from cadgraph.model.scene import Floats, Scene
 from cadgraph.query.mechanisms import Immovable, immovable
@@ -42,7 +43,7 @@ from cadgraph.simulate.stage.colliders import (
     without_collider,
 )
 from cadgraph.simulate.stage.faces import faces_of_pieces, faces_of_subset, keep_faces
-from cadgraph.simulate.stage.specs import apply, attribute, define, over, place, relate
+from cadgraph.simulate.stage.specs import over, place, point_at
 
 __all__ = ["Written", "write_stage"]
 
@@ -84,18 +85,12 @@ def write_stage(graph: SceneGraph, source: str | Path, folder: str | Path, needl
         OutputError: a file can't be written.
         ValueError: the graph names a mesh that the source doesn't have.
     """
-    try:
-        settings = restore_config(graph.document.config).load
-    except ValueError as error:
-        raise FormatError(f"the graph's settings can't be used any more ({error}); build the graph anew") from error
-    scene, target = load(Path(source), settings), Path(folder)
+    settings, target = settings_of(graph), Path(folder)
+    scene = load(source, settings)
     devices = find_devices(graph, scene, needles)
     labels = write_semantics(scene, graph, source, target / "semantics.usda")
     own = _geometry_of(labels)
-    if own is None:
-        below = Below(Path(source), settings, scene.paths)
-    else:
-        below = Below(own, LoadConfig(), prim_paths(scene))
+    below = Below(Path(source), settings, scene.paths) if own is None else Below(own, LoadConfig(), prim_paths(scene))
     stage = _Stage(graph, scene, below, labels.name, own is not None)
     content = stage.write(devices)
     path = target / "simulation.usda"
@@ -128,6 +123,7 @@ class _Stage:
         self._layer = Sdf.Layer.CreateAnonymous(".usda")
         self._to_world = _to_stage(scene, converted)
         self._part_of_mesh = {mesh: part for part in graph.of_layer(Part) for mesh in part.meshes}
+        self._dispositions = dispositions_of(graph)
         self.n_colliders = 0
 
     def write(self, devices: Sequence[Device]) -> str:
@@ -158,20 +154,20 @@ class _Stage:
                 "origin": Gf.Vec3d(*self._scene.origin.tolist()),
             }
         }
-        plant = define(layer, Sdf.Path(PLANT), "Xform")
+        plant = define_prim(layer, Sdf.Path(PLANT), "Xform")
         plant.SetInfo("kind", "assembly")
-        place(define(layer, Sdf.Path(SCENE), "Xform"), self._to_world)
+        place(define_prim(layer, Sdf.Path(SCENE), "Xform"), self._to_world)
         for name in self._below.roots():
             root = over(layer, Sdf.Path(SCENE).AppendChild(name))
             root.specifier = Sdf.SpecifierDef
             root.referenceList.prependedItems = [Sdf.Reference(self._asset, Sdf.Path(f"/{name}"))]
         for prim, relationship, targets in self._below.strays():
             if not prim.IsInPrototype():
-                relate(over(layer, placed_at(prim.GetPath())), relationship, [placed_at(each) for each in targets])
-        define(layer, Sdf.Path(COLLIDERS), "Scope")
-        physics = define(layer, Sdf.Path("/PhysicsScene"), "PhysicsScene")
-        attribute(physics, "physics:gravityDirection", "Vector3f", Gf.Vec3f(0, 0, -1))
-        attribute(physics, "physics:gravityMagnitude", "Float", 9.81)
+                point_at(over(layer, placed_at(prim.GetPath())), relationship, [placed_at(each) for each in targets])
+        define_prim(layer, Sdf.Path(COLLIDERS), "Scope")
+        physics = define_prim(layer, Sdf.Path("/PhysicsScene"), "PhysicsScene")
+        set_attribute(physics, "physics:gravityDirection", "Vector3f", Gf.Vec3f(0, 0, -1))
+        set_attribute(physics, "physics:gravityMagnitude", "Float", 9.81)
 
     # What moves is taken out of the source
 
@@ -237,7 +233,7 @@ class _Stage:
                 keep_faces(self._layer, path, self._below.prim(shown), moves)
             if device.mechanism.kind == "lever":
                 make_collider(spec, "Mesh")
-                attribute(spec, "physics:approximation", "Token", "convexDecomposition", uniform=True)
+                set_attribute(spec, "physics:approximation", "Token", "convexDecomposition", uniform=True)
         if not device.moving:
             self._draw_needle(body.path.AppendChild("needle"), device.mechanism.radius)
 
@@ -251,8 +247,10 @@ class _Stage:
         place(spec, shown.matrix @ self._to_world @ from_world)
         self._dress(spec, prim, mesh)
         part = self._part_of_mesh.get(self._scene.paths[mesh])
-        if part is not None and part.label is not None:
-            _label(spec, part.label, _NEEDLE if is_needle else None)
+        said = None if part is None else said_of(part, self._dispositions.get(self._scene.paths[mesh], ()))
+        if part is not None and said is not None:
+            # What is too small for a part of its own was labelled as what it lies on.
+            label_prim(spec, said._replace(name=_NEEDLE) if is_needle else said, trace_of(part))
         return spec
 
     def _dress(self, spec: Any, prim: Any, mesh: int) -> None:
@@ -268,25 +266,25 @@ class _Stage:
         shown, color = self._below.meshes[mesh], self._scene.colors[mesh]
         colored = prim.HasAttribute("primvars:displayColor") and prim.GetAttribute("primvars:displayColor").HasValue()
         if shown.instancer is not None and not colored and np.isfinite(color).all():
-            kept = attribute(spec, "primvars:displayColor", "Color3fArray", Vt.Vec3fArray.FromNumpy(color[None]))
+            kept = set_attribute(spec, "primvars:displayColor", "Color3fArray", Vt.Vec3fArray.FromNumpy(color[None]))
             kept.SetInfo("interpolation", "constant")
         purpose = UsdGeom.Imageable(prim).ComputePurpose()
         if purpose != UsdGeom.Tokens.default_:
-            attribute(spec, "purpose", "Token", purpose, uniform=True)
+            set_attribute(spec, "purpose", "Token", purpose, uniform=True)
         if UsdGeom.Imageable(prim).ComputeVisibility() == UsdGeom.Tokens.invisible:
-            attribute(spec, "visibility", "Token", "invisible")
+            set_attribute(spec, "visibility", "Token", "invisible")
 
     def _bind(self, spec: Any, prim: Any) -> None:
         plain = self._below.material(prim)
         for purpose in ("", "full", "preview"):
             material = self._below.material(prim, purpose) if purpose else plain
             if material is not None and (not purpose or material != plain):
-                apply(spec, "MaterialBindingAPI")
-                relate(spec, "material:binding" + (f":{purpose}" if purpose else ""), [placed_at(material)])
+                apply_schemas(spec, "MaterialBindingAPI")
+                point_at(spec, "material:binding" + (f":{purpose}" if purpose else ""), [placed_at(material)])
 
     def _draw_needle(self, path: Any, reach: float) -> None:
         """A flat pointer along x of the body, with a tail."""
-        spec = define(self._layer, path, "Mesh")
+        spec = define_prim(self._layer, path, "Mesh")
         wide, tall = 0.05 * reach, 0.005 * reach
         outline = np.array([[-0.25, -1.0], [-0.25, 1.0], [0.0, 1.4], [1.0, 0.15], [1.0, -0.15], [0.0, -1.4]])
         outline = outline[::-1] * [reach, wide]
@@ -294,14 +292,14 @@ class _Stage:
         points = np.concatenate([np.column_stack([outline, np.full(n, z)]) for z in (-tall, tall)]).astype(np.float32)
         sides = [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
         corners = [*range(n)][::-1] + [n + i for i in range(n)] + [corner for side in sides for corner in side]
-        attribute(spec, "points", "Point3fArray", Vt.Vec3fArray.FromNumpy(points))
-        attribute(spec, "faceVertexCounts", "IntArray", Vt.IntArray([n, n, *[4] * n]))
-        attribute(spec, "faceVertexIndices", "IntArray", Vt.IntArray(corners))
-        attribute(spec, "subdivisionScheme", "Token", "none", uniform=True)
-        attribute(spec, "extent", "Float3Array", Vt.Vec3fArray.FromNumpy(np.array([points.min(0), points.max(0)])))
-        shown = attribute(spec, "primvars:displayColor", "Color3fArray", Vt.Vec3fArray([Gf.Vec3f(0.01)]))
+        set_attribute(spec, "points", "Point3fArray", Vt.Vec3fArray.FromNumpy(points))
+        set_attribute(spec, "faceVertexCounts", "IntArray", Vt.IntArray([n, n, *[4] * n]))
+        set_attribute(spec, "faceVertexIndices", "IntArray", Vt.IntArray(corners))
+        set_attribute(spec, "subdivisionScheme", "Token", "none", uniform=True)
+        set_attribute(spec, "extent", "Float3Array", Vt.Vec3fArray.FromNumpy(np.array([points.min(0), points.max(0)])))
+        shown = set_attribute(spec, "primvars:displayColor", "Color3fArray", Vt.Vec3fArray([Gf.Vec3f(0.01)]))
         shown.SetInfo("interpolation", "constant")
-        _label(spec, Label(group="Gauge assembly", name=_NEEDLE, confidence=1.0, source="drawn"))
+        label_prim(spec, Said(_NEEDLE, "Gauge assembly", ("readable",)))
 
     # What stands still
 
@@ -354,7 +352,7 @@ class _Stage:
         spec.specifier = Sdf.SpecifierDef
         spec.referenceList.prependedItems = [Sdf.Reference(self._asset, Sdf.Path(shown.own))]
         place(spec, shown.matrix @ self._to_world)
-        attribute(spec, "purpose", "Token", "guide", uniform=True)
+        set_attribute(spec, "purpose", "Token", "guide", uniform=True)
         make_collider(spec, self._below.prim(shown).GetTypeName())
         return path
 
@@ -367,8 +365,8 @@ class _Stage:
             targets = [reached[mesh] for mesh in own if mesh in reached]
             if targets and not device.is_needle:
                 body = over(self._layer, Sdf.Path(DEVICES).AppendChild(device.joint))
-                apply(body, "PhysicsFilteredPairsAPI")
-                relate(body, "physics:filteredPairs", targets)
+                apply_schemas(body, "PhysicsFilteredPairsAPI")
+                point_at(body, "physics:filteredPairs", targets)
 
 
 def _to_stage(scene: Scene, converted: bool) -> Floats:
@@ -376,9 +374,3 @@ def _to_stage(scene: Scene, converted: bool) -> Floats:
     matrix = np.eye(4) if converted else metres_z_up(scene.source.meters_per_unit, scene.source.up_axis)
     matrix[3, :3] -= scene.origin
     return matrix
-
-
-def _label(spec: Any, label: Label, name: str | None = None) -> None:
-    apply(spec, f"SemanticsLabelsAPI:{CLASS}", f"SemanticsLabelsAPI:{GROUP}")
-    attribute(spec, f"semantics:labels:{CLASS}", "TokenArray", Vt.TokenArray([name or label.name or label.group]))
-    attribute(spec, f"semantics:labels:{GROUP}", "TokenArray", Vt.TokenArray([label.group]))
