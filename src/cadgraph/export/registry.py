@@ -16,7 +16,6 @@ from cadgraph.export.source import find_source, refuse_source, scene_of
 from cadgraph.export.tables import write_tables
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.scene import Scene
 
 __all__ = ["Format", "Written", "export_graph", "formats", "write_export"]
 
@@ -128,11 +127,6 @@ def _write_baked(graph: SceneGraph, path: Path, source: Path | None) -> Written:
     assert source is not None  # it is needed
     file, notes = write_baked(scene_of(graph, source), graph, source, path)
     return Written((file,), notes)
-
-
-def scene_of(graph: SceneGraph, source: Path) -> Scene:
-    """The scene that a graph was made from, read again as it was then."""
-    return scene_of(graph, source)
 
 
 def _write_mjcf(graph: SceneGraph, path: Path, source: Path | None) -> Written:
