@@ -31,6 +31,7 @@ MAY_IMPORT = {
     "pipeline": {"_io", "config", "errors", "facts", "geometry", "labelers", "model", "stages"},
     "query": {"_io", "errors", "model"},
     "plans": {"_io", "errors", "model", "query"},
+    "hydraulics": {"_io", "errors", "model", "query"},
     "agents": {
         *("_io", "config", "errors", "labelers", "load", "model", "plans", "query", "serve", "session", "stages"),
         *("draw.colors", "draw.render"),
@@ -71,7 +72,7 @@ MAY_IMPORT = {
     },
     "draw": set(),
     "__main__": {"cli"},
-    "__init__": {"_io", "config", "errors", "labelers", "load", "model", "pipeline", "session"},
+    "__init__": {"_io", "config", "errors", "hydraulics", "labelers", "load", "model", "pipeline", "session"},
 }
 SPLIT = ("draw", "simulate")  # rooms whose folders are rooms of their own
 

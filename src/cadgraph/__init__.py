@@ -52,6 +52,7 @@ from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary, default_vocabulary, read_vocabulary
 
 if TYPE_CHECKING:
+    from cadgraph.hydraulics.process import Process
     from cadgraph.labelers.base import Labeling
     from cadgraph.pipeline import analyse, build, interpret
     from cadgraph.session.run import run
@@ -80,6 +81,7 @@ __all__ = [
     "MissingPackage",
     "OutputError",
     "Part",
+    "Process",
     "Related",
     "Scene",
     "SceneGraph",
@@ -104,9 +106,10 @@ __all__ = [
 
 keep_old_names()
 
-# These bring compiled kernels with them; 'import cadgraph' stays quick without.
+# These bring compiled kernels or scipy with them; 'import cadgraph' stays quick without.
 _LATER = {
     "Labeling": "cadgraph.labelers.base",
+    "Process": "cadgraph.hydraulics.process",
     "Session": "cadgraph.session.session",
     "analyse": "cadgraph.pipeline",
     "build": "cadgraph.pipeline",

@@ -6,6 +6,7 @@
     ├── LoadError      a source file can't be turned into a scene
     ├── LabelError     labels given from outside, or a labeler's answers, can't be used
     ├── FormatError    a graph on disk is not what ``graph.json`` promises
+    ├── ScenarioError  a scenario of a simulation can't be used
     ├── OutputError    a result can't be written
     ├── MissingExtra   a command needs an optional dependency that isn't installed
     ├── MissingPackage a command comes with a package that isn't installed
@@ -28,6 +29,7 @@ __all__ = [
     "MissingExtra",
     "MissingPackage",
     "OutputError",
+    "ScenarioError",
     "Unconnected",
     "UnknownNode",
 ]
@@ -47,6 +49,10 @@ class LabelError(CadGraphError):
 
 class FormatError(CadGraphError):
     """A graph on disk does not follow the format."""
+
+
+class ScenarioError(CadGraphError):
+    """A scenario names what is not in the plant, or holds values that can't be."""
 
 
 class OutputError(CadGraphError):

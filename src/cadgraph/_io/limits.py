@@ -35,6 +35,7 @@ __all__ = [
     "PROPOSALS",
     "QUESTIONS",
     "REPLY",
+    "SCENARIO",
     "TRUTH",
     "VOCABULARY",
     "WORDS",
@@ -87,6 +88,8 @@ ACCURACIES = Limit(_MB, "a table of accuracies")
 """The built-in one takes 2 kB."""
 PLAN = Limit(16 * _MB, "a round")
 """A step takes 500 bytes as it is printed: thirty thousand steps."""
+SCENARIO = Limit(64 * _MB, "a scenario")
+"""A valve takes 600 bytes with the reasons for its values: a hundred thousand valves."""
 PRICES = Limit(_MB, "a price table")
 """The built-in one takes 2 kB."""
 PROFILES = Limit(_MB, "a table of profiles")

@@ -1,0 +1,467 @@
+"""The steady state of a network: the flow in each link and the head at each node.
+
+Newton's method on flows and heads together (the global gradient algorithm; Todini and Pilati 1988), damped along the
+content of the network, which is convex: it can't run away. What lets pass one way only is open or shut, and is turned
+until no flow and no head contradicts that (as EPANET does it, between its iterations).
+
+Pieces that nothing of known head reaches are told apart: they keep the head that they had, but for what flows in or out
+through a check or relief valve until both sides are even. A pump whose suction would fall below the pressure at which
+the fluid boils gives only what reaches it at that pressure.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy import sparse
+from scipy.sparse import csgraph
+from scipy.sparse.linalg import splu
+
+from cadgraph.hydraulics.laws import quadratic
+from cadgraph.hydraulics.network import Circuit, LinkKind
+
+__all__ = ["Condition", "Solution", "Solver"]
+
+Floats = npt.NDArray[np.float64]
+Ints = npt.NDArray[np.int64]
+Bools = npt.NDArray[np.bool_]
+
+STEP = 1e-8
+"""Greatest change of a flow at which the iteration ends [m3/s]; at rest no relative change ever gets small."""
+RELATIVE_STEP = 1e-9
+"""Change of all flows, as a share of their sum, at which the iteration ends."""
+BACKFLOW = 1e-9
+"""Flow against its way at which an open check valve shuts [m3/s]."""
+LIFT = 1e-6
+"""Head that opens what is shut [m]."""
+_MOST_STEPS = 100
+_MOST_ROUNDS = 80
+_ROUNDS_AT_ONCE = 12  # in which all that contradict turn at once; then one by one, so that nothing swings for ever
+_START = 0.5  # velocity to begin with [m/s]
+
+
+@dataclass(frozen=True)
+class Condition:
+    """What a network stands under.
+
+    Args:
+        square: (n_links,) head per square of the flow, valves as far open as they are [s2/m5].
+        offset: (n_links,) head lost before anything flows [m]; negative for running pumps.
+        shut: (n_links,) whether nothing can flow.
+        one_way: (n_links,) whether nothing flows from end to start.
+        head: (n_nodes,) of nodes whose head is given [m]; of others the last one, NaN where it was never known.
+        floor: (n_nodes,) head at which the fluid boils [m].
+        loop_head: (n_nodes,) head at the suction of a pump in a loop that nothing feeds [m].
+    """
+
+    square: Floats
+    offset: Floats
+    shut: Bools
+    one_way: Bools
+    head: Floats
+    floor: Floats
+    loop_head: Floats
+
+
+@dataclass(frozen=True)
+class Solution:
+    """A steady state.
+
+    Args:
+        flow: (n_links,) from start to end [m3/s].
+        head: (n_nodes,) [m]; NaN where nothing is known.
+        open: (n_links,) whether something could flow.
+        shut_in: (n_nodes,) whether nothing of known head reaches a node.
+        cavitating: numbers of the pump links that get too little.
+        steps: of Newton's method in all.
+        last_step: greatest change of a flow in the last one [m3/s].
+        settled: whether nothing contradicts anything.
+    """
+
+    flow: Floats
+    head: Floats
+    open: Bools
+    shut_in: Bools
+    cavitating: tuple[int, ...]
+    steps: int
+    last_step: float
+    settled: bool
+
+
+@dataclass(frozen=True)
+class _Pieces:
+    """What hangs together over open links.
+
+    Args:
+        of_node: (n_nodes,) number of the piece; 0 holds all nodes of given head.
+        pins: numbers of the nodes whose head is set so that each floating piece has one.
+        circulating: (n_pieces,) whether a pump moves something round in it.
+    """
+
+    of_node: Ints
+    pins: Ints
+    circulating: Bools
+
+
+class Solver:
+    """Solves one network under any condition.
+
+    Args:
+        circuit: the network.
+    """
+
+    def __init__(self, circuit: Circuit) -> None:
+        self.circuit = circuit
+        n_nodes, n_links = len(circuit.nodes), len(circuit.kind)
+        self._free = np.flatnonzero(~circuit.fixed)
+        self._row = np.full(n_nodes, -1)
+        self._row[self._free] = np.arange(len(self._free))
+        links = np.arange(n_links)
+        into = sparse.csr_matrix((np.ones(n_links), (circuit.end, links)), shape=(n_nodes, n_links))
+        out_of = sparse.csr_matrix((np.ones(n_links), (circuit.start, links)), shape=(n_nodes, n_links))
+        self._incidence = sparse.csr_matrix((into - out_of)[self._free])
+        self._pumps = np.flatnonzero(circuit.kind == LinkKind.PUMP)
+        self._lay_pattern()
+        self._known_pieces: dict[bytes, _Pieces] = {}
+        self._known_starved: dict[bytes, tuple[Ints, Ints]] = {}
+
+    def _lay_pattern(self) -> None:
+        """Where in the matrix each link counts; that stays as it is, only the values change."""
+        a, b = self._row[self.circuit.start], self._row[self.circuit.end]
+        links = np.arange(len(a))
+        n = len(self._free)
+        rows, columns, of_link, signs = [np.arange(n)], [np.arange(n)], [np.full(n, -1)], [np.zeros(n)]
+        for one, other, sign in ((a, a, 1.0), (b, b, 1.0), (a, b, -1.0), (b, a, -1.0)):
+            inner = (one >= 0) & (other >= 0) & (a != b)
+            rows.append(one[inner])
+            columns.append(other[inner])
+            of_link.append(links[inner])
+            signs.append(np.full(int(inner.sum()), sign))
+        row, column = np.concatenate(rows), np.concatenate(columns)
+        cells, at = np.unique(column * max(n, 1) + row, return_inverse=True)
+        self._indices = (cells % max(n, 1)).astype(np.int32)
+        counts = np.bincount(cells // max(n, 1), minlength=n) if n else np.zeros(0, int)
+        self._pointers = np.concatenate([[0], np.cumsum(counts)]).astype(np.int32)
+        self._diagonal = at[:n]
+        link, sign_of = np.concatenate(of_link), np.concatenate(signs)
+        real = link >= 0
+        self._spread = sparse.csr_matrix((sign_of[real], (at[real], link[real])), shape=(len(cells), len(links)))
+
+    # One state
+
+    def solve(self, condition: Condition, last: Solution | None = None) -> Solution:
+        """The steady state under a condition.
+
+        Args:
+            condition: what it stands under.
+            last: a state to begin from; the nearer, the faster.
+        """
+        circuit = self.circuit
+        starved, pulled = self._starved(condition)
+        free_to_turn = condition.one_way & ~condition.shut
+        free_to_turn[starved] = False
+        usable = ~condition.shut
+        usable[starved] = False
+        opened = usable.copy()
+        if last is not None:
+            opened[free_to_turn] = last.open[free_to_turn]
+        choked: tuple[int, ...] = ()
+        if last is not None:
+            choked = tuple(p for p in last.cavitating if usable[p])
+        flow = last.flow if last is not None else circuit.creep * (_START / 1e-3)
+        steps, step, settled = 0, 0.0, False
+        head = condition.head
+        pieces = self._pieces(opened, choked)
+        for number in range(_MOST_ROUNDS):
+            pieces = self._pieces(opened, choked)
+            flow, head, taken, step = self._newton(condition, opened, pieces, flow, choked, pulled)
+            steps += taken
+            head = self._even_out(condition, opened & usable, usable, pieces, head, pulled)
+            opened, choked, settled = self._turned(
+                condition, free_to_turn, opened, choked, pieces, flow, head, one_by_one=number >= _ROUNDS_AT_ONCE
+            )
+            if settled:
+                break
+        shut_in = (pieces.of_node > 0) & ~pieces.circulating[pieces.of_node]
+        return Solution(flow, head, opened, shut_in, (*choked, *map(int, starved)), steps, step, settled)
+
+    def _newton(
+        self,
+        condition: Condition,
+        opened: Bools,
+        pieces: _Pieces,
+        flow: Floats,
+        choked: Sequence[int],
+        pulled: Ints,
+    ) -> tuple[Floats, Floats, int, float]:
+        """Flows and heads with everything open or shut as it is; how many steps that took, and the last one."""
+        circuit, free = self.circuit, self._free
+        head = condition.head.copy()
+        given = np.where(circuit.fixed, head, 0.0)
+        outer = given[circuit.start] - given[circuit.end]
+        pin_rows = self._row[pieces.pins]
+        pin_heads = self._pin_heads(condition, pieces, pulled)
+        flow = np.where(opened, flow, 0.0)
+        step, drop = np.inf, np.zeros_like(flow)
+        linear = opened.copy()
+        linear[list(choked)] = False
+        balanced = False
+        taken = 0
+        while taken < _MOST_STEPS:
+            taken += 1
+            loss, slope = self._loss(condition, flow)
+            ease = np.where(linear, 1 / slope, 0.0)
+            data = self._spread @ ease
+            data[self._diagonal[pin_rows]] += 1.0
+            right = self._incidence @ np.where(linear, flow + ease * (outer - loss), 0.0)
+            right[pin_rows] += pin_heads
+            solved, forced = self._linear(data, right, condition, choked)
+            head[free] = solved
+            drop = head[circuit.start] - head[circuit.end]
+            change = np.where(linear, ease * (drop - loss), 0.0)
+            for link, value in zip(choked, forced, strict=True):
+                change[link] = value - flow[link]
+            share = 1.0
+            if balanced and not choked:
+                share = self._share(condition, flow, change, drop)
+            flow = flow + share * change
+            balanced = balanced or share == 1.0
+            step = float(np.abs(change).max(initial=0.0))
+            if step < STEP or np.abs(change).sum() < RELATIVE_STEP * np.abs(flow).sum():
+                break
+        return flow, head, taken, step
+
+    def _loss(self, condition: Condition, flow: Floats) -> tuple[Floats, Floats]:
+        friction, slope = self.circuit.friction.loss(flow)
+        other, other_slope = quadratic(flow, condition.square, self.circuit.creep)
+        return friction + other + condition.offset, slope + other_slope
+
+    def _linear(
+        self, data: Floats, right: Floats, condition: Condition, choked: Sequence[int]
+    ) -> tuple[Floats, Floats]:
+        """Heads of the free nodes, and the flows of choked pumps, whose suctions have the head at which it boils."""
+        n = len(self._free)
+        if n == 0:
+            return np.zeros(0), np.zeros(0)
+        factors = splu(sparse.csc_matrix((data, self._indices, self._pointers), shape=(n, n)))
+        heads = factors.solve(right)
+        if not choked:
+            return heads, np.zeros(0)
+        at, to = self._row[self.circuit.start[list(choked)]], self._row[self.circuit.end[list(choked)]]
+        moved = np.zeros((n, len(choked)))
+        for column, (suction, discharge) in enumerate(zip(at, to, strict=True)):
+            moved[suction, column] -= 1.0
+            if discharge >= 0:
+                moved[discharge, column] += 1.0
+        effect = factors.solve(moved)
+        wanted = condition.floor[self.circuit.start[list(choked)]]
+        flows = np.linalg.lstsq(effect[at], wanted - heads[at], rcond=None)[0]
+        return heads + effect @ flows, flows
+
+    def _share(self, condition: Condition, flow: Floats, change: Floats, drop: Floats) -> float:
+        """How much of a step to go: as far as the content of the network still falls, or nearly so."""
+        loss, _ = self._loss(condition, flow)
+        first = float(((loss - drop) * change).sum())
+        low, high, share = 0.0, 1.0, 1.0
+        for _ in range(12):
+            loss, _ = self._loss(condition, flow + share * change)
+            slope = float(((loss - drop) * change).sum())
+            if abs(slope) <= 0.5 * abs(first) + 1e-15:
+                return share
+            if slope > 0:
+                high = share
+            elif share == 1.0:
+                return share
+            else:
+                low = share
+            share = (low + high) / 2
+        return share
+
+    # What hangs together
+
+    def _pieces(self, opened: Bools, choked: Sequence[int]) -> _Pieces:
+        linked = opened.copy()
+        linked[list(choked)] = False
+        key = linked.tobytes()
+        if key not in self._known_pieces:
+            if len(self._known_pieces) > 1000:
+                self._known_pieces.clear()
+            self._known_pieces[key] = self._find_pieces(linked)
+        return self._known_pieces[key]
+
+    def _find_pieces(self, linked: Bools) -> _Pieces:
+        circuit, n = self.circuit, len(self.circuit.nodes)
+        ground = np.flatnonzero(circuit.fixed)
+        # All nodes of given head are one: node n.
+        a = np.concatenate([circuit.start[linked], ground])
+        b = np.concatenate([circuit.end[linked], np.full(len(ground), n)])
+        matrix = sparse.csr_matrix((np.ones(len(a)), (a, b)), shape=(n + 1, n + 1))
+        count, labels = csgraph.connected_components(matrix, directed=False)
+        order = np.full(count, -1)
+        order[labels[n]] = 0
+        following = 1
+        for label in labels[:n]:
+            if order[label] < 0:
+                order[label] = following
+                following += 1
+        of_node = order[labels[:n]]
+        circulating = np.zeros(count, bool)
+        pins = np.zeros(count, int)
+        for node in range(n - 1, -1, -1):
+            pins[of_node[node]] = node
+        for pump in self._pumps[linked[self._pumps]][::-1]:
+            piece = of_node[circuit.start[pump]]
+            circulating[piece] = piece > 0
+            pins[piece] = circuit.start[pump]
+        return _Pieces(of_node, pins[1:], circulating)
+
+    def _pin_heads(self, condition: Condition, pieces: _Pieces, pulled: Ints) -> Floats:
+        """The head to set at the pin of each floating piece."""
+        found = []
+        for number, pin in enumerate(pieces.pins, 1):
+            own = condition.head[pieces.of_node == number]
+            own = own[~np.isnan(own)]
+            if pieces.circulating[number]:
+                known = condition.head[pin]
+                found.append(condition.loop_head[pin] if np.isnan(known) else known)
+            else:
+                # Two that were apart even out; nothing says how much each holds.
+                found.append(float(own.mean()) if len(own) else 0.0)
+        return np.array(found)
+
+    def _even_out(
+        self, condition: Condition, opened: Bools, usable: Bools, pieces: _Pieces, head: Floats, pulled: Ints
+    ) -> Floats:
+        """Heads of pieces that float: what presses through a valve that lets pass one way only evens out."""
+        circuit = self.circuit
+        n_pieces = len(pieces.pins) + 1
+        if n_pieces == 1:
+            return head
+        floating = np.ones(n_pieces, bool)
+        floating[0] = False
+        floating &= ~pieces.circulating
+        known = np.zeros(n_pieces, bool)
+        for number in np.flatnonzero(floating):
+            known[number] = not np.isnan(condition.head[pieces.of_node == number]).all()
+        heads = head.copy()
+        heads[(floating & ~known)[pieces.of_node]] = np.nan
+        for node in pulled:
+            number = pieces.of_node[node]
+            if floating[number]:
+                lowest = np.fmin.reduce(condition.floor[[n for n in pulled if pieces.of_node[n] == number]])
+                heads[pieces.of_node == number] = lowest
+        shut_ways = np.flatnonzero(usable & ~opened & condition.one_way)
+        for _ in range(n_pieces):
+            before = heads.copy()
+            for link in shut_ways:
+                a, b = circuit.start[link], circuit.end[link]
+                into, out_of = pieces.of_node[b], pieces.of_node[a]
+                if into == out_of:
+                    continue
+                pressing = heads[a] - condition.offset[link]
+                if floating[into] and not np.isnan(pressing) and not heads[b] >= pressing:
+                    heads[pieces.of_node == into] = pressing
+                elif floating[out_of] and not np.isnan(heads[b]) and heads[a] > heads[b] + condition.offset[link]:
+                    heads[pieces.of_node == out_of] = heads[b] + condition.offset[link]
+            if np.array_equal(before, heads, equal_nan=True):
+                break
+        return heads
+
+    def _starved(self, condition: Condition) -> tuple[Ints, Ints]:
+        """The running pumps that nothing can flow to, and the nodes that they draw from."""
+        key = condition.shut.tobytes() + condition.one_way.tobytes()
+        if key not in self._known_starved:
+            if len(self._known_starved) > 1000:
+                self._known_starved.clear()
+            self._known_starved[key] = self._find_starved(condition)
+        return self._known_starved[key]
+
+    def _find_starved(self, condition: Condition) -> tuple[Ints, Ints]:
+        circuit = self.circuit
+        onward: list[list[int]] = [[] for _ in circuit.nodes]
+        feeding: set[int] = set(np.flatnonzero(circuit.fixed).tolist())
+        for link in np.flatnonzero(~condition.shut):
+            a, b = int(circuit.start[link]), int(circuit.end[link])
+            onward[a].append(b)
+            if not condition.one_way[link]:
+                onward[b].append(a)
+
+        def reached(seeds: Iterable[int]) -> set[int]:
+            seen = set(seeds)
+            waiting = list(seen)
+            while waiting:
+                for there in onward[waiting.pop()]:
+                    if there not in seen:
+                        seen.add(there)
+                        waiting.append(there)
+            return seen
+
+        fed = reached(feeding)
+        starved = []
+        for link in self._pumps[~condition.shut[self._pumps]]:
+            if int(circuit.start[link]) in fed:
+                continue
+            around = reached([int(circuit.end[link])])
+            if int(circuit.start[link]) in around:
+                fed |= around
+        for link in self._pumps[~condition.shut[self._pumps]]:
+            if int(circuit.start[link]) not in fed:
+                starved.append(int(link))
+        found = np.array(starved, int)
+        return found, circuit.start[found]
+
+    # What lets pass one way only
+
+    def _turned(
+        self,
+        condition: Condition,
+        free_to_turn: Bools,
+        opened: Bools,
+        choked: tuple[int, ...],
+        pieces: _Pieces,
+        flow: Floats,
+        head: Floats,
+        one_by_one: bool,
+    ) -> tuple[Bools, tuple[int, ...], bool]:
+        """What is open after what contradicts it was turned, which pumps are choked, and whether nothing was."""
+        circuit = self.circuit
+        pressing = head[circuit.start] - head[circuit.end] - condition.offset
+        closing = free_to_turn & opened & (flow < -BACKFLOW)
+        opening = free_to_turn & ~opened & (pressing > LIFT)
+        more, fewer = self._choking(condition, opened & ~closing, choked, pieces, flow, head)
+        if not (closing.any() or opening.any() or more or fewer):
+            return opened, choked, True
+        turned = closing | opening
+        if one_by_one and turned.any():
+            size = np.where(closing, -flow / BACKFLOW, np.where(opening, pressing / LIFT, 0.0))
+            turned = np.zeros_like(turned)
+            turned[int(np.argmax(size))] = True
+            more, fewer = [], []
+        after = opened ^ turned
+        kept = [p for p in (*choked, *more) if p not in fewer and after[p]]
+        return after, tuple(sorted(kept)), False
+
+    def _choking(
+        self,
+        condition: Condition,
+        opened: Bools,
+        choked: Sequence[int],
+        pieces: _Pieces,
+        flow: Floats,
+        head: Floats,
+    ) -> tuple[list[int], list[int]]:
+        """The pumps that draw more than reaches them, and those that no longer do."""
+        circuit = self.circuit
+        more, fewer = [], []
+        for pump in map(int, self._pumps):
+            a, b = int(circuit.start[pump]), int(circuit.end[pump])
+            if pump in choked:
+                wasted = head[a] - head[b] - self._loss(condition, flow)[0][pump]
+                if wasted < -LIFT or not opened[pump]:
+                    fewer.append(pump)
+            elif opened[pump] and flow[pump] > BACKFLOW and head[a] < condition.floor[a] - LIFT:
+                more.append(pump)
+        return more, fewer
