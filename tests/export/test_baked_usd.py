@@ -151,6 +151,17 @@ def test_an_instance_of_its_own_labels_is_opened_and_two_of_the_same_share_anoth
     assert kept[0].GetPrototype() == kept[1].GetPrototype()
 
 
+def test_all_instances_are_opened_where_a_renderer_skips_them(tmp_path):
+    source = plant(tmp_path / "in")
+    graph = said(read(source))
+    stage = Usd.Stage.Open(
+        str(write_baked(read(source), graph, source, tmp_path / "plant.usdc", open_instances=True)[0])
+    )
+    assert drawn_labels(stage) == wanted(graph)
+    assert not stage.GetPrototypes()
+    assert [prim.GetName() for prim in stage.GetPseudoRoot().GetChildren()] == ["World", "CadGraph"]
+
+
 def test_a_mesh_without_a_label_takes_none_from_what_shares_its_prototype(tmp_path):
     source = plant(tmp_path / "in")
     graph = said(read(source), {"v1/wheel": None, "points[3]": None})
@@ -363,5 +374,7 @@ def test_the_layer_and_the_stage_are_formats_of_their_own(tmp_path):
     assert [file.name for file in over.files] == ["semantics.usda"]
     assert [file.name for file in whole.files] == ["baked.usdc"]
     assert write_export(graph, "usd", tmp_path / "b/x.usda", source, bake=True).files[0].name == "x.usda"
+    with pytest.raises(ValueError, match="goes with --bake"):
+        write_export(graph, "usd", tmp_path / "c", source, open_instances=True)
     with pytest.raises(ValueError, match="--bake"):
         write_export(graph, "csv", tmp_path / "c", bake=True)

@@ -41,7 +41,11 @@ def export(
         typer.Option(
             "--to",
             metavar="FORMAT",
+<<<<<<< HEAD
             help="att, csv, dexpi, gltf, graphml, html, ifc, isometric, labels-csv, mjcf, networkx-json, pcf or usd.",
+=======
+            help="att, csv, dexpi, epanet, gltf, graphml, html, ifc, isometric, labels-csv, networkx-json, pcf or usd.",
+>>>>>>> simulate
         ),
     ],
     output: Annotated[
@@ -62,13 +66,18 @@ def export(
             help="With --to usd: one stage with all that the source refers to, the labels where each prim is defined.",
         ),
     ] = False,
+    open_instances: Annotated[
+        bool, typer.Option("--open-instances", help="With --bake: open all instances, for renderers that skip them.")
+    ] = False,
 ) -> None:
     """Write a graph in another format, as a page to look at, or a copy of its source with the labels in it."""
     from cadgraph.export import write_export
     from cadgraph.model.graph import SceneGraph
 
     folder = graph if graph.is_dir() else graph.parent
-    written = write_export(SceneGraph.load(graph), to, output or folder, source, bake=bake)
+    written = write_export(
+        SceneGraph.load(graph), to, output or folder, source, bake=bake, open_instances=open_instances
+    )
     for path in written.files:
         out.print(f"wrote {escape(str(path))}")
     for note in written.notes:

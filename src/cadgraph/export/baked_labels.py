@@ -39,14 +39,20 @@ class LayerLabels:
         layer: changed in place.
         parts: the part of each mesh by its path in the scene, None where it belongs to none.
         dispositions: what can be done at meshes, by path.
+        open_all: whether to open all native instances.
 
     After :meth:`write`, ``n_kept`` and ``n_opened`` count native instances, ``n_split`` the prototypes that were added
     to point instancers, and ``mixed`` names point instancers whose items keep labels that not all of them have.
     """
 
     def __init__(
-        self, layer: Any, parts: Mapping[str, Part | None], dispositions: Mapping[str, tuple[str, ...]]
+        self,
+        layer: Any,
+        parts: Mapping[str, Part | None],
+        dispositions: Mapping[str, tuple[str, ...]],
+        open_all: bool = False,
     ) -> None:
+        self._open_all = open_all
         self._layer = layer
         self._parts = parts
         self._said = {
@@ -168,7 +174,7 @@ class LayerLabels:
     def _instance(self, spec: Any, prototype: Any, scene: str, shared: bool) -> None:
         key = prototype, self._signature(scene, whole=False)
         alone = self._uses[key] == 1 and self._ways[prototype] > 1
-        if alone or spec.typeName == _INSTANCER:
+        if self._open_all or alone or spec.typeName == _INSTANCER:
             self.n_opened += 1
             self._inside(self._open(spec, prototype), scene, shared)
             return

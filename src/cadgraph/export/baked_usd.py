@@ -42,7 +42,7 @@ _SUFFIXES = (".usdc", ".usda", ".usd")
 
 
 def write_baked(
-    scene: Scene, graph: SceneGraph, source_path: str | Path, path: str | Path
+    scene: Scene, graph: SceneGraph, source_path: str | Path, path: str | Path, *, open_instances: bool = False
 ) -> tuple[Path, tuple[Diagnostic, ...]]:
     """Writes the source with its labels, units and clusters as one stage.
 
@@ -54,6 +54,7 @@ def write_baked(
         graph: the finished graph of this scene.
         source_path: the file that the scene was loaded from.
         path: the file to write: ``.usdc`` or ``.usd`` (binary), ``.usda`` (text).
+        open_instances: whether to open all native instances, for renderers that skip them.
 
     Returns:
         The file, and notes: ``instances`` counts what was kept and opened, ``mixed-items`` names point instancers with
@@ -82,6 +83,7 @@ def write_baked(
         layer,
         dict(zip(paths, parts, strict=True)),
         {path: dispositions.get(mesh, ()) for path, mesh in zip(paths, scene.paths, strict=True)},
+        open_instances,
     )
     baked.write()
     roots = {prim.name for prim in layer.rootPrims}
@@ -138,7 +140,7 @@ def _told(baked: LayerLabels) -> list[Diagnostic]:
     notes = []
     if baked.n_kept or baked.n_opened or baked.n_split:
         message = (
-            f"{baked.n_kept:,} instances stay instances, {baked.n_opened:,} with labels of their own were opened; "
+            f"{baked.n_kept:,} instances stay instances, {baked.n_opened:,} were opened; "
             f"{baked.n_split:,} prototypes were added to point instancers"
         )
         notes.append(Diagnostic("instances", message))

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Literal
 
@@ -113,6 +114,13 @@ def _write_pcf(graph: SceneGraph, path: Path, _: Path | None) -> Written:
     return Written(*write_pcf(graph, path))
 
 
+def _write_epanet(graph: SceneGraph, path: Path, _: Path | None) -> Written:
+    from cadgraph.export.epanet import write_epanet
+
+    file, notes = write_epanet(graph, path)
+    return Written((file,), notes)
+
+
 def _write_usd(graph: SceneGraph, path: Path, source: Path | None) -> Written:
     from cadgraph.export.usd import check_source, write_semantics
 
@@ -121,11 +129,15 @@ def _write_usd(graph: SceneGraph, path: Path, source: Path | None) -> Written:
     return Written((write_semantics(scene_of(graph, source), graph, source, path),))
 
 
-def _write_baked(graph: SceneGraph, path: Path, source: Path | None) -> Written:
+def _write_baked(graph: SceneGraph, path: Path, source: Path | None, open_instances: bool = False) -> Written:
     from cadgraph.export.baked_usd import write_baked
 
     assert source is not None  # it is needed
+<<<<<<< HEAD
     file, notes = write_baked(scene_of(graph, source), graph, source, path)
+=======
+    file, notes = write_baked(_scene_of(graph, source), graph, source, path, open_instances=open_instances)
+>>>>>>> simulate
     return Written((file,), notes)
 
 
@@ -161,6 +173,12 @@ _FORMATS = (
         "tanks, pumps, lines, valves and instruments as Proteus XML in DEXPI 1.3 terms, for P&ID tools",
         _write_dexpi,
         file="dexpi.xml",
+    ),
+    Format(
+        "epanet",
+        "the network of pipes as it is simulated, for EPANET; by scenario.yaml beside it where there is one",
+        _write_epanet,
+        file="plant.inp",
     ),
     Format(
         "gltf",
@@ -227,6 +245,7 @@ _BAKED = Format(
     file="baked.usdc",
     also=(".usda", ".usd"),
 )
+_OPENED = replace(_BAKED, write=partial(_write_baked, open_instances=True))
 
 
 def formats() -> dict[str, str]:
@@ -246,7 +265,13 @@ def export_graph(graph: SceneGraph, to: str, path: str | Path, source: str | Pat
 
 
 def write_export(
-    graph: SceneGraph, to: str, path: str | Path, source: str | Path | None = None, *, bake: bool = False
+    graph: SceneGraph,
+    to: str,
+    path: str | Path,
+    source: str | Path | None = None,
+    *,
+    bake: bool = False,
+    open_instances: bool = False,
 ) -> Written:
     """Writes a graph in another format.
 
@@ -258,6 +283,7 @@ def write_export(
         source: where the file is that the graph was made from, for formats that are a copy of it or stand beside it;
             None: where it was.
         bake: of ``usd``: whether to write the source and its labels as one stage, instead of a layer over the source.
+        open_instances: of a baked stage: whether to open all native instances, for renderers that skip them.
 
     Returns:
         The files written, and what is to be said of them.
@@ -274,7 +300,9 @@ def write_export(
         raise ValueError(f"no export format is called {to!r}; there are {', '.join(formats())}")
     if bake and to != "usd":
         raise ValueError(f"--bake is for USD; leave it out, or say --to usd instead of {to}")
-    form = _BAKED if bake else form
+    if open_instances and not bake:
+        raise ValueError("--open-instances goes with --bake, as the source stays as it is otherwise")
+    form = (_OPENED if open_instances else _BAKED) if bake else form
     target = Path(path)
     if form.source == "no":
         if source is not None:
