@@ -24,19 +24,11 @@ def pieces_of(vertices: Floats, faces: Faces) -> Ints:
         ``(m,)`` numbers of pieces from 0 on, in the order of their first triangles; -1 for triangles with a corner that
         isn't there or is not finite.
     """
-<<<<<<< HEAD
-    whole = ((faces >= 0) & (faces < len(vertices))).all(axis=1)
-    finite = np.isfinite(vertices).all(axis=1)
-    whole[whole] = finite[faces[whole]].all(axis=1)
-    found = np.full(len(faces), -1, np.int64)
-    rows = faces[whole]
-=======
     there = np.asarray(((faces >= 0) & (faces < len(vertices))).all(axis=1))
     finite = np.asarray(np.isfinite(vertices).all(axis=1))
     there[there] = finite[faces[there]].all(axis=1)
     found = np.full(len(faces), -1, np.int64)
     rows = faces[there]
->>>>>>> simulate
     if not len(rows):
         return found
     # Zeros have a sign, which is no other place.
@@ -50,9 +42,5 @@ def pieces_of(vertices: Floats, faces: Faces) -> Ints:
     _, first, number = np.unique(of_face, return_index=True, return_inverse=True)
     rank = np.empty(len(first), np.int64)
     rank[np.argsort(first, kind="stable")] = np.arange(len(first))
-<<<<<<< HEAD
-    found[whole] = rank[number.reshape(-1)]
-=======
     found[there] = rank[number.reshape(-1)]
->>>>>>> simulate
     return found
