@@ -41,11 +41,8 @@ def export(
         typer.Option(
             "--to",
             metavar="FORMAT",
-<<<<<<< HEAD
-            help="att, csv, dexpi, gltf, graphml, html, ifc, isometric, labels-csv, mjcf, networkx-json, pcf or usd.",
-=======
-            help="att, csv, dexpi, epanet, gltf, graphml, html, ifc, isometric, labels-csv, networkx-json, pcf or usd.",
->>>>>>> simulate
+            help="att, csv, dexpi, epanet, gltf, graphml, html, ifc, isometric, labels-csv, mjcf, networkx-json, pcf "
+            "or usd.",
         ),
     ],
     output: Annotated[

@@ -133,11 +133,7 @@ def _write_baked(graph: SceneGraph, path: Path, source: Path | None, open_instan
     from cadgraph.export.baked_usd import write_baked
 
     assert source is not None  # it is needed
-<<<<<<< HEAD
-    file, notes = write_baked(scene_of(graph, source), graph, source, path)
-=======
-    file, notes = write_baked(_scene_of(graph, source), graph, source, path, open_instances=open_instances)
->>>>>>> simulate
+    file, notes = write_baked(scene_of(graph, source), graph, source, path, open_instances=open_instances)
     return Written((file,), notes)
 
 
