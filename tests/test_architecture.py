@@ -50,9 +50,9 @@ MAY_IMPORT = {
         *("draw.isometric", "draw.schematic", "draw.web", "simulate.mjcf"),
     },
     "simulate": set(),
-    "simulate.dynamics": {"_io", "errors", "geometry", "model", "query"},
-    "simulate.devices": {"_io", "errors", "model", "query", "simulate.dynamics"},
-    "simulate.mjcf": {"_io", "draw.render", "errors", "model", "query", "simulate.dynamics"},
+    "simulate.dynamics": {"geometry", "model", "query"},
+    "simulate.devices": {"_io", "model", "simulate.dynamics"},
+    "simulate.mjcf": {"_io", "draw.render", "model", "simulate.dynamics"},
     "simulate.stage": {
         *("_io", "config", "errors", "export", "load", "model", "query", "simulate.devices", "simulate.dynamics"),
     },

@@ -12,8 +12,7 @@ import numpy.typing as npt
 from cadgraph._io.json_rows import write_json_rows
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.scene import Scene
-from cadgraph.query.mechanisms import immovable
-from cadgraph.simulate.dynamics import Device, grip
+from cadgraph.simulate.dynamics import Device, grip, without_joint
 
 __all__ = ["BASE", "DEVICES", "JOINTS", "write_devices"]
 
@@ -23,9 +22,7 @@ BASE, JOINTS = "base", "joints"
 """Below it: the body that stands still, and what holds the joints."""
 
 
-def write_devices(
-    graph: SceneGraph, scene: Scene, devices: Sequence[Device], path: str | Path, unclaimed: Sequence[str] = ()
-) -> Path:
+def write_devices(graph: SceneGraph, scene: Scene, devices: Sequence[Device], path: str | Path) -> Path:
     """Writes the joints of a plant with where each number comes from, and what can't be moved, and why.
 
     Positions are those of the graph [m]; a stage whose source lies far out stands about ``origin_m``, which is to be
@@ -36,7 +33,6 @@ def write_devices(
         scene: that it was made from.
         devices: the joints.
         path: the file (``devices.json``).
-        unclaimed: ids of units that got a needle here, so that they are not told as immovable.
 
     Returns:
         The file.
@@ -44,7 +40,6 @@ def write_devices(
     Raises:
         OutputError: it can't be written.
     """
-    moved = {device.unit.id for device in devices} | set(unclaimed)
     document = {
         "format": "cadgraph-devices",
         "version": 1,
@@ -54,9 +49,7 @@ def write_devices(
         "origin_m": _rounded(scene.origin),
         "devices": [_row(scene, device) for device in devices],
         "immovable": [
-            {"tag": each.tag, "unit": each.unit, "reason": each.reason}
-            for each in immovable(graph)
-            if each.unit not in moved
+            {"tag": each.tag, "unit": each.unit, "reason": each.reason} for each in without_joint(graph, devices)
         ],
     }
     write_json_rows(path, document, ("devices", "immovable"))

@@ -12,9 +12,9 @@ from cadgraph.geometry.mesh.pieces import pieces_of
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Dial, Mechanism, Unit, points
 from cadgraph.model.scene import Faces, Floats, Scene
-from cadgraph.query.mechanisms import joint_names
+from cadgraph.query.mechanisms import Immovable, immovable, joint_names
 
-__all__ = ["Capsule", "Device", "Moving", "find_devices", "grip", "needle_over"]
+__all__ = ["Capsule", "Device", "Moving", "find_devices", "grip", "needle_over", "without_joint"]
 
 Bools = npt.NDArray[np.bool_]
 
@@ -137,6 +137,22 @@ def find_devices(graph: SceneGraph, scene: Scene, needles: bool = False) -> tupl
         if mechanism is not None:
             found.append(_device(unit, names[unit.id], mechanism, scene, row))
     return tuple(found)
+
+
+def without_joint(graph: SceneGraph, devices: Sequence[Device]) -> tuple[Immovable, ...]:
+    """The valves that nobody can turn and the gauges whose needle doesn't move, each with the reason.
+
+    Args:
+        graph: of a plant.
+        devices: the joints that were found in it.
+    """
+    joined = {device.unit.id for device in devices}
+    gauges = tuple(
+        Immovable(unit.id, unit.tag, "no needle in the source" + ("" if unit.dial is None else "; one can be drawn"))
+        for unit in graph.of_layer(Unit)
+        if unit.id not in joined and "read" in unit.affordances
+    )
+    return (*immovable(graph), *gauges)
 
 
 def needle_over(dial: Dial) -> Mechanism:

@@ -6,7 +6,6 @@ spokes and levers are capsules.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -20,8 +19,7 @@ from cadgraph.draw.render.color import to_srgb
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.scene import Faces, Floats, Scene
-from cadgraph.query.mechanisms import immovable
-from cadgraph.simulate.dynamics import Device, find_devices, grip
+from cadgraph.simulate.dynamics import Device, find_devices, grip, without_joint
 
 __all__ = ["write_mjcf"]
 
@@ -88,7 +86,11 @@ def write_mjcf(
     model = target / "plant.xml"
     ElementTree.indent(root)
     write_atomically(model, ElementTree.tostring(root, encoding="unicode") + "\n")
-    return (model, *files), _notes(graph, devices)
+    notes = tuple(
+        Diagnostic("immovable", f"{printable(each.tag)} has no joint: {printable(each.reason)}")
+        for each in without_joint(graph, devices)
+    )
+    return (model, *files), notes
 
 
 def _body(world: ElementTree.Element, device: Device) -> ElementTree.Element:
@@ -136,12 +138,3 @@ def _obj(vertices: Floats, faces: Faces) -> str:
 
 def _text(values: npt.ArrayLike) -> str:
     return " ".join(f"{value:.9g}" for value in np.atleast_1d(np.round(np.asarray(values, np.float64), 9) + 0.0))
-
-
-def _notes(graph: SceneGraph, devices: Sequence[Device]) -> tuple[Diagnostic, ...]:
-    moved = {device.unit.id for device in devices}
-    return tuple(
-        Diagnostic("immovable", f"{printable(each.tag)} has no joint: {each.reason}")
-        for each in immovable(graph)
-        if each.unit not in moved
-    )

@@ -28,9 +28,9 @@ from cadgraph.load.packing import metres_z_up
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Part
 from cadgraph.model.scene import Floats, Scene
-from cadgraph.query.mechanisms import Immovable, immovable
+from cadgraph.query.mechanisms import Immovable
 from cadgraph.simulate.devices import DEVICES, write_devices
-from cadgraph.simulate.dynamics import Device, Moving, find_devices
+from cadgraph.simulate.dynamics import Device, Moving, find_devices, without_joint
 from cadgraph.simulate.stage.below import Below, Shown
 from cadgraph.simulate.stage.bodies import add_articulation, add_body, body_matrix
 from cadgraph.simulate.stage.colliders import (
@@ -57,7 +57,7 @@ class Written:
     Args:
         files: ``simulation.usda``, ``devices.json``, and the layer of labels that the stage refers to.
         devices: the joints.
-        immovable: units that could be worked by hand, but have no joint, and why.
+        immovable: valves that nobody can turn and gauges whose needle doesn't move, and why.
         n_colliders: meshes that stand still and can be touched.
     """
 
@@ -96,9 +96,7 @@ def write_stage(graph: SceneGraph, source: str | Path, folder: str | Path, needl
     path = target / "simulation.usda"
     write_atomically(path, content)
     table = write_devices(graph, scene, devices, target / "devices.json")
-    moved = {device.unit.id for device in devices}
-    left = tuple(each for each in immovable(graph) if each.unit not in moved)
-    return Written((path, table, labels), devices, left, stage.n_colliders)
+    return Written((path, table, labels), devices, without_joint(graph, devices), stage.n_colliders)
 
 
 def _geometry_of(labels: Path) -> Path | None:
