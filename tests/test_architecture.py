@@ -69,7 +69,7 @@ MAY_IMPORT = {
         *("plans", "query"),
         "serve",
         "session",
-        *("draw.render", "draw.report", "draw.schematic", "draw.web", "export"),
+        *("draw.render", "draw.report", "draw.schematic", "draw.web", "export", "simulate.stage"),
     },
     "draw": set(),
     "__main__": {"cli"},

@@ -8,6 +8,7 @@ ALL = [
     "att",
     "csv",
     "dexpi",
+    "epanet",
     "gltf",
     "graphml",
     "html",
@@ -64,7 +65,7 @@ def test_several_tables_do_not_fit_one_file(tmp_path):
 
 
 def test_an_unknown_format_names_the_known_ones(tmp_path):
-    with pytest.raises(ValueError, match="'pdf'; there are att, csv, dexpi, gltf, graphml, html, ifc"):
+    with pytest.raises(ValueError, match="'pdf'; there are att, csv, dexpi, epanet, gltf, graphml, html, ifc"):
         export_graph(graphs.graph(), "pdf", tmp_path)
 
 

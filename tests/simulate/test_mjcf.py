@@ -16,7 +16,7 @@ def written(tmp_path_factory):
     folder = tmp_path_factory.mktemp("mjcf")
     source = folder / "plant.usdc"
     graph = movable.write(source)
-    return graph, source, *write_mjcf(graph, load(source, movable.QUICK), folder / "out", needles=True)
+    return graph, source, *write_mjcf(graph, load(source, movable.QUICK), folder / "out/plant.xml", needles=True)
 
 
 def test_the_model_names_each_joint_by_its_tag_and_keeps_its_meshes(written):
@@ -32,14 +32,15 @@ def test_it_is_an_export_format_and_tells_what_has_no_joint(written, tmp_path):
     graph, source, files, _ = written
     again = export_graph(graph, "mjcf", tmp_path / "out", source)
     assert [file.name for file in again] == [file.name for file in files]
-    _, notes = write_mjcf(graph, load(source, movable.QUICK), tmp_path / "bare")
+    assert again[0] == tmp_path / "out/mjcf/plant.xml"
+    _, notes = write_mjcf(graph, load(source, movable.QUICK), tmp_path / "bare.xml")
     assert [note.code for note in notes] == ["immovable"]
     assert notes[0].message.startswith("G-2 has no joint")
 
 
 def test_the_same_plant_gives_the_same_bytes(written, tmp_path):
     graph, source, files, _ = written
-    again, _ = write_mjcf(graph, load(source, movable.QUICK), tmp_path, needles=True)
+    again, _ = write_mjcf(graph, load(source, movable.QUICK), tmp_path / "plant.xml", needles=True)
     assert [file.read_bytes() for file in again] == [file.read_bytes() for file in files]
 
 

@@ -30,6 +30,12 @@ def simulate(
         Path | None,
         typer.Option("--scenario", metavar="FILE", help="What to suppose; scenario.yaml of the folder by default."),
     ] = None,
+    needles: Annotated[
+        bool, typer.Option("--needles", help="Draw a needle in simulation.usda on every dial that has none.")
+    ] = False,
+    source: Annotated[
+        Path | None, typer.Option("--source", metavar="FILE", help="The scene itself, where it has moved.")
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print as JSON.")] = False,
 ) -> None:
     """Work out what flows, what every gauge shows, and what happens when valves are turned and pumps stopped.
@@ -37,7 +43,11 @@ def simulate(
     What the graph doesn't know is supposed: the fluid, the pumps, how far valves are open, what the ends of pipes do.
     The first run writes all of that into scenario.yaml of the folder, each value with its reason; edit it and run
     again. An edited file is never written over. What is assumed is counted below the table.
+
+    Without --set, the plant is also written as a stage with physics that simulators open: simulation.usda, where
+    wheels, levers and needles turn about joints called as the tags of their units, with devices.json, their table.
     """
+    from cadgraph.cli.staging import say_stage, write_stage_beside
     from cadgraph.hydraulics.process import Process
     from cadgraph.hydraulics.text import change_lines, standing, standing_lines, state_values
 
@@ -46,11 +56,14 @@ def simulate(
     before, values = standing(process), state_values(process)
     if commands:
         process.steady(commands)
+    stage = None if commands else write_stage_beside(graph, source, needles)
     if as_json:
-        typer.echo(json.dumps(_values(process, file, values, commands), ensure_ascii=False, indent=1))
+        typer.echo(json.dumps(_values(process, file, values, commands) | (stage or {}), ensure_ascii=False, indent=1))
         return
     for line in change_lines(process, before) if commands else standing_lines(process):
         out.print(escape(line))
+    if stage is not None:
+        say_stage(stage)
     _tell_assumed(process, file, written)
 
 

@@ -216,6 +216,7 @@ _FORMATS = (
         "wheels, levers and needles as a MuJoCo model with joints called after the tags",
         _write_mjcf,
         source="needed",
+        file="mjcf/plant.xml",
     ),
     Format(
         "networkx-json",

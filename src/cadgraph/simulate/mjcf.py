@@ -30,9 +30,9 @@ _MESHES = "meshes"
 
 
 def write_mjcf(
-    graph: SceneGraph, scene: Scene, folder: str | Path, needles: bool = False
+    graph: SceneGraph, scene: Scene, path: str | Path, needles: bool = False
 ) -> tuple[tuple[Path, ...], tuple[Diagnostic, ...]]:
-    """Writes ``plant.xml`` and the meshes that it shows, in metres, Z up.
+    """Writes a model, and the meshes that it shows into the folder ``meshes`` beside it, in metres, Z up.
 
     Joints are called as the tags of their units are (``V_001``); valves turn against dry friction without a motor,
     needles have a position actuator of the same name, in radians.
@@ -40,7 +40,7 @@ def write_mjcf(
     Args:
         graph: the finished graph.
         scene: that it was made from.
-        folder: where to; made if missing.
+        path: the model (``plant.xml``); its folder is made if missing.
         needles: whether gauges without a needle get one, where their dial is known.
 
     Returns:
@@ -50,7 +50,7 @@ def write_mjcf(
         ValueError: the graph names a mesh that the scene doesn't have.
         OutputError: a file can't be written.
     """
-    target = Path(folder)
+    model = Path(path)
     devices = find_devices(graph, scene, needles)
     root = ElementTree.Element("mujoco", model="plant")
     ElementTree.SubElement(root, "compiler", angle="degree", meshdir=_MESHES, autolimits="true")
@@ -64,7 +64,7 @@ def write_mjcf(
         for number, moving in enumerate(device.moving):
             name = f"{device.joint}_{number}"
             vertices, faces = device.local(scene, moving)
-            files.append(target / _MESHES / f"{name}.obj")
+            files.append(model.parent / _MESHES / f"{name}.obj")
             write_atomically(files[-1], _obj(vertices, faces))
             ElementTree.SubElement(assets, "mesh", name=name, file=f"{name}.obj", inertia="shell")
             color = scene.colors[moving.mesh]
@@ -83,7 +83,6 @@ def write_mjcf(
                 actuators, "position", name=device.joint, joint=device.joint, kp=_text(gain), kv=_text(damping),
                 ctrlrange=_text(limits),
             )  # fmt: skip
-    model = target / "plant.xml"
     ElementTree.indent(root)
     write_atomically(model, ElementTree.tostring(root, encoding="unicode") + "\n")
     notes = tuple(
