@@ -17,7 +17,8 @@ RESULTS = (
     *("scene.usdc", "semantics.usda", "report.html", "picture.png", "timings.json"),
     *("simulation.usda", "devices.json", "graph.json"),
 )
-"""All files that a run may write, and what is written of its graph later. The graph vouches for those without a mark of their own, so it goes last."""
+"""All files that a run may write, and what is written of its graph later. The graph vouches for those without a mark
+of their own, so it goes last."""
 
 _CORRECTIONS = "corrections.json"
 _MARKS = {
