@@ -56,6 +56,7 @@ MAY_IMPORT = {
     "simulate.stage": {
         *("_io", "config", "errors", "export", "load", "model", "query", "simulate.devices", "simulate.dynamics"),
     },
+    "simulate.play": {"_io", "errors", "geometry", "hydraulics", "model", "query", *("draw.colors", "draw.render")},
     "session": {
         *("_io", "config", "errors", "geometry", "labelers", "load", "model", "pipeline", "query", "stages"),
         *("draw.report", "export"),
@@ -69,7 +70,7 @@ MAY_IMPORT = {
         *("plans", "query"),
         "serve",
         "session",
-        *("draw.render", "draw.report", "draw.schematic", "draw.web", "export", "simulate.stage"),
+        *("draw.render", "draw.report", "draw.schematic", "draw.web", "export", "simulate.play", "simulate.stage"),
     },
     "draw": set(),
     "__main__": {"cli"},
@@ -79,7 +80,7 @@ SPLIT = ("draw", "simulate")  # rooms whose folders are rooms of their own
 
 # No stage and no labeler may ever see the truth.
 MAY_SEE_THE_TRUTH = {"cli", "model", "session"}
-MAY_USE_USD = {"load", "export", "simulate.stage"}
+MAY_USE_USD = {"load", "export", "simulate.play", "simulate.stage"}
 HEAVY = {
     "PIL",
     "cascadio",
