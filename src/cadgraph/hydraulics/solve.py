@@ -183,7 +183,7 @@ class Solver:
             choked, pieces = self._kept(opened, choked, let_go)
             flow, head, taken, step = self._newton(condition, opened, pieces, flow, choked)
             steps += taken
-            if choked and step > STEP and taken >= _MOST_STEPS:
+            if choked and step > STEP and taken >= MOST_STEPS:
                 # What is left to a choked pump can lie behind it; then there is no such flow.
                 let_go.update(dict.fromkeys(choked, _MOST_CHANGES))
                 choked, flow = (), self._first
@@ -201,7 +201,7 @@ class Solver:
                 break
             let_go.update(fewer)
             choked = tuple(sorted({*choked, *more} - {*fewer}))
-        settled = step <= STEP or taken < _MOST_STEPS
+        settled = step <= STEP or taken < MOST_STEPS
         settled = settled and not (turned.any() or more or fewer)
         lacking = {*choked, *map(int, starved), *self._choking(condition, opened, choked, flow, head)[0]}
         shut_in = (pieces.of_node > 0) & ~pieces.circulating[pieces.of_node]
@@ -264,7 +264,7 @@ class Solver:
             balanced = balanced or share == 1.0
             step = float(np.abs(change).max(initial=0.0))
             if choked and step > _WILD:
-                return flow, head, _MOST_STEPS, step
+                return flow, head, MOST_STEPS, step
             if step < STEP or np.abs(change).sum() < RELATIVE_STEP * np.abs(flow).sum():
                 break
         return flow, head, taken, step
