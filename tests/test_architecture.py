@@ -46,7 +46,7 @@ MAY_IMPORT = {
     "draw.web": {"_io", "draw.colors", "draw.render", "geometry", "model", "query"},
     "draw.isometric": {"_io", "draw.svg", "errors", "model", "query"},
     "export": {
-        *("_io", "config", "errors", "load", "model", "query"),
+        *("_io", "config", "errors", "hydraulics", "load", "model", "query"),
         *("draw.isometric", "draw.schematic", "draw.web"),
     },
     "session": {
@@ -58,7 +58,8 @@ MAY_IMPORT = {
         *("draw.colors", "draw.report", "draw.schematic", "draw.web"),
     },
     "cli": {
-        *("_io", "agents", "config", "errors", "facts", "labelers", "load", "model", "pipeline", "plans", "query"),
+        *("_io", "agents", "config", "errors", "facts", "hydraulics", "labelers", "load", "model", "pipeline"),
+        *("plans", "query"),
         "serve",
         "session",
         *("draw.render", "draw.report", "draw.schematic", "draw.web", "export"),

@@ -35,6 +35,7 @@ from cadgraph.stages.ground import find_ground, report_ground
 from cadgraph.stages.group import group_meshes
 from cadgraph.stages.insides import find_insides, join_enclosed
 from cadgraph.stages.inspect import inspect_meshes
+from cadgraph.stages.mechanisms import find_mechanisms, report_not_movable
 from cadgraph.stages.parts import make_parts, regrounded
 from cadgraph.stages.places import find_places
 from cadgraph.stages.preprocess import prepare_scene
@@ -53,7 +54,7 @@ __all__ = [
 ]
 
 _WEAK = 0.46  # a likely label below this confidence is no label for the relations
-STAGES = ("measure", "contacts", "group", "cluster", "label", "relate", "places", "assemble")
+STAGES = ("measure", "contacts", "group", "cluster", "label", "relate", "places", "mechanisms", "assemble")
 """The names that ``build`` gives to its progress, in order."""
 
 ANALYSIS_SETTINGS = ("method", "inspect", "ground", "group", "cluster", "preprocess")
@@ -254,6 +255,9 @@ def interpret(
     progress("places", 0)
     # The paper knows no places.
     reached = find_places(parts, named, network.units) if config.method != "paper" else None
+    progress("mechanisms", 0)
+    # Where people get at a unit says which way a gauge looks, so that there is nothing to find without places.
+    motions = find_mechanisms(analysis.scene, parts, named, network, reached.access) if reached is not None else ()
     progress("assemble", 0)
     results = Results(
         scene=analysis.scene,
@@ -265,9 +269,13 @@ def interpret(
         guesses=labels.guesses,
         network=network,
         related=related,
-        diagnostics=(*analysis.diagnostics, *labels.diagnostics, *connected.diagnostics, *lost),
+        diagnostics=(
+            *(*analysis.diagnostics, *labels.diagnostics, *connected.diagnostics, *lost),
+            *report_not_movable(analysis.scene, parts, network.units, motions),
+        ),
         places=places_of(analysis) if analysis.scene.facts else None,
         reached=reached,
+        motions=motions,
     )
     graph = assemble_graph(results, vocabulary, config.model_dump(mode="json"))
     progress("assemble", 1)

@@ -13,6 +13,7 @@ from cadgraph.model.records import Cluster, Junction, Part, Place, ReachedFrom, 
 from cadgraph.query.explain import explain
 from cadgraph.query.explain_unit import PortInUse, UnitExplanation, explain_unit
 from cadgraph.query.lines import Line
+from cadgraph.query.mechanisms import say_mechanism, say_not_movable
 from cadgraph.query.text import line_values
 from cadgraph.query.told_facts import fact_rows
 from cadgraph.query.told_joint import say_joint
@@ -91,6 +92,7 @@ def _describe_node(plant: Plant, node: Unit | Junction | Terminal, page: int) ->
     rows += _pieces("parts", [f"{part.part} {part.label or 'unlabelled'}" for part in told.parts])
     if isinstance(node, Unit):
         rows.append(("reach", _reach(plant, node)))
+        rows.append(("by hand", say_mechanism(node) or say_not_movable(plant.graph, node)))
         rows += [("labels", _evidence(plant, node)), *fact_rows(node.facts)]
     return _answer(rows, values | _node_values(node, told, lines), page)
 
@@ -109,6 +111,8 @@ def _node_values(node: Unit | Junction | Terminal, told: UnitExplanation, lines:
             {"port": p.port, "to": list(p.to), "lengths_m": list(p.lengths), "dn": list(p.sizes)} for p in told.ports
         ],
         "access": node.access.model_dump() if isinstance(node, Unit) and node.access is not None else None,
+        "affordances": list(node.affordances) if isinstance(node, Unit) else [],
+        "mechanism": node.mechanism.model_dump() if isinstance(node, Unit) and node.mechanism is not None else None,
         "missing_lines": told.missing,
         "open_joints": [say_joint(joint) for joint in told.open_joints],
         "parts": [part.part for part in told.parts],

@@ -41,7 +41,7 @@ def export(
         typer.Option(
             "--to",
             metavar="FORMAT",
-            help="att, csv, dexpi, gltf, graphml, html, ifc, isometric, labels-csv, networkx-json, pcf or usd.",
+            help="att, csv, dexpi, epanet, gltf, graphml, html, ifc, isometric, labels-csv, networkx-json, pcf or usd.",
         ),
     ],
     output: Annotated[

@@ -116,6 +116,13 @@ def _write_pcf(graph: SceneGraph, path: Path, _: Path | None) -> Written:
     return Written(*write_pcf(graph, path))
 
 
+def _write_epanet(graph: SceneGraph, path: Path, _: Path | None) -> Written:
+    from cadgraph.export.epanet import write_epanet
+
+    file, notes = write_epanet(graph, path)
+    return Written((file,), notes)
+
+
 def _write_usd(graph: SceneGraph, path: Path, source: Path | None) -> Written:
     from cadgraph.export.usd import check_source, write_semantics
 
@@ -168,6 +175,12 @@ _FORMATS = (
         "tanks, pumps, lines, valves and instruments as Proteus XML in DEXPI 1.3 terms, for P&ID tools",
         _write_dexpi,
         file="dexpi.xml",
+    ),
+    Format(
+        "epanet",
+        "the network of pipes as it is simulated, for EPANET; by scenario.yaml beside it where there is one",
+        _write_epanet,
+        file="plant.inp",
     ),
     Format(
         "gltf",

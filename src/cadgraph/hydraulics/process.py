@@ -309,4 +309,12 @@ class Process:
         ]
         if boiling and not cavitating:
             yield f"the column parts at {len(boiling)} places, as the pressure falls to that at which the fluid boils"
+        unknown = sum(
+            value is None and self.scenario.gauges[tag].measures == "pressure" for tag, value in self._measured.items()
+        )
+        if unknown:
+            yield (
+                f"nothing of known pressure reaches {unknown} gauges, so that nobody knows what they show: let an end "
+                "of their pipes be a source in the scenario"
+            )
         yield from circuit.remarks

@@ -48,7 +48,10 @@ class FoundPlace:
 
 @dataclass(frozen=True)
 class UnitAccess:
-    """How people get at a unit; see ``records.Access``. Places are numbers, positions relative to the origin."""
+    """How people get at a unit; see ``records.Access``. Places are numbers, positions relative to the origin.
+
+    ``face`` is the middle of a gauge's face, ``face_radius`` how far it reaches from there [m]; None where it has none.
+    """
 
     place: int | None
     stand: _Point | None
@@ -57,6 +60,8 @@ class UnitAccess:
     facing: _Point | None = None
     facing_confidence: float | None = None
     viewpoint: _Point | None = None
+    face: _Point | None = None
+    face_radius: float | None = None
 
 
 @dataclass(frozen=True)

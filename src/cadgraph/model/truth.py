@@ -26,6 +26,7 @@ __all__ = [
     "TruthLine",
     "TruthMesh",
     "TruthPoint",
+    "TruthTurning",
     "TruthUnit",
     "check_truth",
 ]
@@ -55,6 +56,17 @@ class TruthMesh(_Record):
     hand: str | None = Field(default=None, description="modelling style")
 
 
+class TruthTurning(_Record):
+    """What turns at a unit by hand or as a needle."""
+
+    kind: Literal["handwheel", "lever", "gear operator", "needle", "dial"] = Field(
+        description="dial: of a gauge that has no needle of its own"
+    )
+    mesh: str = Field(description="that turns, or that holds what turns")
+    axis: tuple[float, float, float] = Field(description="unit vector out of the unit")
+    point: tuple[float, float, float] = Field(description="on the axis [m]")
+
+
 class TruthUnit(_Record):
     """A functional unit."""
 
@@ -68,6 +80,9 @@ class TruthUnit(_Record):
     )
     faces: tuple[float, float, float] | None = Field(
         default=None, description="unit vector out of what is read on it: a dial, a screen; null: nothing, or not known"
+    )
+    turns: TruthTurning | None = Field(
+        default=None, description="a wheel, a lever, a needle; null: nothing, or not annotated"
     )
 
 
@@ -202,6 +217,7 @@ class Truth(_Record):
         yield "gaps", self.gaps
         yield "units", _flat(unit.fasteners for unit in self.units or ())
         yield "parts", _flat(self.parts or ())
+        yield "units", (unit.turns.mesh for unit in self.units or () if unit.turns is not None)
 
     def to_json(self) -> dict[str, Any]:
         """The content of the file as plain values; what a mesh or unit may lack is left out where it does."""
@@ -213,8 +229,9 @@ class Truth(_Record):
         for row in data["units"] or ():
             if not row["fasteners"]:
                 del row["fasteners"]
-            if row["faces"] is None:
-                del row["faces"]
+            for key in ("faces", "turns"):
+                if row[key] is None:
+                    del row[key]
         for row in data["points"]:
             if row["end"] is None:
                 del row["end"]

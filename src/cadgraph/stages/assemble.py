@@ -16,6 +16,7 @@ from cadgraph.model.facts import Fact
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.grid import to_runs
 from cadgraph.model.labels import Guess, Label
+from cadgraph.model.mechanisms import UnitMotion, records_of
 from cadgraph.model.parts import Contacts, Link, Network, Parts, UnitParts
 from cadgraph.model.places import FoundPlace, FoundPlaces, UnitAccess
 from cadgraph.model.records import (
@@ -74,7 +75,8 @@ class Results:
         related: pairs of unit indices.
         diagnostics: of all stages.
         places: where what the file says of its parts stands; None where it says nothing.
-        reached: levels, ways up, and how people get at the units; None where they were not looked for.
+        reached: levels, ways up, how people get at the units; None where not looked for.
+        motions: what moves or is read at each unit; likewise.
     """
 
     scene: Scene
@@ -89,6 +91,7 @@ class Results:
     diagnostics: Sequence[Diagnostic]
     places: Places | None = None
     reached: FoundPlaces | None = None
+    motions: Sequence[UnitMotion] = ()
 
 
 def assemble_graph(results: Results, vocabulary: Vocabulary, config: dict[str, object]) -> SceneGraph:
@@ -99,11 +102,10 @@ def assemble_graph(results: Results, vocabulary: Vocabulary, config: dict[str, o
         vocabulary: the tree in use.
         config: every setting in force, as plain values.
     """
-    scene, parts = results.scene, results.parts
-    part_ids, cluster_ids = _part_ids(parts), _cluster_ids(results.cluster)
+    scene, parts, part_ids = results.scene, results.parts, _part_ids(results.parts)
     above = results.places.of_units([unit.parts for unit in results.network.units]) if results.places else ()
     site = Site(id=_SITE, facts=_facts(results.places.left_over(above) if results.places else ()))
-    clusters = _clusters(results, cluster_ids)
+    clusters = _clusters(results, _cluster_ids(results.cluster))
     units = _units(results, part_ids, above)
     edges: list[Edge] = [Contains(source=site.id, target=cluster.id) for cluster in clusters]
     edges += _held_parts(parts, results.cluster)
@@ -234,6 +236,7 @@ def _units(results: Results, part_ids: Sequence[str], above: Sequence[Sequence[N
                 centroid=centroid,
                 aabb=(low, high),
                 access=_access(results, number),
+                **records_of(results.motions, number, results.scene),
                 facts=_facts([fact for node in above[number] for fact in node.facts] if above else ()),
             )
         )

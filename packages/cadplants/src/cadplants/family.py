@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from cadgraph.model.scene import Floats
 from cadplants.mesh_ops import Solid, merge, moved
 from cadplants.modeling_style import Grain, ModelingStyle
-from cadplants.plant import Assembly, Component, Device, Unit, turned_front
+from cadplants.plant import Assembly, Component, Device, Turning, Unit, turned_front
 from cadplants.standards import SIZES
 from cadplants.transforms import IDENTITY
 
@@ -38,6 +38,7 @@ class Part:
         group: of the vocabulary; "" is the device's.
         fine: whether a style without fasteners leaves it out.
         front: ``(3,)`` unit vector out of what is read on it, in the device's coordinates; None where nothing is.
+        turns: what of it turns, in the device's coordinates; None where nothing does, or where that is not said.
     """
 
     solid: Solid
@@ -47,6 +48,7 @@ class Part:
     group: str = ""
     fine: bool = False
     front: tuple[float, float, float] | None = None
+    turns: Turning | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,7 +129,15 @@ class Family:
 
 def placed(parts: Sequence[Part], pose: Floats) -> list[Part]:
     """The parts moved together by a ``(4, 4)`` pose."""
-    return [replace(part, solid=moved(part.solid, pose), front=turned_front(part.front, pose)) for part in parts]
+    return [
+        replace(
+            part,
+            solid=moved(part.solid, pose),
+            front=turned_front(part.front, pose),
+            turns=part.turns.placed(pose) if part.turns is not None else None,
+        )
+        for part in parts
+    ]
 
 
 def fronted(parts: Sequence[Part], front: tuple[float, float, float] = (0.0, 0.0, 1.0)) -> list[Part]:
@@ -168,7 +178,16 @@ def _component(part: Part, family: Family, style: ModelingStyle, unit: str, grai
     owner = unit if family.unit and group == family.group else ""
     color = style.color(part.color)
     return Component(
-        part.solid, group, part.name, color, IDENTITY, owner, family=family.name, granularity=grain, front=part.front
+        part.solid,
+        group,
+        part.name,
+        color,
+        IDENTITY,
+        owner,
+        family=family.name,
+        granularity=grain,
+        front=part.front,
+        turns=part.turns,
     )
 
 
@@ -184,7 +203,8 @@ def _called(assembly: Assembly, unit: str) -> Assembly:
 def _in_one(family: Family, parts: list[Part]) -> list[Part]:
     own = [p for p in parts if p.bundle or p.group in ("", family.group)]
     rest = [p for p in parts if not p.bundle and p.group not in ("", family.group)]
-    return [Part(merge([p.solid for p in own]), family.whole, own[0].color, front=_front_of(own)), *rest]
+    whole = merge([p.solid for p in own])
+    return [Part(whole, family.whole, own[0].color, front=_front_of(own), turns=_turning_of(own)), *rest]
 
 
 def _in_few(parts: list[Part]) -> list[Part]:
@@ -197,6 +217,7 @@ def _in_few(parts: list[Part]) -> list[Part]:
             solid=merge([p.solid for p in some]),
             name=some[0].name if some[0].group or not some[0].bundle else some[0].bundle,
             front=_front_of(some),
+            turns=_turning_of(some),
         )
         for some in bundles.values()
     ]
@@ -204,6 +225,10 @@ def _in_few(parts: list[Part]) -> list[Part]:
 
 def _front_of(parts: Sequence[Part]) -> tuple[float, float, float] | None:
     return next((part.front for part in parts if part.front is not None), None)
+
+
+def _turning_of(parts: Sequence[Part]) -> Turning | None:
+    return next((part.turns for part in parts if part.turns is not None), None)
 
 
 def as_device(family: Family, model: Model | Device | Assembly, style: ModelingStyle, unit: str = "") -> Device:

@@ -8,7 +8,7 @@ import numpy as np
 
 from cadplants.mesh_ops import Solid, extrude, merge, moved, revolve, stack, tube, weld
 from cadplants.modeling_style import ModelingStyle
-from cadplants.plant import Assembly, Component, Unit, gather, turned_front
+from cadplants.plant import Assembly, Component, Turning, Unit, gather, turned_front
 from cadplants.polygon import circle
 from cadplants.primitive_devices import gauge_of_primitives
 from cadplants.standards import GAUGES
@@ -125,8 +125,17 @@ def pressure_gauge(
             (dial, stand, "gauge face", "dial"),
             (pointer, stand, "gauge needle", "needle"),
         ]
+    # In the frame of the case; a gauge in one mesh has that of its foot.
+    middle = Turning("dial", point=(0.0, 0.0, gauge.depth - 0.008))
+    turning = {
+        "gauge": middle.placed(stand),
+        "gauge case": middle if style.gauge == "few" else None,
+        "gauge needle": Turning("needle", point=middle.point),
+    }
     components = tuple(
-        Component(s, "Gauge assembly", name, style.color(c), pose, unit, front=_FRONTS.get(name))
+        Component(
+            s, "Gauge assembly", name, style.color(c), pose, unit, front=_FRONTS.get(name), turns=turning.get(name)
+        )
         for s, pose, name, c in parts
     )
     contacts = tuple((i, i + 1) for i in range(len(components) - 1))
@@ -173,7 +182,9 @@ def side_gauge(
     if style.gauge == "one":
         whole = merge([solid, moved(gauge.components[0].solid, gauge.components[0].pose)])
         front = turned_front(gauge.components[0].front, gauge.components[0].pose)
-        one = Component(whole, "Gauge assembly", "gauge", style.color("gauge"), unit=unit, front=front)
+        inner = gauge.components[0].turns
+        turns = inner.placed(gauge.components[0].pose) if inner is not None else None
+        one = Component(whole, "Gauge assembly", "gauge", style.color("gauge"), unit=unit, front=front, turns=turns)
         return Assembly((one,), (), gauge.units)
     pipe = Component(solid, "Gauge assembly", "siphon", style.color("trim"), unit=unit)
     return gather([Assembly((pipe,)), gauge], [(0, 1)])

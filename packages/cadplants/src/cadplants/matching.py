@@ -140,6 +140,10 @@ def _map_units(data: dict[str, Any], now: _Now) -> None:
         return
     for unit in units:
         unit["fasteners"] = sorted(_flat(unit.get("fasteners", ()), now))
+        turns = unit.get("turns")
+        if turns is not None:
+            paths = now.get(turns["mesh"], ())
+            unit["turns"] = {**turns, "mesh": paths[0]} if paths else None
     gone = {unit["id"] for unit in units if not unit["meshes"]}
     data["units"] = [unit for unit in units if unit["id"] not in gone]
     if data["connections"] is not None:

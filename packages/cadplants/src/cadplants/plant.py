@@ -23,12 +23,36 @@ __all__ = [
     "Line",
     "Plant",
     "Point",
+    "Turning",
     "Unit",
     "gather",
     "turned_front",
 ]
 
 RGB = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Turning:
+    """What turns at a device, and about which axis.
+
+    Args:
+        kind: ``handwheel``, ``lever``, ``gear operator`` (a handwheel beside the stem), ``needle``, or ``dial`` where a
+            gauge has no needle of its own.
+        axis: unit vector out of the device, towards the one who turns or reads.
+        point: on the axis [m].
+    """
+
+    kind: str
+    axis: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    point: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    def placed(self, pose: Floats) -> Turning:
+        """The same, moved by a ``(4, 4)`` pose, which may shrink it a little, as what leaves gaps does."""
+        axis = pose[:3, :3] @ self.axis
+        x, y, z = (float(value) for value in axis / np.linalg.norm(axis))
+        a, b, c = (float(value) for value in pose[:3, :3] @ self.point + pose[:3, 3])
+        return Turning(self.kind, (x, y, z), (a, b, c))
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +75,8 @@ class Component:
         holds: id of the unit that it clamps into its line (bolts of the counter-flanges), or "".
         gap: what was taken off its sides so that it no longer reaches its neighbours; negative: overlap [m].
         front: ``(3,)`` unit vector out of what is read on it, in the solid's frame; None where nothing is.
+        turns: what of it turns, in the solid's frame: all of it, or pieces of it where a device is one mesh; None where
+            nothing does, or where that was not annotated.
     """
 
     solid: Solid
@@ -68,6 +94,7 @@ class Component:
     holds: str = ""
     gap: float = 0.0
     front: tuple[float, float, float] | None = None
+    turns: Turning | None = None
 
     @property
     def vertices(self) -> Floats:

@@ -60,6 +60,7 @@ def _units(plant: Plant, names: Sequence[str]) -> list[dict[str, Any]]:
         front = turned_front(component.front, component.pose) if component.unit else None
         if front is not None and component.unit not in fronts:
             fronts[component.unit] = _rounded(front)
+    turning = _turning(plant, names)
     return [
         {
             "id": unit.id,
@@ -69,9 +70,25 @@ def _units(plant: Plant, names: Sequence[str]) -> list[dict[str, Any]]:
             "meshes": meshes.get(unit.id, []),
             **({"fasteners": clamped[unit.id]} if unit.id in clamped else {}),
             **({"faces": fronts[unit.id]} if unit.id in fronts else {}),
+            **({"turns": turning[unit.id]} if unit.id in turning else {}),
         }
         for unit in plant.units
     ]
+
+
+def _turning(plant: Plant, names: Sequence[str]) -> dict[str, dict[str, Any]]:
+    """What turns at each unit; of several the first."""
+    found: dict[str, dict[str, Any]] = {}
+    for path, component in zip(names, plant.components, strict=True):
+        if component.turns is not None and component.unit and component.unit not in found:
+            placed = component.turns.placed(component.pose)
+            found[component.unit] = {
+                "kind": placed.kind,
+                "mesh": path,
+                "axis": _rounded(placed.axis),
+                "point": _rounded(placed.point),
+            }
+    return found
 
 
 def _point(point: Point) -> dict[str, Any]:

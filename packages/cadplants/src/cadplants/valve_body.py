@@ -7,7 +7,7 @@ import numpy as np
 from cadgraph.model.scene import Floats
 from cadplants.mesh_ops import Shell, Solid, merge, moved
 from cadplants.modeling_style import ModelingStyle
-from cadplants.plant import Assembly, Component, Device, Unit
+from cadplants.plant import Assembly, Component, Device, Turning, Unit
 from cadplants.standards import PIPES
 from cadplants.transforms import IDENTITY
 
@@ -15,6 +15,8 @@ __all__ = ["Piece", "assemble", "bore_of", "flipped"]
 
 # What stays a mesh of its own where a valve is modelled as body and operator; an indicator sits on its actuator.
 _OPERATORS = ("handwheel", "lever", "actuator", "position indicator")
+
+_TURNS = {"handwheel": "handwheel", "lever": "lever"}
 
 Piece = tuple[Solid, Floats, str, str]  # solid, pose, name, colour
 
@@ -41,6 +43,9 @@ def assemble(
     length: float,
 ) -> Device:
     """The device as fine as the style models valves; the first piece holds the inlet face, ``outlet`` the other."""
+    geared = any(name == "gearbox" for _, _, name, _ in pieces)
+    turning = [(pose, _TURNS[name]) for _, pose, name, _ in pieces if name in _TURNS]
+    inner = [Turning("gear operator" if geared else kind).placed(pose) for pose, kind in turning][:1]
     if style.valve == "one":
         whole = merge([moved(solid, pose) for solid, pose, _, _ in pieces])
         pieces, contacts = [(whole, IDENTITY, "valve", "valve")], ()
@@ -55,8 +60,18 @@ def assemble(
         )
         outlet = 0
     assembly = Assembly(
-        tuple(Component(s, "Valve assembly", name, style.color(c), pose, unit) for s, pose, name, c in pieces),
+        tuple(
+            Component(s, "Valve assembly", name, style.color(c), pose, unit, turns=_turning(name, pose, inner))
+            for s, pose, name, c in pieces
+        ),
         contacts,
         (Unit(unit, "valve", kind),),
     )
     return Device(assembly, length, 0, outlet)
+
+
+def _turning(name: str, pose: Floats, inner: list[Turning]) -> Turning | None:
+    """What turns of a mesh, in its own frame: an operator does, and so does a piece of a valve in one mesh."""
+    if not inner or (name not in _TURNS and name != "valve"):
+        return None
+    return inner[0].placed(np.linalg.inv(pose).astype(np.float64))

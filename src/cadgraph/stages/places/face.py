@@ -51,10 +51,12 @@ class Face:
         point: ``(3,)`` its middle [m].
         sides: unit vectors that it may look along with their probabilities, the likeliest first; none where it has
             nothing to be read from one side.
+        radius: of its head, seen from there [m].
     """
 
     point: Floats
     sides: tuple[tuple[Floats, float], ...]
+    radius: float = 0.0
 
 
 def face_of(unit: UnitParts, parts: Parts, labels: Sequence[Label | None]) -> Face:
@@ -109,6 +111,7 @@ def _face(unit: UnitParts, parts: Parts, kinds: Sequence[int]) -> Face:
     return Face(
         best.center + best.depth * best.direction,
         tuple((sides[k].direction, float(scores[k])) for k in order[:2].tolist()),
+        best.radius,
     )
 
 

@@ -204,7 +204,7 @@ def _stood(
     target: _Target, levels: Sequence[Ground], places: Sequence[int], k: int, square: tuple[int, int] | None,
     facing: Floats | None, sure: float | None, look: _Look | None,
 ) -> UnitAccess:  # fmt: skip
-    level = levels[k]
+    level, face = levels[k], target.face if facing is not None else None
     reach: Reach = "floor" if level.boxes is None else "platform"
     return UnitAccess(
         place=places[k],
@@ -214,6 +214,8 @@ def _stood(
         facing=None if facing is None else _triple(facing),
         facing_confidence=sure,
         viewpoint=None if look is None else _triple(look.eye),
+        face=None if face is None else _triple(face.point),
+        face_radius=None if face is None else face.radius,
     )
 
 

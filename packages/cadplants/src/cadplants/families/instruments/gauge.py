@@ -17,6 +17,7 @@ from cadplants.families.instruments.kit import (
     indicator,
     needle_of,
     piece,
+    pointer,
     shank,
     standing,
     t_handle,
@@ -92,7 +93,7 @@ def _filled(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
         cylinder(0.12 * size, -0.02 * size, 0.08 * size, 12), at(0, 0.5 * size, 0.4 * deep) @ spun("x", -np.pi / 2)
     )
     head = [piece(solid, CASE, "gauge"), piece(face_of(w, floor, style, rng), "gauge face", "dial", CASE)]
-    head.append(piece(needle_of(w, floor + 0.001, rng), "gauge needle", "needle", CASE))
+    head.append(pointer(needle_of(w, floor + 0.001, rng)))
     head.append(piece(dome(0.98 * w, 0.2 * w, 0.94 * deep, n), "gauge glass", "dial", CASE))
     if rng.random() < 0.5:
         head.append(piece(plug, CASE, "rubber"))
@@ -181,7 +182,7 @@ def _duplex(_: int, style: ModelingStyle, rng: np.random.Generator) -> Model:
     """A duplex gauge: two connections side by side, two needles on one dial, on a twin nipple with two cocks."""
     size, tall = float(rng.choice([0.1, 0.15, 0.2])), float(rng.uniform(0.05, 0.1))
     head = dial(size, style, rng, str(rng.choice(["plain", "cast"])), 0.4 * size)
-    head.append(piece(needle_of(0.4 * size, 0.82 * 0.4 * size + 0.0045, rng), "gauge needle", "handle", CASE))
+    head.append(pointer(needle_of(0.4 * size, 0.82 * 0.4 * size + 0.0045, rng), "handle"))
     apart = 0.22 * size
     span = (1 - np.sqrt(1 - (2 * apart / size / 1.0) ** 2 * 0.25 * 4)) * size / 2 if 2 * apart < size else 0.0
     parts = [piece([cylinder(0.0068, 0, 0.03, 12), box((2 * apart + 0.03, 0.024, 0.022), (0, 0, 0.035))], STEM, "trim")]

@@ -11,6 +11,7 @@ from cadplants.family import Family, Model, Part, fronted, placed
 from cadplants.flange import nut_room, plate_thickness
 from cadplants.mesh_ops import Solid, about_x, extrude, merge, moved, tube
 from cadplants.modeling_style import ModelingStyle
+from cadplants.plant import Turning
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, rope, turned
 from cadplants.standards import FLANGES, PIPES, SIZES
@@ -47,7 +48,8 @@ def _dial(size: float, style: ModelingStyle, rng: np.random.Generator) -> list[P
     pointer = merge(
         [extrude(hand_, floor + 0.0015, floor + 0.0025), cylinder(0.07 * r, floor + 0.001, floor + 0.004, 10)]
     )
-    parts.append(Part(moved(pointer, spun("z", float(rng.uniform(0, 6.3)))), "gauge needle", "needle", _CASE))
+    pointer = moved(pointer, spun("z", float(rng.uniform(0, 6.3))))
+    parts.append(Part(pointer, "gauge needle", "needle", _CASE, turns=Turning("needle")))
     if rng.random() < 0.5:
         parts.append(Part(cylinder(0.985 * wall, 0.9 * depth, 0.9 * depth + 0.002, n), "gauge glass", "dial", _CASE))
     if rng.random() < 0.2:

@@ -6,6 +6,7 @@ Devices stand on z = 0 about the z axis unless a function says otherwise; their 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from cadplants.family import Build, Family, Part, fronted, placed
 from cadplants.flange import plate_thickness
 from cadplants.mesh_ops import Solid, extrude, merge, moved
 from cadplants.modeling_style import ModelingStyle
+from cadplants.plant import Turning
 from cadplants.polygon import circle, rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, dome, hexagon, ring, rod, rope, turned
 from cadplants.standards import FLANGES, PIPES
@@ -41,6 +43,7 @@ __all__ = [
     "indicator",
     "needle_of",
     "piece",
+    "pointer",
     "screws",
     "shank",
     "stand",
@@ -59,6 +62,11 @@ UPRIGHT = spun("x", np.pi / 2)  # what looks to +z then looks to -y, its y axis 
 def piece(solid: Solid | Sequence[Solid], name: str, color: str, bundle: str = "") -> Part:
     """A part of a gauge, of the bundle that its name says by default."""
     return Part(solid if isinstance(solid, Solid) else merge(list(solid)), name, color, bundle or name)
+
+
+def pointer(solid: Solid, color: str = "needle") -> Part:
+    """The needle of a dial about z."""
+    return replace(piece(solid, "gauge needle", color, CASE), turns=Turning("needle"))
 
 
 def headed(parts: Sequence[Part]) -> list[Part]:
@@ -161,7 +169,7 @@ def dial(
     solid, w = case_of(size, deep, design, style)
     floor = 0.82 * deep
     parts = [piece(solid, CASE, "gauge"), piece(face_of(w, floor, style, rng), "gauge face", "dial", CASE)]
-    parts.append(piece(needle_of(w, floor + 0.001, rng), "gauge needle", "needle", CASE))
+    parts.append(pointer(needle_of(w, floor + 0.001, rng)))
     if rng.random() < 0.15:  # a drag style
         parts.append(piece(needle_of(0.9 * w, floor + 0.0035, rng), "gauge needle", "handle", CASE))
     if rng.random() < 0.6:
@@ -271,7 +279,7 @@ def indicator(wide: float, tall: float, deep: float, style: ModelingStyle, rng: 
     r = 0.4 * min(wide, tall)
     needle = needle_of(r, 0.7 * deep + 0.0015, rng)
     parts = [piece([back, frame], CASE, "gauge"), piece(face, "gauge face", "dial", CASE)]
-    parts.append(piece(needle, "gauge needle", "needle", CASE))
+    parts.append(pointer(needle))
     if rng.random() < 0.5:
         parts.append(piece(extrude(0.855 * outline, 0.92 * deep, 0.96 * deep), "gauge glass", "dial", CASE))
     return fronted(parts)

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
 from cadplants.families.chance import chance, num, pick
 from cadplants.families.primitive.shape import cone, disc, dish, family, lying, part, sized, spoked
-from cadplants.family import Family, Model, Part
+from cadplants.family import Family, Model, Part, placed
 from cadplants.mesh_ops import Solid, merge, moved
 from cadplants.modeling_style import ModelingStyle
+from cadplants.plant import Turning
 from cadplants.primitives import ball, box, cylinder, torus, turned
 from cadplants.standards import FLANGES, PIPES
 from cadplants.transforms import at, spun
@@ -18,6 +20,7 @@ from cadplants.transforms import at, spun
 __all__ = ["PRIMITIVE_VALVES"]
 
 _VALVE, _BODY = "Valve assembly", "valve body"
+_TURNS = {name: Turning(name) for name in ("handwheel", "lever")}
 _KINDS = ("gate valve", "globe valve", "ball valve", "valve")
 
 
@@ -55,7 +58,7 @@ def _top(dn: int, x: float, style: ModelingStyle, rng: np.random.Generator, low:
     else:
         parts = [part("valve stem", spindle, color="trim", bundle=_BODY)]
     parts += _turner(dn, rise, style, rng)
-    return [Part(moved(p.solid, at(x)), p.name, p.color, p.bundle, p.group) for p in parts]
+    return placed([replace(p, turns=_TURNS.get(p.name)) for p in parts], at(x))
 
 
 def _turner(dn: int, z: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:

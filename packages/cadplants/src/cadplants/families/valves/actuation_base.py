@@ -10,6 +10,7 @@ from cadplants.families.valves.drive import BODY
 from cadplants.family import Part
 from cadplants.mesh_ops import Solid, merge, moved
 from cadplants.modeling_style import ModelingStyle
+from cadplants.plant import Turning
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, box, cylinder, dome, hexagon, turned
 from cadplants.transforms import at, spun
@@ -46,13 +47,13 @@ def shaft(low: float, high: float, radius: float, style: ModelingStyle, rng: Rng
 def hand_wheel(radius: float, z: float, style: ModelingStyle, rng: Rng, kinds: tuple[str, ...] = ()) -> Part:
     """A handwheel with its hub on the height ``z`` [m]."""
     solid = wheel_of(radius, style, rng, kinds) if kinds else wheel_of(radius, style, rng)
-    return Part(moved(solid, at(0, 0, z)), "handwheel", "handle")
+    return Part(moved(solid, at(0, 0, z)), "handwheel", "handle", turns=Turning("handwheel", point=(0.0, 0.0, z)))
 
 
 def hand_lever(length: float, z: float, style: ModelingStyle, rng: Rng, kinds: tuple[str, ...] = ()) -> Part:
     """A lever with its eye on the height ``z`` [m]."""
     solid = lever_of(length, style, rng, kinds) if kinds else lever_of(length, style, rng)
-    return Part(moved(solid, at(0, 0, z)), "lever", "handle")
+    return Part(moved(solid, at(0, 0, z)), "lever", "handle", turns=Turning("lever", point=(0.0, 0.0, z)))
 
 
 def quarter(rng: Rng) -> Floats:

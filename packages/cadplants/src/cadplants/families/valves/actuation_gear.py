@@ -11,6 +11,7 @@ from cadplants.families.valves.actuation_hand import cylinder_at, slab
 from cadplants.family import Part, placed
 from cadplants.mesh_ops import Solid, merge, moved
 from cadplants.modeling_style import ModelingStyle
+from cadplants.plant import Turning
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, box, cylinder, hexagon, ring, rod, rope, turned
 from cadplants.transforms import at, spun
@@ -25,7 +26,8 @@ def _input(size: float, reach: float, style: ModelingStyle, rng: Rng) -> list[Pa
     kind = rng.random()
     rod_ = shaft(-0.01, reach + 0.02, 0.08 * size + 0.003, style)
     if kind < 0.6:
-        return [rod_, hand_wheel(size, reach, style, rng)]
+        rim = hand_wheel(size, reach, style, rng)
+        return [rod_, replace(rim, turns=Turning("gear operator", point=(0.0, 0.0, reach)))]
     if kind < 0.8:
         n = max(16, style.round(size))
         groove = ring(0.86 * size, 0.96 * size, reach, reach + 0.03, n)

@@ -10,6 +10,7 @@ from cadplants.family import Part
 from cadplants.mesh_ops import Solid, extrude, merge, moved, sweep
 from cadplants.modeling_style import ModelingStyle
 from cadplants.operator import actuator_solids, handwheel, lever_solid, plate_wheel, solid_wheel
+from cadplants.plant import Turning
 from cadplants.polygon import rounded_rectangle
 from cadplants.primitives import along, around, ball, box, cylinder, hexagon, rod, rope, torus, turned
 from cadplants.transforms import at, spun
@@ -45,7 +46,8 @@ def wheel(radius: float, x: float, z: float, style: ModelingStyle, rng: np.rando
         solid = solid_wheel(round(radius, 6), round(hub, 6), round(thick, 6), round(bore, 6), sides)
     else:
         solid = merge([_lobes(radius, max(4, spokes + 2), thick, style), cylinder(hub, 0, 1.4 * thick, 12)])
-    return Part(moved(solid, at(x, 0, z) @ spun("z", float(rng.uniform(0, 6)))), "handwheel", "handle")
+    pose = at(x, 0, z) @ spun("z", float(rng.uniform(0, 6)))
+    return Part(moved(solid, pose), "handwheel", "handle", turns=Turning("handwheel").placed(pose))
 
 
 def _lobes(radius: float, count: int, thick: float, style: ModelingStyle) -> Solid:
@@ -81,7 +83,7 @@ def _lever(x: float, z: float, radius: float, style: ModelingStyle, rng: np.rand
                 moved(ball(0.8 * half, 10), at(*(way * length)) @ at(0, 0, 0.5 * half)),
             ]
         )
-    parts = [Part(moved(solid, pose), "lever", "handle")]
+    parts = [Part(moved(solid, pose), "lever", "handle", turns=Turning("lever").placed(pose))]
     if rng.random() < 0.3:
         angles = np.linspace(-0.3, 1.9, 12)
         reach = 0.035 + 1.1 * radius
@@ -119,7 +121,8 @@ def _wing(x: float, z: float, radius: float, style: ModelingStyle, rng: np.rando
     )
     bar = moved(extrude(outline, -0.003, 0.003), spun("x", np.pi / 2))
     solid = merge([moved(bar, at(0, 0, wide)), cylinder(0.8 * wide, 0, 1.6 * wide, 12)])
-    return [Part(moved(solid, at(x, 0, z) @ spun("z", float(rng.choice([0, 1.5708])))), "lever", "handle")]
+    pose = at(x, 0, z) @ spun("z", float(rng.choice([0, 1.5708])))
+    return [Part(moved(solid, pose), "lever", "handle", turns=Turning("lever").placed(pose))]
 
 
 def _bar(x: float, z: float, radius: float, style: ModelingStyle, rng: np.random.Generator) -> list[Part]:
@@ -127,7 +130,8 @@ def _bar(x: float, z: float, radius: float, style: ModelingStyle, rng: np.random
     reach, thick = 0.02 + 1.1 * radius, 0.003 + 0.06 * radius
     cross = rod((-reach, 0, thick), (reach, 0, thick), thick, 8)
     knobs = [moved(ball(1.5 * thick, 8), at(sign * reach, 0, thick)) for sign in (-1, 1)]
-    return [Part(moved(merge([cross, *knobs]), at(x, 0, z) @ spun("z", float(rng.uniform(0, 3)))), "lever", "handle")]
+    pose = at(x, 0, z) @ spun("z", float(rng.uniform(0, 3)))
+    return [Part(moved(merge([cross, *knobs]), pose), "lever", "handle", turns=Turning("lever").placed(pose))]
 
 
 def _gear(
@@ -142,7 +146,9 @@ def _gear(
     pose = at(x, 0, z)
     size = 0.05 + 0.9 * radius
     rim = wheel(size, 0, 0, style, rng).solid
-    rim = moved(rim, at(0.55 * half, -1.9 * half, 0.4 * half) @ spun("x", np.pi / 2))
+    side = at(0.55 * half, -1.9 * half, 0.4 * half) @ spun("x", np.pi / 2)
+    rim = moved(rim, side)
+    turns = Turning("gear operator").placed(side).placed(pose)
     parts = [
         Part(moved(merge([case, lid, tunnel]), pose), "gearbox", "valve", "gearbox"),
         Part(moved(shaft, pose), "valve stem", "trim", "gearbox"),
@@ -164,9 +170,9 @@ def _gear(
             for s, d in ((-1, 0.0), (-1, 0.7), (-0.6, 0.76), (0.6, 0.76), (1, 0.7), (1, 0.0))
         ]
         links = rope(loop, 0.004, 6)
-        parts.append(Part(moved(merge([sheave, links]), pose), "handwheel", "handle"))
+        parts.append(Part(moved(merge([sheave, links]), pose), "handwheel", "handle", turns=turns))
     else:
-        parts.append(Part(moved(rim, pose), "handwheel", "handle"))
+        parts.append(Part(moved(rim, pose), "handwheel", "handle", turns=turns))
     if rng.random() < 0.4:
         parts.append(
             Part(

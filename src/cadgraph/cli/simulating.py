@@ -1,0 +1,103 @@
+"""What flows and what gauges show: simulate."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.markup import escape
+
+from cadgraph.cli.application import app
+from cadgraph.cli.options import GraphArgument
+from cadgraph.cli.screen import err, out
+
+
+@app.command()
+def simulate(
+    graph: GraphArgument,
+    changes: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set",
+            metavar="TAG=SHARE",
+            help="What happens when a valve is 0 (shut) to 1 (open), a pump 0 (stopped) to 1. May be repeated.",
+        ),
+    ] = None,
+    scenario: Annotated[
+        Path | None,
+        typer.Option("--scenario", metavar="FILE", help="What to suppose; scenario.yaml of the folder by default."),
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print as JSON.")] = False,
+) -> None:
+    """Work out what flows, what every gauge shows, and what happens when valves are turned and pumps stopped.
+
+    What the graph doesn't know is supposed: the fluid, the pumps, how far valves are open, what the ends of pipes do.
+    The first run writes all of that into scenario.yaml of the folder, each value with its reason; edit it and run
+    again. An edited file is never written over. What is assumed is counted below the table.
+    """
+    from cadgraph.hydraulics.process import Process
+    from cadgraph.hydraulics.text import change_lines, standing, standing_lines, state_values
+
+    commands = _commands(changes or [])
+    process, file, written = _open(graph, scenario, Process)
+    before, values = standing(process), state_values(process)
+    if commands:
+        process.steady(commands)
+    if as_json:
+        typer.echo(json.dumps(_values(process, file, values, commands), ensure_ascii=False, indent=1))
+        return
+    for line in change_lines(process, before) if commands else standing_lines(process):
+        out.print(escape(line))
+    _tell_assumed(process, file, written)
+
+
+def _commands(changes: Sequence[str]) -> dict[str, float]:
+    found: dict[str, float] = {}
+    for change in changes:
+        name, equals, text = change.rpartition("=")
+        try:
+            found[name.strip()] = float(text)
+        except ValueError:
+            equals = ""
+        if not equals or not name.strip():
+            raise ValueError(f"--set {change}: expected TAG=SHARE, e.g. V-003=0")
+    return found
+
+
+def _open(graph: Path, scenario: Path | None, process: Any) -> tuple[Any, Path, bool]:
+    """A process, the file that says what it supposes, and whether that was written just now."""
+    from cadgraph.hydraulics.scenario_file import SCENARIO, write_scenario
+
+    folder = graph if graph.is_dir() else graph.parent
+    file = scenario or folder / SCENARIO
+    if scenario is not None or file.exists():
+        from cadgraph.model.graph import SceneGraph
+
+        return process(SceneGraph.load(graph), file), file, False
+    made = process(graph)
+    write_scenario(made.scenario, file)
+    return made, file, True
+
+
+def _tell_assumed(process: Any, file: Path, written: bool) -> None:
+    from cadgraph.hydraulics.text import assumption_lines
+
+    out.print()
+    for line in assumption_lines(process):
+        out.print(f"[dim]{escape(line)}[/]")
+    told = f"wrote {file}: each value with its reason; edit it and run again" if written else f"supposed as {file} says"
+    err.print(escape(told))
+
+
+def _values(process: Any, file: Path, before: dict[str, Any], commands: dict[str, float]) -> dict[str, Any]:
+    from cadgraph.hydraulics.text import assumed_values, state_values
+
+    values: dict[str, Any] = {"scenario": str(file)}
+    if commands:
+        values |= {"set": commands, "before": before, "after": state_values(process)}
+    else:
+        values["state"] = before
+    return values | {"assumed": assumed_values(process.scenario)}

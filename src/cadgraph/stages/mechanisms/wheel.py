@@ -1,0 +1,258 @@
+"""Handwheels: round, flat, far out on a stem; they turn about the axis across which their moments are equal."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from cadgraph.model.scene import Floats, Ints
+from cadgraph.stages.mechanisms.body import Body, Frame, frame_of, join, unit_vector
+from cadgraph.stages.mechanisms.valve import Valve
+
+__all__ = ["Wheel", "find_wheel", "is_geared"]
+
+# Two moments are equal within this share; those of a wheel with a grip within the second, where its rim says the rest.
+_EQUAL, _NEARLY = 0.01, 0.3
+# A wheel is flat: no higher than this share of its width; one that is called so, this one (a knob is high).
+_FLAT, _KNOB = 0.32, 0.8
+# It is round: all around it reaches at least this far (cosine of half the angle between eight corners, and waves).
+_ROUND = 0.86
+# It is open between hub and rim where at most this share of circles there is covered.
+_OPEN = 0.62
+_BETWEEN = (0.45, 0.55, 0.65)
+# Nothing that lies farther out is wider than this share of it, and nothing right below it than this.
+_ABOVE, _BELOW = 0.6, 0.85
+# On the axis of a straight line it is a flange or a ring.
+_COAXIAL = 0.9
+# A disc that nothing calls a wheel is as wide as this share of the bore, no higher than this share of its radius, and
+# what is below it is narrower than this share of it.
+_DISC_WIDE, _DISC_FLAT, _DISC_BELOW = 0.9, 0.45, 0.5
+# What is part of it reaches no farther out, is no higher than this share of its radius, and overlaps it by this share.
+_WITHIN, _SHORT, _OVERLAP = 1.03, 0.7, 0.2
+# It sits beside the stem where its axis passes the line by this share of its radius, and by this much [m].
+_BESIDE, _BESIDE_AT_LEAST = 0.35, 0.015
+_LEAST, _MOST = 0.012, 1.5  # m; radii of handwheels
+_CALLED = "handwheel"
+
+
+@dataclass(frozen=True, eq=False)
+class Wheel:
+    """A handwheel.
+
+    Args:
+        body: what turns.
+        frame: its axis, out of the valve, its origin amid the wheel.
+        rim: radius of the rim's middle [m].
+        thickness: half the thickness of the rim [m].
+        source: how its axis was found.
+    """
+
+    body: Body
+    frame: Frame
+    rim: float
+    thickness: float
+    source: str
+
+
+@dataclass(frozen=True, eq=False)
+class _Round:
+    """A body that is round about an axis: its frame and its radius [m]."""
+
+    body: Body
+    frame: Frame
+    radius: float
+    low: float
+    high: float
+    open: bool
+    source: str
+
+
+def find_wheel(valve: Valve, bodies: Sequence[Body], pieces: Sequence[Body]) -> Wheel | None:
+    """The handwheel of a valve among some bodies.
+
+    Args:
+        valve: whole.
+        bodies: that may be one, or hold its rim.
+        pieces: of all its meshes that are in several.
+    """
+    best: tuple[tuple[bool, bool, float], _Round] | None = None
+    for body in bodies:
+        found = _round(body, pieces)
+        if found is None:
+            continue
+        called = _CALLED in body.names and not body.pieces
+        found = _outward(found, valve)
+        if not _stands_out(found, valve, pieces, called):
+            continue
+        rank = called, found.open, found.radius
+        if best is None or rank > best[0]:
+            best = rank, found
+    return _whole(best[1], bodies) if best is not None else None
+
+
+def is_geared(wheel: Wheel, valve: Valve) -> bool:
+    """Whether a wheel turns the stem by a gear: it sits beside it."""
+    if "gearbox" in valve.names:
+        return True
+    if valve.line is None:
+        return False
+    gap = valve.line.gap(wheel.frame.origin, wheel.frame.axis)
+    return gap > max(_BESIDE * wheel.rim, _BESIDE_AT_LEAST)
+
+
+def _round(body: Body, pieces: Sequence[Body]) -> _Round | None:
+    """A body as a wheel; by its rim where all of it is none, as with a chain in it."""
+    called = _CALLED in body.names and not body.pieces
+    found = _round_body(body, called)
+    if found is not None or not called:
+        return found
+    rims = [_round_body(one, False) for one in pieces if one.meshes == body.meshes]
+    rim = max((one for one in rims if one is not None and one.open), key=lambda one: one.radius, default=None)
+    return replace(rim, body=body) if rim is not None else None
+
+
+def _round_body(body: Body, called: bool) -> _Round | None:
+    thin, wide, widest = body.spread.tolist()
+    if widest <= 0 or (widest - wide) > _NEARLY * widest or thin > (1.0 if called else 0.5) * wide:
+        return None
+    axis = body.axes[0]
+    frame = frame_of(body.center, axis)
+    source = "equal moments of inertia"
+    if (widest - wide) > _EQUAL * widest:
+        frame, source = _about_rim(body, frame), "circle of its rim"
+    points = body.points
+    away, height = frame.away(points), frame.height(points)
+    radius, low, high = float(away.max()), float(height.min()), float(height.max())
+    if not _LEAST <= radius <= _MOST or high - low > 2 * radius * (_KNOB if called else _FLAT):
+        return None
+    if not _is_round(frame.flat(points), radius):
+        return None
+    open_ = float(frame.covered(body.corners, [share * radius for share in _BETWEEN]).mean()) <= _OPEN
+    return _Round(body, frame, radius, low, high, open_, source)
+
+
+def _about_rim(body: Body, frame: Frame) -> Frame:
+    """The frame about the outermost circle of a body whose moments something else disturbs."""
+    for _ in range(3):
+        flat = frame.flat(body.points)
+        away = np.linalg.norm(flat, axis=1)
+        far = _around(flat, away)
+        center = _circle(flat[far])
+        origin = frame.origin + center @ frame.across
+        frame = frame_of(origin, frame.axis)
+        rim = body.points[frame.away(body.points) > 0.9 * float(np.median(frame.away(body.points[far])))]
+        apart = rim - rim.mean(axis=0)
+        normal = np.linalg.eigh(apart.T @ apart)[1][:, 0]
+        if abs(float(normal @ frame.axis)) > 0.97:
+            frame = frame_of(origin, unit_vector(normal))
+    return frame
+
+
+def _around(flat: Floats, away: Floats) -> Ints:
+    """The farthest point in each of some directions."""
+    sector = np.floor((np.arctan2(flat[:, 1], flat[:, 0]) + np.pi) / (2 * np.pi) * 24).astype(int)
+    order = np.lexsort((-away, sector))
+    _, first = np.unique(sector[order], return_index=True)
+    found: Ints = order[first]
+    return found
+
+
+def _circle(points: Floats) -> Floats:
+    """The middle of the circle through most of some points, ``(2,)``."""
+    kept = points
+    center = points.mean(axis=0)
+    for _ in range(4):
+        table = np.column_stack([2 * kept, np.ones(len(kept))])
+        center = np.linalg.lstsq(table, (kept**2).sum(axis=1), rcond=None)[0][:2]
+        off = np.abs(np.linalg.norm(points - center, axis=1) - np.median(np.linalg.norm(points - center, axis=1)))
+        near = points[off <= max(3 * float(np.median(off)), 1e-6)]
+        if len(near) < 6:
+            break
+        kept = near
+    found: Floats = center
+    return found
+
+
+def _is_round(flat: Floats, radius: float) -> bool:
+    """Whether points reach about as far from their axis in all directions."""
+    turns = 2 * np.pi * np.arange(24) / 24
+    reach = (flat @ np.array([np.cos(turns), np.sin(turns)])).max(axis=0)
+    return float(reach.min()) >= _ROUND * radius
+
+
+def _outward(found: _Round, valve: Valve) -> _Round:
+    """The same with its axis out of the valve."""
+    out = float((found.frame.origin - valve.middle) @ found.frame.axis)
+    if out >= 0:
+        return found
+    frame = frame_of(found.frame.origin, -found.frame.axis)
+    return replace(found, frame=frame, low=-found.high, high=-found.low)
+
+
+def _stands_out(found: _Round, valve: Valve, pieces: Sequence[Body], called: bool) -> bool:
+    """Whether something round stands out of a valve as a wheel does."""
+    line = valve.line
+    if line is not None and line.straight and abs(float(found.frame.axis @ line.way)) > _COAXIAL:
+        apart = float(np.linalg.norm(found.frame.origin - line.foot(found.frame.origin)))
+        if apart < 0.5 * found.radius:
+            return False
+    if called:
+        return True
+    if line is not None and found.radius < (0.6 if found.open else _DISC_WIDE) * line.bore:
+        return False
+    if not found.open and (found.high - found.low > _DISC_FLAT * found.radius or line is None):
+        return False
+    frame, margin = found.frame, 0.02 * found.radius
+    rest = [p for other in valve.others(found.body, pieces) if len(p := other.dense)]
+    if not rest:
+        return False
+    points = np.concatenate(rest)
+    height, away = frame.height(points), frame.away(points)
+    above = away[(height > found.high + margin)]
+    if len(above) and float(above.max()) > _ABOVE * found.radius:
+        return False
+    # A disc may be a cover, so that more of what is below it must be slender.
+    depth, most = (0.12, _BELOW) if found.open else (0.4, _DISC_BELOW)
+    below = away[(height < found.low - margin) & (height > found.low - depth * found.radius)]
+    return bool((height < found.low).any()) and not (len(below) and float(below.max()) > most * found.radius)
+
+
+def _whole(found: _Round, bodies: Sequence[Body]) -> Wheel:
+    """A wheel with all that turns with it: hub, spokes, nut."""
+    frame, low, high = found.frame, found.low, found.high
+    taken = [found.body]
+    waiting = [body for body in bodies if body is not found.body and bool(body.pieces) == bool(found.body.pieces)]
+    grown = True
+    while grown:
+        grown = False
+        for body in waiting:
+            height = frame.height(body.points)
+            least, most = float(height.min()), float(height.max())
+            overlap = min(high, most) - max(low, least)
+            if (
+                overlap < _OVERLAP * max(most - least, 1e-4)
+                or most - least > max(_SHORT * found.radius, 1.2 * (found.high - found.low))
+                or float(frame.away(body.points).max()) > _WITHIN * found.radius
+            ):
+                continue
+            taken.append(body)
+            waiting = [other for other in waiting if other is not body]
+            low, high, grown = min(low, least), max(high, most), True
+            break
+    body = join(taken)
+    source = found.source
+    if len(taken) > 1:
+        source += f", {len(taken)} {'pieces' if body.pieces else 'meshes'}"
+    rim, thickness = _rim(body, frame, found.radius)
+    middle = frame.height(body.center[None])[0]
+    return Wheel(body, frame_of(frame.origin + middle * frame.axis, frame.axis), rim, thickness, source)
+
+
+def _rim(body: Body, frame: Frame, radius: float) -> tuple[float, float]:
+    """The middle circle of the rim and half its thickness [m]."""
+    outer = body.points[frame.away(body.points) > 0.84 * radius]
+    half = 0.5 * float(np.ptp(frame.height(outer)))
+    half = float(np.clip(half, 0.001, 0.25 * radius))
+    return radius - half, half
