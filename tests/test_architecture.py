@@ -49,6 +49,8 @@ MAY_IMPORT = {
         *("_io", "config", "errors", "hydraulics", "load", "model", "query"),
         *("draw.isometric", "draw.schematic", "draw.web"),
     },
+    "simulate": set(),
+    "simulate.tasks": {"_io", "errors", "geometry", "hydraulics", "model", "query"},
     "session": {
         *("_io", "config", "errors", "geometry", "labelers", "load", "model", "pipeline", "query", "stages"),
         *("draw.report", "export"),
@@ -62,13 +64,13 @@ MAY_IMPORT = {
         *("plans", "query"),
         "serve",
         "session",
-        *("draw.render", "draw.report", "draw.schematic", "draw.web", "export"),
+        *("draw.render", "draw.report", "draw.schematic", "draw.web", "export", "simulate.tasks"),
     },
     "draw": set(),
     "__main__": {"cli"},
     "__init__": {"_io", "config", "errors", "hydraulics", "labelers", "load", "model", "pipeline", "session"},
 }
-SPLIT = ("draw",)  # rooms whose folders are rooms of their own
+SPLIT = ("draw", "simulate")  # rooms whose folders are rooms of their own
 
 # No stage and no labeler may ever see the truth.
 MAY_SEE_THE_TRUTH = {"cli", "model", "session"}

@@ -8,12 +8,14 @@ from dataclasses import dataclass
 
 from cadgraph.errors import Unconnected
 from cadgraph.hydraulics.balance import SHUT
-from cadgraph.hydraulics.process import Process, State
+from cadgraph.hydraulics.process import Process
 from cadgraph.hydraulics.settings import Scenario
+from cadgraph.hydraulics.text import assumed_values
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Place, Unit
 from cadgraph.model.scene import Scene
 from cadgraph.query.isolate import find_isolation
+from cadgraph.query.mechanisms import say_not_movable
 from cadgraph.query.network import Network
 from cadgraph.simulate.tasks.checking import begin, changed_gauges, check
 from cadgraph.simulate.tasks.hands import Hands
@@ -59,28 +61,32 @@ def make_tasks(graph: SceneGraph, scene: Scene, scenario: Scenario, *, seed: int
     candidates = maker.candidates()
     draw.shuffle(candidates)
     tasks: list[Task] = []
+    known: set[str] = set()
     left_out: dict[str, tuple[str, ...]] = {}
     for number in range(_ROUNDS):
-        start = maker.start() if number == 0 else maker.drawn_start(draw)
-        known = {_key(task) for task in tasks}
         for kind, unit in candidates:
             if len(tasks) >= n and number:
                 break
+            start = maker.drawn_start(draw, shut=unit.tag if kind == "open" else None) if number else maker.start()
             made = maker.make(f"task-{len(tasks) + 1:03d}", kind, unit, start)
             if isinstance(made, LeftOut):
-                if number == 0:
-                    left_out.setdefault(made.text, made.reasons)
-            elif _key(made) not in known and len(tasks) < n:
+                if not number:
+                    left_out[made.text] = made.reasons
+            elif made is not None and len(tasks) < n and _key(made) not in known and not (number and _is_dull(made)):
+                known.add(_key(made))
                 tasks.append(made)
-        if len(tasks) >= n:
-            break
     return TaskList(
         seed=seed,
         source_sha256=graph.source.sha256,
-        assumptions=sum(scenario.assumptions().values()),
+        assumptions=len(assumed_values(scenario)),
         tasks=tuple(tasks),
         left_out=tuple(LeftOut(text=text, reasons=left_out[text]) for text in sorted(left_out)),
     )
+
+
+def _is_dull(task: Task) -> bool:
+    """Whether nothing is to be seen in it."""
+    return task.goal.gauges is not None and not task.solution.answer
 
 
 def _key(task: Task) -> str:
@@ -114,7 +120,6 @@ class _Maker:
         self._process = Process(self._network, scenario)
         self._units = {unit.tag: unit for unit in graph.of_layer(Unit)}
         self._stops: dict[str, Stop | tuple[str, ...]] = {}
-        self._ends: dict[str, State] = {}
 
     def candidates(self) -> list[tuple[TaskKind, Unit]]:
         """All that may be a task."""
@@ -136,19 +141,23 @@ class _Maker:
             speed={tag: round(speed, 6) for tag, speed in sorted(balance.speed.items())},
         )
 
-    def drawn_start(self, draw: random.Random) -> Start:
-        """The plant with a valve or two elsewhere, or a pump that stands still."""
+    def drawn_start(self, draw: random.Random, shut: str | None = None) -> Start:
+        """The plant with a valve or two elsewhere, or a pump that stands still, and one valve shut."""
         first = self.start()
         opening, speed = dict(first.opening), dict(first.speed)
         for tag in draw.sample(sorted(opening), min(len(opening), draw.randint(1, 2))):
             opening[tag] = draw.choice(_OPENINGS)
         if speed and draw.random() < 0.3:
             speed[draw.choice(sorted(speed))] = 0.0
+        if shut is not None:
+            opening[shut] = 0.0
         return Start(opening=opening, speed=speed)
 
-    def make(self, name: str, kind: TaskKind, unit: Unit, start: Start) -> Task | LeftOut:
-        """A task, or why it is none."""
+    def make(self, name: str, kind: TaskKind, unit: Unit, start: Start) -> Task | LeftOut | None:
+        """A task, or why it is none; None where all is done at its start already."""
         text = _TEXTS[kind].format(unit.tag)
+        if kind in ("close", "open") and abs(start.opening[unit.tag] - (kind == "open")) <= SHUT:
+            return None
         wanted = self._wanted(kind, unit, start)
         if not isinstance(wanted, _Wanted):
             return LeftOut(text=text, reasons=wanted)
@@ -170,10 +179,12 @@ class _Maker:
         )
         return self._played(task)
 
-    def _played(self, task: Task) -> Task | LeftOut:
+    def _played(self, task: Task) -> Task | LeftOut | None:
         """The task with what has to be told at its end, once its own solution has passed the check."""
         process = begin(task, self._network, self._scenario)
         first = process.state
+        if task.kind == "isolate" and check(task, (first,)).done:
+            return None
         last = process.steady(task.solution.set)
         answer: float | tuple[str, ...] | None = None
         if task.goal.reading is not None:
@@ -195,9 +206,7 @@ class _Maker:
             return self._reading(unit)
         if kind == "isolate":
             return self._isolating(unit, start)
-        here, aim = start.opening[unit.tag], 0.0 if kind == "close" else 1.0
-        if (here <= SHUT) if kind == "close" else (here > 1 - SHUT):
-            return (f"it is {'shut' if kind == 'close' else 'open'} already",)
+        aim = 0.0 if kind == "close" else 1.0
         goal = Goal(opening={unit.tag: aim}, gauges="fall" if kind == "close" else "rise", least=self._least())
         return _Wanted(goal, {unit.tag: aim}, (unit,))
 
@@ -263,7 +272,7 @@ class _Maker:
             )  # fmt: skip
         mechanism = unit.mechanism
         if mechanism is None:
-            return (f"{unit.tag}: its wheel or lever was not found",)
+            return (f"{unit.tag}: {say_not_movable(self._graph, unit) or 'its wheel or lever was not found'}",)
         ring, hand, tried = self._hands.find(mechanism, access.stand)
         if hand is None:
             return (f"{unit.tag}: a hand meets something on each of {tried} ways to its {mechanism.kind}",)

@@ -88,9 +88,11 @@ class Hands:
             flat = vertices - np.outer(vertices @ axis, axis)
             if len(flat):
                 far = flat[int(np.argmax(np.round(np.linalg.norm(flat, axis=1), 9)))]
-                return (np.asarray(ring.center) + ring.radius * far / np.linalg.norm(far))[None]
+                end: Floats = np.asarray(ring.center) + ring.radius * far / np.linalg.norm(far)
+                return end[None]
         turns = np.radians(np.arange(_GRIPS) * 360.0 / _GRIPS)[:, None]
-        return np.asarray(ring.center) + ring.radius * (np.cos(turns) * across + np.sin(turns) * beside)
+        rim: Floats = np.asarray(ring.center) + ring.radius * (np.cos(turns) * across + np.sin(turns) * beside)
+        return rim
 
     def _clear(self, grasps: Floats, directions: Floats, moving: Sequence[int]) -> Bools:
         """``(n,)`` whether a hand that comes along a direction to a grasp meets nothing."""
