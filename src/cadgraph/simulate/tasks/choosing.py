@@ -12,7 +12,7 @@ from cadgraph.hydraulics.process import Process
 from cadgraph.hydraulics.settings import Scenario
 from cadgraph.hydraulics.text import assumed_values
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.records import Place, Unit
+from cadgraph.model.records import Part, Place, Unit
 from cadgraph.model.scene import Scene
 from cadgraph.query.isolate import find_isolation
 from cadgraph.query.mechanisms import say_not_movable
@@ -23,7 +23,7 @@ from cadgraph.simulate.tasks.records import Goal, LeftOut, Solution, Start, Stop
 
 __all__ = ["make_tasks"]
 
-_ROUNDS = 30  # starts that are drawn at most: a small plant has no more tasks that differ
+_ROUNDS = 10  # starts that are drawn at most: a small plant has no more tasks that differ
 _TOLERANCE = 0.02  # of the span of a gauge, within which a reading counts as read
 _COUNTS = 0.01  # of its span, by which a gauge has to change to count
 _SURE = 0.8  # a facing of less confidence is told as a doubt
@@ -223,26 +223,28 @@ class _Maker:
             return (str(error),)
         if found.openings:
             return tuple(f"{one.name}: {one.why}" for one in found.openings)
-        valves = [self._graph.find(one.place) for one in found.valves]
-        units = [node for node in valves if isinstance(node, Unit)]
+        valves = [self._graph.nodes[one.place] for one in found.valves]
+        units = tuple(node for node in valves if isinstance(node, Unit))
         fixed = [one.tag for one in units if one.tag not in self._process.balance.hand]
-        if fixed or not units:
-            return (
-                (f"{', '.join(fixed) or 'no valve'} can be shut by hand",)
-                if not units
-                else (f"{', '.join(fixed)} would have to be shut, which nobody moves by hand",)
-            )
-        pump = unit.tag in start.speed
+        if not units:
+            return ("no valve can be shut by hand",)
+        if fixed:
+            return (f"{', '.join(fixed)} would have to be shut, which nobody moves by hand",)
+        doubts = tuple(f"unsure by the graph: {doubt.text}" for doubt in found.doubts)
+        return self._shutting_off(unit, units, unit.tag in start.speed, doubts)
+
+    def _shutting_off(self, unit: Unit, valves: tuple[Unit, ...], is_pump: bool, doubts: tuple[str, ...]) -> _Wanted:
         goal = Goal(
             still=tuple(sorted({arc.index for arc in self._network.arcs(unit.id)})),
             shut_in=tuple(name for name in self._process.state.pressure if _is_of(name, unit)),
-            stopped=(unit.tag,) if pump else (),
+            stopped=(unit.tag,) if is_pump else (),
             untouched=False,
         )
-        moves = {one.tag: 0.0 for one in units} | ({unit.tag: 0.0} if pump else {})
-        doubts = tuple(f"unsure by the graph: {doubt.text}" for doubt in found.doubts)
-        stopping = (f"{unit.tag} is stopped from where it is switched, which is not in the plant",) if pump else ()
-        return _Wanted(goal, moves, tuple(units), (*doubts, *stopping))
+        moves = {one.tag: 0.0 for one in valves}
+        if not is_pump:
+            return _Wanted(goal, moves, valves, doubts)
+        switched = f"{unit.tag} is stopped from where it is switched, which is not in the plant"
+        return _Wanted(goal, {**moves, unit.tag: 0.0}, valves, (*doubts, switched))
 
     def _least(self) -> dict[str, float]:
         return {
@@ -272,7 +274,9 @@ class _Maker:
             )  # fmt: skip
         mechanism = unit.mechanism
         if mechanism is None:
-            return (f"{unit.tag}: {say_not_movable(self._graph, unit) or 'its wheel or lever was not found'}",)
+            actuated = "it is moved by an actuator, not by hand" if self._has_actuator(unit) else ""
+            missing = "its wheel or lever was not found"
+            return (f"{unit.tag}: {actuated or say_not_movable(self._graph, unit) or missing}",)
         ring, hand, tried = self._hands.find(mechanism, access.stand)
         if hand is None:
             return (f"{unit.tag}: a hand meets something on each of {tried} ways to its {mechanism.kind}",)
@@ -281,6 +285,11 @@ class _Maker:
             unit=unit.id, tag=unit.tag, does="pull" if mechanism.kind == "lever" else "turn", place=access.place,
             stand=access.stand, ring=ring, hand=hand, remarks=(piece,) if mechanism.pieces else (),
         )  # fmt: skip
+
+    def _has_actuator(self, unit: Unit) -> bool:
+        nodes = (self._graph.nodes[part] for part in unit.parts)
+        labels = (node.label for node in nodes if isinstance(node, Part))
+        return any(label is not None and label.name == "actuator" for label in labels)
 
     def _out_of_reach(self, unit: Unit) -> Iterator[str]:
         access = unit.access
