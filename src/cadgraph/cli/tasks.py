@@ -13,6 +13,8 @@ from cadgraph.cli.application import app
 from cadgraph.cli.options import GraphArgument
 from cadgraph.cli.screen import err, out
 
+_SHOWN = 20  # of what can't be done
+
 
 @app.command()
 def tasks(
@@ -54,8 +56,10 @@ def tasks(
     out.print(f"{len(made.tasks)} tasks: {told}")
     if made.left_out:
         out.print(f"{len(made.left_out)} left out, as they can't be done:")
-        for one in made.left_out:
+        for one in made.left_out[:_SHOWN]:
             out.print(f"  {escape(one.text)}: {escape('; '.join(one.reasons))}")
+        if len(made.left_out) > _SHOWN:
+            out.print(f"  and {len(made.left_out) - _SHOWN} more, which the file names too")
     if len(made.tasks) < n:
         out.print(f"[dim]{n} were asked for; this plant has no more that differ[/]")
     supposed = f"as {file} says" if file is not None else "by the defaults; 'cadgraph simulate' writes them to edit"
