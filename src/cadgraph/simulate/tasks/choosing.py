@@ -26,6 +26,7 @@ __all__ = ["make_tasks"]
 _ROUNDS = 10  # starts that are drawn at most: a small plant has no more tasks that differ
 _TOLERANCE = 0.02  # of the span of a gauge, within which a reading counts as read
 _COUNTS = 0.01  # of its span, by which a gauge has to change to count
+_REACH = 2.0  # m above where one stands, as in the reach of a unit
 _SURE = 0.8  # a facing of less confidence is told as a doubt
 _OPENINGS = (0.0, 0.25, 0.5, 0.75)  # that valves stand at in a drawn start
 _NEVER_ISOLATED = ("valve", "gauge", "tank")
@@ -301,7 +302,8 @@ class _Maker:
         elif access.reach == "out of reach" or access.stand is None:
             place = self._graph.nodes.get(access.place or "")
             level = place.name if isinstance(place, Place) else "ground"
-            yield f"{unit.tag}: out of reach, {access.height:.1f} m above the {level}, or nowhere to stand near it"
+            why = "" if access.height > _REACH else ": no free place to stand near it was found"
+            yield f"{unit.tag}: {access.height:.1f} m above the {level}, out of reach{why}"
 
 
 def _is_of(name: str, unit: Unit) -> bool:
