@@ -30,6 +30,22 @@ def simulate(
         Path | None,
         typer.Option("--scenario", metavar="FILE", help="What to suppose; scenario.yaml of the folder by default."),
     ] = None,
+    play: Annotated[
+        Path | None,
+        typer.Option(
+            "--play",
+            metavar="FILE",
+            help="A timetable: a YAML file with a list play of moves, each with at [s], over [s] and set "
+            "({V-003: 0}). Writes animation.usda, animation.png and animation.gif into the folder.",
+        ),
+    ] = None,
+    seconds: Annotated[float, typer.Option("--seconds", help="How long to play, at most 600.")] = 30.0,
+    needles: Annotated[
+        bool, typer.Option("--needles", help="Draw a needle in simulation.usda on every dial that has none.")
+    ] = False,
+    source: Annotated[
+        Path | None, typer.Option("--source", metavar="FILE", help="The scene itself, where it has moved.")
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print as JSON.")] = False,
 ) -> None:
     """Work out what flows, what every gauge shows, and what happens when valves are turned and pumps stopped.
@@ -37,20 +53,41 @@ def simulate(
     What the graph doesn't know is supposed: the fluid, the pumps, how far valves are open, what the ends of pipes do.
     The first run writes all of that into scenario.yaml of the folder, each value with its reason; edit it and run
     again. An edited file is never written over. What is assumed is counted below the table.
+
+    With --play a timetable is played: what moves, and what gauges show, as time samples over simulation.usda that every
+    USD viewer shows, as a strip of pictures and as a GIF. A FILE that says more than what is done is the scenario, too.
+
+    Without --set, the plant is also written as a stage with physics that simulators open: simulation.usda, where
+    wheels, levers and needles turn about joints called as the tags of their units, with devices.json, their table.
     """
+    from cadgraph.cli.playing import play_timetable, say_played, supposed_by
+    from cadgraph.cli.staging import say_stage, write_stage_beside
     from cadgraph.hydraulics.process import Process
     from cadgraph.hydraulics.text import change_lines, standing, standing_lines, state_values
 
     commands = _commands(changes or [])
+    if play is not None and commands:
+        raise ValueError("--play and --set: give one of them; what --set says can stand in the timetable, at: 0")
+    scenario = scenario if play is None else supposed_by(play, scenario)
     process, file, written = _open(graph, scenario, Process)
     before, values = standing(process), state_values(process)
     if commands:
         process.steady(commands)
+    stage = None if commands else write_stage_beside(graph, source, needles)
+    folder = graph if graph.is_dir() else graph.parent
+    film = None if play is None else play_timetable(process, play, seconds, folder)
+    changed = bool(commands) or film is not None
     if as_json:
-        typer.echo(json.dumps(_values(process, file, values, commands), ensure_ascii=False, indent=1))
+        told = _values(process, file, values, commands, changed) | (stage or {}) | (film or {})
+        typer.echo(json.dumps(told, ensure_ascii=False, indent=1))
         return
-    for line in change_lines(process, before) if commands else standing_lines(process):
+    for line in change_lines(process, before) if changed else standing_lines(process):
         out.print(escape(line))
+    if stage is not None:
+        say_stage(stage)
+    if film is not None:
+        out.print()
+        say_played(film)
     _tell_assumed(process, file, written)
 
 
@@ -92,11 +129,13 @@ def _tell_assumed(process: Any, file: Path, written: bool) -> None:
     err.print(escape(told))
 
 
-def _values(process: Any, file: Path, before: dict[str, Any], commands: dict[str, float]) -> dict[str, Any]:
+def _values(
+    process: Any, file: Path, before: dict[str, Any], commands: dict[str, float], changed: bool
+) -> dict[str, Any]:
     from cadgraph.hydraulics.text import assumed_values, state_values
 
     values: dict[str, Any] = {"scenario": str(file)}
-    if commands:
+    if changed:
         values |= {"set": commands, "before": before, "after": state_values(process)}
     else:
         values["state"] = before

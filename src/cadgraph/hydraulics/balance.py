@@ -15,14 +15,14 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Unit
 from cadgraph.query.network import Network
 
-__all__ = ["SHUT", "Balance", "complete", "default_scenario", "flow_share"]
+__all__ = ["LEAST", "SHUT", "STILL", "Balance", "complete", "default_scenario", "flow_share"]
 
 Floats = npt.NDArray[np.float64]
 
 SHUT = 1e-3
 """Opening of a valve, or speed of a pump, at and below which nothing passes; ours."""
-_STILL = 1e-8  # m3/s
-_LEAST = 1e-4  # share of the flow coefficient of a valve that is not shut
+STILL = 1e-8  # m3/s
+LEAST = 1e-4  # share of the flow coefficient of a valve that is not shut
 _RATIO = 50.0  # of an equal percentage valve between open and nearly shut; IEC 60534-2-4 allows any, 50 is usual
 
 
@@ -52,20 +52,23 @@ def complete(network: Network, scenario: Scenario) -> Scenario:
     return with_pressures(scenario, {tag: trial.difference(tag) for tag in open_ones}, measured)
 
 
-def flow_share(opening: float, characteristic: Characteristic | None) -> float:
+def flow_share(opening: npt.ArrayLike, characteristic: Characteristic | None) -> Floats:
     """The flow coefficient of a valve as a share of the open one.
 
     Args:
-        opening: of it, 0 to 1.
+        opening: of it, 0 to 1; of any shape.
         characteristic: how it follows.
+
+    Returns:
+        Of the same shape.
     """
+    share = np.asarray(opening, float)
     if characteristic == "equal percentage":
-        share = math.expm1(opening * math.log(_RATIO)) / (_RATIO - 1)
+        share = np.expm1(share * math.log(_RATIO)) / (_RATIO - 1)
     elif characteristic == "ball":
-        share = math.sin(math.pi / 2 * opening) ** 3
-    else:
-        share = opening
-    return max(share, _LEAST)
+        share = np.sin(math.pi / 2 * share) ** 3
+    passed: Floats = np.maximum(share, LEAST)
+    return passed
 
 
 class Balance:
@@ -106,8 +109,8 @@ class Balance:
         """Nodes that nothing flows at and that air has got to, as they lie above what stands in the pipe below them."""
         circuit, solution = self.circuit, self.solution
         with np.errstate(invalid="ignore"):
-            low = solution.head < circuit.height + _LEAST
-        still = np.abs(solution.flow) < _STILL
+            low = solution.head < circuit.height + LEAST
+        still = np.abs(solution.flow) < STILL
         inlets = np.flatnonzero(self._to_air & still & low[circuit.start])
         if not len(inlets):
             return frozenset()
@@ -253,6 +256,10 @@ class _Places:
     def inflow(self, flow: Floats) -> dict[str, float]:
         """What flows into each tank [m3/s], by tag."""
         return {tag: float(flow[links].sum()) for tag, links in self._tank_links.items()}
+
+    def links_at_gauge(self, tag: str) -> list[int]:
+        """The pipes that join at a gauge."""
+        return self._at_gauge[tag]
 
     def flow_at(self, tag: str, flow: Floats) -> float:
         """What flows past a gauge [m3/s]."""

@@ -18,9 +18,9 @@ from cadgraph.query.network import Network
 
 __all__ = ["Process", "State"]
 
-_STALE = 1e-3  # m; a level that has moved less changes no pressure
-_LONGEST = 1.0  # s; of a step that is worked out at once
-_SETTLED = 1e-6  # of a reading, in its unit
+STALE = 1e-3  # m; a level that has moved less changes no pressure
+LONGEST = 1.0  # s; of a step that is worked out at once
+SETTLED = 1e-6  # of a reading, in its unit
 _STILL = 1e-6  # m3/s
 
 
@@ -120,7 +120,7 @@ class Process:
         self._command(commands or {})
         if not (math.isfinite(dt) and dt > 0):
             raise ValueError(f"dt {dt}: give a time above 0 s")
-        pieces = max(1, math.ceil(dt / _LONGEST - 1e-9))
+        pieces = max(1, math.ceil(dt / LONGEST - 1e-9))
         for _ in range(pieces):
             self._advance(dt / pieces)
         return self._state
@@ -203,10 +203,14 @@ class Process:
             self._lag(dt)
             self._state = self._make_state()
         elif self._lag(dt):
-            self._state = replace(self._state, time=self._time, reading=self._readings(), joints=self._angles())
+            self._state = replace(
+                self._state, time=self._time, level=self._levels(), reading=self._readings(), joints=self._angles()
+            )
         else:
-            level = dict(self.balance.level) if self.balance.level else self._state.level
-            self._state = replace(self._state, time=self._time, level=level)
+            self._state = replace(self._state, time=self._time, level=self._levels())
+
+    def _levels(self) -> Mapping[str, float]:
+        return dict(self.balance.level) if self.balance.level else self._state.level
 
     def _fill(self, dt: float) -> bool:
         """Moves the levels by what flowed; whether one has moved so far that pressures change."""
@@ -217,7 +221,7 @@ class Process:
             level = min(max(self.balance.level[tag] + flow * dt / tank.area, 0.0), tank.height)
             self.balance.level[tag] = level
             at_end = level in (0.0, tank.height) and self._solved_level[tag] != level
-            far |= at_end or abs(level - self._solved_level[tag]) > _STALE
+            far |= at_end or abs(level - self._solved_level[tag]) > STALE
         return far
 
     def _settle(self) -> State:
@@ -234,7 +238,7 @@ class Process:
             if wanted == here:
                 continue
             moved, gauge = True, self.scenario.gauges[tag]
-            if wanted is None or here is None or abs(wanted - here) < _SETTLED or gauge.lag <= 0:
+            if wanted is None or here is None or abs(wanted - here) < SETTLED or gauge.lag <= 0:
                 self._shown[tag] = wanted
             else:
                 self._shown[tag] = wanted + (here - wanted) * math.exp(-dt / gauge.lag)
@@ -305,7 +309,7 @@ class Process:
         boiling = [
             name
             for name, node in self.balance.places.told.items()
-            if solution.head[node] < circuit.height[node] + self.scenario.head(self.scenario.fluid.vapour) - _STALE
+            if solution.head[node] < circuit.height[node] + self.scenario.head(self.scenario.fluid.vapour) - STALE
         ]
         if boiling and not cavitating:
             yield f"the column parts at {len(boiling)} places, as the pressure falls to that at which the fluid boils"

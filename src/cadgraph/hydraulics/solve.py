@@ -37,7 +37,7 @@ BACKFLOW = 1e-9
 """Flow against its way at which an open check valve shuts [m3/s]."""
 LIFT = 1e-6
 """Head that opens what is shut [m]."""
-_MOST_STEPS = 100
+MOST_STEPS = 100
 _MOST_ROUNDS = 80
 _ROUNDS_AT_ONCE = 12  # in which all that contradict turn at once; then one by one, so that nothing swings for ever
 _START = 0.5  # velocity to begin with [m/s]
@@ -210,7 +210,7 @@ class Solver:
         linear[list(choked)] = False
         balanced = False
         taken = 0
-        while taken < _MOST_STEPS:
+        while taken < MOST_STEPS:
             taken += 1
             loss, slope = self._loss(condition, flow)
             ease = np.where(linear, 1 / slope, 0.0)
