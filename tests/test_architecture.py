@@ -57,6 +57,7 @@ MAY_IMPORT = {
         *("_io", "config", "errors", "export", "load", "model", "query", "simulate.devices", "simulate.dynamics"),
     },
     "simulate.play": {"_io", "errors", "geometry", "hydraulics", "model", "query", *("draw.colors", "draw.render")},
+    "simulate.tasks": {"_io", "errors", "geometry", "hydraulics", "model", "query"},
     "session": {
         *("_io", "config", "errors", "geometry", "labelers", "load", "model", "pipeline", "query", "stages"),
         *("draw.report", "export"),
@@ -70,7 +71,8 @@ MAY_IMPORT = {
         *("plans", "query"),
         "serve",
         "session",
-        *("draw.render", "draw.report", "draw.schematic", "draw.web", "export", "simulate.play", "simulate.stage"),
+        *("draw.render", "draw.report", "draw.schematic", "draw.web", "export"),
+        *("simulate.play", "simulate.stage", "simulate.tasks"),
     },
     "draw": set(),
     "__main__": {"cli"},
