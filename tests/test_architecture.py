@@ -33,8 +33,8 @@ MAY_IMPORT = {
     "plans": {"_io", "errors", "model", "query"},
     "hydraulics": {"_io", "errors", "model", "query"},
     "agents": {
-        *("_io", "config", "errors", "labelers", "load", "model", "plans", "query", "serve", "session", "stages"),
-        *("draw.colors", "draw.render"),
+        *("_io", "config", "errors", "hydraulics", "labelers", "load", "model", "plans", "query", "serve", "session"),
+        *("draw.colors", "draw.render", "stages"),
     },
     "draw.svg": {"_io"},
     "draw.schematic": {"_io", "draw.svg", "errors", "model", "query"},
@@ -47,10 +47,17 @@ MAY_IMPORT = {
     "draw.isometric": {"_io", "draw.svg", "errors", "model", "query"},
     "export": {
         *("_io", "config", "errors", "hydraulics", "load", "model", "query"),
-        *("draw.isometric", "draw.schematic", "draw.web"),
+        *("draw.isometric", "draw.schematic", "draw.web", "simulate.mjcf"),
     },
     "simulate": set(),
+    "simulate.dynamics": {"geometry", "model", "query"},
+    "simulate.devices": {"_io", "model", "simulate.dynamics"},
+    "simulate.mjcf": {"_io", "draw.render", "model", "simulate.dynamics"},
+    "simulate.stage": {
+        *("_io", "config", "errors", "export", "load", "model", "query", "simulate.devices", "simulate.dynamics"),
+    },
     "simulate.play": {"_io", "errors", "geometry", "hydraulics", "model", "query", *("draw.colors", "draw.render")},
+    "simulate.tasks": {"_io", "errors", "geometry", "hydraulics", "model", "query"},
     "session": {
         *("_io", "config", "errors", "geometry", "labelers", "load", "model", "pipeline", "query", "stages"),
         *("draw.report", "export"),
@@ -64,7 +71,8 @@ MAY_IMPORT = {
         *("plans", "query"),
         "serve",
         "session",
-        *("draw.render", "draw.report", "draw.schematic", "draw.web", "export", "simulate.play"),
+        *("draw.render", "draw.report", "draw.schematic", "draw.web", "export"),
+        *("simulate.play", "simulate.stage", "simulate.tasks"),
     },
     "gym": {"errors", "hydraulics", "model", "query"},
     "draw": set(),
@@ -75,7 +83,7 @@ SPLIT = ("draw", "simulate")  # rooms whose folders are rooms of their own
 
 # No stage and no labeler may ever see the truth.
 MAY_SEE_THE_TRUTH = {"cli", "model", "session"}
-MAY_USE_USD = {"load", "export", "simulate.play"}
+MAY_USE_USD = {"load", "export", "simulate.play", "simulate.stage"}
 HEAVY = {
     "PIL",
     "cascadio",

@@ -41,7 +41,8 @@ def export(
         typer.Option(
             "--to",
             metavar="FORMAT",
-            help="att, csv, dexpi, epanet, gltf, graphml, html, ifc, isometric, labels-csv, networkx-json, pcf or usd.",
+            help="att, csv, dexpi, epanet, gltf, graphml, html, ifc, isometric, labels-csv, mjcf, networkx-json, pcf "
+            "or usd.",
         ),
     ],
     output: Annotated[
@@ -50,7 +51,9 @@ def export(
     source: Annotated[
         Path | None,
         typer.Option(
-            "--source", metavar="FILE", help="For att, gltf, html, ifc and usd: the scene itself, where it has moved."
+            "--source",
+            metavar="FILE",
+            help="For att, gltf, html, ifc, mjcf and usd: the scene itself, where it has moved.",
         ),
     ] = None,
     bake: Annotated[

@@ -40,6 +40,12 @@ def simulate(
         ),
     ] = None,
     seconds: Annotated[float, typer.Option("--seconds", help="How long to play, at most 600.")] = 30.0,
+    needles: Annotated[
+        bool, typer.Option("--needles", help="Draw a needle in simulation.usda on every dial that has none.")
+    ] = False,
+    source: Annotated[
+        Path | None, typer.Option("--source", metavar="FILE", help="The scene itself, where it has moved.")
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print as JSON.")] = False,
 ) -> None:
     """Work out what flows, what every gauge shows, and what happens when valves are turned and pumps stopped.
@@ -50,8 +56,12 @@ def simulate(
 
     With --play a timetable is played: what moves, and what gauges show, as time samples over simulation.usda that every
     USD viewer shows, as a strip of pictures and as a GIF. A FILE that says more than what is done is the scenario, too.
+
+    Without --set, the plant is also written as a stage with physics that simulators open: simulation.usda, where
+    wheels, levers and needles turn about joints called as the tags of their units, with devices.json, their table.
     """
     from cadgraph.cli.playing import play_timetable, say_played, supposed_by
+    from cadgraph.cli.staging import say_stage, write_stage_beside
     from cadgraph.hydraulics.process import Process
     from cadgraph.hydraulics.text import change_lines, standing, standing_lines, state_values
 
@@ -63,15 +73,18 @@ def simulate(
     before, values = standing(process), state_values(process)
     if commands:
         process.steady(commands)
+    stage = None if commands else write_stage_beside(graph, source, needles)
     folder = graph if graph.is_dir() else graph.parent
     film = None if play is None else play_timetable(process, play, seconds, folder)
     changed = bool(commands) or film is not None
     if as_json:
-        told = _values(process, file, values, commands, changed) | (film or {})
+        told = _values(process, file, values, commands, changed) | (stage or {}) | (film or {})
         typer.echo(json.dumps(told, ensure_ascii=False, indent=1))
         return
     for line in change_lines(process, before) if changed else standing_lines(process):
         out.print(escape(line))
+    if stage is not None:
+        say_stage(stage)
     if film is not None:
         out.print()
         say_played(film)

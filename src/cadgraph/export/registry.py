@@ -8,17 +8,15 @@ from functools import partial
 from pathlib import Path
 from typing import Literal
 
-from cadgraph.config import restore_config
-from cadgraph.errors import FormatError, LoadError
+from cadgraph.errors import LoadError
 from cadgraph.export.att import write_att
 from cadgraph.export.graphml import write_graphml
 from cadgraph.export.labels import write_labels
 from cadgraph.export.nodelink import write_nodelink
-from cadgraph.export.source import find_source, refuse_source
+from cadgraph.export.source import find_source, refuse_source, scene_of
 from cadgraph.export.tables import write_tables
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
-from cadgraph.model.scene import Scene
 
 __all__ = ["Format", "Written", "export_graph", "formats", "write_export"]
 
@@ -128,26 +126,22 @@ def _write_usd(graph: SceneGraph, path: Path, source: Path | None) -> Written:
 
     assert source is not None  # it is needed
     check_source(source, path)
-    return Written((write_semantics(_scene_of(graph, source), graph, source, path),))
+    return Written((write_semantics(scene_of(graph, source), graph, source, path),))
 
 
 def _write_baked(graph: SceneGraph, path: Path, source: Path | None, open_instances: bool = False) -> Written:
     from cadgraph.export.baked_usd import write_baked
 
     assert source is not None  # it is needed
-    file, notes = write_baked(_scene_of(graph, source), graph, source, path, open_instances=open_instances)
+    file, notes = write_baked(scene_of(graph, source), graph, source, path, open_instances=open_instances)
     return Written((file,), notes)
 
 
-def _scene_of(graph: SceneGraph, source: Path) -> Scene:
-    """The scene that a graph was made from, read again as it was then."""
-    from cadgraph.load import load
+def _write_mjcf(graph: SceneGraph, path: Path, source: Path | None) -> Written:
+    from cadgraph.simulate.mjcf import write_mjcf
 
-    try:
-        settings = restore_config(graph.document.config)
-    except ValueError as error:
-        raise FormatError(f"the graph's settings can't be used any more ({error}); build the graph anew") from error
-    return load(source, settings.load)
+    assert source is not None  # it is needed
+    return Written(*write_mjcf(graph, scene_of(graph, source), path))
 
 
 def _write_isometrics(graph: SceneGraph, path: Path, _: Path | None) -> Written:
@@ -217,6 +211,13 @@ _FORMATS = (
         _write_isometrics,
     ),
     Format("labels-csv", "labels by source path, for 'cadgraph build --labels'", _write_labels, file="labels.csv"),
+    Format(
+        "mjcf",
+        "wheels, levers and needles as a MuJoCo model with joints called after the tags",
+        _write_mjcf,
+        source="needed",
+        file="mjcf/plant.xml",
+    ),
     Format(
         "networkx-json",
         "nodes and edges alone, for networkx.node_link_graph and d3",
