@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Elimination"]
+__all__ = ["Elimination", "Factors"]
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
@@ -137,25 +137,42 @@ class Elimination:
         """How many coefficients there are, with those that fill in."""
         return len(self._cell)
 
-    def solve(self, cells: Floats, right: Floats) -> Floats:
-        """The unknowns of all systems.
+    def factors(self, cells: Floats) -> Factors:
+        """All systems made ready to be solved.
 
         Args:
             cells: ``(size, n_systems)`` coefficients, each pair once; what fills in is zero. Used up.
-            right: ``(n, n_systems)`` right sides.
-
-        Returns:
-            ``(n, n_systems)``.
         """
-        found, kept = right.copy(), []
+        kept = []
         for step in self._steps:
             inverse = 1 / cells[step.pivots]
             column = cells[step.column]
             scaled = column * inverse[step.of]
-            kept.append((inverse, scaled))
+            kept.append((step, inverse, scaled))
             step.off_cells.take(column[step.first] * scaled[step.second], cells)
+        return Factors(kept)
+
+
+class Factors:
+    """Systems that are ready to be solved, see :meth:`Elimination.factors`."""
+
+    def __init__(self, kept: Sequence[tuple[_Step, Floats, Floats]]) -> None:
+        self._kept = kept
+
+    def of(self, systems: Ints) -> Factors:
+        """Those of some systems."""
+        return Factors([(step, inverse[:, systems], scaled[:, systems]) for step, inverse, scaled in self._kept])
+
+    def solve(self, right: Floats) -> Floats:
+        """The unknowns ``(n, n_systems)`` of all systems.
+
+        Args:
+            right: ``(n, n_systems)`` right sides.
+        """
+        found = right.copy()
+        for step, _, scaled in self._kept:
             step.off_others.take(scaled * found[step.owner], found)
-        for step, (inverse, scaled) in zip(reversed(self._steps), reversed(kept), strict=True):
+        for step, inverse, scaled in reversed(self._kept):
             found[step.pivots] *= inverse
             step.off_pivots.take(scaled * found[step.others], found)
         return found
