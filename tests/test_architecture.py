@@ -33,8 +33,8 @@ MAY_IMPORT = {
     "plans": {"_io", "errors", "model", "query"},
     "hydraulics": {"_io", "errors", "model", "query"},
     "agents": {
-        *("_io", "config", "errors", "labelers", "load", "model", "plans", "query", "serve", "session", "stages"),
-        *("draw.colors", "draw.render"),
+        *("_io", "config", "errors", "hydraulics", "labelers", "load", "model", "plans", "query", "serve", "session"),
+        *("draw.colors", "draw.render", "stages"),
     },
     "draw.svg": {"_io"},
     "draw.schematic": {"_io", "draw.svg", "errors", "model", "query"},

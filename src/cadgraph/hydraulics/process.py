@@ -160,16 +160,19 @@ class Process:
     # Commands
 
     def _command(self, commands: Mapping[str, float]) -> None:
-        """Takes over commands."""
+        """Takes over commands, all of them or none."""
+        found: dict[str, float] = {}
         for name, value in commands.items():
             tag = self._tag(name)
             if isinstance(value, bool) or not 0 <= value <= 1:
                 raise ValueError(f"{tag}={value}: give a number from 0 (shut, stopped) to 1 (open, full speed)")
+            found[tag] = float(value)
+        for tag, value in found.items():
             if tag in self.balance.speed:
                 self._changed |= self.balance.speed[tag] != value
-                self.balance.speed[tag] = float(value)
+                self.balance.speed[tag] = value
             else:
-                self._target[tag] = float(value)
+                self._target[tag] = value
 
     def _tag(self, name: str) -> str:
         if name in self.balance.hand or name in self.balance.speed:
