@@ -41,8 +41,8 @@ LIFT = 1e-6
 MOST_STEPS = 100
 _MOST_ROUNDS = 80
 _ROUNDS_AT_ONCE = 12  # in which all that contradict turn at once; then one by one, so that nothing swings for ever
-_MOST_CHANGES = 3  # of a pump that is choked, then isn't; then it isn't
-_WILD = 1e3  # m3/s; of a step that leads nowhere
+MOST_CHANGES = 3  # of a pump that is choked, then isn't; then it isn't
+WILD = 1e3  # m3/s; of a step that leads nowhere
 _START = 0.5  # velocity to begin with [m/s]
 
 
@@ -185,7 +185,7 @@ class Solver:
             steps += taken
             if choked and step > STEP and taken >= MOST_STEPS:
                 # What is left to a choked pump can lie behind it; then there is no such flow.
-                let_go.update(dict.fromkeys(choked, _MOST_CHANGES))
+                let_go.update(dict.fromkeys(choked, MOST_CHANGES))
                 choked, flow = (), self._first
                 continue
             head = self._even_out(condition, opened, usable, pieces, head, pulled)
@@ -196,7 +196,7 @@ class Solver:
                 opened = opened ^ turned
                 continue
             more, fewer = self._choking(condition, opened, choked, flow, head)
-            more = [pump for pump in more if let_go[pump] < _MOST_CHANGES]
+            more = [pump for pump in more if let_go[pump] < MOST_CHANGES]
             if not more and not fewer:
                 break
             let_go.update(fewer)
@@ -261,7 +261,7 @@ class Solver:
             flow, loss, slope = self._gone(condition, flow, change, drop, descent)
             balanced = True
             step = float(np.abs(change).max(initial=0.0))
-            if choked and step > _WILD:
+            if choked and step > WILD:
                 return flow, head, MOST_STEPS, step
             if step < STEP or np.abs(change).sum() < RELATIVE_STEP * np.abs(flow).sum():
                 break
