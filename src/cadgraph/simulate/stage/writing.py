@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pxr import Gf, Sdf, UsdGeom, Vt
+from pxr import Gf, Sdf, Usd, UsdGeom, Vt
 
 from cadgraph._io.atomic import write_atomically
 from cadgraph.config import LoadConfig
@@ -239,9 +239,7 @@ class _Stage:
         """A mesh of the source anew, where it stood, with its material and label; returns its opinions."""
         shown = self._below.meshes[mesh]
         prim = self._below.prim(shown)
-        spec = over(self._layer, path)
-        spec.specifier = Sdf.SpecifierDef
-        spec.referenceList.prependedItems = [Sdf.Reference(self._asset, Sdf.Path(shown.own))]
+        spec = self._alone(path, prim)
         place(spec, shown.matrix @ self._to_world @ from_world)
         self._dress(spec, prim, mesh)
         part = self._part_of_mesh.get(self._scene.paths[mesh])
@@ -249,6 +247,16 @@ class _Stage:
         if part is not None and said is not None:
             # What is too small for a part of its own was labelled as what it lies on.
             label_prim(spec, said._replace(name=_NEEDLE) if is_needle else said, trace_of(part))
+        return spec
+
+    def _alone(self, path: Any, prim: Any) -> Any:
+        """A prim that refers to a mesh of the source, without what else lies below that; its opinions."""
+        spec = over(self._layer, path)
+        spec.specifier = Sdf.SpecifierDef
+        spec.referenceList.prependedItems = [Sdf.Reference(self._asset, prim.GetPath())]
+        for child in prim.GetFilteredChildren(Usd.TraverseInstanceProxies()):
+            if child.GetTypeName() != "GeomSubset":
+                over(self._layer, path.AppendChild(child.GetName())).active = False
         return spec
 
     def _dress(self, spec: Any, prim: Any, mesh: int) -> None:
@@ -346,12 +354,11 @@ class _Stage:
         """A copy of a point instancer's item for engines alone: an item is no prim that could be touched."""
         shown = self._below.meshes[mesh]
         path = Sdf.Path(COLLIDERS).AppendChild(f"item_{mesh}")
-        spec = over(self._layer, path)
-        spec.specifier = Sdf.SpecifierDef
-        spec.referenceList.prependedItems = [Sdf.Reference(self._asset, Sdf.Path(shown.own))]
+        prim = self._below.prim(shown)
+        spec = self._alone(path, prim)
         place(spec, shown.matrix @ self._to_world)
         set_attribute(spec, "purpose", "Token", "guide", uniform=True)
-        make_collider(spec, self._below.prim(shown).GetTypeName())
+        make_collider(spec, prim.GetTypeName())
         return path
 
     def _filter(self, devices: Sequence[Device], reached: dict[int, Any]) -> None:
