@@ -8,7 +8,6 @@ each called as the tag of its unit. All that a simulator references is below the
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -97,19 +96,6 @@ def write_stage(graph: SceneGraph, source: str | Path, folder: str | Path, needl
     write_atomically(path, content)
     table = write_devices(graph, scene, devices, target / "devices.json")
     return Written((path, table, labels), devices, without_joint(graph, devices), stage.n_colliders)
-
-
-def _geometry_of(labels: Path) -> Path | None:
-    """The file with the geometry that was written beside the labels; None where they lie over the source itself."""
-    layer = Sdf.Layer.FindOrOpen(os.path.abspath(labels))
-    layer.Reload()
-    beside = labels.with_name("scene.usdc")
-    if list(layer.subLayerPaths) != [f"./{beside.name}"]:
-        return None
-    known = Sdf.Layer.Find(os.path.abspath(beside))
-    if known is not None:
-        known.Reload()
-    return beside
 
 
 class _Stage:
