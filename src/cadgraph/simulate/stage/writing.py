@@ -19,7 +19,7 @@ from pxr import Gf, Sdf, Usd, UsdGeom, Vt
 from cadgraph._io.atomic import write_atomically
 from cadgraph.config import LoadConfig
 from cadgraph.export.source import settings_of
-from cadgraph.export.usd import prim_paths, write_semantics
+from cadgraph.export.usd import is_split, is_usd, prim_paths, write_semantics
 from cadgraph.export.usd_labels import Said, dispositions_of, label_prim, said_of, trace_of
 from cadgraph.export.usd_specs import apply_schemas, define_prim, set_attribute
 from cadgraph.load import load
@@ -88,9 +88,13 @@ def write_stage(graph: SceneGraph, source: str | Path, folder: str | Path, needl
     scene = load(source, settings)
     devices = find_devices(graph, scene, needles)
     labels = write_semantics(scene, graph, source, target / "semantics.usda")
-    own = _geometry_of(labels)
-    below = Below(Path(source), settings, scene.paths) if own is None else Below(own, LoadConfig(), prim_paths(scene))
-    stage = _Stage(graph, scene, below, labels.name, own is not None)
+    converted = not is_usd(source) or is_split(scene)
+    below = (
+        Below(labels.with_name("scene.usdc"), LoadConfig(), prim_paths(scene))
+        if converted
+        else Below(Path(source), settings, scene.paths)
+    )
+    stage = _Stage(graph, scene, below, labels.name, converted)
     content = stage.write(devices)
     path = target / "simulation.usda"
     write_atomically(path, content)
