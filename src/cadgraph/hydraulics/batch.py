@@ -111,6 +111,11 @@ class ProcessBatch:
             found[:, column] = self._solution.cavitating[np.isin(self._solver.pumps, links)].any(axis=0)
         return found
 
+    @property
+    def shut_in(self) -> Bools:
+        """``(count, n_nodes)`` whether nothing of known head reaches a node of the circuit."""
+        return self._solution.shut_in.T.copy()
+
     # Time
 
     def reset(self, plants: npt.ArrayLike | None = None) -> None:
@@ -119,9 +124,7 @@ class ProcessBatch:
         Args:
             plants: ``(n,)`` their numbers, or ``(count,)`` which; all by default.
         """
-        chosen = np.arange(self.count)[slice(None) if plants is None else np.asarray(plants)]
-        process, balance = self.process, self.process.balance
-        state = process.state
+        chosen, balance, state = self._chosen(plants), self.process.balance, self.process.state
         parts = (
             (self._opening, [balance.opening[tag] for tag in self.valves]),
             (self._target, [balance.opening[tag] for tag in self.valves]),
@@ -158,6 +161,33 @@ class ProcessBatch:
         pieces = max(1, int(np.ceil(dt / LONGEST - 1e-9)))
         for _ in range(pieces):
             self._advance(dt / pieces)
+
+    def steady(
+        self,
+        opening: npt.ArrayLike | None = None,
+        speed: npt.ArrayLike | None = None,
+        plants: npt.ArrayLike | None = None,
+    ) -> None:
+        """Takes plants to where everything has come to rest but the levels of tanks, in no time.
+
+        Args:
+            opening: ``(count, n_valves)`` how far valves are open; NaN leaves one to what it was told before.
+            speed: ``(count, n_pumps)`` what speeds pumps get; NaN leaves one as it is.
+            plants: ``(n,)`` numbers of plants, or ``(count,)`` which; all by default.
+
+        Raises:
+            ValueError: values of another shape, or outside 0 to 1.
+        """
+        chosen = self._chosen(plants)
+        self._target[:, chosen] = self._told(opening, self._target, "opening")[:, chosen]
+        self._speed[:, chosen] = self._told(speed, self._speed, "speed")[:, chosen]
+        self._opening[:, chosen] = self._target[:, chosen]
+        if len(chosen):
+            self._solve(chosen)
+            self._shown[:, chosen] = self._measured[:, chosen]
+
+    def _chosen(self, plants: npt.ArrayLike | None) -> Ints:
+        return np.arange(self.count)[slice(None) if plants is None else np.asarray(plants)]
 
     def _told(self, values: npt.ArrayLike | None, now: Floats, what: str) -> Floats:
         if values is None:

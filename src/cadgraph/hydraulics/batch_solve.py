@@ -21,9 +21,11 @@ from cadgraph.hydraulics.network import Circuit, LinkKind
 from cadgraph.hydraulics.solve import (
     BACKFLOW,
     LIFT,
+    MOST_CHANGES,
     MOST_STEPS,
     RELATIVE_STEP,
     STEP,
+    WILD,
     Condition,
     Solution,
     Solver,
@@ -159,25 +161,34 @@ class BatchSolver:
         """
         usable, starved = ~given.shut, self.reach.starved(given.shut, given.one_way)
         usable[self.pumps] &= ~starved
-        turns = given.one_way & usable
-        opened = np.where(turns, last.open, usable)
-        # Until the end, 'cavitating' holds the pumps that give only what reaches them; those to which nothing can flow
-        # are not open.
+        turning = given.one_way & usable
+        opened = np.where(turning, last.open, usable)
+        n = given.square.shape[1]
+        # Until the end, 'cavitating' holds the pumps that give only what reaches them.
         found = Solutions(
             last.flow.copy(), given.head.copy(), opened, np.zeros(given.head.shape, bool),
-            last.cavitating & usable[self.pumps], np.zeros(given.square.shape[1], bool),
+            last.cavitating & opened[self.pumps], np.zeros(n, bool),
         )  # fmt: skip
-        left = np.arange(given.square.shape[1])
+        let_go, alone, left = np.zeros((len(self.pumps), n), np.int64), np.zeros(n, bool), np.arange(n)
         for _ in range(_ROUNDS):
             if not len(left):
                 break
-            work = _Round(self, given.of(left), found.of(left), usable[:, left], starved[:, left])
-            work.settle_pressures()
-            work.turn(turns[:, left])
+            work = _Round(
+                self,
+                given.of(left),
+                found.of(left),
+                usable[:, left],
+                turning[:, left],
+                starved[:, left],
+                let_go[:, left],
+            )
+            work.go()
             found.put(left, work.now)
-            left = left[~work.now.settled]
+            let_go[:, left], alone[left] = work.let_go, work.lost
+            left = left[~(work.now.settled | work.lost)]
+        alone[left] = True
         found.cavitating[:] |= starved
-        for plant in left.tolist():
+        for plant in np.flatnonzero(alone).tolist():
             self._solve_alone(plant, given, last, found)
         return found
 
@@ -251,8 +262,8 @@ class _Step:
             other.lost = self.lost[0][:, plants], self.lost[1][:, plants]
         return other
 
-    def go(self) -> tuple[Floats, Bools]:
-        """One step: the heads after it, and which plants are done."""
+    def go(self) -> tuple[Floats, Floats, Bools]:
+        """One step: the heads after it, the greatest change of a flow, and which plants are done."""
         solver, circuit, given, linear = self.solver, self.solver.circuit, self.given, self.linear
         if self.lost is None:
             self.lost = self._loss(self.flow)
@@ -263,7 +274,7 @@ class _Step:
         right = solver.incidence @ np.where(linear, self.flow + ease * (self.outer - loss), 0.0)
         right += self.pin_heads
         head = given.head.copy()
-        head[solver.free], forced = self._heads(cells, right)
+        head[solver.free], forced = self._heads(cells, right, ease)
         drop = head[circuit.start] - head[circuit.end]
         change = np.where(linear, ease * (drop - loss), 0.0)
         change[solver.pumps] = np.where(self.choked, forced - self.flow[solver.pumps], change[solver.pumps])
@@ -271,32 +282,37 @@ class _Step:
         self.flow = self.flow + share * change
         self.balanced |= share == 1.0
         size = np.abs(change)
-        done = (size.max(axis=0, initial=0.0) < STEP) | (
-            size.sum(axis=0) < RELATIVE_STEP * np.abs(self.flow).sum(axis=0)
-        )
-        return head, done
+        step = size.max(axis=0, initial=0.0)
+        done = (step < STEP) | (size.sum(axis=0) < RELATIVE_STEP * np.abs(self.flow).sum(axis=0))
+        return head, step, done | (self.choked.any(axis=0) & (step > WILD))
 
     def _loss(self, flow: Floats) -> tuple[Floats, Floats]:
         return self.solver.loss(flow, self.given.square, self.given.offset)
 
-    def _heads(self, cells: Floats, right: Floats) -> tuple[Floats, Floats]:
+    def _heads(self, cells: Floats, right: Floats, ease: Floats) -> tuple[Floats, Floats]:
         """Heads of the free nodes, and flows of choked pumps, whose suctions have the head at which it boils."""
         solver, circuit, pumps = self.solver, self.solver.circuit, self.solver.pumps
+        factors = solver.elimination.factors(cells)
+        heads = factors.solve(right)
+        # Short wide pipes beside narrow ones lose digits; one refinement gets them back.
+        every = np.zeros(self.given.head.shape)
+        every[solver.free] = heads
+        through = ease * (every[circuit.start] - every[circuit.end])
+        heads += factors.solve(right + solver.incidence @ through - self.pins * heads)
         forced = np.zeros(self.choked.shape)
         plants = np.flatnonzero(self.choked.any(axis=0))
-        held = cells[:, plants].copy()
-        heads = solver.elimination.solve(cells, right)
         if not len(plants):
             return heads, forced
         # What each pump does to the heads when it moves one unit.
         at, to = solver.row[circuit.start[pumps]], solver.row[circuit.end[pumps]]
+        part = factors.of(plants)
         effect = np.zeros((len(solver.free), len(pumps), len(plants)))
-        for number in range(len(pumps)):
+        for number in np.flatnonzero(self.choked.any(axis=1)).tolist():
             moved = np.zeros((len(solver.free), len(plants)))
             moved[at[number]] -= 1.0
             if to[number] >= 0:
                 moved[to[number]] += 1.0
-            effect[:, number] = solver.elimination.solve(held.copy(), moved)
+            effect[:, number] = part.solve(moved)
         wanted = self.given.floor[circuit.start[pumps]] - heads[at][:, plants]
         choked = self.choked[:, plants]
         both = choked[:, None] & choked[None]
@@ -360,71 +376,106 @@ class _Round:
         given: what each plant stands under.
         now: what they have come to.
         usable: ``(n_links, n_plants)`` what could be open.
+        turning: ``(n_links, n_plants)`` what opens and shuts by itself.
         starved: ``(n_pumps, n_plants)`` pumps that nothing can flow to.
+        let_go: ``(n_pumps, n_plants)`` how often a pump was choked and then wasn't.
     """
 
-    def __init__(self, solver: BatchSolver, given: Conditions, now: Solutions, usable: Bools, starved: Bools) -> None:
+    def __init__(
+        self, solver: BatchSolver, given: Conditions, now: Solutions, usable: Bools, turning: Bools, starved: Bools,
+        let_go: Ints,
+    ) -> None:  # fmt: skip
         self.solver, self.circuit = solver, solver.circuit
-        self.given, self.now, self.usable, self.starved = given, now, usable, starved
-        self.linear = now.open.copy()
-        self.linear[solver.pumps] &= ~now.cavitating
-        self.pieces: Pieces = solver.reach.pieces(self.linear)
+        self.given, self.now, self.usable, self.turning, self.starved = given, now, usable, turning, starved
+        self.let_go, self.lost = let_go, np.zeros(let_go.shape[1], bool)
+        self.choked = now.cavitating & now.open[solver.pumps]
+        self.pieces = self._pieces()
 
-    def settle_pressures(self) -> None:
-        """Solves, and evens out what floats."""
-        pin_heads = self.pieces.pin_heads(self.given.head, self.given.loop_head)
-        flow, head = self._newton(np.where(self.now.open, self.now.flow, 0.0), pin_heads)
-        shut_ways = self.usable & ~self.now.open & self.given.one_way
+    def _linear(self) -> Bools:
+        linear = self.now.open.copy()
+        linear[self.solver.pumps] &= ~self.choked
+        return linear
+
+    def _pieces(self) -> Pieces:
+        """What hangs together; pumps stay choked only where both of their sides do with a given head."""
+        circuit, pumps = self.circuit, self.solver.pumps
+        while True:
+            pieces = self.solver.reach.pieces(self._linear())
+            floating = (pieces.label[circuit.start[pumps]] >= 0) | (pieces.label[circuit.end[pumps]] >= 0)
+            apart = self.choked & floating
+            if not apart.any():
+                return pieces
+            self.let_go = self.let_go + apart
+            self.choked = self.choked & ~apart
+
+    def go(self) -> None:
+        """Works out flows and heads, and turns what they contradict."""
+        given, now = self.given, self.now
+        flow, head, step, taken = self._newton()
+        shut_ways = self.usable & ~now.open & given.one_way
         head = self.pieces.even_out(
-            head, self.given.head, self.given.offset, self.given.floor, shut_ways, self.starved, self.solver.pumps
+            head, given.head, given.offset, given.floor, shut_ways, self.starved, self.solver.pumps
         )
-        shut_in = (self.pieces.label >= 0) & ~self.pieces.circulating
-        self.now = replace(self.now, flow=flow, head=head, shut_in=shut_in)
+        turned = self._turned(flow, head)
+        more, fewer = self._choking(flow, head)
+        wanted = more & (self.let_go < MOST_CHANGES)
+        any_turned: Bools = np.logical_or.reduce(turned, axis=0)
+        settled: Bools = np.logical_not(any_turned | np.logical_or.reduce(wanted | fewer, axis=0))
+        # Those that Newton's method gets nowhere with are left to the solver of single plants.
+        self.lost = (step > STEP) & (taken >= MOST_STEPS)
+        calm = ~(any_turned | settled)
+        self.let_go = self.let_go + (fewer & calm)
+        choked = np.where(calm, (self.choked | wanted) & ~fewer, self.choked)
+        self.now = Solutions(
+            flow, head, now.open ^ turned, (self.pieces.label >= 0) & ~self.pieces.circulating,
+            np.where(settled, self.choked | more, choked), settled & ~self.lost,
+        )  # fmt: skip
 
-    def _newton(self, flow: Floats, pin_heads: Floats) -> tuple[Floats, Floats]:
-        """Flows and heads with everything open or shut as it is."""
+    # Newton's method
+
+    def _newton(self) -> tuple[Floats, Floats, Floats, Ints]:
+        """Flows and heads with everything open or shut as it is; the last step of each plant, and how many it took."""
         solver, circuit, given = self.solver, self.circuit, self.given
+        flow = np.where(self.now.open, self.now.flow, 0.0)
         fixed = np.where(circuit.fixed[:, None], given.head, 0.0)
         pins = self.pieces.pins[solver.free]
+        pin_heads = self.pieces.pin_heads(given.head, given.loop_head)
         step = _Step(
-            solver, given, self.linear, self.now.cavitating, fixed[circuit.start] - fixed[circuit.end], pins,
+            solver, given, self._linear(), self.choked, fixed[circuit.start] - fixed[circuit.end], pins,
             np.where(pins, pin_heads[solver.free], 0.0), flow, np.zeros(flow.shape[1], bool),
         )  # fmt: skip
-        heads, flows = given.head.copy(), flow.copy()
-        left = np.arange(flow.shape[1])
-        for _ in range(MOST_STEPS):
-            head, done = step.go()
-            heads[:, left], flows[:, left] = head, step.flow
+        heads, flows, left = given.head.copy(), flow.copy(), np.arange(flow.shape[1])
+        sizes, taken = np.zeros(len(left)), np.full(len(left), MOST_STEPS)
+        for number in range(1, MOST_STEPS + 1):
+            head, size, done = step.go()
+            heads[:, left], flows[:, left], sizes[left] = head, step.flow, size
             if done.any():
                 kept = np.flatnonzero(~done)
+                ended = done & ~(step.choked.any(axis=0) & (size > WILD))
+                taken[left[ended]] = number
                 left, step = left[kept], step.of(kept)
             if not len(left):
                 break
-        return flows, heads
+        return flows, heads, sizes, taken
 
     # What contradicts
 
-    def turn(self, turns: Bools) -> None:
-        """Opens and shuts what the flows and heads say."""
-        circuit, now, given, pumps = self.circuit, self.now, self.given, self.solver.pumps
-        pressing = now.head[circuit.start] - now.head[circuit.end] - given.offset
+    def _turned(self, flow: Floats, head: Floats) -> Bools:
+        """Which links that let pass one way only contradict their flow or heads, so that they are to be turned."""
+        circuit, opened = self.circuit, self.now.open
+        turning = self.turning.copy()
+        turning[self.solver.pumps] &= ~self.choked
         with np.errstate(invalid="ignore"):
-            closing = turns & now.open & (now.flow < -BACKFLOW)
-            opening = turns & ~now.open & (pressing > LIFT)
-        more, fewer = self._choking(now.open & ~closing)
-        turned = closing | opening
-        settled: Bools = np.logical_not(turned.any(axis=0) | more.any(axis=0) | fewer.any(axis=0))
-        after = np.where(settled, now.open, now.open ^ turned)
-        choked = np.where(settled, now.cavitating, (now.cavitating | more) & ~fewer & after[pumps])
-        self.now = replace(now, open=after, cavitating=choked, settled=settled)
+            pressing = head[circuit.start] - head[circuit.end] - self.given.offset
+            turned: Bools = turning & np.where(opened, flow < -BACKFLOW, pressing > LIFT)
+        return turned
 
-    def _choking(self, opened: Bools) -> tuple[Bools, Bools]:
-        """The pumps that draw more than reaches them, and those that no longer do."""
-        circuit, now, given, pumps = self.circuit, self.now, self.given, self.solver.pumps
-        a, b = circuit.start[pumps], circuit.end[pumps]
-        loss, _ = self.solver.loss(now.flow, given.square, given.offset)
+    def _choking(self, flow: Floats, head: Floats) -> tuple[Bools, Bools]:
+        """The pumps that draw more than reaches them, and the choked ones that no longer do."""
+        circuit, given, pumps = self.circuit, self.given, self.solver.pumps
+        a, b, through = circuit.start[pumps], circuit.end[pumps], flow[pumps]
+        loss = self.solver.loss(flow, given.square, given.offset)[0][pumps]
         with np.errstate(invalid="ignore"):
-            wasted = now.head[a] - now.head[b] - loss[pumps]
-            fewer = now.cavitating & ((wasted < -LIFT) | ~opened[pumps])
-            thirsty = (now.flow[pumps] > BACKFLOW) & (now.head[a] < given.floor[a] - LIFT)
-        return ~now.cavitating & opened[pumps] & thirsty, fewer
+            fewer = self.choked & ((head[a] - head[b] - loss < -LIFT) | (through < -BACKFLOW))
+            thirsty = (through > BACKFLOW) & (head[a] < given.floor[a] - LIFT)
+        return ~self.choked & self.now.open[pumps] & thirsty, fewer

@@ -12,14 +12,43 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy import sparse
 
-__all__ = ["Elimination"]
+__all__ = ["Elimination", "Factors"]
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
 
 _FEW = 2  # neighbours of an unknown that may be eliminated beside others, though one with fewer is left
+
+
+@dataclass(frozen=True)
+class _Sums:
+    """Which numbers are taken off which: in turns, so that none is changed twice in one.
+
+    Args:
+        turns: for each turn, ``(k,)`` what is changed, and ``(k,)`` by which.
+    """
+
+    turns: tuple[tuple[Ints, Ints], ...]
+
+    @classmethod
+    def of(cls, targets: Sequence[int]) -> _Sums:
+        """Those that take the numbers 0, 1... off these."""
+        turns: list[tuple[list[int], list[int]]] = []
+        met: dict[int, int] = {}
+        for number, target in enumerate(targets):
+            turn = met.get(target, 0)
+            met[target] = turn + 1
+            if turn == len(turns):
+                turns.append(([], []))
+            turns[turn][0].append(target)
+            turns[turn][1].append(number)
+        return cls(tuple((np.array(to, np.int64), np.array(by, np.int64)) for to, by in turns))
+
+    def take(self, values: Floats, off: Floats) -> None:
+        """Takes values ``(n, ...)`` off rows of an array, in place."""
+        for to, by in self.turns:
+            off[to] -= values[by]
 
 
 @dataclass(frozen=True)
@@ -30,27 +59,25 @@ class _Step:
         pivots: ``(k,)`` their numbers.
         others: ``(c,)`` the unknowns that their equations still hold, one after the other.
         of: ``(c,)`` which of the pivots' equations each of these stands in.
+        owner: ``(c,)`` the pivot of that equation.
         column: ``(c,)`` where its coefficient stands.
         first: ``(m,)`` of each product of two coefficients of one equation, the one.
         second: ``(m,)`` and the other.
-        cells: ``(t,)`` the coefficients that products are taken off.
-        to_cells: ``(t, m)`` which are taken off which.
-        rest: ``(r,)`` the unknowns among ``others``, each once.
-        to_rest: ``(r, c)`` where they stand.
-        to_pivots: ``(k, c)`` which of ``others`` stand in which equation.
+        off_cells: what products are taken off.
+        off_others: what equations are taken off on the way down.
+        off_pivots: and on the way back.
     """
 
     pivots: Ints
     others: Ints
     of: Ints
+    owner: Ints
     column: Ints
     first: Ints
     second: Ints
-    cells: Ints
-    to_cells: sparse.csr_matrix
-    rest: Ints
-    to_rest: sparse.csr_matrix
-    to_pivots: sparse.csr_matrix
+    off_cells: _Sums
+    off_others: _Sums
+    off_pivots: _Sums
 
 
 class Elimination:
@@ -94,13 +121,11 @@ class Elimination:
             pairs = [(i, j) for i in range(len(equation)) for j in range(i + 1)]
             products += [(start + i, start + j) for i, j in pairs]
             cells += [self.cell(equation[i], equation[j]) for i, j in pairs]
-        targets, to_cells = _gathering(cells)
-        rest, to_rest = _gathering(others)
         first, second = np.array(products, np.int64).reshape(-1, 2).T
-        to_pivots = sparse.csr_matrix((np.ones(len(of)), (of, range(len(of)))), shape=(len(pivots), len(of)))
+        owner = [pivots[number] for number in of]
         return _Step(
-            np.array(pivots, np.int64), np.array(others, np.int64), np.array(of, np.int64),
-            np.array(column, np.int64), first, second, targets, to_cells, rest, to_rest, to_pivots,
+            np.array(pivots, np.int64), np.array(others, np.int64), np.array(of, np.int64), np.array(owner, np.int64),
+            np.array(column, np.int64), first, second, _Sums.of(cells), _Sums.of(others), _Sums.of(owner),
         )  # fmt: skip
 
     def cell(self, a: int, b: int) -> int:
@@ -112,29 +137,44 @@ class Elimination:
         """How many coefficients there are, with those that fill in."""
         return len(self._cell)
 
-    def solve(self, cells: Floats, right: Floats) -> Floats:
-        """The unknowns of all systems.
+    def factors(self, cells: Floats) -> Factors:
+        """All systems made ready to be solved.
 
         Args:
             cells: ``(size, n_systems)`` coefficients, each pair once; what fills in is zero. Used up.
-            right: ``(n, n_systems)`` right sides.
-
-        Returns:
-            ``(n, n_systems)``.
         """
-        found, kept = right.copy(), []
+        kept = []
         for step in self._steps:
             inverse = 1 / cells[step.pivots]
             column = cells[step.column]
             scaled = column * inverse[step.of]
-            kept.append((inverse, scaled))
-            if len(step.others):
-                cells[step.cells] -= step.to_cells @ (column[step.first] * scaled[step.second])
-                found[step.rest] -= step.to_rest @ (scaled * found[step.pivots[step.of]])
-        for step, (inverse, scaled) in zip(reversed(self._steps), reversed(kept), strict=True):
+            kept.append((step, inverse, scaled))
+            step.off_cells.take(column[step.first] * scaled[step.second], cells)
+        return Factors(kept)
+
+
+class Factors:
+    """Systems that are ready to be solved, see :meth:`Elimination.factors`."""
+
+    def __init__(self, kept: Sequence[tuple[_Step, Floats, Floats]]) -> None:
+        self._kept = kept
+
+    def of(self, systems: Ints) -> Factors:
+        """Those of some systems."""
+        return Factors([(step, inverse[:, systems], scaled[:, systems]) for step, inverse, scaled in self._kept])
+
+    def solve(self, right: Floats) -> Floats:
+        """The unknowns ``(n, n_systems)`` of all systems.
+
+        Args:
+            right: ``(n, n_systems)`` right sides.
+        """
+        found = right.copy()
+        for step, _, scaled in self._kept:
+            step.off_others.take(scaled * found[step.owner], found)
+        for step, inverse, scaled in reversed(self._kept):
             found[step.pivots] *= inverse
-            if len(step.others):
-                found[step.pivots] -= step.to_pivots @ (scaled * found[step.others])
+            step.off_pivots.take(scaled * found[step.others], found)
         return found
 
 
@@ -151,10 +191,3 @@ def _apart(left: set[int], beside: Sequence[set[int]]) -> list[int]:
             chosen.append(unknown)
             taken |= beside[unknown]
     return chosen
-
-
-def _gathering(targets: Sequence[int]) -> tuple[Ints, sparse.csr_matrix]:
-    """The numbers that there are, each once, and a matrix that adds up what belongs to each."""
-    numbers, at = np.unique(np.array(targets, np.int64), return_inverse=True)
-    ones, columns = np.ones(len(targets)), np.arange(len(targets))
-    return numbers, sparse.csr_matrix((ones, (at, columns)), shape=(len(numbers), len(targets)))

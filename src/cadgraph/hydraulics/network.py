@@ -21,12 +21,12 @@ OUTSIDE = "outside"
 """The port of a valve that leads into the open."""
 SINK_PRESSURE = 3.0
 """Pressure at which a sink takes the flow that its setting says [bar]."""
-SHORTEST = 0.01  # m; of a connection, so that none is without loss
+SHORTEST = 0.05  # m; of a connection, so that none is without loss
 UNKNOWN_LENGTH = 1.0  # m
 UNKNOWN_BORE = 0.05  # m
 THROUGH_LOSS = 1.0  # of entering or leaving a unit that the flow passes
 NOZZLE_LOSS = 0.5  # of a sharp-edged entrance; Crane, Technical Paper 410
-_SLIGHTEST = 1e-4  # loss coefficient, so that every link has a slope
+_SLIGHTEST = 1e-3  # loss coefficient, so that every link has a slope
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
