@@ -63,13 +63,13 @@ class Tally:
             if unit.turns is not None:
                 self.true[unit.turns.kind] += 1
                 self._judge(f"{name} {unit.tag} ({unit.kind})", matched.get(unit.id), unit.turns)
-        known = {found.id: unit for unit in truth.units or () if (found := matched.get(unit.id)) is not None}
-        for unit in graph.units():
-            there = known.get(unit.id)
-            if unit.mechanism is None or (there is not None and there.turns is not None):
+        known = {matched[unit.id].id: unit for unit in truth.units or () if unit.id in matched}
+        for found in graph.units():
+            there = known.get(found.id)
+            if found.mechanism is None or (there is not None and there.turns is not None):
                 continue
-            if there is None or there.type != unit.unit_type or any(word in (there.kind or "") for word in STILL):
-                told = f"{name} {unit.tag}: a {unit.mechanism.kind} on {there.kind if there else 'no unit'}"
+            if there is None or there.type != found.unit_type or any(word in (there.kind or "") for word in STILL):
+                told = f"{name} {found.tag}: a {found.mechanism.kind} on {there.kind if there else 'no unit'}"
                 self.cases["too much"].append(told)
             else:
                 self.not_judged += 1

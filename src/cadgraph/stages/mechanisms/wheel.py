@@ -77,19 +77,16 @@ def find_wheel(valve: Valve, bodies: Sequence[Body], pieces: Sequence[Body]) -> 
         bodies: that may be one, or hold its rim.
         pieces: of all its meshes that are in several.
     """
-    best: tuple[tuple[bool, bool, float], _Round] | None = None
-    for body in bodies:
-        found = _round(body, pieces)
-        if found is None:
-            continue
-        called = _CALLED in body.names and not body.pieces
-        found = _outward(found, valve)
-        if not _stands_out(found, valve, pieces, called):
-            continue
-        rank = called, found.open, found.radius
-        if best is None or rank > best[0]:
-            best = rank, found
-    return _whole(best[1], bodies) if best is not None else None
+    called = [body for body in bodies if _CALLED in body.names and not body.pieces]
+    # What is called a wheel, and has the shape of one, goes before all others.
+    for some in (called, [body for body in bodies if body not in called]):
+        rounds = [found for body in some if (found := _round(body, pieces)) is not None]
+        standing = [
+            turned for found in rounds if _stands_out(turned := _outward(found, valve), valve, pieces, some is called)
+        ]
+        if standing:
+            return _whole(max(standing, key=lambda one: (one.open, one.radius)), bodies)
+    return None
 
 
 def is_geared(wheel: Wheel, valve: Valve) -> bool:
