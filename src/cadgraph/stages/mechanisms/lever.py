@@ -21,7 +21,7 @@ _LEAST, _MOST = 0.03, 1.6  # m; lengths of levers
 _LIES, _ASIDE = 0.75, 0.12
 # Flat faces are of the cap or of the lever's underside where they look along its axis (cosine), within this of it.
 _FLAT, _SNAP = 0.985, 0.82
-_NEAR = 15.0  # degrees from the first guess of an axis, beyond which flat faces count little
+_NEAR = 25.0  # degrees from the first guess of an axis, beyond which flat faces count little
 _FACES = 0.03  # of its surface, so that flat faces say which way its axis is
 _PASSES = 0.35  # of its length, by which the axis of a lever may pass the middle of the valve
 _MOST_WAYS = 16  # that flat faces look, of which the best is taken
