@@ -165,7 +165,7 @@ def _of_wheel(wheel: Wheel, valve: Valve) -> FoundMechanism:
         limits=stroke.limits,
         open=stroke.open,
         shut=stroke.shut,
-        sources={"axis": wheel.source, "pivot": "middle of the wheel", **stroke.sources},
+        sources={"axis": wheel.source, "pivot": "middle of the rim", **stroke.sources},
     )
 
 

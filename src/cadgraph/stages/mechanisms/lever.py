@@ -24,6 +24,7 @@ _FLAT, _SNAP = 0.985, 0.82
 _NEAR = 25.0  # degrees from the first guess of an axis, beyond which flat faces count little
 _FACES = 0.03  # of its surface, so that flat faces say which way its axis is
 _PASSES = 0.35  # of its length, by which the axis of a lever may pass the middle of the valve
+_OUT = 0.005  # m; from the line to where a lever touches the body, at the least
 _MOST_WAYS = 16  # that flat faces look, of which the best is taken
 _TOUCH = 0.003  # m; around the closest points, what touches a lever
 _TOP = 0.6  # of the height of a valve over its line; levers are above it
@@ -88,7 +89,10 @@ def _lever(body: Body, valve: Valve, still: Sequence[Body]) -> Lever | None:
     if not still:
         return None
     touched = _touched(body, np.concatenate([one.dense for one in still]))
-    axis, source = _axis(body, valve, touched, still)
+    found = _axis(body, valve, touched, still)
+    if found is None:
+        return None
+    axis, source = found
     long = _long_way(body, axis)
     span = float(np.ptp(body.points @ long))
     if float(np.ptp(body.points @ axis)) > _LIES * span:
@@ -151,10 +155,13 @@ def _touched(body: Body, others: Floats) -> Floats:
     return found
 
 
-def _axis(body: Body, valve: Valve, touched: Floats, still: Sequence[Body]) -> tuple[Floats, str]:
-    """The axis of a stem under a lever, out of the valve."""
+def _axis(body: Body, valve: Valve, touched: Floats, still: Sequence[Body]) -> tuple[Floats, str] | None:
+    """The axis of a stem under a lever, out of the valve; None for what lies in the valve's middle."""
     line = valve.line
-    out = unit_vector(touched - (line.foot(touched) if line is not None and line.straight else middle_of(still)))
+    out = touched - (line.foot(touched) if line is not None and line.straight else middle_of(still))
+    if float(np.linalg.norm(out)) < _OUT:
+        return None
+    out = unit_vector(out)
     # The flat faces of the bar and of its hub, and of what is under it, which all look the same way, of either sign.
     wide = float(np.sort(body.extents)[1])
     near = [np.linalg.norm(one.corners.mean(axis=1) - touched, axis=1) < 2.5 * wide for one in still]
