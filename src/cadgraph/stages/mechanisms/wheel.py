@@ -212,11 +212,7 @@ def _outward(found: _Round, valve: Valve) -> _Round:
 def _stands_out(found: _Round, valve: Valve, pieces: Sequence[Body], called: bool) -> bool:
     """Whether something round stands out of a valve as a wheel does."""
     line = valve.line
-    if line is not None and line.straight and abs(float(found.frame.axis @ line.way)) > _COAXIAL:
-        apart = float(np.linalg.norm(found.frame.origin - line.foot(found.frame.origin)))
-        if apart < 0.5 * found.radius:
-            return False
-    if found.shaft and _holds_line(found, valve):
+    if _is_about_line(found, valve) or (found.shaft and _holds_line(found, valve)):
         return False
     if called:
         return True
@@ -224,19 +220,31 @@ def _stands_out(found: _Round, valve: Valve, pieces: Sequence[Body], called: boo
         return False
     if not found.open and (found.high - found.low > _DISC_FLAT * found.radius or line is None):
         return False
+    return _is_free(found, valve, pieces)
+
+
+def _is_about_line(found: _Round, valve: Valve) -> bool:
+    """Whether something round is about the straight line through a valve: a flange, a ring."""
+    line, frame = valve.line, found.frame
+    if line is None or not line.straight or abs(float(frame.axis @ line.way)) <= _COAXIAL:
+        return False
+    return float(np.linalg.norm(frame.origin - line.foot(frame.origin))) < 0.5 * found.radius
+
+
+def _is_free(found: _Round, valve: Valve, pieces: Sequence[Body]) -> bool:
+    """Whether nothing wide is above something round, nor right below it, but something carries it."""
     frame, margin = found.frame, 0.02 * found.radius
     rest = [p for other in valve.others(found.body, pieces) if len(p := other.dense)]
     if not rest:
         return False
     points = np.concatenate(rest)
     height, away = frame.height(points), frame.away(points)
-    above = away[(height > found.high + margin)]
-    if len(above) and float(above.max()) > _ABOVE * found.radius:
+    if float(away[height > found.high + margin].max(initial=0.0)) > _ABOVE * found.radius:
         return False
     # A disc may be a cover, so that more of what is below it must be slender, but for one on a slender shaft.
     depth, most = (0.12, _BELOW) if found.open or found.shaft else (0.4, _DISC_BELOW)
     below = away[(height < found.low - margin) & (height > found.low - depth * found.radius)]
-    return bool((height < found.low).any()) and not (len(below) and float(below.max()) > most * found.radius)
+    return bool((height < found.low).any()) and float(below.max(initial=0.0)) <= most * found.radius
 
 
 def _holds_line(found: _Round, valve: Valve) -> bool:
