@@ -4,8 +4,23 @@ import graphs
 from cadgraph.errors import OutputError
 from cadgraph.export import export_graph, formats
 
-ALL = ["att", "csv", "dexpi", "gltf", "graphml", "html", "ifc", "isometric", "labels-csv", "networkx-json", "pcf"]
-ALONE = [name for name in ALL if name not in ("gltf", "html", "ifc")]  # those that need no source
+ALL = [
+    "att",
+    "csv",
+    "dexpi",
+    "epanet",
+    "gltf",
+    "graphml",
+    "html",
+    "ifc",
+    "isometric",
+    "labels-csv",
+    "mjcf",
+    "networkx-json",
+    "pcf",
+    "usd",
+]
+ALONE = [name for name in ALL if name not in ("gltf", "html", "ifc", "mjcf", "usd")]  # those that need no source
 FILLED = [name for name in ALONE if name not in ("isometric", "pcf")]  # those that a graph without centrelines fills
 
 
@@ -50,7 +65,7 @@ def test_several_tables_do_not_fit_one_file(tmp_path):
 
 
 def test_an_unknown_format_names_the_known_ones(tmp_path):
-    with pytest.raises(ValueError, match="'pdf'; there are att, csv, dexpi, gltf, graphml, html, ifc"):
+    with pytest.raises(ValueError, match="'pdf'; there are att, csv, dexpi, epanet, gltf, graphml, html, ifc"):
         export_graph(graphs.graph(), "pdf", tmp_path)
 
 

@@ -11,7 +11,7 @@ import knobs
 import shapes
 from cadgraph.config import Config
 from cadgraph.errors import LabelError
-from cadgraph.export.usd import CLASS
+from cadgraph.export.usd_labels import CLASS
 from cadgraph.model.catalog import rows_of
 from cadgraph.model.graph import SceneGraph
 from cadgraph.session.catalog_builder import EMPTY, take_graph

@@ -36,6 +36,7 @@ __all__ = [
     "QUESTIONS",
     "REPLY",
     "SCENARIO",
+    "TASKS",
     "TRUTH",
     "VOCABULARY",
     "WORDS",
@@ -90,6 +91,8 @@ PLAN = Limit(16 * _MB, "a round")
 """A step takes 500 bytes as it is printed: thirty thousand steps."""
 SCENARIO = Limit(64 * _MB, "a scenario")
 """A valve takes 600 bytes with the reasons for its values: a hundred thousand valves."""
+TASKS = Limit(256 * _MB, "a list of tasks")
+"""A task of a plant with forty valves takes 6 kB: forty thousand tasks."""
 PRICES = Limit(_MB, "a price table")
 """The built-in one takes 2 kB."""
 PROFILES = Limit(_MB, "a table of profiles")

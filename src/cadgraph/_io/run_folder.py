@@ -13,11 +13,20 @@ from cadgraph.errors import OutputError
 
 __all__ = ["RESULTS", "clear_results", "refuse_foreign", "refuse_to_overwrite", "results_folder", "sweep"]
 
-RESULTS = ("scene.usdc", "semantics.usda", "report.html", "picture.png", "timings.json", "graph.json")
-"""All files that a run may write. The graph vouches for those without a mark of their own, so it goes last."""
+RESULTS = (
+    *("scene.usdc", "semantics.usda", "report.html", "picture.png", "timings.json"),
+    *("simulation.usda", "devices.json", "graph.json"),
+)
+"""All files that a run may write, and what is written of its graph later. The graph vouches for those without a mark
+of their own, so it goes last."""
 
 _CORRECTIONS = "corrections.json"
-_MARKS = {"graph.json": b'"cadgraph"', "semantics.usda": b"cadgraph", "report.html": b"cadgraph"}
+_MARKS = {
+    "graph.json": b'"cadgraph"',
+    "semantics.usda": b"cadgraph",
+    "report.html": b"cadgraph",
+    "simulation.usda": b"cadgraph",
+}
 _HEAD = 100_000  # bytes in which a mark stands; the styles of a report come before its first words
 
 

@@ -144,7 +144,7 @@ TOOLS: tuple[Tool, ...] = (
     Tool(
         "what_if",
         "What is cut off from its supply when valves are closed. About flow, not safety: for opening a unit use "
-        "isolate. UNKNOWN stays unknown.",
+        "isolate. UNKNOWN stays unknown. SIMULATED figures rest on assumptions: say so.",
         walking.what_if,
     ),
     Tool("lines", "Line list: from, to, length, DN, flow, what stands in each line in order.", walking.lines),

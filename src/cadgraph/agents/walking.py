@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 
 from cadgraph.agents.answer import Answer, AskError, cell, page_of, row
 from cadgraph.agents.plant import Plant
+from cadgraph.agents.simulating import simulated_rows, simulated_values, simulation_of
 from cadgraph.errors import Unconnected
 from cadgraph.model.pipework import Arc
 from cadgraph.model.records import Junction, Part, System, Terminal, Unit
@@ -243,7 +244,7 @@ def what_if(
     sources: Annotated[list[str] | str | None, "what feeds; else tanks and ends"] = None,
     page: int = 1,
 ) -> Answer:
-    """What loses what feeds it when valves are closed.
+    """What loses what feeds it when valves are closed; where a scenario lies beside the graph, what gauges then show.
 
     Args:
         plant: that holds them.
@@ -263,7 +264,11 @@ def what_if(
         raise
     except ValueError as error:
         raise AskError(cell(error, _TEXT)) from None
-    return Answer(page_of(_verdict(found), list(_consequence_rows(found)), [], page), _what_if_values(found))
+    simulated = (
+        simulation_of(plant, places, found) if feeding is None else "the scenario says what feeds, not the sources"
+    )
+    rows = [*_consequence_rows(found), *simulated_rows(simulated)]
+    return Answer(page_of(_verdict(found), rows, [], page), _what_if_values(found) | simulated_values(simulated))
 
 
 def _names(given: Sequence[str] | str | None) -> list[str]:

@@ -12,6 +12,8 @@ from cadgraph.cli import reading as _reading  # noqa: F401
 from cadgraph.cli import facts as _facts  # noqa: F401
 from cadgraph.cli import functional as _functional  # noqa: F401
 from cadgraph.cli import planning as _planning  # noqa: F401
+from cadgraph.cli import simulating as _simulating  # noqa: F401
+from cadgraph.cli import tasks as _tasks  # noqa: F401
 from cadgraph.cli import agents as _agents  # noqa: F401
 from cadgraph.cli import serving as _serving  # noqa: F401
 from cadgraph.cli import ask as _ask  # noqa: F401

@@ -41,7 +41,8 @@ def export(
         typer.Option(
             "--to",
             metavar="FORMAT",
-            help="att, csv, dexpi, gltf, graphml, html, ifc, isometric, labels-csv, networkx-json or pcf.",
+            help="att, csv, dexpi, epanet, gltf, graphml, html, ifc, isometric, labels-csv, mjcf, networkx-json, pcf "
+            "or usd.",
         ),
     ],
     output: Annotated[
@@ -50,16 +51,30 @@ def export(
     source: Annotated[
         Path | None,
         typer.Option(
-            "--source", metavar="FILE", help="For att, gltf, html and ifc: the scene itself, where it has moved."
+            "--source",
+            metavar="FILE",
+            help="For att, gltf, html, ifc, mjcf and usd: the scene itself, where it has moved.",
         ),
     ] = None,
+    bake: Annotated[
+        bool,
+        typer.Option(
+            "--bake",
+            help="With --to usd: one stage with all that the source refers to, the labels where each prim is defined.",
+        ),
+    ] = False,
+    open_instances: Annotated[
+        bool, typer.Option("--open-instances", help="With --bake: open all instances, for renderers that skip them.")
+    ] = False,
 ) -> None:
     """Write a graph in another format, as a page to look at, or a copy of its source with the labels in it."""
     from cadgraph.export import write_export
     from cadgraph.model.graph import SceneGraph
 
     folder = graph if graph.is_dir() else graph.parent
-    written = write_export(SceneGraph.load(graph), to, output or folder, source)
+    written = write_export(
+        SceneGraph.load(graph), to, output or folder, source, bake=bake, open_instances=open_instances
+    )
     for path in written.files:
         out.print(f"wrote {escape(str(path))}")
     for note in written.notes:

@@ -11,14 +11,12 @@ from pathlib import Path
 
 from cadgraph._io.atomic import write_atomically
 from cadgraph._io.limits import size_text
-from cadgraph.config import restore_config
 from cadgraph.draw.schematic import draw_diagram
 from cadgraph.draw.web.assets import DATA_MARK, HEAD_MARK, SCRIPT, STYLE, page_text
 from cadgraph.draw.web.content import as_bytes, content_of, shown_meshes
 from cadgraph.draw.web.packing import pack_scene
 from cadgraph.errors import FormatError
-from cadgraph.export.source import refuse_source
-from cadgraph.load import load
+from cadgraph.export.source import refuse_source, scene_of
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.scene import Scene
@@ -48,11 +46,7 @@ def write_html(graph: SceneGraph, source: str | Path, path: str | Path) -> tuple
     """
     origin, target = Path(source), Path(path)
     refuse_source(origin, target)
-    try:
-        settings = restore_config(graph.document.config)
-    except ValueError as error:
-        raise FormatError(f"the graph's settings can't be used any more ({error}); build the graph anew") from error
-    page = one_page(graph, load(origin, settings.load))
+    page = one_page(graph, scene_of(graph, origin))
     write_atomically(target, page)
     if len(page) <= _LARGE:
         return target, ()

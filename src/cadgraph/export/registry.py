@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Literal
 
@@ -12,7 +13,7 @@ from cadgraph.export.att import write_att
 from cadgraph.export.graphml import write_graphml
 from cadgraph.export.labels import write_labels
 from cadgraph.export.nodelink import write_nodelink
-from cadgraph.export.source import find_source, refuse_source
+from cadgraph.export.source import find_source, refuse_source, scene_of
 from cadgraph.export.tables import write_tables
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
@@ -47,6 +48,7 @@ class Format:
             it wrote.
         source: whether that file is ``"needed"``, or only ``"helps"`` where it is still there; ``"no"`` is never given.
         file: the name of its file where a folder is given; None if it always takes a folder.
+        also: further suffixes that its file may have.
         copied_as: how the copy of a source, or what stands beside it, ends, by how the source ends; empty where any
             source will do.
     """
@@ -56,6 +58,7 @@ class Format:
     write: Write
     source: Literal["no", "helps", "needed"] = "no"
     file: str | None = None
+    also: tuple[str, ...] = ()
     copied_as: Mapping[str, str] = field(default_factory=dict)
 
 
@@ -111,6 +114,36 @@ def _write_pcf(graph: SceneGraph, path: Path, _: Path | None) -> Written:
     return Written(*write_pcf(graph, path))
 
 
+def _write_epanet(graph: SceneGraph, path: Path, _: Path | None) -> Written:
+    from cadgraph.export.epanet import write_epanet
+
+    file, notes = write_epanet(graph, path)
+    return Written((file,), notes)
+
+
+def _write_usd(graph: SceneGraph, path: Path, source: Path | None) -> Written:
+    from cadgraph.export.usd import check_source, write_semantics
+
+    assert source is not None  # it is needed
+    check_source(source, path)
+    return Written((write_semantics(scene_of(graph, source), graph, source, path),))
+
+
+def _write_baked(graph: SceneGraph, path: Path, source: Path | None, open_instances: bool = False) -> Written:
+    from cadgraph.export.baked_usd import write_baked
+
+    assert source is not None  # it is needed
+    file, notes = write_baked(scene_of(graph, source), graph, source, path, open_instances=open_instances)
+    return Written((file,), notes)
+
+
+def _write_mjcf(graph: SceneGraph, path: Path, source: Path | None) -> Written:
+    from cadgraph.simulate.mjcf import write_mjcf
+
+    assert source is not None  # it is needed
+    return Written(*write_mjcf(graph, scene_of(graph, source), path))
+
+
 def _write_isometrics(graph: SceneGraph, path: Path, _: Path | None) -> Written:
     from cadgraph.draw.isometric import write_isometrics
 
@@ -136,6 +169,12 @@ _FORMATS = (
         "tanks, pumps, lines, valves and instruments as Proteus XML in DEXPI 1.3 terms, for P&ID tools",
         _write_dexpi,
         file="dexpi.xml",
+    ),
+    Format(
+        "epanet",
+        "the network of pipes as it is simulated, for EPANET; by scenario.yaml beside it where there is one",
+        _write_epanet,
+        file="plant.inp",
     ),
     Format(
         "gltf",
@@ -173,13 +212,37 @@ _FORMATS = (
     ),
     Format("labels-csv", "labels by source path, for 'cadgraph build --labels'", _write_labels, file="labels.csv"),
     Format(
+        "mjcf",
+        "wheels, levers and needles as a MuJoCo model with joints called after the tags",
+        _write_mjcf,
+        source="needed",
+        file="mjcf/plant.xml",
+    ),
+    Format(
         "networkx-json",
         "nodes and edges alone, for networkx.node_link_graph and d3",
         lambda graph, path, _: Written((write_nodelink(graph, path),)),
         file="nodelink.json",
     ),
     Format("pcf", "each line as an Isogen piping component file", _write_pcf),
+    Format(
+        "usd",
+        "the labels as a USD layer over the source; with --bake the source and its labels as one stage",
+        _write_usd,
+        source="needed",
+        file="semantics.usda",
+    ),
 )
+
+_BAKED = Format(
+    "usd",
+    "the source and its labels as one stage",
+    _write_baked,
+    source="needed",
+    file="baked.usdc",
+    also=(".usda", ".usd"),
+)
+_OPENED = replace(_BAKED, write=partial(_write_baked, open_instances=True))
 
 
 def formats() -> dict[str, str]:
@@ -198,7 +261,15 @@ def export_graph(graph: SceneGraph, to: str, path: str | Path, source: str | Pat
     return list(write_export(graph, to, path, source).files)
 
 
-def write_export(graph: SceneGraph, to: str, path: str | Path, source: str | Path | None = None) -> Written:
+def write_export(
+    graph: SceneGraph,
+    to: str,
+    path: str | Path,
+    source: str | Path | None = None,
+    *,
+    bake: bool = False,
+    open_instances: bool = False,
+) -> Written:
     """Writes a graph in another format.
 
     Args:
@@ -208,6 +279,8 @@ def write_export(graph: SceneGraph, to: str, path: str | Path, source: str | Pat
             (``plant.graphml``).
         source: where the file is that the graph was made from, for formats that are a copy of it or stand beside it;
             None: where it was.
+        bake: of ``usd``: whether to write the source and its labels as one stage, instead of a layer over the source.
+        open_instances: of a baked stage: whether to open all native instances, for renderers that skip them.
 
     Returns:
         The files written, and what is to be said of them.
@@ -222,6 +295,11 @@ def write_export(graph: SceneGraph, to: str, path: str | Path, source: str | Pat
     form = next((each for each in _FORMATS if each.name == to), None)
     if form is None:
         raise ValueError(f"no export format is called {to!r}; there are {', '.join(formats())}")
+    if bake and to != "usd":
+        raise ValueError(f"--bake is for USD; leave it out, or say --to usd instead of {to}")
+    if open_instances and not bake:
+        raise ValueError("--open-instances goes with --bake, as the source stays as it is otherwise")
+    form = (_OPENED if open_instances else _BAKED) if bake else form
     target = Path(path)
     if form.source == "no":
         if source is not None:
@@ -269,5 +347,5 @@ def _place(form: Format, path: Path, source: Path | None) -> Path:
     file = Path(form.file)
     if source is not None and form.copied_as:
         file = file.with_suffix(form.copied_as[source.suffix.lower()])
-    names_file = path.suffix.lower() == file.suffix and not path.is_dir()
+    names_file = path.suffix.lower() in (file.suffix, *form.also) and not path.is_dir()
     return path if names_file else path / file

@@ -6,10 +6,12 @@ import os
 from pathlib import Path
 
 from cadgraph._io.digest import sha256_of
-from cadgraph.errors import LoadError, OutputError
+from cadgraph.config import LoadConfig, restore_config
+from cadgraph.errors import FormatError, LoadError, OutputError
 from cadgraph.model.graph import SceneGraph
+from cadgraph.model.scene import Scene
 
-__all__ = ["find_source", "refuse_source"]
+__all__ = ["find_source", "refuse_source", "scene_of", "settings_of"]
 
 
 def find_source(graph: SceneGraph, given: str | Path | None = None) -> Path:
@@ -48,3 +50,27 @@ def refuse_source(source: Path, target: Path) -> None:
     """
     if os.path.realpath(source) == os.path.realpath(target):
         raise OutputError(f"{target}: this is the source, which stays untouched; choose another output file")
+
+
+def settings_of(graph: SceneGraph) -> LoadConfig:
+    """How the source of a graph was read.
+
+    Raises:
+        FormatError: with settings that aren't known any more.
+    """
+    try:
+        return restore_config(graph.document.config).load
+    except ValueError as error:
+        raise FormatError(f"the graph's settings can't be used any more ({error}); build the graph anew") from error
+
+
+def scene_of(graph: SceneGraph, source: str | Path) -> Scene:
+    """Reads the source of a graph again, as it was read when the graph was made.
+
+    Raises:
+        FormatError: it was read with settings that aren't known any more.
+        LoadError: it can't be read.
+    """
+    from cadgraph.load import load
+
+    return load(source, settings_of(graph))

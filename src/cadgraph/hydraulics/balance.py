@@ -15,13 +15,14 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Unit
 from cadgraph.query.network import Network
 
-__all__ = ["SHUT", "Balance", "complete", "default_scenario", "flow_share"]
+__all__ = ["LEAST", "SHUT", "STILL", "Balance", "complete", "default_scenario", "flow_share"]
 
 Floats = npt.NDArray[np.float64]
 
 SHUT = 1e-3
 """Opening of a valve, or speed of a pump, at and below which nothing passes; ours."""
-_LEAST = 1e-4  # share of the flow coefficient of a valve that is not shut
+STILL = 1e-8  # m3/s
+LEAST = 1e-4  # share of the flow coefficient of a valve that is not shut
 _RATIO = 50.0  # of an equal percentage valve between open and nearly shut; IEC 60534-2-4 allows any, 50 is usual
 
 
@@ -51,20 +52,23 @@ def complete(network: Network, scenario: Scenario) -> Scenario:
     return with_pressures(scenario, {tag: trial.difference(tag) for tag in open_ones}, measured)
 
 
-def flow_share(opening: float, characteristic: Characteristic | None) -> float:
+def flow_share(opening: npt.ArrayLike, characteristic: Characteristic | None) -> Floats:
     """The flow coefficient of a valve as a share of the open one.
 
     Args:
-        opening: of it, 0 to 1.
+        opening: of it, 0 to 1; of any shape.
         characteristic: how it follows.
+
+    Returns:
+        Of the same shape.
     """
+    share = np.asarray(opening, float)
     if characteristic == "equal percentage":
-        share = math.expm1(opening * math.log(_RATIO)) / (_RATIO - 1)
+        share = np.expm1(share * math.log(_RATIO)) / (_RATIO - 1)
     elif characteristic == "ball":
-        share = math.sin(math.pi / 2 * opening) ** 3
-    else:
-        share = opening
-    return max(share, _LEAST)
+        share = np.sin(math.pi / 2 * share) ** 3
+    passed: Floats = np.maximum(share, LEAST)
+    return passed
 
 
 class Balance:
@@ -86,6 +90,8 @@ class Balance:
         self._solver = Solver(self.circuit)
         self._heads = np.where(self.circuit.fixed, self.circuit.head, np.nan)
         self._solution: Solution | None = None
+        self._emptied: frozenset[int] = frozenset()
+        self._to_air = np.zeros(len(self.circuit.kind), bool)
 
     @property
     def solution(self) -> Solution:
@@ -96,7 +102,31 @@ class Balance:
         """Solves for openings, speeds and levels as they are now."""
         self._solution = self._solver.solve(self.condition(), self._solution)
         self._heads = self._solution.head.copy()
+        self._emptied = self._find_emptied()
         return self._solution
+
+    def _find_emptied(self) -> frozenset[int]:
+        """Nodes that nothing flows at and that air has got to, as they lie above what stands in the pipe below them."""
+        circuit, solution = self.circuit, self.solution
+        with np.errstate(invalid="ignore"):
+            low = solution.head < circuit.height + LEAST
+        still = np.abs(solution.flow) < STILL
+        inlets = np.flatnonzero(self._to_air & still & low[circuit.start])
+        if not len(inlets):
+            return frozenset()
+        beside: dict[int, list[int]] = {}
+        for link in np.flatnonzero(still & solution.open & low[circuit.start] & low[circuit.end]):
+            a, b = int(circuit.start[link]), int(circuit.end[link])
+            beside.setdefault(a, []).append(b)
+            beside.setdefault(b, []).append(a)
+        seen = set(circuit.start[inlets].tolist())
+        waiting = list(seen)
+        while waiting:
+            for there in beside.get(waiting.pop(), ()):
+                if there not in seen:
+                    seen.add(there)
+                    waiting.append(there)
+        return frozenset(seen)
 
     def difference(self, tag: str) -> float | None:
         """The pressure before a valve or pump above that behind it [bar]; None where either is unknown.
@@ -141,11 +171,13 @@ class Balance:
                 offset[link] *= speed**2
         head = self._heads.copy()
         head[circuit.fixed] = circuit.head[circuit.fixed]
+        self._to_air = circuit.to_air & ~shut
         for nozzle in circuit.nozzles:
             tank, level = scenario.tanks[nozzle.tag], self.level[nozzle.tag]
             surface = tank.bottom + level
             # A nozzle above the surface, or of an empty tank, lets in and not out.
             one_way[nozzle.link] = level <= 0 or nozzle.height >= surface
+            self._to_air[nozzle.link] = one_way[nozzle.link] and tank.pressure == 0
             head[nozzle.node] = max(surface, nozzle.height) + scenario.head(tank.pressure)
         return Condition(
             square=square,
@@ -166,6 +198,8 @@ class Balance:
         head = float(self.solution.head[node])
         if math.isnan(head):
             return None
+        if node in self._emptied:
+            return 0.0
         return max(self.scenario.pressure(head - float(self.circuit.height[node])), self.scenario.fluid.vapour)
 
     def measure(self, tag: str) -> float | None:
@@ -222,6 +256,10 @@ class _Places:
     def inflow(self, flow: Floats) -> dict[str, float]:
         """What flows into each tank [m3/s], by tag."""
         return {tag: float(flow[links].sum()) for tag, links in self._tank_links.items()}
+
+    def links_at_gauge(self, tag: str) -> list[int]:
+        """The pipes that join at a gauge."""
+        return self._at_gauge[tag]
 
     def flow_at(self, tag: str, flow: Floats) -> float:
         """What flows past a gauge [m3/s]."""

@@ -3,35 +3,15 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Mapping
 
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Unit
+from cadgraph.query.mechanisms import joint_names
 
-__all__ = ["Joints", "joint_names"]
+__all__ = ["Joints"]
 
 _SWEEP = 270.0  # degrees of a dial, from half past seven clockwise
-
-
-def joint_names(graph: SceneGraph) -> dict[str, str]:
-    """The name of the joint of each unit that has one, by its id: its tag in letters that every simulator takes.
-
-    Args:
-        graph: the finished graph.
-    """
-    names: dict[str, str] = {}
-    taken: set[str] = set()
-    for unit in graph.of_layer(Unit):
-        if unit.mechanism is None and unit.dial is None:
-            continue
-        plain = re.sub(r"[^A-Za-z0-9_]", "_", unit.tag) or "unit"
-        name, number = plain, 2
-        while name in taken:
-            name, number = f"{plain}_{number}", number + 1
-        taken.add(name)
-        names[unit.id] = name
-    return names
 
 
 class Joints:

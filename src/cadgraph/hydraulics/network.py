@@ -21,12 +21,12 @@ OUTSIDE = "outside"
 """The port of a valve that leads into the open."""
 SINK_PRESSURE = 3.0
 """Pressure at which a sink takes the flow that its setting says [bar]."""
-SHORTEST = 0.01  # m; of a connection, so that none is without loss
+SHORTEST = 0.05  # m; of a connection, so that none is without loss
 UNKNOWN_LENGTH = 1.0  # m
 UNKNOWN_BORE = 0.05  # m
 THROUGH_LOSS = 1.0  # of entering or leaving a unit that the flow passes
 NOZZLE_LOSS = 0.5  # of a sharp-edged entrance; Crane, Technical Paper 410
-_SLIGHTEST = 1e-4  # loss coefficient, so that every link has a slope
+_SLIGHTEST = 1e-3  # loss coefficient, so that every link has a slope
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
@@ -76,6 +76,7 @@ class Circuit:
         nodes: their ids: those of junctions, ends and gauges as in the graph, of other units with their ports
             (``unit-7:N1``).
         height: (n_nodes,) in the plant [m].
+        points: (n_nodes,) where they are.
         fixed: (n_nodes,) whether the head is given.
         head: (n_nodes,) the given head [m]; NaN where none is, or where it follows a level.
         kind: (n_links,) :class:`LinkKind`.
@@ -88,6 +89,7 @@ class Circuit:
         offset: (n_links,) head that is lost before anything flows [m]; negative for pumps at full speed.
         creep: (n_links,) flows below which losses are linear [m3/s].
         one_way: (n_links,) whether nothing flows from end to start.
+        to_air: (n_links,) whether a link leads into the open.
         owner: id of the graph's node that each link belongs to; ``""`` for pipes.
         connection: (n_links,) number of the connection in the graph, -1 where there is none.
         friction: of the pipes.
@@ -100,6 +102,7 @@ class Circuit:
 
     nodes: tuple[str, ...]
     height: Floats
+    points: tuple[Point, ...]
     fixed: Bools
     head: Floats
     kind: Ints
@@ -112,6 +115,7 @@ class Circuit:
     offset: Floats
     creep: Floats
     one_way: Bools
+    to_air: Bools
     owner: tuple[str, ...]
     connection: Ints
     friction: Friction
@@ -190,7 +194,7 @@ class _Laying:
     network: Network
     scenario: Scenario
     nodes: dict[str, int] = field(default_factory=dict)
-    height: list[float] = field(default_factory=list)
+    points: list[Point] = field(default_factory=list)
     head: dict[int, float] = field(default_factory=dict)
     open_air: list[int] = field(default_factory=list)
     links: list[tuple[LinkKind, int, int, float, float, float, str, int]] = field(default_factory=list)
@@ -207,7 +211,7 @@ class _Laying:
             if not self.network.arcs(place):
                 continue
             if isinstance(node, Junction | Terminal):
-                self._node(place, node.point[2])
+                self._node(place, node.point)
                 if isinstance(node, Terminal):
                     self._end(place, node)
             else:
@@ -216,10 +220,10 @@ class _Laying:
             self._pipe(Arc(index, self.network.edges[index], True))
         return self._arrays()
 
-    def _node(self, name: str, height: float) -> int:
+    def _node(self, name: str, point: Point) -> int:
         if name not in self.nodes:
             self.nodes[name] = len(self.nodes)
-            self.height.append(float(height))
+            self.points.append(point)
         return self.nodes[name]
 
     def _link(
@@ -233,18 +237,18 @@ class _Laying:
 
     # Where things are
 
-    def _port_height(self, place: str, port: str, arcs: Sequence[Arc]) -> float:
+    def _port_point(self, place: str, port: str, arcs: Sequence[Arc]) -> Point:
         node = self.network.places[place]
         if isinstance(node, Unit):
             for own in node.ports:
                 if own.name == port:
-                    return own.point[2]
+                    return own.point
         if arcs and arcs[0].path:
-            return arcs[0].path[0][2]
-        return node.centroid[2] if isinstance(node, Unit) else node.point[2]
+            return arcs[0].path[0]
+        return node.centroid if isinstance(node, Unit) else node.point
 
     def _port_node(self, place: str, port: str, arcs: Sequence[Arc]) -> int:
-        return self._node(f"{place}:{port}", self._port_height(place, port, arcs))
+        return self._node(f"{place}:{port}", self._port_point(place, port, arcs))
 
     def _bore_of(self, place: str) -> float:
         return bore_at(self.network, place) or UNKNOWN_BORE
@@ -255,10 +259,15 @@ class _Laying:
             return self.nodes[place]
         return self.nodes[f"{place}:{_port_of(arc)}"]
 
-    def _outside(self, place: str, height: float) -> int:
+    def _middle(self, place: str, ends: Sequence[int]) -> int:
+        """A node amid the ports of a unit."""
+        x, y, z = np.mean([self.points[end] for end in ends], axis=0).tolist()
+        return self._node(f"{place}:middle", (x, y, z))
+
+    def _outside(self, place: str, point: Point) -> int:
         """A node in the open, at atmospheric pressure."""
-        node = self._node(f"{place}:{OUTSIDE}", height)
-        self.head[node] = height
+        node = self._node(f"{place}:{OUTSIDE}", point)
+        self.head[node] = point[2]
         self.open_air.append(node)
         return node
 
@@ -280,7 +289,7 @@ class _Laying:
     def _gauge(self, place: str, node: Unit, ports: Mapping[str, tuple[Arc, ...]]) -> None:
         """A gauge takes no head from what passes it: all of its ports are one node."""
         port, arcs = next(iter(ports.items()))
-        self.gauges[node.tag] = self._node(place, self._port_height(place, port, arcs))
+        self.gauges[node.tag] = self._node(place, self._port_point(place, port, arcs))
 
     def _valve(self, place: str, node: Unit, ports: Mapping[str, tuple[Arc, ...]], setting: ValveSetting) -> None:
         bore, names = self._bore_of(place), list(ports)
@@ -292,7 +301,7 @@ class _Laying:
             if setting.duty == "check":
                 self.remarks.append(f"{node.tag} is a check valve with nothing behind it: left out")
                 return
-            ends.append(self._outside(place, self.height[ends[0]]))
+            ends.append(self._outside(place, self.points[ends[0]]))
             names.append(OUTSIDE)
         if setting.duty != "hand" and setting.towards == names[0]:
             ends.reverse()
@@ -305,7 +314,7 @@ class _Laying:
 
     def _crossing(self, place: str, node: Unit, ends: Sequence[int], setting: ValveSetting, bore: float) -> None:
         """A valve of three or more ports: each opens into a middle, and shutting it shuts all."""
-        middle = self._node(f"{place}:middle", sum(self.height[end] for end in ends) / len(ends))
+        middle = self._middle(place, ends)
         if setting.duty != "hand":
             self.remarks.append(f"{node.tag} has {len(ends)} ports, so it is taken for a valve that is moved by hand")
         self.tags[node.tag] = tuple(
@@ -336,12 +345,12 @@ class _Laying:
 
     def _tank(self, place: str, node: Unit, ports: Mapping[str, tuple[Arc, ...]]) -> None:
         for port, arcs in ports.items():
-            height = self._port_height(place, port, arcs)
+            point = self._port_point(place, port, arcs)
             bore = _bore(arcs[0]) or UNKNOWN_BORE
-            inner = self._node(f"{place}:{port}:inside", height)
+            inner = self._node(f"{place}:{port}:inside", point)
             self.head[inner] = math.nan
             link = self._link(LinkKind.NOZZLE, self._port_node(place, port, arcs), inner, bore, NOZZLE_LOSS, place)
-            self.nozzles.append(Nozzle(node.tag, port, link, inner, height))
+            self.nozzles.append(Nozzle(node.tag, port, link, inner, point[2]))
 
     def _passage(self, place: str, ports: Mapping[str, tuple[Arc, ...]]) -> None:
         """Anything else lets pass between all of its ports."""
@@ -349,7 +358,7 @@ class _Laying:
         if len(ends) < 2:
             return
         self._assume("loss of equipment that the flow passes (1 velocity head at each port)")
-        middle = self._node(f"{place}:middle", sum(self.height[end] for end in ends) / len(ends))
+        middle = self._middle(place, ends)
         for end in ends:
             self._link(LinkKind.THROUGH, end, middle, self._bore_of(place), THROUGH_LOSS, place)
 
@@ -362,7 +371,7 @@ class _Laying:
             self.head[here] = height + self.scenario.head(setting.pressure or 0.0)
             return
         flow = (setting.flow or 1.0) / 3600
-        link = self._link(LinkKind.OUTLET, here, self._outside(place, height), self._bore_of(place), 0.0, place)
+        link = self._link(LinkKind.OUTLET, here, self._outside(place, node.point), self._bore_of(place), 0.0, place)
         self.square[link] = self.scenario.head(SINK_PRESSURE) / flow**2
 
     def _pipe(self, arc: Arc) -> None:
@@ -400,7 +409,8 @@ class _Laying:
         lengths = np.array(length, float)
         return Circuit(
             nodes=tuple(self.nodes),
-            height=np.array(self.height),
+            height=np.array([point[2] for point in self.points]),
+            points=tuple(self.points),
             fixed=fixed,
             head=head,
             kind=kinds,
@@ -413,6 +423,7 @@ class _Laying:
             offset=offset,
             creep=area(bores) * CREEP,
             one_way=np.isin(kinds, _ONE_WAY) | np.isin(np.array(end, np.int64), self.open_air),
+            to_air=np.isin(np.array(end, np.int64), self.open_air),
             owner=tuple(str(each) for each in owner),
             connection=np.array(connection, np.int64),
             friction=Friction.of(lengths, bores, self.scenario.pipes.roughness, self.scenario.fluid.viscosity),

@@ -18,9 +18,10 @@ from cadgraph.query.network import Network
 
 __all__ = ["Process", "State"]
 
-_STALE = 1e-3  # m; a level that has moved less changes no pressure
-_LONGEST = 1.0  # s; of a step that is worked out at once
-_SETTLED = 1e-6  # of a reading, in its unit
+STALE = 1e-3  # m; a level that has moved less changes no pressure
+LONGEST = 1.0  # s; of a step that is worked out at once
+SETTLED = 1e-6  # of a reading, in its unit
+_MOST = 3600.0  # s; of one step, which is worked out second by second
 _STILL = 1e-6  # m3/s
 
 
@@ -118,9 +119,9 @@ class Process:
             ValueError: nothing is called so, it can't be moved, or a value can't be.
         """
         self._command(commands or {})
-        if not (math.isfinite(dt) and dt > 0):
-            raise ValueError(f"dt {dt}: give a time above 0 s")
-        pieces = max(1, math.ceil(dt / _LONGEST - 1e-9))
+        if not 0 < dt <= _MOST:
+            raise ValueError(f"dt {dt}: give a time above 0 s, and at most {_MOST:g} s")
+        pieces = max(1, math.ceil(dt / LONGEST - 1e-9))
         for _ in range(pieces):
             self._advance(dt / pieces)
         return self._state
@@ -160,16 +161,19 @@ class Process:
     # Commands
 
     def _command(self, commands: Mapping[str, float]) -> None:
-        """Takes over commands."""
+        """Takes over commands, all of them or none."""
+        found: dict[str, float] = {}
         for name, value in commands.items():
             tag = self._tag(name)
             if isinstance(value, bool) or not 0 <= value <= 1:
                 raise ValueError(f"{tag}={value}: give a number from 0 (shut, stopped) to 1 (open, full speed)")
+            found[tag] = float(value)
+        for tag, value in found.items():
             if tag in self.balance.speed:
                 self._changed |= self.balance.speed[tag] != value
-                self.balance.speed[tag] = float(value)
+                self.balance.speed[tag] = value
             else:
-                self._target[tag] = float(value)
+                self._target[tag] = value
 
     def _tag(self, name: str) -> str:
         if name in self.balance.hand or name in self.balance.speed:
@@ -203,10 +207,14 @@ class Process:
             self._lag(dt)
             self._state = self._make_state()
         elif self._lag(dt):
-            self._state = replace(self._state, time=self._time, reading=self._readings(), joints=self._angles())
+            self._state = replace(
+                self._state, time=self._time, level=self._levels(), reading=self._readings(), joints=self._angles()
+            )
         else:
-            level = dict(self.balance.level) if self.balance.level else self._state.level
-            self._state = replace(self._state, time=self._time, level=level)
+            self._state = replace(self._state, time=self._time, level=self._levels())
+
+    def _levels(self) -> Mapping[str, float]:
+        return dict(self.balance.level) if self.balance.level else self._state.level
 
     def _fill(self, dt: float) -> bool:
         """Moves the levels by what flowed; whether one has moved so far that pressures change."""
@@ -217,7 +225,7 @@ class Process:
             level = min(max(self.balance.level[tag] + flow * dt / tank.area, 0.0), tank.height)
             self.balance.level[tag] = level
             at_end = level in (0.0, tank.height) and self._solved_level[tag] != level
-            far |= at_end or abs(level - self._solved_level[tag]) > _STALE
+            far |= at_end or abs(level - self._solved_level[tag]) > STALE
         return far
 
     def _settle(self) -> State:
@@ -234,7 +242,7 @@ class Process:
             if wanted == here:
                 continue
             moved, gauge = True, self.scenario.gauges[tag]
-            if wanted is None or here is None or abs(wanted - here) < _SETTLED or gauge.lag <= 0:
+            if wanted is None or here is None or abs(wanted - here) < SETTLED or gauge.lag <= 0:
                 self._shown[tag] = wanted
             else:
                 self._shown[tag] = wanted + (here - wanted) * math.exp(-dt / gauge.lag)
@@ -295,6 +303,7 @@ class Process:
             if valve.duty == "relief" and tag in circuit.tags and self.balance.through(tag) > _STILL:
                 yield f"{tag} blows off {self.balance.through(tag) * 3600:.2f} m3/h"
         inflow = self.balance.places.inflow(solution.flow)
+        lowest = {tag: min(n.height for n in circuit.nozzles if n.tag == tag) for tag in inflow}
         for tag, tank in self.scenario.tanks.items():
             if tag not in inflow:
                 continue
@@ -302,11 +311,21 @@ class Process:
                 yield f"{tag} overflows: {inflow[tag] * 3600:.2f} m3/h run over"
             elif self.balance.level[tag] <= 0:
                 yield f"{tag} is empty"
+            elif tank.bottom + self.balance.level[tag] <= lowest[tag]:
+                yield f"{tag} is down to its lowest nozzle: nothing leaves it"
         boiling = [
             name
             for name, node in self.balance.places.told.items()
-            if solution.head[node] < circuit.height[node] + self.scenario.head(self.scenario.fluid.vapour) - _STALE
+            if solution.head[node] < circuit.height[node] + self.scenario.head(self.scenario.fluid.vapour) - STALE
         ]
         if boiling and not cavitating:
             yield f"the column parts at {len(boiling)} places, as the pressure falls to that at which the fluid boils"
+        unknown = sum(
+            value is None and self.scenario.gauges[tag].measures == "pressure" for tag, value in self._measured.items()
+        )
+        if unknown:
+            yield (
+                f"nothing of known pressure reaches {unknown} gauges, so that nobody knows what they show: let an end "
+                "of their pipes be a source in the scenario"
+            )
         yield from circuit.remarks

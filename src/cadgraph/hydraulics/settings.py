@@ -187,12 +187,3 @@ class Scenario(Setting):
         for name, section in several:
             for tag, setting in section.items():
                 yield name, tag, setting
-
-    def assumptions(self) -> dict[str, int]:
-        """How many values are assumed, by the words that say why; what a user or the geometry says doesn't count."""
-        counts: dict[str, int] = {}
-        for _, _, setting in self.sections():
-            for reason in setting.why.values():
-                if reason.startswith("assumed"):
-                    counts[reason] = counts.get(reason, 0) + 1
-        return counts

@@ -11,6 +11,7 @@ the fluid boils gives only what reaches it at that pressure.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -20,7 +21,7 @@ from scipy import sparse
 from scipy.sparse import csgraph
 from scipy.sparse.linalg import splu
 
-from cadgraph.hydraulics.laws import quadratic
+from cadgraph.hydraulics.laws import CREEP, quadratic
 from cadgraph.hydraulics.network import Circuit, LinkKind
 
 __all__ = ["Condition", "Solution", "Solver"]
@@ -37,9 +38,11 @@ BACKFLOW = 1e-9
 """Flow against its way at which an open check valve shuts [m3/s]."""
 LIFT = 1e-6
 """Head that opens what is shut [m]."""
-_MOST_STEPS = 100
+MOST_STEPS = 100
 _MOST_ROUNDS = 80
 _ROUNDS_AT_ONCE = 12  # in which all that contradict turn at once; then one by one, so that nothing swings for ever
+MOST_CHANGES = 3  # of a pump that is choked, then isn't; then it isn't
+WILD = 1e3  # m3/s; of a step that leads nowhere
 _START = 0.5  # velocity to begin with [m/s]
 
 
@@ -125,6 +128,7 @@ class Solver:
         self._incidence = sparse.csr_matrix((into - out_of)[self._free])
         self._pumps = np.flatnonzero(circuit.kind == LinkKind.PUMP)
         self._lay_pattern()
+        self._first = circuit.creep * (_START / CREEP)
         self._known_pieces: dict[bytes, _Pieces] = {}
         self._known_starved: dict[bytes, tuple[Ints, Ints]] = {}
 
@@ -159,34 +163,64 @@ class Solver:
             condition: what it stands under.
             last: a state to begin from; the nearer, the faster.
         """
-        circuit = self.circuit
         starved, pulled = self._starved(condition)
-        free_to_turn = condition.one_way & ~condition.shut
-        free_to_turn[starved] = False
+        turning = condition.one_way & ~condition.shut
+        turning[starved] = False
         usable = ~condition.shut
         usable[starved] = False
-        opened = usable.copy()
-        if last is not None:
-            opened[free_to_turn] = last.open[free_to_turn]
+        opened = usable & (self.circuit.kind != LinkKind.RELIEF)
         choked: tuple[int, ...] = ()
+        flow = self._first
         if last is not None:
-            choked = tuple(p for p in last.cavitating if usable[p])
-        flow = last.flow if last is not None else circuit.creep * (_START / 1e-3)
-        steps, step, settled = 0, 0.0, False
-        head = condition.head
-        pieces = self._pieces(opened, choked)
+            opened[turning] = last.open[turning]
+            choked = tuple(pump for pump in last.cavitating if opened[pump])
+            flow = last.flow
+        let_go: Counter[int] = Counter()
+        steps, turned = 0, np.ones_like(opened)
+        more: list[int] = []
+        fewer: list[int] = []
         for number in range(_MOST_ROUNDS):
-            pieces = self._pieces(opened, choked)
-            flow, head, taken, step = self._newton(condition, opened, pieces, flow, choked, pulled)
+            choked, pieces = self._kept(opened, choked, let_go)
+            flow, head, taken, step = self._newton(condition, opened, pieces, flow, choked)
             steps += taken
-            head = self._even_out(condition, opened & usable, usable, pieces, head, pulled)
-            opened, choked, settled = self._turned(
-                condition, free_to_turn, opened, choked, pieces, flow, head, one_by_one=number >= _ROUNDS_AT_ONCE
-            )
-            if settled:
+            if choked and step > STEP and taken >= MOST_STEPS:
+                # What is left to a choked pump can lie behind it; then there is no such flow.
+                let_go.update(dict.fromkeys(choked, MOST_CHANGES))
+                choked, flow = (), self._first
+                continue
+            head = self._even_out(condition, opened, usable, pieces, head, pulled)
+            free = turning.copy()
+            free[list(choked)] = False
+            turned = self._turned(condition, free, opened, flow, head, one_by_one=number >= _ROUNDS_AT_ONCE)
+            if turned.any():
+                opened = opened ^ turned
+                continue
+            more, fewer = self._choking(condition, opened, choked, flow, head)
+            more = [pump for pump in more if let_go[pump] < MOST_CHANGES]
+            if not more and not fewer:
                 break
+            let_go.update(fewer)
+            choked = tuple(sorted({*choked, *more} - {*fewer}))
+        settled = step <= STEP or taken < MOST_STEPS
+        settled = settled and not (turned.any() or more or fewer)
+        lacking = {*choked, *map(int, starved), *self._choking(condition, opened, choked, flow, head)[0]}
         shut_in = (pieces.of_node > 0) & ~pieces.circulating[pieces.of_node]
-        return Solution(flow, head, opened, shut_in, (*choked, *map(int, starved)), steps, step, settled)
+        return Solution(flow, head, opened, shut_in, tuple(sorted(lacking)), steps, step, settled)
+
+    def _kept(self, opened: Bools, choked: Sequence[int], let_go: Counter[int]) -> tuple[tuple[int, ...], _Pieces]:
+        """The pumps that stay choked, as both of their sides hang together with a given head, and the pieces then."""
+        kept = tuple(pump for pump in choked if opened[pump])
+        while True:
+            pieces = self._pieces(opened, kept)
+            apart = [
+                pump
+                for pump in kept
+                if pieces.of_node[self.circuit.start[pump]] > 0 or pieces.of_node[self.circuit.end[pump]] > 0
+            ]
+            if not apart:
+                return kept, pieces
+            let_go.update(apart)
+            kept = tuple(pump for pump in kept if pump not in apart)
 
     def _newton(
         self,
@@ -195,7 +229,6 @@ class Solver:
         pieces: _Pieces,
         flow: Floats,
         choked: Sequence[int],
-        pulled: Ints,
     ) -> tuple[Floats, Floats, int, float]:
         """Flows and heads with everything open or shut as it is; how many steps that took, and the last one."""
         circuit, free = self.circuit, self._free
@@ -203,16 +236,16 @@ class Solver:
         given = np.where(circuit.fixed, head, 0.0)
         outer = given[circuit.start] - given[circuit.end]
         pin_rows = self._row[pieces.pins]
-        pin_heads = self._pin_heads(condition, pieces, pulled)
+        pin_heads = self._pin_heads(condition, pieces)
         flow = np.where(opened, flow, 0.0)
         step, drop = np.inf, np.zeros_like(flow)
         linear = opened.copy()
         linear[list(choked)] = False
         balanced = False
         taken = 0
-        while taken < _MOST_STEPS:
+        loss, slope = self._loss(condition, flow)
+        while taken < MOST_STEPS:
             taken += 1
-            loss, slope = self._loss(condition, flow)
             ease = np.where(linear, 1 / slope, 0.0)
             data = self._spread @ ease
             data[self._diagonal[pin_rows]] += 1.0
@@ -224,12 +257,12 @@ class Solver:
             change = np.where(linear, ease * (drop - loss), 0.0)
             for link, value in zip(choked, forced, strict=True):
                 change[link] = value - flow[link]
-            share = 1.0
-            if balanced and not choked:
-                share = self._share(condition, flow, change, drop)
-            flow = flow + share * change
-            balanced = balanced or share == 1.0
+            descent = float(((loss - drop) * change).sum()) if balanced and not choked else None
+            flow, loss, slope = self._gone(condition, flow, change, drop, descent)
+            balanced = True
             step = float(np.abs(change).max(initial=0.0))
+            if choked and step > WILD:
+                return flow, head, MOST_STEPS, step
             if step < STEP or np.abs(change).sum() < RELATIVE_STEP * np.abs(flow).sum():
                 break
         return flow, head, taken, step
@@ -246,8 +279,11 @@ class Solver:
         n = len(self._free)
         if n == 0:
             return np.zeros(0), np.zeros(0)
-        factors = splu(sparse.csc_matrix((data, self._indices, self._pointers), shape=(n, n)))
+        matrix = sparse.csc_matrix((data, self._indices, self._pointers), shape=(n, n))
+        factors = splu(matrix)
         heads = factors.solve(right)
+        # Short wide pipes beside narrow ones lose digits; one refinement gets them back.
+        heads += factors.solve(right - matrix @ heads)
         if not choked:
             return heads, np.zeros(0)
         at, to = self._row[self.circuit.start[list(choked)]], self._row[self.circuit.end[list(choked)]]
@@ -261,24 +297,30 @@ class Solver:
         flows = np.linalg.lstsq(effect[at], wanted - heads[at], rcond=None)[0]
         return heads + effect @ flows, flows
 
-    def _share(self, condition: Condition, flow: Floats, change: Floats, drop: Floats) -> float:
-        """How much of a step to go: as far as the content of the network still falls, or nearly so."""
-        loss, _ = self._loss(condition, flow)
-        first = float(((loss - drop) * change).sum())
+    def _gone(
+        self, condition: Condition, flow: Floats, change: Floats, drop: Floats, descent: float | None
+    ) -> tuple[Floats, Floats, Floats]:
+        """The flows after a step, with the losses and slopes there.
+
+        A step goes as far as the content of the network still falls, or nearly so.
+
+        Args:
+            condition: what the network stands under.
+            flow: before the step.
+            change: the whole step.
+            drop: heads that are left for each link.
+            descent: how the content changes along the step at its beginning; None goes all of it.
+        """
         low, high, share = 0.0, 1.0, 1.0
-        for _ in range(12):
-            loss, _ = self._loss(condition, flow + share * change)
-            slope = float(((loss - drop) * change).sum())
-            if abs(slope) <= 0.5 * abs(first) + 1e-15:
-                return share
-            if slope > 0:
-                high = share
-            elif share == 1.0:
-                return share
-            else:
-                low = share
+        loss, slope = self._loss(condition, flow + change)
+        for _ in range(0 if descent is None else 12):
+            along = float(((loss - drop) * change).sum())
+            if abs(along) <= 0.5 * abs(descent or 0.0) + 1e-15 or (along < 0 and share == 1.0):
+                break
+            low, high = (low, share) if along > 0 else (share, high)
             share = (low + high) / 2
-        return share
+            loss, slope = self._loss(condition, flow + share * change)
+        return flow + share * change, loss, slope
 
     # What hangs together
 
@@ -318,7 +360,7 @@ class Solver:
             pins[piece] = circuit.start[pump]
         return _Pieces(of_node, pins[1:], circulating)
 
-    def _pin_heads(self, condition: Condition, pieces: _Pieces, pulled: Ints) -> Floats:
+    def _pin_heads(self, condition: Condition, pieces: _Pieces) -> Floats:
         """The head to set at the pin of each floating piece."""
         found = []
         for number, pin in enumerate(pieces.pins, 1):
@@ -416,51 +458,30 @@ class Solver:
     # What lets pass one way only
 
     def _turned(
-        self,
-        condition: Condition,
-        free_to_turn: Bools,
-        opened: Bools,
-        choked: tuple[int, ...],
-        pieces: _Pieces,
-        flow: Floats,
-        head: Floats,
-        one_by_one: bool,
-    ) -> tuple[Bools, tuple[int, ...], bool]:
-        """What is open after what contradicts it was turned, which pumps are choked, and whether nothing was."""
-        circuit = self.circuit
-        pressing = head[circuit.start] - head[circuit.end] - condition.offset
-        closing = free_to_turn & opened & (flow < -BACKFLOW)
-        opening = free_to_turn & ~opened & (pressing > LIFT)
-        more, fewer = self._choking(condition, opened & ~closing, choked, pieces, flow, head)
-        if not (closing.any() or opening.any() or more or fewer):
-            return opened, choked, True
+        self, condition: Condition, turning: Bools, opened: Bools, flow: Floats, head: Floats, one_by_one: bool
+    ) -> Bools:
+        """Which links that let pass one way only contradict their flow or heads, so that they are to be turned."""
+        pressing = head[self.circuit.start] - head[self.circuit.end] - condition.offset
+        closing = turning & opened & (flow < -BACKFLOW)
+        opening = turning & ~opened & (pressing > LIFT)
         turned = closing | opening
         if one_by_one and turned.any():
             size = np.where(closing, -flow / BACKFLOW, np.where(opening, pressing / LIFT, 0.0))
             turned = np.zeros_like(turned)
             turned[int(np.argmax(size))] = True
-            more, fewer = [], []
-        after = opened ^ turned
-        kept = [p for p in (*choked, *more) if p not in fewer and after[p]]
-        return after, tuple(sorted(kept)), False
+        return turned
 
     def _choking(
-        self,
-        condition: Condition,
-        opened: Bools,
-        choked: Sequence[int],
-        pieces: _Pieces,
-        flow: Floats,
-        head: Floats,
+        self, condition: Condition, opened: Bools, choked: Sequence[int], flow: Floats, head: Floats
     ) -> tuple[list[int], list[int]]:
-        """The pumps that draw more than reaches them, and those that no longer do."""
+        """The pumps that draw more than reaches them, and the choked ones that no longer do."""
         circuit = self.circuit
         more, fewer = [], []
+        loss = self._loss(condition, flow)[0] if choked else flow
         for pump in map(int, self._pumps):
             a, b = int(circuit.start[pump]), int(circuit.end[pump])
             if pump in choked:
-                wasted = head[a] - head[b] - self._loss(condition, flow)[0][pump]
-                if wasted < -LIFT or not opened[pump]:
+                if head[a] - head[b] - loss[pump] < -LIFT or flow[pump] < -BACKFLOW:
                     fewer.append(pump)
             elif opened[pump] and flow[pump] > BACKFLOW and head[a] < condition.floor[a] - LIFT:
                 more.append(pump)

@@ -11,7 +11,7 @@ from embreex.rtcore_scene import EmbreeScene
 
 from cadgraph.model.scene import Floats, Scene
 
-__all__ = ["Caster", "Hits"]
+__all__ = ["Caster", "Hits", "TwoCasters"]
 
 Singles = npt.NDArray[np.float32]
 Indices = npt.NDArray[np.int32]
@@ -113,3 +113,35 @@ class Caster:
         )
         blocked: npt.NDArray[np.bool_] = answer >= 0
         return blocked
+
+
+class TwoCasters(Caster):
+    """Casts rays at two groups of meshes of a scene as if they were one; only the second has moved since the first.
+
+    Coordinates, and all sizes that light depends on, are those of the first, so that pictures of one scene with some
+    of it in different places are lit alike.
+
+    Args:
+        still: casts at what stays.
+        moved: casts at what was moved.
+    """
+
+    def __init__(self, still: Caster, moved: Caster) -> None:
+        self._still, self._moved = still, moved
+        self.low, self.high, self.center = still.low, still.high, still.center
+        self._shift = (still.center - moved.center).astype(np.float32)
+
+    def first(self, origins: Singles, directions: Singles) -> Hits:
+        """What each ray meets first."""
+        still = self._still.first(origins, directions)
+        moved = self._moved.first(origins + self._shift, directions)
+        nearer = (moved.face >= 0) & ((still.face < 0) | (moved.distance < still.distance))
+        return Hits(
+            *(np.where(nearer if b.ndim == 1 else nearer[:, None], b, a) for a, b in zip(still, moved, strict=True))
+        )
+
+    def blocked(self, origins: Singles, directions: Singles, lengths: Singles) -> npt.NDArray[np.bool_]:
+        """``(n,)`` whether anything lies on each ray before the given length [m]."""
+        return self._still.blocked(origins, directions, lengths) | self._moved.blocked(
+            origins + self._shift, directions, lengths
+        )

@@ -167,6 +167,14 @@ class CornerNormals:
         self._normals = np.zeros((scene.n_triangles, 3, 3), np.float32)
         self._lock = threading.Lock()
 
+    def moved(self, scene: Scene, meshes: npt.NDArray[np.int64]) -> CornerNormals:
+        """Those of the same scene with some meshes elsewhere; what was worked out of the others is kept."""
+        other = CornerNormals(scene, self._threads)
+        with self._lock:
+            other._ready, other._normals = self._ready.copy(), self._normals.copy()
+        other._ready[meshes] = False
+        return other
+
     def ready(self, meshes: npt.NDArray[np.integer[Any]]) -> Singles:
         """``(n_faces, 3, 3)`` the normals of the whole scene, worked out for these meshes at least; not to be changed.
 

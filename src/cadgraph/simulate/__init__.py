@@ -1,0 +1,1 @@
+"""A plant whose valves turn and whose gauges answer: what simulators need of it."""

@@ -1,0 +1,1 @@
+"""The plant as a USD stage with physics (``simulation.usda``)."""

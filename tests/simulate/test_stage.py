@@ -1,0 +1,380 @@
+import json
+
+import numpy as np
+import pytest
+from pxr import Usd, UsdGeom, UsdPhysics, UsdSemantics, UsdShade, UsdUtils, UsdValidation
+
+import movable
+from cadgraph.load import load
+from cadgraph.model.graph import SceneGraph
+from cadgraph.simulate.stage.writing import write_stage
+
+WORKED = ("V-1", "V-2", "V-3", "G-1")
+
+
+@pytest.fixture(autouse=True)
+def _quiet():
+    delegate = UsdUtils.CoalescingDiagnosticDelegate()
+    yield
+    delegate.TakeUncoalescedDiagnostics()
+
+
+@pytest.fixture(scope="module", params=movable.STYLES)
+def written(request, tmp_path_factory):
+    """Source, graph, what was written, and the open stage."""
+    folder = tmp_path_factory.mktemp(request.param)
+    source = folder / "plant.usdc"
+    graph = movable.write(source, movable.STYLES[request.param])
+    done = write_stage(graph, source, folder / "out")
+    return source, graph, done, Usd.Stage.Open(str(folder / "out/simulation.usda"))
+
+
+def meshes(path):
+    """What a file shows, whatever it is called: corners of boxes, numbers of triangles, colours; in order."""
+    scene = load(path, movable.QUICK)
+    rows = [
+        (*np.round(scene.mesh(i)[0].min(0), 5), *np.round(scene.mesh(i)[0].max(0), 5), len(scene.mesh(i)[1]))
+        for i in range(scene.n_meshes)
+    ]
+    order = sorted(range(len(rows)), key=rows.__getitem__)
+    colors = np.nan_to_num(scene.colors[order], nan=-1.0)
+    return np.array([rows[i] for i in order]), colors
+
+
+def body(stage, tag):
+    return stage.GetPrimAtPath(f"/Plant/Devices/{tag.replace('-', '_')}")
+
+
+def joint(stage, tag):
+    return stage.GetPrimAtPath(f"/Plant/Devices/joints/{tag.replace('-', '_')}")
+
+
+def test_usd_finds_no_fault(written):
+    registry = UsdValidation.ValidationRegistry()
+    names = [each.name for each in registry.GetAllValidatorMetadata() if not each.isSuite]
+    validators = registry.GetOrLoadValidatorsByName(names)
+    faults = UsdValidation.ValidationContext(validators).Validate(written[3])
+    assert [(fault.GetName(), fault.GetMessage()) for fault in faults] == []
+
+
+def test_every_mesh_is_shown_once_where_it_stood_and_in_its_colour(written):
+    source, _, done, _ = written
+    before, colors = meshes(source)
+    after, colors_after = meshes(done.files[0])
+    assert before.shape == after.shape
+    assert np.allclose(before, after, atol=2e-5)
+    assert np.allclose(colors, colors_after, atol=1e-6)
+
+
+def test_the_stage_is_metres_with_z_up_and_all_below_the_plant(written):
+    stage = written[3]
+    assert UsdGeom.GetStageMetersPerUnit(stage) == 1.0
+    assert UsdGeom.GetStageUpAxis(stage) == "Z"
+    assert stage.GetDefaultPrim().GetPath() == "/Plant"
+    assert [prim.GetName() for prim in stage.GetPseudoRoot().GetChildren()] == ["Plant", "PhysicsScene"]
+
+
+def test_no_body_lies_in_another_and_none_is_scaled(written):
+    bodies = [prim for prim in written[3].Traverse() if prim.HasAPI(UsdPhysics.RigidBodyAPI)]
+    assert len(bodies) == 1 + len(WORKED)
+    for prim in bodies:
+        assert [other for other in bodies if prim.GetPath().HasPrefix(other.GetPath())] == [prim]
+        matrix = np.array(UsdGeom.XformCache().GetLocalToWorldTransform(prim))[:3, :3]
+        assert np.allclose(matrix @ matrix.T, np.eye(3), atol=1e-12)
+
+
+def test_each_body_turns_about_the_axis_of_its_mechanism(written):
+    _, graph, _, stage = written
+    for tag in WORKED:
+        mechanism = next(unit for unit in graph.units() if unit.tag == tag).mechanism
+        matrix = np.array(UsdGeom.XformCache().GetLocalToWorldTransform(body(stage, tag)))
+        assert np.allclose(matrix[3, :3], mechanism.pivot, atol=1e-8)
+        assert np.allclose(matrix[2, :3], mechanism.axis, atol=1e-8)
+        hinge = UsdPhysics.RevoluteJoint(joint(stage, tag))
+        assert (hinge.GetLowerLimitAttr().Get(), hinge.GetUpperLimitAttr().Get()) == mechanism.limits
+        assert hinge.GetAxisAttr().Get() == "Z"
+        assert np.allclose(hinge.GetLocalPos0Attr().Get(), mechanism.pivot, atol=1e-6)
+        assert hinge.GetBody0Rel().GetTargets() == ["/Plant/Devices/base"]
+        assert hinge.GetBody1Rel().GetTargets() == [body(stage, tag).GetPath()]
+
+
+def test_valves_have_friction_and_no_drive_and_needles_a_drive_and_no_collider(written):
+    stage = written[3]
+    for tag in ("V-1", "V-2", "V-3"):
+        assert not joint(stage, tag).HasAPI(UsdPhysics.DriveAPI, "angular")
+        assert joint(stage, tag).GetAttribute("newton:friction").Get() == pytest.approx(
+            60 * movable.LONG if tag == "V-3" else 40 * movable.RADIUS
+        )
+        assert joint(stage, tag).GetAttribute("physxJoint:armature").Get() == pytest.approx(0.02)
+    assert joint(stage, "G-1").HasAPI(UsdPhysics.DriveAPI, "angular")
+    assert not [p for p in Usd.PrimRange(body(stage, "G-1")) if p.HasAPI(UsdPhysics.CollisionAPI)]
+    rim = [p for p in body(stage, "V-1").GetChildren() if p.GetTypeName() == "Capsule"]
+    assert len(rim) == 20
+    assert all(p.HasAPI(UsdPhysics.CollisionAPI) and UsdGeom.Imageable(p).ComputePurpose() == "guide" for p in rim)
+
+
+def test_everything_that_stands_still_has_a_collider_but_bolts_and_dials(written):
+    _, _, done, stage = written
+    still = [
+        prim
+        for prim in stage.Traverse(Usd.TraverseInstanceProxies())
+        if prim.HasAPI(UsdPhysics.CollisionAPI) and not str(prim.GetPath()).startswith("/Plant/Devices")
+    ]
+    # Three valves with body and stem, two cases, the pipe.
+    assert len(still) == done.n_colliders == 3 * 2 + 2 + 1
+    assert {UsdPhysics.MeshCollisionAPI(prim).GetApproximationAttr().Get() for prim in still} == {"none"}
+
+
+def test_a_wheel_passes_through_its_own_valve(written):
+    stage = written[3]
+    for tag in ("V-1", "V-2", "V-3"):
+        targets = UsdPhysics.FilteredPairsAPI(body(stage, tag)).GetFilteredPairsRel().GetTargets()
+        assert len(targets) == 2
+        assert all(stage.GetPrimAtPath(target).HasAPI(UsdPhysics.CollisionAPI) for target in targets)
+
+
+def test_what_moves_keeps_its_label_and_a_needle_is_called_one(written):
+    stage = written[3]
+    said = {}
+    for tag in WORKED:
+        (mesh,) = [p for p in body(stage, tag).GetChildren() if p.GetTypeName() == "Mesh"]
+        said[tag] = [list(UsdSemantics.LabelsAPI(mesh, name).GetLabelsAttr().Get()) for name in ("class", "cad_group")]
+    assert said == {
+        "V-1": [["handwheel"], ["Valve assembly"]],
+        "V-2": [["handwheel"], ["Valve assembly"]],
+        "V-3": [["lever"], ["Valve assembly"]],
+        "G-1": [["gauge needle"], ["Gauge assembly"]],
+    }
+
+
+def test_instances_stay_instances_where_nothing_moves(tmp_path):
+    graph = movable.write(tmp_path / "plant.usdc", movable.STYLES["native"])
+    write_stage(graph, tmp_path / "plant.usdc", tmp_path / "out")
+    before = Usd.Stage.Open(str(tmp_path / "plant.usdc"))
+    after = Usd.Stage.Open(str(tmp_path / "out/simulation.usda"))
+    count = [sum(prim.IsInstance() for prim in stage.Traverse()) for stage in (before, after)]
+    assert count == [14, 12]  # both wheels were instances
+
+
+def test_the_same_plant_gives_the_same_bytes(tmp_path):
+    graph = movable.write(tmp_path / "plant.usdc", movable.STYLES["mixed"])
+    done = [write_stage(graph, tmp_path / "plant.usdc", tmp_path / "out").files for _ in range(2)]
+    first = [file.read_bytes() for file in done[0]]
+    write_stage(graph, tmp_path / "plant.usdc", tmp_path / "out")
+    assert [file.read_bytes() for file in done[1]] == first
+
+
+def test_needles_are_drawn_where_dials_have_none(tmp_path):
+    graph = movable.write(tmp_path / "plant.usdc")
+    done = write_stage(graph, tmp_path / "plant.usdc", tmp_path / "out", needles=True)
+    stage = Usd.Stage.Open(str(done.files[0]))
+    needle = stage.GetPrimAtPath("/Plant/Devices/G_2/needle")
+    matrix = np.array(UsdGeom.XformCache().GetLocalToWorldTransform(needle))
+    tip = np.array([0.036, 0, 0]) @ matrix[:3, :3] + matrix[3, :3]
+    face = movable.dial(movable.POSES["G-2"])
+    # Seen from the front with twelve up, half past seven is down on the left.
+    across = np.cross(face.up, face.normal)
+    way = (tip - face.center) / 0.036
+    assert [way @ across, way @ np.array(face.up)] == pytest.approx([-np.sqrt(0.5), -np.sqrt(0.5)], abs=1e-6)
+    assert (tip - face.center) @ np.array(face.normal) > 0
+    assert list(UsdSemantics.LabelsAPI(needle, "class").GetLabelsAttr().Get()) == ["gauge needle"]
+    table = json.loads(done.files[1].read_text())
+    row = next(row for row in table["devices"] if row["tag"] == "G-2")
+    assert row["drawn"]
+    assert row["limits_deg"] == [-270.0, 0.0]
+    assert [each["tag"] for each in table["immovable"]] == []
+
+
+def test_a_source_that_is_not_usd_goes_by_its_geometry(tmp_path):
+    graph = movable.write(tmp_path / "plant.glb")
+    done = write_stage(graph, tmp_path / "plant.glb", tmp_path / "out")
+    assert (tmp_path / "out/scene.usdc").exists()
+    before, _ = meshes(tmp_path / "plant.glb")
+    after, _ = meshes(done.files[0])
+    assert np.allclose(before, after, atol=2e-5)
+    assert len(done.devices) == 4
+    assert done.n_colliders == 9
+
+
+def test_a_far_plant_stands_about_its_origin_and_the_table_says_where(tmp_path):
+    near = tmp_path / "near.usdc"
+    movable.write(near)
+    stage = Usd.Stage.Open(str(near))
+    UsdGeom.Xformable(stage.GetPrimAtPath("/World")).AddTranslateOp().Set((3.5e8, 0, 0))  # 350 km in millimetres
+    stage.Export(str(tmp_path / "far.usdc"))
+    scene = load(tmp_path / "far.usdc", movable.QUICK)
+    made = movable.plant()
+    paths = [each["mesh"] for each in json.loads((tmp_path / "near.truth.json").read_text())["meshes"]]
+    graph = movable.graph_of(scene, made, paths)
+    moved = [
+        node.model_copy(update={"mechanism": _moved(node.mechanism, 3.5e5)})
+        if getattr(node, "mechanism", None)
+        else node
+        for node in graph.document.nodes
+    ]
+    graph = SceneGraph(graph.document.model_copy(update={"nodes": tuple(moved)}))
+    done = write_stage(graph, tmp_path / "far.usdc", tmp_path / "out")
+    origin = json.loads(done.files[1].read_text())["origin_m"]
+    assert origin == scene.origin.tolist() != [0, 0, 0]
+    stage = Usd.Stage.Open(str(done.files[0]))
+    matrix = np.array(UsdGeom.XformCache().GetLocalToWorldTransform(body(stage, "V-1")))
+    assert np.allclose(matrix[3, :3] + origin, np.array([3.5e5, 0, 0]) + movable.mechanism("V-1", ("x",)).pivot)
+
+
+def _moved(mechanism, far):
+    x, y, z = mechanism.pivot
+    return mechanism.model_copy(update={"pivot": (x + far, y, z)})
+
+
+def test_a_mesh_that_the_source_does_not_have_is_named(tmp_path):
+    graph = movable.write(tmp_path / "plant.usdc")
+    nodes = [
+        node.model_copy(update={"mechanism": movable.mechanism("V-1", ("/World/gone",))})
+        if getattr(node, "tag", None) == "V-1"
+        else node
+        for node in graph.document.nodes
+    ]
+    graph = SceneGraph(graph.document.model_copy(update={"nodes": tuple(nodes)}))
+    with pytest.raises(ValueError, match=r"V-1 turns mesh '/World/gone', which is not in the scene"):
+        write_stage(graph, tmp_path / "plant.usdc", tmp_path / "out")
+
+
+MATERIALS = """#usda 1.0
+(
+    defaultPrim = "World"
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Scope "Looks" {
+    def Material "Red" { token outputs:surface }
+    def Material "Blue" { token outputs:surface }
+}
+def Xform "World" (
+    prepend apiSchemas = ["MaterialBindingAPI"]
+) {
+    rel material:binding = </Looks/Red>
+    color3f[] primvars:displayColor = [(0.1, 0.2, 0.3)] (
+        interpolation = "constant"
+    )
+    def Mesh "Wheel" {
+        int[] faceVertexCounts = [4, 4, 4, 4, 4, 4]
+        int[] faceVertexIndices = [0, 3, 2, 1, 4, 5, 6, 7, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7]
+        point3f[] points = [(-0.1, -0.1, 0), (0.1, -0.1, 0), (0.1, 0.1, 0), (-0.1, 0.1, 0),
+            (-0.1, -0.1, 0.02), (0.1, -0.1, 0.02), (0.1, 0.1, 0.02), (-0.1, 0.1, 0.02)]
+        uniform token subdivisionScheme = "none"
+        def GeomSubset "Top" (
+            prepend apiSchemas = ["MaterialBindingAPI"]
+        ) {
+            uniform token elementType = "face"
+            uniform token familyName = "materialBind"
+            int[] indices = [1]
+            rel material:binding = </Looks/Blue>
+        }
+    }
+    def Sphere "Body" (
+        prepend apiSchemas = ["MaterialBindingAPI"]
+    ) {
+        double radius = 0.05
+        double3 xformOp:translate = (0, 0, -0.1)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+        rel material:binding = </Looks/Blue>
+    }
+}
+"""
+
+
+def test_materials_stay_whatever_root_they_are_below(tmp_path):
+    source = tmp_path / "plant.usda"
+    source.write_text(MATERIALS.replace("{ token", "{\n token").replace("surface }", "surface\n }"))
+    done = write_stage(one_valve(source, "/World/Wheel"), source, tmp_path / "out")
+    stage = Usd.Stage.Open(str(done.files[0]))
+
+    def material(path):
+        bound = UsdShade.MaterialBindingAPI(stage.GetPrimAtPath(path)).ComputeBoundMaterial()[0]
+        return str(bound.GetPath()) if bound else None
+
+    assert material("/Plant/Devices/V_1/mesh_0") == "/Plant/Scene/Looks/Red"
+    assert material("/Plant/Devices/V_1/mesh_0/Top") == "/Plant/Scene/Looks/Blue"
+    assert material("/Plant/Scene/World/Body") == "/Plant/Scene/Looks/Blue"
+    shown = UsdGeom.PrimvarsAPI(stage.GetPrimAtPath("/Plant/Devices/V_1/mesh_0")).GetPrimvar("displayColor")
+    assert np.allclose(shown.Get(), [(0.1, 0.2, 0.3)])
+    sphere = stage.GetPrimAtPath("/Plant/Scene/World/Body")
+    assert sphere.HasAPI(UsdPhysics.CollisionAPI)
+    assert not sphere.HasAPI(UsdPhysics.MeshCollisionAPI)
+
+
+def one_valve(source, mesh, **more):
+    """A graph of a valve whose only moving mesh this is, about z."""
+    import graphs
+    from cadgraph.model.records import GraphDocument, Mechanism, Site, SourceRecord
+
+    scene = load(source, movable.QUICK)
+    parts = [graphs.part(i, path, label=graphs.label(name="handwheel")) for i, path in enumerate(scene.paths)]
+    mechanism = Mechanism(
+        kind="handwheel", meshes=(mesh,), axis=(0, 0, 1), pivot=(0, 0, 0), radius=0.1, limits=(-360, 0), **more
+    )
+    unit = graphs.unit("V-1", *(part.id for part in parts)).model_copy(update={"mechanism": mechanism})
+    record = SourceRecord(path=str(source), sha256=scene.source.sha256)
+    return SceneGraph(
+        GraphDocument(nodes=(Site(id="site"), *parts, unit), edges=(), source=record, config=movable.CONFIG)
+    )
+
+
+PIECES = """#usda 1.0
+(
+    defaultPrim = "World"
+    metersPerUnit = 0.01
+    upAxis = "Y"
+)
+def Xform "World" {
+    def Mesh "Valve" {
+        int[] faceVertexCounts = [4, 4, 3, 4]
+        int[] faceVertexIndices = [0, 1, 2, 3, 4, 5, 6, 7, 4, 7, 8, 9, 10, 11, 12]
+        point3f[] points = [(-10, 0, -10), (-10, 0, 10), (10, 0, 10), (10, 0, -10), (-5, -10, 0), (5, -10, 0),
+            (5, -20, 0), (-5, -20, 0), (-5, -25, 0), (-10, 0, 10), (-10, 1, 10), (10, 1, 10), (10, 0, 10)]
+        normal3f[] normals = [(0, 1, 0), (0, 0, 1), (0, 0, 1), (0, 0, -1)] (
+            interpolation = "uniform"
+        )
+        color3f[] primvars:displayColor = [(1, 0, 0), (0, 1, 0), (0, 0, 1)] (
+            interpolation = "uniform"
+        )
+        int[] primvars:displayColor:indices = [0, 1, 2, 0]
+        float[] primvars:corner = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14] (
+            interpolation = "faceVarying"
+        )
+        uniform token subdivisionScheme = "none"
+        def GeomSubset "Some" {
+            uniform token elementType = "face"
+            int[] indices = [0, 2]
+        }
+    }
+}
+"""
+
+
+def test_a_wheel_that_is_a_piece_of_its_valve_is_taken_out_of_it(tmp_path):
+    source = tmp_path / "plant.usda"
+    source.write_text(PIECES)
+    # The first polygon and the last one share places, if not points: together they are piece 0.
+    done = write_stage(one_valve(source, "/World/Valve", pieces=(0,)), source, tmp_path / "out")
+    stage = Usd.Stage.Open(str(done.files[0]))
+    wheel = UsdGeom.Mesh(stage.GetPrimAtPath("/Plant/Devices/V_1/mesh_0"))
+    rest = UsdGeom.Mesh(stage.GetPrimAtPath("/Plant/Scene/World/Valve"))
+    assert list(wheel.GetFaceVertexCountsAttr().Get()) == [4, 4]
+    assert list(rest.GetFaceVertexCountsAttr().Get()) == [4, 3]
+    assert [list(map(tuple, mesh.GetNormalsAttr().Get())) for mesh in (wheel, rest)] == [
+        [(0, 1, 0), (0, 0, -1)],
+        [(0, 0, 1), (0, 0, 1)],
+    ]
+    primvar = [UsdGeom.PrimvarsAPI(mesh).GetPrimvar("displayColor").ComputeFlattened() for mesh in (wheel, rest)]
+    assert [list(map(tuple, values)) for values in primvar] == [[(1, 0, 0), (1, 0, 0)], [(0, 1, 0), (0, 0, 1)]]
+    corner = [list(UsdGeom.PrimvarsAPI(mesh).GetPrimvar("corner").Get()) for mesh in (wheel, rest)]
+    assert corner == [[0, 1, 2, 3, 11, 12, 13, 14], [4, 5, 6, 7, 8, 9, 10]]
+    subsets = [list(UsdGeom.Subset(mesh.GetPrim().GetChild("Some")).GetIndicesAttr().Get()) for mesh in (wheel, rest)]
+    assert subsets == [[0], [1]]
+    assert len(rest.GetPointsAttr().Get()) == 5
+    before, after = load(source, movable.QUICK), load(done.files[0], movable.QUICK)
+    assert before.n_triangles == after.n_triangles
+    assert np.allclose(before.vertices.min(0), after.vertices.min(0), atol=1e-6)
+    assert np.allclose(before.vertices.max(0), after.vertices.max(0), atol=1e-6)
+    assert rest.GetPrim().HasAPI(UsdPhysics.CollisionAPI)
