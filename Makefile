@@ -1,6 +1,7 @@
 # make demo   set up, build the scene graph of a small plant, say what was found
 # make test   set up, run every test
 # make test-fast  the tests that take no more than two minutes of one processor together
+# make test-physics  the tests in PhysX and Newton, in an environment of their own (Linux on x86; 3 GB, some minutes)
 # make browser  a browser for the tests that need one: the system's Chromium, where it can be had without asking
 # make web    the page of the viewer anew, from web/ (needs Node)
 # make web-test   the page's types, and its tests that need no browser (needs Node)
@@ -23,7 +24,7 @@ BROWSERS := chromium chromium-browser google-chrome google-chrome-stable microso
 WEB_TOOLS := web/node_modules/.package-lock.json
 NO_NODE := the page needs Node 20 or newer with npm to be built or checked: https://nodejs.org; the one that is built already works without
 
-.PHONY: demo test test-fast browser web web-tools web-test screenshots check check-wheel bench train docs clean
+.PHONY: demo test test-fast test-physics browser web web-tools web-test screenshots check check-wheel bench train docs clean
 
 demo: $(VENV)/.with-all
 	$(BIN)/cadgraph demo --output demo
@@ -36,6 +37,19 @@ test: $(VENV)/.with-dev
 
 test-fast: $(VENV)/.with-dev
 	$(BIN)/python -m pytest $(WORKERS) -m "not slow"
+
+# The engines bring a USD library of their own, which can't live beside the one of the product.
+PHYSICS := .venv-physics
+
+test-physics: $(VENV)/.with-dev $(PHYSICS)/.with-engines
+	CADGRAPH_PHYSICS_PYTHON=$(CURDIR)/$(PHYSICS)/bin/python $(BIN)/python -m pytest tests/physics
+
+$(PHYSICS)/.with-engines: tests/physics/requirements.txt
+	@test -n "$(PYTHON)" || { echo "cadgraph needs Python 3.11 or newer; name it with: make PYTHON=/path/to/python3"; exit 1; }
+	$(PYTHON) -m venv $(PHYSICS)
+	@echo "installing the engines into $(PHYSICS) (once, some minutes)"
+	$(PHYSICS)/bin/python -m pip install --disable-pip-version-check --quiet --requirement $<
+	@touch $@
 
 # Never fails: tests in a browser are skipped where there is none.
 browser:
@@ -84,7 +98,7 @@ docs: $(VENV)/.with-dev
 	$(BIN)/python tools/draw_architecture.py
 
 clean:
-	rm -rf $(VENV) demo .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) $(PHYSICS) demo .pytest_cache .mypy_cache .ruff_cache .hypothesis
 
 $(VENV)/bin/python:
 	@test -n "$(PYTHON)" || { echo "cadgraph needs Python 3.11 or newer; name it with: make PYTHON=/path/to/python3"; exit 1; }

@@ -7,6 +7,8 @@ import numpy as np
 from cadgraph.hydraulics.network import LinkKind
 from networks import chain, network, terminal, unit
 
+PRESETS = ("pumps", "skid", "tank", "riser", "rack", "field")
+
 
 def line(*kinds, size=80, length=1.0, levels=(0.0, 0.0)):
     """An end that feeds, valves of these kinds with a gauge behind each, and an end that lets out."""

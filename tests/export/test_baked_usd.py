@@ -1,5 +1,6 @@
 import shutil
 import zipfile
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from cadgraph.load import load
 from cadgraph.model.records import Mechanism
 from label_readers import drawn_labels, get_labels, nearest
 
+TEAPOTS = Path(__file__).parents[2] / "../shared/data/usd/teapot_scene/scenes/teapotScene.usd"
 BOX = """
     int[] faceVertexCounts = [4, 4, 4, 4, 4, 4]
     int[] faceVertexIndices = [0, 3, 2, 1, 4, 5, 6, 7, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7]
@@ -177,6 +179,27 @@ def test_items_of_a_point_instancer_are_split_by_label_and_stay_in_their_place(t
     points = UsdGeom.PointInstancer(stage.GetPrimAtPath("/World/points"))
     assert len(points.GetPrototypesRel().GetTargets()) == 3
     assert read(tmp_path / "plant.usda").n_meshes == read(source).n_meshes
+
+
+def test_items_that_are_instances_themselves_keep_their_own_labels(tmp_path):
+    plant(tmp_path, 1)
+    bolt = f'def "bolt" ( instanceable = true\n prepend references = @./parts/bolt.usda@ ) {{ {AT.format(0)} }}'
+    places = ", ".join(f"({3 * i}, 0, 0)" for i in range(5))
+    source = write(
+        tmp_path,
+        f"""( {STAGE.format("World")} )
+def Xform "World" {{ def PointInstancer "bolts" {{
+    int[] protoIndices = [0, 0, 0, 0, 0]
+    point3f[] positions = [{places}]
+    rel prototypes = </World/bolts/kinds/bolt>
+    float3[] extent = [(0, 0, 0), (13, 1, 1)]
+    def Scope "kinds" {{ {bolt} }} }}
+}}""",
+        "bolts.usda",
+    )
+    graph = said(read(source), {"[0]": "bolt", "[1]": "nut", "[2]": "nut", "[3]": "washer", "[4]": None})
+    stage, _ = baked(source, graph, tmp_path / "out.usda")
+    assert drawn_labels(stage) == wanted(graph)
 
 
 def test_prototypes_that_two_instancers_share_are_labelled_for_each(tmp_path):
@@ -378,3 +401,17 @@ def test_the_layer_and_the_stage_are_formats_of_their_own(tmp_path):
         write_export(graph, "usd", tmp_path / "c", source, open_instances=True)
     with pytest.raises(ValueError, match="--bake"):
         write_export(graph, "csv", tmp_path / "c", bake=True)
+
+
+# A real scene with payloads, instances and point instancers
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not TEAPOTS.exists(), reason="no further real files here")
+def test_every_mesh_of_a_real_scene_has_its_own_label(tmp_path):
+    delegate = UsdUtils.CoalescingDiagnosticDelegate()
+    scene = read(TEAPOTS)
+    graph = said(scene, {path: f"name {number % 5}" for number, path in enumerate(scene.paths)})
+    stage, _ = baked(TEAPOTS, graph, tmp_path / "teapots.usdc")
+    assert drawn_labels(stage) == wanted(graph)
+    delegate.TakeUncoalescedDiagnostics()

@@ -192,7 +192,7 @@ def test_a_valve_with_one_port_is_shut_and_lets_out_when_it_is_opened():
 # Tanks
 
 
-def draining(**ends):
+def draining():
     nodes = [unit("T-001", at=(0, 0, 2.0), ports=("N1",)), unit("V-001", "ball valve", ports=("N1", "N2")), terminal(1)]
     plant = Process(network(nodes, chain("T-001.N1 V-001 X1", size=50)))
     return edited(plant, "tanks", "T-001", bottom=2.0, height=2.0, level=1.0, area=0.05)
@@ -205,6 +205,14 @@ def test_a_tank_runs_dry_and_no_further():
     assert levels[-1] == 0
     assert flow_of(plant, "V-001") == 0
     assert "T-001 is empty" in plant.state.remarks
+
+
+def test_a_tank_runs_down_to_its_lowest_nozzle():
+    plant = edited(draining(), "tanks", "T-001", bottom=1.5)
+    for _ in range(120):
+        state = plant.step(dt=1.0)
+    assert state.level["T-001"] == pytest.approx(0.5, abs=0.03)
+    assert "T-001 is down to its lowest nozzle: nothing leaves it" in state.remarks
 
 
 def test_what_leaves_a_tank_is_what_its_level_falls_by():
@@ -284,9 +292,10 @@ def test_a_command_that_is_refused_changes_nothing(plant):
     assert plant.steady().flow == pytest.approx(before.flow, abs=1e-9)
 
 
-def test_time_goes_forwards(plant):
-    with pytest.raises(ValueError, match="dt 0"):
-        plant.step(dt=0)
+@pytest.mark.parametrize("dt", [0, -1, math.nan, math.inf])
+def test_time_goes_forwards_and_comes_to_an_end(plant, dt):
+    with pytest.raises(ValueError, match=f"dt {dt}"):
+        plant.step(dt=dt)
 
 
 # Joints

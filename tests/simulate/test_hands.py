@@ -70,6 +70,14 @@ def test_a_hand_needs_room_beside_it(gap, free):
     assert (hand is not None and hand.tilt == 0) == free
 
 
+@pytest.mark.parametrize("aside", [0.0, 0.012, 0.024, 0.036])
+def test_a_rod_of_two_centimetres_across_the_way_is_met_wherever_it_crosses(aside):
+    grips = [(0.1 * np.cos(turn), 0.1 * np.sin(turn)) for turn in np.radians(np.arange(16) * 22.5)]
+    rods = [shapes.box((0.02, 0.12, 0.02), (x + aside, y, 1.2)) for x, y in grips]
+    _, hand, _ = way(scene(*rods))
+    assert hand.tilt > 0
+
+
 def test_a_lever_is_gripped_near_its_end():
     bar = shapes.box((0.3, 0.03, 0.01), (0.13, 0, 1.02))
     lever = wheel(kind="lever", radius=0.28, limits=(-90.0, 0.0))

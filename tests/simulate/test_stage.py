@@ -378,3 +378,106 @@ def test_a_wheel_that_is_a_piece_of_its_valve_is_taken_out_of_it(tmp_path):
     assert np.allclose(before.vertices.min(0), after.vertices.min(0), atol=1e-6)
     assert np.allclose(before.vertices.max(0), after.vertices.max(0), atol=1e-6)
     assert rest.GetPrim().HasAPI(UsdPhysics.CollisionAPI)
+
+
+ITEMS = """#usda 1.0
+(
+    defaultPrim = "World"
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+class Xform "Skid" {
+    def PointInstancer "Valves" {
+        rel prototypes = [<Proto>]
+        int[] protoIndices = [0, 0]
+        point3f[] positions = [(0, 0, 0), (3, 0, 0)]
+        quath[] orientations = [(1, 0, 0, 0), (0, 0, 0, 1)]
+        int64[] ids = [7, 9]
+        color3f[] primvars:displayColor = [(1, 0, 0), (0, 1, 0)] (
+            interpolation = "vertex"
+        )
+        def Xform "Proto" {
+            def Cube "Body" {
+                double size = 0.2
+                double3 xformOp:translate = (0, 0, -0.2)
+                uniform token[] xformOpOrder = ["xformOp:translate"]
+            }
+            def Mesh "Wheel" {
+                int[] faceVertexCounts = [4, 4, 4, 4, 4, 4]
+                int[] faceVertexIndices = [0, 3, 2, 1, 4, 5, 6, 7, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7]
+                point3f[] points = [(-0.1, -0.1, 0), (0.1, -0.1, 0), (0.1, 0.1, 0), (-0.1, 0.1, 0),
+                    (-0.1, -0.1, 0.02), (0.1, -0.1, 0.02), (0.1, 0.1, 0.02), (-0.1, 0.1, 0.02)]
+                uniform token subdivisionScheme = "none"
+            }
+        }
+    }
+}
+def Xform "World" {
+    def Xform "First" (
+        instanceable = true
+        references = </Skid>
+    ) {
+    }
+    def Xform "Second" (
+        instanceable = true
+        references = </Skid>
+    ) {
+        double3 xformOp:translate = (0, 5, 0)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }
+}
+"""
+
+
+def test_an_item_of_several_meshes_in_an_instance_is_opened_and_its_rest_stays(tmp_path):
+    source = tmp_path / "plant.usda"
+    source.write_text(ITEMS)
+    wheel = "/World/First/Valves[0]/Wheel"
+    done = write_stage(one_valve(source, wheel), source, tmp_path / "out")
+    stage = Usd.Stage.Open(str(done.files[0]))
+    before, colors = meshes(source)
+    after, colors_after = meshes(done.files[0])
+    assert len(before) == 8
+    assert np.allclose(before, after, atol=1e-6)
+    assert np.allclose(colors, colors_after)
+    opened = UsdGeom.PointInstancer(stage.GetPrimAtPath("/Plant/Scene/World/First/Valves"))
+    assert list(opened.GetPrim().GetMetadata("inactiveIds").GetAddedOrExplicitItems()) == [7]
+    assert stage.GetPrimAtPath("/Plant/Scene/World/Second").IsInstance()
+    touched = [p for p in stage.GetPrimAtPath("/Plant/Colliders").GetChildren() if p.HasAPI(UsdPhysics.CollisionAPI)]
+    assert len(touched) == done.n_colliders == 7
+    assert sorted(p.GetTypeName() for p in touched) == ["Cube"] * 4 + ["Mesh"] * 3
+
+
+BELOW = """#usda 1.0
+(
+    defaultPrim = "World"
+    metersPerUnit = 1
+    upAxis = "Z"
+)
+def Xform "World" {
+    def Mesh "Wheel" {
+        int[] faceVertexCounts = [4]
+        int[] faceVertexIndices = [0, 1, 2, 3]
+        point3f[] points = [(-0.1, -0.1, 0), (0.1, -0.1, 0), (0.1, 0.1, 0), (-0.1, 0.1, 0)]
+        uniform token subdivisionScheme = "none"
+        double3 xformOp:translate = (0, 0, 1)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+        def Mesh "Stem" {
+            int[] faceVertexCounts = [3]
+            int[] faceVertexIndices = [0, 1, 2]
+            point3f[] points = [(0, 0, 0), (0.01, 0, 0), (0, 0, -0.2)]
+            uniform token subdivisionScheme = "none"
+        }
+    }
+}
+"""
+
+
+def test_a_mesh_below_a_mesh_that_moves_stays_where_it_is(tmp_path):
+    source = tmp_path / "plant.usda"
+    source.write_text(BELOW)
+    done = write_stage(one_valve(source, "/World/Wheel"), source, tmp_path / "out")
+    assert np.allclose(meshes(source)[0], meshes(done.files[0])[0], atol=1e-6)
+    stage = Usd.Stage.Open(str(done.files[0]))
+    assert stage.GetPrimAtPath("/Plant/Scene/World/Wheel").GetTypeName() == "Xform"
+    assert stage.GetPrimAtPath("/Plant/Scene/World/Wheel/Stem").HasAPI(UsdPhysics.CollisionAPI)

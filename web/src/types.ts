@@ -51,6 +51,8 @@ export interface Unit {
   size: Point;
   ports: Port[];
   missing: number;
+  /** What can be done at it by hand or eye, or why nothing moves, in words. */
+  handling: string;
   facts: [string, string][];
 }
 

@@ -12,7 +12,7 @@ const MESHES = { path: Array.from({ length: N }, (_, i) => `/Geo_${i}`), part: A
 
 function unit(id: string, parts: number[]): Unit {
   return {
-    id, tag: id.toUpperCase(), type: "valve", kind: null, kind_guesses: [], parts, system: 0, point: [0, 0, 0], size: [1, 1, 1],
+    id, tag: id.toUpperCase(), type: "valve", kind: null, kind_guesses: [], handling: "", parts, system: 0, point: [0, 0, 0], size: [1, 1, 1],
     ports: [], missing: 0, facts: [],
   };
 }

@@ -76,7 +76,7 @@ test("arrows lie on the way, point with the flow, and the first one has most roo
 
 function unit(id: string, tag: string, parts: number[], missing = 0): Unit {
   return {
-    id, tag, type: "valve", kind: "gate valve", kind_guesses: [], parts, system: 0, point: [0, 0, 0], size: [1, 1, 1], ports: [],
+    id, tag, type: "valve", kind: "gate valve", kind_guesses: [], handling: "", parts, system: 0, point: [0, 0, 0], size: [1, 1, 1], ports: [],
     missing, facts: [],
   };
 }

@@ -30,7 +30,7 @@ function plant(n = 4): Content {
       volume: all<number | null>(1), guesses: all([]), facts: all([]),
     },
     network: {
-      units: [{ id: "unit-1", tag: "V-4711", type: "valve", kind: "gate valve", kind_guesses: [], parts: [1], system: 0,
+      units: [{ id: "unit-1", tag: "V-4711", type: "valve", kind: "gate valve", kind_guesses: [], handling: "", parts: [1], system: 0,
         point: [0, 0, 0], size: [0.2, 0.2, 0.4], ports: [], missing: 0, facts: [] }],
       ends: [], connections: [{ source: "unit-1", target: "x", source_name: "V-4711", target_name: "x", via: [2], path: [],
         length: 1, size: 80, diameter: 0.08, flow: "unknown", reason: null, confidence: null, line: 0 }],

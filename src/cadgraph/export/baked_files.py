@@ -13,7 +13,7 @@ from pxr import Ar, UsdUtils
 
 from cadgraph._io.atomic import write_atomically
 from cadgraph._io.limits import size_text
-from cadgraph.export.usd import relative_path
+from cadgraph.export.usd import is_usd, relative_path
 from cadgraph.model.diagnostic import Diagnostic
 
 __all__ = ["Files"]
@@ -64,7 +64,9 @@ class Files:
             # An address, or a name that renderers look for in places of their own (OmniPBR.mdl).
             return asset
         moved = relative_path(Path(asset), self._target)
-        (self._outside if _is_there(Path(asset)) else self._missing).add(moved)
+        # Layers that were resolved are still named in what the source says of itself.
+        if not is_usd(asset):
+            (self._outside if _is_there(Path(asset)) else self._missing).add(moved)
         return moved
 
     def _unpacked(self, asset: str) -> str:

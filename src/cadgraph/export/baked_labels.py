@@ -111,9 +111,10 @@ class LayerLabels:
 
     def _signature(self, scene: str, whole: bool) -> Signature:
         """All labels below a path of the scene, and its own where the whole of it is asked for."""
+        # An item that is one mesh of the scene may be an instance, or hold one, with that mesh somewhere in it.
         item = self._item_of(scene)
-        own = [scene] if whole and scene in self._said else [item] if item not in (None, scene) else []
-        found = ((path[len(scene) :], self._said[path]) for path in (*own, *self._below(scene)) if path is not None)
+        own = scene if whole and scene in self._said else item
+        found = ((path[len(scene) :], self._said[path]) for path in (own, *self._below(scene)) if path is not None)
         return tuple((rest, said) for rest, said in found if said is not None)
 
     def _common(self, scene: str) -> Said | None:

@@ -25,7 +25,7 @@ from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
 from cadgraph.query.network import Network
 
-__all__ = ["write_epanet"]
+__all__ = ["InputFile", "write_epanet"]
 
 _WATER = 1.1e-5 * 0.3048**2  # m2/s; the viscosity that EPANET's is relative to
 _STUB = 0.01  # m; length of a pipe that stands for what lets pass one way only
@@ -59,14 +59,14 @@ def write_epanet(
     process = Process(graph, found)
     said = f"as {found} says" if isinstance(found, str | Path) else "as given" if found else "all of it supposed anew"
     notes = [Diagnostic("scenario", f"openings, pumps and pressures {said}", ())]
-    plant = _Written(process.network, process.balance)
+    plant = InputFile(process.network, process.balance)
     notes += plant.notes()
     write_atomically(target, "\n".join(plant.lines()) + "\n")
     return target, tuple(notes)
 
 
-class _Written:
-    """The sections of the file.
+class InputFile:
+    """The sections of the file, and the names in it: ``nodes`` and ``links`` in the order of the circuit's.
 
     Args:
         network: of the graph.
@@ -88,6 +88,7 @@ class _Written:
             if not self.condition.one_way[nozzle.link]:
                 first = self.tanks.setdefault(nozzle.tag, nozzle.node)
                 self.tank_node[nozzle.node] = first
+                self.nodes[nozzle.node] = self.nodes[first]
 
         self.stand_ins = self._without_head()
 
@@ -184,7 +185,7 @@ class _Written:
     def _ends(self, link: int) -> str:
         circuit = self.balance.circuit
         ends = [int(circuit.start[link]), int(circuit.end[link])]
-        return "\t".join(self.nodes[self.tank_node.get(end, end)] for end in ends)
+        return "\t".join(self.nodes[end] for end in ends)
 
     def _coefficient(self, link: int) -> float:
         """The loss coefficient of a link as it stands."""

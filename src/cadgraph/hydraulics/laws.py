@@ -8,6 +8,7 @@ rises with the flow, so that a network has one solution.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -116,12 +117,20 @@ class Friction:
 
     def _transitional(self, reynolds: Array) -> tuple[Array, Array]:
         """The cubic between laminar and turbulent flow (Dunlop), and its slope by the Reynolds number."""
+        a, b, c, d = self._cubic
+        share = reynolds / _LAMINAR
+        return a + share * (b + share * (c + share * d)), (b + share * (2 * c + 3 * share * d)) / _LAMINAR
+
+    @cached_property
+    def _cubic(self) -> tuple[Array, Array, Array, Array]:
+        """The coefficients of that cubic."""
         inner = self.rough + _AT_TURBULENT
         root = _LOG * np.log(inner)
         first = 1 / root**2
         second = (2 + 0.9 * _LOG * 2 * _AT_TURBULENT / (inner * root)) * first
-        share = reynolds / _LAMINAR
-        a, b = 7 * first - second, 0.128 - 17 * first + 2.5 * second
-        c, d = -0.128 + 13 * first - 2 * second, 0.032 - 3 * first + 0.5 * second
-        factor = a + share * (b + share * (c + share * d))
-        return factor, (b + share * (2 * c + 3 * share * d)) / _LAMINAR
+        return (
+            7 * first - second,
+            0.128 - 17 * first + 2.5 * second,
+            -0.128 + 13 * first - 2 * second,
+            0.032 - 3 * first + 0.5 * second,
+        )

@@ -21,6 +21,7 @@ __all__ = ["Process", "State"]
 STALE = 1e-3  # m; a level that has moved less changes no pressure
 LONGEST = 1.0  # s; of a step that is worked out at once
 SETTLED = 1e-6  # of a reading, in its unit
+_MOST = 3600.0  # s; of one step, which is worked out second by second
 _STILL = 1e-6  # m3/s
 
 
@@ -118,8 +119,8 @@ class Process:
             ValueError: nothing is called so, it can't be moved, or a value can't be.
         """
         self._command(commands or {})
-        if not (math.isfinite(dt) and dt > 0):
-            raise ValueError(f"dt {dt}: give a time above 0 s")
+        if not 0 < dt <= _MOST:
+            raise ValueError(f"dt {dt}: give a time above 0 s, and at most {_MOST:g} s")
         pieces = max(1, math.ceil(dt / LONGEST - 1e-9))
         for _ in range(pieces):
             self._advance(dt / pieces)
@@ -302,6 +303,7 @@ class Process:
             if valve.duty == "relief" and tag in circuit.tags and self.balance.through(tag) > _STILL:
                 yield f"{tag} blows off {self.balance.through(tag) * 3600:.2f} m3/h"
         inflow = self.balance.places.inflow(solution.flow)
+        lowest = {tag: min(n.height for n in circuit.nozzles if n.tag == tag) for tag in inflow}
         for tag, tank in self.scenario.tanks.items():
             if tag not in inflow:
                 continue
@@ -309,6 +311,8 @@ class Process:
                 yield f"{tag} overflows: {inflow[tag] * 3600:.2f} m3/h run over"
             elif self.balance.level[tag] <= 0:
                 yield f"{tag} is empty"
+            elif tank.bottom + self.balance.level[tag] <= lowest[tag]:
+                yield f"{tag} is down to its lowest nozzle: nothing leaves it"
         boiling = [
             name
             for name, node in self.balance.places.told.items()

@@ -243,9 +243,9 @@ class Solver:
         linear[list(choked)] = False
         balanced = False
         taken = 0
+        loss, slope = self._loss(condition, flow)
         while taken < MOST_STEPS:
             taken += 1
-            loss, slope = self._loss(condition, flow)
             ease = np.where(linear, 1 / slope, 0.0)
             data = self._spread @ ease
             data[self._diagonal[pin_rows]] += 1.0
@@ -257,11 +257,9 @@ class Solver:
             change = np.where(linear, ease * (drop - loss), 0.0)
             for link, value in zip(choked, forced, strict=True):
                 change[link] = value - flow[link]
-            share = 1.0
-            if balanced and not choked:
-                share = self._share(condition, flow, change, drop)
-            flow = flow + share * change
-            balanced = balanced or share == 1.0
+            descent = float(((loss - drop) * change).sum()) if balanced and not choked else None
+            flow, loss, slope = self._gone(condition, flow, change, drop, descent)
+            balanced = True
             step = float(np.abs(change).max(initial=0.0))
             if choked and step > WILD:
                 return flow, head, MOST_STEPS, step
@@ -299,24 +297,30 @@ class Solver:
         flows = np.linalg.lstsq(effect[at], wanted - heads[at], rcond=None)[0]
         return heads + effect @ flows, flows
 
-    def _share(self, condition: Condition, flow: Floats, change: Floats, drop: Floats) -> float:
-        """How much of a step to go: as far as the content of the network still falls, or nearly so."""
-        loss, _ = self._loss(condition, flow)
-        first = float(((loss - drop) * change).sum())
+    def _gone(
+        self, condition: Condition, flow: Floats, change: Floats, drop: Floats, descent: float | None
+    ) -> tuple[Floats, Floats, Floats]:
+        """The flows after a step, with the losses and slopes there.
+
+        A step goes as far as the content of the network still falls, or nearly so.
+
+        Args:
+            condition: what the network stands under.
+            flow: before the step.
+            change: the whole step.
+            drop: heads that are left for each link.
+            descent: how the content changes along the step at its beginning; None goes all of it.
+        """
         low, high, share = 0.0, 1.0, 1.0
-        for _ in range(12):
-            loss, _ = self._loss(condition, flow + share * change)
-            slope = float(((loss - drop) * change).sum())
-            if abs(slope) <= 0.5 * abs(first) + 1e-15:
-                return share
-            if slope > 0:
-                high = share
-            elif share == 1.0:
-                return share
-            else:
-                low = share
+        loss, slope = self._loss(condition, flow + change)
+        for _ in range(0 if descent is None else 12):
+            along = float(((loss - drop) * change).sum())
+            if abs(along) <= 0.5 * abs(descent or 0.0) + 1e-15 or (along < 0 and share == 1.0):
+                break
+            low, high = (low, share) if along > 0 else (share, high)
             share = (low + high) / 2
-        return share
+            loss, slope = self._loss(condition, flow + share * change)
+        return flow + share * change, loss, slope
 
     # What hangs together
 

@@ -9,7 +9,7 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.mechanisms import NOT_MOVABLE
 from cadgraph.model.records import Unit
 
-__all__ = ["Immovable", "immovable", "joint_names", "say_mechanism", "say_not_movable"]
+__all__ = ["Immovable", "immovable", "joint_names", "say_handling", "say_mechanism", "say_not_movable"]
 
 _NOT_IN_A_NAME = re.compile(r"[^A-Za-z0-9_]")
 _TAKEN = ("base", "joints")  # names of what stands beside the devices in a simulation
@@ -90,6 +90,32 @@ def say_mechanism(unit: Unit) -> str:
     )
     assumed = sorted({text for key in ("open", "limits") if (text := moves.sources.get(key, "")).startswith("assumed")})
     return f"{done}: {moves.kind}, {stroke} from as drawn" + (f" ({'; '.join(assumed)})" if assumed else "")
+
+
+def say_handling(unit: Unit) -> str:
+    """What people can do at a unit, in words for them; empty where nothing is known.
+
+    As in "can be turned: handwheel, radius 0.12 m, about 10 turns to shut".
+    """
+    moves = unit.mechanism
+    if moves is None or moves.kind == "needle":
+        dial = "its needle was found" if moves is not None else "its dial has no needle of its own"
+        if moves is None and unit.dial is None:
+            dial = "where its dial is, is not known"
+        return f"can be read: {dial}" if "read" in unit.affordances else ""
+    told = [moves.kind, f"radius {moves.radius:.2f} m"]
+    if moves.kind == "lever":
+        told[1] = f"{moves.radius:.2f} m long"
+    if moves.open is not None and moves.shut is not None:
+        # It is drawn at 0 degrees.
+        aim, way = (moves.shut, "shut") if abs(moves.shut) >= abs(moves.open) else (moves.open, "open")
+        told.append(_stroke(abs(aim), assumed="assumed" in moves.sources.get("limits", "")) + f" to {way}")
+    return f"can be {'pulled' if 'pull' in unit.affordances else 'turned'}: {', '.join(told)}"
+
+
+def _stroke(angle: float, assumed: bool) -> str:
+    about = "about " if assumed else ""
+    return f"{about}{angle / 360:.3g} turns" if angle >= 360 else f"{about}{angle:.0f} degrees"
 
 
 def say_not_movable(graph: SceneGraph, unit: Unit) -> str:

@@ -14,6 +14,7 @@ export function inspectUnit(page: Page, content: Content, unit: Unit, head: HTML
   fill(head,
     el("div", { class: "title" }, swatch(color, unit.kind ? "sure" : "likely"), tagLine(page, unit)),
     kind(unit),
+    unit.handling && el("p", { "data-test": "unit-handling" }, upper(unit.handling)),
     missing(page, content, unit),
     viewButtons(page, unit.parts),
     explode(page, unit));

@@ -17,6 +17,7 @@ from cadgraph.model.records import Cluster, Contains, Junction, Part, Point, Sou
 from cadgraph.model.scene import Scene
 from cadgraph.query.doubt import few_ports
 from cadgraph.query.lines import find_lines
+from cadgraph.query.mechanisms import immovable, say_handling
 from cadgraph.query.network import Network
 
 __all__ = ["as_bytes", "content_of", "diagnostics_of", "network_of", "parts_of", "shown_meshes"]
@@ -138,9 +139,13 @@ def network_of(graph: SceneGraph, rows: Mapping[str, int] | None = None, origin:
     systems = graph.of_layer(System)
     system = {system.id: i for i, system in enumerate(systems)}
     ends: list[Junction | Terminal] = [*graph.junctions(), *graph.terminals()]
+    fixed = {one.unit: f"not movable: {one.reason}" for one in immovable(graph)}
     line_of = {arc.index: i for i, line in enumerate(lines) for arc in line.arcs}
     return {
-        "units": [_unit(unit, network, row, system, origin) for unit in graph.of_layer(Unit)],
+        "units": [
+            {**_unit(unit, network, row, system, origin), "handling": say_handling(unit) or fixed.get(unit.id, "")}
+            for unit in graph.of_layer(Unit)
+        ],
         "ends": [
             {
                 "id": end.id,

@@ -57,6 +57,9 @@ class Below:
         # While a delegate listens, the library prints nothing; what it says was noted when the scene was read.
         delegate = UsdUtils.CoalescingDiagnosticDelegate()
         try:
+            known = Sdf.Layer.Find(str(file))
+            if known is not None:
+                known.Reload()  # it may have been written anew since this process read it
             self._layers = open_layers(file)
             self.stage = Usd.Stage.Open(str(file), Usd.Stage.LoadAll)
             walk = Walk(self.stage, settings.purposes, settings.invisible, settings.time, settings.sides, Notes())

@@ -8,19 +8,18 @@ each called as the tag of its unit. All that a simulator references is below the
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pxr import Gf, Sdf, UsdGeom, Vt
+from pxr import Gf, Sdf, Usd, UsdGeom, Vt
 
 from cadgraph._io.atomic import write_atomically
 from cadgraph.config import LoadConfig
 from cadgraph.export.source import settings_of
-from cadgraph.export.usd import prim_paths, write_semantics
+from cadgraph.export.usd import is_split, is_usd, prim_paths, write_semantics
 from cadgraph.export.usd_labels import Said, dispositions_of, label_prim, said_of, trace_of
 from cadgraph.export.usd_specs import apply_schemas, define_prim, set_attribute
 from cadgraph.load import load
@@ -89,27 +88,18 @@ def write_stage(graph: SceneGraph, source: str | Path, folder: str | Path, needl
     scene = load(source, settings)
     devices = find_devices(graph, scene, needles)
     labels = write_semantics(scene, graph, source, target / "semantics.usda")
-    own = _geometry_of(labels)
-    below = Below(Path(source), settings, scene.paths) if own is None else Below(own, LoadConfig(), prim_paths(scene))
-    stage = _Stage(graph, scene, below, labels.name, own is not None)
+    converted = not is_usd(source) or is_split(scene)
+    below = (
+        Below(labels.with_name("scene.usdc"), LoadConfig(), prim_paths(scene))
+        if converted
+        else Below(Path(source), settings, scene.paths)
+    )
+    stage = _Stage(graph, scene, below, labels.name, converted)
     content = stage.write(devices)
     path = target / "simulation.usda"
     write_atomically(path, content)
     table = write_devices(graph, scene, devices, target / "devices.json")
     return Written((path, table, labels), devices, without_joint(graph, devices), stage.n_colliders)
-
-
-def _geometry_of(labels: Path) -> Path | None:
-    """The file with the geometry that was written beside the labels; None where they lie over the source itself."""
-    layer = Sdf.Layer.FindOrOpen(os.path.abspath(labels))
-    layer.Reload()
-    beside = labels.with_name("scene.usdc")
-    if list(layer.subLayerPaths) != [f"./{beside.name}"]:
-        return None
-    known = Sdf.Layer.Find(os.path.abspath(beside))
-    if known is not None:
-        known.Reload()
-    return beside
 
 
 class _Stage:
@@ -239,9 +229,7 @@ class _Stage:
         """A mesh of the source anew, where it stood, with its material and label; returns its opinions."""
         shown = self._below.meshes[mesh]
         prim = self._below.prim(shown)
-        spec = over(self._layer, path)
-        spec.specifier = Sdf.SpecifierDef
-        spec.referenceList.prependedItems = [Sdf.Reference(self._asset, Sdf.Path(shown.own))]
+        spec = self._alone(path, prim)
         place(spec, shown.matrix @ self._to_world @ from_world)
         self._dress(spec, prim, mesh)
         part = self._part_of_mesh.get(self._scene.paths[mesh])
@@ -249,6 +237,16 @@ class _Stage:
         if part is not None and said is not None:
             # What is too small for a part of its own was labelled as what it lies on.
             label_prim(spec, said._replace(name=_NEEDLE) if is_needle else said, trace_of(part))
+        return spec
+
+    def _alone(self, path: Any, prim: Any) -> Any:
+        """A prim that refers to a mesh of the source, without what else lies below that; its opinions."""
+        spec = over(self._layer, path)
+        spec.specifier = Sdf.SpecifierDef
+        spec.referenceList.prependedItems = [Sdf.Reference(self._asset, prim.GetPath())]
+        for child in prim.GetFilteredChildren(Usd.TraverseInstanceProxies()):
+            if child.GetTypeName() != "GeomSubset":
+                over(self._layer, path.AppendChild(child.GetName())).active = False
         return spec
 
     def _dress(self, spec: Any, prim: Any, mesh: int) -> None:
@@ -346,12 +344,11 @@ class _Stage:
         """A copy of a point instancer's item for engines alone: an item is no prim that could be touched."""
         shown = self._below.meshes[mesh]
         path = Sdf.Path(COLLIDERS).AppendChild(f"item_{mesh}")
-        spec = over(self._layer, path)
-        spec.specifier = Sdf.SpecifierDef
-        spec.referenceList.prependedItems = [Sdf.Reference(self._asset, Sdf.Path(shown.own))]
+        prim = self._below.prim(shown)
+        spec = self._alone(path, prim)
         place(spec, shown.matrix @ self._to_world)
         set_attribute(spec, "purpose", "Token", "guide", uniform=True)
-        make_collider(spec, self._below.prim(shown).GetTypeName())
+        make_collider(spec, prim.GetTypeName())
         return path
 
     def _filter(self, devices: Sequence[Device], reached: dict[int, Any]) -> None:

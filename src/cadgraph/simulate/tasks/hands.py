@@ -140,13 +140,15 @@ def _ways(ring: Ring, grips: Floats, tilt: float) -> tuple[Floats, Floats]:
 
 
 def _lines(grasps: Floats, directions: Floats) -> tuple[Floats, Floats]:
-    """The lines that stand for a hand on its way: one in the middle, eight about it, way after way."""
+    """The lines that stand for a hand on its way, some 25 mm apart: one in the middle, two rings about it."""
     n = len(grasps)
-    starts, ends = np.empty((n, 9, 3)), np.empty((n, 9, 3))
+    starts, ends = np.empty((n, 19, 3)), np.empty((n, 19, 3))
+    rings = [(_HAND / 2, np.arange(6) * 60.0 + 15.0), (_HAND, np.arange(12) * 30.0)]
+    flat = [(away * np.cos(turn), away * np.sin(turn)) for away, turns in rings for turn in np.radians(turns)]
+    offsets = np.array([(0.0, 0.0), *flat])
     for way, (grasp, direction) in enumerate(zip(grasps, directions, strict=True)):
         across, beside = _square_to(direction)
-        turns = np.radians(np.arange(8) * 45.0)[:, None]
-        about = np.concatenate([np.zeros((1, 3)), _HAND * (np.cos(turns) * across + np.sin(turns) * beside)])
+        about = offsets @ np.array([across, beside])
         starts[way] = grasp - _WAY * direction + about
         ends[way] = grasp - _SHORT * direction + about
     return starts.reshape(-1, 3), ends.reshape(-1, 3)
