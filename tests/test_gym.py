@@ -94,6 +94,13 @@ def test_a_task_that_speaks_of_what_is_not_there_is_refused(task, said):
         PlantEnv(pumping(), task=task)
 
 
+@pytest.mark.parametrize(("dt", "seconds"), [(0.0, 1.0), (2.0, 1.0), (float("nan"), 1.0), (4000.0, 9000.0)])
+def test_a_step_that_can_not_be_is_refused(dt, seconds):
+    for kind in (PlantEnv, lambda *given, **more: PlantVectorEnv(2, *given, **more)):
+        with pytest.raises(ValueError, match="dt"):
+            kind(pumping(), dt=dt, seconds=seconds)
+
+
 def test_many_plants_do_as_one_does():
     options = {"task": ReachReading("G-003", 1.0), "shuffle": False, "dt": 2.0, "seconds": 10.0}
     one, many = PlantEnv(pumping(), **options), PlantVectorEnv(3, pumping(), **options)

@@ -26,7 +26,7 @@ import numpy.typing as npt
 
 from cadgraph.errors import MissingExtra
 from cadgraph.hydraulics.batch import ProcessBatch
-from cadgraph.hydraulics.process import Process
+from cadgraph.hydraulics.process import MOST_SECONDS, Process
 from cadgraph.hydraulics.settings import Scenario
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Connected, Unit
@@ -267,8 +267,10 @@ class _Shape:
 def _check(process: Process, dt: float, seconds: float) -> None:
     if not process.balance.hand and not process.balance.speed:
         raise ValueError("nothing can be moved in this plant: it has no valve and no pump with a line")
-    if not (math.isfinite(dt) and 0 < dt <= seconds < math.inf):
-        raise ValueError(f"dt {dt}, seconds {seconds}: give a step above 0 s, and an end that is not before it")
+    if not (0 < dt <= MOST_SECONDS and dt <= seconds < math.inf):
+        raise ValueError(
+            f"dt {dt}, seconds {seconds}: give a step above 0 s and at most {MOST_SECONDS:g} s, and an end not before it"
+        )
 
 
 class PlantEnv(gymnasium.Env[npt.NDArray[np.float32], npt.NDArray[np.float32]]):

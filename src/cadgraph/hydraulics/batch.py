@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from cadgraph.hydraulics.balance import SHUT, flow_share
 from cadgraph.hydraulics.batch_solve import BatchSolver, Conditions, Solutions
-from cadgraph.hydraulics.process import LONGEST, SETTLED, STALE, Process
+from cadgraph.hydraulics.process import LONGEST, MOST_SECONDS, SETTLED, STALE, Process
 from cadgraph.hydraulics.settings import Scenario
 from cadgraph.model.graph import SceneGraph
 from cadgraph.query.network import Network
@@ -150,10 +150,10 @@ class ProcessBatch:
             dt: how long [s].
 
         Raises:
-            ValueError: values of another shape, or outside 0 to 1; a time that is not above 0.
+            ValueError: values of another shape, or outside 0 to 1; a time that is not above 0, or above 3600.
         """
-        if not (np.isfinite(dt) and dt > 0):
-            raise ValueError(f"dt {dt}: give a time above 0 s")
+        if not 0 < dt <= MOST_SECONDS:
+            raise ValueError(f"dt {dt}: give a time above 0 s, and at most {MOST_SECONDS:g} s")
         wanted = self._told(opening, self._target, "opening")
         speeds = self._told(speed, self._speed, "speed")
         self._changed |= (speeds != self._speed).any(axis=0)

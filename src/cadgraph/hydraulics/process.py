@@ -21,7 +21,7 @@ __all__ = ["Process", "State"]
 STALE = 1e-3  # m; a level that has moved less changes no pressure
 LONGEST = 1.0  # s; of a step that is worked out at once
 SETTLED = 1e-6  # of a reading, in its unit
-_MOST = 3600.0  # s; of one step, which is worked out second by second
+MOST_SECONDS = 3600.0  # s; of one step, which is worked out second by second
 _STILL = 1e-6  # m3/s
 
 
@@ -119,8 +119,8 @@ class Process:
             ValueError: nothing is called so, it can't be moved, or a value can't be.
         """
         self._command(commands or {})
-        if not 0 < dt <= _MOST:
-            raise ValueError(f"dt {dt}: give a time above 0 s, and at most {_MOST:g} s")
+        if not 0 < dt <= MOST_SECONDS:
+            raise ValueError(f"dt {dt}: give a time above 0 s, and at most {MOST_SECONDS:g} s")
         pieces = max(1, math.ceil(dt / LONGEST - 1e-9))
         for _ in range(pieces):
             self._advance(dt / pieces)
