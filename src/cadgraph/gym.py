@@ -269,7 +269,7 @@ def _check(process: Process, dt: float, seconds: float) -> None:
         raise ValueError("nothing can be moved in this plant: it has no valve and no pump with a line")
     if not (0 < dt <= MOST_SECONDS and dt <= seconds < math.inf):
         raise ValueError(
-            f"dt {dt}, seconds {seconds}: give a step above 0 s and at most {MOST_SECONDS:g} s, and an end not before it"
+            f"dt {dt}, seconds {seconds}: give a step above 0 s, at most {MOST_SECONDS:g} s, and an end not before it"
         )
 
 
