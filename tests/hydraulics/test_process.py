@@ -131,6 +131,12 @@ def test_a_throttled_pump_draws_only_what_reaches_it_at_the_pressure_at_which_it
     assert plant.steady({"V-002": 1.0}).cavitating == ()
 
 
+def test_a_pump_that_nothing_holds_back_says_so(plant):
+    assert not any("nothing holds it back" in remark for remark in Process(relieved()).state.remarks)
+    plant = edited(plant, "pumps", "P-001", flow=1.0)
+    assert any(remark.startswith("P-001 moves") for remark in plant.state.remarks)
+
+
 def test_speed_changes_the_head_by_its_square(plant):
     plant.steady({"V-008": 0.0, "V-009": 0.0, "P-001": 0.5, "P-002": 0.0})
     assert -plant.balance.difference("P-001") == pytest.approx(plant.scenario.pressure(10.0), rel=1e-6)
