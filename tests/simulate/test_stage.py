@@ -446,6 +446,7 @@ def test_an_item_of_several_meshes_in_an_instance_is_opened_and_its_rest_stays(t
     touched = [p for p in stage.GetPrimAtPath("/Plant/Colliders").GetChildren() if p.HasAPI(UsdPhysics.CollisionAPI)]
     assert len(touched) == done.n_colliders == 7
     assert sorted(p.GetTypeName() for p in touched) == ["Cube"] * 4 + ["Mesh"] * 3
+    assert {p.GetTypeName() for p in touched if p.HasAPI(UsdPhysics.MeshCollisionAPI)} == {"Mesh"}
 
 
 BELOW = """#usda 1.0
