@@ -7,7 +7,7 @@ import numpy as np
 from cadgraph.hydraulics.network import LinkKind
 from networks import chain, network, terminal, unit
 
-PRESETS = ("pumps", "skid", "tank", "riser", "rack", "field", "gallery")
+PRESETS = ("pumps", "skid", "tank", "riser", "rack", "field")
 
 
 def line(*kinds, size=80, length=1.0, levels=(0.0, 0.0)):

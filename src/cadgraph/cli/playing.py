@@ -11,9 +11,11 @@ from cadgraph.cli.screen import out
 
 if TYPE_CHECKING:
     from cadgraph.hydraulics.process import Process
-    from cadgraph.simulate.play.timetable import Timetable
+    from cadgraph.simulate.play.film import Film
 
-__all__ = ["play_timetable", "say_played", "supposed_by"]
+__all__ = ["play_timetable", "say_played", "show_film", "supposed_by"]
+
+_TOLD = 5  # of what has no joint
 
 
 def supposed_by(timetable: Path, scenario: Path | None) -> Path | None:
@@ -28,36 +30,46 @@ def supposed_by(timetable: Path, scenario: Path | None) -> Path | None:
     return timetable if scenario is None and says_more(timetable) else scenario
 
 
-def play_timetable(process: Process, file: Path, seconds: float, folder: Path) -> dict[str, Any]:
-    """Plays a timetable and writes ``animation.usda``, ``animation.png`` and ``animation.gif``.
+def play_timetable(process: Process, file: Path, seconds: float) -> Film:
+    """Plays a timetable.
 
     Args:
         process: of the plant.
         file: the timetable.
         seconds: how long.
-        folder: that holds the graph, and gets the files.
-
-    Returns:
-        What was played and written, for JSON.
     """
-    from cadgraph.config import restore_config
-    from cadgraph.load import load
-    from cadgraph.session.reopen import find_source
     from cadgraph.simulate.play.film import play
-    from cadgraph.simulate.play.showing import show
     from cadgraph.simulate.play.timetable import read_timetable
 
+    return play(process, read_timetable(file, process.network), seconds)
+
+
+def show_film(film: Film, process: Process, source: Path | None, folder: Path) -> dict[str, Any]:
+    """Writes ``animation.usda`` over the stage that was written beforehand, ``animation.png`` and ``animation.gif``.
+
+    Args:
+        film: what was played.
+        process: of the plant.
+        source: where the file is that the graph was made from; None: where it was.
+        folder: that gets the files.
+
+    Returns:
+        What was played and written, for JSON and for :func:`say_played`.
+    """
+    from cadgraph.config import restore_config
+    from cadgraph.export.source import find_source
+    from cadgraph.load import load
+    from cadgraph.simulate.play.showing import show
+
     graph = process.network.graph
-    timetable = read_timetable(file, process.network)
-    scene = load(find_source(graph, folder, None), restore_config(graph.document.config).load)
-    film = play(process, timetable, seconds)
+    scene = load(find_source(graph, source), restore_config(graph.document.config).load)
     shown = show(film, graph, scene, process.scenario, folder)
     return {
-        "played": {"seconds": film.seconds, "moves": [move.values() for move in timetable.moves]},
+        "played": {"seconds": film.seconds, "moves": [move.values() for move in film.moves]},
         "pictures": list(shown.times),
         "written": [str(path) for path in shown.files],
         "still": list(shown.still),
-        "late": _late(timetable, film.seconds),
+        "late": sum(move.at >= film.seconds for move in film.moves),
     }
 
 
@@ -65,17 +77,14 @@ def say_played(values: dict[str, Any]) -> None:
     """Says what was played and written.
 
     Args:
-        values: what :func:`play_timetable` says.
+        values: what :func:`show_film` says.
     """
     played = values["played"]
     out.print(f"played {played['seconds']:g} s; pictures at " + ", ".join(f"{t:g} s" for t in values["pictures"]))
     if values["late"]:
         out.print(f"note: {values['late']} of the moves begin later; give more --seconds")
     if values["still"]:
-        out.print(escape(f"note: simulation.usda has no joints {', '.join(values['still'])}; these stay as drawn"))
+        told = ", ".join(values["still"][:_TOLD]) + (" ..." if len(values["still"]) > _TOLD else "")
+        out.print(escape(f"note: nothing that moves at {told} in simulation.usda; --needles draws what gauges lack"))
     for path in values["written"]:
-        out.print(escape(f"wrote {path}"))
-
-
-def _late(timetable: Timetable, seconds: float) -> int:
-    return sum(move.at >= seconds for move in timetable.moves)
+        out.print(f"wrote {escape(path)}")

@@ -60,7 +60,7 @@ def simulate(
     Without --set, the plant is also written as a stage with physics that simulators open: simulation.usda, where
     wheels, levers and needles turn about joints called as the tags of their units, with devices.json, their table.
     """
-    from cadgraph.cli.playing import play_timetable, say_played, supposed_by
+    from cadgraph.cli.playing import play_timetable, say_played, show_film, supposed_by
     from cadgraph.cli.staging import say_stage, write_stage_beside
     from cadgraph.hydraulics.process import Process
     from cadgraph.hydraulics.text import change_lines, standing, standing_lines, state_values
@@ -73,21 +73,22 @@ def simulate(
     before, values = standing(process), state_values(process)
     if commands:
         process.steady(commands)
+    film = None if play is None else play_timetable(process, play, seconds)
     stage = None if commands else write_stage_beside(graph, source, needles)
     folder = graph if graph.is_dir() else graph.parent
-    film = None if play is None else play_timetable(process, play, seconds, folder)
+    shown = None if film is None else show_film(film, process, source, folder)
     changed = bool(commands) or film is not None
     if as_json:
-        told = _values(process, file, values, commands, changed) | (stage or {}) | (film or {})
+        told = _values(process, file, values, commands, changed) | (stage or {}) | (shown or {})
         typer.echo(json.dumps(told, ensure_ascii=False, indent=1))
         return
     for line in change_lines(process, before) if changed else standing_lines(process):
         out.print(escape(line))
     if stage is not None:
         say_stage(stage)
-    if film is not None:
+    if shown is not None:
         out.print()
-        say_played(film)
+        say_played(shown)
     _tell_assumed(process, file, written)
 
 

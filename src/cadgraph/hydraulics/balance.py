@@ -243,10 +243,11 @@ class _Places:
         self._tank_links: dict[str, list[int]] = {}
         for nozzle in circuit.nozzles:
             self._tank_links.setdefault(nozzle.tag, []).append(nozzle.link)
-        self._at_gauge = {
-            tag: [int(link) for link in pipes if node in (circuit.start[link], circuit.end[link])]
-            for tag, node in circuit.gauges.items()
-        }
+        joined: dict[int, list[int]] = {}
+        for link in pipes.tolist():
+            for node in dict.fromkeys((int(circuit.start[link]), int(circuit.end[link]))):
+                joined.setdefault(node, []).append(link)
+        self._at_gauge = {tag: joined.get(node, []) for tag, node in circuit.gauges.items()}
         self.tank_of = _tanks_of_gauges(network)
 
     def flows(self, flow: Floats) -> dict[int, float]:

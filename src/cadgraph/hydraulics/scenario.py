@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import heapq
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -199,7 +200,8 @@ def _towards(network: Network, unit: Unit, ports: Mapping[str, tuple[Arc, ...]])
         return leaving[0], "the direction of flow"
     if coming and coming[0] not in leaving:
         return next(name for name in names if name != coming[0]), "the direction of flow"
-    # A pump's discharge, or a tank, presses on the nearer side of a valve that nobody knows the direction of.
+    if not any(network.unit_type(place) == "pump" for place in network.places):
+        return names[1], "assumed: towards the second port, as no direction is known"
     near = {name: _distance_to_pump(network, ports[name]) for name in names}
     if min(near.values()) < math.inf and near[names[0]] != near[names[1]]:
         return max(names, key=lambda name: near[name]), "assumed: away from the nearest pump"
@@ -208,10 +210,20 @@ def _towards(network: Network, unit: Unit, ports: Mapping[str, tuple[Arc, ...]])
 
 def _distance_to_pump(network: Network, arcs: Sequence[Arc]) -> float:
     """Along the pipes to the nearest pump on a side of a unit [m]."""
-    start = arcs[0].start
-    allowed = {arc.index for arc in arcs}
-    distances, _ = network.shortest(start, lambda arc: arc.start != start or arc.index in allowed)
-    return min((d for place, d in distances.items() if network.unit_type(place) == "pump"), default=math.inf)
+    distances = {arcs[0].start: 0.0}
+    queue = [(arc.length or 0.0, arc.end) for arc in arcs]
+    heapq.heapify(queue)
+    while queue:
+        distance, place = heapq.heappop(queue)
+        if place in distances:
+            continue
+        if network.unit_type(place) == "pump":
+            return distance
+        distances[place] = distance
+        for arc in network.arcs(place):
+            if arc.end not in distances:
+                heapq.heappush(queue, (distance + (arc.length or 0.0), arc.end))
+    return math.inf
 
 
 # Pumps and ends

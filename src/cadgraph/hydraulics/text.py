@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from cadgraph._io.text import printable
 from cadgraph.hydraulics.network import LinkKind
 from cadgraph.hydraulics.process import Process
 from cadgraph.hydraulics.settings import Scenario
@@ -126,7 +127,7 @@ def standing_lines(process: Process) -> list[str]:
     rows = [(one.tag, one.what, one.text, one.note) for one in standing(process)]
     if not rows:
         return ["nothing to simulate: no gauge, pump, tank or open end has a line"]
-    return [*aligned([("", "", "", ""), *rows], right=(2,))[1:], *_remark_lines(process)]
+    return [*_table([("", "", "", ""), *rows], (2,))[1:], *_remark_lines(process)]
 
 
 def change_lines(process: Process, before: tuple[Standing, ...]) -> list[str]:
@@ -139,7 +140,7 @@ def change_lines(process: Process, before: tuple[Standing, ...]) -> list[str]:
     rows = [("", "", "before", "after", "change", "")]
     for old, new in zip(before, standing(process), strict=True):
         rows.append((new.tag, new.what, old.text, new.text, _changed(old, new), new.note))
-    return [*aligned(rows, right=(2, 3, 4)), *_remark_lines(process)]
+    return [*_table(rows, (2, 3, 4)), *_remark_lines(process)]
 
 
 def _changed(old: Standing, new: Standing) -> str:
@@ -148,8 +149,13 @@ def _changed(old: Standing, new: Standing) -> str:
     return "-" if abs(new.value - old.value) < _FEW else f"{new.value - old.value:+.2f}"
 
 
+def _table(rows: Sequence[Sequence[str]], right: Sequence[int]) -> list[str]:
+    """Straight columns; names from a plant may hold what moves the cursor or colours a terminal."""
+    return aligned([[printable(cell) for cell in row] for row in rows], right)
+
+
 def _remark_lines(process: Process) -> list[str]:
-    return [f"mind: {remark}" for remark in process.state.remarks]
+    return [f"mind: {printable(remark)}" for remark in process.state.remarks]
 
 
 def assumption_lines(process: Process) -> list[str]:

@@ -70,23 +70,21 @@ class Scenery:
         self._operated = set(film.tags)
         self._turning = self._find_turning()
         self._flowing_of = self._pipework()
+        self._drawn: dict[tuple[tuple[int, ...], bytes], Image.Image] = {}
 
     def pictures(self, numbers: Iterable[int]) -> dict[int, Image.Image]:
         """The pictures with these numbers, by number; poses and colours that repeat are drawn once."""
-        wanted: dict[tuple[int, ...], dict[bytes, list[int]]] = {}
-        paints: dict[bytes, Paint] = {}
-        for number in numbers:
-            paint = self._paint(number)
-            key = paint.colors.tobytes()
-            paints[key] = paint
-            wanted.setdefault(self._pose(number), {}).setdefault(key, []).append(number)
-        drawn: dict[int, Image.Image] = {}
-        for pose, by_paint in wanted.items():
-            renderer = self._posed(pose)
-            images = renderer.pictures(self.camera, [paints[key] for key in by_paint], _LOOK)
-            for image, same in zip(images, by_paint.values(), strict=True):
-                drawn |= dict.fromkeys(same, self._tagged(image))
-        return drawn
+        looks = {number: (self._pose(number), self._paint(number)) for number in numbers}
+        keys = {number: (pose, paint.colors.tobytes()) for number, (pose, paint) in looks.items()}
+        new: dict[tuple[int, ...], dict[bytes, Paint]] = {}
+        for number, (pose, paint) in looks.items():
+            if keys[number] not in self._drawn:
+                new.setdefault(pose, {})[keys[number][1]] = paint
+        for pose, paints in new.items():
+            images = self._posed(pose).pictures(self.camera, list(paints.values()), _LOOK)
+            for key, image in zip(paints, images, strict=True):
+                self._drawn[pose, key] = self._tagged(image)
+        return {number: self._drawn[key] for number, key in keys.items()}
 
     def _pose(self, number: int) -> tuple[int, ...]:
         joints = self.film.states[number].joints

@@ -23,7 +23,9 @@ __all__ = ["find_mechanisms", "report_not_movable"]
 # Valves that nobody moves: the flow does, or air.
 _BY_ITSELF = ("check", "relief", "safety", "reducing", "float", "foot", "flap", "breather", "air", "control")
 _NO_OPERATOR = "no wheel or lever was found"
-_ONE_SURFACE = "a wheel or lever, if it has one, is one surface with its body"
+_ONE_SURFACE = "one surface with its body"
+# What turns valves of a kind, where it can't be told apart from the body.
+_TURNED_BY = {"gate": "wheel", "globe": "wheel", "diaphragm": "wheel", "ball": "lever", "plug": "lever"}
 
 
 def find_mechanisms(
@@ -129,8 +131,13 @@ def _of_valve(scene: Scene, bodies: Sequence[Body], unit: UnitParts, size: int |
         return UnitMotion(found)
     if "actuator" in valve.names:
         return UnitMotion()
-    whole = len(bodies) == 1 and not pieces
-    return UnitMotion(why_not=_ONE_SURFACE if whole else _NO_OPERATOR)
+    return UnitMotion(why_not=_NO_OPERATOR if len(bodies) > 1 or pieces else _welded(unit))
+
+
+def _welded(unit: UnitParts) -> str:
+    """Why a valve of one surface can't be moved."""
+    of_kind = next((name for kind, name in _TURNED_BY.items() if kind in (unit.kind or "")), "")
+    return f"{f'its {of_kind}' if of_kind else 'a wheel or lever, if it has one,'} is {_ONE_SURFACE}"
 
 
 def _operator(valve: Valve, bodies: Sequence[Body], pieces: Sequence[Body]) -> FoundMechanism | None:
@@ -158,7 +165,7 @@ def _of_wheel(wheel: Wheel, valve: Valve) -> FoundMechanism:
         limits=stroke.limits,
         open=stroke.open,
         shut=stroke.shut,
-        sources={"axis": wheel.source, "pivot": "middle of the wheel", **stroke.sources},
+        sources={"axis": wheel.source, "pivot": "middle of the rim", **stroke.sources},
     )
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from cadgraph.model.scene import Floats
-from cadgraph.stages.mechanisms.body import Body, Frame, frame_of, join, unit_vector
+from cadgraph.stages.mechanisms.body import Body, Frame, frame_of, join, middle_of, unit_vector
 from cadgraph.stages.mechanisms.valve import Valve
 
 __all__ = ["Lever", "find_lever"]
@@ -21,9 +21,11 @@ _LEAST, _MOST = 0.03, 1.6  # m; lengths of levers
 _LIES, _ASIDE = 0.75, 0.12
 # Flat faces are of the cap or of the lever's underside where they look along its axis (cosine), within this of it.
 _FLAT, _SNAP = 0.985, 0.82
-_NEAR = 15.0  # degrees from the first guess of an axis, beyond which flat faces count little
+_NEAR = 25.0  # degrees from the first guess of an axis, beyond which flat faces count little
 _FACES = 0.03  # of its surface, so that flat faces say which way its axis is
 _PASSES = 0.35  # of its length, by which the axis of a lever may pass the middle of the valve
+_OUT = 0.005  # m; from the line to where a lever touches the body, at the least
+_MOST_WAYS = 16  # that flat faces look, of which the best is taken
 _TOUCH = 0.003  # m; around the closest points, what touches a lever
 _TOP = 0.6  # of the height of a valve over its line; levers are above it
 _CALLED = "lever"
@@ -87,7 +89,10 @@ def _lever(body: Body, valve: Valve, still: Sequence[Body]) -> Lever | None:
     if not still:
         return None
     touched = _touched(body, np.concatenate([one.dense for one in still]))
-    axis, source = _axis(body, valve, touched, still)
+    found = _axis(body, valve, touched, still)
+    if found is None:
+        return None
+    axis, source = found
     long = _long_way(body, axis)
     span = float(np.ptp(body.points @ long))
     if float(np.ptp(body.points @ axis)) > _LIES * span:
@@ -130,9 +135,9 @@ def _misses(frame: Frame, length: float, valve: Valve, still: Sequence[Body]) ->
     """Whether an axis passes the body of a valve by far, as the pin of a lever that lifts something does."""
     if valve.line is not None and valve.line.straight:
         return valve.line.gap(frame.origin, frame.axis) > max(_PASSES * length, valve.line.bore)
-    areas = np.array([one.area for one in still])
-    middle = areas @ np.array([one.center for one in still]) / areas.sum()
-    return float(frame.away(middle[None])[0]) > _PASSES * length + (valve.line.bore if valve.line is not None else 0.0)
+    return float(frame.away(middle_of(still)[None])[0]) > _PASSES * length + (
+        valve.line.bore if valve.line is not None else 0.0
+    )
 
 
 def _touched(body: Body, others: Floats) -> Floats:
@@ -150,12 +155,13 @@ def _touched(body: Body, others: Floats) -> Floats:
     return found
 
 
-def _axis(body: Body, valve: Valve, touched: Floats, still: Sequence[Body]) -> tuple[Floats, str]:
-    """The axis of a stem under a lever, out of the valve."""
+def _axis(body: Body, valve: Valve, touched: Floats, still: Sequence[Body]) -> tuple[Floats, str] | None:
+    """The axis of a stem under a lever, out of the valve; None for what lies in the valve's middle."""
     line = valve.line
-    areas = np.array([one.area for one in still])
-    middle = areas @ np.array([one.center for one in still]) / areas.sum()
-    out = unit_vector(touched - (line.foot(touched) if line is not None and line.straight else middle))
+    out = touched - (line.foot(touched) if line is not None and line.straight else middle_of(still))
+    if float(np.linalg.norm(out)) < _OUT:
+        return None
+    out = unit_vector(out)
     # The flat faces of the bar and of its hub, and of what is under it, which all look the same way, of either sign.
     wide = float(np.sort(body.extents)[1])
     near = [np.linalg.norm(one.corners.mean(axis=1) - touched, axis=1) < 2.5 * wide for one in still]
@@ -173,7 +179,9 @@ def _flat_way(normals: Floats, areas: Floats, out: Floats, least: float) -> Floa
     angle = np.degrees(np.arccos(np.minimum(np.abs(aligned[kept]), 1.0)))
     best: tuple[float, Floats] | None = None
     left = np.ones(len(normals), np.bool_)
-    while left.any():
+    for _ in range(_MOST_WAYS):
+        if not left.any():
+            break
         seed = normals[left][int(np.argmax(areas[left]))]
         same = normals @ seed > 0.9999
         total = float(areas[same].sum())
@@ -190,7 +198,8 @@ def _pivot(body: Body, axis: Floats, touched: Floats, still: Sequence[Body]) -> 
     wide = float(np.sort(body.extents)[1])
     best: tuple[float, Floats] | None = None
     for one in still:
-        looks = np.abs(one.normals @ axis) > _FLAT
+        near_it = np.abs(one.corners[:, 0] - touched).max(axis=1) < 4 * wide
+        looks = near_it & (np.abs(one.normals @ axis) > _FLAT) if near_it.any() else near_it
         if not looks.any():
             continue
         corners = one.corners[looks]

@@ -63,7 +63,8 @@ def dial_of(access: UnitAccess, bodies: Sequence[Body]) -> FoundDial | None:
 def needle_of(dial: FoundDial, bodies: Sequence[Body]) -> FoundMechanism | None:
     """The needle over a dial; None where none is a body of its own."""
     frame = frame_of(np.asarray(dial.center), np.asarray(dial.normal))
-    found = [one for body in bodies if (one := _needle(body, frame, dial.radius)) is not None]
+    near = [body for body in bodies if body.reach > _REACHES[0] * dial.radius]
+    found = [one for body in near if (one := _needle(body, frame, dial.radius)) is not None]
     if not found:
         return None
     best = max(found, key=lambda one: (_CALLED in one.body.names, round(one.tip, 6), one.body.area))
@@ -94,7 +95,8 @@ def _plate(bodies: Sequence[Body], frame: Frame, radius: float) -> Body | None:
     """The plate of a dial: of several the one that is called so, else the widest behind the front."""
     found = []
     for body in bodies:
-        if abs(float(body.axes[0] @ frame.axis)) < _ACROSS:
+        # Marks of the scale are many, and none of them a plate.
+        if body.reach < _WIDE[0] * radius or abs(float(body.axes[0] @ frame.axis)) < _ACROSS:
             continue
         own = frame_of(body.center, body.axes[0])
         points = body.points

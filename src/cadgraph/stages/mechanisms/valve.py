@@ -10,7 +10,7 @@ import numpy as np
 
 from cadgraph.model.parts import UnitParts
 from cadgraph.model.scene import Floats
-from cadgraph.stages.mechanisms.body import Body, unit_vector
+from cadgraph.stages.mechanisms.body import Body, middle_of, unit_vector
 
 __all__ = ["Line", "Valve", "line_of"]
 
@@ -73,9 +73,7 @@ class Valve:
         """``(3,)`` amid it: on its line, else of its surface [m]."""
         if self.line is not None:
             return self.line.point
-        areas = np.array([body.area for body in self.bodies])
-        found: Floats = areas @ np.array([body.center for body in self.bodies]) / areas.sum()
-        return found
+        return middle_of(self.bodies)
 
     def others(self, moving: Body, pieces: Sequence[Body]) -> list[Body]:
         """All that does not move with a body: other meshes, and other pieces of the one mesh."""

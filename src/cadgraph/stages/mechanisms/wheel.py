@@ -29,11 +29,14 @@ _COAXIAL = 0.9
 # A disc that nothing calls a wheel is as wide as this share of the bore, no higher than this share of its radius, and
 # what is below it is narrower than this share of it.
 _DISC_WIDE, _DISC_FLAT, _DISC_BELOW = 0.9, 0.45, 0.5
+# Of a wheel that is one surface with its shaft, all that lies farther out than this share of its radius is its rim.
+_HUB = 0.62
 # What is part of it reaches no farther out, is no higher than this share of its radius, and overlaps it by this share.
 _WITHIN, _SHORT, _OVERLAP = 1.03, 0.7, 0.2
 # It sits beside the stem where its axis passes the line by this share of its radius, and by this much [m].
 _BESIDE, _BESIDE_AT_LEAST = 0.35, 0.015
 _LEAST, _MOST = 0.012, 1.5  # m; radii of handwheels
+_RIM_FROM = 0.84  # of its radius, from where on a wheel is its rim
 _CALLED = "handwheel"
 
 
@@ -43,7 +46,7 @@ class Wheel:
 
     Args:
         body: what turns.
-        frame: its axis, out of the valve, its origin amid the wheel.
+        frame: its axis, out of the valve, its origin amid its rim.
         rim: radius of the rim's middle [m].
         thickness: half the thickness of the rim [m].
         source: how its axis was found.
@@ -58,7 +61,10 @@ class Wheel:
 
 @dataclass(frozen=True, eq=False)
 class _Round:
-    """A body that is round about an axis: its frame and its radius [m]."""
+    """A body that is round about an axis: its frame, its radius, and the heights that it, or its rim, lies between [m].
+
+    It is open between hub and rim, or a disc; its shaft is of one surface with it, or not.
+    """
 
     body: Body
     frame: Frame
@@ -67,6 +73,7 @@ class _Round:
     high: float
     open: bool
     source: str
+    shaft: bool = False
 
 
 def find_wheel(valve: Valve, bodies: Sequence[Body], pieces: Sequence[Body]) -> Wheel | None:
@@ -77,19 +84,16 @@ def find_wheel(valve: Valve, bodies: Sequence[Body], pieces: Sequence[Body]) -> 
         bodies: that may be one, or hold its rim.
         pieces: of all its meshes that are in several.
     """
-    best: tuple[tuple[bool, bool, float], _Round] | None = None
-    for body in bodies:
-        found = _round(body, pieces)
-        if found is None:
-            continue
-        called = _CALLED in body.names and not body.pieces
-        found = _outward(found, valve)
-        if not _stands_out(found, valve, pieces, called):
-            continue
-        rank = called, found.open, found.radius
-        if best is None or rank > best[0]:
-            best = rank, found
-    return _whole(best[1], bodies) if best is not None else None
+    called = [body for body in bodies if _CALLED in body.names and not body.pieces]
+    # What is called a wheel, and has the shape of one, goes before all others.
+    for some in (called, [body for body in bodies if body not in called]):
+        rounds = [found for body in some if (found := _round(body, pieces)) is not None]
+        standing = [
+            turned for found in rounds if _stands_out(turned := _outward(found, valve), valve, pieces, some is called)
+        ]
+        if standing:
+            return _whole(max(standing, key=lambda one: (one.open, one.radius)), bodies)
+    return None
 
 
 def is_geared(wheel: Wheel, valve: Valve) -> bool:
@@ -114,23 +118,37 @@ def _round(body: Body, pieces: Sequence[Body]) -> _Round | None:
 
 
 def _round_body(body: Body, called: bool) -> _Round | None:
-    thin, wide, widest = body.spread.tolist()
-    if widest <= 0 or (widest - wide) > _NEARLY * widest or thin > (1.0 if called else 0.5) * wide:
-        return None
-    axis = body.axes[0]
-    frame = frame_of(body.center, axis)
-    source = "equal moments of inertia"
-    if (widest - wide) > _EQUAL * widest:
-        frame, source = _about_rim(body, frame), "circle of its rim"
+    """A body as a wheel, about any of its axes: the thinnest of a flat one, another of one on its shaft."""
+    spread = body.spread
+    for k in range(3):
+        first, second = (float(spread[other]) for other in range(3) if other != k)
+        unequal = (second - first) / max(second, 1e-30)
+        if unequal > _NEARLY or (k == 0 and float(spread[0]) > (1.0 if called else 0.5) * first):
+            continue
+        frame, source = frame_of(body.center, body.axes[k]), "equal moments of inertia"
+        if unequal > _EQUAL:
+            frame, source = _about_rim(body, frame), "circle of its rim"
+        found = _on_axis(body, frame, source, called)
+        if found is not None:
+            return found
+    return None
+
+
+def _on_axis(body: Body, frame: Frame, source: str, called: bool) -> _Round | None:
+    """A body as a wheel about an axis: flat, or a flat rim on a shaft."""
     points = body.points
     away, height = frame.away(points), frame.height(points)
-    radius, low, high = float(away.max()), float(height.min()), float(height.max())
-    if not _LEAST <= radius <= _MOST or high - low > 2 * radius * (_KNOB if called else _FLAT):
+    radius = float(away.max())
+    if not _LEAST <= radius <= _MOST:
         return None
-    if not _is_round(frame.flat(points), radius):
+    flat = float(np.ptp(height)) <= 2 * radius * (_KNOB if called else _FLAT)
+    # On a shaft, all but the rim is near the axis.
+    outer = height if flat else height[away > _HUB * radius]
+    low, high = float(outer.min()), float(outer.max())
+    if high - low > 2 * radius * (_KNOB if called and flat else _FLAT) or not _is_round(frame.flat(points), radius):
         return None
     open_ = float(frame.covered(body.corners, [share * radius for share in _BETWEEN]).mean()) <= _OPEN
-    return _Round(body, frame, radius, low, high, open_, source)
+    return _Round(body, frame, radius, low, high, open_, source, shaft=not flat)
 
 
 def _about_rim(body: Body, frame: Frame) -> Frame:
@@ -194,29 +212,50 @@ def _outward(found: _Round, valve: Valve) -> _Round:
 def _stands_out(found: _Round, valve: Valve, pieces: Sequence[Body], called: bool) -> bool:
     """Whether something round stands out of a valve as a wheel does."""
     line = valve.line
-    if line is not None and line.straight and abs(float(found.frame.axis @ line.way)) > _COAXIAL:
-        apart = float(np.linalg.norm(found.frame.origin - line.foot(found.frame.origin)))
-        if apart < 0.5 * found.radius:
-            return False
+    if _is_about_line(found, valve) or (found.shaft and _holds_line(found, valve)):
+        return False
     if called:
         return True
     if line is not None and found.radius < (0.6 if found.open else _DISC_WIDE) * line.bore:
         return False
     if not found.open and (found.high - found.low > _DISC_FLAT * found.radius or line is None):
         return False
+    return _is_free(found, valve, pieces)
+
+
+def _is_about_line(found: _Round, valve: Valve) -> bool:
+    """Whether something round is about the straight line through a valve: a flange, a ring."""
+    line, frame = valve.line, found.frame
+    if line is None or not line.straight or abs(float(frame.axis @ line.way)) <= _COAXIAL:
+        return False
+    return float(np.linalg.norm(frame.origin - line.foot(frame.origin))) < 0.5 * found.radius
+
+
+def _is_free(found: _Round, valve: Valve, pieces: Sequence[Body]) -> bool:
+    """Whether nothing wide is above something round, nor right below it, but something carries it."""
     frame, margin = found.frame, 0.02 * found.radius
     rest = [p for other in valve.others(found.body, pieces) if len(p := other.dense)]
     if not rest:
         return False
     points = np.concatenate(rest)
     height, away = frame.height(points), frame.away(points)
-    above = away[(height > found.high + margin)]
-    if len(above) and float(above.max()) > _ABOVE * found.radius:
+    if float(away[height > found.high + margin].max(initial=0.0)) > _ABOVE * found.radius:
         return False
-    # A disc may be a cover, so that more of what is below it must be slender.
-    depth, most = (0.12, _BELOW) if found.open else (0.4, _DISC_BELOW)
+    # A disc may be a cover, so that more of what is below it must be slender, but for one on a slender shaft.
+    depth, most = (0.12, _BELOW) if found.open or found.shaft else (0.4, _DISC_BELOW)
     below = away[(height < found.low - margin) & (height > found.low - depth * found.radius)]
-    return bool((height < found.low).any()) and not (len(below) and float(below.max()) > most * found.radius)
+    return bool((height < found.low).any()) and float(below.max(initial=0.0)) <= most * found.radius
+
+
+def _holds_line(found: _Round, valve: Valve) -> bool:
+    """Whether what a wheel is one surface with reaches down to the line through its valve, as the body does."""
+    line = valve.line
+    if line is None:
+        return True
+    if line.gap(found.frame.origin, found.frame.axis) > found.radius:
+        return False
+    foot = float(found.frame.height(line.foot(found.frame.origin)[None])[0])
+    return float(found.frame.height(found.body.points).min()) < foot + line.bore
 
 
 def _whole(found: _Round, bodies: Sequence[Body]) -> Wheel:
@@ -246,13 +285,14 @@ def _whole(found: _Round, bodies: Sequence[Body]) -> Wheel:
     if len(taken) > 1:
         source += f", {len(taken)} {'pieces' if body.pieces else 'meshes'}"
     rim, thickness = _rim(body, frame, found.radius)
-    middle = frame.height(body.center[None])[0]
+    outer = frame.height(body.points[frame.away(body.points) > _RIM_FROM * found.radius])
+    middle = 0.5 * float(outer.min() + outer.max())
     return Wheel(body, frame_of(frame.origin + middle * frame.axis, frame.axis), rim, thickness, source)
 
 
 def _rim(body: Body, frame: Frame, radius: float) -> tuple[float, float]:
     """The middle circle of the rim and half its thickness [m]."""
-    outer = body.points[frame.away(body.points) > 0.84 * radius]
+    outer = body.points[frame.away(body.points) > _RIM_FROM * radius]
     half = 0.5 * float(np.ptp(frame.height(outer)))
     half = float(np.clip(half, 0.001, 0.25 * radius))
     return radius - half, half
