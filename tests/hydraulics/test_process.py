@@ -131,6 +131,12 @@ def test_a_throttled_pump_draws_only_what_reaches_it_at_the_pressure_at_which_it
     assert plant.steady({"V-002": 1.0}).cavitating == ()
 
 
+def test_a_pump_that_nothing_holds_back_says_so(plant):
+    assert not any("nothing holds it back" in remark for remark in Process(relieved()).state.remarks)
+    plant = edited(plant, "pumps", "P-001", flow=1.0)
+    assert any(remark.startswith("P-001 moves") for remark in plant.state.remarks)
+
+
 def test_speed_changes_the_head_by_its_square(plant):
     plant.steady({"V-008": 0.0, "V-009": 0.0, "P-001": 0.5, "P-002": 0.0})
     assert -plant.balance.difference("P-001") == pytest.approx(plant.scenario.pressure(10.0), rel=1e-6)
@@ -239,6 +245,37 @@ def test_what_enters_above_the_level_falls_in_and_does_not_run_back():
     assert flow_of(plant, "V-001") > 0
     dry = edited(plant, "ends", "terminal-001", pressure=0.0)
     assert flow_of(dry, "V-001") == 0
+
+
+def test_air_stands_in_what_lies_above_the_level():
+    nodes = [unit("T-001", ports=("N1",)), unit("G-001", "pressure gauge", (0, 0, 3.0)), terminal(1, at=(0, 0, 4.0))]
+    plant = Process(network(nodes, chain("T-001.N1 G-001 X1")))
+    plant = edited(plant, "tanks", "T-001", bottom=0.0, level=1.0, height=2.0)
+    assert plant.state.pressure["unit-G-001"] == 0.0
+    assert plant.state.pressure["unit-T-001:N1"] == pytest.approx(plant.scenario.pressure(1.0))
+
+
+# Odd units
+
+
+def test_a_valve_of_three_ports_shuts_all_of_them():
+    nodes = [terminal(1), unit("V-001", "ball valve", ports=("N1", "N2", "N3")), terminal(2), terminal(3)]
+    plant = Process(network(nodes, chain("X1 V-001.N1") + chain("V-001.N2 X2") + chain("V-001.N3 X3")))
+    assert all(flow > 1e-4 for flow in plant.state.flow.values())
+    assert flow_of(plant, "V-001") / 3600 == pytest.approx(plant.state.flow[0])
+    assert set(plant.steady({"V-001": 0.0}).flow.values()) == {0.0}
+
+
+def test_a_pump_with_a_line_on_one_side_moves_nothing_and_says_so():
+    plant = Process(network([terminal(1), unit("P-001", ports=("N1",))], chain("X1 P-001.N1")))
+    assert "P-001 has a line on one side only: it moves nothing" in plant.state.remarks
+    assert set(plant.steady({"P-001": 0.0}).flow.values()) == {0.0}
+
+
+def test_a_check_valve_with_nothing_behind_it_is_left_out_and_said():
+    nodes = [terminal(1), junction(1), unit("V-001", "check valve", ports=("N1",)), terminal(2)]
+    plant = Process(network(nodes, chain("X1 J1 X2") + chain("J1 V-001.N1")))
+    assert "V-001 is a check valve with nothing behind it: left out" in plant.state.remarks
 
 
 # Time

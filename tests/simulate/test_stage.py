@@ -5,9 +5,13 @@ import pytest
 from pxr import Usd, UsdGeom, UsdPhysics, UsdSemantics, UsdShade, UsdUtils, UsdValidation
 
 import movable
+from cadgraph.config import Config
 from cadgraph.load import load
 from cadgraph.model.graph import SceneGraph
+from cadgraph.pipeline import build
 from cadgraph.simulate.stage.writing import write_stage
+from cadplants import make
+from cadplants.usd import write_usd
 
 WORKED = ("V-1", "V-2", "V-3", "G-1")
 
@@ -446,6 +450,7 @@ def test_an_item_of_several_meshes_in_an_instance_is_opened_and_its_rest_stays(t
     touched = [p for p in stage.GetPrimAtPath("/Plant/Colliders").GetChildren() if p.HasAPI(UsdPhysics.CollisionAPI)]
     assert len(touched) == done.n_colliders == 7
     assert sorted(p.GetTypeName() for p in touched) == ["Cube"] * 4 + ["Mesh"] * 3
+    assert {p.GetTypeName() for p in touched if p.HasAPI(UsdPhysics.MeshCollisionAPI)} == {"Mesh"}
 
 
 BELOW = """#usda 1.0
@@ -481,3 +486,18 @@ def test_a_mesh_below_a_mesh_that_moves_stays_where_it_is(tmp_path):
     stage = Usd.Stage.Open(str(done.files[0]))
     assert stage.GetPrimAtPath("/Plant/Scene/World/Wheel").GetTypeName() == "Xform"
     assert stage.GetPrimAtPath("/Plant/Scene/World/Wheel/Stem").HasAPI(UsdPhysics.CollisionAPI)
+
+
+@pytest.mark.slow
+def test_a_plant_built_from_nothing_but_its_shapes_can_be_simulated(tmp_path):
+    source = tmp_path / "skid.usdc"
+    write_usd(make("skid", 7), source, movable.STYLES["point"])
+    graph = build(load(source, movable.QUICK), Config(load=movable.QUICK))
+    done = write_stage(graph, source, tmp_path)
+    kinds = sorted(device.mechanism.kind for device in done.devices)
+    assert kinds == ["handwheel"] * 5 + ["lever"] * 7 + ["needle"] * 12
+    before, colors = meshes(source)
+    after, colors_after = meshes(done.files[0])
+    assert np.allclose(before, after, atol=2e-5)
+    assert np.allclose(colors, colors_after, atol=1e-6)
+    test_usd_finds_no_fault((source, graph, done, Usd.Stage.Open(str(done.files[0]))))

@@ -23,6 +23,7 @@ LONGEST = 1.0  # s; of a step that is worked out at once
 SETTLED = 1e-6  # of a reading, in its unit
 MOST_SECONDS = 3600.0  # s; of one step, which is worked out second by second
 _STILL = 1e-6  # m3/s
+_FAR_OUT = 1.5  # times its flow that a pump moves and nothing is said; a curve is rarely known further (ours)
 
 
 @dataclass(frozen=True)
@@ -299,6 +300,10 @@ class Process:
         for tag, speed in self.balance.speed.items():
             if speed > SHUT and tag in circuit.tags and tag not in cavitating and self.balance.through(tag) < _STILL:
                 yield f"{tag} runs against shut valves: nothing flows through it"
+        for tag, pump in self.scenario.pumps.items():
+            flow = self.balance.through(tag) * 3600 if tag in circuit.tags else 0.0
+            if flow > _FAR_OUT * pump.flow:
+                yield f"{tag} moves {flow:.1f} m3/h and is for {pump.flow:g}: nothing holds it back as it is supposed"
         for tag, valve in self.scenario.valves.items():
             if valve.duty == "relief" and tag in circuit.tags and self.balance.through(tag) > _STILL:
                 yield f"{tag} blows off {self.balance.through(tag) * 3600:.2f} m3/h"

@@ -118,13 +118,15 @@ class Below:
 
         A reference to one root prim would lose them.
         """
-        if len(self.roots()) < 2:
+        shown = {Sdf.Path(f"/{name}") for name in self.roots()}
+        if len(shown) < 2:
             return
         for prim in self.stage.Traverse():
             own = prim.GetPath().GetPrefixes()[0]
             for relationship in prim.GetAuthoredRelationships():
                 targets = relationship.GetTargets()
-                if any(not target.HasPrefix(own) for target in targets):
+                above = {target.GetPrefixes()[0] for target in targets}
+                if above - {own} and above <= shown:
                     yield prim, relationship.GetName(), targets
 
     def material(self, prim: Any, purpose: str = "") -> Any:

@@ -55,12 +55,12 @@ def collide(layer: Any, prims: Sequence[Any]) -> None:
         spec.referenceList.prependedItems = [Sdf.Reference("", holders.over_instance(root.GetPath(), meshes))]
 
 
-def make_collider(spec: Any, type_name: str) -> None:
-    """Lets a prim be touched: a mesh by its triangles, a sphere or cylinder as such."""
+def make_collider(spec: Any, type_name: str, approximation: str = "none") -> None:
+    """Lets a prim be touched: a mesh by its triangles, unless it moves; a sphere or cylinder as such."""
     apply_schemas(spec, "PhysicsCollisionAPI")
     if type_name == "Mesh":
         apply_schemas(spec, "PhysicsMeshCollisionAPI")
-        set_attribute(spec, "physics:approximation", "Token", "none", uniform=True)
+        set_attribute(spec, "physics:approximation", "Token", approximation, uniform=True)
 
 
 def _instance_above(prim: Any) -> Any:

@@ -220,8 +220,7 @@ class _Stage:
             if moves is not None:
                 keep_faces(self._layer, path, self._below.prim(shown), moves)
             if device.mechanism.kind == "lever":
-                make_collider(spec, "Mesh")
-                set_attribute(spec, "physics:approximation", "Token", "convexDecomposition", uniform=True)
+                make_collider(spec, self._below.prim(shown).GetTypeName(), "convexDecomposition")
         if not device.moving:
             self._draw_needle(body.path.AppendChild("needle"), device.mechanism.radius)
 
@@ -315,7 +314,8 @@ class _Stage:
                 continue
             touched = self._scene.paths[mesh] not in untouched
             if (shown.instancer, shown.item) in opened:
-                reached[mesh] = self._stand_in(mesh, touched, devices)
+                there = self._stand_in(mesh, touched, devices)
+                reached |= {mesh: there} if touched else {}
             elif not touched:
                 continue
             elif shown.instancer is not None:
@@ -337,7 +337,7 @@ class _Stage:
             moves = np.logical_or.reduce([self._moving_faces(each, shown) for each in moving])
             keep_faces(self._layer, path, self._below.prim(shown), ~moves)
         if touched:
-            make_collider(spec, "Mesh")
+            make_collider(spec, self._below.prim(shown).GetTypeName())
         return path
 
     def _touch_item(self, mesh: int) -> Any:
