@@ -66,7 +66,8 @@ def test_the_commands_that_the_demo_names_work(demo, capsys, monkeypatch):
     commands = [line.split() for line in said.splitlines()]
     # It runs until it is stopped; tests of its own try it.
     assert commands.pop(0) == ["cadgraph", "view", "demo"]
-    assert len(commands) == 3
+    assert len(commands) == 5
+    assert commands[-1] == ["cadgraph", "simulate", "demo"]
     for command in commands:
         assert command[0] == "cadgraph"
         code, out, _ = run(capsys, *command[1:])

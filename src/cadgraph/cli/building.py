@@ -124,4 +124,6 @@ def _questions(graph: SceneGraph, folder: Path) -> list[str]:
         feeding = [step.name for step in trace(graph, pump.tag, "upstream").steps if step.name in valves]
         commands += [f"cadgraph trace {folder} {valve} --downstream" for valve in feeding[-1:]]
         commands.append(f"cadgraph isolate {folder} {pump.tag}")
-    return commands
+        # What a robot would turn, and what its gauges would show.
+        commands += [f"cadgraph simulate {folder} --set {valve}=0" for valve in feeding[-1:]]
+    return [*commands, f"cadgraph simulate {folder}"]
