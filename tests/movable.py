@@ -86,6 +86,18 @@ def write(path, style=None):
     return graph_of(scene, made, paths)
 
 
+def shown(path):
+    """What a file shows, whatever it is called: corners of boxes, numbers of triangles, colours; in order."""
+    scene = load(path, QUICK)
+    rows = [
+        (*np.round(scene.mesh(i)[0].min(0), 5), *np.round(scene.mesh(i)[0].max(0), 5), len(scene.mesh(i)[1]))
+        for i in range(scene.n_meshes)
+    ]
+    order = sorted(range(len(rows)), key=rows.__getitem__)
+    colors = np.nan_to_num(scene.colors[order], nan=-1.0)
+    return np.array([rows[i] for i in order]), colors
+
+
 def graph_of(scene, made, paths):
     """The graph of the plant whose meshes are at these paths."""
     row = {path: i for i, path in enumerate(scene.paths)}

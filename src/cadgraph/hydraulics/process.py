@@ -7,8 +7,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from cadgraph.hydraulics.balance import SHUT, Balance, default_scenario
+from cadgraph.hydraulics.balance import Balance, default_scenario
 from cadgraph.hydraulics.joints import Joints
+from cadgraph.hydraulics.remarks import TRICKLE, remarks_of
 from cadgraph.hydraulics.scenario_file import SCENARIO, read_scenario
 from cadgraph.hydraulics.settings import Scenario
 from cadgraph.hydraulics.solve import Solution
@@ -22,8 +23,6 @@ STALE = 1e-3  # m; a level that has moved less changes no pressure
 LONGEST = 1.0  # s; of a step that is worked out at once
 SETTLED = 1e-6  # of a reading, in its unit
 MOST_SECONDS = 3600.0  # s; of one step, which is worked out second by second
-_STILL = 1e-6  # m3/s
-_FAR_OUT = 1.5  # times its flow that a pump moves and nothing is said; a curve is rarely known further (ours)
 
 
 @dataclass(frozen=True)
@@ -274,7 +273,7 @@ class Process:
         for tag, valve in self.scenario.valves.items():
             if valve.duty != "hand":
                 links = list(circuit.tags.get(tag, ()))
-                opening[tag] = float(bool(links) and bool((solution.flow[links] > _STILL).any()))
+                opening[tag] = float(bool(links) and bool((solution.flow[links] > TRICKLE).any()))
         cavitating = tuple(sorted(self.balance.places.tag_of[link] for link in solution.cavitating))
         return State(
             time=self._time,
@@ -291,46 +290,6 @@ class Process:
         )
 
     def _remarks(self, cavitating: tuple[str, ...]) -> Iterator[str]:
-        circuit, solution = self.balance.circuit, self.balance.solution
-        if not solution.settled:
-            yield "the valves that move by themselves did not come to rest: the figures are not to be relied on"
-        for tag in cavitating:
-            flow = self.balance.through(tag)
-            yield f"{tag} cavitates: " + ("nothing flows to it" if flow < _STILL else "it draws more than flows to it")
-        for tag, speed in self.balance.speed.items():
-            if speed > SHUT and tag in circuit.tags and tag not in cavitating and self.balance.through(tag) < _STILL:
-                yield f"{tag} runs against shut valves: nothing flows through it"
-        for tag, pump in self.scenario.pumps.items():
-            flow = self.balance.through(tag) * 3600 if tag in circuit.tags else 0.0
-            if flow > _FAR_OUT * pump.flow:
-                yield f"{tag} moves {flow:.1f} m3/h and is for {pump.flow:g}: nothing holds it back as it is supposed"
-        for tag, valve in self.scenario.valves.items():
-            if valve.duty == "relief" and tag in circuit.tags and self.balance.through(tag) > _STILL:
-                yield f"{tag} blows off {self.balance.through(tag) * 3600:.2f} m3/h"
-        inflow = self.balance.places.inflow(solution.flow)
-        lowest = {tag: min(n.height for n in circuit.nozzles if n.tag == tag) for tag in inflow}
-        for tag, tank in self.scenario.tanks.items():
-            if tag not in inflow:
-                continue
-            if self.balance.level[tag] >= tank.height and inflow[tag] > _STILL:
-                yield f"{tag} overflows: {inflow[tag] * 3600:.2f} m3/h run over"
-            elif self.balance.level[tag] <= 0:
-                yield f"{tag} is empty"
-            elif tank.bottom + self.balance.level[tag] <= lowest[tag]:
-                yield f"{tag} is down to its lowest nozzle: nothing leaves it"
-        boiling = [
-            name
-            for name, node in self.balance.places.told.items()
-            if solution.head[node] < circuit.height[node] + self.scenario.head(self.scenario.fluid.vapour) - STALE
-        ]
-        if boiling and not cavitating:
-            yield f"the column parts at {len(boiling)} places, as the pressure falls to that at which the fluid boils"
-        unknown = sum(
-            value is None and self.scenario.gauges[tag].measures == "pressure" for tag, value in self._measured.items()
-        )
-        if unknown:
-            yield (
-                f"nothing of known pressure reaches {unknown} gauges, so that nobody knows what they show: let an end "
-                "of their pipes be a source in the scenario"
-            )
-        yield from circuit.remarks
+        gauges = self.scenario.gauges
+        unknown = sum(gauges[tag].measures == "pressure" for tag, value in self._measured.items() if value is None)
+        return remarks_of(self.balance, cavitating, unknown)

@@ -289,6 +289,12 @@ class _Ends:
 
     def _of_piece(self, piece: Sequence[str]) -> dict[str, EndSetting]:
         nodes = {place: node for place in piece if isinstance(node := self.network.places[place], Terminal)}
+        known = self._known(nodes)
+        with_tank = any(self.network.unit_type(place) == "tank" for place in piece)
+        return self._sized(piece, known | self._supposed(nodes, known, with_tank))
+
+    def _known(self, nodes: Mapping[str, Terminal]) -> dict[str, tuple[EndRole, str]]:
+        """Roles of the ends that are closed, or where one knows which way it flows."""
         roles: dict[str, tuple[EndRole, str]] = {}
         for place, node in nodes.items():
             flows = {arc.flow for arc in self.network.arcs(place)}
@@ -298,13 +304,20 @@ class _Ends:
                 roles[place] = "source", "the direction of flow"
             elif "against" in flows:
                 roles[place] = "sink", "the direction of flow"
-        fed = any(self.network.unit_type(place) == "tank" for place in piece)
-        fed = fed or any(role == "source" for role, _ in roles.values())
-        for place in nodes:
-            if place not in roles and not fed and self._feeds_a_pump(place):
-                roles[place] = "source", "assumed: a pump draws from it"
-        fed = fed or any(role == "source" for role, _ in roles.values())
-        for place, node in nodes.items():
+        return roles
+
+    def _supposed(
+        self, nodes: Mapping[str, Terminal], known: Mapping[str, tuple[EndRole, str]], with_tank: bool
+    ) -> dict[str, tuple[EndRole, str]]:
+        """Roles of the other ends: something must feed the piece, a tank or a source."""
+        left = {place: node for place, node in nodes.items() if place not in known}
+        roles: dict[str, tuple[EndRole, str]] = {}
+        fed = with_tank or any(role == "source" for role, _ in known.values())
+        if not fed:
+            drawn = [place for place in left if self._feeds_a_pump(place)]
+            roles = dict.fromkeys(drawn, ("source", "assumed: a pump draws from it"))
+            fed = bool(drawn)
+        for place, node in left.items():
             if place in roles:
                 continue
             if not fed:
@@ -314,7 +327,7 @@ class _Ends:
                 roles[place] = "sink", "assumed: an open end of unknown direction"
             else:
                 roles[place] = "blind", "assumed: nobody knows whether this end is open"
-        return self._sized(piece, roles)
+        return roles
 
     def _feeds_a_pump(self, place: str) -> bool:
         """Whether a way leads from an end to the suction of a pump, not through one."""

@@ -13,10 +13,22 @@ from cadgraph._io.text import file_name, printable
 from cadgraph.draw.colors import group_colors
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.labels import Guess, Label
-from cadgraph.model.records import Cluster, Contains, Junction, Part, Point, SourceFact, System, Terminal, Unit
+from cadgraph.model.records import (
+    Cluster,
+    Connected,
+    Contains,
+    Joint,
+    Junction,
+    Part,
+    Point,
+    SourceFact,
+    System,
+    Terminal,
+    Unit,
+)
 from cadgraph.model.scene import Scene
 from cadgraph.query.doubt import few_ports
-from cadgraph.query.lines import find_lines
+from cadgraph.query.lines import Line, find_lines
 from cadgraph.query.mechanisms import immovable, say_handling
 from cadgraph.query.network import Network
 
@@ -146,68 +158,17 @@ def network_of(graph: SceneGraph, rows: Mapping[str, int] | None = None, origin:
             {**_unit(unit, network, row, system, origin), "handling": say_handling(unit) or fixed.get(unit.id, "")}
             for unit in graph.of_layer(Unit)
         ],
-        "ends": [
-            {
-                "id": end.id,
-                "name": network.name(end.id),
-                "kind": end.kind if isinstance(end, Terminal) else "junction",
-                "point": _moved(end.point, origin),
-                "parts": [row[part] for part in end.parts],
-                "system": system.get(network.system(end.id) or "", -1),
-            }
-            for end in ends
-        ],
+        "ends": [_end(end, network, row, system, origin) for end in ends],
         "connections": [
-            {
-                "source": edge.source,
-                "target": edge.target,
-                "source_name": network.name(edge.source),
-                "target_name": network.name(edge.target),
-                "via": [row[part] for part in edge.via],
-                "path": _numbers(np.array(edge.path).reshape(-1, 3) - origin),
-                "length": edge.length,
-                "size": edge.size,
-                "diameter": edge.diameter,
-                "flow": edge.direction,
-                "reason": edge.reason,
-                "confidence": edge.confidence,
-                "line": line_of.get(i, -1),
-            }
-            for i, edge in enumerate(network.edges)
+            _connection(edge, network, row, line_of.get(i, -1), origin) for i, edge in enumerate(network.edges)
         ],
-        "lines": [
-            {
-                "tag": line.tag,
-                "start": line.start,
-                "end": line.end,
-                "start_name": line.start_name,
-                "end_name": line.end_name,
-                "size": line.size,
-                "length": line.length,
-                "flow": line.flow,
-                "connections": [arc.index for arc in line.arcs],
-                "system": system.get(line.system or "", -1),
-            }
-            for line in lines
-        ],
+        "lines": [_line(line, system) for line in lines],
         "systems": [
             {"id": each.id, "units": list(each.units), "length": each.length, "sizes": list(each.sizes)}
             for each in systems
         ],
         "clusters": [{"id": each.id, "kind": each.kind, "n_parts": each.n_parts} for each in graph.of_layer(Cluster)],
-        "joints": [
-            {
-                "first": row[joint.first],
-                "second": row[joint.second],
-                "kind": joint.kind,
-                "point": _moved(joint.point, origin),
-                "gap": joint.gap,
-                "score": joint.score,
-                "made": joint.made,
-                "reasons": list(joint.reasons),
-            }
-            for joint in graph.document.joints
-        ],
+        "joints": [_joint(joint, row, origin) for joint in graph.document.joints],
     }
 
 
@@ -256,6 +217,65 @@ def _unit(
         ],
         "missing": few[1] - few[0] if few is not None else 0,
         "facts": _facts(unit.facts),
+    }
+
+
+def _end(
+    end: Junction | Terminal, network: Network, row: Mapping[str, int], system: Mapping[str, int], origin: Point
+) -> dict[str, Any]:
+    return {
+        "id": end.id,
+        "name": network.name(end.id),
+        "kind": end.kind if isinstance(end, Terminal) else "junction",
+        "point": _moved(end.point, origin),
+        "parts": [row[part] for part in end.parts],
+        "system": system.get(network.system(end.id) or "", -1),
+    }
+
+
+def _connection(edge: Connected, network: Network, row: Mapping[str, int], line: int, origin: Point) -> dict[str, Any]:
+    return {
+        "source": edge.source,
+        "target": edge.target,
+        "source_name": network.name(edge.source),
+        "target_name": network.name(edge.target),
+        "via": [row[part] for part in edge.via],
+        "path": _numbers(np.array(edge.path).reshape(-1, 3) - origin),
+        "length": edge.length,
+        "size": edge.size,
+        "diameter": edge.diameter,
+        "flow": edge.direction,
+        "reason": edge.reason,
+        "confidence": edge.confidence,
+        "line": line,
+    }
+
+
+def _line(line: Line, system: Mapping[str, int]) -> dict[str, Any]:
+    return {
+        "tag": line.tag,
+        "start": line.start,
+        "end": line.end,
+        "start_name": line.start_name,
+        "end_name": line.end_name,
+        "size": line.size,
+        "length": line.length,
+        "flow": line.flow,
+        "connections": [arc.index for arc in line.arcs],
+        "system": system.get(line.system or "", -1),
+    }
+
+
+def _joint(joint: Joint, row: Mapping[str, int], origin: Point) -> dict[str, Any]:
+    return {
+        "first": row[joint.first],
+        "second": row[joint.second],
+        "kind": joint.kind,
+        "point": _moved(joint.point, origin),
+        "gap": joint.gap,
+        "score": joint.score,
+        "made": joint.made,
+        "reasons": list(joint.reasons),
     }
 
 

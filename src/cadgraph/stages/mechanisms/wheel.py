@@ -242,7 +242,7 @@ def _is_free(found: _Round, valve: Valve, pieces: Sequence[Body]) -> bool:
     if float(away[height > found.high + margin].max(initial=0.0)) > _ABOVE * found.radius:
         return False
     # A disc may be a cover, so that more of what is below it must be slender, but for one on a slender shaft.
-    depth, most = (0.12, _BELOW) if found.open or found.shaft else (0.4, _DISC_BELOW)
+    depth, most = (0.06, _BELOW) if found.open or found.shaft else (0.4, _DISC_BELOW)
     below = away[(height < found.low - margin) & (height > found.low - depth * found.radius)]
     return bool((height < found.low).any()) and float(below.max(initial=0.0)) <= most * found.radius
 
