@@ -144,18 +144,18 @@ TOOLS: tuple[Tool, ...] = (
     Tool(
         "what_if",
         "What is cut off from its supply when valves are closed. About flow, not safety: for opening a unit use "
-        "isolate. UNKNOWN stays unknown. SIMULATED figures rest on assumptions: say so.",
+        "isolate. UNKNOWN stays unknown. SIMULATED rests on assumptions.",
         walking.what_if,
     ),
     Tool("lines", "Line list: from, to, length, DN, flow, what stands in each line in order.", walking.lines),
     Tool(
         "measure",
-        "How far two things are apart: straight, in plan, height, compass, above or below, along pipes.",
+        "How far apart: straight, in plan, height, compass, above or below, along pipes.",
         measuring.measure,
     ),
     Tool(
         "approach",
-        "How people get at a unit: ways, where to stand, height of its operator, where a gauge is seen from.",
+        "How people get at a unit: ways, where to stand, operator height, where a gauge is seen from.",
         approaching.approach,
     ),
     Tool("query", asking_sql.DESCRIPTION, asking_sql.query),
