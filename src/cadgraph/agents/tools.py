@@ -116,7 +116,7 @@ def _short(schema: Mapping[str, Any]) -> dict[str, Any]:
 TOOLS: tuple[Tool, ...] = (
     Tool(
         "overview",
-        "Start here: extent, units by kind, systems, and what the graph does not know.",
+        "Start here: extent, units by kind, systems, what is not known.",
         looking.overview,
     ),
     Tool(
@@ -124,7 +124,7 @@ TOOLS: tuple[Tool, ...] = (
         "Lists and counts units (or parts, junctions, ends), with places in m; distances straight.",
         looking.find,
     ),
-    Tool("describe", "One thing: kind, place, ports, parts, how sure.", describing.describe),
+    Tool("describe", "One thing: kind, place, ports, parts, what turns.", describing.describe),
     Tool(
         "neighbors",
         "What is next along pipes (units, ends), or which parts touch.",
