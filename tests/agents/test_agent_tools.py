@@ -4,6 +4,7 @@ import os
 import pytest
 
 from cadgraph.agents.answer import BUDGET, tokens
+from cadgraph.agents.drawing.drawer import read_scene
 from cadgraph.agents.plant import Plant
 from cadgraph.agents.tools import TOOLS, tool_named
 from cadgraph.errors import AskError, CadGraphError, Unconnected
@@ -322,9 +323,10 @@ def test_the_scene_is_the_one_that_the_graph_is_of(tmp_path):
     (tmp_path / "plant.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 2 3 4\nf 1 3 4\n")
     document = pumping(str(tmp_path / "plant.obj")).document
     graph = SceneGraph(document.model_copy(update={"config": {"load": {"unit": "m"}}}))
-    assert Plant(graph, tmp_path).scene.n_meshes == 1
-    assert Plant(graph).scene is None
-    assert Plant(pumping(str(tmp_path / "gone.obj")), tmp_path).scene is None
+    assert read_scene(graph.source, graph.document.config, tmp_path).n_meshes == 1
+    for source, folder in ((graph.source, None), (pumping(str(tmp_path / "gone.obj")).source, tmp_path)):
+        with pytest.raises(AskError, match="isn't where it was"):
+            read_scene(source, graph.document.config, folder)
 
 
 def test_an_empty_graph_is_no_error():

@@ -7,7 +7,8 @@ from PIL import Image
 
 import graphs
 import shapes
-from cadgraph.agents.picture import Pictures
+from cadgraph.agents.drawing.drawer import Drawer
+from cadgraph.agents.picture import order_of
 from cadgraph.agents.plant import Plant
 from cadgraph.model.scene import Scene
 from command_line import refused, run
@@ -27,7 +28,7 @@ def test_a_picture_is_drawn_from_the_command_line(capsys, tmp_path):
 def test_a_target_that_stands_behind_others_is_seen_through_them():
     scene = Scene.from_meshes([shapes.box((0.2, 0.2, 0.2)), shapes.box()], ["/inside", "/around"])
     inside, around = graphs.part(1, "/inside", size=0.2), graphs.part(2, "/around")
-    drawn = Pictures(Plant(graphs.graph([inside, around])), scene).draw("part-1")
+    drawn = Drawer(scene).draw(order_of(Plant(graphs.graph([inside, around])), "part-1"))
     red = np.asarray(Image.open(io.BytesIO(drawn.png)).convert("RGB")).astype(int)
     assert (red[..., 0] - red[..., 1] > 80).sum() > 3000
     assert "drawn faint" in drawn.text

@@ -239,8 +239,8 @@ for mode, name in (("r", "before"), ("w", "made")):
 def test_a_process_that_died_is_replaced(rows):
     database = Database(rows)
     database.ask(COUNT)
-    database._worker._process.kill()
-    database._worker._process.wait()
+    database._worker._process._process.kill()
+    database._worker._process._process.wait()
     assert database.ask("SELECT 1").rows == ((1,),)
     database.close()
 
@@ -248,7 +248,7 @@ def test_a_process_that_died_is_replaced(rows):
 def test_the_process_ends_with_the_tables(rows):
     database = Database(rows)
     database.ask(COUNT)
-    process = database._worker._process
+    process = database._worker._process._process
     assert process.poll() is None
     del database
     assert process.poll() is not None

@@ -23,9 +23,10 @@ from cadgraph.model.records import Connected, Part, Unit
 from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import spell_label
 from cadgraph.serve.saving import Saver
-from cadgraph.session.reopen import FormerLabeler, config_of, find_source, reopen
+from cadgraph.session.reopen import FormerLabeler, config_of, reopen
 from cadgraph.session.run import write_graph
 from cadgraph.session.session import Change, Session
+from cadgraph.session.source import find_source
 
 __all__ = ["Desk"]
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, get_args
 
 from cadgraph._io.text import file_name
 from cadgraph.agents.answer import AskError, cell
-from cadgraph.errors import LabelError, UnknownNode
+from cadgraph.errors import UnknownNode
 from cadgraph.model.corrections import CORRECTIONS
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Box, Junction, Node, Terminal, Unit
@@ -21,7 +21,6 @@ from cadgraph.query.summary import Summary, summarize
 
 if TYPE_CHECKING:
     from cadgraph.agents.sql.guard import Database
-    from cadgraph.model.scene import Scene
 
 __all__ = ["Plant"]
 
@@ -64,25 +63,6 @@ class Plant:
         except OSError:
             return False
         return corrected > written
-
-    @cached_property
-    def scene(self) -> Scene | None:
-        """The triangles of the file that the graph was built from; None where that isn't there any more.
-
-        Raises:
-            LoadError: it is there, but can't be read.
-        """
-        from cadgraph.config import restore_config
-        from cadgraph.load import load
-        from cadgraph.session.reopen import find_source
-
-        if self.folder is None or not self.graph.source.path:
-            return None
-        try:
-            source = find_source(self.graph, self.folder, None)
-        except LabelError:
-            return None
-        return load(source, restore_config(self.graph.document.config).load)
 
     @cached_property
     def lines(self) -> tuple[Line, ...]:

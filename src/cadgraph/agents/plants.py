@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cadgraph.agents.answer import Answer, AskError, cell, did_you_mean, page_of, row
+from cadgraph.agents.drawing.messages import Request
+from cadgraph.agents.drawing.order import Picture
+from cadgraph.agents.drawing.process import DrawingProcess
+from cadgraph.agents.picture import order_of
 from cadgraph.agents.plant import Plant
 from cadgraph.errors import FormatError
 
 if TYPE_CHECKING:
     from cadgraph.agents.correcting import Desk
-    from cadgraph.agents.picture import Pictures
 
 __all__ = ["Plants"]
 
@@ -33,9 +36,24 @@ class _Opened:
     lock: threading.Lock = field(default_factory=threading.Lock)
     plant: Plant | None = None
     stamp: Stamp | None = None
-    pictures: Pictures | None = None
-    drawing: threading.Lock = field(default_factory=threading.Lock)
     desk: Desk | None = None
+
+    def now(self) -> Plant:
+        """The plant as it is now; for the holder of the lock.
+
+        Raises:
+            FormatError: its graph can't be read.
+        """
+        graph = None if self.desk is None else self.desk.graph
+        if graph is not None:
+            # Nobody else writes it meanwhile, and what the folder holds follows a moment later.
+            if self.plant is None or self.plant.graph is not graph:
+                self.plant = Plant(graph, self.folder)
+            return self.plant
+        stamp = _stamp(self.folder / _GRAPH)
+        if self.plant is None or stamp != self.stamp:
+            self.plant, self.stamp = Plant.open(self.folder), stamp
+        return self.plant
 
 
 class Plants:
@@ -55,6 +73,7 @@ class Plants:
         self._who = who
         self._lock = threading.Lock()
         self._opened: dict[str, _Opened] = {}
+        self._drawing = DrawingProcess()
         if not where.is_dir() and not (where.name == _GRAPH and where.is_file()):
             # Its neighbours must never answer for a folder that is gone.
             raise FormatError(f"{where}: no such folder; give what 'cadgraph build' wrote, or a folder of such folders")
@@ -89,39 +108,26 @@ class Plants:
         """
         opened = self._find(name)
         with opened.lock:
-            graph = None if opened.desk is None else opened.desk.graph
-            if graph is not None:
-                # Nobody else writes it meanwhile, and what the folder holds follows a moment later.
-                if opened.plant is None or opened.plant.graph is not graph:
-                    opened.plant = Plant(graph, opened.folder)
-                return opened.plant
-            stamp = _stamp(opened.folder / _GRAPH)
-            if opened.plant is None or stamp != opened.stamp:
-                opened.plant, opened.stamp, opened.pictures = Plant.open(opened.folder), stamp, None
-            return opened.plant
+            return opened.now()
 
-    @contextmanager
-    def pictures(self, name: str) -> Iterator[Pictures]:
-        """What draws pictures of a plant, for one caller at a time; the first waits until the scene is read.
+    def picture(self, name: str, target: str) -> Picture:
+        """Draws one thing of a plant, in a process of its own that all plants share; the others wait for one picture.
 
         Args:
             name: see :meth:`get`.
+            target: see :func:`~cadgraph.agents.picture.picture`.
 
         Raises:
-            AskError: there is no such plant, or its scene isn't there.
+            AskError: there is no such plant, nothing in it is called so, or its scene isn't there.
             LoadError: the scene can't be read.
         """
-        from cadgraph.agents.picture import Pictures
-
         opened = self._find(name)
-        with opened.drawing:
-            plant = self.get(name)
-            if opened.pictures is None:
-                scene = None if opened.desk is None else opened.desk.scene
-                opened.pictures = Pictures.of(plant) if scene is None else Pictures(plant, scene)
-            elif opened.pictures.plant is not plant:
-                opened.pictures = opened.pictures.now(plant)
-            yield opened.pictures
+        with opened.lock:
+            plant, stamp = opened.now(), opened.stamp
+        order, document = order_of(plant, target), plant.graph.document
+        # Corrections change the graph, not the scene.
+        key = f"{stamp} {opened.folder}"
+        return self._drawing.draw(Request(key, str(opened.folder), document.source, document.config, order))
 
     def desk(self, name: str) -> Desk:
         """Where a plant is corrected; opened at the first call, and then until the end.
@@ -158,6 +164,7 @@ class Plants:
 
     def close(self) -> list[str]:
         """Closes all that is open; what could not be written, in words."""
+        self._drawing.close()
         with self._lock:
             desks = [opened.desk for opened in self._opened.values() if opened.desk is not None]
             self._opened.clear()

@@ -25,11 +25,12 @@ from cadgraph.serve.order import Order
 from cadgraph.serve.saving import Saver
 from cadgraph.serve.snapshot import Snapshot, difference
 from cadgraph.serve.state import Feed, Refusal, State
-from cadgraph.session.reopen import FormerLabeler, config_of, find_source, reopen
+from cadgraph.session.reopen import FormerLabeler, config_of, reopen
 from cadgraph.session.review.question import Question
 from cadgraph.session.review.queue import review_queue
 from cadgraph.session.run import Clock, begin, write_graph, write_results
 from cadgraph.session.session import Change, Session
+from cadgraph.session.source import find_source
 from cadgraph.stages.preprocess import prepare_scene
 
 __all__ = ["Plant"]

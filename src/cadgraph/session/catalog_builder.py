@@ -18,7 +18,8 @@ from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Part
 from cadgraph.model.scene import Scene
 from cadgraph.pipeline import analyse
-from cadgraph.session.reopen import config_of, find_source
+from cadgraph.session.reopen import config_of
+from cadgraph.session.source import find_source
 from cadgraph.stages.preprocess import prepare_scene
 
 __all__ = ["EMPTY", "Intake", "take_file", "take_graph"]

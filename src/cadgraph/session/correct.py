@@ -17,10 +17,11 @@ from cadgraph.model.given_labels import split_label
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Part
 from cadgraph.model.vocabulary import Vocabulary
-from cadgraph.session.reopen import FormerLabeler, config_of, find_source, reopen
+from cadgraph.session.reopen import FormerLabeler, config_of, reopen
 from cadgraph.session.requests import EditRequest
 from cadgraph.session.run import Clock, Outcome, write_graph, write_rest
 from cadgraph.session.session import Change, Session, changed_parts
+from cadgraph.session.source import find_source
 
 __all__ = ["Amendment", "amend", "apply_edits", "step_back_or_forth"]
 

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from cadgraph._io.digest import sha256_of
 from cadgraph._io.progress import Progress, quiet
 from cadgraph._io.run_folder import results_folder
 from cadgraph.config import Config, restore_config
-from cadgraph.errors import FormatError, LabelError
+from cadgraph.errors import FormatError
 from cadgraph.labelers.base import AskingLabeler, Labeler, Labeling
 from cadgraph.load import load
 from cadgraph.model.corrections import CorrectionsFile
@@ -21,8 +20,9 @@ from cadgraph.model.scene import Scene
 from cadgraph.model.vocabulary import Vocabulary
 from cadgraph.session.run import Clock, Outcome, check_layers, check_target, write_results
 from cadgraph.session.session import Session
+from cadgraph.session.source import find_source
 
-__all__ = ["FormerLabeler", "config_of", "find_source", "relabel", "reopen", "vocabulary_of"]
+__all__ = ["FormerLabeler", "config_of", "relabel", "reopen", "vocabulary_of"]
 
 
 def relabel(
@@ -80,7 +80,7 @@ def reopen(
     Args:
         graph: finished.
         target: the folder that it lies in; with its corrections.
-        source: the scene's file, see :func:`find_source`.
+        source: the scene's file, see :func:`~cadgraph.session.source.find_source`.
         config: all settings.
         labeler: says what the parts are; the one that is set if None.
         progress: called with the name of a stage and the share of it that is done.
@@ -144,26 +144,6 @@ def vocabulary_of(folder: str | Path) -> Vocabulary:
         FormatError: the folder holds no graph.
     """
     return Vocabulary.from_json(SceneGraph.load(folder).document.vocabulary, f"{folder}: vocabulary of the graph")
-
-
-def find_source(graph: SceneGraph, folder: Path, scene: str | Path | None) -> Path:
-    """The file that a graph was built from, unchanged since.
-
-    Args:
-        graph: says where it was and what was in it.
-        folder: that holds the graph; the file may lie there, too.
-        scene: where it is now, if somebody knows better.
-
-    Raises:
-        LabelError: it isn't there, or has changed.
-    """
-    tried = [Path(scene)] if scene is not None else [Path(graph.source.path), folder / Path(graph.source.path).name]
-    found = next((path for path in tried if path.is_file()), None)
-    if found is None:
-        raise LabelError(f"{tried[0]}: the scene isn't there; name it with --scene")
-    if graph.source.sha256 and sha256_of(found) != graph.source.sha256:
-        raise LabelError(f"{found}: changed since the graph was built; run 'cadgraph build' on it instead")
-    return found
 
 
 class FormerLabeler:

@@ -17,6 +17,7 @@ from mcp.server.lowlevel.server import Server
 
 from cadgraph import __version__
 from cadgraph.agents.answer import AskError, cell, did_you_mean
+from cadgraph.agents.picture import picture
 from cadgraph.agents.plants import Plants
 from cadgraph.agents.tools import TOOLS, Tool
 from cadgraph.errors import CadGraphError
@@ -34,12 +35,9 @@ _SEVERAL = " There are several plants: each tool takes the name of one that the 
 
 _EVERY = 5.0  # s between two messages of progress; clients give up where none comes for long
 _MOST_ERROR = 1500  # characters of an error
+_MOST_DRAWING = 2  # threads for pictures
 
 Context = ServerRequestContext[Any, Any]
-
-
-def _draw(pictures: Any, target: str) -> Any:
-    return pictures.draw(target)
 
 
 def _correct(
@@ -54,13 +52,13 @@ def _correct(
 
 
 PLANTS = Tool("plants", "The plants that the other tools answer about.", Plants.listing)
-# By functions of their own, as a server that is only asked for words needs neither the renderer nor a session.
 PICTURE = Tool(
     "picture",
     "A picture: one thing in red, its neighbours tagged. For how it looks and what stands in the way; measure nothing "
     "in it.",
-    _draw,
+    picture,
 )
+# By a function of its own, as a server that only reads needs no session.
 CORRECT = Tool(
     "correct",
     "Mends the label of a part and its repeats, if a picture or a person shows that it is wrong. dry_run says what "
@@ -72,20 +70,22 @@ CORRECT = Tool(
 def make_server(plants: Plants) -> Server[Any]:
     """The server of some plants.
 
-    Each call runs in a thread of its own, so that a slow one keeps no other waiting; only pictures of a plant are drawn
-    one after another, and corrections of it made so.
+    Each call runs in a thread of its own, and pictures are drawn in a process of their own, so that a slow one keeps no
+    other waiting; only pictures wait for each other, and corrections of a plant do.
 
     Args:
         plants: that it answers about; with a tool for corrections where they may be made.
     """
     tools = _tools_of(plants)
+    # Threads that wait for a picture must not use up those that there may be.
+    drawing = anyio.CapacityLimiter(_MOST_DRAWING)
 
     async def list_tools(_: Context, __: types.PaginatedRequestParams | None) -> types.ListToolsResult:
         return types.ListToolsResult(tools=[_listed(tool, plants.several) for tool in tools.values()])
 
     async def call_tool(context: Context, params: types.CallToolRequestParams) -> types.CallToolResult:
         call = partial(_tried, tools, plants, params.name, params.arguments or {})
-        return await _with_progress(context, cell(params.name), call)
+        return await _with_progress(context, cell(params.name), call, drawing if params.name == PICTURE.name else None)
 
     return Server(
         "cadgraph",
@@ -146,8 +146,7 @@ def _answered(tool: Tool, plants: Plants, arguments: dict[str, Any]) -> types.Ca
         raise AskError("plant: give the name of a plant; the tool plants lists them")
     given = tool.checked(arguments)
     if tool is PICTURE:
-        with plants.pictures(plant) as pictures:
-            drawn = _draw(pictures, **given)
+        drawn = plants.picture(plant, **given)
         return _result(drawn.text, drawn.png)
     return _result(tool.run(plants.desk(plant) if tool is CORRECT else plants.get(plant), **given).text)
 
@@ -161,8 +160,10 @@ def _result(text: str, png: bytes | None = None, *, is_error: bool = False) -> t
     return types.CallToolResult(content=content, is_error=is_error)
 
 
-async def _with_progress(context: Context, name: str, call: Callable[[], types.CallToolResult]) -> types.CallToolResult:
-    """Runs something in a thread and tells now and then that it goes on."""
+async def _with_progress(
+    context: Context, name: str, call: Callable[[], types.CallToolResult], limiter: anyio.CapacityLimiter | None
+) -> types.CallToolResult:
+    """Runs something in a thread, of which a limiter may allow only so many, and tells now and then that it goes on."""
     began = time.monotonic()
 
     async def tell() -> None:
@@ -174,6 +175,6 @@ async def _with_progress(context: Context, name: str, call: Callable[[], types.C
     async with anyio.create_task_group() as group:
         group.start_soon(tell)
         # What the client gives up comes to its end, though nobody waits for it: nothing is left half done.
-        result = await to_thread.run_sync(call, abandon_on_cancel=True)
+        result = await to_thread.run_sync(call, abandon_on_cancel=True, limiter=limiter)
         group.cancel_scope.cancel()
     return result

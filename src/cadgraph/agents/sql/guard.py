@@ -8,16 +8,14 @@ holds nothing but the tables: see ``child.py`` for what it may do.
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 import threading
-import weakref
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from cadgraph.agents.answer import cell
+from cadgraph.agents.child_process import ChildProcess
 from cadgraph.agents.sql import child
 from cadgraph.agents.sql.schema import definitions
 from cadgraph.errors import AskError
@@ -125,34 +123,28 @@ class _Worker:
     """The process."""
 
     def __init__(self) -> None:
-        if not sys.executable:
-            raise Stopped("no Python executable is known to run queries in")
         # -I: neither variables nor the folder that one happens to be in decide what is imported there.
-        command = [sys.executable, "-I", "-S", str(Path(child.__file__))]
         try:
-            process = subprocess.Popen(
-                command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
-            )
+            self._process = ChildProcess(["-I", "-S", str(Path(child.__file__))], quiet=True)
         except OSError as error:
             raise Stopped(f"can't start a process to run queries in ({error.strerror})") from error
-        self._process = process
-        self.end = weakref.finalize(self, _end, process)
+        self.end = self._process.end
         self.late = False
 
     @property
     def gone(self) -> bool:
         """Whether it has ended."""
-        return self._process.poll() is not None
+        return self._process.gone
 
     def exchange(self, message: bytes, seconds: float) -> dict[str, Any] | None:
         """Sends a line and waits for the answer to it; None where there is none in time, which ends the process."""
         late = threading.Event()
         # The timer holds the process alone: a thread that is about to end must not keep this from its end.
-        timer = threading.Timer(seconds, _give_up, (self._process, late))
+        timer = threading.Timer(seconds, _give_up, (self._process.kill, late))
         timer.daemon = True
         timer.start()
         try:
-            answer = self._talk(message)
+            answer = self._process.talk(message)
         finally:
             timer.cancel()
             self.late = late.is_set()
@@ -161,32 +153,10 @@ class _Worker:
         told: dict[str, Any] = json.loads(answer)
         return told
 
-    def _talk(self, message: bytes) -> bytes:
-        reading, writing = self._process.stdout, self._process.stdin
-        if reading is None or writing is None:
-            return b""
-        try:
-            writing.write(message)
-            writing.flush()
-            return reading.readline()
-        except OSError:  # it is gone
-            return b""
 
-
-def _give_up(process: subprocess.Popen[bytes], late: threading.Event) -> None:
+def _give_up(kill: Callable[[], None], late: threading.Event) -> None:
     late.set()
-    process.kill()
-
-
-def _end(process: subprocess.Popen[bytes]) -> None:
-    process.kill()
-    process.wait()
-    for stream in (process.stdin, process.stdout):
-        try:
-            if stream is not None:
-                stream.close()
-        except OSError:  # what was not sent is not needed any more
-            continue
+    kill()
 
 
 def _found(answer: Mapping[str, Any], seconds: float) -> Found:

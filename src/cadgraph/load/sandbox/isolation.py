@@ -15,8 +15,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import cadgraph
 from cadgraph._io.limits import NOTE, read_text_within
+from cadgraph._io.search_path import search_path
 from cadgraph._io.text import printable
 from cadgraph.errors import LoadError, MissingExtra
 from cadgraph.load.sandbox.exchange import read_scene
@@ -162,11 +162,9 @@ def _try_to_lock(file: int) -> bool:
 
 
 def _environment(folder: Path) -> dict[str, str]:
-    package_root = str(Path(cadgraph.__file__).parents[1])
-    search = [package_root, *(entry for entry in sys.path if entry and entry != package_root)]
     # USD writes a stack trace into the temporary folder when it dies; ours is cleaned up.
     scratch = dict.fromkeys(("TMPDIR", "TMP", "TEMP"), str(folder))
-    return os.environ | scratch | {"PYTHONPATH": os.pathsep.join(search), "PYTHONUTF8": "1"}
+    return os.environ | scratch | {"PYTHONPATH": search_path(), "PYTHONUTF8": "1"}
 
 
 def _with_given_path(message: str, file: Path, given: str) -> str:
