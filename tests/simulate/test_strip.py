@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from PIL import Image
@@ -66,6 +68,12 @@ def test_captions_say_what_is_read_and_what_it_was(strip):
         "V-001 is being closed",
         "V-001 shut",
     ]
+
+
+def test_a_valve_is_shut_only_once_it_has_got_there(strip):
+    told_at_once = replace(strip.film, moves=(Move(at=1, over=0, set={"V-001": 0.0}),))
+    slow = Strip(strip.graph, playing.scene(), told_at_once, [Gauge("G-001", 4.0, "bar")])
+    assert [slow._event(number) for number in (24, 48)] == ["V-001 is being closed", "V-001 shut"]
 
 
 def test_a_film_in_which_nothing_is_done_is_drawn_too(tmp_path):

@@ -39,6 +39,7 @@ _COLUMNS = 3
 _MOST_DEEDS = 4
 _NOTICED = 0.01  # of a gauge's span: what changes less doesn't count as a change
 _LEAST_FLOW = 0.1 / 3600  # m3/s
+_THERE = 0.005  # of the way of a valve
 
 
 @dataclass(frozen=True)
@@ -181,8 +182,13 @@ class Strip:
         if not begun:
             return "before anything is done"
         move = begun[-1]
-        done = time >= move.at + move.over
-        return ", ".join(self._deed(tag, value, done) for tag, value in move.set.items())
+        opening = self.film.states[number].opening
+        # A valve takes its time, however soon it is told to be somewhere.
+        done = {
+            tag: time >= move.at + move.over and abs(opening.get(tag, value) - value) < _THERE
+            for tag, value in move.set.items()
+        }
+        return ", ".join(self._deed(tag, value, done[tag]) for tag, value in move.set.items())
 
     def _remark(self, number: int) -> str:
         """What is to be said of a moment that wasn't from the beginning on."""
