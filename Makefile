@@ -1,6 +1,6 @@
 # make demo   set up, build the scene graph of a small plant, say what was found
 # make test   set up, run every test
-# make test-fast  the tests that take no more than two minutes of one processor together
+# make test-fast  the quick tests: about ten minutes of one processor
 # make test-physics  the tests in PhysX and Newton, in an environment of their own (Linux on x86; 3 GB, some minutes)
 # make browser  a browser for the tests that need one: the system's Chromium, where it can be had without asking
 # make web    the page of the viewer anew, from web/ (needs Node)
@@ -29,8 +29,9 @@ NO_NODE := the page needs Node 20 or newer with npm to be built or checked: http
 demo: $(VENV)/.with-all
 	$(BIN)/cadgraph demo --output demo
 
-# By file, as what a file's tests share is made once; more workers than that want more memory than a laptop has.
-WORKERS := --numprocesses auto --maxprocesses 4 --dist loadfile
+# By file, as what a file's tests share is made once; more workers than that want more memory than a laptop has. In the
+# order of tests/conftest.py, which begins with the longest files.
+WORKERS := --numprocesses auto --maxprocesses 4 --dist loadfile --no-loadscope-reorder
 
 test: $(VENV)/.with-dev
 	$(BIN)/python -m pytest $(WORKERS)

@@ -13,6 +13,26 @@ settings.register_profile("explore", derandomize=False, **_PATIENT)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "fixed"))
 
 
+# Begun last, each of these would leave the other processors idle at the end; the longest first.
+_LONG = (
+    "test_wheel.py",
+    "test_golden.py",
+    "test_any_plant.py",
+    "test_readme.py",
+    "test_families.py",
+    "test_correcting.py",
+    "test_course.py",
+    "test_formats_agree.py",
+    "test_architecture.py",
+    "test_docs.py",
+)
+
+
+def pytest_collection_modifyitems(items):
+    ranks = {name: rank for rank, name in enumerate(_LONG)}
+    items.sort(key=lambda item: ranks.get(item.path.name, len(ranks)))
+
+
 def pytest_addoption(parser):
     parser.addoption("--renew-golden", action="store_true", help="write the records in tests/golden anew")
 
