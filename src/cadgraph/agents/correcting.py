@@ -153,7 +153,7 @@ class Desk:
     def _open(self, graph: SceneGraph) -> None:
         try:
             config = config_of(self._folder)
-            self._source = find_source(graph, self._folder, None)
+            self._source = find_source(graph.source, self._folder, None)
             # What a model was paid for is not asked again.
             former: Labeler | None = FormerLabeler(graph) if config.lvlm.ask != "never" else None
             session = reopen(graph, self._folder, self._source, config, former, self._progress, keep=True)

@@ -183,7 +183,7 @@ class Plant:
         graph = SceneGraph.load(folder)
         self.feed.publish(title=file_name(graph.source.path))
         try:
-            source, config = find_source(graph, folder, self._order.scene), config_of(folder)
+            source, config = find_source(graph.source, folder, self._order.scene), config_of(folder)
             self._progress("read", 0)
             scene = load(source, config.load)
         except (LabelError, LoadError, FormatError, MissingExtra) as error:

@@ -107,7 +107,7 @@ def take_graph(
     if not chosen:
         what = "is labelled so" if only else "has a label from outside or a correction"
         raise LabelError(f"{folder}: no part {what}; name a label that its parts have with --only 'group/name'")
-    source = find_source(graph, Path(folder), scene)
+    source = find_source(graph.source, Path(folder), scene)
     shapes = _shapes_of(chosen, source, config_of(folder))
     return _taken(catalog, shapes, [_entry(part, source, label) for part in chosen])
 

@@ -175,7 +175,7 @@ def _changed(
     clock = Clock(progress)
     with results_folder(folder) as target:
         config = config_of(folder)
-        source = find_source(before, target, scene)
+        source = find_source(before.source, target, scene)
         former = FormerLabeler(before) if config.lvlm.ask != "never" else None
         session = reopen(before, target, source, config, former, clock, keep=True)
         file = target / CORRECTIONS

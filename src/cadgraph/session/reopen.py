@@ -54,7 +54,7 @@ def relabel(
     clock = Clock(progress)
     with results_folder(folder) as target:
         graph = SceneGraph.load(target)
-        source = find_source(graph, target, scene)
+        source = find_source(graph.source, target, scene)
         if isinstance(labeler, AskingLabeler):
             labeler.former = FormerLabeler(graph)
         session = reopen(graph, target, source, config, labeler, clock)

@@ -6,31 +6,16 @@ from pathlib import Path
 
 from cadgraph._io.digest import sha256_of
 from cadgraph.errors import LabelError
-from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import SourceRecord
 
-__all__ = ["find_file", "find_source"]
+__all__ = ["find_source"]
 
 
-def find_source(graph: SceneGraph, folder: Path, scene: str | Path | None) -> Path:
+def find_source(source: SourceRecord, folder: Path, scene: str | Path | None) -> Path:
     """The file that a graph was built from, unchanged since.
 
     Args:
-        graph: says where it was and what was in it.
-        folder: that holds the graph; the file may lie there, too.
-        scene: where it is now, if somebody knows better.
-
-    Raises:
-        LabelError: it isn't there, or has changed.
-    """
-    return find_file(graph.source, folder, scene)
-
-
-def find_file(source: SourceRecord, folder: Path, scene: str | Path | None) -> Path:
-    """The same as :func:`find_source`, of what a graph says of its source.
-
-    Args:
-        source: says where it was and what was in it.
+        source: of the graph; says where it was and what was in it.
         folder: that holds the graph; the file may lie there, too.
         scene: where it is now, if somebody knows better.
 

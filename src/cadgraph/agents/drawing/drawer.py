@@ -26,7 +26,7 @@ from cadgraph.errors import LabelError
 from cadgraph.load import load
 from cadgraph.model.records import Point, SourceRecord
 from cadgraph.model.scene import Ints, Scene
-from cadgraph.session.source import find_file
+from cadgraph.session.source import find_source
 from cadgraph.stages.preprocess import prepare_scene
 
 __all__ = ["Drawer", "read_scene"]
@@ -58,7 +58,7 @@ def read_scene(source: SourceRecord, config: Mapping[str, Any], folder: Path | N
     if folder is None or not source.path:
         raise missing
     try:
-        file = find_file(source, folder, None)
+        file = find_source(source, folder, None)
     except LabelError:
         raise missing from None
     return prepare_scene(load(file, restore_config(config).load))[0]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Literal
 
 from cadgraph.model.derived import store_of
 from cadgraph.model.diagnostic import Diagnostic
@@ -14,7 +15,7 @@ from cadgraph.model.scene import Floats, Scene
 from cadgraph.stages.mechanisms.body import Body, bodies_of, split
 from cadgraph.stages.mechanisms.lever import Lever, find_lever
 from cadgraph.stages.mechanisms.needle import dial_of, needle_of
-from cadgraph.stages.mechanisms.stroke import stroke_of_lever, stroke_of_wheel
+from cadgraph.stages.mechanisms.stroke import Stroke, stroke_of_lever, stroke_of_wheel
 from cadgraph.stages.mechanisms.valve import Valve, line_of
 from cadgraph.stages.mechanisms.wheel import Wheel, find_wheel, is_geared
 
@@ -153,36 +154,38 @@ def _operator(valve: Valve, bodies: Sequence[Body], pieces: Sequence[Body]) -> F
 
 def _of_wheel(wheel: Wheel, valve: Valve) -> FoundMechanism:
     geared = is_geared(wheel, valve)
-    stroke = stroke_of_wheel(valve, geared)
-    return FoundMechanism(
-        kind="gear operator" if geared else "handwheel",
-        meshes=wheel.body.meshes,
-        pieces=wheel.body.pieces,
-        axis=_triple(wheel.frame.axis),
-        pivot=_triple(wheel.frame.origin),
-        radius=wheel.rim,
-        thickness=wheel.thickness,
-        limits=stroke.limits,
-        open=stroke.open,
-        shut=stroke.shut,
-        sources={"axis": wheel.source, "pivot": "middle of the rim", **stroke.sources},
+    return _moved_by_hand(
+        "gear operator" if geared else "handwheel",
+        wheel,
+        wheel.rim,
+        stroke_of_wheel(valve, geared),
+        {"axis": wheel.source, "pivot": "middle of the rim"},
     )
 
 
 def _of_lever(lever: Lever, valve: Valve) -> FoundMechanism:
-    stroke = stroke_of_lever(lever, valve)
+    return _moved_by_hand("lever", lever, lever.length, stroke_of_lever(lever, valve), lever.sources)
+
+
+def _moved_by_hand(
+    kind: Literal["handwheel", "gear operator", "lever"],
+    operator: Wheel | Lever,
+    radius: float,
+    stroke: Stroke,
+    sources: Mapping[str, str],
+) -> FoundMechanism:
     return FoundMechanism(
-        kind="lever",
-        meshes=lever.body.meshes,
-        pieces=lever.body.pieces,
-        axis=_triple(lever.frame.axis),
-        pivot=_triple(lever.frame.origin),
-        radius=lever.length,
-        thickness=lever.thickness,
+        kind=kind,
+        meshes=operator.body.meshes,
+        pieces=operator.body.pieces,
+        axis=_triple(operator.frame.axis),
+        pivot=_triple(operator.frame.origin),
+        radius=radius,
+        thickness=operator.thickness,
         limits=stroke.limits,
         open=stroke.open,
         shut=stroke.shut,
-        sources={**lever.sources, **stroke.sources},
+        sources={**sources, **stroke.sources},
     )
 
 
