@@ -116,9 +116,12 @@ class GroundConfig(Section):
     find: Literal["auto", "named", "none"] = _setting("auto", "find it, take the meshes named below, or assume none")
     meshes: tuple[str, ...] = _setting((), "source paths of the ground (for find = 'named')")
     min_size: float = _setting(2.0, "auto: least extent in both horizontal directions [m]", gt=0)
-    max_thickness_ratio: float = _setting(0.05, "auto: greatest height over the lesser horizontal extent", gt=0)
+    max_thickness_ratio: float = _setting(0.1, "auto: greatest height over the lesser horizontal extent", gt=0)
     min_cover: float = _setting(0.95, "auto: least share of everything else's footprint that it covers", gt=0, le=1)
-    min_margin: float = _setting(1.1, "auto: least footprint over everything else's footprint", gt=0)
+    min_margin: float = _setting(1.1, "auto: least footprint over everything else's footprint, or as follows", gt=0)
+    min_overhang: float = _setting(
+        0.3, "auto: how far it reaches beyond everything else on each of its sides [m]", ge=0
+    )
     max_buried: float = _setting(
         0.0, "auto: greatest share of all other meshes that may lie wholly below it", ge=0, le=1
     )

@@ -3,10 +3,11 @@
 What this reader notes in ``Scene.diagnostics``; meshes with a code of the first row are not in the scene:
 
 - left out: ``hidden``, ``other-purpose``, ``unsupported-geometry``, ``empty-mesh`` (no points or no usable face),
-  ``degenerate-mesh`` (no area), ``invalid-transform``, ``too-far``, ``unreadable``;
+  ``degenerate-mesh`` (no area), ``invalid-transform``, ``invalid-size`` (of a built-in shape), ``too-far``,
+  ``unreadable``;
 - not found: ``missing-reference``, ``missing-payload``, ``missing-layer``, ``missing-prototype``;
 - repaired: ``invalid-units``, ``invalid-up-axis``, ``invalid-points``, ``invalid-indices``, ``invalid-face-counts``,
-  ``invalid-instancer``, ``twisted-faces``, ``overlapping-subsets``;
+  ``projective-transform``, ``invalid-instancer``, ``twisted-faces``, ``overlapping-subsets``;
 - assumed: ``missing-units``, ``missing-up-axis``, ``control-cage``, ``unusual-size``;
 - anything else that the USD library says: ``usd-warning``.
 """

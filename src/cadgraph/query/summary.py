@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Adjacent, Connected, Junction, Terminal
 from cadgraph.query.doubt import unconnected
@@ -40,6 +42,7 @@ class Summary:
         without_line: tags of the units at which no line was found.
         n_related: pairs of units that Algorithm 1 of the paper relates.
         diagnostics: number of findings' meshes (or findings, where they name none) by code.
+        ground: which mesh was taken for the ground and why; where none was, why the likeliest was not.
         warnings: what may spoil the whole result, in words.
     """
 
@@ -61,6 +64,7 @@ class Summary:
     without_line: tuple[str, ...]
     n_related: int
     diagnostics: dict[str, int]
+    ground: tuple[str, ...]
     warnings: tuple[str, ...]
 
 
@@ -101,7 +105,20 @@ def summarize(graph: SceneGraph) -> Summary:
         without_line=tuple(unconnected(Network(graph))) if graph.connections() else (),
         n_related=len(graph.related()),
         diagnostics=dict(sorted(findings.items())),
+        ground=_ground(graph.diagnostics),
         warnings=tuple(finding.message for finding in graph.diagnostics if finding.code in _GRAVE),
+    )
+
+
+def _ground(findings: Sequence[Diagnostic]) -> tuple[str, ...]:
+    found = [one for one in findings if one.code in ("ground", "ground-corrected", "no-ground")]
+    if any(one.code == "no-ground" for one in found):
+        found += [one for one in findings if one.code == "not-ground"][:1]
+    return tuple(
+        f"{one.meshes[0]}{f' and {len(one.meshes) - 1} more' if len(one.meshes) > 1 else ''}: {one.message}"
+        if one.meshes
+        else one.message
+        for one in found
     )
 
 
