@@ -11,8 +11,8 @@ from cadgraph.config import GroundConfig
 from cadgraph.geometry.components import connected_sets
 from cadgraph.geometry.contact.broad import near_boxes
 from cadgraph.model.diagnostic import Diagnostic
-from cadgraph.model.parts import Bools, Floats, Ints, Properties
-from cadgraph.model.scene import Scene
+from cadgraph.model.parts import Bools, Properties
+from cadgraph.model.scene import Floats, Ints, Scene
 
 __all__ = ["find_ground", "report_ground"]
 
