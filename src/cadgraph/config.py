@@ -78,6 +78,13 @@ class LoadConfig(Section):
     unit: Literal["m", "cm", "mm", "dm", "km", "in", "ft"] | None = _setting(
         None, "unit of the file's lengths, whatever it says itself; none: its own, or by what its pipes measure"
     )
+    scale: float | None = _setting(
+        None,
+        "multiplies the file's lengths, in the unit it says, else metres; none: as they are",
+        gt=0,
+        le=1e9,
+    )
+    strict: bool = _setting(False, "refuse a file of which geometry is lost: damaged, unreadable or not found")
     up: Literal["X", "Y", "Z"] | None = _setting(None, "up axis of the file, whatever it says itself; none: its own")
     granularity: Literal["auto", "node", "primitive"] = _setting(
         "auto",
@@ -91,6 +98,12 @@ class LoadConfig(Section):
     metadata: Literal["off", "keep"] = _setting(
         "keep", "what the file says of its parts (types, tags, systems): leave it, or keep it beside the geometry"
     )
+
+    @model_validator(mode="after")
+    def _one_way_to_measure(self) -> LoadConfig:
+        if self.unit is not None and self.scale is not None:
+            raise ValueError("a unit (--unit) and a scale (--scale) contradict each other; give one of them")
+        return self
 
 
 class PreprocessConfig(Section):

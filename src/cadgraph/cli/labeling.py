@@ -9,7 +9,16 @@ import typer
 from rich.markup import escape
 
 from cadgraph.cli.application import app
-from cadgraph.cli.options import ConfigOption, GraphArgument, SetOption, UnitOption, UpOption, settings_of
+from cadgraph.cli.options import (
+    ConfigOption,
+    GraphArgument,
+    ScaleOption,
+    SetOption,
+    StrictOption,
+    UnitOption,
+    UpOption,
+    settings_of,
+)
 from cadgraph.cli.screen import bars, err, out, say_json
 
 catalogs = typer.Typer(no_args_is_help=True, help="Catalogues of your own parts: add to one, list it.")
@@ -118,7 +127,9 @@ def add_(
     config: ConfigOption = None,
     settings: SetOption = None,
     unit: UnitOption = None,
+    scale: ScaleOption = None,
     up: UpOption = None,
+    strict: StrictOption = False,
 ) -> None:
     """Add parts to a catalogue, from CAD files under one label or from graphs with theirs.
 
@@ -137,7 +148,7 @@ def add_(
         err.print(
             f"[dim]{escape(str(label))} is not in the built-in vocabulary; build with the --vocabulary that has it[/]"
         )
-    chosen = settings_of(config, settings or [], None, unit, up)
+    chosen = settings_of(config, settings or [], None, unit, up, scale=scale, strict=strict)
     whole = read_catalog(catalog) if catalog.exists() else EMPTY
     wanted = split_label(only, None) if only is not None else None
     for file in files:

@@ -15,8 +15,13 @@ from cadgraph.query.network import Network
 
 __all__ = ["Summary", "connection_between", "connection_words", "end_words", "summarize"]
 
-_GRAVE = frozenset({"invalid-units", "invalid-up-axis", "unusual-size", "vocabulary-unknown-to-model"})
-"""Codes of findings that are said aloud: with the wrong scale or vocabulary hardly any label can be right."""
+_GRAVE = frozenset({
+    "damaged-source", "invalid-units", "invalid-up-axis", "missing-layer", "missing-payload", "missing-reference",
+    "mixed-units", "mixed-up-axis", "outside-asset", "unit-doubt", "unusual-size", "vocabulary-unknown-to-model",
+})  # fmt: skip
+"""Codes of findings that are said aloud: something is missing, or with the wrong scale or vocabulary hardly any label
+can be right.
+"""
 
 
 @dataclass(frozen=True)
