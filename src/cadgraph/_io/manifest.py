@@ -43,6 +43,7 @@ RESULTS = (
 """All files that a run may write, and what is written of its graph later. The graph vouches for those without a mark
 of their own, so it goes last."""
 
+_OF_A_RUN = ("timings.json",)  # shows no graph at all
 _VERSION = 1
 _MOST = Limit(1 << 20, "a manifest")
 """An entry takes 250 bytes."""
@@ -98,7 +99,8 @@ class Manifest:
     @property
     def earlier(self) -> tuple[str, ...]:
         """The files that were made of another graph than the one in the folder."""
-        return tuple(name for name, entry in sorted(self.files.items()) if entry.graph != self.graph)
+        shown = ((name, entry) for name, entry in sorted(self.files.items()) if name not in _OF_A_RUN)
+        return tuple(name for name, entry in shown if entry.graph != self.graph)
 
 
 def manifest_in(folder: Path) -> Manifest | None:

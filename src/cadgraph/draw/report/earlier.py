@@ -21,9 +21,11 @@ def marked_as_earlier(page: bytes, earlier: bool) -> bytes:
         earlier: whether it does.
 
     Returns:
-        The page; as it was where it says the right thing already, or is none of ours.
+        The page; as it was where it says the right thing already.
     """
     plain = page.replace(_NOTE + b"\n", b"", 1)
     if not earlier:
         return plain
-    return _BODY.sub(lambda found: found.group() + _NOTE + b"\n", plain, count=1)
+    body = _BODY.search(plain)
+    place = body.end() if body else 0
+    return plain[:place] + _NOTE + b"\n" + plain[place:]
