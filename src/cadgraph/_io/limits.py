@@ -41,6 +41,7 @@ __all__ = [
     "VOCABULARY",
     "WORDS",
     "Limit",
+    "decoded",
     "lines_within",
     "read_bytes_within",
     "read_text_within",
@@ -155,7 +156,11 @@ def read_text_within(path: str | Path, limit: Limit, error: type[Exception], rem
 
     Args and errors are those of :func:`read_bytes_within`; what is no UTF-8 is an error, too.
     """
-    content = read_bytes_within(path, limit, error, remedy)
+    return decoded(read_bytes_within(path, limit, error, remedy), path, error, remedy)
+
+
+def decoded(content: bytes, path: str | Path, error: type[Exception], remedy: str) -> str:
+    """The text of a file's content, as :func:`read_text_within` gives it; the other arguments are for its error."""
     try:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as failure:

@@ -137,6 +137,7 @@ def add_(
     the whole file, for devices that plants hold as one mesh. Of a graph the parts that were labelled by hand or from
     outside are taken, or with --only those of one label.
     """
+    from cadgraph._io.folder_lock import holding
     from cadgraph.model.catalog import read_catalog, write_catalog
     from cadgraph.model.given_labels import split_label
     from cadgraph.model.vocabulary import default_vocabulary, read_vocabulary
@@ -149,24 +150,28 @@ def add_(
             f"[dim]{escape(str(label))} is not in the built-in vocabulary; build with the --vocabulary that has it[/]"
         )
     chosen = settings_of(config, settings or [], None, unit, up, scale=scale, strict=strict)
-    whole = read_catalog(catalog) if catalog.exists() else EMPTY
     wanted = split_label(only, None) if only is not None else None
-    for file in files:
-        if file.is_dir() or file.name == "graph.json":
-            if merge:
-                raise ValueError(f"{file}: --merge is for CAD files; a graph has its parts")
-            if unit is not None or up is not None:
-                raise ValueError(f"{file}: --unit and --up are for CAD files; a graph knows how its scene was read")
-            taken = take_graph(whole, file, wanted, meant, scene)
-        else:
-            if meant is None:
-                raise ValueError(f"{file}: say what it is with --as 'group/name'")
-            if only is not None:
-                raise ValueError(f"{file}: --only is for graphs; a CAD file has no labels")
-            taken = take_file(whole, file, *meant, merge=merge, config=chosen)
-        whole = taken.catalog
-        _tell(file, taken, merge)
-    write_catalog(whole, catalog)
+    # What two add at once must both be in it.
+    with holding(catalog.parent):
+        whole = read_catalog(catalog) if catalog.exists() else EMPTY
+        for file in files:
+            if file.is_dir() or file.name == "graph.json":
+                if merge:
+                    raise ValueError(f"{file}: --merge is for CAD files; a graph has its parts")
+                if unit is not None or up is not None or scale is not None:
+                    raise ValueError(
+                        f"{file}: --unit, --scale and --up are for CAD files; a graph knows how its scene was read"
+                    )
+                taken = take_graph(whole, file, wanted, meant, scene)
+            else:
+                if meant is None:
+                    raise ValueError(f"{file}: say what it is with --as 'group/name'")
+                if only is not None:
+                    raise ValueError(f"{file}: --only is for graphs; a CAD file has no labels")
+                taken = take_file(whole, file, *meant, merge=merge, config=chosen)
+            whole = taken.catalog
+            _tell(file, taken, merge)
+        write_catalog(whole, catalog)
     out.print(f"wrote {escape(str(catalog))}: {_entries(len(whole.entries))}")
 
 

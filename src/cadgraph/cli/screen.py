@@ -18,8 +18,15 @@ from rich.segment import Segment
 from cadgraph._io.progress import quiet
 from cadgraph._io.text import harmless
 
-__all__ = ["bars", "err", "note_line", "out", "say", "say_json", "summary_lines", "tell", "tell_next"]
+__all__ = ["bars", "err", "note_line", "out", "say", "say_json", "summary_lines", "tell", "tell_next", "tell_state"]
 
+_REMEDY = "'cadgraph build' makes it anew"
+_REMEDIES = {
+    "report.html": "'cadgraph build' or 'relabel' draws it anew",
+    "picture.png": "'cadgraph build' or 'relabel' draws it anew",
+    "simulation.usda": "'cadgraph simulate' makes it anew",
+    "devices.json": "'cadgraph simulate' makes it anew",
+}
 _MOST_NAMES = 12  # units that are named on one line
 _MOST_PATHS = 3  # meshes that a note names
 
@@ -113,6 +120,25 @@ def tell(outcome: Any) -> None:
     for purpose, words in names.items():
         if purpose in outcome.files:
             out.print(f"[dim]{words:<15}[/][bold]{escape(str(outcome.files[purpose]))}[/]")
+    tell_state(outcome.earlier, outcome.removed)
+
+
+def tell_state(earlier: Sequence[str], removed: Sequence[str] = (), changed: Sequence[str] = ()) -> None:
+    """Says which files of a folder don't belong to its graph, and how they come to.
+
+    Args:
+        earlier: names of those that show an earlier graph.
+        removed: names of those that went with it.
+        changed: names of those that are gone, or not what was written.
+    """
+    for names, what in (
+        (earlier, "of an earlier graph"),
+        (removed, "of the earlier graph, removed"),
+        (changed, "changed or taken away since it was written"),
+    ):
+        remedies = dict.fromkeys(_REMEDIES.get(name, _REMEDY) for name in names)
+        if names:
+            out.print(f"[dim]{'mind':<15}[/]{', '.join(names)}: {what}; {', '.join(remedies)}")
 
 
 def tell_next(commands: Sequence[str]) -> None:

@@ -5,6 +5,7 @@ Nodes and edges load as they are with ``networkx.node_link_graph(data, edges="ed
 
 from __future__ import annotations
 
+import hashlib
 import json
 import reprlib
 from collections import Counter, deque
@@ -16,7 +17,10 @@ from typing import TYPE_CHECKING, Any, cast, get_args, overload
 from pydantic import ValidationError
 
 from cadgraph._io.json_rows import write_json_rows
-from cadgraph._io.limits import GRAPH, read_text_within
+from cadgraph._io.limits import GRAPH, decoded
+from cadgraph._io.manifest import GRAPH_FILE, read_checked
+from cadgraph._io.results import settle_if_free
+from cadgraph._io.run_folder import one_of_results
 from cadgraph.errors import FormatError, UnknownNode
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.names import Names
@@ -59,12 +63,16 @@ class SceneGraph:
     Args:
         document: the content, as it stands on disk.
 
+    Attributes:
+        digest: SHA-256 of the file that it was read from; None where it was made in memory.
+
     Raises:
         FormatError: an id is used twice, an edge ends nowhere, or there isn't exactly one site.
     """
 
     def __init__(self, document: GraphDocument) -> None:
         self.document = document
+        self.digest: str | None = None
         self.nodes: dict[str, Node] = {node.id: node for node in document.nodes}
         check_names(document)
 
@@ -367,17 +375,19 @@ class SceneGraph:
         """Writes ``graph.json``, whole or not at all; the same graph gives the same bytes.
 
         Args:
-            path: the file, or a folder that gets ``graph.json``.
+            path: the file, or a folder that gets ``graph.json``. Into a folder of results it goes with their
+                manifest, so that readers take it for what belongs there.
 
         Returns:
             The file.
 
         Raises:
-            OutputError: it can't be written.
+            OutputError: it can't be written, or another process is at work in the folder of results.
         """
         target = Path(path)
-        target = target / "graph.json" if target.suffix != ".json" else target
-        write_json_rows(target, self.to_json(), rows=("nodes", "edges", "joints", "stated", "diagnostics"))
+        target = target / GRAPH_FILE if target.suffix != ".json" else target
+        with one_of_results(target):
+            write_json_rows(target, self.to_json(), rows=("nodes", "edges", "joints", "stated", "diagnostics"))
         return target
 
     @classmethod
@@ -385,16 +395,22 @@ class SceneGraph:
         """Reads ``graph.json``, or the folder that holds it.
 
         Raises:
-            FormatError: it is missing, no JSON, or does not follow the format.
+            FormatError: it is missing, no JSON, or does not follow the format; or it is another one than the manifest
+                of its folder names.
         """
         target = Path(path)
-        target = target / "graph.json" if target.is_dir() else target
-        text = read_text_within(target, GRAPH, FormatError, "'cadgraph build' makes it")
+        target = target / GRAPH_FILE if target.is_dir() else target
+        settle_if_free(target.parent)
+        remedy = "'cadgraph build' makes it"
+        content = read_checked(target, GRAPH, FormatError, remedy)
+        text = decoded(content, target, FormatError, remedy)
         try:
             data = json.loads(text)
         except (ValueError, RecursionError) as error:
             raise FormatError(f"{target}: not JSON ({error}); give a folder that 'cadgraph build' wrote") from error
-        return cls.from_json(data, str(target))
+        graph = cls.from_json(data, str(target))
+        graph.digest = hashlib.sha256(content).hexdigest()
+        return graph
 
     # Look-ups, made when first needed
 
