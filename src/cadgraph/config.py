@@ -296,6 +296,14 @@ class ReportConfig(Section):
     max_systems: int = _setting(12, "at most so many structures with pipes are drawn, the largest first", ge=0, le=1000)
 
 
+class GraphConfig(Section):
+    """How the graph is written."""
+
+    shard_above: int = _setting(
+        200_000, "kinds of nodes and edges of more rows than that go into shards beside graph.json", ge=1
+    )
+
+
 class Config(Section):
     """All settings."""
 
@@ -311,6 +319,7 @@ class Config(Section):
     label: LabelConfig = LabelConfig()
     lvlm: LvlmConfig = LvlmConfig()
     relate: RelateConfig = RelateConfig()
+    graph: GraphConfig = GraphConfig()
     report: ReportConfig = ReportConfig()
 
     def replace(self, changes: Mapping[str, Any]) -> Config:

@@ -62,7 +62,7 @@ def show_film(film: Film, process: Process, source: Path | None, folder: Path) -
     from cadgraph.simulate.play.showing import show
 
     graph = process.network.graph
-    scene = load(find_source(graph, source), restore_config(graph.document.config).load)
+    scene = load(find_source(graph, source), restore_config(graph.config).load)
     shown = show(film, graph, scene, process.scenario, folder)
     return {
         "played": {"seconds": film.seconds, "moves": [move.values() for move in film.moves]},

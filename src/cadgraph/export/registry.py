@@ -214,6 +214,12 @@ _FORMATS = (
     ),
     Format("labels-csv", "labels by source path, for 'cadgraph build --labels'", _write_labels, file="labels.csv"),
     Format(
+        "json",
+        "the whole graph as one JSON file in cadgraph's own format, however large",
+        lambda graph, path, _: Written((graph.save(path),)),
+        file="whole_graph.json",
+    ),
+    Format(
         "mjcf",
         "wheels, levers and needles as a MuJoCo model with joints called after the tags",
         _write_mjcf,
@@ -227,6 +233,11 @@ _FORMATS = (
         file="nodelink.json",
     ),
     Format("pcf", "each line as an Isogen piping component file", _write_pcf),
+    Format(
+        "shards",
+        "cadgraph's own format as for large plants, however small: an index, and shards that are read when asked for",
+        lambda graph, path, _: Written((graph.save(path, shard_above=0),)),
+    ),
     Format(
         "usd",
         "the labels as a USD layer over the source; with --bake the source and its labels as one stage",

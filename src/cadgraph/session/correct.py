@@ -79,7 +79,7 @@ def amend(
     """
     before, target = _opened(folder)
     node = before.part(part)
-    tree = Vocabulary.from_json(before.document.vocabulary, f"{folder}: vocabulary of the graph")
+    tree = Vocabulary.from_json(before.vocabulary, f"{folder}: vocabulary of the graph")
     if label is not None:
         split_label(label, tree)
     corrected = {edit.mesh for edit in read_history(target, tree).in_force if isinstance(edit, Correction)}
