@@ -185,7 +185,7 @@ def run(case: Case, folder: Path) -> tuple[float, float]:
             time.sleep(LOOK)
         now = time.perf_counter()
         os.kill(process, signal.SIGINT)
-        code = os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
+        code: int | None = os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
     else:
         while (code := ended(process)) is None:
             first = first or (time.perf_counter() if begun(folder) else None)
@@ -320,7 +320,8 @@ def main() -> None:
     parser.add_argument("--only", help="a command")
     given = parser.parse_args()
     chance = random.Random(given.seed)
-    rows, wrong = [], []
+    rows: list[tuple[str, list[int]]] = []
+    wrong: list[str] = []
     with tempfile.TemporaryDirectory() as name:
         work = Path(name)
         tempfile.tempdir = os.environ["TMPDIR"] = str(work)
@@ -335,12 +336,12 @@ def main() -> None:
             kills = max(1, round(given.kills * case.share))
             tally = trial(case, work, before, kills, chance, lambda line: print(line, file=sys.stderr, flush=True))
             counts = [tally.states[state] for state in ("before", "kept", "after", "between")]
-            rows.append([case.name, tally.kills, tally.writing, *counts, tally.reruns])
+            rows.append((case.name, [tally.kills, tally.writing, *counts, tally.reruns]))
             wrong += tally.wrong
-    sums = [sum(int(row[i]) for row in rows) for i in range(1, 8)]
+    rows.append(("all", [sum(column) for column in zip(*(counts for _, counts in rows), strict=True)]))
     head = ["command", "kills", "while writing", "as before", "correction kept", "as after", "between", "run again"]
     print(f"{machine()}; seed {given.seed}.\n")
-    print("\n".join(table(head, [*rows, ["all", *sums]])))
+    print("\n".join(table(head, [[name, *counts] for name, counts in rows])))
     for line in wrong:
         print(f"- {line}")
     if wrong:
