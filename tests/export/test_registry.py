@@ -14,10 +14,12 @@ ALL = [
     "html",
     "ifc",
     "isometric",
+    "json",
     "labels-csv",
     "mjcf",
     "networkx-json",
     "pcf",
+    "shards",
     "usd",
 ]
 ALONE = [name for name in ALL if name not in ("gltf", "html", "ifc", "mjcf", "usd")]  # those that need no source

@@ -116,9 +116,9 @@ def manifest_in(folder: Path) -> Manifest | None:
         data = json.loads(content)
         if data["version"] > _VERSION:
             raise FormatError(f"{place}: of a newer cadgraph; update this one")
-        files = {
-            row["name"]: Entry(int(row["size"]), _text(row["sha256"]), _text(row["graph"])) for row in data["files"]
-        }
+        rows = {row["name"]: row for row in data["files"]}
+        # What else it names was put there by others.
+        files = {name: _entry(rows[name]) for name in RESULTS if name in rows}
         return Manifest(_text(data["graph"]), _text(data["corrections"]), files)
     except (ValueError, KeyError, TypeError, RecursionError) as error:
         raise FormatError(f"{place}: damaged ({type(error).__name__}); {_REMEDY}, or remove it") from None
@@ -187,6 +187,10 @@ def behind(folder: Path) -> bool:
         return sha256_of(result_path(folder / CORRECTIONS)) != manifest.corrections
     except OSError:
         return bool(manifest.corrections)
+
+
+def _entry(row: Mapping[str, Any]) -> Entry:
+    return Entry(int(row["size"]), _text(row["sha256"]), _text(row["graph"]))
 
 
 def _is_ours(place: Path) -> bool:

@@ -179,9 +179,9 @@ def _move_in(folder: Path) -> None:
             _replace(ready / name, folder / name)
         if (ready / MANIFEST).is_file():
             manifest = _manifest_if_whole(folder)
-            for name in RESULTS if manifest is not None else ():
-                if name not in manifest.files:
-                    (folder / name).unlink(missing_ok=True)
+            gone = () if manifest is None else (name for name in RESULTS if name not in manifest.files)
+            for name in gone:
+                (folder / name).unlink(missing_ok=True)
             _replace(ready / MANIFEST, folder / MANIFEST)
         shutil.rmtree(ready, ignore_errors=True)
     except OSError as error:

@@ -17,6 +17,7 @@ from cadgraph.errors import OutputError
 __all__ = [
     "RESULTS",
     "at_work_in",
+    "coming_into",
     "one_of_results",
     "refuse_foreign",
     "refuse_to_overwrite",
@@ -67,6 +68,27 @@ def results_folder(folder: str | Path) -> Iterator[Path]:
     """
     with at_work_in(folder) as target:
         refuse_foreign(target)
+        yield target
+
+
+@contextmanager
+def coming_into(folder: str | Path, graph: str | None = None) -> Iterator[Path]:
+    """What the block writes into a folder comes into it together, when the block ends well; nobody else writes there.
+
+    Within a block on the same folder it is part of that one.
+
+    Args:
+        folder: made if missing.
+        graph: digest of the ``graph.json`` that the files are made of; None: of that which stands in the folder.
+
+    Raises:
+        OutputError: it can't be made or written to, or another process is at work in it.
+    """
+    target = Path(folder)
+    if staged_path(target / GRAPH_FILE) != target / GRAPH_FILE:
+        yield target
+        return
+    with at_work_in(target), new_results(target, graph=graph):
         yield target
 
 

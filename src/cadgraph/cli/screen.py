@@ -18,7 +18,9 @@ from rich.segment import Segment
 from cadgraph._io.progress import quiet
 from cadgraph._io.text import harmless
 
-__all__ = ["bars", "err", "note_line", "out", "say", "say_json", "summary_lines", "tell", "tell_next", "tell_state"]
+__all__ = [
+    "bars", "err", "note_line", "out", "say", "say_json", "summary_lines", "tell", "tell_next", "tell_state",
+]  # fmt: skip
 
 _REMEDY = "'cadgraph build' makes it anew"
 _REMEDIES = {

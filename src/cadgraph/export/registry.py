@@ -8,8 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Literal
 
-from cadgraph._io.results import new_results
-from cadgraph._io.run_folder import at_work_in
+from cadgraph._io.run_folder import coming_into
 from cadgraph.errors import LoadError
 from cadgraph.export.att import write_att
 from cadgraph.export.graphml import write_graphml
@@ -335,7 +334,7 @@ def _written(form: Format, graph: SceneGraph, path: Path, source: Path | None) -
     place = _place(form, path, source)
     # A format that places its files below the folder belongs to that folder all the same.
     folder = path.parent if place == path and form.file is not None else path
-    with at_work_in(folder), new_results(folder, graph=graph.digest):
+    with coming_into(folder, graph.digest):
         return form.write(graph, place, source)
 
 

@@ -17,8 +17,7 @@ import numpy as np
 from pxr import Gf, Sdf, Usd, UsdGeom, Vt
 
 from cadgraph._io.atomic import write_atomically
-from cadgraph._io.results import new_results
-from cadgraph._io.run_folder import at_work_in
+from cadgraph._io.run_folder import coming_into
 from cadgraph._io.staging import result_path
 from cadgraph.config import LoadConfig
 from cadgraph.export.source import settings_of
@@ -88,7 +87,7 @@ def write_stage(graph: SceneGraph, source: str | Path, folder: str | Path, needl
         ValueError: the graph names a mesh that the source doesn't have.
     """
     settings = settings_of(graph)
-    with at_work_in(folder) as target, new_results(target, graph=graph.digest):
+    with coming_into(folder, graph.digest) as target:
         return _write_stage(graph, source, target, settings, needles)
 
 
