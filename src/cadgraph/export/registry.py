@@ -211,13 +211,13 @@ _FORMATS = (
         "each line as an isometric drawing, SVG",
         _write_isometrics,
     ),
-    Format("labels-csv", "labels by source path, for 'cadgraph build --labels'", _write_labels, file="labels.csv"),
     Format(
         "json",
         "the whole graph as one JSON file in cadgraph's own format, however large",
         lambda graph, path, _: Written((graph.save(path),)),
         file="whole_graph.json",
     ),
+    Format("labels-csv", "labels by source path, for 'cadgraph build --labels'", _write_labels, file="labels.csv"),
     Format(
         "mjcf",
         "wheels, levers and needles as a MuJoCo model with joints called after the tags",
