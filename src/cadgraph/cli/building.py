@@ -10,6 +10,7 @@ import typer
 from cadgraph.cli.application import app
 from cadgraph.cli.asking import AskingOptions, asks
 from cadgraph.cli.options import (
+    AssetRootOption,
     USE_METADATA,
     ConfigOption,
     MetadataOption,
@@ -56,6 +57,7 @@ def build(
     ] = None,
     unit: UnitOption = None,
     up: UpOption = None,
+    asset_roots: AssetRootOption = None,
     use_metadata: MetadataOption = False,
     method: MethodOption = None,
     config: ConfigOption = None,
@@ -66,7 +68,7 @@ def build(
     from cadgraph.session.run import run
 
     changes = [*(settings or [])]
-    chosen = settings_of(config, changes, method, unit, up)
+    chosen = settings_of(config, changes, method, unit, up, asset_roots)
     if ground:
         find = "none" if ground == ["none"] else "named"
         chosen = chosen.replace({"ground.find": find, "ground.meshes": [] if find == "none" else ground})

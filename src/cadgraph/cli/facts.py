@@ -11,7 +11,7 @@ from rich.markup import escape
 
 from cadgraph._io.text import printable
 from cadgraph.cli.application import app
-from cadgraph.cli.options import ConfigOption, SetOption, UnitOption, UpOption, settings_of
+from cadgraph.cli.options import AssetRootOption, ConfigOption, SetOption, UnitOption, UpOption, settings_of
 from cadgraph.cli.screen import out
 
 if TYPE_CHECKING:
@@ -35,6 +35,7 @@ def facts(
     settings: SetOption = None,
     unit: UnitOption = None,
     up: UpOption = None,
+    asset_roots: AssetRootOption = None,
 ) -> None:
     """List what a file says of its parts: each value, how often, the label that it speaks for and by what rule.
 
@@ -46,7 +47,7 @@ def facts(
     from cadgraph.load import load
     from cadgraph.model.vocabulary import default_vocabulary, read_vocabulary
 
-    chosen = settings_of(config, settings or [], None, unit, up)
+    chosen = settings_of(config, settings or [], None, unit, up, asset_roots)
     known = read_words(words or chosen.label.words)
     tree = read_vocabulary(vocabulary) if vocabulary else default_vocabulary()
     loaded = load(scene, chosen.load)

@@ -10,7 +10,7 @@ import typer
 from rich.markup import escape
 
 from cadgraph.cli.application import app
-from cadgraph.cli.options import ConfigOption, GraphArgument, SetOption, UnitOption, UpOption, settings_of
+from cadgraph.cli.options import AssetRootOption, ConfigOption, GraphArgument, SetOption, UnitOption, UpOption, settings_of
 from cadgraph.cli.screen import bars, err, out
 
 catalogs = typer.Typer(no_args_is_help=True, help="Catalogues of your own parts: add to one, list it.")
@@ -120,6 +120,7 @@ def add_(
     settings: SetOption = None,
     unit: UnitOption = None,
     up: UpOption = None,
+    asset_roots: AssetRootOption = None,
 ) -> None:
     """Add parts to a catalogue, from CAD files under one label or from graphs with theirs.
 
@@ -138,7 +139,7 @@ def add_(
         err.print(
             f"[dim]{escape(str(label))} is not in the built-in vocabulary; build with the --vocabulary that has it[/]"
         )
-    chosen = settings_of(config, settings or [], None, unit, up)
+    chosen = settings_of(config, settings or [], None, unit, up, asset_roots)
     whole = read_catalog(catalog) if catalog.exists() else EMPTY
     wanted = split_label(only, None) if only is not None else None
     for file in files:

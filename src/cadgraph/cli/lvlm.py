@@ -12,6 +12,7 @@ from rich.markup import escape
 from cadgraph.cli.application import app
 from cadgraph.cli.asking import AskingOptions, asks
 from cadgraph.cli.options import (
+    AssetRootOption,
     USE_METADATA,
     ConfigOption,
     MetadataOption,
@@ -144,6 +145,7 @@ def grow_(
     settings: SetOption = None,
     unit: UnitOption = None,
     up: UpOption = None,
+    asset_roots: AssetRootOption = None,
 ) -> None:
     """Show a model overview pictures one after the other, and add the labels that it misses."""
     from cadgraph._io.atomic import write_atomically
@@ -155,7 +157,7 @@ def grow_(
 
     if empty and start:
         raise ValueError("--empty and --from contradict each other; give one")
-    chosen = asking.settings(settings_of(config, settings or [], None, unit, up))
+    chosen = asking.settings(settings_of(config, settings or [], None, unit, up, asset_roots))
     tree = Vocabulary({}) if empty else read_vocabulary(start) if start else default_vocabulary()
     kept = output.parent / f"{output.stem}-lvlm"
     with bars() as progress:

@@ -17,6 +17,7 @@ from cadgraph.config import Config, read_config
 
 __all__ = [
     "USE_METADATA",
+    "AssetRootOption",
     "ConfigOption",
     "GraphArgument",
     "MetadataOption",
@@ -50,6 +51,14 @@ UnitOption = Annotated[
 UpOption = Annotated[
     str | None, typer.Option("--up", metavar="AXIS", help="Up axis of the file, whatever it says: X, Y or Z.")
 ]
+AssetRootOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--asset-root",
+        metavar="DIR",
+        help="Folder that a USD scene may bring files from beside its own, counted from there: .. May be repeated.",
+    ),
+]
 GraphArgument = Annotated[Path, typer.Argument(metavar="FOLDER", help="What 'cadgraph build' wrote, or a graph.json.")]
 
 
@@ -58,11 +67,21 @@ USE_METADATA = {"label.use_metadata": True, "relate.use_metadata": True}
 
 
 def settings_of(
-    file: Path | None, changes: Sequence[str], method: str | None, unit: str | None = None, up: str | None = None
+    file: Path | None,
+    changes: Sequence[str],
+    method: str | None,
+    unit: str | None = None,
+    up: str | None = None,
+    asset_roots: Sequence[str] | None = None,
 ) -> Config:
     """Defaults, then the file, then flags; a setting of an earlier version is told."""
     values = values_of(changes)
-    flags = {"method": method, "load.unit": unit, "load.up": up.upper() if up else None}
+    flags = {
+        "method": method,
+        "load.unit": unit,
+        "load.up": up.upper() if up else None,
+        "load.asset_roots": tuple(asset_roots) if asset_roots else None,
+    }
     values |= {name: value for name, value in flags.items() if value is not None}
     with warnings.catch_warnings(record=True) as old:
         warnings.simplefilter("always", DeprecationWarning)

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 from pxr import Tf, Usd, UsdGeom, UsdShade
 
+from cadgraph.load.budget import Budget
 from cadgraph.load.packing import Notes
 from cadgraph.load.usd_color import usable_color
 from cadgraph.load.usd_mesh import RawMesh
@@ -78,13 +79,21 @@ class Walk:
         time: time code, or None for the default time, else the first sample.
         sides: of round shapes.
         notes: gets what was skipped or repaired.
+        budget: how much its meshes may be.
 
     ``geometries`` holds each mesh of the file once, however often it is placed; ``has_bindings`` says whether any
     prim binds a material.
     """
 
     def __init__(
-        self, stage: Any, purposes: Sequence[str], invisible: bool, time: float | None, sides: int, notes: Notes
+        self,
+        stage: Any,
+        purposes: Sequence[str],
+        invisible: bool,
+        time: float | None,
+        sides: int,
+        notes: Notes,
+        budget: Budget,
     ) -> None:
         self._stage = stage
         self._purposes = frozenset(purposes)
@@ -92,6 +101,8 @@ class Walk:
         self._time = None if time is None else Usd.TimeCode(time)
         self._sides = sides
         self._notes = notes
+        self._budget = budget
+        self._visited = 0
         self._sampled = _is_sampled(stage)
         self._transforms = UsdGeom.XformCache(self._time or Usd.TimeCode.Default())
         self._kinds: dict[str, str] = {}
@@ -110,6 +121,9 @@ class Walk:
         stack = [(root, place)]
         while stack:
             prim, above = stack.pop()
+            self._visited += 1
+            if self._visited > self._budget.most_prims:
+                self._budget.check_prims(self._visited)
             own_path = str(prim.GetPath())
             path = own_path[cut:]
             try:
@@ -118,9 +132,12 @@ class Walk:
                 kind = self._kind(prim)
                 if kind == "instancer":
                     found.extend(self._instances(prim, here, path))
+                    self._budget.check_meshes(len(found))
                     continue
                 children = prim.GetFilteredChildren(predicate)
                 if kind:
+                    if len(found) >= self._budget.most_meshes:
+                        self._budget.check_meshes(len(found) + 1)
                     skipped = self._reason_to_skip(kind, here, prim)
                     key = None if skipped else self._geometry(prim, kind, names, children, own_path)
                     found.append(
@@ -285,6 +302,7 @@ class Walk:
     def _items(self, prim: Any, place: _Place, path: str) -> list[Placement]:
         instancer = UsdGeom.PointInstancer(prim)
         prototype_of_item = _ints(self._read(instancer.GetProtoIndicesAttr()))
+        self._budget.check_meshes(len(prototype_of_item))
         matrices = self._item_matrices(instancer, len(prototype_of_item))
         if len(matrices) < len(prototype_of_item):
             message = "items without a position, or with a wrong number of orientations or scales, were repaired"
@@ -296,6 +314,11 @@ class Walk:
         ]
         if len(prototype_of_item) and not (0 <= prototype_of_item.min() <= prototype_of_item.max() < len(prototypes)):
             self._notes.add("invalid-instancer", "items that name a prototype which doesn't exist were dropped", path)
+        named, items = np.unique(prototype_of_item, return_counts=True)
+        self._budget.check_meshes(
+            sum(len(prototypes[which]) * n for which, n in zip(named.tolist(), items.tolist(), strict=True)
+                if 0 <= which < len(prototypes))
+        )
         hidden = self._hidden_items(instancer, len(prototype_of_item))
         item_colors = None
         if isinstance(place.color, tuple) and len(place.color[0]) == len(prototype_of_item):

@@ -1,0 +1,84 @@
+"""How much a scene may become, whatever its file promises: instances and references make much of a few bytes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from cadgraph._io.limits import size_text
+from cadgraph.errors import LoadError
+
+if TYPE_CHECKING:
+    from cadgraph.config import LoadConfig
+
+__all__ = ["FREE", "Budget"]
+
+FREE = 50_000
+"""So many meshes or prims any file may have, however small it is; ours: they take about 100 MB."""
+
+
+class Budget:
+    """What is left to a reader; each check raises before memory is taken.
+
+    Args:
+        path: of the file, for messages.
+        config: the limits.
+        size: of the file with all that belongs to it [bytes].
+    """
+
+    def __init__(self, path: Path, config: LoadConfig, size: int) -> None:
+        self._path = path
+        self._config = config
+        self._size = size
+        self._grown = FREE + int(config.max_growth * size)
+        self.most_meshes = min(config.max_meshes, self._grown)
+        self.most_prims = min(config.max_prims, self._grown)
+
+    def check_meshes(self, n: int) -> None:
+        """Checks a number of meshes with all instances, or of places in a tree that might hold one.
+
+        Raises:
+            LoadError: they are more than the settings allow.
+        """
+        if n > self._config.max_meshes:
+            self._refuse(f"more than {self._config.max_meshes:,} meshes with all instances", "load.max_meshes")
+        self._check_growth(n, "meshes with all instances")
+
+    def check_prims(self, n: int) -> None:
+        """Checks a number of prims with all that references bring.
+
+        Raises:
+            LoadError: they are more than the settings allow.
+        """
+        if n > self._config.max_prims:
+            told = f"its references make {_shown(n)} prims of it, and at most {self._config.max_prims:,} are read"
+            self._refuse(told, "load.max_prims")
+        self._check_growth(n, "prims with all references")
+
+    def check_triangles(self, shapes: int, placed: int) -> None:
+        """Checks numbers of triangles: of all shapes, and of all shapes in all their places.
+
+        Raises:
+            LoadError: they are more than the settings allow.
+        """
+        if shapes > self._config.max_shape_triangles:
+            most = self._config.max_shape_triangles
+            self._refuse(f"{_shown(shapes)} triangles, and at most {most:,} are read", "load.max_shape_triangles")
+        if placed > self._config.max_placed_triangles:
+            most = self._config.max_placed_triangles
+            told = f"{_shown(placed)} triangles with all instances, and at most {most:,} are read"
+            self._refuse(told, "load.max_placed_triangles")
+
+    def _check_growth(self, n: int, what: str) -> None:
+        if n > self._grown:
+            self._refuse(
+                f"{size_text(self._size)} grow to more than {self._grown:,} {what}, as in no real scene",
+                "load.max_growth",
+            )
+
+    def _refuse(self, told: str, setting: str) -> None:
+        raise LoadError(f"{self._path}: {told}; split the scene, or raise {setting} if it is sound")
+
+
+def _shown(n: int) -> str:
+    return f"{n:,}" if n < 10**12 else f"10^{len(str(n)) - 1}"
