@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from cadgraph._io.limits import size_text
 from cadgraph.errors import LoadError
+from cadgraph.load.sandbox.memory import hold_to_more, release
 
 if TYPE_CHECKING:
     from cadgraph.config import LoadConfig
@@ -15,6 +16,11 @@ __all__ = ["FREE", "Budget"]
 
 FREE = 50_000
 """So many meshes or prims any file may have, however small it is; ours: they take about 100 MB."""
+
+_FREE_CORNERS = 3_000_000  # corners of polygons that any file may have
+_CORNERS = 3  # of a triangle
+_FREE_BYTES, _UNPACKED = 300 << 20, 400  # a byte of a file unpacks to so many at most, beyond the first 300 MB; ours
+_LARGE = 32 << 20  # bytes; a larger file may unpack to more than machines have, so that it isn't watched
 
 
 class Budget:
@@ -54,6 +60,34 @@ class Budget:
             told = f"its references make {_shown(n)} prims of it, and at most {self._config.max_prims:,} are read"
             self._refuse(told, "load.max_prims")
         self._check_growth(n, "prims with all references")
+
+    def check_corners(self, n: int) -> None:
+        """Checks a number of corners that the polygons of all shapes have: a few bytes may unpack to many.
+
+        Raises:
+            LoadError: they are more than the settings allow.
+        """
+        most = _FREE_CORNERS + _CORNERS * int(self._config.max_growth * self._size)
+        if n > most:
+            told = f"{size_text(self._size)} unpack to more than {most:,} corners of polygons, as in no real scene"
+            self._refuse(told, "load.max_growth")
+
+    def watch(self) -> None:
+        """From here on this process may take only what arrays of such a file can need; to be repeated as it grows."""
+        if self._size < _LARGE:
+            hold_to_more(_FREE_BYTES + _UNPACKED * self._size)
+
+    def unwatch(self) -> None:
+        """Ends what ``watch`` began."""
+        release()
+
+    def refuse_arrays(self) -> None:
+        """Says that there was no more memory while ``watch`` was in force.
+
+        Raises:
+            LoadError: always.
+        """
+        self._refuse(f"{size_text(self._size)} unpack to more memory than any real scene", "load.max_growth")
 
     def check_triangles(self, shapes: int, placed: int) -> None:
         """Checks numbers of triangles: of all shapes, and of all shapes in all their places.

@@ -95,7 +95,8 @@ def open_stage(path: Path, config: LoadConfig, notes: Notes) -> tuple[Any, Budge
     budget = Budget(path, config, assets.size)
     if assets.root is not None:
         _check_growth(assets, budget)
-    known = [each for each in assets.outside if not Sdf.Layer.IsMuted(each)]
+    muted = set(Sdf.Layer.GetMutedLayers())
+    known = [each for each in assets.outside if each not in muted]
     if not assets.outside:
         return _checked(Usd.Stage.Open(str(path), Usd.Stage.LoadAll), assets), budget
     for each in known:
@@ -230,14 +231,14 @@ def _check_clip(found: Assets, layer: Any, prim: str, asset: str) -> None:
 
 
 def _told(found: Assets, layer: Any, asset: str, identifier: str) -> str:
-    shown = f"{asset:.200}"
-    where = "" if layer is found.root.layer else f" by {_relative(found, layer.realPath)}"  # type: ignore[union-attr]
+    is_root = found.root is not None and layer is found.root.layer
+    shown = f"{asset!r:.200}" + ("" if is_root else f", which {_relative(found, layer.realPath)!r} refers to,")
     plain = identifier.partition(_ARGUMENTS)[0]
     if _is_address(plain):
-        return f"{shown!r}, named{where}, was not opened: an address; put that file beside the scene"
+        return f"{shown} was not opened: an address; put that file beside the scene"
     root = _root_for(found, str(Ar.GetResolver().Resolve(plain)).partition("[")[0])
     return (
-        f"{shown!r}, named{where}, was not opened: outside the folder of the scene; "
+        f"{shown} was not opened: it lies outside the folder of the scene; "
         f"give --asset-root {root} (load.asset_roots) to read it"
     )
 
@@ -254,7 +255,7 @@ def _root_for(found: Assets, file: str) -> str:
 
 def _relative(found: Assets, file: str) -> str:
     try:
-        return Path(os.path.relpath(file, found.roots[0])).as_posix()
+        return Path(os.path.relpath(_real(Path(file)), found.roots[0])).as_posix()
     except ValueError:  # another drive
         return file
 

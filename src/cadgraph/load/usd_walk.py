@@ -26,6 +26,7 @@ Bindings = tuple[Any, ...]
 _VISIBLE_SCENE = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
 # Prototypes of a point instancer are often kept under an over or a class, where no prim counts as defined.
 _PROTOTYPE = Usd.TraverseInstanceProxies(Usd.PrimIsActive & Usd.PrimIsLoaded & Usd.PrimHasDefiningSpecifier)
+_WATCHED = 1000  # prims from one look at the memory to the next; they take a few megabytes
 _IDENTITY: Floats = np.eye(4)
 _NO_INTS: Ints = np.zeros(0, np.int64)
 
@@ -103,6 +104,7 @@ class Walk:
         self._notes = notes
         self._budget = budget
         self._visited = 0
+        self._corners = 0
         self._sampled = _is_sampled(stage)
         self._transforms = UsdGeom.XformCache(self._time or Usd.TimeCode.Default())
         self._kinds: dict[str, str] = {}
@@ -112,8 +114,18 @@ class Walk:
         self.has_bindings = False
 
     def placements(self) -> list[Placement]:
-        """All meshes of the stage."""
-        return self._below(self._stage.GetPseudoRoot(), _Place(), _VISIBLE_SCENE, 0)
+        """All meshes of the stage.
+
+        Raises:
+            LoadError: they are more than the settings allow.
+        """
+        try:
+            return self._below(self._stage.GetPseudoRoot(), _Place(), _VISIBLE_SCENE, 0)
+        except MemoryError:
+            self._budget.refuse_arrays()
+            raise
+        finally:
+            self._budget.unwatch()
 
     def _below(self, root: Any, place: _Place, predicate: Any, cut: int) -> list[Placement]:
         """All meshes at or below a prim; ``cut`` characters are taken off the front of their paths."""
@@ -122,6 +134,8 @@ class Walk:
         while stack:
             prim, above = stack.pop()
             self._visited += 1
+            if self._visited % _WATCHED == 1:
+                self._budget.watch()
             if self._visited > self._budget.most_prims:
                 self._budget.check_prims(self._visited)
             own_path = str(prim.GetPath())
@@ -243,11 +257,14 @@ class Walk:
         return None
 
     def _mesh(self, prim: Any, names: frozenset[str], children: Any) -> RawMesh:
-        points = _rows(self._value(prim, "points"))
+        points, indices = _rows(self._value(prim, "points")), _ints(self._value(prim, "faceVertexIndices"))
+        counts = _ints(self._value(prim, "faceVertexCounts"))
+        self._corners += max(len(indices), len(counts))
+        self._budget.check_corners(self._corners)
         return RawMesh(
             points=np.zeros((0, 3)) if points is None else points,
-            counts=_ints(self._value(prim, "faceVertexCounts")),
-            indices=_ints(self._value(prim, "faceVertexIndices")),
+            counts=counts,
+            indices=indices,
             left_handed=self._choice(prim, "orientation", names) == "leftHanded",
             holes=_ints(self._choice(prim, "holeIndices", names)),
             subdivided=self._choice(prim, "subdivisionScheme", names) != "none",
