@@ -100,7 +100,9 @@ class LoadConfig(Section):
     )
     max_meshes: int = _setting(5_000_000, "refuse a scene of more meshes, with all its instances", ge=1)
     max_prims: int = _setting(
-        20_000_000, "refuse a USD scene that its references make more prims of than these, before they are composed", ge=1
+        20_000_000,
+        "refuse a USD scene that its references make more prims of than these, before they are composed",
+        ge=1,
     )
     max_shape_triangles: int = _setting(
         200_000_000, "refuse a scene of more triangles, those of each shape counted once", "ours: about 20 GB", ge=1

@@ -10,7 +10,15 @@ import typer
 from rich.markup import escape
 
 from cadgraph.cli.application import app
-from cadgraph.cli.options import AssetRootOption, ConfigOption, GraphArgument, SetOption, UnitOption, UpOption, settings_of
+from cadgraph.cli.options import (
+    AssetRootOption,
+    ConfigOption,
+    GraphArgument,
+    SetOption,
+    UnitOption,
+    UpOption,
+    settings_of,
+)
 from cadgraph.cli.screen import bars, err, out
 
 catalogs = typer.Typer(no_args_is_help=True, help="Catalogues of your own parts: add to one, list it.")

@@ -17,8 +17,7 @@ __all__ = ["FREE", "Budget"]
 FREE = 50_000
 """So many meshes or prims any file may have, however small it is; ours: they take about 100 MB."""
 
-_FREE_CORNERS = 3_000_000  # corners of polygons that any file may have
-_CORNERS = 3  # of a triangle
+_FREE_TRIANGLES = 1_000_000  # that any file may have, each shape counted once
 _FREE_BYTES, _UNPACKED = 300 << 20, 400  # a byte of a file unpacks to so many at most, beyond the first 300 MB; ours
 _LARGE = 32 << 20  # bytes; a larger file may unpack to more than machines have, so that it isn't watched
 
@@ -36,6 +35,7 @@ class Budget:
         self._path = path
         self._config = config
         self._size = size
+        self._triangles = 0
         self._grown = FREE + int(config.max_growth * size)
         self.most_meshes = min(config.max_meshes, self._grown)
         self.most_prims = min(config.max_prims, self._grown)
@@ -57,20 +57,34 @@ class Budget:
             LoadError: they are more than the settings allow.
         """
         if n > self._config.max_prims:
-            told = f"its references make {_shown(n)} prims of it, and at most {self._config.max_prims:,} are read"
+            told = f"its references make up to {_shown(n)} prims of it, and at most {self._config.max_prims:,} are read"
             self._refuse(told, "load.max_prims")
         self._check_growth(n, "prims with all references")
 
-    def check_corners(self, n: int) -> None:
-        """Checks a number of corners that the polygons of all shapes have: a few bytes may unpack to many.
+    def take_triangles(self, n: int) -> None:
+        """Counts triangles of another shape, or what may become so many: a few bytes may unpack to many.
+
+        Raises:
+            LoadError: with those of all shapes so far they are more than the settings allow.
+        """
+        self._triangles += n
+        if self._triangles > self._config.max_shape_triangles:
+            most = self._config.max_shape_triangles
+            self._refuse(f"more than {most:,} triangles, each shape counted once", "load.max_shape_triangles")
+        most = _FREE_TRIANGLES + int(self._config.max_growth * self._size)
+        if self._triangles > most:
+            told = f"{size_text(self._size)} unpack to more than {most:,} triangles, as in no real scene"
+            self._refuse(told, "load.max_growth")
+
+    def check_placed(self, n: int) -> None:
+        """Checks a number of triangles, those of each shape counted for each of its places.
 
         Raises:
             LoadError: they are more than the settings allow.
         """
-        most = _FREE_CORNERS + _CORNERS * int(self._config.max_growth * self._size)
+        most = self._config.max_placed_triangles
         if n > most:
-            told = f"{size_text(self._size)} unpack to more than {most:,} corners of polygons, as in no real scene"
-            self._refuse(told, "load.max_growth")
+            self._refuse(f"more than {most:,} triangles with all instances", "load.max_placed_triangles")
 
     def watch(self) -> None:
         """From here on this process may take only what arrays of such a file can need; to be repeated as it grows."""
@@ -88,20 +102,6 @@ class Budget:
             LoadError: always.
         """
         self._refuse(f"{size_text(self._size)} unpack to more memory than any real scene", "load.max_growth")
-
-    def check_triangles(self, shapes: int, placed: int) -> None:
-        """Checks numbers of triangles: of all shapes, and of all shapes in all their places.
-
-        Raises:
-            LoadError: they are more than the settings allow.
-        """
-        if shapes > self._config.max_shape_triangles:
-            most = self._config.max_shape_triangles
-            self._refuse(f"{_shown(shapes)} triangles, and at most {most:,} are read", "load.max_shape_triangles")
-        if placed > self._config.max_placed_triangles:
-            most = self._config.max_placed_triangles
-            told = f"{_shown(placed)} triangles with all instances, and at most {most:,} are read"
-            self._refuse(told, "load.max_placed_triangles")
 
     def _check_growth(self, n: int, what: str) -> None:
         if n > self._grown:

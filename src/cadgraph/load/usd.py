@@ -16,7 +16,6 @@ from __future__ import annotations
 
 import os
 import re
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path
@@ -96,24 +95,16 @@ def _scene(stage: Any, config: LoadConfig, notes: Notes, budget: Budget, take_wa
             notes.add(*placement.skipped, placement.path)
         else:
             placements.append(placement)
-    _check_triangles(walk, placements, budget)
     keys = list(walk.geometries)
     meshes = dict(
         zip(keys, zip(walk.geometries.values(), cut_meshes(list(walk.geometries.values())), strict=True), strict=True)
     )
+    of_key = {key: len(cut.corners) for key, (_, cut) in meshes.items()}
+    budget.check_placed(sum(of_key[str(placement.geometry)] for placement in placements))
     materials = Materials(stage) if walk.has_bindings else None
     pieces = list(_pieces(placements, meshes, materials, config.split_subsets, notes))
     take_warnings()
     return pack(pieces, source, world_from_source, notes, _ABRIDGED)
-
-
-def _check_triangles(walk: Walk, placements: Sequence[Placement], budget: Budget) -> None:
-    # A polygon of n corners is cut into n - 2 triangles.
-    sizes = {
-        key: max(0, len(raw.indices) - 2 * len(raw.counts)) for key, raw in walk.geometries.items()
-    }
-    placed = Counter(str(placement.geometry) for placement in placements)
-    budget.check_triangles(sum(sizes.values()), sum(sizes[key] * n for key, n in placed.items()))
 
 
 def _units(stage: Any, notes: Notes) -> tuple[Source, Floats]:

@@ -104,7 +104,6 @@ class Walk:
         self._notes = notes
         self._budget = budget
         self._visited = 0
-        self._corners = 0
         self._sampled = _is_sampled(stage)
         self._transforms = UsdGeom.XformCache(self._time or Usd.TimeCode.Default())
         self._kinds: dict[str, str] = {}
@@ -259,8 +258,8 @@ class Walk:
     def _mesh(self, prim: Any, names: frozenset[str], children: Any) -> RawMesh:
         points, indices = _rows(self._value(prim, "points")), _ints(self._value(prim, "faceVertexIndices"))
         counts = _ints(self._value(prim, "faceVertexCounts"))
-        self._corners += max(len(indices), len(counts))
-        self._budget.check_corners(self._corners)
+        # A polygon of n corners becomes n - 2 triangles; what is damaged takes memory, too.
+        self._budget.take_triangles(max(len(indices) - 2 * len(counts), len(indices) // 3, len(counts) // 3))
         return RawMesh(
             points=np.zeros((0, 3)) if points is None else points,
             counts=counts,
@@ -333,8 +332,11 @@ class Walk:
             self._notes.add("invalid-instancer", "items that name a prototype which doesn't exist were dropped", path)
         named, items = np.unique(prototype_of_item, return_counts=True)
         self._budget.check_meshes(
-            sum(len(prototypes[which]) * n for which, n in zip(named.tolist(), items.tolist(), strict=True)
-                if 0 <= which < len(prototypes))
+            sum(
+                len(prototypes[which]) * n
+                for which, n in zip(named.tolist(), items.tolist(), strict=True)
+                if 0 <= which < len(prototypes)
+            )
         )
         hidden = self._hidden_items(instancer, len(prototype_of_item))
         item_colors = None
@@ -459,5 +461,7 @@ def message_of(say: Callable[[], str]) -> str:
 
 def _first_line(error: Exception) -> str:
     text = message_of(lambda: str(error))
+    if "exception thrown unpacking a value" in text:
+        return "a value can't be unpacked: it is damaged, or takes more memory than any real one"
     quoted = text.split(": '", 1)
     return (quoted[1] if len(quoted) == 2 else text)[:200].rstrip("'")

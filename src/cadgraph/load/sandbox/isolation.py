@@ -183,10 +183,9 @@ def _reason(code: int, stderr: Path, memory: int | None) -> str:
         file.seek(max(0, stderr.stat().st_size - _STDERR_LIMIT))
         said = file.read().decode("utf-8", "replace").strip()
     if ran_out(said):
-        now = "" if memory is None else f" (now {memory / 1e9:.3g} GB)"
+        given = "" if memory is None else f" within {memory / 1e9:.3g} GB"
         return (
-            "reading it takes more memory than it is given: it is damaged or grows as no real scene does; "
-            f"else split it, or raise load.memory{now}"
+            f"there is not enough memory to read it{given}; close other programs, split the scene or raise load.memory"
         )
     if code < 0:
         try:
