@@ -10,8 +10,8 @@ import typer
 from cadgraph.cli.application import app
 from cadgraph.cli.asking import AskingOptions, asks
 from cadgraph.cli.options import (
-    AssetRootOption,
     USE_METADATA,
+    AssetRootOption,
     ConfigOption,
     MetadataOption,
     MethodOption,

@@ -12,8 +12,8 @@ from rich.markup import escape
 from cadgraph.cli.application import app
 from cadgraph.cli.asking import AskingOptions, asks
 from cadgraph.cli.options import (
-    AssetRootOption,
     USE_METADATA,
+    AssetRootOption,
     ConfigOption,
     MetadataOption,
     SetOption,

@@ -23,12 +23,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
-from pxr import Tf, Usd, UsdGeom, UsdUtils
+from pxr import Tf, UsdGeom, UsdUtils
 
 from cadgraph._io.text import printable
 from cadgraph.errors import LoadError
-from cadgraph.load.packing import Z_UP_FROM, Notes, Piece, metres_z_up, pack
 from cadgraph.load.budget import Budget
+from cadgraph.load.packing import Z_UP_FROM, Notes, Piece, metres_z_up, pack
 from cadgraph.load.usd_assets import is_there, open_stage
 from cadgraph.load.usd_color import Materials, mean_display_color
 from cadgraph.load.usd_mesh import CutMesh, RawMesh, cut_meshes

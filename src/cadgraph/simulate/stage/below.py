@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from pxr import Sdf, Tf, Usd, UsdGeom, UsdShade, UsdUtils
+from pxr import Sdf, Tf, UsdGeom, UsdShade, UsdUtils
 
 from cadgraph.config import LoadConfig
 from cadgraph.errors import LoadError
