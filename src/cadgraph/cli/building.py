@@ -15,7 +15,9 @@ from cadgraph.cli.options import (
     ConfigOption,
     MetadataOption,
     MethodOption,
+    ScaleOption,
     SetOption,
+    StrictOption,
     UnitOption,
     UpOption,
     read_flows,
@@ -56,8 +58,10 @@ def build(
         ),
     ] = None,
     unit: UnitOption = None,
+    scale: ScaleOption = None,
     up: UpOption = None,
     asset_roots: AssetRootOption = None,
+    strict: StrictOption = False,
     use_metadata: MetadataOption = False,
     method: MethodOption = None,
     config: ConfigOption = None,
@@ -68,7 +72,7 @@ def build(
     from cadgraph.session.run import run
 
     changes = [*(settings or [])]
-    chosen = settings_of(config, changes, method, unit, up, asset_roots)
+    chosen = settings_of(config, changes, method, unit, up, scale=scale, strict=strict, asset_roots=asset_roots)
     if ground:
         find = "none" if ground == ["none"] else "named"
         chosen = chosen.replace({"ground.find": find, "ground.meshes": [] if find == "none" else ground})

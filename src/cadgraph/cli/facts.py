@@ -11,7 +11,15 @@ from rich.markup import escape
 
 from cadgraph._io.text import printable
 from cadgraph.cli.application import app
-from cadgraph.cli.options import AssetRootOption, ConfigOption, SetOption, UnitOption, UpOption, settings_of
+from cadgraph.cli.options import (
+    AssetRootOption,
+    ConfigOption,
+    ScaleOption,
+    SetOption,
+    UnitOption,
+    UpOption,
+    settings_of,
+)
 from cadgraph.cli.screen import out
 
 if TYPE_CHECKING:
@@ -34,6 +42,7 @@ def facts(
     config: ConfigOption = None,
     settings: SetOption = None,
     unit: UnitOption = None,
+    scale: ScaleOption = None,
     up: UpOption = None,
     asset_roots: AssetRootOption = None,
 ) -> None:
@@ -47,7 +56,7 @@ def facts(
     from cadgraph.load import load
     from cadgraph.model.vocabulary import default_vocabulary, read_vocabulary
 
-    chosen = settings_of(config, settings or [], None, unit, up, asset_roots)
+    chosen = settings_of(config, settings or [], None, unit, up, scale=scale, asset_roots=asset_roots)
     known = read_words(words or chosen.label.words)
     tree = read_vocabulary(vocabulary) if vocabulary else default_vocabulary()
     loaded = load(scene, chosen.load)

@@ -16,7 +16,9 @@ from cadgraph.cli.options import (
     AssetRootOption,
     ConfigOption,
     MetadataOption,
+    ScaleOption,
     SetOption,
+    StrictOption,
     UnitOption,
     UpOption,
     settings_of,
@@ -144,8 +146,10 @@ def grow_(
     config: ConfigOption = None,
     settings: SetOption = None,
     unit: UnitOption = None,
+    scale: ScaleOption = None,
     up: UpOption = None,
     asset_roots: AssetRootOption = None,
+    strict: StrictOption = False,
 ) -> None:
     """Show a model overview pictures one after the other, and add the labels that it misses."""
     from cadgraph._io.atomic import write_atomically
@@ -157,7 +161,9 @@ def grow_(
 
     if empty and start:
         raise ValueError("--empty and --from contradict each other; give one")
-    chosen = asking.settings(settings_of(config, settings or [], None, unit, up, asset_roots))
+    chosen = asking.settings(
+        settings_of(config, settings or [], None, unit, up, scale=scale, strict=strict, asset_roots=asset_roots)
+    )
     tree = Vocabulary({}) if empty else read_vocabulary(start) if start else default_vocabulary()
     kept = output.parent / f"{output.stem}-lvlm"
     with bars() as progress:

@@ -22,7 +22,9 @@ __all__ = [
     "GraphArgument",
     "MetadataOption",
     "MethodOption",
+    "ScaleOption",
     "SetOption",
+    "StrictOption",
     "UnitOption",
     "UpOption",
     "read_flows",
@@ -59,6 +61,13 @@ AssetRootOption = Annotated[
         help="Folder that a USD scene may bring files from beside its own, counted from there: .. May be repeated.",
     ),
 ]
+ScaleOption = Annotated[
+    float | None,
+    typer.Option("--scale", metavar="F", help="Multiply the file's lengths, in the unit it says (metres if none)."),
+]
+StrictOption = Annotated[
+    bool, typer.Option("--strict", help="Refuse a file of which geometry is lost: damaged, unreadable or not found.")
+]
 GraphArgument = Annotated[Path, typer.Argument(metavar="FOLDER", help="What 'cadgraph build' wrote, or a graph.json.")]
 
 
@@ -72,6 +81,9 @@ def settings_of(
     method: str | None,
     unit: str | None = None,
     up: str | None = None,
+    *,
+    scale: float | None = None,
+    strict: bool = False,
     asset_roots: Sequence[str] | None = None,
 ) -> Config:
     """Defaults, then the file, then flags; a setting of an earlier version is told."""
@@ -81,6 +93,8 @@ def settings_of(
         "load.unit": unit,
         "load.up": up.upper() if up else None,
         "load.asset_roots": tuple(asset_roots) if asset_roots else None,
+        "load.scale": scale,
+        "load.strict": strict or None,
     }
     values |= {name: value for name, value in flags.items() if value is not None}
     with warnings.catch_warnings(record=True) as old:

@@ -25,6 +25,7 @@ from xml.etree import ElementTree
 import numpy as np
 import numpy.typing as npt
 
+from cadgraph._io.limits import most_unpacked, size_text
 from cadgraph.errors import LoadError
 from cadgraph.load.budget import Budget
 from cadgraph.load.naming import Names, clipped, name_fact, path_step
@@ -129,10 +130,9 @@ def read(path: Path, config: LoadConfig) -> Scene:
 def _unpack(path: Path, package: _Package, notes: Notes) -> None:
     with zipfile.ZipFile(path) as archive:
         parts = [entry for entry in archive.infolist() if entry.filename.lower().endswith(".model")]
-        if len(parts) > _MOST_PARTS or sum(entry.file_size for entry in parts) > _MOST_BYTES:
-            raise LoadError(
-                f"{path}: unpacks to more than {_MOST_PARTS:,} parts or {_MOST_BYTES >> 20:,} MB; split the model"
-            )
+        most = most_unpacked(path.stat().st_size, _MOST_BYTES)
+        if len(parts) > _MOST_PARTS or sum(entry.file_size for entry in parts) > most:
+            raise LoadError(f"{path}: unpacks to more than {_MOST_PARTS:,} parts or {size_text(most)}; split the model")
         root = next((e for e in parts if e.filename.lower().endswith("3d/3dmodel.model")), parts[0] if parts else None)
         if root is None:
             raise ValueError("it holds no part that ends in .model")
