@@ -125,7 +125,7 @@ def most_unpacked(packed: int, most: int) -> int:
         packed: size of the archive [bytes].
         most: whatever its size.
     """
-    return min(most, 16 * _MB + 100 * packed)
+    return min(most, 16 * _MB + 40 * packed)
 
 
 def read_bytes_within(path: str | Path, limit: Limit, error: type[Exception], remedy: str) -> bytes:
