@@ -1,9 +1,9 @@
 """Small files that grow: ``python packages/cadlab/benchmarks/bombs.py [NAME...] [--write]``.
 
-Each file is made in a folder of its own and given to the command that reads it. All must end with a graph or one
-line within ten seconds and one gigabyte, both processes together. Prints a table in Markdown: the bomb, its size, the seconds, the
-greatest memory, the exit code and what was said; ends with 1 where a bomb took more, or ended with a traceback.
-``--write`` puts the table into ``docs/reliability.md``. Memory is only known on Linux.
+Each file is made in a folder of its own and given to the command that reads it. All must end with a graph or one line
+within ten seconds and one gigabyte, both processes together. Prints a table in Markdown: the bomb, its size, the
+seconds, the greatest memory, the exit code and what was said; ends with 1 where a bomb took more, or ended with a
+traceback. ``--write`` puts the table into ``docs/reliability.md``. Memory is only known on Linux.
 """
 
 from __future__ import annotations

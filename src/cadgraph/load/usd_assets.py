@@ -30,7 +30,7 @@ __all__ = ["Assets", "find_assets", "is_there", "open_layers", "open_stage"]
 
 _URL = re.compile(r"[A-Za-z][A-Za-z0-9+.-]+:")
 _ARGUMENTS = ":SDF_FORMAT_ARGS:"
-_NEAR = 3  # so many folders up are named as such; what is farther away is named by its own folder
+_NEAR = 4  # so many folders up are named as such; what is farther away is named by its own folder
 
 
 @dataclass
