@@ -24,9 +24,7 @@ ALL = [
     "usd",
 ]
 ALONE = [name for name in ALL if name not in ("gltf", "html", "ifc", "mjcf", "usd")]  # those that need no source
-FILLED = [
-    name for name in ALONE if name not in ("isometric", "pcf", "shards")
-]  # those that a graph without centrelines fills
+FILLED = [name for name in ALONE if name not in ("isometric", "pcf", "shards")]  # those that fill one graph's folder
 
 
 def test_formats_are_named_in_order_with_their_meaning():

@@ -43,6 +43,7 @@ __all__ = [
     "Limit",
     "decoded",
     "lines_within",
+    "most_unpacked",
     "read_bytes_within",
     "read_text_within",
     "size_text",
@@ -116,6 +117,16 @@ EXCHANGE_HEAD = Limit(1024 * _MB, "what the reading process tells of a scene")
 """A mesh takes about 200 bytes: five million meshes."""
 NOTE = Limit(_MB, "a note between processes")
 """A request or an error takes 1 kB."""
+
+
+def most_unpacked(packed: int, most: int) -> int:
+    """To how many bytes an archive of some bytes may unpack: texts of CAD files shrink to a tenth, at best a thirtieth.
+
+    Args:
+        packed: size of the archive [bytes].
+        most: whatever its size.
+    """
+    return min(most, 16 * _MB + 40 * packed)
 
 
 def read_bytes_within(path: str | Path, limit: Limit, error: type[Exception], remedy: str) -> bytes:

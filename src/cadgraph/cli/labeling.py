@@ -10,6 +10,7 @@ from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.options import (
+    AssetRootOption,
     ConfigOption,
     GraphArgument,
     ScaleOption,
@@ -129,6 +130,7 @@ def add_(
     unit: UnitOption = None,
     scale: ScaleOption = None,
     up: UpOption = None,
+    asset_roots: AssetRootOption = None,
     strict: StrictOption = False,
 ) -> None:
     """Add parts to a catalogue, from CAD files under one label or from graphs with theirs.
@@ -149,7 +151,7 @@ def add_(
         err.print(
             f"[dim]{escape(str(label))} is not in the built-in vocabulary; build with the --vocabulary that has it[/]"
         )
-    chosen = settings_of(config, settings or [], None, unit, up, scale=scale, strict=strict)
+    chosen = settings_of(config, settings or [], None, unit, up, scale=scale, strict=strict, asset_roots=asset_roots)
     wanted = split_label(only, None) if only is not None else None
     # What two add at once must both be in it.
     with holding(catalog.parent):

@@ -100,7 +100,7 @@ def reopen(
     if scene is None:
         progress("read", 0)
         scene = load(source, config.load)
-    check_layers(source, target)
+    check_layers(source, target, config.load.asset_roots)
     return Session.start(
         scene,
         config,

@@ -142,7 +142,7 @@ def begin(
     history = file.read(tree)
     progress("read", 0)
     scene = load(source, config.load)
-    check_layers(source, target)
+    check_layers(source, target, config.load.asset_roots)
     return Session.start(
         scene,
         config,
@@ -307,12 +307,13 @@ def check_target(source: str | Path, target: Path) -> None:
     check_source(source, target / "semantics.usda")
 
 
-def check_layers(source: str | Path, target: Path) -> None:
+def check_layers(source: str | Path, target: Path, asset_roots: Sequence[str] = ()) -> None:
     """Refuses a folder in which a result of an earlier run has become a layer of the scene.
 
     Args:
         source: the scene's file, which can be read.
         target: the folder.
+        asset_roots: as in ``LoadConfig``; other files are not looked at.
 
     Raises:
         OutputError: one has.
@@ -321,7 +322,7 @@ def check_layers(source: str | Path, target: Path) -> None:
     from cadgraph.load.usd_assets import open_layers
 
     if is_usd(source) and ((target / "semantics.usda").exists() or (target / "scene.usdc").exists()):
-        layers = [layer.realPath for layer in open_layers(Path(source)) if layer.realPath]
+        layers = [layer.realPath for layer in open_layers(Path(source), asset_roots) if layer.realPath]
         refuse_to_overwrite(target, layers, "a file that the source refers to")
 
 
