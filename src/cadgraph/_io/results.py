@@ -110,24 +110,32 @@ class NewResults:
 
     def _manifest(self, staged: Collection[str]) -> Manifest | None:
         """What belongs together once all files are in place; None where that stays, or without a graph."""
-        listed = [name for name in RESULTS if name in staged or name not in self._dropped]
         graph = self._staged_graph or self._former_graph
-        if not graph or not (set(RESULTS) & set(staged) or CORRECTIONS in staged):
+        if not graph or not {*RESULTS, CORRECTIONS} & set(staged):
             return None
-        files: dict[str, Entry] = {}
-        for name in listed:
-            if name == GRAPH_FILE and name in staged:
-                files[name] = Entry((self._next / name).stat().st_size, graph, graph)
-            elif name in staged:
-                files[name] = Entry.of(self._next / name, self._earlier.get(name, self._of or graph))
-            elif (self._folder / name).is_file():
-                former = self._former.files.get(name) if self._former is not None else None
-                files[name] = former or Entry.of(self._folder / name, self._former_graph)
-        if GRAPH_FILE not in staged and CORRECTIONS not in staged and self._former is not None:
-            return Manifest(graph, self._former.corrections, files)
-        beside = self._next if CORRECTIONS in staged else self._folder
-        corrections = _digest(beside / CORRECTIONS) if self._corrections is None else self._corrections
-        return Manifest(graph, corrections, files)
+        listed = (name for name in RESULTS if name in staged or name not in self._dropped)
+        entries = ((name, self._entry(name, graph, name in staged)) for name in listed)
+        files = {name: entry for name, entry in entries if entry is not None}
+        return Manifest(graph, self._shown_corrections(staged), files)
+
+    def _entry(self, name: str, graph: str, is_staged: bool) -> Entry | None:
+        """What the manifest says of a result; None where it isn't there."""
+        if is_staged and name == GRAPH_FILE:
+            return Entry((self._next / name).stat().st_size, graph, graph)
+        if is_staged:
+            return Entry.of(self._next / name, self._earlier.get(name, self._of or graph))
+        if not (self._folder / name).is_file():
+            return None
+        former = self._former.files.get(name) if self._former is not None else None
+        return former or Entry.of(self._folder / name, self._former_graph)
+
+    def _shown_corrections(self, staged: Collection[str]) -> str:
+        """Digest of the corrections that the graph shows."""
+        if self._former is not None and not {GRAPH_FILE, CORRECTIONS} & set(staged):
+            return self._former.corrections
+        if self._corrections is not None:
+            return self._corrections
+        return _digest((self._next if CORRECTIONS in staged else self._folder) / CORRECTIONS)
 
 
 @contextmanager
