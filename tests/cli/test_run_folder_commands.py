@@ -59,8 +59,9 @@ def test_whoever_comes_second_is_refused_in_one_line_and_changes_nothing(capsys,
 def test_without_a_report_the_one_of_the_earlier_graph_stays_and_says_so(capsys, folder):
     scene = folder.parent / "plant.usda"
     run(capsys, "build", scene, "-o", folder, *SMALL, "--set", "label.labeler=none")
-    code, _, _ = run(capsys, "relabel", folder, "part-00001", "--as", "Tank/tank", "--this-only", "--no-report")
+    code, out, _ = run(capsys, "relabel", folder, "part-00001", "--as", "Tank/tank", "--this-only", "--no-report")
     assert code == 0
+    assert "picture.png, report.html: of an earlier graph" in out
     assert of_an_earlier_graph(folder) == ("picture.png", "report.html")
     assert changed_by_others(folder) == ()
     page = (folder / "report.html").read_text("utf-8")

@@ -48,12 +48,13 @@ class NewResults:
         self._corrections = corrections
         self._next = folder / NEXT
         self._earlier: dict[str, str] = {}
+        self._known: tuple[tuple[int, int, int], str] | None = None
         self._former = _manifest_if_whole(folder)
         self._former_graph = self._former.graph if self._former is not None else _digest(folder / GRAPH_FILE)
 
     def is_earlier(self, name: str) -> bool:
         """Whether a result in the folder was made of another graph than the one that is there now, or is to come."""
-        there = _digest(self._next / GRAPH_FILE) or self._former_graph
+        there = self._staged_graph or self._former_graph
         return self._graph_of(name) != there
 
     def keep(self, name: str) -> None:
@@ -83,12 +84,25 @@ class NewResults:
         if CORRECTIONS in staged:
             flush_folder(self._folder / READY)
         _move_in(self._folder)
-        self._former, self._former_graph = _manifest_if_whole(self._folder), _digest(self._folder / GRAPH_FILE)
+        self._former = _manifest_if_whole(self._folder)
+        self._former_graph = self._former.graph if self._former is not None else _digest(self._folder / GRAPH_FILE)
         self._earlier.clear()
 
     def discard(self) -> None:
         """Removes what was written and doesn't count yet."""
         sweep_next(self._folder)
+
+    @property
+    def _staged_graph(self) -> str:
+        """Digest of the graph that is to come; empty where none is. It is asked for again and again."""
+        try:
+            status = (self._next / GRAPH_FILE).stat()
+        except OSError:
+            return ""
+        known = (status.st_ino, status.st_mtime_ns, status.st_size)
+        if self._known is None or self._known[0] != known:
+            self._known = known, _digest(self._next / GRAPH_FILE)
+        return self._known[1]
 
     def _graph_of(self, name: str) -> str:
         entry = self._former.files.get(name) if self._former is not None else None
@@ -96,23 +110,32 @@ class NewResults:
 
     def _manifest(self, staged: Collection[str]) -> Manifest | None:
         """What belongs together once all files are in place; None where that stays, or without a graph."""
-        listed = [name for name in RESULTS if name in staged or name not in self._dropped]
-        graph = _digest(self._next / GRAPH_FILE) or self._former_graph
-        if not graph or not (set(RESULTS) & set(staged) or CORRECTIONS in staged):
+        graph = self._staged_graph or self._former_graph
+        if not graph or not {*RESULTS, CORRECTIONS} & set(staged):
             return None
-        files: dict[str, Entry] = {}
-        for name in listed:
-            if name in staged:
-                made_of = self._earlier.get(name, self._of or graph)
-                files[name] = Entry.of(self._next / name, made_of if name != GRAPH_FILE else graph)
-            elif (self._folder / name).is_file():
-                former = self._former.files.get(name) if self._former is not None else None
-                files[name] = former or Entry.of(self._folder / name, self._former_graph)
-        if GRAPH_FILE not in staged and CORRECTIONS not in staged and self._former is not None:
-            return Manifest(graph, self._former.corrections, files)
-        beside = self._next if CORRECTIONS in staged else self._folder
-        corrections = _digest(beside / CORRECTIONS) if self._corrections is None else self._corrections
-        return Manifest(graph, corrections, files)
+        listed = (name for name in RESULTS if name in staged or name not in self._dropped)
+        entries = ((name, self._entry(name, graph, name in staged)) for name in listed)
+        files = {name: entry for name, entry in entries if entry is not None}
+        return Manifest(graph, self._shown_corrections(staged), files)
+
+    def _entry(self, name: str, graph: str, is_staged: bool) -> Entry | None:
+        """What the manifest says of a result; None where it isn't there."""
+        if is_staged and name == GRAPH_FILE:
+            return Entry((self._next / name).stat().st_size, graph, graph)
+        if is_staged:
+            return Entry.of(self._next / name, self._earlier.get(name, self._of or graph))
+        if not (self._folder / name).is_file():
+            return None
+        former = self._former.files.get(name) if self._former is not None else None
+        return former or Entry.of(self._folder / name, self._former_graph)
+
+    def _shown_corrections(self, staged: Collection[str]) -> str:
+        """Digest of the corrections that the graph shows."""
+        if self._former is not None and not {GRAPH_FILE, CORRECTIONS} & set(staged):
+            return self._former.corrections
+        if self._corrections is not None:
+            return self._corrections
+        return _digest((self._next if CORRECTIONS in staged else self._folder) / CORRECTIONS)
 
 
 @contextmanager

@@ -20,7 +20,7 @@ from cadgraph.cli.options import (
     UpOption,
     settings_of,
 )
-from cadgraph.cli.screen import bars, err, out, say_json
+from cadgraph.cli.screen import bars, err, out, say_json, tell_state
 
 catalogs = typer.Typer(no_args_is_help=True, help="Catalogues of your own parts: add to one, list it.")
 app.add_typer(catalogs, name="catalog")
@@ -100,6 +100,7 @@ def relabel(
         out.print(f"[dim]{p.id:<12}[/]{escape(_said(p))}{escape(f': {why}') if why else ''}")
     more = f", {len(others) - _SHOWN} of them not shown" if len(others) > _SHOWN else ""
     out.print(f"{len(others):,} other parts changed{more}")
+    tell_state(done.outcome.earlier, done.outcome.removed)
 
 
 def _said(part: Part) -> str:
