@@ -73,8 +73,8 @@ def say_json(values: Any) -> None:
     """Prints values as JSON; what a terminal would obey stands there escaped, so that nothing is lost."""
     text = json.dumps(values, ensure_ascii=False, indent=1)
     # Half a character, as a model or a file may have it, can't be printed.
-    told = _CONTROL.sub(lambda found: f"\\u{ord(found[0]):04x}", text).encode("utf-8", "replace")
-    typer.echo(told)
+    told = _CONTROL.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
+    typer.echo(told.encode("utf-8", "replace").decode("utf-8"))
 
 
 @contextmanager
