@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, cast, get_args, overload
 
 from pydantic import ValidationError
 
+from cadgraph._io.depth import MOST_LEVELS, is_too_deep
 from cadgraph._io.json_rows import write_json_rows
 from cadgraph._io.limits import GRAPH, read_text_within
 from cadgraph.errors import FormatError, UnknownNode
@@ -354,6 +355,8 @@ class SceneGraph:
             raise FormatError(
                 f"{where}: format version {data.get('version')!r}, but this cadgraph reads version {VERSION}; update it"
             )
+        if is_too_deep(data):
+            raise FormatError(f"{where}: holds values in more than {MOST_LEVELS} levels; build the graph anew")
         try:
             document = GraphDocument.model_validate(data)
             check_document(document)

@@ -5,6 +5,7 @@ Each line is ``KIND NUMBER``, or ``KIND PATH`` for a file that is there already;
 
 from __future__ import annotations
 
+import importlib
 import json
 import os
 import sys
@@ -20,7 +21,7 @@ __all__ = ["main"]
 
 
 def main(seeds: Path, scratch: Path, memory: int) -> None:
-    """Serves until its input ends."""
+    """Serves until its input ends; ``memory`` is what a case may take [bytes], where the system can tell."""
     _keep_small(memory)
     answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
     with tempfile.TemporaryFile() as noise:
@@ -74,8 +75,19 @@ def _keep_small(memory: int) -> None:
     with suppress(ImportError, OSError, ValueError):
         import resource
 
-        resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        # Libraries take address space by the gigabyte before they read anything.
+        _import_readers()
+        taken = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0]) * resource.getpagesize()
+        resource.setrlimit(resource.RLIMIT_AS, (taken + memory, taken + memory))
+
+
+def _import_readers() -> None:
+    from cadgraph.load import formats
+
+    for module in (*(form.module for form in formats()), "cadgraph.pipeline", "cadgraph.load.finish", "cadgraph.query"):
+        with suppress(ImportError):
+            importlib.import_module(module)
 
 
 if __name__ == "__main__":

@@ -63,6 +63,7 @@ def judge(kind: Kind, file: Path, seeds: Path) -> Verdict:
         warnings.simplefilter("always")
         try:
             found = kind.read(file, seeds)
+            fault = _fault_of_scene(kind, file, found) if kind.scene else None
         except MemoryError:
             return Verdict("memory", "MemoryError")
         except Exception as error:  # noqa: BLE001 - which ones may come is the question
@@ -72,7 +73,6 @@ def judge(kind: Kind, file: Path, seeds: Path) -> Verdict:
     # What a reader of scenes prints or warns of, its own process keeps to itself.
     if warned and not kind.scene:
         return Verdict("noise", f"{warned[0].category.__name__}: {warned[0].message}")
-    fault = _fault_of_scene(kind, file, found) if kind.scene else None
     return fault or Verdict("read")
 
 
@@ -82,7 +82,7 @@ def fault_of_message(kind: Kind, file: Path, message: str) -> Verdict | None:
         return Verdict("unprintable", repr(message)[:300])
     if len(message) > _MOST_MESSAGE:
         return Verdict("endless", message[:300])
-    if kind.named and file.stem not in message:
+    if kind.named and str(file.parent) not in message:
         return Verdict("unnamed", message[:300])
     return None
 
@@ -98,9 +98,10 @@ def _place(error: Exception) -> str:
 def _fault_of_scene(kind: Kind, file: Path, scene: Any) -> Verdict | None:
     if not np.isfinite(scene.vertices).all() or not np.isfinite(scene.origin).all():
         return Verdict("unsound", "a vertex is not finite")
-    faces = scene.global_faces
-    if len(faces) and (faces.min() < 0 or faces.max() >= len(scene.vertices)):
-        return Verdict("unsound", "a face has a corner that is not there")
+    for i in range(scene.n_meshes):
+        vertices, faces = scene.mesh(i)
+        if not len(faces) or faces.min() < 0 or faces.max() >= len(vertices):
+            return Verdict("unsound", "a mesh without faces, or a face with a corner that is not there")
     lost = _lost_of_usd(file, scene) if kind.name.startswith("usd") else ()
     if lost:
         return Verdict("lost", ", ".join(lost)[:300])

@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+if TYPE_CHECKING:
+    from cadgraph.config import LoadConfig
+    from cadgraph.model.scene import Scene
 
-__all__ = ["KINDS", "Kind"]
+__all__ = ["KINDS", "Kind", "read_scene"]
 
 Read = Callable[[Path, Path], Any]
 
@@ -38,13 +41,18 @@ class Kind:
     values: bool = False
 
 
-def _scene(file: Path, _: Path) -> Any:
+def read_scene(file: Path, config: LoadConfig) -> Scene:
+    """Reads a scene; formats without a unit are otherwise refused for that alone."""
     import cadgraph
+
+    unit = "mm" if file.suffix in (".obj", ".stl", ".ply") else None
+    return cadgraph.load(file, config.model_copy(update={"unit": unit}))
+
+
+def _scene(file: Path, _: Path) -> Scene:
     from cadgraph.config import LoadConfig
 
-    # Formats without a unit are otherwise refused for that alone.
-    unit = "mm" if file.suffix in (".obj", ".stl", ".ply") else None
-    return cadgraph.load(file, LoadConfig(isolate=False, unit=unit))
+    return read_scene(file, LoadConfig(isolate=False))
 
 
 def _graph(file: Path, _: Path) -> Any:

@@ -10,23 +10,22 @@ import sys
 import tempfile
 import threading
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
-import cadgraph
 from cadgraph._io.search_path import search_path
 from cadgraph.config import LoadConfig
 from cadgraph.errors import CadGraphError
 from cadlab.fuzz.child import put_down, seeds_of
 from cadlab.fuzz.judge import Verdict, fault_of_message
-from cadlab.fuzz.kinds import KINDS
+from cadlab.fuzz.kinds import KINDS, read_scene
 from cadlab.fuzz.mutate import spoilt
 
 __all__ = ["Case", "content_of", "judge_all"]
 
 _PATIENCE = 10.0  # [s] for one case
 _FIRST = 60.0  # [s] for the first one of a kind in a child, which imports what reads it
-_MEMORY = 2 << 30  # [bytes] of address space of a child
+_MEMORY = 2 << 30  # [bytes] of address space of a child beyond what its libraries take
 
 Case = tuple[str, int | Path]
 """A kind, and a number or a file."""
@@ -125,6 +124,8 @@ class _Child:
             self._known.add(name)
             verdict = Verdict(*json.loads(line))
         else:
+            with suppress(subprocess.TimeoutExpired):
+                process.wait(_PATIENCE)
             self.end()
             verdict = Verdict("hang", "no answer") if late.is_set() else Verdict("crash", f"exit code {process.returncode}")
         if verdict.outcome in ("hang", "crash", "memory") and KINDS[name].scene:
@@ -136,7 +137,7 @@ class _Child:
         kind = KINDS[case[0]]
         file = put_down(kind, content_of(case, self._seeds), self._seeds, self._folder / "again")
         try:
-            cadgraph.load(file, LoadConfig(timeout=_PATIENCE))
+            read_scene(file, LoadConfig(timeout=_PATIENCE))
         except CadGraphError as error:
             return fault_of_message(kind, file, str(error)) or Verdict(f"stopped-{verdict.outcome}", str(error))
         except Exception as error:  # noqa: BLE001 - which ones may come is the question
@@ -145,7 +146,7 @@ class _Child:
 
     def _start(self) -> subprocess.Popen[str]:
         # One thread each: those of libraries for linear algebra take address space by the gigabyte.
-        threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "PXR_WORK_THREAD_LIMIT"), "1")
+        threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
         scratch = self._folder / "case"
         scratch.mkdir(exist_ok=True)
         self._known.clear()
