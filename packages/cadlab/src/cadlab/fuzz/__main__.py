@@ -14,7 +14,7 @@ from pathlib import Path
 from cadlab.fuzz.judge import FAULTS, Verdict
 from cadlab.fuzz.kinds import KINDS
 from cadlab.fuzz.seeds import write_seeds
-from cadlab.fuzz.workers import Case, content_of, judge_all
+from cadlab.fuzz.workers import Case, Judged, judge_all
 
 __all__ = ["main"]
 
@@ -35,10 +35,11 @@ def main(given: Sequence[str] | None = None) -> int:
             cases = _cases(args.only or list(KINDS), args.seed, args.mutations, args.seconds, seeds)
         counts: dict[str, Counter[str]] = {}
         found: dict[str, Case] = {}
-        for case, verdict in judge_all(cases, seeds, args.workers):
+        for judged in judge_all(cases, seeds, args.workers):
+            case, verdict = judged.case, judged.verdict
             counts.setdefault(case[0], Counter())[verdict.outcome] += 1
             if args.case or (verdict.is_fault and _signature(case, verdict) not in found):
-                _tell(case, verdict, args.keep, seeds)
+                _tell(judged, args.keep)
             if verdict.is_fault:
                 found.setdefault(_signature(case, verdict), case)
         print(_table(counts))
@@ -79,12 +80,13 @@ def _signature(case: Case, verdict: Verdict) -> str:
     return f"{case[0]} {verdict.outcome} {place}"
 
 
-def _tell(case: Case, verdict: Verdict, keep: Path | None, seeds: Path) -> None:
-    kind, what = case
-    print(f"{kind}:{what}  {verdict.outcome}  {verdict.detail}", flush=True)
-    if keep is not None and not isinstance(what, Path):
+def _tell(judged: Judged, keep: Path | None) -> None:
+    kind, what = judged.case
+    outcome = judged.verdict.outcome
+    print(f"{kind}:{what}  {outcome}  {judged.verdict.detail}", flush=True)
+    if keep is not None and judged.content is not None and not isinstance(what, Path):
         keep.mkdir(parents=True, exist_ok=True)
-        (keep / f"{kind}-{what}-{verdict.outcome}{KINDS[kind].suffix}").write_bytes(content_of(case, seeds))
+        (keep / f"{kind}-{what}-{outcome}{KINDS[kind].suffix}").write_bytes(judged.content)
 
 
 def _table(counts: dict[str, Counter[str]]) -> str:

@@ -17,7 +17,7 @@ from cadlab.fuzz.judge import Verdict, judge
 from cadlab.fuzz.kinds import KINDS, Kind
 from cadlab.fuzz.mutate import spoilt
 
-__all__ = ["main"]
+__all__ = ["file_of", "main", "put_down", "seeds_of"]
 
 
 def main(seeds: Path, scratch: Path, memory: int) -> None:
@@ -30,6 +30,8 @@ def main(seeds: Path, scratch: Path, memory: int) -> None:
         for line in sys.stdin:
             name, _, what = line.rstrip("\n").partition(" ")
             kind = KINDS[name]
+            # Emptied first: a library may end the process while the file is made, and then there must be none.
+            _clear(scratch)
             content = _content(kind, what, seeds)
             before = os.fstat(noise.fileno()).st_size
             verdict = judge(kind, put_down(kind, content, seeds, scratch), seeds)
@@ -43,14 +45,9 @@ def main(seeds: Path, scratch: Path, memory: int) -> None:
 
 
 def put_down(kind: Kind, content: bytes, seeds: Path, scratch: Path) -> Path:
-    """Writes the file of a case, and what it lies beside, into an empty folder; returns what is to be read."""
-    for old in sorted(scratch.rglob("*"), reverse=True):
-        if old.is_dir():
-            old.rmdir()
-        else:
-            old.unlink()
-    scratch.mkdir(parents=True, exist_ok=True)
-    file = scratch / f"part{kind.suffix}"
+    """Writes the file of a case, and what it lies beside, into an emptied folder; returns what is to be read."""
+    _clear(scratch)
+    file = file_of(kind, scratch)
     file.write_bytes(content)
     if kind.whole is None:
         return file
@@ -58,6 +55,20 @@ def put_down(kind: Kind, content: bytes, seeds: Path, scratch: Path) -> Path:
     whole = scratch / f"part{suffix}"
     whole.write_bytes((seeds / other / "0.seed").read_bytes())
     return whole
+
+
+def file_of(kind: Kind, scratch: Path) -> Path:
+    """Where the spoilt file of a case is put."""
+    return scratch / f"part{kind.suffix}"
+
+
+def _clear(scratch: Path) -> None:
+    for old in sorted(scratch.rglob("*"), reverse=True):
+        if old.is_dir():
+            old.rmdir()
+        else:
+            old.unlink()
+    scratch.mkdir(parents=True, exist_ok=True)
 
 
 def _content(kind: Kind, what: str, seeds: Path) -> bytes:

@@ -11,17 +11,17 @@ import tempfile
 import threading
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from pathlib import Path
 
 from cadgraph._io.search_path import search_path
 from cadgraph.config import LoadConfig
 from cadgraph.errors import CadGraphError
-from cadlab.fuzz.child import put_down, seeds_of
+from cadlab.fuzz.child import file_of, put_down
 from cadlab.fuzz.judge import Verdict, fault_of_message
 from cadlab.fuzz.kinds import KINDS, read_scene
-from cadlab.fuzz.mutate import spoilt
 
-__all__ = ["Case", "content_of", "judge_all"]
+__all__ = ["Case", "Judged", "judge_all"]
 
 _PATIENCE = 10.0  # [s] for one case
 _FIRST = 60.0  # [s] for the first one of a kind in a child, which imports what reads it
@@ -31,16 +31,22 @@ Case = tuple[str, int | Path]
 """A kind, and a number or a file."""
 
 
-def content_of(case: Case, seeds: Path) -> bytes:
-    """The bytes of a case."""
-    name, what = case
-    if isinstance(what, Path):
-        return what.read_bytes()
-    kind = KINDS[name]
-    return spoilt(name, kind.layout, seeds_of(kind, seeds), what)
+@dataclass(frozen=True)
+class Judged:
+    """A case that was judged.
+
+    Args:
+        case: which.
+        verdict: what came of it.
+        content: of its file, where that may be wanted; None where it is sound, or was not made.
+    """
+
+    case: Case
+    verdict: Verdict
+    content: bytes | None = None
 
 
-def judge_all(cases: Iterable[Case], seeds: Path, workers: int = 2) -> Iterator[tuple[Case, Verdict]]:
+def judge_all(cases: Iterable[Case], seeds: Path, workers: int = 2) -> Iterator[Judged]:
     """Judges cases in several children.
 
     Args:
@@ -49,10 +55,10 @@ def judge_all(cases: Iterable[Case], seeds: Path, workers: int = 2) -> Iterator[
         workers: number of children.
 
     Yields:
-        Each case and what came of it, as they are done.
+        What came of each case, as they are done.
     """
     waiting = iter(cases)
-    lock, done = threading.Lock(), queue.Queue[tuple[Case, Verdict] | BaseException | None]()
+    lock, done = threading.Lock(), queue.Queue[Judged | BaseException | None]()
 
     def work() -> None:
         try:
@@ -62,7 +68,7 @@ def judge_all(cases: Iterable[Case], seeds: Path, workers: int = 2) -> Iterator[
                         case = next(waiting, None)
                     if case is None:
                         return
-                    done.put((case, child.judge(case)))
+                    done.put(child.judge(case))
         except BaseException as error:
             done.put(error)
         finally:
@@ -98,7 +104,15 @@ class _Child:
         self._process: subprocess.Popen[str] | None = None
         self._known: set[str] = set()
 
-    def judge(self, case: Case) -> Verdict:
+    def judge(self, case: Case) -> Judged:
+        verdict = self._answer(case)
+        file = file_of(KINDS[case[0]], self._folder / "case")
+        content = file.read_bytes() if file.is_file() else None
+        if verdict.outcome in ("hang", "crash", "memory") and KINDS[case[0]].scene:
+            verdict = self._as_users_see_it(case, verdict, content)
+        return Judged(case, verdict, content if verdict.outcome not in ("read", "refused") else None)
+
+    def _answer(self, case: Case) -> Verdict:
         name, what = case
         process = self._process or self._start()
         assert process.stdin is not None
@@ -128,14 +142,14 @@ class _Child:
                 process.wait(_PATIENCE)
             self.end()
             verdict = Verdict("hang", "no answer") if late.is_set() else Verdict("crash", f"exit code {process.returncode}")
-        if verdict.outcome in ("hang", "crash", "memory") and KINDS[name].scene:
-            return self._as_users_see_it(case, verdict)
         return verdict
 
-    def _as_users_see_it(self, case: Case, verdict: Verdict) -> Verdict:
+    def _as_users_see_it(self, case: Case, verdict: Verdict, content: bytes | None) -> Verdict:
         """Whether reading in a process of its own turns it into one line, as it must."""
         kind = KINDS[case[0]]
-        file = put_down(kind, content_of(case, self._seeds), self._seeds, self._folder / "again")
+        if content is None:
+            return Verdict(f"stopped-{verdict.outcome}", "the USD library ended on the text that a crate was to be made of")
+        file = put_down(kind, content, self._seeds, self._folder / "again")
         try:
             read_scene(file, LoadConfig(timeout=_PATIENCE))
         except CadGraphError as error:
