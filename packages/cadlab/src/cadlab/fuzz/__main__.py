@@ -31,7 +31,7 @@ def main(given: Sequence[str] | None = None) -> int:
         if args.case:
             cases: Iterator[Case] = iter([_parsed(case) for case in args.case])
         else:
-            print(f"seed {args.seed}", flush=True)
+            print(f"seed {args.seed}", flush=True)  # noqa: T201
             cases = _cases(args.only or list(KINDS), args.seed, args.mutations, args.seconds, seeds)
         counts: dict[str, Counter[str]] = {}
         found: dict[str, Case] = {}
@@ -42,7 +42,7 @@ def main(given: Sequence[str] | None = None) -> int:
                 _tell(judged, args.keep)
             if verdict.is_fault:
                 found.setdefault(_signature(case, verdict), case)
-        print(_table(counts))
+        print(_table(counts))  # noqa: T201
         return int(bool(found))
 
 
@@ -83,7 +83,7 @@ def _signature(case: Case, verdict: Verdict) -> str:
 def _tell(judged: Judged, keep: Path | None) -> None:
     kind, what = judged.case
     outcome = judged.verdict.outcome
-    print(f"{kind}:{what}  {outcome}  {judged.verdict.detail}", flush=True)
+    print(f"{kind}:{what}  {outcome}  {judged.verdict.detail}", flush=True)  # noqa: T201
     if keep is not None and judged.content is not None and not isinstance(what, Path):
         keep.mkdir(parents=True, exist_ok=True)
         (keep / f"{kind}-{what}-{outcome}{KINDS[kind].suffix}").write_bytes(judged.content)

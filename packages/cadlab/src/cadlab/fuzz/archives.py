@@ -1,4 +1,4 @@
-"""Faults within containers: a member of a zip archive, or the head of a GLB, is spoilt and put back so that it is found."""
+"""Faults within containers: a member of a zip archive or the head of a GLB is spoilt and put back where it is found."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The reading child: ``python -m cadlab.fuzz.child SEEDS SCRATCH MEMORY`` judges the cases that its standard input names.
+"""The reading child: ``python -m cadlab.fuzz.child SEEDS SCRATCH MEMORY`` judges what its standard input names.
 
 Each line is ``KIND NUMBER``, or ``KIND PATH`` for a file that is there already; each answer is a line of JSON.
 """

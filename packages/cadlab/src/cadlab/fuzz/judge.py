@@ -111,7 +111,7 @@ def _fault_of_scene(kind: Kind, file: Path, scene: Any) -> Verdict | None:
 
 
 def _lost_of_usd(file: Path, scene: Any) -> list[str]:
-    """Surfaces of a stage, by a walk of its own, that are neither in the scene nor in a note on them or what they are in."""
+    """Surfaces of a stage, by a walk of its own, that no path of the scene and no note tells of."""
     from pxr import Usd, UsdGeom
 
     stage = Usd.Stage.Open(str(file), Usd.Stage.LoadAll)

@@ -26,7 +26,7 @@ class Kind:
         layout: what spoils it, a key of the table in ``mutate``.
         read: takes the spoilt file and the folder of the seeds, and returns what it holds.
         scene: whether it returns a scene, which is then read in a process of its own outside of this fuzzer.
-        whole: another file that is sound, by its suffix; ``read`` is then given that one, and the spoilt file is beside.
+        whole: another file that is sound, by its suffix; ``read`` is then given that one, the spoilt one beside.
         values: whether what refuses it is a plain ``ValueError``, which the command line tells like its own errors.
         named: whether a refusal must name the file; not where an answer of a model is read, which is in no file.
     """

@@ -11,6 +11,7 @@ import zipfile
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -96,7 +97,7 @@ END
 
 
 def write_seeds(folder: Path) -> None:
-    """Writes the sound files into ``folder/KIND/N.SUFFIX``; those of a kind whose package is not installed are missing."""
+    """Writes the sound files into ``folder/KIND/N.SUFFIX``; none of a kind whose package is missing."""
     from cadgraph.errors import MissingExtra
 
     for kind, texts in TEXTS.items():
@@ -134,15 +135,16 @@ def _put(folder: Path, kind: str, content: bytes) -> None:
 
 def _plant() -> Plant:
     """A tank, a pipe, a valve of two meshes, a pipe round a bend."""
-    pipes = {"group": "Pipe assembly", "line": "L1", "cluster": "all"}
-    valve = {"group": "Valve assembly", "unit": "V-1", "line": "L1", "family": "gate valve"}
+    pipes: dict[str, Any] = {"group": "Pipe assembly", "line": "L1", "cluster": "all"}
+    valve: dict[str, Any] = {"group": "Valve assembly", "unit": "V-1", "line": "L1", "family": "gate valve"}
     steel, blue = (0.5, 0.5, 0.55), (0.1, 0.2, 0.6)
+    body = along("x", cylinder(0.06, 0.0, 0.2, _SIDES))
     run = along("x", ring(0.024, 0.03, 0.0, 0.5, _SIDES))
     bend = tube(arc((0, 0, 0), (0.12, 0, 0), (0.12, 0.12, 0), 3), 0.03, 0.0, _SIDES)
     components = (
         Component(cylinder(0.4, 0.0, 1.0, _SIDES), name="shell", color=blue, pose=at(-0.4), group="Tank", unit="T-1"),
         Component(run, name="pipe", color=steel, pose=at(0, 0, 0.5), **pipes),
-        Component(along("x", cylinder(0.06, 0.0, 0.2, _SIDES)), name="valve body", color=blue, pose=at(0.5, 0, 0.5), **valve),
+        Component(body, name="valve body", color=blue, pose=at(0.5, 0, 0.5), **valve),
         Component(ring(0.04, 0.05, 0.0, 0.01, _SIDES), name="handwheel", color=blue, pose=at(0.6, 0, 0.56), **valve),
         Component(run, name="pipe", color=steel, pose=at(0.7, 0, 0.5), **pipes),
         Component(bend, name="elbow", color=steel, pose=at(1.2, 0, 0.5), **pipes),
@@ -198,7 +200,7 @@ def _documents(folder: Path) -> None:
 
     scene = cadgraph.load(folder / "plant.usda", LoadConfig(isolate=False))
     truth = Truth.load(truth_path(folder / "plant.usda"))
-    given = [GivenLabel(row.mesh, row.group, row.name) for row in truth.meshes]
+    given = [GivenLabel(row.mesh, str(row.group), row.name) for row in truth.meshes]
     graph = cadgraph.build(scene, Config(), labels=given)
     text = json.dumps(graph.to_json()).replace(str(folder), "")
     _put(folder, "graph", text.encode())
@@ -225,7 +227,9 @@ def _corrections(folder: Path) -> bytes:
         Direction((a,), (b,), (c,), ((0.0, 0.0, 0.0), (1.0, 2.0, 3.0)), "backward"), Tag((a, b), "V-4711"),
         Ground(a, True),
     )  # fmt: skip
-    history = History().do(edits, "all", when="2026-01-02T03:04:05Z", who="Ann", why="seen").do((Tag((c,), "P-1"),), "tag")
+    history = (
+        History().do(edits, "all", when="2026-01-02T03:04:05Z", who="Ann", why="seen").do((Tag((c,), "P-1"),), "tag")
+    )
     return write_history(history.undo(who="Bob"), folder / "corrections.json").read_bytes()
 
 

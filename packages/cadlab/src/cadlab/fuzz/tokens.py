@@ -1,4 +1,4 @@
-"""Faults of texts: what stands in a file as numbers, words, brackets and lines is swapped, lost, doubled or made absurd."""
+"""Faults of texts: numbers, words, brackets and lines of a file are swapped, lost, doubled or made absurd."""
 
 from __future__ import annotations
 

@@ -11,8 +11,8 @@ from cadlab.fuzz.tokens import WORDS
 __all__ = ["spoil_json", "spoil_tree"]
 
 _NUMBERS = (
-    float("nan"), float("inf"), -float("inf"), 1e308, -1e308, 1e-320, -1, 0, 1, 2, 0.5, -0.0, 2**31 - 1, 2**31, -(2**31) - 1,
-    2**32, 2**53 + 1, 2**63, 2**64, 10**400, 1_000_000,
+    float("nan"), float("inf"), -float("inf"), 1e308, -1e308, 1e-320, -1, 0, 1, 2, 0.5, -0.0, 2**31 - 1, 2**31,
+    -(2**31) - 1, 2**32, 2**53 + 1, 2**63, 2**64, 10**400, 1_000_000,
 )  # fmt: skip
 _OTHERS = (None, True, False, "", [], {}, [[]], [None], {"": None}, ["a"] * 3, [1e308] * 16, "1", [0, 0, 0])
 

@@ -69,7 +69,7 @@ def judge_all(cases: Iterable[Case], seeds: Path, workers: int = 2) -> Iterator[
                     if case is None:
                         return
                     done.put(child.judge(case))
-        except BaseException as error:
+        except BaseException as error:  # noqa: BLE001 - whoever asks for the verdicts gets it
             done.put(error)
         finally:
             done.put(None)
@@ -141,14 +141,16 @@ class _Child:
             with suppress(subprocess.TimeoutExpired):
                 process.wait(_PATIENCE)
             self.end()
-            verdict = Verdict("hang", "no answer") if late.is_set() else Verdict("crash", f"exit code {process.returncode}")
+            verdict = (
+                Verdict("hang", "no answer") if late.is_set() else Verdict("crash", f"exit code {process.returncode}")
+            )
         return verdict
 
     def _as_users_see_it(self, case: Case, verdict: Verdict, content: bytes | None) -> Verdict:
         """Whether reading in a process of its own turns it into one line, as it must."""
         kind = KINDS[case[0]]
         if content is None:
-            return Verdict(f"stopped-{verdict.outcome}", "the USD library ended on the text that a crate was to be made of")
+            return Verdict(f"stopped-{verdict.outcome}", "the USD library ended on the text of a crate to be")
         file = put_down(kind, content, self._seeds, self._folder / "again")
         try:
             read_scene(file, LoadConfig(timeout=_PATIENCE))
