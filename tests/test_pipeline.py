@@ -12,6 +12,7 @@ import shapes
 from cadgraph.model.given_labels import GivenLabel
 from cadgraph.model.records import Adjacent, Contains, Related
 from cadgraph.model.scene import Scene
+from cadgraph.model.vocabulary import Vocabulary
 
 METHODS = ["exact", "paper"]
 PATHS = ["/p0", "/v1", "/p2", "/v3", "/bolt4", "/lone5", "/g6", "/floor7"]
@@ -61,6 +62,31 @@ def structure(graph):
         "related": {frozenset((unit[e.source], unit[e.target])) for e in graph.of_kind(Related)},
         "sizes": sorted((round(p.area, 7), *(round(x, 7) for x in p.obb.extents)) for p in graph.parts()),
     }
+
+
+def floor_of(graph):
+    return graph.part(next(p.id for p in graph.parts() if "/floor7" in p.meshes))
+
+
+def test_the_ground_carries_its_name_for_the_reason_it_is_the_ground():
+    label = floor_of(built(line(), "exact", labels=())).label
+    assert (label.said, label.source) == (("Structural element", "ground"), "geometry")
+    assert "lowest" in label.evidence.why
+
+
+def test_a_name_that_is_given_counts_more_than_that_of_the_ground():
+    given = (GivenLabel("/floor7", "Structural element", "foundation"),)
+    floor = floor_of(built(line(), "exact", labels=given))
+    assert floor.ground
+    assert floor.label.name == "foundation"
+
+
+def test_a_vocabulary_without_the_ground_leaves_it_without_a_name():
+    tree = Vocabulary.from_json({"Pipe": {"names": ["pipe"]}})
+    config = cadgraph.Config().replace({"label.labeler": "none"})
+    floor = floor_of(cadgraph.build(Scene.from_meshes(line(), PATHS), config, vocabulary=tree))
+    assert floor.ground
+    assert floor.label is None
 
 
 @pytest.mark.parametrize("method", METHODS)

@@ -78,6 +78,13 @@ class LoadConfig(Section):
     unit: Literal["m", "cm", "mm", "dm", "km", "in", "ft"] | None = _setting(
         None, "unit of the file's lengths, whatever it says itself; none: its own, or by what its pipes measure"
     )
+    scale: float | None = _setting(
+        None,
+        "multiplies the file's lengths, in the unit it says, else metres; none: as they are",
+        gt=0,
+        le=1e9,
+    )
+    strict: bool = _setting(False, "refuse a file of which geometry is lost: damaged, unreadable or not found")
     up: Literal["X", "Y", "Z"] | None = _setting(None, "up axis of the file, whatever it says itself; none: its own")
     granularity: Literal["auto", "node", "primitive"] = _setting(
         "auto",
@@ -91,6 +98,12 @@ class LoadConfig(Section):
     metadata: Literal["off", "keep"] = _setting(
         "keep", "what the file says of its parts (types, tags, systems): leave it, or keep it beside the geometry"
     )
+
+    @model_validator(mode="after")
+    def _one_way_to_measure(self) -> LoadConfig:
+        if self.unit is not None and self.scale is not None:
+            raise ValueError("a unit (--unit) and a scale (--scale) contradict each other; give one of them")
+        return self
 
 
 class PreprocessConfig(Section):
@@ -116,9 +129,12 @@ class GroundConfig(Section):
     find: Literal["auto", "named", "none"] = _setting("auto", "find it, take the meshes named below, or assume none")
     meshes: tuple[str, ...] = _setting((), "source paths of the ground (for find = 'named')")
     min_size: float = _setting(2.0, "auto: least extent in both horizontal directions [m]", gt=0)
-    max_thickness_ratio: float = _setting(0.05, "auto: greatest height over the lesser horizontal extent", gt=0)
+    max_thickness_ratio: float = _setting(0.1, "auto: greatest height over the lesser horizontal extent", gt=0)
     min_cover: float = _setting(0.95, "auto: least share of everything else's footprint that it covers", gt=0, le=1)
-    min_margin: float = _setting(1.1, "auto: least footprint over everything else's footprint", gt=0)
+    min_margin: float = _setting(1.1, "auto: least footprint over everything else's footprint, or as follows", gt=0)
+    min_overhang: float = _setting(
+        0.3, "auto: how far it reaches beyond everything else on each of its sides [m]", ge=0
+    )
     max_buried: float = _setting(
         0.0, "auto: greatest share of all other meshes that may lie wholly below it", ge=0, le=1
     )

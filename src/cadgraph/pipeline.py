@@ -157,7 +157,11 @@ def _structured(
     contacts = cut_bridges(contacts, bridges) if config.cluster.cut_bridges else contacts
     cluster = cluster_parts(parts.n_parts, contacts, parts.ground, config.cluster.min_samples)
     cluster = join_enclosed(cluster, parts)
-    found = (*seen.notes, *report_ground(scene, ground, seen.found_ground), *from_bridges)
+    found = (
+        *seen.notes,
+        *report_ground(scene, seen.properties, config.ground, ground, seen.found_ground),
+        *from_bridges,
+    )
     settings = config.model_dump(mode="json", include=set(ANALYSIS_SETTINGS))
     return Analysis(
         scene,

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import cadgraph
+import graphs
 import shapes
 from cadgraph.model.scene import Scene
 from command_line import refused, run
@@ -209,6 +210,32 @@ def test_a_name_that_is_no_text_is_refused_in_one_line(capsys, tmp_path):
 def test_an_error_cannot_move_the_cursor(capsys, tmp_path):
     message = refused(capsys, "build", tmp_path / "a\x1b[31m\r\nb.usda", "-o", tmp_path / "out")
     assert message.isprintable()
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ("show", "{}"), ("show", "{}", "--json"), ("lines", "{}"), ("lines", "{}", "--csv"), ("lines", "{}", "--json"),
+        ("find", "{}"), ("find", "{}", "--json"), ("describe", "{}", "unit-V-001"), ("explain", "{}", "unit-V-001"),
+        ("explain", "{}", "unit-V-001", "--json"),
+    ],
+)  # fmt: skip
+def test_a_tampered_graph_cannot_move_the_cursor(capsys, tmp_path, command):
+    escapes = "\x1b]0;title\x07\x9b31m\u202e"
+    data = graphs.valve_line().to_json()
+    data["source"]["path"] += escapes
+    data["diagnostics"] = [{"code": f"odd{escapes}", "message": f"odd{escapes}", "meshes": [escapes]}]
+    for node in data["nodes"]:
+        node.update(
+            {key: node[key] + escapes for key in ("tag", "kind_guesses", "name") if isinstance(node.get(key), str)}
+        )
+        if node.get("label"):
+            node["label"]["evidence"] = {"why": f"odd{escapes}"}
+    (tmp_path / "graph.json").write_text(json.dumps(data))
+    code, out, err = run(capsys, *(str(tmp_path) if word == "{}" else word for word in command))
+    assert code == 0
+    assert out + err
+    assert all(one.isprintable() or one in "\n\t" for one in out + err)
 
 
 def test_no_bars_where_nobody_looks(capsys, scene_file, tmp_path):

@@ -1,5 +1,6 @@
 """Unit, up axis and bags of triangles: what every scene gets after its reader."""
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -7,9 +8,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+import cadgraph
 import shapes
 from cadgraph.config import LoadConfig
 from cadgraph.errors import LoadError
+from cadgraph.load import load
 from cadgraph.load.bodies import split_shells
 from cadgraph.load.finish import finish
 from cadgraph.load.units import METRES, UnitEvidence, weigh_units
@@ -17,6 +20,7 @@ from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.scene import MeshArrays, Placement, Scene, Source
 
 FILE = Path("plant.stl")
+DEMO = Path(cadgraph.__file__).parent / "session/demo_plant.usdc"
 OUTER = (0.0337, 0.0603, 0.0889, 0.1143, 0.2191)  # EN 10220: DN 25, 50, 80, 100, 200 [m]
 
 
@@ -72,7 +76,7 @@ def test_without_evidence_the_unit_must_be_said():
 
 
 def test_two_standard_diameters_among_others_decide_no_unit():
-    two = UnitEvidence(dict.fromkeys(METRES, 0.0) | {"mm": 5.0}, dict.fromkeys(METRES, 0) | {"mm": 2}, 2, 1.0)
+    two = UnitEvidence(dict.fromkeys(METRES, 0.0) | {"mm": 5.0}, dict.fromkeys(METRES, 0) | {"mm": 2}, 2, 1.0, 0.1)
     assert two.clear
     assert not replace(two, n_diameters=3).clear
     assert replace(two, n_diameters=9, hits=two.hits | {"mm": 3}).clear
@@ -84,10 +88,46 @@ def test_a_stated_unit_is_doubted_and_kept():
     found = finish(wrong, LoadConfig(), FILE)
     assert codes(found) == ["unit-doubt"]
     assert "the file's unit is m" in found.diagnostics[0].message
-    assert "--unit in" in found.diagnostics[0].message
+    assert "--scale 0.0254" in found.diagnostics[0].message
     np.testing.assert_array_equal(found.vertices, wrong.vertices)
     assert codes(finish(wrong, LoadConfig(unit="in"), FILE)) == []
+    mended = finish(wrong, LoadConfig(scale=0.0254), FILE)
+    assert codes(mended) == []
+    assert mended.source.meters_per_unit == pytest.approx(0.0254)
+    np.testing.assert_allclose(mended.vertices, wrong.vertices * 0.0254)
     assert codes(finish(scene_of(pipes(), meters_per_unit=1.0), LoadConfig(), FILE)) == []
+
+
+@pytest.mark.parametrize("wrong", [1.0, 0.0254, 0.01, 1e-6])
+def test_the_demo_with_another_unit_is_doubted_with_the_scale_that_mends_it(wrong):
+    sound = load(DEMO)
+    assert "unit-doubt" not in codes(sound)
+    assert sound.source.meters_per_unit == 0.001
+    config = LoadConfig(scale=wrong / 0.001, split=False)
+    [note] = [one for one in finish(sound, config, FILE).diagnostics if one.code == "unit-doubt"]
+    told = float(re.search(r"--scale ([0-9.e+-]+);", note.message)[1])
+    assert told * wrong == pytest.approx(0.001, rel=1e-8)
+    assert "nothing was rescaled" in note.message
+
+
+def test_sizes_alone_tell_of_many_meshes_and_not_of_few():
+    boxes = [moved(shapes.box((0.3, 0.2, 0.1)), (x, y, 0)) for x in range(8) for y in range(6)]
+    assert codes(finish(scene_of(boxes, meters_per_unit=1.0), LoadConfig(), FILE)) == []
+    huge = [(1000 * vertices, faces) for vertices, faces in boxes]
+    [note] = finish(scene_of(huge, meters_per_unit=1.0), LoadConfig(), FILE).diagnostics
+    assert note.code == "unit-doubt"
+    assert "odd for a plant" in note.message
+    assert "--scale 0.001" in note.message
+    assert codes(finish(scene_of(huge[:12], meters_per_unit=1.0), LoadConfig(), FILE)) == []
+
+
+def test_a_scale_is_that_of_metres_where_no_unit_is_stated_and_never_beside_a_unit():
+    unsaid = scene_of(pipes(), unit_stated=False)
+    found = finish(unsaid, LoadConfig(scale=0.5), FILE)
+    np.testing.assert_allclose(np.ptp(found.vertices, axis=0), 0.5 * np.ptp(unsaid.vertices, axis=0))
+    assert found.source.meters_per_unit == 0.5
+    with pytest.raises(ValueError, match="contradict each other"):
+        LoadConfig(unit="mm", scale=2.0)
 
 
 def test_a_unit_is_weighed_the_same_whatever_the_file_calls_it():

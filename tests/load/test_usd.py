@@ -196,6 +196,25 @@ def test_collapsed_mesh_is_left_out_and_flat_one_kept(stage):
     assert [n.meshes for n in scene.diagnostics if n.code == "degenerate-mesh"] == [("/line",)]
 
 
+def test_a_placement_with_a_perspective_is_placed_without_and_told(stage):
+    rows = Gf.Matrix4d(2, 0, 0, 0.5, 0, 2, 0, 0, 0, 0, 2, 0, 4, 0, 0, 2)
+    add_mesh(stage, "/a").AddTransformOp().Set(rows)
+    add_mesh(stage, "/b").AddTranslateOp().Set((2, 0, 0))
+    scene = saved(stage)
+    assert [n.meshes for n in scene.diagnostics if n.code == "projective-transform"] == [("/a",)]
+    np.testing.assert_allclose(scene.mesh(0)[0], scene.mesh(1)[0])
+
+
+def test_a_shape_of_negative_size_is_told(stage):
+    add_mesh(stage, "/a")
+    UsdGeom.Cylinder.Define(stage, "/b").CreateHeightAttr(-2.0)
+    scene = saved(stage)
+    assert scene.paths == ("/a",)
+    [note] = [n for n in scene.diagnostics if n.code == "invalid-size"]
+    assert note.meshes == ("/b",)
+    assert "height -2.0" in note.message
+
+
 def test_placement_that_is_not_finite_is_left_out(stage):
     add_mesh(stage, "/a")
     add_mesh(stage, "/b").AddTranslateOp().Set((float("nan"), 0, 0))

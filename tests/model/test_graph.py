@@ -398,7 +398,7 @@ def adjacent(data):
         (lambda d: adjacent(d).pop("distance"), r"edge 'adjacent' from 'part-0' to 'part-1' \(.*distance\) is missing"),
         (lambda d: adjacent(d).update(target="part-0"), "ends where it starts"),
         (lambda d: adjacent(d).update(source="part-1", target="part-0"), "the wrong way round"),
-        (lambda d: adjacent(d).update(distance=-1e-9), "no distance is below zero"),
+        (lambda d: adjacent(d).update(distance=-1e-9), r"adjacent.distance\) must be at least 0"),
         (lambda d: adjacent(d).update(target="unit-V-001"), "joins a part with a unit"),
         (lambda d: d["edges"].append(adjacent(d)), "from 'part-0' to 'part-1' is there twice"),
         (
@@ -423,6 +423,13 @@ def adjacent(data):
         (lambda d: d["nodes"][3].update(area=float("nan")), r"nodes\.3\.part\.area"),
         (lambda d: d["nodes"][0].update(layer="planet"), r"nodes\.0.*planet"),
         (lambda d: d["edges"][-1].update(direction="up"), r"edges\.\d+\.connected\.direction"),
+        (
+            lambda d: d["edges"][-1].update(length=-0.5),
+            r"edges\.\d+\.connected\.length\) must be at least 0, not -0\.5",
+        ),
+        (lambda d: d["edges"][-1].update(diameter=-0.1), r"connected\.diameter\) must be at least 0"),
+        (lambda d: d["nodes"][3].update(n_triangles=-1), r"part\.n_triangles\) must be at least 0"),
+        (lambda d: d["nodes"][3]["obb"].update(extents=[1, 1, -1]), r"obb\.extents"),
         (lambda d: d["edges"][0].update(target="ghost"), "names 'ghost', but no node"),
         (lambda d: d["nodes"].append(d["nodes"][3]), "'part-0' is used twice"),
         (lambda d: d["nodes"].append({"layer": "site", "id": "two"}), "exactly one node of layer 'site', found 2"),

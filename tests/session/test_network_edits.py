@@ -306,7 +306,7 @@ def test_ground_takes_a_part_out_of_its_structure_and_gives_it_back():
     assert session.graph.part(part(1)).ground
     assert session.graph.cluster_of(part(1)) is None
     assert [d.message for d in session.graph.diagnostics if d.code == "ground-corrected"] == [
-        "1 mesh(es) that are the ground as a user said so"
+        "1 mesh: the ground, as a user said so"
     ]
     with pytest.raises(ValueError, match="is the ground"):
         session.apply([{"kind": "join", "first": part(1), "second": part(2)}])

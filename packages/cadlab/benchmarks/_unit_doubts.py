@@ -76,11 +76,15 @@ class Tally:
         evidence = weigh_units(scene, metres)
         self.scenes += 1
         self.piped += evidence.n_diameters >= 2
-        told = evidence.best if evidence.certain else ""
-        if told not in ("", true):
-            self.alarms.append(f"{name} ({told} for {true})")
+
+        def told_of(declared: str) -> str:
+            return evidence.best if evidence.certain or evidence.odd(METRES[declared], scene.n_meshes) else ""
+
+        if told_of(true) not in ("", true):
+            self.alarms.append(f"{name} ({told_of(true)} for {true})")
         for declared in METRES:
             if declared != true:
+                told = told_of(declared)
                 outcome = 2 if told in ("", declared) else 0 if told == true else 1
                 self.told[outcome] += 1
         for made, counts in ((scene, self.kept), (_bag(scene), self.bag)):

@@ -6,9 +6,10 @@ import re
 from collections.abc import Sequence
 from pathlib import PurePosixPath, PureWindowsPath
 
-__all__ = ["file_name", "natural_key", "natural_order", "printable", "tag_key", "xml_text"]
+__all__ = ["file_name", "harmless", "natural_key", "natural_order", "printable", "tag_key", "xml_text"]
 
 _LONGEST = 20_000  # characters of a text that is sorted fast: their number must be a character
+_UNSHOWN = "\N{REPLACEMENT CHARACTER}"
 _DIGITS = re.compile(r"([0-9]+)")
 # XML 1.0, production [2] Char: everything else can't stand in a document, not even escaped.
 _NO_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -68,6 +69,13 @@ def tag_key(tag: str) -> NaturalKey:
 def printable(text: str, instead: str = " ") -> str:
     """A text with something else in place of each control character, line break or lone surrogate."""
     return "".join(letter if letter.isprintable() else instead for letter in text)
+
+
+def harmless(text: str) -> str:
+    """A text that a terminal shows and does not obey: breaks of lines and tabs stay, other control characters don't."""
+    if text.isprintable():
+        return text
+    return "".join(one if one.isprintable() or one in "\n\t" else " " if one.isspace() else _UNSHOWN for one in text)
 
 
 def file_name(path: str) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import inspect
 import itertools
-import json
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -17,6 +16,7 @@ from pydantic.fields import FieldInfo
 from cadgraph.agents.tools import TOOLS, Tool
 from cadgraph.cli.application import app
 from cadgraph.cli.options import GraphArgument
+from cadgraph.cli.screen import say, say_json
 
 PANEL = "Questions, as agents ask them"
 _JSON = Annotated[bool, typer.Option("--json", help="Print the whole answer as JSON.")]
@@ -37,7 +37,10 @@ def _command(tool: Tool) -> Callable[..., None]:
         from cadgraph.agents.plant import Plant
 
         answer = tool.ask(Plant.open(graph), {key: value for key, value in arguments.items() if value is not None})
-        typer.echo(json.dumps(answer.values, ensure_ascii=False, indent=1) if as_json else straight(answer.text))
+        if as_json:
+            say_json(answer.values)
+        else:
+            say(straight(answer.text))
 
     only = inspect.Parameter.KEYWORD_ONLY
     parameters = [

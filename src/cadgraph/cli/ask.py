@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -11,7 +10,7 @@ from rich.markup import escape
 from cadgraph.cli.agents import PANEL, straight
 from cadgraph.cli.application import app
 from cadgraph.cli.options import GraphArgument
-from cadgraph.cli.screen import err, out
+from cadgraph.cli.screen import err, out, say_json
 from cadgraph.errors import AskError
 
 if TYPE_CHECKING:
@@ -94,8 +93,7 @@ def ask(
     finally:
         talker.close()
     if as_json:
-        # Half a character in what a model wrote can't be printed.
-        typer.echo(json.dumps(told.values(), ensure_ascii=False, indent=1).encode("utf-8", "replace"))
+        say_json(told.values())
     else:
         _tell(told)
     if not told.sound:

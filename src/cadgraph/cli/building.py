@@ -14,7 +14,9 @@ from cadgraph.cli.options import (
     ConfigOption,
     MetadataOption,
     MethodOption,
+    ScaleOption,
     SetOption,
+    StrictOption,
     UnitOption,
     UpOption,
     read_flows,
@@ -55,7 +57,9 @@ def build(
         ),
     ] = None,
     unit: UnitOption = None,
+    scale: ScaleOption = None,
     up: UpOption = None,
+    strict: StrictOption = False,
     use_metadata: MetadataOption = False,
     method: MethodOption = None,
     config: ConfigOption = None,
@@ -66,7 +70,7 @@ def build(
     from cadgraph.session.run import run
 
     changes = [*(settings or [])]
-    chosen = settings_of(config, changes, method, unit, up)
+    chosen = settings_of(config, changes, method, unit, up, scale=scale, strict=strict)
     if ground:
         find = "none" if ground == ["none"] else "named"
         chosen = chosen.replace({"ground.find": find, "ground.meshes": [] if find == "none" else ground})

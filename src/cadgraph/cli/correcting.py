@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import getpass
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -11,7 +10,7 @@ import typer
 from rich.markup import escape
 
 from cadgraph.cli.application import app
-from cadgraph.cli.screen import bars, out
+from cadgraph.cli.screen import bars, out, say_json
 
 if TYPE_CHECKING:
     from cadgraph.model.graph import SceneGraph
@@ -124,7 +123,7 @@ def corrections(
     rows = read_history(folder).audit()
     lost = [one.message for one in SceneGraph.load(folder).diagnostics if one.code == LOST]
     if as_json:
-        print(json.dumps({"corrections": rows, "lost": lost}, ensure_ascii=False, indent=1))  # noqa: T201
+        say_json({"corrections": rows, "lost": lost})
         return
     for row in rows:
         told = f"{row['what']}: {row['why']}" if row["why"] else row["what"]

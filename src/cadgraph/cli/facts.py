@@ -11,7 +11,14 @@ from rich.markup import escape
 
 from cadgraph._io.text import printable
 from cadgraph.cli.application import app
-from cadgraph.cli.options import ConfigOption, SetOption, UnitOption, UpOption, settings_of
+from cadgraph.cli.options import (
+    ConfigOption,
+    ScaleOption,
+    SetOption,
+    UnitOption,
+    UpOption,
+    settings_of,
+)
 from cadgraph.cli.screen import out
 
 if TYPE_CHECKING:
@@ -34,6 +41,7 @@ def facts(
     config: ConfigOption = None,
     settings: SetOption = None,
     unit: UnitOption = None,
+    scale: ScaleOption = None,
     up: UpOption = None,
 ) -> None:
     """List what a file says of its parts: each value, how often, the label that it speaks for and by what rule.
@@ -46,7 +54,7 @@ def facts(
     from cadgraph.load import load
     from cadgraph.model.vocabulary import default_vocabulary, read_vocabulary
 
-    chosen = settings_of(config, settings or [], None, unit, up)
+    chosen = settings_of(config, settings or [], None, unit, up, scale=scale)
     known = read_words(words or chosen.label.words)
     tree = read_vocabulary(vocabulary) if vocabulary else default_vocabulary()
     loaded = load(scene, chosen.load)

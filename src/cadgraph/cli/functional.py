@@ -13,7 +13,7 @@ from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.options import GraphArgument
-from cadgraph.cli.screen import err, out
+from cadgraph.cli.screen import err, out, say, say_json
 
 JsonOption = Annotated[bool, typer.Option("--json", help="Print as JSON.")]
 
@@ -78,7 +78,7 @@ def _deliver(content: bytes, file: Path | None, n_lines: int) -> None:
     from cadgraph._io.atomic import write_atomically
 
     if file is None:
-        typer.echo(content.decode("utf-8-sig").replace("\r\n", "\n"), nl=False)
+        say(content.decode("utf-8-sig").replace("\r\n", "\n"), end="")
         return
     write_atomically(file, content)
     out.print(f"wrote {escape(str(file))}: {n_lines:,} lines")
@@ -263,6 +263,6 @@ def _tell_comparison(
 
 def _show(text: list[str], values: dict[str, Any], as_json: bool) -> None:
     if as_json:
-        typer.echo(json.dumps(values, ensure_ascii=False, indent=1))
+        say_json(values)
         return
     _print(out, text)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -10,8 +9,17 @@ import typer
 from rich.markup import escape
 
 from cadgraph.cli.application import app
-from cadgraph.cli.options import ConfigOption, GraphArgument, SetOption, UnitOption, UpOption, settings_of
-from cadgraph.cli.screen import bars, err, out
+from cadgraph.cli.options import (
+    ConfigOption,
+    GraphArgument,
+    ScaleOption,
+    SetOption,
+    StrictOption,
+    UnitOption,
+    UpOption,
+    settings_of,
+)
+from cadgraph.cli.screen import bars, err, out, say_json
 
 catalogs = typer.Typer(no_args_is_help=True, help="Catalogues of your own parts: add to one, list it.")
 app.add_typer(catalogs, name="catalog")
@@ -57,7 +65,7 @@ def explain(
 
     told = explain_any(SceneGraph.load(graph), which, other)
     if as_json:
-        print(json.dumps(told.to_json(), ensure_ascii=False, indent=1))  # noqa: T201
+        say_json(told.to_json())
         return
     for heading, text in told.lines():
         out.print(f"[dim]{heading:<12}[/]{escape(text)}")
@@ -119,7 +127,9 @@ def add_(
     config: ConfigOption = None,
     settings: SetOption = None,
     unit: UnitOption = None,
+    scale: ScaleOption = None,
     up: UpOption = None,
+    strict: StrictOption = False,
 ) -> None:
     """Add parts to a catalogue, from CAD files under one label or from graphs with theirs.
 
@@ -138,7 +148,7 @@ def add_(
         err.print(
             f"[dim]{escape(str(label))} is not in the built-in vocabulary; build with the --vocabulary that has it[/]"
         )
-    chosen = settings_of(config, settings or [], None, unit, up)
+    chosen = settings_of(config, settings or [], None, unit, up, scale=scale, strict=strict)
     whole = read_catalog(catalog) if catalog.exists() else EMPTY
     wanted = split_label(only, None) if only is not None else None
     for file in files:
@@ -170,7 +180,7 @@ def list_(
 
     rows = rows_of(read_catalog(catalog))
     if as_json:
-        print(json.dumps(rows, ensure_ascii=False, indent=1))  # noqa: T201
+        say_json(rows)
         return
     for row in rows:
         size = " x ".join(f"{1000 * x:.0f}" for x in row["size"])

@@ -15,7 +15,9 @@ from cadgraph.cli.options import (
     USE_METADATA,
     ConfigOption,
     MetadataOption,
+    ScaleOption,
     SetOption,
+    StrictOption,
     UnitOption,
     UpOption,
     settings_of,
@@ -143,7 +145,9 @@ def grow_(
     config: ConfigOption = None,
     settings: SetOption = None,
     unit: UnitOption = None,
+    scale: ScaleOption = None,
     up: UpOption = None,
+    strict: StrictOption = False,
 ) -> None:
     """Show a model overview pictures one after the other, and add the labels that it misses."""
     from cadgraph._io.atomic import write_atomically
@@ -155,7 +159,7 @@ def grow_(
 
     if empty and start:
         raise ValueError("--empty and --from contradict each other; give one")
-    chosen = asking.settings(settings_of(config, settings or [], None, unit, up))
+    chosen = asking.settings(settings_of(config, settings or [], None, unit, up, scale=scale, strict=strict))
     tree = Vocabulary({}) if empty else read_vocabulary(start) if start else default_vocabulary()
     kept = output.parent / f"{output.stem}-lvlm"
     with bars() as progress:

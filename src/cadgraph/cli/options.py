@@ -21,7 +21,9 @@ __all__ = [
     "GraphArgument",
     "MetadataOption",
     "MethodOption",
+    "ScaleOption",
     "SetOption",
+    "StrictOption",
     "UnitOption",
     "UpOption",
     "read_flows",
@@ -50,6 +52,13 @@ UnitOption = Annotated[
 UpOption = Annotated[
     str | None, typer.Option("--up", metavar="AXIS", help="Up axis of the file, whatever it says: X, Y or Z.")
 ]
+ScaleOption = Annotated[
+    float | None,
+    typer.Option("--scale", metavar="F", help="Multiply the file's lengths, in the unit it says (metres if none)."),
+]
+StrictOption = Annotated[
+    bool, typer.Option("--strict", help="Refuse a file of which geometry is lost: damaged, unreadable or not found.")
+]
 GraphArgument = Annotated[Path, typer.Argument(metavar="FOLDER", help="What 'cadgraph build' wrote, or a graph.json.")]
 
 
@@ -58,11 +67,24 @@ USE_METADATA = {"label.use_metadata": True, "relate.use_metadata": True}
 
 
 def settings_of(
-    file: Path | None, changes: Sequence[str], method: str | None, unit: str | None = None, up: str | None = None
+    file: Path | None,
+    changes: Sequence[str],
+    method: str | None,
+    unit: str | None = None,
+    up: str | None = None,
+    *,
+    scale: float | None = None,
+    strict: bool = False,
 ) -> Config:
     """Defaults, then the file, then flags; a setting of an earlier version is told."""
     values = values_of(changes)
-    flags = {"method": method, "load.unit": unit, "load.up": up.upper() if up else None}
+    flags = {
+        "method": method,
+        "load.unit": unit,
+        "load.up": up.upper() if up else None,
+        "load.scale": scale,
+        "load.strict": strict or None,
+    }
     values |= {name: value for name, value in flags.items() if value is not None}
     with warnings.catch_warnings(record=True) as old:
         warnings.simplefilter("always", DeprecationWarning)

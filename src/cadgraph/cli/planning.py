@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,7 +10,7 @@ from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.options import GraphArgument
-from cadgraph.cli.screen import err
+from cadgraph.cli.screen import err, say, say_json
 
 if TYPE_CHECKING:
     from cadgraph.agents.plant import Plant
@@ -68,10 +67,10 @@ def plan(
         err.print(f"wrote {escape(str(pddl))}: {', '.join(pddl_files(planned))}")
     if as_json:
         values = round_values(planned.known, planned.made, planned.faults)
-        typer.echo(json.dumps(values, ensure_ascii=False, indent=1))
+        say_json(values)
         return
     head, rows = planned.lines()
-    typer.echo("\n".join([*head, *rows]) if page is None else page_of(head, rows, [], page))
+    say("\n".join([*head, *rows]) if page is None else page_of(head, rows, [], page))
 
 
 def _check(plant: Plant, file: Path, goals: str, start: str, page: int, as_json: bool) -> None:
@@ -81,6 +80,9 @@ def _check(plant: Plant, file: Path, goals: str, start: str, page: int, as_json:
 
     text = read_text_within(file, PLAN, ValueError, "give a round as 'cadgraph plan --json' prints it")
     answer = check(plant, read_written(text, str(file)), goals, start, page)
-    typer.echo(json.dumps(answer.values, ensure_ascii=False, indent=1) if as_json else answer.text)
+    if as_json:
+        say_json(answer.values)
+    else:
+        say(answer.text)
     if not answer.values["keeps_rules"]:
         raise typer.Exit(1)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import json
 from pathlib import Path
 from typing import Annotated
 
@@ -12,7 +11,7 @@ from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.options import ConfigOption, GraphArgument, SetOption, settings_of
-from cadgraph.cli.screen import note_line, out, summary_lines
+from cadgraph.cli.screen import note_line, out, say_json, summary_lines
 from cadgraph.config import to_toml
 
 
@@ -27,7 +26,7 @@ def show(
 
     summary = summarize(SceneGraph.load(graph))
     if as_json:
-        print(json.dumps(dataclasses.asdict(summary), ensure_ascii=False, indent=1))  # noqa: T201
+        say_json(dataclasses.asdict(summary))
         return
     for line in summary_lines(summary):
         out.print(line)

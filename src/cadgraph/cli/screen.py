@@ -2,23 +2,70 @@
 
 from __future__ import annotations
 
+import json
+import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from rich.console import Console
+import typer
+from rich.console import Console, ConsoleOptions, ConsoleRenderable, RenderHook, RenderResult
+from rich.control import Control
 from rich.markup import escape
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
+from rich.segment import Segment
 
 from cadgraph._io.progress import quiet
+from cadgraph._io.text import harmless
 
-__all__ = ["bars", "err", "note_line", "out", "summary_lines", "tell", "tell_next"]
+__all__ = ["bars", "err", "note_line", "out", "say", "say_json", "summary_lines", "tell", "tell_next"]
 
 _MOST_NAMES = 12  # units that are named on one line
 _MOST_PATHS = 3  # meshes that a note names
 
-out = Console(highlight=False, soft_wrap=True)
-err = Console(stderr=True, highlight=False, soft_wrap=True)
+_CONTROL = re.compile("[\x7f-\x9f\u2028-\u202e\u2066-\u2069]")  # what JSON leaves as it is and a terminal obeys
+
+
+class _Harmless:
+    """Something to print without what moves the cursor, recolours or renames the terminal.
+
+    Names, tags and messages come from files and models; the styles are our own and stay.
+    """
+
+    def __init__(self, printed: ConsoleRenderable) -> None:
+        self._printed = printed
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        for segment in console.render(self._printed, options):
+            yield segment if segment.control else Segment(harmless(segment.text), segment.style)
+
+
+class _Wary(RenderHook):
+    def process_renderables(self, renderables: list[ConsoleRenderable]) -> list[ConsoleRenderable]:
+        return [one if isinstance(one, Control) else _Harmless(one) for one in renderables]
+
+
+def _console(to_errors: bool = False) -> Console:
+    console = Console(stderr=to_errors, highlight=False, soft_wrap=True)
+    console.push_render_hook(_Wary())
+    return console
+
+
+out = _console()
+err = _console(to_errors=True)
+
+
+def say(text: str, end: str = "\n") -> None:
+    """Prints a text as it is, without styles; what a terminal would obey is replaced."""
+    typer.echo(f"{harmless(text)}{end}", nl=False)
+
+
+def say_json(values: Any) -> None:
+    """Prints values as JSON; what a terminal would obey stands there escaped, so that nothing is lost."""
+    text = json.dumps(values, ensure_ascii=False, indent=1)
+    # Half a character, as a model or a file may have it, can't be printed.
+    told = _CONTROL.sub(lambda found: f"\\u{ord(found[0]):04x}", text).encode("utf-8", "replace")
+    typer.echo(told)
 
 
 @contextmanager
@@ -108,6 +155,7 @@ def summary_lines(summary: Any) -> list[str]:
         ("systems", f"{_count(summary.n_systems, 'connected network')} of pipes"),
         *((("the paper", f"{_count(summary.n_related, 'relation')} by Algorithm 1"),) if summary.n_related else ()),
         ("diagnostics", found),
+        *(("ground", escape(words)) for words in summary.ground),
         *(("mind", escape(warning)) for warning in summary.warnings),
     )
     return [f"[dim]{name:<15}[/]{text}" for name, text in rows]

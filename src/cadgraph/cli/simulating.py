@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any
@@ -12,7 +11,7 @@ from rich.markup import escape
 
 from cadgraph.cli.application import app
 from cadgraph.cli.options import GraphArgument
-from cadgraph.cli.screen import err, out
+from cadgraph.cli.screen import err, out, say_json
 
 
 @app.command()
@@ -80,7 +79,7 @@ def simulate(
     changed = bool(commands) or film is not None
     if as_json:
         told = _values(process, file, values, commands, changed) | (stage or {}) | (shown or {})
-        typer.echo(json.dumps(told, ensure_ascii=False, indent=1))
+        say_json(told)
         return
     for line in change_lines(process, before) if changed else standing_lines(process):
         out.print(escape(line))

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from cadgraph.config import LabelConfig
 from cadgraph.labelers.base import Labeling
 from cadgraph.labelers.catalog import apply_catalogs
@@ -16,11 +18,13 @@ from cadgraph.model.catalog import Catalog
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.edits import Correction, Edit
 from cadgraph.model.given_labels import GivenLabel
-from cadgraph.model.labels import CorrectedEvidence, Guess, Label
+from cadgraph.model.labels import CorrectedEvidence, FormerLabel, GeometryEvidence, Guess, Label
 from cadgraph.model.probabilities import Probabilities
 from cadgraph.model.vocabulary import Vocabulary
 
 __all__ = ["SettledLabels", "lay_corrections", "lay_known", "settle_labels"]
+
+_GROUND = "ground"  # the name of the ground in the vocabulary
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +84,9 @@ def lay_known(
 ) -> SettledLabels:
     """The labels before any correction; see ``settle_labels``."""
     told = lay_file(labeling, analysis, vocabulary, config)
-    known, from_catalogs = apply_catalogs(told.labels, catalogs, analysis.parts, vocabulary)
+    known, from_catalogs = apply_catalogs(
+        _lay_ground(told.labels, analysis, vocabulary), catalogs, analysis.parts, vocabulary
+    )
     named, from_outside = apply_given(known, given, analysis.scene, analysis.parts, config)
     diagnostics = (*told.diagnostics, *from_catalogs, *from_outside)
     opinions = _opinions(named, labeling)
@@ -95,6 +101,21 @@ def lay_corrections(
     labels, found = apply_corrections(known.labels, of_labels, analysis.scene, analysis.parts, analysis.contacts)
     opinions = _opinions(labels, labeling)
     return SettledLabels(labels, known.guesses, opinions, (*known.diagnostics, *found), known.probabilities)
+
+
+def _lay_ground(labels: Sequence[Label | None], analysis: Analysis, vocabulary: Vocabulary) -> tuple[Label | None, ...]:
+    """The ground is called so, where the vocabulary has a name for it: it is found by its place, not by its shape."""
+    group = next((group for group in vocabulary.groups if vocabulary.holds(group, _GROUND)), None)
+    if group is None:
+        return tuple(labels)
+    found = analysis.found_ground
+    laid = list(labels)
+    for part in np.flatnonzero(analysis.parts.ground).tolist():
+        by_itself = found is None or any(found[mesh] for mesh in analysis.parts.meshes[part])
+        why = "large, flat and lowest, under all else" if by_itself else "a user said so"
+        evidence = GeometryEvidence(why=why, before=FormerLabel.of(labels[part]))
+        laid[part] = Label(group, _GROUND, 1.0, "geometry", evidence)
+    return tuple(laid)
 
 
 def _opinions(labels: Sequence[Label | None], labeling: Labeling) -> tuple[Label | None, ...]:

@@ -130,6 +130,10 @@ def load(path: str | os.PathLike[str], config: LoadConfig | None = None) -> Scen
 
         scene = finish(importlib.import_module(form.module).read(file, config), config, file)
         digest = sha256_of(file)
+    if config.strict:
+        from cadgraph.load.losses import refuse_losses
+
+        refuse_losses(scene, given)
     return replace(scene, source=replace(scene.source, path=given, sha256=digest, format=form.name))
 
 

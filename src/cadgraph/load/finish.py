@@ -172,9 +172,14 @@ def _with_unit(scene: Scene, config: LoadConfig, path: Path) -> Scene:
         metres = METRES[config.unit]
         moved = _moved(scene, metres / source.meters_per_unit, np.eye(3))
         return replace(moved, source=replace(source, meters_per_unit=metres, unit_stated=True))
+    if config.scale is not None:
+        # By hand: what the lengths tell is said of the lengths that come of it.
+        scene = _moved(scene, config.scale, np.eye(3))
+        source = replace(source, meters_per_unit=source.meters_per_unit * config.scale, unit_stated=True)
+        scene = replace(scene, source=source)
     evidence = weigh_units(scene, source.meters_per_unit)
     if source.unit_stated:
-        return _noted(scene, *_doubt(evidence, source.meters_per_unit))
+        return _noted(scene, *_doubt(scene, evidence, source.meters_per_unit))
     unit = evidence.best
     if not evidence.clear:
         raise LoadError(
@@ -196,15 +201,26 @@ def _hint(scene: Scene) -> str:
     return f" ({'; '.join(said)})" if said else ""
 
 
-def _doubt(evidence: UnitEvidence, metres: float) -> tuple[Diagnostic, ...]:
+def _doubt(scene: Scene, evidence: UnitEvidence, metres: float) -> tuple[Diagnostic, ...]:
     """What is to be said where a file's parts speak for another unit than it states."""
     unit = evidence.best
-    if not evidence.certain or abs(METRES[unit] / metres - 1) < 1e-3:
+    scale = METRES[unit] / metres
+    if abs(scale - 1) < 1e-3:
         return ()
     stated = next((name for name, length in METRES.items() if abs(length / metres - 1) < 1e-3), f"{metres:g} m")
+    remedy = f"if so, read it with --scale {scale:.9g}; as it stands, nothing was rescaled"
+    if evidence.certain:
+        message = (
+            f"the file's unit is {stated}, yet {evidence.hits[unit]} of {evidence.n_diameters} diameters of its pipes "
+            f"are standard ones in {unit}, {evidence.hits.get(stated, 0)} in {stated}; {remedy}"
+        )
+        return (Diagnostic("unit-doubt", message),)
+    if not evidence.odd(metres, scene.n_meshes):
+        return ()
     message = (
-        f"the file's unit is {stated}, yet {evidence.hits[unit]} of {evidence.n_diameters} diameters of its pipes are "
-        f"standard ones in {unit}, {evidence.hits.get(stated, 0)} in {stated}; if so, read it with --unit {unit}"
+        f"the file's unit is {stated}, in which the scene is {evidence.largest * metres:.3g} m across and half of its "
+        f"meshes are below {evidence.median * metres:.2g} m, which is odd for a plant; in {unit} it would be "
+        f"{evidence.largest * METRES[unit]:.3g} m and {evidence.median * METRES[unit]:.2g} m; {remedy}"
     )
     return (Diagnostic("unit-doubt", message),)
 

@@ -29,6 +29,10 @@ _ORIGIN_STEP = 100.0  # [m] origins are whole multiples, so that they are exact 
 _TOO_FAR = 1e9  # [m] ours: there float64 still resolves a micrometre; the Moon is at 4e8
 _SIZES = (1e-3, 1e5)  # [m] ours: no plant is smaller than a millimetre or larger than 100 km
 _RIGID = 2e-6  # shapes are shared by placements that turn as truly as this; ours: float32 frames do
+_STRAIGHT = 1e-9  # how exactly the last column of a placement is 0, 0, 0, 1
+_PROJECTIVE_TOLD = (
+    "its placement has a perspective, which that of a thing has not: it is placed without; see where it lies"
+)
 _EXAMPLES = 20  # so many paths stand for the rest in a note on meshes that were loaded
 
 
@@ -114,7 +118,8 @@ def pack(
 
     Mirrored pieces get their triangles turned, so that these still face outward. A piece without area is left out
     (``degenerate-mesh``), and so is one with a placement that isn't finite (``invalid-transform``) or that reaches
-    farther than a million kilometres from the origin (``too-far``). A scene smaller than a millimetre or larger than
+    farther than a million kilometres from the origin (``too-far``). One whose placement has a perspective is placed
+    without it (``projective-transform``). A scene smaller than a millimetre or larger than
     100 km is reported (``unusual-size``).
 
     Args:
@@ -186,7 +191,7 @@ def pack_placed(
     """
     order = np.array(natural_order(paths), np.int64)
     with np.errstate(over="ignore", invalid="ignore"):
-        world = matrices[order] @ world_from_source
+        world = _affine(matrices, paths, notes)[order] @ world_from_source
         placed = _Placed.of(shapes, shape_of_mesh[order], world)
         low, high = placed.bounds()
         kept = placed.kept([paths[i] for i in order.tolist()], low, high, notes)
@@ -208,6 +213,24 @@ def pack_placed(
         facts=tuple(facts),
         links=tuple(links),
     )
+
+
+def _affine(matrices: Floats, paths: Sequence[str], notes: Notes) -> Floats:
+    """The matrices without what makes a perspective of them, which no placement of a thing has."""
+    column = np.array([0.0, 0.0, 0.0, 1.0])
+    # What isn't finite is told when it is placed.
+    bent = np.flatnonzero(
+        (np.abs(matrices[:, :, 3] - column) > _STRAIGHT).any(axis=1) & np.isfinite(matrices).all(axis=(1, 2))
+    )
+    if not len(bent):
+        return matrices
+    straight = matrices.copy()
+    for i in bent.tolist():
+        notes.add("projective-transform", _PROJECTIVE_TOLD, paths[i])
+        # A matrix times a number is the same placement.
+        straight[i] /= straight[i, 3, 3] or 1.0
+        straight[i, :, 3] = column
+    return straight
 
 
 @dataclass(frozen=True, eq=False)

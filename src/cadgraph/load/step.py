@@ -3,7 +3,7 @@
 Paths are the names along the assembly tree (``/Skid/Valve_1/Body``): every occurrence of a part is a mesh, and so is
 every solid of a part that holds several (``/Skid/Valve/body_1``, ``body_2``).
 
-Notes in ``Scene.diagnostics``: ``several-bodies``, ``empty-mesh``, ``degenerate-mesh``,
+Notes in ``Scene.diagnostics``: ``damaged-source``, ``several-bodies``, ``empty-mesh``, ``degenerate-mesh``,
 ``invalid-transform``.
 """
 
@@ -27,6 +27,7 @@ from cadgraph.load.gltf_mesh import GltfMesh, read_mesh
 from cadgraph.load.gltf_nodes import root_nodes
 from cadgraph.load.naming import Names, path_step
 from cadgraph.load.packing import Notes, Piece, pack
+from cadgraph.load.step_damage import Counts, damage_of, hear, named_in
 from cadgraph.load.triangles import main_color
 from cadgraph.model.scene import Faces, Floats, Scene, Source
 
@@ -67,11 +68,19 @@ def read(path: Path, config: LoadConfig) -> Scene:
     data = path.read_bytes()
     form = "iges" if path.suffix.lower() in (".igs", ".iges") else "step"
     # The library works in millimetres whatever the file's unit, and so does its tolerance.
-    glb = cascadio.load(
-        data, file_type=form, tol_linear=config.max_gap * 1000, tol_angular=config.max_angle, tol_relative=False
-    )
+    # A primitive for each face, so that faces can be counted; ``read_mesh`` joins them again.
+    with hear() as complaints:
+        glb = cascadio.load(
+            data,
+            file_type=form,
+            tol_linear=config.max_gap * 1000,
+            tol_angular=config.max_angle,
+            tol_relative=False,
+            merge_primitives=False,
+        )
     if not glb:
-        raise LoadError(f"{path}: not readable as {form.upper()} (damaged or cut short); export it again")
+        first = f": {complaints.lines[0]}" if complaints.lines else ""
+        raise LoadError(f"{path}: not readable as {form.upper()} (damaged or cut short{first}); export it again")
     notes = Notes()
     bodies: dict[int, list[_Body]] = {}
     pieces: list[Piece] = []
@@ -81,15 +90,24 @@ def read(path: Path, config: LoadConfig) -> Scene:
             if number not in bodies:
                 bodies[number] = _bodies(read_mesh(gltf, number, at, notes))
             pieces.extend(_pieces(at, matrix, bodies[number], notes))
+        came = Counts(len(root_nodes(gltf)), sum(map(len, bodies.values())), _count_faces(gltf))
     except BROKEN as error:
         raise LoadError(f"{path}: the CAD library returned no usable triangles ({error})") from error
     # Of IGES the library (cascadio 0.1) leaves the lengths in millimetres.
     to_metres = np.diag([0.001, 0.001, 0.001, 1]) if form == "iges" else np.eye(4)
     unit = _iges_unit(data) if form == "iges" else _step_unit(data)
+    damage = damage_of(form.upper(), named_in(data) if form == "step" else None, came, complaints)
+    if damage is not None:
+        notes.add(damage.code, damage.message)
     scene = pack(pieces, Source(meters_per_unit=unit, up_axis="Z", format=form), to_metres, notes, _ABRIDGED)
     if not scene.n_meshes:
         raise LoadError(f"{path}: opens, but holds no solid and no surface; export it with its geometry")
     return scene
+
+
+def _count_faces(gltf: Gltf) -> int:
+    """How many faces came back: one primitive each; what is placed several times counts once, as in the file."""
+    return sum(len(mesh.get("primitives", ())) for mesh in gltf.tree.get("meshes", ()))
 
 
 def _occurrences(gltf: Gltf) -> Iterator[tuple[str, Floats, int]]:

@@ -27,6 +27,8 @@ _HIT, _CHANCE = 0.72, 0.085  # of a true pipe's diameter to be standard; of any 
 _SAME = 0.002  # diameters this close are one
 _MOST_CORNERS = 20_000  # of a shape that is looked at; no pipe has more
 _MOST_SHAPES = 3000  # so many shapes, evenly chosen, tell
+_FEW_FOR_SIZES = 20  # meshes
+_ODD, _USUAL = 16.0, 4.0  # sums of two squared standard deviations: one plant in 3,000 is odder, six in seven are not
 _SCENE = (np.log(12.0), 1.7)  # natural logarithm of the extent of a scene [m]: middle and spread
 _MESH = (np.log(0.25), 1.2)  # likewise of the median extent of its meshes
 
@@ -40,12 +42,33 @@ class UnitEvidence:
         hits: how many distinct diameters of long round meshes are standard ones in each unit.
         n_diameters: how many there are.
         largest: the greatest extent of the scene, in the file's unit.
+        median: of the greatest extents of its meshes, likewise.
     """
 
     scores: dict[str, float]
     hits: dict[str, int]
     n_diameters: int
     largest: float
+    median: float
+
+    def odd(self, metres: float, n_meshes: int) -> bool:
+        """Whether the sizes of a scene and of its meshes are odd for a plant, and usual in the likeliest unit.
+
+        Args:
+            metres: length of the file's unit [m].
+            n_meshes: in the scene; of a few, sizes tell nothing.
+        """
+        if n_meshes < _FEW_FOR_SIZES:
+            return False
+        return self._oddness(metres) > _ODD and self._oddness(METRES[self.best]) < _USUAL
+
+    def _oddness(self, metres: float) -> float:
+        return float(
+            sum(
+                ((np.log(max(size * metres, 1e-300)) - middle) / spread) ** 2
+                for size, (middle, spread) in ((self.largest, _SCENE), (self.median, _MESH))
+            )
+        )
 
     @property
     def best(self) -> str:
@@ -109,7 +132,7 @@ def weigh_units(scene: Scene, meters_per_unit: float) -> UnitEvidence:
         for size, (middle, spread) in ((largest, _SCENE), (median, _MESH)):
             score += -0.5 * ((np.log(max(size * metres, 1e-300)) - middle) / spread) ** 2
         scores[unit], hits[unit] = float(score), hit
-    return UnitEvidence(scores, hits, len(different), largest)
+    return UnitEvidence(scores, hits, len(different), largest, median)
 
 
 def bounds_of(scene: Scene) -> tuple[Floats, Floats]:

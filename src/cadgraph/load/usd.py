@@ -3,10 +3,12 @@
 What this reader notes in ``Scene.diagnostics``; meshes with a code of the first row are not in the scene:
 
 - left out: ``hidden``, ``other-purpose``, ``unsupported-geometry``, ``empty-mesh`` (no points or no usable face),
-  ``degenerate-mesh`` (no area), ``invalid-transform``, ``too-far``, ``unreadable``;
+  ``degenerate-mesh`` (no area), ``invalid-transform``, ``invalid-size`` (of a built-in shape), ``too-far``,
+  ``unreadable``;
 - not found: ``missing-reference``, ``missing-payload``, ``missing-layer``, ``missing-prototype``;
 - repaired: ``invalid-units``, ``invalid-up-axis``, ``invalid-points``, ``invalid-indices``, ``invalid-face-counts``,
-  ``invalid-instancer``, ``twisted-faces``, ``overlapping-subsets``;
+  ``projective-transform``, ``invalid-instancer``, ``twisted-faces``, ``overlapping-subsets``;
+- odd: ``mixed-units``, ``mixed-up-axis``;
 - assumed: ``missing-units``, ``missing-up-axis``, ``control-cage``, ``unusual-size``;
 - anything else that the USD library says: ``usd-warning``.
 """
@@ -30,6 +32,7 @@ from cadgraph.load.packing import Z_UP_FROM, Notes, Piece, metres_z_up, pack
 from cadgraph.load.usd_assets import is_there, open_layers
 from cadgraph.load.usd_color import Materials, mean_display_color
 from cadgraph.load.usd_mesh import CutMesh, RawMesh, cut_meshes
+from cadgraph.load.usd_units import note_mixed_units
 from cadgraph.load.usd_walk import Placement, Walk, message_of
 from cadgraph.model.scene import Faces, Floats, Ints, Scene, Source
 
@@ -88,6 +91,7 @@ def read(path: Path, config: LoadConfig) -> Scene:
 
 def _scene(stage: Any, config: LoadConfig, notes: Notes, take_warnings: Any) -> Scene:
     source, world_from_source = _units(stage, notes)
+    note_mixed_units(stage, notes)
     walk = Walk(stage, config.purposes, config.invisible, config.time, config.sides, notes)
     placements = []
     for placement in walk.placements():

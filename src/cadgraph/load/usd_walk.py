@@ -213,7 +213,9 @@ class Walk:
         """The key of a shape, which is read if it is new."""
         key = str(prim.GetPrimInPrototype().GetPath()) if prim.IsInstanceProxy() else own_path
         if key not in self.geometries:
-            self.geometries[key] = self._mesh(prim, names, children) if kind == "mesh" else self._shape(prim, kind)
+            self.geometries[key] = (
+                self._mesh(prim, names, children) if kind == "mesh" else self._shape(prim, kind, own_path)
+            )
         return key
 
     def _reason_to_skip(self, kind: str, place: _Place, prim: Any) -> tuple[str, str] | None:
@@ -256,11 +258,13 @@ class Walk:
             family == UsdShade.Tokens.materialBind or (not family and prim.HasRelationship("material:binding"))
         )
 
-    def _shape(self, prim: Any, kind: str) -> RawMesh:
+    def _shape(self, prim: Any, kind: str, own_path: str) -> RawMesh:
         names, make = SHAPES[kind]
         sizes = {name: self._value(prim, name) for name in names}
         numbers = [value for value in sizes.values() if not isinstance(value, str)]
         if not all(value is not None and np.isfinite(value) and value >= 0 for value in numbers):
+            said = ", ".join(f"{name} {value}" for name, value in sizes.items() if not isinstance(value, str))
+            self._notes.add("invalid-size", f"no surface can be made of it: {said}", own_path)
             return RawMesh(np.zeros((0, 3)), np.zeros(0, np.int64), np.zeros(0, np.int64))
         points, faces = make(sizes, self._sides)
         return RawMesh(

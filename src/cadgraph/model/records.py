@@ -53,6 +53,8 @@ __all__ = [
 
 Point = tuple[float, float, float]
 Box = tuple[Point, Point]
+_Extent = Annotated[float, Field(ge=0)]
+Size = tuple[_Extent, _Extent, _Extent]
 
 
 class SourceRecord(Record):
@@ -60,10 +62,10 @@ class SourceRecord(Record):
 
     path: str = Field("", description="as the user gave it")
     sha256: str = ""
-    meters_per_unit: float = Field(1.0, description="length of one authored unit [m]")
+    meters_per_unit: float = Field(1.0, gt=0, description="length of one authored unit [m]")
     up_axis: str = "Z"
-    n_meshes: int = 0
-    n_triangles: int = 0
+    n_meshes: int = Field(0, ge=0)
+    n_triangles: int = Field(0, ge=0)
 
 
 class OrientedBox(Record):
@@ -71,7 +73,7 @@ class OrientedBox(Record):
 
     center: Point
     axes: tuple[Point, Point, Point] = Field(description="unit axes as rows, right-handed")
-    extents: Point = Field(description="full side lengths along the axes [m]")
+    extents: Size = Field(description="full side lengths along the axes [m]")
 
 
 class SourceFact(Record):
@@ -107,7 +109,7 @@ class Cluster(Record):
     kind: str | None = Field(
         default=None, description="'pipe system' where it holds a connector part, else its commonest group"
     )
-    n_parts: int
+    n_parts: int = Field(ge=0)
     centroid: Point
     aabb: Box
 
@@ -123,9 +125,9 @@ class Part(Record):
     centroid: Point
     aabb: Box
     obb: OrientedBox
-    area: float = Field(description="[m2]")
+    area: float = Field(ge=0, description="[m2]")
     volume: float | None = Field(description="[m3]; null where the surface is not closed")
-    n_triangles: int
+    n_triangles: int = Field(ge=0)
     shape: str = Field(description="shared by parts of the same shape in any pose")
     ground: bool = False
     inside: str | None = Field(
@@ -143,7 +145,7 @@ class Port(Record):
     point: Point = Field(description="centre of the opening")
     direction: Point | None = Field(default=None, description="unit vector out of the unit")
     diameter: float | None = Field(
-        default=None, description="bore, else outer diameter, of the line that joins here [m]"
+        default=None, ge=0, description="bore, else outer diameter, of the line that joins here [m]"
     )
 
 
@@ -171,7 +173,7 @@ class Dial(Record):
 
     center: Point
     normal: Point = Field(description="unit vector out of the face")
-    radius: float = Field(description="of the face [m]")
+    radius: float = Field(ge=0, description="of the face [m]")
     up: Point = Field(description="unit vector in the face, towards where twelve stands")
 
 
@@ -191,8 +193,10 @@ class Mechanism(Record):
         "as seen from there"
     )
     pivot: Point = Field(description="on the axis, amid what moves")
-    radius: float = Field(description="from the axis to the middle of the rim, the lever's end, the needle's tip [m]")
-    thickness: float | None = Field(default=None, description="of what a hand grips: half its width [m]")
+    radius: float = Field(
+        ge=0, description="from the axis to the middle of the rim, the lever's end, the needle's tip [m]"
+    )
+    thickness: float | None = Field(default=None, ge=0, description="of what a hand grips: half its width [m]")
     limits: tuple[float, float] = Field(description="least and greatest angle [deg]; 0 is as drawn")
     open: float | None = Field(default=None, description="angle at which the valve is open [deg]; null for needles")
     shut: float | None = Field(default=None, description="angle at which the valve is shut [deg]; null for needles")
@@ -272,7 +276,7 @@ class System(Record):
     units: tuple[str, ...]
     junctions: tuple[str, ...] = ()
     terminals: tuple[str, ...] = ()
-    length: float | None = Field(default=None, description="of all its connections along the centrelines [m]")
+    length: float | None = Field(default=None, ge=0, description="of all its connections along the centrelines [m]")
     sizes: tuple[int, ...] = Field(default=(), description="nominal sizes (DN) of its lines, ascending")
 
 
@@ -280,7 +284,7 @@ class FreeFloor(Record):
     """The squares of a level on which a person can stand: nothing from 0.1 to 1.8 m above them within 0.2 m."""
 
     origin: tuple[float, float] = Field(description="x and y of the corner where both are least [m]")
-    step: float = Field(description="side of a square [m]")
+    step: float = Field(gt=0, description="side of a square [m]")
     size: tuple[int, int] = Field(description="squares along x, squares along y")
     runs: tuple[int, ...] = Field(
         description="lengths of runs of squares, row by row from the least y, each from the least x; squares that are "
@@ -297,7 +301,7 @@ class Place(Record):
     name: str = Field(description="'ground', 'platform +2.10 m (north east)'")
     height: float = Field(description="of the surface to stand on; of a way up, its top [m]")
     low: float | None = Field(default=None, description="of a way up: the height that it starts from [m]")
-    area: float = Field(description="to stand on, of what nothing else stands on [m2]; 0 for ways up")
+    area: float = Field(ge=0, description="to stand on, of what nothing else stands on [m2]; 0 for ways up")
     aabb: Box
     parts: tuple[str, ...]
     floor: FreeFloor | None = Field(
@@ -324,7 +328,7 @@ class Adjacent(Record):
     source: str
     target: str
     kind: Literal["adjacent"] = "adjacent"
-    distance: float = Field(description="between the surfaces [m], 0 where they touch or overlap")
+    distance: float = Field(ge=0, description="between the surfaces [m], 0 where they touch or overlap")
     point: Point = Field(description="of contact or of closest approach")
 
 
@@ -335,9 +339,11 @@ class Connected(Record):
     target: str
     kind: Literal["connected"] = "connected"
     via: tuple[str, ...] = Field(default=(), description="part ids in order")
-    length: float | None = Field(default=None, description="along the centreline [m]")
-    diameter: float | None = Field(default=None, description="nominal bore estimate [m]")
-    size: int | None = Field(default=None, description="nominal size (DN) by the standard tables of outer diameters")
+    length: float | None = Field(default=None, ge=0, description="along the centreline [m]")
+    diameter: float | None = Field(default=None, ge=0, description="nominal bore estimate [m]")
+    size: int | None = Field(
+        default=None, ge=0, description="nominal size (DN) by the standard tables of outer diameters"
+    )
     sizes: tuple[int, ...] = Field(
         default=(), description="nominal sizes (DN) from the source to the target, where they change: reducers"
     )

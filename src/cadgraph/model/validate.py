@@ -83,7 +83,7 @@ def check_document(document: GraphDocument) -> None:
 
     Raises:
         FormatError: a node id, a mesh, a tag, a contact or a relation is there twice; an edge or node names what isn't
-            there or is of the wrong layer; a contact has the wrong order or a distance below zero; there isn't exactly
+            there or is of the wrong layer; a contact has the wrong order; there isn't exactly
             one site.
     """
     nodes = check_names(document)
@@ -124,8 +124,6 @@ def _check_edges(edges: Iterable[Edge], nodes: Mapping[str, Node]) -> None:
 def _check_contact(edge: Adjacent, here: str) -> None:
     if natural_key(edge.source) > natural_key(edge.target):
         raise FormatError(f"{here} is the wrong way round: its source must come before its target")
-    if edge.distance < 0:
-        raise FormatError(f"{here} has the distance {edge.distance:g} m; no distance is below zero")
 
 
 def _check_nodes(listed: Iterable[Node], nodes: Mapping[str, Node]) -> None:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.graph import SceneGraph
 from cadgraph.model.records import Adjacent, Connected, Junction, Terminal
 from cadgraph.query.doubt import unconnected
@@ -13,8 +15,13 @@ from cadgraph.query.network import Network
 
 __all__ = ["Summary", "connection_between", "connection_words", "end_words", "summarize"]
 
-_GRAVE = frozenset({"invalid-units", "invalid-up-axis", "unusual-size", "vocabulary-unknown-to-model"})
-"""Codes of findings that are said aloud: with the wrong scale or vocabulary hardly any label can be right."""
+_GRAVE = frozenset({
+    "damaged-source", "invalid-units", "invalid-up-axis", "missing-layer", "missing-payload", "missing-reference",
+    "mixed-units", "mixed-up-axis", "outside-asset", "unit-doubt", "unusual-size", "vocabulary-unknown-to-model",
+})  # fmt: skip
+"""Codes of findings that are said aloud: something is missing, or with the wrong scale or vocabulary hardly any label
+can be right.
+"""
 
 
 @dataclass(frozen=True)
@@ -40,6 +47,7 @@ class Summary:
         without_line: tags of the units at which no line was found.
         n_related: pairs of units that Algorithm 1 of the paper relates.
         diagnostics: number of findings' meshes (or findings, where they name none) by code.
+        ground: which mesh was taken for the ground and why; where none was, why the likeliest was not.
         warnings: what may spoil the whole result, in words.
     """
 
@@ -61,6 +69,7 @@ class Summary:
     without_line: tuple[str, ...]
     n_related: int
     diagnostics: dict[str, int]
+    ground: tuple[str, ...]
     warnings: tuple[str, ...]
 
 
@@ -101,7 +110,20 @@ def summarize(graph: SceneGraph) -> Summary:
         without_line=tuple(unconnected(Network(graph))) if graph.connections() else (),
         n_related=len(graph.related()),
         diagnostics=dict(sorted(findings.items())),
+        ground=_ground(graph.diagnostics),
         warnings=tuple(finding.message for finding in graph.diagnostics if finding.code in _GRAVE),
+    )
+
+
+def _ground(findings: Sequence[Diagnostic]) -> tuple[str, ...]:
+    found = [one for one in findings if one.code in ("ground", "ground-corrected", "no-ground")]
+    if any(one.code == "no-ground" for one in found):
+        found += [one for one in findings if one.code == "not-ground"][:1]
+    return tuple(
+        f"{one.meshes[0]}{f' and {len(one.meshes) - 1} more' if len(one.meshes) > 1 else ''}: {one.message}"
+        if one.meshes
+        else one.message
+        for one in found
     )
 
 

@@ -70,8 +70,8 @@ def make_graph(origin=(0.0, 0.0, 0.0), meshes=MESHES, **changes):
         part = Part(
             id=f"part-{i:05d}", meshes=(path,), centroid=_triple(world.mean(axis=0)), aabb=(low, high),
             label=label and Label(group=label[0], name=label[1], confidence=0.8, source="geometry"),
-            obb=OrientedBox(center=low, axes=((1, 0, 0), (0, 1, 0), (0, 0, 1)), extents=high), area=1.0, volume=None,
-            n_triangles=len(faces), shape=f"shape-{i}", ground=cluster is None,
+            obb=OrientedBox(center=low, axes=((1, 0, 0), (0, 1, 0), (0, 0, 1)), extents=_triple(np.abs(high))),
+            area=1.0, volume=None, n_triangles=len(faces), shape=f"shape-{i}", ground=cluster is None,
         )  # fmt: skip
         parts[path] = part
         nodes.append(part)

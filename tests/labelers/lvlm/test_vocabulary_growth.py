@@ -143,6 +143,11 @@ def test_a_picture_without_a_usable_answer_is_told():
     assert len(told.asked) == 3
 
 
+def test_a_model_that_answers_no_picture_is_an_error():
+    with pytest.raises(LabelError, match=r"no answer to any of the 2 pictures .* nothing was written"):
+        grown(["no idea"] * 4)
+
+
 def test_growth_keeps_to_the_budget():
     growth, told = grown(['{"labels": []}'], questions=1)
     assert len(told.asked) == 1

@@ -13,6 +13,7 @@ from PIL import Image
 from cadgraph.draw.render.camera import direction_from_angles, frame
 from cadgraph.draw.render.picture import Look, Renderer
 from cadgraph.draw.render.views import three_quarter_view
+from cadgraph.errors import LabelError
 from cadgraph.labelers.lvlm.answer import GrowthAnswer, growth_schema
 from cadgraph.labelers.lvlm.asking import Asking
 from cadgraph.labelers.lvlm.gallery import PICTURES, Picture, digest_of_scene
@@ -102,6 +103,9 @@ def grow(
         asking: who is asked.
         count: pictures.
         progress: called with the name of a stage and the share of it that is done.
+
+    Raises:
+        LabelError: no picture got an answer.
     """
     tree = start
     merged: list[Merged] = []
@@ -135,6 +139,11 @@ def grow(
         ]
         tree, results = merge(tree, wishes)
         merged += results
+    if len(failures) == len(pictures):
+        count_of = "the picture" if len(pictures) == 1 else f"any of the {len(pictures)} pictures"
+        raise LabelError(
+            f"no answer to {count_of} ({failures[-1][1]}); nothing was written; see to the server and run it again"
+        )
     progress("look", 1)
     return Growth(tree, tuple(merged), tuple(failures))
 
