@@ -12,7 +12,7 @@ MOST_LEVELS = 100
 
 def is_too_deep(content: Any) -> bool:
     """Whether plain values lie within more than ``MOST_LEVELS`` lists and tables."""
-    level = [content]
+    level = [content] if isinstance(content, dict | list) else []
     for _ in range(MOST_LEVELS + 1):
         level = [
             inner
