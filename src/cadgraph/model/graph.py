@@ -50,6 +50,7 @@ __all__ = ["SceneGraph"]
 
 FORMAT = "cadgraph"
 VERSION = 1
+_MOST_TOLD = 600  # characters of what is wrong with a file
 
 Functional = Unit | Junction | Terminal
 
@@ -364,7 +365,8 @@ class SceneGraph:
         except ValidationError as error:
             raise FormatError(f"{where}: {what_is_wrong(error, data)}; build the graph anew") from None
         except FormatError as error:
-            raise FormatError(f"{where}: {error}; build the graph anew") from None
+            # It may name what the file holds, which may be of any length.
+            raise FormatError(f"{where}: {error!s:.{_MOST_TOLD}}; build the graph anew") from None
 
     def save(self, path: str | Path) -> Path:
         """Writes ``graph.json``, whole or not at all; the same graph gives the same bytes.

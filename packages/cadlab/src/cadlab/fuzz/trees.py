@@ -14,7 +14,21 @@ _NUMBERS = (
     float("nan"), float("inf"), -float("inf"), 1e308, -1e308, 1e-320, -1, 0, 1, 2, 0.5, -0.0, 2**31 - 1, 2**31,
     -(2**31) - 1, 2**32, 2**53 + 1, 2**63, 2**64, 10**400, 1_000_000,
 )  # fmt: skip
-_OTHERS: tuple[Any, ...] = (None, True, False, "", [], {}, [[]], [None], {"": None}, ["a"] * 3, [1e308] * 16, "1", [0, 0, 0])
+_OTHERS: tuple[Any, ...] = (
+    None,
+    True,
+    False,
+    "",
+    [],
+    {},
+    [[]],
+    [None],
+    {"": None},
+    ["a"] * 3,
+    [1e308] * 16,
+    "1",
+    [0, 0, 0],
+)
 
 
 def spoil_json(text: str, other: str, rng: random.Random) -> str:
