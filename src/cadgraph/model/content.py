@@ -33,6 +33,7 @@ from cadgraph.model.validate import check_document, check_names, what_is_wrong
 
 __all__ = ["Content", "ShardedContent", "WholeContent", "validated"]
 
+_MOST_TOLD = 600  # characters of what is wrong
 Labels = Counter[tuple[str, str | None]]
 
 
@@ -52,7 +53,8 @@ def validated(data: Mapping[str, Any], where: str) -> GraphDocument:
     except ValidationError as error:
         raise FormatError(f"{where}: {what_is_wrong(error, data)}; build the graph anew") from None
     except FormatError as error:
-        raise FormatError(f"{where}: {error}; build the graph anew") from None
+        # It may name what the file holds, which may be of any length.
+        raise FormatError(f"{where}: {error!s:.{_MOST_TOLD}}; build the graph anew") from None
     return document
 
 

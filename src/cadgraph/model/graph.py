@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast, get_args, overload
 
 from cadgraph._io.atomic import write_atomically
+from cadgraph._io.depth import MOST_LEVELS, is_too_deep
 from cadgraph._io.json_rows import write_json_rows
 from cadgraph._io.limits import GRAPH, decoded
 from cadgraph._io.manifest import GRAPH_FILE, read_checked
@@ -387,6 +388,8 @@ class SceneGraph:
             raise FormatError(
                 f"{where}: format version {data.get('version')!r}, but this cadgraph reads version {VERSION}; update it"
             )
+        if is_too_deep(data):
+            raise FormatError(f"{where}: holds values in more than {MOST_LEVELS} levels; build the graph anew")
         return cls(validated(data, where))
 
     def save(self, path: str | Path, shard_above: int | None = None) -> Path:
@@ -439,6 +442,8 @@ class SceneGraph:
         except (ValueError, RecursionError) as error:
             raise FormatError(f"{target}: not JSON ({error}); give a folder that 'cadgraph build' wrote") from error
         if is_cut(data):
+            if is_too_deep(data):
+                raise FormatError(f"{target}: holds values in more than {MOST_LEVELS} levels; build the graph anew")
             graph = cls(ShardedContent(target.parent, data, str(target)))
         else:
             graph = cls.from_json(data, str(target))
