@@ -2,9 +2,10 @@
 
 Every scene is built by the command line in a process of its own, and the time of each stage is taken from the file
 that the build writes. Scenes are lines of pipes, flanges, elbows and supports (instances of few shapes; ``--points``
-writes them as point instancers) of 1,000, 10,000 and 100,000 meshes, with ``--million`` of a million; the generated plant
-``field`` (``--field``) and 1,000 teapots of which no two are alike (``--teapots``); any other file by ``--scene``. Under the
-table stands the exponent of each stage's time over the meshes of the lines: 1 is proportional, 2 is quadratic.
+writes them as point instancers) of 1,000, 10,000 and 100,000 meshes, with ``--million`` of a million; the generated
+plant ``field`` (``--field``) and 1,000 teapots of which no two are alike (``--teapots``); any other file by
+``--scene``. Under the table stands the exponent of each stage's time over the meshes of the lines: 1 is proportional,
+2 is quadratic.
 """
 
 from __future__ import annotations
