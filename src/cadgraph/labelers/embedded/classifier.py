@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -50,10 +51,10 @@ class Classifier:
         h = self.hidden(inputs)
         for k in range(self.rounds):
             given = h @ w[f"give{k}"]
-            h = _by_rows(len(h), lambda some, h=h, given=given, k=k: self._talk(k, some, h, given, sides, here, there))
+            h = _by_rows(len(h), partial(self._talk, k, h, given, sides, here, there))
         return _by_rows(len(h), lambda some: h[some] @ w["out"] + w["out_b"])
 
-    def _talk(self, k: int, some: slice, h: Floats, given: Floats, sides: Floats, here: Ints, there: Ints) -> Floats:
+    def _talk(self, k: int, h: Floats, given: Floats, sides: Floats, here: Ints, there: Ints, some: slice) -> Floats:
         """What some parts come to in a round of talk; ``given`` is what each part says to all of its neighbours."""
         w, own = self.weights, h[some]
         among = slice(*np.searchsorted(here, [some.start, some.start + len(own)]).tolist())
