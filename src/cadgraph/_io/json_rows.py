@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from cadgraph._io.atomic import write_atomically
+from cadgraph._io.atomic import replacing
 
 __all__ = ["json_rows", "write_json_rows"]
 
@@ -18,27 +18,42 @@ def write_json_rows(target: str | Path, document: Mapping[str, Any], rows: Colle
     Args:
         target: the file.
         document: what to write.
-        rows: the keys whose values are lists with a line for each item.
+        rows: the keys whose values are lists with a line for each item, or iterators over at least one.
 
     Raises:
         OutputError: it can't be written.
         ValueError: a number is infinite or NaN.
     """
-    write_atomically(target, json_rows(document, rows))
+    with replacing(target) as beside, beside.open("wb") as file:
+        for piece in _pieces(document, rows):
+            file.write(piece)
 
 
 def json_rows(document: Mapping[str, Any], rows: Collection[str]) -> bytes:
     """The bytes that ``write_json_rows`` writes of a JSON object."""
-    lines = []
+    return b"".join(_pieces(document, rows))
+
+
+def _pieces(document: Mapping[str, Any], rows: Collection[str]) -> Iterator[bytes]:
+    """The bytes of a JSON object, row by row, so that no more than one row need be in memory."""
+    between = "{\n"
     for key, value in document.items():
         if key in rows and value:
-            items = ",\n".join("  " + _dumps(item) for item in value)
-            lines.append(f" {_dumps(key)}: [\n{items}\n ]")
+            yield _encoded(f"{between} {_dumps(key)}: [\n")
+            before = "  "
+            for item in value:
+                yield _encoded(before + _dumps(item))
+                before = ",\n  "
+            yield b"\n ]"
         else:
-            lines.append(f" {_dumps(key)}: {_dumps(value)}")
+            yield _encoded(f"{between} {_dumps(key)}: {_dumps(value)}")
+        between = ",\n"
+    yield b"\n}\n" if between != "{\n" else b"{\n\n}\n"
+
+
+def _encoded(text: str) -> bytes:
     # A lone surrogate has no UTF-8, but its backslash form is what JSON calls it.
-    return ("{\n" + ",\n".join(lines) + "\n}\n").encode("utf-8", "backslashreplace")
+    return text.encode("utf-8", "backslashreplace")
 
 
-def _dumps(value: Any) -> str:
-    return json.dumps(value, ensure_ascii=False, allow_nan=False)
+_dumps = json.JSONEncoder(ensure_ascii=False, allow_nan=False).encode

@@ -137,15 +137,24 @@ def trace_of(part: Part) -> dict[str, Any]:
 
 def label_prim(prim: Any, said: Said, trace: Mapping[str, Any] | None = None) -> None:
     """Labels a prim in all taxonomies of meshes."""
-    _label(prim, CLASS, (said.name,), trace)
-    _label(prim, GROUP, (said.group,), trace)
-    _label(prim, CATEGORY, dict.fromkeys((said.group, said.name)))
+    taxonomies: dict[str, Iterable[str]] = {
+        CLASS: (said.name,),
+        GROUP: (said.group,),
+        CATEGORY: dict.fromkeys((said.group, said.name)),
+    }
     if said.dispositions:
-        _label(prim, DISPOSITION, said.dispositions)
+        taxonomies[DISPOSITION] = said.dispositions
+    apply_schemas(prim, *(f"SemanticsLabelsAPI:{taxonomy}" for taxonomy in taxonomies))
+    for taxonomy, tokens in taxonomies.items():
+        _say(prim, taxonomy, tokens, trace if taxonomy in (CLASS, GROUP) else None)
 
 
 def _label(prim: Any, taxonomy: str, tokens: Iterable[str], trace: Mapping[str, Any] | None = None) -> None:
     apply_schemas(prim, f"SemanticsLabelsAPI:{taxonomy}")
+    _say(prim, taxonomy, tokens, trace)
+
+
+def _say(prim: Any, taxonomy: str, tokens: Iterable[str], trace: Mapping[str, Any] | None = None) -> None:
     attribute = set_attribute(prim, f"semantics:labels:{taxonomy}", "TokenArray", Vt.TokenArray(list(tokens)))
     if trace:
         attribute.customData = dict(trace)

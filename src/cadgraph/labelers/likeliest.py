@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -10,10 +10,11 @@ import numpy as np
 from cadgraph.model.labels import Guess
 from cadgraph.model.scene import Floats
 
-__all__ = ["Likeliest", "likeliest"]
+__all__ = ["Likeliest", "likeliest", "likeliest_of_all"]
 
 _GUESSES = 5
 _LEAST_GUESS = 0.0005
+_AT_ONCE = 4096  # parts: sorting all at once would take memory by their number
 
 
 class Likeliest(NamedTuple):
@@ -49,13 +50,44 @@ def likeliest(
         groups: ``(n_groups,)`` their probabilities.
         least: confidence of a label.
     """
-    order = np.argsort(-names, kind="stable")[:_GUESSES].tolist()
-    guesses = tuple(
-        Guess(classes[k][0], classes[k][1], round(float(names[k]), 4))
-        for k in order
-        if k == order[0] or names[k] >= _LEAST_GUESS
-    )
-    best, group = order[0], int(np.argmax(groups))
-    if names[best] < least <= groups[group]:
-        return Likeliest(group_names[group], None, min(1.0, float(groups[group])), guesses)
-    return Likeliest(classes[best][0], classes[best][1], min(1.0, float(names[best])), guesses)
+    return next(likeliest_of_all(classes, names[None], group_names, groups[None], [least]))
+
+
+def likeliest_of_all(
+    classes: Sequence[tuple[str, str]],
+    names: Floats,
+    group_names: Sequence[str],
+    groups: Floats,
+    least: Sequence[float],
+) -> Iterator[Likeliest]:
+    """What ``likeliest`` says of each part; guesses that are equal are one object, as most are in a large scene.
+
+    Args:
+        classes: group and name of each column of ``names``.
+        names: ``(n_parts, n_classes)`` probabilities.
+        group_names: of the columns of ``groups``.
+        groups: ``(n_parts, n_groups)`` probabilities.
+        least: confidence of a label of each part.
+    """
+    known: dict[tuple[int, float], Guess] = {}
+
+    def guess(k: int, confidence: float) -> Guess:
+        key = k, round(confidence, 4)
+        found = known.get(key)
+        if found is None:
+            found = known[key] = Guess(*classes[k], key[1])
+        return found
+
+    for start in range(0, len(names), _AT_ONCE):
+        some, those = names[start : start + _AT_ONCE], groups[start : start + _AT_ONCE]
+        order = np.argsort(-some, axis=1, kind="stable")[:, :_GUESSES]
+        rows = (
+            order.tolist(), np.take_along_axis(some, order, axis=1).tolist(), those.argmax(axis=1).tolist(),
+            those.max(axis=1).tolist(), least[start : start + _AT_ONCE],
+        )  # fmt: skip
+        for best, likely, group, together, limit in zip(*rows, strict=True):
+            guesses = tuple(guess(k, p) for k, p in zip(best, likely, strict=True) if k == best[0] or p >= _LEAST_GUESS)
+            if likely[0] < limit <= together:
+                yield Likeliest(group_names[group], None, min(1.0, together), guesses)
+            else:
+                yield Likeliest(*classes[best[0]], min(1.0, likely[0]), guesses)

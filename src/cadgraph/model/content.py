@@ -6,10 +6,10 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 from pydantic import ValidationError
 
@@ -35,6 +35,7 @@ __all__ = ["Content", "ShardedContent", "WholeContent", "validated"]
 
 _MOST_TOLD = 600  # characters of what is wrong
 Labels = Counter[tuple[str, str | None]]
+_Row = TypeVar("_Row")
 
 
 def validated(data: Mapping[str, Any], where: str) -> GraphDocument:
@@ -147,10 +148,18 @@ class WholeContent(Content):
         return self.head
 
     def of_layer(self, layer: type[AnyNode]) -> list[AnyNode]:
-        return [node for node in self.head.nodes if isinstance(node, layer)]
+        return _of_class(layer, self._nodes_by_class, self.head.nodes)
 
     def of_kind(self, kind: type[AnyEdge]) -> list[AnyEdge]:
-        return [edge for edge in self.head.edges if isinstance(edge, kind)]
+        return _of_class(kind, self._edges_by_class, self.head.edges)
+
+    @cached_property
+    def _nodes_by_class(self) -> dict[type[Any], list[Any]]:
+        return _by_class(self.head.nodes)
+
+    @cached_property
+    def _edges_by_class(self) -> dict[type[Any], list[Any]]:
+        return _by_class(self.head.edges)
 
     def count_layer(self, layer: str) -> int:
         return self._layers[layer]
@@ -223,6 +232,22 @@ class WholeContent(Content):
     @cached_property
     def _unit_of_part(self) -> dict[str, str]:
         return {part: unit.id for unit in self.of_layer(Unit) for part in unit.parts}
+
+
+def _by_class(rows: Iterable[Any]) -> dict[type[Any], list[Any]]:
+    """Rows by their class, in the order of the file: what asks for the few of one kind need not pass all others."""
+    found: dict[type[Any], list[Any]] = {}
+    for row in rows:
+        found.setdefault(type(row), []).append(row)
+    return found
+
+
+def _of_class(kind: type[_Row], by_class: Mapping[type[Any], list[Any]], rows: Iterable[Any]) -> list[_Row]:
+    """The rows of a class or of one made from it, in the order of the file, as a list of their own."""
+    several = [one for one in by_class if issubclass(one, kind)]
+    if len(several) > 1:
+        return [row for row in rows if isinstance(row, kind)]
+    return list(by_class[several[0]]) if several else []
 
 
 class _Nodes(Mapping[str, Node]):

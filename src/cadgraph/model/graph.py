@@ -8,7 +8,7 @@ from __future__ import annotations
 import hashlib
 import json
 import reprlib
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
@@ -25,6 +25,7 @@ from cadgraph.errors import FormatError, UnknownNode
 from cadgraph.model.content import Content, ShardedContent, WholeContent, validated
 from cadgraph.model.diagnostic import Diagnostic
 from cadgraph.model.pipework import Direction, Pipework, check_direction
+from cadgraph.model.record import Record
 from cadgraph.model.records import (
     AnyEdge,
     AnyNode,
@@ -52,6 +53,7 @@ __all__ = ["SceneGraph"]
 
 FORMAT = "cadgraph"
 VERSION = 1
+_ROWS = ("nodes", "edges", "joints", "stated", "diagnostics")
 
 Functional = Unit | Junction | Terminal
 
@@ -410,9 +412,9 @@ class SceneGraph:
         target = Path(path)
         whole = target.suffix == ".json"
         target = target if whole else target / GRAPH_FILE
-        content = self.to_json()
         above = _shard_above(self.config) if shard_above is None else shard_above
-        parted = None if whole else cut(content, above)
+        content = self._rows_one_by_one() if whole or not self._may_be_cut(above) else self.to_json()
+        parted = None if whole or not self._may_be_cut(above) else cut(content, above)
         with one_of_results(target):
             if not whole:
                 sweep_shards(target)
@@ -420,8 +422,26 @@ class SceneGraph:
                 content, shards = parted
                 for name, packed in shards:
                     write_atomically(target.parent / FOLDER / name, packed)
-            write_json_rows(target, content, rows=("nodes", "edges", "joints", "stated", "diagnostics"))
+            write_json_rows(target, content, rows=_ROWS)
         return target
+
+    def _may_be_cut(self, above: int) -> bool:
+        """Whether so many rows of any kind are there that they go into shards."""
+        document = self.document
+        kinds = Counter(node.layer for node in document.nodes) + Counter(edge.kind for edge in document.edges)
+        others = (len(getattr(document, key)) for key in _ROWS if key not in ("nodes", "edges"))
+        return max((*kinds.values(), *others), default=0) > above
+
+    def _rows_one_by_one(self) -> dict[str, Any]:
+        """The content of ``graph.json``, whose rows become plain values only when their turn comes: once each."""
+        document = self.document
+        rows: dict[str, tuple[Record, ...]] = {key: getattr(document, key) for key in _ROWS}
+        # One row of each is enough for what stands where.
+        few = document.model_copy(update={key: some[:1] for key, some in rows.items()}).model_dump(mode="json")
+        return {
+            key: (row.model_dump(mode="json") for row in rows[key]) if rows.get(key) else value
+            for key, value in few.items()
+        }
 
     @classmethod
     def load(cls, path: str | Path) -> SceneGraph:

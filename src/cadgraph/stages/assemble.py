@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -56,6 +56,7 @@ __all__ = ["Results", "assemble_graph"]
 PIPE_SYSTEM = "pipe system"
 _SITE = "site"
 _LONGEST_FACT = 1000  # characters of a value that are kept; a file may hold anything
+_AT_ONCE = 4096  # parts whose numbers are rounded together
 _ENDINGS: dict[str, Literal["open", "blind"]] = {"open": "open", "blind": "blind"}
 
 
@@ -155,19 +156,30 @@ def _cluster_ids(cluster: Ints) -> list[str]:
 def _parts(results: Results) -> list[Part]:
     """The record of each part: that of the graph before where its label and its guesses are the same."""
     kept = store_of(results.parts, "records", results.scene, results.places)
-    for part, label in enumerate(results.labels):
-        said = label, _possible(results, part)
-        if part not in kept or kept[part][0] != said:
-            kept[part] = said, _part_of(results, part, *said)
+    said = [(label, _possible(results, part)) for part, label in enumerate(results.labels)]
+    new = [part for part in range(len(said)) if part not in kept or kept[part][0] != said[part]]
+    for start in range(0, len(new), _AT_ONCE):
+        some = new[start : start + _AT_ONCE]
+        for part, shape in zip(some, _points_of(results, some), strict=True):
+            kept[part] = said[part], _part_of(results, part, shape, *said[part])
     return [kept[part][1] for part in range(results.parts.n_parts)]
 
 
-def _part_of(results: Results, part: int, label: Label | None, guesses: Sequence[Guess]) -> Part:
+def _points_of(results: Results, parts: Sequence[int]) -> Iterator[tuple[Point, ...]]:
+    """Of each part its centroid, the centre of its box, two corners, the three axes and the extents of its box."""
+    measured, rows = results.parts.properties, np.asarray(parts, np.int64)
+    middles = np.stack([measured.centroid[rows], measured.obb_center[rows]], axis=1)
+    placed = np.concatenate([middles, measured.aabb[rows]], axis=1) + results.scene.origin
+    box = np.concatenate([measured.obb_axes[rows], measured.obb_extents[rows][:, None]], axis=1)
+    found = iter(points(np.concatenate([placed, box], axis=1)))
+    return zip(*[found] * 8, strict=True)
+
+
+def _part_of(
+    results: Results, part: int, shape: Sequence[Point], label: Label | None, guesses: Sequence[Guess]
+) -> Part:
     measured, parts, ids = results.parts.properties, results.parts, _part_ids(results.parts)
-    centroid, center, low, high = points(
-        np.array([measured.centroid[part], measured.obb_center[part], *measured.aabb[part]]) + results.scene.origin
-    )
-    first, second, third, extents = points([*measured.obb_axes[part], measured.obb_extents[part]])
+    centroid, center, low, high, first, second, third, extents = shape
     return Part(
         id=ids[part],
         meshes=tuple(results.scene.paths[mesh] for mesh in parts.meshes[part]),
@@ -464,7 +476,10 @@ def _findings(results: Results) -> list[Diagnostic]:
 
 
 def _guesses(guesses: Sequence[Guess]) -> tuple[Guess, ...]:
-    return tuple(g.model_copy(update={"confidence": round(g.confidence, 6)}) for g in guesses)
+    return tuple(
+        g if g.confidence == (rounded := round(g.confidence, 6)) else g.model_copy(update={"confidence": rounded})
+        for g in guesses
+    )
 
 
 def _possible(results: Results, part: int) -> Sequence[Guess]:

@@ -11,7 +11,7 @@ from cadgraph.labelers.coverage import find_unlearnt
 from cadgraph.labelers.embedded.features import Observation, observe
 from cadgraph.labelers.embedded.model import STRANGE, Model, default_model
 from cadgraph.labelers.embedded.wording import describe_company, describe_form
-from cadgraph.labelers.likeliest import likeliest
+from cadgraph.labelers.likeliest import likeliest_of_all
 from cadgraph.model.labels import GeometryEvidence, Label
 from cadgraph.model.parts import Contacts, Parts
 from cadgraph.model.scene import Floats, Ints
@@ -90,19 +90,23 @@ class EmbeddedLabeler:
             verdicts.classes[k][1] if len(p) and p[k] >= limit else None
             for k, p, limit in zip(best.tolist(), verdicts.names, least.tolist(), strict=True)
         ]
-        alike = np.expm1(around.places[:, 1]).round().astype(np.int64)
+        alike = np.expm1(around.places[:, 1]).round().astype(np.int64).tolist()
+        if not len(verdicts.classes):
+            return [None] * parts.n_parts
+        forms = [describe_form(facts) for facts in seen.facts]
+        # Many parts have the same evidence: one object stands for all that are equal.
+        known: dict[str, GeometryEvidence] = {}
         answers: list[Label | None] = []
-        for part in range(parts.n_parts):
-            if parts.ground[part] or not len(verdicts.classes):
+        all_found = likeliest_of_all(
+            verdicts.classes, verdicts.names, verdicts.group_names, verdicts.groups, least.tolist()
+        )
+        for part, (found, shape) in enumerate(zip(all_found, seen.shape_of_part.tolist(), strict=True)):
+            if parts.ground[part]:
                 answers.append(None)
                 continue
             near = [said[j] for j in around.there[starts[part] : starts[part + 1]].tolist()]
-            form = describe_form(seen.facts[int(seen.shape_of_part[part])])
-            why = f"{form}; {describe_company(near, int(alike[part]))}"
-            found = likeliest(
-                verdicts.classes, verdicts.names[part], verdicts.group_names, verdicts.groups[part], float(least[part])
-            )
-            evidence = GeometryEvidence(why=why)
+            why = f"{forms[shape]}; {describe_company(near, alike[part])}"
+            evidence = known.get(why) or known.setdefault(why, GeometryEvidence(why=why))
             answers.append(Label(found.group, found.name, found.confidence, "geometry", evidence, found.guesses))
         return answers
 
