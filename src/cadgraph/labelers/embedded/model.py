@@ -17,7 +17,8 @@ import numpy as np
 from cadgraph._io.arrays import read_arrays
 from cadgraph._io.limits import MODEL, read_bytes_within
 from cadgraph.errors import LabelError
-from cadgraph.labelers.embedded.classifier import Classifier
+from cadgraph.labelers.embedded.alike import find_alike
+from cadgraph.labelers.embedded.classifier import Classifier, Inputs
 from cadgraph.labelers.embedded.descriptor import FORMS, SIZES
 from cadgraph.labelers.embedded.features import Observation
 from cadgraph.labelers.embedded.surroundings import PLACE_FEATURES, SIDE_FEATURES
@@ -59,11 +60,13 @@ class Model:
     def probabilities(self, seen: Observation) -> Floats:
         """The probability of each class for each part, ``(n_parts, n_classes)``."""
         around = seen.surroundings
-        inputs = inputs_of(seen)
-        total = np.zeros((len(inputs), len(self.classes)))
+        rounds = max((member.rounds for member in self.members), default=0)
+        alike = find_alike(inputs_of(seen), around.sides, around.here, around.there, rounds)
+        total: Floats = np.zeros((alike.n_kinds, len(self.classes)))
         for member in self.members:
-            total += softmax(member.scores(inputs, around.sides, around.here, around.there) / self.temperature)
-        return total / max(len(self.members), 1)
+            scores = member.answers(member.hidden(alike.inputs), alike.talks[: member.rounds])
+            total += softmax(scores / self.temperature)[alike.among_last(member.rounds)]
+        return (total / max(len(self.members), 1))[alike.kinds[-1]]
 
     def kinship(self, seen: Observation) -> Floats:
         """A point for each part, ``(n_parts, width)`` of length 1: parts of one kind lie close, known or not.
@@ -73,21 +76,21 @@ class Model:
         inputs = inputs_of(seen)
         hidden = [member.hidden(inputs) for member in self.members]
         units = [rows / np.maximum(np.linalg.norm(rows, axis=1, keepdims=True), 1e-12) for rows in hidden]
-        points: Floats = np.hstack(units) / np.sqrt(max(len(units), 1)) if units else np.zeros((len(inputs), 0))
+        points: Floats = np.hstack(units) / np.sqrt(max(len(units), 1)) if units else np.zeros((len(inputs.shape), 0))
         return points
 
 
 def softmax(scores: Floats) -> Floats:
     """Scores as probabilities, row by row."""
-    powers = np.exp(scores - scores.max(axis=1, keepdims=True, initial=-np.inf))
-    shares: Floats = powers / powers.sum(axis=1, keepdims=True)
-    return shares
+    powers: Floats = scores - scores.max(axis=1, keepdims=True, initial=-np.inf)
+    np.exp(powers, out=powers)
+    powers /= powers.sum(axis=1, keepdims=True)
+    return powers
 
 
-def inputs_of(seen: Observation) -> Floats:
-    """What a network sees of each part by itself, ``(n_parts, n_inputs)``."""
-    shape = seen.shape_of_part
-    return np.hstack([seen.shapes.forms[shape], seen.shapes.sizes[shape], seen.surroundings.places])
+def inputs_of(seen: Observation) -> Inputs:
+    """What a network sees of each part by itself."""
+    return Inputs(np.hstack([seen.shapes.forms, seen.shapes.sizes]), seen.shape_of_part, seen.surroundings.places)
 
 
 def write_model(model: Model, path: str | Path) -> None:
