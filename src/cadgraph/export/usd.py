@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from pxr import Gf, Sdf, Tf, Vt
 
-from cadgraph._io.atomic import replacing, write_atomically
+from cadgraph._io.atomic import replacing
 from cadgraph._io.staging import result_path
 from cadgraph.errors import LoadError, OutputError
 from cadgraph.export.usd_labels import (
@@ -130,8 +130,7 @@ def write_semantics(scene: Scene, graph: SceneGraph, source_path: str | Path, pa
     with Sdf.ChangeBlock():
         _label_anchors(layer, authorable, scene, graph)
         add_structure(layer, unused("CadGraph", roots), graph, targets_of_parts(scene, graph, targets, authorable))
-    write_atomically(target, layer.ExportToString())
-    return target
+    return export_layer(layer, target)
 
 
 def is_split(scene: Scene) -> bool:

@@ -274,6 +274,19 @@ class Scene:
         first_vertex = np.repeat(self.vertex_offsets[:-1], np.diff(self.face_offsets))
         return self.faces.astype(np.int64) + first_vertex[:, None]
 
+    def short_global_faces(self) -> Faces:
+        """Likewise as int32, in half the memory, for scenes of less than two thousand million vertices.
+
+        Where shapes are shared, ``faces`` is not made for it.
+        """
+        counts = np.diff(self.face_offsets)
+        if self.placement is None or "faces" in self.__dict__:
+            faces = self.faces.copy()
+        else:
+            faces = self.shapes.faces[_ranges(self.shapes.face_offsets[:-1][self.placement.shape], counts)]
+        faces += np.repeat(self.vertex_offsets[:-1].astype(np.int32), counts)[:, None]
+        return faces
+
     def triangles(self) -> Floats:
         """``(n_faces, 3, 3)`` float64 corner positions [m]."""
         return self.vertices[self.global_faces()]

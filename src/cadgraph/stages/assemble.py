@@ -9,6 +9,7 @@ from typing import Literal
 
 import numpy as np
 
+from cadgraph._io.garbage import collector_paused
 from cadgraph.facts.places import NodeFacts, Places
 from cadgraph.model.derived import kept_with, store_of
 from cadgraph.model.diagnostic import Diagnostic
@@ -103,6 +104,11 @@ def assemble_graph(results: Results, vocabulary: Vocabulary, config: dict[str, o
         vocabulary: the tree in use.
         config: every setting in force, as plain values.
     """
+    with collector_paused():
+        return _assembled(results, vocabulary, config)
+
+
+def _assembled(results: Results, vocabulary: Vocabulary, config: dict[str, object]) -> SceneGraph:
     scene, parts, part_ids = results.scene, results.parts, _part_ids(results.parts)
     above = results.places.of_units([unit.parts for unit in results.network.units]) if results.places else ()
     site = Site(id=_SITE, facts=_facts(results.places.left_over(above) if results.places else ()))
@@ -157,11 +163,12 @@ def _parts(results: Results) -> list[Part]:
     """The record of each part: that of the graph before where its label and its guesses are the same."""
     kept = store_of(results.parts, "records", results.scene, results.places)
     said = [(label, _possible(results, part)) for part, label in enumerate(results.labels)]
+    ids = _part_ids(results.parts)
     new = [part for part in range(len(said)) if part not in kept or kept[part][0] != said[part]]
     for start in range(0, len(new), _AT_ONCE):
         some = new[start : start + _AT_ONCE]
         for part, shape in zip(some, _points_of(results, some), strict=True):
-            kept[part] = said[part], _part_of(results, part, shape, *said[part])
+            kept[part] = said[part], _part_of(results, part, ids, shape, *said[part])
     return [kept[part][1] for part in range(results.parts.n_parts)]
 
 
@@ -176,9 +183,14 @@ def _points_of(results: Results, parts: Sequence[int]) -> Iterator[tuple[Point, 
 
 
 def _part_of(
-    results: Results, part: int, shape: Sequence[Point], label: Label | None, guesses: Sequence[Guess]
+    results: Results,
+    part: int,
+    ids: Sequence[str],
+    shape: Sequence[Point],
+    label: Label | None,
+    guesses: Sequence[Guess],
 ) -> Part:
-    measured, parts, ids = results.parts.properties, results.parts, _part_ids(results.parts)
+    measured, parts = results.parts.properties, results.parts
     centroid, center, low, high, first, second, third, extents = shape
     return Part(
         id=ids[part],

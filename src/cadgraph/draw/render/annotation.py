@@ -162,13 +162,21 @@ def _drawn_lines(camera: Camera, segments: Sequence[Segment]) -> Floats:
 def _draw_line(draw: ImageDraw.ImageDraw, line: Floats, color: str, width: float) -> None:
     if not np.isfinite(line).all():
         return
-    x0, y0, x1, y1 = (float(c) for c in line)
-    rgb = _rgb(color)
-    for share, tone in ((1.0, _mixed(rgb, (0, 0, 0), 0.45)), (0.66, rgb), (0.2, _mixed(rgb, (255, 255, 255), 0.35))):
+    x0, y0, x1, y1 = line.tolist()
+    for share, fill in _line_tones(color):
         thick = max(1.0, width * share)
-        draw.line((x0, y0, x1, y1), fill=(*tone, 255), width=max(1, round(thick)))
-        for x, y in ((x0, y0), (x1, y1)):
-            draw.ellipse((x - thick / 2, y - thick / 2, x + thick / 2, y + thick / 2), fill=(*tone, 255))
+        draw.line((x0, y0, x1, y1), fill=fill, width=max(1, round(thick)))
+        half = thick / 2
+        draw.ellipse((x0 - half, y0 - half, x0 + half, y0 + half), fill=fill)
+        draw.ellipse((x1 - half, y1 - half, x1 + half, y1 + half), fill=fill)
+
+
+@functools.lru_cache(maxsize=64)
+def _line_tones(color: str) -> tuple[tuple[float, tuple[int, int, int, int]], ...]:
+    """Share of the width and colour of what a line is drawn of, the lowest first."""
+    rgb = _rgb(color)
+    tones = (1.0, _mixed(rgb, (0, 0, 0), 0.45)), (0.66, rgb), (0.2, _mixed(rgb, (255, 255, 255), 0.35))
+    return tuple((share, (*tone, 255)) for share, tone in tones)
 
 
 def _draw_ball(draw: ImageDraw.ImageDraw, place: Floats, color: str, radius: float) -> None:

@@ -57,7 +57,7 @@ class Caster:
             part = scene.select(chosen)
             shift = scene.face_offsets[chosen] - part.face_offsets[:-1]
             self._faces = (np.arange(part.n_triangles) + np.repeat(shift, np.diff(part.face_offsets))).astype(np.int32)
-        indices, vertices = part.global_faces(), part.vertices
+        indices, vertices = part.short_global_faces(), part.vertices
         finite = np.asarray(np.isfinite(vertices).all(axis=1))
         if not finite.all():
             sound = finite[indices].all(axis=1)
@@ -68,12 +68,13 @@ class Caster:
         used = np.zeros(len(vertices), bool)
         used[indices] = True
         if not used.all():
-            vertices, indices = vertices[used], (np.cumsum(used) - 1)[indices]
+            vertices, indices = vertices[used], (np.cumsum(used, dtype=np.int32) - np.int32(1))[indices]
         self.low: Floats = vertices.min(axis=0)
         self.high: Floats = vertices.max(axis=0)
         self.center: Floats = (self.low + self.high) / 2
         self._tree = EmbreeScene(robust=True)
-        self._mesh = TriangleMesh(self._tree, (vertices - self.center).astype(np.float32), indices.astype(np.int32))
+        corners = (vertices - self.center).astype(np.float32)
+        self._mesh = TriangleMesh(self._tree, corners, indices.astype(np.int32, copy=False))
         # The first ray makes it build the tree; done here, so that threads find it finished.
         self._tree.run(np.zeros((1, 3), np.float32), np.ones((1, 3), np.float32))
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cadgraph._io.garbage import collector_paused
 from cadgraph.labelers.base import Labeling, Probabilities
 from cadgraph.labelers.coverage import find_unlearnt
 from cadgraph.labelers.embedded.features import Observation, observe
@@ -73,8 +74,9 @@ class EmbeddedLabeler:
         probabilities = Probabilities(verdicts.classes, verdicts.names)
         unlearnt = find_unlearnt(self.learnt, vocabulary)
         least = self._least(parts.n_parts, seen)
-        answers = self._answers(parts, seen, verdicts, least)
-        return Labeling.judge(answers, least.tolist(), probabilities, unlearnt, self.sure)
+        with collector_paused():
+            answers = self._answers(parts, seen, verdicts, least)
+            return Labeling.judge(answers, least.tolist(), probabilities, unlearnt, self.sure)
 
     def _least(self, n_parts: int, seen: Observation) -> Floats:
         """The least confidence of each part's label: a higher one where it touches nothing."""
